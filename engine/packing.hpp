@@ -1,0 +1,91 @@
+// One packing from its specification to its measured values: the whole story of a job.
+//
+// `make_packing` is a pure function of the specification: same spec, same bits, whatever thread or
+// instruction set runs it. It reads no file and no clock, prints nothing and starts no thread.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "engine/scene/spec.hpp"
+#include "kernels/kernels.hpp"
+
+namespace grainsweep {
+
+enum class PackingStatus {
+  settled,      ///< at rest within every tolerance of its accuracy
+  not_settled,  ///< ran to its last step without coming to rest; `reason` says which test failed
+  cancelled,    ///< the observer asked to stop; nothing was measured
+  failed,       ///< could not be made; `reason` says why (e.g. no room to place the grains)
+};
+
+/// "settled", "not_settled", "cancelled", "failed".
+const char* name_of(PackingStatus status);
+
+/// How far from rest a bed is. Forces in m g, lengths in d, energies in m g d.
+struct RestReport {
+  double residual = 0.0;        ///< worst force-balance residual of a row, m g
+  double kinetic_energy = 0.0;  ///< mean per grain of 1/2 m (dx/dt)^2, m g d
+  double largest_motion = 0.0;  ///< largest displacement of a grain in the last step, d
+  double overlap_mean = 0.0;    ///< mean over force-bearing contacts of max(0, -gap), d
+  double overlap_max = 0.0;     ///< deepest overlap, d
+  std::int64_t contacts = 0;    ///< force-bearing contacts, walls and floor included
+  std::int64_t isostatic_contacts = 0;  ///< 3 N - zero modes
+};
+
+/// Mean number of touching neighbours per grain whose centre lies in the measured slab.
+struct Coordination {
+  double gap_tolerance = 0.0;   ///< a pair touches if its gap is below it, d
+  double between_grains = 0.0;  ///< walls and floor not counted
+  double with_walls = 0.0;      ///< walls and floor counted as neighbours
+};
+
+struct PackingResult {
+  PackingStatus status = PackingStatus::failed;
+  std::string reason;  ///< empty when settled
+  std::int64_t grains = 0;
+  RestReport rest;
+  double surface_height = 0.0;  ///< z of the bed's free surface, d
+  double slab_bottom = 0.0;     ///< measured slab, d
+  double slab_top = 0.0;
+  double solid_fraction = 0.0;  ///< exact solid volume in the slab over the slab's volume
+  std::vector<Coordination> coordination;  ///< one entry per gap tolerance of the spec
+  std::int64_t steps = 0;
+  std::int64_t iterations = 0;
+  std::uint64_t state_hash = 0;  ///< of the final positions, radii and impulses
+};
+
+/// A grain of the finished bed, as `export` writes it.
+struct SettledGrain {
+  double x = 0.0, y = 0.0, z = 0.0, radius = 0.0;  ///< d; x and y inside the box
+  double force = 0.0;        ///< sum of the magnitudes of its contact forces, m g
+  std::int32_t touching = 0; ///< touching grains at the first gap tolerance, walls not counted
+};
+
+struct Packing {
+  PackingResult result;
+  std::vector<SettledGrain> grains;  ///< in the order of the start, empty unless a bed exists
+};
+
+/// Where a packing stands; `share_done` is an estimate in [0, 1] that never falls.
+struct Progress {
+  std::int64_t step = 0;
+  double share_done = 0.0;
+};
+
+/// Called after every step; false stops the packing, whose status is then `cancelled`.
+using KeepGoing = std::function<bool(const Progress&)>;
+
+/// Places, settles, certifies and measures one bed. Requires check(spec).empty().
+Packing make_packing(const PackingSpec& spec, const Kernels& kernels, const KeepGoing& keep_going);
+
+/// What a packing will cost. Estimates: order of magnitude for sorting and planning, not promises.
+struct Cost {
+  double cpu_seconds = 0.0;  ///< on one core of a present-day machine
+  double bytes = 0.0;        ///< peak memory
+};
+Cost estimate_cost(const PackingSpec& spec);
+
+}  // namespace grainsweep

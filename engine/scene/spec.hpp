@@ -1,0 +1,111 @@
+// What one packing is: the complete, resolved description of a bed before it exists.
+//
+// Lengths are in d, the mean diameter of the large grains; times in sqrt(d / g); masses in the mass
+// of a large grain of mean size; forces in m g. See engine/units.hpp.
+//
+// A specification is plain data. `check` holds every rule about it; nothing else refuses input.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace grainsweep {
+
+/// What bounds a horizontal axis of the box: two fixed flat walls, or its own periodic image.
+enum class Boundary { periodic, walls };
+
+/// The box: floor at z = 0, open above. x runs over [0, length], y over [0, width].
+struct BoxSpec {
+  double length = 20.0;  ///< extent along x, d
+  double width = 10.0;   ///< extent along y, d; the gap W between the walls when y is walled
+  Boundary x = Boundary::periodic;
+  Boundary y = Boundary::walls;
+};
+
+/// A sphere of a bed that comes from elsewhere: centre and radius, d.
+struct PlacedSphere {
+  double x = 0.0, y = 0.0, z = 0.0, radius = 0.5;
+};
+
+/// Solid volume per floor area, d: as many grains as fill it up (9.95 is the reference study's).
+struct SolidHeight {
+  double height = 9.95;
+};
+/// A number of grains.
+struct GrainCount {
+  std::int64_t count = 0;
+};
+/// Grains placed by the user; sizes and start come from them instead of the random generator.
+struct PlacedGrains {
+  std::vector<PlacedSphere> grains;
+};
+using Fill = std::variant<SolidHeight, GrainCount, PlacedGrains>;
+
+/// Sizes: each class is Gaussian, cut at four standard deviations.
+struct SizesSpec {
+  double spread = 1.0 / 30.0;  ///< standard deviation of the diameter over its mean, each class
+  double small_share = 0.0;    ///< share of the small class in the solid volume, 0..1
+  double size_ratio = 0.5;     ///< mean diameter of the small class, d
+};
+
+/// The projected iterations that solve one step. See engine/dynamics/solve.hpp.
+enum class Solver {
+  projected_gauss_seidel,           ///< "pgs"
+  symmetric_gauss_seidel,           ///< "symmetric_pgs"
+  nonsmooth_nonlinear_conjugate,    ///< "nncg"
+  accelerated_projected_gradient,   ///< "apgd"
+};
+
+/// Number type of the solver's rows and velocities; positions are always f64.
+enum class Precision { f32, f64 };
+
+/// How well a packing is settled: the trade of speed for accuracy, part by part.
+/// A preset is one value of it; engine/dynamics/presets.hpp says what each promises.
+struct Accuracy {
+  Solver solver = Solver::accelerated_projected_gradient;
+  Precision precision = Precision::f32;
+  double step = 0.2;                 ///< dt, sqrt(d/g)
+  double momentum = 0.9;             ///< alpha: share of the last displacement carried on, 0..1
+  int fall_iterations = 40;          ///< solver iterations per step while the bed compacts
+  int rest_iterations = 200;         ///< most solver iterations per step once it is dense
+  double residual_tolerance = 1e-3;  ///< force balance at rest, m g, worst row
+  double motion_tolerance = 1e-3;    ///< largest displacement in a step at rest, d
+  double contact_tolerance = 0.04;   ///< |contacts / isostatic count - 1| at rest
+  double overlap_tolerance = 2e-4;   ///< mean overlap of touching pairs at rest, d
+  int max_steps = 2000;              ///< a bed that needs more is reported as not settled
+};
+
+/// What is measured, and how. Definitions: engine/measure.
+struct MeasureSpec {
+  double exclude_floor = 3.0;    ///< zone above the floor left out, d
+  double exclude_surface = 3.0;  ///< zone below the surface left out, d
+  /// A pair touches if its gap is below the tolerance, d. The first one is the headline value.
+  std::vector<double> gap_tolerances = {1e-4, 1e-5, 1e-3, 6e-3};
+};
+
+struct PackingSpec {
+  BoxSpec box;
+  Fill fill = SolidHeight{};
+  SizesSpec sizes;
+  Accuracy accuracy;
+  MeasureSpec measure;
+  /// Key of every random number of this packing; two packings with equal specs are equal bit by bit.
+  std::uint64_t random_key = 0;
+};
+
+/// One broken rule. `path` names the member as the sweep file does, e.g. "box.width"; `message` says
+/// what must hold and what was found, e.g. "must be at least 1 (one grain diameter), is 0.5".
+struct SpecError {
+  std::string path;
+  std::string message;
+};
+
+/// Every rule that `spec` breaks; empty when it can be packed.
+std::vector<SpecError> check(const PackingSpec& spec);
+
+/// Number of grains that `spec` asks for (before any of them is placed).
+std::int64_t grain_count(const PackingSpec& spec);
+
+}  // namespace grainsweep
