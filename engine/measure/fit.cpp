@@ -1,0 +1,77 @@
+#include "engine/measure/fit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace grainsweep {
+namespace {
+
+double weight_of(const LinePoint& point, FitWeights weights) {
+  return weights == FitWeights::equal ? 1.0 : 1.0 / (point.error * point.error);
+}
+
+bool determines_a_line(const std::vector<LinePoint>& points, FitWeights weights) {
+  const auto weighable = [&](const LinePoint& point) {
+    const double weight = weight_of(point, weights);
+    return std::isfinite(point.x) && std::isfinite(point.y) && std::isfinite(weight) && weight > 0;
+  };
+  const auto elsewhere = [&](const LinePoint& point) { return point.x != points.front().x; };
+  return points.size() >= 3 && std::all_of(points.begin(), points.end(), weighable) &&
+         std::any_of(points.begin(), points.end(), elsewhere);
+}
+
+/// Weighted means, and the sums of squares about them.
+struct Moments {
+  double weight = 0.0, x_mean = 0.0, y_mean = 0.0, xx = 0.0, xy = 0.0, yy = 0.0;
+};
+
+Moments moments_of(const std::vector<LinePoint>& points, FitWeights weights) {
+  Moments sum;
+  for (const LinePoint& point : points) {
+    const double weight = weight_of(point, weights);
+    sum.weight += weight;
+    sum.x_mean += weight * point.x;
+    sum.y_mean += weight * point.y;
+  }
+  sum.x_mean /= sum.weight;
+  sum.y_mean /= sum.weight;
+  for (const LinePoint& point : points) {
+    const double weight = weight_of(point, weights);
+    const double dx = point.x - sum.x_mean;
+    const double dy = point.y - sum.y_mean;
+    sum.xx += weight * dx * dx;
+    sum.xy += weight * dx * dy;
+    sum.yy += weight * dy * dy;
+  }
+  return sum;
+}
+
+double chi2_of(const std::vector<LinePoint>& points, FitWeights weights, const LineFit& fit) {
+  double chi2 = 0.0;
+  for (const LinePoint& point : points) {
+    const double residual = point.y - fit.intercept - fit.slope * point.x;
+    chi2 += weight_of(point, weights) * residual * residual;
+  }
+  return chi2;
+}
+
+}  // namespace
+
+std::optional<LineFit> fit_line(const std::vector<LinePoint>& points, FitWeights weights) {
+  if (!determines_a_line(points, weights)) return std::nullopt;
+  const Moments sum = moments_of(points, weights);
+  LineFit fit;
+  fit.slope = sum.xy / sum.xx;
+  fit.intercept = sum.y_mean - fit.slope * sum.x_mean;
+  fit.chi2 = chi2_of(points, weights, fit);
+  fit.degrees_of_freedom = static_cast<int>(points.size()) - 2;
+  const double scale = weights == FitWeights::equal ? fit.chi2 / fit.degrees_of_freedom : 1.0;
+  fit.slope_error = std::sqrt(scale / sum.xx);
+  fit.intercept_error = std::sqrt(scale * (1.0 / sum.weight + sum.x_mean * sum.x_mean / sum.xx));
+  fit.covariance = -scale * sum.x_mean / sum.xx;
+  fit.r_squared = sum.yy > 0 ? 1.0 - fit.chi2 / sum.yy : std::numeric_limits<double>::quiet_NaN();
+  return fit;
+}
+
+}  // namespace grainsweep
