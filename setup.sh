@@ -1,0 +1,92 @@
+#!/usr/bin/env bash
+# Installs what grainsweep is built with: Debian 12 packages, nothing else. Does nothing when all
+# of them are present. See usage below.
+set -euo pipefail
+
+readonly build_packages=(
+  g++ cmake ninja-build
+  libtbb-dev libeigen3-dev libxsimd-dev nlohmann-json3-dev libcli11-dev librandom123-dev
+  catch2 libbenchmark-dev
+)
+readonly check_packages=(clang-format clang-tidy)
+
+usage() {
+  cat <<'EOF'
+usage: ./setup.sh [--checks]
+
+Installs the packages that building and testing grainsweep takes, with apt-get, as root or through
+sudo. Only what is missing is installed; with nothing missing it ends at once.
+
+  --checks   also clang-format and clang-tidy, for the checks of .ci/run
+  --help     this text
+EOF
+}
+
+stop() {
+  printf 'setup.sh: %s\n' "$@" >&2
+  exit 1
+}
+
+# Sets `missing` to those of its arguments that are not installed.
+find_missing() {
+  local installed package
+  installed=$(dpkg-query -W -f '${Package}=${db:Status-Status}\n' "$@" 2>/dev/null || true)
+  missing=()
+  for package in "$@"; do
+    [[ $'\n'$installed$'\n' == *$'\n'"$package=installed"$'\n'* ]] || missing+=("$package")
+  done
+}
+
+# Sets `as_root` to what has to stand before a command to run it as root.
+find_root() {
+  as_root=()
+  if [[ $(id -u) == 0 ]]; then return; fi
+  if ! command -v sudo >/dev/null; then
+    stop "cannot install ${missing[*]}: neither root nor sudo is at hand." \
+         "Ask an administrator to run: apt-get install ${missing[*]}"
+  fi
+  as_root=(sudo)
+  if [[ ! -t 0 ]] && ! sudo -n true 2>/dev/null; then
+    stop "cannot install ${missing[*]}: sudo asks for a password and there is no terminal." \
+         "Run first, in a terminal: sudo apt-get install ${missing[*]}"
+  fi
+}
+
+apt() {
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -q -o DPkg::Lock::Timeout=300 "$@"
+}
+
+install_missing() {
+  printf 'setup.sh: installing %s\n' "${missing[*]}" >&2
+  local log
+  log=$(mktemp "${TMPDIR:-/tmp}/grainsweep-setup.XXXXXX")
+  apt update >"$log" 2>&1 ||
+    printf 'setup.sh: apt-get update failed; trying with the package lists at hand\n' >&2
+  if ! apt install -y --no-install-recommends "${missing[@]}" >>"$log" 2>&1; then
+    tail -n 15 "$log" >&2
+    stop "apt-get could not install ${missing[*]} (its last words are above, all of them in $log)." \
+         "Check the network and /etc/apt/sources.list: Debian 12 (bookworm) main has every package."
+  fi
+  rm -f "$log"
+}
+
+packages=("${build_packages[@]}")
+while (($#)); do
+  case $1 in
+    --checks) packages+=("${check_packages[@]}") ;;
+    -h | --help) usage && exit 0 ;;
+    *) usage >&2 && stop "unknown option $1" ;;
+  esac
+  shift
+done
+
+if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
+  stop "this system has no dpkg and apt-get; it installs packages on Debian 12 and its relatives." \
+       "Elsewhere install by hand what these Debian packages hold: ${packages[*]}" \
+       "then build with: cmake --preset release && cmake --build --preset release"
+fi
+find_missing "${packages[@]}"
+if ((${#missing[@]})); then
+  find_root
+  install_missing
+fi
