@@ -1,0 +1,146 @@
+#!/usr/bin/env bash
+# Each check finds what it is for: violations planted in a temporary copy, one at a time, and
+# nothing in the copy without them. usage: bites.sh folder_order|kernel_objects|format|tidy...
+set -euo pipefail
+root=$(cd "$(dirname "$0")/../.." && pwd)
+copy=$(mktemp -d "${TMPDIR:-/tmp}/grainsweep-bites.XXXXXX")
+readonly root copy
+trap 'rm -rf "$copy"' EXIT
+
+fail() {
+  printf 'bites: %s\n' "$1" >&2
+  cat "$copy/output" >&2
+  exit 1
+}
+
+# passes COMMAND...: the check finds nothing.
+passes() {
+  "$@" >"$copy/output" 2>&1 || fail "${1##*/} complains about a clean tree"
+}
+
+# finds TEXT COMMAND...: the check fails and names what was planted.
+finds() {
+  local text=$1
+  shift
+  if "$@" >"$copy/output" 2>&1; then fail "${1##*/} missed: $text"; fi
+  grep -qF -- "$text" "$copy/output" || fail "${1##*/} failed, but not for: $text"
+}
+
+# plant FILE: standard input becomes that file of the copy.
+plant() {
+  mkdir -p "$copy/$(dirname "$1")"
+  cat >"$copy/$1"
+}
+
+# A small tree in order: an engine of two folders over one kernel.
+plant_clean_tree() {
+  cp "$root/.clang-format" "$root/.clang-tidy" "$copy"
+  plant kernels/twice.hpp <<<$'#pragma once\nint twice(int value);'
+  plant kernels/twice.cpp <<<$'#include "kernels/twice.hpp"\n\nint twice(int value) { return 2 * value; }'
+  plant engine/scene/bed.hpp <<<$'#pragma once\nstruct Bed {\n  int grains = 0;\n};'
+  plant engine/measure/size.cpp <<<$'#include "engine/scene/bed.hpp"\n#include "kernels/twice.hpp"\n\nint size(const Bed& bed) { return twice(bed.grains); }'
+}
+
+# finds_planted FILE LINE TEXT COMMAND...: FILE holding LINE is found as TEXT; takes it out again.
+finds_planted() {
+  local file=$1 line=$2
+  plant "$file" <<<"$line"
+  finds "${@:3}"
+  rm "${copy:?}/$file"
+}
+
+bite_folder_order() {
+  local check=("$root/tests/checks/folder_order.sh" "$copy")
+  plant_clean_tree
+  passes "${check[@]}"
+  finds_planted kernels/up.cpp '#include "engine/scene/bed.hpp"' 'kernels may include only' "${check[@]}"
+  finds_planted engine/here.cpp '#include "scene/bed.hpp"' 'from the root' "${check[@]}"
+  finds_planted engine/scene/wide.cpp '#if defined(__AVX2__)' 'no #if on an instruction set' "${check[@]}"
+  finds_planted engine/scene/json.cpp '#include <nlohmann/json.hpp>' 'reads and prints nothing' "${check[@]}"
+  plant engine/measure/phi.hpp <<<''
+  finds_planted engine/scene/back.cpp '#include "engine/measure/phi.hpp"' \
+    'folders include each other: engine/' "${check[@]}"
+  plant engine/scene/one.hpp <<<'#include "engine/scene/two.hpp"'
+  finds_planted engine/scene/two.hpp '#include "engine/scene/one.hpp"' \
+    'files include each other: engine/scene/' "${check[@]}"
+}
+
+bite_format() {
+  local check=("$root/tests/checks/format.sh" "$copy")
+  plant_clean_tree
+  passes "${check[@]}"
+  finds_planted runner/cramped.cpp 'int  f( ){return 1 ;}' 'runner/cramped.cpp:1' "${check[@]}"
+}
+
+# compile_object ISA SOURCE: what a kernel's object for ISA would be.
+compile_object() {
+  mkdir -p "$copy/kernels/$1"
+  g++ -std=c++20 -O3 -x c++ -c - -o "$copy/kernels/$1/planted.o" <<<"$2"
+}
+
+bite_kernel_objects() {
+  local check=("$root/tests/checks/kernel_objects.sh" "$copy") isa
+  local clean='namespace { int once(int v) { return v; } } int kernel(int v) { return once(v); }'
+  local shared='[[gnu::noinline]] inline int leaked(int v) { return v + 1; }
+                int kernel(int v) { return leaked(v); }'
+  mkdir "$copy/kernels"
+  finds 'none for avx2' "${check[@]}"
+  for isa in avx2 avx512; do compile_object $isa "$clean"; done
+  passes "${check[@]}"
+  for isa in avx2 avx512; do
+    compile_object $isa "$shared"
+    finds 'W leaked(int)' "${check[@]}"
+    compile_object $isa "$clean"
+  done
+}
+
+# Writes the compile commands of every source in the copy.
+write_compile_commands() {
+  local source separator='['
+  for source in $(cd "$copy" && find . -name '*.cpp' -printf '%P\n'); do
+    printf '%s{"directory": "%s", "file": "%s/%s", "command": "g++ -std=c++20 -I. -c %s"}\n' \
+      "$separator" "$copy" "$copy" "$source" "$source"
+    separator=','
+  done >"$copy/compile_commands.json"
+  printf ']\n' >>"$copy/compile_commands.json"
+}
+
+run_tidy() {
+  write_compile_commands
+  "$root/tests/checks/tidy.sh" "$copy" "$copy"
+}
+
+bite_tidy() {
+  plant_clean_tree
+  passes run_tidy
+  local long
+  long=$(printf 'int tall(int v) {\n'; yes '  v += 1;' | head -n 81; printf '  return v;\n}\n')
+  finds_planted runner/tall.cpp "$long" readability-function-size run_tidy
+  finds_planted runner/moved.cpp $'#include <string>\n#include <utility>\nvoid keep(std::string);
+unsigned long f(std::string s) {\n  keep(std::move(s));\n  return s.size();\n}' \
+    bugprone-use-after-move run_tidy
+  finds_planted runner/copied.cpp $'#include <string>\nunsigned long f(std::string s) { return s.size(); }' \
+    performance-unnecessary-value-param run_tidy
+  finds_planted runner/named.cpp 'int CamelFunction() { return 0; }' \
+    readability-identifier-naming run_tidy
+  finds_planted runner/unset.cpp $'int f(bool b) {\n  int value;\n  if (b) value = 1;\n  return value;\n}' \
+    cppcoreguidelines-init-variables run_tidy
+  finds_planted runner/zero.cpp 'int* f() { return 0; }' modernize-use-nullptr run_tidy
+}
+
+bite_tidy_config() {
+  local check=("$root/tests/checks/tidy_config.sh" "$copy")
+  cp "$root/.clang-tidy" "$copy"
+  passes "${check[@]}"
+  sed -i 's/^  performance-\*/  performence-*/' "$copy/.clang-tidy"
+  finds 'knows no check performence-*' "${check[@]}"
+  sed 's/^  -\*,/&\n  -bugprone-use-after-move,/' "$root/.clang-tidy" >"$copy/.clang-tidy"
+  finds 'bugprone-use-after-move is disabled without a reason' "${check[@]}"
+}
+
+(($#)) || { printf 'usage: bites.sh CHECK...\n' >&2 && exit 2; }
+for check in "$@"; do
+  rm -rf "${copy:?}"/*
+  "bite_$check"
+  printf 'bites: %s finds what is planted\n' "$check"
+done
