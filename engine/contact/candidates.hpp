@@ -1,0 +1,70 @@
+// Broad phase: which grains may touch soon.
+//
+// A list of candidates stays good while no two grains that are near each other have moved closer by
+// more than the list's margin. What counts is their relative motion: a bed that falls as one needs
+// no new list.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/scene/bed.hpp"
+#include "kernels/kernels.hpp"
+
+namespace grainsweep {
+
+/// A flat wall or the floor: grains stay where sign * coordinate + offset >= 0.
+struct Wall {
+  int axis;       ///< 0 x, 1 y, 2 z
+  double sign;    ///< +1 where grains lie above the wall along the axis, -1 where below
+  double offset;  ///< d
+
+  /// Distance of a sphere's surface from the wall, d; negative = overlap.
+  double gap(const Record<double>& sphere) const {
+    const double coordinate = axis == 0 ? sphere.x : axis == 1 ? sphere.y : sphere.z;
+    return sign * coordinate + offset - sphere.w;
+  }
+};
+
+/// The floor first, then the walls of the box.
+std::vector<Wall> walls_of(const Box& box);
+
+/// Grains that come within reach of one wall.
+struct WallCandidates {
+  Wall wall;
+  std::vector<std::int32_t> grains;  ///< ascending
+};
+
+/// Smallest box around the displacements of the grains of one layer, d.
+struct Extent {
+  double low[3];
+  double high[3];
+  bool empty;
+};
+
+/// Memory of a search, kept from one search to the next.
+struct GridColumns {
+  std::vector<float> x, y, z, radius;
+  std::vector<std::int32_t> grain, cell_begin, cell_of;
+};
+
+struct Candidates {
+  double reach = 0.0;             ///< every pair and wall with a gap below it is listed, d
+  std::vector<GrainPair> pairs;   ///< each once, a < b, in the order of the search grid
+  std::vector<WallCandidates> walls;
+  std::vector<Record<double>> built_at;  ///< positions of the grains when the list was made
+  std::vector<std::int32_t> layer;       ///< horizontal layer of each grain at that time
+  std::vector<Extent> layers;            ///< memory of `still_complete`, one entry per layer
+  GridColumns grid;
+};
+
+/// Lists all pairs and walls with a gap below `reach`. Wraps the bed first. A periodic axis must be
+/// at least two largest diameters and reaches long.
+void find_candidates(SphereBed& bed, double reach, const Kernels& kernels, Candidates& candidates);
+
+/// Whether the list still holds every pair and wall with a gap below `near` < reach. Pairs are judged
+/// by the displacements since the list was made, in layers one cell high: no two grains of adjacent
+/// layers may have moved relative to each other by more than reach - near.
+bool still_complete(const SphereBed& bed, double near, Candidates& candidates);
+
+}  // namespace grainsweep

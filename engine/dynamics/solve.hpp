@@ -1,0 +1,42 @@
+// One step's impulses: a convex problem with one unknown per row.
+//
+//   minimise 1/2 |u - u_free|^2_M  subject to  gap_c + n_c . (u_b - u_a) >= 0
+//
+// Its dual is A p + w_free >= 0, p >= 0, p . (A p + w_free) = 0 with A = H^T M^-1 H. The residual of
+// a row is |min(p, w / (1/m_a + 1/m_b))| / dt^2, in m g: the force by which it misses balance.
+#pragma once
+
+#include <vector>
+
+#include "engine/contact/contacts.hpp"
+#include "engine/scene/spec.hpp"
+#include "kernels/kernels.hpp"
+
+namespace grainsweep {
+
+struct SolveLimits {
+  Solver solver = Solver::accelerated_projected_gradient;
+  int iterations = 100;     ///< most sweeps
+  double tolerance = 1e-3;  ///< residual at which to stop, as a mass times d (m g dt^2)
+};
+
+struct SolveReport {
+  int iterations = 0;     ///< sweeps done
+  double residual = 0.0;  ///< true residual of the impulses left behind, a mass times d
+};
+
+/// Motion columns of a solve, indexed like the bed: displacement, d, and inverse mass.
+template <class Real>
+struct MotionColumns {
+  std::vector<Record<Real>> free;  ///< in: motion without contacts
+  std::vector<Record<Real>> u;     ///< out: motion with the impulses of `contacts`
+  std::vector<Record<Real>> next;  ///< memory of the gradient method
+};
+
+/// Improves `contacts.impulse`, starting from what it holds, until the residual is below the
+/// tolerance or the iterations are used up.
+template <class Real>
+SolveReport solve(const SolveLimits& limits, const Kernels& kernels, Contacts<Real>& contacts,
+                  MotionColumns<Real>& motion);
+
+}  // namespace grainsweep

@@ -1,0 +1,89 @@
+#include "engine/dynamics/step.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace grainsweep {
+
+namespace {
+
+/// Longest free motion of a grain in one step, d: far below a grain, so that none passes another.
+constexpr double longest_free_motion = 0.15;
+
+/// u_free = alpha u_last + g dt^2, clamped.
+template <class Real>
+void set_free_motion(const StepSettings& settings, const SphereBed& bed,
+                     std::vector<Record<Real>>& free) {
+  free.resize(bed.motion.size());
+  const double fall = settings.dt * settings.dt;
+  for (std::size_t i = 0; i < bed.grains(); ++i) {
+    const Record<double>& last = bed.motion[i];
+    const double x = settings.momentum * last.x, y = settings.momentum * last.y;
+    const double z = settings.momentum * last.z - fall;
+    const double length = std::sqrt(x * x + y * y + z * z);
+    const double keep = length > longest_free_motion ? longest_free_motion / length : 1.0;
+    free[i] = {static_cast<Real>(keep * x), static_cast<Real>(keep * y),
+               static_cast<Real>(keep * z), static_cast<Real>(last.w)};
+  }
+  for (std::size_t i = bed.grains(); i < free.size(); ++i) {
+    free[i] = {Real(0), Real(0), Real(0), static_cast<Real>(bed.motion[i].w)};
+  }
+}
+
+/// Lists candidates and lays out rows anew if the list may have become incomplete.
+template <class Real>
+bool renew_candidates(const StepSettings& settings, const Kernels& kernels, SphereBed& bed,
+                      StepState<Real>& state) {
+  if (state.has_candidates && still_complete(bed, settings.near, state.candidates)) {
+    return false;
+  }
+  find_candidates(bed, settings.near + settings.margin, kernels, state.candidates);
+  lay_out(bed, state.candidates, state.contacts);
+  state.has_candidates = true;
+  return true;
+}
+
+/// Moves the grains by `u` and reports how they moved.
+template <class Real>
+void advance(const std::vector<Record<Real>>& u, double dt, SphereBed& bed, StepReport& report) {
+  double energy = 0.0, longest = 0.0;
+  for (std::size_t i = 0; i < bed.grains(); ++i) {
+    const double x = static_cast<double>(u[i].x), y = static_cast<double>(u[i].y);
+    const double z = static_cast<double>(u[i].z);
+    const double squared = x * x + y * y + z * z;
+    bed.position[i].x += x;
+    bed.position[i].y += y;
+    bed.position[i].z += z;
+    bed.motion[i].x = x;
+    bed.motion[i].y = y;
+    bed.motion[i].z = z;
+    energy += squared / bed.motion[i].w;
+    longest = std::max(longest, squared);
+  }
+  const double grains = static_cast<double>(std::max<std::size_t>(bed.grains(), 1));
+  report.kinetic_energy = energy / (2.0 * dt * dt * grains);
+  report.largest_motion = std::sqrt(longest);
+}
+
+}  // namespace
+
+template <class Real>
+StepReport step(const StepSettings& settings, const Kernels& kernels, SphereBed& bed,
+                StepState<Real>& state) {
+  StepReport report;
+  const double force_unit = settings.dt * settings.dt;  // impulse of 1 m g over the step
+  SolveLimits limits = settings.limits;
+  limits.tolerance *= force_unit;
+  set_free_motion(settings, bed, state.motion.free);
+  report.searched = renew_candidates(settings, kernels, bed, state);
+  detect(bed, kernels, settings.correction, state.contacts);
+  report.solve = solve(limits, kernels, state.contacts, state.motion);
+  report.solve.residual /= force_unit;
+  advance(state.motion.u, settings.dt, bed, report);
+  return report;
+}
+
+template StepReport step(const StepSettings&, const Kernels&, SphereBed&, StepState<float>&);
+template StepReport step(const StepSettings&, const Kernels&, SphereBed&, StepState<double>&);
+
+}  // namespace grainsweep

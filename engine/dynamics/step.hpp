@@ -1,0 +1,45 @@
+// One step of the heavy-ball displacement protocol.
+//
+// Without contacts a grain would move by u_free = alpha u_last + g dt^2, clamped; the contacts
+// change that as little as keeps all gaps open, and the grains move by the result. With alpha = 1
+// and a small dt this is Moreau's contact dynamics; below 1 it is a damped descent to rest.
+#pragma once
+
+#include "engine/contact/candidates.hpp"
+#include "engine/contact/contacts.hpp"
+#include "engine/dynamics/solve.hpp"
+#include "engine/scene/bed.hpp"
+
+namespace grainsweep {
+
+struct StepSettings {
+  double dt = 0.2;          ///< sqrt(d/g)
+  double momentum = 0.9;    ///< alpha
+  double correction = 0.1;  ///< share of an overlap that the step repairs
+  double near = 0.08;       ///< pairs with a smaller gap are rows, d
+  double margin = 0.05;     ///< candidates reach this much further, d
+  SolveLimits limits;       ///< tolerance in m g here; `step` turns it into a mass times d
+};
+
+/// What a step did.
+struct StepReport {
+  SolveReport solve;            ///< residual in m g
+  double kinetic_energy = 0.0;  ///< mean per grain of 1/2 m (u/dt)^2, m g d
+  double largest_motion = 0.0;  ///< d
+  bool searched = false;        ///< whether candidates were listed anew
+};
+
+/// Everything that steps need besides the bed.
+template <class Real>
+struct StepState {
+  Candidates candidates;
+  Contacts<Real> contacts;
+  MotionColumns<Real> motion;
+  bool has_candidates = false;
+};
+
+template <class Real>
+StepReport step(const StepSettings& settings, const Kernels& kernels, SphereBed& bed,
+                StepState<Real>& state);
+
+}  // namespace grainsweep

@@ -1,0 +1,62 @@
+#include "engine/scene/bed.hpp"
+
+#include <cmath>
+#include <cstring>
+
+#include "engine/units.hpp"
+
+namespace grainsweep {
+
+namespace {
+
+/// Far enough that no grain ever meets the void, near enough that squares stay finite.
+constexpr double void_distance = 1e9;
+
+double wrapped(double coordinate, double period) {
+  const double inside = coordinate - period * std::floor(coordinate / period);
+  return inside < period ? inside : 0.0;
+}
+
+std::uint64_t mixed(std::uint64_t hash, double value) {
+  std::uint64_t bits = 0;
+  std::memcpy(&bits, &value, sizeof bits);
+  hash = (hash ^ bits) * 0x9E3779B97F4A7C15ULL;  // odd constant of Knuth's multiplicative hashing
+  return hash ^ (hash >> 29);
+}
+
+}  // namespace
+
+SphereBed make_bed(const Box& box, const std::vector<PlacedSphere>& spheres) {
+  SphereBed bed{box, {}, {}};
+  bed.position.reserve(spheres.size() + 3);
+  bed.motion.reserve(spheres.size() + 3);
+  for (const PlacedSphere& s : spheres) {
+    bed.position.push_back({s.x, s.y, s.z, s.radius});
+    bed.motion.push_back({0.0, 0.0, 0.0, 1.0 / sphere_mass(s.radius)});
+  }
+  bed.position.insert(bed.position.end(), {{0.0, 0.0, -void_distance, 0.0},
+                                           {0.0, 0.0, -2.0 * void_distance, 0.0},
+                                           {0.0, 0.0, -3.0 * void_distance, 0.0}});
+  bed.motion.insert(bed.motion.end(),
+                    {{0.0, 0.0, 0.0, 0.0}, {0.0, 0.0, 0.0, 1.0}, {0.0, 0.0, 0.0, 1.0}});
+  return bed;
+}
+
+void wrap(SphereBed& bed) {
+  for (std::size_t i = 0; i < bed.grains(); ++i) {
+    Record<double>& p = bed.position[i];
+    p.x = bed.box.x == Boundary::periodic ? wrapped(p.x, bed.box.length) : p.x;
+    p.y = bed.box.y == Boundary::periodic ? wrapped(p.y, bed.box.width) : p.y;
+  }
+}
+
+std::uint64_t state_hash(const SphereBed& bed) {
+  std::uint64_t hash = bed.grains();
+  for (std::size_t i = 0; i < bed.grains(); ++i) {
+    const Record<double>& p = bed.position[i];
+    hash = mixed(mixed(mixed(mixed(hash, p.x), p.y), p.z), p.w);
+  }
+  return hash;
+}
+
+}  // namespace grainsweep

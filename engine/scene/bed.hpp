@@ -1,0 +1,50 @@
+// A bed of spheres: the state that a packing carries from step to step.
+//
+// Spheres have a position, a radius, a mass and a displacement. They have no orientation, no inertia
+// and no lever arms: without friction nothing can turn them, so nothing here could say that they do.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "engine/scene/spec.hpp"
+#include "kernels/kernels.hpp"
+
+namespace grainsweep {
+
+/// Floor at z = 0; x in [0, length], y in [0, width]; each either walled or periodic.
+struct Box {
+  double length = 0.0;  ///< d
+  double width = 0.0;   ///< d
+  Boundary x = Boundary::periodic;
+  Boundary y = Boundary::walls;
+
+  /// Period of an axis, d; 0 where it is walled.
+  double period_x() const { return x == Boundary::periodic ? length : 0.0; }
+  double period_y() const { return y == Boundary::periodic ? width : 0.0; }
+};
+
+/// Columns of a bed. Each column ends with three entries that are no grains: the wall, which nothing
+/// moves, and two void grains far from everything, which fill unused lanes of kernel blocks.
+struct SphereBed {
+  Box box;
+  std::vector<Record<double>> position;  ///< x, y, z and radius, d; x and y may leave the box
+  std::vector<Record<double>> motion;    ///< displacement of the last step, d, and inverse mass
+
+  std::size_t grains() const { return position.size() - 3; }
+  std::int32_t wall() const { return static_cast<std::int32_t>(grains()); }
+  std::int32_t void_a() const { return wall() + 1; }
+  std::int32_t void_b() const { return wall() + 2; }
+};
+
+/// A bed at rest in mid-air: the given spheres, and the three entries that are no grains.
+SphereBed make_bed(const Box& box, const std::vector<PlacedSphere>& spheres);
+
+/// Brings x and y of every grain back into the box along periodic axes.
+void wrap(SphereBed& bed);
+
+/// Hash of all positions, bit by bit.
+std::uint64_t state_hash(const SphereBed& bed);
+
+}  // namespace grainsweep

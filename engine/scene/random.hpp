@@ -1,0 +1,38 @@
+// Random numbers by content: a number is a pure function of the packing's key, what it is for, the
+// grain it belongs to and how often that grain asked. No state, so no order of drawing matters.
+#pragma once
+
+#include <Random123/philox.h>
+
+#include <cmath>
+#include <cstdint>
+
+#include "engine/units.hpp"
+
+namespace grainsweep {
+
+/// What a random number is for.
+enum class Purpose : std::uint32_t { size = 1, place = 2 };
+
+/// Four independent 32-bit words.
+inline r123::Philox4x32::ctr_type random_words(std::uint64_t key, Purpose purpose,
+                                               std::uint64_t grain, std::uint32_t attempt) {
+  const r123::Philox4x32::ctr_type counter = {{static_cast<std::uint32_t>(grain),
+                                               static_cast<std::uint32_t>(grain >> 32), attempt,
+                                               static_cast<std::uint32_t>(purpose)}};
+  const r123::Philox4x32::key_type split = {
+      {static_cast<std::uint32_t>(key), static_cast<std::uint32_t>(key >> 32)}};
+  return r123::Philox4x32()(counter, split);
+}
+
+/// A 32-bit word as a number in (0, 1).
+inline double unit_interval(std::uint32_t word) {
+  return (static_cast<double>(word) + 0.5) * 0x1p-32;
+}
+
+/// A standard normal number from two words (Box and Muller 1958).
+inline double standard_normal(std::uint32_t a, std::uint32_t b) {
+  return std::sqrt(-2.0 * std::log(unit_interval(a))) * std::cos(2.0 * pi * unit_interval(b));
+}
+
+}  // namespace grainsweep

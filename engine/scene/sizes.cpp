@@ -1,0 +1,65 @@
+#include "engine/scene/sizes.hpp"
+
+#include <cmath>
+
+#include "engine/scene/random.hpp"
+#include "engine/units.hpp"
+
+namespace grainsweep {
+
+namespace {
+
+constexpr double largest_deviation = 4.0;  // in standard deviations; 1 in 16,000 is drawn again
+
+/// Expected volume of a sphere of Gaussian diameter: E[D^3] = mean^3 (1 + 3 spread^2).
+double expected_volume(double diameter, double spread) {
+  return sphere_volume(diameter / 2.0) * (1.0 + 3.0 * spread * spread);
+}
+
+ClassCounts counts_for_volume(double volume, const SizesSpec& sizes) {
+  const double small_volume = volume * sizes.small_share;
+  return {std::llround((volume - small_volume) / expected_volume(1.0, sizes.spread)),
+          std::llround(small_volume / expected_volume(sizes.size_ratio, sizes.spread))};
+}
+
+/// Splits a number of grains so that the small ones hold their share of the volume.
+ClassCounts counts_for_grains(std::int64_t grains, const SizesSpec& sizes) {
+  const double ratio = sizes.size_ratio * sizes.size_ratio * sizes.size_ratio;
+  const double small_parts = sizes.small_share / ratio;
+  const double large_parts = 1.0 - sizes.small_share;
+  const std::int64_t small = std::llround(static_cast<double>(grains) * small_parts /
+                                          (small_parts + large_parts));
+  return {grains - small, small};
+}
+
+double draw_radius(std::uint64_t key, std::uint64_t grain, double diameter, double spread) {
+  for (std::uint32_t attempt = 0;; ++attempt) {
+    const auto words = random_words(key, Purpose::size, grain, attempt);
+    const double deviation = standard_normal(words[0], words[1]);
+    if (std::abs(deviation) <= largest_deviation) {
+      return diameter / 2.0 * (1.0 + spread * deviation);
+    }
+  }
+}
+
+}  // namespace
+
+ClassCounts class_counts(const PackingSpec& spec) {
+  if (const auto* fill = std::get_if<SolidHeight>(&spec.fill)) {
+    return counts_for_volume(fill->height * spec.box.length * spec.box.width, spec.sizes);
+  }
+  return counts_for_grains(std::get<GrainCount>(spec.fill).count, spec.sizes);
+}
+
+std::vector<double> draw_radii(const PackingSpec& spec) {
+  const ClassCounts counts = class_counts(spec);
+  std::vector<double> radii(static_cast<std::size_t>(counts.large + counts.small));
+  for (std::size_t i = 0; i < radii.size(); ++i) {
+    const bool large = i < static_cast<std::size_t>(counts.large);
+    radii[i] = draw_radius(spec.random_key, i, large ? 1.0 : spec.sizes.size_ratio,
+                           spec.sizes.spread);
+  }
+  return radii;
+}
+
+}  // namespace grainsweep

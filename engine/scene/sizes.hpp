@@ -1,0 +1,24 @@
+// Grain sizes: one or two Gaussian classes, cut at four standard deviations.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/scene/spec.hpp"
+
+namespace grainsweep {
+
+/// Grains of each class.
+struct ClassCounts {
+  std::int64_t large = 0;
+  std::int64_t small = 0;
+};
+
+/// How many grains of each class the fill asks for: the small class has its share of the expected
+/// solid volume within one grain. Not for placed grains, which bring their own sizes.
+ClassCounts class_counts(const PackingSpec& spec);
+
+/// Radius of every grain, d, the large class first. Same key, same radii.
+std::vector<double> draw_radii(const PackingSpec& spec);
+
+}  // namespace grainsweep

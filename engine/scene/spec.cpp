@@ -1,0 +1,233 @@
+#include "engine/scene/spec.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace grainsweep {
+namespace {
+
+using Errors = std::vector<SpecError>;
+
+constexpr double longest_side = 10'000.0;            // d; cell indices stay far below 32 bits
+constexpr std::int64_t most_grains = 10'000'000;     // grain indices are 32 bits wide
+constexpr double size_cut = 4.0;                     // standard deviations kept on either side
+constexpr double settled_wall_overlap = 0.01;        // d; far above that of any settled bed
+constexpr double image_margin = 0.2;                 // d; candidates never reach farther than this
+
+std::string text_of(double value) {
+  char text[32];
+  if (std::isfinite(value) && value == std::floor(value) && std::abs(value) < 1e15) {
+    return std::to_string(static_cast<std::int64_t>(value));
+  }
+  const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::general, 6);
+  return {text, end.ptr};
+}
+
+struct Interval {
+  double low, high;
+  bool low_open = false, high_open = false;
+
+  bool holds(double value) const {  // false for NaN
+    return (low_open ? value > low : value >= low) && (high_open ? value < high : value <= high);
+  }
+  std::string text() const {
+    return (low_open ? "(" : "[") + text_of(low) + ", " + text_of(high) + (high_open ? ")" : "]");
+  }
+};
+
+bool require_in(const Interval& interval, double value, const char* path, Errors& errors) {
+  if (interval.holds(value)) return true;
+  errors.push_back({path, "must lie in " + interval.text() + ", is " + text_of(value)});
+  return false;
+}
+
+/// Third moment of a class's diameter over the cube of its mean: of a Gaussian cut at four standard
+/// deviations, whose variance is 0.99892929 of the uncut one.
+double mean_cube(double spread) { return 1.0 + 3.0 * 0.99892929 * spread * spread; }
+
+/// Largest diameter that can occur, d.
+double largest_diameter(const PackingSpec& spec) {
+  if (const auto* placed = std::get_if<PlacedGrains>(&spec.fill)) {
+    double radius = 0.0;
+    for (const PlacedSphere& grain : placed->grains) radius = std::max(radius, grain.radius);
+    return 2.0 * radius;
+  }
+  const double mean = spec.sizes.small_share < 1.0 ? 1.0 : spec.sizes.size_ratio;
+  return mean * (1.0 + size_cut * spec.sizes.spread);
+}
+
+bool check_sizes(const SizesSpec& sizes, Errors& errors) {
+  const bool spread = require_in({0.0, 0.2}, sizes.spread, "sizes.spread", errors);
+  const bool share = require_in({0.0, 1.0}, sizes.small_share, "sizes.small_share", errors);
+  const bool ratio =
+      require_in({0.02, 1.0, true, false}, sizes.size_ratio, "sizes.size_ratio", errors);
+  return spread && share && ratio;
+}
+
+/// One horizontal side. Walls must hold the largest grain; a periodic side must be so long that no
+/// grain meets two images of the same neighbour, or its own.
+bool check_side(const char* path, double side, Boundary boundary, double shortest, double largest,
+                Errors& errors) {
+  const bool walls = boundary == Boundary::walls;
+  const double needed = walls ? std::max(shortest, largest)
+                              : std::max(shortest, 2.0 * (largest + image_margin));
+  if (side >= needed && side <= longest_side) return true;
+  std::string reason;
+  if (!walls && needed > shortest) reason = " (periodic: twice the largest grain and a margin)";
+  if (walls && needed > shortest) reason = " (the largest grain between two walls)";
+  errors.push_back({path, "must lie in [" + text_of(needed) + ", " + text_of(longest_side) + "]" +
+                              reason + ", is " + text_of(side)});
+  return false;
+}
+
+bool check_box(const BoxSpec& box, double largest, Errors& errors) {
+  const bool length = check_side("box.length", box.length, box.x, 2.0, largest, errors);
+  const bool width = check_side("box.width", box.width, box.y, 1.0, largest, errors);
+  return length && width;
+}
+
+void require_count(double count, const char* path, Errors& errors) {
+  if (count >= 1.0 && count <= static_cast<double>(most_grains)) return;
+  errors.push_back({path, "must give 1 to " + std::to_string(most_grains) + " grains, gives " +
+                              text_of(std::floor(count))});
+}
+
+/// Numbers of large and of small grains, not yet rounded.
+struct ClassCounts {
+  double large, small;
+};
+
+ClassCounts class_counts(const PackingSpec& spec, double solid_volume) {
+  const double ratio = spec.sizes.size_ratio;
+  const double large = std::numbers::pi / 6.0 * mean_cube(spec.sizes.spread);
+  const double share = spec.sizes.small_share;
+  return {(1.0 - share) * solid_volume / large,
+          share * solid_volume / (large * ratio * ratio * ratio)};
+}
+
+double solid_volume(const PackingSpec& spec, const SolidHeight& fill) {
+  return fill.height * spec.box.length * spec.box.width;
+}
+
+bool is_outside(double centre, double radius, double side, Boundary boundary) {
+  const double reach = boundary == Boundary::walls ? radius - settled_wall_overlap : 0.0;
+  return !(centre >= reach && centre <= side - reach);
+}
+
+/// What is wrong with one placed grain; empty if nothing is.
+std::string fault_of(const PlacedSphere& grain, const BoxSpec& box) {
+  if (!(grain.radius > 0.0 && grain.radius <= longest_side)) {
+    return "the radius must be positive, is " + text_of(grain.radius);
+  }
+  if (is_outside(grain.x, grain.radius, box.length, box.x)) {
+    return "lies outside the box: x = " + text_of(grain.x) + ", radius " +
+           text_of(grain.radius) + ", box.length " + text_of(box.length);
+  }
+  if (is_outside(grain.y, grain.radius, box.width, box.y)) {
+    return "lies outside the box: y = " + text_of(grain.y) + ", radius " +
+           text_of(grain.radius) + ", box.width " + text_of(box.width);
+  }
+  if (!(grain.z >= grain.radius - settled_wall_overlap && grain.z <= longest_side)) {
+    return "lies below the floor or too high: z = " + text_of(grain.z) + ", radius " +
+           text_of(grain.radius);
+  }
+  return "";
+}
+
+/// The first bad grain speaks for all of them: a wrong unit spoils every line.
+void check_placed(const PlacedGrains& placed, const BoxSpec& box, Errors& errors) {
+  std::string first;
+  std::size_t bad = 0;
+  for (std::size_t i = 0; i < placed.grains.size(); ++i) {
+    const std::string fault = fault_of(placed.grains[i], box);
+    if (fault.empty()) continue;
+    if (++bad == 1) first = "grain " + std::to_string(i + 1) + " " + fault;
+  }
+  if (bad == 0) return;
+  const std::string more = bad == 1 ? "" : "; " + std::to_string(bad) + " grains are wrong in all";
+  errors.push_back({"fill.file", first + more});
+}
+
+void check_fill(const PackingSpec& spec, bool counts_are_defined, Errors& errors) {
+  if (const auto* solid = std::get_if<SolidHeight>(&spec.fill)) {
+    const bool height =
+        require_in({0.0, 1000.0, true, false}, solid->height, "fill.solid_height", errors);
+    if (!height || !counts_are_defined) return;
+    const ClassCounts counts = class_counts(spec, solid_volume(spec, *solid));
+    require_count(std::round(counts.large) + std::round(counts.small), "fill.solid_height", errors);
+  } else if (const auto* grains = std::get_if<GrainCount>(&spec.fill)) {
+    require_count(static_cast<double>(grains->count), "fill.grains", errors);
+  } else {
+    const auto& placed = std::get<PlacedGrains>(spec.fill);
+    require_count(static_cast<double>(placed.grains.size()), "fill.file", errors);
+    check_placed(placed, spec.box, errors);
+  }
+}
+
+void check_accuracy(const Accuracy& accuracy, Errors& errors) {
+  constexpr double most = std::numeric_limits<double>::max();
+  const auto positive = [&](double value, const char* path) {
+    if (value > 0.0 && value <= most) return;
+    errors.push_back({path, "must be positive, is " + text_of(value)});
+  };
+  require_in({0.0, 2.0, true, false}, accuracy.step, "accuracy.step", errors);
+  require_in({0.0, 1.0, false, true}, accuracy.momentum, "accuracy.momentum", errors);
+  require_in({1.0, 1e6}, accuracy.fall_iterations, "accuracy.fall_iterations", errors);
+  require_in({1.0, 1e6}, accuracy.rest_iterations, "accuracy.rest_iterations", errors);
+  positive(accuracy.residual_tolerance, "accuracy.residual_tolerance");
+  positive(accuracy.motion_tolerance, "accuracy.motion_tolerance");
+  positive(accuracy.contact_tolerance, "accuracy.contact_tolerance");
+  positive(accuracy.overlap_tolerance, "accuracy.overlap_tolerance");
+  if (accuracy.max_steps < 1) {
+    errors.push_back(
+        {"accuracy.max_steps", "must be at least 1, is " + std::to_string(accuracy.max_steps)});
+  }
+}
+
+void check_gap_tolerances(const std::vector<double>& tolerances, Errors& errors) {
+  const char* path = "measure.gap_tolerances";
+  if (tolerances.empty() || tolerances.size() > 8) {
+    errors.push_back(
+        {path, "must hold 1 to 8 tolerances, holds " + std::to_string(tolerances.size())});
+    return;
+  }
+  for (std::size_t i = 0; i < tolerances.size(); ++i) {
+    require_in({0.0, 0.1, true, true}, tolerances[i], path, errors);
+    const auto here = tolerances.begin() + static_cast<std::ptrdiff_t>(i);
+    if (std::find(tolerances.begin(), here, *here) != here) {
+      errors.push_back({path, "must hold distinct tolerances, holds " + text_of(*here) + " twice"});
+    }
+  }
+}
+
+void check_measure(const MeasureSpec& measure, Errors& errors) {
+  require_in({0.0, 1000.0}, measure.exclude_floor, "measure.exclude_floor", errors);
+  require_in({0.0, 1000.0}, measure.exclude_surface, "measure.exclude_surface", errors);
+  check_gap_tolerances(measure.gap_tolerances, errors);
+}
+
+}  // namespace
+
+std::vector<SpecError> check(const PackingSpec& spec) {
+  Errors errors;
+  const bool sizes = check_sizes(spec.sizes, errors);
+  const bool box = check_box(spec.box, sizes ? largest_diameter(spec) : 1.0, errors);
+  check_fill(spec, sizes && box, errors);
+  check_accuracy(spec.accuracy, errors);
+  check_measure(spec.measure, errors);
+  return errors;
+}
+
+std::int64_t grain_count(const PackingSpec& spec) {
+  if (const auto* solid = std::get_if<SolidHeight>(&spec.fill)) {
+    const ClassCounts counts = class_counts(spec, solid_volume(spec, *solid));
+    return std::llround(counts.large) + std::llround(counts.small);
+  }
+  if (const auto* grains = std::get_if<GrainCount>(&spec.fill)) return grains->count;
+  return static_cast<std::int64_t>(std::get<PlacedGrains>(spec.fill).grains.size());
+}
+
+}  // namespace grainsweep

@@ -1,0 +1,149 @@
+// Whole-record loads and stores, and mask bits, for AVX-512 (f, cd, dq, bw, vl).
+// One of three files with the same names.
+#pragma once
+
+#include <xsimd/xsimd.hpp>
+
+#include "kernels/kernels.hpp"
+
+namespace {
+
+using Arch = xsimd::avx512bw;
+
+/// Four numbers per lane, one batch per component.
+template <class Real>
+struct Components {
+  xsimd::batch<Real, Arch> x, y, z, w;
+};
+
+/// Records k, k + 4, k + 8, k + 12, one in each quarter: lanes stay in order through the
+/// transposition.
+inline __m512 load_four(const grainsweep::Record<float>* base, const std::int32_t* index, int k) {
+  __m512 r = _mm512_castps128_ps512(_mm_load_ps(&base[index[k]].x));
+  r = _mm512_insertf32x4(r, _mm_load_ps(&base[index[k + 4]].x), 1);
+  r = _mm512_insertf32x4(r, _mm_load_ps(&base[index[k + 8]].x), 2);
+  return _mm512_insertf32x4(r, _mm_load_ps(&base[index[k + 12]].x), 3);
+}
+
+/// Transposes the 4 x 4 numbers in each quarter.
+inline void transpose(__m512& r0, __m512& r1, __m512& r2, __m512& r3) {
+  const __m512 xy01 = _mm512_unpacklo_ps(r0, r1), zw01 = _mm512_unpackhi_ps(r0, r1);
+  const __m512 xy23 = _mm512_unpacklo_ps(r2, r3), zw23 = _mm512_unpackhi_ps(r2, r3);
+  r0 = _mm512_shuffle_ps(xy01, xy23, 0x44);
+  r1 = _mm512_shuffle_ps(xy01, xy23, 0xEE);
+  r2 = _mm512_shuffle_ps(zw01, zw23, 0x44);
+  r3 = _mm512_shuffle_ps(zw01, zw23, 0xEE);
+}
+
+inline Components<float> load_records(const grainsweep::Record<float>* base,
+                                      const std::int32_t* index) {
+  __m512 r0 = load_four(base, index, 0), r1 = load_four(base, index, 1);
+  __m512 r2 = load_four(base, index, 2), r3 = load_four(base, index, 3);
+  transpose(r0, r1, r2, r3);
+  return {r0, r1, r2, r3};
+}
+
+inline void store_four(grainsweep::Record<float>* base, const std::int32_t* index, int k,
+                       __m512 records) {
+  _mm_store_ps(&base[index[k]].x, _mm512_castps512_ps128(records));
+  _mm_store_ps(&base[index[k + 4]].x, _mm512_extractf32x4_ps(records, 1));
+  _mm_store_ps(&base[index[k + 8]].x, _mm512_extractf32x4_ps(records, 2));
+  _mm_store_ps(&base[index[k + 12]].x, _mm512_extractf32x4_ps(records, 3));
+}
+
+inline void store_records(grainsweep::Record<float>* base, const std::int32_t* index,
+                          const Components<float>& c) {
+  __m512 r0 = c.x, r1 = c.y, r2 = c.z, r3 = c.w;
+  transpose(r0, r1, r2, r3);
+  store_four(base, index, 0, r0);
+  store_four(base, index, 1, r1);
+  store_four(base, index, 2, r2);
+  store_four(base, index, 3, r3);
+}
+
+inline void add_record(grainsweep::Record<float>& record, __m128 increment) {
+  _mm_store_ps(&record.x, _mm_add_ps(_mm_load_ps(&record.x), increment));
+}
+
+/// Adds quarter `quarter` of four transposed batches to records 4 quarter .. 4 quarter + 3.
+template <int quarter>
+inline void add_quarter(grainsweep::Record<float>* base, const std::int32_t* index, __m512 r0,
+                        __m512 r1, __m512 r2, __m512 r3) {
+  add_record(base[index[4 * quarter]], _mm512_extractf32x4_ps(r0, quarter));
+  add_record(base[index[4 * quarter + 1]], _mm512_extractf32x4_ps(r1, quarter));
+  add_record(base[index[4 * quarter + 2]], _mm512_extractf32x4_ps(r2, quarter));
+  add_record(base[index[4 * quarter + 3]], _mm512_extractf32x4_ps(r3, quarter));
+}
+
+inline void add_to_records(grainsweep::Record<float>* base, const std::int32_t* index,
+                           const Components<float>& c) {
+  __m512 r0 = c.x, r1 = c.y, r2 = c.z, r3 = c.w;
+  transpose(r0, r1, r2, r3);
+  add_quarter<0>(base, index, r0, r1, r2, r3);
+  add_quarter<1>(base, index, r0, r1, r2, r3);
+  add_quarter<2>(base, index, r0, r1, r2, r3);
+  add_quarter<3>(base, index, r0, r1, r2, r3);
+}
+
+/// Records i and j, one in each half.
+inline __m512d load_two(const grainsweep::Record<double>* base, std::int32_t i, std::int32_t j) {
+  return _mm512_insertf64x4(_mm512_castpd256_pd512(_mm256_load_pd(&base[i].x)),
+                            _mm256_load_pd(&base[j].x), 1);
+}
+
+/// Eight records as (0 | 2), (1 | 3), (4 | 6), (5 | 7): after the pairwise unpacking one shuffle of
+/// 128-bit chunks puts the lanes in order.
+inline Components<double> load_records(const grainsweep::Record<double>* base,
+                                       const std::int32_t* index) {
+  const __m512d r02 = load_two(base, index[0], index[2]), r13 = load_two(base, index[1], index[3]);
+  const __m512d r46 = load_two(base, index[4], index[6]), r57 = load_two(base, index[5], index[7]);
+  const __m512d xz0 = _mm512_unpacklo_pd(r02, r13), yw0 = _mm512_unpackhi_pd(r02, r13);
+  const __m512d xz4 = _mm512_unpacklo_pd(r46, r57), yw4 = _mm512_unpackhi_pd(r46, r57);
+  return {_mm512_shuffle_f64x2(xz0, xz4, 0x88), _mm512_shuffle_f64x2(yw0, yw4, 0x88),
+          _mm512_shuffle_f64x2(xz0, xz4, 0xDD), _mm512_shuffle_f64x2(yw0, yw4, 0xDD)};
+}
+
+/// The eight records of `c`, in order.
+struct EightRecords {
+  __m256d record[8];
+};
+
+inline EightRecords records_of(const Components<double>& c) {
+  const __m512d xy_even = _mm512_unpacklo_pd(c.x, c.y), xy_odd = _mm512_unpackhi_pd(c.x, c.y);
+  const __m512d zw_even = _mm512_unpacklo_pd(c.z, c.w), zw_odd = _mm512_unpackhi_pd(c.z, c.w);
+  const auto join = [](__m128d low, __m128d high) {
+    return _mm256_insertf128_pd(_mm256_castpd128_pd256(low), high, 1);
+  };
+  return {{join(_mm512_extractf64x2_pd(xy_even, 0), _mm512_extractf64x2_pd(zw_even, 0)),
+           join(_mm512_extractf64x2_pd(xy_odd, 0), _mm512_extractf64x2_pd(zw_odd, 0)),
+           join(_mm512_extractf64x2_pd(xy_even, 1), _mm512_extractf64x2_pd(zw_even, 1)),
+           join(_mm512_extractf64x2_pd(xy_odd, 1), _mm512_extractf64x2_pd(zw_odd, 1)),
+           join(_mm512_extractf64x2_pd(xy_even, 2), _mm512_extractf64x2_pd(zw_even, 2)),
+           join(_mm512_extractf64x2_pd(xy_odd, 2), _mm512_extractf64x2_pd(zw_odd, 2)),
+           join(_mm512_extractf64x2_pd(xy_even, 3), _mm512_extractf64x2_pd(zw_even, 3)),
+           join(_mm512_extractf64x2_pd(xy_odd, 3), _mm512_extractf64x2_pd(zw_odd, 3))}};
+}
+
+inline void store_records(grainsweep::Record<double>* base, const std::int32_t* index,
+                          const Components<double>& c) {
+  const EightRecords r = records_of(c);
+  for (int k = 0; k < 8; ++k) {
+    _mm256_store_pd(&base[index[k]].x, r.record[k]);
+  }
+}
+
+inline void add_to_records(grainsweep::Record<double>* base, const std::int32_t* index,
+                           const Components<double>& c) {
+  const EightRecords r = records_of(c);
+  for (int k = 0; k < 8; ++k) {
+    double* to = &base[index[k]].x;
+    _mm256_store_pd(to, _mm256_add_pd(_mm256_load_pd(to), r.record[k]));
+  }
+}
+
+/// Bit k is lane k of the mask.
+inline std::uint32_t bits_of(const xsimd::batch_bool<float, Arch>& mask) {
+  return static_cast<std::uint32_t>(static_cast<__mmask16>(mask));
+}
+
+}  // namespace

@@ -1,0 +1,117 @@
+// The number kernels: what they compute, and the table through which they are called.
+//
+// One source per kernel, compiled once for each instruction set; `kernels_for` picks a table at run
+// time. Every kernel works on blocks of `block_width` lanes whatever the hardware's width is, with
+// one rounding per operation and one order of reduction, so that all tables give the same bits.
+//
+// Kernels allocate nothing and check nothing: the caller keeps the promises stated here.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "kernels/isa.hpp"
+
+namespace grainsweep {
+
+/// Lanes of a block: contacts that one kernel iteration handles together.
+inline constexpr std::size_t block_width = 16;
+
+/// Four numbers of one grain, loaded whole.
+/// Positions: x, y, z and radius, d. Motion: displacement x, y, z, d, and inverse mass, 1/m.
+template <class Real>
+struct alignas(4 * sizeof(Real)) Record {
+  Real x, y, z, w;
+};
+
+/// Rows of `block_width` contacts. A row says gap + normal . (u_b - u_a) >= 0, where u are the
+/// displacements of the step: the two grains may close the gap, not more.
+/// The normal is the unit vector from a to b; an impulse p pushes b by +p normal, a by -p normal.
+/// Unused lanes name the void grain on both sides and have a positive gap.
+template <class Real>
+struct alignas(64) RowBlock {
+  std::int32_t a[block_width];
+  std::int32_t b[block_width];
+  Real normal_x[block_width];
+  Real normal_y[block_width];
+  Real normal_z[block_width];
+  Real gap[block_width];  ///< right-hand side, d; negative where grains overlap
+};
+
+/// What one sweep over rows saw.
+template <class Real>
+struct SweepSums {
+  Real residual;  ///< largest |min(p, w / (1/m_a + 1/m_b))| before the update, d m
+  Real uphill;    ///< sum of (y - p_new)(p_new - p_old) over rows: positive asks for a restart
+};
+
+/// Solver sweeps for one number type. `u` are motion records indexed by RowBlock::a and b.
+template <class Real>
+struct RowKernels {
+  /// One accelerated projected gradient iteration, fused: reads the extrapolated impulses y and
+  /// motion u = u(y); writes p = max(0, y - w / (bound A)), then y = p + momentum (p - p_old), and
+  /// adds M^-1 H y into `next`, which the caller has set to the free motion.
+  SweepSums<Real> (*gradient_sweep)(const RowBlock<Real>* rows, std::size_t blocks,
+                                    const Record<Real>* u, Record<Real>* next, Real* p, Real* y,
+                                    Real inverse_bound, Real momentum);
+  /// One projected Gauss-Seidel sweep, block after block (the last block first if `backward`);
+  /// lanes of a block must not share a grain. Updates p and u in place.
+  SweepSums<Real> (*gauss_seidel_sweep)(const RowBlock<Real>* rows, std::size_t blocks,
+                                        Record<Real>* u, Real* p, bool backward);
+  /// Adds M^-1 H p to u.
+  void (*apply_impulses)(const RowBlock<Real>* rows, std::size_t blocks, const Real* p,
+                         Record<Real>* u);
+  /// Largest |min(p, w / (1/m_a + 1/m_b))| over all rows, d m.
+  Real (*residual)(const RowBlock<Real>* rows, std::size_t blocks, const Record<Real>* u,
+                   const Real* p);
+  /// Normals and gaps of sphere pairs (a, b of `rows`) from their positions, nearest image.
+  /// period_x, period_y: d, 0 where the axis is walled. A negative gap is multiplied by
+  /// `correction`, the share of an overlap that one step repairs.
+  void (*sphere_gaps)(RowBlock<Real>* rows, std::size_t blocks, const Record<double>* positions,
+                      double period_x, double period_y, double correction);
+};
+
+/// Spheres sorted by the cells of a uniform grid. The grid has one layer of border cells on every
+/// side; on periodic axes these hold shifted copies, so that no search ever wraps.
+/// Columns must be readable `block_width` entries past the last sphere.
+struct SphereGrid {
+  const float* x;       ///< d, relative to the grid's origin
+  const float* y;
+  const float* z;
+  const float* radius;  ///< d
+  const std::int32_t* grain;       ///< grain of each entry
+  const std::int32_t* cell_begin;  ///< first entry of each cell; one more at the end
+  std::int32_t cells_x, cells_y, cells_z;  ///< with the border; x runs fastest
+  float reach;  ///< pairs with gap below it are found, d
+};
+
+/// Two grains that may touch, a < b.
+struct GrainPair {
+  std::int32_t a, b;
+};
+
+struct Kernels {
+  Isa isa;
+  RowKernels<float> f32;
+  RowKernels<double> f64;
+  /// All pairs of the grid with gap below `reach`, each once, in the order of the grid. Writes at
+  /// most `capacity` of them and returns how many there are.
+  std::size_t (*sphere_pairs)(const SphereGrid& grid, GrainPair* pairs, std::size_t capacity);
+};
+
+/// The kernels compiled for `isa`. Requires is_supported(isa).
+const Kernels& kernels_for(Isa isa);
+
+/// Row kernels of `kernels` for a number type.
+template <class Real>
+const RowKernels<Real>& row_kernels(const Kernels& kernels);
+template <>
+inline const RowKernels<float>& row_kernels<float>(const Kernels& kernels) {
+  return kernels.f32;
+}
+template <>
+inline const RowKernels<double>& row_kernels<double>(const Kernels& kernels) {
+  return kernels.f64;
+}
+
+}  // namespace grainsweep

@@ -1,0 +1,65 @@
+// What the kernel sources share: batches of the instruction set they are compiled for, joined to
+// the fixed logical width of a block.
+//
+// GRAINSWEEP_ARCH_HEADER names the file of kernels/arch to compile with; everything lives in an
+// unnamed namespace, so that no code of one instruction set can be linked into another.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <xsimd/xsimd.hpp>
+
+#include GRAINSWEEP_ARCH_HEADER
+
+namespace {
+
+using grainsweep::block_width;
+
+template <class Real>
+using Batch = xsimd::batch<Real, Arch>;
+
+/// Lanes of one hardware batch, and batches to a block.
+template <class Real>
+inline constexpr std::size_t batch_width = Batch<Real>::size;
+template <class Real>
+inline constexpr std::size_t batches = block_width / batch_width<Real>;
+
+template <class Real>
+inline Batch<Real> load(const Real* from) {
+  return Batch<Real>::load_unaligned(from);
+}
+
+/// One value per lane of a block, reduced over lanes in a fixed order.
+template <class Real>
+struct LaneSums {
+  Batch<Real> part[batches<Real>];
+
+  explicit LaneSums(Real value) {
+    for (Batch<Real>& batch : part) {
+      batch = Batch<Real>(value);
+    }
+  }
+
+  /// Pairwise: lane k joins lane k + 8, then k + 4, k + 2, k + 1.
+  template <class Join>
+  Real reduce(Join join) const {
+    Real lane[block_width];
+    for (std::size_t k = 0; k < batches<Real>; ++k) {
+      part[k].store_unaligned(lane + k * batch_width<Real>);
+    }
+    for (std::size_t half = block_width / 2; half > 0; half /= 2) {
+      for (std::size_t k = 0; k < half; ++k) {
+        lane[k] = join(lane[k], lane[k + half]);
+      }
+    }
+    return lane[0];
+  }
+  Real sum() const {
+    return reduce([](Real a, Real b) { return a + b; });
+  }
+  Real max() const {
+    return reduce([](Real a, Real b) { return a < b ? b : a; });
+  }
+};
+
+}  // namespace

@@ -1,0 +1,27 @@
+// The kernel tables of each instruction set, as the compiled sources define them.
+#pragma once
+
+#include "kernels/kernels.hpp"
+
+namespace grainsweep {
+
+using SpherePairs = std::size_t (*)(const SphereGrid& grid, GrainPair* pairs,
+                                    std::size_t capacity);
+
+namespace sse2 {
+extern const RowKernels<float> row_kernels_f32;
+extern const RowKernels<double> row_kernels_f64;
+extern const SpherePairs sphere_pairs;
+}  // namespace sse2
+namespace avx2 {
+extern const RowKernels<float> row_kernels_f32;
+extern const RowKernels<double> row_kernels_f64;
+extern const SpherePairs sphere_pairs;
+}  // namespace avx2
+namespace avx512 {
+extern const RowKernels<float> row_kernels_f32;
+extern const RowKernels<double> row_kernels_f64;
+extern const SpherePairs sphere_pairs;
+}  // namespace avx512
+
+}  // namespace grainsweep
