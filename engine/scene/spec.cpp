@@ -4,7 +4,8 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
-#include <numbers>
+
+#include "engine/scene/sizes.hpp"
 
 namespace grainsweep {
 namespace {
@@ -43,10 +44,6 @@ bool require_in(const Interval& interval, double value, const char* path, Errors
   errors.push_back({path, "must lie in " + interval.text() + ", is " + text_of(value)});
   return false;
 }
-
-/// Third moment of a class's diameter over the cube of its mean: of a Gaussian cut at four standard
-/// deviations, whose variance is 0.99892929 of the uncut one.
-double mean_cube(double spread) { return 1.0 + 3.0 * 0.99892929 * spread * spread; }
 
 /// Largest diameter that can occur, d.
 double largest_diameter(const PackingSpec& spec) {
@@ -89,27 +86,10 @@ bool check_box(const BoxSpec& box, double largest, Errors& errors) {
   return length && width;
 }
 
-void require_count(double count, const char* path, Errors& errors) {
-  if (count >= 1.0 && count <= static_cast<double>(most_grains)) return;
+void require_count(std::int64_t count, const char* path, Errors& errors) {
+  if (count >= 1 && count <= most_grains) return;
   errors.push_back({path, "must give 1 to " + std::to_string(most_grains) + " grains, gives " +
-                              text_of(std::floor(count))});
-}
-
-/// Numbers of large and of small grains, not yet rounded.
-struct ClassCounts {
-  double large, small;
-};
-
-ClassCounts class_counts(const PackingSpec& spec, double solid_volume) {
-  const double ratio = spec.sizes.size_ratio;
-  const double large = std::numbers::pi / 6.0 * mean_cube(spec.sizes.spread);
-  const double share = spec.sizes.small_share;
-  return {(1.0 - share) * solid_volume / large,
-          share * solid_volume / (large * ratio * ratio * ratio)};
-}
-
-double solid_volume(const PackingSpec& spec, const SolidHeight& fill) {
-  return fill.height * spec.box.length * spec.box.width;
+                              std::to_string(count)});
 }
 
 bool is_outside(double centre, double radius, double side, Boundary boundary) {
@@ -156,13 +136,12 @@ void check_fill(const PackingSpec& spec, bool counts_are_defined, Errors& errors
     const bool height =
         require_in({0.0, 1000.0, true, false}, solid->height, "fill.solid_height", errors);
     if (!height || !counts_are_defined) return;
-    const ClassCounts counts = class_counts(spec, solid_volume(spec, *solid));
-    require_count(std::round(counts.large) + std::round(counts.small), "fill.solid_height", errors);
+    require_count(grain_count(spec), "fill.solid_height", errors);
   } else if (const auto* grains = std::get_if<GrainCount>(&spec.fill)) {
-    require_count(static_cast<double>(grains->count), "fill.grains", errors);
+    require_count(grains->count, "fill.grains", errors);
   } else {
     const auto& placed = std::get<PlacedGrains>(spec.fill);
-    require_count(static_cast<double>(placed.grains.size()), "fill.file", errors);
+    require_count(grain_count(spec), "fill.file", errors);
     check_placed(placed, spec.box, errors);
   }
 }
@@ -176,9 +155,10 @@ void check_accuracy(const Accuracy& accuracy, Errors& errors) {
   require_in({0.0, 2.0, true, false}, accuracy.step, "accuracy.step", errors);
   require_in({0.0, 1.0, false, true}, accuracy.momentum, "accuracy.momentum", errors);
   require_in({1.0, 1e6}, accuracy.fall_iterations, "accuracy.fall_iterations", errors);
+  require_in({0.0, 1e6}, accuracy.creep_steps, "accuracy.creep_steps", errors);
   require_in({1.0, 1e6}, accuracy.rest_iterations, "accuracy.rest_iterations", errors);
   positive(accuracy.residual_tolerance, "accuracy.residual_tolerance");
-  positive(accuracy.motion_tolerance, "accuracy.motion_tolerance");
+  positive(accuracy.kinetic_tolerance, "accuracy.kinetic_tolerance");
   positive(accuracy.contact_tolerance, "accuracy.contact_tolerance");
   positive(accuracy.overlap_tolerance, "accuracy.overlap_tolerance");
   if (accuracy.max_steps < 1) {
@@ -222,12 +202,12 @@ std::vector<SpecError> check(const PackingSpec& spec) {
 }
 
 std::int64_t grain_count(const PackingSpec& spec) {
-  if (const auto* solid = std::get_if<SolidHeight>(&spec.fill)) {
-    const ClassCounts counts = class_counts(spec, solid_volume(spec, *solid));
-    return std::llround(counts.large) + std::llround(counts.small);
+  if (const auto* placed = std::get_if<PlacedGrains>(&spec.fill)) {
+    return static_cast<std::int64_t>(placed->grains.size());
   }
   if (const auto* grains = std::get_if<GrainCount>(&spec.fill)) return grains->count;
-  return static_cast<std::int64_t>(std::get<PlacedGrains>(spec.fill).grains.size());
+  const ClassCounts counts = class_counts(spec);
+  return counts.large + counts.small;
 }
 
 }  // namespace grainsweep

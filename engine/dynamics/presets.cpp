@@ -1,0 +1,62 @@
+#include "engine/dynamics/presets.hpp"
+
+namespace grainsweep {
+
+namespace {
+
+Accuracy fast() {
+  Accuracy a;
+  a.fall_iterations = 40;
+  a.creep_steps = 5;
+  a.rest_iterations = 100;
+  a.residual_tolerance = 2e-2;
+  a.kinetic_tolerance = 1e-3;
+  a.contact_tolerance = 0.1;
+  a.overlap_tolerance = 1e-4;
+  return a;
+}
+
+Accuracy balanced() {
+  Accuracy a;
+  a.fall_iterations = 80;
+  a.creep_steps = 25;
+  a.rest_iterations = 200;
+  a.residual_tolerance = 5e-3;
+  a.kinetic_tolerance = 1e-4;
+  a.contact_tolerance = 0.025;
+  a.overlap_tolerance = 1e-5;
+  return a;
+}
+
+Accuracy accurate() {
+  Accuracy a;
+  a.fall_iterations = 160;
+  a.creep_steps = 200;
+  a.rest_iterations = 600;
+  a.residual_tolerance = 1e-3;
+  a.kinetic_tolerance = 2e-5;
+  a.contact_tolerance = 0.006;
+  a.overlap_tolerance = 5e-6;
+  return a;
+}
+
+}  // namespace
+
+const std::vector<Preset>& presets() {
+  static const std::vector<Preset> all = {
+      {"fast", "contacts within 10 % of isostatic, mean overlap below 1e-4 d", fast()},
+      {"balanced", "contacts within 2.5 % of isostatic, mean overlap below 1e-5 d", balanced()},
+      {"accurate", "contacts within 0.6 % of isostatic, mean overlap below 5e-6 d", accurate()}};
+  return all;
+}
+
+std::optional<Accuracy> preset(std::string_view name) {
+  for (const Preset& known : presets()) {
+    if (known.name == name) {
+      return known.accuracy;
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace grainsweep

@@ -1,0 +1,42 @@
+// Whether a bed is at rest, and by how much it misses.
+//
+// Without friction a bed at rest carries exactly as many force-bearing contacts as it has degrees of
+// freedom that are not free: 3 per grain, less the zero modes. Loose solves leave overlaps and too
+// many contacts, a bed still sliding has too few; so the count is a check on everything else.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "engine/contact/contacts.hpp"
+#include "engine/packing.hpp"
+#include "engine/scene/bed.hpp"
+
+namespace grainsweep {
+
+/// Forces below this do not make a contact force-bearing, m g.
+inline constexpr double least_force = 1e-6;
+
+/// Largest and mean overlap, and counts, of a bed whose contacts hold the impulses of a step of
+/// length `dt`. Measures the gaps anew; residual, kinetic energy and motion are left at 0.
+template <class Real>
+RestReport certify(const SphereBed& bed, const Kernels& kernels, double dt,
+                   Contacts<Real>& contacts);
+
+/// Degrees of freedom that no contact can take up: every cluster of grains that stands on the floor
+/// slides freely along each horizontal axis in which no wall pushes it.
+template <class Real>
+std::int64_t zero_modes(const SphereBed& bed, const Contacts<Real>& contacts, double dt);
+
+/// Share of the grains' weight that the floor carries.
+template <class Real>
+double carried_weight(const SphereBed& bed, const Contacts<Real>& contacts, double dt);
+
+/// Sum of the magnitudes of the contact forces on each grain, m g.
+template <class Real>
+std::vector<double> force_sums(const SphereBed& bed, const Contacts<Real>& contacts, double dt);
+
+/// The first test of rest that `rest` fails, in words; empty if it passes all.
+std::string why_not_at_rest(const RestReport& rest, const Accuracy& accuracy);
+
+}  // namespace grainsweep

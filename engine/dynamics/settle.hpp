@@ -1,0 +1,33 @@
+// From loose grains in the air to a bed at rest, in three stages.
+//
+//   fall    full steps with momentum, until the floor carries the bed; overlaps repaired by 10 % a
+//           step, so that loose solves do not throw grains about
+//   creep   full steps with momentum and better solves: grains slide into their places
+//   quench  half steps without momentum, overlaps repaired whole: what still moves is slowed down,
+//           contacts close, until every test of rest holds
+//
+// How loosely the fall is solved is part of how a bed was packed: see engine/dynamics/presets.hpp.
+#pragma once
+
+#include <functional>
+
+#include "engine/dynamics/rest.hpp"
+#include "engine/dynamics/step.hpp"
+#include "engine/packing.hpp"
+
+namespace grainsweep {
+
+struct SettleReport {
+  RestReport rest;
+  std::string why_not;      ///< the test of rest that failed; empty if settled
+  bool cancelled = false;
+  std::int64_t steps = 0;
+  std::int64_t iterations = 0;
+  std::vector<double> force;  ///< sum of contact force magnitudes on each grain, m g
+};
+
+/// Settles `bed`. `keep_going` is asked after every step.
+SettleReport settle(const Accuracy& accuracy, const Kernels& kernels, SphereBed& bed,
+                    const KeepGoing& keep_going);
+
+}  // namespace grainsweep

@@ -1,0 +1,30 @@
+// Which grains touch: the pairs and walls whose gap is below a tolerance, measured in f64.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/scene/bed.hpp"
+#include "kernels/kernels.hpp"
+
+namespace grainsweep {
+
+struct TouchingPair {
+  std::int32_t a, b;  ///< grains, a < b
+  double gap;         ///< d, negative = overlap
+};
+struct TouchingWall {
+  std::int32_t grain;
+  std::int32_t wall;  ///< position in walls_of(box): 0 is the floor
+  double gap;         ///< d
+};
+
+struct Touching {
+  std::vector<TouchingPair> pairs;
+  std::vector<TouchingWall> walls;
+};
+
+/// All pairs and walls with a gap below `gap_tolerance`, d. Wraps the bed.
+Touching find_touching(SphereBed& bed, double gap_tolerance, const Kernels& kernels);
+
+}  // namespace grainsweep
