@@ -12,11 +12,11 @@ namespace {
 
 using Errors = std::vector<SpecError>;
 
-constexpr double longest_side = 10'000.0;            // d; cell indices stay far below 32 bits
-constexpr std::int64_t most_grains = 10'000'000;     // grain indices are 32 bits wide
-constexpr double size_cut = 4.0;                     // standard deviations kept on either side
-constexpr double settled_wall_overlap = 0.01;        // d; far above that of any settled bed
-constexpr double image_margin = 0.2;                 // d; candidates never reach farther than this
+constexpr double longest_side = 10'000.0;         // d; cell indices stay far below 32 bits
+constexpr std::int64_t most_grains = 10'000'000;  // grain indices are 32 bits wide
+constexpr double size_cut = 4.0;                  // standard deviations kept on either side
+constexpr double settled_wall_overlap = 0.01;     // d; far above that of any settled bed
+constexpr double image_margin = 0.2;              // d; candidates never reach farther than this
 
 std::string text_of(double value) {
   char text[32];
@@ -35,7 +35,9 @@ struct Interval {
     return (low_open ? value > low : value >= low) && (high_open ? value < high : value <= high);
   }
   std::string text() const {
-    return (low_open ? "(" : "[") + text_of(low) + ", " + text_of(high) + (high_open ? ")" : "]");
+    std::string text(low_open ? "(" : "[");
+    text.append(text_of(low)).append(", ").append(text_of(high));
+    return text + (high_open ? ")" : "]");
   }
 };
 
@@ -69,8 +71,8 @@ bool check_sizes(const SizesSpec& sizes, Errors& errors) {
 bool check_side(const char* path, double side, Boundary boundary, double shortest, double largest,
                 Errors& errors) {
   const bool walls = boundary == Boundary::walls;
-  const double needed = walls ? std::max(shortest, largest)
-                              : std::max(shortest, 2.0 * (largest + image_margin));
+  const double needed =
+      walls ? std::max(shortest, largest) : std::max(shortest, 2.0 * (largest + image_margin));
   if (side >= needed && side <= longest_side) return true;
   std::string reason;
   if (!walls && needed > shortest) reason = " (periodic: twice the largest grain and a margin)";
@@ -103,12 +105,12 @@ std::string fault_of(const PlacedSphere& grain, const BoxSpec& box) {
     return "the radius must be positive, is " + text_of(grain.radius);
   }
   if (is_outside(grain.x, grain.radius, box.length, box.x)) {
-    return "lies outside the box: x = " + text_of(grain.x) + ", radius " +
-           text_of(grain.radius) + ", box.length " + text_of(box.length);
+    return "lies outside the box: x = " + text_of(grain.x) + ", radius " + text_of(grain.radius) +
+           ", box.length " + text_of(box.length);
   }
   if (is_outside(grain.y, grain.radius, box.width, box.y)) {
-    return "lies outside the box: y = " + text_of(grain.y) + ", radius " +
-           text_of(grain.radius) + ", box.width " + text_of(box.width);
+    return "lies outside the box: y = " + text_of(grain.y) + ", radius " + text_of(grain.radius) +
+           ", box.width " + text_of(box.width);
   }
   if (!(grain.z >= grain.radius - settled_wall_overlap && grain.z <= longest_side)) {
     return "lies below the floor or too high: z = " + text_of(grain.z) + ", radius " +
