@@ -37,8 +37,8 @@ struct Finding {
 std::string to_string(const Finding& finding);
 
 struct SweepReading {
-  Sweep sweep;                   ///< meaningful only if `errors` is empty
-  std::vector<Finding> errors;   ///< all of them, in the order of the file
+  Sweep sweep;                  ///< meaningful only if `errors` is empty
+  std::vector<Finding> errors;  ///< all of them, in the order of the file
 };
 
 /// Reads and expands a sweep file. Never throws for bad input: every error is a Finding.

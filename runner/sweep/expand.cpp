@@ -1,0 +1,232 @@
+#include "runner/sweep/expand.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <set>
+#include <unordered_map>
+#include <utility>
+
+#include "runner/sweep/grains_csv.hpp"
+#include "runner/sweep/identity.hpp"
+#include "runner/sweep/values.hpp"
+
+namespace grainsweep {
+namespace {
+
+/// Grains from fill files over all jobs, each of which keeps its own copy: 1.6 GB.
+constexpr std::uint64_t most_placed_grains = 50'000'000;
+
+std::uint64_t job_count(const Block& block) {
+  const std::uint64_t points = point_count(block);
+  const auto replicates = static_cast<std::uint64_t>(block.replicates);
+  return points > UINT64_MAX / replicates ? UINT64_MAX : points * replicates;
+}
+
+std::string count_text(std::uint64_t jobs) {
+  return jobs == UINT64_MAX ? "more than 10^19" : in_thousands(jobs);
+}
+
+/// What makes a block large, longest first: "box.width (1,000 values), 3 replicates".
+std::string factors_of(const Block& block) {
+  std::vector<std::pair<std::uint64_t, std::string>> factors;
+  for (const Axis& axis : block.axes) {
+    if (axis.entries.size() > 1) factors.emplace_back(axis.entries.size(), axis.name);
+  }
+  if (!block.random.empty()) factors.emplace_back(block.random_count, "random");
+  std::stable_sort(factors.begin(), factors.end(),
+                   [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::string text;
+  for (const auto& [count, name] : factors) text += name + " (" + in_thousands(count) + "), ";
+  return text + "replicates (" + in_thousands(static_cast<std::uint64_t>(block.replicates)) + ")";
+}
+
+/// Notes blocks that are too large alone or together; true if there is room for all.
+bool fits(const Blocks& blocks, Problems& problems) {
+  std::uint64_t total = 0;
+  const std::size_t before = problems.size();
+  const std::string limit = ", more than the " + in_thousands(most_jobs) + " that a sweep may have";
+  for (const Block& block : blocks.blocks) {
+    const std::uint64_t jobs = job_count(block);
+    total = jobs > UINT64_MAX - total ? UINT64_MAX : total + jobs;
+    if (jobs <= most_jobs) continue;
+    problems.push_back({block.pointer, "asks for " + count_text(jobs) + " jobs" + limit +
+                                           "; shorten " + factors_of(block)});
+  }
+  if (problems.size() == before && total > most_jobs) {
+    problems.push_back({"/sweep", "the blocks ask together for " + count_text(total) + " jobs" +
+                                      limit + "; split the file"});
+  }
+  return problems.size() == before;
+}
+
+/// The axes of a block with its random points drawn.
+std::vector<Axis> drawn_axes(const Block& block, std::uint64_t seed, std::uint64_t index) {
+  std::vector<Axis> axes = block.axes;
+  if (block.random.empty()) return axes;
+  Axis random{"random", {}};
+  for (std::uint64_t point = 0; point < block.random_count; ++point) {
+    Settings& entry = random.entries.emplace_back();
+    for (const RandomPath& path : block.random) {
+      const Settings drawn = draw(path, {seed, index, point});
+      entry.insert(entry.end(), drawn.begin(), drawn.end());
+    }
+  }
+  if (!random.entries.empty()) axes.push_back(std::move(random));
+  return axes;
+}
+
+/// The entries that make up the `point`th point of the product, one of each axis.
+std::vector<const Settings*> entries_of(const std::vector<Axis>& axes, std::uint64_t point) {
+  std::vector<const Settings*> entries(axes.size());
+  for (std::size_t i = axes.size(); i-- > 0;) {
+    const std::uint64_t size = axes[i].entries.size();
+    entries[i] = &axes[i].entries[static_cast<std::size_t>(point % size)];
+    point /= size;
+  }
+  return entries;
+}
+
+/// Multiplies out the blocks; holds the jobs made so far and what has been said about them.
+class Expansion {
+ public:
+  Expansion(const Blocks& blocks, std::string folder, Problems& problems)
+      : blocks_(blocks), folder_(std::move(folder)), problems_(problems) {}
+
+  std::vector<Job> run() {
+    for (std::size_t i = 0; i < blocks_.blocks.size(); ++i) expand_block(i);
+    note_shared_jobs();
+    return std::move(jobs_);
+  }
+
+ private:
+  void expand_block(std::size_t index) {
+    const Block& block = blocks_.blocks[index];
+    const std::vector<Axis> axes = drawn_axes(block, blocks_.seed, index);
+    Resolved before(parameters().size(), nullptr);
+    overlay({&blocks_.base}, before);
+    overlay({&block.set}, before);
+    const std::uint64_t points = point_count(block);
+    for (std::uint64_t point = 0; point < points; ++point) {
+      Resolved resolved = before;
+      overlay(entries_of(axes, point), resolved);
+      make_jobs(index, resolved);
+    }
+  }
+
+  void make_jobs(std::size_t index, const Resolved& resolved) {
+    const Block& block = blocks_.blocks[index];
+    Draft draft = draft_of(resolved);
+    if (resolved[seed_] == nullptr) draft.seed = blocks_.seed;
+    if (!place_grains(block, resolved, draft)) return;
+    note_broken_rules(block, resolved, check(draft.spec));
+    if (!problems_.empty()) return;
+    Job job{"", block.label, canonical_parameters(draft), 1, draft.seed, std::move(draft.spec)};
+    for (; job.replicate <= block.replicates; ++job.replicate) add(index, job);
+  }
+
+  void add(std::size_t index, Job& job) {
+    const std::uint64_t hash = job_hash(job.parameters, job.seed, job.replicate);
+    const auto [entry, is_new] = first_block_.emplace(hash, index);
+    if (!is_new) {
+      const bool same = blocks_.blocks[entry->second].label == job.label;
+      if (!same) ++shared_[{entry->second, index}];
+      return;
+    }
+    job.id = hex16(hash);
+    job.spec.random_key = random_key_of(hash);
+    jobs_.push_back(job);
+  }
+
+  /// Fills in the grains of a fill file; false if there are none to be had.
+  bool place_grains(const Block& block, const Resolved& resolved, Draft& draft) {
+    const Setting* diameter = resolved[diameter_];
+    const Setting* file = resolved[file_];
+    if (file == nullptr) {
+      if (diameter != nullptr) note(*diameter, "belongs to fill.file, and that is not set");
+      return diameter == nullptr;
+    }
+    if (!(draft.fill_diameter > 0.0)) {
+      note(diameter == nullptr ? *file : *diameter, "must be positive");
+      return false;
+    }
+    const GrainsReading& reading = grains_of(draft.fill_file, *file);
+    if (!reading.errors.empty()) return false;
+    placed_ += reading.grains.size() * static_cast<std::uint64_t>(block.replicates);
+    if (placed_ > most_placed_grains) {
+      note(*file, "the jobs hold more than " + in_thousands(most_placed_grains) +
+                      " grains from files together; split the sweep");
+      return false;
+    }
+    draft.spec.fill = PlacedGrains{scaled_grains(reading.grains, draft.fill_diameter)};
+    draft.fill_content = reading.content;
+    return true;
+  }
+
+  const GrainsReading& grains_of(const std::string& file, const Setting& setting) {
+    const std::string path = (std::filesystem::path(folder_) / file).string();
+    const auto known = files_.find(path);
+    if (known != files_.end()) return known->second;
+    const GrainsReading& reading = files_.emplace(path, read_grains(path)).first->second;
+    for (const Finding& error : reading.errors) {
+      problems_.push_back({setting.pointer, error.message, Anchor::value, error.place});
+    }
+    return reading;
+  }
+
+  void note(const Setting& setting, const std::string& message) {
+    if (said_.insert(setting.pointer).second) problems_.push_back({setting.pointer, message});
+  }
+
+  /// Notes what one point breaks. A value that has broken a rule at an earlier point is not named
+  /// again.
+  void note_broken_rules(const Block& block, const Resolved& resolved,
+                         const std::vector<SpecError>& errors) {
+    std::set<std::string> said_now;
+    for (const SpecError& error : errors) {
+      const auto parameter = find_parameter(error.path);
+      const Setting* setting = parameter ? resolved[*parameter] : nullptr;
+      const std::string pointer = setting == nullptr ? block.pointer : setting->pointer;
+      const std::string key = pointer + " " + error.path;
+      if (said_.count(key) != 0) continue;
+      said_now.insert(key);
+      const std::string subject = setting == nullptr ? error.path + " " : "";
+      problems_.push_back({pointer, subject + error.message});
+    }
+    said_.merge(said_now);
+  }
+
+  void note_shared_jobs() {
+    for (const auto& [pair, count] : shared_) {
+      const Block& first = blocks_.blocks[pair.first];
+      const Block& second = blocks_.blocks[pair.second];
+      problems_.push_back(
+          {second.pointer, "block \"" + second.label + "\" repeats " + in_thousands(count) +
+                               (count == 1 ? " job" : " jobs") + " of block \"" + first.label +
+                               "\" (" + first.pointer +
+                               "); give both the same label, or take the repeated values out"});
+    }
+  }
+
+  const Blocks& blocks_;
+  const std::string folder_;
+  Problems& problems_;
+  const std::size_t seed_ = *find_parameter("seed");
+  const std::size_t file_ = *find_parameter("fill.file");
+  const std::size_t diameter_ = *find_parameter("fill.diameter");
+  std::vector<Job> jobs_;
+  std::unordered_map<std::uint64_t, std::size_t> first_block_;  // of every job, by its hash
+  std::map<std::pair<std::size_t, std::size_t>, std::uint64_t> shared_;  // jobs, by two blocks
+  std::map<std::string, GrainsReading> files_;
+  std::set<std::string> said_;
+  std::uint64_t placed_ = 0;
+};
+
+}  // namespace
+
+std::vector<Job> expand(const Blocks& blocks, const std::string& folder, Problems& problems) {
+  if (!fits(blocks, problems)) return {};
+  return Expansion(blocks, folder, problems).run();
+}
+
+}  // namespace grainsweep

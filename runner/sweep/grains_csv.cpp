@@ -1,0 +1,156 @@
+#include "runner/sweep/grains_csv.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <string_view>
+
+#include "runner/sweep/identity.hpp"
+#include "runner/sweep/json_text.hpp"
+#include "runner/sweep/suggest.hpp"
+
+namespace grainsweep {
+namespace {
+
+using Cells = std::vector<std::string_view>;
+
+constexpr std::array<std::string_view, 4> names = {"x", "y", "z", "r"};
+constexpr std::size_t most_errors = 20;
+
+/// Index of the column of each name.
+using Columns = std::array<std::size_t, names.size()>;
+
+std::string_view trimmed(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(" \t\r");
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
+}
+
+Cells cells_of(std::string_view line) {
+  Cells cells;
+  for (;;) {
+    const std::size_t comma = line.find(',');
+    std::string_view cell = trimmed(line.substr(0, comma));
+    if (cell.size() > 1 && cell.front() == '"' && cell.back() == '"') {
+      cell = cell.substr(1, cell.size() - 2);
+    }
+    cells.push_back(cell);
+    if (comma == std::string_view::npos) return cells;
+    line.remove_prefix(comma + 1);
+  }
+}
+
+std::string header_error(std::string_view name, const Cells& header) {
+  std::string found;
+  for (const std::string_view cell : header) found.append(found.empty() ? "" : ",").append(cell);
+  return "the first line must name the columns x,y,z,r; \"" + std::string(name) +
+         "\" is missing or there twice in \"" + shortened(found) + "\"";
+}
+
+/// The columns that `header` names, or what is wrong with it.
+std::optional<Columns> columns_of(const Cells& header, std::string& error) {
+  Columns columns{};
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const auto matches = [&](std::string_view cell) {
+      return cell == names[i] || (names[i] == "r" && cell == "radius");
+    };
+    if (std::count_if(header.begin(), header.end(), matches) != 1) {
+      error = header_error(names[i], header);
+      return std::nullopt;
+    }
+    const auto found = std::find_if(header.begin(), header.end(), matches);
+    columns[i] = static_cast<std::size_t>(found - header.begin());
+  }
+  return columns;
+}
+
+std::optional<double> finite_number(std::string_view cell) {
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+  if (error != std::errc{} || end != cell.data() + cell.size()) return std::nullopt;
+  return std::isfinite(value) ? std::optional(value) : std::nullopt;
+}
+
+/// What is wrong with a line; otherwise the grain in it.
+std::string read_grain(const Cells& cells, const Columns& columns, std::size_t width,
+                       PlacedSphere& grain) {
+  if (cells.size() != width) {
+    return "must hold " + std::to_string(width) + " values like the first line, holds " +
+           std::to_string(cells.size());
+  }
+  std::array<double, names.size()> values{};
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const std::string_view cell = cells[columns[i]];
+    const auto value = finite_number(cell);
+    if (!value) {
+      return std::string(names[i]) + " must be a finite number, is \"" + shortened(cell) + "\"";
+    }
+    values[i] = *value;
+  }
+  grain = {values[0], values[1], values[2], values[3]};
+  if (grain.radius > 0.0) return "";
+  return "r must be positive, is " + std::string(cells[columns[3]]);
+}
+
+/// Notes an error of `line`; false once there are enough.
+bool note(GrainsReading& reading, const std::string& file, std::size_t line, std::string message) {
+  const bool last = reading.errors.size() + 1 == most_errors;
+  if (last) message += " (further lines are not listed)";
+  reading.errors.push_back({file + ":" + std::to_string(line), "", std::move(message)});
+  return !last;
+}
+
+std::vector<std::string_view> lines_of(std::string_view text) {
+  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+  const std::size_t end = text.find_last_not_of(" \t\r\n");
+  text = text.substr(0, end == std::string_view::npos ? 0 : end + 1);
+  std::vector<std::string_view> lines;
+  for (;;) {
+    const std::size_t stop = text.find('\n');
+    lines.push_back(text.substr(0, stop));
+    if (stop == std::string_view::npos) return lines;
+    text.remove_prefix(stop + 1);
+  }
+}
+
+}  // namespace
+
+GrainsReading parse_grains(const std::string& text, const std::string& file) {
+  GrainsReading reading;
+  reading.content = hex16(mixed(fnv1a(text)));
+  const auto lines = lines_of(text);
+  const Cells header = cells_of(lines.front());
+  std::string error;
+  const auto columns = columns_of(header, error);
+  if (!columns) {
+    note(reading, file, 1, error);
+    return reading;
+  }
+  if (lines.size() == 1) note(reading, file, 1, "no grain follows the first line");
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    PlacedSphere grain;
+    error = read_grain(cells_of(lines[i]), *columns, header.size(), grain);
+    if (error.empty()) reading.grains.push_back(grain);
+    if (!error.empty() && !note(reading, file, i + 1, error)) break;
+  }
+  return reading;
+}
+
+GrainsReading read_grains(const std::string& path) {
+  FileText file = read_text(path);
+  if (file.errors.empty()) return parse_grains(file.text, path);
+  GrainsReading reading;
+  reading.errors = std::move(file.errors);
+  return reading;
+}
+
+std::vector<PlacedSphere> scaled_grains(std::vector<PlacedSphere> grains, double diameter) {
+  for (PlacedSphere& grain : grains) {
+    grain = {grain.x / diameter, grain.y / diameter, grain.z / diameter, grain.radius / diameter};
+  }
+  return grains;
+}
+
+}  // namespace grainsweep

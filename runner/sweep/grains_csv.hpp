@@ -1,0 +1,31 @@
+// Grains from a CSV file: where a bed starts that comes from elsewhere.
+//
+// The first line names the columns; x, y, z and r (or radius) must be among them, others are left
+// alone: a bed written by `export` can be packed again. One grain per line, decimal points.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/scene/spec.hpp"
+#include "runner/sweep/job.hpp"
+
+namespace grainsweep {
+
+struct GrainsReading {
+  std::vector<PlacedSphere> grains;  ///< in the file's own unit of length
+  std::string content;               ///< hash of the file's bytes, 16 hex digits
+  std::vector<Finding> errors;       ///< with places "bed.csv:12"; at most 20 of a file
+};
+
+/// Reads grains from the file at `path`. Refuses missing columns and values, and radii that are not
+/// positive finite numbers.
+GrainsReading read_grains(const std::string& path);
+
+/// The same from `text`, the content of `file`.
+GrainsReading parse_grains(const std::string& text, const std::string& file);
+
+/// The grains in units of `diameter`, a length in the file's unit.
+std::vector<PlacedSphere> scaled_grains(std::vector<PlacedSphere> grains, double diameter);
+
+}  // namespace grainsweep

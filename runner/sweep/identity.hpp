@@ -1,0 +1,37 @@
+// What makes a job that job.
+//
+// A job's identity is the text
+//     canonical parameters '\n' master seed '\n' replicate
+// with both numbers in decimal; its id is FNV-1a (64 bits) of that text, put through the finaliser
+// of SplitMix64 so that every bit of the text changes every bit of the id. Labels, the order of
+// keys, the order of blocks and the number of replicates do not enter it.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "runner/sweep/draft.hpp"
+
+namespace grainsweep {
+
+/// FNV-1a, 64 bits.
+std::uint64_t fnv1a(std::string_view bytes);
+
+/// Finaliser of SplitMix64: a bijection of 64 bits in which every input bit moves every output bit.
+std::uint64_t mixed(std::uint64_t bits);
+
+/// 16 lower-case hex digits.
+std::string hex16(std::uint64_t bits);
+
+/// Every parameter of the packing as JSON without spaces, keys sorted, numbers as short as they
+/// read back exactly. Presets appear as their parts, a fill file as the hash of its content.
+std::string canonical_parameters(const Draft& draft);
+
+/// The id of a job, as a number.
+std::uint64_t job_hash(std::string_view parameters, std::uint64_t seed, int replicate);
+
+/// The key of a job's random numbers: a function of its id alone, and not the id itself.
+std::uint64_t random_key_of(std::uint64_t job_hash);
+
+}  // namespace grainsweep

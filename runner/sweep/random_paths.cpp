@@ -1,0 +1,134 @@
+#include "runner/sweep/random_paths.hpp"
+
+#include <cmath>
+#include <optional>
+
+#include "runner/sweep/suggest.hpp"
+#include "runner/sweep/values.hpp"
+
+namespace grainsweep {
+namespace {
+
+constexpr std::uint64_t most_points = 1'000'000;
+
+const char* const wanted_distribution =
+    "must be {\"uniform\": [a, b]}, {\"log_uniform\": [a, b]} or {\"choice\": [...]}";
+
+std::optional<Distribution> distribution_named(const std::string& name) {
+  if (name == "uniform") return Distribution::uniform;
+  if (name == "log_uniform") return Distribution::log_uniform;
+  if (name == "choice") return Distribution::choice;
+  return std::nullopt;
+}
+
+/// What is wrong with the bounds of a number; "" if nothing is.
+std::string bounds_error(const RandomPath& random, const Json& bounds) {
+  const bool pair =
+      bounds.is_array() && bounds.size() == 2 && bounds[0].is_number() && bounds[1].is_number();
+  if (!pair) return "must be a list of two numbers, is " + describe(bounds);
+  if (random.low > random.high) return "the first bound must not exceed the second";
+  if (random.distribution == Distribution::log_uniform && !(random.low > 0.0)) {
+    return "the bounds of log_uniform must be positive, the first is " + describe(bounds[0]);
+  }
+  const Parameter& parameter = parameters()[random.parameter];
+  if (parameter.kind != ValueKind::whole) return "";
+  for (const Json& bound : bounds) {
+    const ValueReading reading = read_value(parameter, bound);
+    if (!reading.value) return reading.error;
+  }
+  return "";
+}
+
+bool read_bounds(const Json& bounds, const std::string& pointer, RandomPath& random,
+                 Problems& problems) {
+  const auto parameter = find_parameter(random.path);
+  const bool varies = parameter && (parameters()[*parameter].kind == ValueKind::number ||
+                                    parameters()[*parameter].kind == ValueKind::whole);
+  if (!varies) {
+    problems.push_back({pointer, random.path + " is no number; use {\"choice\": [...]}"});
+    return false;
+  }
+  random.parameter = *parameter;
+  if (bounds.is_array() && bounds.size() == 2 && bounds[0].is_number() && bounds[1].is_number()) {
+    random.low = bounds[0].get<double>();
+    random.high = bounds[1].get<double>();
+  }
+  const std::string error = bounds_error(random, bounds);
+  if (!error.empty()) problems.push_back({pointer, error});
+  return error.empty();
+}
+
+bool read_choices(const Json& list, const std::string& pointer, RandomPath& random,
+                  Problems& problems) {
+  if (!list.is_array() || list.empty()) {
+    problems.push_back({pointer, "must be a list of at least one value, is " +
+                                     (list.is_array() ? "empty" : describe(list))});
+    return false;
+  }
+  const std::size_t before = problems.size();
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    Settings& choice = random.choices.emplace_back();
+    read_settings(random.path, list[i], pointer + "/" + std::to_string(i), choice, problems);
+    refuse_double_settings(choice, problems);
+  }
+  return problems.size() == before;
+}
+
+bool read_path(const Json& value, RandomPath& random, Problems& problems) {
+  if (!is_known_path(random.path, random.pointer, problems)) return false;
+  if (!value.is_object() || value.size() != 1) {
+    problems.push_back(
+        {random.pointer, std::string(wanted_distribution) + ", is " + describe(value)});
+    return false;
+  }
+  const std::string& name = value.begin().key();
+  const std::string pointer = child_pointer(random.pointer, name);
+  const auto distribution = distribution_named(name);
+  if (!distribution) {
+    problems.push_back(
+        {pointer, unknown_key(name, {"uniform", "log_uniform", "choice"}), Anchor::key});
+    return false;
+  }
+  random.distribution = *distribution;
+  if (random.distribution != Distribution::choice) {
+    return read_bounds(value.front(), pointer, random, problems);
+  }
+  return read_choices(value.front(), pointer, random, problems);
+}
+
+}  // namespace
+
+std::vector<RandomPath> read_random_paths(const Json& random, const std::string& pointer,
+                                          Problems& problems) {
+  std::vector<RandomPath> paths;
+  for (const auto& [path, value] : random.items()) {
+    if (path == "count") continue;
+    RandomPath read;
+    read.path = path;
+    read.pointer = child_pointer(pointer, path);
+    if (read_path(value, read, problems)) paths.push_back(std::move(read));
+  }
+  if (random.empty() || (random.size() == 1 && random.contains("count"))) {
+    problems.push_back(
+        {pointer, "names no path to draw, e.g. \"box.width\": {\"uniform\": [5, 20]}"});
+  }
+  return paths;
+}
+
+std::uint64_t read_random_count(const Json& random, const std::string& pointer,
+                                Problems& problems) {
+  const auto found = random.find("count");
+  if (found == random.end()) {
+    problems.push_back({pointer, "\"count\", the number of points to draw, is missing"});
+    return 0;
+  }
+  if (found->is_number_unsigned()) {
+    const auto count = found->get<std::uint64_t>();
+    if (count >= 1 && count <= most_points) return count;
+  }
+  problems.push_back({child_pointer(pointer, "count"),
+                      "must be a whole number in [1, 1000000], is " + describe(*found)});
+  return 0;
+}
+
+}  // namespace grainsweep

@@ -1,0 +1,21 @@
+// Reading the "random" part of a block.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "runner/sweep/json_text.hpp"
+#include "runner/sweep/problem.hpp"
+#include "runner/sweep/random_points.hpp"
+
+namespace grainsweep {
+
+/// The paths of `random`, an object written at `pointer`; those with a problem are left out.
+std::vector<RandomPath> read_random_paths(const Json& random, const std::string& pointer,
+                                          Problems& problems);
+
+/// Its "count": the number of points to draw; 0 if there is none.
+std::uint64_t read_random_count(const Json& random, const std::string& pointer, Problems& problems);
+
+}  // namespace grainsweep

@@ -1,0 +1,164 @@
+#include "runner/sweep/values.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "runner/sweep/suggest.hpp"
+
+namespace grainsweep {
+namespace {
+
+ValueReading fits(Value value) { return {std::move(value), ""}; }
+
+ValueReading mismatch(const Parameter& parameter, const Json& value) {
+  return {{}, "must be " + wanted_value(parameter) + ", is " + describe(value)};
+}
+
+ValueReading read_number(const Parameter& parameter, const Json& value) {
+  if (!value.is_number()) return mismatch(parameter, value);
+  return fits(value.get<double>() + 0.0);  // -0 and 0 are one value
+}
+
+/// 1e4 is a whole number too, as long as f64 holds it exactly.
+bool is_whole(const Json& value) {
+  if (value.is_number_integer()) return true;
+  constexpr double largest_exact = 9007199254740992.0;
+  if (!value.is_number_float()) return false;
+  const double number = value.get<double>();
+  return number == std::floor(number) && std::abs(number) <= largest_exact;
+}
+
+ValueReading read_whole(const Parameter& parameter, const Json& value) {
+  const bool small = !value.is_number_unsigned() ||
+                     value.get<std::uint64_t>() <= static_cast<std::uint64_t>(parameter.largest);
+  if (!is_whole(value) || !small) return mismatch(parameter, value);
+  const auto number = value.get<std::int64_t>();
+  if (number > parameter.largest || number < -parameter.largest) return mismatch(parameter, value);
+  return fits(number);
+}
+
+ValueReading read_natural(const Parameter& parameter, const Json& value) {
+  const bool negative = value.is_number() && value.get<double>() < 0.0;
+  if (!is_whole(value) || negative) return mismatch(parameter, value);
+  return fits(value.get<std::uint64_t>());
+}
+
+ValueReading read_choice(const Parameter& parameter, const Json& value) {
+  const auto& names = parameter.choices;
+  if (parameter.path == "shape" && value.is_object()) {
+    return {{}, "must be \"sphere\": this version packs spheres only"};
+  }
+  if (!value.is_string()) return mismatch(parameter, value);
+  const auto& name = value.get_ref<const std::string&>();
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found != names.end()) return fits(static_cast<std::int64_t>(found - names.begin()));
+  const std::string near = nearest(name, names);
+  ValueReading reading = mismatch(parameter, value);
+  if (!near.empty()) reading.error += "; did you mean \"" + near + "\"?";
+  return reading;
+}
+
+ValueReading read_text(const Parameter& parameter, const Json& value) {
+  if (!value.is_string()) return mismatch(parameter, value);
+  return fits(value.get<std::string>());
+}
+
+ValueReading read_numbers(const Parameter& parameter, const Json& value) {
+  const auto is_number = [](const Json& entry) { return entry.is_number(); };
+  if (!value.is_array() || !std::all_of(value.begin(), value.end(), is_number)) {
+    return mismatch(parameter, value);
+  }
+  return fits(value.get<std::vector<double>>());
+}
+
+std::string bound_text(const Parameter& parameter) {
+  if (parameter.largest == std::numeric_limits<std::int64_t>::max()) return "";
+  return " up to " + std::to_string(parameter.largest);
+}
+
+std::string default_text(const Parameter& parameter) {
+  if (parameter.path == "accuracy.preset") return default_preset;
+  const auto value = parameter.get(Draft{});
+  return value ? written_value(parameter, *value).dump() : "none";
+}
+
+std::string kind_text(const Parameter& parameter) {
+  if (parameter.kind != ValueKind::choice) return "";
+  return ": " + wanted_value(parameter);
+}
+
+}  // namespace
+
+ValueReading read_value(const Parameter& parameter, const Json& value) {
+  switch (parameter.kind) {
+    case ValueKind::number:
+      return read_number(parameter, value);
+    case ValueKind::whole:
+      return read_whole(parameter, value);
+    case ValueKind::natural:
+      return read_natural(parameter, value);
+    case ValueKind::choice:
+      return read_choice(parameter, value);
+    case ValueKind::text:
+      return read_text(parameter, value);
+    case ValueKind::numbers:
+      break;
+  }
+  return read_numbers(parameter, value);
+}
+
+nlohmann::json written_value(const Parameter& parameter, const Value& value) {
+  if (parameter.kind == ValueKind::choice) {
+    return parameter.choices[static_cast<std::size_t>(std::get<std::int64_t>(value))];
+  }
+  return std::visit([](const auto& known) { return nlohmann::json(known); }, value);
+}
+
+std::string describe(const Json& value) {
+  if (value.is_object()) return "an object";
+  if (value.is_array()) return "a list";
+  if (value.is_string()) return "the text \"" + shortened(value.get<std::string>()) + "\"";
+  return value.dump();
+}
+
+std::string wanted_value(const Parameter& parameter) {
+  switch (parameter.kind) {
+    case ValueKind::number:
+      return "a number";
+    case ValueKind::whole:
+      return "a whole number" + bound_text(parameter);
+    case ValueKind::natural:
+      return "a whole number from 0 to 18446744073709551615";
+    case ValueKind::text:
+      return "a text in double quotes";
+    case ValueKind::numbers:
+      return "a list of numbers";
+    case ValueKind::choice:
+      break;
+  }
+  std::string names;
+  for (const std::string& name : parameter.choices) {
+    const bool last = &name == &parameter.choices.back();
+    names += (names.empty() ? "\"" : last ? " or \"" : ", \"") + name + "\"";
+  }
+  return names;
+}
+
+std::string document_parameters() {
+  std::string text;
+  for (const Parameter& parameter : parameters()) {
+    text += parameter.path + "  [" + default_text(parameter) + "]\n    " + parameter.meaning +
+            kind_text(parameter) + "\n";
+  }
+  return text;
+}
+
+std::string in_thousands(std::uint64_t count) {
+  std::string digits = std::to_string(count);
+  for (std::size_t at = digits.size(); at > 3; at -= 3) digits.insert(at - 3, 1, ',');
+  return digits;
+}
+
+}  // namespace grainsweep

@@ -1,0 +1,36 @@
+// JSON values to parameter values and back.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "runner/sweep/json_text.hpp"
+#include "runner/sweep/parameters.hpp"
+
+namespace grainsweep {
+
+struct ValueReading {
+  std::optional<Value> value;
+  std::string error;  ///< what is wrong if there is no value: "must be a number, is true"
+};
+
+/// `value` as a value of `parameter`.
+ValueReading read_value(const Parameter& parameter, const Json& value);
+
+/// A value of `parameter` as the sweep file writes it.
+nlohmann::json written_value(const Parameter& parameter, const Value& value);
+
+/// What a value is, for messages: `the text "abc"`, "4.5", "a list", "an object".
+std::string describe(const Json& value);
+
+/// What a parameter wants, for messages and documentation: "a number", `"periodic" or "walls"`.
+std::string wanted_value(const Parameter& parameter);
+
+/// All parameters with default, kind and meaning, two lines each.
+std::string document_parameters();
+
+/// Whole numbers in thousands: "1,000,000".
+std::string in_thousands(std::uint64_t count);
+
+}  // namespace grainsweep
