@@ -19,7 +19,7 @@ Accuracy fast() {
 Accuracy balanced() {
   Accuracy a;
   a.fall_iterations = 80;
-  a.creep_steps = 25;
+  a.creep_steps = 30;
   a.rest_iterations = 200;
   a.residual_tolerance = 5e-3;
   a.kinetic_tolerance = 1e-4;
@@ -31,7 +31,7 @@ Accuracy balanced() {
 Accuracy accurate() {
   Accuracy a;
   a.fall_iterations = 160;
-  a.creep_steps = 200;
+  a.creep_steps = 100;
   a.rest_iterations = 600;
   a.residual_tolerance = 1e-3;
   a.kinetic_tolerance = 2e-5;

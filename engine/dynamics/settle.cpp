@@ -11,8 +11,12 @@ namespace {
 constexpr double carried_share = 0.9;
 constexpr double fall_energy = 5e-3;  // m g d per grain; an impact has about 0.2
 
-// A quench is made of half steps: their motions and overlaps are a quarter of a full step's.
+// Steps after the fall, in steps of the fall. Motions and overlaps go with the square of a step.
+constexpr double creep_step = 2.0;
 constexpr double quench_step = 0.5;
+
+// Contacts go on closing for about ten steps of a quench, after that it only creeps.
+constexpr std::int64_t least_quench_steps = 10;
 
 enum class Stage { fall, creep, quench };
 
@@ -36,11 +40,9 @@ StepSettings settings_of(const Accuracy& accuracy, Stage stage) {
   s.limits = {accuracy.solver, accuracy.rest_iterations, accuracy.residual_tolerance / 5.0};
   if (stage == Stage::fall) {
     s.limits.iterations = accuracy.fall_iterations;
-  } else if (stage == Stage::creep) {
-    s.near = s.margin = 0.03;
   } else {
-    s.near = s.margin = 0.02;
-    s.dt *= quench_step;
+    s.near = s.margin = stage == Stage::creep ? 0.03 : 0.02;
+    s.dt *= stage == Stage::creep ? creep_step : quench_step;
     s.momentum = 0.0;
     s.correction = 1.0;
   }
@@ -118,7 +120,7 @@ SettleReport settle_as(const Accuracy& accuracy, const Kernels& kernels, SphereB
                    {},       {}};
   run(Stage::fall, s, [&](std::int64_t k) { return k > 0 && has_fallen(s); });
   run(Stage::creep, s, [&](std::int64_t k) { return k >= accuracy.creep_steps; });
-  run(Stage::quench, s, [&](std::int64_t k) { return k > 0 && is_at_rest(s); });
+  run(Stage::quench, s, [&](std::int64_t k) { return k >= least_quench_steps && is_at_rest(s); });
   certify_rest(s);
   s.report.force = force_sums(bed, s.state.contacts, s.settings.dt);
   return s.report;

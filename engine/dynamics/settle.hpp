@@ -2,9 +2,11 @@
 //
 //   fall    full steps with momentum, until the floor carries the bed; overlaps repaired by 10 % a
 //           step, so that loose solves do not throw grains about
-//   creep   full steps with momentum and better solves: grains slide into their places
-//   quench  half steps without momentum, overlaps repaired whole: what still moves is slowed down,
-//           contacts close, until every test of rest holds
+//   creep   double steps without momentum, better solves, overlaps repaired whole: grains slide into
+//           their places. With momentum the errors of the solves keep a bed warm, and it compacts
+//           for ever, as if tapped.
+//   quench  half steps without momentum: what still moves is slowed down and contacts close, until
+//           every test of rest holds
 //
 // How loosely the fall is solved is part of how a bed was packed: see engine/dynamics/presets.hpp.
 #pragma once

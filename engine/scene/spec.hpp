@@ -67,9 +67,9 @@ struct Accuracy {
   Solver solver = Solver::accelerated_projected_gradient;
   Precision precision = Precision::f32;
   double step = 0.2;                 ///< dt, sqrt(d/g)
-  double momentum = 0.9;             ///< alpha: share of the last displacement carried on, 0..1
+  double momentum = 0.9;             ///< alpha: share of a displacement carried on in the fall, 0..1
   int fall_iterations = 40;          ///< solver iterations per step while the bed compacts
-  int creep_steps = 25;              ///< full steps after the fall, while the bed creeps to rest
+  int creep_steps = 30;              ///< double steps after the fall, while the bed creeps to rest
   int rest_iterations = 200;         ///< most solver iterations per step after the fall
   double residual_tolerance = 5e-3;  ///< force balance at rest, m g, worst row
   double kinetic_tolerance = 2e-4;   ///< kinetic energy per grain at rest, m g d
