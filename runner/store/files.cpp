@@ -1,0 +1,134 @@
+#include "runner/store/files.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <fcntl.h>
+#include <filesystem>
+#include <system_error>
+#include <unistd.h>
+#include <utility>
+
+#include <sys/stat.h>
+
+namespace grainsweep {
+namespace {
+
+/// Repeats a system call while a signal interrupts it.
+template <class Call>
+auto uninterrupted(Call call) {
+  auto result = call();
+  while (result == -1 && errno == EINTR) result = call();
+  return result;
+}
+
+std::string folder_of(const std::string& path) {
+  const std::string folder = std::filesystem::path(path).parent_path().string();
+  return folder.empty() ? "." : folder;
+}
+
+void write_and_flush(const std::string& path, std::string_view bytes) {
+  const OpenFile file(path, O_WRONLY | O_CREAT | O_TRUNC);
+  write_all(file, bytes);
+  flush_to_disk(file);
+}
+
+}  // namespace
+
+FileError::FileError(const std::string& path, const std::string& action, int error)
+    : std::runtime_error(path + ": cannot " + action + ": " +
+                         std::generic_category().message(error)) {}
+
+FileError::FileError(const std::string& path, const std::string& what)
+    : std::runtime_error(path + ": " + what) {}
+
+OpenFile::OpenFile(std::string path, int flags, unsigned mode)
+    : path_(std::move(path)),
+      descriptor_(uninterrupted([&] { return open(path_.c_str(), flags | O_CLOEXEC, mode); })) {
+  if (descriptor_ < 0) throw FileError(path_, "open", errno);
+}
+
+OpenFile::~OpenFile() {
+  if (descriptor_ >= 0) close(descriptor_);
+}
+
+void write_all(const OpenFile& file, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written =
+        uninterrupted([&] { return write(file.descriptor(), bytes.data(), bytes.size()); });
+    if (written < 0) throw FileError(file.path(), "write", errno);
+    bytes.remove_prefix(static_cast<std::size_t>(written));
+  }
+}
+
+void flush_to_disk(const OpenFile& file) {
+  if (uninterrupted([&] { return fsync(file.descriptor()); }) == 0) return;
+  const bool cannot_be_flushed = errno == EINVAL || errno == ENOTSUP;  // not a plain file
+  if (!cannot_be_flushed) throw FileError(file.path(), "flush to disk", errno);
+}
+
+void flush_folder_of(const std::string& path) {
+  flush_to_disk(OpenFile(folder_of(path), O_RDONLY | O_DIRECTORY));
+}
+
+std::string read_file(const std::string& path) {
+  const OpenFile file(path, O_RDONLY);
+  std::string text;
+  char block[1 << 16];
+  for (;;) {
+    const ssize_t count =
+        uninterrupted([&] { return read(file.descriptor(), block, sizeof block); });
+    if (count < 0) throw FileError(path, "read", errno);
+    if (count == 0) return text;
+    text.append(block, static_cast<std::size_t>(count));
+  }
+}
+
+void replace_file(const std::string& path, std::string_view bytes) {
+  const std::string neighbour = path + ".tmp." + std::to_string(getpid());
+  try {
+    write_and_flush(neighbour, bytes);
+    if (std::rename(neighbour.c_str(), path.c_str()) != 0) throw FileError(path, "replace", errno);
+  } catch (const FileError&) {
+    unlink(neighbour.c_str());
+    throw;
+  }
+  flush_folder_of(path);
+}
+
+void make_folder(const std::string& path) {
+  std::error_code error;
+  std::filesystem::create_directories(path, error);
+  if (error) throw FileError(path, "make the folder", error.value());
+  if (!std::filesystem::is_directory(path)) throw FileError(path, "make the folder", ENOTDIR);
+}
+
+void remove_file(const std::string& path) {
+  if (unlink(path.c_str()) != 0 && errno != ENOENT) throw FileError(path, "remove", errno);
+}
+
+bool file_exists(const std::string& path) {
+  struct stat status {};
+  if (stat(path.c_str(), &status) == 0) return true;
+  if (errno == ENOENT || errno == ENOTDIR) return false;
+  throw FileError(path, "look up", errno);
+}
+
+std::vector<std::string> files_in(const std::string& folder, std::string_view start,
+                                  std::string_view end) {
+  std::vector<std::string> names;
+  std::error_code error;
+  std::filesystem::directory_iterator entry(folder, error);
+  for (const std::filesystem::directory_iterator last; !error && entry != last;
+       entry.increment(error)) {
+    const std::string name = entry->path().filename().string();
+    if (name.starts_with(start) && name.ends_with(end)) names.push_back(name);
+  }
+  if (error && error != std::errc::no_such_file_or_directory) {
+    throw FileError(folder, "list", error.value());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+}  // namespace grainsweep

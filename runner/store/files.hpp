@@ -1,0 +1,68 @@
+// Files as results need them: whole or not there at all, and an error that names path and cause.
+//
+// Every function throws FileError. Interrupted system calls are repeated, short writes continued.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace grainsweep {
+
+/// "out/a/packings.csv: cannot write: No space left on device"
+struct FileError : std::runtime_error {
+  /// `action` is what was tried ("write"), `error` the errno it ended with.
+  FileError(const std::string& path, const std::string& action, int error);
+  /// A file that can be read but is not what it should be; `what` says so.
+  FileError(const std::string& path, const std::string& what);
+};
+
+/// An open file descriptor, closed with its owner.
+class OpenFile {
+ public:
+  /// `flags` and `mode` as for open(2); close-on-exec is added.
+  OpenFile(std::string path, int flags, unsigned mode = 0666);
+  OpenFile(const OpenFile&) = delete;
+  OpenFile(OpenFile&&) = delete;
+  OpenFile& operator=(const OpenFile&) = delete;
+  OpenFile& operator=(OpenFile&&) = delete;
+  ~OpenFile();
+
+  int descriptor() const { return descriptor_; }
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+  int descriptor_ = -1;
+};
+
+/// Writes all of `bytes` at the file's position.
+void write_all(const OpenFile& file, std::string_view bytes);
+
+/// Returns once what was written is on the disk.
+void flush_to_disk(const OpenFile& file);
+
+/// Returns once the names of the files in `path`'s folder are on the disk.
+void flush_folder_of(const std::string& path);
+
+/// The whole file.
+std::string read_file(const std::string& path);
+
+/// Replaces `path` by a file holding `bytes`: a reader or a crash sees the old file or the new one,
+/// never a part. Writes a neighbour, flushes it, renames it, flushes the folder.
+void replace_file(const std::string& path, std::string_view bytes);
+
+/// Makes the folder and those above it; nothing happens if it is there.
+void make_folder(const std::string& path);
+
+/// Removes the file; nothing happens if there is none.
+void remove_file(const std::string& path);
+
+bool file_exists(const std::string& path);
+
+/// Names of the files in `folder` that start and end so, sorted; none if there is no folder.
+std::vector<std::string> files_in(const std::string& folder, std::string_view start,
+                                  std::string_view end);
+
+}  // namespace grainsweep

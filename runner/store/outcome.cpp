@@ -1,0 +1,123 @@
+#include "runner/store/outcome.hpp"
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include <nlohmann/json.hpp>
+
+namespace grainsweep {
+namespace {
+
+using nlohmann::json;
+
+json number(double value) {
+  if (std::isfinite(value)) return value;
+  if (std::isnan(value)) return "nan";
+  return value > 0 ? "inf" : "-inf";
+}
+
+double number_from(const json& value) {
+  if (value.is_number()) return value.get<double>();
+  const auto text = value.get<std::string>();
+  if (text == "nan") return std::numeric_limits<double>::quiet_NaN();
+  if (text == "inf") return std::numeric_limits<double>::infinity();
+  if (text == "-inf") return -std::numeric_limits<double>::infinity();
+  throw std::invalid_argument("no number: " + text);
+}
+
+PackingStatus status_from(const std::string& name) {
+  for (const auto status : {PackingStatus::settled, PackingStatus::not_settled,
+                            PackingStatus::cancelled, PackingStatus::failed}) {
+    if (name == name_of(status)) return status;
+  }
+  throw std::invalid_argument("no status: " + name);
+}
+
+json rest_json(const RestReport& rest) {
+  return {{"residual", number(rest.residual)},
+          {"kinetic_energy", number(rest.kinetic_energy)},
+          {"largest_motion", number(rest.largest_motion)},
+          {"overlap_mean", number(rest.overlap_mean)},
+          {"overlap_max", number(rest.overlap_max)},
+          {"contacts", rest.contacts},
+          {"isostatic_contacts", rest.isostatic_contacts}};
+}
+
+RestReport rest_from(const json& from) {
+  RestReport rest;
+  rest.residual = number_from(from.at("residual"));
+  rest.kinetic_energy = number_from(from.at("kinetic_energy"));
+  rest.largest_motion = number_from(from.at("largest_motion"));
+  rest.overlap_mean = number_from(from.at("overlap_mean"));
+  rest.overlap_max = number_from(from.at("overlap_max"));
+  from.at("contacts").get_to(rest.contacts);
+  from.at("isostatic_contacts").get_to(rest.isostatic_contacts);
+  return rest;
+}
+
+json coordination_json(const std::vector<Coordination>& coordination) {
+  json list = json::array();
+  for (const Coordination& at : coordination) {
+    list.push_back({{"gap_tolerance", number(at.gap_tolerance)},
+                    {"between_grains", number(at.between_grains)},
+                    {"with_walls", number(at.with_walls)}});
+  }
+  return list;
+}
+
+std::vector<Coordination> coordination_from(const json& list) {
+  std::vector<Coordination> coordination;
+  for (const json& at : list) {
+    coordination.push_back({number_from(at.at("gap_tolerance")),
+                            number_from(at.at("between_grains")),
+                            number_from(at.at("with_walls"))});
+  }
+  return coordination;
+}
+
+}  // namespace
+
+json to_json(const Outcome& outcome) {
+  const PackingResult& result = outcome.result;
+  return {{"job", outcome.job},
+          {"status", name_of(result.status)},
+          {"reason", result.reason},
+          {"threw", outcome.threw},
+          {"grains", result.grains},
+          {"stored_grains", outcome.stored_grains},
+          {"rest", rest_json(result.rest)},
+          {"surface_height", number(result.surface_height)},
+          {"slab_bottom", number(result.slab_bottom)},
+          {"slab_top", number(result.slab_top)},
+          {"solid_fraction", number(result.solid_fraction)},
+          {"coordination", coordination_json(result.coordination)},
+          {"steps", result.steps},
+          {"iterations", result.iterations},
+          {"state_hash", result.state_hash},
+          {"cpu_seconds", number(outcome.cpu_seconds)}};
+}
+
+Outcome outcome_from_json(const json& json) {
+  Outcome outcome;
+  PackingResult& result = outcome.result;
+  json.at("job").get_to(outcome.job);
+  result.status = status_from(json.at("status").get<std::string>());
+  json.at("reason").get_to(result.reason);
+  json.at("threw").get_to(outcome.threw);
+  json.at("grains").get_to(result.grains);
+  json.at("stored_grains").get_to(outcome.stored_grains);
+  result.rest = rest_from(json.at("rest"));
+  result.surface_height = number_from(json.at("surface_height"));
+  result.slab_bottom = number_from(json.at("slab_bottom"));
+  result.slab_top = number_from(json.at("slab_top"));
+  result.solid_fraction = number_from(json.at("solid_fraction"));
+  result.coordination = coordination_from(json.at("coordination"));
+  json.at("steps").get_to(result.steps);
+  json.at("iterations").get_to(result.iterations);
+  json.at("state_hash").get_to(result.state_hash);
+  outcome.cpu_seconds = number_from(json.at("cpu_seconds"));
+  return outcome;
+}
+
+}  // namespace grainsweep

@@ -1,0 +1,29 @@
+// What is kept of a finished packing, and its form as JSON.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "engine/packing.hpp"
+
+namespace grainsweep {
+
+struct Outcome {
+  std::string job;  ///< Job::id
+  PackingResult result;
+  /// The packing ended in an exception (no memory, say), not in a result: it is tried again by the
+  /// next run.
+  bool threw = false;
+  std::int64_t stored_grains = 0;  ///< grains in states/<job>.grains, 0 if there is no such file
+  double cpu_seconds = 0.0;        ///< of the thread that made it
+};
+
+/// Every double reads back with the same bits; not-a-number and infinities are strings.
+nlohmann::json to_json(const Outcome& outcome);
+
+/// Throws nlohmann::json::exception or std::invalid_argument if `json` is no outcome.
+Outcome outcome_from_json(const nlohmann::json& json);
+
+}  // namespace grainsweep

@@ -1,0 +1,34 @@
+// The grains of each finished bed, so that exporting never packs again.
+//
+// states/<job>.grains, little-endian: "GRAINS1\n"; u64 number of grains; f64 box length, box width;
+// u8 x walled, y walled; per grain f64 x, y, z, radius, force, i32 touching; u32 CRC-32 of all
+// before. Units as in SettledGrain.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/packing.hpp"
+
+namespace grainsweep {
+
+struct StoredBed {
+  BoxSpec box;
+  std::vector<SettledGrain> grains;
+};
+
+/// <folder>/states/<job>.grains
+std::string state_path(const std::string& folder, const std::string& job);
+
+/// Replaces the file as a whole and flushes it. Makes the folder states if missing.
+void write_bed(const std::string& folder, const std::string& job, const StoredBed& bed);
+
+/// Throws FileError if there is no such file, or if it is damaged.
+StoredBed read_bed(const std::string& folder, const std::string& job);
+
+/// The file's bytes, and back; `path` is named in the FileError about damaged bytes.
+std::string bed_bytes(const StoredBed& bed);
+StoredBed bed_from_bytes(std::string_view bytes, const std::string& path);
+
+}  // namespace grainsweep
