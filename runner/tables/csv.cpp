@@ -1,0 +1,35 @@
+#include "runner/tables/csv.hpp"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+
+namespace grainsweep {
+
+std::string cell(double value) {
+  if (!std::isfinite(value)) return "";
+  std::array<char, 32> text{};
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
+  return {text.data(), end};
+}
+
+std::string cell(std::string_view text) {
+  if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"') quoted += '"';
+    quoted += c;
+  }
+  return quoted + '"';
+}
+
+std::string csv_line(const std::vector<std::string>& cells) {
+  std::string line;
+  for (const std::string& text : cells) {
+    if (&text != &cells.front()) line += ',';
+    line += text;
+  }
+  return line + '\n';
+}
+
+}  // namespace grainsweep

@@ -1,0 +1,25 @@
+// Cells and rows of the tables: RFC 4180, numbers in their shortest form that reads back exactly.
+#pragma once
+
+#include <concepts>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace grainsweep {
+
+/// Shortest text that reads back with the same bits; empty for NaN and infinities: a cell without a
+/// number says that there is none.
+std::string cell(double value);
+
+/// Decimal digits.
+std::string cell(std::integral auto value) { return std::to_string(value); }
+
+/// `text`, in quotes if it holds a comma, a quote or a line break.
+std::string cell(std::string_view text);
+inline std::string cell(const char* text) { return cell(std::string_view(text)); }
+
+/// Finished cells joined by commas and ended by a line feed.
+std::string csv_line(const std::vector<std::string>& cells);
+
+}  // namespace grainsweep

@@ -1,0 +1,105 @@
+// Which packings belong to one wall-effect line, and what to call them.
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include <nlohmann/json.hpp>
+
+#include "runner/tables/csv.hpp"
+#include "runner/tables/fits.hpp"
+
+namespace grainsweep {
+namespace {
+
+using nlohmann::json;
+
+std::string parameters_without_width(const JobFacts& job) {
+  json parameters = json::parse(job.parameters);
+  if (parameters.contains("box")) {
+    parameters["box"].erase("width");
+    parameters["box"].erase("y");
+  }
+  return parameters.dump();
+}
+
+/// The labels of the walled groups, or of all if none is walled.
+std::string labels_of(const Family& family) {
+  std::vector<std::string> labels;
+  for (const Group& group : family.walled.empty() ? family.periodic : family.walled) {
+    const bool is_new = std::find(labels.begin(), labels.end(), group.job.label) == labels.end();
+    if (is_new && !group.job.label.empty()) labels.push_back(group.job.label);
+  }
+  std::string joined;
+  for (const std::string& label : labels) joined += (joined.empty() ? "" : " + ") + label;
+  return joined.empty() ? "packings" : joined;
+}
+
+/// Dotted path -> value of every parameter; a preset counts as one value.
+std::map<std::string, std::string> flat_parameters(const Family& family) {
+  json parameters = json::parse(family.parameters);
+  const Group& group = family.walled.empty() ? family.periodic.front() : family.walled.front();
+  if (group.job.accuracy != "custom") parameters["accuracy"] = group.job.accuracy;
+  std::map<std::string, std::string> flat;
+  const json flattened = parameters.flatten();
+  for (const auto& [path, value] : flattened.items()) {
+    flat[path] = value.is_string() ? value.get<std::string>() : value.dump();
+  }
+  return flat;
+}
+
+/// "small_share=0.25 size_ratio=0.5": the parameters among `paths`, by the last part of their path.
+std::string distinction(const Family& family, const std::set<std::string>& paths) {
+  std::string text;
+  for (const auto& [path, value] : flat_parameters(family)) {
+    if (!paths.contains(path)) continue;
+    text += " " + path.substr(path.rfind('/') + 1) + "=" + value;
+  }
+  return text;
+}
+
+/// Paths whose value is not the same in all of `families`.
+std::set<std::string> differing_paths(const std::vector<Family*>& families) {
+  std::map<std::string, std::map<std::string, std::size_t>> count;
+  for (const Family* family : families) {
+    for (const auto& [path, value] : flat_parameters(*family)) ++count[path][value];
+  }
+  std::set<std::string> paths;
+  for (const auto& [path, values] : count) {
+    if (values.begin()->second != families.size()) paths.insert(path);
+  }
+  return paths;
+}
+
+void name_families(std::vector<Family>& families) {
+  std::map<std::string, std::vector<Family*>> by_labels;
+  for (Family& family : families) by_labels[labels_of(family)].push_back(&family);
+  for (const auto& [labels, same] : by_labels) {
+    const std::set<std::string> paths = differing_paths(same);
+    for (Family* family : same) family->name = labels + distinction(*family, paths);
+  }
+}
+
+void sort_by_width(std::vector<Group>& groups) {
+  std::stable_sort(groups.begin(), groups.end(), [](const Group& a, const Group& b) {
+    return a.job.box.width < b.job.box.width;
+  });
+}
+
+}  // namespace
+
+std::vector<Family> families_of(const std::vector<Group>& groups) {
+  std::vector<Family> families;
+  std::map<std::string, std::size_t> index_of;
+  for (const Group& group : groups) {
+    const std::string parameters = parameters_without_width(group.job);
+    const auto [known, is_new] = index_of.try_emplace(parameters, families.size());
+    if (is_new) families.push_back({"", parameters, {}, {}});
+    Family& family = families[known->second];
+    (group.job.box.y == Boundary::walls ? family.walled : family.periodic).push_back(group);
+  }
+  for (Family& family : families) sort_by_width(family.walled), sort_by_width(family.periodic);
+  name_families(families);
+  return families;
+}
+
+}  // namespace grainsweep

@@ -1,0 +1,40 @@
+// groups.csv: mean and scatter over the replicates of each parameter set.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "runner/tables/job_facts.hpp"
+
+namespace grainsweep {
+
+/// Mean and sample standard deviation (divisor n - 1); NaN where there are too few values.
+struct Spread {
+  double mean = 0.0;
+  double sd = 0.0;
+  int n = 0;
+};
+
+Spread spread_of(const std::vector<double>& values);
+
+/// Standard error of the mean, sd / sqrt(n); NaN below two values.
+double standard_error(const Spread& spread);
+
+/// The packings with one label and one parameter set. Only settled ones enter the means.
+struct Group {
+  JobFacts job;  ///< the first of them: its replicate number, id and seed mean nothing here
+  Spread solid_fraction;
+  Spread coordination;             ///< at the first gap tolerance, walls not counted
+  Spread coordination_with_walls;  ///< the same, walls counted
+  Spread contact_ratio;            ///< contacts over isostatic contacts
+  Spread overlap_mean;             ///< d
+  StatusCounts counts;
+};
+
+/// In the order in which the groups first appear.
+std::vector<Group> groups_of(const std::vector<Row>& rows);
+
+/// The whole file.
+std::string groups_csv(const std::vector<Group>& groups);
+
+}  // namespace grainsweep

@@ -1,0 +1,149 @@
+#include "runner/tables/packings.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cinttypes>
+#include <cstdio>
+#include <limits>
+
+#include "runner/tables/csv.hpp"
+
+namespace grainsweep {
+namespace {
+
+using Cells = std::vector<std::string>;
+
+const Cells first_columns = {"job",
+                             "label",
+                             "replicate",
+                             "seed",
+                             "shape",
+                             "grains",
+                             "width",
+                             "boundary_y",
+                             "small_share",
+                             "status",
+                             "solid_fraction",
+                             "coordination",
+                             "coordination_with_walls",
+                             "contacts",
+                             "isostatic_contacts",
+                             "overlap_mean",
+                             "overlap_max",
+                             "residual",
+                             "kinetic_energy",
+                             "steps",
+                             "iterations",
+                             "cpu_seconds",
+                             "length",
+                             "boundary_x",
+                             "accuracy",
+                             "gap_tolerance"};
+const Cells last_columns = {"surface_height", "slab_bottom", "slab_top",
+                            "largest_motion", "state_hash",  "reason"};
+
+void append(Cells& cells, Cells more) {
+  std::move(more.begin(), more.end(), std::back_inserter(cells));
+}
+
+/// Every gap tolerance of the sweep that is not first in all of its jobs, ascending.
+std::vector<double> further_tolerances(const std::vector<Row>& rows) {
+  std::vector<double> tolerances;
+  for (const Row& row : rows) {
+    const auto& own = row.job.measure.gap_tolerances;
+    if (!own.empty()) tolerances.insert(tolerances.end(), own.begin() + 1, own.end());
+  }
+  std::sort(tolerances.begin(), tolerances.end());
+  tolerances.erase(std::unique(tolerances.begin(), tolerances.end()), tolerances.end());
+  return tolerances;
+}
+
+std::string hex(std::uint64_t hash) {
+  std::array<char, 17> text{};
+  std::snprintf(text.data(), text.size(), "%016" PRIx64, hash);
+  return text.data();
+}
+
+Cells measured_cells(const Row& row) {
+  if (!is_measured(row)) return Cells(9);
+  const PackingResult& result = row.outcome->result;
+  const Coordination coordination = headline_coordination(row);
+  return {cell(result.solid_fraction),          cell(coordination.between_grains),
+          cell(coordination.with_walls),        cell(result.rest.contacts),
+          cell(result.rest.isostatic_contacts), cell(result.rest.overlap_mean),
+          cell(result.rest.overlap_max),        cell(result.rest.residual),
+          cell(result.rest.kinetic_energy)};
+}
+
+Cells effort_cells(const Row& row) {
+  if (!row.outcome) return Cells(3);
+  const PackingResult& result = row.outcome->result;
+  return {cell(result.steps), cell(result.iterations), cell(row.outcome->cpu_seconds)};
+}
+
+/// Both conventions at each tolerance; empty where the job did not measure at it.
+Cells coordination_cells(const Row& row, const std::vector<double>& tolerances) {
+  Cells cells;
+  for (const double tolerance : tolerances) {
+    Coordination at{tolerance, std::numeric_limits<double>::quiet_NaN(),
+                    std::numeric_limits<double>::quiet_NaN()};
+    if (is_measured(row)) {
+      for (const Coordination& measured : row.outcome->result.coordination) {
+        if (measured.gap_tolerance == tolerance) at = measured;
+      }
+    }
+    append(cells, {cell(at.between_grains), cell(at.with_walls)});
+  }
+  return cells;
+}
+
+Cells state_cells(const Row& row) {
+  if (!row.outcome) return Cells(6);
+  const PackingResult& result = row.outcome->result;
+  if (!is_measured(row)) return {"", "", "", "", "", cell(result.reason)};
+  return {cell(result.surface_height),      cell(result.slab_bottom), cell(result.slab_top),
+          cell(result.rest.largest_motion), hex(result.state_hash),   cell(result.reason)};
+}
+
+Cells header(const std::vector<double>& tolerances) {
+  Cells cells = first_columns;
+  for (const double tolerance : tolerances) {
+    append(cells,
+           {"coordination_at_" + cell(tolerance), "coordination_with_walls_at_" + cell(tolerance)});
+  }
+  append(cells, last_columns);
+  return cells;
+}
+
+Cells row_cells(const Row& row, const std::vector<double>& tolerances) {
+  const JobFacts& job = row.job;
+  const auto& gaps = job.measure.gap_tolerances;
+  Cells cells = {job.id,
+                 cell(job.label),
+                 cell(job.replicate),
+                 cell(job.seed),
+                 cell(job.shape),
+                 row.outcome ? cell(row.outcome->result.grains) : "",
+                 cell(job.box.width),
+                 name_of(job.box.y),
+                 cell(job.small_share),
+                 status_of(row)};
+  append(cells, measured_cells(row));
+  append(cells, effort_cells(row));
+  append(cells, {cell(job.box.length), name_of(job.box.x), cell(job.accuracy),
+                 gaps.empty() ? "" : cell(gaps.front())});
+  append(cells, coordination_cells(row, tolerances));
+  append(cells, state_cells(row));
+  return cells;
+}
+
+}  // namespace
+
+std::string packings_csv(const std::vector<Row>& rows) {
+  const std::vector<double> tolerances = further_tolerances(rows);
+  std::string text = csv_line(header(tolerances));
+  for (const Row& row : rows) text += csv_line(row_cells(row, tolerances));
+  return text;
+}
+
+}  // namespace grainsweep

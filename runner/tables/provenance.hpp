@@ -1,0 +1,57 @@
+// provenance.json: what was run, with what, when, and the resolved sweep. From it and the journals
+// every table can be written again without the sweep file.
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "runner/tables/job_facts.hpp"
+
+namespace grainsweep {
+
+/// One call of `run`.
+struct RunRecord {
+  std::string started;        ///< UTC, ISO 8601
+  std::string ended;          ///< the same; empty while it runs, or if it was killed
+  double wall_seconds = 0.0;  ///< s
+  std::string process;        ///< "<host>-<pid>"
+  int threads = 1;
+  std::string isa;   ///< "avx2"
+  int packings = 0;  ///< finished by this run
+};
+
+/// What the program was built from.
+struct Build {
+  std::string version;
+  std::string compiler;
+  std::map<std::string, std::string> libraries;  ///< name -> version
+};
+
+struct Provenance {
+  Build build;
+  std::string sweep_file;       ///< as given on the command line
+  std::string sweep_text_hash;  ///< text_hash of its bytes
+  SweepFacts sweep;
+  std::vector<RunRecord> runs;  ///< in the order they started
+};
+
+/// The whole file, with totals of `rows`.
+std::string provenance_text(const Provenance& provenance, const std::vector<Row>& rows);
+
+/// Throws nlohmann::json::exception if `text` is not a provenance.json of this version.
+Provenance provenance_from_text(const std::string& text);
+
+/// "fnv1a64:0123456789abcdef", the 64-bit FNV-1a hash.
+std::string text_hash(std::string_view text);
+
+struct Totals {
+  StatusCounts counts;
+  double cpu_seconds = 0.0;  ///< of all finished packings, s
+};
+Totals totals_of(const std::vector<Row>& rows);
+
+}  // namespace grainsweep
