@@ -1,0 +1,35 @@
+// The grains of stored packings in formats that other programs read.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "runner/store/states.hpp"
+
+namespace grainsweep {
+
+enum class ExportFormat {
+  csv,  ///< header and one row per grain
+  xyz,  ///< extended XYZ, for OVITO and ASE
+  vtp,  ///< VTK XML PolyData, for ParaView and VTK
+};
+
+/// "csv", "xyz", "vtp": also the file's ending.
+const char* name_of(ExportFormat format);
+std::optional<ExportFormat> export_format(std::string_view name);
+
+/// x, y, z, radius (d), force (m g), coordination: a grain per line.
+std::string grains_csv(const StoredBed& bed);
+
+/// The box as Lattice (its height is the bed's), periodic axes as pbc, a grain per line with
+/// species, pos, radius (d), coordination, force (m g).
+std::string grains_xyz(const StoredBed& bed);
+
+/// Points with the arrays radius (d), coordination, force (m g), in text.
+std::string grains_vtp(const StoredBed& bed);
+
+/// The bed in `format`.
+std::string grains_text(const StoredBed& bed, ExportFormat format);
+
+}  // namespace grainsweep

@@ -1,0 +1,97 @@
+// The commands that look at an output folder: `report`, `status`, `export`.
+#include <algorithm>
+#include <iostream>
+
+#include "runner/commands.hpp"
+#include "runner/exit_codes.hpp"
+#include "runner/report.hpp"
+#include "runner/results.hpp"
+#include "runner/store/files.hpp"
+#include "runner/store/lock.hpp"
+#include "runner/store/states.hpp"
+
+namespace grainsweep {
+namespace {
+
+Results results_with_warnings(const std::string& folder) {
+  Results results = read_results(folder);
+  for (const std::string& line : results.damage) {
+    std::cerr << "warning: " << folder << "/" << line << "\n";
+  }
+  return results;
+}
+
+std::string progress_text(const StatusCounts& counts, std::size_t packings) {
+  const std::size_t done = packings - static_cast<std::size_t>(counts.pending);
+  return std::to_string(done) + " of " + std::to_string(packings) +
+         " packings done: " + std::to_string(counts.settled) + " settled, " +
+         std::to_string(counts.not_settled) + " not settled, " + std::to_string(counts.failed) +
+         " failed";
+}
+
+bool has_grains(const Row& row) { return row.outcome && row.outcome->stored_grains > 0; }
+
+/// The rows to export: those asked for, or all that have grains. Throws BadInput.
+std::vector<const Row*> rows_to_export(const std::vector<Row>& rows, const ExportOptions& options) {
+  std::vector<const Row*> chosen;
+  for (const std::string& job : options.jobs) {
+    const auto found =
+        std::find_if(rows.begin(), rows.end(), [&](const Row& row) { return row.job.id == job; });
+    if (found == rows.end()) {
+      throw BadInput("--job " + job + ": no such packing; see the column job in " + options.folder +
+                     "/packings.csv");
+    }
+    if (!has_grains(*found))
+      throw BadInput("--job " + job + ": has no grains, it is " + status_of(*found));
+    chosen.push_back(&*found);
+  }
+  for (const Row& row : rows) {
+    if (options.jobs.empty() && has_grains(row)) chosen.push_back(&row);
+  }
+  return chosen;
+}
+
+}  // namespace
+
+int report(const ReportOptions& options) {
+  const Results results = results_with_warnings(options.folder);
+  std::cout << closing_report(results.provenance, results.rows, options.folder);
+  return exit_done;
+}
+
+int status(const StatusOptions& options) {
+  const Results results = results_with_warnings(options.folder);
+  const Totals totals = totals_of(results.rows);
+  const auto runner = present_runner(options.folder);
+  std::cout << results.provenance.sweep.name << ": "
+            << progress_text(totals.counts, results.rows.size()) << "; "
+            << duration_text(totals.cpu_seconds) << " CPU\n"
+            << (runner ? "Running: " + *runner : std::string("No runner at work")) << "\n";
+  if (results.foreign > 0) {
+    std::cout << results.foreign << " stored packings belong to an earlier form of the sweep\n";
+  }
+  if (!runner && totals.counts.pending > 0) {
+    std::cout << "Go on with: grainsweep run " << results.provenance.sweep_file << " --out "
+              << options.folder << "\n";
+  }
+  return exit_done;
+}
+
+int export_grains(const ExportOptions& options) {
+  const auto format = export_format(options.format);
+  if (!format) throw BadInput("--format " + options.format + ": use csv, xyz or vtp");
+  const Results results = results_with_warnings(options.folder);
+  const std::vector<const Row*> rows = rows_to_export(results.rows, options);
+  const std::string to = options.to.empty() ? options.folder + "/export" : options.to;
+  if (rows.empty()) throw BadInput(options.folder + ": holds no finished packing to export");
+  make_folder(to);
+  for (const Row* row : rows) {
+    const StoredBed bed = read_bed(options.folder, row->job.id);
+    replace_file(to + "/" + row->job.id + "." + name_of(*format), grains_text(bed, *format));
+  }
+  std::cout << rows.size() << (rows.size() == 1 ? " packing" : " packings") << " written to " << to
+            << "/<job>." << name_of(*format) << "\n";
+  return exit_done;
+}
+
+}  // namespace grainsweep

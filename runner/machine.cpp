@@ -1,0 +1,65 @@
+#include "runner/machine.hpp"
+
+#include <algorithm>
+#include <array>
+#include <ctime>
+#include <fstream>
+#include <string>
+
+#include <tbb/info.h>
+
+namespace grainsweep {
+namespace {
+
+double seconds_of(clockid_t clock) {
+  timespec time{};
+  clock_gettime(clock, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+/// The number a file starts with; a negative one if it does not (a group without limit says "max").
+double number_in(const std::string& path) {
+  std::ifstream file(path);
+  double number = 0.0;
+  return file >> number ? number : -1.0;
+}
+
+double memory_left_on_the_machine() {
+  std::ifstream file("/proc/meminfo");
+  std::string name, rest;
+  double kilobytes = 0.0;
+  while (file >> name >> kilobytes && std::getline(file, rest)) {
+    if (name == "MemAvailable:") return 1024.0 * kilobytes;
+  }
+  return 0.0;
+}
+
+double memory_left_in_the_control_group(double otherwise) {
+  const double limit = number_in("/sys/fs/cgroup/memory.max");
+  const double used = number_in("/sys/fs/cgroup/memory.current");
+  return limit < 0 || used < 0 ? otherwise : std::max(0.0, limit - used);
+}
+
+}  // namespace
+
+double thread_cpu_seconds() { return seconds_of(CLOCK_THREAD_CPUTIME_ID); }
+
+double wall_seconds() { return seconds_of(CLOCK_MONOTONIC); }
+
+std::string utc_now() {
+  const std::time_t now = std::time(nullptr);
+  std::tm parts{};
+  gmtime_r(&now, &parts);
+  std::array<char, 32> text{};
+  std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &parts);
+  return text.data();
+}
+
+int usable_cores() { return std::max(1, tbb::info::default_concurrency()); }
+
+double available_memory() {
+  const double machine = memory_left_on_the_machine();
+  return std::min(machine, memory_left_in_the_control_group(machine));
+}
+
+}  // namespace grainsweep

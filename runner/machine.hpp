@@ -1,0 +1,24 @@
+// What the program asks the machine for: clocks, cores, memory.
+#pragma once
+
+#include <string>
+
+namespace grainsweep {
+
+/// CPU time of the calling thread, s.
+double thread_cpu_seconds();
+
+/// Time since some fixed moment, s; never goes back.
+double wall_seconds();
+
+/// "2026-03-01T12:00:00Z"
+std::string utc_now();
+
+/// Cores this process may use.
+int usable_cores();
+
+/// Memory that can be taken without swapping: what the kernel calls available, and not more than
+/// the control group leaves. Bytes; 0 if the system does not tell.
+double available_memory();
+
+}  // namespace grainsweep

@@ -1,0 +1,50 @@
+// grainsweep: what was asked for, doing it, and how it ended.
+#include <exception>
+#include <iostream>
+#include <variant>
+
+#include "runner/command_line.hpp"
+#include "runner/exit_codes.hpp"
+#include "runner/store/files.hpp"
+#include "runner/store/lock.hpp"
+
+namespace grainsweep {
+namespace {
+
+int perform(const RunOptions& options) { return run(options); }
+int perform(const ValidateOptions& options) { return validate(options); }
+int perform(const PlanOptions& options) { return plan(options); }
+int perform(const ReportOptions& options) { return report(options); }
+int perform(const ExportOptions& options) { return export_grains(options); }
+int perform(const StatusOptions& options) { return status(options); }
+int perform(const DoctorOptions& options) { return doctor(options); }
+
+int perform_and_print(const Command& command) {
+  const int code = std::visit([](const auto& options) { return perform(options); }, command);
+  if (!std::cout.flush()) throw FileError("standard output", "not everything could be written");
+  return code;
+}
+
+int refuse(const std::exception& error, int code) {
+  std::cerr << "grainsweep: " << error.what() << "\n";
+  return code;
+}
+
+}  // namespace
+}  // namespace grainsweep
+
+int main(int argc, char** argv) {
+  using namespace grainsweep;
+  try {
+    const CommandLine line = read_command_line(argc, argv);
+    return line.command ? perform_and_print(*line.command) : line.exit_code;
+  } catch (const BadInput& error) {
+    return refuse(error, exit_bad_input);
+  } catch (const FolderBusy& error) {
+    return refuse(error, exit_busy);
+  } catch (const FileError& error) {
+    return refuse(error, exit_file_system);
+  } catch (const std::exception& error) {
+    return refuse(error, exit_left_out);
+  }
+}

@@ -1,0 +1,162 @@
+// The commands `validate` and `plan`: what a sweep file stands for, without running it.
+#include <algorithm>
+#include <iostream>
+
+#include <nlohmann/json.hpp>
+
+#include "runner/commands.hpp"
+#include "runner/exit_codes.hpp"
+#include "runner/machine.hpp"
+#include "runner/report.hpp"
+#include "runner/schedule.hpp"
+#include "runner/tables/csv.hpp"
+
+namespace grainsweep {
+namespace {
+
+/// Lines of the plan a person wants to see; --json lists everything.
+constexpr std::size_t shown_at_most = 40;
+
+/// Jobs with one label and one parameter set.
+struct PlannedGroup {
+  const Job* first = nullptr;
+  int packings = 0;
+  Cost cost;  ///< of one packing
+};
+
+std::vector<PlannedGroup> planned_groups(const Sweep& sweep) {
+  std::vector<PlannedGroup> groups;
+  std::map<std::pair<std::string, std::string>, std::size_t> index_of;
+  for (const Job& job : sweep.jobs) {
+    const auto [known, is_new] = index_of.try_emplace({job.label, job.parameters}, groups.size());
+    if (is_new) groups.push_back({&job, 0, estimate_cost(job.spec)});
+    ++groups[known->second].packings;
+  }
+  return groups;
+}
+
+std::vector<Task> tasks_of(const Sweep& sweep) {
+  std::vector<Task> tasks;
+  for (const Job& job : sweep.jobs) tasks.push_back({&job.spec, estimate_cost(job.spec)});
+  return tasks;
+}
+
+std::string memory_text(double bytes) { return fixed(bytes / 1e6, 1) + " MB"; }
+
+std::string group_text(const PlannedGroup& group) {
+  const PackingSpec& spec = group.first->spec;
+  const std::string walls = spec.box.y == Boundary::walls ? "" : " periodic";
+  return "  " + pad_right(group.first->label, 20) + pad_right(cell(spec.box.width) + walls, 14) +
+         pad_left(std::to_string(group.packings), 9) +
+         pad_left(std::to_string(grain_count(spec)), 10) +
+         pad_left(duration_text(group.cost.cpu_seconds), 14) +
+         pad_left(memory_text(group.cost.bytes), 12) + "\n";
+}
+
+std::string groups_text(const std::vector<PlannedGroup>& groups) {
+  std::string text = "  " + pad_right("label", 20) + pad_right("W/d", 14) +
+                     pad_left("packings", 9) + pad_left("grains", 10) + pad_left("CPU each", 14) +
+                     pad_left("memory each", 12) + "\n";
+  for (std::size_t i = 0; i < std::min(groups.size(), shown_at_most); ++i) {
+    text += group_text(groups[i]);
+  }
+  if (groups.size() > shown_at_most) {
+    text += "  and " + std::to_string(groups.size() - shown_at_most) + " more; --json lists all\n";
+  }
+  return text;
+}
+
+/// What the whole sweep needs.
+struct Needs {
+  double cpu_seconds = 0.0;
+  double wall_seconds = 0.0;
+  double bytes = 0.0;  ///< of the largest packings that live at once
+  int live = 1;
+};
+
+Needs needs_of(const std::vector<Task>& tasks, int threads) {
+  Needs needs;
+  needs.live = live_limit(tasks, {threads, available_memory()});
+  needs.wall_seconds = estimate_wall(tasks, needs.live);
+  std::vector<double> bytes;
+  for (const Task& task : tasks) {
+    needs.cpu_seconds += task.cost.cpu_seconds;
+    bytes.push_back(task.cost.bytes);
+  }
+  std::sort(bytes.begin(), bytes.end(), std::greater<>());
+  bytes.resize(std::min(bytes.size(), static_cast<std::size_t>(needs.live)));
+  for (const double size : bytes) needs.bytes += size;
+  return needs;
+}
+
+void print_text(const Sweep& sweep, const Needs& needs, int threads) {
+  const std::vector<PlannedGroup> groups = planned_groups(sweep);
+  std::cout << sweep.name << ": " << sweep.jobs.size() << " packings, " << groups.size()
+            << " parameter sets\n"
+            << groups_text(groups) << "Estimated: " << duration_text(needs.cpu_seconds)
+            << " CPU, about " << duration_text(needs.wall_seconds) << " on " << threads
+            << (threads == 1 ? " thread" : " threads") << " (" << needs.live
+            << " packings at once), up to " << memory_text(needs.bytes) << "\n";
+}
+
+nlohmann::ordered_json job_json(const Job& job, const Cost& cost) {
+  return {{"job", job.id},
+          {"label", job.label},
+          {"replicate", job.replicate},
+          {"seed", job.seed},
+          {"grains", grain_count(job.spec)},
+          {"estimated_cpu_seconds", cost.cpu_seconds},
+          {"estimated_bytes", cost.bytes},
+          {"parameters", nlohmann::ordered_json::parse(job.parameters)}};
+}
+
+void print_json(const Sweep& sweep, const std::vector<Task>& tasks, const Needs& needs,
+                int threads) {
+  nlohmann::ordered_json jobs = nlohmann::ordered_json::array();
+  for (std::size_t i = 0; i < tasks.size(); ++i) {
+    jobs.push_back(job_json(sweep.jobs[i], tasks[i].cost));
+  }
+  const nlohmann::ordered_json plan = {{"name", sweep.name},
+                                       {"packings", tasks.size()},
+                                       {"threads", threads},
+                                       {"packings_at_once", needs.live},
+                                       {"estimated_cpu_seconds", needs.cpu_seconds},
+                                       {"estimated_wall_seconds", needs.wall_seconds},
+                                       {"estimated_bytes", needs.bytes},
+                                       {"jobs", jobs}};
+  std::cout << plan.dump(2) << "\n";
+}
+
+}  // namespace
+
+Sweep sweep_or_refusal(const std::string& file) {
+  SweepReading reading = read_sweep(file);
+  if (reading.errors.empty()) return std::move(reading.sweep);
+  std::string text;
+  for (const Finding& finding : reading.errors) text += to_string(finding) + "\n";
+  const std::size_t count = reading.errors.size();
+  throw BadInput(text + std::to_string(count) + (count == 1 ? " error" : " errors") +
+                 "; nothing was run");
+}
+
+int validate(const ValidateOptions& options) {
+  const Sweep sweep = sweep_or_refusal(options.file);
+  std::cout << options.file << ": right; " << sweep.name << " stands for " << sweep.jobs.size()
+            << " packings in " << planned_groups(sweep).size() << " parameter sets\n";
+  return exit_done;
+}
+
+int plan(const PlanOptions& options) {
+  const Sweep sweep = sweep_or_refusal(options.file);
+  const int threads = options.threads > 0 ? options.threads : usable_cores();
+  const std::vector<Task> tasks = tasks_of(sweep);
+  const Needs needs = needs_of(tasks, threads);
+  if (options.json) {
+    print_json(sweep, tasks, needs, threads);
+  } else {
+    print_text(sweep, needs, threads);
+  }
+  return exit_done;
+}
+
+}  // namespace grainsweep

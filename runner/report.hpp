@@ -1,0 +1,27 @@
+// The closing table: what a person reads when a sweep is done.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "runner/tables/provenance.hpp"
+
+namespace grainsweep {
+
+/// Means and scatter per width, the fitted wall effect of each family, the definitions behind the
+/// numbers, what it cost, where the files are and what to do next. UTF-8, at most 100 columns where
+/// labels are of ordinary length. `folder` is the output folder.
+std::string closing_report(const Provenance& provenance, const std::vector<Row>& rows,
+                           const std::string& folder);
+
+/// `text` filled up with blanks to `width` characters (not bytes), on its left or right.
+std::string pad_left(const std::string& text, std::size_t width);
+std::string pad_right(const std::string& text, std::size_t width);
+
+/// "0.6123" with so many decimals; "-" for NaN.
+std::string fixed(double value, int decimals);
+
+/// "41.2 s", "12 min 5 s", "3 h 20 min".
+std::string duration_text(double seconds);
+
+}  // namespace grainsweep

@@ -1,0 +1,104 @@
+#include "runner/results.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include <nlohmann/json.hpp>
+
+#include "runner/exit_codes.hpp"
+#include "runner/store/files.hpp"
+#include "runner/store/journal.hpp"
+#include "runner/store/states.hpp"
+#include "runner/tables/fits.hpp"
+#include "runner/tables/groups.hpp"
+#include "runner/tables/packings.hpp"
+
+namespace grainsweep {
+namespace {
+
+std::string provenance_path(const std::string& folder) { return folder + "/provenance.json"; }
+
+Provenance read_provenance(const std::string& folder) {
+  const std::string path = provenance_path(folder);
+  if (!file_exists(path)) {
+    throw BadInput(folder +
+                   ": no output folder of grainsweep (it has no provenance.json); make one with "
+                   "grainsweep run FILE --out " +
+                   folder);
+  }
+  try {
+    return provenance_from_text(read_file(path));
+  } catch (const nlohmann::json::exception& error) {
+    throw BadInput(path + ": not what grainsweep wrote (" + error.what() +
+                   "); run the sweep again to write it anew, stored packings are kept");
+  }
+}
+
+std::size_t count_foreign(const SweepFacts& sweep, const std::map<std::string, Outcome>& stored) {
+  std::set<std::string> ids;
+  for (const JobFacts& job : sweep.jobs) ids.insert(job.id);
+  const auto is_foreign = [&](const auto& entry) { return !ids.contains(entry.first); };
+  return static_cast<std::size_t>(std::count_if(stored.begin(), stored.end(), is_foreign));
+}
+
+}  // namespace
+
+Results read_results(const std::string& folder) {
+  Results results;
+  results.provenance = read_provenance(folder);
+  JournalReading journals = read_journals(folder);
+  results.rows = join(results.provenance.sweep, journals.outcomes);
+  results.damage = std::move(journals.damage);
+  results.foreign = count_foreign(results.provenance.sweep, journals.outcomes);
+  return results;
+}
+
+std::vector<RunRecord> recorded_runs(const std::string& folder) {
+  try {
+    return read_provenance(folder).runs;
+  } catch (const BadInput&) {
+    return {};  // a new folder, or a file that is about to be written anew
+  }
+}
+
+std::map<std::string, Outcome> finished_outcomes(const std::string& folder,
+                                                 const std::map<std::string, Outcome>& stored) {
+  std::map<std::string, Outcome> finished;
+  for (const auto& [job, outcome] : stored) {
+    const bool has_its_grains = outcome.stored_grains == 0 || file_exists(state_path(folder, job));
+    if (!outcome.threw && has_its_grains) finished.emplace(job, outcome);
+  }
+  return finished;
+}
+
+void write_tables(const std::string& folder, const Provenance& provenance,
+                  const std::vector<Row>& rows) {
+  const std::vector<Group> groups = groups_of(rows);
+  replace_file(folder + "/packings.csv", packings_csv(rows));
+  replace_file(folder + "/groups.csv", groups_csv(groups));
+  replace_file(folder + "/fits.csv", fits_csv(families_of(groups)));
+  write_provenance(folder, provenance, rows);
+}
+
+void write_provenance(const std::string& folder, const Provenance& provenance,
+                      const std::vector<Row>& rows) {
+  replace_file(provenance_path(folder), provenance_text(provenance, rows));
+}
+
+std::size_t stored_packings(const std::string& folder) {
+  return read_journals(folder).outcomes.size();
+}
+
+void remove_results(const std::string& folder) {
+  for (const std::string& name : files_in(folder, "journal-", ".jsonl")) {
+    remove_file(folder + "/" + name);
+  }
+  for (const std::string& name : files_in(folder + "/states", "", ".grains")) {
+    remove_file(folder + "/states/" + name);
+  }
+  for (const char* name : {"packings.csv", "groups.csv", "fits.csv", "provenance.json"}) {
+    remove_file(folder + "/" + name);
+  }
+}
+
+}  // namespace grainsweep

@@ -1,0 +1,45 @@
+// An output folder as a whole: what is stored in it, and the tables written from that.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "runner/tables/provenance.hpp"
+
+namespace grainsweep {
+
+struct Results {
+  Provenance provenance;
+  std::vector<Row> rows;
+  std::vector<std::string> damage;  ///< journal lines that were left out
+  std::size_t foreign = 0;          ///< stored packings that are not of the present sweep
+};
+
+/// Everything from provenance.json and the journals. Throws BadInput if `folder` is no output
+/// folder, FileError if a file cannot be read.
+Results read_results(const std::string& folder);
+
+/// The runs recorded in the folder so far; none if it is new.
+std::vector<RunRecord> recorded_runs(const std::string& folder);
+
+/// Stored outcomes that need not be made again: not those that ended in an exception, nor those
+/// whose grains are missing.
+std::map<std::string, Outcome> finished_outcomes(const std::string& folder,
+                                                 const std::map<std::string, Outcome>& stored);
+
+/// Replaces packings.csv, groups.csv, fits.csv and provenance.json. Throws FileError.
+void write_tables(const std::string& folder, const Provenance& provenance,
+                  const std::vector<Row>& rows);
+
+/// Replaces provenance.json alone.
+void write_provenance(const std::string& folder, const Provenance& provenance,
+                      const std::vector<Row>& rows);
+
+/// Number of stored packings in the folder.
+std::size_t stored_packings(const std::string& folder);
+
+/// Removes journals, grains and tables, and nothing else.
+void remove_results(const std::string& folder);
+
+}  // namespace grainsweep

@@ -1,0 +1,13 @@
+// Ctrl-C and SIGTERM: the first asks to stop and keep what is finished, the second ends at once.
+#pragma once
+
+namespace grainsweep {
+
+/// From now on SIGINT and SIGTERM ask to stop. A second one exits with 128 + signal immediately;
+/// that loses no finished packing, since each is on the disk before it counts.
+void watch_stop_signals();
+
+/// Signal that asked to stop, 0 if none did.
+int stop_signal();
+
+}  // namespace grainsweep

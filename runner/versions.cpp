@@ -1,0 +1,37 @@
+#include "runner/versions.hpp"
+
+#include <CLI/Version.hpp>
+#include <Eigen/Core>
+#include <nlohmann/json.hpp>
+#include <tbb/version.h>
+#include <xsimd/config/xsimd_config.hpp>
+
+namespace grainsweep {
+namespace {
+
+std::string dotted(int major, int minor, int patch) {
+  return std::to_string(major) + "." + std::to_string(minor) + "." + std::to_string(patch);
+}
+
+}  // namespace
+
+std::string program_version() { return GRAINSWEEP_VERSION; }
+
+std::string compiler_version() {
+#ifdef __clang__
+  return __VERSION__;
+#else
+  return std::string("g++ ") + __VERSION__;
+#endif
+}
+
+std::map<std::string, std::string> library_versions() {
+  return {{"CLI11", CLI11_VERSION},
+          {"Eigen", dotted(EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)},
+          {"nlohmann-json", dotted(NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR,
+                                   NLOHMANN_JSON_VERSION_PATCH)},
+          {"oneTBB", TBB_runtime_version()},
+          {"xsimd", dotted(XSIMD_VERSION_MAJOR, XSIMD_VERSION_MINOR, XSIMD_VERSION_PATCH)}};
+}
+
+}  // namespace grainsweep
