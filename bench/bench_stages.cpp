@@ -1,0 +1,89 @@
+// The stages of a step on a bed frozen in mid-fall: items are grains for stages that pass over
+// grains, rows for those that pass over rows, row-iterations for the solve.
+#include "bench/beds.hpp"
+
+namespace grainsweep::bench {
+namespace {
+
+const Kernels& kernels() { return kernels_for(best_isa()); }
+
+std::int64_t rows_of(const Contacts<float>& contacts) {
+  return static_cast<std::int64_t>(contacts.rows.size() * block_width);
+}
+
+void sizes(benchmark::internal::Benchmark* benchmark) {
+  benchmark->Arg(2000)->Arg(8000)->Arg(30000)->ArgName("grains");
+}
+
+void still_complete(benchmark::State& run) {
+  FrozenBed<float> f = frozen_bed_f32(run.range(0));
+  for (auto _ : run) {
+    benchmark::DoNotOptimize(
+        still_complete(f.bed, f.settings.near, f.state.candidates));
+  }
+  run.SetItemsProcessed(run.iterations() * run.range(0));
+}
+
+void find_candidates(benchmark::State& run) {
+  FrozenBed<float> f = frozen_bed_f32(run.range(0));
+  const double reach = f.settings.near + f.settings.margin;
+  for (auto _ : run) {
+    find_candidates(f.bed, reach, kernels(), f.state.candidates);
+  }
+  run.SetItemsProcessed(run.iterations() * run.range(0));
+}
+
+void lay_out(benchmark::State& run) {
+  FrozenBed<float> f = frozen_bed_f32(run.range(0));
+  for (auto _ : run) {
+    lay_out(f.bed, f.state.candidates, f.state.contacts);
+  }
+  run.SetItemsProcessed(run.iterations() * rows_of(f.state.contacts));
+}
+
+void detect(benchmark::State& run) {
+  FrozenBed<float> f = frozen_bed_f32(run.range(0));
+  for (auto _ : run) {
+    detect(f.bed, kernels(), f.settings.correction, f.state.contacts);
+  }
+  run.SetItemsProcessed(run.iterations() * rows_of(f.state.contacts));
+}
+
+void solve(benchmark::State& run) {
+  const FrozenBed<float>& frozen = frozen_bed_f32(run.range(0));
+  const SolveLimits limits{Solver::accelerated_projected_gradient, 80, 0.0};
+  std::int64_t done = 0;
+  for (auto _ : run) {
+    run.PauseTiming();
+    FrozenBed<float> f = frozen;
+    run.ResumeTiming();
+    done += solve(limits, kernels(), f.state.contacts, f.state.motion).iterations;
+  }
+  run.SetItemsProcessed(done * rows_of(frozen.state.contacts));
+}
+
+void step(benchmark::State& run) {
+  const FrozenBed<float>& frozen = frozen_bed_f32(run.range(0));
+  std::uint64_t hash = 0;
+  for (auto _ : run) {
+    run.PauseTiming();
+    FrozenBed<float> f = frozen;
+    run.ResumeTiming();
+    step(f.settings, kernels(), f.bed, f.state);
+    run.PauseTiming();
+    hash = state_hash(f.bed);
+    run.ResumeTiming();
+  }
+  run.SetItemsProcessed(run.iterations() * run.range(0));
+  run.counters["state_hash"] = as_counter(hash);
+}
+
+BENCHMARK(still_complete)->Apply(sizes);
+BENCHMARK(find_candidates)->Apply(sizes);
+BENCHMARK(lay_out)->Apply(sizes);
+BENCHMARK(detect)->Apply(sizes);
+BENCHMARK(solve)->Apply(sizes)->Unit(benchmark::kMillisecond);
+BENCHMARK(step)->Apply(sizes)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace grainsweep::bench
