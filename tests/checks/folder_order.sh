@@ -69,7 +69,7 @@ forbid engine "$include<(tbb/|oneapi/|thread|mutex|atomic|future)" 'the engine s
 forbid engine "$include<(nlohmann/|fstream|filesystem|iostream|cstdio)" 'the engine reads and prints nothing'
 forbid engine "$include<(chrono|ctime)>" 'the engine knows no clock'
 for folder in engine runner; do
-  forbid $folder "$include<(xsimd/|[a-z0-9]*mmintrin|immintrin)" 'SIMD belongs in kernels/'
+  forbid $folder "$include<(xsimd/(xsimd|types|arch|memory|math)|[a-z0-9]*mmintrin)" 'SIMD belongs in kernels/'
   forbid $folder '^[[:space:]]*#[[:space:]]*(el)?if.*(__AVX|__SSE|__FMA|__x86_64|XSIMD_)' \
     'no #if on an instruction set outside kernels/'
 done
