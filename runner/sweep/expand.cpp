@@ -38,7 +38,9 @@ std::string factors_of(const Block& block) {
                    [](const auto& a, const auto& b) { return a.first > b.first; });
   std::string text;
   for (const auto& [count, name] : factors) text += name + " (" + in_thousands(count) + "), ";
-  return text + "replicates (" + in_thousands(static_cast<std::uint64_t>(block.replicates)) + ")";
+  const auto replicates = static_cast<std::uint64_t>(block.replicates);
+  if (replicates > 1) return text + "replicates (" + in_thousands(replicates) + ")";
+  return text.substr(0, text.size() - 2);  // without the last comma
 }
 
 /// Notes blocks that are too large alone or together; true if there is room for all.
@@ -118,7 +120,7 @@ class Expansion {
     const Block& block = blocks_.blocks[index];
     Draft draft = draft_of(resolved);
     if (resolved[seed_] == nullptr) draft.seed = blocks_.seed;
-    if (!place_grains(block, resolved, draft)) return;
+    place_grains(block, resolved, draft);
     note_broken_rules(block, resolved, check(draft.spec));
     if (!problems_.empty()) return;
     Job job{"", block.label, canonical_parameters(draft), 1, draft.seed, std::move(draft.spec)};
@@ -138,29 +140,26 @@ class Expansion {
     jobs_.push_back(job);
   }
 
-  /// Fills in the grains of a fill file; false if there are none to be had.
-  bool place_grains(const Block& block, const Resolved& resolved, Draft& draft) {
+  /// Fills in the grains of a fill file. If there are none to be had, says so and leaves the fill
+  /// at its default, so that the other rules can still be checked.
+  void place_grains(const Block& block, const Resolved& resolved, Draft& draft) {
     const Setting* diameter = resolved[diameter_];
     const Setting* file = resolved[file_];
     if (file == nullptr) {
       if (diameter != nullptr) note(*diameter, "belongs to fill.file, and that is not set");
-      return diameter == nullptr;
+      return;
     }
-    if (!(draft.fill_diameter > 0.0)) {
-      note(diameter == nullptr ? *file : *diameter, "must be positive");
-      return false;
-    }
+    draft.spec.fill = SolidHeight{};
+    if (!(draft.fill_diameter > 0.0)) return note(*diameter, "must be positive");
     const GrainsReading& reading = grains_of(draft.fill_file, *file);
-    if (!reading.errors.empty()) return false;
+    if (!reading.errors.empty()) return;
     placed_ += reading.grains.size() * static_cast<std::uint64_t>(block.replicates);
     if (placed_ > most_placed_grains) {
-      note(*file, "the jobs hold more than " + in_thousands(most_placed_grains) +
-                      " grains from files together; split the sweep");
-      return false;
+      return note(*file, "the jobs hold more than " + in_thousands(most_placed_grains) +
+                             " grains from files together; split the sweep");
     }
     draft.spec.fill = PlacedGrains{scaled_grains(reading.grains, draft.fill_diameter)};
     draft.fill_content = reading.content;
-    return true;
   }
 
   const GrainsReading& grains_of(const std::string& file, const Setting& setting) {

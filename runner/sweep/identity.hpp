@@ -25,7 +25,8 @@ std::uint64_t mixed(std::uint64_t bits);
 std::string hex16(std::uint64_t bits);
 
 /// Every parameter of the packing as JSON without spaces, keys sorted, numbers as short as they
-/// read back exactly. Presets appear as their parts, a fill file as the hash of its content.
+/// read back exactly (20, not 20.0). Presets appear as their parts, a fill file as the hash of its
+/// content.
 std::string canonical_parameters(const Draft& draft);
 
 /// The id of a job, as a number.

@@ -102,22 +102,22 @@ void for_each_value(const std::string& text, const std::function<void(const Json
   PlaceWalk(text, visit).read_root();
 }
 
-LineIndex::LineIndex(const std::string& text) : text_(&text), starts_{0} {
-  for (std::size_t at = text.find('\n'); at != std::string::npos; at = text.find('\n', at + 1)) {
-    starts_.push_back(at + 1);
+LineIndex::LineIndex(const std::string& text) : size_(text.size()), starts_{0} {
+  if (text.starts_with(byte_order_mark)) starts_.front() = byte_order_mark.size();
+  for (std::size_t at = starts_.front(); at < text.size(); ++at) {
+    const bool continues = (static_cast<unsigned char>(text[at]) & 0xC0U) == 0x80U;
+    if (text[at] == '\n') starts_.push_back(at + 1);
+    if (continues) continuations_.push_back(at);
   }
 }
 
 std::string LineIndex::place(std::size_t offset) const {
-  offset = std::min(offset, text_->size());
+  offset = std::clamp(offset, starts_.front(), size_);
   const auto next = std::upper_bound(starts_.begin(), starts_.end(), offset);
-  std::size_t begin = *(next - 1);
-  if (begin == 0 && text_->starts_with(byte_order_mark)) begin = byte_order_mark.size();
-  std::size_t column = 1;
-  for (std::size_t i = begin; i < offset; ++i) {
-    const bool continues = (static_cast<unsigned char>((*text_)[i]) & 0xC0U) == 0x80U;
-    if (!continues) ++column;
-  }
+  const std::size_t begin = *(next - 1);
+  const auto first = std::lower_bound(continuations_.begin(), continuations_.end(), begin);
+  const auto last = std::lower_bound(first, continuations_.end(), offset);
+  const std::size_t column = offset - begin - static_cast<std::size_t>(last - first) + 1;
   const std::string line = std::to_string(next - starts_.begin());
   return std::string(":").append(line).append(":").append(std::to_string(column));
 }

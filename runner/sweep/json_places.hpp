@@ -30,8 +30,9 @@ class LineIndex {
   std::string place(std::size_t offset) const;
 
  private:
-  const std::string* text_;
-  std::vector<std::size_t> starts_;  // offset of every line's first byte
+  std::size_t size_;
+  std::vector<std::size_t> starts_;         // offset of every line's first byte
+  std::vector<std::size_t> continuations_;  // offsets of bytes that continue a character
 };
 
 }  // namespace grainsweep

@@ -52,7 +52,11 @@ std::string comma_list(const std::vector<std::string>& words) {
 std::string unknown_key(std::string_view key, const std::vector<std::string>& known) {
   const std::string near = nearest(key, known);
   const std::string start = "unknown key \"" + shortened(key) + "\"; ";
-  if (near.empty()) return start + "known here: " + comma_list(known);
+  std::vector<std::string> short_ones;
+  for (const std::string& word : known) {
+    if (word.find('.') == std::string::npos) short_ones.push_back(word);
+  }
+  if (near.empty()) return start + "known here: " + comma_list(short_ones);
   return start + "did you mean \"" + near + "\"?";
 }
 

@@ -1,0 +1,132 @@
+#include <catch2/catch.hpp>
+
+#include "runner/sweep/blocks.hpp"
+#include "tests/runner/sweep/sweep_files.hpp"
+
+namespace grainsweep {
+namespace {
+
+using Messages = std::vector<std::string>;
+
+/// Errors of a sweep with this one block, which starts at line 2.
+Messages errors_in_block(const std::string& block) {
+  return errors_of("{\"name\": \"t\", \"sweep\": [\n" + block + "]}");
+}
+
+}  // namespace
+
+TEST_CASE("a sweep of a name alone is one job with the defaults") {
+  const SweepReading reading = reading_of(R"({"name": "a-b_c.1"})");
+  REQUIRE(reading.errors.empty());
+  CHECK(reading.sweep.name == "a-b_c.1");
+  CHECK(reading.sweep.seed == 0);
+  CHECK(reading.sweep.replicates == 1);
+  REQUIRE(reading.sweep.jobs.size() == 1);
+  CHECK(reading.sweep.jobs[0].label == "a-b_c.1");
+}
+
+TEST_CASE("names that are no folder names are refused") {
+  const std::string message =
+      " /name: must be 1 to 100 letters, digits, '-', '_' and '.', the first no '.'; is ";
+  CHECK(errors_of(R"({"name": "a b"})") == Messages{"s.json:1:10" + message + "the text \"a b\""});
+  CHECK(errors_of(R"({"name": "../x"})") ==
+        Messages{"s.json:1:10" + message + "the text \"../x\""});
+  CHECK(errors_of(R"({"name": ".."})") == Messages{"s.json:1:10" + message + "the text \"..\""});
+  CHECK(errors_of(R"({"name": ""})") == Messages{"s.json:1:10" + message + "the text \"\""});
+  CHECK(errors_of(R"({"name": 5})") == Messages{"s.json:1:10" + message + "5"});
+  CHECK(errors_of("{}") ==
+        Messages{"s.json:1:1: \"name\" is missing; add one, e.g. \"name\": \"my-sweep\""});
+}
+
+TEST_CASE("the top level must be an object with known keys") {
+  CHECK(errors_of("5") ==
+        Messages{"s.json:1:1: must be an object with name, seed, replicates, base, sweep, is 5"});
+  CHECK(errors_of(R"({"name": "t", "sweeps": []})") ==
+        Messages{"s.json:1:15 /sweeps: unknown key \"sweeps\"; did you mean \"sweep\"?"});
+  CHECK(errors_of(R"({"name": "t", "sweep": {}})") ==
+        Messages{"s.json:1:24 /sweep: must be a list of blocks, is an object"});
+  CHECK(errors_of(R"({"name": "t", "sweep": []})") ==
+        Messages{"s.json:1:24 /sweep: holds no block; leave it out to pack \"base\" alone"});
+}
+
+TEST_CASE("seeds take all of 64 bits and nothing else") {
+  CHECK(reading_of(R"({"name": "t", "seed": 18446744073709551615})").sweep.seed == UINT64_MAX);
+  const std::string message = " /seed: must be a whole number from 0 to 18446744073709551615, is ";
+  CHECK(errors_of(R"({"name": "t", "seed": -1})") == Messages{"s.json:1:23" + message + "-1"});
+  CHECK(errors_of(R"({"name": "t", "seed": "1"})") ==
+        Messages{"s.json:1:23" + message + "the text \"1\""});
+}
+
+TEST_CASE("replicates lie between 1 and 10000, in the file and in a block") {
+  const std::string message = "replicates: must be a whole number in [1, 10000], is ";
+  CHECK(errors_of(R"({"name": "t", "replicates": 0})") ==
+        Messages{"s.json:1:29 /" + message + "0"});
+  CHECK(errors_of(R"({"name": "t", "replicates": 10001})") ==
+        Messages{"s.json:1:29 /" + message + "10001"});
+  CHECK(errors_in_block(R"({"replicates": 2.5})") ==
+        Messages{"s.json:2:16 /sweep/0/" + message + "2.5"});
+}
+
+TEST_CASE("a block must be an object with known keys and a label on one line") {
+  CHECK(
+      errors_in_block("5") ==
+      Messages{"s.json:2:1 /sweep/0: must be an object with label, set, grid, zip, random, is 5"});
+  CHECK(errors_in_block(R"({"gird": {}})") ==
+        Messages{"s.json:2:2 /sweep/0/gird: unknown key \"gird\"; did you mean \"grid\"?"});
+  CHECK(errors_in_block(R"({"label": "a\nb"})").size() == 1);
+  CHECK(errors_in_block(R"({"label": ""})") ==
+        Messages{"s.json:2:11 /sweep/0/label: must be a text of 1 to 100 characters on one line, "
+                 "is the text \"\""});
+}
+
+TEST_CASE("blocks without a label are numbered from one") {
+  const auto jobs = jobs_of(sweep_of(R"({"set": {"box.width": 5}}, {"set": {"box.width": 6}})"));
+  REQUIRE(jobs.size() == 2);
+  CHECK(jobs[0].label == "block 1");
+  CHECK(jobs[1].label == "block 2");
+}
+
+TEST_CASE("grids must be lists of at least one value for known paths") {
+  CHECK(errors_in_block(R"({"grid": []})") ==
+        Messages{"s.json:2:10 /sweep/0/grid: must be an object of lists, one per path, is a list"});
+  CHECK(errors_in_block(R"({"grid": {"box.width": 5}})") ==
+        Messages{"s.json:2:24 /sweep/0/grid/box.width: must be a list of values, is 5; a single "
+                 "value belongs into \"set\""});
+  CHECK(errors_in_block(R"({"grid": {"box.width": []}})") ==
+        Messages{"s.json:2:24 /sweep/0/grid/box.width: must hold at least one value"});
+  CHECK(errors_in_block(R"({"grid": {"box.widht": [5]}})") ==
+        Messages{"s.json:2:11 /sweep/0/grid/box.widht: unknown key \"box.widht\"; did you mean "
+                 "\"box.width\"?"});
+  CHECK(errors_in_block(R"({"grid": {"box.width": [5, "6"]}})") ==
+        Messages{"s.json:2:28 /sweep/0/grid/box.width/1: must be a number, is the text \"6\""});
+}
+
+TEST_CASE("lists of a zip must be equally long") {
+  CHECK(errors_in_block(R"({"zip": {"box.width": [5, 6], "seed": [1, 2, 3]}})") ==
+        Messages{"s.json:2:9 /sweep/0/zip: the lists must be equally long: box.width has 2, seed "
+                 "has 3"});
+}
+
+TEST_CASE("a parameter that a block varies twice is refused") {
+  CHECK(errors_in_block(R"({"grid": {"box.width": [5]}, "zip": {"box": [{"width": 6}]}})") ==
+        Messages{"s.json:2:45 /sweep/0/zip/box: box.width is already varied at "
+                 "/sweep/0/grid/box.width"});
+  CHECK(errors_in_block(R"({"grid": {"fill.grains": [5], "fill.solid_height": [5]}})") ==
+        Messages{"s.json:2:52 /sweep/0/grid/fill.solid_height: fill is already varied at "
+                 "/sweep/0/grid/fill.grains"});
+  CHECK(
+      errors_in_block(
+          R"({"grid": {"box.width": [5]}, "random": {"count": 1, "box.width": {"uniform": [5, 6]}}})") ==
+      Messages{"s.json:2:66 /sweep/0/random/box.width: box.width is already varied at "
+               "/sweep/0/grid/box.width"});
+}
+
+TEST_CASE("points are counted without overflow") {
+  Block block;
+  for (int i = 0; i < 7; ++i) block.axes.push_back({"a", std::vector<Settings>(1000)});
+  CHECK(point_count(block) == UINT64_MAX);
+  block.axes.resize(6);
+  CHECK(point_count(block) == 1'000'000'000'000'000'000);
+}
+
+}  // namespace grainsweep

@@ -1,0 +1,183 @@
+#include <ctime>
+
+#include <catch2/catch.hpp>
+
+#include "runner/sweep/expand.hpp"
+#include "tests/runner/sweep/sweep_files.hpp"
+
+namespace grainsweep {
+namespace {
+
+using Messages = std::vector<std::string>;
+using Rows = std::vector<std::vector<double>>;
+
+/// Width, length and replicate of every job.
+Rows rows_of(const std::string& text) {
+  Rows rows;
+  for (const Job& job : jobs_of(text)) {
+    rows.push_back({job.spec.box.width, job.spec.box.length, double(job.replicate)});
+  }
+  return rows;
+}
+
+/// What the sanitizers cost is not what a user waits for.
+#ifdef __SANITIZE_ADDRESS__
+constexpr double patience = 10.0;
+#else
+constexpr double patience = 1.0;
+#endif
+
+std::string numbers(int count, const std::string& start) {
+  std::string list;
+  for (int i = 0; i < count; ++i) list += (i == 0 ? "" : ",") + start + std::to_string(1000 + i);
+  return "[" + list + "]";
+}
+
+}  // namespace
+
+TEST_CASE("the last path of a grid changes fastest, replicates fastest of all") {
+  CHECK(
+      rows_of(R"({"name": "t", "replicates": 2,
+                    "sweep": [{"grid": {"box.width": [6, 5], "box.length": [9, 8]}}]})") ==
+      Rows{{6, 9, 1}, {6, 9, 2}, {6, 8, 1}, {6, 8, 2}, {5, 9, 1}, {5, 9, 2}, {5, 8, 1}, {5, 8, 2}});
+  CHECK(rows_of(sweep_of(R"({"grid": {"box.length": [9, 8], "box.width": [6, 5]}})")) ==
+        Rows{{6, 9, 1}, {5, 9, 1}, {6, 8, 1}, {5, 8, 1}});
+}
+
+TEST_CASE("a zip runs through its lists together, inside the grid") {
+  CHECK(rows_of(sweep_of(R"({"zip": {"box.width": [5, 6], "box.length": [8, 9]}})")) ==
+        Rows{{5, 8, 1}, {6, 9, 1}});
+  const auto jobs = jobs_of(sweep_of(
+      R"({"zip": {"box.width": [5, 6], "seed": [1, 2]}, "grid": {"box.length": [8, 9]}})"));
+  REQUIRE(jobs.size() == 4);
+  CHECK(jobs[1].spec.box.width == 6.0);
+  CHECK(jobs[1].spec.box.length == 8.0);
+  CHECK(jobs[1].seed == 2);
+  CHECK(jobs[2].spec.box.length == 9.0);
+  CHECK(jobs[2].seed == 1);
+}
+
+TEST_CASE("random points change fastest within a block") {
+  const auto jobs = jobs_of(sweep_of(
+      R"({"grid": {"box.length": [8, 9]}, "random": {"count": 3, "box.width": {"uniform": [5, 9]}}})"));
+  REQUIRE(jobs.size() == 6);
+  for (std::size_t i = 0; i < 3; ++i) {
+    CHECK(jobs[i].spec.box.length == 8.0);
+    CHECK(jobs[i].spec.box.width == jobs[i + 3].spec.box.width);
+  }
+}
+
+TEST_CASE("grids run through presets, groups and lists of tolerances") {
+  CHECK(jobs_of(sweep_of(R"({"grid": {"accuracy": ["fast", "balanced", "accurate"]}})")).size() ==
+        3);
+  CHECK(rows_of(sweep_of(R"({"grid": {"box": [{"width": 5, "length": 8}, {"width": 6}]}})")) ==
+        Rows{{5, 8, 1}, {6, 20, 1}});
+  const auto jobs =
+      jobs_of(sweep_of(R"({"grid": {"measure.gap_tolerances": [[1e-4], [1e-3, 1e-5]]}})"));
+  REQUIRE(jobs.size() == 2);
+  CHECK(jobs[1].spec.measure.gap_tolerances == std::vector<double>{1e-3, 1e-5});
+}
+
+TEST_CASE("blocks are joined in order and may override the replicates") {
+  const auto jobs = jobs_of(R"({"name": "t", "replicates": 2, "sweep": [
+    {"label": "a", "set": {"box.width": 5}}, {"label": "b", "replicates": 3}]})");
+  Messages labels;
+  for (const Job& job : jobs) labels.push_back(job.label + std::to_string(job.replicate));
+  CHECK(labels == Messages{"a1", "a2", "b1", "b2", "b3"});
+}
+
+TEST_CASE("a grid of a trillion jobs is refused before it is expanded, longest list first") {
+  const std::string block =
+      "{\"grid\": {\"box.width\": " + numbers(100, "") + ", \"box.length\": " + numbers(1000, "") +
+      ", \"measure.exclude_floor\": " + numbers(1000, "") +
+      ", \"sizes.spread\": " + numbers(1000, "0.0") + "}, \"replicates\": 10}";
+  CHECK(errors_of(sweep_of(block)) ==
+        Messages{"s.json:1:37 /sweep/0: asks for 1,000,000,000,000 jobs, more than the 1,000,000 "
+                 "that a sweep may have; shorten box.length (1,000), measure.exclude_floor "
+                 "(1,000), sizes.spread (1,000), box.width (100), replicates (10)"});
+}
+
+TEST_CASE("a count of jobs beyond 64 bits is still a count") {
+  std::string grid;
+  for (const char* path : {"box.width", "box.length", "sizes.spread", "sizes.small_share",
+                           "sizes.size_ratio", "accuracy.step", "accuracy.momentum"}) {
+    grid += (grid.empty() ? "\"" : ", \"") + std::string(path) + "\": " + numbers(1000, "0.");
+  }
+  const auto errors = errors_of(sweep_of("{\"grid\": {" + grid + "}}"));
+  REQUIRE(errors.size() == 1);
+  CHECK(errors[0].find("asks for more than 10^19 jobs") != std::string::npos);
+}
+
+TEST_CASE("blocks that are too many jobs only together are refused together") {
+  const std::string block = "\"grid\": {\"box.width\": " + numbers(600, "") +
+                            ", \"box.length\": " + numbers(1000, "") + "}}";
+  CHECK(errors_of(sweep_of("{\"label\": \"a\", " + block + ", {\"label\": \"b\", " + block)) ==
+        Messages{"s.json:1:36 /sweep: the blocks ask together for 1,200,000 jobs, more than the "
+                 "1,000,000 that a sweep may have; split the file"});
+}
+
+TEST_CASE("equal jobs of blocks with one label are made once") {
+  CHECK(rows_of(sweep_of(R"({"label": "w", "grid": {"box.width": [5, 6]}},
+                            {"label": "w", "replicates": 2, "grid": {"box.width": [6, 7]}})")) ==
+        Rows{{5, 20, 1}, {6, 20, 1}, {6, 20, 2}, {7, 20, 1}, {7, 20, 2}});
+}
+
+TEST_CASE("equal jobs of blocks with different labels are refused, both named") {
+  CHECK(errors_of(sweep_of("\n{\"label\": \"a\", \"grid\": {\"box.width\": [5, 6, 7]}},\n"
+                           "{\"label\": \"b\", \"grid\": {\"box.width\": [6, 7, 8]}}")) ==
+        Messages{"s.json:3:1 /sweep/1: block \"b\" repeats 2 jobs of block \"a\" (/sweep/0); give "
+                 "both the same label, or take the repeated values out"});
+}
+
+TEST_CASE("a value out of range is named where it is written, once for all jobs") {
+  CHECK(errors_of(R"({"name": "t", "replicates": 5, "base": {
+  "sizes": {"small_share": 1.4}},
+  "sweep": [
+    {"grid": {"box.width": [4, 0.5, 6], "box.length": [10, 12]}},
+    {"set": {"box": {"width": 0.25}}},
+    {"zip": {"box.width": [7, 0.75], "accuracy.step": [3, 0.1]}}]})") ==
+        Messages{"s.json:2:28 /base/sizes/small_share: must lie in [0, 1], is 1.4",
+                 "s.json:4:32 /sweep/0/grid/box.width/1: must lie in [1, 10000], is 0.5",
+                 "s.json:5:31 /sweep/1/set/box/width: must lie in [1, 10000], is 0.25",
+                 "s.json:6:31 /sweep/2/zip/box.width/1: must lie in [1, 10000], is 0.75",
+                 "s.json:6:56 /sweep/2/zip/accuracy.step/0: must lie in (0, 2], is 3"});
+}
+
+TEST_CASE("a default that breaks a rule is named at the block that makes it break") {
+  const ScratchFolder folder;
+  folder.write("bed.csv", "x,y,z,r\n15,5,15,12\n");
+  const std::string path = folder.write("s.json", R"({"name": "t", "sweep": [
+    {"label": "a"}, {"label": "b", "set": {"fill.file": "bed.csv", "box.length": 60}}]})");
+  const auto errors = read_sweep(path).errors;
+  REQUIRE(errors.size() == 2);
+  CHECK(errors[1].pointer == "/sweep/1/set/fill.file");  // the grain sticks out of that default
+  CHECK(folder.without_folder(to_string(errors[0])) ==
+        "s.json:2:21 /sweep/1: box.width must lie in [24, 10000] (the largest grain between two "
+        "walls), is 10");
+}
+
+TEST_CASE("values that no job uses break no rule") {
+  CHECK(errors_of(sweep_of(R"({"set": {"box.width": 5}})", R"({"box.width": 0.5})")).empty());
+}
+
+TEST_CASE("100,000 jobs are expanded in less than two seconds of processor time", "[speed]") {
+  const std::string text = sweep_of("{\"grid\": {\"box.width\": " + numbers(1000, "") +
+                                    ", \"sizes.spread\": " + numbers(100, "0.0") + "}}");
+  const std::clock_t start = std::clock();
+  const auto jobs = jobs_of(text);
+  const double seconds = double(std::clock() - start) / CLOCKS_PER_SEC;
+  CHECK(jobs.size() == 100'000);
+  CHECK(seconds < 2.0 * patience);
+}
+
+TEST_CASE("100,000 errors are found and placed in less than four seconds", "[speed]") {
+  std::string list;
+  for (int i = 0; i < 100'000; ++i) list += (i == 0 ? "0." : ",0.") + std::to_string(100'000 + i);
+  const std::clock_t start = std::clock();
+  const auto errors = reading_of(sweep_of("{\"grid\": {\"box.width\": [" + list + "]}}")).errors;
+  const double seconds = double(std::clock() - start) / CLOCKS_PER_SEC;
+  CHECK(errors.size() == 100'000);
+  CHECK(seconds < 4.0 * patience);
+}
+
+}  // namespace grainsweep

@@ -1,0 +1,153 @@
+#include <catch2/catch.hpp>
+
+#include "runner/sweep/grains_csv.hpp"
+#include "tests/runner/sweep/sweep_files.hpp"
+
+namespace grainsweep {
+namespace {
+
+std::vector<std::string> errors_in(const std::string& text) {
+  std::vector<std::string> errors;
+  for (const Finding& finding : parse_grains(text, "b.csv").errors) {
+    errors.push_back(to_string(finding));
+  }
+  return errors;
+}
+
+using Messages = std::vector<std::string>;
+
+}  // namespace
+
+TEST_CASE("grains are read by column name, in any order, past other columns") {
+  const GrainsReading reading = parse_grains("r, z,note,x,y\n0.5,3,a,1,2\n.25,-3,b,1e1,2\n", "f");
+  REQUIRE(reading.errors.empty());
+  REQUIRE(reading.grains.size() == 2);
+  CHECK(reading.grains[0].x == 1.0);
+  CHECK(reading.grains[0].y == 2.0);
+  CHECK(reading.grains[0].z == 3.0);
+  CHECK(reading.grains[0].radius == 0.5);
+  CHECK(reading.grains[1].x == 10.0);
+  CHECK(reading.grains[1].z == -3.0);
+  CHECK(reading.grains[1].radius == 0.25);
+}
+
+TEST_CASE("an exported bed, whose radii are called radius, can be read") {
+  const GrainsReading reading =
+      parse_grains("x,y,z,radius,force,coordination\n1,2,3,0.5,7,6\n", "f");
+  REQUIRE(reading.errors.empty());
+  CHECK(reading.grains.at(0).radius == 0.5);
+}
+
+TEST_CASE("line ends of other systems, quotes and a byte order mark change no grain") {
+  const GrainsReading reading =
+      parse_grains("\xEF\xBB\xBF\"x\",\"y\",\"z\",\"r\"\r\n1,\"2\",3,0.5\r\n\r\n", "f");
+  REQUIRE(reading.errors.empty());
+  REQUIRE(reading.grains.size() == 1);
+  CHECK(reading.grains[0].y == 2.0);
+}
+
+TEST_CASE("a first line without the four columns is refused with what it holds") {
+  CHECK(errors_in("1,2,3,0.5\n") ==
+        Messages{"b.csv:1: the first line must name the columns x,y,z,r; \"x\" is missing or there "
+                 "twice in \"1,2,3,0.5\""});
+  CHECK(errors_in("x,y,z,r,radius\n1,2,3,4,5\n") ==
+        Messages{"b.csv:1: the first line must name the columns x,y,z,r; \"r\" is missing or there "
+                 "twice in \"x,y,z,r,radius\""});
+  CHECK(errors_in("x,y,z,r\n") == Messages{"b.csv:1: no grain follows the first line"});
+}
+
+TEST_CASE("every bad line is named with what is wrong in it") {
+  const Messages errors = errors_in(
+      "x,y,z,r\n"
+      "1,2,3,0.5\n"
+      "1,2,3\n"
+      "1,two,3,0.5\n"
+      "1,2,nan,0.5\n"
+      "inf,2,3,0.5\n"
+      "1,2,3,0\n"
+      "1,2,3,-0.5\n"
+      "\n"
+      "1,2,,0.5\n"
+      "1,2,3 4,0.5\n");
+  CHECK(errors == Messages{
+                      "b.csv:3: must hold 4 values like the first line, holds 3",
+                      "b.csv:4: y must be a finite number, is \"two\"",
+                      "b.csv:5: z must be a finite number, is \"nan\"",
+                      "b.csv:6: x must be a finite number, is \"inf\"",
+                      "b.csv:7: r must be positive, is 0",
+                      "b.csv:8: r must be positive, is -0.5",
+                      "b.csv:9: must hold 4 values like the first line, holds 1",
+                      "b.csv:10: z must be a finite number, is \"\"",
+                      "b.csv:11: z must be a finite number, is \"3 4\"",
+                  });
+}
+
+TEST_CASE("a file of bad lines names twenty of them and says that there are more") {
+  std::string text = "x,y,z,r\n";
+  for (int i = 0; i < 1000; ++i) text += "a,b,c,d\n";
+  const Messages errors = errors_in(text);
+  REQUIRE(errors.size() == 20);
+  CHECK(errors.back() ==
+        "b.csv:21: x must be a finite number, is \"a\" (further lines are not listed)");
+}
+
+TEST_CASE("the content hash follows the bytes of the file") {
+  const std::string text = "x,y,z,r\n1,2,3,0.5\n";
+  CHECK(parse_grains(text, "a").content == parse_grains(text, "b").content);
+  CHECK(parse_grains(text, "a").content != parse_grains(text + "\n", "a").content);
+  CHECK(parse_grains(text, "a").content.size() == 16);
+}
+
+TEST_CASE("lengths are divided by the diameter that is d") {
+  const auto grains = scaled_grains({{2.0, 4.0, 6.0, 1.0}}, 2.0);
+  CHECK(grains[0].x == 1.0);
+  CHECK(grains[0].y == 2.0);
+  CHECK(grains[0].z == 3.0);
+  CHECK(grains[0].radius == 0.5);
+}
+
+TEST_CASE("a sweep packs the grains of a file beside it, in units of its diameter") {
+  const ScratchFolder folder;
+  folder.write("bed.csv", "x,y,z,r\n0.002,0.002,0.002,0.001\n0.006,0.006,0.002,0.001\n");
+  const std::string path = folder.write("s.json", R"({"name": "t", "base": {
+    "box": {"length": 5, "width": 5},
+    "fill": {"file": "bed.csv", "diameter": 0.002}}})");
+  const SweepReading reading = read_sweep(path);
+  REQUIRE(reading.errors.empty());
+  REQUIRE(reading.sweep.jobs.size() == 1);
+  const auto& fill = std::get<PlacedGrains>(reading.sweep.jobs[0].spec.fill);
+  REQUIRE(fill.grains.size() == 2);
+  CHECK(fill.grains[1].x == Approx(3.0));
+  CHECK(fill.grains[1].radius == Approx(0.5));
+
+  SECTION("its content, not its name, belongs to the job") {
+    folder.write("same.csv", "x,y,z,r\n0.002,0.002,0.002,0.001\n0.006,0.006,0.002,0.001\n");
+    folder.write("other.csv", "x,y,z,r\n0.002,0.002,0.002,0.001\n0.006,0.006,0.003,0.001\n");
+    const auto id_with = [&](const std::string& name) {
+      const auto other =
+          read_sweep(folder.write("o.json", R"({"name": "t", "base": {
+        "box": {"length": 5, "width": 5}, "fill": {"file": ")" +
+                                                name + R"(", "diameter": 0.002}}})"));
+      REQUIRE(other.errors.empty());
+      return other.sweep.jobs.at(0).id;
+    };
+    CHECK(id_with("same.csv") == reading.sweep.jobs[0].id);
+    CHECK(id_with("other.csv") != reading.sweep.jobs[0].id);
+  }
+}
+
+TEST_CASE("errors of a fill file name its own lines, once for all jobs") {
+  const ScratchFolder folder;
+  folder.write("bed.csv", "x,y,z,r\n1,1,1,zero\n");
+  const std::string path = folder.write("s.json", R"({"name": "t", "replicates": 3,
+    "base": {"fill": {"file": "bed.csv"}},
+    "sweep": [{"grid": {"box.width": [5, 6, 7]}}, {"set": {"fill.file": "none.csv"}}]})");
+  Messages errors;
+  for (const Finding& finding : read_sweep(path).errors) {
+    errors.push_back(folder.without_folder(to_string(finding)));
+  }
+  CHECK(errors == Messages{"bed.csv:2: r must be a finite number, is \"zero\"",
+                           "none.csv: cannot be read: No such file or directory"});
+}
+
+}  // namespace grainsweep

@@ -1,0 +1,131 @@
+#include <set>
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "runner/sweep/identity.hpp"
+#include "tests/runner/sweep/sweep_files.hpp"
+
+namespace grainsweep {
+namespace {
+
+std::vector<std::string> ids_of(const std::string& text) {
+  std::vector<std::string> ids;
+  for (const Job& job : jobs_of(text)) ids.push_back(job.id);
+  return ids;
+}
+
+const std::string golden_base = R"({
+  "box": {"length": 20, "width": 5, "x": "periodic", "y": "walls"}, "fill": {"grains": 100},
+  "sizes": {"spread": 0.03, "small_share": 0, "size_ratio": 0.5}})";
+
+}  // namespace
+
+TEST_CASE("FNV-1a gives its published values") {
+  CHECK(fnv1a("") == 0xcbf29ce484222325);
+  CHECK(fnv1a("a") == 0xaf63dc4c8601ec8c);
+  CHECK(fnv1a("foobar") == 0x85944171f73967e8);
+}
+
+TEST_CASE("ids and random keys never change from version to version") {
+  const std::uint64_t hash = job_hash(R"({"box":{"width":5}})", 20130708, 3);
+  CHECK(hex16(hash) == "ecdadefd36a7056b");
+  CHECK(hex16(random_key_of(hash)) == "dcb8a052e3bc49b7");
+}
+
+TEST_CASE("an id is the hash of parameters, seed and replicate, and the key follows from it") {
+  for (const Job& job : jobs_of(R"({"name": "t", "seed": 9, "replicates": 2})")) {
+    const std::uint64_t hash = job_hash(job.parameters, job.seed, job.replicate);
+    CHECK(job.seed == 9);
+    CHECK(job.id == hex16(hash));
+    CHECK(job.spec.random_key == random_key_of(hash));
+  }
+}
+
+TEST_CASE("canonical parameters are valid JSON with sorted keys and short numbers") {
+  const auto jobs = jobs_of(R"({"name": "t", "base": )" + golden_base + "}");
+  REQUIRE(jobs.size() == 1);
+  const std::string& text = jobs[0].parameters;
+  auto canonical = nlohmann::json::parse(text);
+  CHECK(canonical.erase("accuracy") == 1);
+  CHECK(text.starts_with(R"({"accuracy":{"contact_tolerance":)"));
+  CHECK(text.ends_with(
+      R"(},"box":{"length":20,"width":5,"x":"periodic","y":"walls"},"fill":{"grains":100},)"
+      R"("measure":{"exclude_floor":3,"exclude_surface":3,"gap_tolerances":[1e-04,1e-05,0.001,0.006]},)"
+      R"("shape":"sphere","sizes":{"size_ratio":0.5,"small_share":0,"spread":0.03}})"));
+  CHECK(canonical.at("box").at("width") == 5.0);
+  CHECK(canonical.size() == 5);
+}
+
+TEST_CASE("every part of the accuracy belongs to the identity, the preset's name does not") {
+  const auto accuracy = [](const std::string& text) {
+    return nlohmann::json::parse(jobs_of(text).at(0).parameters).at("accuracy");
+  };
+  const auto balanced = accuracy(R"({"name": "t"})");
+  CHECK(balanced == accuracy(R"({"name": "t", "base": {"accuracy": "balanced"}})"));
+  CHECK(balanced.count("preset") == 0);
+  CHECK(balanced.at("solver").is_string());
+  for (const auto& [part, value] : balanced.items()) {
+    const nlohmann::json other =
+        value.is_string() ? nlohmann::json(part == "solver" ? "pgs" : "f64")
+                          : nlohmann::json(value.is_number_integer() ? value.get<int>() + 1
+                                                                     : value.get<double>() / 2);
+    INFO(part);
+    CHECK(accuracy(R"({"name": "t", "base": {"accuracy": {")" + part + "\": " + other.dump() +
+                   "}}}") != balanced);
+  }
+}
+
+TEST_CASE("labels, the order of keys and how numbers are written do not enter an id") {
+  const auto ids = ids_of(R"({"name": "t", "seed": 5, "replicates": 2,
+    "base": {"box": {"width": 5, "length": 10}, "fill": {"solid_height": 4}},
+    "sweep": [{"label": "a", "grid": {"box.y": ["walls", "periodic"]}}]})");
+  REQUIRE(ids.size() == 4);
+  CHECK(ids == ids_of(R"({"replicates": 2, "sweep": [{"grid": {"box.y": ["walls", "periodic"]},
+    "label": "b"}], "base": {"fill.solid_height": 4.0, "box": {"length": 1e1, "width": 5.0}},
+    "seed": 5, "name": "other"})"));
+}
+
+TEST_CASE("writing a default out does not change an id") {
+  CHECK(ids_of(R"({"name": "t"})") ==
+        ids_of(R"({"name": "t", "base": {"box.y": "walls", "accuracy": "balanced"}})"));
+}
+
+TEST_CASE("parameters, seed and replicate each change the id") {
+  const std::set<std::string> ids = {
+      ids_of(R"({"name": "t"})").at(0),
+      ids_of(R"({"name": "t", "seed": 1})").at(0),
+      ids_of(R"({"name": "t", "replicates": 2})").at(1),
+      ids_of(R"({"name": "t", "base": {"box.width": 10.000000001}})").at(0),
+  };
+  CHECK(ids.size() == 4);
+  CHECK(ids_of(R"({"name": "t", "replicates": 2})").at(0) == ids_of(R"({"name": "t"})").at(0));
+}
+
+TEST_CASE("adding, editing and moving blocks leaves the ids of other blocks as they are") {
+  const std::string block = R"({"label": "w", "grid": {"box.width": [4, 5, 6]}})";
+  const auto ids = ids_of(sweep_of(block));
+  REQUIRE(ids.size() == 3);
+  auto after = ids_of(sweep_of(R"({"label": "x", "set": {"box.length": 12}}, )" + block));
+  REQUIRE(after.size() == 4);
+  after.erase(after.begin());
+  CHECK(after == ids);
+}
+
+TEST_CASE("one flipped bit changes about half of the bits of an id") {
+  const auto distance = [](std::uint64_t a, std::uint64_t b) {
+    return __builtin_popcountll(a ^ b);
+  };
+  int total = 0;
+  for (int replicate = 1; replicate <= 1000; ++replicate) {
+    total += distance(job_hash("{}", 0, replicate), job_hash("{}", 0, replicate + 1));
+  }
+  CHECK(std::abs(total / 1000.0 - 32.0) < 1.0);  // eight standard deviations of the mean
+}
+
+TEST_CASE("hexadecimal ids have sixteen digits") {
+  CHECK(hex16(0) == "0000000000000000");
+  CHECK(hex16(0x0123456789abcdef) == "0123456789abcdef");
+}
+
+}  // namespace grainsweep

@@ -1,0 +1,145 @@
+#include <catch2/catch.hpp>
+
+#include "engine/dynamics/presets.hpp"
+#include "runner/sweep/settings.hpp"
+#include "tests/runner/sweep/sweep_files.hpp"
+
+namespace grainsweep {
+namespace {
+
+/// The specification of the only job of a sweep with this base and this block.
+PackingSpec spec_of(const std::string& base, const std::string& block = "{}") {
+  const SweepReading reading = reading_of(sweep_of(block, base));
+  for (const Finding& finding : reading.errors) FAIL(to_string(finding));
+  REQUIRE(reading.sweep.jobs.size() == 1);
+  return reading.sweep.jobs.front().spec;
+}
+
+using Messages = std::vector<std::string>;
+
+/// Errors of a sweep with this base, which starts at line 2.
+Messages errors_in_base(const std::string& base) {
+  return errors_of("{\"name\": \"t\", \"base\":\n" + base + "}");
+}
+
+bool equal(const Accuracy& a, const Accuracy& b) {
+  return a.solver == b.solver && a.precision == b.precision && a.step == b.step &&
+         a.fall_iterations == b.fall_iterations && a.rest_iterations == b.rest_iterations &&
+         a.residual_tolerance == b.residual_tolerance && a.max_steps == b.max_steps;
+}
+
+}  // namespace
+
+TEST_CASE("nested and dotted keys set the same parameters") {
+  const PackingSpec nested = spec_of(R"({"box": {"width": 7, "y": "periodic"}})");
+  const PackingSpec dotted = spec_of(R"({"box.width": 7, "box.y": "periodic"})");
+  CHECK(nested.box.width == 7.0);
+  CHECK(nested.box.y == Boundary::periodic);
+  CHECK(dotted.box.width == 7.0);
+  CHECK(dotted.box.y == Boundary::periodic);
+}
+
+TEST_CASE("a block's set lies over base and leaves the rest of base alone") {
+  const PackingSpec spec =
+      spec_of(R"({"box": {"width": 7, "length": 12}})", R"({"set": {"box": {"width": 9}}})");
+  CHECK(spec.box.width == 9.0);
+  CHECK(spec.box.length == 12.0);
+}
+
+TEST_CASE("a grid lies over set") {
+  CHECK(spec_of("{}", R"({"set": {"box.width": 7}, "grid": {"box.width": [8]}})").box.width == 8.0);
+}
+
+TEST_CASE("a sweep that names no accuracy is balanced") {
+  CHECK(equal(spec_of("{}").accuracy, *preset("balanced")));
+}
+
+TEST_CASE("presets are named alone, in an object or by their path") {
+  CHECK(equal(spec_of(R"({"accuracy": "fast"})").accuracy, *preset("fast")));
+  CHECK(equal(spec_of(R"({"accuracy": {"preset": "fast"}})").accuracy, *preset("fast")));
+  CHECK(equal(spec_of(R"({"accuracy.preset": "fast"})").accuracy, *preset("fast")));
+}
+
+TEST_CASE("a part of the accuracy holds over any preset, in whatever order and layer") {
+  Accuracy wanted = *preset("fast");
+  wanted.step = 0.125;
+  CHECK(equal(spec_of(R"({"accuracy": {"step": 0.125, "preset": "fast"}})").accuracy, wanted));
+  CHECK(equal(spec_of(R"({"accuracy": "fast", "accuracy.step": 0.125})").accuracy, wanted));
+  CHECK(equal(spec_of(R"({"accuracy": "accurate"})",
+                      R"({"set": {"accuracy.step": 0.125}, "grid": {"accuracy": ["fast"]}})")
+                  .accuracy,
+              wanted));
+}
+
+TEST_CASE("a layer that fills the box replaces the fill below it") {
+  const auto spec = spec_of(R"({"fill": {"solid_height": 5}})", R"({"set": {"fill.grains": 321}})");
+  CHECK(std::get<GrainCount>(spec.fill).count == 321);
+  CHECK(std::get<SolidHeight>(
+            spec_of(R"({"fill": {"grains": 5}})", R"({"grid": {"fill": [{"solid_height": 4.5}]}})")
+                .fill)
+            .height == 4.5);
+}
+
+TEST_CASE("two ways to fill the box in one object are refused") {
+  CHECK(errors_in_base(R"({"fill": {"solid_height": 9, "grains": 10}})") ==
+        Messages{"s.json:2:40 /base/fill/grains: the box is already filled by fill.solid_height; "
+                 "keep one of solid_height, grains, file"});
+}
+
+TEST_CASE("a parameter that is set twice in one object is refused") {
+  CHECK(errors_in_base(R"({"box": {"width": 5}, "box.width": 6})") ==
+        Messages{"s.json:2:36 /base/box.width: box.width is already set at /base/box/width"});
+}
+
+TEST_CASE("an unknown key is refused at the key, with the nearest known one") {
+  CHECK(errors_in_base(R"({"box": {"widht": 5}})") ==
+        Messages{"s.json:2:10 /base/box/widht: unknown key \"widht\"; did you mean \"width\"?"});
+  CHECK(errors_in_base(R"({"sizes.spred": 0.1})") ==
+        Messages{"s.json:2:2 /base/sizes.spred: unknown key \"sizes.spred\"; did you mean "
+                 "\"sizes.spread\"?"});
+  CHECK(errors_in_base(R"({"bx": {}})") ==
+        Messages{"s.json:2:2 /base/bx: unknown key \"bx\"; did you mean \"box\"?"});
+  CHECK(errors_in_base(R"({"friction": 0.3})") ==
+        Messages{"s.json:2:2 /base/friction: unknown key \"friction\"; known here: shape, box, "
+                 "fill, sizes, accuracy, measure, seed"});
+  CHECK(errors_in_base(R"({"": 1})").size() == 1);
+}
+
+TEST_CASE("a key that belongs elsewhere is sent there") {
+  CHECK(errors_in_base(R"({"width": 5})") ==
+        Messages{"s.json:2:2 /base/width: unknown key \"width\"; did you mean \"box.width\"?"});
+}
+
+TEST_CASE("a group that is no object is refused with its keys") {
+  CHECK(errors_in_base(R"({"box": 5})") ==
+        Messages{"s.json:2:9 /base/box: must be an object with length, width, x, y, is 5"});
+  CHECK(errors_in_base(R"({"accuracy": "balancd"})")
+            .at(0)
+            .starts_with("s.json:2:14 /base/accuracy: must be \"fast\", \"balanced\""));
+  CHECK(errors_in_base(R"({"accuracy": 5})")
+            .at(0)
+            .starts_with("s.json:2:14 /base/accuracy: must be the name of a preset or an object "
+                         "with preset, solver"));
+  CHECK(errors_in_base("[]") ==
+        Messages{"s.json:2:1 /base: must be an object of parameters, is a list"});
+}
+
+TEST_CASE("paths below a shape say that only spheres are packed") {
+  CHECK(errors_in_base(R"({"shape.pinacoid.angle_deg": 60})") ==
+        Messages{"s.json:2:2 /base/shape.pinacoid.angle_deg: this version packs spheres only; "
+                 "write \"shape\": \"sphere\""});
+}
+
+TEST_CASE("a diameter without a fill file is refused, one that is not positive too") {
+  CHECK(errors_in_base(R"({"fill": {"grains": 5, "diameter": 2}})") ==
+        Messages{"s.json:2:36 /base/fill/diameter: belongs to fill.file, and that is not set"});
+  CHECK(errors_in_base(R"({"fill": {"file": "a.csv", "diameter": 0}})") ==
+        Messages{"s.json:2:40 /base/fill/diameter: must be positive"});
+}
+
+TEST_CASE("the seed belongs beside base") {
+  CHECK(errors_in_base(R"({"seed": 5})") ==
+        Messages{"s.json:2:2 /base/seed: \"seed\" belongs beside \"base\", not into it"});
+}
+
+}  // namespace grainsweep

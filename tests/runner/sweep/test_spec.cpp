@@ -1,0 +1,235 @@
+// The rules of engine/scene/spec.hpp, which tell a sweep's author what to change.
+#include <cmath>
+#include <limits>
+
+#include <catch2/catch.hpp>
+
+#include "engine/dynamics/presets.hpp"
+#include "engine/scene/spec.hpp"
+
+namespace grainsweep {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// A specification in which every rule holds, with one change.
+template <class Change>
+PackingSpec changed(Change change) {
+  PackingSpec spec;
+  change(spec);
+  return spec;
+}
+
+/// "path: message" of every broken rule.
+template <class Change>
+std::vector<std::string> broken_by(Change change) {
+  std::vector<std::string> broken;
+  for (const SpecError& error : check(changed(change))) {
+    broken.push_back(error.path + ": " + error.message);
+  }
+  return broken;
+}
+
+using Messages = std::vector<std::string>;
+
+}  // namespace
+
+TEST_CASE("the default specification and every preset break no rule") {
+  CHECK(check(PackingSpec{}).empty());
+  for (const Preset& known : presets()) {
+    INFO(known.name);
+    CHECK(broken_by([&](PackingSpec& spec) { spec.accuracy = known.accuracy; }).empty());
+  }
+}
+
+TEST_CASE("a wall gap must hold the largest grain") {
+  const auto width = [](double w, double spread) {
+    return broken_by([=](PackingSpec& spec) {
+      spec.box.width = w;
+      spec.sizes.spread = spread;
+    });
+  };
+  CHECK(width(1.0, 0.0).empty());
+  CHECK(width(0.999, 0.0) == Messages{"box.width: must lie in [1, 10000], is 0.999"});
+  CHECK(width(1.2, 0.05).empty());
+  CHECK(width(1.1, 0.05) ==
+        Messages{"box.width: must lie in [1.2, 10000] (the largest grain between two walls), is "
+                 "1.1"});
+  CHECK(width(nan, 0.0) == Messages{"box.width: must lie in [1, 10000], is nan"});
+  CHECK(width(infinity, 0.0) == Messages{"box.width: must lie in [1, 10000], is inf"});
+}
+
+TEST_CASE(
+    "small grains alone need a smaller gap, but never less than one diameter of a large one") {
+  const auto width = [](double w) {
+    return broken_by([=](PackingSpec& spec) {
+      spec.box.width = w;
+      spec.sizes = {0.2, 1.0, 0.5};
+    });
+  };
+  CHECK(width(1.0).empty());  // the largest grain is 0.9 wide
+  CHECK(width(0.95).size() == 1);
+}
+
+TEST_CASE("periodic sides must keep a grain away from its own image") {
+  const auto sides = [](double side) {
+    return broken_by([=](PackingSpec& spec) {
+      spec.sizes.spread = 0.0;
+      spec.box = {side, side, Boundary::periodic, Boundary::periodic};
+    });
+  };
+  CHECK(sides(2.4).empty());
+  CHECK(sides(2.39) ==
+        Messages{"box.length: must lie in [2.4, 10000] (periodic: twice the largest grain and a "
+                 "margin), is 2.39",
+                 "box.width: must lie in [2.4, 10000] (periodic: twice the largest grain and a "
+                 "margin), is 2.39"});
+}
+
+TEST_CASE("a walled box is at least two long") {
+  const auto length = [](double l) {
+    return broken_by([=](PackingSpec& spec) {
+      spec.box = {l, 5, Boundary::walls, Boundary::walls};
+    });
+  };
+  CHECK(length(2.0).empty());
+  CHECK(length(1.9) == Messages{"box.length: must lie in [2, 10000], is 1.9"});
+  CHECK(length(10'001.0) == Messages{"box.length: must lie in [2, 10000], is 10001"});
+}
+
+TEST_CASE("solid height is positive and at most 1000, and gives a possible number of grains") {
+  const auto height = [](double h, double side = 10.0) {
+    return broken_by([=](PackingSpec& spec) {
+      spec.fill = SolidHeight{h};
+      spec.box.length = spec.box.width = side;
+    });
+  };
+  CHECK(height(1000.0).empty());
+  CHECK(height(0.0) == Messages{"fill.solid_height: must lie in (0, 1000], is 0"});
+  CHECK(height(1000.1) == Messages{"fill.solid_height: must lie in (0, 1000], is 1000.1"});
+  CHECK(height(nan) == Messages{"fill.solid_height: must lie in (0, 1000], is nan"});
+  CHECK(height(0.001) == Messages{"fill.solid_height: must give 1 to 10000000 grains, gives 0"});
+  REQUIRE(height(1000.0, 10'000.0).size() == 1);
+  CHECK(height(1000.0, 10'000.0)[0].starts_with(
+      "fill.solid_height: must give 1 to 10000000 grains, gives 190"));
+}
+
+TEST_CASE("grains are counted from one to ten million") {
+  const auto grains = [](std::int64_t n) {
+    return broken_by([=](PackingSpec& spec) { spec.fill = GrainCount{n}; });
+  };
+  CHECK(grains(1).empty());
+  CHECK(grains(10'000'000).empty());
+  CHECK(grains(0) == Messages{"fill.grains: must give 1 to 10000000 grains, gives 0"});
+  CHECK(grains(-5) == Messages{"fill.grains: must give 1 to 10000000 grains, gives -5"});
+  CHECK(grains(10'000'001).size() == 1);
+}
+
+TEST_CASE("placed grains must lie in the box, have a radius and be finite") {
+  const auto placed = [](std::vector<PlacedSphere> grains, Boundary x = Boundary::periodic) {
+    return broken_by([=](PackingSpec& spec) {
+      spec.box = {10.0, 6.0, x, Boundary::walls};
+      spec.fill = PlacedGrains{grains};
+    });
+  };
+  CHECK(placed({{5, 3, 1, 0.5}}).empty());
+  CHECK(placed({}) == Messages{"fill.file: must give 1 to 10000000 grains, gives 0"});
+  CHECK(placed({{0, 0.5, 0.5, 0.5}}).empty());  // touches wall and floor, astride the periodic side
+  CHECK(placed({{0, 0.495, 0.495, 0.5}}).empty());  // overlaps them as a settled bed may
+  CHECK(placed({{5, 3, 1, 0.5}, {5, 5.7, 1, 0.5}}) ==
+        Messages{"fill.file: grain 2 lies outside the box: y = 5.7, radius 0.5, box.width 6"});
+  CHECK(placed({{0.2, 3, 1, 0.5}}, Boundary::walls) ==
+        Messages{"fill.file: grain 1 lies outside the box: x = 0.2, radius 0.5, box.length 10"});
+  CHECK(placed({{10.1, 3, 1, 0.5}}) ==
+        Messages{"fill.file: grain 1 lies outside the box: x = 10.1, radius 0.5, box.length 10"});
+  CHECK(placed({{5, 3, 0.2, 0.5}, {5, 3, -1, 0.5}}) ==
+        Messages{"fill.file: grain 1 lies below the floor or too high: z = 0.2, radius 0.5; 2 "
+                 "grains are wrong in all"});
+  CHECK(placed({{5, 3, 1, 0}}) == Messages{"fill.file: grain 1 the radius must be positive, is 0"});
+  CHECK(placed({{nan, 3, 1, 0.5}}).size() == 1);
+  CHECK(placed({{5, nan, 1, 0.5}}).size() == 1);
+  CHECK(placed({{5, 3, nan, 0.5}}).size() == 1);
+  CHECK(placed({{5, 3, 1, nan}}).size() == 1);
+}
+
+TEST_CASE("sizes keep to their intervals") {
+  const auto sizes = [](SizesSpec changed_sizes) {
+    return broken_by([=](PackingSpec& spec) {
+      spec.sizes = changed_sizes;
+      spec.fill = GrainCount{100};
+    });
+  };
+  CHECK(sizes({0.0, 0.0, 1.0}).empty());
+  CHECK(sizes({0.2, 1.0, 0.021}).empty());
+  CHECK(sizes({-0.01, 0.0, 0.5}) == Messages{"sizes.spread: must lie in [0, 0.2], is -0.01"});
+  CHECK(sizes({0.21, 0.0, 0.5}) == Messages{"sizes.spread: must lie in [0, 0.2], is 0.21"});
+  CHECK(sizes({0.1, 1.4, 0.5}) == Messages{"sizes.small_share: must lie in [0, 1], is 1.4"});
+  CHECK(sizes({0.1, 0.5, 0.02}) == Messages{"sizes.size_ratio: must lie in (0.02, 1], is 0.02"});
+  CHECK(sizes({nan, nan, nan}) == Messages{"sizes.spread: must lie in [0, 0.2], is nan",
+                                           "sizes.small_share: must lie in [0, 1], is nan",
+                                           "sizes.size_ratio: must lie in (0.02, 1], is nan"});
+}
+
+TEST_CASE("every part of the accuracy keeps to its interval") {
+  const auto accuracy = [](auto change) {
+    const auto broken = broken_by([&](PackingSpec& spec) { change(spec.accuracy); });
+    REQUIRE(broken.size() == 1);
+    return broken[0];
+  };
+  CHECK(accuracy([](Accuracy& a) { a.step = 0; }) == "accuracy.step: must lie in (0, 2], is 0");
+  CHECK(accuracy([](Accuracy& a) { a.step = nan; }) == "accuracy.step: must lie in (0, 2], is nan");
+  CHECK(accuracy([](Accuracy& a) { a.momentum = 1; }) ==
+        "accuracy.momentum: must lie in [0, 1), is 1");
+  CHECK(accuracy([](Accuracy& a) { a.fall_iterations = 0; }) ==
+        "accuracy.fall_iterations: must lie in [1, 1000000], is 0");
+  CHECK(accuracy([](Accuracy& a) { a.rest_iterations = 1'000'001; }) ==
+        "accuracy.rest_iterations: must lie in [1, 1000000], is 1000001");
+  CHECK(accuracy([](Accuracy& a) { a.residual_tolerance = 0; }) ==
+        "accuracy.residual_tolerance: must be positive, is 0");
+  CHECK(accuracy([](Accuracy& a) { a.contact_tolerance = -1; }) ==
+        "accuracy.contact_tolerance: must be positive, is -1");
+  CHECK(accuracy([](Accuracy& a) { a.overlap_tolerance = nan; }) ==
+        "accuracy.overlap_tolerance: must be positive, is nan");
+  CHECK(accuracy([](Accuracy& a) { a.overlap_tolerance = infinity; }) ==
+        "accuracy.overlap_tolerance: must be positive, is inf");
+  CHECK(accuracy([](Accuracy& a) { a.max_steps = 0; }) ==
+        "accuracy.max_steps: must be at least 1, is 0");
+}
+
+TEST_CASE("excluded zones and gap tolerances keep to their intervals") {
+  const auto tolerances = [](std::vector<double> list) {
+    return broken_by([&](PackingSpec& spec) { spec.measure.gap_tolerances = std::move(list); });
+  };
+  CHECK(tolerances({1e-4}).empty());
+  CHECK(tolerances({}) == Messages{"measure.gap_tolerances: must hold 1 to 8 tolerances, holds 0"});
+  CHECK(tolerances(std::vector<double>(9, 1e-4)) ==
+        Messages{"measure.gap_tolerances: must hold 1 to 8 tolerances, holds 9"});
+  CHECK(tolerances({1e-4, 0.0, 0.1}) ==
+        Messages{"measure.gap_tolerances: must lie in (0, 0.1), is 0",
+                 "measure.gap_tolerances: must lie in (0, 0.1), is 0.1"});
+  CHECK(tolerances({1e-4, 1e-5, 1e-4}) ==
+        Messages{"measure.gap_tolerances: must hold distinct tolerances, holds 0.0001 twice"});
+  CHECK(broken_by([](PackingSpec& spec) {
+          spec.measure.exclude_floor = -1;
+          spec.measure.exclude_surface = nan;
+        }) == Messages{"measure.exclude_floor: must lie in [0, 1000], is -1",
+                       "measure.exclude_surface: must lie in [0, 1000], is nan"});
+}
+
+TEST_CASE("a solid height asks for its volume over that of a mean grain") {
+  PackingSpec spec;
+  spec.box.length = 10.0;
+  spec.box.width = 6.0;
+  spec.sizes.spread = 0.0;
+  spec.fill = SolidHeight{3.141592653589793};
+  CHECK(grain_count(spec) == 360);  // pi 60 / (pi / 6)
+  spec.sizes = {0.0, 0.5, 0.5};
+  CHECK(grain_count(spec) == 180 + 8 * 180);
+  spec.fill = GrainCount{77};
+  CHECK(grain_count(spec) == 77);
+  spec.fill = PlacedGrains{{{1, 1, 1, 0.5}, {3, 3, 1, 0.5}}};
+  CHECK(grain_count(spec) == 2);
+}
+
+}  // namespace grainsweep
