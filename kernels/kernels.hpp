@@ -66,7 +66,8 @@ struct RowKernels {
                    const Real* p);
   /// Normals and gaps of sphere pairs (a, b of `rows`) from their positions, nearest image.
   /// period_x, period_y: d, 0 where the axis is walled. A negative gap is multiplied by
-  /// `correction`, the share of an overlap that one step repairs.
+  /// `correction`, the share of an overlap that one step repairs. Where centres coincide the normal
+  /// is +z.
   void (*sphere_gaps)(RowBlock<Real>* rows, std::size_t blocks, const Record<double>* positions,
                       double period_x, double period_y, double correction);
 };

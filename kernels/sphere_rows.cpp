@@ -53,9 +53,10 @@ inline Components<Real> motion_of(const Rows<Real>& r, const Batch<Real>& p,
   return {push * r.nx, push * r.ny, push * r.nz, Batch<Real>(Real(0))};
 }
 
+/// 0 - p, not -p: whether negation turns 0 into -0 depends on the instruction set.
 template <class Real>
 inline void add_impulses(const Rows<Real>& r, const Batch<Real>& p, Record<Real>* u) {
-  add_to_records(u, r.a, motion_of(r, -p, r.u_a.w));
+  add_to_records(u, r.a, motion_of(r, Batch<Real>(Real(0)) - p, r.u_a.w));
   add_to_records(u, r.b, motion_of(r, p, r.u_b.w));
 }
 
@@ -105,7 +106,7 @@ SweepSums<Real> gauss_seidel_sweep(const RowBlock<Real>* rows, std::size_t block
       const Batch<Real> change = p_new - p_old;
       residual.part[k] = xsimd::max(residual.part[k], natural_residual(p_old, w));
       p_new.store_unaligned(p + at);
-      store_records(u, r.a, moved(r.u_a, motion_of(r, -change, r.u_a.w)));
+      store_records(u, r.a, moved(r.u_a, motion_of(r, p_old - p_new, r.u_a.w)));
       store_records(u, r.b, moved(r.u_b, motion_of(r, change, r.u_b.w)));
     }
   }
@@ -160,7 +161,7 @@ void sphere_gaps(RowBlock<Real>* rows, std::size_t blocks, const Record<double>*
                  double period_x, double period_y, double correction) {
   const double inverse_x = period_x > 0 ? 1 / period_x : 0;
   const double inverse_y = period_y > 0 ? 1 / period_y : 0;
-  const Batch<double> repair(correction), zero(0.0);
+  const Batch<double> repair(correction), zero(0.0), one(1.0);
   for (std::size_t block = 0; block < blocks; ++block) {
     RowBlock<Real>& r = rows[block];
     for (std::size_t k = 0; k < batches<double>; ++k) {
@@ -172,9 +173,11 @@ void sphere_gaps(RowBlock<Real>* rows, std::size_t blocks, const Record<double>*
       const Batch<double> z = b.z - a.z;
       const Batch<double> distance = xsimd::sqrt(x * x + y * y + z * z);
       const Batch<double> gap = distance - (a.w + b.w);
-      store_rounded(x / distance, r.normal_x + lane);
-      store_rounded(y / distance, r.normal_y + lane);
-      store_rounded(z / distance, r.normal_z + lane);
+      const auto apart = distance > zero;  // coinciding centres part upwards
+      const Batch<double> length = xsimd::select(apart, distance, one);
+      store_rounded(x / length, r.normal_x + lane);
+      store_rounded(y / length, r.normal_y + lane);
+      store_rounded(xsimd::select(apart, z, one) / length, r.normal_z + lane);
       store_rounded(xsimd::max(gap, zero) + repair * xsimd::min(gap, zero), r.gap + lane);
     }
   }
