@@ -1,0 +1,283 @@
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+#include "kernels/kernels.hpp"
+#include "tests/support/bits.hpp"
+#include "tests/support/draw.hpp"
+#include "tests/support/instruction_sets.hpp"
+#include "tests/support/row_twins.hpp"
+
+namespace grainsweep {
+namespace {
+
+using testing::Draw;
+using testing::same_bits;
+
+constexpr std::int32_t grains = 150, wall = grains, void_a = grains + 1, void_b = grains + 2;
+
+template <class Real>
+struct RowProblem {
+  std::vector<RowBlock<Real>> rows;
+  std::vector<Record<Real>> u, next;
+  std::vector<Real> p, y;
+};
+
+template <class Real>
+void set_void(RowBlock<Real>& block, std::size_t lane) {
+  block.a[lane] = void_a;
+  block.b[lane] = void_b;
+  block.normal_x[lane] = block.normal_y[lane] = 0;
+  block.normal_z[lane] = -1;
+  block.gap[lane] = 1;
+}
+
+template <class Real>
+void set_row(RowBlock<Real>& block, std::size_t lane, std::int32_t a, std::int32_t b, Draw& draw) {
+  const Draw::Direction n = draw.direction();
+  block.a[lane] = a;
+  block.b[lane] = b;
+  block.normal_x[lane] = static_cast<Real>(n.x);
+  block.normal_y[lane] = static_cast<Real>(n.y);
+  block.normal_z[lane] = static_cast<Real>(n.z);
+  block.gap[lane] = static_cast<Real>(draw.uniform(-0.1, 0.1));
+}
+
+/// A block of pairs or of contacts with the wall: no grain twice, the last lanes often void.
+template <class Real>
+RowBlock<Real> random_block(bool of_wall, Draw& draw) {
+  std::vector<std::int32_t> names(grains);
+  std::iota(names.begin(), names.end(), 0);
+  draw.shuffle(names);
+  const std::size_t used = draw.chance(0.5) ? block_width : draw.below(block_width + 1);
+  RowBlock<Real> block;
+  for (std::size_t lane = 0; lane < block_width; ++lane) {
+    if (lane < used) {
+      set_row(block, lane, names[2 * lane], of_wall ? wall : names[2 * lane + 1], draw);
+    } else {
+      set_void(block, lane);
+    }
+  }
+  return block;
+}
+
+/// Grains at rest, with zeros of either sign among their motions, the wall and the void.
+template <class Real>
+std::vector<Record<Real>> random_motion(Draw& draw) {
+  const auto component = [&] {
+    return static_cast<Real>(draw.chance(0.1) ? (draw.chance(0.5) ? 0.0 : -0.0)
+                                              : draw.uniform(-0.1, 0.1));
+  };
+  std::vector<Record<Real>> motion;
+  for (std::int32_t i = 0; i < grains; ++i) {
+    const Real x = component(), y = component(), z = component();
+    motion.push_back({x, y, z, static_cast<Real>(draw.uniform(0.1, 125.0))});
+  }
+  motion.insert(motion.end(), {{0, 0, 0, 0}, {0, 0, 0, 1}, {0, 0, 0, 1}});
+  return motion;
+}
+
+template <class Real>
+RowProblem<Real> random_problem(std::size_t blocks, std::uint64_t seed) {
+  Draw draw(seed);
+  RowProblem<Real> problem{{}, random_motion<Real>(draw), random_motion<Real>(draw), {}, {}};
+  for (std::size_t i = 0; i < problem.u.size(); ++i) {
+    problem.next[i].w = problem.u[i].w;
+  }
+  for (std::size_t block = 0; block < blocks; ++block) {
+    problem.rows.push_back(random_block<Real>(draw.chance(0.2), draw));
+    for (std::size_t lane = 0; lane < block_width; ++lane) {
+      const bool pushes = problem.rows.back().a[lane] != void_a && draw.chance(0.5);
+      problem.p.push_back(static_cast<Real>(pushes ? draw.uniform(0.0, 0.05) : 0.0));
+      problem.y.push_back(static_cast<Real>(pushes ? draw.uniform(-0.01, 0.05) : 0.0));
+    }
+  }
+  return problem;
+}
+
+/// Calls compare(kernels of one instruction set, problem, copy of the problem) for problems of
+/// many sizes, on every instruction set that can run here.
+template <class Real, class Compare>
+void on_random_problems(Compare compare) {
+  for (const Isa isa : testing::testable_isas()) {
+    for (const std::size_t blocks : {0U, 1U, 2U, 7U, 40U}) {
+      for (std::uint64_t seed = 0; seed < 5; ++seed) {
+        INFO(name_of(isa) << ", " << blocks << " blocks, seed " << seed);
+        RowProblem<Real> problem = random_problem<Real>(blocks, 100 * blocks + seed);
+        RowProblem<Real> twin = problem;
+        compare(row_kernels<Real>(kernels_for(isa)), problem, twin);
+        REQUIRE(same_bits(problem.p, twin.p));
+        REQUIRE(same_bits(problem.y, twin.y));
+        REQUIRE(same_bits(problem.u, twin.u));
+        REQUIRE(same_bits(problem.next, twin.next));
+      }
+    }
+  }
+}
+
+TEMPLATE_TEST_CASE("a gradient sweep gives the bits of its plain-loop twin", "", float, double) {
+  const auto bound = static_cast<TestType>(1 / 3.95), momentum = static_cast<TestType>(0.7);
+  on_random_problems<TestType>([&](const auto& kernels, auto& problem, auto& twin) {
+    const auto sums = kernels.gradient_sweep(problem.rows.data(), problem.rows.size(),
+                                             problem.u.data(), problem.next.data(),
+                                             problem.p.data(), problem.y.data(), bound, momentum);
+    const auto expected = testing::gradient_sweep_twin(
+        twin.rows.data(), twin.rows.size(), twin.u.data(), twin.next.data(), twin.p.data(),
+        twin.y.data(), bound, momentum);
+    REQUIRE(same_bits(sums.residual, expected.residual));
+    REQUIRE(same_bits(sums.uphill, expected.uphill));
+  });
+}
+
+TEMPLATE_TEST_CASE("a Gauss-Seidel sweep gives the bits of its plain-loop twin in both directions",
+                   "", float, double) {
+  for (const bool backward : {false, true}) {
+    on_random_problems<TestType>([&](const auto& kernels, auto& problem, auto& twin) {
+      const auto sums = kernels.gauss_seidel_sweep(problem.rows.data(), problem.rows.size(),
+                                                   problem.u.data(), problem.p.data(), backward);
+      const auto expected = testing::gauss_seidel_twin(twin.rows.data(), twin.rows.size(),
+                                                       twin.u.data(), twin.p.data(), backward);
+      REQUIRE(same_bits(sums.residual, expected.residual));
+      REQUIRE(sums.uphill == 0);
+    });
+  }
+}
+
+TEMPLATE_TEST_CASE("applied impulses give the bits of their plain-loop twin", "", float, double) {
+  on_random_problems<TestType>([](const auto& kernels, auto& problem, auto& twin) {
+    kernels.apply_impulses(problem.rows.data(), problem.rows.size(), problem.p.data(),
+                           problem.u.data());
+    testing::apply_impulses_twin(twin.rows.data(), twin.rows.size(), twin.p.data(), twin.u.data());
+  });
+}
+
+TEMPLATE_TEST_CASE("the residual has the bits of its plain-loop twin", "", float, double) {
+  on_random_problems<TestType>([](const auto& kernels, auto& problem, auto& twin) {
+    const auto residual = kernels.residual(problem.rows.data(), problem.rows.size(),
+                                           problem.u.data(), problem.p.data());
+    REQUIRE(same_bits(residual, testing::residual_twin(twin.rows.data(), twin.rows.size(),
+                                                       twin.u.data(), twin.p.data())));
+  });
+}
+
+/// Positions in and slightly beyond a box of 7 x 5, some of them exactly half a period apart.
+std::vector<Record<double>> random_positions(Draw& draw) {
+  std::vector<Record<double>> positions;
+  for (std::int32_t i = 0; i < grains; ++i) {
+    const double x =
+        draw.chance(0.3) ? 3.5 * static_cast<double>(draw.below(3)) : draw.uniform(-1.0, 8.0);
+    const double y = draw.uniform(-1.0, 6.0), z = draw.uniform(0.0, 3.0);
+    positions.push_back({x, y, z, draw.uniform(0.1, 0.5)});
+  }
+  positions.insert(positions.end(), {{0, 0, -1e9, 0}, {0, 0, -2e9, 0}, {0, 0, -3e9, 0}});
+  return positions;
+}
+
+TEMPLATE_TEST_CASE("normals and gaps have the bits of their plain-loop twin", "", float, double) {
+  Draw draw(5);
+  const std::vector<Record<double>> positions = random_positions(draw);
+  for (const double period_x : {0.0, 7.0}) {
+    for (const double period_y : {0.0, 5.0}) {
+      for (const double correction : {0.1, 1.0}) {
+        on_random_problems<TestType>([&](const auto& kernels, auto& problem, auto& twin) {
+          kernels.sphere_gaps(problem.rows.data(), problem.rows.size(), positions.data(), period_x,
+                              period_y, correction);
+          testing::sphere_gaps_twin(twin.rows.data(), twin.rows.size(), positions.data(), period_x,
+                                    period_y, correction);
+          REQUIRE(same_bits(problem.rows, twin.rows));
+        });
+      }
+    }
+  }
+}
+
+/// One row between grains 0 and 1, everything else void.
+template <class Real>
+RowProblem<Real> one_row(Real gap) {
+  RowProblem<Real> problem{std::vector<RowBlock<Real>>(1),
+                           std::vector<Record<Real>>(grains + 3, Record<Real>{0, 0, 0, 1}),
+                           {},
+                           std::vector<Real>(block_width, 0),
+                           {}};
+  for (std::size_t lane = 0; lane < block_width; ++lane) {
+    set_void(problem.rows[0], lane);
+  }
+  problem.rows[0].a[3] = 0;
+  problem.rows[0].b[3] = 1;
+  problem.rows[0].normal_x[3] = 1;
+  problem.rows[0].normal_z[3] = 0;
+  problem.rows[0].gap[3] = gap;
+  return problem;
+}
+
+TEMPLATE_TEST_CASE("one Gauss-Seidel sweep stops two grains where they meet", "", float, double) {
+  for (const Isa isa : testing::testable_isas()) {
+    INFO(name_of(isa));
+    RowProblem<TestType> problem = one_row(TestType(0.25));
+    problem.u[0] = {0.5, 0, 0, 1};   // mass 1
+    problem.u[1] = {-0.5, 0, 0, 3};  // mass 1/3: they would overlap by .75
+    const auto sums =
+        row_kernels<TestType>(kernels_for(isa))
+            .gauss_seidel_sweep(problem.rows.data(), 1, problem.u.data(), problem.p.data(), false);
+    CHECK(problem.p[3] == TestType(0.75 / 4));
+    CHECK(problem.u[0].x == TestType(0.5 - 0.75 / 4));
+    CHECK(problem.u[1].x == TestType(-0.5 + 3 * 0.75 / 4));
+    CHECK(sums.residual == TestType(0.75 / 4));
+  }
+}
+
+TEMPLATE_TEST_CASE("a contact that opens loses its impulse", "", float, double) {
+  for (const Isa isa : testing::testable_isas()) {
+    INFO(name_of(isa));
+    RowProblem<TestType> problem = one_row(TestType(1));
+    problem.p[3] = TestType(0.125);
+    row_kernels<TestType>(kernels_for(isa))
+        .gauss_seidel_sweep(problem.rows.data(), 1, problem.u.data(), problem.p.data(), false);
+    CHECK(problem.p[3] == 0);
+    CHECK(problem.u[0].x == TestType(0.125));
+    CHECK(problem.u[1].x == TestType(-0.125));
+  }
+}
+
+TEMPLATE_TEST_CASE("an overlap is repaired by the share asked for, a gap is left as it is", "",
+                   float, double) {
+  std::vector<Record<double>> positions(grains + 3, Record<double>{0, 0, -1e9, 0});
+  positions[void_b].z = -2e9;
+  positions[0] = {6.75, 0, 0, 0.5};
+  positions[1] = {0.5, 0, 0, 0.5};  // .75 apart across the border of a period of 7
+  for (const Isa isa : testing::testable_isas()) {
+    INFO(name_of(isa));
+    RowProblem<TestType> problem = one_row(TestType(0));
+    const auto& kernels = row_kernels<TestType>(kernels_for(isa));
+    kernels.sphere_gaps(problem.rows.data(), 1, positions.data(), 7, 0, 0.5);
+    CHECK(problem.rows[0].gap[3] == TestType(-0.125));
+    CHECK(problem.rows[0].normal_x[3] == 1);
+    CHECK(problem.rows[0].gap[0] == TestType(1e9));
+    kernels.sphere_gaps(problem.rows.data(), 1, positions.data(), 0, 0, 0.5);
+    CHECK(problem.rows[0].gap[3] == TestType(5.25));
+    CHECK(problem.rows[0].normal_x[3] == -1);
+  }
+}
+
+TEMPLATE_TEST_CASE("grains whose centres coincide are given a normal to part along", "", float,
+                   double) {
+  std::vector<Record<double>> positions(grains + 3, Record<double>{0, 0, -1e9, 0});
+  positions[void_b].z = -2e9;
+  positions[0] = positions[1] = {2, 3, 4, 0.5};
+  for (const Isa isa : testing::testable_isas()) {
+    INFO(name_of(isa));
+    RowProblem<TestType> problem = one_row(TestType(0));
+    row_kernels<TestType>(kernels_for(isa))
+        .sphere_gaps(problem.rows.data(), 1, positions.data(), 0, 0, 1);
+    CHECK(problem.rows[0].gap[3] == -1);
+    CHECK(problem.rows[0].normal_x[3] == 0);
+    CHECK(problem.rows[0].normal_y[3] == 0);
+    CHECK(problem.rows[0].normal_z[3] == 1);
+  }
+}
+
+}  // namespace
+}  // namespace grainsweep

@@ -1,0 +1,27 @@
+// The instruction sets that a test can run on this machine.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+#include "kernels/isa.hpp"
+
+namespace grainsweep::testing {
+
+/// All that are supported here; each other one is named in a warning, so that no test passes
+/// without saying what it left out.
+inline std::vector<Isa> testable_isas() {
+  std::vector<Isa> testable;
+  for (const Isa isa : {Isa::sse2, Isa::avx2, Isa::avx512}) {
+    if (is_supported(isa)) {
+      testable.push_back(isa);
+    } else {
+      WARN(std::string("not tested, this machine cannot run it: ") + name_of(isa));
+    }
+  }
+  return testable;
+}
+
+}  // namespace grainsweep::testing

@@ -1,0 +1,137 @@
+// Plain-loop twins of the row kernels: one row after the other, the same operations in the same
+// order, nothing else. The kernels must agree with them to the last bit.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+
+#include "kernels/kernels.hpp"
+
+namespace grainsweep::testing {
+
+/// Minimum and maximum as the processor has them: the second operand if neither is smaller.
+template <class Real>
+Real smaller(Real a, Real b) {
+  return a < b ? a : b;
+}
+template <class Real>
+Real larger(Real a, Real b) {
+  return a > b ? a : b;
+}
+
+/// w / A of one row: the gap after the motion u over 1/m_a + 1/m_b.
+template <class Real>
+Real scaled_gap_twin(const RowBlock<Real>& r, std::size_t lane, const Record<Real>* u) {
+  const Record<Real>&a = u[r.a[lane]], &b = u[r.b[lane]];
+  const Real approach = r.normal_x[lane] * (b.x - a.x) + r.normal_y[lane] * (b.y - a.y) +
+                        r.normal_z[lane] * (b.z - a.z);
+  return (r.gap[lane] + approach) / (a.w + b.w);
+}
+
+template <class Real>
+void push_twin(const RowBlock<Real>& r, std::size_t lane, Real p, Record<Real>& grain) {
+  const Real push = p * grain.w;
+  grain.x += push * r.normal_x[lane];
+  grain.y += push * r.normal_y[lane];
+  grain.z += push * r.normal_z[lane];
+}
+
+/// Impulse p of one row: pushes a by -p normal, b by +p normal.
+template <class Real>
+void apply_twin(const RowBlock<Real>& r, std::size_t lane, Real p, Record<Real>* u) {
+  push_twin(r, lane, Real(0) - p, u[r.a[lane]]);
+  push_twin(r, lane, p, u[r.b[lane]]);
+}
+
+/// Lane sums are joined pairwise: lane k with k + 8, then k + 4, k + 2, k + 1.
+template <class Real>
+Real tree_sum(Real (&lane)[block_width]) {
+  for (std::size_t half = block_width / 2; half > 0; half /= 2) {
+    for (std::size_t k = 0; k < half; ++k) {
+      lane[k] += lane[k + half];
+    }
+  }
+  return lane[0];
+}
+
+template <class Real>
+SweepSums<Real> gradient_sweep_twin(const RowBlock<Real>* rows, std::size_t blocks,
+                                    const Record<Real>* u, Record<Real>* next, Real* p, Real* y,
+                                    Real inverse_bound, Real momentum) {
+  Real residual = 0, uphill[block_width] = {};
+  for (std::size_t row = 0; row < blocks * block_width; ++row) {
+    const RowBlock<Real>& r = rows[row / block_width];
+    const std::size_t lane = row % block_width;
+    const Real w = scaled_gap_twin(r, lane, u), y_old = y[row], p_old = p[row];
+    p[row] = larger(Real(0), y_old - w * inverse_bound);
+    const Real change = p[row] - p_old;
+    y[row] = p[row] + momentum * change;
+    residual = larger(residual, std::abs(smaller(y_old, w)));
+    uphill[lane] += (y_old - p[row]) * change;
+    apply_twin(r, lane, y[row], next);
+  }
+  return {residual, tree_sum(uphill)};
+}
+
+template <class Real>
+SweepSums<Real> gauss_seidel_twin(const RowBlock<Real>* rows, std::size_t blocks, Record<Real>* u,
+                                  Real* p, bool backward) {
+  Real residual = 0;
+  for (std::size_t step = 0; step < blocks; ++step) {
+    const std::size_t block = backward ? blocks - 1 - step : step;
+    for (std::size_t lane = 0; lane < block_width; ++lane) {
+      const std::size_t row = block * block_width + lane;
+      const Real w = scaled_gap_twin(rows[block], lane, u), p_old = p[row];
+      p[row] = larger(Real(0), p_old - w);
+      residual = larger(residual, std::abs(smaller(p_old, w)));
+      apply_twin(rows[block], lane, p[row] - p_old, u);
+    }
+  }
+  return {residual, Real(0)};
+}
+
+template <class Real>
+void apply_impulses_twin(const RowBlock<Real>* rows, std::size_t blocks, const Real* p,
+                         Record<Real>* u) {
+  for (std::size_t row = 0; row < blocks * block_width; ++row) {
+    apply_twin(rows[row / block_width], row % block_width, p[row], u);
+  }
+}
+
+template <class Real>
+Real residual_twin(const RowBlock<Real>* rows, std::size_t blocks, const Record<Real>* u,
+                   const Real* p) {
+  Real worst = 0;
+  for (std::size_t row = 0; row < blocks * block_width; ++row) {
+    const Real w = scaled_gap_twin(rows[row / block_width], row % block_width, u);
+    worst = larger(worst, std::abs(smaller(p[row], w)));
+  }
+  return worst;
+}
+
+inline double nearest_image_twin(double difference, double period) {
+  const double inverse = period > 0 ? 1 / period : 0;
+  return difference - period * std::nearbyint(difference * inverse);
+}
+
+template <class Real>
+void sphere_gaps_twin(RowBlock<Real>* rows, std::size_t blocks, const Record<double>* positions,
+                      double period_x, double period_y, double correction) {
+  for (std::size_t row = 0; row < blocks * block_width; ++row) {
+    RowBlock<Real>& r = rows[row / block_width];
+    const std::size_t lane = row % block_width;
+    const Record<double>&a = positions[r.a[lane]], &b = positions[r.b[lane]];
+    const double x = nearest_image_twin(b.x - a.x, period_x);
+    const double y = nearest_image_twin(b.y - a.y, period_y);
+    const double z = b.z - a.z;
+    const double distance = std::sqrt(x * x + y * y + z * z);
+    const double gap = distance - (a.w + b.w);
+    const double length = distance > 0 ? distance : 1;
+    r.normal_x[lane] = static_cast<Real>(x / length);
+    r.normal_y[lane] = static_cast<Real>(y / length);
+    r.normal_z[lane] = static_cast<Real>((distance > 0 ? z : 1) / length);
+    r.gap[lane] = static_cast<Real>(larger(gap, 0.0) + correction * smaller(gap, 0.0));
+  }
+}
+
+}  // namespace grainsweep::testing
