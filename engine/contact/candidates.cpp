@@ -10,6 +10,7 @@ namespace {
 
 /// Cells of the search grid, without the border: `origin` is the corner of the first inner cell.
 struct Cells {
+  double largest_radius;
   double origin_z;
   double size_x, size_y, size_z;
   std::int32_t inner_x, inner_y, inner_z;
@@ -41,8 +42,14 @@ Cells make_cells(const SphereBed& bed, double reach) {
   }
   const double least = 2.0 * largest + reach, height = std::max(top - bottom, least);
   constexpr double most_sideways = 512.0;
-  Cells cells{bottom, 0, 0, 0, cells_along(bed.box.length, least, most_sideways),
-              cells_along(bed.box.width, least, most_sideways), 1};
+  Cells cells{largest,
+              bottom,
+              0,
+              0,
+              0,
+              cells_along(bed.box.length, least, most_sideways),
+              cells_along(bed.box.width, least, most_sideways),
+              1};
   const double floor_cells = (cells.inner_x + 2.0) * (cells.inner_y + 2.0);
   const double grains = static_cast<double>(bed.grains());
   cells.inner_z = cells_along(height, least, 16.0 + 16.0 * grains / floor_cells);
@@ -171,13 +178,23 @@ void remember_positions(const SphereBed& bed, const Cells& cells, Candidates& ca
   }
 }
 
-void include(Extent& extent, double x, double y, double z) {
-  const double at[3] = {x, y, z};
+void include(Extent& extent, const Record<double>& then, const Record<double>& now) {
+  const double at[3] = {now.x - then.x, now.y - then.y, now.z - then.z};
   for (int k = 0; k < 3; ++k) {
     extent.low[k] = extent.empty ? at[k] : std::min(extent.low[k], at[k]);
     extent.high[k] = extent.empty ? at[k] : std::max(extent.high[k], at[k]);
   }
+  extent.bottom = extent.empty ? now.z : std::min(extent.bottom, now.z);
+  extent.top = extent.empty ? now.z : std::max(extent.top, now.z);
   extent.empty = false;
+}
+
+void measure_layers(const SphereBed& bed, Candidates& candidates) {
+  std::fill(candidates.layers.begin(), candidates.layers.end(), Extent{{}, {}, 0.0, 0.0, true});
+  for (std::size_t i = 0; i < bed.grains(); ++i) {
+    include(candidates.layers[static_cast<std::size_t>(candidates.layer[i])],
+            candidates.built_at[i], bed.position[i]);
+  }
 }
 
 double diagonal_of_both(const Extent& a, const Extent& b) {
@@ -191,20 +208,24 @@ double diagonal_of_both(const Extent& a, const Extent& b) {
 }
 
 /// Largest relative motion of two grains in the same or in adjacent layers, d.
-double relative_motion(const SphereBed& bed, Candidates& candidates) {
-  std::fill(candidates.layers.begin(), candidates.layers.end(), Extent{{}, {}, true});
-  for (std::size_t i = 0; i < bed.grains(); ++i) {
-    const Record<double>& now = bed.position[i];
-    const Record<double>& then = candidates.built_at[i];
-    include(candidates.layers[static_cast<std::size_t>(candidates.layer[i])], now.x - then.x,
-            now.y - then.y, now.z - then.z);
-  }
+double relative_motion(const std::vector<Extent>& layers) {
   double worst = 0.0;
-  for (std::size_t k = 0; k < candidates.layers.size(); ++k) {
-    const Extent& above = candidates.layers[std::min(k + 1, candidates.layers.size() - 1)];
-    worst = std::max(worst, diagonal_of_both(candidates.layers[k], above));
+  for (std::size_t k = 0; k < layers.size(); ++k) {
+    const Extent& above = layers[std::min(k + 1, layers.size() - 1)];
+    worst = std::max(worst, diagonal_of_both(layers[k], above));
   }
   return worst;
+}
+
+/// Least difference in height of two grains that are not in the same or in adjacent layers, d.
+double least_rise(const std::vector<Extent>& layers) {
+  constexpr double none = std::numeric_limits<double>::max();
+  double least = none, top = -none;
+  for (std::size_t k = 2; k < layers.size(); ++k) {
+    top = layers[k - 2].empty ? top : std::max(top, layers[k - 2].top);
+    least = layers[k].empty ? least : std::min(least, layers[k].bottom - top);
+  }
+  return least;
 }
 
 /// Whether a grain that was out of a wall's reach has come near it.
@@ -236,8 +257,9 @@ std::vector<Wall> walls_of(const Box& box) {
 void find_candidates(SphereBed& bed, double reach, const Kernels& kernels,
                      Candidates& candidates) {
   wrap(bed);
-  candidates.reach = reach;
   const Cells cells = make_cells(bed, reach);
+  candidates.reach = reach;
+  candidates.largest_radius = cells.largest_radius;
   fill_columns(bed, cells, candidates.grid);
   list_pairs(bed, cells, kernels, candidates);
   list_walls(bed, candidates);
@@ -245,7 +267,9 @@ void find_candidates(SphereBed& bed, double reach, const Kernels& kernels,
 }
 
 bool still_complete(const SphereBed& bed, double near, Candidates& candidates) {
-  return relative_motion(bed, candidates) <= candidates.reach - near &&
+  measure_layers(bed, candidates);
+  return relative_motion(candidates.layers) <= candidates.reach - near &&
+         least_rise(candidates.layers) >= 2.0 * candidates.largest_radius + near &&
          std::none_of(candidates.walls.begin(), candidates.walls.end(),
                       [&](const WallCandidates& w) {
                         return has_newcomer(bed, w.wall, near, candidates);

@@ -35,10 +35,12 @@ struct WallCandidates {
   std::vector<std::int32_t> grains;  ///< ascending
 };
 
-/// Smallest box around the displacements of the grains of one layer, d.
+/// How the grains of one layer have moved since the list was made, and where they are now.
 struct Extent {
-  double low[3];
+  double low[3];  ///< smallest box around their displacements, d
   double high[3];
+  double bottom;  ///< lowest and highest centre, d
+  double top;
   bool empty;
 };
 
@@ -50,6 +52,7 @@ struct GridColumns {
 
 struct Candidates {
   double reach = 0.0;             ///< every pair and wall with a gap below it is listed, d
+  double largest_radius = 0.0;    ///< d
   std::vector<GrainPair> pairs;   ///< each once, a < b, in the order of the search grid
   std::vector<WallCandidates> walls;
   std::vector<Record<double>> built_at;  ///< positions of the grains when the list was made
@@ -62,9 +65,10 @@ struct Candidates {
 /// at least two largest diameters and reaches long.
 void find_candidates(SphereBed& bed, double reach, const Kernels& kernels, Candidates& candidates);
 
-/// Whether the list still holds every pair and wall with a gap below `near` < reach. Pairs are judged
-/// by the displacements since the list was made, in layers one cell high: no two grains of adjacent
-/// layers may have moved relative to each other by more than reach - near.
+/// Whether the list still holds every pair and wall with a gap below `near` < reach. Pairs are
+/// judged in layers one cell high: no two grains of adjacent layers may have moved relative to each
+/// other by more than reach - near since the list was made, and grains of layers further apart must
+/// still be out of reach by their heights alone.
 bool still_complete(const SphereBed& bed, double near, Candidates& candidates);
 
 }  // namespace grainsweep
