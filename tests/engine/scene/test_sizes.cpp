@@ -1,0 +1,103 @@
+#include <algorithm>
+#include <cmath>
+
+#include <catch2/catch.hpp>
+
+#include "engine/scene/sizes.hpp"
+#include "engine/units.hpp"
+
+namespace grainsweep {
+namespace {
+
+PackingSpec spec_of(const Fill& fill, const SizesSpec& sizes, std::uint64_t key = 1) {
+  PackingSpec spec;
+  spec.fill = fill;
+  spec.sizes = sizes;
+  spec.random_key = key;
+  return spec;
+}
+
+TEST_CASE("the reference fill is about 19 spheres per floor area") {
+  const PackingSpec spec = spec_of(SolidHeight{9.95}, {});
+  const ClassCounts counts = class_counts(spec);
+  CHECK(counts.small == 0);
+  CHECK(counts.large == 3788);  // 9.95 * 200 / (pi / 6 * (1 + 3 / 900)), rounded
+}
+
+TEST_CASE("the small class has its share of the expected volume within half a grain") {
+  for (const double share : {0.0, 0.1, 0.25, 0.4, 0.5, 0.9, 1.0}) {
+    INFO("share " << share);
+    const SizesSpec sizes{0.05, share, 0.4};
+    const ClassCounts counts = class_counts(spec_of(SolidHeight{5}, sizes));
+    const double growth = 1.0 + 3.0 * 0.05 * 0.05;  // E[D^3] of a Gaussian diameter
+    const double large = static_cast<double>(counts.large) * pi / 6 * growth;
+    const double small = static_cast<double>(counts.small) * pi / 6 * growth * 0.4 * 0.4 * 0.4;
+    const double volume = 5.0 * 20.0 * 10.0;
+    CHECK(large == Approx((1 - share) * volume).margin(0.51 * pi / 6 * growth));
+    CHECK(small == Approx(share * volume).margin(0.51 * pi / 6 * growth * 0.064));
+  }
+}
+
+TEST_CASE("a number of grains is kept exactly, whatever the share of the small class") {
+  for (const std::int64_t count : {1, 2, 3, 1000}) {
+    for (const double share : {0.0, 0.1, 0.5, 1.0}) {
+      const ClassCounts counts = class_counts(spec_of(GrainCount{count}, {0.03, share, 0.5}));
+      CHECK(counts.large + counts.small == count);
+      CHECK(counts.large >= 0);
+      CHECK(counts.small >= 0);
+    }
+  }
+  // Half the volume in grains of an eighth of the volume: eight of nine grains.
+  CHECK(class_counts(spec_of(GrainCount{900}, {0.0, 0.5, 0.5})).small == 800);
+}
+
+// 20,000 draws: the mean scatters by sd / sqrt(n), the deviation by sd / sqrt(2 n); four of each.
+TEST_CASE("radii have the mean and the spread asked for, and none lies beyond four deviations") {
+  const double spread = 1.0 / 30.0;
+  const auto radii = draw_radii(spec_of(GrainCount{20'000}, {spread, 0, 0.5}));
+  double sum = 0, squares = 0;
+  for (const double radius : radii) {
+    sum += 2 * radius;
+    squares += (2 * radius - 1) * (2 * radius - 1);
+  }
+  const double n = 20'000;
+  CHECK(sum / n == Approx(1).margin(4 * spread / std::sqrt(n)));
+  CHECK(std::sqrt(squares / n) == Approx(spread).margin(4 * spread / std::sqrt(2 * n)));
+  const auto [least, most] = std::minmax_element(radii.begin(), radii.end());
+  CHECK(*least >= 0.5 * (1 - 4 * spread));
+  CHECK(*most <= 0.5 * (1 + 4 * spread));
+  CHECK(*most > 0.5 * (1 + 3 * spread));  // a cut at three deviations would be seen: 54 expected
+}
+
+TEST_CASE("the large class comes first and both are drawn about their own mean") {
+  const PackingSpec spec = spec_of(GrainCount{5000}, {0.02, 0.3, 0.25});
+  const ClassCounts counts = class_counts(spec);
+  const auto radii = draw_radii(spec);
+  REQUIRE(radii.size() == 5000);
+  REQUIRE(counts.large > 100);
+  for (std::size_t i = 0; i < radii.size(); ++i) {
+    const double mean = i < static_cast<std::size_t>(counts.large) ? 0.5 : 0.125;
+    REQUIRE(std::abs(radii[i] - mean) <= 4 * 0.02 * mean);
+  }
+}
+
+TEST_CASE("without spread all radii of a class are equal") {
+  for (const double radius : draw_radii(spec_of(GrainCount{50}, {0, 0, 0.5}))) {
+    CHECK(radius == 0.5);
+  }
+}
+
+TEST_CASE("radii depend on the key and the grain alone") {
+  const auto radii = draw_radii(spec_of(GrainCount{100}, {}, 5));
+  const auto more = draw_radii(spec_of(GrainCount{300}, {}, 5));
+  const auto other = draw_radii(spec_of(GrainCount{100}, {}, 6));
+  CHECK(std::equal(radii.begin(), radii.end(), more.begin()));
+  int equal = 0;
+  for (std::size_t i = 0; i < radii.size(); ++i) {
+    equal += radii[i] == other[i] ? 1 : 0;
+  }
+  CHECK(equal == 0);
+}
+
+}  // namespace
+}  // namespace grainsweep

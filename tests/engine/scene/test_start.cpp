@@ -1,0 +1,118 @@
+#include <algorithm>
+#include <cmath>
+
+#include <catch2/catch.hpp>
+
+#include "engine/scene/start.hpp"
+#include "engine/units.hpp"
+#include "tests/support/bits.hpp"
+#include "tests/support/brute_force.hpp"
+#include "tests/support/scenes.hpp"
+
+namespace grainsweep {
+namespace {
+
+using testing::periodic;
+using testing::walls;
+
+PackingSpec spec_of(const BoxSpec& box, std::int64_t grains, const SizesSpec& sizes = {},
+                    std::uint64_t key = 1) {
+  PackingSpec spec;
+  spec.box = box;
+  spec.fill = GrainCount{grains};
+  spec.sizes = sizes;
+  spec.random_key = key;
+  return spec;
+}
+
+double top_of(const SphereBed& bed) {
+  double top = 0;
+  for (std::size_t i = 0; i < bed.grains(); ++i) {
+    top = std::max(top, bed.position[i].z + bed.position[i].w);
+  }
+  return top;
+}
+
+TEST_CASE("grains start apart from each other and from all walls") {
+  const SizesSpec two_sizes{0.1, 0.3, 0.3};
+  for (const BoxSpec& box : {BoxSpec{6, 4, periodic, walls}, BoxSpec{6, 4, periodic, periodic},
+                             BoxSpec{6, 4, walls, walls}, BoxSpec{3, 3, periodic, periodic},
+                             BoxSpec{2.9, 1.45, walls, walls}, BoxSpec{9, 1.45, periodic, walls}}) {
+    for (const std::int64_t grains : {1, 2, 60, 400}) {
+      INFO(box.length << " x " << box.width << ", " << grains << " grains");
+      const auto bed = start(spec_of(box, grains, two_sizes));
+      REQUIRE(bed);
+      REQUIRE(bed->grains() == static_cast<std::size_t>(grains));
+      CHECK(testing::pairs_closer_than(*bed, 0.0).empty());
+      for (const Wall& wall : walls_of(bed->box)) {
+        for (std::size_t i = 0; i < bed->grains(); ++i) {
+          REQUIRE(wall.gap(bed->position[i]) >= -1e-15);  // one rounding
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("grains fill a column of the start's solid fraction") {
+  const auto bed = start(spec_of({8, 8, periodic, periodic}, 800));
+  REQUIRE(bed);
+  double solid = 0;
+  for (std::size_t i = 0; i < bed->grains(); ++i) {
+    solid += sphere_volume(bed->position[i].w);
+  }
+  // The highest of 800 grains comes within a few percent of the top.
+  CHECK(solid / (64 * top_of(*bed)) == Approx(start_solid_fraction).epsilon(0.02));
+}
+
+TEST_CASE("grains are numbered from the floor up, layer by layer of at most two diameters") {
+  const auto bed = start(spec_of({8, 4, periodic, walls}, 500));
+  REQUIRE(bed);
+  double highest = 0;
+  for (std::size_t i = 0; i < bed->grains(); ++i) {
+    highest = std::max(highest, bed->position[i].z);
+    REQUIRE(bed->position[i].z > highest - 2.0);
+  }
+}
+
+TEST_CASE("grains start at rest with the sizes drawn for them") {
+  const auto bed = start(spec_of({8, 4, periodic, walls}, 100));
+  REQUIRE(bed);
+  for (std::size_t i = 0; i < bed->grains(); ++i) {
+    const Record<double>& motion = bed->motion[i];
+    CHECK((motion.x == 0 && motion.y == 0 && motion.z == 0));
+    CHECK(motion.w == Approx(1 / sphere_mass(bed->position[i].w)));
+  }
+}
+
+TEST_CASE("equal keys start alike, different keys do not") {
+  const BoxSpec box{8, 4, periodic, walls};
+  const auto a = start(spec_of(box, 200, {}, 7)), b = start(spec_of(box, 200, {}, 7)),
+             c = start(spec_of(box, 200, {}, 8));
+  REQUIRE((a && b && c));
+  CHECK(testing::same_bits(a->position, b->position));
+  CHECK_FALSE(testing::same_bits(a->position, c->position));
+}
+
+TEST_CASE("placed grains are taken as they are, in their order") {
+  PackingSpec spec;
+  const std::vector<PlacedSphere> spheres = {{5, 5, 9, 0.5}, {1, 2, 0.25, 0.25}};
+  spec.fill = PlacedGrains{spheres};
+  const auto bed = start(spec);
+  REQUIRE(bed);
+  CHECK(testing::same_bits(bed->position, make_bed(bed->box, spheres).position));
+}
+
+TEST_CASE("a grain larger than the gap between the walls gives no bed") {
+  CHECK_FALSE(start(spec_of({8, 0.99, periodic, walls}, 1, {0, 0, 0.5})));
+  CHECK_FALSE(start(spec_of({0.99, 8, walls, periodic}, 1, {0, 0, 0.5})));
+  CHECK(start(spec_of({8, 1, periodic, walls}, 1, {0, 0, 0.5})));
+}
+
+TEST_CASE("no grains give an empty bed") {
+  const auto bed = start(spec_of({8, 4, periodic, walls}, 0));
+  REQUIRE(bed);
+  CHECK(bed->grains() == 0);
+}
+
+}  // namespace
+}  // namespace grainsweep
