@@ -102,7 +102,7 @@ void add_export(CLI::App& app, ExportOptions& options) {
       ->type_name("NAME");
   grains
       .add_option("--job", options.jobs,
-                  "only this packing: its id, from the column job of packings.csv; may be repeated")
+                  "only this packing: its id in packings.csv; may be repeated")
       ->type_name("ID")
       ->allow_extra_args(false);
   grains.add_option("--to", options.to, "folder for the files (default: DIR/export)")

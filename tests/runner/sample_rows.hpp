@@ -1,0 +1,67 @@
+// Rows as a sweep of spheres would leave them, with values that tests choose.
+#pragma once
+
+#include <string>
+
+#include "runner/tables/job_facts.hpp"
+
+namespace grainsweep {
+
+inline std::string sample_parameters(double width, Boundary y, double small_share) {
+  return R"({"accuracy":"balanced","box":{"length":20.0,"width":)" + std::to_string(width) +
+         R"(,"x":"periodic","y":")" + name_of(y) +
+         R"("},"shape":"sphere","sizes":{"small_share":)" + std::to_string(small_share) + "}}";
+}
+
+inline JobFacts sample_job(const std::string& id, double width, int replicate = 1,
+                           Boundary y = Boundary::walls, double small_share = 0.0) {
+  JobFacts job;
+  job.id = id;
+  job.label = "MSP";
+  job.parameters = sample_parameters(width, y, small_share);
+  job.replicate = replicate;
+  job.seed = 7;
+  job.shape = "sphere";
+  job.accuracy = "balanced";
+  job.box.width = width;
+  job.box.y = y;
+  job.small_share = small_share;
+  return job;
+}
+
+inline Outcome sample_outcome(const std::string& job, double solid_fraction, double coordination) {
+  Outcome outcome;
+  outcome.job = job;
+  PackingResult& result = outcome.result;
+  result.status = PackingStatus::settled;
+  result.grains = 2000;
+  result.rest = {5e-4, 1e-9, 2e-5, 8e-5, 3e-4, 5990, 5991};
+  result.surface_height = 15.5;
+  result.slab_bottom = 3.0;
+  result.slab_top = 12.5;
+  result.solid_fraction = solid_fraction;
+  result.coordination = {{1e-4, coordination, coordination + 0.25},
+                         {1e-5, coordination - 0.125, coordination}};
+  result.steps = 265;
+  result.iterations = 20000;
+  result.state_hash = 0xABCDEF0123456789u;
+  outcome.cpu_seconds = 0.75;
+  return outcome;
+}
+
+inline Row settled_row(const std::string& id, double width, double solid_fraction,
+                       double coordination, Boundary y = Boundary::walls,
+                       double small_share = 0.0) {
+  return {sample_job(id, width, 1, y, small_share),
+          sample_outcome(id, solid_fraction, coordination)};
+}
+
+inline Row row_with_status(const std::string& id, double width, PackingStatus status,
+                           const std::string& reason) {
+  Row row = settled_row(id, width, 0.5, 5.0);
+  row.outcome->result.status = status;
+  row.outcome->result.reason = reason;
+  return row;
+}
+
+}  // namespace grainsweep

@@ -1,0 +1,79 @@
+#include <fcntl.h>
+#include <filesystem>
+#include <string>
+
+#include <catch2/catch.hpp>
+
+#include "runner/store/files.hpp"
+#include "tests/runner/temporary_folder.hpp"
+
+namespace grainsweep {
+namespace {
+
+using Catch::Matchers::Contains;
+using Catch::Matchers::StartsWith;
+
+TEST_CASE("a replaced file reads back byte by byte and leaves no neighbour behind") {
+  const TemporaryFolder folder;
+  const std::string path = folder.path() + "/a.bin";
+  std::string bytes(300000, '\0');
+  for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<char>(i * 31 % 251);
+  replace_file(path, "old");
+  replace_file(path, bytes);
+  CHECK(read_file(path) == bytes);
+  CHECK(files_in(folder.path(), "", "") == std::vector<std::string>{"a.bin"});
+}
+
+TEST_CASE("a file error names the path and the cause") {
+  const TemporaryFolder folder;
+  const std::string missing = folder.path() + "/none/a.csv";
+  CHECK_THROWS_WITH(read_file(missing),
+                    StartsWith(missing) && Contains("No such file or directory"));
+  CHECK_THROWS_WITH(replace_file(missing, "x"),
+                    StartsWith(missing) && Contains("No such file or directory"));
+}
+
+TEST_CASE("a full disk is reported with path and cause") {
+  const OpenFile full("/dev/full", O_WRONLY);
+  CHECK_THROWS_WITH(write_all(full, "x"),
+                    Catch::Equals("/dev/full: cannot write: No space left on device"));
+}
+
+TEST_CASE("a folder that cannot replace a file keeps the old file and no rest of the new one") {
+  const TemporaryFolder folder;
+  const std::string path = folder.path() + "/taken";
+  make_folder(path + "/inside");  // a folder with content cannot be replaced by a file
+  CHECK_THROWS_AS(replace_file(path, "x"), FileError);
+  CHECK(files_in(folder.path(), "", "") == std::vector<std::string>{"taken"});
+}
+
+TEST_CASE("a folder is made with those above it, and making it again changes nothing") {
+  const TemporaryFolder folder;
+  make_folder(folder.path() + "/a/b/c");
+  make_folder(folder.path() + "/a/b/c");
+  CHECK(std::filesystem::is_directory(folder.path() + "/a/b/c"));
+  replace_file(folder.path() + "/file", "x");
+  CHECK_THROWS_AS(make_folder(folder.path() + "/file"), FileError);
+  CHECK_THROWS_AS(make_folder(folder.path() + "/file/below"), FileError);
+}
+
+TEST_CASE("files are listed by start and end, sorted, and a missing folder has none") {
+  const TemporaryFolder folder;
+  for (const char* name : {"journal-b.jsonl", "journal-a.jsonl", "journal-c.txt", "x.jsonl"}) {
+    replace_file(folder.path() + "/" + name, "");
+  }
+  CHECK(files_in(folder.path(), "journal-", ".jsonl") ==
+        std::vector<std::string>{"journal-a.jsonl", "journal-b.jsonl"});
+  CHECK(files_in(folder.path() + "/none", "", "").empty());
+}
+
+TEST_CASE("removing a file that is not there is no error") {
+  const TemporaryFolder folder;
+  replace_file(folder.path() + "/a", "x");
+  remove_file(folder.path() + "/a");
+  CHECK_FALSE(file_exists(folder.path() + "/a"));
+  remove_file(folder.path() + "/a");
+}
+
+}  // namespace
+}  // namespace grainsweep

@@ -1,0 +1,44 @@
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <limits>
+
+#include <catch2/catch.hpp>
+
+#include "runner/tables/csv.hpp"
+
+namespace grainsweep {
+namespace {
+
+TEST_CASE("numbers are written in the shortest form that reads back exactly") {
+  CHECK(cell(0.1) == "0.1");
+  CHECK(cell(20.0) == "20");
+  CHECK(cell(1.0 / 3.0) == "0.3333333333333333");
+  CHECK(cell(1e-4) == "1e-04");
+  CHECK(cell(0.1 + 0.2) == "0.30000000000000004");
+  CHECK(cell(std::numeric_limits<std::uint64_t>::max()) == "18446744073709551615");
+  CHECK(cell(-3) == "-3");
+  for (const double value : {std::nextafter(0.64, 1.0), 5e-324, 1.7976931348623157e308}) {
+    CHECK(std::strtod(cell(value).c_str(), nullptr) == value);
+  }
+}
+
+TEST_CASE("what is no number leaves its cell empty") {
+  CHECK(cell(std::nan("")).empty());
+  CHECK(cell(std::numeric_limits<double>::infinity()).empty());
+}
+
+TEST_CASE("text is quoted only where it must be") {
+  CHECK(cell("MSP bulk") == "MSP bulk");
+  CHECK(cell("a,b") == "\"a,b\"");
+  CHECK(cell("say \"no\"") == "\"say \"\"no\"\"\"");
+  CHECK(cell("two\nlines") == "\"two\nlines\"");
+}
+
+TEST_CASE("a line joins its cells by commas") {
+  CHECK(csv_line({"a", "", "c"}) == "a,,c\n");
+  CHECK(csv_line({"a"}) == "a\n");
+}
+
+}  // namespace
+}  // namespace grainsweep

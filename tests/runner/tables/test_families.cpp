@@ -1,0 +1,69 @@
+#include <catch2/catch.hpp>
+
+#include "runner/tables/fits.hpp"
+#include "tests/runner/sample_rows.hpp"
+
+namespace grainsweep {
+namespace {
+
+TEST_CASE("groups that differ in width alone are a family, with the periodic one as reference") {
+  const auto families = families_of(groups_of(
+      {settled_row("a", 10, 0.62, 6), settled_row("b", 5, 0.6, 6),
+       settled_row("c", 20, 0.64, 6, Boundary::periodic), settled_row("d", 20, 0.63, 6)}));
+  REQUIRE(families.size() == 1);
+  REQUIRE(families[0].walled.size() == 3);
+  CHECK(families[0].name == "MSP");
+  CHECK(families[0].walled[0].job.box.width == 5);
+  CHECK(families[0].walled[2].job.box.width == 20);
+  REQUIRE(families[0].periodic.size() == 1);
+  CHECK(unconfined_reference(families[0])->solid_fraction.mean == 0.64);
+}
+
+TEST_CASE("families of one label are told apart by the parameter that differs") {
+  const auto families = families_of(
+      groups_of({settled_row("a", 5, 0.6, 6), settled_row("b", 5, 0.6, 6, Boundary::walls, 0.25),
+                 settled_row("c", 6, 0.6, 6)}));
+  REQUIRE(families.size() == 2);
+  CHECK(families[0].name == "MSP small_share=0.0");
+  CHECK(families[1].name == "MSP small_share=0.25");
+  CHECK(families[0].walled.size() == 2);
+}
+
+TEST_CASE("a family of two labels carries both") {
+  Row narrow = settled_row("a", 4, 0.6, 6);
+  narrow.job.label = "narrow";
+  const auto families = families_of(groups_of({settled_row("b", 5, 0.6, 6), narrow}));
+  REQUIRE(families.size() == 1);
+  CHECK(families[0].name == "narrow + MSP");
+}
+
+TEST_CASE("a preset stands as one word in a family's name") {
+  Row fast = settled_row("a", 5, 0.6, 6), balanced = settled_row("b", 5, 0.6, 6);
+  fast.job.accuracy = "fast";
+  fast.job.parameters = R"({"accuracy":{"step":0.4,"momentum":0.5},"box":{"width":5}})";
+  balanced.job.parameters = R"({"accuracy":{"step":0.2,"momentum":0.9},"box":{"width":5}})";
+  const auto families = families_of(groups_of({fast, balanced}));
+  REQUIRE(families.size() == 2);
+  CHECK(families[0].name == "MSP accuracy=fast");
+  CHECK(families[1].name == "MSP accuracy=balanced");
+}
+
+TEST_CASE("a parameter that only some families have tells them apart") {
+  Row with = settled_row("a", 5, 0.6, 6), without = settled_row("b", 5, 0.6, 6);
+  with.job.parameters = R"({"box":{"width":5},"fill":{"grains":100}})";
+  without.job.parameters = R"({"box":{"width":5}})";
+  const auto families = families_of(groups_of({with, without}));
+  REQUIRE(families.size() == 2);
+  CHECK(families[0].name == "MSP grains=100");
+}
+
+TEST_CASE("a periodic packing without a settled replicate is no reference") {
+  Row row = row_with_status("a", 20, PackingStatus::not_settled, "moves");
+  row.job.box.y = Boundary::periodic;
+  const auto families = families_of(groups_of({row}));
+  REQUIRE(families.size() == 1);
+  CHECK(unconfined_reference(families[0]) == nullptr);
+}
+
+}  // namespace
+}  // namespace grainsweep

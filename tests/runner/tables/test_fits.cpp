@@ -1,0 +1,119 @@
+#include <cmath>
+#include <string>
+
+#include <catch2/catch.hpp>
+
+#include "runner/tables/fits.hpp"
+#include "tests/runner/sample_rows.hpp"
+
+namespace grainsweep {
+namespace {
+
+/// Two replicates at W on the line .64 - .2 / W and 6.1 - 3 / W, `scatter` above and below it.
+void add_width(std::vector<Row>& rows, double width, double scatter) {
+  const double phi = 0.64 - 0.2 / width, z = 6.1 - 3.0 / width;
+  const std::string id = std::to_string(rows.size());
+  rows.push_back(settled_row("a" + id, width, phi - scatter, z - 10 * scatter));
+  rows.push_back(settled_row("b" + id, width, phi + scatter, z + 10 * scatter));
+}
+
+Family family_of(const std::vector<Row>& rows) { return families_of(groups_of(rows)).at(0); }
+
+TEST_CASE("the planted wall effect is recovered with the errors of its replicates") {
+  std::vector<Row> rows;
+  for (const double width : {4.0, 5.0, 10.0, 20.0}) add_width(rows, width, 0.001);
+  const WallFit fit = fit_walls(family_of(rows), Quantity::solid_fraction);
+  REQUIRE(fit.not_determined.empty());
+  CHECK(fit.bulk.value == Approx(0.64));
+  CHECK(fit.slope.value == Approx(0.2));
+  CHECK(fit.zeta.value == Approx(0.2 / 0.64));
+  CHECK(fit.widths == 4);
+  CHECK(fit.packings == 8);
+  CHECK(fit.weights == "standard error of the replicates");
+  // Each mean has sd sqrt(2) .001 and error .001; x = .25, .2, .1, .05: S_xx = .025, x_m = .15.
+  CHECK(fit.slope.error == Approx(0.001 / std::sqrt(0.025)));
+  CHECK(fit.bulk.error == Approx(0.001 * std::sqrt(0.25 + 0.0225 / 0.025)));
+  CHECK(fit.chi2_per_dof == Approx(0.0).margin(1e-20));
+  const WallFit z = fit_walls(family_of(rows), Quantity::coordination);
+  CHECK(z.bulk.value == Approx(6.1));
+  CHECK(z.slope.value == Approx(3.0));
+}
+
+// zeta = C / b is a function of two correlated parameters; its error must be what a small shift of
+// all points along the parameters' error ellipse does to it. With C = r b, var(zeta) follows from
+// s^2 / b^2 + C^2 e^2 / b^4 + 2 C cov(s, b) / b^3, where C = -s.
+TEST_CASE("the error of zeta takes the correlation of slope and bulk into account") {
+  std::vector<Row> rows;
+  for (const double width : {4.0, 5.0, 10.0, 20.0}) add_width(rows, width, 0.001);
+  const WallFit fit = fit_walls(family_of(rows), Quantity::solid_fraction);
+  const double covariance = -0.15 / 0.025 * 1e-6;  // of slope and intercept
+  const double variance = std::pow(fit.slope.error / 0.64, 2) +
+                          std::pow(0.2 * fit.bulk.error / (0.64 * 0.64), 2) +
+                          2 * 0.2 / std::pow(0.64, 3) * covariance;
+  CHECK(fit.zeta.error == Approx(std::sqrt(variance)));
+  const double naive = std::hypot(fit.slope.error / 0.64, 0.2 * fit.bulk.error / (0.64 * 0.64));
+  CHECK(fit.zeta.error < naive);
+}
+
+TEST_CASE("a width without scatter leads to equal weights, and the fit says so") {
+  std::vector<Row> rows;
+  for (const double width : {4.0, 5.0, 10.0}) add_width(rows, width, 0.001);
+  rows.push_back(settled_row("single", 20, 0.631, 5.96));
+  const WallFit fit = fit_walls(family_of(rows), Quantity::solid_fraction);
+  REQUIRE(fit.not_determined.empty());
+  CHECK(fit.weights == "equal (no scatter of replicates at W = 20)");
+  CHECK(std::isnan(fit.chi2_per_dof));
+  CHECK(fit.slope.error > 0);
+}
+
+TEST_CASE("fewer than three widths determine nothing") {
+  std::vector<Row> rows;
+  for (const double width : {4.0, 10.0}) add_width(rows, width, 0.001);
+  rows.push_back(row_with_status("u", 20, PackingStatus::not_settled, "moves"));
+  CHECK(fit_walls(family_of(rows), Quantity::solid_fraction).not_determined ==
+        "needs settled packings at 3 or more widths with otherwise equal parameters, has 2");
+}
+
+TEST_CASE("one replicate at every width determines nothing") {
+  std::vector<Row> rows;
+  for (const double width : {4.0, 10.0, 20.0}) {
+    rows.push_back(settled_row(std::to_string(width), width, 0.6, 6));
+  }
+  CHECK(fit_walls(family_of(rows), Quantity::solid_fraction).not_determined ==
+        "needs 2 or more settled replicates to know the errors, has 1 at every width");
+}
+
+TEST_CASE("an unsettled packing never moves the line") {
+  std::vector<Row> rows;
+  for (const double width : {4.0, 5.0, 10.0}) add_width(rows, width, 0.001);
+  const double before = fit_walls(family_of(rows), Quantity::solid_fraction).bulk.value;
+  rows.push_back(row_with_status("u", 10, PackingStatus::not_settled, "moves"));
+  CHECK(fit_walls(family_of(rows), Quantity::solid_fraction).bulk.value == before);
+}
+
+TEST_CASE("the table of a family that determines no fit has a reason and no numbers") {
+  Row row = settled_row("a", 5, 0.6, 6);
+  row.job.parameters = R"({"box":{"width":5}})";
+  CHECK(fits_csv(families_of(groups_of({row}))) ==
+        "family,quantity,status,reason,widths,packings,weights,bulk,bulk_error,C,C_error,zeta,"
+        "zeta_error,chi2_per_dof,degrees_of_freedom,r_squared,biperiodic_width,biperiodic_mean,"
+        "biperiodic_sd,biperiodic_n,parameters\n"
+        "MSP,solid_fraction,not determined,\"needs settled packings at 3 or more widths with "
+        "otherwise equal parameters, has 1\",1,1,,,,,,,,,,,,,,,\"{\"\"box\"\":{}}\"\n"
+        "MSP,coordination,not determined,\"needs settled packings at 3 or more widths with "
+        "otherwise equal parameters, has 1\",1,1,,,,,,,,,,,,,,,\"{\"\"box\"\":{}}\"\n");
+}
+
+TEST_CASE("the table of a fit has the periodic value beside it") {
+  std::vector<Row> rows;
+  for (const double width : {4.0, 5.0, 10.0, 20.0}) add_width(rows, width, 0.001);
+  rows.push_back(settled_row("p", 20, 0.6390, 6.05, Boundary::periodic));
+  const std::string text = fits_csv(families_of(groups_of(rows)));
+  CHECK_THAT(text, Catch::Contains("MSP,solid_fraction,determined,,4,8,standard error of the "
+                                   "replicates,0.64"));
+  CHECK_THAT(text, Catch::Contains(",20,0.639,,1,"));
+  CHECK_THAT(text, Catch::Contains(",20,6.05,,1,"));
+}
+
+}  // namespace
+}  // namespace grainsweep

@@ -1,0 +1,71 @@
+#include <cmath>
+
+#include <catch2/catch.hpp>
+
+#include "runner/tables/groups.hpp"
+#include "tests/runner/sample_rows.hpp"
+
+namespace grainsweep {
+namespace {
+
+TEST_CASE("mean and standard deviation of known values") {
+  const Spread spread = spread_of(std::vector<double>{1, 2, 4});
+  CHECK(spread.mean == Approx(7.0 / 3.0));
+  CHECK(spread.sd == Approx(std::sqrt(7.0 / 3.0)));
+  CHECK(spread.n == 3);
+  CHECK(standard_error(spread) == Approx(std::sqrt(7.0) / 3.0));
+}
+
+TEST_CASE("one value has a mean but no scatter, none has neither") {
+  CHECK(spread_of(std::vector<double>{5}).mean == 5.0);
+  CHECK(std::isnan(spread_of(std::vector<double>{5}).sd));
+  CHECK(std::isnan(spread_of(std::vector<double>{}).mean));
+  CHECK(std::isnan(standard_error(spread_of(std::vector<double>{5}))));
+}
+
+TEST_CASE("replicates form a group, only the settled ones enter its means") {
+  Row pending = settled_row("d", 5, 0.9, 9);
+  pending.outcome.reset();
+  const auto groups = groups_of(
+      {settled_row("a", 5, 0.60, 5.8), settled_row("x", 6, 0.7, 7), settled_row("b", 5, 0.62, 6.0),
+       row_with_status("c", 5, PackingStatus::not_settled, "moves"),
+       row_with_status("e", 5, PackingStatus::failed, "no room"), pending});
+  REQUIRE(groups.size() == 2);
+  CHECK(groups[0].job.box.width == 5);
+  CHECK(groups[0].solid_fraction.mean == Approx(0.61));
+  CHECK(groups[0].solid_fraction.sd == Approx(0.02 / std::sqrt(2.0)));
+  CHECK(groups[0].coordination.mean == Approx(5.9));
+  CHECK(groups[0].coordination_with_walls.mean == Approx(6.15));
+  CHECK(groups[0].contact_ratio.mean == Approx(5990.0 / 5991.0));
+  CHECK(groups[0].counts.settled == 2);
+  CHECK(groups[0].counts.not_settled == 1);
+  CHECK(groups[0].counts.failed == 1);
+  CHECK(groups[0].counts.pending == 1);
+}
+
+TEST_CASE("packings of different labels are different groups") {
+  Row other = settled_row("b", 5, 0.62, 6.0);
+  other.job.label = "again";
+  CHECK(groups_of({settled_row("a", 5, 0.60, 5.8), other}).size() == 2);
+}
+
+TEST_CASE("the groups table as a whole") {
+  Row first = settled_row("a", 5, 0.5, 5.75), second = settled_row("b", 5, 0.75, 6.25);
+  Row third = row_with_status("c", 6, PackingStatus::not_settled, "moves");
+  for (Row* row : {&first, &second, &third}) {
+    row->job.parameters = row->job.box.width == 5 ? R"({"a":5})" : R"({"a":6,"b":1})";
+    row->outcome->result.rest.contacts = row->outcome->result.rest.isostatic_contacts;
+  }
+  CHECK(groups_csv(groups_of({first, second, third})) ==
+        "label,shape,length,width,boundary_x,boundary_y,small_share,accuracy,n,not_settled,failed,"
+        "pending,solid_fraction,solid_fraction_sd,coordination,coordination_sd,"
+        "coordination_with_walls,coordination_with_walls_sd,contact_ratio,contact_ratio_sd,"
+        "overlap_mean,overlap_mean_sd,parameters\n"
+        "MSP,sphere,20,5,periodic,walls,0,balanced,2,0,0,0,0.625,0.1767766952966369,6,"
+        "0.3535533905932738,6.25,0.3535533905932738,1,0,8e-05,0,\"{\"\"a\"\":5}\"\n"
+        "MSP,sphere,20,6,periodic,walls,0,balanced,0,1,0,0,,,,,,,,,,,\"{\"\"a\"\":6,\"\"b\"\":1}\""
+        "\n");
+}
+
+}  // namespace
+}  // namespace grainsweep

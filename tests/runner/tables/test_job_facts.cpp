@@ -1,0 +1,88 @@
+#include <cmath>
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "engine/dynamics/presets.hpp"
+#include "runner/tables/job_facts.hpp"
+#include "tests/runner/sample_rows.hpp"
+
+namespace grainsweep {
+namespace {
+
+Job sample_source() {
+  Job job;
+  job.id = "0123456789abcdef";
+  job.label = "MSP";
+  job.parameters = sample_parameters(5.0, Boundary::walls, 0.25);
+  job.replicate = 2;
+  job.seed = 18446744073709551615u;
+  job.spec.box = {20.0, 5.0, Boundary::periodic, Boundary::walls};
+  job.spec.sizes.small_share = 0.25;
+  job.spec.accuracy = presets().front().accuracy;
+  return job;
+}
+
+TEST_CASE("facts name what a job is made of") {
+  const SweepFacts facts = facts_of(Sweep{"s", 7, 3, {sample_source()}});
+  REQUIRE(facts.jobs.size() == 1);
+  const JobFacts& job = facts.jobs[0];
+  CHECK(job.id == "0123456789abcdef");
+  CHECK(job.shape == "sphere");
+  CHECK(job.accuracy == presets().front().name);
+  CHECK(job.small_share == 0.25);
+  CHECK(job.box.y == Boundary::walls);
+}
+
+TEST_CASE("an accuracy that is no preset is called custom") {
+  Job job = sample_source();
+  job.spec.accuracy.max_steps = 31;
+  CHECK(facts_of(Sweep{"s", 7, 1, {job}}).jobs[0].accuracy == "custom");
+}
+
+TEST_CASE("facts read back from JSON are the same, equal parameters kept once") {
+  Job second = sample_source();
+  second.id = "fedcba9876543210";
+  second.replicate = 3;
+  const SweepFacts facts = facts_of(Sweep{"s", 7, 3, {sample_source(), second}});
+  const nlohmann::json json = to_json(facts);
+  CHECK(json.at("parameter_sets").size() == 1);
+  const SweepFacts back = sweep_facts_from_json(nlohmann::json::parse(json.dump()));
+  CHECK(to_json(back) == json);
+  CHECK(back.name == "s");
+  REQUIRE(back.jobs.size() == 2);
+  CHECK(back.jobs[1].replicate == 3);
+  CHECK(back.jobs[1].seed == 18446744073709551615u);
+  CHECK(back.jobs[1].box.width == 5.0);
+  CHECK(back.jobs[1].measure.gap_tolerances == facts.jobs[1].measure.gap_tolerances);
+}
+
+TEST_CASE("JSON with a job of no known parameter set is refused") {
+  nlohmann::json json = to_json(facts_of(Sweep{"s", 7, 1, {sample_source()}}));
+  json["jobs"][0]["set"] = 1;
+  CHECK_THROWS_AS(sweep_facts_from_json(json), nlohmann::json::exception);
+}
+
+TEST_CASE("rows follow the sweep's order and leave other jobs out") {
+  const SweepFacts sweep{"s", {sample_job("b", 5), sample_job("a", 5), sample_job("c", 5)}};
+  const auto rows = join(sweep, {{"a", sample_outcome("a", 0.6, 6)},
+                                 {"b", sample_outcome("b", 0.6, 6)},
+                                 {"x", sample_outcome("x", 0.6, 6)}});
+  REQUIRE(rows.size() == 3);
+  CHECK(rows[0].job.id == "b");
+  CHECK(rows[1].outcome->job == "a");
+  CHECK(status_of(rows[2]) == "pending");
+}
+
+TEST_CASE("only a settled packing counts as settled, an unsettled one is still measured") {
+  CHECK(is_settled(settled_row("a", 5, 0.6, 6)));
+  const Row unsettled = row_with_status("a", 5, PackingStatus::not_settled, "moves");
+  CHECK_FALSE(is_settled(unsettled));
+  CHECK(is_measured(unsettled));
+  const Row failed = row_with_status("a", 5, PackingStatus::failed, "no room");
+  CHECK_FALSE(is_measured(failed));
+  CHECK(std::isnan(headline_coordination(failed).between_grains));
+}
+
+}  // namespace
+}  // namespace grainsweep

@@ -1,0 +1,66 @@
+#include <algorithm>
+
+#include <catch2/catch.hpp>
+
+#include "runner/tables/packings.hpp"
+#include "tests/runner/sample_rows.hpp"
+
+namespace grainsweep {
+namespace {
+
+Row with_two_tolerances(Row row) {
+  row.job.measure.gap_tolerances = {1e-4, 1e-5};
+  return row;
+}
+
+const std::string header =
+    "job,label,replicate,seed,shape,grains,width,boundary_y,small_share,status,solid_fraction,"
+    "coordination,coordination_with_walls,contacts,isostatic_contacts,overlap_mean,overlap_max,"
+    "residual,kinetic_energy,steps,iterations,cpu_seconds,length,boundary_x,accuracy,"
+    "gap_tolerance,coordination_at_1e-05,coordination_with_walls_at_1e-05,surface_height,"
+    "slab_bottom,slab_top,largest_motion,state_hash,reason\n";
+
+TEST_CASE("a settled packing is written with every value") {
+  CHECK(packings_csv({with_two_tolerances(settled_row("a1", 5, 0.6125, 5.75))}) ==
+        header +
+            "a1,MSP,1,7,sphere,2000,5,walls,0,settled,0.6125,5.75,6,5990,5991,8e-05,3e-04,5e-04,"
+            "1e-09,265,20000,0.75,20,periodic,balanced,1e-04,5.625,5.75,15.5,3,12.5,2e-05,"
+            "abcdef0123456789,\n");
+}
+
+TEST_CASE("an unsettled packing keeps its values beside its status and reason") {
+  const Row row =
+      with_two_tolerances(row_with_status("a1", 5, PackingStatus::not_settled, "moves, still"));
+  const std::string text = packings_csv({row});
+  CHECK_THAT(text, Catch::Contains(",not_settled,0.5,5,5.25,"));
+  CHECK_THAT(text, Catch::EndsWith(",\"moves, still\"\n"));
+}
+
+TEST_CASE("failed and pending packings have no numbers where nothing was measured") {
+  Row pending = with_two_tolerances(settled_row("a2", 6, 0.6, 6));
+  pending.outcome.reset();
+  const Row failed =
+      with_two_tolerances(row_with_status("a1", 5, PackingStatus::failed, "no room"));
+  CHECK(packings_csv({failed, pending}) ==
+        header +
+            "a1,MSP,1,7,sphere,2000,5,walls,0,failed,,,,,,,,,,265,20000,0.75,20,periodic,balanced,"
+            "1e-04,,,,,,,,no room\n"
+            "a2,MSP,1,7,sphere,,6,walls,0,pending,,,,,,,,,,,,,20,periodic,balanced,1e-04,,,,,,,,"
+            "\n");
+}
+
+TEST_CASE("every row has as many cells as the header, whatever tolerances its job has") {
+  Row other = settled_row("a2", 6, 0.6, 6);
+  other.job.measure.gap_tolerances = {1e-5, 1e-4};
+  const std::string text = packings_csv({with_two_tolerances(settled_row("a1", 5, 0.6, 6)), other});
+  std::size_t begin = 0;
+  for (int line = 0; line < 3; ++line) {
+    const std::size_t end = text.find('\n', begin);
+    CHECK(std::count(text.begin() + static_cast<long>(begin), text.begin() + static_cast<long>(end),
+                     ',') == 35);
+    begin = end + 1;
+  }
+}
+
+}  // namespace
+}  // namespace grainsweep

@@ -1,0 +1,83 @@
+#include <regex>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+#include "runner/export.hpp"
+
+namespace grainsweep {
+namespace {
+
+StoredBed sample_bed() {
+  StoredBed bed;
+  bed.box = {20.0, 5.5, Boundary::periodic, Boundary::walls};
+  bed.grains = {{0.1, 1.0 / 3.0, 0.5, 0.5, 2.75, 6}, {19.25, 5.0, 1.5, 0.25, 1e-300, 0}};
+  return bed;
+}
+
+/// The numbers in the array called `name` of a VTP file.
+std::vector<double> vtp_array(const std::string& text, const std::string& name) {
+  const std::regex pattern("Name=\"" + name + "\"[^>]*format=\"ascii\">([^<]*)</DataArray>");
+  std::smatch match;
+  REQUIRE(std::regex_search(text, match, pattern));
+  std::istringstream numbers(match[1].str());
+  std::vector<double> values;
+  for (std::string number; numbers >> number;) values.push_back(std::stod(number));
+  return values;
+}
+
+TEST_CASE("CSV holds a row per grain that reads back exactly") {
+  CHECK(grains_csv(sample_bed()) ==
+        "x,y,z,radius,force,coordination\n"
+        "0.1,0.3333333333333333,0.5,0.5,2.75,6\n"
+        "19.25,5,1.5,0.25,1e-300,0\n");
+}
+
+TEST_CASE("extended XYZ holds count, box, periodic axes and a line per grain") {
+  CHECK(grains_xyz(sample_bed()) ==
+        "2\n"
+        "Lattice=\"20 0 0 0 5.5 0 0 0 1.75\" "
+        "Properties=species:S:1:pos:R:3:radius:R:1:coordination:I:1:force:R:1 pbc=\"T F F\"\n"
+        "grain 0.1 0.3333333333333333 0.5 0.5 6 2.75\n"
+        "grain 19.25 5 1.5 0.25 0 1e-300\n");
+}
+
+TEST_CASE("VTP arrays read back as the grains") {
+  const std::string text = grains_vtp(sample_bed());
+  CHECK_THAT(text, Catch::Contains("NumberOfPoints=\"2\"") && Catch::EndsWith("</VTKFile>\n"));
+  CHECK(vtp_array(text, "Points") == std::vector<double>{0.1, 1.0 / 3.0, 0.5, 19.25, 5.0, 1.5});
+  CHECK(vtp_array(text, "radius") == std::vector<double>{0.5, 0.25});
+  CHECK(vtp_array(text, "coordination") == std::vector<double>{6, 0});
+  CHECK(vtp_array(text, "force") == std::vector<double>{2.75, 1e-300});
+  CHECK(vtp_array(text, "connectivity") == std::vector<double>{0, 1});
+  CHECK(vtp_array(text, "offsets") == std::vector<double>{1, 2});
+}
+
+TEST_CASE("every opened element of a VTP file is closed, innermost first") {
+  const std::string text = grains_vtp(sample_bed());
+  const std::regex element("<(/?)([A-Za-z]+)[^>]*>");
+  std::vector<std::string> open;
+  for (std::sregex_iterator tag(text.begin(), text.end(), element), end; tag != end; ++tag) {
+    if ((*tag)[1].length() == 0) {
+      open.push_back((*tag)[2]);
+    } else {
+      REQUIRE(!open.empty());
+      CHECK(open.back() == (*tag)[2].str());
+      open.pop_back();
+    }
+  }
+  CHECK(open.empty());
+}
+
+TEST_CASE("formats are called by the ending of their files") {
+  for (const auto format : {ExportFormat::csv, ExportFormat::xyz, ExportFormat::vtp}) {
+    CHECK(export_format(name_of(format)) == format);
+  }
+  CHECK_FALSE(export_format("VTP"));
+  CHECK(grains_text(sample_bed(), ExportFormat::vtp) == grains_vtp(sample_bed()));
+}
+
+}  // namespace
+}  // namespace grainsweep

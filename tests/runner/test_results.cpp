@@ -1,0 +1,73 @@
+#include <catch2/catch.hpp>
+
+#include "runner/exit_codes.hpp"
+#include "runner/results.hpp"
+#include "runner/store/files.hpp"
+#include "runner/store/journal.hpp"
+#include "runner/store/states.hpp"
+#include "tests/runner/sample_rows.hpp"
+#include "tests/runner/temporary_folder.hpp"
+
+namespace grainsweep {
+namespace {
+
+Provenance sample_provenance() {
+  Provenance provenance;
+  provenance.sweep_file = "a.json";
+  provenance.sweep = {"a", {sample_job("a1", 5), sample_job("a2", 6)}};
+  provenance.runs.emplace_back();
+  return provenance;
+}
+
+TEST_CASE("tables and journals are enough to know a folder's results") {
+  const TemporaryFolder folder;
+  Journal journal(folder.path());
+  journal.append(sample_outcome("a2", 0.6, 6));
+  journal.append(sample_outcome("other", 0.6, 6));
+  write_tables(folder.path(), sample_provenance(), {});
+  const Results results = read_results(folder.path());
+  REQUIRE(results.rows.size() == 2);
+  CHECK(status_of(results.rows[0]) == "pending");
+  CHECK(status_of(results.rows[1]) == "settled");
+  CHECK(results.foreign == 1);
+  CHECK(stored_packings(folder.path()) == 2);
+  CHECK(recorded_runs(folder.path()).size() == 1);
+}
+
+TEST_CASE("a folder without results is refused, and so is a broken provenance") {
+  const TemporaryFolder folder;
+  CHECK_THROWS_AS(read_results(folder.path()), BadInput);
+  CHECK(recorded_runs(folder.path()).empty());
+  replace_file(folder.path() + "/provenance.json", "{");
+  CHECK_THROWS_WITH(read_results(folder.path()), Catch::Contains("run the sweep again"));
+  CHECK(recorded_runs(folder.path()).empty());
+}
+
+TEST_CASE("a packing counts as finished with its grains stored and without an exception") {
+  const TemporaryFolder folder;
+  Outcome whole = sample_outcome("whole", 0.6, 6), lost = whole, thrown = whole, failed = whole;
+  whole.stored_grains = lost.stored_grains = 1;
+  thrown.threw = true;
+  failed.result.status = PackingStatus::failed;
+  write_bed(folder.path(), "whole", {{}, {{}}});
+  const auto finished = finished_outcomes(
+      folder.path(), {{"whole", whole}, {"lost", lost}, {"thrown", thrown}, {"failed", failed}});
+  CHECK(finished.size() == 2);
+  CHECK(finished.contains("whole"));
+  CHECK(finished.contains("failed"));
+}
+
+TEST_CASE("removing results leaves other files alone") {
+  const TemporaryFolder folder;
+  Journal(folder.path()).append(sample_outcome("a1", 0.6, 6));
+  write_bed(folder.path(), "a1", {});
+  write_tables(folder.path(), sample_provenance(), {});
+  replace_file(folder.path() + "/notes.txt", "mine");
+  replace_file(folder.path() + "/states/notes.txt", "mine");
+  remove_results(folder.path());
+  CHECK(files_in(folder.path(), "", "") == std::vector<std::string>{"notes.txt", "states"});
+  CHECK(files_in(folder.path() + "/states", "", "") == std::vector<std::string>{"notes.txt"});
+}
+
+}  // namespace
+}  // namespace grainsweep
