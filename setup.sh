@@ -9,16 +9,20 @@ readonly build_packages=(
   catch2 libbenchmark-dev
 )
 readonly check_packages=(clang-format clang-tidy)
+readonly emulator_packages=(
+  bochs bochs-term bochsbios vgabios isolinux syslinux-common genisoimage cpio busybox-static
+)
 
 usage() {
   cat <<'EOF'
-usage: ./setup.sh [--checks]
+usage: ./setup.sh [--checks] [--emulator]
 
 Installs the packages that building and testing grainsweep takes, with apt-get, as root or through
 sudo. Only what is missing is installed; with nothing missing it ends at once.
 
-  --checks   also clang-format and clang-tidy, for the checks of .ci/run
-  --help     this text
+  --checks    also clang-format and clang-tidy, for the checks of .ci/run
+  --emulator  also a PC emulator with AVX-512, for tests/checks/avx512_emulated.sh
+  --help      this text
 EOF
 }
 
@@ -74,6 +78,7 @@ packages=("${build_packages[@]}")
 while (($#)); do
   case $1 in
     --checks) packages+=("${check_packages[@]}") ;;
+    --emulator) packages+=("${emulator_packages[@]}") ;;
     -h | --help) usage && exit 0 ;;
     *) usage >&2 && stop "unknown option $1" ;;
   esac
