@@ -8,45 +8,21 @@
 #include "engine/contact/contacts.hpp"
 #include "tests/support/brute_force.hpp"
 #include "tests/support/draw.hpp"
-#include "tests/support/instruction_sets.hpp"
+#include "tests/support/named_contacts.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace grainsweep {
 namespace {
 
 using testing::Draw;
+using testing::impulses_of;
 using testing::periodic;
+using testing::visit_named;
 using testing::walls;
 
-/// Two sides of a contact: grains a < b, or grain a and grains + k for wall k.
-using Name = std::pair<std::int32_t, std::int32_t>;
+using Name = testing::ContactName;
 
 const Kernels& kernels() { return kernels_for(best_isa()); }
-
-std::int32_t index_of_wall(const std::vector<WallRows>& rows, std::size_t block) {
-  for (std::size_t k = 0; k < rows.size(); ++k) {
-    if (rows[k].first <= block && block < rows[k].first + rows[k].blocks) {
-      return static_cast<std::int32_t>(k);
-    }
-  }
-  return -1;
-}
-
-/// Calls visit(name, block, lane) for every row that is not void.
-template <class Real, class Visit>
-void visit_named(const SphereBed& bed, const Contacts<Real>& contacts, Visit visit) {
-  for (std::size_t block = 0; block < contacts.rows.size(); ++block) {
-    for (std::size_t lane = 0; lane < block_width; ++lane) {
-      const RowBlock<Real>& r = contacts.rows[block];
-      if (r.a[lane] == bed.void_a()) {
-        continue;
-      }
-      const bool is_pair = block < contacts.pair_blocks;
-      const std::int32_t wall = is_pair ? 0 : index_of_wall(contacts.walls, block);
-      visit(Name{r.a[lane], is_pair ? r.b[lane] : bed.wall() + wall}, block, lane);
-    }
-  }
-}
 
 std::set<Name> names_of(const SphereBed& bed, const Candidates& candidates) {
   std::set<Name> names = testing::listed_pairs(candidates);
@@ -56,15 +32,6 @@ std::set<Name> names_of(const SphereBed& bed, const Candidates& candidates) {
     }
   }
   return names;
-}
-
-template <class Real>
-std::map<Name, Real> impulses_of(const SphereBed& bed, const Contacts<Real>& contacts) {
-  std::map<Name, Real> impulses;
-  visit_named(bed, contacts, [&](const Name& name, std::size_t block, std::size_t lane) {
-    REQUIRE(impulses.insert({name, contacts.impulse[block * block_width + lane]}).second);
-  });
-  return impulses;
 }
 
 /// No lane of a block names a grain that another lane names; the rest are void and without impulse.
@@ -92,9 +59,9 @@ void expect_right_layout(const SphereBed& bed, const Candidates& candidates,
   REQUIRE(contacts.impulse.size() == contacts.rows.size() * block_width);
   expect_independent_lanes(bed, contacts);
   std::set<Name> laid_out;
-  for (const auto& [name, impulse] : impulses_of(bed, contacts)) {
-    laid_out.insert(name);
-  }
+  visit_named(bed, contacts, [&](const Name& name, std::size_t, std::size_t) {
+    REQUIRE(laid_out.insert(name).second);
+  });
   CHECK(laid_out == names_of(bed, candidates));
 }
 

@@ -1,0 +1,41 @@
+#include <catch2/catch.hpp>
+
+#include "engine/dynamics/presets.hpp"
+
+namespace grainsweep {
+namespace {
+
+TEST_CASE("a preset is found by its name, and only by it") {
+  for (const Preset& known : presets()) {
+    CHECK(preset(known.name) == known.accuracy);
+    CHECK_FALSE(known.promise.empty());
+  }
+  CHECK(preset("fast"));
+  CHECK(preset("balanced"));
+  CHECK(preset("accurate"));
+  CHECK_FALSE(preset(""));
+  CHECK_FALSE(preset("Fast"));
+}
+
+TEST_CASE("every preset asks for more than the one before it, and allows it more") {
+  for (std::size_t k = 1; k < presets().size(); ++k) {
+    const Accuracy &coarse = presets()[k - 1].accuracy, &fine = presets()[k].accuracy;
+    CHECK(fine.residual_tolerance < coarse.residual_tolerance);
+    CHECK(fine.kinetic_tolerance < coarse.kinetic_tolerance);
+    CHECK(fine.contact_tolerance < coarse.contact_tolerance);
+    CHECK(fine.overlap_tolerance < coarse.overlap_tolerance);
+    CHECK(fine.fall_iterations > coarse.fall_iterations);
+    CHECK(fine.rest_iterations > coarse.rest_iterations);
+  }
+}
+
+TEST_CASE("every preset obeys the rules of a specification") {
+  for (const Preset& known : presets()) {
+    PackingSpec spec;
+    spec.accuracy = known.accuracy;
+    CHECK(check(spec).empty());
+  }
+}
+
+}  // namespace
+}  // namespace grainsweep

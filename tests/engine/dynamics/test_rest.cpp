@@ -1,0 +1,196 @@
+#include <cmath>
+#include <limits>
+
+#include <catch2/catch.hpp>
+
+#include "engine/dynamics/rest.hpp"
+#include "tests/support/named_contacts.hpp"
+#include "tests/support/scenes.hpp"
+
+namespace grainsweep {
+namespace {
+
+using testing::ContactName;
+using testing::periodic;
+using testing::wall_name;
+using testing::walls;
+
+const Kernels& kernels() { return kernels_for(best_isa()); }
+
+constexpr double dt = 0.5;
+constexpr double one_weight = dt * dt;  // impulse of a force of 1 m g
+
+/// A bed and its contacts, which push as told.
+struct Pushed {
+  SphereBed bed;
+  Contacts<double> contacts;
+
+  Pushed(const Box& box, const std::vector<PlacedSphere>& spheres) : bed(make_bed(box, spheres)) {
+    contacts = testing::contacts_of<double>(bed, 0.1, kernels());
+  }
+  /// Force of the contact of grain a and grain b, m g.
+  Pushed& with_pair(std::int32_t a, std::int32_t b, double force) {
+    testing::set_impulses(bed, {{ContactName{a, b}, force * one_weight}}, contacts);
+    return *this;
+  }
+  /// Force of the contact of grain a and wall k, m g; 0 is the floor.
+  Pushed& with_wall(std::int32_t a, std::size_t k, double force) {
+    return with_pair(a, wall_name(bed, k), force);
+  }
+  std::int64_t modes() const { return zero_modes(bed, contacts, dt); }
+};
+
+constexpr Box x_periodic{6, 4, periodic, walls};
+constexpr Box all_walled{6, 4, walls, walls};
+
+TEST_CASE("a grain alone on the floor slides freely in two directions") {
+  CHECK(Pushed(x_periodic, {{2, 2, 0.5, 0.5}}).with_wall(0, 0, 1).modes() == 2);
+}
+
+TEST_CASE("a wall that pushes takes a grain's freedom along its axis") {
+  CHECK(Pushed(x_periodic, {{2, 0.5, 0.5, 0.5}}).with_wall(0, 0, 1).with_wall(0, 1, 1).modes() ==
+        1);
+  CHECK(Pushed(all_walled, {{5.5, 2, 0.5, 0.5}}).with_wall(0, 0, 1).with_wall(0, 2, 1).modes() ==
+        1);
+  CHECK(Pushed(all_walled, {{0.5, 0.5, 0.5, 0.5}})
+            .with_wall(0, 0, 1)
+            .with_wall(0, 1, 1)
+            .with_wall(0, 3, 1)
+            .modes() == 0);
+}
+
+TEST_CASE("a wall that a grain only touches takes no freedom") {
+  CHECK(Pushed(x_periodic, {{2, 0.5, 0.5, 0.5}}).with_wall(0, 0, 1).with_wall(0, 1, 1e-7).modes() ==
+        2);
+}
+
+TEST_CASE("every cluster that stands on the floor has its own free directions") {
+  const std::vector<PlacedSphere> spheres = {{2, 2, 0.5, 0.5}, {3, 2, 0.5, 0.5}};
+  CHECK(Pushed(x_periodic, spheres).with_wall(0, 0, 1).with_wall(1, 0, 1).modes() == 4);
+  CHECK(Pushed(x_periodic, spheres)
+            .with_wall(0, 0, 1)
+            .with_wall(1, 0, 1)
+            .with_pair(0, 1, 1)
+            .modes() == 2);
+}
+
+TEST_CASE("a wall that pushes one grain of a cluster holds the whole cluster") {
+  Pushed state(x_periodic, {{2, 0.5, 0.5, 0.5}, {2, 1.3, 1.1, 0.5}, {2, 3, 0.5, 0.5}});
+  state.with_wall(0, 0, 2).with_wall(0, 1, 1).with_pair(0, 1, 1).with_wall(2, 0, 1);
+  CHECK(state.modes() == 1 + 2);
+}
+
+TEST_CASE("grains in mid-air have no free directions on the floor, nor has an empty bed") {
+  CHECK(Pushed(x_periodic, {{2, 2, 3, 0.5}}).modes() == 0);
+  CHECK(Pushed(x_periodic, {}).modes() == 0);
+}
+
+TEST_CASE("contacts that bear force are counted against three per grain less the free modes") {
+  Pushed state(x_periodic, {{2, 0.5, 0.5, 0.5}, {2, 1.3, 1.1, 0.5}, {2, 3, 0.5, 0.5}});
+  state.with_wall(0, 0, 2).with_wall(0, 1, 1).with_pair(0, 1, 1).with_wall(2, 0, 1);
+  state.with_pair(1, 2, 0.5 * least_force);
+  const RestReport rest = certify(state.bed, kernels(), dt, state.contacts);
+  CHECK(rest.contacts == 4);
+  CHECK(rest.isostatic_contacts == 9 - 3);
+}
+
+TEST_CASE("overlaps are those of force-bearing contacts, measured anew") {
+  Pushed state(x_periodic, {{2, 2, 0.49, 0.5}, {2, 2, 1.46, 0.5}, {2, 2, 2.41, 0.5}});
+  state.with_wall(0, 0, 2).with_pair(0, 1, 1);  // the third pair, .05 deep, does not push
+  detect(state.bed, kernels(), 0.1, state.contacts);
+  const RestReport rest = certify(state.bed, kernels(), dt, state.contacts);
+  CHECK(rest.overlap_max == Approx(0.03));
+  CHECK(rest.overlap_mean == Approx(0.02));
+}
+
+TEST_CASE("open contacts count as no overlap in the mean") {
+  Pushed state(x_periodic, {{2, 2, 0.49, 0.5}, {2, 2, 1.54, 0.5}});
+  state.with_wall(0, 0, 2).with_pair(0, 1, 1);
+  const RestReport rest = certify(state.bed, kernels(), dt, state.contacts);
+  CHECK(rest.overlap_mean == Approx(0.005));
+  CHECK(rest.overlap_max == Approx(0.01));
+}
+
+TEST_CASE("a bed without contacts has no overlap") {
+  Pushed state(x_periodic, {{2, 2, 3, 0.5}});
+  const RestReport rest = certify(state.bed, kernels(), dt, state.contacts);
+  CHECK(rest.contacts == 0);
+  CHECK(rest.overlap_mean == 0);
+  CHECK(rest.isostatic_contacts == 3);
+}
+
+TEST_CASE("the carried weight is the floor's share of all weights") {
+  Pushed state(x_periodic, {{2, 0.5, 0.5, 0.5}, {2, 2, 0.25, 0.25}, {4, 2, 3, 0.5}});
+  state.with_wall(0, 0, 1).with_wall(1, 0, 0.125).with_wall(0, 1, 7);
+  CHECK(carried_weight(state.bed, state.contacts, dt) == Approx(1.125 / 2.125));
+  Pushed none(x_periodic, {});
+  CHECK(carried_weight(none.bed, none.contacts, dt) == 1);
+}
+
+TEST_CASE("forces are summed over all contacts of a grain, walls included") {
+  Pushed state(x_periodic, {{2, 0.5, 0.5, 0.5}, {2, 1.3, 1.1, 0.5}, {4, 2, 3, 0.5}});
+  state.with_wall(0, 0, 2).with_wall(0, 1, 1.25).with_pair(0, 1, 1.5);
+  const auto force = force_sums(state.bed, state.contacts, dt);
+  REQUIRE(force.size() == 3);
+  CHECK(force[0] == Approx(4.75));
+  CHECK(force[1] == Approx(1.5));
+  CHECK(force[2] == 0);
+}
+
+RestReport perfect_rest() {
+  RestReport rest;
+  rest.contacts = rest.isostatic_contacts = 1000;
+  return rest;
+}
+
+TEST_CASE("a bed within every tolerance is at rest") {
+  const Accuracy accuracy;
+  RestReport rest = perfect_rest();
+  CHECK(why_not_at_rest(rest, accuracy).empty());
+  rest.residual = accuracy.residual_tolerance;
+  rest.kinetic_energy = accuracy.kinetic_tolerance;
+  rest.overlap_mean = accuracy.overlap_tolerance;
+  rest.contacts = 1000 + static_cast<std::int64_t>(1000 * accuracy.contact_tolerance);
+  CHECK(why_not_at_rest(rest, accuracy).empty());
+}
+
+TEST_CASE("the test of rest that failed is named with value and tolerance") {
+  Accuracy accuracy;
+  accuracy.residual_tolerance = 5e-3;
+  accuracy.kinetic_tolerance = 2e-4;
+  accuracy.overlap_tolerance = 1e-5;
+  accuracy.contact_tolerance = 0.04;
+  RestReport residual = perfect_rest(), kinetic = residual, overlap = residual, many = residual;
+  residual.residual = 0.25;
+  kinetic.kinetic_energy = 0.125;
+  overlap.overlap_mean = 2e-3;
+  many.contacts = 1100;
+  CHECK(why_not_at_rest(residual, accuracy) == "force residual 0.25 m g exceeds 0.005");
+  CHECK(why_not_at_rest(kinetic, accuracy) ==
+        "kinetic energy 0.125 m g d per grain exceeds 0.0002");
+  CHECK(why_not_at_rest(overlap, accuracy) == "mean overlap 0.002 d exceeds 1e-05");
+  CHECK(why_not_at_rest(many, accuracy) ==
+        "contacts / isostatic count 1.1 misses 1 by more than 0.04");
+}
+
+TEST_CASE("too few contacts are as bad as too many") {
+  RestReport rest = perfect_rest();
+  rest.contacts = 900;
+  CHECK(why_not_at_rest(rest, Accuracy{}).find("0.9 misses 1") != std::string::npos);
+  rest.contacts = 0;
+  rest.isostatic_contacts = 3;
+  CHECK_FALSE(why_not_at_rest(rest, Accuracy{}).empty());
+}
+
+TEST_CASE("a number that is none never passes for rest") {
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  for (double RestReport::*value :
+       {&RestReport::residual, &RestReport::kinetic_energy, &RestReport::overlap_mean}) {
+    RestReport rest = perfect_rest();
+    rest.*value = none;
+    CHECK_FALSE(why_not_at_rest(rest, Accuracy{}).empty());
+  }
+}
+
+}  // namespace
+}  // namespace grainsweep

@@ -1,0 +1,183 @@
+#include <cmath>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+#include "engine/dynamics/presets.hpp"
+#include "engine/dynamics/settle.hpp"
+#include "engine/scene/start.hpp"
+#include "engine/units.hpp"
+#include "tests/support/brute_force.hpp"
+#include "tests/support/scenes.hpp"
+
+namespace grainsweep {
+namespace {
+
+using testing::periodic;
+using testing::walls;
+
+const KeepGoing always = [](const Progress&) { return true; };
+
+SettleReport settle_bed(SphereBed& bed, const Accuracy& accuracy = {}) {
+  return settle(accuracy, kernels_for(best_isa()), bed, always);
+}
+
+SphereBed small_bed(std::uint64_t key) {
+  PackingSpec spec;
+  spec.box = {4, 4, periodic, walls};
+  spec.fill = GrainCount{120};
+  spec.random_key = key;
+  return start(spec).value();
+}
+
+TEST_CASE("an empty bed is at rest") {
+  SphereBed bed = make_bed({4, 4, periodic, walls}, {});
+  const SettleReport report = settle_bed(bed);
+  CHECK(report.why_not.empty());
+  CHECK(report.rest.contacts == 0);
+  CHECK(report.force.empty());
+}
+
+TEST_CASE("a single grain comes to rest on the floor and carries its weight") {
+  for (const Precision precision : {Precision::f32, Precision::f64}) {
+    for (const double radius : {0.5, 0.2}) {
+      SphereBed bed = make_bed({4, 4, periodic, walls}, {{1, 3, 7, radius}});
+      Accuracy accuracy;
+      accuracy.precision = precision;
+      const SettleReport report = settle_bed(bed, accuracy);
+      CHECK(report.why_not == "");
+      CHECK(report.rest.contacts == 1);
+      CHECK(report.rest.isostatic_contacts == 1);
+      REQUIRE(report.force.size() == 1);
+      CHECK(report.force[0] == Approx(sphere_mass(radius)).margin(accuracy.residual_tolerance));
+      // A residual of r m g leaves a gap of r dt^2 / m in the last steps, of dt = .1.
+      const double gap = accuracy.residual_tolerance * 0.01 / sphere_mass(radius);
+      CHECK(bed.position[0].z == Approx(radius).margin(gap));
+      CHECK(bed.position[0].x == 1);
+      CHECK(bed.position[0].y == 3);
+    }
+  }
+}
+
+TEST_CASE("two grains far apart rest on the floor, one above the other rolls off it") {
+  SphereBed apart = make_bed({6, 6, periodic, walls}, {{1, 3, 2, 0.5}, {4, 3, 5, 0.5}});
+  const SettleReport report = settle_bed(apart);
+  CHECK(report.why_not == "");
+  CHECK(report.rest.contacts == 2);
+  CHECK(report.rest.isostatic_contacts == 2);
+  SphereBed above = make_bed({6, 6, periodic, walls}, {{2, 3, 0.5, 0.5}, {2.1, 3, 1.6, 0.5}});
+  settle_bed(above);
+  CHECK(above.position[0].z == Approx(0.5).margin(1e-4));
+  CHECK(above.position[1].z == Approx(0.5).margin(1e-4));
+  CHECK(testing::gap_of(above, 0, 1) > -1e-4);
+}
+
+TEST_CASE("a small bed comes to rest with as many contacts as hold it") {
+  for (const Precision precision : {Precision::f32, Precision::f64}) {
+    for (const std::uint64_t key : {1U, 2U}) {
+      INFO("precision " << static_cast<int>(precision) << ", key " << key);
+      SphereBed bed = small_bed(key);
+      Accuracy accuracy = *preset("balanced");
+      accuracy.precision = precision;
+      const SettleReport report = settle_bed(bed, accuracy);
+      CHECK(report.why_not == "");
+      CHECK_FALSE(report.cancelled);
+      CHECK(report.rest.residual <= accuracy.residual_tolerance);
+      CHECK(report.rest.overlap_mean <= accuracy.overlap_tolerance);
+      const auto isostatic = static_cast<double>(report.rest.isostatic_contacts);
+      CHECK(isostatic > 3 * 120 - 12);
+      CHECK(static_cast<double>(report.rest.contacts) ==
+            Approx(isostatic).epsilon(accuracy.contact_tolerance));
+      CHECK(report.iterations > report.steps);
+    }
+  }
+}
+
+TEST_CASE("every grain of a settled bed is carried: its forces exceed its weight") {
+  SphereBed bed = small_bed(3);
+  const SettleReport report = settle_bed(bed);
+  REQUIRE(report.why_not == "");
+  REQUIRE(report.force.size() == bed.grains());
+  for (std::size_t i = 0; i < bed.grains(); ++i) {
+    CHECK(report.force[i] > sphere_mass(bed.position[i].w) - 1e-2);
+  }
+}
+
+TEST_CASE("the observer is asked after every step and hears progress that never falls") {
+  SphereBed bed = small_bed(4);
+  std::vector<Progress> heard;
+  const SettleReport report =
+      settle({}, kernels_for(best_isa()), bed, [&](const Progress& progress) {
+        heard.push_back(progress);
+        return true;
+      });
+  REQUIRE(heard.size() == static_cast<std::size_t>(report.steps));
+  for (std::size_t k = 0; k < heard.size(); ++k) {
+    REQUIRE(heard[k].step == static_cast<std::int64_t>(k + 1));
+    REQUIRE(heard[k].share_done >= (k == 0 ? 0.0 : heard[k - 1].share_done));
+    REQUIRE(heard[k].share_done <= 1.0);
+  }
+  CHECK(heard.back().share_done > 0.7);
+}
+
+TEST_CASE("an observer that says no stops the bed at once, in any stage") {
+  for (const std::int64_t last : {1, 30, 90}) {
+    SphereBed bed = small_bed(5);
+    const SettleReport report =
+        settle({}, kernels_for(best_isa()), bed,
+               [last](const Progress& progress) { return progress.step < last; });
+    CHECK(report.cancelled);
+    CHECK(report.steps == last);
+  }
+}
+
+TEST_CASE("a bed that runs out of steps says which test of rest it failed") {
+  for (const int steps : {1, 10, 60}) {
+    SphereBed bed = small_bed(6);
+    Accuracy accuracy;
+    accuracy.max_steps = steps;
+    const SettleReport report = settle_bed(bed, accuracy);
+    CHECK(report.steps == steps);
+    CHECK_FALSE(report.cancelled);
+    CHECK_FALSE(report.why_not.empty());
+  }
+}
+
+// In a column the contacts are a third of what holds a bed: the count refuses what only symmetry
+// keeps standing.
+TEST_CASE("a column that stands by symmetry alone is not called settled") {
+  SphereBed bed = testing::column_bed(10, 0.0);
+  Accuracy accuracy;
+  accuracy.precision = Precision::f64;
+  accuracy.max_steps = 100;
+  const SettleReport report = settle_bed(bed, accuracy);
+  CHECK(report.rest.contacts == 10);
+  CHECK(report.rest.isostatic_contacts == 28);
+  CHECK(report.why_not.find("contacts / isostatic count") == 0);
+}
+
+TEST_CASE("grains placed on the same spot part and settle") {
+  SphereBed bed = make_bed({6, 6, periodic, walls}, {{2, 3, 0.5, 0.5}, {2, 3, 0.5, 0.5}});
+  settle_bed(bed);
+  for (std::size_t i = 0; i < 2; ++i) {
+    CHECK(std::isfinite(bed.position[i].x));
+    CHECK(bed.position[i].z > 0.49);
+  }
+  CHECK(testing::gap_of(bed, 0, 1) > -1e-3);
+}
+
+TEST_CASE("every solver offered settles a bed") {
+  for (const Solver solver : {Solver::projected_gauss_seidel, Solver::symmetric_gauss_seidel,
+                              Solver::accelerated_projected_gradient}) {
+    INFO("solver " << static_cast<int>(solver));
+    SphereBed bed = small_bed(7);
+    Accuracy accuracy = *preset("fast");
+    accuracy.solver = solver;
+    accuracy.precision = Precision::f64;
+    accuracy.rest_iterations = 1000;
+    CHECK(settle_bed(bed, accuracy).why_not == "");
+  }
+}
+
+}  // namespace
+}  // namespace grainsweep

@@ -1,0 +1,281 @@
+#include <cmath>
+
+#include <catch2/catch.hpp>
+
+#include "engine/dynamics/solve.hpp"
+#include "engine/scene/start.hpp"
+#include "tests/support/bits.hpp"
+#include "tests/support/dense_solver.hpp"
+#include "tests/support/draw.hpp"
+#include "tests/support/named_contacts.hpp"
+#include "tests/support/scenes.hpp"
+
+namespace grainsweep {
+namespace {
+
+using testing::DenseProblem;
+using testing::DenseSolution;
+using testing::Draw;
+using testing::periodic;
+using testing::walls;
+
+const Kernels& kernels() { return kernels_for(best_isa()); }
+
+constexpr Solver solvers[] = {Solver::projected_gauss_seidel, Solver::symmetric_gauss_seidel,
+                              Solver::accelerated_projected_gradient};
+
+/// Grains apart from each other, and free motions that would drive them into each other.
+template <class Real>
+struct StepProblem {
+  SphereBed bed;
+  Contacts<Real> contacts;
+  MotionColumns<Real> motion;
+};
+
+template <class Real>
+std::vector<Record<Real>> colliding_motion(const SphereBed& bed, Draw& draw) {
+  std::vector<Record<Real>> motion;
+  for (std::size_t i = 0; i < bed.motion.size(); ++i) {
+    const double size = i < bed.grains() ? 0.3 : 0.0;
+    const double x = draw.uniform(-size, size), y = draw.uniform(-size, size);
+    motion.push_back({static_cast<Real>(x), static_cast<Real>(y),
+                      static_cast<Real>(draw.uniform(-2 * size, 0.0)),
+                      static_cast<Real>(bed.motion[i].w)});
+  }
+  return motion;
+}
+
+template <class Real>
+StepProblem<Real> random_problem(std::int64_t grains, std::uint64_t seed) {
+  Draw draw(seed);
+  PackingSpec spec;
+  spec.box = {2.6, 2.6, draw.chance(0.5) ? periodic : walls, walls};
+  spec.fill = GrainCount{grains};
+  spec.sizes = {0.05, 0.2, 0.6};
+  spec.random_key = seed;
+  StepProblem<Real> problem{start(spec).value(), {}, {}};
+  problem.contacts = testing::contacts_of<Real>(problem.bed, 0.4, kernels());
+  problem.motion.free = colliding_motion<Real>(problem.bed, draw);
+  return problem;
+}
+
+template <class Real>
+DenseProblem dense(const StepProblem<Real>& problem) {
+  return testing::dense_problem(problem.bed, problem.contacts, problem.motion.free);
+}
+
+/// The impulses that the solver left, as the oracle counts its rows.
+template <class Real>
+DenseSolution state_left(const StepProblem<Real>& problem) {
+  std::vector<testing::Number> impulse;
+  visit_rows(problem.bed, problem.contacts,
+             [&](const RowBlock<Real>&, std::size_t, Real p) { impulse.push_back(p); });
+  return testing::state_of(dense(problem), impulse);
+}
+
+template <class Real>
+void expect_motion(const std::vector<Record<Real>>& u, const std::vector<testing::Number>& expected,
+                   double margin) {
+  for (std::size_t i = 0; i < u.size(); ++i) {
+    REQUIRE(u[i].x == Approx(static_cast<double>(expected[3 * i])).margin(margin));
+    REQUIRE(u[i].y == Approx(static_cast<double>(expected[3 * i + 1])).margin(margin));
+    REQUIRE(u[i].z == Approx(static_cast<double>(expected[3 * i + 2])).margin(margin));
+  }
+}
+
+/// Solves problems of 1 to 16 grains and compares the motion, which is unique, with the oracle's.
+template <class Real>
+void expect_oracle_motion(Solver solver, double tolerance, double margin) {
+  for (const std::int64_t grains : {1, 2, 5, 16}) {
+    for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+      INFO("solver " << static_cast<int>(solver) << ", " << grains << " grains, seed " << seed);
+      StepProblem<Real> problem = random_problem<Real>(grains, seed);
+      const DenseSolution expected = testing::solve_dense(dense(problem));
+      REQUIRE(expected.violation < 1e-15L);
+      solve({solver, 5000, tolerance}, kernels(), problem.contacts, problem.motion);
+      expect_motion(problem.motion.u, expected.u, margin);
+    }
+  }
+}
+
+TEST_CASE("every solver finds the motion of the reference solver in f64") {
+  for (const Solver solver : solvers) {
+    expect_oracle_motion<double>(solver, 1e-13, 1e-10);  // margin: tolerance times conditioning
+  }
+}
+
+TEST_CASE("every solver finds the motion of the reference solver in f32") {
+  for (const Solver solver : solvers) {
+    expect_oracle_motion<float>(solver, 0.0, 2e-4);  // margin: where Gauss-Seidel stalls in f32
+  }
+}
+
+TEST_CASE("contacts of the random problems do push") {
+  StepProblem<double> problem = random_problem<double>(16, 3);
+  solve({solvers[2], 5000, 1e-12}, kernels(), problem.contacts, problem.motion);
+  int pushing = 0;
+  visit_rows(problem.bed, problem.contacts,
+             [&](const RowBlock<double>&, std::size_t, double p) { pushing += p > 1e-6 ? 1 : 0; });
+  CHECK(pushing >= 16);
+}
+
+TEMPLATE_TEST_CASE("the residual reported is that of the impulses left behind", "", float, double) {
+  const double rounding = std::is_same_v<TestType, float> ? 1e-6 : 1e-14;
+  for (const Solver solver : solvers) {
+    for (const int iterations : {0, 1, 2, 7, 30}) {
+      INFO("solver " << static_cast<int>(solver) << ", " << iterations << " iterations");
+      StepProblem<TestType> problem = random_problem<TestType>(16, 4);
+      const SolveReport report =
+          solve({solver, iterations, 0.0}, kernels(), problem.contacts, problem.motion);
+      CHECK(report.iterations == iterations);
+      const DenseSolution left = state_left(problem);
+      CHECK(report.residual == Approx(static_cast<double>(left.violation)).margin(rounding));
+      expect_motion(problem.motion.u, left.u, rounding);
+    }
+  }
+}
+
+TEMPLATE_TEST_CASE("impulses never pull", "", float, double) {
+  for (const Solver solver : solvers) {
+    StepProblem<TestType> problem = random_problem<TestType>(16, 5);
+    solve({solver, 9, 0.0}, kernels(), problem.contacts, problem.motion);
+    visit_rows(problem.bed, problem.contacts,
+               [](const RowBlock<TestType>&, std::size_t, TestType p) { CHECK(p >= 0); });
+  }
+}
+
+/// Sum over the grains of m (u - free), and sum of the impulses that walls give to grains.
+struct Balance {
+  double change[3] = {0, 0, 0};
+  double pushes[3] = {0, 0, 0};
+};
+
+Balance balance_of(const StepProblem<double>& problem) {
+  Balance balance;
+  for (std::size_t i = 0; i < problem.bed.grains(); ++i) {
+    const Record<double>&u = problem.motion.u[i], &free = problem.motion.free[i];
+    balance.change[0] += (u.x - free.x) / u.w;
+    balance.change[1] += (u.y - free.y) / u.w;
+    balance.change[2] += (u.z - free.z) / u.w;
+  }
+  visit_rows(problem.bed, problem.contacts,
+             [&](const RowBlock<double>& r, std::size_t k, double p) {
+               const double push = r.b[k] == problem.bed.wall() ? p : 0.0;
+               balance.pushes[0] -= push * r.normal_x[k];
+               balance.pushes[1] -= push * r.normal_y[k];
+               balance.pushes[2] -= push * r.normal_z[k];
+             });
+  return balance;
+}
+
+TEST_CASE("the grains' change of momentum is what the walls give, converged or not") {
+  for (const Solver solver : solvers) {
+    for (const int iterations : {1, 5, 500}) {
+      for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+        StepProblem<double> problem = random_problem<double>(16, seed);
+        solve({solver, iterations, 0.0}, kernels(), problem.contacts, problem.motion);
+        const Balance balance = balance_of(problem);
+        for (int k = 0; k < 3; ++k) {
+          CHECK(balance.change[k] == Approx(balance.pushes[k]).margin(1e-13));
+        }
+        CHECK(balance.pushes[2] > 0.01);
+      }
+    }
+  }
+}
+
+TEMPLATE_TEST_CASE("a solve that starts from its solution is done after one look at it", "", float,
+                   double) {
+  for (const Solver solver : solvers) {
+    StepProblem<TestType> problem = random_problem<TestType>(16, 6);
+    const double tolerance = 1e-5;
+    const SolveReport first =
+        solve({solver, 5000, tolerance}, kernels(), problem.contacts, problem.motion);
+    REQUIRE(first.iterations > 1);
+    REQUIRE(first.iterations < 5000);
+    // A Gauss-Seidel sweep judges a row after those before it have moved: up to a few times worse.
+    const double again_tolerance = 5 * first.residual;
+    const SolveReport again =
+        solve({solver, 5000, again_tolerance}, kernels(), problem.contacts, problem.motion);
+    CHECK(again.iterations == 1);
+    CHECK(again.residual <= again_tolerance);
+  }
+}
+
+/// The same problem in other units of length and mass.
+template <class Real>
+StepProblem<Real> scaled(StepProblem<Real> problem, Real length, Real mass) {
+  for (RowBlock<Real>& block : problem.contacts.rows) {
+    for (Real& gap : block.gap) {
+      gap *= length;
+    }
+  }
+  for (Record<Real>& free : problem.motion.free) {
+    free = {free.x * length, free.y * length, free.z * length, free.w / mass};
+  }
+  return problem;
+}
+
+// Lengths scale gaps and motions, hence also g dt^2; an impulse is a mass times a length.
+TEMPLATE_TEST_CASE("scaling lengths, masses and gravity by powers of two changes no bit", "", float,
+                   double) {
+  for (const Solver solver : solvers) {
+    for (const auto& [length, mass] : {std::pair{8.0, 1.0}, {1.0, 0.25}, {0.0625, 1024.0}}) {
+      INFO("solver " << static_cast<int>(solver) << ", length " << length << ", mass " << mass);
+      StepProblem<TestType> plain = random_problem<TestType>(16, 7);
+      StepProblem<TestType> other =
+          scaled(plain, static_cast<TestType>(length), static_cast<TestType>(mass));
+      const double tolerance = 1e-4;
+      const SolveReport a =
+          solve({solver, 300, tolerance}, kernels(), plain.contacts, plain.motion);
+      const SolveReport b =
+          solve({solver, 300, tolerance * length * mass}, kernels(), other.contacts, other.motion);
+      CHECK(a.iterations == b.iterations);
+      CHECK(a.residual * length * mass == b.residual);
+      for (TestType& p : plain.contacts.impulse) {
+        p *= static_cast<TestType>(length * mass);
+      }
+      CHECK(testing::same_bits(plain.contacts.impulse, other.contacts.impulse));
+      for (Record<TestType>& u : plain.motion.u) {
+        const auto by = static_cast<TestType>(length);
+        u = {u.x * by, u.y * by, u.z * by, u.w / static_cast<TestType>(mass)};
+      }
+      CHECK(testing::same_bits(plain.motion.u, other.motion.u));
+    }
+  }
+}
+
+TEST_CASE("without contacts grains move freely") {
+  for (const Solver solver : solvers) {
+    StepProblem<double> problem = random_problem<double>(1, 1);
+    problem.bed.position[0].z = 100;
+    problem.bed.position[0].x = problem.bed.position[0].y = 1.3;
+    problem.contacts = testing::contacts_of<double>(problem.bed, 0.01, kernels());
+    const SolveReport report =
+        solve({solver, 100, 0.0}, kernels(), problem.contacts, problem.motion);
+    CHECK(report.residual == 0);
+    CHECK(report.iterations == 1);
+    CHECK(problem.motion.u[0].x == problem.motion.free[0].x);
+    CHECK(problem.motion.u[0].z == problem.motion.free[0].z);
+  }
+}
+
+TEST_CASE("a more accurate solve takes more iterations and leaves a smaller residual") {
+  for (const Solver solver : solvers) {
+    double last_residual = 1;
+    int last_iterations = 0;
+    for (const double tolerance : {1e-3, 1e-6, 1e-9}) {
+      StepProblem<double> problem = random_problem<double>(16, 8);
+      const SolveReport report =
+          solve({solver, 20'000, tolerance}, kernels(), problem.contacts, problem.motion);
+      CHECK(report.residual < last_residual);
+      CHECK(report.iterations > last_iterations);
+      CHECK(report.residual <= tolerance);
+      last_residual = report.residual;
+      last_iterations = report.iterations;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace grainsweep

@@ -1,0 +1,122 @@
+#include <cmath>
+
+#include <catch2/catch.hpp>
+
+#include "engine/measure/solid_fraction.hpp"
+#include "engine/units.hpp"
+#include "tests/support/scenes.hpp"
+
+namespace grainsweep {
+namespace {
+
+using testing::periodic;
+using testing::walls;
+
+TEST_CASE("a slab that holds a sphere holds its volume, one beside it nothing") {
+  for (const double radius : {0.1, 0.5, 2.0}) {
+    CHECK(sphere_slab_volume(radius, -9, 9) == Approx(sphere_volume(radius)).epsilon(1e-15));
+    CHECK(sphere_slab_volume(radius, -radius, radius) ==
+          Approx(sphere_volume(radius)).epsilon(1e-15));
+    CHECK(sphere_slab_volume(radius, radius, 9) == 0);
+    CHECK(sphere_slab_volume(radius, -9, -radius) == 0);
+    CHECK(sphere_slab_volume(radius, radius + 1, radius + 2) == 0);
+  }
+}
+
+TEST_CASE("half a sphere has half its volume, a cap pi h^2 (3 r - h) / 3") {
+  for (const double radius : {0.1, 0.5, 2.0}) {
+    CHECK(sphere_slab_volume(radius, 0, 9) == Approx(sphere_volume(radius) / 2).epsilon(1e-15));
+    for (const double share : {0.01, 0.3, 1.0, 1.7}) {
+      const double h = share * radius, cap = pi * h * h * (3 * radius - h) / 3;
+      CHECK(sphere_slab_volume(radius, radius - h, 9) == Approx(cap).epsilon(1e-12));
+      CHECK(sphere_slab_volume(radius, -9, h - radius) == Approx(cap).epsilon(1e-12));
+    }
+  }
+}
+
+TEST_CASE("slabs that fill a sphere have its volume together") {
+  const double radius = 0.7, volume = sphere_volume(radius);
+  double sum = 0;
+  for (int k = 0; k < 17; ++k) {
+    sum += sphere_slab_volume(radius, -0.8 + 0.1 * k, -0.7 + 0.1 * k);
+  }
+  CHECK(sum == Approx(volume).epsilon(1e-14));
+}
+
+TEST_CASE("a thin slab has the volume of its disc") {
+  const double z = 0.3, radius = 0.5, thickness = 1e-6;
+  const double disc = pi * (radius * radius - z * z) * thickness;
+  CHECK(sphere_slab_volume(radius, z - thickness / 2, z + thickness / 2) ==
+        Approx(disc).epsilon(1e-9));
+}
+
+// A slab as high as whole cells holds the volume of whole cells, wherever it begins.
+TEST_CASE("a simple cubic block fills pi / 6, a face-centred one pi / sqrt 18") {
+  const SphereBed cubic = testing::simple_cubic_bed(3, 4, 8);
+  const SphereBed fcc = testing::fcc_bed(2, 3, 6);
+  const double edge = std::sqrt(2.0);
+  for (const double bottom : {1.0, 1.3, 1.5, 1.87}) {
+    CHECK(solid_fraction(cubic, {bottom, bottom + 4}) == Approx(pi / 6).epsilon(1e-12));
+    CHECK(solid_fraction(fcc, {bottom, bottom + 4 * edge}) ==
+          Approx(pi / std::sqrt(18.0)).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("the mean of slabs of equal height is the solid fraction of all of them") {
+  const SphereBed bed = testing::random_bed({{6, 4, periodic, walls}, 300, 0.1, 0.5, 9, 3});
+  const int slabs = 37;
+  const double height = 8.0 / slabs;
+  double sum = 0;
+  for (int k = 0; k < slabs; ++k) {
+    sum += solid_fraction(bed, {0.7 + k * height, 0.7 + (k + 1) * height});
+  }
+  CHECK(sum / slabs == Approx(solid_fraction(bed, {0.7, 8.7})).epsilon(1e-12));
+}
+
+TEST_CASE("a slab around everything holds the volume of all grains") {
+  const SphereBed bed = testing::random_bed({{6, 4, periodic, walls}, 300, 0.1, 0.5, 9, 4});
+  double volume = 0;
+  for (std::size_t i = 0; i < bed.grains(); ++i) {
+    volume += sphere_volume(bed.position[i].w);
+  }
+  CHECK(solid_fraction(bed, {-1, 11}) == Approx(volume / (6 * 4 * 12)).epsilon(1e-13));
+}
+
+TEST_CASE("an empty bed has no solid fraction and no height") {
+  const SphereBed bed = make_bed({6, 4, periodic, walls}, {});
+  CHECK(solid_fraction(bed, {0, 1}) == 0);
+  CHECK(surface_height(bed) == 0);
+}
+
+TEST_CASE("the surface of a block lies at the top of its highest layer") {
+  CHECK(surface_height(testing::simple_cubic_bed(5, 5, 7)) == Approx(7));
+}
+
+TEST_CASE("the surface is the median of the columns: stray grains and holes do not count") {
+  SphereBed bed = testing::simple_cubic_bed(5, 5, 7);
+  for (std::size_t i = bed.grains() - 25; i < bed.grains() - 15; ++i) {
+    bed.position[i].z += 20;  // ten grains of the top layer, far up
+  }
+  CHECK(surface_height(bed) == Approx(7));
+  for (std::size_t i = bed.grains() - 15; i < bed.grains() - 5; ++i) {
+    bed.position[i].z -= 5;  // ten grains gone from it
+  }
+  CHECK(surface_height(bed) == Approx(7));
+  for (std::size_t i = bed.grains() - 25; i < bed.grains() - 5; ++i) {
+    bed.position[i].z = 0.5;  // twenty gone: most columns end a layer lower
+  }
+  CHECK(surface_height(bed) == Approx(6));
+}
+
+TEST_CASE("grains beyond a periodic border stand above the columns of their images") {
+  SphereBed bed = testing::simple_cubic_bed(4, 4, 3);
+  const double height = surface_height(bed);
+  for (std::size_t i = 0; i < bed.grains(); i += 3) {
+    bed.position[i].x += 4;
+    bed.position[i].y -= 8;
+  }
+  CHECK(surface_height(bed) == height);
+}
+
+}  // namespace
+}  // namespace grainsweep

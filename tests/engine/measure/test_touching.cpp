@@ -1,0 +1,67 @@
+#include <algorithm>
+
+#include <catch2/catch.hpp>
+
+#include "engine/contact/candidates.hpp"
+#include "engine/measure/touching.hpp"
+#include "tests/support/brute_force.hpp"
+#include "tests/support/scenes.hpp"
+
+namespace grainsweep {
+namespace {
+
+using testing::NamedPair;
+using testing::periodic;
+using testing::walls;
+
+const Kernels& kernels() { return kernels_for(best_isa()); }
+
+TEST_CASE("the touching pairs are those a search over all pairs finds, with their gaps") {
+  for (const double tolerance : {1e-5, 1e-3, 0.05}) {
+    SphereBed bed = testing::random_bed({{5, 4, periodic, walls}, 200, 0.2, 0.5, 5, 8});
+    const Touching touching = find_touching(bed, tolerance, kernels());
+    std::set<NamedPair> found;
+    for (const TouchingPair& pair : touching.pairs) {
+      REQUIRE(pair.a < pair.b);
+      REQUIRE(found.insert({pair.a, pair.b}).second);
+      CHECK(pair.gap == Approx(testing::gap_of(bed, pair.a, pair.b)).margin(1e-13));
+    }
+    CHECK(found == testing::pairs_closer_than(bed, tolerance));
+    CHECK(found.size() > 100);
+  }
+}
+
+TEST_CASE("the touching walls are those within the tolerance, the floor being wall 0") {
+  SphereBed bed =
+      make_bed({6, 4, walls, walls},
+               {{0.5, 2, 0.5, 0.5}, {3, 0.5 + 2e-4, 0.4, 0.5}, {5.5, 3.5, 2, 0.5}, {3, 2, 2, 0.5}});
+  const Touching touching = find_touching(bed, 1e-4, kernels());
+  std::set<NamedPair> found;
+  for (const TouchingWall& wall : touching.walls) {
+    found.insert({wall.grain, wall.wall});
+    const Wall plane = walls_of(bed.box)[static_cast<std::size_t>(wall.wall)];
+    CHECK(wall.gap == plane.gap(bed.position[static_cast<std::size_t>(wall.grain)]));
+  }
+  CHECK(found == std::set<NamedPair>{{0, 0}, {0, 1}, {1, 0}, {2, 2}, {2, 4}});
+}
+
+TEST_CASE("grains that have left a periodic box touch as their images do, and are brought back") {
+  SphereBed bed = make_bed({6, 4, periodic, walls}, {{-0.3, 2, 0.5, 0.5}, {12.7, 2, 0.5, 0.5}});
+  const Touching touching = find_touching(bed, 1e-9, kernels());
+  REQUIRE(touching.pairs.size() == 1);
+  CHECK(touching.pairs[0].gap == Approx(0).margin(1e-14));
+  CHECK(bed.position[0].x == Approx(5.7));
+  CHECK(bed.position[1].x == Approx(0.7));
+}
+
+TEST_CASE("no grains, or one in the air, touch nothing") {
+  SphereBed none = make_bed({6, 4, periodic, walls}, {});
+  CHECK(find_touching(none, 0.01, kernels()).pairs.empty());
+  SphereBed lone = make_bed({6, 4, periodic, walls}, {{2, 2, 2, 0.5}});
+  const Touching touching = find_touching(lone, 0.01, kernels());
+  CHECK(touching.pairs.empty());
+  CHECK(touching.walls.empty());
+}
+
+}  // namespace
+}  // namespace grainsweep

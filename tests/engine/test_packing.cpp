@@ -1,0 +1,169 @@
+#include <algorithm>
+#include <cmath>
+
+#include <catch2/catch.hpp>
+
+#include "engine/dynamics/presets.hpp"
+#include "engine/packing.hpp"
+#include "engine/units.hpp"
+
+namespace grainsweep {
+namespace {
+
+const KeepGoing always = [](const Progress&) { return true; };
+
+PackingSpec small_spec(std::uint64_t key = 1) {
+  PackingSpec spec;
+  spec.box = {4, 4, Boundary::periodic, Boundary::walls};
+  spec.fill = GrainCount{160};
+  spec.accuracy = *preset("fast");
+  spec.measure.exclude_floor = spec.measure.exclude_surface = 2.0;
+  spec.random_key = key;
+  return spec;
+}
+
+Packing pack(const PackingSpec& spec) {
+  REQUIRE(check(spec).empty());
+  return make_packing(spec, kernels_for(best_isa()), always);
+}
+
+TEST_CASE("a small packing settles and is measured") {
+  const Packing packing = pack(small_spec());
+  const PackingResult& result = packing.result;
+  CHECK(result.status == PackingStatus::settled);
+  CHECK(result.reason == "");
+  CHECK(result.grains == 160);
+  CHECK(result.slab_bottom == 2.0);
+  CHECK(result.slab_top == result.surface_height - 2.0);
+  CHECK((result.solid_fraction > 0.5 && result.solid_fraction < 0.66));
+  CHECK(result.steps > 50);
+  CHECK(result.iterations > result.steps);
+}
+
+TEST_CASE("coordination is reported for every gap tolerance in the order asked for") {
+  PackingSpec spec = small_spec();
+  spec.measure.gap_tolerances = {1e-3, 1e-5, 6e-3};
+  const auto coordination = pack(spec).result.coordination;
+  REQUIRE(coordination.size() == 3);
+  for (std::size_t k = 0; k < 3; ++k) {
+    CHECK(coordination[k].gap_tolerance == spec.measure.gap_tolerances[k]);
+    CHECK(coordination[k].with_walls > coordination[k].between_grains);
+  }
+  CHECK(coordination[1].between_grains < coordination[0].between_grains);
+  CHECK(coordination[0].between_grains < coordination[2].between_grains);
+}
+
+TEST_CASE("the grains of a packing lie in the box with their forces and neighbours") {
+  const Packing packing = pack(small_spec());
+  REQUIRE(packing.grains.size() == 160);
+  double neighbours = 0;
+  for (const SettledGrain& grain : packing.grains) {
+    CHECK((grain.x >= 0 && grain.x < 4));
+    CHECK((grain.y > grain.radius - 1e-3 && grain.y < 4 - grain.radius + 1e-3));
+    CHECK(grain.z > grain.radius - 1e-3);
+    CHECK(grain.force > 0.9 * sphere_mass(grain.radius));
+    neighbours += grain.touching;
+  }
+  CHECK(neighbours / 160 == Approx(4.5).margin(1));
+}
+
+TEST_CASE("equal specifications give equal bits, another key gives another bed") {
+  const Packing a = pack(small_spec(7)), b = pack(small_spec(7)), c = pack(small_spec(8));
+  CHECK(a.result.state_hash == b.result.state_hash);
+  CHECK(a.result.solid_fraction == b.result.solid_fraction);
+  CHECK(a.result.iterations == b.result.iterations);
+  CHECK(a.result.state_hash != c.result.state_hash);
+}
+
+TEST_CASE("a settled bed placed again stays as it is") {
+  PackingSpec spec = small_spec();
+  spec.accuracy = *preset("accurate");  // what coarser presets call rest still yields to a shake
+  const Packing first = pack(spec);
+  PlacedGrains placed;
+  for (const SettledGrain& grain : first.grains) {
+    placed.grains.push_back({grain.x, grain.y, grain.z, grain.radius});
+  }
+  spec.fill = placed;
+  const Packing again = pack(spec);
+  REQUIRE(again.result.status == PackingStatus::settled);
+  CHECK(again.result.solid_fraction == Approx(first.result.solid_fraction).margin(1e-3));
+  double moved = 0;
+  for (std::size_t i = 0; i < first.grains.size(); ++i) {
+    moved += std::abs(again.grains[i].z - first.grains[i].z) / 160;
+  }
+  CHECK(moved < 0.01);
+}
+
+TEST_CASE("a packing that the observer stops is cancelled and not measured") {
+  const Packing packing = make_packing(small_spec(), kernels_for(best_isa()),
+                                       [](const Progress& progress) { return progress.step < 9; });
+  CHECK(packing.result.status == PackingStatus::cancelled);
+  CHECK(packing.result.steps == 9);
+  CHECK(packing.result.coordination.empty());
+  CHECK(packing.grains.empty());
+  CHECK_FALSE(packing.result.reason.empty());
+}
+
+TEST_CASE("a bed too low for its slab fails and says what to change") {
+  PackingSpec spec = small_spec();
+  spec.measure.exclude_floor = 30;
+  const Packing packing = pack(spec);
+  CHECK(packing.result.status == PackingStatus::failed);
+  CHECK(packing.result.reason.find("too low") != std::string::npos);
+  CHECK(packing.result.reason.find("measure.exclude_floor") != std::string::npos);
+  CHECK(packing.result.coordination.empty());
+  CHECK(packing.grains.size() == 160);  // the bed itself can still be looked at
+}
+
+TEST_CASE("a bed whose grains find no room fails and says why") {
+  PackingSpec spec = small_spec();
+  spec.box.width = 0.9;
+  const Packing packing = make_packing(spec, kernels_for(best_isa()), always);
+  CHECK(packing.result.status == PackingStatus::failed);
+  CHECK(packing.result.reason.find("no room") != std::string::npos);
+  CHECK(packing.grains.empty());
+}
+
+TEST_CASE("a bed that runs out of steps is not settled, says why, and is still measured") {
+  PackingSpec spec = small_spec();
+  spec.measure.exclude_floor = spec.measure.exclude_surface = 1;
+  spec.accuracy.max_steps = 30;
+  const Packing packing = pack(spec);
+  CHECK(packing.result.status == PackingStatus::not_settled);
+  CHECK_FALSE(packing.result.reason.empty());
+  CHECK(packing.result.steps == 30);
+  CHECK(packing.result.solid_fraction > 0);
+}
+
+TEST_CASE("packings of one and of two grains end without a slab to measure") {
+  for (const std::int64_t grains : {1, 2}) {
+    PackingSpec spec = small_spec();
+    spec.fill = GrainCount{grains};
+    const Packing packing = pack(spec);
+    CHECK(packing.result.status == PackingStatus::failed);
+    CHECK(packing.result.reason.find("too low") != std::string::npos);
+    CHECK(packing.result.rest.contacts == grains);
+    CHECK(packing.grains.size() == static_cast<std::size_t>(grains));
+  }
+}
+
+TEST_CASE("every status has a name") {
+  CHECK(std::string(name_of(PackingStatus::settled)) == "settled");
+  CHECK(std::string(name_of(PackingStatus::not_settled)) == "not_settled");
+  CHECK(std::string(name_of(PackingStatus::cancelled)) == "cancelled");
+  CHECK(std::string(name_of(PackingStatus::failed)) == "failed");
+}
+
+TEST_CASE("the cost of a packing grows with its grains and its accuracy") {
+  PackingSpec spec = small_spec(), larger = spec, finer = spec, wider = spec;
+  larger.fill = GrainCount{1600};
+  finer.accuracy = *preset("accurate");
+  wider.accuracy.precision = Precision::f64;
+  CHECK(estimate_cost(larger).cpu_seconds == Approx(10 * estimate_cost(spec).cpu_seconds));
+  CHECK(estimate_cost(larger).bytes > estimate_cost(spec).bytes);
+  CHECK(estimate_cost(finer).cpu_seconds > 2 * estimate_cost(spec).cpu_seconds);
+  CHECK(estimate_cost(wider).cpu_seconds > estimate_cost(spec).cpu_seconds);
+}
+
+}  // namespace
+}  // namespace grainsweep
