@@ -31,7 +31,7 @@ done
 mapfile -t commands < <(sed -nE '/^\| command/,/^$/s/^\| `([a-z]+)[ `].*/\1/p' README.md)
 ((${#commands[@]} > 3)) || { printf 'README.md: no table of commands\n' >&2 && exit 1; }
 for command in "${commands[@]}"; do
-  "$grainsweep" "$command" --help | grep -q "^Usage: grainsweep $command " ||
+  [[ $("$grainsweep" "$command" --help) == *"Usage: grainsweep $command "* ]] ||
     { printf 'README.md: the program does not know the command %s\n' "$command" >&2 && exit 1; }
 done
 printf 'README.md: its sweep, %d parameters and %d commands are known\n' \
