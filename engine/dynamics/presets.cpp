@@ -19,8 +19,8 @@ Accuracy fast() {
 Accuracy balanced() {
   Accuracy a;
   a.fall_iterations = 80;
-  a.creep_steps = 30;
-  a.rest_iterations = 200;
+  a.creep_steps = 60;
+  a.rest_iterations = 300;
   a.residual_tolerance = 5e-3;
   a.kinetic_tolerance = 1e-4;
   a.contact_tolerance = 0.025;

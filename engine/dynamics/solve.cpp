@@ -10,20 +10,36 @@ namespace {
 /// bed of spheres.
 constexpr double eigenvalue_bound = 3.95;
 
-/// u = free + M^-1 H p.
+/// What a solver works on.
 template <class Real>
-void set_motion(const Kernels& kernels, const Contacts<Real>& contacts, const std::vector<Real>& p,
-                MotionColumns<Real>& motion) {
-  motion.u = motion.free;
-  row_kernels<Real>(kernels).apply_impulses(contacts.rows.data(), contacts.rows.size(), p.data(),
-                                            motion.u.data());
+struct Problem {
+  const RowKernels<Real>& kernels;
+  Contacts<Real>& contacts;
+  MotionColumns<Real>& motion;
+
+  std::size_t blocks() const { return contacts.rows.size(); }
+  const RowBlock<Real>* rows() const { return contacts.rows.data(); }
+};
+
+/// u += M^-1 H p.
+template <class Real>
+void add_impulses(Problem<Real>& problem, const std::vector<Real>& p) {
+  problem.kernels.apply_impulses(problem.rows(), problem.blocks(), p.data(),
+                                 problem.motion.u.data());
+}
+
+/// u = free + M^-1 H p, without the rounding that sweeps have gathered.
+template <class Real>
+void set_motion(Problem<Real>& problem) {
+  problem.motion.u = problem.motion.free;
+  add_impulses(problem, problem.contacts.impulse);
 }
 
 template <class Real>
-double residual_of(const Kernels& kernels, const Contacts<Real>& contacts,
-                   const MotionColumns<Real>& motion) {
-  return static_cast<double>(row_kernels<Real>(kernels).residual(
-      contacts.rows.data(), contacts.rows.size(), motion.u.data(), contacts.impulse.data()));
+double true_residual(const Problem<Real>& problem) {
+  return static_cast<double>(problem.kernels.residual(problem.rows(), problem.blocks(),
+                                                      problem.motion.u.data(),
+                                                      problem.contacts.impulse.data()));
 }
 
 /// Nesterov's sequence, restarted where the objective would rise (O'Donoghue and Candes 2015).
@@ -42,54 +58,145 @@ class Momentum {
   double theta_ = 1.0;
 };
 
+// Each method below improves the impulses by `iterate`, which returns the residual that its sweeps
+// saw on the way, and starts afresh from the impulses and their motion by `restart`.
+
+/// Projected gradient descent on the dual with Nesterov's momentum; each step scaled by the diagonal.
 template <class Real>
-SolveReport accelerated_projected_gradient(const SolveLimits& limits, const Kernels& kernels,
-                                           Contacts<Real>& contacts, MotionColumns<Real>& motion) {
-  const RowKernels<Real>& sweep = row_kernels<Real>(kernels);
-  constexpr auto inverse_bound = static_cast<Real>(1.0 / eigenvalue_bound);
-  SolveReport report;
-  Momentum momentum;
-  contacts.extrapolated = contacts.impulse;
-  set_motion(kernels, contacts, contacts.impulse, motion);
-  while (report.iterations < limits.iterations) {
+class AcceleratedGradient {
+ public:
+  static constexpr int sweeps = 1;
+  explicit AcceleratedGradient(Problem<Real>& problem) : problem_(problem) {}
+
+  void restart() {
+    problem_.contacts.extrapolated = problem_.contacts.impulse;
+    momentum_.restart();
+  }
+  double iterate() {
+    constexpr auto inverse_bound = static_cast<Real>(1.0 / eigenvalue_bound);
+    MotionColumns<Real>& motion = problem_.motion;
     motion.next = motion.free;
-    const SweepSums<Real> sums = sweep.gradient_sweep(
-        contacts.rows.data(), contacts.rows.size(), motion.u.data(), motion.next.data(),
-        contacts.impulse.data(), contacts.extrapolated.data(), inverse_bound,
-        static_cast<Real>(momentum.next()));
+    const SweepSums<Real> sums = problem_.kernels.gradient_sweep(
+        problem_.rows(), problem_.blocks(), motion.u.data(), motion.next.data(),
+        problem_.contacts.impulse.data(), problem_.contacts.extrapolated.data(), inverse_bound,
+        static_cast<Real>(momentum_.next()));
     std::swap(motion.u, motion.next);
-    ++report.iterations;
-    if (static_cast<double>(sums.residual) <= limits.tolerance) {
-      break;
-    }
     if (sums.uphill > Real(0)) {
-      momentum.restart();
+      momentum_.restart();
+    }
+    return static_cast<double>(sums.residual);
+  }
+
+ private:
+  Problem<Real>& problem_;
+  Momentum momentum_;
+};
+
+/// Projected Gauss-Seidel: sweeps forward, or forward and backward in turn.
+template <class Real>
+class GaussSeidel {
+ public:
+  static constexpr int sweeps = 1;
+  GaussSeidel(Problem<Real>& problem, bool symmetric) : problem_(problem), symmetric_(symmetric) {}
+
+  void restart() { backward_ = false; }
+  double iterate() {
+    const SweepSums<Real> sums = problem_.kernels.gauss_seidel_sweep(
+        problem_.rows(), problem_.blocks(), problem_.motion.u.data(),
+        problem_.contacts.impulse.data(), backward_);
+    backward_ = symmetric_ && !backward_;
+    return static_cast<double>(sums.residual);
+  }
+
+ private:
+  Problem<Real>& problem_;
+  bool symmetric_;
+  bool backward_ = false;
+};
+
+/// Nonsmooth nonlinear conjugate gradients (Silcowitz, Niebe and Erleben 2010): what a symmetric
+/// sweep changes is the negative gradient of a descent; Fletcher and Reeves' rule joins it to the
+/// last direction.
+template <class Real>
+class ConjugateGradient {
+ public:
+  static constexpr int sweeps = 2;
+  explicit ConjugateGradient(Problem<Real>& problem) : problem_(problem), sweep_(problem, true) {}
+
+  void restart() {
+    direction_.assign(problem_.contacts.impulse.size(), Real(0));
+    squared_ = 0.0;
+    sweep_.restart();
+  }
+  double iterate() {
+    before_ = problem_.contacts.impulse;
+    const double residual = sweep_.iterate();
+    sweep_.iterate();
+    const double squared = change_squared();
+    const double carried = squared_ > 0.0 && squared <= squared_ ? squared / squared_ : 0.0;
+    squared_ = squared;
+    carry(static_cast<Real>(carried));
+    return residual;
+  }
+
+ private:
+  double change_squared() const {
+    double sum = 0.0;
+    for (std::size_t k = 0; k < before_.size(); ++k) {
+      const double change = static_cast<double>(problem_.contacts.impulse[k] - before_[k]);
+      sum += change * change;
+    }
+    return sum;
+  }
+  /// Adds `share` of the last direction to the impulses and their motion; the next direction is
+  /// that and what the sweeps changed. The next sweep projects.
+  void carry(Real share) {
+    std::vector<Real>& p = problem_.contacts.impulse;
+    for (std::size_t k = 0; k < p.size(); ++k) {
+      const Real carried = share * direction_[k];
+      direction_[k] = carried + (p[k] - before_[k]);
+      before_[k] = carried;
+      p[k] += carried;
+    }
+    if (share > Real(0)) {
+      add_impulses(problem_, before_);
     }
   }
-  set_motion(kernels, contacts, contacts.impulse, motion);
-  report.residual = residual_of(kernels, contacts, motion);
-  return report;
+
+  Problem<Real>& problem_;
+  GaussSeidel<Real> sweep_;
+  std::vector<Real> direction_, before_;
+  double squared_ = 0.0;
+};
+
+/// Makes impulses that a method may have left negative admissible.
+template <class Real>
+void project(std::vector<Real>& p) {
+  for (Real& value : p) {
+    value = value < Real(0) ? Real(0) : value;
+  }
 }
 
-template <class Real>
-SolveReport gauss_seidel(const SolveLimits& limits, const Kernels& kernels,
-                         Contacts<Real>& contacts, MotionColumns<Real>& motion) {
-  const RowKernels<Real>& sweep = row_kernels<Real>(kernels);
-  const bool symmetric = limits.solver == Solver::symmetric_gauss_seidel;
+/// Iterates until the true residual is below the tolerance or the sweeps are used up. The residual
+/// seen by a sweep only says when to look.
+template <class Real, class Method>
+SolveReport run(const SolveLimits& limits, Problem<Real>& problem, Method method) {
   SolveReport report;
-  set_motion(kernels, contacts, contacts.impulse, motion);
-  while (report.iterations < limits.iterations) {
-    const bool backward = symmetric && report.iterations % 2 == 1;
-    const SweepSums<Real> sums =
-        sweep.gauss_seidel_sweep(contacts.rows.data(), contacts.rows.size(), motion.u.data(),
-                                 contacts.impulse.data(), backward);
-    ++report.iterations;
-    if (static_cast<double>(sums.residual) <= limits.tolerance) {
-      break;
+  bool is_done = false;
+  set_motion(problem);
+  method.restart();
+  while (!is_done) {
+    const double seen = method.iterate();
+    report.iterations += Method::sweeps;
+    is_done = report.iterations + Method::sweeps > limits.iterations;
+    if (is_done || seen <= limits.tolerance) {
+      project(problem.contacts.impulse);
+      set_motion(problem);
+      report.residual = true_residual(problem);
+      is_done = is_done || report.residual <= limits.tolerance;
+      method.restart();
     }
   }
-  set_motion(kernels, contacts, contacts.impulse, motion);
-  report.residual = residual_of(kernels, contacts, motion);
   return report;
 }
 
@@ -98,10 +205,18 @@ SolveReport gauss_seidel(const SolveLimits& limits, const Kernels& kernels,
 template <class Real>
 SolveReport solve(const SolveLimits& limits, const Kernels& kernels, Contacts<Real>& contacts,
                   MotionColumns<Real>& motion) {
-  if (limits.solver == Solver::accelerated_projected_gradient) {
-    return accelerated_projected_gradient(limits, kernels, contacts, motion);
+  Problem<Real> problem{row_kernels<Real>(kernels), contacts, motion};
+  switch (limits.solver) {
+    case Solver::projected_gauss_seidel:
+      return run(limits, problem, GaussSeidel<Real>(problem, false));
+    case Solver::symmetric_gauss_seidel:
+      return run(limits, problem, GaussSeidel<Real>(problem, true));
+    case Solver::nonsmooth_nonlinear_conjugate:
+      return run(limits, problem, ConjugateGradient<Real>(problem));
+    case Solver::accelerated_projected_gradient:
+      break;
   }
-  return gauss_seidel(limits, kernels, contacts, motion);
+  return run(limits, problem, AcceleratedGradient<Real>(problem));
 }
 
 template SolveReport solve(const SolveLimits&, const Kernels&, Contacts<float>&,
