@@ -52,7 +52,7 @@ std::string distinction(const Family& family, const std::set<std::string>& paths
   std::string text;
   for (const auto& [path, value] : flat_parameters(family)) {
     if (!paths.contains(path)) continue;
-    text += " " + path.substr(path.rfind('/') + 1) + "=" + value;
+    text.append(" ").append(path, path.rfind('/') + 1).append("=").append(value);
   }
   return text;
 }

@@ -81,7 +81,8 @@ TEST_CASE("a report of too few widths says why there is no fit") {
 TEST_CASE("only the first reasons are listed") {
   std::vector<Row> rows;
   for (int i = 0; i < 9; ++i) {
-    rows.push_back(row_with_status("u" + std::to_string(i), 5, PackingStatus::failed, "no room"));
+    rows.push_back(row_with_status(std::string("u").append(std::to_string(i)), 5,
+                                   PackingStatus::failed, "no room"));
   }
   const std::string text = closing_report(sample_provenance(), rows, "out/a");
   CHECK_THAT(text, Catch::Contains("u4 (MSP") && !Catch::Contains("u5 (MSP"));

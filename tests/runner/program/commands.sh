@@ -1,0 +1,66 @@
+# A small sweep from file to tables, and every command on its results.
+source "$(dirname "$0")/common.sh" "$1"
+write_sweep small.json 2
+
+expect_code 0 "$program" --help
+expect_text out.txt "run" "export" "Exit codes"
+expect_code 0 "$program" --version
+expect_code 0 "$program" validate small.json
+expect_text out.txt "10 packings in 5 parameter sets"
+expect_code 0 "$program" plan small.json --threads 2
+expect_text out.txt "10 packings" "bulk" "2 threads"
+expect_code 0 "$program" plan small.json --json
+expect_text out.txt '"packings": 10' '"estimated_bytes"'
+expect_code 0 "$program" doctor
+expect_text out.txt "sse2" "cores" "oneTBB"
+[ ! -e out ] || fail "looking wrote something"
+
+# Whether such small beds all settle is not the point here: 0 and 1 both end a run.
+code=0
+"$program" run small.json >report.txt 2>progress.txt || code=$?
+[ "$code" -le 1 ] || fail "run ended with $code: $(cat progress.txt)"
+expect_text report.txt "small: 10 packings" "walls" "5 periodic" "Tables in out/small" "CPU time"
+expect_text progress.txt "10/10  "
+for file in packings.csv groups.csv fits.csv provenance.json; do
+  [ -s "out/small/$file" ] || fail "no $file"
+done
+[ "$(wc -l <out/small/packings.csv)" -eq 11 ] || fail "packings.csv has not 10 rows"
+[ "$(wc -l <out/small/groups.csv)" -eq 6 ] || fail "groups.csv has not 5 rows"
+[ "$(wc -l <out/small/fits.csv)" -eq 3 ] || fail "fits.csv has not 2 rows"
+[ -z "$(find out -name '*.tmp.*')" ] || fail "temporary files are left"
+
+expect_code 0 "$program" report out/small
+cmp out.txt report.txt || fail "report prints another table than run"
+expect_code 0 "$program" status out/small
+expect_text out.txt "10 of 10 packings done" "No runner at work"
+
+for format in csv xyz vtp; do
+  expect_code 0 "$program" export out/small --format $format
+  [ "$(ls out/small/export/*.$format | wc -l)" -eq 10 ] || fail "not 10 files of $format"
+done
+job=$(sed -n 2p out/small/packings.csv | cut -d, -f1)
+grains=$(sed -n 2p out/small/packings.csv | cut -d, -f6)
+expect_code 0 "$program" export out/small --format xyz --job "$job" --to one
+[ "$(ls one)" = "$job.xyz" ] || fail "--job wrote $(ls one)"
+[ "$(head -n 1 "one/$job.xyz")" -eq "$grains" ] || fail "wrong number of grains"
+expect_code 2 "$program" export out/small --job nosuchjob
+expect_text error.txt "nosuchjob"
+
+# A file where the output folder should be, and a folder that cannot be written.
+touch taken
+expect_code 4 "$program" run small.json --out taken
+expect_text error.txt "taken"
+expect_code 4 "$program" run small.json --out /proc/grainsweep
+expect_text error.txt "/proc/grainsweep"
+
+# Quiet: nothing but warnings.
+code=0
+"$program" run small.json --quiet >quiet.txt 2>&1 || code=$?
+[ "$code" -le 1 ] && [ ! -s quiet.txt ] || fail "--quiet printed $(cat quiet.txt)"
+
+# --fresh asks, and without a terminal wants --yes.
+before=$(cat out/small/journal-*.jsonl)
+expect_code 2 "$program" run small.json --fresh
+expect_text error.txt "--yes"
+[ "$before" = "$(cat out/small/journal-*.jsonl)" ] || fail "--fresh deleted without asking"
+echo "the commands work"
