@@ -28,7 +28,7 @@ std::string text_of(double value) {
 }
 
 struct Interval {
-  double low, high;
+  double low = 0.0, high = 0.0;
   bool low_open = false, high_open = false;
 
   bool holds(double value) const {  // false for NaN

@@ -63,7 +63,7 @@ std::string read_name(const Json& file, Problems& problems) {
     problems.push_back({"", "\"name\" is missing; add one, e.g. \"name\": \"my-sweep\""});
     return "";
   }
-  const std::string name = found->is_string() ? found->get<std::string>() : "";
+  std::string name = found->is_string() ? found->get<std::string>() : "";
   const bool letters = std::all_of(name.begin(), name.end(), is_name_character);
   if (letters && !name.empty() && name.size() <= longest && name.front() != '.') return name;
   problems.push_back(
@@ -77,7 +77,7 @@ std::string read_label(const Json& block, const std::string& pointer, std::size_
   constexpr std::size_t longest = 100;
   const auto found = block.find("label");
   if (found == block.end()) return "block " + std::to_string(number);
-  const std::string label = found->is_string() ? found->get<std::string>() : "";
+  std::string label = found->is_string() ? found->get<std::string>() : "";
   const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20; };
   const bool controls = std::any_of(label.begin(), label.end(), is_control);
   if (!label.empty() && label.size() <= longest && !controls) return label;

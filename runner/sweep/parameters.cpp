@@ -21,6 +21,12 @@ constexpr ValueKind kind_of() {
   return ValueKind::numbers;
 }
 
+/// Built in place: g++ 12 warns, wrongly, about a value moved into the optional under sanitizers.
+template <class T>
+std::optional<Value> present(const T& value) {
+  return std::optional<Value>(std::in_place, std::in_place_type<T>, value);
+}
+
 /// `members` leads from the draft to the parameter: &Draft::spec, &PackingSpec::box, &BoxSpec::x.
 template <auto... members>
 void set_member(Draft& draft, const Value& value) {
@@ -38,9 +44,9 @@ std::optional<Value> get_member(const Draft& draft) {
   const auto& source = (draft.*....*members);
   using T = std::remove_cvref_t<decltype(source)>;
   if constexpr (std::is_enum_v<T> || std::is_same_v<T, int>) {
-    return Value(static_cast<std::int64_t>(source));
+    return present<std::int64_t>(static_cast<std::int64_t>(source));
   } else {
-    return Value(source);
+    return present<T>(source);
   }
 }
 
@@ -100,17 +106,17 @@ void set_file(Draft& draft, const Value& value) {
 }
 std::optional<Value> get_solid_height(const Draft& draft) {
   const auto* fill = std::get_if<SolidHeight>(&draft.spec.fill);
-  return fill ? std::optional<Value>(fill->height) : std::nullopt;
+  return fill ? present(fill->height) : std::nullopt;
 }
 std::optional<Value> get_grains(const Draft& draft) {
   const auto* fill = std::get_if<GrainCount>(&draft.spec.fill);
-  return fill ? std::optional<Value>(fill->count) : std::nullopt;
+  return fill ? present(fill->count) : std::nullopt;
 }
 std::optional<Value> get_file(const Draft& draft) {
-  return draft.fill_file.empty() ? std::nullopt : std::optional<Value>(draft.fill_content);
+  return draft.fill_file.empty() ? std::nullopt : present(draft.fill_content);
 }
 std::optional<Value> get_diameter(const Draft& draft) {
-  return draft.fill_file.empty() ? std::nullopt : std::optional<Value>(draft.fill_diameter);
+  return draft.fill_file.empty() ? std::nullopt : present(draft.fill_diameter);
 }
 
 constexpr std::int64_t any_whole = std::numeric_limits<std::int64_t>::max();
