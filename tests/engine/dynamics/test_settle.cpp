@@ -167,8 +167,9 @@ TEST_CASE("grains placed on the same spot part and settle") {
 }
 
 TEST_CASE("every solver offered settles a bed") {
-  for (const Solver solver : {Solver::projected_gauss_seidel, Solver::symmetric_gauss_seidel,
-                              Solver::accelerated_projected_gradient}) {
+  for (const Solver solver :
+       {Solver::projected_gauss_seidel, Solver::symmetric_gauss_seidel,
+        Solver::nonsmooth_nonlinear_conjugate, Solver::accelerated_projected_gradient}) {
     INFO("solver " << static_cast<int>(solver));
     SphereBed bed = small_bed(7);
     Accuracy accuracy = *preset("fast");

