@@ -33,7 +33,8 @@ struct Finding {
   std::string message;  ///< "must lie in [0, 1], is 1.4"
 };
 
-/// "spheres.json:12:20 /base/sizes/small_share: must lie in [0, 1], is 1.4"
+/// "spheres.json:12:20 /base/sizes/small_share: must lie in [0, 1], is 1.4"; control characters
+/// become question marks.
 std::string to_string(const Finding& finding);
 
 struct SweepReading {

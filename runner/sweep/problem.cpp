@@ -10,6 +10,15 @@
 namespace grainsweep {
 namespace {
 
+/// Without control characters, which a key may hold and a terminal would obey.
+std::string printable(std::string text) {
+  for (char& c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x20 || byte == 0x7F) c = '?';
+  }
+  return text;
+}
+
 struct Offsets {
   std::size_t key = 0, value = 0;
   bool found = false;
@@ -47,7 +56,7 @@ std::size_t offset_of(const Problem& problem, const Wanted& wanted) {
 
 std::string to_string(const Finding& finding) {
   const std::string pointer = finding.pointer.empty() ? "" : " " + finding.pointer;
-  return finding.place + pointer + ": " + finding.message;
+  return printable(finding.place + pointer + ": " + finding.message);
 }
 
 std::string child_pointer(const std::string& pointer, std::string_view key) {

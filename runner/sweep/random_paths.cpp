@@ -45,7 +45,8 @@ bool read_bounds(const Json& bounds, const std::string& pointer, RandomPath& ran
   const bool varies = parameter && (parameters()[*parameter].kind == ValueKind::number ||
                                     parameters()[*parameter].kind == ValueKind::whole);
   if (!varies) {
-    problems.push_back({pointer, random.path + " is no number; use {\"choice\": [...]}"});
+    problems.push_back(
+        {pointer, random.path + " is not drawn from an interval; use {\"choice\": [...]}"});
     return false;
   }
   random.parameter = *parameter;

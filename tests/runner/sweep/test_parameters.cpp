@@ -45,6 +45,20 @@ TEST_CASE("no path is there twice and every parameter has a meaning") {
   }
 }
 
+TEST_CASE("the table knows every member of a specification") {
+  // A new member makes the number of names wrong, and this test no longer compiles.
+  [[maybe_unused]] const auto& [box, fill, sizes, accuracy, measure, random_key] = PackingSpec{};
+  [[maybe_unused]] const auto& [length, width, x, y] = box;
+  [[maybe_unused]] const auto& [spread, small_share, size_ratio] = sizes;
+  [[maybe_unused]] const auto& [solver, precision, step, momentum, fall, creep, rest, residual,
+                                kinetic, contacts, overlap, max_steps] = accuracy;
+  [[maybe_unused]] const auto& [exclude_floor, exclude_surface, gap_tolerances] = measure;
+  CHECK(known_keys("box").size() == 4);
+  CHECK(known_keys("sizes").size() == 3);
+  CHECK(known_keys("accuracy").size() == 12 + 1);  // and "preset"
+  CHECK(known_keys("measure").size() == 3);
+}
+
 TEST_CASE("every parameter that belongs to the identity reads back what was set") {
   for (const Parameter& parameter : parameters()) {
     INFO(parameter.path);

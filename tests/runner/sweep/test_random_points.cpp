@@ -162,7 +162,7 @@ TEST_CASE("distributions that cannot be drawn from are refused") {
   CHECK(error("box.width", R"({"log_uniform": [0, 5]})") ==
         "box.width/log_uniform: the bounds of log_uniform must be positive, the first is 0");
   CHECK(error("box.y", R"({"uniform": [0, 1]})") ==
-        "box.y/uniform: box.y is no number; use {\"choice\": [...]}");
+        "box.y/uniform: box.y is not drawn from an interval; use {\"choice\": [...]}");
   CHECK(error("fill.grains", R"({"uniform": [1.5, 2]})") ==
         "fill.grains/uniform: must be a whole number, is 1.5");
   CHECK(error("box.width", R"({"choice": []})") ==
