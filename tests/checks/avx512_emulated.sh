@@ -4,7 +4,7 @@
 #
 # Bochs emulates a Skylake-X PC that boots Debian's kernel with the build's own programs in its
 # first RAM disk: the kernel tests with AVX-512 forced, then a small sweep whose packings.csv has to
-# equal, bit by bit, what this machine makes with SSE2. Takes about two minutes; installs nothing
+# equal, bit by bit, what this machine makes with SSE2. Takes one to two minutes; installs nothing
 # but the packages of `setup.sh --emulator`, and downloads Debian's kernel package once.
 set -euo pipefail
 root=$(cd "$(dirname "$0")/../.." && pwd)
@@ -116,19 +116,26 @@ EOF
   echo c >"$work/continue" # Debian's Bochs starts in its debugger: go on
 }
 
+# Bochs does not heed a gentler signal.
+stop_machine() {
+  kill -KILL "$machine" 2>/dev/null || true
+  wait "$machine" 2>/dev/null || true
+}
+
 # Runs the machine until the guest is done; its console is in $work/serial.
 run_machine() {
-  local machine deadline=$((SECONDS + time_limit))
+  local deadline=$((SECONDS + time_limit))
   : >"$work/serial"
   TERM=vt100 bochs-bin -q -f "$work/bochsrc" -rc "$work/continue" </dev/null \
     >"$work/display" 2>&1 &
   machine=$!
+  trap stop_machine EXIT
   while kill -0 $machine 2>/dev/null && ((SECONDS < deadline)) &&
     ! grep -qE '^table ends|Kernel panic' "$work/serial"; do
     sleep 1
   done
-  kill $machine 2>/dev/null || true
-  wait $machine 2>/dev/null || true
+  trap - EXIT
+  stop_machine
 }
 
 # table_of FILE: its rows without the column cpu_seconds, which no two runs share.
