@@ -25,7 +25,8 @@ template <class Real>
 const FrozenBed<Real>& made_once(std::int64_t grains) {
   static std::map<std::int64_t, FrozenBed<Real>> made;
   const auto found = made.find(grains);
-  return found != made.end() ? found->second : made.emplace(grains, freeze<Real>(grains)).first->second;
+  return found != made.end() ? found->second
+                             : made.emplace(grains, freeze<Real>(grains)).first->second;
 }
 
 }  // namespace

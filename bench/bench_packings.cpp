@@ -8,7 +8,8 @@ namespace {
 void make(benchmark::State& run, const PackingSpec& spec) {
   PackingResult result;
   for (auto _ : run) {
-    result = make_packing(spec, kernels_for(best_isa()), [](const Progress&) { return true; }).result;
+    result =
+        make_packing(spec, kernels_for(best_isa()), [](const Progress&) { return true; }).result;
   }
   run.SetItemsProcessed(run.iterations());
   run.SetLabel(name_of(result.status));
@@ -30,7 +31,13 @@ void packing(benchmark::State& run, const char* preset_name) {
 
 BENCHMARK_CAPTURE(packing, fast, "fast")->Arg(2000)->Arg(8000)->Unit(benchmark::kSecond);
 BENCHMARK_CAPTURE(packing, balanced, "balanced")
-    ->Arg(100)->Arg(200)->Arg(500)->Arg(1000)->Arg(2000)->Arg(8000)->Arg(30000)
+    ->Arg(100)
+    ->Arg(200)
+    ->Arg(500)
+    ->Arg(1000)
+    ->Arg(2000)
+    ->Arg(8000)
+    ->Arg(30000)
     ->Unit(benchmark::kSecond);
 BENCHMARK_CAPTURE(packing, accurate, "accurate")->Arg(2000)->Unit(benchmark::kSecond);
 

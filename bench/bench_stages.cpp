@@ -18,8 +18,7 @@ void sizes(benchmark::internal::Benchmark* benchmark) {
 void still_complete(benchmark::State& run) {
   FrozenBed<float> f = frozen_bed_f32(run.range(0));
   for (auto _ : run) {
-    benchmark::DoNotOptimize(
-        still_complete(f.bed, f.settings.near, f.state.candidates));
+    benchmark::DoNotOptimize(still_complete(f.bed, f.settings.near, f.state.candidates));
   }
   run.SetItemsProcessed(run.iterations() * run.range(0));
 }

@@ -28,6 +28,7 @@ PackingResult result_of(const SphereBed& bed, const SettleReport& settled) {
   result.reason = settled.cancelled ? "stopped on request" : settled.why_not;
   result.grains = static_cast<std::int64_t>(bed.grains());
   result.rest = settled.rest;
+  result.balance = settled.balance;
   result.steps = settled.steps;
   result.iterations = settled.iterations;
   result.state_hash = state_hash(bed);
@@ -47,9 +48,10 @@ void measure(const MeasureSpec& spec, const SphereBed& bed, const Touching& touc
   result.slab_top = slab.top;
   if (!(slab.height() >= 1.0)) {
     result.status = PackingStatus::failed;
-    result.reason = "the bed is too low to be measured: less than 1 d is left between the zones "
-                    "above the floor and below the surface; fill in more grains or make "
-                    "measure.exclude_floor and measure.exclude_surface smaller";
+    result.reason =
+        "the bed is too low to be measured: less than 1 d is left between the zones "
+        "above the floor and below the surface; fill in more grains or make "
+        "measure.exclude_floor and measure.exclude_surface smaller";
     return;
   }
   result.solid_fraction = solid_fraction(bed, slab);
@@ -85,12 +87,12 @@ const char* name_of(PackingStatus status) {
   return "unknown";
 }
 
-Packing make_packing(const PackingSpec& spec, const Kernels& kernels,
-                     const KeepGoing& keep_going) {
+Packing make_packing(const PackingSpec& spec, const Kernels& kernels, const KeepGoing& keep_going) {
   std::optional<SphereBed> bed = start(spec);
   if (!bed) {
-    return failed("a grain found no room in the box: it is larger than the gap between the walls, "
-                  "or the box is too crowded");
+    return failed(
+        "a grain found no room in the box: it is larger than the gap between the walls, "
+        "or the box is too crowded");
   }
   const SettleReport settled = settle(spec.accuracy, kernels, *bed, keep_going);
   Packing packing{result_of(*bed, settled), {}};
@@ -99,8 +101,7 @@ Packing make_packing(const PackingSpec& spec, const Kernels& kernels,
   }
   const Touching touching = find_touching(*bed, widest(spec.measure.gap_tolerances), kernels);
   measure(spec.measure, *bed, touching, packing.result);
-  packing.grains =
-      grains_of(*bed, touching, spec.measure.gap_tolerances.front(), settled.force);
+  packing.grains = grains_of(*bed, touching, spec.measure.gap_tolerances.front(), settled.force);
   return packing;
 }
 

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,13 +27,23 @@ const char* name_of(PackingStatus status);
 
 /// How far from rest a bed is. Forces in m g, lengths in d, energies in m g d.
 struct RestReport {
-  double residual = 0.0;        ///< worst force-balance residual of a row, m g
-  double kinetic_energy = 0.0;  ///< mean per grain of 1/2 m (dx/dt)^2, m g d
-  double largest_motion = 0.0;  ///< largest displacement of a grain in the last step, d
-  double overlap_mean = 0.0;    ///< mean over force-bearing contacts of max(0, -gap), d
-  double overlap_max = 0.0;     ///< deepest overlap, d
-  std::int64_t contacts = 0;    ///< force-bearing contacts, walls and floor included
+  double residual = 0.0;                ///< worst force-balance residual of a row, m g
+  double kinetic_energy = 0.0;          ///< mean per grain of 1/2 m (dx/dt)^2, m g d
+  double largest_motion = 0.0;          ///< largest displacement of a grain in the last step, d
+  double overlap_mean = 0.0;            ///< mean over force-bearing contacts of max(0, -gap), d
+  double overlap_max = 0.0;             ///< deepest overlap, d
+  std::int64_t contacts = 0;            ///< force-bearing contacts, walls and floor included
   std::int64_t isostatic_contacts = 0;  ///< 3 N - zero modes
+};
+
+/// What a direct solve of force balance on the final force-bearing contacts says; see
+/// engine/dynamics/balance.hpp. In a bed at rest the forces are unique, none pulls, and nothing is
+/// left unbalanced. Numbers are NaN where the forces are not unique.
+struct ForceBalance {
+  bool unique = false;         ///< one set of forces fits the contacts best, not many
+  double least_force = 0.0;    ///< smallest contact force, m g; negative = a contact that must pull
+  double unbalance_max = 0.0;  ///< largest net force on a grain, in its own weight
+  double unbalance_mean = 0.0;  ///< mean of it
 };
 
 /// Mean number of touching neighbours per grain whose centre lies in the measured slab.
@@ -47,21 +58,22 @@ struct PackingResult {
   std::string reason;  ///< empty when settled
   std::int64_t grains = 0;
   RestReport rest;
-  double surface_height = 0.0;  ///< z of the bed's free surface, d
-  double slab_bottom = 0.0;     ///< measured slab, d
+  std::optional<ForceBalance> balance;  ///< if the accuracy asks for it
+  double surface_height = 0.0;          ///< z of the bed's free surface, d
+  double slab_bottom = 0.0;             ///< measured slab, d
   double slab_top = 0.0;
   double solid_fraction = 0.0;  ///< exact solid volume in the slab over the slab's volume
   std::vector<Coordination> coordination;  ///< one entry per gap tolerance of the spec
   std::int64_t steps = 0;
   std::int64_t iterations = 0;
-  std::uint64_t state_hash = 0;  ///< of the final positions, radii and impulses
+  std::uint64_t state_hash = 0;  ///< of the final positions and radii
 };
 
 /// A grain of the finished bed, as `export` writes it.
 struct SettledGrain {
   double x = 0.0, y = 0.0, z = 0.0, radius = 0.0;  ///< d; x and y inside the box
-  double force = 0.0;        ///< sum of the magnitudes of its contact forces, m g
-  std::int32_t touching = 0; ///< touching grains at the first gap tolerance, walls not counted
+  double force = 0.0;         ///< sum of the magnitudes of its contact forces, m g
+  std::int32_t touching = 0;  ///< touching grains at the first gap tolerance, walls not counted
 };
 
 struct Packing {

@@ -14,13 +14,9 @@ namespace grainsweep {
 inline constexpr double pi = 3.14159265358979323846;
 
 /// Volume of a sphere of radius r, d^3.
-inline double sphere_volume(double radius) {
-  return 4.0 / 3.0 * pi * radius * radius * radius;
-}
+inline double sphere_volume(double radius) { return 4.0 / 3.0 * pi * radius * radius * radius; }
 
 /// Mass of a sphere of radius r, in masses of a sphere of diameter d.
-inline double sphere_mass(double radius) {
-  return 8.0 * radius * radius * radius;
-}
+inline double sphere_mass(double radius) { return 8.0 * radius * radius * radius; }
 
 }  // namespace grainsweep

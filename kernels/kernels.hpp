@@ -76,14 +76,14 @@ struct RowKernels {
 /// side; on periodic axes these hold shifted copies, so that no search ever wraps.
 /// Columns must be readable `block_width` entries past the last sphere.
 struct SphereGrid {
-  const float* x;       ///< d, relative to the grid's origin
+  const float* x;  ///< d, relative to the grid's origin
   const float* y;
   const float* z;
-  const float* radius;  ///< d
-  const std::int32_t* grain;       ///< grain of each entry
-  const std::int32_t* cell_begin;  ///< first entry of each cell; one more at the end
+  const float* radius;                     ///< d
+  const std::int32_t* grain;               ///< grain of each entry
+  const std::int32_t* cell_begin;          ///< first entry of each cell; one more at the end
   std::int32_t cells_x, cells_y, cells_z;  ///< with the border; x runs fastest
-  float reach;  ///< pairs with gap below it are found, d
+  float reach;                             ///< pairs with gap below it are found, d
 };
 
 /// Two grains that may touch, a < b.

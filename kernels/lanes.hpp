@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+
 #include <xsimd/xsimd.hpp>
 
 #include GRAINSWEEP_ARCH_HEADER

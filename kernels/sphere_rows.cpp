@@ -1,4 +1,5 @@
-// Solver sweeps over rows of frictionless sphere contacts, and the narrow phase that fills the rows.
+// Solver sweeps over rows of frictionless sphere contacts, and the narrow phase that fills the
+// rows.
 #include "kernels/lanes.hpp"
 #include "kernels/tables.hpp"
 
@@ -18,8 +19,7 @@ struct Rows {
 };
 
 template <class Real>
-inline Rows<Real> load_rows(const RowBlock<Real>& block, std::size_t lane,
-                            const Record<Real>* u) {
+inline Rows<Real> load_rows(const RowBlock<Real>& block, std::size_t lane, const Record<Real>* u) {
   const std::int32_t* a = block.a + lane;
   const std::int32_t* b = block.b + lane;
   return {a,
@@ -35,8 +35,8 @@ inline Rows<Real> load_rows(const RowBlock<Real>& block, std::size_t lane,
 /// w / A: the gap after the motion u over 1/m_a + 1/m_b.
 template <class Real>
 inline Batch<Real> scaled_gap(const Rows<Real>& r) {
-  const Batch<Real> approach = r.nx * (r.u_b.x - r.u_a.x) + r.ny * (r.u_b.y - r.u_a.y) +
-                               r.nz * (r.u_b.z - r.u_a.z);
+  const Batch<Real> approach =
+      r.nx * (r.u_b.x - r.u_a.x) + r.ny * (r.u_b.y - r.u_a.y) + r.nz * (r.u_b.z - r.u_a.z);
   return (r.gap + approach) / (r.u_a.w + r.u_b.w);
 }
 

@@ -5,8 +5,7 @@
 
 namespace grainsweep {
 
-using SpherePairs = std::size_t (*)(const SphereGrid& grid, GrainPair* pairs,
-                                    std::size_t capacity);
+using SpherePairs = std::size_t (*)(const SphereGrid& grid, GrainPair* pairs, std::size_t capacity);
 
 namespace sse2 {
 extern const RowKernels<float> row_kernels_f32;

@@ -9,6 +9,7 @@
 #include "runner/store/files.hpp"
 #include "runner/store/lock.hpp"
 #include "runner/store/states.hpp"
+#include "runner/versions.hpp"
 
 namespace grainsweep {
 namespace {
@@ -18,6 +19,7 @@ Results results_with_warnings(const std::string& folder) {
   for (const std::string& line : results.damage) {
     std::cerr << "warning: " << folder << "/" << line << "\n";
   }
+  std::cerr << other_versions_warning(results.rows, program_version());
   return results;
 }
 

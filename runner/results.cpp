@@ -85,6 +85,17 @@ void write_provenance(const std::string& folder, const Provenance& provenance,
   replace_file(provenance_path(folder), provenance_text(provenance, rows));
 }
 
+std::string other_versions_warning(const std::vector<Row>& rows, const std::string& version) {
+  const auto is_other = [&](const Row& row) {
+    return row.outcome && row.outcome->version != version;
+  };
+  const auto count = std::count_if(rows.begin(), rows.end(), is_other);
+  if (count == 0) return "";
+  return "warning: " + std::to_string(count) + " of " + std::to_string(rows.size()) +
+         " packings were made by another version than " + version +
+         "; run with --fresh to make all anew\n";
+}
+
 std::size_t stored_packings(const std::string& folder) {
   return read_journals(folder).outcomes.size();
 }

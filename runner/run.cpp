@@ -88,6 +88,7 @@ std::string packing_line(const Job& job, const Outcome& outcome) {
 Outcome store(const Job& job, const std::string& folder, Journal& journal, Finished&& finished) {
   Outcome outcome;
   outcome.job = job.id;
+  outcome.version = program_version();
   outcome.result = std::move(finished.packing.result);
   outcome.threw = finished.threw;
   outcome.stored_grains = static_cast<std::int64_t>(finished.packing.grains.size());
@@ -196,6 +197,7 @@ int run(const RunOptions& options) {
 
   const std::vector<Row> rows = join(provenance.sweep, running.outcomes);
   const StatusCounts counts = totals_of(rows).counts;
+  std::cerr << other_versions_warning(rows, program_version());
   write_tables(folder, provenance, rows);
   if (counts.pending > 0 && stop_signal() != 0) {
     say_how_to_go_on(options, folder, counts, rows.size());

@@ -123,6 +123,7 @@ std::vector<std::size_t> longest_first(const std::vector<Task>& tasks) {
 int live_limit(const std::vector<Task>& tasks, const Limits& limits) {
   if (limits.memory <= 0) return std::max(1, limits.threads);
   std::vector<double> bytes;
+  bytes.reserve(tasks.size());
   for (const Task& task : tasks) bytes.push_back(task.cost.bytes);
   std::sort(bytes.begin(), bytes.end(), std::greater<>());
   int live = 0;

@@ -126,24 +126,20 @@ void fill_columns(const SphereBed& bed, const Cells& cells, GridColumns& grid) {
 
 /// What rounding positions to f32 can add to a distance, d: three roundings of the largest number.
 double rounding_slack(const SphereBed& bed, const Cells& cells) {
-  const double extent = std::max({2.0 * bed.box.length, 2.0 * bed.box.width,
-                                  cells.size_z * cells.inner_z});
+  const double extent =
+      std::max({2.0 * bed.box.length, 2.0 * bed.box.width, cells.size_z * cells.inner_z});
   return 8.0 * static_cast<double>(std::numeric_limits<float>::epsilon()) * extent;
 }
 
 void list_pairs(const SphereBed& bed, const Cells& cells, const Kernels& kernels,
                 Candidates& candidates) {
   const GridColumns& g = candidates.grid;
-  const SphereGrid grid{g.x.data(),
-                        g.y.data(),
-                        g.z.data(),
-                        g.radius.data(),
-                        g.grain.data(),
-                        g.cell_begin.data(),
-                        cells.inner_x + 2,
-                        cells.inner_y + 2,
-                        cells.inner_z + 2,
-                        static_cast<float>(candidates.reach + rounding_slack(bed, cells))};
+  const SphereGrid grid{
+      g.x.data(),        g.y.data(),
+      g.z.data(),        g.radius.data(),
+      g.grain.data(),    g.cell_begin.data(),
+      cells.inner_x + 2, cells.inner_y + 2,
+      cells.inner_z + 2, static_cast<float>(candidates.reach + rounding_slack(bed, cells))};
   candidates.pairs.resize(std::max(candidates.pairs.capacity(), 6 * bed.grains() + block_width));
   std::size_t found = kernels.sphere_pairs(grid, candidates.pairs.data(), candidates.pairs.size());
   if (found > candidates.pairs.size()) {
@@ -254,8 +250,7 @@ std::vector<Wall> walls_of(const Box& box) {
   return walls;
 }
 
-void find_candidates(SphereBed& bed, double reach, const Kernels& kernels,
-                     Candidates& candidates) {
+void find_candidates(SphereBed& bed, double reach, const Kernels& kernels, Candidates& candidates) {
   wrap(bed);
   const Cells cells = make_cells(bed, reach);
   candidates.reach = reach;
@@ -270,10 +265,9 @@ bool still_complete(const SphereBed& bed, double near, Candidates& candidates) {
   measure_layers(bed, candidates);
   return relative_motion(candidates.layers) <= candidates.reach - near &&
          least_rise(candidates.layers) >= 2.0 * candidates.largest_radius + near &&
-         std::none_of(candidates.walls.begin(), candidates.walls.end(),
-                      [&](const WallCandidates& w) {
-                        return has_newcomer(bed, w.wall, near, candidates);
-                      });
+         std::none_of(
+             candidates.walls.begin(), candidates.walls.end(),
+             [&](const WallCandidates& w) { return has_newcomer(bed, w.wall, near, candidates); });
 }
 
 }  // namespace grainsweep

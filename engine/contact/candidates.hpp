@@ -15,9 +15,9 @@ namespace grainsweep {
 
 /// A flat wall or the floor: grains stay where sign * coordinate + offset >= 0.
 struct Wall {
-  int axis;       ///< 0 x, 1 y, 2 z
-  double sign;    ///< +1 where grains lie above the wall along the axis, -1 where below
-  double offset;  ///< d
+  int axis = 2;         ///< 0 x, 1 y, 2 z
+  double sign = 1.0;    ///< +1 where grains lie above the wall along the axis, -1 where below
+  double offset = 0.0;  ///< d
 
   /// Distance of a sphere's surface from the wall, d; negative = overlap.
   double gap(const Record<double>& sphere) const {
@@ -51,9 +51,9 @@ struct GridColumns {
 };
 
 struct Candidates {
-  double reach = 0.0;             ///< every pair and wall with a gap below it is listed, d
-  double largest_radius = 0.0;    ///< d
-  std::vector<GrainPair> pairs;   ///< each once, a < b, in the order of the search grid
+  double reach = 0.0;            ///< every pair and wall with a gap below it is listed, d
+  double largest_radius = 0.0;   ///< d
+  std::vector<GrainPair> pairs;  ///< each once, a < b, in the order of the search grid
   std::vector<WallCandidates> walls;
   std::vector<Record<double>> built_at;  ///< positions of the grains when the list was made
   std::vector<std::int32_t> layer;       ///< horizontal layer of each grain at that time

@@ -1,8 +1,8 @@
 // Contacts: the rows that the solver works on, and the impulses they carry from step to step.
 //
 // Rows persist while their candidates do. They are laid out once, in blocks whose lanes never share
-// a grain, and then only their gaps and normals are measured anew in each step. Each wall has blocks
-// of its own after those of the pairs.
+// a grain, and then only their gaps and normals are measured anew in each step. Each wall has
+// blocks of its own after those of the pairs.
 #pragma once
 
 #include <cstdint>

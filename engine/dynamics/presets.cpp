@@ -37,6 +37,7 @@ Accuracy accurate() {
   a.kinetic_tolerance = 2e-5;
   a.contact_tolerance = 0.006;
   a.overlap_tolerance = 5e-6;
+  a.force_balance = BalanceCheck::solve;
   return a;
 }
 

@@ -30,19 +30,6 @@ class Clusters {
   std::vector<std::size_t> parent_;
 };
 
-/// Calls visit(block, lane) for each row whose force counts.
-template <class Real, class Visit>
-void visit_force_bearing(const Contacts<Real>& contacts, double dt, Visit visit) {
-  const double least = least_force * dt * dt;
-  for (std::size_t block = 0; block < contacts.rows.size(); ++block) {
-    for (std::size_t lane = 0; lane < block_width; ++lane) {
-      if (static_cast<double>(contacts.impulse[block * block_width + lane]) > least) {
-        visit(block, lane);
-      }
-    }
-  }
-}
-
 /// Bit `axis` of entry i: a wall of that axis pushes a grain of the cluster rooted at i.
 template <class Real>
 std::vector<unsigned> pushed_axes(const SphereBed& bed, const Contacts<Real>& contacts, double dt,
@@ -51,7 +38,9 @@ std::vector<unsigned> pushed_axes(const SphereBed& bed, const Contacts<Real>& co
   visit_force_bearing(contacts, dt, [&](std::size_t block, std::size_t lane) {
     if (block >= contacts.pair_blocks) {
       const RowBlock<Real>& r = contacts.rows[block];
-      const unsigned axis = r.normal_z[lane] != Real(0) ? 2U : r.normal_y[lane] != Real(0) ? 1U : 0U;
+      const unsigned axis = r.normal_z[lane] != Real(0)   ? 2U
+                            : r.normal_y[lane] != Real(0) ? 1U
+                                                          : 0U;
       axes[clusters.root(static_cast<std::size_t>(r.a[lane]))] |= 1U << axis;
     }
   });
@@ -111,8 +100,8 @@ double carried_weight(const SphereBed& bed, const Contacts<Real>& contacts, doub
     weight += 1.0 / bed.motion[i].w;
   }
   const WallRows& floor = contacts.walls.front();
-  for (std::size_t k = floor.first * block_width;
-       k < (floor.first + floor.blocks) * block_width; ++k) {
+  for (std::size_t k = floor.first * block_width; k < (floor.first + floor.blocks) * block_width;
+       ++k) {
     carried += static_cast<double>(contacts.impulse[k]);
   }
   return weight > 0.0 ? carried / (dt * dt * weight) : 1.0;

@@ -1,8 +1,8 @@
 // Whether a bed is at rest, and by how much it misses.
 //
-// Without friction a bed at rest carries exactly as many force-bearing contacts as it has degrees of
-// freedom that are not free: 3 per grain, less the zero modes. Loose solves leave overlaps and too
-// many contacts, a bed still sliding has too few; so the count is a check on everything else.
+// Without friction a bed at rest carries exactly as many force-bearing contacts as it has degrees
+// of freedom that are not free: 3 per grain, less the zero modes. Loose solves leave overlaps and
+// too many contacts, a bed still sliding has too few; so the count is a check on everything else.
 #pragma once
 
 #include <cstdint>
@@ -16,6 +16,19 @@ namespace grainsweep {
 
 /// Forces below this do not make a contact force-bearing, m g.
 inline constexpr double least_force = 1e-6;
+
+/// Calls visit(block, lane) for each row whose force counts.
+template <class Real, class Visit>
+void visit_force_bearing(const Contacts<Real>& contacts, double dt, Visit visit) {
+  const double least = least_force * dt * dt;
+  for (std::size_t block = 0; block < contacts.rows.size(); ++block) {
+    for (std::size_t lane = 0; lane < block_width; ++lane) {
+      if (static_cast<double>(contacts.impulse[block * block_width + lane]) > least) {
+        visit(block, lane);
+      }
+    }
+  }
+}
 
 /// Largest and mean overlap, and counts, of a bed whose contacts hold the impulses of a step of
 /// length `dt`. Measures the gaps anew; residual, kinetic energy and motion are left at 0.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/dynamics/balance.hpp"
+
 namespace grainsweep {
 
 namespace {
@@ -69,10 +71,11 @@ void enter(Stage stage, Settling<Real>& s) {
 /// Share of the work done, from the stage and its steps: an estimate for progress bars.
 template <class Real>
 double share_done(const Settling<Real>& s, Stage stage, std::int64_t steps_in_stage) {
-  constexpr double begin[] = {0.0, 0.4, 0.7, 1.0};    // typical shares of the time
-  constexpr double usual[] = {170.0, 25.0, 15.0};     // typical steps
+  constexpr double begin[] = {0.0, 0.4, 0.7, 1.0};  // typical shares of the time
+  constexpr double usual[] = {170.0, 25.0, 15.0};   // typical steps
   const auto k = static_cast<std::size_t>(stage);
-  const double steps = stage == Stage::creep ? std::max(1.0, 1.0 * s.accuracy.creep_steps) : usual[k];
+  const double steps =
+      stage == Stage::creep ? std::max(1.0, 1.0 * s.accuracy.creep_steps) : usual[k];
   const double in_stage = static_cast<double>(steps_in_stage) / steps;
   return begin[k] + (begin[k + 1] - begin[k]) * in_stage / (1.0 + in_stage);
 }
@@ -122,6 +125,9 @@ SettleReport settle_as(const Accuracy& accuracy, const Kernels& kernels, SphereB
   run(Stage::creep, s, [&](std::int64_t k) { return k >= accuracy.creep_steps; });
   run(Stage::quench, s, [&](std::int64_t k) { return k >= least_quench_steps && is_at_rest(s); });
   certify_rest(s);
+  if (accuracy.force_balance == BalanceCheck::solve && !s.report.cancelled) {
+    s.report.balance = balance_forces(bed, kernels, s.settings.dt, s.state.contacts);
+  }
   s.report.force = force_sums(bed, s.state.contacts, s.settings.dt);
   return s.report;
 }

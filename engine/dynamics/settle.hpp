@@ -2,7 +2,8 @@
 //
 //   fall    full steps with momentum, until the floor carries the bed; overlaps repaired by 10 % a
 //           step, so that loose solves do not throw grains about
-//   creep   double steps without momentum, better solves, overlaps repaired whole: grains slide into
+//   creep   double steps without momentum, better solves, overlaps repaired whole: grains slide
+//   into
 //           their places. With momentum the errors of the solves keep a bed warm, and it compacts
 //           for ever, as if tapped.
 //   quench  half steps without momentum: what still moves is slowed down and contacts close, until
@@ -12,6 +13,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 
 #include "engine/dynamics/rest.hpp"
 #include "engine/dynamics/step.hpp"
@@ -21,11 +23,12 @@ namespace grainsweep {
 
 struct SettleReport {
   RestReport rest;
-  std::string why_not;      ///< the test of rest that failed; empty if settled
+  std::string why_not;  ///< the test of rest that failed; empty if settled
   bool cancelled = false;
   std::int64_t steps = 0;
   std::int64_t iterations = 0;
-  std::vector<double> force;  ///< sum of contact force magnitudes on each grain, m g
+  std::optional<ForceBalance> balance;  ///< if the accuracy asks for it
+  std::vector<double> force;            ///< sum of contact force magnitudes on each grain, m g
 };
 
 /// Settles `bed`. `keep_going` is asked after every step.

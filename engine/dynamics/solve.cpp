@@ -6,8 +6,8 @@ namespace grainsweep {
 
 namespace {
 
-/// Upper bound of the largest eigenvalue of A scaled by its diagonal; 3.3 is the largest seen in any
-/// bed of spheres.
+/// Upper bound of the largest eigenvalue of A scaled by its diagonal; 3.3 is the largest seen in
+/// any bed of spheres.
 constexpr double eigenvalue_bound = 3.95;
 
 /// What a solver works on.
@@ -37,9 +37,8 @@ void set_motion(Problem<Real>& problem) {
 
 template <class Real>
 double true_residual(const Problem<Real>& problem) {
-  return static_cast<double>(problem.kernels.residual(problem.rows(), problem.blocks(),
-                                                      problem.motion.u.data(),
-                                                      problem.contacts.impulse.data()));
+  return static_cast<double>(problem.kernels.residual(
+      problem.rows(), problem.blocks(), problem.motion.u.data(), problem.contacts.impulse.data()));
 }
 
 /// Nesterov's sequence, restarted where the objective would rise (O'Donoghue and Candes 2015).
@@ -61,7 +60,8 @@ class Momentum {
 // Each method below improves the impulses by `iterate`, which returns the residual that its sweeps
 // saw on the way, and starts afresh from the impulses and their motion by `restart`.
 
-/// Projected gradient descent on the dual with Nesterov's momentum; each step scaled by the diagonal.
+/// Projected gradient descent on the dual with Nesterov's momentum; each step scaled by the
+/// diagonal.
 template <class Real>
 class AcceleratedGradient {
  public:

@@ -2,8 +2,8 @@
 //
 //   minimise 1/2 |u - u_free|^2_M  subject to  gap_c + n_c . (u_b - u_a) >= 0
 //
-// Its dual is A p + w_free >= 0, p >= 0, p . (A p + w_free) = 0 with A = H^T M^-1 H. The residual of
-// a row is |min(p, w / (1/m_a + 1/m_b))| / dt^2, in m g: the force by which it misses balance.
+// Its dual is A p + w_free >= 0, p >= 0, p . (A p + w_free) = 0 with A = H^T M^-1 H. The residual
+// of a row is |min(p, w / (1/m_a + 1/m_b))| / dt^2, in m g: the force by which it misses balance.
 #pragma once
 
 #include <vector>

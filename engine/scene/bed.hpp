@@ -1,7 +1,8 @@
 // A bed of spheres: the state that a packing carries from step to step.
 //
-// Spheres have a position, a radius, a mass and a displacement. They have no orientation, no inertia
-// and no lever arms: without friction nothing can turn them, so nothing here could say that they do.
+// Spheres have a position, a radius, a mass and a displacement. They have no orientation, no
+// inertia and no lever arms: without friction nothing can turn them, so nothing here could say that
+// they do.
 #pragma once
 
 #include <cstddef>
@@ -25,8 +26,9 @@ struct Box {
   double period_y() const { return y == Boundary::periodic ? width : 0.0; }
 };
 
-/// Columns of a bed. Each column ends with three entries that are no grains: the wall, which nothing
-/// moves, and two void grains far from everything, which fill unused lanes of kernel blocks.
+/// Columns of a bed. Each column ends with three entries that are no grains: the wall, which
+/// nothing moves, and two void grains far from everything, which fill unused lanes of kernel
+/// blocks.
 struct SphereBed {
   Box box;
   std::vector<Record<double>> position;  ///< x, y, z and radius, d; x and y may leave the box

@@ -2,10 +2,10 @@
 // grain it belongs to and how often that grain asked. No state, so no order of drawing matters.
 #pragma once
 
-#include <Random123/philox.h>
-
 #include <cmath>
 #include <cstdint>
+
+#include <Random123/philox.h>
 
 #include "engine/units.hpp"
 

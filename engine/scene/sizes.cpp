@@ -27,8 +27,8 @@ ClassCounts counts_for_grains(std::int64_t grains, const SizesSpec& sizes) {
   const double ratio = sizes.size_ratio * sizes.size_ratio * sizes.size_ratio;
   const double small_parts = sizes.small_share / ratio;
   const double large_parts = 1.0 - sizes.small_share;
-  const std::int64_t small = std::llround(static_cast<double>(grains) * small_parts /
-                                          (small_parts + large_parts));
+  const std::int64_t small =
+      std::llround(static_cast<double>(grains) * small_parts / (small_parts + large_parts));
   return {grains - small, small};
 }
 
@@ -56,8 +56,8 @@ std::vector<double> draw_radii(const PackingSpec& spec) {
   std::vector<double> radii(static_cast<std::size_t>(counts.large + counts.small));
   for (std::size_t i = 0; i < radii.size(); ++i) {
     const bool large = i < static_cast<std::size_t>(counts.large);
-    radii[i] = draw_radius(spec.random_key, i, large ? 1.0 : spec.sizes.size_ratio,
-                           spec.sizes.spread);
+    radii[i] =
+        draw_radius(spec.random_key, i, large ? 1.0 : spec.sizes.size_ratio, spec.sizes.spread);
   }
   return radii;
 }

@@ -124,8 +124,7 @@ double column_height(const Box& box, const std::vector<double>& radii, double la
   for (const double radius : radii) {
     volume += sphere_volume(radius);
   }
-  return std::max(volume / (start_solid_fraction * box.length * box.width),
-                  1.5 * largest_diameter);
+  return std::max(volume / (start_solid_fraction * box.length * box.width), 1.5 * largest_diameter);
 }
 
 std::optional<SphereBed> place_all(const Box& box, const std::vector<double>& radii,

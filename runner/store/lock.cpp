@@ -32,8 +32,9 @@ std::string owner_in(const std::string& path) {
 
 }  // namespace
 
-FolderLock::FolderLock(const std::string& folder) : file_(folder + lock_name, O_RDWR | O_CREAT) {
-  is_held_ = flock(file_.descriptor(), LOCK_EX | LOCK_NB) == 0;
+FolderLock::FolderLock(const std::string& folder)
+    : file_(folder + lock_name, O_RDWR | O_CREAT),
+      is_held_(flock(file_.descriptor(), LOCK_EX | LOCK_NB) == 0) {
   if (!is_held_ && errno == EWOULDBLOCK) {
     throw FolderBusy(folder + ": another runner works here (" + owner_in(file_.path()) +
                      "); wait for it or give another folder with --out");

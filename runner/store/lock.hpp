@@ -28,7 +28,7 @@ class FolderLock {
 
  private:
   OpenFile file_;
-  bool is_held_ = false;
+  bool is_held_;
 };
 
 /// "host, process 4711" of the runner that works in `folder` now; nothing if none does.

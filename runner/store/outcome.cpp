@@ -56,6 +56,25 @@ RestReport rest_from(const json& from) {
   return rest;
 }
 
+/// Nothing if the accuracy asked for no direct solve.
+json balance_json(const std::optional<ForceBalance>& balance) {
+  if (!balance) return nullptr;
+  return {{"unique", balance->unique},
+          {"least_force", number(balance->least_force)},
+          {"unbalance_max", number(balance->unbalance_max)},
+          {"unbalance_mean", number(balance->unbalance_mean)}};
+}
+
+std::optional<ForceBalance> balance_from(const json& from) {
+  if (from.is_null()) return std::nullopt;
+  ForceBalance balance;
+  from.at("unique").get_to(balance.unique);
+  balance.least_force = number_from(from.at("least_force"));
+  balance.unbalance_max = number_from(from.at("unbalance_max"));
+  balance.unbalance_mean = number_from(from.at("unbalance_mean"));
+  return balance;
+}
+
 json coordination_json(const std::vector<Coordination>& coordination) {
   json list = json::array();
   for (const Coordination& at : coordination) {
@@ -81,12 +100,14 @@ std::vector<Coordination> coordination_from(const json& list) {
 json to_json(const Outcome& outcome) {
   const PackingResult& result = outcome.result;
   return {{"job", outcome.job},
+          {"version", outcome.version},
           {"status", name_of(result.status)},
           {"reason", result.reason},
           {"threw", outcome.threw},
           {"grains", result.grains},
           {"stored_grains", outcome.stored_grains},
           {"rest", rest_json(result.rest)},
+          {"balance", balance_json(result.balance)},
           {"surface_height", number(result.surface_height)},
           {"slab_bottom", number(result.slab_bottom)},
           {"slab_top", number(result.slab_top)},
@@ -102,12 +123,14 @@ Outcome outcome_from_json(const json& json) {
   Outcome outcome;
   PackingResult& result = outcome.result;
   json.at("job").get_to(outcome.job);
+  json.at("version").get_to(outcome.version);
   result.status = status_from(json.at("status").get<std::string>());
   json.at("reason").get_to(result.reason);
   json.at("threw").get_to(outcome.threw);
   json.at("grains").get_to(result.grains);
   json.at("stored_grains").get_to(outcome.stored_grains);
   result.rest = rest_from(json.at("rest"));
+  result.balance = balance_from(json.at("balance"));
   result.surface_height = number_from(json.at("surface_height"));
   result.slab_bottom = number_from(json.at("slab_bottom"));
   result.slab_top = number_from(json.at("slab_top"));

@@ -13,6 +13,7 @@ namespace grainsweep {
 struct Outcome {
   std::string job;  ///< Job::id
   PackingResult result;
+  std::string version;  ///< of the program that made it
   /// The packing ended in an exception (no memory, say), not in a result: it is tried again by the
   /// next run.
   bool threw = false;

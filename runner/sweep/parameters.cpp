@@ -196,6 +196,9 @@ Rows accuracy_rows() {
                                       "mean overlap of touching pairs at rest, d"),
       accuracy<&A::max_steps>("accuracy.max_steps",
                               "steps after which a bed counts as not settled"),
+      accuracy<&A::force_balance>("accuracy.force_balance",
+                                  "certify the final contacts by a direct solve of force balance",
+                                  {"skip", "solve"}),  // in the order of BalanceCheck
   };
 }
 

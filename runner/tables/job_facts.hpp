@@ -37,8 +37,8 @@ SweepFacts facts_of(const Sweep& sweep);
 
 /// As kept in provenance.json. Equal parameters are kept once.
 nlohmann::json to_json(const SweepFacts& sweep);
-/// Throws nlohmann::json::exception if `json` is not what to_json makes.
-SweepFacts sweep_facts_from_json(const nlohmann::json& json);
+/// Throws nlohmann::json::exception if `from` is not what to_json makes.
+SweepFacts sweep_facts_from_json(const nlohmann::json& from);
 
 /// A job and what came of it; no outcome while it is pending.
 struct Row {

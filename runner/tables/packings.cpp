@@ -39,8 +39,9 @@ const Cells first_columns = {"job",
                              "boundary_x",
                              "accuracy",
                              "gap_tolerance"};
-const Cells last_columns = {"surface_height", "slab_bottom", "slab_top",
-                            "largest_motion", "state_hash",  "reason"};
+const Cells last_columns = {"surface_height", "slab_bottom", "slab_top",      "largest_motion",
+                            "forces_unique",  "least_force", "unbalance_max", "unbalance_mean",
+                            "state_hash",     "reason"};
 
 void append(Cells& cells, Cells more) {
   std::move(more.begin(), more.end(), std::back_inserter(cells));
@@ -97,12 +98,25 @@ Cells coordination_cells(const Row& row, const std::vector<double>& tolerances) 
   return cells;
 }
 
+/// Empty where the accuracy asked for no direct solve of force balance.
+Cells balance_cells(const std::optional<ForceBalance>& balance) {
+  if (!balance) return Cells(4);
+  return {balance->unique ? "yes" : "no", cell(balance->least_force), cell(balance->unbalance_max),
+          cell(balance->unbalance_mean)};
+}
+
 Cells state_cells(const Row& row) {
-  if (!row.outcome) return Cells(6);
+  if (!row.outcome) return Cells(last_columns.size());
   const PackingResult& result = row.outcome->result;
-  if (!is_measured(row)) return {"", "", "", "", "", cell(result.reason)};
-  return {cell(result.surface_height),      cell(result.slab_bottom), cell(result.slab_top),
-          cell(result.rest.largest_motion), hex(result.state_hash),   cell(result.reason)};
+  Cells cells(last_columns.size() - 1);
+  if (is_measured(row)) {
+    cells = {cell(result.surface_height), cell(result.slab_bottom), cell(result.slab_top),
+             cell(result.rest.largest_motion)};
+    append(cells, balance_cells(result.balance));
+    cells.push_back(hex(result.state_hash));
+  }
+  cells.push_back(cell(result.reason));
+  return cells;
 }
 
 Cells header(const std::vector<double>& tolerances) {

@@ -17,7 +17,8 @@ PackingSpec small_spec(std::uint64_t key = 1) {
   spec.box = {4, 4, Boundary::periodic, Boundary::walls};
   spec.fill = GrainCount{160};
   spec.accuracy = *preset("fast");
-  spec.measure.exclude_floor = spec.measure.exclude_surface = 2.0;
+  spec.measure.exclude_floor = 2.0;
+  spec.measure.exclude_surface = 1.5;
   spec.random_key = key;
   return spec;
 }
@@ -34,7 +35,7 @@ TEST_CASE("a small packing settles and is measured") {
   CHECK(result.reason == "");
   CHECK(result.grains == 160);
   CHECK(result.slab_bottom == 2.0);
-  CHECK(result.slab_top == result.surface_height - 2.0);
+  CHECK(result.slab_top == result.surface_height - 1.5);
   CHECK((result.solid_fraction > 0.5 && result.solid_fraction < 0.66));
   CHECK(result.steps > 50);
   CHECK(result.iterations > result.steps);
@@ -65,6 +66,19 @@ TEST_CASE("the grains of a packing lie in the box with their forces and neighbou
     neighbours += grain.touching;
   }
   CHECK(neighbours / 160 == Approx(4.5).margin(1));
+}
+
+TEST_CASE("a grain's neighbours are counted at the first gap tolerance") {
+  std::vector<std::int32_t> neighbours;
+  for (const auto& tolerances : {std::vector{1e-5, 0.05}, std::vector{0.05, 1e-5}}) {
+    PackingSpec spec = small_spec();
+    spec.measure.gap_tolerances = tolerances;
+    neighbours.push_back(0);
+    for (const SettledGrain& grain : pack(spec).grains) {
+      neighbours.back() += grain.touching;
+    }
+  }
+  CHECK(neighbours[0] < neighbours[1]);
 }
 
 TEST_CASE("equal specifications give equal bits, another key gives another bed") {

@@ -57,6 +57,16 @@ TEST_CASE("a packing counts as finished with its grains stored and without an ex
   CHECK(finished.contains("failed"));
 }
 
+TEST_CASE("packings of another version of the program are counted") {
+  Row other = settled_row("a1", 5, 0.6, 6), own = settled_row("a2", 6, 0.6, 6), pending = own;
+  other.outcome->version = "1.0.0";
+  own.outcome->version = "2.0.0";
+  pending.outcome.reset();
+  CHECK(other_versions_warning({own, pending}, "2.0.0").empty());
+  CHECK_THAT(other_versions_warning({own, other, pending}, "2.0.0"),
+             Catch::StartsWith("warning: 1 of 3 packings were made by another version than 2.0.0"));
+}
+
 TEST_CASE("removing results leaves other files alone") {
   const TemporaryFolder folder;
   Journal(folder.path()).append(sample_outcome("a1", 0.6, 6));

@@ -158,6 +158,18 @@ TEST_CASE("a sphere alone in a corner leans on no wall") {
   CHECK(forces.at({0, testing::wall_name(bed, 3)}) == 0);
 }
 
+// A gradient step gives 1 / 3.95 of the impulse that a single contact needs.
+TEST_CASE("the residual of a step is a force in weights, whatever the length of the step") {
+  for (const double dt : {0.1, 0.2, 0.3}) {
+    SphereBed bed = make_bed({4, 4, periodic, walls}, {{2, 2, 0.5, 0.5}});
+    StepState<double> state;
+    StepSettings settings = tight_steps(0.5);
+    settings.dt = dt;
+    settings.limits.iterations = 1;
+    CHECK(step(settings, kernels(), bed, state).solve.residual == Approx(1 - 1 / 3.95));
+  }
+}
+
 TEST_CASE("a grain that falls on another one does not pass through it") {
   SphereBed bed = make_bed({8, 5, periodic, walls}, {{2, 2, 0.5, 0.5}, {2, 2, 12, 0.5}});
   StepState<double> state;

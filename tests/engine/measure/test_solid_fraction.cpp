@@ -109,11 +109,11 @@ TEST_CASE("the surface is the median of the columns: stray grains and holes do n
 }
 
 TEST_CASE("grains beyond a periodic border stand above the columns of their images") {
-  SphereBed bed = testing::simple_cubic_bed(4, 4, 3);
+  SphereBed bed = testing::random_bed({{6, 4, periodic, periodic}, 120, 0.5, 0.5, 6, 5});
   const double height = surface_height(bed);
-  for (std::size_t i = 0; i < bed.grains(); i += 3) {
-    bed.position[i].x += 4;
-    bed.position[i].y -= 8;
+  for (std::size_t i = 0; i < bed.grains(); ++i) {
+    bed.position[i].x += i % 2 == 0 ? 6 : -12;
+    bed.position[i].y += i % 3 == 0 ? -8 : 4;
   }
   CHECK(surface_height(bed) == height);
 }

@@ -25,12 +25,15 @@ TEST_CASE("an outcome read from its journal line is the same in every member") {
   outcome.result.reason = "no \"room\", φ\nsecond line";
   outcome.result.state_hash = std::numeric_limits<std::uint64_t>::max();
   outcome.stored_grains = 17;
+  outcome.version = "1.2.3";
+  outcome.result.balance = ForceBalance{true, 1e-3, 2e-9, 1e-10};
   const Outcome back =
       read_journal_line(journal_line(outcome).substr(0, journal_line(outcome).size() - 1)).value();
   CHECK(to_json(back) == to_json(outcome));
   CHECK(back.result.reason == outcome.result.reason);
   CHECK(back.result.state_hash == outcome.result.state_hash);
   CHECK(back.stored_grains == 17);
+  CHECK(back.version == "1.2.3");
 }
 
 TEST_CASE("doubles of every kind read back with the same bits") {

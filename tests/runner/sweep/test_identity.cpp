@@ -65,9 +65,11 @@ TEST_CASE("every part of the accuracy belongs to the identity, the preset's name
   CHECK(balanced == accuracy(R"({"name": "t", "base": {"accuracy": "balanced"}})"));
   CHECK(balanced.count("preset") == 0);
   CHECK(balanced.at("solver").is_string());
+  const std::map<std::string, std::string> other_names = {
+      {"solver", "pgs"}, {"precision", "f64"}, {"force_balance", "solve"}};
   for (const auto& [part, value] : balanced.items()) {
     const nlohmann::json other =
-        value.is_string() ? nlohmann::json(part == "solver" ? "pgs" : "f64")
+        value.is_string() ? nlohmann::json(other_names.at(part))
                           : nlohmann::json(value.is_number_integer() ? value.get<int>() + 1
                                                                      : value.get<double>() / 2);
     INFO(part);

@@ -1,0 +1,120 @@
+#include "engine/dynamics/balance.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <Eigen/SparseCholesky>
+
+#include "engine/dynamics/rest.hpp"
+
+namespace grainsweep {
+
+namespace {
+
+using Matrix = Eigen::SparseMatrix<double>;
+
+// Pivots of the scaled matrix are near 1; one this small means two ways to carry the bed.
+constexpr double least_pivot = 1e-10;
+
+/// The rows of `contacts` in f64, measured anew.
+template <class Real>
+std::vector<RowBlock<double>> rows_in_f64(const SphereBed& bed, const Kernels& kernels,
+                                          const Contacts<Real>& contacts) {
+  Contacts<double> measured;
+  measured.pair_blocks = contacts.pair_blocks;
+  measured.walls = contacts.walls;
+  for (const RowBlock<Real>& from : contacts.rows) {
+    RowBlock<double>& to = measured.rows.emplace_back();
+    std::copy(std::begin(from.a), std::end(from.a), to.a);
+    std::copy(std::begin(from.b), std::end(from.b), to.b);
+  }
+  detect(bed, kernels, 1.0, measured);
+  return measured.rows;
+}
+
+/// Adds the three numbers of one side of a contact to column `column` of M^-1/2 H.
+void add_side(const SphereBed& bed, const RowBlock<double>& r, std::size_t lane, double sign,
+              int column, std::vector<Eigen::Triplet<double>>& entries) {
+  const std::int32_t grain = sign > 0.0 ? r.b[lane] : r.a[lane];
+  if (grain >= bed.wall()) {
+    return;
+  }
+  const double scale = sign * std::sqrt(bed.motion[static_cast<std::size_t>(grain)].w);
+  entries.emplace_back(3 * grain, column, scale * r.normal_x[lane]);
+  entries.emplace_back(3 * grain + 1, column, scale * r.normal_y[lane]);
+  entries.emplace_back(3 * grain + 2, column, scale * r.normal_z[lane]);
+}
+
+/// M^-1/2 H, a column per force-bearing contact.
+template <class Real>
+Matrix contact_matrix(const SphereBed& bed, const Kernels& kernels, double dt,
+                      const Contacts<Real>& contacts) {
+  const std::vector<RowBlock<double>> rows = rows_in_f64(bed, kernels, contacts);
+  std::vector<Eigen::Triplet<double>> entries;
+  int columns = 0;
+  visit_force_bearing(contacts, dt, [&](std::size_t block, std::size_t lane) {
+    add_side(bed, rows[block], lane, 1.0, columns, entries);
+    add_side(bed, rows[block], lane, -1.0, columns, entries);
+    ++columns;
+  });
+  Matrix matrix(3 * static_cast<int>(bed.grains()), columns);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  return matrix;
+}
+
+/// M^-1/2 times the force that carries each grain's weight.
+Eigen::VectorXd carried_weights(const SphereBed& bed) {
+  Eigen::VectorXd weights = Eigen::VectorXd::Zero(3 * static_cast<int>(bed.grains()));
+  for (std::size_t i = 0; i < bed.grains(); ++i) {
+    weights[3 * static_cast<int>(i) + 2] = 1.0 / std::sqrt(bed.motion[i].w);
+  }
+  return weights;
+}
+
+/// Largest and mean net force on a grain, in its own weight.
+void set_unbalance(const Eigen::VectorXd& scaled, const SphereBed& bed, ForceBalance& balance) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < bed.grains(); ++i) {
+    const double net =
+        scaled.segment<3>(3 * static_cast<int>(i)).norm() * std::sqrt(bed.motion[i].w);
+    balance.unbalance_max = std::max(balance.unbalance_max, net);
+    sum += net;
+  }
+  balance.unbalance_mean = sum / static_cast<double>(std::max<std::size_t>(bed.grains(), 1));
+}
+
+}  // namespace
+
+template <class Real>
+ForceBalance balance_forces(const SphereBed& bed, const Kernels& kernels, double dt,
+                            const Contacts<Real>& contacts) {
+  const Matrix h = contact_matrix(bed, kernels, dt, contacts);
+  const Eigen::VectorXd weights = carried_weights(bed);
+  ForceBalance balance;
+  if (h.cols() == 0) {
+    set_unbalance(weights, bed, balance);
+    return balance;
+  }
+  const Matrix a = h.transpose() * h;
+  const Eigen::SimplicialLDLT<Matrix> factors(a);
+  const Eigen::VectorXd pivots = factors.vectorD();
+  balance.unique =
+      factors.info() == Eigen::Success && pivots.minCoeff() > least_pivot * pivots.maxCoeff();
+  if (balance.unique) {
+    const Eigen::VectorXd forces = factors.solve(h.transpose() * weights);
+    balance.least_force = forces.minCoeff();
+    set_unbalance(weights - h * forces, bed, balance);
+  } else {
+    balance.least_force = balance.unbalance_max = balance.unbalance_mean =
+        std::numeric_limits<double>::quiet_NaN();
+  }
+  return balance;
+}
+
+template ForceBalance balance_forces(const SphereBed&, const Kernels&, double,
+                                     const Contacts<float>&);
+template ForceBalance balance_forces(const SphereBed&, const Kernels&, double,
+                                     const Contacts<double>&);
+
+}  // namespace grainsweep
