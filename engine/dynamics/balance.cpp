@@ -17,6 +17,10 @@ using Matrix = Eigen::SparseMatrix<double>;
 // Pivots of the scaled matrix are near 1; one this small means two ways to carry the bed.
 constexpr double least_pivot = 1e-10;
 
+/// Three numbers per grain, grain after grain.
+Eigen::Index first_force(std::size_t grain) { return 3 * static_cast<Eigen::Index>(grain); }
+Eigen::Index forces_of(const SphereBed& bed) { return first_force(bed.grains()); }
+
 /// The rows of `contacts` in f64, measured anew.
 template <class Real>
 std::vector<RowBlock<double>> rows_in_f64(const SphereBed& bed, const Kernels& kernels,
@@ -58,16 +62,16 @@ Matrix contact_matrix(const SphereBed& bed, const Kernels& kernels, double dt,
     add_side(bed, rows[block], lane, -1.0, columns, entries);
     ++columns;
   });
-  Matrix matrix(3 * static_cast<int>(bed.grains()), columns);
+  Matrix matrix(forces_of(bed), columns);
   matrix.setFromTriplets(entries.begin(), entries.end());
   return matrix;
 }
 
 /// M^-1/2 times the force that carries each grain's weight.
 Eigen::VectorXd carried_weights(const SphereBed& bed) {
-  Eigen::VectorXd weights = Eigen::VectorXd::Zero(3 * static_cast<int>(bed.grains()));
+  Eigen::VectorXd weights = Eigen::VectorXd::Zero(forces_of(bed));
   for (std::size_t i = 0; i < bed.grains(); ++i) {
-    weights[3 * static_cast<int>(i) + 2] = 1.0 / std::sqrt(bed.motion[i].w);
+    weights[first_force(i) + 2] = 1.0 / std::sqrt(bed.motion[i].w);
   }
   return weights;
 }
@@ -76,8 +80,7 @@ Eigen::VectorXd carried_weights(const SphereBed& bed) {
 void set_unbalance(const Eigen::VectorXd& scaled, const SphereBed& bed, ForceBalance& balance) {
   double sum = 0.0;
   for (std::size_t i = 0; i < bed.grains(); ++i) {
-    const double net =
-        scaled.segment<3>(3 * static_cast<int>(i)).norm() * std::sqrt(bed.motion[i].w);
+    const double net = scaled.segment<3>(first_force(i)).norm() * std::sqrt(bed.motion[i].w);
     balance.unbalance_max = std::max(balance.unbalance_max, net);
     sum += net;
   }

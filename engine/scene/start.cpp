@@ -68,7 +68,9 @@ class Column {
     return std::clamp(static_cast<int>(coordinate / extent * cells), 0, cells - 1);
   }
   std::size_t at(int x, int y, int z) const {
-    return static_cast<std::size_t>((z * cells_y_ + y) * cells_x_ + x);
+    const auto row = static_cast<std::size_t>(z) * static_cast<std::size_t>(cells_y_) +
+                     static_cast<std::size_t>(y);
+    return row * static_cast<std::size_t>(cells_x_) + static_cast<std::size_t>(x);
   }
   /// Cells beyond a periodic border are those of the other side; beyond a wall there are none.
   bool overlaps_cell(const PlacedSphere& s, int x, int y, int z) const {

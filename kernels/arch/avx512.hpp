@@ -69,10 +69,11 @@ inline void add_record(grainsweep::Record<float>& record, __m128 increment) {
 template <int quarter>
 inline void add_quarter(grainsweep::Record<float>* base, const std::int32_t* index, __m512 r0,
                         __m512 r1, __m512 r2, __m512 r3) {
-  add_record(base[index[4 * quarter]], _mm512_extractf32x4_ps(r0, quarter));
-  add_record(base[index[4 * quarter + 1]], _mm512_extractf32x4_ps(r1, quarter));
-  add_record(base[index[4 * quarter + 2]], _mm512_extractf32x4_ps(r2, quarter));
-  add_record(base[index[4 * quarter + 3]], _mm512_extractf32x4_ps(r3, quarter));
+  const std::int32_t* first = index + std::ptrdiff_t{4} * quarter;
+  add_record(base[first[0]], _mm512_extractf32x4_ps(r0, quarter));
+  add_record(base[first[1]], _mm512_extractf32x4_ps(r1, quarter));
+  add_record(base[first[2]], _mm512_extractf32x4_ps(r2, quarter));
+  add_record(base[first[3]], _mm512_extractf32x4_ps(r3, quarter));
 }
 
 inline void add_to_records(grainsweep::Record<float>* base, const std::int32_t* index,

@@ -238,6 +238,18 @@ TEST_CASE("a list lasts while grains near each other move by less than its margi
   CHECK(steps_of_a_list({{8, 5, periodic, periodic}, 100, 0.5, 0.5, 8, 1}, jitter) >= 3);
 }
 
+TEST_CASE("two grains that close in on each other need a new list after the margin, not before") {
+  SphereBed bed = make_bed(boxes[0], {{1, 2, 0.5, 0.5}, {2 + reach + 1e-4, 2, 0.5, 0.5}});
+  Candidates candidates = search(bed);
+  REQUIRE(candidates.pairs.empty());
+  bed.position[0].x += 0.5 * (reach - near) - 1e-4;
+  bed.position[1].x -= 0.5 * (reach - near) - 1e-4;
+  CHECK(still_complete(bed, near, candidates));
+  bed.position[0].x += 2e-4;
+  bed.position[1].x -= 2e-4;
+  CHECK_FALSE(still_complete(bed, near, candidates));
+}
+
 TEST_CASE("a bed that moves as a whole needs no new list") {
   for (const Box& box : {boxes[0], boxes[1]}) {
     SphereBed bed = testing::random_bed({box, 200, 0.4, 0.5, 6, 3});
