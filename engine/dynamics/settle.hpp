@@ -3,9 +3,8 @@
 //   fall    full steps with momentum, until the floor carries the bed; overlaps repaired by 10 % a
 //           step, so that loose solves do not throw grains about
 //   creep   double steps without momentum, better solves, overlaps repaired whole: grains slide
-//   into
-//           their places. With momentum the errors of the solves keep a bed warm, and it compacts
-//           for ever, as if tapped.
+//           into their places. With momentum the errors of the solves keep a bed warm, and it
+//           compacts for ever, as if tapped.
 //   quench  half steps without momentum: what still moves is slowed down and contacts close, until
 //           every test of rest holds
 //
