@@ -72,11 +72,9 @@ void enter(Stage stage, Settling<Real>& s) {
 template <class Real>
 double share_done(const Settling<Real>& s, Stage stage, std::int64_t steps_in_stage) {
   constexpr double begin[] = {0.0, 0.4, 0.7, 1.0};  // typical shares of the time
-  constexpr double usual[] = {170.0, 25.0, 15.0};   // typical steps
+  const double usual[] = {170.0, std::max(1.0, 1.0 * s.accuracy.creep_steps), 15.0};  // steps
   const auto k = static_cast<std::size_t>(stage);
-  const double steps =
-      stage == Stage::creep ? std::max(1.0, 1.0 * s.accuracy.creep_steps) : usual[k];
-  const double in_stage = static_cast<double>(steps_in_stage) / steps;
+  const double in_stage = static_cast<double>(steps_in_stage) / usual[k];
   return begin[k] + (begin[k + 1] - begin[k]) * in_stage / (1.0 + in_stage);
 }
 

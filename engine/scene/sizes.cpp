@@ -9,8 +9,6 @@ namespace grainsweep {
 
 namespace {
 
-constexpr double largest_deviation = 4.0;  // in standard deviations; 1 in 16,000 is drawn again
-
 /// Expected volume of a sphere of Gaussian diameter: E[D^3] = mean^3 (1 + 3 spread^2).
 double expected_volume(double diameter, double spread) {
   return sphere_volume(diameter / 2.0) * (1.0 + 3.0 * spread * spread);

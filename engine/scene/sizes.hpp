@@ -8,6 +8,10 @@
 
 namespace grainsweep {
 
+/// Largest deviation of a diameter from its class's mean, in standard deviations; the one grain in
+/// 16,000 beyond it is drawn again.
+inline constexpr double largest_deviation = 4.0;
+
 /// Grains of each class.
 struct ClassCounts {
   std::int64_t large = 0;

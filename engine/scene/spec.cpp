@@ -14,7 +14,6 @@ using Errors = std::vector<SpecError>;
 
 constexpr double longest_side = 10'000.0;         // d; cell indices stay far below 32 bits
 constexpr std::int64_t most_grains = 10'000'000;  // grain indices are 32 bits wide
-constexpr double size_cut = 4.0;                  // standard deviations kept on either side
 constexpr double settled_wall_overlap = 0.01;     // d; far above that of any settled bed
 constexpr double image_margin = 0.2;              // d; candidates never reach farther than this
 
@@ -55,7 +54,7 @@ double largest_diameter(const PackingSpec& spec) {
     return 2.0 * radius;
   }
   const double mean = spec.sizes.small_share < 1.0 ? 1.0 : spec.sizes.size_ratio;
-  return mean * (1.0 + size_cut * spec.sizes.spread);
+  return mean * (1.0 + largest_deviation * spec.sizes.spread);
 }
 
 bool check_sizes(const SizesSpec& sizes, Errors& errors) {
