@@ -21,14 +21,6 @@ FrozenBed<Real> freeze(std::int64_t grains) {
   return frozen;
 }
 
-template <class Real>
-const FrozenBed<Real>& made_once(std::int64_t grains) {
-  static std::map<std::int64_t, FrozenBed<Real>> made;
-  const auto found = made.find(grains);
-  return found != made.end() ? found->second
-                             : made.emplace(grains, freeze<Real>(grains)).first->second;
-}
-
 }  // namespace
 
 PackingSpec walled_bed(std::int64_t grains) {
@@ -42,8 +34,15 @@ PackingSpec walled_bed(std::int64_t grains) {
   return spec;
 }
 
-const FrozenBed<float>& frozen_bed_f32(std::int64_t grains) { return made_once<float>(grains); }
-const FrozenBed<double>& frozen_bed_f64(std::int64_t grains) { return made_once<double>(grains); }
+template <class Real>
+const FrozenBed<Real>& frozen_bed(std::int64_t grains) {
+  static std::map<std::int64_t, FrozenBed<Real>> made;
+  const auto found = made.find(grains);
+  return found != made.end() ? found->second
+                             : made.emplace(grains, freeze<Real>(grains)).first->second;
+}
+template const FrozenBed<float>& frozen_bed(std::int64_t grains);
+template const FrozenBed<double>& frozen_bed(std::int64_t grains);
 
 void all_isas(benchmark::internal::Benchmark* benchmark) {
   for (const Isa isa : {Isa::sse2, Isa::avx2, Isa::avx512}) {

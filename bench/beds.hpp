@@ -20,9 +20,9 @@ struct FrozenBed {
   StepSettings settings;
 };
 
-/// The frozen bed of that many grains; made once per process.
-const FrozenBed<float>& frozen_bed_f32(std::int64_t grains);
-const FrozenBed<double>& frozen_bed_f64(std::int64_t grains);
+/// The frozen bed of that many grains, for rows of float or double; made once per process.
+template <class Real>
+const FrozenBed<Real>& frozen_bed(std::int64_t grains);
 
 /// Instruction sets of this machine, as benchmark arguments.
 void all_isas(benchmark::internal::Benchmark* benchmark);

@@ -10,17 +10,6 @@ const Kernels& kernels_of(const benchmark::State& run) {
   return kernels_for(static_cast<Isa>(run.range(0)));
 }
 
-template <class Real>
-const FrozenBed<Real>& frozen(std::int64_t grains);
-template <>
-const FrozenBed<float>& frozen<float>(std::int64_t grains) {
-  return frozen_bed_f32(grains);
-}
-template <>
-const FrozenBed<double>& frozen<double>(std::int64_t grains) {
-  return frozen_bed_f64(grains);
-}
-
 void count_rows(benchmark::State& run, std::size_t blocks) {
   run.SetItemsProcessed(run.iterations() * static_cast<std::int64_t>(blocks * block_width));
   run.SetLabel(name_of(static_cast<Isa>(run.range(0))));
@@ -28,7 +17,7 @@ void count_rows(benchmark::State& run, std::size_t blocks) {
 
 template <class Real>
 void gradient_sweep(benchmark::State& run) {
-  FrozenBed<Real> f = frozen<Real>(run.range(1));
+  FrozenBed<Real> f = frozen_bed<Real>(run.range(1));
   const RowKernels<Real>& kernels = row_kernels<Real>(kernels_of(run));
   auto& contacts = f.state.contacts;
   auto& motion = f.state.motion;
@@ -46,7 +35,7 @@ void gradient_sweep(benchmark::State& run) {
 
 template <class Real>
 void gauss_seidel_sweep(benchmark::State& run) {
-  FrozenBed<Real> f = frozen<Real>(run.range(1));
+  FrozenBed<Real> f = frozen_bed<Real>(run.range(1));
   const RowKernels<Real>& kernels = row_kernels<Real>(kernels_of(run));
   auto& contacts = f.state.contacts;
   for (auto _ : run) {
@@ -59,7 +48,7 @@ void gauss_seidel_sweep(benchmark::State& run) {
 
 template <class Real>
 void residual(benchmark::State& run) {
-  FrozenBed<Real> f = frozen<Real>(run.range(1));
+  FrozenBed<Real> f = frozen_bed<Real>(run.range(1));
   const RowKernels<Real>& kernels = row_kernels<Real>(kernels_of(run));
   const auto& contacts = f.state.contacts;
   for (auto _ : run) {
@@ -71,7 +60,7 @@ void residual(benchmark::State& run) {
 
 template <class Real>
 void sphere_gaps(benchmark::State& run) {
-  FrozenBed<Real> f = frozen<Real>(run.range(1));
+  FrozenBed<Real> f = frozen_bed<Real>(run.range(1));
   const RowKernels<Real>& kernels = row_kernels<Real>(kernels_of(run));
   auto& contacts = f.state.contacts;
   for (auto _ : run) {
@@ -84,7 +73,7 @@ void sphere_gaps(benchmark::State& run) {
 
 /// With the sorting into cells: the broad phase as a step calls it.
 void sphere_pairs(benchmark::State& run) {
-  FrozenBed<float> f = frozen_bed_f32(run.range(1));
+  FrozenBed<float> f = frozen_bed<float>(run.range(1));
   Candidates candidates;
   for (auto _ : run) {
     find_candidates(f.bed, 0.13, kernels_of(run), candidates);

@@ -16,7 +16,7 @@ void sizes(benchmark::internal::Benchmark* benchmark) {
 }
 
 void still_complete(benchmark::State& run) {
-  FrozenBed<float> f = frozen_bed_f32(run.range(0));
+  FrozenBed<float> f = frozen_bed<float>(run.range(0));
   for (auto _ : run) {
     benchmark::DoNotOptimize(still_complete(f.bed, f.settings.near, f.state.candidates));
   }
@@ -24,7 +24,7 @@ void still_complete(benchmark::State& run) {
 }
 
 void find_candidates(benchmark::State& run) {
-  FrozenBed<float> f = frozen_bed_f32(run.range(0));
+  FrozenBed<float> f = frozen_bed<float>(run.range(0));
   const double reach = f.settings.near + f.settings.margin;
   for (auto _ : run) {
     find_candidates(f.bed, reach, kernels(), f.state.candidates);
@@ -33,7 +33,7 @@ void find_candidates(benchmark::State& run) {
 }
 
 void lay_out(benchmark::State& run) {
-  FrozenBed<float> f = frozen_bed_f32(run.range(0));
+  FrozenBed<float> f = frozen_bed<float>(run.range(0));
   for (auto _ : run) {
     lay_out(f.bed, f.state.candidates, f.state.contacts);
   }
@@ -41,7 +41,7 @@ void lay_out(benchmark::State& run) {
 }
 
 void detect(benchmark::State& run) {
-  FrozenBed<float> f = frozen_bed_f32(run.range(0));
+  FrozenBed<float> f = frozen_bed<float>(run.range(0));
   for (auto _ : run) {
     detect(f.bed, kernels(), f.settings.correction, f.state.contacts);
   }
@@ -49,7 +49,7 @@ void detect(benchmark::State& run) {
 }
 
 void solve(benchmark::State& run) {
-  const FrozenBed<float>& frozen = frozen_bed_f32(run.range(0));
+  const FrozenBed<float>& frozen = frozen_bed<float>(run.range(0));
   const SolveLimits limits{Solver::accelerated_projected_gradient, 80, 0.0};
   std::int64_t done = 0;
   for (auto _ : run) {
@@ -62,7 +62,7 @@ void solve(benchmark::State& run) {
 }
 
 void step(benchmark::State& run) {
-  const FrozenBed<float>& frozen = frozen_bed_f32(run.range(0));
+  const FrozenBed<float>& frozen = frozen_bed<float>(run.range(0));
   std::uint64_t hash = 0;
   for (auto _ : run) {
     run.PauseTiming();

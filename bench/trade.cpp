@@ -2,8 +2,6 @@
 // a time, against a reference that is solved an order of magnitude tighter.
 //
 //   bench_trade [GRAINS] [STARTS] > trade.csv        progress goes to standard error
-#include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
@@ -41,7 +39,7 @@ Setting changed(const char* group, const std::string& name, Change change) {
   return setting;
 }
 
-/// Tight in every part: small steps, long solves in f64, a long creep.
+/// Tight in every part but the step: long solves in f64, a long creep.
 Accuracy reference() {
   Accuracy a = preset("accurate").value();
   a.precision = Precision::f64;
