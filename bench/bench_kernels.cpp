@@ -21,14 +21,13 @@ void gradient_sweep(benchmark::State& run) {
   const RowKernels<Real>& kernels = row_kernels<Real>(kernels_of(run));
   auto& contacts = f.state.contacts;
   auto& motion = f.state.motion;
-  motion.next = motion.free;
   for (auto _ : run) {
-    std::copy(motion.free.begin(), motion.free.end(), motion.next.begin());
     const auto sums = kernels.gradient_sweep(
-        contacts.rows.data(), contacts.rows.size(), motion.u.data(), motion.next.data(),
+        contacts.rows.data(), contacts.rows.size(), motion.u.data(), motion.pushes.data(),
         contacts.impulse.data(), contacts.extrapolated.data(), Real(0.25), Real(0.5));
     benchmark::DoNotOptimize(sums);
-    std::swap(motion.u, motion.next);
+    kernels.take_pushes(motion.free.data(), motion.free.size(), motion.pushes.data(),
+                        motion.u.data());
   }
   count_rows(run, contacts.rows.size());
 }

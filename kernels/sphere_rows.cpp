@@ -9,35 +9,26 @@ using grainsweep::Record;
 using grainsweep::RowBlock;
 using grainsweep::SweepSums;
 
-/// One hardware batch of rows with the motion of both grains.
+/// One hardware batch of rows.
 template <class Real>
 struct Rows {
-  const std::int32_t* a;
-  const std::int32_t* b;
-  Components<Real> u_a, u_b;
-  Batch<Real> nx, ny, nz, gap;
+  const std::uint32_t* a;
+  const std::uint32_t* b;
+  Batch<Real> nx, ny, nz, gap, reduced_mass;
 };
 
 template <class Real>
-inline Rows<Real> load_rows(const RowBlock<Real>& block, std::size_t lane, const Record<Real>* u) {
-  const std::int32_t* a = block.a + lane;
-  const std::int32_t* b = block.b + lane;
-  return {a,
-          b,
-          load_records(u, a),
-          load_records(u, b),
-          load(block.normal_x + lane),
-          load(block.normal_y + lane),
-          load(block.normal_z + lane),
-          load(block.gap + lane)};
+inline Rows<Real> load_rows(const RowBlock<Real>& block, std::size_t lane) {
+  return {block.offset_a + lane,          block.offset_b + lane,       load(block.normal_x + lane),
+          load(block.normal_y + lane),    load(block.normal_z + lane), load(block.gap + lane),
+          load(block.reduced_mass + lane)};
 }
 
-/// w / A: the gap after the motion u over 1/m_a + 1/m_b.
+/// w / A: the gap after the relative motion u_b - u_a, times the reduced mass.
 template <class Real>
-inline Batch<Real> scaled_gap(const Rows<Real>& r) {
-  const Batch<Real> approach =
-      r.nx * (r.u_b.x - r.u_a.x) + r.ny * (r.u_b.y - r.u_a.y) + r.nz * (r.u_b.z - r.u_a.z);
-  return (r.gap + approach) / (r.u_a.w + r.u_b.w);
+inline Batch<Real> scaled_gap(const Rows<Real>& r, const Components<Real>& relative) {
+  const Batch<Real> approach = r.nx * relative.x + r.ny * relative.y + r.nz * relative.z;
+  return (r.gap + approach) * r.reduced_mass;
 }
 
 template <class Real>
@@ -45,24 +36,15 @@ inline Batch<Real> natural_residual(const Batch<Real>& p, const Batch<Real>& w) 
   return xsimd::abs(xsimd::min(p, w));
 }
 
-/// Motion that impulses p give to a grain of inverse mass m: the sign is that of p.
+/// Impulses p along the normals, as vectors; the fourth component is 0.
 template <class Real>
-inline Components<Real> motion_of(const Rows<Real>& r, const Batch<Real>& p,
-                                  const Batch<Real>& inverse_mass) {
-  const Batch<Real> push = p * inverse_mass;
-  return {push * r.nx, push * r.ny, push * r.nz, Batch<Real>(Real(0))};
-}
-
-/// 0 - p, not -p: whether negation turns 0 into -0 depends on the instruction set.
-template <class Real>
-inline void add_impulses(const Rows<Real>& r, const Batch<Real>& p, Record<Real>* u) {
-  add_to_records(u, r.a, motion_of(r, Batch<Real>(Real(0)) - p, r.u_a.w));
-  add_to_records(u, r.b, motion_of(r, p, r.u_b.w));
+inline Components<Real> along_normals(const Rows<Real>& r, const Batch<Real>& p) {
+  return {p * r.nx, p * r.ny, p * r.nz, Batch<Real>(Real(0))};
 }
 
 template <class Real>
 SweepSums<Real> gradient_sweep(const RowBlock<Real>* rows, std::size_t blocks,
-                               const Record<Real>* u, Record<Real>* next, Real* p, Real* y,
+                               const Record<Real>* u, Record<Real>* pushes, Real* p, Real* y,
                                Real inverse_bound, Real momentum) {
   LaneSums<Real> residual(Real(0)), uphill(Real(0));
   const Batch<Real> zero(Real(0)), bound(inverse_bound), carry(momentum);
@@ -70,8 +52,9 @@ SweepSums<Real> gradient_sweep(const RowBlock<Real>* rows, std::size_t blocks,
     for (std::size_t k = 0; k < batches<Real>; ++k) {
       const std::size_t lane = k * batch_width<Real>;
       const std::size_t at = block * block_width + lane;
-      const Rows<Real> r = load_rows(rows[block], lane, u);
-      const Batch<Real> w = scaled_gap(r), y_old = load(y + at), p_old = load(p + at);
+      const Rows<Real> r = load_rows(rows[block], lane);
+      const Batch<Real> w = scaled_gap(r, load_differences(u, r.a, r.b));
+      const Batch<Real> y_old = load(y + at), p_old = load(p + at);
       const Batch<Real> p_new = xsimd::max(zero, y_old - w * bound);
       const Batch<Real> change = p_new - p_old;
       const Batch<Real> y_new = p_new + carry * change;
@@ -79,15 +62,36 @@ SweepSums<Real> gradient_sweep(const RowBlock<Real>* rows, std::size_t blocks,
       uphill.part[k] += (y_old - p_new) * change;
       p_new.store_unaligned(p + at);
       y_new.store_unaligned(y + at);
-      add_impulses(r, y_new, next);
+      if (xsimd::any(y_new != zero)) {
+        push_records(pushes, r.a, r.b, along_normals(r, y_new));
+      }
     }
   }
   return {residual.max(), uphill.sum()};
 }
 
 template <class Real>
-inline Components<Real> moved(const Components<Real>& u, const Components<Real>& by) {
-  return {u.x + by.x, u.y + by.y, u.z + by.z, u.w};
+void take_pushes(const Record<Real>* free, std::size_t count, Record<Real>* pushes,
+                 Record<Real>* u) {
+  for (std::size_t i = 0; i < count; ++i) {
+    take_push(free[i], pushes[i], u[i]);
+  }
+}
+
+/// The motion u of grains that take the push of a contact.
+template <class Real>
+inline Components<Real> pushed(const Components<Real>& u, const Components<Real>& push) {
+  return {u.x + u.w * push.x, u.y + u.w * push.y, u.z + u.w * push.z, u.w};
+}
+
+template <class Real>
+inline Components<Real> pushed_back(const Components<Real>& u, const Components<Real>& push) {
+  return {u.x - u.w * push.x, u.y - u.w * push.y, u.z - u.w * push.z, u.w};
+}
+
+template <class Real>
+inline Components<Real> difference(const Components<Real>& b, const Components<Real>& a) {
+  return {b.x - a.x, b.y - a.y, b.z - a.z, b.w};
 }
 
 template <class Real>
@@ -100,27 +104,29 @@ SweepSums<Real> gauss_seidel_sweep(const RowBlock<Real>* rows, std::size_t block
     for (std::size_t k = 0; k < batches<Real>; ++k) {
       const std::size_t lane = k * batch_width<Real>;
       const std::size_t at = block * block_width + lane;
-      const Rows<Real> r = load_rows(rows[block], lane, u);
-      const Batch<Real> w = scaled_gap(r), p_old = load(p + at);
+      const Rows<Real> r = load_rows(rows[block], lane);
+      const Components<Real> u_a = load_records(u, r.a), u_b = load_records(u, r.b);
+      const Batch<Real> w = scaled_gap(r, difference(u_b, u_a)), p_old = load(p + at);
       const Batch<Real> p_new = xsimd::max(zero, p_old - w);
-      const Batch<Real> change = p_new - p_old;
+      const Components<Real> push = along_normals(r, p_new - p_old);
       residual.part[k] = xsimd::max(residual.part[k], natural_residual(p_old, w));
       p_new.store_unaligned(p + at);
-      store_records(u, r.a, moved(r.u_a, motion_of(r, p_old - p_new, r.u_a.w)));
-      store_records(u, r.b, moved(r.u_b, motion_of(r, change, r.u_b.w)));
+      store_records(u, r.a, pushed_back(u_a, push));
+      store_records(u, r.b, pushed(u_b, push));
     }
   }
   return {residual.max(), Real(0)};
 }
 
 template <class Real>
-void apply_impulses(const RowBlock<Real>* rows, std::size_t blocks, const Real* p,
-                    Record<Real>* u) {
+void add_pushes(const RowBlock<Real>* rows, std::size_t blocks, const Real* p,
+                Record<Real>* pushes) {
   for (std::size_t block = 0; block < blocks; ++block) {
     for (std::size_t k = 0; k < batches<Real>; ++k) {
       const std::size_t lane = k * batch_width<Real>;
-      const Rows<Real> r = load_rows(rows[block], lane, u);
-      add_impulses(r, load(p + block * block_width + lane), u);
+      const Rows<Real> r = load_rows(rows[block], lane);
+      const Batch<Real> impulse = load(p + block * block_width + lane);
+      push_records(pushes, r.a, r.b, along_normals(r, impulse));
     }
   }
 }
@@ -132,9 +138,10 @@ Real residual(const RowBlock<Real>* rows, std::size_t blocks, const Record<Real>
   for (std::size_t block = 0; block < blocks; ++block) {
     for (std::size_t k = 0; k < batches<Real>; ++k) {
       const std::size_t lane = k * batch_width<Real>;
-      const Rows<Real> r = load_rows(rows[block], lane, u);
+      const Rows<Real> r = load_rows(rows[block], lane);
+      const Batch<Real> w = scaled_gap(r, load_differences(u, r.a, r.b));
       const Batch<Real> impulse = load(p + block * block_width + lane);
-      worst.part[k] = xsimd::max(worst.part[k], natural_residual(impulse, scaled_gap(r)));
+      worst.part[k] = xsimd::max(worst.part[k], natural_residual(impulse, w));
     }
   }
   return worst.max();
@@ -166,8 +173,8 @@ void sphere_gaps(RowBlock<Real>* rows, std::size_t blocks, const Record<double>*
     RowBlock<Real>& r = rows[block];
     for (std::size_t k = 0; k < batches<double>; ++k) {
       const std::size_t lane = k * batch_width<double>;
-      const Components<double> a = load_records(positions, r.a + lane);
-      const Components<double> b = load_records(positions, r.b + lane);
+      const Components<double> a = load_records<sizeof(Record<Real>)>(positions, r.offset_a + lane);
+      const Components<double> b = load_records<sizeof(Record<Real>)>(positions, r.offset_b + lane);
       const Batch<double> x = nearest_image(b.x - a.x, period_x, inverse_x);
       const Batch<double> y = nearest_image(b.y - a.y, period_y, inverse_y);
       const Batch<double> z = b.z - a.z;
@@ -185,8 +192,8 @@ void sphere_gaps(RowBlock<Real>* rows, std::size_t blocks, const Record<double>*
 
 template <class Real>
 constexpr grainsweep::RowKernels<Real> table() {
-  return {gradient_sweep<Real>, gauss_seidel_sweep<Real>, apply_impulses<Real>, residual<Real>,
-          sphere_gaps<Real>};
+  return {gradient_sweep<Real>, take_pushes<Real>, gauss_seidel_sweep<Real>,
+          add_pushes<Real>,     residual<Real>,    sphere_gaps<Real>};
 }
 
 }  // namespace

@@ -71,23 +71,29 @@ class BlockWriter {
   void append_void_block() {
     contacts_.rows.emplace_back();
     RowBlock<Real>& block = contacts_.rows.back();
-    std::fill(std::begin(block.a), std::end(block.a), bed_.void_a());
-    std::fill(std::begin(block.b), std::end(block.b), bed_.void_b());
+    for (std::size_t lane = 0; lane < block_width; ++lane) {
+      block.set_grains(lane, bed_.void_a(), bed_.void_b());
+    }
+    std::fill(std::begin(block.reduced_mass), std::end(block.reduced_mass), Real(1));
     contacts_.impulse.resize(contacts_.rows.size() * block_width, Real(0));
   }
   void fill_lane(std::size_t block, std::size_t lane, std::int32_t a, std::int32_t b,
                  Real impulse) {
-    contacts_.rows[block].a[lane] = a;
-    contacts_.rows[block].b[lane] = b;
+    contacts_.rows[block].set_grains(lane, a, b);
+    contacts_.rows[block].reduced_mass[lane] = reduced_mass(a, b);
     contacts_.impulse[block * block_width + lane] = impulse;
+  }
+  Real reduced_mass(std::int32_t a, std::int32_t b) const {
+    return static_cast<Real>(1.0 / (bed_.motion[static_cast<std::size_t>(a)].w +
+                                    bed_.motion[static_cast<std::size_t>(b)].w));
   }
   /// Makes room for a new block: the grains of the closed one forget it.
   void close(std::size_t slot) {
     const RowBlock<Real>& block = contacts_.rows[block_[slot]];
     const std::uint64_t keep = ~(std::uint64_t{1} << slot);
     for (std::size_t lane = 0; lane < used_[slot]; ++lane) {
-      contacts_.layout.open_blocks[static_cast<std::size_t>(block.a[lane])] &= keep;
-      contacts_.layout.open_blocks[static_cast<std::size_t>(block.b[lane])] &= keep;
+      contacts_.layout.open_blocks[static_cast<std::size_t>(block.a(lane))] &= keep;
+      contacts_.layout.open_blocks[static_cast<std::size_t>(block.b(lane))] &= keep;
     }
     used_[slot] = 0;
   }
@@ -122,7 +128,7 @@ void visit_pushing(const SphereBed& bed, const Contacts<Real>& contacts, Visit v
       const Real impulse = contacts.impulse[block * block_width + lane];
       if (impulse > Real(0)) {
         const RowBlock<Real>& r = contacts.rows[block];
-        visit(r.a[lane], is_pair ? r.b[lane] : wall, impulse);
+        visit(r.a(lane), is_pair ? r.b(lane) : wall, impulse);
       }
     }
   }
@@ -161,6 +167,26 @@ Real carried_impulse(const LayoutColumns<Real>& layout, std::int32_t a, std::int
   return Real(0);
 }
 
+/// Rows that push come first, so that whole blocks of the others need no pushing.
+template <class Real>
+void add_pairs(const Candidates& candidates, LayoutColumns<Real>& layout,
+               BlockWriter<Real>& writer) {
+  layout.pair_impulse.clear();
+  for (const GrainPair pair : candidates.pairs) {
+    const Real impulse = carried_impulse(layout, pair.a, pair.b);
+    layout.pair_impulse.push_back(impulse);
+    if (impulse > Real(0)) {
+      writer.add_pair(pair, impulse);
+    }
+  }
+  for (std::size_t k = 0; k < candidates.pairs.size(); ++k) {
+    if (!(layout.pair_impulse[k] > Real(0))) {
+      writer.add_pair(candidates.pairs[k], Real(0));
+    }
+  }
+  writer.finish_pairs();
+}
+
 /// Normal from the grain to the wall, and gap.
 template <class Real>
 void detect_wall(const SphereBed& bed, const WallRows& rows, double correction,
@@ -169,9 +195,9 @@ void detect_wall(const SphereBed& bed, const WallRows& rows, double correction,
   for (std::size_t block = rows.first; block < rows.first + rows.blocks; ++block) {
     RowBlock<Real>& r = blocks[block];
     for (std::size_t lane = 0; lane < block_width; ++lane) {
-      const bool is_void = r.a[lane] == bed.void_a();
+      const bool is_void = r.a(lane) == bed.void_a();
       const double gap =
-          is_void ? 1.0 : rows.wall.gap(bed.position[static_cast<std::size_t>(r.a[lane])]);
+          is_void ? 1.0 : rows.wall.gap(bed.position[static_cast<std::size_t>(r.a(lane))]);
       r.normal_x[lane] = rows.wall.axis == 0 ? toward : Real(0);
       r.normal_y[lane] = rows.wall.axis == 1 ? toward : Real(0);
       r.normal_z[lane] = rows.wall.axis == 2 ? toward : Real(0);
@@ -187,10 +213,7 @@ void lay_out(const SphereBed& bed, const Candidates& candidates, Contacts<Real>&
   collect_impulses(bed, contacts);
   contacts.walls.clear();
   BlockWriter<Real> writer(bed, contacts);
-  for (const GrainPair pair : candidates.pairs) {
-    writer.add_pair(pair, carried_impulse(contacts.layout, pair.a, pair.b));
-  }
-  writer.finish_pairs();
+  add_pairs(candidates, contacts.layout, writer);
   for (std::size_t k = 0; k < candidates.walls.size(); ++k) {
     const auto name = static_cast<std::int32_t>(bed.grains() + k);
     writer.add_wall(candidates.walls[k], [&](std::int32_t grain) {

@@ -34,6 +34,7 @@ struct LayoutColumns {
   std::vector<std::uint64_t> open_blocks;  ///< per grain: one bit for each open block it is in
   std::vector<std::int32_t> carried_begin;
   std::vector<CarriedImpulse<Real>> carried;
+  std::vector<Real> pair_impulse;  ///< what each candidate pair carries
 };
 
 /// Rows and impulses; the impulse of lane k of block b is `impulse[b * block_width + k]`, in masses
@@ -62,7 +63,7 @@ template <class Real, class Visit>
 void visit_rows(const SphereBed& bed, const Contacts<Real>& contacts, Visit visit) {
   for (std::size_t block = 0; block < contacts.rows.size(); ++block) {
     for (std::size_t lane = 0; lane < block_width; ++lane) {
-      if (contacts.rows[block].a[lane] < bed.void_a()) {
+      if (contacts.rows[block].a(lane) < bed.void_a()) {
         visit(contacts.rows[block], lane, contacts.impulse[block * block_width + lane]);
       }
     }

@@ -30,8 +30,9 @@ std::vector<RowBlock<double>> rows_in_f64(const SphereBed& bed, const Kernels& k
   measured.walls = contacts.walls;
   for (const RowBlock<Real>& from : contacts.rows) {
     RowBlock<double>& to = measured.rows.emplace_back();
-    std::copy(std::begin(from.a), std::end(from.a), to.a);
-    std::copy(std::begin(from.b), std::end(from.b), to.b);
+    for (std::size_t lane = 0; lane < block_width; ++lane) {
+      to.set_grains(lane, from.a(lane), from.b(lane));
+    }
   }
   detect(bed, kernels, 1.0, measured);
   return measured.rows;
@@ -40,7 +41,7 @@ std::vector<RowBlock<double>> rows_in_f64(const SphereBed& bed, const Kernels& k
 /// Adds the three numbers of one side of a contact to column `column` of M^-1/2 H.
 void add_side(const SphereBed& bed, const RowBlock<double>& r, std::size_t lane, double sign,
               int column, std::vector<Eigen::Triplet<double>>& entries) {
-  const std::int32_t grain = sign > 0.0 ? r.b[lane] : r.a[lane];
+  const std::int32_t grain = sign > 0.0 ? r.b(lane) : r.a(lane);
   if (grain >= bed.wall()) {
     return;
   }

@@ -41,7 +41,7 @@ std::vector<unsigned> pushed_axes(const SphereBed& bed, const Contacts<Real>& co
       const unsigned axis = r.normal_z[lane] != Real(0)   ? 2U
                             : r.normal_y[lane] != Real(0) ? 1U
                                                           : 0U;
-      axes[clusters.root(static_cast<std::size_t>(r.a[lane]))] |= 1U << axis;
+      axes[clusters.root(static_cast<std::size_t>(r.a(lane)))] |= 1U << axis;
     }
   });
   return axes;
@@ -82,7 +82,7 @@ std::int64_t zero_modes(const SphereBed& bed, const Contacts<Real>& contacts, do
   Clusters clusters(bed.grains());
   visit_force_bearing(contacts, dt, [&](std::size_t block, std::size_t lane) {
     if (block < contacts.pair_blocks) {
-      clusters.join(contacts.rows[block].a[lane], contacts.rows[block].b[lane]);
+      clusters.join(contacts.rows[block].a(lane), contacts.rows[block].b(lane));
     }
   });
   std::int64_t modes = 0;
@@ -113,8 +113,8 @@ std::vector<double> force_sums(const SphereBed& bed, const Contacts<Real>& conta
   visit_force_bearing(contacts, dt, [&](std::size_t block, std::size_t lane) {
     const double magnitude =
         static_cast<double>(contacts.impulse[block * block_width + lane]) / (dt * dt);
-    force[static_cast<std::size_t>(contacts.rows[block].a[lane])] += magnitude;
-    force[static_cast<std::size_t>(contacts.rows[block].b[lane])] += magnitude;
+    force[static_cast<std::size_t>(contacts.rows[block].a(lane))] += magnitude;
+    force[static_cast<std::size_t>(contacts.rows[block].b(lane))] += magnitude;
   });
   force.resize(bed.grains());
   return force;

@@ -21,18 +21,20 @@ struct Problem {
   const RowBlock<Real>* rows() const { return contacts.rows.data(); }
 };
 
-/// u += M^-1 H p.
+/// u = free + M^-1 pushes; the pushes are empty then.
 template <class Real>
-void add_impulses(Problem<Real>& problem, const std::vector<Real>& p) {
-  problem.kernels.apply_impulses(problem.rows(), problem.blocks(), p.data(),
-                                 problem.motion.u.data());
+void take_pushes(Problem<Real>& problem) {
+  MotionColumns<Real>& motion = problem.motion;
+  problem.kernels.take_pushes(motion.free.data(), motion.free.size(), motion.pushes.data(),
+                              motion.u.data());
 }
 
 /// u = free + M^-1 H p, without the rounding that sweeps have gathered.
 template <class Real>
 void set_motion(Problem<Real>& problem) {
-  problem.motion.u = problem.motion.free;
-  add_impulses(problem, problem.contacts.impulse);
+  problem.kernels.add_pushes(problem.rows(), problem.blocks(), problem.contacts.impulse.data(),
+                             problem.motion.pushes.data());
+  take_pushes(problem);
 }
 
 template <class Real>
@@ -75,12 +77,11 @@ class AcceleratedGradient {
   double iterate() {
     constexpr auto inverse_bound = static_cast<Real>(1.0 / eigenvalue_bound);
     MotionColumns<Real>& motion = problem_.motion;
-    motion.next = motion.free;
     const SweepSums<Real> sums = problem_.kernels.gradient_sweep(
-        problem_.rows(), problem_.blocks(), motion.u.data(), motion.next.data(),
+        problem_.rows(), problem_.blocks(), motion.u.data(), motion.pushes.data(),
         problem_.contacts.impulse.data(), problem_.contacts.extrapolated.data(), inverse_bound,
         static_cast<Real>(momentum_.next()));
-    std::swap(motion.u, motion.next);
+    take_pushes(problem_);
     if (sums.uphill > Real(0)) {
       momentum_.restart();
     }
@@ -155,11 +156,10 @@ class ConjugateGradient {
     for (std::size_t k = 0; k < p.size(); ++k) {
       const Real carried = share * direction_[k];
       direction_[k] = carried + (p[k] - before_[k]);
-      before_[k] = carried;
       p[k] += carried;
     }
     if (share > Real(0)) {
-      add_impulses(problem_, before_);
+      set_motion(problem_);
     }
   }
 
@@ -205,6 +205,8 @@ SolveReport run(const SolveLimits& limits, Problem<Real>& problem, Method method
 template <class Real>
 SolveReport solve(const SolveLimits& limits, const Kernels& kernels, Contacts<Real>& contacts,
                   MotionColumns<Real>& motion) {
+  motion.u.resize(motion.free.size());
+  motion.pushes.assign(motion.free.size(), {Real(0), Real(0), Real(0), Real(0)});
   Problem<Real> problem{row_kernels<Real>(kernels), contacts, motion};
   switch (limits.solver) {
     case Solver::projected_gauss_seidel:

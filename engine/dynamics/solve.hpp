@@ -28,9 +28,9 @@ struct SolveReport {
 /// Motion columns of a solve, indexed like the bed: displacement, d, and inverse mass.
 template <class Real>
 struct MotionColumns {
-  std::vector<Record<Real>> free;  ///< in: motion without contacts
-  std::vector<Record<Real>> u;     ///< out: motion with the impulses of `contacts`
-  std::vector<Record<Real>> next;  ///< memory of the gradient method
+  std::vector<Record<Real>> free;    ///< in: motion without contacts
+  std::vector<Record<Real>> u;       ///< out: motion with the impulses of `contacts`
+  std::vector<Record<Real>> pushes;  ///< sum of the impulses on each grain; empty between sweeps
 };
 
 /// Improves `contacts.impulse`, starting from what it holds, until the residual is below the

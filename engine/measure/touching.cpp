@@ -12,8 +12,8 @@ void add_pairs(const SphereBed& bed, const Contacts<double>& contacts, double ga
   for (std::size_t block = 0; block < contacts.pair_blocks; ++block) {
     const RowBlock<double>& r = contacts.rows[block];
     for (std::size_t lane = 0; lane < block_width; ++lane) {
-      if (r.a[lane] != bed.void_a() && r.gap[lane] < gap_tolerance) {
-        touching.pairs.push_back({r.a[lane], r.b[lane], r.gap[lane]});
+      if (r.a(lane) != bed.void_a() && r.gap[lane] < gap_tolerance) {
+        touching.pairs.push_back({r.a(lane), r.b(lane), r.gap[lane]});
       }
     }
   }

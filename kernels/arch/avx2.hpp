@@ -3,7 +3,7 @@
 
 #include <xsimd/xsimd.hpp>
 
-#include "kernels/kernels.hpp"
+#include "kernels/arch/places.hpp"
 
 namespace {
 
@@ -16,9 +16,9 @@ struct Components {
 };
 
 /// Records k and k + 4, one in each half: lanes stay in order through the transposition.
-inline __m256 load_two(const grainsweep::Record<float>* base, const std::int32_t* index, int k) {
-  return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_load_ps(&base[index[k]].x)),
-                              _mm_load_ps(&base[index[k + 4]].x), 1);
+inline __m256 load_two(const Record<float>* base, const std::uint32_t* offset, int k) {
+  return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_load_ps(&at(base, offset[k]).x)),
+                              _mm_load_ps(&at(base, offset[k + 4]).x), 1);
 }
 
 /// Transposes the 4 x 4 numbers in each half.
@@ -31,46 +31,57 @@ inline void transpose(__m256& r0, __m256& r1, __m256& r2, __m256& r3) {
   r3 = _mm256_shuffle_ps(zw01, zw23, 0xEE);
 }
 
-inline Components<float> load_records(const grainsweep::Record<float>* base,
-                                      const std::int32_t* index) {
-  __m256 r0 = load_two(base, index, 0), r1 = load_two(base, index, 1);
-  __m256 r2 = load_two(base, index, 2), r3 = load_two(base, index, 3);
+inline Components<float> load_records(const Record<float>* base, const std::uint32_t* offset) {
+  __m256 r0 = load_two(base, offset, 0), r1 = load_two(base, offset, 1);
+  __m256 r2 = load_two(base, offset, 2), r3 = load_two(base, offset, 3);
   transpose(r0, r1, r2, r3);
   return {r0, r1, r2, r3};
 }
 
-inline void store_two(grainsweep::Record<float>* base, const std::int32_t* index, int k,
-                      __m256 records) {
-  _mm_store_ps(&base[index[k]].x, _mm256_castps256_ps128(records));
-  _mm_store_ps(&base[index[k + 4]].x, _mm256_extractf128_ps(records, 1));
+/// Records b minus records a.
+inline Components<float> load_differences(const Record<float>* base, const std::uint32_t* a,
+                                          const std::uint32_t* b) {
+  __m256 r0 = _mm256_sub_ps(load_two(base, b, 0), load_two(base, a, 0));
+  __m256 r1 = _mm256_sub_ps(load_two(base, b, 1), load_two(base, a, 1));
+  __m256 r2 = _mm256_sub_ps(load_two(base, b, 2), load_two(base, a, 2));
+  __m256 r3 = _mm256_sub_ps(load_two(base, b, 3), load_two(base, a, 3));
+  transpose(r0, r1, r2, r3);
+  return {r0, r1, r2, r3};
 }
 
-inline void store_records(grainsweep::Record<float>* base, const std::int32_t* index,
+inline void store_two(Record<float>* base, const std::uint32_t* offset, int k, __m256 records) {
+  _mm_store_ps(&at(base, offset[k]).x, _mm256_castps256_ps128(records));
+  _mm_store_ps(&at(base, offset[k + 4]).x, _mm256_extractf128_ps(records, 1));
+}
+
+inline void store_records(Record<float>* base, const std::uint32_t* offset,
                           const Components<float>& c) {
   __m256 r0 = c.x, r1 = c.y, r2 = c.z, r3 = c.w;
   transpose(r0, r1, r2, r3);
-  store_two(base, index, 0, r0);
-  store_two(base, index, 1, r1);
-  store_two(base, index, 2, r2);
-  store_two(base, index, 3, r3);
+  store_two(base, offset, 0, r0);
+  store_two(base, offset, 1, r1);
+  store_two(base, offset, 2, r2);
+  store_two(base, offset, 3, r3);
 }
 
-inline void add_record(grainsweep::Record<float>& record, __m128 increment) {
-  _mm_store_ps(&record.x, _mm_add_ps(_mm_load_ps(&record.x), increment));
+/// Takes `push` from record a and gives it to record b.
+inline void push_pair(Record<float>& a, Record<float>& b, __m128 push) {
+  _mm_store_ps(&a.x, _mm_sub_ps(_mm_load_ps(&a.x), push));
+  _mm_store_ps(&b.x, _mm_add_ps(_mm_load_ps(&b.x), push));
 }
 
-inline void add_to_records(grainsweep::Record<float>* base, const std::int32_t* index,
-                           const Components<float>& c) {
+inline void push_records(Record<float>* base, const std::uint32_t* a, const std::uint32_t* b,
+                         const Components<float>& c) {
   __m256 r0 = c.x, r1 = c.y, r2 = c.z, r3 = c.w;
   transpose(r0, r1, r2, r3);
-  add_record(base[index[0]], _mm256_castps256_ps128(r0));
-  add_record(base[index[1]], _mm256_castps256_ps128(r1));
-  add_record(base[index[2]], _mm256_castps256_ps128(r2));
-  add_record(base[index[3]], _mm256_castps256_ps128(r3));
-  add_record(base[index[4]], _mm256_extractf128_ps(r0, 1));
-  add_record(base[index[5]], _mm256_extractf128_ps(r1, 1));
-  add_record(base[index[6]], _mm256_extractf128_ps(r2, 1));
-  add_record(base[index[7]], _mm256_extractf128_ps(r3, 1));
+  push_pair(at(base, a[0]), at(base, b[0]), _mm256_castps256_ps128(r0));
+  push_pair(at(base, a[1]), at(base, b[1]), _mm256_castps256_ps128(r1));
+  push_pair(at(base, a[2]), at(base, b[2]), _mm256_castps256_ps128(r2));
+  push_pair(at(base, a[3]), at(base, b[3]), _mm256_castps256_ps128(r3));
+  push_pair(at(base, a[4]), at(base, b[4]), _mm256_extractf128_ps(r0, 1));
+  push_pair(at(base, a[5]), at(base, b[5]), _mm256_extractf128_ps(r1, 1));
+  push_pair(at(base, a[6]), at(base, b[6]), _mm256_extractf128_ps(r2, 1));
+  push_pair(at(base, a[7]), at(base, b[7]), _mm256_extractf128_ps(r3, 1));
 }
 
 /// Transposes 4 x 4 numbers.
@@ -83,36 +94,63 @@ inline void transpose(__m256d& r0, __m256d& r1, __m256d& r2, __m256d& r3) {
   r3 = _mm256_permute2f128_pd(yw01, yw23, 0x31);
 }
 
-inline Components<double> load_records(const grainsweep::Record<double>* base,
-                                       const std::int32_t* index) {
-  __m256d r0 = _mm256_load_pd(&base[index[0]].x), r1 = _mm256_load_pd(&base[index[1]].x);
-  __m256d r2 = _mm256_load_pd(&base[index[2]].x), r3 = _mm256_load_pd(&base[index[3]].x);
+template <std::size_t stride = sizeof(Record<double>)>
+inline Components<double> load_records(const Record<double>* base, const std::uint32_t* offset) {
+  __m256d r0 = _mm256_load_pd(&at<stride>(base, offset[0]).x),
+          r1 = _mm256_load_pd(&at<stride>(base, offset[1]).x);
+  __m256d r2 = _mm256_load_pd(&at<stride>(base, offset[2]).x),
+          r3 = _mm256_load_pd(&at<stride>(base, offset[3]).x);
   transpose(r0, r1, r2, r3);
   return {r0, r1, r2, r3};
 }
 
-inline void store_records(grainsweep::Record<double>* base, const std::int32_t* index,
+inline Components<double> load_differences(const Record<double>* base, const std::uint32_t* a,
+                                           const std::uint32_t* b) {
+  const auto differ = [&](int k) {
+    return _mm256_sub_pd(_mm256_load_pd(&at(base, b[k]).x), _mm256_load_pd(&at(base, a[k]).x));
+  };
+  __m256d r0 = differ(0), r1 = differ(1), r2 = differ(2), r3 = differ(3);
+  transpose(r0, r1, r2, r3);
+  return {r0, r1, r2, r3};
+}
+
+inline void store_records(Record<double>* base, const std::uint32_t* offset,
                           const Components<double>& c) {
   __m256d r0 = c.x, r1 = c.y, r2 = c.z, r3 = c.w;
   transpose(r0, r1, r2, r3);
-  _mm256_store_pd(&base[index[0]].x, r0);
-  _mm256_store_pd(&base[index[1]].x, r1);
-  _mm256_store_pd(&base[index[2]].x, r2);
-  _mm256_store_pd(&base[index[3]].x, r3);
+  _mm256_store_pd(&at(base, offset[0]).x, r0);
+  _mm256_store_pd(&at(base, offset[1]).x, r1);
+  _mm256_store_pd(&at(base, offset[2]).x, r2);
+  _mm256_store_pd(&at(base, offset[3]).x, r3);
 }
 
-inline void add_record(grainsweep::Record<double>& record, __m256d increment) {
-  _mm256_store_pd(&record.x, _mm256_add_pd(_mm256_load_pd(&record.x), increment));
+inline void push_pair(Record<double>& a, Record<double>& b, __m256d push) {
+  _mm256_store_pd(&a.x, _mm256_sub_pd(_mm256_load_pd(&a.x), push));
+  _mm256_store_pd(&b.x, _mm256_add_pd(_mm256_load_pd(&b.x), push));
 }
 
-inline void add_to_records(grainsweep::Record<double>* base, const std::int32_t* index,
-                           const Components<double>& c) {
+inline void push_records(Record<double>* base, const std::uint32_t* a, const std::uint32_t* b,
+                         const Components<double>& c) {
   __m256d r0 = c.x, r1 = c.y, r2 = c.z, r3 = c.w;
   transpose(r0, r1, r2, r3);
-  add_record(base[index[0]], r0);
-  add_record(base[index[1]], r1);
-  add_record(base[index[2]], r2);
-  add_record(base[index[3]], r3);
+  push_pair(at(base, a[0]), at(base, b[0]), r0);
+  push_pair(at(base, a[1]), at(base, b[1]), r1);
+  push_pair(at(base, a[2]), at(base, b[2]), r2);
+  push_pair(at(base, a[3]), at(base, b[3]), r3);
+}
+
+/// u = free + inverse mass x push; the push is gone then.
+inline void take_push(const Record<float>& free, Record<float>& push, Record<float>& u) {
+  const __m128 from = _mm_load_ps(&free.x);
+  const __m128 inverse_mass = _mm_shuffle_ps(from, from, 0xFF);
+  _mm_store_ps(&u.x, _mm_add_ps(from, _mm_mul_ps(inverse_mass, _mm_load_ps(&push.x))));
+  _mm_store_ps(&push.x, _mm_setzero_ps());
+}
+
+inline void take_push(const Record<double>& free, Record<double>& push, Record<double>& u) {
+  const __m256d from = _mm256_load_pd(&free.x), inverse_mass = _mm256_set1_pd(free.w);
+  _mm256_store_pd(&u.x, _mm256_add_pd(from, _mm256_mul_pd(inverse_mass, _mm256_load_pd(&push.x))));
+  _mm256_store_pd(&push.x, _mm256_setzero_pd());
 }
 
 /// Bit k is lane k of the mask.

@@ -4,7 +4,7 @@
 
 #include <xsimd/xsimd.hpp>
 
-#include "kernels/kernels.hpp"
+#include "kernels/arch/places.hpp"
 
 namespace {
 
@@ -18,11 +18,11 @@ struct Components {
 
 /// Records k, k + 4, k + 8, k + 12, one in each quarter: lanes stay in order through the
 /// transposition.
-inline __m512 load_four(const grainsweep::Record<float>* base, const std::int32_t* index, int k) {
-  __m512 r = _mm512_castps128_ps512(_mm_load_ps(&base[index[k]].x));
-  r = _mm512_insertf32x4(r, _mm_load_ps(&base[index[k + 4]].x), 1);
-  r = _mm512_insertf32x4(r, _mm_load_ps(&base[index[k + 8]].x), 2);
-  return _mm512_insertf32x4(r, _mm_load_ps(&base[index[k + 12]].x), 3);
+inline __m512 load_four(const Record<float>* base, const std::uint32_t* offset, int k) {
+  __m512 r = _mm512_castps128_ps512(_mm_load_ps(&at(base, offset[k]).x));
+  r = _mm512_insertf32x4(r, _mm_load_ps(&at(base, offset[k + 4]).x), 1);
+  r = _mm512_insertf32x4(r, _mm_load_ps(&at(base, offset[k + 8]).x), 2);
+  return _mm512_insertf32x4(r, _mm_load_ps(&at(base, offset[k + 12]).x), 3);
 }
 
 /// Transposes the 4 x 4 numbers in each quarter.
@@ -35,69 +35,83 @@ inline void transpose(__m512& r0, __m512& r1, __m512& r2, __m512& r3) {
   r3 = _mm512_shuffle_ps(zw01, zw23, 0xEE);
 }
 
-inline Components<float> load_records(const grainsweep::Record<float>* base,
-                                      const std::int32_t* index) {
-  __m512 r0 = load_four(base, index, 0), r1 = load_four(base, index, 1);
-  __m512 r2 = load_four(base, index, 2), r3 = load_four(base, index, 3);
+inline Components<float> load_records(const Record<float>* base, const std::uint32_t* offset) {
+  __m512 r0 = load_four(base, offset, 0), r1 = load_four(base, offset, 1);
+  __m512 r2 = load_four(base, offset, 2), r3 = load_four(base, offset, 3);
   transpose(r0, r1, r2, r3);
   return {r0, r1, r2, r3};
 }
 
-inline void store_four(grainsweep::Record<float>* base, const std::int32_t* index, int k,
-                       __m512 records) {
-  _mm_store_ps(&base[index[k]].x, _mm512_castps512_ps128(records));
-  _mm_store_ps(&base[index[k + 4]].x, _mm512_extractf32x4_ps(records, 1));
-  _mm_store_ps(&base[index[k + 8]].x, _mm512_extractf32x4_ps(records, 2));
-  _mm_store_ps(&base[index[k + 12]].x, _mm512_extractf32x4_ps(records, 3));
+/// Records b minus records a.
+inline Components<float> load_differences(const Record<float>* base, const std::uint32_t* a,
+                                          const std::uint32_t* b) {
+  __m512 r0 = _mm512_sub_ps(load_four(base, b, 0), load_four(base, a, 0));
+  __m512 r1 = _mm512_sub_ps(load_four(base, b, 1), load_four(base, a, 1));
+  __m512 r2 = _mm512_sub_ps(load_four(base, b, 2), load_four(base, a, 2));
+  __m512 r3 = _mm512_sub_ps(load_four(base, b, 3), load_four(base, a, 3));
+  transpose(r0, r1, r2, r3);
+  return {r0, r1, r2, r3};
 }
 
-inline void store_records(grainsweep::Record<float>* base, const std::int32_t* index,
+inline void store_four(Record<float>* base, const std::uint32_t* offset, int k, __m512 records) {
+  _mm_store_ps(&at(base, offset[k]).x, _mm512_castps512_ps128(records));
+  _mm_store_ps(&at(base, offset[k + 4]).x, _mm512_extractf32x4_ps(records, 1));
+  _mm_store_ps(&at(base, offset[k + 8]).x, _mm512_extractf32x4_ps(records, 2));
+  _mm_store_ps(&at(base, offset[k + 12]).x, _mm512_extractf32x4_ps(records, 3));
+}
+
+inline void store_records(Record<float>* base, const std::uint32_t* offset,
                           const Components<float>& c) {
   __m512 r0 = c.x, r1 = c.y, r2 = c.z, r3 = c.w;
   transpose(r0, r1, r2, r3);
-  store_four(base, index, 0, r0);
-  store_four(base, index, 1, r1);
-  store_four(base, index, 2, r2);
-  store_four(base, index, 3, r3);
+  store_four(base, offset, 0, r0);
+  store_four(base, offset, 1, r1);
+  store_four(base, offset, 2, r2);
+  store_four(base, offset, 3, r3);
 }
 
-inline void add_record(grainsweep::Record<float>& record, __m128 increment) {
-  _mm_store_ps(&record.x, _mm_add_ps(_mm_load_ps(&record.x), increment));
+/// Takes `push` from record a and gives it to record b.
+inline void push_pair(Record<float>& a, Record<float>& b, __m128 push) {
+  _mm_store_ps(&a.x, _mm_sub_ps(_mm_load_ps(&a.x), push));
+  _mm_store_ps(&b.x, _mm_add_ps(_mm_load_ps(&b.x), push));
 }
 
-/// Adds quarter `quarter` of four transposed batches to records 4 quarter .. 4 quarter + 3.
+/// Pushes of quarter `quarter` of four transposed batches: rows 4 quarter .. 4 quarter + 3.
 template <int quarter>
-inline void add_quarter(grainsweep::Record<float>* base, const std::int32_t* index, __m512 r0,
-                        __m512 r1, __m512 r2, __m512 r3) {
-  const std::int32_t* first = index + std::ptrdiff_t{4} * quarter;
-  add_record(base[first[0]], _mm512_extractf32x4_ps(r0, quarter));
-  add_record(base[first[1]], _mm512_extractf32x4_ps(r1, quarter));
-  add_record(base[first[2]], _mm512_extractf32x4_ps(r2, quarter));
-  add_record(base[first[3]], _mm512_extractf32x4_ps(r3, quarter));
+inline void push_quarter(Record<float>* base, const std::uint32_t* a, const std::uint32_t* b,
+                         __m512 r0, __m512 r1, __m512 r2, __m512 r3) {
+  constexpr int first = 4 * quarter;
+  push_pair(at(base, a[first]), at(base, b[first]), _mm512_extractf32x4_ps(r0, quarter));
+  push_pair(at(base, a[first + 1]), at(base, b[first + 1]), _mm512_extractf32x4_ps(r1, quarter));
+  push_pair(at(base, a[first + 2]), at(base, b[first + 2]), _mm512_extractf32x4_ps(r2, quarter));
+  push_pair(at(base, a[first + 3]), at(base, b[first + 3]), _mm512_extractf32x4_ps(r3, quarter));
 }
 
-inline void add_to_records(grainsweep::Record<float>* base, const std::int32_t* index,
-                           const Components<float>& c) {
+inline void push_records(Record<float>* base, const std::uint32_t* a, const std::uint32_t* b,
+                         const Components<float>& c) {
   __m512 r0 = c.x, r1 = c.y, r2 = c.z, r3 = c.w;
   transpose(r0, r1, r2, r3);
-  add_quarter<0>(base, index, r0, r1, r2, r3);
-  add_quarter<1>(base, index, r0, r1, r2, r3);
-  add_quarter<2>(base, index, r0, r1, r2, r3);
-  add_quarter<3>(base, index, r0, r1, r2, r3);
+  push_quarter<0>(base, a, b, r0, r1, r2, r3);
+  push_quarter<1>(base, a, b, r0, r1, r2, r3);
+  push_quarter<2>(base, a, b, r0, r1, r2, r3);
+  push_quarter<3>(base, a, b, r0, r1, r2, r3);
 }
 
 /// Records i and j, one in each half.
-inline __m512d load_two(const grainsweep::Record<double>* base, std::int32_t i, std::int32_t j) {
-  return _mm512_insertf64x4(_mm512_castpd256_pd512(_mm256_load_pd(&base[i].x)),
-                            _mm256_load_pd(&base[j].x), 1);
+template <std::size_t stride>
+inline __m512d load_two(const Record<double>* base, std::uint32_t i, std::uint32_t j) {
+  return _mm512_insertf64x4(_mm512_castpd256_pd512(_mm256_load_pd(&at<stride>(base, i).x)),
+                            _mm256_load_pd(&at<stride>(base, j).x), 1);
 }
 
 /// Eight records as (0 | 2), (1 | 3), (4 | 6), (5 | 7): after the pairwise unpacking one shuffle of
 /// 128-bit chunks puts the lanes in order.
-inline Components<double> load_records(const grainsweep::Record<double>* base,
-                                       const std::int32_t* index) {
-  const __m512d r02 = load_two(base, index[0], index[2]), r13 = load_two(base, index[1], index[3]);
-  const __m512d r46 = load_two(base, index[4], index[6]), r57 = load_two(base, index[5], index[7]);
+template <std::size_t stride = sizeof(Record<double>)>
+inline Components<double> load_records(const Record<double>* base, const std::uint32_t* offset) {
+  const __m512d r02 = load_two<stride>(base, offset[0], offset[2]),
+                r13 = load_two<stride>(base, offset[1], offset[3]);
+  const __m512d r46 = load_two<stride>(base, offset[4], offset[6]),
+                r57 = load_two<stride>(base, offset[5], offset[7]);
   const __m512d xz0 = _mm512_unpacklo_pd(r02, r13), yw0 = _mm512_unpackhi_pd(r02, r13);
   const __m512d xz4 = _mm512_unpacklo_pd(r46, r57), yw4 = _mm512_unpackhi_pd(r46, r57);
   return {_mm512_shuffle_f64x2(xz0, xz4, 0x88), _mm512_shuffle_f64x2(yw0, yw4, 0x88),
@@ -125,21 +139,44 @@ inline EightRecords records_of(const Components<double>& c) {
            join(_mm512_extractf64x2_pd(xy_odd, 3), _mm512_extractf64x2_pd(zw_odd, 3))}};
 }
 
-inline void store_records(grainsweep::Record<double>* base, const std::int32_t* index,
+inline void store_records(Record<double>* base, const std::uint32_t* offset,
                           const Components<double>& c) {
   const EightRecords r = records_of(c);
   for (int k = 0; k < 8; ++k) {
-    _mm256_store_pd(&base[index[k]].x, r.record[k]);
+    _mm256_store_pd(&at(base, offset[k]).x, r.record[k]);
   }
 }
 
-inline void add_to_records(grainsweep::Record<double>* base, const std::int32_t* index,
-                           const Components<double>& c) {
+/// Records b minus records a.
+inline Components<double> load_differences(const Record<double>* base, const std::uint32_t* a,
+                                           const std::uint32_t* b) {
+  const Components<double> from = load_records(base, a), to = load_records(base, b);
+  return {to.x - from.x, to.y - from.y, to.z - from.z, to.w - from.w};
+}
+
+inline void push_records(Record<double>* base, const std::uint32_t* a, const std::uint32_t* b,
+                         const Components<double>& c) {
   const EightRecords r = records_of(c);
   for (int k = 0; k < 8; ++k) {
-    double* to = &base[index[k]].x;
+    double* from = &at(base, a[k]).x;
+    double* to = &at(base, b[k]).x;
+    _mm256_store_pd(from, _mm256_sub_pd(_mm256_load_pd(from), r.record[k]));
     _mm256_store_pd(to, _mm256_add_pd(_mm256_load_pd(to), r.record[k]));
   }
+}
+
+/// u = free + inverse mass x push; the push is gone then.
+inline void take_push(const Record<float>& free, Record<float>& push, Record<float>& u) {
+  const __m128 from = _mm_load_ps(&free.x);
+  const __m128 inverse_mass = _mm_shuffle_ps(from, from, 0xFF);
+  _mm_store_ps(&u.x, _mm_add_ps(from, _mm_mul_ps(inverse_mass, _mm_load_ps(&push.x))));
+  _mm_store_ps(&push.x, _mm_setzero_ps());
+}
+
+inline void take_push(const Record<double>& free, Record<double>& push, Record<double>& u) {
+  const __m256d from = _mm256_load_pd(&free.x), inverse_mass = _mm256_set1_pd(free.w);
+  _mm256_store_pd(&u.x, _mm256_add_pd(from, _mm256_mul_pd(inverse_mass, _mm256_load_pd(&push.x))));
+  _mm256_store_pd(&push.x, _mm256_setzero_pd());
 }
 
 /// Bit k is lane k of the mask.

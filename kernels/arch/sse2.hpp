@@ -3,7 +3,7 @@
 
 #include <xsimd/xsimd.hpp>
 
-#include "kernels/kernels.hpp"
+#include "kernels/arch/places.hpp"
 
 namespace {
 
@@ -15,70 +15,108 @@ struct Components {
   xsimd::batch<Real, Arch> x, y, z, w;
 };
 
-inline Components<float> load_records(const grainsweep::Record<float>* base,
-                                      const std::int32_t* index) {
-  __m128 r0 = _mm_load_ps(&base[index[0]].x);
-  __m128 r1 = _mm_load_ps(&base[index[1]].x);
-  __m128 r2 = _mm_load_ps(&base[index[2]].x);
-  __m128 r3 = _mm_load_ps(&base[index[3]].x);
+inline Components<float> load_records(const Record<float>* base, const std::uint32_t* offset) {
+  __m128 r0 = _mm_load_ps(&at(base, offset[0]).x);
+  __m128 r1 = _mm_load_ps(&at(base, offset[1]).x);
+  __m128 r2 = _mm_load_ps(&at(base, offset[2]).x);
+  __m128 r3 = _mm_load_ps(&at(base, offset[3]).x);
   _MM_TRANSPOSE4_PS(r0, r1, r2, r3);
   return {r0, r1, r2, r3};
 }
 
-inline void store_records(grainsweep::Record<float>* base, const std::int32_t* index,
+inline void store_records(Record<float>* base, const std::uint32_t* offset,
                           const Components<float>& c) {
   __m128 r0 = c.x, r1 = c.y, r2 = c.z, r3 = c.w;
   _MM_TRANSPOSE4_PS(r0, r1, r2, r3);
-  _mm_store_ps(&base[index[0]].x, r0);
-  _mm_store_ps(&base[index[1]].x, r1);
-  _mm_store_ps(&base[index[2]].x, r2);
-  _mm_store_ps(&base[index[3]].x, r3);
+  _mm_store_ps(&at(base, offset[0]).x, r0);
+  _mm_store_ps(&at(base, offset[1]).x, r1);
+  _mm_store_ps(&at(base, offset[2]).x, r2);
+  _mm_store_ps(&at(base, offset[3]).x, r3);
 }
 
-inline void add_record(grainsweep::Record<float>& record, __m128 increment) {
-  _mm_store_ps(&record.x, _mm_add_ps(_mm_load_ps(&record.x), increment));
+/// Records b minus records a.
+inline Components<float> load_differences(const Record<float>* base, const std::uint32_t* a,
+                                          const std::uint32_t* b) {
+  const auto differ = [&](int k) {
+    return _mm_sub_ps(_mm_load_ps(&at(base, b[k]).x), _mm_load_ps(&at(base, a[k]).x));
+  };
+  __m128 r0 = differ(0), r1 = differ(1), r2 = differ(2), r3 = differ(3);
+  _MM_TRANSPOSE4_PS(r0, r1, r2, r3);
+  return {r0, r1, r2, r3};
 }
 
-inline void add_to_records(grainsweep::Record<float>* base, const std::int32_t* index,
-                           const Components<float>& c) {
+/// Takes `push` from record a and gives it to record b.
+inline void push_pair(Record<float>& a, Record<float>& b, __m128 push) {
+  _mm_store_ps(&a.x, _mm_sub_ps(_mm_load_ps(&a.x), push));
+  _mm_store_ps(&b.x, _mm_add_ps(_mm_load_ps(&b.x), push));
+}
+
+inline void push_records(Record<float>* base, const std::uint32_t* a, const std::uint32_t* b,
+                         const Components<float>& c) {
   __m128 r0 = c.x, r1 = c.y, r2 = c.z, r3 = c.w;
   _MM_TRANSPOSE4_PS(r0, r1, r2, r3);
-  add_record(base[index[0]], r0);
-  add_record(base[index[1]], r1);
-  add_record(base[index[2]], r2);
-  add_record(base[index[3]], r3);
+  push_pair(at(base, a[0]), at(base, b[0]), r0);
+  push_pair(at(base, a[1]), at(base, b[1]), r1);
+  push_pair(at(base, a[2]), at(base, b[2]), r2);
+  push_pair(at(base, a[3]), at(base, b[3]), r3);
 }
 
-inline Components<double> load_records(const grainsweep::Record<double>* base,
-                                       const std::int32_t* index) {
-  const double* r0 = &base[index[0]].x;
-  const double* r1 = &base[index[1]].x;
+template <std::size_t stride = sizeof(Record<double>)>
+inline Components<double> load_records(const Record<double>* base, const std::uint32_t* offset) {
+  const double* r0 = &at<stride>(base, offset[0]).x;
+  const double* r1 = &at<stride>(base, offset[1]).x;
   const __m128d xy0 = _mm_load_pd(r0), zw0 = _mm_load_pd(r0 + 2);
   const __m128d xy1 = _mm_load_pd(r1), zw1 = _mm_load_pd(r1 + 2);
   return {_mm_unpacklo_pd(xy0, xy1), _mm_unpackhi_pd(xy0, xy1), _mm_unpacklo_pd(zw0, zw1),
           _mm_unpackhi_pd(zw0, zw1)};
 }
 
-inline void store_records(grainsweep::Record<double>* base, const std::int32_t* index,
+inline void store_records(Record<double>* base, const std::uint32_t* offset,
                           const Components<double>& c) {
-  double* r0 = &base[index[0]].x;
-  double* r1 = &base[index[1]].x;
+  double* r0 = &at(base, offset[0]).x;
+  double* r1 = &at(base, offset[1]).x;
   _mm_store_pd(r0, _mm_unpacklo_pd(c.x, c.y));
   _mm_store_pd(r0 + 2, _mm_unpacklo_pd(c.z, c.w));
   _mm_store_pd(r1, _mm_unpackhi_pd(c.x, c.y));
   _mm_store_pd(r1 + 2, _mm_unpackhi_pd(c.z, c.w));
 }
 
-inline void add_record(grainsweep::Record<double>& record, __m128d xy, __m128d zw) {
-  double* r = &record.x;
-  _mm_store_pd(r, _mm_add_pd(_mm_load_pd(r), xy));
-  _mm_store_pd(r + 2, _mm_add_pd(_mm_load_pd(r + 2), zw));
+/// Records b minus records a.
+inline Components<double> load_differences(const Record<double>* base, const std::uint32_t* a,
+                                           const std::uint32_t* b) {
+  const Components<double> from = load_records(base, a), to = load_records(base, b);
+  return {to.x - from.x, to.y - from.y, to.z - from.z, to.w - from.w};
 }
 
-inline void add_to_records(grainsweep::Record<double>* base, const std::int32_t* index,
-                           const Components<double>& c) {
-  add_record(base[index[0]], _mm_unpacklo_pd(c.x, c.y), _mm_unpacklo_pd(c.z, c.w));
-  add_record(base[index[1]], _mm_unpackhi_pd(c.x, c.y), _mm_unpackhi_pd(c.z, c.w));
+inline void push_pair(Record<double>& a, Record<double>& b, __m128d xy, __m128d zw) {
+  _mm_store_pd(&a.x, _mm_sub_pd(_mm_load_pd(&a.x), xy));
+  _mm_store_pd(&a.z, _mm_sub_pd(_mm_load_pd(&a.z), zw));
+  _mm_store_pd(&b.x, _mm_add_pd(_mm_load_pd(&b.x), xy));
+  _mm_store_pd(&b.z, _mm_add_pd(_mm_load_pd(&b.z), zw));
+}
+
+inline void push_records(Record<double>* base, const std::uint32_t* a, const std::uint32_t* b,
+                         const Components<double>& c) {
+  push_pair(at(base, a[0]), at(base, b[0]), _mm_unpacklo_pd(c.x, c.y), _mm_unpacklo_pd(c.z, c.w));
+  push_pair(at(base, a[1]), at(base, b[1]), _mm_unpackhi_pd(c.x, c.y), _mm_unpackhi_pd(c.z, c.w));
+}
+
+/// u = free + inverse mass x push; the push is gone then.
+inline void take_push(const Record<float>& free, Record<float>& push, Record<float>& u) {
+  const __m128 from = _mm_load_ps(&free.x);
+  const __m128 inverse_mass = _mm_shuffle_ps(from, from, 0xFF);
+  _mm_store_ps(&u.x, _mm_add_ps(from, _mm_mul_ps(inverse_mass, _mm_load_ps(&push.x))));
+  _mm_store_ps(&push.x, _mm_setzero_ps());
+}
+
+inline void take_push(const Record<double>& free, Record<double>& push, Record<double>& u) {
+  const __m128d inverse_mass = _mm_set1_pd(free.w), zero = _mm_setzero_pd();
+  const __m128d xy = _mm_mul_pd(inverse_mass, _mm_load_pd(&push.x));
+  const __m128d zw = _mm_mul_pd(inverse_mass, _mm_load_pd(&push.z));
+  _mm_store_pd(&u.x, _mm_add_pd(_mm_load_pd(&free.x), xy));
+  _mm_store_pd(&u.z, _mm_add_pd(_mm_load_pd(&free.z), zw));
+  _mm_store_pd(&push.x, zero);
+  _mm_store_pd(&push.z, zero);
 }
 
 /// Bit k is lane k of the mask.

@@ -38,8 +38,8 @@ DenseProblem dense_problem(const SphereBed& bed, const Contacts<Real>& contacts,
                            const std::vector<Record<Real>>& free) {
   DenseProblem problem;
   visit_rows(bed, contacts, [&](const RowBlock<Real>& r, std::size_t k, Real) {
-    problem.rows.push_back({static_cast<std::size_t>(r.a[k]),
-                            static_cast<std::size_t>(r.b[k]),
+    problem.rows.push_back({static_cast<std::size_t>(r.a(k)),
+                            static_cast<std::size_t>(r.b(k)),
                             {r.normal_x[k], r.normal_y[k], r.normal_z[k]},
                             r.gap[k]});
   });

@@ -19,28 +19,40 @@ Real larger(Real a, Real b) {
   return a > b ? a : b;
 }
 
-/// w / A of one row: the gap after the motion u over 1/m_a + 1/m_b.
+/// w / A of one row: the gap after the motion u times the reduced mass.
 template <class Real>
 Real scaled_gap_twin(const RowBlock<Real>& r, std::size_t lane, const Record<Real>* u) {
-  const Record<Real>&a = u[r.a[lane]], &b = u[r.b[lane]];
+  const Record<Real>&a = u[r.a(lane)], &b = u[r.b(lane)];
   const Real approach = r.normal_x[lane] * (b.x - a.x) + r.normal_y[lane] * (b.y - a.y) +
                         r.normal_z[lane] * (b.z - a.z);
-  return (r.gap[lane] + approach) / (a.w + b.w);
+  return (r.gap[lane] + approach) * r.reduced_mass[lane];
 }
 
+/// Adds `share` of an impulse p along the normal.
 template <class Real>
-void push_twin(const RowBlock<Real>& r, std::size_t lane, Real p, Record<Real>& grain) {
-  const Real push = p * grain.w;
-  grain.x += push * r.normal_x[lane];
-  grain.y += push * r.normal_y[lane];
-  grain.z += push * r.normal_z[lane];
+void add_twin(const RowBlock<Real>& r, std::size_t lane, Real p, Real share, Record<Real>& to) {
+  to.x += share * (p * r.normal_x[lane]);
+  to.y += share * (p * r.normal_y[lane]);
+  to.z += share * (p * r.normal_z[lane]);
 }
 
 /// Impulse p of one row: pushes a by -p normal, b by +p normal.
 template <class Real>
-void apply_twin(const RowBlock<Real>& r, std::size_t lane, Real p, Record<Real>* u) {
-  push_twin(r, lane, Real(0) - p, u[r.a[lane]]);
-  push_twin(r, lane, p, u[r.b[lane]]);
+void push_twin(const RowBlock<Real>& r, std::size_t lane, Real p, Record<Real>* pushes) {
+  add_twin(r, lane, p, Real(-1), pushes[r.a(lane)]);
+  add_twin(r, lane, p, Real(1), pushes[r.b(lane)]);
+}
+
+template <class Real>
+void take_pushes_twin(const Record<Real>* free, std::size_t count, Record<Real>* pushes,
+                      Record<Real>* u) {
+  for (std::size_t i = 0; i < count; ++i) {
+    u[i] = free[i];
+    u[i].x += free[i].w * pushes[i].x;
+    u[i].y += free[i].w * pushes[i].y;
+    u[i].z += free[i].w * pushes[i].z;
+    pushes[i] = {Real(0), Real(0), Real(0), Real(0)};
+  }
 }
 
 /// Lane sums are joined pairwise: lane k with k + 8, then k + 4, k + 2, k + 1.
@@ -56,7 +68,7 @@ Real tree_sum(Real (&lane)[block_width]) {
 
 template <class Real>
 SweepSums<Real> gradient_sweep_twin(const RowBlock<Real>* rows, std::size_t blocks,
-                                    const Record<Real>* u, Record<Real>* next, Real* p, Real* y,
+                                    const Record<Real>* u, Record<Real>* pushes, Real* p, Real* y,
                                     Real inverse_bound, Real momentum) {
   Real residual = 0, uphill[block_width] = {};
   for (std::size_t row = 0; row < blocks * block_width; ++row) {
@@ -68,7 +80,7 @@ SweepSums<Real> gradient_sweep_twin(const RowBlock<Real>* rows, std::size_t bloc
     y[row] = p[row] + momentum * change;
     residual = larger(residual, std::abs(smaller(y_old, w)));
     uphill[lane] += (y_old - p[row]) * change;
-    apply_twin(r, lane, y[row], next);
+    push_twin(r, lane, y[row], pushes);
   }
   return {residual, tree_sum(uphill)};
 }
@@ -84,17 +96,19 @@ SweepSums<Real> gauss_seidel_twin(const RowBlock<Real>* rows, std::size_t blocks
       const Real w = scaled_gap_twin(rows[block], lane, u), p_old = p[row];
       p[row] = larger(Real(0), p_old - w);
       residual = larger(residual, std::abs(smaller(p_old, w)));
-      apply_twin(rows[block], lane, p[row] - p_old, u);
+      const RowBlock<Real>& r = rows[block];
+      add_twin(r, lane, p[row] - p_old, Real(0) - u[r.a(lane)].w, u[r.a(lane)]);
+      add_twin(r, lane, p[row] - p_old, u[r.b(lane)].w, u[r.b(lane)]);
     }
   }
   return {residual, Real(0)};
 }
 
 template <class Real>
-void apply_impulses_twin(const RowBlock<Real>* rows, std::size_t blocks, const Real* p,
-                         Record<Real>* u) {
+void add_pushes_twin(const RowBlock<Real>* rows, std::size_t blocks, const Real* p,
+                     Record<Real>* pushes) {
   for (std::size_t row = 0; row < blocks * block_width; ++row) {
-    apply_twin(rows[row / block_width], row % block_width, p[row], u);
+    push_twin(rows[row / block_width], row % block_width, p[row], pushes);
   }
 }
 
@@ -120,7 +134,7 @@ void sphere_gaps_twin(RowBlock<Real>* rows, std::size_t blocks, const Record<dou
   for (std::size_t row = 0; row < blocks * block_width; ++row) {
     RowBlock<Real>& r = rows[row / block_width];
     const std::size_t lane = row % block_width;
-    const Record<double>&a = positions[r.a[lane]], &b = positions[r.b[lane]];
+    const Record<double>&a = positions[r.a(lane)], &b = positions[r.b(lane)];
     const double x = nearest_image_twin(b.x - a.x, period_x);
     const double y = nearest_image_twin(b.y - a.y, period_y);
     const double z = b.z - a.z;

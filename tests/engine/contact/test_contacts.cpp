@@ -40,7 +40,7 @@ void expect_independent_lanes(const SphereBed& bed, const Contacts<Real>& contac
   for (std::size_t block = 0; block < contacts.rows.size(); ++block) {
     std::set<std::int32_t> seen;
     for (std::size_t lane = 0; lane < block_width; ++lane) {
-      const std::int32_t a = contacts.rows[block].a[lane], b = contacts.rows[block].b[lane];
+      const std::int32_t a = contacts.rows[block].a(lane), b = contacts.rows[block].b(lane);
       if (a == bed.void_a()) {
         REQUIRE(b == bed.void_b());
         REQUIRE(contacts.impulse[block * block_width + lane] == 0);
@@ -218,7 +218,7 @@ TEMPLATE_TEST_CASE("unused lanes have a positive gap and cannot push", "", float
   int unused = 0;
   for (const RowBlock<TestType>& block : contacts.rows) {
     for (std::size_t lane = 0; lane < block_width; ++lane) {
-      if (block.a[lane] == bed.void_a()) {
+      if (block.a(lane) == bed.void_a()) {
         CHECK(block.gap[lane] > 0);
         ++unused;
       }
@@ -235,7 +235,7 @@ TEST_CASE("rows are visited without the unused ones, each with its impulse") {
   std::fill(contacts.impulse.begin(), contacts.impulse.end(), 0.25);
   int rows = 0;
   visit_rows(bed, contacts, [&](const RowBlock<double>& r, std::size_t lane, double impulse) {
-    CHECK(r.a[lane] < bed.wall());
+    CHECK(r.a(lane) < bed.wall());
     CHECK(impulse == 0.25);
     ++rows;
   });

@@ -165,7 +165,7 @@ Balance balance_of(const StepProblem<double>& problem) {
   }
   visit_rows(problem.bed, problem.contacts,
              [&](const RowBlock<double>& r, std::size_t k, double p) {
-               const double push = r.b[k] == problem.bed.wall() ? p : 0.0;
+               const double push = r.b(k) == problem.bed.wall() ? p : 0.0;
                balance.pushes[0] -= push * r.normal_x[k];
                balance.pushes[1] -= push * r.normal_y[k];
                balance.pushes[2] -= push * r.normal_z[k];
@@ -211,8 +211,9 @@ TEMPLATE_TEST_CASE("a solve that starts from its solution is done after one look
 template <class Real>
 StepProblem<Real> scaled(StepProblem<Real> problem, Real length, Real mass) {
   for (RowBlock<Real>& block : problem.contacts.rows) {
-    for (Real& gap : block.gap) {
-      gap *= length;
+    for (std::size_t lane = 0; lane < block_width; ++lane) {
+      block.gap[lane] *= length;
+      block.reduced_mass[lane] *= mass;
     }
   }
   for (Record<Real>& free : problem.motion.free) {
