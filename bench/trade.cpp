@@ -86,6 +86,10 @@ std::vector<Setting> all_settings() {
     settings.push_back(changed("rest iterations", "rest " + std::to_string(iterations),
                                [&](Accuracy& a) { a.rest_iterations = iterations; }));
   }
+  settings.push_back(changed("protocol", "dynamic", [](Accuracy& a) {
+    a.protocol = Protocol::dynamic;
+    a.max_steps = 6000;
+  }));
   for (const double step : {0.05, 0.1, 0.14, 0.28}) {
     settings.push_back(changed("step", "step " + std::to_string(step).substr(0, 4),
                                [&](Accuracy& a) { a.step = step; }));

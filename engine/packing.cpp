@@ -105,15 +105,17 @@ Packing make_packing(const PackingSpec& spec, const Kernels& kernels, const Keep
   return packing;
 }
 
-// Measured on one core of a 2.4 GHz server: a sweep over a row costs 2 ns, and a bed has about four
-// rows per grain; iterations as the stages of engine/dynamics/settle.hpp usually need them.
+// Measured on one core of a 2.4 GHz server: a sweep over a row costs 2.7 ns, and a bed has about
+// four rows per grain; iterations as the stages of engine/dynamics/settle.hpp usually need them.
 Cost estimate_cost(const PackingSpec& spec) {
-  constexpr double seconds_per_row = 2e-9, rows_per_grain = 4.0, bytes_per_grain = 900.0;
+  constexpr double seconds_per_row = 2.7e-9, rows_per_grain = 4.0, bytes_per_grain = 900.0;
   const auto grains = static_cast<double>(grain_count(spec));
   const Accuracy& a = spec.accuracy;
-  const double iterations = 170.0 * a.fall_iterations + (a.creep_steps + 15.0) * a.rest_iterations;
+  const bool is_dynamic = a.protocol == Protocol::dynamic;
+  const double fall = (is_dynamic ? 2000.0 : 130.0) * a.fall_iterations;
+  const double creep = (is_dynamic ? 15.0 : a.creep_steps * 2.0 / 3.0 + 25.0) * a.rest_iterations;
   const double number_size = a.precision == Precision::f32 ? 1.0 : 2.0;
-  return {grains * rows_per_grain * number_size * iterations * seconds_per_row,
+  return {grains * rows_per_grain * number_size * (fall + creep) * seconds_per_row,
           1e6 + grains * bytes_per_grain * number_size};
 }
 

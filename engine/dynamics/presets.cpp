@@ -7,7 +7,7 @@ namespace {
 Accuracy fast() {
   Accuracy a;
   a.fall_iterations = 40;
-  a.creep_steps = 5;
+  a.creep_steps = 15;
   a.rest_iterations = 100;
   a.residual_tolerance = 2e-2;
   a.kinetic_tolerance = 1e-3;
@@ -19,7 +19,7 @@ Accuracy fast() {
 Accuracy balanced() {
   Accuracy a;
   a.fall_iterations = 80;
-  a.creep_steps = 60;
+  a.creep_steps = 80;
   a.rest_iterations = 300;
   a.residual_tolerance = 5e-3;
   a.kinetic_tolerance = 1e-4;
@@ -30,9 +30,9 @@ Accuracy balanced() {
 
 Accuracy accurate() {
   Accuracy a;
-  a.fall_iterations = 160;
-  a.creep_steps = 100;
-  a.rest_iterations = 600;
+  a.fall_iterations = 80;
+  a.creep_steps = 300;
+  a.rest_iterations = 300;
   a.residual_tolerance = 1e-3;
   a.kinetic_tolerance = 2e-5;
   a.contact_tolerance = 0.006;

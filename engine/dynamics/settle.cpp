@@ -13,14 +13,40 @@ namespace {
 constexpr double carried_share = 0.9;
 constexpr double fall_energy = 5e-3;  // m g d per grain; an impact has about 0.2
 
-// Steps after the fall, in steps of the fall. Motions and overlaps go with the square of a step.
-constexpr double creep_step = 2.0;
-constexpr double quench_step = 0.5;
+constexpr std::int64_t halt_steps = 6;
 
-// Contacts go on closing for about ten steps of a quench, after that it only creeps.
-constexpr std::int64_t least_quench_steps = 10;
+// Contacts go on closing for about eight steps of a quench, after that it only creeps.
+constexpr std::int64_t least_quench_steps = 8;
 
-enum class Stage { fall, creep, quench };
+/// The creep has two parts: its loose and its good solves.
+enum class Stage { look, fall, loose_creep, creep, halt, quench, dynamic_fall };
+
+/// What a step takes over from the motion of the last one.
+enum class Inertia { none, damped, full };
+
+/// What a stage changes in a step. Motions and overlaps go with the square of a step, so that
+/// shorter steps need to look less far.
+struct StageRule {
+  double step;  ///< in steps of the fall
+  Inertia inertia;
+  double correction;  ///< share of an overlap that a step repairs
+  double near;        ///< pairs with a smaller gap are rows, d
+  double margin;      ///< candidates reach this much further, d
+  double iterations;  ///< most iterations a step, in rest_iterations
+  double usual_end;   ///< share of the work that is usually done at its end
+};
+
+constexpr StageRule rules[] = {
+    {0.5, Inertia::none, 1.0, 0.01, 0.01, 2.0, 0.0},     // look: a quench before anything else
+    {1.0, Inertia::damped, 0.1, 0.08, 0.05, 0.0, 0.3},   // fall: has iterations of its own
+    {2.0, Inertia::damped, 1.0, 0.05, 0.01, 0.5, 0.5},   // loose creep
+    {2.0, Inertia::damped, 1.0, 0.05, 0.01, 1.0, 0.75},  // creep
+    {1.0, Inertia::none, 1.0, 0.02, 0.01, 2.0, 0.85},    // halt
+    {0.5, Inertia::none, 1.0, 0.01, 0.01, 2.0, 1.0},     // quench
+    {0.25, Inertia::full, 0.0, 0.08, 0.05, 0.0, 0.85},   // dynamic fall: iterations of the fall
+};
+
+const StageRule& rule(Stage stage) { return rules[static_cast<std::size_t>(stage)]; }
 
 /// Everything a settling bed carries from step to step.
 template <class Real>
@@ -35,20 +61,37 @@ struct Settling {
   SettleReport report;
 };
 
+int iterations_of(const Accuracy& accuracy, Stage stage) {
+  return stage == Stage::fall
+             ? accuracy.fall_iterations
+             : std::max(1, static_cast<int>(
+                               std::lround(rule(stage).iterations * accuracy.rest_iterations)));
+}
+
+double momentum_of(const Accuracy& accuracy, Inertia inertia) {
+  return inertia == Inertia::none ? 0.0 : inertia == Inertia::damped ? accuracy.momentum : 1.0;
+}
+
 StepSettings settings_of(const Accuracy& accuracy, Stage stage) {
+  const StageRule& r = rule(stage);
   StepSettings s;
-  s.dt = accuracy.step;
-  s.momentum = accuracy.momentum;
-  s.limits = {accuracy.solver, accuracy.rest_iterations, accuracy.residual_tolerance / 5.0};
-  if (stage == Stage::fall) {
-    s.limits.iterations = accuracy.fall_iterations;
-  } else {
-    s.near = s.margin = stage == Stage::creep ? 0.03 : 0.02;
-    s.dt *= stage == Stage::creep ? creep_step : quench_step;
-    s.momentum = 0.0;
-    s.correction = 1.0;
-  }
+  s.dt = r.step * accuracy.step;
+  s.momentum = momentum_of(accuracy, r.inertia);
+  s.correction = r.correction;
+  s.near = r.near;
+  s.margin = r.margin;
+  s.limits = {accuracy.solver, iterations_of(accuracy, stage), accuracy.residual_tolerance / 5.0};
   return s;
+}
+
+std::int64_t loose_creep_steps(const Accuracy& accuracy) { return 2 * accuracy.creep_steps / 3; }
+
+/// Steps that a stage usually takes: an estimate for progress bars.
+double usual_steps(const Accuracy& accuracy, Stage stage) {
+  const auto loose = static_cast<double>(loose_creep_steps(accuracy));
+  const double steps[] = {8.0,        160.0, loose, accuracy.creep_steps - loose,
+                          halt_steps, 12.0,  1200.0};
+  return std::max(1.0, steps[static_cast<std::size_t>(stage)]);
 }
 
 /// Velocities stay as they are when the step changes: motions scale with dt, impulses with dt^2.
@@ -71,11 +114,10 @@ void enter(Stage stage, Settling<Real>& s) {
 /// Share of the work done, from the stage and its steps: an estimate for progress bars.
 template <class Real>
 double share_done(const Settling<Real>& s, Stage stage, std::int64_t steps_in_stage) {
-  constexpr double begin[] = {0.0, 0.4, 0.7, 1.0};  // typical shares of the time
-  const double usual[] = {170.0, std::max(1.0, 1.0 * s.accuracy.creep_steps), 15.0};  // steps
-  const auto k = static_cast<std::size_t>(stage);
-  const double in_stage = static_cast<double>(steps_in_stage) / usual[k];
-  return begin[k] + (begin[k + 1] - begin[k]) * in_stage / (1.0 + in_stage);
+  const bool is_first = stage <= Stage::fall || stage == Stage::dynamic_fall;
+  const double begin = is_first ? 0.0 : rules[static_cast<std::size_t>(stage) - 1].usual_end;
+  const double in_stage = static_cast<double>(steps_in_stage) / usual_steps(s.accuracy, stage);
+  return begin + (rule(stage).usual_end - begin) * in_stage / (1.0 + in_stage);
 }
 
 /// Takes steps of one stage until `is_over` says so, the steps run out or the observer stops it.
@@ -94,9 +136,13 @@ void run(Stage stage, Settling<Real>& s, IsOver is_over) {
 }
 
 template <class Real>
+bool is_carried(const Settling<Real>& s) {
+  return carried_weight(s.bed, s.state.contacts, s.settings.dt) > carried_share;
+}
+
+template <class Real>
 bool has_fallen(const Settling<Real>& s) {
-  return s.last.kinetic_energy < fall_energy &&
-         carried_weight(s.bed, s.state.contacts, s.settings.dt) > carried_share;
+  return s.last.kinetic_energy < fall_energy && is_carried(s);
 }
 
 template <class Real>
@@ -114,14 +160,53 @@ bool is_at_rest(Settling<Real>& s) {
   return s.report.why_not.empty();
 }
 
+/// Whether the bed rests as it is, which one that was settled before does; the first step tells of
+/// most others.
+template <class Real>
+bool rests_already(Settling<Real>& s) {
+  bool is_bed = true;
+  run(Stage::look, s, [&](std::int64_t k) {
+    is_bed = is_bed && (k == 0 || is_carried(s));
+    return !is_bed || k >= least_quench_steps;
+  });
+  return is_bed && is_at_rest(s);
+}
+
+template <class Real>
+void settle_by_heavy_ball(Settling<Real>& s) {
+  const std::int64_t loose = loose_creep_steps(s.accuracy);
+  const std::int64_t good = s.accuracy.creep_steps - loose;
+  run(Stage::fall, s, [&](std::int64_t k) { return k > 0 && has_fallen(s); });
+  run(Stage::loose_creep, s, [&](std::int64_t k) { return k >= loose; });
+  run(Stage::creep, s, [&](std::int64_t k) { return k >= good; });
+  run(Stage::halt, s, [](std::int64_t k) { return k >= halt_steps; });
+}
+
+template <class Real>
+void settle_by_dynamics(Settling<Real>& s) {
+  run(Stage::dynamic_fall, s, [&](std::int64_t k) {
+    return k > 0 && has_fallen(s) && s.last.kinetic_energy < s.accuracy.kinetic_tolerance;
+  });
+}
+
+template <class Real>
+void come_down(Settling<Real>& s) {
+  if (s.accuracy.protocol == Protocol::dynamic) {
+    settle_by_dynamics(s);
+  } else {
+    settle_by_heavy_ball(s);
+  }
+}
+
 template <class Real>
 SettleReport settle_as(const Accuracy& accuracy, const Kernels& kernels, SphereBed& bed,
                        const KeepGoing& keep_going) {
   Settling<Real> s{accuracy, kernels, keep_going, bed, {}, settings_of(accuracy, Stage::fall),
                    {},       {}};
-  run(Stage::fall, s, [&](std::int64_t k) { return k > 0 && has_fallen(s); });
-  run(Stage::creep, s, [&](std::int64_t k) { return k >= accuracy.creep_steps; });
-  run(Stage::quench, s, [&](std::int64_t k) { return k >= least_quench_steps && is_at_rest(s); });
+  if (!rests_already(s)) {
+    come_down(s);
+    run(Stage::quench, s, [&](std::int64_t k) { return k >= least_quench_steps && is_at_rest(s); });
+  }
   certify_rest(s);
   if (accuracy.force_balance == BalanceCheck::solve && !s.report.cancelled) {
     s.report.balance = balance_forces(bed, kernels, s.settings.dt, s.state.contacts);

@@ -1,12 +1,18 @@
-// From loose grains in the air to a bed at rest, in three stages.
+// From loose grains in the air to a bed at rest, in four stages.
 //
 //   fall    full steps with momentum, until the floor carries the bed; overlaps repaired by 10 % a
 //           step, so that loose solves do not throw grains about
-//   creep   double steps without momentum, better solves, overlaps repaired whole: grains slide
-//           into their places. With momentum the errors of the solves keep a bed warm, and it
-//           compacts for ever, as if tapped.
-//   quench  half steps without momentum: what still moves is slowed down and contacts close, until
-//           every test of rest holds
+//   creep   double steps with momentum, overlaps repaired whole: grains slide into their places.
+//           The errors of loose solves act like tapping, so this is an annealing: the first two
+//           thirds of the steps are solved with half the iterations. Good solves throughout take
+//           five times as many steps to the same number of contacts.
+//   halt    full steps without momentum: what still moves is slowed down
+//   quench  half steps without momentum: contacts close, until every test of rest holds
+//
+// With the protocol `dynamic` grains fall as in plain contact dynamics, undamped and in steps of a
+// quarter, until they have lost their kinetic energy by impacts alone; then comes the quench.
+//
+// A bed that rests as it is given stays as it is.
 //
 // How loosely the fall is solved is part of how a bed was packed: see engine/dynamics/presets.hpp.
 #pragma once

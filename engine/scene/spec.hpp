@@ -68,16 +68,23 @@ enum class BalanceCheck {
   solve,  ///< "solve"
 };
 
+/// How grains come down. See engine/dynamics/settle.hpp.
+enum class Protocol {
+  heavy_ball,  ///< "heavy_ball": damped, in long steps; a descent to rest
+  dynamic,     ///< "dynamic": plain contact dynamics, undamped, in a quarter of the steps' length
+};
+
 /// How well a packing is settled: the trade of speed for accuracy, part by part.
 /// A preset is one value of it; engine/dynamics/presets.hpp says what each promises.
 struct Accuracy {
+  Protocol protocol = Protocol::heavy_ball;
   Solver solver = Solver::accelerated_projected_gradient;
   Precision precision = Precision::f32;
   double step = 0.2;          ///< dt, sqrt(d/g)
   double momentum = 0.9;      ///< alpha: share of a displacement carried on in the fall, 0..1
   int fall_iterations = 40;   ///< solver iterations per step while the bed compacts
-  int creep_steps = 30;       ///< double steps after the fall, while the bed creeps to rest
-  int rest_iterations = 200;  ///< most solver iterations per step after the fall
+  int creep_steps = 80;       ///< double steps after the fall, while the bed creeps to rest
+  int rest_iterations = 300;  ///< most solver iterations per step at the end of the creep
   double residual_tolerance = 5e-3;  ///< force balance at rest, m g, worst row
   double kinetic_tolerance = 2e-4;   ///< kinetic energy per grain at rest, m g d
   double contact_tolerance = 0.04;   ///< |contacts / isostatic count - 1| at rest

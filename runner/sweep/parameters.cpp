@@ -174,6 +174,9 @@ Rows accuracy_rows() {
   return {
       {"accuracy.preset", "named accuracy; parts written beside it override its own",
        ValueKind::choice, 0, preset_names(), set_preset, no_identity},
+      accuracy<&A::protocol>("accuracy.protocol",
+                             "how grains come down: damped in long steps, or plain dynamics",
+                             {"heavy_ball", "dynamic"}),  // in the order of Protocol
       accuracy<&A::solver>("accuracy.solver", "iterations that solve a step",
                            {"pgs", "symmetric_pgs", "nncg", "apgd"}),  // in the order of Solver
       accuracy<&A::precision>("accuracy.precision", "number type of the solver", {"f32", "f64"}),
@@ -183,9 +186,9 @@ Rows accuracy_rows() {
       accuracy<&A::fall_iterations>("accuracy.fall_iterations",
                                     "solver iterations per step while the bed compacts"),
       accuracy<&A::creep_steps>("accuracy.creep_steps",
-                                "full steps after the fall, while the bed creeps to rest"),
+                                "double steps after the fall, while the bed creeps to rest"),
       accuracy<&A::rest_iterations>("accuracy.rest_iterations",
-                                    "most solver iterations per step after the fall"),
+                                    "most solver iterations per step at the end of the creep"),
       accuracy<&A::residual_tolerance>("accuracy.residual_tolerance",
                                        "worst force imbalance at rest, m g"),
       accuracy<&A::kinetic_tolerance>("accuracy.kinetic_tolerance",

@@ -149,7 +149,7 @@ TEST_CASE("a column that stands by symmetry alone is not called settled") {
   SphereBed bed = testing::column_bed(10, 0.0);
   Accuracy accuracy;
   accuracy.precision = Precision::f64;
-  accuracy.max_steps = 100;
+  accuracy.max_steps = 200;
   const SettleReport report = settle_bed(bed, accuracy);
   CHECK(report.rest.contacts == 10);
   CHECK(report.rest.isostatic_contacts == 28);
@@ -164,6 +164,17 @@ TEST_CASE("grains placed on the same spot part and settle") {
     CHECK(bed.position[i].z > 0.49);
   }
   CHECK(testing::gap_of(bed, 0, 1) > -1e-3);
+}
+
+TEST_CASE("plain contact dynamics settles a bed, too, in more steps") {
+  SphereBed damped = small_bed(7), dynamic = small_bed(7);
+  Accuracy accuracy = *preset("fast");
+  const SettleReport heavy_ball = settle_bed(damped, accuracy);
+  accuracy.protocol = Protocol::dynamic;
+  const SettleReport plain = settle_bed(dynamic, accuracy);
+  CHECK(heavy_ball.why_not == "");
+  CHECK(plain.why_not == "");
+  CHECK(plain.steps > 2 * heavy_ball.steps);
 }
 
 TEST_CASE("every solver offered settles a bed") {

@@ -50,12 +50,13 @@ TEST_CASE("the table knows every member of a specification") {
   [[maybe_unused]] const auto& [box, fill, sizes, accuracy, measure, random_key] = PackingSpec{};
   [[maybe_unused]] const auto& [length, width, x, y] = box;
   [[maybe_unused]] const auto& [spread, small_share, size_ratio] = sizes;
-  [[maybe_unused]] const auto& [solver, precision, step, momentum, fall, creep, rest, residual,
-                                kinetic, contacts, overlap, max_steps, force_balance] = accuracy;
+  [[maybe_unused]] const auto& [protocol, solver, precision, step, momentum, fall, creep, rest,
+                                residual, kinetic, contacts, overlap, max_steps, force_balance] =
+      accuracy;
   [[maybe_unused]] const auto& [exclude_floor, exclude_surface, gap_tolerances] = measure;
   CHECK(known_keys("box").size() == 4);
   CHECK(known_keys("sizes").size() == 3);
-  CHECK(known_keys("accuracy").size() == 13 + 1);  // and "preset"
+  CHECK(known_keys("accuracy").size() == 14 + 1);  // and "preset"
   CHECK(known_keys("measure").size() == 3);
 }
 
