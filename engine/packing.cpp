@@ -87,14 +87,15 @@ const char* name_of(PackingStatus status) {
   return "unknown";
 }
 
-Packing make_packing(const PackingSpec& spec, const Kernels& kernels, const KeepGoing& keep_going) {
+Packing make_packing(const PackingSpec& spec, const Kernels& kernels, const KeepGoing& keep_going,
+                     std::string_view saved) {
   std::optional<SphereBed> bed = start(spec);
   if (!bed) {
     return failed(
         "a grain found no room in the box: it is larger than the gap between the walls, "
         "or the box is too crowded");
   }
-  const SettleReport settled = settle(spec.accuracy, kernels, *bed, keep_going);
+  const SettleReport settled = settle(spec.accuracy, kernels, *bed, keep_going, saved);
   Packing packing{result_of(*bed, settled), {}};
   if (settled.cancelled) {
     return packing;

@@ -8,6 +8,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/scene/spec.hpp"
@@ -85,13 +86,18 @@ struct Packing {
 struct Progress {
   std::int64_t step = 0;
   double share_done = 0.0;
+  std::function<std::string()> save;  ///< the packing as bytes; only during the call that gave it
 };
 
 /// Called after every step; false stops the packing, whose status is then `cancelled`.
 using KeepGoing = std::function<bool(const Progress&)>;
 
 /// Places, settles, certifies and measures one bed. Requires check(spec).empty().
-Packing make_packing(const PackingSpec& spec, const Kernels& kernels, const KeepGoing& keep_going);
+/// `saved`: bytes that Progress::save gave for the same spec; the packing goes on from there and
+/// ends with the same bits. Bytes that are torn or of another version are not taken: it then begins
+/// anew, to the same end.
+Packing make_packing(const PackingSpec& spec, const Kernels& kernels, const KeepGoing& keep_going,
+                     std::string_view saved = {});
 
 /// What a packing will cost. Estimates: order of magnitude for sorting and planning, not promises.
 struct Cost {

@@ -19,6 +19,7 @@
 
 #include <functional>
 #include <optional>
+#include <string_view>
 
 #include "engine/dynamics/rest.hpp"
 #include "engine/dynamics/step.hpp"
@@ -36,8 +37,9 @@ struct SettleReport {
   std::vector<double> force;            ///< sum of contact force magnitudes on each grain, m g
 };
 
-/// Settles `bed`. `keep_going` is asked after every step.
+/// Settles `bed`. `keep_going` is asked after every step. `saved`: bytes that Progress::save gave
+/// for the same bed and accuracy, from which to go on; others are not taken.
 SettleReport settle(const Accuracy& accuracy, const Kernels& kernels, SphereBed& bed,
-                    const KeepGoing& keep_going);
+                    const KeepGoing& keep_going, std::string_view saved = {});
 
 }  // namespace grainsweep

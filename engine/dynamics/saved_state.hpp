@@ -1,0 +1,88 @@
+// A state as bytes, so that a packing that was interrupted goes on with the same bits.
+//
+// One function per type lists its members; it writes them through a StateWriter or reads them back
+// through a StateReader. The bytes are for the program that wrote them: a header tells whether they
+// are of this format, this kind of state, and whole.
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+namespace grainsweep {
+
+/// Appends values to bytes.
+class StateWriter {
+ public:
+  template <class T>
+  void value(const T& value) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    bytes_.append(reinterpret_cast<const char*>(&value), sizeof(T));
+  }
+  template <class T>
+  void column(const std::vector<T>& column) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    value(static_cast<std::uint64_t>(column.size()));
+    bytes_.append(reinterpret_cast<const char*>(column.data()), column.size() * sizeof(T));
+  }
+  /// Calls each(element) after the number of elements.
+  template <class T, class Each>
+  void list(const std::vector<T>& elements, Each each) {
+    value(static_cast<std::uint64_t>(elements.size()));
+    for (const T& element : elements) {
+      each(element);
+    }
+  }
+  const std::string& bytes() const { return bytes_; }
+
+ private:
+  std::string bytes_;
+};
+
+/// Reads values in the order in which they were written. Requires bytes that were checked.
+class StateReader {
+ public:
+  explicit StateReader(std::string_view bytes) : bytes_(bytes) {}
+  template <class T>
+  void value(T& value) {
+    take(&value, sizeof(T));
+  }
+  template <class T>
+  void column(std::vector<T>& column) {
+    std::uint64_t size = 0;
+    value(size);
+    column.resize(size);
+    take(column.data(), size * sizeof(T));
+  }
+  template <class T, class Each>
+  void list(std::vector<T>& elements, Each each) {
+    std::uint64_t size = 0;
+    value(size);
+    elements.resize(size);
+    for (T& element : elements) {
+      each(element);
+    }
+  }
+
+ private:
+  void take(void* to, std::size_t size) {
+    if (size > 0) {
+      std::memcpy(to, bytes_.data(), size);
+    }
+    bytes_.remove_prefix(size);
+  }
+
+  std::string_view bytes_;
+};
+
+/// `payload` with a header; `kind` tells states apart that must not be taken for each other.
+std::string sealed(std::uint64_t kind, std::string_view payload);
+
+/// The payload of sealed bytes; nothing if they are torn, changed, of another format or kind.
+std::optional<std::string_view> unsealed(std::uint64_t kind, std::string_view bytes);
+
+}  // namespace grainsweep
