@@ -86,7 +86,8 @@ struct Packing {
 struct Progress {
   std::int64_t step = 0;
   double share_done = 0.0;
-  std::function<std::string()> save;  ///< the packing as bytes; only during the call that gave it
+  std::function<std::string()> save =
+      {};  ///< the packing as bytes; only during the call that gave it
 };
 
 /// Called after every step; false stops the packing, whose status is then `cancelled`.
