@@ -7,18 +7,20 @@ usage() {
   cat <<'TEXT'
 usage: bench/peers/run.sh [GRAINS] [SEED]
 
-Makes GRAINS loose random spheres (2000 if not given, at least 300) between walls 5 d apart, of which
-SEED (1) chooses sizes and places, and settles exactly these in
+Makes GRAINS loose random spheres (2000 if not given, at least 300) between walls 5 d apart; SEED
+(1) chooses their sizes and places. Settles exactly these in
   grainsweep  at fast, balanced and accurate;
   LAMMPS      lmp, Debian package lammps;
   LIGGGHTS    liggghts, Debian package liggghts.
 All run on one core, in turn; every final bed is measured by the same program from its positions.
 Writes peers.csv, peers.md and what each code said to out/peers-GRAINS-SEED, and prints peers.md.
-A code that is not installed is left out. 2000 grains take about five minutes.
+A code that is not installed is left out. 2000 grains take some minutes.
 
-The peers model grains as linear springs without friction, kn = 1e4 m g/d, critically damped, until
-the mean kinetic energy falls below 1e-3, 1e-5 and 1e-8 m g d; and LAMMPS once more with springs a
-hundred times as stiff, step and damping to match, whose overlaps come near to those of grainsweep.
+The peers model grains as linear springs without friction. A row is named by the stiffness kn
+(m g/d), the restitution e of a collision and the mean kinetic energy (m g d) that ends the run:
+  kn 1e4 e 0   critically damped, step .002 sqrt(d/g): inelastic, as in grainsweep
+  kn 1e4 e .3  step .004: comes to rest soonest of the dampings and steps tried
+  kn 1e6 e .3  step .0004: overlaps nearer to those of grainsweep
 TEXT
 }
 
@@ -60,7 +62,7 @@ write_start() {
     "$out/start.csv" >"$out/start.data"
 }
 
-# timed NAME COMMAND...: runs it on the core; its words go to NAME.log, its CPU seconds to `seconds`.
+# timed NAME COMMAND...: runs it on the core; its words go to NAME.log, its CPU time to `seconds`.
 timed() {
   local name=$1 status=0 TIMEFORMAT='%U %S'
   shift
@@ -104,35 +106,55 @@ JSON
     "$(cell_of contacts "$table")" "$results/export/$(cell_of job "$table").csv"
 }
 
-# run_peer CODE PROGRAM SCRIPT ENERGY [STIFFNESS STEP DAMPING]
-run_peer() {
-  local name=$1-$4-${5:-1e4} dump=$out/$1-$4-${5:-1e4}.dump energy
-  timed "$name" "$2" -in "$here/$3" -log none -var data "$out/start.data" -var out "$dump" \
-    -var width "$width" -var energy "$4" -var stiffness "${5:-1e4}" -var step "${6:-0.002}" \
-    -var damping "${7:-283}" || stop "$1 failed; see $out/$name.log"
-  energy=$(awk '/^kinetic_energy/ { print $2 }' "$out/$name.log")
-  awk '/^ITEM: ATOMS/ { atoms = 1; print "x,y,z,r"; next } atoms { print $2 "," $3 "," $4 "," $5 }' \
-    "$dump" >"$out/$name.csv"
-  add_row "$1" "kn ${5:-1e4} until KE < $4" settled "$energy" overlapping "$out/$name.csv"
+# Stiffness, step and damping of the springs.
+declare -rA springs=(
+  ['kn 1e4 e 0']='1e4 0.002 283'
+  ['kn 1e4 e .3']='1e4 0.004 100'
+  ['kn 1e6 e .3']='1e6 0.0004 1000'
+)
+
+# kinetic_energy_in LOG: what the script printed when the bed had come to rest.
+kinetic_energy_in() {
+  awk '/^kinetic_energy/ { energy = $2 } END { print energy; exit !energy }' "$1"
 }
 
-# has_program PROGRAM PACKAGE CODE
-has_program() {
-  command -v "$1" >/dev/null && return
-  say "$3 is not installed and left out; on Debian: apt-get install $2"
-  return 1
+# csv_of DUMP: its grains, in the order of their numbers.
+csv_of() {
+  awk '/^ITEM: ATOMS/ { atoms = 1; print "x,y,z,r"; next }
+       atoms { print $2 "," $3 "," $4 "," $5 }' "$1"
+}
+
+# run_peer CODE PROGRAM SPRINGS ENERGY: the program's script is CODE.in in small letters.
+run_peer() {
+  local stiffness step damping name energy
+  read -r stiffness step damping <<<"${springs[$3]}"
+  name=${1,,}-$stiffness-$damping-$4
+  timed "$name" "$2" -in "$here/${1,,}.in" -log none -var data "$out/start.data" \
+    -var width "$width" -var energy "$4" -var stiffness "$stiffness" -var step "$step" \
+    -var damping "$damping" -var out "$out/$name.dump" || stop "$1 failed; see $out/$name.log"
+  energy=$(kinetic_energy_in "$out/$name.log") ||
+    stop "$1 did not come to rest; see $out/$name.log"
+  csv_of "$out/$name.dump" >"$out/$name.csv"
+  add_row "$1" "$3 until KE < $4" settled "$energy" overlapping "$out/$name.csv"
+}
+
+# run_peers CODE PROGRAM PACKAGE
+run_peers() {
+  local energy
+  if ! command -v "$2" >/dev/null; then
+    say "$1 is not installed and left out; on Debian: apt-get install $3"
+    return
+  fi
+  for energy in 1e-3 1e-5 1e-8; do run_peer "$1" "$2" 'kn 1e4 e 0' $energy; done
+  run_peer "$1" "$2" 'kn 1e4 e .3' 1e-8
+  [[ $1 != LAMMPS ]] || run_peer "$1" "$2" 'kn 1e6 e .3' 1e-5 # the faster of the two is enough
 }
 
 run_all() {
-  local energy accuracy
+  local accuracy
   for accuracy in fast balanced accurate; do run_grainsweep $accuracy; done
-  if has_program lmp lammps LAMMPS; then
-    for energy in 1e-3 1e-5 1e-8; do run_peer LAMMPS lmp lammps.in $energy; done
-    run_peer LAMMPS lmp lammps.in 1e-5 1e6 0.0002 2830
-  fi
-  if has_program liggghts liggghts LIGGGHTS; then
-    for energy in 1e-3 1e-5 1e-8; do run_peer LIGGGHTS liggghts liggghts.in $energy; done
-  fi
+  run_peers LAMMPS lmp lammps
+  run_peers LIGGGHTS liggghts liggghts
 }
 
 mkdir -p "$out"

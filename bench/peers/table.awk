@@ -1,5 +1,5 @@
-# peers.csv (with -F,) as markdown: a row per bed, then how many times the CPU time of each preset of
-# grainsweep the others use.
+# peers.csv (with -F,) as markdown: a row per bed, then how many times the CPU time of each preset
+# of grainsweep the others use.
 NR == 1 {
   for (i = 1; i <= NF; ++i) column[$i] = i
   print "| code | setting | CPU s | overlap / d: mean | max | kinetic energy / m g d |" \

@@ -17,8 +17,9 @@ expect() { # expect WHAT WANTED FOUND
 
 # A cubic lattice of 4 x 4 x 10 spheres between walls: phi = pi / 6, Z = 5.5, with walls 6.
 awk 'BEGIN { print "x,y,z,radius,note"
-  for (i = 0; i < 160; ++i) print i % 4 + .5 "," int(i / 4) % 4 + .5 "," int(i / 16) + .5 ",0.5,a" }' \
-  >lattice.csv
+  for (i = 0; i < 160; ++i) {
+    print i % 4 + .5 "," int(i / 4) % 4 + .5 "," int(i / 16) + .5 ",0.5,a"
+  } }' >lattice.csv
 "$programs/peers_measure_bed" lattice.csv 4 4 >row.csv
 expect "the row of a lattice" "160,0,0,520,520,479,5.5,6" "$(sed -n 2p row.csv | cut -d, -f1-6,8-)"
 awk -F, 'NR == 2 { exit !(($7 - atan2(0, -1) / 6) ^ 2 < 1e-24) }' row.csv ||
