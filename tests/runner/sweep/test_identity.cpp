@@ -66,7 +66,7 @@ TEST_CASE("every part of the accuracy belongs to the identity, the preset's name
   CHECK(balanced.count("preset") == 0);
   CHECK(balanced.at("solver").is_string());
   const std::map<std::string, std::string> other_names = {
-      {"solver", "pgs"}, {"precision", "f64"}, {"force_balance", "solve"}};
+      {"protocol", "dynamic"}, {"solver", "pgs"}, {"precision", "f64"}, {"force_balance", "solve"}};
   for (const auto& [part, value] : balanced.items()) {
     const nlohmann::json other =
         value.is_string() ? nlohmann::json(other_names.at(part))
