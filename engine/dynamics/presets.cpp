@@ -18,8 +18,8 @@ Accuracy fast() {
 
 Accuracy balanced() {
   Accuracy a;
-  a.fall_iterations = 80;
-  a.creep_steps = 80;
+  a.fall_iterations = 40;
+  a.creep_steps = 54;
   a.rest_iterations = 300;
   a.residual_tolerance = 5e-3;
   a.kinetic_tolerance = 1e-4;
