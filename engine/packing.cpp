@@ -6,8 +6,10 @@
 
 #include "engine/dynamics/settle.hpp"
 #include "engine/measure/coordination.hpp"
+#include "engine/measure/profile.hpp"
 #include "engine/measure/solid_fraction.hpp"
 #include "engine/measure/touching.hpp"
+#include "engine/scene/sizes.hpp"
 #include "engine/scene/start.hpp"
 
 namespace grainsweep {
@@ -40,8 +42,9 @@ double widest(const std::vector<double>& tolerances) {
 }
 
 /// Measures what `spec` asks for; a bed too low to hold a slab fails with the reason.
-void measure(const MeasureSpec& spec, const SphereBed& bed, const Touching& touching,
+void measure(const PackingSpec& packing, const SphereBed& bed, const Touching& touching,
              PackingResult& result) {
+  const MeasureSpec& spec = packing.measure;
   result.surface_height = surface_height(bed);
   const Slab slab{spec.exclude_floor, result.surface_height - spec.exclude_surface};
   result.slab_bottom = slab.bottom;
@@ -58,6 +61,10 @@ void measure(const MeasureSpec& spec, const SphereBed& bed, const Touching& touc
   for (const double tolerance : spec.gap_tolerances) {
     result.coordination.push_back(coordination(bed, touching, slab, tolerance));
   }
+  const ProfileSettings bins{spec.bin_width, small_class_limit(packing.sizes),
+                             spec.gap_tolerances.front()};
+  result.profile_y = profile_along_y(bed, touching, slab, bins);
+  result.profile_z = profile_along_z(bed, touching, bins);
 }
 
 std::vector<SettledGrain> grains_of(const SphereBed& bed, const Touching& touching,
@@ -101,7 +108,7 @@ Packing make_packing(const PackingSpec& spec, const Kernels& kernels, const Keep
     return packing;
   }
   const Touching touching = find_touching(*bed, widest(spec.measure.gap_tolerances), kernels);
-  measure(spec.measure, *bed, touching, packing.result);
+  measure(spec, *bed, touching, packing.result);
   packing.grains = grains_of(*bed, touching, spec.measure.gap_tolerances.front(), settled.force);
   return packing;
 }

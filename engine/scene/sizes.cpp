@@ -1,6 +1,7 @@
 #include "engine/scene/sizes.hpp"
 
 #include <cmath>
+#include <limits>
 
 #include "engine/scene/random.hpp"
 #include "engine/units.hpp"
@@ -58,6 +59,14 @@ std::vector<double> draw_radii(const PackingSpec& spec) {
         draw_radius(spec.random_key, i, large ? 1.0 : spec.sizes.size_ratio, spec.sizes.spread);
   }
   return radii;
+}
+
+double small_class_limit(const SizesSpec& sizes) {
+  if (sizes.small_share <= 0.0) {
+    return 0.0;
+  }
+  return sizes.small_share < 1.0 ? sizes.size_ratio / (1.0 + sizes.size_ratio)
+                                 : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace grainsweep

@@ -25,4 +25,10 @@ ClassCounts class_counts(const PackingSpec& spec);
 /// Radius of every grain, d, the large class first. Same key, same radii.
 std::vector<double> draw_radii(const PackingSpec& spec);
 
+/// Radius below which a grain counts as small, d: as many standard deviations from the mean of one
+/// class as from that of the other, 2 q / (1 + q) in diameters for a size ratio q. 0 where there is
+/// no small class, infinite where there is no large one. Classes whose means are less than eight
+/// standard deviations apart overlap there.
+double small_class_limit(const SizesSpec& sizes);
+
 }  // namespace grainsweep

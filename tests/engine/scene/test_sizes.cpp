@@ -99,5 +99,15 @@ TEST_CASE("radii depend on the key and the grain alone") {
   CHECK(equal == 0);
 }
 
+TEST_CASE("the limit between two classes is equally many deviations from both means") {
+  SizesSpec sizes{0.04, 0.3, 0.5};
+  const double limit = 2 * small_class_limit(sizes);  // as a diameter
+  CHECK((1 - limit) / 0.04 == Approx((limit - 0.5) / (0.04 * 0.5)));
+  sizes.small_share = 0;
+  CHECK(small_class_limit(sizes) == 0);
+  sizes.small_share = 1;
+  CHECK(std::isinf(small_class_limit(sizes)));
+}
+
 }  // namespace
 }  // namespace grainsweep
