@@ -11,6 +11,7 @@
 #include "engine/measure/touching.hpp"
 #include "engine/scene/sizes.hpp"
 #include "engine/scene/start.hpp"
+#include "engine/units.hpp"
 
 namespace grainsweep {
 
@@ -67,6 +68,18 @@ void measure(const PackingSpec& packing, const SphereBed& bed, const Touching& t
   result.profile_z = profile_along_z(bed, touching, bins);
 }
 
+void measure_sizes(const SphereBed& bed, PackingResult& result) {
+  double volume = 0.0, by_volume = 0.0, diameters = 0.0;
+  for (std::size_t i = 0; i < bed.grains(); ++i) {
+    const double diameter = 2.0 * bed.position[i].w, mass = sphere_mass(bed.position[i].w);
+    diameters += diameter;
+    volume += mass;
+    by_volume += mass * diameter;
+  }
+  result.mean_diameter = diameters / static_cast<double>(bed.grains());
+  result.mean_diameter_by_volume = by_volume / volume;
+}
+
 std::vector<SettledGrain> grains_of(const SphereBed& bed, const Touching& touching,
                                     double gap_tolerance, const std::vector<double>& force) {
   const auto neighbours = neighbour_counts(bed.grains(), touching, gap_tolerance);
@@ -107,6 +120,7 @@ Packing make_packing(const PackingSpec& spec, const Kernels& kernels, const Keep
   if (settled.cancelled) {
     return packing;
   }
+  measure_sizes(*bed, packing.result);
   const Touching touching = find_touching(*bed, widest(spec.measure.gap_tolerances), kernels);
   measure(spec, *bed, touching, packing.result);
   packing.grains = grains_of(*bed, touching, spec.measure.gap_tolerances.front(), settled.force);
