@@ -6,6 +6,7 @@
 
 #include "engine/dynamics/settle.hpp"
 #include "engine/measure/coordination.hpp"
+#include "engine/measure/order.hpp"
 #include "engine/measure/profile.hpp"
 #include "engine/measure/solid_fraction.hpp"
 #include "engine/measure/touching.hpp"
@@ -43,8 +44,8 @@ double widest(const std::vector<double>& tolerances) {
 }
 
 /// Measures what `spec` asks for; a bed too low to hold a slab fails with the reason.
-void measure(const PackingSpec& packing, const SphereBed& bed, const Touching& touching,
-             PackingResult& result) {
+void measure(const PackingSpec& packing, const Touching& touching, const Kernels& kernels,
+             SphereBed& bed, PackingResult& result) {
   const MeasureSpec& spec = packing.measure;
   result.surface_height = surface_height(bed);
   const Slab slab{spec.exclude_floor, result.surface_height - spec.exclude_surface};
@@ -62,10 +63,12 @@ void measure(const PackingSpec& packing, const SphereBed& bed, const Touching& t
   for (const double tolerance : spec.gap_tolerances) {
     result.coordination.push_back(coordination(bed, touching, slab, tolerance));
   }
-  const ProfileSettings bins{spec.bin_width, small_class_limit(packing.sizes),
-                             spec.gap_tolerances.front()};
+  const double small_below = small_class_limit(packing.sizes), gap = spec.gap_tolerances.front();
+  const ProfileSettings bins{spec.bin_width, small_below, gap};
   result.profile_y = profile_along_y(bed, touching, slab, bins);
   result.profile_z = profile_along_z(bed, touching, bins);
+  const double half_step = packing.accuracy.step / 2.0;
+  result.order = measure_order(bed, touching, slab, {small_below, gap, half_step}, kernels);
 }
 
 void measure_sizes(const SphereBed& bed, PackingResult& result) {
@@ -122,7 +125,7 @@ Packing make_packing(const PackingSpec& spec, const Kernels& kernels, const Keep
   }
   measure_sizes(*bed, packing.result);
   const Touching touching = find_touching(*bed, widest(spec.measure.gap_tolerances), kernels);
-  measure(spec, *bed, touching, packing.result);
+  measure(spec, touching, kernels, *bed, packing.result);
   packing.grains = grains_of(*bed, touching, spec.measure.gap_tolerances.front(), settled.force);
   return packing;
 }

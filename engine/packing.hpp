@@ -70,6 +70,7 @@ struct PackingResult {
   double mean_diameter_by_volume = 0.0;    ///< the same, each grain weighted by its volume, d
   Profile profile_y;                       ///< from wall to wall, in the slab
   Profile profile_z;                       ///< from the floor up
+  Order order;                             ///< of the slab
   std::int64_t steps = 0;
   std::int64_t iterations = 0;
   std::uint64_t state_hash = 0;  ///< of the final positions and radii

@@ -10,6 +10,7 @@
 #include "runner/store/journal.hpp"
 #include "runner/store/states.hpp"
 #include "runner/tables/decays.hpp"
+#include "runner/tables/distributions.hpp"
 #include "runner/tables/fits.hpp"
 #include "runner/tables/groups.hpp"
 #include "runner/tables/packings.hpp"
@@ -83,6 +84,7 @@ void write_tables(const std::string& folder, const Provenance& provenance,
   replace_file(folder + "/fit_points.csv", fit_points_csv(families));
   replace_file(folder + "/profiles.csv", profiles_csv(groups));
   replace_file(folder + "/decays.csv", decays_csv(groups));
+  replace_file(folder + "/distributions.csv", distributions_csv(groups));
   write_provenance(folder, provenance, rows);
 }
 
@@ -114,7 +116,7 @@ void remove_results(const std::string& folder) {
     remove_file(folder + "/states/" + name);
   }
   for (const char* name : {"packings.csv", "groups.csv", "fits.csv", "fit_points.csv",
-                           "profiles.csv", "decays.csv", "provenance.json"}) {
+                           "profiles.csv", "decays.csv", "distributions.csv", "provenance.json"}) {
     remove_file(folder + "/" + name);
   }
 }

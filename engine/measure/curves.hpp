@@ -24,4 +24,22 @@ struct Profile {
   std::vector<ProfileBin> bins;
 };
 
+/// Values in bins of equal width from 0.
+struct Curve {
+  double bin_width = 0.0;
+  std::vector<double> values;
+};
+
+/// Order, forces and sizes in the measured slab. A number that the slab does not give is NaN.
+struct Order {
+  double q6_global = 0.0;            ///< bond order of all bonds together: 0 if they point anywhere
+  double q6_local = 0.0;             ///< bond order of a grain's own bonds, mean over grains
+  double three_contact_share = 0.0;  ///< grains that touch exactly three grains, walls included
+  double segregation = 0.0;   ///< mean height of small less that of large grains, in slab heights
+  double force_mean = 0.0;    ///< of the force-bearing contacts between grains, m g
+  double force_square = 0.0;  ///< mean square of a force over the mean of its layer
+  Curve pair_correlation;     ///< g over distance, d
+  Curve force_density;        ///< probability density of a force over the mean of its layer
+};
+
 }  // namespace grainsweep

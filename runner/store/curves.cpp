@@ -27,6 +27,18 @@ const json& column_of(const json& from, const char* name, const Profile& profile
   return list;
 }
 
+json curve_json(const Curve& curve) {
+  json values = json::array();
+  for (const double value : curve.values) values.push_back(number_json(value));
+  return {{"bin_width", number_json(curve.bin_width)}, {"values", values}};
+}
+
+Curve curve_from(const json& from) {
+  Curve curve{number_from(from.at("bin_width")), {}};
+  for (const json& value : from.at("values")) curve.values.push_back(number_from(value));
+  return curve;
+}
+
 void read_volumes(const json& from, const char* name, double ProfileBin::*member,
                   Profile& profile) {
   const json& list = column_of(from, name, profile);
@@ -64,6 +76,30 @@ Profile profile_from_json(const json& from) {
   read_counts(from, "neighbours", &ProfileBin::neighbours, profile);
   read_counts(from, "walls", &ProfileBin::walls, profile);
   return profile;
+}
+
+json to_json(const Order& order) {
+  return {{"q6_global", number_json(order.q6_global)},
+          {"q6_local", number_json(order.q6_local)},
+          {"three_contact_share", number_json(order.three_contact_share)},
+          {"segregation", number_json(order.segregation)},
+          {"force_mean", number_json(order.force_mean)},
+          {"force_square", number_json(order.force_square)},
+          {"pair_correlation", curve_json(order.pair_correlation)},
+          {"force_density", curve_json(order.force_density)}};
+}
+
+Order order_from_json(const json& from) {
+  Order order;
+  order.q6_global = number_from(from.at("q6_global"));
+  order.q6_local = number_from(from.at("q6_local"));
+  order.three_contact_share = number_from(from.at("three_contact_share"));
+  order.segregation = number_from(from.at("segregation"));
+  order.force_mean = number_from(from.at("force_mean"));
+  order.force_square = number_from(from.at("force_square"));
+  order.pair_correlation = curve_from(from.at("pair_correlation"));
+  order.force_density = curve_from(from.at("force_density"));
+  return order;
 }
 
 }  // namespace grainsweep

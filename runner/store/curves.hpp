@@ -12,4 +12,9 @@ nlohmann::json to_json(const Profile& profile);
 /// Throws nlohmann::json::exception or std::invalid_argument if `from` is not what to_json makes.
 Profile profile_from_json(const nlohmann::json& from);
 
+nlohmann::json to_json(const Order& order);
+
+/// Throws nlohmann::json::exception or std::invalid_argument if `from` is not what to_json makes.
+Order order_from_json(const nlohmann::json& from);
+
 }  // namespace grainsweep

@@ -103,6 +103,7 @@ json to_json(const Outcome& outcome) {
           {"mean_diameter_by_volume", number_json(result.mean_diameter_by_volume)},
           {"profile_y", to_json(result.profile_y)},
           {"profile_z", to_json(result.profile_z)},
+          {"order", to_json(result.order)},
           {"steps", result.steps},
           {"iterations", result.iterations},
           {"state_hash", result.state_hash},
@@ -130,6 +131,7 @@ Outcome outcome_from_json(const json& json) {
   result.mean_diameter_by_volume = number_from(json.at("mean_diameter_by_volume"));
   result.profile_y = profile_from_json(json.at("profile_y"));
   result.profile_z = profile_from_json(json.at("profile_z"));
+  result.order = order_from_json(json.at("order"));
   json.at("steps").get_to(result.steps);
   json.at("iterations").get_to(result.iterations);
   json.at("state_hash").get_to(result.state_hash);
