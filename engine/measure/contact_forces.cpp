@@ -57,7 +57,7 @@ std::vector<PairForce> pair_forces(const SphereBed& bed, const Kernels& kernels,
   const Contacts<float>& contacts = state.contacts;
   visit_force_bearing(contacts, dt, [&](std::size_t block, std::size_t lane) {
     if (block >= contacts.pair_blocks) return;
-    const std::int32_t a = contacts.rows[block].a[lane], b = contacts.rows[block].b[lane];
+    const std::int32_t a = contacts.rows[block].a(lane), b = contacts.rows[block].b(lane);
     const double height = (bed.position[static_cast<std::size_t>(a)].z +
                            bed.position[static_cast<std::size_t>(b)].z) /
                           2.0;
