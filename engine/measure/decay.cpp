@@ -160,13 +160,15 @@ VectorXd deviations(const VectorXd& values) {
   return (values.array() - values.mean()).matrix();
 }
 
-/// What a user reads: amplitude and phase at the wall, length and period in d.
+/// What a user reads: amplitude and phase at the wall, length, period and reach in d.
 VectorXd readable(const VectorXd& p) {
   const double length = std::exp(p[log_length]), period = std::exp(p[log_period]);
-  VectorXd values(parameter_count);
-  values << p[bulk], std::hypot(p[a], p[b]) * std::exp(decay_window_start / length),
+  const double amplitude = std::hypot(p[a], p[b]) * std::exp(decay_window_start / length);
+  const double reach = length * std::log(amplitude / (decay_reach_share * p[bulk]));
+  VectorXd values(parameter_count + 1);
+  values << p[bulk], amplitude,
       std::remainder(std::atan2(p[b], p[a]) - 2.0 * pi * decay_window_start / period, 2.0 * pi),
-      length, period;
+      length, period, std::max(0.0, reach);
   return values;
 }
 
@@ -236,6 +238,7 @@ void take_values(const VectorXd& values, const VectorXd& errors, DecayFit& fit) 
   fit.phase = {values[2], errors[2]};
   fit.length = {values[3], errors[3]};
   fit.period = {values[4], errors[4]};
+  fit.reach = {values[5], errors[5]};
 }
 
 /// Fits without each profile in turn, as they are fitted and as they are read; empty if one fails.

@@ -17,6 +17,10 @@ namespace grainsweep {
 /// Start of the window, d from the wall: nearer to it the profile rises from the wall itself.
 inline constexpr double decay_window_start = 0.25;
 
+/// Share of the bulk solid fraction below which an oscillation no longer counts as reach of the
+/// wall: a convention, not a result.
+inline constexpr double decay_reach_share = 0.05;
+
 /// A fitted number and its standard error.
 struct Estimate {
   double value = 0.0;
@@ -30,6 +34,7 @@ struct DecayFit {
   Estimate length;             ///< lambda, d
   Estimate period;             ///< d
   Estimate phase;              ///< rad
+  Estimate reach;              ///< where the amplitude has fallen to decay_reach_share of bulk, d
   double r_squared = 0.0;      ///< share of the mean profile's variance that the curve explains
   double misfit = 0.0;         ///< root mean square of residuals over that of the mean's errors
   double window_end = 0.0;     ///< d from the wall

@@ -42,9 +42,10 @@ std::string why_no_fit(const Group& group, GrainClass grains) {
 }
 
 std::vector<std::string> estimate_cells(const DecayFit& fit) {
-  if (!fit.not_determined.empty()) return std::vector<std::string>(12);
+  if (!fit.not_determined.empty()) return std::vector<std::string>(14);
   std::vector<std::string> cells;
-  for (const Estimate& estimate : {fit.length, fit.bulk, fit.amplitude, fit.period, fit.phase}) {
+  for (const Estimate& estimate :
+       {fit.length, fit.bulk, fit.amplitude, fit.period, fit.phase, fit.reach}) {
     cells.push_back(cell(estimate.value));
     cells.push_back(cell(estimate.error));
   }
@@ -86,7 +87,7 @@ std::string decays_csv(const std::vector<Group>& groups) {
   std::string text =
       "group,label,width,boundary_y,small_share,class,status,reason,packings,window_start,"
       "window_end,bins,lambda,lambda_error,bulk,bulk_error,amplitude,amplitude_error,period,"
-      "period_error,phase,phase_error,r_squared,misfit\n";
+      "period_error,phase,phase_error,reach,reach_error,r_squared,misfit\n";
   for (std::size_t k = 0; k < groups.size(); ++k) {
     for (const GrainClass grains : {GrainClass::large, GrainClass::small}) {
       text += line_of(groups[k], k + 1, grains);

@@ -59,6 +59,8 @@ TEST_CASE("a damped oscillation without noise gives back what was planted") {
     CHECK(fit.period.value == Approx(p.period).epsilon(1e-6));
     CHECK(fit.phase.value == Approx(p.phase).epsilon(1e-5));
     CHECK(fit.r_squared == Approx(1.0));
+    const double envelope = p.amplitude * std::exp(-fit.reach.value / p.length);
+    CHECK(envelope == Approx(0.05 * p.bulk).epsilon(1e-5));
     CHECK(fit.bins == 48);  // centres .25, .35, ... 4.95
   }
 }

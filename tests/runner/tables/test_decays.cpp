@@ -59,7 +59,7 @@ TEST_CASE("the table has two rows a group and no numbers where nothing is determ
   CHECK(std::count(text.begin(), text.end(), '\n') == 3);
   CHECK_THAT(text, Catch::Contains("\n1,MSP,10,walls,0,large,determined,,2,0.25,5,48,1."));
   CHECK_THAT(text, Catch::Contains("\n1,MSP,10,walls,0,small,not determined,there are no small "
-                                   "grains,2,0.25,5,0,,,,,,,,,,,,\n"));
+                                   "grains,2,0.25,5,0,,,,,,,,,,,,,,\n"));
 }
 
 }  // namespace
