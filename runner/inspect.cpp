@@ -67,7 +67,9 @@ int compare(const CompareOptions& options) {
   const auto rows = compare_with_paper(families_of(groups_of(results.rows)));
   std::cout << "Camenen, Descantes, Richard, Confined packings of frictionless spheres and "
                "polyhedra,\nPowders & Grains 2013, and " +
-                   results.provenance.sweep.name + ". Lengths in d. Definitions below each row.\n\n"
+                   results.provenance.sweep.name +
+                   ". Lengths in d. Errors of means come\nfrom the variance of replicates pooled "
+                   "over the groups of a family. Definitions below each row.\n\n"
             << comparison_text(rows);
   return exit_done;
 }

@@ -38,19 +38,6 @@ std::string no_group_at(double width) {
   return "the sweep has no packings between walls at W = " + cell(width) + " d";
 }
 
-std::string one_replicate(std::size_t settled) {
-  return settled == 0 ? "no packing has settled" : "one settled replicate leaves the error unknown";
-}
-
-/// A row whose value is the mean of replicates.
-Comparison row_of_mean(const Family& family, std::string quantity, const PaperValue& paper,
-                       const Spread& spread, std::string definition) {
-  Comparison row{family.name, std::move(quantity), paper, {}, "", std::move(definition)};
-  if (spread.n < 2) row.not_determined = one_replicate(static_cast<std::size_t>(spread.n));
-  row.ours = {spread.mean, standard_error(spread)};
-  return row;
-}
-
 std::string gap_text(const Group& group) {
   const auto& gaps = group.job.measure.gap_tolerances;
   return gaps.empty() ? "" : ", gap < " + cell(gaps.front()) + " d";
@@ -65,6 +52,21 @@ std::string definition_of(const Group& group, Quantity quantity) {
          "; contacts / isostatic " + fixed(group.contact_ratio.mean, 3);
 }
 
+/// A row whose value is the mean of replicates.
+Comparison row_of_mean(const Family& family, std::string quantity, const PaperValue& paper,
+                       const Group& group, Quantity measured) {
+  const Spread& spread = spread_of(group, measured);
+  const double error = pooled_error(family, measured, spread.n);
+  Comparison row{family.name, std::move(quantity),           paper, {spread.mean, error},
+                 "",          definition_of(group, measured)};
+  if (spread.n == 0) {
+    row.not_determined = "no packing has settled";
+  } else if (!std::isfinite(error)) {
+    row.not_determined = "one settled replicate leaves the error unknown";
+  }
+  return row;
+}
+
 const char* symbol_of(Quantity quantity) {
   return quantity == Quantity::solid_fraction ? "φ" : "Z";
 }
@@ -73,8 +75,7 @@ void add_reference(const Family& family, Quantity quantity, const PaperValue& pa
   const std::string name = std::string(symbol_of(quantity)) + " without walls (bi-periodic)";
   const Group* group = unconfined_reference(family);
   if (group != nullptr) {
-    rows.push_back(row_of_mean(family, name, paper, spread_of(*group, quantity),
-                               definition_of(*group, quantity)));
+    rows.push_back(row_of_mean(family, name, paper, *group, quantity));
   } else {
     rows.push_back(
         {family.name, name, paper, {}, "the sweep has no settled packing with periodic y", ""});
@@ -85,8 +86,7 @@ void add_width(const Family& family, Quantity quantity, double width, Rows& rows
   const std::string name = std::string(symbol_of(quantity)) + " at W = " + cell(width) + " d";
   const Group* group = group_at(family, width);
   if (group != nullptr) {
-    rows.push_back(row_of_mean(family, name, not_printed, spread_of(*group, quantity),
-                               definition_of(*group, quantity)));
+    rows.push_back(row_of_mean(family, name, not_printed, *group, quantity));
   } else {
     rows.push_back({family.name, name, not_printed, {}, no_group_at(width), ""});
   }

@@ -138,6 +138,14 @@ double widened(double error, const WallFit& fit) {
   return fit.chi2_per_dof > 1.0 ? error * std::sqrt(fit.chi2_per_dof) : error;
 }
 
+double pooled_error(const Family& family, Quantity quantity, int n) {
+  std::vector<const Group*> groups;
+  for (const Group& group : family.walled) groups.push_back(&group);
+  for (const Group& group : family.periodic) groups.push_back(&group);
+  const Pooled pooled = pooled_over(groups, quantity);
+  return pooled.degrees_of_freedom > 0 && n > 0 ? std::sqrt(pooled.variance / n) : none;
+}
+
 WallFit fit_walls(const Family& family, Quantity quantity) {
   const std::vector<const Group*> groups = groups_with_values(family);
   const Pooled pooled = pooled_over(groups, quantity);

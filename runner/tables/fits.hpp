@@ -67,6 +67,10 @@ struct WallFit {
 /// its points by more than their errors is known no better than it misses them.
 double widened(double error, const WallFit& fit);
 
+/// Standard error of the mean of `n` packings, from the variance pooled over all groups of the
+/// family, walled and periodic; NaN where none has two settled replicates.
+double pooled_error(const Family& family, Quantity quantity, int n);
+
 WallFit fit_walls(const Family& family, Quantity quantity);
 
 /// The widest periodic group with a settled packing: the value to compare `bulk` with.
