@@ -6,9 +6,13 @@
 
 #include "engine/dynamics/settle.hpp"
 #include "engine/measure/coordination.hpp"
+#include "engine/measure/order.hpp"
+#include "engine/measure/profile.hpp"
 #include "engine/measure/solid_fraction.hpp"
 #include "engine/measure/touching.hpp"
+#include "engine/scene/sizes.hpp"
 #include "engine/scene/start.hpp"
+#include "engine/units.hpp"
 
 namespace grainsweep {
 
@@ -40,8 +44,9 @@ double widest(const std::vector<double>& tolerances) {
 }
 
 /// Measures what `spec` asks for; a bed too low to hold a slab fails with the reason.
-void measure(const MeasureSpec& spec, const SphereBed& bed, const Touching& touching,
-             PackingResult& result) {
+void measure(const PackingSpec& packing, const Touching& touching, const Kernels& kernels,
+             SphereBed& bed, PackingResult& result) {
+  const MeasureSpec& spec = packing.measure;
   result.surface_height = surface_height(bed);
   const Slab slab{spec.exclude_floor, result.surface_height - spec.exclude_surface};
   result.slab_bottom = slab.bottom;
@@ -58,6 +63,24 @@ void measure(const MeasureSpec& spec, const SphereBed& bed, const Touching& touc
   for (const double tolerance : spec.gap_tolerances) {
     result.coordination.push_back(coordination(bed, touching, slab, tolerance));
   }
+  const double small_below = small_class_limit(packing.sizes), gap = spec.gap_tolerances.front();
+  const ProfileSettings bins{spec.bin_width, small_below, gap};
+  result.profile_y = profile_along_y(bed, touching, slab, bins);
+  result.profile_z = profile_along_z(bed, touching, bins);
+  const double half_step = packing.accuracy.step / 2.0;
+  result.order = measure_order(bed, touching, slab, {small_below, gap, half_step}, kernels);
+}
+
+void measure_sizes(const SphereBed& bed, PackingResult& result) {
+  double volume = 0.0, by_volume = 0.0, diameters = 0.0;
+  for (std::size_t i = 0; i < bed.grains(); ++i) {
+    const double diameter = 2.0 * bed.position[i].w, mass = sphere_mass(bed.position[i].w);
+    diameters += diameter;
+    volume += mass;
+    by_volume += mass * diameter;
+  }
+  result.mean_diameter = diameters / static_cast<double>(bed.grains());
+  result.mean_diameter_by_volume = by_volume / volume;
 }
 
 std::vector<SettledGrain> grains_of(const SphereBed& bed, const Touching& touching,
@@ -100,8 +123,9 @@ Packing make_packing(const PackingSpec& spec, const Kernels& kernels, const Keep
   if (settled.cancelled) {
     return packing;
   }
+  measure_sizes(*bed, packing.result);
   const Touching touching = find_touching(*bed, widest(spec.measure.gap_tolerances), kernels);
-  measure(spec.measure, *bed, touching, packing.result);
+  measure(spec, touching, kernels, *bed, packing.result);
   packing.grains = grains_of(*bed, touching, spec.measure.gap_tolerances.front(), settled.force);
   return packing;
 }

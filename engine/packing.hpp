@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/measure/curves.hpp"
 #include "engine/scene/spec.hpp"
 #include "kernels/kernels.hpp"
 
@@ -65,6 +66,11 @@ struct PackingResult {
   double slab_top = 0.0;
   double solid_fraction = 0.0;  ///< exact solid volume in the slab over the slab's volume
   std::vector<Coordination> coordination;  ///< one entry per gap tolerance of the spec
+  double mean_diameter = 0.0;              ///< of all grains, d
+  double mean_diameter_by_volume = 0.0;    ///< the same, each grain weighted by its volume, d
+  Profile profile_y;                       ///< from wall to wall, in the slab
+  Profile profile_z;                       ///< from the floor up
+  Order order;                             ///< of the slab
   std::int64_t steps = 0;
   std::int64_t iterations = 0;
   std::uint64_t state_hash = 0;  ///< of the final positions and radii

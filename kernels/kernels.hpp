@@ -105,6 +105,17 @@ struct SphereGrid {
   float reach;                             ///< pairs with gap below it are found, d
 };
 
+/// Spheres to look up in the grid of others. Positions are relative to that grid's origin.
+struct SphereQueries {
+  const float* x;  ///< d
+  const float* y;
+  const float* z;
+  const float* radius;  ///< d; no larger than half a cell of the grid
+  const std::int32_t* grain;
+  const std::int32_t* cell;  ///< the inner cell of the grid that a sphere lies in or is nearest to
+  std::size_t count;
+};
+
 /// Two grains that may touch, a < b.
 struct GrainPair {
   std::int32_t a, b;
@@ -117,6 +128,10 @@ struct Kernels {
   /// All pairs of the grid with gap below `reach`, each once, in the order of the grid. Writes at
   /// most `capacity` of them and returns how many there are.
   std::size_t (*sphere_pairs)(const SphereGrid& grid, GrainPair* pairs, std::size_t capacity);
+  /// All pairs of a query and a sphere of the grid with gap below the grid's reach, in the order of
+  /// the queries and of the grid. Writes at most `capacity` and returns how many there are.
+  std::size_t (*sphere_pairs_across)(const SphereGrid& grid, const SphereQueries& queries,
+                                     GrainPair* pairs, std::size_t capacity);
 };
 
 /// The kernels compiled for `isa`. Requires is_supported(isa).

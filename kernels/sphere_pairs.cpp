@@ -6,6 +6,7 @@ namespace {
 
 using grainsweep::GrainPair;
 using grainsweep::SphereGrid;
+using grainsweep::SphereQueries;
 
 /// Pairs found so far; those beyond the capacity are counted only.
 struct Found {
@@ -33,19 +34,24 @@ inline std::uint32_t close_lanes(const SphereGrid& grid, std::size_t at, const B
   return bits_of(dx * dx + dy * dy + dz * dz < limit * limit);
 }
 
-/// Tests the sphere at entry `i` against entries begin .. end, in their order.
-inline void test_run(const SphereGrid& grid, std::int32_t i, std::int32_t begin, std::int32_t end,
-                     Found& found) {
-  const Batch<float> x(grid.x[i]), y(grid.y[i]), z(grid.z[i]);
-  const Batch<float> reach(grid.radius[i] + grid.reach);
+/// A sphere that looks for others, in all lanes.
+struct Seeker {
+  Batch<float> x, y, z, reach;  ///< the reach includes its radius
+  std::int32_t grain;
+};
+
+/// Tests a sphere against entries begin .. end, in their order.
+inline void test_run(const SphereGrid& grid, const Seeker& seeker, std::int32_t begin,
+                     std::int32_t end, Found& found) {
   constexpr std::int32_t width = static_cast<std::int32_t>(batch_width<float>);
   for (std::int32_t at = begin; at < end; at += width) {
-    std::uint32_t lanes = close_lanes(grid, static_cast<std::size_t>(at), x, y, z, reach);
+    std::uint32_t lanes =
+        close_lanes(grid, static_cast<std::size_t>(at), seeker.x, seeker.y, seeker.z, seeker.reach);
     if (end - at < width) {
       lanes &= (1U << (end - at)) - 1U;
     }
     for (; lanes != 0; lanes &= lanes - 1) {
-      found.add(grid.grain[i], grid.grain[at + __builtin_ctz(lanes)]);
+      found.add(seeker.grain, grid.grain[at + __builtin_ctz(lanes)]);
     }
   }
 }
@@ -56,9 +62,11 @@ inline void test_cell(const SphereGrid& grid, std::int32_t cell, Found& found) {
   const std::int32_t row = grid.cells_x, layer = grid.cells_x * grid.cells_y;
   const std::int32_t ahead[4] = {cell + row, cell + layer - row, cell + layer, cell + layer + row};
   for (std::int32_t i = grid.cell_begin[cell]; i < grid.cell_begin[cell + 1]; ++i) {
-    test_run(grid, i, i + 1, grid.cell_begin[cell + 2], found);
+    const Seeker seeker{Batch<float>(grid.x[i]), Batch<float>(grid.y[i]), Batch<float>(grid.z[i]),
+                        Batch<float>(grid.radius[i] + grid.reach), grid.grain[i]};
+    test_run(grid, seeker, i + 1, grid.cell_begin[cell + 2], found);
     for (const std::int32_t middle : ahead) {
-      test_run(grid, i, grid.cell_begin[middle - 1], grid.cell_begin[middle + 2], found);
+      test_run(grid, seeker, grid.cell_begin[middle - 1], grid.cell_begin[middle + 2], found);
     }
   }
 }
@@ -76,8 +84,33 @@ std::size_t sphere_pairs(const SphereGrid& grid, GrainPair* pairs, std::size_t c
   return found.count;
 }
 
+/// Tests a sphere against the nine rows of three cells around `cell`.
+inline void test_around(const SphereGrid& grid, std::int32_t cell, const Seeker& seeker,
+                        Found& found) {
+  const std::int32_t row = grid.cells_x, layer = grid.cells_x * grid.cells_y;
+  for (std::int32_t z = -layer; z <= layer; z += layer) {
+    for (std::int32_t y = -row; y <= row; y += row) {
+      const std::int32_t middle = cell + z + y;
+      test_run(grid, seeker, grid.cell_begin[middle - 1], grid.cell_begin[middle + 2], found);
+    }
+  }
+}
+
+std::size_t sphere_pairs_across(const SphereGrid& grid, const SphereQueries& queries,
+                                GrainPair* pairs, std::size_t capacity) {
+  Found found{pairs, capacity, 0};
+  for (std::size_t k = 0; k < queries.count; ++k) {
+    const Seeker seeker{Batch<float>(queries.x[k]), Batch<float>(queries.y[k]),
+                        Batch<float>(queries.z[k]), Batch<float>(queries.radius[k] + grid.reach),
+                        queries.grain[k]};
+    test_around(grid, queries.cell[k], seeker, found);
+  }
+  return found.count;
+}
+
 }  // namespace
 
 namespace grainsweep::GRAINSWEEP_ISA_NAME {
 extern const SpherePairs sphere_pairs = ::sphere_pairs;
+extern const SpherePairsAcross sphere_pairs_across = ::sphere_pairs_across;
 }  // namespace grainsweep::GRAINSWEEP_ISA_NAME

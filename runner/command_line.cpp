@@ -25,6 +25,7 @@ struct AllOptions {
   ValidateOptions validate;
   PlanOptions plan;
   ReportOptions report;
+  CompareOptions compare;
   ExportOptions grains;
   StatusOptions status;
   DoctorOptions doctor;
@@ -91,6 +92,16 @@ void add_report(CLI::App& app, ReportOptions& options) {
   report.footer("Example: grainsweep report out/quick");
 }
 
+void add_compare(CLI::App& app, CompareOptions& options) {
+  CLI::App& compare = *app.add_subcommand(
+      "compare", "Print results beside the printed numbers of Camenen, Descantes, Richard (2013)");
+  add_folder(compare, options.folder);
+  compare.footer(
+      "Each row says what was measured and how, by how much it differs from the paper, and how\n"
+      "many standard errors that is; \"not determined\" and why where the sweep does not tell.\n\n"
+      "Example: grainsweep compare out/paper-spheres");
+}
+
 void add_export(CLI::App& app, ExportOptions& options) {
   CLI::App& grains = *app.add_subcommand("export", "Write the grains of finished packings");
   add_folder(grains, options.folder);
@@ -122,6 +133,7 @@ void add_commands(CLI::App& app, AllOptions& options) {
   add_validate(app, options.validate);
   add_plan(app, options.plan);
   add_report(app, options.report);
+  add_compare(app, options.compare);
   add_export(app, options.grains);
   add_status(app, options.status);
   app.add_subcommand("doctor", "Say what this machine offers and whether results can be written");
@@ -133,6 +145,7 @@ Command chosen_command(const CLI::App& app, const AllOptions& options) {
   if (name == "validate") return options.validate;
   if (name == "plan") return options.plan;
   if (name == "report") return options.report;
+  if (name == "compare") return options.compare;
   if (name == "export") return options.grains;
   if (name == "status") return options.status;
   return options.doctor;

@@ -42,6 +42,12 @@ struct ReportOptions {
 /// Prints the closing table from stored results.
 int report(const ReportOptions& options);
 
+struct CompareOptions {
+  std::string folder;
+};
+/// Prints stored results beside the numbers of the reference study.
+int compare(const CompareOptions& options);
+
 struct ExportOptions {
   std::string folder;
   std::string format = "csv";     ///< csv, xyz or vtp

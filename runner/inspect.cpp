@@ -1,8 +1,9 @@
-// The commands that look at an output folder: `report`, `status`, `export`.
+// The commands that look at an output folder: `report`, `compare`, `status`, `export`.
 #include <algorithm>
 #include <iostream>
 
 #include "runner/commands.hpp"
+#include "runner/compare/comparison.hpp"
 #include "runner/exit_codes.hpp"
 #include "runner/report.hpp"
 #include "runner/results.hpp"
@@ -58,6 +59,18 @@ std::vector<const Row*> rows_to_export(const std::vector<Row>& rows, const Expor
 int report(const ReportOptions& options) {
   const Results results = results_with_warnings(options.folder);
   std::cout << closing_report(results.provenance, results.rows, options.folder);
+  return exit_done;
+}
+
+int compare(const CompareOptions& options) {
+  const Results results = results_with_warnings(options.folder);
+  const auto rows = compare_with_paper(families_of(groups_of(results.rows)));
+  std::cout << "Camenen, Descantes, Richard, Confined packings of frictionless spheres and "
+               "polyhedra,\nPowders & Grains 2013, and " +
+                   results.provenance.sweep.name +
+                   ". Lengths in d. Errors of means come\nfrom the variance of replicates pooled "
+                   "over the groups of a family. Definitions below each row.\n\n"
+            << comparison_text(rows);
   return exit_done;
 }
 

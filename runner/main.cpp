@@ -15,6 +15,7 @@ int perform(const RunOptions& options) { return run(options); }
 int perform(const ValidateOptions& options) { return validate(options); }
 int perform(const PlanOptions& options) { return plan(options); }
 int perform(const ReportOptions& options) { return report(options); }
+int perform(const CompareOptions& options) { return compare(options); }
 int perform(const ExportOptions& options) { return export_grains(options); }
 int perform(const StatusOptions& options) { return status(options); }
 int perform(const DoctorOptions& options) { return doctor(options); }

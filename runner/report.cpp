@@ -204,7 +204,8 @@ std::string closing_report(const Provenance& provenance, const std::vector<Row>&
   for (const Family& family : families_of(groups_of(rows))) text += family_text(family);
   return text + definitions_text(rows) + reasons_text(rows) +
          effort_text(provenance, totals.cpu_seconds) + "Tables in " + folder +
-         ": packings.csv, groups.csv, fits.csv; provenance.json says how they were made\n" +
+         ": packings.csv, groups.csv, fits.csv, profiles.csv, decays.csv and more;\n"
+         "provenance.json says how they were made\n" +
          next_text(provenance.sweep_file, totals.counts, folder);
 }
 

@@ -9,9 +9,12 @@
 #include "runner/store/files.hpp"
 #include "runner/store/journal.hpp"
 #include "runner/store/states.hpp"
+#include "runner/tables/decays.hpp"
+#include "runner/tables/distributions.hpp"
 #include "runner/tables/fits.hpp"
 #include "runner/tables/groups.hpp"
 #include "runner/tables/packings.hpp"
+#include "runner/tables/profiles.hpp"
 
 namespace grainsweep {
 namespace {
@@ -74,9 +77,14 @@ std::map<std::string, Outcome> finished_outcomes(const std::string& folder,
 void write_tables(const std::string& folder, const Provenance& provenance,
                   const std::vector<Row>& rows) {
   const std::vector<Group> groups = groups_of(rows);
+  const std::vector<Family> families = families_of(groups);
   replace_file(folder + "/packings.csv", packings_csv(rows));
   replace_file(folder + "/groups.csv", groups_csv(groups));
-  replace_file(folder + "/fits.csv", fits_csv(families_of(groups)));
+  replace_file(folder + "/fits.csv", fits_csv(families));
+  replace_file(folder + "/fit_points.csv", fit_points_csv(families));
+  replace_file(folder + "/profiles.csv", profiles_csv(groups));
+  replace_file(folder + "/decays.csv", decays_csv(groups));
+  replace_file(folder + "/distributions.csv", distributions_csv(groups));
   write_provenance(folder, provenance, rows);
 }
 
@@ -107,7 +115,8 @@ void remove_results(const std::string& folder) {
   for (const std::string& name : files_in(folder + "/states", "", ".grains")) {
     remove_file(folder + "/states/" + name);
   }
-  for (const char* name : {"packings.csv", "groups.csv", "fits.csv", "provenance.json"}) {
+  for (const char* name : {"packings.csv", "groups.csv", "fits.csv", "fit_points.csv",
+                           "profiles.csv", "decays.csv", "distributions.csv", "provenance.json"}) {
     remove_file(folder + "/" + name);
   }
 }

@@ -28,7 +28,7 @@ std::vector<RunRecord> recorded_runs(const std::string& folder);
 std::map<std::string, Outcome> finished_outcomes(const std::string& folder,
                                                  const std::map<std::string, Outcome>& stored);
 
-/// Replaces packings.csv, groups.csv, fits.csv and provenance.json. Throws FileError.
+/// Replaces the CSV tables and provenance.json. Throws FileError.
 void write_tables(const std::string& folder, const Provenance& provenance,
                   const std::vector<Row>& rows);
 

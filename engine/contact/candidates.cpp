@@ -8,119 +8,61 @@ namespace grainsweep {
 
 namespace {
 
-/// Cells of the search grid, without the border: `origin` is the corner of the first inner cell.
-struct Cells {
-  double largest_radius;
-  double origin_z;
-  double size_x, size_y, size_z;
-  std::int32_t inner_x, inner_y, inner_z;
+/// Levels of sizes told apart; smaller grains share the last one.
+constexpr std::size_t most_levels = 8;
 
-  std::int32_t count() const { return (inner_x + 2) * (inner_y + 2) * (inner_z + 2); }
-  /// Cell number of inner coordinates; -1 and `inner` address the border.
-  std::int32_t at(std::int32_t x, std::int32_t y, std::int32_t z) const {
-    return ((z + 1) * (inner_y + 2) + y + 1) * (inner_x + 2) + x + 1;
-  }
+/// Lowest and highest centre, d.
+struct Heights {
+  double bottom = std::numeric_limits<double>::max();
+  double top = -std::numeric_limits<double>::max();
 };
 
-/// Cells no smaller than `least`, and no more than `most`, which bounds the memory of sparse beds.
-std::int32_t cells_along(double extent, double least, double most) {
-  return std::max(1, static_cast<std::int32_t>(std::min(extent / least, most)));
-}
-
-std::int32_t inner_index(double coordinate, double size, std::int32_t cells) {
-  const double cell = std::floor(coordinate / size);
-  return static_cast<std::int32_t>(std::clamp(cell, 0.0, static_cast<double>(cells - 1)));
-}
-
-Cells make_cells(const SphereBed& bed, double reach) {
-  double largest = 0.0, bottom = std::numeric_limits<double>::max(), top = -bottom;
+Heights heights_of(const SphereBed& bed) {
+  Heights heights;
   for (std::size_t i = 0; i < bed.grains(); ++i) {
-    const Record<double>& p = bed.position[i];
-    largest = std::max(largest, p.w);
-    bottom = std::min(bottom, p.z);
-    top = std::max(top, p.z);
+    heights.bottom = std::min(heights.bottom, bed.position[i].z);
+    heights.top = std::max(heights.top, bed.position[i].z);
   }
-  const double least = 2.0 * largest + reach, height = std::max(top - bottom, least);
-  constexpr double most_sideways = 512.0;
-  Cells cells{largest,
-              bottom,
-              0,
-              0,
-              0,
-              cells_along(bed.box.length, least, most_sideways),
-              cells_along(bed.box.width, least, most_sideways),
-              1};
-  const double floor_cells = (cells.inner_x + 2.0) * (cells.inner_y + 2.0);
-  const double grains = static_cast<double>(bed.grains());
-  cells.inner_z = cells_along(height, least, 16.0 + 16.0 * grains / floor_cells);
-  cells.size_x = bed.box.length / cells.inner_x;
-  cells.size_y = bed.box.width / cells.inner_y;
-  cells.size_z = height / cells.inner_z;
-  return cells;
+  return heights;
 }
 
-/// Calls visit(cell, shift_x, shift_y) for the cell of grain position `p` and for each border cell
-/// that holds a shifted copy of it.
-template <class Visit>
-void visit_images(const Cells& cells, const Box& box, const Record<double>& p, Visit visit) {
-  const std::int32_t x = inner_index(p.x, cells.size_x, cells.inner_x);
-  const std::int32_t y = inner_index(p.y, cells.size_y, cells.inner_y);
-  const std::int32_t z = inner_index(p.z - cells.origin_z, cells.size_z, cells.inner_z);
-  const bool wraps_x = box.x == Boundary::periodic, wraps_y = box.y == Boundary::periodic;
-  for (int j = wraps_y ? -1 : 0; j <= (wraps_y ? 1 : 0); ++j) {
-    const std::int32_t image_y = y + j * cells.inner_y;
-    if (image_y < -1 || image_y > cells.inner_y) {
-      continue;
-    }
-    for (int i = wraps_x ? -1 : 0; i <= (wraps_x ? 1 : 0); ++i) {
-      const std::int32_t image_x = x + i * cells.inner_x;
-      if (image_x >= -1 && image_x <= cells.inner_x) {
-        visit(cells.at(image_x, image_y, z), i * box.length, j * box.width);
-      }
-    }
-  }
-}
-
-/// Turns counts per cell into the first entry of each; returns the number of entries.
-std::int32_t to_first_entries(std::vector<std::int32_t>& cell_begin) {
-  std::int32_t total = 0;
-  for (std::int32_t& entry : cell_begin) {
-    const std::int32_t count = entry;
-    entry = total;
-    total += count;
-  }
-  return total;
-}
-
-void resize_columns(GridColumns& grid, std::int32_t entries) {
-  const std::size_t padded = static_cast<std::size_t>(entries) + block_width;
-  grid.x.resize(padded);
-  grid.y.resize(padded);
-  grid.z.resize(padded);
-  grid.radius.resize(padded);
-  grid.grain.resize(padded);
-}
-
-/// Sorts all grains and their border copies into cells (a counting sort: stable, linear).
-void fill_columns(const SphereBed& bed, const Cells& cells, GridColumns& grid) {
-  grid.cell_begin.assign(static_cast<std::size_t>(cells.count()) + 1, 0);
+/// Largest radius below `below`, d; 0 if there is none.
+double largest_radius(const SphereBed& bed, double below) {
+  double largest = 0.0;
   for (std::size_t i = 0; i < bed.grains(); ++i) {
-    visit_images(cells, bed.box, bed.position[i], [&](std::int32_t cell, double, double) {
-      ++grid.cell_begin[static_cast<std::size_t>(cell)];
-    });
+    const double radius = bed.position[i].w;
+    if (radius < below) largest = std::max(largest, radius);
   }
-  resize_columns(grid, to_first_entries(grid.cell_begin));
-  grid.cell_of.assign(grid.cell_begin.begin(), grid.cell_begin.end());
+  return largest;
+}
+
+/// Sorts the grains into levels. A level holds radii from its largest down to half of that, so that
+/// a bed of one size has one level; the last one holds all that is left.
+void choose_levels(const SphereBed& bed, std::vector<SizeLevel>& levels) {
+  std::size_t count = 0;
+  double below = std::numeric_limits<double>::infinity();
+  for (double largest = largest_radius(bed, below); count == 0 || largest > 0.0;
+       largest = largest_radius(bed, below)) {
+    if (levels.size() <= count) levels.emplace_back();
+    levels[count].largest_radius = largest;
+    levels[count].members.clear();
+    below = ++count < most_levels ? std::min(below, 0.5 * largest) : 0.0;
+  }
+  levels.resize(count);
   for (std::size_t i = 0; i < bed.grains(); ++i) {
-    const Record<double>& p = bed.position[i];
-    visit_images(cells, bed.box, p, [&](std::int32_t cell, double shift_x, double shift_y) {
-      const auto at = static_cast<std::size_t>(grid.cell_of[static_cast<std::size_t>(cell)]++);
-      grid.x[at] = static_cast<float>(p.x + shift_x);
-      grid.y[at] = static_cast<float>(p.y + shift_y);
-      grid.z[at] = static_cast<float>(p.z - cells.origin_z);
-      grid.radius[at] = static_cast<float>(p.w);
-      grid.grain[at] = static_cast<std::int32_t>(i);
-    });
+    std::size_t level = 0;
+    while (level + 1 < count && bed.position[i].w < 0.5 * levels[level].largest_radius) ++level;
+    levels[level].members.push_back(static_cast<std::int32_t>(i));
+  }
+}
+
+/// Fills the grid of every level; all have the same origin.
+void fill_grids(const SphereBed& bed, double reach, std::vector<SizeLevel>& levels) {
+  const Heights heights = heights_of(bed);
+  for (SizeLevel& level : levels) {
+    const double least = 2.0 * level.largest_radius + reach;
+    level.cells = make_cells(bed.box, heights.bottom, heights.top, least, level.members.size());
+    fill_columns(bed, level.members, level.cells, level.grid);
   }
 }
 
@@ -131,22 +73,64 @@ double rounding_slack(const SphereBed& bed, const Cells& cells) {
   return 8.0 * static_cast<double>(std::numeric_limits<float>::epsilon()) * extent;
 }
 
-void list_pairs(const SphereBed& bed, const Cells& cells, const Kernels& kernels,
-                Candidates& candidates) {
-  const GridColumns& g = candidates.grid;
-  const SphereGrid grid{
-      g.x.data(),        g.y.data(),
-      g.z.data(),        g.radius.data(),
-      g.grain.data(),    g.cell_begin.data(),
-      cells.inner_x + 2, cells.inner_y + 2,
-      cells.inner_z + 2, static_cast<float>(candidates.reach + rounding_slack(bed, cells))};
-  candidates.pairs.resize(std::max(candidates.pairs.capacity(), 6 * bed.grains() + block_width));
-  std::size_t found = kernels.sphere_pairs(grid, candidates.pairs.data(), candidates.pairs.size());
-  if (found > candidates.pairs.size()) {
-    candidates.pairs.resize(found + found / 4);
-    found = kernels.sphere_pairs(grid, candidates.pairs.data(), candidates.pairs.size());
+/// Appends what `find(pairs, capacity)` writes, with more room if it needs more.
+template <class Find>
+void append_found(Find find, std::size_t expected, std::vector<GrainPair>& pairs) {
+  const std::size_t before = pairs.size();
+  pairs.resize(std::max(pairs.capacity(), before + expected));
+  std::size_t found = find(pairs.data() + before, pairs.size() - before);
+  if (found > pairs.size() - before) {
+    pairs.resize(before + found + found / 4);
+    found = find(pairs.data() + before, pairs.size() - before);
   }
-  candidates.pairs.resize(found);
+  pairs.resize(before + found);
+}
+
+/// The members of a level as they look for neighbours in the grid of a coarser one.
+void fill_queries(const SphereBed& bed, const SizeLevel& level, const Cells& coarse,
+                  QueryColumns& queries) {
+  queries.x.clear(), queries.y.clear(), queries.z.clear(), queries.radius.clear();
+  queries.cell.clear();
+  for (const std::int32_t grain : level.members) {
+    const Record<double>& p = bed.position[static_cast<std::size_t>(grain)];
+    queries.x.push_back(static_cast<float>(p.x));
+    queries.y.push_back(static_cast<float>(p.y));
+    queries.z.push_back(static_cast<float>(p.z - coarse.origin_z));
+    queries.radius.push_back(static_cast<float>(p.w));
+    queries.cell.push_back(coarse.cell_of(p));
+  }
+}
+
+/// Pairs of a level's grains with those of a coarser level.
+void list_pairs_across(const SphereBed& bed, const SizeLevel& fine, const SizeLevel& coarse,
+                       float reach, const Kernels& kernels, Candidates& candidates) {
+  QueryColumns& q = candidates.queries;
+  fill_queries(bed, fine, coarse.cells, q);
+  const SphereQueries queries{q.x.data(),         q.y.data(),          q.z.data(),
+                              q.radius.data(),    fine.members.data(), q.cell.data(),
+                              fine.members.size()};
+  const SphereGrid grid = view_of(coarse.grid, coarse.cells, reach);
+  append_found(
+      [&](GrainPair* pairs, std::size_t capacity) {
+        return kernels.sphere_pairs_across(grid, queries, pairs, capacity);
+      },
+      2 * fine.members.size() + block_width, candidates.pairs);
+}
+
+void list_pairs(const SphereBed& bed, const Kernels& kernels, Candidates& candidates) {
+  candidates.pairs.clear();
+  const std::vector<SizeLevel>& levels = candidates.levels;
+  for (std::size_t k = 0; k < levels.size(); ++k) {
+    const SizeLevel& level = levels[k];
+    const auto reach = static_cast<float>(candidates.reach + rounding_slack(bed, level.cells));
+    const SphereGrid grid = view_of(level.grid, level.cells, reach);
+    append_found([&](GrainPair* pairs,
+                     std::size_t capacity) { return kernels.sphere_pairs(grid, pairs, capacity); },
+                 6 * level.members.size() + block_width, candidates.pairs);
+    for (std::size_t coarse = 0; coarse < k; ++coarse) {
+      list_pairs_across(bed, level, levels[coarse], reach, kernels, candidates);
+    }
+  }
 }
 
 void list_walls(const SphereBed& bed, Candidates& candidates) {
@@ -164,13 +148,13 @@ void list_walls(const SphereBed& bed, Candidates& candidates) {
   }
 }
 
-void remember_positions(const SphereBed& bed, const Cells& cells, Candidates& candidates) {
+void remember_positions(const SphereBed& bed, Candidates& candidates) {
+  const Cells& cells = candidates.levels.front().cells;
   candidates.built_at.assign(bed.position.begin(), bed.position.end() - 3);
   candidates.layers.resize(static_cast<std::size_t>(cells.inner_z));
   candidates.layer.resize(bed.grains());
   for (std::size_t i = 0; i < bed.grains(); ++i) {
-    candidates.layer[i] =
-        inner_index(bed.position[i].z - cells.origin_z, cells.size_z, cells.inner_z);
+    candidates.layer[i] = cells.layer_of(bed.position[i]);
   }
 }
 
@@ -252,13 +236,13 @@ std::vector<Wall> walls_of(const Box& box) {
 
 void find_candidates(SphereBed& bed, double reach, const Kernels& kernels, Candidates& candidates) {
   wrap(bed);
-  const Cells cells = make_cells(bed, reach);
   candidates.reach = reach;
-  candidates.largest_radius = cells.largest_radius;
-  fill_columns(bed, cells, candidates.grid);
-  list_pairs(bed, cells, kernels, candidates);
+  choose_levels(bed, candidates.levels);
+  candidates.largest_radius = candidates.levels.front().largest_radius;
+  fill_grids(bed, reach, candidates.levels);
+  list_pairs(bed, kernels, candidates);
   list_walls(bed, candidates);
-  remember_positions(bed, cells, candidates);
+  remember_positions(bed, candidates);
 }
 
 bool still_complete(const SphereBed& bed, double near, Candidates& candidates) {

@@ -3,11 +3,16 @@
 // A list of candidates stays good while no two grains that are near each other have moved closer by
 // more than the list's margin. What counts is their relative motion: a bed that falls as one needs
 // no new list.
+//
+// Grains are searched for by level of size, each level in a grid of cells that just hold its own
+// grains; then every level's grains are looked up in the grids of the larger ones. With one grid of
+// large cells a grain ten times smaller would meet a thousand others in each.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
+#include "engine/contact/grid.hpp"
 #include "engine/scene/bed.hpp"
 #include "kernels/kernels.hpp"
 
@@ -44,21 +49,30 @@ struct Extent {
   bool empty;
 };
 
-/// Memory of a search, kept from one search to the next.
-struct GridColumns {
+/// Grains of similar size and their search grid: radii from the largest down to half of it.
+struct SizeLevel {
+  double largest_radius = 0.0;        ///< d
+  std::vector<std::int32_t> members;  ///< ascending
+  Cells cells;
+  GridColumns grid;
+};
+
+/// Memory of a search across levels: the spheres of one level on their way through another's grid.
+struct QueryColumns {
   std::vector<float> x, y, z, radius;
-  std::vector<std::int32_t> grain, cell_begin, cell_of;
+  std::vector<std::int32_t> cell;
 };
 
 struct Candidates {
   double reach = 0.0;            ///< every pair and wall with a gap below it is listed, d
   double largest_radius = 0.0;   ///< d
-  std::vector<GrainPair> pairs;  ///< each once, a < b, in the order of the search grid
+  std::vector<GrainPair> pairs;  ///< each once, a < b, in the order of the search grids
   std::vector<WallCandidates> walls;
   std::vector<Record<double>> built_at;  ///< positions of the grains when the list was made
   std::vector<std::int32_t> layer;       ///< horizontal layer of each grain at that time
   std::vector<Extent> layers;            ///< memory of `still_complete`, one entry per layer
-  GridColumns grid;
+  std::vector<SizeLevel> levels;         ///< from large to small, at least one
+  QueryColumns queries;
 };
 
 /// Lists all pairs and walls with a gap below `reach`. Wraps the bed first. A periodic axis must be

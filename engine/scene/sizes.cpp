@@ -1,6 +1,7 @@
 #include "engine/scene/sizes.hpp"
 
 #include <cmath>
+#include <limits>
 
 #include "engine/scene/random.hpp"
 #include "engine/units.hpp"
@@ -40,6 +41,19 @@ double draw_radius(std::uint64_t key, std::uint64_t grain, double diameter, doub
   }
 }
 
+/// Draws small grains until their volume is as near to `wanted` as whole grains can come.
+void add_small_volume(const PackingSpec& spec, double wanted, std::vector<double>& radii) {
+  for (double volume = 0.0;;) {
+    const double radius =
+        draw_radius(spec.random_key, radii.size(), spec.sizes.size_ratio, spec.sizes.spread);
+    if (volume + sphere_volume(radius) / 2.0 > wanted) {
+      return;
+    }
+    volume += sphere_volume(radius);
+    radii.push_back(radius);
+  }
+}
+
 }  // namespace
 
 ClassCounts class_counts(const PackingSpec& spec) {
@@ -51,13 +65,30 @@ ClassCounts class_counts(const PackingSpec& spec) {
 
 std::vector<double> draw_radii(const PackingSpec& spec) {
   const ClassCounts counts = class_counts(spec);
-  std::vector<double> radii(static_cast<std::size_t>(counts.large + counts.small));
-  for (std::size_t i = 0; i < radii.size(); ++i) {
-    const bool large = i < static_cast<std::size_t>(counts.large);
-    radii[i] =
-        draw_radius(spec.random_key, i, large ? 1.0 : spec.sizes.size_ratio, spec.sizes.spread);
+  std::vector<double> radii;
+  double large_volume = 0.0;
+  for (std::int64_t i = 0; i < counts.large; ++i) {
+    radii.push_back(draw_radius(spec.random_key, radii.size(), 1.0, spec.sizes.spread));
+    large_volume += sphere_volume(radii.back());
+  }
+  const double share = spec.sizes.small_share;
+  if (std::holds_alternative<SolidHeight>(spec.fill) && counts.large > 0 && share > 0.0) {
+    add_small_volume(spec, share / (1.0 - share) * large_volume, radii);
+    return radii;
+  }
+  for (std::int64_t i = 0; i < counts.small; ++i) {
+    radii.push_back(
+        draw_radius(spec.random_key, radii.size(), spec.sizes.size_ratio, spec.sizes.spread));
   }
   return radii;
+}
+
+double small_class_limit(const SizesSpec& sizes) {
+  if (sizes.small_share <= 0.0) {
+    return 0.0;
+  }
+  return sizes.small_share < 1.0 ? sizes.size_ratio / (1.0 + sizes.size_ratio)
+                                 : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace grainsweep

@@ -15,6 +15,7 @@ using Errors = std::vector<SpecError>;
 constexpr double longest_side = 10'000.0;         // d; cell indices stay far below 32 bits
 constexpr std::int64_t most_grains = 10'000'000;  // grain indices are 32 bits wide
 constexpr double settled_wall_overlap = 0.01;     // d; far above that of any settled bed
+constexpr double finest_bin = 0.01;               // d; finer bins hold noise and fill the disk
 constexpr double image_margin = 0.2;              // d; candidates never reach farther than this
 
 std::string text_of(double value) {
@@ -184,6 +185,13 @@ void check_gap_tolerances(const std::vector<double>& tolerances, Errors& errors)
   }
 }
 
+void check_bin_width(double bin_width, double box_width, Errors& errors) {
+  if (bin_width >= finest_bin && bin_width <= box_width) return;
+  errors.push_back(
+      {"measure.bin_width", "must lie in [" + text_of(finest_bin) + ", " + text_of(box_width) +
+                                "] (no wider than box.width), is " + text_of(bin_width)});
+}
+
 void check_measure(const MeasureSpec& measure, Errors& errors) {
   require_in({0.0, 1000.0}, measure.exclude_floor, "measure.exclude_floor", errors);
   require_in({0.0, 1000.0}, measure.exclude_surface, "measure.exclude_surface", errors);
@@ -199,6 +207,7 @@ std::vector<SpecError> check(const PackingSpec& spec) {
   check_fill(spec, sizes && box, errors);
   check_accuracy(spec.accuracy, errors);
   check_measure(spec.measure, errors);
+  if (box) check_bin_width(spec.measure.bin_width, spec.box.width, errors);
   return errors;
 }
 

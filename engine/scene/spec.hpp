@@ -101,6 +101,7 @@ struct MeasureSpec {
   double exclude_surface = 3.0;  ///< zone below the surface left out, d
   /// A pair touches if its gap is below the tolerance, d. The first one is the headline value.
   std::vector<double> gap_tolerances = {1e-4, 1e-5, 1e-3, 6e-3};
+  double bin_width = 0.1;  ///< of profiles, d; at most the width of the box
 };
 
 struct PackingSpec {

@@ -24,6 +24,7 @@ class Column {
  public:
   Column(const Box& box, double height, double largest_diameter)
       : box_(box),
+        largest_radius_(largest_diameter / 2.0),
         cells_x_(cells(box.length, largest_diameter)),
         cells_y_(cells(box.width, largest_diameter)),
         cells_z_(cells(height, largest_diameter)),
@@ -33,9 +34,11 @@ class Column {
   bool has_room_for(const PlacedSphere& s) const {
     const int x = index(s.x, box_.length, cells_x_), y = index(s.y, box_.width, cells_y_);
     const int z = index(s.z, height_, cells_z_);
-    for (int k = std::max(z - 1, 0); k <= std::min(z + 1, cells_z_ - 1); ++k) {
-      for (int j = y - 1; j <= y + 1; ++j) {
-        for (int i = x - 1; i <= x + 1; ++i) {
+    const int far_x = cells_to(s, box_.length, cells_x_), far_y = cells_to(s, box_.width, cells_y_);
+    const int far_z = cells_to(s, height_, cells_z_);
+    for (int k = std::max(z - far_z, 0); k <= std::min(z + far_z, cells_z_ - 1); ++k) {
+      for (int j = y - far_y; j <= y + far_y; ++j) {
+        for (int i = x - far_x; i <= x + far_x; ++i) {
           if (overlaps_cell(s, i, j, k)) {
             return false;
           }
@@ -67,6 +70,11 @@ class Column {
   static int index(double coordinate, double extent, int cells) {
     return std::clamp(static_cast<int>(coordinate / extent * cells), 0, cells - 1);
   }
+  /// How many cells away a sphere may be that overlaps `s`: 1 unless `s` is larger than all here.
+  int cells_to(const PlacedSphere& s, double extent, int cells) const {
+    const double reach = s.radius + largest_radius_;
+    return std::min(cells, static_cast<int>(std::ceil(reach * cells / extent)));
+  }
   std::size_t at(int x, int y, int z) const {
     const auto row = static_cast<std::size_t>(z) * static_cast<std::size_t>(cells_y_) +
                      static_cast<std::size_t>(y);
@@ -78,7 +86,8 @@ class Column {
     if ((outside_x && box_.x == Boundary::walls) || (outside_y && box_.y == Boundary::walls)) {
       return false;
     }
-    const auto& cell = cell_[at((x + cells_x_) % cells_x_, (y + cells_y_) % cells_y_, z)];
+    const auto& cell =
+        cell_[at((x % cells_x_ + cells_x_) % cells_x_, (y % cells_y_ + cells_y_) % cells_y_, z)];
     return std::any_of(cell.begin(), cell.end(),
                        [&](const PlacedSphere& other) { return overlap(s, other); });
   }
@@ -93,6 +102,7 @@ class Column {
   }
 
   Box box_;
+  double largest_radius_;
   int cells_x_, cells_y_, cells_z_;
   double height_;
   std::vector<std::vector<PlacedSphere>> cell_;
@@ -102,23 +112,37 @@ Range centres(double extent, Boundary boundary, double radius) {
   return boundary == Boundary::walls ? Range{radius, extent - radius} : Range{0.0, extent};
 }
 
-/// Places one grain; false if no room was found.
-bool place(Column& column, const Box& box, double height, double radius, std::uint64_t key,
-           std::uint64_t grain) {
+/// Where a grain overlaps nothing in any column; nothing if no room was found.
+std::optional<PlacedSphere> place(const std::vector<Column>& columns, const Box& box, double height,
+                                  double radius, std::uint64_t key, std::uint64_t grain) {
   const Range x = centres(box.length, box.x, radius), y = centres(box.width, box.y, radius);
   const Range z = {radius, height - radius};
   if (x.high < x.low || y.high < y.low) {
-    return false;
+    return std::nullopt;
   }
   for (std::uint32_t attempt = 0; attempt < most_attempts; ++attempt) {
     const auto words = random_words(key, Purpose::place, grain, attempt);
     const PlacedSphere sphere{x.at(words[0]), y.at(words[1]), z.at(words[2]), radius};
-    if (column.has_room_for(sphere)) {
-      column.add(sphere);
-      return true;
+    const bool has_room = std::all_of(columns.begin(), columns.end(), [&](const Column& column) {
+      return column.has_room_for(sphere);
+    });
+    if (has_room) {
+      return sphere;
     }
   }
-  return false;
+  return std::nullopt;
+}
+
+/// Largest diameter of the grains, and of those less than half as large; grains of the two sizes
+/// have columns of their own, so that no cell holds hundreds of small ones.
+std::vector<double> column_diameters(const std::vector<double>& radii) {
+  const double largest = *std::max_element(radii.begin(), radii.end());
+  double small = 0.0;
+  for (const double radius : radii) {
+    small = radius < largest / 2.0 ? std::max(small, radius) : small;
+  }
+  return small > 0.0 ? std::vector<double>{2.0 * largest, 2.0 * small}
+                     : std::vector<double>{2.0 * largest};
 }
 
 double column_height(const Box& box, const std::vector<double>& radii, double largest_diameter) {
@@ -131,15 +155,22 @@ double column_height(const Box& box, const std::vector<double>& radii, double la
 
 std::optional<SphereBed> place_all(const Box& box, const std::vector<double>& radii,
                                    std::uint64_t key) {
-  const double largest = 2.0 * *std::max_element(radii.begin(), radii.end());
-  const double height = column_height(box, radii, largest);
-  Column column(box, height, largest);
+  const std::vector<double> diameters = column_diameters(radii);
+  const double height = column_height(box, radii, diameters.front());
+  std::vector<Column> columns;
+  for (const double diameter : diameters) {
+    columns.emplace_back(box, height, diameter);
+  }
+  Column all(box, height, diameters.front());
   for (std::size_t i = 0; i < radii.size(); ++i) {
-    if (!place(column, box, height, radii[i], key, i)) {
+    const auto sphere = place(columns, box, height, radii[i], key, i);
+    if (!sphere) {
       return std::nullopt;
     }
+    columns[2.0 * radii[i] <= diameters.back() ? columns.size() - 1 : 0].add(*sphere);
+    all.add(*sphere);
   }
-  return make_bed(box, column.sorted());
+  return make_bed(box, all.sorted());
 }
 
 }  // namespace

@@ -1,30 +1,16 @@
 #include "runner/store/outcome.hpp"
 
-#include <cmath>
-#include <limits>
 #include <stdexcept>
 
 #include <nlohmann/json.hpp>
+
+#include "runner/store/curves.hpp"
+#include "runner/store/numbers.hpp"
 
 namespace grainsweep {
 namespace {
 
 using nlohmann::json;
-
-json number(double value) {
-  if (std::isfinite(value)) return value;
-  if (std::isnan(value)) return "nan";
-  return value > 0 ? "inf" : "-inf";
-}
-
-double number_from(const json& value) {
-  if (value.is_number()) return value.get<double>();
-  const auto text = value.get<std::string>();
-  if (text == "nan") return std::numeric_limits<double>::quiet_NaN();
-  if (text == "inf") return std::numeric_limits<double>::infinity();
-  if (text == "-inf") return -std::numeric_limits<double>::infinity();
-  throw std::invalid_argument("no number: " + text);
-}
 
 PackingStatus status_from(const std::string& name) {
   for (const auto status : {PackingStatus::settled, PackingStatus::not_settled,
@@ -35,11 +21,11 @@ PackingStatus status_from(const std::string& name) {
 }
 
 json rest_json(const RestReport& rest) {
-  return {{"residual", number(rest.residual)},
-          {"kinetic_energy", number(rest.kinetic_energy)},
-          {"largest_motion", number(rest.largest_motion)},
-          {"overlap_mean", number(rest.overlap_mean)},
-          {"overlap_max", number(rest.overlap_max)},
+  return {{"residual", number_json(rest.residual)},
+          {"kinetic_energy", number_json(rest.kinetic_energy)},
+          {"largest_motion", number_json(rest.largest_motion)},
+          {"overlap_mean", number_json(rest.overlap_mean)},
+          {"overlap_max", number_json(rest.overlap_max)},
           {"contacts", rest.contacts},
           {"isostatic_contacts", rest.isostatic_contacts}};
 }
@@ -60,9 +46,9 @@ RestReport rest_from(const json& from) {
 json balance_json(const std::optional<ForceBalance>& balance) {
   if (!balance) return nullptr;
   return {{"unique", balance->unique},
-          {"least_force", number(balance->least_force)},
-          {"unbalance_max", number(balance->unbalance_max)},
-          {"unbalance_mean", number(balance->unbalance_mean)}};
+          {"least_force", number_json(balance->least_force)},
+          {"unbalance_max", number_json(balance->unbalance_max)},
+          {"unbalance_mean", number_json(balance->unbalance_mean)}};
 }
 
 std::optional<ForceBalance> balance_from(const json& from) {
@@ -78,9 +64,9 @@ std::optional<ForceBalance> balance_from(const json& from) {
 json coordination_json(const std::vector<Coordination>& coordination) {
   json list = json::array();
   for (const Coordination& at : coordination) {
-    list.push_back({{"gap_tolerance", number(at.gap_tolerance)},
-                    {"between_grains", number(at.between_grains)},
-                    {"with_walls", number(at.with_walls)}});
+    list.push_back({{"gap_tolerance", number_json(at.gap_tolerance)},
+                    {"between_grains", number_json(at.between_grains)},
+                    {"with_walls", number_json(at.with_walls)}});
   }
   return list;
 }
@@ -108,15 +94,20 @@ json to_json(const Outcome& outcome) {
           {"stored_grains", outcome.stored_grains},
           {"rest", rest_json(result.rest)},
           {"balance", balance_json(result.balance)},
-          {"surface_height", number(result.surface_height)},
-          {"slab_bottom", number(result.slab_bottom)},
-          {"slab_top", number(result.slab_top)},
-          {"solid_fraction", number(result.solid_fraction)},
+          {"surface_height", number_json(result.surface_height)},
+          {"slab_bottom", number_json(result.slab_bottom)},
+          {"slab_top", number_json(result.slab_top)},
+          {"solid_fraction", number_json(result.solid_fraction)},
           {"coordination", coordination_json(result.coordination)},
+          {"mean_diameter", number_json(result.mean_diameter)},
+          {"mean_diameter_by_volume", number_json(result.mean_diameter_by_volume)},
+          {"profile_y", to_json(result.profile_y)},
+          {"profile_z", to_json(result.profile_z)},
+          {"order", to_json(result.order)},
           {"steps", result.steps},
           {"iterations", result.iterations},
           {"state_hash", result.state_hash},
-          {"cpu_seconds", number(outcome.cpu_seconds)}};
+          {"cpu_seconds", number_json(outcome.cpu_seconds)}};
 }
 
 Outcome outcome_from_json(const json& json) {
@@ -136,6 +127,11 @@ Outcome outcome_from_json(const json& json) {
   result.slab_top = number_from(json.at("slab_top"));
   result.solid_fraction = number_from(json.at("solid_fraction"));
   result.coordination = coordination_from(json.at("coordination"));
+  result.mean_diameter = number_from(json.at("mean_diameter"));
+  result.mean_diameter_by_volume = number_from(json.at("mean_diameter_by_volume"));
+  result.profile_y = profile_from_json(json.at("profile_y"));
+  result.profile_z = profile_from_json(json.at("profile_z"));
+  result.order = order_from_json(json.at("order"));
   json.at("steps").get_to(result.steps);
   json.at("iterations").get_to(result.iterations);
   json.at("state_hash").get_to(result.state_hash);

@@ -212,6 +212,7 @@ Rows measure_rows() {
       measure<&M::exclude_surface>("measure.exclude_surface", "zone below the surface left out, d"),
       measure<&M::gap_tolerances>("measure.gap_tolerances",
                                   "grains touch below these gaps, d; the first is the headline"),
+      measure<&M::bin_width>("measure.bin_width", "width of the bins of profiles, d"),
   };
 }
 

@@ -31,14 +31,40 @@ std::string why_not_determined(const std::vector<const Group*>& groups, int widt
   return "needs 2 or more settled replicates to know the errors, has 1 at every width";
 }
 
-/// "5, 6": the widths at which the replicates give no error to weigh with.
-std::string widths_without_error(const std::vector<const Group*>& groups, Quantity quantity) {
-  std::string widths;
+/// Variance of a single packing about the mean of its width, and its degrees of freedom.
+struct Pooled {
+  double variance = 0.0;
+  int degrees_of_freedom = 0;
+};
+
+Pooled pooled_over(const std::vector<const Group*>& groups, Quantity quantity) {
+  Pooled pooled;
+  double squares = 0.0;
   for (const Group* group : groups) {
-    if (standard_error(spread_of(*group, quantity)) > 0) continue;
-    widths += (widths.empty() ? "" : ", ") + cell(group->job.box.width);
+    const Spread& spread = spread_of(*group, quantity);
+    if (spread.n < 2) continue;
+    squares += (spread.n - 1) * spread.sd * spread.sd;
+    pooled.degrees_of_freedom += spread.n - 1;
   }
-  return widths;
+  if (pooled.degrees_of_freedom > 0) pooled.variance = squares / pooled.degrees_of_freedom;
+  return pooled;
+}
+
+std::vector<FitPoint> points_of(const std::vector<const Group*>& groups, Quantity quantity,
+                                const Pooled& pooled) {
+  std::vector<FitPoint> points;
+  for (const Group* group : groups) {
+    const Spread& spread = spread_of(*group, quantity);
+    const double error = pooled.variance > 0 ? std::sqrt(pooled.variance / spread.n) : none;
+    points.push_back({group->job.box.width, spread.n, spread.mean, error, none});
+  }
+  return points;
+}
+
+std::string weights_text(const Pooled& pooled) {
+  if (!(pooled.variance > 0)) return "equal (the replicates do not scatter)";
+  return "variance of the replicates pooled over the widths (" +
+         std::to_string(pooled.degrees_of_freedom) + " degrees of freedom)";
 }
 
 Parameter zeta_of(const LineFit& line) {
@@ -57,6 +83,7 @@ void take_line(const LineFit& line, FitWeights weights, WallFit& fit) {
   fit.degrees_of_freedom = line.degrees_of_freedom;
   fit.chi2_per_dof = is_weighted ? line.chi2 / line.degrees_of_freedom : none;
   fit.r_squared = line.r_squared;
+  for (FitPoint& point : fit.points) point.fitted = line.intercept + line.slope / point.width;
 }
 
 std::vector<std::string> fit_cells(const WallFit& fit) {
@@ -73,16 +100,27 @@ std::vector<std::string> reference_cells(const Family& family, Quantity quantity
   return {cell(group->job.box.width), cell(spread.mean), cell(spread.sd), cell(spread.n)};
 }
 
+const char* name_of(Quantity quantity) {
+  return quantity == Quantity::solid_fraction ? "solid_fraction" : "coordination";
+}
+
+std::string point_lines_of_csv(const Family& family, Quantity quantity) {
+  std::string text;
+  for (const FitPoint& point : fit_walls(family, quantity).points) {
+    const double residual = point.mean - point.fitted;
+    text += csv_line({cell(family.name), name_of(quantity), cell(point.width), cell(point.n),
+                      cell(point.mean), cell(point.error), cell(point.fitted), cell(residual),
+                      cell(residual / point.error)});
+  }
+  return text;
+}
+
 std::string fit_line_of_csv(const Family& family, Quantity quantity) {
   const WallFit fit = fit_walls(family, quantity);
   const bool is_determined = fit.not_determined.empty();
   std::vector<std::string> cells = {
-      cell(family.name),
-      quantity == Quantity::solid_fraction ? "solid_fraction" : "coordination",
-      is_determined ? "determined" : "not determined",
-      cell(fit.not_determined),
-      cell(fit.widths),
-      cell(fit.packings),
+      cell(family.name),        name_of(quantity), is_determined ? "determined" : "not determined",
+      cell(fit.not_determined), cell(fit.widths),  cell(fit.packings),
       cell(fit.weights)};
   for (std::string& text : fit_cells(fit)) cells.push_back(std::move(text));
   for (std::string& text : reference_cells(family, quantity)) cells.push_back(std::move(text));
@@ -96,25 +134,36 @@ const Spread& spread_of(const Group& group, Quantity quantity) {
   return quantity == Quantity::solid_fraction ? group.solid_fraction : group.coordination;
 }
 
+double widened(double error, const WallFit& fit) {
+  return fit.chi2_per_dof > 1.0 ? error * std::sqrt(fit.chi2_per_dof) : error;
+}
+
+double pooled_error(const Family& family, Quantity quantity, int n) {
+  std::vector<const Group*> groups;
+  for (const Group& group : family.walled) groups.push_back(&group);
+  for (const Group& group : family.periodic) groups.push_back(&group);
+  const Pooled pooled = pooled_over(groups, quantity);
+  return pooled.degrees_of_freedom > 0 && n > 0 ? std::sqrt(pooled.variance / n) : none;
+}
+
 WallFit fit_walls(const Family& family, Quantity quantity) {
   const std::vector<const Group*> groups = groups_with_values(family);
+  const Pooled pooled = pooled_over(groups, quantity);
   WallFit fit;
+  fit.points = points_of(groups, quantity, pooled);
   std::set<double> widths;
   std::vector<LinePoint> points;
-  for (const Group* group : groups) {
-    const Spread& spread = spread_of(*group, quantity);
-    widths.insert(group->job.box.width);
-    fit.packings += spread.n;
-    points.push_back({1.0 / group->job.box.width, spread.mean, standard_error(spread)});
+  for (const FitPoint& point : fit.points) {
+    widths.insert(point.width);
+    fit.packings += point.n;
+    points.push_back({1.0 / point.width, point.mean, point.error});
   }
   fit.widths = static_cast<int>(widths.size());
   fit.not_determined = why_not_determined(groups, fit.widths);
   if (!fit.not_determined.empty()) return fit;
-  const std::string unweighable = widths_without_error(groups, quantity);
-  const FitWeights weights = unweighable.empty() ? FitWeights::by_error : FitWeights::equal;
+  const FitWeights weights = pooled.variance > 0 ? FitWeights::by_error : FitWeights::equal;
+  fit.weights = weights_text(pooled);
   const auto line = fit_line(points, weights);
-  fit.weights = unweighable.empty() ? "standard error of the replicates"
-                                    : "equal (no scatter of replicates at W = " + unweighable + ")";
   if (line) {
     take_line(*line, weights, fit);
   } else {
@@ -140,6 +189,15 @@ std::string fits_csv(const std::vector<Family>& families) {
     if (family.walled.empty()) continue;
     text += fit_line_of_csv(family, Quantity::solid_fraction);
     text += fit_line_of_csv(family, Quantity::coordination);
+  }
+  return text;
+}
+
+std::string fit_points_csv(const std::vector<Family>& families) {
+  std::string text = "family,quantity,width,n,mean,error,fitted,residual,residual_in_errors\n";
+  for (const Family& family : families) {
+    text += point_lines_of_csv(family, Quantity::solid_fraction);
+    text += point_lines_of_csv(family, Quantity::coordination);
   }
   return text;
 }

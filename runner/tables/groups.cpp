@@ -42,7 +42,10 @@ Group group_of(const Members& members) {
   group.contact_ratio = spread_over(members, contact_ratio);
   group.overlap_mean =
       spread_over(members, [](const Row& row) { return row.outcome->result.rest.overlap_mean; });
-  for (const Row* row : members) count(*row, group.counts);
+  for (const Row* row : members) {
+    count(*row, group.counts);
+    if (is_settled(*row)) group.settled.push_back(row->outcome->result);
+  }
   return group;
 }
 

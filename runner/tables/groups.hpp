@@ -24,10 +24,11 @@ double standard_error(const Spread& spread);
 struct Group {
   JobFacts job;  ///< the first of them: its replicate number, id and seed mean nothing here
   Spread solid_fraction;
-  Spread coordination;             ///< at the first gap tolerance, walls not counted
-  Spread coordination_with_walls;  ///< the same, walls counted
-  Spread contact_ratio;            ///< contacts over isostatic contacts
-  Spread overlap_mean;             ///< d
+  Spread coordination;                 ///< at the first gap tolerance, walls not counted
+  Spread coordination_with_walls;      ///< the same, walls counted
+  Spread contact_ratio;                ///< contacts over isostatic contacts
+  Spread overlap_mean;                 ///< d
+  std::vector<PackingResult> settled;  ///< in the order of the rows
   StatusCounts counts;
 };
 

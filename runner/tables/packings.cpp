@@ -39,9 +39,24 @@ const Cells first_columns = {"job",
                              "boundary_x",
                              "accuracy",
                              "gap_tolerance"};
-const Cells last_columns = {"surface_height", "slab_bottom", "slab_top",      "largest_motion",
-                            "forces_unique",  "least_force", "unbalance_max", "unbalance_mean",
-                            "state_hash",     "reason"};
+const Cells last_columns = {"surface_height",
+                            "slab_bottom",
+                            "slab_top",
+                            "largest_motion",
+                            "forces_unique",
+                            "least_force",
+                            "unbalance_max",
+                            "unbalance_mean",
+                            "mean_diameter",
+                            "mean_diameter_by_volume",
+                            "q6_global",
+                            "q6_local",
+                            "three_contact_share",
+                            "segregation",
+                            "force_mean",
+                            "force_square",
+                            "state_hash",
+                            "reason"};
 
 void append(Cells& cells, Cells more) {
   std::move(more.begin(), more.end(), std::back_inserter(cells));
@@ -105,6 +120,14 @@ Cells balance_cells(const std::optional<ForceBalance>& balance) {
           cell(balance->unbalance_mean)};
 }
 
+Cells order_cells(const PackingResult& result) {
+  const Order& order = result.order;
+  return {cell(result.mean_diameter),      cell(result.mean_diameter_by_volume),
+          cell(order.q6_global),           cell(order.q6_local),
+          cell(order.three_contact_share), cell(order.segregation),
+          cell(order.force_mean),          cell(order.force_square)};
+}
+
 Cells state_cells(const Row& row) {
   if (!row.outcome) return Cells(last_columns.size());
   const PackingResult& result = row.outcome->result;
@@ -113,6 +136,7 @@ Cells state_cells(const Row& row) {
     cells = {cell(result.surface_height), cell(result.slab_bottom), cell(result.slab_top),
              cell(result.rest.largest_motion)};
     append(cells, balance_cells(result.balance));
+    append(cells, order_cells(result));
     cells.push_back(hex(result.state_hash));
   }
   cells.push_back(cell(result.reason));

@@ -54,6 +54,34 @@ TEST_CASE("coordination is reported for every gap tolerance in the order asked f
   CHECK(coordination[0].between_grains < coordination[2].between_grains);
 }
 
+TEST_CASE("profiles and order of a packing belong to its solid fraction and coordination") {
+  PackingSpec spec = small_spec();
+  spec.fill = GrainCount{400};
+  spec.sizes = {1.0 / 30.0, 0.25, 0.5};
+  spec.measure.bin_width = 0.25;
+  const PackingResult result = pack(spec).result;
+  REQUIRE(result.profile_y.bins.size() == 16);
+  double solid = 0, small_solid = 0;
+  std::int64_t grains = 0, small = 0, neighbours = 0;
+  for (const ProfileBin& bin : result.profile_y.bins) {
+    solid += (bin.large + bin.small) / 16;
+    small_solid += bin.small / 16;
+    grains += bin.large_grains + bin.small_grains;
+    small += bin.small_grains;
+    neighbours += bin.neighbours;
+  }
+  CHECK(solid == Approx(result.solid_fraction).epsilon(1e-12));
+  CHECK(small_solid / solid == Approx(0.25).margin(0.08));  // a slab of a bed of 400 grains
+  CHECK((small > grains / 2 && small < grains));
+  CHECK(static_cast<double>(neighbours) / static_cast<double>(grains) ==
+        Approx(result.coordination[0].between_grains).epsilon(1e-12));
+  CHECK(static_cast<double>(result.profile_z.bins.size()) * 0.25 > result.surface_height);
+  CHECK((result.order.q6_global > 0 && result.order.q6_global < result.order.q6_local));
+  CHECK(std::isfinite(result.order.segregation));
+  CHECK(result.order.force_mean > 1);
+  CHECK((result.mean_diameter > 0.5 && result.mean_diameter < result.mean_diameter_by_volume));
+}
+
 TEST_CASE("the grains of a packing lie in the box with their forces and neighbours") {
   PackingSpec spec = small_spec();
   spec.accuracy = *preset("accurate");  // at coarser presets a grain that slides is not yet carried

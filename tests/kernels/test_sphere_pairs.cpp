@@ -127,5 +127,78 @@ TEST_CASE("spheres exactly at the reach are no pair") {
   }
 }
 
+/// Small spheres on their way through the inner cells of a grid, and just outside of them.
+struct Queries {
+  std::vector<float> x, y, z, radius;
+  std::vector<std::int32_t> grain, cell;
+
+  SphereQueries view() const {
+    return {x.data(), y.data(), z.data(), radius.data(), grain.data(), cell.data(), grain.size()};
+  }
+};
+
+Queries random_queries(const FilledGrid& grid, int count, std::uint64_t seed) {
+  Draw draw(seed);
+  Queries queries;
+  const auto inner = [](double at, std::int32_t cells) {
+    return std::clamp(static_cast<std::int32_t>(at), 1, cells - 2);
+  };
+  for (int k = 0; k < count; ++k) {
+    const double x = draw.uniform(0.8, grid.cells_x - 0.8);
+    const double y = draw.uniform(0.8, grid.cells_y - 0.8);
+    const double z = draw.uniform(0.8, grid.cells_z - 0.8);
+    queries.x.push_back(static_cast<float>(x));
+    queries.y.push_back(static_cast<float>(y));
+    queries.z.push_back(static_cast<float>(z));
+    queries.radius.push_back(static_cast<float>(draw.uniform(0.01, 0.1)));
+    queries.grain.push_back(draw.chance(0.5) ? 100000 + k : -100000 + k);
+    queries.cell.push_back((inner(z, grid.cells_z) * grid.cells_y + inner(y, grid.cells_y)) *
+                               grid.cells_x +
+                           inner(x, grid.cells_x));
+  }
+  return queries;
+}
+
+TEST_CASE("queries find what their plain-loop twin finds, in the same order") {
+  for (const Isa isa : testing::testable_isas()) {
+    for (const std::size_t most : {1U, 3U, 40U}) {
+      INFO(name_of(isa) << ", up to " << most << " spheres a cell");
+      const FilledGrid grid = random_grid(5, 4, 6, most, most);
+      const Queries queries = random_queries(grid, 300, 5);
+      const auto expected = testing::sphere_pairs_across_twin(grid.view(0.05F), queries.view());
+      REQUIRE(expected.size() > 8);
+      std::vector<GrainPair> pairs(expected.size() + 1, GrainPair{-7, -7});
+      const auto& kernels = kernels_for(isa);
+      REQUIRE(kernels.sphere_pairs_across(grid.view(0.05F), queries.view(), pairs.data(),
+                                          pairs.size()) == expected.size());
+      pairs.pop_back();
+      REQUIRE(testing::same_bits(pairs, expected));
+      std::vector<GrainPair> few(9, GrainPair{-7, -7});
+      CHECK(kernels.sphere_pairs_across(grid.view(0.05F), queries.view(), few.data(), 8) ==
+            expected.size());
+      CHECK(few.back().a == -7);
+    }
+  }
+}
+
+TEST_CASE("queries miss no sphere of the grid, wherever it lies") {
+  const FilledGrid grid = random_grid(5, 4, 6, 6, 2);
+  const Queries queries = random_queries(grid, 300, 8);
+  std::vector<GrainPair> pairs(100000);
+  pairs.resize(
+      kernels_for(best_isa())
+          .sphere_pairs_across(grid.view(0.05F), queries.view(), pairs.data(), pairs.size()));
+  std::size_t expected = 0;
+  for (std::size_t k = 0; k < queries.grain.size(); ++k) {
+    for (std::size_t i = 0; i + block_width < grid.grain.size(); ++i) {
+      const float dx = grid.x[i] - queries.x[k], dy = grid.y[i] - queries.y[k];
+      const float dz = grid.z[i] - queries.z[k];
+      const float limit = grid.radius[i] + (queries.radius[k] + 0.05F);
+      expected += dx * dx + dy * dy + dz * dz < limit * limit ? 1 : 0;
+    }
+  }
+  CHECK(pairs.size() == expected);
+}
+
 }  // namespace
 }  // namespace grainsweep

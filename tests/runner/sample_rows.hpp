@@ -1,6 +1,7 @@
 // Rows as a sweep of spheres would leave them, with values that tests choose.
 #pragma once
 
+#include <limits>
 #include <string>
 
 #include "runner/tables/job_facts.hpp"
@@ -42,6 +43,14 @@ inline Outcome sample_outcome(const std::string& job, double solid_fraction, dou
   result.solid_fraction = solid_fraction;
   result.coordination = {{1e-4, coordination, coordination + 0.25},
                          {1e-5, coordination - 0.125, coordination}};
+  result.mean_diameter = 0.98;
+  result.mean_diameter_by_volume = 0.99;
+  result.order.q6_global = 0.03;
+  result.order.q6_local = 0.4;
+  result.order.three_contact_share = 0.1;
+  result.order.segregation = std::numeric_limits<double>::quiet_NaN();
+  result.order.force_mean = 5.5;
+  result.order.force_square = 1.6;
   result.steps = 265;
   result.iterations = 20000;
   result.state_hash = 0xABCDEF0123456789u;

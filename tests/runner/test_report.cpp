@@ -58,8 +58,8 @@ TEST_CASE("the closing report as a whole") {
         "  u (MSP, W = 10): not_settled: grains still move\n"
         "\n"
         "CPU time of all packings 6.00 s; last run 3.25 s for 8 packings on 2 threads, avx2\n"
-        "Tables in out/a: packings.csv, groups.csv, fits.csv; provenance.json says how they were "
-        "made\n"
+        "Tables in out/a: packings.csv, groups.csv, fits.csv, profiles.csv, decays.csv and more;\n"
+        "provenance.json says how they were made\n"
         "Next: grainsweep export out/a --format vtp writes the grains for ParaView\n");
 }
 

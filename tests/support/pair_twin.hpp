@@ -50,4 +50,28 @@ inline std::vector<GrainPair> sphere_pairs_twin(const SphereGrid& grid) {
   return pairs;
 }
 
+/// Each query against the 27 cells around its own, row after row.
+inline std::vector<GrainPair> sphere_pairs_across_twin(const SphereGrid& grid,
+                                                       const SphereQueries& queries) {
+  std::vector<GrainPair> pairs;
+  const std::int32_t row = grid.cells_x, layer = row * grid.cells_y;
+  for (std::size_t k = 0; k < queries.count; ++k) {
+    for (const std::int32_t z : {-layer, 0, layer}) {
+      for (const std::int32_t y : {-row, 0, row}) {
+        const std::int32_t middle = queries.cell[k] + z + y;
+        for (auto j = grid.cell_begin[middle - 1]; j < grid.cell_begin[middle + 2]; ++j) {
+          const float dx = grid.x[j] - queries.x[k], dy = grid.y[j] - queries.y[k];
+          const float dz = grid.z[j] - queries.z[k];
+          const float limit = grid.radius[j] + (queries.radius[k] + grid.reach);
+          const std::int32_t a = queries.grain[k], b = grid.grain[j];
+          if (dx * dx + dy * dy + dz * dz < limit * limit) {
+            pairs.push_back(a < b ? GrainPair{a, b} : GrainPair{b, a});
+          }
+        }
+      }
+    }
+  }
+  return pairs;
+}
+
 }  // namespace grainsweep::testing

@@ -71,6 +71,43 @@ TEST_CASE("the list is right for grains whose sizes differ by a factor of five")
   }
 }
 
+/// Every third grain small by `ratio`, so that each size meets itself and the other.
+SphereBed bed_of_two_sizes(const Box& box, double ratio, std::uint64_t seed) {
+  SphereBed bed = testing::random_bed({box, 400, 0.45, 0.5, 3.0, seed});
+  for (std::size_t i = 0; i < bed.grains(); ++i) {
+    if (i % 3 != 0) bed.position[i].w *= ratio;
+  }
+  return bed;
+}
+
+TEST_CASE("the list is right for two sizes of any ratio in every kind of box") {
+  for (const Box& box : boxes) {
+    for (const double ratio : {0.9, 0.5, 0.25, 0.1, 0.02}) {
+      INFO(box.length << " x " << box.width << ", ratio " << ratio);
+      SphereBed bed = bed_of_two_sizes(box, ratio, 31);
+      expect_right_list(bed);
+      expect_right_list(bed, 0.01);
+    }
+  }
+}
+
+TEST_CASE("sizes far apart are searched for in levels, all the rest in one") {
+  const Box box{8, 5, periodic, walls};
+  SphereBed one = bed_of_two_sizes(box, 0.9, 1), two = bed_of_two_sizes(box, 0.1, 1);
+  CHECK(search(one).levels.size() == 1);
+  CHECK(search(two).levels.size() == 2);
+  // 1, 1/2 - , 1/4 -, ...: twelve halvings, of which the smallest share the last level.
+  std::vector<PlacedSphere> spheres;
+  for (int k = 0; k < 12; ++k) {
+    const double radius = 0.5 * std::pow(0.49, k);
+    spheres.push_back({1, 1, 1 + 1.2 * k, radius});
+    spheres.push_back({1 + 2 * radius, 1, 1 + 1.2 * k, radius});
+  }
+  SphereBed many = make_bed(box, spheres);
+  CHECK(search(many).levels.size() == 8);
+  expect_right_list(many);
+}
+
 TEST_CASE("the list is right for a few grains in a tall and nearly empty box") {
   for (const double height : {1e2, 1e3, 1e4}) {
     INFO("height " << height);
@@ -124,9 +161,10 @@ TEST_CASE("neighbours across a periodic border are found, across a wall they are
 }
 
 TEST_CASE("the list is the same for every instruction set") {
-  const SphereBed bed = testing::random_bed({{8, 5, periodic, walls}, 400, 0.1, 0.5, 5, 29});
+  const SphereBed bed = testing::random_bed({{8, 5, periodic, walls}, 400, 0.05, 0.5, 5, 29});
   SphereBed copy = bed;
   const Candidates expected = search(copy);
+  REQUIRE(expected.levels.size() == 4);
   for (const Isa isa : testing::testable_isas()) {
     INFO(name_of(isa));
     copy = bed;

@@ -81,6 +81,31 @@ TEST_CASE("the large class comes first and both are drawn about their own mean")
   }
 }
 
+TEST_CASE("the drawn grains have the share of small volume asked for within half a grain") {
+  for (const double ratio : {0.5, 0.2, 0.1}) {
+    for (const double share : {0.01, 0.1, 0.25, 0.4, 0.9}) {
+      INFO("ratio " << ratio << ", share " << share);
+      PackingSpec spec = spec_of(SolidHeight{5}, {1.0 / 30.0, share, ratio});
+      spec.box = {6, 4, Boundary::periodic, Boundary::walls};
+      const auto radii = draw_radii(spec);
+      double small = 0, all = 0;
+      for (const double radius : radii) {
+        all += sphere_volume(radius);
+        if (radius < small_class_limit(spec.sizes)) small += sphere_volume(radius);
+      }
+      const double largest_small = sphere_volume(0.5 * ratio * (1 + 4.0 / 30.0));
+      const double missing = share / (1 - share) * (all - small) - small;
+      CHECK(std::abs(missing) <= 0.5 * largest_small * (1 + 1e-9));
+    }
+  }
+}
+
+TEST_CASE("a bed of small grains only has the number expected") {
+  const PackingSpec spec = spec_of(SolidHeight{1}, {1.0 / 30.0, 1.0, 0.5});
+  CHECK(class_counts(spec).large == 0);
+  CHECK(static_cast<std::int64_t>(draw_radii(spec).size()) == class_counts(spec).small);
+}
+
 TEST_CASE("without spread all radii of a class are equal") {
   for (const double radius : draw_radii(spec_of(GrainCount{50}, {0, 0, 0.5}))) {
     CHECK(radius == 0.5);
@@ -97,6 +122,16 @@ TEST_CASE("radii depend on the key and the grain alone") {
     equal += radii[i] == other[i] ? 1 : 0;
   }
   CHECK(equal == 0);
+}
+
+TEST_CASE("the limit between two classes is equally many deviations from both means") {
+  SizesSpec sizes{0.04, 0.3, 0.5};
+  const double limit = 2 * small_class_limit(sizes);  // as a diameter
+  CHECK((1 - limit) / 0.04 == Approx((limit - 0.5) / (0.04 * 0.5)));
+  sizes.small_share = 0;
+  CHECK(small_class_limit(sizes) == 0);
+  sizes.small_share = 1;
+  CHECK(std::isinf(small_class_limit(sizes)));
 }
 
 }  // namespace

@@ -53,6 +53,15 @@ TEST_CASE("grains start apart from each other and from all walls") {
   }
 }
 
+TEST_CASE("grains ten times smaller start apart from large ones, whichever came first") {
+  // A spread of .2 makes some grains of the large class smaller than half of the largest.
+  for (const SizesSpec& sizes : {SizesSpec{0.03, 0.1, 0.1}, SizesSpec{0.2, 0.02, 0.1}}) {
+    const auto bed = start(spec_of({3, 3, periodic, walls}, 2500, sizes));
+    REQUIRE(bed);
+    CHECK(testing::pairs_closer_than(*bed, 0.0).empty());
+  }
+}
+
 TEST_CASE("grains fill a column of the start's solid fraction") {
   const auto bed = start(spec_of({8, 8, periodic, periodic}, 800));
   REQUIRE(bed);

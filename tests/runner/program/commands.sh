@@ -21,7 +21,8 @@ code=0
 [ "$code" -le 1 ] || fail "run ended with $code: $(cat progress.txt)"
 expect_text report.txt "small: 10 packings" "walls" "5 periodic" "Tables in out/small" "CPU time"
 expect_text progress.txt "10/10  "
-for file in packings.csv groups.csv fits.csv provenance.json; do
+for file in packings.csv groups.csv fits.csv fit_points.csv profiles.csv decays.csv \
+  distributions.csv provenance.json; do
   [ -s "out/small/$file" ] || fail "no $file"
 done
 [ "$(wc -l <out/small/packings.csv)" -eq 11 ] || fail "packings.csv has not 10 rows"
@@ -31,6 +32,8 @@ done
 
 expect_code 0 "$program" report out/small
 cmp out.txt report.txt || fail "report prints another table than run"
+expect_code 0 "$program" compare out/small
+expect_text out.txt "paper" "6.027" "not determined: the sweep has no packings between walls at W"
 expect_code 0 "$program" status out/small
 expect_text out.txt "10 of 10 packings done" "No runner at work"
 

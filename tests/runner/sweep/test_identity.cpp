@@ -51,7 +51,7 @@ TEST_CASE("canonical parameters are valid JSON with sorted keys and short number
   CHECK(text.starts_with(R"({"accuracy":{"contact_tolerance":)"));
   CHECK(text.ends_with(
       R"(},"box":{"length":20,"width":5,"x":"periodic","y":"walls"},"fill":{"grains":100},)"
-      R"("measure":{"exclude_floor":3,"exclude_surface":3,"gap_tolerances":[1e-04,1e-05,0.001,0.006]},)"
+      R"("measure":{"bin_width":0.1,"exclude_floor":3,"exclude_surface":3,"gap_tolerances":[1e-04,1e-05,0.001,0.006]},)"
       R"("shape":"sphere","sizes":{"size_ratio":0.5,"small_share":0,"spread":0.03}})"));
   CHECK(canonical.at("box").at("width") == 5.0);
   CHECK(canonical.size() == 5);

@@ -53,11 +53,12 @@ TEST_CASE("the table knows every member of a specification") {
   [[maybe_unused]] const auto& [protocol, solver, precision, step, momentum, fall, creep, rest,
                                 residual, kinetic, contacts, overlap, max_steps, force_balance] =
       accuracy;
-  [[maybe_unused]] const auto& [exclude_floor, exclude_surface, gap_tolerances] = measure;
+  [[maybe_unused]] const auto& [exclude_floor, exclude_surface, gap_tolerances, bin_width] =
+      measure;
   CHECK(known_keys("box").size() == 4);
   CHECK(known_keys("sizes").size() == 3);
   CHECK(known_keys("accuracy").size() == 14 + 1);  // and "preset"
-  CHECK(known_keys("measure").size() == 3);
+  CHECK(known_keys("measure").size() == 4);
 }
 
 TEST_CASE("every parameter that belongs to the identity reads back what was set") {

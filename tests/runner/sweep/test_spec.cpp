@@ -217,6 +217,21 @@ TEST_CASE("excluded zones and gap tolerances keep to their intervals") {
                        "measure.exclude_surface: must lie in [0, 1000], is nan"});
 }
 
+TEST_CASE("the bins of a profile are no wider than the box") {
+  const auto bins = [](double width) {
+    return broken_by([&](PackingSpec& spec) {
+      spec.box.width = 5;
+      spec.measure.bin_width = width;
+    });
+  };
+  CHECK(bins(5).empty());
+  CHECK(bins(0.01).empty());
+  const std::string rule = "measure.bin_width: must lie in [0.01, 5] (no wider than box.width), ";
+  CHECK(bins(5.5) == Messages{rule + "is 5.5"});
+  CHECK(bins(0) == Messages{rule + "is 0"});
+  CHECK(bins(nan) == Messages{rule + "is nan"});
+}
+
 TEST_CASE("a solid height asks for its volume over that of a mean grain") {
   PackingSpec spec;
   spec.box.length = 10.0;

@@ -19,21 +19,23 @@ const std::string header =
     "residual,kinetic_energy,steps,iterations,cpu_seconds,length,boundary_x,accuracy,"
     "gap_tolerance,coordination_at_1e-05,coordination_with_walls_at_1e-05,surface_height,"
     "slab_bottom,slab_top,largest_motion,forces_unique,least_force,unbalance_max,unbalance_mean,"
-    "state_hash,reason\n";
+    "mean_diameter,mean_diameter_by_volume,q6_global,q6_local,three_contact_share,segregation,"
+    "force_mean,force_square,state_hash,reason\n";
 
 TEST_CASE("a settled packing is written with every value") {
   CHECK(packings_csv({with_two_tolerances(settled_row("a1", 5, 0.6125, 5.75))}) ==
         header +
             "a1,MSP,1,7,sphere,2000,5,walls,0,settled,0.6125,5.75,6,5990,5991,8e-05,3e-04,5e-04,"
             "1e-09,265,20000,0.75,20,periodic,balanced,1e-04,5.625,5.75,15.5,3,12.5,2e-05,"
-            ",,,,abcdef0123456789,\n");
+            ",,,,0.98,0.99,0.03,0.4,0.1,,5.5,1.6,abcdef0123456789,\n");
 }
 
 TEST_CASE("a direct solve of force balance stands beside the measured values") {
   Row row = with_two_tolerances(settled_row("a1", 5, 0.6125, 5.75));
   row.outcome->result.balance = ForceBalance{true, -0.25, 0.5, 0.125};
   CHECK_THAT(packings_csv({row}),
-             Catch::EndsWith(",2e-05,yes,-0.25,0.5,0.125,abcdef0123456789,\n"));
+             Catch::EndsWith(
+                 ",2e-05,yes,-0.25,0.5,0.125,0.98,0.99,0.03,0.4,0.1,,5.5,1.6,abcdef0123456789,\n"));
 }
 
 TEST_CASE("an unsettled packing keeps its values beside its status and reason") {
@@ -53,9 +55,9 @@ TEST_CASE("failed and pending packings have no numbers where nothing was measure
       packings_csv({failed, pending}) ==
       header +
           "a1,MSP,1,7,sphere,2000,5,walls,0,failed,,,,,,,,,,265,20000,0.75,20,periodic,balanced,"
-          "1e-04,,,,,,,,,,,,no room\n"
+          "1e-04,,,,,,,,,,,,,,,,,,,,no room\n"
           "a2,MSP,1,7,sphere,,6,walls,0,pending,,,,,,,,,,,,,20,periodic,balanced,1e-04,,,,,,,,,,,,"
-          "\n");
+          ",,,,,,,,\n");
 }
 
 TEST_CASE("every row has as many cells as the header, whatever tolerances its job has") {
@@ -66,7 +68,7 @@ TEST_CASE("every row has as many cells as the header, whatever tolerances its jo
   for (int line = 0; line < 3; ++line) {
     const std::size_t end = text.find('\n', begin);
     CHECK(std::count(text.begin() + static_cast<long>(begin), text.begin() + static_cast<long>(end),
-                     ',') == 39);
+                     ',') == 47);
     begin = end + 1;
   }
 }

@@ -1,0 +1,48 @@
+// The search grid: spheres sorted into cells, with a border of shifted copies on periodic axes.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/scene/bed.hpp"
+#include "kernels/kernels.hpp"
+
+namespace grainsweep {
+
+/// Cells of a grid, without the border: `origin_z` is the bottom of the lowest inner cells, along x
+/// and y they begin at 0.
+struct Cells {
+  double origin_z = 0.0;                            ///< d
+  double size_x = 0.0, size_y = 0.0, size_z = 0.0;  ///< d
+  std::int32_t inner_x = 0, inner_y = 0, inner_z = 0;
+
+  std::int32_t count() const { return (inner_x + 2) * (inner_y + 2) * (inner_z + 2); }
+  /// Cell number of inner coordinates; -1 and `inner` address the border.
+  std::int32_t at(std::int32_t x, std::int32_t y, std::int32_t z) const {
+    return ((z + 1) * (inner_y + 2) + y + 1) * (inner_x + 2) + x + 1;
+  }
+  /// Inner coordinate along z; what lies outside belongs to the nearest cell.
+  std::int32_t layer_of(const Record<double>& sphere) const;
+  /// Number of the inner cell.
+  std::int32_t cell_of(const Record<double>& sphere) const;
+};
+
+/// Cells over the box and the heights bottom .. top, no smaller than `least`, d. Their number grows
+/// with `grains` at most, which bounds the memory of sparse beds.
+Cells make_cells(const Box& box, double bottom, double top, double least, std::size_t grains);
+
+/// Spheres by cell. Memory of a search, kept from one search to the next.
+struct GridColumns {
+  std::vector<float> x, y, z, radius;
+  std::vector<std::int32_t> grain, cell_begin, cell_of;
+};
+
+/// Sorts the grains `members` of a wrapped bed and their border copies into cells (a counting sort:
+/// stable, linear).
+void fill_columns(const SphereBed& bed, const std::vector<std::int32_t>& members,
+                  const Cells& cells, GridColumns& grid);
+
+/// What kernels read of a grid.
+SphereGrid view_of(const GridColumns& grid, const Cells& cells, float reach);
+
+}  // namespace grainsweep

@@ -1,0 +1,91 @@
+#include "engine/measure/contact_forces.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "engine/dynamics/rest.hpp"
+#include "engine/dynamics/step.hpp"
+
+namespace grainsweep {
+
+namespace {
+
+constexpr double solve_tolerance = 1e-3;  // m g; a thousandth of what a contact carries
+constexpr int most_iterations = 3000;     // a bed of 8000 grains needs half of them
+constexpr double layer_height = 1.0;      // d
+
+StepSettings settings_for(double dt) {
+  StepSettings settings;
+  settings.dt = dt;
+  settings.momentum = 0.0;
+  settings.correction = 1.0;
+  settings.near = settings.margin = 0.02;
+  settings.limits = {Solver::accelerated_projected_gradient, most_iterations, solve_tolerance};
+  return settings;
+}
+
+bool lies_in(const PairForce& force, const Slab& slab) {
+  return slab.bottom <= force.height && force.height < slab.top;
+}
+
+std::size_t layer_of(const PairForce& force, const Slab& slab) {
+  return static_cast<std::size_t>((force.height - slab.bottom) / layer_height);
+}
+
+/// Mean force of each layer of the slab.
+std::vector<double> layer_means(const std::vector<PairForce>& forces, const Slab& slab) {
+  const auto layers = static_cast<std::size_t>(std::ceil(slab.height() / layer_height)) + 1;
+  std::vector<double> sum(layers, 0.0), count(layers, 0.0);
+  for (const PairForce& force : forces) {
+    if (!lies_in(force, slab)) continue;
+    sum[layer_of(force, slab)] += force.magnitude;
+    count[layer_of(force, slab)] += 1.0;
+  }
+  for (std::size_t k = 0; k < layers; ++k) sum[k] /= std::max(count[k], 1.0);
+  return sum;
+}
+
+}  // namespace
+
+std::vector<PairForce> pair_forces(const SphereBed& bed, const Kernels& kernels, double dt) {
+  SphereBed moved = bed;
+  for (Record<double>& motion : moved.motion) motion = {0.0, 0.0, 0.0, motion.w};
+  StepState<float> state;
+  step(settings_for(dt), kernels, moved, state);
+  std::vector<PairForce> forces;
+  const Contacts<float>& contacts = state.contacts;
+  visit_force_bearing(contacts, dt, [&](std::size_t block, std::size_t lane) {
+    if (block >= contacts.pair_blocks) return;
+    const std::int32_t a = contacts.rows[block].a(lane), b = contacts.rows[block].b(lane);
+    const double height = (bed.position[static_cast<std::size_t>(a)].z +
+                           bed.position[static_cast<std::size_t>(b)].z) /
+                          2.0;
+    const double impulse = contacts.impulse[block * block_width + lane];
+    forces.push_back({a, b, height, impulse / (dt * dt)});
+  });
+  return forces;
+}
+
+ForceStatistics force_statistics(const std::vector<PairForce>& forces, const Slab& slab,
+                                 double bin_width, double largest) {
+  const auto bins = static_cast<std::size_t>(std::llround(largest / bin_width));
+  ForceStatistics statistics{0.0, 0.0, {bin_width, std::vector<double>(bins, 0.0)}};
+  const std::vector<double> means = layer_means(forces, slab);
+  double count = 0.0;
+  for (const PairForce& force : forces) {
+    if (!lies_in(force, slab)) continue;
+    const double relative = force.magnitude / means[layer_of(force, slab)];
+    statistics.mean += force.magnitude;
+    statistics.square += relative * relative;
+    count += 1.0;
+    if (relative < largest)
+      statistics.density.values[static_cast<std::size_t>(relative / bin_width)] += 1.0;
+  }
+  statistics.mean /= count;  // 0 / 0 is NaN
+  statistics.square /= count;
+  for (double& value : statistics.density.values) value /= count * bin_width;
+  return statistics;
+}
+
+}  // namespace grainsweep

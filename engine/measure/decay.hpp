@@ -1,0 +1,51 @@
+// How far a wall reaches into a packing: the damped oscillation of the solid fraction beside it.
+//
+//   phi(y) = bulk + amplitude exp(-y / length) cos(2 pi y / period + phase),   y from the wall
+//
+// least squares with equal weights by the Levenberg-Marquardt method over a fixed window, from the
+// best point of a coarse grid of lengths and periods. Solid fractions of neighbouring bins come
+// from the same grains, so their noise is correlated and the residuals do not tell the errors.
+// These are jackknife errors instead: with the n profiles left out one at a time,
+//   error^2 = (n - 1) / n  sum (p_k - mean p)^2     (Efron and Stein 1981).
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace grainsweep {
+
+/// Start of the window, d from the wall: nearer to it the profile rises from the wall itself.
+inline constexpr double decay_window_start = 0.25;
+
+/// Share of the bulk solid fraction below which an oscillation no longer counts as reach of the
+/// wall: a convention, not a result.
+inline constexpr double decay_reach_share = 0.05;
+
+/// A fitted number and its standard error.
+struct Estimate {
+  double value = 0.0;
+  double error = 0.0;
+};
+
+struct DecayFit {
+  std::string not_determined;  ///< why there are no numbers; empty if there are
+  Estimate bulk;               ///< solid fraction far from the wall
+  Estimate amplitude;          ///< positive, extrapolated to the wall
+  Estimate length;             ///< lambda, d
+  Estimate period;             ///< d
+  Estimate phase;              ///< rad
+  Estimate reach;              ///< where the amplitude has fallen to decay_reach_share of bulk, d
+  double r_squared = 0.0;      ///< share of the mean profile's variance that the curve explains
+  double misfit = 0.0;         ///< root mean square of residuals over that of the mean's errors
+  double window_end = 0.0;     ///< d from the wall
+  int bins = 0;                ///< in the window
+};
+
+/// Fits the mean of `profiles`, solid fractions in bins from the wall inwards, over the bins whose
+/// centres lie between decay_window_start and `window_end`. There must be two profiles or more,
+/// each with all bins of the window. Not determined if the window holds too few bins or no whole
+/// period, if the method does not converge, or if the curve is lost in the noise.
+DecayFit fit_decay(const std::vector<std::vector<double>>& profiles, double bin_width,
+                   double window_end);
+
+}  // namespace grainsweep

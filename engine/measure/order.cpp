@@ -1,0 +1,80 @@
+#include "engine/measure/order.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "engine/measure/bond_order.hpp"
+#include "engine/measure/contact_forces.hpp"
+#include "engine/measure/pair_correlation.hpp"
+
+namespace grainsweep {
+
+namespace {
+
+// How finely and how far curves are made: distances in d, forces in means of their layer.
+constexpr double distance_bin = 0.05, largest_distance = 4.0;
+constexpr double force_bin = 0.1, largest_force = 8.0;
+
+bool lies_in(const Record<double>& sphere, const Slab& slab) {
+  return slab.bottom <= sphere.z && sphere.z < slab.top;
+}
+
+/// Touching grains and walls of each grain.
+std::vector<int> contact_counts(std::size_t grains, const Touching& touching,
+                                double gap_tolerance) {
+  std::vector<int> counts(grains, 0);
+  for (const TouchingPair& pair : touching.pairs) {
+    const int touches = pair.gap < gap_tolerance ? 1 : 0;
+    counts[static_cast<std::size_t>(pair.a)] += touches;
+    counts[static_cast<std::size_t>(pair.b)] += touches;
+  }
+  for (const TouchingWall& wall : touching.walls) {
+    counts[static_cast<std::size_t>(wall.grain)] += wall.gap < gap_tolerance ? 1 : 0;
+  }
+  return counts;
+}
+
+}  // namespace
+
+double share_with_contacts(const SphereBed& bed, const Touching& touching, const Slab& slab,
+                           double gap_tolerance, int contacts) {
+  const std::vector<int> counts = contact_counts(bed.grains(), touching, gap_tolerance);
+  double grains = 0.0, matching = 0.0;
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    if (!lies_in(bed.position[i], slab)) continue;
+    grains += 1.0;
+    matching += counts[i] == contacts ? 1.0 : 0.0;
+  }
+  return matching / grains;  // 0 / 0 is NaN
+}
+
+double segregation(const SphereBed& bed, const Slab& slab, double small_below) {
+  double small = 0.0, large = 0.0, small_height = 0.0, large_height = 0.0;
+  for (std::size_t i = 0; i < bed.grains(); ++i) {
+    const Record<double>& p = bed.position[i];
+    if (!lies_in(p, slab)) continue;
+    const bool is_small = p.w < small_below;
+    (is_small ? small : large) += 1.0;
+    (is_small ? small_height : large_height) += p.z;
+  }
+  return (small_height / small - large_height / large) / slab.height();  // 0 / 0 is NaN
+}
+
+Order measure_order(SphereBed& bed, const Touching& touching, const Slab& slab,
+                    const OrderSettings& settings, const Kernels& kernels) {
+  const BondOrder bonds = bond_order(bed, find_touching(bed, longest_bond_gap, kernels), slab);
+  ForceStatistics forces =
+      force_statistics(pair_forces(bed, kernels, settings.step), slab, force_bin, largest_force);
+  Order order;
+  order.q6_global = bonds.global;
+  order.q6_local = bonds.local;
+  order.three_contact_share = share_with_contacts(bed, touching, slab, settings.gap_tolerance, 3);
+  order.segregation = segregation(bed, slab, settings.small_below);
+  order.force_mean = forces.mean;
+  order.force_square = forces.square;
+  order.pair_correlation = pair_correlation(bed, slab, distance_bin, largest_distance);
+  order.force_density = std::move(forces.density);
+  return order;
+}
+
+}  // namespace grainsweep

@@ -1,0 +1,29 @@
+// Order, forces and segregation of one packing, put together from their measurements.
+#pragma once
+
+#include "engine/measure/curves.hpp"
+#include "engine/measure/solid_fraction.hpp"
+#include "engine/measure/touching.hpp"
+
+namespace grainsweep {
+
+struct OrderSettings {
+  double small_below = 0.0;     ///< grains of a smaller radius are the small class, d
+  double gap_tolerance = 1e-4;  ///< grains and walls touch below this gap, d
+  double step = 0.1;            ///< of the solve for contact forces, sqrt(d/g)
+};
+
+/// Share of the slab's grains that touch exactly `contacts` grains and walls. NaN without grains.
+double share_with_contacts(const SphereBed& bed, const Touching& touching, const Slab& slab,
+                           double gap_tolerance, int contacts);
+
+/// Mean height of the slab's small grains less that of its large ones, over the slab's height: 0 if
+/// they are mixed evenly, positive if small grains float. NaN unless there are both.
+double segregation(const SphereBed& bed, const Slab& slab, double small_below);
+
+/// Everything in Order. Wraps the bed. `touching` must hold all pairs and walls with a gap below
+/// the settings' tolerance.
+Order measure_order(SphereBed& bed, const Touching& touching, const Slab& slab,
+                    const OrderSettings& settings, const Kernels& kernels);
+
+}  // namespace grainsweep

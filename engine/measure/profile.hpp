@@ -1,0 +1,34 @@
+// Profiles of one packing: how solid fraction, coordination and the share of small grains change
+// from wall to wall (along y) and from the floor up (along z).
+//
+// Solid fractions come from exact volumes: each sphere is cut by the planes between the bins and,
+// for profiles along y, by the top and the bottom of the measured slab. So the mean over the bins
+// of a profile along y is the solid fraction of the slab, up to rounding. Counts are of grains
+// whose centre lies in the bin.
+#pragma once
+
+#include "engine/measure/curves.hpp"
+#include "engine/measure/solid_fraction.hpp"
+#include "engine/measure/touching.hpp"
+
+namespace grainsweep {
+
+/// What profiles need to know besides the bed.
+struct ProfileSettings {
+  double bin_width = 0.1;       ///< wanted width of a bin, d
+  double small_below = 0.0;     ///< grains of a smaller radius are the small class, d
+  double gap_tolerance = 1e-4;  ///< grains and walls touch below this gap, d
+};
+
+/// Along y through the slab, from y = 0 to the width of the box, which whole bins divide: their
+/// width is the nearest possible to the wanted one. Grains of the slab are those whose centre is in
+/// it. What a grain overlaps a wall belongs to the bin at the wall.
+Profile profile_along_y(const SphereBed& bed, const Touching& touching, const Slab& slab,
+                        const ProfileSettings& settings);
+
+/// Along z over the whole floor, from the floor to the highest point of the bed, in bins of the
+/// wanted width.
+Profile profile_along_z(const SphereBed& bed, const Touching& touching,
+                        const ProfileSettings& settings);
+
+}  // namespace grainsweep

@@ -1,0 +1,31 @@
+// profiles.csv: how solid fraction, coordination and the share of small grains change across the
+// gap and from the floor up, mean and scatter over the replicates of each group.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "runner/tables/groups.hpp"
+
+namespace grainsweep {
+
+/// A bin of a group's mean profile. A coordination or share counts the grains whose centre lies in
+/// the bin; replicates without such grains do not enter it.
+struct MeanBin {
+  double low = 0.0, high = 0.0;  ///< d
+  Spread solid_fraction;
+  Spread large;  ///< solid fraction of the large class
+  Spread small;
+  Spread coordination;             ///< at the first gap tolerance, walls not counted
+  Spread coordination_with_walls;  ///< the same, walls and floor counted
+  Spread small_number_share;       ///< small grains over all grains
+};
+
+/// The mean of `profile` (profile_y or profile_z) over the settled packings of a group. Where the
+/// profiles differ in length, the bins of those that have them.
+std::vector<MeanBin> mean_profile(const Group& group, Profile PackingResult::*profile);
+
+/// The whole file; `group` is the number of the group's row in groups.csv, from 1.
+std::string profiles_csv(const std::vector<Group>& groups);
+
+}  // namespace grainsweep

@@ -1,0 +1,202 @@
+#include <algorithm>
+#include <cmath>
+
+#include <catch2/catch.hpp>
+
+#include "engine/measure/coordination.hpp"
+#include "engine/measure/profile.hpp"
+#include "engine/units.hpp"
+#include "tests/support/draw.hpp"
+#include "tests/support/scenes.hpp"
+
+namespace grainsweep {
+namespace {
+
+using testing::Draw;
+using testing::periodic;
+using testing::walls;
+
+Touching touching_in(SphereBed& bed) { return find_touching(bed, 1e-3, kernels_for(best_isa())); }
+
+double mean_of(const Profile& profile) {
+  double sum = 0;
+  for (const ProfileBin& bin : profile.bins) sum += bin.large + bin.small;
+  return sum / static_cast<double>(profile.bins.size());
+}
+
+/// Volume that a sphere has between two planes, from the caps below them.
+double between(double radius, double low, double high) {
+  const auto below = [&](double t) {
+    const double h = std::clamp(t + radius, 0.0, 2 * radius);
+    return pi * h * h * (3 * radius - h) / 3;
+  };
+  return below(high) - below(low);
+}
+
+TEST_CASE("one sphere anywhere fills the bins along y with its slices, at any bin width") {
+  Draw draw(11);
+  for (int k = 0; k < 200; ++k) {
+    const double r = draw.uniform(0.05, 1.0), y = draw.uniform(0.0, 4.0), z = draw.uniform(3, 5);
+    const SphereBed bed = make_bed({5, 4, periodic, walls}, {{2, y, z, r}});
+    const double wanted = draw.uniform(0.01, 4.0);
+    const Profile profile = profile_along_y(bed, {}, {0, 8}, {wanted, 0, 1e-4});
+    const auto bins = profile.bins.size();
+    REQUIRE(profile.bin_width * static_cast<double>(bins) == Approx(4.0).epsilon(1e-15));
+    for (std::size_t n = 0; n < bins; ++n) {
+      const double low = n == 0 ? -9 : static_cast<double>(n) * profile.bin_width - y;
+      const double high = n + 1 == bins ? 9 : static_cast<double>(n + 1) * profile.bin_width - y;
+      const double slice = between(r, low, high) / (5 * 8 * profile.bin_width);
+      REQUIRE(profile.bins[n].large == Approx(slice).margin(1e-12 * slice + 1e-15));
+      REQUIRE(profile.bins[n].small == 0);
+    }
+  }
+}
+
+TEST_CASE("a sphere across a periodic border fills the bins of both sides") {
+  const SphereBed bed = make_bed({5, 4, periodic, periodic}, {{2, 3.9, 4, 0.5}});
+  const Profile profile = profile_along_y(bed, {}, {0, 8}, {0.5, 0, 1e-4});
+  REQUIRE(profile.bins.size() == 8);
+  const double bin = 5 * 8 * 0.5;
+  CHECK(profile.bins[6].large * bin == Approx(between(0.5, -0.9, -0.4)).epsilon(1e-12));
+  CHECK(profile.bins[7].large * bin == Approx(between(0.5, -0.4, 0.1)).epsilon(1e-12));
+  CHECK(profile.bins[0].large * bin == Approx(between(0.5, 0.1, 0.6)).epsilon(1e-12));
+  CHECK(profile.bins[1].large == 0);
+}
+
+TEST_CASE("one sphere anywhere fills the bins along z with its slices") {
+  Draw draw(12);
+  for (int k = 0; k < 100; ++k) {
+    const double r = draw.uniform(0.05, 1.0), z = r + draw.uniform(0.0, 4.0);
+    const SphereBed bed = make_bed({5, 4, periodic, walls}, {{2, 2, z, r}});
+    const double width = draw.uniform(0.01, 4.0);
+    const Profile profile = profile_along_z(bed, {}, {width, 0, 1e-4});
+    REQUIRE(static_cast<double>(profile.bins.size()) * width >= (z + r) * (1 - 1e-15));
+    for (std::size_t n = 0; n < profile.bins.size(); ++n) {
+      const double low = static_cast<double>(n) * width - z;
+      const double slice = between(r, low, low + width) / (5 * 4 * width);
+      REQUIRE(profile.bins[n].large == Approx(slice).margin(1e-12 * slice + 1e-15));
+    }
+  }
+}
+
+// Across a simple cubic block a bin as wide as the lattice holds whole slices; finer bins follow
+// the disc of one sphere a unit cell: phi(y) = pi (1/4 - y^2), which a bin averages exactly.
+TEST_CASE("the profile of a cubic block is that of one of its cells") {
+  const SphereBed bed = testing::simple_cubic_bed(4, 5, 9);
+  for (const double width : {1.0, 0.5, 0.25, 0.1, 0.02}) {
+    const Profile profile = profile_along_y(bed, {}, {1.3, 6.3}, {width, 0, 1e-4});
+    for (std::size_t k = 0; k < profile.bins.size(); ++k) {
+      const double low = std::remainder(static_cast<double>(k) * width, 1.0);
+      const auto filled = [](double t) { return pi * (t / 4 - t * t * t / 3); };
+      const double high = low + width;
+      const double slice = high <= 0.5 + 1e-12
+                               ? filled(high) - filled(low)
+                               : filled(0.5) - filled(low) + filled(high - 1) - filled(-0.5);
+      REQUIRE(profile.bins[k].large == Approx(slice / width).epsilon(1e-12));
+    }
+  }
+}
+
+TEST_CASE("whole cells of a face-centred block fill pi / sqrt 18 in every direction") {
+  const SphereBed bed = testing::fcc_bed(3, 4, 6);
+  const double edge = std::sqrt(2.0), filled = pi / std::sqrt(18.0);
+  const Profile across = profile_along_y(bed, {}, {1.1, 1.1 + 3 * edge}, {edge, 0, 1e-4});
+  REQUIRE(across.bins.size() == 4);
+  for (const ProfileBin& bin : across.bins) CHECK(bin.large == Approx(filled).epsilon(1e-12));
+  const Profile up = profile_along_z(bed, {}, {edge, 0, 1e-4});
+  for (std::size_t k = 1; k < 5; ++k) CHECK(up.bins[k].large == Approx(filled).epsilon(1e-12));
+}
+
+// The slab cuts spheres at its top and bottom, walls and periodic borders cut them at the sides.
+TEST_CASE("the mean of the profile is the solid fraction of the slab, both classes together") {
+  for (const Boundary y : {walls, periodic}) {
+    for (std::uint64_t seed = 0; seed < 20; ++seed) {
+      const SphereBed bed = testing::random_bed({{6, 4, periodic, y}, 300, 0.1, 0.5, 9, seed});
+      const Slab slab{1.7, 6.9};
+      const double phi = solid_fraction(bed, slab);
+      for (const double width : {0.07, 0.1, 1.3, 4.0}) {
+        const Profile profile = profile_along_y(bed, {}, slab, {width, 0.3, 1e-4});
+        REQUIRE(mean_of(profile) == Approx(phi).epsilon(1e-12));
+      }
+    }
+  }
+}
+
+TEST_CASE("along z the bins of a slab have its solid fraction as their mean") {
+  const SphereBed bed = testing::random_bed({{6, 4, periodic, walls}, 300, 0.1, 0.5, 9, 4});
+  const Profile profile = profile_along_z(bed, {}, {0.25, 0.3, 1e-4});
+  double sum = 0;
+  for (std::size_t k = 8; k < 24; ++k) sum += profile.bins[k].large + profile.bins[k].small;
+  CHECK(sum / 16 == Approx(solid_fraction(bed, {2, 6})).epsilon(1e-12));
+}
+
+TEST_CASE("each class has the profile it has alone") {
+  const Box box{6, 4, periodic, walls};
+  std::vector<PlacedSphere> large, small, both;
+  Draw draw(3);
+  for (int k = 0; k < 60; ++k) {
+    const bool is_small = k % 3 == 0;
+    const PlacedSphere sphere{draw.uniform(0, 6), draw.uniform(0, 4), draw.uniform(1, 8),
+                              is_small ? 0.25 : 0.5};
+    (is_small ? small : large).push_back(sphere);
+    both.push_back(sphere);
+  }
+  const Slab slab{2, 7};
+  const ProfileSettings settings{0.1, 1.0 / 3.0, 1e-4};
+  const Profile mixed = profile_along_y(make_bed(box, both), {}, slab, settings);
+  const Profile alone_large = profile_along_y(make_bed(box, large), {}, slab, settings);
+  const Profile alone_small = profile_along_y(make_bed(box, small), {}, slab, settings);
+  for (std::size_t k = 0; k < mixed.bins.size(); ++k) {
+    CHECK(mixed.bins[k].large == alone_large.bins[k].large);
+    CHECK(mixed.bins[k].small == alone_small.bins[k].small);
+    CHECK(mixed.bins[k].small_grains == alone_small.bins[k].small_grains);
+    CHECK(mixed.bins[k].large_grains == alone_large.bins[k].large_grains);
+  }
+}
+
+// Six neighbours inside a cubic block, five on the floor and in the top layer.
+TEST_CASE("a cubic block's grains have their neighbours in the bin of their centre") {
+  SphereBed bed = testing::simple_cubic_bed(4, 5, 6);
+  const Touching touching = touching_in(bed);
+  const Profile up = profile_along_z(bed, touching, {1.0, 0, 1e-4});
+  REQUIRE(up.bins.size() == 6);
+  for (std::size_t k = 0; k < 6; ++k) {
+    const bool at_end = k == 0 || k == 5;
+    CHECK(up.bins[k].large_grains == 20);
+    CHECK(up.bins[k].neighbours == 20 * (at_end ? 5 : 6));
+    CHECK(up.bins[k].walls == (k == 0 ? 20 : 0));
+  }
+}
+
+TEST_CASE("the bins along y hold the grains and the neighbours of the slab's coordination") {
+  SphereBed bed = testing::random_bed({{6, 4, periodic, walls}, 400, 0.2, 0.5, 6, 8});
+  const Touching touching = touching_in(bed);
+  const Slab slab{1.5, 4.5};
+  const Profile profile = profile_along_y(bed, touching, slab, {0.1, 0.3, 1e-4});
+  std::int64_t grains = 0, neighbours = 0, with_walls = 0;
+  for (const ProfileBin& bin : profile.bins) {
+    grains += bin.large_grains + bin.small_grains;
+    neighbours += bin.neighbours;
+    with_walls += bin.neighbours + bin.walls;
+  }
+  const Coordination whole = coordination(bed, touching, slab, 1e-4);
+  const double per_grain = 1.0 / static_cast<double>(grains);
+  CHECK(static_cast<double>(neighbours) * per_grain == Approx(whole.between_grains));
+  CHECK(static_cast<double>(with_walls) * per_grain == Approx(whole.with_walls));
+}
+
+TEST_CASE("touching is judged at the tolerance of the settings") {
+  SphereBed bed = make_bed({5, 4, periodic, walls}, {{1, 1, 2, 0.5}, {2.0005, 1, 2, 0.5}});
+  const Touching touching = touching_in(bed);
+  CHECK(profile_along_z(bed, touching, {1, 0, 1e-3}).bins[2].neighbours == 2);
+  CHECK(profile_along_z(bed, touching, {1, 0, 1e-4}).bins[2].neighbours == 0);
+}
+
+TEST_CASE("an empty bed has empty bins") {
+  const SphereBed bed = make_bed({6, 4, periodic, walls}, {});
+  CHECK(mean_of(profile_along_y(bed, {}, {0, 1}, {0.1, 0, 1e-4})) == 0);
+  CHECK(mean_of(profile_along_z(bed, {}, {0.1, 0, 1e-4})) == 0);
+}
+
+}  // namespace
+}  // namespace grainsweep

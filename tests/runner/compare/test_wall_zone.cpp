@@ -1,0 +1,55 @@
+#include <cmath>
+
+#include <catch2/catch.hpp>
+
+#include "runner/compare/wall_zone.hpp"
+#include "tests/runner/sample_rows.hpp"
+
+namespace grainsweep {
+namespace {
+
+/// Ten grains a bin: `wall` neighbours each within `zone` of a wall, six elsewhere.
+Row zoned_row(const std::string& id, double width, double zone, std::int64_t wall) {
+  Row row = settled_row(id, width, 0.6, 6);
+  Profile& profile = row.outcome->result.profile_y;
+  profile.bin_width = 0.1;
+  const auto bins = static_cast<int>(std::lround(width / 0.1));
+  for (int k = 0; k < bins; ++k) {
+    const double distance = std::min(k + 0.5, bins - k - 0.5) * 0.1;
+    profile.bins.push_back({0.6, 0, 10, 0, 10 * (distance < zone ? wall : 6), 3});
+  }
+  return row;
+}
+
+TEST_CASE("a planted zone of fewer neighbours is found with its drop and width") {
+  const auto groups = groups_of({zoned_row("a", 10, 1.5, 4), zoned_row("b", 10, 1.5, 4)});
+  const WallZone zone = wall_zone(groups.at(0));
+  REQUIRE(zone.not_determined.empty());
+  CHECK(zone.drop.mean == Approx(2));
+  CHECK(zone.width.mean == Approx(1.5));
+  CHECK(zone.drop.n == 2);
+}
+
+TEST_CASE("the error of a drop is the scatter of the packings") {
+  const auto groups = groups_of({zoned_row("a", 10, 1.5, 4), zoned_row("b", 10, 1.5, 5)});
+  CHECK(wall_zone(groups.at(0)).drop.mean == Approx(1.5));
+  CHECK(standard_error(wall_zone(groups.at(0)).drop) == Approx(0.5));
+}
+
+TEST_CASE("narrow gaps, periodic sides and single packings have no zone, and say why") {
+  const auto reason = [](const std::vector<Row>& rows) {
+    return wall_zone(groups_of(rows).at(0)).not_determined;
+  };
+  CHECK(reason({zoned_row("a", 5, 1, 4), zoned_row("b", 5, 1, 4)}) ==
+        "needs a gap of 9 d or more between the walls, has 5");
+  CHECK(reason({zoned_row("a", 10, 1, 4)}) ==
+        "needs 2 or more settled replicates to know the errors, has 1");
+  Row periodic = settled_row("p", 10, 0.6, 6, Boundary::periodic);
+  CHECK(reason({periodic, periodic}) == "there is no wall along y");
+  Row empty = zoned_row("a", 10, 1, 4);
+  for (ProfileBin& bin : empty.outcome->result.profile_y.bins) bin.large_grains = 0;
+  CHECK(reason({empty, empty}) == "no grain lies at the wall or far off");
+}
+
+}  // namespace
+}  // namespace grainsweep

@@ -1,0 +1,66 @@
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include <catch2/catch.hpp>
+
+#include "runner/tables/decays.hpp"
+#include "tests/runner/sample_rows.hpp"
+
+namespace grainsweep {
+namespace {
+
+/// A bed of large grains with layers at both walls that decay over 1.2 d, and some noise.
+Row layered_row(const std::string& id, std::uint64_t seed, Boundary y = Boundary::walls) {
+  Row row = settled_row(id, 10.0, 0.6, 6, y);
+  std::mt19937_64 generator(seed);
+  std::normal_distribution<double> normal(0, 0.002);
+  Profile& profile = row.outcome->result.profile_y;
+  profile.bin_width = 0.1;
+  for (int k = 0; k < 100; ++k) {
+    const double middle = (k + 0.5) * 0.1, from_wall = std::min(middle, 10 - middle);
+    const double layers = 0.3 * std::exp(-from_wall / 1.2) * std::cos(7 * from_wall);
+    profile.bins.push_back({0.6 + layers + normal(generator), 0, 5, 0, 0, 0});
+  }
+  return row;
+}
+
+TEST_CASE("the decay of a group comes from both walls of all its packings") {
+  const auto groups = groups_of({layered_row("a", 1), layered_row("b", 2), layered_row("c", 3)});
+  const DecayFit fit = decay_of(groups.at(0), GrainClass::large);
+  REQUIRE(fit.not_determined.empty());
+  CHECK(std::abs(fit.length.value - 1.2) < 4 * fit.length.error);  // t with 5 degrees: 1 %
+  CHECK(fit.length.error < 0.02);
+  CHECK(fit.window_end == 5);
+  // One wall spoilt: the fit must see it.
+  auto spoilt = groups;
+  for (PackingResult& result : spoilt.at(0).settled) {
+    for (std::size_t k = 50; k < 100; ++k) result.profile_y.bins[k].large = 0.6;
+  }
+  const DecayFit half = decay_of(spoilt.at(0), GrainClass::large);
+  CHECK((!half.not_determined.empty() || half.amplitude.value < 0.8 * fit.amplitude.value));
+}
+
+TEST_CASE("what the packings cannot tell is not determined, with the reason") {
+  const auto reason = [](const std::vector<Row>& rows, GrainClass grains) {
+    return decay_of(groups_of(rows).at(0), grains).not_determined;
+  };
+  const Row a = layered_row("a", 1), b = layered_row("b", 2);
+  CHECK(reason({a}, GrainClass::large) ==
+        "needs 2 or more settled replicates to know the errors, has 1");
+  CHECK(reason({a, b}, GrainClass::small) == "there are no small grains");
+  const auto periodic = Boundary::periodic;
+  CHECK(reason({layered_row("a", 1, periodic), layered_row("b", 2, periodic)}, GrainClass::large) ==
+        "there is no wall along y");
+}
+
+TEST_CASE("the table has two rows a group and no numbers where nothing is determined") {
+  const std::string text = decays_csv(groups_of({layered_row("a", 1), layered_row("b", 2)}));
+  CHECK(std::count(text.begin(), text.end(), '\n') == 3);
+  CHECK_THAT(text, Catch::Contains("\n1,MSP,10,walls,0,large,determined,,2,0.25,5,48,1."));
+  CHECK_THAT(text, Catch::Contains("\n1,MSP,10,walls,0,small,not determined,there are no small "
+                                   "grains,2,0.25,5,0,,,,,,,,,,,,,,\n"));
+}
+
+}  // namespace
+}  // namespace grainsweep

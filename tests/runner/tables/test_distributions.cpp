@@ -1,0 +1,37 @@
+#include <algorithm>
+
+#include <catch2/catch.hpp>
+
+#include "runner/tables/distributions.hpp"
+#include "tests/runner/sample_rows.hpp"
+
+namespace grainsweep {
+namespace {
+
+Row row_with_curves(const std::string& id, std::vector<double> g, std::vector<double> p) {
+  Row row = settled_row(id, 5, 0.6, 6);
+  row.outcome->result.order.pair_correlation = {0.5, std::move(g)};
+  row.outcome->result.order.force_density = {0.25, std::move(p)};
+  return row;
+}
+
+TEST_CASE("curves have mean and scatter of the replicates that reach so far") {
+  const std::string text = distributions_csv(
+      groups_of({row_with_curves("a", {0, 2}, {1}), row_with_curves("b", {0, 4, 5}, {2}),
+                 row_with_status("u", 5, PackingStatus::not_settled, "moves")}));
+  CHECK(text ==
+        "group,label,width,boundary_y,small_share,curve,low,high,n,value,value_sd\n"
+        "1,MSP,5,walls,0,pair_correlation,0,0.5,2,0,0\n"
+        "1,MSP,5,walls,0,pair_correlation,0.5,1,2,3,1.4142135623730951\n"
+        "1,MSP,5,walls,0,pair_correlation,1,1.5,1,5,\n"
+        "1,MSP,5,walls,0,force_density,0,0.25,2,1.5,0.7071067811865476\n");
+}
+
+TEST_CASE("a group without settled packings has no curves") {
+  const std::string text =
+      distributions_csv(groups_of({row_with_status("u", 5, PackingStatus::failed, "no room")}));
+  CHECK(std::count(text.begin(), text.end(), '\n') == 1);
+}
+
+}  // namespace
+}  // namespace grainsweep

@@ -1,0 +1,68 @@
+#include <algorithm>
+#include <cmath>
+
+#include <catch2/catch.hpp>
+
+#include "runner/tables/profiles.hpp"
+#include "tests/runner/sample_rows.hpp"
+
+namespace grainsweep {
+namespace {
+
+/// Two bins; the second holds `grains` grains, a quarter of them small, with 6 neighbours each.
+Row row_with_profile(const std::string& id, double large, std::int64_t grains) {
+  Row row = settled_row(id, 1.0, 0.6, 6);
+  ProfileBin filled{large, 0.125, grains - grains / 4, grains / 4, 6 * grains, grains};
+  row.outcome->result.profile_y = {0.5, {{0.25, 0, 0, 0, 0, 0}, filled}};
+  return row;
+}
+
+TEST_CASE("a mean profile has mean and scatter of the replicates bin by bin") {
+  const auto groups = groups_of({row_with_profile("a", 0.25, 4), row_with_profile("b", 0.5, 8)});
+  const auto bins = mean_profile(groups.at(0), &PackingResult::profile_y);
+  REQUIRE(bins.size() == 2);
+  CHECK(bins[1].low == 0.5);
+  CHECK(bins[1].high == 1.0);
+  CHECK(bins[1].large.mean == 0.375);
+  CHECK(bins[1].large.sd == Approx(0.25 / std::sqrt(2.0)));
+  CHECK(bins[1].solid_fraction.mean == 0.5);
+  CHECK(bins[1].small.mean == 0.125);
+  CHECK(bins[1].small.sd == 0);
+  CHECK(bins[1].coordination.mean == 6);
+  CHECK(bins[1].coordination_with_walls.mean == 7);
+  CHECK(bins[1].small_number_share.mean == 0.25);
+}
+
+TEST_CASE("a bin without grains has a solid fraction but no coordination") {
+  const auto groups = groups_of({row_with_profile("a", 0.25, 4), row_with_profile("b", 0.5, 0)});
+  const auto bins = mean_profile(groups.at(0), &PackingResult::profile_y);
+  CHECK(bins[0].solid_fraction.n == 2);
+  CHECK(bins[0].coordination.n == 0);
+  CHECK(std::isnan(bins[0].coordination.mean));
+  CHECK(bins[1].coordination.n == 1);
+}
+
+TEST_CASE("profiles of different length are averaged over those that reach so far") {
+  Row low = settled_row("a", 5, 0.6, 6), high = settled_row("b", 5, 0.6, 6);
+  low.outcome->result.profile_z = {1.0, {{0.5, 0, 1, 0, 0, 0}}};
+  high.outcome->result.profile_z = {1.0, {{0.75, 0, 1, 0, 0, 0}, {0.25, 0, 1, 0, 0, 0}}};
+  const auto groups = groups_of({low, high});
+  const auto bins = mean_profile(groups.at(0), &PackingResult::profile_z);
+  REQUIRE(bins.size() == 2);
+  CHECK(bins[0].large.mean == 0.625);
+  CHECK(bins[0].large.n == 2);
+  CHECK(bins[1].large.mean == 0.25);
+  CHECK(bins[1].large.n == 1);
+}
+
+TEST_CASE("the table has a row per bin, axis and group, and unsettled packings leave no row") {
+  Row unsettled = row_with_status("u", 7, PackingStatus::not_settled, "moves");
+  unsettled.outcome->result.profile_y = {0.5, {{}}};
+  const std::string text = profiles_csv(groups_of({row_with_profile("a", 0.25, 4), unsettled}));
+  CHECK(std::count(text.begin(), text.end(), '\n') == 1 + 2);
+  CHECK_THAT(text,
+             Catch::Contains("\n1,MSP,1,walls,0,y,0.5,1,1,1,0.375,,0.25,,0.125,,6,,7,,0.25,\n"));
+}
+
+}  // namespace
+}  // namespace grainsweep
