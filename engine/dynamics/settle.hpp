@@ -2,10 +2,11 @@
 //
 //   fall    full steps with momentum, until the floor carries the bed; overlaps repaired by 10 % a
 //           step, so that loose solves do not throw grains about
-//   creep   double steps with momentum, overlaps repaired whole: grains slide into their places.
-//           The errors of loose solves act like tapping, so this is an annealing: the first two
-//           thirds of the steps are solved with half the iterations. Good solves throughout take
-//           five times as many steps to the same number of contacts.
+//   creep   double steps with momentum: grains slide into their places. The errors of loose solves
+//           act like tapping, so this is an annealing: the first two thirds of the steps are solved
+//           with half the iterations. Good solves throughout take five times as many steps to the
+//           same number of contacts. Overlaps are repaired by 30 %: what repairs move is carried on
+//           as if it were speed, and repaired whole it throws beds of two sizes apart.
 //   halt    full steps without momentum: what still moves is slowed down
 //   quench  half steps without momentum: contacts close, until every test of rest holds
 //
