@@ -25,7 +25,7 @@ FrozenBed<Real> freeze(std::int64_t grains) {
 
 PackingSpec walled_bed(std::int64_t grains) {
   PackingSpec spec;
-  spec.box.width = grains < 5000 ? 5.0 : 20.0;
+  spec.box.width = grains < 250 ? 2.6 : grains < 5000 ? 5.0 : 20.0;
   // About 19 grains per d^2 of floor, the height of the reference study, down to a box of 2 d.
   spec.box.length = std::max(2.6, static_cast<double>(grains) / (19.0 * spec.box.width));
   spec.fill = GrainCount{grains};

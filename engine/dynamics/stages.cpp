@@ -26,7 +26,7 @@ struct StageRule {
 
 constexpr StageRule rules[] = {
     {0.5, Inertia::none, 1.0, 0.01, 0.01, 2.0, 0.0, 0.0, 8},       // look: quench as it is
-    {1.0, Inertia::damped, 0.1, 0.08, 0.05, 0.0, 0.0, 0.3, 160},   // fall
+    {1.0, Inertia::damped, 0.1, 0.08, 0.01, 0.0, 0.0, 0.3, 160},   // fall
     {0.25, Inertia::full, 0.0, 0.08, 0.05, 0.0, 0.0, 0.85, 1200},  // dynamic fall
     {2.0, Inertia::damped, 0.3, 0.05, 0.01, 0.5, 0.3, 0.5, 0},     // loose creep
     {2.0, Inertia::damped, 0.3, 0.05, 0.01, 1.0, 0.5, 0.75, 0},    // creep
