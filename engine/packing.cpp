@@ -44,8 +44,9 @@ double widest(const std::vector<double>& tolerances) {
 }
 
 /// Measures what `spec` asks for; a bed too low to hold a slab fails with the reason.
-void measure(const PackingSpec& packing, const Touching& touching, const Kernels& kernels,
-             SphereBed& bed, PackingResult& result) {
+void measure(const PackingSpec& packing, const Touching& touching,
+             const std::vector<PairForce>& pair_forces, const Kernels& kernels, SphereBed& bed,
+             PackingResult& result) {
   const MeasureSpec& spec = packing.measure;
   result.surface_height = surface_height(bed);
   const Slab slab{spec.exclude_floor, result.surface_height - spec.exclude_surface};
@@ -67,8 +68,7 @@ void measure(const PackingSpec& packing, const Touching& touching, const Kernels
   const ProfileSettings bins{spec.bin_width, small_below, gap};
   result.profile_y = profile_along_y(bed, touching, slab, bins);
   result.profile_z = profile_along_z(bed, touching, bins);
-  const double half_step = packing.accuracy.step / 2.0;
-  result.order = measure_order(bed, touching, slab, {small_below, gap, half_step}, kernels);
+  result.order = measure_order(bed, touching, pair_forces, slab, {small_below, gap}, kernels);
 }
 
 void measure_sizes(const SphereBed& bed, PackingResult& result) {
@@ -125,7 +125,7 @@ Packing make_packing(const PackingSpec& spec, const Kernels& kernels, const Keep
   }
   measure_sizes(*bed, packing.result);
   const Touching touching = find_touching(*bed, widest(spec.measure.gap_tolerances), kernels);
-  measure(spec, touching, kernels, *bed, packing.result);
+  measure(spec, touching, settled.pair_forces, kernels, *bed, packing.result);
   packing.grains = grains_of(*bed, touching, spec.measure.gap_tolerances.front(), settled.force);
   return packing;
 }

@@ -108,6 +108,24 @@ double carried_weight(const SphereBed& bed, const Contacts<Real>& contacts, doub
 }
 
 template <class Real>
+std::vector<PairForce> pair_forces(const SphereBed& bed, const Contacts<Real>& contacts,
+                                   double dt) {
+  std::vector<PairForce> forces;
+  visit_force_bearing(contacts, dt, [&](std::size_t block, std::size_t lane) {
+    if (block >= contacts.pair_blocks) {
+      return;
+    }
+    const std::int32_t a = contacts.rows[block].a(lane), b = contacts.rows[block].b(lane);
+    const double height = (bed.position[static_cast<std::size_t>(a)].z +
+                           bed.position[static_cast<std::size_t>(b)].z) /
+                          2.0;
+    const auto impulse = static_cast<double>(contacts.impulse[block * block_width + lane]);
+    forces.push_back({a, b, height, impulse / (dt * dt)});
+  });
+  return forces;
+}
+
+template <class Real>
 std::vector<double> force_sums(const SphereBed& bed, const Contacts<Real>& contacts, double dt) {
   std::vector<double> force(bed.position.size(), 0.0);
   visit_force_bearing(contacts, dt, [&](std::size_t block, std::size_t lane) {
@@ -146,6 +164,8 @@ template std::int64_t zero_modes(const SphereBed&, const Contacts<float>&, doubl
 template std::int64_t zero_modes(const SphereBed&, const Contacts<double>&, double);
 template double carried_weight(const SphereBed&, const Contacts<float>&, double);
 template double carried_weight(const SphereBed&, const Contacts<double>&, double);
+template std::vector<PairForce> pair_forces(const SphereBed&, const Contacts<float>&, double);
+template std::vector<PairForce> pair_forces(const SphereBed&, const Contacts<double>&, double);
 template std::vector<double> force_sums(const SphereBed&, const Contacts<float>&, double);
 template std::vector<double> force_sums(const SphereBed&, const Contacts<double>&, double);
 

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "engine/contact/contacts.hpp"
 #include "engine/packing.hpp"
@@ -44,6 +45,17 @@ std::int64_t zero_modes(const SphereBed& bed, const Contacts<Real>& contacts, do
 /// Share of the grains' weight that the floor carries.
 template <class Real>
 double carried_weight(const SphereBed& bed, const Contacts<Real>& contacts, double dt);
+
+/// A force that two grains exert on each other.
+struct PairForce {
+  std::int32_t a = 0, b = 0;
+  double height = 0.0;     ///< mean z of the two centres, d
+  double magnitude = 0.0;  ///< m g
+};
+
+/// All pairs that bear a force.
+template <class Real>
+std::vector<PairForce> pair_forces(const SphereBed& bed, const Contacts<Real>& contacts, double dt);
 
 /// Sum of the magnitudes of the contact forces on each grain, m g.
 template <class Real>

@@ -211,6 +211,7 @@ SettleReport settle_as(const Accuracy& accuracy, const Kernels& kernels, SphereB
     s.report.balance = balance_forces(bed, kernels, s.settings.dt, s.state.contacts);
   }
   s.report.force = force_sums(bed, s.state.contacts, s.settings.dt);
+  s.report.pair_forces = pair_forces(bed, s.state.contacts, s.settings.dt);
   return s.report;
 }
 

@@ -36,6 +36,7 @@ struct SettleReport {
   std::int64_t iterations = 0;
   std::optional<ForceBalance> balance;  ///< if the accuracy asks for it
   std::vector<double> force;            ///< sum of contact force magnitudes on each grain, m g
+  std::vector<PairForce> pair_forces;   ///< of the last step
 };
 
 /// Settles `bed`. `keep_going` is asked after every step. `saved`: bytes that Progress::save gave

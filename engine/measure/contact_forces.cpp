@@ -4,26 +4,11 @@
 #include <cmath>
 #include <limits>
 
-#include "engine/dynamics/rest.hpp"
-#include "engine/dynamics/step.hpp"
-
 namespace grainsweep {
 
 namespace {
 
-constexpr double solve_tolerance = 1e-3;  // m g; a thousandth of what a contact carries
-constexpr int most_iterations = 3000;     // a bed of 8000 grains needs half of them
-constexpr double layer_height = 1.0;      // d
-
-StepSettings settings_for(double dt) {
-  StepSettings settings;
-  settings.dt = dt;
-  settings.momentum = 0.0;
-  settings.correction = 1.0;
-  settings.near = settings.margin = 0.02;
-  settings.limits = {Solver::accelerated_projected_gradient, most_iterations, solve_tolerance};
-  return settings;
-}
+constexpr double layer_height = 1.0;  // d
 
 bool lies_in(const PairForce& force, const Slab& slab) {
   return slab.bottom <= force.height && force.height < slab.top;
@@ -47,25 +32,6 @@ std::vector<double> layer_means(const std::vector<PairForce>& forces, const Slab
 }
 
 }  // namespace
-
-std::vector<PairForce> pair_forces(const SphereBed& bed, const Kernels& kernels, double dt) {
-  SphereBed moved = bed;
-  for (Record<double>& motion : moved.motion) motion = {0.0, 0.0, 0.0, motion.w};
-  StepState<float> state;
-  step(settings_for(dt), kernels, moved, state);
-  std::vector<PairForce> forces;
-  const Contacts<float>& contacts = state.contacts;
-  visit_force_bearing(contacts, dt, [&](std::size_t block, std::size_t lane) {
-    if (block >= contacts.pair_blocks) return;
-    const std::int32_t a = contacts.rows[block].a(lane), b = contacts.rows[block].b(lane);
-    const double height = (bed.position[static_cast<std::size_t>(a)].z +
-                           bed.position[static_cast<std::size_t>(b)].z) /
-                          2.0;
-    const double impulse = contacts.impulse[block * block_width + lane];
-    forces.push_back({a, b, height, impulse / (dt * dt)});
-  });
-  return forces;
-}
 
 ForceStatistics force_statistics(const std::vector<PairForce>& forces, const Slab& slab,
                                  double bin_width, double largest) {

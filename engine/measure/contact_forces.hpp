@@ -1,27 +1,13 @@
-// Contact forces of a bed at rest, and how they are distributed.
-//
-// The forces are those of one more step from the final positions, in which the contacts keep the
-// weight from falling: a solve of force balance that starts from nothing.
+// How the contact forces of a bed at rest are distributed.
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
+#include "engine/dynamics/rest.hpp"
 #include "engine/measure/curves.hpp"
 #include "engine/measure/solid_fraction.hpp"
-#include "kernels/kernels.hpp"
 
 namespace grainsweep {
-
-/// A force that two grains exert on each other.
-struct PairForce {
-  std::int32_t a = 0, b = 0;
-  double height = 0.0;     ///< mean z of the two centres, d
-  double magnitude = 0.0;  ///< m g
-};
-
-/// All pairs that press on each other by more than 1e-6 m g. `dt`: the step, sqrt(d/g).
-std::vector<PairForce> pair_forces(const SphereBed& bed, const Kernels& kernels, double dt);
 
 struct ForceStatistics {
   double mean = 0.0;    ///< of the forces in the slab, m g; NaN if there are none

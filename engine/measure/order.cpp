@@ -60,11 +60,11 @@ double segregation(const SphereBed& bed, const Slab& slab, double small_below) {
   return (small_height / small - large_height / large) / slab.height();  // 0 / 0 is NaN
 }
 
-Order measure_order(SphereBed& bed, const Touching& touching, const Slab& slab,
+Order measure_order(SphereBed& bed, const Touching& touching,
+                    const std::vector<PairForce>& pair_forces, const Slab& slab,
                     const OrderSettings& settings, const Kernels& kernels) {
   const BondOrder bonds = bond_order(bed, find_touching(bed, longest_bond_gap, kernels), slab);
-  ForceStatistics forces =
-      force_statistics(pair_forces(bed, kernels, settings.step), slab, force_bin, largest_force);
+  ForceStatistics forces = force_statistics(pair_forces, slab, force_bin, largest_force);
   Order order;
   order.q6_global = bonds.global;
   order.q6_local = bonds.local;

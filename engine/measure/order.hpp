@@ -1,6 +1,9 @@
 // Order, forces and segregation of one packing, put together from their measurements.
 #pragma once
 
+#include <vector>
+
+#include "engine/dynamics/rest.hpp"
 #include "engine/measure/curves.hpp"
 #include "engine/measure/solid_fraction.hpp"
 #include "engine/measure/touching.hpp"
@@ -10,7 +13,6 @@ namespace grainsweep {
 struct OrderSettings {
   double small_below = 0.0;     ///< grains of a smaller radius are the small class, d
   double gap_tolerance = 1e-4;  ///< grains and walls touch below this gap, d
-  double step = 0.1;            ///< of the solve for contact forces, sqrt(d/g)
 };
 
 /// Share of the slab's grains that touch exactly `contacts` grains and walls. NaN without grains.
@@ -23,7 +25,8 @@ double segregation(const SphereBed& bed, const Slab& slab, double small_below);
 
 /// Everything in Order. Wraps the bed. `touching` must hold all pairs and walls with a gap below
 /// the settings' tolerance.
-Order measure_order(SphereBed& bed, const Touching& touching, const Slab& slab,
+Order measure_order(SphereBed& bed, const Touching& touching,
+                    const std::vector<PairForce>& pair_forces, const Slab& slab,
                     const OrderSettings& settings, const Kernels& kernels);
 
 }  // namespace grainsweep

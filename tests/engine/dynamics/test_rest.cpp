@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "engine/dynamics/rest.hpp"
+#include "engine/dynamics/step.hpp"
 #include "tests/support/named_contacts.hpp"
 #include "tests/support/scenes.hpp"
 
@@ -141,6 +142,45 @@ RestReport perfect_rest() {
   RestReport rest;
   rest.contacts = rest.isostatic_contacts = 1000;
   return rest;
+}
+
+/// Pair forces after one step from rest, solved to 1e-9 m g; a column of six adds up six such
+/// errors.
+std::vector<PairForce> forces_at_rest(SphereBed& bed) {
+  StepSettings settings;
+  settings.momentum = 0.0;
+  settings.limits = {Solver::accelerated_projected_gradient, 100'000, 1e-9};
+  StepState<double> state;
+  REQUIRE(step(settings, kernels(), bed, state).solve.residual <= 1e-9);
+  return pair_forces(bed, state.contacts, settings.dt);
+}
+
+TEST_CASE("each contact of a column carries the weight of the grains above it") {
+  SphereBed bed = testing::column_bed(6, 0.0);
+  const auto forces = forces_at_rest(bed);
+  REQUIRE(forces.size() == 5);
+  for (const PairForce& force : forces) {
+    CHECK(force.b == force.a + 1);
+    CHECK(force.height == Approx(force.a + 1.0));
+    CHECK(force.magnitude == Approx(5.0 - force.a).margin(1e-6));
+  }
+}
+
+TEST_CASE("grains that lie side by side exert no force on each other") {
+  SphereBed bed =
+      make_bed({4, 4, Boundary::periodic, Boundary::walls}, {{1, 1, 0.5, 0.5}, {2, 1, 0.5, 0.5}});
+  CHECK(forces_at_rest(bed).empty());
+}
+
+// Two grains between walls .9 apart beyond a diameter hold a third one up: f = 1/2 / sin(angle).
+TEST_CASE("a grain on two others shares its weight between them") {
+  const double rise = 0.6, half = 0.8;
+  SphereBed bed = make_bed(
+      {6, 1 + 2 * half, Boundary::periodic, Boundary::walls},
+      {{3, 0.5, 0.5, 0.5}, {3, 0.5 + 2 * half, 0.5, 0.5}, {3, 0.5 + half, 0.5 + rise, 0.5}});
+  const auto forces = forces_at_rest(bed);
+  REQUIRE(forces.size() == 2);
+  for (const PairForce& force : forces) CHECK(force.magnitude == Approx(0.5 / 0.6).margin(1e-6));
 }
 
 TEST_CASE("a bed within every tolerance is at rest") {

@@ -4,49 +4,9 @@
 #include <catch2/catch.hpp>
 
 #include "engine/measure/contact_forces.hpp"
-#include "tests/support/scenes.hpp"
 
 namespace grainsweep {
 namespace {
-
-const Kernels& kernels() { return kernels_for(best_isa()); }
-
-// The solve may miss each row by 1e-3 m g of relative motion, and what one row misses all below it
-// carry: up to 2e-3 (1 + 2 + .. + 6) = .042.
-TEST_CASE("each contact of a column carries the weight of the grains above it") {
-  const SphereBed bed = testing::column_bed(6, 0.0);
-  const auto forces = pair_forces(bed, kernels(), 0.1);
-  REQUIRE(forces.size() == 5);
-  for (const PairForce& force : forces) {
-    CHECK(force.b == force.a + 1);
-    CHECK(force.height == Approx(force.a + 1.0));
-    CHECK(force.magnitude == Approx(5.0 - force.a).margin(0.042));
-  }
-}
-
-TEST_CASE("grains that lie side by side exert no force on each other") {
-  const SphereBed bed =
-      make_bed({4, 4, Boundary::periodic, Boundary::walls}, {{1, 1, 0.5, 0.5}, {2, 1, 0.5, 0.5}});
-  CHECK(pair_forces(bed, kernels(), 0.1).empty());
-}
-
-// Two grains between walls .9 apart beyond a diameter hold a third one up: f = 1/2 / sin(angle).
-TEST_CASE("a grain on two others shares its weight between them") {
-  const double rise = 0.6, half = 0.8;
-  const SphereBed bed = make_bed(
-      {6, 1 + 2 * half, Boundary::periodic, Boundary::walls},
-      {{3, 0.5, 0.5, 0.5}, {3, 0.5 + 2 * half, 0.5, 0.5}, {3, 0.5 + half, 0.5 + rise, 0.5}});
-  const auto forces = pair_forces(bed, kernels(), 0.1);
-  REQUIRE(forces.size() == 2);
-  for (const PairForce& force : forces) CHECK(force.magnitude == Approx(0.5 / 0.6).margin(5e-3));
-}
-
-TEST_CASE("the bed stays where it is") {
-  const SphereBed bed = testing::column_bed(3, 0.0);
-  const std::uint64_t before = state_hash(bed);
-  pair_forces(bed, kernels(), 0.1);
-  CHECK(state_hash(bed) == before);
-}
 
 // A mean square of 2 has a standard error of sqrt(20 / 40000); densities are counts.
 TEST_CASE("forces are taken relative to their layer, whose mean grows with depth") {
