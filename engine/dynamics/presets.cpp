@@ -21,7 +21,7 @@ Accuracy balanced() {
   a.fall_iterations = 40;
   a.creep_steps = 54;
   a.rest_iterations = 300;
-  a.residual_tolerance = 5e-3;
+  a.residual_tolerance = 1e-2;
   a.kinetic_tolerance = 1e-4;
   a.contact_tolerance = 0.025;
   a.overlap_tolerance = 1e-5;
