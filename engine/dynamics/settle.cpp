@@ -19,8 +19,8 @@ struct Settling {
   const Kernels& kernels;
   SphereBed& bed;
   StepState<Real> state;
-  Stage stage;
-  std::int64_t steps_in_stage;
+  Stage stage = Stage::look;
+  std::int64_t steps_in_stage = 0;
   StepSettings settings;
   StepReport last;
   SettleReport report;

@@ -224,7 +224,7 @@ std::string fault_of_curve(const DecayFit& fit, double significance) {
   return {};
 }
 
-DecayFit not_determined(DecayFit fit, std::string reason) {
+DecayFit not_determined(const DecayFit& fit, std::string reason) {
   DecayFit empty;
   empty.not_determined = std::move(reason);
   empty.window_end = fit.window_end;

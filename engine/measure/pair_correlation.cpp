@@ -20,7 +20,7 @@ struct Edge {
 /// The centres in the slab, by height, and their region.
 struct Region {
   std::vector<Record<double>> centres;
-  std::array<Edge, 3> edges;
+  std::array<Edge, 3> edges{};
 };
 
 double spread_of(const std::vector<Record<double>>& centres, double Record<double>::*axis) {

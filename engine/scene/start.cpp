@@ -158,6 +158,7 @@ std::optional<SphereBed> place_all(const Box& box, const std::vector<double>& ra
   const std::vector<double> diameters = column_diameters(radii);
   const double height = column_height(box, radii, diameters.front());
   std::vector<Column> columns;
+  columns.reserve(diameters.size());
   for (const double diameter : diameters) {
     columns.emplace_back(box, height, diameter);
   }
