@@ -4,6 +4,7 @@
 #include <array>
 #include <cctype>
 #include <cerrno>
+#include <ctime>
 #include <fcntl.h>
 #include <unistd.h>
 
@@ -24,6 +25,21 @@ std::string host_name() {
   return text;
 }
 
+/// Takes the lock, or sets errno. Tries for a fifth of a second, since a look at the lock
+/// (present_runner) holds it for a moment.
+bool take_lock(int descriptor) {
+  constexpr int tries = 20;
+  constexpr timespec pause{0, 10'000'000};
+  for (int attempt = 1; flock(descriptor, LOCK_EX | LOCK_NB) != 0; ++attempt) {
+    const int error = errno;
+    const bool may_pass = error == EWOULDBLOCK || error == EINTR;
+    if (may_pass && attempt < tries) nanosleep(&pause, nullptr);
+    errno = error;
+    if (!may_pass || attempt == tries) return false;
+  }
+  return true;
+}
+
 std::string owner_in(const std::string& path) {
   std::string owner = read_file(path);
   owner.erase(std::find(owner.begin(), owner.end(), '\n'), owner.end());
@@ -33,8 +49,7 @@ std::string owner_in(const std::string& path) {
 }  // namespace
 
 FolderLock::FolderLock(const std::string& folder)
-    : file_(folder + lock_name, O_RDWR | O_CREAT),
-      is_held_(flock(file_.descriptor(), LOCK_EX | LOCK_NB) == 0) {
+    : file_(folder + lock_name, O_RDWR | O_CREAT), is_held_(take_lock(file_.descriptor())) {
   if (!is_held_ && errno == EWOULDBLOCK) {
     throw FolderBusy(folder + ": another runner works here (" + owner_in(file_.path()) +
                      "); wait for it or give another folder with --out");

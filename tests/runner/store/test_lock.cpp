@@ -1,4 +1,6 @@
+#include <atomic>
 #include <optional>
+#include <thread>
 #include <unistd.h>
 
 #include <catch2/catch.hpp>
@@ -27,6 +29,27 @@ TEST_CASE("the folder is free again once its runner is gone") {
   { const FolderLock first(folder.path()); }
   CHECK_FALSE(present_runner(folder.path()));
   CHECK(FolderLock(folder.path()).is_held());
+}
+
+TEST_CASE("looking at the lock keeps no runner out") {
+  const TemporaryFolder folder;
+  { const FolderLock earlier(folder.path()); }  // leaves the file to look at
+  std::atomic<bool> is_over{false};
+  std::thread looks([&] {
+    while (!is_over) present_runner(folder.path());
+  });
+  int refused = 0;
+  for (int start = 0; start < 100; ++start) {
+    try {
+      const FolderLock lock(folder.path());
+      refused += lock.is_held() ? 0 : 1;
+    } catch (const FolderBusy&) {
+      ++refused;
+    }
+  }
+  is_over = true;
+  looks.join();
+  CHECK(refused == 0);
 }
 
 TEST_CASE("a folder that never had a runner has none at work") {
