@@ -46,9 +46,10 @@ Boundary boundary_from(const json& name) {
   return name.get<std::string>() == "walls" ? Boundary::walls : Boundary::periodic;
 }
 
-/// Everything that jobs with equal parameters share.
+/// Everything that jobs with equal parameters share. The parameters are kept as the text that
+/// identifies a job: written anew from numbers, 1e-04 would become 0.0001.
 json shared_json(const JobFacts& job) {
-  return {{"parameters", json::parse(job.parameters)},
+  return {{"parameters", job.parameters},
           {"shape", job.shape},
           {"accuracy", job.accuracy},
           {"length", job.box.length},
@@ -63,7 +64,7 @@ json shared_json(const JobFacts& job) {
 
 JobFacts shared_facts_from(const json& set) {
   JobFacts facts;
-  facts.parameters = set.at("parameters").dump();
+  set.at("parameters").get_to(facts.parameters);
   set.at("shape").get_to(facts.shape);
   set.at("accuracy").get_to(facts.accuracy);
   set.at("length").get_to(facts.box.length);

@@ -57,6 +57,13 @@ TEST_CASE("facts read back from JSON are the same, equal parameters kept once") 
   CHECK(back.jobs[1].measure.gap_tolerances == facts.jobs[1].measure.gap_tolerances);
 }
 
+TEST_CASE("parameters read back letter by letter: they are the identity of a job") {
+  JobFacts job = sample_job("a", 5);
+  job.parameters = R"({"accuracy":{"overlap_tolerance":1e-04,"momentum":1},"shape":"sphere"})";
+  const SweepFacts back = sweep_facts_from_json(to_json(SweepFacts{"s", {job}}));
+  CHECK(back.jobs.at(0).parameters == job.parameters);
+}
+
 TEST_CASE("JSON with a job of no known parameter set is refused") {
   nlohmann::json json = to_json(facts_of(Sweep{"s", 7, 1, {sample_source()}}));
   json["jobs"][0]["set"] = 1;
