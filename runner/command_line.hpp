@@ -8,8 +8,9 @@
 
 namespace grainsweep {
 
-using Command = std::variant<RunOptions, ValidateOptions, PlanOptions, ReportOptions,
-                             CompareOptions, ExportOptions, StatusOptions, DoctorOptions>;
+using Command = std::variant<RunOptions, ValidateOptions, PlanOptions, ReportOptions, ExportOptions,
+                             StatusOptions, CompareOptions, CollectOptions, SchemaOptions,
+                             CompletionOptions, DoctorOptions>;
 
 struct CommandLine {
   std::optional<Command> command;  ///< nothing after --help, --version or a mistake

@@ -55,6 +55,14 @@ bool is_name_character(char c) {
   return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '_' || c == '.';
 }
 
+/// The schema is the business of editors; here it only has to be a text.
+void expect_schema_name(const Json& file, Problems& problems) {
+  const auto found = file.find("$schema");
+  if (found == file.end() || found->is_string()) return;
+  problems.push_back(
+      {"/$schema", "must be the place of a JSON Schema in double quotes, is " + describe(*found)});
+}
+
 /// A name becomes the name of a folder: nothing else, and no way out of it.
 std::string read_name(const Json& file, Problems& problems) {
   constexpr std::size_t longest = 100;
@@ -271,7 +279,9 @@ Blocks read_blocks(const Json& file, Problems& problems) {
   if (!is_object(file, "", "an object with name, seed, replicates, base, sweep", problems)) {
     return blocks;
   }
-  refuse_unknown_keys(file, "", {"name", "seed", "replicates", "base", "sweep"}, problems);
+  refuse_unknown_keys(file, "", {"name", "seed", "replicates", "base", "sweep", "$schema"},
+                      problems);
+  expect_schema_name(file, problems);
   blocks.name = read_name(file, problems);
   blocks.seed = read_seed(file, problems);
   blocks.replicates = read_replicates(file, "", 1, problems);

@@ -9,8 +9,6 @@
 namespace grainsweep {
 namespace {
 
-constexpr std::uint64_t most_points = 1'000'000;
-
 const char* const wanted_distribution =
     "must be {\"uniform\": [a, b]}, {\"log_uniform\": [a, b]} or {\"choice\": [...]}";
 
@@ -125,7 +123,7 @@ std::uint64_t read_random_count(const Json& random, const std::string& pointer,
   }
   if (found->is_number_unsigned()) {
     const auto count = found->get<std::uint64_t>();
-    if (count >= 1 && count <= most_points) return count;
+    if (count >= 1 && count <= most_random_points) return count;
   }
   problems.push_back({child_pointer(pointer, "count"),
                       "must be a whole number in [1, 1000000], is " + describe(*found)});

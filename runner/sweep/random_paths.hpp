@@ -11,6 +11,9 @@
 
 namespace grainsweep {
 
+/// Most points that a block may draw.
+inline constexpr std::uint64_t most_random_points = 1'000'000;
+
 /// The paths of `random`, an object written at `pointer`; those with a problem are left out.
 std::vector<RandomPath> read_random_paths(const Json& random, const std::string& pointer,
                                           Problems& problems);

@@ -1,0 +1,51 @@
+#!/usr/bin/env bash
+# configs/sweep.schema.json is what the program prints, and fits the sweeps beside it.
+# usage: schema.sh GRAINSWEEP. To mend: GRAINSWEEP schema >configs/sweep.schema.json
+set -euo pipefail
+grainsweep=$(realpath "${1:?usage: schema.sh GRAINSWEEP}")
+readonly grainsweep
+cd "$(dirname "$0")/../../configs"
+
+"$grainsweep" schema | cmp - sweep.schema.json
+for sweep in *.json; do
+  [[ $sweep == sweep.schema.json ]] || "$grainsweep" validate "$sweep"
+  [[ $sweep == sweep.schema.json ]] || grep -q '"\$schema": "sweep.schema.json"' "$sweep" || {
+    printf 'configs/%s: does not name its schema\n' "$sweep" >&2
+    exit 1
+  }
+done
+
+if ! python3 -c 'import jsonschema' 2>/dev/null; then
+  printf 'schema: python3-jsonschema is not installed; sweeps are checked by the program alone\n'
+  exit 0
+fi
+python3 - *.json <<'PYTHON'
+import copy, json, sys
+import jsonschema
+
+schema = json.load(open("sweep.schema.json"))
+jsonschema.Draft7Validator.check_schema(schema)
+validator = jsonschema.Draft7Validator(schema)
+sweeps = [json.load(open(name)) for name in sys.argv[1:] if name != "sweep.schema.json"]
+for sweep in sweeps:
+    validator.validate(sweep)
+
+def refuses(change):
+    wrong = copy.deepcopy(sweeps[0])
+    change(wrong)
+    assert not validator.is_valid(wrong), change.__name__
+
+def misspelt(sweep): sweep["base"]["bx"] = {}
+def misspelt_inside(sweep): sweep["base"]["box"]["lenght"] = 5
+def no_number(sweep): sweep["base"]["box"]["width"] = "5"
+def no_choice(sweep): sweep["base"]["box"]["y"] = "wall"
+def no_preset(sweep): sweep["base"]["accuracy"] = "quick"
+def no_list(sweep): sweep["sweep"][0]["grid"]["box.width"] = 5
+def seed_in_base(sweep): sweep["base"]["seed"] = 5
+def no_count(sweep): sweep["sweep"][0]["random"] = {"box.width": {"uniform": [4, 5]}}
+def no_name(sweep): del sweep["name"]
+for change in (misspelt, misspelt_inside, no_number, no_choice, no_preset, no_list, seed_in_base,
+               no_count, no_name):
+    refuses(change)
+print(f"schema: fits {len(sweeps)} sweeps and refuses what is wrong")
+PYTHON
