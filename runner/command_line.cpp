@@ -28,6 +28,8 @@ struct AllOptions {
   CompareOptions compare;
   ExportOptions grains;
   StatusOptions status;
+  CollectOptions collect;
+  CompletionOptions completion;
   DoctorOptions doctor;
 };
 
@@ -63,8 +65,17 @@ void add_run(CLI::App& app, RunOptions& options) {
   run.add_option("--isa", options.isa,
                  "sse2, avx2 or avx512 (default: GRAINSWEEP_ISA, else the widest)")
       ->type_name("NAME");
+  run.add_option("--checkpoint-seconds", options.checkpoint_seconds,
+                 "save packings under way this often; stopping always saves them")
+      ->check(CLI::Range(0.0, 86400.0))
+      ->capture_default_str()
+      ->type_name("S");
   run.add_flag("--fresh", options.fresh, "delete what is stored in the folder and start anew");
   run.add_flag("--yes", options.yes, "do not ask before --fresh deletes");
+  run.add_flag("--retry-failed", options.retry_failed,
+               "make failed packings again, for instance with a newer version");
+  run.add_flag("--fail-fast", options.fail_fast,
+               "stop at the first packing that fails; without it the others go on");
   run.add_flag("--quiet", options.quiet, "print warnings and errors only");
   run.footer("Example: grainsweep run configs/quick.json --out out/quick --threads 2\n\n" +
              presets_text() + "\n\n" + exit_codes_text);
@@ -125,7 +136,41 @@ void add_status(CLI::App& app, StatusOptions& options) {
   CLI::App& status =
       *app.add_subcommand("status", "Say how much of a sweep is done and who is at work");
   add_folder(status, options.folder);
+  status.add_flag("--json", options.json, "as JSON");
   status.footer("Example: grainsweep status out/quick");
+}
+
+void add_collect(CLI::App& app, CollectOptions& options) {
+  CLI::App& collect =
+      *app.add_subcommand("collect", "Merge the results of several output folders into one");
+  collect.add_option("DIR", options.folders, "output folders")->required()->type_name("");
+  collect.add_option("--out", options.out, "folder to merge into; what it holds stays")
+      ->required()
+      ->type_name("DIR");
+  collect.footer("Example: grainsweep collect out/node1 out/node2 --out out/all");
+}
+
+void add_completion(CLI::App& app, CompletionOptions& options) {
+  CLI::App& completion =
+      *app.add_subcommand("completion", "Print a script that completes commands in a shell");
+  completion.add_option("SHELL", options.shell, "bash")
+      ->required()
+      ->check(CLI::IsMember({"bash"}))
+      ->type_name("");
+  completion.footer("Example, for ~/.bashrc: source <(grainsweep completion bash)");
+}
+
+/// What can be typed after each command.
+std::vector<CommandWords> words_of(const CLI::App& app) {
+  std::vector<CommandWords> words;
+  for (const CLI::App* command : app.get_subcommands(nullptr)) {
+    CommandWords& one = words.emplace_back();
+    one.command = command->get_name();
+    for (const CLI::Option* option : command->get_options()) {
+      for (const std::string& name : option->get_lnames()) one.options.push_back("--" + name);
+    }
+  }
+  return words;
 }
 
 void add_commands(CLI::App& app, AllOptions& options) {
@@ -136,6 +181,9 @@ void add_commands(CLI::App& app, AllOptions& options) {
   add_compare(app, options.compare);
   add_export(app, options.grains);
   add_status(app, options.status);
+  add_collect(app, options.collect);
+  app.add_subcommand("schema", "Print the JSON Schema of sweep files, for editors");
+  add_completion(app, options.completion);
   app.add_subcommand("doctor", "Say what this machine offers and whether results can be written");
 }
 
@@ -148,6 +196,9 @@ Command chosen_command(const CLI::App& app, const AllOptions& options) {
   if (name == "compare") return options.compare;
   if (name == "export") return options.grains;
   if (name == "status") return options.status;
+  if (name == "collect") return options.collect;
+  if (name == "schema") return SchemaOptions{};
+  if (name == "completion") return options.completion;
   return options.doctor;
 }
 
@@ -172,6 +223,7 @@ CommandLine read_command_line(int argc, const char* const* argv) {
   } catch (const CLI::ParseError& error) {
     return {std::nullopt, app.exit(error) == 0 ? exit_done : exit_bad_input};
   }
+  options.completion.commands = words_of(app);
   return {chosen_command(app, options), exit_done};
 }
 

@@ -5,19 +5,23 @@
 #include <string>
 #include <vector>
 
+#include "runner/completion.hpp"
 #include "runner/export.hpp"
 #include "runner/sweep/job.hpp"
 
 namespace grainsweep {
 
 struct RunOptions {
-  std::string file;    ///< sweep file
-  std::string out;     ///< output folder; empty: out/<sweep name>
-  int threads = 0;     ///< packings at once; 0: one per usable core
-  std::string isa;     ///< instruction set; empty: GRAINSWEEP_ISA, else the widest
-  bool fresh = false;  ///< forget what is stored in the folder
-  bool yes = false;    ///< do not ask before forgetting
-  bool quiet = false;  ///< print errors and warnings only
+  std::string file;                  ///< sweep file
+  std::string out;                   ///< output folder; empty: out/<sweep name>
+  int threads = 0;                   ///< packings at once; 0: one per usable core
+  std::string isa;                   ///< instruction set; empty: GRAINSWEEP_ISA, else the widest
+  bool fresh = false;                ///< forget what is stored in the folder
+  bool yes = false;                  ///< do not ask before forgetting
+  double checkpoint_seconds = 60.0;  ///< wall time between two checkpoints of a packing
+  bool retry_failed = false;         ///< make failed packings again
+  bool fail_fast = false;            ///< stop at the first packing that fails
+  bool quiet = false;                ///< print errors and warnings only
 };
 /// Makes what is missing of a sweep and writes the tables.
 int run(const RunOptions& options);
@@ -59,9 +63,28 @@ int export_grains(const ExportOptions& options);
 
 struct StatusOptions {
   std::string folder;
+  bool json = false;
 };
 /// Prints how much of a sweep is done, and whether a runner is at work.
 int status(const StatusOptions& options);
+
+struct CollectOptions {
+  std::vector<std::string> folders;
+  std::string out;  ///< folder they are merged into; may hold results, which stay
+};
+/// Merges the results of several output folders, a packing once, and writes the tables.
+int collect(const CollectOptions& options);
+
+struct SchemaOptions {};
+/// Prints the JSON Schema of sweep files.
+int schema(const SchemaOptions& options);
+
+struct CompletionOptions {
+  std::string shell;
+  std::vector<CommandWords> commands;
+};
+/// Prints a script that lets the shell complete commands and options.
+int completion(const CompletionOptions& options);
 
 struct DoctorOptions {};
 /// Prints what the machine offers and tries to write a file here.

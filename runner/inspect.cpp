@@ -1,6 +1,9 @@
 // The commands that look at an output folder: `report`, `compare`, `status`, `export`.
 #include <algorithm>
 #include <iostream>
+#include <optional>
+
+#include <nlohmann/json.hpp>
 
 #include "runner/commands.hpp"
 #include "runner/compare/comparison.hpp"
@@ -30,6 +33,34 @@ std::string progress_text(const StatusCounts& counts, std::size_t packings) {
          " packings done: " + std::to_string(counts.settled) + " settled, " +
          std::to_string(counts.not_settled) + " not settled, " + std::to_string(counts.failed) +
          " failed";
+}
+
+void print_status(const Results& results, const std::optional<std::string>& runner,
+                  const std::string& folder) {
+  const Totals totals = totals_of(results.rows);
+  const std::string& file = results.provenance.sweep_file;
+  std::cout << results.provenance.sweep.name << ": "
+            << progress_text(totals.counts, results.rows.size()) << "; "
+            << duration_text(totals.cpu_seconds) << " CPU\n"
+            << (runner ? "Running: " + *runner : std::string("No runner at work")) << "\n";
+  if (results.foreign > 0) {
+    std::cout << results.foreign << " stored packings belong to an earlier form of the sweep\n";
+  }
+  if (!runner && totals.counts.pending > 0 && !file.empty()) {
+    std::cout << "Go on with: grainsweep run " << file << " --out " << folder << "\n";
+  }
+}
+
+void print_status_json(const Results& results, const std::optional<std::string>& runner) {
+  const Totals totals = totals_of(results.rows);
+  nlohmann::ordered_json status = {
+      {"name", results.provenance.sweep.name},    {"sweep_file", results.provenance.sweep_file},
+      {"packings", results.rows.size()},          {"settled", totals.counts.settled},
+      {"not_settled", totals.counts.not_settled}, {"failed", totals.counts.failed},
+      {"pending", totals.counts.pending},         {"of_an_earlier_sweep", results.foreign},
+      {"cpu_seconds", totals.cpu_seconds},        {"runner", nullptr}};
+  if (runner) status["runner"] = *runner;
+  std::cout << status.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << "\n";
 }
 
 bool has_grains(const Row& row) { return row.outcome && row.outcome->stored_grains > 0; }
@@ -76,18 +107,11 @@ int compare(const CompareOptions& options) {
 
 int status(const StatusOptions& options) {
   const Results results = results_with_warnings(options.folder);
-  const Totals totals = totals_of(results.rows);
   const auto runner = present_runner(options.folder);
-  std::cout << results.provenance.sweep.name << ": "
-            << progress_text(totals.counts, results.rows.size()) << "; "
-            << duration_text(totals.cpu_seconds) << " CPU\n"
-            << (runner ? "Running: " + *runner : std::string("No runner at work")) << "\n";
-  if (results.foreign > 0) {
-    std::cout << results.foreign << " stored packings belong to an earlier form of the sweep\n";
-  }
-  if (!runner && totals.counts.pending > 0) {
-    std::cout << "Go on with: grainsweep run " << results.provenance.sweep_file << " --out "
-              << options.folder << "\n";
+  if (options.json) {
+    print_status_json(results, runner);
+  } else {
+    print_status(results, runner, options.folder);
   }
   return exit_done;
 }

@@ -62,4 +62,9 @@ double available_memory() {
   return std::min(machine, memory_left_in_the_control_group(machine));
 }
 
+double memory_for_packings() {
+  constexpr double share = 0.8;
+  return share * available_memory();
+}
+
 }  // namespace grainsweep

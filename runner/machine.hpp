@@ -21,4 +21,7 @@ int usable_cores();
 /// the control group leaves. Bytes; 0 if the system does not tell.
 double available_memory();
 
+/// What live packings may take together: four fifths of what is available, bytes.
+double memory_for_packings();
+
 }  // namespace grainsweep

@@ -1,4 +1,5 @@
-// The commands `validate` and `plan`: what a sweep file stands for, without running it.
+// The commands `validate`, `plan` and `schema`: what a sweep file stands for and may hold, without
+// running it.
 #include <algorithm>
 #include <iostream>
 
@@ -9,6 +10,7 @@
 #include "runner/machine.hpp"
 #include "runner/report.hpp"
 #include "runner/schedule.hpp"
+#include "runner/sweep/schema.hpp"
 #include "runner/tables/csv.hpp"
 
 namespace grainsweep {
@@ -37,7 +39,7 @@ std::vector<PlannedGroup> planned_groups(const Sweep& sweep) {
 
 std::vector<Task> tasks_of(const Sweep& sweep) {
   std::vector<Task> tasks;
-  for (const Job& job : sweep.jobs) tasks.push_back({&job.spec, estimate_cost(job.spec)});
+  for (const Job& job : sweep.jobs) tasks.push_back({estimate_cost(job.spec)});
   return tasks;
 }
 
@@ -70,13 +72,15 @@ std::string groups_text(const std::vector<PlannedGroup>& groups) {
 struct Needs {
   double cpu_seconds = 0.0;
   double wall_seconds = 0.0;
-  double bytes = 0.0;  ///< of the largest packings that live at once
+  double bytes = 0.0;   ///< of the largest packings that live at once
+  double memory = 0.0;  ///< what they may take, bytes
   int live = 1;
 };
 
 Needs needs_of(const std::vector<Task>& tasks, int threads) {
   Needs needs;
-  needs.live = live_limit(tasks, {threads, available_memory()});
+  needs.memory = memory_for_packings();
+  needs.live = live_limit(tasks, {threads, needs.memory});
   needs.wall_seconds = estimate_wall(tasks, needs.live);
   std::vector<double> bytes;
   for (const Task& task : tasks) {
@@ -96,7 +100,8 @@ void print_text(const Sweep& sweep, const Needs& needs, int threads) {
             << groups_text(groups) << "Estimated: " << duration_text(needs.cpu_seconds)
             << " CPU, about " << duration_text(needs.wall_seconds) << " on " << threads
             << (threads == 1 ? " thread" : " threads") << " (" << needs.live
-            << " packings at once), up to " << memory_text(needs.bytes) << "\n";
+            << " packings at once), up to " << memory_text(needs.bytes) << " of the "
+            << memory_text(needs.memory) << " that can be had\n";
 }
 
 nlohmann::ordered_json job_json(const Job& job, const Cost& cost) {
@@ -123,6 +128,7 @@ void print_json(const Sweep& sweep, const std::vector<Task>& tasks, const Needs&
                                        {"estimated_cpu_seconds", needs.cpu_seconds},
                                        {"estimated_wall_seconds", needs.wall_seconds},
                                        {"estimated_bytes", needs.bytes},
+                                       {"available_bytes", needs.memory},
                                        {"jobs", jobs}};
   std::cout << plan.dump(2) << "\n";
 }
@@ -151,11 +157,17 @@ int plan(const PlanOptions& options) {
   const int threads = options.threads > 0 ? options.threads : usable_cores();
   const std::vector<Task> tasks = tasks_of(sweep);
   const Needs needs = needs_of(tasks, threads);
+  std::cerr << memory_warning(tasks, needs.memory);
   if (options.json) {
     print_json(sweep, tasks, needs, threads);
   } else {
     print_text(sweep, needs, threads);
   }
+  return exit_done;
+}
+
+int schema(const SchemaOptions& /*options*/) {
+  std::cout << sweep_schema();
   return exit_done;
 }
 

@@ -85,6 +85,14 @@ void ProgressDisplay::finish(std::size_t task, bool is_settled, const std::strin
   draw(true);
 }
 
+void ProgressDisplay::say(const std::string& line) {
+  const std::scoped_lock lock(mutex_);
+  const char* const live_line_away = style_ == ProgressStyle::live ? "\r\033[K" : "";
+  std::fprintf(out_, "%s%s\n", live_line_away, line.c_str());
+  std::fflush(out_);
+  draw(true);
+}
+
 void ProgressDisplay::clear() {
   const std::scoped_lock lock(mutex_);
   if (style_ != ProgressStyle::live) return;

@@ -41,6 +41,8 @@ class ProgressDisplay {
   void advance(std::size_t task, double share_done);
   /// `line` describes the finished packing; plain style prints it.
   void finish(std::size_t task, bool is_settled, const std::string& line);
+  /// Prints a line of its own, whatever the style.
+  void say(const std::string& line);
   /// Takes the live line away.
   void clear();
 

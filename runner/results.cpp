@@ -1,11 +1,13 @@
 #include "runner/results.hpp"
 
 #include <algorithm>
+#include <array>
 #include <set>
 
 #include <nlohmann/json.hpp>
 
 #include "runner/exit_codes.hpp"
+#include "runner/store/checkpoints.hpp"
 #include "runner/store/files.hpp"
 #include "runner/store/journal.hpp"
 #include "runner/store/states.hpp"
@@ -18,6 +20,10 @@
 
 namespace grainsweep {
 namespace {
+
+constexpr std::array tables = {"packings.csv",      "groups.csv",     "fits.csv",
+                               "fit_points.csv",    "profiles.csv",   "decays.csv",
+                               "distributions.csv", "provenance.json"};
 
 std::string provenance_path(const std::string& folder) { return folder + "/provenance.json"; }
 
@@ -108,6 +114,12 @@ std::size_t stored_packings(const std::string& folder) {
   return read_journals(folder).outcomes.size();
 }
 
+void remove_half_written(const std::string& folder) {
+  for (const char* name : tables) remove_leftovers(folder, name);
+  remove_leftovers(folder + "/states", ".grains");
+  for (const char* slot : {".0", ".1"}) remove_leftovers(folder + "/checkpoints", slot);
+}
+
 void remove_results(const std::string& folder) {
   for (const std::string& name : files_in(folder, "journal-", ".jsonl")) {
     remove_file(folder + "/" + name);
@@ -115,10 +127,8 @@ void remove_results(const std::string& folder) {
   for (const std::string& name : files_in(folder + "/states", "", ".grains")) {
     remove_file(folder + "/states/" + name);
   }
-  for (const char* name : {"packings.csv", "groups.csv", "fits.csv", "fit_points.csv",
-                           "profiles.csv", "decays.csv", "distributions.csv", "provenance.json"}) {
-    remove_file(folder + "/" + name);
-  }
+  remove_all_checkpoints(folder);
+  for (const char* name : tables) remove_file(folder + "/" + name);
 }
 
 }  // namespace grainsweep

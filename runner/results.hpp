@@ -43,7 +43,10 @@ std::string other_versions_warning(const std::vector<Row>& rows, const std::stri
 /// Number of stored packings in the folder.
 std::size_t stored_packings(const std::string& folder);
 
-/// Removes journals, grains and tables, and nothing else.
+/// Removes what killed runners left half written. The caller must hold the folder's lock.
+void remove_half_written(const std::string& folder);
+
+/// Removes journals, grains, checkpoints and tables, and nothing else.
 void remove_results(const std::string& folder);
 
 }  // namespace grainsweep

@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>
+#include <set>
 #include <string_view>
 #include <unistd.h>
 
@@ -9,31 +10,18 @@
 #include "runner/exit_codes.hpp"
 #include "runner/instruction_set.hpp"
 #include "runner/machine.hpp"
-#include "runner/progress.hpp"
+#include "runner/pack_pending.hpp"
 #include "runner/report.hpp"
 #include "runner/results.hpp"
-#include "runner/schedule.hpp"
 #include "runner/stop.hpp"
+#include "runner/store/checkpoints.hpp"
 #include "runner/store/files.hpp"
 #include "runner/store/journal.hpp"
 #include "runner/store/lock.hpp"
-#include "runner/store/states.hpp"
-#include "runner/tables/csv.hpp"
 #include "runner/versions.hpp"
 
 namespace grainsweep {
 namespace {
-
-/// Share of the available memory that live packings may take together.
-constexpr double memory_share = 0.8;
-
-/// A run under way.
-struct RunningSweep {
-  const Sweep& sweep;
-  std::string folder;
-  std::map<std::string, Outcome> outcomes;  ///< finished ones, by job
-  std::vector<const Job*> pending;
-};
 
 ProgressStyle progress_style(bool quiet) {
   if (quiet) return ProgressStyle::quiet;
@@ -61,87 +49,29 @@ void warn_about(const std::string& folder, const std::vector<std::string>& damag
   for (const std::string& line : damage) std::cerr << "warning: " << folder << "/" << line << "\n";
 }
 
-RunningSweep resume(const Sweep& sweep, const std::string& folder) {
+/// A kill may come between the end of a packing and the end of its checkpoints.
+void remove_finished_checkpoints(const std::string& folder,
+                                 const std::map<std::string, Outcome>& finished) {
+  std::set<std::string> jobs;
+  for (const auto& [job, outcome] : finished) jobs.insert(job);
+  remove_checkpoints_of(folder, jobs);
+}
+
+/// What is stored of the sweep, and what is still to be made.
+RunningSweep resume(const Sweep& sweep, const std::string& folder, bool retry_failed) {
   const JournalReading journals = read_journals(folder);
   warn_about(folder, journals.damage);
   RunningSweep running{sweep, folder, finished_outcomes(folder, journals.outcomes), {}};
+  remove_finished_checkpoints(folder, running.outcomes);
+  if (retry_failed) {
+    std::erase_if(running.outcomes, [](const auto& entry) {
+      return entry.second.result.status == PackingStatus::failed;
+    });
+  }
   for (const Job& job : sweep.jobs) {
     if (!running.outcomes.contains(job.id)) running.pending.push_back(&job);
   }
   return running;
-}
-
-std::string packing_line(const Job& job, const Outcome& outcome) {
-  const PackingResult& result = outcome.result;
-  std::string text = job.label + " W=" + cell(job.spec.box.width) +
-                     (job.spec.box.y == Boundary::walls ? "" : " periodic") + " #" +
-                     std::to_string(job.replicate) + "  " + name_of(result.status);
-  if (!result.reason.empty()) text += " (" + result.reason + ")";
-  if (!result.coordination.empty()) {
-    text += "  φ " + fixed(result.solid_fraction, 4) + "  Z " +
-            fixed(result.coordination.front().between_grains, 3);
-  }
-  return text + "  " + duration_text(outcome.cpu_seconds);
-}
-
-/// Puts a finished packing on the disk, grains first: a journal line promises that they are there.
-Outcome store(const Job& job, const std::string& folder, Journal& journal, Finished&& finished) {
-  Outcome outcome;
-  outcome.job = job.id;
-  outcome.version = program_version();
-  outcome.result = std::move(finished.packing.result);
-  outcome.threw = finished.threw;
-  outcome.stored_grains = static_cast<std::int64_t>(finished.packing.grains.size());
-  outcome.cpu_seconds = finished.cpu_seconds;
-  if (outcome.stored_grains > 0) {
-    write_bed(folder, job.id, {job.spec.box, std::move(finished.packing.grains)});
-  }
-  journal.append(outcome);
-  return outcome;
-}
-
-std::vector<Task> tasks_of(const std::vector<const Job*>& jobs) {
-  std::vector<Task> tasks;
-  tasks.reserve(jobs.size());
-  for (const Job* job : jobs) tasks.push_back({&job->spec, estimate_cost(job->spec)});
-  return tasks;
-}
-
-std::vector<double> cpu_costs(const std::vector<Task>& tasks) {
-  std::vector<double> costs;
-  costs.reserve(tasks.size());
-  for (const Task& task : tasks) costs.push_back(task.cost.cpu_seconds);
-  return costs;
-}
-
-/// Makes the pending packings, as far as no signal stops it. Returns how many were finished.
-int pack_pending(RunningSweep& running, const Limits& limits, Isa isa, ProgressStyle style) {
-  const std::vector<Task> tasks = tasks_of(running.pending);
-  ProgressDisplay display(cpu_costs(tasks), style, stderr);
-  Journal journal(running.folder);
-  int count = 0;
-  TaskEvents events;
-  events.started = [&](std::size_t task) { display.start(task); };
-  events.progressed = [&](std::size_t task, const Progress& progress) {
-    display.advance(task, progress.share_done);
-  };
-  events.finished = [&](Finished&& finished) {
-    const std::size_t task = finished.task;
-    const Job& job = *running.pending[task];
-    const Outcome outcome = store(job, running.folder, journal, std::move(finished));
-    running.outcomes[job.id] = outcome;
-    ++count;
-    const bool is_settled = outcome.result.status == PackingStatus::settled;
-    display.finish(task, is_settled, packing_line(job, outcome));
-  };
-  events.stop_asked = [] { return stop_signal() != 0; };
-  const Kernels& kernels = kernels_for(isa);
-  const Pack pack = [&](const PackingSpec& spec, const KeepGoing& keep_going) {
-    return make_packing(spec, kernels, keep_going);
-  };
-  run_tasks(tasks, limits, pack, events);
-  display.clear();
-  return count;
 }
 
 Provenance provenance_of(const RunOptions& options, const RunningSweep& running) {
@@ -155,22 +85,27 @@ Provenance provenance_of(const RunOptions& options, const RunningSweep& running)
 }
 
 /// Packs between the two entries of the run's record: it is in provenance.json from its start.
-void record_and_pack(RunningSweep& running, const RunOptions& options, Isa isa,
-                     Provenance& provenance) {
+Packed record_and_pack(RunningSweep& running, const RunOptions& options, Isa isa,
+                       Provenance& provenance) {
   const double start = wall_seconds();
   const Limits limits{options.threads > 0 ? options.threads : usable_cores(),
-                      memory_share * available_memory()};
+                      memory_for_packings()};
+  std::cerr << memory_warning(tasks_of(running.pending), limits.memory);
   provenance.runs.push_back({utc_now(), "", 0.0, process_name(), limits.threads, name_of(isa), 0});
   write_provenance(running.folder, provenance, join(provenance.sweep, running.outcomes));
   RunRecord& record = provenance.runs.back();
-  record.packings = pack_pending(running, limits, isa, progress_style(options.quiet));
+  Packed packed = pack_pending(running, {limits, isa, progress_style(options.quiet),
+                                         options.checkpoint_seconds, options.fail_fast});
+  record.packings = packed.packings;
   record.wall_seconds = wall_seconds() - start;
   record.ended = utc_now();
+  return packed;
 }
 
-void say_how_to_go_on(const RunOptions& options, const std::string& folder,
+/// After `why`.
+void say_how_to_go_on(const std::string& why, const RunOptions& options, const std::string& folder,
                       const StatusCounts& counts, std::size_t packings) {
-  std::cerr << "Stopped. " << packings - static_cast<std::size_t>(counts.pending) << " of "
+  std::cerr << why << " " << packings - static_cast<std::size_t>(counts.pending) << " of "
             << packings << " packings are kept in " << folder << ".\nGo on with: grainsweep run "
             << options.file << " --out " << folder << "\n";
 }
@@ -188,20 +123,27 @@ int run(const RunOptions& options) {
   confirm_fresh(options, folder);
   make_folder(folder);
   const FolderLock lock(folder);
+  if (lock.is_held()) remove_half_written(folder);
   if (options.fresh) remove_results(folder);
   watch_stop_signals();
 
-  RunningSweep running = resume(sweep, folder);
+  RunningSweep running = resume(sweep, folder, options.retry_failed);
   Provenance provenance = provenance_of(options, running);
-  if (!running.pending.empty()) record_and_pack(running, options, isa, provenance);
+  Packed packed;
+  if (!running.pending.empty()) packed = record_and_pack(running, options, isa, provenance);
 
   const std::vector<Row> rows = join(provenance.sweep, running.outcomes);
   const StatusCounts counts = totals_of(rows).counts;
   std::cerr << other_versions_warning(rows, program_version());
   write_tables(folder, provenance, rows);
   if (counts.pending > 0 && stop_signal() != 0) {
-    say_how_to_go_on(options, folder, counts, rows.size());
+    say_how_to_go_on("Stopped.", options, folder, counts, rows.size());
     return exit_stopped + stop_signal();
+  }
+  if (counts.pending > 0 && !packed.first_failure.empty()) {
+    say_how_to_go_on("Stopped by --fail-fast after " + packed.first_failure + ".", options, folder,
+                     counts, rows.size());
+    return exit_left_out;
   }
   if (!options.quiet) std::cout << closing_report(provenance, rows, folder);
   return exit_code_for(counts);

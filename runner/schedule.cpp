@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <functional>
 #include <mutex>
 #include <new>
@@ -26,12 +27,12 @@ Packing failed_packing(const std::string& reason) {
 }
 
 /// Packs one bed; an exception becomes a failed packing.
-Finished pack_one(std::size_t index, const Task& task, const Pack& pack, const KeepGoing& go_on) {
+Finished pack_one(std::size_t index, const Pack& pack, const KeepGoing& go_on) {
   const double start = thread_cpu_seconds();
   Finished finished;
   finished.task = index;
   try {
-    finished.packing = pack(*task.spec, go_on);
+    finished.packing = pack(index, go_on);
   } catch (const std::bad_alloc&) {
     finished.packing = failed_packing("out of memory; use fewer --threads or a smaller bed");
     finished.threw = true;
@@ -47,7 +48,7 @@ Finished pack_one(std::size_t index, const Task& task, const Pack& pack, const K
 class Run {
  public:
   Run(const std::vector<Task>& tasks, const Pack& pack, const TaskEvents& events)
-      : tasks_(tasks), pack_(pack), events_(events), order_(longest_first(tasks)) {}
+      : pack_(pack), events_(events), order_(longest_first(tasks)) {}
 
   /// The next task, or stops the pipeline. Called by one thread at a time.
   std::size_t take_next(tbb::flow_control& control) {
@@ -65,7 +66,7 @@ class Run {
       events_.progressed(index, progress);
       return !must_stop();
     };
-    Finished finished = pack_one(index, tasks_[index], pack_, go_on);
+    Finished finished = pack_one(index, pack_, go_on);
     if (finished.packing.result.status != PackingStatus::cancelled) report(std::move(finished));
   }
 
@@ -82,7 +83,6 @@ class Run {
     }
   }
 
-  const std::vector<Task>& tasks_;
   const Pack& pack_;
   const TaskEvents& events_;
   const std::vector<std::size_t> order_;
@@ -134,6 +134,15 @@ int live_limit(const std::vector<Task>& tasks, const Limits& limits) {
     ++live;
   }
   return std::max(1, live);
+}
+
+std::string memory_warning(const std::vector<Task>& tasks, double memory) {
+  double largest = 0.0;
+  for (const Task& task : tasks) largest = std::max(largest, task.cost.bytes);
+  if (memory <= 0 || largest <= memory) return "";
+  const auto megabytes = [](double bytes) { return std::to_string(std::llround(bytes / 1e6)); };
+  return "warning: the largest packing needs about " + megabytes(largest) + " MB, and " +
+         megabytes(memory) + " MB can be had here; end other programs or make the bed smaller\n";
 }
 
 double estimate_wall(const std::vector<Task>& tasks, int live) {

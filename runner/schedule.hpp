@@ -7,15 +7,15 @@
 
 #include <cstddef>
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "engine/packing.hpp"
 
 namespace grainsweep {
 
-/// One packing to make; `spec` must outlive the call.
+/// One packing to make, known by its index.
 struct Task {
-  const PackingSpec* spec = nullptr;
   Cost cost;
 };
 
@@ -24,8 +24,8 @@ struct Limits {
   double memory = 0.0;  ///< bytes for all live packings together; 0 = unbounded
 };
 
-/// make_packing with its kernels bound.
-using Pack = std::function<Packing(const PackingSpec&, const KeepGoing&)>;
+/// Makes the packing of a task, by its index. May throw.
+using Pack = std::function<Packing(std::size_t task, const KeepGoing&)>;
 
 /// What came of a task. Cancelled packings do not count as finished.
 struct Finished {
@@ -55,6 +55,10 @@ std::vector<std::size_t> longest_first(const std::vector<Task>& tasks);
 /// How many packings may live at once: at most `threads`, and so that even the largest ones
 /// together stay within the memory; at least one.
 int live_limit(const std::vector<Task>& tasks, const Limits& limits);
+
+/// A line that says that the largest packing alone needs more than the memory, and what to do;
+/// empty if none does. It is tried all the same: costs are estimates.
+std::string memory_warning(const std::vector<Task>& tasks, double memory);
 
 /// Wall time of the tasks, longest first, on so many live packings, s.
 double estimate_wall(const std::vector<Task>& tasks, int live);

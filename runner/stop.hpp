@@ -5,6 +5,7 @@ namespace grainsweep {
 
 /// From now on SIGINT and SIGTERM ask to stop. A second one exits with 128 + signal immediately;
 /// that loses no finished packing, since each is on the disk before it counts.
+/// A closed pipe that output goes to ends nothing from now on.
 void watch_stop_signals();
 
 /// Signal that asked to stop, 0 if none did.

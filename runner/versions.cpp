@@ -1,10 +1,17 @@
 #include "runner/versions.hpp"
 
+#include <array>
+#include <cinttypes>
+#include <cstdio>
+
 #include <CLI/Version.hpp>
 #include <Eigen/Core>
 #include <nlohmann/json.hpp>
 #include <tbb/version.h>
 #include <xsimd/config/xsimd_config.hpp>
+
+#include "runner/store/checksum.hpp"
+#include "runner/store/files.hpp"
 
 namespace grainsweep {
 namespace {
@@ -16,6 +23,12 @@ std::string dotted(int major, int minor, int patch) {
 }  // namespace
 
 std::string program_version() { return GRAINSWEEP_VERSION; }
+
+std::string build_name() {
+  std::array<char, 16> sum{};
+  std::snprintf(sum.data(), sum.size(), "-%08" PRIx32, crc32(read_file("/proc/self/exe")));
+  return program_version() + sum.data();
+}
 
 std::string compiler_version() {
 #ifdef __clang__

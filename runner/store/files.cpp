@@ -14,6 +14,9 @@
 namespace grainsweep {
 namespace {
 
+/// Between the name of a file and the process that writes its successor beside it.
+constexpr std::string_view neighbour_mark = ".tmp.";
+
 /// Repeats a system call while a signal interrupts it.
 template <class Call>
 auto uninterrupted(Call call) {
@@ -52,6 +55,12 @@ OpenFile::~OpenFile() {
   if (descriptor_ >= 0) close(descriptor_);
 }
 
+void occupy_standard_descriptors() {
+  int descriptor = 0;
+  while (descriptor >= 0 && descriptor <= STDERR_FILENO) descriptor = open("/dev/null", O_RDONLY);
+  if (descriptor > STDERR_FILENO) close(descriptor);
+}
+
 void write_all(const OpenFile& file, std::string_view bytes) {
   while (!bytes.empty()) {
     const ssize_t written =
@@ -84,8 +93,19 @@ std::string read_file(const std::string& path) {
   }
 }
 
+void remove_leftovers(const std::string& folder, std::string_view ending) {
+  const std::string mark = std::string(ending) + std::string(neighbour_mark);
+  for (const std::string& name : files_in(folder, "", "")) {
+    const std::size_t at = name.rfind(mark);
+    if (at == std::string::npos) continue;
+    const std::string process = name.substr(at + mark.size());
+    const bool is_number = process.find_first_not_of("0123456789") == std::string::npos;
+    if (is_number && !process.empty()) remove_file(folder + "/" + name);
+  }
+}
+
 void replace_file(const std::string& path, std::string_view bytes) {
-  const std::string neighbour = path + ".tmp." + std::to_string(getpid());
+  const std::string neighbour = path + std::string(neighbour_mark) + std::to_string(getpid());
   try {
     write_and_flush(neighbour, bytes);
     if (std::rename(neighbour.c_str(), path.c_str()) != 0) throw FileError(path, "replace", errno);

@@ -37,6 +37,10 @@ class OpenFile {
   int descriptor_ = -1;
 };
 
+/// Fills up descriptors 0 to 2 where the program was started with some of them closed. Otherwise
+/// the next file opened would take their place, and what is printed would go into it.
+void occupy_standard_descriptors();
+
 /// Writes all of `bytes` at the file's position.
 void write_all(const OpenFile& file, std::string_view bytes);
 
@@ -60,6 +64,10 @@ void make_folder(const std::string& path);
 void remove_file(const std::string& path);
 
 bool file_exists(const std::string& path);
+
+/// Removes what a replace_file that was killed has left in `folder`: the neighbours of files whose
+/// name ends so. No other process may be writing such files there.
+void remove_leftovers(const std::string& folder, std::string_view ending);
 
 /// Names of the files in `folder` that start and end so, sorted; none if there is no folder.
 std::vector<std::string> files_in(const std::string& folder, std::string_view start,

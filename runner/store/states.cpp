@@ -1,9 +1,9 @@
 #include "runner/store/states.hpp"
 
-#include <bit>
 #include <cstdint>
 #include <string_view>
 
+#include "runner/store/bytes.hpp"
 #include "runner/store/checksum.hpp"
 #include "runner/store/files.hpp"
 
@@ -14,31 +14,6 @@ constexpr std::string_view magic = "GRAINS1\n";
 constexpr std::size_t header_size = 8 + 8 + 16 + 2;
 constexpr std::size_t grain_size = 5 * 8 + 4;
 constexpr std::size_t checksum_size = 4;
-
-template <class Unsigned>
-void put(std::string& bytes, Unsigned value) {
-  for (std::size_t byte = 0; byte < sizeof value; ++byte) {
-    bytes.push_back(static_cast<char>((value >> (8 * byte)) & 0xFFu));
-  }
-}
-
-void put(std::string& bytes, double value) { put(bytes, std::bit_cast<std::uint64_t>(value)); }
-
-/// Takes values off the front of bytes known to be long enough.
-template <class Unsigned>
-Unsigned take(std::string_view& bytes) {
-  Unsigned value = 0;
-  for (std::size_t byte = 0; byte < sizeof value; ++byte) {
-    const auto next = static_cast<Unsigned>(static_cast<unsigned char>(bytes[byte]));
-    value = static_cast<Unsigned>(value | static_cast<Unsigned>(next << (8 * byte)));
-  }
-  bytes.remove_prefix(sizeof value);
-  return value;
-}
-
-double take_double(std::string_view& bytes) {
-  return std::bit_cast<double>(take<std::uint64_t>(bytes));
-}
 
 void put_grain(std::string& bytes, const SettledGrain& grain) {
   for (const double value : {grain.x, grain.y, grain.z, grain.radius, grain.force}) {

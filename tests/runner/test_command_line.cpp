@@ -35,9 +35,9 @@ Options options_of(const Reading& reading) {
 }
 
 TEST_CASE("run takes its options in any order") {
-  const auto options =
-      options_of<RunOptions>(read({"run", "--threads", "8", "a.json", "--out", "o", "--isa", "sse2",
-                                   "--fresh", "--yes", "--quiet"}));
+  const auto options = options_of<RunOptions>(
+      read({"run", "--threads", "8", "a.json", "--out", "o", "--isa", "sse2", "--fresh", "--yes",
+            "--quiet", "--retry-failed", "--fail-fast", "--checkpoint-seconds", "2.5"}));
   CHECK(options.file == "a.json");
   CHECK(options.out == "o");
   CHECK(options.threads == 8);
@@ -45,6 +45,9 @@ TEST_CASE("run takes its options in any order") {
   CHECK(options.fresh);
   CHECK(options.yes);
   CHECK(options.quiet);
+  CHECK(options.retry_failed);
+  CHECK(options.fail_fast);
+  CHECK(options.checkpoint_seconds == 2.5);
 }
 
 TEST_CASE("options not given have their defaults") {
@@ -52,6 +55,9 @@ TEST_CASE("options not given have their defaults") {
   CHECK(options.out.empty());
   CHECK(options.threads == 0);
   CHECK_FALSE(options.fresh);
+  CHECK_FALSE(options.retry_failed);
+  CHECK_FALSE(options.fail_fast);
+  CHECK(options.checkpoint_seconds == 60.0);
   CHECK(options_of<ExportOptions>(read({"export", "o"})).format == "csv");
 }
 
@@ -60,7 +66,18 @@ TEST_CASE("every command is understood") {
   CHECK(options_of<PlanOptions>(read({"plan", "a.json", "--json"})).json);
   CHECK(options_of<ReportOptions>(read({"report", "o"})).folder == "o");
   CHECK(options_of<StatusOptions>(read({"status", "o"})).folder == "o");
+  CHECK_FALSE(options_of<StatusOptions>(read({"status", "o"})).json);
+  CHECK(options_of<StatusOptions>(read({"status", "o", "--json"})).json);
   options_of<DoctorOptions>(read({"doctor"}));
+  options_of<SchemaOptions>(read({"schema"}));
+  const auto collect = options_of<CollectOptions>(read({"collect", "a", "b", "--out", "c"}));
+  CHECK(collect.folders == std::vector<std::string>{"a", "b"});
+  CHECK(collect.out == "c");
+  const auto completion = options_of<CompletionOptions>(read({"completion", "bash"}));
+  REQUIRE(completion.commands.size() == 10);
+  CHECK(completion.commands.at(3).command == "report");
+  CHECK(completion.commands.at(2).options ==
+        std::vector<std::string>{"--help", "--threads", "--json"});
   const auto grains = options_of<ExportOptions>(
       read({"export", "--job", "a", "--job", "b", "o", "--format", "vtp", "--to", "t"}));
   CHECK(grains.folder == "o");
@@ -70,17 +87,22 @@ TEST_CASE("every command is understood") {
 }
 
 TEST_CASE("mistakes are refused with exit code 2 and a message") {
-  const std::vector<std::vector<const char*>> mistakes = {{},
-                                                          {"walk"},
-                                                          {"run"},
-                                                          {"run", "a.json", "--thread", "2"},
-                                                          {"run", "a.json", "b.json"},
-                                                          {"run", "a.json", "--threads", "0"},
-                                                          {"run", "a.json", "--threads", "many"},
-                                                          {"run", "a.json", "--threads", "-1"},
-                                                          {"export", "o", "--format", "stl"},
-                                                          {"report"},
-                                                          {"doctor", "--quiet"}};
+  const std::vector<std::vector<const char*>> mistakes = {
+      {},
+      {"walk"},
+      {"run"},
+      {"run", "a.json", "--thread", "2"},
+      {"run", "a.json", "b.json"},
+      {"run", "a.json", "--threads", "0"},
+      {"run", "a.json", "--threads", "many"},
+      {"run", "a.json", "--threads", "-1"},
+      {"export", "o", "--format", "stl"},
+      {"report"},
+      {"run", "a.json", "--checkpoint-seconds", "-1"},
+      {"collect", "a"},
+      {"collect", "--out", "b"},
+      {"completion", "fish"},
+      {"doctor", "--quiet"}};
   for (const auto& words : mistakes) {
     const Reading reading = read(words);
     CHECK_FALSE(reading.line.command);
@@ -95,13 +117,13 @@ TEST_CASE("help has the commands, an example and the exit codes, and ends with c
   CHECK(reading.line.exit_code == 0);
   CHECK_FALSE(reading.line.command);
   for (const char* word : {"run", "validate", "plan", "report", "export", "status", "doctor",
-                           "Example:", "Exit codes:"}) {
+                           "collect", "schema", "completion", "Example:", "Exit codes:"}) {
     CHECK_THAT(reading.out, Catch::Contains(word));
   }
 }
 
 TEST_CASE("help of every command fits 100 columns and has an example") {
-  for (const char* command : {"run", "validate", "plan", "report", "export", "status"}) {
+  for (const char* command : {"run", "validate", "plan", "report", "export", "status", "collect"}) {
     const Reading reading = read({command, "--help"});
     CHECK(reading.line.exit_code == 0);
     CHECK_THAT(reading.out, Catch::Contains("Example: grainsweep " + std::string(command)));

@@ -127,5 +127,16 @@ TEST_CASE("live style draws no more than a few times a second") {
   CHECK(std::count(text.begin(), text.end(), '\r') <= 4);
 }
 
+TEST_CASE("a line of its own is printed in every style, above the live line") {
+  for (const ProgressStyle style : {ProgressStyle::quiet, ProgressStyle::plain}) {
+    Capture out;
+    ProgressDisplay({1.0}, style, out.file()).say("warning: no room");
+    CHECK(out.text() == "warning: no room\n");
+  }
+  Capture out;
+  ProgressDisplay({1.0}, ProgressStyle::live, out.file()).say("warning: no room");
+  CHECK_THAT(out.text(), Catch::StartsWith("\r\033[Kwarning: no room\n\r["));
+}
+
 }  // namespace
 }  // namespace grainsweep

@@ -2,6 +2,7 @@
 
 #include "runner/exit_codes.hpp"
 #include "runner/results.hpp"
+#include "runner/store/checkpoints.hpp"
 #include "runner/store/files.hpp"
 #include "runner/store/journal.hpp"
 #include "runner/store/states.hpp"
@@ -67,15 +68,35 @@ TEST_CASE("packings of another version of the program are counted") {
              Catch::StartsWith("warning: 1 of 3 packings were made by another version than 2.0.0"));
 }
 
+TEST_CASE("half written files of every kind are removed, whole ones stay") {
+  const TemporaryFolder folder;
+  const std::vector<std::string> names = {"packings.csv", "provenance.json", "states/a1.grains",
+                                          "checkpoints/a1.0", "checkpoints/a1.1"};
+  write_bed(folder.path(), "a1", {});
+  CheckpointFiles(folder.path(), "a1", "1.0").write({});
+  for (const std::string& name : names) {
+    replace_file(folder.path() + "/" + name, "whole");
+    replace_file(folder.path() + "/" + name + ".tmp.77", "half");
+  }
+  remove_half_written(folder.path());
+  for (const std::string& name : names) {
+    CHECK(file_exists(folder.path() + "/" + name));
+    CHECK_FALSE(file_exists(folder.path() + "/" + name + ".tmp.77"));
+  }
+}
+
 TEST_CASE("removing results leaves other files alone") {
   const TemporaryFolder folder;
   Journal(folder.path()).append(sample_outcome("a1", 0.6, 6));
   write_bed(folder.path(), "a1", {});
+  CheckpointFiles(folder.path(), "a1", "1.0").write({});
   write_tables(folder.path(), sample_provenance(), {});
   replace_file(folder.path() + "/notes.txt", "mine");
   replace_file(folder.path() + "/states/notes.txt", "mine");
   remove_results(folder.path());
-  CHECK(files_in(folder.path(), "", "") == std::vector<std::string>{"notes.txt", "states"});
+  CHECK(files_in(folder.path(), "", "") ==
+        std::vector<std::string>{"checkpoints", "notes.txt", "states"});
+  CHECK(files_in(folder.path() + "/checkpoints", "", "").empty());
   CHECK(files_in(folder.path() + "/states", "", "") == std::vector<std::string>{"notes.txt"});
 }
 

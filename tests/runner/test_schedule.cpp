@@ -13,16 +13,11 @@
 namespace grainsweep {
 namespace {
 
-/// Specs told apart by their random key, which is also their cost.
 struct Bench {
-  std::vector<PackingSpec> specs;
   std::vector<Task> tasks;
 
-  explicit Bench(const std::vector<double>& costs, double bytes = 0.0) : specs(costs.size()) {
-    for (std::size_t i = 0; i < costs.size(); ++i) {
-      specs[i].random_key = i;
-      tasks.push_back({&specs[i], {costs[i], bytes}});
-    }
+  explicit Bench(const std::vector<double>& costs, double bytes = 0.0) {
+    for (const double cost : costs) tasks.push_back({{cost, bytes}});
   }
 };
 
@@ -56,8 +51,7 @@ TEST_CASE("tasks start the longest first, equal ones in their order") {
   const Bench bench({1, 5, 3, 5, 2});
   Log log;
   run_tasks(
-      bench.tasks, {1, 0}, [](const PackingSpec&, const KeepGoing&) { return settled(); },
-      log.events());
+      bench.tasks, {1, 0}, [](std::size_t, const KeepGoing&) { return settled(); }, log.events());
   CHECK(log.started == std::vector<std::size_t>{1, 3, 2, 4, 0});
   CHECK(log.finished.size() == 5);
 }
@@ -67,7 +61,7 @@ TEST_CASE("every task is finished exactly once on any number of threads") {
     const Bench bench(std::vector<double>(200, 1.0));
     Log log;
     run_tasks(
-        bench.tasks, {threads, 0}, [](const PackingSpec&, const KeepGoing&) { return settled(); },
+        bench.tasks, {threads, 0}, [](std::size_t, const KeepGoing&) { return settled(); },
         log.events());
     std::set<std::size_t> tasks;
     for (const Finished& finished : log.finished) tasks.insert(finished.task);
@@ -83,7 +77,7 @@ int most_alive(int threads, double memory, double bytes, int expected) {
   const Bench bench(std::vector<double>(24, 1.0), bytes);
   std::atomic<int> alive{0}, most{0};
   Log log;
-  const Pack pack = [&](const PackingSpec&, const KeepGoing&) {
+  const Pack pack = [&](std::size_t, const KeepGoing&) {
     const int now = ++alive;
     for (int seen = most; now > seen && !most.compare_exchange_weak(seen, now);) continue;
     const auto give_up = std::chrono::steady_clock::now() + patience;
@@ -124,14 +118,22 @@ TEST_CASE("the live limit makes room for the largest packings together") {
   CHECK(live_limit(tasks, {2, 1000}) == 2);
 }
 
+TEST_CASE("a packing larger than the memory is announced, one that fits is not") {
+  const Bench bench({1, 2}, 3e9);
+  CHECK(memory_warning(bench.tasks, 3e9).empty());
+  CHECK(memory_warning(bench.tasks, 0).empty());
+  CHECK_THAT(memory_warning(bench.tasks, 2e9),
+             Catch::Contains("needs about 3000 MB, and 2000 MB can be had"));
+}
+
 TEST_CASE("a packing that throws or fails does not end the others") {
   const Bench bench({4, 3, 2, 1});
   Log log;
-  const Pack pack = [](const PackingSpec& spec, const KeepGoing&) -> Packing {
-    if (spec.random_key == 0) throw std::runtime_error("a broken kernel");
-    if (spec.random_key == 1) throw std::bad_alloc();
+  const Pack pack = [](std::size_t task, const KeepGoing&) -> Packing {
+    if (task == 0) throw std::runtime_error("a broken kernel");
+    if (task == 1) throw std::bad_alloc();
     Packing packing = settled();
-    if (spec.random_key == 2) packing.result.status = PackingStatus::failed;
+    if (task == 2) packing.result.status = PackingStatus::failed;
     return packing;
   };
   run_tasks(bench.tasks, {1, 0}, pack, log.events());
@@ -147,8 +149,8 @@ TEST_CASE("a packing that throws or fails does not end the others") {
 TEST_CASE("stopping keeps what is finished, cancels what runs and starts nothing more") {
   const Bench bench({3, 2, 1});
   Log log;
-  const Pack pack = [&](const PackingSpec& spec, const KeepGoing& keep_going) {
-    if (spec.random_key == 0) return settled();
+  const Pack pack = [&](std::size_t task, const KeepGoing& keep_going) {
+    if (task == 0) return settled();
     log.stop = true;
     Packing packing;
     packing.result.status =
@@ -166,7 +168,7 @@ TEST_CASE("an error while storing stops the run and reaches the caller") {
   Log log;
   TaskEvents events = log.events();
   events.finished = [](Finished&&) { throw std::runtime_error("disk full"); };
-  const Pack pack = [](const PackingSpec&, const KeepGoing&) { return settled(); };
+  const Pack pack = [](std::size_t, const KeepGoing&) { return settled(); };
   CHECK_THROWS_WITH(run_tasks(bench.tasks, {2, 0}, pack, events), "disk full");
   CHECK(log.started.size() <= 4);
 }
@@ -174,11 +176,11 @@ TEST_CASE("an error while storing stops the run and reaches the caller") {
 TEST_CASE("CPU time is that of the packing's own thread, not time asleep") {
   const Bench bench({1, 1});
   Log log;
-  const Pack pack = [](const PackingSpec& spec, const KeepGoing&) {
+  const Pack pack = [](std::size_t task, const KeepGoing&) {
     const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds(60);
-    if (spec.random_key == 0) std::this_thread::sleep_until(end);
+    if (task == 0) std::this_thread::sleep_until(end);
     volatile int spin = 0;
-    while (spec.random_key == 1 && std::chrono::steady_clock::now() < end) spin = spin + 1;
+    while (task == 1 && std::chrono::steady_clock::now() < end) spin = spin + 1;
     return settled();
   };
   run_tasks(bench.tasks, {1, 0}, pack, log.events());
@@ -196,7 +198,7 @@ TEST_CASE("progress of a packing reaches the caller") {
     CHECK(task == 0);
     shares.push_back(progress.share_done);
   };
-  const Pack pack = [](const PackingSpec&, const KeepGoing& keep_going) {
+  const Pack pack = [](std::size_t, const KeepGoing& keep_going) {
     CHECK(keep_going({1, 0.25}));
     CHECK(keep_going({2, 0.5}));
     return settled();
@@ -208,7 +210,7 @@ TEST_CASE("progress of a packing reaches the caller") {
 TEST_CASE("no tasks end at once") {
   Log log;
   run_tasks(
-      {}, {4, 0}, [](const PackingSpec&, const KeepGoing&) { return settled(); }, log.events());
+      {}, {4, 0}, [](std::size_t, const KeepGoing&) { return settled(); }, log.events());
   CHECK(log.finished.empty());
 }
 

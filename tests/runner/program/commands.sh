@@ -10,7 +10,9 @@ expect_text out.txt "10 packings in 5 parameter sets"
 expect_code 0 "$program" plan small.json --threads 2
 expect_text out.txt "10 packings" "bulk" "2 threads"
 expect_code 0 "$program" plan small.json --json
-expect_text out.txt '"packings": 10' '"estimated_bytes"'
+expect_text out.txt '"packings": 10' '"estimated_bytes"' '"available_bytes"'
+expect_code 0 "$program" schema
+expect_text out.txt '"$schema"' '"small_share"'
 expect_code 0 "$program" doctor
 expect_text out.txt "sse2" "cores" "oneTBB"
 [ ! -e out ] || fail "looking wrote something"
@@ -36,6 +38,8 @@ expect_code 0 "$program" compare out/small
 expect_text out.txt "paper" "6.027" "not determined: the sweep has no packings between walls at W"
 expect_code 0 "$program" status out/small
 expect_text out.txt "10 of 10 packings done" "No runner at work"
+expect_code 0 "$program" status out/small --json
+expect_text out.txt '"packings": 10' '"pending": 0' '"runner": null' '"sweep_file": "small.json"'
 
 for format in csv xyz vtp; do
   expect_code 0 "$program" export out/small --format $format

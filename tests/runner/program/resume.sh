@@ -79,6 +79,8 @@ expect_code 3 "$program" run sweep.json --threads 2 --out busy
 expect_text error.txt "another runner" "process $!"
 expect_code 0 "$program" status busy
 expect_text out.txt "Running: host "
+expect_code 0 "$program" status busy --json
+expect_text out.txt '"runner": "host ' "process $!\""
 kill -TERM $!
 wait $! || true
 

@@ -75,5 +75,18 @@ TEST_CASE("removing a file that is not there is no error") {
   remove_file(folder.path() + "/a");
 }
 
+TEST_CASE("what a killed runner left half written is removed, and nothing else") {
+  const TemporaryFolder folder;
+  for (const char* name : {"a.csv", "a.csv.tmp.12", "b.csv.tmp.345", "b.csv.tmp.", "c.csv.tmp.1x",
+                           "d.txt.tmp.12", "a.csv.tmp.12.bak"}) {
+    replace_file(folder.path() + "/" + name, "x");
+  }
+  remove_leftovers(folder.path(), ".csv");
+  CHECK(files_in(folder.path(), "", "") == std::vector<std::string>{"a.csv", "a.csv.tmp.12.bak",
+                                                                    "b.csv.tmp.", "c.csv.tmp.1x",
+                                                                    "d.txt.tmp.12"});
+  remove_leftovers(folder.path() + "/none", ".csv");
+}
+
 }  // namespace
 }  // namespace grainsweep

@@ -1,0 +1,61 @@
+// A packing under way, on the disk, so that a long one goes on where it was stopped.
+//
+// Each running packing has two files, checkpoints/<job>.0 and .1, written in turn, so that one is
+// whole whatever happens to the other. A file is, little-endian: "GRAINCP1"; u64 number, one more
+// than that of the checkpoint before; u64 step; f64 CPU seconds; job, build and state, each a u64
+// length and so many bytes; u32 CRC-32 of all before. Files that are torn, changed, of another job
+// or made by another build of the program are never used.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+
+namespace grainsweep {
+
+struct Checkpoint {
+  std::int64_t step = 0;     ///< steps the packing has taken
+  double cpu_seconds = 0.0;  ///< it has cost so far, in all runs
+  std::string state;         ///< bytes of Progress::save
+};
+
+/// The checkpoints of one packing.
+class CheckpointFiles {
+ public:
+  /// `build` names the program that may go on from them: a saved state is no exchange format.
+  CheckpointFiles(const std::string& folder, std::string job, std::string build);
+
+  /// The newest whole one; nothing if there is none. Throws FileError if one cannot be read.
+  std::optional<Checkpoint> newest();
+
+  /// Returns once it is on the disk. Makes the folder checkpoints if missing. Throws FileError.
+  void write(const Checkpoint& checkpoint);
+
+  /// Removes both files. Throws FileError.
+  void remove() const;
+
+ private:
+  std::string path(std::uint64_t number) const;
+
+  std::string folder_, job_, build_;
+  std::uint64_t next_ = 0;  ///< number of the checkpoint to be written next
+};
+
+/// A checkpoint as its file holds it.
+struct NumberedCheckpoint {
+  std::uint64_t number = 0;
+  std::string job, build;
+  Checkpoint checkpoint;
+};
+
+/// The file's bytes, and back; nothing if they are not what was written.
+std::string checkpoint_bytes(const NumberedCheckpoint& numbered);
+std::optional<NumberedCheckpoint> checkpoint_from_bytes(std::string_view bytes);
+
+/// Removes the checkpoints of these jobs, or of all.
+void remove_checkpoints_of(const std::string& folder, const std::set<std::string>& jobs);
+void remove_all_checkpoints(const std::string& folder);
+
+}  // namespace grainsweep

@@ -1,0 +1,55 @@
+# Folders of different runners become one, with the tables of a single run; nothing enters twice.
+source "$(dirname "$0")/common.sh" "$1"
+write_sweep sweep.json 2
+grep -v '"bulk"' sweep.json | sed 's/6\] } },/6] } } ] }/' >walls.json
+
+run_all() { # FILE FOLDER
+  local code=0
+  "$program" run "$1" --threads 2 --out "$2" --quiet || code=$?
+  [ "$code" -le 1 ] || fail "run ended with $code"
+}
+
+# `part` holds the first three packings of the journal of `whole`, as if it had been stopped.
+run_all sweep.json whole
+mkdir part
+cp -r whole/states whole/provenance.json part
+head -n 3 whole/journal-*.jsonl >part/journal-node-1.jsonl
+run_all walls.json walls
+
+expect_code 0 "$program" collect part walls --out all
+expect_text out.txt "packings added to all, which now holds"
+expect_code 0 "$program" status all --json
+packed=$(($(sed 's/.*"job":"\([0-9a-f]*\)".*/\1/' part/journal-*.jsonl walls/journal-*.jsonl |
+  sort -u | wc -l)))
+expect_text out.txt '"packings": 10' "\"pending\": $((10 - packed))"
+[ "$(cat all/journal-*.jsonl | wc -l)" -eq "$packed" ] || fail "not one line per packing"
+
+# Again: nothing is added. What is missing comes from the last folder.
+expect_code 0 "$program" collect part walls --out all
+expect_text out.txt "0 packings added"
+expect_code 0 "$program" collect whole --out all
+expect_text out.txt "which now holds 10 of 10"
+[ "$(cat all/journal-*.jsonl | wc -l)" -eq 10 ] || fail "not one line per packing"
+[ "$(values_of all | sort)" = "$(values_of whole | sort)" ] || fail "other values after collect"
+cmp whole/groups.csv all/groups.csv || fail "other groups after collect"
+(cd whole/states && sha256sum -- *.grains) >sums
+(cd all/states && sha256sum -c --quiet ../../sums) || fail "other grains after collect"
+
+# A folder of one sweep can be gone on with, and a damaged bed is made again.
+expect_code 0 "$program" collect whole --out copy
+job=$(sed -n 2p whole/packings.csv | cut -d, -f1)
+printf x | dd of="whole/states/$job.grains" bs=1 seek=50 conv=notrunc status=none
+expect_code 0 "$program" collect whole --out mended
+expect_text error.txt "whole/states/$job.grains: damaged"
+expect_text out.txt "now holds 9 of 10"
+run_all sweep.json mended
+cmp <(values_of copy) <(values_of mended) || fail "other values after going on"
+
+# Refused: no output folder, the folder itself, none to merge into.
+expect_code 2 "$program" collect whole nowhere --out fresh
+expect_text error.txt "nowhere" "no output folder"
+[ ! -e fresh ] || fail "a refused collect wrote something"
+expect_code 2 "$program" collect whole ./all --out all
+expect_text error.txt "./all: is the folder given with --out"
+expect_code 2 "$program" collect whole
+echo "folders are merged"

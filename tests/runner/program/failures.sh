@@ -1,0 +1,33 @@
+# A packing that fails ends nothing but itself, unless that is asked for; it is made again on demand.
+source "$(dirname "$0")/common.sh" "$1"
+cat >sweep.json <<'JSON'
+{ "name": "failing", "replicates": 2,
+  "base": { "box": { "length": 5, "width": 5 }, "fill": { "solid_height": 4 },
+            "measure": { "exclude_floor": 1, "exclude_surface": 1 }, "accuracy": "fast" },
+  "sweep": [ { "label": "small", "grid": { "box.width": [3, 4] } },
+             { "label": "too low", "set": { "box.width": 6, "measure.exclude_floor": 50 } } ] }
+JSON
+failed='too low W=6 #1  failed (the bed is too low'
+
+expect_code 1 "$program" run sweep.json --threads 2 --out all
+expect_text error.txt "6/6  " "$failed"
+[ "$(grep -c ',failed,.*the bed is too low' all/packings.csv)" -eq 2 ] || fail "no reason in the table"
+! grep -q pending all/packings.csv || fail "a failed packing ended others"
+
+# The largest packings come first: on one thread the first one fails, and nothing else is made.
+expect_code 1 "$program" run sweep.json --threads 1 --out fast --fail-fast
+expect_text error.txt "Stopped by --fail-fast after $failed" "1 of 6 packings are kept in fast"
+[ "$(grep -c ',pending,' fast/packings.csv)" -eq 5 ] || fail "--fail-fast did not stop at once"
+
+# Without --fail-fast the rest follows; what failed is not made again.
+expect_code 1 "$program" run sweep.json --threads 2 --out fast
+expect_text error.txt "5/5  "
+[ "$(values_of fast)" = "$(values_of all)" ] || fail "other values after --fail-fast"
+
+expect_code 1 "$program" run sweep.json --threads 2 --out fast
+[ ! -s error.txt ] || fail "failed packings were made again without being asked: $(cat error.txt)"
+expect_code 1 "$program" run sweep.json --threads 2 --out fast --retry-failed
+expect_text error.txt "2/2  " "$failed"
+[ "$(wc -l <error.txt)" -eq 2 ] || fail "--retry-failed made more than the failed ones"
+[ "$(values_of fast)" = "$(values_of all)" ] || fail "other values after --retry-failed"
+echo "failed packings end nothing but themselves"
