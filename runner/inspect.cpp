@@ -47,7 +47,8 @@ void print_status(const Results& results, const std::optional<std::string>& runn
     std::cout << results.foreign << " stored packings belong to an earlier form of the sweep\n";
   }
   if (!runner && totals.counts.pending > 0 && !file.empty()) {
-    std::cout << "Go on with: grainsweep run " << file << " --out " << folder << "\n";
+    std::cout << "Go on with: grainsweep run " << shell_word(file) << " --out "
+              << shell_word(folder) << "\n";
   }
 }
 

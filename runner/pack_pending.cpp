@@ -63,7 +63,7 @@ std::vector<double> cpu_costs(const std::vector<Task>& tasks) {
 /// What the threads of a run share.
 class Packer {
  public:
-  Packer(RunningSweep& running, const PackOptions& options, const std::vector<Task>& tasks)
+  Packer(const RunningSweep& running, const PackOptions& options, const std::vector<Task>& tasks)
       : running_(running),
         options_(options),
         kernels_(kernels_for(options.isa)),
@@ -148,7 +148,6 @@ class Packer {
     finished.cpu_seconds += before_[task].cpu_seconds;
     const Outcome outcome = store(job, running_.folder, journal_, std::move(finished));
     checkpoints_of(job).remove();
-    running_.outcomes[job.id] = outcome;
     ++packed_.packings;
     const std::string line = packing_line(job, outcome) + went_on_text(before_[task].step);
     display_.finish(task, outcome.result.status == PackingStatus::settled, line);
@@ -156,7 +155,7 @@ class Packer {
     if (!has_failed_.exchange(true)) packed_.first_failure = line;
   }
 
-  RunningSweep& running_;
+  const RunningSweep& running_;
   const PackOptions& options_;
   const Kernels& kernels_;
   ProgressDisplay display_;
@@ -177,7 +176,7 @@ std::vector<Task> tasks_of(const std::vector<const Job*>& jobs) {
   return tasks;
 }
 
-Packed pack_pending(RunningSweep& running, const PackOptions& options) {
+Packed pack_pending(const RunningSweep& running, const PackOptions& options) {
   const std::vector<Task> tasks = tasks_of(running.pending);
   return Packer(running, options, tasks).pack(tasks);
 }

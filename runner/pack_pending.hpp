@@ -17,7 +17,7 @@ namespace grainsweep {
 struct RunningSweep {
   const Sweep& sweep;
   std::string folder;
-  std::map<std::string, Outcome> outcomes;  ///< finished ones, by job
+  std::map<std::string, Outcome> outcomes;  ///< finished when it began, by job
   std::vector<const Job*> pending;
 };
 
@@ -39,8 +39,8 @@ struct Packed {
 std::vector<Task> tasks_of(const std::vector<const Job*>& jobs);
 
 /// Makes the pending packings, as far as no signal and no failure stops it; each is on the disk
-/// and in `running.outcomes` when it counts as finished. A long one is saved from time to time and
-/// when it is stopped, and goes on from there. Throws FileError.
-Packed pack_pending(RunningSweep& running, const PackOptions& options);
+/// when it counts as finished, and then no longer in memory. A long one is saved from time to time
+/// and when it is stopped, and goes on from there. Throws FileError.
+Packed pack_pending(const RunningSweep& running, const PackOptions& options);
 
 }  // namespace grainsweep

@@ -104,23 +104,23 @@ void print_text(const Sweep& sweep, const Needs& needs, int threads) {
             << memory_text(needs.memory) << " that can be had\n";
 }
 
-nlohmann::ordered_json job_json(const Job& job, const Cost& cost) {
-  return {{"job", job.id},
-          {"label", job.label},
-          {"replicate", job.replicate},
-          {"seed", job.seed},
-          {"grains", grain_count(job.spec)},
-          {"estimated_cpu_seconds", cost.cpu_seconds},
-          {"estimated_bytes", cost.bytes},
-          {"parameters", nlohmann::ordered_json::parse(job.parameters)}};
+/// One line; the parameters are JSON already.
+std::string job_json(const Job& job, const Cost& cost) {
+  const nlohmann::ordered_json facts = {{"job", job.id},
+                                        {"label", job.label},
+                                        {"replicate", job.replicate},
+                                        {"seed", job.seed},
+                                        {"grains", grain_count(job.spec)},
+                                        {"estimated_cpu_seconds", cost.cpu_seconds},
+                                        {"estimated_bytes", cost.bytes}};
+  std::string text = facts.dump();
+  text.pop_back();
+  return text + ",\"parameters\":" + job.parameters + "}";
 }
 
+/// Written job by job: as one value a large sweep would take ten times the memory.
 void print_json(const Sweep& sweep, const std::vector<Task>& tasks, const Needs& needs,
                 int threads) {
-  nlohmann::ordered_json jobs = nlohmann::ordered_json::array();
-  for (std::size_t i = 0; i < tasks.size(); ++i) {
-    jobs.push_back(job_json(sweep.jobs[i], tasks[i].cost));
-  }
   const nlohmann::ordered_json plan = {{"name", sweep.name},
                                        {"packings", tasks.size()},
                                        {"threads", threads},
@@ -128,9 +128,14 @@ void print_json(const Sweep& sweep, const std::vector<Task>& tasks, const Needs&
                                        {"estimated_cpu_seconds", needs.cpu_seconds},
                                        {"estimated_wall_seconds", needs.wall_seconds},
                                        {"estimated_bytes", needs.bytes},
-                                       {"available_bytes", needs.memory},
-                                       {"jobs", jobs}};
-  std::cout << plan.dump(2) << "\n";
+                                       {"available_bytes", needs.memory}};
+  std::string text = plan.dump(2);
+  text.resize(text.rfind('\n'));
+  std::cout << text << ",\n  \"jobs\": [";
+  for (std::size_t i = 0; i < tasks.size(); ++i) {
+    std::cout << (i == 0 ? "\n    " : ",\n    ") << job_json(sweep.jobs[i], tasks[i].cost);
+  }
+  std::cout << "\n  ]\n}\n";
 }
 
 }  // namespace

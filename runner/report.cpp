@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <set>
+#include <string_view>
 
 #include "runner/tables/csv.hpp"
 #include "runner/tables/fits.hpp"
@@ -165,9 +167,11 @@ std::string effort_text(const Provenance& provenance, double cpu_seconds) {
 
 std::string next_text(const std::string& sweep_file, const StatusCounts& counts,
                       const std::string& folder) {
-  const std::string go_on = "grainsweep run " + sweep_file + " --out " + folder;
+  const std::string go_on =
+      "grainsweep run " + shell_word(sweep_file) + " --out " + shell_word(folder);
   if (counts.pending > 0) return "Next: " + go_on + " makes what is missing\n";
-  return "Next: grainsweep export " + folder + " --format vtp writes the grains for ParaView\n";
+  return "Next: grainsweep export " + shell_word(folder) +
+         " --format vtp writes the grains for ParaView\n";
 }
 
 }  // namespace
@@ -187,6 +191,17 @@ std::string fixed(double value, int decimals) {
   std::array<char, 64> text{};
   std::snprintf(text.data(), text.size(), "%.*f", decimals, value);
   return text.data();
+}
+
+std::string shell_word(const std::string& word) {
+  const auto is_plain = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
+           std::string_view("-_./,:=+@%").find(c) != std::string_view::npos;
+  };
+  if (!word.empty() && std::all_of(word.begin(), word.end(), is_plain)) return word;
+  std::string quoted = "'";
+  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
 }
 
 std::string duration_text(double seconds) {

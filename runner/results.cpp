@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <set>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
@@ -70,14 +71,18 @@ std::vector<RunRecord> recorded_runs(const std::string& folder) {
   }
 }
 
+std::map<std::string, Outcome> outcomes_with_grains(const std::string& folder,
+                                                    std::map<std::string, Outcome> stored) {
+  std::erase_if(stored, [&](const auto& entry) {
+    return entry.second.stored_grains > 0 && !file_exists(state_path(folder, entry.first));
+  });
+  return stored;
+}
+
 std::map<std::string, Outcome> finished_outcomes(const std::string& folder,
-                                                 const std::map<std::string, Outcome>& stored) {
-  std::map<std::string, Outcome> finished;
-  for (const auto& [job, outcome] : stored) {
-    const bool has_its_grains = outcome.stored_grains == 0 || file_exists(state_path(folder, job));
-    if (!outcome.threw && has_its_grains) finished.emplace(job, outcome);
-  }
-  return finished;
+                                                 std::map<std::string, Outcome> stored) {
+  std::erase_if(stored, [](const auto& entry) { return entry.second.threw; });
+  return outcomes_with_grains(folder, std::move(stored));
 }
 
 void write_tables(const std::string& folder, const Provenance& provenance,

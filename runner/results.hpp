@@ -23,10 +23,14 @@ Results read_results(const std::string& folder);
 /// The runs recorded in the folder so far; none if it is new.
 std::vector<RunRecord> recorded_runs(const std::string& folder);
 
-/// Stored outcomes that need not be made again: not those that ended in an exception, nor those
-/// whose grains are missing.
+/// Stored outcomes without those whose grains are missing.
+std::map<std::string, Outcome> outcomes_with_grains(const std::string& folder,
+                                                    std::map<std::string, Outcome> stored);
+
+/// Stored outcomes that need not be made again: of those with grains all that did not end in an
+/// exception.
 std::map<std::string, Outcome> finished_outcomes(const std::string& folder,
-                                                 const std::map<std::string, Outcome>& stored);
+                                                 std::map<std::string, Outcome> stored);
 
 /// Replaces the CSV tables and provenance.json. Throws FileError.
 void write_tables(const std::string& folder, const Provenance& provenance,

@@ -5,6 +5,7 @@
 #include <set>
 #include <string_view>
 #include <unistd.h>
+#include <utility>
 
 #include "runner/commands.hpp"
 #include "runner/exit_codes.hpp"
@@ -59,9 +60,9 @@ void remove_finished_checkpoints(const std::string& folder,
 
 /// What is stored of the sweep, and what is still to be made.
 RunningSweep resume(const Sweep& sweep, const std::string& folder, bool retry_failed) {
-  const JournalReading journals = read_journals(folder);
+  JournalReading journals = read_journals(folder);
   warn_about(folder, journals.damage);
-  RunningSweep running{sweep, folder, finished_outcomes(folder, journals.outcomes), {}};
+  RunningSweep running{sweep, folder, finished_outcomes(folder, std::move(journals.outcomes)), {}};
   remove_finished_checkpoints(folder, running.outcomes);
   if (retry_failed) {
     std::erase_if(running.outcomes, [](const auto& entry) {
@@ -85,7 +86,7 @@ Provenance provenance_of(const RunOptions& options, const RunningSweep& running)
 }
 
 /// Packs between the two entries of the run's record: it is in provenance.json from its start.
-Packed record_and_pack(RunningSweep& running, const RunOptions& options, Isa isa,
+Packed record_and_pack(const RunningSweep& running, const RunOptions& options, Isa isa,
                        Provenance& provenance) {
   const double start = wall_seconds();
   const Limits limits{options.threads > 0 ? options.threads : usable_cores(),
@@ -102,12 +103,16 @@ Packed record_and_pack(RunningSweep& running, const RunOptions& options, Isa isa
   return packed;
 }
 
-/// After `why`.
-void say_how_to_go_on(const std::string& why, const RunOptions& options, const std::string& folder,
-                      const StatusCounts& counts, std::size_t packings) {
-  std::cerr << why << " " << packings - static_cast<std::size_t>(counts.pending) << " of "
-            << packings << " packings are kept in " << folder << ".\nGo on with: grainsweep run "
-            << options.file << " --out " << folder << "\n";
+/// Says why the run stopped before its end and how to go on; returns the exit code.
+int stopped(const Packed& packed, const RunOptions& options, const std::string& folder,
+            const StatusCounts& counts, std::size_t packings) {
+  const bool by_signal = stop_signal() != 0;
+  std::cerr << (by_signal ? "Stopped."
+                          : "Stopped by --fail-fast after " + packed.first_failure + ".")
+            << " " << packings - static_cast<std::size_t>(counts.pending) << " of " << packings
+            << " packings are kept in " << folder << ".\nGo on with: grainsweep run "
+            << shell_word(options.file) << " --out " << shell_word(folder) << "\n";
+  return by_signal ? exit_stopped + stop_signal() : static_cast<int>(exit_left_out);
 }
 
 int exit_code_for(const StatusCounts& counts) {
@@ -127,24 +132,18 @@ int run(const RunOptions& options) {
   if (options.fresh) remove_results(folder);
   watch_stop_signals();
 
-  RunningSweep running = resume(sweep, folder, options.retry_failed);
+  const RunningSweep running = resume(sweep, folder, options.retry_failed);
   Provenance provenance = provenance_of(options, running);
   Packed packed;
   if (!running.pending.empty()) packed = record_and_pack(running, options, isa, provenance);
 
-  const std::vector<Row> rows = join(provenance.sweep, running.outcomes);
+  const std::vector<Row> rows =
+      join(provenance.sweep, outcomes_with_grains(folder, read_journals(folder).outcomes));
   const StatusCounts counts = totals_of(rows).counts;
   std::cerr << other_versions_warning(rows, program_version());
   write_tables(folder, provenance, rows);
-  if (counts.pending > 0 && stop_signal() != 0) {
-    say_how_to_go_on("Stopped.", options, folder, counts, rows.size());
-    return exit_stopped + stop_signal();
-  }
-  if (counts.pending > 0 && !packed.first_failure.empty()) {
-    say_how_to_go_on("Stopped by --fail-fast after " + packed.first_failure + ".", options, folder,
-                     counts, rows.size());
-    return exit_left_out;
-  }
+  const bool is_whole = static_cast<std::size_t>(packed.packings) == running.pending.size();
+  if (!is_whole) return stopped(packed, options, folder, counts, rows.size());
   if (!options.quiet) std::cout << closing_report(provenance, rows, folder);
   return exit_code_for(counts);
 }

@@ -55,8 +55,11 @@ FolderLock::FolderLock(const std::string& folder)
                      "); wait for it or give another folder with --out");
   }
   if (!is_held_) return;
-  if (ftruncate(file_.descriptor(), 0) != 0) throw FileError(file_.path(), "write", errno);
-  write_all(file_, "host " + host_name() + ", process " + std::to_string(getpid()) + "\n");
+  // Written over the last owner's line and cut after it, so that the file is never empty meanwhile.
+  const std::string owner = "host " + host_name() + ", process " + std::to_string(getpid()) + "\n";
+  write_all(file_, owner);
+  const auto size = static_cast<off_t>(owner.size());
+  if (ftruncate(file_.descriptor(), size) != 0) throw FileError(file_.path(), "write", errno);
 }
 
 std::optional<std::string> present_runner(const std::string& folder) {

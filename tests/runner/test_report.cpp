@@ -104,5 +104,14 @@ TEST_CASE("durations read as people say them") {
   CHECK(fixed(std::nan(""), 2) == "-");
 }
 
+TEST_CASE("words of printed commands are quoted where a shell needs it") {
+  CHECK(shell_word("configs/quick.json") == "configs/quick.json");
+  CHECK(shell_word("a b") == "'a b'");
+  CHECK(shell_word("") == "''");
+  CHECK(shell_word("d'Or") == "'d'\\''Or'");
+  CHECK(shell_word("größe") == "'größe'");
+  CHECK(shell_word("$HOME") == "'$HOME'");
+}
+
 }  // namespace
 }  // namespace grainsweep

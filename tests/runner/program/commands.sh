@@ -11,6 +11,8 @@ expect_code 0 "$program" plan small.json --threads 2
 expect_text out.txt "10 packings" "bulk" "2 threads"
 expect_code 0 "$program" plan small.json --json
 expect_text out.txt '"packings": 10' '"estimated_bytes"' '"available_bytes"'
+[ "$(grep -c '"job":"[0-9a-f]*",.*"parameters":{"accuracy".*}' out.txt)" -eq 10 ] || fail "not 10 jobs"
+! command -v python3 >/dev/null || python3 -m json.tool out.txt >/dev/null || fail "plan --json is no JSON"
 expect_code 0 "$program" schema
 expect_text out.txt '"$schema"' '"small_share"'
 expect_code 0 "$program" doctor

@@ -31,6 +31,15 @@ TEST_CASE("the folder is free again once its runner is gone") {
   CHECK(FolderLock(folder.path()).is_held());
 }
 
+TEST_CASE("the lock's file holds one line, whatever longer one was in it") {
+  const TemporaryFolder folder;
+  const std::string path = folder.path() + "/runner.lock";
+  replace_file(path, "host with-a-very-long-name.somewhere.example, process 123456789\nmore\n");
+  const FolderLock lock(folder.path());
+  CHECK_THAT(read_file(path),
+             Catch::Matches("host [^ ]+, process " + std::to_string(getpid()) + "\n"));
+}
+
 TEST_CASE("looking at the lock keeps no runner out") {
   const TemporaryFolder folder;
   { const FolderLock earlier(folder.path()); }  // leaves the file to look at

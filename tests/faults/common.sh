@@ -1,0 +1,77 @@
+# Shared by the faults of this folder: each is called as `bash <fault>.sh <program>` and works in a
+# folder of its own. GRAINSWEEP_FAULTS=full makes many more tries than the few of every day.
+source "$(dirname "${BASH_SOURCE[0]}")/../runner/program/common.sh" "$1"
+
+# times FEW MANY: how often to try.
+times() {
+  if [ "${GRAINSWEEP_FAULTS:-}" = full ]; then echo "$2"; else echo "$1"; fi
+}
+
+# A test that cannot be made here says why and counts as skipped.
+skip() {
+  echo "SKIPPED: $*"
+  exit 77
+}
+
+# between LOW HIGH: a random whole number.
+between() {
+  echo $(($1 + (RANDOM * 32768 + RANDOM) % ($2 - $1 + 1)))
+}
+
+milliseconds() {
+  echo $(($(date +%s%N) / 1000000))
+}
+
+# pause MILLISECONDS
+pause() {
+  sleep "$(printf '%d.%03d' $(($1 / 1000)) $(($1 % 1000)))"
+}
+
+# Six beds of 60 to 130 grains.
+write_small_sweep() {
+  cat >"$1" <<'JSON'
+{ "name": "small", "seed": 5, "replicates": 2,
+  "base": { "box": { "length": 4, "width": 4 }, "fill": { "solid_height": 4 },
+            "measure": { "exclude_floor": 1, "exclude_surface": 1 }, "accuracy": "fast" },
+  "sweep": [ { "label": "walls", "grid": { "box.width": [3, 4] } },
+             { "label": "bulk", "set": { "box.width": 5, "box.y": "periodic" } } ] }
+JSON
+}
+
+# run_to_the_end FILE FOLDER OPTION...: made whole, with what is said in said.txt.
+run_to_the_end() {
+  local file=$1 folder=$2 code=0
+  shift 2
+  "$program" run "$file" --out "$folder" "$@" >said.txt 2>&1 </dev/null || code=$?
+  [ "$code" -le 1 ] || fail "run $file --out $folder ended with $code: $(cat said.txt)"
+}
+
+# The undisturbed run that all others must equal; sets `packings` and `duration`, in milliseconds.
+make_reference() { # FILE
+  local began
+  began=$(milliseconds)
+  run_to_the_end "$1" reference --threads 2
+  duration=$(($(milliseconds) - began))
+  packings=$(cat reference/journal-*.jsonl | wc -l)
+}
+
+# same_as_reference FOLDER WHAT: tables and grains are, byte by byte, those of the undisturbed run,
+# every packing was stored once, and nothing half written or under way is left.
+same_as_reference() {
+  local folder=$1 what=$2 table
+  cmp <(values_of "$folder") <(values_of reference) || fail "$what: other values"
+  for table in reference/*.csv; do
+    table=$(basename "$table")
+    [ "$table" = packings.csv ] || cmp "reference/$table" "$folder/$table" || fail "$what: other $table"
+  done
+  diff -rq reference/states "$folder/states" || fail "$what: other grains"
+  [ "$(whole_jobs "$folder" | sort -u | wc -l)" -eq "$packings" ] || fail "$what: a packing is lost"
+  [ "$(whole_jobs "$folder" | wc -l)" -eq "$packings" ] || fail "$what: a packing was made twice"
+  [ -z "$(find "$folder" -name '*.tmp.*')" ] || fail "$what: half written files are left"
+  [ -z "$(find "$folder/checkpoints" -type f 2>/dev/null)" ] || fail "$what: checkpoints are left"
+}
+
+# The jobs of the whole journal lines of a folder, one a line.
+whole_jobs() { # FOLDER
+  cat "$1"/journal-*.jsonl 2>/dev/null | grep '}}$' | sed -n 's/.*"job":"\([0-9a-f]*\)".*/\1/p' || true
+}

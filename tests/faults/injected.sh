@@ -1,0 +1,64 @@
+# Every write, flush and rename fails once, or is the last thing the program does: a clear message
+# with the path or a run that goes on; no half written file; the same bytes from the next run.
+source "$(dirname "$0")/common.sh" "$1"
+command -v strace >/dev/null || skip "strace is not installed (setup.sh --checks installs it)"
+strace -f -o trace.txt true 2>said.txt || skip "ptrace is forbidden here: $(tail -n 1 said.txt)"
+
+cat >sweep.json <<'JSON'
+{ "name": "tiny", "seed": 5, "replicates": 2,
+  "base": { "box": { "length": 3, "width": 3 }, "fill": { "solid_height": 4 },
+            "measure": { "exclude_floor": 1, "exclude_surface": 1 }, "accuracy": "fast" } }
+JSON
+make_reference sweep.json
+
+# Of one thread, so that the k-th call is the same one in every run; a checkpoint in most steps
+# would drown the other writes.
+run_traced() { # FOLDER STRACE-OPTION...
+  local folder=$1
+  shift
+  strace -f -qq -o trace.txt -e trace=write,fsync,rename "$@" \
+    "$program" run sweep.json --threads 1 --out "$folder" --checkpoint-seconds 0.04 >said.txt 2>&1
+}
+
+run_traced counted || [ $? -le 1 ] || fail "cannot be traced: $(cat said.txt)"
+same_as_reference counted "traced"
+calls_of() { grep -c "$1(" trace.txt; }
+cases=()
+for call in write fsync rename; do
+  count=$(calls_of $call)
+  for fault in error=ENOSPC error=EIO error=EINTR signal=KILL; do
+    for k in $(seq "$count"); do cases+=("$call $fault $k"); done
+  done
+done
+
+# All of them, or as many as there is time for, spread evenly and begun anywhere.
+wanted=$(times 40 ${#cases[@]})
+first=$(between 0 $((${#cases[@]} - 1)))
+told=0 ended=0 killed=0
+for number in $(seq 0 $((wanted - 1))); do
+  at=$(((first + number * ${#cases[@]} / wanted) % ${#cases[@]}))
+  read -r call fault k <<<"${cases[$at]}"
+  what="$call $k with $fault"
+  code=0
+  { run_traced out -e "inject=$call:$fault:when=$k" || code=$?; } 2>killed.txt # says "Killed"
+  case $code in
+    0 | 1) ended=$((ended + 1)) ;;
+    4)
+      told=$((told + 1))
+      grep -q '^grainsweep: \(out\|standard output\).*: ' said.txt || fail "$what: no path: $(cat said.txt)"
+      ;;
+    137) killed=$((killed + 1)) ;;
+    *) fail "$what: ended with $code: $(cat said.txt)" ;;
+  esac
+  # What has its final name is whole: the tables end in a line feed, the grains in their checksum.
+  for table in out/*.csv out/provenance.json; do
+    [ ! -e "$table" ] || [ -z "$(tail -c 1 "$table")" ] || fail "$what: $table is cut"
+  done
+  for grains in out/states/*.grains; do
+    [ ! -e "$grains" ] || cmp "$grains" "reference/states/$(basename "$grains")" || fail "$what: $grains"
+  done
+  run_to_the_end sweep.json out --threads 1
+  same_as_reference out "$what"
+  rm -r out
+done
+echo "$wanted of ${#cases[@]} faults: $told told and stopped, $ended survived, $killed killed; the same bytes"

@@ -1,0 +1,49 @@
+# Any number of threads, any instruction set, any order of the jobs, killed and resumed: one hash.
+source "$(dirname "$0")/common.sh" "$1"
+
+# write_shuffled FILE: the sweep of all tries, its jobs in random order.
+write_shuffled() {
+  local widths blocks
+  widths=$(shuf -e 3 4 5 | paste -sd,)
+  blocks=$(shuf -e '{"label": "walls", "grid": {"box.width": ['"$widths"']}}' \
+    '{"label": "bulk", "set": {"box.width": 5, "box.y": "periodic"}}' \
+    '{"label": "two sizes", "set": {"box.width": 4, "sizes.small_share": 0.25}}' | paste -sd,)
+  cat >"$1" <<JSON
+{ "name": "shuffled", "seed": 9, "replicates": 2,
+  "base": { "box": { "length": 4 }, "fill": { "solid_height": 4 },
+            "measure": { "exclude_floor": 1, "exclude_surface": 1 }, "accuracy": "fast" },
+  "sweep": [ $blocks ] }
+JSON
+}
+
+# One hash over the rows of packings.csv in the order of the ids, without CPU times, and the grains.
+hash_of() {
+  { values_of "$1" | sort && cd "$1/states" && sha256sum -- *.grains; } | sha256sum | cut -c1-16
+}
+
+isas=()
+for isa in sse2 avx2 avx512; do
+  ! "$program" doctor | grep '^instruction sets' | grep -q "$isa[,;]" || isas+=("$isa")
+done
+
+expected="" killed=0
+tries=$(times 12 60)
+for number in $(seq 0 $((tries - 1))); do
+  threads=$((number % 3)) && threads=$((threads == 0 ? 1 : threads == 1 ? 2 : 8))
+  isa=${isas[number / 3 % ${#isas[@]}]}
+  options=(--threads $threads --isa "$isa" --checkpoint-seconds 0.02)
+  write_shuffled sweep.json
+  for kill in $(seq $((number % 3))); do
+    "$program" run sweep.json --out out "${options[@]}" >said.txt 2>&1 &
+    pause "$(between 20 400)"
+    ! kill -KILL $! 2>/dev/null || killed=$((killed + 1))
+    wait $! 2>/dev/null || true
+  done
+  run_to_the_end sweep.json out "${options[@]}"
+  hash=$(hash_of out)
+  [ -n "$expected" ] || expected=$hash
+  [ "$hash" = "$expected" ] || fail "other bits with ${options[*]}, killed $((number % 3)) times"
+  rm -r out
+done
+[ "$killed" -gt 0 ] || fail "nothing was killed"
+echo "$tries runs on 1, 2 and 8 threads with ${isas[*]}, shuffled, $killed kills: one hash, $expected"

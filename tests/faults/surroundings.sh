@@ -1,0 +1,85 @@
+# Odd surroundings: a clear refusal, or the same bytes as in ordinary ones.
+source "$(dirname "$0")/common.sh" "$1"
+write_small_sweep sweep.json
+make_reference sweep.json
+
+# ends_with CODES WHAT COMMAND...: exits with one of CODES.
+ends_with() {
+  local codes=$1 what=$2 code=0
+  shift 2
+  "$@" >said.txt 2>&1 || code=$?
+  [[ " $codes " == *" $code "* ]] || fail "$what: ended with $code: $(cat said.txt)"
+}
+run=("$program" run sweep.json --threads 2 --out)
+
+# Folders that cannot be written, for root too.
+mkdir kept
+if [ "$(id -u)" -eq 0 ] && mount -t tmpfs -o ro tmpfs kept 2>/dev/null; then
+  trap 'umount "$here/kept"; rm -rf "$here"' EXIT
+else
+  chmod 555 kept
+fi
+if ! touch kept/file 2>/dev/null; then
+  ends_with 4 "read-only folder" "${run[@]}" kept
+  expect_text said.txt "kept/runner.lock: cannot open: "
+  ends_with 4 "folder in a read-only folder" "${run[@]}" kept/out
+  expect_text said.txt "kept/out: cannot make the folder: "
+else
+  echo "left out: no read-only folder can be made here"
+fi
+
+# Results stay readable where they cannot be written.
+if [ "$(id -u)" -eq 0 ] && mount --bind reference kept 2>/dev/null; then
+  mount -o remount,bind,ro kept
+  ends_with 0 "status of a read-only folder" "$program" status kept
+  ends_with 0 "report of a read-only folder" "$program" report kept
+  ends_with 4 "run in a read-only folder of results" "${run[@]}" kept
+  umount kept
+fi
+
+# Output that goes nowhere: the work is done all the same, and nothing printed gets into a file.
+code=0; "${run[@]}" closed >&- 2>said.txt || code=$?
+[ "$code" -eq 4 ] || fail "closed standard output: ended with $code"
+expect_text said.txt "standard output: not everything could be written"
+same_as_reference closed "closed standard output"
+code=0; "${run[@]}" full >/dev/full 2>said.txt || code=$?
+[ "$code" -eq 4 ] || fail "full standard output: ended with $code"
+same_as_reference full "full standard output"
+code=0; "${run[@]}" errors >/dev/null 2>&- || code=$?
+[ "$code" -le 1 ] || fail "closed standard error: ended with $code"
+same_as_reference errors "closed standard error"
+code=0; "${run[@]}" none <&- >&- 2>&- || code=$?
+[ "$code" -eq 4 ] || fail "everything closed: ended with $code"
+same_as_reference none "everything closed"
+("${run[@]}" pipe 2>&1 || true) | head -n 1 >/dev/null
+same_as_reference pipe "a pipe that closes after a line"
+for folder in closed full errors none pipe; do
+  grep -q '^host [^ ]*, process [0-9]*$' $folder/runner.lock || fail "$folder: runner.lock holds other text"
+done
+
+# No terminal, no environment, an odd locale, an unknown terminal.
+ends_with "0 1" "no terminal" setsid "${run[@]}" session </dev/null
+same_as_reference session "no terminal"
+ends_with "0 1" "no environment" env -i "${run[@]}" bare
+same_as_reference bare "no environment"
+for locale in C de_DE.UTF-8 tr_TR.UTF-8 xx_YY.none; do
+  ends_with "0 1" "locale $locale" env LC_ALL=$locale LANG=$locale TERM=dumb "${run[@]}" "locale-$locale"
+  same_as_reference "locale-$locale" "locale $locale"
+done
+
+# Names with spaces, quotes and UTF-8, also of the sweep file; the command to go on can be pasted.
+odd="ein \"Ordner\" für d'Körner φ"
+mkdir "$odd"
+cp sweep.json "$odd/größe 1.json"
+ends_with "0 1" "an odd path" "$program" run "$odd/größe 1.json" --threads 2 --out "$odd/out 1"
+same_as_reference "$odd/out 1" "an odd path"
+ends_with 0 "report of an odd path" "$program" report "$odd/out 1"
+ends_with 0 "export of an odd path" "$program" export "$odd/out 1" --format vtp
+journal=$(ls "$odd/out 1"/journal-*.jsonl)
+head -n 2 "$journal" >two && mv two "$journal"
+ends_with 0 "status of an odd path" "$program" status "$odd/out 1"
+command=$(sed -n 's/^Go on with: grainsweep //p' said.txt)
+[ -n "$command" ] || fail "no command to go on: $(cat said.txt)"
+ends_with "0 1" "the command to go on" bash -c "'$program' $command --threads 2"
+same_as_reference "$odd/out 1" "gone on with the command that status prints"
+echo "odd surroundings: refused clearly, or the same bytes"
