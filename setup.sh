@@ -8,7 +8,7 @@ readonly build_packages=(
   libtbb-dev libeigen3-dev libxsimd-dev nlohmann-json3-dev libcli11-dev librandom123-dev
   catch2 libbenchmark-dev
 )
-readonly check_packages=(clang-format clang-tidy)
+readonly check_packages=(clang-format clang-tidy clang libclang-rt-14-dev strace)
 readonly emulator_packages=(
   bochs bochs-term bochsbios vgabios isolinux syslinux-common genisoimage cpio busybox-static
 )
@@ -20,7 +20,8 @@ usage: ./setup.sh [--checks] [--emulator]
 Installs the packages that building and testing grainsweep takes, with apt-get, as root or through
 sudo. Only what is missing is installed; with nothing missing it ends at once.
 
-  --checks    also clang-format and clang-tidy, for the checks of .ci/run
+  --checks    also clang-format and clang-tidy, for the checks of .ci/run, and clang and strace,
+              for the faults (tests/faults) that need them
   --emulator  also a PC emulator with AVX-512, for tests/checks/avx512_emulated.sh
   --help      this text
 EOF

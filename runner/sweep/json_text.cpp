@@ -1,12 +1,12 @@
 #include "runner/sweep/json_text.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 #include <string_view>
 #include <system_error>
 #include <unordered_map>
@@ -16,7 +16,7 @@
 namespace grainsweep {
 namespace {
 
-constexpr std::uintmax_t largest_file = std::uintmax_t{256} << 20U;  // bytes
+constexpr std::size_t largest_file = std::size_t{256} << 20U;  // bytes
 
 /// Takes every event of a parse and keeps only its first error.
 struct SyntaxListener final : nlohmann::json_sax<Json> {
@@ -145,11 +145,12 @@ FileText read_text(const std::string& path) {
   errno = 0;
   std::ifstream stream(path, std::ios::binary);
   if (!stream) return refuse(path, std::string("cannot be read: ") + std::strerror(errno));
-  const std::uintmax_t size = std::filesystem::file_size(path, error);
-  if (!error && size > largest_file) return refuse(path, "is larger than 256 MiB");
-  std::ostringstream bytes;
-  bytes << stream.rdbuf();
-  std::string text = bytes.str();
+  std::string text;
+  std::array<char, 1 << 16> block{};
+  while (stream.read(block.data(), block.size()) || stream.gcount() > 0) {
+    text.append(block.data(), static_cast<std::size_t>(stream.gcount()));
+    if (text.size() > largest_file) return refuse(path, "is larger than 256 MiB");
+  }
   if (text.find_first_not_of(" \t\r\n") == std::string::npos) return refuse(path, "is empty");
   return {std::move(text), {}};
 }

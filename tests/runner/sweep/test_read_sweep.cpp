@@ -74,6 +74,12 @@ TEST_CASE("control characters in a key do not reach the terminal") {
                                  "replicates, base, sweep, $schema"});
 }
 
+TEST_CASE("a device without end is read no further than a file may be long") {
+  const SweepReading reading = read_sweep("/dev/zero");
+  REQUIRE(reading.errors.size() == 1);
+  CHECK(to_string(reading.errors[0]) == "/dev/zero: is larger than 256 MiB");
+}
+
 TEST_CASE("files that cannot be read are refused by name") {
   const ScratchFolder folder;
   const auto errors = read_sweep(folder.path("none.json")).errors;

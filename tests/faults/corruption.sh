@@ -1,0 +1,45 @@
+# Journals and checkpoints damaged on the disk between two runs: redone, never used.
+source "$(dirname "$0")/common.sh" "$1"
+cat >long.json <<'JSON'
+{ "name": "long", "replicates": 3, "base": { "box": { "length": 6, "width": 6 },
+  "fill": { "solid_height": 8 }, "accuracy": "fast" } }
+JSON
+make_reference long.json
+
+# damage FILE: flips a bit of a random byte, or cuts the file at it.
+damage() {
+  local size byte at
+  size=$(stat -c %s "$1")
+  at=$(between 0 $((size - 1)))
+  if [ $((RANDOM % 2)) -eq 0 ]; then
+    truncate -s "$at" "$1"
+  else
+    byte=$(od -An -tu1 -j "$at" -N 1 "$1")
+    printf "\\x$(printf %x $((byte ^ (1 << (RANDOM % 8)))))" |
+      dd of="$1" bs=1 seek="$at" conv=notrunc status=none
+  fi
+}
+
+damaged=0 gone_on=0
+tries=$(times 8 80)
+for number in $(seq "$tries"); do
+  "$program" run long.json --threads 2 --out out --checkpoint-seconds 0.02 >said.txt 2>&1 &
+  pause "$(between $((duration / 4)) $((duration * 3 / 4)))"
+  kill -KILL $! 2>/dev/null || true
+  wait $! 2>/dev/null || true
+  # One of the two checkpoints of each bed, every third time both, and a journal.
+  for file in out/checkpoints/*.$((number % 2)) out/journal-*.jsonl; do
+    [ ! -s "$file" ] || { damage "$file" && damaged=$((damaged + 1)); }
+  done
+  for file in out/checkpoints/*.$(((number + 1) % 2)); do
+    [ ! -s "$file" ] || [ $((number % 3)) -ne 0 ] || damage "$file"
+  done
+  run_to_the_end long.json out --threads 2
+  ! grep -q 'went on from step' said.txt || gone_on=$((gone_on + 1))
+  cmp <(values_of out) <(values_of reference) || fail "try $number: other values"
+  diff -rq reference/states out/states || fail "try $number: other grains"
+  rm -r out
+done
+[ "$damaged" -ge "$tries" ] || fail "only $damaged files were damaged"
+[ "$gone_on" -gt 0 ] || fail "no run went on from the other checkpoint"
+echo "$damaged damaged files in $tries runs, $gone_on went on from another checkpoint: the same bytes"

@@ -1,0 +1,142 @@
+// Damaged journals and checkpoints: noticed, never used.
+#include <cstdlib>
+#include <fstream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "engine/packing.hpp"
+#include "kernels/isa.hpp"
+#include "runner/store/checkpoints.hpp"
+#include "runner/store/files.hpp"
+#include "runner/store/journal.hpp"
+#include "tests/runner/sample_rows.hpp"
+#include "tests/runner/temporary_folder.hpp"
+
+namespace grainsweep {
+namespace {
+
+/// How many damages of each kind to try.
+std::size_t tries() {
+  const char* const faults = std::getenv("GRAINSWEEP_FAULTS");
+  return faults != nullptr && std::string_view(faults) == "full" ? 10'000 : 1'000;
+}
+
+/// Without a flush, which only a crash would need.
+void write_quickly(const std::string& path, const std::string& bytes) {
+  std::ofstream(path, std::ios::binary) << bytes;
+}
+
+/// `bytes` with a bit of one byte flipped: over all tries every byte of a small file, and places
+/// spread over a large one.
+std::string flipped(std::string bytes, std::size_t number) {
+  const std::size_t at =
+      bytes.size() < tries() ? number % bytes.size() : number * (bytes.size() / tries());
+  bytes[at] = static_cast<char>(bytes[at] ^ (1 << (number / bytes.size() + number) % 8));
+  return bytes;
+}
+
+/// The first bytes of a file, cut at every place or at places spread over it.
+std::string cut(const std::string& bytes, std::size_t number) {
+  const std::size_t size =
+      bytes.size() < tries() ? number % bytes.size() : number * (bytes.size() / tries());
+  return bytes.substr(0, size);
+}
+
+/// A journal of three packings, and what reading it must give at most.
+struct SampleJournal {
+  std::map<std::string, Outcome> outcomes;
+  std::string text;
+
+  SampleJournal() {
+    for (const char* job : {"a", "b", "c"}) {
+      outcomes[job] = sample_outcome(job, 0.6, 6.0);
+      text += journal_line(outcomes[job]);
+    }
+  }
+};
+
+/// Whether everything read is what was written, and nothing is missing without being reported.
+bool is_sound(const SampleJournal& journal, const JournalReading& reading) {
+  for (const auto& [job, outcome] : reading.outcomes) {
+    const auto known = journal.outcomes.find(job);
+    if (known == journal.outcomes.end() || to_json(known->second) != to_json(outcome)) return false;
+  }
+  return reading.outcomes.size() < journal.outcomes.size();
+}
+
+TEST_CASE("a journal with any bit changed never gives a packing that was not made") {
+  const TemporaryFolder folder;
+  const SampleJournal journal;
+  std::size_t sound = 0;
+  for (std::size_t number = 0; number < tries(); ++number) {
+    write_quickly(folder.path() + "/journal-x-1.jsonl", flipped(journal.text, number));
+    const JournalReading reading = read_journals(folder.path());
+    sound += is_sound(journal, reading) && !reading.damage.empty() ? 1 : 0;
+  }
+  CHECK(sound == tries());
+}
+
+TEST_CASE("a journal cut at any byte gives the packings before the cut") {
+  const TemporaryFolder folder;
+  const SampleJournal journal;
+  std::size_t sound = 0;
+  for (std::size_t number = 0; number < tries(); ++number) {
+    const std::string text = cut(journal.text, number);
+    write_quickly(folder.path() + "/journal-x-1.jsonl", text);
+    const JournalReading reading = read_journals(folder.path());
+    // A last line that lacks nothing but its line feed is whole.
+    const auto lines = static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')) +
+                       (text.ends_with("}}") && journal.text[text.size()] == '\n' ? 1 : 0);
+    sound += is_sound(journal, reading) && reading.outcomes.size() == lines ? 1 : 0;
+  }
+  CHECK(sound == tries());
+}
+
+/// A bed of 24 grains, stopped after thirty steps.
+std::string saved_packing() {
+  PackingSpec spec;
+  spec.box = {3.0, 3.0, Boundary::periodic, Boundary::walls};
+  spec.fill = GrainCount{24};
+  std::string bytes;
+  make_packing(spec, kernels_for(best_isa()), [&](const Progress& progress) {
+    if (progress.step == 30) bytes = progress.save();
+    return progress.step < 30;
+  });
+  return bytes;
+}
+
+/// Damages one of two checkpoints by `damaged`; the other one, and only it, must be used.
+template <class Damage>
+std::size_t uses_of_the_other(Damage damaged) {
+  const TemporaryFolder folder;
+  const std::string state = saved_packing();
+  REQUIRE(state.size() > 1000);
+  CheckpointFiles files(folder.path(), "job", "1.0");
+  files.write({29, 0.5, "the one before"});
+  files.write({30, 0.75, state});
+  const std::string newest = folder.path() + "/checkpoints/job.1", bytes = read_file(newest);
+  std::size_t right = 0;
+  for (std::size_t number = 0; number < tries(); ++number) {
+    write_quickly(newest, damaged(bytes, number));
+    const auto used = CheckpointFiles(folder.path(), "job", "1.0").newest();
+    right += used && used->step == 29 && used->state == "the one before" ? 1 : 0;
+  }
+  write_quickly(newest, bytes);
+  CHECK(CheckpointFiles(folder.path(), "job", "1.0").newest().value().state == state);
+  return right;
+}
+
+TEST_CASE("of a checkpoint with any bit changed the one before it is used") {
+  CHECK(uses_of_the_other(flipped) == tries());
+}
+
+TEST_CASE("of a checkpoint cut at any byte the one before it is used") {
+  CHECK(uses_of_the_other(cut) == tries());
+}
+
+}  // namespace
+}  // namespace grainsweep
