@@ -110,22 +110,23 @@ const char* name_of(PackingStatus status) {
   return "unknown";
 }
 
-Packing make_packing(const PackingSpec& spec, const Kernels& kernels, const KeepGoing& keep_going,
-                     std::string_view saved) {
+Packing make_packing(const PackingSpec& spec, const Processor& processor,
+                     const KeepGoing& keep_going, std::string_view saved) {
   std::optional<SphereBed> bed = start(spec);
   if (!bed) {
     return failed(
         "a grain found no room in the box: it is larger than the gap between the walls, "
         "or the box is too crowded");
   }
-  const SettleReport settled = settle(spec.accuracy, kernels, *bed, keep_going, saved);
+  const SettleReport settled = settle(spec.accuracy, processor, *bed, keep_going, saved);
   Packing packing{result_of(*bed, settled), {}};
   if (settled.cancelled) {
     return packing;
   }
   measure_sizes(*bed, packing.result);
-  const Touching touching = find_touching(*bed, widest(spec.measure.gap_tolerances), kernels);
-  measure(spec, touching, settled.pair_forces, kernels, *bed, packing.result);
+  const Touching touching =
+      find_touching(*bed, widest(spec.measure.gap_tolerances), processor.kernels);
+  measure(spec, touching, settled.pair_forces, processor.kernels, *bed, packing.result);
   packing.grains = grains_of(*bed, touching, spec.measure.gap_tolerances.front(), settled.force);
   return packing;
 }

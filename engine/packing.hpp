@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "engine/measure/curves.hpp"
+#include "engine/processor.hpp"
 #include "engine/scene/spec.hpp"
-#include "kernels/kernels.hpp"
 
 namespace grainsweep {
 
@@ -103,8 +103,8 @@ using KeepGoing = std::function<bool(const Progress&)>;
 /// `saved`: bytes that Progress::save gave for the same spec; the packing goes on from there and
 /// ends with the same bits. Bytes that are torn or of another version are not taken: it then begins
 /// anew, to the same end.
-Packing make_packing(const PackingSpec& spec, const Kernels& kernels, const KeepGoing& keep_going,
-                     std::string_view saved = {});
+Packing make_packing(const PackingSpec& spec, const Processor& processor,
+                     const KeepGoing& keep_going, std::string_view saved = {});
 
 /// What a packing will cost. Estimates: order of magnitude for sorting and planning, not promises.
 struct Cost {

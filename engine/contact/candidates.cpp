@@ -86,6 +86,45 @@ void append_found(Find find, std::size_t expected, std::vector<GrainPair>& pairs
   pairs.resize(before + found);
 }
 
+/// How many parts a level's search is divided into.
+std::size_t parts_of(const SizeLevel& level) {
+  constexpr std::size_t grains_of_part = 4000;
+  const std::size_t parts = level.members.size() / grains_of_part;
+  return parts < 4 ? 1 : std::min(parts, static_cast<std::size_t>(level.cells.inner_z));
+}
+
+/// Appends what `find(part, pairs, capacity)` writes for each part, in the order of the parts.
+template <class Find>
+void append_parts(const PartLoop& loop, std::size_t parts, std::size_t expected, Find find,
+                  Candidates& candidates) {
+  auto& found = candidates.found;
+  found.resize(std::max(found.size(), parts));
+  run_parts(loop, parts, [&](std::size_t part) {
+    found[part].clear();
+    append_found(
+        [&](GrainPair* pairs, std::size_t capacity) { return find(part, pairs, capacity); },
+        expected / parts + block_width, found[part]);
+  });
+  for (std::size_t part = 0; part < parts; ++part) {
+    candidates.pairs.insert(candidates.pairs.end(), found[part].begin(), found[part].end());
+  }
+}
+
+/// Part `part` of `parts` of a range.
+struct Share {
+  std::size_t first, last;
+};
+Share share_of(std::size_t size, std::size_t part, std::size_t parts) {
+  return {size * part / parts, size * (part + 1) / parts};
+}
+
+/// Layers first .. last of a grid; the layer above them serves as border.
+SphereGrid layers_of(SphereGrid grid, Share layers) {
+  grid.cell_begin += layers.first * static_cast<std::size_t>(grid.cells_x * grid.cells_y);
+  grid.cells_z = static_cast<std::int32_t>(layers.last - layers.first) + 2;
+  return grid;
+}
+
 /// The members of a level as they look for neighbours in the grid of a coarser one.
 void fill_queries(const SphereBed& bed, const SizeLevel& level, const Cells& coarse,
                   QueryColumns& queries) {
@@ -101,34 +140,50 @@ void fill_queries(const SphereBed& bed, const SizeLevel& level, const Cells& coa
   }
 }
 
-/// Pairs of a level's grains with those of a coarser level.
-void list_pairs_across(const SphereBed& bed, const SizeLevel& fine, const SizeLevel& coarse,
-                       float reach, const Kernels& kernels, Candidates& candidates) {
-  QueryColumns& q = candidates.queries;
-  fill_queries(bed, fine, coarse.cells, q);
-  const SphereQueries queries{q.x.data(),         q.y.data(),          q.z.data(),
-                              q.radius.data(),    fine.members.data(), q.cell.data(),
-                              fine.members.size()};
-  const SphereGrid grid = view_of(coarse.grid, coarse.cells, reach);
-  append_found(
-      [&](GrainPair* pairs, std::size_t capacity) {
-        return kernels.sphere_pairs_across(grid, queries, pairs, capacity);
+/// Pairs of grains of one level.
+void list_pairs_within(const SizeLevel& level, float reach, const Processor& processor,
+                       Candidates& candidates) {
+  const SphereGrid grid = view_of(level.grid, level.cells, reach);
+  const std::size_t parts = parts_of(level);
+  append_parts(
+      processor.loop, parts, 6 * level.members.size(),
+      [&](std::size_t part, GrainPair* pairs, std::size_t capacity) {
+        const Share layers = share_of(static_cast<std::size_t>(level.cells.inner_z), part, parts);
+        return processor.kernels.sphere_pairs(layers_of(grid, layers), pairs, capacity);
       },
-      2 * fine.members.size() + block_width, candidates.pairs);
+      candidates);
 }
 
-void list_pairs(const SphereBed& bed, const Kernels& kernels, Candidates& candidates) {
+/// Pairs of a level's grains with those of a coarser level.
+void list_pairs_across(const SphereBed& bed, const SizeLevel& fine, const SizeLevel& coarse,
+                       float reach, const Processor& processor, Candidates& candidates) {
+  QueryColumns& q = candidates.queries;
+  fill_queries(bed, fine, coarse.cells, q);
+  const SphereGrid grid = view_of(coarse.grid, coarse.cells, reach);
+  const std::size_t parts = parts_of(fine);
+  append_parts(
+      processor.loop, parts, 2 * fine.members.size(),
+      [&](std::size_t part, GrainPair* pairs, std::size_t capacity) {
+        const Share share = share_of(fine.members.size(), part, parts);
+        const SphereQueries queries{
+            q.x.data() + share.first,          q.y.data() + share.first,
+            q.z.data() + share.first,          q.radius.data() + share.first,
+            fine.members.data() + share.first, q.cell.data() + share.first,
+            share.last - share.first};
+        return processor.kernels.sphere_pairs_across(grid, queries, pairs, capacity);
+      },
+      candidates);
+}
+
+void list_pairs(const SphereBed& bed, const Processor& processor, Candidates& candidates) {
   candidates.pairs.clear();
   const std::vector<SizeLevel>& levels = candidates.levels;
   for (std::size_t k = 0; k < levels.size(); ++k) {
     const SizeLevel& level = levels[k];
     const auto reach = static_cast<float>(candidates.reach + rounding_slack(bed, level.cells));
-    const SphereGrid grid = view_of(level.grid, level.cells, reach);
-    append_found([&](GrainPair* pairs,
-                     std::size_t capacity) { return kernels.sphere_pairs(grid, pairs, capacity); },
-                 6 * level.members.size() + block_width, candidates.pairs);
+    list_pairs_within(level, reach, processor, candidates);
     for (std::size_t coarse = 0; coarse < k; ++coarse) {
-      list_pairs_across(bed, level, levels[coarse], reach, kernels, candidates);
+      list_pairs_across(bed, level, levels[coarse], reach, processor, candidates);
     }
   }
 }
@@ -234,13 +289,14 @@ std::vector<Wall> walls_of(const Box& box) {
   return walls;
 }
 
-void find_candidates(SphereBed& bed, double reach, const Kernels& kernels, Candidates& candidates) {
+void find_candidates(SphereBed& bed, double reach, const Processor& processor,
+                     Candidates& candidates) {
   wrap(bed);
   candidates.reach = reach;
   choose_levels(bed, candidates.levels);
   candidates.largest_radius = candidates.levels.front().largest_radius;
   fill_grids(bed, reach, candidates.levels);
-  list_pairs(bed, kernels, candidates);
+  list_pairs(bed, processor, candidates);
   list_walls(bed, candidates);
   remember_positions(bed, candidates);
 }

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "engine/contact/grid.hpp"
+#include "engine/processor.hpp"
 #include "engine/scene/bed.hpp"
 #include "kernels/kernels.hpp"
 
@@ -73,11 +74,13 @@ struct Candidates {
   std::vector<Extent> layers;            ///< memory of `still_complete`, one entry per layer
   std::vector<SizeLevel> levels;         ///< from large to small, at least one
   QueryColumns queries;
+  std::vector<std::vector<GrainPair>> found;  ///< memory of the parts of a search
 };
 
 /// Lists all pairs and walls with a gap below `reach`. Wraps the bed first. A periodic axis must be
 /// at least two largest diameters and reaches long.
-void find_candidates(SphereBed& bed, double reach, const Kernels& kernels, Candidates& candidates);
+void find_candidates(SphereBed& bed, double reach, const Processor& processor,
+                     Candidates& candidates);
 
 /// Whether the list still holds every pair and wall with a gap below `near` < reach. Pairs are
 /// judged in layers one cell high: no two grains of adjacent layers may have moved relative to each

@@ -2,110 +2,11 @@
 
 #include <algorithm>
 
+#include "engine/contact/block_writer.hpp"
+
 namespace grainsweep {
 
 namespace {
-
-constexpr std::size_t most_open = 64;  // blocks filled at the same time: bits of a word
-
-/// Appends blocks of void rows to `contacts` and hands out their lanes.
-template <class Real>
-class BlockWriter {
- public:
-  BlockWriter(const SphereBed& bed, Contacts<Real>& contacts) : bed_(bed), contacts_(contacts) {
-    contacts_.layout.open_blocks.assign(bed.grains(), 0);
-    contacts_.rows.clear();
-    contacts_.impulse.clear();
-  }
-
-  /// Puts a pair into the first open block that holds neither of its grains, so that neighbours in
-  /// space stay neighbours in memory.
-  void add_pair(GrainPair pair, Real impulse) {
-    auto& in_blocks = contacts_.layout.open_blocks;
-    std::uint64_t& a = in_blocks[static_cast<std::size_t>(pair.a)];
-    std::uint64_t& b = in_blocks[static_cast<std::size_t>(pair.b)];
-    if ((a | b) == ~std::uint64_t{0}) {
-      close(fullest());
-    }
-    const auto slot = static_cast<std::size_t>(__builtin_ctzll(~(a | b)));
-    a |= std::uint64_t{1} << slot;
-    b |= std::uint64_t{1} << slot;
-    open(slot);
-    fill_lane(block_[slot], used_[slot]++, pair.a, pair.b, impulse);
-    if (used_[slot] == block_width) {
-      close(slot);
-    }
-  }
-
-  /// Closes all pair blocks; what follows belongs to walls.
-  void finish_pairs() {
-    for (std::size_t slot = 0; slot < most_open; ++slot) {
-      if (used_[slot] > 0) {
-        close(slot);
-      }
-    }
-    contacts_.pair_blocks = contacts_.rows.size();
-  }
-
-  /// Rows of one wall: no grain touches it twice, so lanes are filled in order.
-  template <class ImpulseOf>
-  void add_wall(const WallCandidates& near, ImpulseOf impulse_of) {
-    contacts_.walls.push_back({near.wall, contacts_.rows.size(), 0});
-    for (std::size_t k = 0; k < near.grains.size(); ++k) {
-      if (k % block_width == 0) {
-        append_void_block();
-      }
-      fill_lane(contacts_.rows.size() - 1, k % block_width, near.grains[k], bed_.wall(),
-                impulse_of(near.grains[k]));
-    }
-    contacts_.walls.back().blocks = contacts_.rows.size() - contacts_.walls.back().first;
-  }
-
- private:
-  void open(std::size_t slot) {
-    if (used_[slot] == 0) {
-      block_[slot] = contacts_.rows.size();
-      append_void_block();
-    }
-  }
-  void append_void_block() {
-    contacts_.rows.emplace_back();
-    RowBlock<Real>& block = contacts_.rows.back();
-    for (std::size_t lane = 0; lane < block_width; ++lane) {
-      block.set_grains(lane, bed_.void_a(), bed_.void_b());
-    }
-    std::fill(std::begin(block.reduced_mass), std::end(block.reduced_mass), Real(1));
-    contacts_.impulse.resize(contacts_.rows.size() * block_width, Real(0));
-  }
-  void fill_lane(std::size_t block, std::size_t lane, std::int32_t a, std::int32_t b,
-                 Real impulse) {
-    contacts_.rows[block].set_grains(lane, a, b);
-    contacts_.rows[block].reduced_mass[lane] = reduced_mass(a, b);
-    contacts_.impulse[block * block_width + lane] = impulse;
-  }
-  Real reduced_mass(std::int32_t a, std::int32_t b) const {
-    return static_cast<Real>(1.0 / (bed_.motion[static_cast<std::size_t>(a)].w +
-                                    bed_.motion[static_cast<std::size_t>(b)].w));
-  }
-  /// Makes room for a new block: the grains of the closed one forget it.
-  void close(std::size_t slot) {
-    const RowBlock<Real>& block = contacts_.rows[block_[slot]];
-    const std::uint64_t keep = ~(std::uint64_t{1} << slot);
-    for (std::size_t lane = 0; lane < used_[slot]; ++lane) {
-      contacts_.layout.open_blocks[static_cast<std::size_t>(block.a(lane))] &= keep;
-      contacts_.layout.open_blocks[static_cast<std::size_t>(block.b(lane))] &= keep;
-    }
-    used_[slot] = 0;
-  }
-  std::size_t fullest() const {
-    return static_cast<std::size_t>(std::max_element(used_, used_ + most_open) - used_);
-  }
-
-  const SphereBed& bed_;
-  Contacts<Real>& contacts_;
-  std::size_t block_[most_open] = {};
-  std::size_t used_[most_open] = {};
-};
 
 /// Number of the wall that owns `block`.
 template <class Real>
@@ -167,24 +68,94 @@ Real carried_impulse(const LayoutColumns<Real>& layout, std::int32_t a, std::int
   return Real(0);
 }
 
-/// Rows that push come first, so that whole blocks of the others need no pushing.
+/// Rows of one section. Those that push come first, so that whole blocks of the others need no
+/// pushing.
 template <class Real>
-void add_pairs(const Candidates& candidates, LayoutColumns<Real>& layout,
-               BlockWriter<Real>& writer) {
-  layout.pair_impulse.clear();
-  for (const GrainPair pair : candidates.pairs) {
-    const Real impulse = carried_impulse(layout, pair.a, pair.b);
-    layout.pair_impulse.push_back(impulse);
-    if (impulse > Real(0)) {
-      writer.add_pair(pair, impulse);
+void lay_out_section(const SphereBed& bed, std::size_t section, LayoutColumns<Real>& layout) {
+  RowColumns<Real>& columns = layout.columns[section];
+  columns.rows.clear();
+  columns.impulse.clear();
+  BlockWriter<Real> writer(bed, layout.open_blocks, columns);
+  const std::size_t first = layout.sections.begin[section];
+  const std::size_t last = layout.sections.begin[section + 1];
+  for (std::size_t k = first; k < last; ++k) {
+    const GrainPair pair = layout.sections.pairs[k];
+    layout.pair_impulse[k] = carried_impulse(layout, pair.a, pair.b);
+    if (layout.pair_impulse[k] > Real(0)) {
+      writer.add_pair(pair, layout.pair_impulse[k]);
     }
   }
-  for (std::size_t k = 0; k < candidates.pairs.size(); ++k) {
+  for (std::size_t k = first; k < last; ++k) {
     if (!(layout.pair_impulse[k] > Real(0))) {
-      writer.add_pair(candidates.pairs[k], Real(0));
+      writer.add_pair(layout.sections.pairs[k], Real(0));
     }
   }
   writer.finish_pairs();
+}
+
+/// Rows of all walls, as one more section.
+template <class Real>
+void lay_out_walls(const SphereBed& bed, const Candidates& candidates, Contacts<Real>& contacts) {
+  RowColumns<Real>& columns = contacts.layout.columns[contacts.layout.sections.count];
+  columns.rows.clear();
+  columns.impulse.clear();
+  contacts.walls.clear();
+  BlockWriter<Real> writer(bed, contacts.layout.open_blocks, columns);
+  for (std::size_t k = 0; k < candidates.walls.size(); ++k) {
+    const std::size_t first = columns.rows.size();
+    const auto name = static_cast<std::int32_t>(bed.grains() + k);
+    writer.add_wall(candidates.walls[k].grains, [&](std::int32_t grain) {
+      return carried_impulse(contacts.layout, grain, name);
+    });
+    contacts.walls.push_back({candidates.walls[k].wall, first, columns.rows.size() - first});
+  }
+}
+
+/// Ranges of blocks that cores may sweep: the sections in two phases, then the walls, which all
+/// push one record. A single section and the walls are one range.
+template <class Real>
+void set_ranges(Contacts<Real>& contacts) {
+  const LayoutColumns<Real>& layout = contacts.layout;
+  const std::size_t sections = layout.sections.count;
+  contacts.ranges.clear();
+  std::size_t first = 0;
+  for (std::size_t k = 0; k <= sections; ++k) {
+    const std::size_t blocks = layout.columns[k].rows.size();
+    contacts.ranges.push_back({first, blocks, k < sections ? k % 2 : 2});
+    first += blocks;
+  }
+  contacts.pair_blocks = contacts.ranges.back().first;
+  for (WallRows& wall : contacts.walls) {
+    wall.first += contacts.pair_blocks;
+  }
+  if (sections == 1) {
+    contacts.ranges.assign({{0, first, 0}});
+  }
+  std::sort(contacts.ranges.begin(), contacts.ranges.end(),
+            [](const BlockRange& a, const BlockRange& b) {
+              return std::pair(a.phase, a.first) < std::pair(b.phase, b.first);
+            });
+}
+
+/// One column of rows out of those of all sections.
+template <class Real>
+void join(const PartLoop& loop, Contacts<Real>& contacts) {
+  LayoutColumns<Real>& layout = contacts.layout;
+  std::size_t blocks = 0;
+  layout.first_block.clear();
+  for (std::size_t k = 0; k <= layout.sections.count; ++k) {
+    layout.first_block.push_back(blocks);
+    blocks += layout.columns[k].rows.size();
+  }
+  contacts.rows.resize(blocks);
+  contacts.impulse.resize(blocks * block_width);
+  run_parts(loop, layout.sections.count + 1, [&](std::size_t k) {
+    const RowColumns<Real>& from = layout.columns[k];
+    const std::size_t first = layout.first_block[k];
+    std::copy(from.rows.begin(), from.rows.end(), contacts.rows.data() + first);
+    std::copy(from.impulse.begin(), from.impulse.end(),
+              contacts.impulse.data() + first * block_width);
+  });
 }
 
 /// Normal from the grain to the wall, and gap.
@@ -209,34 +180,42 @@ void detect_wall(const SphereBed& bed, const WallRows& rows, double correction,
 }  // namespace
 
 template <class Real>
-void lay_out(const SphereBed& bed, const Candidates& candidates, Contacts<Real>& contacts) {
+void lay_out(const SphereBed& bed, const Candidates& candidates, Contacts<Real>& contacts,
+             const PartLoop& loop) {
+  LayoutColumns<Real>& layout = contacts.layout;
   collect_impulses(bed, contacts);
-  contacts.walls.clear();
-  BlockWriter<Real> writer(bed, contacts);
-  add_pairs(candidates, contacts.layout, writer);
-  for (std::size_t k = 0; k < candidates.walls.size(); ++k) {
-    const auto name = static_cast<std::int32_t>(bed.grains() + k);
-    writer.add_wall(candidates.walls[k], [&](std::int32_t grain) {
-      return carried_impulse(contacts.layout, grain, name);
-    });
-  }
+  divide(candidates, layout.sections);
+  layout.columns.resize(std::max(layout.columns.size(), layout.sections.count + 1));
+  layout.open_blocks.assign(bed.grains(), 0);
+  layout.pair_impulse.resize(layout.sections.pairs.size());
+  visit_sections(layout.sections.count, loop,
+                 [&](std::size_t section) { lay_out_section(bed, section, layout); });
+  lay_out_walls(bed, candidates, contacts);
+  set_ranges(contacts);
+  join(loop, contacts);
   contacts.extrapolated.assign(contacts.impulse.size(), Real(0));
 }
 
 template <class Real>
-void detect(const SphereBed& bed, const Kernels& kernels, double correction,
+void detect(const SphereBed& bed, const Processor& processor, double correction,
             Contacts<Real>& contacts) {
-  row_kernels<Real>(kernels).sphere_gaps(contacts.rows.data(), contacts.pair_blocks,
-                                         bed.position.data(), bed.box.period_x(),
-                                         bed.box.period_y(), correction);
+  constexpr std::size_t blocks_of_part = 1024;
+  const std::size_t parts = contacts.pair_blocks / blocks_of_part + 1;
+  run_parts(processor.loop, parts, [&](std::size_t part) {
+    const std::size_t first = part * blocks_of_part;
+    row_kernels<Real>(processor.kernels)
+        .sphere_gaps(contacts.rows.data() + first,
+                     std::min(blocks_of_part, contacts.pair_blocks - first), bed.position.data(),
+                     bed.box.period_x(), bed.box.period_y(), correction);
+  });
   for (const WallRows& wall : contacts.walls) {
     detect_wall(bed, wall, correction, contacts.rows);
   }
 }
 
-template void lay_out(const SphereBed&, const Candidates&, Contacts<float>&);
-template void lay_out(const SphereBed&, const Candidates&, Contacts<double>&);
-template void detect(const SphereBed&, const Kernels&, double, Contacts<float>&);
-template void detect(const SphereBed&, const Kernels&, double, Contacts<double>&);
+template void lay_out(const SphereBed&, const Candidates&, Contacts<float>&, const PartLoop&);
+template void lay_out(const SphereBed&, const Candidates&, Contacts<double>&, const PartLoop&);
+template void detect(const SphereBed&, const Processor&, double, Contacts<float>&);
+template void detect(const SphereBed&, const Processor&, double, Contacts<double>&);
 
 }  // namespace grainsweep

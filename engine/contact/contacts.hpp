@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "engine/contact/candidates.hpp"
+#include "engine/contact/sections.hpp"
+#include "engine/processor.hpp"
 #include "engine/scene/bed.hpp"
 #include "kernels/kernels.hpp"
 
@@ -28,9 +30,26 @@ struct CarriedImpulse {
   Real impulse;
 };
 
+/// Blocks that one core sweeps. Ranges of a phase share no grain; phases follow one another.
+struct BlockRange {
+  std::size_t first = 0;
+  std::size_t blocks = 0;
+  std::size_t phase = 0;
+};
+
+/// Rows and what they carry, impulse k of block b at b * block_width + k.
+template <class Real>
+struct RowColumns {
+  std::vector<RowBlock<Real>> rows;
+  std::vector<Real> impulse;
+};
+
 /// Memory of the layout of rows, kept from one layout to the next.
 template <class Real>
 struct LayoutColumns {
+  Sections sections;
+  std::vector<RowColumns<Real>> columns;   ///< of each section, then of the walls
+  std::vector<std::size_t> first_block;    ///< of each section in the rows of all
   std::vector<std::uint64_t> open_blocks;  ///< per grain: one bit for each open block it is in
   std::vector<std::int32_t> carried_begin;
   std::vector<CarriedImpulse<Real>> carried;
@@ -44,6 +63,7 @@ struct Contacts {
   std::vector<RowBlock<Real>> rows;
   std::size_t pair_blocks = 0;
   std::vector<WallRows> walls;
+  std::vector<BlockRange> ranges;  ///< all blocks, by phase
   std::vector<Real> impulse;
   std::vector<Real> extrapolated;  ///< the solver's look-ahead impulses
   LayoutColumns<Real> layout;
@@ -51,11 +71,12 @@ struct Contacts {
 
 /// Lays the candidates out as rows; contacts that were there before keep their impulse.
 template <class Real>
-void lay_out(const SphereBed& bed, const Candidates& candidates, Contacts<Real>& contacts);
+void lay_out(const SphereBed& bed, const Candidates& candidates, Contacts<Real>& contacts,
+             const PartLoop& loop = one_after_another);
 
 /// Measures normal and gap of every row. `correction`: share of an overlap that a step repairs.
 template <class Real>
-void detect(const SphereBed& bed, const Kernels& kernels, double correction,
+void detect(const SphereBed& bed, const Processor& processor, double correction,
             Contacts<Real>& contacts);
 
 /// Calls visit(row block, lane, impulse) for each row that stands for a pair or a wall.

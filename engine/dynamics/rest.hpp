@@ -34,7 +34,7 @@ void visit_force_bearing(const Contacts<Real>& contacts, double dt, Visit visit)
 /// Largest and mean overlap, and counts, of a bed whose contacts hold the impulses of a step of
 /// length `dt`. Measures the gaps anew; residual, kinetic energy and motion are left at 0.
 template <class Real>
-RestReport certify(const SphereBed& bed, const Kernels& kernels, double dt,
+RestReport certify(const SphereBed& bed, const Processor& processor, double dt,
                    Contacts<Real>& contacts);
 
 /// Degrees of freedom that no contact can take up: every cluster of grains that stands on the floor

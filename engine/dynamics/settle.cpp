@@ -16,7 +16,7 @@ constexpr double fall_energy = 5e-3;  // m g d per grain; an impact has about 0.
 template <class Real>
 struct Settling {
   const Accuracy& accuracy;
-  const Kernels& kernels;
+  const Processor& processor;
   SphereBed& bed;
   StepState<Real> state;
   Stage stage = Stage::look;
@@ -38,7 +38,7 @@ bool has_fallen(const Settling<Real>& s) {
 
 template <class Real>
 void certify_rest(Settling<Real>& s) {
-  s.report.rest = certify(s.bed, s.kernels, s.settings.dt, s.state.contacts);
+  s.report.rest = certify(s.bed, s.processor, s.settings.dt, s.state.contacts);
   s.report.rest.residual = s.last.solve.residual;
   s.report.rest.kinetic_energy = s.last.kinetic_energy;
   s.report.rest.largest_motion = s.last.largest_motion;
@@ -136,6 +136,7 @@ void transfer_contacts(Archive& archive, Rows& contacts) {
   archive.column(contacts.rows);
   archive.value(contacts.pair_blocks);
   archive.column(contacts.walls);
+  archive.column(contacts.ranges);
   archive.column(contacts.impulse);
 }
 
@@ -179,7 +180,7 @@ void restore(std::string_view bytes, Settling<Real>& s) {
 /// One step; false if the observer does not want another one.
 template <class Real>
 bool take_step(Settling<Real>& s, const KeepGoing& keep_going) {
-  s.last = step(s.settings, s.kernels, s.bed, s.state);
+  s.last = step(s.settings, s.processor, s.bed, s.state);
   ++s.report.steps;
   ++s.steps_in_stage;
   s.report.iterations += s.last.solve.iterations;
@@ -200,15 +201,15 @@ void come_to_rest(Settling<Real>& s, const KeepGoing& keep_going) {
 }
 
 template <class Real>
-SettleReport settle_as(const Accuracy& accuracy, const Kernels& kernels, SphereBed& bed,
+SettleReport settle_as(const Accuracy& accuracy, const Processor& processor, SphereBed& bed,
                        const KeepGoing& keep_going, std::string_view saved) {
-  Settling<Real> s{accuracy, kernels, bed, {}, Stage::look, 0, settings_of(accuracy, Stage::look),
+  Settling<Real> s{accuracy, processor, bed, {}, Stage::look, 0, settings_of(accuracy, Stage::look),
                    {},       {}};
   restore(saved, s);
   come_to_rest(s, keep_going);
   certify_rest(s);
   if (accuracy.force_balance == BalanceCheck::solve && !s.report.cancelled) {
-    s.report.balance = balance_forces(bed, kernels, s.settings.dt, s.state.contacts);
+    s.report.balance = balance_forces(bed, processor.kernels, s.settings.dt, s.state.contacts);
   }
   s.report.force = force_sums(bed, s.state.contacts, s.settings.dt);
   s.report.pair_forces = pair_forces(bed, s.state.contacts, s.settings.dt);
@@ -217,11 +218,11 @@ SettleReport settle_as(const Accuracy& accuracy, const Kernels& kernels, SphereB
 
 }  // namespace
 
-SettleReport settle(const Accuracy& accuracy, const Kernels& kernels, SphereBed& bed,
+SettleReport settle(const Accuracy& accuracy, const Processor& processor, SphereBed& bed,
                     const KeepGoing& keep_going, std::string_view saved) {
   return accuracy.precision == Precision::f32
-             ? settle_as<float>(accuracy, kernels, bed, keep_going, saved)
-             : settle_as<double>(accuracy, kernels, bed, keep_going, saved);
+             ? settle_as<float>(accuracy, processor, bed, keep_going, saved)
+             : settle_as<double>(accuracy, processor, bed, keep_going, saved);
 }
 
 }  // namespace grainsweep

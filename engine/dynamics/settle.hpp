@@ -41,7 +41,7 @@ struct SettleReport {
 
 /// Settles `bed`. `keep_going` is asked after every step. `saved`: bytes that Progress::save gave
 /// for the same bed and accuracy, from which to go on; others are not taken.
-SettleReport settle(const Accuracy& accuracy, const Kernels& kernels, SphereBed& bed,
+SettleReport settle(const Accuracy& accuracy, const Processor& processor, SphereBed& bed,
                     const KeepGoing& keep_going, std::string_view saved = {});
 
 }  // namespace grainsweep

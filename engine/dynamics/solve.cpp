@@ -1,5 +1,6 @@
 #include "engine/dynamics/solve.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace grainsweep {
@@ -14,33 +15,77 @@ constexpr double eigenvalue_bound = 3.95;
 template <class Real>
 struct Problem {
   const RowKernels<Real>& kernels;
+  const PartLoop& loop;
   Contacts<Real>& contacts;
   MotionColumns<Real>& motion;
 
-  std::size_t blocks() const { return contacts.rows.size(); }
-  const RowBlock<Real>* rows() const { return contacts.rows.data(); }
+  const RowBlock<Real>* rows(BlockRange range) const { return contacts.rows.data() + range.first; }
+  Real* impulse(BlockRange range) { return contacts.impulse.data() + range.first * block_width; }
+  Real* extrapolated(BlockRange range) {
+    return contacts.extrapolated.data() + range.first * block_width;
+  }
 };
+
+enum class Direction { forward, backward };
+
+/// Sums over all rows of what sweep(range) sees: the ranges of a phase at the same time, phase
+/// after phase, or from the last phase to the first.
+template <class Real, class Sweep>
+SweepSums<Real> sweep_ranges(Problem<Real>& problem, Direction direction, const Sweep& sweep) {
+  const std::vector<BlockRange>& ranges = problem.contacts.ranges;
+  std::vector<SweepSums<Real>>& seen = problem.motion.seen;
+  seen.resize(ranges.size());
+  const std::size_t phases = ranges.empty() ? 0 : ranges.back().phase + 1;
+  for (std::size_t k = 0; k < phases; ++k) {
+    const std::size_t phase = direction == Direction::forward ? k : phases - 1 - k;
+    const auto begins = [](const BlockRange& range, std::size_t at) { return range.phase < at; };
+    const auto first = std::lower_bound(ranges.begin(), ranges.end(), phase, begins);
+    const auto last = std::lower_bound(first, ranges.end(), phase + 1, begins);
+    const auto offset = static_cast<std::size_t>(first - ranges.begin());
+    run_parts(problem.loop, static_cast<std::size_t>(last - first),
+              [&](std::size_t part) { seen[offset + part] = sweep(ranges[offset + part]); });
+  }
+  SweepSums<Real> sums{Real(0), Real(0)};
+  for (const SweepSums<Real>& one : seen) {
+    sums = {std::max(sums.residual, one.residual), sums.uphill + one.uphill};
+  }
+  return sums;
+}
 
 /// u = free + M^-1 pushes; the pushes are empty then.
 template <class Real>
 void take_pushes(Problem<Real>& problem) {
+  constexpr std::size_t records_of_part = 8192;
   MotionColumns<Real>& motion = problem.motion;
-  problem.kernels.take_pushes(motion.free.data(), motion.free.size(), motion.pushes.data(),
-                              motion.u.data());
+  const std::size_t records = motion.free.size();
+  run_parts(problem.loop, records / records_of_part + 1, [&](std::size_t part) {
+    const std::size_t first = part * records_of_part;
+    problem.kernels.take_pushes(motion.free.data() + first,
+                                std::min(records_of_part, records - first),
+                                motion.pushes.data() + first, motion.u.data() + first);
+  });
 }
 
 /// u = free + M^-1 H p, without the rounding that sweeps have gathered.
 template <class Real>
 void set_motion(Problem<Real>& problem) {
-  problem.kernels.add_pushes(problem.rows(), problem.blocks(), problem.contacts.impulse.data(),
-                             problem.motion.pushes.data());
+  sweep_ranges(problem, Direction::forward, [&](BlockRange range) {
+    problem.kernels.add_pushes(problem.rows(range), range.blocks, problem.impulse(range),
+                               problem.motion.pushes.data());
+    return SweepSums<Real>{};
+  });
   take_pushes(problem);
 }
 
 template <class Real>
-double true_residual(const Problem<Real>& problem) {
-  return static_cast<double>(problem.kernels.residual(
-      problem.rows(), problem.blocks(), problem.motion.u.data(), problem.contacts.impulse.data()));
+double true_residual(Problem<Real>& problem) {
+  const SweepSums<Real> sums =
+      sweep_ranges(problem, Direction::forward, [&](BlockRange range) -> SweepSums<Real> {
+        return {problem.kernels.residual(problem.rows(range), range.blocks, problem.motion.u.data(),
+                                         problem.impulse(range)),
+                Real(0)};
+      });
+  return static_cast<double>(sums.residual);
 }
 
 /// Nesterov's sequence, restarted where the objective would rise (O'Donoghue and Candes 2015).
@@ -77,10 +122,12 @@ class AcceleratedGradient {
   double iterate() {
     constexpr auto inverse_bound = static_cast<Real>(1.0 / eigenvalue_bound);
     MotionColumns<Real>& motion = problem_.motion;
-    const SweepSums<Real> sums = problem_.kernels.gradient_sweep(
-        problem_.rows(), problem_.blocks(), motion.u.data(), motion.pushes.data(),
-        problem_.contacts.impulse.data(), problem_.contacts.extrapolated.data(), inverse_bound,
-        static_cast<Real>(momentum_.next()));
+    const auto momentum = static_cast<Real>(momentum_.next());
+    const SweepSums<Real> sums = sweep_ranges(problem_, Direction::forward, [&](BlockRange range) {
+      return problem_.kernels.gradient_sweep(problem_.rows(range), range.blocks, motion.u.data(),
+                                             motion.pushes.data(), problem_.impulse(range),
+                                             problem_.extrapolated(range), inverse_bound, momentum);
+    });
     take_pushes(problem_);
     if (sums.uphill > Real(0)) {
       momentum_.restart();
@@ -102,9 +149,12 @@ class GaussSeidel {
 
   void restart() { backward_ = false; }
   double iterate() {
-    const SweepSums<Real> sums = problem_.kernels.gauss_seidel_sweep(
-        problem_.rows(), problem_.blocks(), problem_.motion.u.data(),
-        problem_.contacts.impulse.data(), backward_);
+    const SweepSums<Real> sums = sweep_ranges(
+        problem_, backward_ ? Direction::backward : Direction::forward, [&](BlockRange range) {
+          return problem_.kernels.gauss_seidel_sweep(problem_.rows(range), range.blocks,
+                                                     problem_.motion.u.data(),
+                                                     problem_.impulse(range), backward_);
+        });
     backward_ = symmetric_ && !backward_;
     return static_cast<double>(sums.residual);
   }
@@ -203,11 +253,11 @@ SolveReport run(const SolveLimits& limits, Problem<Real>& problem, Method method
 }  // namespace
 
 template <class Real>
-SolveReport solve(const SolveLimits& limits, const Kernels& kernels, Contacts<Real>& contacts,
+SolveReport solve(const SolveLimits& limits, const Processor& processor, Contacts<Real>& contacts,
                   MotionColumns<Real>& motion) {
   motion.u.resize(motion.free.size());
   motion.pushes.assign(motion.free.size(), {Real(0), Real(0), Real(0), Real(0)});
-  Problem<Real> problem{row_kernels<Real>(kernels), contacts, motion};
+  Problem<Real> problem{row_kernels<Real>(processor.kernels), processor.loop, contacts, motion};
   switch (limits.solver) {
     case Solver::projected_gauss_seidel:
       return run(limits, problem, GaussSeidel<Real>(problem, false));
@@ -221,9 +271,9 @@ SolveReport solve(const SolveLimits& limits, const Kernels& kernels, Contacts<Re
   return run(limits, problem, AcceleratedGradient<Real>(problem));
 }
 
-template SolveReport solve(const SolveLimits&, const Kernels&, Contacts<float>&,
+template SolveReport solve(const SolveLimits&, const Processor&, Contacts<float>&,
                            MotionColumns<float>&);
-template SolveReport solve(const SolveLimits&, const Kernels&, Contacts<double>&,
+template SolveReport solve(const SolveLimits&, const Processor&, Contacts<double>&,
                            MotionColumns<double>&);
 
 }  // namespace grainsweep

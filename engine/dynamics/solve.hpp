@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "engine/contact/contacts.hpp"
+#include "engine/processor.hpp"
 #include "engine/scene/spec.hpp"
-#include "kernels/kernels.hpp"
 
 namespace grainsweep {
 
@@ -28,15 +28,16 @@ struct SolveReport {
 /// Motion columns of a solve, indexed like the bed: displacement, d, and inverse mass.
 template <class Real>
 struct MotionColumns {
-  std::vector<Record<Real>> free;    ///< in: motion without contacts
-  std::vector<Record<Real>> u;       ///< out: motion with the impulses of `contacts`
-  std::vector<Record<Real>> pushes;  ///< sum of the impulses on each grain; empty between sweeps
+  std::vector<Record<Real>> free;     ///< in: motion without contacts
+  std::vector<Record<Real>> u;        ///< out: motion with the impulses of `contacts`
+  std::vector<Record<Real>> pushes;   ///< sum of the impulses on each grain; empty between sweeps
+  std::vector<SweepSums<Real>> seen;  ///< by each range of blocks in the last sweep
 };
 
 /// Improves `contacts.impulse`, starting from what it holds, until the residual is below the
 /// tolerance or the iterations are used up.
 template <class Real>
-SolveReport solve(const SolveLimits& limits, const Kernels& kernels, Contacts<Real>& contacts,
+SolveReport solve(const SolveLimits& limits, const Processor& processor, Contacts<Real>& contacts,
                   MotionColumns<Real>& motion);
 
 }  // namespace grainsweep

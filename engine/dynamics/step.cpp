@@ -32,13 +32,13 @@ void set_free_motion(const StepSettings& settings, const SphereBed& bed,
 
 /// Lists candidates and lays out rows anew if the list may have become incomplete.
 template <class Real>
-bool renew_candidates(const StepSettings& settings, const Kernels& kernels, SphereBed& bed,
+bool renew_candidates(const StepSettings& settings, const Processor& processor, SphereBed& bed,
                       StepState<Real>& state) {
   if (state.has_candidates && still_complete(bed, settings.near, state.candidates)) {
     return false;
   }
-  find_candidates(bed, settings.near + settings.margin, kernels, state.candidates);
-  lay_out(bed, state.candidates, state.contacts);
+  find_candidates(bed, settings.near + settings.margin, processor, state.candidates);
+  lay_out(bed, state.candidates, state.contacts, processor.loop);
   state.has_candidates = true;
   return true;
 }
@@ -68,22 +68,22 @@ void advance(const std::vector<Record<Real>>& u, double dt, SphereBed& bed, Step
 }  // namespace
 
 template <class Real>
-StepReport step(const StepSettings& settings, const Kernels& kernels, SphereBed& bed,
+StepReport step(const StepSettings& settings, const Processor& processor, SphereBed& bed,
                 StepState<Real>& state) {
   StepReport report;
   const double force_unit = settings.dt * settings.dt;  // impulse of 1 m g over the step
   SolveLimits limits = settings.limits;
   limits.tolerance *= force_unit;
   set_free_motion(settings, bed, state.motion.free);
-  report.searched = renew_candidates(settings, kernels, bed, state);
-  detect(bed, kernels, settings.correction, state.contacts);
-  report.solve = solve(limits, kernels, state.contacts, state.motion);
+  report.searched = renew_candidates(settings, processor, bed, state);
+  detect(bed, processor, settings.correction, state.contacts);
+  report.solve = solve(limits, processor, state.contacts, state.motion);
   report.solve.residual /= force_unit;
   advance(state.motion.u, settings.dt, bed, report);
   return report;
 }
 
-template StepReport step(const StepSettings&, const Kernels&, SphereBed&, StepState<float>&);
-template StepReport step(const StepSettings&, const Kernels&, SphereBed&, StepState<double>&);
+template StepReport step(const StepSettings&, const Processor&, SphereBed&, StepState<float>&);
+template StepReport step(const StepSettings&, const Processor&, SphereBed&, StepState<double>&);
 
 }  // namespace grainsweep

@@ -39,7 +39,7 @@ struct StepState {
 };
 
 template <class Real>
-StepReport step(const StepSettings& settings, const Kernels& kernels, SphereBed& bed,
+StepReport step(const StepSettings& settings, const Processor& processor, SphereBed& bed,
                 StepState<Real>& state);
 
 }  // namespace grainsweep

@@ -84,21 +84,105 @@ double nearest(double difference, const Edge& edge) {
                           : difference;
 }
 
-/// Pairs by distance; centres are sorted by height, so that few are looked at in vain.
-std::vector<double> count_pairs(const Region& region, double bin_width, std::size_t bins) {
-  std::vector<double> counts(bins, 0.0);
-  const double reach = bin_width * static_cast<double>(bins);
-  for (auto a = region.centres.begin(); a != region.centres.end(); ++a) {
-    for (auto b = a + 1; b != region.centres.end() && b->z - a->z < reach; ++b) {
-      const double x = nearest(b->x - a->x, region.edges[0]);
-      const double y = nearest(b->y - a->y, region.edges[1]), z = b->z - a->z;
-      const double squared = x * x + y * y + z * z;
-      if (squared >= reach * reach) continue;
-      const auto bin = static_cast<std::size_t>(std::sqrt(squared) / bin_width);
-      counts[std::min(bin, bins - 1)] += 1.0;
+/// Upright columns of the region, at least `reach` wide, so that only adjacent ones hold pairs;
+/// each with its centres by height.
+struct Columns {
+  std::array<std::size_t, 2> count{};
+  std::vector<std::vector<Record<double>>> centres;
+};
+
+/// Columns along an axis: one where three would not fit, so that no column is its neighbour twice.
+std::size_t columns_along(double length, double reach) {
+  const double most = std::min(std::floor(length / reach), 256.0);
+  return most >= 3.0 ? static_cast<std::size_t>(most) : 1;
+}
+
+/// Column of coordinate `x`, which begins at `low` or is periodic.
+std::size_t column_of(double x, double low, const Edge& edge, std::size_t count) {
+  const double turns = (x - low) / edge.length;
+  const double place = edge.is_periodic ? turns - std::floor(turns) : turns;
+  return std::min(count - 1, static_cast<std::size_t>(place * static_cast<double>(count)));
+}
+
+double least(const std::vector<Record<double>>& centres, double Record<double>::*axis) {
+  double low = std::numeric_limits<double>::max();
+  for (const Record<double>& p : centres) low = std::min(low, p.*axis);
+  return low;
+}
+
+Columns columns_of(const Region& region, double reach) {
+  Columns columns;
+  const Edge &x = region.edges[0], &y = region.edges[1];
+  columns.count = {columns_along(x.length, reach), columns_along(y.length, reach)};
+  columns.centres.resize(columns.count[0] * columns.count[1]);
+  const double low_x = least(region.centres, &Record<double>::x);
+  const double low_y = least(region.centres, &Record<double>::y);
+  for (const Record<double>& p : region.centres) {
+    const std::size_t i = column_of(p.x, low_x, x, columns.count[0]);
+    const std::size_t j = column_of(p.y, low_y, y, columns.count[1]);
+    columns.centres[j * columns.count[0] + i].push_back(p);
+  }
+  return columns;
+}
+
+/// Places adjacent to `at` along an axis and `at` itself, each once.
+std::vector<std::size_t> places_around(std::size_t at, std::size_t count, bool is_periodic) {
+  std::vector<std::size_t> places = {at};
+  if (count == 1) return places;
+  if (at > 0 || is_periodic) places.push_back((at + count - 1) % count);
+  if (at + 1 < count || is_periodic) places.push_back((at + 1) % count);
+  return places;
+}
+
+/// Counts pairs by distance.
+class PairCounter {
+ public:
+  PairCounter(const Region& region, double bin_width, std::size_t bins)
+      : edges_(region.edges), bin_width_(bin_width), counts_(bins, 0.0) {}
+
+  double reach() const { return bin_width_ * static_cast<double>(counts_.size()); }
+  std::vector<double> take_counts() { return std::move(counts_); }
+
+  /// Each pair of one column once, or each of two columns. Heights say where to stop looking.
+  void count(const std::vector<Record<double>>& from, const std::vector<Record<double>>& to) {
+    std::size_t low = 0;
+    for (std::size_t a = 0; a < from.size(); ++a) {
+      while (low < to.size() && to[low].z <= from[a].z - reach()) ++low;
+      for (std::size_t b = &from == &to ? a + 1 : low;
+           b < to.size() && to[b].z - from[a].z < reach(); ++b) {
+        add(from[a], to[b]);
+      }
     }
   }
-  return counts;
+
+ private:
+  void add(const Record<double>& a, const Record<double>& b) {
+    const double x = nearest(b.x - a.x, edges_[0]), y = nearest(b.y - a.y, edges_[1]);
+    const double z = b.z - a.z, squared = x * x + y * y + z * z;
+    if (squared >= reach() * reach()) return;
+    const auto bin = static_cast<std::size_t>(std::sqrt(squared) / bin_width_);
+    counts_[std::min(bin, counts_.size() - 1)] += 1.0;
+  }
+
+  std::array<Edge, 3> edges_;
+  double bin_width_;
+  std::vector<double> counts_;
+};
+
+std::vector<double> count_pairs(const Region& region, double bin_width, std::size_t bins) {
+  if (bins == 0) return {};
+  PairCounter counter(region, bin_width, bins);
+  const Columns columns = columns_of(region, counter.reach());
+  const auto [across, along] = columns.count;
+  for (std::size_t at = 0; at < columns.centres.size(); ++at) {
+    for (const std::size_t j : places_around(at / across, along, region.edges[1].is_periodic)) {
+      for (const std::size_t i : places_around(at % across, across, region.edges[0].is_periodic)) {
+        const std::size_t other = j * across + i;
+        if (other >= at) counter.count(columns.centres[at], columns.centres[other]);
+      }
+    }
+  }
+  return counter.take_counts();
 }
 
 }  // namespace

@@ -5,9 +5,11 @@
 
 #include <catch2/catch.hpp>
 
+#include "engine/contact/sections.hpp"
 #include "engine/dynamics/presets.hpp"
 #include "engine/packing.hpp"
 #include "tests/support/instruction_sets.hpp"
+#include "tests/support/part_loops.hpp"
 
 namespace grainsweep {
 namespace {
@@ -101,6 +103,27 @@ TEST_CASE("a packing has the same bits for every instruction set", "[slow]") {
       CHECK(result.rest.residual == expected.rest.residual);
       CHECK(result.solid_fraction == expected.solid_fraction);
       CHECK(result.coordination[0].between_grains == expected.coordination[0].between_grains);
+    }
+  }
+}
+
+// The first steps of a bed of several sections: the fall and its impacts on the floor.
+TEST_CASE("a large packing has the same bits however its parts are shared out", "[slow]") {
+  PackingSpec spec = bed_spec(20, 20, Boundary::walls, "fast");
+  spec.fill = GrainCount{4 * static_cast<std::int64_t>(section_grains) + 500};
+  spec.accuracy.max_steps = 40;
+  for (const Solver solver :
+       {Solver::accelerated_projected_gradient, Solver::symmetric_gauss_seidel,
+        Solver::nonsmooth_nonlinear_conjugate}) {
+    spec.accuracy.solver = solver;
+    const PackingResult expected = make_packing(spec, kernels_for(best_isa()), always).result;
+    for (const PartLoop& loop :
+         {PartLoop(testing::last_part_first), PartLoop(testing::two_threads)}) {
+      const Processor processor(kernels_for(best_isa()), loop);
+      const PackingResult result = make_packing(spec, processor, always).result;
+      CHECK(result.state_hash == expected.state_hash);
+      CHECK(result.rest.residual == expected.rest.residual);
+      CHECK(result.rest.kinetic_energy == expected.rest.kinetic_energy);
     }
   }
 }

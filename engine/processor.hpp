@@ -1,0 +1,44 @@
+// What computes a packing: the kernels of an instruction set and, for large beds, several cores.
+//
+// The engine starts no thread. It names parts of its work that may be done at the same time;
+// whoever calls it says how. A bed is divided by its size alone, never by the number of cores, and
+// parts that meet are joined in a fixed order: the bits are the same however the parts are spread.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <utility>
+
+#include "kernels/kernels.hpp"
+
+namespace grainsweep {
+
+/// Calls part(0) .. part(parts - 1), in any order and maybe at the same time, and returns when all
+/// are done.
+using PartLoop =
+    std::function<void(std::size_t parts, const std::function<void(std::size_t)>& part)>;
+
+inline void one_after_another(std::size_t parts, const std::function<void(std::size_t)>& part) {
+  for (std::size_t k = 0; k < parts; ++k) part(k);
+}
+
+/// Runs the parts of a function object without a copy of it, so that nothing is allocated.
+template <class Part>
+void run_parts(const PartLoop& loop, std::size_t parts, const Part& part) {
+  if (parts == 1) {
+    part(std::size_t{0});
+  } else {
+    loop(parts, std::cref(part));
+  }
+}
+
+struct Processor {
+  // Kernels alone are a processor of one core.
+  Processor(const Kernels& table, PartLoop parts = one_after_another)
+      : kernels(table), loop(std::move(parts)) {}
+
+  const Kernels& kernels;
+  PartLoop loop;
+};
+
+}  // namespace grainsweep

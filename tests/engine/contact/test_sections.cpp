@@ -1,0 +1,162 @@
+#include <algorithm>
+#include <set>
+
+#include <catch2/catch.hpp>
+
+#include "engine/contact/contacts.hpp"
+#include "engine/contact/sections.hpp"
+#include "tests/support/instruction_sets.hpp"
+#include "tests/support/part_loops.hpp"
+#include "tests/support/scenes.hpp"
+
+namespace grainsweep {
+namespace {
+
+const Kernels& kernels() { return kernels_for(best_isa()); }
+
+/// A bed of `grains` about as dense as a packing that falls.
+SphereBed tall_bed(std::size_t grains, Boundary y) {
+  testing::RandomScene scene;
+  scene.box = {20, 10, Boundary::periodic, y};
+  scene.grains = grains;
+  scene.height = static_cast<double>(grains) / 200.0;
+  scene.least_radius = 0.25;
+  return testing::random_bed(scene);
+}
+
+Candidates candidates_of(SphereBed& bed) {
+  Candidates candidates;
+  find_candidates(bed, 0.1, kernels(), candidates);
+  return candidates;
+}
+
+std::vector<std::pair<std::int32_t, std::int32_t>> sorted(const std::vector<GrainPair>& pairs) {
+  std::vector<std::pair<std::int32_t, std::int32_t>> names;
+  for (const GrainPair pair : pairs) names.emplace_back(pair.a, pair.b);
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+TEST_CASE("a small bed is one section, with its pairs as they are") {
+  SphereBed bed = tall_bed(2000, Boundary::walls);
+  const Candidates candidates = candidates_of(bed);
+  Sections sections;
+  divide(candidates, sections);
+  CHECK(sections.count == 1);
+  CHECK(sections.begin == std::vector<std::size_t>{0, candidates.pairs.size()});
+  CHECK(std::equal(sections.pairs.begin(), sections.pairs.end(), candidates.pairs.begin(),
+                   [](GrainPair a, GrainPair b) { return a.a == b.a && a.b == b.b; }));
+}
+
+TEST_CASE("sections of a large bed hold all pairs, and every second one shares no grain") {
+  SphereBed bed = tall_bed(30'000, Boundary::periodic);
+  const Candidates candidates = candidates_of(bed);
+  Sections sections;
+  divide(candidates, sections);
+  REQUIRE(sections.count >= 4);
+  REQUIRE(sections.begin.size() >= sections.count + 1);
+  CHECK(sections.begin[0] == 0);
+  CHECK(sections.begin[sections.count] == candidates.pairs.size());
+  CHECK(sorted(sections.pairs) == sorted(candidates.pairs));
+  for (std::size_t parity = 0; parity < 2; ++parity) {
+    std::vector<std::size_t> owner(bed.grains(), sections.count);
+    for (std::size_t section = parity; section < sections.count; section += 2) {
+      for (std::size_t k = sections.begin[section]; k < sections.begin[section + 1]; ++k) {
+        for (const std::int32_t grain : {sections.pairs[k].a, sections.pairs[k].b}) {
+          std::size_t& mine = owner[static_cast<std::size_t>(grain)];
+          mine = mine == sections.count ? section : mine;
+          REQUIRE(mine == section);
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("a large bed that is flat stays in few sections, each two layers high") {
+  testing::RandomScene scene;
+  scene.box = {100, 100, Boundary::periodic, Boundary::periodic};
+  scene.grains = 20'000;
+  scene.height = 3.0;
+  SphereBed bed = testing::random_bed(scene);
+  const Candidates candidates = candidates_of(bed);
+  Sections sections;
+  divide(candidates, sections);
+  std::vector<int> layers(sections.count, 0);
+  for (const std::int32_t section : sections.of_layer) ++layers[static_cast<std::size_t>(section)];
+  if (sections.count > 1) CHECK(*std::min_element(layers.begin(), layers.end()) >= 2);
+  CHECK(sections.count <= std::max<std::size_t>(1, candidates.layers.size() / 2));
+}
+
+/// Rows of a large bed, laid out by `loop` on top of rows that pushed.
+Contacts<float> laid_out(const Candidates& candidates, const SphereBed& bed, const PartLoop& loop) {
+  Contacts<float> contacts;
+  lay_out(bed, candidates, contacts, loop);
+  for (std::size_t k = 0; k < contacts.impulse.size(); ++k) {
+    const bool is_void = contacts.rows[k / block_width].a(k % block_width) == bed.void_a();
+    contacts.impulse[k] = k % 3 == 0 && !is_void ? static_cast<float>(k % 101) : 0.0F;
+  }
+  lay_out(bed, candidates, contacts, loop);
+  detect(bed, {kernels(), loop}, 0.5, contacts);
+  return contacts;
+}
+
+TEST_CASE("ranges of a phase share no grain and cover all blocks once") {
+  SphereBed bed = tall_bed(30'000, Boundary::walls);
+  const Candidates candidates = candidates_of(bed);
+  const Contacts<float> contacts = laid_out(candidates, bed, one_after_another);
+  REQUIRE(contacts.ranges.size() > 4);
+  std::vector<int> covered(contacts.rows.size(), 0);
+  std::size_t phase = 0;
+  std::set<std::int32_t> taken;
+  for (const BlockRange& range : contacts.ranges) {
+    CHECK(range.phase >= phase);
+    if (range.phase != phase) taken.clear();
+    phase = range.phase;
+    std::set<std::int32_t> mine;
+    for (std::size_t block = range.first; block < range.first + range.blocks; ++block) {
+      ++covered[block];
+      for (std::size_t lane = 0; lane < block_width; ++lane) {
+        for (const std::int32_t grain :
+             {contacts.rows[block].a(lane), contacts.rows[block].b(lane)}) {
+          if (grain < bed.wall()) mine.insert(grain);
+        }
+      }
+    }
+    for (const std::int32_t grain : mine) REQUIRE(taken.insert(grain).second);
+  }
+  CHECK(std::all_of(covered.begin(), covered.end(), [](int times) { return times == 1; }));
+}
+
+TEST_CASE("rows are the same in whatever order their parts are laid out") {
+  SphereBed bed = tall_bed(30'000, Boundary::walls);
+  const Candidates candidates = candidates_of(bed);
+  const Contacts<float> plain = laid_out(candidates, bed, one_after_another);
+  for (const PartLoop& loop :
+       {PartLoop(testing::last_part_first), PartLoop(testing::two_threads)}) {
+    const Contacts<float> other = laid_out(candidates, bed, loop);
+    CHECK(other.impulse == plain.impulse);
+    REQUIRE(other.rows.size() == plain.rows.size());
+    for (std::size_t block = 0; block < plain.rows.size(); ++block) {
+      const RowBlock<float>&a = plain.rows[block], &b = other.rows[block];
+      REQUIRE(std::equal(a.gap, a.gap + block_width, b.gap));
+      REQUIRE(std::equal(a.offset_a, a.offset_a + block_width, b.offset_a));
+      REQUIRE(std::equal(a.offset_b, a.offset_b + block_width, b.offset_b));
+    }
+  }
+}
+
+TEST_CASE("candidates of a large bed are the same in whatever order their parts are searched") {
+  SphereBed bed = tall_bed(40'000, Boundary::walls);
+  const Candidates plain = candidates_of(bed);
+  for (const PartLoop& loop :
+       {PartLoop(testing::last_part_first), PartLoop(testing::two_threads)}) {
+    Candidates other;
+    find_candidates(bed, 0.1, {kernels(), loop}, other);
+    REQUIRE(other.pairs.size() == plain.pairs.size());
+    CHECK(std::equal(plain.pairs.begin(), plain.pairs.end(), other.pairs.begin(),
+                     [](GrainPair a, GrainPair b) { return a.a == b.a && a.b == b.b; }));
+  }
+}
+
+}  // namespace
+}  // namespace grainsweep
