@@ -14,8 +14,6 @@
 #include <tbb/parallel_pipeline.h>
 #include <tbb/task_arena.h>
 
-#include "runner/machine.hpp"
-
 namespace grainsweep {
 namespace {
 
@@ -28,11 +26,11 @@ Packing failed_packing(const std::string& reason) {
 
 /// Packs one bed; an exception becomes a failed packing.
 Finished pack_one(std::size_t index, const Pack& pack, const KeepGoing& go_on) {
-  const double start = thread_cpu_seconds();
+  Crew crew;
   Finished finished;
   finished.task = index;
   try {
-    finished.packing = pack(index, go_on);
+    finished.packing = pack(index, crew, go_on);
   } catch (const std::bad_alloc&) {
     finished.packing = failed_packing("out of memory; use fewer --threads or a smaller bed");
     finished.threw = true;
@@ -40,7 +38,7 @@ Finished pack_one(std::size_t index, const Pack& pack, const KeepGoing& go_on) {
     finished.packing = failed_packing(error.what());
     finished.threw = true;
   }
-  finished.cpu_seconds = thread_cpu_seconds() - start;
+  finished.cpu_seconds = crew.cpu_seconds();
   return finished;
 }
 

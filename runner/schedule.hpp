@@ -1,4 +1,5 @@
 // Many packings on a few threads: one oneTBB arena, one packing per task, the longest first.
+// Threads that find no packing left help with the large ones that are under way.
 //
 // Longest first keeps the threads busy to the end: the short ones fill the gaps. How many packings
 // live at once is bounded by the number of threads and by memory. The order of finishing has no
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include "engine/packing.hpp"
+#include "runner/crew.hpp"
 
 namespace grainsweep {
 
@@ -24,15 +26,15 @@ struct Limits {
   double memory = 0.0;  ///< bytes for all live packings together; 0 = unbounded
 };
 
-/// Makes the packing of a task, by its index. May throw.
-using Pack = std::function<Packing(std::size_t task, const KeepGoing&)>;
+/// Makes the packing of a task, by its index, with the crew's help. May throw.
+using Pack = std::function<Packing(std::size_t task, Crew& crew, const KeepGoing&)>;
 
 /// What came of a task. Cancelled packings do not count as finished.
 struct Finished {
   std::size_t task = 0;  ///< index into the tasks
   Packing packing;
   bool threw = false;        ///< `pack` threw; the packing's reason says what
-  double cpu_seconds = 0.0;  ///< of the thread that made it
+  double cpu_seconds = 0.0;  ///< of all threads that made it
 };
 
 /// Called back while tasks run, from whichever thread runs them. `finished` is never called by two
