@@ -50,7 +50,7 @@ Json parameter_schema(const Parameter& parameter) {
 Json group_schema(const std::string& group) {
   Json members;
   for (const std::string& key : known_keys(group)) members[key] = reference(group + "." + key);
-  const Json object = closed_object(members);
+  Json object = closed_object(members);
   if (group != "accuracy") return object;
   return {{"anyOf", {reference("accuracy.preset"), object}}};
 }
@@ -82,7 +82,7 @@ Json one_member(const char* name, const Json& value) {
 }
 
 Json distribution(const std::string& path) {
-  const Json choice = one_member("choice", list_of(reference(path)));
+  Json choice = one_member("choice", list_of(reference(path)));
   const auto index = find_parameter(path);
   const bool is_interval = index && (parameters()[*index].kind == ValueKind::number ||
                                      parameters()[*index].kind == ValueKind::whole);

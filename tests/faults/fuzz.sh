@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Fuzzes the sweep reader with libFuzzer under the address and undefined-behaviour sanitizers, from a
 # fixed corpus and seed. GRAINSWEEP_FAULTS=full: two million inputs instead of a hundred thousand.
+# Its build takes minutes, so that ctest runs test_any_text.cpp instead.
 # usage: fuzz.sh
 set -euo pipefail
 cd "$(dirname "$0")/../.."
@@ -25,13 +26,7 @@ mkdir "$work/corpus"
 # The corpus: the sweeps at hand, and one of every kind of block. The words: the keys of the schema.
 cp configs/*.json "$work/corpus/" && rm "$work/corpus/sweep.schema.json"
 sed -n '/^```json$/,/^```$/{/^```/d;p}' README.md >"$work/corpus/readme.json"
-cat >"$work/corpus/kinds.json" <<'JSON'
-{"name": "k", "seed": 1, "replicates": 2, "base": {"shape": "sphere", "fill": {"file": "no.csv"},
- "accuracy": {"preset": "fast", "solver": "pgs"}, "measure.gap_tolerances": [1e-4, 1e-5]},
- "sweep": [{"set": {"fill": {"grains": 40}}, "zip": {"box.width": [5, 6], "seed": [1, 2]}},
-  {"random": {"count": 2, "box.width": {"uniform": [5, 9]}, "box.y": {"choice": ["walls"]},
-   "sizes.size_ratio": {"log_uniform": [0.1, 1]}}, "replicates": 1}]}
-JSON
+cp tests/faults/kinds.json "$work/corpus/"
 grep -oE '"[A-Za-z_.$]+":' configs/sweep.schema.json | tr -d '":' | sort -u |
   sed 's/.*/"\\"&\\""/' >"$work/words"
 printf '%s\n' '"\\"walls\\""' '"\\"periodic\\""' '"\\"fast\\""' '"\\"choice\\""' '"1e308"' '"-0"' \

@@ -1,6 +1,8 @@
 // Damaged journals and checkpoints: noticed, never used.
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -30,20 +32,22 @@ void write_quickly(const std::string& path, const std::string& bytes) {
   std::ofstream(path, std::ios::binary) << bytes;
 }
 
-/// `bytes` with a bit of one byte flipped: over all tries every byte of a small file, and places
-/// spread over a large one.
+/// The byte to damage in try `number`: over all tries every one of a small file, and places spread
+/// over a large one.
+std::size_t place_in(const std::string& bytes, std::size_t number) {
+  return bytes.size() < tries() ? number % bytes.size() : number * bytes.size() / tries();
+}
+
+/// `bytes` with a bit of one byte flipped, in the next round over a small file another bit.
 std::string flipped(std::string bytes, std::size_t number) {
-  const std::size_t at =
-      bytes.size() < tries() ? number % bytes.size() : number * (bytes.size() / tries());
+  const std::size_t at = place_in(bytes, number);
   bytes[at] = static_cast<char>(bytes[at] ^ (1 << (number / bytes.size() + number) % 8));
   return bytes;
 }
 
-/// The first bytes of a file, cut at every place or at places spread over it.
+/// The first bytes of a file.
 std::string cut(const std::string& bytes, std::size_t number) {
-  const std::size_t size =
-      bytes.size() < tries() ? number % bytes.size() : number * (bytes.size() / tries());
-  return bytes.substr(0, size);
+  return bytes.substr(0, place_in(bytes, number));
 }
 
 /// A journal of three packings, and what reading it must give at most.
@@ -59,13 +63,12 @@ struct SampleJournal {
   }
 };
 
-/// Whether everything read is what was written, and nothing is missing without being reported.
-bool is_sound(const SampleJournal& journal, const JournalReading& reading) {
-  for (const auto& [job, outcome] : reading.outcomes) {
-    const auto known = journal.outcomes.find(job);
-    if (known == journal.outcomes.end() || to_json(known->second) != to_json(outcome)) return false;
-  }
-  return reading.outcomes.size() < journal.outcomes.size();
+/// Whether everything read is what was written.
+bool is_as_written(const SampleJournal& journal, const JournalReading& reading) {
+  return std::all_of(reading.outcomes.begin(), reading.outcomes.end(), [&](const auto& entry) {
+    const auto known = journal.outcomes.find(entry.first);
+    return known != journal.outcomes.end() && to_json(known->second) == to_json(entry.second);
+  });
 }
 
 TEST_CASE("a journal with any bit changed never gives a packing that was not made") {
@@ -75,7 +78,8 @@ TEST_CASE("a journal with any bit changed never gives a packing that was not mad
   for (std::size_t number = 0; number < tries(); ++number) {
     write_quickly(folder.path() + "/journal-x-1.jsonl", flipped(journal.text, number));
     const JournalReading reading = read_journals(folder.path());
-    sound += is_sound(journal, reading) && !reading.damage.empty() ? 1 : 0;
+    const bool is_noticed = !reading.damage.empty() && reading.outcomes.size() < 3;
+    sound += is_noticed && is_as_written(journal, reading) ? 1 : 0;
   }
   CHECK(sound == tries());
 }
@@ -91,7 +95,7 @@ TEST_CASE("a journal cut at any byte gives the packings before the cut") {
     // A last line that lacks nothing but its line feed is whole.
     const auto lines = static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')) +
                        (text.ends_with("}}") && journal.text[text.size()] == '\n' ? 1 : 0);
-    sound += is_sound(journal, reading) && reading.outcomes.size() == lines ? 1 : 0;
+    sound += reading.outcomes.size() == lines && is_as_written(journal, reading) ? 1 : 0;
   }
   CHECK(sound == tries());
 }

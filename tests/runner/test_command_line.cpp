@@ -74,7 +74,7 @@ TEST_CASE("every command is understood") {
   CHECK(collect.folders == std::vector<std::string>{"a", "b"});
   CHECK(collect.out == "c");
   const auto completion = options_of<CompletionOptions>(read({"completion", "bash"}));
-  REQUIRE(completion.commands.size() == 10);
+  REQUIRE(completion.commands.size() == 11);
   CHECK(completion.commands.at(3).command == "report");
   CHECK(completion.commands.at(2).options ==
         std::vector<std::string>{"--help", "--threads", "--json"});
