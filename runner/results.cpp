@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <set>
 #include <utility>
 
 #include <nlohmann/json.hpp>
 
 #include "runner/exit_codes.hpp"
+#include "runner/store/brief.hpp"
 #include "runner/store/checkpoints.hpp"
 #include "runner/store/files.hpp"
 #include "runner/store/journal.hpp"
@@ -16,6 +18,7 @@
 #include "runner/tables/distributions.hpp"
 #include "runner/tables/fits.hpp"
 #include "runner/tables/groups.hpp"
+#include "runner/tables/outline.hpp"
 #include "runner/tables/packings.hpp"
 #include "runner/tables/profiles.hpp"
 
@@ -28,7 +31,9 @@ constexpr std::array tables = {"packings.csv",      "groups.csv",     "fits.csv"
 
 std::string provenance_path(const std::string& folder) { return folder + "/provenance.json"; }
 
-Provenance read_provenance(const std::string& folder) {
+/// provenance.json, as `read` makes it of the text. Throws BadInput.
+template <class Read>
+auto read_provenance_by(const std::string& folder, Read read) {
   const std::string path = provenance_path(folder);
   if (!file_exists(path)) {
     throw BadInput(folder +
@@ -37,11 +42,15 @@ Provenance read_provenance(const std::string& folder) {
                    folder);
   }
   try {
-    return provenance_from_text(read_file(path));
+    return read(read_file(path));
   } catch (const nlohmann::json::exception& error) {
     throw BadInput(path + ": not what grainsweep wrote (" + error.what() +
                    "); run the sweep again to write it anew, stored packings are kept");
   }
+}
+
+Provenance read_provenance(const std::string& folder) {
+  return read_provenance_by(folder, provenance_from_text);
 }
 
 std::size_t count_foreign(const SweepFacts& sweep, const std::map<std::string, Outcome>& stored) {
@@ -61,6 +70,28 @@ Results read_results(const std::string& folder) {
   results.damage = std::move(journals.damage);
   results.foreign = count_foreign(results.provenance.sweep, journals.outcomes);
   return results;
+}
+
+Overview read_overview(const std::string& folder, const std::string& version) {
+  const Outline outline = read_provenance_by(folder, outline_from_text);
+  BriefReading stored = read_briefs(folder, version);
+  Overview overview;
+  overview.name = outline.name;
+  overview.sweep_file = outline.sweep_file;
+  overview.packings = outline.jobs.size();
+  std::size_t finished = 0;
+  for (const std::string& job : outline.jobs) {
+    const auto found = stored.briefs.find(job);
+    count(found == stored.briefs.end() ? std::nullopt : std::optional(found->second.status),
+          overview.counts);
+    if (found == stored.briefs.end()) continue;
+    ++finished;
+    overview.cpu_seconds += found->second.cpu_seconds;
+    overview.other_versions += found->second.version == version ? 0 : 1;
+  }
+  overview.damage = std::move(stored.damage);
+  overview.foreign = stored.briefs.size() - finished;
+  return overview;
 }
 
 std::vector<RunRecord> recorded_runs(const std::string& folder) {
@@ -109,8 +140,13 @@ std::string other_versions_warning(const std::vector<Row>& rows, const std::stri
     return row.outcome && row.outcome->version != version;
   };
   const auto count = std::count_if(rows.begin(), rows.end(), is_other);
+  return other_versions_warning(static_cast<std::size_t>(count), rows.size(), version);
+}
+
+std::string other_versions_warning(std::size_t count, std::size_t rows,
+                                   const std::string& version) {
   if (count == 0) return "";
-  return "warning: " + std::to_string(count) + " of " + std::to_string(rows.size()) +
+  return "warning: " + std::to_string(count) + " of " + std::to_string(rows) +
          " packings were made by another version than " + version +
          "; run with --fresh to make all anew\n";
 }

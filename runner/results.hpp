@@ -20,6 +20,22 @@ struct Results {
 /// folder, FileError if a file cannot be read.
 Results read_results(const std::string& folder);
 
+/// How much of a sweep is done.
+struct Overview {
+  std::string name;        ///< of the sweep
+  std::string sweep_file;  ///< as given on the command line
+  std::size_t packings = 0;
+  StatusCounts counts;
+  double cpu_seconds = 0.0;         ///< of all finished packings, s
+  std::vector<std::string> damage;  ///< as of Results
+  std::size_t foreign = 0;          ///< as of Results
+  std::size_t other_versions = 0;   ///< finished packings of another version than asked for
+};
+
+/// The same as counting read_results, in a tenth of the time and memory. `version`: of this
+/// program.
+Overview read_overview(const std::string& folder, const std::string& version);
+
 /// The runs recorded in the folder so far; none if it is new.
 std::vector<RunRecord> recorded_runs(const std::string& folder);
 
@@ -43,6 +59,7 @@ void write_provenance(const std::string& folder, const Provenance& provenance,
 /// A line that says how many rows another version of the program made, whose results may not belong
 /// into one table with this one's; empty if there are none.
 std::string other_versions_warning(const std::vector<Row>& rows, const std::string& version);
+std::string other_versions_warning(std::size_t count, std::size_t rows, const std::string& version);
 
 /// Number of stored packings in the folder.
 std::size_t stored_packings(const std::string& folder);

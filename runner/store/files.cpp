@@ -1,6 +1,7 @@
 #include "runner/store/files.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstdio>
 #include <fcntl.h>
@@ -28,6 +29,16 @@ auto uninterrupted(Call call) {
 std::string folder_of(const std::string& path) {
   const std::string folder = std::filesystem::path(path).parent_path().string();
   return folder.empty() ? "." : folder;
+}
+
+/// Appends what comes next in the file; false at its end.
+bool read_more(const OpenFile& file, std::string& text) {
+  std::array<char, 1 << 16> block;
+  const ssize_t count =
+      uninterrupted([&] { return read(file.descriptor(), block.data(), block.size()); });
+  if (count < 0) throw FileError(file.path(), "read", errno);
+  text.append(block.data(), static_cast<std::size_t>(count));
+  return count > 0;
 }
 
 void write_and_flush(const std::string& path, std::string_view bytes) {
@@ -83,14 +94,23 @@ void flush_folder_of(const std::string& path) {
 std::string read_file(const std::string& path) {
   const OpenFile file(path, O_RDONLY);
   std::string text;
-  char block[1 << 16];
-  for (;;) {
-    const ssize_t count =
-        uninterrupted([&] { return read(file.descriptor(), block, sizeof block); });
-    if (count < 0) throw FileError(path, "read", errno);
-    if (count == 0) return text;
-    text.append(block, static_cast<std::size_t>(count));
+  while (read_more(file, text)) {
   }
+  return text;
+}
+
+void for_each_line(const std::string& path, const std::function<void(std::string_view)>& use) {
+  const OpenFile file(path, O_RDONLY);
+  std::string text;
+  while (read_more(file, text)) {
+    std::string_view rest = text;
+    for (std::size_t end = rest.find('\n'); end != rest.npos; end = rest.find('\n')) {
+      use(rest.substr(0, end));
+      rest.remove_prefix(end + 1);
+    }
+    text.erase(0, text.size() - rest.size());
+  }
+  if (!text.empty()) use(text);
 }
 
 void remove_leftovers(const std::string& folder, std::string_view ending) {

@@ -3,6 +3,7 @@
 // Every function throws FileError. Interrupted system calls are repeated, short writes continued.
 #pragma once
 
+#include <functional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -52,6 +53,9 @@ void flush_folder_of(const std::string& path);
 
 /// The whole file.
 std::string read_file(const std::string& path);
+
+/// Calls `use` with each line of a file, without its line feed; the last one may lack it.
+void for_each_line(const std::string& path, const std::function<void(std::string_view)>& use);
 
 /// Replaces `path` by a file holding `bytes`: a reader or a crash sees the old file or the new one,
 /// never a part. Writes a neighbour, flushes it, renames it, flushes the folder.

@@ -11,6 +11,7 @@
 
 #include "runner/store/checksum.hpp"
 #include "runner/store/files.hpp"
+#include "runner/store/journal_lines.hpp"
 #include "runner/store/lock.hpp"
 
 namespace grainsweep {
@@ -30,28 +31,6 @@ bool ends_inside_a_line(const std::string& path) {
   return !text.empty() && text.back() != '\n';
 }
 
-void keep(Outcome outcome, std::map<std::string, Outcome>& outcomes) {
-  const auto [known, is_new] = outcomes.try_emplace(outcome.job, outcome);
-  const bool hides_a_result = outcome.threw && !known->second.threw;
-  if (!is_new && !hides_a_result) known->second = std::move(outcome);
-}
-
-void read_journal(const std::string& name, const std::string& text, JournalReading& reading) {
-  std::size_t number = 0;
-  for (std::size_t begin = 0; begin < text.size();) {
-    const std::size_t end = std::min(text.find('\n', begin), text.size());
-    const auto outcome = read_journal_line(std::string_view(text).substr(begin, end - begin));
-    ++number;
-    if (outcome) {
-      keep(*outcome, reading.outcomes);
-    } else {
-      reading.damage.push_back(name + ":" + std::to_string(number) +
-                               ": torn or damaged line, left out; its packing is made again");
-    }
-    begin = end + 1;
-  }
-}
-
 }  // namespace
 
 std::string journal_line(const Outcome& outcome) {
@@ -60,15 +39,20 @@ std::string journal_line(const Outcome& outcome) {
   return line_start(text) + text + "}\n";
 }
 
-std::optional<Outcome> read_journal_line(std::string_view line) {
+std::optional<std::string_view> outcome_in(std::string_view line) {
   constexpr std::string_view before_outcome = R"("outcome":)";
   const std::size_t start = line.find(before_outcome);
   if (start == std::string_view::npos || !line.ends_with('}')) return std::nullopt;
   const std::size_t begin = start + before_outcome.size();
   const std::string_view text = line.substr(begin, line.size() - begin - 1);
-  if (line.substr(0, begin) != line_start(text)) return std::nullopt;
+  return line.substr(0, begin) == line_start(text) ? std::optional(text) : std::nullopt;
+}
+
+std::optional<Outcome> read_journal_line(std::string_view line) {
+  const auto text = outcome_in(line);
+  if (!text) return std::nullopt;
   try {
-    return outcome_from_json(nlohmann::json::parse(text));
+    return outcome_from_json(nlohmann::json::parse(*text));
   } catch (const std::exception&) {
     return std::nullopt;  // whole, but written by a version with other members
   }
@@ -89,9 +73,7 @@ void Journal::append(const Outcome& outcome) {
 
 JournalReading read_journals(const std::string& folder) {
   JournalReading reading;
-  for (const std::string& name : files_in(folder, "journal-", ".jsonl")) {
-    read_journal(name, read_file(folder + "/" + name), reading);
-  }
+  reading.damage = collect_lines(folder, read_journal_line, reading.outcomes);
   return reading;
 }
 

@@ -9,6 +9,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "runner/store/outcome.hpp"
@@ -38,6 +39,9 @@ JournalReading read_journals(const std::string& folder);
 
 /// The line (with its line feed) that holds `outcome`.
 std::string journal_line(const Outcome& outcome);
+
+/// The JSON text of the outcome in a line; nothing if the line is torn or damaged.
+std::optional<std::string_view> outcome_in(std::string_view line);
 
 /// The outcome in a line; nothing if it is torn or damaged.
 std::optional<Outcome> read_journal_line(std::string_view line);

@@ -12,14 +12,6 @@ namespace {
 
 using nlohmann::json;
 
-PackingStatus status_from(const std::string& name) {
-  for (const auto status : {PackingStatus::settled, PackingStatus::not_settled,
-                            PackingStatus::cancelled, PackingStatus::failed}) {
-    if (name == name_of(status)) return status;
-  }
-  throw std::invalid_argument("no status: " + name);
-}
-
 json rest_json(const RestReport& rest) {
   return {{"residual", number_json(rest.residual)},
           {"kinetic_energy", number_json(rest.kinetic_energy)},
@@ -82,6 +74,14 @@ std::vector<Coordination> coordination_from(const json& list) {
 }
 
 }  // namespace
+
+PackingStatus status_from(std::string_view name) {
+  for (const auto status : {PackingStatus::settled, PackingStatus::not_settled,
+                            PackingStatus::cancelled, PackingStatus::failed}) {
+    if (name == name_of(status)) return status;
+  }
+  throw std::invalid_argument("no status: " + std::string(name));
+}
 
 json to_json(const Outcome& outcome) {
   const PackingResult& result = outcome.result;

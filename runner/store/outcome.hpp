@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -23,6 +24,9 @@ struct Outcome {
 
 /// Every double reads back with the same bits; not-a-number and infinities are strings.
 nlohmann::json to_json(const Outcome& outcome);
+
+/// The opposite of name_of. Throws std::invalid_argument.
+PackingStatus status_from(std::string_view name);
 
 /// Throws nlohmann::json::exception or std::invalid_argument if `json` is no outcome.
 Outcome outcome_from_json(const nlohmann::json& json);

@@ -140,12 +140,15 @@ std::string status_of(const Row& row) {
   return row.outcome ? name_of(row.outcome->result.status) : "pending";
 }
 
+void count(std::optional<PackingStatus> status, StatusCounts& counts) {
+  counts.settled += status == PackingStatus::settled ? 1 : 0;
+  counts.not_settled += status == PackingStatus::not_settled ? 1 : 0;
+  counts.failed += status == PackingStatus::failed ? 1 : 0;
+  counts.pending += status ? 0 : 1;
+}
+
 void count(const Row& row, StatusCounts& counts) {
-  const std::string status = status_of(row);
-  counts.settled += status == "settled" ? 1 : 0;
-  counts.not_settled += status == "not_settled" ? 1 : 0;
-  counts.failed += status == "failed" ? 1 : 0;
-  counts.pending += status == "pending" ? 1 : 0;
+  count(row.outcome ? std::optional(row.outcome->result.status) : std::nullopt, counts);
 }
 
 bool is_measured(const Row& row) {

@@ -63,7 +63,8 @@ struct StatusCounts {
   int settled = 0, not_settled = 0, failed = 0, pending = 0;
 };
 
-/// Counts one more.
+/// Counts one more; no status while it is pending.
+void count(std::optional<PackingStatus> status, StatusCounts& counts);
 void count(const Row& row, StatusCounts& counts);
 
 /// Whether the row holds measured values, settled or not.

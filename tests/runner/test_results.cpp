@@ -35,12 +35,42 @@ TEST_CASE("tables and journals are enough to know a folder's results") {
   CHECK(recorded_runs(folder.path()).size() == 1);
 }
 
+TEST_CASE("an overview counts what the whole results hold") {
+  const TemporaryFolder folder;
+  Journal journal(folder.path());
+  Outcome failed = sample_outcome("a1", 0.6, 6);
+  failed.result.status = PackingStatus::failed;
+  failed.version = "0.0.9";
+  journal.append(failed);
+  journal.append(sample_outcome("other", 0.6, 6));
+  Provenance provenance = sample_provenance();
+  provenance.sweep.jobs.push_back(sample_job("a3", 7));
+  write_tables(folder.path(), provenance, {});
+  journal.append(sample_outcome("a2", 0.6, 6));
+  const Results results = read_results(folder.path());
+  const Totals totals = totals_of(results.rows);
+  const Overview overview = read_overview(folder.path(), "");
+  CHECK(overview.name == "a");
+  CHECK(overview.sweep_file == "a.json");
+  CHECK(overview.packings == results.rows.size());
+  CHECK(overview.counts.settled == 1);
+  CHECK(overview.counts.not_settled == 0);
+  CHECK(overview.counts.failed == 1);
+  CHECK(overview.counts.pending == totals.counts.pending);
+  CHECK(overview.cpu_seconds == totals.cpu_seconds);
+  CHECK(overview.foreign == results.foreign);
+  CHECK(overview.other_versions == 1);
+  CHECK(overview.damage.empty());
+}
+
 TEST_CASE("a folder without results is refused, and so is a broken provenance") {
   const TemporaryFolder folder;
   CHECK_THROWS_AS(read_results(folder.path()), BadInput);
+  CHECK_THROWS_AS(read_overview(folder.path(), ""), BadInput);
   CHECK(recorded_runs(folder.path()).empty());
   replace_file(folder.path() + "/provenance.json", "{");
   CHECK_THROWS_WITH(read_results(folder.path()), Catch::Contains("run the sweep again"));
+  CHECK_THROWS_WITH(read_overview(folder.path(), ""), Catch::Contains("run the sweep again"));
   CHECK(recorded_runs(folder.path()).empty());
 }
 

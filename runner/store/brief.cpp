@@ -1,0 +1,65 @@
+#include "runner/store/brief.hpp"
+
+#include <charconv>
+
+#include "runner/store/journal.hpp"
+#include "runner/store/journal_lines.hpp"
+
+namespace grainsweep {
+namespace {
+
+/// The value at the beginning of `text`, up to the next comma or bracket, or without its quotes.
+std::string_view value_of(std::string_view text) {
+  if (!text.starts_with('"')) return text.substr(0, text.find_first_of(",}]"));
+  text.remove_prefix(1);
+  return text.substr(0, text.find('"'));
+}
+
+/// The value behind `"name":`; empty if there is no such member. No string holds such a beginning:
+/// in it every quote has a backslash before it.
+std::string_view early_member(std::string_view text, std::string_view beginning) {
+  const std::size_t at = text.find(beginning);
+  return at == text.npos ? std::string_view() : value_of(text.substr(at + beginning.size()));
+}
+
+/// The same, looked for from the end. Members are written in the order of their names.
+std::string_view late_member(std::string_view text, std::string_view beginning) {
+  const std::size_t at = text.rfind(beginning);
+  return at == text.npos ? std::string_view() : value_of(text.substr(at + beginning.size()));
+}
+
+Brief brief_of(const Outcome& outcome) {
+  return {outcome.job, outcome.version, outcome.result.status, outcome.threw, outcome.cpu_seconds};
+}
+
+}  // namespace
+
+std::optional<Brief> read_brief(std::string_view line, std::string_view version) {
+  const auto text = outcome_in(line);
+  if (!text) return std::nullopt;
+  const std::string_view job = early_member(*text, R"("job":)");
+  const std::string_view status = late_member(*text, R"("status":)");
+  const std::string_view seconds = early_member(*text, R"("cpu_seconds":)");
+  Brief brief;
+  brief.job = job;
+  brief.version = version;
+  const auto number = std::from_chars(seconds.begin(), seconds.end(), brief.cpu_seconds);
+  const bool is_ours = late_member(*text, R"("version":)") == version && !job.empty() &&
+                       number.ec == std::errc() && number.ptr == seconds.end();
+  if (!is_ours || status.empty()) {
+    const auto outcome = read_journal_line(line);
+    return outcome ? std::optional(brief_of(*outcome)) : std::nullopt;
+  }
+  brief.status = status_from(status);
+  brief.threw = late_member(*text, R"("threw":)") == "true";
+  return brief;
+}
+
+BriefReading read_briefs(const std::string& folder, std::string_view version) {
+  BriefReading reading;
+  const auto read = [&](std::string_view line) { return read_brief(line, version); };
+  reading.damage = collect_lines(folder, read, reading.briefs);
+  return reading;
+}
+
+}  // namespace grainsweep

@@ -1,0 +1,51 @@
+# A sweep of 100,000 packings: plan in 2 s, status in 1 s, each in 300 MB, whether nothing of it is
+# done or all. Few have the time to make them: the journal, of beds of 24 grains, is made from one
+# line. status reads and checks all of it, so that its time grows with the size, by 3 s a gigabyte.
+source "$(dirname "$0")/common.sh" "$1"
+command -v python3 >/dev/null || skip "python3 is not installed"
+cat >large.json <<'JSON'
+{ "name": "large", "replicates": 100, "base": { "fill": { "grains": 24 }, "box": { "length": 3 },
+  "measure": { "exclude_floor": 0, "exclude_surface": 0 }, "accuracy": "fast" },
+  "sweep": [ { "random": { "count": 1000, "box.width": { "uniform": [3, 20] } } } ] }
+JSON
+
+# measured SECONDS COMMAND...: CPU time and peak memory lie below; shows both.
+measured() {
+  local limit=$1
+  shift
+  python3 - "$limit" "$program" "$@" <<'PYTHON' || fail "$*: too slow or too large"
+import os, resource, subprocess, sys
+limit, command = float(sys.argv[1]), sys.argv[2:]
+with open("said.txt", "w") as said:
+    code = subprocess.call(command, stdout=said, stderr=subprocess.STDOUT)
+use = resource.getrusage(resource.RUSAGE_CHILDREN)
+seconds, megabytes = use.ru_utime + use.ru_stime, use.ru_maxrss / 1024
+print(f"{' '.join(command[1:])}: {seconds:.2f} s, {megabytes:.0f} MB")
+sys.exit(code != 0 or seconds >= limit or megabytes >= 300)
+PYTHON
+}
+
+measured 2 plan large.json
+expect_text said.txt "100000 packings"
+measured 2 plan large.json --json
+"$program" run large.json --out out --threads 2 >/dev/null 2>&1 &
+for _ in $(seq 300); do [ "$(cat out/journal-* 2>/dev/null | wc -l)" -ge 1 ] && break || sleep 0.1; done
+kill -KILL $! && wait $! 2>/dev/null || true
+measured 1 status out
+expect_text said.txt "of 100000 packings done"
+
+python3 - out <<'PYTHON'
+import glob, json, sys, zlib
+folder = sys.argv[1]
+journal = glob.glob(folder + "/journal-*.jsonl")[0]
+line = open(journal, "rb").readline()
+outcome = line[line.index(b'"outcome":') + len(b'"outcome":'):-2]
+job = json.loads(outcome)["job"].encode()
+with open(journal, "wb") as out:
+    for other in json.load(open(folder + "/provenance.json"))["sweep"]["jobs"]:
+        text = outcome.replace(b'"job":"' + job, b'"job":"' + other["id"].encode())
+        out.write(b'{"length":%d,"crc32":"%08x","outcome":%s}\n' % (len(text), zlib.crc32(text), text))
+PYTHON
+echo "journal: $(du -m out/journal-* | cut -f1) MB"
+measured 1 status out
+expect_text said.txt "100000 of 100000 packings done"
