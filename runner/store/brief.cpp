@@ -19,13 +19,15 @@ std::string_view value_of(std::string_view text) {
 /// in it every quote has a backslash before it.
 std::string_view early_member(std::string_view text, std::string_view beginning) {
   const std::size_t at = text.find(beginning);
-  return at == text.npos ? std::string_view() : value_of(text.substr(at + beginning.size()));
+  return at == std::string_view::npos ? std::string_view()
+                                      : value_of(text.substr(at + beginning.size()));
 }
 
 /// The same, looked for from the end. Members are written in the order of their names.
 std::string_view late_member(std::string_view text, std::string_view beginning) {
   const std::size_t at = text.rfind(beginning);
-  return at == text.npos ? std::string_view() : value_of(text.substr(at + beginning.size()));
+  return at == std::string_view::npos ? std::string_view()
+                                      : value_of(text.substr(at + beginning.size()));
 }
 
 Brief brief_of(const Outcome& outcome) {

@@ -15,11 +15,11 @@ constexpr std::array<std::array<std::uint32_t, 256>, 8> crc32_tables() {
   std::array<std::array<std::uint32_t, 256>, 8> table{};
   for (std::uint32_t byte = 0; byte < 256; ++byte) {
     std::uint32_t remainder = byte;
-    for (std::size_t k = 0; k < table.size(); ++k) {
+    for (auto& remainders : table) {
       for (int bit = 0; bit < 8; ++bit) {
         remainder = (remainder >> 1) ^ ((remainder & 1u) != 0 ? 0xEDB88320u : 0u);
       }
-      table[k][byte] = remainder;
+      remainders[byte] = remainder;
     }
   }
   return table;

@@ -33,7 +33,7 @@ std::string folder_of(const std::string& path) {
 
 /// Appends what comes next in the file; false at its end.
 bool read_more(const OpenFile& file, std::string& text) {
-  std::array<char, 1 << 16> block;
+  std::array<char, 1 << 16> block{};
   const ssize_t count =
       uninterrupted([&] { return read(file.descriptor(), block.data(), block.size()); });
   if (count < 0) throw FileError(file.path(), "read", errno);
@@ -104,7 +104,7 @@ void for_each_line(const std::string& path, const std::function<void(std::string
   std::string text;
   while (read_more(file, text)) {
     std::string_view rest = text;
-    for (std::size_t end = rest.find('\n'); end != rest.npos; end = rest.find('\n')) {
+    for (std::size_t end = rest.find('\n'); end != std::string_view::npos; end = rest.find('\n')) {
       use(rest.substr(0, end));
       rest.remove_prefix(end + 1);
     }
