@@ -14,9 +14,9 @@ template <class Real>
 class BlockWriter {
  public:
   /// `open_blocks`: one word per grain, 0 for those that are going to be in rows.
-  BlockWriter(const SphereBed& bed, std::vector<std::uint64_t>& open_blocks,
+  BlockWriter(const SphereBed& bed, std::size_t section, std::vector<std::uint64_t>& open_blocks,
               RowColumns<Real>& columns)
-      : bed_(bed), open_blocks_(open_blocks), columns_(columns) {}
+      : bed_(bed), section_(section), open_blocks_(open_blocks), columns_(columns) {}
 
   /// Puts a pair into the first open block that holds neither of its grains, so that neighbours in
   /// space stay neighbours in memory.
@@ -71,7 +71,7 @@ class BlockWriter {
     columns_.rows.emplace_back();
     RowBlock<Real>& block = columns_.rows.back();
     for (std::size_t lane = 0; lane < block_width; ++lane) {
-      block.set_grains(lane, bed_.void_a(), bed_.void_b());
+      block.set_grains(lane, bed_.void_a(section_), bed_.void_b(section_));
     }
     std::fill(std::begin(block.reduced_mass), std::end(block.reduced_mass), Real(1));
     columns_.impulse.resize(columns_.rows.size() * block_width, Real(0));
@@ -101,6 +101,7 @@ class BlockWriter {
   }
 
   const SphereBed& bed_;
+  std::size_t section_;
   std::vector<std::uint64_t>& open_blocks_;
   RowColumns<Real>& columns_;
   std::size_t block_[most_open] = {};

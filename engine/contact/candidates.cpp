@@ -56,21 +56,22 @@ void choose_levels(const SphereBed& bed, std::vector<SizeLevel>& levels) {
   }
 }
 
-/// Fills the grid of every level; all have the same origin.
-void fill_grids(const SphereBed& bed, double reach, std::vector<SizeLevel>& levels) {
-  const Heights heights = heights_of(bed);
+/// What rounding positions to f32 can add to a distance, d: three roundings of the largest number.
+double rounding_slack(const SphereBed& bed, const Heights& heights) {
+  const double extent =
+      std::max({2.0 * bed.box.length, 2.0 * bed.box.width, heights.top - heights.bottom});
+  return 8.0 * static_cast<double>(std::numeric_limits<float>::epsilon()) * extent;
+}
+
+/// Fills the grid of every level; all have the same origin. No pair with a gap below `reach` lies
+/// further apart than in adjacent cells.
+void fill_grids(const SphereBed& bed, const Heights& heights, double reach,
+                std::vector<SizeLevel>& levels) {
   for (SizeLevel& level : levels) {
     const double least = 2.0 * level.largest_radius + reach;
     level.cells = make_cells(bed.box, heights.bottom, heights.top, least, level.members.size());
     fill_columns(bed, level.members, level.cells, level.grid);
   }
-}
-
-/// What rounding positions to f32 can add to a distance, d: three roundings of the largest number.
-double rounding_slack(const SphereBed& bed, const Cells& cells) {
-  const double extent =
-      std::max({2.0 * bed.box.length, 2.0 * bed.box.width, cells.size_z * cells.inner_z});
-  return 8.0 * static_cast<double>(std::numeric_limits<float>::epsilon()) * extent;
 }
 
 /// Appends what `find(pairs, capacity)` writes, with more room if it needs more.
@@ -175,12 +176,12 @@ void list_pairs_across(const SphereBed& bed, const SizeLevel& fine, const SizeLe
       candidates);
 }
 
-void list_pairs(const SphereBed& bed, const Processor& processor, Candidates& candidates) {
+void list_pairs(const SphereBed& bed, float reach, const Processor& processor,
+                Candidates& candidates) {
   candidates.pairs.clear();
   const std::vector<SizeLevel>& levels = candidates.levels;
   for (std::size_t k = 0; k < levels.size(); ++k) {
     const SizeLevel& level = levels[k];
-    const auto reach = static_cast<float>(candidates.reach + rounding_slack(bed, level.cells));
     list_pairs_within(level, reach, processor, candidates);
     for (std::size_t coarse = 0; coarse < k; ++coarse) {
       list_pairs_across(bed, level, levels[coarse], reach, processor, candidates);
@@ -205,7 +206,8 @@ void list_walls(const SphereBed& bed, Candidates& candidates) {
 
 void remember_positions(const SphereBed& bed, Candidates& candidates) {
   const Cells& cells = candidates.levels.front().cells;
-  candidates.built_at.assign(bed.position.begin(), bed.position.end() - 3);
+  candidates.built_at.assign(bed.position.begin(),
+                             bed.position.begin() + static_cast<std::ptrdiff_t>(bed.grains()));
   candidates.layers.resize(static_cast<std::size_t>(cells.inner_z));
   candidates.layer.resize(bed.grains());
   for (std::size_t i = 0; i < bed.grains(); ++i) {
@@ -295,8 +297,10 @@ void find_candidates(SphereBed& bed, double reach, const Processor& processor,
   candidates.reach = reach;
   choose_levels(bed, candidates.levels);
   candidates.largest_radius = candidates.levels.front().largest_radius;
-  fill_grids(bed, reach, candidates.levels);
-  list_pairs(bed, processor, candidates);
+  const Heights heights = heights_of(bed);
+  const double slack = rounding_slack(bed, heights);
+  fill_grids(bed, heights, reach + 2.0 * slack, candidates.levels);
+  list_pairs(bed, static_cast<float>(reach + slack), processor, candidates);
   list_walls(bed, candidates);
   remember_positions(bed, candidates);
 }

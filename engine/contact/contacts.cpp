@@ -75,7 +75,7 @@ void lay_out_section(const SphereBed& bed, std::size_t section, LayoutColumns<Re
   RowColumns<Real>& columns = layout.columns[section];
   columns.rows.clear();
   columns.impulse.clear();
-  BlockWriter<Real> writer(bed, layout.open_blocks, columns);
+  BlockWriter<Real> writer(bed, section, layout.open_blocks, columns);
   const std::size_t first = layout.sections.begin[section];
   const std::size_t last = layout.sections.begin[section + 1];
   for (std::size_t k = first; k < last; ++k) {
@@ -100,7 +100,7 @@ void lay_out_walls(const SphereBed& bed, const Candidates& candidates, Contacts<
   columns.rows.clear();
   columns.impulse.clear();
   contacts.walls.clear();
-  BlockWriter<Real> writer(bed, contacts.layout.open_blocks, columns);
+  BlockWriter<Real> writer(bed, 0, contacts.layout.open_blocks, columns);
   for (std::size_t k = 0; k < candidates.walls.size(); ++k) {
     const std::size_t first = columns.rows.size();
     const auto name = static_cast<std::int32_t>(bed.grains() + k);
@@ -166,7 +166,7 @@ void detect_wall(const SphereBed& bed, const WallRows& rows, double correction,
   for (std::size_t block = rows.first; block < rows.first + rows.blocks; ++block) {
     RowBlock<Real>& r = blocks[block];
     for (std::size_t lane = 0; lane < block_width; ++lane) {
-      const bool is_void = r.a(lane) == bed.void_a();
+      const bool is_void = bed.is_void(r.a(lane));
       const double gap =
           is_void ? 1.0 : rows.wall.gap(bed.position[static_cast<std::size_t>(r.a(lane))]);
       r.normal_x[lane] = rows.wall.axis == 0 ? toward : Real(0);

@@ -84,7 +84,7 @@ template <class Real, class Visit>
 void visit_rows(const SphereBed& bed, const Contacts<Real>& contacts, Visit visit) {
   for (std::size_t block = 0; block < contacts.rows.size(); ++block) {
     for (std::size_t lane = 0; lane < block_width; ++lane) {
-      if (contacts.rows[block].a(lane) < bed.void_a()) {
+      if (!bed.is_void(contacts.rows[block].a(lane))) {
         visit(contacts.rows[block], lane, contacts.impulse[block * block_width + lane]);
       }
     }

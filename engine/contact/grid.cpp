@@ -13,14 +13,13 @@ std::int32_t cells_along(double extent, double least, double most) {
 }
 
 std::int32_t inner_index(double coordinate, double size, std::int32_t cells) {
-  const double cell = std::floor(coordinate / size);
-  return static_cast<std::int32_t>(std::clamp(cell, 0.0, static_cast<double>(cells - 1)));
+  return static_cast<std::int32_t>(
+      std::clamp(coordinate / size, 0.0, static_cast<double>(cells - 1)));
 }
 
-/// Calls visit(cell, shift_x, shift_y) for the cell of grain position `p` and for each border cell
-/// that holds a shifted copy of it.
-template <class Visit>
-void visit_images(const Cells& cells, const Box& box, const Record<double>& p, Visit visit) {
+/// Appends the grain at `p` in its cell and in each border cell that holds a shifted copy of it.
+void append_images(const Cells& cells, const Box& box, const Record<double>& p, std::int32_t grain,
+                   std::vector<GridImage>& images) {
   const std::int32_t x = inner_index(p.x, cells.size_x, cells.inner_x);
   const std::int32_t y = inner_index(p.y, cells.size_y, cells.inner_y);
   const std::int32_t z = cells.layer_of(p);
@@ -33,7 +32,7 @@ void visit_images(const Cells& cells, const Box& box, const Record<double>& p, V
     for (int i = wraps_x ? -1 : 0; i <= (wraps_x ? 1 : 0); ++i) {
       const std::int32_t image_x = x + i * cells.inner_x;
       if (image_x >= -1 && image_x <= cells.inner_x) {
-        visit(cells.at(image_x, image_y, z), i * box.length, j * box.width);
+        images.push_back({grain, cells.at(image_x, image_y, z), i, j});
       }
     }
   }
@@ -88,25 +87,26 @@ Cells make_cells(const Box& box, double bottom, double top, double least, std::s
 
 void fill_columns(const SphereBed& bed, const std::vector<std::int32_t>& members,
                   const Cells& cells, GridColumns& grid) {
+  grid.images.clear();
   grid.cell_begin.assign(static_cast<std::size_t>(cells.count()) + 1, 0);
   for (const std::int32_t grain : members) {
-    const Record<double>& p = bed.position[static_cast<std::size_t>(grain)];
-    visit_images(cells, bed.box, p, [&](std::int32_t cell, double, double) {
-      ++grid.cell_begin[static_cast<std::size_t>(cell)];
-    });
+    append_images(cells, bed.box, bed.position[static_cast<std::size_t>(grain)], grain,
+                  grid.images);
+  }
+  for (const GridImage& image : grid.images) {
+    ++grid.cell_begin[static_cast<std::size_t>(image.cell)];
   }
   resize_columns(grid, to_first_entries(grid.cell_begin));
-  grid.cell_of.assign(grid.cell_begin.begin(), grid.cell_begin.end());
-  for (const std::int32_t grain : members) {
-    const Record<double>& p = bed.position[static_cast<std::size_t>(grain)];
-    visit_images(cells, bed.box, p, [&](std::int32_t cell, double shift_x, double shift_y) {
-      const auto at = static_cast<std::size_t>(grid.cell_of[static_cast<std::size_t>(cell)]++);
-      grid.x[at] = static_cast<float>(p.x + shift_x);
-      grid.y[at] = static_cast<float>(p.y + shift_y);
-      grid.z[at] = static_cast<float>(p.z - cells.origin_z);
-      grid.radius[at] = static_cast<float>(p.w);
-      grid.grain[at] = grain;
-    });
+  grid.next_entry.assign(grid.cell_begin.begin(), grid.cell_begin.end());
+  for (const GridImage& image : grid.images) {
+    const Record<double>& p = bed.position[static_cast<std::size_t>(image.grain)];
+    const auto at =
+        static_cast<std::size_t>(grid.next_entry[static_cast<std::size_t>(image.cell)]++);
+    grid.x[at] = static_cast<float>(p.x + image.turns_x * bed.box.length);
+    grid.y[at] = static_cast<float>(p.y + image.turns_y * bed.box.width);
+    grid.z[at] = static_cast<float>(p.z - cells.origin_z);
+    grid.radius[at] = static_cast<float>(p.w);
+    grid.grain[at] = image.grain;
   }
 }
 

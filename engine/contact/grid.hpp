@@ -31,10 +31,17 @@ struct Cells {
 /// with `grains` at most, which bounds the memory of sparse beds.
 Cells make_cells(const Box& box, double bottom, double top, double least, std::size_t grains);
 
+/// A grain in a cell: itself or, in a border cell, a copy shifted by periods.
+struct GridImage {
+  std::int32_t grain, cell;
+  std::int32_t turns_x, turns_y;  ///< periods by which it is shifted: -1, 0 or 1
+};
+
 /// Spheres by cell. Memory of a search, kept from one search to the next.
 struct GridColumns {
   std::vector<float> x, y, z, radius;
-  std::vector<std::int32_t> grain, cell_begin, cell_of;
+  std::vector<std::int32_t> grain, cell_begin, next_entry;
+  std::vector<GridImage> images;
 };
 
 /// Sorts the grains `members` of a wrapped bed and their border copies into cells (a counting sort:

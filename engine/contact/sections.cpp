@@ -13,19 +13,18 @@ void count_layers(const Candidates& candidates, std::vector<std::size_t>& layer_
   }
 }
 
-/// From below: a section ends with the layer that fills it, if it has two and two more follow.
+/// From below: a section ends with the layer that fills it, unless that is the last one.
 void cut(const std::vector<std::size_t>& layer_size, Sections& sections) {
   const std::size_t layers = layer_size.size();
   sections.of_layer.assign(layers, 0);
   sections.count = 1;
-  std::size_t grains = 0, first = 0;
+  std::size_t grains = 0;
   for (std::size_t k = 0; k < layers; ++k) {
     sections.of_layer[k] = static_cast<std::int32_t>(sections.count - 1);
     grains += layer_size[k];
-    if (grains >= section_grains && k >= first + 1 && k + 2 < layers) {
+    if (grains >= section_grains && k + 1 < layers) {
       ++sections.count;
       grains = 0;
-      first = k + 1;
     }
   }
 }
@@ -56,7 +55,7 @@ void sort_pairs(const Candidates& candidates, Sections& sections) {
 }  // namespace
 
 void divide(const Candidates& candidates, Sections& sections) {
-  if (candidates.layer.size() < 4 * section_grains) {
+  if (most_sections(candidates.layer.size()) == 1) {
     sections.count = 1;
     sections.pairs.assign(candidates.pairs.begin(), candidates.pairs.end());
     sections.begin.assign({0, candidates.pairs.size()});

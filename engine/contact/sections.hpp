@@ -1,8 +1,8 @@
 // Horizontal sections of a large bed, whose rows several cores may sweep.
 //
-// A row belongs to the lower of its two grains' sections. A section is at least two layers of
-// candidates high, so that a row reaches no further than the next section: rows of sections 0, 2, 4
-// share no grain, nor do those of 1, 3, 5. Small beds are one section.
+// A row belongs to the lower of its two grains' sections. Sections are made of
+// layers of candidates, and no pair reaches beyond the next layer: rows of sections 0, 2, 4 share
+// no grain, nor do those of 1, 3, 5. Small beds are one section.
 #pragma once
 
 #include <cstdint>
@@ -12,9 +12,6 @@
 #include "engine/processor.hpp"
 
 namespace grainsweep {
-
-/// Grains that a section holds or more, unless it is the topmost.
-inline constexpr std::size_t section_grains = 4000;
 
 /// Memory of a division, kept from one to the next.
 struct Sections {

@@ -12,7 +12,7 @@ void add_pairs(const SphereBed& bed, const Contacts<double>& contacts, double ga
   for (std::size_t block = 0; block < contacts.pair_blocks; ++block) {
     const RowBlock<double>& r = contacts.rows[block];
     for (std::size_t lane = 0; lane < block_width; ++lane) {
-      if (r.a(lane) != bed.void_a() && r.gap[lane] < gap_tolerance) {
+      if (!bed.is_void(r.a(lane)) && r.gap[lane] < gap_tolerance) {
         touching.pairs.push_back({r.a(lane), r.b(lane), r.gap[lane]});
       }
     }

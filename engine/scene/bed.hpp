@@ -26,21 +26,34 @@ struct Box {
   double period_y() const { return y == Boundary::periodic ? width : 0.0; }
 };
 
-/// Columns of a bed. Each column ends with three entries that are no grains: the wall, which
-/// nothing moves, and two void grains far from everything, which fill unused lanes of kernel
-/// blocks.
+/// Grains that a section of a large bed holds or more; see engine/contact/sections.hpp.
+inline constexpr std::size_t section_grains = 4000;
+
+/// Most sections that a bed of so many grains is divided into; small beds are one.
+constexpr std::size_t most_sections(std::size_t grains) {
+  return grains < 4 * section_grains ? 1 : grains / section_grains + 1;
+}
+
+/// Columns of a bed. Each column ends with entries that are no grains: the wall, which nothing
+/// moves, and for each section two void grains far from everything, which fill unused lanes of
+/// kernel blocks. Sections share none, so that cores may sweep them at the same time.
 struct SphereBed {
   Box box;
   std::vector<Record<double>> position;  ///< x, y, z and radius, d; x and y may leave the box
   std::vector<Record<double>> motion;    ///< displacement of the last step, d, and inverse mass
 
-  std::size_t grains() const { return position.size() - 3; }
+  std::size_t sections = 1;  ///< most_sections of the grains
+
+  std::size_t grains() const { return position.size() - 1 - 2 * sections; }
   std::int32_t wall() const { return static_cast<std::int32_t>(grains()); }
-  std::int32_t void_a() const { return wall() + 1; }
-  std::int32_t void_b() const { return wall() + 2; }
+  std::int32_t void_a(std::size_t section = 0) const {
+    return wall() + 1 + 2 * static_cast<std::int32_t>(section);
+  }
+  std::int32_t void_b(std::size_t section = 0) const { return void_a(section) + 1; }
+  bool is_void(std::int32_t entry) const { return entry > wall(); }
 };
 
-/// A bed at rest in mid-air: the given spheres, and the three entries that are no grains.
+/// A bed at rest in mid-air: the given spheres, and the entries that are no grains.
 SphereBed make_bed(const Box& box, const std::vector<PlacedSphere>& spheres);
 
 /// Brings x and y of every grain back into the box along periodic axes.

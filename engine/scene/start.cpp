@@ -86,8 +86,7 @@ class Column {
     if ((outside_x && box_.x == Boundary::walls) || (outside_y && box_.y == Boundary::walls)) {
       return false;
     }
-    const auto& cell =
-        cell_[at((x % cells_x_ + cells_x_) % cells_x_, (y % cells_y_ + cells_y_) % cells_y_, z)];
+    const auto& cell = cell_[at(wrapped(x, cells_x_), wrapped(y, cells_y_), z)];
     return std::any_of(cell.begin(), cell.end(),
                        [&](const PlacedSphere& other) { return overlap(s, other); });
   }
@@ -97,8 +96,17 @@ class Column {
     const double dz = a.z - b.z, reach = a.radius + b.radius;
     return dx * dx + dy * dy + dz * dz < reach * reach;
   }
+  /// Index on the other side of a periodic border; `index` lies no further out than `cells`.
+  static int wrapped(int index, int cells) {
+    return index < 0 ? index + cells : index >= cells ? index - cells : index;
+  }
+  /// Nearest image of a difference of two coordinates in 0 .. period; no period: as it is.
   static double nearest(double difference, double period) {
-    return period > 0.0 ? difference - period * std::nearbyint(difference / period) : difference;
+    if (!(period > 0.0)) return difference;
+    const double half = period / 2.0;
+    return difference > half    ? difference - period
+           : difference < -half ? difference + period
+                                : difference;
   }
 
   Box box_;

@@ -37,7 +37,7 @@ void visit_named(const SphereBed& bed, const Contacts<Real>& contacts, Visit vis
   for (std::size_t block = 0; block < contacts.rows.size(); ++block) {
     for (std::size_t lane = 0; lane < block_width; ++lane) {
       const RowBlock<Real>& r = contacts.rows[block];
-      if (r.a(lane) != bed.void_a()) {
+      if (!bed.is_void(r.a(lane))) {
         const bool is_pair = block < contacts.pair_blocks;
         visit(ContactName{r.a(lane), is_pair ? r.b(lane) : wall_of_block(bed, contacts, block)},
               block, lane);
