@@ -1,45 +1,109 @@
 #include "runner/crew.hpp"
 
 #include <cmath>
+#include <thread>
+#include <utility>
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include "runner/machine.hpp"
 
 namespace grainsweep {
 
-Crew::Crew() : own_(std::this_thread::get_id()), started_at_(thread_cpu_seconds()) {}
+namespace {
 
-// Isolated: a thread that waits for the last part must not begin another packing meanwhile.
+constexpr std::uint64_t parts_mask = 0xFFFFFFFF;
+
+/// Waits a moment: soon awake again at first, then letting other threads have the core.
+void pause(int times_before) {
+  constexpr int awake = 4000;  // about 100 microseconds
+  if (times_before < awake) {
+    __builtin_ia32_pause();
+  } else {
+    std::this_thread::yield();
+  }
+}
+
+}  // namespace
+
+Crew::Crew()
+    : started_at_(thread_cpu_seconds()),
+      most_helpers_(tbb::this_task_arena::max_concurrency() - 1) {}
+
+Crew::~Crew() { dismiss(); }
+
 PartLoop Crew::loop() {
-  return [this](std::size_t parts, const std::function<void(std::size_t)>& work) {
-    tbb::this_task_arena::isolate([&] {
-      tbb::parallel_for(
-          tbb::blocked_range<std::size_t>(0, parts, 1),
-          [&](const tbb::blocked_range<std::size_t>& range) {
-            for (std::size_t part = range.begin(); part != range.end(); ++part) {
-              run_part(part, work);
-            }
-          },
-          tbb::simple_partitioner());
-    });
-  };
+  return
+      [this](std::size_t parts, const std::function<void(std::size_t)>& work) { run(parts, work); };
+}
+
+void Crew::dismiss() {
+  if (!dismissed_) {
+    dismissed_ = true;
+    over_.store(true);
+    group_.wait();
+  }
 }
 
 double Crew::cpu_seconds() const {
   return thread_cpu_seconds() - started_at_ + static_cast<double>(helped_.load()) * 1e-9;
 }
 
-void Crew::run_part(std::size_t part, const std::function<void(std::size_t)>& work) {
-  if (std::this_thread::get_id() == own_) {
-    work(part);
-    return;
+void Crew::run(std::size_t parts, const std::function<void(std::size_t)>& work) {
+  if (parts == 0) return;
+  work_ = &work;
+  done_.store(0, std::memory_order_relaxed);
+  const std::uint64_t number = (claims_.load(std::memory_order_relaxed) >> 32U) + 1;
+  claims_.store((number << 32U) | parts, std::memory_order_release);
+  call_helpers();
+  while (take_part()) {
   }
+  for (int waited = 0; done_.load(std::memory_order_acquire) != parts; ++waited) pause(waited);
+  if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
+}
+
+void Crew::call_helpers() {
+  while (!dismissed_ && helpers_.load(std::memory_order_relaxed) < most_helpers_) {
+    helpers_.fetch_add(1, std::memory_order_relaxed);
+    group_.run([this] { help(); });
+  }
+}
+
+void Crew::help() {
+  constexpr int most_pauses = 8000;
   const double start = thread_cpu_seconds();
-  work(part);
+  for (int waited = 0; waited < most_pauses && !over_.load(std::memory_order_relaxed); ++waited) {
+    if (take_part()) {
+      waited = 0;
+    } else {
+      pause(0);
+    }
+  }
   helped_ += std::llround((thread_cpu_seconds() - start) * 1e9);
+  helpers_.fetch_sub(1, std::memory_order_relaxed);
+}
+
+/// Claims a part of the loop under way and runs it; false if none is left.
+bool Crew::take_part() {
+  std::uint64_t claims = claims_.load(std::memory_order_acquire);
+  while ((claims & parts_mask) != 0) {
+    if (claims_.compare_exchange_weak(claims, claims - 1, std::memory_order_acq_rel,
+                                      std::memory_order_acquire)) {
+      run_part((claims & parts_mask) - 1);
+      return true;
+    }
+  }
+  return false;
+}
+
+void Crew::run_part(std::size_t part) {
+  try {
+    (*work_)(part);
+  } catch (...) {
+    const std::scoped_lock lock(failing_);
+    if (!failure_) failure_ = std::current_exception();
+  }
+  done_.fetch_add(1, std::memory_order_release);
 }
 
 }  // namespace grainsweep

@@ -25,8 +25,7 @@ Packing failed_packing(const std::string& reason) {
 }
 
 /// Packs one bed; an exception becomes a failed packing.
-Finished pack_one(std::size_t index, const Pack& pack, const KeepGoing& go_on) {
-  Crew crew;
+Finished pack_with(Crew& crew, std::size_t index, const Pack& pack, const KeepGoing& go_on) {
   Finished finished;
   finished.task = index;
   try {
@@ -38,8 +37,17 @@ Finished pack_one(std::size_t index, const Pack& pack, const KeepGoing& go_on) {
     finished.packing = failed_packing(error.what());
     finished.threw = true;
   }
+  crew.dismiss();
   finished.cpu_seconds = crew.cpu_seconds();
   return finished;
+}
+
+/// Isolated: a thread that waits for its helpers must not begin another packing meanwhile.
+Finished pack_one(std::size_t index, const Pack& pack, const KeepGoing& go_on) {
+  return tbb::this_task_arena::isolate([&] {
+    Crew crew;
+    return pack_with(crew, index, pack, go_on);
+  });
 }
 
 /// The tasks under way: what the pipeline's two stages share.
