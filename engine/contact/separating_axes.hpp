@@ -1,0 +1,46 @@
+// How far two convex shapes are apart, or how deep they overlap: separating axes.
+//
+// The separation along a unit vector n is min n . x over b minus max n . x over a. Its largest
+// value over the face normals of both and the cross products of their edges is minus the depth of
+// an overlap (the shortest translation that parts the shapes), exactly; of shapes apart it is at
+// most their distance, and positive.
+#pragma once
+
+#include "engine/contact/shape_pair.hpp"
+
+namespace grainsweep {
+
+enum class AxisKind { none, face_of_a, face_of_b, edges };
+
+/// A candidate direction of contact. `a` and `b` are the faces, or the edge directions, it is made
+/// of; -1 where a shape has no part in it.
+struct ContactAxis {
+  AxisKind kind = AxisKind::none;
+  std::int32_t a = -1, b = -1;
+  Vector normal = Vector::Zero();  ///< unit, from a to b, frame of a
+  double separation = 0.0;         ///< d; negative = overlap
+};
+
+/// The best axis of each sort.
+struct ContactAxes {
+  ContactAxis face;   ///< of a face of either shape
+  ContactAxis edges;  ///< of two edges; kind none if all edges are parallel in pairs
+
+  double separation() const {
+    return edges.kind != AxisKind::none && edges.separation > face.separation ? edges.separation
+                                                                              : face.separation;
+  }
+};
+
+/// Separation along the unit vector `normal` from a to b, d.
+double separation_along(const ShapePair& pair, const Vector& normal);
+
+/// The best axes, f64. Two pinacoids take their closed-form widths (44 axes), others every face and
+/// every pair of distinct edge directions that can be the best.
+ContactAxes separating_axes(const ShapePair& pair);
+
+/// The same for two pinacoids whose best axes are already known by number, from the batch kernel
+/// (kernels/kernels.hpp): measured anew in f64.
+ContactAxes separating_axes(const ShapePair& pair, int face_axis, int edge_axis);
+
+}  // namespace grainsweep
