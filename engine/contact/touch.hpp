@@ -65,8 +65,4 @@ struct HalfSpace {
 std::size_t touch_wall(const ConvexShape& shape, const Pose& pose, const HalfSpace& wall,
                        double margin, std::vector<ContactPoint>& points);
 
-/// How many constraints a contact is: 1 of a point (a vertex, or crossing edges), 2 of a line (an
-/// edge on a face), 3 of an area (face on face); 0 if no gap is below `tolerance`.
-int constraints_of(const ContactPoint* points, std::size_t count, double tolerance);
-
 }  // namespace grainsweep

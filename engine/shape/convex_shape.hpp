@@ -39,13 +39,14 @@ struct PinacoidWidth {
   double a = 0.0, b = 0.0, c = 0.0, e = 0.0;  ///< half length, width, ridge and height, d
 };
 
+/// A grain of scale w has volume w^3 volume, moments w^2 inertia over its mass, and w times the
+/// radii.
 struct ConvexShape {
   std::vector<Vector> vertices;
   std::vector<Face> faces;
   std::vector<std::int32_t> loops;  ///< vertices of the faces, face after face
   std::vector<Edge> edges;
   std::vector<Vector> edge_directions;           ///< unit, distinct up to sign
-  std::vector<Vector> face_axes;                 ///< face normals, distinct up to sign
   std::vector<std::int32_t> vertex_faces;        ///< faces at each vertex, vertex after vertex
   std::vector<std::int32_t> vertex_faces_begin;  ///< where each vertex's begin; one more at the end
   double volume = 0.0;                           ///< d^3
@@ -55,9 +56,6 @@ struct ConvexShape {
   bool centrally_symmetric = false;       ///< -x is a vertex for every vertex x
   std::optional<PinacoidWidth> pinacoid;  ///< if the shape is one
 };
-
-/// Unit moments grow with the square of the scale, volume with its cube: a grain of scale w has
-/// volume w^3 volume, inertia w^2 inertia per mass, radii w times those of the shape.
 
 /// Where a shape in its frame came from: x_given = rotation x_shape + centroid.
 struct GivenFrame {
@@ -74,6 +72,25 @@ inline double half_width(const PinacoidWidth& w, const Vector& n) {
 }
 
 /// The vertex farthest along n; the first of equals.
-std::int32_t farthest_vertex(const ConvexShape& shape, const Vector& n);
+inline std::int32_t farthest_vertex(const ConvexShape& shape, const Vector& n) {
+  std::size_t best = 0;
+  double reach = n.dot(shape.vertices[0]);
+  for (std::size_t k = 1; k < shape.vertices.size(); ++k) {
+    const double along = n.dot(shape.vertices[k]);
+    best = along > reach ? k : best;
+    reach = along > reach ? along : reach;
+  }
+  return static_cast<std::int32_t>(best);
+}
+
+/// Largest n . x over the shape, d.
+inline double reach_along(const ConvexShape& shape, const Vector& n) {
+  double reach = n.dot(shape.vertices[0]);
+  for (std::size_t k = 1; k < shape.vertices.size(); ++k) {
+    const double along = n.dot(shape.vertices[k]);
+    reach = along > reach ? along : reach;
+  }
+  return reach;
+}
 
 }  // namespace grainsweep

@@ -10,9 +10,11 @@
 namespace grainsweep {
 
 struct Hull {
-  std::optional<ConvexShape> shape;  ///< in its own frame, principal moments ascending
-  GivenFrame given;                  ///< where that frame lies among the points
-  std::string error;                 ///< what forbids a hull, with what to change; "" with a shape
+  /// In its own frame: that of the points, moved, where it is principal already; otherwise turned
+  /// to ascending moments.
+  std::optional<ConvexShape> shape;
+  GivenFrame given;   ///< where that frame lies among the points
+  std::string error;  ///< what forbids a hull, with what to change; "" with a shape
 };
 
 /// The hull of `points` (d). Refuses fewer than 4 points, NaN and infinite coordinates, points
