@@ -127,6 +127,13 @@ struct PinacoidHalves {
   double a, b, c, e;  ///< d
 };
 
+/// Edges whose angle has a smaller square of its sine are parallel to f32.
+inline constexpr float parallel_edges_sine2 = 2.5e-3F;
+
+/// Separations of the f32 test are true to this, per unit of scale of the larger grain, d: centres
+/// closer than 4 d lose some 20 roundings of 6e-8, which the least sine of edges divides by .05.
+inline constexpr float pinacoid_rounding = 2e-5F;
+
 /// `block_width` pairs of pinacoids of one shape: which, and what parts them.
 /// An axis has the number 0 .. 3 for face normal k of grain a, 4 .. 7 for face normal k - 4 of
 /// grain b, 8 + 6 i + j for the cross product of edge direction i of a and j of b. Unused lanes
@@ -138,6 +145,9 @@ struct alignas(64) PinacoidBlock {
   float edge_separation[block_width];  ///< largest over the edge axes, d
   std::int32_t face_axis[block_width];
   std::int32_t edge_axis[block_width];
+  /// 1 if some edges of the two are parallel within parallel_edges_sine2: their axes, which f32
+  /// cannot tell, were left out, and a pair that is not apart has to be tested in f64.
+  std::int32_t edges_parallel[block_width];
 
   void set_grains(std::size_t lane, std::int32_t a, std::int32_t b) {
     offset_a[lane] = static_cast<std::uint32_t>(a) * std::uint32_t{sizeof(Record<double>)};
@@ -158,8 +168,9 @@ struct Kernels {
                                      GrainPair* pairs, std::size_t capacity);
   /// Best axes of pairs of pinacoids by the separating-axis test, f32; see `PinacoidBlock`.
   /// `centres`: x, y, z and scale; `orientations`: x, y, z, w of the unit quaternion from the
-  /// shape's frame to the box's. period_x, period_y: d, 0 where the axis is walled. A pair whose
-  /// separation here is above pinacoid_rounding times the sum of scales is truly apart.
+  /// shape's frame to the box's. period_x, period_y: d, 0 where the axis is walled. A pair
+  /// whose larger separation exceeds a margin by pinacoid_rounding is further apart than the
+  /// margin.
   void (*pinacoid_axes)(const PinacoidHalves& shape, PinacoidBlock* pairs, std::size_t blocks,
                         const Record<double>* centres, const Record<double>* orientations,
                         double period_x, double period_y);

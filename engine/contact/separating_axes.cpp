@@ -142,14 +142,20 @@ ContactAxes separating_axes(const ShapePair& pair) {
   return are_pinacoids(pair) ? pinacoid_axes(pair) : ContactAxes{best_face(pair), best_edges(pair)};
 }
 
-ContactAxes separating_axes(const ShapePair& pair, int face_axis, int edge_axis) {
-  constexpr int first_edges = 2 * pinacoid_faces;
-  ContactAxes axes;
-  axes.face = face_axis < pinacoid_faces ? pinacoid_face_of_a(pair, face_axis)
-                                         : pinacoid_face_of_b(pair, face_axis - pinacoid_faces);
-  const int edges = edge_axis - first_edges;
-  axes.edges = pinacoid_edges_axis(pair, edges / pinacoid_edges, edges % pinacoid_edges);
-  return axes;
+bool parted_by(const PinacoidBlock& block, std::size_t lane, double margin, double scale) {
+  const float separation = block.face_separation[lane] > block.edge_separation[lane]
+                               ? block.face_separation[lane]
+                               : block.edge_separation[lane];
+  return static_cast<double>(separation) > margin + scale * static_cast<double>(pinacoid_rounding);
+}
+
+ContactAxes separating_axes(const ShapePair& pair, const PinacoidBlock& block, std::size_t lane) {
+  if (block.edges_parallel[lane] != 0) return pinacoid_axes(pair);
+  constexpr std::int32_t first_edges = 2 * pinacoid_faces;
+  const std::int32_t face = block.face_axis[lane], edges = block.edge_axis[lane] - first_edges;
+  return {face < pinacoid_faces ? pinacoid_face_of_a(pair, face)
+                                : pinacoid_face_of_b(pair, face - pinacoid_faces),
+          pinacoid_edges_axis(pair, edges / pinacoid_edges, edges % pinacoid_edges)};
 }
 
 }  // namespace grainsweep

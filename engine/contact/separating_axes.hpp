@@ -7,6 +7,7 @@
 #pragma once
 
 #include "engine/contact/shape_pair.hpp"
+#include "kernels/kernels.hpp"
 
 namespace grainsweep {
 
@@ -39,8 +40,13 @@ double separation_along(const ShapePair& pair, const Vector& normal);
 /// every pair of distinct edge directions that can be the best.
 ContactAxes separating_axes(const ShapePair& pair);
 
-/// The same for two pinacoids whose best axes are already known by number, from the batch kernel
-/// (kernels/kernels.hpp): measured anew in f64.
-ContactAxes separating_axes(const ShapePair& pair, int face_axis, int edge_axis);
+/// Whether the batch kernel found the pair of a lane further apart than `margin`, d. `scale` is
+/// that of the larger grain.
+bool parted_by(const PinacoidBlock& block, std::size_t lane, double margin, double scale);
+
+/// The axes of two pinacoids that the batch kernel chose for a lane, measured anew in f64; all axes
+/// where it could not choose, because edges are parallel. What it chose among nearly equal axes may
+/// be the second best: the separation is then too small by up to pinacoid_rounding.
+ContactAxes separating_axes(const ShapePair& pair, const PinacoidBlock& block, std::size_t lane);
 
 }  // namespace grainsweep
