@@ -13,51 +13,54 @@ namespace {
 constexpr double on_side = 1e-12;
 constexpr double same_point = 1e-10;
 
-/// A side of a face: the face lies where outward . (x - corner) <= 0. `outward` has the length of
-/// the side.
-struct Side {
-  Vector corner, outward;
-
-  double beyond(const Vector& x) const { return outward.dot(x - corner); }
-};
-
-struct PlacedFace {
-  const PlacedShape& base;
-  const Face& face;
+/// A face to touch on.
+struct Base {
   Vector normal;  ///< outward
   double offset;
+  double size;  ///< of the shape it belongs to, d
 
-  Side side(std::int32_t k) const {
-    const auto corner = [&](std::int32_t at) {
-      return base.place(base.shape.loops[static_cast<std::size_t>(face.first + at % face.corners)]);
-    };
-    const Vector from = corner(k), to = corner(k + 1);
-    return {from, (to - from).cross(normal)};
-  }
   double gap(const Vector& x) const { return normal.dot(x) - offset; }
-  double size() const { return base.scale * base.shape.circumradius; }
 };
 
-PlacedFace placed_face(const PlacedShape& base, std::int32_t number) {
-  const Face& face = base.shape.faces[static_cast<std::size_t>(number)];
-  const Vector normal = base.turn * face.normal;
-  return {base, face, normal, normal.dot(base.centre) + base.scale * face.offset};
+Base base_of(const PlacedShape& shape, std::int32_t number) {
+  const Face& face = shape.shape.faces[static_cast<std::size_t>(number)];
+  const Vector normal = shape.turn * face.normal;
+  return {normal, normal.dot(shape.centre) + shape.scale * face.offset,
+          shape.scale * shape.shape.circumradius};
 }
 
-/// Distance beyond a side that rounding may leave, times the side's length.
-double allowed(const Side& side, double size) { return on_side * size * side.outward.norm(); }
+/// Places the corners of a face.
+void place_face(const PlacedShape& shape, std::int32_t number, std::vector<Vector>& corners) {
+  const Face& face = shape.shape.faces[static_cast<std::size_t>(number)];
+  corners.clear();
+  for (std::int32_t k = 0; k < face.corners; ++k) {
+    corners.push_back(shape.place(shape.shape.loops[static_cast<std::size_t>(face.first + k)]));
+  }
+}
+
+void set_sides(const Base& base, const std::vector<Vector>& corners, std::vector<ClipSide>& sides) {
+  sides.clear();
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    const Vector& from = corners[k];
+    const Vector outward = (corners[(k + 1) % corners.size()] - from).cross(base.normal);
+    sides.push_back({from, outward, on_side * base.size * outward.norm()});
+  }
+}
+
+double beyond(const ClipSide& side, const Vector& x) { return side.outward.dot(x - side.corner); }
 
 /// Cuts a polygon by the plane through a side (Sutherland and Hodgman 1974).
-void cut(const std::vector<Vector>& polygon, const Side& side, double tolerance,
-         std::vector<Vector>& result) {
+void cut(const std::vector<Vector>& polygon, const ClipSide& side, std::vector<Vector>& result) {
   result.clear();
+  double at_p = polygon.empty() ? 0.0 : beyond(side, polygon[0]);
   for (std::size_t k = 0; k < polygon.size(); ++k) {
     const Vector &p = polygon[k], &q = polygon[(k + 1) % polygon.size()];
-    const double at_p = side.beyond(p), at_q = side.beyond(q);
-    if (at_p <= tolerance) result.push_back(p);
-    if ((at_p <= tolerance) != (at_q <= tolerance)) {
+    const double at_q = beyond(side, q);
+    if (at_p <= side.tolerance) result.push_back(p);
+    if ((at_p <= side.tolerance) != (at_q <= side.tolerance)) {
       result.emplace_back(p + at_p / (at_p - at_q) * (q - p));
     }
+    at_p = at_q;
   }
 }
 
@@ -74,12 +77,12 @@ std::int32_t touching_face(const PlacedShape& other, const Vector& normal) {
   });
 }
 
-void add_point(const PlacedFace& base, const Vector& x, double margin, std::size_t first,
+void add_point(const Base& base, const Vector& x, double margin, std::size_t first,
                std::vector<ContactPoint>& points) {
   const double gap = base.gap(x);
   if (!(gap <= margin)) return;
   const Vector position = x - gap / 2.0 * base.normal;
-  const double same = same_point * base.size();
+  const double same = same_point * base.size;
   const bool there = std::any_of(points.begin() + static_cast<std::ptrdiff_t>(first), points.end(),
                                  [&](const ContactPoint& point) {
                                    return (point.position - position).squaredNorm() <= same * same;
@@ -87,37 +90,19 @@ void add_point(const PlacedFace& base, const Vector& x, double margin, std::size
   if (!there) points.push_back({position, gap});
 }
 
-bool is_above(const PlacedFace& base, const Vector& x) {
-  for (std::int32_t k = 0; k < base.face.corners; ++k) {
-    const Side side = base.side(k);
-    if (side.beyond(x) > allowed(side, base.size())) return false;
-  }
-  return true;
-}
-
-/// The corners of face `touching` of `other`, cut by the sides of the base.
-void cut_face(const PlacedFace& base, const PlacedShape& other, std::int32_t touching,
-              ClipColumns& columns) {
-  const Face& face = other.shape.faces[static_cast<std::size_t>(touching)];
-  columns.polygon.clear();
-  for (std::int32_t k = 0; k < face.corners; ++k) {
-    columns.polygon.push_back(
-        other.place(other.shape.loops[static_cast<std::size_t>(face.first + k)]));
-  }
-  for (std::int32_t k = 0; k < base.face.corners && !columns.polygon.empty(); ++k) {
-    const Side side = base.side(k);
-    cut(columns.polygon, side, allowed(side, base.size()), columns.clipped);
-    std::swap(columns.polygon, columns.clipped);
-  }
+bool is_above(const std::vector<ClipSide>& sides, const Vector& x) {
+  return std::all_of(sides.begin(), sides.end(),
+                     [&](const ClipSide& side) { return beyond(side, x) <= side.tolerance; });
 }
 
 /// Vertices within the margin that are no corners of the touching face: where an edge lies on the
 /// base, a face at one of its ends may be the touching one, and would leave out the other end.
-void add_other_vertices(const PlacedFace& base, const PlacedShape& other, double margin,
-                        std::size_t first, std::vector<ContactPoint>& points) {
+void add_other_vertices(const Base& base, const std::vector<ClipSide>& sides,
+                        const PlacedShape& other, double margin, std::size_t first,
+                        std::vector<ContactPoint>& points) {
   for (std::size_t v = 0; v < other.shape.vertices.size(); ++v) {
     const Vector x = other.place(static_cast<std::int32_t>(v));
-    if (base.gap(x) <= margin && is_above(base, x)) add_point(base, x, margin, first, points);
+    if (base.gap(x) <= margin && is_above(sides, x)) add_point(base, x, margin, first, points);
   }
 }
 
@@ -133,13 +118,19 @@ PlacedShape placed_b(const ShapePair& pair) {
 
 void clip_on_face(const PlacedShape& base, std::int32_t face, const PlacedShape& other,
                   double margin, ClipColumns& columns, std::vector<ContactPoint>& points) {
-  const PlacedFace on = placed_face(base, face);
+  const Base on = base_of(base, face);
   const std::size_t first = points.size();
-  cut_face(on, other, touching_face(other, on.normal), columns);
+  place_face(base, face, columns.polygon);
+  set_sides(on, columns.polygon, columns.sides);
+  place_face(other, touching_face(other, on.normal), columns.polygon);
+  for (const ClipSide& side : columns.sides) {
+    cut(columns.polygon, side, columns.clipped);
+    std::swap(columns.polygon, columns.clipped);
+  }
   for (const Vector& x : columns.polygon) {
     add_point(on, x, margin, first, points);
   }
-  add_other_vertices(on, other, margin, first, points);
+  add_other_vertices(on, columns.sides, other, margin, first, points);
 }
 
 Segment farthest_edge(const PlacedShape& shape, std::int32_t direction, const Vector& n) {

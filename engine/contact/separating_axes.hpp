@@ -6,6 +6,8 @@
 // most their distance, and positive.
 #pragma once
 
+#include <limits>
+
 #include "engine/contact/shape_pair.hpp"
 #include "kernels/kernels.hpp"
 
@@ -22,31 +24,32 @@ struct ContactAxis {
   double separation = 0.0;         ///< d; negative = overlap
 };
 
-/// The best axis of each sort.
+/// The best face, and the best pair of edges if it parts the shapes better than that.
 struct ContactAxes {
-  ContactAxis face;   ///< of a face of either shape
-  ContactAxis edges;  ///< of two edges; kind none if all edges are parallel in pairs
+  ContactAxis face;
+  ContactAxis edges;  ///< kind none if no edges do better than the face
 
   double separation() const {
-    return edges.kind != AxisKind::none && edges.separation > face.separation ? edges.separation
-                                                                              : face.separation;
+    return edges.kind == AxisKind::none ? face.separation : edges.separation;
   }
 };
 
 /// Separation along the unit vector `normal` from a to b, d.
 double separation_along(const ShapePair& pair, const Vector& normal);
 
-/// The best axes, f64. Two pinacoids take their closed-form widths (44 axes), others every face and
-/// every pair of distinct edge directions that can be the best.
-ContactAxes separating_axes(const ShapePair& pair);
+/// The best axes, f64: every face and every pair of distinct edge directions that can be the best.
+/// Two pinacoids take their widths in closed form (44 axes). Edges are not looked for if a face
+/// parts the shapes by `enough`, d.
+ContactAxes separating_axes(const ShapePair& pair,
+                            double enough = std::numeric_limits<double>::infinity());
 
 /// Whether the batch kernel found the pair of a lane further apart than `margin`, d. `scale` is
 /// that of the larger grain.
 bool parted_by(const PinacoidBlock& block, std::size_t lane, double margin, double scale);
 
-/// The axes of two pinacoids that the batch kernel chose for a lane, measured anew in f64; all axes
-/// where it could not choose, because edges are parallel. What it chose among nearly equal axes may
-/// be the second best: the separation is then too small by up to pinacoid_rounding.
+/// The axes of two pinacoids that the batch kernel chose for a lane, measured anew in f64, with
+/// the parallel edges that it left out. What it chose among nearly equal axes may be the second
+/// best: the separation is then too small by up to pinacoid_rounding.
 ContactAxes separating_axes(const ShapePair& pair, const PinacoidBlock& block, std::size_t lane);
 
 }  // namespace grainsweep

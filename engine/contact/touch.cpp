@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 
 #include "engine/contact/clip.hpp"
 
@@ -22,17 +24,25 @@ bool parted(const ShapePair& pair, const Vector& axis, double margin) {
   return !axis.isZero(0.0) && separation_along(pair, axis) > margin;
 }
 
-/// Whether GJK finds the shapes further apart than the margin; remembers the axis if so. Pinacoids
-/// need no such test: their axes cost no more.
-bool parted_by_distance(const ShapePair& pair, double margin, PairMemory& memory) {
-  if (pair.a.pinacoid && pair.b.pinacoid) return false;
+/// What GJK says of a pair that the axes are to look at: a face that parts the shapes by so much
+/// needs no comparison with edges. Nothing if it finds them further apart than the margin; it then
+/// remembers the axis. Pinacoids need no such test: their axes cost no more.
+std::optional<double> enough_of_a_face(const ShapePair& pair, const TouchSettings& settings,
+                                       PairMemory& memory) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  if (pair.a.pinacoid && pair.b.pinacoid) return infinity;
   const Closest closest = closest_points(pair, memory.simplex);
-  if (!(closest.distance > margin)) return false;
-  const Vector axis = (closest.on_b - closest.on_a).normalized();
-  // What parts them must do so by itself: where rounding leaves a doubt the axes decide.
-  if (!parted(pair, axis, margin)) return false;
-  memory.axis = axis;
-  return true;
+  if (closest.overlap) return infinity;
+  if (closest.distance > settings.margin) {
+    const Vector axis = (closest.on_b - closest.on_a).normalized();
+    // What parts them must do so by itself: where rounding leaves a doubt the axes decide.
+    if (parted(pair, axis, settings.margin)) {
+      memory.axis = axis;
+      return std::nullopt;
+    }
+  }
+  // No edges part them by more than their distance.
+  return closest.distance - settings.preference;
 }
 
 const ContactAxis& preferred(const ContactAxes& axes, double preference) {
@@ -94,8 +104,9 @@ PairContact touch(const ShapePair& pair, const TouchSettings& settings, PairMemo
                   ClipColumns& columns, std::vector<ContactPoint>& points) {
   if (!closer_than(pair, settings.margin)) return {};
   if (parted(pair, memory.axis, settings.margin)) return {};
-  if (parted_by_distance(pair, settings.margin, memory)) return {};
-  const ContactAxes axes = separating_axes(pair);
+  const std::optional<double> enough = enough_of_a_face(pair, settings, memory);
+  if (!enough) return {};
+  const ContactAxes axes = separating_axes(pair, *enough);
   if (axes.separation() > settings.margin) {
     memory.axis = axes.face.separation > settings.margin ? axes.face.normal : axes.edges.normal;
     return {};

@@ -40,8 +40,15 @@ struct PairContact {
   std::size_t first = 0, count = 0;
 };
 
+/// A side of a face, upright on it: the face lies where outward . (x - corner) <= 0.
+struct ClipSide {
+  Vector corner, outward;  ///< d; `outward` is as long as the side
+  double tolerance;        ///< outward . (x - corner) of points that rounding leaves outside, d^2
+};
+
 /// Working memory, kept from call to call.
 struct ClipColumns {
+  std::vector<ClipSide> sides;
   std::vector<Vector> polygon, clipped;
 };
 
