@@ -94,7 +94,7 @@ TEST_CASE("the batch test finds the separation of the f64 test within its roundi
       worst_batch = std::max(worst_batch, -over);
     }
     REQUIRE(worst_chosen < pinacoid_rounding);
-    WARN(testing::name_of(family) << ": batch within " << worst_batch << " d, chosen axes within "
+    INFO(testing::name_of(family) << ": batch within " << worst_batch << " d, chosen axes within "
                                   << worst_chosen << " d, " << parallel << " of " << batch.pairs()
                                   << " pairs have parallel edges");
   }
