@@ -32,10 +32,10 @@ Base base_of(const PlacedShape& shape, std::int32_t number) {
 /// Places the corners of a face.
 void place_face(const PlacedShape& shape, std::int32_t number, std::vector<Vector>& corners) {
   const Face& face = shape.shape.faces[static_cast<std::size_t>(number)];
+  const auto first = shape.shape.loops.begin() + face.first;
   corners.clear();
-  for (std::int32_t k = 0; k < face.corners; ++k) {
-    corners.push_back(shape.place(shape.shape.loops[static_cast<std::size_t>(face.first + k)]));
-  }
+  std::for_each(first, first + face.corners,
+                [&](std::int32_t vertex) { corners.push_back(shape.place(vertex)); });
 }
 
 void set_sides(const Base& base, const std::vector<Vector>& corners, std::vector<ClipSide>& sides) {

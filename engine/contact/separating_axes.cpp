@@ -142,8 +142,8 @@ ContactAxis best_face(const ShapePair& pair) {
 /// b minus points of a, n . x of which it cannot exceed. The points are those that bounded the last
 /// axes measured: an axis near one of those is mostly ruled out by its points.
 struct Bounds {
-  double inner;
-  std::array<Vector, 8> differences;
+  double inner = 0.0;
+  std::array<Vector, 8> differences = {};
   std::size_t count = 0;
 
   void add(const Vector& difference) { differences[count++ % differences.size()] = difference; }
@@ -175,7 +175,7 @@ void try_edges(const ShapePair& pair, std::int32_t i, std::int32_t j, const Vect
 ContactAxis better_edges(const ShapePair& pair, double face_separation) {
   ContactAxis best;
   best.separation = face_separation;
-  Bounds bounds{inner_reach(pair), {}};
+  Bounds bounds{inner_reach(pair), {}, 0};
   for (std::int32_t j = 0; j < static_cast<std::int32_t>(pair.b.edge_directions.size()); ++j) {
     const Vector v = pair.pose.turn * edge_direction(pair.b, j);
     for (std::int32_t i = 0; i < static_cast<std::int32_t>(pair.a.edge_directions.size()); ++i) {

@@ -22,7 +22,7 @@ struct Plane {
 
 /// Planes that cut a grain, at most two per axis.
 struct Planes {
-  std::array<Plane, 6> plane;
+  std::array<Plane, 6> plane = {};
   std::size_t count = 0;
 };
 
@@ -96,7 +96,7 @@ double box_volume(const ConvexShape& shape, const Pose& pose, const Vector& low,
   double volume = 0.0;
   for (const Face& face : shape.faces) {
     const auto corner = [&](std::int32_t k) -> Vector {
-      const std::int32_t v = shape.loops[static_cast<std::size_t>(face.first + k)];
+      const std::int32_t v = *(shape.loops.begin() + face.first + k);
       return pose.centre + turn * shape.vertices[static_cast<std::size_t>(v)];
     };
     for (std::int32_t k = 1; k + 1 < face.corners; ++k) {

@@ -149,6 +149,8 @@ struct QhullRun {
   QhullRun() { qh_zero(&state, messages); }
   QhullRun(const QhullRun&) = delete;
   QhullRun& operator=(const QhullRun&) = delete;
+  QhullRun(QhullRun&&) = delete;
+  QhullRun& operator=(QhullRun&&) = delete;
   ~QhullRun() {
     int left = 0, total = 0;
     qh_freeqhull(&state, qh_ALL);
