@@ -121,6 +121,40 @@ struct GrainPair {
   std::int32_t a, b;
 };
 
+/// Half lengths of a pinacoid: along a unit vector n it reaches max(a |nx| + b |ny|,
+/// c |nx| + e |nz|) from its centre, at scale 1.
+struct PinacoidHalves {
+  double a, b, c, e;  ///< d
+};
+
+/// Edges whose angle has a smaller square of its sine are parallel to f32.
+inline constexpr float parallel_edges_sine2 = 2.5e-3F;
+
+/// Separations of the f32 test are true to this, per unit of scale of the larger grain, d: centres
+/// closer than 4 d lose some 20 roundings of 6e-8, which the least sine of edges divides by .05.
+inline constexpr float pinacoid_rounding = 2e-5F;
+
+/// `block_width` pairs of pinacoids of one shape: which, and what parts them.
+/// An axis has the number 0 .. 3 for face normal k of grain a, 4 .. 7 for face normal k - 4 of
+/// grain b, 8 + 6 i + j for the cross product of edge direction i of a and j of b. Unused lanes
+/// name grain 0 twice.
+struct alignas(64) PinacoidBlock {
+  std::uint32_t offset_a[block_width];  ///< bytes from a column of Record<double> to grain a's
+  std::uint32_t offset_b[block_width];
+  float face_separation[block_width];  ///< largest over the face axes, d; negative = overlap
+  float edge_separation[block_width];  ///< largest over the edge axes, d
+  std::int32_t face_axis[block_width];
+  std::int32_t edge_axis[block_width];
+  /// 1 if some edges of the two are parallel within parallel_edges_sine2: their axes, which f32
+  /// cannot tell, were left out, and a pair that is not apart has to be tested in f64.
+  std::int32_t edges_parallel[block_width];
+
+  void set_grains(std::size_t lane, std::int32_t a, std::int32_t b) {
+    offset_a[lane] = static_cast<std::uint32_t>(a) * std::uint32_t{sizeof(Record<double>)};
+    offset_b[lane] = static_cast<std::uint32_t>(b) * std::uint32_t{sizeof(Record<double>)};
+  }
+};
+
 struct Kernels {
   Isa isa;
   RowKernels<float> f32;
@@ -132,6 +166,14 @@ struct Kernels {
   /// the queries and of the grid. Writes at most `capacity` and returns how many there are.
   std::size_t (*sphere_pairs_across)(const SphereGrid& grid, const SphereQueries& queries,
                                      GrainPair* pairs, std::size_t capacity);
+  /// Best axes of pairs of pinacoids by the separating-axis test, f32; see `PinacoidBlock`.
+  /// `centres`: x, y, z and scale; `orientations`: x, y, z, w of the unit quaternion from the
+  /// shape's frame to the box's. period_x, period_y: d, 0 where the axis is walled. A pair
+  /// whose larger separation exceeds a margin by pinacoid_rounding is further apart than the
+  /// margin.
+  void (*pinacoid_axes)(const PinacoidHalves& shape, PinacoidBlock* pairs, std::size_t blocks,
+                        const Record<double>* centres, const Record<double>* orientations,
+                        double period_x, double period_y);
 };
 
 /// The kernels compiled for `isa`. Requires is_supported(isa).

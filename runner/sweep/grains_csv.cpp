@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
-#include <cmath>
 #include <optional>
 #include <string_view>
 
 #include "runner/sweep/identity.hpp"
 #include "runner/sweep/json_text.hpp"
 #include "runner/sweep/suggest.hpp"
+#include "runner/sweep/text_lines.hpp"
 
 namespace grainsweep {
 namespace {
@@ -21,12 +20,6 @@ constexpr std::size_t most_errors = 20;
 
 /// Index of the column of each name.
 using Columns = std::array<std::size_t, names.size()>;
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(" \t\r");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
 
 Cells cells_of(std::string_view line) {
   Cells cells;
@@ -66,13 +59,6 @@ std::optional<Columns> columns_of(const Cells& header, std::string& error) {
   return columns;
 }
 
-std::optional<double> finite_number(std::string_view cell) {
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-  if (error != std::errc{} || end != cell.data() + cell.size()) return std::nullopt;
-  return std::isfinite(value) ? std::optional(value) : std::nullopt;
-}
-
 /// What is wrong with a line; otherwise the grain in it.
 std::string read_grain(const Cells& cells, const Columns& columns, std::size_t width,
                        PlacedSphere& grain) {
@@ -100,19 +86,6 @@ bool note(GrainsReading& reading, const std::string& file, std::size_t line, std
   if (last) message += " (further lines are not listed)";
   reading.errors.push_back({file + ":" + std::to_string(line), "", std::move(message)});
   return !last;
-}
-
-std::vector<std::string_view> lines_of(std::string_view text) {
-  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
-  const std::size_t end = text.find_last_not_of(" \t\r\n");
-  text = text.substr(0, end == std::string_view::npos ? 0 : end + 1);
-  std::vector<std::string_view> lines;
-  for (;;) {
-    const std::size_t stop = text.find('\n');
-    lines.push_back(text.substr(0, stop));
-    if (stop == std::string_view::npos) return lines;
-    text.remove_prefix(stop + 1);
-  }
 }
 
 }  // namespace

@@ -1,0 +1,172 @@
+// Narrow phase of polyhedra: items are pairs, at random turns, a third of them overlapping.
+#include <algorithm>
+#include <random>
+
+#include <benchmark/benchmark.h>
+
+#include "engine/contact/touch.hpp"
+#include "engine/shape/hull.hpp"
+#include "engine/shape/pinacoid.hpp"
+
+namespace grainsweep::bench {
+namespace {
+
+constexpr std::size_t pairs = 1024;
+
+class Random {
+ public:
+  double uniform(double low, double high) {
+    return low + (high - low) * static_cast<double>(generator_() >> 11) * 0x1p-53;
+  }
+  /// Not uniform over rotations; good enough to meet every feature.
+  Quaternion turn() {
+    return Quaternion(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)).normalized();
+  }
+  Vector direction() { return turn() * Vector::UnitX(); }
+
+ private:
+  std::mt19937_64 generator_{1};
+};
+
+ConvexShape rock() {
+  Random random;
+  std::vector<Vector> corners(20);
+  for (Vector& corner : corners) corner = 0.5 * random.direction();
+  return *convex_hull(corners).shape;
+}
+
+/// Columns of grains, 2 k and 2 k + 1 a pair close to touching.
+struct Bed {
+  std::vector<Record<double>> centres, orientations;
+  std::vector<PairPose> poses;
+};
+
+Bed close_pairs(const ConvexShape& shape) {
+  Random random;
+  Bed bed;
+  const double usual = shape.circumradius + shape.inradius;
+  for (std::size_t k = 0; k < pairs; ++k) {
+    Pose a, b;
+    a.orientation = random.turn();
+    b.orientation = random.turn();
+    b.centre = usual * random.uniform(0.8, 1.05) * random.direction();
+    for (const Pose& pose : {a, b}) {
+      const Quaternion& q = pose.orientation;
+      bed.centres.push_back({pose.centre.x(), pose.centre.y(), pose.centre.z(), 1});
+      bed.orientations.push_back({q.x(), q.y(), q.z(), q.w()});
+    }
+    bed.poses.push_back(seen_from_a(a, b, b.centre - a.centre));
+  }
+  return bed;
+}
+
+void count_pairs(benchmark::State& run) {
+  run.SetItemsProcessed(run.iterations() * static_cast<std::int64_t>(pairs));
+  run.counters["per_pair"] =
+      benchmark::Counter(static_cast<double>(pairs), benchmark::Counter::kIsIterationInvariantRate |
+                                                         benchmark::Counter::kInvert);
+}
+
+void batch_axes(benchmark::State& run) {
+  const ConvexShape shape = pinacoid({});
+  const PinacoidWidth& w = *shape.pinacoid;
+  const Bed bed = close_pairs(shape);
+  std::vector<PinacoidBlock> blocks(pairs / block_width);
+  for (std::size_t k = 0; k < pairs; ++k) {
+    const auto a = static_cast<std::int32_t>(2 * k);
+    blocks[k / block_width].set_grains(k % block_width, a, a + 1);
+  }
+  const Kernels& kernels = kernels_for(static_cast<Isa>(run.range(0)));
+  for (auto _ : run) {
+    kernels.pinacoid_axes({w.a, w.b, w.c, w.e}, blocks.data(), blocks.size(), bed.centres.data(),
+                          bed.orientations.data(), 20, 20);
+    benchmark::ClobberMemory();
+  }
+  run.SetLabel(name_of(kernels.isa));
+  count_pairs(run);
+}
+
+/// Calls what(pair, k) for every pair of a shape.
+template <class What>
+void over_pairs(benchmark::State& run, const ConvexShape& shape, What what) {
+  const Bed bed = close_pairs(shape);
+  for (auto _ : run) {
+    for (std::size_t k = 0; k < pairs; ++k) {
+      what(ShapePair{shape, shape, bed.poses[k]}, k);
+    }
+  }
+  count_pairs(run);
+}
+
+void axes(benchmark::State& run, const ConvexShape& shape) {
+  over_pairs(run, shape, [](const ShapePair& pair, std::size_t) {
+    benchmark::DoNotOptimize(separating_axes(pair));
+  });
+}
+
+void gjk_cold(benchmark::State& run, const ConvexShape& shape) {
+  over_pairs(run, shape, [](const ShapePair& pair, std::size_t) {
+    Simplex simplex;
+    benchmark::DoNotOptimize(closest_points(pair, simplex));
+  });
+}
+
+void gjk_warm(benchmark::State& run, const ConvexShape& shape) {
+  std::vector<Simplex> simplices(pairs);
+  over_pairs(run, shape, [&](const ShapePair& pair, std::size_t k) {
+    benchmark::DoNotOptimize(closest_points(pair, simplices[k]));
+  });
+}
+
+void cached_axis(benchmark::State& run, const ConvexShape& shape) {
+  over_pairs(run, shape, [](const ShapePair& pair, std::size_t) {
+    benchmark::DoNotOptimize(separation_along(pair, pair.pose.turn.col(0)));
+  });
+}
+
+/// Axes known, a margin of .05 d beyond the separation: what clipping and crossing of edges cost.
+void clip(benchmark::State& run, const ConvexShape& shape) {
+  const Bed bed = close_pairs(shape);
+  std::vector<ContactAxes> known;
+  for (const PairPose& pose : bed.poses) known.push_back(separating_axes({shape, shape, pose}));
+  ClipColumns columns;
+  std::vector<ContactPoint> points;
+  over_pairs(run, shape, [&](const ShapePair& pair, std::size_t k) {
+    points.clear();
+    const double margin = std::max(0.0, known[k].separation()) + 0.05;
+    benchmark::DoNotOptimize(touch(pair, {margin, 1e-3}, known[k], columns, points));
+  });
+}
+
+/// The whole chain, warm, with a margin of .05 d.
+void whole_touch(benchmark::State& run, const ConvexShape& shape) {
+  ClipColumns columns;
+  std::vector<ContactPoint> points;
+  std::vector<PairMemory> memories(pairs);
+  over_pairs(run, shape, [&](const ShapePair& pair, std::size_t k) {
+    points.clear();
+    benchmark::DoNotOptimize(touch(pair, {0.05, 1e-3}, memories[k], columns, points));
+  });
+}
+
+void on_isas(benchmark::internal::Benchmark* benchmark) {
+  for (const Isa isa : {Isa::sse2, Isa::avx2, Isa::avx512}) {
+    if (is_supported(isa)) benchmark->Arg(static_cast<int>(isa));
+  }
+}
+
+BENCHMARK(batch_axes)->Apply(on_isas);
+BENCHMARK_CAPTURE(axes, pinacoid, pinacoid({}));
+BENCHMARK_CAPTURE(axes, hull_of_20, rock());
+BENCHMARK_CAPTURE(gjk_cold, pinacoid, pinacoid({}));
+BENCHMARK_CAPTURE(gjk_cold, hull_of_20, rock());
+BENCHMARK_CAPTURE(gjk_warm, pinacoid, pinacoid({}));
+BENCHMARK_CAPTURE(gjk_warm, hull_of_20, rock());
+BENCHMARK_CAPTURE(cached_axis, pinacoid, pinacoid({}));
+BENCHMARK_CAPTURE(clip, pinacoid, pinacoid({}));
+BENCHMARK_CAPTURE(clip, hull_of_20, rock());
+BENCHMARK_CAPTURE(whole_touch, pinacoid, pinacoid({}));
+BENCHMARK_CAPTURE(whole_touch, hull_of_20, rock());
+
+}  // namespace
+}  // namespace grainsweep::bench

@@ -1,0 +1,160 @@
+#include "engine/contact/clip.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace grainsweep {
+
+namespace {
+
+// Shares of the sizes at hand: points this close to a side are inside, and corners this close to
+// each other are one. Grains stacked edge on edge keep all of their corners.
+constexpr double on_side = 1e-12;
+constexpr double same_point = 1e-10;
+
+/// A face to touch on.
+struct Base {
+  Vector normal;  ///< outward
+  double offset;
+  double size;  ///< of the shape it belongs to, d
+
+  double gap(const Vector& x) const { return normal.dot(x) - offset; }
+};
+
+Base base_of(const PlacedShape& shape, std::int32_t number) {
+  const Face& face = shape.shape.faces[static_cast<std::size_t>(number)];
+  const Vector normal = shape.turn * face.normal;
+  return {normal, normal.dot(shape.centre) + shape.scale * face.offset,
+          shape.scale * shape.shape.circumradius};
+}
+
+/// Places the corners of a face.
+void place_face(const PlacedShape& shape, std::int32_t number, std::vector<Vector>& corners) {
+  const Face& face = shape.shape.faces[static_cast<std::size_t>(number)];
+  const auto first = shape.shape.loops.begin() + face.first;
+  corners.clear();
+  std::for_each(first, first + face.corners,
+                [&](std::int32_t vertex) { corners.push_back(shape.place(vertex)); });
+}
+
+void set_sides(const Base& base, const std::vector<Vector>& corners, std::vector<ClipSide>& sides) {
+  sides.clear();
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    const Vector& from = corners[k];
+    const Vector outward = (corners[(k + 1) % corners.size()] - from).cross(base.normal);
+    sides.push_back({from, outward, on_side * base.size * outward.norm()});
+  }
+}
+
+double beyond(const ClipSide& side, const Vector& x) { return side.outward.dot(x - side.corner); }
+
+/// Cuts a polygon by the plane through a side (Sutherland and Hodgman 1974).
+void cut(const std::vector<Vector>& polygon, const ClipSide& side, std::vector<Vector>& result) {
+  result.clear();
+  double at_p = polygon.empty() ? 0.0 : beyond(side, polygon[0]);
+  for (std::size_t k = 0; k < polygon.size(); ++k) {
+    const Vector &p = polygon[k], &q = polygon[(k + 1) % polygon.size()];
+    const double at_q = beyond(side, q);
+    if (at_p <= side.tolerance) result.push_back(p);
+    if ((at_p <= side.tolerance) != (at_q <= side.tolerance)) {
+      result.emplace_back(p + at_p / (at_p - at_q) * (q - p));
+    }
+    at_p = at_q;
+  }
+}
+
+/// Among the faces at the lowest vertex of `other`, the one that faces `normal` most.
+std::int32_t touching_face(const PlacedShape& other, const Vector& normal) {
+  const ConvexShape& shape = other.shape;
+  const Vector down = -(other.turn.transpose() * normal);
+  const auto lowest = static_cast<std::size_t>(farthest_vertex(shape, down));
+  const auto first = shape.vertex_faces.begin() + shape.vertex_faces_begin[lowest];
+  const auto last = shape.vertex_faces.begin() + shape.vertex_faces_begin[lowest + 1];
+  return *std::max_element(first, last, [&](std::int32_t f, std::int32_t g) {
+    return shape.faces[static_cast<std::size_t>(f)].normal.dot(down) <
+           shape.faces[static_cast<std::size_t>(g)].normal.dot(down);
+  });
+}
+
+void add_point(const Base& base, const Vector& x, double margin, std::size_t first,
+               std::vector<ContactPoint>& points) {
+  const double gap = base.gap(x);
+  if (!(gap <= margin)) return;
+  const Vector position = x - gap / 2.0 * base.normal;
+  const double same = same_point * base.size;
+  const bool there = std::any_of(points.begin() + static_cast<std::ptrdiff_t>(first), points.end(),
+                                 [&](const ContactPoint& point) {
+                                   return (point.position - position).squaredNorm() <= same * same;
+                                 });
+  if (!there) points.push_back({position, gap});
+}
+
+bool is_above(const std::vector<ClipSide>& sides, const Vector& x) {
+  return std::all_of(sides.begin(), sides.end(),
+                     [&](const ClipSide& side) { return beyond(side, x) <= side.tolerance; });
+}
+
+/// Vertices within the margin that are no corners of the touching face: where an edge lies on the
+/// base, a face at one of its ends may be the touching one, and would leave out the other end.
+void add_other_vertices(const Base& base, const std::vector<ClipSide>& sides,
+                        const PlacedShape& other, double margin, std::size_t first,
+                        std::vector<ContactPoint>& points) {
+  for (std::size_t v = 0; v < other.shape.vertices.size(); ++v) {
+    const Vector x = other.place(static_cast<std::int32_t>(v));
+    if (base.gap(x) <= margin && is_above(sides, x)) add_point(base, x, margin, first, points);
+  }
+}
+
+}  // namespace
+
+PlacedShape placed_a(const ShapePair& pair) {
+  return {pair.a, Vector::Zero(), Matrix::Identity(), pair.pose.scale_a};
+}
+
+PlacedShape placed_b(const ShapePair& pair) {
+  return {pair.b, pair.pose.centre, pair.pose.turn, pair.pose.scale_b};
+}
+
+void clip_on_face(const PlacedShape& base, std::int32_t face, const PlacedShape& other,
+                  double margin, ClipColumns& columns, std::vector<ContactPoint>& points) {
+  const Base on = base_of(base, face);
+  const std::size_t first = points.size();
+  place_face(base, face, columns.polygon);
+  set_sides(on, columns.polygon, columns.sides);
+  place_face(other, touching_face(other, on.normal), columns.polygon);
+  for (const ClipSide& side : columns.sides) {
+    cut(columns.polygon, side, columns.clipped);
+    std::swap(columns.polygon, columns.clipped);
+  }
+  for (const Vector& x : columns.polygon) {
+    add_point(on, x, margin, first, points);
+  }
+  add_other_vertices(on, columns.sides, other, margin, first, points);
+}
+
+Segment farthest_edge(const PlacedShape& shape, std::int32_t direction, const Vector& n) {
+  Segment best{Vector::Zero(), Vector::Zero()};
+  double reach = -std::numeric_limits<double>::infinity();
+  for (const Edge& edge : shape.shape.edges) {
+    if (edge.direction != direction) continue;
+    const Segment segment{shape.place(edge.from), shape.place(edge.to)};
+    const double along = n.dot(segment.from + segment.to);
+    if (along > reach) {
+      reach = along;
+      best = segment;
+    }
+  }
+  return best;
+}
+
+Vector midway(const Segment& p, const Segment& q) {
+  const Vector u = p.to - p.from, v = q.to - q.from, w = p.from - q.from;
+  const double uu = u.dot(u), uv = u.dot(v), vv = v.dot(v), uw = u.dot(w), vw = v.dot(w);
+  const double on_p = std::clamp((uv * vw - vv * uw) / (uu * vv - uv * uv), 0.0, 1.0);
+  const double on_q = std::clamp((uv * on_p + vw) / vv, 0.0, 1.0);
+  const double again = std::clamp((uv * on_q - uw) / uu, 0.0, 1.0);
+  return (p.from + again * u + q.from + on_q * v) / 2.0;
+}
+
+}  // namespace grainsweep

@@ -1,0 +1,25 @@
+// Two grains of convex shapes, as narrow phase looks at them.
+//
+// All of narrow phase works in the shape frame of grain a, about the centre of a, in d. Normals
+// point from a to b: an impulse p pushes b by +p normal and a by -p normal.
+#pragma once
+
+#include "engine/shape/pose.hpp"
+
+namespace grainsweep {
+
+struct ShapePair {
+  const ConvexShape& a;
+  const ConvexShape& b;
+  PairPose pose;
+
+  /// A vertex of either grain, in the frame of a.
+  Vector vertex_a(std::int32_t k) const {
+    return pose.scale_a * a.vertices[static_cast<std::size_t>(k)];
+  }
+  Vector vertex_b(std::int32_t k) const {
+    return pose.centre + pose.scale_b * (pose.turn * b.vertices[static_cast<std::size_t>(k)]);
+  }
+};
+
+}  // namespace grainsweep

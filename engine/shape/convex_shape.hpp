@@ -1,0 +1,96 @@
+// A convex polyhedron in its own frame: what all grains of one shape share.
+//
+// The frame has its origin at the centroid and its axes along the principal axes of inertia. A
+// grain is the shape scaled, turned and moved by its pose (engine/shape/pose.hpp); at scale 1
+// lengths are in d. Everything that narrow phase, measures and dynamics ask of a shape is worked
+// out once, here.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace grainsweep {
+
+using Vector = Eigen::Vector3d;
+using Matrix = Eigen::Matrix3d;
+
+/// A flat face; the shape lies where normal . x <= offset.
+struct Face {
+  Vector normal = Vector::Zero();  ///< unit, outward
+  double offset = 0.0;             ///< distance of its plane from the centroid, d
+  std::int32_t first = 0;          ///< its corners are loops[first] .. loops[first + corners - 1],
+  std::int32_t corners = 0;        ///< counter-clockwise seen from outside
+};
+
+/// An edge from one vertex to another. Seen from outside with `to` above `from`, face `left` is on
+/// the left.
+struct Edge {
+  std::int32_t from = 0, to = 0;     ///< vertices
+  std::int32_t left = 0, right = 0;  ///< faces
+  std::int32_t direction = 0;        ///< in `edge_directions`, up to sign
+};
+
+/// What gives the half width of a pinacoid along n in closed form:
+/// max(a |nx| + b |ny|, c |nx| + e |nz|).
+struct PinacoidWidth {
+  double a = 0.0, b = 0.0, c = 0.0, e = 0.0;  ///< half length, width, ridge and height, d
+};
+
+/// A grain of scale w has volume w^3 volume, moments w^2 inertia over its mass, and w times the
+/// radii.
+struct ConvexShape {
+  std::vector<Vector> vertices;
+  std::vector<Face> faces;
+  std::vector<std::int32_t> loops;  ///< vertices of the faces, face after face
+  std::vector<Edge> edges;
+  std::vector<Vector> edge_directions;           ///< unit, distinct up to sign
+  std::vector<std::int32_t> vertex_faces;        ///< faces at each vertex, vertex after vertex
+  std::vector<std::int32_t> vertex_faces_begin;  ///< where each vertex's begin; one more at the end
+  double volume = 0.0;                           ///< d^3
+  Vector inertia = Vector::Zero();               ///< principal moments over mass, d^2
+  double circumradius = 0.0;                     ///< of the smallest ball around the centroid, d
+  double inradius = 0.0;                  ///< of the largest ball around the centroid within, d
+  bool centrally_symmetric = false;       ///< -x is a vertex for every vertex x
+  std::optional<PinacoidWidth> pinacoid;  ///< if the shape is one
+};
+
+/// Where a shape in its frame came from: x_given = rotation x_shape + centroid.
+struct GivenFrame {
+  Vector centroid = Vector::Zero();
+  Matrix rotation = Matrix::Identity();
+};
+
+/// Half width of a pinacoid along n: largest n . x over its points.
+inline double half_width(const PinacoidWidth& w, const Vector& n) {
+  const double x = n.x() < 0 ? -n.x() : n.x(), y = n.y() < 0 ? -n.y() : n.y();
+  const double z = n.z() < 0 ? -n.z() : n.z();
+  const double waist = w.a * x + w.b * y, ridge = w.c * x + w.e * z;
+  return waist < ridge ? ridge : waist;
+}
+
+/// The vertex farthest along n; the first of equals.
+inline std::int32_t farthest_vertex(const ConvexShape& shape, const Vector& n) {
+  std::size_t best = 0;
+  double reach = n.dot(shape.vertices[0]);
+  for (std::size_t k = 1; k < shape.vertices.size(); ++k) {
+    const double along = n.dot(shape.vertices[k]);
+    best = along > reach ? k : best;
+    reach = along > reach ? along : reach;
+  }
+  return static_cast<std::int32_t>(best);
+}
+
+/// Largest n . x over the shape, d.
+inline double reach_along(const ConvexShape& shape, const Vector& n) {
+  double reach = n.dot(shape.vertices[0]);
+  for (std::size_t k = 1; k < shape.vertices.size(); ++k) {
+    const double along = n.dot(shape.vertices[k]);
+    reach = along > reach ? along : reach;
+  }
+  return reach;
+}
+
+}  // namespace grainsweep

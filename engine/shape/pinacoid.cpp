@@ -1,0 +1,104 @@
+#include "engine/shape/pinacoid.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <sstream>
+
+#include "engine/shape/build.hpp"
+#include "engine/units.hpp"
+
+namespace grainsweep {
+
+namespace {
+
+constexpr double degree = pi / 180.0;
+
+// A ridge shorter than this share of the length is rounding of a point.
+constexpr double no_ridge = 1e-12;
+
+PinacoidWidth width_of(const PinacoidSize& size) {
+  const double a = size.length / 2.0, e = size.height / 2.0;
+  const double c = a - e / std::tan(size.angle);
+  return {a, size.width / 2.0, c > no_ridge * a ? c : 0.0, e};
+}
+
+std::vector<Vector> vertices_of(const PinacoidWidth& w) {
+  return {{w.a, w.b, 0}, {-w.a, w.b, 0}, {-w.a, -w.b, 0}, {w.a, -w.b, 0},
+          {w.c, 0, w.e}, {-w.c, 0, w.e}, {w.c, 0, -w.e},  {-w.c, 0, -w.e}};
+}
+
+/// Two roofs and two ends above, then the faces opposite to them in the same order.
+Loops loops_of_ridges() {
+  return {{0, 1, 5, 4}, {2, 3, 4, 5}, {0, 4, 3}, {2, 5, 1},
+          {7, 6, 3, 2}, {6, 7, 1, 0}, {1, 7, 2}, {3, 6, 0}};
+}
+/// The same where each ridge is a point.
+Loops loops_of_points() {
+  return {{0, 1, 4}, {2, 3, 4}, {0, 4, 3}, {2, 4, 1}, {5, 3, 2}, {5, 1, 0}, {1, 5, 2}, {3, 5, 0}};
+}
+
+/// Sections at height t e are rectangles of half lengths a - s t and b (1 - t).
+void set_mass(const PinacoidWidth& w, ConvexShape& shape) {
+  const double a = w.a, s = w.a - w.c, e_b = 8.0 * w.e * w.b;
+  const double volume = e_b * (a / 2.0 - s / 6.0);
+  const double cubes = a * a * a / 2.0 - a * a * s / 2.0 + a * s * s / 4.0 - s * s * s / 20.0;
+  const double xx = e_b / 3.0 * cubes / volume;
+  const double yy = e_b / 3.0 * w.b * w.b * (a / 4.0 - s / 20.0) / volume;
+  const double zz = e_b * w.e * w.e * (a / 12.0 - s / 20.0) / volume;
+  shape.volume = volume;
+  shape.inertia = {yy + zz, xx + zz, xx + yy};
+}
+
+template <class... Parts>
+std::string joined(const Parts&... parts) {
+  std::ostringstream text;
+  (text << ... << parts);
+  return text.str();
+}
+
+std::string problem_with_length(const char* name, double value) {
+  if (std::isfinite(value) && value > 0.0) return "";
+  return joined(name, " must be a positive finite number, is ", value);
+}
+
+std::string problem_with_angle(const PinacoidSize& size) {
+  const double degrees = size.angle / degree;
+  if (!(size.angle > 0.0) || !(degrees <= 89.0)) {
+    return joined("angle must be above 0 and at most 89 degrees, is ", degrees,
+                  "; upright ends are the shape of a hull");
+  }
+  // The same rounding as the width: a ridge of no length is allowed.
+  const double steepness = std::tan(size.angle) * size.length;
+  if (steepness >= size.height * (1.0 - no_ridge)) return "";
+  return joined("the ends would cross: tan(angle) must be at least height / length = ",
+                size.height / size.length, ", is ", std::tan(size.angle), "; the least angle is ",
+                std::atan(size.height / size.length) / degree, " degrees");
+}
+
+}  // namespace
+
+std::string problem_with(const PinacoidSize& size) {
+  const std::array lengths = {problem_with_length("length", size.length),
+                              problem_with_length("width", size.width),
+                              problem_with_length("height", size.height)};
+  const auto wrong = std::find_if(lengths.begin(), lengths.end(),
+                                  [](const std::string& problem) { return !problem.empty(); });
+  return wrong != lengths.end() ? *wrong : problem_with_angle(size);
+}
+
+ConvexShape pinacoid(const PinacoidSize& size) {
+  const PinacoidWidth width = width_of(size);
+  std::vector<Vector> vertices = vertices_of(width);
+  if (width.c == 0.0) {
+    vertices.erase(vertices.begin() + 7);
+    vertices.erase(vertices.begin() + 5);
+  }
+  ConvexShape shape =
+      build_shape(std::move(vertices), width.c == 0.0 ? loops_of_points() : loops_of_ridges());
+  set_mass(width, shape);
+  shape.pinacoid = width;
+  return shape;
+}
+
+}  // namespace grainsweep

@@ -1,0 +1,70 @@
+#include "runner/sweep/obj.hpp"
+
+#include <optional>
+#include <string_view>
+
+#include "runner/sweep/identity.hpp"
+#include "runner/sweep/json_text.hpp"
+#include "runner/sweep/suggest.hpp"
+#include "runner/sweep/text_lines.hpp"
+
+namespace grainsweep {
+namespace {
+
+constexpr std::size_t most_errors = 20;
+
+/// Takes the first word off a line.
+std::string_view next_word(std::string_view& line) {
+  line = trimmed(line);
+  const std::string_view word = line.substr(0, line.find_first_of(" \t"));
+  line.remove_prefix(word.size());
+  return word;
+}
+
+/// Reads the coordinates that follow "v"; what is wrong with them otherwise.
+std::string read_vertex(std::string_view coordinates, Vector& vertex) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::string_view word = next_word(coordinates);
+    if (word.empty()) {
+      return "a vertex needs three coordinates, has " + std::to_string(axis);
+    }
+    const std::optional<double> value = finite_number(word);
+    if (!value) {
+      return std::string(1, "xyz"[axis]) + " must be a finite number, is \"" + shortened(word) +
+             "\"";
+    }
+    vertex[axis] = *value;
+  }
+  return "";
+}
+
+}  // namespace
+
+ObjReading parse_obj(const std::string& text, const std::string& file) {
+  ObjReading reading;
+  reading.content = hex16(mixed(fnv1a(text)));
+  const auto lines = lines_of(text);
+  for (std::size_t k = 0; k < lines.size() && reading.errors.size() < most_errors; ++k) {
+    std::string_view line = lines[k];
+    if (next_word(line) != "v") continue;
+    Vector vertex = Vector::Zero();
+    const std::string error = read_vertex(line, vertex);
+    if (error.empty()) reading.vertices.push_back(vertex);
+    if (!error.empty()) reading.errors.push_back({file + ":" + std::to_string(k + 1), "", error});
+  }
+  if (reading.vertices.empty() && reading.errors.empty()) {
+    reading.errors.push_back(
+        {file + ":1", "", "no vertex in it; a shape needs at least 4 lines \"v x y z\""});
+  }
+  return reading;
+}
+
+ObjReading read_obj(const std::string& path) {
+  FileText file = read_text(path);
+  if (file.errors.empty()) return parse_obj(file.text, path);
+  ObjReading reading;
+  reading.errors = std::move(file.errors);
+  return reading;
+}
+
+}  // namespace grainsweep

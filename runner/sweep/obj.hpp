@@ -1,0 +1,28 @@
+// Vertices from a Wavefront OBJ file: where the shape of a hull comes from.
+//
+// Only the lines "v x y z" matter; faces are worked out anew from the vertices, all others are left
+// alone. Decimal points; a fourth number (weight) and colours after it are ignored.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/shape/convex_shape.hpp"
+#include "runner/sweep/job.hpp"
+
+namespace grainsweep {
+
+struct ObjReading {
+  std::vector<Vector> vertices;  ///< in the file's own unit of length
+  std::string content;           ///< hash of the file's bytes, 16 hex digits
+  std::vector<Finding> errors;   ///< with places "rock.obj:12"; at most 20 of a file
+};
+
+/// Reads vertices from the file at `path`. Refuses coordinates that are missing or no finite
+/// numbers, and files without a vertex.
+ObjReading read_obj(const std::string& path);
+
+/// The same from `text`, the content of `file`.
+ObjReading parse_obj(const std::string& text, const std::string& file);
+
+}  // namespace grainsweep

@@ -1,0 +1,20 @@
+// Lines and numbers of the text files that sweeps name: beds as CSV, shapes as OBJ.
+#pragma once
+
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace grainsweep {
+
+/// `text` without blanks at its ends.
+std::string_view trimmed(std::string_view text);
+
+/// The lines of a text, without a byte order mark at its start and blank lines at its end; at least
+/// one.
+std::vector<std::string_view> lines_of(std::string_view text);
+
+/// The number that all of `text` spells, with a decimal point; nothing if it is none or not finite.
+std::optional<double> finite_number(std::string_view text);
+
+}  // namespace grainsweep

@@ -1,0 +1,65 @@
+#include <catch2/catch.hpp>
+
+#include "runner/sweep/obj.hpp"
+#include "tests/runner/sweep/sweep_files.hpp"
+
+namespace grainsweep {
+namespace {
+
+std::vector<std::string> errors_in(const std::string& text) {
+  std::vector<std::string> errors;
+  for (const Finding& finding : parse_obj(text, "rock.obj").errors) {
+    errors.push_back(to_string(finding));
+  }
+  return errors;
+}
+
+using Messages = std::vector<std::string>;
+
+TEST_CASE("the vertices of an OBJ file are read past everything else in it") {
+  const ObjReading reading = parse_obj(
+      "# a rock\r\nmtllib a.mtl\no rock\nv 1 2 3\r\n  v\t-0.5 1e-1 .25 1.0\nvn 0 0 1\n"
+      "vt 0 0\nv 4 5 6 0.5 0.5 0.5\nf 1 2 3\n\n",
+      "rock.obj");
+  REQUIRE(reading.errors.empty());
+  REQUIRE(reading.vertices.size() == 3);
+  CHECK(reading.vertices[0] == Vector(1, 2, 3));
+  CHECK(reading.vertices[1] == Vector(-0.5, 0.1, 0.25));
+  CHECK(reading.vertices[2] == Vector(4, 5, 6));
+}
+
+TEST_CASE("coordinates that are missing or no numbers are refused with their line") {
+  CHECK(errors_in("v 1 2\nv 1 2 3\nv 1 two 3\nv 1 2 nan\nv inf 0 0\nv\n") ==
+        Messages{"rock.obj:1: a vertex needs three coordinates, has 2",
+                 "rock.obj:3: y must be a finite number, is \"two\"",
+                 "rock.obj:4: z must be a finite number, is \"nan\"",
+                 "rock.obj:5: x must be a finite number, is \"inf\"",
+                 "rock.obj:6: a vertex needs three coordinates, has 0"});
+}
+
+TEST_CASE("an OBJ file without a vertex says so") {
+  const Messages none{"rock.obj:1: no vertex in it; a shape needs at least 4 lines \"v x y z\""};
+  CHECK(errors_in("") == none);
+  CHECK(errors_in("f 1 2 3\nvn 0 0 1\n") == none);
+}
+
+TEST_CASE("no more than twenty errors of an OBJ file are listed") {
+  std::string text;
+  for (int k = 0; k < 50; ++k) text += "v 0 0\n";
+  CHECK(errors_in(text).size() == 20);
+}
+
+TEST_CASE("an OBJ file that is missing is named") {
+  const ObjReading reading = read_obj("/nowhere/rock.obj");
+  REQUIRE(reading.errors.size() == 1);
+  CHECK(to_string(reading.errors[0]).find("/nowhere/rock.obj") != std::string::npos);
+  CHECK(reading.vertices.empty());
+}
+
+TEST_CASE("the content of an OBJ file is known by its bytes") {
+  CHECK(parse_obj("v 0 0 0\n", "a").content == parse_obj("v 0 0 0\n", "b").content);
+  CHECK(parse_obj("v 0 0 0\n", "a").content != parse_obj("v 0 0 1\n", "a").content);
+}
+
+}  // namespace
+}  // namespace grainsweep
