@@ -1,4 +1,5 @@
-// What computes a packing: the kernels of an instruction set and, for large beds, several cores.
+// What computes a packing: the kernels of an instruction set, for large beds several cores, and the
+// memory that the last packing has left.
 //
 // The engine starts no thread. It names parts of its work that may be done at the same time;
 // whoever calls it says how. A bed is divided by its size alone, never by the number of cores, and
@@ -32,13 +33,16 @@ void run_parts(const PartLoop& loop, std::size_t parts, const Part& part) {
   }
 }
 
+struct Workspace;  // engine/dynamics/workspace.hpp
+
 struct Processor {
-  // Kernels alone are a processor of one core.
-  Processor(const Kernels& table, PartLoop parts = one_after_another)
-      : kernels(table), loop(std::move(parts)) {}
+  // Kernels alone are a processor of one core and without memory of earlier packings.
+  Processor(const Kernels& table, PartLoop parts = one_after_another, Workspace* used = nullptr)
+      : kernels(table), loop(std::move(parts)), workspace(used) {}
 
   const Kernels& kernels;
   PartLoop loop;
+  Workspace* workspace;  ///< memory of the last packing, or none
 };
 
 }  // namespace grainsweep

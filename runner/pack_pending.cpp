@@ -6,6 +6,9 @@
 #include <string_view>
 #include <utility>
 
+#include <tbb/enumerable_thread_specific.h>
+
+#include "engine/dynamics/workspace.hpp"
 #include "runner/machine.hpp"
 #include "runner/report.hpp"
 #include "runner/stop.hpp"
@@ -106,7 +109,7 @@ class Packer {
       due_at = wall_seconds() + options_.checkpoint_seconds;
       return goes_on;
     };
-    return make_packing(job.spec, {kernels_, crew.loop()}, saving,
+    return make_packing(job.spec, {kernels_, crew.loop(), &workspaces_.local()}, saving,
                         saved ? saved->state : std::string_view());
   }
 
@@ -162,6 +165,7 @@ class Packer {
   Journal journal_;
   const std::string build_;
   std::vector<Before> before_;  ///< by task
+  tbb::enumerable_thread_specific<Workspace> workspaces_;
   Packed packed_;
   std::atomic<bool> warned_{false};
   std::atomic<bool> has_failed_{false};

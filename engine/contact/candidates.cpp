@@ -190,7 +190,7 @@ void list_pairs(const SphereBed& bed, float reach, const Processor& processor,
 }
 
 void list_walls(const SphereBed& bed, Candidates& candidates) {
-  const std::vector<Wall> walls = walls_of(bed.box);
+  const Walls walls = walls_of(bed.box);
   candidates.walls.resize(walls.size());
   for (std::size_t k = 0; k < walls.size(); ++k) {
     WallCandidates& near = candidates.walls[k];
@@ -278,15 +278,17 @@ bool has_newcomer(const SphereBed& bed, const Wall& wall, double near,
 
 }  // namespace
 
-std::vector<Wall> walls_of(const Box& box) {
-  std::vector<Wall> walls = {{2, 1.0, 0.0}};
+Walls walls_of(const Box& box) {
+  Walls walls;
+  const auto add = [&](const Wall& wall) { walls.wall[walls.count++] = wall; };
+  add({2, 1.0, 0.0});
   if (box.x == Boundary::walls) {
-    walls.push_back({0, 1.0, 0.0});
-    walls.push_back({0, -1.0, box.length});
+    add({0, 1.0, 0.0});
+    add({0, -1.0, box.length});
   }
   if (box.y == Boundary::walls) {
-    walls.push_back({1, 1.0, 0.0});
-    walls.push_back({1, -1.0, box.width});
+    add({1, 1.0, 0.0});
+    add({1, -1.0, box.width});
   }
   return walls;
 }

@@ -32,8 +32,19 @@ struct Wall {
   }
 };
 
+/// The walls of a box, without memory of their own.
+struct Walls {
+  Wall wall[5];
+  std::size_t count = 0;
+
+  const Wall* begin() const { return wall; }
+  const Wall* end() const { return wall + count; }
+  std::size_t size() const { return count; }
+  const Wall& operator[](std::size_t k) const { return wall[k]; }
+};
+
 /// The floor first, then the walls of the box.
-std::vector<Wall> walls_of(const Box& box);
+Walls walls_of(const Box& box);
 
 /// Grains that come within reach of one wall.
 struct WallCandidates {

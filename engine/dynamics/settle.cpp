@@ -3,6 +3,7 @@
 #include "engine/dynamics/balance.hpp"
 #include "engine/dynamics/saved_state.hpp"
 #include "engine/dynamics/stages.hpp"
+#include "engine/dynamics/workspace.hpp"
 
 namespace grainsweep {
 
@@ -18,7 +19,7 @@ struct Settling {
   const Accuracy& accuracy;
   const Processor& processor;
   SphereBed& bed;
-  StepState<Real> state;
+  StepState<Real>& state;
   Stage stage = Stage::look;
   std::int64_t steps_in_stage = 0;
   StepSettings settings;
@@ -203,8 +204,12 @@ void come_to_rest(Settling<Real>& s, const KeepGoing& keep_going) {
 template <class Real>
 SettleReport settle_as(const Accuracy& accuracy, const Processor& processor, SphereBed& bed,
                        const KeepGoing& keep_going, std::string_view saved) {
-  Settling<Real> s{accuracy, processor, bed, {}, Stage::look, 0, settings_of(accuracy, Stage::look),
-                   {},       {}};
+  Workspace own;
+  StepState<Real>& state =
+      step_state<Real>(processor.workspace != nullptr ? *processor.workspace : own);
+  forget(state);
+  Settling<Real> s{
+      accuracy, processor, bed, state, Stage::look, 0, settings_of(accuracy, Stage::look), {}, {}};
   restore(saved, s);
   come_to_rest(s, keep_going);
   certify_rest(s);

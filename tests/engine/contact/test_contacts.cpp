@@ -169,7 +169,7 @@ TEMPLATE_TEST_CASE("rows have the gap and the unit normal of their contact", "",
   Contacts<TestType> contacts;
   lay_out(bed, candidates, contacts);
   detect(bed, kernels(), 1.0, contacts);
-  const std::vector<Wall> all_walls = walls_of(bed.box);
+  const Walls all_walls = walls_of(bed.box);
   visit_named(bed, contacts, [&](const Name& name, std::size_t block, std::size_t lane) {
     const RowBlock<TestType>& r = contacts.rows[block];
     const auto a = static_cast<std::size_t>(name.first), b = static_cast<std::size_t>(name.second);

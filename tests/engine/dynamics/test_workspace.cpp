@@ -1,0 +1,42 @@
+#include <catch2/catch.hpp>
+
+#include "engine/dynamics/presets.hpp"
+#include "engine/dynamics/workspace.hpp"
+#include "engine/packing.hpp"
+#include "tests/support/instruction_sets.hpp"
+
+namespace grainsweep {
+namespace {
+
+const KeepGoing always = [](const Progress&) { return true; };
+
+PackingSpec small_bed(std::int64_t grains, double width, Precision precision) {
+  PackingSpec spec;
+  spec.box = {6, width, Boundary::periodic, Boundary::walls};
+  spec.fill = GrainCount{grains};
+  spec.accuracy = *preset("fast");
+  spec.accuracy.precision = precision;
+  spec.random_key = 11;
+  return spec;
+}
+
+// Larger, smaller, another number type, and one that was stopped half-way: all leave rows and
+// impulses behind.
+TEST_CASE("a packing has the same bits in the memory that others have left") {
+  Workspace workspace;
+  const Processor used(kernels_for(best_isa()), one_after_another, &workspace);
+  for (const PackingSpec& spec :
+       {small_bed(300, 5, Precision::f32), small_bed(80, 3, Precision::f32),
+        small_bed(80, 3, Precision::f64), small_bed(300, 5, Precision::f32)}) {
+    const PackingResult fresh = make_packing(spec, kernels_for(best_isa()), always).result;
+    const PackingResult again = make_packing(spec, used, always).result;
+    CHECK(again.state_hash == fresh.state_hash);
+    CHECK(again.iterations == fresh.iterations);
+    CHECK(again.rest.contacts == fresh.rest.contacts);
+    CHECK(again.status == fresh.status);
+    make_packing(spec, used, [](const Progress& progress) { return progress.step < 30; });
+  }
+}
+
+}  // namespace
+}  // namespace grainsweep
