@@ -19,7 +19,7 @@ Accuracy fast() {
 Accuracy balanced() {
   Accuracy a;
   a.fall_iterations = 40;
-  a.creep_steps = 54;
+  a.creep_steps = 45;
   a.rest_iterations = 300;
   a.residual_tolerance = 1e-2;
   a.kinetic_tolerance = 1e-4;

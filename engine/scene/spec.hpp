@@ -83,7 +83,7 @@ struct Accuracy {
   double step = 0.2;          ///< dt, sqrt(d/g)
   double momentum = 0.9;      ///< alpha: share of a displacement carried on in the fall, 0..1
   int fall_iterations = 40;   ///< solver iterations per step while the bed compacts
-  int creep_steps = 54;       ///< double steps after the fall, while the bed creeps to rest
+  int creep_steps = 45;       ///< double steps after the fall, while the bed creeps to rest
   int rest_iterations = 300;  ///< most solver iterations per step at the end of the creep
   double residual_tolerance = 5e-3;  ///< force balance at rest, m g, worst row
   double kinetic_tolerance = 2e-4;   ///< kinetic energy per grain at rest, m g d
