@@ -9,7 +9,7 @@ namespace grainsweep {
 namespace {
 
 constexpr std::size_t head_size = 8 + 8;
-constexpr std::size_t bin_size = 6 * 8;
+constexpr std::size_t bin_size = 2 * sizeof(double) + 4 * sizeof(std::uint64_t);
 
 void need(std::string_view bytes, std::size_t size) {
   if (bytes.size() < size) throw std::length_error("curves end too early");
