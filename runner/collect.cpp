@@ -88,9 +88,13 @@ void add_outcome(const std::string& folder, const Outcome& outcome, Journal& jou
   ++to.added;
 }
 
+void warn_about(const std::vector<std::string>& damage, const std::string& folder) {
+  for (const std::string& line : damage) warn(folder + "/" + line);
+}
+
 Results results_with_warnings(const std::string& folder) {
   Results results = read_results(folder);
-  for (const std::string& line : results.damage) warn(folder + "/" + line);
+  warn_about(results.damage, folder);
   return results;
 }
 
@@ -99,9 +103,10 @@ Collection begin_collection(const std::string& folder, const Provenance& first) 
   Collection collection;
   collection.folder = folder;
   if (file_exists(folder + "/provenance.json")) {
-    Results own = results_with_warnings(folder);
-    collection.provenance = std::move(own.provenance);
-    collection.outcomes = finished_outcomes(folder, read_journals(folder).outcomes);
+    collection.provenance = read_results(folder).provenance;
+    JournalReading finished = finished_outcomes(folder);
+    collection.outcomes = std::move(finished.outcomes);
+    warn_about(finished.damage, folder);
   } else {
     collection.provenance = first;
     collection.provenance.runs.clear();

@@ -97,7 +97,8 @@ int report(const ReportOptions& options) {
 }
 
 int compare(const CompareOptions& options) {
-  const Results results = results_with_warnings(options.folder);
+  Results results = results_with_warnings(options.folder);
+  warn_about(load_curves(options.folder, results.rows), options.folder);
   const auto rows = compare_with_paper(families_of(groups_of(results.rows)));
   std::cout << "Camenen, Descantes, Richard, Confined packings of frictionless spheres and "
                "polyhedra,\nPowders & Grains 2013, and " +

@@ -40,7 +40,8 @@ std::string went_on_text(std::int64_t step) {
   return step == 0 ? "" : ", went on from step " + std::to_string(step);
 }
 
-/// Puts a finished packing on the disk, grains first: a journal line promises that they are there.
+/// Puts a finished packing on the disk, grains and curves first: a journal line promises that they
+/// are there.
 Outcome store(const Job& job, const std::string& folder, Journal& journal, Finished&& finished) {
   Outcome outcome;
   outcome.job = job.id;
@@ -50,7 +51,8 @@ Outcome store(const Job& job, const std::string& folder, Journal& journal, Finis
   outcome.stored_grains = static_cast<std::int64_t>(finished.packing.grains.size());
   outcome.cpu_seconds = finished.cpu_seconds;
   if (outcome.stored_grains > 0) {
-    write_bed(folder, job.id, {job.spec.box, std::move(finished.packing.grains)});
+    write_bed(folder, job.id,
+              {job.spec.box, std::move(finished.packing.grains), curves_of(outcome.result)});
   }
   journal.append(outcome);
   return outcome;

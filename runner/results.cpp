@@ -12,7 +12,6 @@
 #include "runner/store/brief.hpp"
 #include "runner/store/checkpoints.hpp"
 #include "runner/store/files.hpp"
-#include "runner/store/journal.hpp"
 #include "runner/store/states.hpp"
 #include "runner/tables/decays.hpp"
 #include "runner/tables/distributions.hpp"
@@ -60,6 +59,45 @@ std::size_t count_foreign(const SweepFacts& sweep, const std::map<std::string, O
   return static_cast<std::size_t>(std::count_if(stored.begin(), stored.end(), is_foreign));
 }
 
+constexpr const char* no_curves = "missing, damaged or of another version";
+
+/// "states/<job>.grains: missing, ...", for warnings that put the folder before it.
+std::string without_curves(const std::string& job) {
+  return state_path("", job).substr(1) + ": " + no_curves + "; left out, its packing is made again";
+}
+
+/// The group with the curves of its packings, which its rows lacked. Throws FileError.
+Group with_curves(const std::string& folder, Group group) {
+  for (std::size_t i = 0; i < group.settled.size(); ++i) {
+    auto curves = read_curves(folder, group.jobs[i]);
+    if (!curves) {
+      throw FileError(state_path(folder, group.jobs[i]),
+                      std::string(no_curves) + "; run the sweep again to make it anew");
+    }
+    set_curves(std::move(*curves), group.settled[i]);
+  }
+  return group;
+}
+
+/// The texts of the tables that are made of curves.
+struct CurveTables {
+  std::string profiles = profiles_header();
+  std::string decays = decays_header();
+  std::string distributions = distributions_header();
+};
+
+/// Holds the curves of one group at a time.
+CurveTables curve_tables(const std::string& folder, const std::vector<Group>& groups) {
+  CurveTables texts;
+  for (std::size_t k = 0; k < groups.size(); ++k) {
+    const Group group = with_curves(folder, groups[k]);
+    texts.profiles += profile_lines(group, k + 1);
+    texts.decays += decay_lines(group, k + 1);
+    texts.distributions += distribution_lines(group, k + 1);
+  }
+  return texts;
+}
+
 }  // namespace
 
 Results read_results(const std::string& folder) {
@@ -102,18 +140,35 @@ std::vector<RunRecord> recorded_runs(const std::string& folder) {
   }
 }
 
-std::map<std::string, Outcome> outcomes_with_grains(const std::string& folder,
-                                                    std::map<std::string, Outcome> stored) {
-  std::erase_if(stored, [&](const auto& entry) {
-    return entry.second.stored_grains > 0 && !file_exists(state_path(folder, entry.first));
+std::vector<std::string> load_curves(const std::string& folder, std::vector<Row>& rows) {
+  std::vector<std::string> damage;
+  for (Row& row : rows) {
+    if (!row.outcome || row.outcome->stored_grains == 0) continue;
+    if (auto curves = read_curves(folder, row.job.id)) {
+      set_curves(std::move(*curves), row.outcome->result);
+    } else {
+      damage.push_back(without_curves(row.job.id));
+      row.outcome.reset();
+    }
+  }
+  return damage;
+}
+
+JournalReading stored_outcomes(const std::string& folder) {
+  JournalReading stored = read_journals(folder);
+  std::erase_if(stored.outcomes, [&](const auto& entry) {
+    const auto& [job, outcome] = entry;
+    const bool is_whole = outcome.stored_grains == 0 || read_curves(folder, job);
+    if (!is_whole) stored.damage.push_back(without_curves(job));
+    return !is_whole;
   });
   return stored;
 }
 
-std::map<std::string, Outcome> finished_outcomes(const std::string& folder,
-                                                 std::map<std::string, Outcome> stored) {
-  std::erase_if(stored, [](const auto& entry) { return entry.second.threw; });
-  return outcomes_with_grains(folder, std::move(stored));
+JournalReading finished_outcomes(const std::string& folder) {
+  JournalReading stored = stored_outcomes(folder);
+  std::erase_if(stored.outcomes, [](const auto& entry) { return entry.second.threw; });
+  return stored;
 }
 
 void write_tables(const std::string& folder, const Provenance& provenance,
@@ -124,9 +179,10 @@ void write_tables(const std::string& folder, const Provenance& provenance,
   replace_file(folder + "/groups.csv", groups_csv(groups));
   replace_file(folder + "/fits.csv", fits_csv(families));
   replace_file(folder + "/fit_points.csv", fit_points_csv(families));
-  replace_file(folder + "/profiles.csv", profiles_csv(groups));
-  replace_file(folder + "/decays.csv", decays_csv(groups));
-  replace_file(folder + "/distributions.csv", distributions_csv(groups));
+  const CurveTables curves = curve_tables(folder, groups);
+  replace_file(folder + "/profiles.csv", curves.profiles);
+  replace_file(folder + "/decays.csv", curves.decays);
+  replace_file(folder + "/distributions.csv", curves.distributions);
   write_provenance(folder, provenance, rows);
 }
 

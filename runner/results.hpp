@@ -1,10 +1,10 @@
 // An output folder as a whole: what is stored in it, and the tables written from that.
 #pragma once
 
-#include <map>
 #include <string>
 #include <vector>
 
+#include "runner/store/journal.hpp"
 #include "runner/tables/provenance.hpp"
 
 namespace grainsweep {
@@ -12,12 +12,12 @@ namespace grainsweep {
 struct Results {
   Provenance provenance;
   std::vector<Row> rows;
-  std::vector<std::string> damage;  ///< journal lines that were left out
+  std::vector<std::string> damage;  ///< journal lines that were left out, and why
   std::size_t foreign = 0;          ///< stored packings that are not of the present sweep
 };
 
-/// Everything from provenance.json and the journals. Throws BadInput if `folder` is no output
-/// folder, FileError if a file cannot be read.
+/// Everything from provenance.json and the journals: all but the curves. Throws BadInput if
+/// `folder` is no output folder, FileError if a file cannot be read.
 Results read_results(const std::string& folder);
 
 /// How much of a sweep is done.
@@ -39,16 +39,19 @@ Overview read_overview(const std::string& folder, const std::string& version);
 /// The runs recorded in the folder so far; none if it is new.
 std::vector<RunRecord> recorded_runs(const std::string& folder);
 
-/// Stored outcomes without those whose grains are missing.
-std::map<std::string, Outcome> outcomes_with_grains(const std::string& folder,
-                                                    std::map<std::string, Outcome> stored);
+/// Reads the curves of all rows. A row whose curves are missing or damaged becomes a pending one;
+/// returns what was left out, as in Results::damage.
+std::vector<std::string> load_curves(const std::string& folder, std::vector<Row>& rows);
 
-/// Stored outcomes that need not be made again: of those with grains all that did not end in an
-/// exception.
-std::map<std::string, Outcome> finished_outcomes(const std::string& folder,
-                                                 std::map<std::string, Outcome> stored);
+/// The journals without the packings whose grains and curves are missing or whose curves are
+/// damaged; its damage names those too. Throws FileError.
+JournalReading stored_outcomes(const std::string& folder);
 
-/// Replaces the CSV tables and provenance.json. Throws FileError.
+/// The packings among them that need not be made again: those that did not end in an exception.
+JournalReading finished_outcomes(const std::string& folder);
+
+/// Replaces the CSV tables and provenance.json. Reads the curves of settled rows group by group.
+/// Throws FileError, also if curves are damaged.
 void write_tables(const std::string& folder, const Provenance& provenance,
                   const std::vector<Row>& rows);
 

@@ -46,8 +46,12 @@ void confirm_fresh(const RunOptions& options, const std::string& folder) {
   if (answer != "y" && answer != "yes") throw BadInput("nothing was deleted, nothing was run");
 }
 
-void warn_about(const std::string& folder, const std::vector<std::string>& damage) {
-  for (const std::string& line : damage) std::cerr << "warning: " << folder << "/" << line << "\n";
+/// Each once: what is found at the beginning is found at the end again.
+void warn_about(const std::string& folder, const std::vector<std::string>& damage,
+                std::set<std::string>& warned) {
+  for (const std::string& line : damage) {
+    if (warned.insert(line).second) std::cerr << "warning: " << folder << "/" << line << "\n";
+  }
 }
 
 /// A kill may come between the end of a packing and the end of its checkpoints.
@@ -59,10 +63,11 @@ void remove_finished_checkpoints(const std::string& folder,
 }
 
 /// What is stored of the sweep, and what is still to be made.
-RunningSweep resume(const Sweep& sweep, const std::string& folder, bool retry_failed) {
-  JournalReading journals = read_journals(folder);
-  warn_about(folder, journals.damage);
-  RunningSweep running{sweep, folder, finished_outcomes(folder, std::move(journals.outcomes)), {}};
+RunningSweep resume(const Sweep& sweep, const std::string& folder, bool retry_failed,
+                    std::set<std::string>& warned) {
+  JournalReading stored = finished_outcomes(folder);
+  warn_about(folder, stored.damage, warned);
+  RunningSweep running{sweep, folder, std::move(stored.outcomes), {}};
   remove_finished_checkpoints(folder, running.outcomes);
   if (retry_failed) {
     std::erase_if(running.outcomes, [](const auto& entry) {
@@ -132,13 +137,15 @@ int run(const RunOptions& options) {
   if (options.fresh) remove_results(folder);
   watch_stop_signals();
 
-  const RunningSweep running = resume(sweep, folder, options.retry_failed);
+  std::set<std::string> warned;
+  const RunningSweep running = resume(sweep, folder, options.retry_failed, warned);
   Provenance provenance = provenance_of(options, running);
   Packed packed;
   if (!running.pending.empty()) packed = record_and_pack(running, options, isa, provenance);
 
-  const std::vector<Row> rows =
-      join(provenance.sweep, outcomes_with_grains(folder, read_journals(folder).outcomes));
+  const JournalReading stored = stored_outcomes(folder);
+  warn_about(folder, stored.damage, warned);
+  const std::vector<Row> rows = join(provenance.sweep, stored.outcomes);
   const StatusCounts counts = totals_of(rows).counts;
   std::cerr << other_versions_warning(rows, program_version());
   write_tables(folder, provenance, rows);

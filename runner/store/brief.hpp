@@ -2,10 +2,10 @@
 // whole.
 #pragma once
 
-#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include "runner/store/outcome.hpp"
@@ -27,8 +27,8 @@ struct Brief {
 std::optional<Brief> read_brief(std::string_view line, std::string_view version);
 
 struct BriefReading {
-  std::map<std::string, Brief> briefs;  ///< by job
-  std::vector<std::string> damage;      ///< as of JournalReading
+  std::unordered_map<std::string, Brief> briefs;  ///< by job, in no order that means anything
+  std::vector<std::string> damage;                ///< as of JournalReading
 };
 
 /// All journals in `folder`, with the rules of read_journals. Takes memory for the facts alone.

@@ -1,105 +1,105 @@
 #include "runner/store/curves.hpp"
 
-#include "runner/store/numbers.hpp"
+#include <cstdint>
+#include <stdexcept>
+
+#include "runner/store/bytes.hpp"
 
 namespace grainsweep {
 namespace {
 
-using nlohmann::json;
+constexpr std::size_t head_size = 8 + 8;
+constexpr std::size_t bin_size = 2 * sizeof(double) + 4 * sizeof(std::uint64_t);
 
-json volumes(const Profile& profile, double ProfileBin::*member) {
-  json list = json::array();
-  for (const ProfileBin& bin : profile.bins) list.push_back(number_json(bin.*member));
-  return list;
+void need(std::string_view bytes, std::size_t size) {
+  if (bytes.size() < size) throw std::length_error("curves end too early");
 }
 
-json counts(const Profile& profile, std::int64_t ProfileBin::*member) {
-  json list = json::array();
-  for (const ProfileBin& bin : profile.bins) list.push_back(bin.*member);
-  return list;
+void put_count(std::string& bytes, std::int64_t count) {
+  put(bytes, static_cast<std::uint64_t>(count));
 }
 
-const json& column_of(const json& from, const char* name, const Profile& profile) {
-  const json& list = from.at(name);
-  if (list.size() != profile.bins.size()) {
-    throw std::invalid_argument(std::string("a column of another length: ") + name);
+std::int64_t take_count(std::string_view& bytes) {
+  return static_cast<std::int64_t>(take<std::uint64_t>(bytes));
+}
+
+/// The number of items that follow, of `item_size` bytes each.
+std::uint64_t take_length(std::string_view& bytes, std::size_t item_size) {
+  const auto length = take<std::uint64_t>(bytes);
+  if (length > bytes.size() / item_size) throw std::length_error("curves end too early");
+  return length;
+}
+
+void put_profile(std::string& bytes, const Profile& profile) {
+  put(bytes, profile.bin_width);
+  put(bytes, static_cast<std::uint64_t>(profile.bins.size()));
+  for (const ProfileBin& bin : profile.bins) {
+    put(bytes, bin.large);
+    put(bytes, bin.small);
+    for (const std::int64_t count :
+         {bin.large_grains, bin.small_grains, bin.neighbours, bin.walls}) {
+      put_count(bytes, count);
+    }
   }
-  return list;
 }
 
-json curve_json(const Curve& curve) {
-  json values = json::array();
-  for (const double value : curve.values) values.push_back(number_json(value));
-  return {{"bin_width", number_json(curve.bin_width)}, {"values", values}};
+Profile take_profile(std::string_view& bytes) {
+  need(bytes, head_size);
+  Profile profile{take_double(bytes), {}};
+  profile.bins.resize(take_length(bytes, bin_size));
+  for (ProfileBin& bin : profile.bins) {
+    bin.large = take_double(bytes);
+    bin.small = take_double(bytes);
+    for (std::int64_t* count :
+         {&bin.large_grains, &bin.small_grains, &bin.neighbours, &bin.walls}) {
+      *count = take_count(bytes);
+    }
+  }
+  return profile;
 }
 
-Curve curve_from(const json& from) {
-  Curve curve{number_from(from.at("bin_width")), {}};
-  for (const json& value : from.at("values")) curve.values.push_back(number_from(value));
+void put_curve(std::string& bytes, const Curve& curve) {
+  put(bytes, curve.bin_width);
+  put(bytes, static_cast<std::uint64_t>(curve.values.size()));
+  for (const double value : curve.values) put(bytes, value);
+}
+
+Curve take_curve(std::string_view& bytes) {
+  need(bytes, head_size);
+  Curve curve{take_double(bytes), {}};
+  curve.values.resize(take_length(bytes, sizeof(double)));
+  for (double& value : curve.values) value = take_double(bytes);
   return curve;
-}
-
-void read_volumes(const json& from, const char* name, double ProfileBin::*member,
-                  Profile& profile) {
-  const json& list = column_of(from, name, profile);
-  for (std::size_t k = 0; k < profile.bins.size(); ++k) {
-    profile.bins[k].*member = number_from(list[k]);
-  }
-}
-
-void read_counts(const json& from, const char* name, std::int64_t ProfileBin::*member,
-                 Profile& profile) {
-  const json& list = column_of(from, name, profile);
-  for (std::size_t k = 0; k < profile.bins.size(); ++k) list[k].get_to(profile.bins[k].*member);
 }
 
 }  // namespace
 
-json to_json(const Profile& profile) {
-  return {{"bin_width", number_json(profile.bin_width)},
-          {"large", volumes(profile, &ProfileBin::large)},
-          {"small", volumes(profile, &ProfileBin::small)},
-          {"large_grains", counts(profile, &ProfileBin::large_grains)},
-          {"small_grains", counts(profile, &ProfileBin::small_grains)},
-          {"neighbours", counts(profile, &ProfileBin::neighbours)},
-          {"walls", counts(profile, &ProfileBin::walls)}};
+Curves curves_of(const PackingResult& result) {
+  return {result.profile_y, result.profile_z, result.order.pair_correlation,
+          result.order.force_density};
 }
 
-Profile profile_from_json(const json& from) {
-  Profile profile;
-  profile.bin_width = number_from(from.at("bin_width"));
-  profile.bins.resize(from.at("large").size());
-  read_volumes(from, "large", &ProfileBin::large, profile);
-  read_volumes(from, "small", &ProfileBin::small, profile);
-  read_counts(from, "large_grains", &ProfileBin::large_grains, profile);
-  read_counts(from, "small_grains", &ProfileBin::small_grains, profile);
-  read_counts(from, "neighbours", &ProfileBin::neighbours, profile);
-  read_counts(from, "walls", &ProfileBin::walls, profile);
-  return profile;
+void set_curves(Curves&& curves, PackingResult& result) {
+  result.profile_y = std::move(curves.profile_y);
+  result.profile_z = std::move(curves.profile_z);
+  result.order.pair_correlation = std::move(curves.pair_correlation);
+  result.order.force_density = std::move(curves.force_density);
 }
 
-json to_json(const Order& order) {
-  return {{"q6_global", number_json(order.q6_global)},
-          {"q6_local", number_json(order.q6_local)},
-          {"three_contact_share", number_json(order.three_contact_share)},
-          {"segregation", number_json(order.segregation)},
-          {"force_mean", number_json(order.force_mean)},
-          {"force_square", number_json(order.force_square)},
-          {"pair_correlation", curve_json(order.pair_correlation)},
-          {"force_density", curve_json(order.force_density)}};
+void put_curves(std::string& bytes, const Curves& curves) {
+  put_profile(bytes, curves.profile_y);
+  put_profile(bytes, curves.profile_z);
+  put_curve(bytes, curves.pair_correlation);
+  put_curve(bytes, curves.force_density);
 }
 
-Order order_from_json(const json& from) {
-  Order order;
-  order.q6_global = number_from(from.at("q6_global"));
-  order.q6_local = number_from(from.at("q6_local"));
-  order.three_contact_share = number_from(from.at("three_contact_share"));
-  order.segregation = number_from(from.at("segregation"));
-  order.force_mean = number_from(from.at("force_mean"));
-  order.force_square = number_from(from.at("force_square"));
-  order.pair_correlation = curve_from(from.at("pair_correlation"));
-  order.force_density = curve_from(from.at("force_density"));
-  return order;
+Curves take_curves(std::string_view& bytes) {
+  Curves curves;
+  curves.profile_y = take_profile(bytes);
+  curves.profile_z = take_profile(bytes);
+  curves.pair_correlation = take_curve(bytes);
+  curves.force_density = take_curve(bytes);
+  return curves;
 }
 
 }  // namespace grainsweep

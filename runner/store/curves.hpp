@@ -1,20 +1,31 @@
-// Curves of a packing as JSON: one list per column, as short as they can be.
+// The curves of a packing, by far the most of what is measured of it: kept with its grains, not in
+// the journal, and read where a table needs them.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <string_view>
 
-#include "engine/measure/curves.hpp"
+#include "engine/packing.hpp"
 
 namespace grainsweep {
 
-nlohmann::json to_json(const Profile& profile);
+/// Members as of PackingResult and its Order; empty if nothing was measured.
+struct Curves {
+  Profile profile_y;
+  Profile profile_z;
+  Curve pair_correlation;
+  Curve force_density;
+};
 
-/// Throws nlohmann::json::exception or std::invalid_argument if `from` is not what to_json makes.
-Profile profile_from_json(const nlohmann::json& from);
+Curves curves_of(const PackingResult& result);
+void set_curves(Curves&& curves, PackingResult& result);
 
-nlohmann::json to_json(const Order& order);
+/// Appends profile_y, profile_z, pair_correlation and force_density, little-endian. A profile is
+/// f64 bin width, u64 number of bins and per bin f64 large, small, u64 large_grains, small_grains,
+/// neighbours, walls; a curve f64 bin width, u64 number of values and f64 values.
+void put_curves(std::string& bytes, const Curves& curves);
 
-/// Throws nlohmann::json::exception or std::invalid_argument if `from` is not what to_json makes.
-Order order_from_json(const nlohmann::json& from);
+/// Takes what put_curves appended off the front. Throws std::length_error if it ends too early.
+Curves take_curves(std::string_view& bytes);
 
 }  // namespace grainsweep

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <fcntl.h>
 #include <filesystem>
+#include <limits>
 #include <system_error>
 #include <unistd.h>
 #include <utility>
@@ -31,11 +32,12 @@ std::string folder_of(const std::string& path) {
   return folder.empty() ? "." : folder;
 }
 
-/// Appends what comes next in the file; false at its end.
-bool read_more(const OpenFile& file, std::string& text) {
+/// Appends what comes next in the file, `most` bytes or fewer; false at its end.
+bool read_more(const OpenFile& file, std::string& text,
+               std::size_t most = std::numeric_limits<std::size_t>::max()) {
   std::array<char, 1 << 16> block{};
-  const ssize_t count =
-      uninterrupted([&] { return read(file.descriptor(), block.data(), block.size()); });
+  const std::size_t size = std::min(most, block.size());
+  const ssize_t count = uninterrupted([&] { return read(file.descriptor(), block.data(), size); });
   if (count < 0) throw FileError(file.path(), "read", errno);
   text.append(block.data(), static_cast<std::size_t>(count));
   return count > 0;
@@ -95,6 +97,14 @@ std::string read_file(const std::string& path) {
   const OpenFile file(path, O_RDONLY);
   std::string text;
   while (read_more(file, text)) {
+  }
+  return text;
+}
+
+std::string read_start(const std::string& path, std::size_t size) {
+  const OpenFile file(path, O_RDONLY);
+  std::string text;
+  while (text.size() < size && read_more(file, text, size - text.size())) {
   }
   return text;
 }

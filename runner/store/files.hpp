@@ -3,6 +3,7 @@
 // Every function throws FileError. Interrupted system calls are repeated, short writes continued.
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <stdexcept>
 #include <string>
@@ -53,6 +54,9 @@ void flush_folder_of(const std::string& path);
 
 /// The whole file.
 std::string read_file(const std::string& path);
+
+/// The first `size` bytes of a file, or all if it has fewer.
+std::string read_start(const std::string& path, std::size_t size);
 
 /// Calls `use` with each line of a file, without its line feed; the last one may lack it.
 void for_each_line(const std::string& path, const std::function<void(std::string_view)>& use);

@@ -1,7 +1,6 @@
 // The lines of all journals in a folder, and which of two that speak of one job counts.
 #pragma once
 
-#include <map>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -11,21 +10,17 @@
 
 namespace grainsweep {
 
-/// Reads every journal line by `read_line` (line -> optional facts with the members job and threw).
-/// Of two facts on a job the later one counts, but a result is never replaced by an exception.
-/// Returns the damage: "journal-a-12.jsonl:3: torn or damaged line ...". Throws FileError.
-template <class Facts, class ReadLine>
+/// Reads every journal line by `read_line` (line -> optional facts with the members job and threw)
+/// into a map from jobs to facts. Of two facts on a job the later one counts, but a result is never
+/// replaced by an exception. Returns the damage: "journal-a-12.jsonl:3: torn or damaged line ...".
+/// Throws FileError.
+template <class ReadLine, class ByJob>
 std::vector<std::string> collect_lines(const std::string& folder, ReadLine read_line,
-                                       std::map<std::string, Facts>& by_job) {
+                                       ByJob& by_job) {
   std::vector<std::string> damage;
-  const auto keep = [&](Facts&& facts) {
-    const auto known = by_job.find(facts.job);
-    if (known == by_job.end()) {
-      std::string job = facts.job;
-      by_job.emplace(std::move(job), std::move(facts));
-    } else if (!facts.threw || known->second.threw) {
-      known->second = std::move(facts);
-    }
+  const auto keep = [&](typename ByJob::mapped_type&& facts) {
+    const auto [known, is_new] = by_job.try_emplace(facts.job);
+    if (is_new || !facts.threw || known->second.threw) known->second = std::move(facts);
   };
   for (const std::string& name : files_in(folder, "journal-", ".jsonl")) {
     std::size_t number = 0;

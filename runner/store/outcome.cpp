@@ -4,7 +4,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "runner/store/curves.hpp"
 #include "runner/store/numbers.hpp"
 
 namespace grainsweep {
@@ -73,6 +72,27 @@ std::vector<Coordination> coordination_from(const json& list) {
   return coordination;
 }
 
+/// Without its curves.
+json order_json(const Order& order) {
+  return {{"q6_global", number_json(order.q6_global)},
+          {"q6_local", number_json(order.q6_local)},
+          {"three_contact_share", number_json(order.three_contact_share)},
+          {"segregation", number_json(order.segregation)},
+          {"force_mean", number_json(order.force_mean)},
+          {"force_square", number_json(order.force_square)}};
+}
+
+Order order_from(const json& from) {
+  Order order;
+  order.q6_global = number_from(from.at("q6_global"));
+  order.q6_local = number_from(from.at("q6_local"));
+  order.three_contact_share = number_from(from.at("three_contact_share"));
+  order.segregation = number_from(from.at("segregation"));
+  order.force_mean = number_from(from.at("force_mean"));
+  order.force_square = number_from(from.at("force_square"));
+  return order;
+}
+
 }  // namespace
 
 PackingStatus status_from(std::string_view name) {
@@ -101,9 +121,7 @@ json to_json(const Outcome& outcome) {
           {"coordination", coordination_json(result.coordination)},
           {"mean_diameter", number_json(result.mean_diameter)},
           {"mean_diameter_by_volume", number_json(result.mean_diameter_by_volume)},
-          {"profile_y", to_json(result.profile_y)},
-          {"profile_z", to_json(result.profile_z)},
-          {"order", to_json(result.order)},
+          {"order", order_json(result.order)},
           {"steps", result.steps},
           {"iterations", result.iterations},
           {"state_hash", result.state_hash},
@@ -129,9 +147,7 @@ Outcome outcome_from_json(const json& json) {
   result.coordination = coordination_from(json.at("coordination"));
   result.mean_diameter = number_from(json.at("mean_diameter"));
   result.mean_diameter_by_volume = number_from(json.at("mean_diameter_by_volume"));
-  result.profile_y = profile_from_json(json.at("profile_y"));
-  result.profile_z = profile_from_json(json.at("profile_z"));
-  result.order = order_from_json(json.at("order"));
+  result.order = order_from(json.at("order"));
   json.at("steps").get_to(result.steps);
   json.at("iterations").get_to(result.iterations);
   json.at("state_hash").get_to(result.state_hash);

@@ -1,4 +1,5 @@
-// What is kept of a finished packing, and its form as JSON.
+// What is kept of a finished packing, and its form as JSON, without its curves: those are in
+// states/<job>.grains, see runner/store/states.hpp.
 #pragma once
 
 #include <cstdint>
@@ -12,17 +13,19 @@
 namespace grainsweep {
 
 struct Outcome {
-  std::string job;  ///< Job::id
-  PackingResult result;
-  std::string version;  ///< of the program that made it
+  std::string job;       ///< Job::id
+  PackingResult result;  ///< without curves, unless they were read
+  std::string version;   ///< of the program that made it
   /// The packing ended in an exception (no memory, say), not in a result: it is tried again by the
   /// next run.
   bool threw = false;
-  std::int64_t stored_grains = 0;  ///< grains in states/<job>.grains, 0 if there is no such file
-  double cpu_seconds = 0.0;        ///< of the thread that made it
+  /// Grains in states/<job>.grains; 0 if there is no such file, and then there are no curves.
+  std::int64_t stored_grains = 0;
+  double cpu_seconds = 0.0;  ///< of the thread that made it
 };
 
-/// Every double reads back with the same bits; not-a-number and infinities are strings.
+/// All but the curves. Every double reads back with the same bits; not-a-number and infinities are
+/// strings.
 nlohmann::json to_json(const Outcome& outcome);
 
 /// The opposite of name_of. Throws std::invalid_argument.

@@ -1,7 +1,8 @@
 #include "runner/store/states.hpp"
 
 #include <cstdint>
-#include <string_view>
+#include <limits>
+#include <stdexcept>
 
 #include "runner/store/bytes.hpp"
 #include "runner/store/checksum.hpp"
@@ -10,8 +11,9 @@
 namespace grainsweep {
 namespace {
 
-constexpr std::string_view magic = "GRAINS1\n";
-constexpr std::size_t header_size = 8 + 8 + 16 + 2;
+constexpr std::string_view magic = "GRAINS2\n";
+constexpr std::size_t start_size = 8 + 8;
+constexpr std::size_t grains_header_size = 8 + 16 + 2;
 constexpr std::size_t grain_size = 5 * 8 + 4;
 constexpr std::size_t checksum_size = 4;
 
@@ -35,10 +37,54 @@ Boundary take_boundary(std::string_view& bytes) {
   return take<std::uint8_t>(bytes) != 0 ? Boundary::walls : Boundary::periodic;
 }
 
-bool is_whole(std::string_view bytes) {
-  if (bytes.size() < header_size + checksum_size || !bytes.starts_with(magic)) return false;
+bool ends_in_its_checksum(std::string_view bytes) {
+  if (bytes.size() < checksum_size) return false;
   std::string_view end = bytes.substr(bytes.size() - checksum_size);
   return take<std::uint32_t>(end) == crc32(bytes.substr(0, bytes.size() - checksum_size));
+}
+
+/// Size of the file's part up to the checksum of the curves; nothing if it does not begin right.
+std::optional<std::size_t> size_of_first_part(std::string_view start) {
+  if (start.size() < start_size || !start.starts_with(magic)) return std::nullopt;
+  start.remove_prefix(magic.size());
+  const auto curves = take<std::uint64_t>(start);
+  constexpr std::uint64_t rest_size = start_size + checksum_size;
+  if (curves > std::numeric_limits<std::uint64_t>::max() - rest_size) return std::nullopt;
+  return curves + rest_size;
+}
+
+/// The curves in the first part of a file; nothing if it is damaged.
+std::optional<Curves> curves_in(std::string_view first_part) {
+  if (!ends_in_its_checksum(first_part)) return std::nullopt;
+  std::string_view bytes = first_part.substr(start_size);
+  bytes.remove_suffix(checksum_size);
+  try {
+    Curves curves = take_curves(bytes);
+    return bytes.empty() ? std::optional(std::move(curves)) : std::nullopt;
+  } catch (const std::length_error&) {
+    return std::nullopt;
+  }
+}
+
+/// The bed in a whole file; nothing if it is damaged.
+std::optional<StoredBed> bed_in(std::string_view bytes) {
+  const auto first_size = size_of_first_part(bytes);
+  if (!first_size || *first_size > bytes.size() || !ends_in_its_checksum(bytes)) return {};
+  auto curves = curves_in(bytes.substr(0, *first_size));
+  std::string_view rest = bytes.substr(*first_size);
+  if (!curves || rest.size() < grains_header_size + checksum_size) return std::nullopt;
+  rest.remove_suffix(checksum_size);
+  const auto count = take<std::uint64_t>(rest);
+  StoredBed bed;
+  bed.curves = std::move(*curves);
+  bed.box.length = take_double(rest);
+  bed.box.width = take_double(rest);
+  bed.box.x = take_boundary(rest);
+  bed.box.y = take_boundary(rest);
+  if (rest.size() % grain_size != 0 || rest.size() / grain_size != count) return std::nullopt;
+  bed.grains.reserve(count);
+  for (std::uint64_t grain = 0; grain < count; ++grain) bed.grains.push_back(take_grain(rest));
+  return bed;
 }
 
 }  // namespace
@@ -48,8 +94,13 @@ std::string state_path(const std::string& folder, const std::string& job) {
 }
 
 std::string bed_bytes(const StoredBed& bed) {
+  std::string curves;
+  put_curves(curves, bed.curves);
   std::string bytes(magic);
-  bytes.reserve(header_size + bed.grains.size() * grain_size + checksum_size);
+  bytes.reserve(start_size + curves.size() + grains_header_size + bed.grains.size() * grain_size +
+                2 * checksum_size);
+  put_text(bytes, curves);
+  put(bytes, crc32(bytes));
   put(bytes, static_cast<std::uint64_t>(bed.grains.size()));
   put(bytes, bed.box.length);
   put(bytes, bed.box.width);
@@ -61,19 +112,10 @@ std::string bed_bytes(const StoredBed& bed) {
 }
 
 StoredBed bed_from_bytes(std::string_view bytes, const std::string& path) {
-  const std::string damaged = "damaged; remove it and run the sweep again to make it anew";
-  if (!is_whole(bytes)) throw FileError(path, damaged);
-  std::string_view rest = bytes.substr(magic.size(), bytes.size() - magic.size() - checksum_size);
-  const auto count = take<std::uint64_t>(rest);
-  StoredBed bed;
-  bed.box.length = take_double(rest);
-  bed.box.width = take_double(rest);
-  bed.box.x = take_boundary(rest);
-  bed.box.y = take_boundary(rest);
-  if (rest.size() != count * grain_size) throw FileError(path, damaged);
-  bed.grains.reserve(count);
-  for (std::uint64_t grain = 0; grain < count; ++grain) bed.grains.push_back(take_grain(rest));
-  return bed;
+  if (auto bed = bed_in(bytes)) return std::move(*bed);
+  throw FileError(path,
+                  "damaged, or of another version; remove it and run the sweep again to make it "
+                  "anew");
 }
 
 void write_bed(const std::string& folder, const std::string& job, const StoredBed& bed) {
@@ -84,6 +126,15 @@ void write_bed(const std::string& folder, const std::string& job, const StoredBe
 StoredBed read_bed(const std::string& folder, const std::string& job) {
   const std::string path = state_path(folder, job);
   return bed_from_bytes(read_file(path), path);
+}
+
+std::optional<Curves> read_curves(const std::string& folder, const std::string& job) {
+  const std::string path = state_path(folder, job);
+  if (!file_exists(path)) return std::nullopt;
+  const auto size = size_of_first_part(read_start(path, start_size));
+  if (!size) return std::nullopt;
+  const std::string first_part = read_start(path, *size);
+  return first_part.size() == *size ? curves_in(first_part) : std::nullopt;
 }
 
 }  // namespace grainsweep

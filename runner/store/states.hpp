@@ -1,21 +1,25 @@
-// The grains of each finished bed, so that exporting never packs again.
+// The curves and grains of each finished bed, so that neither tables nor exporting pack again.
 //
-// states/<job>.grains, little-endian: "GRAINS1\n"; u64 number of grains; f64 box length, box width;
-// u8 x walled, y walled; per grain f64 x, y, z, radius, force, i32 touching; u32 CRC-32 of all
-// before. Units as in SettledGrain.
+// states/<job>.grains, little-endian: "GRAINS2\n"; u64 bytes of curves; curves as of put_curves;
+// u32 CRC-32 of all before, so that curves are read without the grains; u64 number of grains; f64
+// box length, box width; u8 x walled, y walled; per grain f64 x, y, z, radius, force, i32 touching;
+// u32 CRC-32 of all before. Units as in SettledGrain and PackingResult.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "engine/packing.hpp"
+#include "runner/store/curves.hpp"
 
 namespace grainsweep {
 
 struct StoredBed {
   BoxSpec box;
   std::vector<SettledGrain> grains;
+  Curves curves = {};
 };
 
 /// <folder>/states/<job>.grains
@@ -26,6 +30,11 @@ void write_bed(const std::string& folder, const std::string& job, const StoredBe
 
 /// Throws FileError if there is no such file, or if it is damaged.
 StoredBed read_bed(const std::string& folder, const std::string& job);
+
+/// The curves alone, without a look at the grains: nothing if there is no such file, if the curves
+/// are damaged, or if a version of the program with another form of them wrote it. Throws FileError
+/// if the file cannot be read.
+std::optional<Curves> read_curves(const std::string& folder, const std::string& job);
 
 /// The file's bytes, and back; `path` is named in the FileError about damaged bytes.
 std::string bed_bytes(const StoredBed& bed);

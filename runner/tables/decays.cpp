@@ -83,17 +83,14 @@ DecayFit decay_of(const Group& group, GrainClass grains) {
   return fit_decay(halves_of(group, grains), bin_width, fit.window_end);
 }
 
-std::string decays_csv(const std::vector<Group>& groups) {
-  std::string text =
-      "group,label,width,boundary_y,small_share,class,status,reason,packings,window_start,"
-      "window_end,bins,lambda,lambda_error,bulk,bulk_error,amplitude,amplitude_error,period,"
-      "period_error,phase,phase_error,reach,reach_error,r_squared,misfit\n";
-  for (std::size_t k = 0; k < groups.size(); ++k) {
-    for (const GrainClass grains : {GrainClass::large, GrainClass::small}) {
-      text += line_of(groups[k], k + 1, grains);
-    }
-  }
-  return text;
+std::string decays_header() {
+  return "group,label,width,boundary_y,small_share,class,status,reason,packings,window_start,"
+         "window_end,bins,lambda,lambda_error,bulk,bulk_error,amplitude,amplitude_error,period,"
+         "period_error,phase,phase_error,reach,reach_error,r_squared,misfit\n";
+}
+
+std::string decay_lines(const Group& group, std::size_t number) {
+  return line_of(group, number, GrainClass::large) + line_of(group, number, GrainClass::small);
 }
 
 }  // namespace grainsweep

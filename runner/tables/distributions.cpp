@@ -39,13 +39,13 @@ std::string lines_of(const Group& group, std::size_t number, const char* name,
 
 }  // namespace
 
-std::string distributions_csv(const std::vector<Group>& groups) {
-  std::string text = "group,label,width,boundary_y,small_share,curve,low,high,n,value,value_sd\n";
-  for (std::size_t k = 0; k < groups.size(); ++k) {
-    text += lines_of(groups[k], k + 1, "pair_correlation", &Order::pair_correlation);
-    text += lines_of(groups[k], k + 1, "force_density", &Order::force_density);
-  }
-  return text;
+std::string distributions_header() {
+  return "group,label,width,boundary_y,small_share,curve,low,high,n,value,value_sd\n";
+}
+
+std::string distribution_lines(const Group& group, std::size_t number) {
+  return lines_of(group, number, "pair_correlation", &Order::pair_correlation) +
+         lines_of(group, number, "force_density", &Order::force_density);
 }
 
 }  // namespace grainsweep

@@ -44,7 +44,9 @@ Group group_of(const Members& members) {
       spread_over(members, [](const Row& row) { return row.outcome->result.rest.overlap_mean; });
   for (const Row* row : members) {
     count(*row, group.counts);
-    if (is_settled(*row)) group.settled.push_back(row->outcome->result);
+    if (!is_settled(*row)) continue;
+    group.settled.push_back(row->outcome->result);
+    group.jobs.push_back(row->job.id);
   }
   return group;
 }

@@ -28,7 +28,8 @@ struct Group {
   Spread coordination_with_walls;      ///< the same, walls counted
   Spread contact_ratio;                ///< contacts over isostatic contacts
   Spread overlap_mean;                 ///< d
-  std::vector<PackingResult> settled;  ///< in the order of the rows
+  std::vector<PackingResult> settled;  ///< in the order of the rows, with curves as far as they had
+  std::vector<std::string> jobs;       ///< ids of those
   StatusCounts counts;
 };
 

@@ -98,17 +98,16 @@ std::vector<MeanBin> mean_profile(const Group& group, Profile PackingResult::*pr
   return means;
 }
 
-std::string profiles_csv(const std::vector<Group>& groups) {
-  std::string text =
-      "group,label,width,boundary_y,small_share,axis,low,high,n,coordination_n,solid_fraction,"
-      "solid_fraction_sd,solid_fraction_large,solid_fraction_large_sd,solid_fraction_small,"
-      "solid_fraction_small_sd,coordination,coordination_sd,coordination_with_walls,"
-      "coordination_with_walls_sd,small_number_share,small_number_share_sd\n";
-  for (std::size_t k = 0; k < groups.size(); ++k) {
-    text += lines_of(groups[k], k + 1, "y", &PackingResult::profile_y);
-    text += lines_of(groups[k], k + 1, "z", &PackingResult::profile_z);
-  }
-  return text;
+std::string profiles_header() {
+  return "group,label,width,boundary_y,small_share,axis,low,high,n,coordination_n,solid_fraction,"
+         "solid_fraction_sd,solid_fraction_large,solid_fraction_large_sd,solid_fraction_small,"
+         "solid_fraction_small_sd,coordination,coordination_sd,coordination_with_walls,"
+         "coordination_with_walls_sd,small_number_share,small_number_share_sd\n";
+}
+
+std::string profile_lines(const Group& group, std::size_t number) {
+  return lines_of(group, number, "y", &PackingResult::profile_y) +
+         lines_of(group, number, "z", &PackingResult::profile_z);
 }
 
 }  // namespace grainsweep

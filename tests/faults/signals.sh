@@ -42,9 +42,15 @@ cat >long.json <<'JSON'
 JSON
 rm -r reference
 make_reference long.json
-for part in 1 2 3; do stop_with TERM 143 long.json out $((duration / 4)); done
-[ -n "$(find out/checkpoints -type f)" ] || fail "no checkpoint after SIGTERM"
+has_checkpoint() { [ -n "$(find out/checkpoints -type f 2>/dev/null)" ]; }
+# Sooner where it came to its end, the reference having been held up.
+for share in 4 6 8 12; do
+  rm -rf out
+  for part in 1 2 3; do stop_with TERM 143 long.json out $((duration / share)); done
+  ! has_checkpoint || break
+done
+has_checkpoint || fail "no checkpoint after SIGTERM"
 run_to_the_end long.json out --threads 2
 grep -q 'went on from step [1-9]' said.txt || fail "did not go on from a checkpoint: $(cat said.txt)"
 same_as_reference out "after stopping inside a bed"
-echo "$tries signals and three inside a bed, $stopped of them before the end: in time, the same bytes"
+echo "$tries signals and a few inside a bed, $stopped of them before the end: in time, the same bytes"

@@ -51,6 +51,23 @@ sed 's/"box.y": "periodic"/"measure.exclude_floor": 50/' sweep.json >failing.jso
 runs_clean 1 failing.json --out failing --fail-fast
 runs_clean 1 failing.json --out failing --retry-failed
 
+# One bed that is large enough to be shared by all threads, saved now and then.
+cat >shared.json <<'JSON'
+{ "name": "shared", "base": { "box": { "length": 30, "width": 30 }, "fill": { "grains": 16500 },
+  "accuracy": { "preset": "fast", "max_steps": 24 } } }
+JSON
+code=0
+"$program" run shared.json --out shared --threads 8 --checkpoint-seconds 1 >said.txt 2>&1 &
+busy_threads=0
+while kill -0 $! 2>/dev/null; do
+  now=$(cat /proc/$!/task/*/stat 2>/dev/null | awk '$14 > 20 { ++n } END { print n + 0 }')
+  ((now <= busy_threads)) || busy_threads=$now
+  sleep 0.1
+done
+wait $! || code=$?
+is_clean "0 1" "$code" "a bed of 16,500 grains"
+[ "$busy_threads" -ge 2 ] || fail "the large bed was made by $busy_threads thread"
+
 code=0
 TERM=xterm script -qec "'$program' run sweep.json --out live --threads 8" said.txt >/dev/null </dev/null ||
   code=$?

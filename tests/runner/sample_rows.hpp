@@ -4,6 +4,7 @@
 #include <limits>
 #include <string>
 
+#include "runner/store/curves.hpp"
 #include "runner/tables/job_facts.hpp"
 
 namespace grainsweep {
@@ -56,6 +57,15 @@ inline Outcome sample_outcome(const std::string& job, double solid_fraction, dou
   result.state_hash = 0xABCDEF0123456789u;
   outcome.cpu_seconds = 0.75;
   return outcome;
+}
+
+inline Curves sample_curves() {
+  Curves curves;
+  curves.profile_y = {0.1, {{0.1 + 0.2, 1.0 / 3.0, 1, 2, 3, 4}, {5e-324, -0.0, 5, 6, 7, 8}}};
+  curves.profile_z = {0.25, {{0.5, 0, 9, 0, -1, 0}}};
+  curves.pair_correlation = {0.05, {0, 0.1, 3}};
+  curves.force_density = {0.1, {1, std::numeric_limits<double>::quiet_NaN()}};
+  return curves;
 }
 
 inline Row settled_row(const std::string& id, double width, double solid_fraction,

@@ -20,6 +20,13 @@ Provenance sample_provenance() {
   return provenance;
 }
 
+/// Flips a bit of the first number of a bed's curves.
+void damage_curves(const std::string& folder, const std::string& job) {
+  std::string bytes = read_file(state_path(folder, job));
+  bytes[20] = static_cast<char>(bytes[20] ^ 1);
+  replace_file(state_path(folder, job), bytes);
+}
+
 TEST_CASE("tables and journals are enough to know a folder's results") {
   const TemporaryFolder folder;
   Journal journal(folder.path());
@@ -74,18 +81,66 @@ TEST_CASE("a folder without results is refused, and so is a broken provenance") 
   CHECK(recorded_runs(folder.path()).empty());
 }
 
-TEST_CASE("a packing counts as finished with its grains stored and without an exception") {
+TEST_CASE("a packing counts as finished with its bed stored and without an exception") {
   const TemporaryFolder folder;
-  Outcome whole = sample_outcome("whole", 0.6, 6), lost = whole, thrown = whole, failed = whole;
-  whole.stored_grains = lost.stored_grains = 1;
-  thrown.threw = true;
-  failed.result.status = PackingStatus::failed;
-  write_bed(folder.path(), "whole", {{}, {{}}});
-  const auto finished = finished_outcomes(
-      folder.path(), {{"whole", whole}, {"lost", lost}, {"thrown", thrown}, {"failed", failed}});
-  CHECK(finished.size() == 2);
-  CHECK(finished.contains("whole"));
-  CHECK(finished.contains("failed"));
+  Journal journal(folder.path());
+  for (const char* job : {"whole", "lost", "damaged", "thrown", "failed"}) {
+    Outcome outcome = sample_outcome(job, 0.6, 6);
+    outcome.stored_grains = std::string_view(job) == "failed" ? 0 : 1;
+    outcome.threw = std::string_view(job) == "thrown";
+    outcome.result.status =
+        outcome.stored_grains == 0 ? PackingStatus::failed : outcome.result.status;
+    journal.append(outcome);
+    if (std::string_view(job) != "lost") write_bed(folder.path(), job, {{}, {{}}, sample_curves()});
+  }
+  damage_curves(folder.path(), "damaged");
+  const JournalReading finished = finished_outcomes(folder.path());
+  CHECK(finished.outcomes.size() == 2);
+  CHECK(finished.outcomes.contains("whole"));
+  CHECK(finished.outcomes.contains("failed"));
+  CHECK(stored_outcomes(folder.path()).outcomes.size() == 3);
+  REQUIRE(finished.damage.size() == 2);
+  CHECK(finished.damage[0] ==
+        "states/damaged.grains: missing, damaged or of another version; left out, its packing is "
+        "made again");
+  CHECK_THAT(finished.damage[1], Catch::StartsWith("states/lost.grains: missing"));
+}
+
+/// Two packings of one group, stored with their curves.
+std::vector<Row> stored_rows(const TemporaryFolder& folder) {
+  std::vector<Row> rows = {settled_row("a1", 5, 0.6, 6), settled_row("a2", 5, 0.61, 6)};
+  for (Row& row : rows) {
+    row.outcome->stored_grains = 1;
+    write_bed(folder.path(), row.job.id, {{}, {{}}, sample_curves()});
+  }
+  return rows;
+}
+
+TEST_CASE("tables of curves are made of what is stored with the grains") {
+  const TemporaryFolder folder;
+  const std::vector<Row> rows = stored_rows(folder);
+  write_tables(folder.path(), sample_provenance(), rows);
+  const std::string start = "1,MSP,5,walls,0,";
+  CHECK_THAT(read_file(folder.path() + "/profiles.csv"),
+             Catch::Contains("\n" + start + "y,0,0.1,2,2,") &&
+                 Catch::Contains("\n" + start + "z,0,0.25,2,2,0.5,0,"));
+  CHECK_THAT(read_file(folder.path() + "/distributions.csv"),
+             Catch::Contains("\n" + start + "pair_correlation,0.05,0.1,2,0.1,0\n"));
+  CHECK_THAT(read_file(folder.path() + "/decays.csv"), Catch::Contains("\n" + start + "large,"));
+}
+
+TEST_CASE("damaged curves are named, and never left out of a table in silence") {
+  const TemporaryFolder folder;
+  std::vector<Row> rows = stored_rows(folder);
+  damage_curves(folder.path(), "a2");
+  CHECK_THROWS_WITH(write_tables(folder.path(), sample_provenance(), rows),
+                    Catch::Contains("/states/a2.grains: missing, damaged or of another version; "
+                                    "run the sweep again"));
+  CHECK(load_curves(folder.path(), rows).size() == 1);
+  CHECK(rows[0].outcome->result.profile_y.bins.size() == 2);
+  CHECK(status_of(rows[1]) == "pending");
+  write_tables(folder.path(), sample_provenance(), rows);
+  CHECK_THAT(read_file(folder.path() + "/profiles.csv"), Catch::Contains(",y,0,0.1,1,1,"));
 }
 
 TEST_CASE("packings of another version of the program are counted") {

@@ -54,16 +54,24 @@ for signal in INT TERM; do
   values_of stopped-$signal | cmp - whole.txt || fail "other values after $signal"
 done
 
-# Killed outright, with a line torn and a bed lost on top.
+# Killed outright, with a line torn, a bed lost and the curves of another damaged on top.
 "$program" run sweep.json --threads 2 --out killed >/dev/null 2>&1 &
 wait_for_lines killed 4
 kill -KILL $!
 wait $! 2>/dev/null || true
 journal=$(ls killed/journal-*.jsonl)
 truncate -s -9 "$journal"
-rm "killed/states/$(sed -n 1p "$journal" | sed 's/.*"job":"\([0-9a-f]*\)".*/\1/').grains"
+lost=$(sed -n 1p "$journal" | sed 's/.*"job":"\([0-9a-f]*\)".*/\1/').grains
+damaged=$(sed -n 2p "$journal" | sed 's/.*"job":"\([0-9a-f]*\)".*/\1/').grains
+rm "killed/states/$lost"
+printf '\xff' | dd of="killed/states/$damaged" bs=1 seek=200 conv=notrunc status=none
 run_to_the_end killed
-expect_text progress.txt "warning: killed/journal-" "torn or damaged line"
+expect_text progress.txt "warning: killed/journal-" "torn or damaged line" \
+  "warning: killed/states/$lost: missing" "warning: killed/states/$damaged: missing, damaged or"
+for table in profiles decays distributions; do
+  cmp killed/$table.csv whole/$table.csv || fail "other $table after SIGKILL"
+done
+diff -rq killed/states whole/states || fail "other grains after SIGKILL"
 values_of killed | cmp - whole.txt || fail "other values after SIGKILL"
 
 # All there: a run makes nothing, and the tables stay as they are.

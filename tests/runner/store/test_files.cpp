@@ -24,6 +24,15 @@ TEST_CASE("a replaced file reads back byte by byte and leaves no neighbour behin
   CHECK(files_in(folder.path(), "", "") == std::vector<std::string>{"a.bin"});
 }
 
+TEST_CASE("the start of a file is as long as asked for, or the whole file") {
+  const TemporaryFolder folder;
+  const std::string path = folder.path() + "/a.bin", bytes = std::string(100'000, 'x') + "y";
+  replace_file(path, bytes);
+  for (const std::size_t size : {0, 1, 65'536, 65'537, 100'000, 100'001, 200'000}) {
+    CHECK(read_start(path, size) == bytes.substr(0, size));
+  }
+}
+
 TEST_CASE("a file error names the path and the cause") {
   const TemporaryFolder folder;
   const std::string missing = folder.path() + "/none/a.csv";

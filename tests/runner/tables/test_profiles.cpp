@@ -58,10 +58,16 @@ TEST_CASE("profiles of different length are averaged over those that reach so fa
 TEST_CASE("the table has a row per bin, axis and group, and unsettled packings leave no row") {
   Row unsettled = row_with_status("u", 7, PackingStatus::not_settled, "moves");
   unsettled.outcome->result.profile_y = {0.5, {{}}};
-  const std::string text = profiles_csv(groups_of({row_with_profile("a", 0.25, 4), unsettled}));
-  CHECK(std::count(text.begin(), text.end(), '\n') == 1 + 2);
-  CHECK_THAT(text,
-             Catch::Contains("\n1,MSP,1,walls,0,y,0.5,1,1,1,0.375,,0.25,,0.125,,6,,7,,0.25,\n"));
+  const auto groups = groups_of({row_with_profile("a", 0.25, 4), unsettled});
+  CHECK(profile_lines(groups.at(0), 7) ==
+        "7,MSP,1,walls,0,y,0,0.5,1,0,0.25,,0.25,,0,,,,,,,\n"
+        "7,MSP,1,walls,0,y,0.5,1,1,1,0.375,,0.25,,0.125,,6,,7,,0.25,\n");
+  CHECK(profile_lines(groups.at(1), 8).empty());
+  const std::string header = profiles_header(), line = profile_lines(groups.at(0), 7);
+  const auto columns = [](const std::string& text) {
+    return std::count(text.begin(), text.begin() + static_cast<long>(text.find('\n')), ',');
+  };
+  CHECK(columns(header) == columns(line));
 }
 
 }  // namespace
