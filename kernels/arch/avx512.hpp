@@ -165,6 +165,44 @@ inline void push_records(Record<double>* base, const std::uint32_t* a, const std
   }
 }
 
+inline void add_to(Record<float>& to, __m128 record) {
+  _mm_store_ps(&to.x, _mm_add_ps(_mm_load_ps(&to.x), record));
+}
+
+/// Quarter `quarter` of four transposed batches: rows 4 quarter .. 4 quarter + 3.
+template <int quarter>
+inline void add_quarter(Record<float>* base, const std::uint32_t* offset, __m512 r0, __m512 r1,
+                        __m512 r2, __m512 r3) {
+  const std::uint32_t* first = offset + 4 * quarter;
+  add_to(at(base, first[0]), _mm512_extractf32x4_ps(r0, quarter));
+  add_to(at(base, first[1]), _mm512_extractf32x4_ps(r1, quarter));
+  add_to(at(base, first[2]), _mm512_extractf32x4_ps(r2, quarter));
+  add_to(at(base, first[3]), _mm512_extractf32x4_ps(r3, quarter));
+}
+
+/// Adds each record of `c` to its place; lanes may share one.
+inline void add_records(Record<float>* base, const std::uint32_t* offset,
+                        const Components<float>& c) {
+  __m512 r0 = c.x, r1 = c.y, r2 = c.z, r3 = c.w;
+  transpose(r0, r1, r2, r3);
+  add_quarter<0>(base, offset, r0, r1, r2, r3);
+  add_quarter<1>(base, offset, r0, r1, r2, r3);
+  add_quarter<2>(base, offset, r0, r1, r2, r3);
+  add_quarter<3>(base, offset, r0, r1, r2, r3);
+}
+
+inline void add_to(Record<double>& to, __m256d record) {
+  _mm256_store_pd(&to.x, _mm256_add_pd(_mm256_load_pd(&to.x), record));
+}
+
+inline void add_records(Record<double>* base, const std::uint32_t* offset,
+                        const Components<double>& c) {
+  const EightRecords r = records_of(c);
+  for (int k = 0; k < 8; ++k) {
+    add_to(at(base, offset[k]), r.record[k]);
+  }
+}
+
 /// u = free + inverse mass x push; the push is gone then.
 inline void take_push(const Record<float>& free, Record<float>& push, Record<float>& u) {
   const __m128 from = _mm_load_ps(&free.x);
