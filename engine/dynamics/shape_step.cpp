@@ -84,7 +84,17 @@ StepReport step(const StepSettings& settings, const Processor& processor, ShapeB
   return report;
 }
 
+template <class Real>
+void change_step(double ratio, ShapeBed& bed, ShapeStepState<Real>& state) {
+  for (Record<double>& m : bed.motion) m = {ratio * m.x, ratio * m.y, ratio * m.z, m.w};
+  for (Vector& turn : bed.turn) turn *= ratio;
+  for (Real& impulse : state.rows.impulse) impulse *= static_cast<Real>(ratio * ratio);
+}
+
 template StepReport step(const StepSettings&, const Processor&, ShapeBed&, ShapeStepState<float>&);
 template StepReport step(const StepSettings&, const Processor&, ShapeBed&, ShapeStepState<double>&);
+
+template void change_step(double, ShapeBed&, ShapeStepState<float>&);
+template void change_step(double, ShapeBed&, ShapeStepState<double>&);
 
 }  // namespace grainsweep

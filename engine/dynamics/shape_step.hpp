@@ -30,6 +30,11 @@ template <class Real>
 StepReport step(const StepSettings& settings, const Processor& processor, ShapeBed& bed,
                 ShapeStepState<Real>& state);
 
+/// Velocities stay as they are when the next step is `ratio` times as long as the last one: motions
+/// scale with it, impulses with its square.
+template <class Real>
+void change_step(double ratio, ShapeBed& bed, ShapeStepState<Real>& state);
+
 /// Impulse of point j of contact k, in masses times d.
 template <class Real>
 double impulse_of(const ShapeStepState<Real>& state, std::size_t k, std::size_t j) {
