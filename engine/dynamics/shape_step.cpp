@@ -58,12 +58,11 @@ void advance(const std::vector<Record<Real>>& u, double dt, ShapeBed& bed, StepR
   report.kinetic_energy = energy / (2.0 * dt * dt * grains);
 }
 
-ShapeSearchSettings search_settings(const StepSettings& settings) {
-  const double preference = std::max(least_preference, preferred_share * settings.dt * settings.dt);
-  return {{settings.near, preference}, settings.margin};
-}
-
 }  // namespace
+
+TouchSettings touch_settings(double near, double dt) {
+  return {near, std::max(least_preference, preferred_share * dt * dt)};
+}
 
 template <class Real>
 StepReport step(const StepSettings& settings, const Processor& processor, ShapeBed& bed,
@@ -74,8 +73,8 @@ StepReport step(const StepSettings& settings, const Processor& processor, ShapeB
   limits.tolerance *= force_unit;
   set_free_motion(settings, bed, state.motion.free);
   remember_impulses(bed, state.contacts, state.places, state.rows, state.carried);
-  report.searched =
-      find_contacts(search_settings(settings), processor, bed, state.search, state.contacts);
+  report.searched = find_contacts({touch_settings(settings.near, settings.dt), settings.margin},
+                                  processor, bed, state.search, state.contacts);
   lay_out(bed, state.contacts, settings.correction, state.places, state.rows);
   carry_impulses(state.contacts, state.carried, state.places, state.rows);
   report.solve = solve(limits, processor, state.rows, state.motion);

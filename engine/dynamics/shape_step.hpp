@@ -24,6 +24,9 @@ struct ShapeStepState {
   MotionColumns<Real> motion;
 };
 
+/// Contacts of a step of length `dt` are those with a gap below `near`, d.
+TouchSettings touch_settings(double near, double dt);
+
 /// A step. `largest_motion` of the report counts the way that a turn takes a point at the
 /// circumradius; the kinetic energy counts turning.
 template <class Real>
