@@ -25,7 +25,7 @@ struct ShapeStageRule {
   double correction;  ///< share of an overlap that a step repairs
   double near;        ///< contacts with a smaller gap are rows, d
   double iterations;  ///< most iterations a step, in rest_iterations; 0: those of the fall
-  int steps;          ///< least number of steps; 0: creep_steps
+  int steps;          ///< least number of steps; 0: twice the creep_steps
   double share_done;  ///< share of the work that is usually done before it
 };
 
@@ -33,7 +33,7 @@ constexpr double search_margin = 0.05;  // candidates reach this much further, d
 
 constexpr ShapeStageRule rules[] = {
     {1.0, 1.0, 0.2, 0.05, 0.0, 1, 0.0},
-    {1.0, 1.0, 0.1, 0.03, 1.0 / 3.0, 0, 0.35},
+    {1.0, 1.0, 0.1, 0.03, 0.2, 0, 0.35},
     {0.5, 1.0, 0.1, 0.03, 2.0 / 3.0, 40, 0.6},
     {0.25, 0.0, 0.5, 0.03, 4.0 / 3.0, 40, 0.8},
 };
@@ -58,7 +58,7 @@ StepSettings settings_of(const Accuracy& accuracy, ShapeStage stage) {
 
 int steps_of(const Accuracy& accuracy, ShapeStage stage) {
   const int steps = rule(stage).steps;
-  return steps > 0 ? steps : accuracy.creep_steps;
+  return steps > 0 ? steps : 2 * accuracy.creep_steps;
 }
 
 /// Force of all points of contact k together, m g.

@@ -2,7 +2,8 @@
 //
 //   fall    full steps with momentum, solved loosely, until the floor carries the bed and it has
 //           lost its speed; overlaps of the start are repaired by 20 % a step
-//   creep   full steps, solved better: grains slide into their places
+//   creep   full steps, solved a little better: grains slide into their places. As with spheres,
+//           more steps of loose solves reach more contacts than fewer of good ones
 //   slow    half steps; the step must not be shortened to a quarter at once, which leaves motions
 //           that take many short steps to die
 //   quench  quarter steps without momentum: contacts close, until every test of rest holds
