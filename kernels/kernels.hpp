@@ -11,85 +11,10 @@
 #include <cstdint>
 
 #include "kernels/isa.hpp"
+#include "kernels/lever_kernels.hpp"
+#include "kernels/row_kernels.hpp"
 
 namespace grainsweep {
-
-/// Lanes of a block: contacts that one kernel iteration handles together.
-inline constexpr std::size_t block_width = 16;
-
-/// Four numbers of one grain, loaded whole.
-/// Positions: x, y, z and radius, d. Motion: displacement x, y, z, d, and inverse mass, 1/m.
-template <class Real>
-struct alignas(4 * sizeof(Real)) Record {
-  Real x, y, z, w;
-};
-
-/// Rows of `block_width` contacts. A row says gap + normal . (u_b - u_a) >= 0, where u are the
-/// displacements of the step: the two grains may close the gap, not more.
-/// The normal is the unit vector from a to b; an impulse p pushes b by +p normal, a by -p normal.
-/// Unused lanes name void grains and have a positive gap.
-template <class Real>
-struct alignas(64) RowBlock {
-  std::uint32_t offset_a[block_width];  ///< bytes from a column of Record<Real> to grain a's
-  std::uint32_t offset_b[block_width];
-  Real normal_x[block_width];
-  Real normal_y[block_width];
-  Real normal_z[block_width];
-  Real gap[block_width];           ///< right-hand side, d; negative where grains overlap
-  Real reduced_mass[block_width];  ///< 1 / (1/m_a + 1/m_b), m
-
-  std::int32_t a(std::size_t lane) const { return grain_at(offset_a[lane]); }
-  std::int32_t b(std::size_t lane) const { return grain_at(offset_b[lane]); }
-  void set_grains(std::size_t lane, std::int32_t a, std::int32_t b) {
-    offset_a[lane] = static_cast<std::uint32_t>(a) * record_bytes;
-    offset_b[lane] = static_cast<std::uint32_t>(b) * record_bytes;
-  }
-
- private:
-  static constexpr std::uint32_t record_bytes = sizeof(Record<Real>);
-  static std::int32_t grain_at(std::uint32_t offset) {
-    return static_cast<std::int32_t>(offset / record_bytes);
-  }
-};
-
-/// What one sweep over rows saw.
-template <class Real>
-struct SweepSums {
-  Real residual;  ///< largest |min(p, w / (1/m_a + 1/m_b))| before the update, d m
-  Real uphill;    ///< sum of (y - p_new)(p_new - p_old) over rows: positive asks for a restart
-};
-
-/// Solver sweeps for one number type. `u` are motion records indexed by RowBlock::a and b.
-template <class Real>
-struct RowKernels {
-  /// One accelerated projected gradient iteration, fused: reads the extrapolated impulses y and
-  /// motion u = u(y); writes p = max(0, y - w / (bound A)), then y = p + momentum (p - p_old), and
-  /// adds H y to `pushes`: the sum of the impulses on each grain, which began as +0. Batches
-  /// without impulses are skipped.
-  SweepSums<Real> (*gradient_sweep)(const RowBlock<Real>* rows, std::size_t blocks,
-                                    const Record<Real>* u, Record<Real>* pushes, Real* p, Real* y,
-                                    Real inverse_bound, Real momentum);
-  /// u = free + M^-1 pushes for `count` records; leaves the pushes empty, ready for a sweep. The
-  /// inverse masses are those of `free`.
-  void (*take_pushes)(const Record<Real>* free, std::size_t count, Record<Real>* pushes,
-                      Record<Real>* u);
-  /// One projected Gauss-Seidel sweep, block after block (the last block first if `backward`);
-  /// lanes of a block must not share a grain. Updates p and u in place.
-  SweepSums<Real> (*gauss_seidel_sweep)(const RowBlock<Real>* rows, std::size_t blocks,
-                                        Record<Real>* u, Real* p, bool backward);
-  /// Adds H p to the pushes.
-  void (*add_pushes)(const RowBlock<Real>* rows, std::size_t blocks, const Real* p,
-                     Record<Real>* pushes);
-  /// Largest |min(p, w / (1/m_a + 1/m_b))| over all rows, d m.
-  Real (*residual)(const RowBlock<Real>* rows, std::size_t blocks, const Record<Real>* u,
-                   const Real* p);
-  /// Normals and gaps of sphere pairs (a, b of `rows`) from their positions, nearest image.
-  /// period_x, period_y: d, 0 where the axis is walled. A negative gap is multiplied by
-  /// `correction`, the share of an overlap that one step repairs. Where centres coincide the normal
-  /// is +z.
-  void (*sphere_gaps)(RowBlock<Real>* rows, std::size_t blocks, const Record<double>* positions,
-                      double period_x, double period_y, double correction);
-};
 
 /// Spheres sorted by the cells of a uniform grid. The grid has one layer of border cells on every
 /// side; on periodic axes these hold shifted copies, so that no search ever wraps.
@@ -159,6 +84,8 @@ struct Kernels {
   Isa isa;
   RowKernels<float> f32;
   RowKernels<double> f64;
+  LeverKernels<float> lever_f32;
+  LeverKernels<double> lever_f64;
   /// All pairs of the grid with gap below `reach`, each once, in the order of the grid. Writes at
   /// most `capacity` of them and returns how many there are.
   std::size_t (*sphere_pairs)(const SphereGrid& grid, GrainPair* pairs, std::size_t capacity);
@@ -189,6 +116,18 @@ inline const RowKernels<float>& row_kernels<float>(const Kernels& kernels) {
 template <>
 inline const RowKernels<double>& row_kernels<double>(const Kernels& kernels) {
   return kernels.f64;
+}
+
+/// Lever kernels of `kernels` for a number type.
+template <class Real>
+const LeverKernels<Real>& lever_kernels(const Kernels& kernels);
+template <>
+inline const LeverKernels<float>& lever_kernels<float>(const Kernels& kernels) {
+  return kernels.lever_f32;
+}
+template <>
+inline const LeverKernels<double>& lever_kernels<double>(const Kernels& kernels) {
+  return kernels.lever_f64;
 }
 
 }  // namespace grainsweep

@@ -15,6 +15,8 @@ using PinacoidAxes = void (*)(const PinacoidHalves& shape, PinacoidBlock* pairs,
 namespace sse2 {
 extern const RowKernels<float> row_kernels_f32;
 extern const RowKernels<double> row_kernels_f64;
+extern const LeverKernels<float> lever_kernels_f32;
+extern const LeverKernels<double> lever_kernels_f64;
 extern const SpherePairs sphere_pairs;
 extern const SpherePairsAcross sphere_pairs_across;
 extern const PinacoidAxes pinacoid_axes;
@@ -22,6 +24,8 @@ extern const PinacoidAxes pinacoid_axes;
 namespace avx2 {
 extern const RowKernels<float> row_kernels_f32;
 extern const RowKernels<double> row_kernels_f64;
+extern const LeverKernels<float> lever_kernels_f32;
+extern const LeverKernels<double> lever_kernels_f64;
 extern const SpherePairs sphere_pairs;
 extern const SpherePairsAcross sphere_pairs_across;
 extern const PinacoidAxes pinacoid_axes;
@@ -29,6 +33,8 @@ extern const PinacoidAxes pinacoid_axes;
 namespace avx512 {
 extern const RowKernels<float> row_kernels_f32;
 extern const RowKernels<double> row_kernels_f64;
+extern const LeverKernels<float> lever_kernels_f32;
+extern const LeverKernels<double> lever_kernels_f64;
 extern const SpherePairs sphere_pairs;
 extern const SpherePairsAcross sphere_pairs_across;
 extern const PinacoidAxes pinacoid_axes;

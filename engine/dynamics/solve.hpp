@@ -3,12 +3,15 @@
 //   minimise 1/2 |u - u_free|^2_M  subject to  gap_c + n_c . (u_b - u_a) >= 0
 //
 // Its dual is A p + w_free >= 0, p >= 0, p . (A p + w_free) = 0 with A = H^T M^-1 H. The residual
-// of a row is |min(p, w / (1/m_a + 1/m_b))| / dt^2, in m g: the force by which it misses balance.
+// of a row is |min(p, w / A_kk)| / dt^2, in m g: the force by which it misses balance. Of spheres,
+// A_kk = 1/m_a + 1/m_b; grains that turn add the squares of their levers
+// (kernels/lever_kernels.hpp).
 #pragma once
 
 #include <vector>
 
 #include "engine/contact/contacts.hpp"
+#include "engine/contact/lever_columns.hpp"
 #include "engine/processor.hpp"
 #include "engine/scene/spec.hpp"
 
@@ -25,7 +28,8 @@ struct SolveReport {
   double residual = 0.0;  ///< true residual of the impulses left behind, a mass times d
 };
 
-/// Motion columns of a solve, indexed like the bed: displacement, d, and inverse mass.
+/// Motion columns of a solve, indexed like the bed: displacement, d, and inverse mass. Grains that
+/// turn have a second record each.
 template <class Real>
 struct MotionColumns {
   std::vector<Record<Real>> free;     ///< in: motion without contacts
@@ -39,5 +43,8 @@ struct MotionColumns {
 template <class Real>
 SolveReport solve(const SolveLimits& limits, const Processor& processor, Contacts<Real>& contacts,
                   MotionColumns<Real>& motion);
+template <class Real>
+SolveReport solve(const SolveLimits& limits, const Processor& processor,
+                  LeverColumns<Real>& contacts, MotionColumns<Real>& motion);
 
 }  // namespace grainsweep

@@ -7,9 +7,6 @@ namespace grainsweep {
 
 namespace {
 
-/// Longest free motion of a grain in one step, d: far below a grain, so that none passes another.
-constexpr double longest_free_motion = 0.15;
-
 /// u_free = alpha u_last + g dt^2, clamped.
 template <class Real>
 void set_free_motion(const StepSettings& settings, const SphereBed& bed,

@@ -12,6 +12,9 @@
 
 namespace grainsweep {
 
+/// Longest free motion of a grain in one step, d: far below a grain, so that none passes another.
+inline constexpr double longest_free_motion = 0.15;
+
 struct StepSettings {
   double dt = 0.2;          ///< sqrt(d/g)
   double momentum = 0.9;    ///< alpha

@@ -17,7 +17,7 @@ double wrapped(double coordinate, double period) {
   return inside < period ? inside : 0.0;
 }
 
-std::uint64_t mixed(std::uint64_t hash, double value) {
+std::uint64_t mixed_value(std::uint64_t hash, double value) {
   std::uint64_t bits = 0;
   std::memcpy(&bits, &value, sizeof bits);
   hash = (hash ^ bits) * 0x9E3779B97F4A7C15ULL;  // odd constant of Knuth's multiplicative hashing
@@ -45,19 +45,23 @@ SphereBed make_bed(const Box& box, const std::vector<PlacedSphere>& spheres) {
   return bed;
 }
 
+void wrap(const Box& box, Record<double>& p) {
+  p.x = box.x == Boundary::periodic ? wrapped(p.x, box.length) : p.x;
+  p.y = box.y == Boundary::periodic ? wrapped(p.y, box.width) : p.y;
+}
+
 void wrap(SphereBed& bed) {
-  for (std::size_t i = 0; i < bed.grains(); ++i) {
-    Record<double>& p = bed.position[i];
-    p.x = bed.box.x == Boundary::periodic ? wrapped(p.x, bed.box.length) : p.x;
-    p.y = bed.box.y == Boundary::periodic ? wrapped(p.y, bed.box.width) : p.y;
-  }
+  for (std::size_t i = 0; i < bed.grains(); ++i) wrap(bed.box, bed.position[i]);
+}
+
+std::uint64_t mixed(std::uint64_t hash, const Record<double>& r) {
+  return mixed_value(mixed_value(mixed_value(mixed_value(hash, r.x), r.y), r.z), r.w);
 }
 
 std::uint64_t state_hash(const SphereBed& bed) {
   std::uint64_t hash = bed.grains();
   for (std::size_t i = 0; i < bed.grains(); ++i) {
-    const Record<double>& p = bed.position[i];
-    hash = mixed(mixed(mixed(mixed(hash, p.x), p.y), p.z), p.w);
+    hash = mixed(hash, bed.position[i]);
   }
   return hash;
 }

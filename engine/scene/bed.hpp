@@ -56,8 +56,12 @@ struct SphereBed {
 /// A bed at rest in mid-air: the given spheres, and the entries that are no grains.
 SphereBed make_bed(const Box& box, const std::vector<PlacedSphere>& spheres);
 
-/// Brings x and y of every grain back into the box along periodic axes.
+/// Brings x and y of a centre, or of every grain's, back into the box along periodic axes.
+void wrap(const Box& box, Record<double>& centre);
 void wrap(SphereBed& bed);
+
+/// The hash of what came before and a record, bit by bit.
+std::uint64_t mixed(std::uint64_t hash, const Record<double>& record);
 
 /// Hash of all positions, bit by bit.
 std::uint64_t state_hash(const SphereBed& bed);

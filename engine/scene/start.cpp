@@ -153,18 +153,21 @@ std::vector<double> column_diameters(const std::vector<double>& radii) {
                      : std::vector<double>{2.0 * largest};
 }
 
-double column_height(const Box& box, const std::vector<double>& radii, double largest_diameter) {
+double column_height(const Box& box, const std::vector<double>& radii) {
   double volume = 0.0;
   for (const double radius : radii) {
     volume += sphere_volume(radius);
   }
-  return std::max(volume / (start_solid_fraction * box.length * box.width), 1.5 * largest_diameter);
+  return volume / (start_solid_fraction * box.length * box.width);
 }
 
-std::optional<SphereBed> place_all(const Box& box, const std::vector<double>& radii,
-                                   std::uint64_t key) {
+}  // namespace
+
+std::optional<std::vector<PlacedSphere>> place_at_random(const Box& box,
+                                                         const std::vector<double>& radii,
+                                                         double least_height, std::uint64_t key) {
   const std::vector<double> diameters = column_diameters(radii);
-  const double height = column_height(box, radii, diameters.front());
+  const double height = std::max(least_height, 1.5 * diameters.front());
   std::vector<Column> columns;
   columns.reserve(diameters.size());
   for (const double diameter : diameters) {
@@ -179,10 +182,8 @@ std::optional<SphereBed> place_all(const Box& box, const std::vector<double>& ra
     columns[2.0 * radii[i] <= diameters.back() ? columns.size() - 1 : 0].add(*sphere);
     all.add(*sphere);
   }
-  return make_bed(box, all.sorted());
+  return all.sorted();
 }
-
-}  // namespace
 
 std::optional<SphereBed> start(const PackingSpec& spec) {
   const Box box{spec.box.length, spec.box.width, spec.box.x, spec.box.y};
@@ -190,7 +191,9 @@ std::optional<SphereBed> start(const PackingSpec& spec) {
     return make_bed(box, placed->grains);
   }
   const std::vector<double> radii = draw_radii(spec);
-  return radii.empty() ? make_bed(box, {}) : place_all(box, radii, spec.random_key);
+  if (radii.empty()) return make_bed(box, {});
+  const auto spheres = place_at_random(box, radii, column_height(box, radii), spec.random_key);
+  return spheres ? std::optional(make_bed(box, *spheres)) : std::nullopt;
 }
 
 }  // namespace grainsweep

@@ -1,7 +1,9 @@
 // The start of a packing: grains loose in the air, none touching.
 #pragma once
 
+#include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "engine/scene/bed.hpp"
 #include "engine/scene/spec.hpp"
@@ -16,5 +18,11 @@ inline constexpr double start_solid_fraction = 0.25;
 /// Grains are numbered from the floor up. Empty if a grain does not fit between the walls or no
 /// room is found for it.
 std::optional<SphereBed> start(const PackingSpec& spec);
+
+/// Spheres of these radii, at least one, placed in the same way in a column from the floor to
+/// `height`, d, or to one and a half of the largest diameter. Sorted from the floor up.
+std::optional<std::vector<PlacedSphere>> place_at_random(const Box& box,
+                                                         const std::vector<double>& radii,
+                                                         double height, std::uint64_t key);
 
 }  // namespace grainsweep

@@ -76,25 +76,29 @@ inline void push_pair(Record<float>& a, Record<float>& b, __m128 push) {
   _mm_store_ps(&b.x, _mm_add_ps(_mm_load_ps(&b.x), push));
 }
 
-/// Pushes of quarter `quarter` of four transposed batches: rows 4 quarter .. 4 quarter + 3.
-template <int quarter>
-inline void push_quarter(Record<float>* base, const std::uint32_t* a, const std::uint32_t* b,
-                         __m512 r0, __m512 r1, __m512 r2, __m512 r3) {
-  constexpr int first = 4 * quarter;
-  push_pair(at(base, a[first]), at(base, b[first]), _mm512_extractf32x4_ps(r0, quarter));
-  push_pair(at(base, a[first + 1]), at(base, b[first + 1]), _mm512_extractf32x4_ps(r1, quarter));
-  push_pair(at(base, a[first + 2]), at(base, b[first + 2]), _mm512_extractf32x4_ps(r2, quarter));
-  push_pair(at(base, a[first + 3]), at(base, b[first + 3]), _mm512_extractf32x4_ps(r3, quarter));
+/// Calls put(lane, record) for the records of quarter `quarter` of four transposed batches.
+template <int quarter, class Put>
+inline void put_quarter(const Put& put, __m512 r0, __m512 r1, __m512 r2, __m512 r3) {
+  put(4 * quarter, _mm512_extractf32x4_ps(r0, quarter));
+  put(4 * quarter + 1, _mm512_extractf32x4_ps(r1, quarter));
+  put(4 * quarter + 2, _mm512_extractf32x4_ps(r2, quarter));
+  put(4 * quarter + 3, _mm512_extractf32x4_ps(r3, quarter));
+}
+
+/// Calls put(lane, record) for every lane, in order.
+template <class Put>
+inline void put_records(const Components<float>& c, const Put& put) {
+  __m512 r0 = c.x, r1 = c.y, r2 = c.z, r3 = c.w;
+  transpose(r0, r1, r2, r3);
+  put_quarter<0>(put, r0, r1, r2, r3);
+  put_quarter<1>(put, r0, r1, r2, r3);
+  put_quarter<2>(put, r0, r1, r2, r3);
+  put_quarter<3>(put, r0, r1, r2, r3);
 }
 
 inline void push_records(Record<float>* base, const std::uint32_t* a, const std::uint32_t* b,
                          const Components<float>& c) {
-  __m512 r0 = c.x, r1 = c.y, r2 = c.z, r3 = c.w;
-  transpose(r0, r1, r2, r3);
-  push_quarter<0>(base, a, b, r0, r1, r2, r3);
-  push_quarter<1>(base, a, b, r0, r1, r2, r3);
-  push_quarter<2>(base, a, b, r0, r1, r2, r3);
-  push_quarter<3>(base, a, b, r0, r1, r2, r3);
+  put_records(c, [&](int k, __m128 push) { push_pair(at(base, a[k]), at(base, b[k]), push); });
 }
 
 /// Records i and j, one in each half.
@@ -162,6 +166,28 @@ inline void push_records(Record<double>* base, const std::uint32_t* a, const std
     double* to = &at(base, b[k]).x;
     _mm256_store_pd(from, _mm256_sub_pd(_mm256_load_pd(from), r.record[k]));
     _mm256_store_pd(to, _mm256_add_pd(_mm256_load_pd(to), r.record[k]));
+  }
+}
+
+inline void add_to(Record<float>& to, __m128 record) {
+  _mm_store_ps(&to.x, _mm_add_ps(_mm_load_ps(&to.x), record));
+}
+
+/// Adds each record of `c` to its place; lanes may share one.
+inline void add_records(Record<float>* base, const std::uint32_t* offset,
+                        const Components<float>& c) {
+  put_records(c, [&](int k, __m128 record) { add_to(at(base, offset[k]), record); });
+}
+
+inline void add_to(Record<double>& to, __m256d record) {
+  _mm256_store_pd(&to.x, _mm256_add_pd(_mm256_load_pd(&to.x), record));
+}
+
+inline void add_records(Record<double>* base, const std::uint32_t* offset,
+                        const Components<double>& c) {
+  const EightRecords r = records_of(c);
+  for (int k = 0; k < 8; ++k) {
+    add_to(at(base, offset[k]), r.record[k]);
   }
 }
 

@@ -101,6 +101,32 @@ inline void push_records(Record<double>* base, const std::uint32_t* a, const std
   push_pair(at(base, a[1]), at(base, b[1]), _mm_unpackhi_pd(c.x, c.y), _mm_unpackhi_pd(c.z, c.w));
 }
 
+inline void add_to(Record<float>& to, __m128 record) {
+  _mm_store_ps(&to.x, _mm_add_ps(_mm_load_ps(&to.x), record));
+}
+
+/// Adds each record of `c` to its place; lanes may share one.
+inline void add_records(Record<float>* base, const std::uint32_t* offset,
+                        const Components<float>& c) {
+  __m128 r0 = c.x, r1 = c.y, r2 = c.z, r3 = c.w;
+  _MM_TRANSPOSE4_PS(r0, r1, r2, r3);
+  add_to(at(base, offset[0]), r0);
+  add_to(at(base, offset[1]), r1);
+  add_to(at(base, offset[2]), r2);
+  add_to(at(base, offset[3]), r3);
+}
+
+inline void add_to(Record<double>& to, __m128d xy, __m128d zw) {
+  _mm_store_pd(&to.x, _mm_add_pd(_mm_load_pd(&to.x), xy));
+  _mm_store_pd(&to.z, _mm_add_pd(_mm_load_pd(&to.z), zw));
+}
+
+inline void add_records(Record<double>* base, const std::uint32_t* offset,
+                        const Components<double>& c) {
+  add_to(at(base, offset[0]), _mm_unpacklo_pd(c.x, c.y), _mm_unpacklo_pd(c.z, c.w));
+  add_to(at(base, offset[1]), _mm_unpackhi_pd(c.x, c.y), _mm_unpackhi_pd(c.z, c.w));
+}
+
 /// u = free + inverse mass x push; the push is gone then.
 inline void take_push(const Record<float>& free, Record<float>& push, Record<float>& u) {
   const __m128 from = _mm_load_ps(&free.x);

@@ -1,0 +1,270 @@
+#include "engine/contact/lever_layout.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace grainsweep {
+
+namespace {
+
+/// Contacts by falling number of points, else in their order.
+std::vector<std::size_t> by_points(const ShapeContacts& found) {
+  std::vector<std::size_t> order(found.contacts.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) {
+    return found.contacts[i].count > found.contacts[j].count;
+  });
+  return order;
+}
+
+/// Appends blocks of void contacts and hands out their lanes, so that no grain is twice in a block.
+template <class Real>
+class LeverBlocks {
+ public:
+  LeverBlocks(const ShapeBed& bed, LeverColumns<Real>& rows)
+      : bed_(bed), rows_(rows), open_blocks_(bed.grains(), 0) {}
+
+  struct Lane {
+    std::size_t block, lane;
+  };
+  /// The first open block that holds neither grain. Requires that no contact has more points than
+  /// the one before it.
+  Lane take(const ShapeContact& contact) {
+    std::uint64_t taken = word(contact.a) | (bed_.is_grain(contact.b) ? word(contact.b) : 0);
+    if (taken == ~std::uint64_t{0}) {
+      const std::size_t slot = fullest();
+      close(slot);
+      taken &= ~(std::uint64_t{1} << slot);
+    }
+    const auto slot = static_cast<std::size_t>(__builtin_ctzll(~taken));
+    if (used_[slot] == 0) open(slot, contact.count);
+    const Lane lane{block_[slot], used_[slot]++};
+    enter(contact, lane, slot);
+    return lane;
+  }
+
+ private:
+  static constexpr std::size_t most_open = 64;  // bits of a word
+
+  std::uint64_t& word(std::int32_t grain) { return open_blocks_[static_cast<std::size_t>(grain)]; }
+  void enter(const ShapeContact& contact, Lane lane, std::size_t slot) {
+    rows_.blocks[lane.block].set_grains(lane.lane, contact.a, contact.b);
+    word(contact.a) |= std::uint64_t{1} << slot;
+    if (bed_.is_grain(contact.b)) word(contact.b) |= std::uint64_t{1} << slot;
+    if (used_[slot] == block_width) close(slot);
+  }
+  void open(std::size_t slot, std::size_t points) {
+    block_[slot] = rows_.blocks.size();
+    LeverBlock<Real> block{};
+    block.first = static_cast<std::uint32_t>(rows_.points.size());
+    block.points = static_cast<std::uint32_t>(points);
+    for (std::size_t lane = 0; lane < block_width; ++lane) {
+      block.set_grains(lane, bed_.void_a(), bed_.void_b());
+      block.normal_z[lane] = Real(1);
+    }
+    rows_.blocks.push_back(block);
+    rows_.points.insert(rows_.points.end(), points, void_points());
+  }
+  static LeverPoints<Real> void_points() {
+    LeverPoints<Real> points{};
+    for (std::size_t lane = 0; lane < block_width; ++lane) {
+      points.gap[lane] = points.reduced_mass[lane] = points.step_mass[lane] = Real(1);
+    }
+    return points;
+  }
+  /// Makes room for a new block: the grains of the closed one forget it.
+  void close(std::size_t slot) {
+    const LeverBlock<Real>& block = rows_.blocks[block_[slot]];
+    const std::uint64_t keep = ~(std::uint64_t{1} << slot);
+    for (std::size_t lane = 0; lane < used_[slot]; ++lane) {
+      word(block.a(lane)) &= keep;
+      if (bed_.is_grain(block.b(lane))) word(block.b(lane)) &= keep;
+    }
+    used_[slot] = 0;
+  }
+  std::size_t fullest() const {
+    return static_cast<std::size_t>(std::max_element(used_, used_ + most_open) - used_);
+  }
+
+  const ShapeBed& bed_;
+  LeverColumns<Real>& rows_;
+  std::vector<std::uint64_t> open_blocks_;  // per grain: one bit for each open block it is in
+  std::size_t block_[most_open] = {};
+  std::size_t used_[most_open] = {};
+};
+
+/// One side's part in a row.
+struct Levers {
+  Vector a, b;
+};
+
+/// The rows of one contact, before they are rounded and stored.
+struct ContactRows {
+  double inverse_masses = 0.0;  ///< 1/m_a + 1/m_b
+  Vector normal;                ///< box frame
+  std::vector<Levers> levers;   ///< of each point
+
+  /// Entry of A between two points.
+  double coupling(std::size_t k, std::size_t l) const {
+    return inverse_masses + levers[k].a.dot(levers[l].a) + levers[k].b.dot(levers[l].b);
+  }
+  /// D_k = sum over the points l of |A_kl| sqrt(A_kk / A_ll). Points of one face are nearly
+  /// parallel rows: scaled by A_kk alone, gradient steps would have to be half as long.
+  double row_sum(std::size_t k) const {
+    const double own = coupling(k, k);
+    double sum = 0.0;
+    for (std::size_t l = 0; l < levers.size(); ++l) {
+      sum += std::abs(coupling(k, l)) * std::sqrt(own / coupling(l, l));
+    }
+    return sum;
+  }
+};
+
+void add_side_b(const ShapeBed& bed, const ShapeContact& contact, const ContactPoint* points,
+                ContactRows& rows) {
+  const auto a = static_cast<std::size_t>(contact.a), b = static_cast<std::size_t>(contact.b);
+  const PairPose pose = pair_pose(bed, a, b);
+  const Vector root = root_inertia(bed, b);
+  for (std::size_t k = 0; k < contact.count; ++k) {
+    const Vector torque = (points[k].position - pose.centre).cross(contact.normal);
+    rows.levers[k].b = (pose.turn.transpose() * torque).cwiseQuotient(root);
+  }
+  rows.inverse_masses += bed.motion[b].w;
+}
+
+void set_rows(const ShapeBed& bed, const ShapeContact& contact, const ContactPoint* points,
+              ContactRows& rows) {
+  const auto a = static_cast<std::size_t>(contact.a);
+  const Vector root = root_inertia(bed, a);
+  rows.inverse_masses = bed.motion[a].w;
+  rows.normal = bed.pose(a).orientation * contact.normal;
+  rows.levers.assign(contact.count, {Vector::Zero(), Vector::Zero()});
+  for (std::size_t k = 0; k < contact.count; ++k) {
+    rows.levers[k].a = points[k].position.cross(contact.normal).cwiseQuotient(root);
+  }
+  if (bed.is_grain(contact.b)) add_side_b(bed, contact, points, rows);
+}
+
+template <class Real>
+void store_point(const ContactRows& rows, std::size_t k, double gap, std::size_t lane,
+                 LeverPoints<Real>& points) {
+  for (int axis = 0; axis < 3; ++axis) {
+    points.lever_a[axis][lane] = static_cast<Real>(rows.levers[k].a[axis]);
+    points.lever_b[axis][lane] = static_cast<Real>(rows.levers[k].b[axis]);
+  }
+  points.gap[lane] = static_cast<Real>(gap);
+  points.reduced_mass[lane] = static_cast<Real>(1.0 / rows.coupling(k, k));
+  points.step_mass[lane] = static_cast<Real>(1.0 / rows.row_sum(k));
+}
+
+template <class Real>
+void store_normal(const Vector& normal, std::size_t lane, LeverBlock<Real>& block) {
+  block.normal_x[lane] = static_cast<Real>(normal.x());
+  block.normal_y[lane] = static_cast<Real>(normal.y());
+  block.normal_z[lane] = static_cast<Real>(normal.z());
+}
+
+/// Calls visit(contact, point, impulse) for every point that pushed.
+template <class Real, class Visit>
+void visit_pushing(const ShapeContacts& found, const LeverPlaces& places,
+                   const LeverColumns<Real>& rows, Visit visit) {
+  for (std::size_t k = 0; k < places.first.size(); ++k) {
+    const ShapeContact& contact = found.contacts[k];
+    for (std::size_t j = 0; j < contact.count; ++j) {
+      const auto impulse = static_cast<double>(rows.impulse[places.first[k] + j * block_width]);
+      if (impulse > 0.0) visit(contact, found.points[contact.first + j], impulse);
+    }
+  }
+}
+
+std::size_t nearest_point(const ShapeContacts& found, const ShapeContact& contact,
+                          const Vector& position) {
+  double least = std::numeric_limits<double>::infinity();
+  std::size_t best = 0;
+  for (std::size_t j = 0; j < contact.count; ++j) {
+    const double squared = (found.points[contact.first + j].position - position).squaredNorm();
+    best = squared < least ? j : best;
+    least = std::min(least, squared);
+  }
+  return best;
+}
+
+}  // namespace
+
+template <class Real>
+void lay_out(const ShapeBed& bed, const ShapeContacts& found, double correction,
+             LeverPlaces& places, LeverColumns<Real>& rows) {
+  rows.blocks.clear();
+  rows.points.clear();
+  places.first.resize(found.contacts.size());
+  LeverBlocks<Real> blocks(bed, rows);
+  ContactRows own;
+  for (const std::size_t k : by_points(found)) {
+    const ShapeContact& contact = found.contacts[k];
+    const ContactPoint* points = found.points.data() + contact.first;
+    const auto at = blocks.take(contact);
+    const std::size_t first = rows.blocks[at.block].first;
+    places.first[k] = first * block_width + at.lane;
+    set_rows(bed, contact, points, own);
+    store_normal(own.normal, at.lane, rows.blocks[at.block]);
+    for (std::size_t j = 0; j < contact.count; ++j) {
+      const double gap = points[j].gap;
+      store_point(own, j, gap < 0.0 ? correction * gap : gap, at.lane, rows.points[first + j]);
+    }
+  }
+  rows.ranges.assign({{0, rows.blocks.size(), 0}});
+  rows.impulse.assign(rows.points.size() * block_width, Real(0));
+  rows.extrapolated.assign(rows.impulse.size(), Real(0));
+}
+
+template <class Real>
+void remember_impulses(const ShapeBed& bed, const ShapeContacts& found, const LeverPlaces& places,
+                       const LeverColumns<Real>& rows, CarriedPoints& carried) {
+  std::vector<std::size_t>& begin = carried.begin;
+  begin.assign(bed.grains() + 2, 0);
+  std::size_t count = 0;
+  visit_pushing(found, places, rows, [&](const ShapeContact& contact, const auto&, double) {
+    ++begin[static_cast<std::size_t>(contact.a) + 2];
+    ++count;
+  });
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  carried.points.resize(count);
+  visit_pushing(found, places, rows,
+                [&](const ShapeContact& contact, const ContactPoint& point, double impulse) {
+                  carried.points[begin[static_cast<std::size_t>(contact.a) + 1]++] = {
+                      contact.b, point.position, impulse};
+                });
+}
+
+template <class Real>
+void carry_impulses(const ShapeContacts& found, const CarriedPoints& carried,
+                    const LeverPlaces& places, LeverColumns<Real>& rows) {
+  for (std::size_t k = 0; k < found.contacts.size(); ++k) {
+    const ShapeContact& contact = found.contacts[k];
+    const auto a = static_cast<std::size_t>(contact.a);
+    for (std::size_t i = carried.begin[a]; i < carried.begin[a + 1]; ++i) {
+      const CarriedPoint& point = carried.points[i];
+      if (point.other == contact.b) {
+        const std::size_t j = nearest_point(found, contact, point.position);
+        rows.impulse[places.first[k] + j * block_width] += static_cast<Real>(point.impulse);
+      }
+    }
+  }
+}
+
+template void lay_out(const ShapeBed&, const ShapeContacts&, double, LeverPlaces&,
+                      LeverColumns<float>&);
+template void lay_out(const ShapeBed&, const ShapeContacts&, double, LeverPlaces&,
+                      LeverColumns<double>&);
+template void remember_impulses(const ShapeBed&, const ShapeContacts&, const LeverPlaces&,
+                                const LeverColumns<float>&, CarriedPoints&);
+template void remember_impulses(const ShapeBed&, const ShapeContacts&, const LeverPlaces&,
+                                const LeverColumns<double>&, CarriedPoints&);
+template void carry_impulses(const ShapeContacts&, const CarriedPoints&, const LeverPlaces&,
+                             LeverColumns<float>&);
+template void carry_impulses(const ShapeContacts&, const CarriedPoints&, const LeverPlaces&,
+                             LeverColumns<double>&);
+
+}  // namespace grainsweep

@@ -1,0 +1,77 @@
+// Rows of contacts between grains that turn, and the sweeps of the solver over them.
+//
+// A grain has two records in a column of motion: its displacement v with its inverse mass, and
+// sqrt(I) w with a 1: w is the angle vector of its turn in its own frame, I its principal moments.
+// So an impulse p along the normal n changes them by
+//   v += p n / m,  sqrt(I) w += p lever,  lever = (r x n in the grain's frame) / sqrt(I)
+// and no moment of inertia is needed anywhere else. Walls have an inverse mass and levers of 0.
+#pragma once
+
+#include "kernels/row_kernels.hpp"
+
+namespace grainsweep {
+
+/// `block_width` contacts; all points of a contact share its normal. Unused lanes name void grains.
+/// A row is a point k of a contact and says, to first order,
+///   gap_k + n . (v_b - v_a) + lever_b,k . (sqrt(I) w)_b - lever_a,k . (sqrt(I) w)_a >= 0.
+/// The normal is the unit vector from a to b, box frame.
+template <class Real>
+struct alignas(64) LeverBlock {
+  std::uint32_t offset_a[block_width];  ///< bytes from a column of Record<Real> to grain a's first
+  std::uint32_t offset_b[block_width];
+  Real normal_x[block_width];
+  Real normal_y[block_width];
+  Real normal_z[block_width];
+  std::uint32_t first = 0;   ///< its points are points[first] .. points[first + points - 1]
+  std::uint32_t points = 0;  ///< of the contact with most; others are filled up with void points
+
+  std::int32_t a(std::size_t lane) const { return grain_at(offset_a[lane]); }
+  std::int32_t b(std::size_t lane) const { return grain_at(offset_b[lane]); }
+  void set_grains(std::size_t lane, std::int32_t a, std::int32_t b) {
+    offset_a[lane] = static_cast<std::uint32_t>(a) * grain_bytes;
+    offset_b[lane] = static_cast<std::uint32_t>(b) * grain_bytes;
+  }
+
+ private:
+  static constexpr std::uint32_t grain_bytes = 2 * sizeof(Record<Real>);
+  static std::int32_t grain_at(std::uint32_t offset) {
+    return static_cast<std::int32_t>(offset / grain_bytes);
+  }
+};
+
+/// One point of each contact of a block. A void point has levers of 0 and a positive gap.
+template <class Real>
+struct alignas(64) LeverPoints {
+  Real lever_a[3][block_width];    ///< x, y, z in the frame of a
+  Real lever_b[3][block_width];    ///< in the frame of b
+  Real gap[block_width];           ///< right-hand side, d; negative where grains overlap
+  Real reduced_mass[block_width];  ///< 1 / A_kk, m: what one impulse on this row alone divides by
+  Real step_mass[block_width];     ///< 1 / D_k, m: the step of a gradient, D_k a sum over its contact
+};
+
+/// Rows as sweeps read them.
+template <class Real>
+struct LeverRows {
+  const LeverBlock<Real>* blocks;  ///< first of those to sweep
+  const LeverPoints<Real>* points;
+};
+
+/// Solver sweeps for one number type. `u` and `pushes` hold two records per grain. The impulse of
+/// lane k of points[i] is p[i * block_width + k].
+template <class Real>
+struct LeverKernels {
+  /// As RowKernels::gradient_sweep: p = max(0, y - w / (bound D)); the residual is that of
+  /// RowKernels with A_kk for 1/m_a + 1/m_b.
+  SweepSums<Real> (*gradient_sweep)(LeverRows<Real> rows, std::size_t blocks, const Record<Real>* u,
+                                    Record<Real>* pushes, Real* p, Real* y, Real inverse_bound,
+                                    Real momentum);
+  /// As RowKernels::gauss_seidel_sweep; the points of a contact one after the other.
+  SweepSums<Real> (*gauss_seidel_sweep)(LeverRows<Real> rows, std::size_t blocks, Record<Real>* u,
+                                        Real* p, bool backward);
+  /// Adds H p to the pushes.
+  void (*add_pushes)(LeverRows<Real> rows, std::size_t blocks, const Real* p, Record<Real>* pushes);
+  /// Largest |min(p, w / A_kk)| over all rows, d m.
+  Real (*residual)(LeverRows<Real> rows, std::size_t blocks, const Record<Real>* u, const Real* p);
+};
+
+}  // namespace grainsweep

@@ -1,0 +1,257 @@
+// Solver sweeps over contacts of grains that turn. The motion of both grains is loaded once for all
+// points of a contact, and their pushes are joined before they are stored.
+#include "kernels/lanes.hpp"
+#include "kernels/tables.hpp"
+
+namespace {
+
+using grainsweep::LeverBlock;
+using grainsweep::LeverPoints;
+using grainsweep::LeverRows;
+using grainsweep::Record;
+using grainsweep::SweepSums;
+
+template <class Real>
+struct Vec {
+  Batch<Real> x, y, z;
+};
+
+template <class Real>
+inline Batch<Real> dot(const Vec<Real>& u, const Vec<Real>& v) {
+  return u.x * v.x + u.y * v.y + u.z * v.z;
+}
+/// to += k v.
+template <class Real>
+inline void add(const Batch<Real>& k, const Vec<Real>& v, Vec<Real>& to) {
+  to.x += k * v.x;
+  to.y += k * v.y;
+  to.z += k * v.z;
+}
+
+/// One hardware batch of contacts.
+template <class Real>
+struct Contacts {
+  const std::uint32_t* a;
+  const std::uint32_t* b;
+  Vec<Real> normal;
+};
+
+template <class Real>
+inline Contacts<Real> load_contacts(const LeverBlock<Real>& block, std::size_t lane) {
+  return {block.offset_a + lane,
+          block.offset_b + lane,
+          {load(block.normal_x + lane), load(block.normal_y + lane), load(block.normal_z + lane)}};
+}
+
+/// One point of each.
+template <class Real>
+struct Points {
+  Vec<Real> lever_a, lever_b;
+  Batch<Real> gap;
+};
+
+template <class Real>
+inline Vec<Real> load_vectors(const Real (&from)[3][block_width], std::size_t lane) {
+  return {load(from[0] + lane), load(from[1] + lane), load(from[2] + lane)};
+}
+template <class Real>
+inline Points<Real> load_points(const LeverPoints<Real>& points, std::size_t lane) {
+  return {load_vectors(points.lever_a, lane), load_vectors(points.lever_b, lane),
+          load(points.gap + lane)};
+}
+
+/// What the points of a contact share of their grains' motion.
+template <class Real>
+struct Motion {
+  Batch<Real> approach;  ///< n . (v_b - v_a)
+  Vec<Real> turn_a, turn_b;
+};
+
+template <class Real>
+inline Vec<Real> load_turns(const Record<Real>* u, const std::uint32_t* offset) {
+  const Components<Real> turn = load_records(u + 1, offset);
+  return {turn.x, turn.y, turn.z};
+}
+template <class Real>
+inline Motion<Real> load_motion(const Contacts<Real>& c, const Record<Real>* u) {
+  const Components<Real> v = load_differences(u, c.a, c.b);
+  return {dot(c.normal, {v.x, v.y, v.z}), load_turns(u, c.a), load_turns(u, c.b)};
+}
+
+/// The gap after the motion.
+template <class Real>
+inline Batch<Real> gap_after(const Points<Real>& r, const Motion<Real>& m) {
+  return r.gap + (m.approach + (dot(r.lever_b, m.turn_b) - dot(r.lever_a, m.turn_a)));
+}
+
+template <class Real>
+inline Batch<Real> natural_residual(const Batch<Real>& p, const Batch<Real>& w) {
+  return xsimd::abs(xsimd::min(p, w));
+}
+
+/// What the points of a contact add up to.
+template <class Real>
+struct Push {
+  Batch<Real> normal = Batch<Real>(Real(0)), size = Batch<Real>(Real(0));
+  Vec<Real> turn_a{normal, normal, normal}, turn_b{normal, normal, normal};
+
+  void add_point(const Points<Real>& r, const Batch<Real>& p) {
+    normal += p;
+    size += xsimd::abs(p);
+    add(p, r.lever_a, turn_a);
+    add(p, r.lever_b, turn_b);
+  }
+  bool is_zero() const { return !xsimd::any(size != Batch<Real>(Real(0))); }
+};
+
+template <class Real>
+inline void store_push(const Contacts<Real>& c, const Push<Real>& push, Record<Real>* pushes) {
+  if (push.is_zero()) return;
+  const Batch<Real> zero(Real(0));
+  push_records(
+      pushes, c.a, c.b,
+      {push.normal * c.normal.x, push.normal * c.normal.y, push.normal * c.normal.z, zero});
+  add_records(pushes + 1, c.a,
+              {zero - push.turn_a.x, zero - push.turn_a.y, zero - push.turn_a.z, zero});
+  add_records(pushes + 1, c.b, {push.turn_b.x, push.turn_b.y, push.turn_b.z, zero});
+}
+
+/// Calls visit(contacts, block, lane, k) for every hardware batch k of every block.
+template <class Real, class Visit>
+inline void visit_contacts(LeverRows<Real> rows, std::size_t blocks, bool backward, Visit visit) {
+  for (std::size_t step = 0; step < blocks; ++step) {
+    const LeverBlock<Real>& block = rows.blocks[backward ? blocks - 1 - step : step];
+    for (std::size_t k = 0; k < batches<Real>; ++k) {
+      const std::size_t lane = k * batch_width<Real>;
+      visit(load_contacts(block, lane), block, lane, k);
+    }
+  }
+}
+
+template <class Real>
+SweepSums<Real> gradient_sweep(LeverRows<Real> rows, std::size_t blocks, const Record<Real>* u,
+                               Record<Real>* pushes, Real* p, Real* y, Real inverse_bound,
+                               Real momentum) {
+  LaneSums<Real> residual(Real(0)), uphill(Real(0));
+  const Batch<Real> zero(Real(0)), bound(inverse_bound), carry(momentum);
+  visit_contacts(rows, blocks, false, [&](const auto& c, const auto& block, auto lane, auto k) {
+    const Motion<Real> m = load_motion(c, u);
+    Push<Real> push;
+    for (std::size_t i = block.first; i < block.first + block.points; ++i) {
+      const LeverPoints<Real>& points = rows.points[i];
+      const Points<Real> r = load_points(points, lane);
+      const std::size_t at = i * block_width + lane;
+      const Batch<Real> w = gap_after(r, m), y_old = load(y + at), p_old = load(p + at);
+      const Batch<Real> step = load(points.step_mass + lane) * bound;
+      const Batch<Real> p_new = xsimd::max(zero, y_old - w * step);
+      const Batch<Real> change = p_new - p_old, y_new = p_new + carry * change;
+      const Batch<Real> missed = natural_residual(y_old, w * load(points.reduced_mass + lane));
+      residual.part[k] = xsimd::max(residual.part[k], missed);
+      uphill.part[k] += (y_old - p_new) * change;
+      p_new.store_unaligned(p + at);
+      y_new.store_unaligned(y + at);
+      push.add_point(r, y_new);
+    }
+    store_push(c, push, pushes);
+  });
+  return {residual.max(), uphill.sum()};
+}
+
+/// Records of the grains on one side of a batch of contacts.
+template <class Real>
+struct Side {
+  Components<Real> v, turn;
+};
+
+template <class Real>
+inline Side<Real> load_side(const Record<Real>* u, const std::uint32_t* offset) {
+  return {load_records(u, offset), load_records(u + 1, offset)};
+}
+template <class Real>
+inline void store_side(Record<Real>* u, const std::uint32_t* offset, const Side<Real>& side) {
+  store_records(u, offset, side.v);
+  store_records(u + 1, offset, side.turn);
+}
+/// An impulse p along the normal, of either sign.
+template <class Real>
+inline void push_side(const Batch<Real>& p, const Vec<Real>& normal, const Vec<Real>& lever,
+                      Side<Real>& side) {
+  side.v.x += side.v.w * (p * normal.x);
+  side.v.y += side.v.w * (p * normal.y);
+  side.v.z += side.v.w * (p * normal.z);
+  side.turn.x += side.turn.w * (p * lever.x);
+  side.turn.y += side.turn.w * (p * lever.y);
+  side.turn.z += side.turn.w * (p * lever.z);
+}
+template <class Real>
+inline Motion<Real> motion_of(const Vec<Real>& normal, const Side<Real>& a, const Side<Real>& b) {
+  return {dot(normal, {b.v.x - a.v.x, b.v.y - a.v.y, b.v.z - a.v.z}),
+          {a.turn.x, a.turn.y, a.turn.z},
+          {b.turn.x, b.turn.y, b.turn.z}};
+}
+
+template <class Real>
+SweepSums<Real> gauss_seidel_sweep(LeverRows<Real> rows, std::size_t blocks, Record<Real>* u,
+                                   Real* p, bool backward) {
+  LaneSums<Real> residual(Real(0));
+  const Batch<Real> zero(Real(0));
+  visit_contacts(rows, blocks, backward, [&](const auto& c, const auto& block, auto lane, auto k) {
+    Side<Real> a = load_side(u, c.a), b = load_side(u, c.b);
+    for (std::size_t step = 0; step < block.points; ++step) {
+      const std::size_t i = block.first + (backward ? block.points - 1 - step : step);
+      const LeverPoints<Real>& points = rows.points[i];
+      const Points<Real> r = load_points(points, lane);
+      const std::size_t at = i * block_width + lane;
+      const Batch<Real> w =
+          gap_after(r, motion_of(c.normal, a, b)) * load(points.reduced_mass + lane);
+      const Batch<Real> p_old = load(p + at), p_new = xsimd::max(zero, p_old - w);
+      const Batch<Real> change = p_new - p_old;
+      residual.part[k] = xsimd::max(residual.part[k], natural_residual(p_old, w));
+      p_new.store_unaligned(p + at);
+      push_side(zero - change, c.normal, r.lever_a, a);
+      push_side(change, c.normal, r.lever_b, b);
+    }
+    store_side(u, c.a, a);
+    store_side(u, c.b, b);
+  });
+  return {residual.max(), Real(0)};
+}
+
+template <class Real>
+void add_pushes(LeverRows<Real> rows, std::size_t blocks, const Real* p, Record<Real>* pushes) {
+  visit_contacts(rows, blocks, false, [&](const auto& c, const auto& block, auto lane, auto) {
+    Push<Real> push;
+    for (std::size_t i = block.first; i < block.first + block.points; ++i) {
+      push.add_point(load_points(rows.points[i], lane), load(p + i * block_width + lane));
+    }
+    store_push(c, push, pushes);
+  });
+}
+
+template <class Real>
+Real residual(LeverRows<Real> rows, std::size_t blocks, const Record<Real>* u, const Real* p) {
+  LaneSums<Real> worst(Real(0));
+  visit_contacts(rows, blocks, false, [&](const auto& c, const auto& block, auto lane, auto k) {
+    const Motion<Real> m = load_motion(c, u);
+    for (std::size_t i = block.first; i < block.first + block.points; ++i) {
+      const LeverPoints<Real>& points = rows.points[i];
+      const Batch<Real> w =
+          gap_after(load_points(points, lane), m) * load(points.reduced_mass + lane);
+      const Batch<Real> missed = natural_residual(load(p + i * block_width + lane), w);
+      worst.part[k] = xsimd::max(worst.part[k], missed);
+    }
+  });
+  return worst.max();
+}
+
+template <class Real>
+constexpr grainsweep::LeverKernels<Real> table() {
+  return {gradient_sweep<Real>, gauss_seidel_sweep<Real>, add_pushes<Real>, residual<Real>};
+}
+
+}  // namespace
+
+namespace grainsweep::GRAINSWEEP_ISA_NAME {
+extern const LeverKernels<float> lever_kernels_f32 = table<float>();
+extern const LeverKernels<double> lever_kernels_f64 = table<double>();
+}  // namespace grainsweep::GRAINSWEEP_ISA_NAME

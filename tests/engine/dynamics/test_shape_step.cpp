@@ -1,0 +1,279 @@
+#include <algorithm>
+#include <cmath>
+
+#include <catch2/catch.hpp>
+
+#include "engine/dynamics/shape_step.hpp"
+#include "engine/scene/shape_start.hpp"
+#include "tests/support/dense_levers.hpp"
+#include "tests/support/instruction_sets.hpp"
+#include "tests/support/shape_beds.hpp"
+
+namespace grainsweep {
+namespace {
+
+using testing::periodic;
+using testing::pose_at;
+using testing::walls;
+
+const Kernels& kernels() { return kernels_for(best_isa()); }
+
+/// Steps that repair overlaps whole and are solved to 1e-9 m g.
+StepSettings tight_steps(double momentum) {
+  StepSettings settings;
+  settings.momentum = momentum;
+  settings.correction = 1.0;
+  settings.limits = {Solver::accelerated_projected_gradient, 100'000, 1e-9};
+  return settings;
+}
+
+template <class Real>
+StepReport take_steps(int steps, const StepSettings& settings, ShapeBed& bed,
+                      ShapeStepState<Real>& state) {
+  StepReport report;
+  for (int k = 0; k < steps; ++k) report = step(settings, kernels(), bed, state);
+  return report;
+}
+
+TEMPLATE_TEST_CASE("a cube on the floor rests on four corners with a quarter of its weight each",
+                   "", float, double) {
+  // Solved to 1e-9 m g; f32 rounds at 1e-7 of the motions.
+  const double margin = std::is_same_v<TestType, float> ? 1e-5 : 1e-8;
+  ShapeBed bed = make_shape_bed({6, 6, periodic, walls}, testing::cube(), {pose_at(3, 3, 0.5)});
+  ShapeStepState<TestType> state;
+  StepSettings settings = tight_steps(0);
+  settings.limits.iterations = 2000;
+  take_steps(3, settings, bed, state);
+  REQUIRE(state.contacts.contacts.size() == 1);
+  REQUIRE(state.contacts.contacts[0].count == 4);
+  CHECK(state.contacts.contacts[0].b == bed.wall(0));
+  for (std::size_t j = 0; j < 4; ++j) {
+    CHECK(impulse_of(state, 0, j) / 0.04 == Approx(0.25).margin(margin));
+  }
+  CHECK(bed.centre[0].z == Approx(0.5).margin(margin));
+}
+
+ShapeBed cube_stack(int cubes) {
+  std::vector<Pose> poses;
+  for (int k = 0; k < cubes; ++k) poses.push_back(pose_at(3, 3, 0.5 + k));
+  return make_shape_bed({6, 6, periodic, walls}, testing::cube(), poses);
+}
+
+TEST_CASE("a stack of 20 cubes stands still, each face carrying the weight above it") {
+  ShapeBed bed = cube_stack(20);
+  ShapeStepState<double> state;
+  const StepSettings settings = tight_steps(0.9);
+  for (const int steps : {1, 50}) {
+    take_steps(steps, settings, bed, state);
+    INFO("after " << steps << " more steps");
+    REQUIRE(state.contacts.contacts.size() == 20);
+    for (std::size_t k = 0; k < 20; ++k) {
+      const ShapeContact& c = state.contacts.contacts[k];
+      const double above = bed.is_grain(c.b) ? 19.0 - c.a : 20.0 - c.a;
+      REQUIRE(c.count == 4);
+      // Twenty rows of a residual of 1e-9 add up, and a stack multiplies them by its height.
+      CHECK(testing::contact_force(state, k, settings.dt) == Approx(above).margin(1e-6));
+    }
+  }
+  for (std::size_t i = 0; i < 20; ++i) {
+    CHECK(bed.centre[i].z == Approx(0.5 + static_cast<double>(i)).margin(1e-7));
+    CHECK(std::abs(bed.orientation[i].w) == Approx(1).margin(1e-12));
+  }
+}
+
+/// The face that looks down most, and how far it is from looking straight down, radians.
+struct Lie {
+  std::size_t face;
+  double tilt;
+};
+Lie lie_of(const ShapeBed& bed, std::size_t grain) {
+  Lie lie{0, 10};
+  for (std::size_t k = 0; k < bed.shape.faces.size(); ++k) {
+    const Vector n = bed.pose(grain).orientation * bed.shape.faces[k].normal;
+    const double tilt = std::atan2(std::hypot(n.x(), n.y()), -n.z());
+    if (tilt < lie.tilt) lie = {k, tilt};
+  }
+  return lie;
+}
+
+double area_of(const ConvexShape& shape, const Face& face) {
+  Vector sum = Vector::Zero();
+  for (std::int32_t k = 0; k < face.corners; ++k) {
+    const auto corner = [&](std::int32_t i) {
+      return shape.vertices[static_cast<std::size_t>(
+          shape.loops[static_cast<std::size_t>(face.first + i % face.corners)])];
+    };
+    sum += corner(k).cross(corner(k + 1));
+  }
+  return sum.norm() / 2;
+}
+
+TEST_CASE("a pinacoid tipped by 20 degrees comes to lie flat on its largest face") {
+  const ConvexShape shape = pinacoid({});
+  const auto largest = std::max_element(
+      shape.faces.begin(), shape.faces.end(),
+      [&](const Face& a, const Face& b) { return area_of(shape, a) < area_of(shape, b) - 1e-12; });
+  testing::Draw draw(3);
+  for (int k = 0; k < 5; ++k) {
+    const Quaternion down = Quaternion::FromTwoVectors(largest->normal, -Vector::UnitZ());
+    const double angle = draw.uniform(0, 6.28);
+    const Vector axis(std::cos(angle), std::sin(angle), 0);
+    const Quaternion tipped = Quaternion(Eigen::AngleAxisd(0.35, axis)) * down;
+    ShapeBed bed = make_shape_bed({6, 6, periodic, walls}, shape, {pose_at(3, 3, 0.75, tipped)});
+    ShapeStepState<double> state;
+    take_steps(400, tight_steps(0.9), bed, state);
+    const Lie lie = lie_of(bed, 0);
+    CHECK(area_of(shape, shape.faces[lie.face]) == Approx(area_of(shape, *largest)));
+    CHECK(lie.tilt < 1e-6);
+    CHECK(bed.centre[0].z == Approx(largest->offset).margin(1e-6));
+    CHECK(state.contacts.contacts[0].count == static_cast<std::size_t>(largest->corners));
+    CHECK(testing::contact_force(state, 0, 0.2) == Approx(1).margin(1e-6));
+  }
+}
+
+TEST_CASE("a free grain keeps its angular momentum while it tumbles") {
+  const ConvexShape shape = pinacoid({});
+  ShapeBed bed = make_shape_bed({6, 6, periodic, walls}, shape, {pose_at(3, 3, 50)});
+  bed.turn[0] = Vector(0.02, -0.1, 0.05);
+  const auto momentum = [&] {
+    return Vector(bed.pose(0).orientation * shape.inertia.cwiseProduct(bed.turn[0]));
+  };
+  const Vector before = momentum();
+  ShapeStepState<double> state;
+  take_steps(50, tight_steps(1), bed, state);
+  CHECK((momentum() - before).norm() < 1e-14);
+  CHECK(bed.pose(0).orientation.angularDistance(Quaternion::Identity()) > 0.5);
+}
+
+TEST_CASE("contacts between grains change neither their momentum nor their angular momentum") {
+  ShapeBed bed = testing::random_shape_bed({6, 6, periodic, periodic}, pinacoid({}), 60, 4, 7);
+  for (Record<double>& centre : bed.centre) centre.z += 20;  // far above the floor
+  const ShapeBed before = bed;
+  ShapeStepState<double> state;
+  StepSettings settings = tight_steps(0);
+  settings.limits.iterations = 300;
+  step(settings, kernels(), bed, state);
+  const std::vector<testing::Wrench> sums = testing::wrenches(before, state, settings.dt);
+  const double unit = settings.dt * settings.dt;
+  Vector total = Vector::Zero();
+  double largest = 0;
+  for (std::size_t i = 0; i < bed.grains(); ++i) {
+    const Vector v(bed.motion[i].x, bed.motion[i].y, bed.motion[i].z + unit);
+    const Vector& f = sums[i].force;
+    largest = std::max(largest, f.norm());
+    total += v / bed.motion[i].w;
+    // The motion is what the forces at the points of contact give.
+    REQUIRE((v / bed.motion[i].w / unit - f).norm() < 1e-9 * (1 + f.norm()));
+    const Quaternion q = before.pose(i).orientation;
+    const Vector root = root_inertia(before, i);
+    const Vector turned = q.conjugate() * sums[i].torque * unit;
+    const Quaternion step_turn = q.conjugate() * bed.pose(i).orientation;
+    const Eigen::AngleAxisd angles(step_turn);
+    const Vector momentum = (angles.angle() * angles.axis()).cwiseProduct(root).cwiseProduct(root);
+    REQUIRE((momentum - turned).norm() < 1e-9 * (1 + turned.norm()));
+  }
+  REQUIRE(largest > 1);  // they do push
+  CHECK(total.norm() < 1e-12);
+}
+
+/// A few layers of pinacoids, settled by the stages known to bring them to rest.
+template <class Real>
+StepReport settle(ShapeBed& bed, ShapeStepState<Real>& state) {
+  struct Stage {
+    double dt, momentum, near, correction;
+    int iterations, steps;
+  };
+  double last = 0.2;
+  StepReport report;
+  for (const Stage& s : {Stage{0.2, 0.95, 0.05, 0.2, 40, 120}, Stage{0.2, 0.9, 0.03, 0.1, 100, 40},
+                         Stage{0.1, 0.9, 0.03, 0.1, 200, 40}, Stage{0.05, 0.5, 0.03, 0.5, 400, 80},
+                         Stage{0.05, 0.0, 0.03, 1.0, 2000, 30}}) {
+    change_step(s.dt / last, bed, state);
+    last = s.dt;
+    StepSettings settings{s.dt, s.momentum, s.correction, s.near, 0.05, {}};
+    settings.limits = {Solver::accelerated_projected_gradient, s.iterations, 1e-4};
+    for (int k = 0; k < s.steps; ++k) report = step(settings, kernels(), bed, state);
+  }
+  return report;
+}
+
+TEST_CASE("a settled bed of pinacoids balances its weight and is isostatic") {
+  PackingSpec spec;
+  spec.box = {5, 5, periodic, walls};
+  spec.fill = SolidHeight{3};
+  const auto start = start_shapes(spec, pinacoid({}));
+  REQUIRE(start);
+  ShapeBed bed = *start;
+  ShapeStepState<double> state;
+  const StepReport report = settle(bed, state);
+  const ShapeBed before = bed;
+  StepSettings still = tight_steps(0);
+  still.dt = 0.05;
+  still.near = 0.03;
+  still.limits = {Solver::accelerated_projected_gradient, 5000, 1e-6};
+  const StepReport last = step(still, kernels(), bed, state);
+  CHECK(report.solve.residual < 5e-2);
+  CHECK(last.largest_motion < 2e-3);  // rest is the slow sliding of a few grains
+  // The floor carries what does not accelerate.
+  const double weight = testing::weight_of(bed);
+  CHECK(testing::wall_force(state, bed.wall(0), 0.05) == Approx(weight).epsilon(0.02));
+  std::int64_t constraints = 0;
+  for (const ShapeContact& c : state.contacts.contacts) {
+    constraints += constraints_of(state.contacts.points.data() + c.first, c.count, 1e-4);
+    for (std::size_t j = 0; j < c.count; ++j) {
+      REQUIRE(state.contacts.points[c.first + j].gap > -1e-3);
+    }
+  }
+  // Six for each grain, less those that still slide; few contacts, so by 5 % here.
+  const auto grains = static_cast<double>(bed.grains());
+  CHECK(static_cast<double>(constraints) / (6 * grains) == Approx(1).margin(0.05));
+}
+
+TEST_CASE("grains of one sweep are the same on every instruction set") {
+  std::vector<std::uint64_t> hashes;
+  for (const Isa isa : testing::testable_isas()) {
+    ShapeBed bed = testing::random_shape_bed({6, 6, periodic, walls}, pinacoid({}), 80, 5, 2);
+    ShapeStepState<float> state;
+    StepSettings settings;
+    for (int k = 0; k < 30; ++k) step(settings, kernels_for(isa), bed, state);
+    hashes.push_back(state_hash(bed));
+    CHECK(hashes.back() == hashes.front());
+  }
+}
+
+TEMPLATE_TEST_CASE("every solver finds the impulses and the residual of a dense reference", "",
+                   float, double) {
+  ShapeBed bed = testing::random_shape_bed({6, 6, periodic, walls}, pinacoid({}), 8, 1.5, 4);
+  ShapeStepState<TestType> state;
+  StepSettings settings = tight_steps(0);
+  settings.limits.iterations = 1;
+  const ShapeBed start = bed;
+  step(settings, kernels(), bed, state);
+  const testing::DenseLevers dense = testing::dense_levers(state.rows, state.motion.free);
+  const testing::WideVector exact = testing::solve_dense(dense);
+  REQUIRE(dense.violation(exact) < 1e-15L);
+  REQUIRE(exact.maxCoeff() > 0.01L);
+  // What f32 leaves of impulses of up to 1: some 1e-7 times the condition of the problem.
+  const double tolerance = std::is_same_v<TestType, float> ? 1e-5 : 1e-10;
+  for (const Solver solver :
+       {Solver::projected_gauss_seidel, Solver::symmetric_gauss_seidel,
+        Solver::nonsmooth_nonlinear_conjugate, Solver::accelerated_projected_gradient}) {
+    std::fill(state.rows.impulse.begin(), state.rows.impulse.end(), TestType(0));
+    const SolveReport report =
+        solve({solver, 200'000, tolerance}, kernels(), state.rows, state.motion);
+    testing::WideVector p(exact.size());
+    for (Eigen::Index k = 0; k < p.size(); ++k) {
+      p[k] = state.rows.impulse[static_cast<std::size_t>(k)];
+    }
+    INFO("solver " << static_cast<int>(solver));
+    CHECK(report.residual <= tolerance);
+    CHECK(report.residual ==
+          Approx(static_cast<double>(dense.violation(p))).epsilon(0.01).margin(tolerance / 10));
+    // Impulses of a polygon's corners are not unique, what they do to the gaps is.
+    const testing::WideVector w = dense.coupling * (p - exact);
+    CHECK(static_cast<double>(w.cwiseAbs().maxCoeff()) < 1e3 * tolerance);
+  }
+}
+
+}  // namespace
+}  // namespace grainsweep

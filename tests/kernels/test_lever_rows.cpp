@@ -1,0 +1,228 @@
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+#include "kernels/kernels.hpp"
+#include "tests/support/bits.hpp"
+#include "tests/support/draw.hpp"
+#include "tests/support/instruction_sets.hpp"
+#include "tests/support/lever_twins.hpp"
+
+namespace grainsweep {
+namespace {
+
+using testing::Draw;
+using testing::same_bits;
+
+constexpr std::int32_t grains = 100, wall = grains, void_a = grains + 1, void_b = grains + 2;
+
+template <class Real>
+struct LeverProblem {
+  std::vector<LeverBlock<Real>> blocks;
+  std::vector<LeverPoints<Real>> points;
+  std::vector<Record<Real>> u, pushes;
+  std::vector<Real> p, y;
+
+  LeverRows<Real> rows() const { return {blocks.data(), points.data()}; }
+};
+
+template <class Real>
+void set_point(LeverPoints<Real>& points, std::size_t lane, bool of_wall, Draw& draw) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    points.lever_a[k][lane] = static_cast<Real>(draw.uniform(-3, 3));
+    points.lever_b[k][lane] = of_wall ? Real(0) : static_cast<Real>(draw.uniform(-3, 3));
+  }
+  points.gap[lane] = static_cast<Real>(draw.uniform(-0.1, 0.1));
+  points.reduced_mass[lane] = static_cast<Real>(draw.uniform(0.05, 1));
+  points.step_mass[lane] = static_cast<Real>(draw.uniform(0.01, 0.5));
+}
+
+template <class Real>
+void set_void_point(LeverPoints<Real>& points, std::size_t lane) {
+  for (std::size_t k = 0; k < 3; ++k) points.lever_a[k][lane] = points.lever_b[k][lane] = 0;
+  points.gap[lane] = points.reduced_mass[lane] = points.step_mass[lane] = 1;
+}
+
+/// Appends the points of a lane that has fewer than its block at times.
+template <class Real>
+void set_lane(LeverProblem<Real>& problem, std::size_t lane, bool used, bool of_wall, Draw& draw) {
+  const LeverBlock<Real>& block = problem.blocks.back();
+  const std::size_t own = used ? 1 + draw.below(block.points) : 0;
+  for (std::size_t i = 0; i < block.points; ++i) {
+    LeverPoints<Real>& points = problem.points[block.first + i];
+    i < own ? set_point(points, lane, of_wall, draw) : set_void_point(points, lane);
+    const bool pushes = i < own && draw.chance(0.5);
+    const std::size_t at = (block.first + i) * block_width + lane;
+    problem.p[at] = static_cast<Real>(pushes ? draw.uniform(0, 0.05) : 0);
+    problem.y[at] = static_cast<Real>(pushes ? draw.uniform(-0.01, 0.05) : 0);
+  }
+}
+
+/// A block of pairs or of contacts with the wall: no grain twice, the last lanes often void.
+template <class Real>
+void add_block(LeverProblem<Real>& problem, bool of_wall, Draw& draw) {
+  std::vector<std::int32_t> names(grains);
+  std::iota(names.begin(), names.end(), 0);
+  draw.shuffle(names);
+  problem.blocks.emplace_back();
+  LeverBlock<Real>& block = problem.blocks.back();
+  block.first = static_cast<std::uint32_t>(problem.points.size());
+  block.points = static_cast<std::uint32_t>(1 + draw.below(8));
+  problem.points.resize(block.first + block.points);
+  problem.p.resize(problem.points.size() * block_width);
+  problem.y.resize(problem.p.size());
+  const std::size_t used = draw.chance(0.5) ? block_width : draw.below(block_width + 1);
+  for (std::size_t lane = 0; lane < block_width; ++lane) {
+    const bool is_used = lane < used;
+    const Draw::Direction n = is_used ? draw.direction() : Draw::Direction{0, 0, -1};
+    block.set_grains(lane, is_used ? names[2 * lane] : void_a,
+                     is_used ? (of_wall ? wall : names[2 * lane + 1]) : void_b);
+    block.normal_x[lane] = static_cast<Real>(n.x);
+    block.normal_y[lane] = static_cast<Real>(n.y);
+    block.normal_z[lane] = static_cast<Real>(n.z);
+    set_lane(problem, lane, is_used, of_wall, draw);
+  }
+}
+
+template <class Real>
+std::vector<Record<Real>> random_records(bool with_masses, Draw& draw) {
+  const auto component = [&] {
+    return draw.chance(0.1) ? Real(0) : static_cast<Real>(draw.uniform(-0.1, 0.1));
+  };
+  std::vector<Record<Real>> records;
+  for (std::int32_t i = 0; i < 2 * grains; ++i) {
+    const Real x = component(), y = component(), z = component();
+    const double mass = i % 2 == 0 ? draw.uniform(0.5, 2) : 1;
+    records.push_back({x, y, z, with_masses ? static_cast<Real>(mass) : Real(0)});
+  }
+  const Real any = with_masses ? Real(1) : Real(0);
+  records.insert(
+      records.end(),
+      {{0, 0, 0, 0}, {0, 0, 0, 0}, {0, 0, 0, any}, {0, 0, 0, any}, {0, 0, 0, any}, {0, 0, 0, any}});
+  return records;
+}
+
+template <class Real>
+LeverProblem<Real> random_problem(std::size_t blocks, std::uint64_t seed) {
+  Draw draw(seed);
+  LeverProblem<Real> problem;
+  problem.u = random_records<Real>(true, draw);
+  problem.pushes = random_records<Real>(false, draw);
+  for (std::size_t block = 0; block < blocks; ++block) add_block(problem, draw.chance(0.2), draw);
+  return problem;
+}
+
+/// Calls compare(kernels of one instruction set, problem, copy of the problem) for problems of
+/// many sizes, on every instruction set that can run here.
+template <class Real, class Compare>
+void on_random_problems(Compare compare) {
+  for (const Isa isa : testing::testable_isas()) {
+    for (const std::size_t blocks : {0U, 1U, 2U, 7U, 30U}) {
+      for (std::uint64_t seed = 0; seed < 5; ++seed) {
+        INFO(name_of(isa) << ", " << blocks << " blocks, seed " << seed);
+        LeverProblem<Real> problem = random_problem<Real>(blocks, 100 * blocks + seed);
+        LeverProblem<Real> twin = problem;
+        compare(lever_kernels<Real>(kernels_for(isa)), problem, twin);
+        REQUIRE(same_bits(problem.p, twin.p));
+        REQUIRE(same_bits(problem.y, twin.y));
+        REQUIRE(same_bits(problem.u, twin.u));
+        REQUIRE(same_bits(problem.pushes, twin.pushes));
+      }
+    }
+  }
+}
+
+TEMPLATE_TEST_CASE("a gradient sweep over levers gives the bits of its plain-loop twin", "", float,
+                   double) {
+  const auto bound = static_cast<TestType>(1 / 4.3), momentum = static_cast<TestType>(0.7);
+  on_random_problems<TestType>([&](const auto& kernels, auto& problem, auto& twin) {
+    const auto sums = kernels.gradient_sweep(problem.rows(), problem.blocks.size(),
+                                             problem.u.data(), problem.pushes.data(),
+                                             problem.p.data(), problem.y.data(), bound, momentum);
+    const auto expected = testing::lever_gradient_twin(
+        twin.rows(), twin.blocks.size(), twin.u.data(), twin.pushes.data(), twin.p.data(),
+        twin.y.data(), bound, momentum);
+    REQUIRE(same_bits(sums.residual, expected.residual));
+    REQUIRE(same_bits(sums.uphill, expected.uphill));
+  });
+}
+
+TEMPLATE_TEST_CASE("a Gauss-Seidel sweep over levers gives the bits of its twin both ways", "",
+                   float, double) {
+  for (const bool backward : {false, true}) {
+    on_random_problems<TestType>([&](const auto& kernels, auto& problem, auto& twin) {
+      const auto sums = kernels.gauss_seidel_sweep(problem.rows(), problem.blocks.size(),
+                                                   problem.u.data(), problem.p.data(), backward);
+      const auto expected = testing::lever_gauss_seidel_twin(
+          twin.rows(), twin.blocks.size(), twin.u.data(), twin.p.data(), backward);
+      REQUIRE(same_bits(sums.residual, expected.residual));
+    });
+  }
+}
+
+TEMPLATE_TEST_CASE("pushes over levers have the bits of their plain-loop twin", "", float, double) {
+  on_random_problems<TestType>([](const auto& kernels, auto& problem, auto& twin) {
+    kernels.add_pushes(problem.rows(), problem.blocks.size(), problem.p.data(),
+                       problem.pushes.data());
+    testing::lever_pushes_twin(twin.rows(), twin.blocks.size(), twin.p.data(), twin.pushes.data());
+  });
+}
+
+TEMPLATE_TEST_CASE("the residual over levers has the bits of its plain-loop twin", "", float,
+                   double) {
+  on_random_problems<TestType>([](const auto& kernels, auto& problem, auto& twin) {
+    const auto residual =
+        kernels.residual(problem.rows(), problem.blocks.size(), problem.u.data(), problem.p.data());
+    REQUIRE(same_bits(residual, testing::lever_residual_twin(twin.rows(), twin.blocks.size(),
+                                                             twin.u.data(), twin.p.data())));
+  });
+}
+
+/// Two grains of mass 1 and a point of contact between them, in lane 5.
+template <class Real>
+LeverProblem<Real> one_contact(Real lever_a, Real lever_b) {
+  Draw draw(1);
+  LeverProblem<Real> problem;
+  problem.u = random_records<Real>(true, draw);
+  for (Record<Real>& record : problem.u) record = {0, 0, 0, Real(1)};
+  problem.pushes.assign(problem.u.size(), {0, 0, 0, 0});
+  problem.blocks.resize(1);
+  problem.points.resize(1);
+  problem.blocks[0].points = 1;
+  problem.p.assign(block_width, 0);
+  for (std::size_t lane = 0; lane < block_width; ++lane) {
+    problem.blocks[0].set_grains(lane, lane == 5 ? 0 : void_a, lane == 5 ? 1 : void_b);
+    problem.blocks[0].normal_x[lane] = 1;
+    problem.blocks[0].normal_y[lane] = problem.blocks[0].normal_z[lane] = 0;
+    set_void_point(problem.points[0], lane);
+  }
+  problem.points[0].lever_a[2][5] = lever_a;
+  problem.points[0].lever_b[1][5] = lever_b;
+  problem.points[0].gap[5] = 0;
+  problem.points[0].reduced_mass[5] = 1 / (2 + lever_a * lever_a + lever_b * lever_b);
+  return problem;
+}
+
+TEMPLATE_TEST_CASE("one impulse stops the approach of two grains at their point of contact", "",
+                   float, double) {
+  for (const Isa isa : testing::testable_isas()) {
+    INFO(name_of(isa));
+    LeverProblem<TestType> problem = one_contact(TestType(1), TestType(-1));
+    problem.u[0].x = 1;  // a runs into b: the approach is 1, A is 4, so the impulse is 1/4
+    const auto sums =
+        lever_kernels<TestType>(kernels_for(isa))
+            .gauss_seidel_sweep(problem.rows(), 1, problem.u.data(), problem.p.data(), false);
+    CHECK(sums.residual == TestType(0.25));
+    CHECK(problem.p[5] == TestType(0.25));
+    CHECK(problem.u[0].x == TestType(0.75));
+    CHECK(problem.u[1].z == TestType(-0.25));  // the turns that the levers of a and b give
+    CHECK(problem.u[2].x == TestType(0.25));
+    CHECK(problem.u[3].y == TestType(-0.25));
+    CHECK(testing::lever_twin(problem.rows(), 0, 5, 0).gap_after(problem.u.data()) == 0);
+  }
+}
+
+}  // namespace
+}  // namespace grainsweep

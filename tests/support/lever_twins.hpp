@@ -1,0 +1,149 @@
+// Plain-loop twins of the lever kernels: one contact after the other, the same operations in the
+// same order, nothing else. The kernels must agree with them to the last bit.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+
+#include "kernels/kernels.hpp"
+#include "tests/support/row_twins.hpp"
+
+namespace grainsweep::testing {
+
+/// Point i of the contact in one lane of a block.
+template <class Real>
+struct LeverTwin {
+  const LeverBlock<Real>& c;
+  const LeverPoints<Real>& r;
+  std::size_t lane;
+
+  Real normal(const Record<Real>& v) const {
+    return c.normal_x[lane] * v.x + c.normal_y[lane] * v.y + c.normal_z[lane] * v.z;
+  }
+  Real along(const Real (&lever)[3][block_width], const Record<Real>& turn) const {
+    return lever[0][lane] * turn.x + lever[1][lane] * turn.y + lever[2][lane] * turn.z;
+  }
+  Real gap_after(const Record<Real>* u) const {
+    const Record<Real>*a = u + 2 * c.a(lane), *b = u + 2 * c.b(lane);
+    const Real approach = normal({b[0].x - a[0].x, b[0].y - a[0].y, b[0].z - a[0].z, 0});
+    return r.gap[lane] + (approach + (along(r.lever_b, b[1]) - along(r.lever_a, a[1])));
+  }
+};
+
+template <class Real>
+LeverTwin<Real> lever_twin(LeverRows<Real> rows, std::size_t block, std::size_t lane,
+                           std::size_t point) {
+  return {rows.blocks[block], rows.points[rows.blocks[block].first + point], lane};
+}
+
+/// Calls visit(its block, number of the block, lane) for every contact.
+template <class Real, class Visit>
+void visit_lanes(LeverRows<Real> rows, std::size_t blocks, bool backward, Visit visit) {
+  for (std::size_t step = 0; step < blocks; ++step) {
+    const std::size_t block = backward ? blocks - 1 - step : step;
+    for (std::size_t lane = 0; lane < block_width; ++lane) visit(rows.blocks[block], block, lane);
+  }
+}
+
+template <class Real>
+struct PushTwin {
+  Real normal = 0, a[3] = {}, b[3] = {};
+
+  void add(const LeverTwin<Real>& t, Real p) {
+    normal += p;
+    for (std::size_t k = 0; k < 3; ++k) {
+      a[k] += p * t.r.lever_a[k][t.lane];
+      b[k] += p * t.r.lever_b[k][t.lane];
+    }
+  }
+  void give(const LeverBlock<Real>& c, std::size_t lane, Record<Real>* pushes) const {
+    Record<Real>*from = pushes + 2 * c.a(lane), *to = pushes + 2 * c.b(lane);
+    const Real n[3] = {normal * c.normal_x[lane], normal * c.normal_y[lane],
+                       normal * c.normal_z[lane]};
+    from[0] = {from[0].x - n[0], from[0].y - n[1], from[0].z - n[2], from[0].w};
+    to[0] = {to[0].x + n[0], to[0].y + n[1], to[0].z + n[2], to[0].w};
+    from[1] = {from[1].x - a[0], from[1].y - a[1], from[1].z - a[2], from[1].w};
+    to[1] = {to[1].x + b[0], to[1].y + b[1], to[1].z + b[2], to[1].w};
+  }
+};
+
+template <class Real>
+SweepSums<Real> lever_gradient_twin(LeverRows<Real> rows, std::size_t blocks, const Record<Real>* u,
+                                    Record<Real>* pushes, Real* p, Real* y, Real inverse_bound,
+                                    Real momentum) {
+  Real residual = 0, uphill[block_width] = {};
+  visit_lanes(rows, blocks, false, [&](const auto& c, std::size_t block, std::size_t lane) {
+    PushTwin<Real> push;
+    for (std::size_t i = 0; i < c.points; ++i) {
+      const LeverTwin<Real> t = lever_twin(rows, block, lane, i);
+      const std::size_t at = (c.first + i) * block_width + lane;
+      const Real w = t.gap_after(u), y_old = y[at], p_old = p[at];
+      p[at] = larger(Real(0), y_old - w * (t.r.step_mass[lane] * inverse_bound));
+      y[at] = p[at] + momentum * (p[at] - p_old);
+      residual = larger(residual, std::abs(smaller(y_old, w * t.r.reduced_mass[lane])));
+      uphill[lane] += (y_old - p[at]) * (p[at] - p_old);
+      push.add(t, y[at]);
+    }
+    push.give(c, lane, pushes);
+  });
+  return {residual, tree_sum(uphill)};
+}
+
+/// Adds an impulse p, of either sign, to the two records of one side.
+template <class Real>
+void push_side_twin(const LeverBlock<Real>& c, const Real (&lever)[3][block_width],
+                    std::size_t lane, Real p, Record<Real>* side) {
+  side[0].x += side[0].w * (p * c.normal_x[lane]);
+  side[0].y += side[0].w * (p * c.normal_y[lane]);
+  side[0].z += side[0].w * (p * c.normal_z[lane]);
+  side[1].x += side[1].w * (p * lever[0][lane]);
+  side[1].y += side[1].w * (p * lever[1][lane]);
+  side[1].z += side[1].w * (p * lever[2][lane]);
+}
+
+template <class Real>
+SweepSums<Real> lever_gauss_seidel_twin(LeverRows<Real> rows, std::size_t blocks, Record<Real>* u,
+                                        Real* p, bool backward) {
+  Real residual = 0;
+  visit_lanes(rows, blocks, backward, [&](const auto& c, std::size_t block, std::size_t lane) {
+    for (std::size_t step = 0; step < c.points; ++step) {
+      const std::size_t i = backward ? c.points - 1 - step : step;
+      const LeverTwin<Real> t = lever_twin(rows, block, lane, i);
+      const std::size_t at = (c.first + i) * block_width + lane;
+      const Real w = t.gap_after(u) * t.r.reduced_mass[lane], p_old = p[at];
+      p[at] = larger(Real(0), p_old - w);
+      residual = larger(residual, std::abs(smaller(p_old, w)));
+      push_side_twin(c, t.r.lever_a, lane, Real(0) - (p[at] - p_old), u + 2 * c.a(lane));
+      push_side_twin(c, t.r.lever_b, lane, p[at] - p_old, u + 2 * c.b(lane));
+    }
+  });
+  return {residual, Real(0)};
+}
+
+template <class Real>
+void lever_pushes_twin(LeverRows<Real> rows, std::size_t blocks, const Real* p,
+                       Record<Real>* pushes) {
+  visit_lanes(rows, blocks, false, [&](const auto& c, std::size_t block, std::size_t lane) {
+    PushTwin<Real> push;
+    for (std::size_t i = 0; i < c.points; ++i) {
+      push.add(lever_twin(rows, block, lane, i), p[(c.first + i) * block_width + lane]);
+    }
+    push.give(c, lane, pushes);
+  });
+}
+
+template <class Real>
+Real lever_residual_twin(LeverRows<Real> rows, std::size_t blocks, const Record<Real>* u,
+                         const Real* p) {
+  Real worst = 0;
+  visit_lanes(rows, blocks, false, [&](const auto& c, std::size_t block, std::size_t lane) {
+    for (std::size_t i = 0; i < c.points; ++i) {
+      const LeverTwin<Real> t = lever_twin(rows, block, lane, i);
+      const Real w = t.gap_after(u) * t.r.reduced_mass[lane];
+      worst = larger(worst, std::abs(smaller(p[(c.first + i) * block_width + lane], w)));
+    }
+  });
+  return worst;
+}
+
+}  // namespace grainsweep::testing
