@@ -50,7 +50,7 @@ Found brute_force(const ShapeBed& bed, const TouchSettings& settings) {
       const PairContact c = touch(pair, settings, separating_axes(pair), clip, points);
       if (c.count > 0) names[{static_cast<int>(i), static_cast<int>(j)}] = c.count;
     }
-    const std::vector<Wall> all = walls_of(bed.box);
+    const auto all = walls_of(bed.box);
     for (std::size_t k = 0; k < all.size(); ++k) {
       std::size_t count = 0;
       for (const Vector& v : bed.shape.vertices) {
