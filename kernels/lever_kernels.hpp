@@ -17,11 +17,11 @@ namespace grainsweep {
 /// The normal is the unit vector from a to b, box frame.
 template <class Real>
 struct alignas(64) LeverBlock {
-  std::uint32_t offset_a[block_width];  ///< bytes from a column of Record<Real> to grain a's first
-  std::uint32_t offset_b[block_width];
-  Real normal_x[block_width];
-  Real normal_y[block_width];
-  Real normal_z[block_width];
+  std::uint32_t offset_a[block_width] = {};  ///< bytes from a column of records to grain a's first
+  std::uint32_t offset_b[block_width] = {};
+  Real normal_x[block_width] = {};
+  Real normal_y[block_width] = {};
+  Real normal_z[block_width] = {};
   std::uint32_t first = 0;   ///< its points are points[first] .. points[first + points - 1]
   std::uint32_t points = 0;  ///< of the contact with most; others are filled up with void points
 
@@ -46,7 +46,7 @@ struct alignas(64) LeverPoints {
   Real lever_b[3][block_width];    ///< in the frame of b
   Real gap[block_width];           ///< right-hand side, d; negative where grains overlap
   Real reduced_mass[block_width];  ///< 1 / A_kk, m: what one impulse on this row alone divides by
-  Real step_mass[block_width];     ///< 1 / D_k, m: the step of a gradient, D_k a sum over its contact
+  Real step_mass[block_width];  ///< 1 / D_k, m: the step of a gradient, D_k a sum over its contact
 };
 
 /// Rows as sweeps read them.

@@ -20,9 +20,9 @@ struct LeverPlaces {
 
 /// An impulse of a point that pushed.
 struct CarriedPoint {
-  std::int32_t other;  ///< the second side of its contact
-  Vector position;     ///< about the centre of the first grain, its frame, d
-  double impulse;      ///< masses times d
+  std::int32_t other = 0;            ///< the second side of its contact
+  Vector position = Vector::Zero();  ///< about the centre of the first grain, its frame, d
+  double impulse = 0.0;              ///< masses times d
 };
 
 /// Impulses of the last step, by the first grain of their contact.

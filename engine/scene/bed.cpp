@@ -45,9 +45,9 @@ SphereBed make_bed(const Box& box, const std::vector<PlacedSphere>& spheres) {
   return bed;
 }
 
-void wrap(const Box& box, Record<double>& p) {
-  p.x = box.x == Boundary::periodic ? wrapped(p.x, box.length) : p.x;
-  p.y = box.y == Boundary::periodic ? wrapped(p.y, box.width) : p.y;
+void wrap(const Box& box, Record<double>& centre) {
+  centre.x = box.x == Boundary::periodic ? wrapped(centre.x, box.length) : centre.x;
+  centre.y = box.y == Boundary::periodic ? wrapped(centre.y, box.width) : centre.y;
 }
 
 void wrap(SphereBed& bed) {

@@ -325,8 +325,9 @@ TEST_CASE("a grain that falls through empty air to another one is seen to come n
   CHECK_FALSE(still_complete(bed, near, candidates));
 }
 
-// Layers are one cell, here 2 r + reach = 1.13 high and what rounding adds. The middle grain stays, so that
-// neither of the others moves by more than the margin relative to its own neighbouring layer.
+// Layers are one cell, here 2 r + reach = 1.13 high and what rounding adds. The middle grain stays,
+// so that neither of the others moves by more than the margin relative to its own neighbouring
+// layer.
 TEST_CASE("grains two layers apart that approach each other are seen to come near") {
   const double layer = 1 + reach + 4e-5, tiny = 1e-9;
   SphereBed bed = make_bed(boxes[0], {{7, 2, 0.5, 0.5},
