@@ -137,7 +137,7 @@ inline Pairs pairs_of(const Grains& grains, std::size_t lane) {
   Vec axis_a[3];
   columns_of(qa, axis_a);
   const Vec d{load(grains.dx + lane), load(grains.dy + lane), load(grains.dz + lane)};
-  Pairs pairs;
+  Pairs pairs{};
   pairs.centre = {dot(axis_a[0], d), dot(axis_a[1], d), dot(axis_a[2], d)};
   pairs.scale_a = load(grains.scale_a + lane);
   pairs.scale_b = load(grains.scale_b + lane);
@@ -312,8 +312,8 @@ void test_blocks(const PinacoidHalves& shape, PinacoidBlock* pairs, std::size_t 
                  const Record<double>* centres, const Record<double>* orientations, double period_x,
                  double period_y) {
   const Pinacoid p = pinacoid_of(shape);
+  Grains grains{};
   for (std::size_t block = 0; block < blocks; ++block) {
-    Grains grains;
     read_grains(pairs[block], centres, orientations, period_x, period_y, grains);
     for (std::size_t lane = 0; lane < block_width; lane += batch_width<float>) {
       test_pairs(p, grains, lane, pairs[block]);
