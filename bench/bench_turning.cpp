@@ -20,7 +20,8 @@ FrozenShapes<Real> frozen_shapes(double grains) {
   PackingSpec spec;
   spec.box = {20, 5, Boundary::periodic, Boundary::walls};
   spec.fill = GrainCount{static_cast<std::int64_t>(grains)};
-  FrozenShapes<Real> frozen{*start_shapes(spec, pinacoid({})), {}};
+  spec.shape = PinacoidSize{};
+  FrozenShapes<Real> frozen{*start_shapes(spec), {}};
   StepSettings settings{0.2, 0.95, 0.2, 0.05, 0.05, {}};
   settings.limits.iterations = 40;
   for (int k = 0; k < 60; ++k) {

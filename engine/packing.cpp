@@ -5,13 +5,17 @@
 #include <limits>
 
 #include "engine/dynamics/settle.hpp"
+#include "engine/measure/bond_order.hpp"
 #include "engine/measure/coordination.hpp"
 #include "engine/measure/order.hpp"
 #include "engine/measure/profile.hpp"
+#include "engine/measure/shape_order.hpp"
 #include "engine/measure/solid_fraction.hpp"
 #include "engine/measure/touching.hpp"
+#include "engine/scene/shape_start.hpp"
 #include "engine/scene/sizes.hpp"
 #include "engine/scene/start.hpp"
+#include "engine/shape/given_shape.hpp"
 #include "engine/units.hpp"
 
 namespace grainsweep {
@@ -24,7 +28,8 @@ Packing failed(std::string reason) {
   return packing;
 }
 
-PackingResult result_of(const SphereBed& bed, const SettleReport& settled) {
+template <class Bed>
+PackingResult result_of(const Bed& bed, const SettleReport& settled) {
   PackingResult result;
   result.status = settled.cancelled         ? PackingStatus::cancelled
                   : settled.why_not.empty() ? PackingStatus::settled
@@ -43,32 +48,42 @@ double widest(const std::vector<double>& tolerances) {
   return *std::max_element(tolerances.begin(), tolerances.end());
 }
 
-/// Measures what `spec` asks for; a bed too low to hold a slab fails with the reason.
-void measure(const PackingSpec& packing, const Touching& touching,
-             const std::vector<PairForce>& pair_forces, const Kernels& kernels, SphereBed& bed,
-             PackingResult& result) {
-  const MeasureSpec& spec = packing.measure;
-  result.surface_height = surface_height(bed);
+/// The slab that is measured; a bed too low to hold one fails with the reason.
+std::optional<Slab> slab_of(const MeasureSpec& spec, PackingResult& result) {
   const Slab slab{spec.exclude_floor, result.surface_height - spec.exclude_surface};
   result.slab_bottom = slab.bottom;
   result.slab_top = slab.top;
-  if (!(slab.height() >= 1.0)) {
-    result.status = PackingStatus::failed;
-    result.reason =
-        "the bed is too low to be measured: less than 1 d is left between the zones "
-        "above the floor and below the surface; fill in more grains or make "
-        "measure.exclude_floor and measure.exclude_surface smaller";
-    return;
-  }
-  result.solid_fraction = solid_fraction(bed, slab);
+  if (slab.height() >= 1.0) return slab;
+  result.status = PackingStatus::failed;
+  result.reason =
+      "the bed is too low to be measured: less than 1 d is left between the zones "
+      "above the floor and below the surface; fill in more grains or make "
+      "measure.exclude_floor and measure.exclude_surface smaller";
+  return std::nullopt;
+}
+
+/// What is measured in the same way whatever grains are: `centres` are spheres, or balls of half
+/// the size of each grain. `near` holds all pairs and walls within reach of a tolerance or a bond.
+void measure_neighbours(const PackingSpec& packing, const Touching& near,
+                        const SettleReport& settled, const Slab& slab, const SphereBed& centres,
+                        PackingResult& result) {
+  const MeasureSpec& spec = packing.measure;
   for (const double tolerance : spec.gap_tolerances) {
-    result.coordination.push_back(coordination(bed, touching, slab, tolerance));
+    result.coordination.push_back(coordination(centres, near, slab, tolerance));
   }
-  const double small_below = small_class_limit(packing.sizes), gap = spec.gap_tolerances.front();
-  const ProfileSettings bins{spec.bin_width, small_below, gap};
-  result.profile_y = profile_along_y(bed, touching, slab, bins);
-  result.profile_z = profile_along_z(bed, touching, bins);
-  result.order = measure_order(bed, touching, pair_forces, slab, {small_below, gap}, kernels);
+  const OrderSettings settings{small_class_limit(packing.sizes), spec.gap_tolerances.front()};
+  result.order = measure_order(centres, near, settled.pair_forces, slab, settings);
+}
+
+ProfileSettings bins_of(const PackingSpec& packing) {
+  const MeasureSpec& spec = packing.measure;
+  return {spec.bin_width, small_class_limit(packing.sizes), spec.gap_tolerances.front()};
+}
+
+/// Pairs and walls with a gap below the widest tolerance, or short enough for a bond.
+template <class Bed>
+Touching find_near(const MeasureSpec& spec, const Kernels& kernels, Bed& bed) {
+  return find_touching(bed, std::max(widest(spec.gap_tolerances), longest_bond_gap), kernels);
 }
 
 void measure_sizes(const SphereBed& bed, PackingResult& result) {
@@ -83,15 +98,90 @@ void measure_sizes(const SphereBed& bed, PackingResult& result) {
   result.mean_diameter_by_volume = by_volume / volume;
 }
 
-std::vector<SettledGrain> grains_of(const SphereBed& bed, const Touching& touching,
+std::vector<SettledGrain> grains_of(const SphereBed& bed, const Touching& near,
                                     double gap_tolerance, const std::vector<double>& force) {
-  const auto neighbours = neighbour_counts(bed.grains(), touching, gap_tolerance);
+  const auto neighbours = neighbour_counts(bed.grains(), near, gap_tolerance);
   std::vector<SettledGrain> grains(bed.grains());
   for (std::size_t i = 0; i < grains.size(); ++i) {
     const Record<double>& p = bed.position[i];
     grains[i] = {p.x, p.y, p.z, p.w, force[i], neighbours[i]};
   }
   return grains;
+}
+
+/// Measures what `spec` asks for.
+void measure(const PackingSpec& spec, const SettleReport& settled, const Kernels& kernels,
+             SphereBed& bed, Packing& packing) {
+  PackingResult& result = packing.result;
+  measure_sizes(bed, result);
+  const Touching near = find_near(spec.measure, kernels, bed);
+  packing.grains = grains_of(bed, near, spec.measure.gap_tolerances.front(), settled.force);
+  result.surface_height = surface_height(bed);
+  if (const auto slab = slab_of(spec.measure, result)) {
+    result.solid_fraction = solid_fraction(bed, *slab);
+    measure_neighbours(spec, near, settled, *slab, bed, result);
+    result.profile_y = profile_along_y(bed, near, *slab, bins_of(spec));
+    result.profile_z = profile_along_z(bed, near, bins_of(spec));
+  }
+}
+
+/// The mesh in the frame in which the shape was written, about its centroid.
+Mesh mesh_of(const ConvexShape& shape) {
+  Mesh mesh;
+  for (const Vector& vertex : shape.vertices) {
+    const Vector v = shape.given.rotation * vertex;
+    mesh.vertices.push_back({v.x(), v.y(), v.z()});
+  }
+  for (const Face& face : shape.faces) {
+    const auto first = shape.loops.begin() + face.first;
+    mesh.faces.emplace_back(first, first + face.corners);
+  }
+  return mesh;
+}
+
+Turned turned_of(const ShapeBed& bed) {
+  Turned turned{mesh_of(bed.shape), {}};
+  const Quaternion back = Quaternion(bed.shape.given.rotation).conjugate();
+  for (std::size_t i = 0; i < bed.grains(); ++i) {
+    const Quaternion q = bed.pose(i).orientation * back;
+    turned.orientations.push_back({q.x(), q.y(), q.z(), q.w()});
+  }
+  return turned;
+}
+
+/// The same of grains that turn.
+void measure(const PackingSpec& spec, const SettleReport& settled, const Kernels& kernels,
+             ShapeBed& bed, Packing& packing) {
+  PackingResult& result = packing.result;
+  const Touching near = find_near(spec.measure, kernels, bed);
+  SphereBed centres;
+  set_balls(bed, 0.5, centres);
+  measure_sizes(centres, result);
+  packing.grains = grains_of(centres, near, spec.measure.gap_tolerances.front(), settled.force);
+  packing.turned = turned_of(bed);
+  result.surface_height = surface_height(bed);
+  if (const auto slab = slab_of(spec.measure, result)) {
+    result.solid_fraction = solid_fraction(bed, *slab);
+    measure_neighbours(spec, near, settled, *slab, centres, result);
+    result.profile_y = profile_along_y(bed, centres, near, *slab, bins_of(spec));
+    result.profile_z = profile_along_z(bed, centres, near, bins_of(spec));
+    result.shape_order = measure_shape_order(bed, settled.pair_forces, *slab);
+  }
+}
+
+/// From the start to the measured values.
+template <class Bed>
+Packing pack(const PackingSpec& spec, const Processor& processor, const KeepGoing& keep_going,
+             std::string_view saved, std::optional<Bed> bed) {
+  if (!bed) {
+    return failed(
+        "a grain found no room in the box: it is larger than the gap between the walls, "
+        "or the box is too crowded");
+  }
+  const SettleReport settled = settle(spec.accuracy, processor, *bed, keep_going, saved);
+  Packing packing{result_of(*bed, settled), {}, {}};
+  if (!settled.cancelled) measure(spec, settled, processor.kernels, *bed, packing);
+  return packing;
 }
 
 }  // namespace
@@ -112,23 +202,8 @@ const char* name_of(PackingStatus status) {
 
 Packing make_packing(const PackingSpec& spec, const Processor& processor,
                      const KeepGoing& keep_going, std::string_view saved) {
-  std::optional<SphereBed> bed = start(spec);
-  if (!bed) {
-    return failed(
-        "a grain found no room in the box: it is larger than the gap between the walls, "
-        "or the box is too crowded");
-  }
-  const SettleReport settled = settle(spec.accuracy, processor, *bed, keep_going, saved);
-  Packing packing{result_of(*bed, settled), {}};
-  if (settled.cancelled) {
-    return packing;
-  }
-  measure_sizes(*bed, packing.result);
-  const Touching touching =
-      find_touching(*bed, widest(spec.measure.gap_tolerances), processor.kernels);
-  measure(spec, touching, settled.pair_forces, processor.kernels, *bed, packing.result);
-  packing.grains = grains_of(*bed, touching, spec.measure.gap_tolerances.front(), settled.force);
-  return packing;
+  if (is_sphere(spec.shape)) return pack(spec, processor, keep_going, saved, start(spec));
+  return pack(spec, processor, keep_going, saved, start_shapes(spec));
 }
 
 // Measured on one core of a 2.4 GHz server: a sweep over a row costs 2.7 ns, and a bed has about

@@ -4,6 +4,7 @@
 // instruction set runs it. It reads no file and no clock, prints nothing and starts no thread.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -29,13 +30,15 @@ const char* name_of(PackingStatus status);
 
 /// How far from rest a bed is. Forces in m g, lengths in d, energies in m g d.
 struct RestReport {
-  double residual = 0.0;                ///< worst force-balance residual of a row, m g
-  double kinetic_energy = 0.0;          ///< mean per grain of 1/2 m (dx/dt)^2, m g d
-  double largest_motion = 0.0;          ///< largest displacement of a grain in the last step, d
-  double overlap_mean = 0.0;            ///< mean over force-bearing contacts of max(0, -gap), d
-  double overlap_max = 0.0;             ///< deepest overlap, d
-  std::int64_t contacts = 0;            ///< force-bearing contacts, walls and floor included
-  std::int64_t isostatic_contacts = 0;  ///< 3 N - zero modes
+  double residual = 0.0;        ///< worst force-balance residual of a row, m g
+  double kinetic_energy = 0.0;  ///< mean per grain of 1/2 m (dx/dt)^2, m g d
+  double largest_motion = 0.0;  ///< largest displacement of a grain in the last step, d
+  double overlap_mean = 0.0;    ///< mean over force-bearing contacts of max(0, -gap), d
+  double overlap_max = 0.0;     ///< deepest overlap, d
+  /// Force-bearing contacts, walls and floor included; of polyhedra a contact along a line counts
+  /// 2, one over an area 3.
+  std::int64_t contacts = 0;
+  std::int64_t isostatic_contacts = 0;  ///< 3 N - zero modes; 6 N of grains that turn
 };
 
 /// What a direct solve of force balance on the final force-bearing contacts says; see
@@ -71,6 +74,7 @@ struct PackingResult {
   Profile profile_y;                       ///< from wall to wall, in the slab
   Profile profile_z;                       ///< from the floor up
   Order order;                             ///< of the slab
+  std::optional<ShapeOrder> shape_order;   ///< of grains that are no spheres
   std::int64_t steps = 0;
   std::int64_t iterations = 0;
   std::uint64_t state_hash = 0;  ///< of the final positions and radii
@@ -78,14 +82,29 @@ struct PackingResult {
 
 /// A grain of the finished bed, as `export` writes it.
 struct SettledGrain {
-  double x = 0.0, y = 0.0, z = 0.0, radius = 0.0;  ///< d; x and y inside the box
+  double x = 0.0, y = 0.0, z = 0.0, radius = 0.0;  ///< d; x and y inside the box; half its size
   double force = 0.0;         ///< sum of the magnitudes of its contact forces, m g
   std::int32_t touching = 0;  ///< touching grains at the first gap tolerance, walls not counted
+};
+
+/// The surface of a grain of size 1 in its own frame, d.
+struct Mesh {
+  std::vector<std::array<double, 3>> vertices;
+  std::vector<std::vector<std::int32_t>> faces;  ///< counter-clockwise seen from outside
+};
+
+/// What grains have that are no spheres.
+struct Turned {
+  Mesh mesh;
+  /// Unit quaternion x, y, z, w of each grain: a point of the mesh lies at centre + 2 radius times
+  /// the turned point.
+  std::vector<std::array<double, 4>> orientations;
 };
 
 struct Packing {
   PackingResult result;
   std::vector<SettledGrain> grains;  ///< in the order of the start, empty unless a bed exists
+  std::optional<Turned> turned;      ///< unless they are spheres
 };
 
 /// Where a packing stands; `share_done` is an estimate in [0, 1] that never falls.

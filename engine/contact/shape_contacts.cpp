@@ -6,21 +6,10 @@ namespace grainsweep {
 
 namespace {
 
-/// Circumscribed balls where the grains are now.
-void set_balls(const ShapeBed& bed, SphereBed& balls) {
-  if (balls.position.empty() || balls.grains() != bed.grains()) {
-    balls = make_bed(bed.box, std::vector<PlacedSphere>(bed.grains()));
-  }
-  for (std::size_t i = 0; i < bed.grains(); ++i) {
-    const Record<double>& p = bed.centre[i];
-    balls.position[i] = {p.x, p.y, p.z, bed.circumradius(i)};
-  }
-}
-
 bool renew_candidates(const ShapeSearchSettings& settings, const Processor& processor,
                       ShapeBed& bed, ShapeSearch& search) {
   const double near = settings.touch.margin;
-  set_balls(bed, search.balls);
+  set_balls(bed, bed.shape.circumradius, search.balls);
   if (search.has_candidates && still_complete(search.balls, near, search.candidates)) {
     return false;
   }

@@ -51,6 +51,7 @@ struct PairForce {
   std::int32_t a = 0, b = 0;
   double height = 0.0;     ///< mean z of the two centres, d
   double magnitude = 0.0;  ///< m g
+  int constraints = 1;     ///< 1 at a point, as of spheres, 2 along a line, 3 over an area
 };
 
 /// All pairs that bear a force.

@@ -7,34 +7,32 @@ namespace grainsweep {
 
 namespace {
 
-/// What a step takes over from the motion of the last one.
-enum class Inertia { none, damped, full };
+using enum StageEnd;
+constexpr Inertia none = Inertia::none, damped = Inertia::damped, full = Inertia::full;
+constexpr double two_thirds = 2.0 / 3.0;
 
-/// What a stage changes in a step. Motions and overlaps go with the square of a step, so that
-/// shorter steps need to look less far.
-struct StageRule {
-  double step;  ///< in steps of the fall
-  Inertia inertia;
-  double correction;   ///< share of an overlap that a step repairs
-  double near;         ///< pairs with a smaller gap are rows, d
-  double margin;       ///< candidates reach this much further, d
-  double iterations;   ///< most iterations a step, in rest_iterations; 0: those of the fall
-  double usual_begin;  ///< share of the work that is usually done before it and after it
-  double usual_end;
-  std::int64_t usual_steps;  ///< the creep's are in the accuracy
+// An impact has a kinetic energy of about 0.2 m g d; grains that turn go on rattling at a few 1e-3.
+// Contacts go on closing for about as many steps as a quench has at least.
+constexpr StageRule heavy_ball[] = {
+    {look, 0.5, none, 1.0, 0.01, 0.01, 2.0, 8, 0.0, 0.0, 8, 0.0, 0.0},
+    {fallen, 1.0, damped, 0.1, 0.08, 0.01, 0.0, 1, 0.0, 0.0, 160, 0.0, 0.3, 5e-3},
+    {steps, 2.0, damped, 0.3, 0.05, 0.01, 0.5, 0, 0.0, two_thirds, 0, 0.3, 0.5},  // loose creep
+    {steps, 2.0, damped, 0.3, 0.05, 0.01, 1.0, 0, two_thirds, 1.0, 0, 0.5, 0.75},
+    {steps, 1.0, none, 1.0, 0.02, 0.01, 2.0, 6, 0.0, 0.0, 6, 0.75, 0.85},
+    {rest, 0.5, none, 1.0, 0.01, 0.01, 2.0, 8, 0.0, 0.0, 12, 0.85, 1.0},
 };
-
-constexpr StageRule rules[] = {
-    {0.5, Inertia::none, 1.0, 0.01, 0.01, 2.0, 0.0, 0.0, 8},       // look: quench as it is
-    {1.0, Inertia::damped, 0.1, 0.08, 0.01, 0.0, 0.0, 0.3, 160},   // fall
-    {0.25, Inertia::full, 0.0, 0.08, 0.05, 0.0, 0.0, 0.85, 1200},  // dynamic fall
-    {2.0, Inertia::damped, 0.3, 0.05, 0.01, 0.5, 0.3, 0.5, 0},     // loose creep
-    {2.0, Inertia::damped, 0.3, 0.05, 0.01, 1.0, 0.5, 0.75, 0},    // creep
-    {1.0, Inertia::none, 1.0, 0.02, 0.01, 2.0, 0.75, 0.85, 6},     // halt
-    {0.5, Inertia::none, 1.0, 0.01, 0.01, 2.0, 0.85, 1.0, 12},     // quench
+constexpr StageRule dynamic[] = {
+    heavy_ball[0],
+    {halted, 0.25, full, 0.0, 0.08, 0.05, 0.0, 1, 0.0, 0.0, 1200, 0.0, 0.85, 5e-3},
+    heavy_ball[5],
 };
-
-const StageRule& rule(Stage stage) { return rules[static_cast<std::size_t>(stage)]; }
+constexpr StageRule turning[] = {
+    {look, 0.25, none, 0.5, 0.03, 0.05, 4.0 / 3.0, 8, 0.0, 0.0, 8, 0.0, 0.0},
+    {fallen, 1.0, damped, 0.2, 0.05, 0.05, 0.0, 1, 0.0, 0.0, 110, 0.0, 0.35, 1e-2},
+    {steps, 1.0, damped, 0.1, 0.03, 0.05, 0.2, 0, 0.0, 2.0, 0, 0.35, 0.6},
+    {steps, 0.5, damped, 0.1, 0.03, 0.05, two_thirds, 40, 0.0, 0.0, 40, 0.6, 0.8},
+    {rest, 0.25, none, 0.5, 0.03, 0.05, 4.0 / 3.0, 40, 0.0, 0.0, 44, 0.8, 1.0},
+};
 
 int iterations_of(const Accuracy& accuracy, const StageRule& r) {
   return r.iterations == 0.0
@@ -43,21 +41,24 @@ int iterations_of(const Accuracy& accuracy, const StageRule& r) {
 }
 
 double momentum_of(const Accuracy& accuracy, Inertia inertia) {
-  return inertia == Inertia::none ? 0.0 : inertia == Inertia::damped ? accuracy.momentum : 1.0;
+  return inertia == none ? 0.0 : inertia == damped ? accuracy.momentum : 1.0;
 }
 
-std::int64_t loose_creep_steps(const Accuracy& accuracy) { return 2 * accuracy.creep_steps / 3; }
-
-double usual_steps(const Accuracy& accuracy, Stage stage) {
-  const std::int64_t usual = rule(stage).usual_steps;
-  return static_cast<double>(
-      std::max<std::int64_t>(1, usual > 0 ? usual : steps_of(accuracy, stage)));
+/// Step of the creep at which a share of it is over; shares of thirds have rounding errors.
+std::int64_t creep_step(const Accuracy& accuracy, double share) {
+  constexpr double rounding = 1e-9;
+  return static_cast<std::int64_t>(std::floor(share * accuracy.creep_steps + rounding));
 }
 
 }  // namespace
 
-StepSettings settings_of(const Accuracy& accuracy, Stage stage) {
-  const StageRule& r = rule(stage);
+Stages stages_of_spheres(Protocol protocol) {
+  return protocol == Protocol::dynamic ? Stages(dynamic) : Stages(heavy_ball);
+}
+
+Stages stages_of_shapes() { return turning; }
+
+StepSettings settings_of(const Accuracy& accuracy, const StageRule& r) {
   StepSettings s;
   s.dt = r.step * accuracy.step;
   s.momentum = momentum_of(accuracy, r.inertia);
@@ -68,30 +69,14 @@ StepSettings settings_of(const Accuracy& accuracy, Stage stage) {
   return s;
 }
 
-std::int64_t steps_of(const Accuracy& accuracy, Stage stage) {
-  constexpr std::int64_t least_quench = 8;  // contacts go on closing for about as many
-  switch (stage) {
-    case Stage::look:
-    case Stage::quench:
-      return least_quench;
-    case Stage::loose_creep:
-      return loose_creep_steps(accuracy);
-    case Stage::creep:
-      return accuracy.creep_steps - loose_creep_steps(accuracy);
-    case Stage::halt:
-      return rule(stage).usual_steps;
-    case Stage::fall:
-    case Stage::dynamic_fall:
-      return 1;
-    case Stage::rest:
-      break;
-  }
-  return 0;
+std::int64_t steps_of(const Accuracy& accuracy, const StageRule& r) {
+  return r.least_steps + creep_step(accuracy, r.creep_end) - creep_step(accuracy, r.creep_begin);
 }
 
-double share_done(const Accuracy& accuracy, Stage stage, std::int64_t steps_in_stage) {
-  const StageRule& r = rule(stage);
-  const double in_stage = static_cast<double>(steps_in_stage) / usual_steps(accuracy, stage);
+double share_done(const Accuracy& accuracy, const StageRule& r, std::int64_t steps_in_stage) {
+  const std::int64_t usual =
+      std::max<std::int64_t>(1, r.usual_steps > 0 ? r.usual_steps : steps_of(accuracy, r));
+  const double in_stage = static_cast<double>(steps_in_stage) / static_cast<double>(usual);
   return r.usual_begin + (r.usual_end - r.usual_begin) * in_stage / (1.0 + in_stage);
 }
 

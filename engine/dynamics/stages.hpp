@@ -1,24 +1,58 @@
-// The stages of settling: what a step is like in each, and how long they usually take.
-// What each is for is told in engine/dynamics/settle.hpp.
+// The stages of settling: what a step is like in each, what ends it, and how long they usually
+// take. What each is for is told in engine/dynamics/settle.hpp.
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 #include "engine/dynamics/step.hpp"
 #include "engine/scene/spec.hpp"
 
 namespace grainsweep {
 
-/// The creep has two parts: its loose and its good solves. `rest` is the end.
-enum class Stage { look, fall, dynamic_fall, loose_creep, creep, halt, quench, rest };
+/// What ends a stage once it has taken its steps.
+enum class StageEnd {
+  steps,   ///< nothing else
+  look,    ///< nothing else, or that the floor does not carry the bed
+  fallen,  ///< the floor carries the bed, which has lost its speed
+  halted,  ///< the same, and the bed's kinetic energy is below its tolerance
+  rest,    ///< every test of rest holds
+};
 
-/// A step of a stage. Requires a stage before `rest`.
-StepSettings settings_of(const Accuracy& accuracy, Stage stage);
+/// What a step takes over from the motion of the last one.
+enum class Inertia { none, damped, full };
+
+/// What a stage changes in a step. Motions and overlaps go with the square of a step, so that
+/// shorter steps need to look less far.
+struct StageRule {
+  StageEnd end;
+  double step;  ///< in steps of the fall
+  Inertia inertia;
+  double correction;         ///< share of an overlap that a step repairs
+  double near;               ///< pairs with a smaller gap are rows, d
+  double margin;             ///< candidates reach this much further, d
+  double iterations;         ///< most iterations a step, in rest_iterations; 0: those of the fall
+  std::int64_t least_steps;  ///< besides those of the creep
+  double creep_begin;        ///< part of the creep that it takes, in creep_steps
+  double creep_end;
+  std::int64_t usual_steps;  ///< of stages that end on a condition
+  double usual_begin;        ///< share of the work that is usually done before it and after it
+  double usual_end;
+  double energy = 0.0;  ///< m g d per grain; a bed with less of it has lost its speed
+};
+
+/// The stages in their order, the first a look at the bed as it is given.
+using Stages = std::span<const StageRule>;
+Stages stages_of_spheres(Protocol protocol);
+Stages stages_of_shapes();
+
+/// A step of a stage.
+StepSettings settings_of(const Accuracy& accuracy, const StageRule& stage);
 
 /// Steps that a stage takes; for the stages that end on a condition, the least.
-std::int64_t steps_of(const Accuracy& accuracy, Stage stage);
+std::int64_t steps_of(const Accuracy& accuracy, const StageRule& stage);
 
 /// Share of the work done after some steps of a stage: an estimate for progress bars.
-double share_done(const Accuracy& accuracy, Stage stage, std::int64_t steps_in_stage);
+double share_done(const Accuracy& accuracy, const StageRule& stage, std::int64_t steps_in_stage);
 
 }  // namespace grainsweep

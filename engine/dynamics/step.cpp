@@ -80,7 +80,17 @@ StepReport step(const StepSettings& settings, const Processor& processor, Sphere
   return report;
 }
 
+template <class Real>
+void change_step(double ratio, SphereBed& bed, StepState<Real>& state) {
+  state.has_candidates = false;
+  for (Record<double>& m : bed.motion) m = {ratio * m.x, ratio * m.y, ratio * m.z, m.w};
+  for (Real& impulse : state.contacts.impulse) impulse *= static_cast<Real>(ratio * ratio);
+}
+
 template StepReport step(const StepSettings&, const Processor&, SphereBed&, StepState<float>&);
 template StepReport step(const StepSettings&, const Processor&, SphereBed&, StepState<double>&);
+
+template void change_step(double, SphereBed&, StepState<float>&);
+template void change_step(double, SphereBed&, StepState<double>&);
 
 }  // namespace grainsweep

@@ -45,4 +45,9 @@ template <class Real>
 StepReport step(const StepSettings& settings, const Processor& processor, SphereBed& bed,
                 StepState<Real>& state);
 
+/// Velocities stay as they are when the next step is `ratio` times as long as the last one: motions
+/// scale with it, impulses with its square. Candidates are listed anew.
+template <class Real>
+void change_step(double ratio, SphereBed& bed, StepState<Real>& state);
+
 }  // namespace grainsweep

@@ -4,6 +4,7 @@
 // room, no value: a packing has the same bits with a fresh workspace and with a used one.
 #pragma once
 
+#include "engine/dynamics/shape_step.hpp"
 #include "engine/dynamics/step.hpp"
 
 namespace grainsweep {
@@ -12,18 +13,9 @@ namespace grainsweep {
 struct Workspace {
   StepState<float> f32;
   StepState<double> f64;
+  ShapeStepState<float> turning_f32;
+  ShapeStepState<double> turning_f64;
 };
-
-template <class Real>
-StepState<Real>& step_state(Workspace& workspace);
-template <>
-inline StepState<float>& step_state(Workspace& workspace) {
-  return workspace.f32;
-}
-template <>
-inline StepState<double>& step_state(Workspace& workspace) {
-  return workspace.f64;
-}
 
 /// Forgets the last packing but keeps its memory.
 template <class Real>
@@ -34,6 +26,14 @@ void forget(StepState<Real>& state) {
   state.contacts.ranges.clear();
   state.contacts.walls.clear();
   state.contacts.pair_blocks = 0;
+}
+template <class Real>
+void forget(ShapeStepState<Real>& state) {
+  state.search.has_candidates = false;
+  state.contacts.contacts.clear();
+  state.contacts.points.clear();
+  state.places.first.clear();
+  state.rows.impulse.clear();
 }
 
 }  // namespace grainsweep

@@ -3,6 +3,7 @@
 // made.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -40,6 +41,14 @@ struct Order {
   double force_square = 0.0;  ///< mean square of a force over the mean of its layer
   Curve pair_correlation;     ///< g over distance, d
   Curve force_density;        ///< probability density of a force over the mean of its layer
+};
+
+/// How polyhedra touch and point, in the measured slab. A contact is simple at a point, double
+/// along a line, triple over an area. A number that the slab does not give is NaN.
+struct ShapeOrder {
+  std::array<double, 3> contact_share{};  ///< of the force-bearing contacts, simple, double, triple
+  std::array<double, 3> force_share{};    ///< of the sum of their forces
+  std::array<double, 3> nematic{};  ///< nematic order of the axes x, y, z of the shape's frame
 };
 
 }  // namespace grainsweep

@@ -60,15 +60,15 @@ double segregation(const SphereBed& bed, const Slab& slab, double small_below) {
   return (small_height / small - large_height / large) / slab.height();  // 0 / 0 is NaN
 }
 
-Order measure_order(SphereBed& bed, const Touching& touching,
+Order measure_order(const SphereBed& bed, const Touching& near,
                     const std::vector<PairForce>& pair_forces, const Slab& slab,
-                    const OrderSettings& settings, const Kernels& kernels) {
-  const BondOrder bonds = bond_order(bed, find_touching(bed, longest_bond_gap, kernels), slab);
+                    const OrderSettings& settings) {
+  const BondOrder bonds = bond_order(bed, near, slab);
   ForceStatistics forces = force_statistics(pair_forces, slab, force_bin, largest_force);
   Order order;
   order.q6_global = bonds.global;
   order.q6_local = bonds.local;
-  order.three_contact_share = share_with_contacts(bed, touching, slab, settings.gap_tolerance, 3);
+  order.three_contact_share = share_with_contacts(bed, near, slab, settings.gap_tolerance, 3);
   order.segregation = segregation(bed, slab, settings.small_below);
   order.force_mean = forces.mean;
   order.force_square = forces.square;

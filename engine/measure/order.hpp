@@ -23,10 +23,10 @@ double share_with_contacts(const SphereBed& bed, const Touching& touching, const
 /// they are mixed evenly, positive if small grains float. NaN unless there are both.
 double segregation(const SphereBed& bed, const Slab& slab, double small_below);
 
-/// Everything in Order. Wraps the bed. `touching` must hold all pairs and walls with a gap below
-/// the settings' tolerance.
-Order measure_order(SphereBed& bed, const Touching& touching,
+/// Everything in Order. `near` must hold all pairs and walls with a gap below the settings'
+/// tolerance, and all pairs with one below longest_bond_gap.
+Order measure_order(const SphereBed& bed, const Touching& near,
                     const std::vector<PairForce>& pair_forces, const Slab& slab,
-                    const OrderSettings& settings, const Kernels& kernels);
+                    const OrderSettings& settings);
 
 }  // namespace grainsweep

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
+#include "engine/measure/cut_polyhedron.hpp"
 #include "engine/measure/cut_sphere.hpp"
 
 namespace grainsweep {
@@ -30,16 +32,16 @@ bool is_small(const Record<double>& sphere, const ProfileSettings& settings) {
   return sphere.w < settings.small_below;
 }
 
-/// Adds the volume of one sphere to the bins it reaches; `below(t)` is its volume below the plane
-/// at t from its centre. Differences of one function: nothing is lost between bins.
+/// Adds the volume of one grain to the bins it reaches; `below(t)` is its volume below the plane at
+/// t, all of it for t infinite. Differences of one function: nothing is lost between bins.
 template <class Below>
-void add_volume(double centre, double radius, const Bins& bins, double ProfileBin::*member,
-                Below below, Profile& profile) {
-  const std::int64_t last = bins.number_at(centre + radius);
+void add_volume(const Span& span, const Bins& bins, double ProfileBin::*member, Below below,
+                Profile& profile) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const std::int64_t last = bins.number_at(span.high);
   double before = 0.0;
-  for (std::int64_t k = bins.number_at(centre - radius); k <= last; ++k) {
-    const double edge = static_cast<double>(k + 1) * bins.width - centre;
-    const double volume = below(k == last ? radius : edge);
+  for (std::int64_t k = bins.number_at(span.low); k <= last; ++k) {
+    const double volume = below(k == last ? infinity : static_cast<double>(k + 1) * bins.width);
     profile.bins[bins.index(k)].*member += volume - before;
     before = volume;
   }
@@ -80,6 +82,8 @@ double ProfileBin::*class_of(const Record<double>& sphere, const ProfileSettings
   return is_small(sphere, settings) ? &ProfileBin::small : &ProfileBin::large;
 }
 
+Span span_of(double centre, double radius) { return {centre - radius, centre + radius}; }
+
 /// Volume of a sphere below a plane across y, as far as it lies in the slab.
 double volume_in_slab(const Record<double>& sphere, const Slab& slab, double top) {
   const double low = slab.bottom - sphere.z, high = slab.top - sphere.z;
@@ -89,57 +93,116 @@ double volume_in_slab(const Record<double>& sphere, const Slab& slab, double top
   return sphere_beam_volume(sphere.w, top, low, high);
 }
 
-double highest_point(const SphereBed& bed) {
-  double top = 0.0;
-  for (std::size_t i = 0; i < bed.grains(); ++i) {
-    top = std::max(top, bed.position[i].z + bed.position[i].w);
+/// The grains of a bed as profiles see them: how far each reaches along y and z, and how much of it
+/// lies below a plane.
+class Spheres {
+ public:
+  explicit Spheres(const SphereBed& bed) : bed_(bed) {}
+
+  Span along_y(std::size_t i) const { return span_of(bed_.position[i].y, bed_.position[i].w); }
+  Span along_z(std::size_t i) const { return span_of(bed_.position[i].z, bed_.position[i].w); }
+  double below_y(std::size_t i, double y, const Slab& slab) const {
+    return volume_in_slab(bed_.position[i], slab, y - bed_.position[i].y);
   }
-  return top;
-}
+  double below_z(std::size_t i, double z) const {
+    const Record<double>& p = bed_.position[i];
+    return sphere_slab_volume(p.w, -p.w, z - p.z);
+  }
+
+ private:
+  const SphereBed& bed_;
+};
+
+class Polyhedra {
+ public:
+  explicit Polyhedra(const ShapeBed& bed) : bed_(bed) {}
+
+  Span along_y(std::size_t i) const { return span_along(bed_.shape, bed_.pose(i), 1); }
+  Span along_z(std::size_t i) const { return span_along(bed_.shape, bed_.pose(i), 2); }
+  double below_y(std::size_t i, double y, const Slab& slab) const {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    return box_volume(bed_.shape, bed_.pose(i), {-infinity, -infinity, slab.bottom},
+                      {infinity, y, slab.top});
+  }
+  double below_z(std::size_t i, double z) const {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    return slab_volume(bed_.shape, bed_.pose(i), 2, -infinity, z);
+  }
+
+ private:
+  const ShapeBed& bed_;
+};
 
 Profile empty_profile(const Bins& bins) {
   return {bins.width, std::vector<ProfileBin>(static_cast<std::size_t>(bins.count))};
 }
 
-}  // namespace
-
-Profile profile_along_y(const SphereBed& bed, const Touching& touching, const Slab& slab,
-                        const ProfileSettings& settings) {
-  const double width = bed.box.width;
+/// `centres`: where the grains are, with their radii or half sizes.
+template <class Grains>
+Profile along_y(const Grains& grains, const SphereBed& centres, const Touching& touching,
+                const Slab& slab, const ProfileSettings& settings) {
+  const double width = centres.box.width;
   const auto count = std::max<std::int64_t>(1, std::llround(width / settings.bin_width));
-  const Bins bins{width / static_cast<double>(count), count, bed.box.y == Boundary::periodic};
+  const Bins bins{width / static_cast<double>(count), count, centres.box.y == Boundary::periodic};
   Profile profile = empty_profile(bins);
-  for (std::size_t i = 0; i < bed.grains(); ++i) {
-    const Record<double>& p = bed.position[i];
-    if (p.z + p.w <= slab.bottom || p.z - p.w >= slab.top) continue;
+  for (std::size_t i = 0; i < centres.grains(); ++i) {
+    const Span upright = grains.along_z(i);
+    if (upright.high <= slab.bottom || upright.low >= slab.top) continue;
     add_volume(
-        p.y, p.w, bins, class_of(p, settings),
-        [&](double top) { return volume_in_slab(p, slab, top); }, profile);
+        grains.along_y(i), bins, class_of(centres.position[i], settings),
+        [&](double y) { return grains.below_y(i, y, slab); }, profile);
   }
-  divide_volumes(bed.box.length * bins.width * slab.height(), profile);
-  count_grains(bed, touching, settings, [&](const Record<double>& p) -> ProfileBin* {
+  divide_volumes(centres.box.length * bins.width * slab.height(), profile);
+  count_grains(centres, touching, settings, [&](const Record<double>& p) -> ProfileBin* {
     const bool inside = slab.bottom <= p.z && p.z < slab.top;
     return inside ? &profile.bins[bins.index(bins.number_at(p.y))] : nullptr;
   });
   return profile;
 }
 
-Profile profile_along_z(const SphereBed& bed, const Touching& touching,
-                        const ProfileSettings& settings) {
-  const double bins_up = std::ceil(highest_point(bed) / settings.bin_width);
+template <class Grains>
+double highest_point(const Grains& grains, std::size_t count) {
+  double top = 0.0;
+  for (std::size_t i = 0; i < count; ++i) top = std::max(top, grains.along_z(i).high);
+  return top;
+}
+
+template <class Grains>
+Profile along_z(const Grains& grains, const SphereBed& centres, const Touching& touching,
+                const ProfileSettings& settings) {
+  const double bins_up = std::ceil(highest_point(grains, centres.grains()) / settings.bin_width);
   const Bins bins{settings.bin_width, std::max<std::int64_t>(1, std::llround(bins_up)), false};
   Profile profile = empty_profile(bins);
-  for (std::size_t i = 0; i < bed.grains(); ++i) {
-    const Record<double>& p = bed.position[i];
+  for (std::size_t i = 0; i < centres.grains(); ++i) {
     add_volume(
-        p.z, p.w, bins, class_of(p, settings),
-        [&](double top) { return sphere_slab_volume(p.w, -p.w, top); }, profile);
+        grains.along_z(i), bins, class_of(centres.position[i], settings),
+        [&](double z) { return grains.below_z(i, z); }, profile);
   }
-  divide_volumes(bed.box.length * bed.box.width * bins.width, profile);
-  count_grains(bed, touching, settings, [&](const Record<double>& p) {
+  divide_volumes(centres.box.length * centres.box.width * bins.width, profile);
+  count_grains(centres, touching, settings, [&](const Record<double>& p) {
     return &profile.bins[bins.index(bins.number_at(p.z))];
   });
   return profile;
+}
+
+}  // namespace
+
+Profile profile_along_y(const SphereBed& bed, const Touching& touching, const Slab& slab,
+                        const ProfileSettings& settings) {
+  return along_y(Spheres(bed), bed, touching, slab, settings);
+}
+Profile profile_along_y(const ShapeBed& bed, const SphereBed& centres, const Touching& touching,
+                        const Slab& slab, const ProfileSettings& settings) {
+  return along_y(Polyhedra(bed), centres, touching, slab, settings);
+}
+
+Profile profile_along_z(const SphereBed& bed, const Touching& touching,
+                        const ProfileSettings& settings) {
+  return along_z(Spheres(bed), bed, touching, settings);
+}
+Profile profile_along_z(const ShapeBed& bed, const SphereBed& centres, const Touching& touching,
+                        const ProfileSettings& settings) {
+  return along_z(Polyhedra(bed), centres, touching, settings);
 }
 
 }  // namespace grainsweep

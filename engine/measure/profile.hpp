@@ -1,7 +1,7 @@
 // Profiles of one packing: how solid fraction, coordination and the share of small grains change
 // from wall to wall (along y) and from the floor up (along z).
 //
-// Solid fractions come from exact volumes: each sphere is cut by the planes between the bins and,
+// Solid fractions come from exact volumes: each grain is cut by the planes between the bins and,
 // for profiles along y, by the top and the bottom of the measured slab. So the mean over the bins
 // of a profile along y is the solid fraction of the slab, up to rounding. Counts are of grains
 // whose centre lies in the bin.
@@ -26,9 +26,15 @@ struct ProfileSettings {
 Profile profile_along_y(const SphereBed& bed, const Touching& touching, const Slab& slab,
                         const ProfileSettings& settings);
 
+/// The same of grains that turn; `centres` are balls of half their size.
+Profile profile_along_y(const ShapeBed& bed, const SphereBed& centres, const Touching& touching,
+                        const Slab& slab, const ProfileSettings& settings);
+
 /// Along z over the whole floor, from the floor to the highest point of the bed, in bins of the
 /// wanted width.
 Profile profile_along_z(const SphereBed& bed, const Touching& touching,
+                        const ProfileSettings& settings);
+Profile profile_along_z(const ShapeBed& bed, const SphereBed& centres, const Touching& touching,
                         const ProfileSettings& settings);
 
 }  // namespace grainsweep

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/measure/cut_polyhedron.hpp"
 #include "engine/units.hpp"
 
 namespace grainsweep {
@@ -17,6 +18,23 @@ std::size_t column_of(double coordinate, double extent, std::size_t columns) {
 
 std::size_t columns_along(double extent) {
   return static_cast<std::size_t>(std::max(1.0, std::floor(extent)));
+}
+
+/// Median over floor columns of the highest top among the grains that stand above each.
+/// `top_of(i)` is the highest point of grain i.
+template <class TopOf>
+double median_top(const Box& box, const std::vector<Record<double>>& centres, std::size_t grains,
+                  TopOf top_of) {
+  const std::size_t columns_x = columns_along(box.length), columns_y = columns_along(box.width);
+  std::vector<double> highest(columns_x * columns_y, 0.0);
+  for (std::size_t i = 0; i < grains; ++i) {
+    double& top = highest[column_of(centres[i].y, box.width, columns_y) * columns_x +
+                          column_of(centres[i].x, box.length, columns_x)];
+    top = std::max(top, top_of(i));
+  }
+  const auto middle = highest.begin() + static_cast<std::ptrdiff_t>(highest.size() / 2);
+  std::nth_element(highest.begin(), middle, highest.end());
+  return *middle;
 }
 
 }  // namespace
@@ -36,19 +54,22 @@ double solid_fraction(const SphereBed& bed, const Slab& slab) {
   return solid / (bed.box.length * bed.box.width * slab.height());
 }
 
-double surface_height(const SphereBed& bed) {
-  const std::size_t columns_x = columns_along(bed.box.length);
-  const std::size_t columns_y = columns_along(bed.box.width);
-  std::vector<double> highest(columns_x * columns_y, 0.0);
+double solid_fraction(const ShapeBed& bed, const Slab& slab) {
+  double solid = 0.0;
   for (std::size_t i = 0; i < bed.grains(); ++i) {
-    const Record<double>& p = bed.position[i];
-    double& top = highest[column_of(p.y, bed.box.width, columns_y) * columns_x +
-                          column_of(p.x, bed.box.length, columns_x)];
-    top = std::max(top, p.z + p.w);
+    solid += slab_volume(bed.shape, bed.pose(i), 2, slab.bottom, slab.top);
   }
-  const auto middle = highest.begin() + static_cast<std::ptrdiff_t>(highest.size() / 2);
-  std::nth_element(highest.begin(), middle, highest.end());
-  return *middle;
+  return solid / (bed.box.length * bed.box.width * slab.height());
+}
+
+double surface_height(const SphereBed& bed) {
+  return median_top(bed.box, bed.position, bed.grains(),
+                    [&](std::size_t i) { return bed.position[i].z + bed.position[i].w; });
+}
+
+double surface_height(const ShapeBed& bed) {
+  return median_top(bed.box, bed.centre, bed.grains(),
+                    [&](std::size_t i) { return span_along(bed.shape, bed.pose(i), 2).high; });
 }
 
 }  // namespace grainsweep

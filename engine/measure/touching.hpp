@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/scene/bed.hpp"
+#include "engine/scene/shape_bed.hpp"
 #include "kernels/kernels.hpp"
 
 namespace grainsweep {
@@ -26,5 +27,9 @@ struct Touching {
 
 /// All pairs and walls with a gap below `gap_tolerance`, d. Wraps the bed.
 Touching find_touching(SphereBed& bed, double gap_tolerance, const Kernels& kernels);
+
+/// The same of grains that turn, whose gaps are the distances of their surfaces, and minus the
+/// least way that parts them where they overlap.
+Touching find_touching(ShapeBed& bed, double gap_tolerance, const Kernels& kernels);
 
 }  // namespace grainsweep

@@ -63,6 +63,16 @@ PairPose pair_pose(const ShapeBed& bed, std::size_t a, std::size_t b) {
   return seen_from_a(bed.pose(a), bed.pose(b), nearest_difference(bed, a, b));
 }
 
+void set_balls(const ShapeBed& bed, double radius, SphereBed& balls) {
+  if (balls.position.empty() || balls.grains() != bed.grains()) {
+    balls = make_bed(bed.box, std::vector<PlacedSphere>(bed.grains()));
+  }
+  for (std::size_t i = 0; i < bed.grains(); ++i) {
+    const Record<double>& p = bed.centre[i];
+    balls.position[i] = {p.x, p.y, p.z, p.w * radius};
+  }
+}
+
 void wrap(ShapeBed& bed) {
   for (Record<double>& p : bed.centre) wrap(bed.box, p);
 }

@@ -50,6 +50,9 @@ Vector nearest_difference(const ShapeBed& bed, std::size_t a, std::size_t b);
 /// Grain b, of its nearest image, as grain a sees it.
 PairPose pair_pose(const ShapeBed& bed, std::size_t a, std::size_t b);
 
+/// Balls at the centres, as large as a ball of `radius` about the shape becomes with the grain, d.
+void set_balls(const ShapeBed& bed, double radius, SphereBed& balls);
+
 /// Brings x and y of every grain back into the box along periodic axes.
 void wrap(ShapeBed& bed);
 

@@ -8,6 +8,7 @@
 #include "engine/scene/random.hpp"
 #include "engine/scene/sizes.hpp"
 #include "engine/scene/start.hpp"
+#include "engine/shape/given_shape.hpp"
 #include "engine/units.hpp"
 
 namespace grainsweep {
@@ -35,24 +36,35 @@ Quaternion random_orientation(std::uint64_t key, std::uint64_t grain) {
   }
 }
 
-/// The same fill as spheres of diameter 1 would have to bring to get the number of grains right.
-PackingSpec in_spheres(PackingSpec spec, double volume) {
-  if (auto* fill = std::get_if<SolidHeight>(&spec.fill))
-    fill->height *= sphere_volume(0.5) / volume;
-  return spec;
-}
-
 double column_height(const Box& box, const std::vector<double>& radii, double volume) {
   double solid = 0.0;
   for (const double radius : radii) solid += volume * sphere_mass(radius);
   return solid / (shape_start_solid_fraction * box.length * box.width);
 }
 
+/// The poses of placed grains, whose orientations are those of the shape as it is written.
+std::vector<Pose> placed_poses(const PlacedGrains& placed, const GivenFrame& given) {
+  const Quaternion rotation(given.rotation);
+  std::vector<Pose> poses;
+  for (std::size_t i = 0; i < placed.grains.size(); ++i) {
+    const PlacedSphere& grain = placed.grains[i];
+    const auto& [x, y, z, w] = placed.orientations[i];
+    const Quaternion turn(w, x, y, z);
+    poses.push_back(
+        {{grain.x, grain.y, grain.z}, 2.0 * grain.radius, (turn * rotation).normalized()});
+  }
+  return poses;
+}
+
 }  // namespace
 
-std::optional<ShapeBed> start_shapes(const PackingSpec& spec, const ConvexShape& shape) {
+std::optional<ShapeBed> start_shapes(const PackingSpec& spec) {
+  const ConvexShape shape = *shape_of(spec.shape).shape;
   const Box box{spec.box.length, spec.box.width, spec.box.x, spec.box.y};
-  std::vector<double> radii = draw_radii(in_spheres(spec, shape.volume));
+  if (const auto* placed = std::get_if<PlacedGrains>(&spec.fill)) {
+    return make_shape_bed(box, shape, placed_poses(*placed, shape.given));
+  }
+  std::vector<double> radii = draw_radii(spec);
   if (radii.empty()) return make_shape_bed(box, shape, {});
   const double height = column_height(box, radii, shape.volume);
   const double ball = start_ball * std::cbrt(shape.volume / sphere_volume(1.0));

@@ -4,17 +4,20 @@
 #include <limits>
 
 #include "engine/scene/random.hpp"
+#include "engine/shape/given_shape.hpp"
 #include "engine/units.hpp"
 
 namespace grainsweep {
 
 namespace {
 
-/// Expected volume of a sphere of Gaussian diameter: E[D^3] = mean^3 (1 + 3 spread^2).
+/// Expected volume of a grain of Gaussian diameter, in grains of diameter 1: E[D^3] = mean^3 (1 + 3
+/// spread^2).
 double expected_volume(double diameter, double spread) {
-  return sphere_volume(diameter / 2.0) * (1.0 + 3.0 * spread * spread);
+  return diameter * diameter * diameter * (1.0 + 3.0 * spread * spread);
 }
 
+/// `volume` in grains of diameter 1.
 ClassCounts counts_for_volume(double volume, const SizesSpec& sizes) {
   const double small_volume = volume * sizes.small_share;
   return {std::llround((volume - small_volume) / expected_volume(1.0, sizes.spread)),
@@ -58,7 +61,8 @@ void add_small_volume(const PackingSpec& spec, double wanted, std::vector<double
 
 ClassCounts class_counts(const PackingSpec& spec) {
   if (const auto* fill = std::get_if<SolidHeight>(&spec.fill)) {
-    return counts_for_volume(fill->height * spec.box.length * spec.box.width, spec.sizes);
+    const double volume = fill->height * spec.box.length * spec.box.width;
+    return counts_for_volume(volume / extent_of(spec.shape).volume, spec.sizes);
   }
   return counts_for_grains(std::get<GrainCount>(spec.fill).count, spec.sizes);
 }

@@ -4,8 +4,10 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "engine/scene/sizes.hpp"
+#include "engine/shape/given_shape.hpp"
 
 namespace grainsweep {
 namespace {
@@ -47,8 +49,8 @@ bool require_in(const Interval& interval, double value, const char* path, Errors
   return false;
 }
 
-/// Largest diameter that can occur, d.
-double largest_diameter(const PackingSpec& spec) {
+/// Largest size that can occur.
+double largest_size(const PackingSpec& spec) {
   if (const auto* placed = std::get_if<PlacedGrains>(&spec.fill)) {
     double radius = 0.0;
     for (const PlacedSphere& grain : placed->grains) radius = std::max(radius, grain.radius);
@@ -56,6 +58,16 @@ double largest_diameter(const PackingSpec& spec) {
   }
   const double mean = spec.sizes.small_share < 1.0 ? 1.0 : spec.sizes.size_ratio;
   return mean * (1.0 + largest_deviation * spec.sizes.spread);
+}
+
+/// The shape's extent; nothing if something forbids it.
+std::optional<ShapeExtent> check_shape(const ShapeSpec& spec, Errors& errors) {
+  if (is_sphere(spec)) return extent_of(spec);
+  const Hull hull = shape_of(spec);
+  if (hull.shape) return extent_of(*hull.shape);
+  const bool is_hull = std::holds_alternative<HullVertices>(spec);
+  errors.push_back({is_hull ? "shape.hull" : "shape.pinacoid", hull.error});
+  return std::nullopt;
 }
 
 bool check_sizes(const SizesSpec& sizes, Errors& errors) {
@@ -99,32 +111,55 @@ bool is_outside(double centre, double radius, double side, Boundary boundary) {
   return !(centre >= reach && centre <= side - reach);
 }
 
-/// What is wrong with one placed grain; empty if nothing is.
-std::string fault_of(const PlacedSphere& grain, const BoxSpec& box) {
+/// What is wrong with one placed grain; empty if nothing is. A ball of `inner` times its size lies
+/// within it.
+std::string fault_of(const PlacedSphere& grain, double inner, const BoxSpec& box) {
+  const double within = 2.0 * inner * grain.radius;
   if (!(grain.radius > 0.0 && grain.radius <= longest_side)) {
     return "the radius must be positive, is " + text_of(grain.radius);
   }
-  if (is_outside(grain.x, grain.radius, box.length, box.x)) {
+  if (is_outside(grain.x, within, box.length, box.x)) {
     return "lies outside the box: x = " + text_of(grain.x) + ", radius " + text_of(grain.radius) +
            ", box.length " + text_of(box.length);
   }
-  if (is_outside(grain.y, grain.radius, box.width, box.y)) {
+  if (is_outside(grain.y, within, box.width, box.y)) {
     return "lies outside the box: y = " + text_of(grain.y) + ", radius " + text_of(grain.radius) +
            ", box.width " + text_of(box.width);
   }
-  if (!(grain.z >= grain.radius - settled_wall_overlap && grain.z <= longest_side)) {
+  if (!(grain.z >= within - settled_wall_overlap && grain.z <= longest_side)) {
     return "lies below the floor or too high: z = " + text_of(grain.z) + ", radius " +
            text_of(grain.radius);
   }
   return "";
 }
 
+/// A quaternion may have been rounded to single precision.
+std::string fault_of(const std::array<double, 4>& q) {
+  constexpr double rounding = 1e-5;
+  const double squared = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];
+  if (std::abs(squared - 1.0) <= rounding) return "";
+  return "qx, qy, qz, qw must be a unit quaternion; their squares add up to " + text_of(squared);
+}
+
+/// Spheres have no orientation, all others need one each.
+void check_orientations(const PlacedGrains& placed, bool are_spheres, Errors& errors) {
+  if (are_spheres) {
+    if (placed.orientations.empty()) return;
+    errors.push_back({"fill.file", "spheres have no orientation; leave qx, qy, qz, qw out"});
+  } else if (placed.orientations.size() != placed.grains.size()) {
+    errors.push_back({"fill.file",
+                      "grains that are no spheres need an orientation each: give the "
+                      "columns qx, qy, qz, qw"});
+  }
+}
+
 /// The first bad grain speaks for all of them: a wrong unit spoils every line.
-void check_placed(const PlacedGrains& placed, const BoxSpec& box, Errors& errors) {
+void check_placed(const PlacedGrains& placed, double inner, const BoxSpec& box, Errors& errors) {
   std::string first;
   std::size_t bad = 0;
   for (std::size_t i = 0; i < placed.grains.size(); ++i) {
-    const std::string fault = fault_of(placed.grains[i], box);
+    std::string fault = fault_of(placed.grains[i], inner, box);
+    if (fault.empty() && i < placed.orientations.size()) fault = fault_of(placed.orientations[i]);
     if (fault.empty()) continue;
     if (++bad == 1) first = "grain " + std::to_string(i + 1) + " " + fault;
   }
@@ -133,7 +168,8 @@ void check_placed(const PlacedGrains& placed, const BoxSpec& box, Errors& errors
   errors.push_back({"fill.file", first + more});
 }
 
-void check_fill(const PackingSpec& spec, bool counts_are_defined, Errors& errors) {
+void check_fill(const PackingSpec& spec, const std::optional<ShapeExtent>& shape,
+                bool counts_are_defined, Errors& errors) {
   if (const auto* solid = std::get_if<SolidHeight>(&spec.fill)) {
     const bool height =
         require_in({0.0, 1000.0, true, false}, solid->height, "fill.solid_height", errors);
@@ -144,7 +180,8 @@ void check_fill(const PackingSpec& spec, bool counts_are_defined, Errors& errors
   } else {
     const auto& placed = std::get<PlacedGrains>(spec.fill);
     require_count(grain_count(spec), "fill.file", errors);
-    check_placed(placed, spec.box, errors);
+    if (shape) check_placed(placed, shape->inradius, spec.box, errors);
+    check_orientations(placed, is_sphere(spec.shape), errors);
   }
 }
 
@@ -166,6 +203,14 @@ void check_accuracy(const Accuracy& accuracy, Errors& errors) {
   if (accuracy.max_steps < 1) {
     errors.push_back(
         {"accuracy.max_steps", "must be at least 1, is " + std::to_string(accuracy.max_steps)});
+  }
+}
+
+/// What grains that turn cannot be asked for.
+void check_turning(const Accuracy& accuracy, Errors& errors) {
+  if (accuracy.protocol != Protocol::heavy_ball) {
+    errors.push_back(
+        {"accuracy.protocol", "must be \"heavy_ball\": plain dynamics is for spheres"});
   }
 }
 
@@ -202,10 +247,13 @@ void check_measure(const MeasureSpec& measure, Errors& errors) {
 
 std::vector<SpecError> check(const PackingSpec& spec) {
   Errors errors;
+  const auto shape = check_shape(spec.shape, errors);
   const bool sizes = check_sizes(spec.sizes, errors);
-  const bool box = check_box(spec.box, sizes ? largest_diameter(spec) : 1.0, errors);
-  check_fill(spec, sizes && box, errors);
+  const double across = shape ? 2.0 * shape->circumradius : 1.0;
+  const bool box = check_box(spec.box, across * (sizes ? largest_size(spec) : 1.0), errors);
+  check_fill(spec, shape, shape && sizes && box, errors);
   check_accuracy(spec.accuracy, errors);
+  if (!is_sphere(spec.shape)) check_turning(spec.accuracy, errors);
   check_measure(spec.measure, errors);
   if (box) check_bin_width(spec.measure.bin_width, spec.box.width, errors);
   return errors;

@@ -6,10 +6,13 @@
 // A specification is plain data. `check` holds every rule about it; nothing else refuses input.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <variant>
 #include <vector>
+
+#include "engine/shape/shape_spec.hpp"
 
 namespace grainsweep {
 
@@ -24,7 +27,8 @@ struct BoxSpec {
   Boundary y = Boundary::walls;
 };
 
-/// A sphere of a bed that comes from elsewhere: centre and radius, d.
+/// A grain of a bed that comes from elsewhere: centre and radius, d. Of a grain that is no sphere
+/// the radius is half its size: the shape as it is given has the radius 1/2.
 struct PlacedSphere {
   double x = 0.0, y = 0.0, z = 0.0, radius = 0.5;
 };
@@ -40,10 +44,14 @@ struct GrainCount {
 /// Grains placed by the user; sizes and start come from them instead of the random generator.
 struct PlacedGrains {
   std::vector<PlacedSphere> grains;
+  /// How each is turned: unit quaternions x, y, z, w from the shape's frame to the box's. Empty for
+  /// spheres.
+  std::vector<std::array<double, 4>> orientations = {};
 };
 using Fill = std::variant<SolidHeight, GrainCount, PlacedGrains>;
 
-/// Sizes: each class is Gaussian, cut at four standard deviations.
+/// Sizes: each class is Gaussian, cut at four standard deviations. The diameter of a grain that is
+/// no sphere is its scale.
 struct SizesSpec {
   double spread = 1.0 / 30.0;  ///< standard deviation of the diameter over its mean, each class
   double small_share = 0.0;    ///< share of the small class in the solid volume, 0..1
@@ -61,8 +69,8 @@ enum class Solver {
 /// Number type of the solver's rows and velocities; positions are always f64.
 enum class Precision { f32, f64 };
 
-/// Whether a direct solve of force balance certifies the final contacts. It costs a few per cent of
-/// a packing of 2000 grains and grows faster than the bed.
+/// Whether a direct solve of force balance certifies the final contacts of spheres. It costs a few
+/// per cent of a packing of 2000 grains and grows faster than the bed.
 enum class BalanceCheck {
   skip,   ///< "skip"
   solve,  ///< "solve"
@@ -105,6 +113,7 @@ struct MeasureSpec {
 };
 
 struct PackingSpec {
+  ShapeSpec shape;  ///< of a grain of size 1; sizes scale it
   BoxSpec box;
   Fill fill = SolidHeight{};
   SizesSpec sizes;

@@ -39,6 +39,12 @@ struct PinacoidWidth {
   double a = 0.0, b = 0.0, c = 0.0, e = 0.0;  ///< half length, width, ridge and height, d
 };
 
+/// Where a shape in its frame came from: x_given = rotation x_shape + centroid.
+struct GivenFrame {
+  Vector centroid = Vector::Zero();
+  Matrix rotation = Matrix::Identity();
+};
+
 /// A grain of scale w has volume w^3 volume, moments w^2 inertia over its mass, and w times the
 /// radii.
 struct ConvexShape {
@@ -55,12 +61,7 @@ struct ConvexShape {
   double inradius = 0.0;                  ///< of the largest ball around the centroid within, d
   bool centrally_symmetric = false;       ///< -x is a vertex for every vertex x
   std::optional<PinacoidWidth> pinacoid;  ///< if the shape is one
-};
-
-/// Where a shape in its frame came from: x_given = rotation x_shape + centroid.
-struct GivenFrame {
-  Vector centroid = Vector::Zero();
-  Matrix rotation = Matrix::Identity();
+  GivenFrame given;                       ///< that in which its vertices were written
 };
 
 /// Half width of a pinacoid along n: largest n . x over its points.

@@ -272,7 +272,7 @@ GivenFrame centre(std::vector<Vector>& corners, const Loops& loops) {
   return given;
 }
 
-Hull refused(std::string error) { return {std::nullopt, {}, std::move(error)}; }
+Hull refused(std::string error) { return {std::nullopt, std::move(error)}; }
 
 Hull whole_hull(const std::vector<Vector>& points) {
   std::string error;
@@ -291,7 +291,9 @@ Hull whole_hull(const std::vector<Vector>& points) {
   }
   std::vector<Vector> corners = keep_corners(points, loops);
   const GivenFrame given = centre(corners, loops);
-  return {build_shape(std::move(corners), loops), given, ""};
+  Hull hull{build_shape(std::move(corners), loops), ""};
+  hull.shape->given = given;
+  return hull;
 }
 
 }  // namespace

@@ -13,7 +13,6 @@ struct Hull {
   /// In its own frame: that of the points, moved, where it is principal already; otherwise turned
   /// to ascending moments.
   std::optional<ConvexShape> shape;
-  GivenFrame given;   ///< where that frame lies among the points
   std::string error;  ///< what forbids a hull, with what to change; "" with a shape
 };
 

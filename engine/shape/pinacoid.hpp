@@ -8,15 +8,9 @@
 #include <string>
 
 #include "engine/shape/convex_shape.hpp"
+#include "engine/shape/shape_spec.hpp"
 
 namespace grainsweep {
-
-struct PinacoidSize {
-  double length = 1.0;                ///< d
-  double width = 1.0;                 ///< d
-  double height = 1.0;                ///< d
-  double angle = 1.0471975511965976;  ///< radians, in (0, pi / 2]
-};
 
 /// What forbids a pinacoid of this size, with what to change; "" if nothing does.
 std::string problem_with(const PinacoidSize& size);

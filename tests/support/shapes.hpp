@@ -19,6 +19,13 @@ inline ConvexShape hull_of(const std::vector<Vector>& points) {
   return *hull.shape;
 }
 
+/// The same, as a packing asks for it.
+inline HullVertices asked_for(const std::vector<Vector>& points) {
+  HullVertices hull;
+  for (const Vector& p : points) hull.points.push_back({p.x(), p.y(), p.z()});
+  return hull;
+}
+
 inline ConvexShape box_shape(double length, double width, double height) {
   std::vector<Vector> corners;
   for (int k = 0; k < 8; ++k) {

@@ -64,7 +64,7 @@ void test(const ConvexShape& shape, Isa isa, Batch& batch, double period = 0) {
 
 // pinacoid_rounding is what the header promises; after the f64 measurement it is the most by which
 // two axes that f32 confuses can differ.
-TEST_CASE("the batch test finds the separation of the f64 test within its rounding") {
+TEST_CASE("the batch test finds the separation of the f64 test within its rounding", "[slow]") {
   const ConvexShape shape = pinacoid({}), plate = pinacoid({1, 1, 0.01, 0.3});
   for (const PairFamily family : testing::all_pair_families) {
     const ConvexShape& used = family == PairFamily::flat ? plate : shape;

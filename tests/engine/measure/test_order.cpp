@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "engine/measure/bond_order.hpp"
 #include "engine/measure/order.hpp"
 #include "tests/support/scenes.hpp"
 
@@ -33,10 +34,9 @@ TEST_CASE("segregation is the rise of the small grains over the large ones in sl
 
 TEST_CASE("a crystal at rest has its order, its forces and its distances") {
   SphereBed bed = testing::fcc_bed(3, 3, 5);
-  const Touching touching = find_touching(bed, 1e-3, kernels_for(best_isa()));
+  const Touching touching = find_touching(bed, longest_bond_gap, kernels_for(best_isa()));
   const std::vector<PairForce> forces = {{0, 1, 2.0, 1.0}, {1, 2, 3.0, 3.0}};
-  const Order order =
-      measure_order(bed, touching, forces, {1.2, 5.2}, {0, 1e-4}, kernels_for(best_isa()));
+  const Order order = measure_order(bed, touching, forces, {1.2, 5.2}, {0, 1e-4});
   CHECK(order.q6_global == Approx(0.574524).margin(1e-6));
   CHECK(order.three_contact_share == 0);
   CHECK(std::isnan(order.segregation));

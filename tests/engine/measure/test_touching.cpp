@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include <catch2/catch.hpp>
 
@@ -6,6 +7,7 @@
 #include "engine/measure/touching.hpp"
 #include "tests/support/brute_force.hpp"
 #include "tests/support/scenes.hpp"
+#include "tests/support/shapes.hpp"
 
 namespace grainsweep {
 namespace {
@@ -61,6 +63,25 @@ TEST_CASE("no grains, or one in the air, touch nothing") {
   const Touching touching = find_touching(lone, 0.01, kernels());
   CHECK(touching.pairs.empty());
   CHECK(touching.walls.empty());
+}
+
+TEST_CASE("grains with corners touch by the distance of their surfaces") {
+  // Faces .001 apart, an edge .02 above a face, a corner on the floor, one cube in another.
+  const Quaternion on_edge(Eigen::AngleAxisd(0.78539816339744831, Vector::UnitX()));
+  ShapeBed bed = make_shape_bed({9, 9, testing::periodic, testing::walls}, testing::cube(),
+                                {{{1, 1, 0.5}, 1, Quaternion::Identity()},
+                                 {{2.001, 1, 0.5}, 1, Quaternion::Identity()},
+                                 {{1, 1, 1.02 + std::sqrt(0.5)}, 1, on_edge},
+                                 {{5, 5, 5}, 1, Quaternion::Identity()},
+                                 {{5.9, 5, 5}, 1, Quaternion::Identity()}});
+  const Touching touching = find_touching(bed, 0.05, kernels());
+  REQUIRE(touching.pairs.size() == 4);
+  CHECK(touching.pairs[0].gap == Approx(0.001).margin(1e-12));
+  CHECK(touching.pairs[1].gap == Approx(0.02).margin(1e-12));
+  CHECK(touching.pairs[2].gap == Approx(std::hypot(0.001, 0.02)).margin(1e-12));  // end of the edge
+  CHECK(touching.pairs[3].gap == Approx(-0.1).margin(1e-12));
+  REQUIRE(touching.walls.size() == 2);
+  for (const TouchingWall& wall : touching.walls) CHECK(wall.gap == Approx(0).margin(1e-15));
 }
 
 }  // namespace

@@ -19,12 +19,13 @@ PackingSpec spec_of(double solid_height, std::uint64_t key = 1) {
   spec.box = {8, 5, periodic, walls};
   spec.fill = SolidHeight{solid_height};
   spec.random_key = key;
+  spec.shape = PinacoidSize{};
   return spec;
 }
 
 TEST_CASE("a start has the solid volume asked for") {
   const ConvexShape shape = pinacoid({});
-  const auto bed = start_shapes(spec_of(10), shape);
+  const auto bed = start_shapes(spec_of(10));
   REQUIRE(bed);
   double volume = 0;
   for (const Record<double>& c : bed->centre) volume += shape.volume * c.w * c.w * c.w;
@@ -36,7 +37,7 @@ TEST_CASE("grains have the diameters that are drawn for spheres as scales") {
   PackingSpec spec = spec_of(1);
   spec.fill = GrainCount{300};
   spec.sizes.small_share = 0.3;
-  const auto bed = start_shapes(spec, pinacoid({}));
+  const auto bed = start_shapes(spec);
   REQUIRE(bed);
   std::vector<double> scales, expected;
   for (const Record<double>& c : bed->centre) scales.push_back(c.w);
@@ -49,7 +50,7 @@ TEST_CASE("grains have the diameters that are drawn for spheres as scales") {
 
 TEST_CASE("centres are inside the column, no two nearer than their balls allow") {
   const ConvexShape shape = pinacoid({});
-  const auto bed = start_shapes(spec_of(6), shape);
+  const auto bed = start_shapes(spec_of(6));
   REQUIRE(bed);
   const double ball = start_ball * std::cbrt(shape.volume / sphere_volume(1.0));
   const double height = 6 / shape_start_solid_fraction * 1.02;
@@ -67,7 +68,7 @@ TEST_CASE("orientations are uniform over all rotations") {
   PackingSpec spec = spec_of(1);
   spec.box = {20, 20, periodic, periodic};
   spec.fill = GrainCount{4000};
-  const auto bed = start_shapes(spec, pinacoid({}));
+  const auto bed = start_shapes(spec);
   REQUIRE(bed);
   Matrix mean = Matrix::Zero(), square = Matrix::Zero();
   for (std::size_t i = 0; i < bed->grains(); ++i) {
@@ -83,8 +84,8 @@ TEST_CASE("orientations are uniform over all rotations") {
 
 TEST_CASE("the same key gives the same bed of shapes, another key another") {
   const ConvexShape shape = pinacoid({});
-  const auto a = start_shapes(spec_of(3), shape), b = start_shapes(spec_of(3), shape);
-  const auto c = start_shapes(spec_of(3, 2), shape);
+  const auto a = start_shapes(spec_of(3)), b = start_shapes(spec_of(3));
+  const auto c = start_shapes(spec_of(3, 2));
   REQUIRE((a && b && c));
   CHECK(state_hash(*a) == state_hash(*b));
   CHECK(state_hash(*a) != state_hash(*c));

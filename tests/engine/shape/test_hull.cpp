@@ -163,10 +163,11 @@ TEST_CASE("a hull knows where its frame lies among the points it was given") {
   for (const Vector& v : upright.vertices) points.push_back(turn * v + Vector(5, -7, 2));
   const Hull hull = convex_hull(points);
   REQUIRE(hull.shape);
-  CHECK((hull.given.centroid - Vector(5, -7, 2)).norm() < 1e-14);
-  CHECK(hull.given.rotation.determinant() == Approx(1).epsilon(1e-14));
+  CHECK((hull.shape->given.centroid - Vector(5, -7, 2)).norm() < 1e-14);
+  CHECK(hull.shape->given.rotation.determinant() == Approx(1).epsilon(1e-14));
   for (std::size_t k = 0; k < points.size(); ++k) {
-    const Vector back = hull.given.rotation * hull.shape->vertices[k] + hull.given.centroid;
+    const Vector back =
+        hull.shape->given.rotation * hull.shape->vertices[k] + hull.shape->given.centroid;
     CHECK((back - points[k]).norm() < 1e-14);
   }
   CHECK((hull.shape->inertia - Vector(5.0 / 12, 10.0 / 12, 13.0 / 12)).norm() < 1e-13);

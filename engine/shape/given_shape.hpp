@@ -1,0 +1,27 @@
+// From the shape that a packing asks for to the one it is made with.
+#pragma once
+
+#include <string>
+
+#include "engine/shape/hull.hpp"
+#include "engine/shape/shape_spec.hpp"
+
+namespace grainsweep {
+
+inline bool is_sphere(const ShapeSpec& spec) { return std::holds_alternative<SphereShape>(spec); }
+
+/// The convex shape of a spec that is no sphere, or what forbids it.
+Hull shape_of(const ShapeSpec& spec);
+
+/// What a check of sizes has to know of a shape, at size 1.
+struct ShapeExtent {
+  double volume = 0.0;        ///< d^3
+  double circumradius = 0.0;  ///< d
+  double inradius = 0.0;      ///< d
+};
+ShapeExtent extent_of(const ConvexShape& shape);
+
+/// Of any shape, spheres too. Requires a shape that nothing forbids.
+ShapeExtent extent_of(const ShapeSpec& spec);
+
+}  // namespace grainsweep
