@@ -30,6 +30,28 @@ inline Batch<Real> load(const Real* from) {
   return Batch<Real>::load_unaligned(from);
 }
 
+/// Nearest image of a difference of coordinates of a period, whose inverse is given; 0 and 0: as it
+/// is.
+inline Batch<double> nearest_image(const Batch<double>& difference, double period, double inverse) {
+  return difference - Batch<double>(period) * xsimd::nearbyint(difference * Batch<double>(inverse));
+}
+inline double inverse_of(double period) { return period > 0 ? 1 / period : 0; }
+
+/// Stores a batch of f64 as Real.
+template <class Real>
+inline void store_rounded(const Batch<double>& from, Real* to) {
+  double lane[batch_width<double>];
+  from.store_unaligned(lane);
+  for (std::size_t k = 0; k < batch_width<double>; ++k) to[k] = static_cast<Real>(lane[k]);
+}
+
+/// What is left of min(p, w) = 0: by how much impulses p and scaled gaps w miss to be
+/// complementary.
+template <class Real>
+inline Batch<Real> natural_residual(const Batch<Real>& p, const Batch<Real>& w) {
+  return xsimd::abs(xsimd::min(p, w));
+}
+
 /// One value per lane of a block, reduced over lanes in a fixed order.
 template <class Real>
 struct LaneSums {

@@ -84,11 +84,6 @@ inline Batch<Real> gap_after(const Points<Real>& r, const Motion<Real>& m) {
   return r.gap + (m.approach + (dot(r.lever_b, m.turn_b) - dot(r.lever_a, m.turn_a)));
 }
 
-template <class Real>
-inline Batch<Real> natural_residual(const Batch<Real>& p, const Batch<Real>& w) {
-  return xsimd::abs(xsimd::min(p, w));
-}
-
 /// What the points of a contact add up to.
 template <class Real>
 struct Push {

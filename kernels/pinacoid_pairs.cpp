@@ -67,40 +67,28 @@ struct Grains {
   float qa[4][block_width], qb[4][block_width];  ///< x, y, z, w
 };
 
-inline void round_to(const Batch<double>& from, float* to) {
-  double lane[batch_width<double>];
-  from.store_unaligned(lane);
-  for (std::size_t k = 0; k < batch_width<double>; ++k) {
-    to[k] = static_cast<float>(lane[k]);
-  }
-}
-
 inline void round_quaternions(const Components<double>& q, float (&to)[4][block_width],
                               std::size_t lane) {
-  round_to(q.x, to[0] + lane);
-  round_to(q.y, to[1] + lane);
-  round_to(q.z, to[2] + lane);
-  round_to(q.w, to[3] + lane);
-}
-
-inline Batch<double> to_nearest_image(const Batch<double>& difference, double period) {
-  const double inverse = period > 0 ? 1 / period : 0;
-  return difference - Batch<double>(period) * xsimd::nearbyint(difference * Batch<double>(inverse));
+  store_rounded(q.x, to[0] + lane);
+  store_rounded(q.y, to[1] + lane);
+  store_rounded(q.z, to[2] + lane);
+  store_rounded(q.w, to[3] + lane);
 }
 
 inline void read_grains(const PinacoidBlock& block, const Record<double>* centres,
                         const Record<double>* orientations, double period_x, double period_y,
                         Grains& grains) {
   constexpr std::size_t stride = sizeof(Record<double>);
+  const double inverse_x = inverse_of(period_x), inverse_y = inverse_of(period_y);
   for (std::size_t lane = 0; lane < block_width; lane += batch_width<double>) {
     const std::uint32_t *i = block.offset_a + lane, *j = block.offset_b + lane;
     const Components<double> a = load_records<stride>(centres, i),
                              b = load_records<stride>(centres, j);
-    round_to(to_nearest_image(b.x - a.x, period_x), grains.dx + lane);
-    round_to(to_nearest_image(b.y - a.y, period_y), grains.dy + lane);
-    round_to(b.z - a.z, grains.dz + lane);
-    round_to(a.w, grains.scale_a + lane);
-    round_to(b.w, grains.scale_b + lane);
+    store_rounded(nearest_image(b.x - a.x, period_x, inverse_x), grains.dx + lane);
+    store_rounded(nearest_image(b.y - a.y, period_y, inverse_y), grains.dy + lane);
+    store_rounded(b.z - a.z, grains.dz + lane);
+    store_rounded(a.w, grains.scale_a + lane);
+    store_rounded(b.w, grains.scale_b + lane);
     round_quaternions(load_records<stride>(orientations, i), grains.qa, lane);
     round_quaternions(load_records<stride>(orientations, j), grains.qb, lane);
   }

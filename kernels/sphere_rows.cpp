@@ -31,11 +31,6 @@ inline Batch<Real> scaled_gap(const Rows<Real>& r, const Components<Real>& relat
   return (r.gap + approach) * r.reduced_mass;
 }
 
-template <class Real>
-inline Batch<Real> natural_residual(const Batch<Real>& p, const Batch<Real>& w) {
-  return xsimd::abs(xsimd::min(p, w));
-}
-
 /// Impulses p along the normals, as vectors; the fourth component is 0.
 template <class Real>
 inline Components<Real> along_normals(const Rows<Real>& r, const Batch<Real>& p) {
@@ -147,27 +142,10 @@ Real residual(const RowBlock<Real>* rows, std::size_t blocks, const Record<Real>
   return worst.max();
 }
 
-/// Difference of two coordinates to the nearest image; `inverse_period` is 0 on a walled axis.
-inline Batch<double> nearest_image(const Batch<double>& difference, double period,
-                                   double inverse_period) {
-  return difference -
-         Batch<double>(period) * xsimd::nearbyint(difference * Batch<double>(inverse_period));
-}
-
-template <class Real>
-void store_rounded(const Batch<double>& from, Real* to) {
-  double lane[batch_width<double>];
-  from.store_unaligned(lane);
-  for (std::size_t k = 0; k < batch_width<double>; ++k) {
-    to[k] = static_cast<Real>(lane[k]);
-  }
-}
-
 template <class Real>
 void sphere_gaps(RowBlock<Real>* rows, std::size_t blocks, const Record<double>* positions,
                  double period_x, double period_y, double correction) {
-  const double inverse_x = period_x > 0 ? 1 / period_x : 0;
-  const double inverse_y = period_y > 0 ? 1 / period_y : 0;
+  const double inverse_x = inverse_of(period_x), inverse_y = inverse_of(period_y);
   const Batch<double> repair(correction), zero(0.0), one(1.0);
   for (std::size_t block = 0; block < blocks; ++block) {
     RowBlock<Real>& r = rows[block];
