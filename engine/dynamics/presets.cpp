@@ -23,7 +23,7 @@ Accuracy balanced() {
   a.rest_iterations = 300;
   a.residual_tolerance = 1e-2;
   a.kinetic_tolerance = 1e-4;
-  a.contact_tolerance = 0.025;
+  a.contact_tolerance = 0.02;
   a.overlap_tolerance = 1e-5;
   return a;
 }
@@ -46,7 +46,7 @@ Accuracy accurate() {
 const std::vector<Preset>& presets() {
   static const std::vector<Preset> all = {
       {"fast", "contacts within 10 % of isostatic, mean overlap below 1e-4 d", fast()},
-      {"balanced", "contacts within 2.5 % of isostatic, mean overlap below 1e-5 d", balanced()},
+      {"balanced", "contacts within 2 % of isostatic, mean overlap below 1e-5 d", balanced()},
       {"accurate", "contacts within 0.6 % of isostatic, mean overlap below 5e-6 d", accurate()}};
   return all;
 }

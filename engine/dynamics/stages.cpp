@@ -30,8 +30,8 @@ constexpr StageRule turning[] = {
     {look, 0.25, none, 0.5, 0.03, 0.05, 4.0 / 3.0, 8, 0.0, 0.0, 8, 0.0, 0.0},
     {fallen, 1.0, damped, 0.2, 0.05, 0.05, 0.0, 1, 0.0, 0.0, 110, 0.0, 0.35, 1e-2},
     {steps, 1.0, damped, 0.1, 0.03, 0.05, 0.2, 0, 0.0, 2.0, 0, 0.35, 0.6},
-    {steps, 0.5, damped, 0.1, 0.03, 0.05, two_thirds, 40, 0.0, 0.0, 40, 0.6, 0.8},
-    {rest, 0.25, none, 0.5, 0.03, 0.05, 4.0 / 3.0, 40, 0.0, 0.0, 44, 0.8, 1.0},
+    {steps, 0.5, damped, 0.1, 0.03, 0.05, two_thirds, 60, 0.0, 1.0, 0, 0.6, 0.9},
+    {rest, 0.25, none, 0.5, 0.03, 0.05, 4.0 / 3.0, 40, 0.0, 0.0, 44, 0.9, 1.0},
 };
 
 int iterations_of(const Accuracy& accuracy, const StageRule& r) {
