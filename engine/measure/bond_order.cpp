@@ -48,10 +48,6 @@ double invariant(const Harmonics& harmonics) {
   return std::sqrt(4.0 * pi / 13.0 * squares) / harmonics.bonds;
 }
 
-double nearest(double difference, double period) {
-  return period > 0.0 ? difference - period * std::nearbyint(difference / period) : difference;
-}
-
 Direction direction(const SphereBed& bed, const TouchingPair& pair) {
   const Record<double>& a = bed.position[static_cast<std::size_t>(pair.a)];
   const Record<double>& b = bed.position[static_cast<std::size_t>(pair.b)];

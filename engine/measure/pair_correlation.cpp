@@ -15,6 +15,8 @@ namespace {
 struct Edge {
   double length;
   bool is_periodic;
+
+  double period() const { return is_periodic ? length : 0.0; }
 };
 
 /// The centres in the slab, by height, and their region.
@@ -77,11 +79,6 @@ double covered(const std::array<double, 4>& covariance, double r) {
     sum += covariance[k] * 4.0 * pi * std::pow(r, power) / power;
   }
   return sum;
-}
-
-double nearest(double difference, const Edge& edge) {
-  return edge.is_periodic ? difference - edge.length * std::nearbyint(difference / edge.length)
-                          : difference;
 }
 
 /// Upright columns of the region, at least `reach` wide, so that only adjacent ones hold pairs;
@@ -157,7 +154,8 @@ class PairCounter {
 
  private:
   void add(const Record<double>& a, const Record<double>& b) {
-    const double x = nearest(b.x - a.x, edges_[0]), y = nearest(b.y - a.y, edges_[1]);
+    const double x = nearest(b.x - a.x, edges_[0].period());
+    const double y = nearest(b.y - a.y, edges_[1].period());
     const double z = b.z - a.z, squared = x * x + y * y + z * z;
     if (squared >= reach() * reach()) return;
     const auto bin = static_cast<std::size_t>(std::sqrt(squared) / bin_width_);

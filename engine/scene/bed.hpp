@@ -5,6 +5,7 @@
 // they do.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -25,6 +26,11 @@ struct Box {
   double period_x() const { return x == Boundary::periodic ? length : 0.0; }
   double period_y() const { return y == Boundary::periodic ? width : 0.0; }
 };
+
+/// Nearest image of a difference of coordinates along an axis of that period; 0: as it is.
+inline double nearest(double difference, double period) {
+  return period > 0.0 ? difference - period * std::nearbyint(difference / period) : difference;
+}
 
 /// Grains that a section of a large bed holds or more; see engine/contact/sections.hpp.
 inline constexpr std::size_t section_grains = 4000;

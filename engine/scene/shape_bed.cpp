@@ -7,10 +7,6 @@ namespace grainsweep {
 
 namespace {
 
-double nearest(double difference, double period) {
-  return period > 0.0 ? difference - period * std::nearbyint(difference / period) : difference;
-}
-
 /// sin(x) / x and cos(x) of x = sqrt(squared) by their series: the same bits with any mathematical
 /// library. Exact to rounding for x <= 1; beyond, the quaternion is still a turn about its axis.
 struct SineCosine {
