@@ -5,6 +5,8 @@
 #include <limits>
 #include <numeric>
 
+#include "engine/contact/open_blocks.hpp"
+
 namespace grainsweep {
 
 namespace {
@@ -19,44 +21,23 @@ std::vector<std::size_t> by_points(const ShapeContacts& found) {
   return order;
 }
 
-/// Appends blocks of void contacts and hands out their lanes, so that no grain is twice in a block.
+/// Appends blocks of void contacts and hands out their lanes.
 template <class Real>
 class LeverBlocks {
  public:
   LeverBlocks(const ShapeBed& bed, LeverColumns<Real>& rows)
-      : bed_(bed), rows_(rows), open_blocks_(bed.grains(), 0) {}
+      : bed_(bed), rows_(rows), words_(bed.grains(), 0), open_(words_) {}
 
-  struct Lane {
-    std::size_t block, lane;
-  };
-  /// The first open block that holds neither grain. Requires that no contact has more points than
-  /// the one before it.
-  Lane take(const ShapeContact& contact) {
-    std::uint64_t taken = word(contact.a) | (bed_.is_grain(contact.b) ? word(contact.b) : 0);
-    if (taken == ~std::uint64_t{0}) {
-      const std::size_t slot = fullest();
-      close(slot);
-      taken &= ~(std::uint64_t{1} << slot);
-    }
-    const auto slot = static_cast<std::size_t>(__builtin_ctzll(~taken));
-    if (used_[slot] == 0) open(slot, contact.count);
-    const Lane lane{block_[slot], used_[slot]++};
-    enter(contact, lane, slot);
-    return lane;
+  /// Requires that no contact has more points than the one before it.
+  BlockLane take(const ShapeContact& contact) {
+    const std::int32_t b = bed_.is_grain(contact.b) ? contact.b : OpenBlocks::no_grain;
+    const BlockLane at = open_.take(contact.a, b, [&] { return append_void_block(contact.count); });
+    rows_.blocks[at.block].set_grains(at.lane, contact.a, contact.b);
+    return at;
   }
 
  private:
-  static constexpr std::size_t most_open = 64;  // bits of a word
-
-  std::uint64_t& word(std::int32_t grain) { return open_blocks_[static_cast<std::size_t>(grain)]; }
-  void enter(const ShapeContact& contact, Lane lane, std::size_t slot) {
-    rows_.blocks[lane.block].set_grains(lane.lane, contact.a, contact.b);
-    word(contact.a) |= std::uint64_t{1} << slot;
-    if (bed_.is_grain(contact.b)) word(contact.b) |= std::uint64_t{1} << slot;
-    if (used_[slot] == block_width) close(slot);
-  }
-  void open(std::size_t slot, std::size_t points) {
-    block_[slot] = rows_.blocks.size();
+  std::size_t append_void_block(std::size_t points) {
     LeverBlock<Real> block{};
     block.first = static_cast<std::uint32_t>(rows_.points.size());
     block.points = static_cast<std::uint32_t>(points);
@@ -66,6 +47,7 @@ class LeverBlocks {
     }
     rows_.blocks.push_back(block);
     rows_.points.insert(rows_.points.end(), points, void_points());
+    return rows_.blocks.size() - 1;
   }
   static LeverPoints<Real> void_points() {
     LeverPoints<Real> points{};
@@ -74,25 +56,11 @@ class LeverBlocks {
     }
     return points;
   }
-  /// Makes room for a new block: the grains of the closed one forget it.
-  void close(std::size_t slot) {
-    const LeverBlock<Real>& block = rows_.blocks[block_[slot]];
-    const std::uint64_t keep = ~(std::uint64_t{1} << slot);
-    for (std::size_t lane = 0; lane < used_[slot]; ++lane) {
-      word(block.a(lane)) &= keep;
-      if (bed_.is_grain(block.b(lane))) word(block.b(lane)) &= keep;
-    }
-    used_[slot] = 0;
-  }
-  std::size_t fullest() const {
-    return static_cast<std::size_t>(std::max_element(used_, used_ + most_open) - used_);
-  }
 
   const ShapeBed& bed_;
   LeverColumns<Real>& rows_;
-  std::vector<std::uint64_t> open_blocks_;  // per grain: one bit for each open block it is in
-  std::size_t block_[most_open] = {};
-  std::size_t used_[most_open] = {};
+  std::vector<std::uint64_t> words_;
+  OpenBlocks open_;
 };
 
 /// One side's part in a row.
