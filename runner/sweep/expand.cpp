@@ -56,7 +56,9 @@ const Setting* setting_of(const SpecError& error, const Resolved& resolved) {
     const std::string& path = parameters()[setting->parameter].path;
     if (!path.starts_with(error.path + ".")) continue;
     const std::size_t mention = mention_of(path, error.message);
-    if (found == nullptr || mention < first) found = setting, first = mention;
+    if (found != nullptr && mention >= first) continue;
+    found = setting;
+    first = mention;
   }
   return found;
 }
@@ -225,7 +227,10 @@ class Expansion {
       is_sound = reading.errors.empty();
       hull.points = points_of(reading);
     }
-    if (!(draft.hull_size > 0.0)) note(*size, "must be positive"), is_sound = false;
+    if (!(draft.hull_size > 0.0)) {
+      note(*size, "must be positive");
+      is_sound = false;
+    }
     is_sound = has_room(hull.points.size(), block, *source) && is_sound;
     hull.points = is_sound ? scaled_points(std::move(hull.points), draft.hull_size) : Points{};
     if (!is_sound) said_.insert(source->pointer + " shape.hull");

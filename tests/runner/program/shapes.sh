@@ -48,21 +48,35 @@ grep -q 'orientation:R:4' "$pinacoid.xyz" || fail "no orientation in XYZ"
 grains=$(($(wc -l <"$pinacoid.csv") - 1))
 grep -q "NumberOfPoints=\"$((8 * grains))\".*NumberOfPolys=\"$((8 * grains))\"" "$pinacoid.vtp" ||
   fail "not eight vertices and faces a pinacoid"
-if python3 -c 'import vtkmodules.vtkIOXML' 2>/dev/null; then
+# The polygons of each grain enclose its volume, seen from outside counter-clockwise.
+if command -v python3 >/dev/null; then
   python3 - "$pinacoid.vtp" <<'PYTHON'
 import sys
-from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
-from vtkmodules.vtkFiltersCore import vtkMassProperties, vtkTriangleFilter
-reader = vtkXMLPolyDataReader()
-reader.SetFileName(sys.argv[1])
-triangles = vtkTriangleFilter()
-triangles.SetInputConnection(reader.GetOutputPort())
-mass = vtkMassProperties()
-mass.SetInputConnection(triangles.GetOutputPort())
-mass.Update()
-sizes = reader.GetOutput().GetCellData().GetArray("size")
-solid = sum(sizes.GetValue(i) ** 3 for i in range(sizes.GetNumberOfTuples())) / 8 * 0.4037749551
-assert abs(mass.GetVolume() / solid - 1) < 1e-3, (mass.GetVolume(), solid)
+import xml.etree.ElementTree as tree
+
+piece = tree.parse(sys.argv[1]).getroot().find("PolyData/Piece")
+def numbers(part, name):
+    return [float(word) for word in piece.find(f"{part}/DataArray[@Name='{name}']").text.split()]
+
+coordinates = numbers("Points", "Points")
+points = [coordinates[i:i + 3] for i in range(0, len(coordinates), 3)]
+corners = [int(corner) for corner in numbers("Polys", "connectivity")]
+ends = [int(end) for end in numbers("Polys", "offsets")]
+assert len(points) == int(piece.get("NumberOfPoints")), "points"
+assert len(ends) == int(piece.get("NumberOfPolys")) and ends[-1] == len(corners), "polygons"
+enclosed = [0.0] * (int(max(numbers("CellData", "grain"))) + 1)
+sizes = [0.0] * len(enclosed)
+for begin, end, grain, size in zip([0] + ends, ends, numbers("CellData", "grain"),
+                                   numbers("CellData", "size")):
+    face = [points[corner] for corner in corners[begin:end]]
+    a = face[0]
+    for b, c in zip(face[1:], face[2:]):  # six times the volume under a triangle
+        enclosed[int(grain)] += (a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2])
+                                 + a[2] * (b[0] * c[1] - b[1] * c[0])) / 6
+    sizes[int(grain)] = size
+for volume, size in zip(enclosed, sizes):
+    whole = (3 - 3 ** -0.5) / 6 * size ** 3  # of a pinacoid of 60 degrees
+    assert abs(volume / whole - 1) < 1e-9, (volume, whole)
 PYTHON
 fi
 cd "$here"
