@@ -19,14 +19,18 @@ enum class ExportFormat {
 const char* name_of(ExportFormat format);
 std::optional<ExportFormat> export_format(std::string_view name);
 
-/// x, y, z, radius (d), force (m g), coordination: a grain per line.
+/// x, y, z, radius (d), force (m g), coordination: a grain per line. Of grains that are no spheres
+/// also qx, qy, qz, qw, the unit quaternion from the shape's frame to the box's.
 std::string grains_csv(const StoredBed& bed);
 
 /// The box as Lattice (its height is the bed's), periodic axes as pbc, a grain per line with
-/// species, pos, radius (d), coordination, force (m g).
+/// species, pos, radius (d), coordination, force (m g), and orientation (x, y, z, w) of grains that
+/// are no spheres.
 std::string grains_xyz(const StoredBed& bed);
 
-/// Points with the arrays radius (d), coordination, force (m g), in text.
+/// Spheres as points with the arrays radius (d), coordination, force (m g); other grains as the
+/// polygons of their faces, each with the arrays grain (from 0), size (d), coordination, force of
+/// its grain. In text.
 std::string grains_vtp(const StoredBed& bed);
 
 /// The bed in `format`.

@@ -52,7 +52,8 @@ Outcome store(const Job& job, const std::string& folder, Journal& journal, Finis
   outcome.cpu_seconds = finished.cpu_seconds;
   if (outcome.stored_grains > 0) {
     write_bed(folder, job.id,
-              {job.spec.box, std::move(finished.packing.grains), curves_of(outcome.result)});
+              {job.spec.box, std::move(finished.packing.grains), curves_of(outcome.result),
+               std::move(finished.packing.turned)});
   }
   journal.append(outcome);
   return outcome;

@@ -23,8 +23,54 @@ PaperValue about(double value, const char* text) {
 /// The gap at which the paper gives the reach of the walls, d.
 constexpr double profile_width = 10.0;
 
-double share_of(const Family& family) {
-  return (family.walled.empty() ? family.periodic : family.walled).front().job.small_share;
+const JobFacts& job_of(const Family& family) {
+  return (family.walled.empty() ? family.periodic : family.walled).front().job;
+}
+
+double share_of(const Family& family) { return job_of(family).small_share; }
+
+/// What the paper prints of a family.
+struct Printed {
+  PaperValue bulk = not_printed;          ///< solid fraction without walls, of the fit
+  PaperValue slope = not_printed;         ///< C, d
+  PaperValue coordination = not_printed;  ///< without walls
+  PaperValue decay = not_printed;         ///< lambda_L over the mean diameter
+  PaperValue reach = not_printed;         ///< of the wall, d
+  PaperValue drop = not_printed;          ///< of the coordination number at the wall
+};
+
+Printed printed_of_spheres(double share) {
+  if (share == 0.0) {
+    return {about(0.64, "about 0.64"),
+            words("falls with x_S"),
+            {"6.027 ± 0.012", PaperValue::Range{6.027, 6.027, 0.012}},
+            about(1.4, "1.4"),
+            {"3 to 4", PaperValue::Range{3, 4, 0}},
+            about(1.4, "1.4")};
+  }
+  return {words("above MSP"),
+          words("falls with x_S"),
+          not_printed,
+          share == 0.4 ? about(0.85, "0.85") : not_printed,
+          {"1.5 to 2", PaperValue::Range{1.5, 2, 0}},
+          not_printed};
+}
+
+/// Those of length, width and height d and 60 degrees, all of one size.
+bool are_the_papers_pinacoids(const JobFacts& job) {
+  return job.small_share == 0.0 &&
+         job.parameters.find(
+             R"("shape":{"pinacoid":{"angle_deg":60,"height":1,"length":1,"width":1}})") !=
+             std::string::npos;
+}
+
+Printed printed_of(const Family& family) {
+  const JobFacts& job = job_of(family);
+  if (job.shape == "sphere") return printed_of_spheres(job.small_share);
+  if (!are_the_papers_pinacoids(job)) return {};
+  return {
+      words("above MSP"), not_printed,   {"8.581 ± 0.068", PaperValue::Range{8.581, 8.581, 0.068}},
+      about(1.2, "1.2"),  about(2, "2"), about(1.5, "1.5")};
 }
 
 const Group* group_at(const Family& family, double width) {
@@ -110,10 +156,9 @@ Comparison row_of_fit(const Family& family, std::string quantity, const PaperVal
 void add_fits(const Family& family, Rows& rows) {
   const WallFit phi = fit_walls(family, Quantity::solid_fraction);
   const WallFit z = fit_walls(family, Quantity::coordination);
-  const bool is_mono = share_of(family) == 0.0;
-  const PaperValue bulk = is_mono ? about(0.64, "about 0.64") : words("above MSP");
-  rows.push_back(row_of_fit(family, "φ_bulk of the fit", bulk, phi, phi.bulk));
-  rows.push_back(row_of_fit(family, "C / d", words("falls with x_S"), phi, phi.slope));
+  const Printed printed = printed_of(family);
+  rows.push_back(row_of_fit(family, "φ_bulk of the fit", printed.bulk, phi, phi.bulk));
+  rows.push_back(row_of_fit(family, "C / d", printed.slope, phi, phi.slope));
   rows.push_back(row_of_fit(family, "Z_bulk of the fit", not_printed, z, z.bulk));
   rows.push_back(row_of_fit(family, "C_Z / d", not_printed, z, z.slope));
   Comparison gap{family.name,
@@ -148,28 +193,18 @@ double mean_over(const Group& group, double PackingResult::*member) {
   return sum / static_cast<double>(group.settled.size());
 }
 
-PaperValue printed_decay(double share) {
-  if (share == 0.0) return about(1.4, "1.4");
-  return share == 0.4 ? about(0.85, "0.85") : not_printed;
-}
-
-PaperValue printed_reach(double share) {
-  return share == 0.0 ? PaperValue{"3 to 4", PaperValue::Range{3, 4, 0}}
-                      : PaperValue{"1.5 to 2", PaperValue::Range{1.5, 2, 0}};
-}
-
 void add_reach(const Family& family, const Group& group, Rows& rows) {
   const DecayFit fit = decay_of(group, GrainClass::large);
-  const PaperValue printed = printed_decay(share_of(family));
-  rows.push_back(row_of_decay(family, fit, printed, "by number",
+  const Printed printed = printed_of(family);
+  rows.push_back(row_of_decay(family, fit, printed.decay, "by number",
                               mean_over(group, &PackingResult::mean_diameter)));
   if (share_of(family) > 0.0) {
-    rows.push_back(row_of_decay(family, fit, printed, "by volume",
+    rows.push_back(row_of_decay(family, fit, printed.decay, "by volume",
                                 mean_over(group, &PackingResult::mean_diameter_by_volume)));
   }
   rows.push_back({family.name,
                   "reach of the wall / d at W = 10 d",
-                  printed_reach(share_of(family)),
+                  printed.reach,
                   {fit.reach.value, fit.reach.error},
                   fit.not_determined,
                   "where that oscillation has fallen to " + cell(100.0 * decay_reach_share) +
@@ -178,10 +213,9 @@ void add_reach(const Family& family, const Group& group, Rows& rows) {
 
 void add_zone(const Family& family, const Group& group, Rows& rows) {
   const WallZone zone = wall_zone(group);
-  const PaperValue drop = share_of(family) == 0.0 ? about(1.4, "1.4") : not_printed;
   rows.push_back({family.name,
                   "drop of Z at the wall, W = 10 d",
-                  drop,
+                  printed_of(family).drop,
                   {zone.drop.mean, standard_error(zone.drop)},
                   zone.not_determined,
                   "grains farther than " + cell(core_distance) + " d from both walls less those " +
@@ -209,10 +243,8 @@ void add_profiles(const Family& family, Rows& rows) {
 }
 
 void add_family(const Family& family, Rows& rows) {
-  const bool is_mono = share_of(family) == 0.0;
-  const PaperValue z{"6.027 ± 0.012", PaperValue::Range{6.027, 6.027, 0.012}};
   add_reference(family, Quantity::solid_fraction, not_printed, rows);
-  add_reference(family, Quantity::coordination, is_mono ? z : not_printed, rows);
+  add_reference(family, Quantity::coordination, printed_of(family).coordination, rows);
   if (family.walled.empty()) return;
   add_fits(family, rows);
   for (const double width : {5.0, 10.0, 20.0}) {

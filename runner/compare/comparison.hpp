@@ -1,4 +1,4 @@
-// What the reference study of confined sphere packings says (Camenen, Descantes, Richard, Powders &
+// What the reference study of confined packings says (Camenen, Descantes, Richard, Powders &
 // Grains 2013), and what a sweep found.
 #pragma once
 
@@ -37,7 +37,7 @@ std::optional<double> difference(const Comparison& comparison);
 /// The same over the standard errors of both, added in quadrature.
 std::optional<double> difference_in_errors(const Comparison& comparison);
 
-/// Every sphere number of the paper, family by family, and what has been measured beside it.
+/// Every number of the paper, family by family, and what has been measured beside it.
 std::vector<Comparison> compare_with_paper(const std::vector<Family>& families);
 
 /// A table for people: UTF-8, the definition of our value below each row.

@@ -1,5 +1,6 @@
 #include "runner/store/outcome.hpp"
 
+#include <array>
 #include <stdexcept>
 
 #include <nlohmann/json.hpp>
@@ -93,6 +94,32 @@ Order order_from(const json& from) {
   return order;
 }
 
+json shares_json(const std::array<double, 3>& shares) {
+  json list = json::array();
+  for (const double share : shares) list.push_back(number_json(share));
+  return list;
+}
+
+std::array<double, 3> shares_from(const json& list) {
+  std::array<double, 3> shares{};
+  for (std::size_t k = 0; k < shares.size(); ++k) shares[k] = number_from(list.at(k));
+  return shares;
+}
+
+json shape_order_json(const ShapeOrder& order) {
+  return {{"contact_share", shares_json(order.contact_share)},
+          {"force_share", shares_json(order.force_share)},
+          {"nematic", shares_json(order.nematic)}};
+}
+
+/// Spheres have none, and their outcomes no member for it.
+std::optional<ShapeOrder> shape_order_from(const json& outcome) {
+  const auto found = outcome.find("shape_order");
+  if (found == outcome.end()) return std::nullopt;
+  return ShapeOrder{shares_from(found->at("contact_share")), shares_from(found->at("force_share")),
+                    shares_from(found->at("nematic"))};
+}
+
 }  // namespace
 
 PackingStatus status_from(std::string_view name) {
@@ -105,27 +132,29 @@ PackingStatus status_from(std::string_view name) {
 
 json to_json(const Outcome& outcome) {
   const PackingResult& result = outcome.result;
-  return {{"job", outcome.job},
-          {"version", outcome.version},
-          {"status", name_of(result.status)},
-          {"reason", result.reason},
-          {"threw", outcome.threw},
-          {"grains", result.grains},
-          {"stored_grains", outcome.stored_grains},
-          {"rest", rest_json(result.rest)},
-          {"balance", balance_json(result.balance)},
-          {"surface_height", number_json(result.surface_height)},
-          {"slab_bottom", number_json(result.slab_bottom)},
-          {"slab_top", number_json(result.slab_top)},
-          {"solid_fraction", number_json(result.solid_fraction)},
-          {"coordination", coordination_json(result.coordination)},
-          {"mean_diameter", number_json(result.mean_diameter)},
-          {"mean_diameter_by_volume", number_json(result.mean_diameter_by_volume)},
-          {"order", order_json(result.order)},
-          {"steps", result.steps},
-          {"iterations", result.iterations},
-          {"state_hash", result.state_hash},
-          {"cpu_seconds", number_json(outcome.cpu_seconds)}};
+  json all = {{"job", outcome.job},
+              {"version", outcome.version},
+              {"status", name_of(result.status)},
+              {"reason", result.reason},
+              {"threw", outcome.threw},
+              {"grains", result.grains},
+              {"stored_grains", outcome.stored_grains},
+              {"rest", rest_json(result.rest)},
+              {"balance", balance_json(result.balance)},
+              {"surface_height", number_json(result.surface_height)},
+              {"slab_bottom", number_json(result.slab_bottom)},
+              {"slab_top", number_json(result.slab_top)},
+              {"solid_fraction", number_json(result.solid_fraction)},
+              {"coordination", coordination_json(result.coordination)},
+              {"mean_diameter", number_json(result.mean_diameter)},
+              {"mean_diameter_by_volume", number_json(result.mean_diameter_by_volume)},
+              {"order", order_json(result.order)},
+              {"steps", result.steps},
+              {"iterations", result.iterations},
+              {"state_hash", result.state_hash},
+              {"cpu_seconds", number_json(outcome.cpu_seconds)}};
+  if (result.shape_order) all["shape_order"] = shape_order_json(*result.shape_order);
+  return all;
 }
 
 Outcome outcome_from_json(const json& json) {
@@ -148,6 +177,7 @@ Outcome outcome_from_json(const json& json) {
   result.mean_diameter = number_from(json.at("mean_diameter"));
   result.mean_diameter_by_volume = number_from(json.at("mean_diameter_by_volume"));
   result.order = order_from(json.at("order"));
+  result.shape_order = shape_order_from(json);
   json.at("steps").get_to(result.steps);
   json.at("iterations").get_to(result.iterations);
   json.at("state_hash").get_to(result.state_hash);

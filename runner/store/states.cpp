@@ -7,11 +7,13 @@
 #include "runner/store/bytes.hpp"
 #include "runner/store/checksum.hpp"
 #include "runner/store/files.hpp"
+#include "runner/store/turned.hpp"
 
 namespace grainsweep {
 namespace {
 
-constexpr std::string_view magic = "GRAINS2\n";
+constexpr std::string_view magic_of_spheres = "GRAINS2\n";
+constexpr std::string_view magic_of_turned = "GRAINS3\n";
 constexpr std::size_t start_size = 8 + 8;
 constexpr std::size_t grains_header_size = 8 + 16 + 2;
 constexpr std::size_t grain_size = 5 * 8 + 4;
@@ -45,8 +47,9 @@ bool ends_in_its_checksum(std::string_view bytes) {
 
 /// Size of the file's part up to the checksum of the curves; nothing if it does not begin right.
 std::optional<std::size_t> size_of_first_part(std::string_view start) {
-  if (start.size() < start_size || !start.starts_with(magic)) return std::nullopt;
-  start.remove_prefix(magic.size());
+  const bool is_ours = start.starts_with(magic_of_spheres) || start.starts_with(magic_of_turned);
+  if (start.size() < start_size || !is_ours) return std::nullopt;
+  start.remove_prefix(magic_of_spheres.size());
   const auto curves = take<std::uint64_t>(start);
   constexpr std::uint64_t rest_size = start_size + checksum_size;
   if (curves > std::numeric_limits<std::uint64_t>::max() - rest_size) return std::nullopt;
@@ -66,6 +69,16 @@ std::optional<Curves> curves_in(std::string_view first_part) {
   }
 }
 
+/// False if what follows the grains is damaged.
+bool take_turned_into(StoredBed& bed, std::string_view& rest) {
+  try {
+    bed.turned = take_turned(rest, bed.grains.size());
+    return true;
+  } catch (const std::logic_error&) {
+    return false;
+  }
+}
+
 /// The bed in a whole file; nothing if it is damaged.
 std::optional<StoredBed> bed_in(std::string_view bytes) {
   const auto first_size = size_of_first_part(bytes);
@@ -81,10 +94,11 @@ std::optional<StoredBed> bed_in(std::string_view bytes) {
   bed.box.width = take_double(rest);
   bed.box.x = take_boundary(rest);
   bed.box.y = take_boundary(rest);
-  if (rest.size() % grain_size != 0 || rest.size() / grain_size != count) return std::nullopt;
+  if (count > rest.size() / grain_size) return std::nullopt;
   bed.grains.reserve(count);
   for (std::uint64_t grain = 0; grain < count; ++grain) bed.grains.push_back(take_grain(rest));
-  return bed;
+  if (bytes.starts_with(magic_of_turned) && !take_turned_into(bed, rest)) return std::nullopt;
+  return rest.empty() ? std::optional(std::move(bed)) : std::nullopt;
 }
 
 }  // namespace
@@ -96,7 +110,7 @@ std::string state_path(const std::string& folder, const std::string& job) {
 std::string bed_bytes(const StoredBed& bed) {
   std::string curves;
   put_curves(curves, bed.curves);
-  std::string bytes(magic);
+  std::string bytes(bed.turned ? magic_of_turned : magic_of_spheres);
   bytes.reserve(start_size + curves.size() + grains_header_size + bed.grains.size() * grain_size +
                 2 * checksum_size);
   put_text(bytes, curves);
@@ -107,6 +121,7 @@ std::string bed_bytes(const StoredBed& bed) {
   put(bytes, static_cast<std::uint8_t>(bed.box.x == Boundary::walls));
   put(bytes, static_cast<std::uint8_t>(bed.box.y == Boundary::walls));
   for (const SettledGrain& grain : bed.grains) put_grain(bytes, grain);
+  if (bed.turned) put_turned(bytes, *bed.turned);
   put(bytes, crc32(bytes));
   return bytes;
 }

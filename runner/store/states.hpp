@@ -1,9 +1,10 @@
 // The curves and grains of each finished bed, so that neither tables nor exporting pack again.
 //
-// states/<job>.grains, little-endian: "GRAINS2\n"; u64 bytes of curves; curves as of put_curves;
-// u32 CRC-32 of all before, so that curves are read without the grains; u64 number of grains; f64
-// box length, box width; u8 x walled, y walled; per grain f64 x, y, z, radius, force, i32 touching;
-// u32 CRC-32 of all before. Units as in SettledGrain and PackingResult.
+// states/<job>.grains, little-endian: "GRAINS2\n", or "GRAINS3\n" if grains are turned; u64 bytes
+// of curves; curves as of put_curves; u32 CRC-32 of all before, so that curves are read without the
+// grains; u64 number of grains; f64 box length, box width; u8 x walled, y walled; per grain f64 x,
+// y, z, radius, force, i32 touching; of turned grains orientations and mesh as of put_turned; u32
+// CRC-32 of all before. Units as in SettledGrain and PackingResult.
 #pragma once
 
 #include <optional>
@@ -20,6 +21,7 @@ struct StoredBed {
   BoxSpec box;
   std::vector<SettledGrain> grains;
   Curves curves = {};
+  std::optional<Turned> turned = {};  ///< unless they are spheres; an orientation per grain
 };
 
 /// <folder>/states/<job>.grains

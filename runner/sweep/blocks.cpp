@@ -6,6 +6,7 @@
 #include <set>
 
 #include "runner/sweep/random_paths.hpp"
+#include "runner/sweep/shape_kind.hpp"
 #include "runner/sweep/suggest.hpp"
 #include "runner/sweep/values.hpp"
 
@@ -97,12 +98,23 @@ std::string read_label(const Json& block, const std::string& pointer, std::size_
 /// A path that a block varies, for finding what is varied twice.
 struct Varied {
   std::string path, pointer;
-  std::set<std::size_t> parameters;
+  std::set<std::size_t> parameters = {};
+  std::set<ShapeKind> shapes = {};
 
   void add(const Settings& settings) {
-    for (const Setting& setting : settings) parameters.insert(setting.parameter);
+    for (const Setting& setting : settings) {
+      parameters.insert(setting.parameter);
+      shapes.insert(shape_named_by(setting));
+    }
   }
 };
+
+bool name_different_shapes(const Varied& a, const Varied& b) {
+  return std::any_of(a.shapes.begin(), a.shapes.end(), [&](ShapeKind one) {
+    return std::any_of(b.shapes.begin(), b.shapes.end(),
+                       [&](ShapeKind other) { return exclude_each_other(one, other); });
+  });
+}
 
 bool vary_the_same(const Varied& a, const Varied& b, std::string& path) {
   for (const std::size_t parameter : b.parameters) {
@@ -112,7 +124,8 @@ bool vary_the_same(const Varied& a, const Varied& b, std::string& path) {
     path = fills_again ? "fill" : parameters()[parameter].path;
     return true;
   }
-  return false;
+  path = "shape";
+  return name_different_shapes(a, b);
 }
 
 void refuse_double_variation(const std::vector<Varied>& all, Problems& problems) {
@@ -217,7 +230,7 @@ class BlockReader {
     for (const RandomPath& path : block_.random) {
       Varied varied{path.path, path.pointer, {}};
       for (const Settings& choice : path.choices) varied.add(choice);
-      if (path.choices.empty()) varied.parameters.insert(path.parameter);
+      if (path.choices.empty()) varied.add({{path.parameter, path.low, path.pointer}});
       varied_.push_back(std::move(varied));
     }
   }

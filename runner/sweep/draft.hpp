@@ -8,20 +8,19 @@
 
 namespace grainsweep {
 
-/// Shapes a bed can be packed from.
-enum class Shape { sphere };
-
 /// A packing's specification, and what a sweep file says that the engine does not know.
 struct Draft {
   Draft();
 
-  Shape shape = Shape::sphere;
-  PackingSpec spec;            ///< random_key is not set here
-  int preset = -1;             ///< index into presets(), -1 for the default
-  std::string fill_file;       ///< as written; "" unless the fill is a file
-  std::string fill_content;    ///< hash of that file's bytes, 16 hex digits
-  double fill_diameter = 1.0;  ///< length in that file that is d here
-  std::uint64_t seed = 0;      ///< master seed
+  PackingSpec spec;              ///< random_key is not set here
+  int preset = -1;               ///< index into presets(), -1 for the default
+  std::string fill_file;         ///< as written; "" unless the fill is a file
+  std::string fill_content;      ///< hash of that file's bytes, 16 hex digits
+  double fill_diameter = 1.0;    ///< length in that file that is d here
+  double pinacoid_angle = 60.0;  ///< degrees, as written; the specification holds it in radians
+  std::string hull_file;         ///< as written; "" unless the shape is a hull from a file
+  double hull_size = 1.0;        ///< length in the vertices of a hull that is d here
+  std::uint64_t seed = 0;        ///< master seed
 };
 
 /// The preset of a sweep that names none.

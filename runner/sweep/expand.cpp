@@ -9,6 +9,7 @@
 
 #include "runner/sweep/grains_csv.hpp"
 #include "runner/sweep/identity.hpp"
+#include "runner/sweep/obj.hpp"
 #include "runner/sweep/values.hpp"
 
 namespace grainsweep {
@@ -16,6 +17,51 @@ namespace {
 
 /// Grains from fill files over all jobs, each of which keeps its own copy: 1.6 GB.
 constexpr std::uint64_t most_placed_grains = 50'000'000;
+
+/// Vertices of hulls over all jobs, likewise, 1.2 GB; and of one grain: a check takes their square.
+constexpr std::uint64_t most_vertices = 50'000'000;
+constexpr std::size_t most_vertices_of_a_grain = 1'000;
+
+Points points_of(const ObjReading& reading) {
+  Points points;
+  points.reserve(reading.vertices.size());
+  for (const Vector& vertex : reading.vertices) {
+    points.push_back({vertex.x(), vertex.y(), vertex.z()});
+  }
+  return points;
+}
+
+/// The points in units of `size`, a length in theirs.
+Points scaled_points(Points points, double size) {
+  for (auto& point : points) {
+    for (double& coordinate : point) coordinate = coordinate / size + 0.0;  // -0 and 0 are one
+  }
+  return points;
+}
+
+/// Where the first word of a part's name is in a message: "angle" for "shape.pinacoid.angle_deg".
+std::size_t mention_of(const std::string& path, const std::string& message) {
+  const std::string name = path.substr(path.rfind('.') + 1);
+  return message.find(name.substr(0, name.find('_')));
+}
+
+/// The setting that an error about `path` is about. Of a group it is the part that is written and
+/// that the message mentions first, or else the first part that is written.
+const Setting* setting_of(const SpecError& error, const Resolved& resolved) {
+  if (const auto parameter = find_parameter(error.path)) return resolved[*parameter];
+  const Setting* found = nullptr;
+  std::size_t first = std::string::npos;
+  for (const Setting* setting : resolved) {
+    if (setting == nullptr) continue;
+    const std::string& path = parameters()[setting->parameter].path;
+    if (!path.starts_with(error.path + ".")) continue;
+    const std::size_t mention = mention_of(path, error.message);
+    if (found != nullptr && mention >= first) continue;
+    found = setting;
+    first = mention;
+  }
+  return found;
+}
 
 std::uint64_t job_count(const Block& block) {
   const std::uint64_t points = point_count(block);
@@ -121,6 +167,7 @@ class Expansion {
     Draft draft = draft_of(resolved);
     if (resolved[seed_] == nullptr) draft.seed = blocks_.seed;
     place_grains(block, resolved, draft);
+    place_vertices(block, resolved, draft);
     note_broken_rules(block, resolved, check(draft.spec));
     if (!problems_.empty()) return;
     Job job{"", block.label, canonical_parameters(draft), 1, draft.seed, std::move(draft.spec)};
@@ -151,22 +198,68 @@ class Expansion {
     }
     draft.spec.fill = SolidHeight{};
     if (!(draft.fill_diameter > 0.0)) return note(*diameter, "must be positive");
-    const GrainsReading& reading = grains_of(draft.fill_file, *file);
+    const GrainsReading& reading = reading_of(draft.fill_file, *file, read_grains, grains_);
     if (!reading.errors.empty()) return;
     placed_ += reading.grains.size() * static_cast<std::uint64_t>(block.replicates);
     if (placed_ > most_placed_grains) {
       return note(*file, "the jobs hold more than " + in_thousands(most_placed_grains) +
                              " grains from files together; split the sweep");
     }
-    draft.spec.fill = PlacedGrains{scaled_grains(reading.grains, draft.fill_diameter)};
+    draft.spec.fill =
+        PlacedGrains{scaled_grains(reading.grains, draft.fill_diameter), reading.orientations};
     draft.fill_content = reading.content;
   }
 
-  const GrainsReading& grains_of(const std::string& file, const Setting& setting) {
+  /// Fills in the vertices of a hull. If there are none to be had, says so; what `check` would say
+  /// of a hull without vertices is then said already.
+  void place_vertices(const Block& block, const Resolved& resolved, Draft& draft) {
+    const Setting* size = resolved[hull_size_];
+    const Setting* file = resolved[hull_file_];
+    const Setting* source = file != nullptr ? file : resolved[hull_vertices_];
+    if (source == nullptr) {
+      if (size == nullptr) return;
+      return note(*size, "belongs to shape.hull.vertices or shape.hull.file; neither is set");
+    }
+    auto& hull = std::get<HullVertices>(draft.spec.shape);
+    bool is_sound = true;
+    if (file != nullptr) {
+      const ObjReading& reading = reading_of(draft.hull_file, *file, read_obj, hulls_);
+      is_sound = reading.errors.empty();
+      hull.points = points_of(reading);
+    }
+    if (!(draft.hull_size > 0.0)) {
+      note(*size, "must be positive");
+      is_sound = false;
+    }
+    is_sound = has_room(hull.points.size(), block, *source) && is_sound;
+    hull.points = is_sound ? scaled_points(std::move(hull.points), draft.hull_size) : Points{};
+    if (!is_sound) said_.insert(source->pointer + " shape.hull");
+  }
+
+  /// Whether the hulls do not hold too many vertices; otherwise a problem is noted.
+  bool has_room(std::size_t count, const Block& block, const Setting& source) {
+    if (count > most_vertices_of_a_grain) {
+      note(source, "holds " + in_thousands(count) + " vertices, more than the " +
+                       in_thousands(most_vertices_of_a_grain) +
+                       " that a grain may have; simplify the shape");
+      return false;
+    }
+    vertices_ += count * static_cast<std::uint64_t>(block.replicates);
+    if (vertices_ <= most_vertices) return true;
+    note(source, "the jobs hold more than " + in_thousands(most_vertices) +
+                     " vertices together; split the sweep");
+    return false;
+  }
+
+  /// What is in `file`, read once for all jobs.
+  template <class Reading>
+  const Reading& reading_of(const std::string& file, const Setting& setting,
+                            Reading (*read)(const std::string&),
+                            std::map<std::string, Reading>& files) {
     const std::string path = (std::filesystem::path(folder_) / file).string();
-    const auto known = files_.find(path);
-    if (known != files_.end()) return known->second;
-    const GrainsReading& reading = files_.emplace(path, read_grains(path)).first->second;
+    const auto known = files.find(path);
+    if (known != files.end()) return known->second;
+    const Reading& reading = files.emplace(path, read(path)).first->second;
     for (const Finding& error : reading.errors) {
       problems_.push_back({setting.pointer, error.message, Anchor::value, error.place});
     }
@@ -183,8 +276,7 @@ class Expansion {
                          const std::vector<SpecError>& errors) {
     std::set<std::string> said_now;
     for (const SpecError& error : errors) {
-      const auto parameter = find_parameter(error.path);
-      const Setting* setting = parameter ? resolved[*parameter] : nullptr;
+      const Setting* setting = setting_of(error, resolved);
       const std::string pointer = setting == nullptr ? block.pointer : setting->pointer;
       const std::string key = pointer + " " + error.path;
       if (said_.count(key) != 0) continue;
@@ -213,12 +305,16 @@ class Expansion {
   const std::size_t seed_ = *find_parameter("seed");
   const std::size_t file_ = *find_parameter("fill.file");
   const std::size_t diameter_ = *find_parameter("fill.diameter");
+  const std::size_t hull_vertices_ = *find_parameter("shape.hull.vertices");
+  const std::size_t hull_file_ = *find_parameter("shape.hull.file");
+  const std::size_t hull_size_ = *find_parameter("shape.hull.size");
   std::vector<Job> jobs_;
   std::unordered_map<std::uint64_t, std::size_t> first_block_;  // of every job, by its hash
   std::map<std::pair<std::size_t, std::size_t>, std::uint64_t> shared_;  // jobs, by two blocks
-  std::map<std::string, GrainsReading> files_;
+  std::map<std::string, GrainsReading> grains_;                          // by file
+  std::map<std::string, ObjReading> hulls_;                              // by file
   std::set<std::string> said_;
-  std::uint64_t placed_ = 0;
+  std::uint64_t placed_ = 0, vertices_ = 0;
 };
 
 }  // namespace

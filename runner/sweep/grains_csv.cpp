@@ -15,11 +15,12 @@ namespace {
 
 using Cells = std::vector<std::string_view>;
 
-constexpr std::array<std::string_view, 4> names = {"x", "y", "z", "r"};
+constexpr std::array<std::string_view, 8> names = {"x", "y", "z", "r", "qx", "qy", "qz", "qw"};
+constexpr std::size_t needed = 4;  ///< the others are there all or not at all
 constexpr std::size_t most_errors = 20;
 
-/// Index of the column of each name.
-using Columns = std::array<std::size_t, names.size()>;
+/// Index of the column of each name, or of the needed ones alone.
+using Columns = std::vector<std::size_t>;
 
 Cells cells_of(std::string_view line) {
   Cells cells;
@@ -35,17 +36,26 @@ Cells cells_of(std::string_view line) {
   }
 }
 
+bool is_orientation(std::string_view name) { return name.front() == 'q'; }
+
 std::string header_error(std::string_view name, const Cells& header) {
   std::string found;
   for (const std::string_view cell : header) found.append(found.empty() ? "" : ",").append(cell);
-  return "the first line must name the columns x,y,z,r; \"" + std::string(name) +
-         "\" is missing or there twice in \"" + shortened(found) + "\"";
+  return "the first line must name the columns x,y,z,r" +
+         std::string(is_orientation(name) ? " and all of qx,qy,qz,qw" : "") + "; \"" +
+         std::string(name) + "\" is missing or there twice in \"" + shortened(found) + "\"";
+}
+
+bool holds(const Cells& header, std::string_view name) {
+  return std::find(header.begin(), header.end(), name) != header.end();
 }
 
 /// The columns that `header` names, or what is wrong with it.
 std::optional<Columns> columns_of(const Cells& header, std::string& error) {
-  Columns columns{};
-  for (std::size_t i = 0; i < names.size(); ++i) {
+  Columns columns;
+  const bool are_turned = std::any_of(names.begin() + needed, names.end(),
+                                      [&](std::string_view name) { return holds(header, name); });
+  for (std::size_t i = 0; i < (are_turned ? names.size() : needed); ++i) {
     const auto matches = [&](std::string_view cell) {
       return cell == names[i] || (names[i] == "r" && cell == "radius");
     };
@@ -54,30 +64,31 @@ std::optional<Columns> columns_of(const Cells& header, std::string& error) {
       return std::nullopt;
     }
     const auto found = std::find_if(header.begin(), header.end(), matches);
-    columns[i] = static_cast<std::size_t>(found - header.begin());
+    columns.push_back(static_cast<std::size_t>(found - header.begin()));
   }
   return columns;
 }
 
-/// What is wrong with a line; otherwise the grain in it.
+/// What is wrong with a line; otherwise the grain in it is added.
 std::string read_grain(const Cells& cells, const Columns& columns, std::size_t width,
-                       PlacedSphere& grain) {
+                       GrainsReading& reading) {
   if (cells.size() != width) {
     return "must hold " + std::to_string(width) + " values like the first line, holds " +
            std::to_string(cells.size());
   }
-  std::array<double, names.size()> values{};
-  for (std::size_t i = 0; i < names.size(); ++i) {
+  std::array<double, names.size()> v{};
+  for (std::size_t i = 0; i < columns.size(); ++i) {
     const std::string_view cell = cells[columns[i]];
     const auto value = finite_number(cell);
     if (!value) {
       return std::string(names[i]) + " must be a finite number, is \"" + shortened(cell) + "\"";
     }
-    values[i] = *value;
+    v[i] = *value;
   }
-  grain = {values[0], values[1], values[2], values[3]};
-  if (grain.radius > 0.0) return "";
-  return "r must be positive, is " + std::string(cells[columns[3]]);
+  if (!(v[3] > 0.0)) return "r must be positive, is " + std::string(cells[columns[3]]);
+  reading.grains.push_back({v[0], v[1], v[2], v[3]});
+  if (columns.size() > needed) reading.orientations.push_back({v[4], v[5], v[6], v[7]});
+  return "";
 }
 
 /// Notes an error of `line`; false once there are enough.
@@ -103,9 +114,7 @@ GrainsReading parse_grains(const std::string& text, const std::string& file) {
   }
   if (lines.size() == 1) note(reading, file, 1, "no grain follows the first line");
   for (std::size_t i = 1; i < lines.size(); ++i) {
-    PlacedSphere grain;
-    error = read_grain(cells_of(lines[i]), *columns, header.size(), grain);
-    if (error.empty()) reading.grains.push_back(grain);
+    error = read_grain(cells_of(lines[i]), *columns, header.size(), reading);
     if (!error.empty() && !note(reading, file, i + 1, error)) break;
   }
   return reading;

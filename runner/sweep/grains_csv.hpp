@@ -1,9 +1,11 @@
 // Grains from a CSV file: where a bed starts that comes from elsewhere.
 //
-// The first line names the columns; x, y, z and r (or radius) must be among them, others are left
-// alone: a bed written by `export` can be packed again. One grain per line, decimal points.
+// The first line names the columns; x, y, z and r (or radius) must be among them, and for grains
+// that are no spheres qx, qy, qz and qw; others are left alone: a bed written by `export` can be
+// packed again. One grain per line, decimal points.
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -14,12 +16,14 @@ namespace grainsweep {
 
 struct GrainsReading {
   std::vector<PlacedSphere> grains;  ///< in the file's own unit of length
-  std::string content;               ///< hash of the file's bytes, 16 hex digits
-  std::vector<Finding> errors;       ///< with places "bed.csv:12"; at most 20 of a file
+  /// Quaternions as of PlacedGrains; empty if the file has no columns for them.
+  std::vector<std::array<double, 4>> orientations;
+  std::string content;          ///< hash of the file's bytes, 16 hex digits
+  std::vector<Finding> errors;  ///< with places "bed.csv:12"; at most 20 of a file
 };
 
-/// Reads grains from the file at `path`. Refuses missing columns and values, and radii that are not
-/// positive finite numbers.
+/// Reads grains from the file at `path`. Refuses missing columns and values, some of the columns of
+/// an orientation without the others, and radii that are not positive finite numbers.
 GrainsReading read_grains(const std::string& path);
 
 /// The same from `text`, the content of `file`.

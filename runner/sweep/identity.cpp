@@ -8,13 +8,31 @@
 namespace grainsweep {
 namespace {
 
-std::vector<std::size_t> indices_by_path() {
-  std::vector<std::size_t> order(parameters().size());
-  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-  std::sort(order.begin(), order.end(), [](std::size_t a, std::size_t b) {
-    return parameters()[a].path < parameters()[b].path;
-  });
-  return order;
+using Names = std::vector<std::string_view>;
+
+/// A parameter and the groups it lies in, from the outside in.
+struct Member {
+  const Parameter* parameter;
+  Names groups;
+  std::string_view key;
+};
+
+Member member_of(const Parameter& parameter) {
+  Member member{&parameter, {}, parameter.path};
+  for (std::size_t dot = member.key.find('.'); dot != std::string_view::npos;
+       dot = member.key.find('.')) {
+    member.groups.push_back(member.key.substr(0, dot));
+    member.key.remove_prefix(dot + 1);
+  }
+  return member;
+}
+
+std::vector<Member> members_by_path() {
+  std::vector<Member> members;
+  for (const Parameter& parameter : parameters()) members.push_back(member_of(parameter));
+  std::sort(members.begin(), members.end(),
+            [](const Member& a, const Member& b) { return a.parameter->path < b.parameter->path; });
+  return members;
 }
 
 void append_number(double value, std::string& text) {
@@ -42,6 +60,16 @@ void append_value(const Parameter& parameter, const Value& value, std::string& t
   }
 }
 
+/// Closes the groups of `open` that `groups` does not begin with and opens the others of `groups`.
+void change_groups(const Names& open, const Names& groups, std::string& text) {
+  const auto last = std::mismatch(open.begin(), open.end(), groups.begin(), groups.end());
+  text.append(static_cast<std::size_t>(open.end() - last.first), '}');
+  if (text.back() != '{') text += ',';
+  for (auto group = last.second; group != groups.end(); ++group) {
+    text.append("\"").append(*group).append("\":{");
+  }
+}
+
 }  // namespace
 
 std::uint64_t fnv1a(std::string_view bytes) {
@@ -65,26 +93,31 @@ std::string hex16(std::uint64_t bits) {
   return text;
 }
 
-std::string canonical_parameters(const Draft& draft) {
-  static const std::vector<std::size_t> order = indices_by_path();
-  std::string text = "{";
-  std::string_view open_group;
-  for (const std::size_t index : order) {
-    const Parameter& parameter = parameters()[index];
-    const auto value = parameter.get(draft);
-    if (!value) continue;
-    const std::string_view path = parameter.path;
-    const std::size_t dot = path.find('.');
-    const std::string_view group = dot == std::string_view::npos ? "" : path.substr(0, dot);
-    if (group != open_group && !open_group.empty()) text += '}';
-    if (text.size() > 1 && text.back() != '{') text += ',';
-    if (group != open_group && !group.empty()) text.append("\"").append(group).append("\":{");
-    open_group = group;
-    const std::string_view key = group.empty() ? path : path.substr(dot + 1);
-    text.append("\"").append(key).append("\":");
-    append_value(parameter, *value, text);
+std::string hash_of(const HullVertices& hull) {
+  std::string text;
+  for (const auto& point : hull.points) {
+    for (const double coordinate : point) {
+      append_number(coordinate, text);
+      text += ',';
+    }
   }
-  return text.append(open_group.empty() ? "}" : "}}");
+  return hex16(mixed(fnv1a(text)));
+}
+
+std::string canonical_parameters(const Draft& draft) {
+  static const std::vector<Member> members = members_by_path();
+  const Names none;
+  const Names* open = &none;
+  std::string text = "{";
+  for (const auto& [parameter, groups, key] : members) {
+    const auto value = parameter->get(draft);
+    if (!value) continue;
+    change_groups(*open, groups, text);
+    open = &groups;
+    text.append("\"").append(key).append("\":");
+    append_value(*parameter, *value, text);
+  }
+  return text.append(open->size() + 1, '}');
 }
 
 std::uint64_t job_hash(std::string_view parameters, std::uint64_t seed, int replicate) {

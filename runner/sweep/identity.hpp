@@ -24,9 +24,12 @@ std::uint64_t mixed(std::uint64_t bits);
 /// 16 lower-case hex digits.
 std::string hex16(std::uint64_t bits);
 
+/// 16 hex digits: hash of the coordinates, in their order.
+std::string hash_of(const HullVertices& hull);
+
 /// Every parameter of the packing as JSON without spaces, keys sorted, numbers as short as they
 /// read back exactly (20, not 20.0). Presets appear as their parts, a fill file as the hash of its
-/// content.
+/// content, a hull as that of its vertices.
 std::string canonical_parameters(const Draft& draft);
 
 /// The id of a job, as a number.

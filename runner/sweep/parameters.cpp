@@ -6,6 +6,8 @@
 #include <utility>
 
 #include "engine/dynamics/presets.hpp"
+#include "engine/units.hpp"
+#include "runner/sweep/identity.hpp"
 
 namespace grainsweep {
 namespace {
@@ -84,6 +86,94 @@ Parameter measure(const char* path, const char* meaning) {
   return row<&Draft::spec, &PackingSpec::measure, member>(path, meaning);
 }
 
+void set_shape(Draft& draft, const Value& value) {
+  draft.spec.shape = std::get<std::int64_t>(value) == 0 ? ShapeSpec(SphereShape{}) : PinacoidSize{};
+}
+/// Other shapes are known by their parts.
+std::optional<Value> get_shape(const Draft& draft) {
+  if (!std::holds_alternative<SphereShape>(draft.spec.shape)) return std::nullopt;
+  return present(std::int64_t{0});
+}
+
+PinacoidSize& pinacoid_of(Draft& draft) {
+  auto* pinacoid = std::get_if<PinacoidSize>(&draft.spec.shape);
+  return pinacoid != nullptr ? *pinacoid : draft.spec.shape.emplace<PinacoidSize>();
+}
+template <auto member>
+void set_side(Draft& draft, const Value& value) {
+  pinacoid_of(draft).*member = std::get<double>(value);
+}
+template <auto member>
+std::optional<Value> get_side(const Draft& draft) {
+  const auto* pinacoid = std::get_if<PinacoidSize>(&draft.spec.shape);
+  return pinacoid != nullptr ? present(pinacoid->*member) : std::nullopt;
+}
+void set_angle(Draft& draft, const Value& value) {
+  draft.pinacoid_angle = std::get<double>(value);
+  pinacoid_of(draft).angle = draft.pinacoid_angle * (pi / 180.0);
+}
+std::optional<Value> get_angle(const Draft& draft) {
+  const bool is_pinacoid = std::holds_alternative<PinacoidSize>(draft.spec.shape);
+  return is_pinacoid ? present(draft.pinacoid_angle) : std::nullopt;
+}
+
+void set_vertices(Draft& draft, const Value& value) {
+  draft.spec.shape = HullVertices{std::get<Points>(value)};
+}
+std::optional<Value> get_vertices(const Draft& draft) {
+  const auto* hull = std::get_if<HullVertices>(&draft.spec.shape);
+  return hull != nullptr ? present(hash_of(*hull)) : std::nullopt;
+}
+void set_hull_file(Draft& draft, const Value& value) {
+  draft.spec.shape = HullVertices{};
+  draft.hull_file = std::get<std::string>(value);
+}
+
+/// The row of a number that is written and read by functions of its own.
+Parameter number(const char* path, const char* meaning, void (*set)(Draft&, const Value&),
+                 std::optional<Value> (*get)(const Draft&)) {
+  return {path, meaning, ValueKind::number, 0, {}, set, get};
+}
+
+template <auto member>
+Parameter side(const char* path, const char* meaning) {
+  return number(path, meaning, set_side<member>, get_side<member>);
+}
+
+/// The shape's name comes before the parts that name a shape too.
+Rows shape_rows() {
+  return {
+      {"shape",
+       "what the grains are; a name alone stands for the shape with its defaults",
+       ValueKind::choice,
+       0,
+       {"sphere", "pinacoid"},
+       set_shape,
+       get_shape},
+      side<&PinacoidSize::length>("shape.pinacoid.length", "length of the middle plane, d"),
+      side<&PinacoidSize::width>("shape.pinacoid.width", "width of the middle plane, d"),
+      side<&PinacoidSize::height>("shape.pinacoid.height", "distance of its two ridges, d"),
+      number("shape.pinacoid.angle_deg", "angle between ends and middle plane, degrees", set_angle,
+             get_angle),
+      {"shape.hull.vertices",
+       "vertices [x, y, z] of a convex grain",
+       ValueKind::points,
+       0,
+       {},
+       set_vertices,
+       get_vertices},
+      {"shape.hull.file",
+       "OBJ file of the vertices instead; relative to the sweep file",
+       ValueKind::text,
+       0,
+       {},
+       set_hull_file,
+       no_identity},
+      number("shape.hull.size", "the length in the vertices that is d; 1 if left out",
+             set_member<&Draft::hull_size>, no_identity),
+  };
+}
+
 Rows box_rows() {
   const Names boundaries = {"periodic", "walls"};  // in the order of Boundary
   return {
@@ -132,7 +222,8 @@ Rows fill_rows() {
        get_solid_height},
       {"fill.grains", "number of grains", ValueKind::whole, any_whole, {}, set_grains, get_grains},
       {"fill.file",
-       "CSV file of x,y,z,r: where the grains start; relative to the sweep file",
+       "CSV file of x,y,z,r, and qx,qy,qz,qw of grains that are no spheres: where they start; "
+       "relative to the sweep file",
        ValueKind::text,
        0,
        {},
@@ -217,8 +308,9 @@ Rows measure_rows() {
 }
 
 Rows all_rows() {
-  Rows all = {row<&Draft::shape>("shape", "what the grains are", {"sphere"})};
-  for (Rows rows : {box_rows(), fill_rows(), size_rows(), accuracy_rows(), measure_rows()}) {
+  Rows all;
+  for (Rows rows :
+       {shape_rows(), box_rows(), fill_rows(), size_rows(), accuracy_rows(), measure_rows()}) {
     for (Parameter& parameter : rows) all.push_back(std::move(parameter));
   }
   all.push_back({"seed",
@@ -229,6 +321,10 @@ Rows all_rows() {
                  set_member<&Draft::seed>,
                  no_identity});
   return all;
+}
+
+void add_new(const std::string& word, Names& words) {
+  if (std::find(words.begin(), words.end(), word) == words.end()) words.push_back(word);
 }
 
 }  // namespace
@@ -245,6 +341,12 @@ std::optional<std::size_t> find_parameter(std::string_view path) {
   return std::nullopt;
 }
 
+std::optional<Value> default_of(const Parameter& parameter) {
+  Draft draft;
+  if (parameter.path.starts_with("shape.pinacoid.")) draft.spec.shape = PinacoidSize{};
+  return parameter.get(draft);
+}
+
 bool is_group(std::string_view path) {
   if (path.empty()) return true;
   return std::any_of(parameters().begin(), parameters().end(), [&](const Parameter& parameter) {
@@ -255,17 +357,19 @@ bool is_group(std::string_view path) {
 
 std::vector<std::string> known_keys(std::string_view path) {
   const std::string prefix = path.empty() ? "" : std::string(path) + ".";
-  std::vector<std::string> groups, leaves;
+  std::vector<std::string> heads, dotted;
   for (const Parameter& parameter : parameters()) {
     if (!parameter.path.starts_with(prefix)) continue;
     const std::string rest = parameter.path.substr(prefix.size());
-    const std::size_t dot = rest.find('.');
-    if (dot != std::string::npos) leaves.push_back(rest);
-    const std::string head = rest.substr(0, dot);
-    if (groups.empty() || groups.back() != head) groups.push_back(head);
+    std::size_t dot = rest.find('.');
+    add_new(rest.substr(0, dot), heads);
+    while (dot != std::string::npos) {
+      dot = rest.find('.', dot + 1);
+      add_new(rest.substr(0, dot), dotted);
+    }
   }
-  groups.insert(groups.end(), leaves.begin(), leaves.end());
-  return groups;
+  heads.insert(heads.end(), dotted.begin(), dotted.end());
+  return heads;
 }
 
 bool is_fill(std::size_t parameter) {

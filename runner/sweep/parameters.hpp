@@ -2,6 +2,7 @@
 // documentation of the file format and the canonical form that identifies a job.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -13,8 +14,12 @@
 
 namespace grainsweep {
 
+/// Points x, y, z.
+using Points = std::vector<std::array<double, 3>>;
+
 /// A parameter's value. A choice is the index of its name.
-using Value = std::variant<double, std::int64_t, std::uint64_t, std::string, std::vector<double>>;
+using Value =
+    std::variant<double, std::int64_t, std::uint64_t, std::string, std::vector<double>, Points>;
 
 enum class ValueKind {
   number,   ///< double
@@ -23,6 +28,7 @@ enum class ValueKind {
   choice,   ///< int64, index into `choices`
   text,     ///< string
   numbers,  ///< list of doubles
+  points,   ///< list of points
 };
 
 struct Parameter {
@@ -42,10 +48,14 @@ const std::vector<Parameter>& parameters();
 /// Index of the parameter called `path`.
 std::optional<std::size_t> find_parameter(std::string_view path);
 
-/// Whether parameters lie below `path`: "box", "accuracy", and "" for all of them.
+/// The value that a parameter has where it applies and is not written; nothing if it has none.
+std::optional<Value> default_of(const Parameter& parameter);
+
+/// Whether parameters lie below `path`: "box", "shape.hull", and "" for all of them.
 bool is_group(std::string_view path);
 
-/// Keys known inside the group `path`, dotted ones included: "x", and in "" both "box" and "box.x".
+/// Keys known inside the group `path`, those of parameters and groups, dotted ones included: "x",
+/// and in "" both "box" and "box.x".
 std::vector<std::string> known_keys(std::string_view path);
 
 /// The three ways to fill a box are one choice: setting one of them unsets the others.

@@ -21,6 +21,10 @@ Json whole_number(std::int64_t least, std::int64_t most) {
   return {{"type", "integer"}, {"minimum", least}, {"maximum", most}};
 }
 
+Json point() {
+  return {{"type", "array"}, {"minItems", 3}, {"maxItems", 3}, {"items", {{"type", "number"}}}};
+}
+
 Json kind_of(const Parameter& parameter) {
   switch (parameter.kind) {
     case ValueKind::number:
@@ -33,24 +37,35 @@ Json kind_of(const Parameter& parameter) {
       return {{"type", "string"}};
     case ValueKind::numbers:
       return {{"type", "array"}, {"items", {{"type", "number"}}}};
+    case ValueKind::points:
+      return {{"type", "array"}, {"items", point()}};
     case ValueKind::choice:
       break;
   }
   return {{"enum", parameter.choices}};
 }
 
+Json group_members(const std::string& group) {
+  Json members;
+  for (const std::string& key : known_keys(group)) members[key] = reference(group + "." + key);
+  return closed_object(members);
+}
+
+/// A parameter that is also the name of a group is written as a value or as an object of its parts.
 Json parameter_schema(const Parameter& parameter) {
   Json schema = {{"description", parameter.meaning}};
-  schema.update(kind_of(parameter));
-  const auto value = parameter.get(Draft{});
+  if (is_group(parameter.path)) {
+    schema["anyOf"] = {kind_of(parameter), group_members(parameter.path)};
+  } else {
+    schema.update(kind_of(parameter));
+  }
+  const auto value = default_of(parameter);
   if (value) schema["default"] = written_value(parameter, *value);
   return schema;
 }
 
 Json group_schema(const std::string& group) {
-  Json members;
-  for (const std::string& key : known_keys(group)) members[key] = reference(group + "." + key);
-  Json object = closed_object(members);
+  Json object = group_members(group);
   if (group != "accuracy") return object;
   return {{"anyOf", {reference("accuracy.preset"), object}}};
 }

@@ -1,5 +1,6 @@
 #include "runner/sweep/settings.hpp"
 
+#include "runner/sweep/shape_kind.hpp"
 #include "runner/sweep/suggest.hpp"
 #include "runner/sweep/values.hpp"
 
@@ -24,17 +25,21 @@ void read_parameter(std::size_t index, const Json& value, const std::string& poi
   }
 }
 
-/// Keys that the group knows, and the full paths of parameters that end like a misplaced key.
+/// The shortest full path that ends in a misplaced key; "" if none does.
+std::string path_that_ends_in(const std::string& key) {
+  std::string found;
+  for (const std::string& path : known_keys("")) {
+    const bool is_shorter = found.empty() || path.size() < found.size();
+    if (path.ends_with("." + key) && is_shorter) found = path;
+  }
+  return found;
+}
+
+/// Keys that the group knows, and the full path of what a misplaced key names.
 std::string unknown_path(const std::string& group, const std::string& key) {
-  if (joined(group, key).starts_with("shape.")) {
-    return "this version packs spheres only; write \"shape\": \"sphere\"";
-  }
-  for (const Parameter& parameter : parameters()) {
-    if (parameter.path.ends_with("." + key)) {
-      return "unknown key \"" + key + "\"; did you mean \"" + parameter.path + "\"?";
-    }
-  }
-  return unknown_key(key, known_keys(group));
+  const std::string elsewhere = path_that_ends_in(key);
+  if (elsewhere.empty()) return unknown_key(key, known_keys(group));
+  return "unknown key \"" + key + "\"; did you mean \"" + elsewhere + "\"?";
 }
 
 void read_group(const std::string& group, const Json& object, const std::string& pointer,
@@ -50,20 +55,68 @@ void read_group(const std::string& group, const Json& object, const std::string&
   }
 }
 
+/// Unsets the parameters of a group, and one of the same name.
+void unset(std::string_view group, Resolved& resolved) {
+  for (std::size_t i = 0; i < resolved.size(); ++i) {
+    if (parameters()[i].path.starts_with(group)) resolved[i] = nullptr;
+  }
+}
+
+ShapeKind shape_of(const Resolved& resolved) {
+  ShapeKind shape = ShapeKind::none;
+  for (const Setting* setting : resolved) {
+    if (setting != nullptr) shape = more_exact(shape, shape_named_by(*setting));
+  }
+  return shape;
+}
+
+/// An empty group says nothing, except that grains are pinacoids of the default size.
+void read_empty_group(const std::string& group, const std::string& pointer, Settings& settings,
+                      Problems& problems) {
+  if (group == "shape.pinacoid") {
+    read_parameter(*find_parameter("shape"), "pinacoid", pointer, settings, problems);
+  } else if (group == "shape") {
+    problems.push_back({pointer, "names no shape; must be " +
+                                     wanted_value(parameters()[*find_parameter("shape")])});
+  } else if (group == "shape.hull") {
+    problems.push_back({pointer, "a hull needs its vertices: write \"vertices\" or \"file\""});
+  }
+}
+
 std::string wanted_group(const std::string& path) {
   const std::string preset = path == "accuracy" ? "the name of a preset or " : "";
-  return "must be " + preset + "an object with " + comma_list(known_keys(path)) + ", is ";
+  return "must be " + preset + "an object with " + short_list(known_keys(path)) + ", is ";
+}
+
+/// Notes the first setting of a shape that excludes what was set before it.
+void refuse_second_shape(const Settings& settings, Problems& problems) {
+  const Setting* first = nullptr;
+  ShapeKind kind = ShapeKind::none;
+  for (const Setting& setting : settings) {
+    const ShapeKind named = shape_named_by(setting);
+    if (exclude_each_other(kind, named)) {
+      problems.push_back({setting.pointer, "the grains already have the shape at " +
+                                               first->pointer +
+                                               "; keep one of sphere, pinacoid, hull.vertices, "
+                                               "hull.file"});
+      return;
+    }
+    if (first == nullptr && named != ShapeKind::none) first = &setting;
+    kind = more_exact(kind, named);
+  }
 }
 
 }  // namespace
 
 void read_settings(const std::string& path, const Json& value, const std::string& pointer,
                    Settings& settings, Problems& problems) {
-  if (const auto index = find_parameter(path)) {
+  const auto index = find_parameter(path);
+  if (index && !(value.is_object() && is_group(path))) {
     read_parameter(*index, value, pointer, settings, problems);
   } else if (is_preset_name(path, value)) {
     read_parameter(*find_parameter("accuracy.preset"), value, pointer, settings, problems);
   } else if (value.is_object()) {
+    if (value.empty()) read_empty_group(path, pointer, settings, problems);
     read_group(path, value, pointer, settings, problems);
   } else {
     problems.push_back({pointer, wanted_group(path) + describe(value)});
@@ -77,6 +130,7 @@ bool is_known_path(const std::string& path, const std::string& pointer, Problems
 }
 
 void refuse_double_settings(const Settings& settings, Problems& problems) {
+  refuse_second_shape(settings, problems);
   Resolved seen(parameters().size(), nullptr);
   const Setting* fill = nullptr;
   for (const Setting& setting : settings) {
@@ -107,12 +161,16 @@ Settings read_layer(const Json& object, const std::string& pointer, Problems& pr
 
 void overlay(const std::vector<const Settings*>& layer, Resolved& resolved) {
   bool fills = false;
+  ShapeKind shape = ShapeKind::none;
   for (const Settings* part : layer) {
-    for (const Setting& setting : *part) fills = fills || is_fill(setting.parameter);
+    for (const Setting& setting : *part) {
+      fills = fills || is_fill(setting.parameter);
+      shape = more_exact(shape, shape_named_by(setting));
+    }
   }
-  for (std::size_t i = 0; fills && i < resolved.size(); ++i) {
-    if (parameters()[i].path.starts_with("fill.")) resolved[i] = nullptr;
-  }
+  if (fills) unset("fill", resolved);
+  const bool is_named = shape != ShapeKind::none;
+  if (is_named && exclude_each_other(shape, shape_of(resolved))) unset("shape", resolved);
   for (const Settings* part : layer) {
     for (const Setting& setting : *part) resolved[setting.parameter] = &setting;
   }

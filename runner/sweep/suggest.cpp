@@ -49,14 +49,18 @@ std::string comma_list(const std::vector<std::string>& words) {
   return list;
 }
 
+std::string short_list(const std::vector<std::string>& words) {
+  std::vector<std::string> short_ones;
+  for (const std::string& word : words) {
+    if (word.find('.') == std::string::npos) short_ones.push_back(word);
+  }
+  return comma_list(short_ones);
+}
+
 std::string unknown_key(std::string_view key, const std::vector<std::string>& known) {
   const std::string near = nearest(key, known);
   const std::string start = "unknown key \"" + shortened(key) + "\"; ";
-  std::vector<std::string> short_ones;
-  for (const std::string& word : known) {
-    if (word.find('.') == std::string::npos) short_ones.push_back(word);
-  }
-  if (near.empty()) return start + "known here: " + comma_list(short_ones);
+  if (near.empty()) return start + "known here: " + short_list(known);
   return start + "did you mean \"" + near + "\"?";
 }
 

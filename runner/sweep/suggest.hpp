@@ -20,6 +20,9 @@ std::string shortened(std::string_view text);
 /// "a, b, c".
 std::string comma_list(const std::vector<std::string>& words);
 
+/// The same of the words without a dot.
+std::string short_list(const std::vector<std::string>& words);
+
 /// "unknown key "widht"; did you mean "width"?", or the keys known there (without dotted ones) if
 /// none is near.
 std::string unknown_key(std::string_view key, const std::vector<std::string>& known);

@@ -47,9 +47,6 @@ ValueReading read_natural(const Parameter& parameter, const Json& value) {
 
 ValueReading read_choice(const Parameter& parameter, const Json& value) {
   const auto& names = parameter.choices;
-  if (parameter.path == "shape" && value.is_object()) {
-    return {{}, "must be \"sphere\": this version packs spheres only"};
-  }
   if (!value.is_string()) return mismatch(parameter, value);
   const auto& name = value.get_ref<const std::string&>();
   const auto found = std::find(names.begin(), names.end(), name);
@@ -73,6 +70,35 @@ ValueReading read_numbers(const Parameter& parameter, const Json& value) {
   return fits(value.get<std::vector<double>>());
 }
 
+bool is_point(const Json& value) {
+  const auto is_number = [](const Json& entry) { return entry.is_number(); };
+  return value.is_array() && value.size() == 3 &&
+         std::all_of(value.begin(), value.end(), is_number);
+}
+
+/// What is wrong with a vertex, counted from one.
+std::string vertex_error(std::size_t number, const Json& value) {
+  const std::string start =
+      "vertex " + std::to_string(number) + " must be three numbers [x, y, z], ";
+  if (!value.is_array()) return start + "is " + describe(value);
+  const auto other = std::find_if_not(value.begin(), value.end(),
+                                      [](const Json& entry) { return entry.is_number(); });
+  if (other != value.end()) return start + "holds " + describe(*other);
+  return start + "holds " + std::to_string(value.size()) + " values";
+}
+
+ValueReading read_points(const Parameter& parameter, const Json& value) {
+  if (!value.is_array()) return mismatch(parameter, value);
+  Points points;
+  for (const Json& entry : value) {
+    if (!is_point(entry)) return {{}, vertex_error(points.size() + 1, entry)};
+    auto point = entry.get<std::array<double, 3>>();
+    for (double& coordinate : point) coordinate += 0.0;  // -0 and 0 are one value
+    points.push_back(point);
+  }
+  return fits(std::move(points));
+}
+
 std::string bound_text(const Parameter& parameter) {
   if (parameter.largest == std::numeric_limits<std::int64_t>::max()) return "";
   return " up to " + std::to_string(parameter.largest);
@@ -80,7 +106,7 @@ std::string bound_text(const Parameter& parameter) {
 
 std::string default_text(const Parameter& parameter) {
   if (parameter.path == "accuracy.preset") return default_preset;
-  const auto value = parameter.get(Draft{});
+  const auto value = default_of(parameter);
   return value ? written_value(parameter, *value).dump() : "none";
 }
 
@@ -103,6 +129,8 @@ ValueReading read_value(const Parameter& parameter, const Json& value) {
       return read_choice(parameter, value);
     case ValueKind::text:
       return read_text(parameter, value);
+    case ValueKind::points:
+      return read_points(parameter, value);
     case ValueKind::numbers:
       break;
   }
@@ -135,15 +163,18 @@ std::string wanted_value(const Parameter& parameter) {
       return "a text in double quotes";
     case ValueKind::numbers:
       return "a list of numbers";
+    case ValueKind::points:
+      return "a list of points [x, y, z]";
     case ValueKind::choice:
       break;
   }
+  const bool is_more = is_group(parameter.path);
   std::string names;
   for (const std::string& name : parameter.choices) {
-    const bool last = &name == &parameter.choices.back();
+    const bool last = !is_more && &name == &parameter.choices.back();
     names += (names.empty() ? "\"" : last ? " or \"" : ", \"") + name + "\"";
   }
-  return names;
+  return is_more ? names + " or an object with " + short_list(known_keys(parameter.path)) : names;
 }
 
 std::string document_parameters() {

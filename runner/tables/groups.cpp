@@ -30,6 +30,12 @@ double contact_ratio(const Row& row) {
   return static_cast<double>(rest.contacts) / static_cast<double>(rest.isostatic_contacts);
 }
 
+/// What a column of shapes holds of a packing; nothing for spheres.
+double shape_value(const Row& row, std::size_t column) {
+  const auto& order = row.outcome->result.shape_order;
+  return order ? shape_values(*order)[column] : none;
+}
+
 Group group_of(const Members& members) {
   Group group;
   group.job = members.front()->job;
@@ -42,6 +48,10 @@ Group group_of(const Members& members) {
   group.contact_ratio = spread_over(members, contact_ratio);
   group.overlap_mean =
       spread_over(members, [](const Row& row) { return row.outcome->result.rest.overlap_mean; });
+  for (std::size_t k = 0; k < group.shape_order.size(); ++k) {
+    group.shape_order[k] =
+        spread_over(members, [k](const Row& row) { return shape_value(row, k); });
+  }
   for (const Row* row : members) {
     count(*row, group.counts);
     if (!is_settled(*row)) continue;
@@ -51,15 +61,9 @@ Group group_of(const Members& members) {
   return group;
 }
 
-std::vector<std::string> spread_cells(const Group& group) {
-  std::vector<std::string> cells;
-  for (const Spread& spread :
-       {group.solid_fraction, group.coordination, group.coordination_with_walls,
-        group.contact_ratio, group.overlap_mean}) {
-    cells.push_back(cell(spread.mean));
-    cells.push_back(cell(spread.sd));
-  }
-  return cells;
+void append_spread(const Spread& spread, std::vector<std::string>& cells) {
+  cells.push_back(cell(spread.mean));
+  cells.push_back(cell(spread.sd));
 }
 
 std::string group_line(const Group& group) {
@@ -76,8 +80,13 @@ std::string group_line(const Group& group) {
                                     cell(group.counts.not_settled),
                                     cell(group.counts.failed),
                                     cell(group.counts.pending)};
-  for (std::string& text : spread_cells(group)) cells.push_back(std::move(text));
+  for (const Spread& spread :
+       {group.solid_fraction, group.coordination, group.coordination_with_walls,
+        group.contact_ratio, group.overlap_mean}) {
+    append_spread(spread, cells);
+  }
   cells.push_back(cell(job.parameters));
+  for (const Spread& spread : group.shape_order) append_spread(spread, cells);
   return csv_line(cells);
 }
 
@@ -118,7 +127,8 @@ std::string groups_csv(const std::vector<Group>& groups) {
       "label,shape,length,width,boundary_x,boundary_y,small_share,accuracy,n,not_settled,failed,"
       "pending,solid_fraction,solid_fraction_sd,coordination,coordination_sd,"
       "coordination_with_walls,coordination_with_walls_sd,contact_ratio,contact_ratio_sd,"
-      "overlap_mean,overlap_mean_sd,parameters\n";
+      "overlap_mean,overlap_mean_sd,parameters,";
+  text += csv_line(shape_header(true));
   for (const Group& group : groups) text += group_line(group);
   return text;
 }

@@ -1,10 +1,12 @@
 // groups.csv: mean and scatter over the replicates of each parameter set.
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
 #include "runner/tables/job_facts.hpp"
+#include "runner/tables/shape_columns.hpp"
 
 namespace grainsweep {
 
@@ -24,10 +26,12 @@ double standard_error(const Spread& spread);
 struct Group {
   JobFacts job;  ///< the first of them: its replicate number, id and seed mean nothing here
   Spread solid_fraction;
-  Spread coordination;                 ///< at the first gap tolerance, walls not counted
-  Spread coordination_with_walls;      ///< the same, walls counted
-  Spread contact_ratio;                ///< contacts over isostatic contacts
-  Spread overlap_mean;                 ///< d
+  Spread coordination;             ///< at the first gap tolerance, walls not counted
+  Spread coordination_with_walls;  ///< the same, walls counted
+  Spread contact_ratio;            ///< contacts over isostatic contacts
+  Spread overlap_mean;             ///< d
+  /// In the order of shape_columns; without values for spheres.
+  std::array<Spread, shape_columns.size()> shape_order;
   std::vector<PackingResult> settled;  ///< in the order of the rows, with curves as far as they had
   std::vector<std::string> jobs;       ///< ids of those
   StatusCounts counts;

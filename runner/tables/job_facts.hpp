@@ -21,7 +21,7 @@ struct JobFacts {
   std::string parameters;  ///< canonical JSON, as Job::parameters
   int replicate = 1;
   std::uint64_t seed = 0;
-  std::string shape;     ///< "sphere"
+  std::string shape;     ///< "sphere", "pinacoid" or "hull"
   std::string accuracy;  ///< name of a preset, or "custom"
   BoxSpec box;
   double small_share = 0.0;

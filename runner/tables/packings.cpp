@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "runner/tables/csv.hpp"
+#include "runner/tables/shape_columns.hpp"
 
 namespace grainsweep {
 namespace {
@@ -143,6 +144,16 @@ Cells state_cells(const Row& row) {
   return cells;
 }
 
+/// Empty for spheres.
+Cells shape_cells(const Row& row) {
+  Cells cells(shape_columns.size());
+  if (!is_measured(row) || !row.outcome->result.shape_order) return cells;
+  const auto values = shape_values(*row.outcome->result.shape_order);
+  std::transform(values.begin(), values.end(), cells.begin(),
+                 [](double value) { return cell(value); });
+  return cells;
+}
+
 Cells header(const std::vector<double>& tolerances) {
   Cells cells = first_columns;
   for (const double tolerance : tolerances) {
@@ -150,6 +161,7 @@ Cells header(const std::vector<double>& tolerances) {
            {"coordination_at_" + cell(tolerance), "coordination_with_walls_at_" + cell(tolerance)});
   }
   append(cells, last_columns);
+  append(cells, shape_header(false));
   return cells;
 }
 
@@ -172,6 +184,7 @@ Cells row_cells(const Row& row, const std::vector<double>& tolerances) {
                  gaps.empty() ? "" : cell(gaps.front())});
   append(cells, coordination_cells(row, tolerances));
   append(cells, state_cells(row));
+  append(cells, shape_cells(row));
   return cells;
 }
 

@@ -9,8 +9,9 @@
 namespace grainsweep {
 
 /// The whole file. `coordination` counts at `gap_tolerance`; the columns coordination_at_<gap> hold
-/// the other tolerances of the sweep, in d. A packing that is pending or failed has empty cells
-/// where nothing was measured. Only cpu_seconds may differ between two runs of a sweep.
+/// the other tolerances of the sweep, in d. The last columns, of runner/tables/shape_columns.hpp,
+/// are empty for spheres. A packing that is pending or failed has empty cells where nothing was
+/// measured. Only cpu_seconds may differ between two runs of a sweep.
 std::string packings_csv(const std::vector<Row>& rows);
 
 }  // namespace grainsweep

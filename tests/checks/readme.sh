@@ -17,7 +17,7 @@ sed -n '/^```json$/,/^```$/{/^```/d;p}' README.md >"$work/readme.json"
 
 # A parameter that exists is refused for its value (an empty object), an unknown one for its name.
 mapfile -t parameters < <(sed -nE '/^\| parameter/,/^$/s/^\| (`[^|]*`) \|.*/\1/p' README.md |
-  grep -oE '[a-z_]+(\.[a-z_]+)?')
+  grep -oE '[a-z_]+(\.[a-z_]+)*')
 ((${#parameters[@]} > 10)) || { printf 'README.md: no table of parameters\n' >&2 && exit 1; }
 for parameter in "${parameters[@]}"; do
   printf '{"name": "readme", "base": {"%s": {"no such key": 0}}}' "$parameter" >"$work/one.json"

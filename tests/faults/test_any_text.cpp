@@ -20,7 +20,7 @@ using testing::Draw;
 
 std::vector<std::string> whole_sweeps() {
   std::vector<std::string> sweeps = {read_file(GRAINSWEEP_FAULTS_FOLDER "/kinds.json")};
-  for (const char* name : {"quick", "confined-spheres", "paper-spheres"}) {
+  for (const char* name : {"quick", "confined-spheres", "paper-spheres", "paper-pinacoids"}) {
     sweeps.push_back(read_file(GRAINSWEEP_CONFIGS "/" + std::string(name) + ".json"));
   }
   return sweeps;
@@ -49,6 +49,10 @@ constexpr std::array values = {"3",
                                "\"random\"",
                                "\"count\"",
                                "\"file\"",
+                               "\"shape\"",
+                               "\"pinacoid\"",
+                               "\"vertices\"",
+                               "[[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]",
                                "\"fill\"",
                                "\"choice\"",
                                "\"uniform\"",
@@ -169,8 +173,8 @@ struct Tally {
 TEST_CASE("the sweep files that are damaged are whole") {
   Tally tally;
   for (const std::string& whole : whole_sweeps()) tally.add(whole);
-  CHECK(tally.json == 4);
-  CHECK(tally.sweeps == 3);  // all but the one with a missing file
+  CHECK(tally.json == 5);
+  CHECK(tally.sweeps == 4);  // all but the one with a missing file
   CHECK(tally.unsound == 0);
 }
 

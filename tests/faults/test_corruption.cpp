@@ -15,6 +15,7 @@
 #include "runner/store/checkpoints.hpp"
 #include "runner/store/files.hpp"
 #include "runner/store/journal.hpp"
+#include "runner/store/states.hpp"
 #include "tests/runner/sample_rows.hpp"
 #include "tests/runner/temporary_folder.hpp"
 
@@ -50,6 +51,38 @@ std::string cut(const std::string& bytes, std::size_t number) {
   return bytes.substr(0, place_in(bytes, number));
 }
 
+/// A bed of grains that are turned, as a packing of shapes leaves it.
+std::string sample_state() {
+  StoredBed bed;
+  bed.grains.assign(2, {0.5, 1.5, 2.5, 0.5, 2.75, 6});
+  bed.curves = sample_curves();
+  bed.turned = sample_turned();
+  return bed_bytes(bed);
+}
+
+/// How many of the damages are refused.
+template <class Damage>
+std::size_t refused_states(Damage damaged) {
+  const std::string bytes = sample_state();
+  std::size_t refused = 0;
+  for (std::size_t number = 0; number < tries(); ++number) {
+    try {
+      bed_from_bytes(damaged(bytes, number), "x");
+    } catch (const FileError&) {
+      ++refused;
+    }
+  }
+  return refused;
+}
+
+TEST_CASE("grains, orientations and mesh of a bed are refused with any bit changed") {
+  CHECK(refused_states(flipped) == tries());
+}
+
+TEST_CASE("grains, orientations and mesh of a bed are refused cut at any byte") {
+  CHECK(refused_states(cut) == tries());
+}
+
 /// A journal of three packings, and what reading it must give at most.
 struct SampleJournal {
   std::map<std::string, Outcome> outcomes;
@@ -58,6 +91,7 @@ struct SampleJournal {
   SampleJournal() {
     for (const char* job : {"a", "b", "c"}) {
       outcomes[job] = sample_outcome(job, 0.6, 6.0);
+      if (job[0] == 'b') outcomes[job].result.shape_order = ShapeOrder{{0.5, 0.25, 0.25}, {}, {}};
       text += journal_line(outcomes[job]);
     }
   }

@@ -1,4 +1,4 @@
-// Rows as a sweep of spheres would leave them, with values that tests choose.
+// Rows and grains as a sweep would leave them, with values that tests choose.
 #pragma once
 
 #include <limits>
@@ -68,11 +68,29 @@ inline Curves sample_curves() {
   return curves;
 }
 
+/// Two grains that are turned: a tetrahedron with an edge along each axis.
+inline Turned sample_turned() {
+  Turned turned;
+  turned.mesh.vertices = {{0, 0, 0}, {1.0 / 3.0, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  turned.mesh.faces = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+  turned.orientations = {{0, 0, 0, 1}, {0.6, -0.0, 0, 0.8}};
+  return turned;
+}
+
 inline Row settled_row(const std::string& id, double width, double solid_fraction,
                        double coordination, Boundary y = Boundary::walls,
                        double small_share = 0.0) {
   return {sample_job(id, width, 1, y, small_share),
           sample_outcome(id, solid_fraction, coordination)};
+}
+
+/// The row of a packing of pinacoids.
+inline Row turned_row(const std::string& id, double width) {
+  Row row = settled_row(id, width, 0.65, 7.5);
+  row.job.shape = "pinacoid";
+  row.outcome->result.shape_order =
+      ShapeOrder{{0.5, 0.25, 0.25}, {0.25, 0.25, 0.5}, {0.125, 0.0625, 0.75}};
+  return row;
 }
 
 inline Row row_with_status(const std::string& id, double width, PackingStatus status,

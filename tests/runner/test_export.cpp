@@ -1,3 +1,4 @@
+#include <cmath>
 #include <regex>
 #include <sstream>
 #include <string>
@@ -6,6 +7,7 @@
 #include <catch2/catch.hpp>
 
 #include "runner/export.hpp"
+#include "runner/sweep/grains_csv.hpp"
 
 namespace grainsweep {
 namespace {
@@ -14,6 +16,17 @@ StoredBed sample_bed() {
   StoredBed bed;
   bed.box = {20.0, 5.5, Boundary::periodic, Boundary::walls};
   bed.grains = {{0.1, 1.0 / 3.0, 0.5, 0.5, 2.75, 6}, {19.25, 5.0, 1.5, 0.25, 1e-300, 0}};
+  return bed;
+}
+
+/// One tetrahedron at twice its size, a quarter turn about z: x becomes y.
+StoredBed turned_bed() {
+  StoredBed bed;
+  bed.box = {20.0, 5.5, Boundary::periodic, Boundary::walls};
+  bed.grains = {{5, 2, 1, 1.0, 2.75, 6}, {6, 2, 1, 0.5, 0.5, 0}};
+  bed.turned = Turned{
+      {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}},
+      {{0, 0, std::sqrt(0.5), std::sqrt(0.5)}, {0, 0, 0, 1}}};
   return bed;
 }
 
@@ -44,6 +57,52 @@ TEST_CASE("extended XYZ holds count, box, periodic axes and a line per grain") {
         "grain 19.25 5 1.5 0.25 0 1e-300\n");
 }
 
+TEST_CASE("grains that are turned have their quaternion in CSV and extended XYZ") {
+  StoredBed bed = turned_bed();
+  bed.turned->orientations = {{0, 0.6, 0, 0.8}, {0, 0, 0, 1}};
+  CHECK(grains_csv(bed) ==
+        "x,y,z,radius,force,coordination,qx,qy,qz,qw\n"
+        "5,2,1,1,2.75,6,0,0.6,0,0.8\n"
+        "6,2,1,0.5,0.5,0,0,0,0,1\n");
+  CHECK_THAT(grains_xyz(bed), Catch::Contains("force:R:1:orientation:R:4 pbc=") &&
+                                  Catch::EndsWith("grain 6 2 1 0.5 0 0.5 0 0 0 1\n"));
+}
+
+TEST_CASE("the box of turned grains is as high as their highest vertex") {
+  CHECK_THAT(grains_xyz(turned_bed()), Catch::Contains("Lattice=\"20 0 0 0 5.5 0 0 0 3\""));
+}
+
+TEST_CASE("a bed that is written as CSV can be read as the grains of another packing") {
+  const GrainsReading reading = parse_grains(grains_csv(turned_bed()), "bed.csv");
+  REQUIRE(reading.errors.empty());
+  REQUIRE(reading.grains.size() == 2);
+  CHECK(reading.grains[0].radius == 1.0);
+  CHECK(reading.orientations == turned_bed().turned->orientations);
+  CHECK(parse_grains(grains_csv(sample_bed()), "bed.csv").orientations.empty());
+}
+
+TEST_CASE("VTP holds the faces of grains that are turned, where they are") {
+  const std::string text = grains_vtp(turned_bed());
+  CHECK_THAT(text, Catch::Contains("NumberOfPoints=\"8\" NumberOfVerts=\"0\"") &&
+                       Catch::Contains("NumberOfPolys=\"8\"") &&
+                       Catch::Contains("<CellData Scalars=\"size\">"));
+  const auto points = vtp_array(text, "Points");
+  REQUIRE(points.size() == 24);
+  const std::vector<double> first = {5, 2, 1, 5, 4, 1, 3, 2, 1, 5, 2, 3};
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    CHECK(points[i] == Approx(first[i]).margin(1e-15));  // the root of a half is rounded
+  }
+  const auto corners = vtp_array(text, "connectivity");
+  REQUIRE(corners.size() == 24);
+  CHECK(std::vector<double>(corners.begin() + 9, corners.begin() + 15) ==
+        std::vector<double>{1, 2, 3, 4, 6, 5});
+  CHECK(vtp_array(text, "offsets") == std::vector<double>{3, 6, 9, 12, 15, 18, 21, 24});
+  CHECK(vtp_array(text, "grain") == std::vector<double>{0, 0, 0, 0, 1, 1, 1, 1});
+  CHECK(vtp_array(text, "size") == std::vector<double>{2, 2, 2, 2, 1, 1, 1, 1});
+  CHECK(vtp_array(text, "coordination") == std::vector<double>{6, 6, 6, 6, 0, 0, 0, 0});
+  CHECK(vtp_array(text, "force") == std::vector<double>{2.75, 2.75, 2.75, 2.75, .5, .5, .5, .5});
+}
+
 TEST_CASE("VTP arrays read back as the grains") {
   const std::string text = grains_vtp(sample_bed());
   CHECK_THAT(text, Catch::Contains("NumberOfPoints=\"2\"") && Catch::EndsWith("</VTKFile>\n"));
@@ -56,7 +115,7 @@ TEST_CASE("VTP arrays read back as the grains") {
 }
 
 TEST_CASE("every opened element of a VTP file is closed, innermost first") {
-  const std::string text = grains_vtp(sample_bed());
+  const std::string text = GENERATE(grains_vtp(sample_bed()), grains_vtp(turned_bed()));
   const std::regex element("<(/?)([A-Za-z]+)[^>]*>");
   std::vector<std::string> open;
   for (std::sregex_iterator tag(text.begin(), text.end(), element), end; tag != end; ++tag) {

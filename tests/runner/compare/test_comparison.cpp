@@ -99,6 +99,29 @@ TEST_CASE("a whole sweep is set beside the paper with value and error") {
   CHECK_THAT(named(all, "λ_L / C").not_determined, Catch::Contains("has 1"));
 }
 
+TEST_CASE("pinacoids are set beside the paper's pinacoids, other shapes beside nothing") {
+  const auto printed_with = [](const std::string& name, const std::string& shape) {
+    auto rows = whole_sweep();
+    for (Row& row : rows) {
+      std::string& parameters = row.job.parameters;
+      parameters.replace(parameters.find("\"sphere\""), 8, shape);
+      row.job.shape = name;
+    }
+    const auto all = comparisons_of(rows);
+    return std::vector<std::string>{named(all, "Z without walls").paper.text,
+                                    named(all, "λ_L / d_avg").paper.text,
+                                    named(all, "drop of Z").paper.text};
+  };
+  using Texts = std::vector<std::string>;
+  const Texts none(3, "not printed");
+  CHECK(printed_with("pinacoid",
+                     R"({"pinacoid":{"angle_deg":60,"height":1,"length":1,"width":1}})") ==
+        Texts{"8.581 ± 0.068", "1.2", "1.5"});
+  CHECK(printed_with("pinacoid",
+                     R"({"pinacoid":{"angle_deg":50,"height":1,"length":1,"width":1}})") == none);
+  CHECK(printed_with("hull", R"({"hull":{"vertices":"0123456789abcdef"}})") == none);
+}
+
 TEST_CASE("families that share one ratio of decay and slope show one line through zero") {
   auto rows = whole_sweep();
   for (const double share : {0.25, 0.4}) {

@@ -36,6 +36,19 @@ TEST_CASE("an outcome read from its journal line is the same in every member") {
   CHECK(back.version == "1.2.3");
 }
 
+TEST_CASE("how shapes touch and point reads back, spheres have no member for it") {
+  Outcome outcome = *turned_row("a", 5).outcome;
+  outcome.result.shape_order->force_share[2] = 1.0 / 3.0;
+  outcome.result.shape_order->nematic[1] = std::numeric_limits<double>::quiet_NaN();
+  const std::string line = journal_line(outcome);
+  const Outcome back = read_journal_line(std::string_view(line).substr(0, line.size() - 1)).value();
+  CHECK(to_json(back) == to_json(outcome));
+  REQUIRE(back.result.shape_order);
+  CHECK(bits(back.result.shape_order->force_share[2]) == bits(1.0 / 3.0));
+  CHECK(std::isnan(back.result.shape_order->nematic[1]));
+  CHECK(to_json(sample_outcome("a", 0.6, 6.0)).count("shape_order") == 0);
+}
+
 TEST_CASE("doubles of every kind read back with the same bits") {
   const double infinite = std::numeric_limits<double>::infinity();
   for (const double value :

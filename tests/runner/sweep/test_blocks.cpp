@@ -121,6 +121,20 @@ TEST_CASE("a parameter that a block varies twice is refused") {
                "/sweep/0/grid/box.width"});
 }
 
+TEST_CASE("a shape that a block varies twice is refused, parts of one shape are not") {
+  CHECK(errors_in_block(R"({"grid": {"shape": ["sphere", "pinacoid"]},
+    "zip": {"shape.pinacoid.width": [2]}})") ==
+        Messages{"s.json:3:37 /sweep/0/zip/shape.pinacoid.width: shape is already varied at "
+                 "/sweep/0/grid/shape"});
+  CHECK(errors_in_block(R"({"grid": {"shape": ["sphere"]}, "random": {"count": 1,
+    "shape.pinacoid.width": {"uniform": [1, 2]}}})") ==
+        Messages{"s.json:3:29 /sweep/0/random/shape.pinacoid.width: shape is already varied at "
+                 "/sweep/0/grid/shape"});
+  CHECK(errors_in_block(
+            R"({"grid": {"shape.pinacoid.width": [1, 2], "shape.pinacoid.length": [1, 2]}})")
+            .empty());
+}
+
 TEST_CASE("points are counted without overflow") {
   Block block;
   for (int i = 0; i < 7; ++i) block.axes.push_back({"a", std::vector<Settings>(1000)});

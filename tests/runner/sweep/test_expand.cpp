@@ -1,3 +1,5 @@
+#include <array>
+#include <cmath>
 #include <ctime>
 
 #include <catch2/catch.hpp>
@@ -76,6 +78,107 @@ TEST_CASE("grids run through presets, groups and lists of tolerances") {
       jobs_of(sweep_of(R"({"grid": {"measure.gap_tolerances": [[1e-4], [1e-3, 1e-5]]}})"));
   REQUIRE(jobs.size() == 2);
   CHECK(jobs[1].spec.measure.gap_tolerances == std::vector<double>{1e-3, 1e-5});
+}
+
+TEST_CASE("shapes and their parts are swept like any other parameter") {
+  const auto angles = [](const std::string& block, const std::string& base = "{}") {
+    std::vector<double> degrees;
+    for (const Job& job : jobs_of(sweep_of(block, base))) {
+      const auto* pinacoid = std::get_if<PinacoidSize>(&job.spec.shape);
+      degrees.push_back(pinacoid == nullptr ? 0 : std::round(pinacoid->angle * 57.29577951308232));
+    }
+    return degrees;
+  };
+  using Degrees = std::vector<double>;
+  CHECK(angles(R"({"grid": {"shape.pinacoid.angle_deg": [50, 60, 70]}})") == Degrees{50, 60, 70});
+  CHECK(angles(R"({"grid": {"shape": ["sphere", "pinacoid", {"pinacoid": {"angle_deg": 45}}]}})") ==
+        Degrees{0, 60, 45});
+  CHECK(angles(R"({"zip": {"shape.pinacoid": [{"angle_deg": 50}, {}], "box.width": [5, 6]}})",
+               R"({"shape.pinacoid.angle_deg": 70})") == Degrees{50, 70});
+  const Degrees drawn =
+      angles(R"({"random": {"count": 3, "shape.pinacoid.angle_deg": {"uniform": [50, 80]}}})");
+  REQUIRE(drawn.size() == 3);
+  for (const double degrees : drawn) CHECK((degrees >= 50 && degrees <= 80));
+}
+
+TEST_CASE("the vertices of a hull are those of a file beside the sweep, in units of its size") {
+  const ScratchFolder folder;
+  const auto job_with = [&](const std::string& hull) {
+    const SweepReading reading = read_sweep(
+        folder.write("s.json", R"({"name": "t", "base": {"shape": {"hull": )" + hull + "}}}"));
+    for (const Finding& finding : reading.errors) FAIL(to_string(finding));
+    return reading.sweep.jobs.at(0);
+  };
+  folder.write("rock.obj", "# a corner\nv 0 0 -0\nv 2 0 0\nv 0 2 0\nv 0 0 2\n");
+  const Job from_file = job_with(R"({"file": "rock.obj", "size": 4})");
+  const auto& points = std::get<HullVertices>(from_file.spec.shape).points;
+  REQUIRE(points.size() == 4);
+  CHECK(points[1] == std::array{0.5, 0.0, 0.0});
+  CHECK(from_file.id == job_with(R"({"vertices": [[0,0,0],[0.5,0,0],[0,0.5,0],[0,0,0.5]]})").id);
+  CHECK(from_file.id ==
+        job_with(R"({"vertices": [[0,0,0],[1,0,0],[0,1,0],[0,0,1]], "size": 2})").id);
+  CHECK(from_file.id != job_with(R"({"vertices": [[0,0,0],[1,0,0],[0,1,0],[0,0,1]]})").id);
+}
+
+TEST_CASE("errors of a hull's file name its own lines, once for all jobs") {
+  const ScratchFolder folder;
+  folder.write("rock.obj", "v 0 0 0\nv 0 zero 0\n");
+  const std::string path = folder.write("s.json", R"({"name": "t", "replicates": 3,
+    "base": {"shape.hull.file": "rock.obj"},
+    "sweep": [{"grid": {"box.width": [5, 6, 7]}}, {"set": {"shape.hull.file": "none.obj"}}]})");
+  Messages errors;
+  for (const Finding& finding : read_sweep(path).errors) {
+    errors.push_back(folder.without_folder(to_string(finding)));
+  }
+  CHECK(errors == Messages{"rock.obj:2: y must be a finite number, is \"zero\"",
+                           "none.obj: cannot be read: No such file or directory"});
+}
+
+TEST_CASE("a shape that cannot be is refused at the part that forbids it, once for all jobs") {
+  const auto errors_with = [](const std::string& shape) {
+    return errors_of("{\"name\": \"t\", \"replicates\": 2, \"base\": {\"shape\":\n" + shape +
+                     R"(}, "sweep": [{"grid": {"box.width": [6, 7, 8]}}]})");
+  };
+  const auto first_with = [&](const std::string& shape) {
+    const Messages errors = errors_with(shape);
+    REQUIRE(errors.size() == 1);
+    return errors.front();
+  };
+  CHECK(first_with(R"({"pinacoid": {"length": -1, "angle_deg": 60}})") ==
+        "s.json:2:25 /base/shape/pinacoid/length: length must be a positive finite number, is -1");
+  CHECK(first_with(R"({"pinacoid": {"length": 2, "angle_deg": 90}})")
+            .starts_with("s.json:2:41 /base/shape/pinacoid/angle_deg: angle must be above 0"));
+  CHECK(first_with(R"({"pinacoid": {"height": 2, "angle_deg": 60}})")
+            .starts_with("s.json:2:41 /base/shape/pinacoid/angle_deg: the ends would cross"));
+  CHECK(first_with(R"({"pinacoid": {"height": 2}})")
+            .starts_with("s.json:2:25 /base/shape/pinacoid/height: the ends would cross"));
+  CHECK(first_with(R"({"hull": {"vertices": [], "size": 2}})") ==
+        "s.json:2:23 /base/shape/hull/vertices: a hull needs at least 4 vertices, has 0");
+  CHECK(first_with(R"({"hull": {"vertices": [[0,0,0],[1,0,0],[0,1,0],[1,1,0]]}})") ==
+        "s.json:2:23 /base/shape/hull/vertices: the vertices lie on a plane, so that the hull has "
+        "no volume");
+  CHECK(first_with(R"({"hull": {"vertices": [[0,0,0],[1,0,0],[0,1,0],[0,0,1]], "size": 0}})") ==
+        "s.json:2:66 /base/shape/hull/size: must be positive");
+  CHECK(first_with(R"({"hull": {"size": 2}})") ==
+        "s.json:2:19 /base/shape/hull/size: belongs to shape.hull.vertices or shape.hull.file; "
+        "neither is set");
+}
+
+TEST_CASE("a grain of too many vertices is refused before they are looked at") {
+  std::string list;
+  for (int i = 0; i < 1001; ++i) list += (i == 0 ? "[0,0," : ",[0,0,") + std::to_string(i) + "]";
+  const auto errors = errors_of(sweep_of("{\"set\": {\"shape.hull.vertices\": [" + list + "]}}"));
+  REQUIRE(errors.size() == 1);
+  CHECK(
+      errors[0].ends_with("holds 1,001 vertices, more than the 1,000 that a grain may have; "
+                          "simplify the shape"));
+}
+
+TEST_CASE("what is said of grains that turn is said where they are asked for") {
+  CHECK(errors_of(R"({"name": "t", "base": {"shape": "pinacoid",
+    "accuracy": {"protocol": "dynamic"}}})") ==
+        Messages{"s.json:2:30 /base/accuracy/protocol: must be \"heavy_ball\": plain dynamics is "
+                 "for spheres"});
 }
 
 TEST_CASE("blocks are joined in order and may override the replicates") {

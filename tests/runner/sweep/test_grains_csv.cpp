@@ -38,6 +38,25 @@ TEST_CASE("an exported bed, whose radii are called radius, can be read") {
   CHECK(reading.grains.at(0).radius == 0.5);
 }
 
+TEST_CASE("orientations are read where the first line names their columns") {
+  const GrainsReading reading =
+      parse_grains("qw,x,y,z,r,qx,qy,qz\n1,1,2,3,0.5,0,0,0\n0,4,5,6,0.5,.6,0,-.8\n", "f");
+  REQUIRE(reading.errors.empty());
+  REQUIRE(reading.orientations.size() == 2);
+  CHECK(reading.orientations[0] == std::array<double, 4>{0, 0, 0, 1});
+  CHECK(reading.orientations[1] == std::array<double, 4>{0.6, 0, -0.8, 0});
+  CHECK(reading.grains[1].z == 6.0);
+  CHECK(parse_grains("x,y,z,r\n1,2,3,4\n", "f").orientations.empty());
+}
+
+TEST_CASE("columns of an orientation are there all or not at all, and hold numbers") {
+  CHECK(errors_in("x,y,z,r,qx,qy,qz\n1,2,3,1,0,0,0\n") ==
+        Messages{"b.csv:1: the first line must name the columns x,y,z,r and all of qx,qy,qz,qw; "
+                 "\"qw\" is missing or there twice in \"x,y,z,r,qx,qy,qz\""});
+  CHECK(errors_in("x,y,z,r,qx,qy,qz,qw\n1,2,3,1,0,0,0,one\n") ==
+        Messages{"b.csv:2: qw must be a finite number, is \"one\""});
+}
+
 TEST_CASE("line ends of other systems, quotes and a byte order mark change no grain") {
   const GrainsReading reading =
       parse_grains("\xEF\xBB\xBF\"x\",\"y\",\"z\",\"r\"\r\n1,\"2\",3,0.5\r\n\r\n", "f");
@@ -134,6 +153,29 @@ TEST_CASE("a sweep packs the grains of a file beside it, in units of its diamete
     CHECK(id_with("same.csv") == reading.sweep.jobs[0].id);
     CHECK(id_with("other.csv") != reading.sweep.jobs[0].id);
   }
+}
+
+TEST_CASE("grains of a file that are no spheres are turned as it says, if it says so") {
+  const ScratchFolder folder;
+  folder.write("turned.csv", "x,y,z,r,qx,qy,qz,qw\n2,2,2,0.5,0,0.6,0,0.8\n");
+  folder.write("long.csv", "x,y,z,r,qx,qy,qz,qw\n2,2,2,0.5,0,1,0,1\n");
+  folder.write("plain.csv", "x,y,z,r\n2,2,2,0.5\n");
+  const auto read = [&](const std::string& shape, const std::string& file) {
+    return read_sweep(folder.write("s.json", R"({"name": "t", "base": {"shape": ")" + shape +
+                                                 R"(", "fill.file": ")" + file + "\"}}"));
+  };
+  const auto error = [&](const std::string& shape, const std::string& file) {
+    const auto errors = read(shape, file).errors;
+    return errors.empty() ? std::string() : errors.front().pointer + " " + errors.front().message;
+  };
+  const SweepReading reading = read("pinacoid", "turned.csv");
+  REQUIRE(reading.errors.empty());
+  const auto& fill = std::get<PlacedGrains>(reading.sweep.jobs.at(0).spec.fill);
+  CHECK(fill.orientations == std::vector<std::array<double, 4>>{{0, 0.6, 0, 0.8}});
+  CHECK(error("sphere", "plain.csv").empty());
+  CHECK(error("sphere", "turned.csv").starts_with("/base/fill.file spheres have no orientation"));
+  CHECK(error("pinacoid", "plain.csv").starts_with("/base/fill.file grains that are no spheres"));
+  CHECK(error("pinacoid", "long.csv").find("unit quaternion") != std::string::npos);
 }
 
 TEST_CASE("errors of a fill file name its own lines, once for all jobs") {

@@ -57,6 +57,41 @@ TEST_CASE("canonical parameters are valid JSON with sorted keys and short number
   CHECK(canonical.size() == 5);
 }
 
+TEST_CASE("the ids of spheres are those of versions that knew nothing else") {
+  // All that an id depends on is written out: no default or preset can move it.
+  CHECK(ids_of(R"({"name": "t", "seed": 0, "base": {
+    "accuracy": {"contact_tolerance": 0.025, "creep_steps": 45, "fall_iterations": 40,
+      "force_balance": "skip", "kinetic_tolerance": 1e-4, "max_steps": 2000, "momentum": 0.9,
+      "overlap_tolerance": 1e-5, "precision": "f32", "protocol": "heavy_ball",
+      "residual_tolerance": 0.01, "rest_iterations": 300, "solver": "apgd", "step": 0.2},
+    "box": {"length": 20, "width": 5, "x": "periodic", "y": "walls"}, "fill": {"grains": 100},
+    "measure": {"bin_width": 0.1, "exclude_floor": 3, "exclude_surface": 3,
+      "gap_tolerances": [1e-4, 1e-5, 1e-3, 6e-3]}, "shape": "sphere",
+    "sizes": {"size_ratio": 0.5, "small_share": 0, "spread": 0.03}}})")
+            .at(0) == "fc88833454756b69");
+}
+
+TEST_CASE("canonical parameters of other shapes are groups, a hull that of a hash") {
+  const auto shape = [](const std::string& base) {
+    const auto jobs = jobs_of(R"({"name": "t", "base": {"shape": )" + base + "}}");
+    const std::string text = jobs.at(0).parameters;
+    CHECK(nlohmann::json::parse(text).size() == 6);
+    const std::size_t at = text.find("\"shape\":");
+    return text.substr(at, text.find(",\"sizes\"") - at);
+  };
+  CHECK(shape("\"pinacoid\"") ==
+        R"("shape":{"pinacoid":{"angle_deg":60,"height":1,"length":1,"width":1}})");
+  CHECK(shape(R"({"pinacoid": {"angle_deg": 52.5}})") ==
+        R"("shape":{"pinacoid":{"angle_deg":52.5,"height":1,"length":1,"width":1}})");
+  const HullVertices corner{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  CHECK(shape(R"({"hull": {"vertices": [[0,0,-0.0],[1,0,0],[0,1,0],[0,0,1]]}})") ==
+        R"("shape":{"hull":{"vertices":")" + hash_of(corner) + "\"}}");
+}
+
+TEST_CASE("hulls keep their hash from version to version") {
+  CHECK(hash_of({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 0.1}}}) == "7e8fec29dfd103bd");
+}
+
 TEST_CASE("every part of the accuracy belongs to the identity, the preset's name does not") {
   const auto accuracy = [](const std::string& text) {
     return nlohmann::json::parse(jobs_of(text).at(0).parameters).at("accuracy");

@@ -89,7 +89,9 @@ TEST_CASE("files that cannot be read are refused by name") {
 }
 
 TEST_CASE("the sweeps that come with the program can be read") {
-  for (const char* name : {"quick.json", "confined-spheres.json"}) {
+  for (const char* name :
+       {"quick.json", "confined-spheres.json", "paper-spheres.json", "pinacoids-quick.json",
+        "paper-pinacoids.json", "pinacoid-protocol.json"}) {
     const SweepReading reading = read_sweep(std::string(GRAINSWEEP_CONFIGS) + "/" + name);
     INFO(name);
     for (const Finding& finding : reading.errors) FAIL(to_string(finding));

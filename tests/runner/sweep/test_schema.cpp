@@ -81,15 +81,23 @@ TEST_CASE("the schema has every parameter, with its meaning") {
 }
 
 TEST_CASE("what the reader takes fits the schema") {
-  for (const std::string body :
-       {R"("base": {"box": {"width": 5}, "accuracy": "fast"})", R"("seed": 18446744073709551615)",
-        R"("replicates": 10000)", R"("$schema": "sweep.schema.json")",
-        R"("base": {"accuracy": {"preset": "fast", "solver": "pgs"}, "box.y": "walls"})",
-        R"("sweep": [{"label": "a", "grid": {"box.width": [5, 6], "accuracy": ["fast"]}}])",
-        R"("sweep": [{"zip": {"box.width": [5, 6], "seed": [1, 2]}, "replicates": 2}])",
-        R"("sweep": [{"set": {"measure.gap_tolerances": [1e-4], "fill": {"grains": 400}}}])",
-        R"("sweep": [{"random": {"count": 2, "box.width": {"uniform": [5, 9]}}}])",
-        R"("sweep": [{"random": {"count": 2, "accuracy": {"choice": ["fast", "accurate"]}}}])"}) {
+  for (
+      const std::string body :
+      {R"("base": {"box": {"width": 5}, "accuracy": "fast"})", R"("seed": 18446744073709551615)",
+       R"("replicates": 10000)", R"("$schema": "sweep.schema.json")",
+       R"("base": {"accuracy": {"preset": "fast", "solver": "pgs"}, "box.y": "walls"})",
+       R"("sweep": [{"label": "a", "grid": {"box.width": [5, 6], "accuracy": ["fast"]}}])",
+       R"("sweep": [{"zip": {"box.width": [5, 6], "seed": [1, 2]}, "replicates": 2}])",
+       R"("sweep": [{"set": {"measure.gap_tolerances": [1e-4], "fill": {"grains": 400}}}])",
+       R"("base": {"shape": "pinacoid"})", R"("base": {"shape": {"pinacoid": {}}})",
+       R"("base": {"shape.pinacoid": {"width": 1.5}})",
+       R"("base": {"shape": {"pinacoid.width": 1.5}})",
+       R"("base": {"shape": {"hull": {"vertices": [[0,0,0],[1,0,0],[0,1,0],[0,0,1]], "size": 1}}})",
+       R"("sweep": [{"grid": {"shape.pinacoid.angle_deg": [50, 60]}}])",
+       R"("sweep": [{"grid": {"shape": ["sphere", {"pinacoid": {"angle_deg": 50}}]}}])",
+       R"("sweep": [{"random": {"count": 2, "shape.pinacoid.width": {"uniform": [1, 2]}}}])",
+       R"("sweep": [{"random": {"count": 2, "box.width": {"uniform": [5, 9]}}}])",
+       R"("sweep": [{"random": {"count": 2, "accuracy": {"choice": ["fast", "accurate"]}}}])"}) {
     const std::string text = R"({"name": "a", )" + body + "}";
     INFO(text);
     CHECK(errors_of(text).empty());
@@ -111,6 +119,11 @@ TEST_CASE("what does not fit the schema the reader refuses") {
         R"("base": {"box": {"width": "5"}})",
         R"("base": {"box.y": "wall"})",
         R"("base": {"accuracy": "quick"})",
+        R"("base": {"shape": "cube"})",
+        R"("base": {"shape": {"cube": {}}})",
+        R"("base": {"shape": {"pinacoid": {"angle": 60}}})",
+        R"("base": {"shape": {"hull": {"vertices": [[0, 0]]}}})",
+        R"("base": {"shape": {"hull": {"file": 5}}})",
         R"("base": {"accuracy": {"solver": "gs"}})",
         R"("base": {"fill": {"grains": 1.5}})",
         R"("sweep": [])",

@@ -124,10 +124,80 @@ TEST_CASE("a group that is no object is refused with its keys") {
         Messages{"s.json:2:1 /base: must be an object of parameters, is a list"});
 }
 
-TEST_CASE("paths below a shape say that only spheres are packed") {
-  CHECK(errors_in_base(R"({"shape.pinacoid.angle_deg": 60})") ==
-        Messages{"s.json:2:2 /base/shape.pinacoid.angle_deg: this version packs spheres only; "
-                 "write \"shape\": \"sphere\""});
+TEST_CASE("a shape is named alone, in an object or by the path of a part") {
+  const auto angle_of = [](const std::string& base) {
+    return std::get<PinacoidSize>(spec_of(base).shape).angle;
+  };
+  const double sixty = PinacoidSize{}.angle;
+  CHECK(angle_of(R"({"shape": "pinacoid"})") == sixty);
+  CHECK(angle_of(R"({"shape": {"pinacoid": {}}})") == sixty);
+  CHECK(angle_of(R"({"shape.pinacoid": {}})") == sixty);
+  CHECK(angle_of(R"({"shape": {"pinacoid": {"width": 2}}})") == sixty);
+  CHECK(angle_of(R"({"shape.pinacoid.angle_deg": 60})") == sixty);
+  CHECK(std::holds_alternative<SphereShape>(spec_of(R"({"shape": "sphere"})").shape));
+  CHECK(std::holds_alternative<SphereShape>(spec_of("{}").shape));
+}
+
+TEST_CASE("a layer that names another shape replaces the one below with all its parts") {
+  const std::string flat = R"({"shape": {"pinacoid": {"height": 0.5}}})";
+  CHECK(
+      std::holds_alternative<SphereShape>(spec_of(flat, R"({"set": {"shape": "sphere"}})").shape));
+  const auto again =
+      spec_of(R"({"shape.hull": {"vertices": [[0,0,0],[1,0,0],[0,1,0],[0,0,1]], "size": 2}})",
+              R"({"set": {"shape": {"pinacoid": {}}}})");
+  CHECK(std::get<PinacoidSize>(again.shape).height == 1);
+}
+
+TEST_CASE("a layer that names the same shape changes only the parts it writes") {
+  const auto shape_of = [](const std::string& block) {
+    return std::get<PinacoidSize>(
+        spec_of(R"({"shape": {"pinacoid": {"height": 0.5, "angle_deg": 45}}})", block).shape);
+  };
+  const PinacoidSize wide = shape_of(R"({"set": {"shape.pinacoid.width": 2}})");
+  CHECK((wide.width == 2 && wide.height == 0.5));
+  CHECK(shape_of(R"({"set": {"shape": "pinacoid"}})").height == 0.5);
+  CHECK(shape_of(R"({"grid": {"shape.pinacoid.height": [0.25]}})").height == 0.25);
+}
+
+TEST_CASE("two shapes in one object are refused") {
+  const std::string keep = "; keep one of sphere, pinacoid, hull.vertices, hull.file";
+  CHECK(errors_in_base(R"({"shape": "sphere", "shape.pinacoid.width": 2})") ==
+        Messages{"s.json:2:45 /base/shape.pinacoid.width: the grains already have the shape at "
+                 "/base/shape" +
+                 keep});
+  CHECK(errors_in_base(R"({"shape": {"hull": {"file": "a.obj",
+    "vertices": [[0,0,0],[1,0,0],[0,1,0],[0,0,1]]}}})")
+            .at(1) ==
+        "s.json:3:17 /base/shape/hull/vertices: the grains already have the shape at "
+        "/base/shape/hull/file" +
+            keep);
+  CHECK(errors_in_base(R"({"shape": {"pinacoid": {}, "hull": {"size": 2}}})")
+            .at(0)
+            .starts_with("s.json:2:45 /base/shape/hull/size: the grains already have"));
+}
+
+TEST_CASE("a shape that is not said, or misspelt, is refused with what is known") {
+  CHECK(errors_in_base(R"({"shape": {}})") ==
+        Messages{"s.json:2:11 /base/shape: names no shape; must be \"sphere\", \"pinacoid\" or an "
+                 "object with pinacoid, hull"});
+  CHECK(errors_in_base(R"({"shape": {"hull": {}}})") ==
+        Messages{"s.json:2:20 /base/shape/hull: a hull needs its vertices: write \"vertices\" or "
+                 "\"file\""});
+  CHECK(errors_in_base(R"({"shape": {"pinacod": {}}})") ==
+        Messages{"s.json:2:12 /base/shape/pinacod: unknown key \"pinacod\"; did you mean "
+                 "\"pinacoid\"?"});
+  CHECK(errors_in_base(R"({"shape": {"pinacoid": {"lenght": 1}}})") ==
+        Messages{"s.json:2:25 /base/shape/pinacoid/lenght: unknown key \"lenght\"; did you mean "
+                 "\"length\"?"});
+  CHECK(errors_in_base(R"({"shape": {"pinacoid": {"angle": 1}}})") ==
+        Messages{"s.json:2:25 /base/shape/pinacoid/angle: unknown key \"angle\"; known here: "
+                 "length, width, height, angle_deg"});
+  CHECK(errors_in_base(R"({"pinacoid": {}})") ==
+        Messages{"s.json:2:2 /base/pinacoid: unknown key \"pinacoid\"; did you mean "
+                 "\"shape.pinacoid\"?"});
+  CHECK(errors_in_base(R"({"shape": {"pinacoid": 60}})") ==
+        Messages{"s.json:2:24 /base/shape/pinacoid: must be an object with length, width, height, "
+                 "angle_deg, is 60"});
 }
 
 TEST_CASE("a diameter without a fill file is refused, one that is not positive too") {

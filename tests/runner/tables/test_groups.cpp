@@ -43,6 +43,19 @@ TEST_CASE("replicates form a group, only the settled ones enter its means") {
   CHECK(groups[0].counts.pending == 1);
 }
 
+TEST_CASE("how shapes touch and point is averaged over the replicates, spheres have nothing") {
+  Row first = turned_row("a", 5), second = turned_row("b", 5);
+  second.outcome->result.shape_order->nematic[2] = 0.25;
+  const auto groups = groups_of({first, second});
+  REQUIRE(groups.size() == 1);
+  CHECK(groups[0].shape_order[0].mean == 0.5);
+  CHECK(groups[0].shape_order[0].sd == 0.0);
+  CHECK(groups[0].shape_order[8].mean == 0.5);
+  CHECK(groups[0].shape_order[8].sd == Approx(0.5 / std::sqrt(2.0)));
+  CHECK_THAT(groups_csv(groups), Catch::EndsWith(",0.125,0,0.0625,0,0.5,0.3535533905932738\n"));
+  CHECK(std::isnan(groups_of({settled_row("a", 5, 0.6, 6)})[0].shape_order[0].mean));
+}
+
 TEST_CASE("packings of different labels are different groups") {
   Row other = settled_row("b", 5, 0.62, 6.0);
   other.job.label = "again";
@@ -56,15 +69,19 @@ TEST_CASE("the groups table as a whole") {
     row->job.parameters = row->job.box.width == 5 ? R"({"a":5})" : R"({"a":6,"b":1})";
     row->outcome->result.rest.contacts = row->outcome->result.rest.isostatic_contacts;
   }
-  CHECK(groups_csv(groups_of({first, second, third})) ==
-        "label,shape,length,width,boundary_x,boundary_y,small_share,accuracy,n,not_settled,failed,"
-        "pending,solid_fraction,solid_fraction_sd,coordination,coordination_sd,"
-        "coordination_with_walls,coordination_with_walls_sd,contact_ratio,contact_ratio_sd,"
-        "overlap_mean,overlap_mean_sd,parameters\n"
-        "MSP,sphere,20,5,periodic,walls,0,balanced,2,0,0,0,0.625,0.1767766952966369,6,"
-        "0.3535533905932738,6.25,0.3535533905932738,1,0,8e-05,0,\"{\"\"a\"\":5}\"\n"
-        "MSP,sphere,20,6,periodic,walls,0,balanced,0,1,0,0,,,,,,,,,,,\"{\"\"a\"\":6,\"\"b\"\":1}\""
-        "\n");
+  CHECK(
+      groups_csv(groups_of({first, second, third})) ==
+      "label,shape,length,width,boundary_x,boundary_y,small_share,accuracy,n,not_settled,failed,"
+      "pending,solid_fraction,solid_fraction_sd,coordination,coordination_sd,"
+      "coordination_with_walls,coordination_with_walls_sd,contact_ratio,contact_ratio_sd,"
+      "overlap_mean,overlap_mean_sd,parameters,contacts_simple,contacts_simple_sd,"
+      "contacts_double,contacts_double_sd,contacts_triple,contacts_triple_sd,force_simple,"
+      "force_simple_sd,force_double,force_double_sd,force_triple,force_triple_sd,nematic_x,"
+      "nematic_x_sd,nematic_y,nematic_y_sd,nematic_z,nematic_z_sd\n"
+      "MSP,sphere,20,5,periodic,walls,0,balanced,2,0,0,0,0.625,0.1767766952966369,6,"
+      "0.3535533905932738,6.25,0.3535533905932738,1,0,8e-05,0,\"{\"\"a\"\":5}\",,,,,,,,,,,,,,,,,,\n"
+      "MSP,sphere,20,6,periodic,walls,0,balanced,0,1,0,0,,,,,,,,,,,\"{\"\"a\"\":6,\"\"b\"\":1}\""
+      ",,,,,,,,,,,,,,,,,,\n");
 }
 
 }  // namespace

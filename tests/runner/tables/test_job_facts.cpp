@@ -34,6 +34,18 @@ TEST_CASE("facts name what a job is made of") {
   CHECK(job.box.y == Boundary::walls);
 }
 
+TEST_CASE("a shape is known by its name, whatever parts it has") {
+  Job job = sample_source();
+  const auto shape_with = [&](const std::string& shape) {
+    job.parameters = R"({"box":{"width":5},"shape":)" + shape + "}";
+    return facts_of(Sweep{"s", 7, 1, {job}}).jobs[0].shape;
+  };
+  CHECK(shape_with("\"sphere\"") == "sphere");
+  CHECK(shape_with(R"({"pinacoid":{"angle_deg":60,"height":1,"length":1,"width":1}})") ==
+        "pinacoid");
+  CHECK(shape_with(R"({"hull":{"vertices":"0123456789abcdef"}})") == "hull");
+}
+
 TEST_CASE("an accuracy that is no preset is called custom") {
   Job job = sample_source();
   job.spec.accuracy.max_steps = 31;

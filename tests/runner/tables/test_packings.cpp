@@ -20,14 +20,19 @@ const std::string header =
     "gap_tolerance,coordination_at_1e-05,coordination_with_walls_at_1e-05,surface_height,"
     "slab_bottom,slab_top,largest_motion,forces_unique,least_force,unbalance_max,unbalance_mean,"
     "mean_diameter,mean_diameter_by_volume,q6_global,q6_local,three_contact_share,segregation,"
-    "force_mean,force_square,state_hash,reason\n";
+    "force_mean,force_square,state_hash,reason,contacts_simple,contacts_double,contacts_triple,"
+    "force_simple,force_double,force_triple,nematic_x,nematic_y,nematic_z\n";
+
+/// What spheres have in the columns of shapes.
+const std::string none = ",,,,,,,,,";
 
 TEST_CASE("a settled packing is written with every value") {
   CHECK(packings_csv({with_two_tolerances(settled_row("a1", 5, 0.6125, 5.75))}) ==
         header +
             "a1,MSP,1,7,sphere,2000,5,walls,0,settled,0.6125,5.75,6,5990,5991,8e-05,3e-04,5e-04,"
             "1e-09,265,20000,0.75,20,periodic,balanced,1e-04,5.625,5.75,15.5,3,12.5,2e-05,"
-            ",,,,0.98,0.99,0.03,0.4,0.1,,5.5,1.6,abcdef0123456789,\n");
+            ",,,,0.98,0.99,0.03,0.4,0.1,,5.5,1.6,abcdef0123456789," +
+            none + "\n");
 }
 
 TEST_CASE("a direct solve of force balance stands beside the measured values") {
@@ -35,7 +40,8 @@ TEST_CASE("a direct solve of force balance stands beside the measured values") {
   row.outcome->result.balance = ForceBalance{true, -0.25, 0.5, 0.125};
   CHECK_THAT(packings_csv({row}),
              Catch::EndsWith(
-                 ",2e-05,yes,-0.25,0.5,0.125,0.98,0.99,0.03,0.4,0.1,,5.5,1.6,abcdef0123456789,\n"));
+                 ",2e-05,yes,-0.25,0.5,0.125,0.98,0.99,0.03,0.4,0.1,,5.5,1.6,abcdef0123456789," +
+                 none + "\n"));
 }
 
 TEST_CASE("an unsettled packing keeps its values beside its status and reason") {
@@ -43,7 +49,16 @@ TEST_CASE("an unsettled packing keeps its values beside its status and reason") 
       with_two_tolerances(row_with_status("a1", 5, PackingStatus::not_settled, "moves, still"));
   const std::string text = packings_csv({row});
   CHECK_THAT(text, Catch::Contains(",not_settled,0.5,5,5.25,"));
-  CHECK_THAT(text, Catch::EndsWith(",\"moves, still\"\n"));
+  CHECK_THAT(text, Catch::EndsWith(",\"moves, still\"" + none + "\n"));
+}
+
+TEST_CASE("shapes have their order at the end of the row, pending ones nothing") {
+  Row row = with_two_tolerances(turned_row("a1", 5));
+  CHECK_THAT(packings_csv({row}), Catch::Contains("a1,MSP,1,7,pinacoid,2000,5,") &&
+                                      Catch::EndsWith(",abcdef0123456789,,0.5,0.25,0.25,0.25,0.25,"
+                                                      "0.5,0.125,0.0625,0.75\n"));
+  row.outcome.reset();
+  CHECK_THAT(packings_csv({row}), Catch::EndsWith("," + none + "\n"));
 }
 
 TEST_CASE("failed and pending packings have no numbers where nothing was measured") {
@@ -55,9 +70,11 @@ TEST_CASE("failed and pending packings have no numbers where nothing was measure
       packings_csv({failed, pending}) ==
       header +
           "a1,MSP,1,7,sphere,2000,5,walls,0,failed,,,,,,,,,,265,20000,0.75,20,periodic,balanced,"
-          "1e-04,,,,,,,,,,,,,,,,,,,,no room\n"
+          "1e-04,,,,,,,,,,,,,,,,,,,,no room" +
+          none + "\n" +
           "a2,MSP,1,7,sphere,,6,walls,0,pending,,,,,,,,,,,,,20,periodic,balanced,1e-04,,,,,,,,,,,,"
-          ",,,,,,,,\n");
+          ",,,,,,,," +
+          none + "\n");
 }
 
 TEST_CASE("every row has as many cells as the header, whatever tolerances its job has") {
@@ -68,7 +85,7 @@ TEST_CASE("every row has as many cells as the header, whatever tolerances its jo
   for (int line = 0; line < 3; ++line) {
     const std::size_t end = text.find('\n', begin);
     CHECK(std::count(text.begin() + static_cast<long>(begin), text.begin() + static_cast<long>(end),
-                     ',') == 47);
+                     ',') == 47 + 9);
     begin = end + 1;
   }
 }
