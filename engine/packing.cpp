@@ -212,7 +212,8 @@ namespace {
 double usual_iterations(const PackingSpec& spec) {
   const Accuracy& a = spec.accuracy;
   if (!is_sphere(spec.shape)) {
-    return 110.0 * a.fall_iterations + (a.creep_steps + 70.0) * a.rest_iterations;
+    return (180.0 + 1.3 * a.creep_steps) * a.fall_iterations +
+           (a.creep_steps + 40.0) * a.rest_iterations;
   }
   const bool is_dynamic = a.protocol == Protocol::dynamic;
   const double fall = (is_dynamic ? 2000.0 : 130.0) * a.fall_iterations;

@@ -151,6 +151,10 @@ std::string why_not_at_rest(const RestReport& rest, const Accuracy& accuracy) {
   if (!(rest.overlap_mean <= accuracy.overlap_tolerance)) {
     return exceeds("mean overlap", rest.overlap_mean, accuracy.overlap_tolerance, "d");
   }
+  if (!(rest.overlap_max <= deepest_overlap * accuracy.overlap_tolerance)) {
+    return exceeds("deepest overlap", rest.overlap_max,
+                   deepest_overlap * accuracy.overlap_tolerance, "d");
+  }
   if (!(std::abs(excess) <= accuracy.contact_tolerance * isostatic)) {
     return "contacts / isostatic count " + number(1.0 + excess / std::max(isostatic, 1.0)) +
            " misses 1 by more than " + number(accuracy.contact_tolerance);

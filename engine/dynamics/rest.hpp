@@ -62,6 +62,10 @@ std::vector<PairForce> pair_forces(const SphereBed& bed, const Contacts<Real>& c
 template <class Real>
 std::vector<double> force_sums(const SphereBed& bed, const Contacts<Real>& contacts, double dt);
 
+/// No single pair may overlap deeper than so many times what is allowed for the mean: one grain
+/// stuck in another changes no mean.
+inline constexpr double deepest_overlap = 100.0;
+
 /// The first test of rest that `rest` fails, in words; empty if it passes all.
 std::string why_not_at_rest(const RestReport& rest, const Accuracy& accuracy);
 

@@ -14,30 +14,30 @@ constexpr double two_thirds = 2.0 / 3.0;
 // An impact has a kinetic energy of about 0.2 m g d; grains that turn go on rattling at a few 1e-3.
 // Contacts go on closing for about as many steps as a quench has at least.
 constexpr StageRule heavy_ball[] = {
-    {look, 0.5, none, 1.0, 0.01, 0.01, 2.0, 8, 0.0, 0.0, 8, 0.0, 0.0},
-    {fallen, 1.0, damped, 0.1, 0.08, 0.01, 0.0, 1, 0.0, 0.0, 160, 0.0, 0.3, 5e-3},
-    {steps, 2.0, damped, 0.3, 0.05, 0.01, 0.5, 0, 0.0, two_thirds, 0, 0.3, 0.5},  // loose creep
-    {steps, 2.0, damped, 0.3, 0.05, 0.01, 1.0, 0, two_thirds, 1.0, 0, 0.5, 0.75},
-    {steps, 1.0, none, 1.0, 0.02, 0.01, 2.0, 6, 0.0, 0.0, 6, 0.75, 0.85},
-    {rest, 0.5, none, 1.0, 0.01, 0.01, 2.0, 8, 0.0, 0.0, 12, 0.85, 1.0},
+    {look, 0.5, none, 1.0, 0.01, 0.01, 0.0, 2.0, 8, 0.0, 0.0, 8, 0.0, 0.0},
+    {fallen, 1.0, damped, 0.1, 0.08, 0.01, 1.0, 0.0, 1, 0.0, 0.0, 160, 0.0, 0.3, 5e-3},
+    {steps, 2.0, damped, 0.3, 0.05, 0.01, 0.0, 0.5, 0, 0.0, two_thirds, 0, 0.3,
+     0.5},  // loose creep
+    {steps, 2.0, damped, 0.3, 0.05, 0.01, 0.0, 1.0, 0, two_thirds, 1.0, 0, 0.5, 0.75},
+    {steps, 1.0, none, 1.0, 0.02, 0.01, 0.0, 2.0, 6, 0.0, 0.0, 6, 0.75, 0.85},
+    {rest, 0.5, none, 1.0, 0.01, 0.01, 0.0, 2.0, 8, 0.0, 0.0, 12, 0.85, 1.0},
 };
 constexpr StageRule dynamic[] = {
     heavy_ball[0],
-    {halted, 0.25, full, 0.0, 0.08, 0.05, 0.0, 1, 0.0, 0.0, 1200, 0.0, 0.85, 5e-3},
+    {halted, 0.25, full, 0.0, 0.08, 0.05, 1.0, 0.0, 1, 0.0, 0.0, 1200, 0.0, 0.85, 5e-3},
     heavy_ball[5],
 };
 constexpr StageRule turning[] = {
-    {look, 0.25, none, 0.5, 0.03, 0.05, 4.0 / 3.0, 8, 0.0, 0.0, 8, 0.0, 0.0},
-    {fallen, 1.0, damped, 0.2, 0.05, 0.05, 0.0, 1, 0.0, 0.0, 110, 0.0, 0.35, 1e-2},
-    {steps, 1.0, damped, 0.1, 0.03, 0.05, 0.2, 0, 0.0, 2.0, 0, 0.35, 0.6},
-    {steps, 0.5, damped, 0.1, 0.03, 0.05, two_thirds, 60, 0.0, 1.0, 0, 0.6, 0.9},
-    {rest, 0.25, none, 0.5, 0.03, 0.05, 4.0 / 3.0, 40, 0.0, 0.0, 44, 0.9, 1.0},
+    {look, 0.25, none, 0.5, 0.03, 0.05, 0.0, 4.0 / 3.0, 8, 0.0, 0.0, 8, 0.0, 0.0},
+    {fallen, 1.0, damped, 0.2, 0.05, 0.05, 1.0, 0.0, 1, 0.0, 0.0, 110, 0.0, 0.2, 1e-2},
+    {steps, 1.0, damped, 0.1, 0.03, 0.05, 1.5, 0.0, 45, 0.0, 0.85, 0, 0.2, 0.4},
+    {steps, 0.5, damped, 0.1, 0.03, 0.05, 0.0, two_thirds, 60, 0.0, 1.0, 0, 0.4, 0.8},
+    {rest, 0.25, none, 0.5, 0.03, 0.05, 0.0, 4.0 / 3.0, 40, 0.0, 0.0, 44, 0.8, 1.0},
 };
 
 int iterations_of(const Accuracy& accuracy, const StageRule& r) {
-  return r.iterations == 0.0
-             ? accuracy.fall_iterations
-             : std::max(1, static_cast<int>(std::lround(r.iterations * accuracy.rest_iterations)));
+  return std::max(1, static_cast<int>(std::lround(r.of_fall * accuracy.fall_iterations +
+                                                  r.of_rest * accuracy.rest_iterations)));
 }
 
 double momentum_of(const Accuracy& accuracy, Inertia inertia) {

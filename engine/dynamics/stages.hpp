@@ -31,7 +31,8 @@ struct StageRule {
   double correction;         ///< share of an overlap that a step repairs
   double near;               ///< pairs with a smaller gap are rows, d
   double margin;             ///< candidates reach this much further, d
-  double iterations;         ///< most iterations a step, in rest_iterations; 0: those of the fall
+  double of_fall;            ///< most iterations a step: so many times those of the fall and
+  double of_rest;            ///< so many times those at rest, together
   std::int64_t least_steps;  ///< besides those of the creep
   double creep_begin;        ///< part of the creep that it takes, in creep_steps
   double creep_end;

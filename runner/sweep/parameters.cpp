@@ -286,8 +286,9 @@ Rows accuracy_rows() {
                                       "kinetic energy per grain at rest, m g d"),
       accuracy<&A::contact_tolerance>("accuracy.contact_tolerance",
                                       "|contacts / isostatic count - 1| at rest"),
-      accuracy<&A::overlap_tolerance>("accuracy.overlap_tolerance",
-                                      "mean overlap of touching pairs at rest, d"),
+      accuracy<&A::overlap_tolerance>(
+          "accuracy.overlap_tolerance",
+          "mean overlap of touching pairs at rest, d; no pair more than a hundred times it"),
       accuracy<&A::max_steps>("accuracy.max_steps",
                               "steps after which a bed counts as not settled"),
       accuracy<&A::force_balance>("accuracy.force_balance",

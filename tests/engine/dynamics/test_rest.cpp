@@ -190,6 +190,7 @@ TEST_CASE("a bed within every tolerance is at rest") {
   rest.residual = accuracy.residual_tolerance;
   rest.kinetic_energy = accuracy.kinetic_tolerance;
   rest.overlap_mean = accuracy.overlap_tolerance;
+  rest.overlap_max = deepest_overlap * accuracy.overlap_tolerance;
   rest.contacts = 1000 + static_cast<std::int64_t>(1000 * accuracy.contact_tolerance);
   CHECK(why_not_at_rest(rest, accuracy).empty());
 }
@@ -200,15 +201,18 @@ TEST_CASE("the test of rest that failed is named with value and tolerance") {
   accuracy.kinetic_tolerance = 2e-4;
   accuracy.overlap_tolerance = 1e-5;
   accuracy.contact_tolerance = 0.04;
-  RestReport residual = perfect_rest(), kinetic = residual, overlap = residual, many = residual;
+  RestReport residual = perfect_rest(), kinetic = residual, overlap = residual, deep = residual,
+             many = residual;
   residual.residual = 0.25;
   kinetic.kinetic_energy = 0.125;
   overlap.overlap_mean = 2e-3;
+  deep.overlap_max = 0.06;
   many.contacts = 1100;
   CHECK(why_not_at_rest(residual, accuracy) == "force residual 0.25 m g exceeds 0.005");
   CHECK(why_not_at_rest(kinetic, accuracy) ==
         "kinetic energy 0.125 m g d per grain exceeds 0.0002");
   CHECK(why_not_at_rest(overlap, accuracy) == "mean overlap 0.002 d exceeds 1e-05");
+  CHECK(why_not_at_rest(deep, accuracy) == "deepest overlap 0.06 d exceeds 0.001");
   CHECK(why_not_at_rest(many, accuracy) ==
         "contacts / isostatic count 1.1 misses 1 by more than 0.04");
 }
@@ -224,8 +228,8 @@ TEST_CASE("too few contacts are as bad as too many") {
 
 TEST_CASE("a number that is none never passes for rest") {
   const double none = std::numeric_limits<double>::quiet_NaN();
-  for (double RestReport::*value :
-       {&RestReport::residual, &RestReport::kinetic_energy, &RestReport::overlap_mean}) {
+  for (double RestReport::*value : {&RestReport::residual, &RestReport::kinetic_energy,
+                                    &RestReport::overlap_mean, &RestReport::overlap_max}) {
     RestReport rest = perfect_rest();
     rest.*value = none;
     CHECK_FALSE(why_not_at_rest(rest, Accuracy{}).empty());
