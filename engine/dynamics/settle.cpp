@@ -1,5 +1,7 @@
 #include "engine/dynamics/settle.hpp"
 
+#include <cmath>
+
 #include "engine/dynamics/balance.hpp"
 #include "engine/dynamics/saved_state.hpp"
 #include "engine/dynamics/stages.hpp"
@@ -189,10 +191,18 @@ bool take_step(Settling<Real>& s, const KeepGoing& keep_going) {
   return keep_going({s.report.steps, share, [&s] { return saved(s); }});
 }
 
+/// Whether there is another step to take. A state that is not finite must not be searched: it lies
+/// in no cell.
+template <class Real>
+bool goes_on(const Settling<Real>& s) {
+  return s.stage != Stage::rest && s.report.steps < s.accuracy.max_steps && !s.report.cancelled &&
+         std::isfinite(s.last.kinetic_energy);
+}
+
 /// Stage after stage, until the bed rests, the steps run out or the observer stops it.
 template <class Real>
 void come_to_rest(Settling<Real>& s, const KeepGoing& keep_going) {
-  while (s.stage != Stage::rest && s.report.steps < s.accuracy.max_steps && !s.report.cancelled) {
+  while (goes_on(s)) {
     if (is_over(s)) {
       enter(next_stage(s), s);
     } else {

@@ -56,6 +56,9 @@ struct SphereBed {
 /// A bed at rest in mid-air: the given spheres, and the entries that are no grains.
 SphereBed make_bed(const Box& box, const std::vector<PlacedSphere>& spheres);
 
+/// Whether every grain's place, radius, motion and inverse mass is a finite number.
+bool is_finite(const SphereBed& bed);
+
 /// Brings x and y of a centre, or of every grain's, back into the box along periodic axes.
 void wrap(const Box& box, Record<double>& centre);
 void wrap(SphereBed& bed);
