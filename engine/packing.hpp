@@ -29,12 +29,12 @@ const char* name_of(PackingStatus status);
 
 /// How far from rest a bed is. Forces in m g, lengths in d, energies in m g d.
 struct RestReport {
-  double residual = 0.0;                ///< worst force-balance residual of a row, m g
-  double kinetic_energy = 0.0;          ///< mean per grain of 1/2 m (dx/dt)^2, m g d
-  double largest_motion = 0.0;          ///< largest displacement of a grain in the last step, d
-  double overlap_mean = 0.0;            ///< mean over force-bearing contacts of max(0, -gap), d
-  double overlap_max = 0.0;             ///< deepest overlap, d
-  std::int64_t contacts = 0;            ///< force-bearing contacts, walls and floor included
+  double residual = 0.0;        ///< worst force-balance residual of a row, m g
+  double kinetic_energy = 0.0;  ///< mean per grain of 1/2 m (dx/dt)^2, m g d
+  double largest_motion = 0.0;  ///< largest displacement of a grain in the last step, d
+  double overlap_mean = 0.0;    ///< mean over force-bearing contacts of max(0, -gap), d
+  double overlap_max = 0.0;     ///< deepest overlap, d
+  std::int64_t contacts = 0;  ///< force-bearing contacts closed to 1e-4 d, walls and floor included
   std::int64_t isostatic_contacts = 0;  ///< 3 N - zero modes
 };
 
