@@ -178,7 +178,17 @@ Packing pack(const PackingSpec& spec, const Processor& processor, const KeepGoin
         "a grain found no room in the box: it is larger than the gap between the walls, "
         "or the box is too crowded");
   }
+  if (!is_finite(*bed)) {
+    return failed(
+        "a grain's place, radius or inverse mass is not a finite number at the start: correct "
+        "fill.file, whose radii are perhaps not in d");
+  }
   const SettleReport settled = settle(spec.accuracy, processor, *bed, keep_going, saved);
+  if (!is_finite(*bed)) {
+    return failed("the bed blew up in step " + std::to_string(settled.steps) +
+                  ": a grain's place is no longer a finite number; take accuracy.precision f64, or "
+                  "leave out grains far smaller than d");
+  }
   Packing packing{result_of(*bed, settled), {}, {}};
   if (!settled.cancelled) measure(spec, settled, processor.kernels, *bed, packing);
   return packing;

@@ -35,8 +35,8 @@ struct RestReport {
   double largest_motion = 0.0;  ///< largest displacement of a grain in the last step, d
   double overlap_mean = 0.0;    ///< mean over force-bearing contacts of max(0, -gap), d
   double overlap_max = 0.0;     ///< deepest overlap, d
-  /// Force-bearing contacts, walls and floor included; of polyhedra a contact along a line counts
-  /// 2, one over an area 3.
+  /// Force-bearing contacts closed to 1e-4 d, walls and floor included; of polyhedra a contact
+  /// along a line counts 2, one over an area 3.
   std::int64_t contacts = 0;
   std::int64_t isostatic_contacts = 0;  ///< 3 N - zero modes; 6 N of grains that turn
 };

@@ -63,15 +63,17 @@ template <class Real>
 RestReport certify(const SphereBed& bed, const Processor& processor, double dt,
                    Contacts<Real>& contacts) {
   RestReport rest;
-  double overlap = 0.0;
+  double overlap = 0.0, bearing = 0.0;
   detect(bed, processor, 1.0, contacts);
   visit_force_bearing(contacts, dt, [&](std::size_t block, std::size_t lane) {
-    const double depth = std::max(0.0, -static_cast<double>(contacts.rows[block].gap[lane]));
+    const auto gap = static_cast<double>(contacts.rows[block].gap[lane]);
+    const double depth = std::max(0.0, -gap);
     overlap += depth;
+    bearing += 1.0;
     rest.overlap_max = std::max(rest.overlap_max, depth);
-    ++rest.contacts;
+    rest.contacts += gap < closed_gap ? 1 : 0;
   });
-  rest.overlap_mean = overlap / static_cast<double>(std::max<std::int64_t>(rest.contacts, 1));
+  rest.overlap_mean = overlap / std::max(bearing, 1.0);
   rest.isostatic_contacts =
       3 * static_cast<std::int64_t>(bed.grains()) - zero_modes(bed, contacts, dt);
   return rest;

@@ -18,6 +18,10 @@ namespace grainsweep {
 /// Forces below this do not make a contact force-bearing, m g.
 inline constexpr double least_force = 1e-6;
 
+/// A contact counts only once it is closed to this, d: what grains are said to touch at. Forces on
+/// light grains can be small against every tolerance while their gaps are still open.
+inline constexpr double closed_gap = 1e-4;
+
 /// Calls visit(block, lane) for each row whose force counts.
 template <class Real, class Visit>
 void visit_force_bearing(const Contacts<Real>& contacts, double dt, Visit visit) {

@@ -1,5 +1,7 @@
 #include "engine/dynamics/settle.hpp"
 
+#include <cmath>
+
 #include "engine/dynamics/balance.hpp"
 #include "engine/dynamics/saved_beds.hpp"
 #include "engine/dynamics/saved_state.hpp"
@@ -162,11 +164,18 @@ bool take_step(Settling<Bed, State>& s, const KeepGoing& keep_going) {
   return keep_going({s.report.steps, share, [&s] { return saved(s); }});
 }
 
+/// Whether there is another step to take. A state that is not finite must not be searched: it lies
+/// in no cell.
+template <class Bed, class State>
+bool goes_on(const Settling<Bed, State>& s) {
+  return s.stage < s.stages.size() && s.report.steps < s.accuracy.max_steps &&
+         !s.report.cancelled && std::isfinite(s.last.kinetic_energy);
+}
+
 /// Stage after stage, until the bed rests, the steps run out or the observer stops it.
 template <class Bed, class State>
 void come_to_rest(Settling<Bed, State>& s, const KeepGoing& keep_going) {
-  while (s.stage < s.stages.size() && s.report.steps < s.accuracy.max_steps &&
-         !s.report.cancelled) {
+  while (goes_on(s)) {
     if (is_over(s)) {
       enter(next_stage(s), s);
     } else {
@@ -184,6 +193,10 @@ SettleReport settle_in(State& state, Stages stages, const Accuracy& accuracy,
       accuracy, processor, bed, state, stages, 0, 0, settings_of(accuracy, stages.front()), {}, {}};
   restore(saved, s);
   come_to_rest(s, keep_going);
+  if (!std::isfinite(s.last.kinetic_energy)) {
+    s.report.why_not = "the kinetic energy is not a finite number";
+    return s.report;
+  }
   is_at_rest(s);
   if constexpr (std::is_same_v<Bed, SphereBed>) {
     if (accuracy.force_balance == BalanceCheck::solve && !s.report.cancelled) {

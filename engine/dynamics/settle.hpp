@@ -52,8 +52,9 @@ struct SettleReport {
   std::vector<PairForce> pair_forces;   ///< of the last step
 };
 
-/// Settles `bed`. `keep_going` is asked after every step. `saved`: bytes that Progress::save gave
-/// for the same bed and accuracy, from which to go on; others are not taken.
+/// Settles `bed`, whose numbers must be finite; a state that becomes otherwise ends it at once and
+/// is never called settled. `keep_going` is asked after every step. `saved`: bytes that
+/// Progress::save gave for the same bed and accuracy, from which to go on; others are not taken.
 SettleReport settle(const Accuracy& accuracy, const Processor& processor, SphereBed& bed,
                     const KeepGoing& keep_going, std::string_view saved = {});
 

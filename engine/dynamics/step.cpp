@@ -40,14 +40,19 @@ bool renew_candidates(const StepSettings& settings, const Processor& processor, 
   return true;
 }
 
-/// Moves the grains by `u` and reports how they moved.
+/// Moves the grains by `u`, cut at longest_motion, and reports how they moved.
 template <class Real>
 void advance(const std::vector<Record<Real>>& u, double dt, SphereBed& bed, StepReport& report) {
   double energy = 0.0, longest = 0.0;
   for (std::size_t i = 0; i < bed.grains(); ++i) {
-    const double x = static_cast<double>(u[i].x), y = static_cast<double>(u[i].y);
-    const double z = static_cast<double>(u[i].z);
-    const double squared = x * x + y * y + z * z;
+    double x = static_cast<double>(u[i].x), y = static_cast<double>(u[i].y);
+    double z = static_cast<double>(u[i].z);
+    double squared = x * x + y * y + z * z;
+    if (squared > longest_motion * longest_motion) {
+      const double keep = longest_motion / std::sqrt(squared);
+      x *= keep, y *= keep, z *= keep;
+      squared = longest_motion * longest_motion;
+    }
     bed.position[i].x += x;
     bed.position[i].y += y;
     bed.position[i].z += z;

@@ -15,6 +15,11 @@ namespace grainsweep {
 /// Longest free motion of a grain in one step, d: far below a grain, so that none passes another.
 inline constexpr double longest_free_motion = 0.15;
 
+/// Longest motion of a grain in one step whatever pushes it, d. A solve that is cut short between
+/// grains of very different mass may push the light one with the weight of the heavy one; it must
+/// not be thrown through its neighbours.
+inline constexpr double longest_motion = 0.3;
+
 struct StepSettings {
   double dt = 0.2;          ///< sqrt(d/g)
   double momentum = 0.9;    ///< alpha

@@ -1,5 +1,6 @@
 #include "engine/scene/bed.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -43,6 +44,16 @@ SphereBed make_bed(const Box& box, const std::vector<PlacedSphere>& spheres) {
     bed.motion.insert(bed.motion.end(), {{0.0, 0.0, 0.0, 1.0}, {0.0, 0.0, 0.0, 1.0}});
   }
   return bed;
+}
+
+bool is_finite(const Record<double>& r) {
+  return std::isfinite(r.x) && std::isfinite(r.y) && std::isfinite(r.z) && std::isfinite(r.w);
+}
+
+bool is_finite(const SphereBed& bed) {
+  const auto finite = [](const Record<double>& r) { return is_finite(r); };
+  return std::all_of(bed.position.begin(), bed.position.end(), finite) &&
+         std::all_of(bed.motion.begin(), bed.motion.end(), finite);
 }
 
 void wrap(const Box& box, Record<double>& centre) {

@@ -62,6 +62,12 @@ struct SphereBed {
 /// A bed at rest in mid-air: the given spheres, and the entries that are no grains.
 SphereBed make_bed(const Box& box, const std::vector<PlacedSphere>& spheres);
 
+/// Whether all four are finite numbers.
+bool is_finite(const Record<double>& record);
+
+/// Whether every grain's place, radius, motion and inverse mass is a finite number.
+bool is_finite(const SphereBed& bed);
+
 /// Brings x and y of a centre, or of every grain's, back into the box along periodic axes.
 void wrap(const Box& box, Record<double>& centre);
 void wrap(SphereBed& bed);

@@ -44,6 +44,16 @@ ShapeBed make_shape_bed(const Box& box, ConvexShape shape, const std::vector<Pos
   return bed;
 }
 
+bool is_finite(const ShapeBed& bed) {
+  for (std::size_t i = 0; i < bed.grains(); ++i) {
+    if (!is_finite(bed.centre[i]) || !is_finite(bed.orientation[i]) || !is_finite(bed.motion[i]) ||
+        !bed.turn[i].allFinite()) {
+      return false;
+    }
+  }
+  return true;
+}
+
 Vector root_inertia(const ShapeBed& bed, std::size_t grain) {
   const double scale = bed.centre[grain].w;
   return scale * (bed.shape.inertia / bed.motion[grain].w).cwiseSqrt();

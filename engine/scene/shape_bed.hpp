@@ -41,6 +41,9 @@ struct ShapeBed {
 /// A bed at rest in mid-air. Requires unit quaternions and positive scales.
 ShapeBed make_shape_bed(const Box& box, ConvexShape shape, const std::vector<Pose>& poses);
 
+/// Whether every grain's place, scale, orientation, motion and inverse mass is a finite number.
+bool is_finite(const ShapeBed& bed);
+
 /// Square roots of a grain's principal moments, sqrt(m) d.
 Vector root_inertia(const ShapeBed& bed, std::size_t grain);
 

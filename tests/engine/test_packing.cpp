@@ -168,6 +168,27 @@ TEST_CASE("a bed whose grains find no room fails and says why") {
   CHECK(packing.grains.empty());
 }
 
+TEST_CASE("a bed whose numbers are not finite fails by name instead of being packed") {
+  for (const double x : {std::nan(""), 1.0}) {
+    PackingSpec spec = small_spec();
+    // Without a check the first reaches the engine as it is; the second has no finite inverse mass.
+    spec.fill = PlacedGrains{{{x, 2, 2, x == 1.0 ? 1e-110 : 0.5}, {3, 2, 2, 0.5}}};
+    const Packing packing = make_packing(spec, kernels_for(best_isa()), always);
+    CHECK(packing.result.status == PackingStatus::failed);
+    CHECK(packing.result.reason.find("not a finite number at the start") != std::string::npos);
+    CHECK(packing.grains.empty());
+  }
+}
+
+TEST_CASE("a bed that blows up fails by name, with the step") {
+  PackingSpec spec = small_spec();
+  spec.accuracy.precision = Precision::f32;
+  spec.fill = PlacedGrains{{{2, 2, 2, 1e-15}, {3, 2, 2, 0.5}}};  // its inverse mass is beyond f32
+  const Packing packing = make_packing(spec, kernels_for(best_isa()), always);
+  CHECK(packing.result.status == PackingStatus::failed);
+  CHECK(packing.result.reason.find("the bed blew up in step 1:") != std::string::npos);
+}
+
 TEST_CASE("a bed that runs out of steps is not settled, says why, and is still measured") {
   PackingSpec spec = small_spec();
   spec.measure.exclude_floor = spec.measure.exclude_surface = 1;

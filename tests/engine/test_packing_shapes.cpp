@@ -1,4 +1,5 @@
 #include <cmath>
+#include <limits>
 
 #include <catch2/catch.hpp>
 
@@ -97,6 +98,15 @@ TEST_CASE("a bed of hulls placed again as it was given back stays as it is") {
   }
   CHECK(farthest < 0.01);
   CHECK(again.result.rest.overlap_max < 0.01);
+}
+
+TEST_CASE("a shape that starts at no finite place is a failure by name") {
+  PackingSpec spec = small_spec();
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  spec.fill = PlacedGrains{{{none, 2, 1, 0.5}}, {{0, 0, 0, 1}}};
+  const PackingResult r = pack(spec).result;
+  CHECK(r.status == PackingStatus::failed);
+  CHECK(r.reason.find("not a finite number") != std::string::npos);
 }
 
 TEST_CASE("equal specifications of shapes give equal bits, another key another bed") {

@@ -1,9 +1,8 @@
 // Shapes and poses that tests start from.
 #pragma once
 
+#include <stdexcept>
 #include <vector>
-
-#include <catch2/catch.hpp>
 
 #include "engine/shape/hull.hpp"
 #include "engine/shape/pinacoid.hpp"
@@ -14,8 +13,7 @@ namespace grainsweep::testing {
 
 inline ConvexShape hull_of(const std::vector<Vector>& points) {
   const Hull hull = convex_hull(points);
-  INFO(hull.error);
-  REQUIRE(hull.shape);
+  if (!hull.shape) throw std::invalid_argument(hull.error);
   return *hull.shape;
 }
 

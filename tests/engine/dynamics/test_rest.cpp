@@ -95,6 +95,14 @@ TEST_CASE("contacts that bear force are counted against three per grain less the
   CHECK(rest.isostatic_contacts == 9 - 3);
 }
 
+TEST_CASE("a contact that bears a force across an open gap is not counted") {
+  for (const double gap : {0.9e-4, 1.1e-4}) {
+    Pushed state(x_periodic, {{2, 2, 0.5, 0.5}, {2, 2, 1.5 + gap, 0.5}});
+    state.with_wall(0, 0, 2).with_pair(0, 1, 1);
+    CHECK(certify(state.bed, kernels(), dt, state.contacts).contacts == (gap < 1e-4 ? 2 : 1));
+  }
+}
+
 TEST_CASE("overlaps are those of force-bearing contacts, measured anew") {
   Pushed state(x_periodic, {{2, 2, 0.49, 0.5}, {2, 2, 1.46, 0.5}, {2, 2, 2.41, 0.5}});
   state.with_wall(0, 0, 2).with_pair(0, 1, 1);  // the third pair, .05 deep, does not push

@@ -180,6 +180,26 @@ TEST_CASE("a grain that falls on another one does not pass through it") {
   CHECK(bed.position[1].z == Approx(1.5).margin(1e-6));
 }
 
+// Forty grains on one spot are more than the solver's bound of eigenvalues allows for: its impulses
+// grow.
+TEST_CASE("no grain is thrown further in a step than the longest motion") {
+  std::vector<PlacedSphere> spheres(40, {2, 2, 0.5, 0.5});
+  for (std::size_t k = 0; k < 20; ++k) spheres[k].radius = 0.1;
+  SphereBed bed = make_bed({4, 4, periodic, walls}, spheres);
+  StepState<double> state;
+  StepSettings settings = tight_steps(0.9);
+  settings.limits.iterations = 5;
+  for (int k = 0; k < 10; ++k) {
+    const SphereBed before = bed;
+    const StepReport report = step(settings, kernels(), bed, state);
+    REQUIRE(report.largest_motion <= longest_motion);
+    for (std::size_t i = 0; i < bed.grains(); ++i) {
+      const Record<double>& u = bed.motion[i];
+      REQUIRE(std::hypot(u.x, u.y, u.z) <= longest_motion + 1e-12);
+    }
+  }
+}
+
 TEST_CASE("grains that touch across a periodic border push each other apart") {
   SphereBed bed = make_bed({4, 1, periodic, walls}, {{0.2, 0.5, 0.5, 0.5}, {3.4, 0.5, 0.5, 0.5}});
   StepState<double> state;

@@ -1,0 +1,112 @@
+#include <cstdio>
+
+#include "engine/dynamics/presets.hpp"
+#include "tests/extremes/accuracy_names.hpp"
+#include "tests/extremes/catalogue.hpp"
+#include "tests/extremes/packed.hpp"
+
+namespace grainsweep::extremes {
+
+namespace {
+
+std::string number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%g", value);
+  return text;
+}
+
+std::string name_of(Precision precision) { return precision == Precision::f32 ? "f32" : "f64"; }
+
+/// A bed of 100 grains settled at `balanced` with parts of it changed.
+template <class Change>
+Scene changed(const std::string& extreme, Precision precision, Change change) {
+  Accuracy accuracy = preset("balanced").value();
+  accuracy.precision = precision;
+  accuracy.max_steps = 600;
+  change(accuracy);
+  return {"accuracies",
+          "a bed of 100",
+          extreme,
+          "balanced, " + name_of(precision),
+          Outcome::not_settled,
+          [=] { return pack(small_spec(100, accuracy)); }};
+}
+
+void add_steps(std::vector<Scene>& scenes) {
+  for (const double step : {1e-4, 1e-3, 1e-2, 0.05, 0.1, 0.3, 0.4, 0.5, 0.8, 1.0, 1.5, 2.0}) {
+    scenes.push_back(
+        changed("step " + number(step), Precision::f64, [=](Accuracy& a) { a.step = step; }));
+    scenes.push_back(
+        changed("step " + number(step) + ", plain dynamics", Precision::f32, [=](Accuracy& a) {
+          a.step = step;
+          a.protocol = Protocol::dynamic;
+          a.max_steps = 1500;
+        }));
+  }
+}
+
+void add_tolerances(std::vector<Scene>& scenes) {
+  for (int power = 1; power <= 12; ++power) {
+    for (const Precision precision : {Precision::f32, Precision::f64}) {
+      const std::string text = "1e-" + std::to_string(power);
+      const double tolerance = std::stod(text);
+      scenes.push_back(changed("residual tolerance " + text, precision, [=](Accuracy& a) {
+        a.residual_tolerance = tolerance;
+        a.max_steps = 300;
+      }));
+    }
+  }
+}
+
+void add_iterations(std::vector<Scene>& scenes) {
+  for (const int iterations : {1, 3, 10, 100, 1000, 10'000, 100'000}) {
+    for (const Precision precision : {Precision::f32, Precision::f64}) {
+      scenes.push_back(
+          changed(std::to_string(iterations) + " iterations a step", precision, [=](Accuracy& a) {
+            a.fall_iterations = a.rest_iterations = iterations;
+            a.max_steps = 300;
+          }));
+    }
+  }
+}
+
+void add_solvers(std::vector<Scene>& scenes) {
+  const std::pair<Solver, const char*> solvers[] = {
+      {Solver::projected_gauss_seidel, "pgs"},
+      {Solver::symmetric_gauss_seidel, "symmetric_pgs"},
+      {Solver::nonsmooth_nonlinear_conjugate, "nncg"}};
+  for (const auto& [solver, name] : solvers) {
+    for (const double step : {0.01, 0.2, 0.4}) {
+      scenes.push_back(changed(std::string(name) + ", step " + number(step), Precision::f32,
+                               [=, method = solver](Accuracy& a) {
+                                 a.solver = method;
+                                 a.step = step;
+                               }));
+    }
+  }
+}
+
+void add_limits(std::vector<Scene>& scenes) {
+  scenes.push_back(changed("momentum 0", Precision::f32, [](Accuracy& a) { a.momentum = 0.0; }));
+  scenes.push_back(
+      changed("momentum .999", Precision::f32, [](Accuracy& a) { a.momentum = 0.999; }));
+  scenes.push_back(changed("no creep", Precision::f32, [](Accuracy& a) { a.creep_steps = 0; }));
+  scenes.push_back(changed("one step", Precision::f32, [](Accuracy& a) { a.max_steps = 1; }));
+  scenes.push_back(changed("every tolerance 1e-12", Precision::f64, [](Accuracy& a) {
+    a.residual_tolerance = a.kinetic_tolerance = a.overlap_tolerance = a.contact_tolerance = 1e-12;
+  }));
+}
+
+}  // namespace
+
+std::vector<Scene> accuracies() {
+  std::vector<Scene> scenes;
+  add_steps(scenes);
+  add_tolerances(scenes);
+  add_iterations(scenes);
+  add_solvers(scenes);
+  add_limits(scenes);
+  return scenes;
+}
+
+}  // namespace grainsweep::extremes

@@ -1,0 +1,130 @@
+#include "tests/extremes/judge.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/contact/candidates.hpp"
+#include "engine/dynamics/stages.hpp"
+#include "engine/dynamics/workspace.hpp"
+
+namespace grainsweep::extremes {
+
+namespace {
+
+double nearest(double difference, double period) {
+  return period > 0.0 ? difference - period * std::round(difference / period) : difference;
+}
+
+double gap_of(const SphereBed& bed, std::size_t a, std::size_t b) {
+  const Record<double>&p = bed.position[a], &q = bed.position[b];
+  return std::hypot(nearest(p.x - q.x, bed.box.period_x()), nearest(p.y - q.y, bed.box.period_y()),
+                    p.z - q.z) -
+         p.w - q.w;
+}
+
+/// Calls visit(gap) for every pair and every wall of a grain.
+template <class Visit>
+void visit_gaps(const SphereBed& bed, Visit visit) {
+  for (std::size_t a = 0; a < bed.grains(); ++a) {
+    for (std::size_t b = a + 1; b < bed.grains(); ++b) visit(gap_of(bed, a, b));
+    for (const Wall& wall : walls_of(bed.box)) visit(wall.gap(bed.position[a]));
+  }
+}
+
+void add_gap(double gap, Overlaps& overlaps) {
+  overlaps.deepest = std::max(overlaps.deepest, -gap);
+  overlaps.sum += std::max(0.0, -gap);
+}
+
+double least_mass(const SphereBed& bed) {
+  double most = 0.0;
+  for (std::size_t i = 0; i < bed.grains(); ++i) most = std::max(most, bed.motion[i].w);
+  return 1.0 / most;
+}
+
+}  // namespace
+
+template <class Real>
+void collect_forces(const Contacts<Real>& contacts, SettledBed& settled) {
+  const double dt = last_step(settled.accuracy);
+  for (const auto& [name, impulse] : testing::impulses_of(settled.bed, contacts)) {
+    settled.forces[name] = static_cast<double>(impulse) / (dt * dt);
+  }
+}
+template void collect_forces(const Contacts<float>&, SettledBed&);
+template void collect_forces(const Contacts<double>&, SettledBed&);
+
+double SettledBed::force(std::int32_t a, std::int32_t b) const {
+  const auto found = forces.find({a, b});
+  return found == forces.end() ? 0.0 : found->second;
+}
+
+double SettledBed::on_floor() const {
+  double sum = 0.0;
+  for (const auto& [name, force] : forces) sum += name.second == bed.wall() ? force : 0.0;
+  return sum;
+}
+
+double SettledBed::weight() const {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < bed.grains(); ++i) sum += 1.0 / bed.motion[i].w;
+  return sum;
+}
+
+SettledBed settle_scene(SphereBed bed, const Accuracy& accuracy) {
+  Workspace memory;
+  const Processor processor(kernels_for(best_isa()), one_after_another, &memory);
+  SettledBed settled{std::move(bed), accuracy, {}, {}};
+  settled.report = settle(accuracy, processor, settled.bed, [](const Progress&) { return true; });
+  accuracy.precision == Precision::f32 ? collect_forces(memory.f32.contacts, settled)
+                                       : collect_forces(memory.f64.contacts, settled);
+  return settled;
+}
+
+double last_step(const Accuracy& accuracy) { return settings_of(accuracy, Stage::quench).dt; }
+
+double unbalance_bound(const SettledBed& settled) {
+  const auto grains = static_cast<double>(settled.bed.grains());
+  const double energy = settled.accuracy.kinetic_tolerance * grains / settled.weight();
+  const double by_energy = std::sqrt(2.0 * energy) / last_step(settled.accuracy);
+  const double by_rows =
+      2.0 * grains * settled.accuracy.residual_tolerance / least_mass(settled.bed);
+  return std::min(by_energy, by_rows);
+}
+
+double gap_bound(const Accuracy& accuracy, double reduced_mass) {
+  const double dt = last_step(accuracy);
+  return accuracy.residual_tolerance * dt * dt / reduced_mass;
+}
+
+Overlaps overlaps_of(const SphereBed& bed) {
+  Overlaps overlaps;
+  visit_gaps(bed, [&](double gap) { add_gap(gap, overlaps); });
+  return overlaps;
+}
+
+double touching_count(const SphereBed& bed, double tolerance) {
+  double count = 0.0;
+  visit_gaps(bed, [&](double gap) { count += gap < tolerance ? 1.0 : 0.0; });
+  return count;
+}
+
+std::vector<Answer> answers_of_any_bed(const SettledBed& settled) {
+  const Overlaps overlaps = overlaps_of(settled.bed);
+  const auto contacts =
+      static_cast<double>(std::max<std::int64_t>(settled.report.rest.contacts, 1));
+  const double overlap = settled.accuracy.overlap_tolerance;
+  return {{"weight on the floor, relative", std::abs(settled.on_floor() / settled.weight() - 1.0),
+           unbalance_bound(settled), "what the accuracy leaves unbalanced"},
+          {"mean overlap of any pair or wall, d", overlaps.sum / contacts, overlap,
+           "promised by the accuracy"},
+          {"deepest overlap of any pair or wall, d", overlaps.deepest,
+           std::min(overlap * contacts, 0.01),
+           "no more than the mean over all contacts allows, and never a hundredth of a grain"}};
+}
+
+Finding finding_of(const SettledBed& settled, std::vector<Answer> answers) {
+  return {{}, settled.report.why_not, is_finite(settled.bed), std::move(answers)};
+}
+
+}  // namespace grainsweep::extremes

@@ -1,0 +1,160 @@
+#include <algorithm>
+#include <cmath>
+
+#include "engine/contact/touch.hpp"
+#include "engine/dynamics/presets.hpp"
+#include "engine/scene/start.hpp"
+#include "tests/extremes/accuracy_names.hpp"
+#include "tests/extremes/catalogue.hpp"
+#include "tests/extremes/judge.hpp"
+#include "tests/extremes/packed.hpp"
+#include "tests/support/bits.hpp"
+#include "tests/support/draw.hpp"
+
+namespace grainsweep::extremes {
+
+namespace {
+
+using Spheres = std::vector<PlacedSphere>;
+using Change = void (*)(const BoxSpec&, Spheres&);
+
+void shift(const BoxSpec& box, Spheres& spheres) {
+  for (PlacedSphere& s : spheres) s.x = std::fmod(s.x + 1.25, box.length);
+}
+void mirror_x(const BoxSpec& box, Spheres& spheres) {
+  for (PlacedSphere& s : spheres) s.x = box.length - s.x;
+}
+void mirror_y(const BoxSpec& box, Spheres& spheres) {
+  for (PlacedSphere& s : spheres) s.y = box.width - s.y;
+}
+void rename_grains(const BoxSpec&, Spheres& spheres) { testing::Draw(5).shuffle(spheres); }
+
+Spheres start_of(const PackingSpec& spec) {
+  const SphereBed bed = *start(spec);
+  Spheres spheres;
+  for (std::size_t i = 0; i < bed.grains(); ++i) {
+    const Record<double>& p = bed.position[i];
+    spheres.push_back({p.x, p.y, p.z, p.w});
+  }
+  return spheres;
+}
+
+/// Mean and its standard error.
+struct Mean {
+  double value = 0.0, error = 0.0;
+};
+Mean mean_of(const std::vector<double>& values) {
+  const auto n = static_cast<double>(values.size());
+  Mean mean;
+  for (const double v : values) mean.value += v / n;
+  for (const double v : values) mean.error += (v - mean.value) * (v - mean.value);
+  mean.error = std::sqrt(mean.error / (n * (n - 1.0)));
+  return mean;
+}
+
+/// Solid fraction and coordination of several beds as they are and changed. A changed bed goes its
+/// own way from the first rounding on, so that only statistics can be equal.
+Finding compare(Change change, const Accuracy& accuracy) {
+  std::vector<double> solid, neighbours;
+  Finding finding;
+  for (std::uint64_t key = 1; key <= 12; ++key) {
+    PackingSpec spec = small_spec(220, accuracy), changed = spec;
+    spec.measure.exclude_floor = spec.measure.exclude_surface = 2.0;
+    spec.random_key = key;
+    changed = spec;
+    Spheres spheres = start_of(spec);
+    change(spec.box, spheres);
+    changed.fill = PlacedGrains{spheres};
+    const auto always = [](const Progress&) { return true; };
+    const Processor processor(kernels_for(best_isa()));
+    const PackingResult a = make_packing(spec, processor, always).result;
+    const PackingResult b = make_packing(changed, processor, always).result;
+    if (!a.reason.empty() || !b.reason.empty()) continue;
+    solid.push_back(a.solid_fraction - b.solid_fraction);
+    neighbours.push_back(a.coordination[0].between_grains - b.coordination[0].between_grains);
+  }
+  if (solid.size() < 8) finding.unrest = "fewer than 8 of 12 beds settled";
+  if (solid.size() < 8) return finding;
+  const Mean phi = mean_of(solid), z = mean_of(neighbours);
+  finding.answers = {{"solid fraction, mean difference", std::abs(phi.value), 2.0 * phi.error,
+                      "two standard errors"},
+                     {"coordination number, mean difference", std::abs(z.value), 2.0 * z.error,
+                      "two standard errors"}};
+  return finding;
+}
+
+/// One row of a pair of spheres: normal and gap in f64.
+struct PairRow {
+  double x, y, z, gap;
+};
+PairRow row_of(const Record<double>& a, const Record<double>& b) {
+  RowBlock<double> block{};
+  for (std::size_t lane = 0; lane < block_width; ++lane) block.set_grains(lane, 0, 1);
+  const Record<double> positions[2] = {a, b};
+  kernels_for(best_isa()).f64.sphere_gaps(&block, 1, positions, 0.0, 0.0, 1.0);
+  return {block.normal_x[0], block.normal_y[0], block.normal_z[0], block.gap[0]};
+}
+
+/// Number of random pairs whose row is not, to the last bit, the row of the changed pair.
+template <class Changed>
+Finding same_rows(Changed changed) {
+  testing::Draw draw(3);
+  double differ = 0.0;
+  for (int k = 0; k < 20'000; ++k) {
+    // Multiples of 2^-20, so that shifts and mirrors of them are exact.
+    const auto place = [&] { return std::ldexp(std::floor(draw.uniform(0, 1 << 20)), -20); };
+    const Record<double> a{place(), place(), place(), 0.5}, b{place(), place(), place(), 0.25};
+    differ += changed(a, b) ? 0.0 : 1.0;
+  }
+  Finding finding;
+  finding.answers = {
+      {"pairs of 20,000 with other bits", differ, 0.0, "symmetries of f64 are exact"}};
+  return finding;
+}
+
+bool survives_shift(const Record<double>& a, const Record<double>& b) {
+  return testing::same_bits(row_of(a, b),
+                            row_of({a.x + 64, a.y, a.z, a.w}, {b.x + 64, b.y, b.z, b.w}));
+}
+bool survives_mirror(const Record<double>& a, const Record<double>& b) {
+  const PairRow plain = row_of(a, b);
+  const PairRow seen = row_of({8 - a.x, a.y, a.z, a.w}, {8 - b.x, b.y, b.z, b.w});
+  return plain.x == -seen.x && plain.y == seen.y && plain.z == seen.z && plain.gap == seen.gap;
+}
+bool survives_exchange(const Record<double>& a, const Record<double>& b) {
+  const PairRow plain = row_of(a, b), seen = row_of(b, a);
+  return plain.x == -seen.x && plain.y == -seen.y && plain.z == -seen.z && plain.gap == seen.gap;
+}
+bool survives_new_axes(const Record<double>& a, const Record<double>& b) {
+  const PairRow plain = row_of(a, b), seen = row_of({a.y, a.x, a.z, a.w}, {b.y, b.x, b.z, b.w});
+  return plain.x == seen.y && plain.y == seen.x && plain.z == seen.z && plain.gap == seen.gap;
+}
+
+}  // namespace
+
+std::vector<Scene> symmetries() {
+  std::vector<Scene> scenes;
+  const auto kernel = [&](const char* extreme,
+                          bool (*survives)(const Record<double>&, const Record<double>&)) {
+    scenes.push_back({"symmetry", "a pair of spheres", extreme, "kernel, f64", Outcome::right,
+                      [=] { return same_rows(survives); }});
+  };
+  kernel("shifted by 64 d", survives_shift);
+  kernel("mirrored", survives_mirror);
+  kernel("names exchanged", survives_exchange);
+  kernel("x and y exchanged", survives_new_axes);
+  const std::pair<const char*, Change> changes[] = {{"shifted along x", shift},
+                                                    {"mirrored along x", mirror_x},
+                                                    {"mirrored along y", mirror_y},
+                                                    {"grains renamed", rename_grains}};
+  for (const auto& [name, change] : changes) {
+    for (const char* preset_name : {"fast", "balanced"}) {
+      const NamedAccuracy at = at_preset(preset_name);
+      scenes.push_back({"symmetry", "12 beds of 220", name, at.name, Outcome::right,
+                        [=, changed = change] { return compare(changed, at.accuracy); }});
+    }
+  }
+  return scenes;
+}
+
+}  // namespace grainsweep::extremes
