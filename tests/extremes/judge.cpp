@@ -81,7 +81,9 @@ SettledBed settle_scene(SphereBed bed, const Accuracy& accuracy) {
   return settled;
 }
 
-double last_step(const Accuracy& accuracy) { return settings_of(accuracy, Stage::quench).dt; }
+double last_step(const Accuracy& accuracy) {
+  return settings_of(accuracy, stages_of_spheres(accuracy.protocol).back()).dt;
+}
 
 double unbalance_bound(const SettledBed& settled) {
   const auto grains = static_cast<double>(settled.bed.grains());
