@@ -42,17 +42,15 @@ void set_free_motion(const StepSettings& settings, const ShapeBed& bed,
   }
 }
 
-/// Moves the grains by `u`, cut at longest_motion, and reports how they moved.
+/// Moves the grains by `u` and reports how they moved.
 template <class Real>
 void advance(const std::vector<Record<Real>>& u, double dt, ShapeBed& bed, StepReport& report) {
   double energy = 0.0;
   for (std::size_t i = 0; i < bed.grains(); ++i) {
-    const Vector displacement = clamped(vector(u[2 * i]), longest_motion);
-    const Vector root = root_inertia(bed, i), turned = vector(u[2 * i + 1]).cwiseQuotient(root);
-    const Vector angles = clamped(turned, longest_motion / bed.circumradius(i));
+    const Vector displacement = vector(u[2 * i]), scaled_angles = vector(u[2 * i + 1]);
+    const Vector angles = scaled_angles.cwiseQuotient(root_inertia(bed, i));
     move_grain(bed, i, displacement, angles);
-    energy +=
-        displacement.squaredNorm() / bed.motion[i].w + root.cwiseProduct(angles).squaredNorm();
+    energy += displacement.squaredNorm() / bed.motion[i].w + scaled_angles.squaredNorm();
     report.largest_motion =
         std::max({report.largest_motion, displacement.norm(), angles.norm() * bed.circumradius(i)});
   }

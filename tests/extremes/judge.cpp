@@ -116,13 +116,15 @@ std::vector<Answer> answers_of_any_bed(const SettledBed& settled) {
   const auto contacts =
       static_cast<double>(std::max<std::int64_t>(settled.report.rest.contacts, 1));
   const double overlap = settled.accuracy.overlap_tolerance;
-  return {{"weight on the floor, relative", std::abs(settled.on_floor() / settled.weight() - 1.0),
-           unbalance_bound(settled), "what the accuracy leaves unbalanced"},
-          {"mean overlap of any pair or wall, d", overlaps.sum / contacts, overlap,
-           "promised by the accuracy"},
-          {"deepest overlap of any pair or wall, d", overlaps.deepest,
-           std::min(overlap * contacts, 0.01),
-           "no more than the mean over all contacts allows, and never a hundredth of a grain"}};
+  return {
+      {"weight on the floor, relative", std::abs(settled.on_floor() / settled.weight() - 1.0),
+       unbalance_bound(settled), "what the accuracy leaves unbalanced"},
+      {"mean overlap of any pair or wall, d", overlaps.sum / contacts, 1.1 * overlap,
+       "promised for contacts that bear a force; some overlaps bear none, and some contacts are "
+       "still open"},
+      {"deepest overlap of any pair or wall, d", overlaps.deepest,
+       std::min(overlap * contacts, 0.01),
+       "no more than the mean over all contacts allows, and never a hundredth of a grain"}};
 }
 
 Finding finding_of(const SettledBed& settled, std::vector<Answer> answers) {
