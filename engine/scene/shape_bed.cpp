@@ -73,6 +73,7 @@ void set_balls(const ShapeBed& bed, double radius, SphereBed& balls) {
   if (balls.position.empty() || balls.grains() != bed.grains()) {
     balls = make_bed(bed.box, std::vector<PlacedSphere>(bed.grains()));
   }
+  balls.box = bed.box;
   for (std::size_t i = 0; i < bed.grains(); ++i) {
     const Record<double>& p = bed.centre[i];
     balls.position[i] = {p.x, p.y, p.z, p.w * radius};
