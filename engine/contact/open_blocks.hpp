@@ -73,7 +73,7 @@ class OpenBlocks {
   std::vector<std::uint64_t>& words_;  // one bit for each open block that holds the grain
   std::size_t block_[most_open] = {};
   std::size_t used_[most_open] = {};
-  Sides sides_[most_open][block_width];
+  Sides sides_[most_open][block_width] = {};
 };
 
 }  // namespace grainsweep
