@@ -25,20 +25,20 @@ enum class Inertia { none, damped, full };
 /// What a stage changes in a step. Motions and overlaps go with the square of a step, so that
 /// shorter steps need to look less far.
 struct StageRule {
-  StageEnd end;
-  double step;  ///< in steps of the fall
-  Inertia inertia;
-  double correction;         ///< share of an overlap that a step repairs
-  double near;               ///< pairs with a smaller gap are rows, d
-  double margin;             ///< candidates reach this much further, d
-  double of_fall;            ///< most iterations a step: so many times those of the fall and
-  double of_rest;            ///< so many times those at rest, together
-  std::int64_t least_steps;  ///< besides those of the creep
-  double creep_begin;        ///< part of the creep that it takes, in creep_steps
-  double creep_end;
-  std::int64_t usual_steps;  ///< of stages that end on a condition
-  double usual_begin;        ///< share of the work that is usually done before it and after it
-  double usual_end;
+  StageEnd end = StageEnd::steps;
+  double step = 1.0;  ///< in steps of the fall
+  Inertia inertia = Inertia::none;
+  double correction = 0.0;       ///< share of an overlap that a step repairs
+  double near = 0.0;             ///< pairs with a smaller gap are rows, d
+  double margin = 0.0;           ///< candidates reach this much further, d
+  double of_fall = 0.0;          ///< most iterations a step: so many times those of the fall and
+  double of_rest = 0.0;          ///< so many times those at rest, together
+  std::int64_t least_steps = 0;  ///< besides those of the creep
+  double creep_begin = 0.0;      ///< part of the creep that it takes, in creep_steps
+  double creep_end = 0.0;
+  std::int64_t usual_steps = 0;  ///< of stages that end on a condition
+  double usual_begin = 0.0;      ///< share of the work that is usually done before it and after it
+  double usual_end = 0.0;
   double energy = 0.0;  ///< m g d per grain; a bed with less of it has lost its speed
 };
 
