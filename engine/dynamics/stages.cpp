@@ -35,9 +35,9 @@ constexpr StageRule turning[] = {
     {rest, 0.25, none, 0.5, 0.03, 0.05, 0.0, 4.0 / 3.0, 40, 0.0, 0.0, 44, 0.8, 1.0},
 };
 
-int iterations_of(const Accuracy& accuracy, const StageRule& r) {
-  return std::max(1, static_cast<int>(std::lround(r.of_fall * accuracy.fall_iterations +
-                                                  r.of_rest * accuracy.rest_iterations)));
+int iterations_of(const Accuracy& accuracy, const StageRule& rule) {
+  return std::max(1, static_cast<int>(std::lround(rule.of_fall * accuracy.fall_iterations +
+                                                  rule.of_rest * accuracy.rest_iterations)));
 }
 
 double momentum_of(const Accuracy& accuracy, Inertia inertia) {
@@ -58,26 +58,27 @@ Stages stages_of_spheres(Protocol protocol) {
 
 Stages stages_of_shapes() { return turning; }
 
-StepSettings settings_of(const Accuracy& accuracy, const StageRule& r) {
+StepSettings settings_of(const Accuracy& accuracy, const StageRule& rule) {
   StepSettings s;
-  s.dt = r.step * accuracy.step;
-  s.momentum = momentum_of(accuracy, r.inertia);
-  s.correction = r.correction;
-  s.near = r.near;
-  s.margin = r.margin;
-  s.limits = {accuracy.solver, iterations_of(accuracy, r), accuracy.residual_tolerance / 5.0};
+  s.dt = rule.step * accuracy.step;
+  s.momentum = momentum_of(accuracy, rule.inertia);
+  s.correction = rule.correction;
+  s.near = rule.near;
+  s.margin = rule.margin;
+  s.limits = {accuracy.solver, iterations_of(accuracy, rule), accuracy.residual_tolerance / 5.0};
   return s;
 }
 
-std::int64_t steps_of(const Accuracy& accuracy, const StageRule& r) {
-  return r.least_steps + creep_step(accuracy, r.creep_end) - creep_step(accuracy, r.creep_begin);
+std::int64_t steps_of(const Accuracy& accuracy, const StageRule& rule) {
+  return rule.least_steps + creep_step(accuracy, rule.creep_end) -
+         creep_step(accuracy, rule.creep_begin);
 }
 
-double share_done(const Accuracy& accuracy, const StageRule& r, std::int64_t steps_in_stage) {
+double share_done(const Accuracy& accuracy, const StageRule& rule, std::int64_t steps_in_stage) {
   const std::int64_t usual =
-      std::max<std::int64_t>(1, r.usual_steps > 0 ? r.usual_steps : steps_of(accuracy, r));
+      std::max<std::int64_t>(1, rule.usual_steps > 0 ? rule.usual_steps : steps_of(accuracy, rule));
   const double in_stage = static_cast<double>(steps_in_stage) / static_cast<double>(usual);
-  return r.usual_begin + (r.usual_end - r.usual_begin) * in_stage / (1.0 + in_stage);
+  return rule.usual_begin + (rule.usual_end - rule.usual_begin) * in_stage / (1.0 + in_stage);
 }
 
 }  // namespace grainsweep

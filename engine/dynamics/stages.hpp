@@ -48,12 +48,12 @@ Stages stages_of_spheres(Protocol protocol);
 Stages stages_of_shapes();
 
 /// A step of a stage.
-StepSettings settings_of(const Accuracy& accuracy, const StageRule& stage);
+StepSettings settings_of(const Accuracy& accuracy, const StageRule& rule);
 
 /// Steps that a stage takes; for the stages that end on a condition, the least.
-std::int64_t steps_of(const Accuracy& accuracy, const StageRule& stage);
+std::int64_t steps_of(const Accuracy& accuracy, const StageRule& rule);
 
 /// Share of the work done after some steps of a stage: an estimate for progress bars.
-double share_done(const Accuracy& accuracy, const StageRule& stage, std::int64_t steps_in_stage);
+double share_done(const Accuracy& accuracy, const StageRule& rule, std::int64_t steps_in_stage);
 
 }  // namespace grainsweep
