@@ -52,7 +52,8 @@ void residual(benchmark::State& run) {
   const auto& contacts = f.state.contacts;
   for (auto _ : run) {
     benchmark::DoNotOptimize(kernels.residual(contacts.rows.data(), contacts.rows.size(),
-                                              f.state.motion.u.data(), contacts.impulse.data()));
+                                              f.state.motion.u.data(), contacts.impulse.data(),
+                                              Real(1)));
   }
   count_rows(run, contacts.rows.size());
 }

@@ -44,6 +44,17 @@ PackingResult result_of(const Bed& bed, const SettleReport& settled) {
   return result;
 }
 
+constexpr const char* passed_through =
+    "two grains of fill.file sank into each other by more than half on the way and may have passed "
+    "through one another: make accuracy.fall_iterations larger";
+
+/// A bed that came to rest is no longer called settled.
+void doubt(const char* reason, PackingResult& result) {
+  if (result.status != PackingStatus::settled) return;
+  result.status = PackingStatus::not_settled;
+  result.reason = reason;
+}
+
 double widest(const std::vector<double>& tolerances) {
   return *std::max_element(tolerances.begin(), tolerances.end());
 }
@@ -183,6 +194,9 @@ Packing pack(const PackingSpec& spec, const Processor& processor, const KeepGoin
         "a grain's place, radius or inverse mass is not a finite number at the start: correct "
         "fill.file, whose radii are perhaps not in d");
   }
+  if (std::string why = why_unfit(spec.accuracy, *bed); !why.empty()) {
+    return failed(std::move(why));
+  }
   const SettleReport settled = settle(spec.accuracy, processor, *bed, keep_going, saved);
   if (!is_finite(*bed)) {
     return failed("the bed blew up in step " + std::to_string(settled.steps) +
@@ -190,6 +204,9 @@ Packing pack(const PackingSpec& spec, const Processor& processor, const KeepGoin
                   "leave out grains far smaller than d");
   }
   Packing packing{result_of(*bed, settled), {}, {}};
+  if (settled.sank && std::holds_alternative<PlacedGrains>(spec.fill)) {
+    doubt(passed_through, packing.result);
+  }
   if (!settled.cancelled) measure(spec, settled, processor.kernels, *bed, packing);
   return packing;
 }

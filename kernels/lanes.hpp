@@ -52,6 +52,14 @@ inline Batch<Real> natural_residual(const Batch<Real>& p, const Batch<Real>& w) 
   return xsimd::abs(xsimd::min(p, w));
 }
 
+/// What a row misses; times unit_mass / m of the lighter of its grains where that is lighter.
+template <class Real>
+inline Batch<Real> of_light_grains(const Batch<Real>& missed, const Batch<Real>& inverse_a,
+                                   const Batch<Real>& inverse_b, Real unit_mass) {
+  const Batch<Real> most = xsimd::max(inverse_a, inverse_b);
+  return missed * xsimd::max(Batch<Real>(Real(1)), most * Batch<Real>(unit_mass));
+}
+
 /// One value per lane of a block, reduced over lanes in a fixed order.
 template <class Real>
 struct LaneSums {

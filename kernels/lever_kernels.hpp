@@ -70,8 +70,9 @@ struct LeverKernels {
                                         Real* p, bool backward);
   /// Adds H p to the pushes.
   void (*add_pushes)(LeverRows<Real> rows, std::size_t blocks, const Real* p, Record<Real>* pushes);
-  /// Largest |min(p, w / A_kk)| over all rows, d m.
-  Real (*residual)(LeverRows<Real> rows, std::size_t blocks, const Record<Real>* u, const Real* p);
+  /// Largest |min(p, w / A_kk)| over all rows, d m; light grains as in RowKernels::residual.
+  Real (*residual)(LeverRows<Real> rows, std::size_t blocks, const Record<Real>* u, const Real* p,
+                   Real unit_mass);
 };
 
 }  // namespace grainsweep

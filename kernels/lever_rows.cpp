@@ -224,16 +224,18 @@ void add_pushes(LeverRows<Real> rows, std::size_t blocks, const Real* p, Record<
 }
 
 template <class Real>
-Real residual(LeverRows<Real> rows, std::size_t blocks, const Record<Real>* u, const Real* p) {
+Real residual(LeverRows<Real> rows, std::size_t blocks, const Record<Real>* u, const Real* p,
+              Real unit_mass) {
   LaneSums<Real> worst(Real(0));
   visit_contacts(rows, blocks, false, [&](const auto& c, const auto& block, auto lane, auto k) {
-    const Motion<Real> m = load_motion(c, u);
+    const Side<Real> a = load_side(u, c.a), b = load_side(u, c.b);
+    const Motion<Real> m = motion_of(c.normal, a, b);
     for (std::size_t i = block.first; i < block.first + block.points; ++i) {
       const LeverPoints<Real>& points = rows.points[i];
       const Batch<Real> w =
           gap_after(load_points(points, lane), m) * load(points.reduced_mass + lane);
       const Batch<Real> missed = natural_residual(load(p + i * block_width + lane), w);
-      worst.part[k] = xsimd::max(worst.part[k], missed);
+      worst.part[k] = xsimd::max(worst.part[k], of_light_grains(missed, a.v.w, b.v.w, unit_mass));
     }
   });
   return worst.max();

@@ -72,15 +72,17 @@ struct RowKernels {
   /// Adds H p to the pushes.
   void (*add_pushes)(const RowBlock<Real>* rows, std::size_t blocks, const Real* p,
                      Record<Real>* pushes);
-  /// Largest |min(p, w / (1/m_a + 1/m_b))| over all rows, d m.
+  /// Largest |min(p, w / (1/m_a + 1/m_b))| over all rows, d m; each times unit_mass / m of the
+  /// lighter of its grains where that is lighter than unit_mass.
   Real (*residual)(const RowBlock<Real>* rows, std::size_t blocks, const Record<Real>* u,
-                   const Real* p);
+                   const Real* p, Real unit_mass);
   /// Normals and gaps of sphere pairs (a, b of `rows`) from their positions, nearest image.
   /// period_x, period_y: d, 0 where the axis is walled. A negative gap is multiplied by
   /// `correction`, the share of an overlap that one step repairs. Where centres coincide the normal
-  /// is +z.
-  void (*sphere_gaps)(RowBlock<Real>* rows, std::size_t blocks, const Record<double>* positions,
-                      double period_x, double period_y, double correction);
+  ///   /// +z. Returns the most by which centres are nearer than half the distance at which their
+  /// grains touch, d; negative if none are.
+  double (*sphere_gaps)(RowBlock<Real>* rows, std::size_t blocks, const Record<double>* positions,
+                        double period_x, double period_y, double correction);
 };
 
 }  // namespace grainsweep

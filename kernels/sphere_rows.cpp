@@ -127,26 +127,30 @@ void add_pushes(const RowBlock<Real>* rows, std::size_t blocks, const Real* p,
 }
 
 template <class Real>
-Real residual(const RowBlock<Real>* rows, std::size_t blocks, const Record<Real>* u,
-              const Real* p) {
+Real residual(const RowBlock<Real>* rows, std::size_t blocks, const Record<Real>* u, const Real* p,
+              Real unit_mass) {
   LaneSums<Real> worst(Real(0));
   for (std::size_t block = 0; block < blocks; ++block) {
     for (std::size_t k = 0; k < batches<Real>; ++k) {
       const std::size_t lane = k * batch_width<Real>;
       const Rows<Real> r = load_rows(rows[block], lane);
-      const Batch<Real> w = scaled_gap(r, load_differences(u, r.a, r.b));
-      const Batch<Real> impulse = load(p + block * block_width + lane);
-      worst.part[k] = xsimd::max(worst.part[k], natural_residual(impulse, w));
+      const Components<Real> u_a = load_records(u, r.a), u_b = load_records(u, r.b);
+      const Batch<Real> w = scaled_gap(r, difference(u_b, u_a));
+      const Batch<Real> missed = natural_residual(load(p + block * block_width + lane), w);
+      worst.part[k] = xsimd::max(worst.part[k], of_light_grains(missed, u_a.w, u_b.w, unit_mass));
     }
   }
   return worst.max();
 }
 
+constexpr double far_apart = 1e300;
+
 template <class Real>
-void sphere_gaps(RowBlock<Real>* rows, std::size_t blocks, const Record<double>* positions,
-                 double period_x, double period_y, double correction) {
+double sphere_gaps(RowBlock<Real>* rows, std::size_t blocks, const Record<double>* positions,
+                   double period_x, double period_y, double correction) {
   const double inverse_x = inverse_of(period_x), inverse_y = inverse_of(period_y);
-  const Batch<double> repair(correction), zero(0.0), one(1.0);
+  const Batch<double> repair(correction), zero(0.0), one(1.0), half(0.5);
+  Batch<double> least(far_apart);
   for (std::size_t block = 0; block < blocks; ++block) {
     RowBlock<Real>& r = rows[block];
     for (std::size_t k = 0; k < batches<double>; ++k) {
@@ -157,7 +161,8 @@ void sphere_gaps(RowBlock<Real>* rows, std::size_t blocks, const Record<double>*
       const Batch<double> y = nearest_image(b.y - a.y, period_y, inverse_y);
       const Batch<double> z = b.z - a.z;
       const Batch<double> distance = xsimd::sqrt(x * x + y * y + z * z);
-      const Batch<double> gap = distance - (a.w + b.w);
+      const Batch<double> touching = a.w + b.w, gap = distance - touching;
+      least = xsimd::min(least, distance - half * touching);
       const auto apart = distance > zero;  // coinciding centres part upwards
       const Batch<double> length = xsimd::select(apart, distance, one);
       store_rounded(x / length, r.normal_x + lane);
@@ -166,6 +171,10 @@ void sphere_gaps(RowBlock<Real>* rows, std::size_t blocks, const Record<double>*
       store_rounded(xsimd::max(gap, zero) + repair * xsimd::min(gap, zero), r.gap + lane);
     }
   }
+  double lane[batch_width<double>], sunk = -far_apart;
+  least.store_unaligned(lane);
+  for (const double distance : lane) sunk = -distance > sunk ? -distance : sunk;
+  return sunk;
 }
 
 template <class Real>

@@ -197,25 +197,28 @@ void lay_out(const SphereBed& bed, const Candidates& candidates, Contacts<Real>&
 }
 
 template <class Real>
-void detect(const SphereBed& bed, const Processor& processor, double correction,
-            Contacts<Real>& contacts) {
+double detect(const SphereBed& bed, const Processor& processor, double correction,
+              Contacts<Real>& contacts) {
   constexpr std::size_t blocks_of_part = 1024;
   const std::size_t parts = contacts.pair_blocks / blocks_of_part + 1;
+  contacts.sunk.assign(parts, 0.0);
   run_parts(processor.loop, parts, [&](std::size_t part) {
     const std::size_t first = part * blocks_of_part;
-    row_kernels<Real>(processor.kernels)
-        .sphere_gaps(contacts.rows.data() + first,
-                     std::min(blocks_of_part, contacts.pair_blocks - first), bed.position.data(),
-                     bed.box.period_x(), bed.box.period_y(), correction);
+    contacts.sunk[part] =
+        row_kernels<Real>(processor.kernels)
+            .sphere_gaps(contacts.rows.data() + first,
+                         std::min(blocks_of_part, contacts.pair_blocks - first),
+                         bed.position.data(), bed.box.period_x(), bed.box.period_y(), correction);
   });
   for (const WallRows& wall : contacts.walls) {
     detect_wall(bed, wall, correction, contacts.rows);
   }
+  return std::max(0.0, *std::max_element(contacts.sunk.begin(), contacts.sunk.end()));
 }
 
 template void lay_out(const SphereBed&, const Candidates&, Contacts<float>&, const PartLoop&);
 template void lay_out(const SphereBed&, const Candidates&, Contacts<double>&, const PartLoop&);
-template void detect(const SphereBed&, const Processor&, double, Contacts<float>&);
-template void detect(const SphereBed&, const Processor&, double, Contacts<double>&);
+template double detect(const SphereBed&, const Processor&, double, Contacts<float>&);
+template double detect(const SphereBed&, const Processor&, double, Contacts<double>&);
 
 }  // namespace grainsweep

@@ -66,6 +66,7 @@ struct Contacts {
   std::vector<BlockRange> ranges;  ///< all blocks, by phase
   std::vector<Real> impulse;
   std::vector<Real> extrapolated;  ///< the solver's look-ahead impulses
+  std::vector<double> sunk;        ///< of each part of a detection: see `detect`
   LayoutColumns<Real> layout;
 };
 
@@ -75,9 +76,11 @@ void lay_out(const SphereBed& bed, const Candidates& candidates, Contacts<Real>&
              const PartLoop& loop = one_after_another);
 
 /// Measures normal and gap of every row. `correction`: share of an overlap that a step repairs.
+/// Returns the most by which centres are nearer than half the distance at which their grains touch,
+/// d; 0 if none are.
 template <class Real>
-void detect(const SphereBed& bed, const Processor& processor, double correction,
-            Contacts<Real>& contacts);
+double detect(const SphereBed& bed, const Processor& processor, double correction,
+              Contacts<Real>& contacts);
 
 /// Calls visit(row block, lane, impulse) for each row that stands for a pair or a wall.
 template <class Real, class Visit>

@@ -1,5 +1,6 @@
 #include "engine/dynamics/settle.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "engine/dynamics/balance.hpp"
@@ -13,7 +14,8 @@ namespace grainsweep {
 
 namespace {
 
-constexpr double carried_share = 0.9;  // of its weight, where the floor carries a bed
+constexpr double carried_share = 0.9;        // of its weight, where the floor carries a bed
+constexpr double rounding_of_places = 1e-9;  // d; far from the origin coordinates have fewer digits
 
 /// Everything a settling bed carries from step to step. `State` is the StepState of the bed.
 template <class Bed, class State>
@@ -27,6 +29,7 @@ struct Settling {
   std::int64_t steps_in_stage = 0;
   StepSettings settings;
   StepReport last;
+  double sunk_at_start = 0.0;  ///< StepReport::sunk of the first step
   SettleReport report;
 
   const StageRule& rule() const { return stages[stage]; }
@@ -55,6 +58,26 @@ template <class Real>
 ForceBalance balance_forces(const SphereBed& bed, const Processor& processor, double dt,
                             StepState<Real>& state) {
   return grainsweep::balance_forces(bed, processor.kernels, dt, state.contacts);
+}
+
+/// Heaviest over lightest grain.
+template <class Bed>
+double mass_ratio(const Bed& bed) {
+  double least = bed.motion.front().w, most = least;
+  for (std::size_t i = 0; i < bed.grains(); ++i) {
+    least = std::min(least, bed.motion[i].w);
+    most = std::max(most, bed.motion[i].w);
+  }
+  return most / least;
+}
+
+template <class Bed>
+std::string why_unfit_for_f32(const Accuracy& accuracy, const Bed& bed) {
+  const bool fits = accuracy.precision == Precision::f64 || bed.grains() == 0 ||
+                    mass_ratio(bed) <= f32_mass_ratio;
+  return fits ? ""
+              : "the heaviest grain has more than 1e5 times the mass of the lightest, too much for "
+                "accuracy.precision f32: take f64";
 }
 
 // ---- stage after stage ----
@@ -123,6 +146,8 @@ void transfer(Archive& archive, Settling<Bed, State>& s) {
   archive.value(s.stage);
   archive.value(s.steps_in_stage);
   archive.value(s.last);
+  archive.value(s.sunk_at_start);
+  archive.value(s.report.sank);
   archive.value(s.report.steps);
   archive.value(s.report.iterations);
   transfer_bed(archive, s.bed, s.state);
@@ -157,6 +182,8 @@ void restore(std::string_view bytes, Settling<Bed, State>& s) {
 template <class Bed, class State>
 bool take_step(Settling<Bed, State>& s, const KeepGoing& keep_going) {
   s.last = step(s.settings, s.processor, s.bed, s.state);
+  if (s.report.steps == 0) s.sunk_at_start = s.last.sunk;
+  s.report.sank = s.report.sank || s.last.sunk > s.sunk_at_start + rounding_of_places;
   ++s.report.steps;
   ++s.steps_in_stage;
   s.report.iterations += s.last.solve.iterations;
@@ -189,8 +216,12 @@ SettleReport settle_in(State& state, Stages stages, const Accuracy& accuracy,
                        const Processor& processor, Bed& bed, const KeepGoing& keep_going,
                        std::string_view saved) {
   forget(state);
-  Settling<Bed, State> s{
-      accuracy, processor, bed, state, stages, 0, 0, settings_of(accuracy, stages.front()), {}, {}};
+  SettleReport unfit;
+  unfit.why_not = why_unfit(accuracy, bed);
+  if (!unfit.why_not.empty()) return unfit;
+  Settling<Bed, State> s{accuracy, processor, bed, state,
+                         stages,   0,         0,   settings_of(accuracy, stages.front()),
+                         {},       0.0,       {}};
   restore(saved, s);
   come_to_rest(s, keep_going);
   if (!std::isfinite(s.last.kinetic_energy)) {
@@ -209,6 +240,13 @@ SettleReport settle_in(State& state, Stages stages, const Accuracy& accuracy,
 }
 
 }  // namespace
+
+std::string why_unfit(const Accuracy& accuracy, const SphereBed& bed) {
+  return why_unfit_for_f32(accuracy, bed);
+}
+std::string why_unfit(const Accuracy& accuracy, const ShapeBed& bed) {
+  return why_unfit_for_f32(accuracy, bed);
+}
 
 SettleReport settle(const Accuracy& accuracy, const Processor& processor, SphereBed& bed,
                     const KeepGoing& keep_going, std::string_view saved) {

@@ -3,9 +3,9 @@
 //   minimise 1/2 |u - u_free|^2_M  subject to  gap_c + n_c . (u_b - u_a) >= 0
 //
 // Its dual is A p + w_free >= 0, p >= 0, p . (A p + w_free) = 0 with A = H^T M^-1 H. The residual
-// of a row is |min(p, w / A_kk)| / dt^2, in m g: the force by which it misses balance. Of spheres,
-// A_kk = 1/m_a + 1/m_b; grains that turn add the squares of their levers
-// (kernels/lever_kernels.hpp).
+// of a row is |min(p, w / A_kk)| / dt^2, in m g: the force by which it misses balance, in weights
+// of the lighter grain where that is lighter than m. Of spheres, A_kk = 1/m_a + 1/m_b; grains that
+// turn add the squares of their levers (kernels/lever_kernels.hpp).
 #pragma once
 
 #include <vector>
@@ -21,6 +21,7 @@ struct SolveLimits {
   Solver solver = Solver::accelerated_projected_gradient;
   int iterations = 100;     ///< most sweeps
   double tolerance = 1e-3;  ///< residual at which to stop, as a mass times d (m g dt^2)
+  double unit_mass = 1.0;   ///< residuals of lighter grains count in their own weights
 };
 
 struct SolveReport {

@@ -78,7 +78,7 @@ StepReport step(const StepSettings& settings, const Processor& processor, Sphere
   limits.tolerance *= force_unit;
   set_free_motion(settings, bed, state.motion.free);
   report.searched = renew_candidates(settings, processor, bed, state);
-  detect(bed, processor, settings.correction, state.contacts);
+  report.sunk = detect(bed, processor, settings.correction, state.contacts);
   report.solve = solve(limits, processor, state.contacts, state.motion);
   report.solve.residual /= force_unit;
   advance(state.motion.u, settings.dt, bed, report);

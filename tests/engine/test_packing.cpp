@@ -183,10 +183,36 @@ TEST_CASE("a bed whose numbers are not finite fails by name instead of being pac
 TEST_CASE("a bed that blows up fails by name, with the step") {
   PackingSpec spec = small_spec();
   spec.accuracy.precision = Precision::f32;
-  spec.fill = PlacedGrains{{{2, 2, 2, 1e-15}, {3, 2, 2, 0.5}}};  // its inverse mass is beyond f32
+  spec.fill = PlacedGrains{{{2, 2, 2, 1e-15}}};  // its inverse mass is beyond f32
   const Packing packing = make_packing(spec, kernels_for(best_isa()), always);
   CHECK(packing.result.status == PackingStatus::failed);
   CHECK(packing.result.reason.find("the bed blew up in step 1:") != std::string::npos);
+}
+
+TEST_CASE("masses too far apart for f32 fail by name, and settle in f64") {
+  PackingSpec spec = small_spec();
+  spec.measure.exclude_floor = spec.measure.exclude_surface = 0;
+  spec.fill = PlacedGrains{{{1, 1, 0.5, 0.5}, {3, 3, 0.01, 0.01}}};  // masses 1.25e5 to 1
+  spec.accuracy.precision = Precision::f32;
+  const Packing packing = make_packing(spec, kernels_for(best_isa()), always);
+  CHECK(packing.result.status == PackingStatus::failed);
+  CHECK(packing.result.reason.find("take f64") != std::string::npos);
+  spec.accuracy.precision = Precision::f64;
+  CHECK(make_packing(spec, kernels_for(best_isa()), always).result.rest.contacts == 2);
+}
+
+TEST_CASE("a given bed whose grains sink into each other on the way is not called settled") {
+  PackingSpec spec = small_spec();
+  PlacedGrains lattice;  // all neighbours overlap by half
+  for (int k = 0; k < 125; ++k) {
+    lattice.grains.push_back({0.5 + 0.5 * (k % 5), 0.5 + 0.5 * (k / 5 % 5), 0.5 + 0.5 * (k / 25)});
+  }
+  spec.fill = lattice;
+  spec.measure.exclude_floor = spec.measure.exclude_surface = 0.5;
+  const PackingResult result = make_packing(spec, kernels_for(best_isa()), always).result;
+  CHECK(result.status == PackingStatus::not_settled);
+  CHECK(result.reason.find("may have passed through") != std::string::npos);
+  CHECK(result.solid_fraction > 0);
 }
 
 TEST_CASE("a bed that runs out of steps is not settled, says why, and is still measured") {

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <set>
 #include <utility>
 
 #include "tests/extremes/accuracy_names.hpp"
@@ -102,8 +101,7 @@ std::vector<Scene> towers() {
       scenes.push_back(tower(grains, at_preset(name), Outcome::not_settled));
     }
   }
-  // Loose solves of so tall a fall throw grains into other corners, where they rest, too.
-  scenes.push_back(tower(1000, at_preset("balanced"), Outcome::silently_wrong));
+  scenes.push_back(tower(1000, at_preset("balanced"), Outcome::not_settled));
   for (const int grains : {2, 3, 5, 10, 20, 50, 100}) {
     scenes.push_back(tower(grains, tight(), Outcome::not_settled));
   }
@@ -111,18 +109,12 @@ std::vector<Scene> towers() {
 }
 
 std::vector<Scene> masses() {
-  // Solves stop at a residual in weights of a grain of mass 1: of one much lighter than that they
-  // know nothing, and it is pushed aside.
-  const std::set<std::pair<double, double>> swapped = {
-      {1, 1e-2}, {1e-4, 1}, {1e-6, 1}};  // below, above
   std::vector<Scene> scenes = {two_masses(1, 1, at_preset("balanced"), Outcome::right),
                                two_masses(1, 1, tight(), Outcome::right)};
   for (const double ratio : {10.0, 100.0, 1e3, 1e4, 1e6, 1e8}) {
     for (const auto& [below, above] :
          {std::pair{1.0, ratio}, {ratio, 1.0}, {1.0 / ratio, 1.0}, {1.0, 1.0 / ratio}}) {
-      const bool known = swapped.count({below, above}) > 0;
-      scenes.push_back(two_masses(below, above, at_preset("balanced"),
-                                  known ? Outcome::silently_wrong : Outcome::not_settled));
+      scenes.push_back(two_masses(below, above, at_preset("balanced"), Outcome::not_settled));
       scenes.push_back(two_masses(below, above, tight(), Outcome::not_settled));
     }
   }

@@ -134,13 +134,15 @@ void lever_pushes_twin(LeverRows<Real> rows, std::size_t blocks, const Real* p,
 
 template <class Real>
 Real lever_residual_twin(LeverRows<Real> rows, std::size_t blocks, const Record<Real>* u,
-                         const Real* p) {
+                         const Real* p, Real unit_mass) {
   Real worst = 0;
   visit_lanes(rows, blocks, false, [&](const auto& c, std::size_t block, std::size_t lane) {
     for (std::size_t i = 0; i < c.points; ++i) {
       const LeverTwin<Real> t = lever_twin(rows, block, lane, i);
       const Real w = t.gap_after(u) * t.r.reduced_mass[lane];
-      worst = larger(worst, std::abs(smaller(p[(c.first + i) * block_width + lane], w)));
+      const Real inverse = larger(u[2 * c.a(lane)].w, u[2 * c.b(lane)].w);
+      const Real lightest = larger(Real(1), inverse * unit_mass);
+      worst = larger(worst, std::abs(smaller(p[(c.first + i) * block_width + lane], w)) * lightest);
     }
   });
   return worst;

@@ -114,11 +114,15 @@ void add_pushes_twin(const RowBlock<Real>* rows, std::size_t blocks, const Real*
 
 template <class Real>
 Real residual_twin(const RowBlock<Real>* rows, std::size_t blocks, const Record<Real>* u,
-                   const Real* p) {
+                   const Real* p, Real unit_mass) {
   Real worst = 0;
   for (std::size_t row = 0; row < blocks * block_width; ++row) {
     const Real w = scaled_gap_twin(rows[row / block_width], row % block_width, u);
-    worst = larger(worst, std::abs(smaller(p[row], w)));
+    const RowBlock<Real>& r = rows[row / block_width];
+    const auto a = static_cast<std::size_t>(r.a(row % block_width));
+    const auto b = static_cast<std::size_t>(r.b(row % block_width));
+    const Real lightest = larger(Real(1), larger(u[a].w, u[b].w) * unit_mass);
+    worst = larger(worst, std::abs(smaller(p[row], w)) * lightest);
   }
   return worst;
 }
@@ -129,8 +133,9 @@ inline double nearest_image_twin(double difference, double period) {
 }
 
 template <class Real>
-void sphere_gaps_twin(RowBlock<Real>* rows, std::size_t blocks, const Record<double>* positions,
-                      double period_x, double period_y, double correction) {
+double sphere_gaps_twin(RowBlock<Real>* rows, std::size_t blocks, const Record<double>* positions,
+                        double period_x, double period_y, double correction) {
+  double sunk = -1e300;
   for (std::size_t row = 0; row < blocks * block_width; ++row) {
     RowBlock<Real>& r = rows[row / block_width];
     const std::size_t lane = row % block_width;
@@ -139,13 +144,15 @@ void sphere_gaps_twin(RowBlock<Real>* rows, std::size_t blocks, const Record<dou
     const double y = nearest_image_twin(b.y - a.y, period_y);
     const double z = b.z - a.z;
     const double distance = std::sqrt(x * x + y * y + z * z);
-    const double gap = distance - (a.w + b.w);
+    const double touching = a.w + b.w, gap = distance - touching;
+    sunk = larger(sunk, -(distance - 0.5 * touching));
     const double length = distance > 0 ? distance : 1;
     r.normal_x[lane] = static_cast<Real>(x / length);
     r.normal_y[lane] = static_cast<Real>(y / length);
     r.normal_z[lane] = static_cast<Real>((distance > 0 ? z : 1) / length);
     r.gap[lane] = static_cast<Real>(larger(gap, 0.0) + correction * smaller(gap, 0.0));
   }
+  return sunk;
 }
 
 }  // namespace grainsweep::testing

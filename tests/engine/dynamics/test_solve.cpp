@@ -128,7 +128,7 @@ TEMPLATE_TEST_CASE("the residual reported is that of the impulses left behind", 
       INFO("solver " << static_cast<int>(solver) << ", " << iterations << " iterations");
       StepProblem<TestType> problem = random_problem<TestType>(16, 4);
       const SolveReport report =
-          solve({solver, iterations, 0.0}, kernels(), problem.contacts, problem.motion);
+          solve({solver, iterations, 0.0, 0.0}, kernels(), problem.contacts, problem.motion);
       CHECK(report.iterations <= iterations);
       CHECK(report.iterations > iterations - most_sweeps_at_once);
       const DenseSolution left = state_left(problem);
@@ -234,8 +234,8 @@ TEMPLATE_TEST_CASE("scaling lengths, masses and gravity by powers of two changes
       const double tolerance = 1e-4;
       const SolveReport a =
           solve({solver, 300, tolerance}, kernels(), plain.contacts, plain.motion);
-      const SolveReport b =
-          solve({solver, 300, tolerance * length * mass}, kernels(), other.contacts, other.motion);
+      const SolveReport b = solve({solver, 300, tolerance * length * mass, mass}, kernels(),
+                                  other.contacts, other.motion);
       CHECK(a.iterations == b.iterations);
       CHECK(a.residual * length * mass == b.residual);
       for (TestType& p : plain.contacts.impulse) {
