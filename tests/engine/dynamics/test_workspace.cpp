@@ -47,7 +47,7 @@ TEST_CASE("a packing has the same bits in the memory that others have left") {
 TEST_CASE("a packing of shapes has the same bits in the memory that others have left") {
   Workspace workspace;
   const Processor used(kernels_for(best_isa()), one_after_another, &workspace);
-  PackingSpec walled = small_bed(60, 5, Precision::f32);
+  PackingSpec walled = small_bed(36, 5, Precision::f32);
   walled.shape = PinacoidSize{};
   PackingSpec open = walled, hulls = walled, fine = walled;
   open.box.y = Boundary::periodic;
