@@ -4,7 +4,7 @@ source "$(dirname "$0")/common.sh" "$1"
 printf 'v 0 0 0\nv 25 0 0\nv 0 25 0\nv 25 25 0\nv 12 12 20\n' >roof.obj
 cat >shapes.json <<'JSON'
 { "name": "shapes", "seed": 3,
-  "base": { "box": { "length": 3.7, "width": 3.2, "x": "periodic", "y": "walls" },
+  "base": { "box": { "length": 3.8, "width": 3.2, "x": "periodic", "y": "walls" },
             "fill": { "solid_height": 2.5 }, "measure": { "exclude_floor": 1, "exclude_surface": 1 },
             "accuracy": "fast" },
   "sweep": [ { "label": "spheres" },
@@ -84,7 +84,7 @@ cd "$here"
 # What was exported is packed again, and rests about where it did.
 cat >again.json <<JSON
 { "name": "again", "base": { "shape": "pinacoid", "accuracy": "fast",
-  "box": { "length": 3.7, "width": 3.2 }, "fill": { "file": "out/shapes/export/$pinacoid.csv" },
+  "box": { "length": 3.8, "width": 3.2 }, "fill": { "file": "out/shapes/export/$pinacoid.csv" },
   "measure": { "exclude_floor": 1, "exclude_surface": 1 } } }
 JSON
 code=0
