@@ -1,5 +1,5 @@
 // Narrow phase against brute force, in every degenerate position. The counts here are those of
-// every run; GRAINSWEEP_PAIRS multiplies them: 2500 is the full test of 10 million random pairs and
+// every run; GRAINSWEEP_PAIRS multiplies them: 250 is the full test of 10 million random pairs and
 // a million of each other family (some 20 minutes a family).
 #include <algorithm>
 #include <cmath>
