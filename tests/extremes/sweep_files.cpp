@@ -48,6 +48,8 @@ std::vector<Scene> sweep_files() {
   scenes.push_back(refused_file("refused/no-grains.json", "n = 0"));
   scenes.push_back(refused_file("refused/too-small.json", "sizes 1 to 50"));
   scenes.push_back(refused_file("refused/long-step.json", "a step of 2.5"));
+  scenes.push_back(refused_file("refused/no-gravity.json", "g = 0"));
+  scenes.push_back(refused_file("refused/tilted-gravity.json", "g tilted"));
   return scenes;
 }
 
