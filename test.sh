@@ -14,8 +14,9 @@ Builds grainsweep with all tests and benchmarks in build/release and runs every 
   --help       this text
   --           what follows goes to ctest, e.g.  ./test.sh -- -R "carries its weight" -V
 
-Labels: fast, slow (physics, seconds to minutes), checks (folder order, kernel objects, scripts),
-faults (kills, full disks, failing system calls, fuzzing ...; tests/faults/run.sh --full tries more).
+Labels: fast, slow (physics, seconds to minutes), extremes (scenes with known answers), checks
+(folder order, kernel objects, scripts), faults (kills, full disks, failing system calls, fuzzing ...;
+tests/faults/run.sh --full tries more).
 Every change is expected to pass .ci/run, which runs all of it.
 EOF
 }

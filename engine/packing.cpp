@@ -28,13 +28,24 @@ Packing failed(std::string reason) {
   return packing;
 }
 
+/// Why a bed is not called settled; empty if it is. One that was given its arrangement must have
+/// kept it, too.
+std::string why_not_settled(const Fill& fill, const SettleReport& settled) {
+  const bool lost = settled.sank && std::holds_alternative<PlacedGrains>(fill);
+  return settled.why_not.empty() && lost
+             ? "two grains of fill.file sank into each other by more than half on the way and may "
+               "have passed through one another: make accuracy.fall_iterations larger"
+             : settled.why_not;
+}
+
 template <class Bed>
-PackingResult result_of(const Bed& bed, const SettleReport& settled) {
+PackingResult result_of(const Fill& fill, const Bed& bed, const SettleReport& settled) {
+  const std::string why_not = why_not_settled(fill, settled);
   PackingResult result;
-  result.status = settled.cancelled         ? PackingStatus::cancelled
-                  : settled.why_not.empty() ? PackingStatus::settled
-                                            : PackingStatus::not_settled;
-  result.reason = settled.cancelled ? "stopped on request" : settled.why_not;
+  result.status = settled.cancelled ? PackingStatus::cancelled
+                  : why_not.empty() ? PackingStatus::settled
+                                    : PackingStatus::not_settled;
+  result.reason = settled.cancelled ? "stopped on request" : why_not;
   result.grains = static_cast<std::int64_t>(bed.grains());
   result.rest = settled.rest;
   result.balance = settled.balance;
@@ -42,17 +53,6 @@ PackingResult result_of(const Bed& bed, const SettleReport& settled) {
   result.iterations = settled.iterations;
   result.state_hash = state_hash(bed);
   return result;
-}
-
-constexpr const char* passed_through =
-    "two grains of fill.file sank into each other by more than half on the way and may have passed "
-    "through one another: make accuracy.fall_iterations larger";
-
-/// A bed that came to rest is no longer called settled.
-void doubt(const char* reason, PackingResult& result) {
-  if (result.status != PackingStatus::settled) return;
-  result.status = PackingStatus::not_settled;
-  result.reason = reason;
 }
 
 double widest(const std::vector<double>& tolerances) {
@@ -194,19 +194,14 @@ Packing pack(const PackingSpec& spec, const Processor& processor, const KeepGoin
         "a grain's place, radius or inverse mass is not a finite number at the start: correct "
         "fill.file, whose radii are perhaps not in d");
   }
-  if (std::string why = why_unfit(spec.accuracy, *bed); !why.empty()) {
-    return failed(std::move(why));
-  }
   const SettleReport settled = settle(spec.accuracy, processor, *bed, keep_going, saved);
+  if (settled.unfit) return failed(settled.why_not);
   if (!is_finite(*bed)) {
     return failed("the bed blew up in step " + std::to_string(settled.steps) +
                   ": a grain's place is no longer a finite number; take accuracy.precision f64, or "
                   "leave out grains far smaller than d");
   }
-  Packing packing{result_of(*bed, settled), {}, {}};
-  if (settled.sank && std::holds_alternative<PlacedGrains>(spec.fill)) {
-    doubt(passed_through, packing.result);
-  }
+  Packing packing{result_of(spec.fill, *bed, settled), {}, {}};
   if (!settled.cancelled) measure(spec, settled, processor.kernels, *bed, packing);
   return packing;
 }

@@ -30,7 +30,9 @@ const char* name_of(PackingStatus status);
 
 /// How far from rest a bed is. Forces in m g, lengths in d, energies in m g d.
 struct RestReport {
-  double residual = 0.0;        ///< worst force-balance residual of a row, m g
+  /// Worst force-balance residual of a row, in m g, or in weights of its lighter grain where that
+  /// is lighter.
+  double residual = 0.0;
   double kinetic_energy = 0.0;  ///< mean per grain of 1/2 m (dx/dt)^2, m g d
   double largest_motion = 0.0;  ///< largest displacement of a grain in the last step, d
   double overlap_mean = 0.0;    ///< mean over force-bearing contacts of max(0, -gap), d

@@ -150,7 +150,7 @@ double sphere_gaps(RowBlock<Real>* rows, std::size_t blocks, const Record<double
                    double period_x, double period_y, double correction) {
   const double inverse_x = inverse_of(period_x), inverse_y = inverse_of(period_y);
   const Batch<double> repair(correction), zero(0.0), one(1.0), half(0.5);
-  Batch<double> least(far_apart);
+  LaneSums<double> sunk(-far_apart);
   for (std::size_t block = 0; block < blocks; ++block) {
     RowBlock<Real>& r = rows[block];
     for (std::size_t k = 0; k < batches<double>; ++k) {
@@ -162,7 +162,7 @@ double sphere_gaps(RowBlock<Real>* rows, std::size_t blocks, const Record<double
       const Batch<double> z = b.z - a.z;
       const Batch<double> distance = xsimd::sqrt(x * x + y * y + z * z);
       const Batch<double> touching = a.w + b.w, gap = distance - touching;
-      least = xsimd::min(least, distance - half * touching);
+      sunk.part[k] = xsimd::max(sunk.part[k], half * touching - distance);
       const auto apart = distance > zero;  // coinciding centres part upwards
       const Batch<double> length = xsimd::select(apart, distance, one);
       store_rounded(x / length, r.normal_x + lane);
@@ -171,10 +171,7 @@ double sphere_gaps(RowBlock<Real>* rows, std::size_t blocks, const Record<double
       store_rounded(xsimd::max(gap, zero) + repair * xsimd::min(gap, zero), r.gap + lane);
     }
   }
-  double lane[batch_width<double>], sunk = -far_apart;
-  least.store_unaligned(lane);
-  for (const double distance : lane) sunk = -distance > sunk ? -distance : sunk;
-  return sunk;
+  return sunk.max();
 }
 
 template <class Real>

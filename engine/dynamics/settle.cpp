@@ -17,6 +17,10 @@ namespace {
 constexpr double carried_share = 0.9;        // of its weight, where the floor carries a bed
 constexpr double rounding_of_places = 1e-9;  // d; far from the origin coordinates have fewer digits
 
+/// Most that the masses of a bed may differ by in f32: beyond it the rounding of what pushes a
+/// heavy grain, 6e-8 of its weight, nears the weight of a light one.
+constexpr double f32_mass_ratio = 1e5;
+
 /// Everything a settling bed carries from step to step. `State` is the StepState of the bed.
 template <class Bed, class State>
 struct Settling {
@@ -72,12 +76,9 @@ double mass_ratio(const Bed& bed) {
 }
 
 template <class Bed>
-std::string why_unfit_for_f32(const Accuracy& accuracy, const Bed& bed) {
-  const bool fits = accuracy.precision == Precision::f64 || bed.grains() == 0 ||
-                    mass_ratio(bed) <= f32_mass_ratio;
-  return fits ? ""
-              : "the heaviest grain has more than 1e5 times the mass of the lightest, too much for "
-                "accuracy.precision f32: take f64";
+bool is_fit(const Accuracy& accuracy, const Bed& bed) {
+  return accuracy.precision == Precision::f64 || bed.grains() == 0 ||
+         mass_ratio(bed) <= f32_mass_ratio;
 }
 
 // ---- stage after stage ----
@@ -216,9 +217,14 @@ SettleReport settle_in(State& state, Stages stages, const Accuracy& accuracy,
                        const Processor& processor, Bed& bed, const KeepGoing& keep_going,
                        std::string_view saved) {
   forget(state);
-  SettleReport unfit;
-  unfit.why_not = why_unfit(accuracy, bed);
-  if (!unfit.why_not.empty()) return unfit;
+  if (!is_fit(accuracy, bed)) {
+    SettleReport unfit;
+    unfit.unfit = true;
+    unfit.why_not =
+        "the heaviest grain has more than 1e5 times the mass of the lightest, too much for "
+        "accuracy.precision f32: take f64";
+    return unfit;
+  }
   Settling<Bed, State> s{accuracy, processor, bed, state,
                          stages,   0,         0,   settings_of(accuracy, stages.front()),
                          {},       0.0,       {}};
@@ -240,13 +246,6 @@ SettleReport settle_in(State& state, Stages stages, const Accuracy& accuracy,
 }
 
 }  // namespace
-
-std::string why_unfit(const Accuracy& accuracy, const SphereBed& bed) {
-  return why_unfit_for_f32(accuracy, bed);
-}
-std::string why_unfit(const Accuracy& accuracy, const ShapeBed& bed) {
-  return why_unfit_for_f32(accuracy, bed);
-}
 
 SettleReport settle(const Accuracy& accuracy, const Processor& processor, SphereBed& bed,
                     const KeepGoing& keep_going, std::string_view saved) {

@@ -44,6 +44,7 @@ namespace grainsweep {
 struct SettleReport {
   RestReport rest;
   std::string why_not;  ///< the test of rest that failed; empty if settled
+  bool unfit = false;   ///< no solve of this accuracy is exact enough for the bed: none was made
   bool cancelled = false;
   /// Whether two grains sank into each other on the way, by more than half the distance at which
   /// they touch: they may have passed through one another. A random start has nothing to lose by
@@ -56,18 +57,9 @@ struct SettleReport {
   std::vector<PairForce> pair_forces;   ///< of the last step
 };
 
-/// Most that the masses of a bed may differ by in f32: beyond it the rounding of what pushes a
-/// heavy grain, 6e-8 of its weight, nears the weight of a light one.
-inline constexpr double f32_mass_ratio = 1e5;
-
-/// Why no solve can be exact enough for these grains, in words; empty if it can.
-std::string why_unfit(const Accuracy& accuracy, const SphereBed& bed);
-std::string why_unfit(const Accuracy& accuracy, const ShapeBed& bed);
-
-/// Settles `bed`, whose numbers must be finite and fit for the accuracy (`why_not` says it if not);
-/// a state that becomes otherwise ends it at once and is never called settled. `keep_going` is
-/// asked after every step. `saved`: bytes that Progress::save gave for the same bed and accuracy,
-/// from which to go on; others are not taken.
+/// Settles `bed`, whose numbers must be finite; a state that becomes otherwise ends it at once and
+/// is never called settled. `keep_going` is asked after every step. `saved`: bytes that
+/// Progress::save gave for the same bed and accuracy, from which to go on; others are not taken.
 SettleReport settle(const Accuracy& accuracy, const Processor& processor, SphereBed& bed,
                     const KeepGoing& keep_going, std::string_view saved = {});
 

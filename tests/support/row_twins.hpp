@@ -145,7 +145,7 @@ double sphere_gaps_twin(RowBlock<Real>* rows, std::size_t blocks, const Record<d
     const double z = b.z - a.z;
     const double distance = std::sqrt(x * x + y * y + z * z);
     const double touching = a.w + b.w, gap = distance - touching;
-    sunk = larger(sunk, -(distance - 0.5 * touching));
+    sunk = larger(sunk, 0.5 * touching - distance);
     const double length = distance > 0 ? distance : 1;
     r.normal_x[lane] = static_cast<Real>(x / length);
     r.normal_y[lane] = static_cast<Real>(y / length);

@@ -20,8 +20,6 @@ PackingSpec small_bed(std::int64_t grains, double width, Precision precision) {
   return spec;
 }
 
-// Larger, smaller, another number type, and one that was stopped half-way: all leave rows and
-// impulses behind.
 /// The same in fresh memory and in what earlier packings have left; leaves a stopped one behind.
 void check_same(const PackingSpec& spec, const Processor& used) {
   const PackingResult fresh = make_packing(spec, kernels_for(best_isa()), always).result;
@@ -33,6 +31,8 @@ void check_same(const PackingSpec& spec, const Processor& used) {
   make_packing(spec, used, [](const Progress& progress) { return progress.step < 30; });
 }
 
+// Larger, smaller, another number type, and one that was stopped half-way: all leave rows and
+// impulses behind.
 TEST_CASE("a packing has the same bits in the memory that others have left") {
   Workspace workspace;
   const Processor used(kernels_for(best_isa()), one_after_another, &workspace);
