@@ -88,16 +88,6 @@ void add_outcome(const std::string& folder, const Outcome& outcome, Journal& jou
   ++to.added;
 }
 
-void warn_about(const std::vector<std::string>& damage, const std::string& folder) {
-  for (const std::string& line : damage) warn(folder + "/" + line);
-}
-
-Results results_with_warnings(const std::string& folder) {
-  Results results = read_results(folder);
-  warn_about(results.damage, folder);
-  return results;
-}
-
 /// What the folder holds already; a new one takes name and file from the first source.
 Collection begin_collection(const std::string& folder, const Provenance& first) {
   Collection collection;
@@ -106,7 +96,7 @@ Collection begin_collection(const std::string& folder, const Provenance& first) 
     collection.provenance = read_results(folder).provenance;
     JournalReading finished = finished_outcomes(folder);
     collection.outcomes = std::move(finished.outcomes);
-    warn_about(finished.damage, folder);
+    std::cerr << damage_warnings(folder, finished.damage);
   } else {
     collection.provenance = first;
     collection.provenance.runs.clear();
@@ -116,8 +106,8 @@ Collection begin_collection(const std::string& folder, const Provenance& first) 
   return collection;
 }
 
-void add_folder(const std::string& folder, const Results& results, Journal& journal,
-                Collection& to) {
+void add_results(const std::string& folder, const Results& results, Journal& journal,
+                 Collection& to) {
   add_name(results.provenance, to.provenance);
   add_sweep(results.provenance, to);
   add_runs(results.provenance.runs, to.provenance.runs);
@@ -134,7 +124,8 @@ std::vector<Results> read_sources(const CollectOptions& options) {
     if (std::filesystem::equivalent(folder, options.out, not_there)) {
       throw BadInput(folder + ": is the folder given with --out; name only the others");
     }
-    sources.push_back(results_with_warnings(folder));
+    sources.push_back(read_results(folder));
+    std::cerr << damage_warnings(folder, sources.back().damage);
   }
   return sources;
 }
@@ -149,7 +140,7 @@ int collect(const CollectOptions& options) {
   Collection collection = begin_collection(options.out, sources.front().provenance);
   Journal journal(options.out);
   for (std::size_t i = 0; i < sources.size(); ++i) {
-    add_folder(options.folders[i], sources[i], journal, collection);
+    add_results(options.folders[i], sources[i], journal, collection);
   }
   const std::vector<Row> rows = join(collection.provenance.sweep, collection.outcomes);
   std::cerr << other_versions_warning(rows, program_version());

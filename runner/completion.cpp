@@ -28,7 +28,7 @@ constexpr const char* last_lines =
     "}\n"
     "complete -o default -F _grainsweep grainsweep\n";
 
-std::string joined(const std::vector<std::string>& words) {
+std::string line_of(const std::vector<std::string>& words) {
   std::string text;
   for (const std::string& word : words) text += (text.empty() ? "" : " ") + word;
   return text;
@@ -41,13 +41,13 @@ std::string bash_completion(const std::vector<CommandWords>& commands) {
   std::vector<std::string> names;
   for (const CommandWords& one : commands) {
     names.push_back(one.command);
-    text += "      " + one.command + ") words='" + joined(one.options) + "' ;;\n";
+    text += "      " + one.command + ") words='" + line_of(one.options) + "' ;;\n";
   }
   return text +
          "    esac\n"
          "  fi\n"
          "  if ((COMP_CWORD == 1)); then words='" +
-         joined(names) + "'; fi\n" + last_lines;
+         line_of(names) + "'; fi\n" + last_lines;
 }
 
 int completion(const CompletionOptions& options) {

@@ -18,13 +18,9 @@
 namespace grainsweep {
 namespace {
 
-void warn_about(const std::vector<std::string>& damage, const std::string& folder) {
-  for (const std::string& line : damage) std::cerr << "warning: " << folder << "/" << line << "\n";
-}
-
 Results results_with_warnings(const std::string& folder) {
   Results results = read_results(folder);
-  warn_about(results.damage, folder);
+  std::cerr << damage_warnings(folder, results.damage);
   std::cerr << other_versions_warning(results.rows, program_version());
   return results;
 }
@@ -98,7 +94,7 @@ int report(const ReportOptions& options) {
 
 int compare(const CompareOptions& options) {
   Results results = results_with_warnings(options.folder);
-  warn_about(load_curves(options.folder, results.rows), options.folder);
+  std::cerr << damage_warnings(options.folder, load_curves(options.folder, results.rows));
   const auto rows = compare_with_paper(families_of(groups_of(results.rows)));
   std::cout << "Camenen, Descantes, Richard, Confined packings of frictionless spheres and "
                "polyhedra,\nPowders & Grains 2013, and " +
@@ -111,7 +107,7 @@ int compare(const CompareOptions& options) {
 
 int status(const StatusOptions& options) {
   const Overview overview = read_overview(options.folder, program_version());
-  warn_about(overview.damage, options.folder);
+  std::cerr << damage_warnings(options.folder, overview.damage);
   std::cerr << other_versions_warning(overview.other_versions, overview.packings,
                                       program_version());
   const auto runner = present_runner(options.folder);

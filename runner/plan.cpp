@@ -17,7 +17,7 @@ namespace grainsweep {
 namespace {
 
 /// Lines of the plan a person wants to see; --json lists everything.
-constexpr std::size_t shown_at_most = 40;
+constexpr std::size_t groups_shown = 40;
 
 /// Jobs with one label and one parameter set.
 struct PlannedGroup {
@@ -59,11 +59,11 @@ std::string groups_text(const std::vector<PlannedGroup>& groups) {
   std::string text = "  " + pad_right("label", 20) + pad_right("W/d", 14) +
                      pad_left("packings", 9) + pad_left("grains", 10) + pad_left("CPU each", 14) +
                      pad_left("memory each", 12) + "\n";
-  for (std::size_t i = 0; i < std::min(groups.size(), shown_at_most); ++i) {
+  for (std::size_t i = 0; i < std::min(groups.size(), groups_shown); ++i) {
     text += group_text(groups[i]);
   }
-  if (groups.size() > shown_at_most) {
-    text += "  and " + std::to_string(groups.size() - shown_at_most) + " more; --json lists all\n";
+  if (groups.size() > groups_shown) {
+    text += "  and " + std::to_string(groups.size() - groups_shown) + " more; --json lists all\n";
   }
   return text;
 }

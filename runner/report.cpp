@@ -37,7 +37,7 @@ std::string small_number(double value) {
   return text.data();
 }
 
-std::string group_line(const Group& group) {
+std::string report_line(const Group& group) {
   const bool is_walled = group.job.box.y == Boundary::walls;
   const std::string width = cell(group.job.box.width);
   const Spread& phi = group.solid_fraction;
@@ -87,8 +87,8 @@ std::string family_text(const Family& family) {
   std::string text = "\n" + family.name + "\n  " + pad_right("W/d", 14) + pad_left("φ ± sd", 18) +
                      pad_left("Z ± sd", 17) + pad_left("contacts/iso", 13) +
                      pad_left("overlap/d", 12) + pad_left("packings", 10) + "\n";
-  for (const Group& group : family.walled) text += group_line(group);
-  for (const Group& group : family.periodic) text += group_line(group);
+  for (const Group& group : family.walled) text += report_line(group);
+  for (const Group& group : family.periodic) text += report_line(group);
   if (family.walled.empty()) return text;
   return text + fit_text(family, Quantity::solid_fraction, solid_fraction_decimals) +
          fit_text(family, Quantity::coordination, coordination_decimals);
@@ -139,16 +139,16 @@ std::string headline(const std::string& name, std::size_t packings, const Status
 
 /// The first few packings that failed or did not settle, and why.
 std::string reasons_text(const std::vector<Row>& rows) {
-  constexpr int shown_at_most = 5;
+  constexpr int reasons_shown = 5;
   std::string text;
   int count = 0;
   for (const Row& row : rows) {
-    if (!row.outcome || is_settled(row) || ++count > shown_at_most) continue;
+    if (!row.outcome || is_settled(row) || ++count > reasons_shown) continue;
     text += "  " + row.job.id + " (" + row.job.label + ", W = " + cell(row.job.box.width) +
             "): " + status_of(row) + ": " + row.outcome->result.reason + "\n";
   }
-  if (count > shown_at_most) {
-    text += "  and " + std::to_string(count - shown_at_most) + " more, see packings.csv\n";
+  if (count > reasons_shown) {
+    text += "  and " + std::to_string(count - reasons_shown) + " more, see packings.csv\n";
   }
   return text.empty() ? "" : "\nNot in the means:\n" + text;
 }

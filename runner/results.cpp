@@ -191,6 +191,12 @@ void write_provenance(const std::string& folder, const Provenance& provenance,
   replace_file(provenance_path(folder), provenance_text(provenance, rows));
 }
 
+std::string damage_warnings(const std::string& folder, const std::vector<std::string>& damage) {
+  std::string text;
+  for (const std::string& line : damage) text += "warning: " + folder + "/" + line + "\n";
+  return text;
+}
+
 std::string other_versions_warning(const std::vector<Row>& rows, const std::string& version) {
   const auto is_other = [&](const Row& row) {
     return row.outcome && row.outcome->version != version;

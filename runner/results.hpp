@@ -59,6 +59,9 @@ void write_tables(const std::string& folder, const Provenance& provenance,
 void write_provenance(const std::string& folder, const Provenance& provenance,
                       const std::vector<Row>& rows);
 
+/// A line of warning for each of `damage`, as of Results.
+std::string damage_warnings(const std::string& folder, const std::vector<std::string>& damage);
+
 /// A line that says how many rows another version of the program made, whose results may not belong
 /// into one table with this one's; empty if there are none.
 std::string other_versions_warning(const std::vector<Row>& rows, const std::string& version);

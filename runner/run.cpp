@@ -47,8 +47,8 @@ void confirm_fresh(const RunOptions& options, const std::string& folder) {
 }
 
 /// Each once: what is found at the beginning is found at the end again.
-void warn_about(const std::string& folder, const std::vector<std::string>& damage,
-                std::set<std::string>& warned) {
+void warn_once(const std::string& folder, const std::vector<std::string>& damage,
+               std::set<std::string>& warned) {
   for (const std::string& line : damage) {
     if (warned.insert(line).second) std::cerr << "warning: " << folder << "/" << line << "\n";
   }
@@ -66,7 +66,7 @@ void remove_finished_checkpoints(const std::string& folder,
 RunningSweep resume(const Sweep& sweep, const std::string& folder, bool retry_failed,
                     std::set<std::string>& warned) {
   JournalReading stored = finished_outcomes(folder);
-  warn_about(folder, stored.damage, warned);
+  warn_once(folder, stored.damage, warned);
   RunningSweep running{sweep, folder, std::move(stored.outcomes), {}};
   remove_finished_checkpoints(folder, running.outcomes);
   if (retry_failed) {
@@ -144,7 +144,7 @@ int run(const RunOptions& options) {
   if (!running.pending.empty()) packed = record_and_pack(running, options, isa, provenance);
 
   const JournalReading stored = stored_outcomes(folder);
-  warn_about(folder, stored.damage, warned);
+  warn_once(folder, stored.damage, warned);
   const std::vector<Row> rows = join(provenance.sweep, stored.outcomes);
   const StatusCounts counts = totals_of(rows).counts;
   std::cerr << other_versions_warning(rows, program_version());

@@ -256,8 +256,8 @@ double relative_motion(const std::vector<Extent>& layers) {
 
 /// Least difference in height of two grains that are not in the same or in adjacent layers, d.
 double least_rise(const std::vector<Extent>& layers) {
-  constexpr double none = std::numeric_limits<double>::max();
-  double least = none, top = -none;
+  constexpr double beyond_all = std::numeric_limits<double>::max();
+  double least = beyond_all, top = -beyond_all;
   for (std::size_t k = 2; k < layers.size(); ++k) {
     top = layers[k - 2].empty ? top : std::max(top, layers[k - 2].top);
     least = layers[k].empty ? least : std::min(least, layers[k].bottom - top);

@@ -12,7 +12,7 @@ namespace grainsweep {
 
 namespace {
 
-using Matrix = Eigen::SparseMatrix<double>;
+using SparseMatrix = Eigen::SparseMatrix<double>;
 
 // Pivots of the scaled matrix are near 1; one this small means two ways to carry the bed.
 constexpr double least_pivot = 1e-10;
@@ -53,8 +53,8 @@ void add_side(const SphereBed& bed, const RowBlock<double>& r, std::size_t lane,
 
 /// M^-1/2 H, a column per force-bearing contact.
 template <class Real>
-Matrix contact_matrix(const SphereBed& bed, const Kernels& kernels, double dt,
-                      const Contacts<Real>& contacts) {
+SparseMatrix contact_matrix(const SphereBed& bed, const Kernels& kernels, double dt,
+                            const Contacts<Real>& contacts) {
   const std::vector<RowBlock<double>> rows = rows_in_f64(bed, kernels, contacts);
   std::vector<Eigen::Triplet<double>> entries;
   int columns = 0;
@@ -63,7 +63,7 @@ Matrix contact_matrix(const SphereBed& bed, const Kernels& kernels, double dt,
     add_side(bed, rows[block], lane, -1.0, columns, entries);
     ++columns;
   });
-  Matrix matrix(forces_of(bed), columns);
+  SparseMatrix matrix(forces_of(bed), columns);
   matrix.setFromTriplets(entries.begin(), entries.end());
   return matrix;
 }
@@ -93,15 +93,15 @@ void set_unbalance(const Eigen::VectorXd& scaled, const SphereBed& bed, ForceBal
 template <class Real>
 ForceBalance balance_forces(const SphereBed& bed, const Kernels& kernels, double dt,
                             const Contacts<Real>& contacts) {
-  const Matrix h = contact_matrix(bed, kernels, dt, contacts);
+  const SparseMatrix h = contact_matrix(bed, kernels, dt, contacts);
   const Eigen::VectorXd weights = carried_weights(bed);
   ForceBalance balance;
   if (h.cols() == 0) {
     set_unbalance(weights, bed, balance);
     return balance;
   }
-  const Matrix a = h.transpose() * h;
-  const Eigen::SimplicialLDLT<Matrix> factors(a);
+  const SparseMatrix a = h.transpose() * h;
+  const Eigen::SimplicialLDLT<SparseMatrix> factors(a);
   const Eigen::VectorXd pivots = factors.vectorD();
   balance.unique =
       factors.info() == Eigen::Success && pivots.minCoeff() > least_pivot * pivots.maxCoeff();

@@ -1,9 +1,10 @@
 #include "engine/dynamics/rest.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <numeric>
+
+#include "engine/text.hpp"
 
 namespace grainsweep {
 
@@ -30,6 +31,18 @@ class Clusters {
   std::vector<std::size_t> parent_;
 };
 
+/// Grains that push each other are of one cluster.
+template <class Real>
+Clusters clusters_of(const SphereBed& bed, const Contacts<Real>& contacts, double dt) {
+  Clusters clusters(bed.grains());
+  visit_force_bearing(contacts, dt, [&](std::size_t block, std::size_t lane) {
+    if (block < contacts.pair_blocks) {
+      clusters.join(contacts.rows[block].a(lane), contacts.rows[block].b(lane));
+    }
+  });
+  return clusters;
+}
+
 /// Bit `axis` of entry i: a wall of that axis pushes a grain of the cluster rooted at i.
 template <class Real>
 std::vector<unsigned> pushed_axes(const SphereBed& bed, const Contacts<Real>& contacts, double dt,
@@ -47,14 +60,9 @@ std::vector<unsigned> pushed_axes(const SphereBed& bed, const Contacts<Real>& co
   return axes;
 }
 
-std::string number(double value) {
-  char text[32];
-  const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::general, 3);
-  return {text, end.ptr};
-}
-
 std::string exceeds(const char* what, double value, double tolerance, const char* unit) {
-  return std::string(what) + " " + number(value) + " " + unit + " exceeds " + number(tolerance);
+  return std::string(what) + " " + number_text(value) + " " + unit + " exceeds " +
+         number_text(tolerance);
 }
 
 }  // namespace
@@ -81,12 +89,7 @@ RestReport certify(const SphereBed& bed, const Processor& processor, double dt,
 
 template <class Real>
 std::int64_t zero_modes(const SphereBed& bed, const Contacts<Real>& contacts, double dt) {
-  Clusters clusters(bed.grains());
-  visit_force_bearing(contacts, dt, [&](std::size_t block, std::size_t lane) {
-    if (block < contacts.pair_blocks) {
-      clusters.join(contacts.rows[block].a(lane), contacts.rows[block].b(lane));
-    }
-  });
+  Clusters clusters = clusters_of(bed, contacts, dt);
   std::int64_t modes = 0;
   for (const unsigned axes : pushed_axes(bed, contacts, dt, clusters)) {
     const bool stands = (axes & 4U) != 0U;
@@ -158,8 +161,8 @@ std::string why_not_at_rest(const RestReport& rest, const Accuracy& accuracy) {
                    deepest_overlap * accuracy.overlap_tolerance, "d");
   }
   if (!(std::abs(excess) <= accuracy.contact_tolerance * isostatic)) {
-    return "contacts / isostatic count " + number(1.0 + excess / std::max(isostatic, 1.0)) +
-           " misses 1 by more than " + number(accuracy.contact_tolerance);
+    return "contacts / isostatic count " + number_text(1.0 + excess / std::max(isostatic, 1.0)) +
+           " misses 1 by more than " + number_text(accuracy.contact_tolerance);
   }
   return {};
 }

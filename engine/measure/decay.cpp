@@ -1,7 +1,6 @@
 #include "engine/measure/decay.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -9,6 +8,7 @@
 #include <Eigen/Dense>
 #include <unsupported/Eigen/LevenbergMarquardt>
 
+#include "engine/text.hpp"
 #include "engine/units.hpp"
 
 namespace grainsweep {
@@ -181,12 +181,6 @@ VectorXd jackknife_errors(const std::vector<VectorXd>& values) {
   return ((n - 1.0) / n * squares).cwiseSqrt();
 }
 
-std::string number(double value) {
-  char text[32];
-  const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::general, 3);
-  return {text, end.ptr};
-}
-
 /// Why the window cannot hold a fit; empty if it can.
 std::string fault_of_window(const Window& window, const VectorXd& centred, double bin_width,
                             double window_end) {
@@ -194,8 +188,8 @@ std::string fault_of_window(const Window& window, const VectorXd& centred, doubl
   if (window.value.size() >= least_bins) {
     return centred.norm() > rounding ? "" : "the solid fraction is the same in all bins";
   }
-  return "the window from " + number(decay_window_start) + " d to " + number(window_end) +
-         " d holds " + std::to_string(window.value.size()) + " bins of " + number(bin_width) +
+  return "the window from " + number_text(decay_window_start) + " d to " + number_text(window_end) +
+         " d holds " + std::to_string(window.value.size()) + " bins of " + number_text(bin_width) +
          " d, a fit needs " + std::to_string(least_bins) +
          "; make measure.bin_width smaller or the gap between the walls wider";
 }
@@ -203,23 +197,25 @@ std::string fault_of_window(const Window& window, const VectorXd& centred, doubl
 /// Why a converged curve does not determine a length; empty if it does.
 std::string fault_of_curve(const DecayFit& fit, double significance) {
   const double span = fit.window_end - decay_window_start;
-  const std::string length = number(fit.length.value) + " +- " + number(fit.length.error) + " d";
+  const std::string length =
+      number_text(fit.length.value) + " +- " + number_text(fit.length.error) + " d";
   if (!(significance >= least_significance)) {
-    return "the oscillation is lost in the noise: its amplitude is " + number(significance) +
-           " standard errors at the start of the window, " + number(least_significance) +
+    return "the oscillation is lost in the noise: its amplitude is " + number_text(significance) +
+           " standard errors at the start of the window, " + number_text(least_significance) +
            " are needed; add replicates";
   }
   if (!(fit.period.value <= span)) {
-    return "the window of " + number(span) + " d holds no whole period";
+    return "the window of " + number_text(span) + " d holds no whole period";
   }
   if (!(fit.length.value <= span)) {
-    return "the fitted length " + length + " is longer than the window of " + number(span) + " d";
+    return "the fitted length " + length + " is longer than the window of " + number_text(span) +
+           " d";
   }
   if (!(fit.length.error <= largest_relative_error * fit.length.value)) {
     return "the length " + length + " is too uncertain; add replicates";
   }
   if (!(fit.r_squared >= least_explained)) {
-    return "a damped oscillation explains only " + number(fit.r_squared) + " of the variance";
+    return "a damped oscillation explains only " + number_text(fit.r_squared) + " of the variance";
   }
   return {};
 }

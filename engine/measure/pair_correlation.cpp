@@ -11,8 +11,8 @@ namespace grainsweep {
 
 namespace {
 
-/// Edge of the region along one axis.
-struct Edge {
+/// Side of the region along one axis.
+struct Side {
   double length;
   bool is_periodic;
 
@@ -22,7 +22,7 @@ struct Edge {
 /// The centres in the slab, by height, and their region.
 struct Region {
   std::vector<Record<double>> centres;
-  std::array<Edge, 3> edges{};
+  std::array<Side, 3> sides{};
 };
 
 double spread_of(const std::vector<Record<double>>& centres, double Record<double>::*axis) {
@@ -43,28 +43,28 @@ Region region_of(const SphereBed& bed, const Slab& slab) {
   std::stable_sort(region.centres.begin(), region.centres.end(),
                    [](const Record<double>& a, const Record<double>& b) { return a.z < b.z; });
   const double x = bed.box.period_x(), y = bed.box.period_y();
-  region.edges = {Edge{x > 0.0 ? x : spread_of(region.centres, &Record<double>::x), x > 0.0},
-                  Edge{y > 0.0 ? y : spread_of(region.centres, &Record<double>::y), y > 0.0},
-                  Edge{slab.height(), false}};
+  region.sides = {Side{x > 0.0 ? x : spread_of(region.centres, &Record<double>::x), x > 0.0},
+                  Side{y > 0.0 ? y : spread_of(region.centres, &Record<double>::y), y > 0.0},
+                  Side{slab.height(), false}};
   return region;
 }
 
 double reach_of(const Region& region) {
   double reach = std::numeric_limits<double>::max();
-  for (const Edge& edge : region.edges) {
-    reach = std::min(reach, edge.is_periodic ? edge.length / 2.0 : edge.length);
+  for (const Side& side : region.sides) {
+    reach = std::min(reach, side.is_periodic ? side.length / 2.0 : side.length);
   }
   return reach;
 }
 
 /// Coefficients of 1, r, r^2, r^3 of the direction mean of the product of (E_i - r |u_i|).
-std::array<double, 4> covariance_of(const std::array<Edge, 3>& edges) {
+std::array<double, 4> covariance_of(const std::array<Side, 3>& sides) {
   constexpr std::array<double, 4> mean = {1.0, -1.0 / 2.0, 2.0 / (3.0 * pi), -1.0 / (4.0 * pi)};
   std::array<double, 4> sums = {1.0, 0.0, 0.0, 0.0};  // elementary symmetric in 1 and E
-  for (const Edge& edge : edges) {
+  for (const Side& side : sides) {
     for (std::size_t k = 4; k-- > 0;) {
-      const double shorter = !edge.is_periodic && k > 0 ? sums[k - 1] : 0.0;
-      sums[k] = sums[k] * edge.length + shorter;
+      const double shorter = !side.is_periodic && k > 0 ? sums[k - 1] : 0.0;
+      sums[k] = sums[k] * side.length + shorter;
     }
   }
   for (std::size_t k = 0; k < 4; ++k) sums[k] *= mean[k];
@@ -95,9 +95,9 @@ std::size_t columns_along(double length, double reach) {
 }
 
 /// Column of coordinate `x`, which begins at `low` or is periodic.
-std::size_t column_of(double x, double low, const Edge& edge, std::size_t count) {
-  const double turns = (x - low) / edge.length;
-  const double place = edge.is_periodic ? turns - std::floor(turns) : turns;
+std::size_t column_of(double x, double low, const Side& side, std::size_t count) {
+  const double turns = (x - low) / side.length;
+  const double place = side.is_periodic ? turns - std::floor(turns) : turns;
   return std::min(count - 1, static_cast<std::size_t>(place * static_cast<double>(count)));
 }
 
@@ -109,7 +109,7 @@ double least(const std::vector<Record<double>>& centres, double Record<double>::
 
 Columns columns_of(const Region& region, double reach) {
   Columns columns;
-  const Edge &x = region.edges[0], &y = region.edges[1];
+  const Side &x = region.sides[0], &y = region.sides[1];
   columns.count = {columns_along(x.length, reach), columns_along(y.length, reach)};
   columns.centres.resize(columns.count[0] * columns.count[1]);
   const double low_x = least(region.centres, &Record<double>::x);
@@ -135,7 +135,7 @@ std::vector<std::size_t> places_around(std::size_t at, std::size_t count, bool i
 class PairCounter {
  public:
   PairCounter(const Region& region, double bin_width, std::size_t bins)
-      : edges_(region.edges), bin_width_(bin_width), counts_(bins, 0.0) {}
+      : sides_(region.sides), bin_width_(bin_width), counts_(bins, 0.0) {}
 
   double reach() const { return bin_width_ * static_cast<double>(counts_.size()); }
   std::vector<double> take_counts() { return std::move(counts_); }
@@ -154,15 +154,15 @@ class PairCounter {
 
  private:
   void add(const Record<double>& a, const Record<double>& b) {
-    const double x = nearest(b.x - a.x, edges_[0].period());
-    const double y = nearest(b.y - a.y, edges_[1].period());
+    const double x = nearest(b.x - a.x, sides_[0].period());
+    const double y = nearest(b.y - a.y, sides_[1].period());
     const double z = b.z - a.z, squared = x * x + y * y + z * z;
     if (squared >= reach() * reach()) return;
     const auto bin = static_cast<std::size_t>(std::sqrt(squared) / bin_width_);
     counts_[std::min(bin, counts_.size() - 1)] += 1.0;
   }
 
-  std::array<Edge, 3> edges_;
+  std::array<Side, 3> sides_;
   double bin_width_;
   std::vector<double> counts_;
 };
@@ -173,8 +173,8 @@ std::vector<double> count_pairs(const Region& region, double bin_width, std::siz
   const Columns columns = columns_of(region, counter.reach());
   const auto [across, along] = columns.count;
   for (std::size_t at = 0; at < columns.centres.size(); ++at) {
-    for (const std::size_t j : places_around(at / across, along, region.edges[1].is_periodic)) {
-      for (const std::size_t i : places_around(at % across, across, region.edges[0].is_periodic)) {
+    for (const std::size_t j : places_around(at / across, along, region.sides[1].is_periodic)) {
+      for (const std::size_t i : places_around(at % across, across, region.sides[0].is_periodic)) {
         const std::size_t other = j * across + i;
         if (other >= at) counter.count(columns.centres[at], columns.centres[other]);
       }
@@ -191,9 +191,9 @@ Curve pair_correlation(const SphereBed& bed, const Slab& slab, double bin_width,
   const double reach = std::min(largest, reach_of(region));
   const auto bins = static_cast<std::size_t>(std::max(0.0, reach / bin_width + 1e-9));
   Curve curve{bin_width, count_pairs(region, bin_width, bins)};
-  const std::array<double, 4> covariance = covariance_of(region.edges);
+  const std::array<double, 4> covariance = covariance_of(region.sides);
   const auto n = static_cast<double>(region.centres.size());
-  const double volume = region.edges[0].length * region.edges[1].length * region.edges[2].length;
+  const double volume = region.sides[0].length * region.sides[1].length * region.sides[2].length;
   const double pairs = n * (n - 1.0) / 2.0 / (volume * volume);
   for (std::size_t k = 0; k < bins; ++k) {
     const double low = static_cast<double>(k) * bin_width;

@@ -1,13 +1,13 @@
 #include "engine/scene/spec.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <optional>
 
 #include "engine/scene/sizes.hpp"
 #include "engine/shape/given_shape.hpp"
+#include "engine/text.hpp"
 
 namespace grainsweep {
 namespace {
@@ -21,12 +21,10 @@ constexpr double finest_bin = 0.01;               // d; finer bins hold noise an
 constexpr double image_margin = 0.2;              // d; candidates never reach farther than this
 
 std::string text_of(double value) {
-  char text[32];
   if (std::isfinite(value) && value == std::floor(value) && std::abs(value) < 1e15) {
     return std::to_string(static_cast<std::int64_t>(value));
   }
-  const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::general, 6);
-  return {text, end.ptr};
+  return number_text(value, 6);
 }
 
 struct Interval {

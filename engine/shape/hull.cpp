@@ -6,7 +6,6 @@
 #include <limits>
 #include <memory>
 #include <set>
-#include <sstream>
 #include <utility>
 
 #include <Eigen/Eigenvalues>
@@ -14,6 +13,7 @@
 #include <libqhull_r/qhull_ra.h>
 
 #include "engine/shape/build.hpp"
+#include "engine/text.hpp"
 
 namespace grainsweep {
 
@@ -21,17 +21,10 @@ namespace {
 
 // Shares of the largest distance between points. Thinner is flat: the hull would have no inside
 // that f64 resolves well. Deeper inside is a dent; less is a point on a face or an edge.
-constexpr double flat = 1e-9;
+constexpr double flat_share = 1e-9;
 constexpr double dent = 1e-6;
 // Products of inertia below this share of the trace are rounding: the frame is principal already.
 constexpr double principal = 1e-13;
-
-template <class... Parts>
-std::string joined(const Parts&... parts) {
-  std::ostringstream text;
-  (text << ... << parts);
-  return text.str();
-}
 
 std::string named(const std::vector<Vector>& points, std::size_t k) {
   const Vector& p = points[k];
@@ -88,9 +81,9 @@ Extents extents_of(const std::vector<Vector>& points) {
 }
 
 std::string problem_with_extents(const Extents& extents) {
-  const char* where = extents.width <= flat * extents.length    ? "a line"
-                      : extents.height <= flat * extents.length ? "a plane"
-                                                                : nullptr;
+  const char* where = extents.width <= flat_share * extents.length    ? "a line"
+                      : extents.height <= flat_share * extents.length ? "a plane"
+                                                                      : nullptr;
   if (where == nullptr) return "";
   return joined("the vertices lie on ", where, ", so that the hull has no volume");
 }

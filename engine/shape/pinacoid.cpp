@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <sstream>
 
 #include "engine/shape/build.hpp"
+#include "engine/text.hpp"
 #include "engine/units.hpp"
 
 namespace grainsweep {
@@ -48,13 +48,6 @@ void set_mass(const PinacoidWidth& w, ConvexShape& shape) {
   const double zz = e_b * w.e * w.e * (a / 12.0 - s / 20.0) / volume;
   shape.volume = volume;
   shape.inertia = {yy + zz, xx + zz, xx + yy};
-}
-
-template <class... Parts>
-std::string joined(const Parts&... parts) {
-  std::ostringstream text;
-  (text << ... << parts);
-  return text.str();
 }
 
 std::string problem_with_length(const char* name, double value) {

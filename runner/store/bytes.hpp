@@ -4,6 +4,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 
@@ -26,6 +27,11 @@ inline void put(std::string& bytes, double value) {
 inline void put_text(std::string& bytes, std::string_view text) {
   put(bytes, static_cast<std::uint64_t>(text.size()));
   bytes.append(text);
+}
+
+/// Throws std::length_error if fewer bytes follow than `count` items take.
+inline void need(std::string_view bytes, std::uint64_t count, std::size_t item_size) {
+  if (count > bytes.size() / item_size) throw std::length_error("stored bytes end too early");
 }
 
 /// Takes a number off the front of bytes known to be long enough.

@@ -10,14 +10,12 @@ namespace grainsweep {
 namespace {
 
 constexpr std::string_view magic = "GRAINCP1";
-constexpr std::size_t checksum_size = 4;
 
 std::string checkpoint_folder(const std::string& folder) { return folder + "/checkpoints"; }
 
 bool is_whole(std::string_view bytes) {
-  if (bytes.size() < magic.size() + checksum_size || !bytes.starts_with(magic)) return false;
-  std::string_view end = bytes.substr(bytes.size() - checksum_size);
-  return take<std::uint32_t>(end) == crc32(bytes.substr(0, bytes.size() - checksum_size));
+  return bytes.size() >= magic.size() + checksum_size && bytes.starts_with(magic) &&
+         ends_in_its_checksum(bytes);
 }
 
 /// Removes the files whose name without its ending is wanted.

@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <string_view>
 
+#include "runner/store/bytes.hpp"
+
 namespace grainsweep {
 
 /// table[k][b]: the remainder of byte b with k zero bytes behind it, modulo the reflected
@@ -42,6 +44,15 @@ inline std::uint32_t crc32(std::string_view bytes) {
     sum = tables[0][(sum ^ at(i)) & 0xFFu] ^ (sum >> 8);
   }
   return ~sum;
+}
+
+inline constexpr std::size_t checksum_size = sizeof(std::uint32_t);
+
+/// The last bytes, as put() appends a checksum, are the checksum of all before them.
+inline bool ends_in_its_checksum(std::string_view bytes) {
+  if (bytes.size() < checksum_size) return false;
+  std::string_view end = bytes.substr(bytes.size() - checksum_size);
+  return take<std::uint32_t>(end) == crc32(bytes.substr(0, bytes.size() - checksum_size));
 }
 
 }  // namespace grainsweep

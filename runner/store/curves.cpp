@@ -1,7 +1,6 @@
 #include "runner/store/curves.hpp"
 
 #include <cstdint>
-#include <stdexcept>
 
 #include "runner/store/bytes.hpp"
 
@@ -11,22 +10,18 @@ namespace {
 constexpr std::size_t head_size = 8 + 8;
 constexpr std::size_t bin_size = 2 * sizeof(double) + 4 * sizeof(std::uint64_t);
 
-void need(std::string_view bytes, std::size_t size) {
-  if (bytes.size() < size) throw std::length_error("curves end too early");
-}
-
-void put_count(std::string& bytes, std::int64_t count) {
+void put_tally(std::string& bytes, std::int64_t count) {
   put(bytes, static_cast<std::uint64_t>(count));
 }
 
-std::int64_t take_count(std::string_view& bytes) {
+std::int64_t take_tally(std::string_view& bytes) {
   return static_cast<std::int64_t>(take<std::uint64_t>(bytes));
 }
 
 /// The number of items that follow, of `item_size` bytes each.
 std::uint64_t take_length(std::string_view& bytes, std::size_t item_size) {
   const auto length = take<std::uint64_t>(bytes);
-  if (length > bytes.size() / item_size) throw std::length_error("curves end too early");
+  need(bytes, length, item_size);
   return length;
 }
 
@@ -38,13 +33,13 @@ void put_profile(std::string& bytes, const Profile& profile) {
     put(bytes, bin.small);
     for (const std::int64_t count :
          {bin.large_grains, bin.small_grains, bin.neighbours, bin.walls}) {
-      put_count(bytes, count);
+      put_tally(bytes, count);
     }
   }
 }
 
 Profile take_profile(std::string_view& bytes) {
-  need(bytes, head_size);
+  need(bytes, 1, head_size);
   Profile profile{take_double(bytes), {}};
   profile.bins.resize(take_length(bytes, bin_size));
   for (ProfileBin& bin : profile.bins) {
@@ -52,7 +47,7 @@ Profile take_profile(std::string_view& bytes) {
     bin.small = take_double(bytes);
     for (std::int64_t* count :
          {&bin.large_grains, &bin.small_grains, &bin.neighbours, &bin.walls}) {
-      *count = take_count(bytes);
+      *count = take_tally(bytes);
     }
   }
   return profile;
@@ -65,7 +60,7 @@ void put_curve(std::string& bytes, const Curve& curve) {
 }
 
 Curve take_curve(std::string_view& bytes) {
-  need(bytes, head_size);
+  need(bytes, 1, head_size);
   Curve curve{take_double(bytes), {}};
   curve.values.resize(take_length(bytes, sizeof(double)));
   for (double& value : curve.values) value = take_double(bytes);

@@ -17,7 +17,6 @@ constexpr std::string_view magic_of_turned = "GRAINS3\n";
 constexpr std::size_t start_size = 8 + 8;
 constexpr std::size_t grains_header_size = 8 + 16 + 2;
 constexpr std::size_t grain_size = 5 * 8 + 4;
-constexpr std::size_t checksum_size = 4;
 
 void put_grain(std::string& bytes, const SettledGrain& grain) {
   for (const double value : {grain.x, grain.y, grain.z, grain.radius, grain.force}) {
@@ -37,12 +36,6 @@ SettledGrain take_grain(std::string_view& bytes) {
 
 Boundary take_boundary(std::string_view& bytes) {
   return take<std::uint8_t>(bytes) != 0 ? Boundary::walls : Boundary::periodic;
-}
-
-bool ends_in_its_checksum(std::string_view bytes) {
-  if (bytes.size() < checksum_size) return false;
-  std::string_view end = bytes.substr(bytes.size() - checksum_size);
-  return take<std::uint32_t>(end) == crc32(bytes.substr(0, bytes.size() - checksum_size));
 }
 
 /// Size of the file's part up to the checksum of the curves; nothing if it does not begin right.

@@ -10,10 +10,6 @@
 namespace grainsweep {
 namespace {
 
-void need(std::string_view bytes, std::size_t count, std::size_t item_size) {
-  if (count > bytes.size() / item_size) throw std::length_error("turned grains end too early");
-}
-
 template <std::size_t size>
 void put_numbers(std::string& bytes, const std::vector<std::array<double, size>>& items) {
   for (const auto& item : items) {

@@ -13,17 +13,17 @@
 namespace grainsweep {
 namespace {
 
-using Cells = std::vector<std::string_view>;
+using LineCells = std::vector<std::string_view>;
 
-constexpr std::array<std::string_view, 8> names = {"x", "y", "z", "r", "qx", "qy", "qz", "qw"};
+constexpr std::array<std::string_view, 8> column_names = {"x",  "y",  "z",  "r",
+                                                          "qx", "qy", "qz", "qw"};
 constexpr std::size_t needed = 4;  ///< the others are there all or not at all
-constexpr std::size_t most_errors = 20;
 
 /// Index of the column of each name, or of the needed ones alone.
 using Columns = std::vector<std::size_t>;
 
-Cells cells_of(std::string_view line) {
-  Cells cells;
+LineCells cells_of(std::string_view line) {
+  LineCells cells;
   for (;;) {
     const std::size_t comma = line.find(',');
     std::string_view cell = trimmed(line.substr(0, comma));
@@ -38,7 +38,7 @@ Cells cells_of(std::string_view line) {
 
 bool is_orientation(std::string_view name) { return name.front() == 'q'; }
 
-std::string header_error(std::string_view name, const Cells& header) {
+std::string header_error(std::string_view name, const LineCells& header) {
   std::string found;
   for (const std::string_view cell : header) found.append(found.empty() ? "" : ",").append(cell);
   return "the first line must name the columns x,y,z,r" +
@@ -46,21 +46,21 @@ std::string header_error(std::string_view name, const Cells& header) {
          std::string(name) + "\" is missing or there twice in \"" + shortened(found) + "\"";
 }
 
-bool holds(const Cells& header, std::string_view name) {
+bool holds(const LineCells& header, std::string_view name) {
   return std::find(header.begin(), header.end(), name) != header.end();
 }
 
 /// The columns that `header` names, or what is wrong with it.
-std::optional<Columns> columns_of(const Cells& header, std::string& error) {
+std::optional<Columns> columns_of(const LineCells& header, std::string& error) {
   Columns columns;
-  const bool are_turned = std::any_of(names.begin() + needed, names.end(),
+  const bool are_turned = std::any_of(column_names.begin() + needed, column_names.end(),
                                       [&](std::string_view name) { return holds(header, name); });
-  for (std::size_t i = 0; i < (are_turned ? names.size() : needed); ++i) {
+  for (std::size_t i = 0; i < (are_turned ? column_names.size() : needed); ++i) {
     const auto matches = [&](std::string_view cell) {
-      return cell == names[i] || (names[i] == "r" && cell == "radius");
+      return cell == column_names[i] || (column_names[i] == "r" && cell == "radius");
     };
     if (std::count_if(header.begin(), header.end(), matches) != 1) {
-      error = header_error(names[i], header);
+      error = header_error(column_names[i], header);
       return std::nullopt;
     }
     const auto found = std::find_if(header.begin(), header.end(), matches);
@@ -70,18 +70,19 @@ std::optional<Columns> columns_of(const Cells& header, std::string& error) {
 }
 
 /// What is wrong with a line; otherwise the grain in it is added.
-std::string read_grain(const Cells& cells, const Columns& columns, std::size_t width,
+std::string read_grain(const LineCells& cells, const Columns& columns, std::size_t width,
                        GrainsReading& reading) {
   if (cells.size() != width) {
     return "must hold " + std::to_string(width) + " values like the first line, holds " +
            std::to_string(cells.size());
   }
-  std::array<double, names.size()> v{};
+  std::array<double, column_names.size()> v{};
   for (std::size_t i = 0; i < columns.size(); ++i) {
     const std::string_view cell = cells[columns[i]];
     const auto value = finite_number(cell);
     if (!value) {
-      return std::string(names[i]) + " must be a finite number, is \"" + shortened(cell) + "\"";
+      return std::string(column_names[i]) + " must be a finite number, is \"" + shortened(cell) +
+             "\"";
     }
     v[i] = *value;
   }
@@ -93,7 +94,7 @@ std::string read_grain(const Cells& cells, const Columns& columns, std::size_t w
 
 /// Notes an error of `line`; false once there are enough.
 bool note(GrainsReading& reading, const std::string& file, std::size_t line, std::string message) {
-  const bool last = reading.errors.size() + 1 == most_errors;
+  const bool last = reading.errors.size() + 1 == most_wrong_lines;
   if (last) message += " (further lines are not listed)";
   reading.errors.push_back({file + ":" + std::to_string(line), "", std::move(message)});
   return !last;
@@ -105,7 +106,7 @@ GrainsReading parse_grains(const std::string& text, const std::string& file) {
   GrainsReading reading;
   reading.content = hex16(mixed(fnv1a(text)));
   const auto lines = lines_of(text);
-  const Cells header = cells_of(lines.front());
+  const LineCells header = cells_of(lines.front());
   std::string error;
   const auto columns = columns_of(header, error);
   if (!columns) {

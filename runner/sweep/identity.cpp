@@ -8,12 +8,12 @@
 namespace grainsweep {
 namespace {
 
-using Names = std::vector<std::string_view>;
+using GroupNames = std::vector<std::string_view>;
 
 /// A parameter and the groups it lies in, from the outside in.
 struct Member {
   const Parameter* parameter;
-  Names groups;
+  GroupNames groups;
   std::string_view key;
 };
 
@@ -27,7 +27,7 @@ Member member_of(const Parameter& parameter) {
   return member;
 }
 
-std::vector<Member> members_by_path() {
+std::vector<Member> sorted_members() {
   std::vector<Member> members;
   for (const Parameter& parameter : parameters()) members.push_back(member_of(parameter));
   std::sort(members.begin(), members.end(),
@@ -61,7 +61,7 @@ void append_value(const Parameter& parameter, const Value& value, std::string& t
 }
 
 /// Closes the groups of `open` that `groups` does not begin with and opens the others of `groups`.
-void change_groups(const Names& open, const Names& groups, std::string& text) {
+void change_groups(const GroupNames& open, const GroupNames& groups, std::string& text) {
   const auto last = std::mismatch(open.begin(), open.end(), groups.begin(), groups.end());
   text.append(static_cast<std::size_t>(open.end() - last.first), '}');
   if (text.back() != '{') text += ',';
@@ -105,9 +105,9 @@ std::string hash_of(const HullVertices& hull) {
 }
 
 std::string canonical_parameters(const Draft& draft) {
-  static const std::vector<Member> members = members_by_path();
-  const Names none;
-  const Names* open = &none;
+  static const std::vector<Member> members = sorted_members();
+  const GroupNames none;
+  const GroupNames* open = &none;
   std::string text = "{";
   for (const auto& [parameter, groups, key] : members) {
     const auto value = parameter->get(draft);

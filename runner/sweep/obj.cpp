@@ -11,8 +11,6 @@
 namespace grainsweep {
 namespace {
 
-constexpr std::size_t most_errors = 20;
-
 /// Takes the first word off a line.
 std::string_view next_word(std::string_view& line) {
   line = trimmed(line);
@@ -44,7 +42,7 @@ ObjReading parse_obj(const std::string& text, const std::string& file) {
   ObjReading reading;
   reading.content = hex16(mixed(fnv1a(text)));
   const auto lines = lines_of(text);
-  for (std::size_t k = 0; k < lines.size() && reading.errors.size() < most_errors; ++k) {
+  for (std::size_t k = 0; k < lines.size() && reading.errors.size() < most_wrong_lines; ++k) {
     std::string_view line = lines[k];
     if (next_word(line) != "v") continue;
     Vector vertex = Vector::Zero();

@@ -7,7 +7,7 @@
 namespace grainsweep {
 namespace {
 
-std::string joined(const std::string& path, const std::string& key) {
+std::string dotted(const std::string& path, const std::string& key) {
   return path.empty() ? key : path + "." + key;
 }
 
@@ -45,7 +45,7 @@ std::string unknown_path(const std::string& group, const std::string& key) {
 void read_group(const std::string& group, const Json& object, const std::string& pointer,
                 Settings& settings, Problems& problems) {
   for (const auto& [key, value] : object.items()) {
-    const std::string path = joined(group, key);
+    const std::string path = dotted(group, key);
     const std::string place = child_pointer(pointer, key);
     if (find_parameter(path) || (is_group(path) && !key.empty())) {
       read_settings(path, value, place, settings, problems);

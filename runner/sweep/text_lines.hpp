@@ -1,11 +1,15 @@
 // Lines and numbers of the text files that sweeps name: beds as CSV, shapes as OBJ.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string_view>
 #include <vector>
 
 namespace grainsweep {
+
+/// So many lines of one file are listed as wrong.
+inline constexpr std::size_t most_wrong_lines = 20;
 
 /// `text` without blanks at its ends.
 std::string_view trimmed(std::string_view text);

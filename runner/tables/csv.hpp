@@ -2,11 +2,15 @@
 #pragma once
 
 #include <concepts>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace grainsweep {
+
+/// The value of a cell without a number.
+inline constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 
 /// Shortest text that reads back with the same bits; empty for NaN and infinities: a cell without a
 /// number says that there is none.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <set>
 
 #include "engine/measure/fit.hpp"
@@ -10,8 +9,6 @@
 
 namespace grainsweep {
 namespace {
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 std::vector<const Group*> groups_with_values(const Family& family) {
   std::vector<const Group*> groups;
@@ -55,8 +52,8 @@ std::vector<FitPoint> points_of(const std::vector<const Group*>& groups, Quantit
   std::vector<FitPoint> points;
   for (const Group* group : groups) {
     const Spread& spread = spread_of(*group, quantity);
-    const double error = pooled.variance > 0 ? std::sqrt(pooled.variance / spread.n) : none;
-    points.push_back({group->job.box.width, spread.n, spread.mean, error, none});
+    const double error = pooled.variance > 0 ? std::sqrt(pooled.variance / spread.n) : no_number;
+    points.push_back({group->job.box.width, spread.n, spread.mean, error, no_number});
   }
   return points;
 }
@@ -81,7 +78,7 @@ void take_line(const LineFit& line, FitWeights weights, WallFit& fit) {
   fit.slope = {-line.slope, line.slope_error};
   fit.zeta = zeta_of(line);
   fit.degrees_of_freedom = line.degrees_of_freedom;
-  fit.chi2_per_dof = is_weighted ? line.chi2 / line.degrees_of_freedom : none;
+  fit.chi2_per_dof = is_weighted ? line.chi2 / line.degrees_of_freedom : no_number;
   fit.r_squared = line.r_squared;
   for (FitPoint& point : fit.points) point.fitted = line.intercept + line.slope / point.width;
 }
@@ -143,7 +140,7 @@ double pooled_error(const Family& family, Quantity quantity, int n) {
   for (const Group& group : family.walled) groups.push_back(&group);
   for (const Group& group : family.periodic) groups.push_back(&group);
   const Pooled pooled = pooled_over(groups, quantity);
-  return pooled.degrees_of_freedom > 0 && n > 0 ? std::sqrt(pooled.variance / n) : none;
+  return pooled.degrees_of_freedom > 0 && n > 0 ? std::sqrt(pooled.variance / n) : no_number;
 }
 
 WallFit fit_walls(const Family& family, Quantity quantity) {

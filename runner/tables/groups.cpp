@@ -1,7 +1,6 @@
 #include "runner/tables/groups.hpp"
 
 #include <cmath>
-#include <limits>
 #include <map>
 #include <utility>
 
@@ -9,8 +8,6 @@
 
 namespace grainsweep {
 namespace {
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 using Members = std::vector<const Row*>;
 
@@ -26,14 +23,14 @@ Spread spread_over(const Members& members, Value value) {
 
 double contact_ratio(const Row& row) {
   const RestReport& rest = row.outcome->result.rest;
-  if (rest.isostatic_contacts == 0) return none;
+  if (rest.isostatic_contacts == 0) return no_number;
   return static_cast<double>(rest.contacts) / static_cast<double>(rest.isostatic_contacts);
 }
 
 /// What a column of shapes holds of a packing; nothing for spheres.
 double shape_value(const Row& row, std::size_t column) {
   const auto& order = row.outcome->result.shape_order;
-  return order ? shape_values(*order)[column] : none;
+  return order ? shape_values(*order)[column] : no_number;
 }
 
 Group group_of(const Members& members) {
@@ -93,7 +90,7 @@ std::string group_line(const Group& group) {
 }  // namespace
 
 Spread spread_of(const std::vector<double>& values) {
-  Spread spread{none, none, static_cast<int>(values.size())};
+  Spread spread{no_number, no_number, static_cast<int>(values.size())};
   if (values.empty()) return spread;
   double sum = 0.0, squares = 0.0;
   for (const double value : values) sum += value;
@@ -104,7 +101,7 @@ Spread spread_of(const std::vector<double>& values) {
 }
 
 double standard_error(const Spread& spread) {
-  return spread.n > 1 ? spread.sd / std::sqrt(spread.n) : none;
+  return spread.n > 1 ? spread.sd / std::sqrt(spread.n) : no_number;
 }
 
 std::vector<Group> groups_of(const std::vector<Row>& rows) {

@@ -1,7 +1,6 @@
 #include "runner/tables/job_facts.hpp"
 
 #include <algorithm>
-#include <limits>
 
 #include <nlohmann/json.hpp>
 
@@ -157,8 +156,9 @@ bool is_measured(const Row& row) {
 }
 
 Coordination headline_coordination(const Row& row) {
-  constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  if (!is_measured(row) || row.outcome->result.coordination.empty()) return {none, none, none};
+  if (!is_measured(row) || row.outcome->result.coordination.empty()) {
+    return {no_number, no_number, no_number};
+  }
   return row.outcome->result.coordination.front();
 }
 

@@ -12,54 +12,54 @@
 namespace grainsweep {
 namespace {
 
-using Cells = std::vector<std::string>;
+using RowCells = std::vector<std::string>;
 
-const Cells first_columns = {"job",
-                             "label",
-                             "replicate",
-                             "seed",
-                             "shape",
-                             "grains",
-                             "width",
-                             "boundary_y",
-                             "small_share",
-                             "status",
-                             "solid_fraction",
-                             "coordination",
-                             "coordination_with_walls",
-                             "contacts",
-                             "isostatic_contacts",
-                             "overlap_mean",
-                             "overlap_max",
-                             "residual",
-                             "kinetic_energy",
-                             "steps",
-                             "iterations",
-                             "cpu_seconds",
-                             "length",
-                             "boundary_x",
-                             "accuracy",
-                             "gap_tolerance"};
-const Cells last_columns = {"surface_height",
-                            "slab_bottom",
-                            "slab_top",
-                            "largest_motion",
-                            "forces_unique",
-                            "least_force",
-                            "unbalance_max",
-                            "unbalance_mean",
-                            "mean_diameter",
-                            "mean_diameter_by_volume",
-                            "q6_global",
-                            "q6_local",
-                            "three_contact_share",
-                            "segregation",
-                            "force_mean",
-                            "force_square",
-                            "state_hash",
-                            "reason"};
+const RowCells first_columns = {"job",
+                                "label",
+                                "replicate",
+                                "seed",
+                                "shape",
+                                "grains",
+                                "width",
+                                "boundary_y",
+                                "small_share",
+                                "status",
+                                "solid_fraction",
+                                "coordination",
+                                "coordination_with_walls",
+                                "contacts",
+                                "isostatic_contacts",
+                                "overlap_mean",
+                                "overlap_max",
+                                "residual",
+                                "kinetic_energy",
+                                "steps",
+                                "iterations",
+                                "cpu_seconds",
+                                "length",
+                                "boundary_x",
+                                "accuracy",
+                                "gap_tolerance"};
+const RowCells last_columns = {"surface_height",
+                               "slab_bottom",
+                               "slab_top",
+                               "largest_motion",
+                               "forces_unique",
+                               "least_force",
+                               "unbalance_max",
+                               "unbalance_mean",
+                               "mean_diameter",
+                               "mean_diameter_by_volume",
+                               "q6_global",
+                               "q6_local",
+                               "three_contact_share",
+                               "segregation",
+                               "force_mean",
+                               "force_square",
+                               "state_hash",
+                               "reason"};
 
-void append(Cells& cells, Cells more) {
+void append(RowCells& cells, RowCells more) {
   std::move(more.begin(), more.end(), std::back_inserter(cells));
 }
 
@@ -81,8 +81,8 @@ std::string hex(std::uint64_t hash) {
   return text.data();
 }
 
-Cells measured_cells(const Row& row) {
-  if (!is_measured(row)) return Cells(9);
+RowCells measured_cells(const Row& row) {
+  if (!is_measured(row)) return RowCells(9);
   const PackingResult& result = row.outcome->result;
   const Coordination coordination = headline_coordination(row);
   return {cell(result.solid_fraction),          cell(coordination.between_grains),
@@ -92,15 +92,15 @@ Cells measured_cells(const Row& row) {
           cell(result.rest.kinetic_energy)};
 }
 
-Cells effort_cells(const Row& row) {
-  if (!row.outcome) return Cells(3);
+RowCells effort_cells(const Row& row) {
+  if (!row.outcome) return RowCells(3);
   const PackingResult& result = row.outcome->result;
   return {cell(result.steps), cell(result.iterations), cell(row.outcome->cpu_seconds)};
 }
 
 /// Both conventions at each tolerance; empty where the job did not measure at it.
-Cells coordination_cells(const Row& row, const std::vector<double>& tolerances) {
-  Cells cells;
+RowCells coordination_cells(const Row& row, const std::vector<double>& tolerances) {
+  RowCells cells;
   for (const double tolerance : tolerances) {
     Coordination at{tolerance, std::numeric_limits<double>::quiet_NaN(),
                     std::numeric_limits<double>::quiet_NaN()};
@@ -115,13 +115,13 @@ Cells coordination_cells(const Row& row, const std::vector<double>& tolerances) 
 }
 
 /// Empty where the accuracy asked for no direct solve of force balance.
-Cells balance_cells(const std::optional<ForceBalance>& balance) {
-  if (!balance) return Cells(4);
+RowCells balance_cells(const std::optional<ForceBalance>& balance) {
+  if (!balance) return RowCells(4);
   return {balance->unique ? "yes" : "no", cell(balance->least_force), cell(balance->unbalance_max),
           cell(balance->unbalance_mean)};
 }
 
-Cells order_cells(const PackingResult& result) {
+RowCells order_cells(const PackingResult& result) {
   const Order& order = result.order;
   return {cell(result.mean_diameter),      cell(result.mean_diameter_by_volume),
           cell(order.q6_global),           cell(order.q6_local),
@@ -129,10 +129,10 @@ Cells order_cells(const PackingResult& result) {
           cell(order.force_mean),          cell(order.force_square)};
 }
 
-Cells state_cells(const Row& row) {
-  if (!row.outcome) return Cells(last_columns.size());
+RowCells state_cells(const Row& row) {
+  if (!row.outcome) return RowCells(last_columns.size());
   const PackingResult& result = row.outcome->result;
-  Cells cells(last_columns.size() - 1);
+  RowCells cells(last_columns.size() - 1);
   if (is_measured(row)) {
     cells = {cell(result.surface_height), cell(result.slab_bottom), cell(result.slab_top),
              cell(result.rest.largest_motion)};
@@ -145,8 +145,8 @@ Cells state_cells(const Row& row) {
 }
 
 /// Empty for spheres.
-Cells shape_cells(const Row& row) {
-  Cells cells(shape_columns.size());
+RowCells shape_cells(const Row& row) {
+  RowCells cells(shape_columns.size());
   if (!is_measured(row) || !row.outcome->result.shape_order) return cells;
   const auto values = shape_values(*row.outcome->result.shape_order);
   std::transform(values.begin(), values.end(), cells.begin(),
@@ -154,8 +154,8 @@ Cells shape_cells(const Row& row) {
   return cells;
 }
 
-Cells header(const std::vector<double>& tolerances) {
-  Cells cells = first_columns;
+RowCells header(const std::vector<double>& tolerances) {
+  RowCells cells = first_columns;
   for (const double tolerance : tolerances) {
     append(cells,
            {"coordination_at_" + cell(tolerance), "coordination_with_walls_at_" + cell(tolerance)});
@@ -165,19 +165,19 @@ Cells header(const std::vector<double>& tolerances) {
   return cells;
 }
 
-Cells row_cells(const Row& row, const std::vector<double>& tolerances) {
+RowCells row_cells(const Row& row, const std::vector<double>& tolerances) {
   const JobFacts& job = row.job;
   const auto& gaps = job.measure.gap_tolerances;
-  Cells cells = {job.id,
-                 cell(job.label),
-                 cell(job.replicate),
-                 cell(job.seed),
-                 cell(job.shape),
-                 row.outcome ? cell(row.outcome->result.grains) : "",
-                 cell(job.box.width),
-                 name_of(job.box.y),
-                 cell(job.small_share),
-                 status_of(row)};
+  RowCells cells = {job.id,
+                    cell(job.label),
+                    cell(job.replicate),
+                    cell(job.seed),
+                    cell(job.shape),
+                    row.outcome ? cell(row.outcome->result.grains) : "",
+                    cell(job.box.width),
+                    name_of(job.box.y),
+                    cell(job.small_share),
+                    status_of(row)};
   append(cells, measured_cells(row));
   append(cells, effort_cells(row));
   append(cells, {cell(job.box.length), name_of(job.box.x), cell(job.accuracy),

@@ -6,11 +6,12 @@
 #include "engine/dynamics/presets.hpp"
 #include "engine/packing.hpp"
 #include "engine/units.hpp"
+#include "tests/support/keep_going.hpp"
 
 namespace grainsweep {
 namespace {
 
-const KeepGoing always = [](const Progress&) { return true; };
+using testing::always;
 
 PackingSpec small_spec(std::uint64_t key = 1) {
   PackingSpec spec;

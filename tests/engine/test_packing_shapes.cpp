@@ -12,7 +12,8 @@
 namespace grainsweep {
 namespace {
 
-const Kernels& kernels() { return kernels_for(best_isa()); }
+using testing::kernels;
+
 Packing pack(const PackingSpec& spec) {
   return make_packing(spec, kernels(), [](const Progress&) { return true; });
 }

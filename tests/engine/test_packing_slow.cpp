@@ -9,12 +9,13 @@
 #include "engine/dynamics/presets.hpp"
 #include "engine/packing.hpp"
 #include "tests/support/instruction_sets.hpp"
+#include "tests/support/keep_going.hpp"
 #include "tests/support/part_loops.hpp"
 
 namespace grainsweep {
 namespace {
 
-const KeepGoing always = [](const Progress&) { return true; };
+using testing::always;
 
 PackingSpec bed_spec(double length, double width, Boundary y, const char* accuracy) {
   PackingSpec spec;

@@ -1,6 +1,6 @@
-#include <cstdio>
 
 #include "engine/dynamics/presets.hpp"
+#include "engine/text.hpp"
 #include "tests/extremes/accuracy_names.hpp"
 #include "tests/extremes/catalogue.hpp"
 #include "tests/extremes/packed.hpp"
@@ -8,12 +8,6 @@
 namespace grainsweep::extremes {
 
 namespace {
-
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%g", value);
-  return text;
-}
 
 std::string name_of(Precision precision) { return precision == Precision::f32 ? "f32" : "f64"; }
 
@@ -34,14 +28,14 @@ Scene changed(const std::string& extreme, Precision precision, Change change) {
 
 void add_steps(std::vector<Scene>& scenes) {
   for (const double step : {1e-4, 1e-3, 1e-2, 0.05, 0.1, 0.3, 0.4, 0.5, 0.8, 1.0, 1.5, 2.0}) {
-    scenes.push_back(
-        changed("step " + number(step), Precision::f64, [=](Accuracy& a) { a.step = step; }));
-    scenes.push_back(
-        changed("step " + number(step) + ", plain dynamics", Precision::f32, [=](Accuracy& a) {
-          a.step = step;
-          a.protocol = Protocol::dynamic;
-          a.max_steps = 1500;
-        }));
+    scenes.push_back(changed("step " + number_text(step, 6), Precision::f64,
+                             [=](Accuracy& a) { a.step = step; }));
+    scenes.push_back(changed("step " + number_text(step, 6) + ", plain dynamics", Precision::f32,
+                             [=](Accuracy& a) {
+                               a.step = step;
+                               a.protocol = Protocol::dynamic;
+                               a.max_steps = 1500;
+                             }));
   }
 }
 
@@ -77,7 +71,7 @@ void add_solvers(std::vector<Scene>& scenes) {
       {Solver::nonsmooth_nonlinear_conjugate, "nncg"}};
   for (const auto& [solver, name] : solvers) {
     for (const double step : {0.01, 0.2, 0.4}) {
-      scenes.push_back(changed(std::string(name) + ", step " + number(step), Precision::f32,
+      scenes.push_back(changed(std::string(name) + ", step " + number_text(step, 6), Precision::f32,
                                [=, method = solver](Accuracy& a) {
                                  a.solver = method;
                                  a.step = step;

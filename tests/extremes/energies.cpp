@@ -11,8 +11,8 @@ namespace grainsweep::extremes {
 
 namespace {
 
-constexpr int steps = 400;
-constexpr double residual = 1e-9;  // m g
+constexpr int steps_watched = 400;
+constexpr double solved_to = 1e-9;  // m g
 
 /// Mean energy of a grain, m g d: height and motion.
 double energy_of(const SphereBed& bed, double dt) {
@@ -38,9 +38,9 @@ Finding fall(double dt, double momentum) {
   settings.dt = dt;
   settings.momentum = momentum;
   settings.near = near_of(dt);
-  settings.limits = {Solver::accelerated_projected_gradient, 100'000, residual};
+  settings.limits = {Solver::accelerated_projected_gradient, 100'000, solved_to};
   double before = energy_of(bed, dt), rise = 0.0, worst_residual = 0.0;
-  for (int k = 0; k < steps; ++k) {
+  for (int k = 0; k < steps_watched; ++k) {
     worst_residual = std::max(worst_residual,
                               step(settings, kernels_for(best_isa()), bed, state).solve.residual);
     const double after = energy_of(bed, dt);
@@ -49,8 +49,8 @@ Finding fall(double dt, double momentum) {
   }
   Finding finding;
   finding.finite = is_finite(bed);
-  if (worst_residual > residual) finding.unrest = "a step is solved to more than 1e-9 m g";
-  finding.answers = {{"rise of the mean energy in a step, m g d", rise, 10.0 * residual,
+  if (worst_residual > solved_to) finding.unrest = "a step is solved to more than 1e-9 m g";
+  finding.answers = {{"rise of the mean energy in a step, m g d", rise, 10.0 * solved_to,
                       "ten contacts a grain at most, each solved to 1e-9 m g"}};
   return finding;
 }

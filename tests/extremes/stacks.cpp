@@ -9,7 +9,7 @@ namespace grainsweep::extremes {
 namespace {
 
 constexpr double residual = 1e-9;  // m g
-constexpr int steps = 5;
+constexpr int steps_taken = 5;
 
 StepSettings settings_of_stack() {
   StepSettings settings;
@@ -61,7 +61,8 @@ Finding stand(const ConvexShape& shape, int grains) {
   ShapeStepState<double> state;
   const StepSettings settings = settings_of_stack();
   StepReport report;
-  for (int k = 0; k < steps; ++k) report = step(settings, kernels_for(best_isa()), bed, state);
+  for (int k = 0; k < steps_taken; ++k)
+    report = step(settings, kernels_for(best_isa()), bed, state);
   const auto number = static_cast<double>(grains);
   Finding finding;
   if (report.solve.residual > residual)
@@ -70,7 +71,7 @@ Finding stand(const ConvexShape& shape, int grains) {
       {"force under any grain over the weight", force_error(bed, state, settings.dt),
        4.0 * 2.0 * number * residual, "four rows a face, each with a residual, added up"},
       {"motion of any grain, d", place_error(begin, bed),
-       steps * 4.0 * 2.0 * number * residual * settings.dt * settings.dt + 1e-12 * number,
+       steps_taken * 4.0 * 2.0 * number * residual * settings.dt * settings.dt + 1e-12 * number,
        "residuals added up, and roundings of heights"}};
   for (const Record<double>& c : bed.centre)
     finding.finite = finding.finite && std::isfinite(c.x + c.y + c.z);

@@ -112,7 +112,7 @@ void add_overlaps(std::vector<Scene>& scenes) {
   }
 }
 
-void add_balances(std::vector<Scene>& scenes) {
+void add_balanced_starts(std::vector<Scene>& scenes) {
   for (const NamedAccuracy& at : {at_preset("balanced"), at_preset("accurate"), tight()}) {
     const Box cube{4, 4, testing::periodic, testing::periodic};
     Spheres lattice;
@@ -128,7 +128,7 @@ void add_balances(std::vector<Scene>& scenes) {
   }
 }
 
-void add_places(std::vector<Scene>& scenes) {
+void add_starts_in_places(std::vector<Scene>& scenes) {
   const Box room{4, 4, testing::walls, testing::walls},
       pipe{10000, 4, testing::periodic, testing::walls};
   for (const char* name : {"fast", "balanced", "accurate"}) {
@@ -160,8 +160,8 @@ void add_places(std::vector<Scene>& scenes) {
 std::vector<Scene> starts() {
   std::vector<Scene> scenes;
   add_overlaps(scenes);
-  add_balances(scenes);
-  add_places(scenes);
+  add_balanced_starts(scenes);
+  add_starts_in_places(scenes);
   return scenes;
 }
 

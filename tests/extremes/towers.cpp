@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
+#include "engine/text.hpp"
 #include "tests/extremes/accuracy_names.hpp"
 #include "tests/extremes/catalogue.hpp"
 #include "tests/extremes/judge.hpp"
@@ -65,12 +65,6 @@ Finding settle_tower(const std::vector<double>& masses, const Accuracy& accuracy
   return finding_of(settled, answers(settled, masses));
 }
 
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%g", value);
-  return text;
-}
-
 Scene tower(int grains, const NamedAccuracy& at, Outcome expected) {
   const std::vector<double> masses(static_cast<std::size_t>(grains), 1.0);
   return {"towers",
@@ -83,8 +77,8 @@ Scene tower(int grains, const NamedAccuracy& at, Outcome expected) {
 
 Scene two_masses(double below, double above, const NamedAccuracy& at, Outcome expected) {
   return {"masses",
-          number(above) + " on " + number(below),
-          "masses " + number(std::max(below, above) / std::min(below, above)) + " to 1",
+          number_text(above, 6) + " on " + number_text(below, 6),
+          "masses " + number_text(std::max(below, above) / std::min(below, above), 6) + " to 1",
           at.name,
           expected,
           [=] {

@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include "kernels/kernels.hpp"
+#include "tests/kernels/row_grains.hpp"
 #include "tests/support/bits.hpp"
 #include "tests/support/draw.hpp"
 #include "tests/support/instruction_sets.hpp"
@@ -15,8 +16,6 @@ namespace {
 
 using testing::Draw;
 using testing::same_bits;
-
-constexpr std::int32_t grains = 100, wall = grains, void_a = grains + 1, void_b = grains + 2;
 
 template <class Real>
 struct LeverProblem {
@@ -63,7 +62,7 @@ void set_lane(LeverProblem<Real>& problem, std::size_t lane, bool used, bool of_
 /// A block of pairs or of contacts with the wall: no grain twice, the last lanes often void.
 template <class Real>
 void add_block(LeverProblem<Real>& problem, bool of_wall, Draw& draw) {
-  std::vector<std::int32_t> names(grains);
+  std::vector<std::int32_t> names(row_grains);
   std::iota(names.begin(), names.end(), 0);
   draw.shuffle(names);
   problem.blocks.emplace_back();
@@ -92,7 +91,7 @@ std::vector<Record<Real>> random_records(bool with_masses, Draw& draw) {
     return draw.chance(0.1) ? Real(0) : static_cast<Real>(draw.uniform(-0.1, 0.1));
   };
   std::vector<Record<Real>> records;
-  for (std::int32_t i = 0; i < 2 * grains; ++i) {
+  for (std::int32_t i = 0; i < 2 * row_grains; ++i) {
     const Real x = component(), y = component(), z = component();
     const double mass = i % 2 == 0 ? draw.uniform(0.5, 2) : 1;
     records.push_back({x, y, z, with_masses ? static_cast<Real>(mass) : Real(0)});
@@ -105,7 +104,7 @@ std::vector<Record<Real>> random_records(bool with_masses, Draw& draw) {
 }
 
 template <class Real>
-LeverProblem<Real> random_problem(std::size_t blocks, std::uint64_t seed) {
+LeverProblem<Real> random_lever_problem(std::size_t blocks, std::uint64_t seed) {
   Draw draw(seed);
   LeverProblem<Real> problem;
   problem.u = random_records<Real>(true, draw);
@@ -117,12 +116,12 @@ LeverProblem<Real> random_problem(std::size_t blocks, std::uint64_t seed) {
 /// Calls compare(kernels of one instruction set, problem, copy of the problem) for problems of
 /// many sizes, on every instruction set that can run here.
 template <class Real, class Compare>
-void on_random_problems(Compare compare) {
+void on_random_lever_problems(Compare compare) {
   for (const Isa isa : testing::testable_isas()) {
     for (const std::size_t blocks : {0U, 1U, 2U, 7U, 30U}) {
       for (std::uint64_t seed = 0; seed < 5; ++seed) {
         INFO(name_of(isa) << ", " << blocks << " blocks, seed " << seed);
-        LeverProblem<Real> problem = random_problem<Real>(blocks, 100 * blocks + seed);
+        LeverProblem<Real> problem = random_lever_problem<Real>(blocks, 100 * blocks + seed);
         LeverProblem<Real> twin = problem;
         compare(lever_kernels<Real>(kernels_for(isa)), problem, twin);
         REQUIRE(same_bits(problem.p, twin.p));
@@ -137,7 +136,7 @@ void on_random_problems(Compare compare) {
 TEMPLATE_TEST_CASE("a gradient sweep over levers gives the bits of its plain-loop twin", "", float,
                    double) {
   const auto bound = static_cast<TestType>(1 / 4.3), momentum = static_cast<TestType>(0.7);
-  on_random_problems<TestType>([&](const auto& kernels, auto& problem, auto& twin) {
+  on_random_lever_problems<TestType>([&](const auto& kernels, auto& problem, auto& twin) {
     const auto sums = kernels.gradient_sweep(problem.rows(), problem.blocks.size(),
                                              problem.u.data(), problem.pushes.data(),
                                              problem.p.data(), problem.y.data(), bound, momentum);
@@ -152,7 +151,7 @@ TEMPLATE_TEST_CASE("a gradient sweep over levers gives the bits of its plain-loo
 TEMPLATE_TEST_CASE("a Gauss-Seidel sweep over levers gives the bits of its twin both ways", "",
                    float, double) {
   for (const bool backward : {false, true}) {
-    on_random_problems<TestType>([&](const auto& kernels, auto& problem, auto& twin) {
+    on_random_lever_problems<TestType>([&](const auto& kernels, auto& problem, auto& twin) {
       const auto sums = kernels.gauss_seidel_sweep(problem.rows(), problem.blocks.size(),
                                                    problem.u.data(), problem.p.data(), backward);
       const auto expected = testing::lever_gauss_seidel_twin(
@@ -163,7 +162,7 @@ TEMPLATE_TEST_CASE("a Gauss-Seidel sweep over levers gives the bits of its twin 
 }
 
 TEMPLATE_TEST_CASE("pushes over levers have the bits of their plain-loop twin", "", float, double) {
-  on_random_problems<TestType>([](const auto& kernels, auto& problem, auto& twin) {
+  on_random_lever_problems<TestType>([](const auto& kernels, auto& problem, auto& twin) {
     kernels.add_pushes(problem.rows(), problem.blocks.size(), problem.p.data(),
                        problem.pushes.data());
     testing::lever_pushes_twin(twin.rows(), twin.blocks.size(), twin.p.data(), twin.pushes.data());
@@ -172,7 +171,7 @@ TEMPLATE_TEST_CASE("pushes over levers have the bits of their plain-loop twin", 
 
 TEMPLATE_TEST_CASE("the residual over levers has the bits of its plain-loop twin", "", float,
                    double) {
-  on_random_problems<TestType>([](const auto& kernels, auto& problem, auto& twin) {
+  on_random_lever_problems<TestType>([](const auto& kernels, auto& problem, auto& twin) {
     const auto residual = kernels.residual(problem.rows(), problem.blocks.size(), problem.u.data(),
                                            problem.p.data(), TestType(0.7));
     REQUIRE(same_bits(residual,

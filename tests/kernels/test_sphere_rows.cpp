@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 
 #include "kernels/kernels.hpp"
+#include "tests/kernels/row_grains.hpp"
 #include "tests/support/bits.hpp"
 #include "tests/support/draw.hpp"
 #include "tests/support/instruction_sets.hpp"
@@ -16,8 +17,6 @@ namespace {
 
 using testing::Draw;
 using testing::same_bits;
-
-constexpr std::int32_t grains = 150, wall = grains, void_a = grains + 1, void_b = grains + 2;
 
 template <class Real>
 struct RowProblem {
@@ -49,7 +48,7 @@ void set_row(RowBlock<Real>& block, std::size_t lane, std::int32_t a, std::int32
 /// A block of pairs or of contacts with the wall: no grain twice, the last lanes often void.
 template <class Real>
 RowBlock<Real> random_block(bool of_wall, Draw& draw) {
-  std::vector<std::int32_t> names(grains);
+  std::vector<std::int32_t> names(row_grains);
   std::iota(names.begin(), names.end(), 0);
   draw.shuffle(names);
   const std::size_t used = draw.chance(0.5) ? block_width : draw.below(block_width + 1);
@@ -72,7 +71,7 @@ std::vector<Record<Real>> random_motion(Draw& draw) {
                                               : draw.uniform(-0.1, 0.1));
   };
   std::vector<Record<Real>> motion;
-  for (std::int32_t i = 0; i < grains; ++i) {
+  for (std::int32_t i = 0; i < row_grains; ++i) {
     const Real x = component(), y = component(), z = component();
     motion.push_back({x, y, z, static_cast<Real>(draw.uniform(0.1, 125.0))});
   }
@@ -81,7 +80,7 @@ std::vector<Record<Real>> random_motion(Draw& draw) {
 }
 
 template <class Real>
-RowProblem<Real> random_problem(std::size_t blocks, std::uint64_t seed) {
+RowProblem<Real> random_row_problem(std::size_t blocks, std::uint64_t seed) {
   Draw draw(seed);
   RowProblem<Real> problem{{}, random_motion<Real>(draw), random_motion<Real>(draw), {}, {}};
   for (Record<Real>& push : problem.pushes) {  // sums that began at +0: never -0
@@ -101,12 +100,12 @@ RowProblem<Real> random_problem(std::size_t blocks, std::uint64_t seed) {
 /// Calls compare(kernels of one instruction set, problem, copy of the problem) for problems of
 /// many sizes, on every instruction set that can run here.
 template <class Real, class Compare>
-void on_random_problems(Compare compare) {
+void on_random_row_problems(Compare compare) {
   for (const Isa isa : testing::testable_isas()) {
     for (const std::size_t blocks : {0U, 1U, 2U, 7U, 40U}) {
       for (std::uint64_t seed = 0; seed < 5; ++seed) {
         INFO(name_of(isa) << ", " << blocks << " blocks, seed " << seed);
-        RowProblem<Real> problem = random_problem<Real>(blocks, 100 * blocks + seed);
+        RowProblem<Real> problem = random_row_problem<Real>(blocks, 100 * blocks + seed);
         RowProblem<Real> twin = problem;
         compare(row_kernels<Real>(kernels_for(isa)), problem, twin);
         REQUIRE(same_bits(problem.p, twin.p));
@@ -120,7 +119,7 @@ void on_random_problems(Compare compare) {
 
 TEMPLATE_TEST_CASE("a gradient sweep gives the bits of its plain-loop twin", "", float, double) {
   const auto bound = static_cast<TestType>(1 / 3.95), momentum = static_cast<TestType>(0.7);
-  on_random_problems<TestType>([&](const auto& kernels, auto& problem, auto& twin) {
+  on_random_row_problems<TestType>([&](const auto& kernels, auto& problem, auto& twin) {
     const auto sums = kernels.gradient_sweep(problem.rows.data(), problem.rows.size(),
                                              problem.u.data(), problem.pushes.data(),
                                              problem.p.data(), problem.y.data(), bound, momentum);
@@ -135,7 +134,7 @@ TEMPLATE_TEST_CASE("a gradient sweep gives the bits of its plain-loop twin", "",
 TEMPLATE_TEST_CASE("a Gauss-Seidel sweep gives the bits of its plain-loop twin in both directions",
                    "", float, double) {
   for (const bool backward : {false, true}) {
-    on_random_problems<TestType>([&](const auto& kernels, auto& problem, auto& twin) {
+    on_random_row_problems<TestType>([&](const auto& kernels, auto& problem, auto& twin) {
       const auto sums = kernels.gauss_seidel_sweep(problem.rows.data(), problem.rows.size(),
                                                    problem.u.data(), problem.p.data(), backward);
       const auto expected = testing::gauss_seidel_twin(twin.rows.data(), twin.rows.size(),
@@ -147,7 +146,7 @@ TEMPLATE_TEST_CASE("a Gauss-Seidel sweep gives the bits of its plain-loop twin i
 }
 
 TEMPLATE_TEST_CASE("added pushes have the bits of their plain-loop twin", "", float, double) {
-  on_random_problems<TestType>([](const auto& kernels, auto& problem, auto& twin) {
+  on_random_row_problems<TestType>([](const auto& kernels, auto& problem, auto& twin) {
     kernels.add_pushes(problem.rows.data(), problem.rows.size(), problem.p.data(),
                        problem.pushes.data());
     testing::add_pushes_twin(twin.rows.data(), twin.rows.size(), twin.p.data(), twin.pushes.data());
@@ -156,7 +155,7 @@ TEMPLATE_TEST_CASE("added pushes have the bits of their plain-loop twin", "", fl
 
 TEMPLATE_TEST_CASE("pushes become motions with the bits of their plain-loop twin", "", float,
                    double) {
-  on_random_problems<TestType>([](const auto& kernels, auto& problem, auto& twin) {
+  on_random_row_problems<TestType>([](const auto& kernels, auto& problem, auto& twin) {
     const auto free = problem.u;
     kernels.take_pushes(free.data(), free.size(), problem.pushes.data(), problem.u.data());
     testing::take_pushes_twin(free.data(), free.size(), twin.pushes.data(), twin.u.data());
@@ -175,7 +174,7 @@ TEMPLATE_TEST_CASE("pushes are divided by the masses and are gone then", "", flo
 }
 
 TEMPLATE_TEST_CASE("the residual has the bits of its plain-loop twin", "", float, double) {
-  on_random_problems<TestType>([](const auto& kernels, auto& problem, auto& twin) {
+  on_random_row_problems<TestType>([](const auto& kernels, auto& problem, auto& twin) {
     const auto residual = kernels.residual(problem.rows.data(), problem.rows.size(),
                                            problem.u.data(), problem.p.data(), TestType(0.7));
     REQUIRE(
@@ -187,7 +186,7 @@ TEMPLATE_TEST_CASE("the residual has the bits of its plain-loop twin", "", float
 /// Positions in and slightly beyond a box of 7 x 5, some of them exactly half a period apart.
 std::vector<Record<double>> random_positions(Draw& draw) {
   std::vector<Record<double>> positions;
-  for (std::int32_t i = 0; i < grains; ++i) {
+  for (std::int32_t i = 0; i < row_grains; ++i) {
     const double x =
         draw.chance(0.3) ? 3.5 * static_cast<double>(draw.below(3)) : draw.uniform(-1.0, 8.0);
     const double y = draw.uniform(-1.0, 6.0), z = draw.uniform(0.0, 3.0);
@@ -203,7 +202,7 @@ TEMPLATE_TEST_CASE("normals and gaps have the bits of their plain-loop twin", ""
   for (const double period_x : {0.0, 7.0}) {
     for (const double period_y : {0.0, 5.0}) {
       for (const double correction : {0.1, 1.0}) {
-        on_random_problems<TestType>([&](const auto& kernels, auto& problem, auto& twin) {
+        on_random_row_problems<TestType>([&](const auto& kernels, auto& problem, auto& twin) {
           const double sunk = kernels.sphere_gaps(problem.rows.data(), problem.rows.size(),
                                                   positions.data(), period_x, period_y, correction);
           REQUIRE(sunk == testing::sphere_gaps_twin(twin.rows.data(), twin.rows.size(),
@@ -220,7 +219,7 @@ TEMPLATE_TEST_CASE("normals and gaps have the bits of their plain-loop twin", ""
 template <class Real>
 RowProblem<Real> one_row(Real gap, Real reduced_mass = Real(0.5)) {
   RowProblem<Real> problem{std::vector<RowBlock<Real>>(1),
-                           std::vector<Record<Real>>(grains + 3, Record<Real>{0, 0, 0, 1}),
+                           std::vector<Record<Real>>(row_grains + 3, Record<Real>{0, 0, 0, 1}),
                            {},
                            std::vector<Real>(block_width, 0),
                            {}};
@@ -281,7 +280,7 @@ TEMPLATE_TEST_CASE("a contact that opens loses its impulse", "", float, double) 
 
 TEMPLATE_TEST_CASE("an overlap is repaired by the share asked for, a gap is left as it is", "",
                    float, double) {
-  std::vector<Record<double>> positions(grains + 3, Record<double>{0, 0, -1e9, 0});
+  std::vector<Record<double>> positions(row_grains + 3, Record<double>{0, 0, -1e9, 0});
   positions[void_b].z = -2e9;
   positions[0] = {6.75, 0, 0, 0.5};
   positions[1] = {0.5, 0, 0, 0.5};  // .75 apart across the border of a period of 7
@@ -302,7 +301,7 @@ TEMPLATE_TEST_CASE("an overlap is repaired by the share asked for, a gap is left
 
 TEMPLATE_TEST_CASE("grains whose centres coincide are given a normal to part along", "", float,
                    double) {
-  std::vector<Record<double>> positions(grains + 3, Record<double>{0, 0, -1e9, 0});
+  std::vector<Record<double>> positions(row_grains + 3, Record<double>{0, 0, -1e9, 0});
   positions[void_b].z = -2e9;
   positions[0] = positions[1] = {2, 3, 4, 0.5};
   for (const Isa isa : testing::testable_isas()) {

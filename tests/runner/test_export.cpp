@@ -12,7 +12,7 @@
 namespace grainsweep {
 namespace {
 
-StoredBed sample_bed() {
+StoredBed exported_bed() {
   StoredBed bed;
   bed.box = {20.0, 5.5, Boundary::periodic, Boundary::walls};
   bed.grains = {{0.1, 1.0 / 3.0, 0.5, 0.5, 2.75, 6}, {19.25, 5.0, 1.5, 0.25, 1e-300, 0}};
@@ -20,7 +20,7 @@ StoredBed sample_bed() {
 }
 
 /// One tetrahedron at twice its size, a quarter turn about z: x becomes y.
-StoredBed turned_bed() {
+StoredBed exported_turned_bed() {
   StoredBed bed;
   bed.box = {20.0, 5.5, Boundary::periodic, Boundary::walls};
   bed.grains = {{5, 2, 1, 1.0, 2.75, 6}, {6, 2, 1, 0.5, 0.5, 0}};
@@ -42,14 +42,14 @@ std::vector<double> vtp_array(const std::string& text, const std::string& name) 
 }
 
 TEST_CASE("CSV holds a row per grain that reads back exactly") {
-  CHECK(grains_csv(sample_bed()) ==
+  CHECK(grains_csv(exported_bed()) ==
         "x,y,z,radius,force,coordination\n"
         "0.1,0.3333333333333333,0.5,0.5,2.75,6\n"
         "19.25,5,1.5,0.25,1e-300,0\n");
 }
 
 TEST_CASE("extended XYZ holds count, box, periodic axes and a line per grain") {
-  CHECK(grains_xyz(sample_bed()) ==
+  CHECK(grains_xyz(exported_bed()) ==
         "2\n"
         "Lattice=\"20 0 0 0 5.5 0 0 0 1.75\" "
         "Properties=species:S:1:pos:R:3:radius:R:1:coordination:I:1:force:R:1 pbc=\"T F F\"\n"
@@ -58,7 +58,7 @@ TEST_CASE("extended XYZ holds count, box, periodic axes and a line per grain") {
 }
 
 TEST_CASE("grains that are turned have their quaternion in CSV and extended XYZ") {
-  StoredBed bed = turned_bed();
+  StoredBed bed = exported_turned_bed();
   bed.turned->orientations = {{0, 0.6, 0, 0.8}, {0, 0, 0, 1}};
   CHECK(grains_csv(bed) ==
         "x,y,z,radius,force,coordination,qx,qy,qz,qw\n"
@@ -69,20 +69,21 @@ TEST_CASE("grains that are turned have their quaternion in CSV and extended XYZ"
 }
 
 TEST_CASE("the box of turned grains is as high as their highest vertex") {
-  CHECK_THAT(grains_xyz(turned_bed()), Catch::Contains("Lattice=\"20 0 0 0 5.5 0 0 0 3\""));
+  CHECK_THAT(grains_xyz(exported_turned_bed()),
+             Catch::Contains("Lattice=\"20 0 0 0 5.5 0 0 0 3\""));
 }
 
 TEST_CASE("a bed that is written as CSV can be read as the grains of another packing") {
-  const GrainsReading reading = parse_grains(grains_csv(turned_bed()), "bed.csv");
+  const GrainsReading reading = parse_grains(grains_csv(exported_turned_bed()), "bed.csv");
   REQUIRE(reading.errors.empty());
   REQUIRE(reading.grains.size() == 2);
   CHECK(reading.grains[0].radius == 1.0);
-  CHECK(reading.orientations == turned_bed().turned->orientations);
-  CHECK(parse_grains(grains_csv(sample_bed()), "bed.csv").orientations.empty());
+  CHECK(reading.orientations == exported_turned_bed().turned->orientations);
+  CHECK(parse_grains(grains_csv(exported_bed()), "bed.csv").orientations.empty());
 }
 
 TEST_CASE("VTP holds the faces of grains that are turned, where they are") {
-  const std::string text = grains_vtp(turned_bed());
+  const std::string text = grains_vtp(exported_turned_bed());
   CHECK_THAT(text, Catch::Contains("NumberOfPoints=\"8\" NumberOfVerts=\"0\"") &&
                        Catch::Contains("NumberOfPolys=\"8\"") &&
                        Catch::Contains("<CellData Scalars=\"size\">"));
@@ -104,7 +105,7 @@ TEST_CASE("VTP holds the faces of grains that are turned, where they are") {
 }
 
 TEST_CASE("VTP arrays read back as the grains") {
-  const std::string text = grains_vtp(sample_bed());
+  const std::string text = grains_vtp(exported_bed());
   CHECK_THAT(text, Catch::Contains("NumberOfPoints=\"2\"") && Catch::EndsWith("</VTKFile>\n"));
   CHECK(vtp_array(text, "Points") == std::vector<double>{0.1, 1.0 / 3.0, 0.5, 19.25, 5.0, 1.5});
   CHECK(vtp_array(text, "radius") == std::vector<double>{0.5, 0.25});
@@ -115,7 +116,7 @@ TEST_CASE("VTP arrays read back as the grains") {
 }
 
 TEST_CASE("every opened element of a VTP file is closed, innermost first") {
-  const std::string text = GENERATE(grains_vtp(sample_bed()), grains_vtp(turned_bed()));
+  const std::string text = GENERATE(grains_vtp(exported_bed()), grains_vtp(exported_turned_bed()));
   const std::regex element("<(/?)([A-Za-z]+)[^>]*>");
   std::vector<std::string> open;
   for (std::sregex_iterator tag(text.begin(), text.end(), element), end; tag != end; ++tag) {
@@ -135,7 +136,7 @@ TEST_CASE("formats are called by the ending of their files") {
     CHECK(export_format(name_of(format)) == format);
   }
   CHECK_FALSE(export_format("VTP"));
-  CHECK(grains_text(sample_bed(), ExportFormat::vtp) == grains_vtp(sample_bed()));
+  CHECK(grains_text(exported_bed(), ExportFormat::vtp) == grains_vtp(exported_bed()));
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ std::vector<Row> sample_rows() {
   return rows;
 }
 
-Provenance sample_provenance() {
+Provenance reported_provenance() {
   Provenance provenance;
   provenance.sweep_file = "a.json";
   provenance.sweep.name = "a";
@@ -31,7 +31,7 @@ Provenance sample_provenance() {
 }
 
 TEST_CASE("the closing report as a whole") {
-  CHECK(closing_report(sample_provenance(), sample_rows(), "out/a") ==
+  CHECK(closing_report(reported_provenance(), sample_rows(), "out/a") ==
         "a: 8 packings, 7 settled; left out of means and fits: 1 did not settle\n"
         "\n"
         "MSP\n"
@@ -66,7 +66,7 @@ TEST_CASE("the closing report as a whole") {
 TEST_CASE("a report of a stopped run says how to go on") {
   std::vector<Row> rows = sample_rows();
   rows[0].outcome.reset();
-  const std::string text = closing_report(sample_provenance(), rows, "out/a");
+  const std::string text = closing_report(reported_provenance(), rows, "out/a");
   CHECK_THAT(text, Catch::Contains("1 did not settle, 1 not made yet"));
   CHECK_THAT(text,
              Catch::Contains("Next: grainsweep run a.json --out out/a makes what is missing"));
@@ -74,7 +74,7 @@ TEST_CASE("a report of a stopped run says how to go on") {
 
 TEST_CASE("a report of too few widths says why there is no fit") {
   const std::string text =
-      closing_report(sample_provenance(), {settled_row("a", 5, 0.6, 6)}, "out/a");
+      closing_report(reported_provenance(), {settled_row("a", 5, 0.6, 6)}, "out/a");
   CHECK_THAT(text, Catch::Contains("φ_bulk - C/W:  not determined: needs settled packings at 3"));
 }
 
@@ -84,7 +84,7 @@ TEST_CASE("only the first reasons are listed") {
     rows.push_back(row_with_status(std::string("u").append(std::to_string(i)), 5,
                                    PackingStatus::failed, "no room"));
   }
-  const std::string text = closing_report(sample_provenance(), rows, "out/a");
+  const std::string text = closing_report(reported_provenance(), rows, "out/a");
   CHECK_THAT(text, Catch::Contains("u4 (MSP") && !Catch::Contains("u5 (MSP"));
   CHECK_THAT(text, Catch::Contains("and 4 more, see packings.csv"));
 }

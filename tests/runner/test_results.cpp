@@ -12,7 +12,7 @@
 namespace grainsweep {
 namespace {
 
-Provenance sample_provenance() {
+Provenance stored_provenance() {
   Provenance provenance;
   provenance.sweep_file = "a.json";
   provenance.sweep = {"a", {sample_job("a1", 5), sample_job("a2", 6)}};
@@ -32,7 +32,7 @@ TEST_CASE("tables and journals are enough to know a folder's results") {
   Journal journal(folder.path());
   journal.append(sample_outcome("a2", 0.6, 6));
   journal.append(sample_outcome("other", 0.6, 6));
-  write_tables(folder.path(), sample_provenance(), {});
+  write_tables(folder.path(), stored_provenance(), {});
   const Results results = read_results(folder.path());
   REQUIRE(results.rows.size() == 2);
   CHECK(status_of(results.rows[0]) == "pending");
@@ -50,7 +50,7 @@ TEST_CASE("an overview counts what the whole results hold") {
   failed.version = "0.0.9";
   journal.append(failed);
   journal.append(sample_outcome("other", 0.6, 6));
-  Provenance provenance = sample_provenance();
+  Provenance provenance = stored_provenance();
   provenance.sweep.jobs.push_back(sample_job("a3", 7));
   write_tables(folder.path(), provenance, {});
   journal.append(sample_outcome("a2", 0.6, 6));
@@ -119,7 +119,7 @@ std::vector<Row> stored_rows(const TemporaryFolder& folder) {
 TEST_CASE("tables of curves are made of what is stored with the grains") {
   const TemporaryFolder folder;
   const std::vector<Row> rows = stored_rows(folder);
-  write_tables(folder.path(), sample_provenance(), rows);
+  write_tables(folder.path(), stored_provenance(), rows);
   const std::string start = "1,MSP,5,walls,0,";
   CHECK_THAT(read_file(folder.path() + "/profiles.csv"),
              Catch::Contains("\n" + start + "y,0,0.1,2,2,") &&
@@ -133,13 +133,13 @@ TEST_CASE("damaged curves are named, and never left out of a table in silence") 
   const TemporaryFolder folder;
   std::vector<Row> rows = stored_rows(folder);
   damage_curves(folder.path(), "a2");
-  CHECK_THROWS_WITH(write_tables(folder.path(), sample_provenance(), rows),
+  CHECK_THROWS_WITH(write_tables(folder.path(), stored_provenance(), rows),
                     Catch::Contains("/states/a2.grains: missing, damaged or of another version; "
                                     "run the sweep again"));
   CHECK(load_curves(folder.path(), rows).size() == 1);
   CHECK(rows[0].outcome->result.profile_y.bins.size() == 2);
   CHECK(status_of(rows[1]) == "pending");
-  write_tables(folder.path(), sample_provenance(), rows);
+  write_tables(folder.path(), stored_provenance(), rows);
   CHECK_THAT(read_file(folder.path() + "/profiles.csv"), Catch::Contains(",y,0,0.1,1,1,"));
 }
 
@@ -175,7 +175,7 @@ TEST_CASE("removing results leaves other files alone") {
   Journal(folder.path()).append(sample_outcome("a1", 0.6, 6));
   write_bed(folder.path(), "a1", {});
   CheckpointFiles(folder.path(), "a1", "1.0").write({});
-  write_tables(folder.path(), sample_provenance(), {});
+  write_tables(folder.path(), stored_provenance(), {});
   replace_file(folder.path() + "/notes.txt", "mine");
   replace_file(folder.path() + "/states/notes.txt", "mine");
   remove_results(folder.path());

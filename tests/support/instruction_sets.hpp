@@ -7,6 +7,7 @@
 #include <catch2/catch.hpp>
 
 #include "kernels/isa.hpp"
+#include "kernels/kernels.hpp"
 
 namespace grainsweep::testing {
 
@@ -23,5 +24,8 @@ inline std::vector<Isa> testable_isas() {
   }
   return testable;
 }
+
+/// Those of the widest instruction set that runs here.
+inline const Kernels& kernels() { return kernels_for(best_isa()); }
 
 }  // namespace grainsweep::testing

@@ -8,16 +8,14 @@ namespace grainsweep::testing {
 
 namespace {
 
-using Point = PlacedSphere;
-
 /// The points of `cell`, in units of `edge`, repeated nx by ny by nz times; the lowest touch the
 /// floor.
-SphereBed lattice_bed(const std::vector<Point>& cell, double edge, int nx, int ny, int nz) {
+SphereBed lattice_bed(const std::vector<PlacedSphere>& cell, double edge, int nx, int ny, int nz) {
   std::vector<PlacedSphere> spheres;
   for (int k = 0; k < nz; ++k) {
     for (int j = 0; j < ny; ++j) {
       for (int i = 0; i < nx; ++i) {
-        for (const Point& p : cell) {
+        for (const PlacedSphere& p : cell) {
           spheres.push_back({(i + p.x) * edge, (j + p.y) * edge, (k + p.z) * edge + 0.5, 0.5});
         }
       }

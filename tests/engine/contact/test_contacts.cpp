@@ -8,6 +8,7 @@
 #include "engine/contact/contacts.hpp"
 #include "tests/support/brute_force.hpp"
 #include "tests/support/draw.hpp"
+#include "tests/support/instruction_sets.hpp"
 #include "tests/support/named_contacts.hpp"
 #include "tests/support/scenes.hpp"
 
@@ -16,13 +17,12 @@ namespace {
 
 using testing::Draw;
 using testing::impulses_of;
+using testing::kernels;
 using testing::periodic;
 using testing::visit_named;
 using testing::walls;
 
 using Name = testing::ContactName;
-
-const Kernels& kernels() { return kernels_for(best_isa()); }
 
 std::set<Name> names_of(const SphereBed& bed, const Candidates& candidates) {
   std::set<Name> names = testing::listed_pairs(candidates);
@@ -65,9 +65,9 @@ void expect_right_layout(const SphereBed& bed, const Candidates& candidates,
   CHECK(laid_out == names_of(bed, candidates));
 }
 
-Candidates search(SphereBed& bed, double reach) {
+Candidates candidates_within(double distance, SphereBed& bed) {
   Candidates candidates;
-  find_candidates(bed, reach, kernels(), candidates);
+  find_candidates(bed, distance, kernels(), candidates);
   return candidates;
 }
 
@@ -80,7 +80,7 @@ TEMPLATE_TEST_CASE("every candidate is laid out once, and lanes of a block share
   for (const std::size_t grains : {0U, 1U, 2U, 17U, 60U, 250U}) {
     INFO(grains << " grains");
     SphereBed bed = dense_bed(grains, grains);
-    const Candidates candidates = search(bed, 0.3);
+    const Candidates candidates = candidates_within(0.3, bed);
     Contacts<TestType> contacts;
     lay_out(bed, candidates, contacts);
     expect_right_layout(bed, candidates, contacts);
@@ -89,7 +89,7 @@ TEMPLATE_TEST_CASE("every candidate is laid out once, and lanes of a block share
 
 TEST_CASE("blocks of a dense bed are nearly full") {
   SphereBed bed = testing::fcc_bed(4, 4, 6);
-  const Candidates candidates = search(bed, 0.05);
+  const Candidates candidates = candidates_within(0.05, bed);
   Contacts<float> contacts;
   lay_out(bed, candidates, contacts);
   const auto lanes = static_cast<double>(contacts.pair_blocks * block_width);
@@ -104,7 +104,7 @@ TEMPLATE_TEST_CASE("a grain may have more contacts than there are open blocks", 
     spheres.push_back({10 + 2.1 * n.x, 10 + 2.1 * n.y, 10 + 2.1 * n.z, 0.1});
   }
   SphereBed bed = make_bed({20, 20, periodic, walls}, spheres);
-  const Candidates candidates = search(bed, 0.01);
+  const Candidates candidates = candidates_within(0.01, bed);
   Contacts<TestType> contacts;
   lay_out(bed, candidates, contacts);
   CHECK(contacts.pair_blocks >= 300);
@@ -121,7 +121,7 @@ TEMPLATE_TEST_CASE("contacts keep their impulse in a new list, others start with
                    double) {
   SphereBed bed = dense_bed(120, 5);
   Contacts<TestType> contacts;
-  const Candidates before = search(bed, 0.2);
+  const Candidates before = candidates_within(0.2, bed);
   lay_out(bed, before, contacts);
   visit_named(bed, contacts, [&](const Name& name, std::size_t block, std::size_t lane) {
     contacts.impulse[block * block_width + lane] = impulse_named<TestType>(name);
@@ -131,7 +131,7 @@ TEMPLATE_TEST_CASE("contacts keep their impulse in a new list, others start with
     bed.position[i].x += draw.uniform(-0.2, 0.2);
     bed.position[i].z += draw.uniform(-0.2, 0.2);
   }
-  const Candidates after = search(bed, 0.2);
+  const Candidates after = candidates_within(0.2, bed);
   lay_out(bed, after, contacts);
   expect_right_layout(bed, after, contacts);
   const std::set<Name> old_names = names_of(bed, before);
@@ -148,7 +148,7 @@ TEMPLATE_TEST_CASE("contacts keep their impulse in a new list, others start with
 TEMPLATE_TEST_CASE("a grain in a corner keeps the impulse of each of its walls", "", float,
                    double) {
   SphereBed bed = make_bed({4, 4, walls, walls}, {{0.5, 0.5, 0.5, 0.5}, {3.5, 3.5, 0.5, 0.5}});
-  const Candidates candidates = search(bed, 0.1);
+  const Candidates candidates = candidates_within(0.1, bed);
   Contacts<TestType> contacts;
   lay_out(bed, candidates, contacts);
   visit_named(bed, contacts, [&](const Name& name, std::size_t block, std::size_t lane) {
@@ -165,7 +165,7 @@ TEMPLATE_TEST_CASE("a grain in a corner keeps the impulse of each of its walls",
 TEMPLATE_TEST_CASE("rows have the gap and the unit normal of their contact", "", float, double) {
   const double rounding = std::is_same_v<TestType, float> ? 1e-6 : 1e-14;
   SphereBed bed = testing::random_bed({{4, 3, periodic, walls}, 100, 0.2, 0.5, 4, 9});
-  const Candidates candidates = search(bed, 0.3);
+  const Candidates candidates = candidates_within(0.3, bed);
   Contacts<TestType> contacts;
   lay_out(bed, candidates, contacts);
   detect(bed, kernels(), 1.0, contacts);
@@ -196,7 +196,7 @@ TEMPLATE_TEST_CASE("rows have the gap and the unit normal of their contact", "",
 TEMPLATE_TEST_CASE("a step repairs the share of an overlap that it is told to", "", float, double) {
   SphereBed bed =
       make_bed({4, 4, periodic, walls}, {{2, 2, 0.25, 0.5}, {2, 2, 1, 0.5}, {2, 2, 2.0625, 0.5}});
-  const Candidates candidates = search(bed, 0.5);
+  const Candidates candidates = candidates_within(0.5, bed);
   Contacts<TestType> contacts;
   lay_out(bed, candidates, contacts);
   detect(bed, kernels(), 0.5, contacts);
@@ -211,7 +211,7 @@ TEMPLATE_TEST_CASE("a step repairs the share of an overlap that it is told to", 
 
 TEMPLATE_TEST_CASE("unused lanes have a positive gap and cannot push", "", float, double) {
   SphereBed bed = make_bed({4, 4, walls, walls}, {{0.5, 0.5, 0.5, 0.5}, {1.5, 0.5, 0.5, 0.5}});
-  const Candidates candidates = search(bed, 0.1);
+  const Candidates candidates = candidates_within(0.1, bed);
   Contacts<TestType> contacts;
   lay_out(bed, candidates, contacts);
   detect(bed, kernels(), 1.0, contacts);
@@ -229,7 +229,7 @@ TEMPLATE_TEST_CASE("unused lanes have a positive gap and cannot push", "", float
 
 TEST_CASE("rows are visited without the unused ones, each with its impulse") {
   SphereBed bed = make_bed({4, 4, walls, walls}, {{0.5, 0.5, 0.5, 0.5}, {1.5, 0.5, 0.5, 0.5}});
-  const Candidates candidates = search(bed, 0.1);
+  const Candidates candidates = candidates_within(0.1, bed);
   Contacts<double> contacts;
   lay_out(bed, candidates, contacts);
   std::fill(contacts.impulse.begin(), contacts.impulse.end(), 0.25);

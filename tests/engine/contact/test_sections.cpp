@@ -12,7 +12,7 @@
 namespace grainsweep {
 namespace {
 
-const Kernels& kernels() { return kernels_for(best_isa()); }
+using testing::kernels;
 
 /// A bed of `grains` about as dense as a packing that falls.
 SphereBed tall_bed(std::size_t grains, Boundary y) {

@@ -13,10 +13,10 @@
 namespace grainsweep {
 namespace {
 
+using testing::kernels;
 using testing::periodic;
 using testing::walls;
 
-const Kernels& kernels() { return kernels_for(best_isa()); }
 constexpr ShapeSearchSettings usual{{0.05, 1e-3}, 0.05};
 
 /// Number of points of each contact.

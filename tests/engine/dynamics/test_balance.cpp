@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "engine/dynamics/balance.hpp"
+#include "tests/support/instruction_sets.hpp"
 #include "tests/support/named_contacts.hpp"
 #include "tests/support/scenes.hpp"
 
@@ -10,13 +11,12 @@ namespace grainsweep {
 namespace {
 
 using testing::ContactName;
+using testing::kernels;
 using testing::periodic;
 using testing::wall_name;
 using testing::walls;
 
-const Kernels& kernels() { return kernels_for(best_isa()); }
-
-constexpr double dt = 0.5;
+constexpr double step_time = 0.5;
 constexpr double rounding = 1e-12;  // a few hundred roundings of numbers near 1
 
 /// Balance of a bed in which the named contacts push; how hard they push must not matter.
@@ -25,7 +25,7 @@ ForceBalance balance_of(SphereBed bed, const std::vector<ContactName>& pushing) 
   for (const ContactName& name : pushing) {
     testing::set_impulses(bed, {{name, 0.3}}, contacts);
   }
-  return balance_forces(bed, kernels(), dt, contacts);
+  return balance_forces(bed, kernels(), step_time, contacts);
 }
 
 TEST_CASE("the contacts of a column carry it in one way, the uppermost one grain's weight") {

@@ -5,6 +5,7 @@
 
 #include "engine/dynamics/rest.hpp"
 #include "engine/dynamics/step.hpp"
+#include "tests/support/instruction_sets.hpp"
 #include "tests/support/named_contacts.hpp"
 #include "tests/support/scenes.hpp"
 
@@ -12,11 +13,10 @@ namespace grainsweep {
 namespace {
 
 using testing::ContactName;
+using testing::kernels;
 using testing::periodic;
 using testing::wall_name;
 using testing::walls;
-
-const Kernels& kernels() { return kernels_for(best_isa()); }
 
 constexpr double dt = 0.5;
 constexpr double one_weight = dt * dt;  // impulse of a force of 1 m g

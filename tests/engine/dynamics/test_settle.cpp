@@ -8,15 +8,15 @@
 #include "engine/scene/start.hpp"
 #include "engine/units.hpp"
 #include "tests/support/brute_force.hpp"
+#include "tests/support/keep_going.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace grainsweep {
 namespace {
 
+using testing::always;
 using testing::periodic;
 using testing::walls;
-
-const KeepGoing always = [](const Progress&) { return true; };
 
 SettleReport settle_bed(SphereBed& bed, const Accuracy& accuracy = {}) {
   return settle(accuracy, kernels_for(best_isa()), bed, always);

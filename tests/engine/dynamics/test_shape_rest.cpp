@@ -7,11 +7,10 @@
 namespace grainsweep {
 namespace {
 
+using testing::kernels;
 using testing::periodic;
 using testing::pose_at;
 using testing::walls;
-
-const Kernels& kernels() { return kernels_for(best_isa()); }
 
 TEST_CASE("a lone grain on the floor has three constraints and is isostatic") {
   ShapeBed bed = make_shape_bed({6, 6, periodic, walls}, testing::cube(), {pose_at(3, 3, 0.5)});

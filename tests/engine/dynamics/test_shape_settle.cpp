@@ -4,19 +4,19 @@
 #include "engine/scene/shape_start.hpp"
 #include "engine/shape/pinacoid.hpp"
 #include "tests/support/instruction_sets.hpp"
+#include "tests/support/keep_going.hpp"
 #include "tests/support/shape_beds.hpp"
 
 namespace grainsweep {
 namespace {
 
+using testing::always;
+using testing::kernels;
 using testing::periodic;
 using testing::pose_at;
 using testing::walls;
 
-const Kernels& kernels() { return kernels_for(best_isa()); }
-bool always(const Progress&) { return true; }
-
-PackingSpec small_spec(std::uint64_t key = 1) {
+PackingSpec small_pinacoids(std::uint64_t key = 1) {
   PackingSpec spec;
   spec.box = {6, 5, periodic, walls};
   spec.fill = SolidHeight{5};
@@ -28,7 +28,7 @@ PackingSpec small_spec(std::uint64_t key = 1) {
 TEST_CASE("a bed of pinacoids settles within every tolerance of its accuracy", "[slow]") {
   for (const std::uint64_t key : {1U, 2U, 3U}) {
     INFO("key " << key);
-    const PackingSpec spec = small_spec(key);
+    const PackingSpec spec = small_pinacoids(key);
     auto bed = start_shapes(spec);
     REQUIRE(bed);
     const SettleReport report = settle(spec.accuracy, kernels(), *bed, always);
@@ -43,7 +43,7 @@ TEST_CASE("a bed of pinacoids settles within every tolerance of its accuracy", "
 }
 
 TEST_CASE("a bed of hulls, which have no closed form, settles too", "[slow]") {
-  PackingSpec spec = small_spec();
+  PackingSpec spec = small_pinacoids();
   spec.shape = testing::asked_for(pinacoid({1, 1, 0.7, 1.2}).vertices);
   auto bed = start_shapes(spec);
   REQUIRE(bed);
@@ -68,7 +68,7 @@ TEST_CASE("forces of a settled stack are those on its grains and between them") 
 
 TEST_CASE(
     "settling of shapes stops when it is asked to, and says what is missing at the last step") {
-  const PackingSpec spec = small_spec();
+  const PackingSpec spec = small_pinacoids();
   auto bed = start_shapes(spec);
   REQUIRE(bed);
   const SettleReport stopped = settle(spec.accuracy, kernels(), *bed,

@@ -7,6 +7,7 @@
 #include "tests/support/bits.hpp"
 #include "tests/support/dense_solver.hpp"
 #include "tests/support/draw.hpp"
+#include "tests/support/instruction_sets.hpp"
 #include "tests/support/named_contacts.hpp"
 #include "tests/support/scenes.hpp"
 
@@ -16,10 +17,9 @@ namespace {
 using testing::DenseProblem;
 using testing::DenseSolution;
 using testing::Draw;
+using testing::kernels;
 using testing::periodic;
 using testing::walls;
-
-const Kernels& kernels() { return kernels_for(best_isa()); }
 
 constexpr Solver solvers[] = {Solver::projected_gauss_seidel, Solver::symmetric_gauss_seidel,
                               Solver::nonsmooth_nonlinear_conjugate,

@@ -15,10 +15,9 @@ namespace grainsweep {
 namespace {
 
 using testing::ContactName;
+using testing::kernels;
 using testing::periodic;
 using testing::walls;
-
-const Kernels& kernels() { return kernels_for(best_isa()); }
 
 /// Steps that repair overlaps whole and are solved to 1e-9 m g.
 StepSettings tight_steps(double momentum) {

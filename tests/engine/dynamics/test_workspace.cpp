@@ -4,11 +4,12 @@
 #include "engine/dynamics/workspace.hpp"
 #include "engine/packing.hpp"
 #include "tests/support/instruction_sets.hpp"
+#include "tests/support/keep_going.hpp"
 
 namespace grainsweep {
 namespace {
 
-const KeepGoing always = [](const Progress&) { return true; };
+using testing::always;
 
 PackingSpec small_bed(std::int64_t grains, double width, Precision precision) {
   PackingSpec spec;

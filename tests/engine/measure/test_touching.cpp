@@ -7,17 +7,17 @@
 #include "engine/contact/candidates.hpp"
 #include "engine/measure/touching.hpp"
 #include "tests/support/brute_force.hpp"
+#include "tests/support/instruction_sets.hpp"
 #include "tests/support/scenes.hpp"
 #include "tests/support/shapes.hpp"
 
 namespace grainsweep {
 namespace {
 
+using testing::kernels;
 using testing::NamedPair;
 using testing::periodic;
 using testing::walls;
-
-const Kernels& kernels() { return kernels_for(best_isa()); }
 
 TEST_CASE("the touching pairs are those a search over all pairs finds, with their gaps") {
   for (const double tolerance : {1e-5, 1e-3, 0.05}) {

@@ -186,14 +186,14 @@ TEST_CASE("points on the faces and edges of a hull add nothing to it") {
 
 TEST_CASE("points that span no hull are refused with the reason") {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  const double infinite = std::numeric_limits<double>::infinity();
+  const double far_off = std::numeric_limits<double>::infinity();
   CHECK(says(refusal({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}), "at least 4 vertices, has 3"));
   CHECK(says(refusal({}), "has 0"));
   CHECK(says(refusal({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0.3, 0.2, 0}}), "on a plane"));
   CHECK(says(refusal({{0, 0, 0}, {1, 1, 1}, {2, 2, 2}, {4, 4, 4}}), "on a line"));
   CHECK(says(refusal({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, nan}}),
              "vertex 4 (0, 0, nan) must have finite coordinates"));
-  CHECK(says(refusal({{0, infinite, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}), "vertex 1 (0, inf, 0)"));
+  CHECK(says(refusal({{0, far_off, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}), "vertex 1 (0, inf, 0)"));
   CHECK(says(refusal({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 0}}),
              "vertex 5 (1, 0, 0) is there twice, also as vertex 2"));
   std::vector<Vector> dented = testing::cube().vertices;

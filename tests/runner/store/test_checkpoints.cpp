@@ -9,14 +9,14 @@
 namespace grainsweep {
 namespace {
 
-const std::string job = "00c0ffee00c0ffee";
+const std::string job_id = "00c0ffee00c0ffee";
 
 CheckpointFiles files_in_folder(const TemporaryFolder& folder, const std::string& build = "1.0") {
-  return {folder.path(), job, build};
+  return {folder.path(), job_id, build};
 }
 
 std::string path_of(const TemporaryFolder& folder, int slot) {
-  return folder.path() + "/checkpoints/" + job + "." + std::to_string(slot);
+  return folder.path() + "/checkpoints/" + job_id + "." + std::to_string(slot);
 }
 
 /// Overwrites a file with other bytes.
@@ -28,10 +28,10 @@ void damage(const std::string& path) {
 
 TEST_CASE("a checkpoint reads back byte by byte") {
   const NumberedCheckpoint written{
-      7, job, "1.0-abcd", {12345, 0.1 + 0.2, std::string("a\0b\n\xff", 5)}};
+      7, job_id, "1.0-abcd", {12345, 0.1 + 0.2, std::string("a\0b\n\xff", 5)}};
   const auto back = checkpoint_from_bytes(checkpoint_bytes(written)).value();
   CHECK(back.number == 7);
-  CHECK(back.job == job);
+  CHECK(back.job == job_id);
   CHECK(back.build == "1.0-abcd");
   CHECK(back.checkpoint.step == 12345);
   CHECK(back.checkpoint.cpu_seconds == 0.1 + 0.2);
@@ -40,7 +40,7 @@ TEST_CASE("a checkpoint reads back byte by byte") {
 }
 
 TEST_CASE("a cut or changed checkpoint is none") {
-  const std::string bytes = checkpoint_bytes({7, job, "1.0", {3, 1.5, "the state of a bed"}});
+  const std::string bytes = checkpoint_bytes({7, job_id, "1.0", {3, 1.5, "the state of a bed"}});
   for (std::size_t kept = 0; kept < bytes.size(); ++kept) {
     CHECK_FALSE(checkpoint_from_bytes(bytes.substr(0, kept)));
   }

@@ -6,7 +6,7 @@
 namespace grainsweep {
 namespace {
 
-std::vector<std::string> errors_in(const std::string& text) {
+std::vector<std::string> errors_of_grains(const std::string& text) {
   std::vector<std::string> errors;
   for (const Finding& finding : parse_grains(text, "b.csv").errors) {
     errors.push_back(to_string(finding));
@@ -50,10 +50,10 @@ TEST_CASE("orientations are read where the first line names their columns") {
 }
 
 TEST_CASE("columns of an orientation are there all or not at all, and hold numbers") {
-  CHECK(errors_in("x,y,z,r,qx,qy,qz\n1,2,3,1,0,0,0\n") ==
+  CHECK(errors_of_grains("x,y,z,r,qx,qy,qz\n1,2,3,1,0,0,0\n") ==
         Messages{"b.csv:1: the first line must name the columns x,y,z,r and all of qx,qy,qz,qw; "
                  "\"qw\" is missing or there twice in \"x,y,z,r,qx,qy,qz\""});
-  CHECK(errors_in("x,y,z,r,qx,qy,qz,qw\n1,2,3,1,0,0,0,one\n") ==
+  CHECK(errors_of_grains("x,y,z,r,qx,qy,qz,qw\n1,2,3,1,0,0,0,one\n") ==
         Messages{"b.csv:2: qw must be a finite number, is \"one\""});
 }
 
@@ -66,17 +66,17 @@ TEST_CASE("line ends of other systems, quotes and a byte order mark change no gr
 }
 
 TEST_CASE("a first line without the four columns is refused with what it holds") {
-  CHECK(errors_in("1,2,3,0.5\n") ==
+  CHECK(errors_of_grains("1,2,3,0.5\n") ==
         Messages{"b.csv:1: the first line must name the columns x,y,z,r; \"x\" is missing or there "
                  "twice in \"1,2,3,0.5\""});
-  CHECK(errors_in("x,y,z,r,radius\n1,2,3,4,5\n") ==
+  CHECK(errors_of_grains("x,y,z,r,radius\n1,2,3,4,5\n") ==
         Messages{"b.csv:1: the first line must name the columns x,y,z,r; \"r\" is missing or there "
                  "twice in \"x,y,z,r,radius\""});
-  CHECK(errors_in("x,y,z,r\n") == Messages{"b.csv:1: no grain follows the first line"});
+  CHECK(errors_of_grains("x,y,z,r\n") == Messages{"b.csv:1: no grain follows the first line"});
 }
 
 TEST_CASE("every bad line is named with what is wrong in it") {
-  const Messages errors = errors_in(
+  const Messages errors = errors_of_grains(
       "x,y,z,r\n"
       "1,2,3,0.5\n"
       "1,2,3\n"
@@ -104,7 +104,7 @@ TEST_CASE("every bad line is named with what is wrong in it") {
 TEST_CASE("a file of bad lines names twenty of them and says that there are more") {
   std::string text = "x,y,z,r\n";
   for (int i = 0; i < 1000; ++i) text += "a,b,c,d\n";
-  const Messages errors = errors_in(text);
+  const Messages errors = errors_of_grains(text);
   REQUIRE(errors.size() == 20);
   CHECK(errors.back() ==
         "b.csv:21: x must be a finite number, is \"a\" (further lines are not listed)");

@@ -6,7 +6,7 @@
 namespace grainsweep {
 namespace {
 
-std::vector<std::string> errors_in(const std::string& text) {
+std::vector<std::string> errors_of_obj(const std::string& text) {
   std::vector<std::string> errors;
   for (const Finding& finding : parse_obj(text, "rock.obj").errors) {
     errors.push_back(to_string(finding));
@@ -29,7 +29,7 @@ TEST_CASE("the vertices of an OBJ file are read past everything else in it") {
 }
 
 TEST_CASE("coordinates that are missing or no numbers are refused with their line") {
-  CHECK(errors_in("v 1 2\nv 1 2 3\nv 1 two 3\nv 1 2 nan\nv inf 0 0\nv\n") ==
+  CHECK(errors_of_obj("v 1 2\nv 1 2 3\nv 1 two 3\nv 1 2 nan\nv inf 0 0\nv\n") ==
         Messages{"rock.obj:1: a vertex needs three coordinates, has 2",
                  "rock.obj:3: y must be a finite number, is \"two\"",
                  "rock.obj:4: z must be a finite number, is \"nan\"",
@@ -39,14 +39,14 @@ TEST_CASE("coordinates that are missing or no numbers are refused with their lin
 
 TEST_CASE("an OBJ file without a vertex says so") {
   const Messages none{"rock.obj:1: no vertex in it; a shape needs at least 4 lines \"v x y z\""};
-  CHECK(errors_in("") == none);
-  CHECK(errors_in("f 1 2 3\nvn 0 0 1\n") == none);
+  CHECK(errors_of_obj("") == none);
+  CHECK(errors_of_obj("f 1 2 3\nvn 0 0 1\n") == none);
 }
 
 TEST_CASE("no more than twenty errors of an OBJ file are listed") {
   std::string text;
   for (int k = 0; k < 50; ++k) text += "v 0 0\n";
-  CHECK(errors_in(text).size() == 20);
+  CHECK(errors_of_obj(text).size() == 20);
 }
 
 TEST_CASE("an OBJ file that is missing is named") {

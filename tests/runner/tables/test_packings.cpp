@@ -13,7 +13,7 @@ Row with_two_tolerances(Row row) {
   return row;
 }
 
-const std::string header =
+const std::string whole_header =
     "job,label,replicate,seed,shape,grains,width,boundary_y,small_share,status,solid_fraction,"
     "coordination,coordination_with_walls,contacts,isostatic_contacts,overlap_mean,overlap_max,"
     "residual,kinetic_energy,steps,iterations,cpu_seconds,length,boundary_x,accuracy,"
@@ -24,15 +24,15 @@ const std::string header =
     "force_simple,force_double,force_triple,nematic_x,nematic_y,nematic_z\n";
 
 /// What spheres have in the columns of shapes.
-const std::string none = ",,,,,,,,,";
+const std::string no_shape = ",,,,,,,,,";
 
 TEST_CASE("a settled packing is written with every value") {
   CHECK(packings_csv({with_two_tolerances(settled_row("a1", 5, 0.6125, 5.75))}) ==
-        header +
+        whole_header +
             "a1,MSP,1,7,sphere,2000,5,walls,0,settled,0.6125,5.75,6,5990,5991,8e-05,3e-04,5e-04,"
             "1e-09,265,20000,0.75,20,periodic,balanced,1e-04,5.625,5.75,15.5,3,12.5,2e-05,"
             ",,,,0.98,0.99,0.03,0.4,0.1,,5.5,1.6,abcdef0123456789," +
-            none + "\n");
+            no_shape + "\n");
 }
 
 TEST_CASE("a direct solve of force balance stands beside the measured values") {
@@ -41,7 +41,7 @@ TEST_CASE("a direct solve of force balance stands beside the measured values") {
   CHECK_THAT(packings_csv({row}),
              Catch::EndsWith(
                  ",2e-05,yes,-0.25,0.5,0.125,0.98,0.99,0.03,0.4,0.1,,5.5,1.6,abcdef0123456789," +
-                 none + "\n"));
+                 no_shape + "\n"));
 }
 
 TEST_CASE("an unsettled packing keeps its values beside its status and reason") {
@@ -49,7 +49,7 @@ TEST_CASE("an unsettled packing keeps its values beside its status and reason") 
       with_two_tolerances(row_with_status("a1", 5, PackingStatus::not_settled, "moves, still"));
   const std::string text = packings_csv({row});
   CHECK_THAT(text, Catch::Contains(",not_settled,0.5,5,5.25,"));
-  CHECK_THAT(text, Catch::EndsWith(",\"moves, still\"" + none + "\n"));
+  CHECK_THAT(text, Catch::EndsWith(",\"moves, still\"" + no_shape + "\n"));
 }
 
 TEST_CASE("shapes have their order at the end of the row, pending ones nothing") {
@@ -58,7 +58,7 @@ TEST_CASE("shapes have their order at the end of the row, pending ones nothing")
                                       Catch::EndsWith(",abcdef0123456789,,0.5,0.25,0.25,0.25,0.25,"
                                                       "0.5,0.125,0.0625,0.75\n"));
   row.outcome.reset();
-  CHECK_THAT(packings_csv({row}), Catch::EndsWith("," + none + "\n"));
+  CHECK_THAT(packings_csv({row}), Catch::EndsWith("," + no_shape + "\n"));
 }
 
 TEST_CASE("failed and pending packings have no numbers where nothing was measured") {
@@ -68,13 +68,13 @@ TEST_CASE("failed and pending packings have no numbers where nothing was measure
       with_two_tolerances(row_with_status("a1", 5, PackingStatus::failed, "no room"));
   CHECK(
       packings_csv({failed, pending}) ==
-      header +
+      whole_header +
           "a1,MSP,1,7,sphere,2000,5,walls,0,failed,,,,,,,,,,265,20000,0.75,20,periodic,balanced,"
           "1e-04,,,,,,,,,,,,,,,,,,,,no room" +
-          none + "\n" +
+          no_shape + "\n" +
           "a2,MSP,1,7,sphere,,6,walls,0,pending,,,,,,,,,,,,,20,periodic,balanced,1e-04,,,,,,,,,,,,"
           ",,,,,,,," +
-          none + "\n");
+          no_shape + "\n");
 }
 
 TEST_CASE("every row has as many cells as the header, whatever tolerances its job has") {

@@ -1,0 +1,26 @@
+// Numbers and words put into the engine's messages.
+#pragma once
+
+#include <charconv>
+#include <sstream>
+#include <string>
+
+namespace grainsweep {
+
+/// `value` to so many significant digits, without zeros at its end.
+inline std::string number_text(double value, int digits = 3) {
+  char text[32];
+  const auto end =
+      std::to_chars(text, text + sizeof text, value, std::chars_format::general, digits);
+  return {text, end.ptr};
+}
+
+/// All parts, one after the other, as streams print them.
+template <class... Parts>
+std::string joined(const Parts&... parts) {
+  std::ostringstream text;
+  (text << ... << parts);
+  return text.str();
+}
+
+}  // namespace grainsweep
