@@ -1,12 +1,14 @@
 #!/usr/bin/env bash
 # clang-tidy finds nothing in engine, kernels and runner. usage: tidy.sh [ROOT [BUILD]]
-# BUILD holds compile_commands.json; ROOT/build/release if not given.
+# BUILD holds compile_commands.json; if not given, ROOT/build/tidy, configured to compile each source
+# alone: that none leans on the includes of another is checked by the way.
 set -euo pipefail
 cd "${1:-$(dirname "$0")/../..}"
-readonly build=${2:-build/release}
+readonly build=${2:-build/tidy}
 
+(($# > 1)) || cmake --preset release -B "$build" -DCMAKE_UNITY_BUILD=OFF --log-level=WARNING >/dev/null
 if [[ ! -f $build/compile_commands.json ]]; then
-  printf 'tidy: no %s/compile_commands.json; build first\n' "$build" >&2
+  printf 'tidy: no %s/compile_commands.json\n' "$build" >&2
   exit 1
 fi
 mapfile -d '' -t sources < <(find kernels engine runner -name '*.cpp' -print0 2>/dev/null | sort -z)
