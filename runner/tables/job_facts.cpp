@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/dynamics/presets.hpp"
+#include "runner/tables/csv.hpp"
 
 namespace grainsweep {
 namespace {
