@@ -5,7 +5,7 @@
 #include <limits>
 #include <optional>
 
-#include <Eigen/Cholesky>
+#include <Eigen/Dense>
 #include <unsupported/Eigen/LevenbergMarquardt>
 
 #include "engine/text.hpp"
@@ -15,7 +15,7 @@ namespace grainsweep {
 
 namespace {
 
-// Loops instead of expressions of Eigen, whose templates take longer to compile than all the rest.
+using Eigen::ArrayXd;
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -31,57 +31,44 @@ constexpr double largest_relative_error = 0.5;  // of the length
 /// positive. Distances are from the window's start.
 enum Entry : Index { bulk = 0, a = 1, b = 2, log_length = 3, log_period = 4 };
 
-double squared(double value) { return value * value; }
-
 /// Bins of the window: distance of their centres from its start, and solid fractions.
 struct Window {
-  std::vector<double> distance, value;
-
-  Index bins() const { return static_cast<Index>(value.size()); }
+  ArrayXd distance;
+  VectorXd value;
 };
 
-/// Damped cosine and sine at a distance.
-struct Wave {
-  double cosine, sine;
+struct Waves {
+  ArrayXd cosine, sine;  ///< damped
 };
 
-Wave wave_at(double distance, double length, double period) {
-  const double damping = std::exp(-distance / length), angle = 2.0 * pi / period * distance;
-  return {damping * std::cos(angle), damping * std::sin(angle)};
+Waves waves_of(const ArrayXd& distance, double length, double period) {
+  const ArrayXd damping = (-distance / length).exp(), angle = 2.0 * pi / period * distance;
+  return {damping * angle.cos(), damping * angle.sin()};
 }
 
-/// The curve less the window's values.
-VectorXd misses(const VectorXd& p, const Window& window) {
-  const double length = std::exp(p[log_length]), period = std::exp(p[log_period]);
-  VectorXd values(window.bins());
-  for (std::size_t k = 0; k < window.value.size(); ++k) {
-    const Wave w = wave_at(window.distance[k], length, period);
-    values[static_cast<Index>(k)] = p[bulk] + p[a] * w.cosine - p[b] * w.sine - window.value[k];
-  }
-  return values;
+VectorXd curve(const VectorXd& p, const ArrayXd& distance) {
+  const Waves w = waves_of(distance, std::exp(p[log_length]), std::exp(p[log_period]));
+  return (p[bulk] + p[a] * w.cosine - p[b] * w.sine).matrix();
 }
 
 /// Residuals and their derivatives, in the form the Levenberg-Marquardt method asks for.
 struct Residuals : Eigen::DenseFunctor<double> {
   explicit Residuals(const Window& bins)
-      : DenseFunctor(parameter_count, static_cast<int>(bins.bins())), window(bins) {}
+      : DenseFunctor(parameter_count, static_cast<int>(bins.value.size())), window(bins) {}
 
   int operator()(const VectorXd& p, VectorXd& residual) const {
-    residual = misses(p, window);
+    residual = curve(p, window.distance) - window.value;
     return 0;
   }
   int df(const VectorXd& p, MatrixXd& derivative) const {
     const double length = std::exp(p[log_length]), period = std::exp(p[log_period]);
-    for (Index k = 0; k < window.bins(); ++k) {
-      const double distance = window.distance[static_cast<std::size_t>(k)];
-      const Wave w = wave_at(distance, length, period);
-      derivative(k, bulk) = 1.0;
-      derivative(k, a) = w.cosine;
-      derivative(k, b) = -w.sine;
-      derivative(k, log_length) = (p[a] * w.cosine - p[b] * w.sine) * distance / length;
-      derivative(k, log_period) =
-          (p[a] * w.sine + p[b] * w.cosine) * distance * (2.0 * pi / period);
-    }
+    const Waves w = waves_of(window.distance, length, period);
+    const ArrayXd wave = p[a] * w.cosine - p[b] * w.sine, turned = p[a] * w.sine + p[b] * w.cosine;
+    derivative.col(bulk).setOnes();
+    derivative.col(a) = w.cosine.matrix();
+    derivative.col(b) = -w.sine.matrix();
+    derivative.col(log_length) = (wave * window.distance / length).matrix();
+    derivative.col(log_period) = (turned * window.distance * (2.0 * pi / period)).matrix();
     return 0;
   }
 
@@ -90,24 +77,19 @@ struct Residuals : Eigen::DenseFunctor<double> {
 
 /// The best bulk, a and b for a given length and period, by linear least squares.
 VectorXd best_linear(const Window& window, double length, double period) {
-  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d right = Eigen::Vector3d::Zero();
-  for (std::size_t k = 0; k < window.value.size(); ++k) {
-    const Wave w = wave_at(window.distance[k], length, period);
-    const Eigen::Vector3d row(1.0, w.cosine, -w.sine);
-    normal += row * row.transpose();
-    right += window.value[k] * row;
-  }
-  const Eigen::Vector3d best = normal.ldlt().solve(right);
+  const Waves w = waves_of(window.distance, length, period);
+  MatrixXd columns(window.value.size(), 3);
+  columns << VectorXd::Ones(window.value.size()), w.cosine.matrix(), -w.sine.matrix();
+  const MatrixXd normal = columns.transpose() * columns;
   VectorXd p(parameter_count);
-  for (const Entry linear : {bulk, a, b}) p[linear] = best[linear];
+  p.head(3) = normal.ldlt().solve(columns.transpose() * window.value);
   p[log_length] = std::log(length);
   p[log_period] = std::log(period);
   return p;
 }
 
 double squared_distance(const VectorXd& p, const Window& window) {
-  return misses(p, window).squaredNorm();
+  return (curve(p, window.distance) - window.value).squaredNorm();
 }
 
 /// The best point of a grid that spans what layers of grains of .1 d to 1 d can do.
@@ -144,7 +126,7 @@ std::optional<VectorXd> minimum_near(VectorXd start, const Window& window) {
 /// Mean of the profiles over the window; `left_out` is the profile to leave out, or none.
 Window mean_window(const std::vector<std::vector<double>>& profiles, double bin_width,
                    double window_end, std::size_t left_out) {
-  Window window;
+  std::vector<double> distances, values;
   for (std::size_t k = 0; k < profiles.front().size(); ++k) {
     const double y = (static_cast<double>(k) + 0.5) * bin_width;
     if (y < decay_window_start || y > window_end) continue;
@@ -153,10 +135,11 @@ Window mean_window(const std::vector<std::vector<double>>& profiles, double bin_
       sum += i == left_out ? 0.0 : profiles[i][k];
       count += i == left_out ? 0.0 : 1.0;
     }
-    window.distance.push_back(y - decay_window_start);
-    window.value.push_back(sum / count);
+    distances.push_back(y - decay_window_start);
+    values.push_back(sum / count);
   }
-  return window;
+  const auto bins = static_cast<Index>(values.size());
+  return {Eigen::Map<ArrayXd>(distances.data(), bins), Eigen::Map<VectorXd>(values.data(), bins)};
 }
 
 /// Mean square of the standard error of the mean profile, over the window.
@@ -167,20 +150,14 @@ double mean_squared_error(const std::vector<std::vector<double>>& profiles, doub
   for (const auto& profile : profiles) {
     const Window one =
         mean_window({profile}, bin_width, window_end, std::numeric_limits<std::size_t>::max());
-    for (std::size_t k = 0; k < mean.value.size(); ++k) {
-      squares += squared(one.value[k] - mean.value[k]);
-    }
+    squares += (one.value - mean.value).squaredNorm();
   }
   return squares / (n * (n - 1.0)) / static_cast<double>(mean.value.size());
 }
 
-/// Sum of the squared deviations from the mean.
-double sum_of_squares(const std::vector<double>& values) {
-  double sum = 0.0, squares = 0.0;
-  for (const double value : values) sum += value;
-  for (const double value : values)
-    squares += squared(value - sum / static_cast<double>(values.size()));
-  return squares;
+VectorXd deviations(const VectorXd& values) {
+  if (values.size() == 0) return values;
+  return (values.array() - values.mean()).matrix();
 }
 
 /// What a user reads: amplitude and phase at the wall, length, period and reach in d.
@@ -189,35 +166,27 @@ VectorXd readable(const VectorXd& p) {
   const double amplitude = std::hypot(p[a], p[b]) * std::exp(decay_window_start / length);
   const double reach = length * std::log(amplitude / (decay_reach_share * p[bulk]));
   VectorXd values(parameter_count + 1);
-  values[0] = p[bulk];
-  values[1] = amplitude;
-  values[2] =
-      std::remainder(std::atan2(p[b], p[a]) - 2.0 * pi * decay_window_start / period, 2.0 * pi);
-  values[3] = length;
-  values[4] = period;
-  values[5] = std::max(0.0, reach);
+  values << p[bulk], amplitude,
+      std::remainder(std::atan2(p[b], p[a]) - 2.0 * pi * decay_window_start / period, 2.0 * pi),
+      length, period, std::max(0.0, reach);
   return values;
 }
 
 /// Jackknife errors from the values of the fits without each profile.
 VectorXd jackknife_errors(const std::vector<VectorXd>& values) {
   const auto n = static_cast<double>(values.size());
-  VectorXd errors(values.front().size());
-  for (Index k = 0; k < errors.size(); ++k) {
-    double mean = 0.0, squares = 0.0;
-    for (const VectorXd& value : values) mean += value[k] / n;
-    for (const VectorXd& value : values) squares += squared(value[k] - mean);
-    errors[k] = std::sqrt((n - 1.0) / n * squares);
-  }
-  return errors;
+  VectorXd mean = VectorXd::Zero(values.front().size()), squares = mean;
+  for (const VectorXd& value : values) mean += value / n;
+  for (const VectorXd& value : values) squares += (value - mean).cwiseAbs2();
+  return ((n - 1.0) / n * squares).cwiseSqrt();
 }
 
 /// Why the window cannot hold a fit; empty if it can.
-std::string fault_of_window(const Window& window, double variation, double bin_width,
+std::string fault_of_window(const Window& window, const VectorXd& centred, double bin_width,
                             double window_end) {
   constexpr double rounding = 1e-12;  // of sums of volumes
-  if (window.bins() >= least_bins) {
-    return std::sqrt(variation) > rounding ? "" : "the solid fraction is the same in all bins";
+  if (window.value.size() >= least_bins) {
+    return centred.norm() > rounding ? "" : "the solid fraction is the same in all bins";
   }
   return "the window from " + number_text(decay_window_start) + " d to " + number_text(window_end) +
          " d holds " + std::to_string(window.value.size()) + " bins of " + number_text(bin_width) +
@@ -301,9 +270,9 @@ DecayFit fit_decay(const std::vector<std::vector<double>>& profiles, double bin_
   fit.window_end = window_end;
   const Window window =
       mean_window(profiles, bin_width, window_end, std::numeric_limits<std::size_t>::max());
-  fit.bins = static_cast<int>(window.bins());
-  const double variation = sum_of_squares(window.value);
-  const std::string fault = fault_of_window(window, variation, bin_width, window_end);
+  fit.bins = static_cast<int>(window.value.size());
+  const VectorXd centred = deviations(window.value);
+  const std::string fault = fault_of_window(window, centred, bin_width, window_end);
   if (!fault.empty()) return not_determined(fit, fault);
   const auto whole = minimum_near(best_of_grid(window), window);
   const PartialFits parts =
@@ -311,7 +280,7 @@ DecayFit fit_decay(const std::vector<std::vector<double>>& profiles, double bin_
   if (parts.read.empty()) return not_determined(fit, "the fit does not converge");
   take_values(readable(*whole), jackknife_errors(parts.read), fit);
   const double squares = squared_distance(*whole, window);
-  fit.r_squared = 1.0 - squares / variation;
+  fit.r_squared = 1.0 - squares / centred.squaredNorm();
   fit.misfit =
       std::sqrt(squares / fit.bins / mean_squared_error(profiles, bin_width, window_end, window));
   const std::string doubt = fault_of_curve(fit, significance_of(*whole, parts));
