@@ -60,6 +60,21 @@ inline Points<Real> load_points(const LeverPoints<Real>& points, std::size_t lan
           load(points.gap + lane)};
 }
 
+/// Both records of the grains on one side of a batch of contacts: displacements, then turns. Number
+/// types for which the instruction set can do better have functions of these names of their own.
+template <class Real>
+using Side = TwoRecords<Components<Real>>;
+
+template <class Real>
+inline Side<Real> load_both(const Record<Real>* u, const std::uint32_t* offset) {
+  return {load_records(u, offset), load_records(u + 1, offset)};
+}
+template <class Real>
+inline void add_both(Record<Real>* base, const std::uint32_t* offset, const Side<Real>& side) {
+  add_records(base, offset, side.first);
+  add_records(base + 1, offset, side.second);
+}
+
 /// What the points of a contact share of their grains' motion.
 template <class Real>
 struct Motion {
@@ -68,14 +83,10 @@ struct Motion {
 };
 
 template <class Real>
-inline Vec<Real> load_turns(const Record<Real>* u, const std::uint32_t* offset) {
-  const Components<Real> turn = load_records(u + 1, offset);
-  return {turn.x, turn.y, turn.z};
-}
-template <class Real>
-inline Motion<Real> load_motion(const Contacts<Real>& c, const Record<Real>* u) {
-  const Components<Real> v = load_differences(u, c.a, c.b);
-  return {dot(c.normal, {v.x, v.y, v.z}), load_turns(u, c.a), load_turns(u, c.b)};
+inline Motion<Real> motion_of(const Vec<Real>& normal, const Side<Real>& a, const Side<Real>& b) {
+  return {dot(normal, {b.first.x - a.first.x, b.first.y - a.first.y, b.first.z - a.first.z}),
+          {a.second.x, a.second.y, a.second.z},
+          {b.second.x, b.second.y, b.second.z}};
 }
 
 /// The gap after the motion.
@@ -87,28 +98,25 @@ inline Batch<Real> gap_after(const Points<Real>& r, const Motion<Real>& m) {
 /// What the points of a contact add up to.
 template <class Real>
 struct Push {
-  Batch<Real> normal = Batch<Real>(Real(0)), size = Batch<Real>(Real(0));
+  Batch<Real> normal = Batch<Real>(Real(0));
   Vec<Real> turn_a{normal, normal, normal}, turn_b{normal, normal, normal};
 
   void add_point(const Points<Real>& r, const Batch<Real>& p) {
     normal += p;
-    size += xsimd::abs(p);
     add(p, r.lever_a, turn_a);
     add(p, r.lever_b, turn_b);
   }
-  bool is_zero() const { return !xsimd::any(size != Batch<Real>(Real(0))); }
 };
 
 template <class Real>
 inline void store_push(const Contacts<Real>& c, const Push<Real>& push, Record<Real>* pushes) {
-  if (push.is_zero()) return;
-  const Batch<Real> zero(Real(0));
-  push_records(
-      pushes, c.a, c.b,
-      {push.normal * c.normal.x, push.normal * c.normal.y, push.normal * c.normal.z, zero});
-  add_records(pushes + 1, c.a,
-              {zero - push.turn_a.x, zero - push.turn_a.y, zero - push.turn_a.z, zero});
-  add_records(pushes + 1, c.b, {push.turn_b.x, push.turn_b.y, push.turn_b.z, zero});
+  const Batch<Real> zero(Real(0)), x = push.normal * c.normal.x, y = push.normal * c.normal.y,
+                                   z = push.normal * c.normal.z;
+  const Vec<Real>&a = push.turn_a, &b = push.turn_b;
+  add_both(
+      pushes, c.a,
+      Side<Real>{{zero - x, zero - y, zero - z, zero}, {zero - a.x, zero - a.y, zero - a.z, zero}});
+  add_both(pushes, c.b, Side<Real>{{x, y, z, zero}, {b.x, b.y, b.z, zero}});
 }
 
 /// Calls visit(contacts, block, lane, k) for every hardware batch k of every block.
@@ -130,8 +138,9 @@ SweepSums<Real> gradient_sweep(LeverRows<Real> rows, std::size_t blocks, const R
   LaneSums<Real> residual(Real(0)), uphill(Real(0));
   const Batch<Real> zero(Real(0)), bound(inverse_bound), carry(momentum);
   visit_contacts(rows, blocks, false, [&](const auto& c, const auto& block, auto lane, auto k) {
-    const Motion<Real> m = load_motion(c, u);
+    const Motion<Real> m = motion_of(c.normal, load_both(u, c.a), load_both(u, c.b));
     Push<Real> push;
+    Batch<Real> worst = residual.part[k], rising = uphill.part[k];
     for (std::size_t i = block.first; i < block.first + block.points; ++i) {
       const LeverPoints<Real>& points = rows.points[i];
       const Points<Real> r = load_points(points, lane);
@@ -141,57 +150,42 @@ SweepSums<Real> gradient_sweep(LeverRows<Real> rows, std::size_t blocks, const R
       const Batch<Real> p_new = xsimd::max(zero, y_old - w * step);
       const Batch<Real> change = p_new - p_old, y_new = p_new + carry * change;
       const Batch<Real> missed = natural_residual(y_old, w * load(points.reduced_mass + lane));
-      residual.part[k] = xsimd::max(residual.part[k], missed);
-      uphill.part[k] += (y_old - p_new) * change;
+      worst = xsimd::max(worst, missed);
+      rising += (y_old - p_new) * change;
       p_new.store_unaligned(p + at);
       y_new.store_unaligned(y + at);
       push.add_point(r, y_new);
     }
+    residual.part[k] = worst;
+    uphill.part[k] = rising;
     store_push(c, push, pushes);
   });
   return {residual.max(), uphill.sum()};
 }
 
-/// Records of the grains on one side of a batch of contacts.
-template <class Real>
-struct Side {
-  Components<Real> v, turn;
-};
-
-template <class Real>
-inline Side<Real> load_side(const Record<Real>* u, const std::uint32_t* offset) {
-  return {load_records(u, offset), load_records(u + 1, offset)};
-}
 template <class Real>
 inline void store_side(Record<Real>* u, const std::uint32_t* offset, const Side<Real>& side) {
-  store_records(u, offset, side.v);
-  store_records(u + 1, offset, side.turn);
+  store_records(u, offset, side.first);
+  store_records(u + 1, offset, side.second);
 }
 /// An impulse p along the normal, of either sign.
 template <class Real>
 inline void push_side(const Batch<Real>& p, const Vec<Real>& normal, const Vec<Real>& lever,
                       Side<Real>& side) {
-  side.v.x += side.v.w * (p * normal.x);
-  side.v.y += side.v.w * (p * normal.y);
-  side.v.z += side.v.w * (p * normal.z);
-  side.turn.x += side.turn.w * (p * lever.x);
-  side.turn.y += side.turn.w * (p * lever.y);
-  side.turn.z += side.turn.w * (p * lever.z);
+  side.first.x += side.first.w * (p * normal.x);
+  side.first.y += side.first.w * (p * normal.y);
+  side.first.z += side.first.w * (p * normal.z);
+  side.second.x += side.second.w * (p * lever.x);
+  side.second.y += side.second.w * (p * lever.y);
+  side.second.z += side.second.w * (p * lever.z);
 }
-template <class Real>
-inline Motion<Real> motion_of(const Vec<Real>& normal, const Side<Real>& a, const Side<Real>& b) {
-  return {dot(normal, {b.v.x - a.v.x, b.v.y - a.v.y, b.v.z - a.v.z}),
-          {a.turn.x, a.turn.y, a.turn.z},
-          {b.turn.x, b.turn.y, b.turn.z}};
-}
-
 template <class Real>
 SweepSums<Real> gauss_seidel_sweep(LeverRows<Real> rows, std::size_t blocks, Record<Real>* u,
                                    Real* p, bool backward) {
   LaneSums<Real> residual(Real(0));
   const Batch<Real> zero(Real(0));
   visit_contacts(rows, blocks, backward, [&](const auto& c, const auto& block, auto lane, auto k) {
-    Side<Real> a = load_side(u, c.a), b = load_side(u, c.b);
+    Side<Real> a = load_both(u, c.a), b = load_both(u, c.b);
     for (std::size_t step = 0; step < block.points; ++step) {
       const std::size_t i = block.first + (backward ? block.points - 1 - step : step);
       const LeverPoints<Real>& points = rows.points[i];
@@ -228,14 +222,15 @@ Real residual(LeverRows<Real> rows, std::size_t blocks, const Record<Real>* u, c
               Real unit_mass) {
   LaneSums<Real> worst(Real(0));
   visit_contacts(rows, blocks, false, [&](const auto& c, const auto& block, auto lane, auto k) {
-    const Side<Real> a = load_side(u, c.a), b = load_side(u, c.b);
+    const Side<Real> a = load_both(u, c.a), b = load_both(u, c.b);
     const Motion<Real> m = motion_of(c.normal, a, b);
     for (std::size_t i = block.first; i < block.first + block.points; ++i) {
       const LeverPoints<Real>& points = rows.points[i];
       const Batch<Real> w =
           gap_after(load_points(points, lane), m) * load(points.reduced_mass + lane);
       const Batch<Real> missed = natural_residual(load(p + i * block_width + lane), w);
-      worst.part[k] = xsimd::max(worst.part[k], of_light_grains(missed, a.v.w, b.v.w, unit_mass));
+      worst.part[k] =
+          xsimd::max(worst.part[k], of_light_grains(missed, a.first.w, b.first.w, unit_mass));
     }
   });
   return worst.max();

@@ -49,18 +49,33 @@ void set_sides(const Base& base, const std::vector<Vector>& corners, std::vector
 
 double beyond(const ClipSide& side, const Vector& x) { return side.outward.dot(x - side.corner); }
 
-/// Cuts a polygon by the plane through a side (Sutherland and Hodgman 1974).
-void cut(const std::vector<Vector>& polygon, const ClipSide& side, std::vector<Vector>& result) {
+/// Cuts a polygon, whose corners lie so far beyond a side (Sutherland and Hodgman 1974).
+void cut(const std::vector<Vector>& polygon, const std::vector<double>& beyond, double tolerance,
+         std::vector<Vector>& result) {
   result.clear();
-  double at_p = polygon.empty() ? 0.0 : beyond(side, polygon[0]);
   for (std::size_t k = 0; k < polygon.size(); ++k) {
-    const Vector &p = polygon[k], &q = polygon[(k + 1) % polygon.size()];
-    const double at_q = beyond(side, q);
-    if (at_p <= side.tolerance) result.push_back(p);
-    if ((at_p <= side.tolerance) != (at_q <= side.tolerance)) {
-      result.emplace_back(p + at_p / (at_p - at_q) * (q - p));
+    const std::size_t next = k + 1 == polygon.size() ? 0 : k + 1;
+    const double at_p = beyond[k], at_q = beyond[next];
+    if (at_p <= tolerance) result.push_back(polygon[k]);
+    if ((at_p <= tolerance) != (at_q <= tolerance)) {
+      result.emplace_back(polygon[k] + at_p / (at_p - at_q) * (polygon[next] - polygon[k]));
     }
-    at_p = at_q;
+  }
+}
+
+/// Cuts columns.polygon by all sides; most of them leave it as it is.
+void cut_by_sides(ClipColumns& columns) {
+  for (const ClipSide& side : columns.sides) {
+    double farthest = -std::numeric_limits<double>::infinity();
+    columns.beyond.clear();
+    for (const Vector& corner : columns.polygon) {
+      columns.beyond.push_back(beyond(side, corner));
+      farthest = std::max(farthest, columns.beyond.back());
+    }
+    if (farthest > side.tolerance) {
+      cut(columns.polygon, columns.beyond, side.tolerance, columns.clipped);
+      std::swap(columns.polygon, columns.clipped);
+    }
   }
 }
 
@@ -100,9 +115,12 @@ bool is_above(const std::vector<ClipSide>& sides, const Vector& x) {
 void add_other_vertices(const Base& base, const std::vector<ClipSide>& sides,
                         const PlacedShape& other, double margin, std::size_t first,
                         std::vector<ContactPoint>& points) {
+  const Vector up = other.turn.transpose() * base.normal;
+  const double centre = base.gap(other.centre), least = (margin - centre) / other.scale;
   for (std::size_t v = 0; v < other.shape.vertices.size(); ++v) {
+    if (up.dot(other.shape.vertices[v]) > least) continue;
     const Vector x = other.place(static_cast<std::int32_t>(v));
-    if (base.gap(x) <= margin && is_above(sides, x)) add_point(base, x, margin, first, points);
+    if (is_above(sides, x)) add_point(base, x, margin, first, points);
   }
 }
 
@@ -123,10 +141,7 @@ void clip_on_face(const PlacedShape& base, std::int32_t face, const PlacedShape&
   place_face(base, face, columns.polygon);
   set_sides(on, columns.polygon, columns.sides);
   place_face(other, touching_face(other, on.normal), columns.polygon);
-  for (const ClipSide& side : columns.sides) {
-    cut(columns.polygon, side, columns.clipped);
-    std::swap(columns.polygon, columns.clipped);
-  }
+  cut_by_sides(columns);
   for (const Vector& x : columns.polygon) {
     add_point(on, x, margin, first, points);
   }

@@ -11,14 +11,17 @@ namespace grainsweep {
 
 namespace {
 
-/// Contacts by falling number of points, else in their order.
-std::vector<std::size_t> by_points(const ShapeContacts& found) {
-  std::vector<std::size_t> order(found.contacts.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) {
-    return found.contacts[i].count > found.contacts[j].count;
-  });
-  return order;
+/// Lists the contacts by falling number of points, else in their order.
+void sort_by_points(const ShapeContacts& found, std::vector<std::size_t>& order) {
+  std::size_t most = 0;
+  for (const ShapeContact& contact : found.contacts) most = std::max(most, contact.count);
+  std::vector<std::size_t> place(most + 2, 0);  // place[k]: of the next one with most - k points
+  for (const ShapeContact& contact : found.contacts) ++place[most - contact.count + 1];
+  std::partial_sum(place.begin(), place.end(), place.begin());
+  order.resize(found.contacts.size());
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    order[place[most - found.contacts[k].count]++] = k;
+  }
 }
 
 /// Appends blocks of void contacts and hands out their lanes.
@@ -63,30 +66,37 @@ class LeverBlocks {
   OpenBlocks open_;
 };
 
-/// One side's part in a row.
-struct Levers {
-  Vector a, b;
+/// A row of a contact, before it is rounded and stored.
+struct OwnRow {
+  Vector lever_a, lever_b;
+  double own = 0.0;  ///< entry of A with itself
+  double sum = 0.0;  ///< D of the row
 };
 
-/// The rows of one contact, before they are rounded and stored.
+/// The rows of one contact.
 struct ContactRows {
   double inverse_masses = 0.0;  ///< 1/m_a + 1/m_b
   Vector normal;                ///< box frame
-  std::vector<Levers> levers;   ///< of each point
+  std::vector<OwnRow> each;     ///< of each point
 
   /// Entry of A between two points.
-  double coupling(std::size_t k, std::size_t l) const {
-    return inverse_masses + levers[k].a.dot(levers[l].a) + levers[k].b.dot(levers[l].b);
+  double coupling(const OwnRow& k, const OwnRow& l) const {
+    return inverse_masses + k.lever_a.dot(l.lever_a) + k.lever_b.dot(l.lever_b);
   }
   /// D_k = sum over the points l of |A_kl| sqrt(A_kk / A_ll). Points of one face are nearly
   /// parallel rows: scaled by A_kk alone, gradient steps would have to be half as long.
-  double row_sum(std::size_t k) const {
-    const double own = coupling(k, k);
-    double sum = 0.0;
-    for (std::size_t l = 0; l < levers.size(); ++l) {
-      sum += std::abs(coupling(k, l)) * std::sqrt(own / coupling(l, l));
+  void set_sums() {
+    for (OwnRow& row : each) {
+      row.sum = row.own = coupling(row, row);
     }
-    return sum;
+    for (std::size_t k = 1; k < each.size(); ++k) {
+      for (std::size_t l = 0; l < k; ++l) {
+        const double entry = std::abs(coupling(each[k], each[l]));
+        const double ratio = std::sqrt(each[k].own / each[l].own);
+        each[k].sum += entry * ratio;
+        each[l].sum += entry / ratio;
+      }
+    }
   }
 };
 
@@ -97,7 +107,7 @@ void add_side_b(const ShapeBed& bed, const ShapeContact& contact, const ContactP
   const Vector root = root_inertia(bed, b);
   for (std::size_t k = 0; k < contact.count; ++k) {
     const Vector torque = (points[k].position - pose.centre).cross(contact.normal);
-    rows.levers[k].b = (pose.turn.transpose() * torque).cwiseQuotient(root);
+    rows.each[k].lever_b = (pose.turn.transpose() * torque).cwiseQuotient(root);
   }
   rows.inverse_masses += bed.motion[b].w;
 }
@@ -108,23 +118,23 @@ void set_rows(const ShapeBed& bed, const ShapeContact& contact, const ContactPoi
   const Vector root = root_inertia(bed, a);
   rows.inverse_masses = bed.motion[a].w;
   rows.normal = bed.pose(a).orientation * contact.normal;
-  rows.levers.assign(contact.count, {Vector::Zero(), Vector::Zero()});
+  rows.each.assign(contact.count, {Vector::Zero(), Vector::Zero()});
   for (std::size_t k = 0; k < contact.count; ++k) {
-    rows.levers[k].a = points[k].position.cross(contact.normal).cwiseQuotient(root);
+    rows.each[k].lever_a = points[k].position.cross(contact.normal).cwiseQuotient(root);
   }
   if (bed.is_grain(contact.b)) add_side_b(bed, contact, points, rows);
+  rows.set_sums();
 }
 
 template <class Real>
-void store_point(const ContactRows& rows, std::size_t k, double gap, std::size_t lane,
-                 LeverPoints<Real>& points) {
+void store_row(const OwnRow& row, double gap, std::size_t lane, LeverPoints<Real>& points) {
   for (int axis = 0; axis < 3; ++axis) {
-    points.lever_a[axis][lane] = static_cast<Real>(rows.levers[k].a[axis]);
-    points.lever_b[axis][lane] = static_cast<Real>(rows.levers[k].b[axis]);
+    points.lever_a[axis][lane] = static_cast<Real>(row.lever_a[axis]);
+    points.lever_b[axis][lane] = static_cast<Real>(row.lever_b[axis]);
   }
   points.gap[lane] = static_cast<Real>(gap);
-  points.reduced_mass[lane] = static_cast<Real>(1.0 / rows.coupling(k, k));
-  points.step_mass[lane] = static_cast<Real>(1.0 / rows.row_sum(k));
+  points.reduced_mass[lane] = static_cast<Real>(1.0 / row.own);
+  points.step_mass[lane] = static_cast<Real>(1.0 / row.sum);
 }
 
 template <class Real>
@@ -169,7 +179,8 @@ void lay_out(const ShapeBed& bed, const ShapeContacts& found, double correction,
   places.first.resize(found.contacts.size());
   LeverBlocks<Real> blocks(bed, rows);
   ContactRows own;
-  for (const std::size_t k : by_points(found)) {
+  sort_by_points(found, places.order);
+  for (const std::size_t k : places.order) {
     const ShapeContact& contact = found.contacts[k];
     const ContactPoint* points = found.points.data() + contact.first;
     const auto at = blocks.take(contact);
@@ -179,7 +190,7 @@ void lay_out(const ShapeBed& bed, const ShapeContacts& found, double correction,
     store_normal(own.normal, at.lane, rows.blocks[at.block]);
     for (std::size_t j = 0; j < contact.count; ++j) {
       const double gap = points[j].gap;
-      store_point(own, j, gap < 0.0 ? correction * gap : gap, at.lane, rows.points[first + j]);
+      store_row(own.each[j], gap < 0.0 ? correction * gap : gap, at.lane, rows.points[first + j]);
     }
   }
   rows.ranges.assign({{0, rows.blocks.size(), 0}});

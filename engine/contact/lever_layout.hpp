@@ -16,6 +16,7 @@ namespace grainsweep {
 /// impulse[first[k] + j * block_width] of the rows.
 struct LeverPlaces {
   std::vector<std::size_t> first;
+  std::vector<std::size_t> order;  ///< contacts as they were laid out
 };
 
 /// An impulse of a point that pushed.

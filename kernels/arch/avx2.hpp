@@ -158,6 +158,47 @@ inline void add_records(Record<float>* base, const std::uint32_t* offset,
   add_to(at(base, offset[7]), _mm256_extractf128_ps(r3, 1));
 }
 
+inline __m256 load_two_records(const Record<float>* base, std::uint32_t offset) {
+  return _mm256_loadu_ps(&at(base, offset).x);
+}
+
+/// Both records of each grain by one load.
+inline TwoRecords<Components<float>> load_both(const Record<float>* base,
+                                               const std::uint32_t* offset) {
+  __m256 r0 = load_two_records(base, offset[0]), r1 = load_two_records(base, offset[1]);
+  __m256 r2 = load_two_records(base, offset[2]), r3 = load_two_records(base, offset[3]);
+  __m256 r4 = load_two_records(base, offset[4]), r5 = load_two_records(base, offset[5]);
+  __m256 r6 = load_two_records(base, offset[6]), r7 = load_two_records(base, offset[7]);
+  transpose(r0, r1, r2, r3);
+  transpose(r4, r5, r6, r7);
+  return {{_mm256_permute2f128_ps(r0, r4, 0x20), _mm256_permute2f128_ps(r1, r5, 0x20),
+           _mm256_permute2f128_ps(r2, r6, 0x20), _mm256_permute2f128_ps(r3, r7, 0x20)},
+          {_mm256_permute2f128_ps(r0, r4, 0x31), _mm256_permute2f128_ps(r1, r5, 0x31),
+           _mm256_permute2f128_ps(r2, r6, 0x31), _mm256_permute2f128_ps(r3, r7, 0x31)}};
+}
+
+/// Adds a grain's two records.
+inline void add_to_two_records(Record<float>& to, __m256 records) {
+  _mm256_storeu_ps(&to.x, _mm256_add_ps(_mm256_loadu_ps(&to.x), records));
+}
+
+/// Adds both records of each grain by one store; lanes may share a grain.
+inline void add_both(Record<float>* base, const std::uint32_t* offset,
+                     const TwoRecords<Components<float>>& g) {
+  __m256 r0 = g.first.x, r1 = g.first.y, r2 = g.first.z, r3 = g.first.w;
+  __m256 s0 = g.second.x, s1 = g.second.y, s2 = g.second.z, s3 = g.second.w;
+  transpose(r0, r1, r2, r3);
+  transpose(s0, s1, s2, s3);
+  add_to_two_records(at(base, offset[0]), _mm256_permute2f128_ps(r0, s0, 0x20));
+  add_to_two_records(at(base, offset[1]), _mm256_permute2f128_ps(r1, s1, 0x20));
+  add_to_two_records(at(base, offset[2]), _mm256_permute2f128_ps(r2, s2, 0x20));
+  add_to_two_records(at(base, offset[3]), _mm256_permute2f128_ps(r3, s3, 0x20));
+  add_to_two_records(at(base, offset[4]), _mm256_permute2f128_ps(r0, s0, 0x31));
+  add_to_two_records(at(base, offset[5]), _mm256_permute2f128_ps(r1, s1, 0x31));
+  add_to_two_records(at(base, offset[6]), _mm256_permute2f128_ps(r2, s2, 0x31));
+  add_to_two_records(at(base, offset[7]), _mm256_permute2f128_ps(r3, s3, 0x31));
+}
+
 inline void add_to(Record<double>& to, __m256d record) {
   _mm256_store_pd(&to.x, _mm256_add_pd(_mm256_load_pd(&to.x), record));
 }

@@ -32,4 +32,10 @@ inline Record<Real>& at(Record<Real>* base, std::uint32_t offset) {
   return *reinterpret_cast<Record<Real>*>(reinterpret_cast<std::byte*>(base) + offset);
 }
 
+/// Components of two records that follow each other in memory, as those of a grain that turns.
+template <class Components>
+struct TwoRecords {
+  Components first, second;
+};
+
 }  // namespace
