@@ -150,7 +150,21 @@ class AcceleratedGradient {
     momentum_.restart();
   }
   double iterate() {
-    constexpr auto inverse_bound = static_cast<Real>(1.0 / Problem::eigenvalue_bound);
+    const double seen = descend();
+    first_seen_ = first_seen_ < 0.0 ? seen : first_seen_;
+    if (seen > diverged * first_seen_) {
+      begin_again();
+    }
+    return seen;
+  }
+
+ private:
+  /// A descent has diverged when its residual is so many times the first; others rise less than
+  /// tenfold.
+  static constexpr double diverged = 100.0;
+
+  double descend() {
+    const auto inverse_bound = static_cast<Real>(1.0 / bound_);
     MotionColumns<Real>& motion = problem_.motion;
     const auto momentum = static_cast<Real>(momentum_.next());
     const SweepSums<Real> sums = sweep_ranges(problem_, Direction::forward, [&](BlockRange range) {
@@ -164,10 +178,21 @@ class AcceleratedGradient {
     }
     return static_cast<double>(sums.residual);
   }
+  /// Grains that overlap deeply, as at a random start, may have more contacts than the eigenvalue's
+  /// bound was found for: from no impulses at all, in steps half as long.
+  void begin_again() {
+    bound_ *= 2.0;
+    first_seen_ = -1.0;
+    std::vector<Real>& p = problem_.contacts.impulse;
+    std::fill(p.begin(), p.end(), Real(0));
+    set_motion(problem_);
+    restart();
+  }
 
- private:
   Problem& problem_;
   Momentum momentum_;
+  double bound_ = Problem::eigenvalue_bound;
+  double first_seen_ = -1.0;  ///< residual at the begin of the descent; none yet if negative
 };
 
 /// Projected Gauss-Seidel: sweeps forward, or forward and backward in turn.
