@@ -179,6 +179,7 @@ inline void push_side(const Batch<Real>& p, const Vec<Real>& normal, const Vec<R
   side.second.y += side.second.w * (p * lever.y);
   side.second.z += side.second.w * (p * lever.z);
 }
+
 template <class Real>
 SweepSums<Real> gauss_seidel_sweep(LeverRows<Real> rows, std::size_t blocks, Record<Real>* u,
                                    Real* p, bool backward) {

@@ -50,7 +50,7 @@ void confirm_fresh(const RunOptions& options, const std::string& folder) {
 void warn_once(const std::string& folder, const std::vector<std::string>& damage,
                std::set<std::string>& warned) {
   for (const std::string& line : damage) {
-    if (warned.insert(line).second) std::cerr << "warning: " << folder << "/" << line << "\n";
+    if (warned.insert(line).second) std::cerr << damage_warnings(folder, {line});
   }
 }
 

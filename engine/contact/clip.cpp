@@ -49,7 +49,8 @@ void set_sides(const Base& base, const std::vector<Vector>& corners, std::vector
 
 double beyond(const ClipSide& side, const Vector& x) { return side.outward.dot(x - side.corner); }
 
-/// Cuts a polygon, whose corners lie so far beyond a side (Sutherland and Hodgman 1974).
+/// Cuts a polygon by the plane through a side, beyond which its corners lie by so much (Sutherland
+/// and Hodgman 1974).
 void cut(const std::vector<Vector>& polygon, const std::vector<double>& beyond, double tolerance,
          std::vector<Vector>& result) {
   result.clear();

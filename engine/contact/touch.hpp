@@ -50,7 +50,7 @@ struct ClipSide {
 struct ClipColumns {
   std::vector<ClipSide> sides;
   std::vector<Vector> polygon, clipped;
-  std::vector<double> beyond;  ///< ClipSide of each corner of the polygon, d^2
+  std::vector<double> beyond;  ///< outward . (x - corner) of each corner x of the polygon, d^2
 };
 
 /// The contact of a pair; its points are appended to `points`. No contact (count 0) if the shapes

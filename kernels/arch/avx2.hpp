@@ -139,25 +139,6 @@ inline void push_records(Record<double>* base, const std::uint32_t* a, const std
   push_pair(at(base, a[3]), at(base, b[3]), r3);
 }
 
-inline void add_to(Record<float>& to, __m128 record) {
-  _mm_store_ps(&to.x, _mm_add_ps(_mm_load_ps(&to.x), record));
-}
-
-/// Adds each record of `c` to its place; lanes may share one.
-inline void add_records(Record<float>* base, const std::uint32_t* offset,
-                        const Components<float>& c) {
-  __m256 r0 = c.x, r1 = c.y, r2 = c.z, r3 = c.w;
-  transpose(r0, r1, r2, r3);
-  add_to(at(base, offset[0]), _mm256_castps256_ps128(r0));
-  add_to(at(base, offset[1]), _mm256_castps256_ps128(r1));
-  add_to(at(base, offset[2]), _mm256_castps256_ps128(r2));
-  add_to(at(base, offset[3]), _mm256_castps256_ps128(r3));
-  add_to(at(base, offset[4]), _mm256_extractf128_ps(r0, 1));
-  add_to(at(base, offset[5]), _mm256_extractf128_ps(r1, 1));
-  add_to(at(base, offset[6]), _mm256_extractf128_ps(r2, 1));
-  add_to(at(base, offset[7]), _mm256_extractf128_ps(r3, 1));
-}
-
 inline __m256 load_two_records(const Record<float>* base, std::uint32_t offset) {
   return _mm256_loadu_ps(&at(base, offset).x);
 }
@@ -203,6 +184,7 @@ inline void add_to(Record<double>& to, __m256d record) {
   _mm256_store_pd(&to.x, _mm256_add_pd(_mm256_load_pd(&to.x), record));
 }
 
+/// Adds each record of `c` to its place; lanes may share one.
 inline void add_records(Record<double>* base, const std::uint32_t* offset,
                         const Components<double>& c) {
   __m256d r0 = c.x, r1 = c.y, r2 = c.z, r3 = c.w;
