@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/contact/separating_axes.hpp"
+
 namespace grainsweep {
 
 namespace {
@@ -12,7 +14,7 @@ namespace {
 constexpr double progress = 1e-14;
 // Shares of the pair's size: closer to the origin counts as touching. The difference of two
 // vertices is rounded to some 4e-16 of it.
-constexpr double touching = 1e-14;
+constexpr double touching_share = 1e-14;
 constexpr int most_iterations = 100;
 
 /// Up to four corners of the Minkowski difference b - a and the weights of the point nearest to the
@@ -170,16 +172,20 @@ double size_of(const ShapePair& pair) {
   return pair.pose.scale_a * pair.a.circumradius + pair.pose.scale_b * pair.b.circumradius;
 }
 
-/// Adds the corner nearest to the origin along the current nearest point; false if none is nearer.
-bool advance(const ShapePair& pair, const Vector& nearest, Corners& corners) {
+struct Advance {
+  bool is_nearer = false;
+  bool parts = false;  ///< the direction of the nearest point parts the shapes
+};
+
+/// Adds the corner nearest to the origin along the current nearest point if it is nearer than that.
+Advance advance(const ShapePair& pair, const Vector& nearest, Corners& corners) {
   const std::int32_t a = farthest_vertex(pair.a, nearest);
   const std::int32_t b = farthest_vertex(pair.b, -(pair.pose.turn.transpose() * nearest));
-  if (holds(corners, a, b)) return false;
   const double length2 = nearest.squaredNorm();
-  const double gain = length2 - nearest.dot(pair.vertex_b(b) - pair.vertex_a(a));
-  if (!(gain > progress * length2)) return false;
-  add_corner(pair, a, b, corners);
-  return true;
+  const double along = nearest.dot(pair.vertex_b(b) - pair.vertex_a(a));
+  const bool is_nearer = !holds(corners, a, b) && length2 - along > progress * length2;
+  if (is_nearer) add_corner(pair, a, b, corners);
+  return {is_nearer, along > 0.0};
 }
 
 void set_witnesses(const ShapePair& pair, const Corners& corners, Closest& result) {
@@ -192,24 +198,28 @@ void set_witnesses(const ShapePair& pair, const Corners& corners, Closest& resul
 }  // namespace
 
 Closest closest_points(const ShapePair& pair, Simplex& simplex) {
-  const double touch = touching * size_of(pair);
+  const double touch = touching_share * size_of(pair);
   Corners best = nearest_of(first_corners(pair, simplex));
   Vector nearest = best.nearest();
   Closest result;
   for (result.iterations = 1; result.iterations <= most_iterations; ++result.iterations) {
     result.overlap = best.count == 4 || nearest.norm() <= touch;
+    if (result.overlap) break;
     Corners next = best;
-    result.converged = result.overlap || !advance(pair, nearest, next);
-    if (result.converged) break;
-    next = nearest_of(next);
+    const Advance advanced = advance(pair, nearest, next);
+    if (advanced.is_nearer) next = nearest_of(next);
     const Vector moved = next.nearest();
-    if (next.count < 4 && !(moved.squaredNorm() < nearest.squaredNorm())) {
-      result.converged = true;  // rounding has the last word
+    const bool is_inside = advanced.is_nearer && next.count == 4;
+    if (!is_inside && !(moved.squaredNorm() < nearest.squaredNorm())) {
+      // No further, at last by rounding. Of shapes that lie face on face or edge on edge the
+      // corners can be a sliver, whose nearest point lies in a direction that parts nothing.
+      result.overlap = !advanced.parts && !(separating_axes(pair).separation() > 0.0);
       break;
     }
     best = next;
     nearest = moved;
   }
+  result.converged = result.iterations <= most_iterations;
   result.distance = result.overlap ? 0.0 : nearest.norm();
   set_witnesses(pair, best, result);
   simplex = {best.count, best.a, best.b};

@@ -1,7 +1,8 @@
 // The closest points of two convex shapes: GJK with signed volumes.
 //
 // Gilbert, Johnson, Keerthi 1988; the sub-algorithm of Montanari, Petrinic, Barbieri 2017 (signed
-// volumes). f64 throughout. Works for any convex shape and needs vertices only.
+// volumes). f64 throughout. Works for any convex shape. Where rounding leaves a doubt whether the
+// shapes overlap the separating axes decide.
 #pragma once
 
 #include <array>

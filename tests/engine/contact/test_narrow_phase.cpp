@@ -123,6 +123,25 @@ TEST_CASE("distance and depth of hulls are those of brute force, in every positi
   }
 }
 
+// Found by the full counts: a sliver of corners 3e-12 d from the origin, in a direction that parts
+// nothing.
+TEST_CASE("cubes nearly face in face that overlap by 6.5e-7 d are not taken for parted") {
+  const ConvexShape cube = testing::cube();
+  PairPose pose{{0x1.db5cf6b520549p-1, 0x1.4705d056b2b7dp-3, -0x1.e5aa4bf6f0d67p-5},
+                Matrix::Identity(),
+                0x1.e7a0a24e85a9dp-1,
+                0x1.cf17c1004a055p-1};
+  pose.turn << 0x1.ffffffff80504p-1, -0x1.3ea4f5855c944p-17, 0x1.55dbc654bd58p-18,
+      -0x1.0abb215bcb02p-17, -0x1.f03a8343ae78ep-1, -0x1.f86667430f9bcp-3, 0x1.e849081489388p-18,
+      0x1.f86667412da1p-3, -0x1.f03a8343d8b82p-1;
+  const ShapePair pair{cube, cube, pose};
+  CHECK(separating_axes(pair).separation() == Approx(-6.51032e-7).margin(1e-12));
+  Simplex simplex;
+  const Closest closest = closest_points(pair, simplex);
+  CHECK(closest.overlap);
+  CHECK(closest.distance == 0.0);
+}
+
 TEST_CASE("the axes of a pinacoid in closed form are those of its hull") {
   const ConvexShape closed = pinacoid({}), hull = testing::hull_of(closed.vertices);
   Draw draw(6);
