@@ -45,7 +45,9 @@ std::optional<double> enough_of_a_face(const ShapePair& pair, const TouchSetting
   return closest.distance - settings.preference;
 }
 
-const ContactAxis& preferred(const ContactAxes& axes, double preference) {
+const ContactAxis& preferred(const ContactAxes& axes, const TouchSettings& settings) {
+  const double preference =
+      settings.preference + settings.of_depth * std::max(0.0, -axes.edges.separation);
   const bool edges = axes.edges.kind != AxisKind::none &&
                      axes.edges.separation > axes.face.separation + preference;
   return edges ? axes.edges : axes.face;
@@ -86,7 +88,7 @@ void touch_edges(const ShapePair& pair, const ContactAxis& axis,
 PairContact touch(const ShapePair& pair, const TouchSettings& settings, const ContactAxes& axes,
                   ClipColumns& columns, std::vector<ContactPoint>& points) {
   if (!(axes.separation() <= settings.margin)) return {};
-  const ContactAxis& axis = preferred(axes, settings.preference);
+  const ContactAxis& axis = preferred(axes, settings);
   PairContact contact{axis.normal, axis.separation, axis.kind, points.size(), 0};
   if (axis.kind == AxisKind::edges) {
     touch_edges(pair, axis, points);

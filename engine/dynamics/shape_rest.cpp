@@ -64,9 +64,10 @@ RestReport certify(ShapeBed& bed, const Processor& processor, double dt,
                    ShapeStepState<Real>& state) {
   constexpr double search_margin = 0.05;  // d; as in the steps, so that candidates last
   const Sides bearing = force_bearing(state, dt);
+  TouchSettings touch = touch_settings(constraint_gap, dt);
+  touch.of_depth = 0.0;  // overlaps as deep as they are
   ShapeContacts now;
-  find_contacts({touch_settings(constraint_gap, dt), search_margin}, processor, bed, state.search,
-                now);
+  find_contacts({touch, search_margin}, processor, bed, state.search, now);
   RestReport rest;
   std::int64_t pairs = 0;
   for (const ShapeContact& c : now.contacts) {

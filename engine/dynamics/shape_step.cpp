@@ -11,6 +11,7 @@ namespace {
 // where less is preferred edges replace whole faces and the bed collapses.
 constexpr double preferred_share = 0.5;
 constexpr double least_preference = 1e-4;
+constexpr double preferred_of_depth = 1.0;  // beyond its overlap
 
 /// The vector, shortened to `longest`.
 Vector clamped(const Vector& v, double longest) {
@@ -61,7 +62,7 @@ void advance(const std::vector<Record<Real>>& u, double dt, ShapeBed& bed, StepR
 }  // namespace
 
 TouchSettings touch_settings(double near, double dt) {
-  return {near, std::max(least_preference, preferred_share * dt * dt)};
+  return {near, std::max(least_preference, preferred_share * dt * dt), preferred_of_depth};
 }
 
 template <class Real>

@@ -27,14 +27,18 @@ struct Found {
   }
 };
 
-Found contact_of(const ShapePair& pair, double margin = 0.05, double preference = 0.0) {
+Found contact_of(const ShapePair& pair, const TouchSettings& settings) {
   PairMemory memory;
   ClipColumns columns;
   Found found;
-  found.contact = touch(pair, {margin, preference}, memory, columns, found.points);
+  found.contact = touch(pair, settings, memory, columns, found.points);
   REQUIRE(found.contact.first == 0);
   REQUIRE(found.contact.count == found.points.size());
   return found;
+}
+
+Found contact_of(const ShapePair& pair, double margin = 0.05, double preference = 0.0) {
+  return contact_of(pair, TouchSettings{margin, preference, 0.0});
 }
 
 Matrix turn(double angle, const Vector& axis) {
@@ -255,6 +259,41 @@ TEST_CASE("edges give the normal only where they part a pair better by the prefe
     CHECK(contact_of(pair, 0.05, 1.001 * ahead).contact.kind == axes.face.kind);
   }
   CHECK(switched > 100);
+}
+
+TEST_CASE("the deeper edges overlap the more a face is preferred, one that is as deep always") {
+  const ConvexShape shape = pinacoid({});
+  Draw draw(26);
+  int switched = 0;
+  for (int k = 0; k < 2000; ++k) {
+    const ShapePair pair{shape, shape, testing::random_pose(draw, 0.5, 0.9)};
+    const ContactAxes axes = separating_axes(pair);
+    const double depth = -axes.edges.separation;
+    const double ahead = axes.edges.separation - axes.face.separation;
+    if (axes.edges.kind == AxisKind::none || depth < 1e-3 || ahead < 1e-6) continue;
+    ++switched;
+    const double share = ahead / depth;
+    CHECK(contact_of(pair, {0.05, 0.0, 0.999 * share}).contact.kind == AxisKind::edges);
+    CHECK(contact_of(pair, {0.05, 0.0, 1.001 * share}).contact.kind == axes.face.kind);
+    CHECK(contact_of(pair, {0.05, 0.5 * ahead, 0.501 * share}).contact.kind == axes.face.kind);
+  }
+  CHECK(switched > 100);
+}
+
+TEST_CASE("edges that are apart give the normal whatever is preferred by their depth") {
+  const ConvexShape shape = pinacoid({});
+  Draw draw(27);
+  int apart = 0;
+  for (int k = 0; k < 2000; ++k) {
+    const ShapePair pair{shape, shape, testing::random_pose(draw, 0.7, 1.0)};
+    const ContactAxes axes = separating_axes(pair);
+    if (axes.edges.kind == AxisKind::none || axes.separation() > 0.05) continue;
+    if (axes.edges.separation < 1e-6 || axes.edges.separation < axes.face.separation + 1e-6)
+      continue;
+    ++apart;
+    CHECK(contact_of(pair, {0.05, 0.0, 1.0}).contact.kind == AxisKind::edges);
+  }
+  CHECK(apart > 20);
 }
 
 TEST_CASE("shapes beyond the margin have no contact") {
