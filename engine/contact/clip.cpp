@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 namespace grainsweep {
 
@@ -13,41 +14,44 @@ namespace {
 constexpr double on_side = 1e-12;
 constexpr double same_point = 1e-10;
 
-/// A face to touch on.
+/// A face to touch on, in the frame of its shape.
 struct Base {
-  Vector normal;  ///< outward
-  double offset;
-  double size;  ///< of the shape it belongs to, d
+  const ConvexShape& shape;
+  double scale;
+  const Face& face;
 
-  double gap(const Vector& x) const { return normal.dot(x) - offset; }
+  double size() const { return scale * shape.circumradius; }
+  double gap(const Vector& x) const { return face.normal.dot(x) - scale * face.offset; }
+  std::span<const Side> sides() const {
+    return {shape.sides.data() + face.first, static_cast<std::size_t>(face.corners)};
+  }
+  double beyond(const Side& side, const Vector& x) const {
+    return side.outward.dot(x) - scale * side.offset;
+  }
+  bool is_below(const Vector& x) const {
+    const std::span<const Side> around = sides();
+    return std::all_of(around.begin(), around.end(),
+                       [&](const Side& side) { return beyond(side, x) <= on_side * size(); });
+  }
 };
 
-Base base_of(const PlacedShape& shape, std::int32_t number) {
-  const Face& face = shape.shape.faces[static_cast<std::size_t>(number)];
-  const Vector normal = shape.turn * face.normal;
-  return {normal, normal.dot(shape.centre) + shape.scale * face.offset,
-          shape.scale * shape.shape.circumradius};
-}
+/// The other shape, seen from the frame of the base: its point x lies at centre + turn x.
+struct Seen {
+  const ConvexShape& shape;
+  Vector centre;
+  Matrix turn;  ///< and scale
+
+  Vector place(std::size_t vertex) const { return centre + turn * shape.vertices[vertex]; }
+};
 
 /// Places the corners of a face.
-void place_face(const PlacedShape& shape, std::int32_t number, std::vector<Vector>& corners) {
-  const Face& face = shape.shape.faces[static_cast<std::size_t>(number)];
-  const auto first = shape.shape.loops.begin() + face.first;
+void place_face(const Seen& other, const Face& face, std::vector<Vector>& corners) {
+  const auto first = other.shape.loops.begin() + face.first;
   corners.clear();
-  std::for_each(first, first + face.corners,
-                [&](std::int32_t vertex) { corners.push_back(shape.place(vertex)); });
+  std::for_each(first, first + face.corners, [&](std::int32_t vertex) {
+    corners.push_back(other.place(static_cast<std::size_t>(vertex)));
+  });
 }
-
-void set_sides(const Base& base, const std::vector<Vector>& corners, std::vector<ClipSide>& sides) {
-  sides.clear();
-  for (std::size_t k = 0; k < corners.size(); ++k) {
-    const Vector& from = corners[k];
-    const Vector outward = (corners[(k + 1) % corners.size()] - from).cross(base.normal);
-    sides.push_back({from, outward, on_side * base.size * outward.norm()});
-  }
-}
-
-double beyond(const ClipSide& side, const Vector& x) { return side.outward.dot(x - side.corner); }
 
 /// Cuts a polygon by the plane through a side, beyond which its corners lie by so much (Sutherland
 /// and Hodgman 1974).
@@ -65,40 +69,42 @@ void cut(const std::vector<Vector>& polygon, const std::vector<double>& beyond, 
 }
 
 /// Cuts columns.polygon by all sides; most of them leave it as it is.
-void cut_by_sides(ClipColumns& columns) {
-  for (const ClipSide& side : columns.sides) {
+void cut_by_sides(const Base& base, ClipColumns& columns) {
+  const double tolerance = on_side * base.size();
+  for (const Side& side : base.sides()) {
     double farthest = -std::numeric_limits<double>::infinity();
     columns.beyond.clear();
     for (const Vector& corner : columns.polygon) {
-      columns.beyond.push_back(beyond(side, corner));
+      columns.beyond.push_back(base.beyond(side, corner));
       farthest = std::max(farthest, columns.beyond.back());
     }
-    if (farthest > side.tolerance) {
-      cut(columns.polygon, columns.beyond, side.tolerance, columns.clipped);
+    if (farthest > tolerance) {
+      cut(columns.polygon, columns.beyond, tolerance, columns.clipped);
       std::swap(columns.polygon, columns.clipped);
     }
   }
 }
 
 /// Among the faces at the lowest vertex of `other`, the one that faces `normal` most.
-std::int32_t touching_face(const PlacedShape& other, const Vector& normal) {
+const Face& touching_face(const Seen& other, const Vector& normal) {
   const ConvexShape& shape = other.shape;
   const Vector down = -(other.turn.transpose() * normal);
   const auto lowest = static_cast<std::size_t>(farthest_vertex(shape, down));
   const auto first = shape.vertex_faces.begin() + shape.vertex_faces_begin[lowest];
   const auto last = shape.vertex_faces.begin() + shape.vertex_faces_begin[lowest + 1];
-  return *std::max_element(first, last, [&](std::int32_t f, std::int32_t g) {
+  const std::int32_t best = *std::max_element(first, last, [&](std::int32_t f, std::int32_t g) {
     return shape.faces[static_cast<std::size_t>(f)].normal.dot(down) <
            shape.faces[static_cast<std::size_t>(g)].normal.dot(down);
   });
+  return shape.faces[static_cast<std::size_t>(best)];
 }
 
 void add_point(const Base& base, const Vector& x, double margin, std::size_t first,
                std::vector<ContactPoint>& points) {
   const double gap = base.gap(x);
   if (!(gap <= margin)) return;
-  const Vector position = x - gap / 2.0 * base.normal;
-  const double same = same_point * base.size;
+  const Vector position = x - gap / 2.0 * base.face.normal;
+  const double same = same_point * base.size();
   const bool there = std::any_of(points.begin() + static_cast<std::ptrdiff_t>(first), points.end(),
                                  [&](const ContactPoint& point) {
                                    return (point.position - position).squaredNorm() <= same * same;
@@ -106,23 +112,33 @@ void add_point(const Base& base, const Vector& x, double margin, std::size_t fir
   if (!there) points.push_back({position, gap});
 }
 
-bool is_above(const std::vector<ClipSide>& sides, const Vector& x) {
-  return std::all_of(sides.begin(), sides.end(),
-                     [&](const ClipSide& side) { return beyond(side, x) <= side.tolerance; });
-}
-
 /// Vertices within the margin that are no corners of the touching face: where an edge lies on the
 /// base, a face at one of its ends may be the touching one, and would leave out the other end.
-void add_other_vertices(const Base& base, const std::vector<ClipSide>& sides,
-                        const PlacedShape& other, double margin, std::size_t first,
+void add_other_vertices(const Base& base, const Seen& other, double margin, std::size_t first,
                         std::vector<ContactPoint>& points) {
-  const Vector up = other.turn.transpose() * base.normal;
-  const double centre = base.gap(other.centre), least = (margin - centre) / other.scale;
+  const Vector up = other.turn.transpose() * base.face.normal;
+  const double least = margin - base.gap(other.centre);
   for (std::size_t v = 0; v < other.shape.vertices.size(); ++v) {
     if (up.dot(other.shape.vertices[v]) > least) continue;
-    const Vector x = other.place(static_cast<std::int32_t>(v));
-    if (is_above(sides, x)) add_point(base, x, margin, first, points);
+    const Vector x = other.place(v);
+    if (base.is_below(x)) add_point(base, x, margin, first, points);
   }
+}
+
+/// Appends the contact points in the frame of the base.
+void clip(const Base& base, const Seen& other, double margin, ClipColumns& columns,
+          std::vector<ContactPoint>& points) {
+  const std::size_t first = points.size();
+  place_face(other, touching_face(other, base.face.normal), columns.polygon);
+  cut_by_sides(base, columns);
+  for (const Vector& x : columns.polygon) {
+    add_point(base, x, margin, first, points);
+  }
+  add_other_vertices(base, other, margin, first, points);
+}
+
+const Face& face_of(const ConvexShape& shape, std::int32_t number) {
+  return shape.faces[static_cast<std::size_t>(number)];
 }
 
 }  // namespace
@@ -135,18 +151,21 @@ PlacedShape placed_b(const ShapePair& pair) {
   return {pair.b, pair.pose.centre, pair.pose.turn, pair.pose.scale_b};
 }
 
-void clip_on_face(const PlacedShape& base, std::int32_t face, const PlacedShape& other,
-                  double margin, ClipColumns& columns, std::vector<ContactPoint>& points) {
-  const Base on = base_of(base, face);
-  const std::size_t first = points.size();
-  place_face(base, face, columns.polygon);
-  set_sides(on, columns.polygon, columns.sides);
-  place_face(other, touching_face(other, on.normal), columns.polygon);
-  cut_by_sides(columns);
-  for (const Vector& x : columns.polygon) {
-    add_point(on, x, margin, first, points);
+void clip_on_face(const ShapePair& pair, Of base, std::int32_t face, double margin,
+                  ClipColumns& columns, std::vector<ContactPoint>& points) {
+  const PairPose& pose = pair.pose;
+  if (base == Of::a) {
+    clip({pair.a, pose.scale_a, face_of(pair.a, face)},
+         {pair.b, pose.centre, pose.scale_b * pose.turn}, margin, columns, points);
+    return;
   }
-  add_other_vertices(on, columns.sides, other, margin, first, points);
+  const Matrix back = pose.turn.transpose();
+  const std::size_t first = points.size();
+  clip({pair.b, pose.scale_b, face_of(pair.b, face)},
+       {pair.a, -(back * pose.centre), pose.scale_a * back}, margin, columns, points);
+  for (std::size_t k = first; k < points.size(); ++k) {
+    points[k].position = pose.centre + pose.turn * points[k].position;
+  }
 }
 
 Segment farthest_edge(const PlacedShape& shape, std::int32_t direction, const Vector& n) {

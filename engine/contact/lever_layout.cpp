@@ -69,8 +69,10 @@ class LeverBlocks {
 /// A row of a contact, before it is rounded and stored.
 struct OwnRow {
   Vector lever_a, lever_b;
-  double own = 0.0;  ///< entry of A with itself
-  double sum = 0.0;  ///< D of the row
+  double own = 0.0;           ///< entry of A with itself
+  double root = 0.0;          ///< of own
+  double inverse_root = 0.0;  ///< 1 / root
+  double sum = 0.0;           ///< D of the row
 };
 
 /// The rows of one contact.
@@ -88,13 +90,14 @@ struct ContactRows {
   void set_sums() {
     for (OwnRow& row : each) {
       row.sum = row.own = coupling(row, row);
+      row.root = std::sqrt(row.own);
+      row.inverse_root = 1.0 / row.root;
     }
     for (std::size_t k = 1; k < each.size(); ++k) {
       for (std::size_t l = 0; l < k; ++l) {
         const double entry = std::abs(coupling(each[k], each[l]));
-        const double ratio = std::sqrt(each[k].own / each[l].own);
-        each[k].sum += entry * ratio;
-        each[l].sum += entry / ratio;
+        each[k].sum += entry * each[k].root * each[l].inverse_root;
+        each[l].sum += entry * each[l].root * each[k].inverse_root;
       }
     }
   }

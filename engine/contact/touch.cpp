@@ -63,11 +63,10 @@ ContactPoint lone_point(const ShapePair& pair, double separation) {
 
 void touch_faces(const ShapePair& pair, const ContactAxis& axis, double margin,
                  ClipColumns& columns, std::vector<ContactPoint>& points) {
-  const PlacedShape a = placed_a(pair), b = placed_b(pair);
   if (axis.kind == AxisKind::face_of_a) {
-    clip_on_face(a, axis.a, b, margin, columns, points);
+    clip_on_face(pair, Of::a, axis.a, margin, columns, points);
   } else {
-    clip_on_face(b, axis.b, a, margin, columns, points);
+    clip_on_face(pair, Of::b, axis.b, margin, columns, points);
   }
 }
 

@@ -41,17 +41,10 @@ struct PairContact {
   std::size_t first = 0, count = 0;
 };
 
-/// A side of a face, upright on it: the face lies where outward . (x - corner) <= 0.
-struct ClipSide {
-  Vector corner, outward;  ///< d; `outward` is as long as the side
-  double tolerance;        ///< outward . (x - corner) of points that rounding leaves outside, d^2
-};
-
 /// Working memory, kept from call to call.
 struct ClipColumns {
-  std::vector<ClipSide> sides;
   std::vector<Vector> polygon, clipped;
-  std::vector<double> beyond;  ///< outward . (x - corner) of each corner x of the polygon, d^2
+  std::vector<double> beyond;  ///< how far beyond a side each corner of the polygon lies, d
 };
 
 /// The contact of a pair; its points are appended to `points`. No contact (count 0) if the shapes

@@ -38,6 +38,12 @@ void add_face(const std::vector<std::int32_t>& loop, ConvexShape& shape) {
   face.corners = static_cast<std::int32_t>(loop.size());
   shape.faces.push_back(face);
   shape.loops.insert(shape.loops.end(), loop.begin(), loop.end());
+  for (std::size_t k = 0; k < loop.size(); ++k) {
+    const Vector& from = at(shape.vertices, loop[k]);
+    const Vector& to = at(shape.vertices, loop[(k + 1) % loop.size()]);
+    const Vector outward = (to - from).cross(face.normal).normalized();
+    shape.sides.push_back({outward, outward.dot(from)});
+  }
 }
 
 /// Number of a direction among the distinct ones; a new one is added.

@@ -25,6 +25,12 @@ struct Face {
   std::int32_t corners = 0;        ///< counter-clockwise seen from outside
 };
 
+/// A side of a face, upright on it: the face lies where outward . x <= offset.
+struct Side {
+  Vector outward = Vector::Zero();  ///< unit, in the plane of the face
+  double offset = 0.0;              ///< d
+};
+
 /// An edge from one vertex to another. Seen from outside with `to` above `from`, face `left` is on
 /// the left.
 struct Edge {
@@ -51,6 +57,7 @@ struct ConvexShape {
   std::vector<Vector> vertices;
   std::vector<Face> faces;
   std::vector<std::int32_t> loops;  ///< vertices of the faces, face after face
+  std::vector<Side> sides;          ///< of the faces, each from the corner of its place in `loops`
   std::vector<Edge> edges;
   std::vector<Vector> edge_directions;           ///< unit, distinct up to sign
   std::vector<std::int32_t> vertex_faces;        ///< faces at each vertex, vertex after vertex
