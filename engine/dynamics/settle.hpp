@@ -13,12 +13,14 @@
 // With the protocol `dynamic` grains fall as in plain contact dynamics, undamped and in steps of a
 // quarter, until they have lost their kinetic energy by impacts alone; then comes the quench.
 //
-// Grains that turn come down in three stages between the fall and rest:
+// Grains that turn come to rest in four stages after the fall:
 //
 //   creep   full steps, solved a little better than the fall: as with spheres, more steps of loose
 //           solves reach more contacts than fewer of good ones
 //   slow    half steps; the step must not be shortened to a quarter at once, which leaves motions
 //           that take many short steps to die
+//   halt    quarter steps without momentum, solved half as well as the quench: what still moves is
+//           slowed down
 //   quench  quarter steps without momentum: contacts close, until every test of rest holds
 //
 // How loosely their fall is solved is part of how a bed was packed: fewer iterations act like
