@@ -51,12 +51,12 @@ struct LeverProblem : Work<LeverColumns<Real>, LeverKernels<Real>, Real> {
   Real* extrapolated(BlockRange) const { return this->contacts.extrapolated.data(); }
 };
 
-enum class Direction { forward, backward };
+enum class SweepOrder { forward, backward };
 
 /// Sums over all rows of what sweep(range) sees: the ranges of a phase at the same time, phase
 /// after phase, or from the last phase to the first.
 template <class Problem, class Sweep>
-SweepSums<typename Problem::Number> sweep_ranges(Problem& problem, Direction direction,
+SweepSums<typename Problem::Number> sweep_ranges(Problem& problem, SweepOrder order,
                                                  const Sweep& sweep) {
   using Real = typename Problem::Number;
   const std::vector<BlockRange>& ranges = problem.contacts.ranges;
@@ -64,7 +64,7 @@ SweepSums<typename Problem::Number> sweep_ranges(Problem& problem, Direction dir
   seen.resize(ranges.size());
   const std::size_t phases = ranges.empty() ? 0 : ranges.back().phase + 1;
   for (std::size_t k = 0; k < phases; ++k) {
-    const std::size_t phase = direction == Direction::forward ? k : phases - 1 - k;
+    const std::size_t phase = order == SweepOrder::forward ? k : phases - 1 - k;
     const auto begins = [](const BlockRange& range, std::size_t at) { return range.phase < at; };
     const auto first = std::lower_bound(ranges.begin(), ranges.end(), phase, begins);
     const auto last = std::lower_bound(first, ranges.end(), phase + 1, begins);
@@ -96,7 +96,7 @@ void take_pushes(Problem& problem) {
 template <class Problem>
 void set_motion(Problem& problem) {
   using Real = typename Problem::Number;
-  sweep_ranges(problem, Direction::forward, [&](BlockRange range) {
+  sweep_ranges(problem, SweepOrder::forward, [&](BlockRange range) {
     problem.kernels.add_pushes(problem.rows(range), range.blocks, problem.impulse(range),
                                problem.motion.pushes.data());
     return SweepSums<Real>{};
@@ -108,7 +108,7 @@ template <class Problem>
 double true_residual(Problem& problem, double unit_mass) {
   using Real = typename Problem::Number;
   const SweepSums<Real> sums =
-      sweep_ranges(problem, Direction::forward, [&](BlockRange range) -> SweepSums<Real> {
+      sweep_ranges(problem, SweepOrder::forward, [&](BlockRange range) -> SweepSums<Real> {
         return {problem.kernels.residual(problem.rows(range), range.blocks, problem.motion.u.data(),
                                          problem.impulse(range), static_cast<Real>(unit_mass)),
                 Real(0)};
@@ -167,7 +167,7 @@ class AcceleratedGradient {
     const auto inverse_bound = static_cast<Real>(1.0 / bound_);
     MotionColumns<Real>& motion = problem_.motion;
     const auto momentum = static_cast<Real>(momentum_.next());
-    const SweepSums<Real> sums = sweep_ranges(problem_, Direction::forward, [&](BlockRange range) {
+    const SweepSums<Real> sums = sweep_ranges(problem_, SweepOrder::forward, [&](BlockRange range) {
       return problem_.kernels.gradient_sweep(problem_.rows(range), range.blocks, motion.u.data(),
                                              motion.pushes.data(), problem_.impulse(range),
                                              problem_.extrapolated(range), inverse_bound, momentum);
@@ -207,7 +207,7 @@ class GaussSeidel {
   void restart() { backward_ = false; }
   double iterate() {
     const SweepSums<Real> sums = sweep_ranges(
-        problem_, backward_ ? Direction::backward : Direction::forward, [&](BlockRange range) {
+        problem_, backward_ ? SweepOrder::backward : SweepOrder::forward, [&](BlockRange range) {
           return problem_.kernels.gauss_seidel_sweep(problem_.rows(range), range.blocks,
                                                      problem_.motion.u.data(),
                                                      problem_.impulse(range), backward_);

@@ -25,8 +25,8 @@ Coordination coordination(const SphereBed& bed, const Touching& touching, const 
                           double gap_tolerance) {
   const std::int64_t grains = grains_in(bed, slab);
   if (grains == 0) {
-    const double none = std::numeric_limits<double>::quiet_NaN();
-    return {gap_tolerance, none, none};
+    const double unknown = std::numeric_limits<double>::quiet_NaN();
+    return {gap_tolerance, unknown, unknown};
   }
   std::int64_t ends = 0, wall_ends = 0;
   for (const TouchingPair& pair : touching.pairs) {
