@@ -107,7 +107,7 @@ void add_side_b(const ShapeBed& bed, const ShapeContact& contact, const ContactP
                 ContactRows& rows) {
   const auto a = static_cast<std::size_t>(contact.a), b = static_cast<std::size_t>(contact.b);
   const PairPose pose = pair_pose(bed, a, b);
-  const Vector root = root_inertia(bed, b);
+  const Vector& root = bed.root_inertia[b];
   for (std::size_t k = 0; k < contact.count; ++k) {
     const Vector torque = (points[k].position - pose.centre).cross(contact.normal);
     rows.each[k].lever_b = (pose.turn.transpose() * torque).cwiseQuotient(root);
@@ -118,7 +118,7 @@ void add_side_b(const ShapeBed& bed, const ShapeContact& contact, const ContactP
 void set_rows(const ShapeBed& bed, const ShapeContact& contact, const ContactPoint* points,
               ContactRows& rows) {
   const auto a = static_cast<std::size_t>(contact.a);
-  const Vector root = root_inertia(bed, a);
+  const Vector& root = bed.root_inertia[a];
   rows.inverse_masses = bed.motion[a].w;
   rows.normal = bed.pose(a).orientation * contact.normal;
   rows.each.assign(contact.count, {Vector::Zero(), Vector::Zero()});

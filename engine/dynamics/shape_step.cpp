@@ -39,7 +39,7 @@ void set_free_motion(const StepSettings& settings, const ShapeBed& bed,
     const Vector angles =
         clamped(settings.momentum * bed.turn[i], longest_free_motion / bed.circumradius(i));
     free[2 * i] = record<Real>(clamped(v, longest_free_motion), bed.motion[i].w);
-    free[2 * i + 1] = record<Real>(root_inertia(bed, i).cwiseProduct(angles), 1.0);
+    free[2 * i + 1] = record<Real>(bed.root_inertia[i].cwiseProduct(angles), 1.0);
   }
 }
 
@@ -49,7 +49,7 @@ void advance(const std::vector<Record<Real>>& u, double dt, ShapeBed& bed, StepR
   double energy = 0.0;
   for (std::size_t i = 0; i < bed.grains(); ++i) {
     const Vector displacement = vector(u[2 * i]), scaled_angles = vector(u[2 * i + 1]);
-    const Vector angles = scaled_angles.cwiseQuotient(root_inertia(bed, i));
+    const Vector angles = scaled_angles.cwiseQuotient(bed.root_inertia[i]);
     move_grain(bed, i, displacement, angles);
     energy += displacement.squaredNorm() / bed.motion[i].w + scaled_angles.squaredNorm();
     report.largest_motion =

@@ -34,11 +34,12 @@ Record<double> record_of(const Quaternion& q) { return {q.x(), q.y(), q.z(), q.w
 }  // namespace
 
 ShapeBed make_shape_bed(const Box& box, ConvexShape shape, const std::vector<Pose>& poses) {
-  ShapeBed bed{box, std::move(shape), {}, {}, {}, {}};
+  ShapeBed bed{box, std::move(shape), {}, {}, {}, {}, {}};
   for (const Pose& p : poses) {
     bed.centre.push_back({p.centre.x(), p.centre.y(), p.centre.z(), p.scale});
     bed.orientation.push_back(record_of(p.orientation));
     bed.motion.push_back({0.0, 0.0, 0.0, 1.0 / (p.scale * p.scale * p.scale)});
+    bed.root_inertia.emplace_back(p.scale * (bed.shape.inertia / bed.motion.back().w).cwiseSqrt());
   }
   bed.turn.assign(poses.size(), Vector::Zero());
   return bed;
@@ -52,11 +53,6 @@ bool is_finite(const ShapeBed& bed) {
     }
   }
   return true;
-}
-
-Vector root_inertia(const ShapeBed& bed, std::size_t grain) {
-  const double scale = bed.centre[grain].w;
-  return scale * (bed.shape.inertia / bed.motion[grain].w).cwiseSqrt();
 }
 
 Vector nearest_difference(const ShapeBed& bed, std::size_t a, std::size_t b) {

@@ -23,6 +23,7 @@ struct ShapeBed {
   std::vector<Record<double>> motion;  ///< displacement of the last step, d, and inverse mass
   std::vector<Vector>
       turn;  ///< angle vector of the next step if nothing acts, grain frame, radians
+  std::vector<Vector> root_inertia;  ///< square roots of the principal moments, sqrt(m) d
 
   std::size_t grains() const { return centre.size(); }
   // Entries after the grains, where rows name what is no grain: the floor and the walls, in the
@@ -43,9 +44,6 @@ ShapeBed make_shape_bed(const Box& box, ConvexShape shape, const std::vector<Pos
 
 /// Whether every grain's place, scale, orientation, motion and inverse mass is a finite number.
 bool is_finite(const ShapeBed& bed);
-
-/// Square roots of a grain's principal moments, sqrt(m) d.
-Vector root_inertia(const ShapeBed& bed, std::size_t grain);
 
 /// Centre of grain b minus that of grain a, of the nearest image, box frame, d.
 Vector nearest_difference(const ShapeBed& bed, std::size_t a, std::size_t b);

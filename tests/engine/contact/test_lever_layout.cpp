@@ -112,9 +112,9 @@ TEST_CASE("rows say how gaps change when grains move and turn") {
       const LeverPoints<double>& points = scene.rows.points[scene.point(k, j)];
       double change = n.dot((of_wall ? Vector(Vector::Zero()) : v[b]) - v[a]);
       for (int x = 0; x < 3; ++x) {
-        change -= points.lever_a[x][lane] * root_inertia(scene.bed, a)[x] * angles[a][x];
+        change -= points.lever_a[x][lane] * scene.bed.root_inertia[a][x] * angles[a][x];
         if (of_wall) continue;
-        change += points.lever_b[x][lane] * root_inertia(scene.bed, b)[x] * angles[b][x];
+        change += points.lever_b[x][lane] * scene.bed.root_inertia[b][x] * angles[b][x];
       }
       REQUIRE(change == Approx(n.dot(way_b - way_a)).margin(4 * size * size));  // second order
     }

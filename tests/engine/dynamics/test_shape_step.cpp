@@ -188,7 +188,7 @@ TEST_CASE("contacts between grains change neither their momentum nor their angul
     // The motion is what the forces at the points of contact give.
     REQUIRE((v / bed.motion[i].w / unit - f).norm() < 1e-9 * (1 + f.norm()));
     const Quaternion q = before.pose(i).orientation;
-    const Vector root = root_inertia(before, i);
+    const Vector root = before.root_inertia[i];
     const Vector turned = q.conjugate() * sums[i].torque * unit;
     const Quaternion step_turn = q.conjugate() * bed.pose(i).orientation;
     const Eigen::AngleAxisd angles(step_turn);

@@ -50,9 +50,8 @@ TEST_CASE("mass goes with the cube of the scale and moments with its fifth power
   const ShapeBed unit = one_grain(), large = one_grain(2);
   CHECK(1 / unit.motion[0].w == 1);
   CHECK(1 / large.motion[0].w == 8);
-  CHECK((root_inertia(large, 0).cwiseAbs2() - 32 * root_inertia(unit, 0).cwiseAbs2()).norm() <
-        1e-14);
-  CHECK((root_inertia(unit, 0).cwiseAbs2() - unit.shape.inertia).norm() < 1e-15);
+  CHECK((large.root_inertia[0].cwiseAbs2() - 32 * unit.root_inertia[0].cwiseAbs2()).norm() < 1e-14);
+  CHECK((unit.root_inertia[0].cwiseAbs2() - unit.shape.inertia).norm() < 1e-15);
 }
 
 TEST_CASE("pairs are seen across periodic sides and not across walls") {
