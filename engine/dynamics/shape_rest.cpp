@@ -1,8 +1,8 @@
 #include "engine/dynamics/shape_rest.hpp"
 
 #include <algorithm>
-#include <set>
 #include <utility>
+#include <vector>
 
 #include "engine/contact/constraints.hpp"
 
@@ -22,15 +22,16 @@ void visit_force_bearing(const ShapeStepState<Real>& state, double dt, Visit vis
   }
 }
 
-/// The two sides of each contact that bears a force.
-using Sides = std::set<std::pair<std::int32_t, std::int32_t>>;
+/// The two sides of each contact that bears a force, sorted.
+using Sides = std::vector<std::pair<std::int32_t, std::int32_t>>;
 
 template <class Real>
 Sides force_bearing(const ShapeStepState<Real>& state, double dt) {
   Sides sides;
   visit_force_bearing(state, dt, [&](std::size_t k, double) {
-    sides.emplace(state.contacts.contacts[k].a, state.contacts.contacts[k].b);
+    sides.emplace_back(state.contacts.contacts[k].a, state.contacts.contacts[k].b);
   });
+  std::sort(sides.begin(), sides.end());
   return sides;
 }
 
@@ -71,7 +72,7 @@ RestReport certify(ShapeBed& bed, const Processor& processor, double dt,
   RestReport rest;
   std::int64_t pairs = 0;
   for (const ShapeContact& c : now.contacts) {
-    if (bearing.count({c.a, c.b}) == 0) continue;
+    if (!std::binary_search(bearing.begin(), bearing.end(), std::pair(c.a, c.b))) continue;
     const double depth = depth_of(now, c);
     rest.overlap_mean += depth;
     rest.overlap_max = std::max(rest.overlap_max, depth);
