@@ -45,12 +45,10 @@ std::optional<double> enough_of_a_face(const ShapePair& pair, const TouchSetting
   return closest.distance - settings.preference;
 }
 
-const ContactAxis& preferred(const ContactAxes& axes, const TouchSettings& settings) {
-  const double preference =
-      settings.preference + settings.of_depth * std::max(0.0, -axes.edges.separation);
-  const bool edges = axes.edges.kind != AxisKind::none &&
-                     axes.edges.separation > axes.face.separation + preference;
-  return edges ? axes.edges : axes.face;
+/// Whether edges part the pair better than every face by more than this.
+bool edges_part_better(const ContactAxes& axes, double preference) {
+  return axes.edges.kind != AxisKind::none &&
+         axes.edges.separation > axes.face.separation + preference;
 }
 
 /// Where nothing lies above the touching face, or no edges cross: a point between the closest
@@ -82,23 +80,43 @@ void touch_edges(const ShapePair& pair, const ContactAxis& axis,
                             : lone_point(pair, axis.separation));
 }
 
-}  // namespace
-
-PairContact touch(const ShapePair& pair, const TouchSettings& settings, const ContactAxes& axes,
-                  ClipColumns& columns, std::vector<ContactPoint>& points) {
-  if (!(axes.separation() <= settings.margin)) return {};
-  const ContactAxis& axis = preferred(axes, settings);
+PairContact touch_along(const ShapePair& pair, const ContactAxis& axis, double margin,
+                        ClipColumns& columns, std::vector<ContactPoint>& points) {
   PairContact contact{axis.normal, axis.separation, axis.kind, points.size(), 0};
   if (axis.kind == AxisKind::edges) {
     touch_edges(pair, axis, points);
   } else {
-    touch_faces(pair, axis, settings.margin, columns, points);
+    touch_faces(pair, axis, margin, columns, points);
   }
   if (points.size() == contact.first) {
     points.push_back(lone_point(pair, axis.separation));
   }
   contact.count = points.size() - contact.first;
   return contact;
+}
+
+/// Least gap of a contact's points.
+double deepest(const PairContact& contact, const std::vector<ContactPoint>& points) {
+  double least = points[contact.first].gap;
+  for (std::size_t k = 1; k < contact.count; ++k) {
+    least = std::min(least, points[contact.first + k].gap);
+  }
+  return least;
+}
+
+}  // namespace
+
+PairContact touch(const ShapePair& pair, const TouchSettings& settings, const ContactAxes& axes,
+                  ClipColumns& columns, std::vector<ContactPoint>& points) {
+  if (!(axes.separation() <= settings.margin)) return {};
+  const bool edges = edges_part_better(axes, settings.preference);
+  const double overlap = edges ? std::max(0.0, -axes.edges.separation) : 0.0;
+  if (edges && !edges_part_better(axes, settings.preference + settings.of_depth * overlap)) {
+    const PairContact contact = touch_along(pair, axes.face, settings.margin, columns, points);
+    if (deepest(contact, points) <= axes.edges.separation) return contact;
+    points.resize(contact.first);  // the overlap is not above the face
+  }
+  return touch_along(pair, edges ? axes.edges : axes.face, settings.margin, columns, points);
 }
 
 PairContact touch(const ShapePair& pair, const TouchSettings& settings, PairMemory& memory,

@@ -20,6 +20,10 @@ struct Found {
   std::vector<ContactPoint> points;
 
   int constraints() const { return constraints_of(points.data(), points.size(), 1e-4); }
+  double deepest() const {
+    const auto by_gap = [](const ContactPoint& p, const ContactPoint& q) { return p.gap < q.gap; };
+    return std::min_element(points.begin(), points.end(), by_gap)->gap;
+  }
   bool has(const Vector& position, double gap) const {
     return std::any_of(points.begin(), points.end(), [&](const ContactPoint& p) {
       return (p.position - position).norm() < 1e-12 && std::abs(p.gap - gap) < 1e-12;
@@ -261,23 +265,28 @@ TEST_CASE("edges give the normal only where they part a pair better by the prefe
   CHECK(switched > 100);
 }
 
-TEST_CASE("the deeper edges overlap the more a face is preferred, one that is as deep always") {
+TEST_CASE(
+    "the deeper edges overlap the more a face is preferred, where it sees the overlap whole") {
   const ConvexShape shape = pinacoid({});
   Draw draw(26);
-  int switched = 0;
-  for (int k = 0; k < 2000; ++k) {
+  int faces = 0, edges = 0;
+  for (int k = 0; k < 20000; ++k) {
     const ShapePair pair{shape, shape, testing::random_pose(draw, 0.5, 0.9)};
     const ContactAxes axes = separating_axes(pair);
     const double depth = -axes.edges.separation;
     const double ahead = axes.edges.separation - axes.face.separation;
     if (axes.edges.kind == AxisKind::none || depth < 1e-3 || ahead < 1e-6) continue;
-    ++switched;
     const double share = ahead / depth;
     CHECK(contact_of(pair, {0.05, 0.0, 0.999 * share}).contact.kind == AxisKind::edges);
-    CHECK(contact_of(pair, {0.05, 0.0, 1.001 * share}).contact.kind == axes.face.kind);
-    CHECK(contact_of(pair, {0.05, 0.5 * ahead, 0.501 * share}).contact.kind == axes.face.kind);
+    const Found found = contact_of(pair, {0.05, 0.0, 1.001 * share});
+    const AxisKind kind = found.contact.kind;
+    CHECK((kind == axes.face.kind || kind == AxisKind::edges));
+    CHECK(contact_of(pair, {0.05, 0.5 * ahead, 0.501 * share}).contact.kind == kind);
+    CHECK(found.deepest() <= axes.edges.separation);
+    (kind == AxisKind::edges ? edges : faces) += 1;
   }
-  CHECK(switched > 100);
+  CHECK(faces > 1000);
+  CHECK(edges > 10);
 }
 
 TEST_CASE("edges that are apart give the normal whatever is preferred by their depth") {
