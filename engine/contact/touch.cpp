@@ -112,7 +112,7 @@ PairContact touch(const ShapePair& pair, const TouchSettings& settings, const Co
   const bool edges = edges_part_better(axes, settings.preference);
   const double overlap = edges ? std::max(0.0, -axes.edges.separation) : 0.0;
   if (edges && !edges_part_better(axes, settings.preference + settings.of_depth * overlap)) {
-    const PairContact contact = touch_along(pair, axes.face, settings.margin, columns, points);
+    PairContact contact = touch_along(pair, axes.face, settings.margin, columns, points);
     if (deepest(contact, points) <= axes.edges.separation) return contact;
     points.resize(contact.first);  // the overlap is not above the face
   }
