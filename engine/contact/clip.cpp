@@ -14,6 +14,10 @@ namespace {
 constexpr double on_side = 1e-12;
 constexpr double same_point = 1e-10;
 
+const Face& face_of(const ConvexShape& shape, std::int32_t number) {
+  return shape.faces[static_cast<std::size_t>(number)];
+}
+
 /// A face to touch on, in the frame of its shape.
 struct Base {
   const ConvexShape& shape;
@@ -93,10 +97,9 @@ const Face& touching_face(const Seen& other, const Vector& normal) {
   const auto first = shape.vertex_faces.begin() + shape.vertex_faces_begin[lowest];
   const auto last = shape.vertex_faces.begin() + shape.vertex_faces_begin[lowest + 1];
   const std::int32_t best = *std::max_element(first, last, [&](std::int32_t f, std::int32_t g) {
-    return shape.faces[static_cast<std::size_t>(f)].normal.dot(down) <
-           shape.faces[static_cast<std::size_t>(g)].normal.dot(down);
+    return face_of(shape, f).normal.dot(down) < face_of(shape, g).normal.dot(down);
   });
-  return shape.faces[static_cast<std::size_t>(best)];
+  return face_of(shape, best);
 }
 
 void add_point(const Base& base, const Vector& x, double margin, std::size_t first,
@@ -135,10 +138,6 @@ void clip(const Base& base, const Seen& other, double margin, ClipColumns& colum
     add_point(base, x, margin, first, points);
   }
   add_other_vertices(base, other, margin, first, points);
-}
-
-const Face& face_of(const ConvexShape& shape, std::int32_t number) {
-  return shape.faces[static_cast<std::size_t>(number)];
 }
 
 }  // namespace
