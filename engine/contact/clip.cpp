@@ -48,13 +48,17 @@ struct Seen {
   Vector place(std::size_t vertex) const { return centre + turn * shape.vertices[vertex]; }
 };
 
+/// Vertices of a face, around it.
+std::span<const std::int32_t> corners_of(const ConvexShape& shape, const Face& face) {
+  return {shape.loops.data() + face.first, static_cast<std::size_t>(face.corners)};
+}
+
 /// Places the corners of a face.
 void place_face(const Seen& other, const Face& face, std::vector<Vector>& corners) {
-  const auto first = other.shape.loops.begin() + face.first;
   corners.clear();
-  std::for_each(first, first + face.corners, [&](std::int32_t vertex) {
+  for (const std::int32_t vertex : corners_of(other.shape, face)) {
     corners.push_back(other.place(static_cast<std::size_t>(vertex)));
-  });
+  }
 }
 
 /// Cuts a polygon by the plane through a side, beyond which its corners lie by so much (Sutherland
@@ -117,12 +121,16 @@ void add_point(const Base& base, const Vector& x, double margin, std::size_t fir
 
 /// Vertices within the margin that are no corners of the touching face: where an edge lies on the
 /// base, a face at one of its ends may be the touching one, and would leave out the other end.
-void add_other_vertices(const Base& base, const Seen& other, double margin, std::size_t first,
-                        std::vector<ContactPoint>& points) {
+void add_other_vertices(const Base& base, const Seen& other, const Face& touching, double margin,
+                        std::size_t first, std::vector<ContactPoint>& points) {
   const Vector up = other.turn.transpose() * base.face.normal;
   const double least = margin - base.gap(other.centre);
+  const std::span<const std::int32_t> corners = corners_of(other.shape, touching);
   for (std::size_t v = 0; v < other.shape.vertices.size(); ++v) {
     if (up.dot(other.shape.vertices[v]) > least) continue;
+    if (std::find(corners.begin(), corners.end(), static_cast<std::int32_t>(v)) != corners.end()) {
+      continue;
+    }
     const Vector x = other.place(v);
     if (base.is_below(x)) add_point(base, x, margin, first, points);
   }
@@ -132,12 +140,13 @@ void add_other_vertices(const Base& base, const Seen& other, double margin, std:
 void clip(const Base& base, const Seen& other, double margin, ClipColumns& columns,
           std::vector<ContactPoint>& points) {
   const std::size_t first = points.size();
-  place_face(other, touching_face(other, base.face.normal), columns.polygon);
+  const Face& touching = touching_face(other, base.face.normal);
+  place_face(other, touching, columns.polygon);
   cut_by_sides(base, columns);
   for (const Vector& x : columns.polygon) {
     add_point(base, x, margin, first, points);
   }
-  add_other_vertices(base, other, margin, first, points);
+  add_other_vertices(base, other, touching, margin, first, points);
 }
 
 }  // namespace

@@ -105,12 +105,11 @@ struct ContactRows {
 
 void add_side_b(const ShapeBed& bed, const ShapeContact& contact, const ContactPoint* points,
                 ContactRows& rows) {
-  const auto a = static_cast<std::size_t>(contact.a), b = static_cast<std::size_t>(contact.b);
-  const PairPose pose = pair_pose(bed, a, b);
+  const auto b = static_cast<std::size_t>(contact.b);
   const Vector& root = bed.root_inertia[b];
   for (std::size_t k = 0; k < contact.count; ++k) {
-    const Vector torque = (points[k].position - pose.centre).cross(contact.normal);
-    rows.each[k].lever_b = (pose.turn.transpose() * torque).cwiseQuotient(root);
+    const Vector torque = (points[k].position - contact.pose.centre).cross(contact.normal);
+    rows.each[k].lever_b = (contact.pose.turn.transpose() * torque).cwiseQuotient(root);
   }
   rows.inverse_masses += bed.motion[b].w;
 }

@@ -27,10 +27,11 @@ Ends ends_of(GrainPair pair) {
   return {static_cast<std::size_t>(pair.a), static_cast<std::size_t>(pair.b)};
 }
 
-void append(GrainPair pair, const PairContact& contact, ShapeContacts& found) {
+void append(GrainPair pair, const PairPose& pose, const PairContact& contact,
+            ShapeContacts& found) {
   if (contact.count > 0) {
     found.contacts.push_back(
-        {pair.a, pair.b, contact.kind, contact.normal, contact.first, contact.count});
+        {pair.a, pair.b, contact.kind, contact.normal, contact.first, contact.count, pose});
   }
 }
 
@@ -40,9 +41,8 @@ void touch_pairs(const TouchSettings& settings, const ShapeBed& bed, ShapeSearch
   for (std::size_t k = 0; k < search.candidates.pairs.size(); ++k) {
     const GrainPair pair = search.candidates.pairs[k];
     const Ends at = ends_of(pair);
-    append(pair,
-           touch({bed.shape, bed.shape, pair_pose(bed, at.a, at.b)}, settings, search.memory[k],
-                 search.clip, found.points),
+    const ShapePair shapes{bed.shape, bed.shape, pair_pose(bed, at.a, at.b)};
+    append(pair, shapes.pose, touch(shapes, settings, search.memory[k], search.clip, found.points),
            found);
   }
 }
@@ -84,7 +84,8 @@ void touch_pinacoids(const TouchSettings& settings, const Processor& processor, 
     if (parted_by(block, lane, settings.margin, scale)) continue;
     const ShapePair pair{bed.shape, bed.shape, pair_pose(bed, at.a, at.b)};
     const ContactAxes axes = separating_axes(pair, block, lane);
-    append(search.close[k], touch(pair, settings, axes, search.clip, found.points), found);
+    append(search.close[k], pair.pose, touch(pair, settings, axes, search.clip, found.points),
+           found);
   }
 }
 
@@ -102,7 +103,7 @@ void touch_walls(double margin, const ShapeBed& bed, const Candidates& candidate
       const std::size_t count = touch_wall(bed.shape, pose, wall, margin, found.points);
       if (count > 0) {
         const Vector normal = pose.orientation.conjugate() * -wall.normal;
-        found.contacts.push_back({grain, bed.wall(k), AxisKind::none, normal, first, count});
+        found.contacts.push_back({grain, bed.wall(k), AxisKind::none, normal, first, count, {}});
       }
     }
   }

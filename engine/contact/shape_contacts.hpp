@@ -22,6 +22,7 @@ struct ShapeContact {
   AxisKind kind = AxisKind::none;  ///< what gave the normal; none = a wall
   Vector normal = Vector::Zero();  ///< unit, from a to b, frame of a
   std::size_t first = 0, count = 0;
+  PairPose pose;  ///< of b as a sees it; of no wall
 };
 
 struct ShapeContacts {
