@@ -68,8 +68,20 @@ SweepSums<Real> gradient_sweep(const RowBlock<Real>* rows, std::size_t blocks,
 template <class Real>
 void take_pushes(const Record<Real>* free, std::size_t count, Record<Real>* pushes,
                  Record<Real>* u) {
-  for (std::size_t i = 0; i < count; ++i) {
-    take_push(free[i], pushes[i], u[i]);
+  constexpr std::size_t few = records_at_once<Real>;
+  const std::size_t whole = count - count % few;
+  for (std::size_t i = 0; i < whole; i += few) take_pushed(free + i, pushes + i, u + i);
+  if (whole == count) return;
+  Record<Real> last[3][few] = {};  // free, pushes and u of those left over
+  const std::size_t left = count - whole;
+  for (std::size_t k = 0; k < left; ++k) {
+    last[0][k] = free[whole + k];
+    last[1][k] = pushes[whole + k];
+  }
+  take_pushed(last[0], last[1], last[2]);
+  for (std::size_t k = 0; k < left; ++k) {
+    pushes[whole + k] = last[1][k];
+    u[whole + k] = last[2][k];
   }
 }
 
