@@ -21,8 +21,8 @@ usage: ./setup.sh [--checks] [--emulator]
 Installs the packages that building and testing grainsweep takes, with apt-get, as root or through
 sudo. Only what is missing is installed; with nothing missing it ends at once.
 
-  --checks    also clang-format and clang-tidy, for the checks of .ci/run, and clang and strace,
-              for the faults (tests/faults) that need them
+  --checks    also clang-format and clang-tidy, for the checks of .ci/run, clang, for builds under
+              sanitizers, and strace, for the faults (tests/faults) that need it
   --emulator  also a PC emulator with AVX-512, for tests/checks/avx512_emulated.sh
   --help      this text
 EOF

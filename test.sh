@@ -9,8 +9,9 @@ usage: ./test.sh [--fast] [--sanitize] [-- CTEST-OPTIONS...]
 Builds grainsweep with all tests and benchmarks in build/release and runs every test.
 
   --fast       only the tests of seconds (label fast); leaves out the slow physics and the checks
-  --sanitize   in a second build, build/sanitize, under the address and undefined-behaviour
-               sanitizers; takes several times as long, so mostly together with --fast
+  --sanitize   in a second build, build/sanitize, by clang under the address and
+               undefined-behaviour sanitizers; takes several times as long, so mostly together
+               with --fast
   --help       this text
   --           what follows goes to ctest, e.g.  ./test.sh -- -R "carries its weight" -V
 
@@ -24,11 +25,12 @@ EOF
 root=$(dirname "$(readlink -f "$0")")
 readonly root
 preset=release
+setup_options=()
 ctest_options=(--parallel "$(nproc)")
 while (($#)); do
   case $1 in
     --fast) ctest_options+=(--label-regex '^fast$') ;;
-    --sanitize) preset=sanitize ;;
+    --sanitize) preset=sanitize setup_options=(--checks) ;;
     -h | --help) usage && exit 0 ;;
     --) shift && ctest_options+=("$@") && break ;;
     *) usage >&2 && printf 'test.sh: unknown option %s\n' "$1" >&2 && exit 2 ;;
@@ -36,7 +38,7 @@ while (($#)); do
   shift
 done
 
-"$root/setup.sh"
+"$root/setup.sh" "${setup_options[@]}"
 cd "$root"
 mkdir -p "build/$preset"
 exec 9>"build/$preset/.lock"

@@ -18,9 +18,9 @@ using testing::periodic;
 using testing::RandomScene;
 using testing::walls;
 
-constexpr double reach = 0.13;
+constexpr double listed_reach = 0.13;
 
-Candidates search(SphereBed& bed, double within = reach) {
+Candidates search(SphereBed& bed, double within = listed_reach) {
   Candidates candidates;
   find_candidates(bed, within, kernels_for(best_isa()), candidates);
   return candidates;
@@ -28,7 +28,7 @@ Candidates search(SphereBed& bed, double within = reach) {
 
 /// The list holds every pair within reach once, and none that is farther than the reach by more
 /// than the search's rounding of positions, 1e-6 of the bed's extent, explains.
-void expect_right_list(SphereBed& bed, double within = reach) {
+void expect_right_list(SphereBed& bed, double within = listed_reach) {
   const Candidates candidates = search(bed, within);
   CHECK(testing::holds_all_closer_than(bed, candidates, within));
   double extent = 2.0 * std::max(bed.box.length, bed.box.width);
@@ -123,7 +123,7 @@ TEST_CASE("the list is right for a few grains in a tall and nearly empty box") {
 
 /// Grains on the borders of the search's cells, in the corners between them, and around.
 std::vector<PlacedSphere> grains_on_borders(const Box& box, double radius) {
-  const double least = 2 * radius + reach;
+  const double least = 2 * radius + listed_reach;
   std::vector<PlacedSphere> spheres;
   for (const double extent : {box.length, box.width}) {
     const double size = extent / std::max(1.0, std::floor(extent / least));
@@ -169,7 +169,7 @@ TEST_CASE("the list is the same for every instruction set") {
     INFO(name_of(isa));
     copy = bed;
     Candidates candidates;
-    find_candidates(copy, reach, kernels_for(isa), candidates);
+    find_candidates(copy, listed_reach, kernels_for(isa), candidates);
     CHECK(std::equal(candidates.pairs.begin(), candidates.pairs.end(), expected.pairs.begin(),
                      expected.pairs.end(),
                      [](GrainPair p, GrainPair q) { return p.a == q.a && p.b == q.b; }));
@@ -180,9 +180,9 @@ TEST_CASE("a list is rewritten whole when it is used again, for more and for few
   Candidates candidates;
   for (const std::size_t grains : {10U, 400U, 0U, 40U}) {
     SphereBed bed = testing::random_bed({{4, 4, periodic, walls}, grains, 0.5, 0.5, 3, 31});
-    find_candidates(bed, reach, kernels_for(best_isa()), candidates);
+    find_candidates(bed, listed_reach, kernels_for(best_isa()), candidates);
     CHECK(testing::listed_pairs(candidates).size() ==
-          testing::pairs_closer_than(bed, reach).size());
+          testing::pairs_closer_than(bed, listed_reach).size());
     CHECK(candidates.built_at.size() == grains);
   }
 }
@@ -277,11 +277,11 @@ TEST_CASE("a list lasts while grains near each other move by less than its margi
 }
 
 TEST_CASE("two grains that close in on each other need a new list after the margin, not before") {
-  SphereBed bed = make_bed(boxes[0], {{1, 2, 0.5, 0.5}, {2 + reach + 1e-4, 2, 0.5, 0.5}});
+  SphereBed bed = make_bed(boxes[0], {{1, 2, 0.5, 0.5}, {2 + listed_reach + 1e-4, 2, 0.5, 0.5}});
   Candidates candidates = search(bed);
   REQUIRE(candidates.pairs.empty());
-  bed.position[0].x += 0.5 * (reach - near) - 1e-4;
-  bed.position[1].x -= 0.5 * (reach - near) - 1e-4;
+  bed.position[0].x += 0.5 * (listed_reach - near) - 1e-4;
+  bed.position[1].x -= 0.5 * (listed_reach - near) - 1e-4;
   CHECK(still_complete(bed, near, candidates));
   bed.position[0].x += 2e-4;
   bed.position[1].x -= 2e-4;
@@ -329,7 +329,7 @@ TEST_CASE("a grain that falls through empty air to another one is seen to come n
 // so that neither of the others moves by more than the margin relative to its own neighbouring
 // layer.
 TEST_CASE("grains two layers apart that approach each other are seen to come near") {
-  const double layer = 1 + reach + 4e-5, tiny = 1e-9;
+  const double layer = 1 + listed_reach + 4e-5, tiny = 1e-9;
   SphereBed bed = make_bed(boxes[0], {{7, 2, 0.5, 0.5},
                                       {1, 2, 0.5 + layer - tiny, 0.5},
                                       {5, 2, 0.5 + 1.5 * layer, 0.5},

@@ -23,7 +23,7 @@ Rows rows_of(const std::string& text) {
 }
 
 /// What the sanitizers cost is not what a user waits for.
-#ifdef __SANITIZE_ADDRESS__
+#ifdef GRAINSWEEP_SANITIZED
 constexpr double patience = 10.0;
 #else
 constexpr double patience = 1.0;
