@@ -181,6 +181,63 @@ inline void add_records(Record<float>* base, const std::uint32_t* offset,
   put_records(c, [&](int k, __m128 record) { add_to(at(base, offset[k]), record); });
 }
 
+/// Both records of grains k and k + 4, one grain in each half.
+inline __m512 load_two_grains(const Record<float>* base, const std::uint32_t* offset, int k) {
+  const __m512 grain = _mm512_castps256_ps512(_mm256_loadu_ps(&at(base, offset[k]).x));
+  return _mm512_insertf32x8(grain, _mm256_loadu_ps(&at(base, offset[k + 4]).x), 1);
+}
+
+/// A grain's two records by one load. Transposed, a batch of eight grains has their first records
+/// in its even quarters and their second records in its odd ones.
+inline TwoRecords<Components<float>> load_both(const Record<float>* base,
+                                               const std::uint32_t* offset) {
+  __m512 r0 = load_two_grains(base, offset, 0), r1 = load_two_grains(base, offset, 1);
+  __m512 r2 = load_two_grains(base, offset, 2), r3 = load_two_grains(base, offset, 3);
+  __m512 s0 = load_two_grains(base, offset, 8), s1 = load_two_grains(base, offset, 9);
+  __m512 s2 = load_two_grains(base, offset, 10), s3 = load_two_grains(base, offset, 11);
+  transpose(r0, r1, r2, r3);
+  transpose(s0, s1, s2, s3);
+  return {{_mm512_shuffle_f32x4(r0, s0, 0x88), _mm512_shuffle_f32x4(r1, s1, 0x88),
+           _mm512_shuffle_f32x4(r2, s2, 0x88), _mm512_shuffle_f32x4(r3, s3, 0x88)},
+          {_mm512_shuffle_f32x4(r0, s0, 0xDD), _mm512_shuffle_f32x4(r1, s1, 0xDD),
+           _mm512_shuffle_f32x4(r2, s2, 0xDD), _mm512_shuffle_f32x4(r3, s3, 0xDD)}};
+}
+
+/// Adds a grain's two records.
+inline void add_to_two_records(Record<float>& to, __m256 records) {
+  _mm256_storeu_ps(&to.x, _mm256_add_ps(_mm256_loadu_ps(&to.x), records));
+}
+
+/// Adds the records of lanes 0 .. 7, or of 8 .. 15: each component's quarters of first and second
+/// records in turn.
+inline void add_eight(Record<float>* base, const std::uint32_t* offset, __m512 r0, __m512 r1,
+                      __m512 r2, __m512 r3) {
+  transpose(r0, r1, r2, r3);
+  add_to_two_records(at(base, offset[0]), _mm512_castps512_ps256(r0));
+  add_to_two_records(at(base, offset[1]), _mm512_castps512_ps256(r1));
+  add_to_two_records(at(base, offset[2]), _mm512_castps512_ps256(r2));
+  add_to_two_records(at(base, offset[3]), _mm512_castps512_ps256(r3));
+  add_to_two_records(at(base, offset[4]), _mm512_extractf32x8_ps(r0, 1));
+  add_to_two_records(at(base, offset[5]), _mm512_extractf32x8_ps(r1, 1));
+  add_to_two_records(at(base, offset[6]), _mm512_extractf32x8_ps(r2, 1));
+  add_to_two_records(at(base, offset[7]), _mm512_extractf32x8_ps(r3, 1));
+}
+
+/// Adds both records of each grain by one store; lanes may share a grain.
+inline void add_both(Record<float>* base, const std::uint32_t* offset,
+                     const TwoRecords<Components<float>>& g) {
+  const __m512i low = _mm512_setr_epi32(0, 1, 2, 3, 16, 17, 18, 19, 4, 5, 6, 7, 20, 21, 22, 23);
+  const __m512i high = _mm512_add_epi32(low, _mm512_set1_epi32(8));
+  const auto in_turn = [](const __m512i& which, __m512 first, __m512 second) {
+    return _mm512_permutex2var_ps(first, which, second);
+  };
+  add_eight(base, offset, in_turn(low, g.first.x, g.second.x), in_turn(low, g.first.y, g.second.y),
+            in_turn(low, g.first.z, g.second.z), in_turn(low, g.first.w, g.second.w));
+  add_eight(base, offset + 8, in_turn(high, g.first.x, g.second.x),
+            in_turn(high, g.first.y, g.second.y), in_turn(high, g.first.z, g.second.z),
+            in_turn(high, g.first.w, g.second.w));
+}
+
 inline void add_to(Record<double>& to, __m256d record) {
   _mm256_store_pd(&to.x, _mm256_add_pd(_mm256_load_pd(&to.x), record));
 }
