@@ -22,7 +22,7 @@ struct ShapeContact {
   AxisKind kind = AxisKind::none;  ///< what gave the normal; none = a wall
   Vector normal = Vector::Zero();  ///< unit, from a to b, frame of a
   std::size_t first = 0, count = 0;
-  PairPose pose;  ///< of b as a sees it; of no wall
+  PairPose pose;  ///< grain b as a sees it; not set for a wall
 };
 
 struct ShapeContacts {

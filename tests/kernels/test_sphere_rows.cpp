@@ -163,13 +163,22 @@ TEMPLATE_TEST_CASE("pushes become motions with the bits of their plain-loop twin
 }
 
 TEMPLATE_TEST_CASE("pushes are divided by the masses and are gone then", "", float, double) {
-  const std::vector<Record<TestType>> free = {{1, 2, 3, 4}};
+  using Records = std::vector<Record<TestType>>;
+  constexpr std::size_t records = 12;  // more than any register holds
+  const Records free(records, {1, 2, 3, 4}), before(records, {1, -1, 0.5, 0}),
+      still(records, {7, 7, 7, 7});
   for (const Isa isa : testing::testable_isas()) {
-    INFO(name_of(isa));
-    std::vector<Record<TestType>> pushes = {{1, -1, 0.5, 0}}, u(1);
-    row_kernels<TestType>(kernels_for(isa)).take_pushes(free.data(), 1, pushes.data(), u.data());
-    CHECK(same_bits(u, std::vector<Record<TestType>>{{5, -2, 5, 4}}));
-    CHECK(same_bits(pushes, std::vector<Record<TestType>>{{0, 0, 0, 0}}));
+    for (std::size_t count = 0; count < records; ++count) {
+      INFO(name_of(isa) << ", " << count << " of " << records);
+      const auto taken = static_cast<std::ptrdiff_t>(count);
+      Records pushes = before, u = still, pushes_after = before, u_after = still;
+      std::fill(pushes_after.begin(), pushes_after.begin() + taken, Record<TestType>{0, 0, 0, 0});
+      std::fill(u_after.begin(), u_after.begin() + taken, Record<TestType>{5, -2, 5, 4});
+      row_kernels<TestType>(kernels_for(isa))
+          .take_pushes(free.data(), count, pushes.data(), u.data());
+      CHECK(same_bits(u, u_after));
+      CHECK(same_bits(pushes, pushes_after));
+    }
   }
 }
 
