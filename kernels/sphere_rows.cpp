@@ -71,17 +71,11 @@ void take_pushes(const Record<Real>* free, std::size_t count, Record<Real>* push
   constexpr std::size_t few = records_at_once<Real>;
   const std::size_t whole = count - count % few;
   for (std::size_t i = 0; i < whole; i += few) take_pushed(free + i, pushes + i, u + i);
-  if (whole == count) return;
-  Record<Real> last[3][few] = {};  // free, pushes and u of those left over
-  const std::size_t left = count - whole;
-  for (std::size_t k = 0; k < left; ++k) {
-    last[0][k] = free[whole + k];
-    last[1][k] = pushes[whole + k];
-  }
-  take_pushed(last[0], last[1], last[2]);
-  for (std::size_t k = 0; k < left; ++k) {
-    pushes[whole + k] = last[1][k];
-    u[whole + k] = last[2][k];
+  for (std::size_t i = whole; i < count; ++i) {
+    const Record<Real> from = free[i], push = pushes[i];
+    u[i] = {from.x + from.w * push.x, from.y + from.w * push.y, from.z + from.w * push.z,
+            from.w + from.w * push.w};
+    pushes[i] = {};
   }
 }
 
