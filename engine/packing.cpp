@@ -144,8 +144,8 @@ Mesh mesh_of(const ConvexShape& shape) {
     mesh.vertices.push_back({v.x(), v.y(), v.z()});
   }
   for (const Face& face : shape.faces) {
-    const auto first = shape.loops.begin() + face.first;
-    mesh.faces.emplace_back(first, first + face.corners);
+    const auto corners = corners_of(shape, face);
+    mesh.faces.emplace_back(corners.begin(), corners.end());
   }
   return mesh;
 }

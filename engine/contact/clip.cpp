@@ -48,11 +48,6 @@ struct Seen {
   Vector place(std::size_t vertex) const { return centre + turn * shape.vertices[vertex]; }
 };
 
-/// Vertices of a face, around it.
-std::span<const std::int32_t> corners_of(const ConvexShape& shape, const Face& face) {
-  return {shape.loops.data() + face.first, static_cast<std::size_t>(face.corners)};
-}
-
 /// Places the corners of a face.
 void place_face(const Seen& other, const Face& face, std::vector<Vector>& corners) {
   corners.clear();

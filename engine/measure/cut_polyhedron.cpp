@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <utility>
 
 namespace grainsweep {
@@ -95,11 +96,11 @@ double box_volume(const ConvexShape& shape, const Pose& pose, const Vector& low,
   const Matrix turn = pose.scale * pose.orientation.toRotationMatrix();
   double volume = 0.0;
   for (const Face& face : shape.faces) {
-    const auto corner = [&](std::int32_t k) -> Vector {
-      const std::int32_t v = *(shape.loops.begin() + face.first + k);
-      return pose.centre + turn * shape.vertices[static_cast<std::size_t>(v)];
+    const std::span<const std::int32_t> corners = corners_of(shape, face);
+    const auto corner = [&](std::size_t k) -> Vector {
+      return pose.centre + turn * shape.vertices[static_cast<std::size_t>(corners[k])];
     };
-    for (std::int32_t k = 1; k + 1 < face.corners; ++k) {
+    for (std::size_t k = 1; k + 1 < corners.size(); ++k) {
       volume += cut_volume({pose.centre, corner(0), corner(k), corner(k + 1)}, planes, 0);
     }
   }

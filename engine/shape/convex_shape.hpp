@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include <Eigen/Core>
@@ -70,6 +71,11 @@ struct ConvexShape {
   std::optional<PinacoidWidth> pinacoid;  ///< if the shape is one
   GivenFrame given;                       ///< that in which its vertices were written
 };
+
+/// Vertices of a face, counter-clockwise seen from outside.
+inline std::span<const std::int32_t> corners_of(const ConvexShape& shape, const Face& face) {
+  return {shape.loops.data() + face.first, static_cast<std::size_t>(face.corners)};
+}
 
 /// Half width of a pinacoid along n: largest n . x over its points.
 inline double half_width(const PinacoidWidth& w, const Vector& n) {
