@@ -95,16 +95,13 @@ PairContact touch_along(const ShapePair& pair, const ContactAxis& axis, double m
   return contact;
 }
 
-/// Least gap of a contact's points.
-double deepest(const PairContact& contact, const std::vector<ContactPoint>& points) {
-  double least = points[contact.first].gap;
-  for (std::size_t k = 1; k < contact.count; ++k) {
-    least = std::min(least, points[contact.first + k].gap);
-  }
+}  // namespace
+
+double least_gap(const ContactPoint* points, std::size_t count) {
+  double least = points->gap;
+  for (std::size_t k = 1; k < count; ++k) least = std::min(least, points[k].gap);
   return least;
 }
-
-}  // namespace
 
 PairContact touch(const ShapePair& pair, const TouchSettings& settings, const ContactAxes& axes,
                   ClipColumns& columns, std::vector<ContactPoint>& points) {
@@ -113,7 +110,8 @@ PairContact touch(const ShapePair& pair, const TouchSettings& settings, const Co
   const double overlap = edges ? std::max(0.0, -axes.edges.separation) : 0.0;
   if (edges && !edges_part_better(axes, settings.preference + settings.of_depth * overlap)) {
     PairContact contact = touch_along(pair, axes.face, settings.margin, columns, points);
-    if (deepest(contact, points) <= axes.edges.separation) return contact;
+    const double deepest = least_gap(points.data() + contact.first, contact.count);
+    if (deepest <= axes.edges.separation) return contact;
     points.resize(contact.first);  // the overlap is not above the face
   }
   return touch_along(pair, edges ? axes.edges : axes.face, settings.margin, columns, points);

@@ -33,6 +33,9 @@ struct ContactPoint {
   double gap = 0.0;    ///< along the normal, d; negative = overlap; at most the true distance
 };
 
+/// Least gap of one point or more, d.
+double least_gap(const ContactPoint* points, std::size_t count);
+
 /// Contact of two grains; its points are `points[first]` .. `points[first + count - 1]`.
 struct PairContact {
   Vector normal = Vector::Zero();  ///< unit, from a to b, frame of a; the same for all points

@@ -50,14 +50,6 @@ std::int64_t zero_modes(const ShapeBed& bed, const Sides& bearing) {
   return 3 * lone + (has_cluster ? free_axes : 0);
 }
 
-double depth_of(const ShapeContacts& found, const ShapeContact& contact) {
-  double depth = 0.0;
-  for (std::size_t j = 0; j < contact.count; ++j) {
-    depth = std::max(depth, -found.points[contact.first + j].gap);
-  }
-  return depth;
-}
-
 }  // namespace
 
 template <class Real>
@@ -73,7 +65,7 @@ RestReport certify(ShapeBed& bed, const Processor& processor, double dt,
   std::int64_t pairs = 0;
   for (const ShapeContact& c : now.contacts) {
     if (!std::binary_search(bearing.begin(), bearing.end(), std::pair(c.a, c.b))) continue;
-    const double depth = depth_of(now, c);
+    const double depth = std::max(0.0, -least_gap(now.points.data() + c.first, c.count));
     rest.overlap_mean += depth;
     rest.overlap_max = std::max(rest.overlap_max, depth);
     rest.contacts += constraints_of(now.points.data() + c.first, c.count, constraint_gap);
