@@ -3,6 +3,7 @@
 #include <array>
 #include <cinttypes>
 #include <cstdio>
+#include <libdeflate.h>
 
 #include <CLI/Version.hpp>
 #include <Eigen/Core>
@@ -41,6 +42,7 @@ std::string compiler_version() {
 std::map<std::string, std::string> library_versions() {
   return {{"CLI11", CLI11_VERSION},
           {"Eigen", dotted(EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)},
+          {"libdeflate", LIBDEFLATE_VERSION_STRING},
           {"nlohmann-json", dotted(NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR,
                                    NLOHMANN_JSON_VERSION_PATCH)},
           {"oneTBB", TBB_runtime_version()},
