@@ -37,10 +37,13 @@ void gauss_seidel_sweep(benchmark::State& run) {
   FrozenBed<Real> f = frozen_bed<Real>(run.range(1));
   const RowKernels<Real>& kernels = row_kernels<Real>(kernels_of(run));
   auto& contacts = f.state.contacts;
+  auto& motion = f.state.motion;
+  const SweepRule<Real> rule{Real(0.9), Real(0.5), false};
   for (auto _ : run) {
-    benchmark::DoNotOptimize(kernels.gauss_seidel_sweep(contacts.rows.data(), contacts.rows.size(),
-                                                        f.state.motion.u.data(),
-                                                        contacts.impulse.data(), false));
+    benchmark::DoNotOptimize(kernels.gauss_seidel_sweep(
+        contacts.rows.data(), contacts.rows.size(), f.state.motion.u.data(),
+        contacts.impulse.data(), contacts.extrapolated.data(), rule));
+    kernels.extrapolate(rule.momentum, motion.u.size(), motion.before.data(), motion.u.data());
   }
   count_rows(run, contacts.rows.size());
 }

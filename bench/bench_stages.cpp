@@ -50,7 +50,7 @@ void detect(benchmark::State& run) {
 
 void solve(benchmark::State& run) {
   const FrozenBed<float>& frozen = frozen_bed<float>(run.range(0));
-  const SolveLimits limits{Solver::accelerated_projected_gradient, 80, 0.0};
+  const SolveLimits limits{Solver::accelerated_gauss_seidel, 80, 0.0};
   std::int64_t done = 0;
   for (auto _ : run) {
     run.PauseTiming();

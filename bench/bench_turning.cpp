@@ -66,8 +66,9 @@ void lever_gradient_sweep(benchmark::State& run) {
 template <class Real>
 void lever_gauss_seidel_sweep(benchmark::State& run) {
   over_rows<Real>(run, [](const auto& kernels, auto rows, std::size_t blocks, auto& state) {
-    benchmark::DoNotOptimize(kernels.gauss_seidel_sweep(rows, blocks, state.motion.u.data(),
-                                                        state.rows.impulse.data(), false));
+    benchmark::DoNotOptimize(kernels.gauss_seidel_sweep(
+        rows, blocks, state.motion.u.data(), state.rows.impulse.data(),
+        state.rows.extrapolated.data(), SweepRule<Real>{Real(0.9), Real(0.5)}));
   });
 }
 
@@ -85,7 +86,7 @@ BENCHMARK_TEMPLATE(lever_gauss_seidel_sweep, double)->Apply(isas);
 void shape_step(benchmark::State& run) {
   const FrozenShapes<float> frozen = frozen_shapes<float>(static_cast<double>(run.range(0)));
   StepSettings settings{0.2, 0.9, 0.1, 0.03, 0.05, {}};
-  settings.limits = {Solver::accelerated_projected_gradient, 40, 0.0};
+  settings.limits = {Solver::accelerated_gauss_seidel, 40, 0.0};
   for (auto _ : run) {
     run.PauseTiming();
     FrozenShapes<float> f = frozen;

@@ -57,7 +57,8 @@ void add_solvers(std::vector<Setting>& settings) {
       {Solver::projected_gauss_seidel, "pgs"},
       {Solver::symmetric_gauss_seidel, "symmetric_pgs"},
       {Solver::nonsmooth_nonlinear_conjugate, "nncg"},
-      {Solver::accelerated_projected_gradient, "apgd"}};
+      {Solver::accelerated_projected_gradient, "apgd"},
+      {Solver::accelerated_gauss_seidel, "apgs"}};
   for (const auto& [solver, name] : solvers) {
     for (const Precision precision : {Precision::f32, Precision::f64}) {
       const char* suffix = precision == Precision::f32 ? " f32" : " f64";
@@ -87,11 +88,11 @@ std::vector<Setting> all_settings() {
     settings.push_back({std::string(known.name), "preset", known.accuracy});
   }
   add_solvers(settings);
-  add_range(settings, "fall iterations", {20, 40, 160, 320},
+  add_range(settings, "fall iterations", {8, 30, 60, 120},
             [](Accuracy& a, double value) { a.fall_iterations = static_cast<int>(value); });
   add_range(settings, "creep steps", {0, 20, 40, 160},
             [](Accuracy& a, double value) { a.creep_steps = static_cast<int>(value); });
-  add_range(settings, "rest iterations", {75, 150, 600, 1200},
+  add_range(settings, "rest iterations", {25, 50, 200, 400},
             [](Accuracy& a, double value) { a.rest_iterations = static_cast<int>(value); });
   add_range(settings, "residual tolerance", {5e-2, 2e-2, 1e-3, 5e-4},
             [](Accuracy& a, double value) { a.residual_tolerance = value; });

@@ -67,7 +67,7 @@ struct LeverKernels {
                                     Real momentum);
   /// As RowKernels::gauss_seidel_sweep; the points of a contact one after the other.
   SweepSums<Real> (*gauss_seidel_sweep)(LeverRows<Real> rows, std::size_t blocks, Record<Real>* u,
-                                        Real* p, bool backward);
+                                        Real* p, Real* y, SweepRule<Real> rule);
   /// Adds H p to the pushes.
   void (*add_pushes)(LeverRows<Real> rows, std::size_t blocks, const Real* p, Record<Real>* pushes);
   /// Largest |min(p, w / A_kk)| over all rows, d m; light grains as in RowKernels::residual.

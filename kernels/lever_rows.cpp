@@ -9,6 +9,7 @@ using grainsweep::LeverBlock;
 using grainsweep::LeverPoints;
 using grainsweep::LeverRows;
 using grainsweep::Record;
+using grainsweep::SweepRule;
 using grainsweep::SweepSums;
 
 template <class Real>
@@ -182,29 +183,33 @@ inline void push_side(const Batch<Real>& p, const Vec<Real>& normal, const Vec<R
 
 template <class Real>
 SweepSums<Real> gauss_seidel_sweep(LeverRows<Real> rows, std::size_t blocks, Record<Real>* u,
-                                   Real* p, bool backward) {
-  LaneSums<Real> residual(Real(0));
-  const Batch<Real> zero(Real(0));
-  visit_contacts(rows, blocks, backward, [&](const auto& c, const auto& block, auto lane, auto k) {
-    Side<Real> a = load_both(u, c.a), b = load_both(u, c.b);
-    for (std::size_t step = 0; step < block.points; ++step) {
-      const std::size_t i = block.first + (backward ? block.points - 1 - step : step);
-      const LeverPoints<Real>& points = rows.points[i];
-      const Points<Real> r = load_points(points, lane);
-      const std::size_t at = i * block_width + lane;
-      const Batch<Real> w =
-          gap_after(r, motion_of(c.normal, a, b)) * load(points.reduced_mass + lane);
-      const Batch<Real> p_old = load(p + at), p_new = xsimd::max(zero, p_old - w);
-      const Batch<Real> change = p_new - p_old;
-      residual.part[k] = xsimd::max(residual.part[k], natural_residual(p_old, w));
-      p_new.store_unaligned(p + at);
-      push_side(zero - change, c.normal, r.lever_a, a);
-      push_side(change, c.normal, r.lever_b, b);
-    }
-    store_side(u, c.a, a);
-    store_side(u, c.b, b);
-  });
-  return {residual.max(), Real(0)};
+                                   Real* p, Real* y, SweepRule<Real> rule) {
+  LaneSums<Real> residual(Real(0)), uphill(Real(0));
+  const Batch<Real> zero(Real(0)), relaxation(rule.relaxation), carry(rule.momentum);
+  visit_contacts(
+      rows, blocks, rule.backward, [&](const auto& c, const auto& block, auto lane, auto k) {
+        Side<Real> a = load_both(u, c.a), b = load_both(u, c.b);
+        for (std::size_t step = 0; step < block.points; ++step) {
+          const std::size_t i = block.first + (rule.backward ? block.points - 1 - step : step);
+          const LeverPoints<Real>& points = rows.points[i];
+          const Points<Real> r = load_points(points, lane);
+          const std::size_t at = i * block_width + lane;
+          const Batch<Real> w =
+              gap_after(r, motion_of(c.normal, a, b)) * load(points.reduced_mass + lane);
+          const Batch<Real> y_old = load(y + at), p_old = load(p + at);
+          const Batch<Real> p_new = xsimd::max(zero, y_old - w * relaxation);
+          const Batch<Real> change = p_new - p_old, given = p_new - y_old;
+          residual.part[k] = xsimd::max(residual.part[k], natural_residual(y_old, w));
+          uphill.part[k] += (y_old - p_new) * change;
+          p_new.store_unaligned(p + at);
+          (p_new + carry * change).store_unaligned(y + at);
+          push_side(zero - given, c.normal, r.lever_a, a);
+          push_side(given, c.normal, r.lever_b, b);
+        }
+        store_side(u, c.a, a);
+        store_side(u, c.b, b);
+      });
+  return {residual.max(), uphill.sum()};
 }
 
 template <class Real>

@@ -51,6 +51,18 @@ struct SweepSums {
   Real uphill;    ///< sum of (y - p_new)(p_new - p_old) over rows: positive asks for a restart
 };
 
+/// Grains have sunk into each other when their centres are nearer than this share of the distance
+/// at which they touch: they may get past each other.
+inline constexpr double sunk_share = 0.5;
+
+/// How a Gauss-Seidel sweep goes.
+template <class Real>
+struct SweepRule {
+  Real relaxation = 1;    ///< share of a row's own correction that is taken, 0..1
+  Real momentum = 0;      ///< share of an impulse's change that is looked ahead
+  bool backward = false;  ///< the last block first
+};
+
 /// Solver sweeps for one number type. `u` are motion records indexed by RowBlock::a and b.
 template <class Real>
 struct RowKernels {
@@ -65,10 +77,16 @@ struct RowKernels {
   /// inverse masses are those of `free`.
   void (*take_pushes)(const Record<Real>* free, std::size_t count, Record<Real>* pushes,
                       Record<Real>* u);
-  /// One projected Gauss-Seidel sweep, block after block (the last block first if `backward`);
-  /// lanes of a block must not share a grain. Updates p and u in place.
+  /// One projected Gauss-Seidel sweep, block after block; lanes of a block must not share a grain.
+  /// Reads the extrapolated impulses y and their motion u = u(y); a row writes
+  /// p = max(0, y - relaxation w / A), moves its grains by p - y at once, and then writes
+  /// y = p + momentum (p - p_old). Leaves u = u(p). Without momentum y and p may be the same
+  /// column.
   SweepSums<Real> (*gauss_seidel_sweep)(const RowBlock<Real>* rows, std::size_t blocks,
-                                        Record<Real>* u, Real* p, bool backward);
+                                        Record<Real>* u, Real* p, Real* y, SweepRule<Real> rule);
+  /// The motion of extrapolated impulses: u = u + momentum (u - before) for `count` records; leaves
+  /// what u was in `before`.
+  void (*extrapolate)(Real momentum, std::size_t count, Record<Real>* before, Record<Real>* u);
   /// Adds H p to the pushes.
   void (*add_pushes)(const RowBlock<Real>* rows, std::size_t blocks, const Real* p,
                      Record<Real>* pushes);
@@ -79,8 +97,8 @@ struct RowKernels {
   /// Normals and gaps of sphere pairs (a, b of `rows`) from their positions, nearest image.
   /// period_x, period_y: d, 0 where the axis is walled. A negative gap is multiplied by
   /// `correction`, the share of an overlap that one step repairs. Where centres coincide the normal
-  ///   /// +z. Returns the most by which centres are nearer than half the distance at which their
-  /// grains touch, d; negative if none are.
+  /// is +z. Returns the most by which centres are nearer than sunk_share of the distance at which
+  /// their grains touch, d; negative if none are.
   double (*sphere_gaps)(RowBlock<Real>* rows, std::size_t blocks, const Record<double>* positions,
                         double period_x, double period_y, double correction);
 };

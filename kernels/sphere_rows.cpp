@@ -7,6 +7,7 @@ namespace {
 
 using grainsweep::Record;
 using grainsweep::RowBlock;
+using grainsweep::SweepRule;
 using grainsweep::SweepSums;
 
 /// One hardware batch of rows.
@@ -97,26 +98,50 @@ inline Components<Real> difference(const Components<Real>& b, const Components<R
 
 template <class Real>
 SweepSums<Real> gauss_seidel_sweep(const RowBlock<Real>* rows, std::size_t blocks, Record<Real>* u,
-                                   Real* p, bool backward) {
-  LaneSums<Real> residual(Real(0));
-  const Batch<Real> zero(Real(0));
+                                   Real* p, Real* y, SweepRule<Real> rule) {
+  LaneSums<Real> residual(Real(0)), uphill(Real(0));
+  const Batch<Real> zero(Real(0)), relaxation(rule.relaxation), carry(rule.momentum);
   for (std::size_t step = 0; step < blocks; ++step) {
-    const std::size_t block = backward ? blocks - 1 - step : step;
+    const std::size_t block = rule.backward ? blocks - 1 - step : step;
     for (std::size_t k = 0; k < batches<Real>; ++k) {
       const std::size_t lane = k * batch_width<Real>;
       const std::size_t at = block * block_width + lane;
       const Rows<Real> r = load_rows(rows[block], lane);
       const Components<Real> u_a = load_records(u, r.a), u_b = load_records(u, r.b);
-      const Batch<Real> w = scaled_gap(r, difference(u_b, u_a)), p_old = load(p + at);
-      const Batch<Real> p_new = xsimd::max(zero, p_old - w);
-      const Components<Real> push = along_normals(r, p_new - p_old);
-      residual.part[k] = xsimd::max(residual.part[k], natural_residual(p_old, w));
+      const Batch<Real> w = scaled_gap(r, difference(u_b, u_a));
+      const Batch<Real> y_old = load(y + at), p_old = load(p + at);
+      const Batch<Real> p_new = xsimd::max(zero, y_old - w * relaxation);
+      const Batch<Real> change = p_new - p_old, taken_back = y_old - p_new;
+      const Components<Real> push = along_normals(r, p_new - y_old);
+      residual.part[k] = xsimd::max(residual.part[k], natural_residual(y_old, w));
+      uphill.part[k] += taken_back * change;
       p_new.store_unaligned(p + at);
+      (p_new + carry * change).store_unaligned(y + at);
       store_records(u, r.a, pushed_back(u_a, push));
       store_records(u, r.b, pushed(u_b, push));
     }
   }
-  return {residual.max(), Real(0)};
+  return {residual.max(), uphill.sum()};
+}
+
+template <class Real>
+void extrapolate(Real momentum, std::size_t count, Record<Real>* before, Record<Real>* u) {
+  constexpr std::size_t numbers_of_record = 4;
+  const Batch<Real> carry(momentum);
+  Real* const last = &before->x;
+  Real* const now = &u->x;
+  const std::size_t numbers = count * numbers_of_record,
+                    whole = numbers - numbers % batch_width<Real>;
+  for (std::size_t i = 0; i < whole; i += batch_width<Real>) {
+    const Batch<Real> here = load(now + i);
+    (here + carry * (here - load(last + i))).store_unaligned(now + i);
+    here.store_unaligned(last + i);
+  }
+  for (std::size_t i = whole; i < numbers; ++i) {
+    const Real here = now[i];
+    now[i] = here + momentum * (here - last[i]);
+    last[i] = here;
+  }
 }
 
 template <class Real>
@@ -155,7 +180,7 @@ template <class Real>
 double sphere_gaps(RowBlock<Real>* rows, std::size_t blocks, const Record<double>* positions,
                    double period_x, double period_y, double correction) {
   const double inverse_x = inverse_of(period_x), inverse_y = inverse_of(period_y);
-  const Batch<double> repair(correction), zero(0.0), one(1.0), half(0.5);
+  const Batch<double> repair(correction), zero(0.0), one(1.0), share(grainsweep::sunk_share);
   LaneSums<double> sunk(-far_apart);
   for (std::size_t block = 0; block < blocks; ++block) {
     RowBlock<Real>& r = rows[block];
@@ -168,7 +193,7 @@ double sphere_gaps(RowBlock<Real>* rows, std::size_t blocks, const Record<double
       const Batch<double> z = b.z - a.z;
       const Batch<double> distance = xsimd::sqrt(x * x + y * y + z * z);
       const Batch<double> touching = a.w + b.w, gap = distance - touching;
-      sunk.part[k] = xsimd::max(sunk.part[k], half * touching - distance);
+      sunk.part[k] = xsimd::max(sunk.part[k], share * touching - distance);
       const auto apart = distance > zero;  // coinciding centres part upwards
       const Batch<double> length = xsimd::select(apart, distance, one);
       store_rounded(x / length, r.normal_x + lane);
@@ -182,7 +207,7 @@ double sphere_gaps(RowBlock<Real>* rows, std::size_t blocks, const Record<double
 
 template <class Real>
 constexpr grainsweep::RowKernels<Real> table() {
-  return {gradient_sweep<Real>, take_pushes<Real>, gauss_seidel_sweep<Real>,
+  return {gradient_sweep<Real>, take_pushes<Real>, gauss_seidel_sweep<Real>, extrapolate<Real>,
           add_pushes<Real>,     residual<Real>,    sphere_gaps<Real>};
 }
 

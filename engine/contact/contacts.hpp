@@ -76,8 +76,8 @@ void lay_out(const SphereBed& bed, const Candidates& candidates, Contacts<Real>&
              const PartLoop& loop = one_after_another);
 
 /// Measures normal and gap of every row. `correction`: share of an overlap that a step repairs.
-/// Returns the most by which centres are nearer than half the distance at which their grains touch,
-/// d; 0 if none are.
+/// Returns the most by which centres are nearer than sunk_share of the distance at which their
+/// grains touch, d; 0 if none are.
 template <class Real>
 double detect(const SphereBed& bed, const Processor& processor, double correction,
               Contacts<Real>& contacts);

@@ -6,9 +6,9 @@ namespace {
 
 Accuracy fast() {
   Accuracy a;
-  a.fall_iterations = 40;
+  a.fall_iterations = 15;
   a.creep_steps = 15;
-  a.rest_iterations = 100;
+  a.rest_iterations = 40;
   a.residual_tolerance = 2e-2;
   a.kinetic_tolerance = 1e-3;
   a.contact_tolerance = 0.1;
@@ -18,9 +18,9 @@ Accuracy fast() {
 
 Accuracy balanced() {
   Accuracy a;
-  a.fall_iterations = 40;
+  a.fall_iterations = 15;
   a.creep_steps = 45;
-  a.rest_iterations = 300;
+  a.rest_iterations = 100;
   a.residual_tolerance = 1e-2;
   a.kinetic_tolerance = 1e-4;
   a.contact_tolerance = 0.02;
@@ -30,9 +30,9 @@ Accuracy balanced() {
 
 Accuracy accurate() {
   Accuracy a;
-  a.fall_iterations = 80;
+  a.fall_iterations = 30;
   a.creep_steps = 300;
-  a.rest_iterations = 300;
+  a.rest_iterations = 100;
   a.residual_tolerance = 1e-3;
   a.kinetic_tolerance = 2e-5;
   a.contact_tolerance = 0.006;

@@ -48,9 +48,9 @@ struct SettleReport {
   std::string why_not;  ///< the test of rest that failed; empty if settled
   bool unfit = false;   ///< no solve of this accuracy is exact enough for the bed: none was made
   bool cancelled = false;
-  /// Whether two grains sank into each other on the way, by more than half the distance at which
-  /// they touch: they may have passed through one another. A random start has nothing to lose by
-  /// it, a bed that was given its arrangement. Grains that turn are not looked at.
+  /// Whether the centres of two grains came nearer on the way than sunk_share of the distance at
+  /// which they touch: they may have passed through one another. A random start has nothing to lose
+  /// by it, a bed that was given its arrangement. Grains that turn are not looked at.
   bool sank = false;
   std::int64_t steps = 0;
   std::int64_t iterations = 0;

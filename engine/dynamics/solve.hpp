@@ -8,6 +8,7 @@
 // turn add the squares of their levers (kernels/lever_kernels.hpp).
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "engine/contact/contacts.hpp"
@@ -18,10 +19,13 @@
 namespace grainsweep {
 
 struct SolveLimits {
-  Solver solver = Solver::accelerated_projected_gradient;
-  int iterations = 100;     ///< most sweeps
+  Solver solver = Solver::accelerated_gauss_seidel;
+  int iterations = 100;     ///< most sweeps, unless what they leave is unbearable
   double tolerance = 1e-3;  ///< residual at which to stop, as a mass times d (m g dt^2)
   double unit_mass = 1.0;   ///< residuals of lighter grains count in their own weights
+  /// While the residual is larger, a mass times d, iterations are doubled, up to `patience`.
+  double bearable = std::numeric_limits<double>::infinity();
+  int patience = 0;
 };
 
 struct SolveReport {
@@ -36,6 +40,8 @@ struct MotionColumns {
   std::vector<Record<Real>> free;     ///< in: motion without contacts
   std::vector<Record<Real>> u;        ///< out: motion with the impulses of `contacts`
   std::vector<Record<Real>> pushes;   ///< sum of the impulses on each grain; empty between sweeps
+  std::vector<Record<Real>> before;   ///< motion after the last sweep, of methods that look ahead
+  std::vector<Record<Real>> summed;   ///< the same without the rounding of the sweeps
   std::vector<SweepSums<Real>> seen;  ///< by each range of blocks in the last sweep
 };
 

@@ -34,8 +34,8 @@ struct StepReport {
   SolveReport solve;            ///< residual in m g
   double kinetic_energy = 0.0;  ///< mean per grain of 1/2 m (u/dt)^2, m g d
   double largest_motion = 0.0;  ///< d
-  /// Most by which centres were nearer than half the distance at which their grains touch, before
-  /// the step, d. Grains that turn are not looked at.
+  /// Most by which centres were nearer than sunk_share of the distance at which their grains touch,
+  /// before the step, d. Grains that turn are not looked at.
   double sunk = 0.0;
   bool searched = false;  ///< whether candidates were listed anew
 };

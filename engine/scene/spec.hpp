@@ -64,6 +64,7 @@ enum class Solver {
   symmetric_gauss_seidel,          ///< "symmetric_pgs"
   nonsmooth_nonlinear_conjugate,   ///< "nncg"
   accelerated_projected_gradient,  ///< "apgd"
+  accelerated_gauss_seidel,        ///< "apgs"
 };
 
 /// Number type of the solver's rows and velocities; positions are always f64.
@@ -86,13 +87,13 @@ enum class Protocol {
 /// A preset is one value of it; engine/dynamics/presets.hpp says what each promises.
 struct Accuracy {
   Protocol protocol = Protocol::heavy_ball;
-  Solver solver = Solver::accelerated_projected_gradient;
+  Solver solver = Solver::accelerated_gauss_seidel;
   Precision precision = Precision::f32;
   double step = 0.2;          ///< dt, sqrt(d/g)
   double momentum = 0.9;      ///< alpha: share of a displacement carried on in the fall, 0..1
-  int fall_iterations = 40;   ///< solver iterations per step while the bed compacts
+  int fall_iterations = 15;   ///< solver iterations per step while the bed compacts
   int creep_steps = 45;       ///< double steps after the fall, while the bed creeps to rest
-  int rest_iterations = 300;  ///< most solver iterations per step at the end of the creep
+  int rest_iterations = 100;  ///< most solver iterations per step at the end of the creep
   double residual_tolerance = 5e-3;  ///< force balance at rest, m g, worst row
   double kinetic_tolerance = 2e-4;   ///< kinetic energy per grain at rest, m g d
   double contact_tolerance = 0.04;   ///< |contacts / isostatic count - 1| at rest

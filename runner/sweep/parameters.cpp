@@ -268,8 +268,9 @@ Rows accuracy_rows() {
       accuracy<&A::protocol>("accuracy.protocol",
                              "how grains come down: damped in long steps, or plain dynamics",
                              {"heavy_ball", "dynamic"}),  // in the order of Protocol
-      accuracy<&A::solver>("accuracy.solver", "iterations that solve a step",
-                           {"pgs", "symmetric_pgs", "nncg", "apgd"}),  // in the order of Solver
+      accuracy<&A::solver>(
+          "accuracy.solver", "iterations that solve a step",
+          {"pgs", "symmetric_pgs", "nncg", "apgd", "apgs"}),  // in the order of Solver
       accuracy<&A::precision>("accuracy.precision", "number type of the solver", {"f32", "f64"}),
       accuracy<&A::step>("accuracy.step", "time step, sqrt(d/g)"),
       accuracy<&A::momentum>("accuracy.momentum",

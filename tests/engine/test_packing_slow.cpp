@@ -114,8 +114,8 @@ TEST_CASE("a large packing has the same bits however its parts are shared out", 
   spec.fill = GrainCount{4 * static_cast<std::int64_t>(section_grains) + 500};
   spec.accuracy.max_steps = 40;
   for (const Solver solver :
-       {Solver::accelerated_projected_gradient, Solver::symmetric_gauss_seidel,
-        Solver::nonsmooth_nonlinear_conjugate}) {
+       {Solver::accelerated_gauss_seidel, Solver::accelerated_projected_gradient,
+        Solver::symmetric_gauss_seidel, Solver::nonsmooth_nonlinear_conjugate}) {
     spec.accuracy.solver = solver;
     const PackingResult expected = make_packing(spec, kernels_for(best_isa()), always).result;
     for (const PartLoop& loop :

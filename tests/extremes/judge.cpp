@@ -87,11 +87,14 @@ double last_step(const Accuracy& accuracy) {
 
 double unbalance_bound(const SettledBed& settled) {
   const auto grains = static_cast<double>(settled.bed.grains());
-  const double energy = settled.accuracy.kinetic_tolerance * grains / settled.weight();
-  const double by_energy = std::sqrt(2.0 * energy) / last_step(settled.accuracy);
+  const auto by_motion = [&](double kinetic_energy) {
+    return std::sqrt(2.0 * kinetic_energy * grains / settled.weight()) /
+           last_step(settled.accuracy);
+  };
   const double by_rows =
       2.0 * grains * settled.accuracy.residual_tolerance / least_mass(settled.bed);
-  return std::min(by_energy, by_rows);
+  return std::min(by_motion(settled.accuracy.kinetic_tolerance),
+                  by_motion(settled.report.rest.kinetic_energy) + by_rows);
 }
 
 double gap_bound(const Accuracy& accuracy, double reduced_mass) {
@@ -129,7 +132,8 @@ std::vector<Answer> answers_of_any_bed(const SettledBed& settled) {
 
 Finding finding_of(const SettledBed& settled, std::vector<Answer> answers) {
   const std::string& why_not = settled.report.why_not;
-  const char* sank = settled.report.sank ? "two grains sank into each other by more than half" : "";
+  const char* sank =
+      settled.report.sank ? "two grains sank into each other by more than half" : "";
   return {{}, why_not.empty() ? sank : why_not, is_finite(settled.bed), std::move(answers)};
 }
 

@@ -34,8 +34,9 @@ double last_step(const Accuracy& accuracy);
 /// Largest share of a bed's weight that its accuracy may leave unbalanced. In the last step,
 /// without momentum, an unbalanced acceleration a moves a grain by a dt^2. By Cauchy's inequality
 /// the sum of all m a is at most sqrt(2 N k M) / dt, k the mean kinetic energy, M the mass of all.
-/// And a row of residual r lets its two grains accelerate by r over their reduced mass, at most 2 r
-/// over the least mass; N rows below a grain add up.
+/// Where the bed moves less than the accuracy would let it, its own k counts, and what rows do not
+/// show as motion: a row of residual r lets its two grains accelerate by r over their reduced mass,
+/// at most 2 r over the least mass; N rows below a grain add up.
 double unbalance_bound(const SettledBed& settled);
 
 /// Widest gap that a row with a residual r may leave: r dt^2 over the reduced mass, d.

@@ -57,7 +57,7 @@ Mean mean_of(const std::vector<double>& values) {
 Finding compare(Change change, const Accuracy& accuracy) {
   std::vector<double> solid, neighbours;
   Finding finding;
-  for (std::uint64_t key = 1; key <= 24; ++key) {
+  for (std::uint64_t key = 1; key <= 48; ++key) {
     PackingSpec spec = small_spec(220, accuracy), changed = spec;
     spec.measure.exclude_floor = spec.measure.exclude_surface = 2.0;
     spec.random_key = key;
@@ -73,8 +73,8 @@ Finding compare(Change change, const Accuracy& accuracy) {
     solid.push_back(a.solid_fraction - b.solid_fraction);
     neighbours.push_back(a.coordination[0].between_grains - b.coordination[0].between_grains);
   }
-  if (solid.size() < 16) finding.unrest = "fewer than 16 of 24 beds settled";
-  if (solid.size() < 16) return finding;
+  if (solid.size() < 32) finding.unrest = "fewer than 32 of 48 beds settled";
+  if (solid.size() < 32) return finding;
   const Mean phi = mean_of(solid), z = mean_of(neighbours);
   finding.answers = {{"solid fraction, mean difference", std::abs(phi.value), 2.0 * phi.error,
                       "two standard errors"},
@@ -150,7 +150,7 @@ std::vector<Scene> symmetries() {
   for (const auto& [name, change] : changes) {
     for (const char* preset_name : {"fast", "balanced"}) {
       const NamedAccuracy at = at_preset(preset_name);
-      scenes.push_back({"symmetry", "24 beds of 220", name, at.name, Outcome::right,
+      scenes.push_back({"symmetry", "48 beds of 220", name, at.name, Outcome::right,
                         [=, changed = change] { return compare(changed, at.accuracy); }});
     }
   }

@@ -151,12 +151,15 @@ TEMPLATE_TEST_CASE("a gradient sweep over levers gives the bits of its plain-loo
 TEMPLATE_TEST_CASE("a Gauss-Seidel sweep over levers gives the bits of its twin both ways", "",
                    float, double) {
   for (const bool backward : {false, true}) {
+    const SweepRule<TestType> rule{TestType(0.9), TestType(0.7), backward};
     on_random_lever_problems<TestType>([&](const auto& kernels, auto& problem, auto& twin) {
-      const auto sums = kernels.gauss_seidel_sweep(problem.rows(), problem.blocks.size(),
-                                                   problem.u.data(), problem.p.data(), backward);
+      const auto sums =
+          kernels.gauss_seidel_sweep(problem.rows(), problem.blocks.size(), problem.u.data(),
+                                     problem.p.data(), problem.y.data(), rule);
       const auto expected = testing::lever_gauss_seidel_twin(
-          twin.rows(), twin.blocks.size(), twin.u.data(), twin.p.data(), backward);
+          twin.rows(), twin.blocks.size(), twin.u.data(), twin.p.data(), twin.y.data(), rule);
       REQUIRE(same_bits(sums.residual, expected.residual));
+      REQUIRE(same_bits(sums.uphill, expected.uphill));
     });
   }
 }
@@ -211,9 +214,9 @@ TEMPLATE_TEST_CASE("one impulse stops the approach of two grains at their point 
     INFO(name_of(isa));
     LeverProblem<TestType> problem = one_contact(TestType(1), TestType(-1));
     problem.u[0].x = 1;  // a runs into b: the approach is 1, A is 4, so the impulse is 1/4
-    const auto sums =
-        lever_kernels<TestType>(kernels_for(isa))
-            .gauss_seidel_sweep(problem.rows(), 1, problem.u.data(), problem.p.data(), false);
+    const auto sums = lever_kernels<TestType>(kernels_for(isa))
+                          .gauss_seidel_sweep(problem.rows(), 1, problem.u.data(), problem.p.data(),
+                                              problem.p.data(), {});
     CHECK(sums.residual == TestType(0.25));
     CHECK(problem.p[5] == TestType(0.25));
     CHECK(problem.u[0].x == TestType(0.75));

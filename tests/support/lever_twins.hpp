@@ -103,21 +103,24 @@ void push_side_twin(const LeverBlock<Real>& c, const Real (&lever)[3][block_widt
 
 template <class Real>
 SweepSums<Real> lever_gauss_seidel_twin(LeverRows<Real> rows, std::size_t blocks, Record<Real>* u,
-                                        Real* p, bool backward) {
-  Real residual = 0;
-  visit_lanes(rows, blocks, backward, [&](const auto& c, std::size_t block, std::size_t lane) {
+                                        Real* p, Real* y, SweepRule<Real> rule) {
+  Real residual = 0, uphill[block_width] = {};
+  visit_lanes(rows, blocks, rule.backward, [&](const auto& c, std::size_t block, std::size_t lane) {
     for (std::size_t step = 0; step < c.points; ++step) {
-      const std::size_t i = backward ? c.points - 1 - step : step;
+      const std::size_t i = rule.backward ? c.points - 1 - step : step;
       const LeverTwin<Real> t = lever_twin(rows, block, lane, i);
       const std::size_t at = (c.first + i) * block_width + lane;
-      const Real w = t.gap_after(u) * t.r.reduced_mass[lane], p_old = p[at];
-      p[at] = larger(Real(0), p_old - w);
-      residual = larger(residual, std::abs(smaller(p_old, w)));
-      push_side_twin(c, t.r.lever_a, lane, Real(0) - (p[at] - p_old), u + 2 * c.a(lane));
-      push_side_twin(c, t.r.lever_b, lane, p[at] - p_old, u + 2 * c.b(lane));
+      const Real w = t.gap_after(u) * t.r.reduced_mass[lane], y_old = y[at], p_old = p[at];
+      const Real p_new = larger(Real(0), y_old - w * rule.relaxation), change = p_new - p_old;
+      p[at] = p_new;
+      y[at] = p_new + rule.momentum * change;
+      residual = larger(residual, std::abs(smaller(y_old, w)));
+      uphill[lane] += (y_old - p_new) * change;
+      push_side_twin(c, t.r.lever_a, lane, Real(0) - (p_new - y_old), u + 2 * c.a(lane));
+      push_side_twin(c, t.r.lever_b, lane, p_new - y_old, u + 2 * c.b(lane));
     }
   });
-  return {residual, Real(0)};
+  return {residual, tree_sum(uphill)};
 }
 
 template <class Real>

@@ -87,21 +87,34 @@ SweepSums<Real> gradient_sweep_twin(const RowBlock<Real>* rows, std::size_t bloc
 
 template <class Real>
 SweepSums<Real> gauss_seidel_twin(const RowBlock<Real>* rows, std::size_t blocks, Record<Real>* u,
-                                  Real* p, bool backward) {
-  Real residual = 0;
+                                  Real* p, Real* y, SweepRule<Real> rule) {
+  Real residual = 0, uphill[block_width] = {};
   for (std::size_t step = 0; step < blocks; ++step) {
-    const std::size_t block = backward ? blocks - 1 - step : step;
+    const std::size_t block = rule.backward ? blocks - 1 - step : step;
     for (std::size_t lane = 0; lane < block_width; ++lane) {
       const std::size_t row = block * block_width + lane;
-      const Real w = scaled_gap_twin(rows[block], lane, u), p_old = p[row];
-      p[row] = larger(Real(0), p_old - w);
-      residual = larger(residual, std::abs(smaller(p_old, w)));
+      const Real w = scaled_gap_twin(rows[block], lane, u), y_old = y[row], p_old = p[row];
+      const Real p_new = larger(Real(0), y_old - w * rule.relaxation), change = p_new - p_old;
+      p[row] = p_new;
+      y[row] = p_new + rule.momentum * change;
+      residual = larger(residual, std::abs(smaller(y_old, w)));
+      uphill[lane] += (y_old - p_new) * change;
       const RowBlock<Real>& r = rows[block];
-      add_twin(r, lane, p[row] - p_old, Real(0) - u[r.a(lane)].w, u[r.a(lane)]);
-      add_twin(r, lane, p[row] - p_old, u[r.b(lane)].w, u[r.b(lane)]);
+      add_twin(r, lane, p_new - y_old, Real(0) - u[r.a(lane)].w, u[r.a(lane)]);
+      add_twin(r, lane, p_new - y_old, u[r.b(lane)].w, u[r.b(lane)]);
     }
   }
-  return {residual, Real(0)};
+  return {residual, tree_sum(uphill)};
+}
+
+template <class Real>
+void extrapolate_twin(Real momentum, std::size_t count, Record<Real>* before, Record<Real>* u) {
+  const auto go_on = [&](Real now, Real then) { return now + momentum * (now - then); };
+  for (std::size_t i = 0; i < count; ++i) {
+    const Record<Real> now = u[i], then = before[i];
+    u[i] = {go_on(now.x, then.x), go_on(now.y, then.y), go_on(now.z, then.z), go_on(now.w, then.w)};
+    before[i] = now;
+  }
 }
 
 template <class Real>
@@ -145,7 +158,7 @@ double sphere_gaps_twin(RowBlock<Real>* rows, std::size_t blocks, const Record<d
     const double z = b.z - a.z;
     const double distance = std::sqrt(x * x + y * y + z * z);
     const double touching = a.w + b.w, gap = distance - touching;
-    sunk = larger(sunk, 0.5 * touching - distance);
+    sunk = larger(sunk, sunk_share * touching - distance);
     const double length = distance > 0 ? distance : 1;
     r.normal_x[lane] = static_cast<Real>(x / length);
     r.normal_y[lane] = static_cast<Real>(y / length);

@@ -10,6 +10,7 @@
 #include "tests/support/brute_force.hpp"
 #include "tests/support/keep_going.hpp"
 #include "tests/support/scenes.hpp"
+#include "tests/support/solvers.hpp"
 
 namespace grainsweep {
 namespace {
@@ -223,9 +224,7 @@ TEST_CASE("plain contact dynamics settles a bed, too, in more steps") {
 }
 
 TEST_CASE("every solver offered settles a bed") {
-  for (const Solver solver :
-       {Solver::projected_gauss_seidel, Solver::symmetric_gauss_seidel,
-        Solver::nonsmooth_nonlinear_conjugate, Solver::accelerated_projected_gradient}) {
+  for (const Solver solver : testing::all_solvers) {
     INFO("solver " << static_cast<int>(solver));
     SphereBed bed = small_bed(7);
     Accuracy accuracy = *preset("fast");

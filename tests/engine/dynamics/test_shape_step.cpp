@@ -8,6 +8,7 @@
 #include "tests/support/dense_levers.hpp"
 #include "tests/support/instruction_sets.hpp"
 #include "tests/support/shape_beds.hpp"
+#include "tests/support/solvers.hpp"
 
 namespace grainsweep {
 namespace {
@@ -279,9 +280,7 @@ TEMPLATE_TEST_CASE("every solver finds the impulses and the residual of a dense 
   REQUIRE(exact.maxCoeff() > 0.01L);
   // What f32 leaves of impulses of up to 1: some 1e-7 times the condition of the problem.
   const double tolerance = std::is_same_v<TestType, float> ? 1e-5 : 1e-10;
-  for (const Solver solver :
-       {Solver::projected_gauss_seidel, Solver::symmetric_gauss_seidel,
-        Solver::nonsmooth_nonlinear_conjugate, Solver::accelerated_projected_gradient}) {
+  for (const Solver solver : testing::all_solvers) {
     std::fill(state.rows.impulse.begin(), state.rows.impulse.end(), TestType(0));
     const SolveReport report =
         solve({solver, 200'000, tolerance}, kernels(), state.rows, state.motion);

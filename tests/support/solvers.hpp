@@ -1,0 +1,13 @@
+// The solvers that there are.
+#pragma once
+
+#include "engine/scene/spec.hpp"
+
+namespace grainsweep::testing {
+
+inline constexpr Solver all_solvers[] = {
+    Solver::projected_gauss_seidel, Solver::symmetric_gauss_seidel,
+    Solver::nonsmooth_nonlinear_conjugate, Solver::accelerated_projected_gradient,
+    Solver::accelerated_gauss_seidel};
+
+}  // namespace grainsweep::testing
