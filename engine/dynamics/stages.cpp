@@ -39,7 +39,7 @@ constexpr StageRule turning[] = {
 /// Grains of one size leave a tenth of it in the middle of their fall. A heavy grain on a light one
 /// needs more sweeps than a bed, or the light one is pressed out from under it. A mass times d.
 constexpr double bearable_residual = 0.01;
-constexpr int most_iterations = 20'000;  // enough for masses 1e6 to 1
+constexpr int most_patience = 20'000;  // enough for masses 1e6 to 1
 
 /// At rest no more is bearable than the rest test lets pass. f32 cannot reach every tolerance: it
 /// is given up sooner.
@@ -77,10 +77,10 @@ StepSettings settings_of(const Accuracy& accuracy, const StageRule& rule) {
   s.margin = rule.margin;
   s.limits = {accuracy.solver, iterations_of(accuracy, rule), accuracy.residual_tolerance / 5.0};
   s.limits.bearable = bearable_residual;
-  s.limits.patience = most_iterations;
+  s.limits.patience = most_patience;
   if (rule.end == rest) {
     s.limits.bearable = std::min(bearable_residual, accuracy.residual_tolerance * s.dt * s.dt);
-    s.limits.patience = std::min(most_iterations, s.limits.iterations << doublings_at_rest);
+    s.limits.patience = std::min(most_patience, s.limits.iterations << doublings_at_rest);
   }
   return s;
 }

@@ -132,8 +132,7 @@ std::vector<Answer> answers_of_any_bed(const SettledBed& settled) {
 
 Finding finding_of(const SettledBed& settled, std::vector<Answer> answers) {
   const std::string& why_not = settled.report.why_not;
-  const char* sank =
-      settled.report.sank ? "two grains sank into each other by more than half" : "";
+  const char* sank = settled.report.sank ? "two grains sank into each other by more than half" : "";
   return {{}, why_not.empty() ? sank : why_not, is_finite(settled.bed), std::move(answers)};
 }
 

@@ -292,6 +292,39 @@ TEST_CASE("methods with a memory need far fewer sweeps than those without") {
   CHECK(accelerated < gradient);
 }
 
+TEST_CASE("a solve goes on beyond its iterations until what is left is bearable") {
+  for (const Solver solver : all_solvers) {
+    INFO("solver " << static_cast<int>(solver));
+    SolveLimits limits{solver, 2, 0.0};
+    StepProblem<double> problem = random_problem<double>(16, 4);
+    const SolveReport crude = solve(limits, kernels(), problem.contacts, problem.motion);
+    CHECK(crude.iterations == 2);
+    limits.bearable = crude.residual / 100.0;
+    for (const int patience : {2, 16, 10'000}) {
+      limits.patience = patience;
+      problem = random_problem<double>(16, 4);
+      const SolveReport patient = solve(limits, kernels(), problem.contacts, problem.motion);
+      CHECK(patient.iterations <= patience);
+      CHECK((patient.residual <= limits.bearable || 2 * patient.iterations > patience));
+    }
+    CHECK(solve(limits, kernels(), problem.contacts, problem.motion).residual <= limits.bearable);
+  }
+}
+
+// Rows that take too much of their own correction, 1.8 times: plain sweeps converge up to twice.
+TEST_CASE("momentum is given up where it makes sweeps diverge") {
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    INFO("seed " << seed);
+    StepProblem<double> problem = random_problem<double>(16, seed);
+    for (RowBlock<double>& block : problem.contacts.rows) {
+      for (double& mass : block.reduced_mass) mass *= 2.0;
+    }
+    const SolveReport report = solve({Solver::accelerated_gauss_seidel, 20'000, 1e-10}, kernels(),
+                                     problem.contacts, problem.motion);
+    CHECK(report.residual <= 1e-10);
+  }
+}
+
 TEST_CASE("a more accurate solve takes more iterations and leaves a smaller residual") {
   for (const Solver solver : all_solvers) {
     double last_residual = 1;
