@@ -3,7 +3,7 @@
 source "$(dirname "$0")/common.sh" "$1"
 # A runner waits a fifth of a second for the lock, so that the work has to take longer.
 cat >sweep.json <<'JSON'
-{ "name": "runners", "seed": 5, "replicates": 10,
+{ "name": "runners", "seed": 5, "replicates": 14,
   "base": { "box": { "length": 5, "width": 5 }, "fill": { "solid_height": 8 }, "accuracy": "balanced" } }
 JSON
 make_reference sweep.json
