@@ -9,7 +9,7 @@ write_shuffled() {
     '{"label": "bulk", "set": {"box.width": 5, "box.y": "periodic"}}' \
     '{"label": "two sizes", "set": {"box.width": 4, "sizes.small_share": 0.25}}' | paste -sd,)
   cat >"$1" <<JSON
-{ "name": "shuffled", "seed": 9, "replicates": 2,
+{ "name": "shuffled", "seed": 9, "replicates": 5,
   "base": { "box": { "length": 4 }, "fill": { "solid_height": 4 },
             "measure": { "exclude_floor": 1, "exclude_surface": 1 }, "accuracy": "fast" },
   "sweep": [ $blocks ] }

@@ -5,7 +5,7 @@ source "$(dirname "$0")/common.sh" "$1"
 
 TIMEFORMAT='%U %S'
 code=0
-{ time "$program" run "$root/configs/quick.json" --out out --threads 1 >said.txt 2>&1; } 2>times.txt ||
+{ time "$program" run "$root/configs/confined-spheres.json" --out out --threads 1 >said.txt 2>&1; } 2>times.txt ||
   code=$?
 [ "$code" -le 1 ] || fail "ended with $code: $(cat said.txt)"
 waited="not measured"
