@@ -40,9 +40,9 @@ void gauss_seidel_sweep(benchmark::State& run) {
   auto& motion = f.state.motion;
   const SweepRule<Real> rule{Real(0.9), Real(0.5), false};
   for (auto _ : run) {
-    benchmark::DoNotOptimize(kernels.gauss_seidel_sweep(
-        contacts.rows.data(), contacts.rows.size(), f.state.motion.u.data(),
-        contacts.impulse.data(), contacts.extrapolated.data(), rule));
+    benchmark::DoNotOptimize(kernels.gauss_seidel_sweep(contacts.rows.data(), contacts.rows.size(),
+                                                        motion.u.data(), contacts.impulse.data(),
+                                                        contacts.extrapolated.data(), rule));
     kernels.extrapolate(rule.momentum, motion.u.size(), motion.before.data(), motion.u.data());
   }
   count_rows(run, contacts.rows.size());

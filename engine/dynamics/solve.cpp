@@ -147,119 +147,103 @@ class Momentum {
   double theta_ = 1.0;
 };
 
-/// Notices descents that go up: one has diverged when its residual is a hundred times the first;
-/// others rise less than tenfold.
-class DivergenceWatch {
- public:
-  bool has_diverged(double seen) {
-    first_seen_ = first_seen_ < 0.0 ? seen : first_seen_;
-    return seen > 100.0 * first_seen_;
-  }
-  void begin_again() { first_seen_ = -1.0; }
-
- private:
-  double first_seen_ = -1.0;  ///< residual at the begin of the descent; none yet if negative
-};
-
-/// No impulses at all.
-template <class Problem>
-void forget_impulses(Problem& problem) {
-  auto& p = problem.contacts.impulse;
-  std::fill(p.begin(), p.end(), typename Problem::Number(0));
-  set_motion(problem);
-}
-
 // Each method below improves the impulses by `iterate`, which returns the residual that its sweeps
 // saw on the way, and starts afresh from the impulses and their motion by `restart`.
 
-/// Projected gradient descent on the dual with Nesterov's momentum; each step scaled by the
-/// diagonal.
-template <class Problem>
-class AcceleratedGradient {
-  using Real = typename Problem::Number;
-
+/// Descent with Nesterov's momentum. `Sweeps` makes one sweep from the extrapolated impulses and
+/// their motion by `descend`, and the next ones safer by `slow_down`.
+template <class Problem, class Sweeps>
+class Accelerated {
  public:
   static constexpr int sweeps = 1;
-  explicit AcceleratedGradient(Problem& problem) : problem_(problem) {}
+  explicit Accelerated(Problem& problem) : problem_(problem), sweeps_(problem) {}
 
   void restart() {
     problem_.contacts.extrapolated = problem_.contacts.impulse;
+    sweeps_.restart();
     momentum_.restart();
   }
   double iterate() {
-    const double seen = descend();
-    if (watch_.has_diverged(seen)) {
+    const auto sums = sweeps_.descend(momentum_.next());
+    if (sums.uphill > 0) {
+      momentum_.restart();
+    }
+    const auto seen = static_cast<double>(sums.residual);
+    first_seen_ = first_seen_ < 0.0 ? seen : first_seen_;
+    if (seen > diverged * first_seen_) {
       begin_again();
     }
     return seen;
   }
 
  private:
-  double descend() {
-    const auto inverse_bound = static_cast<Real>(1.0 / bound_);
-    MotionColumns<Real>& motion = problem_.motion;
-    const auto momentum = static_cast<Real>(momentum_.next());
-    const SweepSums<Real> sums = sweep_ranges(problem_, SweepOrder::forward, [&](BlockRange range) {
-      return problem_.kernels.gradient_sweep(problem_.rows(range), range.blocks, motion.u.data(),
-                                             motion.pushes.data(), problem_.impulse(range),
-                                             problem_.extrapolated(range), inverse_bound, momentum);
-    });
-    take_pushes(problem_, motion.u);
-    if (sums.uphill > Real(0)) {
-      momentum_.restart();
-    }
-    return static_cast<double>(sums.residual);
-  }
-  /// Grains that overlap deeply, as at a random start, may have more contacts than the eigenvalue's
-  /// bound was found for: from no impulses at all, in steps half as long.
+  /// A descent has diverged when its residual is so many times the first; others rise less than
+  /// tenfold.
+  static constexpr double diverged = 100.0;
+
+  /// From no impulses at all.
   void begin_again() {
-    bound_ *= 2.0;
-    watch_.begin_again();
-    forget_impulses(problem_);
+    sweeps_.slow_down();
+    first_seen_ = -1.0;
+    auto& p = problem_.contacts.impulse;
+    std::fill(p.begin(), p.end(), typename Problem::Number(0));
+    set_motion(problem_);
     restart();
   }
 
   Problem& problem_;
+  Sweeps sweeps_;
   Momentum momentum_;
-  DivergenceWatch watch_;
-  double bound_ = Problem::eigenvalue_bound;
+  double first_seen_ = -1.0;  ///< residual at the begin of the descent; none yet if negative
 };
 
-/// Projected Gauss-Seidel sweeps with Nesterov's momentum: what a sweep changed, in impulses and in
-/// motion, is gone on with before the next one. A sweep sees each row after those before it have
-/// moved, which is worth nearly three of a gradient descent.
+/// Projected gradients of the dual, each step scaled by the diagonal.
 template <class Problem>
-class AcceleratedGaussSeidel {
+class GradientSweeps {
   using Real = typename Problem::Number;
 
  public:
-  static constexpr int sweeps = 1;
-  explicit AcceleratedGaussSeidel(Problem& problem) : problem_(problem) {}
+  explicit GradientSweeps(Problem& problem) : problem_(problem) {}
 
-  void restart() {
-    problem_.contacts.extrapolated = problem_.contacts.impulse;
-    problem_.motion.before = problem_.motion.u;
-    problem_.motion.summed.resize(problem_.motion.u.size());
-    momentum_.restart();
+  void restart() {}
+  SweepSums<Real> descend(double momentum) {
+    const auto inverse_bound = static_cast<Real>(1.0 / bound_);
+    MotionColumns<Real>& motion = problem_.motion;
+    const SweepSums<Real> sums = sweep_ranges(problem_, SweepOrder::forward, [&](BlockRange range) {
+      return problem_.kernels.gradient_sweep(problem_.rows(range), range.blocks, motion.u.data(),
+                                             motion.pushes.data(), problem_.impulse(range),
+                                             problem_.extrapolated(range), inverse_bound,
+                                             static_cast<Real>(momentum));
+    });
+    take_pushes(problem_, motion.u);
+    return sums;
   }
-  double iterate() {
-    const double seen = descend();
-    if (watch_.has_diverged(seen)) {
-      begin_again();
-    }
-    return seen;
-  }
+  /// Grains that overlap deeply, as at a random start, may have more contacts than the eigenvalue's
+  /// bound was found for: steps half as long.
+  void slow_down() { bound_ *= 2.0; }
 
  private:
-  /// A sweep is no gradient step, its matrix is not symmetric: from 1.1 on momentum makes beds of
-  /// spheres diverge; between .8 and 1.05 they need equally many sweeps.
-  static constexpr double relaxation = 0.9;
-  /// After so many sweeps the motion is summed up anew: momentum multiplies what rounding adds.
-  static constexpr int sweeps_of_a_sum = 32;
+  Problem& problem_;
+  double bound_ = Problem::eigenvalue_bound;
+};
 
-  double descend() {
+/// Projected Gauss-Seidel sweeps: what a sweep changed, in impulses and in motion, is gone on with
+/// before the next one. A sweep sees each row after those before it have moved, which is worth
+/// nearly three gradients.
+template <class Problem>
+class GaussSeidelSweeps {
+  using Real = typename Problem::Number;
+
+ public:
+  explicit GaussSeidelSweeps(Problem& problem) : problem_(problem) {}
+
+  void restart() {
+    problem_.motion.before = problem_.motion.u;
+    problem_.motion.summed.resize(problem_.motion.u.size());
+  }
+  SweepSums<Real> descend(double wanted) {
     MotionColumns<Real>& motion = problem_.motion;
-    const auto momentum = static_cast<Real>(has_momentum_ ? momentum_.next() : 0.0);
+    const auto momentum = static_cast<Real>(has_momentum_ ? wanted : 0.0);
     const SweepRule<Real> rule{static_cast<Real>(relaxation), momentum, false};
     const SweepSums<Real> sums = sweep_ranges(problem_, SweepOrder::forward, [&](BlockRange range) {
       return problem_.kernels.gauss_seidel_sweep(problem_.rows(range), range.blocks,
@@ -273,11 +257,18 @@ class AcceleratedGaussSeidel {
     if (++swept_ % sweeps_of_a_sum == 0) {
       sum_up();
     }
-    if (sums.uphill > Real(0)) {
-      momentum_.restart();
-    }
-    return static_cast<double>(sums.residual);
+    return sums;
   }
+  /// Sweeps without momentum always go down.
+  void slow_down() { has_momentum_ = false; }
+
+ private:
+  /// A sweep is no gradient step, its matrix is not symmetric: from 1.1 on momentum makes beds of
+  /// spheres diverge; between .8 and 1.05 they need equally many sweeps.
+  static constexpr double relaxation = 0.9;
+  /// After so many sweeps the motion is summed up anew: momentum multiplies what rounding adds.
+  static constexpr int sweeps_of_a_sum = 32;
+
   /// Frees the motion of the impulses from what rounding has added, and the extrapolated one from
   /// the same: what lies between them is small, and is known better than either.
   void sum_up() {
@@ -293,17 +284,8 @@ class AcceleratedGaussSeidel {
     });
     motion.before.swap(motion.summed);
   }
-  /// Sweeps without momentum always go down: from no impulses at all.
-  void begin_again() {
-    has_momentum_ = false;
-    watch_.begin_again();
-    forget_impulses(problem_);
-    restart();
-  }
 
   Problem& problem_;
-  Momentum momentum_;
-  DivergenceWatch watch_;
   bool has_momentum_ = true;
   int swept_ = 0;
 };
@@ -442,11 +424,11 @@ SolveReport run_solver(const SolveLimits& limits, Problem problem) {
     case Solver::nonsmooth_nonlinear_conjugate:
       return run(limits, problem, ConjugateGradient<Problem>(problem));
     case Solver::accelerated_projected_gradient:
-      return run(limits, problem, AcceleratedGradient<Problem>(problem));
+      return run(limits, problem, Accelerated<Problem, GradientSweeps<Problem>>(problem));
     case Solver::accelerated_gauss_seidel:
       break;
   }
-  return run(limits, problem, AcceleratedGaussSeidel<Problem>(problem));
+  return run(limits, problem, Accelerated<Problem, GaussSeidelSweeps<Problem>>(problem));
 }
 
 }  // namespace
