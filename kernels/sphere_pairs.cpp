@@ -4,7 +4,6 @@
 
 namespace {
 
-using grainsweep::GrainPair;
 using grainsweep::SphereGrid;
 using grainsweep::SphereQueries;
 
@@ -14,11 +13,23 @@ struct Found {
   std::size_t capacity;
   std::size_t count;
 
-  void add(std::int32_t i, std::int32_t j) {
-    if (count < capacity) {
-      pairs[count] = i < j ? GrainPair{i, j} : GrainPair{j, i};
+  /// Adds the pairs of grain i with those of a batch of others whose bit is set.
+  void add(std::int32_t i, const std::int32_t* others, std::uint32_t lanes) {
+    if (count + batch_width<float> <= capacity) {
+      put_pairs(i, others, lanes, pairs + count);
+    } else {
+      add_last(i, others, lanes);
     }
-    ++count;
+    count += static_cast<std::size_t>(__builtin_popcount(lanes));
+  }
+
+ private:
+  /// The same where there is no room for a whole batch of pairs.
+  void add_last(std::int32_t i, const std::int32_t* others, std::uint32_t lanes) const {
+    GrainPair batch[batch_width<float>];
+    put_pairs(i, others, lanes, batch);
+    const auto added = static_cast<std::size_t>(__builtin_popcount(lanes));
+    for (std::size_t k = 0; k < added && count + k < capacity; ++k) pairs[count + k] = batch[k];
   }
 };
 
@@ -40,19 +51,25 @@ struct Seeker {
   std::int32_t grain;
 };
 
-/// Tests a sphere against entries begin .. end, in their order.
-inline void test_run(const SphereGrid& grid, const Seeker& seeker, std::int32_t begin,
-                     std::int32_t end, Found& found) {
+/// Entries begin .. end of a grid.
+struct Run {
+  std::int32_t begin, end;
+};
+
+/// The entries of three cells in a row.
+inline Run three_cells(const SphereGrid& grid, std::int32_t middle) {
+  return {grid.cell_begin[middle - 1], grid.cell_begin[middle + 2]};
+}
+
+/// Tests a sphere against a run of entries, in their order.
+inline void test_run(const SphereGrid& grid, const Seeker& seeker, Run run, Found& found) {
   constexpr std::int32_t width = static_cast<std::int32_t>(batch_width<float>);
-  for (std::int32_t at = begin; at < end; at += width) {
-    std::uint32_t lanes =
+  for (std::int32_t at = run.begin; at < run.end; at += width) {
+    const std::int32_t left = run.end - at < width ? run.end - at : width;
+    const std::uint32_t valid = (1U << left) - 1U;
+    const std::uint32_t lanes =
         close_lanes(grid, static_cast<std::size_t>(at), seeker.x, seeker.y, seeker.z, seeker.reach);
-    if (end - at < width) {
-      lanes &= (1U << (end - at)) - 1U;
-    }
-    for (; lanes != 0; lanes &= lanes - 1) {
-      found.add(seeker.grain, grid.grain[at + __builtin_ctz(lanes)]);
-    }
+    found.add(seeker.grain, grid.grain + at, lanes & valid);
   }
 }
 
@@ -60,14 +77,15 @@ inline void test_run(const SphereGrid& grid, const Seeker& seeker, std::int32_t 
 /// rows of three cells ahead of it: half of all neighbours, so that each pair is met once.
 inline void test_cell(const SphereGrid& grid, std::int32_t cell, Found& found) {
   const std::int32_t row = grid.cells_x, layer = grid.cells_x * grid.cells_y;
-  const std::int32_t ahead[4] = {cell + row, cell + layer - row, cell + layer, cell + layer + row};
-  for (std::int32_t i = grid.cell_begin[cell]; i < grid.cell_begin[cell + 1]; ++i) {
+  const Run own{grid.cell_begin[cell], grid.cell_begin[cell + 1]};
+  const Run ahead[4] = {three_cells(grid, cell + row), three_cells(grid, cell + layer - row),
+                        three_cells(grid, cell + layer), three_cells(grid, cell + layer + row)};
+  const std::int32_t end_of_next = grid.cell_begin[cell + 2];
+  for (std::int32_t i = own.begin; i < own.end; ++i) {
     const Seeker seeker{Batch<float>(grid.x[i]), Batch<float>(grid.y[i]), Batch<float>(grid.z[i]),
                         Batch<float>(grid.radius[i] + grid.reach), grid.grain[i]};
-    test_run(grid, seeker, i + 1, grid.cell_begin[cell + 2], found);
-    for (const std::int32_t middle : ahead) {
-      test_run(grid, seeker, grid.cell_begin[middle - 1], grid.cell_begin[middle + 2], found);
-    }
+    test_run(grid, seeker, {i + 1, end_of_next}, found);
+    for (const Run& run : ahead) test_run(grid, seeker, run, found);
   }
 }
 
@@ -90,8 +108,7 @@ inline void test_around(const SphereGrid& grid, std::int32_t cell, const Seeker&
   const std::int32_t row = grid.cells_x, layer = grid.cells_x * grid.cells_y;
   for (std::int32_t z = -layer; z <= layer; z += layer) {
     for (std::int32_t y = -row; y <= row; y += row) {
-      const std::int32_t middle = cell + z + y;
-      test_run(grid, seeker, grid.cell_begin[middle - 1], grid.cell_begin[middle + 2], found);
+      test_run(grid, seeker, three_cells(grid, cell + z + y), found);
     }
   }
 }

@@ -219,4 +219,34 @@ inline std::uint32_t bits_of(const xsimd::batch_bool<float, Arch>& mask) {
   return static_cast<std::uint32_t>(_mm256_movemask_ps(mask));
 }
 
+/// For each mask of eight lanes the lanes that are set, in order.
+struct SetLanes {
+  std::uint8_t of_mask[256][8] = {};
+
+  constexpr SetLanes() {
+    for (unsigned mask = 0; mask < 256; ++mask) {
+      unsigned count = 0;
+      for (unsigned lane = 0; lane < 8; ++lane) {
+        if ((mask >> lane & 1U) != 0) of_mask[mask][count++] = static_cast<std::uint8_t>(lane);
+      }
+    }
+  }
+};
+inline constexpr SetLanes set_lanes;
+
+/// Writes the pairs of grain i with those of the others whose bit is set, in their order, the
+/// smaller number first. What lies behind them, up to a batch of pairs, is overwritten.
+inline void put_pairs(std::int32_t i, const std::int32_t* others, std::uint32_t lanes,
+                      GrainPair* to) {
+  const auto* const chosen = reinterpret_cast<const __m128i*>(set_lanes.of_mask[lanes]);
+  const __m256i all = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(others));
+  const __m256i j = _mm256_permutevar8x32_epi32(all, _mm256_cvtepu8_epi32(_mm_loadl_epi64(chosen)));
+  const __m256i one = _mm256_set1_epi32(i);
+  const __m256i a = _mm256_min_epi32(one, j), b = _mm256_max_epi32(one, j);
+  const __m256i even = _mm256_unpacklo_epi32(a, b), odd = _mm256_unpackhi_epi32(a, b);
+  auto* const out = reinterpret_cast<__m256i*>(to);
+  _mm256_storeu_si256(out, _mm256_permute2x128_si256(even, odd, 0x20));
+  _mm256_storeu_si256(out + 1, _mm256_permute2x128_si256(even, odd, 0x31));
+}
+
 }  // namespace

@@ -274,4 +274,17 @@ inline std::uint32_t bits_of(const xsimd::batch_bool<float, Arch>& mask) {
   return static_cast<std::uint32_t>(static_cast<__mmask16>(mask));
 }
 
+/// Writes the pairs of grain i with those of the others whose bit is set, in their order, the
+/// smaller number first. What lies behind them, up to a batch of pairs, is overwritten.
+inline void put_pairs(std::int32_t i, const std::int32_t* others, std::uint32_t lanes,
+                      GrainPair* to) {
+  const __m512i all = _mm512_loadu_si512(others), one = _mm512_set1_epi32(i);
+  const __m512i j = _mm512_maskz_compress_epi32(static_cast<__mmask16>(lanes), all);
+  const __m512i a = _mm512_min_epi32(one, j), b = _mm512_max_epi32(one, j);
+  const __m512i low = _mm512_setr_epi32(0, 16, 1, 17, 2, 18, 3, 19, 4, 20, 5, 21, 6, 22, 7, 23);
+  const __m512i high = _mm512_add_epi32(low, _mm512_set1_epi32(8));
+  _mm512_storeu_si512(to, _mm512_permutex2var_epi32(a, low, b));
+  _mm512_storeu_si512(to + 8, _mm512_permutex2var_epi32(a, high, b));
+}
+
 }  // namespace

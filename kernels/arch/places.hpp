@@ -8,6 +8,7 @@
 
 namespace {
 
+using grainsweep::GrainPair;
 using grainsweep::Record;
 
 /// Bytes to go for an offset that counts records of `stride` bytes.

@@ -154,4 +154,14 @@ inline std::uint32_t bits_of(const xsimd::batch_bool<float, Arch>& mask) {
   return static_cast<std::uint32_t>(_mm_movemask_ps(mask));
 }
 
+/// Writes the pairs of grain i with those of the others whose bit is set, in their order, the
+/// smaller number first.
+inline void put_pairs(std::int32_t i, const std::int32_t* others, std::uint32_t lanes,
+                      GrainPair* to) {
+  for (; lanes != 0; lanes &= lanes - 1) {
+    const std::int32_t j = others[__builtin_ctz(lanes)];
+    *to++ = i < j ? GrainPair{i, j} : GrainPair{j, i};
+  }
+}
+
 }  // namespace
