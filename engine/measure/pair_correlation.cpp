@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 #include "engine/units.hpp"
@@ -135,7 +136,9 @@ std::vector<std::size_t> places_around(std::size_t at, std::size_t count, bool i
 class PairCounter {
  public:
   PairCounter(const Region& region, double bin_width, std::size_t bins)
-      : sides_(region.sides), bin_width_(bin_width), counts_(bins, 0.0) {}
+      : periods_{region.sides[0].period(), region.sides[1].period()},
+        bin_width_(bin_width),
+        counts_(bins, 0.0) {}
 
   double reach() const { return bin_width_ * static_cast<double>(counts_.size()); }
   std::vector<double> take_counts() { return std::move(counts_); }
@@ -154,15 +157,22 @@ class PairCounter {
 
  private:
   void add(const Record<double>& a, const Record<double>& b) {
-    const double x = nearest(b.x - a.x, sides_[0].period());
-    const double y = nearest(b.y - a.y, sides_[1].period());
+    const double x = nearest_of(b.x - a.x, periods_[0]);
+    const double y = nearest_of(b.y - a.y, periods_[1]);
     const double z = b.z - a.z, squared = x * x + y * y + z * z;
     if (squared >= reach() * reach()) return;
     const auto bin = static_cast<std::size_t>(std::sqrt(squared) / bin_width_);
     counts_[std::min(bin, counts_.size() - 1)] += 1.0;
   }
 
-  std::array<Side, 3> sides_;
+  /// As nearest(), but that differences of half a period may go either way; these are beyond reach.
+  static double nearest_of(double difference, double period) {
+    if (!(period > 0.0)) return difference;
+    const double turns = difference / period + (difference < 0.0 ? -0.5 : 0.5);
+    return difference - period * static_cast<double>(static_cast<std::int64_t>(turns));
+  }
+
+  std::array<double, 2> periods_;
   double bin_width_;
   std::vector<double> counts_;
 };
