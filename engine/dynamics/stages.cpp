@@ -41,9 +41,9 @@ constexpr StageRule turning[] = {
 constexpr double bearable_residual = 0.01;
 constexpr int most_patience = 20'000;  // enough for masses 1e6 to 1
 
-/// At rest no more is bearable than the rest test lets pass. f32 cannot reach every tolerance: it
-/// is given up sooner.
-constexpr int doublings_at_rest = 4;
+/// At rest no more is bearable than the rest test lets pass. Where f32 stops short of it, more
+/// iterations seldom help: rounding has been reached, or will be in the next step.
+int doublings_at_rest(Precision precision) { return precision == Precision::f64 ? 4 : 1; }
 
 int iterations_of(const Accuracy& accuracy, const StageRule& rule) {
   return std::max(1, static_cast<int>(std::lround(rule.of_fall * accuracy.fall_iterations +
@@ -80,7 +80,8 @@ StepSettings settings_of(const Accuracy& accuracy, const StageRule& rule) {
   s.limits.patience = most_patience;
   if (rule.end == rest) {
     s.limits.bearable = std::min(bearable_residual, accuracy.residual_tolerance * s.dt * s.dt);
-    s.limits.patience = std::min(most_patience, s.limits.iterations << doublings_at_rest);
+    s.limits.patience =
+        std::min(most_patience, s.limits.iterations << doublings_at_rest(accuracy.precision));
   }
   return s;
 }
