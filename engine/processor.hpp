@@ -33,6 +33,16 @@ void run_parts(const PartLoop& loop, std::size_t parts, const Part& part) {
   }
 }
 
+/// Items first .. last of a range.
+struct Share {
+  std::size_t first, last;
+};
+
+/// Part `part` of `parts` of a range of `size` items.
+inline Share share_of(std::size_t size, std::size_t part, std::size_t parts) {
+  return {size * part / parts, size * (part + 1) / parts};
+}
+
 struct Workspace;  // engine/dynamics/workspace.hpp
 
 struct Processor {

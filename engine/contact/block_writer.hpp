@@ -6,38 +6,18 @@
 #include <vector>
 
 #include "engine/contact/contacts.hpp"
-#include "engine/contact/open_blocks.hpp"
+#include "engine/contact/open_blocks.hpp"  // BlockLane
 
 namespace grainsweep {
 
-/// Appends blocks of void rows and fills their lanes.
+/// Appends blocks of void rows of a section and fills their lanes.
 template <class Real>
 class BlockWriter {
  public:
-  /// `words`: those of OpenBlocks.
-  BlockWriter(const SphereBed& bed, std::size_t section, std::vector<std::uint64_t>& words,
-              RowColumns<Real>& columns)
-      : bed_(bed), section_(section), open_(words), columns_(columns) {}
+  BlockWriter(const SphereBed& bed, std::size_t section, RowColumns<Real>& columns)
+      : bed_(bed), section_(section), columns_(columns) {}
 
-  void add_pair(GrainPair pair, Real impulse) {
-    fill(open_.take(pair.a, pair.b, [this] { return append_void_block(); }), pair.a, pair.b,
-         impulse);
-  }
-
-  void finish_pairs() { open_.close_all(); }
-
-  /// Rows of one wall in blocks of their own: no grain touches it twice, so lanes are filled in
-  /// order.
-  template <class ImpulseOf>
-  void add_wall(const std::vector<std::int32_t>& grains, ImpulseOf impulse_of) {
-    for (std::size_t k = 0; k < grains.size(); ++k) {
-      if (k % block_width == 0) append_void_block();
-      fill({columns_.rows.size() - 1, k % block_width}, grains[k], bed_.wall(),
-           impulse_of(grains[k]));
-    }
-  }
-
- private:
+  /// The new block's number.
   std::size_t append_void_block() {
     columns_.rows.emplace_back();
     RowBlock<Real>& block = columns_.rows.back();
@@ -48,11 +28,24 @@ class BlockWriter {
     columns_.impulse.resize(columns_.rows.size() * block_width, Real(0));
     return columns_.rows.size() - 1;
   }
+  /// The contact of grain a with grain b.
   void fill(BlockLane at, std::int32_t a, std::int32_t b, Real impulse) {
     columns_.rows[at.block].set_grains(at.lane, a, b);
     columns_.rows[at.block].reduced_mass[at.lane] = reduced_mass(a, b);
     columns_.impulse[at.block * block_width + at.lane] = impulse;
   }
+  /// Rows of one wall in blocks of their own: no grain touches it twice, so lanes are filled in
+  /// order.
+  template <class ImpulseOf>
+  void add_wall(const std::vector<std::int32_t>& grains, ImpulseOf impulse_of) {
+    for (std::size_t k = 0; k < grains.size(); ++k) {
+      if (k % block_width == 0) append_void_block();
+      fill({columns_.rows.size() - 1, k % block_width}, grains[k], bed_.wall(section_),
+           impulse_of(grains[k]));
+    }
+  }
+
+ private:
   Real reduced_mass(std::int32_t a, std::int32_t b) const {
     return static_cast<Real>(1.0 / (bed_.motion[static_cast<std::size_t>(a)].w +
                                     bed_.motion[static_cast<std::size_t>(b)].w));
@@ -60,7 +53,6 @@ class BlockWriter {
 
   const SphereBed& bed_;
   std::size_t section_;
-  OpenBlocks open_;
   RowColumns<Real>& columns_;
 };
 

@@ -65,12 +65,12 @@ double rounding_slack(const SphereBed& bed, const Heights& heights) {
 
 /// Fills the grid of every level; all have the same origin. No pair with a gap below `reach` lies
 /// further apart than in adjacent cells.
-void fill_grids(const SphereBed& bed, const Heights& heights, double reach,
+void fill_grids(const SphereBed& bed, const Heights& heights, double reach, const PartLoop& loop,
                 std::vector<SizeLevel>& levels) {
   for (SizeLevel& level : levels) {
     const double least = 2.0 * level.largest_radius + reach;
     level.cells = make_cells(bed.box, heights.bottom, heights.top, least, level.members.size());
-    fill_columns(bed, level.members, level.cells, level.grid);
+    fill_columns(bed, level.members, level.cells, loop, level.grid);
   }
 }
 
@@ -94,6 +94,20 @@ std::size_t parts_of(const SizeLevel& level) {
   return parts < 4 ? 1 : std::min(parts, static_cast<std::size_t>(level.cells.inner_z));
 }
 
+/// Appends what was found in each part.
+void join_found(const PartLoop& loop, std::size_t parts, Candidates& candidates) {
+  auto& begin = candidates.found_begin;
+  begin.assign(1, candidates.pairs.size());
+  for (std::size_t part = 0; part < parts; ++part) {
+    begin.push_back(begin.back() + candidates.found[part].size());
+  }
+  candidates.pairs.resize(begin.back());
+  run_parts(loop, parts, [&](std::size_t part) {
+    std::copy(candidates.found[part].begin(), candidates.found[part].end(),
+              candidates.pairs.data() + begin[part]);
+  });
+}
+
 /// Appends what `find(part, pairs, capacity)` writes for each part, in the order of the parts.
 template <class Find>
 void append_parts(const PartLoop& loop, std::size_t parts, std::size_t expected, Find find,
@@ -106,17 +120,7 @@ void append_parts(const PartLoop& loop, std::size_t parts, std::size_t expected,
         [&](GrainPair* pairs, std::size_t capacity) { return find(part, pairs, capacity); },
         expected / parts + block_width, found[part]);
   });
-  for (std::size_t part = 0; part < parts; ++part) {
-    candidates.pairs.insert(candidates.pairs.end(), found[part].begin(), found[part].end());
-  }
-}
-
-/// Part `part` of `parts` of a range.
-struct Share {
-  std::size_t first, last;
-};
-Share share_of(std::size_t size, std::size_t part, std::size_t parts) {
-  return {size * part / parts, size * (part + 1) / parts};
+  join_found(loop, parts, candidates);
 }
 
 /// Layers first .. last of a grid; the layer above them serves as border.
@@ -204,15 +208,18 @@ void list_walls(const SphereBed& bed, Candidates& candidates) {
   }
 }
 
-void remember_positions(const SphereBed& bed, Candidates& candidates) {
+void remember_positions(const SphereBed& bed, const PartLoop& loop, Candidates& candidates) {
   const Cells& cells = candidates.levels.front().cells;
-  candidates.built_at.assign(bed.position.begin(),
-                             bed.position.begin() + static_cast<std::ptrdiff_t>(bed.grains()));
+  candidates.built_at.resize(bed.grains());
   candidates.layers.resize(static_cast<std::size_t>(cells.inner_z));
   candidates.layer.resize(bed.grains());
-  for (std::size_t i = 0; i < bed.grains(); ++i) {
-    candidates.layer[i] = cells.layer_of(bed.position[i]);
-  }
+  run_parts(loop, bed.sections, [&](std::size_t part) {
+    const Share share = share_of(bed.grains(), part, bed.sections);
+    for (std::size_t i = share.first; i < share.last; ++i) {
+      candidates.built_at[i] = bed.position[i];
+      candidates.layer[i] = cells.layer_of(bed.position[i]);
+    }
+  });
 }
 
 void include(Extent& extent, const Record<double>& then, const Record<double>& now) {
@@ -295,16 +302,19 @@ Walls walls_of(const Box& box) {
 
 void find_candidates(SphereBed& bed, double reach, const Processor& processor,
                      Candidates& candidates) {
-  wrap(bed);
+  run_parts(processor.loop, bed.sections, [&](std::size_t part) {
+    const Share share = share_of(bed.grains(), part, bed.sections);
+    for (std::size_t i = share.first; i < share.last; ++i) wrap(bed.box, bed.position[i]);
+  });
   candidates.reach = reach;
   choose_levels(bed, candidates.levels);
   candidates.largest_radius = candidates.levels.front().largest_radius;
   const Heights heights = heights_of(bed);
   const double slack = rounding_slack(bed, heights);
-  fill_grids(bed, heights, reach + 2.0 * slack, candidates.levels);
+  fill_grids(bed, heights, reach + 2.0 * slack, processor.loop, candidates.levels);
   list_pairs(bed, static_cast<float>(reach + slack), processor, candidates);
   list_walls(bed, candidates);
-  remember_positions(bed, candidates);
+  remember_positions(bed, processor.loop, candidates);
 }
 
 bool still_complete(const SphereBed& bed, double near, Candidates& candidates) {

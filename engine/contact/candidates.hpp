@@ -86,6 +86,7 @@ struct Candidates {
   std::vector<SizeLevel> levels;         ///< from large to small, at least one
   QueryColumns queries;
   std::vector<std::vector<GrainPair>> found;  ///< memory of the parts of a search
+  std::vector<std::size_t> found_begin;       ///< where each part's pairs go
 };
 
 /// Lists all pairs and walls with a gap below `reach`. Wraps the bed first. A periodic axis must be

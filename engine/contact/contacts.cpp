@@ -8,48 +8,49 @@ namespace grainsweep {
 
 namespace {
 
-/// Number of the wall that owns `block`.
+/// Name of the wall that owns `block` in carried impulses.
 template <class Real>
-std::size_t wall_number(const Contacts<Real>& contacts, std::size_t block) {
+std::int32_t wall_name(const SphereBed& bed, const Contacts<Real>& contacts, std::size_t block) {
   std::size_t k = 0;
   while (block >= contacts.walls[k].first + contacts.walls[k].blocks) {
     ++k;
   }
-  return k;
+  return static_cast<std::int32_t>(bed.grains() + k);
 }
 
-/// Calls visit(a, other, impulse) for each row that pushed.
+/// Calls visit(a, other, impulse) for each row that pushed: rows of the same grain never at the
+/// same time.
 template <class Real, class Visit>
-void visit_pushing(const SphereBed& bed, const Contacts<Real>& contacts, Visit visit) {
-  for (std::size_t block = 0; block < contacts.rows.size(); ++block) {
-    const bool is_pair = block < contacts.pair_blocks;
-    const auto wall =
-        is_pair ? 0 : static_cast<std::int32_t>(bed.grains() + wall_number(contacts, block));
-    for (std::size_t lane = 0; lane < block_width; ++lane) {
-      const Real impulse = contacts.impulse[block * block_width + lane];
-      if (impulse > Real(0)) {
-        const RowBlock<Real>& r = contacts.rows[block];
-        visit(r.a(lane), is_pair ? r.b(lane) : wall, impulse);
+void visit_pushing(const SphereBed& bed, const Contacts<Real>& contacts, const PartLoop& loop,
+                   const Visit& visit) {
+  visit_ranges(contacts.shares, loop, [&](BlockRange range) {
+    for (std::size_t block = range.first; block < range.first + range.blocks; ++block) {
+      const bool is_pair = block < contacts.pair_blocks;
+      const std::int32_t wall = is_pair ? 0 : wall_name(bed, contacts, block);
+      for (std::size_t lane = 0; lane < block_width; ++lane) {
+        const Real impulse = contacts.impulse[block * block_width + lane];
+        if (impulse > Real(0)) {
+          const RowBlock<Real>& r = contacts.rows[block];
+          visit(r.a(lane), is_pair ? r.b(lane) : wall, impulse);
+        }
       }
     }
-  }
+  });
 }
 
 /// Sorts the impulses that pushed by their first grain.
 template <class Real>
-void collect_impulses(const SphereBed& bed, Contacts<Real>& contacts) {
+void collect_impulses(const SphereBed& bed, const PartLoop& loop, Contacts<Real>& contacts) {
   auto& begin = contacts.layout.carried_begin;
   begin.assign(bed.grains() + 2, 0);
-  std::size_t count = 0;
-  visit_pushing(bed, contacts, [&](std::int32_t a, std::int32_t, Real) {
+  visit_pushing(bed, contacts, loop, [&](std::int32_t a, std::int32_t, Real) {
     ++begin[static_cast<std::size_t>(a) + 2];
-    ++count;
   });
   for (std::size_t i = 2; i < begin.size(); ++i) {
     begin[i] += begin[i - 1];
   }
-  contacts.layout.carried.resize(count);
-  visit_pushing(bed, contacts, [&](std::int32_t a, std::int32_t other, Real impulse) {
+  contacts.layout.carried.resize(static_cast<std::size_t>(begin.back()));
+  visit_pushing(bed, contacts, loop, [&](std::int32_t a, std::int32_t other, Real impulse) {
     const auto at = static_cast<std::size_t>(begin[static_cast<std::size_t>(a) + 1]++);
     contacts.layout.carried[at] = {other, impulse};
   });
@@ -75,66 +76,101 @@ void lay_out_section(const SphereBed& bed, std::size_t section, LayoutColumns<Re
   RowColumns<Real>& columns = layout.columns[section];
   columns.rows.clear();
   columns.impulse.clear();
-  BlockWriter<Real> writer(bed, section, layout.open_blocks, columns);
+  BlockWriter<Real> writer(bed, section, columns);
+  OpenBlocks open(layout.open_blocks);
+  const auto add = [&](GrainPair pair, Real impulse) {
+    writer.fill(open.take(pair.a, pair.b, [&] { return writer.append_void_block(); }), pair.a,
+                pair.b, impulse);
+  };
   const std::size_t first = layout.sections.begin[section];
   const std::size_t last = layout.sections.begin[section + 1];
   for (std::size_t k = first; k < last; ++k) {
     const GrainPair pair = layout.sections.pairs[k];
     layout.pair_impulse[k] = carried_impulse(layout, pair.a, pair.b);
     if (layout.pair_impulse[k] > Real(0)) {
-      writer.add_pair(pair, layout.pair_impulse[k]);
+      add(pair, layout.pair_impulse[k]);
     }
   }
   for (std::size_t k = first; k < last; ++k) {
     if (!(layout.pair_impulse[k] > Real(0))) {
-      writer.add_pair(layout.sections.pairs[k], Real(0));
+      add(layout.sections.pairs[k], Real(0));
     }
   }
-  writer.finish_pairs();
+  open.close_all();
 }
 
-/// Rows of all walls, as one more section.
+/// Sorts the grains near a wall by section.
+void divide_near_wall(const Candidates& candidates, const std::vector<std::int32_t>& grains,
+                      const Sections& sections, std::vector<std::vector<std::int32_t>>& near_wall) {
+  near_wall.resize(std::max(near_wall.size(), sections.count));
+  for (std::vector<std::int32_t>& of_section : near_wall) of_section.clear();
+  for (const std::int32_t grain : grains) {
+    near_wall[section_of(candidates, sections, grain)].push_back(grain);
+  }
+}
+
+/// Rows of all walls, wall after wall, in blocks of their own for each section.
 template <class Real>
 void lay_out_walls(const SphereBed& bed, const Candidates& candidates, Contacts<Real>& contacts) {
-  RowColumns<Real>& columns = contacts.layout.columns[contacts.layout.sections.count];
+  LayoutColumns<Real>& layout = contacts.layout;
+  RowColumns<Real>& columns = layout.columns[layout.sections.count];
   columns.rows.clear();
   columns.impulse.clear();
   contacts.walls.clear();
-  BlockWriter<Real> writer(bed, 0, contacts.layout.open_blocks, columns);
+  layout.wall_ranges.resize(std::max(layout.wall_ranges.size(), layout.sections.count));
+  for (std::vector<BlockRange>& ranges : layout.wall_ranges) ranges.clear();
   for (std::size_t k = 0; k < candidates.walls.size(); ++k) {
     const std::size_t first = columns.rows.size();
     const auto name = static_cast<std::int32_t>(bed.grains() + k);
-    writer.add_wall(candidates.walls[k].grains, [&](std::int32_t grain) {
-      return carried_impulse(contacts.layout, grain, name);
-    });
+    divide_near_wall(candidates, candidates.walls[k].grains, layout.sections, layout.near_wall);
+    for (std::size_t section = 0; section < layout.sections.count; ++section) {
+      const std::size_t before = columns.rows.size();
+      BlockWriter<Real>(bed, section, columns)
+          .add_wall(layout.near_wall[section],
+                    [&](std::int32_t grain) { return carried_impulse(layout, grain, name); });
+      if (columns.rows.size() > before) {
+        layout.wall_ranges[section].push_back({before, columns.rows.size() - before});
+      }
+    }
     contacts.walls.push_back({candidates.walls[k].wall, first, columns.rows.size() - first});
   }
 }
 
-/// Ranges of blocks that cores may sweep: the sections in two phases, then the walls, which all
-/// push one record. A single section and the walls are one range.
+/// The rows of a section, and the grains of it and the section above: in both phases these are all
+/// grains, but for those of the lowest section in the second.
 template <class Real>
-void set_ranges(Contacts<Real>& contacts) {
+void add_part(std::size_t section, Contacts<Real>& contacts) {
   const LayoutColumns<Real>& layout = contacts.layout;
-  const std::size_t sections = layout.sections.count;
-  contacts.ranges.clear();
-  std::size_t first = 0;
-  for (std::size_t k = 0; k <= sections; ++k) {
-    const std::size_t blocks = layout.columns[k].rows.size();
-    contacts.ranges.push_back({first, blocks, k < sections ? k % 2 : 2});
-    first += blocks;
+  RowPart part;
+  part.phase = section % 2;
+  part.first_range = contacts.shares.ranges.size();
+  contacts.shares.ranges.push_back(
+      {layout.first_block[section], layout.columns[section].rows.size()});
+  for (const BlockRange& range : layout.wall_ranges[section]) {
+    contacts.shares.ranges.push_back({contacts.pair_blocks + range.first, range.blocks});
   }
-  contacts.pair_blocks = contacts.ranges.back().first;
-  for (WallRows& wall : contacts.walls) {
-    wall.first += contacts.pair_blocks;
+  part.ranges = contacts.shares.ranges.size() - part.first_range;
+  if (layout.sections.count > 1) {
+    const std::size_t end = std::min(section + 2, layout.sections.count);
+    part.first_grain = layout.sections.first_grain[section];
+    part.grains = layout.sections.first_grain[end] - part.first_grain;
   }
-  if (sections == 1) {
-    contacts.ranges.assign({{0, first, 0}});
+  contacts.shares.parts.push_back(part);
+}
+
+/// Parts that cores may sweep: every second section, then those between.
+template <class Real>
+void set_parts(Contacts<Real>& contacts) {
+  const Sections& sections = contacts.layout.sections;
+  contacts.shares.clear();
+  contacts.pair_blocks = contacts.layout.first_block[sections.count];
+  for (WallRows& wall : contacts.walls) wall.first += contacts.pair_blocks;
+  for (std::size_t k = 0; k < sections.count; k += 2) add_part(k, contacts);
+  if (sections.count > 1) {
+    contacts.shares.grains = sections.grains;
+    contacts.shares.parts.push_back({1, 0, 0, 0, sections.first_grain[1]});
+    for (std::size_t k = 1; k < sections.count; k += 2) add_part(k, contacts);
   }
-  std::sort(contacts.ranges.begin(), contacts.ranges.end(),
-            [](const BlockRange& a, const BlockRange& b) {
-              return std::pair(a.phase, a.first) < std::pair(b.phase, b.first);
-            });
 }
 
 /// One column of rows out of those of all sections.
@@ -183,16 +219,16 @@ template <class Real>
 void lay_out(const SphereBed& bed, const Candidates& candidates, Contacts<Real>& contacts,
              const PartLoop& loop) {
   LayoutColumns<Real>& layout = contacts.layout;
-  collect_impulses(bed, contacts);
-  divide(candidates, layout.sections);
+  collect_impulses(bed, loop, contacts);
+  divide(candidates, loop, layout.sections);
   layout.columns.resize(std::max(layout.columns.size(), layout.sections.count + 1));
   layout.open_blocks.assign(bed.grains(), 0);
   layout.pair_impulse.resize(layout.sections.pairs.size());
   visit_sections(layout.sections.count, loop,
                  [&](std::size_t section) { lay_out_section(bed, section, layout); });
   lay_out_walls(bed, candidates, contacts);
-  set_ranges(contacts);
   join(loop, contacts);
+  set_parts(contacts);
   contacts.extrapolated.assign(contacts.impulse.size(), Real(0));
 }
 

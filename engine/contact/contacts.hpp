@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/contact/candidates.hpp"
+#include "engine/contact/row_shares.hpp"
 #include "engine/contact/sections.hpp"
 #include "engine/processor.hpp"
 #include "engine/scene/bed.hpp"
@@ -30,13 +31,6 @@ struct CarriedImpulse {
   Real impulse;
 };
 
-/// Blocks that one core sweeps. Ranges of a phase share no grain; phases follow one another.
-struct BlockRange {
-  std::size_t first = 0;
-  std::size_t blocks = 0;
-  std::size_t phase = 0;
-};
-
 /// Rows and what they carry, impulse k of block b at b * block_width + k.
 template <class Real>
 struct RowColumns {
@@ -48,8 +42,10 @@ struct RowColumns {
 template <class Real>
 struct LayoutColumns {
   Sections sections;
-  std::vector<RowColumns<Real>> columns;   ///< of each section, then of the walls
-  std::vector<std::size_t> first_block;    ///< of each section in the rows of all
+  std::vector<RowColumns<Real>> columns;             ///< of each section, then of the walls
+  std::vector<std::vector<BlockRange>> wall_ranges;  ///< of each section in the rows of the walls
+  std::vector<std::vector<std::int32_t>> near_wall;  ///< grains of each section near one wall
+  std::vector<std::size_t> first_block;              ///< of each section in the rows of all
   std::vector<std::uint64_t> open_blocks;  ///< per grain: one bit for each open block it is in
   std::vector<std::int32_t> carried_begin;
   std::vector<CarriedImpulse<Real>> carried;
@@ -63,7 +59,7 @@ struct Contacts {
   std::vector<RowBlock<Real>> rows;
   std::size_t pair_blocks = 0;
   std::vector<WallRows> walls;
-  std::vector<BlockRange> ranges;  ///< all blocks, by phase
+  RowShares shares;
   std::vector<Real> impulse;
   std::vector<Real> extrapolated;  ///< the solver's look-ahead impulses
   std::vector<double> sunk;        ///< of each part of a detection: see `detect`

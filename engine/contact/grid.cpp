@@ -17,23 +17,28 @@ std::int32_t inner_index(double coordinate, double size, std::int32_t cells) {
       std::clamp(coordinate / size, 0.0, static_cast<double>(cells - 1)));
 }
 
+/// Periods by which a grain's copies are shifted along an axis.
+struct Turns {
+  int least, most;
+};
+
+/// Only a grain in the first or the last cell has a copy in the border cell on the other side.
+Turns turns_of(std::int32_t index, std::int32_t cells, bool wraps) {
+  return {wraps && index == cells - 1 ? -1 : 0, wraps && index == 0 ? 1 : 0};
+}
+
 /// Appends the grain at `p` in its cell and in each border cell that holds a shifted copy of it.
 void append_images(const Cells& cells, const Box& box, const Record<double>& p, std::int32_t grain,
                    std::vector<GridImage>& images) {
   const std::int32_t x = inner_index(p.x, cells.size_x, cells.inner_x);
   const std::int32_t y = inner_index(p.y, cells.size_y, cells.inner_y);
   const std::int32_t z = cells.layer_of(p);
-  const bool wraps_x = box.x == Boundary::periodic, wraps_y = box.y == Boundary::periodic;
-  for (int j = wraps_y ? -1 : 0; j <= (wraps_y ? 1 : 0); ++j) {
-    const std::int32_t image_y = y + j * cells.inner_y;
-    if (image_y < -1 || image_y > cells.inner_y) {
-      continue;
-    }
-    for (int i = wraps_x ? -1 : 0; i <= (wraps_x ? 1 : 0); ++i) {
-      const std::int32_t image_x = x + i * cells.inner_x;
-      if (image_x >= -1 && image_x <= cells.inner_x) {
-        images.push_back({grain, cells.at(image_x, image_y, z), i, j});
-      }
+  const Turns turns_x = turns_of(x, cells.inner_x, box.x == Boundary::periodic);
+  const Turns turns_y = turns_of(y, cells.inner_y, box.y == Boundary::periodic);
+  for (int j = turns_y.least; j <= turns_y.most; ++j) {
+    for (int i = turns_x.least; i <= turns_x.most; ++i) {
+      const std::int32_t cell = cells.at(x + i * cells.inner_x, y + j * cells.inner_y, z);
+      images.push_back({grain, cell, i, j});
     }
   }
 }
@@ -56,6 +61,34 @@ void resize_columns(GridColumns& grid, std::int32_t entries) {
   grid.z.resize(padded);
   grid.radius.resize(padded);
   grid.grain.resize(padded);
+}
+
+/// A counting sort of all images by cell.
+void choose_entries(const Cells& cells, GridColumns& grid) {
+  grid.cell_begin.assign(static_cast<std::size_t>(cells.count()) + 1, 0);
+  for (const std::vector<GridImage>& images : grid.images) {
+    for (const GridImage& image : images) {
+      ++grid.cell_begin[static_cast<std::size_t>(image.cell)];
+    }
+  }
+  resize_columns(grid, to_first_entries(grid.cell_begin));
+  grid.next_entry.assign(grid.cell_begin.begin(), grid.cell_begin.end());
+  for (std::vector<GridImage>& images : grid.images) {
+    for (GridImage& image : images) {
+      image.entry = grid.next_entry[static_cast<std::size_t>(image.cell)]++;
+    }
+  }
+}
+
+void fill_entry(const SphereBed& bed, const Cells& cells, const GridImage& image,
+                GridColumns& grid) {
+  const Record<double>& p = bed.position[static_cast<std::size_t>(image.grain)];
+  const auto at = static_cast<std::size_t>(image.entry);
+  grid.x[at] = static_cast<float>(p.x + image.turns_x * bed.box.length);
+  grid.y[at] = static_cast<float>(p.y + image.turns_y * bed.box.width);
+  grid.z[at] = static_cast<float>(p.z - cells.origin_z);
+  grid.radius[at] = static_cast<float>(p.w);
+  grid.grain[at] = image.grain;
 }
 
 }  // namespace
@@ -86,28 +119,20 @@ Cells make_cells(const Box& box, double bottom, double top, double least, std::s
 }
 
 void fill_columns(const SphereBed& bed, const std::vector<std::int32_t>& members,
-                  const Cells& cells, GridColumns& grid) {
-  grid.images.clear();
-  grid.cell_begin.assign(static_cast<std::size_t>(cells.count()) + 1, 0);
-  for (const std::int32_t grain : members) {
-    append_images(cells, bed.box, bed.position[static_cast<std::size_t>(grain)], grain,
-                  grid.images);
-  }
-  for (const GridImage& image : grid.images) {
-    ++grid.cell_begin[static_cast<std::size_t>(image.cell)];
-  }
-  resize_columns(grid, to_first_entries(grid.cell_begin));
-  grid.next_entry.assign(grid.cell_begin.begin(), grid.cell_begin.end());
-  for (const GridImage& image : grid.images) {
-    const Record<double>& p = bed.position[static_cast<std::size_t>(image.grain)];
-    const auto at =
-        static_cast<std::size_t>(grid.next_entry[static_cast<std::size_t>(image.cell)]++);
-    grid.x[at] = static_cast<float>(p.x + image.turns_x * bed.box.length);
-    grid.y[at] = static_cast<float>(p.y + image.turns_y * bed.box.width);
-    grid.z[at] = static_cast<float>(p.z - cells.origin_z);
-    grid.radius[at] = static_cast<float>(p.w);
-    grid.grain[at] = image.grain;
-  }
+                  const Cells& cells, const PartLoop& loop, GridColumns& grid) {
+  grid.images.resize(bed.sections);
+  run_parts(loop, bed.sections, [&](std::size_t part) {
+    const Share share = share_of(members.size(), part, bed.sections);
+    grid.images[part].clear();
+    for (std::size_t k = share.first; k < share.last; ++k) {
+      append_images(cells, bed.box, bed.position[static_cast<std::size_t>(members[k])], members[k],
+                    grid.images[part]);
+    }
+  });
+  choose_entries(cells, grid);
+  run_parts(loop, bed.sections, [&](std::size_t part) {
+    for (const GridImage& image : grid.images[part]) fill_entry(bed, cells, image, grid);
+  });
 }
 
 SphereGrid view_of(const GridColumns& grid, const Cells& cells, float reach) {

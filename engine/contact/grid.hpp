@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "engine/processor.hpp"
 #include "engine/scene/bed.hpp"
 #include "kernels/kernels.hpp"
 
@@ -35,19 +36,20 @@ Cells make_cells(const Box& box, double bottom, double top, double least, std::s
 struct GridImage {
   std::int32_t grain, cell;
   std::int32_t turns_x, turns_y;  ///< periods by which it is shifted: -1, 0 or 1
+  std::int32_t entry = 0;         ///< its place in the columns
 };
 
 /// Spheres by cell. Memory of a search, kept from one search to the next.
 struct GridColumns {
   std::vector<float> x, y, z, radius;
   std::vector<std::int32_t> grain, cell_begin, next_entry;
-  std::vector<GridImage> images;
+  std::vector<std::vector<GridImage>> images;  ///< of each part of the grains
 };
 
 /// Sorts the grains `members` of a wrapped bed and their border copies into cells (a counting sort:
 /// stable, linear).
 void fill_columns(const SphereBed& bed, const std::vector<std::int32_t>& members,
-                  const Cells& cells, GridColumns& grid);
+                  const Cells& cells, const PartLoop& loop, GridColumns& grid);
 
 /// What kernels read of a grid.
 SphereGrid view_of(const GridColumns& grid, const Cells& cells, float reach);

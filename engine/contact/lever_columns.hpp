@@ -14,7 +14,7 @@ template <class Real>
 struct LeverColumns {
   std::vector<LeverBlock<Real>> blocks;
   std::vector<LeverPoints<Real>> points;
-  std::vector<BlockRange> ranges;  ///< all blocks, by phase
+  RowShares shares;  ///< one part
   std::vector<Real> impulse;
   std::vector<Real> extrapolated;  ///< the solver's look-ahead impulses
 };

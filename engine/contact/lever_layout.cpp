@@ -195,7 +195,8 @@ void lay_out(const ShapeBed& bed, const ShapeContacts& found, double correction,
       store_row(own.each[j], gap < 0.0 ? correction * gap : gap, at.lane, rows.points[first + j]);
     }
   }
-  rows.ranges.assign({{0, rows.blocks.size(), 0}});
+  rows.shares.ranges.assign({{0, rows.blocks.size()}});
+  rows.shares.parts.assign({{0, 0, 1, 0, 0}});
   rows.impulse.assign(rows.points.size() * block_width, Real(0));
   rows.extrapolated.assign(rows.impulse.size(), Real(0));
 }

@@ -1,6 +1,7 @@
 #include "engine/contact/sections.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace grainsweep {
 
@@ -29,41 +30,70 @@ void cut(const std::vector<std::size_t>& layer_size, Sections& sections) {
   }
 }
 
-std::size_t section_of(const Candidates& candidates, const Sections& sections, GrainPair pair) {
-  const auto section = [&](std::int32_t grain) {
-    return sections
-        .of_layer[static_cast<std::size_t>(candidates.layer[static_cast<std::size_t>(grain)])];
+/// Calls put(k, place) for items 0 .. count - 1, whose places follow one another section by
+/// section: a counting sort, stable and linear. `begin`: first place of each section; one more at
+/// the end.
+template <class SectionOf, class Put>
+void sort_by_section(const PartLoop& loop, std::size_t count, SectionOf section, Sections& sections,
+                     std::vector<std::size_t>& begin, Put put) {
+  const std::size_t parts = sections.count;
+  std::vector<std::size_t>& place = sections.place;
+  place.assign(parts * sections.count, 0);
+  const auto visit = [&](const auto& work) {
+    run_parts(loop, parts, [&](std::size_t part) {
+      const Share share = share_of(count, part, parts);
+      std::size_t* const own = place.data() + part * sections.count;
+      for (std::size_t k = share.first; k < share.last; ++k) work(k, own[section(k)]);
+    });
   };
-  return static_cast<std::size_t>(std::min(section(pair.a), section(pair.b)));
+  visit([](std::size_t, std::size_t& items) { ++items; });
+  begin.assign(1, 0);
+  for (std::size_t s = 0; s < sections.count; ++s) {
+    std::size_t next = begin.back();
+    for (std::size_t part = 0; part < parts; ++part) {
+      next += std::exchange(place[part * sections.count + s], next);
+    }
+    begin.push_back(next);
+  }
+  visit([&](std::size_t k, std::size_t& next) { put(k, next++); });
 }
 
-/// A counting sort: stable, linear.
-void sort_pairs(const Candidates& candidates, Sections& sections) {
-  sections.begin.assign(sections.count + 2, 0);
-  for (const GrainPair pair : candidates.pairs) {
-    ++sections.begin[section_of(candidates, sections, pair) + 2];
-  }
-  for (std::size_t k = 2; k < sections.begin.size(); ++k) {
-    sections.begin[k] += sections.begin[k - 1];
-  }
-  sections.pairs.resize(candidates.pairs.size());
-  for (const GrainPair pair : candidates.pairs) {
-    sections.pairs[sections.begin[section_of(candidates, sections, pair) + 1]++] = pair;
-  }
+void sort_pairs(const Candidates& candidates, const PartLoop& loop, Sections& sections) {
+  const std::vector<GrainPair>& pairs = candidates.pairs;
+  sections.pairs.resize(pairs.size());
+  const auto section = [&](std::size_t k) {
+    return std::min(section_of(candidates, sections, pairs[k].a),
+                    section_of(candidates, sections, pairs[k].b));
+  };
+  sort_by_section(loop, pairs.size(), section, sections, sections.begin,
+                  [&](std::size_t k, std::size_t place) { sections.pairs[place] = pairs[k]; });
+}
+
+void sort_grains(const Candidates& candidates, const PartLoop& loop, Sections& sections) {
+  sections.grains.resize(candidates.layer.size());
+  const auto section = [&](std::size_t k) {
+    return section_of(candidates, sections, static_cast<std::int32_t>(k));
+  };
+  sort_by_section(loop, sections.grains.size(), section, sections, sections.first_grain,
+                  [&](std::size_t k, std::size_t place) {
+                    sections.grains[place] = static_cast<std::int32_t>(k);
+                  });
 }
 
 }  // namespace
 
-void divide(const Candidates& candidates, Sections& sections) {
+void divide(const Candidates& candidates, const PartLoop& loop, Sections& sections) {
   if (most_sections(candidates.layer.size()) == 1) {
     sections.count = 1;
+    sections.of_layer.assign(candidates.layers.size(), 0);
     sections.pairs.assign(candidates.pairs.begin(), candidates.pairs.end());
     sections.begin.assign({0, candidates.pairs.size()});
     return;
   }
   count_layers(candidates, sections.layer_size);
   cut(sections.layer_size, sections);
-  sort_pairs(candidates, sections);
+  sort_pairs(candidates, loop, sections);
+  sort_grains(candidates, loop, sections);
 }
 
 }  // namespace grainsweep

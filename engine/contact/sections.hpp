@@ -16,14 +16,24 @@ namespace grainsweep {
 /// Memory of a division, kept from one to the next.
 struct Sections {
   std::size_t count = 1;
-  std::vector<std::int32_t> of_layer;   ///< section of each layer of the candidates
-  std::vector<std::size_t> layer_size;  ///< grains of each layer
-  std::vector<GrainPair> pairs;         ///< candidates by section, in their order
-  std::vector<std::size_t> begin;       ///< first pair of each section; one more at the end
+  std::vector<std::int32_t> of_layer;    ///< section of each layer of the candidates
+  std::vector<std::size_t> layer_size;   ///< grains of each layer
+  std::vector<GrainPair> pairs;          ///< candidates by section, in their order
+  std::vector<std::size_t> begin;        ///< first pair of each section; one more at the end
+  std::vector<std::int32_t> grains;      ///< all grains by section, ascending in each
+  std::vector<std::size_t> first_grain;  ///< of each section in `grains`; one more at the end
+  std::vector<std::size_t> place;        ///< next place in each section of each part of a sort
 };
 
-/// Divides the bed of `candidates` by its layers and sorts the pairs by section.
-void divide(const Candidates& candidates, Sections& sections);
+/// Section of a grain of the bed that `candidates` was made of.
+inline std::size_t section_of(const Candidates& candidates, const Sections& sections,
+                              std::int32_t grain) {
+  const std::int32_t layer = candidates.layer[static_cast<std::size_t>(grain)];
+  return static_cast<std::size_t>(sections.of_layer[static_cast<std::size_t>(layer)]);
+}
+
+/// Divides the bed of `candidates` by its layers and sorts its pairs and grains by section.
+void divide(const Candidates& candidates, const PartLoop& loop, Sections& sections);
 
 /// Calls work(section) for all sections: for 0, 2, 4 .. in any order, then for 1, 3, 5 ..
 template <class Work>

@@ -25,7 +25,9 @@ void transfer_contacts(Archive& archive, Rows& contacts) {
   archive.column(contacts.rows);
   archive.value(contacts.pair_blocks);
   archive.column(contacts.walls);
-  archive.column(contacts.ranges);
+  archive.column(contacts.shares.ranges);
+  archive.column(contacts.shares.parts);
+  archive.column(contacts.shares.grains);
   archive.column(contacts.impulse);
 }
 

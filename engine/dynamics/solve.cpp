@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace grainsweep {
 
@@ -53,40 +54,75 @@ struct LeverProblem : Work<LeverColumns<Real>, LeverKernels<Real>, Real> {
 
 enum class SweepOrder { forward, backward };
 
-/// Sums over all rows of what sweep(range) sees: the ranges of a phase at the same time, phase
-/// after phase, or from the last phase to the first.
+template <class Real>
+SweepSums<Real> joined(const SweepSums<Real>& one, const SweepSums<Real>& other) {
+  return {std::max(one.residual, other.residual), one.uphill + other.uphill};
+}
+
+/// Sums of what sweep(range) sees in all ranges of a part, one after the other.
 template <class Problem, class Sweep>
-SweepSums<typename Problem::Number> sweep_ranges(Problem& problem, SweepOrder order,
-                                                 const Sweep& sweep) {
-  using Real = typename Problem::Number;
-  const std::vector<BlockRange>& ranges = problem.contacts.ranges;
-  std::vector<SweepSums<Real>>& seen = problem.motion.seen;
-  seen.resize(ranges.size());
-  const std::size_t phases = ranges.empty() ? 0 : ranges.back().phase + 1;
-  for (std::size_t k = 0; k < phases; ++k) {
-    const std::size_t phase = order == SweepOrder::forward ? k : phases - 1 - k;
-    const auto begins = [](const BlockRange& range, std::size_t at) { return range.phase < at; };
-    const auto first = std::lower_bound(ranges.begin(), ranges.end(), phase, begins);
-    const auto last = std::lower_bound(first, ranges.end(), phase + 1, begins);
-    const auto offset = static_cast<std::size_t>(first - ranges.begin());
-    run_parts(problem.loop, static_cast<std::size_t>(last - first),
-              [&](std::size_t part) { seen[offset + part] = sweep(ranges[offset + part]); });
-  }
-  SweepSums<Real> sums{Real(0), Real(0)};
-  for (const SweepSums<Real>& one : seen) {
-    sums = {std::max(sums.residual, one.residual), sums.uphill + one.uphill};
+SweepSums<typename Problem::Number> sweep_part(const Problem& problem, const RowPart& part,
+                                               const Sweep& sweep) {
+  SweepSums<typename Problem::Number> sums{};
+  for (std::size_t k = part.first_range; k < part.first_range + part.ranges; ++k) {
+    sums = joined(sums, sweep(problem.contacts.shares.ranges[k]));
   }
   return sums;
 }
 
-/// Calls work(first, count) for all records of motion, part by part.
+/// Sums of what work(part) sees in all parts of a phase, at the same time.
+template <class Problem, class Work>
+SweepSums<typename Problem::Number> work_in_phase(Problem& problem, std::size_t phase,
+                                                  const Work& work) {
+  using Real = typename Problem::Number;
+  const RowShares& shares = problem.contacts.shares;
+  const PhaseParts parts = parts_of_phase(shares, phase);
+  std::vector<SweepSums<Real>>& seen = problem.motion.seen;
+  seen.resize(parts.last - parts.first);
+  run_parts(problem.loop, seen.size(),
+            [&](std::size_t k) { seen[k] = work(shares.parts[parts.first + k]); });
+  SweepSums<Real> sums{};
+  for (const SweepSums<Real>& one : seen) sums = joined(sums, one);
+  return sums;
+}
+
+/// Sums over all rows of what sweep(range) sees: phase after phase, or from the last one to the
+/// first.
+template <class Problem, class Sweep>
+SweepSums<typename Problem::Number> sweep_ranges(Problem& problem, SweepOrder order,
+                                                 const Sweep& sweep) {
+  SweepSums<typename Problem::Number> sums{};
+  const std::size_t phases = problem.contacts.shares.phases();
+  for (std::size_t k = 0; k < phases; ++k) {
+    const std::size_t phase = order == SweepOrder::forward ? k : phases - 1 - k;
+    sums = joined(sums, work_in_phase(problem, phase, [&](const RowPart& part) {
+                    return sweep_part(problem, part, sweep);
+                  }));
+  }
+  return sums;
+}
+
+/// Calls work(first, count) for `size` items, part by part.
+template <class Work>
+void visit_items(const PartLoop& loop, std::size_t size, const Work& work) {
+  constexpr std::size_t items_of_part = 8192;
+  run_parts(loop, size / items_of_part + 1, [&](std::size_t part) {
+    const std::size_t first = part * items_of_part;
+    work(first, std::min(items_of_part, size - first));
+  });
+}
+
+/// The same for all records of motion.
 template <class Problem, class Work>
 void visit_records(const Problem& problem, const Work& work) {
-  constexpr std::size_t records_of_part = 8192;
-  const std::size_t records = problem.motion.free.size();
-  run_parts(problem.loop, records / records_of_part + 1, [&](std::size_t part) {
-    const std::size_t first = part * records_of_part;
-    work(first, std::min(records_of_part, records - first));
+  visit_items(problem.loop, problem.motion.free.size(), work);
+}
+
+template <class Item>
+void copy_items(const PartLoop& loop, const std::vector<Item>& from, std::vector<Item>& to) {
+  to.resize(from.size());
+  visit_items(loop, from.size(), [&](std::size_t first, std::size_t count) {
+    std::copy_n(from.data() + first, count, to.data() + first);
   });
 }
 
@@ -148,7 +184,8 @@ class Momentum {
 };
 
 // Each method below improves the impulses by `iterate`, which returns the residual that its sweeps
-// saw on the way, and starts afresh from the impulses and their motion by `restart`.
+// saw on the way, ends what it has begun by `finish`, and starts afresh from the impulses and their
+// motion by `restart`.
 
 /// Descent with Nesterov's momentum. `Sweeps` makes one sweep from the extrapolated impulses and
 /// their motion by `descend`, and the next ones safer by `slow_down`.
@@ -159,10 +196,11 @@ class Accelerated {
   explicit Accelerated(Problem& problem) : problem_(problem), sweeps_(problem) {}
 
   void restart() {
-    problem_.contacts.extrapolated = problem_.contacts.impulse;
+    copy_items(problem_.loop, problem_.contacts.impulse, problem_.contacts.extrapolated);
     sweeps_.restart();
     momentum_.restart();
   }
+  void finish() { sweeps_.finish(); }
   double iterate() {
     const auto sums = sweeps_.descend(momentum_.next());
     if (sums.uphill > 0) {
@@ -206,6 +244,7 @@ class GradientSweeps {
   explicit GradientSweeps(Problem& problem) : problem_(problem) {}
 
   void restart() {}
+  void finish() {}
   SweepSums<Real> descend(double momentum) {
     const auto inverse_bound = static_cast<Real>(1.0 / bound_);
     MotionColumns<Real>& motion = problem_.motion;
@@ -230,6 +269,11 @@ class GradientSweeps {
 /// Projected Gauss-Seidel sweeps: what a sweep changed, in impulses and in motion, is gone on with
 /// before the next one. A sweep sees each row after those before it have moved, which is worth
 /// nearly three gradients.
+///
+/// Of a large bed, sweeps go through the two phases in turn forward and backward: the last phase of
+/// a sweep is the first one of the next. There each part ends the one sweep, goes on with its
+/// grains' motion and begins the next sweep while its rows are at hand: they are read from memory
+/// once for both.
 template <class Problem>
 class GaussSeidelSweeps {
   using Real = typename Problem::Number;
@@ -238,26 +282,27 @@ class GaussSeidelSweeps {
   explicit GaussSeidelSweeps(Problem& problem) : problem_(problem) {}
 
   void restart() {
-    problem_.motion.before = problem_.motion.u;
+    copy_items(problem_.loop, problem_.motion.u, problem_.motion.before);
     problem_.motion.summed.resize(problem_.motion.u.size());
+    begun_.reset();
   }
+  /// Of a large bed, begins a sweep and ends the one before, if one was begun.
   SweepSums<Real> descend(double wanted) {
-    MotionColumns<Real>& motion = problem_.motion;
     const auto momentum = static_cast<Real>(has_momentum_ ? wanted : 0.0);
     const SweepRule<Real> rule{static_cast<Real>(relaxation), momentum, false};
-    const SweepSums<Real> sums = sweep_ranges(problem_, SweepOrder::forward, [&](BlockRange range) {
-      return problem_.kernels.gauss_seidel_sweep(problem_.rows(range), range.blocks,
-                                                 motion.u.data(), problem_.impulse(range),
-                                                 problem_.extrapolated(range), rule);
-    });
-    visit_records(problem_, [&](std::size_t first, std::size_t count) {
-      problem_.record_kernels.extrapolate(momentum, count, motion.before.data() + first,
-                                          motion.u.data() + first);
-    });
+    const SweepSums<Real> sums =
+        problem_.contacts.shares.phases() == 2 ? turn(rule) : whole_sweep(rule);
     if (++swept_ % sweeps_of_a_sum == 0) {
+      finish();
       sum_up();
     }
     return sums;
+  }
+  void finish() {
+    if (begun_) {
+      work_in_phase(problem_, phase_, [&](const RowPart& part) { return end(part); });
+      begun_.reset();
+    }
   }
   /// Sweeps without momentum always go down.
   void slow_down() { has_momentum_ = false; }
@@ -268,6 +313,56 @@ class GaussSeidelSweeps {
   static constexpr double relaxation = 0.9;
   /// After so many sweeps the motion is summed up anew: momentum multiplies what rounding adds.
   static constexpr int sweeps_of_a_sum = 32;
+
+  SweepSums<Real> sweep(BlockRange range, const SweepRule<Real>& rule) {
+    return problem_.kernels.gauss_seidel_sweep(problem_.rows(range), range.blocks,
+                                               problem_.motion.u.data(), problem_.impulse(range),
+                                               problem_.extrapolated(range), rule);
+  }
+  SweepSums<Real> whole_sweep(const SweepRule<Real>& rule) {
+    const SweepSums<Real> sums = sweep_ranges(problem_, SweepOrder::forward,
+                                              [&](BlockRange range) { return sweep(range, rule); });
+    MotionColumns<Real>& motion = problem_.motion;
+    visit_records(problem_, [&](std::size_t first, std::size_t count) {
+      problem_.record_kernels.extrapolate(rule.momentum, count, motion.before.data() + first,
+                                          motion.u.data() + first);
+    });
+    return sums;
+  }
+
+  /// Ends the sweep that was begun and begins the next one in one phase; the other phase is the
+  /// next to turn in.
+  SweepSums<Real> turn(const SweepRule<Real>& next) {
+    const SweepSums<Real> sums = work_in_phase(problem_, phase_, [&](const RowPart& part) {
+      const SweepSums<Real> ended = begun_ ? end(part) : SweepSums<Real>{};
+      return joined(ended, begin(part, next));
+    });
+    phase_ = 1 - phase_;
+    begun_ = next;
+    return sums;
+  }
+  SweepSums<Real> begin(const RowPart& part, const SweepRule<Real>& rule) {
+    return sweep_part(problem_, part, [&](BlockRange range) { return sweep(range, rule); });
+  }
+  /// With its rows the part's grains are all swept: theirs are of the part or of the other phase.
+  SweepSums<Real> end(const RowPart& part) {
+    const SweepSums<Real> sums = begin(part, *begun_);
+    const std::int32_t* const grain = problem_.contacts.shares.grains.data() + part.first_grain;
+    Record<Real>* const before = problem_.motion.before.data();
+    Record<Real>* const u = problem_.motion.u.data();
+    for (std::size_t k = 0; k < part.grains; ++k) {
+      go_on(begun_->momentum, before[grain[k]], u[grain[k]]);
+    }
+    return sums;
+  }
+
+  /// As RowKernels::extrapolate, one record.
+  static void go_on(Real momentum, Record<Real>& before, Record<Real>& u) {
+    const Record<Real> here = u, last = before;
+    u = {here.x + momentum * (here.x - last.x), here.y + momentum * (here.y - last.y),
+         here.z + momentum * (here.z - last.z), here.w + momentum * (here.w - last.w)};
+    before = here;
+  }
 
   /// Frees the motion of the impulses from what rounding has added, and the extrapolated one from
   /// the same: what lies between them is small, and is known better than either.
@@ -288,6 +383,8 @@ class GaussSeidelSweeps {
   Problem& problem_;
   bool has_momentum_ = true;
   int swept_ = 0;
+  std::size_t phase_ = 0;                 ///< to turn in, of a large bed
+  std::optional<SweepRule<Real>> begun_;  ///< what the sweep begun in the other phase goes by
 };
 
 /// Projected Gauss-Seidel: sweeps forward, or forward and backward in turn.
@@ -300,6 +397,7 @@ class GaussSeidel {
   GaussSeidel(Problem& problem, bool symmetric) : problem_(problem), symmetric_(symmetric) {}
 
   void restart() { backward_ = false; }
+  void finish() {}
   double iterate() {
     const SweepRule<Real> rule{Real(1), Real(0), backward_};
     const SweepSums<Real> sums = sweep_ranges(
@@ -334,6 +432,7 @@ class ConjugateGradient {
     squared_ = 0.0;
     sweep_.restart();
   }
+  void finish() {}
   double iterate() {
     before_ = problem_.contacts.impulse;
     const double residual = sweep_.iterate();
@@ -398,6 +497,7 @@ SolveReport run(const SolveLimits& limits, Problem& problem, Method method) {
     report.iterations += Method::sweeps;
     const bool is_spent = report.iterations + Method::sweeps > most;
     if (is_spent || seen <= worth_a_look) {
+      method.finish();
       project(problem.contacts.impulse);
       set_motion(problem);
       report.residual = true_residual(problem, limits.unit_mass);

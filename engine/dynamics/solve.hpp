@@ -42,7 +42,7 @@ struct MotionColumns {
   std::vector<Record<Real>> pushes;   ///< sum of the impulses on each grain; empty between sweeps
   std::vector<Record<Real>> before;   ///< motion after the last sweep, of methods that look ahead
   std::vector<Record<Real>> summed;   ///< the same without the rounding of the sweeps
-  std::vector<SweepSums<Real>> seen;  ///< by each range of blocks in the last sweep
+  std::vector<SweepSums<Real>> seen;  ///< by each part of the last phase
 };
 
 /// Improves `contacts.impulse`, starting from what it holds, until the residual is below the

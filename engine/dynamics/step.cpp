@@ -9,11 +9,10 @@ namespace {
 
 /// u_free = alpha u_last + g dt^2, clamped.
 template <class Real>
-void set_free_motion(const StepSettings& settings, const SphereBed& bed,
+void set_free_motion(const StepSettings& settings, const SphereBed& bed, Share grains,
                      std::vector<Record<Real>>& free) {
-  free.resize(bed.motion.size());
   const double fall = settings.dt * settings.dt;
-  for (std::size_t i = 0; i < bed.grains(); ++i) {
+  for (std::size_t i = grains.first; i < grains.last; ++i) {
     const Record<double>& last = bed.motion[i];
     const double x = settings.momentum * last.x, y = settings.momentum * last.y;
     const double z = settings.momentum * last.z - fall;
@@ -22,6 +21,14 @@ void set_free_motion(const StepSettings& settings, const SphereBed& bed,
     free[i] = {static_cast<Real>(keep * x), static_cast<Real>(keep * y),
                static_cast<Real>(keep * z), static_cast<Real>(last.w)};
   }
+}
+template <class Real>
+void set_free_motion(const StepSettings& settings, const PartLoop& loop, const SphereBed& bed,
+                     std::vector<Record<Real>>& free) {
+  free.resize(bed.motion.size());
+  run_parts(loop, bed.sections, [&](std::size_t part) {
+    set_free_motion(settings, bed, share_of(bed.grains(), part, bed.sections), free);
+  });
   for (std::size_t i = bed.grains(); i < free.size(); ++i) {
     free[i] = {Real(0), Real(0), Real(0), static_cast<Real>(bed.motion[i].w)};
   }
@@ -40,11 +47,11 @@ bool renew_candidates(const StepSettings& settings, const Processor& processor, 
   return true;
 }
 
-/// Moves the grains by `u`, cut at longest_motion, and reports how they moved.
+/// Moves some grains by `u`, cut at longest_motion.
 template <class Real>
-void advance(const std::vector<Record<Real>>& u, double dt, SphereBed& bed, StepReport& report) {
+Moved advance(const std::vector<Record<Real>>& u, Share grains, SphereBed& bed) {
   double energy = 0.0, longest = 0.0;
-  for (std::size_t i = 0; i < bed.grains(); ++i) {
+  for (std::size_t i = grains.first; i < grains.last; ++i) {
     double x = static_cast<double>(u[i].x), y = static_cast<double>(u[i].y);
     double z = static_cast<double>(u[i].z);
     double squared = x * x + y * y + z * z;
@@ -62,9 +69,24 @@ void advance(const std::vector<Record<Real>>& u, double dt, SphereBed& bed, Step
     energy += squared / bed.motion[i].w;
     longest = std::max(longest, squared);
   }
+  return {energy, longest};
+}
+
+/// Moves all grains and reports how they moved.
+template <class Real>
+void advance(double dt, const PartLoop& loop, SphereBed& bed, StepState<Real>& state,
+             StepReport& report) {
+  state.moved.resize(bed.sections);
+  run_parts(loop, bed.sections, [&](std::size_t part) {
+    state.moved[part] = advance(state.motion.u, share_of(bed.grains(), part, bed.sections), bed);
+  });
+  Moved all;
+  for (const Moved& some : state.moved) {
+    all = {all.energy + some.energy, std::max(all.longest, some.longest)};
+  }
   const double grains = static_cast<double>(std::max<std::size_t>(bed.grains(), 1));
-  report.kinetic_energy = energy / (2.0 * dt * dt * grains);
-  report.largest_motion = std::sqrt(longest);
+  report.kinetic_energy = all.energy / (2.0 * dt * dt * grains);
+  report.largest_motion = std::sqrt(all.longest);
 }
 
 }  // namespace
@@ -76,12 +98,12 @@ StepReport step(const StepSettings& settings, const Processor& processor, Sphere
   const double force_unit = settings.dt * settings.dt;  // impulse of 1 m g over the step
   SolveLimits limits = settings.limits;
   limits.tolerance *= force_unit;
-  set_free_motion(settings, bed, state.motion.free);
+  set_free_motion(settings, processor.loop, bed, state.motion.free);
   report.searched = renew_candidates(settings, processor, bed, state);
   report.sunk = detect(bed, processor, settings.correction, state.contacts);
   report.solve = solve(limits, processor, state.contacts, state.motion);
   report.solve.residual /= force_unit;
-  advance(state.motion.u, settings.dt, bed, report);
+  advance(settings.dt, processor.loop, bed, state, report);
   return report;
 }
 

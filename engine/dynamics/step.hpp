@@ -40,12 +40,18 @@ struct StepReport {
   bool searched = false;  ///< whether candidates were listed anew
 };
 
+/// How some grains moved in a step: sum of m u^2 and largest u^2, d^2.
+struct Moved {
+  double energy = 0.0, longest = 0.0;
+};
+
 /// Everything that steps need besides the bed.
 template <class Real>
 struct StepState {
   Candidates candidates;
   Contacts<Real> contacts;
   MotionColumns<Real> motion;
+  std::vector<Moved> moved;  ///< of each part of the grains
   bool has_candidates = false;
 };
 

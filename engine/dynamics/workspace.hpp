@@ -23,7 +23,7 @@ void forget(StepState<Real>& state) {
   state.has_candidates = false;
   state.contacts.rows.clear();
   state.contacts.impulse.clear();
-  state.contacts.ranges.clear();
+  state.contacts.shares.clear();
   state.contacts.walls.clear();
   state.contacts.pair_blocks = 0;
 }

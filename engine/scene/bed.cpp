@@ -29,15 +29,15 @@ std::uint64_t mixed_value(std::uint64_t hash, double value) {
 
 SphereBed make_bed(const Box& box, const std::vector<PlacedSphere>& spheres) {
   SphereBed bed{box, {}, {}, most_sections(spheres.size())};
-  const std::size_t entries = spheres.size() + 1 + 2 * bed.sections;
+  const std::size_t entries = spheres.size() + 3 * bed.sections;
   bed.position.reserve(entries);
   bed.motion.reserve(entries);
   for (const PlacedSphere& s : spheres) {
     bed.position.push_back({s.x, s.y, s.z, s.radius});
     bed.motion.push_back({0.0, 0.0, 0.0, 1.0 / sphere_mass(s.radius)});
   }
-  bed.position.push_back({0.0, 0.0, -void_distance, 0.0});
-  bed.motion.push_back({0.0, 0.0, 0.0, 0.0});
+  bed.position.insert(bed.position.end(), bed.sections, {0.0, 0.0, -void_distance, 0.0});
+  bed.motion.insert(bed.motion.end(), bed.sections, {0.0, 0.0, 0.0, 0.0});
   for (std::size_t section = 0; section < bed.sections; ++section) {
     bed.position.insert(bed.position.end(), {{0.0, 0.0, -2.0 * void_distance, 0.0},
                                              {0.0, 0.0, -3.0 * void_distance, 0.0}});

@@ -35,13 +35,16 @@ inline double nearest(double difference, double period) {
 /// Grains that a section of a large bed holds or more; see engine/contact/sections.hpp.
 inline constexpr std::size_t section_grains = 4000;
 
-/// Most sections that a bed of so many grains is divided into; small beds are one.
+/// Beds of fewer grains are one section.
+inline constexpr std::size_t large_bed_grains = 4 * section_grains;
+
+/// Most sections that a bed of so many grains is divided into.
 constexpr std::size_t most_sections(std::size_t grains) {
-  return grains < 4 * section_grains ? 1 : grains / section_grains + 1;
+  return grains < large_bed_grains ? 1 : grains / section_grains + 1;
 }
 
-/// Columns of a bed. Each column ends with entries that are no grains: the wall, which nothing
-/// moves, and for each section two void grains far from everything, which fill unused lanes of
+/// Columns of a bed. Each column ends with entries that are no grains, for each section three: the
+/// wall, which nothing moves, and two void grains far from everything, which fill unused lanes of
 /// kernel blocks. Sections share none, so that cores may sweep them at the same time.
 struct SphereBed {
   Box box;
@@ -50,13 +53,15 @@ struct SphereBed {
 
   std::size_t sections = 1;  ///< most_sections of the grains
 
-  std::size_t grains() const { return position.size() - 1 - 2 * sections; }
-  std::int32_t wall() const { return static_cast<std::int32_t>(grains()); }
+  std::size_t grains() const { return position.size() - 3 * sections; }
+  std::int32_t wall(std::size_t section = 0) const {
+    return static_cast<std::int32_t>(grains() + section);
+  }
   std::int32_t void_a(std::size_t section = 0) const {
-    return wall() + 1 + 2 * static_cast<std::int32_t>(section);
+    return static_cast<std::int32_t>(grains() + sections + 2 * section);
   }
   std::int32_t void_b(std::size_t section = 0) const { return void_a(section) + 1; }
-  bool is_void(std::int32_t entry) const { return entry > wall(); }
+  bool is_void(std::int32_t entry) const { return entry >= void_a(); }
 };
 
 /// A bed at rest in mid-air: the given spheres, and the entries that are no grains.

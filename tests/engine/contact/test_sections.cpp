@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <set>
+#include <utility>
 
 #include <catch2/catch.hpp>
 
@@ -41,7 +42,7 @@ TEST_CASE("a small bed is one section, with its pairs as they are") {
   SphereBed bed = tall_bed(2000, Boundary::walls);
   const Candidates candidates = candidates_of(bed);
   Sections sections;
-  divide(candidates, sections);
+  divide(candidates, one_after_another, sections);
   CHECK(sections.count == 1);
   CHECK(sections.begin == std::vector<std::size_t>{0, candidates.pairs.size()});
   CHECK(std::equal(sections.pairs.begin(), sections.pairs.end(), candidates.pairs.begin(),
@@ -52,12 +53,24 @@ TEST_CASE("sections of a large bed hold all pairs, and every second one shares n
   SphereBed bed = tall_bed(30'000, Boundary::periodic);
   const Candidates candidates = candidates_of(bed);
   Sections sections;
-  divide(candidates, sections);
+  divide(candidates, one_after_another, sections);
   REQUIRE(sections.count >= 4);
   REQUIRE(sections.begin.size() >= sections.count + 1);
   CHECK(sections.begin[0] == 0);
   CHECK(sections.begin[sections.count] == candidates.pairs.size());
   CHECK(sorted(sections.pairs) == sorted(candidates.pairs));
+  REQUIRE(sections.first_grain.size() == sections.count + 1);
+  std::vector<std::int32_t> grains = sections.grains;
+  for (std::size_t section = 0; section < sections.count; ++section) {
+    for (std::size_t k = sections.first_grain[section]; k < sections.first_grain[section + 1];
+         ++k) {
+      REQUIRE(section_of(candidates, sections, grains[k]) == section);
+    }
+  }
+  std::sort(grains.begin(), grains.end());
+  for (std::size_t k = 0; k < grains.size(); ++k)
+    REQUIRE(grains[k] == static_cast<std::int32_t>(k));
+  CHECK(grains.size() == bed.grains());
   for (std::size_t parity = 0; parity < 2; ++parity) {
     std::vector<std::size_t> owner(bed.grains(), sections.count);
     for (std::size_t section = parity; section < sections.count; section += 2) {
@@ -72,6 +85,28 @@ TEST_CASE("sections of a large bed hold all pairs, and every second one shares n
   }
 }
 
+TEST_CASE("sections keep the order of their pairs, whoever sorts them") {
+  SphereBed bed = tall_bed(30'000, Boundary::periodic);
+  const Candidates candidates = candidates_of(bed);
+  Sections plain;
+  divide(candidates, one_after_another, plain);
+  const auto section = [&](GrainPair pair) {
+    return std::min(section_of(candidates, plain, pair.a), section_of(candidates, plain, pair.b));
+  };
+  std::vector<GrainPair> expected = candidates.pairs;
+  std::stable_sort(expected.begin(), expected.end(),
+                   [&](GrainPair p, GrainPair q) { return section(p) < section(q); });
+  for (const PartLoop& loop : {PartLoop(one_after_another), PartLoop(testing::last_part_first),
+                               PartLoop(testing::two_threads)}) {
+    Sections sections;
+    divide(candidates, loop, sections);
+    CHECK(std::equal(sections.pairs.begin(), sections.pairs.end(), expected.begin(), expected.end(),
+                     [](GrainPair p, GrainPair q) { return p.a == q.a && p.b == q.b; }));
+    CHECK(sections.begin == plain.begin);
+    CHECK(sections.grains == plain.grains);
+  }
+}
+
 TEST_CASE("a large bed that is flat has no more sections than layers") {
   testing::RandomScene scene;
   scene.box = {100, 100, Boundary::periodic, Boundary::periodic};
@@ -80,7 +115,7 @@ TEST_CASE("a large bed that is flat has no more sections than layers") {
   SphereBed bed = testing::random_bed(scene);
   const Candidates candidates = candidates_of(bed);
   Sections sections;
-  divide(candidates, sections);
+  divide(candidates, one_after_another, sections);
   CHECK(sections.count >= 1);
   CHECK(sections.count <= candidates.layers.size());
 }
@@ -98,31 +133,85 @@ Contacts<float> laid_out(const Candidates& candidates, const SphereBed& bed, con
   return contacts;
 }
 
-TEST_CASE("ranges of a phase share no grain and cover all blocks once") {
+/// Grains that the rows of a part name, and entries of its section that are none.
+std::set<std::int32_t> named_by(const Contacts<float>& contacts, const RowPart& part) {
+  std::set<std::int32_t> names;
+  for (std::size_t k = part.first_range; k < part.first_range + part.ranges; ++k) {
+    const BlockRange& range = contacts.shares.ranges[k];
+    for (std::size_t block = range.first; block < range.first + range.blocks; ++block) {
+      for (std::size_t lane = 0; lane < block_width; ++lane) {
+        names.insert({contacts.rows[block].a(lane), contacts.rows[block].b(lane)});
+      }
+    }
+  }
+  return names;
+}
+
+std::vector<std::int32_t> grains_of(const RowShares& shares, const RowPart& part) {
+  const auto first = shares.grains.begin() + static_cast<std::ptrdiff_t>(part.first_grain);
+  return {first, first + static_cast<std::ptrdiff_t>(part.grains)};
+}
+
+TEST_CASE("parts of a phase name nothing twice, and cover all blocks once") {
   SphereBed bed = tall_bed(30'000, Boundary::walls);
   const Candidates candidates = candidates_of(bed);
   const Contacts<float> contacts = laid_out(candidates, bed, one_after_another);
-  REQUIRE(contacts.ranges.size() > 4);
+  REQUIRE(contacts.shares.phases() == 2);
+  REQUIRE(contacts.shares.parts.size() > 4);
   std::vector<int> covered(contacts.rows.size(), 0);
-  std::size_t phase = 0;
-  std::set<std::int32_t> taken;
-  for (const BlockRange& range : contacts.ranges) {
-    CHECK(range.phase >= phase);
-    if (range.phase != phase) taken.clear();
-    phase = range.phase;
-    std::set<std::int32_t> mine;
-    for (std::size_t block = range.first; block < range.first + range.blocks; ++block) {
-      ++covered[block];
-      for (std::size_t lane = 0; lane < block_width; ++lane) {
-        for (const std::int32_t grain :
-             {contacts.rows[block].a(lane), contacts.rows[block].b(lane)}) {
-          if (grain != bed.wall()) mine.insert(grain);
+  for (const BlockRange& range : contacts.shares.ranges) {
+    for (std::size_t k = range.first; k < range.first + range.blocks; ++k) ++covered[k];
+  }
+  CHECK(std::all_of(covered.begin(), covered.end(), [](int times) { return times == 1; }));
+  for (std::size_t phase = 0; phase < 2; ++phase) {
+    const PhaseParts parts = parts_of_phase(contacts.shares, phase);
+    std::set<std::int32_t> taken;
+    for (std::size_t k = parts.first; k < parts.last; ++k) {
+      CHECK(contacts.shares.parts[k].phase == phase);
+      for (const std::int32_t name : named_by(contacts, contacts.shares.parts[k])) {
+        REQUIRE(taken.insert(name).second);
+      }
+    }
+  }
+}
+
+TEST_CASE("each phase names all grains once, and no other part of it pushes them") {
+  for (const Boundary y : {Boundary::walls, Boundary::periodic}) {
+    for (const std::size_t grains : {16'000U, 21'000U, 30'000U}) {
+      SphereBed bed = tall_bed(grains, y);
+      const Candidates candidates = candidates_of(bed);
+      const Contacts<float> contacts = laid_out(candidates, bed, one_after_another);
+      for (std::size_t phase = 0; phase < 2; ++phase) {
+        const PhaseParts parts = parts_of_phase(contacts.shares, phase);
+        std::vector<std::size_t> owner(bed.grains(), parts.last);
+        for (std::size_t k = parts.first; k < parts.last; ++k) {
+          for (const std::int32_t grain : grains_of(contacts.shares, contacts.shares.parts[k])) {
+            REQUIRE(std::exchange(owner[static_cast<std::size_t>(grain)], k) == parts.last);
+          }
+        }
+        CHECK(std::count(owner.begin(), owner.end(), parts.last) == 0);
+        for (std::size_t k = parts.first; k < parts.last; ++k) {
+          for (const std::int32_t name : named_by(contacts, contacts.shares.parts[k])) {
+            if (name < bed.wall()) REQUIRE(owner[static_cast<std::size_t>(name)] == k);
+          }
         }
       }
     }
-    for (const std::int32_t grain : mine) REQUIRE(taken.insert(grain).second);
   }
-  CHECK(std::all_of(covered.begin(), covered.end(), [](int times) { return times == 1; }));
+}
+
+TEST_CASE("a small bed is one part of all its blocks") {
+  SphereBed bed = tall_bed(2000, Boundary::walls);
+  const Candidates candidates = candidates_of(bed);
+  const Contacts<float> contacts = laid_out(candidates, bed, one_after_another);
+  REQUIRE(contacts.shares.parts.size() == 1);
+  CHECK(contacts.shares.phases() == 1);
+  std::size_t next = 0;
+  for (const BlockRange& range : contacts.shares.ranges) {
+    CHECK(range.first == next);
+    next += range.blocks;
+  }
+  CHECK(next == contacts.rows.size());
 }
 
 TEST_CASE("rows are the same in whatever order their parts are laid out") {

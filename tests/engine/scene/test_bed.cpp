@@ -1,4 +1,5 @@
 #include <cmath>
+#include <set>
 
 #include <catch2/catch.hpp>
 
@@ -25,6 +26,22 @@ TEST_CASE("a bed holds its spheres, the wall and two void grains") {
   CHECK(bed.void_a() == 3);
   CHECK(bed.void_b() == 4);
   CHECK(testing::same_bits(bed.position[1], Record<double>{4, 4, 4, 0.25}));
+}
+
+TEST_CASE("each section of a large bed has a wall and two void grains of its own") {
+  const SphereBed bed = bed_of(std::vector<PlacedSphere>(large_bed_grains, {1, 2, 3, 0.5}));
+  REQUIRE(bed.grains() == large_bed_grains);
+  REQUIRE(bed.sections > 1);
+  std::set<std::int32_t> entries;
+  for (std::size_t section = 0; section < bed.sections; ++section) {
+    CHECK(bed.motion[static_cast<std::size_t>(bed.wall(section))].w == 0.0);
+    CHECK_FALSE(bed.is_void(bed.wall(section)));
+    CHECK(bed.is_void(bed.void_a(section)));
+    entries.insert({bed.wall(section), bed.void_a(section), bed.void_b(section)});
+  }
+  CHECK(entries.size() == 3 * bed.sections);
+  CHECK(*entries.begin() == bed.wall());
+  CHECK(static_cast<std::size_t>(*entries.rbegin()) == bed.position.size() - 1);
 }
 
 TEST_CASE("a sphere of diameter 1 has mass 1, one of half the size an eighth") {
