@@ -6,6 +6,8 @@
 
 #include <Eigen/SparseCholesky>
 
+#include "engine/contact/open_blocks.hpp"
+#include "engine/dynamics/dissection.hpp"
 #include "engine/dynamics/rest.hpp"
 
 namespace grainsweep {
@@ -51,18 +53,34 @@ void add_side(const SphereBed& bed, const RowBlock<double>& r, std::size_t lane,
   entries.emplace_back(3 * grain + 2, column, scale * r.normal_z[lane]);
 }
 
-/// M^-1/2 H, a column per force-bearing contact.
+/// Where grain a of a row touches its other side.
+ContactNode node_of(const SphereBed& bed, const RowBlock<double>& r, std::size_t lane) {
+  const Record<double>& a = bed.position[static_cast<std::size_t>(r.a(lane))];
+  return {
+      {a.x + a.w * r.normal_x[lane], a.y + a.w * r.normal_y[lane], a.z + a.w * r.normal_z[lane]},
+      r.a(lane),
+      r.b(lane) < bed.wall() ? r.b(lane) : ContactNode::no_grain};
+}
+
+/// M^-1/2 H, a column per force-bearing contact, in an order that suits its factors.
 template <class Real>
 SparseMatrix contact_matrix(const SphereBed& bed, const Kernels& kernels, double dt,
                             const Contacts<Real>& contacts) {
   const std::vector<RowBlock<double>> rows = rows_in_f64(bed, kernels, contacts);
+  std::vector<ContactNode> nodes;
+  std::vector<BlockLane> lanes;
+  visit_force_bearing(contacts, dt, [&](std::size_t block, std::size_t lane) {
+    nodes.push_back(node_of(bed, rows[block], lane));
+    lanes.push_back({block, lane});
+  });
   std::vector<Eigen::Triplet<double>> entries;
   int columns = 0;
-  visit_force_bearing(contacts, dt, [&](std::size_t block, std::size_t lane) {
-    add_side(bed, rows[block], lane, 1.0, columns, entries);
-    add_side(bed, rows[block], lane, -1.0, columns, entries);
+  for (const std::int32_t contact : dissect(nodes, bed.grains())) {
+    const BlockLane at = lanes[static_cast<std::size_t>(contact)];
+    add_side(bed, rows[at.block], at.lane, 1.0, columns, entries);
+    add_side(bed, rows[at.block], at.lane, -1.0, columns, entries);
     ++columns;
-  });
+  }
   SparseMatrix matrix(forces_of(bed), columns);
   matrix.setFromTriplets(entries.begin(), entries.end());
   return matrix;
@@ -101,7 +119,7 @@ ForceBalance balance_forces(const SphereBed& bed, const Kernels& kernels, double
     return balance;
   }
   const SparseMatrix a = h.transpose() * h;
-  const Eigen::SimplicialLDLT<SparseMatrix> factors(a);
+  const Eigen::SimplicialLDLT<SparseMatrix, Eigen::Lower, Eigen::NaturalOrdering<int>> factors(a);
   const Eigen::VectorXd pivots = factors.vectorD();
   balance.unique =
       factors.info() == Eigen::Success && pivots.minCoeff() > least_pivot * pivots.maxCoeff();

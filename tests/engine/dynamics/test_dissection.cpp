@@ -1,0 +1,126 @@
+#include <algorithm>
+#include <set>
+
+#include <Eigen/SparseCholesky>
+#include <catch2/catch.hpp>
+
+#include "engine/dynamics/dissection.hpp"
+#include "tests/support/draw.hpp"
+
+namespace grainsweep {
+namespace {
+
+using testing::Draw;
+
+/// Contacts of a cubic lattice of grains with their neighbours, and of its lowest layer with the
+/// floor, in random order.
+std::vector<ContactNode> lattice(int side) {
+  std::vector<ContactNode> contacts;
+  const auto grain = [&](int x, int y, int z) { return (z * side + y) * side + x; };
+  for (int z = 0; z < side; ++z) {
+    for (int y = 0; y < side; ++y) {
+      for (int x = 0; x < side; ++x) {
+        const std::int32_t a = grain(x, y, z);
+        if (x + 1 < side) contacts.push_back({{x + 0.5, y + 0.0, z + 0.0}, a, grain(x + 1, y, z)});
+        if (y + 1 < side) contacts.push_back({{x + 0.0, y + 0.5, z + 0.0}, a, grain(x, y + 1, z)});
+        if (z + 1 < side) contacts.push_back({{x + 0.0, y + 0.0, z + 0.5}, a, grain(x, y, z + 1)});
+        if (z == 0) contacts.push_back({{x + 0.0, y + 0.0, -0.5}, a, ContactNode::no_grain});
+      }
+    }
+  }
+  Draw(7).shuffle(contacts);
+  return contacts;
+}
+
+std::size_t grains_of(int side) { return static_cast<std::size_t>(side * side * side); }
+
+bool share_a_grain(const ContactNode& p, const ContactNode& q) {
+  const auto is_of_p = [&](std::int32_t grain) {
+    return grain != ContactNode::no_grain && (grain == p.a || grain == p.b);
+  };
+  return is_of_p(q.a) || is_of_p(q.b);
+}
+
+/// A regular matrix whose entries are the contacts that share a grain.
+Eigen::SparseMatrix<double> matrix_of(const std::vector<ContactNode>& contacts) {
+  std::vector<Eigen::Triplet<double>> entries;
+  const auto size = static_cast<int>(contacts.size());
+  for (int i = 0; i < size; ++i) {
+    for (int j = 0; j < size; ++j) {
+      const bool joined = share_a_grain(contacts[static_cast<std::size_t>(i)],
+                                        contacts[static_cast<std::size_t>(j)]);
+      if (joined) entries.emplace_back(i, j, i == j ? 20.0 : 1.0);
+    }
+  }
+  Eigen::SparseMatrix<double> matrix(size, size);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  return matrix;
+}
+
+template <class Ordering>
+Eigen::Index factor_entries(const Eigen::SparseMatrix<double>& matrix) {
+  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower, Ordering> factors(matrix);
+  REQUIRE(factors.info() == Eigen::Success);
+  return factors.matrixL().nestedExpression().nonZeros();
+}
+
+std::vector<ContactNode> in_order(const std::vector<ContactNode>& contacts,
+                                  const std::vector<std::int32_t>& order) {
+  std::vector<ContactNode> sorted;
+  for (const std::int32_t k : order) sorted.push_back(contacts[static_cast<std::size_t>(k)]);
+  return sorted;
+}
+
+TEST_CASE("every contact is eliminated once") {
+  for (const int side : {1, 2, 3, 9}) {
+    const std::vector<ContactNode> contacts = lattice(side);
+    std::vector<std::int32_t> order = dissect(contacts, grains_of(side));
+    REQUIRE(order.size() == contacts.size());
+    std::sort(order.begin(), order.end());
+    for (std::size_t k = 0; k < order.size(); ++k) {
+      CHECK(order[k] == static_cast<std::int32_t>(k));
+    }
+  }
+  CHECK(dissect({}, 0).empty());
+}
+
+TEST_CASE("contacts at one place, or all of one grain, are ordered, too") {
+  CHECK(dissect(std::vector<ContactNode>(300, {{1, 1, 1}, 0, 1}), 2).size() == 300);
+  std::vector<ContactNode> star;
+  for (std::int32_t k = 1; k <= 300; ++k) star.push_back({{k + 0.0, 0, 0}, 0, k});
+  CHECK(dissect(star, 301).size() == 300);
+}
+
+// A third of a lattice's contacts, and more, are cut off from another third by those that come
+// last.
+TEST_CASE("the last contacts part the others") {
+  const int side = 10;
+  const std::vector<ContactNode> sorted =
+      in_order(lattice(side), dissect(lattice(side), grains_of(side)));
+  std::size_t apart = 0;
+  for (std::size_t cut = sorted.size() / 3; cut < 2 * sorted.size() / 3; ++cut) {
+    std::set<std::int32_t> before;
+    for (std::size_t k = 0; k < cut; ++k) before.insert({sorted[k].a, sorted[k].b});
+    std::size_t after = cut;
+    while (after < sorted.size() && before.count(sorted[after].a) == 0 &&
+           before.count(sorted[after].b) == 0) {
+      ++after;
+    }
+    apart = std::max(apart, after - cut);
+  }
+  CHECK(apart > sorted.size() / 3);
+}
+
+TEST_CASE("factors have fewer entries than by minimum degree") {
+  for (const int side : {10, 14}) {
+    const std::vector<ContactNode> contacts = lattice(side);
+    const std::vector<ContactNode> sorted = in_order(contacts, dissect(contacts, grains_of(side)));
+    const Eigen::Index dissected = factor_entries<Eigen::NaturalOrdering<int>>(matrix_of(sorted));
+    const Eigen::Index degrees = factor_entries<Eigen::AMDOrdering<int>>(matrix_of(contacts));
+    INFO("side " << side << ": " << dissected << " and " << degrees);
+    CHECK(dissected < degrees);
+  }
+}
+
+}  // namespace
+}  // namespace grainsweep
