@@ -38,7 +38,7 @@ void append_images(const Cells& cells, const Box& box, const Record<double>& p, 
   for (int j = turns_y.least; j <= turns_y.most; ++j) {
     for (int i = turns_x.least; i <= turns_x.most; ++i) {
       const std::int32_t cell = cells.at(x + i * cells.inner_x, y + j * cells.inner_y, z);
-      images.push_back({grain, cell, i, j});
+      images.push_back({grain, cell, i, j, 0});
     }
   }
 }

@@ -36,7 +36,7 @@ Cells make_cells(const Box& box, double bottom, double top, double least, std::s
 struct GridImage {
   std::int32_t grain, cell;
   std::int32_t turns_x, turns_y;  ///< periods by which it is shifted: -1, 0 or 1
-  std::int32_t entry = 0;         ///< its place in the columns
+  std::int32_t entry;             ///< its place in the columns
 };
 
 /// Spheres by cell. Memory of a search, kept from one search to the next.

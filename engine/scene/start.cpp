@@ -36,6 +36,7 @@ class Column {
     const int z = index(s.z, height_, cells_z_);
     const int far_x = cells_to(s, box_.length, cells_x_), far_y = cells_to(s, box_.width, cells_y_);
     const int far_z = cells_to(s, height_, cells_z_);
+    if (overlaps_cell(s, x, y, z)) return false;  // the likeliest one
     for (int k = std::max(z - far_z, 0); k <= std::min(z + far_z, cells_z_ - 1); ++k) {
       for (int j = y - far_y; j <= y + far_y; ++j) {
         for (int i = x - far_x; i <= x + far_x; ++i) {
