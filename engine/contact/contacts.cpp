@@ -100,12 +100,12 @@ void lay_out_section(const SphereBed& bed, std::size_t section, LayoutColumns<Re
 }
 
 /// Sorts the grains near a wall by section.
-void divide_near_wall(const Candidates& candidates, const std::vector<std::int32_t>& grains,
-                      const Sections& sections, std::vector<std::vector<std::int32_t>>& near_wall) {
+void divide_near_wall(const std::vector<std::int32_t>& grains, const Sections& sections,
+                      std::vector<std::vector<std::int32_t>>& near_wall) {
   near_wall.resize(std::max(near_wall.size(), sections.count));
   for (std::vector<std::int32_t>& of_section : near_wall) of_section.clear();
   for (const std::int32_t grain : grains) {
-    near_wall[section_of(candidates, sections, grain)].push_back(grain);
+    near_wall[sections.section_of(grain)].push_back(grain);
   }
 }
 
@@ -122,7 +122,7 @@ void lay_out_walls(const SphereBed& bed, const Candidates& candidates, Contacts<
   for (std::size_t k = 0; k < candidates.walls.size(); ++k) {
     const std::size_t first = columns.rows.size();
     const auto name = static_cast<std::int32_t>(bed.grains() + k);
-    divide_near_wall(candidates, candidates.walls[k].grains, layout.sections, layout.near_wall);
+    divide_near_wall(candidates.walls[k].grains, layout.sections, layout.near_wall);
     for (std::size_t section = 0; section < layout.sections.count; ++section) {
       const std::size_t before = columns.rows.size();
       BlockWriter<Real>(bed, section, columns)
@@ -136,8 +136,9 @@ void lay_out_walls(const SphereBed& bed, const Candidates& candidates, Contacts<
   }
 }
 
-/// The rows of a section, and the grains of it and the section above: in both phases these are all
-/// grains, but for those of the lowest section in the second.
+/// The rows of a section, and the grains of it and the section that follows: in both phases these
+/// are all grains, but for those of the first section in the second phase where nothing follows the
+/// last one.
 template <class Real>
 void add_part(std::size_t section, Contacts<Real>& contacts) {
   const LayoutColumns<Real>& layout = contacts.layout;
@@ -151,11 +152,28 @@ void add_part(std::size_t section, Contacts<Real>& contacts) {
   }
   part.ranges = contacts.shares.ranges.size() - part.first_range;
   if (layout.sections.count > 1) {
-    const std::size_t end = std::min(section + 2, layout.sections.count);
-    part.first_grain = layout.sections.first_grain[section];
-    part.grains = layout.sections.first_grain[end] - part.first_grain;
+    const std::vector<std::size_t>& first = layout.sections.first_grain;
+    const bool is_last = section + 1 == layout.sections.count;
+    const std::size_t follows = !is_last                  ? first[section + 2] - first[section + 1]
+                                : layout.sections.is_ring ? first[1]
+                                                          : 0;
+    part.first_grain = first[section];
+    part.grains = first[section + 1] - first[section] + follows;
   }
   contacts.shares.parts.push_back(part);
+}
+
+/// The grains of all sections, and once more of the first after the last of a ring; where there is
+/// none, a part of no rows for the first ones.
+void add_grains(const Sections& sections, RowShares& shares) {
+  shares.grains = sections.grains;
+  if (sections.is_ring) {
+    shares.grains.insert(
+        shares.grains.end(), sections.grains.begin(),
+        sections.grains.begin() + static_cast<std::ptrdiff_t>(sections.first_grain[1]));
+  } else {
+    shares.parts.push_back({1, 0, 0, 0, sections.first_grain[1]});
+  }
 }
 
 /// Parts that cores may sweep: every second section, then those between.
@@ -167,8 +185,7 @@ void set_parts(Contacts<Real>& contacts) {
   for (WallRows& wall : contacts.walls) wall.first += contacts.pair_blocks;
   for (std::size_t k = 0; k < sections.count; k += 2) add_part(k, contacts);
   if (sections.count > 1) {
-    contacts.shares.grains = sections.grains;
-    contacts.shares.parts.push_back({1, 0, 0, 0, sections.first_grain[1]});
+    add_grains(sections, contacts.shares);
     for (std::size_t k = 1; k < sections.count; k += 2) add_part(k, contacts);
   }
 }
@@ -220,7 +237,7 @@ void lay_out(const SphereBed& bed, const Candidates& candidates, Contacts<Real>&
              const PartLoop& loop) {
   LayoutColumns<Real>& layout = contacts.layout;
   collect_impulses(bed, loop, contacts);
-  divide(candidates, loop, layout.sections);
+  divide(bed, candidates, loop, layout.sections);
   layout.columns.resize(std::max(layout.columns.size(), layout.sections.count + 1));
   layout.open_blocks.assign(bed.grains(), 0);
   layout.pair_impulse.resize(layout.sections.pairs.size());

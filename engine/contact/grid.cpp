@@ -30,9 +30,8 @@ Turns turns_of(std::int32_t index, std::int32_t cells, bool wraps) {
 /// Appends the grain at `p` in its cell and in each border cell that holds a shifted copy of it.
 void append_images(const Cells& cells, const Box& box, const Record<double>& p, std::int32_t grain,
                    std::vector<GridImage>& images) {
-  const std::int32_t x = inner_index(p.x, cells.size_x, cells.inner_x);
-  const std::int32_t y = inner_index(p.y, cells.size_y, cells.inner_y);
-  const std::int32_t z = cells.layer_of(p);
+  const std::int32_t x = cells.place_along(0, p), y = cells.place_along(1, p);
+  const std::int32_t z = cells.place_along(2, p);
   const Turns turns_x = turns_of(x, cells.inner_x, box.x == Boundary::periodic);
   const Turns turns_y = turns_of(y, cells.inner_y, box.y == Boundary::periodic);
   for (int j = turns_y.least; j <= turns_y.most; ++j) {
@@ -93,13 +92,14 @@ void fill_entry(const SphereBed& bed, const Cells& cells, const GridImage& image
 
 }  // namespace
 
-std::int32_t Cells::layer_of(const Record<double>& sphere) const {
-  return inner_index(sphere.z - origin_z, size_z, inner_z);
+std::int32_t Cells::place_along(int axis, const Record<double>& sphere) const {
+  return axis == 0   ? inner_index(sphere.x, size_x, inner_x)
+         : axis == 1 ? inner_index(sphere.y, size_y, inner_y)
+                     : inner_index(sphere.z - origin_z, size_z, inner_z);
 }
 
 std::int32_t Cells::cell_of(const Record<double>& sphere) const {
-  return at(inner_index(sphere.x, size_x, inner_x), inner_index(sphere.y, size_y, inner_y),
-            layer_of(sphere));
+  return at(place_along(0, sphere), place_along(1, sphere), place_along(2, sphere));
 }
 
 Cells make_cells(const Box& box, double bottom, double top, double least, std::size_t grains) {

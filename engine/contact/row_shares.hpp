@@ -30,7 +30,8 @@ struct RowPart {
 struct RowShares {
   std::vector<BlockRange> ranges;    ///< all blocks, by part
   std::vector<RowPart> parts;        ///< by phase
-  std::vector<std::int32_t> grains;  ///< by section; empty if there is one phase
+  std::vector<std::int32_t> grains;  ///< by section, of a ring the first one's at both
+                                     ///< ends; empty if there is one phase
 
   std::size_t phases() const { return parts.empty() ? 0 : parts.back().phase + 1; }
   void clear() {

@@ -7,27 +7,57 @@ namespace grainsweep {
 
 namespace {
 
-void count_layers(const Candidates& candidates, std::vector<std::size_t>& layer_size) {
-  layer_size.assign(candidates.layers.size(), 0);
-  for (const std::int32_t layer : candidates.layer) {
-    ++layer_size[static_cast<std::size_t>(layer)];
+bool is_periodic(const Box& box, int axis) {
+  return (axis == 0 && box.x == Boundary::periodic) || (axis == 1 && box.y == Boundary::periodic);
+}
+
+/// The slab of each grain, for now, and the grains of each slab.
+void count_slabs(const SphereBed& bed, const Candidates& candidates, const PartLoop& loop,
+                 Sections& sections) {
+  const Cells& cells = candidates.levels.front().cells;
+  sections.of_grain.resize(bed.grains());
+  run_parts(loop, bed.sections, [&](std::size_t part) {
+    const Share share = share_of(bed.grains(), part, bed.sections);
+    for (std::size_t i = share.first; i < share.last; ++i) {
+      sections.of_grain[i] = cells.place_along(bed.section_axis, candidates.built_at[i]);
+    }
+  });
+  sections.slab_size.assign(static_cast<std::size_t>(cells.inner(bed.section_axis)), 0);
+  for (const std::int32_t slab : sections.of_grain) {
+    ++sections.slab_size[static_cast<std::size_t>(slab)];
   }
 }
 
-/// From below: a section ends with the layer that fills it, unless that is the last one.
-void cut(const std::vector<std::size_t>& layer_size, Sections& sections) {
-  const std::size_t layers = layer_size.size();
-  sections.of_layer.assign(layers, 0);
+/// A section ends with the slab that fills it, unless that is the last one. Of a ring's odd number
+/// the last two are joined.
+void cut(Sections& sections) {
+  const std::vector<std::size_t>& slab_size = sections.slab_size;
+  sections.of_slab.assign(slab_size.size(), 0);
   sections.count = 1;
   std::size_t grains = 0;
-  for (std::size_t k = 0; k < layers; ++k) {
-    sections.of_layer[k] = static_cast<std::int32_t>(sections.count - 1);
-    grains += layer_size[k];
-    if (grains >= section_grains && k + 1 < layers) {
+  for (std::size_t k = 0; k < slab_size.size(); ++k) {
+    sections.of_slab[k] = static_cast<std::int32_t>(sections.count - 1);
+    grains += slab_size[k];
+    if (grains >= section_grains && k + 1 < slab_size.size()) {
       ++sections.count;
       grains = 0;
     }
   }
+  if (sections.is_ring && sections.count % 2 == 1 && sections.count > 1) {
+    --sections.count;
+    for (std::int32_t& section : sections.of_slab) {
+      section = std::min(section, static_cast<std::int32_t>(sections.count - 1));
+    }
+  }
+}
+
+void set_sections(const PartLoop& loop, std::size_t parts, Sections& sections) {
+  run_parts(loop, parts, [&](std::size_t part) {
+    const Share share = share_of(sections.of_grain.size(), part, parts);
+    for (std::size_t i = share.first; i < share.last; ++i) {
+      sections.of_grain[i] = sections.of_slab[static_cast<std::size_t>(sections.of_grain[i])];
+    }
+  });
 }
 
 /// Calls put(k, place) for items 0 .. count - 1, whose places follow one another section by
@@ -61,39 +91,48 @@ void sort_by_section(const PartLoop& loop, std::size_t count, SectionOf section,
 void sort_pairs(const Candidates& candidates, const PartLoop& loop, Sections& sections) {
   const std::vector<GrainPair>& pairs = candidates.pairs;
   sections.pairs.resize(pairs.size());
-  const auto section = [&](std::size_t k) {
-    return std::min(section_of(candidates, sections, pairs[k].a),
-                    section_of(candidates, sections, pairs[k].b));
-  };
-  sort_by_section(loop, pairs.size(), section, sections, sections.begin,
-                  [&](std::size_t k, std::size_t place) { sections.pairs[place] = pairs[k]; });
+  sort_by_section(
+      loop, pairs.size(), [&](std::size_t k) { return sections.section_of(pairs[k]); }, sections,
+      sections.begin, [&](std::size_t k, std::size_t place) { sections.pairs[place] = pairs[k]; });
 }
 
-void sort_grains(const Candidates& candidates, const PartLoop& loop, Sections& sections) {
-  sections.grains.resize(candidates.layer.size());
-  const auto section = [&](std::size_t k) {
-    return section_of(candidates, sections, static_cast<std::int32_t>(k));
-  };
-  sort_by_section(loop, sections.grains.size(), section, sections, sections.first_grain,
-                  [&](std::size_t k, std::size_t place) {
-                    sections.grains[place] = static_cast<std::int32_t>(k);
-                  });
+void sort_grains(const PartLoop& loop, Sections& sections) {
+  sections.grains.resize(sections.of_grain.size());
+  sort_by_section(
+      loop, sections.grains.size(),
+      [&](std::size_t k) { return static_cast<std::size_t>(sections.of_grain[k]); }, sections,
+      sections.first_grain,
+      [&](std::size_t k, std::size_t place) {
+        sections.grains[place] = static_cast<std::int32_t>(k);
+      });
+}
+
+void leave_whole(const Candidates& candidates, Sections& sections) {
+  sections.count = 1;
+  sections.pairs.assign(candidates.pairs.begin(), candidates.pairs.end());
+  sections.begin.assign({0, candidates.pairs.size()});
 }
 
 }  // namespace
 
-void divide(const Candidates& candidates, const PartLoop& loop, Sections& sections) {
-  if (most_sections(candidates.layer.size()) == 1) {
-    sections.count = 1;
-    sections.of_layer.assign(candidates.layers.size(), 0);
-    sections.pairs.assign(candidates.pairs.begin(), candidates.pairs.end());
-    sections.begin.assign({0, candidates.pairs.size()});
+std::size_t Sections::section_of(GrainPair pair) const {
+  const std::size_t a = section_of(pair.a), b = section_of(pair.b);
+  const std::size_t first = std::min(a, b), second = std::max(a, b);
+  return is_ring && second - first + 1 == count && count > 2 ? second : first;
+}
+
+void divide(const SphereBed& bed, const Candidates& candidates, const PartLoop& loop,
+            Sections& sections) {
+  sections.is_ring = is_periodic(bed.box, bed.section_axis);
+  if (bed.sections == 1) {
+    leave_whole(candidates, sections);
     return;
   }
-  count_layers(candidates, sections.layer_size);
-  cut(sections.layer_size, sections);
+  count_slabs(bed, candidates, loop, sections);
+  cut(sections);
+  set_sections(loop, bed.sections, sections);
   sort_pairs(candidates, loop, sections);
-  sort_grains(candidates, loop, sections);
+  sort_grains(loop, sections);
 }
 
 }  // namespace grainsweep

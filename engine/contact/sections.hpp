@@ -1,8 +1,9 @@
-// Horizontal sections of a large bed, whose rows several cores may sweep.
+// Sections of a large bed, whose rows several cores may sweep.
 //
-// A row belongs to the lower of its two grains' sections. Sections are made of
-// layers of candidates, and no pair reaches beyond the next layer: rows of sections 0, 2, 4 share
-// no grain, nor do those of 1, 3, 5. Small beds are one section.
+// A section is made of slabs of the search grid across an axis, and no pair reaches beyond the next
+// slab. A row belongs to the first of its two grains' sections: rows of sections 0, 2, 4 share no
+// grain, nor do those of 1, 3, 5. Along a periodic axis sections are a ring of even number, and the
+// first one follows the last. Small beds are one section.
 #pragma once
 
 #include <cstdint>
@@ -16,24 +17,26 @@ namespace grainsweep {
 /// Memory of a division, kept from one to the next.
 struct Sections {
   std::size_t count = 1;
-  std::vector<std::int32_t> of_layer;    ///< section of each layer of the candidates
-  std::vector<std::size_t> layer_size;   ///< grains of each layer
+  bool is_ring = false;
+  std::vector<std::int32_t> of_grain;    ///< section of each grain; empty if there is one
+  std::vector<std::int32_t> of_slab;     ///< section of each slab
+  std::vector<std::size_t> slab_size;    ///< grains of each slab
   std::vector<GrainPair> pairs;          ///< candidates by section, in their order
   std::vector<std::size_t> begin;        ///< first pair of each section; one more at the end
   std::vector<std::int32_t> grains;      ///< all grains by section, ascending in each
   std::vector<std::size_t> first_grain;  ///< of each section in `grains`; one more at the end
   std::vector<std::size_t> place;        ///< next place in each section of each part of a sort
+
+  std::size_t section_of(std::int32_t grain) const {
+    return count == 1 ? 0 : static_cast<std::size_t>(of_grain[static_cast<std::size_t>(grain)]);
+  }
+  /// Section of the rows of a pair.
+  std::size_t section_of(GrainPair pair) const;
 };
 
-/// Section of a grain of the bed that `candidates` was made of.
-inline std::size_t section_of(const Candidates& candidates, const Sections& sections,
-                              std::int32_t grain) {
-  const std::int32_t layer = candidates.layer[static_cast<std::size_t>(grain)];
-  return static_cast<std::size_t>(sections.of_layer[static_cast<std::size_t>(layer)]);
-}
-
-/// Divides the bed of `candidates` by its layers and sorts its pairs and grains by section.
-void divide(const Candidates& candidates, const PartLoop& loop, Sections& sections);
+/// Divides the bed of `candidates` and sorts its pairs and grains by section.
+void divide(const SphereBed& bed, const Candidates& candidates, const PartLoop& loop,
+            Sections& sections);
 
 /// Calls work(section) for all sections: for 0, 2, 4 .. in any order, then for 1, 3, 5 ..
 template <class Work>

@@ -27,8 +27,18 @@ std::uint64_t mixed_value(std::uint64_t hash, double value) {
 
 }  // namespace
 
+int section_axis(const Box& box, double solid_volume) {
+  constexpr double flat = 1.5;            // times as long as high: worth other sections
+  constexpr double solid_fraction = 0.6;  // about that of all settled beds
+  const double height = solid_volume / (solid_fraction * box.length * box.width);
+  const int longer = box.length >= box.width ? 0 : 1;
+  return std::max(box.length, box.width) > flat * height ? longer : 2;
+}
+
 SphereBed make_bed(const Box& box, const std::vector<PlacedSphere>& spheres) {
-  SphereBed bed{box, {}, {}, most_sections(spheres.size())};
+  double volume = 0.0;
+  for (const PlacedSphere& s : spheres) volume += sphere_volume(s.radius);
+  SphereBed bed{box, {}, {}, most_sections(spheres.size()), section_axis(box, volume)};
   const std::size_t entries = spheres.size() + 3 * bed.sections;
   bed.position.reserve(entries);
   bed.motion.reserve(entries);

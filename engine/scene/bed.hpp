@@ -43,6 +43,10 @@ constexpr std::size_t most_sections(std::size_t grains) {
   return grains < large_bed_grains ? 1 : grains / section_grains + 1;
 }
 
+/// Axis along which a large bed is cut into sections: of a flat bed the longer one of x and y, 0 or
+/// 1; of others upwards, 2. `solid_volume`: of all grains, d^3.
+int section_axis(const Box& box, double solid_volume);
+
 /// Columns of a bed. Each column ends with entries that are no grains, for each section three: the
 /// wall, which nothing moves, and two void grains far from everything, which fill unused lanes of
 /// kernel blocks. Sections share none, so that cores may sweep them at the same time.
@@ -52,6 +56,7 @@ struct SphereBed {
   std::vector<Record<double>> motion;    ///< displacement of the last step, d, and inverse mass
 
   std::size_t sections = 1;  ///< most_sections of the grains
+  int section_axis = 2;      ///< see `section_axis`
 
   std::size_t grains() const { return position.size() - 3 * sections; }
   std::int32_t wall(std::size_t section = 0) const {

@@ -154,12 +154,31 @@ std::vector<double> column_diameters(const std::vector<double>& radii) {
                      : std::vector<double>{2.0 * largest};
 }
 
-double column_height(const Box& box, const std::vector<double>& radii) {
+double solid_volume(const std::vector<double>& radii) {
   double volume = 0.0;
   for (const double radius : radii) {
     volume += sphere_volume(radius);
   }
-  return volume / (start_solid_fraction * box.length * box.width);
+  return volume;
+}
+
+double column_height(const Box& box, const std::vector<double>& radii) {
+  return solid_volume(radii) / (start_solid_fraction * box.length * box.width);
+}
+
+/// Numbers the grains of a large bed along the axis of its sections, slice by slice, and in each as
+/// they were: what a section is made of lies together in memory.
+void sort_along_sections(const Box& box, const std::vector<double>& radii,
+                         std::vector<PlacedSphere>& spheres) {
+  const int axis = section_axis(box, solid_volume(radii));
+  if (most_sections(spheres.size()) == 1 || axis == 2) return;
+  const double slice = 2.0 * *std::max_element(radii.begin(), radii.end());
+  const auto slice_of = [&](const PlacedSphere& s) {
+    return std::floor((axis == 0 ? s.x : s.y) / slice);
+  };
+  std::stable_sort(
+      spheres.begin(), spheres.end(),
+      [&](const PlacedSphere& a, const PlacedSphere& b) { return slice_of(a) < slice_of(b); });
 }
 
 }  // namespace
@@ -193,8 +212,10 @@ std::optional<SphereBed> start(const PackingSpec& spec) {
   }
   const std::vector<double> radii = draw_radii(spec);
   if (radii.empty()) return make_bed(box, {});
-  const auto spheres = place_at_random(box, radii, column_height(box, radii), spec.random_key);
-  return spheres ? std::optional(make_bed(box, *spheres)) : std::nullopt;
+  auto spheres = place_at_random(box, radii, column_height(box, radii), spec.random_key);
+  if (!spheres) return std::nullopt;
+  sort_along_sections(box, radii, *spheres);
+  return make_bed(box, *spheres);
 }
 
 }  // namespace grainsweep

@@ -15,8 +15,8 @@ inline constexpr double start_solid_fraction = 0.25;
 
 /// Grains of the given sizes placed one after the other at random where they overlap no other
 /// (random sequential addition), in a column above the floor; or the user's own placed grains.
-/// Grains are numbered from the floor up. Empty if a grain does not fit between the walls or no
-/// room is found for it.
+/// Grains are numbered from the floor up, those of large flat beds along x or y first. Empty if a
+/// grain does not fit between the walls or no room is found for it.
 std::optional<SphereBed> start(const PackingSpec& spec);
 
 /// Spheres of these radii, at least one, placed in the same way in a column from the floor to

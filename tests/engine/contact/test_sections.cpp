@@ -25,6 +25,22 @@ SphereBed tall_bed(std::size_t grains, Boundary y) {
   return testing::random_bed(scene);
 }
 
+/// A bed three grains high: its sections follow one another along x.
+SphereBed flat_bed(Boundary x) {
+  testing::RandomScene scene;
+  scene.box = {120, 60, x, Boundary::periodic};
+  scene.grains = 30'000;
+  scene.height = 3.0;
+  scene.least_radius = 0.25;
+  return testing::random_bed(scene);
+}
+
+std::vector<SphereBed> large_beds() {
+  return {tall_bed(16'000, Boundary::periodic), tall_bed(21'000, Boundary::walls),
+          tall_bed(30'000, Boundary::periodic), flat_bed(Boundary::walls),
+          flat_bed(Boundary::periodic)};
+}
+
 Candidates candidates_of(SphereBed& bed) {
   Candidates candidates;
   find_candidates(bed, 0.1, kernels(), candidates);
@@ -42,46 +58,75 @@ TEST_CASE("a small bed is one section, with its pairs as they are") {
   SphereBed bed = tall_bed(2000, Boundary::walls);
   const Candidates candidates = candidates_of(bed);
   Sections sections;
-  divide(candidates, one_after_another, sections);
+  divide(bed, candidates, one_after_another, sections);
   CHECK(sections.count == 1);
   CHECK(sections.begin == std::vector<std::size_t>{0, candidates.pairs.size()});
   CHECK(std::equal(sections.pairs.begin(), sections.pairs.end(), candidates.pairs.begin(),
                    [](GrainPair a, GrainPair b) { return a.a == b.a && a.b == b.b; }));
 }
 
-TEST_CASE("sections of a large bed hold all pairs, and every second one shares no grain") {
-  SphereBed bed = tall_bed(30'000, Boundary::periodic);
-  const Candidates candidates = candidates_of(bed);
-  Sections sections;
-  divide(candidates, one_after_another, sections);
-  REQUIRE(sections.count >= 4);
-  REQUIRE(sections.begin.size() >= sections.count + 1);
-  CHECK(sections.begin[0] == 0);
-  CHECK(sections.begin[sections.count] == candidates.pairs.size());
-  CHECK(sorted(sections.pairs) == sorted(candidates.pairs));
-  REQUIRE(sections.first_grain.size() == sections.count + 1);
-  std::vector<std::int32_t> grains = sections.grains;
-  for (std::size_t section = 0; section < sections.count; ++section) {
-    for (std::size_t k = sections.first_grain[section]; k < sections.first_grain[section + 1];
-         ++k) {
-      REQUIRE(section_of(candidates, sections, grains[k]) == section);
+TEST_CASE("sections of a large bed hold all pairs and all grains") {
+  for (SphereBed& bed : large_beds()) {
+    const Candidates candidates = candidates_of(bed);
+    Sections sections;
+    divide(bed, candidates, one_after_another, sections);
+    REQUIRE(sections.count >= 3);
+    CHECK(sections.count <= bed.sections);
+    REQUIRE(sections.begin.size() == sections.count + 1);
+    CHECK(sections.begin[0] == 0);
+    CHECK(sections.begin[sections.count] == candidates.pairs.size());
+    CHECK(sorted(sections.pairs) == sorted(candidates.pairs));
+    REQUIRE(sections.first_grain.size() == sections.count + 1);
+    std::vector<std::int32_t> grains = sections.grains;
+    for (std::size_t section = 0; section < sections.count; ++section) {
+      for (std::size_t k = sections.first_grain[section]; k < sections.first_grain[section + 1];
+           ++k) {
+        REQUIRE(sections.section_of(grains[k]) == section);
+      }
     }
+    std::sort(grains.begin(), grains.end());
+    for (std::size_t k = 0; k < grains.size(); ++k) {
+      REQUIRE(grains[k] == static_cast<std::int32_t>(k));
+    }
+    CHECK(grains.size() == bed.grains());
   }
-  std::sort(grains.begin(), grains.end());
-  for (std::size_t k = 0; k < grains.size(); ++k)
-    REQUIRE(grains[k] == static_cast<std::int32_t>(k));
-  CHECK(grains.size() == bed.grains());
-  for (std::size_t parity = 0; parity < 2; ++parity) {
-    std::vector<std::size_t> owner(bed.grains(), sections.count);
-    for (std::size_t section = parity; section < sections.count; section += 2) {
-      for (std::size_t k = sections.begin[section]; k < sections.begin[section + 1]; ++k) {
-        for (const std::int32_t grain : {sections.pairs[k].a, sections.pairs[k].b}) {
-          std::size_t& mine = owner[static_cast<std::size_t>(grain)];
-          mine = mine == sections.count ? section : mine;
-          REQUIRE(mine == section);
+}
+
+TEST_CASE("every second section of a large bed shares no grain") {
+  for (SphereBed& bed : large_beds()) {
+    const Candidates candidates = candidates_of(bed);
+    Sections sections;
+    divide(bed, candidates, one_after_another, sections);
+    for (std::size_t parity = 0; parity < 2; ++parity) {
+      std::vector<std::size_t> owner(bed.grains(), sections.count);
+      for (std::size_t section = parity; section < sections.count; section += 2) {
+        for (std::size_t k = sections.begin[section]; k < sections.begin[section + 1]; ++k) {
+          for (const std::int32_t grain : {sections.pairs[k].a, sections.pairs[k].b}) {
+            std::size_t& mine = owner[static_cast<std::size_t>(grain)];
+            mine = mine == sections.count ? section : mine;
+            REQUIRE(mine == section);
+          }
         }
       }
     }
+  }
+}
+
+TEST_CASE("sections of a flat bed lie along it, of a ring an even number") {
+  for (const Boundary x : {Boundary::walls, Boundary::periodic}) {
+    SphereBed bed = flat_bed(x);
+    REQUIRE(bed.section_axis == 0);
+    const Candidates candidates = candidates_of(bed);
+    Sections sections;
+    divide(bed, candidates, one_after_another, sections);
+    CHECK(sections.is_ring == (x == Boundary::periodic));
+    if (sections.is_ring) CHECK(sections.count % 2 == 0);
+    std::vector<double> last(sections.count, 0.0);
+    for (std::size_t i = 0; i < bed.grains(); ++i) {
+      double& end = last[sections.section_of(static_cast<std::int32_t>(i))];
+      end = std::max(end, bed.position[i].x);
+    }
+    CHECK(std::is_sorted(last.begin(), last.end()));
   }
 }
 
@@ -89,17 +134,15 @@ TEST_CASE("sections keep the order of their pairs, whoever sorts them") {
   SphereBed bed = tall_bed(30'000, Boundary::periodic);
   const Candidates candidates = candidates_of(bed);
   Sections plain;
-  divide(candidates, one_after_another, plain);
-  const auto section = [&](GrainPair pair) {
-    return std::min(section_of(candidates, plain, pair.a), section_of(candidates, plain, pair.b));
-  };
+  divide(bed, candidates, one_after_another, plain);
+  const auto section = [&](GrainPair pair) { return plain.section_of(pair); };
   std::vector<GrainPair> expected = candidates.pairs;
   std::stable_sort(expected.begin(), expected.end(),
                    [&](GrainPair p, GrainPair q) { return section(p) < section(q); });
   for (const PartLoop& loop : {PartLoop(one_after_another), PartLoop(testing::last_part_first),
                                PartLoop(testing::two_threads)}) {
     Sections sections;
-    divide(candidates, loop, sections);
+    divide(bed, candidates, loop, sections);
     CHECK(std::equal(sections.pairs.begin(), sections.pairs.end(), expected.begin(), expected.end(),
                      [](GrainPair p, GrainPair q) { return p.a == q.a && p.b == q.b; }));
     CHECK(sections.begin == plain.begin);
@@ -107,7 +150,7 @@ TEST_CASE("sections keep the order of their pairs, whoever sorts them") {
   }
 }
 
-TEST_CASE("a large bed that is flat has no more sections than layers") {
+TEST_CASE("a large bed that is flat has no more sections than slabs") {
   testing::RandomScene scene;
   scene.box = {100, 100, Boundary::periodic, Boundary::periodic};
   scene.grains = 20'000;
@@ -115,9 +158,9 @@ TEST_CASE("a large bed that is flat has no more sections than layers") {
   SphereBed bed = testing::random_bed(scene);
   const Candidates candidates = candidates_of(bed);
   Sections sections;
-  divide(candidates, one_after_another, sections);
+  divide(bed, candidates, one_after_another, sections);
   CHECK(sections.count >= 1);
-  CHECK(sections.count <= candidates.layers.size());
+  CHECK(sections.count <= sections.slab_size.size());
 }
 
 /// Rows of a large bed, laid out by `loop` on top of rows that pushed.
@@ -153,47 +196,45 @@ std::vector<std::int32_t> grains_of(const RowShares& shares, const RowPart& part
 }
 
 TEST_CASE("parts of a phase name nothing twice, and cover all blocks once") {
-  SphereBed bed = tall_bed(30'000, Boundary::walls);
-  const Candidates candidates = candidates_of(bed);
-  const Contacts<float> contacts = laid_out(candidates, bed, one_after_another);
-  REQUIRE(contacts.shares.phases() == 2);
-  REQUIRE(contacts.shares.parts.size() > 4);
-  std::vector<int> covered(contacts.rows.size(), 0);
-  for (const BlockRange& range : contacts.shares.ranges) {
-    for (std::size_t k = range.first; k < range.first + range.blocks; ++k) ++covered[k];
-  }
-  CHECK(std::all_of(covered.begin(), covered.end(), [](int times) { return times == 1; }));
-  for (std::size_t phase = 0; phase < 2; ++phase) {
-    const PhaseParts parts = parts_of_phase(contacts.shares, phase);
-    std::set<std::int32_t> taken;
-    for (std::size_t k = parts.first; k < parts.last; ++k) {
-      CHECK(contacts.shares.parts[k].phase == phase);
-      for (const std::int32_t name : named_by(contacts, contacts.shares.parts[k])) {
-        REQUIRE(taken.insert(name).second);
+  for (SphereBed& bed : large_beds()) {
+    const Candidates candidates = candidates_of(bed);
+    const Contacts<float> contacts = laid_out(candidates, bed, one_after_another);
+    REQUIRE(contacts.shares.phases() == 2);
+    REQUIRE(contacts.shares.parts.size() >= 4);
+    std::vector<int> covered(contacts.rows.size(), 0);
+    for (const BlockRange& range : contacts.shares.ranges) {
+      for (std::size_t k = range.first; k < range.first + range.blocks; ++k) ++covered[k];
+    }
+    CHECK(std::all_of(covered.begin(), covered.end(), [](int times) { return times == 1; }));
+    for (std::size_t phase = 0; phase < 2; ++phase) {
+      const PhaseParts parts = parts_of_phase(contacts.shares, phase);
+      std::set<std::int32_t> taken;
+      for (std::size_t k = parts.first; k < parts.last; ++k) {
+        CHECK(contacts.shares.parts[k].phase == phase);
+        for (const std::int32_t name : named_by(contacts, contacts.shares.parts[k])) {
+          REQUIRE(taken.insert(name).second);
+        }
       }
     }
   }
 }
 
 TEST_CASE("each phase names all grains once, and no other part of it pushes them") {
-  for (const Boundary y : {Boundary::walls, Boundary::periodic}) {
-    for (const std::size_t grains : {16'000U, 21'000U, 30'000U}) {
-      SphereBed bed = tall_bed(grains, y);
-      const Candidates candidates = candidates_of(bed);
-      const Contacts<float> contacts = laid_out(candidates, bed, one_after_another);
-      for (std::size_t phase = 0; phase < 2; ++phase) {
-        const PhaseParts parts = parts_of_phase(contacts.shares, phase);
-        std::vector<std::size_t> owner(bed.grains(), parts.last);
-        for (std::size_t k = parts.first; k < parts.last; ++k) {
-          for (const std::int32_t grain : grains_of(contacts.shares, contacts.shares.parts[k])) {
-            REQUIRE(std::exchange(owner[static_cast<std::size_t>(grain)], k) == parts.last);
-          }
+  for (SphereBed& bed : large_beds()) {
+    const Candidates candidates = candidates_of(bed);
+    const Contacts<float> contacts = laid_out(candidates, bed, one_after_another);
+    for (std::size_t phase = 0; phase < 2; ++phase) {
+      const PhaseParts parts = parts_of_phase(contacts.shares, phase);
+      std::vector<std::size_t> owner(bed.grains(), parts.last);
+      for (std::size_t k = parts.first; k < parts.last; ++k) {
+        for (const std::int32_t grain : grains_of(contacts.shares, contacts.shares.parts[k])) {
+          REQUIRE(std::exchange(owner[static_cast<std::size_t>(grain)], k) == parts.last);
         }
-        CHECK(std::count(owner.begin(), owner.end(), parts.last) == 0);
-        for (std::size_t k = parts.first; k < parts.last; ++k) {
-          for (const std::int32_t name : named_by(contacts, contacts.shares.parts[k])) {
-            if (name < bed.wall()) REQUIRE(owner[static_cast<std::size_t>(name)] == k);
-          }
+      }
+      CHECK(std::count(owner.begin(), owner.end(), parts.last) == 0);
+      for (std::size_t k = parts.first; k < parts.last; ++k) {
+        for (const std::int32_t name : named_by(contacts, contacts.shares.parts[k])) {
+          if (name < bed.wall()) REQUIRE(owner[static_cast<std::size_t>(name)] == k);
         }
       }
     }

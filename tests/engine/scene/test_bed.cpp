@@ -44,6 +44,13 @@ TEST_CASE("each section of a large bed has a wall and two void grains of its own
   CHECK(static_cast<std::size_t>(*entries.rbegin()) == bed.position.size() - 1);
 }
 
+TEST_CASE("flat beds are cut along x or y, others upwards") {
+  const Box box{30, 20, periodic, walls};
+  CHECK(section_axis(box, 0.6 * 30 * 20 * 19) == 0);
+  CHECK(section_axis({20, 30, periodic, walls}, 0.6 * 30 * 20 * 19) == 1);
+  CHECK(section_axis(box, 0.6 * 30 * 20 * 21) == 2);
+}
+
 TEST_CASE("a sphere of diameter 1 has mass 1, one of half the size an eighth") {
   const SphereBed bed = bed_of({{1, 2, 3, 0.5}, {4, 4, 4, 0.25}});
   CHECK(bed.motion[0].w == 1.0);
