@@ -43,6 +43,12 @@ inline Share share_of(std::size_t size, std::size_t part, std::size_t parts) {
   return {size * part / parts, size * (part + 1) / parts};
 }
 
+/// Calls work(part, share) for all parts of a range of `size` items.
+template <class Work>
+void run_shares(const PartLoop& loop, std::size_t size, std::size_t parts, const Work& work) {
+  run_parts(loop, parts, [&](std::size_t part) { work(part, share_of(size, part, parts)); });
+}
+
 struct Workspace;  // engine/dynamics/workspace.hpp
 
 struct Processor {

@@ -213,8 +213,7 @@ void remember_positions(const SphereBed& bed, const PartLoop& loop, Candidates& 
   candidates.built_at.resize(bed.grains());
   candidates.layers.resize(static_cast<std::size_t>(cells.inner_z));
   candidates.layer.resize(bed.grains());
-  run_parts(loop, bed.sections, [&](std::size_t part) {
-    const Share share = share_of(bed.grains(), part, bed.sections);
+  run_shares(loop, bed.grains(), bed.sections, [&](std::size_t, Share share) {
     for (std::size_t i = share.first; i < share.last; ++i) {
       candidates.built_at[i] = bed.position[i];
       candidates.layer[i] = cells.layer_of(bed.position[i]);
@@ -302,8 +301,7 @@ Walls walls_of(const Box& box) {
 
 void find_candidates(SphereBed& bed, double reach, const Processor& processor,
                      Candidates& candidates) {
-  run_parts(processor.loop, bed.sections, [&](std::size_t part) {
-    const Share share = share_of(bed.grains(), part, bed.sections);
+  run_shares(processor.loop, bed.grains(), bed.sections, [&](std::size_t, Share share) {
     for (std::size_t i = share.first; i < share.last; ++i) wrap(bed.box, bed.position[i]);
   });
   candidates.reach = reach;

@@ -121,8 +121,7 @@ Cells make_cells(const Box& box, double bottom, double top, double least, std::s
 void fill_columns(const SphereBed& bed, const std::vector<std::int32_t>& members,
                   const Cells& cells, const PartLoop& loop, GridColumns& grid) {
   grid.images.resize(bed.sections);
-  run_parts(loop, bed.sections, [&](std::size_t part) {
-    const Share share = share_of(members.size(), part, bed.sections);
+  run_shares(loop, members.size(), bed.sections, [&](std::size_t part, Share share) {
     grid.images[part].clear();
     for (std::size_t k = share.first; k < share.last; ++k) {
       append_images(cells, bed.box, bed.position[static_cast<std::size_t>(members[k])], members[k],

@@ -53,17 +53,21 @@ inline PhaseParts parts_of_phase(const RowShares& shares, std::size_t phase) {
   return {static_cast<std::size_t>(first - begin), static_cast<std::size_t>(last - begin)};
 }
 
-/// Calls work(range) for all ranges, those of a part one after the other, phase after phase.
+/// Calls work(range) for the ranges of a part, one after the other.
+template <class Work>
+void visit_ranges(const RowShares& shares, const RowPart& part, const Work& work) {
+  for (std::size_t k = part.first_range; k < part.first_range + part.ranges; ++k) {
+    work(shares.ranges[k]);
+  }
+}
+
+/// Calls work(range) for all ranges, the parts of a phase at the same time, phase after phase.
 template <class Work>
 void visit_ranges(const RowShares& shares, const PartLoop& loop, const Work& work) {
   for (std::size_t phase = 0; phase < shares.phases(); ++phase) {
     const PhaseParts parts = parts_of_phase(shares, phase);
-    run_parts(loop, parts.last - parts.first, [&](std::size_t k) {
-      const RowPart& part = shares.parts[parts.first + k];
-      for (std::size_t r = part.first_range; r < part.first_range + part.ranges; ++r) {
-        work(shares.ranges[r]);
-      }
-    });
+    run_parts(loop, parts.last - parts.first,
+              [&](std::size_t k) { visit_ranges(shares, shares.parts[parts.first + k], work); });
   }
 }
 

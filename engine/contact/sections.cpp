@@ -11,19 +11,18 @@ bool is_periodic(const Box& box, int axis) {
   return (axis == 0 && box.x == Boundary::periodic) || (axis == 1 && box.y == Boundary::periodic);
 }
 
-/// The slab of each grain, for now, and the grains of each slab.
+/// The slab of each grain and the size of each slab.
 void count_slabs(const SphereBed& bed, const Candidates& candidates, const PartLoop& loop,
                  Sections& sections) {
   const Cells& cells = candidates.levels.front().cells;
-  sections.of_grain.resize(bed.grains());
-  run_parts(loop, bed.sections, [&](std::size_t part) {
-    const Share share = share_of(bed.grains(), part, bed.sections);
+  sections.slab.resize(bed.grains());
+  run_shares(loop, bed.grains(), bed.sections, [&](std::size_t, Share share) {
     for (std::size_t i = share.first; i < share.last; ++i) {
-      sections.of_grain[i] = cells.place_along(bed.section_axis, candidates.built_at[i]);
+      sections.slab[i] = cells.place_along(bed.section_axis, candidates.built_at[i]);
     }
   });
   sections.slab_size.assign(static_cast<std::size_t>(cells.inner(bed.section_axis)), 0);
-  for (const std::int32_t slab : sections.of_grain) {
+  for (const std::int32_t slab : sections.slab) {
     ++sections.slab_size[static_cast<std::size_t>(slab)];
   }
 }
@@ -51,15 +50,6 @@ void cut(Sections& sections) {
   }
 }
 
-void set_sections(const PartLoop& loop, std::size_t parts, Sections& sections) {
-  run_parts(loop, parts, [&](std::size_t part) {
-    const Share share = share_of(sections.of_grain.size(), part, parts);
-    for (std::size_t i = share.first; i < share.last; ++i) {
-      sections.of_grain[i] = sections.of_slab[static_cast<std::size_t>(sections.of_grain[i])];
-    }
-  });
-}
-
 /// Calls put(k, place) for items 0 .. count - 1, whose places follow one another section by
 /// section: a counting sort, stable and linear. `begin`: first place of each section; one more at
 /// the end.
@@ -70,8 +60,7 @@ void sort_by_section(const PartLoop& loop, std::size_t count, SectionOf section,
   std::vector<std::size_t>& place = sections.place;
   place.assign(parts * sections.count, 0);
   const auto visit = [&](const auto& work) {
-    run_parts(loop, parts, [&](std::size_t part) {
-      const Share share = share_of(count, part, parts);
+    run_shares(loop, count, parts, [&](std::size_t part, Share share) {
       std::size_t* const own = place.data() + part * sections.count;
       for (std::size_t k = share.first; k < share.last; ++k) work(k, own[section(k)]);
     });
@@ -97,10 +86,10 @@ void sort_pairs(const Candidates& candidates, const PartLoop& loop, Sections& se
 }
 
 void sort_grains(const PartLoop& loop, Sections& sections) {
-  sections.grains.resize(sections.of_grain.size());
+  sections.grains.resize(sections.slab.size());
   sort_by_section(
       loop, sections.grains.size(),
-      [&](std::size_t k) { return static_cast<std::size_t>(sections.of_grain[k]); }, sections,
+      [&](std::size_t k) { return sections.section_of(static_cast<std::int32_t>(k)); }, sections,
       sections.first_grain,
       [&](std::size_t k, std::size_t place) {
         sections.grains[place] = static_cast<std::int32_t>(k);
@@ -130,7 +119,6 @@ void divide(const SphereBed& bed, const Candidates& candidates, const PartLoop& 
   }
   count_slabs(bed, candidates, loop, sections);
   cut(sections);
-  set_sections(loop, bed.sections, sections);
   sort_pairs(candidates, loop, sections);
   sort_grains(loop, sections);
 }

@@ -18,7 +18,7 @@ namespace grainsweep {
 struct Sections {
   std::size_t count = 1;
   bool is_ring = false;
-  std::vector<std::int32_t> of_grain;    ///< section of each grain; empty if there is one
+  std::vector<std::int32_t> slab;        ///< slab of each grain
   std::vector<std::int32_t> of_slab;     ///< section of each slab
   std::vector<std::size_t> slab_size;    ///< grains of each slab
   std::vector<GrainPair> pairs;          ///< candidates by section, in their order
@@ -28,7 +28,9 @@ struct Sections {
   std::vector<std::size_t> place;        ///< next place in each section of each part of a sort
 
   std::size_t section_of(std::int32_t grain) const {
-    return count == 1 ? 0 : static_cast<std::size_t>(of_grain[static_cast<std::size_t>(grain)]);
+    if (count == 1) return 0;
+    const std::int32_t own = slab[static_cast<std::size_t>(grain)];
+    return static_cast<std::size_t>(of_slab[static_cast<std::size_t>(own)]);
   }
   /// Section of the rows of a pair.
   std::size_t section_of(GrainPair pair) const;

@@ -64,9 +64,8 @@ template <class Problem, class Sweep>
 SweepSums<typename Problem::Number> sweep_part(const Problem& problem, const RowPart& part,
                                                const Sweep& sweep) {
   SweepSums<typename Problem::Number> sums{};
-  for (std::size_t k = part.first_range; k < part.first_range + part.ranges; ++k) {
-    sums = joined(sums, sweep(problem.contacts.shares.ranges[k]));
-  }
+  visit_ranges(problem.contacts.shares, part,
+               [&](BlockRange range) { sums = joined(sums, sweep(range)); });
   return sums;
 }
 

@@ -26,9 +26,8 @@ template <class Real>
 void set_free_motion(const StepSettings& settings, const PartLoop& loop, const SphereBed& bed,
                      std::vector<Record<Real>>& free) {
   free.resize(bed.motion.size());
-  run_parts(loop, bed.sections, [&](std::size_t part) {
-    set_free_motion(settings, bed, share_of(bed.grains(), part, bed.sections), free);
-  });
+  run_shares(loop, bed.grains(), bed.sections,
+             [&](std::size_t, Share grains) { set_free_motion(settings, bed, grains, free); });
   for (std::size_t i = bed.grains(); i < free.size(); ++i) {
     free[i] = {Real(0), Real(0), Real(0), static_cast<Real>(bed.motion[i].w)};
   }
@@ -77,8 +76,8 @@ template <class Real>
 void advance(double dt, const PartLoop& loop, SphereBed& bed, StepState<Real>& state,
              StepReport& report) {
   state.moved.resize(bed.sections);
-  run_parts(loop, bed.sections, [&](std::size_t part) {
-    state.moved[part] = advance(state.motion.u, share_of(bed.grains(), part, bed.sections), bed);
+  run_shares(loop, bed.grains(), bed.sections, [&](std::size_t part, Share some) {
+    state.moved[part] = advance(state.motion.u, some, bed);
   });
   Moved all;
   for (const Moved& some : state.moved) {
