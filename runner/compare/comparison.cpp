@@ -144,7 +144,7 @@ std::string definition_of(const WallFit& fit) {
 }
 
 Comparison row_of_fit(const Family& family, std::string quantity, const PaperValue& paper,
-                      const WallFit& fit, const Parameter& parameter) {
+                      const WallFit& fit, const Estimate& parameter) {
   return {family.name,
           std::move(quantity),
           paper,

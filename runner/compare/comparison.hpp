@@ -25,7 +25,7 @@ struct Comparison {
   std::string family;
   std::string quantity;  ///< "λ_L / d_avg at W = 10 d"
   PaperValue paper;
-  Parameter ours;              ///< value and standard error
+  Estimate ours;               ///< value and standard error
   std::string not_determined;  ///< why there is no value of ours; empty if there is one
   std::string definition;      ///< of our value
 };

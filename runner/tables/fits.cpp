@@ -64,7 +64,7 @@ std::string weights_text(const Pooled& pooled) {
          std::to_string(pooled.degrees_of_freedom) + " degrees of freedom)";
 }
 
-Parameter zeta_of(const LineFit& line) {
+Estimate zeta_of(const LineFit& line) {
   const double bulk = line.intercept, slope = -line.slope;
   const double variance = std::pow(line.slope_error / bulk, 2) +
                           std::pow(slope * line.intercept_error / (bulk * bulk), 2) +

@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/measure/decay.hpp"
 #include "runner/tables/groups.hpp"
 
 namespace grainsweep {
@@ -33,12 +34,6 @@ enum class Quantity { solid_fraction, coordination };
 /// The spread of `quantity` in a group.
 const Spread& spread_of(const Group& group, Quantity quantity);
 
-/// A fitted parameter and its standard error.
-struct Parameter {
-  double value = 0.0;
-  double error = 0.0;
-};
-
 /// A width of a fit: what was measured there and what the line says.
 struct FitPoint {
   double width = 0.0;  ///< d
@@ -54,9 +49,9 @@ struct WallFit {
   int packings = 0;            ///< settled packings behind them
   std::string weights;         ///< what the errors of the points are
   std::vector<FitPoint> points;
-  Parameter bulk;             ///< phi_bulk or Z_bulk
-  Parameter slope;            ///< C or C_Z, d
-  Parameter zeta;             ///< slope / bulk, d
+  Estimate bulk;              ///< phi_bulk or Z_bulk
+  Estimate slope;             ///< C or C_Z, d
+  Estimate zeta;              ///< slope / bulk, d
   double chi2_per_dof = 0.0;  ///< NaN with equal weights, where it means nothing
   int degrees_of_freedom = 0;
   double r_squared = 0.0;
