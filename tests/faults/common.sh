@@ -24,7 +24,15 @@ milliseconds() {
 
 # pause MILLISECONDS
 pause() {
-  sleep "$(printf '%d.%03d' $(($1 / 1000)) $(($1 % 1000)))"
+  local seconds
+  printf -v seconds '%d.%03d' $(($1 / 1000)) $(($1 % 1000))
+  read -rt "$seconds" -u "$never" || true
+}
+
+# has_checkpoint FOLDER: a packing was saved on its way.
+has_checkpoint() {
+  local files=("$1"/checkpoints/*.[01])
+  [ -e "${files[0]}" ]
 }
 
 # Six beds of 60 to 130 grains.
@@ -46,12 +54,9 @@ run_to_the_end() {
   [ "$code" -le 1 ] || fail "run $file --out $folder ended with $code: $(cat said.txt)"
 }
 
-# The undisturbed run that all others must equal; sets `packings` and `duration`, in milliseconds.
+# The undisturbed run that all others must equal; sets `packings`.
 make_reference() { # FILE
-  local began
-  began=$(milliseconds)
   run_to_the_end "$1" reference --threads 2
-  duration=$(($(milliseconds) - began))
   packings=$(cat reference/journal-*.jsonl | wc -l)
 }
 
@@ -67,8 +72,13 @@ same_as_reference() {
   diff -rq reference/states "$folder/states" || fail "$what: other grains"
   [ "$(whole_jobs "$folder" | sort -u | wc -l)" -eq "$packings" ] || fail "$what: a packing is lost"
   [ "$(whole_jobs "$folder" | wc -l)" -eq "$packings" ] || fail "$what: a packing was made twice"
-  [ -z "$(find "$folder" -name '*.tmp.*')" ] || fail "$what: half written files are left"
-  [ -z "$(find "$folder/checkpoints" -type f 2>/dev/null)" ] || fail "$what: checkpoints are left"
+  nothing_is_left "$folder" "$what"
+}
+
+# nothing_is_left FOLDER WHAT: of what a run needs on its way only.
+nothing_is_left() {
+  [ -z "$(find "$1" -name '*.tmp.*')" ] || fail "$2: half written files are left"
+  [ -z "$(find "$1/checkpoints" -type f 2>/dev/null)" ] || fail "$2: checkpoints are left"
 }
 
 # The jobs of the whole journal lines of a folder, one a line.

@@ -7,21 +7,23 @@ strace -f -o trace.txt true 2>said.txt || skip "ptrace is forbidden here: $(tail
 cat >sweep.json <<'JSON'
 { "name": "tiny", "seed": 5, "replicates": 2,
   "base": { "box": { "length": 3, "width": 3 }, "fill": { "solid_height": 4 },
-            "measure": { "exclude_floor": 1, "exclude_surface": 1 }, "accuracy": "fast" } }
+            "measure": { "exclude_floor": 0, "exclude_surface": 1 },
+            "accuracy": { "preset": "fast", "max_steps": 4 } } }
 JSON
 make_reference sweep.json
 
-# Of one thread, so that the k-th call is the same one in every run; a checkpoint in most steps
-# would drown the other writes.
+# Of one thread, with a checkpoint after each of its few steps, so that the k-th call is the same one
+# in every run.
 run_traced() { # FOLDER STRACE-OPTION...
   local folder=$1
   shift
   strace -f -qq -o trace.txt -e trace=write,fsync,rename "$@" \
-    "$program" run sweep.json --threads 1 --out "$folder" --checkpoint-seconds 0.04 >said.txt 2>&1
+    "$program" run sweep.json --threads 1 --out "$folder" --checkpoint-seconds 0 >said.txt 2>&1
 }
 
 run_traced counted || [ $? -le 1 ] || fail "cannot be traced: $(cat said.txt)"
 same_as_reference counted "traced"
+grep -q 'rename.*checkpoints/' trace.txt || fail "no checkpoint was written"
 calls_of() { grep -c "$1(" trace.txt; }
 cases=()
 for call in write fsync rename; do

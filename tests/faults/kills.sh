@@ -1,32 +1,34 @@
-# SIGKILL at random times, then the same command: nothing lost, nothing done twice, the same bytes.
+# SIGKILL between two beds, inside a bed or while tables are written, then the same command: nothing
+# lost, nothing done twice, the same bytes, and no checkpoint of a bed that was gone on with.
 source "$(dirname "$0")/common.sh" "$1"
 write_small_sweep sweep.json
 make_reference sweep.json
 
-kills=0 folders=0 landed=0
+kills=0 inside=0 folders=0
 wanted=$(times 30 1000)
 while [ "$kills" -lt "$wanted" ]; do
   folders=$((folders + 1))
+  [ "$folders" -le $((10 * wanted)) ] || fail "only $kills kills came before the end"
   before=0
   for try in 1 2 3; do
-    code=0
-    "$program" run sweep.json --threads 2 --out "out$folders" --checkpoint-seconds 0.02 \
-      >said.txt 2>&1 &
-    runner=$!
-    pause "$(between 0 "$duration")"
-    kill -KILL $runner 2>/dev/null || true
-    wait $runner 2>/dev/null || code=$?
+    start "$program" run sweep.json --threads 2 --out out --checkpoint-seconds 0
+    wait_until has_packings out "$(between "$before" "$packings")" || true
+    [ $((try % 2)) -eq 0 ] || wait_until has_checkpoint out || true
+    pause "$(between 0 20)"
+    end_runner KILL
+    [ "$code" -eq 137 ] || break
     kills=$((kills + 1))
-    [ "$code" -ne 137 ] || landed=$((landed + 1))
-    now=$(whole_jobs "out$folders" | sort -u | wc -l)
+    now=$(whole_jobs out | sort -u | wc -l)
     [ "$now" -ge "$before" ] || fail "kill $kills: a stored packing is lost"
     before=$now
+    [ "$before" -lt "$packings" ] || break
   done
-  run_to_the_end sweep.json "out$folders" --threads 2
+  ! has_checkpoint out || inside=$((inside + 1))
+  run_to_the_end sweep.json out --threads 2
   [ "$(grep -c '^[0-9]*/[0-9]*  ' said.txt || true)" -eq $((packings - before)) ] ||
     fail "kill $kills: a stored packing was made again: $(cat said.txt)"
-  same_as_reference "out$folders" "after kill $kills"
-  rm -r "out$folders"
+  same_as_reference out "after kill $kills"
+  rm -r out
 done
-[ "$landed" -gt $((kills / 3)) ] || fail "only $landed of $kills kills came before the end"
-echo "$kills times SIGKILL in $folders folders ($landed before the end): nothing lost, the same bytes"
+[ "$inside" -gt 0 ] || fail "no kill left a checkpoint"
+echo "$kills times SIGKILL in $folders folders, $inside with checkpoints left: nothing lost, the same bytes"

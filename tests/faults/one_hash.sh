@@ -26,6 +26,18 @@ for isa in sse2 avx2 avx512; do
   ! "$program" doctor | grep '^instruction sets' | grep -q "$isa[,;]" || isas+=("$isa")
 done
 
+# kill_times COUNT: kills a run so often before it ends; false if it came to its end.
+kill_times() {
+  local number
+  rm -rf out
+  for number in $(seq "$1"); do
+    start "$program" run sweep.json --out out "${options[@]}"
+    wait_until has_packings out "$(between $((8 * number - 8)) $((8 * number)))" || true
+    end_runner KILL
+    [ "$code" -eq 137 ] || return 1
+  done
+}
+
 expected="" killed=0
 tries=$(times 12 60)
 for number in $(seq 0 $((tries - 1))); do
@@ -33,17 +45,12 @@ for number in $(seq 0 $((tries - 1))); do
   isa=${isas[number / 3 % ${#isas[@]}]}
   options=(--threads $threads --isa "$isa" --checkpoint-seconds 0.02)
   write_shuffled sweep.json
-  for kill in $(seq $((number % 3))); do
-    "$program" run sweep.json --out out "${options[@]}" >said.txt 2>&1 &
-    pause "$(between 20 400)"
-    ! kill -KILL $! 2>/dev/null || killed=$((killed + 1))
-    wait $! 2>/dev/null || true
-  done
+  for again in $(seq 20); do ! kill_times $((number % 3)) || break; done
+  [ $((number % 3)) -eq 0 ] || [ "$code" -eq 137 ] || fail "no run in 20 was killed before its end"
+  killed=$((killed + number % 3))
   run_to_the_end sweep.json out "${options[@]}"
   hash=$(hash_of out)
   [ -n "$expected" ] || expected=$hash
   [ "$hash" = "$expected" ] || fail "other bits with ${options[*]}, killed $((number % 3)) times"
-  rm -r out
 done
-[ "$killed" -gt 0 ] || fail "nothing was killed"
 echo "$tries runs on 1, 2 and 8 threads with ${isas[*]}, shuffled, $killed kills: one hash, $expected"

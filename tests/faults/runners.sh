@@ -1,7 +1,6 @@
 # Two and eight runners on one folder: one works, the others leave with code 3 and name it; one that
 # is killed needs no unlocking.
 source "$(dirname "$0")/common.sh" "$1"
-# A runner waits a fifth of a second for the lock, so that the work has to take longer.
 cat >sweep.json <<'JSON'
 { "name": "runners", "seed": 5, "replicates": 14,
   "base": { "box": { "length": 5, "width": 5 }, "fill": { "solid_height": 8 }, "accuracy": "balanced" } }
@@ -34,21 +33,22 @@ start_all() {
   [ "$worked" -eq 1 ] || fail "$worked of $count runners worked"
 }
 
+# A runner waits a fifth of a second for the lock; one that waited until the work was done met nobody.
 rounds=$(times 10 100)
 for count in 2 8; do
-  for round in $(seq "$rounds"); do
+  goal=$((busy + rounds * count / 2))
+  for ((round = 1; round <= rounds || busy < goal; ++round)); do
+    [ "$round" -le $((10 * rounds)) ] || fail "only $busy runners met another one"
     start_all "$count"
     same_as_reference out "$count runners, round $round"
     rm -r out
   done
 done
-[ "$busy" -gt $((4 * rounds)) ] || fail "only $busy of $((8 * rounds)) runners met another one"
 
 for round in $(seq "$rounds"); do
-  "$program" run sweep.json --threads 1 --out out >said.txt 2>&1 &
-  pause "$(between 0 "$duration")"
-  kill -KILL $! 2>/dev/null || true
-  wait $! 2>/dev/null || true
+  start "$program" run sweep.json --threads 1 --out out
+  wait_until has_packings out "$(between 0 $((packings - 1)))" || true
+  end_runner KILL
   run_to_the_end sweep.json out --threads 2
   same_as_reference out "after a runner that was killed, round $round"
   rm -r out

@@ -1,21 +1,16 @@
-# SIGTERM and SIGINT at random times: exit code 143 or 130 within 2 s, the same bytes afterwards.
+# SIGTERM and SIGINT at any moment: exit code 143 or 130 within 2 s, the same bytes afterwards.
 source "$(dirname "$0")/common.sh" "$1"
 write_small_sweep sweep.json
 make_reference sweep.json
 
-# stop_with SIGNAL CODE FILE FOLDER MILLISECONDS: ends so within 2 s, unless it had ended before.
+# stop_with SIGNAL CODE: the runner ends so within 2 s; false if it had ended before.
 stop_with() {
-  local code=0 began took
-  set -m # else a background job of a script ignores SIGINT
-  "$program" run "$3" --threads 2 --out "$4" >said.txt 2>&1 &
-  set +m
-  pause "$5"
+  local began took
   began=$(milliseconds)
-  kill -"$1" $! 2>/dev/null || true
-  wait $! || code=$?
+  end_runner "$1"
   took=$(($(milliseconds) - began))
   [ "$took" -lt 2000 ] || fail "$1 took $took ms"
-  [ "$code" -gt 1 ] || return 0
+  [ "$code" -gt 1 ] || return 1
   [ "$code" -eq "$2" ] || fail "$1 ended with $code: $(cat said.txt)"
   stopped=$((stopped + 1))
 }
@@ -28,8 +23,11 @@ for signal in "TERM 143" "INT 130"; do
   goal=$((stopped + wanted))
   while [ "$stopped" -lt "$goal" ]; do
     tries=$((tries + 1))
-    [ "$tries" -le $((10 * wanted)) ] || fail "only $stopped of $tries signals came before the end"
-    stop_with $signal sweep.json out "$(between 0 $((duration * 3 / 4)))"
+    [ "$tries" -le $((20 * wanted)) ] || fail "only $stopped of $tries signals came before the end"
+    start "$program" run sweep.json --threads 2 --out out
+    wait_until has_packings out "$(between 0 $((packings - 1)))" || true
+    pause "$(between 0 10)"
+    stop_with $signal || true
     run_to_the_end sweep.json out --threads 2
     same_as_reference out "after $signal, try $tries"
     rm -r out
@@ -42,15 +40,33 @@ cat >long.json <<'JSON'
 JSON
 rm -r reference
 make_reference long.json
-has_checkpoint() { [ -n "$(find out/checkpoints -type f 2>/dev/null)" ]; }
-# Sooner where it came to its end, the reference having been held up.
-for share in 4 6 8 12; do
+
+# has_worked MILLISECONDS: the runner has had so much CPU time, however busy the machine is.
+has_worked() {
+  local task rest nanoseconds all=0
+  for task in /proc/"$runner"/task/*/schedstat; do
+    read -r nanoseconds rest <"$task" || continue
+    all=$((all + nanoseconds))
+  done 2>/dev/null
+  [ "$all" -ge $(($1 * 1000000)) ]
+}
+
+# Sooner where it came to its end, for CPU time differs from run to run.
+cpu=$(awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) if ($i == "cpu_seconds") column = i; next }
+  { printf "%d", 1000 * $column }' reference/packings.csv)
+for share in 5 8 12 20; do
   rm -rf out
-  for part in 1 2 3; do stop_with TERM 143 long.json out $((duration / share)); done
-  ! has_checkpoint || break
+  inside=0
+  for part in 1 2 3; do
+    start "$program" run long.json --threads 2 --out out
+    wait_until has_worked $((cpu / share)) || break
+    stop_with TERM 143 && inside=$((inside + 1)) || break
+  done
+  [ "$inside" -lt 3 ] || break
 done
-has_checkpoint || fail "no checkpoint after SIGTERM"
+[ "$inside" -eq 3 ] || fail "the bed of $cpu ms was never stopped three times before its end"
+has_checkpoint out || fail "no checkpoint after SIGTERM"
 run_to_the_end long.json out --threads 2
 grep -q 'went on from step [1-9]' said.txt || fail "did not go on from a checkpoint: $(cat said.txt)"
 same_as_reference out "after stopping inside a bed"
-echo "$tries signals and a few inside a bed, $stopped of them before the end: in time, the same bytes"
+echo "$tries signals and three inside a bed, $stopped of them before the end: in time, the same bytes"

@@ -33,13 +33,9 @@ for number in $(seq "$(times 1 20)"); do
   runs_clean "0 1" sweep.json --out out
   for signal in "TERM 143" "INT 130"; do
     read -r name expected <<<"$signal"
-    code=0
-    set -m # else a background job of a script ignores SIGINT
-    "$program" run sweep.json --out stopped --threads 8 --checkpoint-seconds 0.05 >said.txt 2>&1 &
-    set +m
-    pause "$(between 200 1500)"
-    kill -"$name" $! 2>/dev/null || true
-    wait $! || code=$?
+    start "$program" run sweep.json --out stopped --threads 8 --checkpoint-seconds 0
+    wait_until has_packings stopped "$(between 0 3)" || true
+    end_runner "$name"
     is_clean "0 1 $expected" "$code" "SIG$name"
   done
   runs_clean "0 1" sweep.json --out stopped
@@ -56,15 +52,15 @@ cat >shared.json <<'JSON'
 { "name": "shared", "base": { "box": { "length": 30, "width": 30 }, "fill": { "grains": 16500 },
   "accuracy": { "preset": "fast", "max_steps": 24 } } }
 JSON
-code=0
-"$program" run shared.json --out shared --threads 8 --checkpoint-seconds 1 >said.txt 2>&1 &
+start "$program" run shared.json --out shared --threads 8 --checkpoint-seconds 1
 busy_threads=0
-while kill -0 $! 2>/dev/null; do
-  now=$(cat /proc/$!/task/*/stat 2>/dev/null | awk '$14 > 20 { ++n } END { print n + 0 }')
+while kill -0 "$runner" 2>/dev/null; do
+  now=$(cat /proc/"$runner"/task/*/stat 2>/dev/null | awk '$14 > 20 { ++n } END { print n + 0 }')
   ((now <= busy_threads)) || busy_threads=$now
   sleep 0.1
 done
-wait $! || code=$?
+code=0
+wait "$runner" || code=$?
 is_clean "0 1" "$code" "a bed of 16,500 grains"
 [ "$busy_threads" -ge 2 ] || fail "the large bed was made by $busy_threads thread"
 

@@ -51,7 +51,47 @@ write_sweep() {
 JSON
 }
 
-# packings.csv without the column cpu_seconds (the 22nd; no cell before it holds a comma).
+# A descriptor on which nothing ever arrives: to wait on without a process of its own.
+exec {never}<> <(:)
+
+# start COMMAND...: in the background, what it says in said.txt; sets `runner`. Of a job without
+# `set -m`, a script's, SIGINT is ignored.
+start() {
+  set -m
+  "$@" >said.txt 2>&1 </dev/null &
+  set +m
+  runner=$!
+}
+
+# wait_until CONDITION...: looks every 2 ms; false if the runner ended before the condition held.
+wait_until() {
+  until "$@"; do
+    kill -0 "$runner" 2>/dev/null || return 1
+    read -rt 0.002 -u "$never" || true
+  done
+}
+
+# end_runner SIGNAL: sends it, and sets `code` to how the runner ended.
+end_runner() {
+  code=0
+  kill -"$1" "$runner" 2>/dev/null || true
+  wait "$runner" 2>/dev/null || code=$?
+}
+
+# has_packings FOLDER COUNT: so many lines, or more, are in its journal.
+has_packings() {
+  local journal text lines=0
+  for journal in "$1"/journal-*.jsonl; do
+    [ -e "$journal" ] || continue
+    mapfile -t text <"$journal"
+    lines=$((lines + ${#text[@]}))
+  done
+  [ "$lines" -ge "$2" ]
+}
+
+# packings.csv without the column cpu_seconds (no cell before it holds a comma).
 values_of() {
-  cut -d, -f1-21,23- "$1/packings.csv"
+  local before
+  before=$(sed -n '1s/cpu_seconds.*//p' "$1/packings.csv" | tr -cd , | wc -c)
+  cut -d, -f"$((before + 1))" --complement "$1/packings.csv"
 }

@@ -13,38 +13,26 @@ lines_in() { # FOLDER
   cat "$1"/journal-*.jsonl 2>/dev/null | wc -l
 }
 
-wait_for_lines() { # FOLDER COUNT
-  for _ in $(seq 600); do
-    [ "$(lines_in "$1")" -ge "$2" ] && return
-    sleep 0.05
-  done
-  fail "no $2 packings in $1 after 30 s"
-}
-
 run_to_the_end whole
 values_of whole >whole.txt
 
 # stop_with SIGNAL CODE FOLDER: stopped in the middle it ends within 2 s with this code.
 stop_with() {
-  local code=0 started
-  "$program" run sweep.json --threads 2 --out "$3" >out.txt 2>error.txt &
-  wait_for_lines "$3" 4
-  started=$(date +%s%N)
-  kill -"$1" $!
-  wait $! || code=$?
-  local took=$((($(date +%s%N) - started) / 1000000))
-  [ "$code" -eq "$2" ] || fail "$1 ended with $code: $(cat error.txt)"
+  local began
+  start "$program" run sweep.json --threads 2 --out "$3"
+  wait_until has_packings "$3" 4 || fail "$3: ended too soon: $(cat said.txt)"
+  began=$(date +%s%N)
+  end_runner "$1"
+  local took=$((($(date +%s%N) - began) / 1000000))
+  [ "$code" -eq "$2" ] || fail "$1 ended with $code: $(cat said.txt)"
   [ "$took" -lt 2000 ] || fail "$1 took $took ms"
-  expect_text error.txt "are kept in $3" "grainsweep run sweep.json --out $3"
+  expect_text said.txt "are kept in $3" "grainsweep run sweep.json --out $3"
   [ "$(grep -c pending "$3/packings.csv")" -ge 1 ] || fail "nothing was left to do after $1"
 }
 
 for signal in INT TERM; do
-  # A background job of a script ignores SIGINT unless it is told not to; `set -m` does that.
-  set -m
   [ $signal = INT ] && expected=130 || expected=143
   stop_with $signal $expected stopped-$signal
-  set +m
   expect_code 0 "$program" status stopped-$signal
   expect_text out.txt "Go on with: grainsweep run sweep.json"
   kept=$(lines_in stopped-$signal)
@@ -55,10 +43,9 @@ for signal in INT TERM; do
 done
 
 # Killed outright, with a line torn, a bed lost and the curves of another damaged on top.
-"$program" run sweep.json --threads 2 --out killed >/dev/null 2>&1 &
-wait_for_lines killed 4
-kill -KILL $!
-wait $! 2>/dev/null || true
+start "$program" run sweep.json --threads 2 --out killed
+wait_until has_packings killed 4 || fail "ended too soon: $(cat said.txt)"
+end_runner KILL
 journal=$(ls killed/journal-*.jsonl)
 truncate -s -9 "$journal"
 lost=$(sed -n 1p "$journal" | sed 's/.*"job":"\([0-9a-f]*\)".*/\1/').grains
@@ -80,17 +67,18 @@ run_to_the_end whole
 [ ! -s progress.txt ] || fail "a finished sweep was made again: $(cat progress.txt)"
 cmp before.csv whole/packings.csv || fail "tables changed without a new packing"
 
-# One runner at a time.
-"$program" run sweep.json --threads 2 --out busy >/dev/null 2>&1 &
-wait_for_lines busy 1
+# One runner at a time: held up, so that it is still there.
+start "$program" run sweep.json --threads 2 --out busy
+wait_until has_packings busy 1 || fail "ended too soon: $(cat said.txt)"
+kill -STOP "$runner"
 expect_code 3 "$program" run sweep.json --threads 2 --out busy
-expect_text error.txt "another runner" "process $!"
+expect_text error.txt "another runner" "process $runner"
 expect_code 0 "$program" status busy
 expect_text out.txt "Running: host "
 expect_code 0 "$program" status busy --json
-expect_text out.txt '"runner": "host ' "process $!\""
-kill -TERM $!
-wait $! || true
+expect_text out.txt '"runner": "host ' "process $runner\""
+kill -CONT "$runner"
+end_runner TERM
 
 # --fresh --yes starts anew.
 expect_code 0 "$program" status busy
