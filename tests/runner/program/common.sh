@@ -54,13 +54,15 @@ JSON
 # A descriptor on which nothing ever arrives: to wait on without a process of its own.
 exec {never}<> <(:)
 
-# start COMMAND...: in the background, what it says in said.txt; sets `runner`. Of a job without
-# `set -m`, a script's, SIGINT is ignored.
+# start PROGRAM OPTION...: in the background, what it says in said.txt; sets `runner`. Without `set -m`
+# a script's job ignores SIGINT. Until it has become the program it is this script, and would clear up
+# as this script does when a signal ends it.
 start() {
   set -m
   "$@" >said.txt 2>&1 </dev/null &
   set +m
   runner=$!
+  wait_until [ "/proc/$runner/exe" -ef "$1" ] || true
 }
 
 # wait_until CONDITION...: looks every 2 ms; false if the runner ended before the condition held.
