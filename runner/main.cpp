@@ -3,7 +3,7 @@
 #include <iostream>
 #include <variant>
 
-#include "runner/command_line.hpp"
+#include "runner/commands/command_line.hpp"
 #include "runner/exit_codes.hpp"
 #include "runner/store/files.hpp"
 #include "runner/store/lock.hpp"
@@ -20,7 +20,6 @@ int perform(const ExportOptions& options) { return export_grains(options); }
 int perform(const StatusOptions& options) { return status(options); }
 int perform(const CollectOptions& options) { return collect(options); }
 int perform(const SchemaOptions& options) { return schema(options); }
-int perform(const CompletionOptions& options) { return completion(options); }
 int perform(const DoctorOptions& options) { return doctor(options); }
 
 int perform_and_print(const Command& command) {

@@ -5,9 +5,9 @@
 
 #include "runner/compare/proportionality.hpp"
 #include "runner/compare/wall_zone.hpp"
-#include "runner/report.hpp"
 #include "runner/tables/csv.hpp"
 #include "runner/tables/decays.hpp"
+#include "runner/text.hpp"
 
 namespace grainsweep {
 namespace {

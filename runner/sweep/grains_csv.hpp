@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "engine/scene/spec.hpp"
-#include "runner/sweep/job.hpp"
+#include "runner/sweep/problem.hpp"
 
 namespace grainsweep {
 

@@ -26,23 +26,4 @@ struct Sweep {
   std::vector<Job> jobs;  ///< in the order of the file: block, point, replicate; no id twice
 };
 
-/// One thing wrong with the input: where, what, and what to change.
-struct Finding {
-  std::string place;    ///< "spheres.json:12:20", or the file alone where there is no line
-  std::string pointer;  ///< JSON pointer of the value, "" where there is none
-  std::string message;  ///< "must lie in [0, 1], is 1.4"
-};
-
-/// "spheres.json:12:20 /base/sizes/small_share: must lie in [0, 1], is 1.4"; control characters
-/// become question marks.
-std::string to_string(const Finding& finding);
-
-struct SweepReading {
-  Sweep sweep;                  ///< meaningful only if `errors` is empty
-  std::vector<Finding> errors;  ///< all of them, in the order of the file
-};
-
-/// Reads and expands a sweep file. Never throws for bad input: every error is a Finding.
-SweepReading read_sweep(const std::string& path);
-
 }  // namespace grainsweep

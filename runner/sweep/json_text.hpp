@@ -10,7 +10,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "runner/sweep/job.hpp"
+#include "runner/sweep/problem.hpp"
 
 namespace grainsweep {
 

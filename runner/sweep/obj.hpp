@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "engine/shape/convex_shape.hpp"
-#include "runner/sweep/job.hpp"
+#include "runner/sweep/problem.hpp"
 
 namespace grainsweep {
 

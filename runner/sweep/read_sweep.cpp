@@ -1,11 +1,11 @@
+#include "runner/sweep/read_sweep.hpp"
+
 #include <filesystem>
 #include <utility>
 
 #include "runner/sweep/blocks.hpp"
 #include "runner/sweep/expand.hpp"
-#include "runner/sweep/job.hpp"
 #include "runner/sweep/json_text.hpp"
-#include "runner/sweep/problem.hpp"
 
 namespace grainsweep {
 

@@ -1,12 +1,10 @@
-// Which packings belong to one wall-effect line, and what to call them.
+#include "runner/tables/families.hpp"
+
 #include <algorithm>
 #include <map>
 #include <set>
 
 #include <nlohmann/json.hpp>
-
-#include "runner/tables/csv.hpp"
-#include "runner/tables/fits.hpp"
 
 namespace grainsweep {
 namespace {

@@ -9,25 +9,13 @@
 // "not determined", with the reason, and has no numbers.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "engine/measure/decay.hpp"
-#include "runner/tables/groups.hpp"
+#include "runner/tables/families.hpp"
 
 namespace grainsweep {
-
-/// Groups with equal parameters but for box.width and box.y.
-struct Family {
-  std::string name;             ///< its labels, and what tells it from families of the same label
-  std::string parameters;       ///< canonical JSON without box.width and box.y
-  std::vector<Group> walled;    ///< y walled, by ascending width
-  std::vector<Group> periodic;  ///< y periodic (the unconfined reference), by ascending width
-};
-
-/// In the order in which they first appear.
-std::vector<Family> families_of(const std::vector<Group>& groups);
 
 enum class Quantity { solid_fraction, coordination };
 

@@ -1,6 +1,6 @@
 #include <string>
 
-#include "runner/sweep/job.hpp"
+#include "runner/sweep/read_sweep.hpp"
 #include "tests/extremes/catalogue.hpp"
 #include "tests/extremes/packed.hpp"
 

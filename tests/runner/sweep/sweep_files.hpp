@@ -7,7 +7,7 @@
 #include <unistd.h>
 #include <vector>
 
-#include "runner/sweep/job.hpp"
+#include "runner/sweep/read_sweep.hpp"
 
 namespace grainsweep {
 

@@ -1,0 +1,82 @@
+// The commands of the program. Each returns its exit code, and throws BadInput, FolderBusy or
+// FileError where it cannot go on.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace grainsweep {
+
+struct RunOptions {
+  std::string file;                  ///< sweep file
+  std::string out;                   ///< output folder; empty: out/<sweep name>
+  int threads = 0;                   ///< packings at once; 0: one per usable core
+  std::string isa;                   ///< instruction set; empty: GRAINSWEEP_ISA, else the widest
+  bool fresh = false;                ///< forget what is stored in the folder
+  bool yes = false;                  ///< do not ask before forgetting
+  double checkpoint_seconds = 60.0;  ///< wall time between two checkpoints of a packing
+  bool retry_failed = false;         ///< make failed packings again
+  bool fail_fast = false;            ///< stop at the first packing that fails
+  bool quiet = false;                ///< print errors and warnings only
+};
+/// Makes what is missing of a sweep and writes the tables.
+int run(const RunOptions& options);
+
+struct ValidateOptions {
+  std::string file;
+};
+/// Says whether a sweep file is right, and how many packings it stands for.
+int validate(const ValidateOptions& options);
+
+struct PlanOptions {
+  std::string file;
+  int threads = 0;  ///< as in RunOptions
+  bool json = false;
+};
+/// Prints the packings of a sweep with estimated time and memory.
+int plan(const PlanOptions& options);
+
+struct ReportOptions {
+  std::string folder;
+};
+/// Prints the closing table from stored results.
+int report(const ReportOptions& options);
+
+struct CompareOptions {
+  std::string folder;
+};
+/// Prints stored results beside the numbers of the reference study.
+int compare(const CompareOptions& options);
+
+struct ExportOptions {
+  std::string folder;
+  std::string format = "csv";     ///< csv, xyz or vtp
+  std::vector<std::string> jobs;  ///< ids; empty: all that are stored
+  std::string to;                 ///< folder for the files; empty: <folder>/export
+};
+/// Writes the grains of stored packings, a file each.
+int export_grains(const ExportOptions& options);
+
+struct StatusOptions {
+  std::string folder;
+  bool json = false;
+};
+/// Prints how much of a sweep is done, and whether a runner is at work.
+int status(const StatusOptions& options);
+
+struct CollectOptions {
+  std::vector<std::string> folders;
+  std::string out;  ///< folder they are merged into; may hold results, which stay
+};
+/// Merges the results of several output folders, a packing once, and writes the tables.
+int collect(const CollectOptions& options);
+
+struct SchemaOptions {};
+/// Prints the JSON Schema of sweep files.
+int schema(const SchemaOptions& options);
+
+struct DoctorOptions {};
+/// Prints what the machine offers and tries to write a file here.
+int doctor(const DoctorOptions& options);
+
+}  // namespace grainsweep

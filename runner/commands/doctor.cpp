@@ -1,0 +1,47 @@
+// The command `doctor`: what this machine offers, and whether results can be written here.
+#include <iostream>
+
+#include "runner/commands/commands.hpp"
+#include "runner/exit_codes.hpp"
+#include "runner/instruction_set.hpp"
+#include "runner/machine.hpp"
+#include "runner/store/files.hpp"
+#include "runner/store/lock.hpp"
+#include "runner/text.hpp"
+#include "runner/versions.hpp"
+
+namespace grainsweep {
+namespace {
+
+/// Writes, flushes and removes a small file here; returns how long that took, s.
+double write_test() {
+  const std::string path = "grainsweep-write-test." + process_name();
+  const double start = wall_seconds();
+  replace_file(path, "written by grainsweep doctor\n");
+  remove_file(path);
+  return wall_seconds() - start;
+}
+
+std::string versions_text() {
+  std::string text;
+  for (const auto& [name, version] : library_versions()) {
+    text += (text.empty() ? "" : ", ") + name + " " + version;
+  }
+  return text;
+}
+
+}  // namespace
+
+int doctor(const DoctorOptions& /*options*/) {
+  std::cout << "grainsweep " << program_version() << ", built with " << compiler_version()
+            << "\nlibraries         " << versions_text() << "\ninstruction sets  "
+            << supported_isas() << "; used: " << name_of(choose_isa("")) << "\ncores             "
+            << usable_cores() << "\nmemory            " << fixed(available_memory() / 1e9, 1)
+            << " GB available\n"
+            << std::flush;
+  std::cout << "writing here      works, " << fixed(1e3 * write_test(), 1)
+            << " ms for a file kept on the disk\n";
+  return exit_done;
+}
+
+}  // namespace grainsweep

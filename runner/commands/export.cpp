@@ -1,0 +1,56 @@
+// The command `export`: the grains of stored packings, a file each.
+#include <algorithm>
+#include <iostream>
+
+#include "runner/commands/commands.hpp"
+#include "runner/commands/inputs.hpp"
+#include "runner/exit_codes.hpp"
+#include "runner/store/files.hpp"
+#include "runner/store/states.hpp"
+#include "runner/tables/grain_files.hpp"
+
+namespace grainsweep {
+namespace {
+
+bool has_grains(const Row& row) { return row.outcome && row.outcome->stored_grains > 0; }
+
+/// The rows to export: those asked for, or all that have grains. Throws BadInput.
+std::vector<const Row*> rows_to_export(const std::vector<Row>& rows, const ExportOptions& options) {
+  std::vector<const Row*> chosen;
+  for (const std::string& job : options.jobs) {
+    const auto found =
+        std::find_if(rows.begin(), rows.end(), [&](const Row& row) { return row.job.id == job; });
+    if (found == rows.end()) {
+      throw BadInput("--job " + job + ": no such packing; see the column job in " + options.folder +
+                     "/packings.csv");
+    }
+    if (!has_grains(*found))
+      throw BadInput("--job " + job + ": has no grains, it is " + status_of(*found));
+    chosen.push_back(&*found);
+  }
+  for (const Row& row : rows) {
+    if (options.jobs.empty() && has_grains(row)) chosen.push_back(&row);
+  }
+  return chosen;
+}
+
+}  // namespace
+
+int export_grains(const ExportOptions& options) {
+  const auto format = export_format(options.format);
+  if (!format) throw BadInput("--format " + options.format + ": use csv, xyz or vtp");
+  const Results results = results_with_warnings(options.folder);
+  const std::vector<const Row*> rows = rows_to_export(results.rows, options);
+  const std::string to = options.to.empty() ? options.folder + "/export" : options.to;
+  if (rows.empty()) throw BadInput(options.folder + ": holds no finished packing to export");
+  make_folder(to);
+  for (const Row* row : rows) {
+    const StoredBed bed = read_bed(options.folder, row->job.id);
+    replace_file(to + "/" + row->job.id + "." + name_of(*format), grains_text(bed, *format));
+  }
+  std::cout << rows.size() << (rows.size() == 1 ? " packing" : " packings") << " written to " << to
+            << "/<job>." << name_of(*format) << "\n";
+  return exit_done;
+}
+
+}  // namespace grainsweep

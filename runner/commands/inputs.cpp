@@ -1,0 +1,29 @@
+#include "runner/commands/inputs.hpp"
+
+#include <iostream>
+#include <utility>
+
+#include "runner/exit_codes.hpp"
+#include "runner/sweep/read_sweep.hpp"
+#include "runner/versions.hpp"
+
+namespace grainsweep {
+
+Sweep sweep_or_refusal(const std::string& file) {
+  SweepReading reading = read_sweep(file);
+  if (reading.errors.empty()) return std::move(reading.sweep);
+  std::string text;
+  for (const Finding& finding : reading.errors) text += to_string(finding) + "\n";
+  const std::size_t count = reading.errors.size();
+  throw BadInput(text + std::to_string(count) + (count == 1 ? " error" : " errors") +
+                 "; nothing was run");
+}
+
+Results results_with_warnings(const std::string& folder) {
+  Results results = read_results(folder);
+  std::cerr << damage_warnings(folder, results.damage);
+  std::cerr << other_versions_warning(results.rows, program_version());
+  return results;
+}
+
+}  // namespace grainsweep

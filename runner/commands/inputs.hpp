@@ -1,0 +1,17 @@
+// What commands are given: a sweep file, or the output folder of a run.
+#pragma once
+
+#include <string>
+
+#include "runner/results.hpp"
+#include "runner/sweep/job.hpp"
+
+namespace grainsweep {
+
+/// The sweep in `file`. Throws BadInput with every error in it.
+Sweep sweep_or_refusal(const std::string& file);
+
+/// What is stored in the output folder; prints warnings of what is damaged or of another version.
+Results results_with_warnings(const std::string& folder);
+
+}  // namespace grainsweep

@@ -1,0 +1,156 @@
+// The command `plan`: what a sweep stands for and will cost, without running it.
+#include <algorithm>
+#include <iostream>
+
+#include <nlohmann/json.hpp>
+
+#include "runner/commands/commands.hpp"
+#include "runner/commands/inputs.hpp"
+#include "runner/exit_codes.hpp"
+#include "runner/jobs/schedule.hpp"
+#include "runner/machine.hpp"
+#include "runner/tables/csv.hpp"
+#include "runner/text.hpp"
+
+namespace grainsweep {
+namespace {
+
+/// Lines of the plan a person wants to see; --json lists everything.
+constexpr std::size_t groups_shown = 40;
+
+/// Jobs with one label and one parameter set.
+struct PlannedGroup {
+  const Job* first = nullptr;
+  int packings = 0;
+  Cost cost;  ///< of one packing
+};
+
+std::vector<PlannedGroup> planned_groups(const Sweep& sweep) {
+  std::vector<PlannedGroup> groups;
+  std::map<std::pair<std::string, std::string>, std::size_t> index_of;
+  for (const Job& job : sweep.jobs) {
+    const auto [known, is_new] = index_of.try_emplace({job.label, job.parameters}, groups.size());
+    if (is_new) groups.push_back({&job, 0, estimate_cost(job.spec)});
+    ++groups[known->second].packings;
+  }
+  return groups;
+}
+
+std::vector<Task> tasks_of(const Sweep& sweep) {
+  std::vector<Task> tasks;
+  for (const Job& job : sweep.jobs) tasks.push_back({estimate_cost(job.spec)});
+  return tasks;
+}
+
+std::string memory_text(double bytes) { return fixed(bytes / 1e6, 1) + " MB"; }
+
+std::string group_text(const PlannedGroup& group) {
+  const PackingSpec& spec = group.first->spec;
+  const std::string walls = spec.box.y == Boundary::walls ? "" : " periodic";
+  return "  " + pad_right(group.first->label, 20) + pad_right(cell(spec.box.width) + walls, 14) +
+         pad_left(std::to_string(group.packings), 9) +
+         pad_left(std::to_string(grain_count(spec)), 10) +
+         pad_left(duration_text(group.cost.cpu_seconds), 14) +
+         pad_left(memory_text(group.cost.bytes), 12) + "\n";
+}
+
+std::string groups_text(const std::vector<PlannedGroup>& groups) {
+  std::string text = "  " + pad_right("label", 20) + pad_right("W/d", 14) +
+                     pad_left("packings", 9) + pad_left("grains", 10) + pad_left("CPU each", 14) +
+                     pad_left("memory each", 12) + "\n";
+  for (std::size_t i = 0; i < std::min(groups.size(), groups_shown); ++i) {
+    text += group_text(groups[i]);
+  }
+  if (groups.size() > groups_shown) {
+    text += "  and " + std::to_string(groups.size() - groups_shown) + " more; --json lists all\n";
+  }
+  return text;
+}
+
+/// What the whole sweep needs.
+struct Needs {
+  double cpu_seconds = 0.0;
+  double wall_seconds = 0.0;
+  double bytes = 0.0;   ///< of the largest packings that live at once
+  double memory = 0.0;  ///< what they may take, bytes
+  int live = 1;
+};
+
+Needs needs_of(const std::vector<Task>& tasks, int threads) {
+  Needs needs;
+  needs.memory = memory_for_packings();
+  needs.live = live_limit(tasks, {threads, needs.memory});
+  needs.wall_seconds = estimate_wall(tasks, needs.live);
+  std::vector<double> bytes;
+  for (const Task& task : tasks) {
+    needs.cpu_seconds += task.cost.cpu_seconds;
+    bytes.push_back(task.cost.bytes);
+  }
+  std::sort(bytes.begin(), bytes.end(), std::greater<>());
+  bytes.resize(std::min(bytes.size(), static_cast<std::size_t>(needs.live)));
+  for (const double size : bytes) needs.bytes += size;
+  return needs;
+}
+
+void print_text(const Sweep& sweep, const Needs& needs, int threads) {
+  const std::vector<PlannedGroup> groups = planned_groups(sweep);
+  std::cout << sweep.name << ": " << sweep.jobs.size() << " packings, " << groups.size()
+            << " parameter sets\n"
+            << groups_text(groups) << "Estimated: " << duration_text(needs.cpu_seconds)
+            << " CPU, about " << duration_text(needs.wall_seconds) << " on " << threads
+            << (threads == 1 ? " thread" : " threads") << " (" << needs.live
+            << " packings at once), up to " << memory_text(needs.bytes) << " of the "
+            << memory_text(needs.memory) << " that can be had\n";
+}
+
+/// One line; the parameters are JSON already.
+std::string job_json(const Job& job, const Cost& cost) {
+  const nlohmann::ordered_json facts = {{"job", job.id},
+                                        {"label", job.label},
+                                        {"replicate", job.replicate},
+                                        {"seed", job.seed},
+                                        {"grains", grain_count(job.spec)},
+                                        {"estimated_cpu_seconds", cost.cpu_seconds},
+                                        {"estimated_bytes", cost.bytes}};
+  std::string text = facts.dump();
+  text.pop_back();
+  return text + ",\"parameters\":" + job.parameters + "}";
+}
+
+/// Written job by job: as one value a large sweep would take ten times the memory.
+void print_json(const Sweep& sweep, const std::vector<Task>& tasks, const Needs& needs,
+                int threads) {
+  const nlohmann::ordered_json plan = {{"name", sweep.name},
+                                       {"packings", tasks.size()},
+                                       {"threads", threads},
+                                       {"packings_at_once", needs.live},
+                                       {"estimated_cpu_seconds", needs.cpu_seconds},
+                                       {"estimated_wall_seconds", needs.wall_seconds},
+                                       {"estimated_bytes", needs.bytes},
+                                       {"available_bytes", needs.memory}};
+  std::string text = plan.dump(2);
+  text.resize(text.rfind('\n'));
+  std::cout << text << ",\n  \"jobs\": [";
+  for (std::size_t i = 0; i < tasks.size(); ++i) {
+    std::cout << (i == 0 ? "\n    " : ",\n    ") << job_json(sweep.jobs[i], tasks[i].cost);
+  }
+  std::cout << "\n  ]\n}\n";
+}
+
+}  // namespace
+
+int plan(const PlanOptions& options) {
+  const Sweep sweep = sweep_or_refusal(options.file);
+  const int threads = options.threads > 0 ? options.threads : usable_cores();
+  const std::vector<Task> tasks = tasks_of(sweep);
+  const Needs needs = needs_of(tasks, threads);
+  std::cerr << memory_warning(tasks, needs.memory);
+  if (options.json) {
+    print_json(sweep, tasks, needs, threads);
+  } else {
+    print_text(sweep, needs, threads);
+  }
+  return exit_done;
+}
+
+}  // namespace grainsweep

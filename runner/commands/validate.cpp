@@ -1,0 +1,29 @@
+// The command `validate`: whether a sweep file is right.
+#include <iostream>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "runner/commands/commands.hpp"
+#include "runner/commands/inputs.hpp"
+#include "runner/exit_codes.hpp"
+
+namespace grainsweep {
+namespace {
+
+std::size_t count_parameter_sets(const Sweep& sweep) {
+  std::set<std::pair<std::string, std::string>> sets;
+  for (const Job& job : sweep.jobs) sets.emplace(job.label, job.parameters);
+  return sets.size();
+}
+
+}  // namespace
+
+int validate(const ValidateOptions& options) {
+  const Sweep sweep = sweep_or_refusal(options.file);
+  std::cout << options.file << ": right; " << sweep.name << " stands for " << sweep.jobs.size()
+            << " packings in " << count_parameter_sets(sweep) << " parameter sets\n";
+  return exit_done;
+}
+
+}  // namespace grainsweep

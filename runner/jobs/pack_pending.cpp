@@ -1,0 +1,191 @@
+#include "runner/jobs/pack_pending.hpp"
+
+#include <atomic>
+#include <cstdio>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include <tbb/enumerable_thread_specific.h>
+
+#include "engine/dynamics/workspace.hpp"
+#include "runner/jobs/stop.hpp"
+#include "runner/machine.hpp"
+#include "runner/store/checkpoints.hpp"
+#include "runner/store/files.hpp"
+#include "runner/store/journal.hpp"
+#include "runner/store/states.hpp"
+#include "runner/tables/csv.hpp"
+#include "runner/tables/job_facts.hpp"
+#include "runner/text.hpp"
+#include "runner/versions.hpp"
+
+namespace grainsweep {
+namespace {
+
+std::string packing_line(const Job& job, const Outcome& outcome) {
+  const PackingResult& result = outcome.result;
+  std::string text = job.label + " W=" + cell(job.spec.box.width) +
+                     (job.spec.box.y == Boundary::walls ? "" : " periodic") + " #" +
+                     std::to_string(job.replicate) + "  " + name_of(result.status);
+  if (!result.reason.empty()) text += " (" + result.reason + ")";
+  if (!result.coordination.empty()) {
+    text += "  φ " + fixed(result.solid_fraction, 4) + "  Z " +
+            fixed(result.coordination.front().between_grains, 3);
+  }
+  return text + "  " + duration_text(outcome.cpu_seconds);
+}
+
+std::string went_on_text(std::int64_t step) {
+  return step == 0 ? "" : ", went on from step " + std::to_string(step);
+}
+
+/// Puts a finished packing on the disk, grains and curves first: a journal line promises that they
+/// are there.
+Outcome store(const Job& job, const std::string& folder, Journal& journal, Finished&& finished) {
+  Outcome outcome;
+  outcome.job = job.id;
+  outcome.version = program_version();
+  outcome.result = std::move(finished.packing.result);
+  outcome.threw = finished.threw;
+  outcome.stored_grains = static_cast<std::int64_t>(finished.packing.grains.size());
+  outcome.cpu_seconds = finished.cpu_seconds;
+  if (outcome.stored_grains > 0) {
+    write_bed(folder, job.id,
+              {job.spec.box, std::move(finished.packing.grains), curves_of(outcome.result),
+               std::move(finished.packing.turned)});
+  }
+  journal.append(outcome);
+  return outcome;
+}
+
+std::vector<double> cpu_costs(const std::vector<Task>& tasks) {
+  std::vector<double> costs;
+  costs.reserve(tasks.size());
+  for (const Task& task : tasks) costs.push_back(task.cost.cpu_seconds);
+  return costs;
+}
+
+/// What the threads of a run share.
+class Packer {
+ public:
+  Packer(const RunningSweep& running, const PackOptions& options, const std::vector<Task>& tasks)
+      : running_(running),
+        options_(options),
+        kernels_(kernels_for(options.isa)),
+        display_(cpu_costs(tasks), options.style, stderr),
+        journal_(running.folder),
+        build_(build_name()),
+        before_(tasks.size()) {}
+
+  Packed pack(const std::vector<Task>& tasks) {
+    run_tasks(
+        tasks, options_.limits,
+        [this](std::size_t task, Crew& crew, const KeepGoing& keep_going) {
+          return make_one(task, crew, keep_going);
+        },
+        events());
+    display_.clear();
+    return packed_;
+  }
+
+ private:
+  /// Steps and time that a packing took in earlier runs.
+  struct Before {
+    std::int64_t step = 0;
+    double cpu_seconds = 0.0;
+  };
+
+  CheckpointFiles checkpoints_of(const Job& job) const { return {running_.folder, job.id, build_}; }
+
+  /// Goes on from the packing's checkpoint, if it has one.
+  Packing make_one(std::size_t task, Crew& crew, const KeepGoing& keep_going) {
+    const Job& job = *running_.pending[task];
+    CheckpointFiles files = checkpoints_of(job);
+    const std::optional<Checkpoint> saved = newest_of(files);
+    if (saved) before_[task] = {saved->step, saved->cpu_seconds};
+    double due_at = wall_seconds() + options_.checkpoint_seconds;
+    const KeepGoing saving = [&](const Progress& progress) {
+      const bool goes_on = keep_going(progress);
+      if (goes_on && wall_seconds() < due_at) return true;
+      save(files, {progress.step, before_[task].cpu_seconds + crew.cpu_seconds(), progress.save()});
+      due_at = wall_seconds() + options_.checkpoint_seconds;
+      return goes_on;
+    };
+    return make_packing(job.spec, {kernels_, crew.loop(), &workspaces_.local()}, saving,
+                        saved ? saved->state : std::string_view());
+  }
+
+  /// A packing is worth more than its checkpoint: where none can be read it begins anew.
+  std::optional<Checkpoint> newest_of(CheckpointFiles& files) {
+    try {
+      return files.newest();
+    } catch (const FileError& error) {
+      display_.say(std::string("warning: ") + error.what() + "; the packing begins anew");
+      return std::nullopt;
+    }
+  }
+
+  /// Where none can be written the packing goes on without.
+  void save(CheckpointFiles& files, const Checkpoint& checkpoint) {
+    try {
+      files.write(checkpoint);
+    } catch (const FileError& error) {
+      if (warned_.exchange(true)) return;
+      display_.say(std::string("warning: ") + error.what() +
+                   "; packings under way begin anew if this run is stopped");
+    }
+  }
+
+  TaskEvents events() {
+    TaskEvents events;
+    events.started = [this](std::size_t task) { display_.start(task); };
+    events.progressed = [this](std::size_t task, const Progress& progress) {
+      display_.advance(task, progress.share_done);
+    };
+    events.finished = [this](Finished&& finished) { keep(std::move(finished)); };
+    events.stop_asked = [this] { return stop_signal() != 0 || has_failed_; };
+    return events;
+  }
+
+  void keep(Finished&& finished) {
+    const std::size_t task = finished.task;
+    const Job& job = *running_.pending[task];
+    finished.cpu_seconds += before_[task].cpu_seconds;
+    const Outcome outcome = store(job, running_.folder, journal_, std::move(finished));
+    checkpoints_of(job).remove();
+    ++packed_.packings;
+    const std::string line = packing_line(job, outcome) + went_on_text(before_[task].step);
+    display_.finish(task, outcome.result.status == PackingStatus::settled, line);
+    if (!options_.fail_fast || outcome.result.status != PackingStatus::failed) return;
+    if (!has_failed_.exchange(true)) packed_.first_failure = line;
+  }
+
+  const RunningSweep& running_;
+  const PackOptions& options_;
+  const Kernels& kernels_;
+  ProgressDisplay display_;
+  Journal journal_;
+  const std::string build_;
+  std::vector<Before> before_;  ///< by task
+  tbb::enumerable_thread_specific<Workspace> workspaces_;
+  Packed packed_;
+  std::atomic<bool> warned_{false};
+  std::atomic<bool> has_failed_{false};
+};
+
+}  // namespace
+
+std::vector<Task> tasks_of(const std::vector<const Job*>& jobs) {
+  std::vector<Task> tasks;
+  tasks.reserve(jobs.size());
+  for (const Job* job : jobs) tasks.push_back({estimate_cost(job->spec)});
+  return tasks;
+}
+
+Packed pack_pending(const RunningSweep& running, const PackOptions& options) {
+  const std::vector<Task> tasks = tasks_of(running.pending);
+  return Packer(running, options, tasks).pack(tasks);
+}
+
+}  // namespace grainsweep

@@ -1,0 +1,46 @@
+// The middle of a run: what is missing of a sweep is packed and stored.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "kernels/isa.hpp"
+#include "runner/jobs/progress.hpp"
+#include "runner/jobs/schedule.hpp"
+#include "runner/store/outcome.hpp"
+#include "runner/sweep/job.hpp"
+
+namespace grainsweep {
+
+/// A run under way.
+struct RunningSweep {
+  const Sweep& sweep;
+  std::string folder;
+  std::map<std::string, Outcome> outcomes;  ///< finished when it began, by job
+  std::vector<const Job*> pending;
+};
+
+struct PackOptions {
+  Limits limits;
+  Isa isa{};
+  ProgressStyle style = ProgressStyle::quiet;
+  double checkpoint_seconds = 60.0;  ///< wall time between two checkpoints of a packing
+  bool fail_fast = false;            ///< the first packing that fails stops the others
+};
+
+/// What came of it.
+struct Packed {
+  int packings = 0;           ///< finished now
+  std::string first_failure;  ///< with fail_fast: the line of the packing that failed
+};
+
+/// The pending packings and what they cost, in their order.
+std::vector<Task> tasks_of(const std::vector<const Job*>& jobs);
+
+/// Makes the pending packings, as far as no signal and no failure stops it; each is on the disk
+/// when it counts as finished, and then no longer in memory. A long one is saved from time to time
+/// and when it is stopped, and goes on from there. Throws FileError.
+Packed pack_pending(const RunningSweep& running, const PackOptions& options);
+
+}  // namespace grainsweep

@@ -1,0 +1,178 @@
+#include "runner/jobs/schedule.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <functional>
+#include <mutex>
+#include <new>
+#include <numeric>
+#include <queue>
+#include <stdexcept>
+
+#include <tbb/global_control.h>
+#include <tbb/parallel_pipeline.h>
+#include <tbb/task_arena.h>
+
+namespace grainsweep {
+namespace {
+
+Packing failed_packing(const std::string& reason) {
+  Packing packing;
+  packing.result.status = PackingStatus::failed;
+  packing.result.reason = reason;
+  return packing;
+}
+
+/// Packs one bed; an exception becomes a failed packing.
+Finished pack_with(Crew& crew, std::size_t index, const Pack& pack, const KeepGoing& go_on) {
+  Finished finished;
+  finished.task = index;
+  try {
+    finished.packing = pack(index, crew, go_on);
+  } catch (const std::bad_alloc&) {
+    finished.packing = failed_packing("out of memory; use fewer --threads or a smaller bed");
+    finished.threw = true;
+  } catch (const std::exception& error) {
+    finished.packing = failed_packing(error.what());
+    finished.threw = true;
+  }
+  crew.dismiss();
+  finished.cpu_seconds = crew.cpu_seconds();
+  return finished;
+}
+
+/// Isolated: a thread that waits for its helpers must not begin another packing meanwhile.
+Finished pack_one(std::size_t index, const Pack& pack, const KeepGoing& go_on) {
+  return tbb::this_task_arena::isolate([&] {
+    Crew crew;
+    return pack_with(crew, index, pack, go_on);
+  });
+}
+
+/// The tasks under way: what the pipeline's two stages share.
+class Run {
+ public:
+  Run(const std::vector<Task>& tasks, const Pack& pack, const TaskEvents& events)
+      : pack_(pack), events_(events), order_(longest_first(tasks)) {}
+
+  /// The next task, or stops the pipeline. Called by one thread at a time.
+  std::size_t take_next(tbb::flow_control& control) {
+    const std::size_t place = next_.fetch_add(1);
+    const bool goes_on = place < order_.size() && !must_stop();
+    const std::size_t index = goes_on ? order_[place] : 0;
+    if (!goes_on) control.stop();
+    visits_.fetch_add(1);
+    return index;
+  }
+
+  void run(std::size_t index) {
+    if (!must_stop()) make(index);
+    visits_.fetch_add(1);
+  }
+
+  /// Orders all visits of threads before what follows. So does oneTBB, but inside a library that
+  /// the thread sanitizer cannot see into: it would take every result for a race.
+  void join() { visits_.load(); }
+
+ private:
+  void make(std::size_t index) {
+    events_.started(index);
+    const KeepGoing go_on = [&](const Progress& progress) {
+      events_.progressed(index, progress);
+      return !must_stop();
+    };
+    Finished finished = pack_one(index, pack_, go_on);
+    if (finished.packing.result.status != PackingStatus::cancelled) report(std::move(finished));
+  }
+
+  bool must_stop() const { return broken_ || events_.stop_asked(); }
+
+  void report(Finished&& finished) {
+    const std::scoped_lock lock(reporting_);
+    try {
+      events_.finished(std::move(finished));
+    } catch (...) {
+      broken_ = true;
+      throw;
+    }
+  }
+
+  const Pack& pack_;
+  const TaskEvents& events_;
+  const std::vector<std::size_t> order_;
+  std::atomic<std::size_t> next_{0};
+  std::atomic<std::size_t> visits_{0};  ///< that have ended
+  std::mutex reporting_;
+  std::atomic<bool> broken_{false};
+};
+
+}  // namespace
+
+void run_tasks(const std::vector<Task>& tasks, const Limits& limits, const Pack& pack,
+               const TaskEvents& events) {
+  Run run(tasks, pack, events);
+  const int live = live_limit(tasks, limits);
+  const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
+                                    static_cast<std::size_t>(limits.threads));
+  tbb::task_arena arena(limits.threads);
+  arena.execute([&] {
+    tbb::parallel_pipeline(
+        static_cast<std::size_t>(live),
+        tbb::make_filter<void, std::size_t>(
+            tbb::filter_mode::serial_in_order,
+            [&](tbb::flow_control& control) { return run.take_next(control); }) &
+            tbb::make_filter<std::size_t, void>(tbb::filter_mode::parallel,
+                                                [&](std::size_t index) { run.run(index); }));
+  });
+  run.join();
+}
+
+std::vector<std::size_t> longest_first(const std::vector<Task>& tasks) {
+  std::vector<std::size_t> order(tasks.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return tasks[a].cost.cpu_seconds > tasks[b].cost.cpu_seconds;
+  });
+  return order;
+}
+
+int live_limit(const std::vector<Task>& tasks, const Limits& limits) {
+  if (limits.memory <= 0) return std::max(1, limits.threads);
+  std::vector<double> bytes;
+  bytes.reserve(tasks.size());
+  for (const Task& task : tasks) bytes.push_back(task.cost.bytes);
+  std::sort(bytes.begin(), bytes.end(), std::greater<>());
+  int live = 0;
+  double sum = 0.0;
+  for (const double size : bytes) {
+    sum += size;
+    if (live == limits.threads || sum > limits.memory) break;
+    ++live;
+  }
+  return std::max(1, live);
+}
+
+std::string memory_warning(const std::vector<Task>& tasks, double memory) {
+  double largest = 0.0;
+  for (const Task& task : tasks) largest = std::max(largest, task.cost.bytes);
+  if (memory <= 0 || largest <= memory) return "";
+  const auto megabytes = [](double bytes) { return std::to_string(std::llround(bytes / 1e6)); };
+  return "warning: the largest packing needs about " + megabytes(largest) + " MB, and " +
+         megabytes(memory) + " MB can be had here; end other programs or make the bed smaller\n";
+}
+
+double estimate_wall(const std::vector<Task>& tasks, int live) {
+  std::priority_queue<double, std::vector<double>, std::greater<>> free_at;
+  for (int slot = 0; slot < std::max(1, live); ++slot) free_at.push(0.0);
+  double end = 0.0;
+  for (const std::size_t index : longest_first(tasks)) {
+    const double done = free_at.top() + tasks[index].cost.cpu_seconds;
+    free_at.pop();
+    free_at.push(done);
+    end = std::max(end, done);
+  }
+  return end;
+}
+
+}  // namespace grainsweep

@@ -1,0 +1,33 @@
+#include "runner/jobs/stop.hpp"
+
+#include <atomic>
+#include <csignal>
+#include <unistd.h>
+
+namespace grainsweep {
+namespace {
+
+/// A signal handler can reach nothing but a global.
+std::atomic<int> received_signal{0};
+static_assert(std::atomic<int>::is_always_lock_free);
+
+extern "C" void receive_signal(int signal) {
+  int none = 0;
+  if (!received_signal.compare_exchange_strong(none, signal)) _exit(128 + signal);
+}
+
+}  // namespace
+
+void watch_stop_signals() {
+  struct sigaction action {};
+  action.sa_handler = receive_signal;
+  sigemptyset(&action.sa_mask);
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+  action.sa_handler = SIG_IGN;
+  sigaction(SIGPIPE, &action, nullptr);
+}
+
+int stop_signal() { return received_signal.load(); }
+
+}  // namespace grainsweep

@@ -1,0 +1,20 @@
+// From a sweep file to its jobs, or to everything that is wrong with it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "runner/sweep/job.hpp"
+#include "runner/sweep/problem.hpp"
+
+namespace grainsweep {
+
+struct SweepReading {
+  Sweep sweep;                  ///< meaningful only if `errors` is empty
+  std::vector<Finding> errors;  ///< all of them, in the order of the file
+};
+
+/// Reads and expands a sweep file. Never throws for bad input: every error is a Finding.
+SweepReading read_sweep(const std::string& path);
+
+}  // namespace grainsweep

@@ -1,0 +1,190 @@
+#include "runner/tables/closing_report.hpp"
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <set>
+
+#include "runner/tables/csv.hpp"
+#include "runner/tables/families.hpp"
+#include "runner/tables/fits.hpp"
+#include "runner/text.hpp"
+
+namespace grainsweep {
+namespace {
+
+constexpr int solid_fraction_decimals = 4;
+constexpr int coordination_decimals = 3;
+
+std::string with_error(double value, double error, int decimals) {
+  return fixed(value, decimals) + " ± " + fixed(error, decimals);
+}
+
+/// "3 of 5 settled" where some are missing, else "3".
+std::string packings_text(const Group& group) {
+  const StatusCounts& counts = group.counts;
+  const int all = counts.settled + counts.not_settled + counts.failed + counts.pending;
+  const std::string settled = std::to_string(counts.settled);
+  return counts.settled == all ? settled : settled + " of " + std::to_string(all);
+}
+
+/// "8.7e-05"; "-" for NaN.
+std::string small_number(double value) {
+  if (!std::isfinite(value)) return "-";
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.1e", value);
+  return text.data();
+}
+
+std::string report_line(const Group& group) {
+  const bool is_walled = group.job.box.y == Boundary::walls;
+  const std::string width = cell(group.job.box.width);
+  const Spread& phi = group.solid_fraction;
+  const Spread& z = group.coordination;
+  return "  " + pad_right(is_walled ? width : width + " periodic", 14) +
+         pad_left(with_error(phi.mean, phi.sd, solid_fraction_decimals), 18) +
+         pad_left(with_error(z.mean, z.sd, coordination_decimals), 17) +
+         pad_left(fixed(group.contact_ratio.mean, 4), 13) +
+         pad_left(small_number(group.overlap_mean.mean), 12) + pad_left(packings_text(group), 10) +
+         "\n";
+}
+
+std::string reference_text(const Family& family, Quantity quantity, int decimals) {
+  const Group* group = unconfined_reference(family);
+  if (group == nullptr) return "";
+  const Spread& spread = spread_of(*group, quantity);
+  const std::string value = std::isfinite(spread.sd) ? with_error(spread.mean, spread.sd, decimals)
+                                                     : fixed(spread.mean, decimals);
+  return "; periodic " + value;
+}
+
+/// What the line's quality is, in brackets.
+std::string quality_text(const WallFit& fit) {
+  std::string text = "R² " + fixed(fit.r_squared, 3);
+  if (std::isfinite(fit.chi2_per_dof)) text = "χ²/dof " + fixed(fit.chi2_per_dof, 2) + ", " + text;
+  return "(" + text + ", " + std::to_string(fit.widths) + " widths)";
+}
+
+/// One fit: the symbols, bulk value beside the periodic one, slope, and how good the line is.
+std::string fit_text(const Family& family, Quantity quantity, int decimals) {
+  const bool is_phi = quantity == Quantity::solid_fraction;
+  const std::string symbol = is_phi ? "φ" : "Z", slope = is_phi ? "C" : "C_Z";
+  const std::string law = "  " + symbol + " = " + symbol + "_bulk - " + slope + "/W:  ";
+  const WallFit fit = fit_walls(family, quantity);
+  if (!fit.not_determined.empty()) return law + "not determined: " + fit.not_determined + "\n";
+  std::string text = law + symbol +
+                     "_bulk = " + with_error(fit.bulk.value, fit.bulk.error, decimals) +
+                     reference_text(family, quantity, decimals) + "\n" + "      " + slope + " = " +
+                     with_error(fit.slope.value, fit.slope.error, decimals - 1) +
+                     " d,  ζ = " + with_error(fit.zeta.value, fit.zeta.error, 3) + " d  " +
+                     quality_text(fit) + "\n";
+  if (fit.weights.starts_with("equal")) text += "      weights: " + fit.weights + "\n";
+  return text;
+}
+
+std::string family_text(const Family& family) {
+  std::string text = "\n" + family.name + "\n  " + pad_right("W/d", 14) + pad_left("φ ± sd", 18) +
+                     pad_left("Z ± sd", 17) + pad_left("contacts/iso", 13) +
+                     pad_left("overlap/d", 12) + pad_left("packings", 10) + "\n";
+  for (const Group& group : family.walled) text += report_line(group);
+  for (const Group& group : family.periodic) text += report_line(group);
+  if (family.walled.empty()) return text;
+  return text + fit_text(family, Quantity::solid_fraction, solid_fraction_decimals) +
+         fit_text(family, Quantity::coordination, coordination_decimals);
+}
+
+/// Distinct values of a definition over the sweep: "3", or "2 or 3".
+template <class Value>
+std::string distinct(const std::vector<Row>& rows, Value value) {
+  std::set<double> values;
+  for (const Row& row : rows) values.insert(value(row.job.measure));
+  std::string text;
+  for (const double one : values) text += (text.empty() ? "" : " or ") + cell(one);
+  return text;
+}
+
+std::string definitions_text(const std::vector<Row>& rows) {
+  const auto gap = [](const MeasureSpec& measure) {
+    return measure.gap_tolerances.empty() ? 0.0 : measure.gap_tolerances.front();
+  };
+  return "\nLengths in d, the mean diameter of the large grains. φ: exact solid volume between " +
+         distinct(rows, [](const MeasureSpec& m) { return m.exclude_floor; }) +
+         " d above\nthe floor and " +
+         distinct(rows, [](const MeasureSpec& m) { return m.exclude_surface; }) +
+         " d below the surface. Z: neighbours per grain there with gap < " + distinct(rows, gap) +
+         " d, walls not\ncounted. ± in a row: standard deviation of the replicates; of a fitted "
+         "value: its standard error.\ncontacts/iso: force-bearing contacts over the isostatic "
+         "count, 1 at perfect rest.\nOnly settled packings enter means and fits.\n";
+}
+
+std::string left_out_text(const StatusCounts& counts) {
+  std::string text;
+  const auto add = [&](int count, const char* what) {
+    if (count > 0) text += (text.empty() ? "" : ", ") + std::to_string(count) + " " + what;
+  };
+  add(counts.not_settled, "did not settle");
+  add(counts.failed, "failed");
+  add(counts.pending, "not made yet");
+  return text;
+}
+
+std::string headline(const std::string& name, std::size_t packings, const StatusCounts& counts) {
+  const std::string left_out = left_out_text(counts);
+  std::string text = name + ": " + std::to_string(packings) + " packings, " +
+                     std::to_string(counts.settled) + " settled";
+  if (!left_out.empty()) text += "; left out of means and fits: " + left_out;
+  return text + "\n";
+}
+
+/// The first few packings that failed or did not settle, and why.
+std::string reasons_text(const std::vector<Row>& rows) {
+  constexpr int reasons_shown = 5;
+  std::string text;
+  int count = 0;
+  for (const Row& row : rows) {
+    if (!row.outcome || is_settled(row) || ++count > reasons_shown) continue;
+    text += "  " + row.job.id + " (" + row.job.label + ", W = " + cell(row.job.box.width) +
+            "): " + status_of(row) + ": " + row.outcome->result.reason + "\n";
+  }
+  if (count > reasons_shown) {
+    text += "  and " + std::to_string(count - reasons_shown) + " more, see packings.csv\n";
+  }
+  return text.empty() ? "" : "\nNot in the means:\n" + text;
+}
+
+std::string effort_text(const Provenance& provenance, double cpu_seconds) {
+  std::string text = "\nCPU time of all packings " + duration_text(cpu_seconds);
+  if (!provenance.runs.empty()) {
+    const RunRecord& last = provenance.runs.back();
+    text += "; last run " + (last.ended.empty() ? "not ended" : duration_text(last.wall_seconds)) +
+            " for " + std::to_string(last.packings) + " packings on " +
+            std::to_string(last.threads) + (last.threads == 1 ? " thread" : " threads") + ", " +
+            last.isa;
+  }
+  return text + "\n";
+}
+
+std::string next_text(const std::string& sweep_file, const StatusCounts& counts,
+                      const std::string& folder) {
+  const std::string go_on =
+      "grainsweep run " + shell_word(sweep_file) + " --out " + shell_word(folder);
+  if (counts.pending > 0) return "Next: " + go_on + " makes what is missing\n";
+  return "Next: grainsweep export " + shell_word(folder) +
+         " --format vtp writes the grains for ParaView\n";
+}
+
+}  // namespace
+
+std::string closing_report(const Provenance& provenance, const std::vector<Row>& rows,
+                           const std::string& folder) {
+  const Totals totals = totals_of(rows);
+  std::string text = headline(provenance.sweep.name, rows.size(), totals.counts);
+  for (const Family& family : families_of(groups_of(rows))) text += family_text(family);
+  return text + definitions_text(rows) + reasons_text(rows) +
+         effort_text(provenance, totals.cpu_seconds) + "Tables in " + folder +
+         ": packings.csv, groups.csv, fits.csv, profiles.csv, decays.csv and more;\n"
+         "provenance.json says how they were made\n" +
+         next_text(provenance.sweep_file, totals.counts, folder);
+}
+
+}  // namespace grainsweep

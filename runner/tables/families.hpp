@@ -1,0 +1,22 @@
+// Which packings belong to one wall-effect line, and what to call them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "runner/tables/groups.hpp"
+
+namespace grainsweep {
+
+/// Groups with equal parameters but for box.width and box.y.
+struct Family {
+  std::string name;             ///< its labels, and what tells it from families of the same label
+  std::string parameters;       ///< canonical JSON without box.width and box.y
+  std::vector<Group> walled;    ///< y walled, by ascending width
+  std::vector<Group> periodic;  ///< y periodic (the unconfined reference), by ascending width
+};
+
+/// In the order in which they first appear.
+std::vector<Family> families_of(const std::vector<Group>& groups);
+
+}  // namespace grainsweep

@@ -1,0 +1,48 @@
+#include "runner/text.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <cstdio>
+#include <string_view>
+
+namespace grainsweep {
+
+std::string pad_left(const std::string& text, std::size_t width) {
+  const auto is_start = [](char c) { return (static_cast<unsigned char>(c) & 0xC0u) != 0x80u; };
+  const auto length = static_cast<std::size_t>(std::count_if(text.begin(), text.end(), is_start));
+  return std::string(width > length ? width - length : 0, ' ') + text;
+}
+
+std::string pad_right(const std::string& text, std::size_t width) {
+  return text + pad_left(text, width).substr(0, pad_left(text, width).size() - text.size());
+}
+
+std::string fixed(double value, int decimals) {
+  if (!std::isfinite(value)) return "-";
+  std::array<char, 64> text{};
+  std::snprintf(text.data(), text.size(), "%.*f", decimals, value);
+  return text.data();
+}
+
+std::string shell_word(const std::string& word) {
+  const auto is_plain = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
+           std::string_view("-_./,:=+@%").find(c) != std::string_view::npos;
+  };
+  if (!word.empty() && std::all_of(word.begin(), word.end(), is_plain)) return word;
+  std::string quoted = "'";
+  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
+std::string duration_text(double seconds) {
+  const long whole = std::lround(std::max(0.0, seconds));
+  if (seconds < 9.95) return fixed(seconds, 2) + " s";
+  if (whole < 60) return fixed(seconds, 1) + " s";
+  if (whole < 3600) return std::to_string(whole / 60) + " min " + std::to_string(whole % 60) + " s";
+  return std::to_string(whole / 3600) + " h " + std::to_string(whole / 60 % 60) + " min";
+}
+
+}  // namespace grainsweep

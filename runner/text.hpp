@@ -1,0 +1,23 @@
+// Numbers, durations and words as people and shells read them.
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+namespace grainsweep {
+
+/// `text` filled up with blanks to `width` characters (not bytes), on its left or right.
+std::string pad_left(const std::string& text, std::size_t width);
+std::string pad_right(const std::string& text, std::size_t width);
+
+/// "0.6123" with so many decimals; "-" for NaN.
+std::string fixed(double value, int decimals);
+
+/// A word as a shell takes it: in quotes where it has to be, so that printed commands can be
+/// pasted.
+std::string shell_word(const std::string& word);
+
+/// "41.2 s", "12 min 5 s", "3 h 20 min".
+std::string duration_text(double seconds);
+
+}  // namespace grainsweep

@@ -1,0 +1,137 @@
+#include <iostream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+#include "runner/commands/command_line.hpp"
+#include "runner/exit_codes.hpp"
+
+namespace grainsweep {
+namespace {
+
+/// What was read, and what was printed.
+struct Reading {
+  CommandLine line;
+  std::string out, error;
+};
+
+Reading read(std::vector<const char*> words) {
+  words.insert(words.begin(), "grainsweep");
+  std::ostringstream out, error;
+  std::streambuf* const old_out = std::cout.rdbuf(out.rdbuf());
+  std::streambuf* const old_error = std::cerr.rdbuf(error.rdbuf());
+  const CommandLine line = read_command_line(static_cast<int>(words.size()), words.data());
+  std::cout.rdbuf(old_out);
+  std::cerr.rdbuf(old_error);
+  return {line, out.str(), error.str()};
+}
+
+template <class Options>
+Options options_of(const Reading& reading) {
+  REQUIRE(reading.line.command);
+  return std::get<Options>(*reading.line.command);
+}
+
+TEST_CASE("run takes its options in any order") {
+  const auto options = options_of<RunOptions>(
+      read({"run", "--threads", "8", "a.json", "--out", "o", "--isa", "sse2", "--fresh", "--yes",
+            "--quiet", "--retry-failed", "--fail-fast", "--checkpoint-seconds", "2.5"}));
+  CHECK(options.file == "a.json");
+  CHECK(options.out == "o");
+  CHECK(options.threads == 8);
+  CHECK(options.isa == "sse2");
+  CHECK(options.fresh);
+  CHECK(options.yes);
+  CHECK(options.quiet);
+  CHECK(options.retry_failed);
+  CHECK(options.fail_fast);
+  CHECK(options.checkpoint_seconds == 2.5);
+}
+
+TEST_CASE("options not given have their defaults") {
+  const auto options = options_of<RunOptions>(read({"run", "a.json"}));
+  CHECK(options.out.empty());
+  CHECK(options.threads == 0);
+  CHECK_FALSE(options.fresh);
+  CHECK_FALSE(options.retry_failed);
+  CHECK_FALSE(options.fail_fast);
+  CHECK(options.checkpoint_seconds == 60.0);
+  CHECK(options_of<ExportOptions>(read({"export", "o"})).format == "csv");
+}
+
+TEST_CASE("every command is understood") {
+  CHECK(options_of<ValidateOptions>(read({"validate", "a.json"})).file == "a.json");
+  CHECK(options_of<PlanOptions>(read({"plan", "a.json", "--json"})).json);
+  CHECK(options_of<ReportOptions>(read({"report", "o"})).folder == "o");
+  CHECK(options_of<StatusOptions>(read({"status", "o"})).folder == "o");
+  CHECK_FALSE(options_of<StatusOptions>(read({"status", "o"})).json);
+  CHECK(options_of<StatusOptions>(read({"status", "o", "--json"})).json);
+  options_of<DoctorOptions>(read({"doctor"}));
+  options_of<SchemaOptions>(read({"schema"}));
+  const auto collect = options_of<CollectOptions>(read({"collect", "a", "b", "--out", "c"}));
+  CHECK(collect.folders == std::vector<std::string>{"a", "b"});
+  CHECK(collect.out == "c");
+  const auto grains = options_of<ExportOptions>(
+      read({"export", "--job", "a", "--job", "b", "o", "--format", "vtp", "--to", "t"}));
+  CHECK(grains.folder == "o");
+  CHECK(grains.jobs == std::vector<std::string>{"a", "b"});
+  CHECK(grains.format == "vtp");
+  CHECK(grains.to == "t");
+}
+
+TEST_CASE("mistakes are refused with exit code 2 and a message") {
+  const std::vector<std::vector<const char*>> mistakes = {
+      {},
+      {"walk"},
+      {"run"},
+      {"run", "a.json", "--thread", "2"},
+      {"run", "a.json", "b.json"},
+      {"run", "a.json", "--threads", "0"},
+      {"run", "a.json", "--threads", "many"},
+      {"run", "a.json", "--threads", "-1"},
+      {"export", "o", "--format", "stl"},
+      {"report"},
+      {"run", "a.json", "--checkpoint-seconds", "-1"},
+      {"collect", "a"},
+      {"collect", "--out", "b"},
+      {"completion", "bash"},
+      {"doctor", "--quiet"}};
+  for (const auto& words : mistakes) {
+    const Reading reading = read(words);
+    CHECK_FALSE(reading.line.command);
+    CHECK(reading.line.exit_code == exit_bad_input);
+    CHECK_FALSE(reading.error.empty());
+    CHECK(reading.out.empty());
+  }
+}
+
+TEST_CASE("help has the commands, an example and the exit codes, and ends with code 0") {
+  const Reading reading = read({"--help"});
+  CHECK(reading.line.exit_code == 0);
+  CHECK_FALSE(reading.line.command);
+  for (const char* word : {"run", "validate", "plan", "report", "export", "status", "doctor",
+                           "collect", "schema", "Example:", "Exit codes:"}) {
+    CHECK_THAT(reading.out, Catch::Contains(word));
+  }
+}
+
+TEST_CASE("help of every command fits 100 columns and has an example") {
+  for (const char* command : {"run", "validate", "plan", "report", "export", "status", "collect"}) {
+    const Reading reading = read({command, "--help"});
+    CHECK(reading.line.exit_code == 0);
+    CHECK_THAT(reading.out, Catch::Contains("Example: grainsweep " + std::string(command)));
+    std::istringstream lines(reading.out);
+    for (std::string line; std::getline(lines, line);) CHECK(line.size() <= 100);
+  }
+}
+
+TEST_CASE("the version is printed") {
+  const Reading reading = read({"--version"});
+  CHECK(reading.line.exit_code == 0);
+  CHECK_THAT(reading.out, Catch::Matches("grainsweep [0-9]+\\.[0-9]+\\.[0-9]+\n"));
+}
+
+}  // namespace
+}  // namespace grainsweep

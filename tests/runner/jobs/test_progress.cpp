@@ -1,0 +1,142 @@
+#include <algorithm>
+#include <cstdio>
+#include <string>
+
+#include <catch2/catch.hpp>
+
+#include "runner/jobs/progress.hpp"
+
+namespace grainsweep {
+namespace {
+
+RunState half_done() {
+  RunState state;
+  state.finished = 12;
+  state.total = 30;
+  state.running = 2;
+  state.share_done = 0.5;
+  state.elapsed = 35.0;
+  return state;
+}
+
+/// What a display writes to a file.
+class Capture {
+ public:
+  Capture() : file_(std::tmpfile()) {}
+  Capture(const Capture&) = delete;
+  Capture& operator=(const Capture&) = delete;
+  ~Capture() { std::fclose(file_); }
+  std::FILE* file() { return file_; }
+  std::string text() {
+    std::rewind(file_);
+    std::string all;
+    for (int c = std::fgetc(file_); c != EOF; c = std::fgetc(file_)) all += static_cast<char>(c);
+    return all;
+  }
+
+ private:
+  std::FILE* file_;
+};
+
+TEST_CASE("the time left continues the pace so far") {
+  CHECK(time_left(half_done()) == Approx(35.0));
+  RunState quarter = half_done();
+  quarter.share_done = 0.25;
+  CHECK(time_left(quarter) == Approx(105.0));
+  quarter.share_done = 1.0;
+  CHECK(time_left(quarter) == Approx(0.0));
+}
+
+TEST_CASE("without any work done the time left is unknown") {
+  RunState state = half_done();
+  state.share_done = 0.0;
+  CHECK(time_left(state) < 0);
+  CHECK_THAT(progress_line(state), Catch::EndsWith("time left unknown"));
+}
+
+TEST_CASE("clock times read as people write them") {
+  CHECK(clock_text(0.2) == "0:00");
+  CHECK(clock_text(59.6) == "1:00");
+  CHECK(clock_text(245) == "4:05");
+  CHECK(clock_text(3723) == "1:02:03");
+}
+
+TEST_CASE("the progress line shows bar, packings, share, running and times") {
+  CHECK(progress_line(half_done()) ==
+        "[===========>          ] 12/30   50 %  2 running  0:35 elapsed, about 0:35 left");
+}
+
+TEST_CASE("the progress line fits a narrow terminal and tells of unsettled packings") {
+  RunState state = half_done();
+  state.unsettled = 3;
+  CHECK(progress_line(state).size() <= 79);
+  state.unsettled = 0;
+  state.finished = state.total = 100000;
+  state.share_done = 1.0;
+  state.elapsed = 360000;
+  CHECK(progress_line(state).size() <= 79);
+}
+
+TEST_CASE("the share done weighs tasks by their cost and never falls") {
+  Capture out;
+  ProgressDisplay display({30.0, 10.0}, ProgressStyle::quiet, out.file());
+  CHECK(display.state().share_done == 0.0);
+  display.start(0);
+  display.start(1);
+  display.advance(0, 0.5);
+  CHECK(display.state().share_done == Approx(15.0 / 40.0));
+  display.advance(0, 0.4);
+  CHECK(display.state().share_done == Approx(15.0 / 40.0));
+  display.finish(1, false, "");
+  CHECK(display.state().share_done == Approx(25.0 / 40.0));
+  CHECK(display.state().running == 1);
+  CHECK(display.state().finished == 1);
+  CHECK(display.state().unsettled == 1);
+  CHECK(out.text().empty());
+}
+
+TEST_CASE("plain style writes one line per finished packing") {
+  Capture out;
+  ProgressDisplay display({1.0, 1.0}, ProgressStyle::plain, out.file());
+  display.start(1);
+  display.advance(1, 0.5);
+  display.finish(1, true, "MSP W=5 #1  settled");
+  display.start(0);
+  display.finish(0, true, "MSP W=6 #1  settled");
+  CHECK(out.text() == "1/2  MSP W=5 #1  settled\n2/2  MSP W=6 #1  settled\n");
+}
+
+TEST_CASE("live style redraws one line and takes it away at the end") {
+  Capture out;
+  ProgressDisplay display({1.0}, ProgressStyle::live, out.file());
+  display.start(0);
+  display.finish(0, true, "not shown");
+  display.clear();
+  const std::string text = out.text();
+  CHECK(text.find('\n') == std::string::npos);
+  CHECK_THAT(text, Catch::Contains("1/1  100 %") && Catch::EndsWith("\r\033[K"));
+  CHECK_THAT(text, !Catch::Contains("not shown"));
+}
+
+TEST_CASE("live style draws no more than a few times a second") {
+  Capture out;
+  ProgressDisplay display({1.0}, ProgressStyle::live, out.file());
+  display.start(0);
+  for (int step = 0; step < 1000; ++step) display.advance(0, step / 1000.0);
+  const std::string text = out.text();
+  CHECK(std::count(text.begin(), text.end(), '\r') <= 4);
+}
+
+TEST_CASE("a line of its own is printed in every style, above the live line") {
+  for (const ProgressStyle style : {ProgressStyle::quiet, ProgressStyle::plain}) {
+    Capture out;
+    ProgressDisplay({1.0}, style, out.file()).say("warning: no room");
+    CHECK(out.text() == "warning: no room\n");
+  }
+  Capture out;
+  ProgressDisplay({1.0}, ProgressStyle::live, out.file()).say("warning: no room");
+  CHECK_THAT(out.text(), Catch::StartsWith("\r\033[Kwarning: no room\n\r["));
+}
+
+}  // namespace
+}  // namespace grainsweep

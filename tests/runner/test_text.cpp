@@ -1,0 +1,35 @@
+#include <cmath>
+
+#include <catch2/catch.hpp>
+
+#include "runner/text.hpp"
+
+namespace grainsweep {
+namespace {
+
+TEST_CASE("padding counts characters, not bytes") {
+  CHECK(pad_left("φ", 3) == "  φ");
+  CHECK(pad_right("±", 3) == "±  ");
+  CHECK(pad_left("long", 2) == "long");
+}
+
+TEST_CASE("durations read as people say them") {
+  CHECK(duration_text(0.723) == "0.72 s");
+  CHECK(duration_text(41.23) == "41.2 s");
+  CHECK(duration_text(59.7) == "1 min 0 s");
+  CHECK(duration_text(725) == "12 min 5 s");
+  CHECK(duration_text(12000) == "3 h 20 min");
+  CHECK(fixed(std::nan(""), 2) == "-");
+}
+
+TEST_CASE("words of printed commands are quoted where a shell needs it") {
+  CHECK(shell_word("configs/quick.json") == "configs/quick.json");
+  CHECK(shell_word("a b") == "'a b'");
+  CHECK(shell_word("") == "''");
+  CHECK(shell_word("d'Or") == "'d'\\''Or'");
+  CHECK(shell_word("größe") == "'größe'");
+  CHECK(shell_word("$HOME") == "'$HOME'");
+}
+
+}  // namespace
+}  // namespace grainsweep
