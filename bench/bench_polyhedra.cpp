@@ -4,7 +4,7 @@
 
 #include <benchmark/benchmark.h>
 
-#include "engine/contact/touch.hpp"
+#include "engine/narrow/manifold.hpp"
 #include "engine/shape/hull.hpp"
 #include "engine/shape/pinacoid.hpp"
 

@@ -182,7 +182,7 @@ void measure(const PackingSpec& spec, const SettleReport& settled, const Kernels
 
 /// From the start to the measured values.
 template <class Bed>
-Packing pack(const PackingSpec& spec, const Processor& processor, const KeepGoing& keep_going,
+Packing pack(const PackingSpec& spec, const ExecutionContext& context, const KeepGoing& keep_going,
              std::string_view saved, std::optional<Bed> bed) {
   if (!bed) {
     return failed(
@@ -194,7 +194,7 @@ Packing pack(const PackingSpec& spec, const Processor& processor, const KeepGoin
         "a grain's place, radius or inverse mass is not a finite number at the start: correct "
         "fill.file, whose radii are perhaps not in d");
   }
-  const SettleReport settled = settle(spec.accuracy, processor, *bed, keep_going, saved);
+  const SettleReport settled = settle(spec.accuracy, context, *bed, keep_going, saved);
   if (settled.unfit) return failed(settled.why_not);
   if (!is_finite(*bed)) {
     return failed("the bed blew up in step " + std::to_string(settled.steps) +
@@ -202,30 +202,16 @@ Packing pack(const PackingSpec& spec, const Processor& processor, const KeepGoin
                   "leave out grains far smaller than d");
   }
   Packing packing{result_of(spec.fill, *bed, settled), {}, {}};
-  if (!settled.cancelled) measure(spec, settled, processor.kernels, *bed, packing);
+  if (!settled.cancelled) measure(spec, settled, context.kernels, *bed, packing);
   return packing;
 }
 
 }  // namespace
 
-const char* name_of(PackingStatus status) {
-  switch (status) {
-    case PackingStatus::settled:
-      return "settled";
-    case PackingStatus::not_settled:
-      return "not_settled";
-    case PackingStatus::cancelled:
-      return "cancelled";
-    case PackingStatus::failed:
-      return "failed";
-  }
-  return "unknown";
-}
-
-Packing make_packing(const PackingSpec& spec, const Processor& processor,
+Packing make_packing(const PackingSpec& spec, const ExecutionContext& context,
                      const KeepGoing& keep_going, std::string_view saved) {
-  if (is_sphere(spec.shape)) return pack(spec, processor, keep_going, saved, start(spec));
-  return pack(spec, processor, keep_going, saved, start_shapes(spec));
+  if (is_sphere(spec.shape)) return pack(spec, context, keep_going, saved, start(spec));
+  return pack(spec, context, keep_going, saved, start_shapes(spec));
 }
 
 namespace {

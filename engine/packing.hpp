@@ -4,127 +4,19 @@
 // instruction set runs it. It reads no file and no clock, prints nothing and starts no thread.
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <functional>
-#include <optional>
-#include <string>
 #include <string_view>
-#include <vector>
 
-#include "engine/measure/curves.hpp"
-#include "engine/processor.hpp"
+#include "engine/context.hpp"
+#include "engine/results.hpp"
 #include "engine/scene/spec.hpp"
 
 namespace grainsweep {
-
-enum class PackingStatus {
-  settled,      ///< at rest within every tolerance of its accuracy
-  not_settled,  ///< ran to its last step without coming to rest; `reason` says which test failed
-  cancelled,    ///< the observer asked to stop; nothing was measured
-  failed,       ///< could not be made; `reason` says why (e.g. no room to place the grains)
-};
-
-/// "settled", "not_settled", "cancelled", "failed".
-const char* name_of(PackingStatus status);
-
-/// How far from rest a bed is. Forces in m g, lengths in d, energies in m g d.
-struct RestReport {
-  /// Worst force-balance residual of a row, in m g, or in weights of its lighter grain where that
-  /// is lighter.
-  double residual = 0.0;
-  double kinetic_energy = 0.0;  ///< mean per grain of 1/2 m (dx/dt)^2, m g d
-  double largest_motion = 0.0;  ///< largest displacement of a grain in the last step, d
-  double overlap_mean = 0.0;    ///< mean over force-bearing contacts of max(0, -gap), d
-  double overlap_max = 0.0;     ///< deepest overlap, d
-  /// Force-bearing contacts closed to 1e-4 d, walls and floor included; of polyhedra a contact
-  /// along a line counts 2, one over an area 3.
-  std::int64_t contacts = 0;
-  std::int64_t isostatic_contacts = 0;  ///< 3 N - zero modes; 6 N of grains that turn
-};
-
-/// What a direct solve of force balance on the final force-bearing contacts says; see
-/// engine/dynamics/balance.hpp. In a bed at rest the forces are unique, none pulls, and nothing is
-/// left unbalanced. Numbers are NaN where the forces are not unique.
-struct ForceBalance {
-  bool unique = false;         ///< one set of forces fits the contacts best, not many
-  double least_force = 0.0;    ///< smallest contact force, m g; negative = a contact that must pull
-  double unbalance_max = 0.0;  ///< largest net force on a grain, in its own weight
-  double unbalance_mean = 0.0;  ///< mean of it
-};
-
-/// Mean number of touching neighbours per grain whose centre lies in the measured slab.
-struct Coordination {
-  double gap_tolerance = 0.0;   ///< a pair touches if its gap is below it, d
-  double between_grains = 0.0;  ///< walls and floor not counted
-  double with_walls = 0.0;      ///< walls and floor counted as neighbours
-};
-
-struct PackingResult {
-  PackingStatus status = PackingStatus::failed;
-  std::string reason;  ///< empty when settled
-  std::int64_t grains = 0;
-  RestReport rest;
-  std::optional<ForceBalance> balance;  ///< if the accuracy asks for it
-  double surface_height = 0.0;          ///< z of the bed's free surface, d
-  double slab_bottom = 0.0;             ///< measured slab, d
-  double slab_top = 0.0;
-  double solid_fraction = 0.0;  ///< exact solid volume in the slab over the slab's volume
-  std::vector<Coordination> coordination;  ///< one entry per gap tolerance of the spec
-  double mean_diameter = 0.0;              ///< of all grains, d
-  double mean_diameter_by_volume = 0.0;    ///< the same, each grain weighted by its volume, d
-  Profile profile_y;                       ///< from wall to wall, in the slab
-  Profile profile_z;                       ///< from the floor up
-  Order order;                             ///< of the slab
-  std::optional<ShapeOrder> shape_order;   ///< of grains that are no spheres
-  std::int64_t steps = 0;
-  std::int64_t iterations = 0;
-  std::uint64_t state_hash = 0;  ///< of the final positions and radii
-};
-
-/// A grain of the finished bed, as `export` writes it.
-struct SettledGrain {
-  double x = 0.0, y = 0.0, z = 0.0, radius = 0.0;  ///< d; x and y inside the box; half its size
-  double force = 0.0;         ///< sum of the magnitudes of its contact forces, m g
-  std::int32_t touching = 0;  ///< touching grains at the first gap tolerance, walls not counted
-};
-
-/// The surface of a grain of size 1 in its own frame, d.
-struct Mesh {
-  std::vector<std::array<double, 3>> vertices;
-  std::vector<std::vector<std::int32_t>> faces;  ///< counter-clockwise seen from outside
-};
-
-/// What grains have that are no spheres.
-struct Turned {
-  Mesh mesh;
-  /// Unit quaternion x, y, z, w of each grain: a point of the mesh lies at centre + 2 radius times
-  /// the turned point.
-  std::vector<std::array<double, 4>> orientations;
-};
-
-struct Packing {
-  PackingResult result;
-  std::vector<SettledGrain> grains;  ///< in the order of the start, empty unless a bed exists
-  std::optional<Turned> turned;      ///< unless they are spheres
-};
-
-/// Where a packing stands; `share_done` is an estimate in [0, 1] that never falls.
-struct Progress {
-  std::int64_t step = 0;
-  double share_done = 0.0;
-  std::function<std::string()> save =
-      {};  ///< the packing as bytes; only during the call that gave it
-};
-
-/// Called after every step; false stops the packing, whose status is then `cancelled`.
-using KeepGoing = std::function<bool(const Progress&)>;
 
 /// Places, settles, certifies and measures one bed. Requires check(spec).empty().
 /// `saved`: bytes that Progress::save gave for the same spec; the packing goes on from there and
 /// ends with the same bits. Bytes that are torn or of another version are not taken: it then begins
 /// anew, to the same end.
-Packing make_packing(const PackingSpec& spec, const Processor& processor,
+Packing make_packing(const PackingSpec& spec, const ExecutionContext& context,
                      const KeepGoing& keep_going, std::string_view saved = {});
 
 /// What a packing will cost. Estimates: order of magnitude for sorting and planning, not promises.

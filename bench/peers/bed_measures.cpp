@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <limits>
 
-#include "engine/contact/contacts.hpp"
 #include "engine/dynamics/rest.hpp"
 #include "engine/measure/coordination.hpp"
 #include "engine/measure/solid_fraction.hpp"
 #include "engine/measure/touching.hpp"
+#include "engine/rows/contacts.hpp"
 #include "runner/tables/csv.hpp"
 
 namespace grainsweep::bench {

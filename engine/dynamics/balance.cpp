@@ -6,9 +6,9 @@
 
 #include <Eigen/SparseCholesky>
 
-#include "engine/contact/open_blocks.hpp"
 #include "engine/dynamics/dissection.hpp"
 #include "engine/dynamics/rest.hpp"
+#include "engine/rows/lanes.hpp"
 
 namespace grainsweep {
 

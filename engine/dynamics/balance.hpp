@@ -7,8 +7,8 @@
 // forces follow from the geometry alone.
 #pragma once
 
-#include "engine/contact/contacts.hpp"
-#include "engine/packing.hpp"
+#include "engine/results.hpp"
+#include "engine/rows/contacts.hpp"
 #include "engine/scene/bed.hpp"
 
 namespace grainsweep {

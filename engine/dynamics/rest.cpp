@@ -68,11 +68,11 @@ std::string exceeds(const char* what, double value, double tolerance, const char
 }  // namespace
 
 template <class Real>
-RestReport certify(const SphereBed& bed, const Processor& processor, double dt,
+RestReport certify(const SphereBed& bed, const ExecutionContext& context, double dt,
                    Contacts<Real>& contacts) {
   RestReport rest;
   double overlap = 0.0, bearing = 0.0;
-  detect(bed, processor, 1.0, contacts);
+  detect(bed, context, 1.0, contacts);
   visit_force_bearing(contacts, dt, [&](std::size_t block, std::size_t lane) {
     const auto gap = static_cast<double>(contacts.rows[block].gap[lane]);
     const double depth = std::max(0.0, -gap);
@@ -167,8 +167,8 @@ std::string why_not_at_rest(const RestReport& rest, const Accuracy& accuracy) {
   return {};
 }
 
-template RestReport certify(const SphereBed&, const Processor&, double, Contacts<float>&);
-template RestReport certify(const SphereBed&, const Processor&, double, Contacts<double>&);
+template RestReport certify(const SphereBed&, const ExecutionContext&, double, Contacts<float>&);
+template RestReport certify(const SphereBed&, const ExecutionContext&, double, Contacts<double>&);
 template std::int64_t zero_modes(const SphereBed&, const Contacts<float>&, double);
 template std::int64_t zero_modes(const SphereBed&, const Contacts<double>&, double);
 template double carried_weight(const SphereBed&, const Contacts<float>&, double);

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/contact/contacts.hpp"
-#include "engine/packing.hpp"
+#include "engine/results.hpp"
+#include "engine/rows/contacts.hpp"
 #include "engine/scene/bed.hpp"
 
 namespace grainsweep {
@@ -38,7 +38,7 @@ void visit_force_bearing(const Contacts<Real>& contacts, double dt, Visit visit)
 /// Largest and mean overlap, and counts, of a bed whose contacts hold the impulses of a step of
 /// length `dt`. Measures the gaps anew; residual, kinetic energy and motion are left at 0.
 template <class Real>
-RestReport certify(const SphereBed& bed, const Processor& processor, double dt,
+RestReport certify(const SphereBed& bed, const ExecutionContext& context, double dt,
                    Contacts<Real>& contacts);
 
 /// Degrees of freedom that no contact can take up: every cluster of grains that stands on the floor
@@ -49,14 +49,6 @@ std::int64_t zero_modes(const SphereBed& bed, const Contacts<Real>& contacts, do
 /// Share of the grains' weight that the floor carries.
 template <class Real>
 double carried_weight(const SphereBed& bed, const Contacts<Real>& contacts, double dt);
-
-/// A force that two grains exert on each other.
-struct PairForce {
-  std::int32_t a = 0, b = 0;
-  double height = 0.0;     ///< mean z of the two centres, d
-  double magnitude = 0.0;  ///< m g
-  int constraints = 1;     ///< 1 at a point, as of spheres, 2 along a line, 3 over an area
-};
 
 /// All pairs that bear a force.
 template <class Real>

@@ -14,10 +14,7 @@ void transfer_candidates(Archive& archive, List& candidates) {
   archive.column(candidates.built_at);
   archive.column(candidates.layer);
   archive.column(candidates.layers);
-  archive.list(candidates.walls, [&](auto& near) {
-    archive.value(near.wall);
-    archive.column(near.grains);
-  });
+  archive.list(candidates.walls, [&](auto& near) { archive.column(near.grains); });
 }
 
 template <class Archive, class Rows>

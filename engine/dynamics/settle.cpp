@@ -25,7 +25,7 @@ constexpr double f32_mass_ratio = 1e5;
 template <class Bed, class State>
 struct Settling {
   const Accuracy& accuracy;
-  const Processor& processor;
+  const ExecutionContext& context;
   Bed& bed;
   State& state;
   Stages stages;
@@ -42,9 +42,9 @@ struct Settling {
 // ---- what beds of spheres and beds of grains that turn do in their own way ----
 
 template <class Real>
-RestReport certify(const SphereBed& bed, const Processor& processor, double dt,
+RestReport certify(const SphereBed& bed, const ExecutionContext& context, double dt,
                    StepState<Real>& state) {
-  return certify(bed, processor, dt, state.contacts);
+  return certify(bed, context, dt, state.contacts);
 }
 template <class Real>
 double carried_weight(const SphereBed& bed, const StepState<Real>& state, double dt) {
@@ -59,9 +59,9 @@ std::vector<double> force_sums(const SphereBed& bed, const StepState<Real>& stat
   return force_sums(bed, state.contacts, dt);
 }
 template <class Real>
-ForceBalance balance_forces(const SphereBed& bed, const Processor& processor, double dt,
+ForceBalance balance_forces(const SphereBed& bed, const ExecutionContext& context, double dt,
                             StepState<Real>& state) {
-  return grainsweep::balance_forces(bed, processor.kernels, dt, state.contacts);
+  return grainsweep::balance_forces(bed, context.kernels, dt, state.contacts);
 }
 
 /// Heaviest over lightest grain.
@@ -96,7 +96,7 @@ bool has_fallen(const Settling<Bed, State>& s) {
 template <class Bed, class State>
 bool is_at_rest(Settling<Bed, State>& s) {
   RestReport& rest = s.report.rest;
-  rest = certify(s.bed, s.processor, s.settings.dt, s.state);
+  rest = certify(s.bed, s.context, s.settings.dt, s.state);
   rest.residual = s.last.solve.residual;
   rest.kinetic_energy = s.last.kinetic_energy;
   rest.largest_motion = s.last.largest_motion;
@@ -182,7 +182,7 @@ void restore(std::string_view bytes, Settling<Bed, State>& s) {
 /// One step; false if the observer does not want another one.
 template <class Bed, class State>
 bool take_step(Settling<Bed, State>& s, const KeepGoing& keep_going) {
-  s.last = step(s.settings, s.processor, s.bed, s.state);
+  s.last = step(s.settings, s.context, s.bed, s.state);
   if (s.report.steps == 0) s.sunk_at_start = s.last.sunk;
   s.report.sank = s.report.sank || s.last.sunk > s.sunk_at_start + rounding_of_places;
   ++s.report.steps;
@@ -214,7 +214,7 @@ void come_to_rest(Settling<Bed, State>& s, const KeepGoing& keep_going) {
 
 template <class Bed, class State>
 SettleReport settle_in(State& state, Stages stages, const Accuracy& accuracy,
-                       const Processor& processor, Bed& bed, const KeepGoing& keep_going,
+                       const ExecutionContext& context, Bed& bed, const KeepGoing& keep_going,
                        std::string_view saved) {
   forget(state);
   if (!is_fit(accuracy, bed)) {
@@ -225,9 +225,9 @@ SettleReport settle_in(State& state, Stages stages, const Accuracy& accuracy,
         "accuracy.precision f32: take f64";
     return unfit;
   }
-  Settling<Bed, State> s{accuracy, processor, bed, state,
-                         stages,   0,         0,   settings_of(accuracy, stages.front()),
-                         {},       0.0,       {}};
+  Settling<Bed, State> s{accuracy, context, bed, state,
+                         stages,   0,       0,   settings_of(accuracy, stages.front()),
+                         {},       0.0,     {}};
   restore(saved, s);
   come_to_rest(s, keep_going);
   if (!std::isfinite(s.last.kinetic_energy)) {
@@ -237,7 +237,7 @@ SettleReport settle_in(State& state, Stages stages, const Accuracy& accuracy,
   is_at_rest(s);
   if constexpr (std::is_same_v<Bed, SphereBed>) {
     if (accuracy.force_balance == BalanceCheck::solve && !s.report.cancelled) {
-      s.report.balance = balance_forces(bed, processor, s.settings.dt, state);
+      s.report.balance = balance_forces(bed, context, s.settings.dt, state);
     }
   }
   s.report.force = force_sums(bed, state, s.settings.dt);
@@ -247,24 +247,24 @@ SettleReport settle_in(State& state, Stages stages, const Accuracy& accuracy,
 
 }  // namespace
 
-SettleReport settle(const Accuracy& accuracy, const Processor& processor, SphereBed& bed,
+SettleReport settle(const Accuracy& accuracy, const ExecutionContext& context, SphereBed& bed,
                     const KeepGoing& keep_going, std::string_view saved) {
   Workspace own;
-  Workspace& memory = processor.workspace != nullptr ? *processor.workspace : own;
+  Workspace& memory = context.workspace != nullptr ? *context.workspace : own;
   const Stages stages = stages_of_spheres(accuracy.protocol);
   return accuracy.precision == Precision::f32
-             ? settle_in(memory.f32, stages, accuracy, processor, bed, keep_going, saved)
-             : settle_in(memory.f64, stages, accuracy, processor, bed, keep_going, saved);
+             ? settle_in(memory.f32, stages, accuracy, context, bed, keep_going, saved)
+             : settle_in(memory.f64, stages, accuracy, context, bed, keep_going, saved);
 }
 
-SettleReport settle(const Accuracy& accuracy, const Processor& processor, ShapeBed& bed,
+SettleReport settle(const Accuracy& accuracy, const ExecutionContext& context, ShapeBed& bed,
                     const KeepGoing& keep_going, std::string_view saved) {
   Workspace own;
-  Workspace& memory = processor.workspace != nullptr ? *processor.workspace : own;
+  Workspace& memory = context.workspace != nullptr ? *context.workspace : own;
   const Stages stages = stages_of_shapes();
   return accuracy.precision == Precision::f32
-             ? settle_in(memory.turning_f32, stages, accuracy, processor, bed, keep_going, saved)
-             : settle_in(memory.turning_f64, stages, accuracy, processor, bed, keep_going, saved);
+             ? settle_in(memory.turning_f32, stages, accuracy, context, bed, keep_going, saved)
+             : settle_in(memory.turning_f64, stages, accuracy, context, bed, keep_going, saved);
 }
 
 }  // namespace grainsweep

@@ -38,7 +38,7 @@
 
 #include "engine/dynamics/rest.hpp"
 #include "engine/dynamics/step.hpp"
-#include "engine/packing.hpp"
+#include "engine/results.hpp"
 #include "engine/scene/shape_bed.hpp"
 
 namespace grainsweep {
@@ -62,12 +62,12 @@ struct SettleReport {
 /// Settles `bed`, whose numbers must be finite; a state that becomes otherwise ends it at once and
 /// is never called settled. `keep_going` is asked after every step. `saved`: bytes that
 /// Progress::save gave for the same bed and accuracy, from which to go on; others are not taken.
-SettleReport settle(const Accuracy& accuracy, const Processor& processor, SphereBed& bed,
+SettleReport settle(const Accuracy& accuracy, const ExecutionContext& context, SphereBed& bed,
                     const KeepGoing& keep_going, std::string_view saved = {});
 
 /// The same for grains that turn, which know neither the protocol `dynamic` nor the direct solve of
 /// force balance.
-SettleReport settle(const Accuracy& accuracy, const Processor& processor, ShapeBed& bed,
+SettleReport settle(const Accuracy& accuracy, const ExecutionContext& context, ShapeBed& bed,
                     const KeepGoing& keep_going, std::string_view saved = {});
 
 }  // namespace grainsweep

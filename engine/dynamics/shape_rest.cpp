@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/contact/constraints.hpp"
+#include "engine/narrow/constraints.hpp"
 
 namespace grainsweep {
 
@@ -53,14 +53,14 @@ std::int64_t zero_modes(const ShapeBed& bed, const Sides& bearing) {
 }  // namespace
 
 template <class Real>
-RestReport certify(ShapeBed& bed, const Processor& processor, double dt,
+RestReport certify(ShapeBed& bed, const ExecutionContext& context, double dt,
                    ShapeStepState<Real>& state) {
   constexpr double search_margin = 0.05;  // d; as in the steps, so that candidates last
   const Sides bearing = force_bearing(state, dt);
   TouchSettings touch = touch_settings(constraint_gap, dt);
   touch.of_depth = 0.0;  // overlaps as deep as they are
   ShapeContacts now;
-  find_contacts({touch, search_margin}, processor, bed, state.search, now);
+  find_contacts({touch, search_margin}, context, bed, state.search, now);
   RestReport rest;
   std::int64_t pairs = 0;
   for (const ShapeContact& c : now.contacts) {
@@ -114,8 +114,8 @@ std::vector<double> force_sums(const ShapeBed& bed, const ShapeStepState<Real>& 
   return force;
 }
 
-template RestReport certify(ShapeBed&, const Processor&, double, ShapeStepState<float>&);
-template RestReport certify(ShapeBed&, const Processor&, double, ShapeStepState<double>&);
+template RestReport certify(ShapeBed&, const ExecutionContext&, double, ShapeStepState<float>&);
+template RestReport certify(ShapeBed&, const ExecutionContext&, double, ShapeStepState<double>&);
 template double carried_weight(const ShapeBed&, const ShapeStepState<float>&, double);
 template double carried_weight(const ShapeBed&, const ShapeStepState<double>&, double);
 template std::vector<PairForce> pair_forces(const ShapeBed&, const ShapeStepState<float>&, double);

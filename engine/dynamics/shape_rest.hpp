@@ -17,7 +17,7 @@ inline constexpr double constraint_gap = 1e-4;
 /// are those of the deepest points of these contacts. Residual, kinetic energy and motion are left
 /// at 0.
 template <class Real>
-RestReport certify(ShapeBed& bed, const Processor& processor, double dt,
+RestReport certify(ShapeBed& bed, const ExecutionContext& context, double dt,
                    ShapeStepState<Real>& state);
 
 /// Share of the grains' weight that the floor carried in the last step, of length `dt`.

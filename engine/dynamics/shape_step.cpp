@@ -66,7 +66,7 @@ TouchSettings touch_settings(double near, double dt) {
 }
 
 template <class Real>
-StepReport step(const StepSettings& settings, const Processor& processor, ShapeBed& bed,
+StepReport step(const StepSettings& settings, const ExecutionContext& context, ShapeBed& bed,
                 ShapeStepState<Real>& state) {
   StepReport report;
   const double force_unit = settings.dt * settings.dt;  // impulse of 1 m g over the step
@@ -75,10 +75,10 @@ StepReport step(const StepSettings& settings, const Processor& processor, ShapeB
   set_free_motion(settings, bed, state.motion.free);
   remember_impulses(bed, state.contacts, state.places, state.rows, state.carried);
   report.searched = find_contacts({touch_settings(settings.near, settings.dt), settings.margin},
-                                  processor, bed, state.search, state.contacts);
+                                  context, bed, state.search, state.contacts);
   lay_out(bed, state.contacts, settings.correction, state.places, state.rows);
   carry_impulses(state.contacts, state.carried, state.places, state.rows);
-  report.solve = solve(limits, processor, state.rows, state.motion);
+  report.solve = solve(limits, context, state.rows, state.motion);
   report.solve.residual /= force_unit;
   advance(state.motion.u, settings.dt, bed, report);
   return report;
@@ -91,8 +91,10 @@ void change_step(double ratio, ShapeBed& bed, ShapeStepState<Real>& state) {
   for (Real& impulse : state.rows.impulse) impulse *= static_cast<Real>(ratio * ratio);
 }
 
-template StepReport step(const StepSettings&, const Processor&, ShapeBed&, ShapeStepState<float>&);
-template StepReport step(const StepSettings&, const Processor&, ShapeBed&, ShapeStepState<double>&);
+template StepReport step(const StepSettings&, const ExecutionContext&, ShapeBed&,
+                         ShapeStepState<float>&);
+template StepReport step(const StepSettings&, const ExecutionContext&, ShapeBed&,
+                         ShapeStepState<double>&);
 
 template void change_step(double, ShapeBed&, ShapeStepState<float>&);
 template void change_step(double, ShapeBed&, ShapeStepState<double>&);

@@ -5,9 +5,9 @@
 // clamped; the contacts change that as little as keeps all gaps open, to first order in the angles.
 #pragma once
 
-#include "engine/contact/lever_layout.hpp"
-#include "engine/contact/shape_contacts.hpp"
 #include "engine/dynamics/step.hpp"
+#include "engine/narrow/shape_contacts.hpp"
+#include "engine/rows/lever_layout.hpp"
 #include "engine/scene/shape_bed.hpp"
 
 namespace grainsweep {
@@ -30,7 +30,7 @@ TouchSettings touch_settings(double near, double dt);
 /// A step. `largest_motion` of the report counts the way that a turn takes a point at the
 /// circumradius; the kinetic energy counts turning.
 template <class Real>
-StepReport step(const StepSettings& settings, const Processor& processor, ShapeBed& bed,
+StepReport step(const StepSettings& settings, const ExecutionContext& context, ShapeBed& bed,
                 ShapeStepState<Real>& state);
 
 /// Velocities stay as they are when the next step is `ratio` times as long as the last one: motions

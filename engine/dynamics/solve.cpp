@@ -15,7 +15,7 @@ struct Work {
 
   const RowsKernels& kernels;
   const RowKernels<Real>& record_kernels;  ///< for what is done to records, whatever the rows
-  const PartLoop& loop;
+  const ParallelFor& loop;
   Rows& contacts;
   MotionColumns<Real>& motion;
 };
@@ -78,8 +78,8 @@ SweepSums<typename Problem::Number> work_in_phase(Problem& problem, std::size_t 
   const PhaseParts parts = parts_of_phase(shares, phase);
   std::vector<SweepSums<Real>>& seen = problem.motion.seen;
   seen.resize(parts.last - parts.first);
-  run_parts(problem.loop, seen.size(),
-            [&](std::size_t k) { seen[k] = work(shares.parts[parts.first + k]); });
+  parallel_for(problem.loop, seen.size(),
+               [&](std::size_t k) { seen[k] = work(shares.parts[parts.first + k]); });
   SweepSums<Real> sums{};
   for (const SweepSums<Real>& one : seen) sums = joined(sums, one);
   return sums;
@@ -103,9 +103,9 @@ SweepSums<typename Problem::Number> sweep_ranges(Problem& problem, SweepOrder or
 
 /// Calls work(first, count) for `size` items, part by part.
 template <class Work>
-void visit_items(const PartLoop& loop, std::size_t size, const Work& work) {
+void visit_items(const ParallelFor& loop, std::size_t size, const Work& work) {
   constexpr std::size_t items_of_part = 8192;
-  run_parts(loop, size / items_of_part + 1, [&](std::size_t part) {
+  parallel_for(loop, size / items_of_part + 1, [&](std::size_t part) {
     const std::size_t first = part * items_of_part;
     work(first, std::min(items_of_part, size - first));
   });
@@ -118,7 +118,7 @@ void visit_records(const Problem& problem, const Work& work) {
 }
 
 template <class Item>
-void copy_items(const PartLoop& loop, const std::vector<Item>& from, std::vector<Item>& to) {
+void copy_items(const ParallelFor& loop, const std::vector<Item>& from, std::vector<Item>& to) {
   to.resize(from.size());
   visit_items(loop, from.size(), [&](std::size_t first, std::size_t count) {
     std::copy_n(from.data() + first, count, to.data() + first);
@@ -533,28 +533,28 @@ SolveReport run_solver(const SolveLimits& limits, Problem problem) {
 }  // namespace
 
 template <class Real>
-SolveReport solve(const SolveLimits& limits, const Processor& processor, Contacts<Real>& contacts,
-                  MotionColumns<Real>& motion) {
-  const RowKernels<Real>& kernels = row_kernels<Real>(processor.kernels);
+SolveReport solve(const SolveLimits& limits, const ExecutionContext& context,
+                  Contacts<Real>& contacts, MotionColumns<Real>& motion) {
+  const RowKernels<Real>& kernels = row_kernels<Real>(context.kernels);
   return run_solver(limits,
-                    SphereProblem<Real>{{kernels, kernels, processor.loop, contacts, motion}});
+                    SphereProblem<Real>{{kernels, kernels, context.loop, contacts, motion}});
 }
 
 template <class Real>
-SolveReport solve(const SolveLimits& limits, const Processor& processor,
+SolveReport solve(const SolveLimits& limits, const ExecutionContext& context,
                   LeverColumns<Real>& contacts, MotionColumns<Real>& motion) {
-  return run_solver(limits, LeverProblem<Real>{{lever_kernels<Real>(processor.kernels),
-                                                row_kernels<Real>(processor.kernels),
-                                                processor.loop, contacts, motion}});
+  return run_solver(limits, LeverProblem<Real>{{lever_kernels<Real>(context.kernels),
+                                                row_kernels<Real>(context.kernels), context.loop,
+                                                contacts, motion}});
 }
 
-template SolveReport solve(const SolveLimits&, const Processor&, Contacts<float>&,
+template SolveReport solve(const SolveLimits&, const ExecutionContext&, Contacts<float>&,
                            MotionColumns<float>&);
-template SolveReport solve(const SolveLimits&, const Processor&, Contacts<double>&,
+template SolveReport solve(const SolveLimits&, const ExecutionContext&, Contacts<double>&,
                            MotionColumns<double>&);
-template SolveReport solve(const SolveLimits&, const Processor&, LeverColumns<float>&,
+template SolveReport solve(const SolveLimits&, const ExecutionContext&, LeverColumns<float>&,
                            MotionColumns<float>&);
-template SolveReport solve(const SolveLimits&, const Processor&, LeverColumns<double>&,
+template SolveReport solve(const SolveLimits&, const ExecutionContext&, LeverColumns<double>&,
                            MotionColumns<double>&);
 
 }  // namespace grainsweep

@@ -11,9 +11,9 @@
 #include <limits>
 #include <vector>
 
-#include "engine/contact/contacts.hpp"
-#include "engine/contact/lever_columns.hpp"
-#include "engine/processor.hpp"
+#include "engine/context.hpp"
+#include "engine/rows/contacts.hpp"
+#include "engine/rows/lever_columns.hpp"
 #include "engine/scene/spec.hpp"
 
 namespace grainsweep {
@@ -48,10 +48,10 @@ struct MotionColumns {
 /// Improves `contacts.impulse`, starting from what it holds, until the residual is below the
 /// tolerance or the iterations are used up.
 template <class Real>
-SolveReport solve(const SolveLimits& limits, const Processor& processor, Contacts<Real>& contacts,
-                  MotionColumns<Real>& motion);
+SolveReport solve(const SolveLimits& limits, const ExecutionContext& context,
+                  Contacts<Real>& contacts, MotionColumns<Real>& motion);
 template <class Real>
-SolveReport solve(const SolveLimits& limits, const Processor& processor,
+SolveReport solve(const SolveLimits& limits, const ExecutionContext& context,
                   LeverColumns<Real>& contacts, MotionColumns<Real>& motion);
 
 }  // namespace grainsweep

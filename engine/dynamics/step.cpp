@@ -9,7 +9,7 @@ namespace {
 
 /// u_free = alpha u_last + g dt^2, clamped.
 template <class Real>
-void set_free_motion(const StepSettings& settings, const SphereBed& bed, Share grains,
+void set_free_motion(const StepSettings& settings, const SphereBed& bed, IndexRange grains,
                      std::vector<Record<Real>>& free) {
   const double fall = settings.dt * settings.dt;
   for (std::size_t i = grains.first; i < grains.last; ++i) {
@@ -23,11 +23,12 @@ void set_free_motion(const StepSettings& settings, const SphereBed& bed, Share g
   }
 }
 template <class Real>
-void set_free_motion(const StepSettings& settings, const PartLoop& loop, const SphereBed& bed,
+void set_free_motion(const StepSettings& settings, const ParallelFor& loop, const SphereBed& bed,
                      std::vector<Record<Real>>& free) {
   free.resize(bed.motion.size());
-  run_shares(loop, bed.grains(), bed.sections,
-             [&](std::size_t, Share grains) { set_free_motion(settings, bed, grains, free); });
+  parallel_chunks(loop, bed.grains(), bed.subdomains, [&](std::size_t, IndexRange grains) {
+    set_free_motion(settings, bed, grains, free);
+  });
   for (std::size_t i = bed.grains(); i < free.size(); ++i) {
     free[i] = {Real(0), Real(0), Real(0), static_cast<Real>(bed.motion[i].w)};
   }
@@ -35,20 +36,20 @@ void set_free_motion(const StepSettings& settings, const PartLoop& loop, const S
 
 /// Lists candidates and lays out rows anew if the list may have become incomplete.
 template <class Real>
-bool renew_candidates(const StepSettings& settings, const Processor& processor, SphereBed& bed,
+bool renew_candidates(const StepSettings& settings, const ExecutionContext& context, SphereBed& bed,
                       StepState<Real>& state) {
   if (state.has_candidates && still_complete(bed, settings.near, state.candidates)) {
     return false;
   }
-  find_candidates(bed, settings.near + settings.margin, processor, state.candidates);
-  lay_out(bed, state.candidates, state.contacts, processor.loop);
+  find_candidates(bed, settings.near + settings.margin, context, state.candidates);
+  lay_out(bed, state.candidates, state.contacts, context.loop);
   state.has_candidates = true;
   return true;
 }
 
 /// Moves some grains by `u`, cut at longest_motion.
 template <class Real>
-Moved advance(const std::vector<Record<Real>>& u, Share grains, SphereBed& bed) {
+Moved advance(const std::vector<Record<Real>>& u, IndexRange grains, SphereBed& bed) {
   double energy = 0.0, longest = 0.0;
   for (std::size_t i = grains.first; i < grains.last; ++i) {
     double x = static_cast<double>(u[i].x), y = static_cast<double>(u[i].y);
@@ -73,10 +74,10 @@ Moved advance(const std::vector<Record<Real>>& u, Share grains, SphereBed& bed) 
 
 /// Moves all grains and reports how they moved.
 template <class Real>
-void advance(double dt, const PartLoop& loop, SphereBed& bed, StepState<Real>& state,
+void advance(double dt, const ParallelFor& loop, SphereBed& bed, StepState<Real>& state,
              StepReport& report) {
-  state.moved.resize(bed.sections);
-  run_shares(loop, bed.grains(), bed.sections, [&](std::size_t part, Share some) {
+  state.moved.resize(bed.subdomains);
+  parallel_chunks(loop, bed.grains(), bed.subdomains, [&](std::size_t part, IndexRange some) {
     state.moved[part] = advance(state.motion.u, some, bed);
   });
   Moved all;
@@ -91,18 +92,18 @@ void advance(double dt, const PartLoop& loop, SphereBed& bed, StepState<Real>& s
 }  // namespace
 
 template <class Real>
-StepReport step(const StepSettings& settings, const Processor& processor, SphereBed& bed,
+StepReport step(const StepSettings& settings, const ExecutionContext& context, SphereBed& bed,
                 StepState<Real>& state) {
   StepReport report;
   const double force_unit = settings.dt * settings.dt;  // impulse of 1 m g over the step
   SolveLimits limits = settings.limits;
   limits.tolerance *= force_unit;
-  set_free_motion(settings, processor.loop, bed, state.motion.free);
-  report.searched = renew_candidates(settings, processor, bed, state);
-  report.sunk = detect(bed, processor, settings.correction, state.contacts);
-  report.solve = solve(limits, processor, state.contacts, state.motion);
+  set_free_motion(settings, context.loop, bed, state.motion.free);
+  report.searched = renew_candidates(settings, context, bed, state);
+  report.sunk = detect(bed, context, settings.correction, state.contacts);
+  report.solve = solve(limits, context, state.contacts, state.motion);
   report.solve.residual /= force_unit;
-  advance(settings.dt, processor.loop, bed, state, report);
+  advance(settings.dt, context.loop, bed, state, report);
   return report;
 }
 
@@ -113,8 +114,10 @@ void change_step(double ratio, SphereBed& bed, StepState<Real>& state) {
   for (Real& impulse : state.contacts.impulse) impulse *= static_cast<Real>(ratio * ratio);
 }
 
-template StepReport step(const StepSettings&, const Processor&, SphereBed&, StepState<float>&);
-template StepReport step(const StepSettings&, const Processor&, SphereBed&, StepState<double>&);
+template StepReport step(const StepSettings&, const ExecutionContext&, SphereBed&,
+                         StepState<float>&);
+template StepReport step(const StepSettings&, const ExecutionContext&, SphereBed&,
+                         StepState<double>&);
 
 template void change_step(double, SphereBed&, StepState<float>&);
 template void change_step(double, SphereBed&, StepState<double>&);

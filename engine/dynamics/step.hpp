@@ -5,9 +5,9 @@
 // and a small dt this is Moreau's contact dynamics; below 1 it is a damped descent to rest.
 #pragma once
 
-#include "engine/contact/candidates.hpp"
-#include "engine/contact/contacts.hpp"
+#include "engine/broad/candidates.hpp"
 #include "engine/dynamics/solve.hpp"
+#include "engine/rows/contacts.hpp"
 #include "engine/scene/bed.hpp"
 
 namespace grainsweep {
@@ -56,7 +56,7 @@ struct StepState {
 };
 
 template <class Real>
-StepReport step(const StepSettings& settings, const Processor& processor, SphereBed& bed,
+StepReport step(const StepSettings& settings, const ExecutionContext& context, SphereBed& bed,
                 StepState<Real>& state);
 
 /// Velocities stay as they are when the next step is `ratio` times as long as the last one: motions

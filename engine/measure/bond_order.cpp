@@ -51,8 +51,8 @@ double invariant(const Harmonics& harmonics) {
 Direction direction(const SphereBed& bed, const TouchingPair& pair) {
   const Record<double>& a = bed.position[static_cast<std::size_t>(pair.a)];
   const Record<double>& b = bed.position[static_cast<std::size_t>(pair.b)];
-  const double x = nearest(b.x - a.x, bed.box.period_x());
-  const double y = nearest(b.y - a.y, bed.box.period_y()), z = b.z - a.z;
+  const double x = nearest_image(b.x - a.x, bed.box.period_x());
+  const double y = nearest_image(b.y - a.y, bed.box.period_y()), z = b.z - a.z;
   const double length = std::sqrt(x * x + y * y + z * z);
   return {x / length, y / length, z / length};
 }

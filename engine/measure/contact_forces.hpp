@@ -3,9 +3,8 @@
 
 #include <vector>
 
-#include "engine/dynamics/rest.hpp"
-#include "engine/measure/curves.hpp"
 #include "engine/measure/solid_fraction.hpp"
+#include "engine/results.hpp"
 
 namespace grainsweep {
 

@@ -6,7 +6,7 @@
 
 #include "engine/measure/solid_fraction.hpp"
 #include "engine/measure/touching.hpp"
-#include "engine/packing.hpp"
+#include "engine/results.hpp"
 
 namespace grainsweep {
 

@@ -17,8 +17,8 @@ namespace grainsweep {
 /// Start of the window, d from the wall: nearer to it the profile rises from the wall itself.
 inline constexpr double decay_window_start = 0.25;
 
-/// Share of the bulk solid fraction below which an oscillation no longer counts as reach of the
-/// wall: a convention, not a result.
+/// Share of the bulk solid fraction below which an oscillation no longer counts as reach of
+/// the wall: a convention, not a result.
 inline constexpr double decay_reach_share = 0.05;
 
 /// A fitted number and its standard error.

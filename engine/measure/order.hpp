@@ -3,10 +3,9 @@
 
 #include <vector>
 
-#include "engine/dynamics/rest.hpp"
-#include "engine/measure/curves.hpp"
 #include "engine/measure/solid_fraction.hpp"
 #include "engine/measure/touching.hpp"
+#include "engine/results.hpp"
 
 namespace grainsweep {
 
@@ -15,7 +14,8 @@ struct OrderSettings {
   double gap_tolerance = 1e-4;  ///< grains and walls touch below this gap, d
 };
 
-/// Share of the slab's grains that touch exactly `contacts` grains and walls. NaN without grains.
+/// Share of the slab's grains that touch exactly `contacts` grains and walls. NaN without
+/// grains.
 double share_with_contacts(const SphereBed& bed, const Touching& touching, const Slab& slab,
                            double gap_tolerance, int contacts);
 

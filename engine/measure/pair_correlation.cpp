@@ -157,19 +157,12 @@ class PairCounter {
 
  private:
   void add(const Record<double>& a, const Record<double>& b) {
-    const double x = nearest_of(b.x - a.x, periods_[0]);
-    const double y = nearest_of(b.y - a.y, periods_[1]);
+    const double x = nearest_image(b.x - a.x, periods_[0]);
+    const double y = nearest_image(b.y - a.y, periods_[1]);
     const double z = b.z - a.z, squared = x * x + y * y + z * z;
     if (squared >= reach() * reach()) return;
     const auto bin = static_cast<std::size_t>(std::sqrt(squared) / bin_width_);
     counts_[std::min(bin, counts_.size() - 1)] += 1.0;
-  }
-
-  /// As nearest(), but that differences of half a period may go either way; these are beyond reach.
-  static double nearest_of(double difference, double period) {
-    if (!(period > 0.0)) return difference;
-    const double turns = difference / period + (difference < 0.0 ? -0.5 : 0.5);
-    return difference - period * static_cast<double>(static_cast<std::int64_t>(turns));
   }
 
   std::array<double, 2> periods_;

@@ -10,8 +10,8 @@
 // gap need no correction of their own (the isotropised set covariance; Ohser 1983).
 #pragma once
 
-#include "engine/measure/curves.hpp"
 #include "engine/measure/solid_fraction.hpp"
+#include "engine/results.hpp"
 
 namespace grainsweep {
 

@@ -7,9 +7,9 @@
 // whose centre lies in the bin.
 #pragma once
 
-#include "engine/measure/curves.hpp"
 #include "engine/measure/solid_fraction.hpp"
 #include "engine/measure/touching.hpp"
+#include "engine/results.hpp"
 
 namespace grainsweep {
 

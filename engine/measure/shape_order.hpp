@@ -1,10 +1,8 @@
-// How the polyhedra of a packing touch and point; see ShapeOrder in engine/measure/curves.hpp.
+// How the polyhedra of a packing touch and point; see ShapeOrder in engine/results.hpp.
 #pragma once
 
 #include <vector>
 
-#include "engine/dynamics/rest.hpp"
-#include "engine/measure/curves.hpp"
 #include "engine/measure/solid_fraction.hpp"
 #include "engine/scene/shape_bed.hpp"
 

@@ -1,11 +1,11 @@
 #include "engine/measure/touching.hpp"
 
-#include "engine/contact/candidates.hpp"
-#include "engine/contact/closest.hpp"
-#include "engine/contact/contacts.hpp"
-#include "engine/contact/separating_axes.hpp"
-#include "engine/contact/shape_contacts.hpp"
+#include "engine/broad/candidates.hpp"
 #include "engine/measure/cut_polyhedron.hpp"
+#include "engine/narrow/gjk.hpp"
+#include "engine/narrow/separating_axes.hpp"
+#include "engine/narrow/shape_contacts.hpp"
+#include "engine/rows/contacts.hpp"
 
 namespace grainsweep {
 
@@ -27,8 +27,7 @@ void add_walls(const SphereBed& bed, const Candidates& candidates, double gap_to
                Touching& touching) {
   for (std::size_t k = 0; k < candidates.walls.size(); ++k) {
     for (const std::int32_t grain : candidates.walls[k].grains) {
-      const double gap =
-          candidates.walls[k].wall.gap(bed.position[static_cast<std::size_t>(grain)]);
+      const double gap = bed.walls[k].gap(bed.position[static_cast<std::size_t>(grain)]);
       if (gap < gap_tolerance) {
         touching.walls.push_back({grain, static_cast<std::int32_t>(k), gap});
       }
@@ -45,8 +44,11 @@ double gap_of(const ShapeBed& bed, std::size_t a, std::size_t b) {
 
 /// Gap of the lowest point of a grain to a wall, d.
 double gap_of(const ShapeBed& bed, const Wall& wall, std::int32_t grain) {
-  const Span span = span_along(bed.shape, bed.pose(static_cast<std::size_t>(grain)), wall.axis);
-  return wall.offset + (wall.sign > 0.0 ? span.low : -span.high);
+  const Pose pose = bed.pose(static_cast<std::size_t>(grain));
+  const Vector& c = pose.centre;
+  const UnitVector n = wall.normal(c.x(), c.y(), c.z());
+  const Vector outward = pose.orientation.conjugate() * -Vector(n.x, n.y, n.z);
+  return wall.distance(c.x(), c.y(), c.z()) - pose.scale * reach_along(bed.shape, outward);
 }
 
 }  // namespace
@@ -77,7 +79,7 @@ Touching find_touching(ShapeBed& bed, double gap_tolerance, const Kernels& kerne
   }
   for (std::size_t k = 0; k < candidates.walls.size(); ++k) {
     for (const std::int32_t grain : candidates.walls[k].grains) {
-      const double gap = gap_of(bed, candidates.walls[k].wall, grain);
+      const double gap = gap_of(bed, bed.walls[k], grain);
       if (gap < gap_tolerance) {
         touching.walls.push_back({grain, static_cast<std::int32_t>(k), gap});
       }

@@ -16,7 +16,7 @@ struct TouchingPair {
 };
 struct TouchingWall {
   std::int32_t grain;
-  std::int32_t wall;  ///< position in walls_of(box): 0 is the floor
+  std::int32_t wall;  ///< of the bed's walls: 0 is the floor
   double gap;         ///< d
 };
 

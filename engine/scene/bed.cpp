@@ -13,11 +13,6 @@ namespace {
 /// Far enough that no grain ever meets the void, near enough that squares stay finite.
 constexpr double void_distance = 1e9;
 
-double wrapped(double coordinate, double period) {
-  const double inside = coordinate - period * std::floor(coordinate / period);
-  return inside < period ? inside : 0.0;
-}
-
 std::uint64_t mixed_value(std::uint64_t hash, double value) {
   std::uint64_t bits = 0;
   std::memcpy(&bits, &value, sizeof bits);
@@ -27,8 +22,8 @@ std::uint64_t mixed_value(std::uint64_t hash, double value) {
 
 }  // namespace
 
-int section_axis(const Box& box, double solid_volume) {
-  constexpr double flat = 1.5;            // times as long as high: worth other sections
+int subdomain_axis(const Box& box, double solid_volume) {
+  constexpr double flat = 1.5;            // times as long as high: worth other subdomains
   constexpr double solid_fraction = 0.6;  // about that of all settled beds
   const double height = solid_volume / (solid_fraction * box.length * box.width);
   const int longer = box.length >= box.width ? 0 : 1;
@@ -38,17 +33,18 @@ int section_axis(const Box& box, double solid_volume) {
 SphereBed make_bed(const Box& box, const std::vector<PlacedSphere>& spheres) {
   double volume = 0.0;
   for (const PlacedSphere& s : spheres) volume += sphere_volume(s.radius);
-  SphereBed bed{box, {}, {}, most_sections(spheres.size()), section_axis(box, volume)};
-  const std::size_t entries = spheres.size() + 3 * bed.sections;
+  SphereBed bed{
+      box, walls_of(box), {}, {}, most_subdomains(spheres.size()), subdomain_axis(box, volume)};
+  const std::size_t entries = spheres.size() + 3 * bed.subdomains;
   bed.position.reserve(entries);
   bed.motion.reserve(entries);
   for (const PlacedSphere& s : spheres) {
     bed.position.push_back({s.x, s.y, s.z, s.radius});
     bed.motion.push_back({0.0, 0.0, 0.0, 1.0 / sphere_mass(s.radius)});
   }
-  bed.position.insert(bed.position.end(), bed.sections, {0.0, 0.0, -void_distance, 0.0});
-  bed.motion.insert(bed.motion.end(), bed.sections, {0.0, 0.0, 0.0, 0.0});
-  for (std::size_t section = 0; section < bed.sections; ++section) {
+  bed.position.insert(bed.position.end(), bed.subdomains, {0.0, 0.0, -void_distance, 0.0});
+  bed.motion.insert(bed.motion.end(), bed.subdomains, {0.0, 0.0, 0.0, 0.0});
+  for (std::size_t subdomain = 0; subdomain < bed.subdomains; ++subdomain) {
     bed.position.insert(bed.position.end(), {{0.0, 0.0, -2.0 * void_distance, 0.0},
                                              {0.0, 0.0, -3.0 * void_distance, 0.0}});
     bed.motion.insert(bed.motion.end(), {{0.0, 0.0, 0.0, 1.0}, {0.0, 0.0, 0.0, 1.0}});
@@ -64,11 +60,6 @@ bool is_finite(const SphereBed& bed) {
   const auto finite = [](const Record<double>& r) { return is_finite(r); };
   return std::all_of(bed.position.begin(), bed.position.end(), finite) &&
          std::all_of(bed.motion.begin(), bed.motion.end(), finite);
-}
-
-void wrap(const Box& box, Record<double>& centre) {
-  centre.x = box.x == Boundary::periodic ? wrapped(centre.x, box.length) : centre.x;
-  centre.y = box.y == Boundary::periodic ? wrapped(centre.y, box.width) : centre.y;
 }
 
 void wrap(SphereBed& bed) {

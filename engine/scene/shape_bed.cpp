@@ -34,7 +34,7 @@ Record<double> record_of(const Quaternion& q) { return {q.x(), q.y(), q.z(), q.w
 }  // namespace
 
 ShapeBed make_shape_bed(const Box& box, ConvexShape shape, const std::vector<Pose>& poses) {
-  ShapeBed bed{box, std::move(shape), {}, {}, {}, {}, {}};
+  ShapeBed bed{box, walls_of(box), std::move(shape), {}, {}, {}, {}, {}};
   for (const Pose& p : poses) {
     bed.centre.push_back({p.centre.x(), p.centre.y(), p.centre.z(), p.scale});
     bed.orientation.push_back(record_of(p.orientation));
@@ -57,8 +57,8 @@ bool is_finite(const ShapeBed& bed) {
 
 Vector nearest_difference(const ShapeBed& bed, std::size_t a, std::size_t b) {
   const Record<double>&p = bed.centre[a], &q = bed.centre[b];
-  return {nearest(q.x - p.x, bed.box.period_x()), nearest(q.y - p.y, bed.box.period_y()),
-          q.z - p.z};
+  return {nearest_image(q.x - p.x, bed.box.period_x()),
+          nearest_image(q.y - p.y, bed.box.period_y()), q.z - p.z};
 }
 
 PairPose pair_pose(const ShapeBed& bed, std::size_t a, std::size_t b) {
@@ -70,6 +70,7 @@ void set_balls(const ShapeBed& bed, double radius, SphereBed& balls) {
     balls = make_bed(bed.box, std::vector<PlacedSphere>(bed.grains()));
   }
   balls.box = bed.box;
+  balls.walls = bed.walls;
   for (std::size_t i = 0; i < bed.grains(); ++i) {
     const Record<double>& p = bed.centre[i];
     balls.position[i] = {p.x, p.y, p.z, p.w * radius};

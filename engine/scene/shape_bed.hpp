@@ -16,6 +16,7 @@ namespace grainsweep {
 /// Columns of a bed, an entry per grain.
 struct ShapeBed {
   Box box;
+  std::vector<Wall> walls;  ///< of the box, the floor first
   ConvexShape shape;
   std::vector<Record<double>> centre;  ///< x, y, z and scale, d; x and y may leave the box
   std::vector<Record<double>>

@@ -60,7 +60,7 @@ std::vector<Pose> placed_poses(const PlacedGrains& placed, const GivenFrame& giv
 
 std::optional<ShapeBed> start_shapes(const PackingSpec& spec) {
   const ConvexShape shape = *shape_of(spec.shape).shape;
-  const Box box{spec.box.length, spec.box.width, spec.box.x, spec.box.y};
+  const Box& box = spec.box;
   if (const auto* placed = std::get_if<PlacedGrains>(&spec.fill)) {
     return make_shape_bed(box, shape, placed_poses(*placed, shape.given));
   }

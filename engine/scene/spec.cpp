@@ -92,7 +92,7 @@ bool check_side(const char* path, double side, Boundary boundary, double shortes
   return false;
 }
 
-bool check_box(const BoxSpec& box, double largest, Errors& errors) {
+bool check_box(const Box& box, double largest, Errors& errors) {
   const bool length = check_side("box.length", box.length, box.x, 2.0, largest, errors);
   const bool width = check_side("box.width", box.width, box.y, 1.0, largest, errors);
   return length && width;
@@ -111,7 +111,7 @@ bool is_outside(double centre, double radius, double side, Boundary boundary) {
 
 /// What is wrong with one placed grain; empty if nothing is. A ball of `inner` times its size lies
 /// within it.
-std::string fault_of(const PlacedSphere& grain, double inner, const BoxSpec& box) {
+std::string fault_of(const PlacedSphere& grain, double inner, const Box& box) {
   const double within = 2.0 * inner * grain.radius;
   if (!(grain.radius > 0.0 && grain.radius <= longest_side)) {
     return "the radius must be positive, is " + text_of(grain.radius);
@@ -152,7 +152,7 @@ void check_orientations(const PlacedGrains& placed, bool are_spheres, Errors& er
 }
 
 /// The first bad grain speaks for all of them: a wrong unit spoils every line.
-void check_placed(const PlacedGrains& placed, double inner, const BoxSpec& box, Errors& errors) {
+void check_placed(const PlacedGrains& placed, double inner, const Box& box, Errors& errors) {
   std::string first;
   std::size_t bad = 0;
   for (std::size_t i = 0; i < placed.grains.size(); ++i) {

@@ -12,20 +12,10 @@
 #include <variant>
 #include <vector>
 
+#include "engine/scene/box.hpp"
 #include "engine/shape/shape_spec.hpp"
 
 namespace grainsweep {
-
-/// What bounds a horizontal axis of the box: two fixed flat walls, or its own periodic image.
-enum class Boundary { periodic, walls };
-
-/// The box: floor at z = 0, open above. x runs over [0, length], y over [0, width].
-struct BoxSpec {
-  double length = 20.0;  ///< extent along x, d
-  double width = 10.0;   ///< extent along y, d; the gap W between the walls when y is walled
-  Boundary x = Boundary::periodic;
-  Boundary y = Boundary::walls;
-};
 
 /// A grain of a bed that comes from elsewhere: centre and radius, d. Of a grain that is no sphere
 /// the radius is half its size: the shape as it is given has the radius 1/2.
@@ -115,7 +105,7 @@ struct MeasureSpec {
 
 struct PackingSpec {
   ShapeSpec shape;  ///< of a grain of size 1; sizes scale it
-  BoxSpec box;
+  Box box;
   Fill fill = SolidHeight{};
   SizesSpec sizes;
   Accuracy accuracy;

@@ -92,22 +92,14 @@ class Column {
                        [&](const PlacedSphere& other) { return overlap(s, other); });
   }
   bool overlap(const PlacedSphere& a, const PlacedSphere& b) const {
-    const double dx = nearest(a.x - b.x, box_.period_x());
-    const double dy = nearest(a.y - b.y, box_.period_y());
+    const double dx = nearest_image(a.x - b.x, box_.period_x());
+    const double dy = nearest_image(a.y - b.y, box_.period_y());
     const double dz = a.z - b.z, reach = a.radius + b.radius;
     return dx * dx + dy * dy + dz * dz < reach * reach;
   }
   /// Index on the other side of a periodic border; `index` lies no further out than `cells`.
   static int wrapped(int index, int cells) {
     return index < 0 ? index + cells : index >= cells ? index - cells : index;
-  }
-  /// Nearest image of a difference of two coordinates in 0 .. period; no period: as it is.
-  static double nearest(double difference, double period) {
-    if (!(period > 0.0)) return difference;
-    const double half = period / 2.0;
-    return difference > half    ? difference - period
-           : difference < -half ? difference + period
-                                : difference;
   }
 
   Box box_;
@@ -166,12 +158,12 @@ double column_height(const Box& box, const std::vector<double>& radii) {
   return solid_volume(radii) / (start_solid_fraction * box.length * box.width);
 }
 
-/// Numbers the grains of a large bed along the axis of its sections, slice by slice, and in each as
-/// they were: what a section is made of lies together in memory.
-void sort_along_sections(const Box& box, const std::vector<double>& radii,
-                         std::vector<PlacedSphere>& spheres) {
-  const int axis = section_axis(box, solid_volume(radii));
-  if (most_sections(spheres.size()) == 1 || axis == 2) return;
+/// Numbers the grains of a large bed along the axis of its subdomains, slice by slice, and in each
+/// as they were: what a subdomain is made of lies together in memory.
+void sort_along_subdomains(const Box& box, const std::vector<double>& radii,
+                           std::vector<PlacedSphere>& spheres) {
+  const int axis = subdomain_axis(box, solid_volume(radii));
+  if (most_subdomains(spheres.size()) == 1 || axis == 2) return;
   const double slice = 2.0 * *std::max_element(radii.begin(), radii.end());
   const auto slice_of = [&](const PlacedSphere& s) {
     return std::floor((axis == 0 ? s.x : s.y) / slice);
@@ -206,16 +198,15 @@ std::optional<std::vector<PlacedSphere>> place_at_random(const Box& box,
 }
 
 std::optional<SphereBed> start(const PackingSpec& spec) {
-  const Box box{spec.box.length, spec.box.width, spec.box.x, spec.box.y};
   if (const auto* placed = std::get_if<PlacedGrains>(&spec.fill)) {
-    return make_bed(box, placed->grains);
+    return make_bed(spec.box, placed->grains);
   }
   const std::vector<double> radii = draw_radii(spec);
-  if (radii.empty()) return make_bed(box, {});
-  auto spheres = place_at_random(box, radii, column_height(box, radii), spec.random_key);
+  if (radii.empty()) return make_bed(spec.box, {});
+  auto spheres = place_at_random(spec.box, radii, column_height(spec.box, radii), spec.random_key);
   if (!spheres) return std::nullopt;
-  sort_along_sections(box, radii, *spheres);
-  return make_bed(box, *spheres);
+  sort_along_subdomains(spec.box, radii, *spheres);
+  return make_bed(spec.box, *spheres);
 }
 
 }  // namespace grainsweep

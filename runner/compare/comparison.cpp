@@ -27,7 +27,7 @@ const JobFacts& job_of(const Family& family) {
   return (family.walled.empty() ? family.periodic : family.walled).front().job;
 }
 
-double share_of(const Family& family) { return job_of(family).small_share; }
+double chunk_of(const Family& family) { return job_of(family).small_share; }
 
 /// What the paper prints of a family.
 struct Printed {
@@ -198,7 +198,7 @@ void add_reach(const Family& family, const Group& group, Rows& rows) {
   const Printed printed = printed_of(family);
   rows.push_back(row_of_decay(family, fit, printed.decay, "by number",
                               mean_over(group, &PackingResult::mean_diameter)));
-  if (share_of(family) > 0.0) {
+  if (chunk_of(family) > 0.0) {
     rows.push_back(row_of_decay(family, fit, printed.decay, "by volume",
                                 mean_over(group, &PackingResult::mean_diameter_by_volume)));
   }

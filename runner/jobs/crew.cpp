@@ -32,7 +32,7 @@ Crew::Crew()
 
 Crew::~Crew() { dismiss(); }
 
-PartLoop Crew::loop() {
+ParallelFor Crew::loop() {
   return
       [this](std::size_t parts, const std::function<void(std::size_t)>& work) { run(parts, work); };
 }

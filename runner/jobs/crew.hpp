@@ -10,7 +10,7 @@
 
 #include <tbb/task_group.h>
 
-#include "engine/processor.hpp"
+#include "engine/context.hpp"
 
 namespace grainsweep {
 
@@ -29,7 +29,7 @@ class Crew {
   Crew& operator=(Crew&&) = delete;
 
   /// Hands out parts of work; valid while the crew lives.
-  PartLoop loop();
+  ParallelFor loop();
 
   /// Sends the helpers away; loops go on without them. To be called where waiting for them cannot
   /// begin other work: inside tbb::this_task_arena::isolate, as the crew's whole life should be.

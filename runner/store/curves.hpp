@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "engine/packing.hpp"
+#include "engine/results.hpp"
 
 namespace grainsweep {
 

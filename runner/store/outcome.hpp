@@ -8,7 +8,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "engine/packing.hpp"
+#include "engine/results.hpp"
 
 namespace grainsweep {
 

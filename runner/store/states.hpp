@@ -12,13 +12,14 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/packing.hpp"
+#include "engine/results.hpp"
+#include "engine/scene/box.hpp"
 #include "runner/store/curves.hpp"
 
 namespace grainsweep {
 
 struct StoredBed {
-  BoxSpec box;
+  Box box;
   std::vector<SettledGrain> grains;
   Curves curves = {};
   std::optional<Turned> turned = {};  ///< unless they are spheres; an orientation per grain

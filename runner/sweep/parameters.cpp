@@ -29,7 +29,7 @@ std::optional<Value> present(const T& value) {
   return std::optional<Value>(std::in_place, std::in_place_type<T>, value);
 }
 
-/// `members` leads from the draft to the parameter: &Draft::spec, &PackingSpec::box, &BoxSpec::x.
+/// `members` leads from the draft to the parameter: &Draft::spec, &PackingSpec::box, &Box::x.
 template <auto... members>
 void set_member(Draft& draft, const Value& value) {
   auto& target = (draft.*....*members);
@@ -177,10 +177,10 @@ Rows shape_rows() {
 Rows box_rows() {
   const Names boundaries = {"periodic", "walls"};  // in the order of Boundary
   return {
-      box<&BoxSpec::length>("box.length", "extent of the box along x, d"),
-      box<&BoxSpec::width>("box.width", "extent of the box along y, d: the gap between walls"),
-      box<&BoxSpec::x>("box.x", "what bounds the box along x", boundaries),
-      box<&BoxSpec::y>("box.y", "what bounds the box along y", boundaries),
+      box<&Box::length>("box.length", "extent of the box along x, d"),
+      box<&Box::width>("box.width", "extent of the box along y, d: the gap between walls"),
+      box<&Box::x>("box.x", "what bounds the box along x", boundaries),
+      box<&Box::y>("box.y", "what bounds the box along y", boundaries),
   };
 }
 

@@ -23,7 +23,7 @@ struct JobFacts {
   std::uint64_t seed = 0;
   std::string shape;     ///< "sphere", "pinacoid" or "hull"
   std::string accuracy;  ///< name of a preset, or "custom"
-  BoxSpec box;
+  Box box;
   double small_share = 0.0;
   MeasureSpec measure;
 };

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/measure/curves.hpp"
+#include "engine/results.hpp"
 
 namespace grainsweep {
 

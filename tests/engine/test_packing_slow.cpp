@@ -5,9 +5,9 @@
 
 #include <catch2/catch.hpp>
 
-#include "engine/contact/sections.hpp"
 #include "engine/dynamics/presets.hpp"
 #include "engine/packing.hpp"
+#include "engine/rows/subdomains.hpp"
 #include "tests/support/instruction_sets.hpp"
 #include "tests/support/keep_going.hpp"
 #include "tests/support/part_loops.hpp"
@@ -76,9 +76,9 @@ TEST_CASE("small grains fill the gaps between large ones", "[slow]") {
 }
 
 TEST_CASE("beds settle within every tolerance of their accuracy, whatever the box", "[slow]") {
-  for (const BoxSpec& box : {BoxSpec{7, 7, Boundary::walls, Boundary::walls},
-                             BoxSpec{20, 2.5, Boundary::periodic, Boundary::walls},
-                             BoxSpec{3, 3, Boundary::periodic, Boundary::periodic}}) {
+  for (const Box& box : {Box{7, 7, Boundary::walls, Boundary::walls},
+                         Box{20, 2.5, Boundary::periodic, Boundary::walls},
+                         Box{3, 3, Boundary::periodic, Boundary::periodic}}) {
     for (const char* accuracy : {"fast", "balanced", "accurate"}) {
       INFO(box.length << " x " << box.width << ", " << accuracy);
       PackingSpec spec = bed_spec(8, 8, Boundary::walls, accuracy);
@@ -108,7 +108,7 @@ TEST_CASE("a packing has the same bits for every instruction set", "[slow]") {
   }
 }
 
-// The first steps of a bed of several sections: the fall and its impacts on the floor.
+// The first steps of a bed of several subdomains: the fall and its impacts on the floor.
 TEST_CASE("a large packing has the same bits however its parts are shared out", "[slow]") {
   PackingSpec spec = bed_spec(20, 20, Boundary::walls, "fast");
   spec.fill = GrainCount{static_cast<std::int64_t>(large_bed_grains) + 500};
@@ -118,10 +118,10 @@ TEST_CASE("a large packing has the same bits however its parts are shared out", 
         Solver::symmetric_gauss_seidel, Solver::nonsmooth_nonlinear_conjugate}) {
     spec.accuracy.solver = solver;
     const PackingResult expected = make_packing(spec, kernels_for(best_isa()), always).result;
-    for (const PartLoop& loop :
-         {PartLoop(testing::last_part_first), PartLoop(testing::two_threads)}) {
-      const Processor processor(kernels_for(best_isa()), loop);
-      const PackingResult result = make_packing(spec, processor, always).result;
+    for (const ParallelFor& loop :
+         {ParallelFor(testing::last_part_first), ParallelFor(testing::two_threads)}) {
+      const ExecutionContext context(kernels_for(best_isa()), loop);
+      const PackingResult result = make_packing(spec, context, always).result;
       CHECK(result.state_hash == expected.state_hash);
       CHECK(result.rest.residual == expected.rest.residual);
       CHECK(result.rest.kinetic_energy == expected.rest.kinetic_energy);

@@ -113,9 +113,8 @@ Finding balance(std::int64_t grains, double width, const Accuracy& accuracy) {
   spec.box.width = width;
   SphereBed bed = *start(spec);
   Workspace memory;
-  const Processor processor(kernels(), one_after_another, &memory);
-  const SettleReport report =
-      settle(accuracy, processor, bed, [](const Progress&) { return true; });
+  const ExecutionContext context(kernels(), serial_for, &memory);
+  const SettleReport report = settle(accuracy, context, bed, [](const Progress&) { return true; });
   const double dt = last_step(accuracy);
   const ForceBalance balance = accuracy.precision == Precision::f32
                                    ? balance_forces(bed, kernels(), dt, memory.f32.contacts)

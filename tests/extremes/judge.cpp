@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/contact/candidates.hpp"
+#include "engine/broad/candidates.hpp"
 #include "engine/dynamics/stages.hpp"
 #include "engine/dynamics/workspace.hpp"
 
@@ -27,7 +27,7 @@ template <class Visit>
 void visit_gaps(const SphereBed& bed, Visit visit) {
   for (std::size_t a = 0; a < bed.grains(); ++a) {
     for (std::size_t b = a + 1; b < bed.grains(); ++b) visit(gap_of(bed, a, b));
-    for (const Wall& wall : walls_of(bed.box)) visit(wall.gap(bed.position[a]));
+    for (const Wall& wall : bed.walls) visit(wall.gap(bed.position[a]));
   }
 }
 
@@ -73,9 +73,9 @@ double SettledBed::weight() const {
 
 SettledBed settle_scene(SphereBed bed, const Accuracy& accuracy) {
   Workspace memory;
-  const Processor processor(kernels_for(best_isa()), one_after_another, &memory);
+  const ExecutionContext context(kernels_for(best_isa()), serial_for, &memory);
   SettledBed settled{std::move(bed), accuracy, {}, {}};
-  settled.report = settle(accuracy, processor, settled.bed, [](const Progress&) { return true; });
+  settled.report = settle(accuracy, context, settled.bed, [](const Progress&) { return true; });
   accuracy.precision == Precision::f32 ? collect_forces(memory.f32.contacts, settled)
                                        : collect_forces(memory.f64.contacts, settled);
   return settled;

@@ -68,8 +68,8 @@ PackingSpec small_spec(std::int64_t grains, const Accuracy& accuracy) {
 
 Finding pack_unchecked(const PackingSpec& spec) {
   Workspace memory;
-  const Processor processor(kernels_for(best_isa()), one_after_another, &memory);
-  const Packing packing = make_packing(spec, processor, [](const Progress&) { return true; });
+  const ExecutionContext context(kernels_for(best_isa()), serial_for, &memory);
+  const Packing packing = make_packing(spec, context, [](const Progress&) { return true; });
   const PackingResult& result = packing.result;
   Finding finding;
   finding.finite = is_finite(packing.grains);

@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/contact/closest.hpp"
-#include "engine/contact/separating_axes.hpp"
-#include "engine/contact/touch.hpp"
+#include "engine/narrow/gjk.hpp"
+#include "engine/narrow/manifold.hpp"
+#include "engine/narrow/separating_axes.hpp"
 #include "tests/extremes/catalogue.hpp"
 #include "tests/support/shape_pairs.hpp"
 

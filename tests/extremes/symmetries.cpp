@@ -2,8 +2,8 @@
 #include <cmath>
 #include <memory>
 
-#include "engine/contact/touch.hpp"
 #include "engine/dynamics/presets.hpp"
+#include "engine/narrow/manifold.hpp"
 #include "engine/scene/start.hpp"
 #include "tests/extremes/accuracy_names.hpp"
 #include "tests/extremes/catalogue.hpp"
@@ -17,18 +17,18 @@ namespace grainsweep::extremes {
 namespace {
 
 using Spheres = std::vector<PlacedSphere>;
-using Change = void (*)(const BoxSpec&, Spheres&);
+using Change = void (*)(const Box&, Spheres&);
 
-void shift(const BoxSpec& box, Spheres& spheres) {
+void shift(const Box& box, Spheres& spheres) {
   for (PlacedSphere& s : spheres) s.x = std::fmod(s.x + 1.25, box.length);
 }
-void mirror_x(const BoxSpec& box, Spheres& spheres) {
+void mirror_x(const Box& box, Spheres& spheres) {
   for (PlacedSphere& s : spheres) s.x = box.length - s.x;
 }
-void mirror_y(const BoxSpec& box, Spheres& spheres) {
+void mirror_y(const Box& box, Spheres& spheres) {
   for (PlacedSphere& s : spheres) s.y = box.width - s.y;
 }
-void rename_grains(const BoxSpec&, Spheres& spheres) { testing::Draw(5).shuffle(spheres); }
+void rename_grains(const Box&, Spheres& spheres) { testing::Draw(5).shuffle(spheres); }
 
 Spheres start_of(const PackingSpec& spec) {
   const SphereBed bed = *start(spec);
@@ -67,7 +67,7 @@ PackingSpec spec_of(std::uint64_t key, const Accuracy& accuracy) {
 }
 
 PackingResult pack(const PackingSpec& spec) {
-  return make_packing(spec, Processor(kernels_for(best_isa())),
+  return make_packing(spec, ExecutionContext(kernels_for(best_isa())),
                       [](const Progress&) { return true; })
       .result;
 }

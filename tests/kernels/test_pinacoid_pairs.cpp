@@ -42,7 +42,7 @@ Grains random_grains(std::size_t blocks, std::uint64_t seed) {
   return grains;
 }
 
-// That the twin finds the right axes is tested against f64 in tests/engine/contact.
+// That the twin finds the right axes is tested against f64 in tests/engine/narrow.
 TEST_CASE("the pinacoid kernel gives the bits of its plain-loop twin") {
   const PinacoidHalves shapes[] = {
       {0.5, 0.5, 0.21132486540518713, 0.5}, {0.75, 0.4, 0.5, 0.3}, {0.5, 0.5, 0, 0.5}};

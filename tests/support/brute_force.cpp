@@ -53,10 +53,11 @@ std::set<NamedPair> listed_pairs(const Candidates& candidates) {
 bool holds_all_closer_than(const SphereBed& bed, const Candidates& candidates, double reach) {
   const auto listed = listed_pairs(candidates), close = pairs_closer_than(bed, reach);
   bool holds = std::includes(listed.begin(), listed.end(), close.begin(), close.end());
-  for (const WallCandidates& near : candidates.walls) {
+  for (std::size_t k = 0; k < candidates.walls.size(); ++k) {
+    const WallCandidates& near = candidates.walls[k];
     for (std::int32_t i = 0; i < bed.wall(); ++i) {
       const bool is_listed = std::binary_search(near.grains.begin(), near.grains.end(), i);
-      const bool is_close = near.wall.gap(bed.position[static_cast<std::size_t>(i)]) < reach;
+      const bool is_close = bed.walls[k].gap(bed.position[static_cast<std::size_t>(i)]) < reach;
       holds = holds && (is_listed || !is_close);
     }
   }

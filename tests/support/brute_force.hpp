@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/contact/candidates.hpp"
+#include "engine/broad/candidates.hpp"
 #include "engine/scene/bed.hpp"
 
 namespace grainsweep::testing {

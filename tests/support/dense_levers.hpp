@@ -7,8 +7,8 @@
 
 #include <Eigen/Core>
 
-#include "engine/contact/lever_columns.hpp"
 #include "engine/dynamics/solve.hpp"
+#include "engine/rows/lever_columns.hpp"
 
 namespace grainsweep::testing {
 

@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/contact/contacts.hpp"
 #include "engine/dynamics/solve.hpp"
+#include "engine/rows/contacts.hpp"
 
 namespace grainsweep::testing {
 

@@ -1,7 +1,7 @@
 // What a packing asks after every step, answered.
 #pragma once
 
-#include "engine/packing.hpp"
+#include "engine/results.hpp"
 
 namespace grainsweep::testing {
 

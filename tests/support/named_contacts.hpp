@@ -6,7 +6,7 @@
 #include <map>
 #include <utility>
 
-#include "engine/contact/contacts.hpp"
+#include "engine/rows/contacts.hpp"
 
 namespace grainsweep::testing {
 

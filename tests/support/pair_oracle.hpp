@@ -2,7 +2,7 @@
 // against every edge, every axis that could part them. The oracle of narrow phase.
 #pragma once
 
-#include "engine/contact/shape_pair.hpp"
+#include "engine/narrow/shape_pair.hpp"
 
 namespace grainsweep::testing {
 

@@ -6,7 +6,7 @@
 #include <thread>
 #include <vector>
 
-#include "engine/processor.hpp"
+#include "engine/context.hpp"
 
 namespace grainsweep::testing {
 

@@ -34,6 +34,6 @@ SphereBed fcc_bed(int nx, int ny, int nz);
 SphereBed column_bed(int grains, double gap);
 
 /// Box of a specification.
-inline Box box_of(const BoxSpec& box) { return {box.length, box.width, box.x, box.y}; }
+inline Box box_of(const Box& box) { return {box.length, box.width, box.x, box.y}; }
 
 }  // namespace grainsweep::testing

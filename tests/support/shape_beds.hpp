@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "engine/contact/constraints.hpp"
 #include "engine/dynamics/shape_step.hpp"
+#include "engine/narrow/constraints.hpp"
 #include "tests/support/scenes.hpp"
 #include "tests/support/shapes.hpp"
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/contact/shape_pair.hpp"
+#include "engine/narrow/shape_pair.hpp"
 #include "tests/support/pair_oracle.hpp"
 #include "tests/support/shapes.hpp"
 

@@ -52,11 +52,11 @@ template <class Real>
 long allocations_in_steps(int first, int last, SphereBed bed, StepState<Real>& state) {
   StepSettings settings;
   settings.limits = {Solver::accelerated_projected_gradient, 20, 1e-3};
-  const Processor processor(kernels_for(best_isa()));
+  const ExecutionContext context(kernels_for(best_isa()));
   long before = 0;
   for (int k = 0; k < last; ++k) {
     if (k == first) before = allocations;
-    step(settings, processor, bed, state);
+    step(settings, context, bed, state);
   }
   return allocations - before;
 }

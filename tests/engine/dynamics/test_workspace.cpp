@@ -22,7 +22,7 @@ PackingSpec small_bed(std::int64_t grains, double width, Precision precision) {
 }
 
 /// The same in fresh memory and in what earlier packings have left; leaves a stopped one behind.
-void check_same(const PackingSpec& spec, const Processor& used) {
+void check_same(const PackingSpec& spec, const ExecutionContext& used) {
   const PackingResult fresh = make_packing(spec, kernels_for(best_isa()), always).result;
   const PackingResult again = make_packing(spec, used, always).result;
   CHECK(again.state_hash == fresh.state_hash);
@@ -36,7 +36,7 @@ void check_same(const PackingSpec& spec, const Processor& used) {
 // impulses behind.
 TEST_CASE("a packing has the same bits in the memory that others have left") {
   Workspace workspace;
-  const Processor used(kernels_for(best_isa()), one_after_another, &workspace);
+  const ExecutionContext used(kernels_for(best_isa()), serial_for, &workspace);
   for (const PackingSpec& spec :
        {small_bed(300, 5, Precision::f32), small_bed(80, 3, Precision::f32),
         small_bed(80, 3, Precision::f64), small_bed(300, 5, Precision::f32)}) {
@@ -47,7 +47,7 @@ TEST_CASE("a packing has the same bits in the memory that others have left") {
 // As many grains in another box, of another shape, in another number type.
 TEST_CASE("a packing of shapes has the same bits in the memory that others have left") {
   Workspace workspace;
-  const Processor used(kernels_for(best_isa()), one_after_another, &workspace);
+  const ExecutionContext used(kernels_for(best_isa()), serial_for, &workspace);
   PackingSpec walled = small_bed(36, 5, Precision::f32);
   walled.shape = PinacoidSize{};
   PackingSpec open = walled, hulls = walled, fine = walled;

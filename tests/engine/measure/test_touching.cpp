@@ -4,7 +4,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "engine/contact/candidates.hpp"
+#include "engine/broad/candidates.hpp"
 #include "engine/measure/touching.hpp"
 #include "tests/support/brute_force.hpp"
 #include "tests/support/instruction_sets.hpp"
@@ -42,7 +42,7 @@ TEST_CASE("the touching walls are those within the tolerance, the floor being wa
   std::set<NamedPair> found;
   for (const TouchingWall& wall : touching.walls) {
     found.insert({wall.grain, wall.wall});
-    const Wall plane = walls_of(bed.box)[static_cast<std::size_t>(wall.wall)];
+    const Wall plane = bed.walls[static_cast<std::size_t>(wall.wall)];
     CHECK(wall.gap == plane.gap(bed.position[static_cast<std::size_t>(wall.grain)]));
   }
   CHECK(found == std::set<NamedPair>{{0, 0}, {0, 1}, {1, 0}, {2, 2}, {2, 4}});

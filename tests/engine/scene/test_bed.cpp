@@ -28,27 +28,27 @@ TEST_CASE("a bed holds its spheres, the wall and two void grains") {
   CHECK(testing::same_bits(bed.position[1], Record<double>{4, 4, 4, 0.25}));
 }
 
-TEST_CASE("each section of a large bed has a wall and two void grains of its own") {
+TEST_CASE("each subdomain of a large bed has a wall and two void grains of its own") {
   const SphereBed bed = bed_of(std::vector<PlacedSphere>(large_bed_grains, {1, 2, 3, 0.5}));
   REQUIRE(bed.grains() == large_bed_grains);
-  REQUIRE(bed.sections > 1);
+  REQUIRE(bed.subdomains > 1);
   std::set<std::int32_t> entries;
-  for (std::size_t section = 0; section < bed.sections; ++section) {
-    CHECK(bed.motion[static_cast<std::size_t>(bed.wall(section))].w == 0.0);
-    CHECK_FALSE(bed.is_void(bed.wall(section)));
-    CHECK(bed.is_void(bed.void_a(section)));
-    entries.insert({bed.wall(section), bed.void_a(section), bed.void_b(section)});
+  for (std::size_t subdomain = 0; subdomain < bed.subdomains; ++subdomain) {
+    CHECK(bed.motion[static_cast<std::size_t>(bed.wall(subdomain))].w == 0.0);
+    CHECK_FALSE(bed.is_void(bed.wall(subdomain)));
+    CHECK(bed.is_void(bed.void_a(subdomain)));
+    entries.insert({bed.wall(subdomain), bed.void_a(subdomain), bed.void_b(subdomain)});
   }
-  CHECK(entries.size() == 3 * bed.sections);
+  CHECK(entries.size() == 3 * bed.subdomains);
   CHECK(*entries.begin() == bed.wall());
   CHECK(static_cast<std::size_t>(*entries.rbegin()) == bed.position.size() - 1);
 }
 
 TEST_CASE("flat beds are cut along x or y, others upwards") {
   const Box box{30, 20, periodic, walls};
-  CHECK(section_axis(box, 0.6 * 30 * 20 * 19) == 0);
-  CHECK(section_axis({20, 30, periodic, walls}, 0.6 * 30 * 20 * 19) == 1);
-  CHECK(section_axis(box, 0.6 * 30 * 20 * 21) == 2);
+  CHECK(subdomain_axis(box, 0.6 * 30 * 20 * 19) == 0);
+  CHECK(subdomain_axis({20, 30, periodic, walls}, 0.6 * 30 * 20 * 19) == 1);
+  CHECK(subdomain_axis(box, 0.6 * 30 * 20 * 21) == 2);
 }
 
 TEST_CASE("a sphere of diameter 1 has mass 1, one of half the size an eighth") {

@@ -15,7 +15,7 @@ namespace {
 using testing::periodic;
 using testing::walls;
 
-PackingSpec spec_of(const BoxSpec& box, std::int64_t grains, const SizesSpec& sizes = {},
+PackingSpec spec_of(const Box& box, std::int64_t grains, const SizesSpec& sizes = {},
                     std::uint64_t key = 1) {
   PackingSpec spec;
   spec.box = box;
@@ -35,16 +35,16 @@ double top_of(const SphereBed& bed) {
 
 TEST_CASE("grains start apart from each other and from all walls") {
   const SizesSpec two_sizes{0.1, 0.3, 0.3};
-  for (const BoxSpec& box : {BoxSpec{6, 4, periodic, walls}, BoxSpec{6, 4, periodic, periodic},
-                             BoxSpec{6, 4, walls, walls}, BoxSpec{3, 3, periodic, periodic},
-                             BoxSpec{2.9, 1.45, walls, walls}, BoxSpec{9, 1.45, periodic, walls}}) {
+  for (const Box& box : {Box{6, 4, periodic, walls}, Box{6, 4, periodic, periodic},
+                         Box{6, 4, walls, walls}, Box{3, 3, periodic, periodic},
+                         Box{2.9, 1.45, walls, walls}, Box{9, 1.45, periodic, walls}}) {
     for (const std::int64_t grains : {1, 2, 60, 400}) {
       INFO(box.length << " x " << box.width << ", " << grains << " grains");
       const auto bed = start(spec_of(box, grains, two_sizes));
       REQUIRE(bed);
       REQUIRE(bed->grains() == static_cast<std::size_t>(grains));
       CHECK(testing::pairs_closer_than(*bed, 0.0).empty());
-      for (const Wall& wall : walls_of(bed->box)) {
+      for (const Wall& wall : bed->walls) {
         for (std::size_t i = 0; i < bed->grains(); ++i) {
           REQUIRE(wall.gap(bed->position[i]) >= -1e-15);  // one rounding
         }
@@ -94,7 +94,7 @@ TEST_CASE("grains start at rest with the sizes drawn for them") {
 }
 
 TEST_CASE("equal keys start alike, different keys do not") {
-  const BoxSpec box{8, 4, periodic, walls};
+  const Box box{8, 4, periodic, walls};
   const auto a = start(spec_of(box, 200, {}, 7)), b = start(spec_of(box, 200, {}, 7)),
              c = start(spec_of(box, 200, {}, 8));
   REQUIRE((a && b && c));

@@ -35,7 +35,7 @@ void with_crew(int threads, const Work& work) {
 TEST_CASE("a crew runs each part once, with any number of threads, loop after loop") {
   for (const int threads : {1, 2, 8}) {
     with_crew(threads, [](Crew& crew) {
-      const PartLoop loop = crew.loop();
+      const ParallelFor loop = crew.loop();
       std::vector<std::atomic<int>> times(100);
       for (int round = 1; round <= 500; ++round) {
         loop(times.size(), [&](std::size_t part) { ++times[part]; });
@@ -49,7 +49,7 @@ TEST_CASE("a crew runs each part once, with any number of threads, loop after lo
 // What one part writes must be seen by whoever comes after the loop, and by the parts of the next.
 TEST_CASE("parts of a loop see all that the last loop wrote") {
   with_crew(2, [](Crew& crew) {
-    const PartLoop loop = crew.loop();
+    const ParallelFor loop = crew.loop();
     std::vector<std::uint64_t> from(64, 1), to(64, 0);
     for (int round = 0; round < 2000; ++round) {
       loop(from.size(), [&](std::size_t k) { to[k] = from[k] + from[(k + 7) % from.size()]; });

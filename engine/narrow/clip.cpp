@@ -1,0 +1,198 @@
+#include "engine/narrow/clip.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+
+namespace grainsweep {
+
+namespace {
+
+// Shares of the sizes at hand: points this close to a side are inside, and corners this close to
+// each other are one. Grains stacked edge on edge keep all of their corners.
+constexpr double on_side = 1e-12;
+constexpr double same_point = 1e-10;
+
+const Face& face_of(const ConvexShape& shape, std::int32_t number) {
+  return shape.faces[static_cast<std::size_t>(number)];
+}
+
+/// A face to touch on, in the frame of its shape.
+struct Base {
+  const ConvexShape& shape;
+  double scale;
+  const Face& face;
+
+  double size() const { return scale * shape.circumradius; }
+  double gap(const Vector& x) const { return face.normal.dot(x) - scale * face.offset; }
+  std::span<const Side> sides() const {
+    return {shape.sides.data() + face.first, static_cast<std::size_t>(face.corners)};
+  }
+  double beyond(const Side& side, const Vector& x) const {
+    return side.outward.dot(x) - scale * side.offset;
+  }
+  bool is_below(const Vector& x) const {
+    const std::span<const Side> around = sides();
+    return std::all_of(around.begin(), around.end(),
+                       [&](const Side& side) { return beyond(side, x) <= on_side * size(); });
+  }
+};
+
+/// The other shape, seen from the frame of the base: its point x lies at centre + turn x.
+struct Seen {
+  const ConvexShape& shape;
+  Vector centre;
+  Matrix turn;  ///< and scale
+
+  Vector place(std::size_t vertex) const { return centre + turn * shape.vertices[vertex]; }
+};
+
+/// Places the corners of a face.
+void place_face(const Seen& other, const Face& face, std::vector<Vector>& corners) {
+  corners.clear();
+  for (const std::int32_t vertex : corners_of(other.shape, face)) {
+    corners.push_back(other.place(static_cast<std::size_t>(vertex)));
+  }
+}
+
+/// Cuts a polygon by the plane through a side, beyond which its corners lie by so much (Sutherland
+/// and Hodgman 1974).
+void cut(const std::vector<Vector>& polygon, const std::vector<double>& beyond, double tolerance,
+         std::vector<Vector>& result) {
+  result.clear();
+  for (std::size_t k = 0; k < polygon.size(); ++k) {
+    const std::size_t next = k + 1 == polygon.size() ? 0 : k + 1;
+    const double at_p = beyond[k], at_q = beyond[next];
+    if (at_p <= tolerance) result.push_back(polygon[k]);
+    if ((at_p <= tolerance) != (at_q <= tolerance)) {
+      result.emplace_back(polygon[k] + at_p / (at_p - at_q) * (polygon[next] - polygon[k]));
+    }
+  }
+}
+
+/// Cuts columns.polygon by all sides; most of them leave it as it is.
+void cut_by_sides(const Base& base, ClipColumns& columns) {
+  const double tolerance = on_side * base.size();
+  for (const Side& side : base.sides()) {
+    double farthest = -std::numeric_limits<double>::infinity();
+    columns.beyond.clear();
+    for (const Vector& corner : columns.polygon) {
+      columns.beyond.push_back(base.beyond(side, corner));
+      farthest = std::max(farthest, columns.beyond.back());
+    }
+    if (farthest > tolerance) {
+      cut(columns.polygon, columns.beyond, tolerance, columns.clipped);
+      std::swap(columns.polygon, columns.clipped);
+    }
+  }
+}
+
+/// Among the faces at the lowest vertex of `other`, the one that faces `normal` most.
+const Face& touching_face(const Seen& other, const Vector& normal) {
+  const ConvexShape& shape = other.shape;
+  const Vector down = -(other.turn.transpose() * normal);
+  const auto lowest = static_cast<std::size_t>(farthest_vertex(shape, down));
+  const auto first = shape.vertex_faces.begin() + shape.vertex_faces_begin[lowest];
+  const auto last = shape.vertex_faces.begin() + shape.vertex_faces_begin[lowest + 1];
+  const std::int32_t best = *std::max_element(first, last, [&](std::int32_t f, std::int32_t g) {
+    return face_of(shape, f).normal.dot(down) < face_of(shape, g).normal.dot(down);
+  });
+  return face_of(shape, best);
+}
+
+void add_point(const Base& base, const Vector& x, double margin, std::size_t first,
+               std::vector<ContactPoint>& points) {
+  const double gap = base.gap(x);
+  if (!(gap <= margin)) return;
+  const Vector position = x - gap / 2.0 * base.face.normal;
+  const double same = same_point * base.size();
+  const bool there = std::any_of(points.begin() + static_cast<std::ptrdiff_t>(first), points.end(),
+                                 [&](const ContactPoint& point) {
+                                   return (point.position - position).squaredNorm() <= same * same;
+                                 });
+  if (!there) points.push_back({position, gap});
+}
+
+/// Vertices within the margin that are no corners of the touching face: where an edge lies on the
+/// base, a face at one of its ends may be the touching one, and would leave out the other end.
+void add_other_vertices(const Base& base, const Seen& other, const Face& touching, double margin,
+                        std::size_t first, std::vector<ContactPoint>& points) {
+  const Vector up = other.turn.transpose() * base.face.normal;
+  const double least = margin - base.gap(other.centre);
+  const std::span<const std::int32_t> corners = corners_of(other.shape, touching);
+  for (std::size_t v = 0; v < other.shape.vertices.size(); ++v) {
+    if (up.dot(other.shape.vertices[v]) > least) continue;
+    if (std::find(corners.begin(), corners.end(), static_cast<std::int32_t>(v)) != corners.end()) {
+      continue;
+    }
+    const Vector x = other.place(v);
+    if (base.is_below(x)) add_point(base, x, margin, first, points);
+  }
+}
+
+/// Appends the contact points in the frame of the base.
+void clip(const Base& base, const Seen& other, double margin, ClipColumns& columns,
+          std::vector<ContactPoint>& points) {
+  const std::size_t first = points.size();
+  const Face& touching = touching_face(other, base.face.normal);
+  place_face(other, touching, columns.polygon);
+  cut_by_sides(base, columns);
+  for (const Vector& x : columns.polygon) {
+    add_point(base, x, margin, first, points);
+  }
+  add_other_vertices(base, other, touching, margin, first, points);
+}
+
+}  // namespace
+
+PlacedShape placed_a(const ShapePair& pair) {
+  return {pair.a, Vector::Zero(), Matrix::Identity(), pair.pose.scale_a};
+}
+
+PlacedShape placed_b(const ShapePair& pair) {
+  return {pair.b, pair.pose.centre, pair.pose.turn, pair.pose.scale_b};
+}
+
+void clip_on_face(const ShapePair& pair, Of base, std::int32_t face, double margin,
+                  ClipColumns& columns, std::vector<ContactPoint>& points) {
+  const PairPose& pose = pair.pose;
+  if (base == Of::a) {
+    clip({pair.a, pose.scale_a, face_of(pair.a, face)},
+         {pair.b, pose.centre, pose.scale_b * pose.turn}, margin, columns, points);
+    return;
+  }
+  const Matrix back = pose.turn.transpose();
+  const std::size_t first = points.size();
+  clip({pair.b, pose.scale_b, face_of(pair.b, face)},
+       {pair.a, -(back * pose.centre), pose.scale_a * back}, margin, columns, points);
+  for (std::size_t k = first; k < points.size(); ++k) {
+    points[k].position = pose.centre + pose.turn * points[k].position;
+  }
+}
+
+Segment farthest_edge(const PlacedShape& shape, std::int32_t direction, const Vector& n) {
+  Segment best{Vector::Zero(), Vector::Zero()};
+  double reach = -std::numeric_limits<double>::infinity();
+  for (const Edge& edge : shape.shape.edges) {
+    if (edge.direction != direction) continue;
+    const Segment segment{shape.place(edge.from), shape.place(edge.to)};
+    const double along = n.dot(segment.from + segment.to);
+    if (along > reach) {
+      reach = along;
+      best = segment;
+    }
+  }
+  return best;
+}
+
+Vector midway(const Segment& p, const Segment& q) {
+  const Vector u = p.to - p.from, v = q.to - q.from, w = p.from - q.from;
+  const double uu = u.dot(u), uv = u.dot(v), vv = v.dot(v), uw = u.dot(w), vw = v.dot(w);
+  const double on_p = std::clamp((uv * vw - vv * uw) / (uu * vv - uv * uv), 0.0, 1.0);
+  const double on_q = std::clamp((uv * on_p + vw) / vv, 0.0, 1.0);
+  const double again = std::clamp((uv * on_q - uw) / uu, 0.0, 1.0);
+  return (p.from + again * u + q.from + on_q * v) / 2.0;
+}
+
+}  // namespace grainsweep

@@ -1,0 +1,33 @@
+// The closest points of two convex shapes: GJK with signed volumes.
+//
+// Gilbert, Johnson, Keerthi 1988; the sub-algorithm of Montanari, Petrinic, Barbieri 2017 (signed
+// volumes). f64 throughout. Works for any convex shape. Where rounding leaves a doubt whether the
+// shapes overlap the separating axes decide.
+#pragma once
+
+#include <array>
+
+#include "engine/narrow/shape_pair.hpp"
+
+namespace grainsweep {
+
+/// Corners of the Minkowski difference b - a that held the closest point, named by vertices. It is
+/// a guess for the same pair a step later; an empty one is always allowed.
+struct Simplex {
+  std::int32_t count = 0;  ///< 0 .. 4
+  std::array<std::int32_t, 4> a{}, b{};
+};
+
+struct Closest {
+  double distance = 0.0;         ///< d; 0 if the shapes overlap
+  Vector on_a = Vector::Zero();  ///< closest points, frame of a; any common point if overlapping
+  Vector on_b = Vector::Zero();
+  bool overlap = false;    ///< the shapes share a point, or are closer than rounding tells
+  bool converged = false;  ///< false never happened; then distance is an upper bound
+  int iterations = 0;
+};
+
+/// `simplex`: the guess to start from; holds that of the result afterwards.
+Closest closest_points(const ShapePair& pair, Simplex& simplex);
+
+}  // namespace grainsweep

@@ -1,0 +1,68 @@
+// Contacts of two convex shapes: narrow phase from the cheapest test to the points of contact.
+//
+// Every point of the contact polygon is kept: with fewer points than the polygon has corners a
+// grain has no balance of torques and cannot rest without friction. A face is preferred to a pair
+// of edges unless the edges' separation is larger by the `preference`: an edge axis that wins by
+// rounding would replace a polygon by a single point. In a moving bed the preference is of the
+// order of g dt^2.
+#pragma once
+
+#include <vector>
+
+#include "engine/narrow/gjk.hpp"
+#include "engine/narrow/separating_axes.hpp"
+#include "engine/scene/box.hpp"
+
+namespace grainsweep {
+
+struct TouchSettings {
+  double margin = 0.0;      ///< points with a gap up to it are contacts, d
+  double preference = 0.0;  ///< of faces over edges, d
+  double of_depth = 0.0;    ///< so many times the overlap along the edges is preferred on top of it
+};
+
+/// What a pair remembers from step to step; a default one is always allowed.
+struct PairMemory {
+  Vector axis = Vector::Zero();  ///< the axis that parted the pair; zero if none did
+  Simplex simplex;
+};
+
+/// A point of contact.
+struct ContactPoint {
+  Vector position =
+      Vector::Zero();  ///< midway between the surfaces, frame of a, about its centre, d
+  double gap = 0.0;    ///< along the normal, d; negative = overlap; at most the true distance
+};
+
+/// Least gap of one point or more, d.
+double least_gap(const ContactPoint* points, std::size_t count);
+
+/// Contact of two grains; its points are `points[first]` .. `points[first + count - 1]`.
+struct PairContact {
+  Vector normal = Vector::Zero();  ///< unit, from a to b, frame of a; the same for all points
+  double separation = 0.0;         ///< along the normal, d; no more than the least gap
+  AxisKind kind = AxisKind::none;  ///< what gave the normal; none = no contact within the margin
+  std::size_t first = 0, count = 0;
+};
+
+/// Working memory, kept from call to call.
+struct ClipColumns {
+  std::vector<Vector> polygon, clipped;
+  std::vector<double> beyond;  ///< how far beyond a side each corner of the polygon lies, d
+};
+
+/// The contact of a pair; its points are appended to `points`. No contact (count 0) if the shapes
+/// are further apart than the margin.
+PairContact touch(const ShapePair& pair, const TouchSettings& settings, PairMemory& memory,
+                  ClipColumns& columns, std::vector<ContactPoint>& points);
+
+/// The same with the axes known, as from the batch kernel.
+PairContact touch(const ShapePair& pair, const TouchSettings& settings, const ContactAxes& axes,
+                  ClipColumns& columns, std::vector<ContactPoint>& points);
+
+/// Appends every vertex of the grain whose gap to the wall is below `margin`; returns their number.
+/// Positions are those of the vertices in the frame of the grain, about its centre, d.
+std::size_t touch_wall(const ConvexShape& shape, const Pose& pose, const Wall& wall, double margin,
+                       std::vector<ContactPoint>& points);
+
+}  // namespace grainsweep

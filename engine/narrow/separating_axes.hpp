@@ -1,0 +1,55 @@
+// How far two convex shapes are apart, or how deep they overlap: separating axes.
+//
+// The separation along a unit vector n is min n . x over b minus max n . x over a. Its largest
+// value over the face normals of both and the cross products of their edges is minus the depth of
+// an overlap (the shortest translation that parts the shapes), exactly; of shapes apart it is at
+// most their distance, and positive.
+#pragma once
+
+#include <limits>
+
+#include "engine/narrow/shape_pair.hpp"
+#include "kernels/kernels.hpp"
+
+namespace grainsweep {
+
+enum class AxisKind { none, face_of_a, face_of_b, edges };
+
+/// A candidate direction of contact. `a` and `b` are the faces, or the edge directions, it is made
+/// of; -1 where a shape has no part in it.
+struct ContactAxis {
+  AxisKind kind = AxisKind::none;
+  std::int32_t a = -1, b = -1;
+  Vector normal = Vector::Zero();  ///< unit, from a to b, frame of a
+  double separation = 0.0;         ///< d; negative = overlap
+};
+
+/// The best face, and the best pair of edges if it parts the shapes better than that.
+struct ContactAxes {
+  ContactAxis face;
+  ContactAxis edges;  ///< kind none if no edges do better than the face
+
+  double separation() const {
+    return edges.kind == AxisKind::none ? face.separation : edges.separation;
+  }
+};
+
+/// Separation along the unit vector `normal` from a to b, d.
+double separation_along(const ShapePair& pair, const Vector& normal);
+
+/// The best axes, f64: every face and every pair of distinct edge directions that can be the best.
+/// Two pinacoids take their widths in closed form (44 axes). Edges are not looked for if a face
+/// parts the shapes by `enough`, d.
+ContactAxes separating_axes(const ShapePair& pair,
+                            double enough = std::numeric_limits<double>::infinity());
+
+/// Whether the batch kernel found the pair of a lane further apart than `margin`, d. `scale` is
+/// that of the larger grain.
+bool parted_by(const PinacoidBlock& block, std::size_t lane, double margin, double scale);
+
+/// The axes of two pinacoids that the batch kernel chose for a lane, measured anew in f64, with
+/// the parallel edges that it left out. What it chose among nearly equal axes may be the second
+/// best: the separation is then too small by up to pinacoid_rounding.
+ContactAxes separating_axes(const ShapePair& pair, const PinacoidBlock& block, std::size_t lane);
+
+}  // namespace grainsweep

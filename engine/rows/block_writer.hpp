@@ -1,0 +1,59 @@
+// Fills blocks of rows of spheres.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "engine/rows/contacts.hpp"
+#include "engine/rows/lanes.hpp"  // BlockLane
+
+namespace grainsweep {
+
+/// Appends blocks of void rows of a subdomain and fills their lanes.
+template <class Real>
+class BlockWriter {
+ public:
+  BlockWriter(const SphereBed& bed, std::size_t subdomain, RowColumns<Real>& columns)
+      : bed_(bed), subdomain_(subdomain), columns_(columns) {}
+
+  /// The new block's number.
+  std::size_t append_void_block() {
+    columns_.rows.emplace_back();
+    RowBlock<Real>& block = columns_.rows.back();
+    for (std::size_t lane = 0; lane < block_width; ++lane) {
+      block.set_grains(lane, bed_.void_a(subdomain_), bed_.void_b(subdomain_));
+    }
+    std::fill(std::begin(block.reduced_mass), std::end(block.reduced_mass), Real(1));
+    columns_.impulse.resize(columns_.rows.size() * block_width, Real(0));
+    return columns_.rows.size() - 1;
+  }
+  /// The contact of grain a with grain b.
+  void fill(BlockLane at, std::int32_t a, std::int32_t b, Real impulse) {
+    columns_.rows[at.block].set_grains(at.lane, a, b);
+    columns_.rows[at.block].reduced_mass[at.lane] = reduced_mass(a, b);
+    columns_.impulse[at.block * block_width + at.lane] = impulse;
+  }
+  /// Rows of one wall in blocks of their own: no grain touches it twice, so lanes are filled in
+  /// order.
+  template <class ImpulseOf>
+  void add_wall(const std::vector<std::int32_t>& grains, ImpulseOf impulse_of) {
+    for (std::size_t k = 0; k < grains.size(); ++k) {
+      if (k % block_width == 0) append_void_block();
+      fill({columns_.rows.size() - 1, k % block_width}, grains[k], bed_.wall(subdomain_),
+           impulse_of(grains[k]));
+    }
+  }
+
+ private:
+  Real reduced_mass(std::int32_t a, std::int32_t b) const {
+    return static_cast<Real>(1.0 / (bed_.motion[static_cast<std::size_t>(a)].w +
+                                    bed_.motion[static_cast<std::size_t>(b)].w));
+  }
+
+  const SphereBed& bed_;
+  std::size_t subdomain_;
+  RowColumns<Real>& columns_;
+};
+
+}  // namespace grainsweep

@@ -1,0 +1,22 @@
+// Rows of grains that turn, as the solver works on them.
+#pragma once
+
+#include <vector>
+
+#include "engine/rows/contacts.hpp"
+#include "kernels/kernels.hpp"
+
+namespace grainsweep {
+
+/// The impulse of lane k of points[i] is `impulse[i * block_width + k]`, in masses times d: the
+/// force it stands for is impulse / dt^2, in m g.
+template <class Real>
+struct LeverColumns {
+  std::vector<LeverBlock<Real>> blocks;
+  std::vector<LeverPoints<Real>> points;
+  RowShares shares;  ///< one part
+  std::vector<Real> impulse;
+  std::vector<Real> extrapolated;  ///< the solver's look-ahead impulses
+};
+
+}  // namespace grainsweep

@@ -1,0 +1,127 @@
+#include "engine/rows/subdomains.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace grainsweep {
+
+namespace {
+
+bool is_periodic(const Box& box, int axis) {
+  return (axis == 0 && box.x == Boundary::periodic) || (axis == 1 && box.y == Boundary::periodic);
+}
+
+/// The slab of each grain and the size of each slab.
+void count_slabs(const SphereBed& bed, const Candidates& candidates, const ParallelFor& loop,
+                 Subdomains& subdomains) {
+  const Cells& cells = candidates.levels.front().cells;
+  subdomains.slab.resize(bed.grains());
+  parallel_chunks(loop, bed.grains(), bed.subdomains, [&](std::size_t, IndexRange share) {
+    for (std::size_t i = share.first; i < share.last; ++i) {
+      subdomains.slab[i] = cells.place_along(bed.subdomain_axis, candidates.built_at[i]);
+    }
+  });
+  subdomains.slab_size.assign(static_cast<std::size_t>(cells.inner(bed.subdomain_axis)), 0);
+  for (const std::int32_t slab : subdomains.slab) {
+    ++subdomains.slab_size[static_cast<std::size_t>(slab)];
+  }
+}
+
+/// A subdomain ends with the slab that fills it, unless that is the last one. Of a ring's odd
+/// number the last two are joined.
+void cut(Subdomains& subdomains) {
+  const std::vector<std::size_t>& slab_size = subdomains.slab_size;
+  subdomains.of_slab.assign(slab_size.size(), 0);
+  subdomains.count = 1;
+  std::size_t grains = 0;
+  for (std::size_t k = 0; k < slab_size.size(); ++k) {
+    subdomains.of_slab[k] = static_cast<std::int32_t>(subdomains.count - 1);
+    grains += slab_size[k];
+    if (grains >= subdomain_grains && k + 1 < slab_size.size()) {
+      ++subdomains.count;
+      grains = 0;
+    }
+  }
+  if (subdomains.is_ring && subdomains.count % 2 == 1 && subdomains.count > 1) {
+    --subdomains.count;
+    for (std::int32_t& subdomain : subdomains.of_slab) {
+      subdomain = std::min(subdomain, static_cast<std::int32_t>(subdomains.count - 1));
+    }
+  }
+}
+
+/// Calls put(k, place) for items 0 .. count - 1, whose places follow one another subdomain by
+/// subdomain: a counting sort, stable and linear. `begin`: first place of each subdomain; one more
+/// at the end.
+template <class SubdomainOf, class Put>
+void sort_by_subdomain(const ParallelFor& loop, std::size_t count, SubdomainOf subdomain,
+                       Subdomains& subdomains, std::vector<std::size_t>& begin, Put put) {
+  const std::size_t parts = subdomains.count;
+  std::vector<std::size_t>& place = subdomains.place;
+  place.assign(parts * subdomains.count, 0);
+  const auto visit = [&](const auto& work) {
+    parallel_chunks(loop, count, parts, [&](std::size_t part, IndexRange share) {
+      std::size_t* const own = place.data() + part * subdomains.count;
+      for (std::size_t k = share.first; k < share.last; ++k) work(k, own[subdomain(k)]);
+    });
+  };
+  visit([](std::size_t, std::size_t& items) { ++items; });
+  begin.assign(1, 0);
+  for (std::size_t s = 0; s < subdomains.count; ++s) {
+    std::size_t next = begin.back();
+    for (std::size_t part = 0; part < parts; ++part) {
+      next += std::exchange(place[part * subdomains.count + s], next);
+    }
+    begin.push_back(next);
+  }
+  visit([&](std::size_t k, std::size_t& next) { put(k, next++); });
+}
+
+void sort_pairs(const Candidates& candidates, const ParallelFor& loop, Subdomains& subdomains) {
+  const std::vector<GrainPair>& pairs = candidates.pairs;
+  subdomains.pairs.resize(pairs.size());
+  sort_by_subdomain(
+      loop, pairs.size(), [&](std::size_t k) { return subdomains.subdomain_of(pairs[k]); },
+      subdomains, subdomains.begin,
+      [&](std::size_t k, std::size_t place) { subdomains.pairs[place] = pairs[k]; });
+}
+
+void sort_grains(const ParallelFor& loop, Subdomains& subdomains) {
+  subdomains.grains.resize(subdomains.slab.size());
+  sort_by_subdomain(
+      loop, subdomains.grains.size(),
+      [&](std::size_t k) { return subdomains.subdomain_of(static_cast<std::int32_t>(k)); },
+      subdomains, subdomains.first_grain,
+      [&](std::size_t k, std::size_t place) {
+        subdomains.grains[place] = static_cast<std::int32_t>(k);
+      });
+}
+
+void leave_whole(const Candidates& candidates, Subdomains& subdomains) {
+  subdomains.count = 1;
+  subdomains.pairs.assign(candidates.pairs.begin(), candidates.pairs.end());
+  subdomains.begin.assign({0, candidates.pairs.size()});
+}
+
+}  // namespace
+
+std::size_t Subdomains::subdomain_of(GrainPair pair) const {
+  const std::size_t a = subdomain_of(pair.a), b = subdomain_of(pair.b);
+  const std::size_t first = std::min(a, b), second = std::max(a, b);
+  return is_ring && second - first + 1 == count && count > 2 ? second : first;
+}
+
+void divide(const SphereBed& bed, const Candidates& candidates, const ParallelFor& loop,
+            Subdomains& subdomains) {
+  subdomains.is_ring = is_periodic(bed.box, bed.subdomain_axis);
+  if (bed.subdomains == 1) {
+    leave_whole(candidates, subdomains);
+    return;
+  }
+  count_slabs(bed, candidates, loop, subdomains);
+  cut(subdomains);
+  sort_pairs(candidates, loop, subdomains);
+  sort_grains(loop, subdomains);
+}
+
+}  // namespace grainsweep

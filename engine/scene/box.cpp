@@ -1,0 +1,32 @@
+#include "engine/scene/box.hpp"
+
+#include <cmath>
+
+namespace grainsweep {
+
+namespace {
+
+double wrapped(double coordinate, double period) {
+  const double inside = coordinate - period * std::floor(coordinate / period);
+  return inside < period ? inside : 0.0;
+}
+
+}  // namespace
+
+void wrap(const Box& box, Record<double>& centre) {
+  centre.x = box.x == Boundary::periodic ? wrapped(centre.x, box.length) : centre.x;
+  centre.y = box.y == Boundary::periodic ? wrapped(centre.y, box.width) : centre.y;
+}
+
+std::vector<Wall> walls_of(const Box& box) {
+  std::vector<Wall> walls = {{{0.0, 0.0, 1.0}, 0.0}};
+  if (box.x == Boundary::walls) {
+    walls.insert(walls.end(), {{{1.0, 0.0, 0.0}, 0.0}, {{-1.0, 0.0, 0.0}, box.length}});
+  }
+  if (box.y == Boundary::walls) {
+    walls.insert(walls.end(), {{{0.0, 1.0, 0.0}, 0.0}, {{0.0, -1.0, 0.0}, box.width}});
+  }
+  return walls;
+}
+
+}  // namespace grainsweep

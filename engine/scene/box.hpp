@@ -1,0 +1,67 @@
+// The container: what bounds it, where its walls are, and its periodic images.
+//
+// A wall is known by the gap and the normal that it has at a point, whatever its form; nothing else
+// of it is asked for anywhere.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "kernels/row_kernels.hpp"
+
+namespace grainsweep {
+
+/// What bounds a horizontal axis of the box: two fixed flat walls, or its own periodic image.
+enum class Boundary { periodic, walls };
+
+/// The box: floor at z = 0, open above. x runs over [0, length], y over [0, width].
+struct Box {
+  double length = 20.0;  ///< extent along x, d
+  double width = 10.0;   ///< extent along y, d; the gap W between the walls when y is walled
+  Boundary x = Boundary::periodic;
+  Boundary y = Boundary::walls;
+
+  /// Period of an axis, d; 0 where it is walled.
+  double period_x() const { return x == Boundary::periodic ? length : 0.0; }
+  double period_y() const { return y == Boundary::periodic ? width : 0.0; }
+};
+
+/// The difference between two coordinates, of their nearest images along an axis of that period, d;
+/// period 0: as it is. Requires a difference of less than one and a half periods.
+inline double nearest_image(double difference, double period) {
+  const double half = 0.5 * period;
+  if (!(period > 0.0)) return difference;
+  return difference > half    ? difference - period
+         : difference < -half ? difference + period
+                              : difference;
+}
+
+/// Brings x and y of a centre back into the box along periodic axes.
+void wrap(const Box& box, Record<double>& centre);
+
+/// A direction in the box's frame, of length 1.
+struct UnitVector {
+  double x = 0.0, y = 0.0, z = 1.0;
+};
+
+/// A flat wall or the floor: the points of the free space have a positive distance.
+struct Wall {
+  UnitVector inward;    ///< into the free space
+  double offset = 0.0;  ///< distance of the box's origin, d
+
+  /// Distance of a point from the wall, d; negative beyond it.
+  double distance(double x, double y, double z) const {
+    return inward.x * x + inward.y * y + inward.z * z + offset;
+  }
+  /// Distance of a sphere's surface from the wall, d; negative = overlap. `sphere`: centre, radius.
+  double gap(const Record<double>& sphere) const {
+    return distance(sphere.x, sphere.y, sphere.z) - sphere.w;
+  }
+  /// From the wall into the free space, at the point of the wall that is nearest to x, y, z.
+  UnitVector normal(double /*x*/, double /*y*/, double /*z*/) const { return inward; }
+};
+
+/// All walls of a box: the floor first.
+std::vector<Wall> walls_of(const Box& box);
+
+}  // namespace grainsweep

@@ -1,0 +1,199 @@
+// Narrow phase against brute force, in every degenerate position. The counts here are those of
+// every run; GRAINSWEEP_PAIRS multiplies them: 250 is the full test of 10 million random pairs and
+// a million of each other family (some 20 minutes a family).
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include <catch2/catch.hpp>
+
+#include "engine/narrow/gjk.hpp"
+#include "engine/narrow/separating_axes.hpp"
+#include "tests/support/shape_pairs.hpp"
+
+namespace grainsweep {
+namespace {
+
+using testing::Draw;
+using testing::PairFamily;
+using testing::PairTruth;
+
+/// 40,000 random pairs, 4000 of each other family, times GRAINSWEEP_PAIRS.
+int pair_count(PairFamily family) {
+  const char* factor = std::getenv("GRAINSWEEP_PAIRS");
+  return (family == PairFamily::random ? 40000 : 4000) *
+         (factor != nullptr ? std::atoi(factor) : 1);
+}
+
+// The bounds that this engine promises (f64; the worst of touching edges).
+constexpr double gjk_bound = 1e-7, axes_bound = 1e-12;
+
+/// Worst errors of one family.
+struct Errors {
+  double gjk = 0, axes = 0;
+  long overlaps = 0, apart = 0, rejected = 0, iterations = 0;
+};
+
+void check_gjk(const ShapePair& pair, const PairTruth& truth, Simplex simplex, Errors& errors) {
+  const Closest closest = closest_points(pair, simplex);
+  REQUIRE(closest.converged);
+  REQUIRE(std::isfinite(closest.distance));
+  const double error = std::abs(closest.distance - static_cast<double>(truth.distance));
+  errors.gjk = std::max(errors.gjk, error);
+  errors.iterations += closest.iterations;
+  REQUIRE(error <= gjk_bound);
+  if (!closest.overlap) {
+    REQUIRE((closest.on_b - closest.on_a).norm() == Approx(closest.distance).margin(1e-14));
+  }
+  if (truth.overlap != closest.overlap) {
+    REQUIRE(std::abs(static_cast<double>(truth.gap())) <= gjk_bound);
+  }
+}
+
+void check_axes(const ShapePair& pair, const PairTruth& truth, Errors& errors) {
+  const ContactAxes axes = separating_axes(pair);
+  const double found = axes.separation();
+  REQUIRE(std::isfinite(found));
+  const double apart = found - static_cast<double>(truth.gap());
+  REQUIRE(apart <= axes_bound);  // never deeper inside than the truth says outside
+  const double shallow = truth.overlap ? -apart : static_cast<double>(truth.separation) - found;
+  errors.axes = std::max({errors.axes, apart, shallow});
+  REQUIRE(shallow <= axes_bound);
+  (truth.overlap ? errors.overlaps : errors.apart) += 1;
+}
+
+/// Cold, warm from the pair itself moved a little, and warm from a simplex of anything.
+void check_pair(const ShapePair& pair, Draw& draw, Errors& errors) {
+  const PairTruth truth = testing::true_gap(pair);
+  check_gjk(pair, truth, {}, errors);
+  ShapePair before = pair;
+  before.pose.centre += 1e-3 * testing::random_direction(draw);
+  Simplex warm;
+  closest_points(before, warm);
+  check_gjk(pair, truth, warm, errors);
+  Simplex wild;
+  wild.count = 1 + static_cast<std::int32_t>(draw.below(4));
+  for (std::size_t k = 0; k < 4; ++k) {
+    wild.a[k] = static_cast<std::int32_t>(draw.below(pair.a.vertices.size()));
+    wild.b[k] = static_cast<std::int32_t>(draw.below(pair.b.vertices.size()));
+  }
+  check_gjk(pair, truth, wild, errors);
+  check_axes(pair, truth, errors);
+}
+
+Errors check_family(PairFamily family, const ConvexShape& a, const ConvexShape& b, int count,
+                    std::uint64_t seed) {
+  Draw draw(seed);
+  Errors errors;
+  for (int k = 0; k < count; ++k) {
+    INFO(testing::name_of(family) << ", pair " << k);
+    check_pair({a, b, testing::pose_of_family(family, draw, a, b)}, draw, errors);
+  }
+  if (std::getenv("GRAINSWEEP_PAIRS") != nullptr) {
+    WARN(testing::name_of(family) << ": " << count << " pairs, " << errors.overlaps
+                                  << " overlap; worst error of GJK " << errors.gjk
+                                  << " d, of the axes " << errors.axes << " d; "
+                                  << static_cast<double>(errors.iterations) / (3.0 * count)
+                                  << " iterations");
+  }
+  CHECK(errors.overlaps + errors.apart == count);
+  return errors;
+}
+
+TEST_CASE("distance and depth of pinacoids are those of brute force, in every position", "[slow]") {
+  const ConvexShape shape = pinacoid({}), plate = pinacoid({1, 1, 0.01, 0.3});
+  for (const PairFamily family : testing::all_pair_families) {
+    const ConvexShape& used = family == PairFamily::flat ? plate : shape;
+    const Errors errors =
+        check_family(family, used, used, pair_count(family), 100 + static_cast<int>(family));
+    CHECK((errors.overlaps > 0 || family == PairFamily::flat));
+    CHECK((errors.apart > 0 || family == PairFamily::deep_overlap));
+  }
+}
+
+TEST_CASE("distance and depth of hulls are those of brute force, in every position", "[slow]") {
+  Draw draw(5);
+  for (const PairFamily family : testing::all_pair_families) {
+    const ConvexShape a = testing::hull_of(testing::random_corners(draw, 9));
+    const ConvexShape b = testing::hull_of(testing::random_corners(draw, 14));
+    check_family(family, a, b, pair_count(family) / 20, 200 + static_cast<int>(family));
+    const ConvexShape cube = testing::cube(), tetrahedron = testing::tetrahedron();
+    check_family(family, cube, tetrahedron, pair_count(family) / 20, 300);
+    check_family(family, cube, cube, pair_count(family) / 20, 400);
+  }
+}
+
+// Found by the full counts: a sliver of corners 3e-12 d from the origin, in a direction that parts
+// nothing.
+TEST_CASE("cubes nearly face in face that overlap by 6.5e-7 d are not taken for parted") {
+  const ConvexShape cube = testing::cube();
+  PairPose pose{{0x1.db5cf6b520549p-1, 0x1.4705d056b2b7dp-3, -0x1.e5aa4bf6f0d67p-5},
+                Matrix::Identity(),
+                0x1.e7a0a24e85a9dp-1,
+                0x1.cf17c1004a055p-1};
+  pose.turn << 0x1.ffffffff80504p-1, -0x1.3ea4f5855c944p-17, 0x1.55dbc654bd58p-18,
+      -0x1.0abb215bcb02p-17, -0x1.f03a8343ae78ep-1, -0x1.f86667430f9bcp-3, 0x1.e849081489388p-18,
+      0x1.f86667412da1p-3, -0x1.f03a8343d8b82p-1;
+  const ShapePair pair{cube, cube, pose};
+  CHECK(separating_axes(pair).separation() == Approx(-6.51032e-7).margin(1e-12));
+  Simplex simplex;
+  const Closest closest = closest_points(pair, simplex);
+  CHECK(closest.overlap);
+  CHECK(closest.distance == 0.0);
+}
+
+TEST_CASE("the axes of a pinacoid in closed form are those of its hull") {
+  const ConvexShape closed = pinacoid({}), hull = testing::hull_of(closed.vertices);
+  Draw draw(6);
+  for (const PairFamily family : testing::all_pair_families) {
+    for (int k = 0; k < 300; ++k) {
+      const PairPose pose = testing::pose_of_family(family, draw, closed, closed);
+      const double first = separating_axes({closed, closed, pose}).separation();
+      const double second = separating_axes({hull, hull, pose}).separation();
+      REQUIRE(first == Approx(second).margin(axes_bound));
+    }
+  }
+}
+
+TEST_CASE("the axis of a pair points from a to b and gives its separation") {
+  const ConvexShape shape = pinacoid({});
+  Draw draw(7);
+  for (int k = 0; k < 500; ++k) {
+    const ShapePair pair{shape, shape, testing::random_pose(draw, 0.6, 1.3)};
+    const ContactAxes axes = separating_axes(pair);
+    for (const ContactAxis& axis : {axes.face, axes.edges}) {
+      if (axis.kind == AxisKind::none) continue;
+      CHECK(axis.normal.norm() == Approx(1).epsilon(1e-15));
+      CHECK(axis.normal.dot(pair.pose.centre) > 0);
+      CHECK(separation_along(pair, axis.normal) == Approx(axis.separation).margin(1e-15));
+    }
+    const bool of_a = axes.face.kind == AxisKind::face_of_a;
+    const Vector outward = of_a ? shape.faces[axes.face.a].normal
+                                : Vector(-(pair.pose.turn * shape.faces[axes.face.b].normal));
+    CHECK((outward - axes.face.normal).norm() < 1e-15);
+    if (axes.edges.kind == AxisKind::none) continue;
+    CHECK(axes.edges.separation > axes.face.separation);
+    const Vector u = shape.edge_directions[axes.edges.a];
+    const Vector v = pair.pose.turn * shape.edge_directions[axes.edges.b];
+    CHECK(std::abs(axes.edges.normal.dot(u)) < 1e-15);
+    CHECK(std::abs(axes.edges.normal.dot(v)) < 1e-15);
+  }
+}
+
+TEST_CASE("a warm simplex makes GJK converge in a step or two") {
+  const ConvexShape shape = pinacoid({});
+  Draw draw(8);
+  int cold_steps = 0, warm_steps = 0;
+  for (int k = 0; k < 300; ++k) {
+    ShapePair pair{shape, shape, testing::random_pose(draw, 1.1, 1.3)};
+    Simplex simplex;
+    cold_steps += closest_points(pair, simplex).iterations;
+    pair.pose.centre += 1e-3 * testing::random_direction(draw);
+    warm_steps += closest_points(pair, simplex).iterations;
+  }
+  CHECK(warm_steps < 1.5 * 300);
+  CHECK(cold_steps > 2 * warm_steps);
+}
+
+}  // namespace
+}  // namespace grainsweep

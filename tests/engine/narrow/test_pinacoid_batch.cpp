@@ -1,0 +1,179 @@
+// The batch test of pinacoids against the f64 one.
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+#include "engine/narrow/separating_axes.hpp"
+#include "tests/support/bits.hpp"
+#include "tests/support/instruction_sets.hpp"
+#include "tests/support/shape_pairs.hpp"
+
+namespace grainsweep {
+namespace {
+
+using testing::Draw;
+using testing::PairFamily;
+
+PinacoidHalves halves_of(const ConvexShape& shape) {
+  return {shape.pinacoid->a, shape.pinacoid->b, shape.pinacoid->c, shape.pinacoid->e};
+}
+
+Record<double> record(const Quaternion& q) { return {q.x(), q.y(), q.z(), q.w()}; }
+
+/// Grains 2 k and 2 k + 1 of the columns are pair k.
+struct Batch {
+  std::vector<Record<double>> centres, orientations;
+  std::vector<PinacoidBlock> blocks;
+
+  ShapePair pair(const ConvexShape& shape, std::size_t k) const {
+    const Pose a = pose_of(centres[2 * k], orientations[2 * k]);
+    const Pose b = pose_of(centres[2 * k + 1], orientations[2 * k + 1]);
+    return {shape, shape, seen_from_a(a, b, b.centre - a.centre)};
+  }
+  std::size_t pairs() const { return centres.size() / 2; }
+};
+
+/// Both grains turned at random, at about `place`.
+Batch batch_of(PairFamily family, const ConvexShape& shape, std::size_t blocks, Draw& draw,
+               const Vector& place) {
+  Batch batch;
+  for (std::size_t k = 0; k < blocks * block_width; ++k) {
+    const PairPose pose = testing::pose_of_family(family, draw, shape, shape);
+    const Quaternion a = testing::random_rotation(draw);
+    const Quaternion b = (a * Quaternion(pose.turn)).normalized();
+    const Vector centre = place + a * pose.centre;
+    batch.centres.push_back({place.x(), place.y(), place.z(), pose.scale_a});
+    batch.centres.push_back({centre.x(), centre.y(), centre.z(), pose.scale_b});
+    batch.orientations.push_back(record(a));
+    batch.orientations.push_back(record(b));
+  }
+  batch.blocks.resize(blocks);
+  for (std::size_t k = 0; k < batch.pairs(); ++k) {
+    const auto a = static_cast<std::int32_t>(2 * k);
+    batch.blocks[k / block_width].set_grains(k % block_width, a, a + 1);
+  }
+  return batch;
+}
+
+void test(const ConvexShape& shape, Isa isa, Batch& batch, double period = 0) {
+  kernels_for(isa).pinacoid_axes(halves_of(shape), batch.blocks.data(), batch.blocks.size(),
+                                 batch.centres.data(), batch.orientations.data(), period, period);
+}
+
+// pinacoid_rounding is what the header promises; after the f64 measurement it is the most by which
+// two axes that f32 confuses can differ.
+TEST_CASE("the batch test finds the separation of the f64 test within its rounding", "[slow]") {
+  const ConvexShape shape = pinacoid({}), plate = pinacoid({1, 1, 0.01, 0.3});
+  for (const PairFamily family : testing::all_pair_families) {
+    const ConvexShape& used = family == PairFamily::flat ? plate : shape;
+    Draw draw(31 + static_cast<std::uint64_t>(family));
+    Batch batch = batch_of(family, used, 200, draw, {3, -4, 5});
+    test(used, best_isa(), batch);
+    double worst_batch = 0, worst_chosen = 0;
+    std::size_t parallel = 0;
+    for (std::size_t k = 0; k < batch.pairs(); ++k) {
+      INFO(testing::name_of(family) << " " << k);
+      const ShapePair pair = batch.pair(used, k);
+      const PinacoidBlock& block = batch.blocks[k / block_width];
+      const std::size_t lane = k % block_width;
+      const ContactAxes exact = separating_axes(pair), chosen = separating_axes(pair, block, lane);
+      const double found = std::max(block.face_separation[lane], block.edge_separation[lane]);
+      const double over = found - exact.separation();
+      REQUIRE(over < pinacoid_rounding);
+      REQUIRE(std::abs(block.face_separation[lane] - exact.face.separation) < pinacoid_rounding);
+      REQUIRE(chosen.separation() <= exact.separation());
+      worst_chosen = std::max(worst_chosen, exact.separation() - chosen.separation());
+      worst_batch = std::max(worst_batch, over);
+      if (block.edges_parallel[lane] != 0) {
+        ++parallel;
+        continue;
+      }
+      REQUIRE(-over < pinacoid_rounding);
+      worst_batch = std::max(worst_batch, -over);
+    }
+    REQUIRE(worst_chosen < pinacoid_rounding);
+    INFO(testing::name_of(family) << ": batch within " << worst_batch << " d, chosen axes within "
+                                  << worst_chosen << " d, " << parallel << " of " << batch.pairs()
+                                  << " pairs have parallel edges");
+  }
+}
+
+TEST_CASE("a pair that the batch parts is apart, one that it does not part is near") {
+  const ConvexShape shape = pinacoid({});
+  Draw draw(41);
+  Batch batch = batch_of(PairFamily::random, shape, 200, draw, {0, 0, 0});
+  test(shape, best_isa(), batch);
+  int parted = 0;
+  for (std::size_t k = 0; k < batch.pairs(); ++k) {
+    const ShapePair pair = batch.pair(shape, k);
+    const bool apart = parted_by(batch.blocks[k / block_width], k % block_width, 0.05, 1.1);
+    const double separation = separating_axes(pair).separation();
+    parted += apart ? 1 : 0;
+    if (apart) REQUIRE(separation > 0.05);
+    if (!apart && batch.blocks[k / block_width].edges_parallel[k % block_width] == 0) {
+      REQUIRE(separation < 0.05 + 1e-4);
+    }
+  }
+  CHECK(parted > 1000);
+}
+
+TEST_CASE("all instruction sets give the same bits for pairs of pinacoids") {
+  const ConvexShape shape = pinacoid({});
+  for (const PairFamily family : testing::all_pair_families) {
+    Draw draw(51);
+    Batch first = batch_of(family, shape, 20, draw, {1, 2, 3});
+    test(shape, Isa::sse2, first, 20);
+    for (const Isa isa : testing::testable_isas()) {
+      INFO(name_of(isa) << ", " << testing::name_of(family));
+      Batch other = first;
+      test(shape, isa, other, 20);
+      REQUIRE(testing::same_bits(first.blocks, other.blocks));
+    }
+  }
+}
+
+TEST_CASE("the batch test sees the nearest image and offsets of a million d") {
+  const ConvexShape shape = pinacoid({});
+  Draw draw(61);
+  Batch batch = batch_of(PairFamily::random, shape, 10, draw, {2, 2, 2});
+  test(shape, best_isa(), batch);
+  Batch moved = batch, far = batch;
+  for (std::size_t k = 0; k < batch.pairs(); ++k) {
+    moved.centres[2 * k + 1].x += 16;
+    moved.centres[2 * k + 1].y -= 32;
+  }
+  for (Record<double>& centre : far.centres) centre.z += 0x1p20;
+  test(shape, best_isa(), moved, 16);
+  test(shape, best_isa(), far);
+  for (std::size_t k = 0; k < batch.pairs(); ++k) {
+    const PinacoidBlock &here = batch.blocks[k / block_width],
+                        &image = moved.blocks[k / block_width];
+    const std::size_t lane = k % block_width;
+    // Adding 16 or 2^20 and taking it away again rounds a coordinate by 4e-15 or 2e-10.
+    CHECK(image.face_separation[lane] == Approx(here.face_separation[lane]).margin(1e-6));
+    CHECK(far.blocks[k / block_width].face_separation[lane] ==
+          Approx(here.face_separation[lane]).margin(1e-6));
+  }
+}
+
+TEST_CASE("upright pinacoids side by side are parted by exact numbers") {
+  const ConvexShape shape = pinacoid({1.5, 1, 0.5, 1});
+  Batch batch;
+  batch.centres = {{0, 0, 0, 1}, {0, 0, 0.75, 1}, {0, 0, 0, 2}, {0, 0, 0.75, 1}};
+  batch.orientations.assign(4, {0, 0, 0, 1});
+  batch.blocks.resize(1);
+  for (std::size_t lane = 0; lane < block_width; ++lane) {
+    batch.blocks[0].set_grains(lane, lane < 8 ? 0 : 2, lane < 8 ? 1 : 3);
+  }
+  test(shape, best_isa(), batch);
+  // Ridge on ridge: .25 along z, which no face axis shows, but crossed edges x and y do.
+  CHECK(batch.blocks[0].edge_separation[0] == Approx(0.25).margin(1e-6));
+  CHECK(batch.blocks[0].edge_separation[15] == Approx(0.0).margin(1e-6));
+  CHECK((batch.blocks[0].edge_axis[0] == 8 + 5 || batch.blocks[0].edge_axis[0] == 8 + 30));
+  CHECK(batch.blocks[0].edges_parallel[0] == 1);
+}
+
+}  // namespace
+}  // namespace grainsweep

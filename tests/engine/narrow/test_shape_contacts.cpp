@@ -1,0 +1,139 @@
+#include <algorithm>
+#include <map>
+#include <sstream>
+#include <string>
+#include <utility>
+
+#include <catch2/catch.hpp>
+
+#include "engine/narrow/shape_contacts.hpp"
+#include "tests/support/instruction_sets.hpp"
+#include "tests/support/shape_beds.hpp"
+
+namespace grainsweep {
+namespace {
+
+using testing::kernels;
+using testing::periodic;
+using testing::walls;
+
+constexpr ShapeSearchSettings usual{{0.05, 1e-3}, 0.05};
+
+/// Number of points of each contact.
+using Found = std::map<std::pair<std::int32_t, std::int32_t>, std::size_t>;
+
+Found names_of(const ShapeContacts& found) {
+  Found names;
+  for (const ShapeContact& c : found.contacts) {
+    REQUIRE(c.a < c.b);
+    REQUIRE(names.emplace(std::pair(c.a, c.b), c.count).second);  // each once
+  }
+  return names;
+}
+
+/// Whether hulls are further apart than the margin though no axis parts them so far, as where a
+/// vertex faces a vertex; pinacoids are not asked.
+bool far_by_distance(const ShapePair& pair, double margin) {
+  Simplex simplex;
+  return !pair.a.pinacoid && closest_points(pair, simplex).distance > margin;
+}
+
+/// Every pair by all axes in f64, every grain and wall.
+Found brute_force(const ShapeBed& bed, const TouchSettings& settings) {
+  Found names;
+  ClipColumns clip;
+  std::vector<ContactPoint> points;
+  for (std::size_t i = 0; i < bed.grains(); ++i) {
+    for (std::size_t j = i + 1; j < bed.grains(); ++j) {
+      const ShapePair pair{bed.shape, bed.shape, pair_pose(bed, i, j)};
+      if (far_by_distance(pair, settings.margin)) continue;
+      const PairContact c = touch(pair, settings, separating_axes(pair), clip, points);
+      if (c.count > 0) names[{static_cast<int>(i), static_cast<int>(j)}] = c.count;
+    }
+    for (std::size_t k = 0; k < bed.walls.size(); ++k) {
+      std::size_t count = 0;
+      for (const Vector& v : bed.shape.vertices) {
+        const Vector x = bed.pose(i).centre + bed.centre[i].w * (bed.pose(i).orientation * v);
+        count += bed.walls[k].distance(x.x(), x.y(), x.z()) <= settings.margin ? 1 : 0;
+      }
+      if (count > 0) names[{static_cast<int>(i), bed.wall(k)}] = count;
+    }
+  }
+  return names;
+}
+
+/// What one list has and the other has not, in words.
+std::string difference(const Found& a, const Found& b) {
+  std::ostringstream text;
+  const auto list = [&](const Found& has, const Found& lacks, const char* name) {
+    for (const auto& [pair, count] : has) {
+      const auto other = lacks.find(pair);
+      if (other != lacks.end() && other->second == count) continue;
+      text << name << " " << pair.first << "-" << pair.second << ": " << count << " points; ";
+    }
+  };
+  list(a, b, "found");
+  list(b, a, "expected");
+  return text.str();
+}
+
+TEST_CASE("contacts of a bed of shapes are those of all pairs and walls, no more and no less") {
+  const ConvexShape hull = testing::hull_of(pinacoid({}).vertices);
+  for (const ConvexShape& shape : {pinacoid({}), hull, testing::cube()}) {
+    for (const Boundary y : {periodic, walls}) {
+      ShapeBed bed = testing::random_shape_bed({6, 5, periodic, y}, shape, 150, 4, 11);
+      ShapeSearch search;
+      ShapeContacts found;
+      CHECK(find_contacts(usual, kernels(), bed, search, found));
+      REQUIRE(difference(names_of(found), brute_force(bed, usual.touch)) == "");
+    }
+  }
+}
+
+TEST_CASE("contacts stay complete while grains move and turn, with few searches") {
+  ShapeBed bed = testing::random_shape_bed({6, 5, periodic, walls}, pinacoid({}), 100, 4, 3);
+  testing::Draw draw(5);
+  ShapeSearch search;
+  ShapeContacts found;
+  int searches = 0;
+  for (int k = 0; k < 40; ++k) {
+    searches += find_contacts(usual, kernels(), bed, search, found) ? 1 : 0;
+    REQUIRE(difference(names_of(found), brute_force(bed, usual.touch)) == "");
+    for (std::size_t i = 0; i < bed.grains(); ++i) {
+      move_grain(bed, i, 0.002 * testing::random_direction(draw),
+                 0.3 * testing::random_direction(draw));
+    }
+  }
+  CHECK(searches > 1);
+  CHECK(searches < 20);
+}
+
+TEST_CASE("a pinacoid and the hull of its corners touch at the same points") {
+  const ConvexShape shape = pinacoid({}), hull = testing::hull_of(shape.vertices);
+  // At random no two axes are equally good, so that both choose the same.
+  ShapeBed closed = testing::random_shape_bed({6, 5, periodic, walls}, shape, 120, 4, 2);
+  ShapeBed open = closed;
+  open.shape = hull;
+  ShapeSearch search_closed, search_open;
+  ShapeContacts a, b;
+  find_contacts(usual, kernels(), closed, search_closed, a);
+  find_contacts(usual, kernels(), open, search_open, b);
+  REQUIRE(a.contacts.size() == b.contacts.size());
+  REQUIRE(a.contacts.size() > 300);
+  for (std::size_t k = 0; k < a.contacts.size(); ++k) {
+    const ShapeContact &p = a.contacts[k], &q = b.contacts[k];
+    REQUIRE((p.a == q.a && p.b == q.b && p.count == q.count));
+    REQUIRE((p.normal - q.normal).norm() < 1e-9);
+    for (std::size_t j = 0; j < p.count; ++j) {
+      const Vector& x = a.points[p.first + j].position;
+      const auto same = [&](const ContactPoint& point) {
+        return (point.position - x).norm() < 1e-8;
+      };
+      const auto first = b.points.begin() + static_cast<std::ptrdiff_t>(q.first);
+      REQUIRE(std::any_of(first, first + static_cast<std::ptrdiff_t>(q.count), same));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace grainsweep

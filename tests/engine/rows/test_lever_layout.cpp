@@ -1,0 +1,202 @@
+#include <cmath>
+#include <set>
+
+#include <catch2/catch.hpp>
+
+#include "engine/rows/lever_layout.hpp"
+#include "tests/support/instruction_sets.hpp"
+#include "tests/support/shape_beds.hpp"
+
+namespace grainsweep {
+namespace {
+
+using testing::periodic;
+using testing::walls;
+
+struct Scene {
+  ShapeBed bed = testing::random_shape_bed({6, 5, periodic, walls}, pinacoid({}), 150, 4, 9);
+  ShapeSearch search;
+  ShapeContacts found;
+  LeverPlaces places;
+  LeverColumns<double> rows;
+
+  Scene() {
+    find_contacts({{0.05, 1e-3}, 0.05}, kernels_for(best_isa()), bed, search, found);
+    lay_out(bed, found, 1.0, places, rows);
+  }
+  std::size_t lane(std::size_t k) const { return places.first[k] % block_width; }
+  std::size_t point(std::size_t k, std::size_t j) const {
+    return places.first[k] / block_width + j;
+  }
+  const LeverBlock<double>& block(std::size_t k) const {
+    const std::size_t first = point(k, 0);
+    for (const LeverBlock<double>& b : rows.blocks) {
+      if (b.first == first) return b;
+    }
+    FAIL("no block begins at point " << first);
+    return rows.blocks.front();
+  }
+};
+
+TEST_CASE("no grain is twice in a block of rows with levers") {
+  const Scene scene;
+  for (const LeverBlock<double>& block : scene.rows.blocks) {
+    std::set<std::int32_t> grains;
+    for (std::size_t lane = 0; lane < block_width; ++lane) {
+      for (const std::int32_t name : {block.a(lane), block.b(lane)}) {
+        if (scene.bed.is_grain(name)) REQUIRE(grains.insert(name).second);
+      }
+    }
+  }
+}
+
+TEST_CASE("every point of every contact has a row of its own, all other rows are void") {
+  const Scene scene;
+  std::set<std::size_t> used;
+  for (std::size_t k = 0; k < scene.found.contacts.size(); ++k) {
+    const ShapeContact& c = scene.found.contacts[k];
+    const LeverBlock<double>& block = scene.block(k);
+    REQUIRE((block.a(scene.lane(k)) == c.a && block.b(scene.lane(k)) == c.b));
+    REQUIRE(c.count <= block.points);
+    for (std::size_t j = 0; j < c.count; ++j) {
+      REQUIRE(used.insert(scene.places.first[k] + j * block_width).second);
+      REQUIRE(scene.rows.points[scene.point(k, j)].gap[scene.lane(k)] ==
+              scene.found.points[c.first + j].gap);
+    }
+  }
+  for (std::size_t at = 0; at < scene.rows.impulse.size(); ++at) {
+    const LeverPoints<double>& points = scene.rows.points[at / block_width];
+    const std::size_t lane = at % block_width;
+    if (used.count(at) > 0) continue;
+    REQUIRE(points.gap[lane] > 0);
+    REQUIRE((points.lever_a[0][lane] == 0 && points.lever_b[2][lane] == 0));
+  }
+  // Contacts in a block have about as many points as one another: little is wasted on void rows.
+  CHECK(used.size() * 2 > scene.rows.impulse.size());
+}
+
+/// Where a point fixed to a grain goes when the grain moves by its part of a motion.
+Vector moved(const ShapeBed& bed, std::size_t grain, const Vector& from_centre, const Vector& v,
+             const Vector& angles) {
+  const Quaternion q = bed.pose(grain).orientation;
+  const Vector body = q.conjugate() * from_centre;
+  const double angle = angles.norm();
+  return v + q * (Eigen::AngleAxisd(angle, angles / angle) * body) - from_centre;
+}
+
+TEST_CASE("rows say how gaps change when grains move and turn") {
+  const Scene scene;
+  testing::Draw draw(2);
+  constexpr double size = 1e-6;
+  std::vector<Vector> v, angles;
+  for (std::size_t i = 0; i < scene.bed.grains(); ++i) {
+    v.push_back(size * testing::random_direction(draw));
+    angles.push_back(size * testing::random_direction(draw));
+  }
+  for (std::size_t k = 0; k < scene.found.contacts.size(); ++k) {
+    const ShapeContact& c = scene.found.contacts[k];
+    const auto a = static_cast<std::size_t>(c.a), b = static_cast<std::size_t>(c.b);
+    const bool of_wall = !scene.bed.is_grain(c.b);
+    const Quaternion turn = scene.bed.pose(a).orientation;
+    const Vector n = turn * c.normal;
+    const LeverBlock<double>& block = scene.block(k);
+    const std::size_t lane = scene.lane(k);
+    REQUIRE((Vector(block.normal_x[lane], block.normal_y[lane], block.normal_z[lane]) - n).norm() <
+            1e-15);
+    for (std::size_t j = 0; j < c.count; ++j) {
+      const Vector r = turn * scene.found.points[c.first + j].position;
+      const Vector way_a = moved(scene.bed, a, r, v[a], angles[a]);
+      const Vector way_b =
+          of_wall ? Vector(Vector::Zero())
+                  : moved(scene.bed, b, r - nearest_difference(scene.bed, a, b), v[b], angles[b]);
+      const LeverPoints<double>& points = scene.rows.points[scene.point(k, j)];
+      double change = n.dot((of_wall ? Vector(Vector::Zero()) : v[b]) - v[a]);
+      for (int x = 0; x < 3; ++x) {
+        change -= points.lever_a[x][lane] * scene.bed.root_inertia[a][x] * angles[a][x];
+        if (of_wall) continue;
+        change += points.lever_b[x][lane] * scene.bed.root_inertia[b][x] * angles[b][x];
+      }
+      REQUIRE(change == Approx(n.dot(way_b - way_a)).margin(4 * size * size));  // second order
+    }
+  }
+}
+
+TEST_CASE("masses of a row are what one impulse on it, and one on all of its contact, meet") {
+  const Scene scene;
+  for (std::size_t k = 0; k < scene.found.contacts.size(); ++k) {
+    const ShapeContact& c = scene.found.contacts[k];
+    const std::size_t lane = scene.lane(k);
+    const auto coupling = [&](std::size_t i, std::size_t j) {
+      const LeverPoints<double>&p = scene.rows.points[scene.point(k, i)],
+            &q = scene.rows.points[scene.point(k, j)];
+      double sum = scene.bed.motion[static_cast<std::size_t>(c.a)].w;
+      if (scene.bed.is_grain(c.b)) sum += scene.bed.motion[static_cast<std::size_t>(c.b)].w;
+      for (int x = 0; x < 3; ++x) {
+        sum += p.lever_a[x][lane] * q.lever_a[x][lane] + p.lever_b[x][lane] * q.lever_b[x][lane];
+      }
+      return sum;
+    };
+    for (std::size_t i = 0; i < c.count; ++i) {
+      double row_sum = 0;
+      for (std::size_t j = 0; j < c.count; ++j) {
+        row_sum += std::abs(coupling(i, j)) * std::sqrt(coupling(i, i) / coupling(j, j));
+      }
+      const LeverPoints<double>& p = scene.rows.points[scene.point(k, i)];
+      REQUIRE(p.reduced_mass[lane] * coupling(i, i) == Approx(1));
+      REQUIRE(p.step_mass[lane] * row_sum == Approx(1));
+    }
+  }
+}
+
+TEST_CASE("an overlap is repaired by the share asked for, a gap is left as it is, of shapes too") {
+  Scene scene;
+  lay_out(scene.bed, scene.found, 0.25, scene.places, scene.rows);
+  for (std::size_t k = 0; k < scene.found.contacts.size(); ++k) {
+    for (std::size_t j = 0; j < scene.found.contacts[k].count; ++j) {
+      const double gap = scene.found.points[scene.found.contacts[k].first + j].gap;
+      REQUIRE(scene.rows.points[scene.point(k, j)].gap[scene.lane(k)] ==
+              (gap < 0 ? 0.25 * gap : gap));
+    }
+  }
+}
+
+double sum_of(const std::vector<double>& impulse) {
+  double sum = 0;
+  for (const double p : impulse) sum += p;
+  return sum;
+}
+
+TEST_CASE("impulses come back to their points, and to the nearest where points have changed") {
+  Scene scene;
+  testing::Draw draw(8);
+  for (std::size_t k = 0; k < scene.found.contacts.size(); ++k) {
+    for (std::size_t j = 0; j < scene.found.contacts[k].count; ++j) {
+      scene.rows.impulse[scene.places.first[k] + j * block_width] = draw.unit();
+    }
+  }
+  const std::vector<double> before = scene.rows.impulse;
+  CarriedPoints carried;
+  remember_impulses(scene.bed, scene.found, scene.places, scene.rows, carried);
+  lay_out(scene.bed, scene.found, 1.0, scene.places, scene.rows);
+  CHECK(sum_of(scene.rows.impulse) == 0);
+  carry_impulses(scene.found, carried, scene.places, scene.rows);
+  CHECK(scene.rows.impulse == before);
+
+  // One point left of each contact takes all, a contact that is gone takes its impulses along.
+  const double gone = [&] {
+    double sum = 0;
+    for (std::size_t j = 0; j < scene.found.contacts.back().count; ++j) {
+      sum += before[scene.places.first.back() + j * block_width];
+    }
+    return sum;
+  }();
+  ShapeContacts fewer = scene.found;
+  fewer.contacts.pop_back();
+  for (ShapeContact& c : fewer.contacts) c.count = 1;
+  lay_out(scene.bed, fewer, 1.0, scene.places, scene.rows);
+  carry_impulses(fewer, carried, scene.places, scene.rows);
+  CHECK(sum_of(scene.rows.impulse) == Approx(sum_of(before) - gone));
+}
+
+}  // namespace
+}  // namespace grainsweep
