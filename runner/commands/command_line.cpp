@@ -29,6 +29,7 @@ struct AllOptions {
   ExportOptions grains;
   StatusOptions status;
   CollectOptions collect;
+  SchemaOptions schema;
   DoctorOptions doctor;
 };
 
@@ -149,6 +150,14 @@ void add_collect(CLI::App& app, CollectOptions& options) {
   collect.footer("Example: grainsweep collect out/node1 out/node2 --out out/all");
 }
 
+void add_schema(CLI::App& app, SchemaOptions& options) {
+  CLI::App& schema =
+      *app.add_subcommand("schema", "Print the JSON Schema of sweep files, for editors");
+  schema.add_flag("--markdown", options.markdown,
+                  "the table of parameters instead: type, range, default, meaning");
+  schema.footer("Example: grainsweep schema >sweep.schema.json");
+}
+
 void add_commands(CLI::App& app, AllOptions& options) {
   add_run(app, options.run);
   add_validate(app, options.validate);
@@ -158,7 +167,7 @@ void add_commands(CLI::App& app, AllOptions& options) {
   add_export(app, options.grains);
   add_status(app, options.status);
   add_collect(app, options.collect);
-  app.add_subcommand("schema", "Print the JSON Schema of sweep files, for editors");
+  add_schema(app, options.schema);
   app.add_subcommand("doctor", "Say what this machine offers and whether results can be written");
 }
 
@@ -172,7 +181,7 @@ Command chosen_command(const CLI::App& app, const AllOptions& options) {
   if (name == "export") return options.grains;
   if (name == "status") return options.status;
   if (name == "collect") return options.collect;
-  if (name == "schema") return SchemaOptions{};
+  if (name == "schema") return options.schema;
   return options.doctor;
 }
 

@@ -71,7 +71,9 @@ struct CollectOptions {
 /// Merges the results of several output folders, a packing once, and writes the tables.
 int collect(const CollectOptions& options);
 
-struct SchemaOptions {};
+struct SchemaOptions {
+  bool markdown = false;  ///< the table of parameters for a manual instead
+};
 /// Prints the JSON Schema of sweep files.
 int schema(const SchemaOptions& options);
 

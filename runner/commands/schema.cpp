@@ -5,11 +5,12 @@
 
 #include "runner/commands/commands.hpp"
 #include "runner/exit_codes.hpp"
+#include "runner/sweep/parameter_table.hpp"
 
 namespace grainsweep {
 
-int schema(const SchemaOptions& /*options*/) {
-  std::cout << sweep_schema();
+int schema(const SchemaOptions& options) {
+  std::cout << (options.markdown ? parameter_table() : sweep_schema());
   return exit_done;
 }
 

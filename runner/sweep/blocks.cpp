@@ -46,7 +46,7 @@ int read_replicates(const Json& object, const std::string& pointer, int otherwis
 std::uint64_t read_seed(const Json& file, Problems& problems) {
   const auto found = file.find("seed");
   if (found == file.end()) return 0;
-  const ValueReading reading = read_value(parameters()[*find_parameter("seed")], *found);
+  const ValueReading reading = read_value(parameters()[parameter_with(Role::seed)], *found);
   if (reading.value) return std::get<std::uint64_t>(*reading.value);
   problems.push_back({"/seed", reading.error});
   return 0;
@@ -278,7 +278,7 @@ Settings read_base(const Json& file, Problems& problems) {
   if (base == file.end()) return {};
   Settings settings = read_layer(*base, "/base", problems);
   for (const Setting& setting : settings) {
-    if (parameters()[setting.parameter].path != "seed") continue;
+    if (parameters()[setting.parameter].role != Role::seed) continue;
     problems.push_back(
         {setting.pointer, "\"seed\" belongs beside \"base\", not into it", Anchor::key});
   }

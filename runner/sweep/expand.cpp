@@ -302,12 +302,12 @@ class Expansion {
   const Blocks& blocks_;
   const std::string folder_;
   Problems& problems_;
-  const std::size_t seed_ = *find_parameter("seed");
-  const std::size_t file_ = *find_parameter("fill.file");
-  const std::size_t diameter_ = *find_parameter("fill.diameter");
-  const std::size_t hull_vertices_ = *find_parameter("shape.hull.vertices");
-  const std::size_t hull_file_ = *find_parameter("shape.hull.file");
-  const std::size_t hull_size_ = *find_parameter("shape.hull.size");
+  const std::size_t seed_ = parameter_with(Role::seed);
+  const std::size_t file_ = parameter_with(Role::fill_file);
+  const std::size_t diameter_ = parameter_with(Role::fill_diameter);
+  const std::size_t hull_vertices_ = parameter_with(Role::hull_vertices);
+  const std::size_t hull_file_ = parameter_with(Role::hull_file);
+  const std::size_t hull_size_ = parameter_with(Role::hull_size);
   std::vector<Job> jobs_;
   std::unordered_map<std::uint64_t, std::size_t> first_block_;  // of every job, by its hash
   std::map<std::pair<std::size_t, std::size_t>, std::uint64_t> shared_;  // jobs, by two blocks

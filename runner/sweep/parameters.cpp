@@ -60,13 +60,19 @@ using Names = std::vector<std::string>;
 template <auto... members>
 Parameter row(const char* path, const char* meaning, Names choices = {}) {
   using T = std::remove_cvref_t<decltype((std::declval<Draft&>().*....*members))>;
-  return {path,
-          meaning,
-          kind_of<T>(),
-          std::numeric_limits<int>::max(),
-          std::move(choices),
-          set_member<members...>,
-          get_member<members...>};
+  return {.path = path,
+          .meaning = meaning,
+          .kind = kind_of<T>(),
+          .largest = std::numeric_limits<int>::max(),
+          .choices = std::move(choices),
+          .set = set_member<members...>,
+          .get = get_member<members...>};
+}
+
+/// `parameter` with the range it must lie in.
+Parameter within(const char* range, Parameter parameter) {
+  parameter.range = range;
+  return parameter;
 }
 
 template <auto member>
@@ -129,56 +135,68 @@ void set_hull_file(Draft& draft, const Value& value) {
   draft.hull_file = std::get<std::string>(value);
 }
 
-/// The row of a number that is written and read by functions of its own.
-Parameter number(const char* path, const char* meaning, void (*set)(Draft&, const Value&),
-                 std::optional<Value> (*get)(const Draft&)) {
-  return {path, meaning, ValueKind::number, 0, {}, set, get};
+/// A part of a pinacoid.
+Parameter pinacoid_part(const char* path, const char* meaning, void (*set)(Draft&, const Value&),
+                        std::optional<Value> (*get)(const Draft&)) {
+  return {.path = path,
+          .meaning = meaning,
+          .kind = ValueKind::number,
+          .set = set,
+          .get = get,
+          .role = Role::pinacoid};
 }
-
 template <auto member>
 Parameter side(const char* path, const char* meaning) {
-  return number(path, meaning, set_side<member>, get_side<member>);
+  return pinacoid_part(path, meaning, set_side<member>, get_side<member>);
 }
 
 /// The shape's name comes before the parts that name a shape too.
 Rows shape_rows() {
   return {
-      {"shape",
-       "what the grains are; a name alone stands for the shape with its defaults",
-       ValueKind::choice,
-       0,
-       {"sphere", "pinacoid"},
-       set_shape,
-       get_shape},
-      side<&PinacoidSize::length>("shape.pinacoid.length", "length of the middle plane, d"),
-      side<&PinacoidSize::width>("shape.pinacoid.width", "width of the middle plane, d"),
-      side<&PinacoidSize::height>("shape.pinacoid.height", "distance of its two ridges, d"),
-      number("shape.pinacoid.angle_deg", "angle between ends and middle plane, degrees", set_angle,
-             get_angle),
-      {"shape.hull.vertices",
-       "vertices [x, y, z] of a convex grain",
-       ValueKind::points,
-       0,
-       {},
-       set_vertices,
-       get_vertices},
-      {"shape.hull.file",
-       "OBJ file of the vertices instead; relative to the sweep file",
-       ValueKind::text,
-       0,
-       {},
-       set_hull_file,
-       no_identity},
-      number("shape.hull.size", "the length in the vertices that is d; 1 if left out",
-             set_member<&Draft::hull_size>, no_identity),
+      {.path = "shape",
+       .meaning = "what the grains are; a name alone stands for the shape with its defaults",
+       .kind = ValueKind::choice,
+       .choices = {"sphere", "pinacoid"},
+       .set = set_shape,
+       .get = get_shape,
+       .role = Role::shape},
+      within("> 0",
+             side<&PinacoidSize::length>("shape.pinacoid.length", "length of the middle plane, d")),
+      within("> 0",
+             side<&PinacoidSize::width>("shape.pinacoid.width", "width of the middle plane, d")),
+      within("> 0",
+             side<&PinacoidSize::height>("shape.pinacoid.height", "distance of its two ridges, d")),
+      within("(0, 89]",
+             pinacoid_part("shape.pinacoid.angle_deg",
+                           "angle between ends and middle plane, degrees", set_angle, get_angle)),
+      {.path = "shape.hull.vertices",
+       .meaning = "vertices [x, y, z] of a convex grain",
+       .kind = ValueKind::points,
+       .set = set_vertices,
+       .get = get_vertices,
+       .role = Role::hull_vertices},
+      {.path = "shape.hull.file",
+       .meaning = "OBJ file of the vertices instead; relative to the sweep file",
+       .kind = ValueKind::text,
+       .set = set_hull_file,
+       .get = no_identity,
+       .role = Role::hull_file},
+      {.path = "shape.hull.size",
+       .meaning = "the length in the vertices that is d; 1 if left out",
+       .kind = ValueKind::number,
+       .set = set_member<&Draft::hull_size>,
+       .get = no_identity,
+       .role = Role::hull_size,
+       .range = "> 0"},
   };
 }
 
 Rows box_rows() {
   const Names boundaries = {"periodic", "walls"};  // in the order of Boundary
   return {
-      box<&Box::length>("box.length", "extent of the box along x, d"),
-      box<&Box::width>("box.width", "extent of the box along y, d: the gap between walls"),
+      within("[2, 10000]", box<&Box::length>("box.length", "extent of the box along x, d")),
+      within("[1, 10000]",
+             box<&Box::width>("box.width", "extent of the box along y, d: the gap between walls")),
       box<&Box::x>("box.x", "what bounds the box along x", boundaries),
       box<&Box::y>("box.y", "what bounds the box along y", boundaries),
   };
@@ -209,43 +227,50 @@ std::optional<Value> get_diameter(const Draft& draft) {
   return draft.fill_file.empty() ? std::nullopt : present(draft.fill_diameter);
 }
 
-constexpr std::int64_t any_whole = std::numeric_limits<std::int64_t>::max();
-
 Rows fill_rows() {
   return {
-      {"fill.solid_height",
-       "solid volume per floor area, d; as many grains as fill it up",
-       ValueKind::number,
-       0,
-       {},
-       set_solid_height,
-       get_solid_height},
-      {"fill.grains", "number of grains", ValueKind::whole, any_whole, {}, set_grains, get_grains},
-      {"fill.file",
-       "CSV file of x,y,z,r, and qx,qy,qz,qw of grains that are no spheres: where they start; "
-       "relative to the sweep file",
-       ValueKind::text,
-       0,
-       {},
-       set_file,
-       get_file},
-      {"fill.diameter",
-       "the length in fill.file that is d",
-       ValueKind::number,
-       0,
-       {},
-       set_member<&Draft::fill_diameter>,
-       get_diameter},
+      {.path = "fill.solid_height",
+       .meaning = "solid volume per floor area, d; as many grains as fill it up",
+       .kind = ValueKind::number,
+       .set = set_solid_height,
+       .get = get_solid_height,
+       .role = Role::fill,
+       .range = "(0, 1000]"},
+      {.path = "fill.grains",
+       .meaning = "number of grains",
+       .kind = ValueKind::whole,
+       .largest = std::numeric_limits<std::int64_t>::max(),
+       .set = set_grains,
+       .get = get_grains,
+       .role = Role::fill,
+       .range = "[1, 10000000]"},
+      {.path = "fill.file",
+       .meaning = "CSV file of x,y,z,r, and qx,qy,qz,qw of grains that are no spheres: where they "
+                  "start; relative to the sweep file",
+       .kind = ValueKind::text,
+       .set = set_file,
+       .get = get_file,
+       .role = Role::fill_file},
+      {.path = "fill.diameter",
+       .meaning = "the length in fill.file that is d",
+       .kind = ValueKind::number,
+       .set = set_member<&Draft::fill_diameter>,
+       .get = get_diameter,
+       .role = Role::fill_diameter,
+       .range = "> 0"},
   };
 }
 
 Rows size_rows() {
   return {
-      sizes<&SizesSpec::spread>("sizes.spread",
-                                "standard deviation of the diameter over its mean, each class"),
-      sizes<&SizesSpec::small_share>("sizes.small_share",
-                                     "share of the small class in the solid volume, 0 to 1"),
-      sizes<&SizesSpec::size_ratio>("sizes.size_ratio", "mean diameter of the small class, d"),
+      within("[0, 0.2]",
+             sizes<&SizesSpec::spread>(
+                 "sizes.spread", "standard deviation of the diameter over its mean, each class")),
+      within("[0, 1]",
+             sizes<&SizesSpec::small_share>(
+                 "sizes.small_share", "share of the small class in the solid volume, 0 to 1")),
+      within("(0.02, 1]", sizes<&SizesSpec::size_ratio>("sizes.size_ratio",
+                                                        "mean diameter of the small class, d")),
   };
 }
 
@@ -263,8 +288,13 @@ void set_preset(Draft& draft, const Value& value) {
 Rows accuracy_rows() {
   using A = Accuracy;
   return {
-      {"accuracy.preset", "named accuracy; parts written beside it override its own",
-       ValueKind::choice, 0, preset_names(), set_preset, no_identity},
+      {.path = "accuracy.preset",
+       .meaning = "named accuracy; parts written beside it override its own",
+       .kind = ValueKind::choice,
+       .choices = preset_names(),
+       .set = set_preset,
+       .get = no_identity,
+       .role = Role::preset},
       accuracy<&A::protocol>("accuracy.protocol",
                              "how grains come down: damped in long steps, or plain dynamics",
                              {"heavy_ball", "dynamic"}),  // in the order of Protocol
@@ -272,26 +302,32 @@ Rows accuracy_rows() {
           "accuracy.solver", "iterations that solve a step",
           {"pgs", "symmetric_pgs", "nncg", "apgd", "apgs"}),  // in the order of Solver
       accuracy<&A::precision>("accuracy.precision", "number type of the solver", {"f32", "f64"}),
-      accuracy<&A::step>("accuracy.step", "time step, sqrt(d/g)"),
-      accuracy<&A::momentum>("accuracy.momentum",
-                             "share of the last displacement carried on, 0 to 1"),
-      accuracy<&A::fall_iterations>("accuracy.fall_iterations",
-                                    "solver iterations per step while the bed compacts"),
-      accuracy<&A::creep_steps>("accuracy.creep_steps",
-                                "double steps after the fall, while the bed creeps to rest"),
-      accuracy<&A::rest_iterations>("accuracy.rest_iterations",
-                                    "most solver iterations per step at the end of the creep"),
-      accuracy<&A::residual_tolerance>("accuracy.residual_tolerance",
-                                       "worst force imbalance at rest, m g"),
-      accuracy<&A::kinetic_tolerance>("accuracy.kinetic_tolerance",
-                                      "kinetic energy per grain at rest, m g d"),
-      accuracy<&A::contact_tolerance>("accuracy.contact_tolerance",
-                                      "|contacts / isostatic count - 1| at rest"),
-      accuracy<&A::overlap_tolerance>(
-          "accuracy.overlap_tolerance",
-          "mean overlap of touching pairs at rest, d; no pair more than a hundred times it"),
-      accuracy<&A::max_steps>("accuracy.max_steps",
-                              "steps after which a bed counts as not settled"),
+      within("(0, 2]", accuracy<&A::step>("accuracy.step", "time step, sqrt(d/g)")),
+      within("[0, 1)", accuracy<&A::momentum>("accuracy.momentum",
+                                              "share of the last displacement carried on, 0 to 1")),
+      within("[1, 1000000]",
+             accuracy<&A::fall_iterations>("accuracy.fall_iterations",
+                                           "solver iterations per step while the bed compacts")),
+      within("[0, 1000000]", accuracy<&A::creep_steps>(
+                                 "accuracy.creep_steps",
+                                 "double steps after the fall, while the bed creeps to rest")),
+      within("[1, 1000000]", accuracy<&A::rest_iterations>(
+                                 "accuracy.rest_iterations",
+                                 "most solver iterations per step at the end of the creep")),
+      within("> 0", accuracy<&A::residual_tolerance>("accuracy.residual_tolerance",
+                                                     "worst force imbalance at rest, m g")),
+      within("> 0", accuracy<&A::kinetic_tolerance>("accuracy.kinetic_tolerance",
+                                                    "kinetic energy per grain at rest, m g d")),
+      within("> 0", accuracy<&A::contact_tolerance>("accuracy.contact_tolerance",
+                                                    "|contacts / isostatic count - 1| at rest")),
+      within(
+          "> 0",
+          accuracy<&A::overlap_tolerance>(
+              "accuracy.overlap_tolerance",
+              "mean overlap of touching pairs at rest, d; no pair more than a hundred times it")),
+      within("[1, 2147483647]",
+             accuracy<&A::max_steps>("accuracy.max_steps",
+                                     "steps after which a bed counts as not settled")),
       accuracy<&A::force_balance>("accuracy.force_balance",
                                   "certify the final contacts by a direct solve of force balance",
                                   {"skip", "solve"}),  // in the order of BalanceCheck
@@ -301,11 +337,15 @@ Rows accuracy_rows() {
 Rows measure_rows() {
   using M = MeasureSpec;
   return {
-      measure<&M::exclude_floor>("measure.exclude_floor", "zone above the floor left out, d"),
-      measure<&M::exclude_surface>("measure.exclude_surface", "zone below the surface left out, d"),
-      measure<&M::gap_tolerances>("measure.gap_tolerances",
-                                  "grains touch below these gaps, d; the first is the headline"),
-      measure<&M::bin_width>("measure.bin_width", "width of the bins of profiles, d"),
+      within("[0, 1000]", measure<&M::exclude_floor>("measure.exclude_floor",
+                                                     "zone above the floor left out, d")),
+      within("[0, 1000]", measure<&M::exclude_surface>("measure.exclude_surface",
+                                                       "zone below the surface left out, d")),
+      within("(0, 0.1)", measure<&M::gap_tolerances>(
+                             "measure.gap_tolerances",
+                             "grains touch below these gaps, d; the first is the headline")),
+      within("[0.01, 10000]",
+             measure<&M::bin_width>("measure.bin_width", "width of the bins of profiles, d")),
   };
 }
 
@@ -315,13 +355,13 @@ Rows all_rows() {
        {shape_rows(), box_rows(), fill_rows(), size_rows(), accuracy_rows(), measure_rows()}) {
     for (Parameter& parameter : rows) all.push_back(std::move(parameter));
   }
-  all.push_back({"seed",
-                 "master seed of the random numbers; in blocks only",
-                 ValueKind::natural,
-                 0,
-                 {},
-                 set_member<&Draft::seed>,
-                 no_identity});
+  all.push_back({.path = "seed",
+                 .meaning = "master seed of the random numbers; in blocks only",
+                 .kind = ValueKind::natural,
+                 .set = set_member<&Draft::seed>,
+                 .get = no_identity,
+                 .role = Role::seed,
+                 .range = "[0, 18446744073709551615]"});
   return all;
 }
 
@@ -343,9 +383,38 @@ std::optional<std::size_t> find_parameter(std::string_view path) {
   return std::nullopt;
 }
 
+std::size_t parameter_with(Role role) {
+  const auto has_role = [&](const Parameter& parameter) { return parameter.role == role; };
+  const auto found = std::find_if(parameters().begin(), parameters().end(), has_role);
+  return static_cast<std::size_t>(found - parameters().begin());
+}
+
+Choice choice_of(const Parameter& parameter) {
+  switch (parameter.role) {
+    case Role::shape:
+    case Role::pinacoid:
+    case Role::hull_vertices:
+    case Role::hull_file:
+    case Role::hull_size:
+      return Choice::shape;
+    case Role::fill:
+    case Role::fill_file:
+    case Role::fill_diameter:
+      return Choice::fill;
+    default:
+      return Choice::none;
+  }
+}
+
+std::optional<std::size_t> preset_of(std::string_view path) {
+  const std::size_t preset = parameter_with(Role::preset);
+  const std::string& full = parameters()[preset].path;
+  return full.substr(0, full.rfind('.')) == path ? std::optional(preset) : std::nullopt;
+}
+
 std::optional<Value> default_of(const Parameter& parameter) {
   Draft draft;
-  if (parameter.path.starts_with("shape.pinacoid.")) draft.spec.shape = PinacoidSize{};
+  if (parameter.role == Role::pinacoid) draft.spec.shape = PinacoidSize{};
   return parameter.get(draft);
 }
 
@@ -375,8 +444,8 @@ std::vector<std::string> known_keys(std::string_view path) {
 }
 
 bool is_fill(std::size_t parameter) {
-  const std::string& path = parameters()[parameter].path;
-  return path == "fill.solid_height" || path == "fill.grains" || path == "fill.file";
+  const Role role = parameters()[parameter].role;
+  return role == Role::fill || role == Role::fill_file;
 }
 
 }  // namespace grainsweep

@@ -31,15 +31,36 @@ enum class ValueKind {
   points,   ///< list of points
 };
 
+/// What a parameter decides beside its own value.
+enum class Role {
+  plain,
+  seed,           ///< master seed: set by blocks, not by "base"
+  preset,         ///< gives the other parts of its group their values; its name may stand for them
+  shape,          ///< names the shape of the grains
+  pinacoid,       ///< a part of a pinacoid; writing it names that shape
+  hull_vertices,  ///< names a hull, and so on
+  hull_file,
+  hull_size,
+  fill,       ///< a way to fill the box
+  fill_file,  ///< another way
+  fill_diameter,
+};
+
+/// Parameters that say one thing in several ways: writing one unsets what the others said.
+enum class Choice { none, shape, fill };
+
 struct Parameter {
   std::string path;     ///< "box.width"
   std::string meaning;  ///< one line, with the unit
   ValueKind kind = ValueKind::number;
-  std::int64_t largest = 0;          ///< of a whole number
-  std::vector<std::string> choices;  ///< names, in the order of their indices
+  std::int64_t largest = 0;               ///< of a whole number
+  std::vector<std::string> choices = {};  ///< names, in the order of their indices
   void (*set)(Draft&, const Value&) = nullptr;
   /// The value as it identifies a job; nothing if it does not belong to the job's identity.
   std::optional<Value> (*get)(const Draft&) = nullptr;
+  Role role = Role::plain;
+  /// Where numbers must lie, for documentation: "(0, 2]". Other parameters may narrow it.
+  std::string range = {};
 };
 
 /// All parameters. A preset comes before the parts it sets.
@@ -47,6 +68,15 @@ const std::vector<Parameter>& parameters();
 
 /// Index of the parameter called `path`.
 std::optional<std::size_t> find_parameter(std::string_view path);
+
+/// Index of the first parameter with this role, which one must have.
+std::size_t parameter_with(Role role);
+
+/// Which choice a parameter belongs to.
+Choice choice_of(const Parameter& parameter);
+
+/// The preset whose name may be written in the place of the group `path`; nothing if none may.
+std::optional<std::size_t> preset_of(std::string_view path);
 
 /// The value that a parameter has where it applies and is not written; nothing if it has none.
 std::optional<Value> default_of(const Parameter& parameter);
@@ -58,7 +88,7 @@ bool is_group(std::string_view path);
 /// and in "" both "box" and "box.x".
 std::vector<std::string> known_keys(std::string_view path);
 
-/// The three ways to fill a box are one choice: setting one of them unsets the others.
+/// Whether a parameter, by its index, is one of the ways to fill the box.
 bool is_fill(std::size_t parameter);
 
 }  // namespace grainsweep

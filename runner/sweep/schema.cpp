@@ -66,8 +66,9 @@ Json parameter_schema(const Parameter& parameter) {
 
 Json group_schema(const std::string& group) {
   Json object = group_members(group);
-  if (group != "accuracy") return object;
-  return {{"anyOf", {reference("accuracy.preset"), object}}};
+  const auto preset = preset_of(group);
+  if (!preset) return object;
+  return {{"anyOf", {reference(parameters()[*preset].path), object}}};
 }
 
 /// A member for every parameter and group, by dotted path, made from it by `make`.
@@ -86,8 +87,9 @@ Json lists() {
 
 /// Parameters as "base" holds them: the seed belongs beside it.
 Json base_schema() {
+  const std::string& seed = parameters()[parameter_with(Role::seed)].path;
   return closed_object(
-      members_by_path([](const auto& path) { return path == "seed" ? Json() : reference(path); }));
+      members_by_path([&](const auto& path) { return path == seed ? Json() : reference(path); }));
 }
 
 Json one_member(const char* name, const Json& value) {

@@ -11,10 +11,6 @@ std::string dotted(const std::string& path, const std::string& key) {
   return path.empty() ? key : path + "." + key;
 }
 
-bool is_preset_name(const std::string& path, const Json& value) {
-  return path == "accuracy" && value.is_string();
-}
-
 void read_parameter(std::size_t index, const Json& value, const std::string& pointer,
                     Settings& settings, Problems& problems) {
   ValueReading reading = read_value(parameters()[index], value);
@@ -55,10 +51,9 @@ void read_group(const std::string& group, const Json& object, const std::string&
   }
 }
 
-/// Unsets the parameters of a group, and one of the same name.
-void unset(std::string_view group, Resolved& resolved) {
+void unset(Choice choice, Resolved& resolved) {
   for (std::size_t i = 0; i < resolved.size(); ++i) {
-    if (parameters()[i].path.starts_with(group)) resolved[i] = nullptr;
+    if (choice_of(parameters()[i]) == choice) resolved[i] = nullptr;
   }
 }
 
@@ -70,21 +65,27 @@ ShapeKind shape_of(const Resolved& resolved) {
   return shape;
 }
 
+/// Whether all parameters of the group name the same shape as `part` does.
+bool are_parts_of(const std::string& group, Role part) {
+  const std::string& path = parameters()[parameter_with(part)].path;
+  return path.substr(0, path.rfind('.')) == group;
+}
+
 /// An empty group says nothing, except that grains are pinacoids of the default size.
 void read_empty_group(const std::string& group, const std::string& pointer, Settings& settings,
                       Problems& problems) {
-  if (group == "shape.pinacoid") {
-    read_parameter(*find_parameter("shape"), "pinacoid", pointer, settings, problems);
-  } else if (group == "shape") {
-    problems.push_back({pointer, "names no shape; must be " +
-                                     wanted_value(parameters()[*find_parameter("shape")])});
-  } else if (group == "shape.hull") {
+  const std::size_t shape = parameter_with(Role::shape);
+  if (are_parts_of(group, Role::pinacoid)) {
+    read_parameter(shape, "pinacoid", pointer, settings, problems);
+  } else if (are_parts_of(group, Role::hull_vertices)) {
     problems.push_back({pointer, "a hull needs its vertices: write \"vertices\" or \"file\""});
+  } else if (find_parameter(group) == shape) {
+    problems.push_back({pointer, "names no shape; must be " + wanted_value(parameters()[shape])});
   }
 }
 
 std::string wanted_group(const std::string& path) {
-  const std::string preset = path == "accuracy" ? "the name of a preset or " : "";
+  const std::string preset = preset_of(path) ? "the name of a preset or " : "";
   return "must be " + preset + "an object with " + short_list(known_keys(path)) + ", is ";
 }
 
@@ -113,8 +114,8 @@ void read_settings(const std::string& path, const Json& value, const std::string
   const auto index = find_parameter(path);
   if (index && !(value.is_object() && is_group(path))) {
     read_parameter(*index, value, pointer, settings, problems);
-  } else if (is_preset_name(path, value)) {
-    read_parameter(*find_parameter("accuracy.preset"), value, pointer, settings, problems);
+  } else if (const auto preset = preset_of(path); preset && value.is_string()) {
+    read_parameter(*preset, value, pointer, settings, problems);
   } else if (value.is_object()) {
     if (value.empty()) read_empty_group(path, pointer, settings, problems);
     read_group(path, value, pointer, settings, problems);
@@ -168,9 +169,9 @@ void overlay(const std::vector<const Settings*>& layer, Resolved& resolved) {
       shape = more_exact(shape, shape_named_by(setting));
     }
   }
-  if (fills) unset("fill", resolved);
+  if (fills) unset(Choice::fill, resolved);
   const bool is_named = shape != ShapeKind::none;
-  if (is_named && exclude_each_other(shape, shape_of(resolved))) unset("shape", resolved);
+  if (is_named && exclude_each_other(shape, shape_of(resolved))) unset(Choice::shape, resolved);
   for (const Settings* part : layer) {
     for (const Setting& setting : *part) resolved[setting.parameter] = &setting;
   }

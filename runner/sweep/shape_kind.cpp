@@ -10,14 +10,20 @@ bool is_hull(ShapeKind kind) { return kind >= ShapeKind::hull; }
 }  // namespace
 
 ShapeKind shape_named_by(const Setting& setting) {
-  const std::string& path = parameters()[setting.parameter].path;
-  if (!path.starts_with("shape")) return ShapeKind::none;
-  if (path == "shape") {
-    return std::get<std::int64_t>(setting.value) == 0 ? ShapeKind::sphere : ShapeKind::pinacoid;
+  switch (parameters()[setting.parameter].role) {
+    case Role::shape:
+      return std::get<std::int64_t>(setting.value) == 0 ? ShapeKind::sphere : ShapeKind::pinacoid;
+    case Role::pinacoid:
+      return ShapeKind::pinacoid;
+    case Role::hull_vertices:
+      return ShapeKind::hull_vertices;
+    case Role::hull_file:
+      return ShapeKind::hull_file;
+    case Role::hull_size:
+      return ShapeKind::hull;
+    default:
+      return ShapeKind::none;
   }
-  if (path.starts_with("shape.pinacoid.")) return ShapeKind::pinacoid;
-  if (path == "shape.hull.vertices") return ShapeKind::hull_vertices;
-  return path == "shape.hull.file" ? ShapeKind::hull_file : ShapeKind::hull;
 }
 
 bool exclude_each_other(ShapeKind a, ShapeKind b) {

@@ -104,17 +104,6 @@ std::string bound_text(const Parameter& parameter) {
   return " up to " + std::to_string(parameter.largest);
 }
 
-std::string default_text(const Parameter& parameter) {
-  if (parameter.path == "accuracy.preset") return default_preset;
-  const auto value = default_of(parameter);
-  return value ? written_value(parameter, *value).dump() : "none";
-}
-
-std::string kind_text(const Parameter& parameter) {
-  if (parameter.kind != ValueKind::choice) return "";
-  return ": " + wanted_value(parameter);
-}
-
 }  // namespace
 
 ValueReading read_value(const Parameter& parameter, const Json& value) {
@@ -175,15 +164,6 @@ std::string wanted_value(const Parameter& parameter) {
     names += (names.empty() ? "\"" : last ? " or \"" : ", \"") + name + "\"";
   }
   return is_more ? names + " or an object with " + short_list(known_keys(parameter.path)) : names;
-}
-
-std::string document_parameters() {
-  std::string text;
-  for (const Parameter& parameter : parameters()) {
-    text += parameter.path + "  [" + default_text(parameter) + "]\n    " + parameter.meaning +
-            kind_text(parameter) + "\n";
-  }
-  return text;
 }
 
 std::string in_thousands(std::uint64_t count) {

@@ -27,9 +27,6 @@ std::string describe(const Json& value);
 /// What a parameter wants, for messages and documentation: "a number", `"periodic" or "walls"`.
 std::string wanted_value(const Parameter& parameter);
 
-/// All parameters with default, kind and meaning, two lines each.
-std::string document_parameters();
-
 /// Whole numbers in thousands: "1,000,000".
 std::string in_thousands(std::uint64_t count);
 

@@ -242,17 +242,6 @@ TEST_CASE("groups are what parameters lie below") {
   CHECK(std::count(all.begin(), all.end(), "shape.hull") == 1);
 }
 
-TEST_CASE("the documentation names every parameter with its default") {
-  const std::string text = document_parameters();
-  for (const Parameter& parameter : parameters()) {
-    CHECK(text.find(parameter.path + "  [") != std::string::npos);
-    CHECK(text.find(parameter.meaning) != std::string::npos);
-  }
-  CHECK(text.find("accuracy.preset  [balanced]") != std::string::npos);
-  CHECK(text.find("box.y  [\"walls\"]") != std::string::npos);
-  CHECK(text.find("shape.pinacoid.angle_deg  [60.0]") != std::string::npos);
-}
-
 TEST_CASE("counts are written in thousands") {
   CHECK(in_thousands(0) == "0");
   CHECK(in_thousands(999) == "999");

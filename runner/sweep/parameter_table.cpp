@@ -1,0 +1,65 @@
+#include "runner/sweep/parameter_table.hpp"
+
+#include "runner/sweep/values.hpp"
+
+namespace grainsweep {
+namespace {
+
+std::string code(const std::string& text) { return "`" + text + "`"; }
+
+const char* type_of(const Parameter& parameter) {
+  switch (parameter.kind) {
+    case ValueKind::number:
+      return "number";
+    case ValueKind::whole:
+    case ValueKind::natural:
+      return "whole number";
+    case ValueKind::choice:
+      return "name";
+    case ValueKind::text:
+      return "text";
+    case ValueKind::numbers:
+      return "list of numbers";
+    case ValueKind::points:
+      return "list of points";
+  }
+  return "";
+}
+
+/// Where a number may lie, or the names to choose from.
+std::string range_of(const Parameter& parameter) {
+  std::string names;
+  for (const std::string& name : parameter.choices) {
+    names += (names.empty() ? "" : ", ") + code("\"" + name + "\"");
+  }
+  return parameter.range + names;
+}
+
+std::string default_text(const Parameter& parameter) {
+  if (parameter.role == Role::preset) return code("\"" + std::string(default_preset) + "\"");
+  const auto value = default_of(parameter);
+  return value ? code(written_value(parameter, *value).dump()) : "";
+}
+
+/// A vertical bar would end the cell.
+std::string cell_text(const std::string& text) {
+  std::string escaped;
+  for (const char c : text) escaped += c == '|' ? std::string("\\|") : std::string(1, c);
+  return escaped;
+}
+
+}  // namespace
+
+std::string parameter_table() {
+  std::string table =
+      "| parameter | type | range | default | meaning |\n"
+      "|---|---|---|---|---|\n";
+  for (const Parameter& parameter : parameters()) {
+    table += "| " + code(parameter.path) + " | " + type_of(parameter) + " | " +
+             range_of(parameter) + " | " + default_text(parameter) + " | " +
+             cell_text(parameter.meaning) + " |\n";
+  }
+  return table;
+}
+
+}  // namespace grainsweep
