@@ -18,10 +18,6 @@ between() {
   echo $(($1 + (RANDOM * 32768 + RANDOM) % ($2 - $1 + 1)))
 }
 
-milliseconds() {
-  echo $(($(date +%s%N) / 1000000))
-}
-
 # pause MILLISECONDS
 pause() {
   local seconds

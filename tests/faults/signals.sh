@@ -5,11 +5,7 @@ make_reference sweep.json
 
 # stop_with SIGNAL CODE: the runner ends so within 2 s; false if it had ended before.
 stop_with() {
-  local began took
-  began=$(milliseconds)
-  end_runner "$1"
-  took=$(($(milliseconds) - began))
-  [ "$took" -lt 2000 ] || fail "$1 took $took ms"
+  end_in_time "$1"
   [ "$code" -gt 1 ] || return 1
   [ "$code" -eq "$2" ] || fail "$1 ended with $code: $(cat said.txt)"
   stopped=$((stopped + 1))
@@ -43,12 +39,9 @@ make_reference long.json
 
 # has_worked MILLISECONDS: the runner has had so much CPU time, however busy the machine is.
 has_worked() {
-  local task rest nanoseconds all=0
-  for task in /proc/"$runner"/task/*/schedstat; do
-    read -r nanoseconds rest <"$task" || continue
-    all=$((all + nanoseconds))
-  done 2>/dev/null
-  [ "$all" -ge $(($1 * 1000000)) ]
+  local time
+  time_of run "$runner"
+  [ "$time" -ge $(($1 * 1000000)) ]
 }
 
 # Sooner where it came to its end, for CPU time differs from run to run.

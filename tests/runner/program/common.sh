@@ -80,6 +80,37 @@ end_runner() {
   wait "$runner" 2>/dev/null || code=$?
 }
 
+# time_of FIELD PROCESS: nanoseconds that its threads ran (run) or waited for a core (queue), in `time`.
+time_of() {
+  local task run queue rest
+  time=0
+  for task in /proc/"$2"/task/*/schedstat; do
+    { read -r run queue rest <"$task"; } 2>/dev/null || continue
+    time=$((time + $1))
+  done
+}
+
+# end_in_time SIGNAL: end_runner, and it takes less than 2 s, but for waiting while other processes
+# have the cores.
+end_in_time() {
+  local began queued_before queued shell_before time
+  began=$(date +%s%N)
+  time_of queue $$
+  shell_before=$time
+  time_of queue "$runner"
+  queued_before=$time queued=$time
+  kill -"$1" "$runner" 2>/dev/null || true
+  while kill -0 "$runner" 2>/dev/null; do
+    time_of queue "$runner"
+    ((time <= queued)) || queued=$time
+    read -rt 0.002 -u "$never" || true
+  done
+  end_runner "$1"
+  time_of queue $$
+  local took=$((($(date +%s%N) - began - (queued - queued_before) - (time - shell_before)) / 1000000))
+  [ "$took" -lt 2000 ] || fail "$1 took $took ms"
+}
+
 # has_packings FOLDER COUNT: so many lines, or more, are in its journal.
 has_packings() {
   local journal text lines=0
