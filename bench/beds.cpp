@@ -13,7 +13,7 @@ constexpr int steps_to_freeze = 100;
 
 template <class Real>
 FrozenBed<Real> freeze(std::int64_t grains) {
-  FrozenBed<Real> frozen{start(walled_bed(grains)).value(), {}, {}};
+  FrozenBed<Real> frozen{start<Sphere>(walled_bed(grains)).value(), {}, {}};
   frozen.settings.limits = {Solver::accelerated_gauss_seidel, 80, 1e-3};
   for (int k = 0; k < steps_to_freeze; ++k) {
     step(frozen.settings, kernels_for(best_isa()), frozen.bed, frozen.state);

@@ -79,7 +79,8 @@ void sphere_pairs(benchmark::State& run) {
   FrozenBed<float> f = frozen_bed<float>(run.range(1));
   Candidates candidates;
   for (auto _ : run) {
-    find_candidates(f.bed, 0.13, kernels_of(run), candidates);
+    wrap(f.bed);
+    find_candidates({f.bed, f.bed.position}, 0.13, kernels_of(run), candidates);
     benchmark::DoNotOptimize(candidates.pairs.data());
   }
   run.SetItemsProcessed(run.iterations() * static_cast<std::int64_t>(f.bed.grains()));

@@ -18,7 +18,8 @@ void sizes(benchmark::internal::Benchmark* benchmark) {
 void still_complete(benchmark::State& run) {
   FrozenBed<float> f = frozen_bed<float>(run.range(0));
   for (auto _ : run) {
-    benchmark::DoNotOptimize(still_complete(f.bed, f.settings.near, f.state.candidates));
+    benchmark::DoNotOptimize(
+        still_complete({f.bed, f.bed.position}, f.settings.near, f.state.candidates));
   }
   run.SetItemsProcessed(run.iterations() * run.range(0));
 }
@@ -27,7 +28,8 @@ void find_candidates(benchmark::State& run) {
   FrozenBed<float> f = frozen_bed<float>(run.range(0));
   const double reach = f.settings.near + f.settings.margin;
   for (auto _ : run) {
-    find_candidates(f.bed, reach, kernels(), f.state.candidates);
+    wrap(f.bed);
+    find_candidates({f.bed, f.bed.position}, reach, kernels(), f.state.candidates);
   }
   run.SetItemsProcessed(run.iterations() * run.range(0));
 }

@@ -2,7 +2,7 @@
 #include <benchmark/benchmark.h>
 
 #include "engine/dynamics/shape_step.hpp"
-#include "engine/scene/shape_start.hpp"
+#include "engine/scene/start.hpp"
 #include "engine/shape/pinacoid.hpp"
 
 namespace grainsweep::bench {
@@ -10,7 +10,7 @@ namespace {
 
 template <class Real>
 struct FrozenShapes {
-  ShapeBed bed;
+  PolyhedronBed bed;
   ShapeStepState<Real> state;
 };
 
@@ -21,7 +21,7 @@ FrozenShapes<Real> frozen_shapes(double grains) {
   spec.box = {20, 5, Boundary::periodic, Boundary::walls};
   spec.fill = GrainCount{static_cast<std::int64_t>(grains)};
   spec.shape = PinacoidSize{};
-  FrozenShapes<Real> frozen{*start_shapes(spec), {}};
+  FrozenShapes<Real> frozen{*start<Polyhedron>(spec), {}};
   StepSettings settings{0.2, 0.95, 0.2, 0.05, 0.05, {}};
   settings.limits.iterations = 40;
   for (int k = 0; k < 60; ++k) {

@@ -12,7 +12,6 @@
 #include "engine/measure/shape_order.hpp"
 #include "engine/measure/solid_fraction.hpp"
 #include "engine/measure/touching.hpp"
-#include "engine/scene/shape_start.hpp"
 #include "engine/scene/sizes.hpp"
 #include "engine/scene/start.hpp"
 #include "engine/shape/given_shape.hpp"
@@ -38,8 +37,8 @@ std::string why_not_settled(const Fill& fill, const SettleReport& settled) {
              : settled.why_not;
 }
 
-template <class Bed>
-PackingResult result_of(const Fill& fill, const Bed& bed, const SettleReport& settled) {
+template <class Kind>
+PackingResult result_of(const Fill& fill, const Bed<Kind>& bed, const SettleReport& settled) {
   const std::string why_not = why_not_settled(fill, settled);
   PackingResult result;
   result.status = settled.cancelled ? PackingStatus::cancelled
@@ -73,17 +72,16 @@ std::optional<Slab> slab_of(const MeasureSpec& spec, PackingResult& result) {
   return std::nullopt;
 }
 
-/// What is measured in the same way whatever grains are: `centres` are spheres, or balls of half
-/// the size of each grain. `near` holds all pairs and walls within reach of a tolerance or a bond.
+/// `near` holds all pairs and walls within reach of a tolerance or a bond.
 void measure_neighbours(const PackingSpec& packing, const Touching& near,
-                        const SettleReport& settled, const Slab& slab, const SphereBed& centres,
+                        const SettleReport& settled, const Slab& slab, const Grains& bed,
                         PackingResult& result) {
   const MeasureSpec& spec = packing.measure;
   for (const double tolerance : spec.gap_tolerances) {
-    result.coordination.push_back(coordination(centres, near, slab, tolerance));
+    result.coordination.push_back(coordination(bed, near, slab, tolerance));
   }
   const OrderSettings settings{small_class_limit(packing.sizes), spec.gap_tolerances.front()};
-  result.order = measure_order(centres, near, settled.pair_forces, slab, settings);
+  result.order = measure_order(bed, near, settled.pair_forces, slab, settings);
 }
 
 ProfileSettings bins_of(const PackingSpec& packing) {
@@ -91,13 +89,7 @@ ProfileSettings bins_of(const PackingSpec& packing) {
   return {spec.bin_width, small_class_limit(packing.sizes), spec.gap_tolerances.front()};
 }
 
-/// Pairs and walls with a gap below the widest tolerance, or short enough for a bond.
-template <class Bed>
-Touching find_near(const MeasureSpec& spec, const Kernels& kernels, Bed& bed) {
-  return find_touching(bed, std::max(widest(spec.gap_tolerances), longest_bond_gap), kernels);
-}
-
-void measure_sizes(const SphereBed& bed, PackingResult& result) {
+void measure_sizes(const Grains& bed, PackingResult& result) {
   double volume = 0.0, by_volume = 0.0, diameters = 0.0;
   for (std::size_t i = 0; i < bed.grains(); ++i) {
     const double diameter = 2.0 * bed.position[i].w, mass = sphere_mass(bed.position[i].w);
@@ -109,8 +101,8 @@ void measure_sizes(const SphereBed& bed, PackingResult& result) {
   result.mean_diameter_by_volume = by_volume / volume;
 }
 
-std::vector<SettledGrain> grains_of(const SphereBed& bed, const Touching& near,
-                                    double gap_tolerance, const std::vector<double>& force) {
+std::vector<SettledGrain> grains_of(const Grains& bed, const Touching& near, double gap_tolerance,
+                                    const std::vector<double>& force) {
   const auto neighbours = neighbour_counts(bed.grains(), near, gap_tolerance);
   std::vector<SettledGrain> grains(bed.grains());
   for (std::size_t i = 0; i < grains.size(); ++i) {
@@ -118,22 +110,6 @@ std::vector<SettledGrain> grains_of(const SphereBed& bed, const Touching& near,
     grains[i] = {p.x, p.y, p.z, p.w, force[i], neighbours[i]};
   }
   return grains;
-}
-
-/// Measures what `spec` asks for.
-void measure(const PackingSpec& spec, const SettleReport& settled, const Kernels& kernels,
-             SphereBed& bed, Packing& packing) {
-  PackingResult& result = packing.result;
-  measure_sizes(bed, result);
-  const Touching near = find_near(spec.measure, kernels, bed);
-  packing.grains = grains_of(bed, near, spec.measure.gap_tolerances.front(), settled.force);
-  result.surface_height = surface_height(bed);
-  if (const auto slab = slab_of(spec.measure, result)) {
-    result.solid_fraction = solid_fraction(bed, *slab);
-    measure_neighbours(spec, near, settled, *slab, bed, result);
-    result.profile_y = profile_along_y(bed, near, *slab, bins_of(spec));
-    result.profile_z = profile_along_z(bed, near, bins_of(spec));
-  }
 }
 
 /// The mesh in the frame in which the shape was written, about its centroid.
@@ -150,7 +126,7 @@ Mesh mesh_of(const ConvexShape& shape) {
   return mesh;
 }
 
-Turned turned_of(const ShapeBed& bed) {
+Turned orientations_of(const PolyhedronBed& bed) {
   Turned turned{mesh_of(bed.shape), {}};
   const Quaternion back = Quaternion(bed.shape.given.rotation).conjugate();
   for (std::size_t i = 0; i < bed.grains(); ++i) {
@@ -160,30 +136,39 @@ Turned turned_of(const ShapeBed& bed) {
   return turned;
 }
 
-/// The same of grains that turn.
+// What is known of one kind of grains only.
+void measure_kind(const SphereBed&, const SettleReport&, const std::optional<Slab>&, Packing&) {}
+void measure_kind(const PolyhedronBed& bed, const SettleReport& settled,
+                  const std::optional<Slab>& slab, Packing& packing) {
+  packing.turned = orientations_of(bed);
+  if (slab) packing.result.shape_order = measure_shape_order(bed, settled.pair_forces, *slab);
+}
+
+/// Measures what `spec` asks for.
+template <class Kind>
 void measure(const PackingSpec& spec, const SettleReport& settled, const Kernels& kernels,
-             ShapeBed& bed, Packing& packing) {
+             Bed<Kind>& bed, Packing& packing) {
   PackingResult& result = packing.result;
-  const Touching near = find_near(spec.measure, kernels, bed);
-  SphereBed centres;
-  set_balls(bed, 0.5, centres);
-  measure_sizes(centres, result);
-  packing.grains = grains_of(centres, near, spec.measure.gap_tolerances.front(), settled.force);
-  packing.turned = turned_of(bed);
+  measure_sizes(bed, result);
+  const std::vector<double>& tolerances = spec.measure.gap_tolerances;
+  const Touching near = find_touching(bed, std::max(widest(tolerances), longest_bond_gap), kernels);
+  packing.grains = grains_of(bed, near, tolerances.front(), settled.force);
   result.surface_height = surface_height(bed);
-  if (const auto slab = slab_of(spec.measure, result)) {
+  const std::optional<Slab> slab = slab_of(spec.measure, result);
+  if (slab) {
     result.solid_fraction = solid_fraction(bed, *slab);
-    measure_neighbours(spec, near, settled, *slab, centres, result);
-    result.profile_y = profile_along_y(bed, centres, near, *slab, bins_of(spec));
-    result.profile_z = profile_along_z(bed, centres, near, bins_of(spec));
-    result.shape_order = measure_shape_order(bed, settled.pair_forces, *slab);
+    measure_neighbours(spec, near, settled, *slab, bed, result);
+    result.profile_y = profile_along_y(bed, near, *slab, bins_of(spec));
+    result.profile_z = profile_along_z(bed, near, bins_of(spec));
   }
+  measure_kind(bed, settled, slab, packing);
 }
 
 /// From the start to the measured values.
-template <class Bed>
+template <class Kind>
 Packing pack(const PackingSpec& spec, const ExecutionContext& context, const KeepGoing& keep_going,
-             std::string_view saved, std::optional<Bed> bed) {
+             std::string_view saved) {
+  std::optional<Bed<Kind>> bed = start<Kind>(spec);
   if (!bed) {
     return failed(
         "a grain found no room in the box: it is larger than the gap between the walls, "
@@ -210,8 +195,8 @@ Packing pack(const PackingSpec& spec, const ExecutionContext& context, const Kee
 
 Packing make_packing(const PackingSpec& spec, const ExecutionContext& context,
                      const KeepGoing& keep_going, std::string_view saved) {
-  if (is_sphere(spec.shape)) return pack(spec, context, keep_going, saved, start(spec));
-  return pack(spec, context, keep_going, saved, start_shapes(spec));
+  return is_sphere(spec.shape) ? pack<Sphere>(spec, context, keep_going, saved)
+                               : pack<Polyhedron>(spec, context, keep_going, saved);
 }
 
 namespace {

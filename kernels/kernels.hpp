@@ -47,7 +47,7 @@ struct GrainPair {
 };
 
 /// Half lengths of a pinacoid: along a unit vector n it reaches max(a |nx| + b |ny|,
-/// c |nx| + e |nz|) from its centre, at scale 1.
+/// c |nx| + e |nz|) from its centre, times the size in its record.
 struct PinacoidHalves {
   double a, b, c, e;  ///< d
 };
@@ -94,7 +94,7 @@ struct Kernels {
   std::size_t (*sphere_pairs_across)(const SphereGrid& grid, const SphereQueries& queries,
                                      GrainPair* pairs, std::size_t capacity);
   /// Best axes of pairs of pinacoids by the separating-axis test, f32; see `PinacoidBlock`.
-  /// `centres`: x, y, z and scale; `orientations`: x, y, z, w of the unit quaternion from the
+  /// `centres`: x, y, z and size; `orientations`: x, y, z, w of the unit quaternion from the
   /// shape's frame to the box's. period_x, period_y: d, 0 where the axis is walled. A pair
   /// whose larger separation exceeds a margin by pinacoid_rounding is further apart than the
   /// margin.

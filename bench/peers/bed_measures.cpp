@@ -32,7 +32,8 @@ void add_overlaps(const Touching& touching, BedMeasures& measures) {
 std::int64_t isostatic_count(SphereBed& bed, const Kernels& kernels) {
   Candidates candidates;
   Contacts<double> contacts;
-  find_candidates(bed, near_gap, kernels, candidates);
+  wrap(bed);
+  find_candidates({bed, bed.position}, near_gap, kernels, candidates);
   lay_out(bed, candidates, contacts);
   detect(bed, kernels, 1.0, contacts);
   for (std::size_t row = 0; row < contacts.impulse.size(); ++row) {

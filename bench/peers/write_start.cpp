@@ -33,6 +33,6 @@ int main(int argc, char** argv) {
                  "usage: peers_write_start GRAINS SEED > start.csv    (at least 300 grains)\n");
     return 2;
   }
-  print(grainsweep::start(spec).value());
+  print(grainsweep::start<grainsweep::Sphere>(spec).value());
   return 0;
 }

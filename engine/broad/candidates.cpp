@@ -17,20 +17,20 @@ struct Heights {
   double top = -std::numeric_limits<double>::max();
 };
 
-Heights heights_of(const SphereBed& bed) {
+Heights heights_of(const Balls& balls) {
   Heights heights;
-  for (std::size_t i = 0; i < bed.grains(); ++i) {
-    heights.bottom = std::min(heights.bottom, bed.position[i].z);
-    heights.top = std::max(heights.top, bed.position[i].z);
+  for (std::size_t i = 0; i < balls.bed.grains(); ++i) {
+    heights.bottom = std::min(heights.bottom, balls.ball[i].z);
+    heights.top = std::max(heights.top, balls.ball[i].z);
   }
   return heights;
 }
 
 /// Largest radius below `below`, d; 0 if there is none.
-double largest_radius(const SphereBed& bed, double below) {
+double largest_radius(const Balls& balls, double below) {
   double largest = 0.0;
-  for (std::size_t i = 0; i < bed.grains(); ++i) {
-    const double radius = bed.position[i].w;
+  for (std::size_t i = 0; i < balls.bed.grains(); ++i) {
+    const double radius = balls.ball[i].w;
     if (radius < below) largest = std::max(largest, radius);
   }
   return largest;
@@ -38,39 +38,40 @@ double largest_radius(const SphereBed& bed, double below) {
 
 /// Sorts the grains into levels. A level holds radii from its largest down to half of that, so that
 /// a bed of one size has one level; the last one holds all that is left.
-void choose_levels(const SphereBed& bed, std::vector<SizeLevel>& levels) {
+void choose_levels(const Balls& balls, std::vector<SizeLevel>& levels) {
   std::size_t count = 0;
   double below = std::numeric_limits<double>::infinity();
-  for (double largest = largest_radius(bed, below); count == 0 || largest > 0.0;
-       largest = largest_radius(bed, below)) {
+  for (double largest = largest_radius(balls, below); count == 0 || largest > 0.0;
+       largest = largest_radius(balls, below)) {
     if (levels.size() <= count) levels.emplace_back();
     levels[count].largest_radius = largest;
     levels[count].members.clear();
     below = ++count < most_levels ? std::min(below, 0.5 * largest) : 0.0;
   }
   levels.resize(count);
-  for (std::size_t i = 0; i < bed.grains(); ++i) {
+  for (std::size_t i = 0; i < balls.bed.grains(); ++i) {
     std::size_t level = 0;
-    while (level + 1 < count && bed.position[i].w < 0.5 * levels[level].largest_radius) ++level;
+    while (level + 1 < count && balls.ball[i].w < 0.5 * levels[level].largest_radius) ++level;
     levels[level].members.push_back(static_cast<std::int32_t>(i));
   }
 }
 
 /// What rounding positions to f32 can add to a distance, d: three roundings of the largest number.
-double rounding_slack(const SphereBed& bed, const Heights& heights) {
-  const double extent =
-      std::max({2.0 * bed.box.length, 2.0 * bed.box.width, heights.top - heights.bottom});
+double rounding_slack(const Balls& balls, const Heights& heights) {
+  const double extent = std::max(
+      {2.0 * balls.bed.box.length, 2.0 * balls.bed.box.width, heights.top - heights.bottom});
   return 8.0 * static_cast<double>(std::numeric_limits<float>::epsilon()) * extent;
 }
 
 /// Fills the grid of every level; all have the same origin. No pair with a gap below `reach` lies
 /// further apart than in adjacent cells.
-void fill_grids(const SphereBed& bed, const Heights& heights, double reach, const ParallelFor& loop,
+void fill_grids(const Balls& balls, const Heights& heights, double reach, const ParallelFor& loop,
                 std::vector<SizeLevel>& levels) {
   for (SizeLevel& level : levels) {
     const double least = 2.0 * level.largest_radius + reach;
-    level.cells = make_cells(bed.box, heights.bottom, heights.top, least, level.members.size());
-    fill_columns(bed, level.members, level.cells, loop, level.grid);
+    level.cells =
+        make_cells(balls.bed.box, heights.bottom, heights.top, least, level.members.size());
+    fill_columns(balls, level.members, level.cells, loop, level.grid);
   }
 }
 
@@ -131,12 +132,12 @@ SphereGrid layers_of(SphereGrid grid, IndexRange layers) {
 }
 
 /// The members of a level as they look for neighbours in the grid of a coarser one.
-void fill_queries(const SphereBed& bed, const SizeLevel& level, const Cells& coarse,
+void fill_queries(const Balls& balls, const SizeLevel& level, const Cells& coarse,
                   QueryColumns& queries) {
   queries.x.clear(), queries.y.clear(), queries.z.clear(), queries.radius.clear();
   queries.cell.clear();
   for (const std::int32_t grain : level.members) {
-    const Record<double>& p = bed.position[static_cast<std::size_t>(grain)];
+    const Record<double>& p = balls.ball[static_cast<std::size_t>(grain)];
     queries.x.push_back(static_cast<float>(p.x));
     queries.y.push_back(static_cast<float>(p.y));
     queries.z.push_back(static_cast<float>(p.z - coarse.origin_z));
@@ -161,10 +162,10 @@ void list_pairs_within(const SizeLevel& level, float reach, const ExecutionConte
 }
 
 /// Pairs of a level's grains with those of a coarser level.
-void list_pairs_across(const SphereBed& bed, const SizeLevel& fine, const SizeLevel& coarse,
+void list_pairs_across(const Balls& balls, const SizeLevel& fine, const SizeLevel& coarse,
                        float reach, const ExecutionContext& context, Candidates& candidates) {
   QueryColumns& q = candidates.queries;
-  fill_queries(bed, fine, coarse.cells, q);
+  fill_queries(balls, fine, coarse.cells, q);
   const SphereGrid grid = view_of(coarse.grid, coarse.cells, reach);
   const std::size_t parts = parts_of(fine);
   append_parts(
@@ -181,7 +182,7 @@ void list_pairs_across(const SphereBed& bed, const SizeLevel& fine, const SizeLe
       candidates);
 }
 
-void list_pairs(const SphereBed& bed, float reach, const ExecutionContext& context,
+void list_pairs(const Balls& balls, float reach, const ExecutionContext& context,
                 Candidates& candidates) {
   candidates.pairs.clear();
   const std::vector<SizeLevel>& levels = candidates.levels;
@@ -189,35 +190,36 @@ void list_pairs(const SphereBed& bed, float reach, const ExecutionContext& conte
     const SizeLevel& level = levels[k];
     list_pairs_within(level, reach, context, candidates);
     for (std::size_t coarse = 0; coarse < k; ++coarse) {
-      list_pairs_across(bed, level, levels[coarse], reach, context, candidates);
+      list_pairs_across(balls, level, levels[coarse], reach, context, candidates);
     }
   }
 }
 
-void list_walls(const SphereBed& bed, Candidates& candidates) {
-  candidates.walls.resize(bed.walls.size());
-  for (std::size_t k = 0; k < bed.walls.size(); ++k) {
+void list_walls(const Balls& balls, Candidates& candidates) {
+  candidates.walls.resize(balls.bed.walls.size());
+  for (std::size_t k = 0; k < balls.bed.walls.size(); ++k) {
     WallCandidates& near = candidates.walls[k];
     near.grains.clear();
-    for (std::size_t i = 0; i < bed.grains(); ++i) {
-      if (bed.walls[k].gap(bed.position[i]) < candidates.reach) {
+    for (std::size_t i = 0; i < balls.bed.grains(); ++i) {
+      if (balls.bed.walls[k].gap(balls.ball[i]) < candidates.reach) {
         near.grains.push_back(static_cast<std::int32_t>(i));
       }
     }
   }
 }
 
-void remember_positions(const SphereBed& bed, const ParallelFor& loop, Candidates& candidates) {
+void remember_positions(const Balls& balls, const ParallelFor& loop, Candidates& candidates) {
   const Cells& cells = candidates.levels.front().cells;
-  candidates.built_at.resize(bed.grains());
+  candidates.built_at.resize(balls.bed.grains());
   candidates.layers.resize(static_cast<std::size_t>(cells.inner_z));
-  candidates.layer.resize(bed.grains());
-  parallel_chunks(loop, bed.grains(), bed.subdomains, [&](std::size_t, IndexRange share) {
-    for (std::size_t i = share.first; i < share.last; ++i) {
-      candidates.built_at[i] = bed.position[i];
-      candidates.layer[i] = cells.layer_of(bed.position[i]);
-    }
-  });
+  candidates.layer.resize(balls.bed.grains());
+  parallel_chunks(loop, balls.bed.grains(), balls.bed.subdomains,
+                  [&](std::size_t, IndexRange share) {
+                    for (std::size_t i = share.first; i < share.last; ++i) {
+                      candidates.built_at[i] = balls.ball[i];
+                      candidates.layer[i] = cells.layer_of(balls.ball[i]);
+                    }
+                  });
 }
 
 void include(Extent& extent, const Record<double>& then, const Record<double>& now) {
@@ -231,11 +233,11 @@ void include(Extent& extent, const Record<double>& then, const Record<double>& n
   extent.empty = false;
 }
 
-void measure_layers(const SphereBed& bed, Candidates& candidates) {
+void measure_layers(const Balls& balls, Candidates& candidates) {
   std::fill(candidates.layers.begin(), candidates.layers.end(), Extent{{}, {}, 0.0, 0.0, true});
-  for (std::size_t i = 0; i < bed.grains(); ++i) {
+  for (std::size_t i = 0; i < balls.bed.grains(); ++i) {
     include(candidates.layers[static_cast<std::size_t>(candidates.layer[i])],
-            candidates.built_at[i], bed.position[i]);
+            candidates.built_at[i], balls.ball[i]);
   }
 }
 
@@ -271,10 +273,9 @@ double least_rise(const std::vector<Extent>& layers) {
 }
 
 /// Whether a grain that was out of a wall's reach has come near it.
-bool has_newcomer(const SphereBed& bed, const Wall& wall, double near,
-                  const Candidates& candidates) {
-  for (std::size_t i = 0; i < bed.grains(); ++i) {
-    if (wall.gap(bed.position[i]) < near && wall.gap(candidates.built_at[i]) >= candidates.reach) {
+bool has_newcomer(const Balls& balls, const Wall& wall, double near, const Candidates& candidates) {
+  for (std::size_t i = 0; i < balls.bed.grains(); ++i) {
+    if (wall.gap(balls.ball[i]) < near && wall.gap(candidates.built_at[i]) >= candidates.reach) {
       return true;
     }
   }
@@ -283,28 +284,26 @@ bool has_newcomer(const SphereBed& bed, const Wall& wall, double near,
 
 }  // namespace
 
-void find_candidates(SphereBed& bed, double reach, const ExecutionContext& context,
+void find_candidates(const Balls& balls, double reach, const ExecutionContext& context,
                      Candidates& candidates) {
-  parallel_chunks(context.loop, bed.grains(), bed.subdomains, [&](std::size_t, IndexRange share) {
-    for (std::size_t i = share.first; i < share.last; ++i) wrap(bed.box, bed.position[i]);
-  });
   candidates.reach = reach;
-  choose_levels(bed, candidates.levels);
+  choose_levels(balls, candidates.levels);
   candidates.largest_radius = candidates.levels.front().largest_radius;
-  const Heights heights = heights_of(bed);
-  const double slack = rounding_slack(bed, heights);
-  fill_grids(bed, heights, reach + 2.0 * slack, context.loop, candidates.levels);
-  list_pairs(bed, static_cast<float>(reach + slack), context, candidates);
-  list_walls(bed, candidates);
-  remember_positions(bed, context.loop, candidates);
+  const Heights heights = heights_of(balls);
+  const double slack = rounding_slack(balls, heights);
+  fill_grids(balls, heights, reach + 2.0 * slack, context.loop, candidates.levels);
+  list_pairs(balls, static_cast<float>(reach + slack), context, candidates);
+  list_walls(balls, candidates);
+  remember_positions(balls, context.loop, candidates);
 }
 
-bool still_complete(const SphereBed& bed, double near, Candidates& candidates) {
-  measure_layers(bed, candidates);
+bool still_complete(const Balls& balls, double near, Candidates& candidates) {
+  measure_layers(balls, candidates);
   return relative_motion(candidates.layers) <= candidates.reach - near &&
          least_rise(candidates.layers) >= 2.0 * candidates.largest_radius + near &&
-         std::none_of(bed.walls.begin(), bed.walls.end(),
-                      [&](const Wall& wall) { return has_newcomer(bed, wall, near, candidates); });
+         std::none_of(balls.bed.walls.begin(), balls.bed.walls.end(), [&](const Wall& wall) {
+           return has_newcomer(balls, wall, near, candidates);
+         });
 }
 
 }  // namespace grainsweep

@@ -61,15 +61,15 @@ struct Candidates {
   std::vector<std::size_t> found_begin;       ///< where each part's pairs go
 };
 
-/// Lists all pairs and walls with a gap below `reach`. Wraps the bed first. A periodic axis must be
-/// at least two largest diameters and reaches long.
-void find_candidates(SphereBed& bed, double reach, const ExecutionContext& context,
+/// Lists all pairs and walls whose balls have a gap below `reach`. The bed must be wrapped; a
+/// periodic axis must be at least two largest diameters and reaches long.
+void find_candidates(const Balls& balls, double reach, const ExecutionContext& context,
                      Candidates& candidates);
 
 /// Whether the list still holds every pair and wall with a gap below `near` < reach. Pairs are
 /// judged in layers one cell high: no two grains of adjacent layers may have moved relative to each
 /// other by more than reach - near since the list was made, and grains of layers further apart must
 /// still be out of reach by their heights alone.
-bool still_complete(const SphereBed& bed, double near, Candidates& candidates);
+bool still_complete(const Balls& balls, double near, Candidates& candidates);
 
 }  // namespace grainsweep

@@ -79,12 +79,11 @@ void choose_entries(const Cells& cells, GridColumns& grid) {
   }
 }
 
-void fill_entry(const SphereBed& bed, const Cells& cells, const GridImage& image,
-                GridColumns& grid) {
-  const Record<double>& p = bed.position[static_cast<std::size_t>(image.grain)];
+void fill_entry(const Balls& balls, const Cells& cells, const GridImage& image, GridColumns& grid) {
+  const Record<double>& p = balls.ball[static_cast<std::size_t>(image.grain)];
   const auto at = static_cast<std::size_t>(image.entry);
-  grid.x[at] = static_cast<float>(p.x + image.turns_x * bed.box.length);
-  grid.y[at] = static_cast<float>(p.y + image.turns_y * bed.box.width);
+  grid.x[at] = static_cast<float>(p.x + image.turns_x * balls.bed.box.length);
+  grid.y[at] = static_cast<float>(p.y + image.turns_y * balls.bed.box.width);
   grid.z[at] = static_cast<float>(p.z - cells.origin_z);
   grid.radius[at] = static_cast<float>(p.w);
   grid.grain[at] = image.grain;
@@ -118,19 +117,20 @@ Cells make_cells(const Box& box, double bottom, double top, double least, std::s
   return cells;
 }
 
-void fill_columns(const SphereBed& bed, const std::vector<std::int32_t>& members,
-                  const Cells& cells, const ParallelFor& loop, GridColumns& grid) {
-  grid.images.resize(bed.subdomains);
-  parallel_chunks(loop, members.size(), bed.subdomains, [&](std::size_t part, IndexRange share) {
-    grid.images[part].clear();
-    for (std::size_t k = share.first; k < share.last; ++k) {
-      append_images(cells, bed.box, bed.position[static_cast<std::size_t>(members[k])], members[k],
-                    grid.images[part]);
-    }
-  });
+void fill_columns(const Balls& balls, const std::vector<std::int32_t>& members, const Cells& cells,
+                  const ParallelFor& loop, GridColumns& grid) {
+  grid.images.resize(balls.bed.subdomains);
+  parallel_chunks(
+      loop, members.size(), balls.bed.subdomains, [&](std::size_t part, IndexRange share) {
+        grid.images[part].clear();
+        for (std::size_t k = share.first; k < share.last; ++k) {
+          append_images(cells, balls.bed.box, balls.ball[static_cast<std::size_t>(members[k])],
+                        members[k], grid.images[part]);
+        }
+      });
   choose_entries(cells, grid);
-  parallel_for(loop, bed.subdomains, [&](std::size_t part) {
-    for (const GridImage& image : grid.images[part]) fill_entry(bed, cells, image, grid);
+  parallel_for(loop, balls.bed.subdomains, [&](std::size_t part) {
+    for (const GridImage& image : grid.images[part]) fill_entry(balls, cells, image, grid);
   });
 }
 

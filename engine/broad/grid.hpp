@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "engine/broad/balls.hpp"
 #include "engine/context.hpp"
-#include "engine/scene/bed.hpp"
 #include "kernels/kernels.hpp"
 
 namespace grainsweep {
@@ -50,8 +50,8 @@ struct GridColumns {
 
 /// Sorts the grains `members` of a wrapped bed and their border copies into cells (a counting sort:
 /// stable, linear).
-void fill_columns(const SphereBed& bed, const std::vector<std::int32_t>& members,
-                  const Cells& cells, const ParallelFor& loop, GridColumns& grid);
+void fill_columns(const Balls& balls, const std::vector<std::int32_t>& members, const Cells& cells,
+                  const ParallelFor& loop, GridColumns& grid);
 
 /// What kernels read of a grid.
 SphereGrid view_of(const GridColumns& grid, const Cells& cells, float reach);

@@ -64,11 +64,11 @@ void transfer_shape_contacts(Archive& archive, Found& found) {
 
 /// A bed of grains that turn after a step.
 template <class Archive, class State>
-void transfer_bed(Archive& archive, ShapeBed& bed, State& state) {
-  archive.column(bed.centre);
+void transfer_bed(Archive& archive, PolyhedronBed& bed, State& state) {
+  archive.column(bed.position);
   archive.column(bed.orientation);
   archive.column(bed.motion);
-  archive.list(bed.turn, [&](auto& turn) { transfer_vector(archive, turn); });
+  archive.list(bed.spin, [&](auto& spin) { transfer_vector(archive, spin); });
   archive.value(state.search.has_candidates);
   transfer_candidates(archive, state.search.candidates);
   archive.list(state.search.memory, [&](auto& memory) {

@@ -158,7 +158,7 @@ void transfer(Archive& archive, Settling<Bed, State>& s) {
 /// another kind.
 template <class Bed, class State>
 std::uint64_t kind_of(const Settling<Bed, State>& s) {
-  const bool turns = std::is_same_v<Bed, ShapeBed>;
+  const bool turns = std::is_same_v<Bed, PolyhedronBed>;
   return s.bed.grains() * 32 + (turns ? 16 : 0) +
          (s.accuracy.precision == Precision::f32 ? sizeof(float) : sizeof(double));
 }
@@ -257,7 +257,7 @@ SettleReport settle(const Accuracy& accuracy, const ExecutionContext& context, S
              : settle_in(memory.f64, stages, accuracy, context, bed, keep_going, saved);
 }
 
-SettleReport settle(const Accuracy& accuracy, const ExecutionContext& context, ShapeBed& bed,
+SettleReport settle(const Accuracy& accuracy, const ExecutionContext& context, PolyhedronBed& bed,
                     const KeepGoing& keep_going, std::string_view saved) {
   Workspace own;
   Workspace& memory = context.workspace != nullptr ? *context.workspace : own;

@@ -39,7 +39,7 @@
 #include "engine/dynamics/rest.hpp"
 #include "engine/dynamics/step.hpp"
 #include "engine/results.hpp"
-#include "engine/scene/shape_bed.hpp"
+#include "engine/scene/bed.hpp"
 
 namespace grainsweep {
 
@@ -67,7 +67,7 @@ SettleReport settle(const Accuracy& accuracy, const ExecutionContext& context, S
 
 /// The same for grains that turn, which know neither the protocol `dynamic` nor the direct solve of
 /// force balance.
-SettleReport settle(const Accuracy& accuracy, const ExecutionContext& context, ShapeBed& bed,
+SettleReport settle(const Accuracy& accuracy, const ExecutionContext& context, PolyhedronBed& bed,
                     const KeepGoing& keep_going, std::string_view saved = {});
 
 }  // namespace grainsweep

@@ -36,10 +36,10 @@ Sides force_bearing(const ShapeStepState<Real>& state, double dt) {
 }
 
 /// What slides freely: see `certify`.
-std::int64_t zero_modes(const ShapeBed& bed, const Sides& bearing) {
+std::int64_t zero_modes(const PolyhedronBed& bed, const Sides& bearing) {
   std::vector<char> held(bed.grains(), 0), stands(bed.grains(), 0);
   for (const auto& [a, b] : bearing) {
-    (b == bed.wall(0) ? stands : held)[static_cast<std::size_t>(a)] = 1;
+    (b == bed.wall_name(0) ? stands : held)[static_cast<std::size_t>(a)] = 1;
     if (bed.is_grain(b)) held[static_cast<std::size_t>(b)] = 1;
   }
   std::int64_t lone = 0;
@@ -53,7 +53,7 @@ std::int64_t zero_modes(const ShapeBed& bed, const Sides& bearing) {
 }  // namespace
 
 template <class Real>
-RestReport certify(ShapeBed& bed, const ExecutionContext& context, double dt,
+RestReport certify(PolyhedronBed& bed, const ExecutionContext& context, double dt,
                    ShapeStepState<Real>& state) {
   constexpr double search_margin = 0.05;  // d; as in the steps, so that candidates last
   const Sides bearing = force_bearing(state, dt);
@@ -77,24 +77,24 @@ RestReport certify(ShapeBed& bed, const ExecutionContext& context, double dt,
 }
 
 template <class Real>
-double carried_weight(const ShapeBed& bed, const ShapeStepState<Real>& state, double dt) {
+double carried_weight(const PolyhedronBed& bed, const ShapeStepState<Real>& state, double dt) {
   double weight = 0.0, carried = 0.0;
-  for (const Record<double>& motion : bed.motion) weight += 1.0 / motion.w;
+  for (std::size_t i = 0; i < bed.grains(); ++i) weight += 1.0 / bed.motion[i].w;
   visit_force_bearing(state, dt, [&](std::size_t k, double force) {
-    carried += state.contacts.contacts[k].b == bed.wall(0) ? force : 0.0;
+    carried += state.contacts.contacts[k].b == bed.wall_name(0) ? force : 0.0;
   });
   return weight > 0.0 ? carried / weight : 1.0;
 }
 
 template <class Real>
-std::vector<PairForce> pair_forces(const ShapeBed& bed, const ShapeStepState<Real>& state,
+std::vector<PairForce> pair_forces(const PolyhedronBed& bed, const ShapeStepState<Real>& state,
                                    double dt) {
   std::vector<PairForce> forces;
   visit_force_bearing(state, dt, [&](std::size_t k, double force) {
     const ShapeContact& c = state.contacts.contacts[k];
     if (!bed.is_grain(c.b)) return;
-    const double height = (bed.centre[static_cast<std::size_t>(c.a)].z +
-                           bed.centre[static_cast<std::size_t>(c.b)].z) /
+    const double height = (bed.position[static_cast<std::size_t>(c.a)].z +
+                           bed.position[static_cast<std::size_t>(c.b)].z) /
                           2.0;
     const int constraints =
         constraints_of(state.contacts.points.data() + c.first, c.count, constraint_gap);
@@ -104,7 +104,8 @@ std::vector<PairForce> pair_forces(const ShapeBed& bed, const ShapeStepState<Rea
 }
 
 template <class Real>
-std::vector<double> force_sums(const ShapeBed& bed, const ShapeStepState<Real>& state, double dt) {
+std::vector<double> force_sums(const PolyhedronBed& bed, const ShapeStepState<Real>& state,
+                               double dt) {
   std::vector<double> force(bed.grains(), 0.0);
   visit_force_bearing(state, dt, [&](std::size_t k, double magnitude) {
     const ShapeContact& c = state.contacts.contacts[k];
@@ -114,13 +115,18 @@ std::vector<double> force_sums(const ShapeBed& bed, const ShapeStepState<Real>& 
   return force;
 }
 
-template RestReport certify(ShapeBed&, const ExecutionContext&, double, ShapeStepState<float>&);
-template RestReport certify(ShapeBed&, const ExecutionContext&, double, ShapeStepState<double>&);
-template double carried_weight(const ShapeBed&, const ShapeStepState<float>&, double);
-template double carried_weight(const ShapeBed&, const ShapeStepState<double>&, double);
-template std::vector<PairForce> pair_forces(const ShapeBed&, const ShapeStepState<float>&, double);
-template std::vector<PairForce> pair_forces(const ShapeBed&, const ShapeStepState<double>&, double);
-template std::vector<double> force_sums(const ShapeBed&, const ShapeStepState<float>&, double);
-template std::vector<double> force_sums(const ShapeBed&, const ShapeStepState<double>&, double);
+template RestReport certify(PolyhedronBed&, const ExecutionContext&, double,
+                            ShapeStepState<float>&);
+template RestReport certify(PolyhedronBed&, const ExecutionContext&, double,
+                            ShapeStepState<double>&);
+template double carried_weight(const PolyhedronBed&, const ShapeStepState<float>&, double);
+template double carried_weight(const PolyhedronBed&, const ShapeStepState<double>&, double);
+template std::vector<PairForce> pair_forces(const PolyhedronBed&, const ShapeStepState<float>&,
+                                            double);
+template std::vector<PairForce> pair_forces(const PolyhedronBed&, const ShapeStepState<double>&,
+                                            double);
+template std::vector<double> force_sums(const PolyhedronBed&, const ShapeStepState<float>&, double);
+template std::vector<double> force_sums(const PolyhedronBed&, const ShapeStepState<double>&,
+                                        double);
 
 }  // namespace grainsweep

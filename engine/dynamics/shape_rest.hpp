@@ -17,18 +17,19 @@ inline constexpr double constraint_gap = 1e-4;
 /// are those of the deepest points of these contacts. Residual, kinetic energy and motion are left
 /// at 0.
 template <class Real>
-RestReport certify(ShapeBed& bed, const ExecutionContext& context, double dt,
+RestReport certify(PolyhedronBed& bed, const ExecutionContext& context, double dt,
                    ShapeStepState<Real>& state);
 
 /// Share of the grains' weight that the floor carried in the last step, of length `dt`.
 template <class Real>
-double carried_weight(const ShapeBed& bed, const ShapeStepState<Real>& state, double dt);
+double carried_weight(const PolyhedronBed& bed, const ShapeStepState<Real>& state, double dt);
 
 /// All pairs that bore a force in the last step, and sums of the forces on each grain.
 template <class Real>
-std::vector<PairForce> pair_forces(const ShapeBed& bed, const ShapeStepState<Real>& state,
+std::vector<PairForce> pair_forces(const PolyhedronBed& bed, const ShapeStepState<Real>& state,
                                    double dt);
 template <class Real>
-std::vector<double> force_sums(const ShapeBed& bed, const ShapeStepState<Real>& state, double dt);
+std::vector<double> force_sums(const PolyhedronBed& bed, const ShapeStepState<Real>& state,
+                               double dt);
 
 }  // namespace grainsweep

@@ -30,14 +30,14 @@ Vector vector(const Record<Real>& r) {
 }
 
 template <class Real>
-void set_free_motion(const StepSettings& settings, const ShapeBed& bed,
+void set_free_motion(const StepSettings& settings, const PolyhedronBed& bed,
                      std::vector<Record<Real>>& free) {
-  free.assign(2 * bed.entries(), {Real(0), Real(0), Real(0), Real(0)});
+  free.assign(2 * bed.position.size(), {Real(0), Real(0), Real(0), Real(0)});
   const Vector fall(0.0, 0.0, -settings.dt * settings.dt);
   for (std::size_t i = 0; i < bed.grains(); ++i) {
     const Vector v = settings.momentum * vector(bed.motion[i]) + fall;
     const Vector angles =
-        clamped(settings.momentum * bed.turn[i], longest_free_motion / bed.circumradius(i));
+        clamped(settings.momentum * bed.spin[i], longest_free_motion / bed.circumradius(i));
     free[2 * i] = record<Real>(clamped(v, longest_free_motion), bed.motion[i].w);
     free[2 * i + 1] = record<Real>(bed.root_inertia[i].cwiseProduct(angles), 1.0);
   }
@@ -45,7 +45,8 @@ void set_free_motion(const StepSettings& settings, const ShapeBed& bed,
 
 /// Moves the grains by `u` and reports how they moved.
 template <class Real>
-void advance(const std::vector<Record<Real>>& u, double dt, ShapeBed& bed, StepReport& report) {
+void advance(const std::vector<Record<Real>>& u, double dt, PolyhedronBed& bed,
+             StepReport& report) {
   double energy = 0.0;
   for (std::size_t i = 0; i < bed.grains(); ++i) {
     const Vector displacement = vector(u[2 * i]), scaled_angles = vector(u[2 * i + 1]);
@@ -66,7 +67,7 @@ TouchSettings touch_settings(double near, double dt) {
 }
 
 template <class Real>
-StepReport step(const StepSettings& settings, const ExecutionContext& context, ShapeBed& bed,
+StepReport step(const StepSettings& settings, const ExecutionContext& context, PolyhedronBed& bed,
                 ShapeStepState<Real>& state) {
   StepReport report;
   const double force_unit = settings.dt * settings.dt;  // impulse of 1 m g over the step
@@ -85,18 +86,18 @@ StepReport step(const StepSettings& settings, const ExecutionContext& context, S
 }
 
 template <class Real>
-void change_step(double ratio, ShapeBed& bed, ShapeStepState<Real>& state) {
+void change_step(double ratio, PolyhedronBed& bed, ShapeStepState<Real>& state) {
   for (Record<double>& m : bed.motion) m = {ratio * m.x, ratio * m.y, ratio * m.z, m.w};
-  for (Vector& turn : bed.turn) turn *= ratio;
+  for (Vector& spin : bed.spin) spin *= ratio;
   for (Real& impulse : state.rows.impulse) impulse *= static_cast<Real>(ratio * ratio);
 }
 
-template StepReport step(const StepSettings&, const ExecutionContext&, ShapeBed&,
+template StepReport step(const StepSettings&, const ExecutionContext&, PolyhedronBed&,
                          ShapeStepState<float>&);
-template StepReport step(const StepSettings&, const ExecutionContext&, ShapeBed&,
+template StepReport step(const StepSettings&, const ExecutionContext&, PolyhedronBed&,
                          ShapeStepState<double>&);
 
-template void change_step(double, ShapeBed&, ShapeStepState<float>&);
-template void change_step(double, ShapeBed&, ShapeStepState<double>&);
+template void change_step(double, PolyhedronBed&, ShapeStepState<float>&);
+template void change_step(double, PolyhedronBed&, ShapeStepState<double>&);
 
 }  // namespace grainsweep

@@ -8,7 +8,7 @@
 #include "engine/dynamics/step.hpp"
 #include "engine/narrow/shape_contacts.hpp"
 #include "engine/rows/lever_layout.hpp"
-#include "engine/scene/shape_bed.hpp"
+#include "engine/scene/bed.hpp"
 
 namespace grainsweep {
 
@@ -30,13 +30,13 @@ TouchSettings touch_settings(double near, double dt);
 /// A step. `largest_motion` of the report counts the way that a turn takes a point at the
 /// circumradius; the kinetic energy counts turning.
 template <class Real>
-StepReport step(const StepSettings& settings, const ExecutionContext& context, ShapeBed& bed,
+StepReport step(const StepSettings& settings, const ExecutionContext& context, PolyhedronBed& bed,
                 ShapeStepState<Real>& state);
 
 /// Velocities stay as they are when the next step is `ratio` times as long as the last one: motions
 /// scale with it, impulses with its square.
 template <class Real>
-void change_step(double ratio, ShapeBed& bed, ShapeStepState<Real>& state);
+void change_step(double ratio, PolyhedronBed& bed, ShapeStepState<Real>& state);
 
 /// Impulse of point j of contact k, in masses times d.
 template <class Real>

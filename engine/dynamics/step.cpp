@@ -38,10 +38,12 @@ void set_free_motion(const StepSettings& settings, const ParallelFor& loop, cons
 template <class Real>
 bool renew_candidates(const StepSettings& settings, const ExecutionContext& context, SphereBed& bed,
                       StepState<Real>& state) {
-  if (state.has_candidates && still_complete(bed, settings.near, state.candidates)) {
+  const Balls balls{bed, bed.position};
+  if (state.has_candidates && still_complete(balls, settings.near, state.candidates)) {
     return false;
   }
-  find_candidates(bed, settings.near + settings.margin, context, state.candidates);
+  wrap(bed, context.loop);
+  find_candidates(balls, settings.near + settings.margin, context, state.candidates);
   lay_out(bed, state.candidates, state.contacts, context.loop);
   state.has_candidates = true;
   return true;

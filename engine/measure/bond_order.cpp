@@ -48,17 +48,15 @@ double invariant(const Harmonics& harmonics) {
   return std::sqrt(4.0 * pi / 13.0 * squares) / harmonics.bonds;
 }
 
-Direction direction(const SphereBed& bed, const TouchingPair& pair) {
-  const Record<double>& a = bed.position[static_cast<std::size_t>(pair.a)];
-  const Record<double>& b = bed.position[static_cast<std::size_t>(pair.b)];
-  const double x = nearest_image(b.x - a.x, bed.box.period_x());
-  const double y = nearest_image(b.y - a.y, bed.box.period_y()), z = b.z - a.z;
-  const double length = std::sqrt(x * x + y * y + z * z);
-  return {x / length, y / length, z / length};
+Direction direction(const Grains& bed, const TouchingPair& pair) {
+  const Vector r =
+      nearest_difference(bed, static_cast<std::size_t>(pair.a), static_cast<std::size_t>(pair.b));
+  const double length = std::sqrt(r.x() * r.x() + r.y() * r.y() + r.z() * r.z());
+  return {r.x() / length, r.y() / length, r.z() / length};
 }
 
 /// Sums over the bonds of each grain.
-std::vector<Harmonics> harmonics_of_grains(const SphereBed& bed, const Touching& near) {
+std::vector<Harmonics> harmonics_of_grains(const Grains& bed, const Touching& near) {
   std::vector<Harmonics> grains(bed.grains());
   for (const TouchingPair& pair : near.pairs) {
     const auto a = static_cast<std::size_t>(pair.a), b = static_cast<std::size_t>(pair.b);
@@ -82,13 +80,12 @@ double bond_order(const std::vector<Direction>& bonds) {
   return invariant(harmonics);
 }
 
-BondOrder bond_order(const SphereBed& bed, const Touching& near, const Slab& slab) {
+BondOrder bond_order(const Grains& bed, const Touching& near, const Slab& slab) {
   Harmonics all;
   double local = 0.0, grains = 0.0;
   const std::vector<Harmonics> each = harmonics_of_grains(bed, near);
   for (std::size_t i = 0; i < each.size(); ++i) {
-    const double z = bed.position[i].z;
-    if (z < slab.bottom || z >= slab.top || each[i].bonds == 0.0) continue;
+    if (!slab.contains(bed.position[i].z) || each[i].bonds == 0.0) continue;
     for (std::size_t m = 0; m < all.sum.size(); ++m) all.sum[m] += each[i].sum[m];
     all.bonds += each[i].bonds;
     local += invariant(each[i]);

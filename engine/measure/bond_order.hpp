@@ -8,7 +8,7 @@
 
 #include <vector>
 
-#include "engine/measure/solid_fraction.hpp"
+#include "engine/measure/slab.hpp"
 #include "engine/measure/touching.hpp"
 
 namespace grainsweep {
@@ -31,6 +31,6 @@ struct BondOrder {
 
 /// Bonds among `near`, pairs that hold all with a gap below longest_bond_gap, of the grains whose
 /// centre lies in the slab. NaN without bonds.
-BondOrder bond_order(const SphereBed& bed, const Touching& near, const Slab& slab);
+BondOrder bond_order(const Grains& bed, const Touching& near, const Slab& slab);
 
 }  // namespace grainsweep

@@ -10,10 +10,6 @@ namespace {
 
 constexpr double layer_height = 1.0;  // d
 
-bool lies_in(const PairForce& force, const Slab& slab) {
-  return slab.bottom <= force.height && force.height < slab.top;
-}
-
 std::size_t layer_of(const PairForce& force, const Slab& slab) {
   return static_cast<std::size_t>((force.height - slab.bottom) / layer_height);
 }
@@ -23,7 +19,7 @@ std::vector<double> layer_means(const std::vector<PairForce>& forces, const Slab
   const auto layers = static_cast<std::size_t>(std::ceil(slab.height() / layer_height)) + 1;
   std::vector<double> sum(layers, 0.0), count(layers, 0.0);
   for (const PairForce& force : forces) {
-    if (!lies_in(force, slab)) continue;
+    if (!slab.contains(force.height)) continue;
     sum[layer_of(force, slab)] += force.magnitude;
     count[layer_of(force, slab)] += 1.0;
   }
@@ -40,7 +36,7 @@ ForceStatistics force_statistics(const std::vector<PairForce>& forces, const Sla
   const std::vector<double> means = layer_means(forces, slab);
   double count = 0.0;
   for (const PairForce& force : forces) {
-    if (!lies_in(force, slab)) continue;
+    if (!slab.contains(force.height)) continue;
     const double relative = force.magnitude / means[layer_of(force, slab)];
     statistics.mean += force.magnitude;
     statistics.square += relative * relative;

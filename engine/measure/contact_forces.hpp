@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "engine/measure/solid_fraction.hpp"
+#include "engine/measure/slab.hpp"
 #include "engine/results.hpp"
 
 namespace grainsweep {

@@ -6,12 +6,11 @@ namespace grainsweep {
 
 namespace {
 
-bool lies_in(const SphereBed& bed, std::int32_t grain, const Slab& slab) {
-  const double z = bed.position[static_cast<std::size_t>(grain)].z;
-  return slab.bottom <= z && z < slab.top;
+bool lies_in(const Grains& bed, std::int32_t grain, const Slab& slab) {
+  return slab.contains(bed.position[static_cast<std::size_t>(grain)].z);
 }
 
-std::int64_t grains_in(const SphereBed& bed, const Slab& slab) {
+std::int64_t grains_in(const Grains& bed, const Slab& slab) {
   std::int64_t count = 0;
   for (std::int32_t i = 0; i < bed.wall(); ++i) {
     count += lies_in(bed, i, slab) ? 1 : 0;
@@ -21,7 +20,7 @@ std::int64_t grains_in(const SphereBed& bed, const Slab& slab) {
 
 }  // namespace
 
-Coordination coordination(const SphereBed& bed, const Touching& touching, const Slab& slab,
+Coordination coordination(const Grains& bed, const Touching& touching, const Slab& slab,
                           double gap_tolerance) {
   const std::int64_t grains = grains_in(bed, slab);
   if (grains == 0) {

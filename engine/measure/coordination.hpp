@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/measure/solid_fraction.hpp"
+#include "engine/measure/slab.hpp"
 #include "engine/measure/touching.hpp"
 #include "engine/results.hpp"
 
@@ -12,7 +12,7 @@ namespace grainsweep {
 
 /// Mean over the grains whose centre lies in the slab (bottom <= z < top), both conventions; pairs
 /// and walls count if their gap is below `gap_tolerance`. NaN if no grain is in the slab.
-Coordination coordination(const SphereBed& bed, const Touching& touching, const Slab& slab,
+Coordination coordination(const Grains& bed, const Touching& touching, const Slab& slab,
                           double gap_tolerance);
 
 /// Touching grains of each grain, walls not counted.

@@ -2,6 +2,7 @@
 // of a slab are made of.
 #pragma once
 
+#include "engine/measure/slab.hpp"
 #include "engine/shape/pose.hpp"
 
 namespace grainsweep {
@@ -17,9 +18,6 @@ double box_volume(const ConvexShape& shape, const Pose& pose, const Vector& low,
                   const Vector& high);
 
 /// Lowest and highest coordinate of a grain along `axis` of the box, d.
-struct Span {
-  double low = 0.0, high = 0.0;
-};
 Span span_along(const ConvexShape& shape, const Pose& pose, int axis);
 
 }  // namespace grainsweep

@@ -15,10 +15,6 @@ namespace {
 constexpr double distance_bin = 0.05, largest_distance = 4.0;
 constexpr double force_bin = 0.1, largest_force = 8.0;
 
-bool lies_in(const Record<double>& sphere, const Slab& slab) {
-  return slab.bottom <= sphere.z && sphere.z < slab.top;
-}
-
 /// Touching grains and walls of each grain.
 std::vector<int> contact_counts(std::size_t grains, const Touching& touching,
                                 double gap_tolerance) {
@@ -36,23 +32,23 @@ std::vector<int> contact_counts(std::size_t grains, const Touching& touching,
 
 }  // namespace
 
-double share_with_contacts(const SphereBed& bed, const Touching& touching, const Slab& slab,
+double share_with_contacts(const Grains& bed, const Touching& touching, const Slab& slab,
                            double gap_tolerance, int contacts) {
   const std::vector<int> counts = contact_counts(bed.grains(), touching, gap_tolerance);
   double grains = 0.0, matching = 0.0;
   for (std::size_t i = 0; i < counts.size(); ++i) {
-    if (!lies_in(bed.position[i], slab)) continue;
+    if (!slab.contains(bed.position[i].z)) continue;
     grains += 1.0;
     matching += counts[i] == contacts ? 1.0 : 0.0;
   }
   return matching / grains;  // 0 / 0 is NaN
 }
 
-double segregation(const SphereBed& bed, const Slab& slab, double small_below) {
+double segregation(const Grains& bed, const Slab& slab, double small_below) {
   double small = 0.0, large = 0.0, small_height = 0.0, large_height = 0.0;
   for (std::size_t i = 0; i < bed.grains(); ++i) {
     const Record<double>& p = bed.position[i];
-    if (!lies_in(p, slab)) continue;
+    if (!slab.contains(p.z)) continue;
     const bool is_small = p.w < small_below;
     (is_small ? small : large) += 1.0;
     (is_small ? small_height : large_height) += p.z;
@@ -60,7 +56,7 @@ double segregation(const SphereBed& bed, const Slab& slab, double small_below) {
   return (small_height / small - large_height / large) / slab.height();  // 0 / 0 is NaN
 }
 
-Order measure_order(const SphereBed& bed, const Touching& near,
+Order measure_order(const Grains& bed, const Touching& near,
                     const std::vector<PairForce>& pair_forces, const Slab& slab,
                     const OrderSettings& settings) {
   const BondOrder bonds = bond_order(bed, near, slab);

@@ -35,11 +35,11 @@ double spread_of(const std::vector<Record<double>>& centres, double Record<doubl
   return high - low;
 }
 
-Region region_of(const SphereBed& bed, const Slab& slab) {
+Region region_of(const Grains& bed, const Slab& slab) {
   Region region;
   for (std::size_t i = 0; i < bed.grains(); ++i) {
     const Record<double>& p = bed.position[i];
-    if (slab.bottom <= p.z && p.z < slab.top) region.centres.push_back(p);
+    if (slab.contains(p.z)) region.centres.push_back(p);
   }
   std::stable_sort(region.centres.begin(), region.centres.end(),
                    [](const Record<double>& a, const Record<double>& b) { return a.z < b.z; });
@@ -188,7 +188,7 @@ std::vector<double> count_pairs(const Region& region, double bin_width, std::siz
 
 }  // namespace
 
-Curve pair_correlation(const SphereBed& bed, const Slab& slab, double bin_width, double largest) {
+Curve pair_correlation(const Grains& bed, const Slab& slab, double bin_width, double largest) {
   const Region region = region_of(bed, slab);
   if (region.centres.size() < 2) return {bin_width, {}};
   const double reach = std::min(largest, reach_of(region));

@@ -10,7 +10,7 @@
 // gap need no correction of their own (the isotropised set covariance; Ohser 1983).
 #pragma once
 
-#include "engine/measure/solid_fraction.hpp"
+#include "engine/measure/slab.hpp"
 #include "engine/results.hpp"
 
 namespace grainsweep {
@@ -18,6 +18,6 @@ namespace grainsweep {
 /// g in bins of `bin_width` up to `largest`, d, or as far as the region allows: half a period, and
 /// its edge along other axes. All grains alike, whatever their size. Empty with fewer than two
 /// grains.
-Curve pair_correlation(const SphereBed& bed, const Slab& slab, double bin_width, double largest);
+Curve pair_correlation(const Grains& bed, const Slab& slab, double bin_width, double largest);
 
 }  // namespace grainsweep

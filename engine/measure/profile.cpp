@@ -57,7 +57,7 @@ void divide_volumes(double bin_volume, Profile& profile) {
 
 /// Counts grains and what they touch; `bin_of(sphere)` is the bin, or null outside.
 template <class BinOf>
-void count_grains(const SphereBed& bed, const Touching& touching, const ProfileSettings& settings,
+void count_grains(const Grains& bed, const Touching& touching, const ProfileSettings& settings,
                   BinOf bin_of) {
   const auto at = [&](std::int32_t i) { return bin_of(bed.position[static_cast<std::size_t>(i)]); };
   for (std::int32_t i = 0; i < bed.wall(); ++i) {
@@ -82,8 +82,6 @@ double ProfileBin::*class_of(const Record<double>& sphere, const ProfileSettings
   return is_small(sphere, settings) ? &ProfileBin::small : &ProfileBin::large;
 }
 
-Span span_of(double centre, double radius) { return {centre - radius, centre + radius}; }
-
 /// Volume of a sphere below a plane across y, as far as it lies in the slab.
 double volume_in_slab(const Record<double>& sphere, const Slab& slab, double top) {
   const double low = slab.bottom - sphere.z, high = slab.top - sphere.z;
@@ -93,116 +91,85 @@ double volume_in_slab(const Record<double>& sphere, const Slab& slab, double top
   return sphere_beam_volume(sphere.w, top, low, high);
 }
 
-/// The grains of a bed as profiles see them: how far each reaches along y and z, and how much of it
-/// lies below a plane.
-class Spheres {
- public:
-  explicit Spheres(const SphereBed& bed) : bed_(bed) {}
+// ---- volumes below a plane, by kind of grain ----
 
-  Span along_y(std::size_t i) const { return span_of(bed_.position[i].y, bed_.position[i].w); }
-  Span along_z(std::size_t i) const { return span_of(bed_.position[i].z, bed_.position[i].w); }
-  double below_y(std::size_t i, double y, const Slab& slab) const {
-    return volume_in_slab(bed_.position[i], slab, y - bed_.position[i].y);
-  }
-  double below_z(std::size_t i, double z) const {
-    const Record<double>& p = bed_.position[i];
-    return sphere_slab_volume(p.w, -p.w, z - p.z);
-  }
+/// Volume of a grain below the plane at y, as far as it lies in the slab.
+double volume_below_y(const SphereBed& bed, std::size_t i, double y, const Slab& slab) {
+  return volume_in_slab(bed.position[i], slab, y - bed.position[i].y);
+}
+double volume_below_y(const PolyhedronBed& bed, std::size_t i, double y, const Slab& slab) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  return box_volume(bed.shape, bed.pose(i), {-infinity, -infinity, slab.bottom},
+                    {infinity, y, slab.top});
+}
 
- private:
-  const SphereBed& bed_;
-};
-
-class Polyhedra {
- public:
-  explicit Polyhedra(const ShapeBed& bed) : bed_(bed) {}
-
-  Span along_y(std::size_t i) const { return span_along(bed_.shape, bed_.pose(i), 1); }
-  Span along_z(std::size_t i) const { return span_along(bed_.shape, bed_.pose(i), 2); }
-  double below_y(std::size_t i, double y, const Slab& slab) const {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    return box_volume(bed_.shape, bed_.pose(i), {-infinity, -infinity, slab.bottom},
-                      {infinity, y, slab.top});
-  }
-  double below_z(std::size_t i, double z) const {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    return slab_volume(bed_.shape, bed_.pose(i), 2, -infinity, z);
-  }
-
- private:
-  const ShapeBed& bed_;
-};
+/// Volume of a grain below the plane at z.
+double volume_below_z(const SphereBed& bed, std::size_t i, double z) {
+  const Record<double>& p = bed.position[i];
+  return sphere_slab_volume(p.w, -p.w, z - p.z);
+}
+double volume_below_z(const PolyhedronBed& bed, std::size_t i, double z) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  return slab_volume(bed.shape, bed.pose(i), 2, -infinity, z);
+}
 
 Profile empty_profile(const Bins& bins) {
   return {bins.width, std::vector<ProfileBin>(static_cast<std::size_t>(bins.count))};
 }
 
-/// `centres`: where the grains are, with their radii or half sizes.
-template <class Grains>
-Profile along_y(const Grains& grains, const SphereBed& centres, const Touching& touching,
-                const Slab& slab, const ProfileSettings& settings) {
-  const double width = centres.box.width;
+template <class Kind>
+double highest_point(const Bed<Kind>& bed) {
+  double top = 0.0;
+  for (std::size_t i = 0; i < bed.grains(); ++i) top = std::max(top, span_of(bed, i, 2).high);
+  return top;
+}
+
+}  // namespace
+
+template <class Kind>
+Profile profile_along_y(const Bed<Kind>& bed, const Touching& touching, const Slab& slab,
+                        const ProfileSettings& settings) {
+  const double width = bed.box.width;
   const auto count = std::max<std::int64_t>(1, std::llround(width / settings.bin_width));
-  const Bins bins{width / static_cast<double>(count), count, centres.box.y == Boundary::periodic};
+  const Bins bins{width / static_cast<double>(count), count, bed.box.y == Boundary::periodic};
   Profile profile = empty_profile(bins);
-  for (std::size_t i = 0; i < centres.grains(); ++i) {
-    const Span upright = grains.along_z(i);
+  for (std::size_t i = 0; i < bed.grains(); ++i) {
+    const Span upright = span_of(bed, i, 2);
     if (upright.high <= slab.bottom || upright.low >= slab.top) continue;
     add_volume(
-        grains.along_y(i), bins, class_of(centres.position[i], settings),
-        [&](double y) { return grains.below_y(i, y, slab); }, profile);
+        span_of(bed, i, 1), bins, class_of(bed.position[i], settings),
+        [&](double y) { return volume_below_y(bed, i, y, slab); }, profile);
   }
-  divide_volumes(centres.box.length * bins.width * slab.height(), profile);
-  count_grains(centres, touching, settings, [&](const Record<double>& p) -> ProfileBin* {
-    const bool inside = slab.bottom <= p.z && p.z < slab.top;
-    return inside ? &profile.bins[bins.index(bins.number_at(p.y))] : nullptr;
+  divide_volumes(bed.box.length * bins.width * slab.height(), profile);
+  count_grains(bed, touching, settings, [&](const Record<double>& p) -> ProfileBin* {
+    return slab.contains(p.z) ? &profile.bins[bins.index(bins.number_at(p.y))] : nullptr;
   });
   return profile;
 }
 
-template <class Grains>
-double highest_point(const Grains& grains, std::size_t count) {
-  double top = 0.0;
-  for (std::size_t i = 0; i < count; ++i) top = std::max(top, grains.along_z(i).high);
-  return top;
-}
-
-template <class Grains>
-Profile along_z(const Grains& grains, const SphereBed& centres, const Touching& touching,
-                const ProfileSettings& settings) {
-  const double bins_up = std::ceil(highest_point(grains, centres.grains()) / settings.bin_width);
+template <class Kind>
+Profile profile_along_z(const Bed<Kind>& bed, const Touching& touching,
+                        const ProfileSettings& settings) {
+  const double bins_up = std::ceil(highest_point(bed) / settings.bin_width);
   const Bins bins{settings.bin_width, std::max<std::int64_t>(1, std::llround(bins_up)), false};
   Profile profile = empty_profile(bins);
-  for (std::size_t i = 0; i < centres.grains(); ++i) {
+  for (std::size_t i = 0; i < bed.grains(); ++i) {
     add_volume(
-        grains.along_z(i), bins, class_of(centres.position[i], settings),
-        [&](double z) { return grains.below_z(i, z); }, profile);
+        span_of(bed, i, 2), bins, class_of(bed.position[i], settings),
+        [&](double z) { return volume_below_z(bed, i, z); }, profile);
   }
-  divide_volumes(centres.box.length * centres.box.width * bins.width, profile);
-  count_grains(centres, touching, settings, [&](const Record<double>& p) {
+  divide_volumes(bed.box.length * bed.box.width * bins.width, profile);
+  count_grains(bed, touching, settings, [&](const Record<double>& p) {
     return &profile.bins[bins.index(bins.number_at(p.z))];
   });
   return profile;
 }
 
-}  // namespace
-
-Profile profile_along_y(const SphereBed& bed, const Touching& touching, const Slab& slab,
-                        const ProfileSettings& settings) {
-  return along_y(Spheres(bed), bed, touching, slab, settings);
-}
-Profile profile_along_y(const ShapeBed& bed, const SphereBed& centres, const Touching& touching,
-                        const Slab& slab, const ProfileSettings& settings) {
-  return along_y(Polyhedra(bed), centres, touching, slab, settings);
-}
-
-Profile profile_along_z(const SphereBed& bed, const Touching& touching,
-                        const ProfileSettings& settings) {
-  return along_z(Spheres(bed), bed, touching, settings);
-}
-Profile profile_along_z(const ShapeBed& bed, const SphereBed& centres, const Touching& touching,
-                        const ProfileSettings& settings) {
-  return along_z(Polyhedra(bed), centres, touching, settings);
-}
+template Profile profile_along_y(const SphereBed&, const Touching&, const Slab&,
+                                 const ProfileSettings&);
+template Profile profile_along_y(const PolyhedronBed&, const Touching&, const Slab&,
+                                 const ProfileSettings&);
+template Profile profile_along_z(const SphereBed&, const Touching&, const ProfileSettings&);
+template Profile profile_along_z(const PolyhedronBed&, const Touching&, const ProfileSettings&);
 
 }  // namespace grainsweep

@@ -23,18 +23,14 @@ struct ProfileSettings {
 /// Along y through the slab, from y = 0 to the width of the box, which whole bins divide: their
 /// width is the nearest possible to the wanted one. Grains of the slab are those whose centre is in
 /// it. What a grain overlaps a wall belongs to the bin at the wall.
-Profile profile_along_y(const SphereBed& bed, const Touching& touching, const Slab& slab,
+template <class Kind>
+Profile profile_along_y(const Bed<Kind>& bed, const Touching& touching, const Slab& slab,
                         const ProfileSettings& settings);
-
-/// The same of grains that turn; `centres` are balls of half their size.
-Profile profile_along_y(const ShapeBed& bed, const SphereBed& centres, const Touching& touching,
-                        const Slab& slab, const ProfileSettings& settings);
 
 /// Along z over the whole floor, from the floor to the highest point of the bed, in bins of the
 /// wanted width.
-Profile profile_along_z(const SphereBed& bed, const Touching& touching,
-                        const ProfileSettings& settings);
-Profile profile_along_z(const ShapeBed& bed, const SphereBed& centres, const Touching& touching,
+template <class Kind>
+Profile profile_along_z(const Bed<Kind>& bed, const Touching& touching,
                         const ProfileSettings& settings);
 
 }  // namespace grainsweep

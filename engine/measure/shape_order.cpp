@@ -6,13 +6,11 @@ namespace grainsweep {
 
 namespace {
 
-bool lies_in(double height, const Slab& slab) { return slab.bottom <= height && height < slab.top; }
-
 /// The axes of the grains of the slab that were axis `number` of the shape's frame.
-std::vector<Vector> turned_axes(const ShapeBed& bed, const Slab& slab, int number) {
+std::vector<Vector> turned_axes(const PolyhedronBed& bed, const Slab& slab, int number) {
   std::vector<Vector> axes;
   for (std::size_t i = 0; i < bed.grains(); ++i) {
-    if (!lies_in(bed.centre[i].z, slab)) continue;
+    if (!slab.contains(bed.position[i].z)) continue;
     axes.emplace_back(bed.pose(i).orientation * Vector(Vector::Unit(number)));
   }
   return axes;
@@ -20,12 +18,12 @@ std::vector<Vector> turned_axes(const ShapeBed& bed, const Slab& slab, int numbe
 
 }  // namespace
 
-ShapeOrder measure_shape_order(const ShapeBed& bed, const std::vector<PairForce>& pair_forces,
+ShapeOrder measure_shape_order(const PolyhedronBed& bed, const std::vector<PairForce>& pair_forces,
                                const Slab& slab) {
   ShapeOrder order;
   double contacts = 0.0, forces = 0.0;
   for (const PairForce& force : pair_forces) {
-    if (!lies_in(force.height, slab)) continue;
+    if (!slab.contains(force.height)) continue;
     const auto kind = static_cast<std::size_t>(force.constraints - 1);
     order.contact_share[kind] += 1.0;
     order.force_share[kind] += force.magnitude;

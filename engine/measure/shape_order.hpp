@@ -3,13 +3,13 @@
 
 #include <vector>
 
-#include "engine/measure/solid_fraction.hpp"
-#include "engine/scene/shape_bed.hpp"
+#include "engine/measure/slab.hpp"
+#include "engine/scene/bed.hpp"
 
 namespace grainsweep {
 
 /// Of the forces whose height lies in the slab, and of the grains whose centre does.
-ShapeOrder measure_shape_order(const ShapeBed& bed, const std::vector<PairForce>& pair_forces,
+ShapeOrder measure_shape_order(const PolyhedronBed& bed, const std::vector<PairForce>& pair_forces,
                                const Slab& slab);
 
 }  // namespace grainsweep

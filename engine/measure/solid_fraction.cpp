@@ -23,18 +23,27 @@ std::size_t columns_along(double extent) {
 /// Median over floor columns of the highest top among the grains that stand above each.
 /// `top_of(i)` is the highest point of grain i.
 template <class TopOf>
-double median_top(const Box& box, const std::vector<Record<double>>& centres, std::size_t grains,
-                  TopOf top_of) {
+double median_top(const Grains& bed, TopOf top_of) {
+  const Box& box = bed.box;
   const std::size_t columns_x = columns_along(box.length), columns_y = columns_along(box.width);
   std::vector<double> highest(columns_x * columns_y, 0.0);
-  for (std::size_t i = 0; i < grains; ++i) {
-    double& top = highest[column_of(centres[i].y, box.width, columns_y) * columns_x +
-                          column_of(centres[i].x, box.length, columns_x)];
+  for (std::size_t i = 0; i < bed.grains(); ++i) {
+    double& top = highest[column_of(bed.position[i].y, box.width, columns_y) * columns_x +
+                          column_of(bed.position[i].x, box.length, columns_x)];
     top = std::max(top, top_of(i));
   }
   const auto middle = highest.begin() + static_cast<std::ptrdiff_t>(highest.size() / 2);
   std::nth_element(highest.begin(), middle, highest.end());
   return *middle;
+}
+
+/// Volume of the part of a grain in the slab, d^3.
+double volume_between(const SphereBed& bed, std::size_t grain, const Slab& slab) {
+  const Record<double>& p = bed.position[grain];
+  return sphere_slab_volume(p.w, slab.bottom - p.z, slab.top - p.z);
+}
+double volume_between(const PolyhedronBed& bed, std::size_t grain, const Slab& slab) {
+  return slab_volume(bed.shape, bed.pose(grain), 2, slab.bottom, slab.top);
 }
 
 }  // namespace
@@ -45,31 +54,30 @@ double sphere_slab_volume(double radius, double low, double high) {
   return pi * (b - a) * (squared - (a * a + a * b + b * b) / 3.0);
 }
 
-double solid_fraction(const SphereBed& bed, const Slab& slab) {
+Span span_of(const SphereBed& bed, std::size_t grain, int axis) {
+  const Record<double>& p = bed.position[grain];
+  const double centre = axis == 0 ? p.x : axis == 1 ? p.y : p.z;
+  return {centre - p.w, centre + p.w};
+}
+Span span_of(const PolyhedronBed& bed, std::size_t grain, int axis) {
+  return span_along(bed.shape, bed.pose(grain), axis);
+}
+
+template <class Kind>
+double solid_fraction(const Bed<Kind>& bed, const Slab& slab) {
   double solid = 0.0;
-  for (std::size_t i = 0; i < bed.grains(); ++i) {
-    const Record<double>& p = bed.position[i];
-    solid += sphere_slab_volume(p.w, slab.bottom - p.z, slab.top - p.z);
-  }
+  for (std::size_t i = 0; i < bed.grains(); ++i) solid += volume_between(bed, i, slab);
   return solid / (bed.box.length * bed.box.width * slab.height());
 }
 
-double solid_fraction(const ShapeBed& bed, const Slab& slab) {
-  double solid = 0.0;
-  for (std::size_t i = 0; i < bed.grains(); ++i) {
-    solid += slab_volume(bed.shape, bed.pose(i), 2, slab.bottom, slab.top);
-  }
-  return solid / (bed.box.length * bed.box.width * slab.height());
+template <class Kind>
+double surface_height(const Bed<Kind>& bed) {
+  return median_top(bed, [&](std::size_t i) { return span_of(bed, i, 2).high; });
 }
 
-double surface_height(const SphereBed& bed) {
-  return median_top(bed.box, bed.position, bed.grains(),
-                    [&](std::size_t i) { return bed.position[i].z + bed.position[i].w; });
-}
-
-double surface_height(const ShapeBed& bed) {
-  return median_top(bed.box, bed.centre, bed.grains(),
-                    [&](std::size_t i) { return span_along(bed.shape, bed.pose(i), 2).high; });
-}
+template double solid_fraction(const SphereBed&, const Slab&);
+template double solid_fraction(const PolyhedronBed&, const Slab&);
+template double surface_height(const SphereBed&);
+template double surface_height(const PolyhedronBed&);
 
 }  // namespace grainsweep

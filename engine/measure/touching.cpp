@@ -1,50 +1,34 @@
 #include "engine/measure/touching.hpp"
 
+#include <cmath>
+
 #include "engine/broad/candidates.hpp"
-#include "engine/measure/cut_polyhedron.hpp"
 #include "engine/narrow/gjk.hpp"
 #include "engine/narrow/separating_axes.hpp"
-#include "engine/narrow/shape_contacts.hpp"
-#include "engine/rows/contacts.hpp"
 
 namespace grainsweep {
 
 namespace {
 
-void add_pairs(const SphereBed& bed, const Contacts<double>& contacts, double gap_tolerance,
-               Touching& touching) {
-  for (std::size_t block = 0; block < contacts.pair_blocks; ++block) {
-    const RowBlock<double>& r = contacts.rows[block];
-    for (std::size_t lane = 0; lane < block_width; ++lane) {
-      if (!bed.is_void(r.a(lane)) && r.gap[lane] < gap_tolerance) {
-        touching.pairs.push_back({r.a(lane), r.b(lane), r.gap[lane]});
-      }
-    }
-  }
-}
+// ---- gaps of the kinds of grains, d ----
 
-void add_walls(const SphereBed& bed, const Candidates& candidates, double gap_tolerance,
-               Touching& touching) {
-  for (std::size_t k = 0; k < candidates.walls.size(); ++k) {
-    for (const std::int32_t grain : candidates.walls[k].grains) {
-      const double gap = bed.walls[k].gap(bed.position[static_cast<std::size_t>(grain)]);
-      if (gap < gap_tolerance) {
-        touching.walls.push_back({grain, static_cast<std::int32_t>(k), gap});
-      }
-    }
-  }
+double pair_gap(const SphereBed& bed, std::size_t a, std::size_t b) {
+  const Vector between = nearest_difference(bed, a, b);
+  return std::sqrt(between.squaredNorm()) - (bed.position[a].w + bed.position[b].w);
 }
-
-double gap_of(const ShapeBed& bed, std::size_t a, std::size_t b) {
+double pair_gap(const PolyhedronBed& bed, std::size_t a, std::size_t b) {
   const ShapePair pair{bed.shape, bed.shape, pair_pose(bed, a, b)};
   Simplex simplex;
   const Closest closest = closest_points(pair, simplex);
   return closest.distance > 0.0 ? closest.distance : separating_axes(pair).separation();
 }
 
-/// Gap of the lowest point of a grain to a wall, d.
-double gap_of(const ShapeBed& bed, const Wall& wall, std::int32_t grain) {
-  const Pose pose = bed.pose(static_cast<std::size_t>(grain));
+double wall_gap(const SphereBed& bed, const Wall& wall, std::size_t grain) {
+  return wall.gap(bed.position[grain]);
+}
+/// Of the lowest point above the wall.
+double wall_gap(const PolyhedronBed& bed, const Wall& wall, std::size_t grain) {
+  const Pose pose = bed.pose(grain);
   const Vector& c = pose.centre;
   const UnitVector n = wall.normal(c.x(), c.y(), c.z());
   const Vector outward = pose.orientation.conjugate() * -Vector(n.x, n.y, n.z);
@@ -53,33 +37,21 @@ double gap_of(const ShapeBed& bed, const Wall& wall, std::int32_t grain) {
 
 }  // namespace
 
-Touching find_touching(SphereBed& bed, double gap_tolerance, const Kernels& kernels) {
-  Candidates candidates;
-  Contacts<double> contacts;
-  Touching touching;
-  find_candidates(bed, gap_tolerance, kernels, candidates);
-  lay_out(bed, candidates, contacts);
-  detect(bed, kernels, 1.0, contacts);
-  add_pairs(bed, contacts, gap_tolerance, touching);
-  add_walls(bed, candidates, gap_tolerance, touching);
-  return touching;
-}
-
-Touching find_touching(ShapeBed& bed, double gap_tolerance, const Kernels& kernels) {
+template <class Kind>
+Touching find_touching(Bed<Kind>& bed, double gap_tolerance, const Kernels& kernels) {
   wrap(bed);
-  SphereBed balls;
-  set_balls(bed, bed.shape.circumradius, balls);
+  std::vector<Record<double>> column;
   Candidates candidates;
-  find_candidates(balls, gap_tolerance, kernels, candidates);
+  find_candidates(balls_of(bed, column), gap_tolerance, kernels, candidates);
   Touching touching;
   for (const GrainPair pair : candidates.pairs) {
     const double gap =
-        gap_of(bed, static_cast<std::size_t>(pair.a), static_cast<std::size_t>(pair.b));
+        pair_gap(bed, static_cast<std::size_t>(pair.a), static_cast<std::size_t>(pair.b));
     if (gap < gap_tolerance) touching.pairs.push_back({pair.a, pair.b, gap});
   }
   for (std::size_t k = 0; k < candidates.walls.size(); ++k) {
     for (const std::int32_t grain : candidates.walls[k].grains) {
-      const double gap = gap_of(bed, bed.walls[k], grain);
+      const double gap = wall_gap(bed, bed.walls[k], static_cast<std::size_t>(grain));
       if (gap < gap_tolerance) {
         touching.walls.push_back({grain, static_cast<std::int32_t>(k), gap});
       }
@@ -87,5 +59,8 @@ Touching find_touching(ShapeBed& bed, double gap_tolerance, const Kernels& kerne
   }
   return touching;
 }
+
+template Touching find_touching(SphereBed&, double, const Kernels&);
+template Touching find_touching(PolyhedronBed&, double, const Kernels&);
 
 }  // namespace grainsweep

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "engine/scene/bed.hpp"
-#include "engine/scene/shape_bed.hpp"
 #include "kernels/kernels.hpp"
 
 namespace grainsweep {
@@ -25,11 +24,9 @@ struct Touching {
   std::vector<TouchingWall> walls;
 };
 
-/// All pairs and walls with a gap below `gap_tolerance`, d. Wraps the bed.
-Touching find_touching(SphereBed& bed, double gap_tolerance, const Kernels& kernels);
-
-/// The same of grains that turn, whose gaps are the distances of their surfaces, and minus the
-/// least way that parts them where they overlap.
-Touching find_touching(ShapeBed& bed, double gap_tolerance, const Kernels& kernels);
+/// All pairs and walls with a gap below `gap_tolerance`, d. Gaps of polyhedra are the distances of
+/// their surfaces, and minus the least way that parts them where they overlap. Wraps the bed.
+template <class Kind>
+Touching find_touching(Bed<Kind>& bed, double gap_tolerance, const Kernels& kernels);
 
 }  // namespace grainsweep

@@ -7,14 +7,14 @@ namespace grainsweep {
 namespace {
 
 bool renew_candidates(const ShapeSearchSettings& settings, const ExecutionContext& context,
-                      ShapeBed& bed, ShapeSearch& search) {
+                      PolyhedronBed& bed, ShapeSearch& search) {
   const double near = settings.touch.margin;
-  set_balls(bed, bed.shape.circumradius, search.balls);
-  if (search.has_candidates && still_complete(search.balls, near, search.candidates)) {
+  if (search.has_candidates &&
+      still_complete(balls_of(bed, search.balls), near, search.candidates)) {
     return false;
   }
   wrap(bed);
-  find_candidates(search.balls, near + settings.reach, context, search.candidates);
+  find_candidates(balls_of(bed, search.balls), near + settings.reach, context, search.candidates);
   search.memory.assign(search.candidates.pairs.size(), {});
   search.has_candidates = true;
   return true;
@@ -36,7 +36,7 @@ void append(GrainPair pair, const PairPose& pose, const PairContact& contact,
 }
 
 /// Any convex shape: pair by pair.
-void touch_pairs(const TouchSettings& settings, const ShapeBed& bed, ShapeSearch& search,
+void touch_pairs(const TouchSettings& settings, const PolyhedronBed& bed, ShapeSearch& search,
                  ShapeContacts& found) {
   for (std::size_t k = 0; k < search.candidates.pairs.size(); ++k) {
     const GrainPair pair = search.candidates.pairs[k];
@@ -48,7 +48,7 @@ void touch_pairs(const TouchSettings& settings, const ShapeBed& bed, ShapeSearch
 }
 
 /// Candidate pairs whose balls are no further apart than the margin.
-void list_close(double margin, const ShapeBed& bed, ShapeSearch& search) {
+void list_close(double margin, const PolyhedronBed& bed, ShapeSearch& search) {
   search.close.clear();
   for (const GrainPair pair : search.candidates.pairs) {
     const Ends at = ends_of(pair);
@@ -59,28 +59,29 @@ void list_close(double margin, const ShapeBed& bed, ShapeSearch& search) {
   }
 }
 
-void batch_axes(const ExecutionContext& context, const ShapeBed& bed, ShapeSearch& search) {
+void batch_axes(const ExecutionContext& context, const PolyhedronBed& bed, ShapeSearch& search) {
   const PinacoidWidth& w = *bed.shape.pinacoid;
   search.axes.assign((search.close.size() + block_width - 1) / block_width, {});
   for (std::size_t k = 0; k < search.axes.size() * block_width; ++k) {
     const GrainPair pair = k < search.close.size() ? search.close[k] : GrainPair{0, 0};
     search.axes[k / block_width].set_grains(k % block_width, pair.a, pair.b);
   }
-  context.kernels.pinacoid_axes({w.a, w.b, w.c, w.e}, search.axes.data(), search.axes.size(),
-                                bed.centre.data(), bed.orientation.data(), bed.box.period_x(),
-                                bed.box.period_y());
+  // The records hold radii, half the scales.
+  context.kernels.pinacoid_axes({2.0 * w.a, 2.0 * w.b, 2.0 * w.c, 2.0 * w.e}, search.axes.data(),
+                                search.axes.size(), bed.position.data(), bed.orientation.data(),
+                                bed.box.period_x(), bed.box.period_y());
 }
 
 /// Pinacoids: all axes of 16 pairs at a time.
 void touch_pinacoids(const TouchSettings& settings, const ExecutionContext& context,
-                     const ShapeBed& bed, ShapeSearch& search, ShapeContacts& found) {
+                     const PolyhedronBed& bed, ShapeSearch& search, ShapeContacts& found) {
   list_close(settings.margin, bed, search);
   batch_axes(context, bed, search);
   for (std::size_t k = 0; k < search.close.size(); ++k) {
     const PinacoidBlock& block = search.axes[k / block_width];
     const std::size_t lane = k % block_width;
     const Ends at = ends_of(search.close[k]);
-    const double scale = std::max(bed.centre[at.a].w, bed.centre[at.b].w);
+    const double scale = std::max(bed.scale(at.a), bed.scale(at.b));
     if (parted_by(block, lane, settings.margin, scale)) continue;
     const ShapePair pair{bed.shape, bed.shape, pair_pose(bed, at.a, at.b)};
     const ContactAxes axes = separating_axes(pair, block, lane);
@@ -95,7 +96,7 @@ Vector normal_of(const Wall& wall, const Vector& place) {
   return {n.x, n.y, n.z};
 }
 
-void touch_walls(double margin, const ShapeBed& bed, const Candidates& candidates,
+void touch_walls(double margin, const PolyhedronBed& bed, const Candidates& candidates,
                  ShapeContacts& found) {
   for (std::size_t k = 0; k < candidates.walls.size(); ++k) {
     const Wall& wall = bed.walls[k];
@@ -105,7 +106,8 @@ void touch_walls(double margin, const ShapeBed& bed, const Candidates& candidate
       const std::size_t count = touch_wall(bed.shape, pose, wall, margin, found.points);
       if (count > 0) {
         const Vector normal = pose.orientation.conjugate() * -normal_of(wall, pose.centre);
-        found.contacts.push_back({grain, bed.wall(k), AxisKind::none, normal, first, count, {}});
+        found.contacts.push_back(
+            {grain, bed.wall_name(k), AxisKind::none, normal, first, count, {}});
       }
     }
   }
@@ -114,7 +116,7 @@ void touch_walls(double margin, const ShapeBed& bed, const Candidates& candidate
 }  // namespace
 
 bool find_contacts(const ShapeSearchSettings& settings, const ExecutionContext& context,
-                   ShapeBed& bed, ShapeSearch& search, ShapeContacts& found) {
+                   PolyhedronBed& bed, ShapeSearch& search, ShapeContacts& found) {
   const bool renewed = renew_candidates(settings, context, bed, search);
   found.contacts.clear();
   found.points.clear();

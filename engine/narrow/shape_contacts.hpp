@@ -11,7 +11,7 @@
 
 #include "engine/broad/candidates.hpp"
 #include "engine/narrow/manifold.hpp"
-#include "engine/scene/shape_bed.hpp"
+#include "engine/scene/bed.hpp"
 
 namespace grainsweep {
 
@@ -32,7 +32,7 @@ struct ShapeContacts {
 
 /// What a search remembers from step to step, and its working memory.
 struct ShapeSearch {
-  SphereBed balls;  ///< circumscribed
+  std::vector<Record<double>> balls;  ///< circumscribed: centre and radius, d
   Candidates candidates;
   std::vector<PairMemory> memory;   ///< of each candidate pair
   std::vector<GrainPair> close;     ///< pinacoids whose balls meet
@@ -50,6 +50,6 @@ struct ShapeSearchSettings {
 /// All contacts of the bed. Returns whether candidates were listed anew; the bed is wrapped then. A
 /// periodic axis must be at least two largest circumscribed diameters and reaches long.
 bool find_contacts(const ShapeSearchSettings& settings, const ExecutionContext& context,
-                   ShapeBed& bed, ShapeSearch& search, ShapeContacts& found);
+                   PolyhedronBed& bed, ShapeSearch& search, ShapeContacts& found);
 
 }  // namespace grainsweep

@@ -28,14 +28,15 @@ void sort_by_points(const ShapeContacts& found, std::vector<std::size_t>& order)
 template <class Real>
 class LeverBlocks {
  public:
-  LeverBlocks(const ShapeBed& bed, LeverColumns<Real>& rows)
+  LeverBlocks(const PolyhedronBed& bed, LeverColumns<Real>& rows)
       : bed_(bed), rows_(rows), words_(bed.grains(), 0), open_(words_) {}
 
   /// Requires that no contact has more points than the one before it.
   BlockLane take(const ShapeContact& contact) {
     const std::int32_t b = bed_.is_grain(contact.b) ? contact.b : OpenBlocks::no_grain;
     const BlockLane at = open_.take(contact.a, b, [&] { return append_void_block(contact.count); });
-    rows_.blocks[at.block].set_grains(at.lane, contact.a, contact.b);
+    rows_.blocks[at.block].set_grains(at.lane, contact.a,
+                                      bed_.is_grain(contact.b) ? contact.b : bed_.wall());
     return at;
   }
 
@@ -60,7 +61,7 @@ class LeverBlocks {
     return points;
   }
 
-  const ShapeBed& bed_;
+  const PolyhedronBed& bed_;
   LeverColumns<Real>& rows_;
   std::vector<std::uint64_t> words_;
   OpenBlocks open_;
@@ -103,7 +104,7 @@ struct ContactRows {
   }
 };
 
-void add_side_b(const ShapeBed& bed, const ShapeContact& contact, const ContactPoint* points,
+void add_side_b(const PolyhedronBed& bed, const ShapeContact& contact, const ContactPoint* points,
                 ContactRows& rows) {
   const auto b = static_cast<std::size_t>(contact.b);
   const Vector& root = bed.root_inertia[b];
@@ -114,7 +115,7 @@ void add_side_b(const ShapeBed& bed, const ShapeContact& contact, const ContactP
   rows.inverse_masses += bed.motion[b].w;
 }
 
-void set_rows(const ShapeBed& bed, const ShapeContact& contact, const ContactPoint* points,
+void set_rows(const PolyhedronBed& bed, const ShapeContact& contact, const ContactPoint* points,
               ContactRows& rows) {
   const auto a = static_cast<std::size_t>(contact.a);
   const Vector& root = bed.root_inertia[a];
@@ -174,7 +175,7 @@ std::size_t nearest_point(const ShapeContacts& found, const ShapeContact& contac
 }  // namespace
 
 template <class Real>
-void lay_out(const ShapeBed& bed, const ShapeContacts& found, double correction,
+void lay_out(const PolyhedronBed& bed, const ShapeContacts& found, double correction,
              LeverPlaces& places, LeverColumns<Real>& rows) {
   rows.blocks.clear();
   rows.points.clear();
@@ -202,8 +203,9 @@ void lay_out(const ShapeBed& bed, const ShapeContacts& found, double correction,
 }
 
 template <class Real>
-void remember_impulses(const ShapeBed& bed, const ShapeContacts& found, const LeverPlaces& places,
-                       const LeverColumns<Real>& rows, CarriedPoints& carried) {
+void remember_impulses(const PolyhedronBed& bed, const ShapeContacts& found,
+                       const LeverPlaces& places, const LeverColumns<Real>& rows,
+                       CarriedPoints& carried) {
   std::vector<std::size_t>& begin = carried.begin;
   begin.assign(bed.grains() + 2, 0);
   std::size_t count = 0;
@@ -236,13 +238,13 @@ void carry_impulses(const ShapeContacts& found, const CarriedPoints& carried,
   }
 }
 
-template void lay_out(const ShapeBed&, const ShapeContacts&, double, LeverPlaces&,
+template void lay_out(const PolyhedronBed&, const ShapeContacts&, double, LeverPlaces&,
                       LeverColumns<float>&);
-template void lay_out(const ShapeBed&, const ShapeContacts&, double, LeverPlaces&,
+template void lay_out(const PolyhedronBed&, const ShapeContacts&, double, LeverPlaces&,
                       LeverColumns<double>&);
-template void remember_impulses(const ShapeBed&, const ShapeContacts&, const LeverPlaces&,
+template void remember_impulses(const PolyhedronBed&, const ShapeContacts&, const LeverPlaces&,
                                 const LeverColumns<float>&, CarriedPoints&);
-template void remember_impulses(const ShapeBed&, const ShapeContacts&, const LeverPlaces&,
+template void remember_impulses(const PolyhedronBed&, const ShapeContacts&, const LeverPlaces&,
                                 const LeverColumns<double>&, CarriedPoints&);
 template void carry_impulses(const ShapeContacts&, const CarriedPoints&, const LeverPlaces&,
                              LeverColumns<float>&);

@@ -34,13 +34,14 @@ struct CarriedPoints {
 
 /// Rows of all contacts, without impulses. `correction`: share of an overlap that a step repairs.
 template <class Real>
-void lay_out(const ShapeBed& bed, const ShapeContacts& found, double correction,
+void lay_out(const PolyhedronBed& bed, const ShapeContacts& found, double correction,
              LeverPlaces& places, LeverColumns<Real>& rows);
 
 /// Takes down the impulses of points that pushed.
 template <class Real>
-void remember_impulses(const ShapeBed& bed, const ShapeContacts& found, const LeverPlaces& places,
-                       const LeverColumns<Real>& rows, CarriedPoints& carried);
+void remember_impulses(const PolyhedronBed& bed, const ShapeContacts& found,
+                       const LeverPlaces& places, const LeverColumns<Real>& rows,
+                       CarriedPoints& carried);
 
 /// Gives each impulse to the nearest point of the contact between the same two, whatever its normal
 /// is now; those of contacts that are no more are dropped.

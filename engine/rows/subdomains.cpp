@@ -37,7 +37,7 @@ void cut(Subdomains& subdomains) {
   for (std::size_t k = 0; k < slab_size.size(); ++k) {
     subdomains.of_slab[k] = static_cast<std::int32_t>(subdomains.count - 1);
     grains += slab_size[k];
-    if (grains >= subdomain_grains && k + 1 < slab_size.size()) {
+    if (grains >= Sphere::subdomain_grains && k + 1 < slab_size.size()) {
       ++subdomains.count;
       grains = 0;
     }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 #include "engine/units.hpp"
 
@@ -13,12 +14,71 @@ namespace {
 /// Far enough that no grain ever meets the void, near enough that squares stay finite.
 constexpr double void_distance = 1e9;
 
+/// Appends the entries that are no grains: the walls, then two voids for each subdomain.
+void append_padding(Grains& bed) {
+  bed.position.insert(bed.position.end(), bed.subdomains, {0.0, 0.0, -void_distance, 0.0});
+  bed.motion.insert(bed.motion.end(), bed.subdomains, {0.0, 0.0, 0.0, 0.0});
+  for (std::size_t subdomain = 0; subdomain < bed.subdomains; ++subdomain) {
+    bed.position.insert(bed.position.end(), {{0.0, 0.0, -2.0 * void_distance, 0.0},
+                                             {0.0, 0.0, -3.0 * void_distance, 0.0}});
+    bed.motion.insert(bed.motion.end(), {{0.0, 0.0, 0.0, 1.0}, {0.0, 0.0, 0.0, 1.0}});
+  }
+}
+
+/// The container of so many grains, still without them.
+template <class Kind>
+Bed<Kind> empty_bed(const Box& box, std::size_t grains, double solid_volume) {
+  Bed<Kind> bed;
+  bed.box = box;
+  bed.walls = walls_of(box);
+  bed.subdomains = max_subdomains<Kind>(grains);
+  bed.subdomain_axis = subdomain_axis(box, solid_volume);
+  bed.position.reserve(grains + 3 * bed.subdomains);
+  bed.motion.reserve(grains + 3 * bed.subdomains);
+  return bed;
+}
+
+bool is_finite(const Record<double>& r) {
+  return std::isfinite(r.x) && std::isfinite(r.y) && std::isfinite(r.z) && std::isfinite(r.w);
+}
+bool are_finite(const std::vector<Record<double>>& records) {
+  return std::all_of(records.begin(), records.end(),
+                     [](const Record<double>& r) { return is_finite(r); });
+}
+
 std::uint64_t mixed_value(std::uint64_t hash, double value) {
   std::uint64_t bits = 0;
   std::memcpy(&bits, &value, sizeof bits);
   hash = (hash ^ bits) * 0x9E3779B97F4A7C15ULL;  // odd constant of Knuth's multiplicative hashing
   return hash ^ (hash >> 29);
 }
+std::uint64_t mixed(std::uint64_t hash, const Record<double>& r) {
+  return mixed_value(mixed_value(mixed_value(mixed_value(hash, r.x), r.y), r.z), r.w);
+}
+
+/// sin(x) / x and cos(x) of x = sqrt(squared) by their series: the same bits with any mathematical
+/// library. Exact to rounding for x <= 1; beyond, the quaternion is still a turn about its axis.
+struct SineCosine {
+  double sine_over, cosine;
+};
+SineCosine series(double squared) {
+  constexpr int terms = 10;
+  SineCosine sum{1.0, 1.0};
+  for (int k = terms; k > 0; --k) {
+    sum.sine_over = 1.0 - squared * sum.sine_over / (2.0 * k * (2.0 * k + 1.0));
+    sum.cosine = 1.0 - squared * sum.cosine / (2.0 * k * (2.0 * k - 1.0));
+  }
+  return sum;
+}
+
+/// The rotation by an angle vector, radians.
+Quaternion rotation_by(const Vector& angles) {
+  const SineCosine half = series(angles.squaredNorm() / 4.0);
+  const Vector axis = half.sine_over / 2.0 * angles;
+  return Quaternion(half.cosine, axis.x(), axis.y(), axis.z()).normalized();
+}
+
+Record<double> record_of(const Quaternion& q) { return {q.x(), q.y(), q.z(), q.w()}; }
 
 }  // namespace
 
@@ -33,47 +93,76 @@ int subdomain_axis(const Box& box, double solid_volume) {
 SphereBed make_bed(const Box& box, const std::vector<PlacedSphere>& spheres) {
   double volume = 0.0;
   for (const PlacedSphere& s : spheres) volume += sphere_volume(s.radius);
-  SphereBed bed{
-      box, walls_of(box), {}, {}, most_subdomains(spheres.size()), subdomain_axis(box, volume)};
-  const std::size_t entries = spheres.size() + 3 * bed.subdomains;
-  bed.position.reserve(entries);
-  bed.motion.reserve(entries);
+  SphereBed bed = empty_bed<Sphere>(box, spheres.size(), volume);
   for (const PlacedSphere& s : spheres) {
     bed.position.push_back({s.x, s.y, s.z, s.radius});
     bed.motion.push_back({0.0, 0.0, 0.0, 1.0 / sphere_mass(s.radius)});
   }
-  bed.position.insert(bed.position.end(), bed.subdomains, {0.0, 0.0, -void_distance, 0.0});
-  bed.motion.insert(bed.motion.end(), bed.subdomains, {0.0, 0.0, 0.0, 0.0});
-  for (std::size_t subdomain = 0; subdomain < bed.subdomains; ++subdomain) {
-    bed.position.insert(bed.position.end(), {{0.0, 0.0, -2.0 * void_distance, 0.0},
-                                             {0.0, 0.0, -3.0 * void_distance, 0.0}});
-    bed.motion.insert(bed.motion.end(), {{0.0, 0.0, 0.0, 1.0}, {0.0, 0.0, 0.0, 1.0}});
-  }
+  append_padding(bed);
   return bed;
 }
 
-bool is_finite(const Record<double>& r) {
-  return std::isfinite(r.x) && std::isfinite(r.y) && std::isfinite(r.z) && std::isfinite(r.w);
+PolyhedronBed make_bed(const Box& box, ConvexShape shape, const std::vector<Pose>& poses) {
+  double volume = 0.0;
+  for (const Pose& p : poses) volume += p.scale * p.scale * p.scale * shape.volume;
+  PolyhedronBed bed = empty_bed<Polyhedron>(box, poses.size(), volume);
+  bed.shape = std::move(shape);
+  for (const Pose& p : poses) {
+    bed.position.push_back({p.centre.x(), p.centre.y(), p.centre.z(), 0.5 * p.scale});
+    bed.orientation.push_back(record_of(p.orientation));
+    bed.motion.push_back({0.0, 0.0, 0.0, 1.0 / (p.scale * p.scale * p.scale)});
+    bed.root_inertia.emplace_back(p.scale * (bed.shape.inertia / bed.motion.back().w).cwiseSqrt());
+  }
+  bed.spin.assign(poses.size(), Vector::Zero());
+  append_padding(bed);
+  return bed;
 }
 
-bool is_finite(const SphereBed& bed) {
-  const auto finite = [](const Record<double>& r) { return is_finite(r); };
-  return std::all_of(bed.position.begin(), bed.position.end(), finite) &&
-         std::all_of(bed.motion.begin(), bed.motion.end(), finite);
+bool is_finite(const SphereBed& bed) { return are_finite(bed.position) && are_finite(bed.motion); }
+bool is_finite(const PolyhedronBed& bed) {
+  return are_finite(bed.position) && are_finite(bed.motion) && are_finite(bed.orientation) &&
+         std::all_of(bed.spin.begin(), bed.spin.end(),
+                     [](const Vector& spin) { return spin.allFinite(); });
 }
 
-void wrap(SphereBed& bed) {
-  for (std::size_t i = 0; i < bed.grains(); ++i) wrap(bed.box, bed.position[i]);
+void wrap(Grains& bed, const ParallelFor& loop) {
+  parallel_chunks(loop, bed.grains(), bed.subdomains, [&](std::size_t, IndexRange grains) {
+    for (std::size_t i = grains.first; i < grains.last; ++i) wrap(bed.box, bed.position[i]);
+  });
 }
 
-std::uint64_t mixed(std::uint64_t hash, const Record<double>& r) {
-  return mixed_value(mixed_value(mixed_value(mixed_value(hash, r.x), r.y), r.z), r.w);
+Vector nearest_difference(const Grains& bed, std::size_t a, std::size_t b) {
+  const Record<double>&p = bed.position[a], &q = bed.position[b];
+  return {nearest_image(q.x - p.x, bed.box.period_x()),
+          nearest_image(q.y - p.y, bed.box.period_y()), q.z - p.z};
+}
+
+PairPose pair_pose(const PolyhedronBed& bed, std::size_t a, std::size_t b) {
+  return seen_from_a(bed.pose(a), bed.pose(b), nearest_difference(bed, a, b));
+}
+
+void move_grain(PolyhedronBed& bed, std::size_t grain, const Vector& displacement,
+                const Vector& angles) {
+  Record<double>&centre = bed.position[grain], &motion = bed.motion[grain];
+  centre = {centre.x + displacement.x(), centre.y + displacement.y(), centre.z + displacement.z(),
+            centre.w};
+  motion = {displacement.x(), displacement.y(), displacement.z(), motion.w};
+  const Quaternion step = rotation_by(angles);
+  bed.orientation[grain] = record_of((bed.pose(grain).orientation * step).normalized());
+  const Vector momentum = step.conjugate() * bed.shape.inertia.cwiseProduct(angles);
+  bed.spin[grain] = momentum.cwiseQuotient(bed.shape.inertia);
 }
 
 std::uint64_t state_hash(const SphereBed& bed) {
   std::uint64_t hash = bed.grains();
+  for (std::size_t i = 0; i < bed.grains(); ++i) hash = mixed(hash, bed.position[i]);
+  return hash;
+}
+std::uint64_t state_hash(const PolyhedronBed& bed) {
+  std::uint64_t hash = bed.grains();
   for (std::size_t i = 0; i < bed.grains(); ++i) {
-    hash = mixed(hash, bed.position[i]);
+    const Record<double>& p = bed.position[i];
+    hash = mixed(mixed(hash, {p.x, p.y, p.z, bed.scale(i)}), bed.orientation[i]);
   }
   return hash;
 }

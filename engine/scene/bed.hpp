@@ -1,47 +1,63 @@
-// A bed of spheres: the state that a packing carries from step to step.
+// A bed: the state that a packing carries from step to step, by the kind of its grains.
 //
-// Spheres have a position, a radius, a mass and a displacement. They have no orientation, no
-// inertia and no lever arms: without friction nothing can turn them, so nothing here could say that
-// they do.
+// All grains have a position, a size, a mass and a displacement. Polyhedra have an orientation, an
+// angle vector and moments of inertia besides. Spheres have none of them: without friction nothing
+// can turn them, so nothing here could say that they do.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
+#include "engine/context.hpp"
+#include "engine/scene/box.hpp"
 #include "engine/scene/spec.hpp"
-#include "kernels/kernels.hpp"
+#include "engine/shape/pose.hpp"
 
 namespace grainsweep {
 
-/// Grains that a subdomain of a large bed holds or more; see engine/rows/subdomains.hpp.
-inline constexpr std::size_t subdomain_grains = 4000;
+/// The kinds of grains. A bed holds one kind.
+struct Sphere {
+  /// Grains that a subdomain of a large bed holds or more; see engine/rows/subdomains.hpp.
+  static constexpr std::size_t subdomain_grains = 4000;
+};
+struct Polyhedron {
+  static constexpr std::size_t subdomain_grains = 1000;  ///< their steps are dearer
+};
 
 /// Beds of fewer grains are one subdomain.
-inline constexpr std::size_t large_bed_grains = 4 * subdomain_grains;
+template <class Kind>
+inline constexpr std::size_t large_bed_grains = 4 * Kind::subdomain_grains;
 
 /// Most subdomains that a bed of so many grains is divided into.
-constexpr std::size_t most_subdomains(std::size_t grains) {
-  return grains < large_bed_grains ? 1 : grains / subdomain_grains + 1;
+template <class Kind>
+constexpr std::size_t max_subdomains(std::size_t grains) {
+  return grains < large_bed_grains<Kind> ? 1 : grains / Kind::subdomain_grains + 1;
 }
 
 /// Axis along which a large bed is cut into subdomains: of a flat bed the longer one of x and y, 0
 /// or 1; of others upwards, 2. `solid_volume`: of all grains, d^3.
 int subdomain_axis(const Box& box, double solid_volume);
 
-/// Columns of a bed. Each column ends with entries that are no grains, for each subdomain three:
-/// the wall, which nothing moves, and two void grains far from everything, which fill unused lanes
-/// of kernel blocks. Subdomains share none, so that cores may sweep them at the same time.
-struct SphereBed {
+/// What grains of all kinds have: columns with an entry per grain. The columns end with entries
+/// that are no grains, for each subdomain three: the wall, which nothing moves, and two void grains
+/// far from everything, which fill unused lanes of kernel blocks. Subdomains share none, so that
+/// cores may sweep them at the same time.
+struct Grains {
   Box box;
   std::vector<Wall> walls;               ///< of the box, the floor first
-  std::vector<Record<double>> position;  ///< x, y, z and radius, d; x and y may leave the box
+  std::vector<Record<double>> position;  ///< x, y, z and radius (of a polyhedron half its scale),
+                                         ///< d; x and y may leave the box
   std::vector<Record<double>> motion;    ///< displacement of the last step, d, and inverse mass
 
-  std::size_t subdomains = 1;  ///< most_subdomains of the grains
+  std::size_t subdomains = 1;  ///< max_subdomains of the grains
   int subdomain_axis = 2;      ///< see `subdomain_axis`
 
   std::size_t grains() const { return position.size() - 3 * subdomains; }
+  /// The positions of the grains alone.
+  std::span<const Record<double>> centres() const { return {position.data(), grains()}; }
+  bool is_grain(std::int32_t entry) const { return entry < wall(); }
   std::int32_t wall(std::size_t subdomain = 0) const {
     return static_cast<std::int32_t>(grains() + subdomain);
   }
@@ -50,24 +66,62 @@ struct SphereBed {
   }
   std::int32_t void_b(std::size_t subdomain = 0) const { return void_a(subdomain) + 1; }
   bool is_void(std::int32_t entry) const { return entry >= void_a(); }
+  /// What contacts with walls[k] call their second side.
+  std::int32_t wall_name(std::size_t k) const { return static_cast<std::int32_t>(grains() + k); }
 };
+
+template <class Kind>
+struct Bed;
+
+template <>
+struct Bed<Sphere> : Grains {};
+using SphereBed = Bed<Sphere>;
+
+/// Grains of one convex shape. The mass of a grain of scale s is s^3 (that of a grain of scale 1 is
+/// the unit), its principal moments are s^5 times `shape.inertia`.
+template <>
+struct Bed<Polyhedron> : Grains {
+  ConvexShape shape;
+  /// Unit quaternion x, y, z, w: shape frame to box frame.
+  std::vector<Record<double>> orientation;
+  /// Angle vector of the next step if nothing acts, grain frame, radians.
+  std::vector<Vector> spin;
+  std::vector<Vector> root_inertia;  ///< square roots of the principal moments, sqrt(m) d
+
+  double scale(std::size_t grain) const { return 2.0 * position[grain].w; }
+  Pose pose(std::size_t grain) const { return pose_of(position[grain], orientation[grain]); }
+  double circumradius(std::size_t grain) const { return scale(grain) * shape.circumradius; }
+};
+using PolyhedronBed = Bed<Polyhedron>;
 
 /// A bed at rest in mid-air: the given spheres, and the entries that are no grains.
 SphereBed make_bed(const Box& box, const std::vector<PlacedSphere>& spheres);
 
-/// Whether all four are finite numbers.
-bool is_finite(const Record<double>& record);
+/// The same of grains of `shape`. Requires unit quaternions and positive scales.
+PolyhedronBed make_bed(const Box& box, ConvexShape shape, const std::vector<Pose>& poses);
 
-/// Whether every grain's place, radius, motion and inverse mass is a finite number.
+/// Whether every grain's place, size, motion and inverse mass, and orientation and angle vector if
+/// it has one, are finite numbers.
 bool is_finite(const SphereBed& bed);
+bool is_finite(const PolyhedronBed& bed);
 
 /// Brings x and y of every centre back into the box along periodic axes.
-void wrap(SphereBed& bed);
+void wrap(Grains& bed, const ParallelFor& loop = serial_for);
 
-/// The hash of what came before and a record, bit by bit.
-std::uint64_t mixed(std::uint64_t hash, const Record<double>& record);
+/// Centre of grain b minus that of grain a, of the nearest image, box frame, d.
+Vector nearest_difference(const Grains& bed, std::size_t a, std::size_t b);
 
-/// Hash of all positions, bit by bit.
+/// Grain b, of its nearest image, as grain a sees it.
+PairPose pair_pose(const PolyhedronBed& bed, std::size_t a, std::size_t b);
+
+/// Moves a grain by `displacement` (d, box frame) and turns it by the angle vector `angles`
+/// (radians, grain frame), exactly; both become its motion. The angle vector is carried on so that
+/// a free grain keeps its angular momentum.
+void move_grain(PolyhedronBed& bed, std::size_t grain, const Vector& displacement,
+                const Vector& angles);
+
+/// Hash of all positions and sizes, and orientations if there are any, bit by bit.
 std::uint64_t state_hash(const SphereBed& bed);
+std::uint64_t state_hash(const PolyhedronBed& bed);
 
 }  // namespace grainsweep

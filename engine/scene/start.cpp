@@ -5,6 +5,7 @@
 
 #include "engine/scene/random.hpp"
 #include "engine/scene/sizes.hpp"
+#include "engine/shape/given_shape.hpp"
 #include "engine/units.hpp"
 
 namespace grainsweep {
@@ -148,29 +149,65 @@ std::vector<double> column_diameters(const std::vector<double>& radii) {
 
 double solid_volume(const std::vector<double>& radii) {
   double volume = 0.0;
-  for (const double radius : radii) {
-    volume += sphere_volume(radius);
-  }
+  for (const double radius : radii) volume += sphere_volume(radius);
   return volume;
 }
-
-double column_height(const Box& box, const std::vector<double>& radii) {
-  return solid_volume(radii) / (start_solid_fraction * box.length * box.width);
+/// The same of grains whose volume at size 1 is `unit_volume`, d^3.
+double volume_of(const std::vector<double>& radii, double unit_volume) {
+  double volume = 0.0;
+  for (const double radius : radii) volume += unit_volume * sphere_mass(radius);
+  return volume;
 }
 
 /// Numbers the grains of a large bed along the axis of its subdomains, slice by slice, and in each
 /// as they were: what a subdomain is made of lies together in memory.
-void sort_along_subdomains(const Box& box, const std::vector<double>& radii,
+template <class Kind>
+void sort_along_subdomains(const Box& box, double solid_volume, double largest_radius,
                            std::vector<PlacedSphere>& spheres) {
-  const int axis = subdomain_axis(box, solid_volume(radii));
-  if (most_subdomains(spheres.size()) == 1 || axis == 2) return;
-  const double slice = 2.0 * *std::max_element(radii.begin(), radii.end());
+  const int axis = subdomain_axis(box, solid_volume);
+  if (max_subdomains<Kind>(spheres.size()) == 1 || axis == 2) return;
+  const double slice = 2.0 * largest_radius;
   const auto slice_of = [&](const PlacedSphere& s) {
     return std::floor((axis == 0 ? s.x : s.y) / slice);
   };
   std::stable_sort(
       spheres.begin(), spheres.end(),
       [&](const PlacedSphere& a, const PlacedSphere& b) { return slice_of(a) < slice_of(b); });
+}
+
+/// A point in the unit disc, uniform.
+struct DiscPoint {
+  double x, y, squared;
+};
+DiscPoint disc_point(std::uint32_t a, std::uint32_t b) {
+  const double x = 2.0 * unit_interval(a) - 1.0, y = 2.0 * unit_interval(b) - 1.0;
+  return {x, y, x * x + y * y};
+}
+
+/// Uniform over all rotations, from two points in the unit disc (Marsaglia 1972).
+Quaternion random_orientation(std::uint64_t key, std::uint64_t grain) {
+  for (std::uint32_t attempt = 0;; ++attempt) {
+    const auto words = random_words(key, Purpose::orientation, grain, attempt);
+    const DiscPoint p = disc_point(words[0], words[1]), q = disc_point(words[2], words[3]);
+    if (p.squared < 1.0 && q.squared < 1.0) {
+      const double share = std::sqrt((1.0 - p.squared) / q.squared);
+      return Quaternion(p.x, p.y, share * q.x, share * q.y).normalized();
+    }
+  }
+}
+
+/// The poses of placed grains, whose orientations are those of the shape as it is written.
+std::vector<Pose> placed_poses(const PlacedGrains& placed, const GivenFrame& given) {
+  const Quaternion rotation(given.rotation);
+  std::vector<Pose> poses;
+  for (std::size_t i = 0; i < placed.grains.size(); ++i) {
+    const PlacedSphere& grain = placed.grains[i];
+    const auto& [x, y, z, w] = placed.orientations[i];
+    const Quaternion orientation(w, x, y, z);
+    poses.push_back(
+        {{grain.x, grain.y, grain.z}, 2.0 * grain.radius, (orientation * rotation).normalized()});
+  }
+  return poses;
 }
 
 }  // namespace
@@ -197,16 +234,46 @@ std::optional<std::vector<PlacedSphere>> place_at_random(const Box& box,
   return all.sorted();
 }
 
+template <>
 std::optional<SphereBed> start(const PackingSpec& spec) {
   if (const auto* placed = std::get_if<PlacedGrains>(&spec.fill)) {
     return make_bed(spec.box, placed->grains);
   }
   const std::vector<double> radii = draw_radii(spec);
   if (radii.empty()) return make_bed(spec.box, {});
-  auto spheres = place_at_random(spec.box, radii, column_height(spec.box, radii), spec.random_key);
+  const double volume = solid_volume(radii);
+  const double floor = spec.box.length * spec.box.width;
+  auto spheres = place_at_random(spec.box, radii, volume / (sphere_start_solid_fraction * floor),
+                                 spec.random_key);
   if (!spheres) return std::nullopt;
-  sort_along_subdomains(spec.box, radii, *spheres);
+  sort_along_subdomains<Sphere>(spec.box, volume, *std::max_element(radii.begin(), radii.end()),
+                                *spheres);
   return make_bed(spec.box, *spheres);
+}
+
+template <>
+std::optional<PolyhedronBed> start(const PackingSpec& spec) {
+  const ConvexShape shape = *shape_of(spec.shape).shape;
+  if (const auto* placed = std::get_if<PlacedGrains>(&spec.fill)) {
+    return make_bed(spec.box, shape, placed_poses(*placed, shape.given));
+  }
+  std::vector<double> radii = draw_radii(spec);
+  if (radii.empty()) return make_bed(spec.box, shape, std::vector<Pose>{});
+  const double volume = volume_of(radii, shape.volume);
+  const double floor = spec.box.length * spec.box.width;
+  const double ball = start_ball * std::cbrt(shape.volume / sphere_volume(1.0));
+  for (double& radius : radii) radius *= 2.0 * ball;
+  auto balls = place_at_random(spec.box, radii, volume / (polyhedron_start_solid_fraction * floor),
+                               spec.random_key);
+  if (!balls) return std::nullopt;
+  sort_along_subdomains<Polyhedron>(spec.box, volume, *std::max_element(radii.begin(), radii.end()),
+                                    *balls);
+  std::vector<Pose> poses;
+  for (const PlacedSphere& s : *balls) {
+    poses.push_back(
+        {{s.x, s.y, s.z}, s.radius / ball, random_orientation(spec.random_key, poses.size())});
+  }
+  return make_bed(spec.box, shape, poses);
 }
 
 }  // namespace grainsweep

@@ -1,4 +1,4 @@
-// The start of a packing: grains loose in the air, none touching.
+// The start of a packing: grains loose in the air, spheres touching none.
 #pragma once
 
 #include <cstdint>
@@ -11,13 +11,22 @@
 namespace grainsweep {
 
 /// Solid fraction of the column in which grains are placed at random.
-inline constexpr double start_solid_fraction = 0.25;
+inline constexpr double sphere_start_solid_fraction = 0.25;
+inline constexpr double polyhedron_start_solid_fraction = 0.4;
 
-/// Grains of the given sizes placed one after the other at random where they overlap no other
-/// (random sequential addition), in a column above the floor; or the user's own placed grains.
-/// Grains are numbered from the floor up, those of large flat beds along x or y first. Empty if a
-/// grain does not fit between the walls or no room is found for it.
-std::optional<SphereBed> start(const PackingSpec& spec);
+/// Radius of the balls that keep the centres of polyhedra apart at the start, in radii of the
+/// sphere of the grain's volume. Corners of neighbours overlap; the fall parts them by a share of
+/// the overlap a step.
+inline constexpr double start_ball = 0.7;
+
+/// As many grains as `spec` asks for, placed one after the other at random where they (polyhedra:
+/// their balls) overlap no other (random sequential addition), in a column above the floor; the
+/// orientations of polyhedra are uniform over all rotations, and their scales are drawn as
+/// diameters of spheres are. Or the user's own placed grains, where and as they are placed. Grains
+/// are numbered from the floor up, those of large flat beds along x or y first. Empty if a grain
+/// does not fit between the walls or no room is found for it.
+template <class Kind>
+std::optional<Bed<Kind>> start(const PackingSpec& spec);
 
 /// Spheres of these radii, at least one, placed in the same way in a column from the floor to
 /// `height`, d, or to one and a half of the largest diameter. Sorted from the floor up.

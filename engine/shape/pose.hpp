@@ -17,10 +17,11 @@ struct Pose {
   Quaternion orientation = Quaternion::Identity();  ///< unit; from the shape's frame to the box's
 };
 
-/// The pose in two records of a bed's columns: x, y, z, scale, and x, y, z, w of the quaternion.
+/// The pose in two records of a bed's columns: x, y, z, half the scale, and x, y, z, w of the
+/// quaternion.
 inline Pose pose_of(const Record<double>& centre, const Record<double>& orientation) {
   return {{centre.x, centre.y, centre.z},
-          centre.w,
+          2.0 * centre.w,
           {orientation.w, orientation.x, orientation.y, orientation.z}};
 }
 

@@ -111,7 +111,7 @@ TEST_CASE("a packing has the same bits for every instruction set", "[slow]") {
 // The first steps of a bed of several subdomains: the fall and its impacts on the floor.
 TEST_CASE("a large packing has the same bits however its parts are shared out", "[slow]") {
   PackingSpec spec = bed_spec(20, 20, Boundary::walls, "fast");
-  spec.fill = GrainCount{static_cast<std::int64_t>(large_bed_grains) + 500};
+  spec.fill = GrainCount{static_cast<std::int64_t>(large_bed_grains<Sphere>) + 500};
   spec.accuracy.max_steps = 40;
   for (const Solver solver :
        {Solver::accelerated_gauss_seidel, Solver::accelerated_projected_gradient,

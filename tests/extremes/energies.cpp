@@ -32,7 +32,7 @@ double near_of(double dt) { return dt <= 0.2 ? 0.08 : 2.0 * longest_free_motion;
 /// Largest rise of the mean energy in one step of a fall that begins with no overlap. Nothing in a
 /// step adds energy but what a solve leaves undone: overlaps of r dt^2 that are repaired.
 Finding fall(double dt, double momentum) {
-  SphereBed bed = *start(small_spec(80, {}));
+  SphereBed bed = *start<Sphere>(small_spec(80, {}));
   StepState<double> state;
   StepSettings settings;
   settings.dt = dt;

@@ -111,7 +111,7 @@ Finding balance(std::int64_t grains, double width, const Accuracy& accuracy) {
   PackingSpec spec = small_spec(grains, accuracy);
   spec.box.length = 20;
   spec.box.width = width;
-  SphereBed bed = *start(spec);
+  SphereBed bed = *start<Sphere>(spec);
   Workspace memory;
   const ExecutionContext context(kernels(), serial_for, &memory);
   const SettleReport report = settle(accuracy, context, bed, [](const Progress&) { return true; });

@@ -53,7 +53,7 @@ void add_places(std::vector<Scene>& scenes) {
 /// A random bed of 60 grains, and a grain of dust above it.
 PackingSpec with_dust(double radius) {
   PackingSpec spec = small_spec(60, at_preset("balanced").accuracy);
-  const SphereBed bed = *start(spec);
+  const SphereBed bed = *start<Sphere>(spec);
   PlacedGrains fill{{{2, 2, 30, radius}}};
   for (std::size_t i = 0; i < bed.grains(); ++i) {
     const Record<double>& p = bed.position[i];

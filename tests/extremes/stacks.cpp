@@ -20,24 +20,24 @@ StepSettings settings_of_stack() {
 }
 
 /// Grains exactly above each other, faces flat on faces.
-ShapeBed stack_of(const ConvexShape& shape, int grains) {
+PolyhedronBed stack_of(const ConvexShape& shape, int grains) {
   double half = 0.0;
   for (const Vector& v : shape.vertices) half = std::max(half, v.z());
   std::vector<Pose> poses;
   for (int k = 0; k < grains; ++k) poses.push_back(testing::pose_at(3, 3, (2 * k + 1) * half));
-  return make_shape_bed({6, 6, Boundary::periodic, Boundary::walls}, shape, poses);
+  return make_bed({6, 6, Boundary::periodic, Boundary::walls}, shape, poses);
 }
 
 /// Force that a contact carries: that of the grains above, between neighbours and on the floor.
 /// Thin grains have rows with others near them, too, that must not push.
-double exact_force(const ShapeBed& bed, const ShapeContact& c) {
+double exact_force(const PolyhedronBed& bed, const ShapeContact& c) {
   const auto grains = static_cast<double>(bed.grains());
   if (bed.is_grain(c.b)) return c.b == c.a + 1 ? grains - c.b : 0.0;
   return c.a == 0 ? grains : 0.0;
 }
 
 /// Largest error of the force of a contact, in the weight of all.
-double force_error(const ShapeBed& bed, const ShapeStepState<double>& state, double dt) {
+double force_error(const PolyhedronBed& bed, const ShapeStepState<double>& state, double dt) {
   double worst = 0.0;
   for (std::size_t k = 0; k < state.contacts.contacts.size(); ++k) {
     const double exact = exact_force(bed, state.contacts.contacts[k]);
@@ -46,18 +46,18 @@ double force_error(const ShapeBed& bed, const ShapeStepState<double>& state, dou
   return worst / static_cast<double>(bed.grains());
 }
 
-double place_error(const ShapeBed& before, const ShapeBed& after) {
+double place_error(const PolyhedronBed& before, const PolyhedronBed& after) {
   double worst = 0.0;
   for (std::size_t i = 0; i < before.grains(); ++i) {
-    const Record<double>&p = before.centre[i], &q = after.centre[i];
+    const Record<double>&p = before.position[i], &q = after.position[i];
     worst = std::max(worst, std::hypot(p.x - q.x, p.y - q.y, p.z - q.z));
   }
   return worst;
 }
 
 Finding stand(const ConvexShape& shape, int grains) {
-  const ShapeBed begin = stack_of(shape, grains);
-  ShapeBed bed = begin;
+  const PolyhedronBed begin = stack_of(shape, grains);
+  PolyhedronBed bed = begin;
   ShapeStepState<double> state;
   const StepSettings settings = settings_of_stack();
   StepReport report;
@@ -73,7 +73,7 @@ Finding stand(const ConvexShape& shape, int grains) {
       {"motion of any grain, d", place_error(begin, bed),
        steps_taken * 4.0 * 2.0 * number * residual * settings.dt * settings.dt + 1e-12 * number,
        "residuals added up, and roundings of heights"}};
-  for (const Record<double>& c : bed.centre)
+  for (const Record<double>& c : bed.centres())
     finding.finite = finding.finite && std::isfinite(c.x + c.y + c.z);
   return finding;
 }

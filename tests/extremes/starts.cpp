@@ -33,7 +33,7 @@ Spheres cubic(int side, double spacing) {
 
 /// A random bed of 60 grains moved by x and z.
 Spheres cluster(double x, double z) {
-  const SphereBed bed = *start(small_spec(60, {}));
+  const SphereBed bed = *start<Sphere>(small_spec(60, {}));
   Spheres spheres;
   for (std::size_t i = 0; i < bed.grains(); ++i) {
     const Record<double>& p = bed.position[i];
@@ -54,7 +54,7 @@ Scene placed(const std::string& name, const std::string& extreme, const NamedAcc
 
 /// Settles a bed, and what came out again.
 Finding settle_twice(const Accuracy& accuracy) {
-  SettledBed first = settle_scene(*start(small_spec(120, accuracy)), accuracy);
+  SettledBed first = settle_scene(*start<Sphere>(small_spec(120, accuracy)), accuracy);
   if (!first.report.why_not.empty()) return finding_of(first, {});
   SphereBed again = first.bed;
   for (std::size_t i = 0; i < again.grains(); ++i) again.motion[i] = {0, 0, 0, again.motion[i].w};

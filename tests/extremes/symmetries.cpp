@@ -31,7 +31,7 @@ void mirror_y(const Box& box, Spheres& spheres) {
 void rename_grains(const Box&, Spheres& spheres) { testing::Draw(5).shuffle(spheres); }
 
 Spheres start_of(const PackingSpec& spec) {
-  const SphereBed bed = *start(spec);
+  const SphereBed bed = *start<Sphere>(spec);
   Spheres spheres;
   for (std::size_t i = 0; i < bed.grains(); ++i) {
     const Record<double>& p = bed.position[i];

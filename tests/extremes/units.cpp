@@ -34,7 +34,7 @@ Spheres spheres_of(const SphereBed& bed) {
 
 /// A random bed settled as it is and by way of another unit: the states must have the same bits.
 Finding settle_in_unit(double diameter, const Accuracy& accuracy) {
-  const SphereBed bed = *start(small_spec(60, accuracy));
+  const SphereBed bed = *start<Sphere>(small_spec(60, accuracy));
   const Spheres read = scaled_grains(in_unit(spheres_of(bed), diameter), diameter);
   const SettledBed plain = settle_scene(bed, accuracy);
   const SettledBed scaled = settle_scene(make_bed(bed.box, read), accuracy);

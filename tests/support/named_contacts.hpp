@@ -73,7 +73,8 @@ template <class Real>
 Contacts<Real> contacts_of(SphereBed& bed, double reach, const Kernels& kernels) {
   Candidates candidates;
   Contacts<Real> contacts;
-  find_candidates(bed, reach, kernels, candidates);
+  wrap(bed);
+  find_candidates({bed, bed.position}, reach, kernels, candidates);
   lay_out(bed, candidates, contacts);
   detect(bed, kernels, 1.0, contacts);
   return contacts;

@@ -16,8 +16,8 @@ inline Pose pose_at(double x, double y, double z,
 }
 
 /// Grains turned at random with centres at random in a box, up to `height`.
-inline ShapeBed random_shape_bed(const Box& box, const ConvexShape& shape, std::size_t grains,
-                                 double height, std::uint64_t seed) {
+inline PolyhedronBed random_shape_bed(const Box& box, const ConvexShape& shape, std::size_t grains,
+                                      double height, std::uint64_t seed) {
   Draw draw(seed);
   std::vector<Pose> poses;
   for (std::size_t i = 0; i < grains; ++i) {
@@ -26,7 +26,7 @@ inline ShapeBed random_shape_bed(const Box& box, const ConvexShape& shape, std::
     const Quaternion turn = random_rotation(draw);
     poses.push_back(pose_at(x, y, z, turn, draw.uniform(0.9, 1.1)));
   }
-  return make_shape_bed(box, shape, poses);
+  return make_bed(box, shape, poses);
 }
 
 /// Force and torque about its centre on a grain, box frame.
@@ -37,7 +37,8 @@ struct Wrench {
 /// What the contacts of a step do to each grain, m g and m g d, from points of contact and normals
 /// in the box. `before`: the bed as the step found it.
 template <class Real>
-std::vector<Wrench> wrenches(const ShapeBed& before, const ShapeStepState<Real>& state, double dt) {
+std::vector<Wrench> wrenches(const PolyhedronBed& before, const ShapeStepState<Real>& state,
+                             double dt) {
   std::vector<Wrench> sums(before.grains());
   for (std::size_t k = 0; k < state.contacts.contacts.size(); ++k) {
     const ShapeContact& c = state.contacts.contacts[k];
@@ -77,7 +78,7 @@ double wall_force(const ShapeStepState<Real>& state, std::int32_t wall, double d
   return sum;
 }
 
-inline double weight_of(const ShapeBed& bed) {
+inline double weight_of(const PolyhedronBed& bed) {
   double weight = 0;
   for (const Record<double>& motion : bed.motion) weight += 1 / motion.w;
   return weight;

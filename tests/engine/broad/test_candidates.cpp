@@ -22,7 +22,8 @@ constexpr double listed_reach = 0.13;
 
 Candidates search(SphereBed& bed, double within = listed_reach) {
   Candidates candidates;
-  find_candidates(bed, within, kernels_for(best_isa()), candidates);
+  wrap(bed);
+  find_candidates({bed, bed.position}, within, kernels_for(best_isa()), candidates);
   return candidates;
 }
 
@@ -170,7 +171,8 @@ TEST_CASE("the list is the same for every instruction set") {
     INFO(name_of(isa));
     copy = bed;
     Candidates candidates;
-    find_candidates(copy, listed_reach, kernels_for(isa), candidates);
+    wrap(copy);
+    find_candidates({copy, copy.position}, listed_reach, kernels_for(isa), candidates);
     CHECK(std::equal(candidates.pairs.begin(), candidates.pairs.end(), expected.pairs.begin(),
                      expected.pairs.end(),
                      [](GrainPair p, GrainPair q) { return p.a == q.a && p.b == q.b; }));
@@ -181,7 +183,8 @@ TEST_CASE("a list is rewritten whole when it is used again, for more and for few
   Candidates candidates;
   for (const std::size_t grains : {10U, 400U, 0U, 40U}) {
     SphereBed bed = testing::random_bed({{4, 4, periodic, walls}, grains, 0.5, 0.5, 3, 31});
-    find_candidates(bed, listed_reach, kernels_for(best_isa()), candidates);
+    wrap(bed);
+    find_candidates({bed, bed.position}, listed_reach, kernels_for(best_isa()), candidates);
     CHECK(testing::listed_pairs(candidates).size() ==
           testing::pairs_closer_than(bed, listed_reach).size());
     CHECK(candidates.built_at.size() == grains);
@@ -231,7 +234,7 @@ int steps_of_a_list(const RandomScene& scene, Move move) {
   SphereBed bed = testing::random_bed(scene);
   Candidates candidates = search(bed);
   int steps = 0;
-  for (; steps < 2000 && still_complete(bed, near, candidates); ++steps) {
+  for (; steps < 2000 && still_complete({bed, bed.position}, near, candidates); ++steps) {
     REQUIRE(testing::holds_all_closer_than(bed, candidates, near));
     move(bed, 0.004, draw);
   }
@@ -265,22 +268,22 @@ TEST_CASE("two grains that close in on each other need a new list after the marg
   REQUIRE(candidates.pairs.empty());
   bed.position[0].x += 0.5 * (listed_reach - near) - 1e-4;
   bed.position[1].x -= 0.5 * (listed_reach - near) - 1e-4;
-  CHECK(still_complete(bed, near, candidates));
+  CHECK(still_complete({bed, bed.position}, near, candidates));
   bed.position[0].x += 2e-4;
   bed.position[1].x -= 2e-4;
-  CHECK_FALSE(still_complete(bed, near, candidates));
+  CHECK_FALSE(still_complete({bed, bed.position}, near, candidates));
 }
 
 TEST_CASE("a bed that moves as a whole needs no new list") {
   for (const Box& box : {boxes[0], boxes[1]}) {
     SphereBed bed = testing::random_bed({box, 200, 0.4, 0.5, 6, 3});
     Candidates candidates = search(bed);
-    CHECK(still_complete(bed, near, candidates));
+    CHECK(still_complete({bed, bed.position}, near, candidates));
     for (std::size_t i = 0; i < bed.grains(); ++i) {
       bed.position[i].x += 3.7;
       bed.position[i].z += 0.9;
     }
-    CHECK(still_complete(bed, near, candidates));
+    CHECK(still_complete({bed, bed.position}, near, candidates));
   }
 }
 
@@ -290,22 +293,22 @@ TEST_CASE("a bed that falls as a whole needs a new list when its grains come nea
   for (Record<double>* p : {&bed.position[0], &bed.position[1]}) {
     p->z -= 2.4;
   }
-  CHECK(still_complete(bed, near, candidates));
+  CHECK(still_complete({bed, bed.position}, near, candidates));
   for (Record<double>* p : {&bed.position[0], &bed.position[1]}) {
     p->z -= 0.05;
   }
-  CHECK_FALSE(still_complete(bed, near, candidates));
+  CHECK_FALSE(still_complete({bed, bed.position}, near, candidates));
 }
 
 TEST_CASE("a grain that falls through empty air to another one is seen to come near") {
   SphereBed bed = make_bed(boxes[0], {{1, 2, 0.5, 0.5}, {1, 2, 9, 0.5}});
   Candidates candidates = search(bed);
   REQUIRE(candidates.pairs.empty());
-  while (bed.position[1].z > 1.5 + near && still_complete(bed, near, candidates)) {
+  while (bed.position[1].z > 1.5 + near && still_complete({bed, bed.position}, near, candidates)) {
     bed.position[1].z -= 0.01;
   }
   CHECK(bed.position[1].z > 1.5 + near - 0.011);
-  CHECK_FALSE(still_complete(bed, near, candidates));
+  CHECK_FALSE(still_complete({bed, bed.position}, near, candidates));
 }
 
 // Layers are one cell, here 2 r + reach = 1.13 high and what rounding adds. The middle grain stays,
@@ -323,7 +326,7 @@ TEST_CASE("grains two layers apart that approach each other are seen to come nea
   bed.position[1].z += 0.045;
   bed.position[3].z -= 0.045;
   REQUIRE(testing::gap_of(bed, 1, 3) < near);
-  CHECK_FALSE(still_complete(bed, near, candidates));
+  CHECK_FALSE(still_complete({bed, bed.position}, near, candidates));
 }
 
 }  // namespace

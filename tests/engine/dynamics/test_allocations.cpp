@@ -44,7 +44,7 @@ SphereBed loose_bed(double small_share) {
   spec.fill = GrainCount{300};
   spec.sizes.small_share = small_share;
   spec.random_key = 3;
-  return *start(spec);
+  return *start<Sphere>(spec);
 }
 
 /// Allocations in steps first .. last of a bed that falls.

@@ -28,7 +28,7 @@ SphereBed small_bed(std::uint64_t key) {
   spec.box = {4, 4, periodic, walls};
   spec.fill = GrainCount{120};
   spec.random_key = key;
-  return start(spec).value();
+  return start<Sphere>(spec).value();
 }
 
 TEST_CASE("an empty bed is at rest") {

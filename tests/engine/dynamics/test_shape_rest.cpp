@@ -13,7 +13,7 @@ using testing::pose_at;
 using testing::walls;
 
 TEST_CASE("a lone grain on the floor has three constraints and is isostatic") {
-  ShapeBed bed = make_shape_bed({6, 6, periodic, walls}, testing::cube(), {pose_at(3, 3, 0.5)});
+  PolyhedronBed bed = make_bed({6, 6, periodic, walls}, testing::cube(), {pose_at(3, 3, 0.5)});
   ShapeStepState<double> state;
   StepSettings settings;
   settings.momentum = 0;
@@ -26,13 +26,13 @@ TEST_CASE("a lone grain on the floor has three constraints and is isostatic") {
 }
 
 TEST_CASE("overlaps are measured where the grains are, at the deepest point") {
-  ShapeBed bed = make_shape_bed({6, 6, periodic, walls}, testing::cube(), {pose_at(3, 3, 0.5)});
+  PolyhedronBed bed = make_bed({6, 6, periodic, walls}, testing::cube(), {pose_at(3, 3, 0.5)});
   ShapeStepState<double> state;
   StepSettings settings;
   settings.momentum = 0;
   settings.limits = {Solver::accelerated_projected_gradient, 10'000, 1e-9};
   step(settings, kernels(), bed, state);
-  bed.centre[0].z -= 0.01;
+  bed.position[0].z -= 0.01;
   const RestReport rest = certify(bed, kernels(), settings.dt, state);
   CHECK(rest.overlap_max == Approx(0.01).margin(1e-6));
   CHECK(rest.overlap_mean == Approx(0.01).margin(1e-6));

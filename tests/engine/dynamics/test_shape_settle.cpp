@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 
 #include "engine/dynamics/settle.hpp"
-#include "engine/scene/shape_start.hpp"
+#include "engine/scene/start.hpp"
 #include "engine/shape/pinacoid.hpp"
 #include "tests/support/instruction_sets.hpp"
 #include "tests/support/keep_going.hpp"
@@ -29,7 +29,7 @@ TEST_CASE("a bed of pinacoids settles within every tolerance of its accuracy", "
   for (const std::uint64_t key : {1U, 2U, 3U}) {
     INFO("key " << key);
     const PackingSpec spec = small_pinacoids(key);
-    auto bed = start_shapes(spec);
+    auto bed = start<Polyhedron>(spec);
     REQUIRE(bed);
     const SettleReport report = settle(spec.accuracy, kernels(), *bed, always);
     INFO(report.steps << " steps, " << report.rest.contacts << " constraints of "
@@ -38,22 +38,22 @@ TEST_CASE("a bed of pinacoids settles within every tolerance of its accuracy", "
     CHECK(report.why_not == "");
     CHECK(report.steps < 400);
     CHECK(report.rest.overlap_max < 1e-3);  // no pair is left deep in another
-    for (const Record<double>& c : bed->centre) REQUIRE(c.z > bed->shape.inradius * 0.85);
+    for (const Record<double>& c : bed->centres()) REQUIRE(c.z > bed->shape.inradius * 0.85);
   }
 }
 
 TEST_CASE("a bed of hulls, which have no closed form, settles too", "[slow]") {
   PackingSpec spec = small_pinacoids();
   spec.shape = testing::asked_for(pinacoid({1, 1, 0.7, 1.2}).vertices);
-  auto bed = start_shapes(spec);
+  auto bed = start<Polyhedron>(spec);
   REQUIRE(bed);
   const SettleReport report = settle(spec.accuracy, kernels(), *bed, always);
   CHECK(report.why_not == "");
 }
 
 TEST_CASE("forces of a settled stack are those on its grains and between them") {
-  ShapeBed bed = make_shape_bed({6, 6, periodic, walls}, testing::cube(),
-                                {pose_at(3, 3, 0.5), pose_at(3, 3, 1.5)});
+  PolyhedronBed bed =
+      make_bed({6, 6, periodic, walls}, testing::cube(), {pose_at(3, 3, 0.5), pose_at(3, 3, 1.5)});
   Accuracy accuracy;
   accuracy.precision = Precision::f64;
   const SettleReport report = settle(accuracy, kernels(), bed, always);
@@ -69,7 +69,7 @@ TEST_CASE("forces of a settled stack are those on its grains and between them") 
 TEST_CASE(
     "settling of shapes stops when it is asked to, and says what is missing at the last step") {
   const PackingSpec spec = small_pinacoids();
-  auto bed = start_shapes(spec);
+  auto bed = start<Polyhedron>(spec);
   REQUIRE(bed);
   const SettleReport stopped = settle(spec.accuracy, kernels(), *bed,
                                       [](const Progress& progress) { return progress.step < 5; });
@@ -84,10 +84,10 @@ TEST_CASE(
 }
 
 /// Three grains above each other and one beside them, in the air.
-ShapeBed few_grains(const ConvexShape& shape) {
-  return make_shape_bed({4, 4, periodic, walls}, shape,
-                        {pose_at(2, 2, 0.8), pose_at(2.1, 2.2, 2),
-                         pose_at(2, 2, 3.2, Quaternion(0.8, 0.6, 0, 0)), pose_at(3.3, 2, 1)});
+PolyhedronBed few_grains(const ConvexShape& shape) {
+  return make_bed({4, 4, periodic, walls}, shape,
+                  {pose_at(2, 2, 0.8), pose_at(2.1, 2.2, 2),
+                   pose_at(2, 2, 3.2, Quaternion(0.8, 0.6, 0, 0)), pose_at(3.3, 2, 1)});
 }
 
 /// Four grains may stand on fewer points than they could.
@@ -98,7 +98,7 @@ Accuracy few_on_few_points() {
 }
 
 TEST_CASE("the progress of settling shapes never falls") {
-  ShapeBed bed = few_grains(pinacoid({}));
+  PolyhedronBed bed = few_grains(pinacoid({}));
   double share = 0;
   settle(few_on_few_points(), kernels(), bed, [&](const Progress& progress) {
     REQUIRE(progress.share_done >= share);
@@ -114,12 +114,12 @@ TEST_CASE("turning grains that go on from saved bytes end with the same bits, in
   for (const ConvexShape& shape : {pinacoid({}), testing::tetrahedron()}) {
     for (const Precision precision : {Precision::f32, Precision::f64}) {
       accuracy.precision = precision;
-      ShapeBed whole = few_grains(shape);
+      PolyhedronBed whole = few_grains(shape);
       const SettleReport expected = settle(accuracy, kernels(), whole, always);
       for (std::int64_t last = 1; last < expected.steps; last += 29) {
         INFO("saved after step " << last << " of " << expected.steps);
         std::string saved;
-        ShapeBed first = few_grains(shape), bed = few_grains(shape);
+        PolyhedronBed first = few_grains(shape), bed = few_grains(shape);
         settle(accuracy, kernels(), first, [&](const Progress& progress) {
           saved = progress.step == last ? progress.save() : saved;
           return progress.step < last;
@@ -142,22 +142,22 @@ TEST_CASE("saved bytes of spheres are not taken for grains that turn") {
     saved = progress.save();
     return false;
   });
-  ShapeBed whole = few_grains(testing::cube()), bed = few_grains(testing::cube());
+  PolyhedronBed whole = few_grains(testing::cube()), bed = few_grains(testing::cube());
   const SettleReport expected = settle({}, kernels(), whole, always);
   CHECK(settle({}, kernels(), bed, always, saved).steps == expected.steps);
   CHECK(state_hash(bed) == state_hash(whole));
 }
 
 TEST_CASE("a stack that rests as it is given stays as it is") {
-  ShapeBed bed = make_shape_bed({6, 6, walls, walls}, testing::cube(),
-                                {pose_at(0.5, 0.5, 0.5), pose_at(0.5, 0.5, 1.5)});
+  PolyhedronBed bed = make_bed({6, 6, walls, walls}, testing::cube(),
+                               {pose_at(0.5, 0.5, 0.5), pose_at(0.5, 0.5, 1.5)});
   Accuracy accuracy;
   accuracy.precision = Precision::f64;
   accuracy.contact_tolerance = 1.0;  // corners in corners: more constraints than a grain can use
   const SettleReport report = settle(accuracy, kernels(), bed, always);
   CHECK(report.why_not == "");
   CHECK(report.steps == 8);
-  CHECK(bed.centre[1].z == Approx(1.5).margin(1e-6));
+  CHECK(bed.position[1].z == Approx(1.5).margin(1e-6));
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "engine/dynamics/shape_step.hpp"
-#include "engine/scene/shape_start.hpp"
+#include "engine/scene/start.hpp"
 #include "tests/support/dense_levers.hpp"
 #include "tests/support/instruction_sets.hpp"
 #include "tests/support/shape_beds.hpp"
@@ -28,7 +28,7 @@ StepSettings tight_steps(double momentum) {
 }
 
 template <class Real>
-StepReport take_steps(int steps, const StepSettings& settings, ShapeBed& bed,
+StepReport take_steps(int steps, const StepSettings& settings, PolyhedronBed& bed,
                       ShapeStepState<Real>& state) {
   StepReport report;
   for (int k = 0; k < steps; ++k) report = step(settings, kernels(), bed, state);
@@ -39,28 +39,28 @@ TEMPLATE_TEST_CASE("a cube on the floor rests on four corners with a quarter of 
                    "", float, double) {
   // Solved to 1e-9 m g; f32 rounds at 1e-7 of the motions.
   const double margin = std::is_same_v<TestType, float> ? 1e-5 : 1e-8;
-  ShapeBed bed = make_shape_bed({6, 6, periodic, walls}, testing::cube(), {pose_at(3, 3, 0.5)});
+  PolyhedronBed bed = make_bed({6, 6, periodic, walls}, testing::cube(), {pose_at(3, 3, 0.5)});
   ShapeStepState<TestType> state;
   StepSettings settings = tight_steps(0);
   settings.limits.iterations = 2000;
   take_steps(3, settings, bed, state);
   REQUIRE(state.contacts.contacts.size() == 1);
   REQUIRE(state.contacts.contacts[0].count == 4);
-  CHECK(state.contacts.contacts[0].b == bed.wall(0));
+  CHECK(state.contacts.contacts[0].b == bed.wall_name(0));
   for (std::size_t j = 0; j < 4; ++j) {
     CHECK(impulse_of(state, 0, j) / 0.04 == Approx(0.25).margin(margin));
   }
-  CHECK(bed.centre[0].z == Approx(0.5).margin(margin));
+  CHECK(bed.position[0].z == Approx(0.5).margin(margin));
 }
 
-ShapeBed cube_stack(int cubes) {
+PolyhedronBed cube_stack(int cubes) {
   std::vector<Pose> poses;
   for (int k = 0; k < cubes; ++k) poses.push_back(pose_at(3, 3, 0.5 + k));
-  return make_shape_bed({6, 6, periodic, walls}, testing::cube(), poses);
+  return make_bed({6, 6, periodic, walls}, testing::cube(), poses);
 }
 
 TEST_CASE("a stack of 20 cubes stands still, each face carrying the weight above it") {
-  ShapeBed bed = cube_stack(20);
+  PolyhedronBed bed = cube_stack(20);
   ShapeStepState<double> state;
   const StepSettings settings = tight_steps(0.9);
   for (const int steps : {1, 50}) {
@@ -76,7 +76,7 @@ TEST_CASE("a stack of 20 cubes stands still, each face carrying the weight above
     }
   }
   for (std::size_t i = 0; i < 20; ++i) {
-    CHECK(bed.centre[i].z == Approx(0.5 + static_cast<double>(i)).margin(1e-7));
+    CHECK(bed.position[i].z == Approx(0.5 + static_cast<double>(i)).margin(1e-7));
     CHECK(std::abs(bed.orientation[i].w) == Approx(1).margin(1e-12));
   }
 }
@@ -86,7 +86,7 @@ struct Lie {
   std::size_t face;
   double tilt;
 };
-Lie lie_of(const ShapeBed& bed, std::size_t grain) {
+Lie lie_of(const PolyhedronBed& bed, std::size_t grain) {
   Lie lie{0, 10};
   for (std::size_t k = 0; k < bed.shape.faces.size(); ++k) {
     const Vector n = bed.pose(grain).orientation * bed.shape.faces[k].normal;
@@ -119,13 +119,13 @@ TEST_CASE("a pinacoid tipped by 20 degrees comes to lie flat on its largest face
     const double angle = draw.uniform(0, 6.28);
     const Vector axis(std::cos(angle), std::sin(angle), 0);
     const Quaternion tipped = Quaternion(Eigen::AngleAxisd(0.35, axis)) * down;
-    ShapeBed bed = make_shape_bed({6, 6, periodic, walls}, shape, {pose_at(3, 3, 0.75, tipped)});
+    PolyhedronBed bed = make_bed({6, 6, periodic, walls}, shape, {pose_at(3, 3, 0.75, tipped)});
     ShapeStepState<double> state;
     take_steps(400, tight_steps(0.9), bed, state);
     const Lie lie = lie_of(bed, 0);
     CHECK(area_of(shape, shape.faces[lie.face]) == Approx(area_of(shape, *largest)));
     CHECK(lie.tilt < 1e-6);
-    CHECK(bed.centre[0].z == Approx(largest->offset).margin(1e-6));
+    CHECK(bed.position[0].z == Approx(largest->offset).margin(1e-6));
     CHECK(state.contacts.contacts[0].count == static_cast<std::size_t>(largest->corners));
     CHECK(testing::contact_force(state, 0, 0.2) == Approx(1).margin(1e-6));
   }
@@ -142,7 +142,7 @@ TEST_CASE("no grain is thrown out of a start whose solve diverges at first") {
   spec.random_key = 944195639736249979U;
   for (const Solver solver :
        {Solver::accelerated_projected_gradient, Solver::accelerated_gauss_seidel}) {
-    ShapeBed bed = start_shapes(spec).value();
+    PolyhedronBed bed = start<Polyhedron>(spec).value();
     ShapeStepState<float> state;
     StepSettings look{0.05, 0.0, 0.5, 0.01, 0.05, {}}, fall{0.2, 0.9, 0.2, 0.05, 0.05, {}};
     look.limits.solver = fall.limits.solver = solver;
@@ -151,7 +151,7 @@ TEST_CASE("no grain is thrown out of a start whose solve diverges at first") {
     step(look, kernels(), bed, state);
     change_step(fall.dt / look.dt, bed, state);
     CHECK(step(fall, kernels(), bed, state).largest_motion < 1.0);
-    for (const Record<double>& c : bed.centre) {
+    for (const Record<double>& c : bed.centres()) {
       CHECK(c.x == Approx(3).margin(3));
       CHECK(c.y == Approx(2.5).margin(2.5));
       CHECK(c.z == Approx(12).margin(12));
@@ -161,10 +161,10 @@ TEST_CASE("no grain is thrown out of a start whose solve diverges at first") {
 
 TEST_CASE("a free grain keeps its angular momentum while it tumbles") {
   const ConvexShape shape = pinacoid({});
-  ShapeBed bed = make_shape_bed({6, 6, periodic, walls}, shape, {pose_at(3, 3, 50)});
-  bed.turn[0] = Vector(0.02, -0.1, 0.05);
+  PolyhedronBed bed = make_bed({6, 6, periodic, walls}, shape, {pose_at(3, 3, 50)});
+  bed.spin[0] = Vector(0.02, -0.1, 0.05);
   const auto momentum = [&] {
-    return Vector(bed.pose(0).orientation * shape.inertia.cwiseProduct(bed.turn[0]));
+    return Vector(bed.pose(0).orientation * shape.inertia.cwiseProduct(bed.spin[0]));
   };
   const Vector before = momentum();
   ShapeStepState<double> state;
@@ -174,9 +174,9 @@ TEST_CASE("a free grain keeps its angular momentum while it tumbles") {
 }
 
 TEST_CASE("contacts between grains change neither their momentum nor their angular momentum") {
-  ShapeBed bed = testing::random_shape_bed({6, 6, periodic, periodic}, pinacoid({}), 60, 4, 7);
-  for (Record<double>& centre : bed.centre) centre.z += 20;  // far above the floor
-  const ShapeBed before = bed;
+  PolyhedronBed bed = testing::random_shape_bed({6, 6, periodic, periodic}, pinacoid({}), 60, 4, 7);
+  for (std::size_t i = 0; i < bed.grains(); ++i) bed.position[i].z += 20;  // far above the floor
+  const PolyhedronBed before = bed;
   ShapeStepState<double> state;
   StepSettings settings = tight_steps(0);
   settings.limits.iterations = 300;
@@ -206,7 +206,7 @@ TEST_CASE("contacts between grains change neither their momentum nor their angul
 
 /// A few layers of pinacoids, settled by the stages known to bring them to rest.
 template <class Real>
-StepReport settle(ShapeBed& bed, ShapeStepState<Real>& state) {
+StepReport settle(PolyhedronBed& bed, ShapeStepState<Real>& state) {
   struct Stage {
     double dt, momentum, near, correction;
     int iterations, steps;
@@ -230,12 +230,12 @@ TEST_CASE("a settled bed of pinacoids balances its weight and is isostatic", "[s
   spec.box = {5, 5, periodic, walls};
   spec.fill = SolidHeight{3};
   spec.shape = PinacoidSize{};
-  const auto start = start_shapes(spec);
-  REQUIRE(start);
-  ShapeBed bed = *start;
+  const auto begin = start<Polyhedron>(spec);
+  REQUIRE(begin);
+  PolyhedronBed bed = *begin;
   ShapeStepState<double> state;
   const StepReport report = settle(bed, state);
-  const ShapeBed before = bed;
+  const PolyhedronBed before = bed;
   StepSettings still = tight_steps(0);
   still.dt = 0.05;
   still.near = 0.03;
@@ -245,7 +245,7 @@ TEST_CASE("a settled bed of pinacoids balances its weight and is isostatic", "[s
   CHECK(last.largest_motion < 2e-3);  // rest is the slow sliding of a few grains
   // The floor carries what does not accelerate.
   const double weight = testing::weight_of(bed);
-  CHECK(testing::wall_force(state, bed.wall(0), 0.05) == Approx(weight).epsilon(0.02));
+  CHECK(testing::wall_force(state, bed.wall_name(0), 0.05) == Approx(weight).epsilon(0.02));
   std::int64_t constraints = 0;
   for (const ShapeContact& c : state.contacts.contacts) {
     constraints += constraints_of(state.contacts.points.data() + c.first, c.count, 1e-4);
@@ -261,7 +261,7 @@ TEST_CASE("a settled bed of pinacoids balances its weight and is isostatic", "[s
 TEST_CASE("grains of one sweep are the same on every instruction set") {
   std::vector<std::uint64_t> hashes;
   for (const Isa isa : testing::testable_isas()) {
-    ShapeBed bed = testing::random_shape_bed({6, 6, periodic, walls}, pinacoid({}), 80, 5, 2);
+    PolyhedronBed bed = testing::random_shape_bed({6, 6, periodic, walls}, pinacoid({}), 80, 5, 2);
     ShapeStepState<float> state;
     StepSettings settings;
     for (int k = 0; k < 30; ++k) step(settings, kernels_for(isa), bed, state);
@@ -272,11 +272,11 @@ TEST_CASE("grains of one sweep are the same on every instruction set") {
 
 TEMPLATE_TEST_CASE("every solver finds the impulses and the residual of a dense reference", "",
                    float, double) {
-  ShapeBed bed = testing::random_shape_bed({6, 6, periodic, walls}, pinacoid({}), 8, 1.5, 4);
+  PolyhedronBed bed = testing::random_shape_bed({6, 6, periodic, walls}, pinacoid({}), 8, 1.5, 4);
   ShapeStepState<TestType> state;
   StepSettings settings = tight_steps(0);
   settings.limits.iterations = 1;
-  const ShapeBed start = bed;
+  const PolyhedronBed start = bed;
   step(settings, kernels(), bed, state);
   const testing::DenseLevers dense = testing::dense_levers(state.rows, state.motion.free);
   const testing::WideVector exact = testing::solve_dense(dense);

@@ -54,7 +54,7 @@ StepProblem<Real> random_problem(std::int64_t grains, std::uint64_t seed) {
   spec.fill = GrainCount{grains};
   spec.sizes = {0.05, 0.2, 0.6};
   spec.random_key = seed;
-  StepProblem<Real> problem{start(spec).value(), {}, {}};
+  StepProblem<Real> problem{start<Sphere>(spec).value(), {}, {}};
   problem.contacts = testing::contacts_of<Real>(problem.bed, 0.4, kernels());
   problem.motion.free = colliding_motion<Real>(problem.bed, draw);
   return problem;
@@ -296,7 +296,7 @@ TEST_CASE("methods with a memory need far fewer sweeps than those without") {
 StepProblem<double> large_problem() {
   testing::RandomScene scene;
   scene.box = {20, 10, periodic, walls};
-  scene.grains = large_bed_grains;
+  scene.grains = large_bed_grains<Sphere>;
   scene.height = static_cast<double>(scene.grains) / 250.0;
   scene.least_radius = 0.3;
   Draw draw(3);

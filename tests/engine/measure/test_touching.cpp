@@ -69,12 +69,12 @@ TEST_CASE("no grains, or one in the air, touch nothing") {
 TEST_CASE("grains with corners touch by the distance of their surfaces") {
   // Faces .001 apart, an edge .02 above a face, a corner on the floor, one cube in another.
   const Quaternion on_edge(Eigen::AngleAxisd(0.78539816339744831, Vector::UnitX()));
-  ShapeBed bed = make_shape_bed({9, 9, testing::periodic, testing::walls}, testing::cube(),
-                                {{{1, 1, 0.5}, 1, Quaternion::Identity()},
-                                 {{2.001, 1, 0.5}, 1, Quaternion::Identity()},
-                                 {{1, 1, 1.02 + std::sqrt(0.5)}, 1, on_edge},
-                                 {{5, 5, 5}, 1, Quaternion::Identity()},
-                                 {{5.9, 5, 5}, 1, Quaternion::Identity()}});
+  PolyhedronBed bed = make_bed({9, 9, testing::periodic, testing::walls}, testing::cube(),
+                               {{{1, 1, 0.5}, 1, Quaternion::Identity()},
+                                {{2.001, 1, 0.5}, 1, Quaternion::Identity()},
+                                {{1, 1, 1.02 + std::sqrt(0.5)}, 1, on_edge},
+                                {{5, 5, 5}, 1, Quaternion::Identity()},
+                                {{5.9, 5, 5}, 1, Quaternion::Identity()}});
   const Touching touching = find_touching(bed, 0.05, kernels());
   const auto gap = [&](std::int32_t a, std::int32_t b) {
     for (const TouchingPair& pair : touching.pairs) {

@@ -16,8 +16,10 @@ namespace {
 using testing::Draw;
 using testing::PairFamily;
 
+/// Of a grain of radius 1, whose scale is 2.
 PinacoidHalves halves_of(const ConvexShape& shape) {
-  return {shape.pinacoid->a, shape.pinacoid->b, shape.pinacoid->c, shape.pinacoid->e};
+  const PinacoidWidth& w = *shape.pinacoid;
+  return {2 * w.a, 2 * w.b, 2 * w.c, 2 * w.e};
 }
 
 Record<double> record(const Quaternion& q) { return {q.x(), q.y(), q.z(), q.w()}; }
@@ -44,8 +46,8 @@ Batch batch_of(PairFamily family, const ConvexShape& shape, std::size_t blocks, 
     const Quaternion a = testing::random_rotation(draw);
     const Quaternion b = (a * Quaternion(pose.turn)).normalized();
     const Vector centre = place + a * pose.centre;
-    batch.centres.push_back({place.x(), place.y(), place.z(), pose.scale_a});
-    batch.centres.push_back({centre.x(), centre.y(), centre.z(), pose.scale_b});
+    batch.centres.push_back({place.x(), place.y(), place.z(), 0.5 * pose.scale_a});
+    batch.centres.push_back({centre.x(), centre.y(), centre.z(), 0.5 * pose.scale_b});
     batch.orientations.push_back(record(a));
     batch.orientations.push_back(record(b));
   }
@@ -161,7 +163,7 @@ TEST_CASE("the batch test sees the nearest image and offsets of a million d") {
 TEST_CASE("upright pinacoids side by side are parted by exact numbers") {
   const ConvexShape shape = pinacoid({1.5, 1, 0.5, 1});
   Batch batch;
-  batch.centres = {{0, 0, 0, 1}, {0, 0, 0.75, 1}, {0, 0, 0, 2}, {0, 0, 0.75, 1}};
+  batch.centres = {{0, 0, 0, 0.5}, {0, 0, 0.75, 0.5}, {0, 0, 0, 1}, {0, 0, 0.75, 0.5}};
   batch.orientations.assign(4, {0, 0, 0, 1});
   batch.blocks.resize(1);
   for (std::size_t lane = 0; lane < block_width; ++lane) {

@@ -39,7 +39,7 @@ bool far_by_distance(const ShapePair& pair, double margin) {
 }
 
 /// Every pair by all axes in f64, every grain and wall.
-Found brute_force(const ShapeBed& bed, const TouchSettings& settings) {
+Found brute_force(const PolyhedronBed& bed, const TouchSettings& settings) {
   Found names;
   ClipColumns clip;
   std::vector<ContactPoint> points;
@@ -53,10 +53,10 @@ Found brute_force(const ShapeBed& bed, const TouchSettings& settings) {
     for (std::size_t k = 0; k < bed.walls.size(); ++k) {
       std::size_t count = 0;
       for (const Vector& v : bed.shape.vertices) {
-        const Vector x = bed.pose(i).centre + bed.centre[i].w * (bed.pose(i).orientation * v);
+        const Vector x = bed.pose(i).centre + bed.scale(i) * (bed.pose(i).orientation * v);
         count += bed.walls[k].distance(x.x(), x.y(), x.z()) <= settings.margin ? 1 : 0;
       }
-      if (count > 0) names[{static_cast<int>(i), bed.wall(k)}] = count;
+      if (count > 0) names[{static_cast<int>(i), bed.wall_name(k)}] = count;
     }
   }
   return names;
@@ -81,7 +81,7 @@ TEST_CASE("contacts of a bed of shapes are those of all pairs and walls, no more
   const ConvexShape hull = testing::hull_of(pinacoid({}).vertices);
   for (const ConvexShape& shape : {pinacoid({}), hull, testing::cube()}) {
     for (const Boundary y : {periodic, walls}) {
-      ShapeBed bed = testing::random_shape_bed({6, 5, periodic, y}, shape, 150, 4, 11);
+      PolyhedronBed bed = testing::random_shape_bed({6, 5, periodic, y}, shape, 150, 4, 11);
       ShapeSearch search;
       ShapeContacts found;
       CHECK(find_contacts(usual, kernels(), bed, search, found));
@@ -91,7 +91,7 @@ TEST_CASE("contacts of a bed of shapes are those of all pairs and walls, no more
 }
 
 TEST_CASE("contacts stay complete while grains move and turn, with few searches") {
-  ShapeBed bed = testing::random_shape_bed({6, 5, periodic, walls}, pinacoid({}), 100, 4, 3);
+  PolyhedronBed bed = testing::random_shape_bed({6, 5, periodic, walls}, pinacoid({}), 100, 4, 3);
   testing::Draw draw(5);
   ShapeSearch search;
   ShapeContacts found;
@@ -111,8 +111,8 @@ TEST_CASE("contacts stay complete while grains move and turn, with few searches"
 TEST_CASE("a pinacoid and the hull of its corners touch at the same points") {
   const ConvexShape shape = pinacoid({}), hull = testing::hull_of(shape.vertices);
   // At random no two axes are equally good, so that both choose the same.
-  ShapeBed closed = testing::random_shape_bed({6, 5, periodic, walls}, shape, 120, 4, 2);
-  ShapeBed open = closed;
+  PolyhedronBed closed = testing::random_shape_bed({6, 5, periodic, walls}, shape, 120, 4, 2);
+  PolyhedronBed open = closed;
   open.shape = hull;
   ShapeSearch search_closed, search_open;
   ShapeContacts a, b;

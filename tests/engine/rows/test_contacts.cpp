@@ -67,7 +67,8 @@ void expect_right_layout(const SphereBed& bed, const Candidates& candidates,
 
 Candidates candidates_within(double distance, SphereBed& bed) {
   Candidates candidates;
-  find_candidates(bed, distance, kernels(), candidates);
+  wrap(bed);
+  find_candidates({bed, bed.position}, distance, kernels(), candidates);
   return candidates;
 }
 

@@ -43,7 +43,8 @@ std::vector<SphereBed> large_beds() {
 
 Candidates candidates_of(SphereBed& bed) {
   Candidates candidates;
-  find_candidates(bed, 0.1, kernels(), candidates);
+  wrap(bed);
+  find_candidates({bed, bed.position}, 0.1, kernels(), candidates);
   return candidates;
 }
 
@@ -282,7 +283,8 @@ TEST_CASE("candidates of a large bed are the same in whatever order their parts 
   for (const ParallelFor& loop :
        {ParallelFor(testing::last_part_first), ParallelFor(testing::two_threads)}) {
     Candidates other;
-    find_candidates(bed, 0.1, {kernels(), loop}, other);
+    wrap(bed);
+    find_candidates({bed, bed.position}, 0.1, {kernels(), loop}, other);
     REQUIRE(other.pairs.size() == plain.pairs.size());
     CHECK(std::equal(plain.pairs.begin(), plain.pairs.end(), other.pairs.begin(),
                      [](GrainPair a, GrainPair b) { return a.a == b.a && a.b == b.b; }));

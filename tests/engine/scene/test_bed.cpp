@@ -29,8 +29,8 @@ TEST_CASE("a bed holds its spheres, the wall and two void grains") {
 }
 
 TEST_CASE("each subdomain of a large bed has a wall and two void grains of its own") {
-  const SphereBed bed = bed_of(std::vector<PlacedSphere>(large_bed_grains, {1, 2, 3, 0.5}));
-  REQUIRE(bed.grains() == large_bed_grains);
+  const SphereBed bed = bed_of(std::vector<PlacedSphere>(large_bed_grains<Sphere>, {1, 2, 3, 0.5}));
+  REQUIRE(bed.grains() == large_bed_grains<Sphere>);
   REQUIRE(bed.subdomains > 1);
   std::set<std::int32_t> entries;
   for (std::size_t subdomain = 0; subdomain < bed.subdomains; ++subdomain) {

@@ -40,7 +40,7 @@ TEST_CASE("grains start apart from each other and from all walls") {
                          Box{2.9, 1.45, walls, walls}, Box{9, 1.45, periodic, walls}}) {
     for (const std::int64_t grains : {1, 2, 60, 400}) {
       INFO(box.length << " x " << box.width << ", " << grains << " grains");
-      const auto bed = start(spec_of(box, grains, two_sizes));
+      const auto bed = start<Sphere>(spec_of(box, grains, two_sizes));
       REQUIRE(bed);
       REQUIRE(bed->grains() == static_cast<std::size_t>(grains));
       CHECK(testing::pairs_closer_than(*bed, 0.0).empty());
@@ -56,25 +56,25 @@ TEST_CASE("grains start apart from each other and from all walls") {
 TEST_CASE("grains ten times smaller start apart from large ones, whichever came first") {
   // A spread of .2 makes some grains of the large class smaller than half of the largest.
   for (const SizesSpec& sizes : {SizesSpec{0.03, 0.1, 0.1}, SizesSpec{0.2, 0.02, 0.1}}) {
-    const auto bed = start(spec_of({3, 3, periodic, walls}, 2500, sizes));
+    const auto bed = start<Sphere>(spec_of({3, 3, periodic, walls}, 2500, sizes));
     REQUIRE(bed);
     CHECK(testing::pairs_closer_than(*bed, 0.0).empty());
   }
 }
 
 TEST_CASE("grains fill a column of the start's solid fraction") {
-  const auto bed = start(spec_of({8, 8, periodic, periodic}, 800));
+  const auto bed = start<Sphere>(spec_of({8, 8, periodic, periodic}, 800));
   REQUIRE(bed);
   double solid = 0;
   for (std::size_t i = 0; i < bed->grains(); ++i) {
     solid += sphere_volume(bed->position[i].w);
   }
   // The highest of 800 grains comes within a few percent of the top.
-  CHECK(solid / (64 * top_of(*bed)) == Approx(start_solid_fraction).epsilon(0.02));
+  CHECK(solid / (64 * top_of(*bed)) == Approx(sphere_start_solid_fraction).epsilon(0.02));
 }
 
 TEST_CASE("grains are numbered from the floor up, layer by layer of at most two diameters") {
-  const auto bed = start(spec_of({8, 4, periodic, walls}, 500));
+  const auto bed = start<Sphere>(spec_of({8, 4, periodic, walls}, 500));
   REQUIRE(bed);
   double highest = 0;
   for (std::size_t i = 0; i < bed->grains(); ++i) {
@@ -84,7 +84,7 @@ TEST_CASE("grains are numbered from the floor up, layer by layer of at most two 
 }
 
 TEST_CASE("grains start at rest with the sizes drawn for them") {
-  const auto bed = start(spec_of({8, 4, periodic, walls}, 100));
+  const auto bed = start<Sphere>(spec_of({8, 4, periodic, walls}, 100));
   REQUIRE(bed);
   for (std::size_t i = 0; i < bed->grains(); ++i) {
     const Record<double>& motion = bed->motion[i];
@@ -95,8 +95,9 @@ TEST_CASE("grains start at rest with the sizes drawn for them") {
 
 TEST_CASE("equal keys start alike, different keys do not") {
   const Box box{8, 4, periodic, walls};
-  const auto a = start(spec_of(box, 200, {}, 7)), b = start(spec_of(box, 200, {}, 7)),
-             c = start(spec_of(box, 200, {}, 8));
+  const auto a = start<Sphere>(spec_of(box, 200, {}, 7)),
+             b = start<Sphere>(spec_of(box, 200, {}, 7)),
+             c = start<Sphere>(spec_of(box, 200, {}, 8));
   REQUIRE((a && b && c));
   CHECK(testing::same_bits(a->position, b->position));
   CHECK_FALSE(testing::same_bits(a->position, c->position));
@@ -106,19 +107,19 @@ TEST_CASE("placed grains are taken as they are, in their order") {
   PackingSpec spec;
   const std::vector<PlacedSphere> spheres = {{5, 5, 9, 0.5}, {1, 2, 0.25, 0.25}};
   spec.fill = PlacedGrains{spheres};
-  const auto bed = start(spec);
+  const auto bed = start<Sphere>(spec);
   REQUIRE(bed);
   CHECK(testing::same_bits(bed->position, make_bed(bed->box, spheres).position));
 }
 
 TEST_CASE("a grain larger than the gap between the walls gives no bed") {
-  CHECK_FALSE(start(spec_of({8, 0.99, periodic, walls}, 1, {0, 0, 0.5})));
-  CHECK_FALSE(start(spec_of({0.99, 8, walls, periodic}, 1, {0, 0, 0.5})));
-  CHECK(start(spec_of({8, 1, periodic, walls}, 1, {0, 0, 0.5})));
+  CHECK_FALSE(start<Sphere>(spec_of({8, 0.99, periodic, walls}, 1, {0, 0, 0.5})));
+  CHECK_FALSE(start<Sphere>(spec_of({0.99, 8, walls, periodic}, 1, {0, 0, 0.5})));
+  CHECK(start<Sphere>(spec_of({8, 1, periodic, walls}, 1, {0, 0, 0.5})));
 }
 
 TEST_CASE("no grains give an empty bed") {
-  const auto bed = start(spec_of({8, 4, periodic, walls}, 0));
+  const auto bed = start<Sphere>(spec_of({8, 4, periodic, walls}, 0));
   REQUIRE(bed);
   CHECK(bed->grains() == 0);
 }

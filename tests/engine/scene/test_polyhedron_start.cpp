@@ -3,8 +3,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "engine/scene/shape_start.hpp"
 #include "engine/scene/sizes.hpp"
+#include "engine/scene/start.hpp"
 #include "engine/units.hpp"
 #include "tests/support/shape_beds.hpp"
 
@@ -25,10 +25,11 @@ PackingSpec spec_of(double solid_height, std::uint64_t key = 1) {
 
 TEST_CASE("a start has the solid volume asked for") {
   const ConvexShape shape = pinacoid({});
-  const auto bed = start_shapes(spec_of(10));
+  const auto bed = start<Polyhedron>(spec_of(10));
   REQUIRE(bed);
   double volume = 0;
-  for (const Record<double>& c : bed->centre) volume += shape.volume * c.w * c.w * c.w;
+  for (std::size_t i = 0; i < bed->grains(); ++i)
+    volume += shape.volume * std::pow(bed->scale(i), 3);
   // A thousand grains whose volumes scatter by a tenth: the sum by .3 %, three times that here.
   CHECK(volume / 40 == Approx(10).epsilon(0.01));
 }
@@ -37,10 +38,10 @@ TEST_CASE("grains have the diameters that are drawn for spheres as scales") {
   PackingSpec spec = spec_of(1);
   spec.fill = GrainCount{300};
   spec.sizes.small_share = 0.3;
-  const auto bed = start_shapes(spec);
+  const auto bed = start<Polyhedron>(spec);
   REQUIRE(bed);
   std::vector<double> scales, expected;
-  for (const Record<double>& c : bed->centre) scales.push_back(c.w);
+  for (std::size_t i = 0; i < bed->grains(); ++i) scales.push_back(bed->scale(i));
   for (const double radius : draw_radii(spec)) expected.push_back(2 * radius);
   std::sort(scales.begin(), scales.end());
   std::sort(expected.begin(), expected.end());
@@ -50,15 +51,15 @@ TEST_CASE("grains have the diameters that are drawn for spheres as scales") {
 
 TEST_CASE("centres are inside the column, no two nearer than their balls allow") {
   const ConvexShape shape = pinacoid({});
-  const auto bed = start_shapes(spec_of(6));
+  const auto bed = start<Polyhedron>(spec_of(6));
   REQUIRE(bed);
   const double ball = start_ball * std::cbrt(shape.volume / sphere_volume(1.0));
-  const double height = 6 / shape_start_solid_fraction * 1.02;
+  const double height = 6 / polyhedron_start_solid_fraction * 1.02;
   for (std::size_t i = 0; i < bed->grains(); ++i) {
-    const Record<double>& c = bed->centre[i];
+    const Record<double>& c = bed->position[i];
     REQUIRE((c.z > 0 && c.z < height && c.y > 0 && c.y < 5));
     for (std::size_t j = 0; j < i; ++j) {
-      const double reach = ball * (c.w + bed->centre[j].w);
+      const double reach = ball * (bed->scale(i) + bed->scale(j));
       REQUIRE(nearest_difference(*bed, j, i).norm() > reach * (1 - 1e-12));
     }
   }
@@ -68,7 +69,7 @@ TEST_CASE("orientations are uniform over all rotations") {
   PackingSpec spec = spec_of(1);
   spec.box = {20, 20, periodic, periodic};
   spec.fill = GrainCount{4000};
-  const auto bed = start_shapes(spec);
+  const auto bed = start<Polyhedron>(spec);
   REQUIRE(bed);
   Matrix mean = Matrix::Zero(), square = Matrix::Zero();
   for (std::size_t i = 0; i < bed->grains(); ++i) {
@@ -84,8 +85,8 @@ TEST_CASE("orientations are uniform over all rotations") {
 
 TEST_CASE("the same key gives the same bed of shapes, another key another") {
   const ConvexShape shape = pinacoid({});
-  const auto a = start_shapes(spec_of(3)), b = start_shapes(spec_of(3));
-  const auto c = start_shapes(spec_of(3, 2));
+  const auto a = start<Polyhedron>(spec_of(3)), b = start<Polyhedron>(spec_of(3));
+  const auto c = start<Polyhedron>(spec_of(3, 2));
   REQUIRE((a && b && c));
   CHECK(state_hash(*a) == state_hash(*b));
   CHECK(state_hash(*a) != state_hash(*c));
