@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "runner/commands/commands.hpp"
+#include "runner/commands/results.hpp"
 #include "runner/exit_codes.hpp"
-#include "runner/results.hpp"
 #include "runner/store/files.hpp"
 #include "runner/store/journal.hpp"
 #include "runner/store/lock.hpp"

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "runner/results.hpp"
+#include "runner/commands/results.hpp"
 #include "runner/sweep/job.hpp"
 
 namespace grainsweep {

@@ -9,12 +9,12 @@
 
 #include "runner/commands/commands.hpp"
 #include "runner/commands/inputs.hpp"
+#include "runner/commands/results.hpp"
 #include "runner/exit_codes.hpp"
 #include "runner/instruction_set.hpp"
 #include "runner/jobs/pack_pending.hpp"
 #include "runner/jobs/stop.hpp"
 #include "runner/machine.hpp"
-#include "runner/results.hpp"
 #include "runner/store/checkpoints.hpp"
 #include "runner/store/files.hpp"
 #include "runner/store/journal.hpp"

@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "runner/commands/commands.hpp"
+#include "runner/commands/results.hpp"
 #include "runner/exit_codes.hpp"
-#include "runner/results.hpp"
 #include "runner/store/lock.hpp"
 #include "runner/text.hpp"
 #include "runner/versions.hpp"

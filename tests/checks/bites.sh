@@ -59,10 +59,20 @@ bite_folder_order() {
   finds_planted engine/scene/json.cpp '#include <nlohmann/json.hpp>' 'reads and prints nothing' "${check[@]}"
   plant engine/measure/phi.hpp <<<''
   finds_planted engine/scene/back.cpp '#include "engine/measure/phi.hpp"' \
-    'folders include each other: engine/' "${check[@]}"
+    'include each other: engine/' "${check[@]}"
+  rm "$copy/engine/measure/phi.hpp"
+  plant engine/packing.hpp <<<'#include "engine/scene/bed.hpp"'
+  finds_planted engine/measure/up.cpp '#include "engine/packing.hpp"' 'not of the ground floor' "${check[@]}"
+  rm "$copy/engine/packing.hpp"
+  plant engine/units.hpp <<<'#include "engine/scene/bed.hpp"'
+  finds_planted engine/scene/long.hpp '#include "engine/units.hpp"' \
+    'include each other: engine/' "${check[@]}"
+  rm "$copy/engine/units.hpp"
+  plant bench/beds.hpp <<<''
+  finds_planted tests/test_beds.cpp '#include "bench/beds.hpp"' 'tests may include only' "${check[@]}"
   plant engine/scene/one.hpp <<<'#include "engine/scene/two.hpp"'
   finds_planted engine/scene/two.hpp '#include "engine/scene/one.hpp"' \
-    'files include each other: engine/scene/' "${check[@]}"
+    'include each other: engine/scene/' "${check[@]}"
 }
 
 bite_format() {

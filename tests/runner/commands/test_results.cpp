@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 
+#include "runner/commands/results.hpp"
 #include "runner/exit_codes.hpp"
-#include "runner/results.hpp"
 #include "runner/store/checkpoints.hpp"
 #include "runner/store/files.hpp"
 #include "runner/store/journal.hpp"

@@ -1,4 +1,4 @@
-#include "runner/results.hpp"
+#include "runner/commands/results.hpp"
 
 #include <algorithm>
 #include <array>
