@@ -105,12 +105,17 @@ void add_report(CLI::App& app, ReportOptions& options) {
 
 void add_compare(CLI::App& app, CompareOptions& options) {
   CLI::App& compare = *app.add_subcommand(
-      "compare", "Print results beside the printed numbers of Camenen, Descantes, Richard (2013)");
+      "compare", "Print results beside published values, and whether they agree");
   add_folder(compare, options.folder);
+  compare
+      .add_option("--with", options.with,
+                  "published values, JSON (default: SWEEP.reference.json beside SWEEP.json)")
+      ->type_name("FILE");
   compare.footer(
-      "Each row says what was measured and how, by how much it differs from the paper, and how\n"
-      "many standard errors that is; \"not determined\" and why where the sweep does not tell.\n\n"
-      "Example: grainsweep compare out/paper-spheres");
+      "Each row says what was measured and how, by how much it differs from the published value,\n"
+      "and how many standard errors that is; \"not determined\" and why where the sweep does not\n"
+      "tell.\n\nExample: grainsweep compare out/paper-spheres\n"
+      "Example: grainsweep compare out/quick --with configs/paper-spheres.reference.json");
 }
 
 void add_export(CLI::App& app, ExportOptions& options) {

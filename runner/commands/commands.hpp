@@ -44,8 +44,9 @@ int report(const ReportOptions& options);
 
 struct CompareOptions {
   std::string folder;
+  std::string with;  ///< file of published values; empty: the one beside the sweep file
 };
-/// Prints stored results beside the numbers of the reference study.
+/// Prints stored results beside published values.
 int compare(const CompareOptions& options);
 
 struct ExportOptions {

@@ -1,24 +1,40 @@
-// The command `compare`: stored results beside printed ones.
+// The command `compare`: stored results beside published values.
 #include <iostream>
 
 #include "runner/commands/commands.hpp"
 #include "runner/commands/inputs.hpp"
 #include "runner/compare/comparison.hpp"
 #include "runner/exit_codes.hpp"
+#include "runner/store/files.hpp"
 #include "runner/tables/families.hpp"
+#include "runner/text.hpp"
 
 namespace grainsweep {
+namespace {
+
+/// The file asked for, or the one beside the sweep. Throws BadInput if there is none.
+std::string reference_file(const CompareOptions& options, const Provenance& provenance) {
+  if (!options.with.empty()) return options.with;
+  const std::string beside = reference_beside(provenance.sweep_file);
+  if (!provenance.sweep_file.empty() && file_exists(beside)) return beside;
+  throw BadInput(options.folder + ": there are no published values beside the sweep" +
+                 (provenance.sweep_file.empty() ? "" : " (" + beside + ")") +
+                 "; name their file: --with configs/paper-spheres.reference.json");
+}
+
+}  // namespace
 
 int compare(const CompareOptions& options) {
   Results results = results_with_warnings(options.folder);
+  const Reference reference = read_reference(reference_file(options, results.provenance));
   std::cerr << damage_warnings(options.folder, load_curves(options.folder, results.rows));
-  const auto rows = compare_with_paper(families_of(groups_of(results.rows)));
-  std::cout << "Camenen, Descantes, Richard, Confined packings of frictionless spheres and "
-               "polyhedra,\nPowders & Grains 2013, and " +
-                   results.provenance.sweep.name +
-                   ". Lengths in d. Errors of means come\nfrom the variance of replicates pooled "
-                   "over the groups of a family. Definitions below each row.\n\n"
-            << comparison_text(rows);
+  std::cout << reference.source + "\nbeside " + results.provenance.sweep.name +
+                   ". Lengths in d. Errors of means come from the variance of replicates pooled\n"
+                   "over the groups of a family. Values agree within " +
+                   fixed(agreement_limit, 0) +
+                   " standard errors of both sides together; where\nthe source has no error, ours "
+                   "alone counts.\n" +
+                   comparison_text(reference, families_of(groups_of(results.rows)));
   return exit_done;
 }
 

@@ -1,46 +1,44 @@
-// What the reference study of confined packings says (Camenen, Descantes, Richard, Powders &
-// Grains 2013), and what a sweep found.
+// What a source says of a sweep's packings, what the sweep found, and whether both agree.
 #pragma once
 
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "runner/tables/fits.hpp"
+#include "runner/compare/quantities.hpp"
+#include "runner/compare/reference.hpp"
 
 namespace grainsweep {
 
-/// A value of the paper: a number, a range, or nothing but words.
-struct PaperValue {
-  std::string text;  ///< as printed: "6.027 ± 0.012", "3 to 4", "not printed"
-  /// The range in numbers, low = high for a single one; nothing where there is none.
-  struct Range {
-    double low = 0.0, high = 0.0;
-    double error = 0.0;  ///< printed error, 0 if there is none
-  };
-  std::optional<Range> range;
-};
+/// So many standard errors, of both sides in quadrature, may lie between values that agree.
+inline constexpr double agreement_limit = 3.0;
 
 struct Comparison {
   std::string family;
-  std::string quantity;  ///< "λ_L / d_avg at W = 10 d"
-  PaperValue paper;
-  Estimate ours;               ///< value and standard error
-  std::string not_determined;  ///< why there is no value of ours; empty if there is one
-  std::string definition;      ///< of our value
+  std::string title;  ///< "Z at W = 10 d"
+  Published published;
+  Measured measured;
+  /// Of a value that is said to hold for all families: chi2 per degree of freedom of theirs.
+  std::optional<double> chi2_per_dof;
 };
 
-/// Ours less the paper's, from the nearer end of a range and 0 inside it; nothing if either is
-/// missing.
+/// Measured less published value, from the nearer end of a range and 0 inside it; nothing if
+/// either is missing.
 std::optional<double> difference(const Comparison& comparison);
 
 /// The same over the standard errors of both, added in quadrature.
 std::optional<double> difference_in_errors(const Comparison& comparison);
 
-/// Every number of the paper, family by family, and what has been measured beside it.
-std::vector<Comparison> compare_with_paper(const std::vector<Family>& families);
+/// "agrees: -0.013, 0.8 errors"; "differs: ..."; "-" if there is nothing to compare.
+std::string verdict(const Comparison& comparison);
 
-/// A table for people: UTF-8, the definition of our value below each row.
-std::string comparison_text(const std::vector<Comparison>& comparisons);
+/// What the source has of each family, then what it says of all. Families of which it has nothing,
+/// and published families that are not in the sweep, are named by comparison_text.
+std::vector<Comparison> compare_with(const Reference& reference,
+                                     const std::vector<Family>& families);
+
+/// A table for people: UTF-8, the definitions of both values below each row. Names the families
+/// without published values.
+std::string comparison_text(const Reference& reference, const std::vector<Family>& families);
 
 }  // namespace grainsweep

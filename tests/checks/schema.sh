@@ -6,10 +6,13 @@ grainsweep=$(realpath "${1:?usage: schema.sh GRAINSWEEP}")
 readonly grainsweep
 cd "$(dirname "$0")/../../configs"
 
+shopt -s extglob
+readonly sweeps=(!(*.schema|*.reference).json)
+
 "$grainsweep" schema | cmp - sweep.schema.json
-for sweep in *.json; do
-  [[ $sweep == sweep.schema.json ]] || "$grainsweep" validate "$sweep"
-  [[ $sweep == sweep.schema.json ]] || grep -q '"\$schema": "sweep.schema.json"' "$sweep" || {
+for sweep in "${sweeps[@]}"; do
+  "$grainsweep" validate "$sweep"
+  grep -q '"\$schema": "sweep.schema.json"' "$sweep" || {
     printf 'configs/%s: does not name its schema\n' "$sweep" >&2
     exit 1
   }
@@ -19,14 +22,14 @@ if ! python3 -c 'import jsonschema' 2>/dev/null; then
   printf 'schema: python3-jsonschema is not installed; sweeps are checked by the program alone\n'
   exit 0
 fi
-python3 - *.json <<'PYTHON'
+python3 - "${sweeps[@]}" <<'PYTHON'
 import copy, json, sys
 import jsonschema
 
 schema = json.load(open("sweep.schema.json"))
 jsonschema.Draft7Validator.check_schema(schema)
 validator = jsonschema.Draft7Validator(schema)
-sweeps = [json.load(open(name)) for name in sys.argv[1:] if name != "sweep.schema.json"]
+sweeps = [json.load(open(name)) for name in sys.argv[1:]]
 for sweep in sweeps:
     validator.validate(sweep)
 

@@ -1,4 +1,5 @@
 # A small sweep from file to tables, and every command on its results.
+configs=$(realpath "$(dirname "$0")/../../../configs")
 source "$(dirname "$0")/common.sh" "$1"
 write_sweep small.json 2
 
@@ -36,8 +37,16 @@ done
 
 expect_code 0 "$program" report out/small
 cmp out.txt report.txt || fail "report prints another table than run"
+expect_code 2 "$program" compare out/small
+expect_text error.txt "small.reference.json" "--with"
+printf '{"source": "A paper", "families": [{"where": {}, "values": [{"quantity": "Z", "width": 99, "value": 6}]}]}' \
+  >small.reference.json
 expect_code 0 "$program" compare out/small
-expect_text out.txt "paper" "6.027" "not determined: the sweep has no packings between walls at W"
+expect_text out.txt "A paper" "not determined: the sweep has no packings between walls at W = 99 d"
+for reference in "$configs"/*.reference.json; do
+  expect_code 0 "$program" compare out/small --with "$reference"
+  expect_text out.txt "Camenen"
+done
 expect_code 0 "$program" status out/small
 expect_text out.txt "10 of 10 packings done" "No runner at work"
 expect_code 0 "$program" status out/small --json

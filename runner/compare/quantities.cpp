@@ -1,0 +1,226 @@
+#include "runner/compare/quantities.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+
+#include "runner/compare/wall_zone.hpp"
+#include "runner/sweep/suggest.hpp"
+#include "runner/tables/csv.hpp"
+#include "runner/tables/decays.hpp"
+#include "runner/tables/fits.hpp"
+#include "runner/text.hpp"
+
+namespace grainsweep {
+namespace {
+
+std::string definition_of(const Group& group, Quantity quantity) {
+  const MeasureSpec& measure = group.job.measure;
+  const std::string slab = cell(measure.exclude_floor) + " d above the floor to " +
+                           cell(measure.exclude_surface) + " d below the surface";
+  if (quantity == Quantity::solid_fraction) return "exact solid volume from " + slab;
+  return "neighbours per grain from " + slab + ", walls not counted, gap < " +
+         cell(measure.gap_tolerances.front()) + " d; contacts / isostatic " +
+         fixed(group.contact_ratio.mean, 3);
+}
+
+/// The mean of replicates.
+template <Quantity quantity>
+Measured mean_of(const Family& family, const Group& group) {
+  const Spread& spread = spread_of(group, quantity);
+  Measured measured{
+      {spread.mean, pooled_error(family, quantity, spread.n)}, "", definition_of(group, quantity)};
+  if (spread.n == 0) {
+    measured.not_determined = "no packing has settled";
+  } else if (!std::isfinite(measured.estimate.error)) {
+    measured.not_determined = "one settled replicate leaves the error unknown";
+  }
+  return measured;
+}
+
+template <Quantity quantity>
+Measured unconfined(const Family& family) {
+  const Group* group = unconfined_reference(family);
+  if (group != nullptr) return mean_of<quantity>(family, *group);
+  return {{}, "the sweep has no settled packing with periodic y", ""};
+}
+
+Measured fitted(const WallFit& fit, double value, double error) {
+  constexpr double largest_chi2 = 3.0;  // per degree of freedom; about 1 where a line holds
+  const std::string doubt = fit.chi2_per_dof > largest_chi2 ? ": the line does not hold" : "";
+  return {{value, widened(error, fit)},
+          fit.not_determined,
+          "line in 1/W over " + std::to_string(fit.widths) + " widths, χ²/dof " +
+              fixed(fit.chi2_per_dof, 1) + doubt + "; errors widened by its root where above 1"};
+}
+
+template <Quantity quantity>
+Measured bulk(const Family& family) {
+  const WallFit fit = fit_walls(family, quantity);
+  return fitted(fit, fit.bulk.value, fit.bulk.error);
+}
+
+template <Quantity quantity>
+Measured slope(const Family& family) {
+  const WallFit fit = fit_walls(family, quantity);
+  return fitted(fit, fit.slope.value, fit.slope.error);
+}
+
+Measured zeta_difference(const Family& family) {
+  const WallFit phi = fit_walls(family, Quantity::solid_fraction);
+  const WallFit z = fit_walls(family, Quantity::coordination);
+  return {{z.zeta.value - phi.zeta.value,
+           std::hypot(widened(z.zeta.error, z), widened(phi.zeta.error, phi))},
+          phi.not_determined.empty() ? z.not_determined : phi.not_determined,
+          "ζ_φ = C / φ_bulk = " + fixed(phi.zeta.value, 3) +
+              " d, ζ_Z = C_Z / Z_bulk = " + fixed(z.zeta.value, 3) + " d, walls not counted"};
+}
+
+double mean_over(const Group& group, double PackingResult::*member) {
+  double sum = 0.0;
+  for (const PackingResult& result : group.settled) sum += result.*member;
+  return sum / static_cast<double>(group.settled.size());
+}
+
+/// lambda_L over one of the two mean diameters.
+template <double PackingResult::*mean_diameter>
+Measured decay_length(const Family& /*family*/, const Group& group) {
+  const DecayFit fit = decay_of(group, GrainClass::large);
+  const double diameter = mean_over(group, mean_diameter);
+  return {{fit.length.value / diameter, fit.length.error / diameter},
+          fit.not_determined,
+          "damped cosine through the large grains' φ(y), y = " + cell(decay_window_start) +
+              " d to " + cell(fit.window_end) +
+              " d from both walls; d_avg = " + fixed(diameter, 3) + " d, R² " +
+              fixed(fit.r_squared, 3) + ", misfit " + fixed(fit.misfit, 1)};
+}
+
+Measured reach(const Family& /*family*/, const Group& group) {
+  const DecayFit fit = decay_of(group, GrainClass::large);
+  return {fit.reach, fit.not_determined,
+          "where that oscillation has fallen to " + cell(100.0 * decay_reach_share) +
+              " % of the bulk solid fraction"};
+}
+
+Measured decay_over_slope(const Family& family, const Group& group) {
+  const DecayFit decay = decay_of(group, GrainClass::large);
+  const WallFit phi = fit_walls(family, Quantity::solid_fraction);
+  const double ratio = decay.length.value / phi.slope.value;
+  const double error =
+      std::abs(ratio) * std::hypot(decay.length.error / decay.length.value,
+                                   widened(phi.slope.error, phi) / phi.slope.value);
+  return {{ratio, error},
+          decay.not_determined.empty() ? phi.not_determined : decay.not_determined,
+          "decay length of the large grains' φ(y) over the slope C of φ"};
+}
+
+Measured zone_drop(const Family& /*family*/, const Group& group) {
+  const WallZone zone = wall_zone(group);
+  return {{zone.drop.mean, standard_error(zone.drop)},
+          zone.not_determined,
+          "grains farther than " + cell(core_distance) +
+              " d from both walls less those nearer "
+              "than " +
+              cell(first_layer) + " d, walls not counted, gap < " +
+              cell(group.job.measure.gap_tolerances.front()) + " d"};
+}
+
+Measured zone_width(const Family& /*family*/, const Group& group) {
+  const WallZone zone = wall_zone(group);
+  return {{zone.width.mean, standard_error(zone.width)},
+          zone.not_determined,
+          "of a layer with the wall's Z at each wall that has the packing's mean Z"};
+}
+
+struct NamedQuantity {
+  std::string_view name, title;
+  Measured (*of_family)(const Family&);               ///< null if it is one of a width
+  Measured (*of_group)(const Family&, const Group&);  ///< between walls; null if it is not
+};
+
+constexpr auto phi = Quantity::solid_fraction, z = Quantity::coordination;
+constexpr std::array<NamedQuantity, 15> quantities = {{
+    {"phi_unconfined", "φ without walls (bi-periodic)", unconfined<phi>, nullptr},
+    {"Z_unconfined", "Z without walls (bi-periodic)", unconfined<z>, nullptr},
+    {"phi_bulk", "φ_bulk of the fit", bulk<phi>, nullptr},
+    {"C", "C / d", slope<phi>, nullptr},
+    {"Z_bulk", "Z_bulk of the fit", bulk<z>, nullptr},
+    {"C_Z", "C_Z / d", slope<z>, nullptr},
+    {"zeta_difference", "ζ_Z - ζ_φ, d", zeta_difference, nullptr},
+    {"phi", "φ", nullptr, mean_of<phi>},
+    {"Z", "Z", nullptr, mean_of<z>},
+    {"lambda_by_number", "λ_L / d_avg by number", nullptr,
+     decay_length<&PackingResult::mean_diameter>},
+    {"lambda_by_volume", "λ_L / d_avg by volume", nullptr,
+     decay_length<&PackingResult::mean_diameter_by_volume>},
+    {"lambda_over_C", "λ_L / C", nullptr, decay_over_slope},
+    {"reach", "reach of the wall / d", nullptr, reach},
+    {"Z_drop", "drop of Z at the wall", nullptr, zone_drop},
+    {"Z_drop_width", "width of the drop of Z / d", nullptr, zone_width},
+}};
+
+const NamedQuantity* find_quantity(const std::string& name) {
+  const auto* const found = std::find_if(quantities.begin(), quantities.end(),
+                                         [&](const auto& one) { return one.name == name; });
+  return found == quantities.end() ? nullptr : found;
+}
+
+}  // namespace
+
+std::string fault_of_quantity(const std::string& quantity, double width) {
+  const NamedQuantity* found = find_quantity(quantity);
+  if (found == nullptr) {
+    std::vector<std::string> names;
+    for (const NamedQuantity& one : quantities) names.emplace_back(one.name);
+    return "unknown quantity \"" + quantity + "\"; known are " + comma_list(names);
+  }
+  if (found->of_group != nullptr && !(width > 0.0)) return quantity + " needs a \"width\"";
+  if (found->of_family != nullptr && width > 0.0) return quantity + " belongs to no \"width\"";
+  return "";
+}
+
+std::string title_of_quantity(const std::string& quantity, double width) {
+  const std::string title(find_quantity(quantity)->title);
+  return width > 0.0 ? title + " at W = " + cell(width) + " d" : title;
+}
+
+Measured measure_quantity(const std::string& quantity, double width, const Family& family) {
+  const NamedQuantity& named = *find_quantity(quantity);
+  if (named.of_family != nullptr) return named.of_family(family);
+  for (const Group& group : family.walled) {
+    if (group.job.box.width == width) return named.of_group(family, group);
+  }
+  return {{}, "the sweep has no packings between walls at W = " + cell(width) + " d", ""};
+}
+
+Shared share_quantity(const std::string& quantity, double width,
+                      const std::vector<Family>& families) {
+  constexpr std::size_t least_families = 3;
+  std::vector<Estimate> values;
+  double weight = 0.0, sum = 0.0;
+  for (const Family& family : families) {
+    const Measured one = measure_quantity(quantity, width, family);
+    if (!one.not_determined.empty()) continue;
+    values.push_back(one.estimate);
+    weight += std::pow(one.estimate.error, -2);
+    sum += one.estimate.value * std::pow(one.estimate.error, -2);
+  }
+  Shared shared;
+  if (values.size() < least_families) {
+    shared.measured.not_determined =
+        "needs it of 3 or more families, has " + std::to_string(values.size());
+    return shared;
+  }
+  shared.measured.estimate = {sum / weight, std::sqrt(1.0 / weight)};
+  for (const Estimate& one : values) {
+    shared.chi2_per_dof += std::pow((one.value - sum / weight) / one.error, 2) /
+                           static_cast<double>(values.size() - 1);
+  }
+  shared.measured.definition = "weighted mean of " + std::to_string(values.size()) +
+                               " families, χ²/dof " + fixed(shared.chi2_per_dof, 1) +
+                               " (about 1 if one value holds for all)";
+  return shared;
+}
+
+}  // namespace grainsweep

@@ -1,0 +1,36 @@
+// The numbers of a family that can be set beside published ones, by name.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/measure/decay.hpp"
+#include "runner/tables/families.hpp"
+
+namespace grainsweep {
+
+struct Measured {
+  Estimate estimate;           ///< value and standard error, in d where it is a length
+  std::string not_determined;  ///< why there is no value; empty if there is one
+  std::string definition;      ///< of the value
+};
+
+/// Why there can be no such value: an unknown name, or a width that is missing or means nothing to
+/// it; empty if there can be one.
+std::string fault_of_quantity(const std::string& quantity, double width);
+
+/// "Z at W = 10 d". The quantity and width must be without fault, here and below.
+std::string title_of_quantity(const std::string& quantity, double width);
+
+Measured measure_quantity(const std::string& quantity, double width, const Family& family);
+
+/// The mean of a quantity over all families, weighted by their errors, with its error and, in the
+/// definition, chi2 per degree of freedom: whether one value holds for all.
+struct Shared {
+  Measured measured;
+  double chi2_per_dof = 0.0;
+};
+Shared share_quantity(const std::string& quantity, double width,
+                      const std::vector<Family>& families);
+
+}  // namespace grainsweep

@@ -1,0 +1,113 @@
+#include "runner/compare/reference.hpp"
+
+#include <algorithm>
+
+#include <nlohmann/json.hpp>
+
+#include "runner/compare/quantities.hpp"
+#include "runner/exit_codes.hpp"
+#include "runner/store/files.hpp"
+#include "runner/sweep/suggest.hpp"
+#include "runner/tables/csv.hpp"
+
+namespace grainsweep {
+namespace {
+
+using nlohmann::json;
+
+void expect_keys(const json& object, const std::vector<std::string>& known) {
+  for (const auto& [key, value] : object.items()) {
+    const bool is_known = std::find(known.begin(), known.end(), key) != known.end();
+    if (!is_known) throw BadInput(unknown_key(key, known));
+  }
+}
+
+Published::Range range_of(const json& value, double error) {
+  const bool is_range = value.is_array();
+  const Published::Range range{is_range ? value.at(0) : value, is_range ? value.at(1) : value,
+                               error};
+  if (range.low > range.high) throw BadInput("a range must be [low, high]");
+  return range;
+}
+
+std::string text_of(const std::optional<Published::Range>& range) {
+  if (!range) return "-";
+  if (range->low < range->high) return cell(range->low) + " to " + cell(range->high);
+  return cell(range->low) + (range->error > 0.0 ? " ± " + cell(range->error) : "");
+}
+
+Published read_published(const json& from) {
+  expect_keys(from, {"quantity", "width", "value", "error", "text", "definition"});
+  Published published{.quantity = from.at("quantity"),
+                      .width = from.value("width", 0.0),
+                      .text = {},
+                      .range = {},
+                      .definition = from.value("definition", "")};
+  const std::string fault = fault_of_quantity(published.quantity, published.width);
+  if (!fault.empty()) throw BadInput(fault);
+  if (from.contains("value")) published.range = range_of(from["value"], from.value("error", 0.0));
+  published.text = from.value("text", text_of(published.range));
+  return published;
+}
+
+/// `read` of each element of the list under `key`; what it throws gets the place before it.
+template <typename Read>
+auto read_list(const json& object, const std::string& key, const Read& read) {
+  std::vector<decltype(read(object))> elements;
+  for (const json& element : object.value(key, json::array())) {
+    try {
+      elements.push_back(read(element));
+    } catch (const std::exception& error) {
+      throw BadInput("/" + key + "/" + std::to_string(elements.size()) + ": " + error.what());
+    }
+  }
+  return elements;
+}
+
+/// A value as `describes` compares it: 0 and 0.0 are one.
+std::string plain(const json& value) {
+  return value.is_number() ? json(value.get<double>()).dump() : value.dump();
+}
+
+PublishedFamily read_family(const json& from) {
+  expect_keys(from, {"where", "values"});
+  PublishedFamily family{.where = {}, .values = read_list(from, "values", read_published)};
+  for (const auto& [path, value] : from.at("where").items()) family.where[path] = plain(value);
+  return family;
+}
+
+Reference reference_of(const json& from) {
+  expect_keys(from, {"source", "families", "common"});
+  return {.source = from.at("source"),
+          .families = read_list(from, "families", read_family),
+          .common = read_list(from, "common", read_published)};
+}
+
+}  // namespace
+
+Reference read_reference(const std::string& path) {
+  const std::string text = read_file(path);
+  try {
+    return reference_of(json::parse(text));
+  } catch (const std::exception& error) {
+    throw BadInput(path + ": " + error.what());
+  }
+}
+
+std::string reference_beside(const std::string& sweep_file) {
+  const std::string ending = ".json";
+  const bool has_ending = sweep_file.ends_with(ending);
+  return sweep_file.substr(0, sweep_file.size() - (has_ending ? ending.size() : 0)) +
+         ".reference.json";
+}
+
+bool describes(const PublishedFamily& family, const std::string& parameters) {
+  const json known = json::parse(parameters).flatten();
+  return std::all_of(family.where.begin(), family.where.end(), [&](const auto& entry) {
+    std::string pointer = "/" + entry.first;
+    std::replace(pointer.begin(), pointer.end(), '.', '/');
+    return known.contains(pointer) && plain(known[pointer]) == entry.second;
+  });
+}
+
+}  // namespace grainsweep

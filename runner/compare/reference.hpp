@@ -1,0 +1,48 @@
+// Published values to compare a sweep with, as a JSON file gives them (see configs/README.md).
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace grainsweep {
+
+/// One published value, in d where it is a length; for some quantities a source has words alone.
+struct Published {
+  std::string quantity;  ///< a name that measure_quantity knows
+  double width = 0.0;    ///< gap between the walls at which it holds, d; 0 if it belongs to none
+  std::string text;      ///< as printed: "6.027 ± 0.012", "3 to 4", "falls with x_S", or "-"
+  /// The value in numbers, low = high if it is a single one; nothing if there is none.
+  struct Range {
+    double low = 0.0, high = 0.0;
+    double error = 0.0;  ///< printed error, 0 if there is none
+  };
+  std::optional<Range> range;
+  std::string definition;  ///< what the source says of it; may be empty
+};
+
+/// Values of the families whose parameters are those of `where`: dotted path -> value.
+struct PublishedFamily {
+  std::map<std::string, std::string> where;
+  std::vector<Published> values;
+};
+
+struct Reference {
+  std::string source;
+  std::vector<PublishedFamily> families;
+  std::vector<Published> common;  ///< values that the source says to be the same in all families
+};
+
+/// Throws BadInput with file and place if the file is not of this form, FileError if it cannot be
+/// read.
+Reference read_reference(const std::string& path);
+
+/// Where the published values of a sweep are: "configs/paper.reference.json" for
+/// "configs/paper.json".
+std::string reference_beside(const std::string& sweep_file);
+
+/// Whether packings with these parameters (canonical JSON) are those that `where` describes.
+bool describes(const PublishedFamily& family, const std::string& parameters);
+
+}  // namespace grainsweep

@@ -1,0 +1,99 @@
+#include <cmath>
+
+#include <catch2/catch.hpp>
+
+#include "runner/compare/quantities.hpp"
+#include "tests/runner/compare/wall_sweep.hpp"
+
+namespace grainsweep {
+namespace {
+
+std::vector<Family> families_in(const std::vector<Row>& rows) {
+  return families_of(groups_of(rows));
+}
+
+TEST_CASE("every quantity of a whole sweep has the value that was planted") {
+  const Family family = families_in(wall_sweep()).at(0);
+  const auto value = [&](const std::string& quantity, double width = 0) {
+    const Measured measured = measure_quantity(quantity, width, family);
+    INFO(quantity << measured.not_determined);
+    CHECK(measured.not_determined.empty());
+    CHECK(std::isfinite(measured.estimate.error));
+    CHECK_FALSE(measured.definition.empty());
+    return measured.estimate.value;
+  };
+  CHECK(value("phi_unconfined") == Approx(0.64));
+  CHECK(value("Z_unconfined") == Approx(6.0));
+  CHECK(value("phi_bulk") == Approx(0.64));
+  CHECK(value("C") == Approx(0.2));
+  CHECK(value("Z_bulk") == Approx(6.0));
+  CHECK(value("C_Z") == Approx(3.0));
+  CHECK(value("zeta_difference") == Approx(3 / 6.0 - 0.2 / 0.64));
+  CHECK(value("phi", 5) == Approx(0.6));
+  CHECK(value("Z", 10) == Approx(5.7));
+  // The layers have a noise of .001, which moves their length by far less than 5 %.
+  CHECK(value("lambda_by_number", 10) == Approx(1.4 / 0.5).epsilon(0.05));
+  CHECK(value("lambda_by_volume", 10) == Approx(1.4 / 0.8).epsilon(0.05));
+  CHECK(value("lambda_over_C", 10) == Approx(7.0).epsilon(0.05));
+  CHECK(value("reach", 10) == Approx(1.4 * std::log(0.3 / (0.05 * 0.6))).epsilon(0.05));
+  CHECK(value("Z_drop", 10) == Approx(1.4));
+  CHECK(value("Z_drop_width", 10) == Approx(1.0));
+}
+
+TEST_CASE("the error of a mean is that of the variance pooled over the family") {
+  const Family family = families_in(wall_sweep()).at(0);
+  const Measured z = measure_quantity("Z_unconfined", 0, family);
+  // Four groups of two, .02 or .04 apart: variances 3 x 2e-4 and 8e-4, pooled 3.5e-4.
+  CHECK(z.estimate.error == Approx(std::sqrt(3.5e-4 / 2)));
+  CHECK_THAT(z.definition, Catch::Contains("walls not counted") && Catch::Contains("1.000"));
+}
+
+TEST_CASE("a line that misses its points says that it does not hold") {
+  const auto definition = [](const std::vector<Row>& rows) {
+    return measure_quantity("C", 0, families_in(rows).at(0)).definition;
+  };
+  auto rows = wall_sweep();
+  CHECK_THAT(definition(rows), !Catch::Contains("does not hold"));
+  for (Row& row : rows) {
+    if (row.job.box.width == 10) row.outcome->result.solid_fraction += 0.05;
+  }
+  CHECK_THAT(definition(rows), Catch::Contains("the line does not hold"));
+}
+
+TEST_CASE("families that share one value show it, and others that they do not") {
+  auto rows = wall_sweep_of_three_families();
+  const Shared shared = share_quantity("lambda_over_C", 10, families_in(rows));
+  REQUIRE(shared.measured.not_determined.empty());
+  CHECK(std::abs(shared.measured.estimate.value - 7) < 3 * shared.measured.estimate.error);
+  CHECK(shared.chi2_per_dof < 3);
+  CHECK(share_quantity("C", 0, families_in(rows)).chi2_per_dof > 3);
+  CHECK(share_quantity("C", 0, families_in(wall_sweep())).measured.not_determined ==
+        "needs it of 3 or more families, has 1");
+}
+
+TEST_CASE("what a sweep lacks is not determined, with the reason") {
+  const Family family =
+      families_in({settled_row("a", 5, 0.6, 5.4), settled_row("b", 6, 0.61, 5.5)}).at(0);
+  const auto reason = [&](const std::string& quantity, double width = 0) {
+    return measure_quantity(quantity, width, family).not_determined;
+  };
+  CHECK(reason("phi", 5) == "one settled replicate leaves the error unknown");
+  CHECK(reason("phi", 10) == "the sweep has no packings between walls at W = 10 d");
+  CHECK(reason("Z_unconfined") == "the sweep has no settled packing with periodic y");
+  CHECK_THAT(reason("C"), Catch::Contains("3 or more widths"));
+  CHECK_THAT(reason("zeta_difference"), Catch::Contains("3 or more widths"));
+  CHECK_THAT(reason("lambda_by_number", 5), Catch::Contains("2 or more settled replicates"));
+  CHECK_THAT(reason("Z_drop", 5), Catch::Contains("9 d or more"));
+}
+
+TEST_CASE("unknown quantities and widths that do not belong are told") {
+  CHECK(fault_of_quantity("Z", 10).empty());
+  CHECK_THAT(fault_of_quantity("zeta", 0),
+             Catch::Contains("unknown quantity \"zeta\"") && Catch::Contains("zeta_difference"));
+  CHECK(fault_of_quantity("Z", 0) == "Z needs a \"width\"");
+  CHECK(fault_of_quantity("C", 5) == "C belongs to no \"width\"");
+  CHECK(title_of_quantity("Z", 10) == "Z at W = 10 d");
+}
+
+}  // namespace
+}  // namespace grainsweep
