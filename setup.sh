@@ -9,7 +9,9 @@ readonly build_packages=(
   libqhull-dev libdeflate-dev
   catch2 libbenchmark-dev
 )
-readonly check_packages=(clang-format clang-tidy clang libclang-rt-14-dev strace)
+readonly check_packages=(
+  clang-format clang-tidy clang libclang-rt-14-dev strace python3 python3-jsonschema
+)
 readonly emulator_packages=(
   bochs bochs-term bochsbios vgabios isolinux syslinux-common genisoimage cpio busybox-static
 )
@@ -21,8 +23,8 @@ usage: ./setup.sh [--checks] [--emulator]
 Installs the packages that building and testing grainsweep takes, with apt-get, as root or through
 sudo. Only what is missing is installed; with nothing missing it ends at once.
 
-  --checks    also clang-format and clang-tidy, for the checks of .ci/run, clang, for builds under
-              sanitizers, and strace, for the faults (tests/faults) that need it
+  --checks    also what .ci/run takes: clang-format and clang-tidy, clang for builds under
+              sanitizers, strace and Python for the tests that need them
   --emulator  also a PC emulator with AVX-512, for tests/checks/avx512_emulated.sh
   --help      this text
 EOF

@@ -4,7 +4,7 @@ set -euo pipefail
 
 usage() {
   cat <<'EOF'
-usage: ./test.sh [--fast] [--sanitize] [-- CTEST-OPTIONS...]
+usage: ./test.sh [--fast] [--sanitize] [--build] [-- CTEST-OPTIONS...]
 
 Builds grainsweep with all tests and benchmarks in build/release and runs every test.
 
@@ -12,13 +12,12 @@ Builds grainsweep with all tests and benchmarks in build/release and runs every 
   --sanitize   in a second build, build/sanitize, by clang under the address and
                undefined-behaviour sanitizers; takes several times as long, so mostly together
                with --fast
+  --build      only builds
   --help       this text
   --           what follows goes to ctest, e.g.  ./test.sh -- -R "carries its weight" -V
 
-Labels: fast, slow (physics, seconds to minutes), extremes (scenes with known answers), checks
-(folder order, kernel objects, scripts), faults (kills, full disks, failing system calls, fuzzing ...;
-tests/faults/run.sh --full tries more).
-Every change is expected to pass .ci/run, which runs all of it.
+Labels: fast, slow, extremes, checks, faults; tests/README.md says what they are and how to add a
+test. Every change is expected to pass .ci/run, which runs all of them.
 EOF
 }
 
@@ -26,10 +25,12 @@ root=$(dirname "$(readlink -f "$0")")
 readonly root
 preset=release
 setup_options=()
+test=1
 ctest_options=(--parallel "$(nproc)")
 while (($#)); do
   case $1 in
     --fast) ctest_options+=(--label-regex '^fast$') ;;
+    --build) test=0 ;;
     --sanitize) preset=sanitize setup_options=(--checks) ;;
     -h | --help) usage && exit 0 ;;
     --) shift && ctest_options+=("$@") && break ;;
@@ -46,4 +47,4 @@ flock 9 # one build at a time
 cmake --preset "$preset" --log-level=WARNING
 cmake --build --preset "$preset"
 exec 9>&-
-ctest --preset "$preset" "${ctest_options[@]}"
+((test == 0)) || ctest --preset "$preset" "${ctest_options[@]}"

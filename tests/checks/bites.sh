@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Each check finds what it is for: violations planted in a temporary copy, one at a time, and
-# nothing in the copy without them. usage: bites.sh folder_order|kernel_objects|format|tidy...
+# nothing in the copy without them. usage: bites.sh CHECK...
+# CHECK: folder_order kernel_objects one_definition format tidy tidy_config
 set -euo pipefail
 root=$(cd "$(dirname "$0")/../.." && pwd)
 copy=$(mktemp -d "${TMPDIR:-/tmp}/grainsweep-bites.XXXXXX")
@@ -102,6 +103,27 @@ bite_kernel_objects() {
     finds 'W leaked(int)' "${check[@]}"
     compile_object $isa "$clean"
   done
+}
+
+# build_planted: a program of two sources as the preset `thread` builds the runner.
+build_planted() {
+  cmake -S "$copy/project" --preset thread --log-level=ERROR &&
+    cmake --build "$copy/project/build/thread"
+}
+
+bite_one_definition() {
+  plant project/CMakeLists.txt <<'EOF'
+cmake_minimum_required(VERSION 3.25)
+project(planted LANGUAGES CXX)
+add_executable(planted one.cpp two.cpp)
+EOF
+  cp "$root/CMakePresets.json" "$copy/project"
+  plant project/one.cpp <<<'namespace g { struct Fit { int rows; }; int rows_of(const Fit& fit) { return fit.rows; } }
+int main() { return 0; }'
+  plant project/two.cpp <<<'namespace g { struct Fit { double a, b; }; double b_of(const Fit& fit) { return fit.b; } }'
+  finds 'violates the C++ One Definition Rule' build_planted
+  sed -i 's/Fit/Line/g' "$copy/project/two.cpp"
+  passes build_planted
 }
 
 # Writes the compile commands of every source in the copy.

@@ -7,12 +7,6 @@ times() {
   if [ "${GRAINSWEEP_FAULTS:-}" = full ]; then echo "$2"; else echo "$1"; fi
 }
 
-# A test that cannot be made here says why and counts as skipped.
-skip() {
-  echo "SKIPPED: $*"
-  exit 77
-}
-
 # between LOW HIGH: a random whole number.
 between() {
   echo $(($1 + (RANDOM * 32768 + RANDOM) % ($2 - $1 + 1)))

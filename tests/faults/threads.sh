@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # The runner under the thread sanitizer, in a build of its own (minutes): whole runs on eight threads,
-# stopped ones, failing packings, the live line of a terminal. usage: threads.sh
+# stopped ones, failing packings, the live line of a terminal. Its link compares the types of all
+# sources: two of one name stop it. usage: threads.sh
 set -euo pipefail
 root=$(realpath "$(dirname "$0")/../..")
 cd "$root"
