@@ -2,7 +2,6 @@
 //
 //   bench_extremes [FAMILY] > extremes.md        progress goes to standard error
 #include <cstdio>
-#include <ctime>
 #include <string>
 #include <vector>
 
@@ -10,12 +9,6 @@
 
 namespace grainsweep::extremes {
 namespace {
-
-double cpu_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 /// What is printed about the error: of the answer nearest to its tolerance, or why there is none.
 std::string error_text(const Finding& finding) {
@@ -32,12 +25,10 @@ std::string error_text(const Finding& finding) {
 bool print_row(const Scene& scene) {
   std::fprintf(stderr, "%s: %s, %s\n", scene.family.c_str(), scene.name.c_str(),
                scene.accuracy.c_str());
-  const double began = cpu_seconds();
   const Finding finding = scene.run();
-  const double cost = cpu_seconds() - began;
   const Outcome outcome = outcome_of(finding);
-  std::printf("| %s | %s | %s | %s | %s | %.2g |\n", scene.name.c_str(), scene.extreme.c_str(),
-              scene.accuracy.c_str(), name_of(outcome), error_text(finding).c_str(), cost);
+  std::printf("| %s | %s | %s | %s | %s |\n", scene.name.c_str(), scene.extreme.c_str(),
+              scene.accuracy.c_str(), name_of(outcome), error_text(finding).c_str());
   std::fflush(stdout);
   return outcome == Outcome::silently_wrong;
 }
@@ -50,8 +41,8 @@ int main(int argc, char** argv) {
   const std::string family = argc > 1 ? argv[1] : "";
   int wrong = 0;
   std::printf(
-      "| scene | what is extreme | accuracy | outcome | error of tolerance, or reason | "
-      "CPU s |\n|---|---|---|---|---|---|\n");
+      "| scene | what is extreme | accuracy | outcome | error of tolerance, or reason |\n"
+      "|---|---|---|---|---|\n");
   for (const Scene& scene : catalogue()) {
     if (family.empty() || scene.family == family) wrong += print_row(scene) ? 1 : 0;
   }

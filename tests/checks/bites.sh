@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Each check finds what it is for: violations planted in a temporary copy, one at a time, and
 # nothing in the copy without them. usage: bites.sh CHECK...
-# CHECK: folder_order kernel_objects one_definition format tidy tidy_config
+# CHECK: folder_order links kernel_objects one_definition format tidy tidy_config
 set -euo pipefail
 root=$(cd "$(dirname "$0")/../.." && pwd)
 copy=$(mktemp -d "${TMPDIR:-/tmp}/grainsweep-bites.XXXXXX")
@@ -74,6 +74,19 @@ bite_folder_order() {
   plant engine/scene/one.hpp <<<'#include "engine/scene/two.hpp"'
   finds_planted engine/scene/two.hpp '#include "engine/scene/one.hpp"' \
     'include each other: engine/scene/' "${check[@]}"
+}
+
+bite_links() {
+  local check=("$root/tests/checks/links.sh" "$copy")
+  plant README.md <<<$'# Title\n\n## A part\n\n[here](#a-part), [there](runner/README.md#its-part)'
+  plant runner/README.md <<<$'# Its part\n\n[back](../README.md)'
+  passes "${check[@]}"
+  finds_planted bench/README.md '[gone](gone.md)' 'leads to gone.md' "${check[@]}"
+  finds_planted bench/README.md '[gone](../README.md#gone)' 'the heading #gone' "${check[@]}"
+  # shellcheck disable=SC2016  # backquotes of a page
+  finds_planted bench/README.md 'Run `bench/gone.sh`.' 'quotes bench/gone.sh' "${check[@]}"
+  yes '' | head -n 200 >>"$copy/README.md" || true
+  finds 'README.md has 205 lines' "${check[@]}"
 }
 
 bite_format() {

@@ -25,7 +25,7 @@ mkdir "$work/corpus"
 
 # The corpus: the sweeps at hand, and one of every kind of block. The words: the keys of the schema.
 cp configs/*.json "$work/corpus/" && rm "$work/corpus/"*.{schema,reference}.json
-sed -n '/^```json$/,/^```$/{/^```/d;p}' README.md >"$work/corpus/readme.json"
+sed -n '/^```json$/,/^```$/{/^```/d;p}' configs/README.md >"$work/corpus/readme.json"
 cp tests/faults/kinds.json "$work/corpus/"
 grep -oE '"[A-Za-z_.$]+":' configs/sweep.schema.json | tr -d '":' | sort -u |
   sed 's/.*/"\\"&\\""/' >"$work/words"
