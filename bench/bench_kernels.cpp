@@ -16,29 +16,12 @@ void count_rows(benchmark::State& run, std::size_t blocks) {
 }
 
 template <class Real>
-void gradient_sweep(benchmark::State& run) {
-  FrozenBed<Real> f = frozen_bed<Real>(run.range(1));
-  const RowKernels<Real>& kernels = row_kernels<Real>(kernels_of(run));
-  auto& contacts = f.state.contacts;
-  auto& motion = f.state.motion;
-  for (auto _ : run) {
-    const auto sums = kernels.gradient_sweep(
-        contacts.rows.data(), contacts.rows.size(), motion.u.data(), motion.pushes.data(),
-        contacts.impulse.data(), contacts.extrapolated.data(), Real(0.25), Real(0.5));
-    benchmark::DoNotOptimize(sums);
-    kernels.take_pushes(motion.free.data(), motion.free.size(), motion.pushes.data(),
-                        motion.u.data());
-  }
-  count_rows(run, contacts.rows.size());
-}
-
-template <class Real>
 void gauss_seidel_sweep(benchmark::State& run) {
   FrozenBed<Real> f = frozen_bed<Real>(run.range(1));
   const RowKernels<Real>& kernels = row_kernels<Real>(kernels_of(run));
   auto& contacts = f.state.contacts;
   auto& motion = f.state.motion;
-  const SweepRule<Real> rule{Real(0.9), Real(0.5), false};
+  const SweepRule<Real> rule{Real(0.9), Real(0.5)};
   for (auto _ : run) {
     benchmark::DoNotOptimize(kernels.gauss_seidel_sweep(contacts.rows.data(), contacts.rows.size(),
                                                         motion.u.data(), contacts.impulse.data(),
@@ -87,8 +70,6 @@ void sphere_pairs(benchmark::State& run) {
   run.SetLabel(name_of(static_cast<Isa>(run.range(0))));
 }
 
-BENCHMARK_TEMPLATE(gradient_sweep, float)->Apply(all_isas);
-BENCHMARK_TEMPLATE(gradient_sweep, double)->Apply(all_isas);
 BENCHMARK_TEMPLATE(gauss_seidel_sweep, float)->Apply(all_isas);
 BENCHMARK_TEMPLATE(gauss_seidel_sweep, double)->Apply(all_isas);
 BENCHMARK_TEMPLATE(residual, float)->Apply(all_isas);

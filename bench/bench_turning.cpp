@@ -54,16 +54,6 @@ void over_rows(benchmark::State& run, Sweep sweep) {
 }
 
 template <class Real>
-void lever_gradient_sweep(benchmark::State& run) {
-  over_rows<Real>(run, [](const auto& kernels, auto rows, std::size_t blocks, auto& state) {
-    constexpr auto inverse_bound = static_cast<Real>(1 / 4.3), momentum = Real(0.5);
-    benchmark::DoNotOptimize(kernels.gradient_sweep(
-        rows, blocks, state.motion.u.data(), state.motion.pushes.data(), state.rows.impulse.data(),
-        state.rows.extrapolated.data(), inverse_bound, momentum));
-  });
-}
-
-template <class Real>
 void lever_gauss_seidel_sweep(benchmark::State& run) {
   over_rows<Real>(run, [](const auto& kernels, auto rows, std::size_t blocks, auto& state) {
     benchmark::DoNotOptimize(kernels.gauss_seidel_sweep(
@@ -78,8 +68,6 @@ void isas(benchmark::internal::Benchmark* benchmark) {
   }
 }
 
-BENCHMARK_TEMPLATE(lever_gradient_sweep, float)->Apply(isas);
-BENCHMARK_TEMPLATE(lever_gradient_sweep, double)->Apply(isas);
 BENCHMARK_TEMPLATE(lever_gauss_seidel_sweep, float)->Apply(isas);
 BENCHMARK_TEMPLATE(lever_gauss_seidel_sweep, double)->Apply(isas);
 

@@ -53,12 +53,8 @@ Accuracy reference() {
 }
 
 void add_solvers(std::vector<Setting>& settings) {
-  const std::pair<Solver, const char*> solvers[] = {
-      {Solver::projected_gauss_seidel, "pgs"},
-      {Solver::symmetric_gauss_seidel, "symmetric_pgs"},
-      {Solver::nonsmooth_nonlinear_conjugate, "nncg"},
-      {Solver::accelerated_projected_gradient, "apgd"},
-      {Solver::accelerated_gauss_seidel, "apgs"}};
+  const std::pair<Solver, const char*> solvers[] = {{Solver::projected_gauss_seidel, "pgs"},
+                                                    {Solver::accelerated_gauss_seidel, "apgs"}};
   for (const auto& [solver, name] : solvers) {
     for (const Precision precision : {Precision::f32, Precision::f64}) {
       const char* suffix = precision == Precision::f32 ? " f32" : " f64";

@@ -46,7 +46,6 @@ struct alignas(64) LeverPoints {
   Real lever_b[3][block_width];    ///< in the frame of b
   Real gap[block_width];           ///< right-hand side, d; negative where grains overlap
   Real reduced_mass[block_width];  ///< 1 / A_kk, m: what one impulse on this row alone divides by
-  Real step_mass[block_width];  ///< 1 / D_k, m: the step of a gradient, D_k a sum over its contact
 };
 
 /// Rows as sweeps read them.
@@ -60,12 +59,8 @@ struct LeverRows {
 /// lane k of points[i] is p[i * block_width + k].
 template <class Real>
 struct LeverKernels {
-  /// As RowKernels::gradient_sweep: p = max(0, y - w / (bound D)); the residual is that of
-  /// RowKernels with A_kk for 1/m_a + 1/m_b.
-  SweepSums<Real> (*gradient_sweep)(LeverRows<Real> rows, std::size_t blocks, const Record<Real>* u,
-                                    Record<Real>* pushes, Real* p, Real* y, Real inverse_bound,
-                                    Real momentum);
-  /// As RowKernels::gauss_seidel_sweep; the points of a contact one after the other.
+  /// As RowKernels::gauss_seidel_sweep, with A_kk for 1/m_a + 1/m_b; the points of a contact one
+  /// after the other.
   SweepSums<Real> (*gauss_seidel_sweep)(LeverRows<Real> rows, std::size_t blocks, Record<Real>* u,
                                         Real* p, Real* y, SweepRule<Real> rule);
   /// Adds H p to the pushes.

@@ -122,46 +122,14 @@ inline void store_push(const Contacts<Real>& c, const Push<Real>& push, Record<R
 
 /// Calls visit(contacts, block, lane, k) for every hardware batch k of every block.
 template <class Real, class Visit>
-inline void visit_contacts(LeverRows<Real> rows, std::size_t blocks, bool backward, Visit visit) {
-  for (std::size_t step = 0; step < blocks; ++step) {
-    const LeverBlock<Real>& block = rows.blocks[backward ? blocks - 1 - step : step];
+inline void visit_contacts(LeverRows<Real> rows, std::size_t blocks, Visit visit) {
+  for (std::size_t at = 0; at < blocks; ++at) {
+    const LeverBlock<Real>& block = rows.blocks[at];
     for (std::size_t k = 0; k < batches<Real>; ++k) {
       const std::size_t lane = k * batch_width<Real>;
       visit(load_contacts(block, lane), block, lane, k);
     }
   }
-}
-
-template <class Real>
-SweepSums<Real> gradient_sweep(LeverRows<Real> rows, std::size_t blocks, const Record<Real>* u,
-                               Record<Real>* pushes, Real* p, Real* y, Real inverse_bound,
-                               Real momentum) {
-  LaneSums<Real> residual(Real(0)), uphill(Real(0));
-  const Batch<Real> zero(Real(0)), bound(inverse_bound), carry(momentum);
-  visit_contacts(rows, blocks, false, [&](const auto& c, const auto& block, auto lane, auto k) {
-    const Motion<Real> m = motion_of(c.normal, load_both(u, c.a), load_both(u, c.b));
-    Push<Real> push;
-    Batch<Real> worst = residual.part[k], rising = uphill.part[k];
-    for (std::size_t i = block.first; i < block.first + block.points; ++i) {
-      const LeverPoints<Real>& points = rows.points[i];
-      const Points<Real> r = load_points(points, lane);
-      const std::size_t at = i * block_width + lane;
-      const Batch<Real> w = gap_after(r, m), y_old = load(y + at), p_old = load(p + at);
-      const Batch<Real> step = load(points.step_mass + lane) * bound;
-      const Batch<Real> p_new = xsimd::max(zero, y_old - w * step);
-      const Batch<Real> change = p_new - p_old, y_new = p_new + carry * change;
-      const Batch<Real> missed = natural_residual(y_old, w * load(points.reduced_mass + lane));
-      worst = xsimd::max(worst, missed);
-      rising += (y_old - p_new) * change;
-      p_new.store_unaligned(p + at);
-      y_new.store_unaligned(y + at);
-      push.add_point(r, y_new);
-    }
-    residual.part[k] = worst;
-    uphill.part[k] = rising;
-    store_push(c, push, pushes);
-  });
-  return {residual.max(), uphill.sum()};
 }
 
 template <class Real>
@@ -186,35 +154,33 @@ SweepSums<Real> gauss_seidel_sweep(LeverRows<Real> rows, std::size_t blocks, Rec
                                    Real* p, Real* y, SweepRule<Real> rule) {
   LaneSums<Real> residual(Real(0)), uphill(Real(0));
   const Batch<Real> zero(Real(0)), relaxation(rule.relaxation), carry(rule.momentum);
-  visit_contacts(
-      rows, blocks, rule.backward, [&](const auto& c, const auto& block, auto lane, auto k) {
-        Side<Real> a = load_both(u, c.a), b = load_both(u, c.b);
-        for (std::size_t step = 0; step < block.points; ++step) {
-          const std::size_t i = block.first + (rule.backward ? block.points - 1 - step : step);
-          const LeverPoints<Real>& points = rows.points[i];
-          const Points<Real> r = load_points(points, lane);
-          const std::size_t at = i * block_width + lane;
-          const Batch<Real> w =
-              gap_after(r, motion_of(c.normal, a, b)) * load(points.reduced_mass + lane);
-          const Batch<Real> y_old = load(y + at), p_old = load(p + at);
-          const Batch<Real> p_new = xsimd::max(zero, y_old - w * relaxation);
-          const Batch<Real> change = p_new - p_old, given = p_new - y_old;
-          residual.part[k] = xsimd::max(residual.part[k], natural_residual(y_old, w));
-          uphill.part[k] += (y_old - p_new) * change;
-          p_new.store_unaligned(p + at);
-          (p_new + carry * change).store_unaligned(y + at);
-          push_side(zero - given, c.normal, r.lever_a, a);
-          push_side(given, c.normal, r.lever_b, b);
-        }
-        store_side(u, c.a, a);
-        store_side(u, c.b, b);
-      });
+  visit_contacts(rows, blocks, [&](const auto& c, const auto& block, auto lane, auto k) {
+    Side<Real> a = load_both(u, c.a), b = load_both(u, c.b);
+    for (std::size_t i = block.first; i < block.first + block.points; ++i) {
+      const LeverPoints<Real>& points = rows.points[i];
+      const Points<Real> r = load_points(points, lane);
+      const std::size_t at = i * block_width + lane;
+      const Batch<Real> w =
+          gap_after(r, motion_of(c.normal, a, b)) * load(points.reduced_mass + lane);
+      const Batch<Real> y_old = load(y + at), p_old = load(p + at);
+      const Batch<Real> p_new = xsimd::max(zero, y_old - w * relaxation);
+      const Batch<Real> change = p_new - p_old, given = p_new - y_old;
+      residual.part[k] = xsimd::max(residual.part[k], natural_residual(y_old, w));
+      uphill.part[k] += (y_old - p_new) * change;
+      p_new.store_unaligned(p + at);
+      (p_new + carry * change).store_unaligned(y + at);
+      push_side(zero - given, c.normal, r.lever_a, a);
+      push_side(given, c.normal, r.lever_b, b);
+    }
+    store_side(u, c.a, a);
+    store_side(u, c.b, b);
+  });
   return {residual.max(), uphill.sum()};
 }
 
 template <class Real>
 void add_pushes(LeverRows<Real> rows, std::size_t blocks, const Real* p, Record<Real>* pushes) {
-  visit_contacts(rows, blocks, false, [&](const auto& c, const auto& block, auto lane, auto) {
+  visit_contacts(rows, blocks, [&](const auto& c, const auto& block, auto lane, auto) {
     Push<Real> push;
     for (std::size_t i = block.first; i < block.first + block.points; ++i) {
       push.add_point(load_points(rows.points[i], lane), load(p + i * block_width + lane));
@@ -227,7 +193,7 @@ template <class Real>
 Real residual(LeverRows<Real> rows, std::size_t blocks, const Record<Real>* u, const Real* p,
               Real unit_mass) {
   LaneSums<Real> worst(Real(0));
-  visit_contacts(rows, blocks, false, [&](const auto& c, const auto& block, auto lane, auto k) {
+  visit_contacts(rows, blocks, [&](const auto& c, const auto& block, auto lane, auto k) {
     const Side<Real> a = load_both(u, c.a), b = load_both(u, c.b);
     const Motion<Real> m = motion_of(c.normal, a, b);
     for (std::size_t i = block.first; i < block.first + block.points; ++i) {
@@ -244,7 +210,7 @@ Real residual(LeverRows<Real> rows, std::size_t blocks, const Record<Real>* u, c
 
 template <class Real>
 constexpr grainsweep::LeverKernels<Real> table() {
-  return {gradient_sweep<Real>, gauss_seidel_sweep<Real>, add_pushes<Real>, residual<Real>};
+  return {gauss_seidel_sweep<Real>, add_pushes<Real>, residual<Real>};
 }
 
 }  // namespace

@@ -58,21 +58,13 @@ inline constexpr double sunk_share = 0.5;
 /// How a Gauss-Seidel sweep goes.
 template <class Real>
 struct SweepRule {
-  Real relaxation = 1;    ///< share of a row's own correction that is taken, 0..1
-  Real momentum = 0;      ///< share of an impulse's change that is looked ahead
-  bool backward = false;  ///< the last block first
+  Real relaxation = 1;  ///< share of a row's own correction that is taken, 0..1
+  Real momentum = 0;    ///< share of an impulse's change that is looked ahead
 };
 
 /// Solver sweeps for one number type. `u` are motion records indexed by RowBlock::a and b.
 template <class Real>
 struct RowKernels {
-  /// One accelerated projected gradient iteration, fused: reads the extrapolated impulses y and
-  /// motion u = u(y); writes p = max(0, y - w / (bound A)), then y = p + momentum (p - p_old), and
-  /// adds H y to `pushes`: the sum of the impulses on each grain, which began as +0. Batches
-  /// without impulses are skipped.
-  SweepSums<Real> (*gradient_sweep)(const RowBlock<Real>* rows, std::size_t blocks,
-                                    const Record<Real>* u, Record<Real>* pushes, Real* p, Real* y,
-                                    Real inverse_bound, Real momentum);
   /// u = free + M^-1 pushes for `count` records; leaves the pushes empty, ready for a sweep. The
   /// inverse masses are those of `free`.
   void (*take_pushes)(const Record<Real>* free, std::size_t count, Record<Real>* pushes,

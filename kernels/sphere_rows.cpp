@@ -39,34 +39,6 @@ inline Components<Real> along_normals(const Rows<Real>& r, const Batch<Real>& p)
 }
 
 template <class Real>
-SweepSums<Real> gradient_sweep(const RowBlock<Real>* rows, std::size_t blocks,
-                               const Record<Real>* u, Record<Real>* pushes, Real* p, Real* y,
-                               Real inverse_bound, Real momentum) {
-  LaneSums<Real> residual(Real(0)), uphill(Real(0));
-  const Batch<Real> zero(Real(0)), bound(inverse_bound), carry(momentum);
-  for (std::size_t block = 0; block < blocks; ++block) {
-    for (std::size_t k = 0; k < batches<Real>; ++k) {
-      const std::size_t lane = k * batch_width<Real>;
-      const std::size_t at = block * block_width + lane;
-      const Rows<Real> r = load_rows(rows[block], lane);
-      const Batch<Real> w = scaled_gap(r, load_differences(u, r.a, r.b));
-      const Batch<Real> y_old = load(y + at), p_old = load(p + at);
-      const Batch<Real> p_new = xsimd::max(zero, y_old - w * bound);
-      const Batch<Real> change = p_new - p_old;
-      const Batch<Real> y_new = p_new + carry * change;
-      residual.part[k] = xsimd::max(residual.part[k], natural_residual(y_old, w));
-      uphill.part[k] += (y_old - p_new) * change;
-      p_new.store_unaligned(p + at);
-      y_new.store_unaligned(y + at);
-      if (xsimd::any(y_new != zero)) {
-        push_records(pushes, r.a, r.b, along_normals(r, y_new));
-      }
-    }
-  }
-  return {residual.max(), uphill.sum()};
-}
-
-template <class Real>
 void take_pushes(const Record<Real>* free, std::size_t count, Record<Real>* pushes,
                  Record<Real>* u) {
   constexpr std::size_t few = records_at_once<Real>;
@@ -101,8 +73,7 @@ SweepSums<Real> gauss_seidel_sweep(const RowBlock<Real>* rows, std::size_t block
                                    Real* p, Real* y, SweepRule<Real> rule) {
   LaneSums<Real> residual(Real(0)), uphill(Real(0));
   const Batch<Real> zero(Real(0)), relaxation(rule.relaxation), carry(rule.momentum);
-  for (std::size_t step = 0; step < blocks; ++step) {
-    const std::size_t block = rule.backward ? blocks - 1 - step : step;
+  for (std::size_t block = 0; block < blocks; ++block) {
     for (std::size_t k = 0; k < batches<Real>; ++k) {
       const std::size_t lane = k * batch_width<Real>;
       const std::size_t at = block * block_width + lane;
@@ -207,8 +178,8 @@ double sphere_gaps(RowBlock<Real>* rows, std::size_t blocks, const Record<double
 
 template <class Real>
 constexpr grainsweep::RowKernels<Real> table() {
-  return {gradient_sweep<Real>, take_pushes<Real>, gauss_seidel_sweep<Real>, extrapolate<Real>,
-          add_pushes<Real>,     residual<Real>,    sphere_gaps<Real>};
+  return {take_pushes<Real>, gauss_seidel_sweep<Real>, extrapolate<Real>,
+          add_pushes<Real>,  residual<Real>,           sphere_gaps<Real>};
 }
 
 }  // namespace

@@ -46,12 +46,9 @@ struct MotionColumns {
 };
 
 /// Improves `contacts.impulse`, starting from what it holds, until the residual is below the
-/// tolerance or the iterations are used up.
-template <class Real>
-SolveReport solve(const SolveLimits& limits, const ExecutionContext& context,
-                  Contacts<Real>& contacts, MotionColumns<Real>& motion);
-template <class Real>
-SolveReport solve(const SolveLimits& limits, const ExecutionContext& context,
-                  LeverColumns<Real>& contacts, MotionColumns<Real>& motion);
+/// tolerance or the iterations are used up. Of Contacts or LeverColumns.
+template <class Rows, class Real>
+SolveReport solve(const SolveLimits& limits, const ExecutionContext& context, Rows& contacts,
+                  MotionColumns<Real>& motion);
 
 }  // namespace grainsweep

@@ -64,6 +64,11 @@ struct Contacts {
   std::vector<Real> extrapolated;  ///< the solver's look-ahead impulses
   std::vector<double> sunk;        ///< of each part of a detection: see `detect`
   LayoutColumns<Real> layout;
+
+  // What sweeps over a range need: their kernels, its rows, the first of its impulses.
+  static const RowKernels<Real>& kernels_of(const Kernels& all) { return row_kernels<Real>(all); }
+  const RowBlock<Real>* rows_of(BlockRange range) const { return rows.data() + range.first; }
+  static std::size_t first_impulse(BlockRange range) { return range.first * block_width; }
 };
 
 /// Lays the candidates out as rows; contacts that were there before keep their impulse.

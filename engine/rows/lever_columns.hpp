@@ -17,6 +17,15 @@ struct LeverColumns {
   RowShares shares;  ///< one part
   std::vector<Real> impulse;
   std::vector<Real> extrapolated;  ///< the solver's look-ahead impulses
+
+  // As of Contacts; a block says itself where its impulses are.
+  static const LeverKernels<Real>& kernels_of(const Kernels& all) {
+    return lever_kernels<Real>(all);
+  }
+  LeverRows<Real> rows_of(BlockRange range) const {
+    return {blocks.data() + range.first, points.data()};
+  }
+  static std::size_t first_impulse(BlockRange) { return 0; }
 };
 
 }  // namespace grainsweep

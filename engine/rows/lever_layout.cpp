@@ -56,7 +56,7 @@ class LeverBlocks {
   static LeverPoints<Real> void_points() {
     LeverPoints<Real> points{};
     for (std::size_t lane = 0; lane < block_width; ++lane) {
-      points.gap[lane] = points.reduced_mass[lane] = points.step_mass[lane] = Real(1);
+      points.gap[lane] = points.reduced_mass[lane] = Real(1);
     }
     return points;
   }
@@ -68,40 +68,20 @@ class LeverBlocks {
 };
 
 /// A row of a contact, before it is rounded and stored.
-struct OwnRow {
+struct RowEntry {
   Vector lever_a, lever_b;
-  double own = 0.0;           ///< entry of A with itself
-  double root = 0.0;          ///< of own
-  double inverse_root = 0.0;  ///< 1 / root
-  double sum = 0.0;           ///< D of the row
+
+  /// A_kk of the row of two grains with these inverse masses.
+  double diagonal(double inverse_masses) const {
+    return inverse_masses + lever_a.squaredNorm() + lever_b.squaredNorm();
+  }
 };
 
 /// The rows of one contact.
 struct ContactRows {
   double inverse_masses = 0.0;  ///< 1/m_a + 1/m_b
   Vector normal;                ///< box frame
-  std::vector<OwnRow> each;     ///< of each point
-
-  /// Entry of A between two points.
-  double coupling(const OwnRow& k, const OwnRow& l) const {
-    return inverse_masses + k.lever_a.dot(l.lever_a) + k.lever_b.dot(l.lever_b);
-  }
-  /// D_k = sum over the points l of |A_kl| sqrt(A_kk / A_ll). Points of one face are nearly
-  /// parallel rows: scaled by A_kk alone, gradient steps would have to be half as long.
-  void set_sums() {
-    for (OwnRow& row : each) {
-      row.sum = row.own = coupling(row, row);
-      row.root = std::sqrt(row.own);
-      row.inverse_root = 1.0 / row.root;
-    }
-    for (std::size_t k = 1; k < each.size(); ++k) {
-      for (std::size_t l = 0; l < k; ++l) {
-        const double entry = std::abs(coupling(each[k], each[l]));
-        each[k].sum += entry * each[k].root * each[l].inverse_root;
-        each[l].sum += entry * each[l].root * each[k].inverse_root;
-      }
-    }
-  }
+  std::vector<RowEntry> each;   ///< of each point
 };
 
 void add_side_b(const PolyhedronBed& bed, const ShapeContact& contact, const ContactPoint* points,
@@ -126,18 +106,17 @@ void set_rows(const PolyhedronBed& bed, const ShapeContact& contact, const Conta
     rows.each[k].lever_a = points[k].position.cross(contact.normal).cwiseQuotient(root);
   }
   if (bed.is_grain(contact.b)) add_side_b(bed, contact, points, rows);
-  rows.set_sums();
 }
 
 template <class Real>
-void store_row(const OwnRow& row, double gap, std::size_t lane, LeverPoints<Real>& points) {
+void store_row(const RowEntry& row, double inverse_masses, double gap, std::size_t lane,
+               LeverPoints<Real>& points) {
   for (int axis = 0; axis < 3; ++axis) {
     points.lever_a[axis][lane] = static_cast<Real>(row.lever_a[axis]);
     points.lever_b[axis][lane] = static_cast<Real>(row.lever_b[axis]);
   }
   points.gap[lane] = static_cast<Real>(gap);
-  points.reduced_mass[lane] = static_cast<Real>(1.0 / row.own);
-  points.step_mass[lane] = static_cast<Real>(1.0 / row.sum);
+  points.reduced_mass[lane] = static_cast<Real>(1.0 / row.diagonal(inverse_masses));
 }
 
 template <class Real>
@@ -193,7 +172,8 @@ void lay_out(const PolyhedronBed& bed, const ShapeContacts& found, double correc
     store_normal(own.normal, at.lane, rows.blocks[at.block]);
     for (std::size_t j = 0; j < contact.count; ++j) {
       const double gap = points[j].gap;
-      store_row(own.each[j], gap < 0.0 ? correction * gap : gap, at.lane, rows.points[first + j]);
+      store_row(own.each[j], own.inverse_masses, gap < 0.0 ? correction * gap : gap, at.lane,
+                rows.points[first + j]);
     }
   }
   rows.shares.ranges.assign({{0, rows.blocks.size()}});

@@ -50,11 +50,8 @@ struct SizesSpec {
 
 /// The projected iterations that solve one step. See engine/dynamics/solve.hpp.
 enum class Solver {
-  projected_gauss_seidel,          ///< "pgs"
-  symmetric_gauss_seidel,          ///< "symmetric_pgs"
-  nonsmooth_nonlinear_conjugate,   ///< "nncg"
-  accelerated_projected_gradient,  ///< "apgd"
-  accelerated_gauss_seidel,        ///< "apgs"
+  projected_gauss_seidel,    ///< "pgs"
+  accelerated_gauss_seidel,  ///< "apgs": the same sweeps with Nesterov's momentum
 };
 
 /// Number type of the solver's rows and velocities; positions are always f64.

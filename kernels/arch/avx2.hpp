@@ -38,17 +38,6 @@ inline Components<float> load_records(const Record<float>* base, const std::uint
   return {r0, r1, r2, r3};
 }
 
-/// Records b minus records a.
-inline Components<float> load_differences(const Record<float>* base, const std::uint32_t* a,
-                                          const std::uint32_t* b) {
-  __m256 r0 = _mm256_sub_ps(load_two(base, b, 0), load_two(base, a, 0));
-  __m256 r1 = _mm256_sub_ps(load_two(base, b, 1), load_two(base, a, 1));
-  __m256 r2 = _mm256_sub_ps(load_two(base, b, 2), load_two(base, a, 2));
-  __m256 r3 = _mm256_sub_ps(load_two(base, b, 3), load_two(base, a, 3));
-  transpose(r0, r1, r2, r3);
-  return {r0, r1, r2, r3};
-}
-
 inline void store_two(Record<float>* base, const std::uint32_t* offset, int k, __m256 records) {
   _mm_store_ps(&at(base, offset[k]).x, _mm256_castps256_ps128(records));
   _mm_store_ps(&at(base, offset[k + 4]).x, _mm256_extractf128_ps(records, 1));
@@ -100,16 +89,6 @@ inline Components<double> load_records(const Record<double>* base, const std::ui
           r1 = _mm256_load_pd(&at<stride>(base, offset[1]).x);
   __m256d r2 = _mm256_load_pd(&at<stride>(base, offset[2]).x),
           r3 = _mm256_load_pd(&at<stride>(base, offset[3]).x);
-  transpose(r0, r1, r2, r3);
-  return {r0, r1, r2, r3};
-}
-
-inline Components<double> load_differences(const Record<double>* base, const std::uint32_t* a,
-                                           const std::uint32_t* b) {
-  const auto differ = [&](int k) {
-    return _mm256_sub_pd(_mm256_load_pd(&at(base, b[k]).x), _mm256_load_pd(&at(base, a[k]).x));
-  };
-  __m256d r0 = differ(0), r1 = differ(1), r2 = differ(2), r3 = differ(3);
   transpose(r0, r1, r2, r3);
   return {r0, r1, r2, r3};
 }

@@ -42,17 +42,6 @@ inline Components<float> load_records(const Record<float>* base, const std::uint
   return {r0, r1, r2, r3};
 }
 
-/// Records b minus records a.
-inline Components<float> load_differences(const Record<float>* base, const std::uint32_t* a,
-                                          const std::uint32_t* b) {
-  __m512 r0 = _mm512_sub_ps(load_four(base, b, 0), load_four(base, a, 0));
-  __m512 r1 = _mm512_sub_ps(load_four(base, b, 1), load_four(base, a, 1));
-  __m512 r2 = _mm512_sub_ps(load_four(base, b, 2), load_four(base, a, 2));
-  __m512 r3 = _mm512_sub_ps(load_four(base, b, 3), load_four(base, a, 3));
-  transpose(r0, r1, r2, r3);
-  return {r0, r1, r2, r3};
-}
-
 inline void store_four(Record<float>* base, const std::uint32_t* offset, int k, __m512 records) {
   _mm_store_ps(&at(base, offset[k]).x, _mm512_castps512_ps128(records));
   _mm_store_ps(&at(base, offset[k + 4]).x, _mm512_extractf32x4_ps(records, 1));
@@ -151,13 +140,6 @@ inline void store_records(Record<double>* base, const std::uint32_t* offset,
   for (int k = 0; k < 8; ++k) {
     _mm256_store_pd(&at(base, offset[k]).x, r.record[k]);
   }
-}
-
-/// Records b minus records a.
-inline Components<double> load_differences(const Record<double>* base, const std::uint32_t* a,
-                                           const std::uint32_t* b) {
-  const Components<double> from = load_records(base, a), to = load_records(base, b);
-  return {to.x - from.x, to.y - from.y, to.z - from.z, to.w - from.w};
 }
 
 inline void push_records(Record<double>* base, const std::uint32_t* a, const std::uint32_t* b,

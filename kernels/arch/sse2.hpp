@@ -34,17 +34,6 @@ inline void store_records(Record<float>* base, const std::uint32_t* offset,
   _mm_store_ps(&at(base, offset[3]).x, r3);
 }
 
-/// Records b minus records a.
-inline Components<float> load_differences(const Record<float>* base, const std::uint32_t* a,
-                                          const std::uint32_t* b) {
-  const auto differ = [&](int k) {
-    return _mm_sub_ps(_mm_load_ps(&at(base, b[k]).x), _mm_load_ps(&at(base, a[k]).x));
-  };
-  __m128 r0 = differ(0), r1 = differ(1), r2 = differ(2), r3 = differ(3);
-  _MM_TRANSPOSE4_PS(r0, r1, r2, r3);
-  return {r0, r1, r2, r3};
-}
-
 /// Takes `push` from record a and gives it to record b.
 inline void push_pair(Record<float>& a, Record<float>& b, __m128 push) {
   _mm_store_ps(&a.x, _mm_sub_ps(_mm_load_ps(&a.x), push));
@@ -79,13 +68,6 @@ inline void store_records(Record<double>* base, const std::uint32_t* offset,
   _mm_store_pd(r0 + 2, _mm_unpacklo_pd(c.z, c.w));
   _mm_store_pd(r1, _mm_unpackhi_pd(c.x, c.y));
   _mm_store_pd(r1 + 2, _mm_unpackhi_pd(c.z, c.w));
-}
-
-/// Records b minus records a.
-inline Components<double> load_differences(const Record<double>* base, const std::uint32_t* a,
-                                           const std::uint32_t* b) {
-  const Components<double> from = load_records(base, a), to = load_records(base, b);
-  return {to.x - from.x, to.y - from.y, to.z - from.z, to.w - from.w};
 }
 
 inline void push_pair(Record<double>& a, Record<double>& b, __m128d xy, __m128d zw) {

@@ -285,6 +285,13 @@ void set_preset(Draft& draft, const Value& value) {
   draft.spec.accuracy = presets()[static_cast<std::size_t>(draft.preset)].accuracy;
 }
 
+Parameter solver_row() {
+  Parameter solver = accuracy<&Accuracy::solver>("accuracy.solver", "iterations that solve a step",
+                                                 {"pgs", "apgs"});  // in the order of Solver
+  solver.former_choices = {"symmetric_pgs", "nncg", "apgd"};
+  return solver;
+}
+
 Rows accuracy_rows() {
   using A = Accuracy;
   return {
@@ -298,9 +305,7 @@ Rows accuracy_rows() {
       accuracy<&A::protocol>("accuracy.protocol",
                              "how grains come down: damped in long steps, or plain dynamics",
                              {"heavy_ball", "dynamic"}),  // in the order of Protocol
-      accuracy<&A::solver>(
-          "accuracy.solver", "iterations that solve a step",
-          {"pgs", "symmetric_pgs", "nncg", "apgd", "apgs"}),  // in the order of Solver
+      solver_row(),
       accuracy<&A::precision>("accuracy.precision", "number type of the solver", {"f32", "f64"}),
       within("(0, 2]", accuracy<&A::step>("accuracy.step", "time step, sqrt(d/g)")),
       within("[0, 1)", accuracy<&A::momentum>("accuracy.momentum",

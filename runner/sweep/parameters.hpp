@@ -61,6 +61,8 @@ struct Parameter {
   Role role = Role::plain;
   /// Where numbers must lie, for documentation: "(0, 2]". Other parameters may narrow it.
   std::string range = {};
+  /// Names of a choice in earlier versions; the last of `choices` took their place.
+  std::vector<std::string> former_choices = {};
 };
 
 /// All parameters. A preset comes before the parts it sets.

@@ -51,8 +51,13 @@ ValueReading read_choice(const Parameter& parameter, const Json& value) {
   const auto& name = value.get_ref<const std::string&>();
   const auto found = std::find(names.begin(), names.end(), name);
   if (found != names.end()) return fits(static_cast<std::int64_t>(found - names.begin()));
-  const std::string near = nearest(name, names);
   ValueReading reading = mismatch(parameter, value);
+  const auto& former = parameter.former_choices;
+  if (std::find(former.begin(), former.end(), name) != former.end()) {
+    reading.error += ", which this version no longer has; take \"" + names.back() + "\"";
+    return reading;
+  }
+  const std::string near = nearest(name, names);
   if (!near.empty()) reading.error += "; did you mean \"" + near + "\"?";
   return reading;
 }

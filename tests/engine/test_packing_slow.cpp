@@ -11,6 +11,7 @@
 #include "tests/support/instruction_sets.hpp"
 #include "tests/support/keep_going.hpp"
 #include "tests/support/part_loops.hpp"
+#include "tests/support/solvers.hpp"
 
 namespace grainsweep {
 namespace {
@@ -113,9 +114,7 @@ TEST_CASE("a large packing has the same bits however its parts are shared out", 
   PackingSpec spec = bed_spec(20, 20, Boundary::walls, "fast");
   spec.fill = GrainCount{static_cast<std::int64_t>(large_bed_grains<Sphere>) + 500};
   spec.accuracy.max_steps = 40;
-  for (const Solver solver :
-       {Solver::accelerated_gauss_seidel, Solver::accelerated_projected_gradient,
-        Solver::symmetric_gauss_seidel, Solver::nonsmooth_nonlinear_conjugate}) {
+  for (const Solver solver : testing::all_solvers) {
     spec.accuracy.solver = solver;
     const PackingResult expected = make_packing(spec, kernels_for(best_isa()), always).result;
     for (const ParallelFor& loop :

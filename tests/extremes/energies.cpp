@@ -38,7 +38,7 @@ Finding fall(double dt, double momentum) {
   settings.dt = dt;
   settings.momentum = momentum;
   settings.near = near_of(dt);
-  settings.limits = {Solver::accelerated_projected_gradient, 100'000, solved_to};
+  settings.limits = {Solver::accelerated_gauss_seidel, 100'000, solved_to};
   double before = energy_of(bed, dt), rise = 0.0, worst_residual = 0.0;
   for (int k = 0; k < steps_watched; ++k) {
     worst_residual = std::max(worst_residual,

@@ -81,7 +81,7 @@ Finding wedge_of_three(double half) {
   StepSettings settings;
   settings.momentum = 0.0;
   settings.correction = 1.0;
-  settings.limits = {Solver::accelerated_projected_gradient, 1'000'000, 1e-10};
+  settings.limits = {Solver::accelerated_gauss_seidel, 1'000'000, 1e-10};
   StepState<double> state;
   StepReport report;
   for (int k = 0; k < 10; ++k) report = step(settings, kernels(), bed, state);

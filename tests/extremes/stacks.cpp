@@ -15,7 +15,7 @@ StepSettings settings_of_stack() {
   StepSettings settings;
   settings.momentum = 0.0;
   settings.correction = 1.0;
-  settings.limits = {Solver::accelerated_projected_gradient, 200'000, residual};
+  settings.limits = {Solver::accelerated_gauss_seidel, 200'000, residual};
   return settings;
 }
 

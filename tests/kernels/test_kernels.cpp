@@ -41,7 +41,7 @@ TEST_CASE("each table holds the kernels of its own instruction set") {
     for (const Isa other : all) {
       const Kernels& theirs = kernels_for(other);
       CHECK((own.sphere_pairs == theirs.sphere_pairs) == (isa == other));
-      CHECK((own.f32.gradient_sweep == theirs.f32.gradient_sweep) == (isa == other));
+      CHECK((own.f32.gauss_seidel_sweep == theirs.f32.gauss_seidel_sweep) == (isa == other));
       CHECK((own.f64.gauss_seidel_sweep == theirs.f64.gauss_seidel_sweep) == (isa == other));
       CHECK((own.f32.add_pushes == theirs.f32.add_pushes) == (isa == other));
       CHECK((own.f64.residual == theirs.f64.residual) == (isa == other));

@@ -38,9 +38,8 @@ LeverTwin<Real> lever_twin(LeverRows<Real> rows, std::size_t block, std::size_t 
 
 /// Calls visit(its block, number of the block, lane) for every contact.
 template <class Real, class Visit>
-void visit_lanes(LeverRows<Real> rows, std::size_t blocks, bool backward, Visit visit) {
-  for (std::size_t step = 0; step < blocks; ++step) {
-    const std::size_t block = backward ? blocks - 1 - step : step;
+void visit_lanes(LeverRows<Real> rows, std::size_t blocks, Visit visit) {
+  for (std::size_t block = 0; block < blocks; ++block) {
     for (std::size_t lane = 0; lane < block_width; ++lane) visit(rows.blocks[block], block, lane);
   }
 }
@@ -67,28 +66,6 @@ struct PushTwin {
   }
 };
 
-template <class Real>
-SweepSums<Real> lever_gradient_twin(LeverRows<Real> rows, std::size_t blocks, const Record<Real>* u,
-                                    Record<Real>* pushes, Real* p, Real* y, Real inverse_bound,
-                                    Real momentum) {
-  Real residual = 0, uphill[block_width] = {};
-  visit_lanes(rows, blocks, false, [&](const auto& c, std::size_t block, std::size_t lane) {
-    PushTwin<Real> push;
-    for (std::size_t i = 0; i < c.points; ++i) {
-      const LeverTwin<Real> t = lever_twin(rows, block, lane, i);
-      const std::size_t at = (c.first + i) * block_width + lane;
-      const Real w = t.gap_after(u), y_old = y[at], p_old = p[at];
-      p[at] = larger(Real(0), y_old - w * (t.r.step_mass[lane] * inverse_bound));
-      y[at] = p[at] + momentum * (p[at] - p_old);
-      residual = larger(residual, std::abs(smaller(y_old, w * t.r.reduced_mass[lane])));
-      uphill[lane] += (y_old - p[at]) * (p[at] - p_old);
-      push.add(t, y[at]);
-    }
-    push.give(c, lane, pushes);
-  });
-  return {residual, tree_sum(uphill)};
-}
-
 /// Adds an impulse p, of either sign, to the two records of one side.
 template <class Real>
 void push_side_twin(const LeverBlock<Real>& c, const Real (&lever)[3][block_width],
@@ -105,9 +82,8 @@ template <class Real>
 SweepSums<Real> lever_gauss_seidel_twin(LeverRows<Real> rows, std::size_t blocks, Record<Real>* u,
                                         Real* p, Real* y, SweepRule<Real> rule) {
   Real residual = 0, uphill[block_width] = {};
-  visit_lanes(rows, blocks, rule.backward, [&](const auto& c, std::size_t block, std::size_t lane) {
-    for (std::size_t step = 0; step < c.points; ++step) {
-      const std::size_t i = rule.backward ? c.points - 1 - step : step;
+  visit_lanes(rows, blocks, [&](const auto& c, std::size_t block, std::size_t lane) {
+    for (std::size_t i = 0; i < c.points; ++i) {
       const LeverTwin<Real> t = lever_twin(rows, block, lane, i);
       const std::size_t at = (c.first + i) * block_width + lane;
       const Real w = t.gap_after(u) * t.r.reduced_mass[lane], y_old = y[at], p_old = p[at];
@@ -126,7 +102,7 @@ SweepSums<Real> lever_gauss_seidel_twin(LeverRows<Real> rows, std::size_t blocks
 template <class Real>
 void lever_pushes_twin(LeverRows<Real> rows, std::size_t blocks, const Real* p,
                        Record<Real>* pushes) {
-  visit_lanes(rows, blocks, false, [&](const auto& c, std::size_t block, std::size_t lane) {
+  visit_lanes(rows, blocks, [&](const auto& c, std::size_t block, std::size_t lane) {
     PushTwin<Real> push;
     for (std::size_t i = 0; i < c.points; ++i) {
       push.add(lever_twin(rows, block, lane, i), p[(c.first + i) * block_width + lane]);
@@ -139,7 +115,7 @@ template <class Real>
 Real lever_residual_twin(LeverRows<Real> rows, std::size_t blocks, const Record<Real>* u,
                          const Real* p, Real unit_mass) {
   Real worst = 0;
-  visit_lanes(rows, blocks, false, [&](const auto& c, std::size_t block, std::size_t lane) {
+  visit_lanes(rows, blocks, [&](const auto& c, std::size_t block, std::size_t lane) {
     for (std::size_t i = 0; i < c.points; ++i) {
       const LeverTwin<Real> t = lever_twin(rows, block, lane, i);
       const Real w = t.gap_after(u) * t.r.reduced_mass[lane];

@@ -67,30 +67,10 @@ Real tree_sum(Real (&lane)[block_width]) {
 }
 
 template <class Real>
-SweepSums<Real> gradient_sweep_twin(const RowBlock<Real>* rows, std::size_t blocks,
-                                    const Record<Real>* u, Record<Real>* pushes, Real* p, Real* y,
-                                    Real inverse_bound, Real momentum) {
-  Real residual = 0, uphill[block_width] = {};
-  for (std::size_t row = 0; row < blocks * block_width; ++row) {
-    const RowBlock<Real>& r = rows[row / block_width];
-    const std::size_t lane = row % block_width;
-    const Real w = scaled_gap_twin(r, lane, u), y_old = y[row], p_old = p[row];
-    p[row] = larger(Real(0), y_old - w * inverse_bound);
-    const Real change = p[row] - p_old;
-    y[row] = p[row] + momentum * change;
-    residual = larger(residual, std::abs(smaller(y_old, w)));
-    uphill[lane] += (y_old - p[row]) * change;
-    push_twin(r, lane, y[row], pushes);
-  }
-  return {residual, tree_sum(uphill)};
-}
-
-template <class Real>
 SweepSums<Real> gauss_seidel_twin(const RowBlock<Real>* rows, std::size_t blocks, Record<Real>* u,
                                   Real* p, Real* y, SweepRule<Real> rule) {
   Real residual = 0, uphill[block_width] = {};
-  for (std::size_t step = 0; step < blocks; ++step) {
-    const std::size_t block = rule.backward ? blocks - 1 - step : step;
+  for (std::size_t block = 0; block < blocks; ++block) {
     for (std::size_t lane = 0; lane < block_width; ++lane) {
       const std::size_t row = block * block_width + lane;
       const Real w = scaled_gap_twin(rows[block], lane, u), y_old = y[row], p_old = p[row];

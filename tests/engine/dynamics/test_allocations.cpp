@@ -51,7 +51,7 @@ SphereBed loose_bed(double small_share) {
 template <class Real>
 long allocations_in_steps(int first, int last, SphereBed bed, StepState<Real>& state) {
   StepSettings settings;
-  settings.limits = {Solver::accelerated_projected_gradient, 20, 1e-3};
+  settings.limits = {Solver::accelerated_gauss_seidel, 20, 1e-3};
   const ExecutionContext context(kernels_for(best_isa()));
   long before = 0;
   for (int k = 0; k < last; ++k) {

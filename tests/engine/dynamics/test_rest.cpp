@@ -157,7 +157,7 @@ RestReport perfect_rest() {
 std::vector<PairForce> forces_at_rest(SphereBed& bed) {
   StepSettings settings;
   settings.momentum = 0.0;
-  settings.limits = {Solver::accelerated_projected_gradient, 100'000, 1e-9};
+  settings.limits = {Solver::accelerated_gauss_seidel, 100'000, 1e-9};
   StepState<double> state;
   REQUIRE(step(settings, kernels(), bed, state).solve.residual <= 1e-9);
   return pair_forces(bed, state.contacts, settings.dt);

@@ -17,7 +17,7 @@ TEST_CASE("a lone grain on the floor has three constraints and is isostatic") {
   ShapeStepState<double> state;
   StepSettings settings;
   settings.momentum = 0;
-  settings.limits = {Solver::accelerated_projected_gradient, 10'000, 1e-9};
+  settings.limits = {Solver::accelerated_gauss_seidel, 10'000, 1e-9};
   step(settings, kernels(), bed, state);
   const RestReport rest = certify(bed, kernels(), settings.dt, state);
   CHECK(rest.contacts == 3);
@@ -30,7 +30,7 @@ TEST_CASE("overlaps are measured where the grains are, at the deepest point") {
   ShapeStepState<double> state;
   StepSettings settings;
   settings.momentum = 0;
-  settings.limits = {Solver::accelerated_projected_gradient, 10'000, 1e-9};
+  settings.limits = {Solver::accelerated_gauss_seidel, 10'000, 1e-9};
   step(settings, kernels(), bed, state);
   bed.position[0].z -= 0.01;
   const RestReport rest = certify(bed, kernels(), settings.dt, state);

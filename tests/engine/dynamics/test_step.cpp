@@ -24,7 +24,7 @@ StepSettings tight_steps(double momentum) {
   StepSettings settings;
   settings.momentum = momentum;
   settings.correction = 1.0;
-  settings.limits = {Solver::accelerated_projected_gradient, 100'000, 1e-9};
+  settings.limits = {Solver::accelerated_gauss_seidel, 100'000, 1e-9};
   return settings;
 }
 

@@ -158,12 +158,8 @@ TEST_CASE("every name of a choice is read as the value it names") {
   CHECK(draft.spec.box.y == Boundary::periodic);
   set("accuracy.solver", "pgs");
   CHECK(draft.spec.accuracy.solver == Solver::projected_gauss_seidel);
-  set("accuracy.solver", "symmetric_pgs");
-  CHECK(draft.spec.accuracy.solver == Solver::symmetric_gauss_seidel);
-  set("accuracy.solver", "nncg");
-  CHECK(draft.spec.accuracy.solver == Solver::nonsmooth_nonlinear_conjugate);
-  set("accuracy.solver", "apgd");
-  CHECK(draft.spec.accuracy.solver == Solver::accelerated_projected_gradient);
+  set("accuracy.solver", "apgs");
+  CHECK(draft.spec.accuracy.solver == Solver::accelerated_gauss_seidel);
   set("accuracy.precision", "f64");
   CHECK(draft.spec.accuracy.precision == Precision::f64);
   set("accuracy.precision", "f32");
@@ -192,6 +188,14 @@ TEST_CASE("a value of the wrong type is refused with what was wanted and what wa
   CHECK(error_of("seed", -1) == "must be a whole number from 0 to 18446744073709551615, is -1");
   CHECK(error_of("seed", 1.8446744073709552e19) ==
         "must be a whole number from 0 to 18446744073709551615, is 1.8446744073709552e+19");
+}
+
+TEST_CASE("a solver of earlier versions is refused with the one that took its place") {
+  for (const std::string name : {"symmetric_pgs", "nncg", "apgd"}) {
+    CHECK(error_of("accuracy.solver", name) ==
+          "must be \"pgs\" or \"apgs\", is the text \"" + name +
+              "\", which this version no longer has; take \"apgs\"");
+  }
 }
 
 TEST_CASE("what is no shape is refused with the shapes there are") {

@@ -13,7 +13,7 @@ const std::string whole_file = R"({ "name": "whole", "seed": 20130708, "replicat
              "box":   { "length": 20, "width": 10, "x": "periodic", "y": "walls" },
              "fill":  { "solid_height": 9.95 },
              "sizes": { "spread": 0.033333, "small_share": 0, "size_ratio": 0.5 },
-             "accuracy": { "preset": "balanced", "solver": "nncg", "precision": "f64" },
+             "accuracy": { "preset": "balanced", "solver": "pgs", "precision": "f64" },
              "measure": { "exclude_floor": 2.5, "gap_tolerances": [1e-4, 1e-5] } },
   "sweep": [ { "label": "MSP", "grid": { "box.width": [5, 6, 8, 10, 15, 20] } },
              { "label": "MSP bulk", "set": { "box.width": 20, "box.y": "periodic" } },
@@ -44,7 +44,7 @@ TEST_CASE("a file with every kind of block is read whole") {
   std::set<std::string> ids;
   for (const Job& job : sweep.jobs) ids.insert(job.id);
   CHECK(ids.size() == sweep.jobs.size());
-  CHECK(sweep.jobs[0].spec.accuracy.solver == Solver::nonsmooth_nonlinear_conjugate);
+  CHECK(sweep.jobs[0].spec.accuracy.solver == Solver::projected_gauss_seidel);
   CHECK(sweep.jobs[0].spec.measure.exclude_floor == 2.5);
   CHECK(sweep.jobs[18].spec.box.y == Boundary::periodic);
   CHECK(sweep.jobs[48].seed == 1);
