@@ -1,5 +1,5 @@
-// The stages of settling: what a step is like in each, what ends it, and how long they usually
-// take. What each is for is told in engine/dynamics/settle.hpp.
+// The stages of settling: what each is for, what a step is like in it, what ends it, and how long
+// it usually takes. The table itself is in stages.cpp.
 #pragma once
 
 #include <cstdint>
@@ -25,21 +25,25 @@ enum class Inertia { none, damped, full };
 /// What a stage changes in a step. Motions and overlaps go with the square of a step, so that
 /// shorter steps need to look less far.
 struct StageRule {
+  const char* name = "";
   StageEnd end = StageEnd::steps;
-  double step = 1.0;  ///< in steps of the fall
+  double step = 1.0;  ///< in Accuracy::step
   Inertia inertia = Inertia::none;
-  double correction = 0.0;       ///< share of an overlap that a step repairs
-  double near = 0.0;             ///< pairs with a smaller gap are rows, d
-  double margin = 0.0;           ///< candidates reach this much further, d
-  double of_fall = 0.0;          ///< most iterations a step: so many times those of the fall and
-  double of_rest = 0.0;          ///< so many times those at rest, together
-  std::int64_t least_steps = 0;  ///< besides those of the creep
-  double creep_begin = 0.0;      ///< part of the creep that it takes, in creep_steps
-  double creep_end = 0.0;
+  double correction = 0.0;  ///< share of an overlap that a step repairs
+  double near = 0.0;        ///< pairs with a smaller gap are rows, d
+  double margin = 0.0;      ///< candidates reach this much further, d
+  // Most iterations a step: the sum of
+  double fall_iterations = 0.0;  ///< so many times Accuracy::fall_iterations and
+  double rest_iterations = 0.0;  ///< so many times Accuracy::rest_iterations
+  // Steps, if it ends on a condition the least:
+  std::int64_t steps = 0;   ///< these, and
+  double creep_from = 0.0;  ///< of Accuracy::creep_steps what lies from this share
+  double creep_to = 0.0;    ///< to this one
+  double energy = 0.0;      ///< m g d per grain; a bed with less of it has lost its speed
+  // What progress bars go by:
   std::int64_t usual_steps = 0;  ///< of stages that end on a condition
-  double usual_begin = 0.0;      ///< share of the work that is usually done before it and after it
-  double usual_end = 0.0;
-  double energy = 0.0;  ///< m g d per grain; a bed with less of it has lost its speed
+  double done_before = 0.0;      ///< share of all work that is usually done before it
+  double done_after = 0.0;       ///< and after it
 };
 
 /// The stages in their order, the first a look at the bed as it is given.

@@ -1,3 +1,8 @@
+#include <algorithm>
+#include <array>
+#include <set>
+#include <string_view>
+
 #include <catch2/catch.hpp>
 
 #include "engine/dynamics/presets.hpp"
@@ -6,15 +11,37 @@
 namespace grainsweep {
 namespace {
 
-Stages heavy_ball() { return stages_of_spheres(Protocol::heavy_ball); }
+/// The stage of that name; there must be one.
+const StageRule& stage_called(std::string_view name, Stages stages) {
+  const auto found = std::find_if(stages.begin(), stages.end(),
+                                  [&](const StageRule& stage) { return stage.name == name; });
+  REQUIRE(found != stages.end());
+  return *found;
+}
+const StageRule& heavy_ball(std::string_view name) {
+  return stage_called(name, stages_of_spheres(Protocol::heavy_ball));
+}
+const StageRule& dynamic(std::string_view name) {
+  return stage_called(name, stages_of_spheres(Protocol::dynamic));
+}
 
-// Numbers of the stages of spheres.
-constexpr std::size_t fall = 1, loose_creep = 2, creep = 3, quench = 5;
+std::array<Stages, 3> all_stages() {
+  return {stages_of_spheres(Protocol::heavy_ball), stages_of_spheres(Protocol::dynamic),
+          stages_of_shapes()};
+}
+
+TEST_CASE("every stage has a name of its own among those of its kind") {
+  for (const Stages stages : all_stages()) {
+    std::set<std::string_view> names;
+    for (const StageRule& stage : stages) names.insert(stage.name);
+    CHECK(names.size() == stages.size());
+    CHECK(names.count("") == 0);
+  }
+}
 
 TEST_CASE("the share done never falls from stage to stage and stays below 1") {
   for (const Preset& known : presets()) {
-    for (const Stages stages :
-         {heavy_ball(), stages_of_spheres(Protocol::dynamic), stages_of_shapes()}) {
+    for (const Stages stages : all_stages()) {
       double before = 0;
       for (const StageRule& stage : stages) {
         for (const std::int64_t steps : {0, 1, 10, 1000, 100000}) {
@@ -30,8 +57,7 @@ TEST_CASE("the share done never falls from stage to stage and stays below 1") {
 }
 
 TEST_CASE("every bed is looked at first and tested for rest last") {
-  for (const Stages stages :
-       {heavy_ball(), stages_of_spheres(Protocol::dynamic), stages_of_shapes()}) {
+  for (const Stages stages : all_stages()) {
     CHECK(stages.front().end == StageEnd::look);
     CHECK(stages.back().end == StageEnd::rest);
   }
@@ -41,9 +67,9 @@ TEST_CASE("the two parts of the creep make up its steps") {
   for (const int steps : {0, 1, 2, 3, 80, 301}) {
     Accuracy accuracy;
     accuracy.creep_steps = steps;
-    const std::int64_t loose = steps_of(accuracy, heavy_ball()[loose_creep]);
+    const std::int64_t loose = steps_of(accuracy, heavy_ball("loose creep"));
     CHECK(loose == 2 * steps / 3);
-    CHECK(loose + steps_of(accuracy, heavy_ball()[creep]) == steps);
+    CHECK(loose + steps_of(accuracy, heavy_ball("creep")) == steps);
   }
 }
 
@@ -54,23 +80,22 @@ TEST_CASE("the creep is solved better towards its end") {
   const auto iterations = [&](const StageRule& stage) {
     return settings_of(accuracy, stage).limits.iterations;
   };
-  CHECK(iterations(heavy_ball()[loose_creep]) == 150);
-  CHECK(iterations(heavy_ball()[creep]) == 300);
-  CHECK(iterations(heavy_ball()[quench]) == 600);
-  CHECK(iterations(heavy_ball()[fall]) == 77);
-  CHECK(iterations(stages_of_spheres(Protocol::dynamic)[fall]) == 77);
-  CHECK(iterations(stages_of_shapes()[fall]) == 51);  // two thirds
+  CHECK(iterations(heavy_ball("loose creep")) == 150);
+  CHECK(iterations(heavy_ball("creep")) == 300);
+  CHECK(iterations(heavy_ball("quench")) == 600);
+  CHECK(iterations(heavy_ball("fall")) == 77);
+  CHECK(iterations(dynamic("fall")) == 77);
+  CHECK(iterations(stage_called("fall", stages_of_shapes())) == 51);  // two thirds
 }
 
 TEST_CASE("plain dynamics is undamped and takes a quarter of a step") {
   Accuracy accuracy;
   accuracy.step = 0.2;
   accuracy.momentum = 0.9;
-  const Stages dynamic = stages_of_spheres(Protocol::dynamic);
-  CHECK(settings_of(accuracy, dynamic[fall]).momentum == 1.0);
-  CHECK(settings_of(accuracy, dynamic[fall]).dt == 0.05);
-  CHECK(settings_of(accuracy, heavy_ball()[fall]).momentum == 0.9);
-  CHECK(settings_of(accuracy, heavy_ball()[quench]).momentum == 0.0);
+  CHECK(settings_of(accuracy, dynamic("fall")).momentum == 1.0);
+  CHECK(settings_of(accuracy, dynamic("fall")).dt == 0.05);
+  CHECK(settings_of(accuracy, heavy_ball("fall")).momentum == 0.9);
+  CHECK(settings_of(accuracy, heavy_ball("quench")).momentum == 0.0);
 }
 
 }  // namespace
