@@ -71,7 +71,7 @@ enum class Protocol {
 };
 
 /// How well a packing is settled: the trade of speed for accuracy, part by part.
-/// A preset is one value of it; engine/dynamics/presets.hpp says what each promises.
+/// By itself it is the preset `balanced`; engine/dynamics/presets.hpp says what each promises.
 struct Accuracy {
   Protocol protocol = Protocol::heavy_ball;
   Solver solver = Solver::accelerated_gauss_seidel;
@@ -81,9 +81,9 @@ struct Accuracy {
   int fall_iterations = 15;   ///< solver iterations per step while the bed compacts
   int creep_steps = 45;       ///< double steps after the fall, while the bed creeps to rest
   int rest_iterations = 100;  ///< most solver iterations per step at the end of the creep
-  double residual_tolerance = 5e-3;  ///< force balance at rest, m g, worst row
-  double kinetic_tolerance = 2e-4;   ///< kinetic energy per grain at rest, m g d
-  double contact_tolerance = 0.04;   ///< |contacts / isostatic count - 1| at rest
+  double residual_tolerance = 1e-2;  ///< force balance at rest, m g, worst row
+  double kinetic_tolerance = 1e-4;   ///< kinetic energy per grain at rest, m g d
+  double contact_tolerance = 0.02;   ///< |contacts / isostatic count - 1| at rest
   double overlap_tolerance = 1e-5;   ///< mean overlap of touching pairs at rest, d
   int max_steps = 2000;              ///< a bed that needs more is reported as not settled
   BalanceCheck force_balance = BalanceCheck::skip;

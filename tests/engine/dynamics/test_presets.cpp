@@ -11,7 +11,7 @@ TEST_CASE("a preset is found by its name, and only by it") {
     CHECK_FALSE(known.promise.empty());
   }
   CHECK(preset("fast"));
-  CHECK(preset("balanced"));
+  CHECK(preset("balanced") == Accuracy{});
   CHECK(preset("accurate"));
   CHECK_FALSE(preset(""));
   CHECK_FALSE(preset("Fast"));
