@@ -69,7 +69,6 @@ void count_pairs(benchmark::State& run) {
 
 void batch_axes(benchmark::State& run) {
   const ConvexShape shape = pinacoid({});
-  const PinacoidWidth& w = *shape.pinacoid;
   const Bed bed = close_pairs(shape);
   std::vector<PinacoidBlock> blocks(pairs / block_width);
   for (std::size_t k = 0; k < pairs; ++k) {
@@ -78,7 +77,7 @@ void batch_axes(benchmark::State& run) {
   }
   const Kernels& kernels = kernels_for(static_cast<Isa>(run.range(0)));
   for (auto _ : run) {
-    kernels.pinacoid_axes({w.a, w.b, w.c, w.e}, blocks.data(), blocks.size(), bed.centres.data(),
+    kernels.pinacoid_axes(*shape.pinacoid, blocks.data(), blocks.size(), bed.centres.data(),
                           bed.orientations.data(), 20, 20);
     benchmark::ClobberMemory();
   }

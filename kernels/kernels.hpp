@@ -46,10 +46,10 @@ struct GrainPair {
   std::int32_t a, b;
 };
 
-/// Half lengths of a pinacoid: along a unit vector n it reaches max(a |nx| + b |ny|,
-/// c |nx| + e |nz|) from its centre, times the size in its record.
+/// Half length, width, ridge and height of a pinacoid, d: along a unit vector n in its frame it
+/// reaches max(a |nx| + b |ny|, c |nx| + e |nz|) from its centre, times the size in its record.
 struct PinacoidHalves {
-  double a, b, c, e;  ///< d
+  double a = 0.0, b = 0.0, c = 0.0, e = 0.0;
 };
 
 /// Edges whose angle has a smaller square of its sine are parallel to f32.

@@ -60,7 +60,7 @@ void list_close(double margin, const PolyhedronBed& bed, ShapeSearch& search) {
 }
 
 void batch_axes(const ExecutionContext& context, const PolyhedronBed& bed, ShapeSearch& search) {
-  const PinacoidWidth& w = *bed.shape.pinacoid;
+  const PinacoidHalves& w = *bed.shape.pinacoid;
   search.axes.assign((search.close.size() + block_width - 1) / block_width, {});
   for (std::size_t k = 0; k < search.axes.size() * block_width; ++k) {
     const GrainPair pair = k < search.close.size() ? search.close[k] : GrainPair{0, 0};

@@ -13,6 +13,8 @@
 
 #include <Eigen/Core>
 
+#include "kernels/kernels.hpp"
+
 namespace grainsweep {
 
 using Vector = Eigen::Vector3d;
@@ -40,12 +42,6 @@ struct Edge {
   std::int32_t direction = 0;        ///< in `edge_directions`, up to sign
 };
 
-/// What gives the half width of a pinacoid along n in closed form:
-/// max(a |nx| + b |ny|, c |nx| + e |nz|).
-struct PinacoidWidth {
-  double a = 0.0, b = 0.0, c = 0.0, e = 0.0;  ///< half length, width, ridge and height, d
-};
-
 /// Where a shape in its frame came from: x_given = rotation x_shape + centroid.
 struct GivenFrame {
   Vector centroid = Vector::Zero();
@@ -66,10 +62,10 @@ struct ConvexShape {
   double volume = 0.0;                           ///< d^3
   Vector inertia = Vector::Zero();               ///< principal moments over mass, d^2
   double circumradius = 0.0;                     ///< of the smallest ball around the centroid, d
-  double inradius = 0.0;                  ///< of the largest ball around the centroid within, d
-  bool centrally_symmetric = false;       ///< -x is a vertex for every vertex x
-  std::optional<PinacoidWidth> pinacoid;  ///< if the shape is one
-  GivenFrame given;                       ///< that in which its vertices were written
+  double inradius = 0.0;                   ///< of the largest ball around the centroid within, d
+  bool centrally_symmetric = false;        ///< -x is a vertex for every vertex x
+  std::optional<PinacoidHalves> pinacoid;  ///< if the shape is one
+  GivenFrame given;                        ///< that in which its vertices were written
 };
 
 /// Vertices of a face, counter-clockwise seen from outside.
@@ -78,7 +74,7 @@ inline std::span<const std::int32_t> corners_of(const ConvexShape& shape, const 
 }
 
 /// Half width of a pinacoid along n: largest n . x over its points.
-inline double half_width(const PinacoidWidth& w, const Vector& n) {
+inline double half_width(const PinacoidHalves& w, const Vector& n) {
   const double x = n.x() < 0 ? -n.x() : n.x(), y = n.y() < 0 ? -n.y() : n.y();
   const double z = n.z() < 0 ? -n.z() : n.z();
   const double waist = w.a * x + w.b * y, ridge = w.c * x + w.e * z;

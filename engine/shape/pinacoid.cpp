@@ -17,13 +17,13 @@ constexpr double degree = pi / 180.0;
 // A ridge shorter than this share of the length is rounding of a point.
 constexpr double no_ridge = 1e-12;
 
-PinacoidWidth width_of(const PinacoidSize& size) {
+PinacoidHalves halves_of(const PinacoidSize& size) {
   const double a = size.length / 2.0, e = size.height / 2.0;
   const double c = a - e / std::tan(size.angle);
   return {a, size.width / 2.0, c > no_ridge * a ? c : 0.0, e};
 }
 
-std::vector<Vector> vertices_of(const PinacoidWidth& w) {
+std::vector<Vector> vertices_of(const PinacoidHalves& w) {
   return {{w.a, w.b, 0}, {-w.a, w.b, 0}, {-w.a, -w.b, 0}, {w.a, -w.b, 0},
           {w.c, 0, w.e}, {-w.c, 0, w.e}, {w.c, 0, -w.e},  {-w.c, 0, -w.e}};
 }
@@ -39,7 +39,7 @@ Loops loops_of_points() {
 }
 
 /// Subdomains at height t e are rectangles of half lengths a - s t and b (1 - t).
-void set_mass(const PinacoidWidth& w, ConvexShape& shape) {
+void set_mass(const PinacoidHalves& w, ConvexShape& shape) {
   const double a = w.a, s = w.a - w.c, e_b = 8.0 * w.e * w.b;
   const double volume = e_b * (a / 2.0 - s / 6.0);
   const double cubes = a * a * a / 2.0 - a * a * s / 2.0 + a * s * s / 4.0 - s * s * s / 20.0;
@@ -81,7 +81,7 @@ std::string problem_with(const PinacoidSize& size) {
 }
 
 ConvexShape pinacoid(const PinacoidSize& size) {
-  const PinacoidWidth width = width_of(size);
+  const PinacoidHalves width = halves_of(size);
   std::vector<Vector> vertices = vertices_of(width);
   if (width.c == 0.0) {
     vertices.erase(vertices.begin() + 7);

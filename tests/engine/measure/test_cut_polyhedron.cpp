@@ -55,7 +55,7 @@ TEST_CASE("a plane cuts from a cube on its corner the pyramid that geometry says
 
 TEST_CASE("a pinacoid lying flat has in each slab the volume of its rectangles") {
   const ConvexShape shape = pinacoid({});
-  const PinacoidWidth w = *shape.pinacoid;
+  const PinacoidHalves w = *shape.pinacoid;
   const double s = w.a - w.c;
   for (const double t : {0.1, 0.5, 0.9}) {  // integral of 4 (a - s t) (b - b t) e dt
     const double upper = 4 * w.b * w.e * (w.a * t - (w.a + s) * t * t / 2 + s * t * t * t / 3);

@@ -18,7 +18,7 @@ using testing::PairFamily;
 
 /// Of a grain of radius 1, whose scale is 2.
 PinacoidHalves halves_of(const ConvexShape& shape) {
-  const PinacoidWidth& w = *shape.pinacoid;
+  const PinacoidHalves& w = *shape.pinacoid;
   return {2 * w.a, 2 * w.b, 2 * w.c, 2 * w.e};
 }
 

@@ -68,7 +68,7 @@ TEST_CASE("faces of a pinacoid lie opposite each other four numbers apart, edges
     for (std::size_t k = 0; k < 4; ++k) {
       CHECK((shape.faces[k].normal + shape.faces[k + 4].normal).norm() < 1e-15);
     }
-    const PinacoidWidth w = *shape.pinacoid;
+    const PinacoidHalves w = *shape.pinacoid;
     const double s = w.a - w.c;
     const Vector normals[] = {{0, w.e, w.b}, {0, -w.e, w.b}, {w.e, 0, s}, {-w.e, 0, s}};
     const Vector edges[] = {{1, 0, 0},      {s, -w.b, w.e},   {s, w.b, -w.e},
