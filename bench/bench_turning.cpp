@@ -46,15 +46,14 @@ void over_rows(benchmark::State& run, Sweep sweep) {
   const auto isa = static_cast<Isa>(run.range(0));
   auto& rows = frozen.state.rows;
   for (auto _ : run) {
-    sweep(lever_kernels<Real>(kernels_for(isa)),
-          LeverRows<Real>{rows.blocks.data(), rows.points.data()}, rows.blocks.size(),
-          frozen.state);
+    sweep(body_kernels<Real>(kernels_for(isa)),
+          BodyRows<Real>{rows.blocks.data(), rows.points.data()}, rows.blocks.size(), frozen.state);
   }
   count_rows(run, frozen, isa);
 }
 
 template <class Real>
-void lever_gauss_seidel_sweep(benchmark::State& run) {
+void body_gauss_seidel_sweep(benchmark::State& run) {
   over_rows<Real>(run, [](const auto& kernels, auto rows, std::size_t blocks, auto& state) {
     benchmark::DoNotOptimize(kernels.gauss_seidel_sweep(
         rows, blocks, state.motion.u.data(), state.rows.impulse.data(),
@@ -68,8 +67,8 @@ void isas(benchmark::internal::Benchmark* benchmark) {
   }
 }
 
-BENCHMARK_TEMPLATE(lever_gauss_seidel_sweep, float)->Apply(isas);
-BENCHMARK_TEMPLATE(lever_gauss_seidel_sweep, double)->Apply(isas);
+BENCHMARK_TEMPLATE(body_gauss_seidel_sweep, float)->Apply(isas);
+BENCHMARK_TEMPLATE(body_gauss_seidel_sweep, double)->Apply(isas);
 
 void shape_step(benchmark::State& run) {
   const FrozenShapes<float> frozen = frozen_shapes<float>(static_cast<double>(run.range(0)));

@@ -10,8 +10,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "kernels/body_kernels.hpp"
 #include "kernels/isa.hpp"
-#include "kernels/lever_kernels.hpp"
 #include "kernels/row_kernels.hpp"
 
 namespace grainsweep {
@@ -84,8 +84,8 @@ struct Kernels {
   Isa isa;
   RowKernels<float> f32;
   RowKernels<double> f64;
-  LeverKernels<float> lever_f32;
-  LeverKernels<double> lever_f64;
+  BodyKernels<float> body_f32;
+  BodyKernels<double> body_f64;
   /// All pairs of the grid with gap below `reach`, each once, in the order of the grid. Writes at
   /// most `capacity` of them and returns how many there are.
   std::size_t (*sphere_pairs)(const SphereGrid& grid, GrainPair* pairs, std::size_t capacity);
@@ -120,14 +120,14 @@ inline const RowKernels<double>& row_kernels<double>(const Kernels& kernels) {
 
 /// Lever kernels of `kernels` for a number type.
 template <class Real>
-const LeverKernels<Real>& lever_kernels(const Kernels& kernels);
+const BodyKernels<Real>& body_kernels(const Kernels& kernels);
 template <>
-inline const LeverKernels<float>& lever_kernels<float>(const Kernels& kernels) {
-  return kernels.lever_f32;
+inline const BodyKernels<float>& body_kernels<float>(const Kernels& kernels) {
+  return kernels.body_f32;
 }
 template <>
-inline const LeverKernels<double>& lever_kernels<double>(const Kernels& kernels) {
-  return kernels.lever_f64;
+inline const BodyKernels<double>& body_kernels<double>(const Kernels& kernels) {
+  return kernels.body_f64;
 }
 
 }  // namespace grainsweep

@@ -47,8 +47,8 @@ struct alignas(64) RowBlock {
 /// What one sweep over rows saw.
 template <class Real>
 struct SweepSums {
-  Real residual;  ///< largest |min(p, w / (1/m_a + 1/m_b))| before the update, d m
-  Real uphill;    ///< sum of (y - p_new)(p_new - p_old) over rows: positive asks for a restart
+  Real residual;      ///< largest |min(p, w / (1/m_a + 1/m_b))| before the update, d m
+  Real restart_test;  ///< sum of (y - p_new)(p_new - p_old) over rows: positive asks for a restart
 };
 
 /// Grains have sunk into each other when their centres are nearer than this share of the distance
@@ -65,10 +65,10 @@ struct SweepRule {
 /// Solver sweeps for one number type. `u` are motion records indexed by RowBlock::a and b.
 template <class Real>
 struct RowKernels {
-  /// u = free + M^-1 pushes for `count` records; leaves the pushes empty, ready for a sweep. The
+  /// u = free + M^-1 accumulated for `count` records, whose accumulated impulses are +0 then. The
   /// inverse masses are those of `free`.
-  void (*take_pushes)(const Record<Real>* free, std::size_t count, Record<Real>* pushes,
-                      Record<Real>* u);
+  void (*apply_impulses)(const Record<Real>* free, std::size_t count, Record<Real>* accumulated,
+                         Record<Real>* u);
   /// One projected Gauss-Seidel sweep, block after block; lanes of a block must not share a grain.
   /// Reads the extrapolated impulses y and their motion u = u(y); a row writes
   /// p = max(0, y - relaxation w / A), moves its grains by p - y at once, and then writes
@@ -79,9 +79,9 @@ struct RowKernels {
   /// The motion of extrapolated impulses: u = u + momentum (u - before) for `count` records; leaves
   /// what u was in `before`.
   void (*extrapolate)(Real momentum, std::size_t count, Record<Real>* before, Record<Real>* u);
-  /// Adds H p to the pushes.
-  void (*add_pushes)(const RowBlock<Real>* rows, std::size_t blocks, const Real* p,
-                     Record<Real>* pushes);
+  /// Adds H p, the impulses of the rows, to the accumulated impulses of their grains.
+  void (*accumulate_impulses)(const RowBlock<Real>* rows, std::size_t blocks, const Real* p,
+                              Record<Real>* accumulated);
   /// Largest |min(p, w / (1/m_a + 1/m_b))| over all rows, d m; each times unit_mass / m of the
   /// lighter of its grains where that is lighter than unit_mass.
   Real (*residual)(const RowBlock<Real>* rows, std::size_t blocks, const Record<Real>* u,

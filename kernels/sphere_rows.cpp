@@ -39,16 +39,16 @@ inline Components<Real> along_normals(const Rows<Real>& r, const Batch<Real>& p)
 }
 
 template <class Real>
-void take_pushes(const Record<Real>* free, std::size_t count, Record<Real>* pushes,
-                 Record<Real>* u) {
+void apply_impulses(const Record<Real>* free, std::size_t count, Record<Real>* accumulated,
+                    Record<Real>* u) {
   constexpr std::size_t few = records_at_once<Real>;
   const std::size_t whole = count - count % few;
-  for (std::size_t i = 0; i < whole; i += few) take_pushed(free + i, pushes + i, u + i);
+  for (std::size_t i = 0; i < whole; i += few) apply_to_records(free + i, accumulated + i, u + i);
   for (std::size_t i = whole; i < count; ++i) {
-    const Record<Real> from = free[i], push = pushes[i];
+    const Record<Real> from = free[i], push = accumulated[i];
     u[i] = {from.x + from.w * push.x, from.y + from.w * push.y, from.z + from.w * push.z,
             from.w + from.w * push.w};
-    pushes[i] = {};
+    accumulated[i] = {};
   }
 }
 
@@ -71,7 +71,7 @@ inline Components<Real> difference(const Components<Real>& b, const Components<R
 template <class Real>
 SweepSums<Real> gauss_seidel_sweep(const RowBlock<Real>* rows, std::size_t blocks, Record<Real>* u,
                                    Real* p, Real* y, SweepRule<Real> rule) {
-  LaneSums<Real> residual(Real(0)), uphill(Real(0));
+  LaneSums<Real> residual(Real(0)), restart_test(Real(0));
   const Batch<Real> zero(Real(0)), relaxation(rule.relaxation), carry(rule.momentum);
   for (std::size_t block = 0; block < blocks; ++block) {
     for (std::size_t k = 0; k < batches<Real>; ++k) {
@@ -85,14 +85,14 @@ SweepSums<Real> gauss_seidel_sweep(const RowBlock<Real>* rows, std::size_t block
       const Batch<Real> change = p_new - p_old, taken_back = y_old - p_new;
       const Components<Real> push = along_normals(r, p_new - y_old);
       residual.part[k] = xsimd::max(residual.part[k], natural_residual(y_old, w));
-      uphill.part[k] += taken_back * change;
+      restart_test.part[k] += taken_back * change;
       p_new.store_unaligned(p + at);
       (p_new + carry * change).store_unaligned(y + at);
       store_records(u, r.a, pushed_back(u_a, push));
       store_records(u, r.b, pushed(u_b, push));
     }
   }
-  return {residual.max(), uphill.sum()};
+  return {residual.max(), restart_test.sum()};
 }
 
 template <class Real>
@@ -116,14 +116,14 @@ void extrapolate(Real momentum, std::size_t count, Record<Real>* before, Record<
 }
 
 template <class Real>
-void add_pushes(const RowBlock<Real>* rows, std::size_t blocks, const Real* p,
-                Record<Real>* pushes) {
+void accumulate_impulses(const RowBlock<Real>* rows, std::size_t blocks, const Real* p,
+                         Record<Real>* accumulated) {
   for (std::size_t block = 0; block < blocks; ++block) {
     for (std::size_t k = 0; k < batches<Real>; ++k) {
       const std::size_t lane = k * batch_width<Real>;
       const Rows<Real> r = load_rows(rows[block], lane);
       const Batch<Real> impulse = load(p + block * block_width + lane);
-      push_records(pushes, r.a, r.b, along_normals(r, impulse));
+      push_records(accumulated, r.a, r.b, along_normals(r, impulse));
     }
   }
 }
@@ -178,8 +178,8 @@ double sphere_gaps(RowBlock<Real>* rows, std::size_t blocks, const Record<double
 
 template <class Real>
 constexpr grainsweep::RowKernels<Real> table() {
-  return {take_pushes<Real>, gauss_seidel_sweep<Real>, extrapolate<Real>,
-          add_pushes<Real>,  residual<Real>,           sphere_gaps<Real>};
+  return {apply_impulses<Real>,      gauss_seidel_sweep<Real>, extrapolate<Real>,
+          accumulate_impulses<Real>, residual<Real>,           sphere_gaps<Real>};
 }
 
 }  // namespace

@@ -15,8 +15,8 @@ using PinacoidAxes = void (*)(const PinacoidHalves& shape, PinacoidBlock* pairs,
 namespace sse2 {
 extern const RowKernels<float> row_kernels_f32;
 extern const RowKernels<double> row_kernels_f64;
-extern const LeverKernels<float> lever_kernels_f32;
-extern const LeverKernels<double> lever_kernels_f64;
+extern const BodyKernels<float> body_kernels_f32;
+extern const BodyKernels<double> body_kernels_f64;
 extern const SpherePairs sphere_pairs;
 extern const SpherePairsAcross sphere_pairs_across;
 extern const PinacoidAxes pinacoid_axes;
@@ -24,8 +24,8 @@ extern const PinacoidAxes pinacoid_axes;
 namespace avx2 {
 extern const RowKernels<float> row_kernels_f32;
 extern const RowKernels<double> row_kernels_f64;
-extern const LeverKernels<float> lever_kernels_f32;
-extern const LeverKernels<double> lever_kernels_f64;
+extern const BodyKernels<float> body_kernels_f32;
+extern const BodyKernels<double> body_kernels_f64;
 extern const SpherePairs sphere_pairs;
 extern const SpherePairsAcross sphere_pairs_across;
 extern const PinacoidAxes pinacoid_axes;
@@ -33,8 +33,8 @@ extern const PinacoidAxes pinacoid_axes;
 namespace avx512 {
 extern const RowKernels<float> row_kernels_f32;
 extern const RowKernels<double> row_kernels_f64;
-extern const LeverKernels<float> lever_kernels_f32;
-extern const LeverKernels<double> lever_kernels_f64;
+extern const BodyKernels<float> body_kernels_f32;
+extern const BodyKernels<double> body_kernels_f64;
 extern const SpherePairs sphere_pairs;
 extern const SpherePairsAcross sphere_pairs_across;
 extern const PinacoidAxes pinacoid_axes;

@@ -64,7 +64,7 @@ class GaussSeidel {
         has_momentum_(is_accelerated) {
     motion.u.resize(motion.free.size());
     motion.summed.resize(motion.free.size());
-    motion.pushes.assign(motion.free.size(), {Real(0), Real(0), Real(0), Real(0)});
+    motion.accumulated.assign(motion.free.size(), {Real(0), Real(0), Real(0), Real(0)});
     set_motion(motion.u);
   }
 
@@ -84,7 +84,7 @@ class GaussSeidel {
       end_sweep();
       recompute_motion();
     }
-    if (sums.uphill > 0) momentum_.restart();
+    if (sums.restart_test > 0) momentum_.restart();
     const auto seen = static_cast<double>(sums.residual);
     first_seen_ = first_seen_ < 0.0 ? seen : first_seen_;
     if (has_momentum_ && seen > diverged * first_seen_) give_momentum_up();
@@ -165,12 +165,12 @@ class GaussSeidel {
   /// u = free + M^-1 H p, without the rounding that sweeps have gathered.
   void set_motion(std::vector<Record<Real>>& u) {
     visit_ranges(rows_.shares, loop_, [&](BlockRange range) {
-      kernels_.add_pushes(rows_.rows_of(range), range.blocks, of(rows_.impulse, range),
-                          motion_.pushes.data());
+      kernels_.accumulate_impulses(rows_.rows_of(range), range.blocks, of(rows_.impulse, range),
+                                   motion_.accumulated.data());
     });
     visit_items(motion_.u.size(), [&](std::size_t first, std::size_t count) {
-      record_kernels_.take_pushes(motion_.free.data() + first, count, motion_.pushes.data() + first,
-                                  u.data() + first);
+      record_kernels_.apply_impulses(motion_.free.data() + first, count,
+                                     motion_.accumulated.data() + first, u.data() + first);
     });
   }
   /// Frees the motion of the impulses from what rounding has added, and the extrapolated one from
@@ -196,7 +196,7 @@ class GaussSeidel {
   }
 
   static Sums joined(Sums one, Sums other) {
-    return {std::max(one.residual, other.residual), one.uphill + other.uphill};
+    return {std::max(one.residual, other.residual), one.restart_test + other.restart_test};
   }
   /// Sums of what sweep(range) sees in all ranges of a part, one after the other.
   template <class Sweep>
@@ -282,7 +282,7 @@ SolveReport solve(const SolveLimits& limits, const ExecutionContext& context, Ro
     } while (report.iterations < most && seen > worth_a_look);
     report.residual = descent.finish(limits.unit_mass);
     const bool is_spent = report.iterations >= most;
-    const bool may_continue = report.residual > limits.bearable && most < limits.patience;
+    const bool may_continue = report.residual > limits.residual_cap && most < limits.iteration_cap;
     is_done = report.residual <= limits.tolerance || (is_spent && !may_continue);
     most *= is_spent ? 2 : 1;
     worth_a_look = std::min(seen, worth_a_look) * limits.tolerance / report.residual;

@@ -4,8 +4,8 @@
 //
 // Its dual is A p + w_free >= 0, p >= 0, p . (A p + w_free) = 0 with A = H^T M^-1 H. The residual
 // of a row is |min(p, w / A_kk)| / dt^2, in m g: the force by which it misses balance, in weights
-// of the lighter grain where that is lighter than m. Of spheres, A_kk = 1/m_a + 1/m_b; grains that
-// turn add the squares of their levers (kernels/lever_kernels.hpp).
+// of the lighter grain where that is lighter than m. Of spheres, A_kk = 1/m_a + 1/m_b; bodies
+// add the squares of their levers (kernels/body_kernels.hpp).
 #pragma once
 
 #include <limits>
@@ -20,12 +20,12 @@ namespace grainsweep {
 
 struct SolveLimits {
   Solver solver = Solver::accelerated_gauss_seidel;
-  int iterations = 100;     ///< most sweeps, unless what they leave is unbearable
+  int iterations = 100;     ///< most sweeps, unless they leave more than `residual_cap`
   double tolerance = 1e-3;  ///< residual at which to stop, as a mass times d (m g dt^2)
   double unit_mass = 1.0;   ///< residuals of lighter grains count in their own weights
-  /// While the residual is larger, a mass times d, iterations are doubled, up to `patience`.
-  double bearable = std::numeric_limits<double>::infinity();
-  int patience = 0;
+  /// While the residual is larger, a mass times d, iterations are doubled, up to `iteration_cap`.
+  double residual_cap = std::numeric_limits<double>::infinity();
+  int iteration_cap = 0;
 };
 
 struct SolveReport {
@@ -37,12 +37,12 @@ struct SolveReport {
 /// turn have a second record each.
 template <class Real>
 struct MotionColumns {
-  std::vector<Record<Real>> free;     ///< in: motion without contacts
-  std::vector<Record<Real>> u;        ///< out: motion with the impulses of `contacts`
-  std::vector<Record<Real>> pushes;   ///< sum of the impulses on each grain; empty between sweeps
-  std::vector<Record<Real>> before;   ///< motion after the last sweep, of methods that look ahead
-  std::vector<Record<Real>> summed;   ///< the same without the rounding of the sweeps
-  std::vector<SweepSums<Real>> seen;  ///< by each part of the last phase
+  std::vector<Record<Real>> free;         ///< in: motion without contacts
+  std::vector<Record<Real>> u;            ///< out: motion with the impulses of `contacts`
+  std::vector<Record<Real>> accumulated;  ///< impulses on each grain, summed; +0 between sweeps
+  std::vector<Record<Real>> before;       ///< motion after the last sweep
+  std::vector<Record<Real>> summed;       ///< the same without the rounding of the sweeps
+  std::vector<SweepSums<Real>> seen;      ///< by each part of the last phase
 };
 
 /// Improves `contacts.impulse`, starting from what it holds, until the residual is below the

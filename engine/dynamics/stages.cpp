@@ -181,12 +181,13 @@ constexpr StageRule turning[] = {
      .done_after = 1.0},
 };
 
-/// Grains of one size leave a tenth of it in the middle of their fall. A heavy grain on a light one
-/// needs more sweeps than a bed, or the light one is pressed out from under it. A mass times d.
-constexpr double bearable_residual = 0.01;
-constexpr int most_patience = 20'000;  // enough for masses 1e6 to 1
+/// While a step leaves more, its iterations are doubled. A heavy grain on a light one needs more
+/// sweeps than a bed, or the light one is pressed out from under it; grains of one size leave a
+/// tenth of this in the middle of their fall. A mass times d.
+constexpr double residual_cap = 0.01;
+constexpr int iteration_cap = 20'000;  // enough for masses 1e6 to 1
 
-/// At rest no more is bearable than the rest test lets pass. Where f32 stops short of it, more
+/// At rest no more may be left than the rest test lets pass. Where f32 stops short of it, more
 /// iterations seldom help: rounding has been reached, or will be in the next step.
 int doublings_at_rest(Precision precision) { return precision == Precision::f64 ? 4 : 1; }
 
@@ -222,12 +223,12 @@ StepSettings settings_of(const Accuracy& accuracy, const StageRule& rule) {
   s.near = rule.near;
   s.margin = rule.margin;
   s.limits = {accuracy.solver, iterations_of(accuracy, rule), accuracy.residual_tolerance / 5.0};
-  s.limits.bearable = bearable_residual;
-  s.limits.patience = most_patience;
+  s.limits.residual_cap = residual_cap;
+  s.limits.iteration_cap = iteration_cap;
   if (rule.end == StageEnd::rest) {
-    s.limits.bearable = std::min(bearable_residual, accuracy.residual_tolerance * s.dt * s.dt);
-    s.limits.patience =
-        std::min(most_patience, s.limits.iterations << doublings_at_rest(accuracy.precision));
+    s.limits.residual_cap = std::min(residual_cap, accuracy.residual_tolerance * s.dt * s.dt);
+    s.limits.iteration_cap =
+        std::min(iteration_cap, s.limits.iterations << doublings_at_rest(accuracy.precision));
   }
   return s;
 }

@@ -12,17 +12,15 @@ namespace grainsweep {
 /// force it stands for is impulse / dt^2, in m g.
 template <class Real>
 struct LeverColumns {
-  std::vector<LeverBlock<Real>> blocks;
-  std::vector<LeverPoints<Real>> points;
+  std::vector<BodyBlock<Real>> blocks;
+  std::vector<BodyPoints<Real>> points;
   RowShares shares;  ///< one part
   std::vector<Real> impulse;
   std::vector<Real> extrapolated;  ///< the solver's look-ahead impulses
 
   // As of Contacts; a block says itself where its impulses are.
-  static const LeverKernels<Real>& kernels_of(const Kernels& all) {
-    return lever_kernels<Real>(all);
-  }
-  LeverRows<Real> rows_of(BlockRange range) const {
+  static const BodyKernels<Real>& kernels_of(const Kernels& all) { return body_kernels<Real>(all); }
+  BodyRows<Real> rows_of(BlockRange range) const {
     return {blocks.data() + range.first, points.data()};
   }
   static std::size_t first_impulse(BlockRange) { return 0; }

@@ -42,7 +42,7 @@ class LeverBlocks {
 
  private:
   std::size_t append_void_block(std::size_t points) {
-    LeverBlock<Real> block{};
+    BodyBlock<Real> block{};
     block.first = static_cast<std::uint32_t>(rows_.points.size());
     block.points = static_cast<std::uint32_t>(points);
     for (std::size_t lane = 0; lane < block_width; ++lane) {
@@ -53,8 +53,8 @@ class LeverBlocks {
     rows_.points.insert(rows_.points.end(), points, void_points());
     return rows_.blocks.size() - 1;
   }
-  static LeverPoints<Real> void_points() {
-    LeverPoints<Real> points{};
+  static BodyPoints<Real> void_points() {
+    BodyPoints<Real> points{};
     for (std::size_t lane = 0; lane < block_width; ++lane) {
       points.gap[lane] = points.reduced_mass[lane] = Real(1);
     }
@@ -110,7 +110,7 @@ void set_rows(const PolyhedronBed& bed, const ShapeContact& contact, const Conta
 
 template <class Real>
 void store_row(const RowEntry& row, double inverse_masses, double gap, std::size_t lane,
-               LeverPoints<Real>& points) {
+               BodyPoints<Real>& points) {
   for (int axis = 0; axis < 3; ++axis) {
     points.lever_a[axis][lane] = static_cast<Real>(row.lever_a[axis]);
     points.lever_b[axis][lane] = static_cast<Real>(row.lever_b[axis]);
@@ -120,7 +120,7 @@ void store_row(const RowEntry& row, double inverse_masses, double gap, std::size
 }
 
 template <class Real>
-void store_normal(const Vector& normal, std::size_t lane, LeverBlock<Real>& block) {
+void store_normal(const Vector& normal, std::size_t lane, BodyBlock<Real>& block) {
   block.normal_x[lane] = static_cast<Real>(normal.x());
   block.normal_y[lane] = static_cast<Real>(normal.y());
   block.normal_z[lane] = static_cast<Real>(normal.z());

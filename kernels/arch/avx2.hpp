@@ -174,23 +174,25 @@ inline void add_records(Record<double>* base, const std::uint32_t* offset,
   add_to(at(base, offset[3]), r3);
 }
 
-/// Records that take_pushed handles.
+/// Records that apply_to_records handles.
 template <class Real>
 inline constexpr std::size_t records_at_once = sizeof(__m256) / sizeof(Record<Real>);
 
-/// u = free + inverse mass x push of so many records; the pushes are gone then.
-inline void take_pushed(const Record<float>* free, Record<float>* pushes, Record<float>* u) {
-  const __m256 from = _mm256_loadu_ps(&free->x), push = _mm256_loadu_ps(&pushes->x);
+/// u = free + inverse mass x accumulated impulse of so many records; the impulses are gone then.
+inline void apply_to_records(const Record<float>* free, Record<float>* accumulated,
+                             Record<float>* u) {
+  const __m256 from = _mm256_loadu_ps(&free->x), push = _mm256_loadu_ps(&accumulated->x);
   const __m256 inverse_mass = _mm256_permute_ps(from, 0xFF);
   _mm256_storeu_ps(&u->x, _mm256_add_ps(from, _mm256_mul_ps(inverse_mass, push)));
-  _mm256_storeu_ps(&pushes->x, _mm256_setzero_ps());
+  _mm256_storeu_ps(&accumulated->x, _mm256_setzero_ps());
 }
 
-inline void take_pushed(const Record<double>* free, Record<double>* pushes, Record<double>* u) {
+inline void apply_to_records(const Record<double>* free, Record<double>* accumulated,
+                             Record<double>* u) {
   const __m256d from = _mm256_load_pd(&free->x), inverse_mass = _mm256_set1_pd(free->w);
-  const __m256d pushed = _mm256_mul_pd(inverse_mass, _mm256_load_pd(&pushes->x));
+  const __m256d pushed = _mm256_mul_pd(inverse_mass, _mm256_load_pd(&accumulated->x));
   _mm256_store_pd(&u->x, _mm256_add_pd(from, pushed));
-  _mm256_store_pd(&pushes->x, _mm256_setzero_pd());
+  _mm256_store_pd(&accumulated->x, _mm256_setzero_pd());
 }
 
 /// Bit k is lane k of the mask.

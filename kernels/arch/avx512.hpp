@@ -232,23 +232,25 @@ inline void add_records(Record<double>* base, const std::uint32_t* offset,
   }
 }
 
-/// Records that take_pushed handles.
+/// Records that apply_to_records handles.
 template <class Real>
 inline constexpr std::size_t records_at_once = sizeof(__m512) / sizeof(Record<Real>);
 
-/// u = free + inverse mass x push of so many records; the pushes are gone then.
-inline void take_pushed(const Record<float>* free, Record<float>* pushes, Record<float>* u) {
-  const __m512 from = _mm512_loadu_ps(&free->x), push = _mm512_loadu_ps(&pushes->x);
+/// u = free + inverse mass x accumulated impulse of so many records; the impulses are gone then.
+inline void apply_to_records(const Record<float>* free, Record<float>* accumulated,
+                             Record<float>* u) {
+  const __m512 from = _mm512_loadu_ps(&free->x), push = _mm512_loadu_ps(&accumulated->x);
   const __m512 inverse_mass = _mm512_permute_ps(from, 0xFF);
   _mm512_storeu_ps(&u->x, _mm512_add_ps(from, _mm512_mul_ps(inverse_mass, push)));
-  _mm512_storeu_ps(&pushes->x, _mm512_setzero_ps());
+  _mm512_storeu_ps(&accumulated->x, _mm512_setzero_ps());
 }
 
-inline void take_pushed(const Record<double>* free, Record<double>* pushes, Record<double>* u) {
-  const __m512d from = _mm512_loadu_pd(&free->x), push = _mm512_loadu_pd(&pushes->x);
+inline void apply_to_records(const Record<double>* free, Record<double>* accumulated,
+                             Record<double>* u) {
+  const __m512d from = _mm512_loadu_pd(&free->x), push = _mm512_loadu_pd(&accumulated->x);
   const __m512d inverse_mass = _mm512_permutex_pd(from, 0xFF);
   _mm512_storeu_pd(&u->x, _mm512_add_pd(from, _mm512_mul_pd(inverse_mass, push)));
-  _mm512_storeu_pd(&pushes->x, _mm512_setzero_pd());
+  _mm512_storeu_pd(&accumulated->x, _mm512_setzero_pd());
 }
 
 /// Bit k is lane k of the mask.

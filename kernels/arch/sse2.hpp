@@ -109,26 +109,28 @@ inline void add_records(Record<double>* base, const std::uint32_t* offset,
   add_to(at(base, offset[1]), _mm_unpackhi_pd(c.x, c.y), _mm_unpackhi_pd(c.z, c.w));
 }
 
-/// Records that take_pushed handles.
+/// Records that apply_to_records handles.
 template <class Real>
 inline constexpr std::size_t records_at_once = 1;
 
-/// u = free + inverse mass x push of so many records; the pushes are gone then.
-inline void take_pushed(const Record<float>* free, Record<float>* pushes, Record<float>* u) {
+/// u = free + inverse mass x accumulated impulse of so many records; the impulses are gone then.
+inline void apply_to_records(const Record<float>* free, Record<float>* accumulated,
+                             Record<float>* u) {
   const __m128 from = _mm_load_ps(&free->x);
   const __m128 inverse_mass = _mm_shuffle_ps(from, from, 0xFF);
-  _mm_store_ps(&u->x, _mm_add_ps(from, _mm_mul_ps(inverse_mass, _mm_load_ps(&pushes->x))));
-  _mm_store_ps(&pushes->x, _mm_setzero_ps());
+  _mm_store_ps(&u->x, _mm_add_ps(from, _mm_mul_ps(inverse_mass, _mm_load_ps(&accumulated->x))));
+  _mm_store_ps(&accumulated->x, _mm_setzero_ps());
 }
 
-inline void take_pushed(const Record<double>* free, Record<double>* pushes, Record<double>* u) {
+inline void apply_to_records(const Record<double>* free, Record<double>* accumulated,
+                             Record<double>* u) {
   const __m128d inverse_mass = _mm_set1_pd(free->w), zero = _mm_setzero_pd();
-  const __m128d xy = _mm_mul_pd(inverse_mass, _mm_load_pd(&pushes->x));
-  const __m128d zw = _mm_mul_pd(inverse_mass, _mm_load_pd(&pushes->z));
+  const __m128d xy = _mm_mul_pd(inverse_mass, _mm_load_pd(&accumulated->x));
+  const __m128d zw = _mm_mul_pd(inverse_mass, _mm_load_pd(&accumulated->z));
   _mm_store_pd(&u->x, _mm_add_pd(_mm_load_pd(&free->x), xy));
   _mm_store_pd(&u->z, _mm_add_pd(_mm_load_pd(&free->z), zw));
-  _mm_store_pd(&pushes->x, zero);
-  _mm_store_pd(&pushes->z, zero);
+  _mm_store_pd(&accumulated->x, zero);
+  _mm_store_pd(&accumulated->z, zero);
 }
 
 /// Bit k is lane k of the mask.

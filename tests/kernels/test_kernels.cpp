@@ -43,7 +43,7 @@ TEST_CASE("each table holds the kernels of its own instruction set") {
       CHECK((own.sphere_pairs == theirs.sphere_pairs) == (isa == other));
       CHECK((own.f32.gauss_seidel_sweep == theirs.f32.gauss_seidel_sweep) == (isa == other));
       CHECK((own.f64.gauss_seidel_sweep == theirs.f64.gauss_seidel_sweep) == (isa == other));
-      CHECK((own.f32.add_pushes == theirs.f32.add_pushes) == (isa == other));
+      CHECK((own.f32.accumulate_impulses == theirs.f32.accumulate_impulses) == (isa == other));
       CHECK((own.f64.residual == theirs.f64.residual) == (isa == other));
       CHECK((own.f64.sphere_gaps == theirs.f64.sphere_gaps) == (isa == other));
     }

@@ -38,20 +38,20 @@ void add_twin(const RowBlock<Real>& r, std::size_t lane, Real p, Real share, Rec
 
 /// Impulse p of one row: pushes a by -p normal, b by +p normal.
 template <class Real>
-void push_twin(const RowBlock<Real>& r, std::size_t lane, Real p, Record<Real>* pushes) {
-  add_twin(r, lane, p, Real(-1), pushes[r.a(lane)]);
-  add_twin(r, lane, p, Real(1), pushes[r.b(lane)]);
+void push_twin(const RowBlock<Real>& r, std::size_t lane, Real p, Record<Real>* accumulated) {
+  add_twin(r, lane, p, Real(-1), accumulated[r.a(lane)]);
+  add_twin(r, lane, p, Real(1), accumulated[r.b(lane)]);
 }
 
 template <class Real>
-void take_pushes_twin(const Record<Real>* free, std::size_t count, Record<Real>* pushes,
-                      Record<Real>* u) {
+void apply_impulses_twin(const Record<Real>* free, std::size_t count, Record<Real>* accumulated,
+                         Record<Real>* u) {
   for (std::size_t i = 0; i < count; ++i) {
     u[i] = free[i];
-    u[i].x += free[i].w * pushes[i].x;
-    u[i].y += free[i].w * pushes[i].y;
-    u[i].z += free[i].w * pushes[i].z;
-    pushes[i] = {Real(0), Real(0), Real(0), Real(0)};
+    u[i].x += free[i].w * accumulated[i].x;
+    u[i].y += free[i].w * accumulated[i].y;
+    u[i].z += free[i].w * accumulated[i].z;
+    accumulated[i] = {Real(0), Real(0), Real(0), Real(0)};
   }
 }
 
@@ -69,7 +69,7 @@ Real tree_sum(Real (&lane)[block_width]) {
 template <class Real>
 SweepSums<Real> gauss_seidel_twin(const RowBlock<Real>* rows, std::size_t blocks, Record<Real>* u,
                                   Real* p, Real* y, SweepRule<Real> rule) {
-  Real residual = 0, uphill[block_width] = {};
+  Real residual = 0, restart_test[block_width] = {};
   for (std::size_t block = 0; block < blocks; ++block) {
     for (std::size_t lane = 0; lane < block_width; ++lane) {
       const std::size_t row = block * block_width + lane;
@@ -78,30 +78,31 @@ SweepSums<Real> gauss_seidel_twin(const RowBlock<Real>* rows, std::size_t blocks
       p[row] = p_new;
       y[row] = p_new + rule.momentum * change;
       residual = larger(residual, std::abs(smaller(y_old, w)));
-      uphill[lane] += (y_old - p_new) * change;
+      restart_test[lane] += (y_old - p_new) * change;
       const RowBlock<Real>& r = rows[block];
       add_twin(r, lane, p_new - y_old, Real(0) - u[r.a(lane)].w, u[r.a(lane)]);
       add_twin(r, lane, p_new - y_old, u[r.b(lane)].w, u[r.b(lane)]);
     }
   }
-  return {residual, tree_sum(uphill)};
+  return {residual, tree_sum(restart_test)};
 }
 
 template <class Real>
 void extrapolate_twin(Real momentum, std::size_t count, Record<Real>* before, Record<Real>* u) {
-  const auto go_on = [&](Real now, Real then) { return now + momentum * (now - then); };
+  const auto extrapolated = [&](Real now, Real then) { return now + momentum * (now - then); };
   for (std::size_t i = 0; i < count; ++i) {
     const Record<Real> now = u[i], then = before[i];
-    u[i] = {go_on(now.x, then.x), go_on(now.y, then.y), go_on(now.z, then.z), go_on(now.w, then.w)};
+    u[i] = {extrapolated(now.x, then.x), extrapolated(now.y, then.y), extrapolated(now.z, then.z),
+            extrapolated(now.w, then.w)};
     before[i] = now;
   }
 }
 
 template <class Real>
-void add_pushes_twin(const RowBlock<Real>* rows, std::size_t blocks, const Real* p,
-                     Record<Real>* pushes) {
+void accumulate_impulses_twin(const RowBlock<Real>* rows, std::size_t blocks, const Real* p,
+                              Record<Real>* accumulated) {
   for (std::size_t row = 0; row < blocks * block_width; ++row) {
-    push_twin(rows[row / block_width], row % block_width, p[row], pushes);
+    push_twin(rows[row / block_width], row % block_width, p[row], accumulated);
   }
 }
 

@@ -5,7 +5,7 @@
 
 #include "engine/dynamics/shape_step.hpp"
 #include "engine/scene/start.hpp"
-#include "tests/support/dense_levers.hpp"
+#include "tests/support/dense_bodies.hpp"
 #include "tests/support/instruction_sets.hpp"
 #include "tests/support/shape_beds.hpp"
 #include "tests/support/solvers.hpp"
@@ -274,7 +274,7 @@ TEMPLATE_TEST_CASE("every solver finds the impulses and the residual of a dense 
   settings.limits.iterations = 1;
   const PolyhedronBed start = bed;
   step(settings, kernels(), bed, state);
-  const testing::DenseLevers dense = testing::dense_levers(state.rows, state.motion.free);
+  const testing::DenseBodies dense = testing::dense_bodies(state.rows, state.motion.free);
   const testing::WideVector exact = testing::solve_dense(dense);
   REQUIRE(dense.violation(exact) < 1e-15L);
   REQUIRE(exact.maxCoeff() > 0.01L);

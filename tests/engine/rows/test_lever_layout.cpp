@@ -28,9 +28,9 @@ struct Scene {
   std::size_t point(std::size_t k, std::size_t j) const {
     return places.first[k] / block_width + j;
   }
-  const LeverBlock<double>& block(std::size_t k) const {
+  const BodyBlock<double>& block(std::size_t k) const {
     const std::size_t first = point(k, 0);
-    for (const LeverBlock<double>& b : rows.blocks) {
+    for (const BodyBlock<double>& b : rows.blocks) {
       if (b.first == first) return b;
     }
     FAIL("no block begins at point " << first);
@@ -40,7 +40,7 @@ struct Scene {
 
 TEST_CASE("no grain is twice in a block of rows with levers") {
   const Scene scene;
-  for (const LeverBlock<double>& block : scene.rows.blocks) {
+  for (const BodyBlock<double>& block : scene.rows.blocks) {
     std::set<std::int32_t> grains;
     for (std::size_t lane = 0; lane < block_width; ++lane) {
       for (const std::int32_t name : {block.a(lane), block.b(lane)}) {
@@ -55,7 +55,7 @@ TEST_CASE("every point of every contact has a row of its own, all other rows are
   std::set<std::size_t> used;
   for (std::size_t k = 0; k < scene.found.contacts.size(); ++k) {
     const ShapeContact& c = scene.found.contacts[k];
-    const LeverBlock<double>& block = scene.block(k);
+    const BodyBlock<double>& block = scene.block(k);
     const std::int32_t side_b = scene.bed.is_grain(c.b) ? c.b : scene.bed.wall();
     REQUIRE((block.a(scene.lane(k)) == c.a && block.b(scene.lane(k)) == side_b));
     REQUIRE(c.count <= block.points);
@@ -66,7 +66,7 @@ TEST_CASE("every point of every contact has a row of its own, all other rows are
     }
   }
   for (std::size_t at = 0; at < scene.rows.impulse.size(); ++at) {
-    const LeverPoints<double>& points = scene.rows.points[at / block_width];
+    const BodyPoints<double>& points = scene.rows.points[at / block_width];
     const std::size_t lane = at % block_width;
     if (used.count(at) > 0) continue;
     REQUIRE(points.gap[lane] > 0);
@@ -100,7 +100,7 @@ TEST_CASE("rows say how gaps change when grains move and turn") {
     const bool of_wall = !scene.bed.is_grain(c.b);
     const Quaternion turn = scene.bed.pose(a).orientation;
     const Vector n = turn * c.normal;
-    const LeverBlock<double>& block = scene.block(k);
+    const BodyBlock<double>& block = scene.block(k);
     const std::size_t lane = scene.lane(k);
     REQUIRE((Vector(block.normal_x[lane], block.normal_y[lane], block.normal_z[lane]) - n).norm() <
             1e-15);
@@ -110,7 +110,7 @@ TEST_CASE("rows say how gaps change when grains move and turn") {
       const Vector way_b =
           of_wall ? Vector(Vector::Zero())
                   : moved(scene.bed, b, r - nearest_difference(scene.bed, a, b), v[b], angles[b]);
-      const LeverPoints<double>& points = scene.rows.points[scene.point(k, j)];
+      const BodyPoints<double>& points = scene.rows.points[scene.point(k, j)];
       double change = n.dot((of_wall ? Vector(Vector::Zero()) : v[b]) - v[a]);
       for (int x = 0; x < 3; ++x) {
         change -= points.lever_a[x][lane] * scene.bed.root_inertia[a][x] * angles[a][x];
@@ -132,7 +132,7 @@ TEST_CASE("the mass of a row is what one impulse on it meets") {
       inverse_masses += scene.bed.motion[static_cast<std::size_t>(c.b)].w;
     }
     for (std::size_t i = 0; i < c.count; ++i) {
-      const LeverPoints<double>& p = scene.rows.points[scene.point(k, i)];
+      const BodyPoints<double>& p = scene.rows.points[scene.point(k, i)];
       double diagonal = inverse_masses;
       for (int x = 0; x < 3; ++x) {
         diagonal += p.lever_a[x][lane] * p.lever_a[x][lane];

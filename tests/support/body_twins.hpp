@@ -1,4 +1,4 @@
-// Plain-loop twins of the lever kernels: one contact after the other, the same operations in the
+// Plain-loop twins of the body kernels: one contact after the other, the same operations in the
 // same order, nothing else. The kernels must agree with them to the last bit.
 #pragma once
 
@@ -12,9 +12,9 @@ namespace grainsweep::testing {
 
 /// Point i of the contact in one lane of a block.
 template <class Real>
-struct LeverTwin {
-  const LeverBlock<Real>& c;
-  const LeverPoints<Real>& r;
+struct PointTwin {
+  const BodyBlock<Real>& c;
+  const BodyPoints<Real>& r;
   std::size_t lane;
 
   Real normal(const Record<Real>& v) const {
@@ -31,14 +31,14 @@ struct LeverTwin {
 };
 
 template <class Real>
-LeverTwin<Real> lever_twin(LeverRows<Real> rows, std::size_t block, std::size_t lane,
+PointTwin<Real> point_twin(BodyRows<Real> rows, std::size_t block, std::size_t lane,
                            std::size_t point) {
   return {rows.blocks[block], rows.points[rows.blocks[block].first + point], lane};
 }
 
 /// Calls visit(its block, number of the block, lane) for every contact.
 template <class Real, class Visit>
-void visit_lanes(LeverRows<Real> rows, std::size_t blocks, Visit visit) {
+void visit_lanes(BodyRows<Real> rows, std::size_t blocks, Visit visit) {
   for (std::size_t block = 0; block < blocks; ++block) {
     for (std::size_t lane = 0; lane < block_width; ++lane) visit(rows.blocks[block], block, lane);
   }
@@ -48,15 +48,15 @@ template <class Real>
 struct PushTwin {
   Real normal = 0, a[3] = {}, b[3] = {};
 
-  void add(const LeverTwin<Real>& t, Real p) {
+  void add(const PointTwin<Real>& t, Real p) {
     normal += p;
     for (std::size_t k = 0; k < 3; ++k) {
       a[k] += p * t.r.lever_a[k][t.lane];
       b[k] += p * t.r.lever_b[k][t.lane];
     }
   }
-  void give(const LeverBlock<Real>& c, std::size_t lane, Record<Real>* pushes) const {
-    Record<Real>*from = pushes + 2 * c.a(lane), *to = pushes + 2 * c.b(lane);
+  void give(const BodyBlock<Real>& c, std::size_t lane, Record<Real>* accumulated) const {
+    Record<Real>*from = accumulated + 2 * c.a(lane), *to = accumulated + 2 * c.b(lane);
     const Real n[3] = {normal * c.normal_x[lane], normal * c.normal_y[lane],
                        normal * c.normal_z[lane]};
     from[0] = {from[0].x - n[0], from[0].y - n[1], from[0].z - n[2], from[0].w};
@@ -68,8 +68,8 @@ struct PushTwin {
 
 /// Adds an impulse p, of either sign, to the two records of one side.
 template <class Real>
-void push_side_twin(const LeverBlock<Real>& c, const Real (&lever)[3][block_width],
-                    std::size_t lane, Real p, Record<Real>* side) {
+void push_side_twin(const BodyBlock<Real>& c, const Real (&lever)[3][block_width], std::size_t lane,
+                    Real p, Record<Real>* side) {
   side[0].x += side[0].w * (p * c.normal_x[lane]);
   side[0].y += side[0].w * (p * c.normal_y[lane]);
   side[0].z += side[0].w * (p * c.normal_z[lane]);
@@ -79,45 +79,45 @@ void push_side_twin(const LeverBlock<Real>& c, const Real (&lever)[3][block_widt
 }
 
 template <class Real>
-SweepSums<Real> lever_gauss_seidel_twin(LeverRows<Real> rows, std::size_t blocks, Record<Real>* u,
-                                        Real* p, Real* y, SweepRule<Real> rule) {
-  Real residual = 0, uphill[block_width] = {};
+SweepSums<Real> body_gauss_seidel_twin(BodyRows<Real> rows, std::size_t blocks, Record<Real>* u,
+                                       Real* p, Real* y, SweepRule<Real> rule) {
+  Real residual = 0, restart_test[block_width] = {};
   visit_lanes(rows, blocks, [&](const auto& c, std::size_t block, std::size_t lane) {
     for (std::size_t i = 0; i < c.points; ++i) {
-      const LeverTwin<Real> t = lever_twin(rows, block, lane, i);
+      const PointTwin<Real> t = point_twin(rows, block, lane, i);
       const std::size_t at = (c.first + i) * block_width + lane;
       const Real w = t.gap_after(u) * t.r.reduced_mass[lane], y_old = y[at], p_old = p[at];
       const Real p_new = larger(Real(0), y_old - w * rule.relaxation), change = p_new - p_old;
       p[at] = p_new;
       y[at] = p_new + rule.momentum * change;
       residual = larger(residual, std::abs(smaller(y_old, w)));
-      uphill[lane] += (y_old - p_new) * change;
+      restart_test[lane] += (y_old - p_new) * change;
       push_side_twin(c, t.r.lever_a, lane, Real(0) - (p_new - y_old), u + 2 * c.a(lane));
       push_side_twin(c, t.r.lever_b, lane, p_new - y_old, u + 2 * c.b(lane));
     }
   });
-  return {residual, tree_sum(uphill)};
+  return {residual, tree_sum(restart_test)};
 }
 
 template <class Real>
-void lever_pushes_twin(LeverRows<Real> rows, std::size_t blocks, const Real* p,
-                       Record<Real>* pushes) {
+void body_accumulate_impulses_twin(BodyRows<Real> rows, std::size_t blocks, const Real* p,
+                                   Record<Real>* accumulated) {
   visit_lanes(rows, blocks, [&](const auto& c, std::size_t block, std::size_t lane) {
     PushTwin<Real> push;
     for (std::size_t i = 0; i < c.points; ++i) {
-      push.add(lever_twin(rows, block, lane, i), p[(c.first + i) * block_width + lane]);
+      push.add(point_twin(rows, block, lane, i), p[(c.first + i) * block_width + lane]);
     }
-    push.give(c, lane, pushes);
+    push.give(c, lane, accumulated);
   });
 }
 
 template <class Real>
-Real lever_residual_twin(LeverRows<Real> rows, std::size_t blocks, const Record<Real>* u,
-                         const Real* p, Real unit_mass) {
+Real body_residual_twin(BodyRows<Real> rows, std::size_t blocks, const Record<Real>* u,
+                        const Real* p, Real unit_mass) {
   Real worst = 0;
   visit_lanes(rows, blocks, [&](const auto& c, std::size_t block, std::size_t lane) {
     for (std::size_t i = 0; i < c.points; ++i) {
-      const LeverTwin<Real> t = lever_twin(rows, block, lane, i);
+      const PointTwin<Real> t = point_twin(rows, block, lane, i);
       const Real w = t.gap_after(u) * t.r.reduced_mass[lane];
       const Real inverse = larger(u[2 * c.a(lane)].w, u[2 * c.b(lane)].w);
       const Real lightest = larger(Real(1), inverse * unit_mass);

@@ -1,13 +1,13 @@
 // Solver sweeps over contacts of grains that turn. The motion of both grains is loaded once for all
-// points of a contact, and their pushes are joined before they are stored.
+// points of a contact, and their impulses are joined before they are stored.
 #include "kernels/lanes.hpp"
 #include "kernels/tables.hpp"
 
 namespace {
 
-using grainsweep::LeverBlock;
-using grainsweep::LeverPoints;
-using grainsweep::LeverRows;
+using grainsweep::BodyBlock;
+using grainsweep::BodyPoints;
+using grainsweep::BodyRows;
 using grainsweep::Record;
 using grainsweep::SweepRule;
 using grainsweep::SweepSums;
@@ -38,7 +38,7 @@ struct Contacts {
 };
 
 template <class Real>
-inline Contacts<Real> load_contacts(const LeverBlock<Real>& block, std::size_t lane) {
+inline Contacts<Real> load_contacts(const BodyBlock<Real>& block, std::size_t lane) {
   return {block.offset_a + lane,
           block.offset_b + lane,
           {load(block.normal_x + lane), load(block.normal_y + lane), load(block.normal_z + lane)}};
@@ -56,7 +56,7 @@ inline Vec<Real> load_vectors(const Real (&from)[3][block_width], std::size_t la
   return {load(from[0] + lane), load(from[1] + lane), load(from[2] + lane)};
 }
 template <class Real>
-inline Points<Real> load_points(const LeverPoints<Real>& points, std::size_t lane) {
+inline Points<Real> load_points(const BodyPoints<Real>& points, std::size_t lane) {
   return {load_vectors(points.lever_a, lane), load_vectors(points.lever_b, lane),
           load(points.gap + lane)};
 }
@@ -110,21 +110,21 @@ struct Push {
 };
 
 template <class Real>
-inline void store_push(const Contacts<Real>& c, const Push<Real>& push, Record<Real>* pushes) {
+inline void store_push(const Contacts<Real>& c, const Push<Real>& push, Record<Real>* accumulated) {
   const Batch<Real> zero(Real(0)), x = push.normal * c.normal.x, y = push.normal * c.normal.y,
                                    z = push.normal * c.normal.z;
   const Vec<Real>&a = push.turn_a, &b = push.turn_b;
   add_both(
-      pushes, c.a,
+      accumulated, c.a,
       Side<Real>{{zero - x, zero - y, zero - z, zero}, {zero - a.x, zero - a.y, zero - a.z, zero}});
-  add_both(pushes, c.b, Side<Real>{{x, y, z, zero}, {b.x, b.y, b.z, zero}});
+  add_both(accumulated, c.b, Side<Real>{{x, y, z, zero}, {b.x, b.y, b.z, zero}});
 }
 
 /// Calls visit(contacts, block, lane, k) for every hardware batch k of every block.
 template <class Real, class Visit>
-inline void visit_contacts(LeverRows<Real> rows, std::size_t blocks, Visit visit) {
+inline void visit_contacts(BodyRows<Real> rows, std::size_t blocks, Visit visit) {
   for (std::size_t at = 0; at < blocks; ++at) {
-    const LeverBlock<Real>& block = rows.blocks[at];
+    const BodyBlock<Real>& block = rows.blocks[at];
     for (std::size_t k = 0; k < batches<Real>; ++k) {
       const std::size_t lane = k * batch_width<Real>;
       visit(load_contacts(block, lane), block, lane, k);
@@ -150,14 +150,14 @@ inline void push_side(const Batch<Real>& p, const Vec<Real>& normal, const Vec<R
 }
 
 template <class Real>
-SweepSums<Real> gauss_seidel_sweep(LeverRows<Real> rows, std::size_t blocks, Record<Real>* u,
+SweepSums<Real> gauss_seidel_sweep(BodyRows<Real> rows, std::size_t blocks, Record<Real>* u,
                                    Real* p, Real* y, SweepRule<Real> rule) {
-  LaneSums<Real> residual(Real(0)), uphill(Real(0));
+  LaneSums<Real> residual(Real(0)), restart_test(Real(0));
   const Batch<Real> zero(Real(0)), relaxation(rule.relaxation), carry(rule.momentum);
   visit_contacts(rows, blocks, [&](const auto& c, const auto& block, auto lane, auto k) {
     Side<Real> a = load_both(u, c.a), b = load_both(u, c.b);
     for (std::size_t i = block.first; i < block.first + block.points; ++i) {
-      const LeverPoints<Real>& points = rows.points[i];
+      const BodyPoints<Real>& points = rows.points[i];
       const Points<Real> r = load_points(points, lane);
       const std::size_t at = i * block_width + lane;
       const Batch<Real> w =
@@ -166,7 +166,7 @@ SweepSums<Real> gauss_seidel_sweep(LeverRows<Real> rows, std::size_t blocks, Rec
       const Batch<Real> p_new = xsimd::max(zero, y_old - w * relaxation);
       const Batch<Real> change = p_new - p_old, given = p_new - y_old;
       residual.part[k] = xsimd::max(residual.part[k], natural_residual(y_old, w));
-      uphill.part[k] += (y_old - p_new) * change;
+      restart_test.part[k] += (y_old - p_new) * change;
       p_new.store_unaligned(p + at);
       (p_new + carry * change).store_unaligned(y + at);
       push_side(zero - given, c.normal, r.lever_a, a);
@@ -175,29 +175,30 @@ SweepSums<Real> gauss_seidel_sweep(LeverRows<Real> rows, std::size_t blocks, Rec
     store_side(u, c.a, a);
     store_side(u, c.b, b);
   });
-  return {residual.max(), uphill.sum()};
+  return {residual.max(), restart_test.sum()};
 }
 
 template <class Real>
-void add_pushes(LeverRows<Real> rows, std::size_t blocks, const Real* p, Record<Real>* pushes) {
+void accumulate_impulses(BodyRows<Real> rows, std::size_t blocks, const Real* p,
+                         Record<Real>* accumulated) {
   visit_contacts(rows, blocks, [&](const auto& c, const auto& block, auto lane, auto) {
     Push<Real> push;
     for (std::size_t i = block.first; i < block.first + block.points; ++i) {
       push.add_point(load_points(rows.points[i], lane), load(p + i * block_width + lane));
     }
-    store_push(c, push, pushes);
+    store_push(c, push, accumulated);
   });
 }
 
 template <class Real>
-Real residual(LeverRows<Real> rows, std::size_t blocks, const Record<Real>* u, const Real* p,
+Real residual(BodyRows<Real> rows, std::size_t blocks, const Record<Real>* u, const Real* p,
               Real unit_mass) {
   LaneSums<Real> worst(Real(0));
   visit_contacts(rows, blocks, [&](const auto& c, const auto& block, auto lane, auto k) {
     const Side<Real> a = load_both(u, c.a), b = load_both(u, c.b);
     const Motion<Real> m = motion_of(c.normal, a, b);
     for (std::size_t i = block.first; i < block.first + block.points; ++i) {
-      const LeverPoints<Real>& points = rows.points[i];
+      const BodyPoints<Real>& points = rows.points[i];
       const Batch<Real> w =
           gap_after(load_points(points, lane), m) * load(points.reduced_mass + lane);
       const Batch<Real> missed = natural_residual(load(p + i * block_width + lane), w);
@@ -209,13 +210,13 @@ Real residual(LeverRows<Real> rows, std::size_t blocks, const Record<Real>* u, c
 }
 
 template <class Real>
-constexpr grainsweep::LeverKernels<Real> table() {
-  return {gauss_seidel_sweep<Real>, add_pushes<Real>, residual<Real>};
+constexpr grainsweep::BodyKernels<Real> table() {
+  return {gauss_seidel_sweep<Real>, accumulate_impulses<Real>, residual<Real>};
 }
 
 }  // namespace
 
 namespace grainsweep::GRAINSWEEP_ISA_NAME {
-extern const LeverKernels<float> lever_kernels_f32 = table<float>();
-extern const LeverKernels<double> lever_kernels_f64 = table<double>();
+extern const BodyKernels<float> body_kernels_f32 = table<float>();
+extern const BodyKernels<double> body_kernels_f64 = table<double>();
 }  // namespace grainsweep::GRAINSWEEP_ISA_NAME

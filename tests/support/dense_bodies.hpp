@@ -17,7 +17,7 @@ using WideMatrix = Eigen::Matrix<Wide, Eigen::Dynamic, Eigen::Dynamic>;
 using WideVector = Eigen::Matrix<Wide, Eigen::Dynamic, 1>;
 
 /// A p + w >= 0, p >= 0, p . (A p + w) = 0; impulses in the order of the rows' columns.
-struct DenseLevers {
+struct DenseBodies {
   WideMatrix coupling;  ///< A
   WideVector gaps;      ///< w without impulses
 
@@ -34,13 +34,13 @@ struct DenseLevers {
 
 /// The problem that `solve` is given: a row of H^T for every lane of every point, void ones too.
 template <class Real>
-DenseLevers dense_levers(const LeverColumns<Real>& rows, const std::vector<Record<Real>>& free) {
+DenseBodies dense_bodies(const LeverColumns<Real>& rows, const std::vector<Record<Real>>& free) {
   const auto size = static_cast<Eigen::Index>(rows.impulse.size());
   const auto motions = static_cast<Eigen::Index>(4 * free.size());
   WideMatrix directions = WideMatrix::Zero(size, motions);
-  DenseLevers problem;
+  DenseBodies problem;
   WideVector gap(size), u(motions), inverse(motions);
-  for (const LeverBlock<Real>& block : rows.blocks) {
+  for (const BodyBlock<Real>& block : rows.blocks) {
     for (std::uint32_t i = block.first; i < block.first + block.points; ++i) {
       for (std::size_t lane = 0; lane < block_width; ++lane) {
         const auto row = static_cast<Eigen::Index>(i * block_width + lane);
@@ -67,7 +67,7 @@ DenseLevers dense_levers(const LeverColumns<Real>& rows, const std::vector<Recor
 }
 
 /// Impulses to a violation below 1e-16, by projected Gauss-Seidel.
-inline WideVector solve_dense(const DenseLevers& problem) {
+inline WideVector solve_dense(const DenseBodies& problem) {
   WideVector p = WideVector::Zero(problem.gaps.size());
   for (int sweep = 0; sweep < 200'000 && problem.violation(p) > 1e-16L; ++sweep) {
     for (Eigen::Index k = 0; k < p.size(); ++k) {

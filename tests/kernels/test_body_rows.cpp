@@ -7,9 +7,9 @@
 #include "kernels/kernels.hpp"
 #include "tests/kernels/row_grains.hpp"
 #include "tests/support/bits.hpp"
+#include "tests/support/body_twins.hpp"
 #include "tests/support/draw.hpp"
 #include "tests/support/instruction_sets.hpp"
-#include "tests/support/lever_twins.hpp"
 
 namespace grainsweep {
 namespace {
@@ -18,17 +18,17 @@ using testing::Draw;
 using testing::same_bits;
 
 template <class Real>
-struct LeverProblem {
-  std::vector<LeverBlock<Real>> blocks;
-  std::vector<LeverPoints<Real>> points;
-  std::vector<Record<Real>> u, pushes;
+struct BodyProblem {
+  std::vector<BodyBlock<Real>> blocks;
+  std::vector<BodyPoints<Real>> points;
+  std::vector<Record<Real>> u, accumulated;
   std::vector<Real> p, y;
 
-  LeverRows<Real> rows() const { return {blocks.data(), points.data()}; }
+  BodyRows<Real> rows() const { return {blocks.data(), points.data()}; }
 };
 
 template <class Real>
-void set_point(LeverPoints<Real>& points, std::size_t lane, bool of_wall, Draw& draw) {
+void set_point(BodyPoints<Real>& points, std::size_t lane, bool of_wall, Draw& draw) {
   for (std::size_t k = 0; k < 3; ++k) {
     points.lever_a[k][lane] = static_cast<Real>(draw.uniform(-3, 3));
     points.lever_b[k][lane] = of_wall ? Real(0) : static_cast<Real>(draw.uniform(-3, 3));
@@ -38,18 +38,18 @@ void set_point(LeverPoints<Real>& points, std::size_t lane, bool of_wall, Draw& 
 }
 
 template <class Real>
-void set_void_point(LeverPoints<Real>& points, std::size_t lane) {
+void set_void_point(BodyPoints<Real>& points, std::size_t lane) {
   for (std::size_t k = 0; k < 3; ++k) points.lever_a[k][lane] = points.lever_b[k][lane] = 0;
   points.gap[lane] = points.reduced_mass[lane] = 1;
 }
 
 /// Appends the points of a lane that has fewer than its block at times.
 template <class Real>
-void set_lane(LeverProblem<Real>& problem, std::size_t lane, bool used, bool of_wall, Draw& draw) {
-  const LeverBlock<Real>& block = problem.blocks.back();
+void set_lane(BodyProblem<Real>& problem, std::size_t lane, bool used, bool of_wall, Draw& draw) {
+  const BodyBlock<Real>& block = problem.blocks.back();
   const std::size_t own = used ? 1 + draw.below(block.points) : 0;
   for (std::size_t i = 0; i < block.points; ++i) {
-    LeverPoints<Real>& points = problem.points[block.first + i];
+    BodyPoints<Real>& points = problem.points[block.first + i];
     i < own ? set_point(points, lane, of_wall, draw) : set_void_point(points, lane);
     const bool pushes = i < own && draw.chance(0.5);
     const std::size_t at = (block.first + i) * block_width + lane;
@@ -60,12 +60,12 @@ void set_lane(LeverProblem<Real>& problem, std::size_t lane, bool used, bool of_
 
 /// A block of pairs or of contacts with the wall: no grain twice, the last lanes often void.
 template <class Real>
-void add_block(LeverProblem<Real>& problem, bool of_wall, Draw& draw) {
+void add_block(BodyProblem<Real>& problem, bool of_wall, Draw& draw) {
   std::vector<std::int32_t> names(row_grains);
   std::iota(names.begin(), names.end(), 0);
   draw.shuffle(names);
   problem.blocks.emplace_back();
-  LeverBlock<Real>& block = problem.blocks.back();
+  BodyBlock<Real>& block = problem.blocks.back();
   block.first = static_cast<std::uint32_t>(problem.points.size());
   block.points = static_cast<std::uint32_t>(1 + draw.below(8));
   problem.points.resize(block.first + block.points);
@@ -103,11 +103,11 @@ std::vector<Record<Real>> random_records(bool with_masses, Draw& draw) {
 }
 
 template <class Real>
-LeverProblem<Real> random_lever_problem(std::size_t blocks, std::uint64_t seed) {
+BodyProblem<Real> random_body_problem(std::size_t blocks, std::uint64_t seed) {
   Draw draw(seed);
-  LeverProblem<Real> problem;
+  BodyProblem<Real> problem;
   problem.u = random_records<Real>(true, draw);
-  problem.pushes = random_records<Real>(false, draw);
+  problem.accumulated = random_records<Real>(false, draw);
   for (std::size_t block = 0; block < blocks; ++block) add_block(problem, draw.chance(0.2), draw);
   return problem;
 }
@@ -115,64 +115,66 @@ LeverProblem<Real> random_lever_problem(std::size_t blocks, std::uint64_t seed) 
 /// Calls compare(kernels of one instruction set, problem, copy of the problem) for problems of
 /// many sizes, on every instruction set that can run here.
 template <class Real, class Compare>
-void on_random_lever_problems(Compare compare) {
+void on_random_body_problems(Compare compare) {
   for (const Isa isa : testing::testable_isas()) {
     for (const std::size_t blocks : {0U, 1U, 2U, 7U, 30U}) {
       for (std::uint64_t seed = 0; seed < 5; ++seed) {
         INFO(name_of(isa) << ", " << blocks << " blocks, seed " << seed);
-        LeverProblem<Real> problem = random_lever_problem<Real>(blocks, 100 * blocks + seed);
-        LeverProblem<Real> twin = problem;
-        compare(lever_kernels<Real>(kernels_for(isa)), problem, twin);
+        BodyProblem<Real> problem = random_body_problem<Real>(blocks, 100 * blocks + seed);
+        BodyProblem<Real> twin = problem;
+        compare(body_kernels<Real>(kernels_for(isa)), problem, twin);
         REQUIRE(same_bits(problem.p, twin.p));
         REQUIRE(same_bits(problem.y, twin.y));
         REQUIRE(same_bits(problem.u, twin.u));
-        REQUIRE(same_bits(problem.pushes, twin.pushes));
+        REQUIRE(same_bits(problem.accumulated, twin.accumulated));
       }
     }
   }
 }
 
-TEMPLATE_TEST_CASE("a Gauss-Seidel sweep over levers gives the bits of its plain-loop twin", "",
+TEMPLATE_TEST_CASE("a Gauss-Seidel sweep over body rows gives the bits of its plain-loop twin", "",
                    float, double) {
   const SweepRule<TestType> rule{TestType(0.9), TestType(0.7)};
-  on_random_lever_problems<TestType>([&](const auto& kernels, auto& problem, auto& twin) {
+  on_random_body_problems<TestType>([&](const auto& kernels, auto& problem, auto& twin) {
     const auto sums =
         kernels.gauss_seidel_sweep(problem.rows(), problem.blocks.size(), problem.u.data(),
                                    problem.p.data(), problem.y.data(), rule);
-    const auto expected = testing::lever_gauss_seidel_twin(
+    const auto expected = testing::body_gauss_seidel_twin(
         twin.rows(), twin.blocks.size(), twin.u.data(), twin.p.data(), twin.y.data(), rule);
     REQUIRE(same_bits(sums.residual, expected.residual));
-    REQUIRE(same_bits(sums.uphill, expected.uphill));
+    REQUIRE(same_bits(sums.restart_test, expected.restart_test));
   });
 }
 
-TEMPLATE_TEST_CASE("pushes over levers have the bits of their plain-loop twin", "", float, double) {
-  on_random_lever_problems<TestType>([](const auto& kernels, auto& problem, auto& twin) {
-    kernels.add_pushes(problem.rows(), problem.blocks.size(), problem.p.data(),
-                       problem.pushes.data());
-    testing::lever_pushes_twin(twin.rows(), twin.blocks.size(), twin.p.data(), twin.pushes.data());
+TEMPLATE_TEST_CASE("accumulated impulses of body rows have the bits of their plain-loop twin", "",
+                   float, double) {
+  on_random_body_problems<TestType>([](const auto& kernels, auto& problem, auto& twin) {
+    kernels.accumulate_impulses(problem.rows(), problem.blocks.size(), problem.p.data(),
+                                problem.accumulated.data());
+    testing::body_accumulate_impulses_twin(twin.rows(), twin.blocks.size(), twin.p.data(),
+                                           twin.accumulated.data());
   });
 }
 
-TEMPLATE_TEST_CASE("the residual over levers has the bits of its plain-loop twin", "", float,
+TEMPLATE_TEST_CASE("the residual over body rows has the bits of its plain-loop twin", "", float,
                    double) {
-  on_random_lever_problems<TestType>([](const auto& kernels, auto& problem, auto& twin) {
+  on_random_body_problems<TestType>([](const auto& kernels, auto& problem, auto& twin) {
     const auto residual = kernels.residual(problem.rows(), problem.blocks.size(), problem.u.data(),
                                            problem.p.data(), TestType(0.7));
     REQUIRE(same_bits(residual,
-                      testing::lever_residual_twin(twin.rows(), twin.blocks.size(), twin.u.data(),
-                                                   twin.p.data(), TestType(0.7))));
+                      testing::body_residual_twin(twin.rows(), twin.blocks.size(), twin.u.data(),
+                                                  twin.p.data(), TestType(0.7))));
   });
 }
 
 /// Two grains of mass 1 and a point of contact between them, in lane 5.
 template <class Real>
-LeverProblem<Real> one_contact(Real lever_a, Real lever_b) {
+BodyProblem<Real> one_contact(Real lever_a, Real lever_b) {
   Draw draw(1);
-  LeverProblem<Real> problem;
+  BodyProblem<Real> problem;
   problem.u = random_records<Real>(true, draw);
   for (Record<Real>& record : problem.u) record = {0, 0, 0, Real(1)};
-  problem.pushes.assign(problem.u.size(), {0, 0, 0, 0});
+  problem.accumulated.assign(problem.u.size(), {0, 0, 0, 0});
   problem.blocks.resize(1);
   problem.points.resize(1);
   problem.blocks[0].points = 1;
@@ -194,9 +196,9 @@ TEMPLATE_TEST_CASE("one impulse stops the approach of two grains at their point 
                    float, double) {
   for (const Isa isa : testing::testable_isas()) {
     INFO(name_of(isa));
-    LeverProblem<TestType> problem = one_contact(TestType(1), TestType(-1));
+    BodyProblem<TestType> problem = one_contact(TestType(1), TestType(-1));
     problem.u[0].x = 1;  // a runs into b: the approach is 1, A is 4, so the impulse is 1/4
-    const auto sums = lever_kernels<TestType>(kernels_for(isa))
+    const auto sums = body_kernels<TestType>(kernels_for(isa))
                           .gauss_seidel_sweep(problem.rows(), 1, problem.u.data(), problem.p.data(),
                                               problem.p.data(), {});
     CHECK(sums.residual == TestType(0.25));
@@ -205,7 +207,7 @@ TEMPLATE_TEST_CASE("one impulse stops the approach of two grains at their point 
     CHECK(problem.u[1].z == TestType(-0.25));  // the turns that the levers of a and b give
     CHECK(problem.u[2].x == TestType(0.25));
     CHECK(problem.u[3].y == TestType(-0.25));
-    CHECK(testing::lever_twin(problem.rows(), 0, 5, 0).gap_after(problem.u.data()) == 0);
+    CHECK(testing::point_twin(problem.rows(), 0, 5, 0).gap_after(problem.u.data()) == 0);
   }
 }
 

@@ -16,7 +16,7 @@ namespace grainsweep {
 ///   gap_k + n . (v_b - v_a) + lever_b,k . (sqrt(I) w)_b - lever_a,k . (sqrt(I) w)_a >= 0.
 /// The normal is the unit vector from a to b, box frame.
 template <class Real>
-struct alignas(64) LeverBlock {
+struct alignas(64) BodyBlock {
   std::uint32_t offset_a[block_width] = {};  ///< bytes from a column of records to grain a's first
   std::uint32_t offset_b[block_width] = {};
   Real normal_x[block_width] = {};
@@ -41,7 +41,7 @@ struct alignas(64) LeverBlock {
 
 /// One point of each contact of a block. A void point has levers of 0 and a positive gap.
 template <class Real>
-struct alignas(64) LeverPoints {
+struct alignas(64) BodyPoints {
   Real lever_a[3][block_width];    ///< x, y, z in the frame of a
   Real lever_b[3][block_width];    ///< in the frame of b
   Real gap[block_width];           ///< right-hand side, d; negative where grains overlap
@@ -50,23 +50,24 @@ struct alignas(64) LeverPoints {
 
 /// Rows as sweeps read them.
 template <class Real>
-struct LeverRows {
-  const LeverBlock<Real>* blocks;  ///< first of those to sweep
-  const LeverPoints<Real>* points;
+struct BodyRows {
+  const BodyBlock<Real>* blocks;  ///< first of those to sweep
+  const BodyPoints<Real>* points;
 };
 
-/// Solver sweeps for one number type. `u` and `pushes` hold two records per grain. The impulse of
-/// lane k of points[i] is p[i * block_width + k].
+/// Solver sweeps for one number type. `u` and `accumulated` hold two records per grain. The impulse
+/// of lane k of points[i] is p[i * block_width + k].
 template <class Real>
-struct LeverKernels {
+struct BodyKernels {
   /// As RowKernels::gauss_seidel_sweep, with A_kk for 1/m_a + 1/m_b; the points of a contact one
   /// after the other.
-  SweepSums<Real> (*gauss_seidel_sweep)(LeverRows<Real> rows, std::size_t blocks, Record<Real>* u,
+  SweepSums<Real> (*gauss_seidel_sweep)(BodyRows<Real> rows, std::size_t blocks, Record<Real>* u,
                                         Real* p, Real* y, SweepRule<Real> rule);
-  /// Adds H p to the pushes.
-  void (*add_pushes)(LeverRows<Real> rows, std::size_t blocks, const Real* p, Record<Real>* pushes);
+  /// Adds H p to the accumulated impulses.
+  void (*accumulate_impulses)(BodyRows<Real> rows, std::size_t blocks, const Real* p,
+                              Record<Real>* accumulated);
   /// Largest |min(p, w / A_kk)| over all rows, d m; light grains as in RowKernels::residual.
-  Real (*residual)(LeverRows<Real> rows, std::size_t blocks, const Record<Real>* u, const Real* p,
+  Real (*residual)(BodyRows<Real> rows, std::size_t blocks, const Record<Real>* u, const Real* p,
                    Real unit_mass);
 };
 
