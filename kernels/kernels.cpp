@@ -2,9 +2,18 @@
 
 #include <cstring>
 
-#include "kernels/tables.hpp"
-
 namespace grainsweep {
+
+// Each compiled for its instruction set, in table.cpp.
+namespace sse2 {
+extern const Kernels table;
+}
+namespace avx2 {
+extern const Kernels table;
+}
+namespace avx512 {
+extern const Kernels table;
+}
 
 namespace {
 
@@ -59,15 +68,8 @@ bool isa_from_name(const char* name, Isa& isa) {
 }
 
 const Kernels& kernels_for(Isa isa) {
-  static const Kernels tables[] = {
-      {Isa::sse2, sse2::row_kernels_f32, sse2::row_kernels_f64, sse2::body_kernels_f32,
-       sse2::body_kernels_f64, sse2::sphere_pairs, sse2::sphere_pairs_across, sse2::pinacoid_axes},
-      {Isa::avx2, avx2::row_kernels_f32, avx2::row_kernels_f64, avx2::body_kernels_f32,
-       avx2::body_kernels_f64, avx2::sphere_pairs, avx2::sphere_pairs_across, avx2::pinacoid_axes},
-      {Isa::avx512, avx512::row_kernels_f32, avx512::row_kernels_f64, avx512::body_kernels_f32,
-       avx512::body_kernels_f64, avx512::sphere_pairs, avx512::sphere_pairs_across,
-       avx512::pinacoid_axes}};
-  return tables[static_cast<int>(isa)];
+  const Kernels* const tables[] = {&sse2::table, &avx2::table, &avx512::table};  // in order of Isa
+  return *tables[static_cast<int>(isa)];
 }
 
 }  // namespace grainsweep

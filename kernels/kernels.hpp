@@ -82,10 +82,10 @@ struct alignas(64) PinacoidBlock {
 
 struct Kernels {
   Isa isa;
-  RowKernels<float> f32;
-  RowKernels<double> f64;
-  BodyKernels<float> body_f32;
-  BodyKernels<double> body_f64;
+  const RowKernels<float>& f32;
+  const RowKernels<double>& f64;
+  const BodyKernels<float>& body_f32;
+  const BodyKernels<double>& body_f64;
   /// All pairs of the grid with gap below `reach`, each once, in the order of the grid. Writes at
   /// most `capacity` of them and returns how many there are.
   std::size_t (*sphere_pairs)(const SphereGrid& grid, GrainPair* pairs, std::size_t capacity);

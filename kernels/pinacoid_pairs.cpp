@@ -296,9 +296,13 @@ inline void test_pairs(const Pinacoid& p, const Grains& grains, std::size_t lane
   store_numbers(xsimd::select(parallel, Lanes(1.0F), zero), block.edges_parallel + lane);
 }
 
-void test_blocks(const PinacoidHalves& shape, PinacoidBlock* pairs, std::size_t blocks,
-                 const Record<double>* centres, const Record<double>* orientations, double period_x,
-                 double period_y) {
+}  // namespace
+
+namespace grainsweep::GRAINSWEEP_ISA_NAME {
+
+void pinacoid_axes(const PinacoidHalves& shape, PinacoidBlock* pairs, std::size_t blocks,
+                   const Record<double>* centres, const Record<double>* orientations,
+                   double period_x, double period_y) {
   const Pinacoid p = pinacoid_of(shape);
   Grains grains{};
   for (std::size_t block = 0; block < blocks; ++block) {
@@ -309,8 +313,4 @@ void test_blocks(const PinacoidHalves& shape, PinacoidBlock* pairs, std::size_t 
   }
 }
 
-}  // namespace
-
-namespace grainsweep::GRAINSWEEP_ISA_NAME {
-extern const PinacoidAxes pinacoid_axes = test_blocks;
 }  // namespace grainsweep::GRAINSWEEP_ISA_NAME

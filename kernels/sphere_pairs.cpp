@@ -89,6 +89,21 @@ inline void test_cell(const SphereGrid& grid, std::int32_t cell, Found& found) {
   }
 }
 
+/// Tests a sphere against the nine rows of three cells around `cell`.
+inline void test_around(const SphereGrid& grid, std::int32_t cell, const Seeker& seeker,
+                        Found& found) {
+  const std::int32_t row = grid.cells_x, layer = grid.cells_x * grid.cells_y;
+  for (std::int32_t z = -layer; z <= layer; z += layer) {
+    for (std::int32_t y = -row; y <= row; y += row) {
+      test_run(grid, seeker, three_cells(grid, cell + z + y), found);
+    }
+  }
+}
+
+}  // namespace
+
+namespace grainsweep::GRAINSWEEP_ISA_NAME {
+
 std::size_t sphere_pairs(const SphereGrid& grid, GrainPair* pairs, std::size_t capacity) {
   Found found{pairs, capacity, 0};
   for (std::int32_t z = 1; z + 1 < grid.cells_z; ++z) {
@@ -100,17 +115,6 @@ std::size_t sphere_pairs(const SphereGrid& grid, GrainPair* pairs, std::size_t c
     }
   }
   return found.count;
-}
-
-/// Tests a sphere against the nine rows of three cells around `cell`.
-inline void test_around(const SphereGrid& grid, std::int32_t cell, const Seeker& seeker,
-                        Found& found) {
-  const std::int32_t row = grid.cells_x, layer = grid.cells_x * grid.cells_y;
-  for (std::int32_t z = -layer; z <= layer; z += layer) {
-    for (std::int32_t y = -row; y <= row; y += row) {
-      test_run(grid, seeker, three_cells(grid, cell + z + y), found);
-    }
-  }
 }
 
 std::size_t sphere_pairs_across(const SphereGrid& grid, const SphereQueries& queries,
@@ -125,9 +129,4 @@ std::size_t sphere_pairs_across(const SphereGrid& grid, const SphereQueries& que
   return found.count;
 }
 
-}  // namespace
-
-namespace grainsweep::GRAINSWEEP_ISA_NAME {
-extern const SpherePairs sphere_pairs = ::sphere_pairs;
-extern const SpherePairsAcross sphere_pairs_across = ::sphere_pairs_across;
 }  // namespace grainsweep::GRAINSWEEP_ISA_NAME

@@ -1,0 +1,10 @@
+// The table of one instruction set. It is a constant: none of its code runs before it is chosen.
+#include "kernels/tables.hpp"
+
+namespace grainsweep::GRAINSWEEP_ISA_NAME {
+
+extern constinit const Kernels table = {Isa::GRAINSWEEP_ISA_NAME, row_kernels_f32,  row_kernels_f64,
+                                        body_kernels_f32,         body_kernels_f64, sphere_pairs,
+                                        sphere_pairs_across,      pinacoid_axes};
+
+}  // namespace grainsweep::GRAINSWEEP_ISA_NAME
