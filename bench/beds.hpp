@@ -16,7 +16,7 @@ PackingSpec walled_bed(std::int64_t grains);
 template <class Real>
 struct FrozenBed {
   SphereBed bed;
-  StepState<Real> state;
+  StepState<Sphere, Real> state;
   StepSettings settings;
 };
 

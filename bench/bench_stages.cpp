@@ -7,7 +7,7 @@ namespace {
 
 const Kernels& kernels() { return kernels_for(best_isa()); }
 
-std::int64_t rows_of(const Contacts<float>& contacts) {
+std::int64_t rows_of(const SphereContacts<float>& contacts) {
   return static_cast<std::int64_t>(contacts.rows.size() * block_width);
 }
 
@@ -42,10 +42,10 @@ void lay_out(benchmark::State& run) {
   run.SetItemsProcessed(run.iterations() * rows_of(f.state.contacts));
 }
 
-void detect(benchmark::State& run) {
+void update_gaps(benchmark::State& run) {
   FrozenBed<float> f = frozen_bed<float>(run.range(0));
   for (auto _ : run) {
-    detect(f.bed, kernels(), f.settings.correction, f.state.contacts);
+    update_gaps(f.bed, kernels(), f.settings.correction, f.state.contacts);
   }
   run.SetItemsProcessed(run.iterations() * rows_of(f.state.contacts));
 }
@@ -82,7 +82,7 @@ void step(benchmark::State& run) {
 BENCHMARK(still_complete)->Apply(sizes);
 BENCHMARK(find_candidates)->Apply(sizes);
 BENCHMARK(lay_out)->Apply(sizes);
-BENCHMARK(detect)->Apply(sizes);
+BENCHMARK(update_gaps)->Apply(sizes);
 BENCHMARK(solve)->Apply(sizes)->Unit(benchmark::kMillisecond);
 BENCHMARK(step)->Apply(sizes)->Unit(benchmark::kMillisecond);
 

@@ -1,7 +1,7 @@
 // Rows with levers, on a bed of pinacoids frozen in mid-fall: items are rows.
 #include <benchmark/benchmark.h>
 
-#include "engine/dynamics/shape_step.hpp"
+#include "engine/dynamics/step.hpp"
 #include "engine/scene/start.hpp"
 #include "engine/shape/pinacoid.hpp"
 
@@ -11,7 +11,7 @@ namespace {
 template <class Real>
 struct FrozenShapes {
   PolyhedronBed bed;
-  ShapeStepState<Real> state;
+  StepState<Polyhedron, Real> state;
 };
 
 /// A bed W = 5 wide of about so many pinacoids, 60 steps after its start.
@@ -32,7 +32,7 @@ FrozenShapes<Real> frozen_shapes(double grains) {
 
 template <class Real>
 void count_rows(benchmark::State& run, const FrozenShapes<Real>& frozen, Isa isa) {
-  const auto rows = static_cast<double>(frozen.state.contacts.points.size());
+  const auto rows = static_cast<double>(frozen.state.contacts.parts.front().found.points.size());
   run.SetItemsProcessed(run.iterations() * static_cast<std::int64_t>(rows));
   run.counters["per_row"] = benchmark::Counter(
       rows, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
@@ -44,7 +44,7 @@ template <class Real, class Sweep>
 void over_rows(benchmark::State& run, Sweep sweep) {
   static FrozenShapes<Real> frozen = frozen_shapes<Real>(3600);
   const auto isa = static_cast<Isa>(run.range(0));
-  auto& rows = frozen.state.rows;
+  auto& rows = frozen.state.contacts;
   for (auto _ : run) {
     sweep(body_kernels<Real>(kernels_for(isa)),
           BodyRows<Real>{rows.blocks.data(), rows.points.data()}, rows.blocks.size(), frozen.state);
@@ -56,8 +56,8 @@ template <class Real>
 void body_gauss_seidel_sweep(benchmark::State& run) {
   over_rows<Real>(run, [](const auto& kernels, auto rows, std::size_t blocks, auto& state) {
     benchmark::DoNotOptimize(kernels.gauss_seidel_sweep(
-        rows, blocks, state.motion.u.data(), state.rows.impulse.data(),
-        state.rows.extrapolated.data(), SweepRule<Real>{Real(0.9), Real(0.5)}));
+        rows, blocks, state.motion.u.data(), state.contacts.impulse.data(),
+        state.contacts.extrapolated.data(), SweepRule<Real>{Real(0.9), Real(0.5)}));
   });
 }
 

@@ -7,7 +7,7 @@
 #include "engine/measure/coordination.hpp"
 #include "engine/measure/solid_fraction.hpp"
 #include "engine/measure/touching.hpp"
-#include "engine/rows/contacts.hpp"
+#include "engine/rows/sphere_contacts.hpp"
 #include "runner/tables/csv.hpp"
 
 namespace grainsweep::bench {
@@ -31,16 +31,17 @@ void add_overlaps(const Touching& touching, BedMeasures& measures) {
 /// The engine counts zero modes of contacts that push: here every near one is taken to.
 std::int64_t isostatic_count(SphereBed& bed, const Kernels& kernels) {
   Candidates candidates;
-  Contacts<double> contacts;
+  SphereContacts<double> contacts;
   wrap(bed);
   find_candidates({bed, bed.position}, near_gap, kernels, candidates);
   lay_out(bed, candidates, contacts);
-  detect(bed, kernels, 1.0, contacts);
+  update_gaps(bed, kernels, 1.0, contacts);
   for (std::size_t row = 0; row < contacts.impulse.size(); ++row) {
     const bool near = contacts.rows[row / block_width].gap[row % block_width] < near_gap;
     contacts.impulse[row] = near ? 1.0 : 0.0;
   }
-  return 3 * static_cast<std::int64_t>(bed.grains()) - zero_modes(bed, contacts, 1.0);
+  return 3 * static_cast<std::int64_t>(bed.grains()) -
+         zero_modes(bed, force_contacts(bed, 1.0, contacts));
 }
 
 }  // namespace

@@ -48,6 +48,7 @@ struct QueryColumns {
 };
 
 struct Candidates {
+  bool is_listed = false;        ///< whether what follows is of this bed
   double reach = 0.0;            ///< every pair and wall with a gap below it is listed, d
   double largest_radius = 0.0;   ///< d
   std::vector<GrainPair> pairs;  ///< each once, a < b, in the order of the search grids
@@ -57,6 +58,7 @@ struct Candidates {
   std::vector<Extent> layers;            ///< memory of `still_complete`, one entry per layer
   std::vector<SizeLevel> levels;         ///< from large to small, at least one
   QueryColumns queries;
+  std::vector<Record<double>> balls;          ///< memory of balls_of
   std::vector<std::vector<GrainPair>> found;  ///< memory of the parts of a search
   std::vector<std::size_t> found_begin;       ///< where each part's pairs go
 };
@@ -71,5 +73,19 @@ void find_candidates(const Balls& balls, double reach, const ExecutionContext& c
 /// other by more than reach - near since the list was made, and grains of layers further apart must
 /// still be out of reach by their heights alone.
 bool still_complete(const Balls& balls, double near, Candidates& candidates);
+
+/// Lists the candidates with a gap below near + margin anew, and wraps the bed, if the list may
+/// lack one with a gap below `near`. Returns whether it did.
+template <class Kind>
+bool renew_candidates(double near, double margin, const ExecutionContext& context, Bed<Kind>& bed,
+                      Candidates& candidates) {
+  if (candidates.is_listed && still_complete(balls_of(bed, candidates.balls), near, candidates)) {
+    return false;
+  }
+  wrap(bed, context.loop);
+  find_candidates(balls_of(bed, candidates.balls), near + margin, context, candidates);
+  candidates.is_listed = true;
+  return true;
+}
 
 }  // namespace grainsweep

@@ -7,7 +7,6 @@
 #include <Eigen/SparseCholesky>
 
 #include "engine/dynamics/dissection.hpp"
-#include "engine/dynamics/rest.hpp"
 #include "engine/rows/lanes.hpp"
 
 namespace grainsweep {
@@ -26,8 +25,8 @@ Eigen::Index forces_of(const SphereBed& bed) { return first_force(bed.grains());
 /// The rows of `contacts` in f64, measured anew.
 template <class Real>
 std::vector<RowBlock<double>> rows_in_f64(const SphereBed& bed, const Kernels& kernels,
-                                          const Contacts<Real>& contacts) {
-  Contacts<double> measured;
+                                          const SphereContacts<Real>& contacts) {
+  SphereContacts<double> measured;
   measured.pair_blocks = contacts.pair_blocks;
   measured.walls = contacts.walls;
   for (const RowBlock<Real>& from : contacts.rows) {
@@ -36,7 +35,7 @@ std::vector<RowBlock<double>> rows_in_f64(const SphereBed& bed, const Kernels& k
       to.set_grains(lane, from.a(lane), from.b(lane));
     }
   }
-  detect(bed, kernels, 1.0, measured);
+  update_gaps(bed, kernels, 1.0, measured);
   return measured.rows;
 }
 
@@ -65,11 +64,11 @@ ContactNode node_of(const SphereBed& bed, const RowBlock<double>& r, std::size_t
 /// M^-1/2 H, a column per force-bearing contact, in an order that suits its factors.
 template <class Real>
 SparseMatrix contact_matrix(const SphereBed& bed, const Kernels& kernels, double dt,
-                            const Contacts<Real>& contacts) {
+                            const SphereContacts<Real>& contacts) {
   const std::vector<RowBlock<double>> rows = rows_in_f64(bed, kernels, contacts);
   std::vector<ContactNode> nodes;
   std::vector<BlockLane> lanes;
-  visit_force_bearing(contacts, dt, [&](std::size_t block, std::size_t lane) {
+  visit_force_bearing(contacts, dt, [&](std::size_t block, std::size_t lane, double) {
     nodes.push_back(node_of(bed, rows[block], lane));
     lanes.push_back({block, lane});
   });
@@ -110,7 +109,7 @@ void set_unbalance(const Eigen::VectorXd& scaled, const SphereBed& bed, ForceBal
 
 template <class Real>
 ForceBalance balance_forces(const SphereBed& bed, const Kernels& kernels, double dt,
-                            const Contacts<Real>& contacts) {
+                            const SphereContacts<Real>& contacts) {
   const SparseMatrix h = contact_matrix(bed, kernels, dt, contacts);
   const Eigen::VectorXd weights = carried_weights(bed);
   ForceBalance balance;
@@ -135,8 +134,8 @@ ForceBalance balance_forces(const SphereBed& bed, const Kernels& kernels, double
 }
 
 template ForceBalance balance_forces(const SphereBed&, const Kernels&, double,
-                                     const Contacts<float>&);
+                                     const SphereContacts<float>&);
 template ForceBalance balance_forces(const SphereBed&, const Kernels&, double,
-                                     const Contacts<double>&);
+                                     const SphereContacts<double>&);
 
 }  // namespace grainsweep

@@ -8,7 +8,7 @@
 #pragma once
 
 #include "engine/results.hpp"
-#include "engine/rows/contacts.hpp"
+#include "engine/rows/sphere_contacts.hpp"
 #include "engine/scene/bed.hpp"
 
 namespace grainsweep {
@@ -17,6 +17,6 @@ namespace grainsweep {
 /// length `dt`; normals are measured anew in f64.
 template <class Real>
 ForceBalance balance_forces(const SphereBed& bed, const Kernels& kernels, double dt,
-                            const Contacts<Real>& contacts);
+                            const SphereContacts<Real>& contacts);
 
 }  // namespace grainsweep

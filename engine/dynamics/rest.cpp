@@ -1,8 +1,10 @@
 #include "engine/dynamics/rest.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
+#include <type_traits>
 
 #include "engine/text.hpp"
 
@@ -31,33 +33,59 @@ class Clusters {
   std::vector<std::size_t> parent_;
 };
 
-/// Grains that push each other are of one cluster.
-template <class Real>
-Clusters clusters_of(const SphereBed& bed, const Contacts<Real>& contacts, double dt) {
-  Clusters clusters(bed.grains());
-  visit_force_bearing(contacts, dt, [&](std::size_t block, std::size_t lane) {
-    if (block < contacts.pair_blocks) {
-      clusters.join(contacts.rows[block].a(lane), contacts.rows[block].b(lane));
-    }
-  });
-  return clusters;
+/// Independent directions, at most three.
+class Directions {
+ public:
+  std::size_t count() const { return count_; }
+  /// Adds a unit vector unless it depends on those before.
+  void add(const UnitVector& n) {
+    constexpr double dependent = 1e-6;
+    Vector rest(n.x, n.y, n.z);
+    for (std::size_t k = 0; k < count_; ++k) rest -= rest.dot(basis_[k]) * basis_[k];
+    if (count_ < basis_.size() && rest.norm() > dependent) basis_[count_++] = rest.normalized();
+  }
+
+ private:
+  std::array<Vector, 3> basis_{};
+  std::size_t count_ = 0;
+};
+
+/// What holds one cluster.
+struct Hold {
+  Directions walls;      ///< in which walls push it
+  bool stands = false;   ///< a wall pushes it up
+  bool is_grain = true;  ///< it is a single grain
+};
+
+/// The walls' normal where a grain touches it.
+UnitVector normal_at(const Grains& bed, const ForceContact& contact) {
+  const Record<double>& p = bed.position[static_cast<std::size_t>(contact.a)];
+  return bed.walls[static_cast<std::size_t>(contact.b - bed.wall_name(0))].normal(p.x, p.y, p.z);
 }
 
-/// Bit `axis` of entry i: a wall of that axis pushes a grain of the cluster rooted at i.
-template <class Real>
-std::vector<unsigned> pushed_axes(const SphereBed& bed, const Contacts<Real>& contacts, double dt,
-                                  Clusters& clusters) {
-  std::vector<unsigned> axes(bed.grains(), 0U);
-  visit_force_bearing(contacts, dt, [&](std::size_t block, std::size_t lane) {
-    if (block >= contacts.pair_blocks) {
-      const RowBlock<Real>& r = contacts.rows[block];
-      const unsigned axis = r.normal_z[lane] != Real(0)   ? 2U
-                            : r.normal_y[lane] != Real(0) ? 1U
-                                                          : 0U;
-      axes[clusters.root(static_cast<std::size_t>(r.a(lane)))] |= 1U << axis;
+/// What holds the clusters of grains that push each other; at the root of each.
+std::vector<Hold> holds_of(const Grains& bed, const std::vector<ForceContact>& contacts) {
+  Clusters clusters(bed.grains());
+  for (const ForceContact& c : contacts) {
+    if (bed.is_grain(c.b)) clusters.join(c.a, c.b);
+  }
+  std::vector<Hold> holds(bed.grains());
+  for (const ForceContact& c : contacts) {
+    Hold& hold = holds[clusters.root(static_cast<std::size_t>(c.a))];
+    if (bed.is_grain(c.b)) {
+      hold.is_grain = false;
+    } else {
+      const UnitVector normal = normal_at(bed, c);
+      hold.walls.add(normal);
+      hold.stands = hold.stands || normal.z > 0.0;
     }
-  });
-  return axes;
+  }
+  return holds;
+}
+
+template <class Kind>
+constexpr std::int64_t degrees_of_freedom() {
+  return std::is_same_v<Kind, Sphere> ? 3 : 6;
 }
 
 std::string exceeds(const char* what, double value, double tolerance, const char* unit) {
@@ -67,79 +95,65 @@ std::string exceeds(const char* what, double value, double tolerance, const char
 
 }  // namespace
 
-template <class Real>
-RestReport certify(const SphereBed& bed, const ExecutionContext& context, double dt,
-                   Contacts<Real>& contacts) {
+template <class Kind, class Real>
+RestReport measure_rest(Bed<Kind>& bed, const ExecutionContext& context, double dt,
+                        StepState<Kind, Real>& state) {
   RestReport rest;
-  double overlap = 0.0, bearing = 0.0;
-  detect(bed, context, 1.0, contacts);
-  visit_force_bearing(contacts, dt, [&](std::size_t block, std::size_t lane) {
-    const auto gap = static_cast<double>(contacts.rows[block].gap[lane]);
-    const double depth = std::max(0.0, -gap);
+  double overlap = 0.0, closed = 0.0;
+  const std::vector<ForceContact> contacts = force_contacts(bed, dt, state.contacts);
+  for (const Closure& closure : closures(bed, context, dt, state.candidates, state.contacts)) {
+    if (!std::isfinite(closure.gap)) continue;
+    const double depth = std::max(0.0, -closure.gap);
     overlap += depth;
-    bearing += 1.0;
+    closed += 1.0;
     rest.overlap_max = std::max(rest.overlap_max, depth);
-    rest.contacts += gap < closed_gap ? 1 : 0;
-  });
-  rest.overlap_mean = overlap / std::max(bearing, 1.0);
-  rest.isostatic_contacts =
-      3 * static_cast<std::int64_t>(bed.grains()) - zero_modes(bed, contacts, dt);
+    rest.contacts += closure.constraints;
+  }
+  rest.overlap_mean = overlap / std::max(closed, 1.0);
+  rest.isostatic_contacts = degrees_of_freedom<Kind>() * static_cast<std::int64_t>(bed.grains()) -
+                            zero_modes(bed, contacts);
   return rest;
 }
 
-template <class Real>
-std::int64_t zero_modes(const SphereBed& bed, const Contacts<Real>& contacts, double dt) {
-  Clusters clusters = clusters_of(bed, contacts, dt);
+template <class Kind>
+std::int64_t zero_modes(const Bed<Kind>& bed, const std::vector<ForceContact>& contacts) {
+  constexpr bool turns = degrees_of_freedom<Kind>() > 3;
   std::int64_t modes = 0;
-  for (const unsigned axes : pushed_axes(bed, contacts, dt, clusters)) {
-    const bool stands = (axes & 4U) != 0U;
-    modes += stands ? 2 - static_cast<int>(axes & 1U) - static_cast<int>((axes >> 1U) & 1U) : 0;
+  for (const Hold& hold : holds_of(bed, contacts)) {
+    if (!hold.stands) continue;
+    modes += 3 - static_cast<std::int64_t>(hold.walls.count());
+    modes += turns && hold.is_grain && hold.walls.count() == 1 ? 1 : 0;
   }
   return modes;
 }
 
-template <class Real>
-double carried_weight(const SphereBed& bed, const Contacts<Real>& contacts, double dt) {
+double carried_weight(const Grains& bed, const std::vector<ForceContact>& contacts) {
   double weight = 0.0, carried = 0.0;
-  for (std::size_t i = 0; i < bed.grains(); ++i) {
-    weight += 1.0 / bed.motion[i].w;
+  for (std::size_t i = 0; i < bed.grains(); ++i) weight += 1.0 / bed.motion[i].w;
+  for (const ForceContact& c : contacts) {
+    if (!bed.is_grain(c.b)) carried += c.force * normal_at(bed, c).z;
   }
-  const WallRows& floor = contacts.walls.front();
-  for (std::size_t k = floor.first * block_width; k < (floor.first + floor.blocks) * block_width;
-       ++k) {
-    carried += static_cast<double>(contacts.impulse[k]);
-  }
-  return weight > 0.0 ? carried / (dt * dt * weight) : 1.0;
+  return weight > 0.0 ? carried / weight : 1.0;
 }
 
-template <class Real>
-std::vector<PairForce> pair_forces(const SphereBed& bed, const Contacts<Real>& contacts,
-                                   double dt) {
+std::vector<PairForce> pair_forces(const Grains& bed, const std::vector<ForceContact>& contacts) {
   std::vector<PairForce> forces;
-  visit_force_bearing(contacts, dt, [&](std::size_t block, std::size_t lane) {
-    if (block >= contacts.pair_blocks) {
-      return;
-    }
-    const std::int32_t a = contacts.rows[block].a(lane), b = contacts.rows[block].b(lane);
-    const double height = (bed.position[static_cast<std::size_t>(a)].z +
-                           bed.position[static_cast<std::size_t>(b)].z) /
+  for (const ForceContact& c : contacts) {
+    if (!bed.is_grain(c.b)) continue;
+    const double height = (bed.position[static_cast<std::size_t>(c.a)].z +
+                           bed.position[static_cast<std::size_t>(c.b)].z) /
                           2.0;
-    const auto impulse = static_cast<double>(contacts.impulse[block * block_width + lane]);
-    forces.push_back({a, b, height, impulse / (dt * dt)});
-  });
+    forces.push_back({c.a, c.b, height, c.force, c.constraints});
+  }
   return forces;
 }
 
-template <class Real>
-std::vector<double> force_sums(const SphereBed& bed, const Contacts<Real>& contacts, double dt) {
-  std::vector<double> force(bed.position.size(), 0.0);
-  visit_force_bearing(contacts, dt, [&](std::size_t block, std::size_t lane) {
-    const double magnitude =
-        static_cast<double>(contacts.impulse[block * block_width + lane]) / (dt * dt);
-    force[static_cast<std::size_t>(contacts.rows[block].a(lane))] += magnitude;
-    force[static_cast<std::size_t>(contacts.rows[block].b(lane))] += magnitude;
-  });
-  force.resize(bed.grains());
+std::vector<double> force_sums(const Grains& bed, const std::vector<ForceContact>& contacts) {
+  std::vector<double> force(bed.grains(), 0.0);
+  for (const ForceContact& c : contacts) {
+    force[static_cast<std::size_t>(c.a)] += c.force;
+    if (bed.is_grain(c.b)) force[static_cast<std::size_t>(c.b)] += c.force;
+  }
   return force;
 }
 
@@ -167,15 +181,15 @@ std::string why_not_at_rest(const RestReport& rest, const Accuracy& accuracy) {
   return {};
 }
 
-template RestReport certify(const SphereBed&, const ExecutionContext&, double, Contacts<float>&);
-template RestReport certify(const SphereBed&, const ExecutionContext&, double, Contacts<double>&);
-template std::int64_t zero_modes(const SphereBed&, const Contacts<float>&, double);
-template std::int64_t zero_modes(const SphereBed&, const Contacts<double>&, double);
-template double carried_weight(const SphereBed&, const Contacts<float>&, double);
-template double carried_weight(const SphereBed&, const Contacts<double>&, double);
-template std::vector<PairForce> pair_forces(const SphereBed&, const Contacts<float>&, double);
-template std::vector<PairForce> pair_forces(const SphereBed&, const Contacts<double>&, double);
-template std::vector<double> force_sums(const SphereBed&, const Contacts<float>&, double);
-template std::vector<double> force_sums(const SphereBed&, const Contacts<double>&, double);
+template RestReport measure_rest(SphereBed&, const ExecutionContext&, double,
+                                 StepState<Sphere, float>&);
+template RestReport measure_rest(SphereBed&, const ExecutionContext&, double,
+                                 StepState<Sphere, double>&);
+template RestReport measure_rest(PolyhedronBed&, const ExecutionContext&, double,
+                                 StepState<Polyhedron, float>&);
+template RestReport measure_rest(PolyhedronBed&, const ExecutionContext&, double,
+                                 StepState<Polyhedron, double>&);
+template std::int64_t zero_modes(const SphereBed&, const std::vector<ForceContact>&);
+template std::int64_t zero_modes(const PolyhedronBed&, const std::vector<ForceContact>&);
 
 }  // namespace grainsweep

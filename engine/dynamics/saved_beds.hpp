@@ -1,13 +1,13 @@
 // What a settling bed has to save to go on with the same bits; see engine/dynamics/saved_state.hpp.
 #pragma once
 
-#include "engine/dynamics/shape_step.hpp"
 #include "engine/dynamics/step.hpp"
 
 namespace grainsweep {
 
 template <class Archive, class List>
 void transfer_candidates(Archive& archive, List& candidates) {
+  archive.value(candidates.is_listed);
   archive.value(candidates.reach);
   archive.value(candidates.largest_radius);
   archive.column(candidates.pairs);
@@ -15,27 +15,6 @@ void transfer_candidates(Archive& archive, List& candidates) {
   archive.column(candidates.layer);
   archive.column(candidates.layers);
   archive.list(candidates.walls, [&](auto& near) { archive.column(near.grains); });
-}
-
-template <class Archive, class Rows>
-void transfer_contacts(Archive& archive, Rows& contacts) {
-  archive.column(contacts.rows);
-  archive.value(contacts.pair_blocks);
-  archive.column(contacts.walls);
-  archive.column(contacts.shares.ranges);
-  archive.column(contacts.shares.parts);
-  archive.column(contacts.shares.grains);
-  archive.column(contacts.impulse);
-}
-
-/// A bed of spheres after a step.
-template <class Archive, class State>
-void transfer_bed(Archive& archive, SphereBed& bed, State& state) {
-  archive.column(bed.position);
-  archive.column(bed.motion);
-  archive.value(state.has_candidates);
-  transfer_candidates(archive, state.candidates);
-  transfer_contacts(archive, state.contacts);
 }
 
 /// Three numbers; Eigen's vectors are no plain bytes.
@@ -46,9 +25,39 @@ void transfer_vector(Archive& archive, Three& v) {
   archive.value(v.z());
 }
 
-template <class Archive, class Found>
-void transfer_shape_contacts(Archive& archive, Found& found) {
-  archive.list(found.contacts, [&](auto& contact) {
+template <class Archive>
+void transfer_kind(Archive&, SphereBed&) {}
+template <class Archive>
+void transfer_kind(Archive& archive, PolyhedronBed& bed) {
+  archive.column(bed.orientation);
+  archive.list(bed.spin, [&](auto& spin) { transfer_vector(archive, spin); });
+}
+
+template <class Archive, class Real>
+void transfer_contacts(Archive& archive, SphereContacts<Real>& contacts) {
+  archive.column(contacts.rows);
+  archive.value(contacts.pair_blocks);
+  archive.column(contacts.walls);
+  archive.column(contacts.shares.ranges);
+  archive.column(contacts.shares.parts);
+  archive.column(contacts.shares.grains);
+  archive.column(contacts.impulse);
+}
+
+template <class Archive, class Subdomains>
+void transfer_subdomains(Archive& archive, Subdomains& subdomains) {
+  archive.value(subdomains.count);
+  archive.value(subdomains.is_ring);
+  archive.column(subdomains.pairs);
+  archive.column(subdomains.begin);
+  archive.column(subdomains.grains);
+  archive.column(subdomains.first_grain);
+  archive.list(subdomains.near_walls, [&](auto& grains) { archive.column(grains); });
+}
+
+template <class Archive, class Part>
+void transfer_part(Archive& archive, Part& part) {
+  archive.list(part.found.contacts, [&](auto& contact) {
     archive.value(contact.a);
     archive.value(contact.b);
     archive.value(contact.kind);
@@ -56,28 +65,33 @@ void transfer_shape_contacts(Archive& archive, Found& found) {
     archive.value(contact.first);
     archive.value(contact.count);
   });
-  archive.list(found.points, [&](auto& point) {
+  archive.list(part.found.points, [&](auto& point) {
     transfer_vector(archive, point.position);
     archive.value(point.gap);
   });
+  archive.column(part.first);
 }
 
-/// A bed of grains that turn after a step.
-template <class Archive, class State>
-void transfer_bed(Archive& archive, PolyhedronBed& bed, State& state) {
-  archive.column(bed.position);
-  archive.column(bed.orientation);
-  archive.column(bed.motion);
-  archive.list(bed.spin, [&](auto& spin) { transfer_vector(archive, spin); });
-  archive.value(state.search.has_candidates);
-  transfer_candidates(archive, state.search.candidates);
-  archive.list(state.search.memory, [&](auto& memory) {
+template <class Archive, class Real>
+void transfer_contacts(Archive& archive, PolyhedronContacts<Real>& contacts) {
+  transfer_subdomains(archive, contacts.subdomains);
+  archive.list(contacts.memory, [&](auto& memory) {
     transfer_vector(archive, memory.axis);
     archive.value(memory.simplex);
   });
-  transfer_shape_contacts(archive, state.contacts);
-  archive.column(state.places.first);
-  archive.column(state.rows.impulse);
+  archive.value(contacts.found_parts);
+  archive.list(contacts.parts, [&](auto& part) { transfer_part(archive, part); });
+  archive.column(contacts.impulse);
+}
+
+/// A bed after a step.
+template <class Archive, class Kind, class Real>
+void transfer_bed(Archive& archive, Bed<Kind>& bed, StepState<Kind, Real>& state) {
+  archive.column(bed.position);
+  archive.column(bed.motion);
+  transfer_kind(archive, bed);
+  transfer_candidates(archive, state.candidates);
+  transfer_contacts(archive, state.contacts);
 }
 
 }  // namespace grainsweep

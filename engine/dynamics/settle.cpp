@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "engine/dynamics/balance.hpp"
+#include "engine/dynamics/rest.hpp"
 #include "engine/dynamics/saved_beds.hpp"
 #include "engine/dynamics/saved_state.hpp"
-#include "engine/dynamics/shape_rest.hpp"
 #include "engine/dynamics/stages.hpp"
 #include "engine/dynamics/workspace.hpp"
 
@@ -21,52 +21,26 @@ constexpr double rounding_of_places = 1e-9;  // d; far from the origin coordinat
 /// heavy grain, 6e-8 of its weight, nears the weight of a light one.
 constexpr double f32_mass_ratio = 1e5;
 
-/// Everything a settling bed carries from step to step. `State` is the StepState of the bed.
-template <class Bed, class State>
+/// Everything a settling bed carries from step to step.
+template <class Kind, class Real>
 struct Settling {
   const Accuracy& accuracy;
   const ExecutionContext& context;
-  Bed& bed;
-  State& state;
+  Bed<Kind>& bed;
+  StepState<Kind, Real>& state;
   Stages stages;
   std::size_t stage = 0;  ///< the number of stages when the bed is at rest
   std::int64_t steps_in_stage = 0;
   StepSettings settings;
-  StepReport last;
+  StepReport last = {};
   double sunk_at_start = 0.0;  ///< StepReport::sunk of the first step
-  SettleReport report;
+  SettleReport report = {};
 
   const StageRule& rule() const { return stages[stage]; }
 };
 
-// ---- what beds of spheres and beds of grains that turn do in their own way ----
-
-template <class Real>
-RestReport certify(const SphereBed& bed, const ExecutionContext& context, double dt,
-                   StepState<Real>& state) {
-  return certify(bed, context, dt, state.contacts);
-}
-template <class Real>
-double carried_weight(const SphereBed& bed, const StepState<Real>& state, double dt) {
-  return carried_weight(bed, state.contacts, dt);
-}
-template <class Real>
-std::vector<PairForce> pair_forces(const SphereBed& bed, const StepState<Real>& state, double dt) {
-  return pair_forces(bed, state.contacts, dt);
-}
-template <class Real>
-std::vector<double> force_sums(const SphereBed& bed, const StepState<Real>& state, double dt) {
-  return force_sums(bed, state.contacts, dt);
-}
-template <class Real>
-ForceBalance balance_forces(const SphereBed& bed, const ExecutionContext& context, double dt,
-                            StepState<Real>& state) {
-  return grainsweep::balance_forces(bed, context.kernels, dt, state.contacts);
-}
-
 /// Heaviest over lightest grain.
-template <class Bed>
-double mass_ratio(const Bed& bed) {
+double mass_ratio(const Grains& bed) {
   double least = bed.motion.front().w, most = least;
   for (std::size_t i = 0; i < bed.grains(); ++i) {
     least = std::min(least, bed.motion[i].w);
@@ -75,28 +49,28 @@ double mass_ratio(const Bed& bed) {
   return most / least;
 }
 
-template <class Bed>
-bool is_fit(const Accuracy& accuracy, const Bed& bed) {
+bool is_fit(const Accuracy& accuracy, const Grains& bed) {
   return accuracy.precision == Precision::f64 || bed.grains() == 0 ||
          mass_ratio(bed) <= f32_mass_ratio;
 }
 
 // ---- stage after stage ----
 
-template <class Bed, class State>
-bool is_carried(const Settling<Bed, State>& s) {
-  return carried_weight(s.bed, s.state, s.settings.dt) > carried_share;
+template <class Kind, class Real>
+bool is_carried(const Settling<Kind, Real>& s) {
+  return carried_weight(s.bed, force_contacts(s.bed, s.settings.dt, s.state.contacts)) >
+         carried_share;
 }
 
-template <class Bed, class State>
-bool has_fallen(const Settling<Bed, State>& s) {
+template <class Kind, class Real>
+bool has_fallen(const Settling<Kind, Real>& s) {
   return s.last.kinetic_energy < s.rule().energy && is_carried(s);
 }
 
-template <class Bed, class State>
-bool is_at_rest(Settling<Bed, State>& s) {
+template <class Kind, class Real>
+bool is_at_rest(Settling<Kind, Real>& s) {
   RestReport& rest = s.report.rest;
-  rest = certify(s.bed, s.context, s.settings.dt, s.state);
+  rest = measure_rest(s.bed, s.context, s.settings.dt, s.state);
   rest.residual = s.last.solve.residual;
   rest.kinetic_energy = s.last.kinetic_energy;
   rest.largest_motion = s.last.largest_motion;
@@ -105,8 +79,8 @@ bool is_at_rest(Settling<Bed, State>& s) {
 }
 
 /// Whether the stage has done its work. Looks at the bed after at least one step.
-template <class Bed, class State>
-bool is_over(Settling<Bed, State>& s) {
+template <class Kind, class Real>
+bool is_over(Settling<Kind, Real>& s) {
   const bool has_steps = s.steps_in_stage >= steps_of(s.accuracy, s.rule());
   switch (s.rule().end) {
     case StageEnd::look:  // a bed that is not carried is none, the first step tells
@@ -123,14 +97,14 @@ bool is_over(Settling<Bed, State>& s) {
   return has_steps;
 }
 
-template <class Bed, class State>
-std::size_t next_stage(Settling<Bed, State>& s) {
+template <class Kind, class Real>
+std::size_t next_stage(Settling<Kind, Real>& s) {
   const bool rests_as_given = s.rule().end == StageEnd::look && is_carried(s) && is_at_rest(s);
   return rests_as_given ? s.stages.size() : s.stage + 1;
 }
 
-template <class Bed, class State>
-void enter(std::size_t stage, Settling<Bed, State>& s) {
+template <class Kind, class Real>
+void enter(std::size_t stage, Settling<Kind, Real>& s) {
   s.stage = stage;
   s.steps_in_stage = 0;
   if (stage == s.stages.size()) return;
@@ -142,8 +116,8 @@ void enter(std::size_t stage, Settling<Bed, State>& s) {
 // ---- saving and going on ----
 
 /// Lists what a packing needs to go on; settings follow from the stage.
-template <class Archive, class Bed, class State>
-void transfer(Archive& archive, Settling<Bed, State>& s) {
+template <class Archive, class Kind, class Real>
+void transfer(Archive& archive, Settling<Kind, Real>& s) {
   archive.value(s.stage);
   archive.value(s.steps_in_stage);
   archive.value(s.last);
@@ -154,24 +128,22 @@ void transfer(Archive& archive, Settling<Bed, State>& s) {
   transfer_bed(archive, s.bed, s.state);
 }
 
-/// States of other number types, of spheres and of grains that turn, and of other beds are of
-/// another kind.
-template <class Bed, class State>
-std::uint64_t kind_of(const Settling<Bed, State>& s) {
-  const bool turns = std::is_same_v<Bed, PolyhedronBed>;
-  return s.bed.grains() * 32 + (turns ? 16 : 0) +
-         (s.accuracy.precision == Precision::f32 ? sizeof(float) : sizeof(double));
+/// States of other number types, of other kinds of grains and of other beds are of another kind.
+template <class Kind, class Real>
+std::uint64_t kind_of(const Settling<Kind, Real>& s) {
+  constexpr bool turns = std::is_same_v<Kind, Polyhedron>;
+  return s.bed.grains() * 32 + (turns ? 16 : 0) + sizeof(Real);
 }
 
-template <class Bed, class State>
-std::string saved(Settling<Bed, State>& s) {
+template <class Kind, class Real>
+std::string saved(Settling<Kind, Real>& s) {
   StateWriter writer;
   transfer(writer, s);
   return sealed(kind_of(s), writer.bytes());
 }
 
-template <class Bed, class State>
-void restore(std::string_view bytes, Settling<Bed, State>& s) {
+template <class Kind, class Real>
+void restore(std::string_view bytes, Settling<Kind, Real>& s) {
   if (const auto payload = unsealed(kind_of(s), bytes)) {
     StateReader reader(*payload);
     transfer(reader, s);
@@ -180,8 +152,8 @@ void restore(std::string_view bytes, Settling<Bed, State>& s) {
 }
 
 /// One step; false if the observer does not want another one.
-template <class Bed, class State>
-bool take_step(Settling<Bed, State>& s, const KeepGoing& keep_going) {
+template <class Kind, class Real>
+bool take_step(Settling<Kind, Real>& s, const KeepGoing& keep_going) {
   s.last = step(s.settings, s.context, s.bed, s.state);
   if (s.report.steps == 0) s.sunk_at_start = s.last.sunk;
   s.report.sank = s.report.sank || s.last.sunk > s.sunk_at_start + rounding_of_places;
@@ -194,15 +166,15 @@ bool take_step(Settling<Bed, State>& s, const KeepGoing& keep_going) {
 
 /// Whether there is another step to take. A state that is not finite must not be searched: it lies
 /// in no cell.
-template <class Bed, class State>
-bool goes_on(const Settling<Bed, State>& s) {
+template <class Kind, class Real>
+bool goes_on(const Settling<Kind, Real>& s) {
   return s.stage < s.stages.size() && s.report.steps < s.accuracy.max_steps &&
          !s.report.cancelled && std::isfinite(s.last.kinetic_energy);
 }
 
 /// Stage after stage, until the bed rests, the steps run out or the observer stops it.
-template <class Bed, class State>
-void come_to_rest(Settling<Bed, State>& s, const KeepGoing& keep_going) {
+template <class Kind, class Real>
+void come_to_rest(Settling<Kind, Real>& s, const KeepGoing& keep_going) {
   while (goes_on(s)) {
     if (is_over(s)) {
       enter(next_stage(s), s);
@@ -212,9 +184,23 @@ void come_to_rest(Settling<Bed, State>& s, const KeepGoing& keep_going) {
   }
 }
 
-template <class Bed, class State>
-SettleReport settle_in(State& state, Stages stages, const Accuracy& accuracy,
-                       const ExecutionContext& context, Bed& bed, const KeepGoing& keep_going,
+/// What is found out once, at the end.
+template <class Kind, class Real>
+void report_forces(Settling<Kind, Real>& s) {
+  const double dt = s.settings.dt;
+  if constexpr (std::is_same_v<Kind, Sphere>) {
+    if (s.accuracy.force_balance == BalanceCheck::solve && !s.report.cancelled) {
+      s.report.balance = balance_forces(s.bed, s.context.kernels, dt, s.state.contacts);
+    }
+  }
+  const std::vector<ForceContact> contacts = force_contacts(s.bed, dt, s.state.contacts);
+  s.report.force = force_sums(s.bed, contacts);
+  s.report.pair_forces = pair_forces(s.bed, contacts);
+}
+
+template <class Kind, class Real>
+SettleReport settle_in(StepState<Kind, Real>& state, const Accuracy& accuracy,
+                       const ExecutionContext& context, Bed<Kind>& bed, const KeepGoing& keep_going,
                        std::string_view saved) {
   forget(state);
   if (!is_fit(accuracy, bed)) {
@@ -225,9 +211,13 @@ SettleReport settle_in(State& state, Stages stages, const Accuracy& accuracy,
         "accuracy.precision f32: take f64";
     return unfit;
   }
-  Settling<Bed, State> s{accuracy, context, bed, state,
-                         stages,   0,       0,   settings_of(accuracy, stages.front()),
-                         {},       0.0,     {}};
+  const Stages stages = stages_of<Kind>(accuracy.protocol);
+  Settling<Kind, Real> s{.accuracy = accuracy,
+                         .context = context,
+                         .bed = bed,
+                         .state = state,
+                         .stages = stages,
+                         .settings = settings_of(accuracy, stages.front())};
   restore(saved, s);
   come_to_rest(s, keep_going);
   if (!std::isfinite(s.last.kinetic_energy)) {
@@ -235,36 +225,28 @@ SettleReport settle_in(State& state, Stages stages, const Accuracy& accuracy,
     return s.report;
   }
   is_at_rest(s);
-  if constexpr (std::is_same_v<Bed, SphereBed>) {
-    if (accuracy.force_balance == BalanceCheck::solve && !s.report.cancelled) {
-      s.report.balance = balance_forces(bed, context, s.settings.dt, state);
-    }
-  }
-  s.report.force = force_sums(bed, state, s.settings.dt);
-  s.report.pair_forces = pair_forces(bed, state, s.settings.dt);
+  report_forces(s);
   return s.report;
 }
 
 }  // namespace
 
-SettleReport settle(const Accuracy& accuracy, const ExecutionContext& context, SphereBed& bed,
+template <class Kind>
+SettleReport settle(const Accuracy& accuracy, const ExecutionContext& context, Bed<Kind>& bed,
                     const KeepGoing& keep_going, std::string_view saved) {
   Workspace own;
   Workspace& memory = context.workspace != nullptr ? *context.workspace : own;
-  const Stages stages = stages_of_spheres(accuracy.protocol);
+  const auto settle_as = [&](auto& state) {
+    return settle_in(state, accuracy, context, bed, keep_going, saved);
+  };
   return accuracy.precision == Precision::f32
-             ? settle_in(memory.f32, stages, accuracy, context, bed, keep_going, saved)
-             : settle_in(memory.f64, stages, accuracy, context, bed, keep_going, saved);
+             ? settle_as(std::get<StepState<Kind, float>>(memory.states))
+             : settle_as(std::get<StepState<Kind, double>>(memory.states));
 }
 
-SettleReport settle(const Accuracy& accuracy, const ExecutionContext& context, PolyhedronBed& bed,
-                    const KeepGoing& keep_going, std::string_view saved) {
-  Workspace own;
-  Workspace& memory = context.workspace != nullptr ? *context.workspace : own;
-  const Stages stages = stages_of_shapes();
-  return accuracy.precision == Precision::f32
-             ? settle_in(memory.turning_f32, stages, accuracy, context, bed, keep_going, saved)
-             : settle_in(memory.turning_f64, stages, accuracy, context, bed, keep_going, saved);
-}
+template SettleReport settle(const Accuracy&, const ExecutionContext&, SphereBed&, const KeepGoing&,
+                             std::string_view);
+template SettleReport settle(const Accuracy&, const ExecutionContext&, PolyhedronBed&,
+                             const KeepGoing&, std::string_view);
 
 }  // namespace grainsweep

@@ -144,8 +144,12 @@ class GaussSeidel {
     const Sums sums = begin(part, *begun_);
     const std::int32_t* const grain = rows_.shares.grains.data() + part.first_grain;
     Record<Real>*const before = motion_.before.data(), *const u = motion_.u.data();
+    constexpr std::size_t records = Rows::records_of_grain;
     for (std::size_t k = 0; k < part.grains; ++k) {
-      extrapolate(begun_->momentum, before[grain[k]], u[grain[k]]);
+      const std::size_t first = records * static_cast<std::size_t>(grain[k]);
+      for (std::size_t r = first; r < first + records; ++r) {
+        extrapolate(begun_->momentum, before[r], u[r]);
+      }
     }
     return sums;
   }
@@ -290,13 +294,13 @@ SolveReport solve(const SolveLimits& limits, const ExecutionContext& context, Ro
   return report;
 }
 
-template SolveReport solve(const SolveLimits&, const ExecutionContext&, Contacts<float>&,
+template SolveReport solve(const SolveLimits&, const ExecutionContext&, SphereContacts<float>&,
                            MotionColumns<float>&);
-template SolveReport solve(const SolveLimits&, const ExecutionContext&, Contacts<double>&,
+template SolveReport solve(const SolveLimits&, const ExecutionContext&, SphereContacts<double>&,
                            MotionColumns<double>&);
-template SolveReport solve(const SolveLimits&, const ExecutionContext&, LeverColumns<float>&,
+template SolveReport solve(const SolveLimits&, const ExecutionContext&, PolyhedronContacts<float>&,
                            MotionColumns<float>&);
-template SolveReport solve(const SolveLimits&, const ExecutionContext&, LeverColumns<double>&,
+template SolveReport solve(const SolveLimits&, const ExecutionContext&, PolyhedronContacts<double>&,
                            MotionColumns<double>&);
 
 }  // namespace grainsweep

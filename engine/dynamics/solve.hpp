@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "engine/context.hpp"
-#include "engine/rows/contacts.hpp"
-#include "engine/rows/lever_columns.hpp"
+#include "engine/rows/polyhedron_contacts.hpp"
+#include "engine/rows/sphere_contacts.hpp"
 #include "engine/scene/spec.hpp"
 
 namespace grainsweep {
@@ -46,7 +46,7 @@ struct MotionColumns {
 };
 
 /// Improves `contacts.impulse`, starting from what it holds, until the residual is below the
-/// tolerance or the iterations are used up. Of Contacts or LeverColumns.
+/// tolerance or the iterations are used up. Of contacts of any kind.
 template <class Rows, class Real>
 SolveReport solve(const SolveLimits& limits, const ExecutionContext& context, Rows& contacts,
                   MotionColumns<Real>& motion);

@@ -181,6 +181,23 @@ constexpr StageRule turning[] = {
      .done_after = 1.0},
 };
 
+/// Undamped short steps, until impacts alone have taken the energy; then the quench.
+constexpr StageRule dynamic_turning[] = {
+    turning[0],
+    {.name = "fall",
+     .end = StageEnd::halted,
+     .step = 0.25,
+     .inertia = Inertia::full,
+     .near = 0.05,
+     .margin = 0.05,
+     .fall_iterations = 1.0,
+     .steps = 1,
+     .energy = 1e-2,
+     .usual_steps = 1200,
+     .done_after = 0.85},
+    turning[5],
+};
+
 /// While a step leaves more, its iterations are doubled. A heavy grain on a light one needs more
 /// sweeps than a bed, or the light one is pressed out from under it; grains of one size leave a
 /// tenth of this in the middle of their fall. A mass times d.
@@ -209,11 +226,15 @@ std::int64_t creep_step(const Accuracy& accuracy, double share) {
 
 }  // namespace
 
-Stages stages_of_spheres(Protocol protocol) {
+template <>
+Stages stages_of<Sphere>(Protocol protocol) {
   return protocol == Protocol::dynamic ? Stages(dynamic) : Stages(heavy_ball);
 }
 
-Stages stages_of_shapes() { return turning; }
+template <>
+Stages stages_of<Polyhedron>(Protocol protocol) {
+  return protocol == Protocol::dynamic ? Stages(dynamic_turning) : Stages(turning);
+}
 
 StepSettings settings_of(const Accuracy& accuracy, const StageRule& rule) {
   StepSettings s;

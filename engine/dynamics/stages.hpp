@@ -6,6 +6,7 @@
 #include <span>
 
 #include "engine/dynamics/step.hpp"
+#include "engine/scene/bed.hpp"
 #include "engine/scene/spec.hpp"
 
 namespace grainsweep {
@@ -48,8 +49,8 @@ struct StageRule {
 
 /// The stages in their order, the first a look at the bed as it is given.
 using Stages = std::span<const StageRule>;
-Stages stages_of_spheres(Protocol protocol);
-Stages stages_of_shapes();
+template <class Kind>
+Stages stages_of(Protocol protocol);
 
 /// A step of a stage.
 StepSettings settings_of(const Accuracy& accuracy, const StageRule& rule);

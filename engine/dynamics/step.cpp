@@ -7,6 +7,24 @@ namespace grainsweep {
 
 namespace {
 
+// ---- what the kinds of grains do in their own way ----
+
+/// The vector, shortened to `longest`.
+Vector clamped(const Vector& v, double longest) {
+  const double length = v.norm();
+  return length > longest ? Vector(longest / length * v) : v;
+}
+
+template <class Real>
+Record<Real> record(const Vector& v, double w) {
+  return {static_cast<Real>(v.x()), static_cast<Real>(v.y()), static_cast<Real>(v.z()),
+          static_cast<Real>(w)};
+}
+template <class Real>
+Vector vector(const Record<Real>& r) {
+  return {static_cast<double>(r.x), static_cast<double>(r.y), static_cast<double>(r.z)};
+}
+
 /// u_free = alpha u_last + g dt^2, clamped.
 template <class Real>
 void set_free_motion(const StepSettings& settings, const SphereBed& bed, IndexRange grains,
@@ -23,30 +41,16 @@ void set_free_motion(const StepSettings& settings, const SphereBed& bed, IndexRa
   }
 }
 template <class Real>
-void set_free_motion(const StepSettings& settings, const ParallelFor& loop, const SphereBed& bed,
+void set_free_motion(const StepSettings& settings, const PolyhedronBed& bed, IndexRange grains,
                      std::vector<Record<Real>>& free) {
-  free.resize(bed.motion.size());
-  parallel_chunks(loop, bed.grains(), bed.subdomains, [&](std::size_t, IndexRange grains) {
-    set_free_motion(settings, bed, grains, free);
-  });
-  for (std::size_t i = bed.grains(); i < free.size(); ++i) {
-    free[i] = {Real(0), Real(0), Real(0), static_cast<Real>(bed.motion[i].w)};
+  const Vector fall(0.0, 0.0, -settings.dt * settings.dt);
+  for (std::size_t i = grains.first; i < grains.last; ++i) {
+    const Vector v = settings.momentum * vector(bed.motion[i]) + fall;
+    const Vector angles =
+        clamped(settings.momentum * bed.spin[i], longest_free_motion / bed.circumradius(i));
+    free[2 * i] = record<Real>(clamped(v, longest_free_motion), bed.motion[i].w);
+    free[2 * i + 1] = record<Real>(bed.root_inertia[i].cwiseProduct(angles), 1.0);
   }
-}
-
-/// Lists candidates and lays out rows anew if the list may have become incomplete.
-template <class Real>
-bool renew_candidates(const StepSettings& settings, const ExecutionContext& context, SphereBed& bed,
-                      StepState<Real>& state) {
-  const Balls balls{bed, bed.position};
-  if (state.has_candidates && still_complete(balls, settings.near, state.candidates)) {
-    return false;
-  }
-  wrap(bed, context.loop);
-  find_candidates(balls, settings.near + settings.margin, context, state.candidates);
-  lay_out(bed, state.candidates, state.contacts, context.loop);
-  state.has_candidates = true;
-  return true;
 }
 
 /// Moves some grains by `u`, cut at longest_motion.
@@ -71,12 +75,79 @@ Moved advance(const std::vector<Record<Real>>& u, IndexRange grains, SphereBed& 
     energy += squared / bed.motion[i].w;
     longest = std::max(longest, squared);
   }
-  return {energy, longest};
+  return {energy, std::sqrt(longest)};
+}
+template <class Real>
+Moved advance(const std::vector<Record<Real>>& u, IndexRange grains, PolyhedronBed& bed) {
+  Moved moved;
+  for (std::size_t i = grains.first; i < grains.last; ++i) {
+    const Vector displacement = clamped(vector(u[2 * i]), longest_motion);
+    const Vector scaled_angles = vector(u[2 * i + 1]);
+    const Vector angles = scaled_angles.cwiseQuotient(bed.root_inertia[i]);
+    move_grain(bed, i, displacement, angles);
+    moved.energy += displacement.squaredNorm() / bed.motion[i].w + scaled_angles.squaredNorm();
+    moved.longest =
+        std::max({moved.longest, displacement.norm(), angles.norm() * bed.circumradius(i)});
+  }
+  return moved;
+}
+
+/// The contacts of new candidates.
+template <class Real>
+void take_list(const SphereBed& bed, const Candidates& candidates, const ParallelFor& loop,
+               SphereContacts<Real>& contacts) {
+  lay_out(bed, candidates, contacts, loop);
+}
+template <class Real>
+void take_list(const PolyhedronBed& bed, const Candidates& candidates, const ParallelFor& loop,
+               PolyhedronContacts<Real>& contacts) {
+  take_candidates(bed, candidates, contacts, loop);
+}
+
+/// Rows with the gaps and normals of the grains where they are; see StepReport::sunk.
+template <class Real>
+double update_contacts(const StepSettings& settings, const ExecutionContext& context,
+                       const SphereBed& bed, SphereContacts<Real>& contacts) {
+  return update_gaps(bed, context, settings.correction, contacts);
+}
+template <class Real>
+double update_contacts(const StepSettings& settings, const ExecutionContext& context,
+                       const PolyhedronBed& bed, PolyhedronContacts<Real>& contacts) {
+  return find_contacts(touch_settings(settings.near, settings.dt), settings.correction, bed,
+                       context, contacts);
+}
+
+void scale_motion(double ratio, SphereBed& bed) {
+  for (Record<double>& m : bed.motion) m = {ratio * m.x, ratio * m.y, ratio * m.z, m.w};
+}
+void scale_motion(double ratio, PolyhedronBed& bed) {
+  for (Record<double>& m : bed.motion) m = {ratio * m.x, ratio * m.y, ratio * m.z, m.w};
+  for (Vector& spin : bed.spin) spin *= ratio;
+}
+
+/// Rows of spheres are laid out for the steps they were listed for.
+void forget_list(const SphereBed&, Candidates& candidates) { candidates.is_listed = false; }
+void forget_list(const PolyhedronBed&, Candidates&) {}
+
+// ---- the same for all ----
+
+/// Free motion of all grains; nothing moves the entries that are none.
+template <class Kind, class Real>
+void set_free_motion(const StepSettings& settings, const ParallelFor& loop, const Bed<Kind>& bed,
+                     std::vector<Record<Real>>& free) {
+  constexpr std::size_t records = Contacts<Kind, Real>::records_of_grain;
+  free.resize(records * bed.position.size());
+  parallel_chunks(loop, bed.grains(), bed.subdomains, [&](std::size_t, IndexRange grains) {
+    set_free_motion(settings, bed, grains, free);
+  });
+  for (std::size_t i = records * bed.grains(); i < free.size(); ++i) {
+    free[i] = {Real(0), Real(0), Real(0), static_cast<Real>(bed.motion[i / records].w)};
+  }
 }
 
 /// Moves all grains and reports how they moved.
-template <class Real>
-void advance(double dt, const ParallelFor& loop, SphereBed& bed, StepState<Real>& state,
+template <class Kind, class Real>
+void advance(double dt, const ParallelFor& loop, Bed<Kind>& bed, StepState<Kind, Real>& state,
              StepReport& report) {
   state.moved.resize(bed.subdomains);
   parallel_chunks(loop, bed.grains(), bed.subdomains, [&](std::size_t part, IndexRange some) {
@@ -88,40 +159,47 @@ void advance(double dt, const ParallelFor& loop, SphereBed& bed, StepState<Real>
   }
   const double grains = static_cast<double>(std::max<std::size_t>(bed.grains(), 1));
   report.kinetic_energy = all.energy / (2.0 * dt * dt * grains);
-  report.largest_motion = std::sqrt(all.longest);
+  report.largest_motion = all.longest;
 }
 
 }  // namespace
 
-template <class Real>
-StepReport step(const StepSettings& settings, const ExecutionContext& context, SphereBed& bed,
-                StepState<Real>& state) {
+template <class Kind, class Real>
+StepReport step(const StepSettings& settings, const ExecutionContext& context, Bed<Kind>& bed,
+                StepState<Kind, Real>& state) {
   StepReport report;
   const double force_unit = settings.dt * settings.dt;  // impulse of 1 m g over the step
   SolveLimits limits = settings.limits;
   limits.tolerance *= force_unit;
   set_free_motion(settings, context.loop, bed, state.motion.free);
-  report.searched = renew_candidates(settings, context, bed, state);
-  report.sunk = detect(bed, context, settings.correction, state.contacts);
+  report.searched =
+      renew_candidates(settings.near, settings.margin, context, bed, state.candidates);
+  if (report.searched) take_list(bed, state.candidates, context.loop, state.contacts);
+  report.sunk = update_contacts(settings, context, bed, state.contacts);
   report.solve = solve(limits, context, state.contacts, state.motion);
   report.solve.residual /= force_unit;
   advance(settings.dt, context.loop, bed, state, report);
   return report;
 }
 
-template <class Real>
-void change_step(double ratio, SphereBed& bed, StepState<Real>& state) {
-  state.has_candidates = false;
-  for (Record<double>& m : bed.motion) m = {ratio * m.x, ratio * m.y, ratio * m.z, m.w};
+template <class Kind, class Real>
+void change_step(double ratio, Bed<Kind>& bed, StepState<Kind, Real>& state) {
+  forget_list(bed, state.candidates);
+  scale_motion(ratio, bed);
   for (Real& impulse : state.contacts.impulse) impulse *= static_cast<Real>(ratio * ratio);
 }
 
 template StepReport step(const StepSettings&, const ExecutionContext&, SphereBed&,
-                         StepState<float>&);
+                         StepState<Sphere, float>&);
 template StepReport step(const StepSettings&, const ExecutionContext&, SphereBed&,
-                         StepState<double>&);
-
-template void change_step(double, SphereBed&, StepState<float>&);
-template void change_step(double, SphereBed&, StepState<double>&);
+                         StepState<Sphere, double>&);
+template StepReport step(const StepSettings&, const ExecutionContext&, PolyhedronBed&,
+                         StepState<Polyhedron, float>&);
+template StepReport step(const StepSettings&, const ExecutionContext&, PolyhedronBed&,
+                         StepState<Polyhedron, double>&);
+template void change_step(double, SphereBed&, StepState<Sphere, float>&);
+template void change_step(double, SphereBed&, StepState<Sphere, double>&);
+template void change_step(double, PolyhedronBed&, StepState<Polyhedron, float>&);
+template void change_step(double, PolyhedronBed&, StepState<Polyhedron, double>&);
 
 }  // namespace grainsweep

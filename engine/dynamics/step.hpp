@@ -1,13 +1,16 @@
 // One step of the heavy-ball displacement protocol.
 //
-// Without contacts a grain would move by u_free = alpha u_last + g dt^2, clamped; the contacts
-// change that as little as keeps all gaps open, and the grains move by the result. With alpha = 1
-// and a small dt this is Moreau's contact dynamics; below 1 it is a damped descent to rest.
+// Without contacts a grain would move by u_free = alpha u_last + g dt^2, and a polyhedron turn by
+// alpha times what keeps its angular momentum, each clamped; the contacts change that as little as
+// keeps all gaps open (to first order in the angles), and the grains move by the result. With
+// alpha = 1 and a small dt this is Moreau's contact dynamics; below 1 it is a damped descent to
+// rest.
 #pragma once
 
 #include "engine/broad/candidates.hpp"
 #include "engine/dynamics/solve.hpp"
-#include "engine/rows/contacts.hpp"
+#include "engine/rows/polyhedron_contacts.hpp"
+#include "engine/rows/sphere_contacts.hpp"
 #include "engine/scene/bed.hpp"
 
 namespace grainsweep {
@@ -35,33 +38,35 @@ struct StepReport {
   double kinetic_energy = 0.0;  ///< mean per grain of 1/2 m (u/dt)^2, m g d
   double largest_motion = 0.0;  ///< d
   /// Most by which centres were nearer than sunk_share of the distance at which their grains touch,
-  /// before the step, d. Grains that turn are not looked at.
+  /// of polyhedra the balls within them, before the step, d.
   double sunk = 0.0;
   bool searched = false;  ///< whether candidates were listed anew
 };
 
-/// How some grains moved in a step: sum of m u^2 and largest u^2, d^2.
+/// How some grains moved in a step: sum of m u^2, m d^2, and longest way, d.
 struct Moved {
   double energy = 0.0, longest = 0.0;
 };
 
-/// Everything that steps need besides the bed.
-template <class Real>
+/// Everything that steps need besides the bed. After a step the contacts are those it found, before
+/// the grains moved, with their impulses.
+template <class Kind, class Real>
 struct StepState {
   Candidates candidates;
-  Contacts<Real> contacts;
+  Contacts<Kind, Real> contacts;
   MotionColumns<Real> motion;
   std::vector<Moved> moved;  ///< of each part of the grains
-  bool has_candidates = false;
 };
 
-template <class Real>
-StepReport step(const StepSettings& settings, const ExecutionContext& context, SphereBed& bed,
-                StepState<Real>& state);
+/// One step. Of polyhedra the largest motion counts the way that a turn takes a point at the
+/// circumradius, and the kinetic energy counts turning.
+template <class Kind, class Real>
+StepReport step(const StepSettings& settings, const ExecutionContext& context, Bed<Kind>& bed,
+                StepState<Kind, Real>& state);
 
 /// Velocities stay as they are when the next step is `ratio` times as long as the last one: motions
-/// scale with it, impulses with its square. Candidates are listed anew.
-template <class Real>
-void change_step(double ratio, SphereBed& bed, StepState<Real>& state);
+/// scale with it, impulses with its square.
+template <class Kind, class Real>
+void change_step(double ratio, Bed<Kind>& bed, StepState<Kind, Real>& state);
 
 }  // namespace grainsweep

@@ -4,36 +4,37 @@
 // room, no value: a packing has the same bits with a fresh workspace and with a used one.
 #pragma once
 
-#include "engine/dynamics/shape_step.hpp"
+#include <tuple>
+
 #include "engine/dynamics/step.hpp"
 
 namespace grainsweep {
 
 /// For one packing at a time.
 struct Workspace {
-  StepState<float> f32;
-  StepState<double> f64;
-  ShapeStepState<float> turning_f32;
-  ShapeStepState<double> turning_f64;
+  std::tuple<StepState<Sphere, float>, StepState<Sphere, double>, StepState<Polyhedron, float>,
+             StepState<Polyhedron, double>>
+      states;
 };
 
 /// Forgets the last packing but keeps its memory.
 template <class Real>
-void forget(StepState<Real>& state) {
-  state.has_candidates = false;
-  state.contacts.rows.clear();
-  state.contacts.impulse.clear();
-  state.contacts.shares.clear();
-  state.contacts.walls.clear();
-  state.contacts.pair_blocks = 0;
+void forget(SphereContacts<Real>& contacts) {
+  contacts.rows.clear();
+  contacts.impulse.clear();
+  contacts.shares.clear();
+  contacts.walls.clear();
+  contacts.pair_blocks = 0;
 }
 template <class Real>
-void forget(ShapeStepState<Real>& state) {
-  state.search.has_candidates = false;
-  state.contacts.contacts.clear();
-  state.contacts.points.clear();
-  state.places.first.clear();
-  state.rows.impulse.clear();
+void forget(PolyhedronContacts<Real>& contacts) {
+  contacts.found_parts = 0;
+  contacts.impulse.clear();
+}
+template <class Kind, class Real>
+void forget(StepState<Kind, Real>& state) {
+  state.candidates.is_listed = false;
+  forget(state.contacts);
 }
 
 }  // namespace grainsweep

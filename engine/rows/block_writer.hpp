@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/rows/contacts.hpp"
 #include "engine/rows/lanes.hpp"  // BlockLane
+#include "engine/rows/sphere_contacts.hpp"
 
 namespace grainsweep {
 

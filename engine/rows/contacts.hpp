@@ -1,98 +1,68 @@
-// Contacts: the rows that the solver works on, and the impulses they carry from step to step.
+// Contacts of a bed, by the kind of its grains: the rows that the solver works on, and the impulses
+// that they carry from step to step.
 //
-// Rows persist while their candidates do. They are laid out once, in blocks whose lanes never share
-// a grain, and then only their gaps and normals are measured anew in each step. Each wall has
-// blocks of its own after those of the pairs.
+// Whatever the kind, contacts have the columns that the solver reads (blocks of rows, `shares`,
+// `impulse`, `extrapolated`), in masses times d: an impulse p stands for a force p / dt^2, in m g.
+// How rows follow from candidates differs: rows of spheres persist while their candidates do
+// (sphere_contacts.hpp), contacts of polyhedra are found anew in each step
+// (polyhedron_contacts.hpp).
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
-
-#include "engine/broad/candidates.hpp"
-#include "engine/context.hpp"
-#include "engine/rows/partition.hpp"
-#include "engine/rows/subdomains.hpp"
-#include "engine/scene/bed.hpp"
-#include "kernels/kernels.hpp"
 
 namespace grainsweep {
 
-/// Blocks that belong to one wall: `first` .. `first + blocks`.
-struct WallRows {
-  std::size_t wall = 0;  ///< of the bed's walls
-  std::size_t first = 0;
-  std::size_t blocks = 0;
-};
+template <class Kind, class Real>
+struct Contacts;
 
-/// An impulse of a contact that pushed, under the name of its two sides.
-template <class Real>
-struct CarriedImpulse {
-  std::int32_t other;  ///< the second grain, or grains + k for wall k
-  Real impulse;
-};
+/// What contacts carry from one layout of rows to the next, by the first grain of each.
+template <class Entry>
+struct Carried {
+  std::vector<std::size_t> begin;  ///< where each grain's entries begin; one more at the end
+  std::vector<Entry> entries;
 
-/// Rows and what they carry, impulse k of block b at b * block_width + k.
-template <class Real>
-struct RowColumns {
-  std::vector<RowBlock<Real>> rows;
-  std::vector<Real> impulse;
-};
-
-/// Memory of the layout of rows, kept from one layout to the next.
-template <class Real>
-struct LayoutColumns {
-  Subdomains subdomains;
-  std::vector<RowColumns<Real>> columns;             ///< of each subdomain, then of the walls
-  std::vector<std::vector<BlockRange>> wall_ranges;  ///< of each subdomain in the rows of the walls
-  std::vector<std::vector<std::int32_t>> near_wall;  ///< grains of each subdomain near one wall
-  std::vector<std::size_t> first_block;              ///< of each subdomain in the rows of all
-  std::vector<std::uint64_t> open_blocks;  ///< per grain: one bit for each open block it is in
-  std::vector<std::int32_t> carried_begin;
-  std::vector<CarriedImpulse<Real>> carried;
-  std::vector<Real> pair_impulse;  ///< what each candidate pair carries
-};
-
-/// Rows and impulses; the impulse of lane k of block b is `impulse[b * block_width + k]`, in masses
-/// times d: the force it stands for is impulse / dt^2, in m g.
-template <class Real>
-struct Contacts {
-  std::vector<RowBlock<Real>> rows;
-  std::size_t pair_blocks = 0;
-  std::vector<WallRows> walls;
-  RowShares shares;
-  std::vector<Real> impulse;
-  std::vector<Real> extrapolated;  ///< the solver's look-ahead impulses
-  std::vector<double> sunk;        ///< of each part of a detection: see `detect`
-  LayoutColumns<Real> layout;
-
-  // What sweeps over a range need: their kernels, its rows, the first of its impulses.
-  static const RowKernels<Real>& kernels_of(const Kernels& all) { return row_kernels<Real>(all); }
-  const RowBlock<Real>* rows_of(BlockRange range) const { return rows.data() + range.first; }
-  static std::size_t first_impulse(BlockRange range) { return range.first * block_width; }
-};
-
-/// Lays the candidates out as rows; contacts that were there before keep their impulse.
-template <class Real>
-void lay_out(const SphereBed& bed, const Candidates& candidates, Contacts<Real>& contacts,
-             const ParallelFor& loop = serial_for);
-
-/// Measures normal and gap of every row. `correction`: share of an overlap that a step repairs.
-/// Returns the most by which centres are nearer than sunk_share of the distance at which their
-/// grains touch, d; 0 if none are.
-template <class Real>
-double detect(const SphereBed& bed, const ExecutionContext& context, double correction,
-              Contacts<Real>& contacts);
-
-/// Calls visit(row block, lane, impulse) for each row that stands for a pair or a wall.
-template <class Real, class Visit>
-void visit_rows(const SphereBed& bed, const Contacts<Real>& contacts, Visit visit) {
-  for (std::size_t block = 0; block < contacts.rows.size(); ++block) {
-    for (std::size_t lane = 0; lane < block_width; ++lane) {
-      if (!bed.is_void(contacts.rows[block].a(lane))) {
-        visit(contacts.rows[block], lane, contacts.impulse[block * block_width + lane]);
-      }
-    }
+  std::span<const Entry> of(std::int32_t grain) const {
+    const auto a = static_cast<std::size_t>(grain);
+    return {entries.data() + begin[a], begin[a + 1] - begin[a]};
   }
+};
+
+/// Sorts entries by grain, of each in their order. `visit_all(put)` calls put(grain, entry) for all
+/// entries, those of a grain never at the same time, and does so twice.
+template <class Entry, class VisitAll>
+void collect(std::size_t grains, const VisitAll& visit_all, Carried<Entry>& carried) {
+  std::vector<std::size_t>& begin = carried.begin;
+  begin.assign(grains + 2, 0);
+  visit_all([&](std::int32_t a, const Entry&) { ++begin[static_cast<std::size_t>(a) + 2]; });
+  for (std::size_t i = 2; i < begin.size(); ++i) begin[i] += begin[i - 1];
+  carried.entries.resize(begin.back());
+  visit_all([&](std::int32_t a, const Entry& entry) {
+    carried.entries[begin[static_cast<std::size_t>(a) + 1]++] = entry;
+  });
 }
+
+/// A contact that bore a force in the last step.
+struct ForceContact {
+  std::int32_t a = 0;   ///< grain
+  std::int32_t b = 0;   ///< grain, or Grains::wall_name of a wall
+  double force = 0.0;   ///< sum over its points, m g
+  int constraints = 1;  ///< in the last step: 1 at a point, as of spheres, 2 along a line, 3 over
+                        ///< an area
+};
+
+/// Forces below this do not make a contact force-bearing, m g.
+inline constexpr double least_force = 1e-6;
+
+/// A contact counts only once it is closed to this, d: what grains are said to touch at. Forces on
+/// light grains can be small against every tolerance while their gaps are still open.
+inline constexpr double closed_gap = 1e-4;
+
+/// How a contact is closed where the grains are now.
+struct Closure {
+  double gap = 0.0;     ///< least of its points, d; infinite if it is open by more than closed_gap
+  int constraints = 0;  ///< 1, 2 or 3 as of ForceContact; 0 if it is open
+};
 
 }  // namespace grainsweep

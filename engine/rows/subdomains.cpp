@@ -12,7 +12,7 @@ bool is_periodic(const Box& box, int axis) {
 }
 
 /// The slab of each grain and the size of each slab.
-void count_slabs(const SphereBed& bed, const Candidates& candidates, const ParallelFor& loop,
+void count_slabs(const Grains& bed, const Candidates& candidates, const ParallelFor& loop,
                  Subdomains& subdomains) {
   const Cells& cells = candidates.levels.front().cells;
   subdomains.slab.resize(bed.grains());
@@ -29,7 +29,7 @@ void count_slabs(const SphereBed& bed, const Candidates& candidates, const Paral
 
 /// A subdomain ends with the slab that fills it, unless that is the last one. Of a ring's odd
 /// number the last two are joined.
-void cut(Subdomains& subdomains) {
+void cut(std::size_t least_grains, Subdomains& subdomains) {
   const std::vector<std::size_t>& slab_size = subdomains.slab_size;
   subdomains.of_slab.assign(slab_size.size(), 0);
   subdomains.count = 1;
@@ -37,7 +37,7 @@ void cut(Subdomains& subdomains) {
   for (std::size_t k = 0; k < slab_size.size(); ++k) {
     subdomains.of_slab[k] = static_cast<std::int32_t>(subdomains.count - 1);
     grains += slab_size[k];
-    if (grains >= Sphere::subdomain_grains && k + 1 < slab_size.size()) {
+    if (grains >= least_grains && k + 1 < slab_size.size()) {
       ++subdomains.count;
       grains = 0;
     }
@@ -103,6 +103,17 @@ void leave_whole(const Candidates& candidates, Subdomains& subdomains) {
   subdomains.begin.assign({0, candidates.pairs.size()});
 }
 
+void sort_near_walls(const Candidates& candidates, Subdomains& subdomains) {
+  std::vector<std::vector<std::int32_t>>& near = subdomains.near_walls;
+  near.resize(std::max(near.size(), candidates.walls.size() * subdomains.count));
+  for (std::vector<std::int32_t>& grains : near) grains.clear();
+  for (std::size_t k = 0; k < candidates.walls.size(); ++k) {
+    for (const std::int32_t grain : candidates.walls[k].grains) {
+      near[k * subdomains.count + subdomains.subdomain_of(grain)].push_back(grain);
+    }
+  }
+}
+
 }  // namespace
 
 std::size_t Subdomains::subdomain_of(GrainPair pair) const {
@@ -111,17 +122,18 @@ std::size_t Subdomains::subdomain_of(GrainPair pair) const {
   return is_ring && second - first + 1 == count && count > 2 ? second : first;
 }
 
-void divide(const SphereBed& bed, const Candidates& candidates, const ParallelFor& loop,
-            Subdomains& subdomains) {
+void divide(const Grains& bed, std::size_t least_grains, const Candidates& candidates,
+            const ParallelFor& loop, Subdomains& subdomains) {
   subdomains.is_ring = is_periodic(bed.box, bed.subdomain_axis);
   if (bed.subdomains == 1) {
     leave_whole(candidates, subdomains);
-    return;
+  } else {
+    count_slabs(bed, candidates, loop, subdomains);
+    cut(least_grains, subdomains);
+    sort_pairs(candidates, loop, subdomains);
+    sort_grains(loop, subdomains);
   }
-  count_slabs(bed, candidates, loop, subdomains);
-  cut(subdomains);
-  sort_pairs(candidates, loop, subdomains);
-  sort_grains(loop, subdomains);
+  sort_near_walls(candidates, subdomains);
 }
 
 }  // namespace grainsweep

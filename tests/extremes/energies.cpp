@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "engine/dynamics/step.hpp"
 #include "engine/scene/start.hpp"
 #include "tests/extremes/accuracy_names.hpp"
 #include "tests/extremes/catalogue.hpp"
@@ -33,7 +34,7 @@ double near_of(double dt) { return dt <= 0.2 ? 0.08 : 2.0 * longest_free_motion;
 /// step adds energy but what a solve leaves undone: overlaps of r dt^2 that are repaired.
 Finding fall(double dt, double momentum) {
   SphereBed bed = *start<Sphere>(small_spec(80, {}));
-  StepState<double> state;
+  StepState<Sphere, double> state;
   StepSettings settings;
   settings.dt = dt;
   settings.momentum = momentum;

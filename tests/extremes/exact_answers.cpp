@@ -82,7 +82,7 @@ Finding wedge_of_three(double half) {
   settings.momentum = 0.0;
   settings.correction = 1.0;
   settings.limits = {Solver::accelerated_gauss_seidel, 1'000'000, 1e-10};
-  StepState<double> state;
+  StepState<Sphere, double> state;
   StepReport report;
   for (int k = 0; k < 10; ++k) report = step(settings, kernels(), bed, state);
   const auto impulses = testing::impulses_of(bed, state.contacts);
@@ -116,9 +116,12 @@ Finding balance(std::int64_t grains, double width, const Accuracy& accuracy) {
   const ExecutionContext context(kernels(), serial_for, &memory);
   const SettleReport report = settle(accuracy, context, bed, [](const Progress&) { return true; });
   const double dt = last_step(accuracy);
-  const ForceBalance balance = accuracy.precision == Precision::f32
-                                   ? balance_forces(bed, kernels(), dt, memory.f32.contacts)
-                                   : balance_forces(bed, kernels(), dt, memory.f64.contacts);
+  const ForceBalance balance =
+      accuracy.precision == Precision::f32
+          ? balance_forces(bed, kernels(), dt,
+                           std::get<StepState<Sphere, float>>(memory.states).contacts)
+          : balance_forces(bed, kernels(), dt,
+                           std::get<StepState<Sphere, double>>(memory.states).contacts);
   Finding finding;
   finding.finite = is_finite(bed);
   finding.unrest = report.why_not;

@@ -45,14 +45,14 @@ double least_mass(const SphereBed& bed) {
 }  // namespace
 
 template <class Real>
-void collect_forces(const Contacts<Real>& contacts, SettledBed& settled) {
+void collect_forces(const SphereContacts<Real>& contacts, SettledBed& settled) {
   const double dt = last_step(settled.accuracy);
   for (const auto& [name, impulse] : testing::impulses_of(settled.bed, contacts)) {
     settled.forces[name] = static_cast<double>(impulse) / (dt * dt);
   }
 }
-template void collect_forces(const Contacts<float>&, SettledBed&);
-template void collect_forces(const Contacts<double>&, SettledBed&);
+template void collect_forces(const SphereContacts<float>&, SettledBed&);
+template void collect_forces(const SphereContacts<double>&, SettledBed&);
 
 double SettledBed::force(std::int32_t a, std::int32_t b) const {
   const auto found = forces.find({a, b});
@@ -76,13 +76,14 @@ SettledBed settle_scene(SphereBed bed, const Accuracy& accuracy) {
   const ExecutionContext context(kernels_for(best_isa()), serial_for, &memory);
   SettledBed settled{std::move(bed), accuracy, {}, {}};
   settled.report = settle(accuracy, context, settled.bed, [](const Progress&) { return true; });
-  accuracy.precision == Precision::f32 ? collect_forces(memory.f32.contacts, settled)
-                                       : collect_forces(memory.f64.contacts, settled);
+  accuracy.precision == Precision::f32
+      ? collect_forces(std::get<StepState<Sphere, float>>(memory.states).contacts, settled)
+      : collect_forces(std::get<StepState<Sphere, double>>(memory.states).contacts, settled);
   return settled;
 }
 
 double last_step(const Accuracy& accuracy) {
-  return settings_of(accuracy, stages_of_spheres(accuracy.protocol).back()).dt;
+  return settings_of(accuracy, stages_of<Sphere>(accuracy.protocol).back()).dt;
 }
 
 double unbalance_bound(const SettledBed& settled) {

@@ -26,7 +26,7 @@ SettledBed settle_scene(SphereBed bed, const Accuracy& accuracy);
 
 /// Takes the forces of the last step's contacts.
 template <class Real>
-void collect_forces(const Contacts<Real>& contacts, SettledBed& settled);
+void collect_forces(const SphereContacts<Real>& contacts, SettledBed& settled);
 
 /// Length of the last steps of a bed that has settled, sqrt(d/g).
 double last_step(const Accuracy& accuracy);

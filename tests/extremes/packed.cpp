@@ -47,8 +47,9 @@ std::vector<Answer> answers(const PackingSpec& spec, const Packing& packing,
                             const Workspace& memory) {
   SettledBed settled{bed_of(spec, packing.grains), spec.accuracy, {}, {}};
   settled.report.rest = packing.result.rest;
-  spec.accuracy.precision == Precision::f32 ? collect_forces(memory.f32.contacts, settled)
-                                            : collect_forces(memory.f64.contacts, settled);
+  spec.accuracy.precision == Precision::f32
+      ? collect_forces(std::get<StepState<Sphere, float>>(memory.states).contacts, settled)
+      : collect_forces(std::get<StepState<Sphere, double>>(memory.states).contacts, settled);
   std::vector<Answer> all = answers_of_any_bed(settled);
   if (spec.sizes.small_share > 0.0) all.push_back(touching_answer(spec, settled));
   return all;

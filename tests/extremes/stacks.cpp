@@ -30,17 +30,18 @@ PolyhedronBed stack_of(const ConvexShape& shape, int grains) {
 
 /// Force that a contact carries: that of the grains above, between neighbours and on the floor.
 /// Thin grains have rows with others near them, too, that must not push.
-double exact_force(const PolyhedronBed& bed, const ShapeContact& c) {
+double exact_force(const PolyhedronBed& bed, const PolyhedronContact& c) {
   const auto grains = static_cast<double>(bed.grains());
   if (bed.is_grain(c.b)) return c.b == c.a + 1 ? grains - c.b : 0.0;
   return c.a == 0 ? grains : 0.0;
 }
 
 /// Largest error of the force of a contact, in the weight of all.
-double force_error(const PolyhedronBed& bed, const ShapeStepState<double>& state, double dt) {
+double force_error(const PolyhedronBed& bed, const StepState<Polyhedron, double>& state,
+                   double dt) {
   double worst = 0.0;
-  for (std::size_t k = 0; k < state.contacts.contacts.size(); ++k) {
-    const double exact = exact_force(bed, state.contacts.contacts[k]);
+  for (std::size_t k = 0; k < testing::list_of(state).contacts.size(); ++k) {
+    const double exact = exact_force(bed, testing::list_of(state).contacts[k]);
     worst = std::max(worst, std::abs(testing::contact_force(state, k, dt) - exact));
   }
   return worst / static_cast<double>(bed.grains());
@@ -58,7 +59,7 @@ double place_error(const PolyhedronBed& before, const PolyhedronBed& after) {
 Finding stand(const ConvexShape& shape, int grains) {
   const PolyhedronBed begin = stack_of(shape, grains);
   PolyhedronBed bed = begin;
-  ShapeStepState<double> state;
+  StepState<Polyhedron, double> state;
   const StepSettings settings = settings_of_stack();
   StepReport report;
   for (int k = 0; k < steps_taken; ++k)

@@ -8,7 +8,7 @@
 #include <Eigen/Core>
 
 #include "engine/dynamics/solve.hpp"
-#include "engine/rows/lever_columns.hpp"
+#include "engine/rows/polyhedron_contacts.hpp"
 
 namespace grainsweep::testing {
 
@@ -34,7 +34,8 @@ struct DenseBodies {
 
 /// The problem that `solve` is given: a row of H^T for every lane of every point, void ones too.
 template <class Real>
-DenseBodies dense_bodies(const LeverColumns<Real>& rows, const std::vector<Record<Real>>& free) {
+DenseBodies dense_bodies(const PolyhedronContacts<Real>& rows,
+                         const std::vector<Record<Real>>& free) {
   const auto size = static_cast<Eigen::Index>(rows.impulse.size());
   const auto motions = static_cast<Eigen::Index>(4 * free.size());
   WideMatrix directions = WideMatrix::Zero(size, motions);

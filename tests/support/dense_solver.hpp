@@ -7,7 +7,8 @@
 #include <vector>
 
 #include "engine/dynamics/solve.hpp"
-#include "engine/rows/contacts.hpp"
+#include "engine/rows/sphere_contacts.hpp"
+#include "tests/support/named_contacts.hpp"
 
 namespace grainsweep::testing {
 
@@ -34,7 +35,7 @@ struct DenseSolution {
 
 /// The problem that `solve` is given, as written in the rows that are not void.
 template <class Real>
-DenseProblem dense_problem(const SphereBed& bed, const Contacts<Real>& contacts,
+DenseProblem dense_problem(const SphereBed& bed, const SphereContacts<Real>& contacts,
                            const std::vector<Record<Real>>& free) {
   DenseProblem problem;
   visit_rows(bed, contacts, [&](const RowBlock<Real>& r, std::size_t k, Real) {

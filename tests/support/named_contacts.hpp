@@ -6,7 +6,7 @@
 #include <map>
 #include <utility>
 
-#include "engine/rows/contacts.hpp"
+#include "engine/rows/sphere_contacts.hpp"
 
 namespace grainsweep::testing {
 
@@ -20,7 +20,7 @@ inline std::int32_t wall_name(const SphereBed& bed, std::size_t k) {
 
 /// Name of the wall that owns `block`; -1 if none does.
 template <class Real>
-std::int32_t wall_of_block(const SphereBed& bed, const Contacts<Real>& contacts,
+std::int32_t wall_of_block(const SphereBed& bed, const SphereContacts<Real>& contacts,
                            std::size_t block) {
   for (std::size_t k = 0; k < contacts.walls.size(); ++k) {
     const WallRows& rows = contacts.walls[k];
@@ -31,9 +31,21 @@ std::int32_t wall_of_block(const SphereBed& bed, const Contacts<Real>& contacts,
   return -1;
 }
 
+/// Calls visit(row block, lane, impulse) for each row that stands for a pair or a wall.
+template <class Real, class Visit>
+void visit_rows(const SphereBed& bed, const SphereContacts<Real>& contacts, Visit visit) {
+  for (std::size_t block = 0; block < contacts.rows.size(); ++block) {
+    for (std::size_t lane = 0; lane < block_width; ++lane) {
+      if (!bed.is_void(contacts.rows[block].a(lane))) {
+        visit(contacts.rows[block], lane, contacts.impulse[block * block_width + lane]);
+      }
+    }
+  }
+}
+
 /// Calls visit(name, block, lane) for every row that is not void.
 template <class Real, class Visit>
-void visit_named(const SphereBed& bed, const Contacts<Real>& contacts, Visit visit) {
+void visit_named(const SphereBed& bed, const SphereContacts<Real>& contacts, Visit visit) {
   for (std::size_t block = 0; block < contacts.rows.size(); ++block) {
     for (std::size_t lane = 0; lane < block_width; ++lane) {
       const RowBlock<Real>& r = contacts.rows[block];
@@ -48,7 +60,8 @@ void visit_named(const SphereBed& bed, const Contacts<Real>& contacts, Visit vis
 
 /// Impulse of every contact that has a row.
 template <class Real>
-std::map<ContactName, Real> impulses_of(const SphereBed& bed, const Contacts<Real>& contacts) {
+std::map<ContactName, Real> impulses_of(const SphereBed& bed,
+                                        const SphereContacts<Real>& contacts) {
   std::map<ContactName, Real> impulses;
   visit_named(bed, contacts, [&](const ContactName& name, std::size_t block, std::size_t lane) {
     impulses[name] = contacts.impulse[block * block_width + lane];
@@ -59,7 +72,7 @@ std::map<ContactName, Real> impulses_of(const SphereBed& bed, const Contacts<Rea
 /// Gives the contacts named their impulses; the others keep what they have.
 template <class Real>
 void set_impulses(const SphereBed& bed, const std::map<ContactName, Real>& impulses,
-                  Contacts<Real>& contacts) {
+                  SphereContacts<Real>& contacts) {
   visit_named(bed, contacts, [&](const ContactName& name, std::size_t block, std::size_t lane) {
     const auto found = impulses.find(name);
     if (found != impulses.end()) {
@@ -70,13 +83,13 @@ void set_impulses(const SphereBed& bed, const std::map<ContactName, Real>& impul
 
 /// All contacts of a bed with a gap below `reach`, laid out and measured.
 template <class Real>
-Contacts<Real> contacts_of(SphereBed& bed, double reach, const Kernels& kernels) {
+SphereContacts<Real> contacts_of(SphereBed& bed, double reach, const Kernels& kernels) {
   Candidates candidates;
-  Contacts<Real> contacts;
+  SphereContacts<Real> contacts;
   wrap(bed);
   find_candidates({bed, bed.position}, reach, kernels, candidates);
   lay_out(bed, candidates, contacts);
-  detect(bed, kernels, 1.0, contacts);
+  update_gaps(bed, kernels, 1.0, contacts);
   return contacts;
 }
 

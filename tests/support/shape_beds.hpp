@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "engine/dynamics/shape_step.hpp"
+#include "engine/dynamics/step.hpp"
 #include "engine/narrow/constraints.hpp"
 #include "tests/support/scenes.hpp"
 #include "tests/support/shapes.hpp"
@@ -29,6 +29,21 @@ inline PolyhedronBed random_shape_bed(const Box& box, const ConvexShape& shape, 
   return make_bed(box, shape, poses);
 }
 
+/// The contacts of a bed so small that it is one subdomain.
+template <class Real>
+const ContactPart<Real>& part_of(const PolyhedronContacts<Real>& contacts) {
+  return contacts.parts.front();
+}
+template <class Real>
+const ContactList& list_of(const StepState<Polyhedron, Real>& state) {
+  return part_of(state.contacts).found;
+}
+/// Impulse of point j of contact k of such a bed, in masses times d.
+template <class Real>
+double impulse_of(const StepState<Polyhedron, Real>& state, std::size_t k, std::size_t j) {
+  return grainsweep::impulse_of(state.contacts, part_of(state.contacts), k, j);
+}
+
 /// Force and torque about its centre on a grain, box frame.
 struct Wrench {
   Vector force = Vector::Zero(), torque = Vector::Zero();
@@ -37,16 +52,16 @@ struct Wrench {
 /// What the contacts of a step do to each grain, m g and m g d, from points of contact and normals
 /// in the box. `before`: the bed as the step found it.
 template <class Real>
-std::vector<Wrench> wrenches(const PolyhedronBed& before, const ShapeStepState<Real>& state,
+std::vector<Wrench> wrenches(const PolyhedronBed& before, const StepState<Polyhedron, Real>& state,
                              double dt) {
   std::vector<Wrench> sums(before.grains());
-  for (std::size_t k = 0; k < state.contacts.contacts.size(); ++k) {
-    const ShapeContact& c = state.contacts.contacts[k];
+  for (std::size_t k = 0; k < list_of(state).contacts.size(); ++k) {
+    const PolyhedronContact& c = list_of(state).contacts[k];
     const auto a = static_cast<std::size_t>(c.a), b = static_cast<std::size_t>(c.b);
     const Quaternion turn = before.pose(a).orientation;
     for (std::size_t j = 0; j < c.count; ++j) {
       const Vector force = impulse_of(state, k, j) / (dt * dt) * (turn * c.normal);
-      const Vector from_a = turn * state.contacts.points[c.first + j].position;
+      const Vector from_a = turn * list_of(state).points[c.first + j].position;
       sums[a].force -= force;
       sums[a].torque -= from_a.cross(force);
       if (before.is_grain(c.b)) {
@@ -60,9 +75,9 @@ std::vector<Wrench> wrenches(const PolyhedronBed& before, const ShapeStepState<R
 
 /// Force of all points of contact k together, m g.
 template <class Real>
-double contact_force(const ShapeStepState<Real>& state, std::size_t k, double dt) {
+double contact_force(const StepState<Polyhedron, Real>& state, std::size_t k, double dt) {
   double sum = 0;
-  for (std::size_t j = 0; j < state.contacts.contacts[k].count; ++j) {
+  for (std::size_t j = 0; j < list_of(state).contacts[k].count; ++j) {
     sum += impulse_of(state, k, j) / (dt * dt);
   }
   return sum;
@@ -70,17 +85,17 @@ double contact_force(const ShapeStepState<Real>& state, std::size_t k, double dt
 
 /// Sum of the forces between grains and one entry of the bed that is a wall, m g.
 template <class Real>
-double wall_force(const ShapeStepState<Real>& state, std::int32_t wall, double dt) {
+double wall_force(const StepState<Polyhedron, Real>& state, std::int32_t wall, double dt) {
   double sum = 0;
-  for (std::size_t k = 0; k < state.contacts.contacts.size(); ++k) {
-    if (state.contacts.contacts[k].b == wall) sum += contact_force(state, k, dt);
+  for (std::size_t k = 0; k < list_of(state).contacts.size(); ++k) {
+    if (list_of(state).contacts[k].b == wall) sum += contact_force(state, k, dt);
   }
   return sum;
 }
 
 inline double weight_of(const PolyhedronBed& bed) {
   double weight = 0;
-  for (const Record<double>& motion : bed.motion) weight += 1 / motion.w;
+  for (std::size_t i = 0; i < bed.grains(); ++i) weight += 1 / bed.motion[i].w;
   return weight;
 }
 

@@ -49,7 +49,7 @@ SphereBed loose_bed(double small_share) {
 
 /// Allocations in steps first .. last of a bed that falls.
 template <class Real>
-long allocations_in_steps(int first, int last, SphereBed bed, StepState<Real>& state) {
+long allocations_in_steps(int first, int last, SphereBed bed, StepState<Sphere, Real>& state) {
   StepSettings settings;
   settings.limits = {Solver::accelerated_gauss_seidel, 20, 1e-3};
   const ExecutionContext context(kernels_for(best_isa()));
@@ -71,7 +71,7 @@ TEST_CASE("the counter sees what is allocated") {
 
 TEMPLATE_TEST_CASE("a step allocates nothing, once lists have their size", "", float, double) {
   for (const double small_share : {0.0, 0.3}) {
-    StepState<TestType> state;
+    StepState<Sphere, TestType> state;
     CHECK(allocations_in_steps(0, 200, loose_bed(small_share), state) > 0);
     forget(state);
     CHECK(allocations_in_steps(0, 200, loose_bed(small_share), state) == 0);

@@ -24,21 +24,23 @@ constexpr double one_weight = dt * dt;  // impulse of a force of 1 m g
 /// A bed and its contacts, which push as told.
 struct Pushed {
   SphereBed bed;
-  Contacts<double> contacts;
+  StepState<Sphere, double> state;
 
   Pushed(const Box& box, const std::vector<PlacedSphere>& spheres) : bed(make_bed(box, spheres)) {
-    contacts = testing::contacts_of<double>(bed, 0.1, kernels());
+    state.contacts = testing::contacts_of<double>(bed, 0.1, kernels());
   }
   /// Force of the contact of grain a and grain b, m g.
   Pushed& with_pair(std::int32_t a, std::int32_t b, double force) {
-    testing::set_impulses(bed, {{ContactName{a, b}, force * one_weight}}, contacts);
+    testing::set_impulses(bed, {{ContactName{a, b}, force * one_weight}}, state.contacts);
     return *this;
   }
   /// Force of the contact of grain a and wall k, m g; 0 is the floor.
   Pushed& with_wall(std::int32_t a, std::size_t k, double force) {
     return with_pair(a, wall_name(bed, k), force);
   }
-  std::int64_t modes() const { return zero_modes(bed, contacts, dt); }
+  std::vector<ForceContact> forces() const { return force_contacts(bed, dt, state.contacts); }
+  std::int64_t modes() const { return zero_modes(bed, forces()); }
+  RestReport rest() { return measure_rest(bed, kernels(), dt, state); }
 };
 
 constexpr Box x_periodic{6, 4, periodic, walls};
@@ -76,9 +78,9 @@ TEST_CASE("every cluster that stands on the floor has its own free directions") 
 }
 
 TEST_CASE("a wall that pushes one grain of a cluster holds the whole cluster") {
-  Pushed state(x_periodic, {{2, 0.5, 0.5, 0.5}, {2, 1.3, 1.1, 0.5}, {2, 3, 0.5, 0.5}});
-  state.with_wall(0, 0, 2).with_wall(0, 1, 1).with_pair(0, 1, 1).with_wall(2, 0, 1);
-  CHECK(state.modes() == 1 + 2);
+  Pushed pushed(x_periodic, {{2, 0.5, 0.5, 0.5}, {2, 1.3, 1.1, 0.5}, {2, 3, 0.5, 0.5}});
+  pushed.with_wall(0, 0, 2).with_wall(0, 1, 1).with_pair(0, 1, 1).with_wall(2, 0, 1);
+  CHECK(pushed.modes() == 1 + 2);
 }
 
 TEST_CASE("grains in mid-air have no free directions on the floor, nor has an empty bed") {
@@ -87,59 +89,59 @@ TEST_CASE("grains in mid-air have no free directions on the floor, nor has an em
 }
 
 TEST_CASE("contacts that bear force are counted against three per grain less the free modes") {
-  Pushed state(x_periodic, {{2, 0.5, 0.5, 0.5}, {2, 1.3, 1.1, 0.5}, {2, 3, 0.5, 0.5}});
-  state.with_wall(0, 0, 2).with_wall(0, 1, 1).with_pair(0, 1, 1).with_wall(2, 0, 1);
-  state.with_pair(1, 2, 0.5 * least_force);
-  const RestReport rest = certify(state.bed, kernels(), dt, state.contacts);
+  Pushed pushed(x_periodic, {{2, 0.5, 0.5, 0.5}, {2, 1.3, 1.1, 0.5}, {2, 3, 0.5, 0.5}});
+  pushed.with_wall(0, 0, 2).with_wall(0, 1, 1).with_pair(0, 1, 1).with_wall(2, 0, 1);
+  pushed.with_pair(1, 2, 0.5 * least_force);
+  const RestReport rest = pushed.rest();
   CHECK(rest.contacts == 4);
   CHECK(rest.isostatic_contacts == 9 - 3);
 }
 
 TEST_CASE("a contact that bears a force across an open gap is not counted") {
   for (const double gap : {0.9e-4, 1.1e-4}) {
-    Pushed state(x_periodic, {{2, 2, 0.5, 0.5}, {2, 2, 1.5 + gap, 0.5}});
-    state.with_wall(0, 0, 2).with_pair(0, 1, 1);
-    CHECK(certify(state.bed, kernels(), dt, state.contacts).contacts == (gap < 1e-4 ? 2 : 1));
+    Pushed pushed(x_periodic, {{2, 2, 0.5, 0.5}, {2, 2, 1.5 + gap, 0.5}});
+    pushed.with_wall(0, 0, 2).with_pair(0, 1, 1);
+    CHECK(pushed.rest().contacts == (gap < 1e-4 ? 2 : 1));
   }
 }
 
 TEST_CASE("overlaps are those of force-bearing contacts, measured anew") {
-  Pushed state(x_periodic, {{2, 2, 0.49, 0.5}, {2, 2, 1.46, 0.5}, {2, 2, 2.41, 0.5}});
-  state.with_wall(0, 0, 2).with_pair(0, 1, 1);  // the third pair, .05 deep, does not push
-  detect(state.bed, kernels(), 0.1, state.contacts);
-  const RestReport rest = certify(state.bed, kernels(), dt, state.contacts);
+  Pushed pushed(x_periodic, {{2, 2, 0.49, 0.5}, {2, 2, 1.46, 0.5}, {2, 2, 2.41, 0.5}});
+  pushed.with_wall(0, 0, 2).with_pair(0, 1, 1);  // the third pair, .05 deep, does not push
+  update_gaps(pushed.bed, kernels(), 0.1, pushed.state.contacts);
+  const RestReport rest = pushed.rest();
   CHECK(rest.overlap_max == Approx(0.03));
   CHECK(rest.overlap_mean == Approx(0.02));
 }
 
 TEST_CASE("open contacts count as no overlap in the mean") {
-  Pushed state(x_periodic, {{2, 2, 0.49, 0.5}, {2, 2, 1.54, 0.5}});
-  state.with_wall(0, 0, 2).with_pair(0, 1, 1);
-  const RestReport rest = certify(state.bed, kernels(), dt, state.contacts);
+  Pushed pushed(x_periodic, {{2, 2, 0.49, 0.5}, {2, 2, 1.54, 0.5}});
+  pushed.with_wall(0, 0, 2).with_pair(0, 1, 1);
+  const RestReport rest = pushed.rest();
   CHECK(rest.overlap_mean == Approx(0.005));
   CHECK(rest.overlap_max == Approx(0.01));
 }
 
 TEST_CASE("a bed without contacts has no overlap") {
-  Pushed state(x_periodic, {{2, 2, 3, 0.5}});
-  const RestReport rest = certify(state.bed, kernels(), dt, state.contacts);
+  Pushed pushed(x_periodic, {{2, 2, 3, 0.5}});
+  const RestReport rest = pushed.rest();
   CHECK(rest.contacts == 0);
   CHECK(rest.overlap_mean == 0);
   CHECK(rest.isostatic_contacts == 3);
 }
 
 TEST_CASE("the carried weight is the floor's share of all weights") {
-  Pushed state(x_periodic, {{2, 0.5, 0.5, 0.5}, {2, 2, 0.25, 0.25}, {4, 2, 3, 0.5}});
-  state.with_wall(0, 0, 1).with_wall(1, 0, 0.125).with_wall(0, 1, 7);
-  CHECK(carried_weight(state.bed, state.contacts, dt) == Approx(1.125 / 2.125));
+  Pushed pushed(x_periodic, {{2, 0.5, 0.5, 0.5}, {2, 2, 0.25, 0.25}, {4, 2, 3, 0.5}});
+  pushed.with_wall(0, 0, 1).with_wall(1, 0, 0.125).with_wall(0, 1, 7);
+  CHECK(carried_weight(pushed.bed, pushed.forces()) == Approx(1.125 / 2.125));
   Pushed none(x_periodic, {});
-  CHECK(carried_weight(none.bed, none.contacts, dt) == 1);
+  CHECK(carried_weight(none.bed, none.forces()) == 1);
 }
 
 TEST_CASE("forces are summed over all contacts of a grain, walls included") {
-  Pushed state(x_periodic, {{2, 0.5, 0.5, 0.5}, {2, 1.3, 1.1, 0.5}, {4, 2, 3, 0.5}});
-  state.with_wall(0, 0, 2).with_wall(0, 1, 1.25).with_pair(0, 1, 1.5);
-  const auto force = force_sums(state.bed, state.contacts, dt);
+  Pushed pushed(x_periodic, {{2, 0.5, 0.5, 0.5}, {2, 1.3, 1.1, 0.5}, {4, 2, 3, 0.5}});
+  pushed.with_wall(0, 0, 2).with_wall(0, 1, 1.25).with_pair(0, 1, 1.5);
+  const auto force = force_sums(pushed.bed, pushed.forces());
   REQUIRE(force.size() == 3);
   CHECK(force[0] == Approx(4.75));
   CHECK(force[1] == Approx(1.5));
@@ -158,9 +160,9 @@ std::vector<PairForce> forces_at_rest(SphereBed& bed) {
   StepSettings settings;
   settings.momentum = 0.0;
   settings.limits = {Solver::accelerated_gauss_seidel, 100'000, 1e-9};
-  StepState<double> state;
+  StepState<Sphere, double> state;
   REQUIRE(step(settings, kernels(), bed, state).solve.residual <= 1e-9);
-  return pair_forces(bed, state.contacts, settings.dt);
+  return pair_forces(bed, force_contacts(bed, settings.dt, state.contacts));
 }
 
 TEST_CASE("each contact of a column carries the weight of the grains above it") {

@@ -27,7 +27,7 @@ using testing::walls;
 template <class Real>
 struct StepProblem {
   SphereBed bed;
-  Contacts<Real> contacts;
+  SphereContacts<Real> contacts;
   MotionColumns<Real> motion;
 };
 
@@ -67,8 +67,8 @@ DenseProblem dense(const StepProblem<Real>& problem) {
 template <class Real>
 DenseSolution state_left(const StepProblem<Real>& problem) {
   std::vector<testing::Number> impulse;
-  visit_rows(problem.bed, problem.contacts,
-             [&](const RowBlock<Real>&, std::size_t, Real p) { impulse.push_back(p); });
+  testing::visit_rows(problem.bed, problem.contacts,
+                      [&](const RowBlock<Real>&, std::size_t, Real p) { impulse.push_back(p); });
   return testing::state_of(dense(problem), impulse);
 }
 
@@ -114,8 +114,9 @@ TEST_CASE("contacts of the random problems do push") {
   solve({Solver::accelerated_gauss_seidel, 5000, 1e-12}, kernels(), problem.contacts,
         problem.motion);
   int pushing = 0;
-  visit_rows(problem.bed, problem.contacts,
-             [&](const RowBlock<double>&, std::size_t, double p) { pushing += p > 1e-6 ? 1 : 0; });
+  testing::visit_rows(
+      problem.bed, problem.contacts,
+      [&](const RowBlock<double>&, std::size_t, double p) { pushing += p > 1e-6 ? 1 : 0; });
   CHECK(pushing >= 16);
 }
 
@@ -140,8 +141,9 @@ TEMPLATE_TEST_CASE("impulses never pull", "", float, double) {
     for (const int iterations : {2, 4, 6, 8, 10, 12, 14, 16, 18, 20}) {
       StepProblem<TestType> problem = random_problem<TestType>(16, 5);
       solve({solver, iterations, 0.0}, kernels(), problem.contacts, problem.motion);
-      visit_rows(problem.bed, problem.contacts,
-                 [](const RowBlock<TestType>&, std::size_t, TestType p) { REQUIRE(p >= 0); });
+      testing::visit_rows(
+          problem.bed, problem.contacts,
+          [](const RowBlock<TestType>&, std::size_t, TestType p) { REQUIRE(p >= 0); });
     }
   }
 }
@@ -160,13 +162,13 @@ Balance balance_of(const StepProblem<double>& problem) {
     balance.change[1] += (u.y - free.y) / u.w;
     balance.change[2] += (u.z - free.z) / u.w;
   }
-  visit_rows(problem.bed, problem.contacts,
-             [&](const RowBlock<double>& r, std::size_t k, double p) {
-               const double push = r.b(k) == problem.bed.wall() ? p : 0.0;
-               balance.pushes[0] -= push * r.normal_x[k];
-               balance.pushes[1] -= push * r.normal_y[k];
-               balance.pushes[2] -= push * r.normal_z[k];
-             });
+  testing::visit_rows(problem.bed, problem.contacts,
+                      [&](const RowBlock<double>& r, std::size_t k, double p) {
+                        const double push = r.b(k) == problem.bed.wall() ? p : 0.0;
+                        balance.pushes[0] -= push * r.normal_x[k];
+                        balance.pushes[1] -= push * r.normal_y[k];
+                        balance.pushes[2] -= push * r.normal_z[k];
+                      });
   return balance;
 }
 
@@ -266,7 +268,7 @@ TEST_CASE("without contacts grains move freely") {
 /// Sweeps that a column of 50 grains on the floor needs for its weight, to 1e-8 m g.
 int sweeps_for_a_column(Solver solver) {
   SphereBed bed = testing::column_bed(50, 0.0);
-  Contacts<double> contacts = testing::contacts_of<double>(bed, 0.1, kernels());
+  SphereContacts<double> contacts = testing::contacts_of<double>(bed, 0.1, kernels());
   MotionColumns<double> motion{bed.motion, {}, {}, {}, {}, {}};
   for (std::size_t i = 0; i < bed.grains(); ++i) {
     motion.free[i].z = -1.0;

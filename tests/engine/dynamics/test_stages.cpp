@@ -19,15 +19,15 @@ const StageRule& stage_called(std::string_view name, Stages stages) {
   return *found;
 }
 const StageRule& heavy_ball(std::string_view name) {
-  return stage_called(name, stages_of_spheres(Protocol::heavy_ball));
+  return stage_called(name, stages_of<Sphere>(Protocol::heavy_ball));
 }
 const StageRule& dynamic(std::string_view name) {
-  return stage_called(name, stages_of_spheres(Protocol::dynamic));
+  return stage_called(name, stages_of<Sphere>(Protocol::dynamic));
 }
 
 std::array<Stages, 3> all_stages() {
-  return {stages_of_spheres(Protocol::heavy_ball), stages_of_spheres(Protocol::dynamic),
-          stages_of_shapes()};
+  return {stages_of<Sphere>(Protocol::heavy_ball), stages_of<Sphere>(Protocol::dynamic),
+          stages_of<Polyhedron>(Protocol::heavy_ball)};
 }
 
 TEST_CASE("every stage has a name of its own among those of its kind") {
@@ -85,7 +85,8 @@ TEST_CASE("the creep is solved better towards its end") {
   CHECK(iterations(heavy_ball("quench")) == 600);
   CHECK(iterations(heavy_ball("fall")) == 77);
   CHECK(iterations(dynamic("fall")) == 77);
-  CHECK(iterations(stage_called("fall", stages_of_shapes())) == 51);  // two thirds
+  CHECK(iterations(stage_called("fall", stages_of<Polyhedron>(Protocol::heavy_ball))) ==
+        51);  // two thirds
 }
 
 TEST_CASE("plain dynamics is undamped and takes a quarter of a step") {

@@ -4,7 +4,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "engine/rows/contacts.hpp"
+#include "engine/rows/sphere_contacts.hpp"
 #include "engine/rows/subdomains.hpp"
 #include "tests/support/instruction_sets.hpp"
 #include "tests/support/part_loops.hpp"
@@ -59,7 +59,7 @@ TEST_CASE("a small bed is one subdomain, with its pairs as they are") {
   SphereBed bed = tall_bed(2000, Boundary::walls);
   const Candidates candidates = candidates_of(bed);
   Subdomains subdomains;
-  divide(bed, candidates, serial_for, subdomains);
+  divide(bed, Sphere::subdomain_grains, candidates, serial_for, subdomains);
   CHECK(subdomains.count == 1);
   CHECK(subdomains.begin == std::vector<std::size_t>{0, candidates.pairs.size()});
   CHECK(std::equal(subdomains.pairs.begin(), subdomains.pairs.end(), candidates.pairs.begin(),
@@ -70,7 +70,7 @@ TEST_CASE("subdomains of a large bed hold all pairs and all grains") {
   for (SphereBed& bed : large_beds()) {
     const Candidates candidates = candidates_of(bed);
     Subdomains subdomains;
-    divide(bed, candidates, serial_for, subdomains);
+    divide(bed, Sphere::subdomain_grains, candidates, serial_for, subdomains);
     REQUIRE(subdomains.count >= 3);
     CHECK(subdomains.count <= bed.subdomains);
     REQUIRE(subdomains.begin.size() == subdomains.count + 1);
@@ -97,7 +97,7 @@ TEST_CASE("every second subdomain of a large bed shares no grain") {
   for (SphereBed& bed : large_beds()) {
     const Candidates candidates = candidates_of(bed);
     Subdomains subdomains;
-    divide(bed, candidates, serial_for, subdomains);
+    divide(bed, Sphere::subdomain_grains, candidates, serial_for, subdomains);
     for (std::size_t parity = 0; parity < 2; ++parity) {
       std::vector<std::size_t> owner(bed.grains(), subdomains.count);
       for (std::size_t subdomain = parity; subdomain < subdomains.count; subdomain += 2) {
@@ -120,7 +120,7 @@ TEST_CASE("subdomains of a flat bed lie along it, of a ring an even number") {
     REQUIRE(bed.subdomain_axis == 0);
     const Candidates candidates = candidates_of(bed);
     Subdomains subdomains;
-    divide(bed, candidates, serial_for, subdomains);
+    divide(bed, Sphere::subdomain_grains, candidates, serial_for, subdomains);
     CHECK(subdomains.is_ring == (x == Boundary::periodic));
     if (subdomains.is_ring) CHECK(subdomains.count % 2 == 0);
     std::vector<double> last(subdomains.count, 0.0);
@@ -136,7 +136,7 @@ TEST_CASE("subdomains keep the order of their pairs, whoever sorts them") {
   SphereBed bed = tall_bed(30'000, Boundary::periodic);
   const Candidates candidates = candidates_of(bed);
   Subdomains plain;
-  divide(bed, candidates, serial_for, plain);
+  divide(bed, Sphere::subdomain_grains, candidates, serial_for, plain);
   const auto subdomain = [&](GrainPair pair) { return plain.subdomain_of(pair); };
   std::vector<GrainPair> expected = candidates.pairs;
   std::stable_sort(expected.begin(), expected.end(),
@@ -144,7 +144,7 @@ TEST_CASE("subdomains keep the order of their pairs, whoever sorts them") {
   for (const ParallelFor& loop : {ParallelFor(serial_for), ParallelFor(testing::last_part_first),
                                   ParallelFor(testing::two_threads)}) {
     Subdomains subdomains;
-    divide(bed, candidates, loop, subdomains);
+    divide(bed, Sphere::subdomain_grains, candidates, loop, subdomains);
     CHECK(std::equal(subdomains.pairs.begin(), subdomains.pairs.end(), expected.begin(),
                      expected.end(),
                      [](GrainPair p, GrainPair q) { return p.a == q.a && p.b == q.b; }));
@@ -161,27 +161,27 @@ TEST_CASE("a large bed that is flat has no more subdomains than slabs") {
   SphereBed bed = testing::random_bed(scene);
   const Candidates candidates = candidates_of(bed);
   Subdomains subdomains;
-  divide(bed, candidates, serial_for, subdomains);
+  divide(bed, Sphere::subdomain_grains, candidates, serial_for, subdomains);
   CHECK(subdomains.count >= 1);
   CHECK(subdomains.count <= subdomains.slab_size.size());
 }
 
 /// Rows of a large bed, laid out by `loop` on top of rows that pushed.
-Contacts<float> laid_out(const Candidates& candidates, const SphereBed& bed,
-                         const ParallelFor& loop) {
-  Contacts<float> contacts;
+SphereContacts<float> laid_out(const Candidates& candidates, const SphereBed& bed,
+                               const ParallelFor& loop) {
+  SphereContacts<float> contacts;
   lay_out(bed, candidates, contacts, loop);
   for (std::size_t k = 0; k < contacts.impulse.size(); ++k) {
     const bool is_void = bed.is_void(contacts.rows[k / block_width].a(k % block_width));
     contacts.impulse[k] = k % 3 == 0 && !is_void ? static_cast<float>(k % 101) : 0.0F;
   }
   lay_out(bed, candidates, contacts, loop);
-  detect(bed, {kernels(), loop}, 0.5, contacts);
+  update_gaps(bed, {kernels(), loop}, 0.5, contacts);
   return contacts;
 }
 
 /// Grains that the rows of a part name, and entries of its subdomain that are none.
-std::set<std::int32_t> named_by(const Contacts<float>& contacts, const RowPart& part) {
+std::set<std::int32_t> named_by(const SphereContacts<float>& contacts, const RowPart& part) {
   std::set<std::int32_t> names;
   for (std::size_t k = part.first_range; k < part.first_range + part.ranges; ++k) {
     const BlockRange& range = contacts.shares.ranges[k];
@@ -202,7 +202,7 @@ std::vector<std::int32_t> grains_of(const RowShares& shares, const RowPart& part
 TEST_CASE("parts of a phase name nothing twice, and cover all blocks once") {
   for (SphereBed& bed : large_beds()) {
     const Candidates candidates = candidates_of(bed);
-    const Contacts<float> contacts = laid_out(candidates, bed, serial_for);
+    const SphereContacts<float> contacts = laid_out(candidates, bed, serial_for);
     REQUIRE(contacts.shares.phases() == 2);
     REQUIRE(contacts.shares.parts.size() >= 4);
     std::vector<int> covered(contacts.rows.size(), 0);
@@ -226,7 +226,7 @@ TEST_CASE("parts of a phase name nothing twice, and cover all blocks once") {
 TEST_CASE("each phase names all grains once, and no other part of it pushes them") {
   for (SphereBed& bed : large_beds()) {
     const Candidates candidates = candidates_of(bed);
-    const Contacts<float> contacts = laid_out(candidates, bed, serial_for);
+    const SphereContacts<float> contacts = laid_out(candidates, bed, serial_for);
     for (std::size_t phase = 0; phase < 2; ++phase) {
       const PhaseParts parts = parts_of_phase(contacts.shares, phase);
       std::vector<std::size_t> owner(bed.grains(), parts.last);
@@ -248,7 +248,7 @@ TEST_CASE("each phase names all grains once, and no other part of it pushes them
 TEST_CASE("a small bed is one part of all its blocks") {
   SphereBed bed = tall_bed(2000, Boundary::walls);
   const Candidates candidates = candidates_of(bed);
-  const Contacts<float> contacts = laid_out(candidates, bed, serial_for);
+  const SphereContacts<float> contacts = laid_out(candidates, bed, serial_for);
   REQUIRE(contacts.shares.parts.size() == 1);
   CHECK(contacts.shares.phases() == 1);
   std::size_t next = 0;
@@ -262,10 +262,10 @@ TEST_CASE("a small bed is one part of all its blocks") {
 TEST_CASE("rows are the same in whatever order their parts are laid out") {
   SphereBed bed = tall_bed(30'000, Boundary::walls);
   const Candidates candidates = candidates_of(bed);
-  const Contacts<float> plain = laid_out(candidates, bed, serial_for);
+  const SphereContacts<float> plain = laid_out(candidates, bed, serial_for);
   for (const ParallelFor& loop :
        {ParallelFor(testing::last_part_first), ParallelFor(testing::two_threads)}) {
-    const Contacts<float> other = laid_out(candidates, bed, loop);
+    const SphereContacts<float> other = laid_out(candidates, bed, loop);
     CHECK(other.impulse == plain.impulse);
     REQUIRE(other.rows.size() == plain.rows.size());
     for (std::size_t block = 0; block < plain.rows.size(); ++block) {

@@ -5,7 +5,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "engine/rows/contacts.hpp"
+#include "engine/rows/sphere_contacts.hpp"
 #include "tests/support/brute_force.hpp"
 #include "tests/support/draw.hpp"
 #include "tests/support/instruction_sets.hpp"
@@ -36,7 +36,7 @@ std::set<Name> names_of(const SphereBed& bed, const Candidates& candidates) {
 
 /// No lane of a block names a grain that another lane names; the rest are void and without impulse.
 template <class Real>
-void expect_independent_lanes(const SphereBed& bed, const Contacts<Real>& contacts) {
+void expect_independent_lanes(const SphereBed& bed, const SphereContacts<Real>& contacts) {
   for (std::size_t block = 0; block < contacts.rows.size(); ++block) {
     std::set<std::int32_t> seen;
     for (std::size_t lane = 0; lane < block_width; ++lane) {
@@ -55,7 +55,7 @@ void expect_independent_lanes(const SphereBed& bed, const Contacts<Real>& contac
 
 template <class Real>
 void expect_right_layout(const SphereBed& bed, const Candidates& candidates,
-                         const Contacts<Real>& contacts) {
+                         const SphereContacts<Real>& contacts) {
   REQUIRE(contacts.impulse.size() == contacts.rows.size() * block_width);
   expect_independent_lanes(bed, contacts);
   std::set<Name> laid_out;
@@ -82,7 +82,7 @@ TEMPLATE_TEST_CASE("every candidate is laid out once, and lanes of a block share
     INFO(grains << " grains");
     SphereBed bed = dense_bed(grains, grains);
     const Candidates candidates = candidates_within(0.3, bed);
-    Contacts<TestType> contacts;
+    SphereContacts<TestType> contacts;
     lay_out(bed, candidates, contacts);
     expect_right_layout(bed, candidates, contacts);
   }
@@ -91,7 +91,7 @@ TEMPLATE_TEST_CASE("every candidate is laid out once, and lanes of a block share
 TEST_CASE("blocks of a dense bed are nearly full") {
   SphereBed bed = testing::fcc_bed(4, 4, 6);
   const Candidates candidates = candidates_within(0.05, bed);
-  Contacts<float> contacts;
+  SphereContacts<float> contacts;
   lay_out(bed, candidates, contacts);
   const auto lanes = static_cast<double>(contacts.pair_blocks * block_width);
   CHECK(static_cast<double>(candidates.pairs.size()) / lanes > 0.9);
@@ -106,7 +106,7 @@ TEMPLATE_TEST_CASE("a grain may have more contacts than there are open blocks", 
   }
   SphereBed bed = make_bed({20, 20, periodic, walls}, spheres);
   const Candidates candidates = candidates_within(0.01, bed);
-  Contacts<TestType> contacts;
+  SphereContacts<TestType> contacts;
   lay_out(bed, candidates, contacts);
   CHECK(contacts.pair_blocks >= 300);
   expect_right_layout(bed, candidates, contacts);
@@ -121,7 +121,7 @@ Real impulse_named(const Name& name) {
 TEMPLATE_TEST_CASE("contacts keep their impulse in a new list, others start without", "", float,
                    double) {
   SphereBed bed = dense_bed(120, 5);
-  Contacts<TestType> contacts;
+  SphereContacts<TestType> contacts;
   const Candidates before = candidates_within(0.2, bed);
   lay_out(bed, before, contacts);
   visit_named(bed, contacts, [&](const Name& name, std::size_t block, std::size_t lane) {
@@ -150,7 +150,7 @@ TEMPLATE_TEST_CASE("a grain in a corner keeps the impulse of each of its walls",
                    double) {
   SphereBed bed = make_bed({4, 4, walls, walls}, {{0.5, 0.5, 0.5, 0.5}, {3.5, 3.5, 0.5, 0.5}});
   const Candidates candidates = candidates_within(0.1, bed);
-  Contacts<TestType> contacts;
+  SphereContacts<TestType> contacts;
   lay_out(bed, candidates, contacts);
   visit_named(bed, contacts, [&](const Name& name, std::size_t block, std::size_t lane) {
     contacts.impulse[block * block_width + lane] =
@@ -167,9 +167,9 @@ TEMPLATE_TEST_CASE("rows have the gap and the unit normal of their contact", "",
   const double rounding = std::is_same_v<TestType, float> ? 1e-6 : 1e-14;
   SphereBed bed = testing::random_bed({{4, 3, periodic, walls}, 100, 0.2, 0.5, 4, 9});
   const Candidates candidates = candidates_within(0.3, bed);
-  Contacts<TestType> contacts;
+  SphereContacts<TestType> contacts;
   lay_out(bed, candidates, contacts);
-  detect(bed, kernels(), 1.0, contacts);
+  update_gaps(bed, kernels(), 1.0, contacts);
   visit_named(bed, contacts, [&](const Name& name, std::size_t block, std::size_t lane) {
     const RowBlock<TestType>& r = contacts.rows[block];
     const auto a = static_cast<std::size_t>(name.first), b = static_cast<std::size_t>(name.second);
@@ -197,9 +197,9 @@ TEMPLATE_TEST_CASE("a step repairs the share of an overlap that it is told to", 
   SphereBed bed =
       make_bed({4, 4, periodic, walls}, {{2, 2, 0.25, 0.5}, {2, 2, 1, 0.5}, {2, 2, 2.0625, 0.5}});
   const Candidates candidates = candidates_within(0.5, bed);
-  Contacts<TestType> contacts;
+  SphereContacts<TestType> contacts;
   lay_out(bed, candidates, contacts);
-  detect(bed, kernels(), 0.5, contacts);
+  update_gaps(bed, kernels(), 0.5, contacts);
   std::map<Name, TestType> gaps;
   visit_named(bed, contacts, [&](const Name& name, std::size_t block, std::size_t lane) {
     gaps[name] = contacts.rows[block].gap[lane];
@@ -212,9 +212,9 @@ TEMPLATE_TEST_CASE("a step repairs the share of an overlap that it is told to", 
 TEMPLATE_TEST_CASE("unused lanes have a positive gap and cannot push", "", float, double) {
   SphereBed bed = make_bed({4, 4, walls, walls}, {{0.5, 0.5, 0.5, 0.5}, {1.5, 0.5, 0.5, 0.5}});
   const Candidates candidates = candidates_within(0.1, bed);
-  Contacts<TestType> contacts;
+  SphereContacts<TestType> contacts;
   lay_out(bed, candidates, contacts);
-  detect(bed, kernels(), 1.0, contacts);
+  update_gaps(bed, kernels(), 1.0, contacts);
   int unused = 0;
   for (const RowBlock<TestType>& block : contacts.rows) {
     for (std::size_t lane = 0; lane < block_width; ++lane) {
@@ -230,15 +230,16 @@ TEMPLATE_TEST_CASE("unused lanes have a positive gap and cannot push", "", float
 TEST_CASE("rows are visited without the unused ones, each with its impulse") {
   SphereBed bed = make_bed({4, 4, walls, walls}, {{0.5, 0.5, 0.5, 0.5}, {1.5, 0.5, 0.5, 0.5}});
   const Candidates candidates = candidates_within(0.1, bed);
-  Contacts<double> contacts;
+  SphereContacts<double> contacts;
   lay_out(bed, candidates, contacts);
   std::fill(contacts.impulse.begin(), contacts.impulse.end(), 0.25);
   int rows = 0;
-  visit_rows(bed, contacts, [&](const RowBlock<double>& r, std::size_t lane, double impulse) {
-    CHECK(r.a(lane) < bed.wall());
-    CHECK(impulse == 0.25);
-    ++rows;
-  });
+  testing::visit_rows(bed, contacts,
+                      [&](const RowBlock<double>& r, std::size_t lane, double impulse) {
+                        CHECK(r.a(lane) < bed.wall());
+                        CHECK(impulse == 0.25);
+                        ++rows;
+                      });
   CHECK(rows == 6);
 }
 

@@ -3,7 +3,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "engine/rows/lever_layout.hpp"
+#include "engine/rows/polyhedron_contacts.hpp"
 #include "tests/support/instruction_sets.hpp"
 #include "tests/support/shape_beds.hpp"
 
@@ -15,19 +15,21 @@ using testing::walls;
 
 struct Scene {
   PolyhedronBed bed = testing::random_shape_bed({6, 5, periodic, walls}, pinacoid({}), 150, 4, 9);
-  ShapeSearch search;
-  ShapeContacts found;
-  LeverPlaces places;
-  LeverColumns<double> rows;
+  Candidates candidates;
+  PolyhedronContacts<double> rows;
 
   Scene() {
-    find_contacts({{0.05, 1e-3}, 0.05}, kernels_for(best_isa()), bed, search, found);
-    lay_out(bed, found, 1.0, places, rows);
+    renew_candidates(0.05, 0.05, kernels_for(best_isa()), bed, candidates);
+    take_candidates(bed, candidates, rows);
+    find(0.05, 1.0);
   }
-  std::size_t lane(std::size_t k) const { return places.first[k] % block_width; }
-  std::size_t point(std::size_t k, std::size_t j) const {
-    return places.first[k] / block_width + j;
+  void find(double margin, double correction) {
+    find_contacts({margin, 1e-3}, correction, bed, kernels_for(best_isa()), rows);
   }
+  const ContactList& found() const { return testing::part_of(rows).found; }
+  std::size_t first(std::size_t k) const { return testing::part_of(rows).first[k]; }
+  std::size_t lane(std::size_t k) const { return first(k) % block_width; }
+  std::size_t point(std::size_t k, std::size_t j) const { return first(k) / block_width + j; }
   const BodyBlock<double>& block(std::size_t k) const {
     const std::size_t first = point(k, 0);
     for (const BodyBlock<double>& b : rows.blocks) {
@@ -53,16 +55,16 @@ TEST_CASE("no grain is twice in a block of rows with levers") {
 TEST_CASE("every point of every contact has a row of its own, all other rows are void") {
   const Scene scene;
   std::set<std::size_t> used;
-  for (std::size_t k = 0; k < scene.found.contacts.size(); ++k) {
-    const ShapeContact& c = scene.found.contacts[k];
+  for (std::size_t k = 0; k < scene.found().contacts.size(); ++k) {
+    const PolyhedronContact& c = scene.found().contacts[k];
     const BodyBlock<double>& block = scene.block(k);
     const std::int32_t side_b = scene.bed.is_grain(c.b) ? c.b : scene.bed.wall();
     REQUIRE((block.a(scene.lane(k)) == c.a && block.b(scene.lane(k)) == side_b));
     REQUIRE(c.count <= block.points);
     for (std::size_t j = 0; j < c.count; ++j) {
-      REQUIRE(used.insert(scene.places.first[k] + j * block_width).second);
+      REQUIRE(used.insert(scene.first(k) + j * block_width).second);
       REQUIRE(scene.rows.points[scene.point(k, j)].gap[scene.lane(k)] ==
-              scene.found.points[c.first + j].gap);
+              scene.found().points[c.first + j].gap);
     }
   }
   for (std::size_t at = 0; at < scene.rows.impulse.size(); ++at) {
@@ -94,8 +96,8 @@ TEST_CASE("rows say how gaps change when grains move and turn") {
     v.push_back(size * testing::random_direction(draw));
     angles.push_back(size * testing::random_direction(draw));
   }
-  for (std::size_t k = 0; k < scene.found.contacts.size(); ++k) {
-    const ShapeContact& c = scene.found.contacts[k];
+  for (std::size_t k = 0; k < scene.found().contacts.size(); ++k) {
+    const PolyhedronContact& c = scene.found().contacts[k];
     const auto a = static_cast<std::size_t>(c.a), b = static_cast<std::size_t>(c.b);
     const bool of_wall = !scene.bed.is_grain(c.b);
     const Quaternion turn = scene.bed.pose(a).orientation;
@@ -105,7 +107,7 @@ TEST_CASE("rows say how gaps change when grains move and turn") {
     REQUIRE((Vector(block.normal_x[lane], block.normal_y[lane], block.normal_z[lane]) - n).norm() <
             1e-15);
     for (std::size_t j = 0; j < c.count; ++j) {
-      const Vector r = turn * scene.found.points[c.first + j].position;
+      const Vector r = turn * scene.found().points[c.first + j].position;
       const Vector way_a = moved(scene.bed, a, r, v[a], angles[a]);
       const Vector way_b =
           of_wall ? Vector(Vector::Zero())
@@ -124,8 +126,8 @@ TEST_CASE("rows say how gaps change when grains move and turn") {
 
 TEST_CASE("the mass of a row is what one impulse on it meets") {
   const Scene scene;
-  for (std::size_t k = 0; k < scene.found.contacts.size(); ++k) {
-    const ShapeContact& c = scene.found.contacts[k];
+  for (std::size_t k = 0; k < scene.found().contacts.size(); ++k) {
+    const PolyhedronContact& c = scene.found().contacts[k];
     const std::size_t lane = scene.lane(k);
     double inverse_masses = scene.bed.motion[static_cast<std::size_t>(c.a)].w;
     if (scene.bed.is_grain(c.b)) {
@@ -145,10 +147,10 @@ TEST_CASE("the mass of a row is what one impulse on it meets") {
 
 TEST_CASE("an overlap is repaired by the share asked for, a gap is left as it is, of shapes too") {
   Scene scene;
-  lay_out(scene.bed, scene.found, 0.25, scene.places, scene.rows);
-  for (std::size_t k = 0; k < scene.found.contacts.size(); ++k) {
-    for (std::size_t j = 0; j < scene.found.contacts[k].count; ++j) {
-      const double gap = scene.found.points[scene.found.contacts[k].first + j].gap;
+  scene.find(0.05, 0.25);
+  for (std::size_t k = 0; k < scene.found().contacts.size(); ++k) {
+    for (std::size_t j = 0; j < scene.found().contacts[k].count; ++j) {
+      const double gap = scene.found().points[scene.found().contacts[k].first + j].gap;
       REQUIRE(scene.rows.points[scene.point(k, j)].gap[scene.lane(k)] ==
               (gap < 0 ? 0.25 * gap : gap));
     }
@@ -161,36 +163,34 @@ double sum_of(const std::vector<double>& impulse) {
   return sum;
 }
 
-TEST_CASE("impulses come back to their points, and to the nearest where points have changed") {
+TEST_CASE("impulses come back to their points, and those of contacts that are gone are dropped") {
   Scene scene;
   testing::Draw draw(8);
-  for (std::size_t k = 0; k < scene.found.contacts.size(); ++k) {
-    for (std::size_t j = 0; j < scene.found.contacts[k].count; ++j) {
-      scene.rows.impulse[scene.places.first[k] + j * block_width] = draw.unit();
+  double kept = 0;
+  for (std::size_t k = 0; k < scene.found().contacts.size(); ++k) {
+    const PolyhedronContact& c = scene.found().contacts[k];
+    for (std::size_t j = 0; j < c.count; ++j) {
+      scene.rows.impulse[scene.first(k) + j * block_width] = draw.unit();
     }
   }
   const std::vector<double> before = scene.rows.impulse;
-  CarriedPoints carried;
-  remember_impulses(scene.bed, scene.found, scene.places, scene.rows, carried);
-  lay_out(scene.bed, scene.found, 1.0, scene.places, scene.rows);
-  CHECK(sum_of(scene.rows.impulse) == 0);
-  carry_impulses(scene.found, carried, scene.places, scene.rows);
+  const ContactList all = scene.found();
+  scene.find(0.05, 1.0);
   CHECK(scene.rows.impulse == before);
 
-  // One point left of each contact takes all, a contact that is gone takes its impulses along.
-  const double gone = [&] {
-    double sum = 0;
-    for (std::size_t j = 0; j < scene.found.contacts.back().count; ++j) {
-      sum += before[scene.places.first.back() + j * block_width];
+  // Within a smaller margin some contacts are gone and others have fewer points, which take all.
+  const Scene wide = scene;
+  scene.find(0.01, 1.0);
+  REQUIRE(scene.found().contacts.size() < all.contacts.size());
+  REQUIRE(scene.found().points.size() < all.points.size());
+  std::size_t k = 0;
+  for (const PolyhedronContact& c : scene.found().contacts) {
+    while (all.contacts[k].a != c.a || all.contacts[k].b != c.b) ++k;
+    for (std::size_t j = 0; j < all.contacts[k].count; ++j) {
+      kept += before[wide.first(k) + j * block_width];
     }
-    return sum;
-  }();
-  ShapeContacts fewer = scene.found;
-  fewer.contacts.pop_back();
-  for (ShapeContact& c : fewer.contacts) c.count = 1;
-  lay_out(scene.bed, fewer, 1.0, scene.places, scene.rows);
-  carry_impulses(fewer, carried, scene.places, scene.rows);
-  CHECK(sum_of(scene.rows.impulse) == Approx(sum_of(before) - gone));
+  }
+  CHECK(sum_of(scene.rows.impulse) == Approx(kept));
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "engine/narrow/shape_contacts.hpp"
+#include "engine/rows/polyhedron_contacts.hpp"
 #include "tests/support/instruction_sets.hpp"
 #include "tests/support/shape_beds.hpp"
 
@@ -17,14 +17,29 @@ using testing::kernels;
 using testing::periodic;
 using testing::walls;
 
-constexpr ShapeSearchSettings usual{{0.05, 1e-3}, 0.05};
+constexpr TouchSettings usual{0.05, 1e-3};
+
+/// All contacts of a bed, and the candidates that they were found between.
+struct Search {
+  Candidates candidates;
+  PolyhedronContacts<double> contacts;
+
+  /// Whether candidates were listed anew.
+  bool find(PolyhedronBed& bed) {
+    const bool renewed = renew_candidates(usual.margin, 0.05, kernels(), bed, candidates);
+    if (renewed) take_candidates(bed, candidates, contacts);
+    find_contacts(usual, 1.0, bed, kernels(), contacts);
+    return renewed;
+  }
+  const ContactList& found() const { return testing::part_of(contacts).found; }
+};
 
 /// Number of points of each contact.
 using Found = std::map<std::pair<std::int32_t, std::int32_t>, std::size_t>;
 
-Found names_of(const ShapeContacts& found) {
+Found names_of(const ContactList& found) {
   Found names;
-  for (const ShapeContact& c : found.contacts) {
+  for (const PolyhedronContact& c : found.contacts) {
     REQUIRE(c.a < c.b);
     REQUIRE(names.emplace(std::pair(c.a, c.b), c.count).second);  // each once
   }
@@ -82,10 +97,9 @@ TEST_CASE("contacts of a bed of shapes are those of all pairs and walls, no more
   for (const ConvexShape& shape : {pinacoid({}), hull, testing::cube()}) {
     for (const Boundary y : {periodic, walls}) {
       PolyhedronBed bed = testing::random_shape_bed({6, 5, periodic, y}, shape, 150, 4, 11);
-      ShapeSearch search;
-      ShapeContacts found;
-      CHECK(find_contacts(usual, kernels(), bed, search, found));
-      REQUIRE(difference(names_of(found), brute_force(bed, usual.touch)) == "");
+      Search search;
+      CHECK(search.find(bed));
+      REQUIRE(difference(names_of(search.found()), brute_force(bed, usual)) == "");
     }
   }
 }
@@ -93,12 +107,11 @@ TEST_CASE("contacts of a bed of shapes are those of all pairs and walls, no more
 TEST_CASE("contacts stay complete while grains move and turn, with few searches") {
   PolyhedronBed bed = testing::random_shape_bed({6, 5, periodic, walls}, pinacoid({}), 100, 4, 3);
   testing::Draw draw(5);
-  ShapeSearch search;
-  ShapeContacts found;
+  Search search;
   int searches = 0;
   for (int k = 0; k < 40; ++k) {
-    searches += find_contacts(usual, kernels(), bed, search, found) ? 1 : 0;
-    REQUIRE(difference(names_of(found), brute_force(bed, usual.touch)) == "");
+    searches += search.find(bed) ? 1 : 0;
+    REQUIRE(difference(names_of(search.found()), brute_force(bed, usual)) == "");
     for (std::size_t i = 0; i < bed.grains(); ++i) {
       move_grain(bed, i, 0.002 * testing::random_direction(draw),
                  0.3 * testing::random_direction(draw));
@@ -114,14 +127,14 @@ TEST_CASE("a pinacoid and the hull of its corners touch at the same points") {
   PolyhedronBed closed = testing::random_shape_bed({6, 5, periodic, walls}, shape, 120, 4, 2);
   PolyhedronBed open = closed;
   open.shape = hull;
-  ShapeSearch search_closed, search_open;
-  ShapeContacts a, b;
-  find_contacts(usual, kernels(), closed, search_closed, a);
-  find_contacts(usual, kernels(), open, search_open, b);
+  Search search_closed, search_open;
+  search_closed.find(closed);
+  search_open.find(open);
+  const ContactList &a = search_closed.found(), &b = search_open.found();
   REQUIRE(a.contacts.size() == b.contacts.size());
   REQUIRE(a.contacts.size() > 300);
   for (std::size_t k = 0; k < a.contacts.size(); ++k) {
-    const ShapeContact &p = a.contacts[k], &q = b.contacts[k];
+    const PolyhedronContact &p = a.contacts[k], &q = b.contacts[k];
     REQUIRE((p.a == q.a && p.b == q.b && p.count == q.count));
     REQUIRE((p.normal - q.normal).norm() < 1e-9);
     for (std::size_t j = 0; j < p.count; ++j) {

@@ -1,4 +1,4 @@
-#include "engine/rows/contacts.hpp"
+#include "engine/rows/sphere_contacts.hpp"
 
 #include <algorithm>
 
@@ -10,19 +10,20 @@ namespace {
 
 /// Name of the wall that owns `block` in carried impulses.
 template <class Real>
-std::int32_t wall_name(const SphereBed& bed, const Contacts<Real>& contacts, std::size_t block) {
+std::int32_t wall_name(const SphereBed& bed, const SphereContacts<Real>& contacts,
+                       std::size_t block) {
   std::size_t k = 0;
   while (block >= contacts.walls[k].first + contacts.walls[k].blocks) {
     ++k;
   }
-  return static_cast<std::int32_t>(bed.grains() + k);
+  return bed.wall_name(k);
 }
 
 /// Calls visit(a, other, impulse) for each row that pushed: rows of the same grain never at the
 /// same time.
 template <class Real, class Visit>
-void visit_pushing(const SphereBed& bed, const Contacts<Real>& contacts, const ParallelFor& loop,
-                   const Visit& visit) {
+void visit_pushing(const SphereBed& bed, const SphereContacts<Real>& contacts,
+                   const ParallelFor& loop, const Visit& visit) {
   visit_ranges(contacts.shares, loop, [&](BlockRange range) {
     for (std::size_t block = range.first; block < range.first + range.blocks; ++block) {
       const bool is_pair = block < contacts.pair_blocks;
@@ -38,33 +39,22 @@ void visit_pushing(const SphereBed& bed, const Contacts<Real>& contacts, const P
   });
 }
 
-/// Sorts the impulses that pushed by their first grain.
 template <class Real>
-void collect_impulses(const SphereBed& bed, const ParallelFor& loop, Contacts<Real>& contacts) {
-  auto& begin = contacts.layout.carried_begin;
-  begin.assign(bed.grains() + 2, 0);
-  visit_pushing(bed, contacts, loop, [&](std::int32_t a, std::int32_t, Real) {
-    ++begin[static_cast<std::size_t>(a) + 2];
-  });
-  for (std::size_t i = 2; i < begin.size(); ++i) {
-    begin[i] += begin[i - 1];
-  }
-  contacts.layout.carried.resize(static_cast<std::size_t>(begin.back()));
-  visit_pushing(bed, contacts, loop, [&](std::int32_t a, std::int32_t other, Real impulse) {
-    const auto at = static_cast<std::size_t>(begin[static_cast<std::size_t>(a) + 1]++);
-    contacts.layout.carried[at] = {other, impulse};
-  });
+void collect_impulses(const SphereBed& bed, const ParallelFor& loop,
+                      SphereContacts<Real>& contacts) {
+  const auto visit_all = [&](const auto& put) {
+    visit_pushing(bed, contacts, loop, [&](std::int32_t a, std::int32_t other, Real impulse) {
+      put(a, CarriedImpulse<Real>{other, impulse});
+    });
+  };
+  collect(bed.grains(), visit_all, contacts.layout.carried);
 }
 
 /// Impulse that the contact of grain `a` and `other` had; 0 if it did not push.
 template <class Real>
 Real carried_impulse(const LayoutColumns<Real>& layout, std::int32_t a, std::int32_t other) {
-  const auto first = static_cast<std::size_t>(layout.carried_begin[static_cast<std::size_t>(a)]);
-  const auto last = static_cast<std::size_t>(layout.carried_begin[static_cast<std::size_t>(a) + 1]);
-  for (std::size_t k = first; k < last; ++k) {
-    if (layout.carried[k].other == other) {
-      return layout.carried[k].impulse;
-    }
+  for (const CarriedImpulse<Real>& entry : layout.carried.of(a)) {
+    if (entry.other == other) return entry.impulse;
   }
   return Real(0);
 }
@@ -99,19 +89,10 @@ void lay_out_subdomain(const SphereBed& bed, std::size_t subdomain, LayoutColumn
   open.close_all();
 }
 
-/// Sorts the grains near a wall by subdomain.
-void divide_near_wall(const std::vector<std::int32_t>& grains, const Subdomains& subdomains,
-                      std::vector<std::vector<std::int32_t>>& near_wall) {
-  near_wall.resize(std::max(near_wall.size(), subdomains.count));
-  for (std::vector<std::int32_t>& of_subdomain : near_wall) of_subdomain.clear();
-  for (const std::int32_t grain : grains) {
-    near_wall[subdomains.subdomain_of(grain)].push_back(grain);
-  }
-}
-
 /// Rows of all walls, wall after wall, in blocks of their own for each subdomain.
 template <class Real>
-void lay_out_walls(const SphereBed& bed, const Candidates& candidates, Contacts<Real>& contacts) {
+void lay_out_walls(const SphereBed& bed, const Candidates& candidates,
+                   SphereContacts<Real>& contacts) {
   LayoutColumns<Real>& layout = contacts.layout;
   RowColumns<Real>& columns = layout.columns[layout.subdomains.count];
   columns.rows.clear();
@@ -121,12 +102,11 @@ void lay_out_walls(const SphereBed& bed, const Candidates& candidates, Contacts<
   for (std::vector<BlockRange>& ranges : layout.wall_ranges) ranges.clear();
   for (std::size_t k = 0; k < candidates.walls.size(); ++k) {
     const std::size_t first = columns.rows.size();
-    const auto name = static_cast<std::int32_t>(bed.grains() + k);
-    divide_near_wall(candidates.walls[k].grains, layout.subdomains, layout.near_wall);
+    const std::int32_t name = bed.wall_name(k);
     for (std::size_t subdomain = 0; subdomain < layout.subdomains.count; ++subdomain) {
       const std::size_t before = columns.rows.size();
       BlockWriter<Real>(bed, subdomain, columns)
-          .add_wall(layout.near_wall[subdomain],
+          .add_wall(layout.subdomains.near_wall(k, subdomain),
                     [&](std::int32_t grain) { return carried_impulse(layout, grain, name); });
       if (columns.rows.size() > before) {
         layout.wall_ranges[subdomain].push_back({before, columns.rows.size() - before});
@@ -136,63 +116,23 @@ void lay_out_walls(const SphereBed& bed, const Candidates& candidates, Contacts<
   }
 }
 
-/// The rows of a subdomain, and the grains of it and the subdomain that follows: in both phases
-/// these are all grains, but for those of the first subdomain in the second phase where nothing
-/// follows the last one.
+/// Parts that cores may sweep: the rows of a subdomain's pairs and of its walls.
 template <class Real>
-void add_part(std::size_t subdomain, Contacts<Real>& contacts) {
+void set_parts(SphereContacts<Real>& contacts) {
   const LayoutColumns<Real>& layout = contacts.layout;
-  RowPart part;
-  part.phase = subdomain % 2;
-  part.first_range = contacts.shares.ranges.size();
-  contacts.shares.ranges.push_back(
-      {layout.first_block[subdomain], layout.columns[subdomain].rows.size()});
-  for (const BlockRange& range : layout.wall_ranges[subdomain]) {
-    contacts.shares.ranges.push_back({contacts.pair_blocks + range.first, range.blocks});
-  }
-  part.ranges = contacts.shares.ranges.size() - part.first_range;
-  if (layout.subdomains.count > 1) {
-    const std::vector<std::size_t>& first = layout.subdomains.first_grain;
-    const bool is_last = subdomain + 1 == layout.subdomains.count;
-    const std::size_t follows = !is_last ? first[subdomain + 2] - first[subdomain + 1]
-                                : layout.subdomains.is_ring ? first[1]
-                                                            : 0;
-    part.first_grain = first[subdomain];
-    part.grains = first[subdomain + 1] - first[subdomain] + follows;
-  }
-  contacts.shares.parts.push_back(part);
-}
-
-/// The grains of all subdomains, and once more of the first after the last of a ring; where there
-/// is none, a part of no rows for the first ones.
-void add_grains(const Subdomains& subdomains, RowShares& shares) {
-  shares.grains = subdomains.grains;
-  if (subdomains.is_ring) {
-    shares.grains.insert(
-        shares.grains.end(), subdomains.grains.begin(),
-        subdomains.grains.begin() + static_cast<std::ptrdiff_t>(subdomains.first_grain[1]));
-  } else {
-    shares.parts.push_back({1, 0, 0, 0, subdomains.first_grain[1]});
-  }
-}
-
-/// Parts that cores may sweep: every second subdomain, then those between.
-template <class Real>
-void set_parts(Contacts<Real>& contacts) {
-  const Subdomains& subdomains = contacts.layout.subdomains;
-  contacts.shares.clear();
-  contacts.pair_blocks = contacts.layout.first_block[subdomains.count];
+  contacts.pair_blocks = layout.first_block[layout.subdomains.count];
   for (WallRows& wall : contacts.walls) wall.first += contacts.pair_blocks;
-  for (std::size_t k = 0; k < subdomains.count; k += 2) add_part(k, contacts);
-  if (subdomains.count > 1) {
-    add_grains(subdomains, contacts.shares);
-    for (std::size_t k = 1; k < subdomains.count; k += 2) add_part(k, contacts);
-  }
+  share_out(layout.subdomains, contacts.shares, [&](std::size_t subdomain, auto& ranges) {
+    ranges.push_back({layout.first_block[subdomain], layout.columns[subdomain].rows.size()});
+    for (const BlockRange& range : layout.wall_ranges[subdomain]) {
+      ranges.push_back({contacts.pair_blocks + range.first, range.blocks});
+    }
+  });
 }
 
 /// One column of rows out of those of all subdomains.
 template <class Real>
-void join(const ParallelFor& loop, Contacts<Real>& contacts) {
+void join(const ParallelFor& loop, SphereContacts<Real>& contacts) {
   LayoutColumns<Real>& layout = contacts.layout;
   std::size_t blocks = 0;
   layout.first_block.clear();
@@ -213,8 +153,8 @@ void join(const ParallelFor& loop, Contacts<Real>& contacts) {
 
 /// Normal from the grain to the wall, and gap.
 template <class Real>
-void detect_wall(const SphereBed& bed, const WallRows& rows, double correction,
-                 std::vector<RowBlock<Real>>& blocks) {
+void update_wall_gaps(const SphereBed& bed, const WallRows& rows, double correction,
+                      std::vector<RowBlock<Real>>& blocks) {
   const Wall& wall = bed.walls[rows.wall];
   for (std::size_t block = rows.first; block < rows.first + rows.blocks; ++block) {
     RowBlock<Real>& r = blocks[block];
@@ -233,11 +173,11 @@ void detect_wall(const SphereBed& bed, const WallRows& rows, double correction,
 }  // namespace
 
 template <class Real>
-void lay_out(const SphereBed& bed, const Candidates& candidates, Contacts<Real>& contacts,
+void lay_out(const SphereBed& bed, const Candidates& candidates, SphereContacts<Real>& contacts,
              const ParallelFor& loop) {
   LayoutColumns<Real>& layout = contacts.layout;
   collect_impulses(bed, loop, contacts);
-  divide(bed, candidates, loop, layout.subdomains);
+  divide(bed, Sphere::subdomain_grains, candidates, loop, layout.subdomains);
   layout.columns.resize(std::max(layout.columns.size(), layout.subdomains.count + 1));
   layout.open_blocks.assign(bed.grains(), 0);
   layout.pair_impulse.resize(layout.subdomains.pairs.size());
@@ -250,8 +190,8 @@ void lay_out(const SphereBed& bed, const Candidates& candidates, Contacts<Real>&
 }
 
 template <class Real>
-double detect(const SphereBed& bed, const ExecutionContext& context, double correction,
-              Contacts<Real>& contacts) {
+double update_gaps(const SphereBed& bed, const ExecutionContext& context, double correction,
+                   SphereContacts<Real>& contacts) {
   constexpr std::size_t blocks_of_part = 1024;
   const std::size_t parts = contacts.pair_blocks / blocks_of_part + 1;
   contacts.sunk.assign(parts, 0.0);
@@ -264,14 +204,51 @@ double detect(const SphereBed& bed, const ExecutionContext& context, double corr
                          bed.position.data(), bed.box.period_x(), bed.box.period_y(), correction);
   });
   for (const WallRows& wall : contacts.walls) {
-    detect_wall(bed, wall, correction, contacts.rows);
+    update_wall_gaps(bed, wall, correction, contacts.rows);
   }
   return std::max(0.0, *std::max_element(contacts.sunk.begin(), contacts.sunk.end()));
 }
 
-template void lay_out(const SphereBed&, const Candidates&, Contacts<float>&, const ParallelFor&);
-template void lay_out(const SphereBed&, const Candidates&, Contacts<double>&, const ParallelFor&);
-template double detect(const SphereBed&, const ExecutionContext&, double, Contacts<float>&);
-template double detect(const SphereBed&, const ExecutionContext&, double, Contacts<double>&);
+template <class Real>
+std::vector<ForceContact> force_contacts(const SphereBed& bed, double dt,
+                                         const SphereContacts<Real>& contacts) {
+  std::vector<ForceContact> all;
+  visit_force_bearing(contacts, dt, [&](std::size_t block, std::size_t lane, double impulse) {
+    const RowBlock<Real>& r = contacts.rows[block];
+    const bool is_pair = block < contacts.pair_blocks;
+    all.push_back(
+        {r.a(lane), is_pair ? r.b(lane) : wall_name(bed, contacts, block), impulse / (dt * dt)});
+  });
+  return all;
+}
+
+template <class Real>
+std::vector<Closure> closures(SphereBed& bed, const ExecutionContext& context, double dt,
+                              Candidates& /*candidates*/, SphereContacts<Real>& contacts) {
+  update_gaps(bed, context, 1.0, contacts);
+  std::vector<Closure> all;
+  visit_force_bearing(contacts, dt, [&](std::size_t block, std::size_t lane, double) {
+    const auto gap = static_cast<double>(contacts.rows[block].gap[lane]);
+    all.push_back({gap, gap < closed_gap ? 1 : 0});
+  });
+  return all;
+}
+
+template void lay_out(const SphereBed&, const Candidates&, SphereContacts<float>&,
+                      const ParallelFor&);
+template void lay_out(const SphereBed&, const Candidates&, SphereContacts<double>&,
+                      const ParallelFor&);
+template double update_gaps(const SphereBed&, const ExecutionContext&, double,
+                            SphereContacts<float>&);
+template double update_gaps(const SphereBed&, const ExecutionContext&, double,
+                            SphereContacts<double>&);
+template std::vector<ForceContact> force_contacts(const SphereBed&, double,
+                                                  const SphereContacts<float>&);
+template std::vector<ForceContact> force_contacts(const SphereBed&, double,
+                                                  const SphereContacts<double>&);
+template std::vector<Closure> closures(SphereBed&, const ExecutionContext&, double, Candidates&,
+                                       SphereContacts<float>&);
+template std::vector<Closure> closures(SphereBed&, const ExecutionContext&, double, Candidates&,
+                                       SphereContacts<double>&);
 
 }  // namespace grainsweep

@@ -1,0 +1,56 @@
+// Which polyhedra of a list of pairs touch, and where.
+//
+// The chain of a pair: balls, then for pinacoids the batch test of separating axes and its best
+// axes measured anew in f64, for other shapes the pair's last parting axis, GJK and separating
+// axes; at last the contact polygon, every point of it (engine/narrow/manifold.hpp). Walls touch
+// with all vertices near them.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/narrow/manifold.hpp"
+#include "engine/scene/bed.hpp"
+
+namespace grainsweep {
+
+/// Contact of grain a with grain b > a, or with the wall of that name (Grains::wall_name). Its
+/// points are `points[first]` .. `points[first + count - 1]`.
+struct PolyhedronContact {
+  std::int32_t a = 0, b = 0;
+  AxisKind kind = AxisKind::none;  ///< what gave the normal; none = a wall
+  Vector normal = Vector::Zero();  ///< unit, from a to b, frame of a
+  std::size_t first = 0, count = 0;
+  PairPose pose;  ///< grain b as a sees it; not set for a wall
+};
+
+struct ContactList {
+  std::vector<PolyhedronContact> contacts;  ///< pairs in the order of their list, then the walls
+  std::vector<ContactPoint> points;         ///< positions about the centre of a, frame of a
+
+  void clear() {
+    contacts.clear();
+    points.clear();
+  }
+};
+
+/// Working memory, kept from call to call.
+struct NarrowColumns {
+  std::vector<GrainPair> close;     ///< pinacoids whose balls meet
+  std::vector<PinacoidBlock> axes;  ///< what the batch test says of them
+  ClipColumns clip;
+};
+
+/// Appends the contacts of `pairs`; `memory` is what each of them remembers. Returns the most by
+/// which centres are nearer than sunk_share of the distance at which the balls within their grains
+/// touch, d; 0 if none are.
+double touch_pairs(const TouchSettings& settings, const Kernels& kernels, const PolyhedronBed& bed,
+                   std::span<const GrainPair> pairs, std::span<PairMemory> memory,
+                   NarrowColumns& columns, ContactList& found);
+
+/// Appends the contacts of grains with wall k of the bed.
+void touch_wall(std::size_t k, const std::vector<std::int32_t>& grains, double margin,
+                const PolyhedronBed& bed, ContactList& found);
+
+}  // namespace grainsweep

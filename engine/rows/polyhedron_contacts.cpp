@@ -1,0 +1,375 @@
+#include "engine/rows/polyhedron_contacts.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "engine/narrow/constraints.hpp"
+#include "engine/rows/lanes.hpp"
+
+namespace grainsweep {
+
+namespace {
+
+// A face is preferred to edges that part a pair by no more than this share of g dt^2 beyond it, d;
+// where less is preferred edges replace whole faces and the bed collapses.
+constexpr double preferred_share = 0.5;
+constexpr double least_preference = 1e-4;
+constexpr double preferred_of_depth = 1.0;  // beyond its overlap
+
+/// Lists the contacts by falling number of points, else in their order.
+void sort_by_points(const ContactList& found, std::vector<std::size_t>& order) {
+  std::size_t most = 0;
+  for (const PolyhedronContact& contact : found.contacts) most = std::max(most, contact.count);
+  std::vector<std::size_t> place(most + 2, 0);  // place[k]: of the next one with most - k points
+  for (const PolyhedronContact& contact : found.contacts) ++place[most - contact.count + 1];
+  std::partial_sum(place.begin(), place.end(), place.begin());
+  order.resize(found.contacts.size());
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    order[place[most - found.contacts[k].count]++] = k;
+  }
+}
+
+/// Appends blocks of void contacts to a part and hands out their lanes.
+template <class Real>
+class BodyBlocks {
+ public:
+  BodyBlocks(const PolyhedronBed& bed, std::size_t subdomain, std::vector<std::uint64_t>& words,
+             ContactPart<Real>& part)
+      : bed_(bed), subdomain_(subdomain), part_(part), open_(words) {}
+
+  /// Requires that no contact has more points than the one before it.
+  BlockLane take(const PolyhedronContact& contact) {
+    const bool is_pair = bed_.is_grain(contact.b);
+    const BlockLane at = open_.take(contact.a, is_pair ? contact.b : OpenBlocks::no_grain,
+                                    [&] { return append_void_block(contact.count); });
+    part_.blocks[at.block].set_grains(at.lane, contact.a,
+                                      is_pair ? contact.b : bed_.wall(subdomain_));
+    return at;
+  }
+  void close_all() { open_.close_all(); }
+
+ private:
+  std::size_t append_void_block(std::size_t points) {
+    BodyBlock<Real> block{};
+    block.first = static_cast<std::uint32_t>(part_.points.size());
+    block.points = static_cast<std::uint32_t>(points);
+    for (std::size_t lane = 0; lane < block_width; ++lane) {
+      block.set_grains(lane, bed_.void_a(subdomain_), bed_.void_b(subdomain_));
+      block.normal_z[lane] = Real(1);
+    }
+    part_.blocks.push_back(block);
+    part_.points.insert(part_.points.end(), points, void_points());
+    return part_.blocks.size() - 1;
+  }
+  static BodyPoints<Real> void_points() {
+    BodyPoints<Real> points{};
+    for (std::size_t lane = 0; lane < block_width; ++lane) {
+      points.gap[lane] = points.reduced_mass[lane] = Real(1);
+    }
+    return points;
+  }
+
+  const PolyhedronBed& bed_;
+  std::size_t subdomain_;
+  ContactPart<Real>& part_;
+  OpenBlocks open_;
+};
+
+/// A row of a contact, before it is rounded and stored.
+struct RowEntry {
+  Vector lever_a, lever_b;
+
+  /// A_kk of the row of two grains with these inverse masses.
+  double diagonal(double inverse_masses) const {
+    return inverse_masses + lever_a.squaredNorm() + lever_b.squaredNorm();
+  }
+};
+
+/// The rows of one contact.
+struct ContactRows {
+  double inverse_masses = 0.0;  ///< 1/m_a + 1/m_b
+  Vector normal;                ///< box frame
+  std::vector<RowEntry> each;   ///< of each point
+};
+
+void add_side_b(const PolyhedronBed& bed, const PolyhedronContact& contact,
+                const ContactPoint* points, ContactRows& rows) {
+  const auto b = static_cast<std::size_t>(contact.b);
+  const Vector& root = bed.root_inertia[b];
+  for (std::size_t k = 0; k < contact.count; ++k) {
+    const Vector torque = (points[k].position - contact.pose.centre).cross(contact.normal);
+    rows.each[k].lever_b = (contact.pose.turn.transpose() * torque).cwiseQuotient(root);
+  }
+  rows.inverse_masses += bed.motion[b].w;
+}
+
+void set_rows(const PolyhedronBed& bed, const PolyhedronContact& contact,
+              const ContactPoint* points, ContactRows& rows) {
+  const auto a = static_cast<std::size_t>(contact.a);
+  const Vector& root = bed.root_inertia[a];
+  rows.inverse_masses = bed.motion[a].w;
+  rows.normal = bed.pose(a).orientation * contact.normal;
+  rows.each.assign(contact.count, {Vector::Zero(), Vector::Zero()});
+  for (std::size_t k = 0; k < contact.count; ++k) {
+    rows.each[k].lever_a = points[k].position.cross(contact.normal).cwiseQuotient(root);
+  }
+  if (bed.is_grain(contact.b)) add_side_b(bed, contact, points, rows);
+}
+
+template <class Real>
+void store_row(const RowEntry& row, double inverse_masses, double gap, std::size_t lane,
+               BodyPoints<Real>& points) {
+  for (int axis = 0; axis < 3; ++axis) {
+    points.lever_a[axis][lane] = static_cast<Real>(row.lever_a[axis]);
+    points.lever_b[axis][lane] = static_cast<Real>(row.lever_b[axis]);
+  }
+  points.gap[lane] = static_cast<Real>(gap);
+  points.reduced_mass[lane] = static_cast<Real>(1.0 / row.diagonal(inverse_masses));
+}
+
+template <class Real>
+void store_normal(const Vector& normal, std::size_t lane, BodyBlock<Real>& block) {
+  block.normal_x[lane] = static_cast<Real>(normal.x());
+  block.normal_y[lane] = static_cast<Real>(normal.y());
+  block.normal_z[lane] = static_cast<Real>(normal.z());
+}
+
+std::size_t nearest_point(const ContactList& found, const PolyhedronContact& contact,
+                          const Vector& position) {
+  double least = std::numeric_limits<double>::infinity();
+  std::size_t best = 0;
+  for (std::size_t j = 0; j < contact.count; ++j) {
+    const double squared = (found.points[contact.first + j].position - position).squaredNorm();
+    best = squared < least ? j : best;
+    least = std::min(least, squared);
+  }
+  return best;
+}
+
+/// Rows of the contacts of a part, without impulses.
+template <class Real>
+void lay_out_part(const PolyhedronBed& bed, std::size_t subdomain, double correction,
+                  std::vector<std::uint64_t>& words, ContactPart<Real>& part) {
+  const ContactList& found = part.found;
+  part.blocks.clear();
+  part.points.clear();
+  part.first.resize(found.contacts.size());
+  BodyBlocks<Real> blocks(bed, subdomain, words, part);
+  ContactRows own;
+  sort_by_points(found, part.order);
+  for (const std::size_t k : part.order) {
+    const PolyhedronContact& contact = found.contacts[k];
+    const ContactPoint* points = found.points.data() + contact.first;
+    const BlockLane at = blocks.take(contact);
+    const std::size_t first = part.blocks[at.block].first;
+    part.first[k] = first * block_width + at.lane;
+    set_rows(bed, contact, points, own);
+    store_normal(own.normal, at.lane, part.blocks[at.block]);
+    for (std::size_t j = 0; j < contact.count; ++j) {
+      const double gap = points[j].gap;
+      store_row(own.each[j], own.inverse_masses, gap < 0.0 ? correction * gap : gap, at.lane,
+                part.points[first + j]);
+    }
+  }
+  blocks.close_all();
+  part.impulse.assign(part.points.size() * block_width, Real(0));
+}
+
+/// Gives each carried impulse to a point of the part's contacts.
+template <class Real>
+void carry_impulses(const Carried<CarriedPoint>& carried, ContactPart<Real>& part) {
+  for (std::size_t k = 0; k < part.found.contacts.size(); ++k) {
+    const PolyhedronContact& contact = part.found.contacts[k];
+    for (const CarriedPoint& point : carried.of(contact.a)) {
+      if (point.other != contact.b) continue;
+      const std::size_t j = nearest_point(part.found, contact, point.position);
+      part.impulse[part.first[k] + j * block_width] += static_cast<Real>(point.impulse);
+    }
+  }
+}
+
+/// Calls visit(part, k) for every contact of the last step, part by part.
+template <class Real, class Visit>
+void visit_contacts(const PolyhedronContacts<Real>& contacts, Visit visit) {
+  for (std::size_t p = 0; p < contacts.found_parts; ++p) {
+    const ContactPart<Real>& part = contacts.parts[p];
+    for (std::size_t k = 0; k < part.found.contacts.size(); ++k) visit(part, k);
+  }
+}
+
+template <class Real>
+void collect_impulses(const PolyhedronBed& bed, PolyhedronContacts<Real>& contacts) {
+  const auto visit_all = [&](const auto& put) {
+    visit_contacts(contacts, [&](const ContactPart<Real>& part, std::size_t k) {
+      const PolyhedronContact& contact = part.found.contacts[k];
+      for (std::size_t j = 0; j < contact.count; ++j) {
+        const double impulse = impulse_of(contacts, part, k, j);
+        if (impulse > 0.0) {
+          const Vector& place = part.found.points[contact.first + j].position;
+          put(contact.a, CarriedPoint{contact.b, place, impulse});
+        }
+      }
+    });
+  };
+  collect(bed.grains(), visit_all, contacts.carried);
+}
+
+/// All contacts of a subdomain between the candidates. Returns what touch_pairs does.
+template <class Real>
+double touch_subdomain(const TouchSettings& settings, const Kernels& kernels,
+                       const PolyhedronBed& bed, std::size_t subdomain,
+                       PolyhedronContacts<Real>& contacts, NarrowColumns& columns,
+                       ContactList& found) {
+  const Subdomains& all = contacts.subdomains;
+  const std::size_t begin = all.begin[subdomain], count = all.begin[subdomain + 1] - begin;
+  found.clear();
+  const double sunk = touch_pairs(settings, kernels, bed, {all.pairs.data() + begin, count},
+                                  {contacts.memory.data() + begin, count}, columns, found);
+  for (std::size_t k = 0; k < bed.walls.size(); ++k) {
+    touch_wall(k, all.near_wall(k, subdomain), settings.margin, bed, found);
+  }
+  return sunk;
+}
+
+/// One column of rows out of those of all parts, which they leave empty.
+template <class Real>
+void join(const ParallelFor& loop, PolyhedronContacts<Real>& contacts,
+          std::vector<std::size_t>& first_block) {
+  first_block.assign(1, 0);
+  std::vector<std::size_t> first_points(1, 0);
+  for (std::size_t p = 0; p < contacts.found_parts; ++p) {
+    first_block.push_back(first_block.back() + contacts.parts[p].blocks.size());
+    first_points.push_back(first_points.back() + contacts.parts[p].points.size());
+  }
+  contacts.blocks.resize(first_block.back());
+  contacts.points.resize(first_points.back());
+  contacts.impulse.resize(first_points.back() * block_width);
+  parallel_for(loop, contacts.found_parts, [&](std::size_t p) {
+    ContactPart<Real>& part = contacts.parts[p];
+    const std::size_t points = first_points[p];
+    for (BodyBlock<Real>& block : part.blocks) block.first += static_cast<std::uint32_t>(points);
+    for (std::size_t& first : part.first) first += points * block_width;
+    std::copy(part.blocks.begin(), part.blocks.end(), contacts.blocks.data() + first_block[p]);
+    std::copy(part.points.begin(), part.points.end(), contacts.points.data() + points);
+    std::copy(part.impulse.begin(), part.impulse.end(),
+              contacts.impulse.data() + points * block_width);
+  });
+}
+
+/// Grains `a` and `b` of each contact, and where it stands in its list; sorted.
+using NamedPlaces = std::vector<std::array<std::int64_t, 3>>;
+
+NamedPlaces named_places(const std::vector<ForceContact>& contacts) {
+  NamedPlaces places;
+  for (const ForceContact& c : contacts) {
+    places.push_back({c.a, c.b, static_cast<std::int64_t>(places.size())});
+  }
+  std::sort(places.begin(), places.end());
+  return places;
+}
+
+}  // namespace
+
+TouchSettings touch_settings(double near, double dt) {
+  return {near, std::max(least_preference, preferred_share * dt * dt), preferred_of_depth};
+}
+
+template <class Real>
+void take_candidates(const PolyhedronBed& bed, const Candidates& candidates,
+                     PolyhedronContacts<Real>& contacts, const ParallelFor& loop) {
+  divide(bed, Polyhedron::subdomain_grains, candidates, loop, contacts.subdomains);
+  contacts.memory.assign(contacts.subdomains.pairs.size(), {});
+}
+
+template <class Real>
+double find_contacts(const TouchSettings& settings, double correction, const PolyhedronBed& bed,
+                     const ExecutionContext& context, PolyhedronContacts<Real>& contacts) {
+  const std::size_t subdomains = contacts.subdomains.count;
+  collect_impulses(bed, contacts);
+  contacts.parts.resize(std::max(contacts.parts.size(), subdomains));
+  contacts.found_parts = subdomains;
+  contacts.open_blocks.assign(bed.grains(), 0);
+  parallel_for(context.loop, subdomains, [&](std::size_t s) {
+    ContactPart<Real>& part = contacts.parts[s];
+    part.sunk =
+        touch_subdomain(settings, context.kernels, bed, s, contacts, part.narrow, part.found);
+  });
+  visit_subdomains(subdomains, context.loop, [&](std::size_t s) {
+    lay_out_part(bed, s, correction, contacts.open_blocks, contacts.parts[s]);
+    carry_impulses(contacts.carried, contacts.parts[s]);
+  });
+  std::vector<std::size_t> first_block;
+  join(context.loop, contacts, first_block);
+  share_out(contacts.subdomains, contacts.shares, [&](std::size_t s, auto& ranges) {
+    ranges.push_back({first_block[s], first_block[s + 1] - first_block[s]});
+  });
+  contacts.extrapolated.assign(contacts.impulse.size(), Real(0));
+  double sunk = 0.0;
+  for (std::size_t s = 0; s < subdomains; ++s) sunk = std::max(sunk, contacts.parts[s].sunk);
+  return sunk;
+}
+
+template <class Real>
+std::vector<ForceContact> force_contacts(const PolyhedronBed& /*bed*/, double dt,
+                                         const PolyhedronContacts<Real>& contacts) {
+  std::vector<ForceContact> all;
+  visit_contacts(contacts, [&](const ContactPart<Real>& part, std::size_t k) {
+    const PolyhedronContact& c = part.found.contacts[k];
+    double force = 0.0;
+    for (std::size_t j = 0; j < c.count; ++j) force += impulse_of(contacts, part, k, j) / (dt * dt);
+    if (!(force > least_force)) return;
+    const int constraints = constraints_of(part.found.points.data() + c.first, c.count, closed_gap);
+    all.push_back({c.a, c.b, force, std::max(constraints, 1)});
+  });
+  return all;
+}
+
+template <class Real>
+std::vector<Closure> closures(PolyhedronBed& bed, const ExecutionContext& context, double dt,
+                              Candidates& candidates, PolyhedronContacts<Real>& contacts) {
+  constexpr double search_margin = 0.05;  // d; as in the steps, so that candidates last
+  const std::vector<ForceContact> bearing = force_contacts(bed, dt, contacts);
+  const NamedPlaces places = named_places(bearing);
+  if (renew_candidates(closed_gap, search_margin, context, bed, candidates)) {
+    take_candidates(bed, candidates, contacts, context.loop);
+  }
+  TouchSettings settings = touch_settings(closed_gap, dt);
+  settings.of_depth = 0.0;  // overlaps as deep as they are
+  std::vector<Closure> all(bearing.size(), {std::numeric_limits<double>::infinity(), 0});
+  parallel_for(context.loop, contacts.subdomains.count, [&](std::size_t s) {
+    NarrowColumns columns;
+    ContactList now;
+    touch_subdomain(settings, context.kernels, bed, s, contacts, columns, now);
+    for (const PolyhedronContact& c : now.contacts) {
+      const auto at =
+          std::lower_bound(places.begin(), places.end(), NamedPlaces::value_type{c.a, c.b, 0});
+      if (at == places.end() || (*at)[0] != c.a || (*at)[1] != c.b) continue;
+      const ContactPoint* points = now.points.data() + c.first;
+      all[static_cast<std::size_t>((*at)[2])] = {least_gap(points, c.count),
+                                                 constraints_of(points, c.count, closed_gap)};
+    }
+  });
+  return all;
+}
+
+template void take_candidates(const PolyhedronBed&, const Candidates&, PolyhedronContacts<float>&,
+                              const ParallelFor&);
+template void take_candidates(const PolyhedronBed&, const Candidates&, PolyhedronContacts<double>&,
+                              const ParallelFor&);
+template double find_contacts(const TouchSettings&, double, const PolyhedronBed&,
+                              const ExecutionContext&, PolyhedronContacts<float>&);
+template double find_contacts(const TouchSettings&, double, const PolyhedronBed&,
+                              const ExecutionContext&, PolyhedronContacts<double>&);
+template std::vector<ForceContact> force_contacts(const PolyhedronBed&, double,
+                                                  const PolyhedronContacts<float>&);
+template std::vector<ForceContact> force_contacts(const PolyhedronBed&, double,
+                                                  const PolyhedronContacts<double>&);
+template std::vector<Closure> closures(PolyhedronBed&, const ExecutionContext&, double, Candidates&,
+                                       PolyhedronContacts<float>&);
+template std::vector<Closure> closures(PolyhedronBed&, const ExecutionContext&, double, Candidates&,
+                                       PolyhedronContacts<double>&);
+
+}  // namespace grainsweep

@@ -1,0 +1,103 @@
+// Contacts of polyhedra: found anew in each step, subdomain by subdomain, and laid out as rows of
+// their points.
+//
+// Contacts with many points come first in a subdomain, so that the contacts of a block have about
+// the same number of them; no two lanes of a block share a grain.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/broad/candidates.hpp"
+#include "engine/context.hpp"
+#include "engine/narrow/polyhedra.hpp"
+#include "engine/rows/contacts.hpp"
+#include "engine/rows/partition.hpp"
+#include "engine/rows/subdomains.hpp"
+#include "engine/scene/bed.hpp"
+#include "kernels/kernels.hpp"
+
+namespace grainsweep {
+
+/// An impulse of a point that pushed.
+struct CarriedPoint {
+  std::int32_t other = 0;            ///< the second side of its contact
+  Vector position = Vector::Zero();  ///< about the centre of the first grain, its frame, d
+  double impulse = 0.0;              ///< masses times d
+};
+
+/// The contacts of one subdomain, and their rows until they are joined with those of the others.
+template <class Real>
+struct ContactPart {
+  ContactList found;
+  /// The impulse of point j of contact k is impulse[first[k] + j * block_width].
+  std::vector<std::size_t> first;
+  std::vector<BodyBlock<Real>> blocks;
+  std::vector<BodyPoints<Real>> points;
+  std::vector<Real> impulse;
+  double sunk = 0.0;               ///< see touch_pairs
+  std::vector<std::size_t> order;  ///< memory of the layout: contacts as they are laid out
+  NarrowColumns narrow;
+};
+
+/// The impulse of lane k of points[i] is `impulse[i * block_width + k]`.
+template <class Real>
+struct Contacts<Polyhedron, Real> {
+  Subdomains subdomains;
+  std::vector<PairMemory> memory;        ///< of each of subdomains.pairs
+  std::vector<ContactPart<Real>> parts;  ///< memory of more than `found_parts` may be left
+  std::size_t found_parts = 0;           ///< parts that the last step found
+  std::vector<BodyBlock<Real>> blocks;
+  std::vector<BodyPoints<Real>> points;
+  RowShares shares;
+  std::vector<Real> impulse;
+  std::vector<Real> extrapolated;  ///< the solver's look-ahead impulses
+  Carried<CarriedPoint> carried;
+  std::vector<std::uint64_t> open_blocks;  ///< per grain: one bit for each open block it is in
+
+  // As of spheres; a block says itself where its impulses are.
+  static const BodyKernels<Real>& kernels_of(const Kernels& all) { return body_kernels<Real>(all); }
+  BodyRows<Real> rows_of(BlockRange range) const {
+    return {blocks.data() + range.first, points.data()};
+  }
+  static std::size_t first_impulse(BlockRange) { return 0; }
+  static constexpr std::size_t records_of_grain = 2;
+};
+template <class Real>
+using PolyhedronContacts = Contacts<Polyhedron, Real>;
+
+/// Contacts of a step of length `dt` are those with a gap below `near`, d.
+TouchSettings touch_settings(double near, double dt);
+
+/// Takes a new list of candidates; contacts stay what they are until they are found anew.
+template <class Real>
+void take_candidates(const PolyhedronBed& bed, const Candidates& candidates,
+                     PolyhedronContacts<Real>& contacts, const ParallelFor& loop = serial_for);
+
+/// Finds the contacts between the candidates taken last, lays out their rows, and gives the
+/// impulses of the contacts before to the nearest point of the contact between the same two,
+/// whatever its normal is now; those of contacts that are no more are dropped. `correction`: share
+/// of an overlap that a step repairs. Returns what touch_pairs does, d.
+template <class Real>
+double find_contacts(const TouchSettings& settings, double correction, const PolyhedronBed& bed,
+                     const ExecutionContext& context, PolyhedronContacts<Real>& contacts);
+
+/// Impulse of point j of contact k of a part, in masses times d.
+template <class Real>
+double impulse_of(const PolyhedronContacts<Real>& contacts, const ContactPart<Real>& part,
+                  std::size_t k, std::size_t j) {
+  return static_cast<double>(contacts.impulse[part.first[k] + j * block_width]);
+}
+
+/// The contacts that bore a force in the last step, of length `dt`.
+template <class Real>
+std::vector<ForceContact> force_contacts(const PolyhedronBed& bed, double dt,
+                                         const PolyhedronContacts<Real>& contacts);
+
+/// How each contact of force_contacts is closed now. The candidates, and the bed's places in the
+/// box, may be renewed.
+template <class Real>
+std::vector<Closure> closures(PolyhedronBed& bed, const ExecutionContext& context, double dt,
+                              Candidates& candidates, PolyhedronContacts<Real>& contacts);
+
+}  // namespace grainsweep

@@ -1,0 +1,107 @@
+// Contacts of spheres: rows that persist while their candidates do.
+//
+// They are laid out once, in blocks whose lanes never share a grain, and then only their gaps and
+// normals are measured anew in each step. Each wall has blocks of its own after those of the pairs.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/broad/candidates.hpp"
+#include "engine/context.hpp"
+#include "engine/rows/contacts.hpp"
+#include "engine/rows/partition.hpp"
+#include "engine/rows/subdomains.hpp"
+#include "engine/scene/bed.hpp"
+#include "kernels/kernels.hpp"
+
+namespace grainsweep {
+
+/// Blocks that belong to one wall: `first` .. `first + blocks`.
+struct WallRows {
+  std::size_t wall = 0;  ///< of the bed's walls
+  std::size_t first = 0;
+  std::size_t blocks = 0;
+};
+
+/// An impulse of a contact that pushed, under the name of its second side.
+template <class Real>
+struct CarriedImpulse {
+  std::int32_t other;  ///< the second grain, or Grains::wall_name of a wall
+  Real impulse;
+};
+
+/// Rows and what they carry, impulse k of block b at b * block_width + k.
+template <class Real>
+struct RowColumns {
+  std::vector<RowBlock<Real>> rows;
+  std::vector<Real> impulse;
+};
+
+/// Memory of the layout of rows, kept from one layout to the next.
+template <class Real>
+struct LayoutColumns {
+  Subdomains subdomains;
+  std::vector<RowColumns<Real>> columns;             ///< of each subdomain, then of the walls
+  std::vector<std::vector<BlockRange>> wall_ranges;  ///< of each subdomain in the rows of the walls
+  std::vector<std::size_t> first_block;              ///< of each subdomain in the rows of all
+  std::vector<std::uint64_t> open_blocks;  ///< per grain: one bit for each open block it is in
+  Carried<CarriedImpulse<Real>> carried;
+  std::vector<Real> pair_impulse;  ///< what each candidate pair carries
+};
+
+/// Rows and impulses; the impulse of lane k of block b is `impulse[b * block_width + k]`.
+template <class Real>
+struct Contacts<Sphere, Real> {
+  std::vector<RowBlock<Real>> rows;
+  std::size_t pair_blocks = 0;
+  std::vector<WallRows> walls;
+  RowShares shares;
+  std::vector<Real> impulse;
+  std::vector<Real> extrapolated;  ///< the solver's look-ahead impulses
+  std::vector<double> sunk;        ///< of each part of a detection: see `update_gaps`
+  LayoutColumns<Real> layout;
+
+  // What sweeps over a range need: their kernels, its rows, the first of its impulses, and how many
+  // records of motion a grain has.
+  static const RowKernels<Real>& kernels_of(const Kernels& all) { return row_kernels<Real>(all); }
+  const RowBlock<Real>* rows_of(BlockRange range) const { return rows.data() + range.first; }
+  static std::size_t first_impulse(BlockRange range) { return range.first * block_width; }
+  static constexpr std::size_t records_of_grain = 1;
+};
+template <class Real>
+using SphereContacts = Contacts<Sphere, Real>;
+
+/// Lays the candidates out as rows; contacts that were there before keep their impulse.
+template <class Real>
+void lay_out(const SphereBed& bed, const Candidates& candidates, SphereContacts<Real>& contacts,
+             const ParallelFor& loop = serial_for);
+
+/// Measures normal and gap of every row. `correction`: share of an overlap that a step repairs.
+/// Returns the most by which centres are nearer than sunk_share of the distance at which their
+/// grains touch, d; 0 if none are.
+template <class Real>
+double update_gaps(const SphereBed& bed, const ExecutionContext& context, double correction,
+                   SphereContacts<Real>& contacts);
+
+/// Calls visit(block, lane, impulse) for each row that bore a force.
+template <class Real, class Visit>
+void visit_force_bearing(const SphereContacts<Real>& contacts, double dt, Visit visit) {
+  const double least = least_force * dt * dt;
+  for (std::size_t at = 0; at < contacts.impulse.size(); ++at) {
+    const auto impulse = static_cast<double>(contacts.impulse[at]);
+    if (impulse > least) visit(at / block_width, at % block_width, impulse);
+  }
+}
+
+/// The contacts that bore a force in the last step, of length `dt`.
+template <class Real>
+std::vector<ForceContact> force_contacts(const SphereBed& bed, double dt,
+                                         const SphereContacts<Real>& contacts);
+
+/// How each contact of force_contacts is closed now. Measures the rows' gaps anew.
+template <class Real>
+std::vector<Closure> closures(SphereBed& bed, const ExecutionContext& context, double dt,
+                              Candidates& candidates, SphereContacts<Real>& contacts);
+
+}  // namespace grainsweep
