@@ -1,4 +1,5 @@
-// The batch test of pinacoids against the f64 one.
+// Separating axes in closed form, and the batch test of pinacoids against the f64 one; test_gjk.cpp
+// holds both against brute force.
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -175,6 +176,44 @@ TEST_CASE("upright pinacoids side by side are parted by exact numbers") {
   CHECK(batch.blocks[0].edge_separation[15] == Approx(0.0).margin(1e-6));
   CHECK((batch.blocks[0].edge_axis[0] == 8 + 5 || batch.blocks[0].edge_axis[0] == 8 + 30));
   CHECK(batch.blocks[0].edges_parallel[0] == 1);
+}
+
+TEST_CASE("the axes of a pinacoid in closed form are those of its hull") {
+  const ConvexShape closed = pinacoid({}), hull = testing::hull_of(closed.vertices);
+  Draw draw(6);
+  for (const PairFamily family : testing::all_pair_families) {
+    for (int k = 0; k < 300; ++k) {
+      const PairPose pose = testing::pose_of_family(family, draw, closed, closed);
+      const double first = separating_axes({closed, closed, pose}).separation();
+      const double second = separating_axes({hull, hull, pose}).separation();
+      REQUIRE(first == Approx(second).margin(1e-12));
+    }
+  }
+}
+
+TEST_CASE("the axis of a pair points from a to b and gives its separation") {
+  const ConvexShape shape = pinacoid({});
+  Draw draw(7);
+  for (int k = 0; k < 500; ++k) {
+    const ShapePair pair{shape, shape, testing::random_pose(draw, 0.6, 1.3)};
+    const ContactAxes axes = separating_axes(pair);
+    for (const ContactAxis& axis : {axes.face, axes.edges}) {
+      if (axis.kind == AxisKind::none) continue;
+      CHECK(axis.normal.norm() == Approx(1).epsilon(1e-15));
+      CHECK(axis.normal.dot(pair.pose.centre) > 0);
+      CHECK(separation_along(pair, axis.normal) == Approx(axis.separation).margin(1e-15));
+    }
+    const bool of_a = axes.face.kind == AxisKind::face_of_a;
+    const Vector outward = of_a ? shape.faces[axes.face.a].normal
+                                : Vector(-(pair.pose.turn * shape.faces[axes.face.b].normal));
+    CHECK((outward - axes.face.normal).norm() < 1e-15);
+    if (axes.edges.kind == AxisKind::none) continue;
+    CHECK(axes.edges.separation > axes.face.separation);
+    const Vector u = shape.edge_directions[axes.edges.a];
+    const Vector v = pair.pose.turn * shape.edge_directions[axes.edges.b];
+    CHECK(std::abs(axes.edges.normal.dot(u)) < 1e-15);
+    CHECK(std::abs(axes.edges.normal.dot(v)) < 1e-15);
+  }
 }
 
 }  // namespace

@@ -1,0 +1,86 @@
+#include <cmath>
+
+#include <catch2/catch.hpp>
+
+#include "engine/narrow/clip.hpp"
+#include "tests/support/shapes.hpp"
+
+namespace grainsweep {
+namespace {
+
+std::int32_t face_towards(const ConvexShape& shape, const Vector& direction) {
+  std::int32_t face = 0;
+  for (std::size_t k = 0; k < shape.faces.size(); ++k) {
+    if (shape.faces[k].normal.dot(direction) > 0.999) face = static_cast<std::int32_t>(k);
+  }
+  return face;
+}
+
+/// What of a second grain lies above the upper face of the first, up to .1 d.
+std::vector<ContactPoint> on_upper_face(const ShapePair& pair) {
+  ClipColumns columns;
+  std::vector<ContactPoint> points;
+  clip_on_face(pair, Of::a, face_towards(pair.a, {0, 0, 1}), 0.1, columns, points);
+  return points;
+}
+
+double height_of(const ConvexShape& shape) {
+  return 2.0 * shape.faces[static_cast<std::size_t>(face_towards(shape, {0, 0, 1}))].offset;
+}
+
+PairPose above(double x, double height) { return {{x, 0, height}, Matrix::Identity(), 1.0, 1.0}; }
+
+TEST_CASE("a cube flat on another one touches it at four corners, the gap apart") {
+  const ConvexShape cube = testing::cube();
+  const double side = height_of(cube);
+  for (const double gap : {0.01, 0.0, -0.01}) {
+    const std::vector<ContactPoint> points = on_upper_face({cube, cube, above(0, side + gap)});
+    REQUIRE(points.size() == 4);
+    for (const ContactPoint& point : points) {
+      CHECK(point.gap == Approx(gap).margin(1e-15));
+      CHECK(std::abs(point.position.x()) == Approx(side / 2));
+      CHECK(std::abs(point.position.y()) == Approx(side / 2));
+      CHECK(point.position.z() == Approx(side / 2 + gap / 2));  // midway
+    }
+  }
+}
+
+TEST_CASE("a cube moved along another one is cut at its side") {
+  const ConvexShape cube = testing::cube();
+  const double side = height_of(cube);
+  const std::vector<ContactPoint> points =
+      on_upper_face({cube, cube, above(0.75 * side, side + 0.01)});
+  REQUIRE(points.size() == 4);
+  for (const ContactPoint& point : points) {
+    CHECK(point.position.x() >= side / 4 - 1e-15);
+    CHECK(point.position.x() <= side / 2 + 1e-15);
+  }
+}
+
+TEST_CASE("a cube beside a face, or higher above it than the margin, has no point on it") {
+  const ConvexShape cube = testing::cube();
+  const double side = height_of(cube);
+  CHECK(on_upper_face({cube, cube, above(1.5 * side, side + 0.01)}).empty());
+  CHECK(on_upper_face({cube, cube, above(0, side + 0.11)}).empty());
+}
+
+TEST_CASE("the middle of the shortest line between two crossing edges lies midway between them") {
+  const Segment along_x{{-1, 0, 0}, {1, 0, 0}}, along_y{{0.25, -1, 1}, {0.25, 1, 1}};
+  CHECK((midway(along_x, along_y) - Vector(0.25, 0, 0.5)).norm() < 1e-15);
+}
+
+TEST_CASE("the edge that reaches farthest is the one towards the direction asked for") {
+  const ConvexShape cube = testing::cube();
+  const ShapePair pair{cube, cube, above(0, height_of(cube))};
+  std::int32_t along_x = 0;
+  for (std::size_t k = 0; k < cube.edge_directions.size(); ++k) {
+    if (std::abs(cube.edge_directions[k].x()) > 0.999) along_x = static_cast<std::int32_t>(k);
+  }
+  const Segment edge = farthest_edge(placed_a(pair), along_x, Vector(0, 1, 1).normalized());
+  const double half = height_of(cube) / 2;
+  CHECK((edge.from + edge.to - 2 * Vector(0, half, half)).norm() < 1e-15);
+  CHECK((edge.to - edge.from).norm() == Approx(2 * half));
+}
+
+}  // namespace
+}  // namespace grainsweep
