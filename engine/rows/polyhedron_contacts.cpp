@@ -200,16 +200,19 @@ void visit_contacts(const PolyhedronContacts<Real>& contacts, Visit visit) {
   }
 }
 
+/// Parts that are not neighbours name no grain in common.
 template <class Real>
-void collect_impulses(const PolyhedronBed& bed, PolyhedronContacts<Real>& contacts) {
+void collect_impulses(const PolyhedronBed& bed, const ParallelFor& loop,
+                      PolyhedronContacts<Real>& contacts) {
   const auto visit_all = [&](const auto& put) {
-    visit_contacts(contacts, [&](const ContactPart<Real>& part, std::size_t k) {
-      const PolyhedronContact& contact = part.found.contacts[k];
-      for (std::size_t j = 0; j < contact.count; ++j) {
-        const double impulse = impulse_of(contacts, part, k, j);
-        if (impulse > 0.0) {
+    visit_subdomains(contacts.found_parts, loop, [&](std::size_t p) {
+      const ContactPart<Real>& part = contacts.parts[p];
+      for (std::size_t k = 0; k < part.found.contacts.size(); ++k) {
+        const PolyhedronContact& contact = part.found.contacts[k];
+        for (std::size_t j = 0; j < contact.count; ++j) {
+          const double impulse = impulse_of(contacts, part, k, j);
           const Vector& place = part.found.points[contact.first + j].position;
-          put(contact.a, CarriedPoint{contact.b, place, impulse});
+          if (impulse > 0.0) put(contact.a, CarriedPoint{contact.b, place, impulse});
         }
       }
     });
@@ -288,7 +291,7 @@ template <class Real>
 double find_contacts(const TouchSettings& settings, double correction, const PolyhedronBed& bed,
                      const ExecutionContext& context, PolyhedronContacts<Real>& contacts) {
   const std::size_t subdomains = contacts.subdomains.count;
-  collect_impulses(bed, contacts);
+  collect_impulses(bed, context.loop, contacts);
   contacts.parts.resize(std::max(contacts.parts.size(), subdomains));
   contacts.found_parts = subdomains;
   contacts.open_blocks.assign(bed.grains(), 0);

@@ -204,14 +204,6 @@ void check_accuracy(const Accuracy& accuracy, Errors& errors) {
   }
 }
 
-/// What grains that turn cannot be asked for.
-void check_turning(const Accuracy& accuracy, Errors& errors) {
-  if (accuracy.protocol != Protocol::heavy_ball) {
-    errors.push_back(
-        {"accuracy.protocol", "must be \"heavy_ball\": plain dynamics is for spheres"});
-  }
-}
-
 void check_gap_tolerances(const std::vector<double>& tolerances, Errors& errors) {
   const char* path = "measure.gap_tolerances";
   if (tolerances.empty() || tolerances.size() > 8) {
@@ -251,7 +243,6 @@ std::vector<SpecError> check(const PackingSpec& spec) {
   const bool box = check_box(spec.box, across * (sizes ? largest_size(spec) : 1.0), errors);
   check_fill(spec, shape, shape && sizes && box, errors);
   check_accuracy(spec.accuracy, errors);
-  if (!is_sphere(spec.shape)) check_turning(spec.accuracy, errors);
   check_measure(spec.measure, errors);
   if (box) check_bin_width(spec.measure.bin_width, spec.box.width, errors);
   return errors;

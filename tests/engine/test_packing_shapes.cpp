@@ -5,8 +5,11 @@
 
 #include "engine/dynamics/presets.hpp"
 #include "engine/packing.hpp"
+#include "engine/scene/bed.hpp"
 #include "engine/shape/given_shape.hpp"
 #include "tests/support/instruction_sets.hpp"
+#include "tests/support/keep_going.hpp"
+#include "tests/support/part_loops.hpp"
 #include "tests/support/shapes.hpp"
 
 namespace grainsweep {
@@ -118,6 +121,55 @@ TEST_CASE("equal specifications of shapes give equal bits, another key another b
   CHECK(pack(spec).result.state_hash != hash);
 }
 
+TEST_CASE("pinacoids come to rest by plain contact dynamics, too") {
+  PackingSpec spec = small_spec();
+  const PackingResult damped = pack(spec).result;
+  spec.accuracy.protocol = Protocol::dynamic;
+  const PackingResult dynamic = pack(spec).result;
+  INFO(dynamic.reason);
+  CHECK(dynamic.status == PackingStatus::settled);
+  CHECK(dynamic.state_hash != damped.state_hash);
+  CHECK(dynamic.rest.contacts > 0.9 * static_cast<double>(dynamic.rest.isostatic_contacts));
+}
+
+// The first steps of a bed of several subdomains: corners that overlap at the start part.
+TEST_CASE("a large packing of pinacoids has the same bits however its parts are shared out",
+          "[slow]") {
+  PackingSpec spec = small_spec();
+  spec.box = {8, 8, Boundary::periodic, Boundary::walls};
+  spec.fill = GrainCount{static_cast<std::int64_t>(large_bed_grains<Polyhedron>) + 200};
+  spec.accuracy.max_steps = 25;
+  const PackingResult expected = pack(spec).result;
+  for (const ParallelFor& loop :
+       {ParallelFor(testing::last_part_first), ParallelFor(testing::two_threads)}) {
+    const ExecutionContext context(kernels(), loop);
+    const PackingResult result = make_packing(spec, context, testing::always).result;
+    CHECK(result.state_hash == expected.state_hash);
+    CHECK(result.rest.residual == expected.rest.residual);
+    CHECK(result.rest.contacts == expected.rest.contacts);
+    CHECK(result.rest.overlap_mean == expected.rest.overlap_mean);
+  }
+}
+
+TEST_CASE("a large packing of pinacoids goes on from what it has saved to the same bits",
+          "[slow]") {
+  PackingSpec spec = small_spec();
+  spec.box = {8, 8, Boundary::periodic, Boundary::walls};
+  spec.fill = GrainCount{static_cast<std::int64_t>(large_bed_grains<Polyhedron>) + 200};
+  spec.accuracy.max_steps = 20;
+  std::string saved;
+  const auto save_at_12 = [&](const Progress& progress) {
+    if (progress.step == 12) saved = progress.save();
+    return true;
+  };
+  const PackingResult whole = make_packing(spec, kernels(), save_at_12).result;
+  REQUIRE_FALSE(saved.empty());
+  const PackingResult rest = make_packing(spec, kernels(), testing::always, saved).result;
+  CHECK(rest.steps == whole.steps);
+  CHECK(rest.state_hash == whole.state_hash);
+  CHECK(rest.rest.residual == whole.rest.residual);
+}
+
 TEST_CASE("shapes that cannot be packed are refused with the reason") {
   const auto errors_of = [](const PackingSpec& spec) {
     std::string all;
@@ -128,9 +180,6 @@ TEST_CASE("shapes that cannot be packed are refused with the reason") {
   CHECK(errors_of(small_spec(PinacoidSize{1, 1, 1, 0.1})).find("shape.pinacoid") == 0);
   CHECK(errors_of(small_spec(HullVertices{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}})).find("shape.hull") ==
         0);
-  PackingSpec dynamic = small_spec();
-  dynamic.accuracy.protocol = Protocol::dynamic;
-  CHECK(errors_of(dynamic).find("accuracy.protocol") == 0);
   PackingSpec tight = small_spec();
   tight.box.width = 1.2;  // the circumscribed ball is 1.41 d across
   CHECK(errors_of(tight).find("box.width") == 0);

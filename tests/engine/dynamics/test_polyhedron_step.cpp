@@ -169,6 +169,19 @@ TEST_CASE("a free grain keeps its angular momentum while it tumbles") {
   CHECK(bed.pose(0).orientation.angularDistance(Quaternion::Identity()) > 0.5);
 }
 
+TEST_CASE("grains are said to have sunk where the balls within them overlap by half") {
+  for (const ConvexShape& shape : {pinacoid({}), testing::cube()}) {
+    for (const double share : {0.4, 0.6}) {
+      const double touching = 2 * shape.inradius;
+      PolyhedronBed bed = make_bed({6, 6, periodic, walls}, shape,
+                                   {pose_at(3, 3, 4), pose_at(3, 3, 4 + share * touching)});
+      StepState<Polyhedron, double> state;
+      const double sunk = step(tight_steps(0), kernels(), bed, state).sunk;
+      CHECK(sunk == Approx(share < 0.5 ? 0.1 * touching : 0.0).margin(1e-12));
+    }
+  }
+}
+
 TEST_CASE("contacts between grains change neither their momentum nor their angular momentum") {
   PolyhedronBed bed = testing::random_shape_bed({6, 6, periodic, periodic}, pinacoid({}), 60, 4, 7);
   for (std::size_t i = 0; i < bed.grains(); ++i) bed.position[i].z += 20;  // far above the floor

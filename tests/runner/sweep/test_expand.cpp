@@ -174,13 +174,6 @@ TEST_CASE("a grain of too many vertices is refused before they are looked at") {
                           "simplify the shape"));
 }
 
-TEST_CASE("what is said of grains that turn is said where they are asked for") {
-  CHECK(errors_of(R"({"name": "t", "base": {"shape": "pinacoid",
-    "accuracy": {"protocol": "dynamic"}}})") ==
-        Messages{"s.json:2:30 /base/accuracy/protocol: must be \"heavy_ball\": plain dynamics is "
-                 "for spheres"});
-}
-
 TEST_CASE("blocks are joined in order and may override the replicates") {
   const auto jobs = jobs_of(R"({"name": "t", "replicates": 2, "sweep": [
     {"label": "a", "set": {"box.width": 5}}, {"label": "b", "replicates": 3}]})");
