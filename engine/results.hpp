@@ -41,11 +41,11 @@ struct RestReport {
 
 /// What a direct solve of force balance on the final force-bearing contacts says; see
 /// engine/dynamics/balance.hpp. In a bed at rest the forces are unique, none pulls, and nothing is
-/// left unbalanced. Numbers are NaN where the forces are not unique.
+/// left unbalanced. The least force is NaN where the forces are not unique.
 struct ForceBalance {
-  bool unique = false;         ///< one set of forces fits the contacts best, not many
-  double least_force = 0.0;    ///< smallest contact force, m g; negative = a contact that must pull
-  double unbalance_max = 0.0;  ///< largest net force on a grain, in its own weight
+  bool unique = false;          ///< one set of forces fits the contacts best, not many
+  double least_force = 0.0;     ///< of a contact, m g; negative = one that must pull
+  double unbalance_max = 0.0;   ///< largest net force on a grain, in its own weight
   double unbalance_mean = 0.0;  ///< mean of it
 };
 

@@ -7,16 +7,20 @@
 // forces follow from the geometry alone.
 #pragma once
 
+#include "engine/context.hpp"
 #include "engine/results.hpp"
+#include "engine/rows/polyhedron_contacts.hpp"
 #include "engine/rows/sphere_contacts.hpp"
 #include "engine/scene/bed.hpp"
 
 namespace grainsweep {
 
 /// Balances the force-bearing contacts of a bed whose contacts hold the impulses of a step of
-/// length `dt`; normals are measured anew in f64.
-template <class Real>
-ForceBalance balance_forces(const SphereBed& bed, const Kernels& kernels, double dt,
-                            const SphereContacts<Real>& contacts);
+/// length `dt`; normals and points are measured anew in f64. Of polyhedra torques are balanced,
+/// too: what is left of one counts over the grain's circumradius, and a contact's force is the sum
+/// over its points.
+template <class Kind, class Real>
+ForceBalance balance_forces(Bed<Kind>& bed, const ExecutionContext& context, double dt,
+                            const Contacts<Kind, Real>& contacts);
 
 }  // namespace grainsweep

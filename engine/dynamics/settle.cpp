@@ -188,10 +188,8 @@ void come_to_rest(Settling<Kind, Real>& s, const KeepGoing& keep_going) {
 template <class Kind, class Real>
 void report_forces(Settling<Kind, Real>& s) {
   const double dt = s.settings.dt;
-  if constexpr (std::is_same_v<Kind, Sphere>) {
-    if (s.accuracy.force_balance == BalanceCheck::solve && !s.report.cancelled) {
-      s.report.balance = balance_forces(s.bed, s.context.kernels, dt, s.state.contacts);
-    }
+  if (s.accuracy.force_balance == BalanceCheck::solve && !s.report.cancelled) {
+    s.report.balance = balance_forces(s.bed, s.context, dt, s.state.contacts);
   }
   const std::vector<ForceContact> contacts = force_contacts(s.bed, dt, s.state.contacts);
   s.report.force = force_sums(s.bed, contacts);

@@ -23,19 +23,20 @@ const ContactPoint* farthest_touching(const ContactPoint* points, std::size_t co
 
 }  // namespace
 
-int constraints_of(const ContactPoint* points, std::size_t count, double tolerance) {
+ConstraintPoints constraint_points(const ContactPoint* points, std::size_t count,
+                                   double tolerance) {
   const ContactPoint* first =
       farthest_touching(points, count, tolerance, [](const ContactPoint&) { return 1.0; });
-  if (first == nullptr) return 0;
+  if (first == nullptr) return {};
   const ContactPoint* second = farthest_touching(
       points, count, tolerance,
       [&](const ContactPoint& p) { return (p.position - first->position).norm(); });
-  if (second == nullptr) return 1;
+  if (second == nullptr) return {{first}, 1};
   const Vector along = (second->position - first->position).normalized();
   const ContactPoint* third = farthest_touching(
       points, count, tolerance,
       [&](const ContactPoint& p) { return (p.position - first->position).cross(along).norm(); });
-  return third == nullptr ? 2 : 3;
+  return {{first, second, third}, third == nullptr ? 2 : 3};
 }
 
 }  // namespace grainsweep

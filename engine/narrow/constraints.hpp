@@ -1,12 +1,24 @@
 // What a contact of two grains with corners amounts to: a point, a line or an area.
 #pragma once
 
+#include <array>
+
 #include "engine/narrow/manifold.hpp"
 
 namespace grainsweep {
 
-/// How many constraints a contact is: 1 of a point (a vertex, or crossing edges), 2 of a line (an
-/// edge on a face), 3 of an area (face on face); 0 if no gap is below `tolerance`.
-int constraints_of(const ContactPoint* points, std::size_t count, double tolerance);
+/// The points that say where a contact is: one of a point (a vertex, or crossing edges), two of a
+/// line (an edge on a face), three of an area (face on face); none if no gap is below `tolerance`.
+/// They are the farthest apart of all its points.
+struct ConstraintPoints {
+  std::array<const ContactPoint*, 3> point{};
+  int count = 0;
+};
+ConstraintPoints constraint_points(const ContactPoint* points, std::size_t count, double tolerance);
+
+/// How many constraints a contact is.
+inline int constraints_of(const ContactPoint* points, std::size_t count, double tolerance) {
+  return constraint_points(points, count, tolerance).count;
+}
 
 }  // namespace grainsweep

@@ -274,6 +274,19 @@ NamedPlaces named_places(const std::vector<ForceContact>& contacts) {
   return places;
 }
 
+/// Where a contact stands in the list of `places`; their end if it is not in it.
+NamedPlaces::const_iterator place_of(const PolyhedronContact& c, const NamedPlaces& places) {
+  const auto at = std::lower_bound(places.begin(), places.end(), NamedPlaces::value_type{c.a, c.b});
+  return at != places.end() && (*at)[0] == c.a && (*at)[1] == c.b ? at : places.end();
+}
+
+/// Closed contacts, with no preference of faces that would hide the depth of an overlap.
+TouchSettings as_deep_as_they_are(double dt) {
+  TouchSettings settings = touch_settings(closed_gap, dt);
+  settings.of_depth = 0.0;
+  return settings;
+}
+
 }  // namespace
 
 TouchSettings touch_settings(double near, double dt) {
@@ -331,6 +344,24 @@ std::vector<ForceContact> force_contacts(const PolyhedronBed& /*bed*/, double dt
 }
 
 template <class Real>
+std::vector<ContactList> closed_contacts(PolyhedronBed& bed, const ExecutionContext& context,
+                                         double dt, const PolyhedronContacts<Real>& contacts) {
+  const NamedPlaces places = named_places(force_contacts(bed, dt, contacts));
+  Candidates candidates;
+  PolyhedronContacts<double> now;
+  renew_candidates(closed_gap, 0.0, context, bed, candidates);
+  take_candidates(bed, candidates, now, context.loop);
+  std::vector<ContactList> lists(now.subdomains.count);
+  parallel_for(context.loop, lists.size(), [&](std::size_t s) {
+    NarrowColumns columns;
+    touch_subdomain(as_deep_as_they_are(dt), context.kernels, bed, s, now, columns, lists[s]);
+    std::erase_if(lists[s].contacts,
+                  [&](const PolyhedronContact& c) { return place_of(c, places) == places.end(); });
+  });
+  return lists;
+}
+
+template <class Real>
 std::vector<Closure> closures(PolyhedronBed& bed, const ExecutionContext& context, double dt,
                               Candidates& candidates, PolyhedronContacts<Real>& contacts) {
   constexpr double search_margin = 0.05;  // d; as in the steps, so that candidates last
@@ -339,17 +370,14 @@ std::vector<Closure> closures(PolyhedronBed& bed, const ExecutionContext& contex
   if (renew_candidates(closed_gap, search_margin, context, bed, candidates)) {
     take_candidates(bed, candidates, contacts, context.loop);
   }
-  TouchSettings settings = touch_settings(closed_gap, dt);
-  settings.of_depth = 0.0;  // overlaps as deep as they are
   std::vector<Closure> all(bearing.size(), {std::numeric_limits<double>::infinity(), 0});
   parallel_for(context.loop, contacts.subdomains.count, [&](std::size_t s) {
     NarrowColumns columns;
     ContactList now;
-    touch_subdomain(settings, context.kernels, bed, s, contacts, columns, now);
+    touch_subdomain(as_deep_as_they_are(dt), context.kernels, bed, s, contacts, columns, now);
     for (const PolyhedronContact& c : now.contacts) {
-      const auto at =
-          std::lower_bound(places.begin(), places.end(), NamedPlaces::value_type{c.a, c.b, 0});
-      if (at == places.end() || (*at)[0] != c.a || (*at)[1] != c.b) continue;
+      const auto at = place_of(c, places);
+      if (at == places.end()) continue;
       const ContactPoint* points = now.points.data() + c.first;
       all[static_cast<std::size_t>((*at)[2])] = {least_gap(points, c.count),
                                                  constraints_of(points, c.count, closed_gap)};
@@ -374,5 +402,10 @@ template std::vector<Closure> closures(PolyhedronBed&, const ExecutionContext&, 
                                        PolyhedronContacts<float>&);
 template std::vector<Closure> closures(PolyhedronBed&, const ExecutionContext&, double, Candidates&,
                                        PolyhedronContacts<double>&);
+
+template std::vector<ContactList> closed_contacts(PolyhedronBed&, const ExecutionContext&, double,
+                                                  const PolyhedronContacts<float>&);
+template std::vector<ContactList> closed_contacts(PolyhedronBed&, const ExecutionContext&, double,
+                                                  const PolyhedronContacts<double>&);
 
 }  // namespace grainsweep

@@ -94,6 +94,11 @@ template <class Real>
 std::vector<ForceContact> force_contacts(const PolyhedronBed& bed, double dt,
                                          const PolyhedronContacts<Real>& contacts);
 
+/// The contacts of force_contacts that are closed now, as they are now.
+template <class Real>
+std::vector<ContactList> closed_contacts(PolyhedronBed& bed, const ExecutionContext& context,
+                                         double dt, const PolyhedronContacts<Real>& contacts);
+
 /// How each contact of force_contacts is closed now. The candidates, and the bed's places in the
 /// box, may be renewed.
 template <class Real>

@@ -57,7 +57,7 @@ enum class Solver {
 /// Number type of the solver's rows and velocities; positions are always f64.
 enum class Precision { f32, f64 };
 
-/// Whether a direct solve of force balance certifies the final contacts of spheres. It costs a few
+/// Whether a direct solve of force balance certifies the final contacts. It costs a few
 /// per cent of a packing of 2000 grains and grows faster than the bed.
 enum class BalanceCheck {
   skip,   ///< "skip"

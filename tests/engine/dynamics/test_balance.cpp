@@ -6,6 +6,7 @@
 #include "tests/support/instruction_sets.hpp"
 #include "tests/support/named_contacts.hpp"
 #include "tests/support/scenes.hpp"
+#include "tests/support/shape_beds.hpp"
 
 namespace grainsweep {
 namespace {
@@ -42,7 +43,8 @@ TEST_CASE("a sphere between two walls can be squeezed by any force: not unique")
   const ForceBalance balance =
       balance_of(bed, {{0, wall_name(bed, 0)}, {0, wall_name(bed, 1)}, {0, wall_name(bed, 2)}});
   CHECK_FALSE(balance.unique);
-  CHECK(std::isnan(balance.unbalance_max));
+  CHECK(std::isnan(balance.least_force));
+  CHECK(balance.unbalance_max < 1e-7);  // the floor carries it, whatever the walls do
 }
 
 TEST_CASE("a sphere that no contact holds misses balance by its own weight") {
@@ -61,6 +63,33 @@ TEST_CASE("a sphere on the shoulder of another slides off: what is missing is re
   CHECK(balance.unique);
   CHECK(std::abs(balance.unbalance_max - 0.5) < rounding);
   CHECK(std::abs(balance.unbalance_mean - 0.25) < rounding);
+}
+
+/// Balance of a bed of cubes after a well-solved step from rest.
+ForceBalance balance_of_cubes(const std::vector<Pose>& poses) {
+  PolyhedronBed bed = make_bed({6, 6, periodic, walls}, testing::cube(), poses);
+  StepState<Polyhedron, double> state;
+  StepSettings settings;
+  settings.momentum = 0;
+  settings.limits = {Solver::accelerated_gauss_seidel, 10'000, 1e-9};
+  step(settings, kernels(), bed, state);
+  return balance_forces(bed, kernels(), settings.dt, state.contacts);
+}
+
+TEST_CASE("the faces of a stack of cubes carry it in one way, the uppermost one cube's weight") {
+  const ForceBalance balance = balance_of_cubes(
+      {testing::pose_at(3, 3, 0.5), testing::pose_at(3.1, 3, 1.5), testing::pose_at(3, 3, 2.5)});
+  CHECK(balance.unique);
+  CHECK(balance.least_force == Approx(1.0).margin(1e-6));  // gaps are closed to the residual
+  CHECK(balance.unbalance_max < 1e-6);
+}
+
+TEST_CASE("a cube in the air misses balance by its own weight, whatever its size") {
+  const ForceBalance balance =
+      balance_of_cubes({testing::pose_at(3, 3, 0.25, Quaternion::Identity(), 0.5),
+                        testing::pose_at(1, 3, 4.0, Quaternion::Identity(), 0.5)});
+  CHECK(balance.unbalance_max == Approx(1.0));
+  CHECK(balance.unbalance_mean == Approx(0.5).margin(1e-6));
 }
 
 }  // namespace
