@@ -19,6 +19,7 @@ int perform(const CompareOptions& options) { return compare(options); }
 int perform(const ExportOptions& options) { return export_grains(options); }
 int perform(const StatusOptions& options) { return status(options); }
 int perform(const CollectOptions& options) { return collect(options); }
+int perform(const ColumnsOptions& options) { return columns(options); }
 int perform(const SchemaOptions& options) { return schema(options); }
 int perform(const DoctorOptions& options) { return doctor(options); }
 
@@ -39,7 +40,7 @@ int refuse(const std::exception& error, int code) {
 int main(int argc, char** argv) {
   using namespace grainsweep;
   try {
-    occupy_standard_descriptors();
+    ensure_std_descriptors();
     const CommandLine line = read_command_line(argc, argv);
     return line.command ? perform_and_print(*line.command) : line.exit_code;
   } catch (const BadInput& error) {

@@ -1,9 +1,6 @@
 #include "runner/versions.hpp"
 
-#include <array>
-#include <cinttypes>
-#include <cstdio>
-#include <libdeflate.h>
+#include <zlib.h>
 
 #include <CLI/Version.hpp>
 #include <Eigen/Core>
@@ -11,7 +8,7 @@
 #include <tbb/version.h>
 #include <xsimd/config/xsimd_config.hpp>
 
-#include "runner/store/checksum.hpp"
+#include "runner/hash.hpp"
 #include "runner/store/files.hpp"
 
 namespace grainsweep {
@@ -26,9 +23,7 @@ std::string dotted(int major, int minor, int patch) {
 std::string program_version() { return GRAINSWEEP_VERSION; }
 
 std::string build_name() {
-  std::array<char, 16> sum{};
-  std::snprintf(sum.data(), sum.size(), "-%08" PRIx32, crc32(read_file("/proc/self/exe")));
-  return program_version() + sum.data();
+  return program_version() + "-" + hex8(crc32(read_file("/proc/self/exe")));
 }
 
 std::string compiler_version() {
@@ -42,10 +37,10 @@ std::string compiler_version() {
 std::map<std::string, std::string> library_versions() {
   return {{"CLI11", CLI11_VERSION},
           {"Eigen", dotted(EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)},
-          {"libdeflate", LIBDEFLATE_VERSION_STRING},
           {"nlohmann-json", dotted(NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR,
                                    NLOHMANN_JSON_VERSION_PATCH)},
           {"oneTBB", TBB_runtime_version()},
+          {"zlib", ZLIB_VERSION},
           {"xsimd", dotted(XSIMD_VERSION_MAJOR, XSIMD_VERSION_MINOR, XSIMD_VERSION_PATCH)}};
 }
 

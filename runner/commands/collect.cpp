@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
+#include <map>
 #include <optional>
-#include <set>
 #include <utility>
 
 #include "runner/commands/commands.hpp"
@@ -22,17 +22,18 @@ namespace {
 struct Collection {
   std::string folder;
   Provenance provenance;
-  std::set<std::string> jobs;               ///< ids in the provenance's sweep
-  std::map<std::string, Outcome> outcomes;  ///< stored in the folder, by job
+  std::vector<Row> rows;                      ///< with curves
+  std::map<std::string, std::size_t> row_of;  ///< by job
   std::size_t added = 0;
 };
 
 void warn(const std::string& text) { std::cerr << "warning: " << text << "\n"; }
 
-void add_sweep(const Provenance& from, Collection& to) {
-  for (const JobFacts& job : from.sweep.jobs) {
-    if (to.jobs.insert(job.id).second) to.provenance.sweep.jobs.push_back(job);
-  }
+/// The row of a job; a new, pending one if there is none yet.
+Row& row_of(const JobFacts& job, Collection& to) {
+  const auto [known, is_new] = to.row_of.try_emplace(job.id, to.rows.size());
+  if (is_new) to.rows.push_back({job, std::nullopt});
+  return to.rows[known->second];
 }
 
 void add_runs(const std::vector<RunRecord>& from, std::vector<RunRecord>& to) {
@@ -45,9 +46,12 @@ void add_runs(const std::vector<RunRecord>& from, std::vector<RunRecord>& to) {
                [&](const RunRecord& run) { return !is_known(run); });
 }
 
-/// Name and file of one sweep, or both names and no file to go on with.
+/// Name and file of one sweep, or all names, each once, and no file to go on with.
 void add_name(const Provenance& from, Provenance& to) {
-  if (from.sweep.name != to.sweep.name) to.sweep.name += "+" + from.sweep.name;
+  const std::string names = "+" + to.sweep_name + "+";
+  if (names.find("+" + from.sweep_name + "+") == std::string::npos) {
+    to.sweep_name += "+" + from.sweep_name;
+  }
   if (from.sweep_text_hash == to.sweep_text_hash) return;
   to.sweep_file.clear();
   to.sweep_text_hash.clear();
@@ -57,34 +61,33 @@ bool is_same_result(const Outcome& a, const Outcome& b) {
   return a.result.state_hash == b.result.state_hash && a.result.status == b.result.status;
 }
 
-/// The bed of a stored packing; nothing, and a warning, if it is missing or damaged.
-std::optional<StoredBed> whole_bed(const std::string& folder, const std::string& job) {
+/// Copies the bed of a stored packing and keeps its curves; false, and a warning, if it is missing
+/// or damaged.
+bool copy_bed(const std::string& folder, Outcome& outcome, const Collection& to) {
   try {
-    return read_bed(folder, job);
+    StoredBed bed = read_bed(folder, outcome);
+    write_bed(to.folder, bed);
+    set_curves(std::move(bed.curves), outcome.result);
+    return true;
   } catch (const FileError& error) {
     warn(std::string(error.what()) + "; left out");
-    return std::nullopt;
+    return false;
   }
 }
 
-void add_outcome(const std::string& folder, const Outcome& outcome, Journal& journal,
+void add_outcome(const std::string& folder, Outcome outcome, Journal& journal, Row& row,
                  Collection& to) {
-  const auto known = to.outcomes.find(outcome.job);
-  if (known != to.outcomes.end() && !known->second.threw) {
-    if (!outcome.threw && !is_same_result(outcome, known->second)) {
+  if (row.outcome && !row.outcome->exception) {
+    if (!outcome.exception && !is_same_result(outcome, *row.outcome)) {
       warn(folder + ": its packing " + outcome.job + " (version " + outcome.version +
-           ") differs from the one collected before (version " + known->second.version +
+           ") differs from the one collected before (version " + row.outcome->version +
            "), which is kept");
     }
     return;
   }
-  if (outcome.stored_grains > 0) {
-    const auto bed = whole_bed(folder, outcome.job);
-    if (!bed) return;
-    write_bed(to.folder, outcome.job, *bed);
-  }
+  if (outcome.stored_grains > 0 && !copy_bed(folder, outcome, to)) return;
   journal.append(outcome);
-  to.outcomes[outcome.job] = outcome;
+  row.outcome = std::move(outcome);
   ++to.added;
 }
 
@@ -92,16 +95,18 @@ void add_outcome(const std::string& folder, const Outcome& outcome, Journal& jou
 Collection begin_collection(const std::string& folder, const Provenance& first) {
   Collection collection;
   collection.folder = folder;
+  collection.provenance = first;
+  collection.provenance.runs.clear();
   if (file_exists(folder + "/provenance.json")) {
-    collection.provenance = read_results(folder).provenance;
-    JournalReading finished = finished_outcomes(folder);
-    collection.outcomes = std::move(finished.outcomes);
-    std::cerr << damage_warnings(folder, finished.damage);
-  } else {
-    collection.provenance = first;
-    collection.provenance.runs.clear();
+    Results results = read_results(folder);
+    std::cerr << damage_warnings(results.damage)
+              << damage_warnings(load_curves(folder, results.rows));
+    collection.provenance = std::move(results.provenance);
+    collection.rows = std::move(results.rows);
   }
-  for (const JobFacts& job : collection.provenance.sweep.jobs) collection.jobs.insert(job.id);
+  for (std::size_t i = 0; i < collection.rows.size(); ++i) {
+    collection.row_of[collection.rows[i].job.id] = i;
+  }
   collection.provenance.build = {program_version(), compiler_version(), library_versions()};
   return collection;
 }
@@ -109,10 +114,10 @@ Collection begin_collection(const std::string& folder, const Provenance& first) 
 void add_results(const std::string& folder, const Results& results, Journal& journal,
                  Collection& to) {
   add_name(results.provenance, to.provenance);
-  add_sweep(results.provenance, to);
   add_runs(results.provenance.runs, to.provenance.runs);
-  for (const Row& row : results.rows) {
-    if (row.outcome) add_outcome(folder, *row.outcome, journal, to);
+  for (const Row& source : results.rows) {
+    Row& row = row_of(source.job, to);
+    if (source.outcome) add_outcome(folder, *source.outcome, journal, row, to);
   }
 }
 
@@ -125,7 +130,7 @@ std::vector<Results> read_sources(const CollectOptions& options) {
       throw BadInput(folder + ": is the folder given with --out; name only the others");
     }
     sources.push_back(read_results(folder));
-    std::cerr << damage_warnings(folder, sources.back().damage);
+    std::cerr << damage_warnings(sources.back().damage);
   }
   return sources;
 }
@@ -142,9 +147,9 @@ int collect(const CollectOptions& options) {
   for (std::size_t i = 0; i < sources.size(); ++i) {
     add_results(options.folders[i], sources[i], journal, collection);
   }
-  const std::vector<Row> rows = join(collection.provenance.sweep, collection.outcomes);
+  const std::vector<Row>& rows = collection.rows;
   std::cerr << other_versions_warning(rows, program_version());
-  write_tables(options.out, collection.provenance, rows);
+  write_tables(options.out, collection.provenance, rows, analyse(rows));
   const auto pending = static_cast<std::size_t>(totals_of(rows).counts.pending);
   std::cout << collection.added << " packings added to " << options.out << ", which now holds "
             << rows.size() - pending << " of " << rows.size() << "\n";

@@ -30,6 +30,7 @@ struct AllOptions {
   StatusOptions status;
   CollectOptions collect;
   SchemaOptions schema;
+  ColumnsOptions columns;
   DoctorOptions doctor;
 };
 
@@ -163,6 +164,12 @@ void add_schema(CLI::App& app, SchemaOptions& options) {
   schema.footer("Example: grainsweep schema >sweep.schema.json");
 }
 
+void add_columns(CLI::App& app, ColumnsOptions& options) {
+  CLI::App& columns = *app.add_subcommand("columns", "Say what the columns of the tables mean");
+  columns.add_flag("--markdown", options.markdown, "as tables in Markdown, not CSV");
+  columns.footer("Example: grainsweep columns");
+}
+
 void add_commands(CLI::App& app, AllOptions& options) {
   add_run(app, options.run);
   add_validate(app, options.validate);
@@ -173,6 +180,7 @@ void add_commands(CLI::App& app, AllOptions& options) {
   add_status(app, options.status);
   add_collect(app, options.collect);
   add_schema(app, options.schema);
+  add_columns(app, options.columns);
   app.add_subcommand("doctor", "Say what this machine offers and whether results can be written");
 }
 
@@ -187,6 +195,7 @@ Command chosen_command(const CLI::App& app, const AllOptions& options) {
   if (name == "status") return options.status;
   if (name == "collect") return options.collect;
   if (name == "schema") return options.schema;
+  if (name == "columns") return options.columns;
   return options.doctor;
 }
 

@@ -8,9 +8,9 @@
 
 namespace grainsweep {
 
-using Command =
-    std::variant<RunOptions, ValidateOptions, PlanOptions, ReportOptions, ExportOptions,
-                 StatusOptions, CompareOptions, CollectOptions, SchemaOptions, DoctorOptions>;
+using Command = std::variant<RunOptions, ValidateOptions, PlanOptions, ReportOptions, ExportOptions,
+                             StatusOptions, CompareOptions, CollectOptions, ColumnsOptions,
+                             SchemaOptions, DoctorOptions>;
 
 struct CommandLine {
   std::optional<Command> command;  ///< nothing after --help, --version or a mistake

@@ -72,6 +72,12 @@ struct CollectOptions {
 /// Merges the results of several output folders, a packing once, and writes the tables.
 int collect(const CollectOptions& options);
 
+struct ColumnsOptions {
+  bool markdown = false;  ///< a table in GitHub's Markdown for each file, not CSV
+};
+/// Prints file, name, unit and meaning of the columns of all tables.
+int columns(const ColumnsOptions& options);
+
 struct SchemaOptions {
   bool markdown = false;  ///< the table of parameters for a manual instead
 };

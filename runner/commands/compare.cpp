@@ -27,8 +27,8 @@ std::string reference_file(const CompareOptions& options, const Provenance& prov
 int compare(const CompareOptions& options) {
   Results results = results_with_warnings(options.folder);
   const Reference reference = read_reference(reference_file(options, results.provenance));
-  std::cerr << damage_warnings(options.folder, load_curves(options.folder, results.rows));
-  std::cout << reference.source + "\nbeside " + results.provenance.sweep.name +
+  std::cerr << damage_warnings(load_curves(options.folder, results.rows));
+  std::cout << reference.source + "\nbeside " + results.provenance.sweep_name +
                    ". Lengths in d. Errors of means come from the variance of replicates pooled\n"
                    "over the groups of a family. Values agree within " +
                    fixed(agreement_limit, 0) +

@@ -45,7 +45,7 @@ int export_grains(const ExportOptions& options) {
   if (rows.empty()) throw BadInput(options.folder + ": holds no finished packing to export");
   make_folder(to);
   for (const Row* row : rows) {
-    const StoredBed bed = read_bed(options.folder, row->job.id);
+    const StoredBed bed = read_bed(options.folder, *row->outcome);
     replace_file(to + "/" + row->job.id + "." + name_of(*format), grains_text(bed, *format));
   }
   std::cout << rows.size() << (rows.size() == 1 ? " packing" : " packings") << " written to " << to

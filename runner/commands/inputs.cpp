@@ -19,9 +19,9 @@ Sweep sweep_or_refusal(const std::string& file) {
                  "; nothing was run");
 }
 
-Results results_with_warnings(const std::string& folder) {
-  Results results = read_results(folder);
-  std::cerr << damage_warnings(folder, results.damage);
+Results results_with_warnings(const std::string& folder, Detail detail) {
+  Results results = read_results(folder, detail);
+  std::cerr << damage_warnings(results.damage);
   std::cerr << other_versions_warning(results.rows, program_version());
   return results;
 }

@@ -12,6 +12,6 @@ namespace grainsweep {
 Sweep sweep_or_refusal(const std::string& file);
 
 /// What is stored in the output folder; prints warnings of what is damaged or of another version.
-Results results_with_warnings(const std::string& folder);
+Results results_with_warnings(const std::string& folder, Detail detail = Detail::whole);
 
 }  // namespace grainsweep

@@ -10,7 +10,8 @@ namespace grainsweep {
 
 int report(const ReportOptions& options) {
   const Results results = results_with_warnings(options.folder);
-  std::cout << closing_report(results.provenance, results.rows, options.folder);
+  std::cout << closing_report(results.provenance, results.rows, analyse(results.rows).families,
+                              options.folder);
   return exit_done;
 }
 

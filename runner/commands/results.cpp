@@ -2,37 +2,31 @@
 
 #include <algorithm>
 #include <array>
-#include <optional>
-#include <set>
 #include <utility>
 
 #include <nlohmann/json.hpp>
 
 #include "runner/exit_codes.hpp"
-#include "runner/store/brief.hpp"
 #include "runner/store/checkpoints.hpp"
 #include "runner/store/files.hpp"
 #include "runner/store/states.hpp"
 #include "runner/tables/decays.hpp"
 #include "runner/tables/distributions.hpp"
 #include "runner/tables/fits.hpp"
-#include "runner/tables/groups.hpp"
-#include "runner/tables/outline.hpp"
 #include "runner/tables/packings.hpp"
 #include "runner/tables/profiles.hpp"
 
 namespace grainsweep {
 namespace {
 
-constexpr std::array tables = {"packings.csv",      "groups.csv",     "fits.csv",
-                               "fit_points.csv",    "profiles.csv",   "decays.csv",
-                               "distributions.csv", "provenance.json"};
+constexpr std::array tables = {"packings.csv",      "groups.csv",   "fits.csv",
+                               "fit_points.csv",    "profiles.csv", "decays.csv",
+                               "distributions.csv", "columns.csv",  "provenance.json"};
 
 std::string provenance_path(const std::string& folder) { return folder + "/provenance.json"; }
 
-/// provenance.json, as `read` makes it of the text. Throws BadInput.
-template <class Read>
-auto read_provenance_by(const std::string& folder, Read read) {
+/// provenance.json. Throws BadInput.
+ProvenanceReading read_provenance(const std::string& folder, Detail detail = Detail::whole) {
   const std::string path = provenance_path(folder);
   if (!file_exists(path)) {
     throw BadInput(folder +
@@ -41,102 +35,34 @@ auto read_provenance_by(const std::string& folder, Read read) {
                    folder);
   }
   try {
-    return read(read_file(path));
+    return provenance_from_text(read_file(path), detail);
   } catch (const nlohmann::json::exception& error) {
     throw BadInput(path + ": not what grainsweep wrote (" + error.what() +
                    "); run the sweep again to write it anew, stored packings are kept");
   }
 }
 
-Provenance read_provenance(const std::string& folder) {
-  return read_provenance_by(folder, provenance_from_text);
-}
-
-std::size_t count_foreign(const SweepFacts& sweep, const std::map<std::string, Outcome>& stored) {
-  std::set<std::string> ids;
-  for (const JobFacts& job : sweep.jobs) ids.insert(job.id);
-  const auto is_foreign = [&](const auto& entry) { return !ids.contains(entry.first); };
-  return static_cast<std::size_t>(std::count_if(stored.begin(), stored.end(), is_foreign));
-}
-
-constexpr const char* no_curves = "missing, damaged or of another version";
-
-/// "states/<job>.grains: missing, ...", for warnings that put the folder before it.
-std::string without_curves(const std::string& job) {
-  return state_path("", job).substr(1) + ": " + no_curves + "; left out, its packing is made again";
-}
-
-/// The group with the curves of its packings, which its rows lacked. Throws FileError.
-Group with_curves(const std::string& folder, Group group) {
-  for (std::size_t i = 0; i < group.settled.size(); ++i) {
-    auto curves = read_curves(folder, group.jobs[i]);
-    if (!curves) {
-      throw FileError(state_path(folder, group.jobs[i]),
-                      std::string(no_curves) + "; run the sweep again to make it anew");
-    }
-    set_curves(std::move(*curves), group.settled[i]);
-  }
-  return group;
-}
-
-/// The texts of the tables that are made of curves.
-struct CurveTables {
-  std::string profiles = profiles_header();
-  std::string decays = decays_header();
-  std::string distributions = distributions_header();
-};
-
-/// Holds the curves of one group at a time.
-CurveTables curve_tables(const std::string& folder, const std::vector<Group>& groups) {
-  CurveTables texts;
-  for (std::size_t k = 0; k < groups.size(); ++k) {
-    const Group group = with_curves(folder, groups[k]);
-    texts.profiles += profile_lines(group, k + 1);
-    texts.decays += decay_lines(group, k + 1);
-    texts.distributions += distribution_lines(group, k + 1);
-  }
-  return texts;
-}
-
 }  // namespace
 
-Results read_results(const std::string& folder) {
+Results read_results(const std::string& folder, Detail detail) {
   Results results;
-  results.provenance = read_provenance(folder);
-  JournalReading journals = read_journals(folder);
-  results.rows = join(results.provenance.sweep, journals.outcomes);
+  ProvenanceReading reading = read_provenance(folder, detail);
+  results.provenance = std::move(reading.provenance);
+  results.rows = std::move(reading.rows);
+  JournalReading journals = read_journals(folder, detail);
   results.damage = std::move(journals.damage);
-  results.foreign = count_foreign(results.provenance.sweep, journals.outcomes);
+  results.orphaned = take_outcomes(std::move(journals.outcomes), results.rows);
   return results;
 }
 
-Overview read_overview(const std::string& folder, const std::string& version) {
-  const Outline outline = read_provenance_by(folder, outline_from_text);
-  BriefReading stored = read_briefs(folder, version);
-  Overview overview;
-  overview.name = outline.name;
-  overview.sweep_file = outline.sweep_file;
-  overview.packings = outline.jobs.size();
-  std::size_t finished = 0;
-  for (const std::string& job : outline.jobs) {
-    const auto found = stored.briefs.find(job);
-    count(found == stored.briefs.end() ? std::nullopt : std::optional(found->second.status),
-          overview.counts);
-    if (found == stored.briefs.end()) continue;
-    ++finished;
-    overview.cpu_seconds += found->second.cpu_seconds;
-    overview.other_versions += found->second.version == version ? 0 : 1;
-  }
-  overview.damage = std::move(stored.damage);
-  overview.foreign = stored.briefs.size() - finished;
-  return overview;
-}
-
-std::vector<RunRecord> recorded_runs(const std::string& folder) {
+std::vector<RunRecord> recorded_runs(const std::string& folder, std::vector<std::string>& damage) {
+  if (!file_exists(provenance_path(folder))) return {};
   try {
-    return read_provenance(folder).runs;
+    return read_provenance(folder).provenance.runs;
   } catch (const BadInput&) {
-    return {};  // a new folder, or a file that is about to be written anew
+    damage.push_back(provenance_path(folder) +
+                     ": damaged, or of another version; the record of earlier runs is lost");
+    return {};
   }
 }
 
@@ -144,45 +70,27 @@ std::vector<std::string> load_curves(const std::string& folder, std::vector<Row>
   std::vector<std::string> damage;
   for (Row& row : rows) {
     if (!row.outcome || row.outcome->stored_grains == 0) continue;
-    if (auto curves = read_curves(folder, row.job.id)) {
-      set_curves(std::move(*curves), row.outcome->result);
-    } else {
-      damage.push_back(without_curves(row.job.id));
+    try {
+      set_curves(read_bed(folder, *row.outcome).curves, row.outcome->result);
+    } catch (const FileError& error) {
+      damage.emplace_back(error.what());
       row.outcome.reset();
     }
   }
   return damage;
 }
 
-JournalReading stored_outcomes(const std::string& folder) {
-  JournalReading stored = read_journals(folder);
-  std::erase_if(stored.outcomes, [&](const auto& entry) {
-    const auto& [job, outcome] = entry;
-    const bool is_whole = outcome.stored_grains == 0 || read_curves(folder, job);
-    if (!is_whole) stored.damage.push_back(without_curves(job));
-    return !is_whole;
-  });
-  return stored;
-}
-
-JournalReading finished_outcomes(const std::string& folder) {
-  JournalReading stored = stored_outcomes(folder);
-  std::erase_if(stored.outcomes, [](const auto& entry) { return entry.second.threw; });
-  return stored;
-}
-
 void write_tables(const std::string& folder, const Provenance& provenance,
-                  const std::vector<Row>& rows) {
-  const std::vector<Group> groups = groups_of(rows);
-  const std::vector<Family> families = families_of(groups);
+                  const std::vector<Row>& rows, const Analysis& analysis) {
+  const auto& [groups, families] = analysis;
   replace_file(folder + "/packings.csv", packings_csv(rows));
   replace_file(folder + "/groups.csv", groups_csv(groups));
   replace_file(folder + "/fits.csv", fits_csv(families));
   replace_file(folder + "/fit_points.csv", fit_points_csv(families));
-  const CurveTables curves = curve_tables(folder, groups);
-  replace_file(folder + "/profiles.csv", curves.profiles);
-  replace_file(folder + "/decays.csv", curves.decays);
-  replace_file(folder + "/distributions.csv", curves.distributions);
+  replace_file(folder + "/profiles.csv", profiles_csv(groups));
+  replace_file(folder + "/decays.csv", decays_csv(groups));
+  replace_file(folder + "/distributions.csv", distributions_csv(groups));
+  replace_file(folder + "/columns.csv", columns_csv(all_columns(further_tolerances(rows))));
   write_provenance(folder, provenance, rows);
 }
 
@@ -191,9 +99,20 @@ void write_provenance(const std::string& folder, const Provenance& provenance,
   replace_file(provenance_path(folder), provenance_text(provenance, rows));
 }
 
-std::string damage_warnings(const std::string& folder, const std::vector<std::string>& damage) {
+std::vector<ColumnText> all_columns(const std::vector<double>& tolerances) {
+  std::vector<ColumnText> all;
+  for (const auto& some :
+       {described("packings.csv", packings_columns(tolerances)),
+        described("groups.csv", groups_columns()), profiles_columns(), decays_columns(),
+        distributions_columns(), fits_columns(), fit_points_columns()}) {
+    all.insert(all.end(), some.begin(), some.end());
+  }
+  return all;
+}
+
+std::string damage_warnings(const std::vector<std::string>& damage) {
   std::string text;
-  for (const std::string& line : damage) text += "warning: " + folder + "/" + line + "\n";
+  for (const std::string& line : damage) text += "warning: " + line + "\n";
   return text;
 }
 
@@ -202,19 +121,14 @@ std::string other_versions_warning(const std::vector<Row>& rows, const std::stri
     return row.outcome && row.outcome->version != version;
   };
   const auto count = std::count_if(rows.begin(), rows.end(), is_other);
-  return other_versions_warning(static_cast<std::size_t>(count), rows.size(), version);
-}
-
-std::string other_versions_warning(std::size_t count, std::size_t rows,
-                                   const std::string& version) {
   if (count == 0) return "";
-  return "warning: " + std::to_string(count) + " of " + std::to_string(rows) +
+  return "warning: " + std::to_string(count) + " of " + std::to_string(rows.size()) +
          " packings were made by another version than " + version +
          "; run with --fresh to make all anew\n";
 }
 
 std::size_t stored_packings(const std::string& folder) {
-  return read_journals(folder).outcomes.size();
+  return read_journals(folder, Detail::summary).outcomes.size();
 }
 
 void remove_half_written(const std::string& folder) {

@@ -48,59 +48,56 @@ void confirm_fresh(const RunOptions& options, const std::string& folder) {
   if (answer != "y" && answer != "yes") throw BadInput("nothing was deleted, nothing was run");
 }
 
-/// Each once: what is found at the beginning is found at the end again.
-void warn_once(const std::string& folder, const std::vector<std::string>& damage,
-               std::set<std::string>& warned) {
-  for (const std::string& line : damage) {
-    if (warned.insert(line).second) std::cerr << damage_warnings(folder, {line});
-  }
-}
-
 /// A kill may come between the end of a packing and the end of its checkpoints.
-void remove_finished_checkpoints(const std::string& folder,
-                                 const std::map<std::string, Outcome>& finished) {
+void remove_finished_checkpoints(const RunningSweep& running) {
   std::set<std::string> jobs;
-  for (const auto& [job, outcome] : finished) jobs.insert(job);
-  remove_checkpoints_of(folder, jobs);
+  for (const Row& row : running.rows) jobs.insert(row.job.id);
+  for (const Job* job : running.pending) jobs.erase(job->id);
+  remove_checkpoints_of(running.folder, jobs);
 }
 
-/// What is stored of the sweep, and what is still to be made.
+/// A packing that ended in an exception is always tried again.
+bool is_to_be_made(const Row& row, bool retry_failed) {
+  return !row.outcome || row.outcome->exception ||
+         (retry_failed && row.outcome->result.status == PackingStatus::failed);
+}
+
+/// What is stored of the sweep, and what is still to be made. Appends to `damage`.
 RunningSweep resume(const Sweep& sweep, const std::string& folder, bool retry_failed,
-                    std::set<std::string>& warned) {
-  JournalReading stored = finished_outcomes(folder);
-  warn_once(folder, stored.damage, warned);
-  RunningSweep running{sweep, folder, std::move(stored.outcomes), {}};
-  remove_finished_checkpoints(folder, running.outcomes);
-  if (retry_failed) {
-    std::erase_if(running.outcomes, [](const auto& entry) {
-      return entry.second.result.status == PackingStatus::failed;
-    });
+                    std::vector<std::string>& damage) {
+  RunningSweep running{sweep, folder, rows_of(sweep), {}};
+  JournalReading stored = read_journals(folder);
+  take_outcomes(std::move(stored.outcomes), running.rows);
+  const auto damaged_beds = load_curves(folder, running.rows);
+  damage.insert(damage.end(), stored.damage.begin(), stored.damage.end());
+  damage.insert(damage.end(), damaged_beds.begin(), damaged_beds.end());
+  for (std::size_t i = 0; i < sweep.jobs.size(); ++i) {
+    if (is_to_be_made(running.rows[i], retry_failed)) running.pending.push_back(&sweep.jobs[i]);
   }
-  for (const Job& job : sweep.jobs) {
-    if (!running.outcomes.contains(job.id)) running.pending.push_back(&job);
-  }
+  remove_finished_checkpoints(running);
   return running;
 }
 
-Provenance provenance_of(const RunOptions& options, const RunningSweep& running) {
+Provenance provenance_of(const RunOptions& options, const RunningSweep& running,
+                         std::vector<std::string>& damage) {
   Provenance provenance;
   provenance.build = {program_version(), compiler_version(), library_versions()};
   provenance.sweep_file = options.file;
   provenance.sweep_text_hash = text_hash(read_file(options.file));
-  provenance.sweep = facts_of(running.sweep);
-  provenance.runs = recorded_runs(running.folder);
+  provenance.sweep_name = running.sweep.name;
+  provenance.runs = recorded_runs(running.folder, damage);
   return provenance;
 }
 
 /// Packs between the two entries of the run's record: it is in provenance.json from its start.
-Packed record_and_pack(const RunningSweep& running, const RunOptions& options, Isa isa,
+Packed record_and_pack(RunningSweep& running, const RunOptions& options, Isa isa,
                        Provenance& provenance) {
   const double start = wall_seconds();
   const Limits limits{options.threads > 0 ? options.threads : usable_cores(),
                       memory_for_packings()};
   std::cerr << memory_warning(tasks_of(running.pending), limits.memory);
   provenance.runs.push_back({utc_now(), "", 0.0, process_name(), limits.threads, name_of(isa), 0});
-  write_provenance(running.folder, provenance, join(provenance.sweep, running.outcomes));
+  write_provenance(running.folder, provenance, running.rows);
   RunRecord& record = provenance.runs.back();
   Packed packed = pack_pending(running, {limits, isa, progress_style(options.quiet),
                                          options.checkpoint_seconds, options.fail_fast});
@@ -139,21 +136,21 @@ int run(const RunOptions& options) {
   if (options.fresh) remove_results(folder);
   watch_stop_signals();
 
-  std::set<std::string> warned;
-  const RunningSweep running = resume(sweep, folder, options.retry_failed, warned);
-  Provenance provenance = provenance_of(options, running);
+  std::vector<std::string> damage;
+  RunningSweep running = resume(sweep, folder, options.retry_failed, damage);
+  Provenance provenance = provenance_of(options, running, damage);
+  std::cerr << damage_warnings(damage);
   Packed packed;
   if (!running.pending.empty()) packed = record_and_pack(running, options, isa, provenance);
 
-  const JournalReading stored = stored_outcomes(folder);
-  warn_once(folder, stored.damage, warned);
-  const std::vector<Row> rows = join(provenance.sweep, stored.outcomes);
+  const std::vector<Row>& rows = running.rows;
   const StatusCounts counts = totals_of(rows).counts;
   std::cerr << other_versions_warning(rows, program_version());
-  write_tables(folder, provenance, rows);
+  const Analysis analysis = analyse(rows);
+  write_tables(folder, provenance, rows, analysis);
   const bool is_whole = static_cast<std::size_t>(packed.packings) == running.pending.size();
   if (!is_whole) return stopped(packed, options, folder, counts, rows.size());
-  if (!options.quiet) std::cout << closing_report(provenance, rows, folder);
+  if (!options.quiet) std::cout << closing_report(provenance, rows, analysis.families, folder);
   return exit_code_for(counts);
 }
 

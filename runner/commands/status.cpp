@@ -5,11 +5,10 @@
 #include <nlohmann/json.hpp>
 
 #include "runner/commands/commands.hpp"
-#include "runner/commands/results.hpp"
+#include "runner/commands/inputs.hpp"
 #include "runner/exit_codes.hpp"
 #include "runner/store/lock.hpp"
 #include "runner/text.hpp"
-#include "runner/versions.hpp"
 
 namespace grainsweep {
 namespace {
@@ -22,31 +21,31 @@ std::string progress_text(const StatusCounts& counts, std::size_t packings) {
          " failed";
 }
 
-void print_status(const Overview& overview, const std::optional<std::string>& runner,
+void print_status(const Results& results, const std::optional<std::string>& runner,
                   const std::string& folder) {
-  std::cout << overview.name << ": " << progress_text(overview.counts, overview.packings) << "; "
-            << duration_text(overview.cpu_seconds) << " CPU\n"
+  const Totals totals = totals_of(results.rows);
+  const std::string& sweep_file = results.provenance.sweep_file;
+  std::cout << results.provenance.sweep_name << ": "
+            << progress_text(totals.counts, results.rows.size()) << "; "
+            << duration_text(totals.cpu_seconds) << " CPU\n"
             << (runner ? "Running: " + *runner : std::string("No runner at work")) << "\n";
-  if (overview.foreign > 0) {
-    std::cout << overview.foreign << " stored packings belong to an earlier form of the sweep\n";
+  if (results.orphaned > 0) {
+    std::cout << results.orphaned << " stored packings belong to an earlier form of the sweep\n";
   }
-  if (!runner && overview.counts.pending > 0 && !overview.sweep_file.empty()) {
-    std::cout << "Go on with: grainsweep run " << shell_word(overview.sweep_file) << " --out "
+  if (!runner && totals.counts.pending > 0 && !sweep_file.empty()) {
+    std::cout << "Go on with: grainsweep run " << shell_word(sweep_file) << " --out "
               << shell_word(folder) << "\n";
   }
 }
 
-void print_status_json(const Overview& overview, const std::optional<std::string>& runner) {
-  nlohmann::ordered_json status = {{"name", overview.name},
-                                   {"sweep_file", overview.sweep_file},
-                                   {"packings", overview.packings},
-                                   {"settled", overview.counts.settled},
-                                   {"not_settled", overview.counts.not_settled},
-                                   {"failed", overview.counts.failed},
-                                   {"pending", overview.counts.pending},
-                                   {"of_an_earlier_sweep", overview.foreign},
-                                   {"cpu_seconds", overview.cpu_seconds},
-                                   {"runner", nullptr}};
+void print_status_json(const Results& results, const std::optional<std::string>& runner) {
+  const Totals totals = totals_of(results.rows);
+  nlohmann::ordered_json status = {
+      {"name", results.provenance.sweep_name},    {"sweep_file", results.provenance.sweep_file},
+      {"packings", results.rows.size()},          {"settled", totals.counts.settled},
+      {"not_settled", totals.counts.not_settled}, {"failed", totals.counts.failed},
+      {"pending", totals.counts.pending},         {"of_an_earlier_sweep", results.orphaned},
+      {"cpu_seconds", totals.cpu_seconds},        {"runner", nullptr}};
   if (runner) status["runner"] = *runner;
   std::cout << status.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << "\n";
 }
@@ -54,15 +53,12 @@ void print_status_json(const Overview& overview, const std::optional<std::string
 }  // namespace
 
 int status(const StatusOptions& options) {
-  const Overview overview = read_overview(options.folder, program_version());
-  std::cerr << damage_warnings(options.folder, overview.damage);
-  std::cerr << other_versions_warning(overview.other_versions, overview.packings,
-                                      program_version());
+  const Results results = results_with_warnings(options.folder, Detail::summary);
   const auto runner = present_runner(options.folder);
   if (options.json) {
-    print_status_json(overview, runner);
+    print_status_json(results, runner);
   } else {
-    print_status(overview, runner, options.folder);
+    print_status(results, runner, options.folder);
   }
   return exit_done;
 }

@@ -22,7 +22,7 @@ std::string definition_of(const Group& group, Quantity quantity) {
   if (quantity == Quantity::solid_fraction) return "exact solid volume from " + slab;
   return "neighbours per grain from " + slab + ", walls not counted, gap < " +
          cell(measure.gap_tolerances.front()) + " d; contacts / isostatic " +
-         fixed(group.contact_ratio.mean, 3);
+         fixed(mean_of(group, "contact_ratio").mean, 3);
 }
 
 /// The mean of replicates.

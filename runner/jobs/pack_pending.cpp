@@ -47,13 +47,12 @@ Outcome store(const Job& job, const std::string& folder, Journal& journal, Finis
   outcome.job = job.id;
   outcome.version = program_version();
   outcome.result = std::move(finished.packing.result);
-  outcome.threw = finished.threw;
+  outcome.exception = finished.threw;
   outcome.stored_grains = static_cast<std::int64_t>(finished.packing.grains.size());
   outcome.cpu_seconds = finished.cpu_seconds;
   if (outcome.stored_grains > 0) {
-    write_bed(folder, job.id,
-              {job.spec.box, std::move(finished.packing.grains), curves_of(outcome.result),
-               std::move(finished.packing.turned)});
+    write_bed(folder, {job.id, outcome.result.state_hash, job.spec.box, curves_of(outcome.result),
+                       std::move(finished.packing.grains), std::move(finished.packing.turned)});
   }
   journal.append(outcome);
   return outcome;
@@ -69,7 +68,7 @@ std::vector<double> cpu_costs(const std::vector<Task>& tasks) {
 /// What the threads of a run share.
 class Packer {
  public:
-  Packer(const RunningSweep& running, const PackOptions& options, const std::vector<Task>& tasks)
+  Packer(RunningSweep& running, const PackOptions& options, const std::vector<Task>& tasks)
       : running_(running),
         options_(options),
         kernels_(kernels_for(options.isa)),
@@ -152,7 +151,9 @@ class Packer {
     const std::size_t task = finished.task;
     const Job& job = *running_.pending[task];
     finished.cpu_seconds += before_[task].cpu_seconds;
-    const Outcome outcome = store(job, running_.folder, journal_, std::move(finished));
+    auto& row = running_.rows[static_cast<std::size_t>(&job - running_.sweep.jobs.data())];
+    const Outcome& outcome =
+        row.outcome.emplace(store(job, running_.folder, journal_, std::move(finished)));
     checkpoints_of(job).remove();
     ++packed_.packings;
     const std::string line = packing_line(job, outcome) + went_on_text(before_[task].step);
@@ -161,7 +162,7 @@ class Packer {
     if (!has_failed_.exchange(true)) packed_.first_failure = line;
   }
 
-  const RunningSweep& running_;
+  RunningSweep& running_;
   const PackOptions& options_;
   const Kernels& kernels_;
   ProgressDisplay display_;
@@ -183,7 +184,7 @@ std::vector<Task> tasks_of(const std::vector<const Job*>& jobs) {
   return tasks;
 }
 
-Packed pack_pending(const RunningSweep& running, const PackOptions& options) {
+Packed pack_pending(RunningSweep& running, const PackOptions& options) {
   const std::vector<Task> tasks = tasks_of(running.pending);
   return Packer(running, options, tasks).pack(tasks);
 }

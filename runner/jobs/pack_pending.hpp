@@ -1,15 +1,14 @@
 // The middle of a run: what is missing of a sweep is packed and stored.
 #pragma once
 
-#include <map>
 #include <string>
 #include <vector>
 
 #include "kernels/isa.hpp"
 #include "runner/jobs/progress.hpp"
 #include "runner/jobs/schedule.hpp"
-#include "runner/store/outcome.hpp"
 #include "runner/sweep/job.hpp"
+#include "runner/tables/job_facts.hpp"
 
 namespace grainsweep {
 
@@ -17,7 +16,7 @@ namespace grainsweep {
 struct RunningSweep {
   const Sweep& sweep;
   std::string folder;
-  std::map<std::string, Outcome> outcomes;  ///< finished when it began, by job
+  std::vector<Row> rows;  ///< one per job of the sweep; what is packed is added, with its curves
   std::vector<const Job*> pending;
 };
 
@@ -39,8 +38,8 @@ struct Packed {
 std::vector<Task> tasks_of(const std::vector<const Job*>& jobs);
 
 /// Makes the pending packings, as far as no signal and no failure stops it; each is on the disk
-/// when it counts as finished, and then no longer in memory. A long one is saved from time to time
-/// and when it is stopped, and goes on from there. Throws FileError.
-Packed pack_pending(const RunningSweep& running, const PackOptions& options);
+/// when it counts as finished, and then its grains no longer in memory. A long one is saved from
+/// time to time and when it is stopped, and goes on from there. Throws FileError.
+Packed pack_pending(RunningSweep& running, const PackOptions& options);
 
 }  // namespace grainsweep

@@ -1,22 +1,26 @@
 #include "runner/store/checkpoints.hpp"
 
+#include <tuple>
 #include <utility>
 
-#include "runner/store/bytes.hpp"
-#include "runner/store/checksum.hpp"
+#include "runner/store/archive.hpp"
 #include "runner/store/files.hpp"
 
 namespace grainsweep {
+
+constexpr auto members_of(const Checkpoint* /*type*/) {
+  return std::tuple(&Checkpoint::step, &Checkpoint::cpu_seconds, &Checkpoint::state);
+}
+constexpr auto members_of(const NumberedCheckpoint* /*type*/) {
+  using Numbered = NumberedCheckpoint;
+  return std::tuple(&Numbered::number, &Numbered::job, &Numbered::build, &Numbered::checkpoint);
+}
+
 namespace {
 
-constexpr std::string_view magic = "GRAINCP1";
+constexpr std::string_view checkpoint_mark = "GRAINCP2";
 
 std::string checkpoint_folder(const std::string& folder) { return folder + "/checkpoints"; }
-
-bool is_whole(std::string_view bytes) {
-  return bytes.size() >= magic.size() + checksum_size && bytes.starts_with(magic) &&
-         ends_in_its_checksum(bytes);
-}
 
 /// Removes the files whose name without its ending is wanted.
 template <class IsWanted>
@@ -32,28 +36,11 @@ void remove_where(const std::string& folder, IsWanted is_wanted) {
 }  // namespace
 
 std::string checkpoint_bytes(const NumberedCheckpoint& numbered) {
-  std::string bytes(magic);
-  put(bytes, numbered.number);
-  put(bytes, static_cast<std::uint64_t>(numbered.checkpoint.step));
-  put(bytes, numbered.checkpoint.cpu_seconds);
-  put_text(bytes, numbered.job);
-  put_text(bytes, numbered.build);
-  put_text(bytes, numbered.checkpoint.state);
-  put(bytes, crc32(bytes));
-  return bytes;
+  return file_bytes(checkpoint_mark, numbered);
 }
 
 std::optional<NumberedCheckpoint> checkpoint_from_bytes(std::string_view bytes) {
-  if (!is_whole(bytes)) return std::nullopt;
-  bytes.remove_prefix(magic.size());
-  NumberedCheckpoint read;
-  read.number = take<std::uint64_t>(bytes);
-  read.checkpoint.step = static_cast<std::int64_t>(take<std::uint64_t>(bytes));
-  read.checkpoint.cpu_seconds = take_double(bytes);
-  read.job = take_text(bytes);
-  read.build = take_text(bytes);
-  read.checkpoint.state = take_text(bytes);
-  return read;
+  return value_in_file<NumberedCheckpoint>(checkpoint_mark, bytes);
 }
 
 CheckpointFiles::CheckpointFiles(const std::string& folder, std::string job, std::string build)

@@ -1,10 +1,9 @@
 // A packing under way, on the disk, so that a long one goes on where it was stopped.
 //
 // Each running packing has two files, checkpoints/<job>.0 and .1, written in turn, so that one is
-// whole whatever happens to the other. A file is, little-endian: "GRAINCP1"; u64 number, one more
-// than that of the checkpoint before; u64 step; f64 CPU seconds; job, build and state, each a u64
-// length and so many bytes; u32 CRC-32 of all before. Files that are torn, changed, of another job
-// or made by another build of the program are never used.
+// whole whatever happens to the other. A file is "GRAINCP2", a NumberedCheckpoint as of
+// runner/store/archive.hpp, and a CRC-32 of all before. Files that are torn, changed, of another
+// job or made by another build of the program are never used.
 #pragma once
 
 #include <cstdint>

@@ -17,7 +17,7 @@ namespace grainsweep {
 namespace {
 
 /// Between the name of a file and the process that writes its successor beside it.
-constexpr std::string_view neighbour_mark = ".tmp.";
+constexpr std::string_view temporary_mark = ".tmp.";
 
 /// Repeats a system call while a signal interrupts it.
 template <class Call>
@@ -68,7 +68,7 @@ OpenFile::~OpenFile() {
   if (descriptor_ >= 0) close(descriptor_);
 }
 
-void occupy_standard_descriptors() {
+void ensure_std_descriptors() {
   int descriptor = 0;
   while (descriptor >= 0 && descriptor <= STDERR_FILENO) descriptor = open("/dev/null", O_RDONLY);
   if (descriptor > STDERR_FILENO) close(descriptor);
@@ -124,7 +124,7 @@ void for_each_line(const std::string& path, const std::function<void(std::string
 }
 
 void remove_leftovers(const std::string& folder, std::string_view ending) {
-  const std::string mark = std::string(ending) + std::string(neighbour_mark);
+  const std::string mark = std::string(ending) + std::string(temporary_mark);
   for (const std::string& name : files_in(folder, "", "")) {
     const std::size_t at = name.rfind(mark);
     if (at == std::string::npos) continue;
@@ -135,12 +135,12 @@ void remove_leftovers(const std::string& folder, std::string_view ending) {
 }
 
 void replace_file(const std::string& path, std::string_view bytes) {
-  const std::string neighbour = path + std::string(neighbour_mark) + std::to_string(getpid());
+  const std::string temporary = path + std::string(temporary_mark) + std::to_string(getpid());
   try {
-    write_and_flush(neighbour, bytes);
-    if (std::rename(neighbour.c_str(), path.c_str()) != 0) throw FileError(path, "replace", errno);
+    write_and_flush(temporary, bytes);
+    if (std::rename(temporary.c_str(), path.c_str()) != 0) throw FileError(path, "replace", errno);
   } catch (const FileError&) {
-    unlink(neighbour.c_str());
+    unlink(temporary.c_str());
     throw;
   }
   flush_folder_of(path);

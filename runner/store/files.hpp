@@ -41,7 +41,7 @@ class OpenFile {
 
 /// Fills up descriptors 0 to 2 where the program was started with some of them closed. Otherwise
 /// the next file opened would take their place, and what is printed would go into it.
-void occupy_standard_descriptors();
+void ensure_std_descriptors();
 
 /// Writes all of `bytes` at the file's position.
 void write_all(const OpenFile& file, std::string_view bytes);
@@ -62,7 +62,7 @@ std::string read_start(const std::string& path, std::size_t size);
 void for_each_line(const std::string& path, const std::function<void(std::string_view)>& use);
 
 /// Replaces `path` by a file holding `bytes`: a reader or a crash sees the old file or the new one,
-/// never a part. Writes a neighbour, flushes it, renames it, flushes the folder.
+/// never a part. Writes a temporary file beside it, flushes it, renames it, flushes the folder.
 void replace_file(const std::string& path, std::string_view bytes);
 
 /// Makes the folder and those above it; nothing happens if it is there.
@@ -73,8 +73,8 @@ void remove_file(const std::string& path);
 
 bool file_exists(const std::string& path);
 
-/// Removes what a replace_file that was killed has left in `folder`: the neighbours of files whose
-/// name ends so. No other process may be writing such files there.
+/// Removes what a replace_file that was killed has left in `folder`: the temporary files of those
+/// whose name ends so. No other process may be writing such files there.
 void remove_leftovers(const std::string& folder, std::string_view ending);
 
 /// Names of the files in `folder` that start and end so, sorted; none if there is no folder.

@@ -1,27 +1,29 @@
 #include "runner/store/journal.hpp"
 
-#include <array>
-#include <charconv>
-#include <cinttypes>
-#include <cstdio>
+#include <algorithm>
 #include <fcntl.h>
-#include <unistd.h>
 
-#include <nlohmann/json.hpp>
-
-#include "runner/store/checksum.hpp"
+#include "runner/hash.hpp"
 #include "runner/store/files.hpp"
-#include "runner/store/journal_lines.hpp"
 #include "runner/store/lock.hpp"
+#include "runner/store/outcome_text.hpp"
 
 namespace grainsweep {
 namespace {
 
 std::string line_start(std::string_view outcome) {
-  std::array<char, 80> text{};
-  std::snprintf(text.data(), text.size(), R"({"length":%zu,"crc32":"%08)" PRIx32 R"(","outcome":)",
-                outcome.size(), crc32(outcome));
-  return text.data();
+  return R"({"length":)" + std::to_string(outcome.size()) + R"(,"crc32":")" + hex8(crc32(outcome)) +
+         R"(","outcome":)";
+}
+
+/// The text of the outcome in a line; nothing if the line is torn or damaged.
+std::optional<std::string_view> checked_text(std::string_view line) {
+  constexpr std::string_view before_outcome = R"("outcome":)";
+  const std::size_t start = line.find(before_outcome);
+  if (start == std::string_view::npos || !line.ends_with('}')) return std::nullopt;
+  const std::size_t begin = start + before_outcome.size();
+  const std::string_view text = line.substr(begin, line.size() - begin - 1);
+  return line.substr(0, begin) == line_start(text) ? std::optional(text) : std::nullopt;
 }
 
 /// A crash may have left a line without its end; the next one must not continue it.
@@ -34,28 +36,13 @@ bool ends_inside_a_line(const std::string& path) {
 }  // namespace
 
 std::string journal_line(const Outcome& outcome) {
-  const std::string text =
-      to_json(outcome).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  const std::string text = outcome_text(outcome);
   return line_start(text) + text + "}\n";
 }
 
-std::optional<std::string_view> outcome_in(std::string_view line) {
-  constexpr std::string_view before_outcome = R"("outcome":)";
-  const std::size_t start = line.find(before_outcome);
-  if (start == std::string_view::npos || !line.ends_with('}')) return std::nullopt;
-  const std::size_t begin = start + before_outcome.size();
-  const std::string_view text = line.substr(begin, line.size() - begin - 1);
-  return line.substr(0, begin) == line_start(text) ? std::optional(text) : std::nullopt;
-}
-
-std::optional<Outcome> read_journal_line(std::string_view line) {
-  const auto text = outcome_in(line);
-  if (!text) return std::nullopt;
-  try {
-    return outcome_from_json(nlohmann::json::parse(*text));
-  } catch (const std::exception&) {
-    return std::nullopt;  // whole, but written by a version with other members
-  }
+std::optional<Outcome> read_journal_line(std::string_view line, Detail detail) {
+  const auto text = checked_text(line);
+  return text ? outcome_from_text(*text, detail) : std::nullopt;
 }
 
 Journal::Journal(const std::string& folder)
@@ -71,9 +58,25 @@ void Journal::append(const Outcome& outcome) {
   if (is_first) flush_folder_of(path_);
 }
 
-JournalReading read_journals(const std::string& folder) {
+JournalReading read_journals(const std::string& folder, Detail detail) {
   JournalReading reading;
-  reading.damage = collect_lines(folder, read_journal_line, reading.outcomes);
+  const auto keep = [&](Outcome&& outcome) {
+    const auto [known, is_new] = reading.outcomes.try_emplace(outcome.job);
+    if (is_new || !outcome.exception || known->second.exception) {
+      known->second = std::move(outcome);
+    }
+  };
+  for (const std::string& name : files_in(folder, "journal-", ".jsonl")) {
+    const std::string path = folder + "/" + name;
+    std::size_t number = 0;
+    for_each_line(path, [&](std::string_view line) {
+      ++number;
+      if (auto outcome = read_journal_line(line, detail)) return keep(std::move(*outcome));
+      reading.damage.push_back(path + ":" + std::to_string(number) +
+                               ": torn or damaged line, or one of another version, left out; its "
+                               "packing is made again");
+    });
+  }
   return reading;
 }
 

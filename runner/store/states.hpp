@@ -1,12 +1,11 @@
 // The curves and grains of each finished bed, so that neither tables nor exporting pack again.
 //
-// states/<job>.grains, little-endian: "GRAINS2\n", or "GRAINS3\n" if grains are turned; u64 bytes
-// of curves; curves as of put_curves; u32 CRC-32 of all before, so that curves are read without the
-// grains; u64 number of grains; f64 box length, box width; u8 x walled, y walled; per grain f64 x,
-// y, z, radius, force, i32 touching; of turned grains orientations and mesh as of put_turned; u32
-// CRC-32 of all before. Units as in SettledGrain and PackingResult.
+// states/<job>.grains is "GRAINS4\n", a StoredBed as of runner/store/archive.hpp, in the order of
+// its members and of those of the engine's structs in states.cpp, and a CRC-32 of all before. Units
+// as in SettledGrain and PackingResult.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -14,33 +13,43 @@
 
 #include "engine/results.hpp"
 #include "engine/scene/box.hpp"
-#include "runner/store/curves.hpp"
+#include "runner/store/outcome.hpp"
 
 namespace grainsweep {
 
+/// The curves of a packing, by far the most of what is measured of it: kept with its grains, not in
+/// the journal. Members as of PackingResult and its Order; empty if nothing was measured.
+struct Curves {
+  Profile profile_y;
+  Profile profile_z;
+  Curve pair_correlation;
+  Curve force_density;
+};
+
+Curves curves_of(const PackingResult& result);
+void set_curves(Curves&& curves, PackingResult& result);
+
 struct StoredBed {
+  std::string job;               ///< Job::id
+  std::uint64_t state_hash = 0;  ///< PackingResult::state_hash
   Box box;
+  Curves curves;
   std::vector<SettledGrain> grains;
-  Curves curves = {};
-  std::optional<Turned> turned = {};  ///< unless they are spheres; an orientation per grain
+  std::optional<Turned> turned;  ///< of non-spherical grains; an orientation per grain
 };
 
 /// <folder>/states/<job>.grains
 std::string state_path(const std::string& folder, const std::string& job);
 
 /// Replaces the file as a whole and flushes it. Makes the folder states if missing.
-void write_bed(const std::string& folder, const std::string& job, const StoredBed& bed);
+void write_bed(const std::string& folder, const StoredBed& bed);
 
-/// Throws FileError if there is no such file, or if it is damaged.
-StoredBed read_bed(const std::string& folder, const std::string& job);
+/// The whole file, checked. Throws FileError if there is none, if it is damaged or of another
+/// version, or if it is not the bed of this outcome.
+StoredBed read_bed(const std::string& folder, const Outcome& outcome);
 
-/// The curves alone, without a look at the grains: nothing if there is no such file, if the curves
-/// are damaged, or if a version of the program with another form of them wrote it. Throws FileError
-/// if the file cannot be read.
-std::optional<Curves> read_curves(const std::string& folder, const std::string& job);
-
-/// The file's bytes, and back; `path` is named in the FileError about damaged bytes.
+/// The file's bytes, and back; nothing if they are damaged or of another version.
 std::string bed_bytes(const StoredBed& bed);
-StoredBed bed_from_bytes(std::string_view bytes, const std::string& path);
+std::optional<StoredBed> bed_from_bytes(std::string_view bytes);
 
 }  // namespace grainsweep

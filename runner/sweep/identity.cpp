@@ -72,27 +72,6 @@ void change_groups(const GroupNames& open, const GroupNames& groups, std::string
 
 }  // namespace
 
-std::uint64_t fnv1a(std::string_view bytes) {
-  std::uint64_t hash = 0xcbf29ce484222325;
-  for (const char c : bytes) {
-    hash ^= static_cast<unsigned char>(c);
-    hash *= 0x100000001b3;
-  }
-  return hash;
-}
-
-std::uint64_t mixed(std::uint64_t bits) {
-  bits = (bits ^ (bits >> 30U)) * 0xbf58476d1ce4e5b9;
-  bits = (bits ^ (bits >> 27U)) * 0x94d049bb133111eb;
-  return bits ^ (bits >> 31U);
-}
-
-std::string hex16(std::uint64_t bits) {
-  std::string text(16, '0');
-  for (std::size_t i = 16; i-- > 0; bits >>= 4U) text[i] = "0123456789abcdef"[bits & 15U];
-  return text;
-}
-
 std::string hash_of(const HullVertices& hull) {
   std::string text;
   for (const auto& point : hull.points) {

@@ -11,18 +11,10 @@
 #include <string>
 #include <string_view>
 
+#include "runner/hash.hpp"
 #include "runner/sweep/draft.hpp"
 
 namespace grainsweep {
-
-/// FNV-1a, 64 bits.
-std::uint64_t fnv1a(std::string_view bytes);
-
-/// Finaliser of SplitMix64: a bijection of 64 bits in which every input bit moves every output bit.
-std::uint64_t mixed(std::uint64_t bits);
-
-/// 16 lower-case hex digits.
-std::string hex16(std::uint64_t bits);
 
 /// 16 hex digits: hash of the coordinates, in their order.
 std::string hash_of(const HullVertices& hull);

@@ -39,14 +39,14 @@ std::string small_number(double value) {
 std::string report_line(const Group& group) {
   const bool is_walled = group.job.box.y == Boundary::walls;
   const std::string width = cell(group.job.box.width);
-  const Spread& phi = group.solid_fraction;
-  const Spread& z = group.coordination;
+  const Spread& phi = mean_of(group, "solid_fraction");
+  const Spread& z = mean_of(group, "coordination");
   return "  " + pad_right(is_walled ? width : width + " periodic", 14) +
          pad_left(with_error(phi.mean, phi.sd, solid_fraction_decimals), 18) +
          pad_left(with_error(z.mean, z.sd, coordination_decimals), 17) +
-         pad_left(fixed(group.contact_ratio.mean, 4), 13) +
-         pad_left(small_number(group.overlap_mean.mean), 12) + pad_left(packings_text(group), 10) +
-         "\n";
+         pad_left(fixed(mean_of(group, "contact_ratio").mean, 4), 13) +
+         pad_left(small_number(mean_of(group, "overlap_mean").mean), 12) +
+         pad_left(packings_text(group), 10) + "\n";
 }
 
 std::string reference_text(const Family& family, Quantity quantity, int decimals) {
@@ -176,10 +176,10 @@ std::string next_text(const std::string& sweep_file, const StatusCounts& counts,
 }  // namespace
 
 std::string closing_report(const Provenance& provenance, const std::vector<Row>& rows,
-                           const std::string& folder) {
+                           const std::vector<Family>& families, const std::string& folder) {
   const Totals totals = totals_of(rows);
-  std::string text = headline(provenance.sweep.name, rows.size(), totals.counts);
-  for (const Family& family : families_of(groups_of(rows))) text += family_text(family);
+  std::string text = headline(provenance.sweep_name, rows.size(), totals.counts);
+  for (const Family& family : families) text += family_text(family);
   return text + definitions_text(rows) + reasons_text(rows) +
          effort_text(provenance, totals.cpu_seconds) + "Tables in " + folder +
          ": packings.csv, groups.csv, fits.csv, profiles.csv, decays.csv and more;\n"

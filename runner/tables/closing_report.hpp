@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "runner/tables/families.hpp"
 #include "runner/tables/provenance.hpp"
 
 namespace grainsweep {
@@ -12,6 +13,6 @@ namespace grainsweep {
 /// numbers, what it cost, where the files are and what to do next. UTF-8, at most 100 columns where
 /// labels are of ordinary length. `folder` is the output folder.
 std::string closing_report(const Provenance& provenance, const std::vector<Row>& rows,
-                           const std::string& folder);
+                           const std::vector<Family>& families, const std::string& folder);
 
 }  // namespace grainsweep

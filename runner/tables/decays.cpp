@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "runner/tables/csv.hpp"
-
 namespace grainsweep {
 namespace {
 
@@ -41,35 +39,61 @@ std::string why_no_fit(const Group& group, GrainClass grains) {
   return grains == GrainClass::large ? "there are no large grains" : "there are no small grains";
 }
 
-std::vector<std::string> estimate_cells(const DecayFit& fit) {
-  if (!fit.not_determined.empty()) return std::vector<std::string>(14);
-  std::vector<std::string> cells;
-  for (const Estimate& estimate :
-       {fit.length, fit.bulk, fit.amplitude, fit.period, fit.phase, fit.reach}) {
-    cells.push_back(cell(estimate.value));
-    cells.push_back(cell(estimate.error));
-  }
-  cells.push_back(cell(fit.r_squared));
-  cells.push_back(cell(fit.misfit));
-  return cells;
+struct DecayLine : GroupLine {
+  GrainClass grains;
+  DecayFit fit;
+};
+
+/// The value of a fit; empty if it is not determined.
+template <class Value>
+auto decay_cell(Value value) {
+  return [=](const DecayLine& line) {
+    return line.fit.not_determined.empty() ? cell(value(line.fit)) : std::string();
+  };
 }
 
-std::string line_of(const Group& group, std::size_t number, GrainClass grains) {
-  const DecayFit fit = decay_of(group, grains);
-  std::vector<std::string> cells = {cell(number),
-                                    cell(group.job.label),
-                                    cell(group.job.box.width),
-                                    name_of(group.job.box.y),
-                                    cell(group.job.small_share),
-                                    grains == GrainClass::large ? "large" : "small",
-                                    fit.not_determined.empty() ? "determined" : "not determined",
-                                    cell(fit.not_determined),
-                                    cell(group.settled.size()),
-                                    cell(decay_window_start),
-                                    cell(fit.window_end),
-                                    cell(fit.bins)};
-  for (std::string& text : estimate_cells(fit)) cells.push_back(std::move(text));
-  return csv_line(cells);
+Columns<DecayLine> decay_status_columns() {
+  using Line = const DecayLine&;
+  return {
+      {"class", "", "large or small grains",
+       [](Line line) { return cell(line.grains == GrainClass::large ? "large" : "small"); }},
+      {"status", "", "determined or not determined",
+       [](Line line) {
+         return cell(line.fit.not_determined.empty() ? "determined" : "not determined");
+       }},
+      {"reason", "", "why it is not determined",
+       [](Line line) { return cell(line.fit.not_determined); }},
+      {"packings", "", "settled ones", [](Line line) { return cell(line.group.settled.size()); }},
+      {"window_start", "d", "distance from the wall where the fit begins",
+       [](Line /*line*/) { return cell(decay_window_start); }},
+      {"window_end", "d", "where it ends", [](Line line) { return cell(line.fit.window_end); }},
+      {"bins", "", "in the window", [](Line line) { return cell(line.fit.bins); }},
+  };
+}
+
+Columns<DecayLine> decay_line_columns() {
+  Columns<DecayLine> columns;
+  append(columns, group_line_columns());
+  append(columns, decay_status_columns());
+  const auto add = [&](const char* name, const char* unit, const char* meaning,
+                       Estimate DecayFit::*estimate) {
+    append_estimate(columns, name, unit, meaning, [=](const DecayLine& line) {
+      return line.fit.not_determined.empty() ? &(line.fit.*estimate) : nullptr;
+    });
+  };
+  add("lambda", "d", "length over which the oscillation decays", &DecayFit::length);
+  add("bulk", "", "solid fraction far from the wall", &DecayFit::bulk);
+  add("amplitude", "", "of the oscillation, extrapolated to the wall", &DecayFit::amplitude);
+  add("period", "d", "of the oscillation", &DecayFit::period);
+  add("phase", "rad", "of the oscillation at the wall", &DecayFit::phase);
+  add("reach", "d", "where the amplitude has fallen to 5 % of bulk", &DecayFit::reach);
+  columns.push_back({"r_squared", "",
+                     "share of the mean profile's variance that the curve explains",
+                     decay_cell([](const DecayFit& fit) { return fit.r_squared; })});
+  columns.push_back({"misfit", "",
+                     "root mean square of the residuals over that of the mean's errors",
+                     decay_cell([](const DecayFit& fit) { return fit.misfit; })});
+  return columns;
 }
 
 }  // namespace
@@ -79,18 +103,21 @@ DecayFit decay_of(const Group& group, GrainClass grains) {
   fit.window_end = group.job.box.width / 2.0;
   fit.not_determined = why_no_fit(group, grains);
   if (!fit.not_determined.empty()) return fit;
-  const double bin_width = group.settled.front().profile_y.bin_width;
+  const double bin_width = group.settled.front().get().profile_y.bin_width;
   return fit_decay(halves_of(group, grains), bin_width, fit.window_end);
 }
 
-std::string decays_header() {
-  return "group,label,width,boundary_y,small_share,class,status,reason,packings,window_start,"
-         "window_end,bins,lambda,lambda_error,bulk,bulk_error,amplitude,amplitude_error,period,"
-         "period_error,phase,phase_error,reach,reach_error,r_squared,misfit\n";
-}
+std::vector<ColumnText> decays_columns() { return described("decays.csv", decay_line_columns()); }
 
-std::string decay_lines(const Group& group, std::size_t number) {
-  return line_of(group, number, GrainClass::large) + line_of(group, number, GrainClass::small);
+std::string decays_csv(const std::vector<Group>& groups) {
+  const Columns<DecayLine> columns = decay_line_columns();
+  std::string text = header_line(columns);
+  for (std::size_t k = 0; k < groups.size(); ++k) {
+    for (const GrainClass grains : {GrainClass::large, GrainClass::small}) {
+      text += row_line(columns, DecayLine{{groups[k], k + 1}, grains, decay_of(groups[k], grains)});
+    }
+  }
+  return text;
 }
 
 }  // namespace grainsweep

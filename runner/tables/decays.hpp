@@ -18,9 +18,9 @@ enum class GrainClass { large, small };
 /// class, or with a single settled replicate, which leaves the errors unknown.
 DecayFit decay_of(const Group& group, GrainClass grains);
 
-/// The first line of the file.
-std::string decays_header();
-/// The two rows of a group; `number` is that of its row in groups.csv, from 1.
-std::string decay_lines(const Group& group, std::size_t number);
+/// The whole file: two rows per group.
+std::string decays_csv(const std::vector<Group>& groups);
+
+std::vector<ColumnText> decays_columns();
 
 }  // namespace grainsweep

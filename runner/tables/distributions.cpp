@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "runner/tables/csv.hpp"
-
 namespace grainsweep {
 namespace {
 
@@ -17,35 +15,61 @@ Spread spread_at(const Group& group, Curve Order::*curve, std::size_t k) {
   return spread_of(values);
 }
 
-std::string lines_of(const Group& group, std::size_t number, const char* name,
-                     Curve Order::*curve) {
+struct PointLine : GroupLine {
+  const char* curve;
+  double low, high;  ///< of the bin
+  Spread value;
+};
+
+Columns<PointLine> curve_line_columns() {
+  Columns<PointLine> columns;
+  append(columns, group_line_columns());
+  append(columns,
+         Columns<PointLine>{
+             {"curve", "",
+              "pair_correlation: g at a distance in d; force_density: probability density of a "
+              "contact force over the mean of its layer",
+              [](const PointLine& line) { return cell(line.curve); }},
+             {"low", "d or 1", "where the bin begins",
+              [](const PointLine& line) { return cell(line.low); }},
+             {"high", "d or 1", "where it ends",
+              [](const PointLine& line) { return cell(line.high); }},
+             {"n", "", "packings that have the bin",
+              [](const PointLine& line) { return cell(line.value.n); }}});
+  append_spread(columns, "value", "", "of the curve in the bin, mean over the packings",
+                [](const PointLine& line) { return line.value; });
+  return columns;
+}
+
+void append_curve_lines(const GroupLine& of, const char* name, Curve Order::*curve,
+                        const Columns<PointLine>& columns, std::string& text) {
   std::size_t longest = 0;
   double width = 0.0;
-  for (const PackingResult& result : group.settled) {
+  for (const PackingResult& result : of.group.settled) {
     longest = std::max(longest, (result.order.*curve).values.size());
     width = (result.order.*curve).bin_width;
   }
-  std::string text;
   for (std::size_t k = 0; k < longest; ++k) {
-    const Spread spread = spread_at(group, curve, k);
-    text +=
-        csv_line({cell(number), cell(group.job.label), cell(group.job.box.width),
-                  name_of(group.job.box.y), cell(group.job.small_share), name,
-                  cell(static_cast<double>(k) * width), cell(static_cast<double>(k + 1) * width),
-                  cell(spread.n), cell(spread.mean), cell(spread.sd)});
+    const double low = static_cast<double>(k) * width, high = static_cast<double>(k + 1) * width;
+    text += row_line(columns, PointLine{of, name, low, high, spread_at(of.group, curve, k)});
   }
-  return text;
 }
 
 }  // namespace
 
-std::string distributions_header() {
-  return "group,label,width,boundary_y,small_share,curve,low,high,n,value,value_sd\n";
+std::vector<ColumnText> distributions_columns() {
+  return described("distributions.csv", curve_line_columns());
 }
 
-std::string distribution_lines(const Group& group, std::size_t number) {
-  return lines_of(group, number, "pair_correlation", &Order::pair_correlation) +
-         lines_of(group, number, "force_density", &Order::force_density);
+std::string distributions_csv(const std::vector<Group>& groups) {
+  const Columns<PointLine> columns = curve_line_columns();
+  std::string text = header_line(columns);
+  for (std::size_t k = 0; k < groups.size(); ++k) {
+    append_curve_lines({groups[k], k + 1}, "pair_correlation", &Order::pair_correlation, columns,
+                       text);
+    append_curve_lines({groups[k], k + 1}, "force_density", &Order::force_density, columns, text);
+  }
+  return text;
 }
 
 }  // namespace grainsweep

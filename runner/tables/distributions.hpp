@@ -8,11 +8,9 @@
 
 namespace grainsweep {
 
-/// The first line of the file.
-std::string distributions_header();
-/// Those of a group; `number` is that of the group's row in groups.csv, from 1. `curve` is
-///   pair_correlation  g at a distance from low to high, d
-///   force_density     probability density of contact forces over the mean of their layer
-std::string distribution_lines(const Group& group, std::size_t number);
+/// The whole file.
+std::string distributions_csv(const std::vector<Group>& groups);
+
+std::vector<ColumnText> distributions_columns();
 
 }  // namespace grainsweep

@@ -100,4 +100,11 @@ std::vector<Family> families_of(const std::vector<Group>& groups) {
   return families;
 }
 
+Analysis analyse(const std::vector<Row>& rows) {
+  Analysis analysis;
+  analysis.groups = groups_of(rows);
+  analysis.families = families_of(analysis.groups);
+  return analysis;
+}
+
 }  // namespace grainsweep

@@ -19,4 +19,14 @@ struct Family {
 /// In the order in which they first appear.
 std::vector<Family> families_of(const std::vector<Group>& groups);
 
+/// What tables and report are made of.
+struct Analysis {
+  std::vector<Group> groups;
+  std::vector<Family> families;
+};
+
+/// Refers to the rows.
+Analysis analyse(const std::vector<Row>& rows);
+Analysis analyse(std::vector<Row>&& rows) = delete;
+
 }  // namespace grainsweep

@@ -1,11 +1,11 @@
 #include "runner/tables/fits.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 
 #include "engine/measure/fit.hpp"
-#include "runner/tables/csv.hpp"
 
 namespace grainsweep {
 namespace {
@@ -83,52 +83,123 @@ void take_line(const LineFit& line, FitWeights weights, WallFit& fit) {
   for (FitPoint& point : fit.points) point.fitted = line.intercept + line.slope / point.width;
 }
 
-std::vector<std::string> fit_cells(const WallFit& fit) {
-  if (!fit.not_determined.empty()) return std::vector<std::string>(9);
-  return {cell(fit.bulk.value),   cell(fit.bulk.error),         cell(fit.slope.value),
-          cell(fit.slope.error),  cell(fit.zeta.value),         cell(fit.zeta.error),
-          cell(fit.chi2_per_dof), cell(fit.degrees_of_freedom), cell(fit.r_squared)};
-}
-
-std::vector<std::string> reference_cells(const Family& family, Quantity quantity) {
-  const Group* group = unconfined_reference(family);
-  if (group == nullptr) return std::vector<std::string>(4);
-  const Spread& spread = spread_of(*group, quantity);
-  return {cell(group->job.box.width), cell(spread.mean), cell(spread.sd), cell(spread.n)};
-}
-
 const char* name_of(Quantity quantity) {
   return quantity == Quantity::solid_fraction ? "solid_fraction" : "coordination";
 }
 
-std::string point_lines_of_csv(const Family& family, Quantity quantity) {
-  std::string text;
-  for (const FitPoint& point : fit_walls(family, quantity).points) {
-    const double residual = point.mean - point.fitted;
-    text += csv_line({cell(family.name), name_of(quantity), cell(point.width), cell(point.n),
-                      cell(point.mean), cell(point.error), cell(point.fitted), cell(residual),
-                      cell(residual / point.error)});
-  }
-  return text;
+/// One fit of a family.
+struct FitLine {
+  const Family& family;
+  Quantity quantity;
+  WallFit fit;
+};
+
+/// A value of a fit; empty if it is not determined.
+template <class Value>
+auto fit_cell(Value value) {
+  return [=](const FitLine& line) {
+    return line.fit.not_determined.empty() ? cell(value(line.fit)) : std::string();
+  };
 }
 
-std::string fit_line_of_csv(const Family& family, Quantity quantity) {
-  const WallFit fit = fit_walls(family, quantity);
-  const bool is_determined = fit.not_determined.empty();
-  std::vector<std::string> cells = {
-      cell(family.name),        name_of(quantity), is_determined ? "determined" : "not determined",
-      cell(fit.not_determined), cell(fit.widths),  cell(fit.packings),
-      cell(fit.weights)};
-  for (std::string& text : fit_cells(fit)) cells.push_back(std::move(text));
-  for (std::string& text : reference_cells(family, quantity)) cells.push_back(std::move(text));
-  cells.push_back(cell(family.parameters));
-  return csv_line(cells);
+/// A value of the unconfined reference; empty if there is none.
+template <class Value>
+auto reference_cell(Value value) {
+  return [=](const FitLine& line) {
+    const Group* group = unconfined_reference(line.family);
+    if (group == nullptr) return std::string();
+    return cell(value(*group, spread_of(*group, line.quantity)));
+  };
 }
+
+Columns<FitLine> fit_status_columns() {
+  using Line = const FitLine&;
+  return {
+      {"family", "", "name of the packings that differ in nothing but width and boundary_y",
+       [](Line line) { return cell(line.family.name); }},
+      {"quantity", "", "solid_fraction or coordination",
+       [](Line line) { return cell(name_of(line.quantity)); }},
+      {"status", "", "determined or not determined",
+       [](Line line) {
+         return cell(line.fit.not_determined.empty() ? "determined" : "not determined");
+       }},
+      {"reason", "", "why it is not determined",
+       [](Line line) { return cell(line.fit.not_determined); }},
+      {"widths", "", "different widths with a settled packing",
+       [](Line line) { return cell(line.fit.widths); }},
+      {"packings", "", "settled packings behind them",
+       [](Line line) { return cell(line.fit.packings); }},
+      {"weights", "", "what the errors of the points are",
+       [](Line line) { return cell(line.fit.weights); }},
+  };
+}
+
+Columns<FitLine> fit_line_columns() {
+  Columns<FitLine> columns = fit_status_columns();
+  const auto add = [&](const char* name, const char* unit, const char* meaning,
+                       Estimate WallFit::*estimate) {
+    append_estimate(columns, name, unit, meaning, [=](const FitLine& line) {
+      return line.fit.not_determined.empty() ? &(line.fit.*estimate) : nullptr;
+    });
+  };
+  add("bulk", "", "the quantity without walls, in quantity = bulk - C / W", &WallFit::bulk);
+  add("C", "d", "slope of the line", &WallFit::slope);
+  add("zeta", "d", "C over bulk", &WallFit::zeta);
+  using Fit = const WallFit&;
+  using Reference = const Group&;
+  using Value = const Spread&;
+  append(columns,
+         Columns<FitLine>{
+             {"chi2_per_dof", "", "about 1 if the line holds; empty with equal weights",
+              fit_cell([](Fit fit) { return fit.chi2_per_dof; })},
+             {"degrees_of_freedom", "", "points less 2",
+              fit_cell([](Fit fit) { return fit.degrees_of_freedom; })},
+             {"r_squared", "", "share of the variance of the means that the line explains",
+              fit_cell([](Fit fit) { return fit.r_squared; })},
+             {"biperiodic_width", "d", "of the widest box with periodic y, the reference",
+              reference_cell([](Reference group, Value /*at*/) { return group.job.box.width; })},
+             {"biperiodic_mean", "", "the quantity there",
+              reference_cell([](Reference /*group*/, Value at) { return at.mean; })},
+             {"biperiodic_sd", "", "standard deviation of it over the replicates",
+              reference_cell([](Reference /*group*/, Value at) { return at.sd; })},
+             {"biperiodic_n", "", "settled packings behind it",
+              reference_cell([](Reference /*group*/, Value at) { return at.n; })},
+             {"parameters", "", "of the family, as JSON",
+              [](const FitLine& line) { return cell(line.family.parameters); }}});
+  return columns;
+}
+
+struct FitPointLine {
+  const Family& family;
+  Quantity quantity;
+  FitPoint point;
+};
+
+Columns<FitPointLine> fit_point_columns() {
+  using Line = const FitPointLine&;
+  return {
+      {"family", "", "as in fits.csv", [](Line line) { return cell(line.family.name); }},
+      {"quantity", "", "solid_fraction or coordination",
+       [](Line line) { return cell(name_of(line.quantity)); }},
+      {"width", "d", "of the box along y", [](Line line) { return cell(line.point.width); }},
+      {"n", "", "settled packings behind the mean", [](Line line) { return cell(line.point.n); }},
+      {"mean", "", "the quantity there", [](Line line) { return cell(line.point.mean); }},
+      {"error", "", "standard error of the mean; empty with equal weights",
+       [](Line line) { return cell(line.point.error); }},
+      {"fitted", "", "what the line says", [](Line line) { return cell(line.point.fitted); }},
+      {"residual", "", "mean less fitted",
+       [](Line line) { return cell(line.point.mean - line.point.fitted); }},
+      {"residual_in_errors", "", "residual over error",
+       [](Line line) { return cell((line.point.mean - line.point.fitted) / line.point.error); }},
+  };
+}
+
+constexpr std::array fitted_quantities = {Quantity::solid_fraction, Quantity::coordination};
 
 }  // namespace
 
 const Spread& spread_of(const Group& group, Quantity quantity) {
-  return quantity == Quantity::solid_fraction ? group.solid_fraction : group.coordination;
+  return mean_of(group, name_of(quantity));
 }
 
 double widened(double error, const WallFit& fit) {
@@ -177,24 +248,33 @@ const Group* unconfined_reference(const Family& family) {
   return widest;
 }
 
+std::vector<ColumnText> fits_columns() { return described("fits.csv", fit_line_columns()); }
+
+std::vector<ColumnText> fit_points_columns() {
+  return described("fit_points.csv", fit_point_columns());
+}
+
 std::string fits_csv(const std::vector<Family>& families) {
-  std::string text =
-      "family,quantity,status,reason,widths,packings,weights,bulk,bulk_error,C,C_error,zeta,"
-      "zeta_error,chi2_per_dof,degrees_of_freedom,r_squared,biperiodic_width,biperiodic_mean,"
-      "biperiodic_sd,biperiodic_n,parameters\n";
+  const Columns<FitLine> columns = fit_line_columns();
+  std::string text = header_line(columns);
   for (const Family& family : families) {
     if (family.walled.empty()) continue;
-    text += fit_line_of_csv(family, Quantity::solid_fraction);
-    text += fit_line_of_csv(family, Quantity::coordination);
+    for (const Quantity quantity : fitted_quantities) {
+      text += row_line(columns, FitLine{family, quantity, fit_walls(family, quantity)});
+    }
   }
   return text;
 }
 
 std::string fit_points_csv(const std::vector<Family>& families) {
-  std::string text = "family,quantity,width,n,mean,error,fitted,residual,residual_in_errors\n";
+  const Columns<FitPointLine> columns = fit_point_columns();
+  std::string text = header_line(columns);
   for (const Family& family : families) {
-    text += point_lines_of_csv(family, Quantity::solid_fraction);
-    text += point_lines_of_csv(family, Quantity::coordination);
+    for (const Quantity quantity : fitted_quantities) {
+      for (const FitPoint& point : fit_walls(family, quantity).points) {
+        text += row_line(columns, FitPointLine{family, quantity, point});
+      }
+    }
   }
   return text;
 }

@@ -66,4 +66,7 @@ std::string fits_csv(const std::vector<Family>& families);
 /// standard errors of the point.
 std::string fit_points_csv(const std::vector<Family>& families);
 
+std::vector<ColumnText> fits_columns();
+std::vector<ColumnText> fit_points_columns();
+
 }  // namespace grainsweep

@@ -2,89 +2,60 @@
 
 #include <cmath>
 #include <map>
+#include <stdexcept>
 #include <utility>
 
-#include "runner/tables/csv.hpp"
+#include "runner/store/fields.hpp"
 
 namespace grainsweep {
 namespace {
 
 using Members = std::vector<const Row*>;
 
-/// The spread of `value` over the settled packings of a group.
-template <class Value>
-Spread spread_over(const Members& members, Value value) {
+/// The fields that have a mean in groups.csv.
+const std::vector<Field>& mean_fields() {
+  static const auto some = [] {
+    std::vector<Field> chosen;
+    for (const Field& field : fields()) {
+      if (field.use.groups) chosen.push_back(field);
+    }
+    return chosen;
+  }();
+  return some;
+}
+
+/// Over the settled packings of a group.
+Spread spread_over(const Members& members, const Field& field) {
   std::vector<double> values;
   for (const Row* row : members) {
-    if (is_settled(*row)) values.push_back(value(*row));
+    if (is_settled(*row)) values.push_back(number_of(field, *row->outcome));
   }
   return spread_of(values);
-}
-
-double contact_ratio(const Row& row) {
-  const RestReport& rest = row.outcome->result.rest;
-  if (rest.isostatic_contacts == 0) return no_number;
-  return static_cast<double>(rest.contacts) / static_cast<double>(rest.isostatic_contacts);
-}
-
-/// What a column of shapes holds of a packing; nothing for spheres.
-double shape_value(const Row& row, std::size_t column) {
-  const auto& order = row.outcome->result.shape_order;
-  return order ? shape_values(*order)[column] : no_number;
 }
 
 Group group_of(const Members& members) {
   Group group;
   group.job = members.front()->job;
-  group.solid_fraction =
-      spread_over(members, [](const Row& row) { return row.outcome->result.solid_fraction; });
-  group.coordination = spread_over(
-      members, [](const Row& row) { return headline_coordination(row).between_grains; });
-  group.coordination_with_walls =
-      spread_over(members, [](const Row& row) { return headline_coordination(row).with_walls; });
-  group.contact_ratio = spread_over(members, contact_ratio);
-  group.overlap_mean =
-      spread_over(members, [](const Row& row) { return row.outcome->result.rest.overlap_mean; });
-  for (std::size_t k = 0; k < group.shape_order.size(); ++k) {
-    group.shape_order[k] =
-        spread_over(members, [k](const Row& row) { return shape_value(row, k); });
-  }
+  for (const Field& field : mean_fields()) group.means.push_back(spread_over(members, field));
   for (const Row* row : members) {
     count(*row, group.counts);
-    if (!is_settled(*row)) continue;
-    group.settled.push_back(row->outcome->result);
-    group.jobs.push_back(row->job.id);
+    if (is_settled(*row)) group.settled.emplace_back(row->outcome->result);
   }
   return group;
 }
 
-void append_spread(const Spread& spread, std::vector<std::string>& cells) {
-  cells.push_back(cell(spread.mean));
-  cells.push_back(cell(spread.sd));
-}
+const JobFacts& job_of_group(const Group& group) { return group.job; }
 
-std::string group_line(const Group& group) {
-  const JobFacts& job = group.job;
-  std::vector<std::string> cells = {cell(job.label),
-                                    cell(job.shape),
-                                    cell(job.box.length),
-                                    cell(job.box.width),
-                                    name_of(job.box.x),
-                                    name_of(job.box.y),
-                                    cell(job.small_share),
-                                    cell(job.accuracy),
-                                    cell(group.counts.settled),
-                                    cell(group.counts.not_settled),
-                                    cell(group.counts.failed),
-                                    cell(group.counts.pending)};
-  for (const Spread& spread :
-       {group.solid_fraction, group.coordination, group.coordination_with_walls,
-        group.contact_ratio, group.overlap_mean}) {
-    append_spread(spread, cells);
-  }
-  cells.push_back(cell(job.parameters));
-  for (const Spread& spread : group.shape_order) append_spread(spread, cells);
-  return csv_line(cells);
+Columns<Group> group_count_columns() {
+  using In = const Group&;
+  return {
+      {"n", "", "settled packings, the only ones that enter means",
+       [](In group) { return cell(group.counts.settled); }},
+      {"not_settled", "", "packings that did not settle",
+       [](In group) { return cell(group.counts.not_settled); }},
+      {"failed", "", "packings that failed", [](In group) { return cell(group.counts.failed); }},
+      {"pending", "", "packings not made yet", [](In group) { return cell(group.counts.pending); }},
+  };
 }
 
 }  // namespace
@@ -119,14 +90,43 @@ std::vector<Group> groups_of(const std::vector<Row>& rows) {
   return groups;
 }
 
+const Spread& mean_of(const Group& group, std::string_view field) {
+  for (std::size_t k = 0; k < group.means.size(); ++k) {
+    if (mean_fields()[k].name == field) return group.means[k];
+  }
+  throw std::out_of_range("no mean of " + std::string(field));
+}
+
+Columns<GroupLine> group_line_columns() {
+  Columns<GroupLine> columns = {{"group", "", "number of its row in groups.csv, from 1",
+                                 [](const GroupLine& line) { return cell(line.number); }}};
+  append(columns, job_columns({"label", "width", "boundary_y", "small_share"}),
+         [](const GroupLine& line) -> const JobFacts& { return line.group.job; });
+  return columns;
+}
+
+Columns<Group> groups_columns() {
+  Columns<Group> columns;
+  append(columns,
+         job_columns({"label", "shape", "length", "width", "boundary_x", "boundary_y",
+                      "small_share", "accuracy"}),
+         job_of_group);
+  append(columns, group_count_columns());
+  for (std::size_t k = 0; k < mean_fields().size(); ++k) {
+    const Field& field = mean_fields()[k];
+    if (field.name == "contacts_simple") {
+      append(columns, job_columns({"parameters"}), job_of_group);
+    }
+    append_spread(columns, std::string(field.name), std::string(field.unit),
+                  std::string(field.meaning), [k](const Group& group) { return group.means[k]; });
+  }
+  return columns;
+}
+
 std::string groups_csv(const std::vector<Group>& groups) {
-  std::string text =
-      "label,shape,length,width,boundary_x,boundary_y,small_share,accuracy,n,not_settled,failed,"
-      "pending,solid_fraction,solid_fraction_sd,coordination,coordination_sd,"
-      "coordination_with_walls,coordination_with_walls_sd,contact_ratio,contact_ratio_sd,"
-      "overlap_mean,overlap_mean_sd,parameters,";
-  text += csv_line(shape_header(true));
-  for (const Group& group : groups) text += group_line(group);
+  const Columns<Group> columns = groups_columns();
+  std::string text = header_line(columns);
+  for (const Group& group : groups) text += row_line(columns, group);
   return text;
 }
 

@@ -1,12 +1,13 @@
 // groups.csv: mean and scatter over the replicates of each parameter set.
 #pragma once
 
-#include <array>
+#include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "runner/tables/columns.hpp"
 #include "runner/tables/job_facts.hpp"
-#include "runner/tables/shape_columns.hpp"
 
 namespace grainsweep {
 
@@ -22,23 +23,43 @@ Spread spread_of(const std::vector<double>& values);
 /// Standard error of the mean, sd / sqrt(n); NaN below two values.
 double standard_error(const Spread& spread);
 
-/// The packings with one label and one parameter set. Only settled ones enter the means.
+/// The packings with one label and one parameter set. Only settled ones enter the means. Refers to
+/// the rows that it was made of.
 struct Group {
   JobFacts job;  ///< the first of them: its replicate number, id and seed mean nothing here
-  Spread solid_fraction;
-  Spread coordination;             ///< at the first gap tolerance, walls not counted
-  Spread coordination_with_walls;  ///< the same, walls counted
-  Spread contact_ratio;            ///< contacts over isostatic contacts
-  Spread overlap_mean;             ///< d
-  /// In the order of shape_columns; without values for spheres.
-  std::array<Spread, shape_columns.size()> shape_order;
-  std::vector<PackingResult> settled;  ///< in the order of the rows, with curves as far as they had
-  std::vector<std::string> jobs;       ///< ids of those
+  std::vector<Spread> means;  ///< of the fields that have one, in the order of the field table
+  /// In the order of the rows, with curves as far as they had.
+  std::vector<std::reference_wrapper<const PackingResult>> settled;
   StatusCounts counts;
 };
 
 /// In the order in which the groups first appear.
 std::vector<Group> groups_of(const std::vector<Row>& rows);
+std::vector<Group> groups_of(std::vector<Row>&& rows) = delete;
+
+/// The mean of the field called so, which must be one with a mean in groups.csv: "solid_fraction".
+const Spread& mean_of(const Group& group, std::string_view field);
+
+/// A line of a table with several lines per group.
+struct GroupLine {
+  const Group& group;
+  std::size_t number;  ///< of the group's row in groups.csv, from 1
+};
+
+/// What such tables begin with: the number and a few facts of the group.
+Columns<GroupLine> group_line_columns();
+
+/// Appends two columns to a table: mean and standard deviation of what `spread` gives of an item.
+template <class Item, class SpreadOf>
+void append_spread(Columns<Item>& columns, const std::string& name, const std::string& unit,
+                   const std::string& meaning, SpreadOf spread) {
+  columns.push_back(
+      {name, unit, meaning, [=](const Item& item) { return cell(spread(item).mean); }});
+  columns.push_back({name + "_sd", unit, "standard deviation of it over the replicates",
+                     [=](const Item& item) { return cell(spread(item).sd); }});
+}
+
+Columns<Group> groups_columns();
 
 /// The whole file.
 std::string groups_csv(const std::vector<Group>& groups);

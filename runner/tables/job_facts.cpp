@@ -1,11 +1,12 @@
 #include "runner/tables/job_facts.hpp"
 
 #include <algorithm>
+#include <utility>
+#include <variant>
 
 #include <nlohmann/json.hpp>
 
 #include "engine/dynamics/presets.hpp"
-#include "runner/tables/csv.hpp"
 
 namespace grainsweep {
 namespace {
@@ -19,13 +20,11 @@ std::string accuracy_name(const Accuracy& accuracy) {
   return "custom";
 }
 
-/// The shape's name: parameters name it either as text or as an object with one member.
-std::string shape_of(const std::string& parameters) {
-  const json read = json::parse(parameters, nullptr, false);
-  const json shape = read.is_object() ? read.value("shape", json("sphere")) : json("sphere");
-  if (shape.is_string()) return shape.get<std::string>();
-  return shape.is_object() && !shape.empty() ? shape.begin().key() : "sphere";
-}
+struct ShapeName {
+  const char* operator()(const SphereShape& /*shape*/) const { return "sphere"; }
+  const char* operator()(const PinacoidSize& /*shape*/) const { return "pinacoid"; }
+  const char* operator()(const HullVertices& /*shape*/) const { return "hull"; }
+};
 
 JobFacts facts_of(const Job& job) {
   JobFacts facts;
@@ -34,12 +33,41 @@ JobFacts facts_of(const Job& job) {
   facts.parameters = job.parameters;
   facts.replicate = job.replicate;
   facts.seed = job.seed;
-  facts.shape = shape_of(job.parameters);
+  facts.shape = std::visit(ShapeName(), job.spec.shape);
   facts.accuracy = accuracy_name(job.spec.accuracy);
   facts.box = job.spec.box;
   facts.small_share = job.spec.sizes.small_share;
   facts.measure = job.spec.measure;
   return facts;
+}
+
+std::string gap_tolerance(const JobFacts& job) {
+  const auto& gaps = job.measure.gap_tolerances;
+  return gaps.empty() ? "" : cell(gaps.front());
+}
+
+Columns<JobFacts> all_job_columns() {
+  using Job = const JobFacts&;
+  const char* const boundary = "walls or periodic";
+  return {
+      {"job", "", "id of the packing", [](Job job) { return job.id; }},
+      {"label", "", "of the block of the sweep", [](Job job) { return cell(job.label); }},
+      {"replicate", "", "number among packings of equal parameters, from 1",
+       [](Job job) { return cell(job.replicate); }},
+      {"seed", "", "of the sweep", [](Job job) { return cell(job.seed); }},
+      {"shape", "", "sphere, pinacoid or hull", [](Job job) { return cell(job.shape); }},
+      {"accuracy", "", "name of the preset, or custom", [](Job job) { return cell(job.accuracy); }},
+      {"length", "d", "of the box along x", [](Job job) { return cell(job.box.length); }},
+      {"width", "d", "of the box along y, the gap W between walls",
+       [](Job job) { return cell(job.box.width); }},
+      {"boundary_x", "", boundary, [](Job job) { return cell(name_of(job.box.x)); }},
+      {"boundary_y", "", boundary, [](Job job) { return cell(name_of(job.box.y)); }},
+      {"small_share", "", "share of the solid volume in small grains",
+       [](Job job) { return cell(job.small_share); }},
+      {"gap_tolerance", "d", "grains with a smaller gap touch", gap_tolerance},
+      {"parameters", "", "all of them, as canonical JSON",
+       [](Job job) { return cell(job.parameters); }},
+  };
 }
 
 Boundary boundary_from(const json& name) {
@@ -80,54 +108,67 @@ JobFacts shared_facts_from(const json& set) {
 
 }  // namespace
 
+Columns<JobFacts> job_columns(const std::vector<std::string>& names) {
+  const Columns<JobFacts> all = all_job_columns();
+  Columns<JobFacts> chosen;
+  for (const std::string& name : names) {
+    chosen.push_back(*std::find_if(all.begin(), all.end(),
+                                   [&](const auto& column) { return column.name == name; }));
+  }
+  return chosen;
+}
+
 const char* name_of(Boundary boundary) {
   return boundary == Boundary::walls ? "walls" : "periodic";
 }
 
-SweepFacts facts_of(const Sweep& sweep) {
-  SweepFacts facts{sweep.name, {}};
-  for (const Job& job : sweep.jobs) facts.jobs.push_back(facts_of(job));
-  return facts;
+std::vector<Row> rows_of(const Sweep& sweep) {
+  std::vector<Row> rows;
+  rows.reserve(sweep.jobs.size());
+  for (const Job& job : sweep.jobs) rows.push_back({facts_of(job), std::nullopt});
+  return rows;
 }
 
-json to_json(const SweepFacts& sweep) {
+std::size_t take_outcomes(std::map<std::string, Outcome>&& outcomes, std::vector<Row>& rows) {
+  std::size_t taken = 0;
+  for (Row& row : rows) {
+    const auto found = outcomes.find(row.job.id);
+    if (found == outcomes.end()) continue;
+    row.outcome = std::move(found->second);
+    ++taken;
+  }
+  return outcomes.size() - taken;
+}
+
+json jobs_json(const std::vector<Row>& rows) {
   json sets = json::array(), jobs = json::array();
   std::map<std::string, std::size_t> index_of;
-  for (const JobFacts& job : sweep.jobs) {
-    const auto [known, is_new] = index_of.try_emplace(job.parameters, sets.size());
-    if (is_new) sets.push_back(shared_json(job));
-    jobs.push_back({{"id", job.id},
-                    {"label", job.label},
-                    {"replicate", job.replicate},
-                    {"seed", job.seed},
+  for (const Row& row : rows) {
+    const auto [known, is_new] = index_of.try_emplace(row.job.parameters, sets.size());
+    if (is_new) sets.push_back(shared_json(row.job));
+    jobs.push_back({{"id", row.job.id},
+                    {"label", row.job.label},
+                    {"replicate", row.job.replicate},
+                    {"seed", row.job.seed},
                     {"set", known->second}});
   }
-  return {{"name", sweep.name}, {"parameter_sets", sets}, {"jobs", jobs}};
+  return {{"parameter_sets", sets}, {"jobs", jobs}};
 }
 
-SweepFacts sweep_facts_from_json(const json& from) {
+std::vector<Row> rows_from_json(const json& from, Detail detail) {
   std::vector<JobFacts> sets;
   for (const json& set : from.at("parameter_sets")) sets.push_back(shared_facts_from(set));
-  SweepFacts sweep{from.at("name").get<std::string>(), {}};
+  std::vector<Row> rows;
+  rows.reserve(from.at("jobs").size());
   for (const json& entry : from.at("jobs")) {
     const auto set = entry.at("set").get<std::size_t>();
     if (set >= sets.size()) throw json::out_of_range::create(401, "no such parameter set", &entry);
-    JobFacts job = sets[set];
-    entry.at("id").get_to(job.id);
-    entry.at("label").get_to(job.label);
-    entry.at("replicate").get_to(job.replicate);
-    entry.at("seed").get_to(job.seed);
-    sweep.jobs.push_back(std::move(job));
-  }
-  return sweep;
-}
-
-std::vector<Row> join(const SweepFacts& sweep, const std::map<std::string, Outcome>& outcomes) {
-  std::vector<Row> rows;
-  rows.reserve(sweep.jobs.size());
-  for (const JobFacts& job : sweep.jobs) {
-    const auto found = outcomes.find(job.id);
-    rows.push_back({job, found == outcomes.end() ? std::nullopt : std::optional(found->second)});
+    Row& row = rows.emplace_back();
+    if (detail == Detail::whole) row.job = sets[set];
+    entry.at("id").get_to(row.job.id);
+    entry.at("label").get_to(row.job.label);
+    entry.at("replicate").get_to(row.job.replicate);
+    entry.at("seed").get_to(row.job.seed);
   }
   return rows;
 }
@@ -136,31 +177,24 @@ bool is_settled(const Row& row) {
   return row.outcome && row.outcome->result.status == PackingStatus::settled;
 }
 
-std::string status_of(const Row& row) {
-  return row.outcome ? name_of(row.outcome->result.status) : "pending";
-}
-
-void count(std::optional<PackingStatus> status, StatusCounts& counts) {
-  counts.settled += status == PackingStatus::settled ? 1 : 0;
-  counts.not_settled += status == PackingStatus::not_settled ? 1 : 0;
-  counts.failed += status == PackingStatus::failed ? 1 : 0;
-  counts.pending += status ? 0 : 1;
-}
-
-void count(const Row& row, StatusCounts& counts) {
-  count(row.outcome ? std::optional(row.outcome->result.status) : std::nullopt, counts);
-}
-
 bool is_measured(const Row& row) {
   return is_settled(row) ||
          (row.outcome && row.outcome->result.status == PackingStatus::not_settled);
 }
 
-Coordination headline_coordination(const Row& row) {
-  if (!is_measured(row) || row.outcome->result.coordination.empty()) {
-    return {no_number, no_number, no_number};
-  }
-  return row.outcome->result.coordination.front();
+std::string status_of(const Row& row) {
+  return row.outcome ? name_of(row.outcome->result.status) : "pending";
+}
+
+void count(const Row& row, StatusCounts& counts) {
+  if (!row.outcome)
+    ++counts.pending;
+  else if (is_settled(row))
+    ++counts.settled;
+  else if (is_measured(row))
+    ++counts.not_settled;
+  else
+    ++counts.failed;
 }
 
 }  // namespace grainsweep

@@ -1,5 +1,5 @@
-// What tables need to know of a sweep: enough to write every one of them from an output folder
-// alone, without the sweep file.
+// The jobs of a sweep as tables need them, and what came of each: enough to write every table from
+// an output folder alone, without the sweep file.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,9 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "runner/store/outcome.hpp"
+#include "runner/store/journal.hpp"
 #include "runner/sweep/job.hpp"
+#include "runner/tables/columns.hpp"
 
 namespace grainsweep {
 
@@ -28,32 +29,37 @@ struct JobFacts {
   MeasureSpec measure;
 };
 
-struct SweepFacts {
-  std::string name;
-  std::vector<JobFacts> jobs;  ///< in the sweep's order
-};
-
-SweepFacts facts_of(const Sweep& sweep);
-
-/// As kept in provenance.json. Equal parameters are kept once.
-nlohmann::json to_json(const SweepFacts& sweep);
-/// Throws nlohmann::json::exception if `from` is not what to_json makes.
-SweepFacts sweep_facts_from_json(const nlohmann::json& from);
-
 /// A job and what came of it; no outcome while it is pending.
 struct Row {
   JobFacts job;
   std::optional<Outcome> outcome;
 };
 
-/// One row per job, in the sweep's order. Outcomes of other jobs are left out.
-std::vector<Row> join(const SweepFacts& sweep, const std::map<std::string, Outcome>& outcomes);
+/// One pending row per job, in the sweep's order.
+std::vector<Row> rows_of(const Sweep& sweep);
+
+/// Moves the outcome of each row's job into it; returns how many outcomes are orphaned, their jobs
+/// not among the rows.
+std::size_t take_outcomes(std::map<std::string, Outcome>&& outcomes, std::vector<Row>& rows);
+
+/// The jobs of the rows as kept in provenance.json. Equal parameters are kept once.
+nlohmann::json jobs_json(const std::vector<Row>& rows);
+
+/// Pending rows; of a summary ids alone are read. Throws nlohmann::json::exception if `from` is not
+/// what jobs_json makes.
+std::vector<Row> rows_from_json(const nlohmann::json& from, Detail detail = Detail::whole);
+
+/// Columns of jobs, those with these names in this order: "label", "width" ...
+Columns<JobFacts> job_columns(const std::vector<std::string>& names);
 
 /// "walls" or "periodic".
 const char* name_of(Boundary boundary);
 
 /// Whether the row's values may enter means and fits.
 bool is_settled(const Row& row);
+
+/// Whether the row holds measured values, settled or not.
+bool is_measured(const Row& row);
 
 /// "settled", "not_settled", "failed" or "pending".
 std::string status_of(const Row& row);
@@ -63,14 +69,7 @@ struct StatusCounts {
   int settled = 0, not_settled = 0, failed = 0, pending = 0;
 };
 
-/// Counts one more; no status while it is pending.
-void count(std::optional<PackingStatus> status, StatusCounts& counts);
+/// Counts one more.
 void count(const Row& row, StatusCounts& counts);
-
-/// Whether the row holds measured values, settled or not.
-bool is_measured(const Row& row);
-
-/// The coordination at the job's first gap tolerance; NaN if nothing was measured.
-Coordination headline_coordination(const Row& row);
 
 }  // namespace grainsweep

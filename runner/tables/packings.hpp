@@ -4,14 +4,20 @@
 #include <string>
 #include <vector>
 
+#include "runner/tables/columns.hpp"
 #include "runner/tables/job_facts.hpp"
 
 namespace grainsweep {
 
-/// The whole file. `coordination` counts at `gap_tolerance`; the columns coordination_at_<gap> hold
-/// the other tolerances of the sweep, in d. The last columns, of runner/tables/shape_columns.hpp,
-/// are empty for spheres. A packing that is pending or failed has empty cells where nothing was
-/// measured. Only cpu_seconds may differ between two runs of a sweep.
+/// The columns of a sweep. `coordination` counts at `gap_tolerance`; columns coordination_at_<gap>
+/// hold the other tolerances of its jobs, in d, given ascending. A packing that is pending or
+/// failed has empty cells where nothing was measured. Only cpu_seconds may differ between two runs.
+Columns<Row> packings_columns(const std::vector<double>& further_tolerances);
+
+/// Every gap tolerance that is not first in all of the jobs, ascending.
+std::vector<double> further_tolerances(const std::vector<Row>& rows);
+
+/// The whole file.
 std::string packings_csv(const std::vector<Row>& rows);
 
 }  // namespace grainsweep

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "runner/tables/csv.hpp"
-
 namespace grainsweep {
 namespace {
 
@@ -47,34 +45,50 @@ MeanBin mean_bin(const Bins& bins, double low, double high) {
   return mean;
 }
 
-std::vector<std::string> spread_cells(const MeanBin& bin) {
-  std::vector<std::string> cells;
-  for (const Spread& spread : {bin.solid_fraction, bin.large, bin.small, bin.coordination,
-                               bin.coordination_with_walls, bin.small_number_share}) {
-    cells.push_back(cell(spread.mean));
-    cells.push_back(cell(spread.sd));
-  }
-  return cells;
+struct ProfileLine : GroupLine {
+  const char* axis;
+  MeanBin bin;
+};
+
+Columns<ProfileLine> profile_bin_columns() {
+  using Line = const ProfileLine&;
+  return {
+      {"axis", "", "y from wall to wall, z from the floor up",
+       [](Line line) { return cell(line.axis); }},
+      {"low", "d", "where the bin begins", [](Line line) { return cell(line.bin.low); }},
+      {"high", "d", "where it ends", [](Line line) { return cell(line.bin.high); }},
+      {"n", "", "packings that have the bin",
+       [](Line line) { return cell(line.bin.solid_fraction.n); }},
+      {"coordination_n", "", "those of them with grains whose centre is in the bin",
+       [](Line line) { return cell(line.bin.coordination.n); }},
+  };
 }
 
-std::string lines_of(const Group& group, std::size_t number, const char* axis,
-                     Profile PackingResult::*profile) {
-  std::string text;
-  for (const MeanBin& bin : mean_profile(group, profile)) {
-    std::vector<std::string> cells = {cell(number),
-                                      cell(group.job.label),
-                                      cell(group.job.box.width),
-                                      name_of(group.job.box.y),
-                                      cell(group.job.small_share),
-                                      axis,
-                                      cell(bin.low),
-                                      cell(bin.high),
-                                      cell(bin.solid_fraction.n),
-                                      cell(bin.coordination.n)};
-    for (std::string& text_of_cell : spread_cells(bin)) cells.push_back(std::move(text_of_cell));
-    text += csv_line(cells);
+Columns<ProfileLine> profile_line_columns() {
+  Columns<ProfileLine> columns;
+  append(columns, group_line_columns());
+  append(columns, profile_bin_columns());
+  const auto add = [&](const char* name, const char* meaning, Spread MeanBin::*spread) {
+    append_spread(columns, name, "", meaning,
+                  [=](const ProfileLine& line) { return line.bin.*spread; });
+  };
+  add("solid_fraction", "solid volume over the bin's volume", &MeanBin::solid_fraction);
+  add("solid_fraction_large", "that of large grains", &MeanBin::large);
+  add("solid_fraction_small", "that of small grains", &MeanBin::small);
+  add("coordination", "touching grains per grain whose centre is in the bin",
+      &MeanBin::coordination);
+  add("coordination_with_walls", "the same, walls and floor counted",
+      &MeanBin::coordination_with_walls);
+  add("small_number_share", "small grains over all grains in the bin",
+      &MeanBin::small_number_share);
+  return columns;
+}
+
+void append_profile_lines(const GroupLine& of, const char* axis, Profile PackingResult::*profile,
+                          const Columns<ProfileLine>& columns, std::string& text) {
+  for (const MeanBin& bin : mean_profile(of.group, profile)) {
+    text += row_line(columns, ProfileLine{of, axis, bin});
   }
-  return text;
 }
 
 }  // namespace
@@ -98,16 +112,18 @@ std::vector<MeanBin> mean_profile(const Group& group, Profile PackingResult::*pr
   return means;
 }
 
-std::string profiles_header() {
-  return "group,label,width,boundary_y,small_share,axis,low,high,n,coordination_n,solid_fraction,"
-         "solid_fraction_sd,solid_fraction_large,solid_fraction_large_sd,solid_fraction_small,"
-         "solid_fraction_small_sd,coordination,coordination_sd,coordination_with_walls,"
-         "coordination_with_walls_sd,small_number_share,small_number_share_sd\n";
+std::vector<ColumnText> profiles_columns() {
+  return described("profiles.csv", profile_line_columns());
 }
 
-std::string profile_lines(const Group& group, std::size_t number) {
-  return lines_of(group, number, "y", &PackingResult::profile_y) +
-         lines_of(group, number, "z", &PackingResult::profile_z);
+std::string profiles_csv(const std::vector<Group>& groups) {
+  const Columns<ProfileLine> columns = profile_line_columns();
+  std::string text = header_line(columns);
+  for (std::size_t k = 0; k < groups.size(); ++k) {
+    append_profile_lines({groups[k], k + 1}, "y", &PackingResult::profile_y, columns, text);
+    append_profile_lines({groups[k], k + 1}, "z", &PackingResult::profile_z, columns, text);
+  }
+  return text;
 }
 
 }  // namespace grainsweep

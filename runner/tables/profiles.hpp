@@ -25,9 +25,9 @@ struct MeanBin {
 /// profiles differ in length, the bins of those that have them.
 std::vector<MeanBin> mean_profile(const Group& group, Profile PackingResult::*profile);
 
-/// The first line of the file.
-std::string profiles_header();
-/// Those of a group; `number` is that of the group's row in groups.csv, from 1.
-std::string profile_lines(const Group& group, std::size_t number);
+/// The whole file: along y and along z of each group.
+std::string profiles_csv(const std::vector<Group>& groups);
+
+std::vector<ColumnText> profiles_columns();
 
 }  // namespace grainsweep

@@ -35,15 +35,21 @@ struct Provenance {
   Build build;
   std::string sweep_file;       ///< as given on the command line
   std::string sweep_text_hash;  ///< text_hash of its bytes
-  SweepFacts sweep;
+  std::string sweep_name;
   std::vector<RunRecord> runs;  ///< in the order they started
 };
 
-/// The whole file, with totals of `rows`.
+/// The whole file, with the jobs of `rows` and the totals of their packings.
 std::string provenance_text(const Provenance& provenance, const std::vector<Row>& rows);
 
+/// What provenance_text made a text of; the rows are pending, and as of rows_from_json.
+struct ProvenanceReading {
+  Provenance provenance;
+  std::vector<Row> rows;
+};
+
 /// Throws nlohmann::json::exception if `text` is not a provenance.json of this version.
-Provenance provenance_from_text(const std::string& text);
+ProvenanceReading provenance_from_text(const std::string& text, Detail detail = Detail::whole);
 
 /// "fnv1a64:0123456789abcdef", the 64-bit FNV-1a hash.
 std::string text_hash(std::string_view text);

@@ -8,13 +8,13 @@
 #include <vector>
 
 #include <catch2/catch.hpp>
-#include <nlohmann/json.hpp>
 
 #include "engine/packing.hpp"
 #include "kernels/isa.hpp"
 #include "runner/store/checkpoints.hpp"
 #include "runner/store/files.hpp"
 #include "runner/store/journal.hpp"
+#include "runner/store/outcome_text.hpp"
 #include "runner/store/states.hpp"
 #include "tests/runner/sample_rows.hpp"
 #include "tests/runner/temporary_folder.hpp"
@@ -66,11 +66,7 @@ std::size_t refused_states(Damage damaged) {
   const std::string bytes = sample_state();
   std::size_t refused = 0;
   for (std::size_t number = 0; number < tries(); ++number) {
-    try {
-      bed_from_bytes(damaged(bytes, number), "x");
-    } catch (const FileError&) {
-      ++refused;
-    }
+    refused += bed_from_bytes(damaged(bytes, number)) ? 0 : 1;
   }
   return refused;
 }
@@ -101,7 +97,8 @@ struct SampleJournal {
 bool is_as_written(const SampleJournal& journal, const JournalReading& reading) {
   return std::all_of(reading.outcomes.begin(), reading.outcomes.end(), [&](const auto& entry) {
     const auto known = journal.outcomes.find(entry.first);
-    return known != journal.outcomes.end() && to_json(known->second) == to_json(entry.second);
+    return known != journal.outcomes.end() &&
+           outcome_text(known->second) == outcome_text(entry.second);
   });
 }
 

@@ -4,7 +4,7 @@
 #include <limits>
 #include <string>
 
-#include "runner/store/curves.hpp"
+#include "runner/store/states.hpp"
 #include "runner/tables/job_facts.hpp"
 
 namespace grainsweep {
@@ -85,7 +85,7 @@ inline Row settled_row(const std::string& id, double width, double solid_fractio
 }
 
 /// The row of a packing of pinacoids.
-inline Row turned_row(const std::string& id, double width) {
+inline Row polyhedra_row(const std::string& id, double width) {
   Row row = settled_row(id, width, 0.65, 7.5);
   row.job.shape = "pinacoid";
   row.outcome->result.shape_order =

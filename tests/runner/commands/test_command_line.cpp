@@ -69,6 +69,8 @@ TEST_CASE("every command is understood") {
   CHECK_FALSE(options_of<StatusOptions>(read({"status", "o"})).json);
   CHECK(options_of<StatusOptions>(read({"status", "o", "--json"})).json);
   options_of<DoctorOptions>(read({"doctor"}));
+  CHECK_FALSE(options_of<ColumnsOptions>(read({"columns"})).markdown);
+  CHECK(options_of<ColumnsOptions>(read({"columns", "--markdown"})).markdown);
   options_of<SchemaOptions>(read({"schema"}));
   const auto collect = options_of<CollectOptions>(read({"collect", "a", "b", "--out", "c"}));
   CHECK(collect.folders == std::vector<std::string>{"a", "b"});

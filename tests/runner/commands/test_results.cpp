@@ -1,3 +1,5 @@
+#include <set>
+
 #include <catch2/catch.hpp>
 
 #include "runner/commands/results.hpp"
@@ -15,15 +17,24 @@ namespace {
 Provenance stored_provenance() {
   Provenance provenance;
   provenance.sweep_file = "a.json";
-  provenance.sweep = {"a", {sample_job("a1", 5), sample_job("a2", 6)}};
+  provenance.sweep_name = "a";
   provenance.runs.emplace_back();
   return provenance;
 }
 
-/// Flips a bit of the first number of a bed's curves.
-void damage_curves(const std::string& folder, const std::string& job) {
+std::vector<Row> pending_rows() {
+  return {{sample_job("a1", 5), std::nullopt}, {sample_job("a2", 6), std::nullopt}};
+}
+
+/// The bed of an outcome with one grain.
+StoredBed bed_of(const Outcome& outcome) {
+  return {outcome.job, outcome.result.state_hash, {}, sample_curves(), {{}}, {}};
+}
+
+/// Flips a bit of the last grain of a bed.
+void damage_bed(const std::string& folder, const std::string& job) {
   std::string bytes = read_file(state_path(folder, job));
-  bytes[20] = static_cast<char>(bytes[20] ^ 1);
+  bytes[bytes.size() - 20] = static_cast<char>(bytes[bytes.size() - 20] ^ 1);
   replace_file(state_path(folder, job), bytes);
 }
 
@@ -32,17 +43,19 @@ TEST_CASE("tables and journals are enough to know a folder's results") {
   Journal journal(folder.path());
   journal.append(sample_outcome("a2", 0.6, 6));
   journal.append(sample_outcome("other", 0.6, 6));
-  write_tables(folder.path(), stored_provenance(), {});
+  write_tables(folder.path(), stored_provenance(), pending_rows(), {});
   const Results results = read_results(folder.path());
   REQUIRE(results.rows.size() == 2);
   CHECK(status_of(results.rows[0]) == "pending");
   CHECK(status_of(results.rows[1]) == "settled");
-  CHECK(results.foreign == 1);
+  CHECK(results.orphaned == 1);
   CHECK(stored_packings(folder.path()) == 2);
-  CHECK(recorded_runs(folder.path()).size() == 1);
+  std::vector<std::string> damage;
+  CHECK(recorded_runs(folder.path(), damage).size() == 1);
+  CHECK(damage.empty());
 }
 
-TEST_CASE("an overview counts what the whole results hold") {
+TEST_CASE("a summary counts what the whole results hold") {
   const TemporaryFolder folder;
   Journal journal(folder.path());
   Outcome failed = sample_outcome("a1", 0.6, 6);
@@ -50,60 +63,39 @@ TEST_CASE("an overview counts what the whole results hold") {
   failed.version = "0.0.9";
   journal.append(failed);
   journal.append(sample_outcome("other", 0.6, 6));
-  Provenance provenance = stored_provenance();
-  provenance.sweep.jobs.push_back(sample_job("a3", 7));
-  write_tables(folder.path(), provenance, {});
+  std::vector<Row> rows = pending_rows();
+  rows.push_back({sample_job("a3", 7), std::nullopt});
+  write_tables(folder.path(), stored_provenance(), rows, analyse(rows));
   journal.append(sample_outcome("a2", 0.6, 6));
-  const Results results = read_results(folder.path());
-  const Totals totals = totals_of(results.rows);
-  const Overview overview = read_overview(folder.path(), "");
-  CHECK(overview.name == "a");
-  CHECK(overview.sweep_file == "a.json");
-  CHECK(overview.packings == results.rows.size());
-  CHECK(overview.counts.settled == 1);
-  CHECK(overview.counts.not_settled == 0);
-  CHECK(overview.counts.failed == 1);
-  CHECK(overview.counts.pending == totals.counts.pending);
-  CHECK(overview.cpu_seconds == totals.cpu_seconds);
-  CHECK(overview.foreign == results.foreign);
-  CHECK(overview.other_versions == 1);
-  CHECK(overview.damage.empty());
+  const Results whole = read_results(folder.path());
+  const Results summary = read_results(folder.path(), Detail::summary);
+  CHECK(summary.provenance.sweep_name == "a");
+  CHECK(summary.provenance.sweep_file == "a.json");
+  CHECK(summary.rows.size() == 3);
+  const Totals expected = totals_of(whole.rows), totals = totals_of(summary.rows);
+  CHECK(totals.counts.settled == 1);
+  CHECK(totals.counts.not_settled == 0);
+  CHECK(totals.counts.failed == 1);
+  CHECK(totals.counts.pending == expected.counts.pending);
+  CHECK(totals.cpu_seconds == expected.cpu_seconds);
+  CHECK(summary.orphaned == whole.orphaned);
+  CHECK(summary.damage.empty());
+  CHECK(other_versions_warning(summary.rows, "").starts_with("warning: 1 of 3 packings"));
 }
 
 TEST_CASE("a folder without results is refused, and so is a broken provenance") {
   const TemporaryFolder folder;
+  std::vector<std::string> damage;
   CHECK_THROWS_AS(read_results(folder.path()), BadInput);
-  CHECK_THROWS_AS(read_overview(folder.path(), ""), BadInput);
-  CHECK(recorded_runs(folder.path()).empty());
+  CHECK(recorded_runs(folder.path(), damage).empty());
+  CHECK(damage.empty());
   replace_file(folder.path() + "/provenance.json", "{");
   CHECK_THROWS_WITH(read_results(folder.path()), Catch::Contains("run the sweep again"));
-  CHECK_THROWS_WITH(read_overview(folder.path(), ""), Catch::Contains("run the sweep again"));
-  CHECK(recorded_runs(folder.path()).empty());
-}
-
-TEST_CASE("a packing counts as finished with its bed stored and without an exception") {
-  const TemporaryFolder folder;
-  Journal journal(folder.path());
-  for (const char* job : {"whole", "lost", "damaged", "thrown", "failed"}) {
-    Outcome outcome = sample_outcome(job, 0.6, 6);
-    outcome.stored_grains = std::string_view(job) == "failed" ? 0 : 1;
-    outcome.threw = std::string_view(job) == "thrown";
-    outcome.result.status =
-        outcome.stored_grains == 0 ? PackingStatus::failed : outcome.result.status;
-    journal.append(outcome);
-    if (std::string_view(job) != "lost") write_bed(folder.path(), job, {{}, {{}}, sample_curves()});
-  }
-  damage_curves(folder.path(), "damaged");
-  const JournalReading finished = finished_outcomes(folder.path());
-  CHECK(finished.outcomes.size() == 2);
-  CHECK(finished.outcomes.contains("whole"));
-  CHECK(finished.outcomes.contains("failed"));
-  CHECK(stored_outcomes(folder.path()).outcomes.size() == 3);
-  REQUIRE(finished.damage.size() == 2);
-  CHECK(finished.damage[0] ==
-        "states/damaged.grains: missing, damaged or of another version; left out, its packing is "
-        "made again");
-  CHECK_THAT(finished.damage[1], Catch::StartsWith("states/lost.grains: missing"));
+  CHECK_THROWS_WITH(read_results(folder.path(), Detail::summary),
+                    Catch::Contains("run the sweep again"));
+  CHECK(recorded_runs(folder.path(), damage).empty());
+  REQUIRE(damage.size() == 1);
+  CHECK_THAT(damage[0], Catch::Contains("/provenance.json: damaged"));
 }
 
 /// Two packings of one group, stored with their curves.
@@ -111,15 +103,16 @@ std::vector<Row> stored_rows(const TemporaryFolder& folder) {
   std::vector<Row> rows = {settled_row("a1", 5, 0.6, 6), settled_row("a2", 5, 0.61, 6)};
   for (Row& row : rows) {
     row.outcome->stored_grains = 1;
-    write_bed(folder.path(), row.job.id, {{}, {{}}, sample_curves()});
+    write_bed(folder.path(), bed_of(*row.outcome));
   }
   return rows;
 }
 
 TEST_CASE("tables of curves are made of what is stored with the grains") {
   const TemporaryFolder folder;
-  const std::vector<Row> rows = stored_rows(folder);
-  write_tables(folder.path(), stored_provenance(), rows);
+  std::vector<Row> rows = stored_rows(folder);
+  CHECK(load_curves(folder.path(), rows).empty());
+  write_tables(folder.path(), stored_provenance(), rows, analyse(rows));
   const std::string start = "1,MSP,5,walls,0,";
   CHECK_THAT(read_file(folder.path() + "/profiles.csv"),
              Catch::Contains("\n" + start + "y,0,0.1,2,2,") &&
@@ -127,19 +120,30 @@ TEST_CASE("tables of curves are made of what is stored with the grains") {
   CHECK_THAT(read_file(folder.path() + "/distributions.csv"),
              Catch::Contains("\n" + start + "pair_correlation,0.05,0.1,2,0.1,0\n"));
   CHECK_THAT(read_file(folder.path() + "/decays.csv"), Catch::Contains("\n" + start + "large,"));
+  CHECK_THAT(read_file(folder.path() + "/columns.csv"),
+             Catch::Contains("\npackings.csv,coordination_at_1e-05,,") ||
+                 Catch::Contains("\ndecays.csv,lambda,d,"));
 }
 
-TEST_CASE("damaged curves are named, and never left out of a table in silence") {
+TEST_CASE("a bed that is missing, damaged anywhere or another's is named and its row pending") {
   const TemporaryFolder folder;
   std::vector<Row> rows = stored_rows(folder);
-  damage_curves(folder.path(), "a2");
-  CHECK_THROWS_WITH(write_tables(folder.path(), stored_provenance(), rows),
-                    Catch::Contains("/states/a2.grains: missing, damaged or of another version; "
-                                    "run the sweep again"));
-  CHECK(load_curves(folder.path(), rows).size() == 1);
+  for (const char* id : {"lost", "swapped", "failed"}) rows.push_back(settled_row(id, 5, 0.6, 6));
+  rows[2].outcome->stored_grains = 1;
+  rows[3].outcome->stored_grains = 1;
+  StoredBed other = bed_of(*rows[3].outcome);
+  other.state_hash += 1;
+  write_bed(folder.path(), other);
+  damage_bed(folder.path(), "a2");
+  const auto damage = load_curves(folder.path(), rows);
+  REQUIRE(damage.size() == 3);
+  CHECK_THAT(damage[0], Catch::Contains("/states/a2.grains: damaged, or of another version"));
+  CHECK_THAT(damage[1], Catch::Contains("/states/lost.grains: missing"));
+  CHECK_THAT(damage[2], Catch::Contains("/states/swapped.grains: the bed of another packing"));
   CHECK(rows[0].outcome->result.profile_y.bins.size() == 2);
   CHECK(status_of(rows[1]) == "pending");
-  write_tables(folder.path(), stored_provenance(), rows);
+  CHECK(status_of(rows[4]) == "settled");  // has no bed
+  write_tables(folder.path(), stored_provenance(), rows, analyse(rows));
   CHECK_THAT(read_file(folder.path() + "/profiles.csv"), Catch::Contains(",y,0,0.1,1,1,"));
 }
 
@@ -157,7 +161,7 @@ TEST_CASE("half written files of every kind are removed, whole ones stay") {
   const TemporaryFolder folder;
   const std::vector<std::string> names = {"packings.csv", "provenance.json", "states/a1.grains",
                                           "checkpoints/a1.0", "checkpoints/a1.1"};
-  write_bed(folder.path(), "a1", {});
+  write_bed(folder.path(), bed_of(sample_outcome("a1", 0.6, 6)));
   CheckpointFiles(folder.path(), "a1", "1.0").write({});
   for (const std::string& name : names) {
     replace_file(folder.path() + "/" + name, "whole");
@@ -173,9 +177,9 @@ TEST_CASE("half written files of every kind are removed, whole ones stay") {
 TEST_CASE("removing results leaves other files alone") {
   const TemporaryFolder folder;
   Journal(folder.path()).append(sample_outcome("a1", 0.6, 6));
-  write_bed(folder.path(), "a1", {});
+  write_bed(folder.path(), bed_of(sample_outcome("a1", 0.6, 6)));
   CheckpointFiles(folder.path(), "a1", "1.0").write({});
-  write_tables(folder.path(), stored_provenance(), {});
+  write_tables(folder.path(), stored_provenance(), {}, {});
   replace_file(folder.path() + "/notes.txt", "mine");
   replace_file(folder.path() + "/states/notes.txt", "mine");
   remove_results(folder.path());
@@ -183,6 +187,18 @@ TEST_CASE("removing results leaves other files alone") {
         std::vector<std::string>{"checkpoints", "notes.txt", "states"});
   CHECK(files_in(folder.path() + "/checkpoints", "", "").empty());
   CHECK(files_in(folder.path() + "/states", "", "") == std::vector<std::string>{"notes.txt"});
+}
+
+TEST_CASE("every column of every table has a meaning, and stands in its table once") {
+  std::set<std::string> files, columns;
+  for (const ColumnText& one : all_columns({1e-5})) {
+    files.insert(one.file);
+    CHECK(columns.insert(one.file + "/" + one.name).second);
+    CHECK_FALSE(one.meaning.empty());
+  }
+  CHECK(files.size() == 7);
+  CHECK(columns.contains("packings.csv/coordination_at_1e-05"));
+  CHECK(columns.contains("fits.csv/zeta"));
 }
 
 }  // namespace

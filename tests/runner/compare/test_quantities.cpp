@@ -8,12 +8,14 @@
 namespace grainsweep {
 namespace {
 
+/// They refer to the rows.
 std::vector<Family> families_in(const std::vector<Row>& rows) {
   return families_of(groups_of(rows));
 }
 
 TEST_CASE("every quantity of a whole sweep has the value that was planted") {
-  const Family family = families_in(wall_sweep()).at(0);
+  const std::vector<Row> rows = wall_sweep();
+  const Family family = families_in(rows).at(0);
   const auto value = [&](const std::string& quantity, double width = 0) {
     const Measured measured = measure_quantity(quantity, width, family);
     INFO(quantity << measured.not_determined);
@@ -41,7 +43,8 @@ TEST_CASE("every quantity of a whole sweep has the value that was planted") {
 }
 
 TEST_CASE("the error of a mean is that of the variance pooled over the family") {
-  const Family family = families_in(wall_sweep()).at(0);
+  const std::vector<Row> rows = wall_sweep();
+  const Family family = families_in(rows).at(0);
   const Measured z = measure_quantity("Z_unconfined", 0, family);
   // Four groups of two, .02 or .04 apart: variances 3 x 2e-4 and 8e-4, pooled 3.5e-4.
   CHECK(z.estimate.error == Approx(std::sqrt(3.5e-4 / 2)));
@@ -72,8 +75,8 @@ TEST_CASE("families that share one value show it, and others that they do not") 
 }
 
 TEST_CASE("what a sweep lacks is not determined, with the reason") {
-  const Family family =
-      families_in({settled_row("a", 5, 0.6, 5.4), settled_row("b", 6, 0.61, 5.5)}).at(0);
+  const std::vector<Row> rows = {settled_row("a", 5, 0.6, 5.4), settled_row("b", 6, 0.61, 5.5)};
+  const Family family = families_in(rows).at(0);
   const auto reason = [&](const std::string& quantity, double width = 0) {
     return measure_quantity(quantity, width, family).not_determined;
   };

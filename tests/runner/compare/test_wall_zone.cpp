@@ -22,7 +22,8 @@ Row zoned_row(const std::string& id, double width, double zone, std::int64_t wal
 }
 
 TEST_CASE("a planted zone of fewer neighbours is found with its drop and width") {
-  const auto groups = groups_of({zoned_row("a", 10, 1.5, 4), zoned_row("b", 10, 1.5, 4)});
+  const std::vector<Row> rows = {zoned_row("a", 10, 1.5, 4), zoned_row("b", 10, 1.5, 4)};
+  const auto groups = groups_of(rows);
   const WallZone zone = wall_zone(groups.at(0));
   REQUIRE(zone.not_determined.empty());
   CHECK(zone.drop.mean == Approx(2));
@@ -31,7 +32,8 @@ TEST_CASE("a planted zone of fewer neighbours is found with its drop and width")
 }
 
 TEST_CASE("the error of a drop is the scatter of the packings") {
-  const auto groups = groups_of({zoned_row("a", 10, 1.5, 4), zoned_row("b", 10, 1.5, 5)});
+  const std::vector<Row> rows = {zoned_row("a", 10, 1.5, 4), zoned_row("b", 10, 1.5, 5)};
+  const auto groups = groups_of(rows);
   CHECK(wall_zone(groups.at(0)).drop.mean == Approx(1.5));
   CHECK(standard_error(wall_zone(groups.at(0)).drop) == Approx(0.5));
 }

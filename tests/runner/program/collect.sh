@@ -24,9 +24,11 @@ packed=$(($(sed 's/.*"job":"\([0-9a-f]*\)".*/\1/' part/journal-*.jsonl walls/jou
 expect_text out.txt '"packings": 10' "\"pending\": $((10 - packed))"
 [ "$(cat all/journal-*.jsonl | wc -l)" -eq "$packed" ] || fail "not one line per packing"
 
-# Again: nothing is added. What is missing comes from the last folder.
+# Again: nothing is added, nothing changes. What is missing comes from the last folder.
+cp all/provenance.json before.json
 expect_code 0 "$program" collect part walls --out all
 expect_text out.txt "0 packings added"
+cmp before.json all/provenance.json || fail "collecting again changed the record"
 expect_code 0 "$program" collect whole --out all
 expect_text out.txt "which now holds 10 of 10"
 [ "$(cat all/journal-*.jsonl | wc -l)" -eq 10 ] || fail "not one line per packing"

@@ -16,6 +16,10 @@ expect_text out.txt '"packings": 10' '"estimated_bytes"' '"available_bytes"'
 cp out.txt plan.json
 expect_code 0 "$program" schema
 expect_text out.txt '"$schema"' '"small_share"'
+expect_code 0 "$program" columns
+expect_text out.txt "packings.csv,solid_fraction,," "decays.csv,lambda,d,"
+expect_code 0 "$program" columns --markdown
+expect_text out.txt '| `overlap_mean` | d | '
 expect_code 0 "$program" doctor
 expect_text out.txt "sse2" "cores" "oneTBB"
 [ ! -e out ] || fail "looking wrote something"
@@ -27,7 +31,7 @@ code=0
 expect_text report.txt "small: 10 packings" "walls" "5 periodic" "Tables in out/small" "CPU time"
 expect_text progress.txt "10/10  "
 for file in packings.csv groups.csv fits.csv fit_points.csv profiles.csv decays.csv \
-  distributions.csv provenance.json; do
+  distributions.csv columns.csv provenance.json; do
   [ -s "out/small/$file" ] || fail "no $file"
 done
 [ "$(wc -l <out/small/packings.csv)" -eq 11 ] || fail "packings.csv has not 10 rows"

@@ -50,7 +50,7 @@ rm "killed/states/$lost"
 printf '\xff' | dd of="killed/states/$damaged" bs=1 seek=200 conv=notrunc status=none
 run_to_the_end killed
 expect_text progress.txt "warning: killed/journal-" "torn or damaged line" \
-  "warning: killed/states/$lost: missing" "warning: killed/states/$damaged: missing, damaged or"
+  "warning: killed/states/$lost: missing" "warning: killed/states/$damaged: damaged, or"
 for table in profiles decays distributions; do
   cmp killed/$table.csv whole/$table.csv || fail "other $table after SIGKILL"
 done

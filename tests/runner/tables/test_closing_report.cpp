@@ -22,13 +22,18 @@ std::vector<Row> sample_rows() {
 Provenance reported_provenance() {
   Provenance provenance;
   provenance.sweep_file = "a.json";
-  provenance.sweep.name = "a";
+  provenance.sweep_name = "a";
   provenance.runs = {{"", "end", 3.25, "h-1", 2, "avx2", 8}};
   return provenance;
 }
 
+std::string report_of(const Provenance& provenance, const std::vector<Row>& rows,
+                      const std::string& folder) {
+  return closing_report(provenance, rows, analyse(rows).families, folder);
+}
+
 TEST_CASE("the closing report as a whole") {
-  CHECK(closing_report(reported_provenance(), sample_rows(), "out/a") ==
+  CHECK(report_of(reported_provenance(), sample_rows(), "out/a") ==
         "a: 8 packings, 7 settled; left out of means and fits: 1 did not settle\n"
         "\n"
         "MSP\n"
@@ -63,15 +68,14 @@ TEST_CASE("the closing report as a whole") {
 TEST_CASE("a report of a stopped run says how to go on") {
   std::vector<Row> rows = sample_rows();
   rows[0].outcome.reset();
-  const std::string text = closing_report(reported_provenance(), rows, "out/a");
+  const std::string text = report_of(reported_provenance(), rows, "out/a");
   CHECK_THAT(text, Catch::Contains("1 did not settle, 1 not made yet"));
   CHECK_THAT(text,
              Catch::Contains("Next: grainsweep run a.json --out out/a makes what is missing"));
 }
 
 TEST_CASE("a report of too few widths says why there is no fit") {
-  const std::string text =
-      closing_report(reported_provenance(), {settled_row("a", 5, 0.6, 6)}, "out/a");
+  const std::string text = report_of(reported_provenance(), {settled_row("a", 5, 0.6, 6)}, "out/a");
   CHECK_THAT(text, Catch::Contains("φ_bulk - C/W:  not determined: needs settled packings at 3"));
 }
 
@@ -81,7 +85,7 @@ TEST_CASE("only the first reasons are listed") {
     rows.push_back(row_with_status(std::string("u").append(std::to_string(i)), 5,
                                    PackingStatus::failed, "no room"));
   }
-  const std::string text = closing_report(reported_provenance(), rows, "out/a");
+  const std::string text = report_of(reported_provenance(), rows, "out/a");
   CHECK_THAT(text, Catch::Contains("u4 (MSP") && !Catch::Contains("u5 (MSP"));
   CHECK_THAT(text, Catch::Contains("and 4 more, see packings.csv"));
 }

@@ -14,10 +14,10 @@ Row row_with_curves(const std::string& id, std::vector<double> g, std::vector<do
 }
 
 TEST_CASE("curves have mean and scatter of the replicates that reach so far") {
-  const auto groups =
-      groups_of({row_with_curves("a", {0, 2}, {1}), row_with_curves("b", {0, 4, 5}, {2}),
-                 row_with_status("u", 5, PackingStatus::not_settled, "moves")});
-  CHECK(distributions_header() + distribution_lines(groups.at(0), 1) ==
+  const std::vector<Row> rows = {row_with_curves("a", {0, 2}, {1}),
+                                 row_with_curves("b", {0, 4, 5}, {2}),
+                                 row_with_status("u", 5, PackingStatus::not_settled, "moves")};
+  CHECK(distributions_csv(groups_of(rows)) ==
         "group,label,width,boundary_y,small_share,curve,low,high,n,value,value_sd\n"
         "1,MSP,5,walls,0,pair_correlation,0,0.5,2,0,0\n"
         "1,MSP,5,walls,0,pair_correlation,0.5,1,2,3,1.4142135623730951\n"
@@ -26,8 +26,8 @@ TEST_CASE("curves have mean and scatter of the replicates that reach so far") {
 }
 
 TEST_CASE("a group without settled packings has no curves") {
-  const auto groups = groups_of({row_with_status("u", 5, PackingStatus::failed, "no room")});
-  CHECK(distribution_lines(groups.at(0), 1).empty());
+  const std::vector<Row> rows = {row_with_status("u", 5, PackingStatus::failed, "no room")};
+  CHECK(distributions_csv(groups_of(rows)) == distributions_csv({}));
 }
 
 }  // namespace

@@ -7,22 +7,24 @@ namespace grainsweep {
 namespace {
 
 TEST_CASE("groups that differ in width alone are a family, with the periodic one as reference") {
-  const auto families = families_of(groups_of(
-      {settled_row("a", 10, 0.62, 6), settled_row("b", 5, 0.6, 6),
-       settled_row("c", 20, 0.64, 6, Boundary::periodic), settled_row("d", 20, 0.63, 6)}));
+  const std::vector<Row> rows = {settled_row("a", 10, 0.62, 6), settled_row("b", 5, 0.6, 6),
+                                 settled_row("c", 20, 0.64, 6, Boundary::periodic),
+                                 settled_row("d", 20, 0.63, 6)};
+  const auto families = families_of(groups_of(rows));
   REQUIRE(families.size() == 1);
   REQUIRE(families[0].walled.size() == 3);
   CHECK(families[0].name == "MSP");
   CHECK(families[0].walled[0].job.box.width == 5);
   CHECK(families[0].walled[2].job.box.width == 20);
   REQUIRE(families[0].periodic.size() == 1);
-  CHECK(unconfined_reference(families[0])->solid_fraction.mean == 0.64);
+  CHECK(mean_of(*unconfined_reference(families[0]), "solid_fraction").mean == 0.64);
 }
 
 TEST_CASE("families of one label are told apart by the parameter that differs") {
-  const auto families = families_of(
-      groups_of({settled_row("a", 5, 0.6, 6), settled_row("b", 5, 0.6, 6, Boundary::walls, 0.25),
-                 settled_row("c", 6, 0.6, 6)}));
+  const std::vector<Row> rows = {settled_row("a", 5, 0.6, 6),
+                                 settled_row("b", 5, 0.6, 6, Boundary::walls, 0.25),
+                                 settled_row("c", 6, 0.6, 6)};
+  const auto families = families_of(groups_of(rows));
   REQUIRE(families.size() == 2);
   CHECK(families[0].name == "MSP small_share=0.0");
   CHECK(families[1].name == "MSP small_share=0.25");
@@ -32,7 +34,8 @@ TEST_CASE("families of one label are told apart by the parameter that differs") 
 TEST_CASE("a family of two labels carries both") {
   Row narrow = settled_row("a", 4, 0.6, 6);
   narrow.job.label = "narrow";
-  const auto families = families_of(groups_of({settled_row("b", 5, 0.6, 6), narrow}));
+  const std::vector<Row> rows = {settled_row("b", 5, 0.6, 6), narrow};
+  const auto families = families_of(groups_of(rows));
   REQUIRE(families.size() == 1);
   CHECK(families[0].name == "narrow + MSP");
 }
@@ -42,7 +45,8 @@ TEST_CASE("a preset stands as one word in a family's name") {
   fast.job.accuracy = "fast";
   fast.job.parameters = R"({"accuracy":{"step":0.4,"momentum":0.5},"box":{"width":5}})";
   balanced.job.parameters = R"({"accuracy":{"step":0.2,"momentum":0.9},"box":{"width":5}})";
-  const auto families = families_of(groups_of({fast, balanced}));
+  const std::vector<Row> rows = {fast, balanced};
+  const auto families = families_of(groups_of(rows));
   REQUIRE(families.size() == 2);
   CHECK(families[0].name == "MSP accuracy=fast");
   CHECK(families[1].name == "MSP accuracy=balanced");
@@ -52,7 +56,8 @@ TEST_CASE("a parameter that only some families have tells them apart") {
   Row with = settled_row("a", 5, 0.6, 6), without = settled_row("b", 5, 0.6, 6);
   with.job.parameters = R"({"box":{"width":5},"fill":{"grains":100}})";
   without.job.parameters = R"({"box":{"width":5}})";
-  const auto families = families_of(groups_of({with, without}));
+  const std::vector<Row> rows = {with, without};
+  const auto families = families_of(groups_of(rows));
   REQUIRE(families.size() == 2);
   CHECK(families[0].name == "MSP grains=100");
 }
@@ -60,7 +65,8 @@ TEST_CASE("a parameter that only some families have tells them apart") {
 TEST_CASE("a periodic packing without a settled replicate is no reference") {
   Row row = row_with_status("a", 20, PackingStatus::not_settled, "moves");
   row.job.box.y = Boundary::periodic;
-  const auto families = families_of(groups_of({row}));
+  const std::vector<Row> rows = {row};
+  const auto families = families_of(groups_of(rows));
   REQUIRE(families.size() == 1);
   CHECK(unconfined_reference(families[0]) == nullptr);
 }

@@ -107,7 +107,7 @@ TEST_CASE("planted walls lie within the claimed errors as often as they must") {
       group.job.box.width = width;
       std::vector<double> values;
       for (int k = 0; k < 3; ++k) values.push_back(0.64 - 0.2 / width + 0.001 * normal(generator));
-      group.solid_fraction = spread_of(values);
+      group.means = {spread_of(values)};  // of the solid fraction
       group.counts.settled = 3;
       family.walled.push_back(group);
     }
@@ -179,7 +179,8 @@ TEST_CASE("an unsettled packing never moves the line") {
 TEST_CASE("the table of a family that determines no fit has a reason and no numbers") {
   Row row = settled_row("a", 5, 0.6, 6);
   row.job.parameters = R"({"box":{"width":5}})";
-  CHECK(fits_csv(families_of(groups_of({row}))) ==
+  const std::vector<Row> rows = {row};
+  CHECK(fits_csv(families_of(groups_of(rows))) ==
         "family,quantity,status,reason,widths,packings,weights,bulk,bulk_error,C,C_error,zeta,"
         "zeta_error,chi2_per_dof,degrees_of_freedom,r_squared,biperiodic_width,biperiodic_mean,"
         "biperiodic_sd,biperiodic_n,parameters\n"

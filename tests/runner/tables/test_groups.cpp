@@ -26,17 +26,20 @@ TEST_CASE("one value has a mean but no scatter, none has neither") {
 TEST_CASE("replicates form a group, only the settled ones enter its means") {
   Row pending = settled_row("d", 5, 0.9, 9);
   pending.outcome.reset();
-  const auto groups = groups_of(
-      {settled_row("a", 5, 0.60, 5.8), settled_row("x", 6, 0.7, 7), settled_row("b", 5, 0.62, 6.0),
-       row_with_status("c", 5, PackingStatus::not_settled, "moves"),
-       row_with_status("e", 5, PackingStatus::failed, "no room"), pending});
+  const std::vector<Row> rows = {settled_row("a", 5, 0.60, 5.8),
+                                 settled_row("x", 6, 0.7, 7),
+                                 settled_row("b", 5, 0.62, 6.0),
+                                 row_with_status("c", 5, PackingStatus::not_settled, "moves"),
+                                 row_with_status("e", 5, PackingStatus::failed, "no room"),
+                                 pending};
+  const auto groups = groups_of(rows);
   REQUIRE(groups.size() == 2);
   CHECK(groups[0].job.box.width == 5);
-  CHECK(groups[0].solid_fraction.mean == Approx(0.61));
-  CHECK(groups[0].solid_fraction.sd == Approx(0.02 / std::sqrt(2.0)));
-  CHECK(groups[0].coordination.mean == Approx(5.9));
-  CHECK(groups[0].coordination_with_walls.mean == Approx(6.15));
-  CHECK(groups[0].contact_ratio.mean == Approx(5990.0 / 5991.0));
+  CHECK(mean_of(groups[0], "solid_fraction").mean == Approx(0.61));
+  CHECK(mean_of(groups[0], "solid_fraction").sd == Approx(0.02 / std::sqrt(2.0)));
+  CHECK(mean_of(groups[0], "coordination").mean == Approx(5.9));
+  CHECK(mean_of(groups[0], "coordination_with_walls").mean == Approx(6.15));
+  CHECK(mean_of(groups[0], "contact_ratio").mean == Approx(5990.0 / 5991.0));
   CHECK(groups[0].counts.settled == 2);
   CHECK(groups[0].counts.not_settled == 1);
   CHECK(groups[0].counts.failed == 1);
@@ -44,22 +47,24 @@ TEST_CASE("replicates form a group, only the settled ones enter its means") {
 }
 
 TEST_CASE("how shapes touch and point is averaged over the replicates, spheres have nothing") {
-  Row first = turned_row("a", 5), second = turned_row("b", 5);
+  Row first = polyhedra_row("a", 5), second = polyhedra_row("b", 5);
   second.outcome->result.shape_order->nematic[2] = 0.25;
-  const auto groups = groups_of({first, second});
+  const std::vector<Row> rows = {first, second}, spheres = {settled_row("a", 5, 0.6, 6)};
+  const auto groups = groups_of(rows);
   REQUIRE(groups.size() == 1);
-  CHECK(groups[0].shape_order[0].mean == 0.5);
-  CHECK(groups[0].shape_order[0].sd == 0.0);
-  CHECK(groups[0].shape_order[8].mean == 0.5);
-  CHECK(groups[0].shape_order[8].sd == Approx(0.5 / std::sqrt(2.0)));
+  CHECK(mean_of(groups[0], "contacts_simple").mean == 0.5);
+  CHECK(mean_of(groups[0], "contacts_simple").sd == 0.0);
+  CHECK(mean_of(groups[0], "nematic_z").mean == 0.5);
+  CHECK(mean_of(groups[0], "nematic_z").sd == Approx(0.5 / std::sqrt(2.0)));
   CHECK_THAT(groups_csv(groups), Catch::EndsWith(",0.125,0,0.0625,0,0.5,0.3535533905932738\n"));
-  CHECK(std::isnan(groups_of({settled_row("a", 5, 0.6, 6)})[0].shape_order[0].mean));
+  CHECK(std::isnan(mean_of(groups_of(spheres)[0], "contacts_simple").mean));
 }
 
 TEST_CASE("packings of different labels are different groups") {
   Row other = settled_row("b", 5, 0.62, 6.0);
   other.job.label = "again";
-  CHECK(groups_of({settled_row("a", 5, 0.60, 5.8), other}).size() == 2);
+  const std::vector<Row> rows = {settled_row("a", 5, 0.60, 5.8), other};
+  CHECK(groups_of(rows).size() == 2);
 }
 
 TEST_CASE("the groups table as a whole") {
@@ -69,8 +74,9 @@ TEST_CASE("the groups table as a whole") {
     row->job.parameters = row->job.box.width == 5 ? R"({"a":5})" : R"({"a":6,"b":1})";
     row->outcome->result.rest.contacts = row->outcome->result.rest.isostatic_contacts;
   }
+  const std::vector<Row> rows = {first, second, third};
   CHECK(
-      groups_csv(groups_of({first, second, third})) ==
+      groups_csv(groups_of(rows)) ==
       "label,shape,length,width,boundary_x,boundary_y,small_share,accuracy,n,not_settled,failed,"
       "pending,solid_fraction,solid_fraction_sd,coordination,coordination_sd,"
       "coordination_with_walls,coordination_with_walls_sd,contact_ratio,contact_ratio_sd,"
@@ -82,6 +88,13 @@ TEST_CASE("the groups table as a whole") {
       "0.3535533905932738,6.25,0.3535533905932738,1,0,8e-05,0,\"{\"\"a\"\":5}\",,,,,,,,,,,,,,,,,,\n"
       "MSP,sphere,20,6,periodic,walls,0,balanced,0,1,0,0,,,,,,,,,,,\"{\"\"a\"\":6,\"\"b\"\":1}\""
       ",,,,,,,,,,,,,,,,,,\n");
+}
+
+TEST_CASE("a mean is asked for by the name of its field") {
+  const std::vector<Row> rows = {settled_row("a", 5, 0.6, 6)};
+  const auto groups = groups_of(rows);
+  CHECK(mean_of(groups[0], "solid_fraction").mean == 0.6);
+  CHECK_THROWS_AS(mean_of(groups[0], "steps"), std::out_of_range);
 }
 
 }  // namespace

@@ -53,7 +53,7 @@ TEST_CASE("an unsettled packing keeps its values beside its status and reason") 
 }
 
 TEST_CASE("shapes have their order at the end of the row, pending ones nothing") {
-  Row row = with_two_tolerances(turned_row("a1", 5));
+  Row row = with_two_tolerances(polyhedra_row("a1", 5));
   CHECK_THAT(packings_csv({row}), Catch::Contains("a1,MSP,1,7,pinacoid,2000,5,") &&
                                       Catch::EndsWith(",abcdef0123456789,,0.5,0.25,0.25,0.25,0.25,"
                                                       "0.5,0.125,0.0625,0.75\n"));

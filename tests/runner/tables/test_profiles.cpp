@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <cmath>
 
 #include <catch2/catch.hpp>
@@ -18,7 +17,8 @@ Row row_with_profile(const std::string& id, double large, std::int64_t grains) {
 }
 
 TEST_CASE("a mean profile has mean and scatter of the replicates bin by bin") {
-  const auto groups = groups_of({row_with_profile("a", 0.25, 4), row_with_profile("b", 0.5, 8)});
+  const std::vector<Row> rows = {row_with_profile("a", 0.25, 4), row_with_profile("b", 0.5, 8)};
+  const auto groups = groups_of(rows);
   const auto bins = mean_profile(groups.at(0), &PackingResult::profile_y);
   REQUIRE(bins.size() == 2);
   CHECK(bins[1].low == 0.5);
@@ -34,7 +34,8 @@ TEST_CASE("a mean profile has mean and scatter of the replicates bin by bin") {
 }
 
 TEST_CASE("a bin without grains has a solid fraction but no coordination") {
-  const auto groups = groups_of({row_with_profile("a", 0.25, 4), row_with_profile("b", 0.5, 0)});
+  const std::vector<Row> rows = {row_with_profile("a", 0.25, 4), row_with_profile("b", 0.5, 0)};
+  const auto groups = groups_of(rows);
   const auto bins = mean_profile(groups.at(0), &PackingResult::profile_y);
   CHECK(bins[0].solid_fraction.n == 2);
   CHECK(bins[0].coordination.n == 0);
@@ -46,7 +47,8 @@ TEST_CASE("profiles of different length are averaged over those that reach so fa
   Row low = settled_row("a", 5, 0.6, 6), high = settled_row("b", 5, 0.6, 6);
   low.outcome->result.profile_z = {1.0, {{0.5, 0, 1, 0, 0, 0}}};
   high.outcome->result.profile_z = {1.0, {{0.75, 0, 1, 0, 0, 0}, {0.25, 0, 1, 0, 0, 0}}};
-  const auto groups = groups_of({low, high});
+  const std::vector<Row> rows = {low, high};
+  const auto groups = groups_of(rows);
   const auto bins = mean_profile(groups.at(0), &PackingResult::profile_z);
   REQUIRE(bins.size() == 2);
   CHECK(bins[0].large.mean == 0.625);
@@ -58,16 +60,18 @@ TEST_CASE("profiles of different length are averaged over those that reach so fa
 TEST_CASE("the table has a row per bin, axis and group, and unsettled packings leave no row") {
   Row unsettled = row_with_status("u", 7, PackingStatus::not_settled, "moves");
   unsettled.outcome->result.profile_y = {0.5, {{}}};
-  const auto groups = groups_of({row_with_profile("a", 0.25, 4), unsettled});
-  CHECK(profile_lines(groups.at(0), 7) ==
-        "7,MSP,1,walls,0,y,0,0.5,1,0,0.25,,0.25,,0,,,,,,,\n"
-        "7,MSP,1,walls,0,y,0.5,1,1,1,0.375,,0.25,,0.125,,6,,7,,0.25,\n");
-  CHECK(profile_lines(groups.at(1), 8).empty());
-  const std::string header = profiles_header(), line = profile_lines(groups.at(0), 7);
-  const auto columns = [](const std::string& text) {
-    return std::count(text.begin(), text.begin() + static_cast<long>(text.find('\n')), ',');
-  };
-  CHECK(columns(header) == columns(line));
+  const std::vector<Row> rows = {row_with_profile("a", 0.25, 4), unsettled};
+  const auto groups = groups_of(rows);
+  const std::string text = profiles_csv(groups);
+  const std::string header = text.substr(0, text.find('\n'));
+  CHECK(text.substr(header.size() + 1) ==
+        "1,MSP,1,walls,0,y,0,0.5,1,0,0.25,,0.25,,0,,,,,,,\n"
+        "1,MSP,1,walls,0,y,0.5,1,1,1,0.375,,0.25,,0.125,,6,,7,,0.25,\n");
+  CHECK(header ==
+        "group,label,width,boundary_y,small_share,axis,low,high,n,coordination_n,solid_fraction,"
+        "solid_fraction_sd,solid_fraction_large,solid_fraction_large_sd,solid_fraction_small,"
+        "solid_fraction_small_sd,coordination,coordination_sd,coordination_with_walls,"
+        "coordination_with_walls_sd,small_number_share,small_number_share_sd");
 }
 
 }  // namespace

@@ -1,0 +1,230 @@
+#include "runner/store/fields.hpp"
+
+#include <limits>
+#include <optional>
+#include <type_traits>
+
+namespace grainsweep {
+namespace {
+
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+
+template <class Part>
+struct IsOptional : std::false_type {};
+template <class Part>
+struct IsOptional<std::optional<Part>> : std::true_type {};
+
+/// Follows members and places in arrays from `part` on; null at an optional part without a value,
+/// which is made where it may be changed.
+template <auto key, auto... further, class Part>
+auto walk(Part& part) {
+  if constexpr (IsOptional<std::remove_const_t<Part>>::value) {
+    if constexpr (!std::is_const_v<Part>) {
+      if (!part) part.emplace();
+    }
+    return part ? walk<key, further...>(*part) : nullptr;
+  } else if constexpr (std::is_integral_v<decltype(key)>) {
+    if constexpr (sizeof...(further) == 0)
+      return &part[key];
+    else
+      return walk<further...>(part[key]);
+  } else {
+    if constexpr (sizeof...(further) == 0)
+      return &(part.*key);
+    else
+      return walk<further...>(part.*key);
+  }
+}
+
+template <auto... path>
+FieldValue value_at(const Outcome& outcome) {
+  const auto* const value = walk<path...>(outcome);
+  return value == nullptr ? FieldValue() : FieldValue(*value);
+}
+
+template <auto... path>
+FieldPlace place_at(Outcome& outcome) {
+  return walk<path...>(outcome);
+}
+
+/// A value that is stored at `path` of an outcome.
+template <auto... path>
+Field stored(std::string_view name, std::string_view unit, std::string_view meaning,
+             FieldUse use = {}) {
+  return {name, unit, meaning, use, value_at<path...>, place_at<path...>};
+}
+
+template <auto... path>
+Field in_result(std::string_view name, std::string_view unit, std::string_view meaning,
+                FieldUse use = {}) {
+  return stored<&Outcome::result, path...>(name, unit, meaning, use);
+}
+
+template <double Coordination::*kind>
+FieldValue headline(const Outcome& outcome) {
+  const auto& coordination = outcome.result.coordination;
+  return coordination.empty() ? not_a_number : coordination.front().*kind;
+}
+
+FieldValue contact_ratio(const Outcome& outcome) {
+  const RestReport& rest = outcome.result.rest;
+  if (rest.isostatic_contacts == 0) return not_a_number;
+  return static_cast<double>(rest.contacts) / static_cast<double>(rest.isostatic_contacts);
+}
+
+using Result = PackingResult;
+using Rest = RestReport;
+using Shape = ShapeOrder;
+
+constexpr FieldUse not_in_tables{.packings = false, .measured = false};
+constexpr FieldUse summary_only{.summary = true, .packings = false, .measured = false};
+constexpr FieldUse even_if_failed{.measured = false};
+constexpr FieldUse with_mean{.groups = true};
+constexpr FieldUse derived{.journal = false, .groups = true};
+constexpr FieldUse derived_mean{.journal = false, .packings = false, .groups = true};
+
+/// Parts of a result.
+namespace of {
+constexpr auto rest = &Result::rest;
+constexpr auto balance = &Result::balance;
+constexpr auto order = &Result::order;
+constexpr auto shape = &Result::shape_order;
+}  // namespace of
+
+std::vector<Field> outcome_fields() {
+  return {
+      stored<&Outcome::job>("job", "", "id of the packing", summary_only),
+      stored<&Outcome::version>("version", "", "of the program that made it", summary_only),
+      stored<&Outcome::exception>("exception", "", "it ended in an exception", summary_only),
+      in_result<&Result::status>("status", "", "settled, not_settled or failed", summary_only),
+      stored<&Outcome::stored_grains>("stored_grains", "", "grains in states/<job>.grains",
+                                      not_in_tables),
+      in_result<&Result::coordination>(
+          "coordinations", "", "gap tolerance, coordination and coordination_with_walls of each",
+          not_in_tables),
+      in_result<&Result::grains>("grains", "", "number of grains", even_if_failed),
+  };
+}
+
+std::vector<Field> main_fields() {
+  return {
+      in_result<&Result::solid_fraction>(
+          "solid_fraction", "", "exact solid volume in the slab over the slab's volume", with_mean),
+      {"coordination", "",
+       "touching grains per grain with its centre in the slab, at gap_tolerance; walls and floor "
+       "not counted",
+       derived, headline<&Coordination::between_grains>},
+      {"coordination_with_walls", "", "the same, walls and floor counted as neighbours", derived,
+       headline<&Coordination::with_walls>},
+      in_result<of::rest, &Rest::contacts>(
+          "contacts", "",
+          "force-bearing contacts closed to 1e-4 d, walls and floor included; of polyhedra a "
+          "contact along a line counts 2, one over an area 3"),
+      in_result<of::rest, &Rest::isostatic_contacts>(
+          "isostatic_contacts", "", "degrees of freedom less those that nothing holds"),
+      {"contact_ratio", "", "contacts over isostatic_contacts, 1 at perfect rest", derived_mean,
+       contact_ratio},
+      in_result<of::rest, &Rest::overlap_mean>(
+          "overlap_mean", "d", "mean overlap of the force-bearing contacts", with_mean),
+      in_result<of::rest, &Rest::overlap_max>("overlap_max", "d", "deepest overlap"),
+      in_result<of::rest, &Rest::residual>(
+          "residual", "m g",
+          "worst force-balance residual of a contact in the last step, in weights of its lighter "
+          "grain where that is lighter"),
+      in_result<of::rest, &Rest::kinetic_energy>("kinetic_energy", "m g d",
+                                                 "mean per grain in the last step"),
+      in_result<&Result::steps>("steps", "", "steps taken", even_if_failed),
+      in_result<&Result::iterations>("iterations", "", "iterations of the solver, all steps",
+                                     even_if_failed),
+      stored<&Outcome::cpu_seconds>(
+          "cpu_seconds", "s", "CPU time of all threads; the one column that differs between runs",
+          FieldUse{.summary = true, .measured = false}),
+  };
+}
+
+std::vector<Field> further_fields() {
+  return {
+      in_result<&Result::surface_height>("surface_height", "d", "z of the bed's free surface"),
+      in_result<&Result::slab_bottom>("slab_bottom", "d", "z where the measured slab begins"),
+      in_result<&Result::slab_top>("slab_top", "d", "z where it ends"),
+      in_result<of::rest, &Rest::largest_motion>(
+          "largest_motion", "d", "largest displacement of a grain in the last step"),
+      in_result<of::balance, &ForceBalance::unique>(
+          "forces_unique", "",
+          "whether one set of forces fits the contacts best; like the next three only where the "
+          "accuracy asks for a direct solve of force balance"),
+      in_result<of::balance, &ForceBalance::least_force>(
+          "least_force", "m g", "smallest contact force; negative if a contact must pull"),
+      in_result<of::balance, &ForceBalance::unbalance_max>(
+          "unbalance_max", "", "largest net force on a grain, in its own weight"),
+      in_result<of::balance, &ForceBalance::unbalance_mean>("unbalance_mean", "", "mean of it"),
+      in_result<&Result::mean_diameter>("mean_diameter", "d", "of all grains"),
+      in_result<&Result::mean_diameter_by_volume>("mean_diameter_by_volume", "d",
+                                                  "the same, each grain weighted by its volume"),
+      in_result<of::order, &Order::q6_global>(
+          "q6_global", "",
+          "bond order of all bonds in the slab together, 0 if they point anywhere"),
+      in_result<of::order, &Order::q6_local>("q6_local", "",
+                                             "bond order of a grain's own bonds, mean over grains"),
+      in_result<of::order, &Order::three_contact_share>(
+          "three_contact_share", "", "grains that touch exactly three others, walls included"),
+      in_result<of::order, &Order::segregation>(
+          "segregation", "",
+          "mean height of small less that of large grains, in heights of the slab"),
+      in_result<of::order, &Order::force_mean>(
+          "force_mean", "m g", "of the force-bearing contacts between grains of the slab"),
+      in_result<of::order, &Order::force_square>(
+          "force_square", "", "mean square of a contact force over the mean of its layer"),
+      in_result<&Result::state_hash>("state_hash", "", "of the final positions and radii"),
+      in_result<&Result::reason>("reason", "", "why the packing did not settle or failed",
+                                 even_if_failed),
+  };
+}
+
+std::vector<Field> shape_fields() {
+  return {
+      in_result<of::shape, &Shape::contact_share, 0>(
+          "contacts_simple", "",
+          "share of the force-bearing contacts at a point; like the following only of polyhedra",
+          with_mean),
+      in_result<of::shape, &Shape::contact_share, 1>("contacts_double", "", "of those along a line",
+                                                     with_mean),
+      in_result<of::shape, &Shape::contact_share, 2>("contacts_triple", "", "of those over an area",
+                                                     with_mean),
+      in_result<of::shape, &Shape::force_share, 0>(
+          "force_simple", "", "share of the sum of contact forces that simple contacts carry",
+          with_mean),
+      in_result<of::shape, &Shape::force_share, 1>("force_double", "", "that double ones carry",
+                                                   with_mean),
+      in_result<of::shape, &Shape::force_share, 2>("force_triple", "", "that triple ones carry",
+                                                   with_mean),
+      in_result<of::shape, &Shape::nematic, 0>(
+          "nematic_x", "", "nematic order of the axis x of the shape's frame", with_mean),
+      in_result<of::shape, &Shape::nematic, 1>("nematic_y", "", "the same of y", with_mean),
+      in_result<of::shape, &Shape::nematic, 2>("nematic_z", "", "the same of z", with_mean),
+  };
+}
+
+std::vector<Field> all_fields() {
+  std::vector<Field> all;
+  for (const auto& some : {outcome_fields(), main_fields(), further_fields(), shape_fields()}) {
+    all.insert(all.end(), some.begin(), some.end());
+  }
+  return all;
+}
+
+}  // namespace
+
+const std::vector<Field>& fields() {
+  static const std::vector<Field> all = all_fields();
+  return all;
+}
+
+double number_of(const Field& field, const Outcome& outcome) {
+  const FieldValue value = field.value(outcome);
+  if (const auto* number = std::get_if<double>(&value)) return *number;
+  if (const auto* count = std::get_if<std::int64_t>(&value)) return static_cast<double>(*count);
+  return not_a_number;
+}
+
+}  // namespace grainsweep

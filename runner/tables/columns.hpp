@@ -1,0 +1,92 @@
+// The columns of a table: what each is called and means, and how its cell comes of an item (a
+// packing, a group, a bin ...). Tables, columns.csv and the manual are made of them.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "runner/tables/csv.hpp"
+
+namespace grainsweep {
+
+template <class Item>
+struct Column {
+  std::string name, unit, meaning;
+  std::function<std::string(const Item&)> cell;
+};
+
+template <class Item>
+using Columns = std::vector<Column<Item>>;
+
+template <class Item>
+std::string header_line(const Columns<Item>& columns) {
+  std::vector<std::string> cells;
+  for (const Column<Item>& column : columns) cells.push_back(cell(column.name));
+  return csv_line(cells);
+}
+
+template <class Item>
+std::string row_line(const Columns<Item>& columns, const Item& item) {
+  std::vector<std::string> cells;
+  cells.reserve(columns.size());
+  for (const Column<Item>& column : columns) cells.push_back(column.cell(item));
+  return csv_line(cells);
+}
+
+/// Appends columns of `Item`, or of what an item is made from.
+template <class Item, class Base>
+void append(Columns<Item>& columns, const Columns<Base>& more) {
+  for (const Column<Base>& column : more) {
+    columns.push_back({column.name, column.unit, column.meaning, column.cell});
+  }
+}
+
+/// Appends columns of `part(item)`.
+template <class Item, class Base, class Part>
+void append(Columns<Item>& columns, const Columns<Base>& more, Part part) {
+  for (const Column<Base>& column : more) {
+    columns.push_back({column.name, column.unit, column.meaning,
+                       [cell = column.cell, part](const Item& item) { return cell(part(item)); }});
+  }
+}
+
+/// A column without what makes its cells.
+struct ColumnText {
+  std::string file, name, unit, meaning;
+};
+
+template <class Item>
+std::vector<ColumnText> described(const std::string& file, const Columns<Item>& columns) {
+  std::vector<ColumnText> texts;
+  for (const Column<Item>& column : columns) {
+    texts.push_back({file, column.name, column.unit, column.meaning});
+  }
+  return texts;
+}
+
+/// Appends two columns: a value that is fitted and its standard error; empty where
+/// `estimate(item)`, a pointer to an Estimate, is null.
+template <class Item, class EstimateOf>
+void append_estimate(Columns<Item>& columns, const std::string& name, const std::string& unit,
+                     const std::string& meaning, EstimateOf estimate) {
+  const auto number = [estimate](auto member) {
+    return [=](const Item& item) {
+      const auto* const of = estimate(item);
+      return of == nullptr ? std::string() : cell(of->*member);
+    };
+  };
+  using Type = std::remove_cvref_t<decltype(*estimate(std::declval<const Item&>()))>;
+  columns.push_back({name, unit, meaning, number(&Type::value)});
+  columns.push_back({name + "_error", unit, "standard error of it", number(&Type::error)});
+}
+
+/// columns.csv: file, column, unit and meaning.
+std::string columns_csv(const std::vector<ColumnText>& texts);
+
+/// The same for people: a table in GitHub's Markdown for each file.
+std::string columns_markdown(const std::vector<ColumnText>& texts);
+
+}  // namespace grainsweep
