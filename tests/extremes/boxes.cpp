@@ -41,11 +41,13 @@ void add_counts(std::vector<Scene>& scenes) {
 
 void add_widths(std::vector<Scene>& scenes) {
   for (const char* name : {"fast", "balanced", "accurate"}) {
-    scenes.push_back(packing("one layer", "W = d exactly", name, Outcome::not_settled,
+    // A layer of equal grains is no generic bed: its contacts need not be as many as isostatic.
+    const Outcome layer = name == std::string("fast") ? Outcome::right : Outcome::not_settled;
+    scenes.push_back(packing("one layer", "W = d exactly", name, layer,
                              [](PackingSpec& s) { one_layer(s, 1); }));
-    scenes.push_back(packing("one layer and no more", "W = d + 1e-12", name, Outcome::not_settled,
+    scenes.push_back(packing("one layer and no more", "W = d + 1e-12", name, layer,
                              [](PackingSpec& s) { one_layer(s, 1 + 1e-12); }));
-    scenes.push_back(packing("one layer and a half", "W = 1.5 d", name, Outcome::not_settled,
+    scenes.push_back(packing("one layer and a half", "W = 1.5 d", name, layer,
                              [](PackingSpec& s) { one_layer(s, 1.5); }));
   }
   scenes.push_back(packing("too narrow by rounding", "W = d - 1e-12", "balanced", Outcome::refused,
@@ -58,18 +60,17 @@ void add_widths(std::vector<Scene>& scenes) {
 
 void add_lengths(std::vector<Scene>& scenes) {
   scenes.push_back(packing("the shortest period", "L_x = 2.7 d, a margin above two grains",
-                           "balanced", Outcome::not_settled,
-                           [](PackingSpec& s) { s.box.length = 2.7; }));
+                           "balanced", Outcome::right, [](PackingSpec& s) { s.box.length = 2.7; }));
   scenes.push_back(packing("both periods at their shortest", "L_x = W = 2.7 d", "balanced",
-                           Outcome::not_settled, [](PackingSpec& s) {
+                           Outcome::right, [](PackingSpec& s) {
                              s.box = {2.7, 2.7, Boundary::periodic, Boundary::periodic};
                            }));
   scenes.push_back(packing("own images", "L_x = 2 d", "balanced", Outcome::refused,
                            [](PackingSpec& s) { s.box.length = 2; }));
   scenes.push_back(packing("a grain that is its own neighbour", "L_x = d", "balanced",
                            Outcome::refused, [](PackingSpec& s) { s.box.length = 1; }));
-  scenes.push_back(packing("a long thin box", "L_x = 10,000 d, W = 1.2 d", "fast",
-                           Outcome::not_settled, [](PackingSpec& s) {
+  scenes.push_back(packing("a long thin box", "L_x = 10,000 d, W = 1.2 d", "fast", Outcome::right,
+                           [](PackingSpec& s) {
                              s.box = {10000, 1.2, Boundary::periodic, Boundary::walls};
                              s.fill = GrainCount{20000};
                            }));
@@ -79,18 +80,17 @@ void add_lengths(std::vector<Scene>& scenes) {
 
 void add_heights(std::vector<Scene>& scenes) {
   for (const char* name : {"fast", "balanced"}) {
-    scenes.push_back(
-        packing("a tall bed", "70 d high", name, Outcome::not_settled, [](PackingSpec& s) {
-          s.box = {2.7, 2, Boundary::periodic, Boundary::walls};
-          s.fill = GrainCount{380};
-        }));
+    scenes.push_back(packing("a tall bed", "70 d high", name, Outcome::right, [](PackingSpec& s) {
+      s.box = {2.7, 2, Boundary::periodic, Boundary::walls};
+      s.fill = GrainCount{380};
+    }));
     scenes.push_back(
         packing("a very tall bed", "300 d high", name, Outcome::not_settled, [](PackingSpec& s) {
           s.box = {2.7, 2, Boundary::periodic, Boundary::walls};
           s.fill = GrainCount{1600};
         }));
     scenes.push_back(packing("a tall bed in a shaft", "walls all round, 2 d wide", name,
-                             Outcome::not_settled, [](PackingSpec& s) {
+                             Outcome::refused, [](PackingSpec& s) {
                                s.box = {2, 2, Boundary::walls, Boundary::walls};
                                s.fill = GrainCount{200};
                              }));
@@ -100,16 +100,16 @@ void add_heights(std::vector<Scene>& scenes) {
 void add_sizes(std::vector<Scene>& scenes) {
   for (const char* name : {"fast", "balanced", "accurate"}) {
     scenes.push_back(
-        packing("a trace of small grains", "x_S = 1e-3", name, Outcome::not_settled,
+        packing("a trace of small grains", "x_S = 1e-3", name, Outcome::right,
                 [](PackingSpec& s) { s.sizes.small_share = 1e-3, s.fill = SolidHeight{4}; }));
     scenes.push_back(
-        packing("a trace of large grains", "x_S = .999", name, Outcome::not_settled,
+        packing("a trace of large grains", "x_S = .999", name, Outcome::right,
                 [](PackingSpec& s) { s.sizes.small_share = 0.999, s.fill = GrainCount{300}; }));
     scenes.push_back(
-        packing("small grains only", "x_S = 1", name, Outcome::not_settled,
+        packing("small grains only", "x_S = 1", name, Outcome::right,
                 [](PackingSpec& s) { s.sizes.small_share = 1, s.fill = GrainCount{300}; }));
     scenes.push_back(packing("all sizes at once", "spread .2, cut at .2 and 1.8 d", name,
-                             Outcome::not_settled, [](PackingSpec& s) { s.sizes.spread = 0.2; }));
+                             Outcome::right, [](PackingSpec& s) { s.sizes.spread = 0.2; }));
   }
   scenes.push_back(packing("the size ratio at its limit", "1 to 50", "balanced", Outcome::refused,
                            [](PackingSpec& s) {

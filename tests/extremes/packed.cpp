@@ -57,6 +57,15 @@ std::vector<Answer> answers(const PackingSpec& spec, const Packing& packing,
 
 }  // namespace
 
+Spheres spheres_of(const SphereBed& bed) {
+  Spheres spheres;
+  for (std::size_t i = 0; i < bed.grains(); ++i) {
+    const Record<double>& p = bed.position[i];
+    spheres.push_back({p.x, p.y, p.z, p.w});
+  }
+  return spheres;
+}
+
 PackingSpec small_spec(std::int64_t grains, const Accuracy& accuracy) {
   PackingSpec spec;
   spec.box = {4, 4, Boundary::periodic, Boundary::walls};

@@ -6,6 +6,11 @@
 
 namespace grainsweep::extremes {
 
+using Spheres = std::vector<PlacedSphere>;
+
+/// The grains of a bed where they are.
+Spheres spheres_of(const SphereBed& bed);
+
 /// A specification of a small bed with a slab that begins at the floor and ends at the surface.
 PackingSpec small_spec(std::int64_t grains, const Accuracy& accuracy);
 

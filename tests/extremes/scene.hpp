@@ -43,8 +43,9 @@ struct Scene {
   std::string name;
   std::string extreme;   ///< what is extreme, with numbers
   std::string accuracy;  ///< the preset, or what a step is solved to
-  /// What is promised. `not_settled` promises no more than honesty: anything but silently wrong.
-  /// `silently_wrong` marks a known defect, which README names under its limits.
+  /// What is promised. Every scene that is known to come out right promises it; `not_settled`
+  /// promises no more than honesty: anything but silently wrong. `silently_wrong` marks a known
+  /// defect, which README names under its limits.
   Outcome expected = Outcome::right;
   std::function<Finding()> run;
 };

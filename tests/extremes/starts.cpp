@@ -12,8 +12,6 @@ namespace grainsweep::extremes {
 
 namespace {
 
-using Spheres = std::vector<PlacedSphere>;
-
 Finding settle_any(const Box& box, const Spheres& spheres, const Accuracy& accuracy) {
   PackingSpec spec = small_spec(1, accuracy);
   spec.box = {box.length, box.width, box.x, box.y};
@@ -47,7 +45,7 @@ Spheres on_one_spot(int grains) {
 }
 
 Scene placed(const std::string& name, const std::string& extreme, const NamedAccuracy& at,
-             const Box& box, const Spheres& spheres, Outcome expected = Outcome::not_settled) {
+             const Box& box, const Spheres& spheres, Outcome expected) {
   return {"starts", name,     extreme,
           at.name,  expected, [=] { return settle_any(box, spheres, at.accuracy); }};
 }
@@ -103,11 +101,11 @@ void add_overlaps(std::vector<Scene>& scenes) {
   const Box box{4, 4, testing::periodic, testing::walls};
   for (const char* name : {"fast", "balanced", "accurate"}) {
     const NamedAccuracy at = at_preset(name);
-    scenes.push_back(
-        placed("lattice in itself", "all neighbours overlap by 50 %", at, box, cubic(5, 0.5)));
+    scenes.push_back(placed("lattice in itself", "all neighbours overlap by 50 %", at, box,
+                            cubic(5, 0.5), Outcome::not_settled));
     for (const int grains : {2, 3, 10, 60}) {
       scenes.push_back(placed(std::to_string(grains) + " grains on one spot", "coincident centres",
-                              at, box, on_one_spot(grains)));
+                              at, box, on_one_spot(grains), Outcome::refused));
     }
   }
 }
@@ -117,13 +115,13 @@ void add_balanced_starts(std::vector<Scene>& scenes) {
     const Box cube{4, 4, testing::periodic, testing::periodic};
     Spheres lattice;
     for (const PlacedSphere& s : cubic(4, 1.0)) lattice.push_back({s.x - 0.1, s.y - 0.1, s.z, 0.5});
-    scenes.push_back(
-        placed("simple cubic lattice", "balanced without being stable", at, cube, lattice));
+    scenes.push_back(placed("simple cubic lattice", "balanced without being stable", at, cube,
+                            lattice, Outcome::not_settled));
     Spheres pole;
     for (int k = 0; k < 10; ++k) pole.push_back({2, 2, 0.5 + k, 0.5});
     scenes.push_back(placed("pole of ten", "stands by symmetry alone", at,
-                            {4, 4, testing::periodic, testing::walls}, pole));
-    scenes.push_back({"starts", "a bed at rest", "nothing moves", at.name, Outcome::not_settled,
+                            {4, 4, testing::periodic, testing::walls}, pole, Outcome::refused));
+    scenes.push_back({"starts", "a bed at rest", "nothing moves", at.name, Outcome::right,
                       [at] { return settle_twice(at.accuracy); }});
   }
 }
@@ -136,8 +134,8 @@ void add_starts_in_places(std::vector<Scene>& scenes) {
     scenes.push_back(alone("a grain in a corner", "touches two walls and the floor", at, room,
                            {0.5, 0.5, 0.5, 0.5}));
     scenes.push_back(alone("a grain at the far end", "x = 9999 d", at, pipe, {9999, 2, 3, 0.5}));
-    scenes.push_back(
-        placed("a bed at the far end", "x = 9994 to 9998 d", at, pipe, cluster(9994, 0)));
+    scenes.push_back(placed("a bed at the far end", "x = 9994 to 9998 d", at, pipe,
+                            cluster(9994, 0), Outcome::refused));
   }
   scenes.push_back(alone("a grain from far above", "falls 1000 d", patient("balanced"), room,
                          {2, 2, 1000.5, 0.5}));
@@ -150,9 +148,11 @@ void add_starts_in_places(std::vector<Scene>& scenes) {
                          }(),
                          room, {2, 2, 9999.5, 0.5}));
   scenes.push_back(placed("a bed from far above", "falls 1000 d", at_preset("balanced"),
-                          {4, 4, testing::periodic, testing::walls}, cluster(0, 1000)));
+                          {4, 4, testing::periodic, testing::walls}, cluster(0, 1000),
+                          Outcome::not_settled));
   scenes.push_back(placed("a bed from far above, with time", "falls 1000 d", patient("balanced"),
-                          {4, 4, testing::periodic, testing::walls}, cluster(0, 1000)));
+                          {4, 4, testing::periodic, testing::walls}, cluster(0, 1000),
+                          Outcome::right));
 }
 
 }  // namespace

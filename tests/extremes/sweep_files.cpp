@@ -10,12 +10,21 @@ namespace {
 
 const std::string folder = GRAINSWEEP_CONFIGS "/extremes/";
 
+/// The jobs that do not come out right, by label; what they promise instead.
+Outcome expected_of(const std::string& label) {
+  if (label == "sizes 1 to 49, x_S .001") return Outcome::refused;
+  for (const char* text : {"300 d high", "W = d", "at its loosest"}) {
+    if (label.starts_with(text)) return Outcome::not_settled;
+  }
+  return Outcome::right;
+}
+
 /// A scene for every job of a sweep file that can be run; what is extreme is the job's label.
 void add_jobs(const std::string& file, std::vector<Scene>& scenes) {
   const SweepReading reading = read_sweep(folder + file);
   for (const Job& job : reading.sweep.jobs) {
     scenes.push_back({"sweep files", "configs/extremes/" + file, job.label, "as in the file",
-                      Outcome::not_settled, [spec = job.spec] { return pack(spec); }});
+                      expected_of(job.label), [spec = job.spec] { return pack(spec); }});
   }
   if (reading.errors.empty()) return;
   scenes.push_back({"sweep files", "configs/extremes/" + file, "cannot be read", "as in the file",

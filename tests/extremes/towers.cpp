@@ -65,13 +65,16 @@ Finding settle_tower(const std::vector<double>& masses, const Accuracy& accuracy
   return finding_of(settled, answers(settled, masses));
 }
 
-Scene tower(int grains, const NamedAccuracy& at, Outcome expected) {
+/// Without enough iterations the grains of the tallest towers sink into each other, which is
+/// noticed.
+Scene tower(int grains, const NamedAccuracy& at) {
+  const bool enough = grains <= 200 || (grains <= 500 && at.name == "accurate");
   const std::vector<double> masses(static_cast<std::size_t>(grains), 1.0);
   return {"towers",
           "tower of " + std::to_string(grains),
           "the lowest contact carries " + std::to_string(grains - 1) + " grains",
           at.name,
-          expected,
+          enough ? Outcome::right : Outcome::not_settled,
           [=] { return settle_tower(masses, at.accuracy); }};
 }
 
@@ -92,12 +95,12 @@ std::vector<Scene> towers() {
   std::vector<Scene> scenes;
   for (const char* name : {"fast", "balanced", "accurate"}) {
     for (const int grains : {2, 3, 5, 10, 20, 50, 100, 200, 500}) {
-      scenes.push_back(tower(grains, at_preset(name), Outcome::not_settled));
+      scenes.push_back(tower(grains, at_preset(name)));
     }
   }
-  scenes.push_back(tower(1000, at_preset("balanced"), Outcome::not_settled));
+  scenes.push_back(tower(1000, at_preset("balanced")));
   for (const int grains : {2, 3, 5, 10, 20, 50, 100}) {
-    scenes.push_back(tower(grains, tight(), Outcome::not_settled));
+    scenes.push_back(tower(grains, tight()));
   }
   return scenes;
 }
@@ -105,12 +108,20 @@ std::vector<Scene> towers() {
 std::vector<Scene> masses() {
   std::vector<Scene> scenes = {two_masses(1, 1, at_preset("balanced"), Outcome::right),
                                two_masses(1, 1, tight(), Outcome::right)};
+  const auto add = [&](double ratio, double below, double above, Outcome tightly) {
+    // f32 carries masses up to 1e5 apart, and says so of others.
+    const Outcome balanced = ratio < 1e5 ? Outcome::right : Outcome::not_settled;
+    scenes.push_back(two_masses(below, above, at_preset("balanced"), balanced));
+    scenes.push_back(two_masses(below, above, tight(), tightly));
+  };
   for (const double ratio : {10.0, 100.0, 1e3, 1e4, 1e6, 1e8}) {
-    for (const auto& [below, above] :
-         {std::pair{1.0, ratio}, {ratio, 1.0}, {1.0 / ratio, 1.0}, {1.0, 1.0 / ratio}}) {
-      scenes.push_back(two_masses(below, above, at_preset("balanced"), Outcome::not_settled));
-      scenes.push_back(two_masses(below, above, tight(), Outcome::not_settled));
-    }
+    // 1e-9 m g of the mass of d is beyond the digits of weights of 1e6 and of what 1e-8 leaves.
+    const Outcome up_to_1e4 = ratio <= 1e4 ? Outcome::right : Outcome::not_settled;
+    const Outcome up_to_1e6 = ratio <= 1e6 ? Outcome::right : Outcome::not_settled;
+    add(ratio, 1.0, ratio, up_to_1e4);
+    add(ratio, ratio, 1.0, Outcome::right);
+    add(ratio, 1.0 / ratio, 1.0, up_to_1e6);
+    add(ratio, 1.0, 1.0 / ratio, up_to_1e6);
   }
   return scenes;
 }

@@ -12,8 +12,6 @@ namespace grainsweep::extremes {
 
 namespace {
 
-using Spheres = std::vector<PlacedSphere>;
-
 /// A bed in a unit of length in which d is `diameter`.
 Spheres in_unit(const Spheres& spheres, double diameter) {
   Spheres scaled;
@@ -21,15 +19,6 @@ Spheres in_unit(const Spheres& spheres, double diameter) {
     scaled.push_back({s.x * diameter, s.y * diameter, s.z * diameter, s.radius * diameter});
   }
   return scaled;
-}
-
-Spheres spheres_of(const SphereBed& bed) {
-  Spheres spheres;
-  for (std::size_t i = 0; i < bed.grains(); ++i) {
-    const Record<double>& p = bed.position[i];
-    spheres.push_back({p.x, p.y, p.z, p.w});
-  }
-  return spheres;
 }
 
 /// A random bed settled as it is and by way of another unit: the states must have the same bits.
