@@ -79,6 +79,9 @@ struct RowKernels {
   /// The motion of extrapolated impulses: u = u + momentum (u - before) for `count` records; leaves
   /// what u was in `before`.
   void (*extrapolate)(Real momentum, std::size_t count, Record<Real>* before, Record<Real>* u);
+  /// The same for `count` grains of so many records each, grain g's from record g * records on.
+  void (*extrapolate_grains)(Real momentum, const std::int32_t* grains, std::size_t count,
+                             std::size_t records, Record<Real>* before, Record<Real>* u);
   /// Adds H p, the impulses of the rows, to the accumulated impulses of their grains.
   void (*accumulate_impulses)(const RowBlock<Real>* rows, std::size_t blocks, const Real* p,
                               Record<Real>* accumulated);

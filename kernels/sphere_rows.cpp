@@ -116,6 +116,20 @@ void extrapolate(Real momentum, std::size_t count, Record<Real>* before, Record<
 }
 
 template <class Real>
+void extrapolate_grains(Real momentum, const std::int32_t* grains, std::size_t count,
+                        std::size_t records, Record<Real>* before, Record<Real>* u) {
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::size_t first = records * static_cast<std::size_t>(grains[k]);
+    for (std::size_t i = first; i < first + records; ++i) {
+      const Record<Real> here = u[i], last = before[i];
+      u[i] = {here.x + momentum * (here.x - last.x), here.y + momentum * (here.y - last.y),
+              here.z + momentum * (here.z - last.z), here.w + momentum * (here.w - last.w)};
+      before[i] = here;
+    }
+  }
+}
+
+template <class Real>
 void accumulate_impulses(const RowBlock<Real>* rows, std::size_t blocks, const Real* p,
                          Record<Real>* accumulated) {
   for (std::size_t block = 0; block < blocks; ++block) {
@@ -178,8 +192,9 @@ double sphere_gaps(RowBlock<Real>* rows, std::size_t blocks, const Record<double
 
 template <class Real>
 constexpr grainsweep::RowKernels<Real> table() {
-  return {apply_impulses<Real>,      gauss_seidel_sweep<Real>, extrapolate<Real>,
-          accumulate_impulses<Real>, residual<Real>,           sphere_gaps<Real>};
+  return {apply_impulses<Real>,     gauss_seidel_sweep<Real>,  extrapolate<Real>,
+          extrapolate_grains<Real>, accumulate_impulses<Real>, residual<Real>,
+          sphere_gaps<Real>};
 }
 
 }  // namespace

@@ -142,23 +142,10 @@ class GaussSeidel {
   }
   Sums end(const RowPart& part) {
     const Sums sums = begin(part, *begun_);
-    const std::int32_t* const grain = rows_.shares.grains.data() + part.first_grain;
-    Record<Real>*const before = motion_.before.data(), *const u = motion_.u.data();
-    constexpr std::size_t records = Rows::records_of_grain;
-    for (std::size_t k = 0; k < part.grains; ++k) {
-      const std::size_t first = records * static_cast<std::size_t>(grain[k]);
-      for (std::size_t r = first; r < first + records; ++r) {
-        extrapolate(begun_->momentum, before[r], u[r]);
-      }
-    }
+    record_kernels_.extrapolate_grains(
+        begun_->momentum, rows_.shares.grains.data() + part.first_grain, part.grains,
+        Rows::records_of_grain, motion_.before.data(), motion_.u.data());
     return sums;
-  }
-  /// As RowKernels::extrapolate, one record.
-  static void extrapolate(Real momentum, Record<Real>& before, Record<Real>& u) {
-    const Record<Real> here = u, last = before;
-    u = {here.x + momentum * (here.x - last.x), here.y + momentum * (here.y - last.y),
-         here.z + momentum * (here.z - last.z), here.w + momentum * (here.w - last.w)};
-    before = here;
   }
   void end_sweep() {
     if (!begun_) return;

@@ -154,6 +154,22 @@ TEMPLATE_TEST_CASE("extrapolated motion has the bits of its plain-loop twin", ""
   });
 }
 
+TEMPLATE_TEST_CASE("grains extrapolated by their names move as all of them do", "", float, double) {
+  const auto momentum = TestType(0.7);
+  for (const std::size_t records : {1U, 2U}) {
+    on_random_row_problems<TestType>([&](const auto& kernels, auto& problem, auto& twin) {
+      const std::vector<std::int32_t> grains = {3, 0, row_grains / 2 - 1, 7};
+      kernels.extrapolate_grains(momentum, grains.data(), grains.size(), records,
+                                 problem.accumulated.data(), problem.u.data());
+      for (const std::int32_t grain : grains) {
+        const auto first = records * static_cast<std::size_t>(grain);
+        testing::extrapolate_twin(momentum, records, twin.accumulated.data() + first,
+                                  twin.u.data() + first);
+      }
+    });
+  }
+}
+
 TEMPLATE_TEST_CASE("motion goes on by a share of its change, record by record", "", float, double) {
   using Records = std::vector<Record<TestType>>;
   constexpr std::size_t records = 12;  // more than any register holds
