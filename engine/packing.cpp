@@ -31,20 +31,20 @@ Packing failed(std::string reason) {
 /// kept it, too.
 std::string why_not_settled(const Fill& fill, const SettleReport& settled) {
   const bool lost = settled.sank && std::holds_alternative<PlacedGrains>(fill);
-  return settled.why_not.empty() && lost
+  return settled.failure.empty() && lost
              ? "two grains of fill.file sank into each other by more than half on the way and may "
                "have passed through one another: make accuracy.fall_iterations larger"
-             : settled.why_not;
+             : settled.failure;
 }
 
 template <class Kind>
 PackingResult result_of(const Fill& fill, const Bed<Kind>& bed, const SettleReport& settled) {
-  const std::string why_not = why_not_settled(fill, settled);
+  const std::string failure = why_not_settled(fill, settled);
   PackingResult result;
   result.status = settled.cancelled ? PackingStatus::cancelled
-                  : why_not.empty() ? PackingStatus::settled
+                  : failure.empty() ? PackingStatus::settled
                                     : PackingStatus::not_settled;
-  result.reason = settled.cancelled ? "stopped on request" : why_not;
+  result.reason = settled.cancelled ? "stopped on request" : failure;
   result.grains = static_cast<std::int64_t>(bed.grains());
   result.rest = settled.rest;
   result.balance = settled.balance;
@@ -180,7 +180,7 @@ Packing pack(const PackingSpec& spec, const ExecutionContext& context, const Kee
         "fill.file, whose radii are perhaps not in d");
   }
   const SettleReport settled = settle(spec.accuracy, context, *bed, keep_going, saved);
-  if (settled.unfit) return failed(settled.why_not);
+  if (settled.precision_insufficient) return failed(settled.failure);
   if (!is_finite(*bed)) {
     return failed("the bed blew up in step " + std::to_string(settled.steps) +
                   ": a grain's place is no longer a finite number; take accuracy.precision f64, or "

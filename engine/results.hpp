@@ -36,7 +36,7 @@ struct RestReport {
   /// Force-bearing contacts closed to 1e-4 d, walls and floor included; of polyhedra a contact
   /// along a line counts 2, one over an area 3.
   std::int64_t contacts = 0;
-  std::int64_t isostatic_contacts = 0;  ///< 3 N - zero modes; 6 N of grains that turn
+  std::int64_t isostatic_contacts = 0;  ///< 3 N - zero modes; 6 N of polyhedra
 };
 
 /// What a direct solve of force balance on the final force-bearing contacts says; see
@@ -122,7 +122,7 @@ struct PackingResult {
   Profile profile_y;                       ///< from wall to wall, in the slab
   Profile profile_z;                       ///< from the floor up
   Order order;                             ///< of the slab
-  std::optional<ShapeOrder> shape_order;   ///< of grains that are no spheres
+  std::optional<ShapeOrder> shape_order;   ///< of non-spherical grains
   std::int64_t steps = 0;
   std::int64_t iterations = 0;
   std::uint64_t state_hash = 0;  ///< of the final positions and radii
@@ -141,7 +141,7 @@ struct Mesh {
   std::vector<std::vector<std::int32_t>> faces;  ///< counter-clockwise seen from outside
 };
 
-/// What grains have that are no spheres.
+/// What non-spherical grains have besides.
 struct Turned {
   Mesh mesh;
   /// Unit quaternion x, y, z, w of each grain: a point of the mesh lies at centre + 2 radius times

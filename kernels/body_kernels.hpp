@@ -1,4 +1,4 @@
-// Rows of contacts between grains that turn, and the sweeps of the solver over them.
+// Rows of contacts between polyhedra, and the sweeps of the solver over them.
 //
 // A grain has two records in a column of motion: its displacement v with its inverse mass, and
 // sqrt(I) w with a 1: w is the angle vector of its turn in its own frame, I its principal moments.

@@ -1,4 +1,4 @@
-// Solver sweeps over contacts of grains that turn. The motion of both grains is loaded once for all
+// Solver sweeps over contacts of polyhedra. The motion of both grains is loaded once for all
 // points of a contact, and their impulses are joined before they are stored.
 #include "kernels/lanes.hpp"
 #include "kernels/tables.hpp"

@@ -9,7 +9,7 @@ namespace grainsweep {
 namespace {
 
 /// Levels of sizes told apart; smaller grains share the last one.
-constexpr std::size_t most_levels = 8;
+constexpr std::size_t max_levels = 8;
 
 /// Lowest and highest centre, d.
 struct Heights {
@@ -46,7 +46,7 @@ void choose_levels(const Balls& balls, std::vector<SizeLevel>& levels) {
     if (levels.size() <= count) levels.emplace_back();
     levels[count].largest_radius = largest;
     levels[count].members.clear();
-    below = ++count < most_levels ? std::min(below, 0.5 * largest) : 0.0;
+    below = ++count < max_levels ? std::min(below, 0.5 * largest) : 0.0;
   }
   levels.resize(count);
   for (std::size_t i = 0; i < balls.bed.grains(); ++i) {
@@ -262,7 +262,7 @@ double relative_motion(const std::vector<Extent>& layers) {
 }
 
 /// Least difference in height of two grains that are not in the same or in adjacent layers, d.
-double least_rise(const std::vector<Extent>& layers) {
+double min_rise(const std::vector<Extent>& layers) {
   constexpr double beyond_all = std::numeric_limits<double>::max();
   double least = beyond_all, top = -beyond_all;
   for (std::size_t k = 2; k < layers.size(); ++k) {
@@ -300,7 +300,7 @@ void find_candidates(const Balls& balls, double reach, const ExecutionContext& c
 bool still_complete(const Balls& balls, double near, Candidates& candidates) {
   measure_layers(balls, candidates);
   return relative_motion(candidates.layers) <= candidates.reach - near &&
-         least_rise(candidates.layers) >= 2.0 * candidates.largest_radius + near &&
+         min_rise(candidates.layers) >= 2.0 * candidates.largest_radius + near &&
          std::none_of(balls.bed.walls.begin(), balls.bed.walls.end(), [&](const Wall& wall) {
            return has_newcomer(balls, wall, near, candidates);
          });

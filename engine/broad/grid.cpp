@@ -104,11 +104,11 @@ std::int32_t Cells::cell_of(const Record<double>& sphere) const {
 Cells make_cells(const Box& box, double bottom, double top, double least, std::size_t grains) {
   const double height = std::max(top - bottom, least);
   const auto number = static_cast<double>(grains);
-  const double most_sideways = std::min(512.0, 64.0 + 4.0 * std::sqrt(number));
+  const double max_sideways = std::min(512.0, 64.0 + 4.0 * std::sqrt(number));
   Cells cells;
   cells.origin_z = bottom;
-  cells.inner_x = cells_along(box.length, least, most_sideways);
-  cells.inner_y = cells_along(box.width, least, most_sideways);
+  cells.inner_x = cells_along(box.length, least, max_sideways);
+  cells.inner_y = cells_along(box.width, least, max_sideways);
   const double floor_cells = (cells.inner_x + 2.0) * (cells.inner_y + 2.0);
   cells.inner_z = cells_along(height, least, 16.0 + 16.0 * number / floor_cells);
   cells.size_x = box.length / cells.inner_x;

@@ -23,13 +23,13 @@ using SparseMatrix = Eigen::SparseMatrix<double>;
 using Factors = Eigen::SimplicialLDLT<SparseMatrix, Eigen::Lower, Eigen::NaturalOrdering<int>>;
 
 // Pivots of the scaled matrix are near 1; one this small means two ways to carry the bed.
-constexpr double least_pivot = 1e-10;
+constexpr double min_pivot = 1e-10;
 // Added to the diagonal then; what is left unbalanced changes by no more than such a share.
 constexpr double regular_share = 1e-8;
 
 bool is_regular(const Factors& factors) {
   const Eigen::VectorXd pivots = factors.vectorD();
-  return factors.info() == Eigen::Success && pivots.minCoeff() > least_pivot * pivots.maxCoeff();
+  return factors.info() == Eigen::Success && pivots.minCoeff() > min_pivot * pivots.maxCoeff();
 }
 
 /// A force of 1 between two sides, along its normal: the force that it is on each of them and, on
@@ -184,7 +184,7 @@ void set_unbalance(const Eigen::VectorXd& scaled, const Bed<Kind>& bed, ForceBal
 }
 
 /// Least force of a contact, the sum over its columns.
-double least_of(const std::vector<ForceColumn>& columns, const Eigen::VectorXd& forces) {
+double min_of(const std::vector<ForceColumn>& columns, const Eigen::VectorXd& forces) {
   std::map<std::int32_t, double> of_contact;
   for (std::size_t k = 0; k < columns.size(); ++k) {
     of_contact[columns[k].contact] += forces[static_cast<Eigen::Index>(k)];
@@ -217,7 +217,7 @@ ForceBalance balance_forces(Bed<Kind>& bed, const ExecutionContext& context, dou
   const Eigen::VectorXd forces = factors.solve(h.transpose() * weights);
   set_unbalance(weights - h * forces, bed, balance);
   balance.least_force =
-      balance.unique ? least_of(columns, forces) : std::numeric_limits<double>::quiet_NaN();
+      balance.unique ? min_of(columns, forces) : std::numeric_limits<double>::quiet_NaN();
   return balance;
 }
 

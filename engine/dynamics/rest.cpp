@@ -157,7 +157,7 @@ std::vector<double> force_sums(const Grains& bed, const std::vector<ForceContact
   return force;
 }
 
-std::string why_not_at_rest(const RestReport& rest, const Accuracy& accuracy) {
+std::string rest_failure(const RestReport& rest, const Accuracy& accuracy) {
   const auto isostatic = static_cast<double>(rest.isostatic_contacts);
   const double excess = static_cast<double>(rest.contacts) - isostatic;
   if (!(rest.residual <= accuracy.residual_tolerance)) {

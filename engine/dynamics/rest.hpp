@@ -42,6 +42,6 @@ std::vector<double> force_sums(const Grains& bed, const std::vector<ForceContact
 inline constexpr double deepest_overlap = 100.0;
 
 /// The first test of rest that `rest` fails, in words; empty if it passes all.
-std::string why_not_at_rest(const RestReport& rest, const Accuracy& accuracy);
+std::string rest_failure(const RestReport& rest, const Accuracy& accuracy);
 
 }  // namespace grainsweep

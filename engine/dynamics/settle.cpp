@@ -74,8 +74,8 @@ bool is_at_rest(Settling<Kind, Real>& s) {
   rest.residual = s.last.solve.residual;
   rest.kinetic_energy = s.last.kinetic_energy;
   rest.largest_motion = s.last.largest_motion;
-  s.report.why_not = why_not_at_rest(rest, s.accuracy);
-  return s.report.why_not.empty();
+  s.report.failure = rest_failure(rest, s.accuracy);
+  return s.report.failure.empty();
 }
 
 /// Whether the stage has done its work. Looks at the bed after at least one step.
@@ -202,12 +202,12 @@ SettleReport settle_in(StepState<Kind, Real>& state, const Accuracy& accuracy,
                        std::string_view saved) {
   forget(state);
   if (!is_fit(accuracy, bed)) {
-    SettleReport unfit;
-    unfit.unfit = true;
-    unfit.why_not =
+    SettleReport precision_insufficient;
+    precision_insufficient.precision_insufficient = true;
+    precision_insufficient.failure =
         "the heaviest grain has more than 1e5 times the mass of the lightest, too much for "
         "accuracy.precision f32: take f64";
-    return unfit;
+    return precision_insufficient;
   }
   const Stages stages = stages_of<Kind>(accuracy.protocol);
   Settling<Kind, Real> s{.accuracy = accuracy,
@@ -219,7 +219,7 @@ SettleReport settle_in(StepState<Kind, Real>& state, const Accuracy& accuracy,
   restore(saved, s);
   come_to_rest(s, keep_going);
   if (!std::isfinite(s.last.kinetic_energy)) {
-    s.report.why_not = "the kinetic energy is not a finite number";
+    s.report.failure = "the kinetic energy is not a finite number";
     return s.report;
   }
   is_at_rest(s);

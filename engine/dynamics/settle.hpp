@@ -24,8 +24,9 @@ namespace grainsweep {
 
 struct SettleReport {
   RestReport rest;
-  std::string why_not;  ///< the test of rest that failed; empty if settled
-  bool unfit = false;   ///< no solve of this accuracy is exact enough for the bed: none was made
+  std::string failure;  ///< the test of rest that failed; empty if settled
+  bool precision_insufficient =
+      false;  ///< no solve of this accuracy is exact enough for the bed: none was made
   bool cancelled = false;
   /// Whether the centres of two grains came nearer on the way than sunk_share of the distance at
   /// which they, or the balls within polyhedra, touch: they may have passed through one another. A

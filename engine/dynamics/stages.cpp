@@ -105,7 +105,7 @@ constexpr StageRule quench = {.name = "quench",
 constexpr StageRule heavy_ball[] = {look, fall, loose_creep, creep, halt, quench};
 constexpr StageRule dynamic[] = {look, dynamic_fall, quench};
 
-// ---- grains that turn ----
+// ---- polyhedra ----
 
 constexpr StageRule turning[] = {
     // As that of spheres.
@@ -118,7 +118,7 @@ constexpr StageRule turning[] = {
      .rest_iterations = 1.0,
      .steps = 8,
      .usual_steps = 8},
-    // As that of spheres. Grains that turn go on rattling at a few 1e-3 m g d.
+    // As that of spheres. Polyhedra go on rattling at a few 1e-3 m g d.
     {.name = "fall",
      .end = StageEnd::fallen,
      .inertia = Inertia::damped,

@@ -21,9 +21,9 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr int parameter_count = 5;
-constexpr int least_bins = 2 * parameter_count;
-constexpr double least_explained = 0.5;     // of the variance; below it is no damped oscillation
-constexpr double least_significance = 3.0;  // of the amplitude at the window's start, in errors
+constexpr int min_bins = 2 * parameter_count;
+constexpr double min_explained = 0.5;     // of the variance; below it is no damped oscillation
+constexpr double min_significance = 3.0;  // of the amplitude at the window's start, in errors
 constexpr double largest_relative_error = 0.5;  // of the length
 
 /// The curve's parameters as they are fitted: bulk; a and b, the amplitude at the window's start
@@ -185,12 +185,12 @@ VectorXd jackknife_errors(const std::vector<VectorXd>& values) {
 std::string fault_of_window(const Window& window, const VectorXd& centred, double bin_width,
                             double window_end) {
   constexpr double rounding = 1e-12;  // of sums of volumes
-  if (window.value.size() >= least_bins) {
+  if (window.value.size() >= min_bins) {
     return centred.norm() > rounding ? "" : "the solid fraction is the same in all bins";
   }
   return "the window from " + number_text(decay_window_start) + " d to " + number_text(window_end) +
          " d holds " + std::to_string(window.value.size()) + " bins of " + number_text(bin_width) +
-         " d, a fit needs " + std::to_string(least_bins) +
+         " d, a fit needs " + std::to_string(min_bins) +
          "; make measure.bin_width smaller or the gap between the walls wider";
 }
 
@@ -199,9 +199,9 @@ std::string fault_of_curve(const DecayFit& fit, double significance) {
   const double span = fit.window_end - decay_window_start;
   const std::string length =
       number_text(fit.length.value) + " +- " + number_text(fit.length.error) + " d";
-  if (!(significance >= least_significance)) {
+  if (!(significance >= min_significance)) {
     return "the oscillation is lost in the noise: its amplitude is " + number_text(significance) +
-           " standard errors at the start of the window, " + number_text(least_significance) +
+           " standard errors at the start of the window, " + number_text(min_significance) +
            " are needed; add replicates";
   }
   if (!(fit.period.value <= span)) {
@@ -214,7 +214,7 @@ std::string fault_of_curve(const DecayFit& fit, double significance) {
   if (!(fit.length.error <= largest_relative_error * fit.length.value)) {
     return "the length " + length + " is too uncertain; add replicates";
   }
-  if (!(fit.r_squared >= least_explained)) {
+  if (!(fit.r_squared >= min_explained)) {
     return "a damped oscillation explains only " + number_text(fit.r_squared) + " of the variance";
   }
   return {};

@@ -19,7 +19,7 @@ const Face& face_of(const ConvexShape& shape, std::int32_t number) {
 }
 
 /// A face to touch on, in the frame of its shape.
-struct Base {
+struct Reference {
   const ConvexShape& shape;
   double scale;
   const Face& face;
@@ -39,8 +39,8 @@ struct Base {
   }
 };
 
-/// The other shape, seen from the frame of the base: its point x lies at centre + turn x.
-struct Seen {
+/// The other shape, seen from the frame of the reference: its point x lies at centre + turn x.
+struct Incident {
   const ConvexShape& shape;
   Vector centre;
   Matrix turn;  ///< and scale
@@ -49,7 +49,7 @@ struct Seen {
 };
 
 /// Places the corners of a face.
-void place_face(const Seen& other, const Face& face, std::vector<Vector>& corners) {
+void place_face(const Incident& other, const Face& face, std::vector<Vector>& corners) {
   corners.clear();
   for (const std::int32_t vertex : corners_of(other.shape, face)) {
     corners.push_back(other.place(static_cast<std::size_t>(vertex)));
@@ -72,13 +72,13 @@ void cut(const std::vector<Vector>& polygon, const std::vector<double>& beyond, 
 }
 
 /// Cuts columns.polygon by all sides; most of them leave it as it is.
-void cut_by_sides(const Base& base, ClipColumns& columns) {
-  const double tolerance = on_side * base.size();
-  for (const Side& side : base.sides()) {
+void cut_by_sides(const Reference& reference, ClipColumns& columns) {
+  const double tolerance = on_side * reference.size();
+  for (const Side& side : reference.sides()) {
     double farthest = -std::numeric_limits<double>::infinity();
     columns.beyond.clear();
     for (const Vector& corner : columns.polygon) {
-      columns.beyond.push_back(base.beyond(side, corner));
+      columns.beyond.push_back(reference.beyond(side, corner));
       farthest = std::max(farthest, columns.beyond.back());
     }
     if (farthest > tolerance) {
@@ -89,7 +89,7 @@ void cut_by_sides(const Base& base, ClipColumns& columns) {
 }
 
 /// Among the faces at the lowest vertex of `other`, the one that faces `normal` most.
-const Face& touching_face(const Seen& other, const Vector& normal) {
+const Face& touching_face(const Incident& other, const Vector& normal) {
   const ConvexShape& shape = other.shape;
   const Vector down = -(other.turn.transpose() * normal);
   const auto lowest = static_cast<std::size_t>(farthest_vertex(shape, down));
@@ -101,12 +101,12 @@ const Face& touching_face(const Seen& other, const Vector& normal) {
   return face_of(shape, best);
 }
 
-void add_point(const Base& base, const Vector& x, double margin, std::size_t first,
+void add_point(const Reference& reference, const Vector& x, double margin, std::size_t first,
                std::vector<ContactPoint>& points) {
-  const double gap = base.gap(x);
+  const double gap = reference.gap(x);
   if (!(gap <= margin)) return;
-  const Vector position = x - gap / 2.0 * base.face.normal;
-  const double same = same_point * base.size();
+  const Vector position = x - gap / 2.0 * reference.face.normal;
+  const double same = same_point * reference.size();
   const bool there = std::any_of(points.begin() + static_cast<std::ptrdiff_t>(first), points.end(),
                                  [&](const ContactPoint& point) {
                                    return (point.position - position).squaredNorm() <= same * same;
@@ -115,11 +115,11 @@ void add_point(const Base& base, const Vector& x, double margin, std::size_t fir
 }
 
 /// Vertices within the margin that are no corners of the touching face: where an edge lies on the
-/// base, a face at one of its ends may be the touching one, and would leave out the other end.
-void add_other_vertices(const Base& base, const Seen& other, const Face& touching, double margin,
-                        std::size_t first, std::vector<ContactPoint>& points) {
-  const Vector up = other.turn.transpose() * base.face.normal;
-  const double least = margin - base.gap(other.centre);
+/// reference, a face at one of its ends may be the touching one, and would leave out the other end.
+void add_other_vertices(const Reference& reference, const Incident& other, const Face& touching,
+                        double margin, std::size_t first, std::vector<ContactPoint>& points) {
+  const Vector up = other.turn.transpose() * reference.face.normal;
+  const double least = margin - reference.gap(other.centre);
   const std::span<const std::int32_t> corners = corners_of(other.shape, touching);
   for (std::size_t v = 0; v < other.shape.vertices.size(); ++v) {
     if (up.dot(other.shape.vertices[v]) > least) continue;
@@ -127,21 +127,21 @@ void add_other_vertices(const Base& base, const Seen& other, const Face& touchin
       continue;
     }
     const Vector x = other.place(v);
-    if (base.is_below(x)) add_point(base, x, margin, first, points);
+    if (reference.is_below(x)) add_point(reference, x, margin, first, points);
   }
 }
 
-/// Appends the contact points in the frame of the base.
-void clip(const Base& base, const Seen& other, double margin, ClipColumns& columns,
+/// Appends the contact points in the frame of the reference.
+void clip(const Reference& reference, const Incident& other, double margin, ClipColumns& columns,
           std::vector<ContactPoint>& points) {
   const std::size_t first = points.size();
-  const Face& touching = touching_face(other, base.face.normal);
+  const Face& touching = touching_face(other, reference.face.normal);
   place_face(other, touching, columns.polygon);
-  cut_by_sides(base, columns);
+  cut_by_sides(reference, columns);
   for (const Vector& x : columns.polygon) {
-    add_point(base, x, margin, first, points);
+    add_point(reference, x, margin, first, points);
   }
-  add_other_vertices(base, other, touching, margin, first, points);
+  add_other_vertices(reference, other, touching, margin, first, points);
 }
 
 }  // namespace
@@ -154,10 +154,10 @@ PlacedShape placed_b(const ShapePair& pair) {
   return {pair.b, pair.pose.centre, pair.pose.turn, pair.pose.scale_b};
 }
 
-void clip_on_face(const ShapePair& pair, Of base, std::int32_t face, double margin,
+void clip_on_face(const ShapePair& pair, Of reference, std::int32_t face, double margin,
                   ClipColumns& columns, std::vector<ContactPoint>& points) {
   const PairPose& pose = pair.pose;
-  if (base == Of::a) {
+  if (reference == Of::a) {
     clip({pair.a, pose.scale_a, face_of(pair.a, face)},
          {pair.b, pose.centre, pose.scale_b * pose.turn}, margin, columns, points);
     return;

@@ -15,7 +15,7 @@ constexpr double progress = 1e-14;
 // Shares of the pair's size: closer to the origin counts as touching. The difference of two
 // vertices is rounded to some 4e-16 of it.
 constexpr double touching_share = 1e-14;
-constexpr int most_iterations = 100;
+constexpr int max_iterations = 100;
 
 /// Up to four corners of the Minkowski difference b - a and the weights of the point nearest to the
 /// origin among them.
@@ -202,7 +202,7 @@ Closest closest_points(const ShapePair& pair, Simplex& simplex) {
   Corners best = nearest_of(first_corners(pair, simplex));
   Vector nearest = best.nearest();
   Closest result;
-  for (result.iterations = 1; result.iterations <= most_iterations; ++result.iterations) {
+  for (result.iterations = 1; result.iterations <= max_iterations; ++result.iterations) {
     result.overlap = best.count == 4 || nearest.norm() <= touch;
     if (result.overlap) break;
     Corners next = best;
@@ -219,7 +219,7 @@ Closest closest_points(const ShapePair& pair, Simplex& simplex) {
     best = next;
     nearest = moved;
   }
-  result.converged = result.iterations <= most_iterations;
+  result.converged = result.iterations <= max_iterations;
   result.distance = result.overlap ? 0.0 : nearest.norm();
   set_witnesses(pair, best, result);
   simplex = {best.count, best.a, best.b};

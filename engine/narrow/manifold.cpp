@@ -97,7 +97,7 @@ PairContact touch_along(const ShapePair& pair, const ContactAxis& axis, double m
 
 }  // namespace
 
-double least_gap(const ContactPoint* points, std::size_t count) {
+double min_gap(const ContactPoint* points, std::size_t count) {
   double least = points->gap;
   for (std::size_t k = 1; k < count; ++k) least = std::min(least, points[k].gap);
   return least;
@@ -110,7 +110,7 @@ PairContact touch(const ShapePair& pair, const TouchSettings& settings, const Co
   const double overlap = edges ? std::max(0.0, -axes.edges.separation) : 0.0;
   if (edges && !edges_part_better(axes, settings.preference + settings.of_depth * overlap)) {
     PairContact contact = touch_along(pair, axes.face, settings.margin, columns, points);
-    const double deepest = least_gap(points.data() + contact.first, contact.count);
+    const double deepest = min_gap(points.data() + contact.first, contact.count);
     if (deepest <= axes.edges.separation) return contact;
     points.resize(contact.first);  // the overlap is not above the face
   }

@@ -35,7 +35,7 @@ struct ContactPoint {
 };
 
 /// Least gap of one point or more, d.
-double least_gap(const ContactPoint* points, std::size_t count);
+double min_gap(const ContactPoint* points, std::size_t count);
 
 /// Contact of two grains; its points are `points[first]` .. `points[first + count - 1]`.
 struct PairContact {

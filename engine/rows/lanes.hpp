@@ -41,11 +41,11 @@ class OpenBlocks {
   }
 
   void close_all() {
-    for (std::size_t slot = 0; slot < most_open; ++slot) close(slot);
+    for (std::size_t slot = 0; slot < max_open; ++slot) close(slot);
   }
 
  private:
-  static constexpr std::size_t most_open = 64;  // blocks filled at the same time: bits of a word
+  static constexpr std::size_t max_open = 64;  // blocks filled at the same time: bits of a word
   struct Sides {
     std::int32_t a, b;
   };
@@ -67,13 +67,13 @@ class OpenBlocks {
     used_[slot] = 0;
   }
   std::size_t fullest() const {
-    return static_cast<std::size_t>(std::max_element(used_, used_ + most_open) - used_);
+    return static_cast<std::size_t>(std::max_element(used_, used_ + max_open) - used_);
   }
 
   std::vector<std::uint64_t>& words_;  // one bit for each open block that holds the grain
-  std::size_t block_[most_open] = {};
-  std::size_t used_[most_open] = {};
-  Sides sides_[most_open][block_width] = {};
+  std::size_t block_[max_open] = {};
+  std::size_t used_[max_open] = {};
+  Sides sides_[max_open][block_width] = {};
 };
 
 }  // namespace grainsweep

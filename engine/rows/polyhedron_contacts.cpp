@@ -16,7 +16,7 @@ namespace {
 // A face is preferred to edges that part a pair by no more than this share of g dt^2 beyond it, d;
 // where less is preferred edges replace whole faces and the bed collapses.
 constexpr double preferred_share = 0.5;
-constexpr double least_preference = 1e-4;
+constexpr double min_preference = 1e-4;
 constexpr double preferred_of_depth = 1.0;  // beyond its overlap
 
 /// Lists the contacts by falling number of points, else in their order.
@@ -290,7 +290,7 @@ TouchSettings as_deep_as_they_are(double dt) {
 }  // namespace
 
 TouchSettings touch_settings(double near, double dt) {
-  return {near, std::max(least_preference, preferred_share * dt * dt), preferred_of_depth};
+  return {near, std::max(min_preference, preferred_share * dt * dt), preferred_of_depth};
 }
 
 template <class Real>
@@ -379,7 +379,7 @@ std::vector<Closure> closures(PolyhedronBed& bed, const ExecutionContext& contex
       const auto at = place_of(c, places);
       if (at == places.end()) continue;
       const ContactPoint* points = now.points.data() + c.first;
-      all[static_cast<std::size_t>((*at)[2])] = {least_gap(points, c.count),
+      all[static_cast<std::size_t>((*at)[2])] = {min_gap(points, c.count),
                                                  constraints_of(points, c.count, closed_gap)};
     }
   });

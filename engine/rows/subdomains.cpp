@@ -29,7 +29,7 @@ void count_slabs(const Grains& bed, const Candidates& candidates, const Parallel
 
 /// A subdomain ends with the slab that fills it, unless that is the last one. Of a ring's odd
 /// number the last two are joined.
-void cut(std::size_t least_grains, Subdomains& subdomains) {
+void cut(std::size_t min_grains, Subdomains& subdomains) {
   const std::vector<std::size_t>& slab_size = subdomains.slab_size;
   subdomains.of_slab.assign(slab_size.size(), 0);
   subdomains.count = 1;
@@ -37,7 +37,7 @@ void cut(std::size_t least_grains, Subdomains& subdomains) {
   for (std::size_t k = 0; k < slab_size.size(); ++k) {
     subdomains.of_slab[k] = static_cast<std::int32_t>(subdomains.count - 1);
     grains += slab_size[k];
-    if (grains >= least_grains && k + 1 < slab_size.size()) {
+    if (grains >= min_grains && k + 1 < slab_size.size()) {
       ++subdomains.count;
       grains = 0;
     }
@@ -122,14 +122,14 @@ std::size_t Subdomains::subdomain_of(GrainPair pair) const {
   return is_ring && second - first + 1 == count && count > 2 ? second : first;
 }
 
-void divide(const Grains& bed, std::size_t least_grains, const Candidates& candidates,
+void divide(const Grains& bed, std::size_t min_grains, const Candidates& candidates,
             const ParallelFor& loop, Subdomains& subdomains) {
   subdomains.is_ring = is_periodic(bed.box, bed.subdomain_axis);
   if (bed.subdomains == 1) {
     leave_whole(candidates, subdomains);
   } else {
     count_slabs(bed, candidates, loop, subdomains);
-    cut(least_grains, subdomains);
+    cut(min_grains, subdomains);
     sort_pairs(candidates, loop, subdomains);
     sort_grains(loop, subdomains);
   }

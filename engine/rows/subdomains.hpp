@@ -45,7 +45,7 @@ struct Subdomains {
 
 /// Divides the bed of `candidates` into subdomains of at least so many grains and sorts its pairs,
 /// its grains and those near walls by subdomain.
-void divide(const Grains& bed, std::size_t least_grains, const Candidates& candidates,
+void divide(const Grains& bed, std::size_t min_grains, const Candidates& candidates,
             const ParallelFor& loop, Subdomains& subdomains);
 
 /// Calls work(subdomain) for all subdomains: for 0, 2, 4 .. in any order, then for 1, 3, 5 ..

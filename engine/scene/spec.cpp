@@ -14,11 +14,11 @@ namespace {
 
 using Errors = std::vector<SpecError>;
 
-constexpr double longest_side = 10'000.0;         // d; cell indices stay far below 32 bits
-constexpr std::int64_t most_grains = 10'000'000;  // grain indices are 32 bits wide
-constexpr double settled_wall_overlap = 0.01;     // d; far above that of any settled bed
-constexpr double finest_bin = 0.01;               // d; finer bins hold noise and fill the disk
-constexpr double image_margin = 0.2;              // d; candidates never reach farther than this
+constexpr double longest_side = 10'000.0;        // d; cell indices stay far below 32 bits
+constexpr std::int64_t max_grains = 10'000'000;  // grain indices are 32 bits wide
+constexpr double settled_wall_overlap = 0.01;    // d; far above that of any settled bed
+constexpr double finest_bin = 0.01;              // d; finer bins hold noise and fill the disk
+constexpr double image_margin = 0.2;             // d; candidates never reach farther than this
 
 std::string text_of(double value) {
   if (std::isfinite(value) && value == std::floor(value) && std::abs(value) < 1e15) {
@@ -99,8 +99,8 @@ bool check_box(const Box& box, double largest, Errors& errors) {
 }
 
 void require_count(std::int64_t count, const char* path, Errors& errors) {
-  if (count >= 1 && count <= most_grains) return;
-  errors.push_back({path, "must give 1 to " + std::to_string(most_grains) + " grains, gives " +
+  if (count >= 1 && count <= max_grains) return;
+  errors.push_back({path, "must give 1 to " + std::to_string(max_grains) + " grains, gives " +
                               std::to_string(count)});
 }
 
@@ -146,7 +146,7 @@ void check_orientations(const PlacedGrains& placed, bool are_spheres, Errors& er
     errors.push_back({"fill.file", "spheres have no orientation; leave qx, qy, qz, qw out"});
   } else if (placed.orientations.size() != placed.grains.size()) {
     errors.push_back({"fill.file",
-                      "grains that are no spheres need an orientation each: give the "
+                      "non-spherical grains need an orientation each: give the "
                       "columns qx, qy, qz, qw"});
   }
 }

@@ -17,8 +17,8 @@
 
 namespace grainsweep {
 
-/// A grain of a bed that comes from elsewhere: centre and radius, d. Of a grain that is no sphere
-/// the radius is half its size: the shape as it is given has the radius 1/2.
+/// A grain of a bed that comes from elsewhere: centre and radius, d. Of a grain that is not a
+/// sphere the radius is half its size: the shape as it is given has the radius 1/2.
 struct PlacedSphere {
   double x = 0.0, y = 0.0, z = 0.0, radius = 0.5;
 };

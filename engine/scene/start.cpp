@@ -12,7 +12,7 @@ namespace grainsweep {
 
 namespace {
 
-constexpr std::uint32_t most_attempts = 100000;  // per grain; a few suffice at this solid fraction
+constexpr std::uint32_t max_attempts = 100000;  // per grain; a few suffice at this solid fraction
 
 /// Range of centres along one axis.
 struct Range {
@@ -122,7 +122,7 @@ std::optional<PlacedSphere> place(const std::vector<Column>& columns, const Box&
   if (x.high < x.low || y.high < y.low) {
     return std::nullopt;
   }
-  for (std::uint32_t attempt = 0; attempt < most_attempts; ++attempt) {
+  for (std::uint32_t attempt = 0; attempt < max_attempts; ++attempt) {
     const auto words = random_words(key, Purpose::place, grain, attempt);
     const PlacedSphere sphere{x.at(words[0]), y.at(words[1]), z.at(words[2]), radius};
     const bool has_room = std::all_of(columns.begin(), columns.end(), [&](const Column& column) {
@@ -197,7 +197,7 @@ Quaternion random_orientation(std::uint64_t key, std::uint64_t grain) {
 }
 
 /// The poses of placed grains, whose orientations are those of the shape as it is written.
-std::vector<Pose> placed_poses(const PlacedGrains& placed, const GivenFrame& given) {
+std::vector<Pose> placed_poses(const PlacedGrains& placed, const InputFrame& given) {
   const Quaternion rotation(given.rotation);
   std::vector<Pose> poses;
   for (std::size_t i = 0; i < placed.grains.size(); ++i) {
@@ -214,9 +214,9 @@ std::vector<Pose> placed_poses(const PlacedGrains& placed, const GivenFrame& giv
 
 std::optional<std::vector<PlacedSphere>> place_at_random(const Box& box,
                                                          const std::vector<double>& radii,
-                                                         double least_height, std::uint64_t key) {
+                                                         double min_height, std::uint64_t key) {
   const std::vector<double> diameters = column_diameters(radii);
-  const double height = std::max(least_height, 1.5 * diameters.front());
+  const double height = std::max(min_height, 1.5 * diameters.front());
   std::vector<Column> columns;
   columns.reserve(diameters.size());
   for (const double diameter : diameters) {

@@ -13,8 +13,6 @@ namespace {
 // Directions closer than this are one: far above the rounding of a cross product, and far below
 // what the depth of an overlap could tell.
 constexpr double same_direction = 1e-14;
-// Vertices that mirror each other to this share of the circumradius make a symmetric shape.
-constexpr double same_place = 1e-12;
 
 const Vector& at(const std::vector<Vector>& vertices, std::int32_t k) {
   return vertices[static_cast<std::size_t>(k)];
@@ -100,14 +98,6 @@ void add_radii(ConvexShape& shape) {
   }
 }
 
-bool is_symmetric(const ConvexShape& shape) {
-  return std::all_of(shape.vertices.begin(), shape.vertices.end(), [&](const Vector& v) {
-    return std::any_of(shape.vertices.begin(), shape.vertices.end(), [&](const Vector& w) {
-      return (v + w).norm() <= same_place * shape.circumradius;
-    });
-  });
-}
-
 }  // namespace
 
 /// Tetrahedra from the origin to the triangles of each face. With corners p, q, r and S = p + q + r
@@ -146,7 +136,6 @@ ConvexShape build_shape(std::vector<Vector> vertices, const Loops& loops) {
   shape.volume = moments.volume;
   shape.inertia = inertia_of(moments.second).diagonal();
   add_radii(shape);
-  shape.centrally_symmetric = is_symmetric(shape);
   return shape;
 }
 

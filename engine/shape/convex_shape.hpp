@@ -43,7 +43,7 @@ struct Edge {
 };
 
 /// Where a shape in its frame came from: x_given = rotation x_shape + centroid.
-struct GivenFrame {
+struct InputFrame {
   Vector centroid = Vector::Zero();
   Matrix rotation = Matrix::Identity();
 };
@@ -63,9 +63,8 @@ struct ConvexShape {
   Vector inertia = Vector::Zero();               ///< principal moments over mass, d^2
   double circumradius = 0.0;                     ///< of the smallest ball around the centroid, d
   double inradius = 0.0;                   ///< of the largest ball around the centroid within, d
-  bool centrally_symmetric = false;        ///< -x is a vertex for every vertex x
   std::optional<PinacoidHalves> pinacoid;  ///< if the shape is one
-  GivenFrame given;                        ///< that in which its vertices were written
+  InputFrame given;                        ///< that in which its vertices were written
 };
 
 /// Vertices of a face, counter-clockwise seen from outside.

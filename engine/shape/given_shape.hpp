@@ -10,7 +10,7 @@ namespace grainsweep {
 
 inline bool is_sphere(const ShapeSpec& spec) { return std::holds_alternative<SphereShape>(spec); }
 
-/// The convex shape of a spec that is no sphere, or what forbids it.
+/// The convex shape of a spec that is not a sphere, or what forbids it.
 Hull shape_of(const ShapeSpec& spec);
 
 /// What a check of sizes has to know of a shape, at size 1.

@@ -251,8 +251,8 @@ Matrix principal_axes(const Matrix& inertia) {
 }
 
 /// Moves the corners to the centroid, turns them to the principal axes.
-GivenFrame centre(std::vector<Vector>& corners, const Loops& loops) {
-  GivenFrame given;
+InputFrame centre(std::vector<Vector>& corners, const Loops& loops) {
+  InputFrame given;
   given.centroid = mass_moments(corners, loops).centroid;
   for (Vector& corner : corners) corner -= given.centroid;
   const Vector rest = mass_moments(corners, loops).centroid;  // what rounding left
@@ -283,7 +283,7 @@ Hull whole_hull(const std::vector<Vector>& points) {
     return refused(problem);
   }
   std::vector<Vector> corners = keep_corners(points, loops);
-  const GivenFrame given = centre(corners, loops);
+  const InputFrame given = centre(corners, loops);
   Hull hull{build_shape(std::move(corners), loops), ""};
   hull.shape->given = given;
   return hull;

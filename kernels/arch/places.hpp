@@ -33,7 +33,7 @@ inline Record<Real>& at(Record<Real>* base, std::uint32_t offset) {
   return *reinterpret_cast<Record<Real>*>(reinterpret_cast<std::byte*>(base) + offset);
 }
 
-/// Components of two records that follow each other in memory, as those of a grain that turns.
+/// Components of two records that follow each other in memory, as those of a polyhedron.
 template <class Components>
 struct TwoRecords {
   Components first, second;

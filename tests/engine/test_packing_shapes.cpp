@@ -196,7 +196,7 @@ TEST_CASE("placed grains need an orientation each unless they are spheres, which
   CHECK(errors_of(SphereShape{}, bare).empty());
   CHECK(errors_of(PinacoidSize{}, turned).empty());
   CHECK(errors_of(SphereShape{}, turned).find("spheres have no orientation") == 0);
-  CHECK(errors_of(PinacoidSize{}, bare).find("grains that are no spheres need") == 0);
+  CHECK(errors_of(PinacoidSize{}, bare).find("non-spherical grains need") == 0);
   const PlacedGrains stretched{{{2, 2, 1, 0.5}}, {{0, 0, 1, 1}}};
   CHECK(errors_of(PinacoidSize{}, stretched).find("unit quaternion") != std::string::npos);
 }

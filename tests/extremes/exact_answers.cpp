@@ -124,7 +124,7 @@ Finding balance(std::int64_t grains, double width, const Accuracy& accuracy) {
                            std::get<StepState<Sphere, double>>(memory.states).contacts);
   Finding finding;
   finding.finite = is_finite(bed);
-  finding.unrest = report.why_not;
+  finding.unrest = report.failure;
   const double bound = std::sqrt(2.0 * accuracy.kinetic_tolerance) / dt;
   finding.answers = {{"mean unbalanced force of a grain, in its weight", balance.unbalance_mean,
                       bound,

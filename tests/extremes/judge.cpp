@@ -36,7 +36,7 @@ void add_gap(double gap, Overlaps& overlaps) {
   overlaps.sum += std::max(0.0, -gap);
 }
 
-double least_mass(const SphereBed& bed) {
+double min_mass(const SphereBed& bed) {
   double most = 0.0;
   for (std::size_t i = 0; i < bed.grains(); ++i) most = std::max(most, bed.motion[i].w);
   return 1.0 / most;
@@ -92,8 +92,7 @@ double unbalance_bound(const SettledBed& settled) {
     return std::sqrt(2.0 * kinetic_energy * grains / settled.weight()) /
            last_step(settled.accuracy);
   };
-  const double by_rows =
-      2.0 * grains * settled.accuracy.residual_tolerance / least_mass(settled.bed);
+  const double by_rows = 2.0 * grains * settled.accuracy.residual_tolerance / min_mass(settled.bed);
   return std::min(by_motion(settled.accuracy.kinetic_tolerance),
                   by_motion(settled.report.rest.kinetic_energy) + by_rows);
 }
@@ -132,9 +131,9 @@ std::vector<Answer> answers_of_any_bed(const SettledBed& settled) {
 }
 
 Finding finding_of(const SettledBed& settled, std::vector<Answer> answers) {
-  const std::string& why_not = settled.report.why_not;
+  const std::string& failure = settled.report.failure;
   const char* sank = settled.report.sank ? "two grains sank into each other by more than half" : "";
-  return {{}, why_not.empty() ? sank : why_not, is_finite(settled.bed), std::move(answers)};
+  return {{}, failure.empty() ? sank : failure, is_finite(settled.bed), std::move(answers)};
 }
 
 }  // namespace grainsweep::extremes

@@ -53,7 +53,7 @@ Scene placed(const std::string& name, const std::string& extreme, const NamedAcc
 /// Settles a bed, and what came out again.
 Finding settle_twice(const Accuracy& accuracy) {
   SettledBed first = settle_scene(*start<Sphere>(small_spec(120, accuracy)), accuracy);
-  if (!first.report.why_not.empty()) return finding_of(first, {});
+  if (!first.report.failure.empty()) return finding_of(first, {});
   SphereBed again = first.bed;
   for (std::size_t i = 0; i < again.grains(); ++i) again.motion[i] = {0, 0, 0, again.motion[i].w};
   const SettledBed second = settle_scene(again, accuracy);

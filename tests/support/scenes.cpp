@@ -32,7 +32,7 @@ SphereBed random_bed(const RandomScene& scene) {
   for (std::size_t i = 0; i < scene.grains; ++i) {
     const double x = draw.uniform(0.0, scene.box.length), y = draw.uniform(0.0, scene.box.width);
     const double z = draw.uniform(0.0, scene.height);
-    spheres.push_back({x, y, z, draw.uniform(scene.least_radius, scene.largest_radius)});
+    spheres.push_back({x, y, z, draw.uniform(scene.min_radius, scene.largest_radius)});
   }
   return make_bed(scene.box, spheres);
 }

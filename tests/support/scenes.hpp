@@ -15,7 +15,7 @@ inline constexpr Boundary periodic = Boundary::periodic, walls = Boundary::walls
 struct RandomScene {
   Box box;
   std::size_t grains = 100;
-  double least_radius = 0.5, largest_radius = 0.5;
+  double min_radius = 0.5, largest_radius = 0.5;
   double height = 5.0;  ///< centres lie in 0 .. height
   std::uint64_t seed = 1;
 };

@@ -1,4 +1,4 @@
-// Beds of grains that turn, and their balance, measured without rows and levers.
+// Beds of polyhedra, and their balance, measured without rows and levers.
 #pragma once
 
 #include <vector>

@@ -1,6 +1,7 @@
 // Shapes and poses that tests start from.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "engine/shape/hull.hpp"
@@ -27,5 +28,15 @@ std::vector<Vector> random_corners(Draw& draw, int count);
 
 /// Uniform over all rotations (Shoemake).
 Quaternion random_rotation(Draw& draw);
+
+/// Whether -x is a vertex for every vertex x, to rounding.
+inline bool is_symmetric(const ConvexShape& shape) {
+  const auto has = [&](const Vector& x) {
+    return std::any_of(shape.vertices.begin(), shape.vertices.end(),
+                       [&](const Vector& v) { return (v - x).norm() <= 1e-12; });
+  };
+  return std::all_of(shape.vertices.begin(), shape.vertices.end(),
+                     [&](const Vector& v) { return has(-v); });
+}
 
 }  // namespace grainsweep::testing

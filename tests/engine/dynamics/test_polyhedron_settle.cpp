@@ -35,7 +35,7 @@ TEST_CASE("a bed of pinacoids settles within every tolerance of its accuracy", "
     INFO(report.steps << " steps, " << report.rest.contacts << " constraints of "
                       << report.rest.isostatic_contacts << ", overlap " << report.rest.overlap_mean
                       << " mean, " << report.rest.overlap_max << " most");
-    CHECK(report.why_not == "");
+    CHECK(report.failure == "");
     CHECK(report.steps < 400);
     CHECK(report.rest.overlap_max < 1e-3);  // no pair is left deep in another
     for (const Record<double>& c : bed->centres()) REQUIRE(c.z > bed->shape.inradius * 0.85);
@@ -48,7 +48,7 @@ TEST_CASE("a bed of hulls, which have no closed form, settles too", "[slow]") {
   auto bed = start<Polyhedron>(spec);
   REQUIRE(bed);
   const SettleReport report = settle(spec.accuracy, kernels(), *bed, always);
-  CHECK(report.why_not == "");
+  CHECK(report.failure == "");
 }
 
 TEST_CASE("forces of a settled stack are those on its grains and between them") {
@@ -81,7 +81,7 @@ TEST_CASE(
   const SettleReport report = settle(hasty, kernels(), *bed, always);
   CHECK_FALSE(report.cancelled);
   CHECK(report.steps == 20);
-  CHECK_FALSE(report.why_not.empty());
+  CHECK_FALSE(report.failure.empty());
 }
 
 /// Three grains above each other and one beside them, in the air.
@@ -135,7 +135,7 @@ TEST_CASE("turning grains that go on from saved bytes end with the same bits, in
   }
 }
 
-TEST_CASE("saved bytes of spheres are not taken for grains that turn") {
+TEST_CASE("saved bytes of spheres are not taken for polyhedra") {
   std::string saved;
   SphereBed spheres = make_bed({4, 4, periodic, walls},
                                {{1, 1, 1, 0.5}, {3, 1, 1, 0.5}, {1, 3, 1, 0.5}, {3, 3, 1, 0.5}});
@@ -156,7 +156,7 @@ TEST_CASE("a stack that rests as it is given stays as it is") {
   accuracy.precision = Precision::f64;
   accuracy.contact_tolerance = 1.0;  // corners in corners: more constraints than a grain can use
   const SettleReport report = settle(accuracy, kernels(), bed, always);
-  CHECK(report.why_not == "");
+  CHECK(report.failure == "");
   CHECK(report.steps == 8);
   CHECK(bed.position[1].z == Approx(1.5).margin(1e-6));
 }

@@ -196,13 +196,13 @@ TEST_CASE("a grain on two others shares its weight between them") {
 TEST_CASE("a bed within every tolerance is at rest") {
   const Accuracy accuracy;
   RestReport rest = perfect_rest();
-  CHECK(why_not_at_rest(rest, accuracy).empty());
+  CHECK(rest_failure(rest, accuracy).empty());
   rest.residual = accuracy.residual_tolerance;
   rest.kinetic_energy = accuracy.kinetic_tolerance;
   rest.overlap_mean = accuracy.overlap_tolerance;
   rest.overlap_max = deepest_overlap * accuracy.overlap_tolerance;
   rest.contacts = 1000 + static_cast<std::int64_t>(1000 * accuracy.contact_tolerance);
-  CHECK(why_not_at_rest(rest, accuracy).empty());
+  CHECK(rest_failure(rest, accuracy).empty());
 }
 
 TEST_CASE("the test of rest that failed is named with value and tolerance") {
@@ -218,22 +218,21 @@ TEST_CASE("the test of rest that failed is named with value and tolerance") {
   overlap.overlap_mean = 2e-3;
   deep.overlap_max = 0.06;
   many.contacts = 1100;
-  CHECK(why_not_at_rest(residual, accuracy) == "force residual 0.25 m g exceeds 0.005");
-  CHECK(why_not_at_rest(kinetic, accuracy) ==
-        "kinetic energy 0.125 m g d per grain exceeds 0.0002");
-  CHECK(why_not_at_rest(overlap, accuracy) == "mean overlap 0.002 d exceeds 1e-05");
-  CHECK(why_not_at_rest(deep, accuracy) == "deepest overlap 0.06 d exceeds 0.001");
-  CHECK(why_not_at_rest(many, accuracy) ==
+  CHECK(rest_failure(residual, accuracy) == "force residual 0.25 m g exceeds 0.005");
+  CHECK(rest_failure(kinetic, accuracy) == "kinetic energy 0.125 m g d per grain exceeds 0.0002");
+  CHECK(rest_failure(overlap, accuracy) == "mean overlap 0.002 d exceeds 1e-05");
+  CHECK(rest_failure(deep, accuracy) == "deepest overlap 0.06 d exceeds 0.001");
+  CHECK(rest_failure(many, accuracy) ==
         "contacts / isostatic count 1.1 misses 1 by more than 0.04");
 }
 
 TEST_CASE("too few contacts are as bad as too many") {
   RestReport rest = perfect_rest();
   rest.contacts = 900;
-  CHECK(why_not_at_rest(rest, Accuracy{}).find("0.9 misses 1") != std::string::npos);
+  CHECK(rest_failure(rest, Accuracy{}).find("0.9 misses 1") != std::string::npos);
   rest.contacts = 0;
   rest.isostatic_contacts = 3;
-  CHECK_FALSE(why_not_at_rest(rest, Accuracy{}).empty());
+  CHECK_FALSE(rest_failure(rest, Accuracy{}).empty());
 }
 
 TEST_CASE("a number that is none never passes for rest") {
@@ -242,7 +241,7 @@ TEST_CASE("a number that is none never passes for rest") {
                                     &RestReport::overlap_mean, &RestReport::overlap_max}) {
     RestReport rest = perfect_rest();
     rest.*value = none;
-    CHECK_FALSE(why_not_at_rest(rest, Accuracy{}).empty());
+    CHECK_FALSE(rest_failure(rest, Accuracy{}).empty());
   }
 }
 

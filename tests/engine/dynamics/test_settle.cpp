@@ -34,7 +34,7 @@ SphereBed small_bed(std::uint64_t key) {
 TEST_CASE("an empty bed is at rest") {
   SphereBed bed = make_bed({4, 4, periodic, walls}, {});
   const SettleReport report = settle_bed(bed);
-  CHECK(report.why_not.empty());
+  CHECK(report.failure.empty());
   CHECK(report.rest.contacts == 0);
   CHECK(report.force.empty());
 }
@@ -47,7 +47,7 @@ TEST_CASE("a single grain comes to rest on the floor and carries its weight") {
       accuracy.precision = precision;
       accuracy.residual_tolerance = 5e-3;
       const SettleReport report = settle_bed(bed, accuracy);
-      CHECK(report.why_not == "");
+      CHECK(report.failure == "");
       CHECK(report.rest.contacts == 1);
       CHECK(report.rest.isostatic_contacts == 1);
       REQUIRE(report.force.size() == 1);
@@ -64,7 +64,7 @@ TEST_CASE("a single grain comes to rest on the floor and carries its weight") {
 TEST_CASE("two grains far apart rest on the floor, one above the other rolls off it") {
   SphereBed apart = make_bed({6, 6, periodic, walls}, {{1, 3, 2, 0.5}, {4, 3, 5, 0.5}});
   const SettleReport report = settle_bed(apart);
-  CHECK(report.why_not == "");
+  CHECK(report.failure == "");
   CHECK(report.rest.contacts == 2);
   CHECK(report.rest.isostatic_contacts == 2);
   SphereBed above = make_bed({6, 6, periodic, walls}, {{2, 3, 0.5, 0.5}, {2.1, 3, 1.6, 0.5}});
@@ -82,7 +82,7 @@ TEST_CASE("a small bed comes to rest with as many contacts as hold it") {
       Accuracy accuracy = *preset("balanced");
       accuracy.precision = precision;
       const SettleReport report = settle_bed(bed, accuracy);
-      CHECK(report.why_not == "");
+      CHECK(report.failure == "");
       CHECK_FALSE(report.cancelled);
       CHECK(report.rest.residual <= accuracy.residual_tolerance);
       CHECK(report.rest.overlap_mean <= accuracy.overlap_tolerance);
@@ -98,7 +98,7 @@ TEST_CASE("a small bed comes to rest with as many contacts as hold it") {
 TEST_CASE("every grain of a settled bed is carried: its forces exceed its weight") {
   SphereBed bed = small_bed(3);
   const SettleReport report = settle_bed(bed);
-  REQUIRE(report.why_not == "");
+  REQUIRE(report.failure == "");
   REQUIRE(report.force.size() == bed.grains());
   for (std::size_t i = 0; i < bed.grains(); ++i) {
     CHECK(report.force[i] > sphere_mass(bed.position[i].w) - 1e-2);
@@ -141,7 +141,7 @@ TEST_CASE("a bed that runs out of steps says which test of rest it failed") {
     const SettleReport report = settle_bed(bed, accuracy);
     CHECK(report.steps == steps);
     CHECK_FALSE(report.cancelled);
-    CHECK_FALSE(report.why_not.empty());
+    CHECK_FALSE(report.failure.empty());
   }
 }
 
@@ -200,7 +200,7 @@ TEST_CASE("a column that stands by symmetry alone is not called settled") {
   const SettleReport report = settle_bed(bed, accuracy);
   CHECK(report.rest.contacts == 10);
   CHECK(report.rest.isostatic_contacts == 28);
-  CHECK(report.why_not.find("contacts / isostatic count") == 0);
+  CHECK(report.failure.find("contacts / isostatic count") == 0);
 }
 
 TEST_CASE("grains placed on the same spot part and settle") {
@@ -219,8 +219,8 @@ TEST_CASE("plain contact dynamics settles a bed, too, in more steps") {
   const SettleReport heavy_ball = settle_bed(damped, accuracy);
   accuracy.protocol = Protocol::dynamic;
   const SettleReport plain = settle_bed(dynamic, accuracy);
-  CHECK(heavy_ball.why_not == "");
-  CHECK(plain.why_not == "");
+  CHECK(heavy_ball.failure == "");
+  CHECK(plain.failure == "");
   CHECK(plain.steps > heavy_ball.steps);
 }
 
@@ -232,7 +232,7 @@ TEST_CASE("every solver offered settles a bed") {
     accuracy.solver = solver;
     accuracy.precision = Precision::f64;
     accuracy.rest_iterations = 1000;
-    CHECK(settle_bed(bed, accuracy).why_not == "");
+    CHECK(settle_bed(bed, accuracy).failure == "");
   }
 }
 

@@ -291,7 +291,7 @@ StepProblem<double> large_problem() {
   scene.box = {20, 10, periodic, walls};
   scene.grains = large_bed_grains<Sphere>;
   scene.height = static_cast<double>(scene.grains) / 250.0;
-  scene.least_radius = 0.3;
+  scene.min_radius = 0.3;
   Draw draw(3);
   StepProblem<double> problem{testing::random_bed(scene), {}, {}};
   problem.contacts = testing::contacts_of<double>(problem.bed, 0.1, kernels());

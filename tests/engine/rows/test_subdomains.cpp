@@ -21,7 +21,7 @@ SphereBed tall_bed(std::size_t grains, Boundary y) {
   scene.box = {20, 10, Boundary::periodic, y};
   scene.grains = grains;
   scene.height = static_cast<double>(grains) / 200.0;
-  scene.least_radius = 0.25;
+  scene.min_radius = 0.25;
   return testing::random_bed(scene);
 }
 
@@ -31,7 +31,7 @@ SphereBed flat_bed(Boundary x) {
   scene.box = {120, 60, x, Boundary::periodic};
   scene.grains = 30'000;
   scene.height = 3.0;
-  scene.least_radius = 0.25;
+  scene.min_radius = 0.25;
   return testing::random_bed(scene);
 }
 

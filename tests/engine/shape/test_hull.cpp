@@ -40,7 +40,7 @@ TEST_CASE("a cube has six square faces, three edge directions and inertia of a s
   CHECK((cube.inertia - Vector::Constant(4.0 / 6.0)).norm() < 1e-15);
   CHECK(cube.circumradius == Approx(std::sqrt(3.0)));
   CHECK(cube.inradius == Approx(1));
-  CHECK(cube.centrally_symmetric);
+  CHECK(testing::is_symmetric(cube));
   for (const Face& face : cube.faces) CHECK(face.corners == 4);
 }
 
@@ -53,7 +53,7 @@ TEST_CASE("a regular tetrahedron has its closed-form volume, inertia and radii")
   CHECK((shape.inertia - Vector::Constant(8.0 / 20.0)).norm() < 1e-15);
   CHECK(shape.circumradius == Approx(std::sqrt(3.0)));
   CHECK(shape.inradius == Approx(std::sqrt(3.0) / 3));
-  CHECK_FALSE(shape.centrally_symmetric);
+  CHECK_FALSE(testing::is_symmetric(shape));
 }
 
 /// Independent of the shape's own integrals: tetrahedra from a corner instead of the centroid, the

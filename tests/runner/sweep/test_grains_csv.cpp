@@ -174,7 +174,7 @@ TEST_CASE("grains of a file that are no spheres are turned as it says, if it say
   CHECK(fill.orientations == std::vector<std::array<double, 4>>{{0, 0.6, 0, 0.8}});
   CHECK(error("sphere", "plain.csv").empty());
   CHECK(error("sphere", "turned.csv").starts_with("/base/fill.file spheres have no orientation"));
-  CHECK(error("pinacoid", "plain.csv").starts_with("/base/fill.file grains that are no spheres"));
+  CHECK(error("pinacoid", "plain.csv").starts_with("/base/fill.file non-spherical grains"));
   CHECK(error("pinacoid", "long.csv").find("unit quaternion") != std::string::npos);
 }
 
