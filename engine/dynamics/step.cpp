@@ -29,11 +29,11 @@ Vector vector(const Record<Real>& r) {
 template <class Real>
 void set_free_motion(const StepSettings& settings, const SphereBed& bed, IndexRange grains,
                      std::vector<Record<Real>>& free) {
-  const double fall = settings.dt * settings.dt;
+  const double drop = settings.dt * settings.dt;
   for (std::size_t i = grains.first; i < grains.last; ++i) {
     const Record<double>& last = bed.motion[i];
     const double x = settings.momentum * last.x, y = settings.momentum * last.y;
-    const double z = settings.momentum * last.z - fall;
+    const double z = settings.momentum * last.z - drop;
     const double length = std::sqrt(x * x + y * y + z * z);
     const double keep = length > longest_free_motion ? longest_free_motion / length : 1.0;
     free[i] = {static_cast<Real>(keep * x), static_cast<Real>(keep * y),
@@ -43,9 +43,9 @@ void set_free_motion(const StepSettings& settings, const SphereBed& bed, IndexRa
 template <class Real>
 void set_free_motion(const StepSettings& settings, const PolyhedronBed& bed, IndexRange grains,
                      std::vector<Record<Real>>& free) {
-  const Vector fall(0.0, 0.0, -settings.dt * settings.dt);
+  const Vector drop(0.0, 0.0, -settings.dt * settings.dt);
   for (std::size_t i = grains.first; i < grains.last; ++i) {
-    const Vector v = settings.momentum * vector(bed.motion[i]) + fall;
+    const Vector v = settings.momentum * vector(bed.motion[i]) + drop;
     const Vector angles =
         clamped(settings.momentum * bed.spin[i], longest_free_motion / bed.circumradius(i));
     free[2 * i] = record<Real>(clamped(v, longest_free_motion), bed.motion[i].w);

@@ -124,11 +124,9 @@ double highest_point(const Bed<Kind>& bed) {
   return top;
 }
 
-}  // namespace
-
 template <class Kind>
-Profile profile_along_y(const Bed<Kind>& bed, const Touching& touching, const Slab& slab,
-                        const ProfileSettings& settings) {
+Profile along_y(const Bed<Kind>& bed, const Touching& touching, const Slab& slab,
+                const ProfileSettings& settings) {
   const double width = bed.box.width;
   const auto count = std::max<std::int64_t>(1, std::llround(width / settings.bin_width));
   const Bins bins{width / static_cast<double>(count), count, bed.box.y == Boundary::periodic};
@@ -148,8 +146,7 @@ Profile profile_along_y(const Bed<Kind>& bed, const Touching& touching, const Sl
 }
 
 template <class Kind>
-Profile profile_along_z(const Bed<Kind>& bed, const Touching& touching,
-                        const ProfileSettings& settings) {
+Profile along_z(const Bed<Kind>& bed, const Touching& touching, const ProfileSettings& settings) {
   const double bins_up = std::ceil(highest_point(bed) / settings.bin_width);
   const Bins bins{settings.bin_width, std::max<std::int64_t>(1, std::llround(bins_up)), false};
   Profile profile = empty_profile(bins);
@@ -163,6 +160,20 @@ Profile profile_along_z(const Bed<Kind>& bed, const Touching& touching,
     return &profile.bins[bins.index(bins.number_at(p.z))];
   });
   return profile;
+}
+
+}  // namespace
+
+template <class Kind>
+Profile profile_along_y(const Bed<Kind>& bed, const Touching& touching, const Slab& slab,
+                        const ProfileSettings& settings) {
+  return along_y(bed, touching, slab, settings);
+}
+
+template <class Kind>
+Profile profile_along_z(const Bed<Kind>& bed, const Touching& touching,
+                        const ProfileSettings& settings) {
+  return along_z(bed, touching, settings);
 }
 
 template Profile profile_along_y(const SphereBed&, const Touching&, const Slab&,
