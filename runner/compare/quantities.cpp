@@ -56,13 +56,13 @@ Measured fitted(const WallFit& fit, double value, double error) {
 }
 
 template <Quantity quantity>
-Measured bulk(const Family& family) {
+Measured bulk_of_fit(const Family& family) {
   const WallFit fit = fit_walls(family, quantity);
   return fitted(fit, fit.bulk.value, fit.bulk.error);
 }
 
 template <Quantity quantity>
-Measured slope(const Family& family) {
+Measured slope_of_fit(const Family& family) {
   const WallFit fit = fit_walls(family, quantity);
   return fitted(fit, fit.slope.value, fit.slope.error);
 }
@@ -143,10 +143,10 @@ constexpr auto phi = Quantity::solid_fraction, z = Quantity::coordination;
 constexpr std::array<NamedQuantity, 15> quantities = {{
     {"phi_unconfined", "φ without walls (bi-periodic)", unconfined<phi>, nullptr},
     {"Z_unconfined", "Z without walls (bi-periodic)", unconfined<z>, nullptr},
-    {"phi_bulk", "φ_bulk of the fit", bulk<phi>, nullptr},
-    {"C", "C / d", slope<phi>, nullptr},
-    {"Z_bulk", "Z_bulk of the fit", bulk<z>, nullptr},
-    {"C_Z", "C_Z / d", slope<z>, nullptr},
+    {"phi_bulk", "φ_bulk of the fit", bulk_of_fit<phi>, nullptr},
+    {"C", "C / d", slope_of_fit<phi>, nullptr},
+    {"Z_bulk", "Z_bulk of the fit", bulk_of_fit<z>, nullptr},
+    {"C_Z", "C_Z / d", slope_of_fit<z>, nullptr},
     {"zeta_difference", "ζ_Z - ζ_φ, d", zeta_difference, nullptr},
     {"phi", "φ", nullptr, mean_of<phi>},
     {"Z", "Z", nullptr, mean_of<z>},

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/measure/decay.hpp"
+#include "runner/analysis/decay.hpp"
 #include "runner/tables/families.hpp"
 
 namespace grainsweep {

@@ -1,13 +1,13 @@
 // decays.csv: how far the walls reach into the packings of each group, by size class.
 //
 // The profile of a class is followed from both walls inwards to the middle of the gap; all such
-// halves of the settled replicates enter one fit. See engine/measure/decay.hpp.
+// halves of the settled replicates enter one fit. See runner/analysis/decay.hpp.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "engine/measure/decay.hpp"
+#include "runner/analysis/decay.hpp"
 #include "runner/tables/groups.hpp"
 
 namespace grainsweep {

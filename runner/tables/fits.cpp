@@ -5,7 +5,7 @@
 #include <cmath>
 #include <set>
 
-#include "engine/measure/fit.hpp"
+#include "runner/analysis/fit.hpp"
 
 namespace grainsweep {
 namespace {

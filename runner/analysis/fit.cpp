@@ -1,4 +1,4 @@
-#include "engine/measure/fit.hpp"
+#include "runner/analysis/fit.hpp"
 
 #include <algorithm>
 #include <cmath>

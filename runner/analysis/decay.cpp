@@ -1,12 +1,12 @@
-#include "engine/measure/decay.hpp"
+#include "runner/analysis/decay.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
 
-#include <Eigen/Dense>
-#include <unsupported/Eigen/LevenbergMarquardt>
+#include <Eigen/Cholesky>
 
 #include "engine/text.hpp"
 #include "engine/units.hpp"
@@ -17,7 +17,6 @@ namespace {
 
 using Eigen::ArrayXd;
 using Eigen::Index;
-using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr int parameter_count = 5;
@@ -46,81 +45,112 @@ Waves waves_of(const ArrayXd& distance, double length, double period) {
   return {damping * angle.cos(), damping * angle.sin()};
 }
 
-VectorXd curve(const VectorXd& p, const ArrayXd& distance) {
-  const Waves w = waves_of(distance, std::exp(p[log_length]), std::exp(p[log_period]));
-  return (p[bulk] + p[a] * w.cosine - p[b] * w.sine).matrix();
+/// What bulk, a and b multiply.
+using LinearColumns = std::array<VectorXd, 3>;
+
+LinearColumns columns_of(const Window& window, double log_length, double log_period) {
+  const Waves w = waves_of(window.distance, std::exp(log_length), std::exp(log_period));
+  return {VectorXd::Ones(window.value.size()), w.cosine.matrix(), -w.sine.matrix()};
 }
 
-/// Residuals and their derivatives, in the form the Levenberg-Marquardt method asks for.
-struct Residuals : Eigen::DenseFunctor<double> {
-  explicit Residuals(const Window& bins)
-      : DenseFunctor(parameter_count, static_cast<int>(bins.value.size())), window(bins) {}
-
-  int operator()(const VectorXd& p, VectorXd& residual) const {
-    residual = curve(p, window.distance) - window.value;
-    return 0;
+/// The share of `values` that columns describe, in their coefficients: linear least squares.
+Eigen::Vector3d coefficients_of(const LinearColumns& columns, const VectorXd& values) {
+  Eigen::Matrix3d normal;
+  Eigen::Vector3d right;
+  for (Index i = 0; i < 3; ++i) {
+    for (Index j = 0; j < 3; ++j) normal(i, j) = columns[i].dot(columns[j]);
+    right[i] = columns[i].dot(values);
   }
-  int df(const VectorXd& p, MatrixXd& derivative) const {
-    const double length = std::exp(p[log_length]), period = std::exp(p[log_period]);
-    const Waves w = waves_of(window.distance, length, period);
-    const ArrayXd wave = p[a] * w.cosine - p[b] * w.sine, turned = p[a] * w.sine + p[b] * w.cosine;
-    derivative.col(bulk).setOnes();
-    derivative.col(a) = w.cosine.matrix();
-    derivative.col(b) = -w.sine.matrix();
-    derivative.col(log_length) = (wave * window.distance / length).matrix();
-    derivative.col(log_period) = (turned * window.distance * (2.0 * pi / period)).matrix();
-    return 0;
-  }
+  return normal.ldlt().solve(right);
+}
 
-  const Window& window;
+/// What is left of `values` without the combination of columns with these coefficients.
+VectorXd remainder_of(VectorXd values, const LinearColumns& columns, const Eigen::Vector3d& by) {
+  for (Index i = 0; i < 3; ++i) values -= by[i] * columns[i];
+  return values;
+}
+
+/// The curve with the best bulk, a and b for its length and period.
+struct FittedCurve {
+  VectorXd p;             ///< by Entry
+  LinearColumns columns;  ///< of that length and period
+  VectorXd residual;      ///< solid fractions less the curve
 };
 
-/// The best bulk, a and b for a given length and period, by linear least squares.
-VectorXd best_linear(const Window& window, double length, double period) {
-  const Waves w = waves_of(window.distance, length, period);
-  MatrixXd columns(window.value.size(), 3);
-  columns << VectorXd::Ones(window.value.size()), w.cosine.matrix(), -w.sine.matrix();
-  const MatrixXd normal = columns.transpose() * columns;
-  VectorXd p(parameter_count);
-  p.head(3) = normal.ldlt().solve(columns.transpose() * window.value);
-  p[log_length] = std::log(length);
-  p[log_period] = std::log(period);
-  return p;
+FittedCurve best_curve(const Window& window, double log_length, double log_period) {
+  FittedCurve best{VectorXd(parameter_count), columns_of(window, log_length, log_period), {}};
+  const Eigen::Vector3d linear = coefficients_of(best.columns, window.value);
+  best.p << linear[bulk], linear[a], linear[b], log_length, log_period;
+  best.residual = remainder_of(window.value, best.columns, linear);
+  return best;
 }
 
-double squared_distance(const VectorXd& p, const Window& window) {
-  return (curve(p, window.distance) - window.value).squaredNorm();
+/// How the curve changes with the logarithms of length and period when bulk, a and b follow them,
+/// but for a part that is orthogonal to the residuals: its derivatives, less what its columns can
+/// describe (variable projection; Golub and Pereyra 1973, Kaufman 1975).
+std::array<VectorXd, 2> derivatives_of(const FittedCurve& curve, const Window& window) {
+  const double length = std::exp(curve.p[log_length]), period = std::exp(curve.p[log_period]);
+  const ArrayXd cosine = curve.columns[1].array(), sine = -curve.columns[2].array();
+  const ArrayXd wave = curve.p[a] * cosine - curve.p[b] * sine;
+  const ArrayXd turned = curve.p[a] * sine + curve.p[b] * cosine;
+  std::array<VectorXd, 2> changes = {(wave * window.distance / length).matrix(),
+                                     (turned * window.distance * (2.0 * pi / period)).matrix()};
+  for (VectorXd& change : changes) {
+    change = remainder_of(change, curve.columns, coefficients_of(curve.columns, change));
+  }
+  return changes;
 }
 
-/// The best point of a grid that spans what layers of grains of .1 d to 1 d can do.
-VectorXd best_of_grid(const Window& window) {
-  VectorXd best;
+/// Gauss-Newton step in the logarithms of length and period, damped as by Marquardt, of 1 at most.
+Eigen::Vector2d step_of(const FittedCurve& curve, const Window& window, double damping) {
+  const auto [by_length, by_period] = derivatives_of(curve, window);
+  const double ll = (1.0 + damping) * by_length.squaredNorm(), lp = by_length.dot(by_period),
+               pp = (1.0 + damping) * by_period.squaredNorm();
+  const double l = by_length.dot(curve.residual), p = by_period.dot(curve.residual);
+  const double determinant = ll * pp - lp * lp;
+  const Eigen::Vector2d step((pp * l - lp * p) / determinant, (ll * p - lp * l) / determinant);
+  return step.cwiseMax(-1.0).cwiseMin(1.0);
+}
+
+/// The best point of a grid that spans what layers of grains of 0.1 d to 1 d can do.
+FittedCurve best_of_grid(const Window& window) {
+  FittedCurve best;
   double least = std::numeric_limits<double>::infinity();
   for (double length = 0.2; length < 8.0; length *= 1.5) {
     for (double period = 0.15; period < 1.6; period *= 1.06) {
-      const VectorXd p = best_linear(window, length, period);
-      const double squared = squared_distance(p, window);
+      FittedCurve curve = best_curve(window, std::log(length), std::log(period));
+      const double squared = curve.residual.squaredNorm();
       if (squared < least) {
         least = squared;
-        best = p;
+        best = std::move(curve);
       }
     }
   }
   return best;
 }
 
-/// The minimum next to `start`; nothing if the method does not arrive there.
-std::optional<VectorXd> minimum_near(VectorXd start, const Window& window) {
-  using Eigen::LevenbergMarquardtSpace::Status;
-  if (start.size() != parameter_count || !start.allFinite()) return std::nullopt;
-  Residuals residuals(window);
-  Eigen::LevenbergMarquardt<Residuals> method(residuals);
-  method.setMaxfev(1000);
-  const Status status = method.minimize(start);
-  const bool has_failed = status == Status::ImproperInputParameters ||
-                          status == Status::TooManyFunctionEvaluation ||
-                          status == Status::UserAsked;
-  return has_failed || !start.allFinite() ? std::nullopt : std::optional(start);
+/// The minimum next to `curve` in length and period, by Gauss-Newton steps that are damped as
+/// Levenberg and Marquardt do where they lead uphill; nothing if they do not arrive.
+std::optional<FittedCurve> minimum_near(FittedCurve curve, const Window& window) {
+  constexpr int most_steps = 1000;
+  constexpr double least_step = 1e-9;    // in the logarithms of length and period
+  constexpr double least_gain = 1e-13;   // of the squares: a step by 3e-7 standard errors
+  constexpr double most_damping = 1e12;  // no way down is left but rounding
+  double damping = 1e-3;
+  for (int step = 0; step < most_steps && curve.residual.allFinite(); ++step) {
+    const Eigen::Vector2d move = step_of(curve, window, damping);
+    FittedCurve next =
+        best_curve(window, curve.p[log_length] + move[0], curve.p[log_period] + move[1]);
+    const double squares = curve.residual.squaredNorm();
+    const double gain = squares - next.residual.squaredNorm();
+    const bool is_downhill = gain >= 0.0;
+    if (is_downhill) curve = std::move(next);
+    const bool is_short =
+        move.cwiseAbs().maxCoeff() <= least_step || std::abs(gain) <= least_gain * squares;
+    if ((is_short && damping < 1.0) || damping > most_damping) return curve;
+    damping *= is_downhill ? 0.1 : 10.0;
+  }
+  return std::nullopt;
 }
 
 /// Mean of the profiles over the window; `left_out` is the profile to leave out, or none.
@@ -246,10 +276,12 @@ PartialFits fits_without_each(const std::vector<std::vector<double>>& profiles, 
   PartialFits parts;
   const double phase = readable(whole)[2];
   for (std::size_t i = 0; i < profiles.size(); ++i) {
-    const auto p = minimum_near(whole, mean_window(profiles, bin_width, window_end, i));
-    if (!p) return {};
-    parts.fitted.push_back(*p);
-    VectorXd values = readable(*p);
+    const Window window = mean_window(profiles, bin_width, window_end, i);
+    const auto curve =
+        minimum_near(best_curve(window, whole[log_length], whole[log_period]), window);
+    if (!curve) return {};
+    parts.fitted.push_back(curve->p);
+    VectorXd values = readable(curve->p);
     values[2] = phase + std::remainder(values[2] - phase, 2.0 * pi);
     parts.read.push_back(values);
   }
@@ -276,14 +308,14 @@ DecayFit fit_decay(const std::vector<std::vector<double>>& profiles, double bin_
   if (!fault.empty()) return not_determined(fit, fault);
   const auto whole = minimum_near(best_of_grid(window), window);
   const PartialFits parts =
-      whole ? fits_without_each(profiles, bin_width, window_end, *whole) : PartialFits{};
+      whole ? fits_without_each(profiles, bin_width, window_end, whole->p) : PartialFits{};
   if (parts.read.empty()) return not_determined(fit, "the fit does not converge");
-  take_values(readable(*whole), jackknife_errors(parts.read), fit);
-  const double squares = squared_distance(*whole, window);
+  take_values(readable(whole->p), jackknife_errors(parts.read), fit);
+  const double squares = whole->residual.squaredNorm();
   fit.r_squared = 1.0 - squares / centred.squaredNorm();
   fit.misfit =
       std::sqrt(squares / fit.bins / mean_squared_error(profiles, bin_width, window_end, window));
-  const std::string doubt = fault_of_curve(fit, significance_of(*whole, parts));
+  const std::string doubt = fault_of_curve(fit, significance_of(whole->p, parts));
   return doubt.empty() ? fit : not_determined(fit, doubt);
 }
 

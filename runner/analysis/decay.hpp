@@ -2,10 +2,12 @@
 //
 //   phi(y) = bulk + amplitude exp(-y / length) cos(2 pi y / period + phase),   y from the wall
 //
-// least squares with equal weights by the Levenberg-Marquardt method over a fixed window, from the
-// best point of a coarse grid of lengths and periods. Solid fractions of neighbouring bins come
-// from the same grains, so their noise is correlated and the residuals do not tell the errors.
-// These are jackknife errors instead: with the n profiles left out one at a time,
+// least squares with equal weights over a fixed window, from the best point of a coarse grid of
+// lengths and periods. The other three follow linearly from these two, so that damped Gauss-Newton
+// steps in length and period find the minimum (variable projection). Solid fractions of
+// neighbouring bins come from the same grains, so their noise is correlated and the residuals do
+// not tell the errors. These are jackknife errors instead: with the n profiles left out one at a
+// time,
 //   error^2 = (n - 1) / n  sum (p_k - mean p)^2     (Efron and Stein 1981).
 #pragma once
 

@@ -4,7 +4,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "engine/measure/fit.hpp"
+#include "runner/analysis/fit.hpp"
 
 namespace grainsweep {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "engine/measure/decay.hpp"
 #include "engine/units.hpp"
+#include "runner/analysis/decay.hpp"
 
 namespace grainsweep {
 namespace {
@@ -126,6 +126,32 @@ TEST_CASE("pure noise, a flat profile and a short window determine nothing, and 
   CHECK(fit_decay({profile_of(layers, 5), profile_of(layers, 5)}, bin_width, 1.0).not_determined ==
         "the window from 0.25 d to 1 d holds 8 bins of 0.1 d, a fit needs 10; make "
         "measure.bin_width smaller or the gap between the walls wider");
+}
+
+// All have the same layers, but so much stronger in one profile than in the other that their mean
+// strength, 0.175, has a jackknife error of 0.125; every other number is exact.
+TEST_CASE("layers whose strength is uncertain are lost in the noise, however well they fit") {
+  Planted strong = layers, weak = layers;
+  strong.amplitude = 0.3;
+  weak.amplitude = 0.05;
+  const DecayFit fit = fit_decay({profile_of(strong, 5), profile_of(weak, 5)}, bin_width, 5);
+  CHECK_THAT(fit.not_determined, Catch::Contains("amplitude is 1.4 standard errors"));
+  CHECK(fit.length.value == 0);
+}
+
+// Waves of one length that differ in phase by delta add up to one of the mean phase, to within
+// delta^2; the jackknife error of a mean is sqrt(sum delta^2 / n (n - 1)).
+TEST_CASE("the error of a phase near pi knows that pi and -pi are one") {
+  std::vector<std::vector<double>> profiles;
+  for (const double delta : {-0.06, -0.02, 0.02, 0.06}) {
+    Planted planted = layers;
+    planted.phase = pi + delta;
+    profiles.push_back(profile_of(planted, 5));
+  }
+  const DecayFit fit = fit_decay(profiles, bin_width, 5);
+  REQUIRE(fit.not_determined.empty());
+  CHECK(std::abs(std::remainder(fit.phase.value - pi, 2 * pi)) < 0.06 * 0.06);
+  CHECK(fit.phase.error == Approx(std::sqrt(0.008 / 12)).epsilon(0.06 * 0.06));
 }
 
 TEST_CASE("a decay longer than the window is not determined") {
