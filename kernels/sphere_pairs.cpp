@@ -5,7 +5,6 @@
 namespace {
 
 using grainsweep::SphereGrid;
-using grainsweep::SphereQueries;
 
 /// Pairs found so far; those beyond the capacity are counted only.
 struct Found {

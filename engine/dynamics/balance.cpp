@@ -123,12 +123,14 @@ constexpr int freedoms = std::is_same_v<Kind, Sphere> ? 3 : 6;
 template <class Kind>
 SparseMatrix contact_matrix(const Bed<Kind>& bed, std::vector<ForceColumn>& columns) {
   std::vector<ContactNode> nodes;
+  nodes.reserve(columns.size());
   for (const ForceColumn& c : columns) {
     nodes.push_back({{c.place.x(), c.place.y(), c.place.z()},
                      c.a,
                      bed.is_grain(c.b) ? c.b : ContactNode::no_grain});
   }
   std::vector<ForceColumn> ordered;
+  ordered.reserve(columns.size());
   for (const std::int32_t k : dissect(nodes, bed.grains())) {
     ordered.push_back(columns[static_cast<std::size_t>(k)]);
   }

@@ -22,11 +22,11 @@ PlacedShape placed_b(const ShapePair& pair);
 /// Which of a pair's shapes.
 enum class Of { a, b };
 
-/// Appends the contact points on face `face` of the shape `base` of a pair, gaps along the face's
-/// normal: the polygon of the other shape's touching face cut by the sides of the face, and its
-/// other vertices above the face; all up to `margin`. Of the faces at its lowest vertex the
+/// Appends the contact points on face `face` of the shape `reference` of a pair, gaps along the
+/// face's normal: the polygon of the other shape's touching face cut by the sides of the face, and
+/// its other vertices above the face; all up to `margin`. Of the faces at its lowest vertex the
 /// touching one is that which faces `face` most. Appends nothing if it lies beside the face.
-void clip_on_face(const ShapePair& pair, Of base, std::int32_t face, double margin,
+void clip_on_face(const ShapePair& pair, Of reference, std::int32_t face, double margin,
                   ClipColumns& columns, std::vector<ContactPoint>& points);
 
 struct Segment {

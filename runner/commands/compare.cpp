@@ -15,7 +15,7 @@ namespace {
 /// The file asked for, or the one beside the sweep. Throws BadInput if there is none.
 std::string reference_file(const CompareOptions& options, const Provenance& provenance) {
   if (!options.with.empty()) return options.with;
-  const std::string beside = reference_beside(provenance.sweep_file);
+  std::string beside = reference_beside(provenance.sweep_file);
   if (!provenance.sweep_file.empty() && file_exists(beside)) return beside;
   throw BadInput(options.folder + ": there are no published values beside the sweep" +
                  (provenance.sweep_file.empty() ? "" : " (" + beside + ")") +

@@ -139,17 +139,17 @@ struct NamedQuantity {
   Measured (*of_group)(const Family&, const Group&);  ///< between walls; null if it is not
 };
 
-constexpr auto phi = Quantity::solid_fraction, z = Quantity::coordination;
+constexpr auto of_phi = Quantity::solid_fraction, of_z = Quantity::coordination;
 constexpr std::array<NamedQuantity, 15> quantities = {{
-    {"phi_unconfined", "φ without walls (bi-periodic)", unconfined<phi>, nullptr},
-    {"Z_unconfined", "Z without walls (bi-periodic)", unconfined<z>, nullptr},
-    {"phi_bulk", "φ_bulk of the fit", bulk_of_fit<phi>, nullptr},
-    {"C", "C / d", slope_of_fit<phi>, nullptr},
-    {"Z_bulk", "Z_bulk of the fit", bulk_of_fit<z>, nullptr},
-    {"C_Z", "C_Z / d", slope_of_fit<z>, nullptr},
+    {"phi_unconfined", "φ without walls (bi-periodic)", unconfined<of_phi>, nullptr},
+    {"Z_unconfined", "Z without walls (bi-periodic)", unconfined<of_z>, nullptr},
+    {"phi_bulk", "φ_bulk of the fit", bulk_of_fit<of_phi>, nullptr},
+    {"C", "C / d", slope_of_fit<of_phi>, nullptr},
+    {"Z_bulk", "Z_bulk of the fit", bulk_of_fit<of_z>, nullptr},
+    {"C_Z", "C_Z / d", slope_of_fit<of_z>, nullptr},
     {"zeta_difference", "ζ_Z - ζ_φ, d", zeta_difference, nullptr},
-    {"phi", "φ", nullptr, mean_of<phi>},
-    {"Z", "Z", nullptr, mean_of<z>},
+    {"phi", "φ", nullptr, mean_of<of_phi>},
+    {"Z", "Z", nullptr, mean_of<of_z>},
     {"lambda_by_number", "λ_L / d_avg by number", nullptr,
      decay_length<&PackingResult::mean_diameter>},
     {"lambda_by_volume", "λ_L / d_avg by volume", nullptr,
@@ -172,6 +172,7 @@ std::string fault_of_quantity(const std::string& quantity, double width) {
   const NamedQuantity* found = find_quantity(quantity);
   if (found == nullptr) {
     std::vector<std::string> names;
+    names.reserve(std::size(quantities));
     for (const NamedQuantity& one : quantities) names.emplace_back(one.name);
     return "unknown quantity \"" + quantity + "\"; known are " + comma_list(names);
   }

@@ -40,7 +40,7 @@ std::string why_no_fit(const Group& group, GrainClass grains) {
 }
 
 struct DecayLine : GroupLine {
-  GrainClass grains;
+  GrainClass grains = GrainClass::large;
   DecayFit fit;
 };
 

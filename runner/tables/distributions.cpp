@@ -16,8 +16,8 @@ Spread spread_at(const Group& group, Curve Order::*curve, std::size_t k) {
 }
 
 struct PointLine : GroupLine {
-  const char* curve;
-  double low, high;  ///< of the bin
+  const char* curve = "";
+  double low = 0.0, high = 0.0;  ///< of the bin
   Spread value;
 };
 

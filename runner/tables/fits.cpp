@@ -90,7 +90,7 @@ const char* name_of(Quantity quantity) {
 /// One fit of a family.
 struct FitLine {
   const Family& family;
-  Quantity quantity;
+  Quantity quantity = Quantity::solid_fraction;
   WallFit fit;
 };
 
@@ -171,7 +171,7 @@ Columns<FitLine> fit_line_columns() {
 
 struct FitPointLine {
   const Family& family;
-  Quantity quantity;
+  Quantity quantity = Quantity::solid_fraction;
   FitPoint point;
 };
 

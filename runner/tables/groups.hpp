@@ -43,7 +43,7 @@ const Spread& mean_of(const Group& group, std::string_view field);
 /// A line of a table with several lines per group.
 struct GroupLine {
   const Group& group;
-  std::size_t number;  ///< of the group's row in groups.csv, from 1
+  std::size_t number = 0;  ///< of the group's row in groups.csv, from 1
 };
 
 /// What such tables begin with: the number and a few facts of the group.

@@ -46,7 +46,7 @@ MeanBin mean_bin(const Bins& bins, double low, double high) {
 }
 
 struct ProfileLine : GroupLine {
-  const char* axis;
+  const char* axis = "";
   MeanBin bin;
 };
 

@@ -36,7 +36,7 @@ std::string provenance_text(const Provenance& provenance, const std::vector<Row>
   text["totals"] = to_json(totals_of(rows), rows.size());
   json sweep = jobs_json(rows);
   sweep["name"] = provenance.sweep_name;
-  text["sweep"] = std::move(sweep);
+  text["sweep"] = sweep;
   return text.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
 }
 
