@@ -15,7 +15,7 @@ namespace {
 
 int measure_file(const char* path, const Box& box) {
   const GrainsReading reading = read_grains(path);
-  for (const Finding& error : reading.errors) {
+  for (const Diagnostic& error : reading.errors) {
     std::fprintf(stderr, "%s\n", to_string(error).c_str());
   }
   if (!reading.errors.empty()) return 2;

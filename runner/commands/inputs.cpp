@@ -13,7 +13,7 @@ Sweep sweep_or_refusal(const std::string& file) {
   SweepReading reading = read_sweep(file);
   if (reading.errors.empty()) return std::move(reading.sweep);
   std::string text;
-  for (const Finding& finding : reading.errors) text += to_string(finding) + "\n";
+  for (const Diagnostic& diagnostic : reading.errors) text += to_string(diagnostic) + "\n";
   const std::size_t count = reading.errors.size();
   throw BadInput(text + std::to_string(count) + (count == 1 ? " error" : " errors") +
                  "; nothing was run");

@@ -45,19 +45,19 @@ std::size_t mention_of(const std::string& path, const std::string& message) {
   return message.find(name.substr(0, name.find('_')));
 }
 
-/// The setting that an error about `path` is about. Of a group it is the part that is written and
-/// that the message mentions first, or else the first part that is written.
-const Setting* setting_of(const SpecError& error, const Resolved& resolved) {
-  if (const auto parameter = find_parameter(error.path)) return resolved[*parameter];
-  const Setting* found = nullptr;
+/// The assignment that an error about `path` is about. Of a group it is the part that is written
+/// and that the message mentions first, or else the first part that is written.
+const Assignment* assignment_of(const SpecError& error, const InEffect& in_effect) {
+  if (const auto parameter = find_parameter(error.path)) return in_effect[*parameter];
+  const Assignment* found = nullptr;
   std::size_t first = std::string::npos;
-  for (const Setting* setting : resolved) {
-    if (setting == nullptr) continue;
-    const std::string& path = parameters()[setting->parameter].path;
+  for (const Assignment* assignment : in_effect) {
+    if (assignment == nullptr) continue;
+    const std::string& path = parameters()[assignment->parameter].path;
     if (!path.starts_with(error.path + ".")) continue;
     const std::size_t mention = mention_of(path, error.message);
     if (found != nullptr && mention >= first) continue;
-    found = setting;
+    found = assignment;
     first = mention;
   }
   return found;
@@ -90,22 +90,22 @@ std::string factors_of(const Block& block) {
 }
 
 /// Notes blocks that are too large alone or together; true if there is room for all.
-bool fits(const Blocks& blocks, Problems& problems) {
+bool fits(const SweepDefinition& definition, Diagnostics& diagnostics) {
   std::uint64_t total = 0;
-  const std::size_t before = problems.size();
+  const std::size_t before = diagnostics.size();
   const std::string limit = ", more than the " + in_thousands(most_jobs) + " that a sweep may have";
-  for (const Block& block : blocks.blocks) {
+  for (const Block& block : definition.blocks) {
     const std::uint64_t jobs = job_count(block);
     total = jobs > UINT64_MAX - total ? UINT64_MAX : total + jobs;
     if (jobs <= most_jobs) continue;
-    problems.push_back({block.pointer, "asks for " + count_text(jobs) + " jobs" + limit +
-                                           "; shorten " + factors_of(block)});
+    diagnostics.push_back({block.pointer, "asks for " + count_text(jobs) + " jobs" + limit +
+                                              "; shorten " + factors_of(block)});
   }
-  if (problems.size() == before && total > most_jobs) {
-    problems.push_back({"/sweep", "the blocks ask together for " + count_text(total) + " jobs" +
-                                      limit + "; split the file"});
+  if (diagnostics.size() == before && total > most_jobs) {
+    diagnostics.push_back({"/sweep", "the blocks ask together for " + count_text(total) + " jobs" +
+                                         limit + "; split the file"});
   }
-  return problems.size() == before;
+  return diagnostics.size() == before;
 }
 
 /// The axes of a block with its random points drawn.
@@ -114,9 +114,9 @@ std::vector<Axis> drawn_axes(const Block& block, std::uint64_t seed, std::uint64
   if (block.random.empty()) return axes;
   Axis random{"random", {}};
   for (std::uint64_t point = 0; point < block.random_count; ++point) {
-    Settings& entry = random.entries.emplace_back();
+    Assignments& entry = random.entries.emplace_back();
     for (const RandomPath& path : block.random) {
-      const Settings drawn = draw(path, {seed, index, point});
+      const Assignments drawn = draw(path, {seed, index, point});
       entry.insert(entry.end(), drawn.begin(), drawn.end());
     }
   }
@@ -125,8 +125,8 @@ std::vector<Axis> drawn_axes(const Block& block, std::uint64_t seed, std::uint64
 }
 
 /// The entries that make up the `point`th point of the product, one of each axis.
-std::vector<const Settings*> entries_of(const std::vector<Axis>& axes, std::uint64_t point) {
-  std::vector<const Settings*> entries(axes.size());
+std::vector<const Assignments*> entries_of(const std::vector<Axis>& axes, std::uint64_t point) {
+  std::vector<const Assignments*> entries(axes.size());
   for (std::size_t i = axes.size(); i-- > 0;) {
     const std::uint64_t size = axes[i].entries.size();
     entries[i] = &axes[i].entries[static_cast<std::size_t>(point % size)];
@@ -138,39 +138,40 @@ std::vector<const Settings*> entries_of(const std::vector<Axis>& axes, std::uint
 /// Multiplies out the blocks; holds the jobs made so far and what has been said about them.
 class Expansion {
  public:
-  Expansion(const Blocks& blocks, std::string folder, Problems& problems)
-      : blocks_(blocks), folder_(std::move(folder)), problems_(problems) {}
+  Expansion(const SweepDefinition& definition, std::string folder, Diagnostics& diagnostics)
+      : definition_(definition), folder_(std::move(folder)), diagnostics_(diagnostics) {}
 
   std::vector<Job> run() {
-    for (std::size_t i = 0; i < blocks_.blocks.size(); ++i) expand_block(i);
+    for (std::size_t i = 0; i < definition_.blocks.size(); ++i) expand_block(i);
     note_shared_jobs();
     return std::move(jobs_);
   }
 
  private:
   void expand_block(std::size_t index) {
-    const Block& block = blocks_.blocks[index];
-    const std::vector<Axis> axes = drawn_axes(block, blocks_.seed, index);
-    Resolved before(parameters().size(), nullptr);
-    overlay({&blocks_.base}, before);
+    const Block& block = definition_.blocks[index];
+    const std::vector<Axis> axes = drawn_axes(block, definition_.seed, index);
+    InEffect before(parameters().size(), nullptr);
+    overlay({&definition_.base}, before);
     overlay({&block.set}, before);
     const std::uint64_t points = point_count(block);
     for (std::uint64_t point = 0; point < points; ++point) {
-      Resolved resolved = before;
-      overlay(entries_of(axes, point), resolved);
-      make_jobs(index, resolved);
+      InEffect in_effect = before;
+      overlay(entries_of(axes, point), in_effect);
+      make_jobs(index, in_effect);
     }
   }
 
-  void make_jobs(std::size_t index, const Resolved& resolved) {
-    const Block& block = blocks_.blocks[index];
-    Draft draft = draft_of(resolved);
-    if (resolved[seed_] == nullptr) draft.seed = blocks_.seed;
-    place_grains(block, resolved, draft);
-    place_vertices(block, resolved, draft);
-    note_broken_rules(block, resolved, check(draft.spec));
-    if (!problems_.empty()) return;
-    Job job{"", block.label, canonical_parameters(draft), 1, draft.seed, std::move(draft.spec)};
+  void make_jobs(std::size_t index, const InEffect& in_effect) {
+    const Block& block = definition_.blocks[index];
+    ResolvedSpec resolved = resolve(in_effect);
+    if (in_effect[seed_] == nullptr) resolved.seed = definition_.seed;
+    place_grains(block, in_effect, resolved);
+    place_vertices(block, in_effect, resolved);
+    note_broken_rules(block, in_effect, check(resolved.spec));
+    if (!diagnostics_.empty()) return;
+    Job job{"", block.label,   canonical_parameters(resolved),
+            1,  resolved.seed, std::move(resolved.spec)};
     for (; job.replicate <= block.replicates; ++job.replicate) add(index, job);
   }
 
@@ -178,7 +179,7 @@ class Expansion {
     const std::uint64_t hash = job_hash(job.parameters, job.seed, job.replicate);
     const auto [entry, is_new] = first_block_.emplace(hash, index);
     if (!is_new) {
-      const bool same = blocks_.blocks[entry->second].label == job.label;
+      const bool same = definition_.blocks[entry->second].label == job.label;
       if (!same) ++shared_[{entry->second, index}];
       return;
     }
@@ -189,55 +190,55 @@ class Expansion {
 
   /// Fills in the grains of a fill file. If there are none to be had, says so and leaves the fill
   /// at its default, so that the other rules can still be checked.
-  void place_grains(const Block& block, const Resolved& resolved, Draft& draft) {
-    const Setting* diameter = resolved[diameter_];
-    const Setting* file = resolved[file_];
+  void place_grains(const Block& block, const InEffect& in_effect, ResolvedSpec& resolved) {
+    const Assignment* diameter = in_effect[diameter_];
+    const Assignment* file = in_effect[file_];
     if (file == nullptr) {
       if (diameter != nullptr) note(*diameter, "belongs to fill.file, and that is not set");
       return;
     }
-    draft.spec.fill = SolidHeight{};
-    if (!(draft.fill_diameter > 0.0)) return note(*diameter, "must be positive");
-    const GrainsReading& reading = reading_of(draft.fill_file, *file, read_grains, grains_);
+    resolved.spec.fill = SolidHeight{};
+    if (!(resolved.fill_diameter > 0.0)) return note(*diameter, "must be positive");
+    const GrainsReading& reading = reading_of(resolved.fill_file, *file, read_grains, grains_);
     if (!reading.errors.empty()) return;
     placed_ += reading.grains.size() * static_cast<std::uint64_t>(block.replicates);
     if (placed_ > most_placed_grains) {
       return note(*file, "the jobs hold more than " + in_thousands(most_placed_grains) +
                              " grains from files together; split the sweep");
     }
-    draft.spec.fill =
-        PlacedGrains{scaled_grains(reading.grains, draft.fill_diameter), reading.orientations};
-    draft.fill_content = reading.content;
+    resolved.spec.fill =
+        PlacedGrains{scaled_grains(reading.grains, resolved.fill_diameter), reading.orientations};
+    resolved.fill_content = reading.content;
   }
 
   /// Fills in the vertices of a hull. If there are none to be had, says so; what `check` would say
   /// of a hull without vertices is then said already.
-  void place_vertices(const Block& block, const Resolved& resolved, Draft& draft) {
-    const Setting* size = resolved[hull_size_];
-    const Setting* file = resolved[hull_file_];
-    const Setting* source = file != nullptr ? file : resolved[hull_vertices_];
+  void place_vertices(const Block& block, const InEffect& in_effect, ResolvedSpec& resolved) {
+    const Assignment* size = in_effect[hull_size_];
+    const Assignment* file = in_effect[hull_file_];
+    const Assignment* source = file != nullptr ? file : in_effect[hull_vertices_];
     if (source == nullptr) {
       if (size == nullptr) return;
       return note(*size, "belongs to shape.hull.vertices or shape.hull.file; neither is set");
     }
-    auto& hull = std::get<HullVertices>(draft.spec.shape);
+    auto& hull = std::get<HullVertices>(resolved.spec.shape);
     bool is_sound = true;
     if (file != nullptr) {
-      const ObjReading& reading = reading_of(draft.hull_file, *file, read_obj, hulls_);
+      const ObjReading& reading = reading_of(resolved.hull_file, *file, read_obj, hulls_);
       is_sound = reading.errors.empty();
       hull.points = points_of(reading);
     }
-    if (!(draft.hull_size > 0.0)) {
+    if (!(resolved.hull_size > 0.0)) {
       note(*size, "must be positive");
       is_sound = false;
     }
     is_sound = has_room(hull.points.size(), block, *source) && is_sound;
-    hull.points = is_sound ? scaled_points(std::move(hull.points), draft.hull_size) : Points{};
+    hull.points = is_sound ? scaled_points(std::move(hull.points), resolved.hull_size) : Points{};
     if (!is_sound) said_.insert(source->pointer + " shape.hull");
   }
 
   /// Whether the hulls do not hold too many vertices; otherwise a problem is noted.
-  bool has_room(std::size_t count, const Block& block, const Setting& source) {
+  bool has_room(std::size_t count, const Block& block, const Assignment& source) {
     if (count > most_vertices_of_a_grain) {
       note(source, "holds " + in_thousands(count) + " vertices, more than the " +
                        in_thousands(most_vertices_of_a_grain) +
@@ -253,45 +254,49 @@ class Expansion {
 
   /// What is in `file`, read once for all jobs.
   template <class Reading>
-  const Reading& reading_of(const std::string& file, const Setting& setting,
+  const Reading& reading_of(const std::string& file, const Assignment& assignment,
                             Reading (*read)(const std::string&),
                             std::map<std::string, Reading>& files) {
     const std::string path = (std::filesystem::path(folder_) / file).string();
     const auto known = files.find(path);
     if (known != files.end()) return known->second;
     const Reading& reading = files.emplace(path, read(path)).first->second;
-    for (const Finding& error : reading.errors) {
-      problems_.push_back({setting.pointer, error.message, Anchor::value, error.place});
+    for (const Diagnostic& error : reading.errors) {
+      const bool has_no_line = error.place == path;  // then the name in the sweep is the place
+      diagnostics_.push_back({assignment.pointer,
+                              has_no_line ? path + " " + error.message : error.message,
+                              Anchor::value, has_no_line ? "" : error.place});
     }
     return reading;
   }
 
-  void note(const Setting& setting, const std::string& message) {
-    if (said_.insert(setting.pointer).second) problems_.push_back({setting.pointer, message});
+  void note(const Assignment& assignment, const std::string& message) {
+    if (said_.insert(assignment.pointer).second)
+      diagnostics_.push_back({assignment.pointer, message});
   }
 
   /// Notes what one point breaks. A value that has broken a rule at an earlier point is not named
   /// again.
-  void note_broken_rules(const Block& block, const Resolved& resolved,
+  void note_broken_rules(const Block& block, const InEffect& in_effect,
                          const std::vector<SpecError>& errors) {
     std::set<std::string> said_now;
     for (const SpecError& error : errors) {
-      const Setting* setting = setting_of(error, resolved);
-      const std::string pointer = setting == nullptr ? block.pointer : setting->pointer;
+      const Assignment* assignment = assignment_of(error, in_effect);
+      const std::string pointer = assignment == nullptr ? block.pointer : assignment->pointer;
       const std::string key = pointer + " " + error.path;
       if (said_.count(key) != 0) continue;
       said_now.insert(key);
-      const std::string subject = setting == nullptr ? error.path + " " : "";
-      problems_.push_back({pointer, subject + error.message});
+      const std::string subject = assignment == nullptr ? error.path + " " : "";
+      diagnostics_.push_back({pointer, subject + error.message});
     }
     said_.merge(said_now);
   }
 
   void note_shared_jobs() {
     for (const auto& [pair, count] : shared_) {
-      const Block& first = blocks_.blocks[pair.first];
-      const Block& second = blocks_.blocks[pair.second];
-      problems_.push_back(
+      const Block& first = definition_.blocks[pair.first];
+      const Block& second = definition_.blocks[pair.second];
+      diagnostics_.push_back(
           {second.pointer, "block \"" + second.label + "\" repeats " + in_thousands(count) +
                                (count == 1 ? " job" : " jobs") + " of block \"" + first.label +
                                "\" (" + first.pointer +
@@ -299,9 +304,9 @@ class Expansion {
     }
   }
 
-  const Blocks& blocks_;
+  const SweepDefinition& definition_;
   const std::string folder_;
-  Problems& problems_;
+  Diagnostics& diagnostics_;
   const std::size_t seed_ = parameter_with(Role::seed);
   const std::size_t file_ = parameter_with(Role::fill_file);
   const std::size_t diameter_ = parameter_with(Role::fill_diameter);
@@ -319,9 +324,10 @@ class Expansion {
 
 }  // namespace
 
-std::vector<Job> expand(const Blocks& blocks, const std::string& folder, Problems& problems) {
-  if (!fits(blocks, problems)) return {};
-  return Expansion(blocks, folder, problems).run();
+std::vector<Job> expand(const SweepDefinition& definition, const std::string& folder,
+                        Diagnostics& diagnostics) {
+  if (!fits(definition, diagnostics)) return {};
+  return Expansion(definition, folder, diagnostics).run();
 }
 
 }  // namespace grainsweep

@@ -4,20 +4,21 @@
 #include <string>
 #include <vector>
 
-#include "runner/sweep/blocks.hpp"
+#include "runner/sweep/diagnostic.hpp"
 #include "runner/sweep/job.hpp"
-#include "runner/sweep/problem.hpp"
+#include "runner/sweep/sweep_definition.hpp"
 
 namespace grainsweep {
 
-/// The jobs of `blocks`: block by block, in a block point by point (the last path of a grid changes
-/// faster than the ones before it, then its zip, then its random points), in a point replicate by
-/// replicate. A job that two blocks of the same label share is made once. Files of grains and of
-/// vertices are looked for from `folder`.
+/// The jobs of `definition`: block by block, in a block point by point (the last path of a grid
+/// changes faster than the ones before it, then its zip, then its random points), in a point
+/// replicate by replicate. A job that two blocks of the same label share is made once. Files of
+/// grains and of vertices are looked for from `folder`.
 ///
-/// Notes as problems: more than `most_jobs` jobs, before any is made; every rule of `check` that a
-/// point breaks, at the place of the value, once; files that cannot be read; and jobs that two
+/// Notes as diagnostics: more than `most_jobs` jobs, before any is made; every rule of `check` that
+/// a point breaks, at the place of the value, once; files that cannot be read; and jobs that two
 /// blocks of different labels share. With any problem the jobs are not to be used.
-std::vector<Job> expand(const Blocks& blocks, const std::string& folder, Problems& problems);
+std::vector<Job> expand(const SweepDefinition& definition, const std::string& folder,
+                        Diagnostics& diagnostics);
 
 }  // namespace grainsweep

@@ -6,7 +6,6 @@
 #include <string_view>
 
 #include "runner/sweep/identity.hpp"
-#include "runner/sweep/json_text.hpp"
 #include "runner/sweep/suggest.hpp"
 #include "runner/sweep/text_lines.hpp"
 
@@ -96,7 +95,8 @@ std::string read_grain(const LineCells& cells, const Columns& columns, std::size
 bool note(GrainsReading& reading, const std::string& file, std::size_t line, std::string message) {
   const bool last = reading.errors.size() + 1 == most_wrong_lines;
   if (last) message += " (further lines are not listed)";
-  reading.errors.push_back({file + ":" + std::to_string(line), "", std::move(message)});
+  reading.errors.push_back(
+      {"", std::move(message), Anchor::value, file + ":" + std::to_string(line)});
   return !last;
 }
 

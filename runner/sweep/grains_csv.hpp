@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "engine/scene/spec.hpp"
-#include "runner/sweep/problem.hpp"
+#include "runner/sweep/diagnostic.hpp"
 
 namespace grainsweep {
 
@@ -18,8 +18,8 @@ struct GrainsReading {
   std::vector<PlacedSphere> grains;  ///< in the file's own unit of length
   /// Quaternions as of PlacedGrains; empty if the file has no columns for them.
   std::vector<std::array<double, 4>> orientations;
-  std::string content;          ///< hash of the file's bytes, 16 hex digits
-  std::vector<Finding> errors;  ///< with places "bed.csv:12"; at most 20 of a file
+  std::string content;             ///< hash of the file's bytes, 16 hex digits
+  std::vector<Diagnostic> errors;  ///< with places "bed.csv:12"; at most 20 of a file
 };
 
 /// Reads grains from the file at `path`. Refuses missing columns and values, some of the columns of

@@ -83,13 +83,13 @@ std::string hash_of(const HullVertices& hull) {
   return hex16(mixed(fnv1a(text)));
 }
 
-std::string canonical_parameters(const Draft& draft) {
+std::string canonical_parameters(const ResolvedSpec& resolved) {
   static const std::vector<Member> members = sorted_members();
   const GroupNames none;
   const GroupNames* open = &none;
   std::string text = "{";
   for (const auto& [parameter, groups, key] : members) {
-    const auto value = parameter->get(draft);
+    const auto value = parameter->get(resolved);
     if (!value) continue;
     change_groups(*open, groups, text);
     open = &groups;

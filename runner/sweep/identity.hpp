@@ -12,7 +12,7 @@
 #include <string_view>
 
 #include "runner/hash.hpp"
-#include "runner/sweep/draft.hpp"
+#include "runner/sweep/resolved_spec.hpp"
 
 namespace grainsweep {
 
@@ -22,7 +22,7 @@ std::string hash_of(const HullVertices& hull);
 /// Every parameter of the packing as JSON without spaces, keys sorted, numbers as short as they
 /// read back exactly (20, not 20.0). Presets appear as their parts, a fill file as the hash of its
 /// content, a hull as that of its vertices.
-std::string canonical_parameters(const Draft& draft);
+std::string canonical_parameters(const ResolvedSpec& resolved);
 
 /// The id of a job, as a number.
 std::uint64_t job_hash(std::string_view parameters, std::uint64_t seed, int replicate);

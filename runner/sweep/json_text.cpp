@@ -1,171 +1,239 @@
 #include "runner/sweep/json_text.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cctype>
-#include <cerrno>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
-#include <string_view>
-#include <system_error>
+#include <cstddef>
+#include <iterator>
+#include <set>
 #include <unordered_map>
+#include <utility>
 
-#include "runner/sweep/json_places.hpp"
+#include "runner/sweep/json_syntax.hpp"
+#include "runner/sweep/text_lines.hpp"
 
 namespace grainsweep {
 namespace {
 
-constexpr std::size_t largest_file = std::size_t{256} << 20U;  // bytes
+/// Hands a text to the parser and lets others know how far it has read.
+struct Cursor {
+  using iterator_category = std::input_iterator_tag;
+  using value_type = char;
+  using difference_type = std::ptrdiff_t;
+  using pointer = const char*;
+  using reference = const char&;
 
-/// Takes every event of a parse and keeps only its first error.
-struct SyntaxListener final : nlohmann::json_sax<Json> {
-  std::size_t bytes_read = 0;
-  std::string complaint;
+  const char* at;
+  const char** reached;
 
-  bool null() override { return true; }
-  bool boolean(bool) override { return true; }
-  bool number_integer(number_integer_t) override { return true; }
-  bool number_unsigned(number_unsigned_t) override { return true; }
-  bool number_float(number_float_t, const string_t&) override { return true; }
-  bool string(string_t&) override { return true; }
-  bool binary(binary_t&) override { return true; }
-  bool start_object(std::size_t) override { return true; }
-  bool key(string_t&) override { return true; }
-  bool end_object() override { return true; }
-  bool start_array(std::size_t) override { return true; }
-  bool end_array() override { return true; }
-  bool parse_error(std::size_t position, const std::string&,
-                   const nlohmann::detail::exception& error) override {
-    bytes_read = position;
-    complaint = error.what();
-    return false;
+  reference operator*() const { return *at; }
+  Cursor& operator++() {
+    *reached = ++at;
+    return *this;
   }
+  bool operator==(const Cursor& other) const { return at == other.at; }
 };
 
-bool is_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0; }
-bool is_number_or_word(char c) { return is_word(c) || c == '+' || c == '-' || c == '.'; }
-
-/// Start of the word or number that holds the byte at `at`.
-std::size_t word_start(const std::string& text, std::size_t at) {
-  if (at >= text.size() || !is_number_or_word(text[at])) return at;
-  while (at > 0 && is_number_or_word(text[at - 1])) --at;
-  return at;
-}
-
-bool is_nan_or_infinity(std::string_view word) {
-  if (word.starts_with('-') || word.starts_with('+')) word.remove_prefix(1);
-  std::string lower;
-  for (const char c : word.substr(0, sizeof "infinity")) {
-    if (!is_word(c)) break;
-    lower += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+/// Builds the values as the parser finds them, and notes the place of each.
+///
+/// An event comes when the parser has read a token and no more, save that a number is known to end
+/// only by the character behind it. Between two tokens stand nothing but blanks, commas and colons:
+/// what follows them is the start of the next.
+class Builder final : public nlohmann::json_sax<Json> {
+ public:
+  Builder(const std::string& text, std::string file) : text_(text), file_(std::move(file)) {
+    end_ = text.starts_with(byte_order_mark) ? byte_order_mark.size() : 0;
   }
-  return lower == "nan" || lower == "inf" || lower == "infinity";
-}
 
-char last_before(const std::string& text, std::size_t at) {
-  const std::size_t found = at == 0 ? at : text.find_last_not_of(" \t\r\n", at - 1);
-  return found < at ? text[found] : '\0';
-}
-
-bool has(const std::string& text, const char* part) { return text.find(part) != std::string::npos; }
-
-/// The parser's own words behind "syntax error while parsing ...".
-std::string plain(const std::string& complaint) {
-  const std::size_t dash = complaint.find(" - ");
-  std::string words = dash == std::string::npos ? complaint : complaint.substr(dash + 3);
-  return words.substr(0, words.find("; last read"));
-}
-
-std::string syntax_message(const std::string& text, std::size_t at, const std::string& complaint) {
-  const char c = at < text.size() ? text[at] : '\0';
-  if (has(complaint, "ill-formed UTF-8")) return "is not UTF-8 text here; save the file as UTF-8";
-  if (has(complaint, "number overflow")) return "this number is too large for a 64-bit float";
-  if (at >= text.size()) return "the file ends too early: a bracket or a quote is not closed";
-  if (is_nan_or_infinity(std::string_view(text).substr(at))) {
-    return "JSON has no NaN and no Infinity; write a finite number";
+  JsonReading read() {
+    const Cursor begin{text_.data(), &reached_}, end{text_.data() + text_.size(), &reached_};
+    Json::sax_parse(begin, end, this);
+    if (reading_.errors.empty()) note_duplicates();
+    return std::move(reading_);
   }
-  if (c == '\'') return "a string needs double quotes";
-  if (c == '/' || c == '#') return "JSON has no comments; remove it";
-  if ((c == '}' || c == ']') && last_before(text, at) == ',') {
-    return std::string("remove the comma before this '") + c + "'";
+
+  bool null() override { return take(nullptr); }
+  bool boolean(bool value) override { return take(value); }
+  bool number_integer(number_integer_t value) override { return take(value); }
+  bool number_unsigned(number_unsigned_t value) override { return take(value); }
+  bool number_float(number_float_t value, const string_t&) override { return take(value); }
+  bool string(string_t& value) override { return take(std::move(value)); }
+  bool binary(binary_t&) override { return false; }  // comes from binary formats only
+  bool start_object(std::size_t) override { return open(Json::object()); }
+  bool start_array(std::size_t) override { return open(Json::array()); }
+  bool end_object() override { return close(); }
+  bool end_array() override { return close(); }
+
+  bool key(string_t& name) override {
+    key_ = next_token();
+    end_ = reached();
+    const auto [first, is_new] = open_.back().keys.emplace(name, key_);
+    open_.back().value->get_ref<Json::object_t&>().emplace_back(std::move(name), nullptr);
+    if (!is_new) duplicates_.push_back({pointer_here(), key_, first->second});
+    return true;
   }
-  return "malformed JSON: " + plain(complaint);
-}
 
-std::vector<Finding> syntax_errors(const std::string& text, const std::string& file) {
-  SyntaxListener listener;
-  if (Json::sax_parse(text, &listener)) return {};
-  const std::size_t read = std::max<std::size_t>(listener.bytes_read, 1);
-  const std::size_t at = word_start(text, read - 1);
-  return {{file + LineIndex(text).place(at), "", syntax_message(text, at, listener.complaint)}};
-}
+  bool parse_error(std::size_t position, const std::string&,
+                   const nlohmann::detail::exception& error) override {
+    const SyntaxError found =
+        syntax_error(text_, {std::max<std::size_t>(position, 1) - 1, end_}, error.what());
+    refuse(found.offset, found.message);
+    return false;
+  }
 
-/// Counts brackets outside strings; needs no valid JSON and no stack.
-std::vector<Finding> depth_errors(const std::string& text, const std::string& file) {
-  int depth = 0;
-  bool in_string = false;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    if (text[i] == '"') in_string = !in_string;
-    if (in_string && text[i] == '\\') ++i;
-    if (in_string || i >= text.size()) continue;
-    if (text[i] == ']' || text[i] == '}') --depth;
-    if ((text[i] == '[' || text[i] == '{') && ++depth > deepest_json) {
-      const std::string most = std::to_string(deepest_json);
-      return {{file + LineIndex(text).place(i), "", "is nested deeper than " + most + " levels"}};
+ private:
+  /// A list or an object whose end is still to come.
+  struct Open {
+    Json* value;
+    std::unordered_map<std::string, std::size_t> keys;  ///< offset of each, of an object
+  };
+
+  struct Duplicate {
+    std::string pointer;
+    std::size_t key, first;  ///< offsets of both keys
+  };
+
+  std::size_t reached() const { return static_cast<std::size_t>(reached_ - text_.data()); }
+  std::size_t next_token() const { return text_.find_first_not_of(" \t\r\n,:", end_); }
+
+  bool take(Json value) {
+    add(std::move(value));
+    return true;
+  }
+
+  Json& add(Json value) {
+    const std::size_t start = next_token();
+    const bool is_member = !open_.empty() && open_.back().value->is_object();
+    reading_.places.push_back(
+        {static_cast<std::uint32_t>(is_member ? key_ : start), static_cast<std::uint32_t>(start)});
+    end_ = reached();
+    if (value.is_number() && !ends_number(text_, end_)) --end_;
+    if (open_.empty()) return reading_.value = std::move(value);
+    Json& parent = *open_.back().value;
+    if (!is_member) parent.push_back(nullptr);
+    return parent.back() = std::move(value);
+  }
+
+  bool open(Json container) {
+    open_.push_back({&add(std::move(container)), {}});
+    if (open_.size() <= deepest_json) return true;
+    refuse(end_ - 1, "is nested deeper than " + std::to_string(deepest_json) + " levels");
+    return false;
+  }
+
+  bool close() {
+    open_.pop_back();
+    end_ = reached();
+    return true;
+  }
+
+  /// Pointer of the member that was read last.
+  std::string pointer_here() const {
+    std::string pointer;
+    for (const Open& container : open_) {
+      const Json& value = *container.value;
+      pointer = child_pointer(pointer, value.is_array()
+                                           ? std::to_string(value.size() - 1)
+                                           : value.get_ref<const Json::object_t&>().back().first);
+    }
+    return pointer;
+  }
+
+  void refuse(std::size_t offset, const std::string& message) {
+    reading_.errors = {{"", message, Anchor::value, file_ + LineIndex(text_).place(offset)}};
+  }
+
+  void note_duplicates() {
+    if (duplicates_.empty()) return;
+    const LineIndex lines(text_);
+    for (const Duplicate& duplicate : duplicates_) {
+      reading_.errors.push_back({duplicate.pointer,
+                                 "the same key is already written at " +
+                                     lines.place(duplicate.first).substr(1) + "; keep one of them",
+                                 Anchor::key, file_ + lines.place(duplicate.key)});
     }
   }
-  return {};
+
+  const std::string& text_;
+  const std::string file_;
+  const char* reached_ = text_.data();  ///< behind the last character that the parser has read
+  std::size_t end_ = 0;                 ///< offset behind the last token
+  std::size_t key_ = 0;                 ///< offset of the last key
+  std::vector<Open> open_;              ///< from the outside in
+  std::vector<Duplicate> duplicates_;
+  JsonReading reading_;
+};
+
+/// The places of some pointers; null where there is nothing.
+using Wanted = std::unordered_map<std::string, const JsonPlace*>;
+
+std::string parent_of(const std::string& pointer) { return pointer.substr(0, pointer.rfind('/')); }
+
+/// The pointers of the diagnostics and all that contains them.
+Wanted wanted_pointers(const Diagnostics& diagnostics) {
+  Wanted wanted = {{"", nullptr}};
+  for (const Diagnostic& diagnostic : diagnostics) {
+    std::string pointer = diagnostic.pointer;
+    while (wanted.emplace(pointer, nullptr).second) pointer = parent_of(pointer);
+  }
+  return wanted;
 }
 
-std::vector<Finding> duplicate_errors(const std::string& text, const std::string& file) {
-  const LineIndex lines(text);
-  std::unordered_map<std::string, std::size_t> first;
-  std::vector<Finding> errors;
-  for_each_value(text, [&](const JsonPlace& place) {
-    if (!place.is_member) return;
-    const auto [entry, is_new] = first.emplace(place.pointer, place.key);
-    if (is_new) return;
-    errors.push_back({file + lines.place(place.key), place.pointer,
-                      "the same key is already written at " + lines.place(entry->second).substr(1) +
-                          "; keep one of them"});
-  });
-  return errors;
+/// Finds what is wanted of `value`, written at `pointer`. `place` is its place at first, and the
+/// one behind it and all its parts at last.
+void look_up(const Json& value, const std::string& pointer, const JsonPlace*& place,
+             Wanted& wanted) {
+  const auto entry = wanted.find(pointer);
+  if (entry != wanted.end()) entry->second = place;
+  ++place;
+  if (!value.is_structured()) return;
+  for (const auto& [key, part] : value.items()) {
+    look_up(part, child_pointer(pointer, key), place, wanted);
+  }
 }
 
-FileText refuse(const std::string& path, const std::string& message) {
-  return {"", {{path, "", message}}};
+std::size_t offset_of(const Diagnostic& diagnostic, const Wanted& wanted) {
+  std::string pointer = diagnostic.pointer;
+  while (wanted.at(pointer) == nullptr) pointer = parent_of(pointer);
+  const JsonPlace& place = *wanted.at(pointer);
+  return diagnostic.anchor == Anchor::key ? place.key : place.value;
 }
 
 }  // namespace
 
-FileText read_text(const std::string& path) {
-  std::error_code error;
-  if (std::filesystem::is_directory(path, error)) return refuse(path, "is a folder, not a file");
-  errno = 0;
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream) return refuse(path, std::string("cannot be read: ") + std::strerror(errno));
-  std::string text;
-  std::array<char, 1 << 16> block{};
-  while (stream.read(block.data(), block.size()) || stream.gcount() > 0) {
-    text.append(block.data(), static_cast<std::size_t>(stream.gcount()));
-    if (text.size() > largest_file) return refuse(path, "is larger than 256 MiB");
-  }
-  if (text.find_first_not_of(" \t\r\n") == std::string::npos) return refuse(path, "is empty");
-  return {std::move(text), {}};
-}
-
 JsonReading parse_strictly(const std::string& text, const std::string& file) {
-  JsonReading reading;
   if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) {
-    reading.errors = {{file + ":1:1", "", "is UTF-16 text; save the file as UTF-8"}};
+    JsonReading reading;
+    const char* const message = "is UTF-16 text; save the file as UTF-8";
+    reading.errors = {{"", message, Anchor::value, file + ":1:1"}};
     return reading;
   }
-  reading.errors = depth_errors(text, file);
-  if (reading.errors.empty()) reading.errors = syntax_errors(text, file);
-  if (reading.errors.empty()) reading.errors = duplicate_errors(text, file);
-  if (reading.errors.empty()) reading.value = Json::parse(text);
-  return reading;
+  return Builder(text, file).read();
+}
+
+void locate(const JsonReading& json, const std::string& text, const std::string& file,
+            Diagnostics& diagnostics) {
+  if (diagnostics.empty()) return;
+  Wanted wanted = wanted_pointers(diagnostics);
+  const JsonPlace* first = json.places.data();
+  look_up(json.value, "", first, wanted);
+  std::vector<std::pair<std::size_t, std::size_t>> order;  // offset and index
+  for (std::size_t i = 0; i < diagnostics.size(); ++i) {
+    order.emplace_back(offset_of(diagnostics[i], wanted), i);
+  }
+  std::sort(order.begin(), order.end());
+
+  const LineIndex lines(text);
+  Diagnostics located;
+  std::set<std::string> said;
+  for (const auto& [offset, index] : order) {
+    Diagnostic& diagnostic = diagnostics[index];
+    if (diagnostic.place.empty()) {
+      diagnostic.place = file + lines.place(offset);
+    } else {
+      diagnostic.pointer.clear();
+    }
+    if (said.insert(to_string(diagnostic)).second) located.push_back(std::move(diagnostic));
+  }
+  diagnostics = std::move(located);
 }
 
 }  // namespace grainsweep

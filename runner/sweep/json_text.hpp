@@ -1,16 +1,17 @@
-// Strict reading of a JSON file: every refusal says where and what to change.
+// Strict reading of JSON: one pass gives the values, the place of each, and what is wrong.
 //
-// The parser underneath keeps the last of two equal keys, accepts any depth and then crashes on
-// copying it, and reports positions only for syntax; hence the checks before and after it here.
+// The parser underneath keeps the last of two equal keys, takes any depth and then crashes on
+// copying it, and forgets where values are written; hence a handler of its events here, which reads
+// along where the parser is in the text.
 #pragma once
 
-#include <optional>
+#include <cstdint>
 #include <string>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
-#include "runner/sweep/problem.hpp"
+#include "runner/sweep/diagnostic.hpp"
 
 namespace grainsweep {
 
@@ -20,22 +21,27 @@ using Json = nlohmann::ordered_json;
 /// Brackets inside brackets; a sweep needs fewer than ten.
 inline constexpr int deepest_json = 32;
 
-/// A file's bytes, or why there are none.
-struct FileText {
-  std::string text;
-  std::vector<Finding> errors;  ///< at most one
+/// Where a value is written, as offsets of bytes; a file is far shorter than 4 GiB.
+struct JsonPlace {
+  std::uint32_t key = 0;    ///< start of the member's key; of the value where there is no key
+  std::uint32_t value = 0;  ///< start of the value
 };
 
-/// Reads a whole file of at most 256 MiB. Refuses what is missing, unreadable, a folder or empty.
-FileText read_text(const std::string& path);
-
 struct JsonReading {
-  Json value;  ///< meaningful only if `errors` is empty
-  std::vector<Finding> errors;
+  Json value;                     ///< meaningful only if `errors` is empty
+  std::vector<JsonPlace> places;  ///< of every value, a container before its parts, in text order
+  Diagnostics errors;
 };
 
 /// Parses `text`, the content of `file`. Refuses malformed JSON, NaN and Infinity, text that is not
 /// UTF-8, numbers beyond f64, more than `deepest_json` levels and two equal keys in one object.
 JsonReading parse_strictly(const std::string& text, const std::string& file);
+
+/// Looks up lines and columns in `text`, which `json` is the reading of; sorts the diagnostics by
+/// them and drops repeated ones. A pointer that is not there takes the place of the nearest part of
+/// it that is. Diagnostics that have a place already, in another file, lose their pointer: it says
+/// only where that file is named.
+void locate(const JsonReading& json, const std::string& text, const std::string& file,
+            Diagnostics& diagnostics);
 
 }  // namespace grainsweep

@@ -3,8 +3,6 @@
 #include <optional>
 #include <string_view>
 
-#include "runner/sweep/identity.hpp"
-#include "runner/sweep/json_text.hpp"
 #include "runner/sweep/suggest.hpp"
 #include "runner/sweep/text_lines.hpp"
 
@@ -40,19 +38,22 @@ std::string read_vertex(std::string_view coordinates, Vector& vertex) {
 
 ObjReading parse_obj(const std::string& text, const std::string& file) {
   ObjReading reading;
-  reading.content = hex16(mixed(fnv1a(text)));
   const auto lines = lines_of(text);
   for (std::size_t k = 0; k < lines.size() && reading.errors.size() < most_wrong_lines; ++k) {
     std::string_view line = lines[k];
     if (next_word(line) != "v") continue;
     Vector vertex = Vector::Zero();
     const std::string error = read_vertex(line, vertex);
-    if (error.empty()) reading.vertices.push_back(vertex);
-    if (!error.empty()) reading.errors.push_back({file + ":" + std::to_string(k + 1), "", error});
+    if (error.empty()) {
+      reading.vertices.push_back(vertex);
+    } else {
+      reading.errors.push_back({"", error, Anchor::value, file + ":" + std::to_string(k + 1)});
+    }
   }
   if (reading.vertices.empty() && reading.errors.empty()) {
     reading.errors.push_back(
-        {file + ":1", "", "no vertex in it; a shape needs at least 4 lines \"v x y z\""});
+        {"", "no vertex in it; only Wavefront OBJ is read, at least 4 lines \"v x y z\"",
+         Anchor::value, file + ":1"});
   }
   return reading;
 }

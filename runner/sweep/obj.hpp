@@ -8,14 +8,13 @@
 #include <vector>
 
 #include "engine/shape/convex_shape.hpp"
-#include "runner/sweep/problem.hpp"
+#include "runner/sweep/diagnostic.hpp"
 
 namespace grainsweep {
 
 struct ObjReading {
-  std::vector<Vector> vertices;  ///< in the file's own unit of length
-  std::string content;           ///< hash of the file's bytes, 16 hex digits
-  std::vector<Finding> errors;   ///< with places "rock.obj:12"; at most 20 of a file
+  std::vector<Vector> vertices;    ///< in the file's own unit of length
+  std::vector<Diagnostic> errors;  ///< with places "rock.obj:12"; at most 20 of a file
 };
 
 /// Reads vertices from the file at `path`. Refuses coordinates that are missing or no finite

@@ -10,7 +10,7 @@
 #include <variant>
 #include <vector>
 
-#include "runner/sweep/draft.hpp"
+#include "runner/sweep/resolved_spec.hpp"
 
 namespace grainsweep {
 
@@ -55,9 +55,9 @@ struct Parameter {
   ValueKind kind = ValueKind::number;
   std::int64_t largest = 0;               ///< of a whole number
   std::vector<std::string> choices = {};  ///< names, in the order of their indices
-  void (*set)(Draft&, const Value&) = nullptr;
+  void (*set)(ResolvedSpec&, const Value&) = nullptr;
   /// The value as it identifies a job; nothing if it does not belong to the job's identity.
-  std::optional<Value> (*get)(const Draft&) = nullptr;
+  std::optional<Value> (*get)(const ResolvedSpec&) = nullptr;
   Role role = Role::plain;
   /// Where numbers must lie, for documentation: "(0, 2]". Other parameters may narrow it.
   std::string range = {};

@@ -38,12 +38,12 @@ std::string bounds_error(const RandomPath& random, const Json& bounds) {
 }
 
 bool read_bounds(const Json& bounds, const std::string& pointer, RandomPath& random,
-                 Problems& problems) {
+                 Diagnostics& diagnostics) {
   const auto parameter = find_parameter(random.path);
   const bool varies = parameter && (parameters()[*parameter].kind == ValueKind::number ||
                                     parameters()[*parameter].kind == ValueKind::whole);
   if (!varies) {
-    problems.push_back(
+    diagnostics.push_back(
         {pointer, random.path + " is not drawn from an interval; use {\"choice\": [...]}"});
     return false;
   }
@@ -53,30 +53,30 @@ bool read_bounds(const Json& bounds, const std::string& pointer, RandomPath& ran
     random.high = bounds[1].get<double>();
   }
   const std::string error = bounds_error(random, bounds);
-  if (!error.empty()) problems.push_back({pointer, error});
+  if (!error.empty()) diagnostics.push_back({pointer, error});
   return error.empty();
 }
 
 bool read_choices(const Json& list, const std::string& pointer, RandomPath& random,
-                  Problems& problems) {
+                  Diagnostics& diagnostics) {
   if (!list.is_array() || list.empty()) {
-    problems.push_back({pointer, "must be a list of at least one value, is " +
-                                     (list.is_array() ? "empty" : describe(list))});
+    diagnostics.push_back({pointer, "must be a list of at least one value, is " +
+                                        (list.is_array() ? "empty" : describe(list))});
     return false;
   }
-  const std::size_t before = problems.size();
+  const std::size_t before = diagnostics.size();
   for (std::size_t i = 0; i < list.size(); ++i) {
-    Settings& choice = random.choices.emplace_back();
-    read_settings(random.path, list[i], pointer + "/" + std::to_string(i), choice, problems);
-    refuse_double_settings(choice, problems);
+    Assignments& choice = random.choices.emplace_back();
+    read_assignments(random.path, list[i], pointer + "/" + std::to_string(i), choice, diagnostics);
+    refuse_double_assignments(choice, diagnostics);
   }
-  return problems.size() == before;
+  return diagnostics.size() == before;
 }
 
-bool read_path(const Json& value, RandomPath& random, Problems& problems) {
-  if (!is_known_path(random.path, random.pointer, problems)) return false;
+bool read_path(const Json& value, RandomPath& random, Diagnostics& diagnostics) {
+  if (!is_known_path(random.path, random.pointer, diagnostics)) return false;
   if (!value.is_object() || value.size() != 1) {
-    problems.push_back(
+    diagnostics.push_back(
         {random.pointer, std::string(wanted_distribution) + ", is " + describe(value)});
     return false;
   }
@@ -84,49 +84,48 @@ bool read_path(const Json& value, RandomPath& random, Problems& problems) {
   const std::string pointer = child_pointer(random.pointer, name);
   const auto distribution = distribution_named(name);
   if (!distribution) {
-    problems.push_back(
+    diagnostics.push_back(
         {pointer, unknown_key(name, {"uniform", "log_uniform", "choice"}), Anchor::key});
     return false;
   }
   random.distribution = *distribution;
   if (random.distribution != Distribution::choice) {
-    return read_bounds(value.front(), pointer, random, problems);
+    return read_bounds(value.front(), pointer, random, diagnostics);
   }
-  return read_choices(value.front(), pointer, random, problems);
+  return read_choices(value.front(), pointer, random, diagnostics);
 }
 
 }  // namespace
 
 std::vector<RandomPath> read_random_paths(const Json& random, const std::string& pointer,
-                                          Problems& problems) {
+                                          Diagnostics& diagnostics) {
   std::vector<RandomPath> paths;
   for (const auto& [path, value] : random.items()) {
     if (path == "count") continue;
     RandomPath read;
     read.path = path;
     read.pointer = child_pointer(pointer, path);
-    if (read_path(value, read, problems)) paths.push_back(std::move(read));
+    if (read_path(value, read, diagnostics)) paths.push_back(std::move(read));
   }
   if (random.empty() || (random.size() == 1 && random.contains("count"))) {
-    problems.push_back(
+    diagnostics.push_back(
         {pointer, "names no path to draw, e.g. \"box.width\": {\"uniform\": [5, 20]}"});
   }
   return paths;
 }
 
 std::uint64_t read_random_count(const Json& random, const std::string& pointer,
-                                Problems& problems) {
+                                Diagnostics& diagnostics) {
   const auto found = random.find("count");
   if (found == random.end()) {
-    problems.push_back({pointer, "\"count\", the number of points to draw, is missing"});
+    diagnostics.push_back({pointer, "\"count\", the number of points to draw, is missing"});
     return 0;
   }
-  if (found->is_number_unsigned()) {
-    const auto count = found->get<std::uint64_t>();
-    if (count >= 1 && count <= most_random_points) return count;
+  if (const auto count = whole_number_in(*found, 1, most_random_points)) {
+    return static_cast<std::uint64_t>(*count);
   }
-  problems.push_back({child_pointer(pointer, "count"),
-                      "must be a whole number in [1, 1000000], is " + describe(*found)});
+  diagnostics.push_back({child_pointer(pointer, "count"),
+                         "must be a whole number in [1, 1000000], is " + describe(*found)});
   return 0;
 }
 

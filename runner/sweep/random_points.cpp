@@ -48,7 +48,7 @@ double uniform_draw(const DrawKey& key, const std::string& path) {
   return static_cast<double>(word >> 11U) * 0x1p-53;
 }
 
-Settings draw(const RandomPath& random, const DrawKey& key) {
+Assignments draw(const RandomPath& random, const DrawKey& key) {
   const double u = uniform_draw(key, random.path);
   if (random.distribution == Distribution::choice) {
     return random.choices[static_cast<std::size_t>(u * static_cast<double>(random.choices.size()))];

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "runner/sweep/settings.hpp"
+#include "runner/sweep/assignments.hpp"
 
 namespace grainsweep {
 
@@ -21,9 +21,9 @@ struct RandomPath {
   std::string path;     ///< "box.width"
   std::string pointer;  ///< where it is written
   Distribution distribution = Distribution::uniform;
-  std::size_t parameter = 0;      ///< of uniform and log_uniform: a number or a whole number
-  double low = 0.0, high = 0.0;   ///< bounds, both possible; whole numbers are rounded to
-  std::vector<Settings> choices;  ///< of choice
+  std::size_t parameter = 0;         ///< of uniform and log_uniform: a number or a whole number
+  double low = 0.0, high = 0.0;      ///< bounds, both possible; whole numbers are rounded to
+  std::vector<Assignments> choices;  ///< of choice
 };
 
 /// Which draw: the `point`th of block `block` under master seed `seed`.
@@ -36,6 +36,6 @@ double uniform_draw(const DrawKey& key, const std::string& path);
 
 /// One point of `random`. Numbers carry nine significant digits: they read well and do not depend
 /// on the last bit of a logarithm.
-Settings draw(const RandomPath& random, const DrawKey& key);
+Assignments draw(const RandomPath& random, const DrawKey& key);
 
 }  // namespace grainsweep

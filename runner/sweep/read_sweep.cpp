@@ -3,9 +3,10 @@
 #include <filesystem>
 #include <utility>
 
-#include "runner/sweep/blocks.hpp"
 #include "runner/sweep/expand.hpp"
 #include "runner/sweep/json_text.hpp"
+#include "runner/sweep/sweep_definition.hpp"
+#include "runner/sweep/text_lines.hpp"
 
 namespace grainsweep {
 
@@ -15,13 +16,16 @@ SweepReading read_sweep(const std::string& path) {
   JsonReading json = parse_strictly(file.text, path);
   if (!json.errors.empty()) return {{}, std::move(json.errors)};
 
-  Problems problems;
-  const Blocks blocks = read_blocks(json.value, problems);
+  Diagnostics diagnostics;
+  const SweepDefinition definition = read_definition(json.value, diagnostics);
   const std::string folder = std::filesystem::path(path).parent_path().string();
-  std::vector<Job> jobs = expand(blocks, folder, problems);
+  std::vector<Job> jobs = expand(definition, folder, diagnostics);
 
-  if (!problems.empty()) return {{}, findings_of(problems, file.text, path)};
-  return {{blocks.name, blocks.seed, blocks.replicates, std::move(jobs)}, {}};
+  if (!diagnostics.empty()) {
+    locate(json, file.text, path, diagnostics);
+    return {{}, std::move(diagnostics)};
+  }
+  return {{definition.name, definition.seed, definition.replicates, std::move(jobs)}, {}};
 }
 
 }  // namespace grainsweep

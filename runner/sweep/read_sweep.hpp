@@ -4,17 +4,17 @@
 #include <string>
 #include <vector>
 
+#include "runner/sweep/diagnostic.hpp"
 #include "runner/sweep/job.hpp"
-#include "runner/sweep/problem.hpp"
 
 namespace grainsweep {
 
 struct SweepReading {
-  Sweep sweep;                  ///< meaningful only if `errors` is empty
-  std::vector<Finding> errors;  ///< all of them, in the order of the file
+  Sweep sweep;                     ///< meaningful only if `errors` is empty
+  std::vector<Diagnostic> errors;  ///< all of them, in the order of the file
 };
 
-/// Reads and expands a sweep file. Never throws for bad input: every error is a Finding.
+/// Reads and expands a sweep file. Never throws for bad input: every error is a Diagnostic.
 SweepReading read_sweep(const std::string& path);
 
 }  // namespace grainsweep

@@ -1,8 +1,8 @@
 #include "runner/sweep/schema.hpp"
 
-#include "runner/sweep/blocks.hpp"
 #include "runner/sweep/parameters.hpp"
 #include "runner/sweep/random_paths.hpp"
+#include "runner/sweep/sweep_definition.hpp"
 #include "runner/sweep/values.hpp"
 
 namespace grainsweep {

@@ -9,10 +9,11 @@ bool is_hull(ShapeKind kind) { return kind >= ShapeKind::hull; }
 
 }  // namespace
 
-ShapeKind shape_named_by(const Setting& setting) {
-  switch (parameters()[setting.parameter].role) {
+ShapeKind shape_named_by(const Assignment& assignment) {
+  switch (parameters()[assignment.parameter].role) {
     case Role::shape:
-      return std::get<std::int64_t>(setting.value) == 0 ? ShapeKind::sphere : ShapeKind::pinacoid;
+      return std::get<std::int64_t>(assignment.value) == 0 ? ShapeKind::sphere
+                                                           : ShapeKind::pinacoid;
     case Role::pinacoid:
       return ShapeKind::pinacoid;
     case Role::hull_vertices:

@@ -1,13 +1,13 @@
-// Which shape a setting names: spheres, pinacoids and hulls are one choice, and so are the two ways
-// to give the vertices of a hull.
+// Which shape an assignment names: spheres, pinacoids and hulls are one choice, and so are the two
+// ways to give the vertices of a hull.
 #pragma once
 
-#include "runner/sweep/settings.hpp"
+#include "runner/sweep/assignments.hpp"
 
 namespace grainsweep {
 
 enum class ShapeKind {
-  none,           ///< the setting is about something else
+  none,           ///< the assignment is about something else
   sphere,         ///< "shape": "sphere"
   pinacoid,       ///< "shape": "pinacoid", or a part of it
   hull,           ///< a part of either hull
@@ -15,7 +15,7 @@ enum class ShapeKind {
   hull_file,      ///< a hull of vertices from a file
 };
 
-ShapeKind shape_named_by(const Setting& setting);
+ShapeKind shape_named_by(const Assignment& assignment);
 
 /// Whether grains cannot be both.
 bool exclude_each_other(ShapeKind a, ShapeKind b);

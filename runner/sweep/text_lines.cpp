@@ -1,9 +1,42 @@
 #include "runner/sweep/text_lines.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cerrno>
 #include <charconv>
 #include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <system_error>
+#include <utility>
 
 namespace grainsweep {
+namespace {
+
+constexpr std::size_t largest_file = std::size_t{256} << 20U;  // bytes
+
+FileText refuse(const std::string& path, const std::string& message) {
+  return {"", {{"", message, Anchor::value, path}}};
+}
+
+}  // namespace
+
+FileText read_text(const std::string& path) {
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error)) return refuse(path, "is a folder, not a file");
+  errno = 0;
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream) return refuse(path, std::string("cannot be read: ") + std::strerror(errno));
+  std::string text;
+  std::array<char, 1 << 16> block{};
+  while (stream.read(block.data(), block.size()) || stream.gcount() > 0) {
+    text.append(block.data(), static_cast<std::size_t>(stream.gcount()));
+    if (text.size() > largest_file) return refuse(path, "is larger than 256 MiB");
+  }
+  if (text.find_first_not_of(" \t\r\n") == std::string::npos) return refuse(path, "is empty");
+  return {std::move(text), {}};
+}
 
 std::string_view trimmed(std::string_view text) {
   const std::size_t first = text.find_first_not_of(" \t\r");
@@ -19,7 +52,7 @@ std::optional<double> finite_number(std::string_view text) {
 }
 
 std::vector<std::string_view> lines_of(std::string_view text) {
-  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+  if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
   const std::size_t end = text.find_last_not_of(" \t\r\n");
   text = text.substr(0, end == std::string_view::npos ? 0 : end + 1);
   std::vector<std::string_view> lines;
@@ -29,6 +62,26 @@ std::vector<std::string_view> lines_of(std::string_view text) {
     if (stop == std::string_view::npos) return lines;
     text.remove_prefix(stop + 1);
   }
+}
+
+LineIndex::LineIndex(const std::string& text) : size_(text.size()), starts_{0} {
+  if (text.starts_with(byte_order_mark)) starts_.front() = byte_order_mark.size();
+  for (std::size_t at = starts_.front(); at < text.size(); ++at) {
+    const bool continues = (static_cast<unsigned char>(text[at]) & 0xC0U) == 0x80U;
+    if (text[at] == '\n') starts_.push_back(at + 1);
+    if (continues) continuations_.push_back(at);
+  }
+}
+
+std::string LineIndex::place(std::size_t offset) const {
+  offset = std::clamp(offset, starts_.front(), size_);
+  const auto next = std::upper_bound(starts_.begin(), starts_.end(), offset);
+  const std::size_t begin = *(next - 1);
+  const auto first = std::lower_bound(continuations_.begin(), continuations_.end(), begin);
+  const auto last = std::lower_bound(first, continuations_.end(), offset);
+  const std::size_t column = offset - begin - static_cast<std::size_t>(last - first) + 1;
+  const std::string line = std::to_string(next - starts_.begin());
+  return std::string(":").append(line).append(":").append(std::to_string(column));
 }
 
 }  // namespace grainsweep

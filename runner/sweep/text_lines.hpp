@@ -1,12 +1,26 @@
-// Lines and numbers of the text files that sweeps name: beds as CSV, shapes as OBJ.
+// Text files: sweeps, and what they name, beds as CSV and shapes as OBJ.
 #pragma once
 
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
+#include "runner/sweep/diagnostic.hpp"
+
 namespace grainsweep {
+
+inline constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+
+/// A file's bytes, or why there are none.
+struct FileText {
+  std::string text;
+  Diagnostics errors;  ///< at most one
+};
+
+/// Reads a whole file of at most 256 MiB. Refuses what is missing, unreadable, a folder or empty.
+FileText read_text(const std::string& path);
 
 /// So many lines of one file are listed as wrong.
 inline constexpr std::size_t most_wrong_lines = 20;
@@ -20,5 +34,20 @@ std::vector<std::string_view> lines_of(std::string_view text);
 
 /// The number that all of `text` spells, with a decimal point; nothing if it is none or not finite.
 std::optional<double> finite_number(std::string_view text);
+
+/// Line and column of byte offsets in a text. Lines and columns count from 1, columns in characters
+/// (not bytes) of UTF-8, as editors do.
+class LineIndex {
+ public:
+  explicit LineIndex(const std::string& text);
+
+  /// ":line:column" of the byte at `offset`; the end of the text is allowed.
+  std::string place(std::size_t offset) const;
+
+ private:
+  std::size_t size_;
+  std::vector<std::size_t> starts_;         // offset of every line's first byte
+  std::vector<std::size_t> continuations_;  // offsets of bytes that continue a character
+};
 
 }  // namespace grainsweep

@@ -131,6 +131,14 @@ ValueReading read_value(const Parameter& parameter, const Json& value) {
   return read_numbers(parameter, value);
 }
 
+std::optional<std::int64_t> whole_number_in(const Json& value, std::int64_t low,
+                                            std::int64_t high) {
+  if (!is_whole(value)) return std::nullopt;
+  const auto number = value.get<double>();  // bounds are far below those of exact numbers
+  if (number < static_cast<double>(low) || number > static_cast<double>(high)) return std::nullopt;
+  return value.get<std::int64_t>();
+}
+
 nlohmann::json written_value(const Parameter& parameter, const Value& value) {
   if (parameter.kind == ValueKind::choice) {
     return parameter.choices[static_cast<std::size_t>(std::get<std::int64_t>(value))];

@@ -39,7 +39,7 @@ Scene refused_file(const std::string& file, const std::string& extreme) {
         const SweepReading reading = read_sweep(folder + file);
         Finding finding;
         if (reading.errors.empty()) return finding;
-        const grainsweep::Finding& first = reading.errors.front();
+        const Diagnostic& first = reading.errors.front();
         finding.refusal = first.pointer + " " + first.message;
         return finding;
       }};

@@ -54,8 +54,8 @@ inline SweepReading reading_of(const std::string& text) {
 inline std::vector<std::string> errors_of(const std::string& text) {
   const ScratchFolder folder;
   std::vector<std::string> errors;
-  for (const Finding& finding : read_sweep(folder.write("s.json", text)).errors) {
-    errors.push_back(folder.without_folder(to_string(finding)));
+  for (const Diagnostic& diagnostic : read_sweep(folder.write("s.json", text)).errors) {
+    errors.push_back(folder.without_folder(to_string(diagnostic)));
   }
   return errors;
 }

@@ -106,7 +106,7 @@ TEST_CASE("the vertices of a hull are those of a file beside the sweep, in units
   const auto job_with = [&](const std::string& hull) {
     const SweepReading reading = read_sweep(
         folder.write("s.json", R"({"name": "t", "base": {"shape": {"hull": )" + hull + "}}}"));
-    for (const Finding& finding : reading.errors) FAIL(to_string(finding));
+    for (const Diagnostic& diagnostic : reading.errors) FAIL(to_string(diagnostic));
     return reading.sweep.jobs.at(0);
   };
   folder.write("rock.obj", "# a corner\nv 0 0 -0\nv 2 0 0\nv 0 2 0\nv 0 0 2\n");
@@ -127,11 +127,12 @@ TEST_CASE("errors of a hull's file name its own lines, once for all jobs") {
     "base": {"shape.hull.file": "rock.obj"},
     "sweep": [{"grid": {"box.width": [5, 6, 7]}}, {"set": {"shape.hull.file": "none.obj"}}]})");
   Messages errors;
-  for (const Finding& finding : read_sweep(path).errors) {
-    errors.push_back(folder.without_folder(to_string(finding)));
+  for (const Diagnostic& diagnostic : read_sweep(path).errors) {
+    errors.push_back(folder.without_folder(to_string(diagnostic)));
   }
   CHECK(errors == Messages{"rock.obj:2: y must be a finite number, is \"zero\"",
-                           "none.obj: cannot be read: No such file or directory"});
+                           "s.json:3:79 /sweep/1/set/shape.hull.file: none.obj cannot be read: No "
+                           "such file or directory"});
 }
 
 TEST_CASE("a shape that cannot be is refused at the part that forbids it, once for all jobs") {

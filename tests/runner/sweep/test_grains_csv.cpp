@@ -8,8 +8,8 @@ namespace {
 
 std::vector<std::string> errors_of_grains(const std::string& text) {
   std::vector<std::string> errors;
-  for (const Finding& finding : parse_grains(text, "b.csv").errors) {
-    errors.push_back(to_string(finding));
+  for (const Diagnostic& diagnostic : parse_grains(text, "b.csv").errors) {
+    errors.push_back(to_string(diagnostic));
   }
   return errors;
 }
@@ -185,11 +185,12 @@ TEST_CASE("errors of a fill file name its own lines, once for all jobs") {
     "base": {"fill": {"file": "bed.csv"}},
     "sweep": [{"grid": {"box.width": [5, 6, 7]}}, {"set": {"fill.file": "none.csv"}}]})");
   Messages errors;
-  for (const Finding& finding : read_sweep(path).errors) {
-    errors.push_back(folder.without_folder(to_string(finding)));
+  for (const Diagnostic& diagnostic : read_sweep(path).errors) {
+    errors.push_back(folder.without_folder(to_string(diagnostic)));
   }
   CHECK(errors == Messages{"bed.csv:2: r must be a finite number, is \"zero\"",
-                           "none.csv: cannot be read: No such file or directory"});
+                           "s.json:3:73 /sweep/1/set/fill.file: none.csv cannot be read: No such "
+                           "file or directory"});
 }
 
 }  // namespace grainsweep

@@ -13,6 +13,14 @@ std::string error_in(const std::string& text) {
   return to_string(reading.errors.front());
 }
 
+/// Offset of the value at `pointer` in a text of one line, or of its key.
+std::size_t offset_of(const std::string& text, const std::string& pointer,
+                      Anchor anchor = Anchor::value) {
+  Diagnostics diagnostics = {{pointer, "", anchor}};
+  locate(parse_strictly(text, "f"), text, "f", diagnostics);
+  return std::stoul(diagnostics.at(0).place.substr(std::string("f:1:").size())) - 1;
+}
+
 }  // namespace
 
 TEST_CASE("valid JSON is read with its keys in the order of the file") {
@@ -25,46 +33,6 @@ TEST_CASE("a byte order mark is skipped") {
   const JsonReading reading = parse_strictly("\xEF\xBB\xBF{\"a\": 1}", "f");
   REQUIRE(reading.errors.empty());
   CHECK(reading.value.at("a") == 1);
-}
-
-TEST_CASE("NaN and Infinity are refused with a hint, at their first letter") {
-  const std::string hint = ": JSON has no NaN and no Infinity; write a finite number";
-  CHECK(error_in(R"({"a": NaN})") == "f:1:7" + hint);
-  CHECK(error_in("{\"a\": 1,\n \"b\": [1, nan]}") == "f:2:11" + hint);
-  CHECK(error_in(R"({"a": -Infinity})") == "f:1:7" + hint);
-  CHECK(error_in(R"([inf])") == "f:1:2" + hint);
-}
-
-TEST_CASE("words that only begin like NaN or Infinity get the plain message") {
-  CHECK(error_in(R"({"a": information})") == "f:1:7: malformed JSON: invalid literal");
-  CHECK(error_in(R"({"a": name})") == "f:1:7: malformed JSON: invalid literal");
-}
-
-TEST_CASE("malformed JSON is refused with line, column and what to change") {
-  CHECK(error_in(R"({"a": 1,})") == "f:1:9: remove the comma before this '}'");
-  CHECK(error_in("[1,\n2,\n]") == "f:3:1: remove the comma before this ']'");
-  CHECK(error_in("{'a': 1}") == "f:1:2: a string needs double quotes");
-  CHECK(error_in("{} // why") == "f:1:4: JSON has no comments; remove it");
-  CHECK(error_in("# why\n{}") == "f:1:1: JSON has no comments; remove it");
-  CHECK(error_in(R"({"a": 1 "b": 2})") ==
-        "f:1:11: malformed JSON: unexpected string literal; expected '}'");
-  CHECK(error_in(R"({"a" 5})") == "f:1:6: malformed JSON: unexpected number literal; expected ':'");
-  CHECK(error_in("{}}") == "f:1:3: malformed JSON: unexpected '}'; expected end of input");
-}
-
-TEST_CASE("a text that ends too early is refused at its end") {
-  const std::string message = ": the file ends too early: a bracket or a quote is not closed";
-  CHECK(error_in("{\"a\": [1") == "f:1:9" + message);
-  CHECK(error_in("{\"a\": \"x") == "f:1:9" + message);
-}
-
-TEST_CASE("numbers beyond 64-bit floats are refused at their first digit") {
-  CHECK(error_in(R"({"a": 1e999})") == "f:1:7: this number is too large for a 64-bit float");
-}
-
-TEST_CASE("text that is not UTF-8 is refused") {
-  CHECK(error_in("{\"a\": \"\xFF\"}") == "f:1:8: is not UTF-8 text here; save the file as UTF-8");
-  CHECK(error_in("\xFF\xFE{") == "f:1:1: is UTF-16 text; save the file as UTF-8");
 }
 
 TEST_CASE("the deepest allowed nesting is read and one level more is refused at its bracket") {
@@ -108,19 +76,59 @@ TEST_CASE("equal keys in different objects are fine") {
             .errors.empty());
 }
 
-TEST_CASE("files that hold no text are refused by name") {
-  const ScratchFolder folder;
-  const auto error = [&](const std::string& path) {
-    const FileText file = read_text(path);
-    REQUIRE(file.errors.size() == 1);
-    CHECK(file.text.empty());
-    return folder.without_folder(to_string(file.errors.front()));
+TEST_CASE("the place of every value of a text is known") {
+  const std::string text = R"( {"a": [10, {"b": "x]}"}, []], "c": {} , "d":null, "e": -1.5e3})";
+  CHECK(parse_strictly(text, "f").places.size() == 9);
+  const auto starts_with = [&](const std::string& pointer, const std::string& start) {
+    INFO(pointer);
+    CHECK(text.compare(offset_of(text, pointer), start.size(), start) == 0);
   };
-  CHECK(error(folder.path("none.json")) == "none.json: cannot be read: No such file or directory");
-  CHECK(error(folder.write("empty.json", "")) == "empty.json: is empty");
-  CHECK(error(folder.write("blank.json", " \n\t\r\n")) == "blank.json: is empty");
-  std::filesystem::create_directory(folder.path("sub"));
-  CHECK(error(folder.path("sub")) == "sub: is a folder, not a file");
+  starts_with("", "{\"a\"");
+  starts_with("/a", "[10");
+  starts_with("/a/0", "10");
+  starts_with("/a/1", "{\"b\"");
+  starts_with("/a/1/b", "\"x]}\"");
+  starts_with("/a/2", "[]");
+  starts_with("/c", "{}");
+  starts_with("/d", "null");
+  starts_with("/e", "-1.5e3");
+  CHECK(text.compare(offset_of(text, "/d", Anchor::key), 3, "\"d\"") == 0);
+  CHECK(offset_of(text, "/a/0", Anchor::key) == offset_of(text, "/a/0"));
+}
+
+TEST_CASE("keys with slashes, tildes and escapes are found by their pointers") {
+  const std::string text = R"({"a/b": 1, "c~d": 2, "q\"\u0065": 3})";
+  CHECK(text[offset_of(text, "/a~1b")] == '1');
+  CHECK(text[offset_of(text, "/c~0d")] == '2');
+  CHECK(text[offset_of(text, "/q\"e")] == '3');
+}
+
+TEST_CASE("a pointer that is not there has the place of the nearest part that is") {
+  const std::string text = R"({"a": [1, 2], "b": 3})";
+  for (const std::string pointer : {"/a/2", "/a/x", "/a/0/y", "/b/c", "/none"}) {
+    INFO(pointer);
+    CHECK(offset_of(text, pointer) == offset_of(text, pointer.substr(0, pointer.rfind('/'))));
+  }
+}
+
+TEST_CASE("a text that is one scalar has one place") {
+  CHECK(offset_of("  42 ", "") == 2);
+  CHECK(parse_strictly("\"x\"", "f").places.size() == 1);
+}
+
+TEST_CASE("diagnostics come in the order of the text, each once") {
+  const std::string text = "{\"a\": 1,\n \"b\": [2]}";
+  const JsonReading reading = parse_strictly(text, "f");
+  Diagnostics diagnostics = {{"/b/0", "late"},
+                             {"/b", "at its key", Anchor::key},
+                             {"/a", "elsewhere", Anchor::value, "bed.csv:3"},
+                             {"/b/0", "late"},
+                             {"", "missing"}};
+  locate(reading, text, "f", diagnostics);
+  std::vector<std::string> texts;
+  for (const Diagnostic& diagnostic : diagnostics) texts.push_back(to_string(diagnostic));
+  CHECK(texts == std::vector<std::string>{"f:1:1: missing", "bed.csv:3: elsewhere",
+                                          "f:2:2 /b: at its key", "f:2:8 /b/0: late"});
 }
 
 }  // namespace grainsweep

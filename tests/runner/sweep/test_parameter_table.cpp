@@ -35,12 +35,12 @@ std::optional<Bound> upper_bound(const std::string& range) {
 }
 
 bool is_refused(const Parameter& parameter, double number) {
-  Draft resolved;
+  ResolvedSpec in_effect;
   Value value = number;
   if (parameter.kind == ValueKind::whole) value = static_cast<std::int64_t>(number);
   if (parameter.kind == ValueKind::numbers) value = std::vector<double>{number};
-  parameter.set(resolved, value);
-  const auto errors = check(resolved.spec);
+  parameter.set(in_effect, value);
+  const auto errors = check(in_effect.spec);
   return std::any_of(errors.begin(), errors.end(), [&](const SpecError& error) {
     return parameter.path.starts_with(error.path);
   });

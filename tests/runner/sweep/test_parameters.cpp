@@ -73,11 +73,11 @@ TEST_CASE("every parameter that belongs to the identity reads back what was set"
     INFO(parameter.path);
     const ValueReading reading = read_value(parameter, another_value(parameter));
     REQUIRE(reading.value.has_value());
-    Draft draft;
-    parameter.set(draft, *reading.value);
-    if (parameter.path.starts_with("fill.")) draft.fill_content = "x.csv";
-    if (parameter.path == "fill.diameter") draft.fill_file = "x.csv";
-    const auto value = parameter.get(draft);
+    ResolvedSpec resolved;
+    parameter.set(resolved, *reading.value);
+    if (parameter.path.starts_with("fill.")) resolved.fill_content = "x.csv";
+    if (parameter.path == "fill.diameter") resolved.fill_file = "x.csv";
+    const auto value = parameter.get(resolved);
     const std::set<std::string> outside = {"accuracy.preset", "seed", "shape.hull.file",
                                            "shape.hull.size"};
     CHECK(value.has_value() == (outside.count(parameter.path) == 0));
@@ -90,11 +90,11 @@ TEST_CASE("no two parameters write to the same place") {
   for (const Parameter& written : parameters()) {
     if (written.path == "accuracy.preset" || written.path.starts_with("fill.")) continue;
     if (written.path.starts_with("shape")) continue;  // one choice, below
-    Draft draft;
-    written.set(draft, *read_value(written, another_value(written)).value);
+    ResolvedSpec resolved;
+    written.set(resolved, *read_value(written, another_value(written)).value);
     for (const Parameter& other : parameters()) {
       INFO(written.path << " and " << other.path);
-      if (other.path != written.path) CHECK(other.get(draft) == other.get(Draft{}));
+      if (other.path != written.path) CHECK(other.get(resolved) == other.get(ResolvedSpec{}));
     }
   }
 }
@@ -103,41 +103,41 @@ TEST_CASE("no two parts of a pinacoid write to the same place") {
   const auto parts = known_keys("shape.pinacoid");
   for (const std::string& part : parts) {
     const Parameter& written = parameter_at(("shape.pinacoid." + part).c_str());
-    Draft draft;
-    written.set(draft, 0.25);
-    CHECK_FALSE(parameter_at("shape").get(draft));
+    ResolvedSpec resolved;
+    written.set(resolved, 0.25);
+    CHECK_FALSE(parameter_at("shape").get(resolved));
     for (const std::string& other : parts) {
       const Parameter& read = parameter_at(("shape.pinacoid." + other).c_str());
       INFO(part << " and " << other);
-      CHECK((read.get(draft) == default_of(read)) == (other != part));
+      CHECK((read.get(resolved) == default_of(read)) == (other != part));
     }
   }
 }
 
 TEST_CASE("the name of a shape stands for its defaults, which are those of the engine") {
-  Draft draft;
-  parameter_at("shape").set(draft, *read_value(parameter_at("shape"), "pinacoid").value);
-  const auto& [length, width, height, angle] = std::get<PinacoidSize>(draft.spec.shape);
+  ResolvedSpec resolved;
+  parameter_at("shape").set(resolved, *read_value(parameter_at("shape"), "pinacoid").value);
+  const auto& [length, width, height, angle] = std::get<PinacoidSize>(resolved.spec.shape);
   CHECK((length == 1 && width == 1 && height == 1));
-  parameter_at("shape.pinacoid.angle_deg").set(draft, 60.0);
-  CHECK(std::get<PinacoidSize>(draft.spec.shape).angle == angle);
+  parameter_at("shape.pinacoid.angle_deg").set(resolved, 60.0);
+  CHECK(std::get<PinacoidSize>(resolved.spec.shape).angle == angle);
   CHECK(default_of(parameter_at("shape.pinacoid.angle_deg")) == Value(60.0));
-  parameter_at("shape").set(draft, *read_value(parameter_at("shape"), "sphere").value);
-  CHECK(std::holds_alternative<SphereShape>(draft.spec.shape));
+  parameter_at("shape").set(resolved, *read_value(parameter_at("shape"), "sphere").value);
+  CHECK(std::holds_alternative<SphereShape>(resolved.spec.shape));
 }
 
 TEST_CASE("angles are degrees in a sweep and radians in the engine") {
-  Draft draft;
-  parameter_at("shape.pinacoid.angle_deg").set(draft, 45.0);
-  CHECK(std::get<PinacoidSize>(draft.spec.shape).angle == 0.78539816339744831);  // pi / 4
-  CHECK(parameter_at("shape.pinacoid.angle_deg").get(draft) == Value(45.0));
+  ResolvedSpec resolved;
+  parameter_at("shape.pinacoid.angle_deg").set(resolved, 45.0);
+  CHECK(std::get<PinacoidSize>(resolved.spec.shape).angle == 0.78539816339744831);  // pi / 4
+  CHECK(parameter_at("shape.pinacoid.angle_deg").get(resolved) == Value(45.0));
 }
 
 TEST_CASE("a hull is known by its vertices in their order, not by where they came from") {
   const HullVertices hull{{{0, 0, 0}, {0.5, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
-  Draft draft;
-  draft.spec.shape = hull;
-  CHECK(parameter_at("shape.hull.vertices").get(draft) == Value(hash_of(hull)));
+  ResolvedSpec resolved;
+  resolved.spec.shape = hull;
+  CHECK(parameter_at("shape.hull.vertices").get(resolved) == Value(hash_of(hull)));
   HullVertices other = hull;
   other.points[3][2] = 1.0000000000000002;
   CHECK(hash_of(other) != hash_of(hull));
@@ -148,22 +148,22 @@ TEST_CASE("a hull is known by its vertices in their order, not by where they cam
 }
 
 TEST_CASE("every name of a choice is read as the value it names") {
-  Draft draft;
+  ResolvedSpec resolved;
   const auto set = [&](const char* path, const char* name) {
-    parameter_at(path).set(draft, *read_value(parameter_at(path), name).value);
+    parameter_at(path).set(resolved, *read_value(parameter_at(path), name).value);
   };
   set("box.x", "walls");
   set("box.y", "periodic");
-  CHECK(draft.spec.box.x == Boundary::walls);
-  CHECK(draft.spec.box.y == Boundary::periodic);
+  CHECK(resolved.spec.box.x == Boundary::walls);
+  CHECK(resolved.spec.box.y == Boundary::periodic);
   set("accuracy.solver", "pgs");
-  CHECK(draft.spec.accuracy.solver == Solver::projected_gauss_seidel);
+  CHECK(resolved.spec.accuracy.solver == Solver::projected_gauss_seidel);
   set("accuracy.solver", "apgs");
-  CHECK(draft.spec.accuracy.solver == Solver::accelerated_gauss_seidel);
+  CHECK(resolved.spec.accuracy.solver == Solver::accelerated_gauss_seidel);
   set("accuracy.precision", "f64");
-  CHECK(draft.spec.accuracy.precision == Precision::f64);
+  CHECK(resolved.spec.accuracy.precision == Precision::f64);
   set("accuracy.precision", "f32");
-  CHECK(draft.spec.accuracy.precision == Precision::f32);
+  CHECK(resolved.spec.accuracy.precision == Precision::f32);
 }
 
 TEST_CASE("a value of the wrong type is refused with what was wanted and what was found") {

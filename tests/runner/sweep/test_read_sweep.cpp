@@ -25,8 +25,8 @@ const std::string whole_file = R"({ "name": "whole", "seed": 20130708, "replicat
 
 /// Errors must have a place, a message and, being read at all, no jobs beside them.
 bool is_sound(const SweepReading& reading) {
-  for (const Finding& finding : reading.errors) {
-    if (finding.place.empty() || finding.message.empty()) return false;
+  for (const Diagnostic& diagnostic : reading.errors) {
+    if (diagnostic.place.empty() || diagnostic.message.empty()) return false;
   }
   return reading.errors.empty() != reading.sweep.jobs.empty();
 }
@@ -94,7 +94,7 @@ TEST_CASE("the sweeps that come with the program can be read") {
         "paper-pinacoids.json", "pinacoid-protocol.json"}) {
     const SweepReading reading = read_sweep(std::string(GRAINSWEEP_CONFIGS) + "/" + name);
     INFO(name);
-    for (const Finding& finding : reading.errors) FAIL(to_string(finding));
+    for (const Diagnostic& diagnostic : reading.errors) FAIL(to_string(diagnostic));
     CHECK(reading.sweep.name + ".json" == name);
     CHECK_FALSE(reading.sweep.jobs.empty());
   }

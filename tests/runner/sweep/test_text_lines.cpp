@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 
 #include "runner/sweep/text_lines.hpp"
+#include "tests/runner/sweep/sweep_files.hpp"
 
 namespace grainsweep {
 namespace {
@@ -25,6 +26,39 @@ TEST_CASE("only whole finite numbers with a decimal point are numbers") {
     INFO(text);
     CHECK_FALSE(finite_number(text));
   }
+}
+
+TEST_CASE("lines and columns count from one, columns in characters") {
+  const std::string text = "ab\n\xC3\xA4\xE2\x82\xACx\n\n";
+  const LineIndex lines(text);
+  CHECK(lines.place(0) == ":1:1");
+  CHECK(lines.place(2) == ":1:3");
+  CHECK(lines.place(3) == ":2:1");
+  CHECK(lines.place(5) == ":2:2");
+  CHECK(lines.place(8) == ":2:3");
+  CHECK(lines.place(10) == ":3:1");
+  CHECK(lines.place(text.size()) == ":4:1");
+  CHECK(lines.place(1000) == ":4:1");
+}
+
+TEST_CASE("a byte order mark takes no column") {
+  CHECK(LineIndex("\xEF\xBB\xBF{").place(3) == ":1:1");
+  CHECK(LineIndex("\xEF\xBB\xBF{").place(0) == ":1:1");
+}
+
+TEST_CASE("files that hold no text are refused by name") {
+  const ScratchFolder folder;
+  const auto error = [&](const std::string& path) {
+    const FileText file = read_text(path);
+    REQUIRE(file.errors.size() == 1);
+    CHECK(file.text.empty());
+    return folder.without_folder(to_string(file.errors.front()));
+  };
+  CHECK(error(folder.path("none.json")) == "none.json: cannot be read: No such file or directory");
+  CHECK(error(folder.write("empty.json", "")) == "empty.json: is empty");
+  CHECK(error(folder.write("blank.json", " \n\t\r\n")) == "blank.json: is empty");
+  std::filesystem::create_directory(folder.path("sub"));
+  CHECK(error(folder.path("sub")) == "sub: is a folder, not a file");
 }
 
 }  // namespace

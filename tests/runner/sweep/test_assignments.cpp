@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 
 #include "engine/dynamics/presets.hpp"
-#include "runner/sweep/settings.hpp"
+#include "runner/sweep/assignments.hpp"
 #include "tests/runner/sweep/sweep_files.hpp"
 
 namespace grainsweep {
@@ -10,7 +10,7 @@ namespace {
 /// The specification of the only job of a sweep with this base and this block.
 PackingSpec spec_of(const std::string& base, const std::string& block = "{}") {
   const SweepReading reading = reading_of(sweep_of(block, base));
-  for (const Finding& finding : reading.errors) FAIL(to_string(finding));
+  for (const Diagnostic& diagnostic : reading.errors) FAIL(to_string(diagnostic));
   REQUIRE(reading.sweep.jobs.size() == 1);
   return reading.sweep.jobs.front().spec;
 }

@@ -1,4 +1,4 @@
-#include "runner/sweep/blocks.hpp"
+#include "runner/sweep/sweep_definition.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -14,41 +14,40 @@ namespace grainsweep {
 namespace {
 
 void refuse_unknown_keys(const Json& object, const std::string& pointer,
-                         const std::vector<std::string>& known, Problems& problems) {
+                         const std::vector<std::string>& known, Diagnostics& diagnostics) {
   for (const auto& [key, value] : object.items()) {
     if (std::find(known.begin(), known.end(), key) != known.end()) continue;
-    problems.push_back({child_pointer(pointer, key), unknown_key(key, known), Anchor::key});
+    diagnostics.push_back({child_pointer(pointer, key), unknown_key(key, known), Anchor::key});
   }
 }
 
 /// Whether `value` is an object; otherwise a problem is noted.
 bool is_object(const Json& value, const std::string& pointer, const char* what,
-               Problems& problems) {
+               Diagnostics& diagnostics) {
   if (value.is_object()) return true;
-  problems.push_back({pointer, std::string("must be ") + what + ", is " + describe(value)});
+  diagnostics.push_back({pointer, std::string("must be ") + what + ", is " + describe(value)});
   return false;
 }
 
 int read_replicates(const Json& object, const std::string& pointer, int otherwise,
-                    Problems& problems) {
+                    Diagnostics& diagnostics) {
   const auto found = object.find("replicates");
   if (found == object.end()) return otherwise;
-  const bool whole = found->is_number_integer();
-  if (whole && found->get<double>() >= 1.0 && found->get<double>() <= most_replicates) {
-    return found->get<int>();
+  if (const auto count = whole_number_in(*found, 1, most_replicates)) {
+    return static_cast<int>(*count);
   }
-  problems.push_back({child_pointer(pointer, "replicates"), "must be a whole number in [1, " +
-                                                                std::to_string(most_replicates) +
-                                                                "], is " + describe(*found)});
+  diagnostics.push_back({child_pointer(pointer, "replicates"), "must be a whole number in [1, " +
+                                                                   std::to_string(most_replicates) +
+                                                                   "], is " + describe(*found)});
   return otherwise;
 }
 
-std::uint64_t read_seed(const Json& file, Problems& problems) {
+std::uint64_t read_seed(const Json& file, Diagnostics& diagnostics) {
   const auto found = file.find("seed");
   if (found == file.end()) return 0;
   const ValueReading reading = read_value(parameters()[parameter_with(Role::seed)], *found);
   if (reading.value) return std::get<std::uint64_t>(*reading.value);
-  problems.push_back({"/seed", reading.error});
+  diagnostics.push_back({"/seed", reading.error});
   return 0;
 }
 
@@ -57,32 +56,32 @@ bool is_name_character(char c) {
 }
 
 /// The schema is the business of editors; here it only has to be a text.
-void expect_schema_name(const Json& file, Problems& problems) {
+void expect_schema_name(const Json& file, Diagnostics& diagnostics) {
   const auto found = file.find("$schema");
   if (found == file.end() || found->is_string()) return;
-  problems.push_back(
+  diagnostics.push_back(
       {"/$schema", "must be the place of a JSON Schema in double quotes, is " + describe(*found)});
 }
 
 /// A name becomes the name of a folder: nothing else, and no way out of it.
-std::string read_name(const Json& file, Problems& problems) {
+std::string read_name(const Json& file, Diagnostics& diagnostics) {
   constexpr std::size_t longest = 100;
   const auto found = file.find("name");
   if (found == file.end()) {
-    problems.push_back({"", "\"name\" is missing; add one, e.g. \"name\": \"my-sweep\""});
+    diagnostics.push_back({"", "\"name\" is missing; add one, e.g. \"name\": \"my-sweep\""});
     return "";
   }
   std::string name = found->is_string() ? found->get<std::string>() : "";
   const bool letters = std::all_of(name.begin(), name.end(), is_name_character);
   if (letters && !name.empty() && name.size() <= longest && name.front() != '.') return name;
-  problems.push_back(
+  diagnostics.push_back(
       {"/name", "must be 1 to 100 letters, digits, '-', '_' and '.', the first no '.'; is " +
                     describe(*found)});
   return "";
 }
 
 std::string read_label(const Json& block, const std::string& pointer, std::size_t number,
-                       Problems& problems) {
+                       Diagnostics& diagnostics) {
   constexpr std::size_t longest = 100;
   const auto found = block.find("label");
   if (found == block.end()) return "block " + std::to_string(number);
@@ -90,8 +89,9 @@ std::string read_label(const Json& block, const std::string& pointer, std::size_
   const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20; };
   const bool controls = std::any_of(label.begin(), label.end(), is_control);
   if (!label.empty() && label.size() <= longest && !controls) return label;
-  problems.push_back({child_pointer(pointer, "label"),
-                      "must be a text of 1 to 100 characters on one line, is " + describe(*found)});
+  diagnostics.push_back(
+      {child_pointer(pointer, "label"),
+       "must be a text of 1 to 100 characters on one line, is " + describe(*found)});
   return "block " + std::to_string(number);
 }
 
@@ -101,10 +101,10 @@ struct Varied {
   std::set<std::size_t> parameters = {};
   std::set<ShapeKind> shapes = {};
 
-  void add(const Settings& settings) {
-    for (const Setting& setting : settings) {
-      parameters.insert(setting.parameter);
-      shapes.insert(shape_named_by(setting));
+  void add(const Assignments& assignments) {
+    for (const Assignment& assignment : assignments) {
+      parameters.insert(assignment.parameter);
+      shapes.insert(shape_named_by(assignment));
     }
   }
 };
@@ -128,32 +128,32 @@ bool vary_the_same(const Varied& a, const Varied& b, std::string& path) {
   return name_different_shapes(a, b);
 }
 
-void refuse_double_variation(const std::vector<Varied>& all, Problems& problems) {
+void refuse_double_variation(const std::vector<Varied>& all, Diagnostics& diagnostics) {
   for (std::size_t i = 0; i < all.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       std::string path;
       if (!vary_the_same(all[j], all[i], path)) continue;
-      problems.push_back({all[i].pointer, path + " is already varied at " + all[j].pointer});
+      diagnostics.push_back({all[i].pointer, path + " is already varied at " + all[j].pointer});
       break;
     }
   }
 }
 
 /// The entries of the list that `path` runs through.
-std::vector<Settings> read_list(const std::string& path, const Json& list,
-                                const std::string& pointer, Problems& problems) {
-  std::vector<Settings> entries;
-  if (!is_known_path(path, pointer, problems)) return entries;
+std::vector<Assignments> read_list(const std::string& path, const Json& list,
+                                   const std::string& pointer, Diagnostics& diagnostics) {
+  std::vector<Assignments> entries;
+  if (!is_known_path(path, pointer, diagnostics)) return entries;
   if (!list.is_array()) {
-    problems.push_back({pointer, "must be a list of values, is " + describe(list) +
-                                     "; a single value belongs into \"set\""});
+    diagnostics.push_back({pointer, "must be a list of values, is " + describe(list) +
+                                        "; a single value belongs into \"set\""});
   } else if (list.empty()) {
-    problems.push_back({pointer, "must hold at least one value"});
+    diagnostics.push_back({pointer, "must hold at least one value"});
   } else {
     for (std::size_t i = 0; i < list.size(); ++i) {
-      Settings& entry = entries.emplace_back();
-      read_settings(path, list[i], pointer + "/" + std::to_string(i), entry, problems);
-      refuse_double_settings(entry, problems);
+      Assignments& entry = entries.emplace_back();
+      read_assignments(path, list[i], pointer + "/" + std::to_string(i), entry, diagnostics);
+      refuse_double_assignments(entry, diagnostics);
     }
   }
   return entries;
@@ -162,17 +162,17 @@ std::vector<Settings> read_list(const std::string& path, const Json& list,
 /// Reads one block; holds what its parts share.
 class BlockReader {
  public:
-  BlockReader(const Json& json, Block& block, Problems& problems)
-      : json_(json), block_(block), problems_(problems) {}
+  BlockReader(const Json& json, Block& block, Diagnostics& diagnostics)
+      : json_(json), block_(block), diagnostics_(diagnostics) {}
 
   void read() {
     if (const Json* set = part("set")) {
-      block_.set = read_layer(*set, child_pointer(block_.pointer, "set"), problems_);
+      block_.set = read_layer(*set, child_pointer(block_.pointer, "set"), diagnostics_);
     }
     if (const Json* grid = part("grid")) read_grid(*grid);
     if (const Json* zip = part("zip")) read_zip(*zip);
     if (const Json* random = part("random")) read_random(*random);
-    refuse_double_variation(varied_, problems_);
+    refuse_double_variation(varied_, diagnostics_);
   }
 
  private:
@@ -181,18 +181,18 @@ class BlockReader {
     return found == json_.end() ? nullptr : &*found;
   }
 
-  std::vector<Settings> read_varied(const std::string& path, const Json& list,
-                                    const std::string& pointer) {
-    std::vector<Settings> entries = read_list(path, list, pointer, problems_);
+  std::vector<Assignments> read_varied(const std::string& path, const Json& list,
+                                       const std::string& pointer) {
+    std::vector<Assignments> entries = read_list(path, list, pointer, diagnostics_);
     Varied varied{path, pointer, {}};
-    for (const Settings& entry : entries) varied.add(entry);
+    for (const Assignments& entry : entries) varied.add(entry);
     varied_.push_back(std::move(varied));
     return entries;
   }
 
   void read_grid(const Json& grid) {
     const std::string pointer = child_pointer(block_.pointer, "grid");
-    if (!is_object(grid, pointer, "an object of lists, one per path", problems_)) return;
+    if (!is_object(grid, pointer, "an object of lists, one per path", diagnostics_)) return;
     for (const auto& [path, list] : grid.items()) {
       auto entries = read_varied(path, list, child_pointer(pointer, path));
       if (!entries.empty()) block_.axes.push_back({path, std::move(entries)});
@@ -201,7 +201,7 @@ class BlockReader {
 
   void read_zip(const Json& zip) {
     const std::string pointer = child_pointer(block_.pointer, "zip");
-    if (!is_object(zip, pointer, "an object of equally long lists", problems_)) return;
+    if (!is_object(zip, pointer, "an object of equally long lists", diagnostics_)) return;
     Axis axis{"zip", {}};
     std::string lengths;
     std::set<std::size_t> sizes;
@@ -216,7 +216,7 @@ class BlockReader {
       }
     }
     if (sizes.size() > 1) {
-      problems_.push_back({pointer, "the lists must be equally long: " + lengths});
+      diagnostics_.push_back({pointer, "the lists must be equally long: " + lengths});
       axis.entries.resize(*sizes.begin());
     }
     if (!axis.entries.empty()) block_.axes.push_back(std::move(axis));
@@ -224,12 +224,13 @@ class BlockReader {
 
   void read_random(const Json& random) {
     const std::string pointer = child_pointer(block_.pointer, "random");
-    if (!is_object(random, pointer, "an object of distributions and \"count\"", problems_)) return;
-    block_.random_count = read_random_count(random, pointer, problems_);
-    block_.random = read_random_paths(random, pointer, problems_);
+    if (!is_object(random, pointer, "an object of distributions and \"count\"", diagnostics_))
+      return;
+    block_.random_count = read_random_count(random, pointer, diagnostics_);
+    block_.random = read_random_paths(random, pointer, diagnostics_);
     for (const RandomPath& path : block_.random) {
       Varied varied{path.path, path.pointer, {}};
-      for (const Settings& choice : path.choices) varied.add(choice);
+      for (const Assignments& choice : path.choices) varied.add(choice);
       if (path.choices.empty()) varied.add({{path.parameter, path.low, path.pointer}});
       varied_.push_back(std::move(varied));
     }
@@ -237,70 +238,71 @@ class BlockReader {
 
   const Json& json_;
   Block& block_;
-  Problems& problems_;
+  Diagnostics& diagnostics_;
   std::vector<Varied> varied_;
 };
 
-Block read_block(const Json& json, std::size_t index, int replicates, Problems& problems) {
+Block read_block(const Json& json, std::size_t index, int replicates, Diagnostics& diagnostics) {
   Block block;
   block.pointer = "/sweep/" + std::to_string(index);
   block.label = "block " + std::to_string(index + 1);
-  if (!is_object(json, block.pointer, "an object with label, set, grid, zip, random", problems)) {
+  if (!is_object(json, block.pointer, "an object with label, set, grid, zip, random",
+                 diagnostics)) {
     return block;
   }
   refuse_unknown_keys(json, block.pointer, {"label", "set", "grid", "zip", "random", "replicates"},
-                      problems);
-  block.label = read_label(json, block.pointer, index + 1, problems);
-  block.replicates = read_replicates(json, block.pointer, replicates, problems);
-  BlockReader(json, block, problems).read();
+                      diagnostics);
+  block.label = read_label(json, block.pointer, index + 1, diagnostics);
+  block.replicates = read_replicates(json, block.pointer, replicates, diagnostics);
+  BlockReader(json, block, diagnostics).read();
   return block;
 }
 
-void read_sweep_list(const Json& file, Blocks& blocks, Problems& problems) {
+void read_sweep_list(const Json& file, SweepDefinition& definition, Diagnostics& diagnostics) {
   const auto sweep = file.find("sweep");
   if (sweep == file.end()) {
-    blocks.blocks.emplace_back();
-    blocks.blocks.back().label = blocks.name;
-    blocks.blocks.back().replicates = blocks.replicates;
+    definition.blocks.emplace_back();
+    definition.blocks.back().label = definition.name;
+    definition.blocks.back().replicates = definition.replicates;
   } else if (!sweep->is_array()) {
-    problems.push_back({"/sweep", "must be a list of blocks, is " + describe(*sweep)});
+    diagnostics.push_back({"/sweep", "must be a list of blocks, is " + describe(*sweep)});
   } else if (sweep->empty()) {
-    problems.push_back({"/sweep", "holds no block; leave it out to pack \"base\" alone"});
+    diagnostics.push_back({"/sweep", "holds no block; leave it out to pack \"base\" alone"});
   } else {
     for (std::size_t i = 0; i < sweep->size(); ++i) {
-      blocks.blocks.push_back(read_block((*sweep)[i], i, blocks.replicates, problems));
+      definition.blocks.push_back(read_block((*sweep)[i], i, definition.replicates, diagnostics));
     }
   }
 }
 
-Settings read_base(const Json& file, Problems& problems) {
+Assignments read_base(const Json& file, Diagnostics& diagnostics) {
   const auto base = file.find("base");
   if (base == file.end()) return {};
-  Settings settings = read_layer(*base, "/base", problems);
-  for (const Setting& setting : settings) {
-    if (parameters()[setting.parameter].role != Role::seed) continue;
-    problems.push_back(
-        {setting.pointer, "\"seed\" belongs beside \"base\", not into it", Anchor::key});
+  Assignments assignments = read_layer(*base, "/base", diagnostics);
+  for (const Assignment& assignment : assignments) {
+    if (parameters()[assignment.parameter].role != Role::seed) continue;
+    diagnostics.push_back(
+        {assignment.pointer, "\"seed\" belongs beside \"base\", not into it", Anchor::key});
   }
-  return settings;
+  return assignments;
 }
 
 }  // namespace
 
-Blocks read_blocks(const Json& file, Problems& problems) {
-  Blocks blocks;
-  if (!is_object(file, "", "an object with name, seed, replicates, base, sweep", problems)) {
-    return blocks;
+SweepDefinition read_definition(const Json& file, Diagnostics& diagnostics) {
+  SweepDefinition definition;
+  if (!is_object(file, "", "an object with name, seed, replicates, base, sweep", diagnostics)) {
+    return definition;
   }
   refuse_unknown_keys(file, "", {"name", "seed", "replicates", "base", "sweep", "$schema"},
-                      problems);
-  expect_schema_name(file, problems);
-  blocks.name = read_name(file, problems);
-  blocks.seed = read_seed(file, problems);
-  blocks.replicates = read_replicates(file, "", 1, problems);
-  blocks.base = read_base(file, problems);
-  read_sweep_list(file, blocks, problems);
-  return blocks;
+                      diagnostics);
+  expect_schema_name(file, diagnostics);
+  definition.name = read_name(file, diagnostics);
+  definition.seed = read_seed(file, diagnostics);
+  definition.replicates = read_replicates(file, "", 1, diagnostics);
+  definition.base = read_base(file, diagnostics);
+  read_sweep_list(file, definition, diagnostics);
+  return definition;
 }
 
 std::uint64_t point_count(const Block& block) {

@@ -9,8 +9,8 @@
 namespace grainsweep {
 
 /// A packing's specification, and what a sweep file says that the engine does not know.
-struct Draft {
-  Draft();
+struct ResolvedSpec {
+  ResolvedSpec();
 
   PackingSpec spec;              ///< random_key is not set here
   int preset = -1;               ///< index into presets(), -1 for the default

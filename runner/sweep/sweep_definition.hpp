@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "runner/sweep/assignments.hpp"
+#include "runner/sweep/diagnostic.hpp"
 #include "runner/sweep/json_text.hpp"
-#include "runner/sweep/problem.hpp"
 #include "runner/sweep/random_points.hpp"
-#include "runner/sweep/settings.hpp"
 
 namespace grainsweep {
 
@@ -18,8 +18,8 @@ inline constexpr int most_replicates = 10'000;
 
 /// One list that a block runs through: a path of its grid, or its whole zip.
 struct Axis {
-  std::string name;               ///< "box.width", "zip"
-  std::vector<Settings> entries;  ///< an entry that could not be read is empty
+  std::string name;                  ///< "box.width", "zip"
+  std::vector<Assignments> entries;  ///< an entry that could not be read is empty
 };
 
 /// A block of the sweep: the product of its axes and its random points.
@@ -27,22 +27,22 @@ struct Block {
   std::string label;
   std::string pointer;  ///< "/sweep/0", "" for a sweep of `base` alone
   int replicates = 1;
-  Settings set;                    ///< over `base`, under the axes
+  Assignments set;                 ///< over `base`, under the axes
   std::vector<Axis> axes;          ///< the first one changes slowest
   std::vector<RandomPath> random;  ///< drawn together
   std::uint64_t random_count = 0;  ///< points to draw; changes fastest
 };
 
-struct Blocks {
+struct SweepDefinition {
   std::string name;
   std::uint64_t seed = 0;
   int replicates = 1;
-  Settings base;
+  Assignments base;
   std::vector<Block> blocks;
 };
 
 /// Reads the schema of a sweep file, noting every problem on the way.
-Blocks read_blocks(const Json& file, Problems& problems);
+SweepDefinition read_definition(const Json& file, Diagnostics& diagnostics);
 
 /// Points of `block` without replicates; 2^64 - 1 if there are more.
 std::uint64_t point_count(const Block& block);

@@ -1,10 +1,10 @@
-#include "runner/sweep/draft.hpp"
+#include "runner/sweep/resolved_spec.hpp"
 
 #include "engine/dynamics/presets.hpp"
 
 namespace grainsweep {
 
-Draft::Draft() {
+ResolvedSpec::ResolvedSpec() {
   if (const auto accuracy = grainsweep::preset(default_preset)) spec.accuracy = *accuracy;
 }
 

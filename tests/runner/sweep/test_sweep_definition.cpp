@@ -1,6 +1,6 @@
 #include <catch2/catch.hpp>
 
-#include "runner/sweep/blocks.hpp"
+#include "runner/sweep/sweep_definition.hpp"
 #include "tests/runner/sweep/sweep_files.hpp"
 
 namespace grainsweep {
@@ -55,6 +55,13 @@ TEST_CASE("seeds take all of 64 bits and nothing else") {
   CHECK(errors_of(R"({"name": "t", "seed": -1})") == Messages{"s.json:1:23" + message + "-1"});
   CHECK(errors_of(R"({"name": "t", "seed": "1"})") ==
         Messages{"s.json:1:23" + message + "the text \"1\""});
+}
+
+TEST_CASE("a whole number may be written with a point") {
+  CHECK(jobs_of(R"({"name": "t", "replicates": 3.0})").size() == 3);
+  CHECK(
+      jobs_of(sweep_of(R"({"random": {"count": 2.0, "box.width": {"uniform": [5, 9]}}})")).size() ==
+      2);
 }
 
 TEST_CASE("replicates lie between 1 and 10000, in the file and in a block") {
@@ -137,7 +144,7 @@ TEST_CASE("a shape that a block varies twice is refused, parts of one shape are 
 
 TEST_CASE("points are counted without overflow") {
   Block block;
-  for (int i = 0; i < 7; ++i) block.axes.push_back({"a", std::vector<Settings>(1000)});
+  for (int i = 0; i < 7; ++i) block.axes.push_back({"a", std::vector<Assignments>(1000)});
   CHECK(point_count(block) == UINT64_MAX);
   block.axes.resize(6);
   CHECK(point_count(block) == 1'000'000'000'000'000'000);

@@ -1,0 +1,189 @@
+#include "runner/sweep/assignments.hpp"
+
+#include "runner/sweep/shape_kind.hpp"
+#include "runner/sweep/suggest.hpp"
+#include "runner/sweep/values.hpp"
+
+namespace grainsweep {
+namespace {
+
+std::string dotted(const std::string& path, const std::string& key) {
+  return path.empty() ? key : path + "." + key;
+}
+
+void read_parameter(std::size_t index, const Json& value, const std::string& pointer,
+                    Assignments& assignments, Diagnostics& diagnostics) {
+  ValueReading reading = read_value(parameters()[index], value);
+  if (reading.value) {
+    assignments.push_back({index, std::move(*reading.value), pointer});
+  } else {
+    diagnostics.push_back({pointer, reading.error});
+  }
+}
+
+/// The shortest full path that ends in a misplaced key; "" if none does.
+std::string path_that_ends_in(const std::string& key) {
+  std::string found;
+  for (const std::string& path : known_keys("")) {
+    const bool is_shorter = found.empty() || path.size() < found.size();
+    if (path.ends_with("." + key) && is_shorter) found = path;
+  }
+  return found;
+}
+
+/// Keys that the group knows, and the full path of what a misplaced key names.
+std::string unknown_path(const std::string& group, const std::string& key) {
+  const std::string elsewhere = path_that_ends_in(key);
+  if (elsewhere.empty()) return unknown_key(key, known_keys(group));
+  return "unknown key \"" + key + "\"; did you mean \"" + elsewhere + "\"?";
+}
+
+void read_group(const std::string& group, const Json& object, const std::string& pointer,
+                Assignments& assignments, Diagnostics& diagnostics) {
+  for (const auto& [key, value] : object.items()) {
+    const std::string path = dotted(group, key);
+    const std::string place = child_pointer(pointer, key);
+    if (find_parameter(path) || (is_group(path) && !key.empty())) {
+      read_assignments(path, value, place, assignments, diagnostics);
+    } else {
+      diagnostics.push_back({place, unknown_path(group, key), Anchor::key});
+    }
+  }
+}
+
+void unset(Choice choice, InEffect& in_effect) {
+  for (std::size_t i = 0; i < in_effect.size(); ++i) {
+    if (choice_of(parameters()[i]) == choice) in_effect[i] = nullptr;
+  }
+}
+
+ShapeKind shape_of(const InEffect& in_effect) {
+  ShapeKind shape = ShapeKind::none;
+  for (const Assignment* assignment : in_effect) {
+    if (assignment != nullptr) shape = more_exact(shape, shape_named_by(*assignment));
+  }
+  return shape;
+}
+
+/// Whether all parameters of the group name the same shape as `part` does.
+bool are_parts_of(const std::string& group, Role part) {
+  const std::string& path = parameters()[parameter_with(part)].path;
+  return path.substr(0, path.rfind('.')) == group;
+}
+
+/// An empty group says nothing, except that grains are pinacoids of the default size.
+void read_empty_group(const std::string& group, const std::string& pointer,
+                      Assignments& assignments, Diagnostics& diagnostics) {
+  const std::size_t shape = parameter_with(Role::shape);
+  if (are_parts_of(group, Role::pinacoid)) {
+    read_parameter(shape, "pinacoid", pointer, assignments, diagnostics);
+  } else if (are_parts_of(group, Role::hull_vertices)) {
+    diagnostics.push_back({pointer, "a hull needs its vertices: write \"vertices\" or \"file\""});
+  } else if (find_parameter(group) == shape) {
+    diagnostics.push_back(
+        {pointer, "names no shape; must be " + wanted_value(parameters()[shape])});
+  }
+}
+
+std::string wanted_group(const std::string& path) {
+  const std::string preset = preset_of(path) ? "the name of a preset or " : "";
+  return "must be " + preset + "an object with " + short_list(known_keys(path)) + ", is ";
+}
+
+/// Notes the first assignment of a shape that excludes what was set before it.
+void refuse_second_shape(const Assignments& assignments, Diagnostics& diagnostics) {
+  const Assignment* first = nullptr;
+  ShapeKind kind = ShapeKind::none;
+  for (const Assignment& assignment : assignments) {
+    const ShapeKind named = shape_named_by(assignment);
+    if (exclude_each_other(kind, named)) {
+      diagnostics.push_back(
+          {assignment.pointer, "the grains already have the shape at " + first->pointer +
+                                   "; keep one of sphere, pinacoid, hull.vertices, "
+                                   "hull.file"});
+      return;
+    }
+    if (first == nullptr && named != ShapeKind::none) first = &assignment;
+    kind = more_exact(kind, named);
+  }
+}
+
+}  // namespace
+
+void read_assignments(const std::string& path, const Json& value, const std::string& pointer,
+                      Assignments& assignments, Diagnostics& diagnostics) {
+  const auto index = find_parameter(path);
+  if (index && !(value.is_object() && is_group(path))) {
+    read_parameter(*index, value, pointer, assignments, diagnostics);
+  } else if (const auto preset = preset_of(path); preset && value.is_string()) {
+    read_parameter(*preset, value, pointer, assignments, diagnostics);
+  } else if (value.is_object()) {
+    if (value.empty()) read_empty_group(path, pointer, assignments, diagnostics);
+    read_group(path, value, pointer, assignments, diagnostics);
+  } else {
+    diagnostics.push_back({pointer, wanted_group(path) + describe(value)});
+  }
+}
+
+bool is_known_path(const std::string& path, const std::string& pointer, Diagnostics& diagnostics) {
+  if (find_parameter(path) || (is_group(path) && !path.empty())) return true;
+  diagnostics.push_back({pointer, unknown_path("", path), Anchor::key});
+  return false;
+}
+
+void refuse_double_assignments(const Assignments& assignments, Diagnostics& diagnostics) {
+  refuse_second_shape(assignments, diagnostics);
+  InEffect seen(parameters().size(), nullptr);
+  const Assignment* fill = nullptr;
+  for (const Assignment& assignment : assignments) {
+    const Assignment*& first = seen[assignment.parameter];
+    const std::string& path = parameters()[assignment.parameter].path;
+    if (first != nullptr) {
+      diagnostics.push_back({assignment.pointer, path + " is already set at " + first->pointer});
+    } else if (is_fill(assignment.parameter) && fill != nullptr) {
+      diagnostics.push_back({assignment.pointer, "the box is already filled by " +
+                                                     parameters()[fill->parameter].path +
+                                                     "; keep one of solid_height, grains, file"});
+    }
+    if (first == nullptr) first = &assignment;
+    if (fill == nullptr && is_fill(assignment.parameter)) fill = &assignment;
+  }
+}
+
+Assignments read_layer(const Json& object, const std::string& pointer, Diagnostics& diagnostics) {
+  Assignments assignments;
+  if (!object.is_object()) {
+    diagnostics.push_back({pointer, "must be an object of parameters, is " + describe(object)});
+    return assignments;
+  }
+  read_assignments("", object, pointer, assignments, diagnostics);
+  refuse_double_assignments(assignments, diagnostics);
+  return assignments;
+}
+
+void overlay(const std::vector<const Assignments*>& layer, InEffect& in_effect) {
+  bool fills = false;
+  ShapeKind shape = ShapeKind::none;
+  for (const Assignments* part : layer) {
+    for (const Assignment& assignment : *part) {
+      fills = fills || is_fill(assignment.parameter);
+      shape = more_exact(shape, shape_named_by(assignment));
+    }
+  }
+  if (fills) unset(Choice::fill, in_effect);
+  const bool is_named = shape != ShapeKind::none;
+  if (is_named && exclude_each_other(shape, shape_of(in_effect))) unset(Choice::shape, in_effect);
+  for (const Assignments* part : layer) {
+    for (const Assignment& assignment : *part) in_effect[assignment.parameter] = &assignment;
+  }
+}
+
+ResolvedSpec resolve(const InEffect& in_effect) {
+  ResolvedSpec resolved;
+  for (std::size_t i = 0; i < in_effect.size(); ++i) {
+    if (in_effect[i] != nullptr) parameters()[i].set(resolved, in_effect[i]->value);
+  }
+  return resolved;
+}
+
+}  // namespace grainsweep

@@ -1,0 +1,320 @@
+#include "runner/sweep/parameter_rows.hpp"
+
+#include <limits>
+#include <type_traits>
+#include <utility>
+
+#include "engine/dynamics/presets.hpp"
+#include "engine/units.hpp"
+#include "runner/sweep/identity.hpp"
+
+namespace grainsweep {
+namespace {
+
+using Rows = std::vector<Parameter>;
+
+template <class T>
+constexpr ValueKind kind_of() {
+  if constexpr (std::is_enum_v<T>) return ValueKind::choice;
+  if constexpr (std::is_same_v<T, double>) return ValueKind::number;
+  if constexpr (std::is_same_v<T, std::uint64_t>) return ValueKind::natural;
+  if constexpr (std::is_same_v<T, int>) return ValueKind::whole;
+  return ValueKind::numbers;
+}
+
+/// Built in place: g++ 12 warns, wrongly, about a value moved into the optional under sanitizers.
+template <class T>
+std::optional<Value> present(const T& value) {
+  return std::optional<Value>(std::in_place, std::in_place_type<T>, value);
+}
+
+/// `members` leads from a specification to the parameter: &ResolvedSpec::spec, &PackingSpec::box,
+/// &Box::x.
+template <auto... members>
+void set_member(ResolvedSpec& resolved, const Value& value) {
+  auto& target = (resolved.*....*members);
+  using T = std::remove_reference_t<decltype(target)>;
+  if constexpr (std::is_enum_v<T> || std::is_same_v<T, int>) {
+    target = static_cast<T>(std::get<std::int64_t>(value));
+  } else {
+    target = std::get<T>(value);
+  }
+}
+
+template <auto... members>
+std::optional<Value> get_member(const ResolvedSpec& resolved) {
+  const auto& source = (resolved.*....*members);
+  using T = std::remove_cvref_t<decltype(source)>;
+  if constexpr (std::is_enum_v<T> || std::is_same_v<T, int>) {
+    return present<std::int64_t>(static_cast<std::int64_t>(source));
+  } else {
+    return present<T>(source);
+  }
+}
+
+std::optional<Value> no_identity(const ResolvedSpec&) { return std::nullopt; }
+
+using Names = std::vector<std::string>;
+
+/// What may be written: numbers of a range, or names.
+struct Limits {
+  Limits(const char* numbers) : range(numbers) {}
+  Limits(Names words) : names(std::move(words)) {}
+
+  std::string range;
+  Names names;
+};
+
+/// The row of a parameter that is set and read by functions of its own.
+Parameter own(const char* path, Limits limits, const char* meaning, ValueKind kind, Role role,
+              void (*set)(ResolvedSpec&, const Value&),
+              std::optional<Value> (*get)(const ResolvedSpec&)) {
+  return {.path = path,
+          .meaning = meaning,
+          .kind = kind,
+          .largest = std::numeric_limits<int>::max(),
+          .choices = std::move(limits.names),
+          .set = set,
+          .get = get,
+          .role = role,
+          .range = std::move(limits.range)};
+}
+
+/// The row of a member of a packing's specification that is set and read as it is.
+template <auto... members>
+Parameter row(const char* path, Limits limits, const char* meaning) {
+  using T = std::remove_cvref_t<decltype((std::declval<PackingSpec&>().*....*members))>;
+  return own(path, std::move(limits), meaning, kind_of<T>(), Role::plain,
+             set_member<&ResolvedSpec::spec, members...>,
+             get_member<&ResolvedSpec::spec, members...>);
+}
+
+void set_shape(ResolvedSpec& resolved, const Value& value) {
+  resolved.spec.shape =
+      std::get<std::int64_t>(value) == 0 ? ShapeSpec(SphereShape{}) : PinacoidSize{};
+}
+/// Other shapes are known by their parts.
+std::optional<Value> get_shape(const ResolvedSpec& resolved) {
+  if (!std::holds_alternative<SphereShape>(resolved.spec.shape)) return std::nullopt;
+  return present(std::int64_t{0});
+}
+
+PinacoidSize& pinacoid_of(ResolvedSpec& resolved) {
+  auto* pinacoid = std::get_if<PinacoidSize>(&resolved.spec.shape);
+  return pinacoid != nullptr ? *pinacoid : resolved.spec.shape.emplace<PinacoidSize>();
+}
+template <auto member>
+void set_side(ResolvedSpec& resolved, const Value& value) {
+  pinacoid_of(resolved).*member = std::get<double>(value);
+}
+template <auto member>
+std::optional<Value> get_side(const ResolvedSpec& resolved) {
+  const auto* pinacoid = std::get_if<PinacoidSize>(&resolved.spec.shape);
+  return pinacoid != nullptr ? present(pinacoid->*member) : std::nullopt;
+}
+void set_angle(ResolvedSpec& resolved, const Value& value) {
+  resolved.pinacoid_angle = std::get<double>(value);
+  pinacoid_of(resolved).angle = resolved.pinacoid_angle * (pi / 180.0);
+}
+std::optional<Value> get_angle(const ResolvedSpec& resolved) {
+  const bool is_pinacoid = std::holds_alternative<PinacoidSize>(resolved.spec.shape);
+  return is_pinacoid ? present(resolved.pinacoid_angle) : std::nullopt;
+}
+
+void set_vertices(ResolvedSpec& resolved, const Value& value) {
+  resolved.spec.shape = HullVertices{std::get<Points>(value)};
+}
+std::optional<Value> get_vertices(const ResolvedSpec& resolved) {
+  const auto* hull = std::get_if<HullVertices>(&resolved.spec.shape);
+  return hull != nullptr ? present(hash_of(*hull)) : std::nullopt;
+}
+void set_hull_file(ResolvedSpec& resolved, const Value& value) {
+  resolved.spec.shape = HullVertices{};
+  resolved.hull_file = std::get<std::string>(value);
+}
+
+template <auto member>
+Parameter side(const char* path, const char* meaning) {
+  return own(path, "> 0", meaning, ValueKind::number, Role::pinacoid, set_side<member>,
+             get_side<member>);
+}
+
+/// The shape's name comes before the parts that name a shape too.
+Rows shape_rows() {
+  return {
+      own("shape", Names{"sphere", "pinacoid"},
+          "what the grains are; a name alone stands for the shape with its defaults",
+          ValueKind::choice, Role::shape, set_shape, get_shape),
+      side<&PinacoidSize::length>("shape.pinacoid.length", "length of the middle plane, d"),
+      side<&PinacoidSize::width>("shape.pinacoid.width", "width of the middle plane, d"),
+      side<&PinacoidSize::height>("shape.pinacoid.height", "distance of its two ridges, d"),
+      own("shape.pinacoid.angle_deg", "(0, 89]", "angle between ends and middle plane, degrees",
+          ValueKind::number, Role::pinacoid, set_angle, get_angle),
+      own("shape.hull.vertices", "", "vertices [x, y, z] of a convex grain", ValueKind::points,
+          Role::hull_vertices, set_vertices, get_vertices),
+      own("shape.hull.file", "", "OBJ file of the vertices instead; relative to the sweep file",
+          ValueKind::text, Role::hull_file, set_hull_file, no_identity),
+      own("shape.hull.size", "> 0", "the length in the vertices that is d; 1 if left out",
+          ValueKind::number, Role::hull_size, set_member<&ResolvedSpec::hull_size>, no_identity),
+  };
+}
+
+Rows box_rows() {
+  using S = PackingSpec;
+  const Names boundaries = {"periodic", "walls"};  // in the order of Boundary
+  return {
+      row<&S::box, &Box::length>("box.length", "[2, 10000]", "extent of the box along x, d"),
+      row<&S::box, &Box::width>("box.width", "[1, 10000]",
+                                "extent of the box along y, d: the gap between walls"),
+      row<&S::box, &Box::x>("box.x", boundaries, "what bounds the box along x"),
+      row<&S::box, &Box::y>("box.y", boundaries, "what bounds the box along y"),
+  };
+}
+
+void set_solid_height(ResolvedSpec& resolved, const Value& value) {
+  resolved.spec.fill = SolidHeight{std::get<double>(value)};
+}
+void set_grains(ResolvedSpec& resolved, const Value& value) {
+  resolved.spec.fill = GrainCount{std::get<std::int64_t>(value)};
+}
+void set_file(ResolvedSpec& resolved, const Value& value) {
+  resolved.spec.fill = PlacedGrains{};
+  resolved.fill_file = std::get<std::string>(value);
+}
+std::optional<Value> get_solid_height(const ResolvedSpec& resolved) {
+  const auto* fill = std::get_if<SolidHeight>(&resolved.spec.fill);
+  return fill ? present(fill->height) : std::nullopt;
+}
+std::optional<Value> get_grains(const ResolvedSpec& resolved) {
+  const auto* fill = std::get_if<GrainCount>(&resolved.spec.fill);
+  return fill ? present(fill->count) : std::nullopt;
+}
+std::optional<Value> get_file(const ResolvedSpec& resolved) {
+  return resolved.fill_file.empty() ? std::nullopt : present(resolved.fill_content);
+}
+std::optional<Value> get_diameter(const ResolvedSpec& resolved) {
+  return resolved.fill_file.empty() ? std::nullopt : present(resolved.fill_diameter);
+}
+
+Rows fill_rows() {
+  Parameter grains = own("fill.grains", "[1, 10000000]", "number of grains", ValueKind::whole,
+                         Role::fill, set_grains, get_grains);
+  grains.largest = std::numeric_limits<std::int64_t>::max();
+  return {
+      own("fill.solid_height", "(0, 1000]",
+          "solid volume per floor area, d; as many grains as fill it up", ValueKind::number,
+          Role::fill, set_solid_height, get_solid_height),
+      std::move(grains),
+      own("fill.file", "",
+          "CSV file of x,y,z,r, and qx,qy,qz,qw of grains that are no spheres: where they "
+          "start; relative to the sweep file",
+          ValueKind::text, Role::fill_file, set_file, get_file),
+      own("fill.diameter", "> 0", "the length in fill.file that is d", ValueKind::number,
+          Role::fill_diameter, set_member<&ResolvedSpec::fill_diameter>, get_diameter),
+  };
+}
+
+Rows size_rows() {
+  using S = PackingSpec;
+  return {
+      row<&S::sizes, &SizesSpec::spread>(
+          "sizes.spread", "[0, 0.2]",
+          "standard deviation of the diameter over its mean, each class"),
+      row<&S::sizes, &SizesSpec::small_share>(
+          "sizes.small_share", "[0, 1]", "share of the small class in the solid volume, 0 to 1"),
+      row<&S::sizes, &SizesSpec::size_ratio>("sizes.size_ratio", "(0.02, 1]",
+                                             "mean diameter of the small class, d"),
+  };
+}
+
+Names preset_names() {
+  Names names;
+  for (const Preset& known : presets()) names.emplace_back(known.name);
+  return names;
+}
+
+void set_preset(ResolvedSpec& resolved, const Value& value) {
+  resolved.preset = static_cast<int>(std::get<std::int64_t>(value));
+  resolved.spec.accuracy = presets()[static_cast<std::size_t>(resolved.preset)].accuracy;
+}
+
+Parameter solver_row() {
+  Parameter solver = row<&PackingSpec::accuracy, &Accuracy::solver>(
+      "accuracy.solver", Names{"pgs", "apgs"}, "iterations that solve a step");
+  solver.former_choices = {"symmetric_pgs", "nncg", "apgd"};
+  return solver;
+}
+
+/// Names are in the order of the engine's own.
+Rows accuracy_rows() {
+  using S = PackingSpec;
+  using A = Accuracy;
+  return {
+      own("accuracy.preset", preset_names(),
+          "named accuracy; parts written beside it override its own", ValueKind::choice,
+          Role::preset, set_preset, no_identity),
+      row<&S::accuracy, &A::protocol>(
+          "accuracy.protocol", Names{"heavy_ball", "dynamic"},
+          "how grains come down: damped in long steps, or plain dynamics"),
+      solver_row(),
+      row<&S::accuracy, &A::precision>("accuracy.precision", Names{"f32", "f64"},
+                                       "number type of the solver"),
+      row<&S::accuracy, &A::step>("accuracy.step", "(0, 2]", "time step, sqrt(d/g)"),
+      row<&S::accuracy, &A::momentum>("accuracy.momentum", "[0, 1)",
+                                      "share of the last displacement carried on, 0 to 1"),
+      row<&S::accuracy, &A::fall_iterations>("accuracy.fall_iterations", "[1, 1000000]",
+                                             "solver iterations per step while the bed compacts"),
+      row<&S::accuracy, &A::creep_steps>(
+          "accuracy.creep_steps", "[0, 1000000]",
+          "double steps after the fall, while the bed creeps to rest"),
+      row<&S::accuracy, &A::rest_iterations>(
+          "accuracy.rest_iterations", "[1, 1000000]",
+          "most solver iterations per step at the end of the creep"),
+      row<&S::accuracy, &A::residual_tolerance>("accuracy.residual_tolerance", "> 0",
+                                                "worst force imbalance at rest, m g"),
+      row<&S::accuracy, &A::kinetic_tolerance>("accuracy.kinetic_tolerance", "> 0",
+                                               "kinetic energy per grain at rest, m g d"),
+      row<&S::accuracy, &A::contact_tolerance>("accuracy.contact_tolerance", "> 0",
+                                               "|contacts / isostatic count - 1| at rest"),
+      row<&S::accuracy, &A::overlap_tolerance>(
+          "accuracy.overlap_tolerance", "> 0",
+          "mean overlap of touching pairs at rest, d; no pair more than a hundred times it"),
+      row<&S::accuracy, &A::max_steps>("accuracy.max_steps", "[1, 2147483647]",
+                                       "steps after which a bed counts as not settled"),
+      row<&S::accuracy, &A::force_balance>(
+          "accuracy.force_balance", Names{"skip", "solve"},
+          "certify the final contacts by a direct solve of force balance"),
+  };
+}
+
+Rows measure_rows() {
+  using S = PackingSpec;
+  using M = MeasureSpec;
+  return {
+      row<&S::measure, &M::exclude_floor>("measure.exclude_floor", "[0, 1000]",
+                                          "zone above the floor left out, d"),
+      row<&S::measure, &M::exclude_surface>("measure.exclude_surface", "[0, 1000]",
+                                            "zone below the surface left out, d"),
+      row<&S::measure, &M::gap_tolerances>(
+          "measure.gap_tolerances", "(0, 0.1)",
+          "grains touch below these gaps, d; the first is the headline"),
+      row<&S::measure, &M::bin_width>("measure.bin_width", "[0.01, 10000]",
+                                      "width of the bins of profiles, d"),
+  };
+}
+
+}  // namespace
+
+std::vector<Parameter> parameter_rows() {
+  Rows all;
+  for (Rows rows :
+       {shape_rows(), box_rows(), fill_rows(), size_rows(), accuracy_rows(), measure_rows()}) {
+    for (Parameter& parameter : rows) all.push_back(std::move(parameter));
+  }
+  all.push_back(own("seed", "[0, 18446744073709551615]",
+                    "master seed of the random numbers; in blocks only", ValueKind::natural,
+                    Role::seed, set_member<&ResolvedSpec::seed>, no_identity));
+  return all;
+}
+
+}  // namespace grainsweep
