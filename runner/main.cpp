@@ -11,18 +11,6 @@
 namespace grainsweep {
 namespace {
 
-int perform(const RunOptions& options) { return run(options); }
-int perform(const ValidateOptions& options) { return validate(options); }
-int perform(const PlanOptions& options) { return plan(options); }
-int perform(const ReportOptions& options) { return report(options); }
-int perform(const CompareOptions& options) { return compare(options); }
-int perform(const ExportOptions& options) { return export_grains(options); }
-int perform(const StatusOptions& options) { return status(options); }
-int perform(const CollectOptions& options) { return collect(options); }
-int perform(const ColumnsOptions& options) { return columns(options); }
-int perform(const SchemaOptions& options) { return schema(options); }
-int perform(const DoctorOptions& options) { return doctor(options); }
-
 int perform_and_print(const Command& command) {
   const int code = std::visit([](const auto& options) { return perform(options); }, command);
   if (!std::cout.flush()) throw FileError("standard output", "not everything could be written");

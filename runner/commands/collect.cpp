@@ -6,6 +6,8 @@
 #include <optional>
 #include <utility>
 
+#include <CLI/App.hpp>
+
 #include "runner/commands/commands.hpp"
 #include "runner/commands/results.hpp"
 #include "runner/exit_codes.hpp"
@@ -137,7 +139,18 @@ std::vector<Results> read_sources(const CollectOptions& options) {
 
 }  // namespace
 
-int collect(const CollectOptions& options) {
+CLI::App& add_command(CLI::App& app, CollectOptions& options) {
+  CLI::App& collect =
+      *app.add_subcommand("collect", "Merge the results of several output folders into one");
+  collect.add_option("DIR", options.folders, "output folders")->required()->type_name("");
+  collect.add_option("--out", options.out, "folder to merge into; what it holds stays")
+      ->required()
+      ->type_name("DIR");
+  collect.footer("Example: grainsweep collect out/node1 out/node2 --out out/all");
+  return collect;
+}
+
+int perform(const CollectOptions& options) {
   const std::vector<Results> sources = read_sources(options);
   make_folder(options.out);
   const FolderLock lock(options.out);

@@ -2,15 +2,27 @@
 #pragma once
 
 #include <optional>
+#include <tuple>
 #include <variant>
 
 #include "runner/commands/commands.hpp"
 
 namespace grainsweep {
 
-using Command = std::variant<RunOptions, ValidateOptions, PlanOptions, ReportOptions, ExportOptions,
-                             StatusOptions, CompareOptions, CollectOptions, ColumnsOptions,
-                             SchemaOptions, DoctorOptions>;
+/// The options of all commands, in the order in which help lists them.
+using AllOptions = std::tuple<RunOptions, ValidateOptions, PlanOptions, ReportOptions,
+                              CompareOptions, ExportOptions, StatusOptions, CollectOptions,
+                              SchemaOptions, ColumnsOptions, DoctorOptions>;
+
+template <class Options>
+struct OneOf;
+template <class... Options>
+struct OneOf<std::tuple<Options...>> {
+  using Type = std::variant<Options...>;
+};
+
+/// A command, known by its options.
+using Command = OneOf<AllOptions>::Type;
 
 struct CommandLine {
   std::optional<Command> command;  ///< nothing after --help, --version or a mistake

@@ -1,9 +1,16 @@
-// The commands of the program. Each returns its exit code, and throws BadInput, FolderBusy or
-// FileError where it cannot go on.
+// The commands of the program, a file each.
+//
+// Of every command there are: its options; `add_command`, which tells the command line of it and
+// where its options go; and `perform`, which does it. That returns the program's exit code and
+// throws BadInput, FolderBusy or FileError where it cannot go on.
 #pragma once
 
 #include <string>
 #include <vector>
+
+namespace CLI {
+class App;
+}
 
 namespace grainsweep {
 
@@ -20,13 +27,15 @@ struct RunOptions {
   bool quiet = false;                ///< print errors and warnings only
 };
 /// Makes what is missing of a sweep and writes the tables.
-int run(const RunOptions& options);
+int perform(const RunOptions& options);
+CLI::App& add_command(CLI::App& app, RunOptions& options);
 
 struct ValidateOptions {
   std::string file;
 };
 /// Says whether a sweep file is right, and how many packings it stands for.
-int validate(const ValidateOptions& options);
+int perform(const ValidateOptions& options);
+CLI::App& add_command(CLI::App& app, ValidateOptions& options);
 
 struct PlanOptions {
   std::string file;
@@ -34,20 +43,23 @@ struct PlanOptions {
   bool json = false;
 };
 /// Prints the packings of a sweep with estimated time and memory.
-int plan(const PlanOptions& options);
+int perform(const PlanOptions& options);
+CLI::App& add_command(CLI::App& app, PlanOptions& options);
 
 struct ReportOptions {
   std::string folder;
 };
 /// Prints the closing table from stored results.
-int report(const ReportOptions& options);
+int perform(const ReportOptions& options);
+CLI::App& add_command(CLI::App& app, ReportOptions& options);
 
 struct CompareOptions {
   std::string folder;
   std::string with;  ///< file of published values; empty: the one beside the sweep file
 };
 /// Prints stored results beside published values.
-int compare(const CompareOptions& options);
+int perform(const CompareOptions& options);
+CLI::App& add_command(CLI::App& app, CompareOptions& options);
 
 struct ExportOptions {
   std::string folder;
@@ -56,36 +68,42 @@ struct ExportOptions {
   std::string to;                 ///< folder for the files; empty: <folder>/export
 };
 /// Writes the grains of stored packings, a file each.
-int export_grains(const ExportOptions& options);
+int perform(const ExportOptions& options);
+CLI::App& add_command(CLI::App& app, ExportOptions& options);
 
 struct StatusOptions {
   std::string folder;
   bool json = false;
 };
 /// Prints how much of a sweep is done, and whether a runner is at work.
-int status(const StatusOptions& options);
+int perform(const StatusOptions& options);
+CLI::App& add_command(CLI::App& app, StatusOptions& options);
 
 struct CollectOptions {
   std::vector<std::string> folders;
   std::string out;  ///< folder they are merged into; may hold results, which stay
 };
 /// Merges the results of several output folders, a packing once, and writes the tables.
-int collect(const CollectOptions& options);
+int perform(const CollectOptions& options);
+CLI::App& add_command(CLI::App& app, CollectOptions& options);
 
 struct ColumnsOptions {
   bool markdown = false;  ///< a table in GitHub's Markdown for each file, not CSV
 };
 /// Prints file, name, unit and meaning of the columns of all tables.
-int columns(const ColumnsOptions& options);
+int perform(const ColumnsOptions& options);
+CLI::App& add_command(CLI::App& app, ColumnsOptions& options);
 
 struct SchemaOptions {
   bool markdown = false;  ///< the table of parameters for a manual instead
 };
 /// Prints the JSON Schema of sweep files.
-int schema(const SchemaOptions& options);
+int perform(const SchemaOptions& options);
+CLI::App& add_command(CLI::App& app, SchemaOptions& options);
 
 struct DoctorOptions {};
 /// Prints what the machine offers and tries to write a file here.
-int doctor(const DoctorOptions& options);
+int perform(const DoctorOptions& options);
+CLI::App& add_command(CLI::App& app, DoctorOptions& options);
 
 }  // namespace grainsweep

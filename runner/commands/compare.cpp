@@ -1,8 +1,11 @@
 // The command `compare`: stored results beside published values.
 #include <iostream>
 
+#include <CLI/App.hpp>
+
 #include "runner/commands/commands.hpp"
 #include "runner/commands/inputs.hpp"
+#include "runner/commands/shared_options.hpp"
 #include "runner/compare/comparison.hpp"
 #include "runner/exit_codes.hpp"
 #include "runner/store/files.hpp"
@@ -24,7 +27,23 @@ std::string reference_file(const CompareOptions& options, const Provenance& prov
 
 }  // namespace
 
-int compare(const CompareOptions& options) {
+CLI::App& add_command(CLI::App& app, CompareOptions& options) {
+  CLI::App& compare = *app.add_subcommand(
+      "compare", "Print results beside published values, and whether they agree");
+  add_folder(compare, options.folder);
+  compare
+      .add_option("--with", options.with,
+                  "published values, JSON (default: SWEEP.reference.json beside SWEEP.json)")
+      ->type_name("FILE");
+  compare.footer(
+      "Each row says what was measured and how, by how much it differs from the published value,\n"
+      "and how many standard errors that is; \"not determined\" and why where the sweep does not\n"
+      "tell.\n\nExample: grainsweep compare out/paper-spheres\n"
+      "Example: grainsweep compare out/quick --with configs/paper-spheres.reference.json");
+  return compare;
+}
+
+int perform(const CompareOptions& options) {
   Results results = results_with_warnings(options.folder);
   const Reference reference = read_reference(reference_file(options, results.provenance));
   std::cerr << damage_warnings(load_curves(options.folder, results.rows));

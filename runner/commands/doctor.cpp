@@ -1,6 +1,8 @@
 // The command `doctor`: what this machine offers, and whether results can be written here.
 #include <iostream>
 
+#include <CLI/App.hpp>
+
 #include "runner/commands/commands.hpp"
 #include "runner/exit_codes.hpp"
 #include "runner/instruction_set.hpp"
@@ -32,7 +34,12 @@ std::string versions_text() {
 
 }  // namespace
 
-int doctor(const DoctorOptions& /*options*/) {
+CLI::App& add_command(CLI::App& app, DoctorOptions& /*options*/) {
+  return *app.add_subcommand("doctor",
+                             "Say what this machine offers and whether results can be written");
+}
+
+int perform(const DoctorOptions& /*options*/) {
   std::cout << "grainsweep " << program_version() << ", built with " << compiler_version()
             << "\nlibraries         " << versions_text() << "\ninstruction sets  "
             << supported_isas() << "; used: " << name_of(choose_isa("")) << "\ncores             "

@@ -2,8 +2,11 @@
 #include <algorithm>
 #include <iostream>
 
+#include <CLI/App.hpp>
+
 #include "runner/commands/commands.hpp"
 #include "runner/commands/inputs.hpp"
+#include "runner/commands/shared_options.hpp"
 #include "runner/exit_codes.hpp"
 #include "runner/store/files.hpp"
 #include "runner/store/states.hpp"
@@ -36,7 +39,27 @@ std::vector<const Row*> rows_to_export(const std::vector<Row>& rows, const Expor
 
 }  // namespace
 
-int export_grains(const ExportOptions& options) {
+CLI::App& add_command(CLI::App& app, ExportOptions& options) {
+  CLI::App& grains = *app.add_subcommand("export", "Write the grains of finished packings");
+  add_folder(grains, options.folder);
+  grains
+      .add_option("--format", options.format,
+                  "csv, xyz (extended XYZ, for OVITO) or vtp (for ParaView)")
+      ->check(CLI::IsMember({"csv", "xyz", "vtp"}))
+      ->capture_default_str()
+      ->type_name("NAME");
+  grains
+      .add_option("--job", options.jobs,
+                  "only this packing: its id in packings.csv; may be repeated")
+      ->type_name("ID")
+      ->allow_extra_args(false);
+  grains.add_option("--to", options.to, "folder for the files (default: DIR/export)")
+      ->type_name("DIR");
+  grains.footer("Example: grainsweep export out/quick --format vtp --to /tmp/beds");
+  return grains;
+}
+
+int perform(const ExportOptions& options) {
   const auto format = export_format(options.format);
   if (!format) throw BadInput("--format " + options.format + ": use csv, xyz or vtp");
   const Results results = results_with_warnings(options.folder);

@@ -2,10 +2,12 @@
 #include <algorithm>
 #include <iostream>
 
+#include <CLI/App.hpp>
 #include <nlohmann/json.hpp>
 
 #include "runner/commands/commands.hpp"
 #include "runner/commands/inputs.hpp"
+#include "runner/commands/shared_options.hpp"
 #include "runner/exit_codes.hpp"
 #include "runner/jobs/schedule.hpp"
 #include "runner/machine.hpp"
@@ -139,7 +141,17 @@ void print_json(const Sweep& sweep, const std::vector<Task>& tasks, const Needs&
 
 }  // namespace
 
-int plan(const PlanOptions& options) {
+CLI::App& add_command(CLI::App& app, PlanOptions& options) {
+  CLI::App& plan =
+      *app.add_subcommand("plan", "List the packings of a sweep with estimated time and memory");
+  add_file(plan, options.file);
+  add_threads(plan, options.threads);
+  plan.add_flag("--json", options.json, "every packing, as JSON");
+  plan.footer("Example: grainsweep plan configs/confined-spheres.json --threads 8");
+  return plan;
+}
+
+int perform(const PlanOptions& options) {
   const Sweep sweep = sweep_or_refusal(options.file);
   const int threads = options.threads > 0 ? options.threads : usable_cores();
   const std::vector<Task> tasks = tasks_of(sweep);

@@ -7,9 +7,13 @@
 #include <unistd.h>
 #include <utility>
 
+#include <CLI/App.hpp>
+
+#include "engine/dynamics/presets.hpp"
 #include "runner/commands/commands.hpp"
 #include "runner/commands/inputs.hpp"
 #include "runner/commands/results.hpp"
+#include "runner/commands/shared_options.hpp"
 #include "runner/exit_codes.hpp"
 #include "runner/instruction_set.hpp"
 #include "runner/jobs/pack_pending.hpp"
@@ -123,9 +127,44 @@ int exit_code_for(const StatusCounts& counts) {
   return counts.failed + counts.not_settled > 0 ? exit_left_out : exit_done;
 }
 
+std::string presets_text() {
+  std::string text = "Accuracy, a member of the sweep file:";
+  for (const Preset& preset : presets()) {
+    text += "\n  " + std::string(preset.name) + ": " + std::string(preset.promise);
+  }
+  return text;
+}
+
 }  // namespace
 
-int run(const RunOptions& options) {
+CLI::App& add_command(CLI::App& app, RunOptions& options) {
+  CLI::App& run = *app.add_subcommand(
+      "run", "Make the packings of a sweep, or what is missing of them, and the tables");
+  add_file(run, options.file);
+  run.add_option("--out", options.out, "output folder (default: out/<sweep name>)")
+      ->type_name("DIR");
+  add_threads(run, options.threads);
+  run.add_option("--isa", options.isa,
+                 "sse2, avx2 or avx512 (default: GRAINSWEEP_ISA, else the widest)")
+      ->type_name("NAME");
+  run.add_option("--checkpoint-seconds", options.checkpoint_seconds,
+                 "save packings under way this often; stopping always saves them")
+      ->check(CLI::Range(0.0, 86400.0))
+      ->capture_default_str()
+      ->type_name("S");
+  run.add_flag("--fresh", options.fresh, "delete what is stored in the folder and start anew");
+  run.add_flag("--yes", options.yes, "do not ask before --fresh deletes");
+  run.add_flag("--retry-failed", options.retry_failed,
+               "make failed packings again, for instance with a newer version");
+  run.add_flag("--fail-fast", options.fail_fast,
+               "stop at the first packing that fails; without it the others go on");
+  run.add_flag("--quiet", options.quiet, "print warnings and errors only");
+  run.footer("Example: grainsweep run configs/quick.json --out out/quick --threads 2\n\n" +
+             presets_text() + "\n\n" + exit_codes_text);
+  return run;
+}
+
+int perform(const RunOptions& options) {
   const Sweep sweep = sweep_or_refusal(options.file);
   const Isa isa = choose_isa(options.isa);
   const std::string folder = options.out.empty() ? "out/" + sweep.name : options.out;

@@ -2,10 +2,12 @@
 #include <iostream>
 #include <optional>
 
+#include <CLI/App.hpp>
 #include <nlohmann/json.hpp>
 
 #include "runner/commands/commands.hpp"
 #include "runner/commands/inputs.hpp"
+#include "runner/commands/shared_options.hpp"
 #include "runner/exit_codes.hpp"
 #include "runner/store/lock.hpp"
 #include "runner/text.hpp"
@@ -52,7 +54,16 @@ void print_status_json(const Results& results, const std::optional<std::string>&
 
 }  // namespace
 
-int status(const StatusOptions& options) {
+CLI::App& add_command(CLI::App& app, StatusOptions& options) {
+  CLI::App& status =
+      *app.add_subcommand("status", "Say how much of a sweep is done and who is at work");
+  add_folder(status, options.folder);
+  status.add_flag("--json", options.json, "as JSON");
+  status.footer("Example: grainsweep status out/quick");
+  return status;
+}
+
+int perform(const StatusOptions& options) {
   const Results results = results_with_warnings(options.folder, Detail::summary);
   const auto runner = present_runner(options.folder);
   if (options.json) {

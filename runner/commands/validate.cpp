@@ -4,8 +4,11 @@
 #include <string>
 #include <utility>
 
+#include <CLI/App.hpp>
+
 #include "runner/commands/commands.hpp"
 #include "runner/commands/inputs.hpp"
+#include "runner/commands/shared_options.hpp"
 #include "runner/exit_codes.hpp"
 
 namespace grainsweep {
@@ -19,7 +22,15 @@ std::size_t count_parameter_sets(const Sweep& sweep) {
 
 }  // namespace
 
-int validate(const ValidateOptions& options) {
+CLI::App& add_command(CLI::App& app, ValidateOptions& options) {
+  CLI::App& validate =
+      *app.add_subcommand("validate", "Check a sweep file and say everything wrong with it");
+  add_file(validate, options.file);
+  validate.footer("Example: grainsweep validate configs/quick.json");
+  return validate;
+}
+
+int perform(const ValidateOptions& options) {
   const Sweep sweep = sweep_or_refusal(options.file);
   std::cout << options.file << ": right; " << sweep.name << " stands for " << sweep.jobs.size()
             << " packings in " << count_parameter_sets(sweep) << " parameter sets\n";

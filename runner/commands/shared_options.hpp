@@ -1,0 +1,27 @@
+// Arguments that several commands take, and what several of them say in their help.
+#pragma once
+
+#include <string>
+
+namespace CLI {
+class App;
+}
+
+namespace grainsweep {
+
+inline constexpr const char* exit_codes_text =
+    "Exit codes: 0 done; 1 done, but some packings failed or did not settle; 2 bad input, nothing\n"
+    "written; 3 another runner works in the folder; 4 file system; 130 or 143 stopped by Ctrl-C "
+    "or\n"
+    "SIGTERM: the same command goes on where it stopped.";
+
+/// A sweep file.
+void add_file(CLI::App& command, std::string& file);
+
+/// The output folder of a run.
+void add_folder(CLI::App& command, std::string& folder);
+
+/// How many packings are made at once; stays 0 if it is not given.
+void add_threads(CLI::App& command, int& threads);
+
+}  // namespace grainsweep
