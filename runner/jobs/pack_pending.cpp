@@ -80,8 +80,8 @@ class Packer {
   Packed pack(const std::vector<Task>& tasks) {
     run_tasks(
         tasks, options_.limits,
-        [this](std::size_t task, Crew& crew, const KeepGoing& keep_going) {
-          return make_one(task, crew, keep_going);
+        [this](std::size_t task, ThreadTeam& team, const KeepGoing& keep_going) {
+          return make_one(task, team, keep_going);
         },
         events());
     display_.clear();
@@ -98,7 +98,7 @@ class Packer {
   CheckpointFiles checkpoints_of(const Job& job) const { return {running_.folder, job.id, build_}; }
 
   /// Goes on from the packing's checkpoint, if it has one.
-  Packing make_one(std::size_t task, Crew& crew, const KeepGoing& keep_going) {
+  Packing make_one(std::size_t task, ThreadTeam& team, const KeepGoing& keep_going) {
     const Job& job = *running_.pending[task];
     CheckpointFiles files = checkpoints_of(job);
     const std::optional<Checkpoint> saved = newest_of(files);
@@ -107,11 +107,11 @@ class Packer {
     const KeepGoing saving = [&](const Progress& progress) {
       const bool goes_on = keep_going(progress);
       if (goes_on && wall_seconds() < due_at) return true;
-      save(files, {progress.step, before_[task].cpu_seconds + crew.cpu_seconds(), progress.save()});
+      save(files, {progress.step, before_[task].cpu_seconds + team.cpu_seconds(), progress.save()});
       due_at = wall_seconds() + options_.checkpoint_seconds;
       return goes_on;
     };
-    return make_packing(job.spec, {kernels_, crew.loop(), &workspaces_.local()}, saving,
+    return make_packing(job.spec, {kernels_, team.loop(), &workspaces_.local()}, saving,
                         saved ? saved->state : std::string_view());
   }
 

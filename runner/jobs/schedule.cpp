@@ -25,11 +25,12 @@ Packing failed_packing(const std::string& reason) {
 }
 
 /// Packs one bed; an exception becomes a failed packing.
-Finished pack_with(Crew& crew, std::size_t index, const Pack& pack, const KeepGoing& go_on) {
+Finished pack_one(std::size_t index, const Pack& pack, const KeepGoing& go_on) {
+  ThreadTeam team;
   Finished finished;
   finished.task = index;
   try {
-    finished.packing = pack(index, crew, go_on);
+    finished.packing = pack(index, team, go_on);
   } catch (const std::bad_alloc&) {
     finished.packing = failed_packing("out of memory; use fewer --threads or a smaller bed");
     finished.threw = true;
@@ -37,17 +38,8 @@ Finished pack_with(Crew& crew, std::size_t index, const Pack& pack, const KeepGo
     finished.packing = failed_packing(error.what());
     finished.threw = true;
   }
-  crew.dismiss();
-  finished.cpu_seconds = crew.cpu_seconds();
+  finished.cpu_seconds = team.cpu_seconds();
   return finished;
-}
-
-/// Isolated: a thread that waits for its helpers must not begin another packing meanwhile.
-Finished pack_one(std::size_t index, const Pack& pack, const KeepGoing& go_on) {
-  return tbb::this_task_arena::isolate([&] {
-    Crew crew;
-    return pack_with(crew, index, pack, go_on);
-  });
 }
 
 /// The tasks under way: what the pipeline's two stages share.

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "engine/packing.hpp"
-#include "runner/jobs/crew.hpp"
+#include "runner/jobs/thread_team.hpp"
 
 namespace grainsweep {
 
@@ -26,8 +26,8 @@ struct Limits {
   double memory = 0.0;  ///< bytes for all live packings together; 0 = unbounded
 };
 
-/// Makes the packing of a task, by its index, with the crew's help. May throw.
-using Pack = std::function<Packing(std::size_t task, Crew& crew, const KeepGoing&)>;
+/// Makes the packing of a task, by its index, with the team's help. May throw.
+using Pack = std::function<Packing(std::size_t task, ThreadTeam& team, const KeepGoing&)>;
 
 /// What came of a task. Cancelled packings do not count as finished.
 struct Finished {

@@ -51,7 +51,7 @@ TEST_CASE("tasks start the longest first, equal ones in their order") {
   const Bench bench({1, 5, 3, 5, 2});
   Log log;
   run_tasks(
-      bench.tasks, {1, 0}, [](std::size_t, Crew&, const KeepGoing&) { return settled(); },
+      bench.tasks, {1, 0}, [](std::size_t, ThreadTeam&, const KeepGoing&) { return settled(); },
       log.events());
   CHECK(log.started == std::vector<std::size_t>{1, 3, 2, 4, 0});
   CHECK(log.finished.size() == 5);
@@ -62,8 +62,8 @@ TEST_CASE("every task is finished exactly once on any number of threads") {
     const Bench bench(std::vector<double>(200, 1.0));
     Log log;
     run_tasks(
-        bench.tasks, {threads, 0}, [](std::size_t, Crew&, const KeepGoing&) { return settled(); },
-        log.events());
+        bench.tasks, {threads, 0},
+        [](std::size_t, ThreadTeam&, const KeepGoing&) { return settled(); }, log.events());
     std::set<std::size_t> tasks;
     for (const Finished& finished : log.finished) tasks.insert(finished.task);
     CHECK(log.finished.size() == 200);
@@ -78,7 +78,7 @@ int most_alive(int threads, double memory, double bytes, int expected) {
   const Bench bench(std::vector<double>(24, 1.0), bytes);
   std::atomic<int> alive{0}, most{0};
   Log log;
-  const Pack pack = [&](std::size_t, Crew&, const KeepGoing&) {
+  const Pack pack = [&](std::size_t, ThreadTeam&, const KeepGoing&) {
     const int now = ++alive;
     for (int seen = most; now > seen && !most.compare_exchange_weak(seen, now);) continue;
     const auto give_up = std::chrono::steady_clock::now() + patience;
@@ -130,7 +130,7 @@ TEST_CASE("a packing larger than the memory is announced, one that fits is not")
 TEST_CASE("a packing that throws or fails does not end the others") {
   const Bench bench({4, 3, 2, 1});
   Log log;
-  const Pack pack = [](std::size_t task, Crew&, const KeepGoing&) -> Packing {
+  const Pack pack = [](std::size_t task, ThreadTeam&, const KeepGoing&) -> Packing {
     if (task == 0) throw std::runtime_error("a broken kernel");
     if (task == 1) throw std::bad_alloc();
     Packing packing = settled();
@@ -150,7 +150,7 @@ TEST_CASE("a packing that throws or fails does not end the others") {
 TEST_CASE("stopping keeps what is finished, cancels what runs and starts nothing more") {
   const Bench bench({3, 2, 1});
   Log log;
-  const Pack pack = [&](std::size_t task, Crew&, const KeepGoing& keep_going) {
+  const Pack pack = [&](std::size_t task, ThreadTeam&, const KeepGoing& keep_going) {
     if (task == 0) return settled();
     log.stop = true;
     Packing packing;
@@ -169,7 +169,7 @@ TEST_CASE("an error while storing stops the run and reaches the caller") {
   Log log;
   TaskEvents events = log.events();
   events.finished = [](Finished&&) { throw std::runtime_error("disk full"); };
-  const Pack pack = [](std::size_t, Crew&, const KeepGoing&) { return settled(); };
+  const Pack pack = [](std::size_t, ThreadTeam&, const KeepGoing&) { return settled(); };
   CHECK_THROWS_WITH(run_tasks(bench.tasks, {2, 0}, pack, events), "disk full");
   CHECK(log.started.size() <= 4);
 }
@@ -177,7 +177,7 @@ TEST_CASE("an error while storing stops the run and reaches the caller") {
 TEST_CASE("CPU time is that of the packing's own thread, not time asleep") {
   const Bench bench({1, 1});
   Log log;
-  const Pack pack = [](std::size_t task, Crew&, const KeepGoing&) {
+  const Pack pack = [](std::size_t task, ThreadTeam&, const KeepGoing&) {
     const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds(60);
     if (task == 0) std::this_thread::sleep_until(end);
     volatile int spin = 0;
@@ -199,7 +199,7 @@ TEST_CASE("progress of a packing reaches the caller") {
     CHECK(task == 0);
     shares.push_back(progress.share_done);
   };
-  const Pack pack = [](std::size_t, Crew&, const KeepGoing& keep_going) {
+  const Pack pack = [](std::size_t, ThreadTeam&, const KeepGoing& keep_going) {
     CHECK(keep_going({1, 0.25}));
     CHECK(keep_going({2, 0.5}));
     return settled();
@@ -211,7 +211,8 @@ TEST_CASE("progress of a packing reaches the caller") {
 TEST_CASE("no tasks end at once") {
   Log log;
   run_tasks(
-      {}, {4, 0}, [](std::size_t, Crew&, const KeepGoing&) { return settled(); }, log.events());
+      {}, {4, 0}, [](std::size_t, ThreadTeam&, const KeepGoing&) { return settled(); },
+      log.events());
   CHECK(log.finished.empty());
 }
 
