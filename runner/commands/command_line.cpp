@@ -1,6 +1,8 @@
 #include "runner/commands/command_line.hpp"
 
+#include <algorithm>
 #include <string>
+#include <vector>
 
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
@@ -8,9 +10,47 @@
 
 #include "runner/commands/shared_options.hpp"
 #include "runner/exit_codes.hpp"
+#include "runner/sweep/suggest.hpp"
 #include "runner/versions.hpp"
 
 namespace grainsweep {
+namespace {
+
+using Words = std::vector<std::string>;
+
+Words options_of(const CLI::App& command) {
+  Words options;
+  for (const CLI::Option* option : command.get_options()) {
+    for (const std::string& name : option->get_lnames()) options.push_back("--" + name);
+  }
+  return options;
+}
+
+/// What is wrong with a word that is none of `known`; "" if it is one of them.
+std::string misspelling(const std::string& what, const std::string& word, const Words& known) {
+  if (std::find(known.begin(), known.end(), word) != known.end()) return "";
+  const std::string near = nearest(word, known);
+  return "unknown " + what + " " + word +
+         (near.empty() ? "; known: " + comma_list(known) : "; did you mean " + near + "?");
+}
+
+/// What is wrong with the command line, `words` behind the program's name.
+std::string mistake(const CLI::App& app, const Words& words, const CLI::Error& error) {
+  Words commands, options;
+  for (const CLI::App* command : app.get_subcommands(nullptr)) {
+    commands.push_back(command->get_name());
+    if (!words.empty() && command->get_name() == words[0]) options = options_of(*command);
+  }
+  std::string found;
+  for (std::size_t i = 0; i < words.size() && found.empty(); ++i) {
+    const std::string word = words[i].substr(0, words[i].find('='));
+    if (i == 0 && !word.starts_with("-")) found = misspelling("command", word, commands);
+    if (i > 0 && word.starts_with("--")) found = misspelling("option", word, options);
+  }
+  return found.empty() ? error.what() : found;
+}
+
+}  // namespace
 
 CommandLine read_command_line(int argc, const char* const* argv) {
   CLI::App app{
@@ -24,6 +64,10 @@ CommandLine read_command_line(int argc, const char* const* argv) {
   app.footer(std::string("Example: grainsweep run configs/quick.json --out out/quick\n"
                          "Help on a command: grainsweep run --help\n\n") +
              exit_codes_text);
+  app.failure_message([&](const CLI::App* /*app*/, const CLI::Error& error) {
+    return "grainsweep: " + mistake(app, Words(argv + std::min(1, argc), argv + argc), error) +
+           "\nRun with --help for more information.\n";
+  });
   CommandLine line;
   AllOptions all;
   const auto add = [&](auto& options) {

@@ -109,6 +109,22 @@ TEST_CASE("mistakes are refused with exit code 2 and a message") {
   }
 }
 
+TEST_CASE("a misspelt command or option is named with the likely one") {
+  const auto first_line = [](const std::vector<const char*>& words) {
+    const std::string error = read(words).error;
+    return error.substr(0, error.find('\n'));
+  };
+  CHECK(first_line({"rnu", "x.json"}) == "grainsweep: unknown command rnu; did you mean run?");
+  CHECK(first_line({"version"}) ==
+        "grainsweep: unknown command version; known: run, validate, plan, report, compare, export, "
+        "status, collect, schema, columns, doctor");
+  CHECK(first_line({"run", "x.json", "--treads", "2"}) ==
+        "grainsweep: unknown option --treads; did you mean --threads?");
+  CHECK(first_line({"run", "x.json", "--treads=2"}) ==
+        "grainsweep: unknown option --treads; did you mean --threads?");
+  CHECK(first_line({"run", "x.json", "--threads", "0"}).starts_with("grainsweep: --threads: "));
+}
+
 TEST_CASE("help has the commands, an example and the exit codes, and ends with code 0") {
   const Reading reading = read({"--help"});
   CHECK(reading.line.exit_code == 0);
