@@ -10,7 +10,7 @@ namespace {
 Isa isa_called(const std::string& name, const std::string& place) {
   Isa isa = Isa::sse2;
   if (!isa_from_name(name.c_str(), isa)) {
-    throw BadInput(place + ": \"" + name + "\" is no instruction set; use one of " +
+    throw BadInput(place + ": \"" + name + "\" is not an instruction set; use one of " +
                    supported_isas());
   }
   if (!is_supported(isa)) {

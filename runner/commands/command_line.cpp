@@ -26,7 +26,7 @@ Words options_of(const CLI::App& command) {
   return options;
 }
 
-/// What is wrong with a word that is none of `known`; "" if it is one of them.
+/// What is wrong with a word that is not among `known`; "" if it is.
 std::string misspelling(const std::string& what, const std::string& word, const Words& known) {
   if (std::find(known.begin(), known.end(), word) != known.end()) return "";
   const std::string near = nearest(word, known);

@@ -188,7 +188,7 @@ class Expansion {
     jobs_.push_back(job);
   }
 
-  /// Fills in the grains of a fill file. If there are none to be had, says so and leaves the fill
+  /// Fills in the grains of a fill file. If it cannot be read, says so and leaves the fill
   /// at its default, so that the other rules can still be checked.
   void place_grains(const Block& block, const InEffect& in_effect, ResolvedSpec& resolved) {
     const Assignment* diameter = in_effect[diameter_];
@@ -211,7 +211,7 @@ class Expansion {
     resolved.fill_content = reading.content;
   }
 
-  /// Fills in the vertices of a hull. If there are none to be had, says so; what `check` would say
+  /// Fills in the vertices of a hull. If they cannot be read, says so; what `check` would say
   /// of a hull without vertices is then said already.
   void place_vertices(const Block& block, const InEffect& in_effect, ResolvedSpec& resolved) {
     const Assignment* size = in_effect[hull_size_];

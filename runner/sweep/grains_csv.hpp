@@ -1,7 +1,7 @@
 // Grains from a CSV file: where a bed starts that comes from elsewhere.
 //
-// The first line names the columns; x, y, z and r (or radius) must be among them, and for grains
-// that are no spheres qx, qy, qz and qw; others are left alone: a bed written by `export` can be
+// The first line names the columns; x, y, z and r (or radius) must be among them, and for
+// non-spherical grains qx, qy, qz and qw; others are left alone: a bed written by `export` can be
 // packed again. One grain per line, decimal points.
 #pragma once
 

@@ -1,4 +1,4 @@
-// What is wrong with a text that is no JSON, in words that say what to change.
+// What is wrong with a text that is not JSON, in words that say what to change.
 #pragma once
 
 #include <cstddef>

@@ -206,7 +206,7 @@ Rows fill_rows() {
           Role::fill, set_solid_height, get_solid_height),
       std::move(grains),
       own("fill.file", "",
-          "CSV file of x,y,z,r, and qx,qy,qz,qw of grains that are no spheres: where they "
+          "CSV file of x,y,z,r, and qx,qy,qz,qw of non-spherical grains: where they "
           "start; relative to the sweep file",
           ValueKind::text, Role::fill_file, set_file, get_file),
       own("fill.diameter", "> 0", "the length in fill.file that is d", ValueKind::number,

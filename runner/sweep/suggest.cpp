@@ -22,7 +22,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 }
 
 std::string nearest(std::string_view word, const std::vector<std::string>& candidates) {
-  constexpr std::size_t longest_word = 100;  // longer ones are no misspelling
+  constexpr std::size_t longest_word = 100;  // longer ones are not misspelt
   if (word.size() > longest_word) return "";
   std::size_t best = std::max<std::size_t>(1, word.size() / 3) + 1;
   std::string found;

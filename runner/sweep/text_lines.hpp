@@ -13,7 +13,7 @@ namespace grainsweep {
 
 inline constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 
-/// A file's bytes, or why there are none.
+/// A file's bytes, or why it cannot be read.
 struct FileText {
   std::string text;
   Diagnostics errors;  ///< at most one
@@ -32,7 +32,8 @@ std::string_view trimmed(std::string_view text);
 /// one.
 std::vector<std::string_view> lines_of(std::string_view text);
 
-/// The number that all of `text` spells, with a decimal point; nothing if it is none or not finite.
+/// The number that all of `text` spells, with a decimal point; nothing for other text, NaN and
+/// infinity.
 std::optional<double> finite_number(std::string_view text);
 
 /// Line and column of byte offsets in a text. Lines and columns count from 1, columns in characters

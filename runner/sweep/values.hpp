@@ -21,7 +21,8 @@ ValueReading read_value(const Parameter& parameter, const Json& value);
 /// A value of `parameter` as the sweep file writes it.
 nlohmann::json written_value(const Parameter& parameter, const Value& value);
 
-/// The whole number in [`low`, `high`] that `value` is, 3.0 being 3; nothing if it is none.
+/// The whole number in [`low`, `high`] that `value` is, 3.0 being 3; nothing if it is another
+/// value.
 std::optional<std::int64_t> whole_number_in(const Json& value, std::int64_t low, std::int64_t high);
 
 /// What a value is, for messages: `the text "abc"`, "4.5", "a list", "an object".

@@ -29,7 +29,8 @@ TEST_CASE("the option wins over the environment, which wins over the widest") {
   CHECK(choose_isa("") == Isa::sse2);
   const ForcedIsa unknown("mmx");
   CHECK(choose_isa("sse2") == Isa::sse2);
-  CHECK_THROWS_WITH(choose_isa(""), Catch::StartsWith("GRAINSWEEP_ISA: \"mmx\" is no instruction"));
+  CHECK_THROWS_WITH(choose_isa(""),
+                    Catch::StartsWith("GRAINSWEEP_ISA: \"mmx\" is not an instruction"));
 }
 
 TEST_CASE("a name that does not exist or cannot run here is refused with those that can") {
