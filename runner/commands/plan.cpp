@@ -38,10 +38,10 @@ std::vector<PlannedGroup> planned_groups(const Sweep& sweep) {
   return groups;
 }
 
-std::vector<Task> tasks_of(const Sweep& sweep) {
-  std::vector<Task> tasks;
-  for (const Job& job : sweep.jobs) tasks.push_back({estimate_cost(job.spec)});
-  return tasks;
+std::vector<Cost> costs_of(const Sweep& sweep) {
+  std::vector<Cost> costs;
+  for (const Job& job : sweep.jobs) costs.push_back(estimate_cost(job.spec));
+  return costs;
 }
 
 std::string memory_text(double bytes) { return fixed(bytes / 1e6, 1) + " MB"; }
@@ -78,15 +78,15 @@ struct Needs {
   int live = 1;
 };
 
-Needs needs_of(const std::vector<Task>& tasks, int threads) {
+Needs needs_of(const std::vector<Cost>& costs, int threads) {
   Needs needs;
   needs.memory = memory_for_packings();
-  needs.live = live_limit(tasks, {threads, needs.memory});
-  needs.wall_seconds = estimate_wall(tasks, needs.live);
+  needs.live = live_limit(costs, {threads, needs.memory});
+  needs.wall_seconds = estimate_wall(costs, needs.live);
   std::vector<double> bytes;
-  for (const Task& task : tasks) {
-    needs.cpu_seconds += task.cost.cpu_seconds;
-    bytes.push_back(task.cost.bytes);
+  for (const Cost& cost : costs) {
+    needs.cpu_seconds += cost.cpu_seconds;
+    bytes.push_back(cost.bytes);
   }
   std::sort(bytes.begin(), bytes.end(), std::greater<>());
   bytes.resize(std::min(bytes.size(), static_cast<std::size_t>(needs.live)));
@@ -120,10 +120,10 @@ std::string job_json(const Job& job, const Cost& cost) {
 }
 
 /// Written job by job: as one value a large sweep would take ten times the memory.
-void print_json(const Sweep& sweep, const std::vector<Task>& tasks, const Needs& needs,
+void print_json(const Sweep& sweep, const std::vector<Cost>& costs, const Needs& needs,
                 int threads) {
   const nlohmann::ordered_json plan = {{"name", sweep.name},
-                                       {"packings", tasks.size()},
+                                       {"packings", costs.size()},
                                        {"threads", threads},
                                        {"packings_at_once", needs.live},
                                        {"estimated_cpu_seconds", needs.cpu_seconds},
@@ -133,8 +133,8 @@ void print_json(const Sweep& sweep, const std::vector<Task>& tasks, const Needs&
   std::string text = plan.dump(2);
   text.resize(text.rfind('\n'));
   std::cout << text << ",\n  \"jobs\": [";
-  for (std::size_t i = 0; i < tasks.size(); ++i) {
-    std::cout << (i == 0 ? "\n    " : ",\n    ") << job_json(sweep.jobs[i], tasks[i].cost);
+  for (std::size_t i = 0; i < costs.size(); ++i) {
+    std::cout << (i == 0 ? "\n    " : ",\n    ") << job_json(sweep.jobs[i], costs[i]);
   }
   std::cout << "\n  ]\n}\n";
 }
@@ -154,11 +154,11 @@ CLI::App& add_command(CLI::App& app, PlanOptions& options) {
 int perform(const PlanOptions& options) {
   const Sweep sweep = sweep_or_refusal(options.file);
   const int threads = options.threads > 0 ? options.threads : usable_cores();
-  const std::vector<Task> tasks = tasks_of(sweep);
-  const Needs needs = needs_of(tasks, threads);
-  std::cerr << memory_warning(tasks, needs.memory);
+  const std::vector<Cost> costs = costs_of(sweep);
+  const Needs needs = needs_of(costs, threads);
+  std::cerr << memory_warning(costs, needs.memory);
   if (options.json) {
-    print_json(sweep, tasks, needs, threads);
+    print_json(sweep, costs, needs, threads);
   } else {
     print_text(sweep, needs, threads);
   }

@@ -99,7 +99,7 @@ Packed record_and_pack(RunningSweep& running, const RunOptions& options, Isa isa
   const double start = wall_seconds();
   const Limits limits{options.threads > 0 ? options.threads : usable_cores(),
                       memory_for_packings()};
-  std::cerr << memory_warning(tasks_of(running.pending), limits.memory);
+  std::cerr << memory_warning(costs_of(running.pending), limits.memory);
   provenance.runs.push_back({utc_now(), "", 0.0, process_name(), limits.threads, name_of(isa), 0});
   write_provenance(running.folder, provenance, running.rows);
   RunRecord& record = provenance.runs.back();

@@ -58,28 +58,28 @@ Outcome store(const Job& job, const std::string& folder, Journal& journal, Finis
   return outcome;
 }
 
-std::vector<double> cpu_costs(const std::vector<Task>& tasks) {
-  std::vector<double> costs;
-  costs.reserve(tasks.size());
-  for (const Task& task : tasks) costs.push_back(task.cost.cpu_seconds);
-  return costs;
+std::vector<double> cpu_seconds_of(const std::vector<Cost>& costs) {
+  std::vector<double> seconds;
+  seconds.reserve(costs.size());
+  for (const Cost& cost : costs) seconds.push_back(cost.cpu_seconds);
+  return seconds;
 }
 
 /// What the threads of a run share.
 class Packer {
  public:
-  Packer(RunningSweep& running, const PackOptions& options, const std::vector<Task>& tasks)
+  Packer(RunningSweep& running, const PackOptions& options, const std::vector<Cost>& costs)
       : running_(running),
         options_(options),
         kernels_(kernels_for(options.isa)),
-        display_(cpu_costs(tasks), options.style, stderr),
+        display_(cpu_seconds_of(costs), options.style, stderr),
         journal_(running.folder),
         build_(build_name()),
-        before_(tasks.size()) {}
+        before_(costs.size()) {}
 
-  Packed pack(const std::vector<Task>& tasks) {
+  Packed pack(const std::vector<Cost>& costs) {
     run_tasks(
-        tasks, options_.limits,
+        costs, options_.limits,
         [this](std::size_t task, ThreadTeam& team, const KeepGoing& keep_going) {
           return make_one(task, team, keep_going);
         },
@@ -177,16 +177,16 @@ class Packer {
 
 }  // namespace
 
-std::vector<Task> tasks_of(const std::vector<const Job*>& jobs) {
-  std::vector<Task> tasks;
-  tasks.reserve(jobs.size());
-  for (const Job* job : jobs) tasks.push_back({estimate_cost(job->spec)});
-  return tasks;
+std::vector<Cost> costs_of(const std::vector<const Job*>& jobs) {
+  std::vector<Cost> costs;
+  costs.reserve(jobs.size());
+  for (const Job* job : jobs) costs.push_back(estimate_cost(job->spec));
+  return costs;
 }
 
 Packed pack_pending(RunningSweep& running, const PackOptions& options) {
-  const std::vector<Task> tasks = tasks_of(running.pending);
-  return Packer(running, options, tasks).pack(tasks);
+  const std::vector<Cost> costs = costs_of(running.pending);
+  return Packer(running, options, costs).pack(costs);
 }
 
 }  // namespace grainsweep

@@ -34,8 +34,8 @@ struct Packed {
   std::string first_failure;  ///< with fail_fast: the line of the packing that failed
 };
 
-/// The pending packings and what they cost, in their order.
-std::vector<Task> tasks_of(const std::vector<const Job*>& jobs);
+/// What the packings of jobs will take, in their order.
+std::vector<Cost> costs_of(const std::vector<const Job*>& jobs);
 
 /// Makes the pending packings, as far as no signal and no failure stops it; each is on the disk
 /// when it counts as finished, and then its grains no longer in memory. A long one is saved from

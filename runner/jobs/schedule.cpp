@@ -45,8 +45,8 @@ Finished pack_one(std::size_t index, const Pack& pack, const KeepGoing& go_on) {
 /// The tasks under way: what the pipeline's two stages share.
 class Run {
  public:
-  Run(const std::vector<Task>& tasks, const Pack& pack, const TaskEvents& events)
-      : pack_(pack), events_(events), order_(longest_first(tasks)) {}
+  Run(const std::vector<Cost>& costs, const Pack& pack, const TaskEvents& events)
+      : pack_(pack), events_(events), order_(longest_first(costs)) {}
 
   /// The next task, or stops the pipeline. Called by one thread at a time.
   std::size_t take_next(tbb::flow_control& control) {
@@ -101,10 +101,10 @@ class Run {
 
 }  // namespace
 
-void run_tasks(const std::vector<Task>& tasks, const Limits& limits, const Pack& pack,
+void run_tasks(const std::vector<Cost>& costs, const Limits& limits, const Pack& pack,
                const TaskEvents& events) {
-  Run run(tasks, pack, events);
-  const int live = live_limit(tasks, limits);
+  Run run(costs, pack, events);
+  const int live = live_limit(costs, limits);
   const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
                                     static_cast<std::size_t>(limits.threads));
   tbb::task_arena arena(limits.threads);
@@ -120,20 +120,20 @@ void run_tasks(const std::vector<Task>& tasks, const Limits& limits, const Pack&
   run.join();
 }
 
-std::vector<std::size_t> longest_first(const std::vector<Task>& tasks) {
-  std::vector<std::size_t> order(tasks.size());
+std::vector<std::size_t> longest_first(const std::vector<Cost>& costs) {
+  std::vector<std::size_t> order(costs.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return tasks[a].cost.cpu_seconds > tasks[b].cost.cpu_seconds;
+    return costs[a].cpu_seconds > costs[b].cpu_seconds;
   });
   return order;
 }
 
-int live_limit(const std::vector<Task>& tasks, const Limits& limits) {
+int live_limit(const std::vector<Cost>& costs, const Limits& limits) {
   if (limits.memory <= 0) return std::max(1, limits.threads);
   std::vector<double> bytes;
-  bytes.reserve(tasks.size());
-  for (const Task& task : tasks) bytes.push_back(task.cost.bytes);
+  bytes.reserve(costs.size());
+  for (const Cost& cost : costs) bytes.push_back(cost.bytes);
   std::sort(bytes.begin(), bytes.end(), std::greater<>());
   int live = 0;
   double sum = 0.0;
@@ -145,21 +145,21 @@ int live_limit(const std::vector<Task>& tasks, const Limits& limits) {
   return std::max(1, live);
 }
 
-std::string memory_warning(const std::vector<Task>& tasks, double memory) {
+std::string memory_warning(const std::vector<Cost>& costs, double memory) {
   double largest = 0.0;
-  for (const Task& task : tasks) largest = std::max(largest, task.cost.bytes);
+  for (const Cost& cost : costs) largest = std::max(largest, cost.bytes);
   if (memory <= 0 || largest <= memory) return "";
   const auto megabytes = [](double bytes) { return std::to_string(std::llround(bytes / 1e6)); };
   return "warning: the largest packing needs about " + megabytes(largest) + " MB, and " +
          megabytes(memory) + " MB can be had here; end other programs or make the bed smaller\n";
 }
 
-double estimate_wall(const std::vector<Task>& tasks, int live) {
+double estimate_wall(const std::vector<Cost>& costs, int live) {
   std::priority_queue<double, std::vector<double>, std::greater<>> free_at;
   for (int slot = 0; slot < std::max(1, live); ++slot) free_at.push(0.0);
   double end = 0.0;
-  for (const std::size_t index : longest_first(tasks)) {
-    const double done = free_at.top() + tasks[index].cost.cpu_seconds;
+  for (const std::size_t index : longest_first(costs)) {
+    const double done = free_at.top() + costs[index].cpu_seconds;
     free_at.pop();
     free_at.push(done);
     end = std::max(end, done);

@@ -16,11 +16,6 @@
 
 namespace grainsweep {
 
-/// One packing to make, known by its index.
-struct Task {
-  Cost cost;
-};
-
 struct Limits {
   int threads = 1;
   double memory = 0.0;  ///< bytes for all live packings together; 0 = unbounded
@@ -31,7 +26,7 @@ using Pack = std::function<Packing(std::size_t task, ThreadTeam& team, const Kee
 
 /// What came of a task. Cancelled packings do not count as finished.
 struct Finished {
-  std::size_t task = 0;  ///< index into the tasks
+  std::size_t task = 0;  ///< index into the costs
   Packing packing;
   bool threw = false;        ///< `pack` threw; the packing's reason says what
   double cpu_seconds = 0.0;  ///< of all threads that made it
@@ -46,23 +41,23 @@ struct TaskEvents {
   std::function<bool()> stop_asked;  ///< asked before each task and after each step of a packing
 };
 
-/// Runs the tasks; returns when all are finished or, after stop_asked, the running ones cancelled.
-/// A packing that fails or throws never ends the others.
-void run_tasks(const std::vector<Task>& tasks, const Limits& limits, const Pack& pack,
+/// Runs the tasks, one of each of the estimated `costs`; returns when all are finished or, after
+/// stop_asked, the running ones cancelled. A packing that fails or throws never ends the others.
+void run_tasks(const std::vector<Cost>& costs, const Limits& limits, const Pack& pack,
                const TaskEvents& events);
 
 /// Indices of the tasks by descending estimated CPU time; equal ones keep their order.
-std::vector<std::size_t> longest_first(const std::vector<Task>& tasks);
+std::vector<std::size_t> longest_first(const std::vector<Cost>& costs);
 
 /// How many packings may live at once: at most `threads`, and so that even the largest ones
 /// together stay within the memory; at least one.
-int live_limit(const std::vector<Task>& tasks, const Limits& limits);
+int live_limit(const std::vector<Cost>& costs, const Limits& limits);
 
 /// A line that says that the largest packing alone needs more than the memory, and what to do;
 /// empty if none does. It is tried all the same: costs are estimates.
-std::string memory_warning(const std::vector<Task>& tasks, double memory);
+std::string memory_warning(const std::vector<Cost>& costs, double memory);
 
 /// Wall time of the tasks, longest first, on so many live packings, s.
-double estimate_wall(const std::vector<Task>& tasks, int live);
+double estimate_wall(const std::vector<Cost>& costs, int live);
 
 }  // namespace grainsweep

@@ -14,10 +14,10 @@ namespace grainsweep {
 namespace {
 
 struct Bench {
-  std::vector<Task> tasks;
+  std::vector<Cost> costs;
 
-  explicit Bench(const std::vector<double>& costs, double bytes = 0.0) {
-    for (const double cost : costs) tasks.push_back({{cost, bytes}});
+  explicit Bench(const std::vector<double>& cpu_seconds, double bytes = 0.0) {
+    for (const double seconds : cpu_seconds) costs.push_back({seconds, bytes});
   }
 };
 
@@ -51,7 +51,7 @@ TEST_CASE("tasks start the longest first, equal ones in their order") {
   const Bench bench({1, 5, 3, 5, 2});
   Log log;
   run_tasks(
-      bench.tasks, {1, 0}, [](std::size_t, ThreadTeam&, const KeepGoing&) { return settled(); },
+      bench.costs, {1, 0}, [](std::size_t, ThreadTeam&, const KeepGoing&) { return settled(); },
       log.events());
   CHECK(log.started == std::vector<std::size_t>{1, 3, 2, 4, 0});
   CHECK(log.finished.size() == 5);
@@ -62,7 +62,7 @@ TEST_CASE("every task is finished exactly once on any number of threads") {
     const Bench bench(std::vector<double>(200, 1.0));
     Log log;
     run_tasks(
-        bench.tasks, {threads, 0},
+        bench.costs, {threads, 0},
         [](std::size_t, ThreadTeam&, const KeepGoing&) { return settled(); }, log.events());
     std::set<std::size_t> tasks;
     for (const Finished& finished : log.finished) tasks.insert(finished.task);
@@ -89,7 +89,7 @@ int most_alive(int threads, double memory, double bytes, int expected) {
     --alive;
     return settled();
   };
-  run_tasks(bench.tasks, {threads, memory}, pack, log.events());
+  run_tasks(bench.costs, {threads, memory}, pack, log.events());
   return most;
 }
 
@@ -106,24 +106,24 @@ TEST_CASE("memory bounds the packings that live at once") {
 
 TEST_CASE("the live limit makes room for the largest packings together") {
   const Bench bench({1, 1, 1, 1});
-  std::vector<Task> tasks = bench.tasks;
-  tasks[0].cost.bytes = 10;
-  tasks[1].cost.bytes = 100;
-  tasks[2].cost.bytes = 60;
-  tasks[3].cost.bytes = 5;
-  CHECK(live_limit(tasks, {4, 0}) == 4);
-  CHECK(live_limit(tasks, {4, 175}) == 4);
-  CHECK(live_limit(tasks, {4, 174}) == 3);
-  CHECK(live_limit(tasks, {4, 160}) == 2);
-  CHECK(live_limit(tasks, {4, 99}) == 1);
-  CHECK(live_limit(tasks, {2, 1000}) == 2);
+  std::vector<Cost> costs = bench.costs;
+  costs[0].bytes = 10;
+  costs[1].bytes = 100;
+  costs[2].bytes = 60;
+  costs[3].bytes = 5;
+  CHECK(live_limit(costs, {4, 0}) == 4);
+  CHECK(live_limit(costs, {4, 175}) == 4);
+  CHECK(live_limit(costs, {4, 174}) == 3);
+  CHECK(live_limit(costs, {4, 160}) == 2);
+  CHECK(live_limit(costs, {4, 99}) == 1);
+  CHECK(live_limit(costs, {2, 1000}) == 2);
 }
 
 TEST_CASE("a packing larger than the memory is announced, one that fits is not") {
   const Bench bench({1, 2}, 3e9);
-  CHECK(memory_warning(bench.tasks, 3e9).empty());
-  CHECK(memory_warning(bench.tasks, 0).empty());
-  CHECK_THAT(memory_warning(bench.tasks, 2e9),
+  CHECK(memory_warning(bench.costs, 3e9).empty());
+  CHECK(memory_warning(bench.costs, 0).empty());
+  CHECK_THAT(memory_warning(bench.costs, 2e9),
              Catch::Contains("needs about 3000 MB, and 2000 MB can be had"));
 }
 
@@ -137,7 +137,7 @@ TEST_CASE("a packing that throws or fails does not end the others") {
     if (task == 2) packing.result.status = PackingStatus::failed;
     return packing;
   };
-  run_tasks(bench.tasks, {1, 0}, pack, log.events());
+  run_tasks(bench.costs, {1, 0}, pack, log.events());
   REQUIRE(log.finished.size() == 4);
   CHECK(log.finished[0].threw);
   CHECK(log.finished[0].packing.result.status == PackingStatus::failed);
@@ -158,7 +158,7 @@ TEST_CASE("stopping keeps what is finished, cancels what runs and starts nothing
         keep_going({1, 0.1}) ? PackingStatus::settled : PackingStatus::cancelled;
     return packing;
   };
-  run_tasks(bench.tasks, {1, 0}, pack, log.events());
+  run_tasks(bench.costs, {1, 0}, pack, log.events());
   REQUIRE(log.finished.size() == 1);
   CHECK(log.finished[0].task == 0);
   CHECK(log.started == std::vector<std::size_t>{0, 1});
@@ -170,7 +170,7 @@ TEST_CASE("an error while storing stops the run and reaches the caller") {
   TaskEvents events = log.events();
   events.finished = [](Finished&&) { throw std::runtime_error("disk full"); };
   const Pack pack = [](std::size_t, ThreadTeam&, const KeepGoing&) { return settled(); };
-  CHECK_THROWS_WITH(run_tasks(bench.tasks, {2, 0}, pack, events), "disk full");
+  CHECK_THROWS_WITH(run_tasks(bench.costs, {2, 0}, pack, events), "disk full");
   CHECK(log.started.size() <= 4);
 }
 
@@ -184,7 +184,7 @@ TEST_CASE("CPU time is that of the packing's own thread, not time asleep") {
     while (task == 1 && std::chrono::steady_clock::now() < end) spin = spin + 1;
     return settled();
   };
-  run_tasks(bench.tasks, {1, 0}, pack, log.events());
+  run_tasks(bench.costs, {1, 0}, pack, log.events());
   REQUIRE(log.finished.size() == 2);
   CHECK(log.finished[0].cpu_seconds < 0.03);
   CHECK(log.finished[1].cpu_seconds > log.finished[0].cpu_seconds);
@@ -204,7 +204,7 @@ TEST_CASE("progress of a packing reaches the caller") {
     CHECK(keep_going({2, 0.5}));
     return settled();
   };
-  run_tasks(bench.tasks, {1, 0}, pack, events);
+  run_tasks(bench.costs, {1, 0}, pack, events);
   CHECK(shares == std::vector<double>{0.25, 0.5});
 }
 
@@ -218,9 +218,9 @@ TEST_CASE("no tasks end at once") {
 
 TEST_CASE("the estimated wall time is that of the longest-first order") {
   const Bench bench({2, 5, 4, 3});
-  CHECK(estimate_wall(bench.tasks, 1) == 14);
-  CHECK(estimate_wall(bench.tasks, 2) == 7);
-  CHECK(estimate_wall(bench.tasks, 8) == 5);
+  CHECK(estimate_wall(bench.costs, 1) == 14);
+  CHECK(estimate_wall(bench.costs, 2) == 7);
+  CHECK(estimate_wall(bench.costs, 8) == 5);
   CHECK(estimate_wall({}, 2) == 0);
 }
 
