@@ -42,6 +42,9 @@ ProvenanceReading read_provenance(const std::string& folder, Detail detail = Det
   }
 }
 
+/// Whether curves were read; a bed too low to be measured has none, and they are looked for again.
+bool has_curves(const Outcome& outcome) { return !outcome.result.profile_z.bins.empty(); }
+
 }  // namespace
 
 Results read_results(const std::string& folder, Detail detail) {
@@ -69,7 +72,7 @@ std::vector<RunRecord> recorded_runs(const std::string& folder, std::vector<std:
 std::vector<std::string> load_curves(const std::string& folder, std::vector<Row>& rows) {
   std::vector<std::string> damage;
   for (Row& row : rows) {
-    if (!row.outcome || row.outcome->stored_grains == 0) continue;
+    if (!row.outcome || row.outcome->stored_grains == 0 || has_curves(*row.outcome)) continue;
     try {
       set_curves(read_bed(folder, *row.outcome).curves, row.outcome->result);
     } catch (const FileError& error) {

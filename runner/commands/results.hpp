@@ -24,7 +24,7 @@ Results read_results(const std::string& folder, Detail detail = Detail::whole);
 /// The runs recorded in the folder so far; none if it is new. Appends to `damage` if they are lost.
 std::vector<RunRecord> recorded_runs(const std::string& folder, std::vector<std::string>& damage);
 
-/// Opens the stored bed of each row, checks the whole of it and keeps its curves, 10 kB or so. A
+/// Opens the stored bed of each row without curves, checks the whole of it and keeps them, 10 kB. A
 /// row whose bed is missing, damaged or another's becomes a pending one; returns what was left out,
 /// as in Results::damage.
 std::vector<std::string> load_curves(const std::string& folder, std::vector<Row>& rows);

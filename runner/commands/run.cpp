@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>
+#include <map>
 #include <set>
 #include <string_view>
 #include <unistd.h>
@@ -82,6 +83,16 @@ RunningSweep resume(const Sweep& sweep, const std::string& folder, bool retry_fa
   return running;
 }
 
+/// What was packed, from the disk: however many packings a run makes, it keeps none of them in
+/// memory meanwhile. Returns what was left out, as in Results::damage.
+std::vector<std::string> read_packed(RunningSweep& running) {
+  JournalReading stored = read_journals(running.folder);
+  std::map<std::string, Outcome> packed;
+  for (const Job* job : running.pending) packed.insert(stored.outcomes.extract(job->id));
+  take_outcomes(std::move(packed), running.rows);
+  return load_curves(running.folder, running.rows);
+}
+
 Provenance provenance_of(const RunOptions& options, const RunningSweep& running,
                          std::vector<std::string>& damage) {
   Provenance provenance;
@@ -123,8 +134,13 @@ int stopped(const Packed& packed, const RunOptions& options, const std::string& 
   return by_signal ? exit_stopped + stop_signal() : static_cast<int>(exit_left_out);
 }
 
-int exit_code_for(const StatusCounts& counts) {
-  return counts.failed + counts.not_settled > 0 ? exit_left_out : exit_done;
+/// Of a run that made all it had to. What is not there at its end was taken away meanwhile.
+int exit_code_for(const StatusCounts& counts, const std::string& folder) {
+  if (counts.pending > 0) {
+    std::cerr << "warning: " << counts.pending << " packings are no longer in " << folder
+              << ", though they were stored there; run the sweep again to make them anew\n";
+  }
+  return counts.pending + counts.failed + counts.not_settled > 0 ? exit_left_out : exit_done;
 }
 
 std::string presets_text() {
@@ -180,7 +196,10 @@ int perform(const RunOptions& options) {
   Provenance provenance = provenance_of(options, running, damage);
   std::cerr << damage_warnings(damage);
   Packed packed;
-  if (!running.pending.empty()) packed = record_and_pack(running, options, isa, provenance);
+  if (!running.pending.empty()) {
+    packed = record_and_pack(running, options, isa, provenance);
+    std::cerr << damage_warnings(read_packed(running));
+  }
 
   const std::vector<Row>& rows = running.rows;
   const StatusCounts counts = totals_of(rows).counts;
@@ -190,7 +209,7 @@ int perform(const RunOptions& options) {
   const bool is_whole = static_cast<std::size_t>(packed.packings) == running.pending.size();
   if (!is_whole) return stopped(packed, options, folder, counts, rows.size());
   if (!options.quiet) std::cout << closing_report(provenance, rows, analysis.families, folder);
-  return exit_code_for(counts);
+  return exit_code_for(counts, folder);
 }
 
 }  // namespace grainsweep

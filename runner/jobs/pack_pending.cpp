@@ -151,9 +151,7 @@ class Packer {
     const std::size_t task = finished.task;
     const Job& job = *running_.pending[task];
     finished.cpu_seconds += before_[task].cpu_seconds;
-    auto& row = running_.rows[static_cast<std::size_t>(&job - running_.sweep.jobs.data())];
-    const Outcome& outcome =
-        row.outcome.emplace(store(job, running_.folder, journal_, std::move(finished)));
+    const Outcome outcome = store(job, running_.folder, journal_, std::move(finished));
     checkpoints_of(job).remove();
     ++packed_.packings;
     const std::string line = packing_line(job, outcome) + went_on_text(before_[task].step);

@@ -16,7 +16,7 @@ namespace grainsweep {
 struct RunningSweep {
   const Sweep& sweep;
   std::string folder;
-  std::vector<Row> rows;  ///< one per job of the sweep; what is packed is added, with its curves
+  std::vector<Row> rows;  ///< one per job of the sweep, with what was stored before
   std::vector<const Job*> pending;
 };
 
