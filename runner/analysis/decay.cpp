@@ -57,16 +57,19 @@ LinearColumns columns_of(const Window& window, double log_length, double log_per
 Eigen::Vector3d coefficients_of(const LinearColumns& columns, const VectorXd& values) {
   Eigen::Matrix3d normal;
   Eigen::Vector3d right;
-  for (Index i = 0; i < 3; ++i) {
-    for (Index j = 0; j < 3; ++j) normal(i, j) = columns[i].dot(columns[j]);
-    right[i] = columns[i].dot(values);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto row = static_cast<Index>(i);
+    for (std::size_t j = 0; j < 3; ++j) {
+      normal(row, static_cast<Index>(j)) = columns[i].dot(columns[j]);
+    }
+    right[row] = columns[i].dot(values);
   }
   return normal.ldlt().solve(right);
 }
 
 /// What is left of `values` without the combination of columns with these coefficients.
 VectorXd remainder_of(VectorXd values, const LinearColumns& columns, const Eigen::Vector3d& by) {
-  for (Index i = 0; i < 3; ++i) values -= by[i] * columns[i];
+  for (std::size_t i = 0; i < 3; ++i) values -= by[static_cast<Index>(i)] * columns[i];
   return values;
 }
 

@@ -39,9 +39,10 @@ struct Cursor {
 /// what follows them is the start of the next.
 class Builder final : public nlohmann::json_sax<Json> {
  public:
-  Builder(const std::string& text, std::string file) : text_(text), file_(std::move(file)) {
-    end_ = text.starts_with(byte_order_mark) ? byte_order_mark.size() : 0;
-  }
+  Builder(const std::string& text, std::string file)
+      : text_(text),
+        file_(std::move(file)),
+        end_(text.starts_with(byte_order_mark) ? byte_order_mark.size() : 0) {}
 
   JsonReading read() {
     const Cursor begin{text_.data(), &reached_}, end{text_.data() + text_.size(), &reached_};
