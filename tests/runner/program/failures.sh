@@ -37,7 +37,7 @@ for ((try = 1; ; ++try)); do
   "$program" run sweep.json --threads 1 --out robbed >out.txt 2>error.txt &
   runner=$!
   until [ "$(cat robbed/journal-*.jsonl 2>/dev/null | wc -l)" -ge 2 ] || ! kill -0 $runner 2>/dev/null; do :; done
-  rm -rf robbed/states
+  mv robbed/states "stolen-$try" 2>/dev/null || true
   code=0
   wait $runner || code=$?
   if grep -qF "are no longer in robbed" error.txt; then break; fi
