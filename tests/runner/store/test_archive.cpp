@@ -8,7 +8,7 @@
 
 namespace grainsweep {
 
-enum class Side : std::int32_t { left = -1, right = 1 };
+enum class Hand : std::int32_t { left = -1, right = 1 };
 
 struct Inner {
   double number = 0.0;
@@ -21,7 +21,7 @@ constexpr auto members_of(const Inner* /*type*/) {
 struct Outer {
   std::uint8_t byte = 0;
   bool flag = false;
-  Side side = Side::left;
+  Hand side = Hand::left;
   std::string text;
   std::array<double, 2> pair{};
   std::optional<Inner> some, none;
@@ -35,7 +35,7 @@ constexpr auto members_of(const Outer* /*type*/) {
 namespace {
 
 Outer sample() {
-  Outer value{0xAB, true, Side::right, std::string("a\0b", 3), {5e-324, -0.0}, {}, {}, {}};
+  Outer value{0xAB, true, Hand::right, std::string("a\0b", 3), {5e-324, -0.0}, {}, {}, {}};
   value.some = Inner{std::numeric_limits<double>::quiet_NaN(), {-1, 2}};
   value.inner = {{1.0 / 3.0, {}}, {-std::numeric_limits<double>::infinity(), {7}}};
   return value;
@@ -46,7 +46,7 @@ TEST_CASE("a struct reads back bit by bit") {
   const auto back = value_in_file<Outer>("MARK", bytes);
   REQUIRE(back);
   CHECK(file_bytes("MARK", *back) == bytes);
-  CHECK(back->side == Side::right);
+  CHECK(back->side == Hand::right);
   CHECK(back->text.size() == 3);
   CHECK(back->pair[0] == 5e-324);
   CHECK(std::signbit(back->pair[1]));
