@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -115,9 +114,7 @@ std::vector<ForceColumn> force_columns(PolyhedronBed& bed, const ExecutionContex
 
 // ---- the same for all ----
 
-/// Degrees of freedom of a grain; they follow one another, grain after grain.
-template <class Kind>
-constexpr int freedoms = std::is_same_v<Kind, Sphere> ? 3 : 6;
+// Degrees of freedom follow one another, grain after grain.
 
 /// M^-1/2 H, in an order that suits its factors; `columns` are put into it.
 template <class Kind>
@@ -138,15 +135,15 @@ SparseMatrix contact_matrix(const Bed<Kind>& bed, std::vector<ForceColumn>& colu
   std::vector<Eigen::Triplet<double>> entries;
   for (std::size_t k = 0; k < columns.size(); ++k) {
     const auto add_side = [&](std::int32_t grain, const std::array<double, 6>& side) {
-      for (int i = 0; i < freedoms<Kind>; ++i) {
-        entries.emplace_back(freedoms<Kind> * grain + i, static_cast<int>(k),
+      for (int i = 0; i < Kind::degrees_of_freedom; ++i) {
+        entries.emplace_back(Kind::degrees_of_freedom * grain + i, static_cast<int>(k),
                              side[static_cast<std::size_t>(i)]);
       }
     };
     if (bed.is_grain(columns[k].b)) add_side(columns[k].b, columns[k].on_b);
     add_side(columns[k].a, columns[k].on_a);
   }
-  SparseMatrix matrix(freedoms<Kind> * static_cast<Eigen::Index>(bed.grains()),
+  SparseMatrix matrix(Kind::degrees_of_freedom * static_cast<Eigen::Index>(bed.grains()),
                       static_cast<Eigen::Index>(columns.size()));
   matrix.setFromTriplets(entries.begin(), entries.end());
   return matrix;
@@ -156,9 +153,10 @@ SparseMatrix contact_matrix(const Bed<Kind>& bed, std::vector<ForceColumn>& colu
 template <class Kind>
 Eigen::VectorXd carried_weights(const Bed<Kind>& bed) {
   const auto grains = static_cast<Eigen::Index>(bed.grains());
-  Eigen::VectorXd weights = Eigen::VectorXd::Zero(freedoms<Kind> * grains);
+  Eigen::VectorXd weights = Eigen::VectorXd::Zero(Kind::degrees_of_freedom * grains);
   for (Eigen::Index i = 0; i < grains; ++i) {
-    weights[freedoms<Kind> * i + 2] = 1.0 / std::sqrt(bed.motion[static_cast<std::size_t>(i)].w);
+    weights[Kind::degrees_of_freedom * i + 2] =
+        1.0 / std::sqrt(bed.motion[static_cast<std::size_t>(i)].w);
   }
   return weights;
 }
@@ -176,7 +174,7 @@ template <class Kind>
 void set_unbalance(const Eigen::VectorXd& scaled, const Bed<Kind>& bed, ForceBalance& balance) {
   double sum = 0.0;
   for (std::size_t i = 0; i < bed.grains(); ++i) {
-    const auto first = freedoms<Kind> * static_cast<Eigen::Index>(i);
+    const auto first = Kind::degrees_of_freedom * static_cast<Eigen::Index>(i);
     const double force = scaled.segment<3>(first).norm() * std::sqrt(bed.motion[i].w);
     const double net = std::max(force, net_torque(bed, scaled, i));
     balance.unbalance_max = std::max(balance.unbalance_max, net);

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <numeric>
-#include <type_traits>
 
 #include "engine/text.hpp"
 
@@ -83,11 +82,6 @@ std::vector<Hold> holds_of(const Grains& bed, const std::vector<ForceContact>& c
   return holds;
 }
 
-template <class Kind>
-constexpr std::int64_t degrees_of_freedom() {
-  return std::is_same_v<Kind, Sphere> ? 3 : 6;
-}
-
 std::string exceeds(const char* what, double value, double tolerance, const char* unit) {
   return std::string(what) + " " + number_text(value) + " " + unit + " exceeds " +
          number_text(tolerance);
@@ -110,14 +104,14 @@ RestReport measure_rest(Bed<Kind>& bed, const ExecutionContext& context, double 
     rest.contacts += closure.constraints;
   }
   rest.overlap_mean = overlap / std::max(closed, 1.0);
-  rest.isostatic_contacts = degrees_of_freedom<Kind>() * static_cast<std::int64_t>(bed.grains()) -
+  rest.isostatic_contacts = Kind::degrees_of_freedom * static_cast<std::int64_t>(bed.grains()) -
                             zero_modes(bed, contacts);
   return rest;
 }
 
 template <class Kind>
 std::int64_t zero_modes(const Bed<Kind>& bed, const std::vector<ForceContact>& contacts) {
-  constexpr bool turns = degrees_of_freedom<Kind>() > 3;
+  constexpr bool turns = Kind::degrees_of_freedom > 3;
   std::int64_t modes = 0;
   for (const Hold& hold : holds_of(bed, contacts)) {
     if (!hold.stands) continue;

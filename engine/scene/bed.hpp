@@ -19,10 +19,12 @@ namespace grainsweep {
 
 /// The kinds of grains. A bed holds one kind.
 struct Sphere {
+  static constexpr int degrees_of_freedom = 3;
   /// Grains that a subdomain of a large bed holds or more; see engine/rows/subdomains.hpp.
   static constexpr std::size_t subdomain_grains = 4000;
 };
 struct Polyhedron {
+  static constexpr int degrees_of_freedom = 6;
   static constexpr std::size_t subdomain_grains = 1000;  ///< their steps are dearer
 };
 

@@ -1,7 +1,7 @@
 // The threads that work on one packing: its own, and those that have none of their own left.
 //
-// oneTBB's own loop does it. A team of threads that waited for the next loop awake was less than 1
-// % faster at loops of 0.1 to 1.3 ms on two cores (medians of 25 rounds in turn).
+// oneTBB's own loop does it. A team of threads that waited for the next loop awake was faster by
+// less than 1 % at loops of 0.1 to 1.3 ms on two cores (medians of 25 rounds in turn).
 #pragma once
 
 #include <atomic>
