@@ -1,6 +1,7 @@
 # Shared by the stories of this folder: each is called as `bash <story>.sh <program>`, works in a
 # folder of its own and fails at the first thing that is not as it should be.
-set -euo pipefail
+set -Eeuo pipefail
+trap 'echo "FAILED: $0, line $LINENO: $BASH_COMMAND" >&2' ERR
 program=$(realpath "$1")
 here=$(mktemp -d)
 trap 'rm -rf "$here"' EXIT
