@@ -67,7 +67,6 @@ Point reference() {
   point.accuracy.precision = Precision::f64;
   point.accuracy.residual_tolerance = 1e-5;
   point.accuracy.rest_iterations = 2000;
-  point.accuracy.force_balance = BalanceCheck::skip;
   return point;
 }
 

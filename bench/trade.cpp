@@ -113,7 +113,7 @@ void add(const PackingResult& result, double share, Outcome& outcome) {
   outcome.contact_ratio += share * static_cast<double>(result.rest.contacts) /
                            static_cast<double>(result.rest.isostatic_contacts);
   outcome.overlap_mean += share * result.rest.overlap_mean;
-  outcome.residual += share * result.rest.residual;
+  outcome.residual += share * result.rest.step_residual;
   outcome.iterations += share * static_cast<double>(result.iterations);
   outcome.settled += result.status == PackingStatus::settled ? 1 : 0;
 }

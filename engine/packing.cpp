@@ -47,7 +47,6 @@ PackingResult result_of(const Fill& fill, const Bed<Kind>& bed, const SettleRepo
   result.reason = settled.cancelled ? "stopped on request" : failure;
   result.grains = static_cast<std::int64_t>(bed.grains());
   result.rest = settled.rest;
-  result.balance = settled.balance;
   result.steps = settled.steps;
   result.iterations = settled.iterations;
   result.state_hash = state_hash(bed);

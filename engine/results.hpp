@@ -24,11 +24,17 @@ enum class PackingStatus {
 /// "settled", "not_settled", "cancelled", "failed".
 const char* name_of(PackingStatus status);
 
+/// What forces leave on the grains, each in its own weight.
+struct Imbalance {
+  double mean = 0.0;
+  double max = 0.0;
+};
+
 /// How far from rest a bed is. Forces in m g, lengths in d, energies in m g d.
 struct RestReport {
-  /// Worst force-balance residual of a row, in m g, or in weights of its lighter grain where that
-  /// is lighter.
-  double residual = 0.0;
+  /// How well the last step was solved, motion of the bed included: worst residual of a row, in m
+  /// g, or in weights of its lighter grain where that is lighter.
+  double step_residual = 0.0;
   double kinetic_energy = 0.0;  ///< mean per grain of 1/2 m (dx/dt)^2, m g d
   double largest_motion = 0.0;  ///< largest displacement of a grain in the last step, d
   double overlap_mean = 0.0;    ///< mean over force-bearing contacts of max(0, -gap), d
@@ -36,17 +42,11 @@ struct RestReport {
   /// Force-bearing contacts closed to 1e-4 d, walls and floor included; of polyhedra a contact
   /// along a line counts 2, one over an area 3.
   std::int64_t contacts = 0;
+  /// Those that do not depend on others: all but where they are more than needed.
+  std::int64_t independent_contacts = 0;
   std::int64_t isostatic_contacts = 0;  ///< 3 N - zero modes; 6 N of polyhedra
-};
-
-/// What a direct solve of force balance on the final force-bearing contacts says; see
-/// engine/dynamics/balance.hpp. In a bed at rest the forces are unique, none pulls, and nothing is
-/// left unbalanced. The least force is NaN where the forces are not unique.
-struct ForceBalance {
-  bool unique = false;          ///< one set of forces fits the contacts best, not many
-  double least_force = 0.0;     ///< of a contact, m g; negative = one that must pull
-  double unbalance_max = 0.0;   ///< largest net force on a grain, in its own weight
-  double unbalance_mean = 0.0;  ///< mean of it
+  Imbalance
+      imbalance;  ///< static, on all contacts closed to 1e-4 d; see engine/dynamics/balance.hpp
 };
 
 /// Mean number of touching neighbours per grain whose centre lies in the measured slab.
@@ -111,9 +111,8 @@ struct PackingResult {
   std::string reason;  ///< empty when settled
   std::int64_t grains = 0;
   RestReport rest;
-  std::optional<ForceBalance> balance;  ///< if the accuracy asks for it
-  double surface_height = 0.0;          ///< z of the bed's free surface, d
-  double slab_bottom = 0.0;             ///< measured slab, d
+  double surface_height = 0.0;  ///< z of the bed's free surface, d
+  double slab_bottom = 0.0;     ///< measured slab, d
   double slab_top = 0.0;
   double solid_fraction = 0.0;  ///< exact solid volume in the slab over the slab's volume
   std::vector<Coordination> coordination;  ///< one entry per gap tolerance of the spec

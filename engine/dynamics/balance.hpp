@@ -1,26 +1,30 @@
-// Force balance by a direct solve: can the final contacts carry the bed, and in one way only?
+// Static balance: can the closed contacts carry the bed?
 //
-// The forces f that balance the weight best minimise |M^-1/2 (H f - w)|^2 over the force-bearing
-// contacts. Their normal equations A f = H^T M^-1 w with A = H^T M^-1 H are solved by sparse
-// Cholesky factors, independent of how the bed was settled. In a bed at rest all forces push, no
-// grain is left unbalanced, and A is regular: with as many contacts as degrees of freedom the
-// forces follow from the geometry alone.
+// Of all forces f >= 0 on the contacts with a gap below a tolerance, those that balance the weight
+// w best minimise |M^-1/2 (H f - w)|^2. What they leave is unique, even where the forces are not,
+// and has a meaning: by Gauss's principle of least constraint M^-1 (H f - w) are the accelerations
+// with which the grains would start to move if they were let go at rest. In a bed at rest there are
+// none.
+//
+// It is the problem of a step (engine/dynamics/step.hpp) of grains without motion whose gaps are
+// all closed, and the same sweeps solve it, in f64. Forces that are not yet the best ones push all
+// the same: what they leave is a bound from above.
 #pragma once
 
 #include "engine/context.hpp"
+#include "engine/dynamics/step.hpp"
 #include "engine/results.hpp"
-#include "engine/rows/polyhedron_contacts.hpp"
-#include "engine/rows/sphere_contacts.hpp"
 #include "engine/scene/bed.hpp"
 
 namespace grainsweep {
 
-/// Balances the force-bearing contacts of a bed whose contacts hold the impulses of a step of
-/// length `dt`; normals and points are measured anew in f64. Of polyhedra torques are balanced,
-/// too: what is left of one counts over the grain's circumradius, and a contact's force is the sum
-/// over its points.
+/// What the best forces leave on the grains of a bed whose contacts hold the impulses of a step of
+/// length `dt`, from which the search for them starts. All pairs and walls with a gap below
+/// `tolerance`, d, are contacts, measured anew in f64. Of polyhedra torques are balanced, too: what
+/// is left of one counts over the grain's circumradius. `closed` is memory.
 template <class Kind, class Real>
-ForceBalance balance_forces(Bed<Kind>& bed, const ExecutionContext& context, double dt,
-                            const Contacts<Kind, Real>& contacts);
+Imbalance static_imbalance(double tolerance, const ExecutionContext& context, const Bed<Kind>& bed,
+                           double dt, const Contacts<Kind, Real>& contacts,
+                           StepState<Kind, double>& closed);
 
 }  // namespace grainsweep

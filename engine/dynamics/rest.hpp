@@ -1,9 +1,10 @@
 // Whether a bed is at rest, and by how much it misses.
 //
-// Without friction a bed at rest carries exactly as many force-bearing contacts as it has degrees
-// of freedom that are not free: 3 per sphere, 6 per polyhedron, less the zero modes. Loose solves
-// leave overlaps and too many contacts, a bed still sliding has too few; so the count is a check on
-// everything else.
+// Without friction a bed of generic grains at rest carries exactly as many force-bearing contacts
+// as it has degrees of freedom that are not free: 3 per sphere, 6 per polyhedron, less the zero
+// modes. A bed still sliding has too few, and that is tested. Too many are no fault by themselves:
+// faces that lie flat on each other bring more than are needed (hyperstatic), and beds that rest on
+// each other too deeply fail by their overlaps.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +18,8 @@
 namespace grainsweep {
 
 /// Largest and mean overlap, and counts, of a bed whose contacts hold the impulses of a step of
-/// length `dt`. Measures the gaps anew; residual, kinetic energy and motion are left at 0.
+/// length `dt`. Measures the gaps anew; all contacts count as independent; what the last step did
+/// and the imbalance are left at 0.
 template <class Kind, class Real>
 RestReport measure_rest(Bed<Kind>& bed, const ExecutionContext& context, double dt,
                         StepState<Kind, Real>& state);
@@ -40,6 +42,9 @@ std::vector<double> force_sums(const Grains& bed, const std::vector<ForceContact
 /// No single pair may overlap deeper than so many times what is allowed for the mean: one grain
 /// stuck in another changes no mean.
 inline constexpr double deepest_overlap = 100.0;
+
+/// Whether a bed has more contacts than degrees of freedom by more than the tolerance.
+bool is_hyperstatic(const RestReport& rest, const Accuracy& accuracy);
 
 /// The first test of rest that `rest` fails, in words; empty if it passes all.
 std::string rest_failure(const RestReport& rest, const Accuracy& accuracy);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/dynamics/balance.hpp"
+#include "engine/dynamics/rank.hpp"
 #include "engine/dynamics/rest.hpp"
 #include "engine/dynamics/saved_beds.hpp"
 #include "engine/dynamics/saved_state.hpp"
@@ -28,6 +29,7 @@ struct Settling {
   const ExecutionContext& context;
   Bed<Kind>& bed;
   StepState<Kind, Real>& state;
+  StepState<Kind, double>& closed;  ///< memory of the static balance
   Stages stages;
   std::size_t stage = 0;  ///< the number of stages when the bed is at rest
   std::int64_t steps_in_stage = 0;
@@ -68,13 +70,18 @@ bool has_fallen(const Settling<Kind, Real>& s) {
 }
 
 template <class Kind, class Real>
-bool is_at_rest(Settling<Kind, Real>& s) {
+void look(Settling<Kind, Real>& s) {
   RestReport& rest = s.report.rest;
   rest = measure_rest(s.bed, s.context, s.settings.dt, s.state);
-  rest.residual = s.last.solve.residual;
+  rest.step_residual = s.last.solve.residual;
   rest.kinetic_energy = s.last.kinetic_energy;
   rest.largest_motion = s.last.largest_motion;
   s.report.failure = rest_failure(rest, s.accuracy);
+}
+
+template <class Kind, class Real>
+bool is_at_rest(Settling<Kind, Real>& s) {
+  look(s);
   return s.report.failure.empty();
 }
 
@@ -184,22 +191,31 @@ void come_to_rest(Settling<Kind, Real>& s, const KeepGoing& keep_going) {
   }
 }
 
-/// What is found out once, at the end.
+// ---- what is found out once, at the end ----
+
+template <class Kind, class Real>
+void look_closer(Settling<Kind, Real>& s) {
+  RestReport& rest = s.report.rest;
+  const Contacts<Kind, Real>& contacts = s.state.contacts;
+  const double dt = s.settings.dt;
+  if (is_hyperstatic(rest, s.accuracy)) {
+    rest.independent_contacts = independent_constraints(s.bed, s.context, dt, contacts);
+  }
+  rest.imbalance = static_imbalance(closed_gap, s.context, s.bed, dt, contacts, s.closed);
+}
+
 template <class Kind, class Real>
 void report_forces(Settling<Kind, Real>& s) {
   const double dt = s.settings.dt;
-  if (s.accuracy.force_balance == BalanceCheck::solve && !s.report.cancelled) {
-    s.report.balance = balance_forces(s.bed, s.context, dt, s.state.contacts);
-  }
   const std::vector<ForceContact> contacts = force_contacts(s.bed, dt, s.state.contacts);
   s.report.force = force_sums(s.bed, contacts);
   s.report.pair_forces = pair_forces(s.bed, contacts);
 }
 
 template <class Kind, class Real>
-SettleReport settle_in(StepState<Kind, Real>& state, const Accuracy& accuracy,
-                       const ExecutionContext& context, Bed<Kind>& bed, const KeepGoing& keep_going,
-                       std::string_view saved) {
+SettleReport settle_in(StepState<Kind, Real>& state, StepState<Kind, double>& closed,
+                       const Accuracy& accuracy, const ExecutionContext& context, Bed<Kind>& bed,
+                       const KeepGoing& keep_going, std::string_view saved) {
   forget(state);
   if (!is_fit(accuracy, bed)) {
     SettleReport precision_insufficient;
@@ -214,6 +230,7 @@ SettleReport settle_in(StepState<Kind, Real>& state, const Accuracy& accuracy,
                          .context = context,
                          .bed = bed,
                          .state = state,
+                         .closed = closed,
                          .stages = stages,
                          .settings = settings_of(accuracy, stages.front())};
   restore(saved, s);
@@ -222,7 +239,8 @@ SettleReport settle_in(StepState<Kind, Real>& state, const Accuracy& accuracy,
     s.report.failure = "the kinetic energy is not a finite number";
     return s.report;
   }
-  is_at_rest(s);
+  look(s);
+  look_closer(s);
   report_forces(s);
   return s.report;
 }
@@ -235,7 +253,8 @@ SettleReport settle(const Accuracy& accuracy, const ExecutionContext& context, B
   Workspace own;
   Workspace& memory = context.workspace != nullptr ? *context.workspace : own;
   const auto settle_as = [&](auto& state) {
-    return settle_in(state, accuracy, context, bed, keep_going, saved);
+    return settle_in(state, std::get<ClosedState<Kind>>(memory.closed), accuracy, context, bed,
+                     keep_going, saved);
   };
   return accuracy.precision == Precision::f32
              ? settle_as(std::get<StepState<Kind, float>>(memory.states))

@@ -11,7 +11,6 @@
 // act like tapping: see engine/dynamics/presets.hpp.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -34,9 +33,8 @@ struct SettleReport {
   bool sank = false;
   std::int64_t steps = 0;
   std::int64_t iterations = 0;
-  std::optional<ForceBalance> balance;  ///< if the accuracy asks for it
-  std::vector<double> force;            ///< sum of contact force magnitudes on each grain, m g
-  std::vector<PairForce> pair_forces;   ///< of the last step
+  std::vector<double> force;           ///< sum of contact force magnitudes on each grain, m g
+  std::vector<PairForce> pair_forces;  ///< of the last step
 };
 
 /// Settles `bed`, whose numbers must be finite; a state that becomes otherwise ends it at once and

@@ -10,11 +10,16 @@
 
 namespace grainsweep {
 
+/// Closed contacts of a bed, as the static balance solves them.
+template <class Kind>
+struct ClosedState : StepState<Kind, double> {};
+
 /// For one packing at a time.
 struct Workspace {
   std::tuple<StepState<Sphere, float>, StepState<Sphere, double>, StepState<Polyhedron, float>,
              StepState<Polyhedron, double>>
       states;
+  std::tuple<ClosedState<Sphere>, ClosedState<Polyhedron>> closed;
 };
 
 /// Forgets the last packing but keeps its memory.

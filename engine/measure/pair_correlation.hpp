@@ -12,6 +12,7 @@
 
 #include "engine/measure/slab.hpp"
 #include "engine/results.hpp"
+#include "engine/scene/bed.hpp"
 
 namespace grainsweep {
 

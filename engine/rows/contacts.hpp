@@ -59,6 +59,9 @@ inline constexpr double least_force = 1e-6;
 /// light grains can be small against every tolerance while their gaps are still open.
 inline constexpr double closed_gap = 1e-4;
 
+/// The gap of a row that nothing closes, d.
+inline constexpr double open_gap = 1e6;
+
 /// How a contact is closed where the grains are now.
 struct Closure {
   double gap = 0.0;     ///< least of its points, d; infinite if it is open by more than closed_gap

@@ -200,24 +200,24 @@ void visit_contacts(const PolyhedronContacts<Real>& contacts, Visit visit) {
   }
 }
 
-/// Parts that are not neighbours name no grain in common.
+/// Impulses of contacts times `factor`. Parts that are not neighbours name no grain in common.
 template <class Real>
-void collect_impulses(const PolyhedronBed& bed, const ParallelFor& loop,
-                      PolyhedronContacts<Real>& contacts) {
+void collect_impulses(const PolyhedronBed& bed, const ParallelFor& loop, double factor,
+                      const PolyhedronContacts<Real>& contacts, Carried<CarriedPoint>& carried) {
   const auto visit_all = [&](const auto& put) {
     visit_subdomains(contacts.found_parts, loop, [&](std::size_t p) {
       const ContactPart<Real>& part = contacts.parts[p];
       for (std::size_t k = 0; k < part.found.contacts.size(); ++k) {
         const PolyhedronContact& contact = part.found.contacts[k];
         for (std::size_t j = 0; j < contact.count; ++j) {
-          const double impulse = impulse_of(contacts, part, k, j);
+          const double impulse = factor * impulse_of(contacts, part, k, j);
           const Vector& place = part.found.points[contact.first + j].position;
           if (impulse > 0.0) put(contact.a, CarriedPoint{contact.b, place, impulse});
         }
       }
     });
   };
-  collect(bed.grains(), visit_all, contacts.carried);
+  collect(bed.grains(), visit_all, carried);
 }
 
 /// All contacts of a subdomain between the candidates. Returns what touch_pairs does.
@@ -262,6 +262,41 @@ void join(const ParallelFor& loop, PolyhedronContacts<Real>& contacts,
   });
 }
 
+/// Finds the contacts of all candidates. Returns what touch_pairs does.
+template <class Real>
+double touch_candidates(const TouchSettings& settings, const PolyhedronBed& bed,
+                        const ExecutionContext& context, PolyhedronContacts<Real>& contacts) {
+  contacts.found_parts = contacts.subdomains.count;
+  contacts.parts.resize(std::max(contacts.parts.size(), contacts.found_parts));
+  parallel_for(context.loop, contacts.found_parts, [&](std::size_t s) {
+    ContactPart<Real>& part = contacts.parts[s];
+    part.sunk =
+        touch_subdomain(settings, context.kernels, bed, s, contacts, part.narrow, part.found);
+  });
+  double sunk = 0.0;
+  for (std::size_t s = 0; s < contacts.found_parts; ++s) {
+    sunk = std::max(sunk, contacts.parts[s].sunk);
+  }
+  return sunk;
+}
+
+/// Rows of the contacts found, with the impulses that they carry.
+template <class Real>
+void lay_out_found(double correction, const PolyhedronBed& bed, const ExecutionContext& context,
+                   PolyhedronContacts<Real>& contacts) {
+  contacts.open_blocks.assign(bed.grains(), 0);
+  visit_subdomains(contacts.found_parts, context.loop, [&](std::size_t s) {
+    lay_out_part(bed, s, correction, contacts.open_blocks, contacts.parts[s]);
+    carry_impulses(contacts.carried, contacts.parts[s]);
+  });
+  std::vector<std::size_t> first_block;
+  join(context.loop, contacts, first_block);
+  share_out(contacts.subdomains, contacts.shares, [&](std::size_t s, auto& ranges) {
+    ranges.push_back({first_block[s], first_block[s + 1] - first_block[s]});
+  });
+  contacts.extrapolated.assign(contacts.impulse.size(), Real(0));
+}
+
 /// Grains `a` and `b` of each contact, and where it stands in its list; sorted.
 using NamedPlaces = std::vector<std::array<std::int64_t, 3>>;
 
@@ -280,9 +315,10 @@ NamedPlaces::const_iterator place_of(const PolyhedronContact& c, const NamedPlac
   return at != places.end() && (*at)[0] == c.a && (*at)[1] == c.b ? at : places.end();
 }
 
-/// Closed contacts, with no preference of faces that would hide the depth of an overlap.
-TouchSettings as_deep_as_they_are(double dt) {
-  TouchSettings settings = touch_settings(closed_gap, dt);
+/// Contacts with a gap below `near`, d, with no preference of faces that would hide the depth of an
+/// overlap.
+TouchSettings as_deep_as_they_are(double near, double dt) {
+  TouchSettings settings = touch_settings(near, dt);
   settings.of_depth = 0.0;
   return settings;
 }
@@ -303,29 +339,25 @@ void take_candidates(const PolyhedronBed& bed, const Candidates& candidates,
 template <class Real>
 double find_contacts(const TouchSettings& settings, double correction, const PolyhedronBed& bed,
                      const ExecutionContext& context, PolyhedronContacts<Real>& contacts) {
-  const std::size_t subdomains = contacts.subdomains.count;
-  collect_impulses(bed, context.loop, contacts);
-  contacts.parts.resize(std::max(contacts.parts.size(), subdomains));
-  contacts.found_parts = subdomains;
-  contacts.open_blocks.assign(bed.grains(), 0);
-  parallel_for(context.loop, subdomains, [&](std::size_t s) {
-    ContactPart<Real>& part = contacts.parts[s];
-    part.sunk =
-        touch_subdomain(settings, context.kernels, bed, s, contacts, part.narrow, part.found);
-  });
-  visit_subdomains(subdomains, context.loop, [&](std::size_t s) {
-    lay_out_part(bed, s, correction, contacts.open_blocks, contacts.parts[s]);
-    carry_impulses(contacts.carried, contacts.parts[s]);
-  });
-  std::vector<std::size_t> first_block;
-  join(context.loop, contacts, first_block);
-  share_out(contacts.subdomains, contacts.shares, [&](std::size_t s, auto& ranges) {
-    ranges.push_back({first_block[s], first_block[s + 1] - first_block[s]});
-  });
-  contacts.extrapolated.assign(contacts.impulse.size(), Real(0));
-  double sunk = 0.0;
-  for (std::size_t s = 0; s < subdomains; ++s) sunk = std::max(sunk, contacts.parts[s].sunk);
+  collect_impulses(bed, context.loop, 1.0, contacts, contacts.carried);
+  const double sunk = touch_candidates(settings, bed, context, contacts);
+  lay_out_found(correction, bed, context, contacts);
   return sunk;
+}
+
+template <class Real>
+void lay_out_closed(double tolerance, const ExecutionContext& context, const PolyhedronBed& bed,
+                    const Candidates& candidates, double dt, const PolyhedronContacts<Real>& from,
+                    PolyhedronContacts<double>& closed) {
+  collect_impulses(bed, context.loop, 1.0 / (dt * dt), from, closed.carried);
+  take_candidates(bed, candidates, closed, context.loop);
+  touch_candidates(as_deep_as_they_are(tolerance, dt), bed, context, closed);
+  for (std::size_t p = 0; p < closed.found_parts; ++p) {
+    for (ContactPoint& point : closed.parts[p].found.points) {
+      point.gap = point.gap < tolerance ? 0.0 : open_gap;
+    }
+  }
+  lay_out_found(1.0, bed, context, closed);
 }
 
 template <class Real>
@@ -354,7 +386,8 @@ std::vector<ContactList> closed_contacts(PolyhedronBed& bed, const ExecutionCont
   std::vector<ContactList> lists(now.subdomains.count);
   parallel_for(context.loop, lists.size(), [&](std::size_t s) {
     NarrowColumns columns;
-    touch_subdomain(as_deep_as_they_are(dt), context.kernels, bed, s, now, columns, lists[s]);
+    touch_subdomain(as_deep_as_they_are(closed_gap, dt), context.kernels, bed, s, now, columns,
+                    lists[s]);
     std::erase_if(lists[s].contacts,
                   [&](const PolyhedronContact& c) { return place_of(c, places) == places.end(); });
   });
@@ -374,7 +407,8 @@ std::vector<Closure> closures(PolyhedronBed& bed, const ExecutionContext& contex
   parallel_for(context.loop, contacts.subdomains.count, [&](std::size_t s) {
     NarrowColumns columns;
     ContactList now;
-    touch_subdomain(as_deep_as_they_are(dt), context.kernels, bed, s, contacts, columns, now);
+    touch_subdomain(as_deep_as_they_are(closed_gap, dt), context.kernels, bed, s, contacts, columns,
+                    now);
     for (const PolyhedronContact& c : now.contacts) {
       const auto at = place_of(c, places);
       if (at == places.end()) continue;
@@ -394,6 +428,12 @@ template double find_contacts(const TouchSettings&, double, const PolyhedronBed&
                               const ExecutionContext&, PolyhedronContacts<float>&);
 template double find_contacts(const TouchSettings&, double, const PolyhedronBed&,
                               const ExecutionContext&, PolyhedronContacts<double>&);
+template void lay_out_closed(double, const ExecutionContext&, const PolyhedronBed&,
+                             const Candidates&, double, const PolyhedronContacts<float>&,
+                             PolyhedronContacts<double>&);
+template void lay_out_closed(double, const ExecutionContext&, const PolyhedronBed&,
+                             const Candidates&, double, const PolyhedronContacts<double>&,
+                             PolyhedronContacts<double>&);
 template std::vector<ForceContact> force_contacts(const PolyhedronBed&, double,
                                                   const PolyhedronContacts<float>&);
 template std::vector<ForceContact> force_contacts(const PolyhedronBed&, double,

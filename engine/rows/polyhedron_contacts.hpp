@@ -82,6 +82,14 @@ template <class Real>
 double find_contacts(const TouchSettings& settings, double correction, const PolyhedronBed& bed,
                      const ExecutionContext& context, PolyhedronContacts<Real>& contacts);
 
+/// Finds the contacts between the candidates and lays out their points with a gap below
+/// `tolerance`, d, as rows without a gap, for a step of length 1. Contacts keep the forces that
+/// they have in `from` after a step of length `dt`.
+template <class Real>
+void lay_out_closed(double tolerance, const ExecutionContext& context, const PolyhedronBed& bed,
+                    const Candidates& candidates, double dt, const PolyhedronContacts<Real>& from,
+                    PolyhedronContacts<double>& closed);
+
 /// Impulse of point j of contact k of a part, in masses times d.
 template <class Real>
 double impulse_of(const PolyhedronContacts<Real>& contacts, const ContactPart<Real>& part,

@@ -39,15 +39,16 @@ void visit_pushing(const SphereBed& bed, const SphereContacts<Real>& contacts,
   });
 }
 
-template <class Real>
-void collect_impulses(const SphereBed& bed, const ParallelFor& loop,
-                      SphereContacts<Real>& contacts) {
+/// What `to` takes over from the contacts `from`: their impulses times `factor`.
+template <class From, class To>
+void collect_impulses(const SphereBed& bed, const ParallelFor& loop, double factor,
+                      const SphereContacts<From>& from, SphereContacts<To>& to) {
   const auto visit_all = [&](const auto& put) {
-    visit_pushing(bed, contacts, loop, [&](std::int32_t a, std::int32_t other, Real impulse) {
-      put(a, CarriedImpulse<Real>{other, impulse});
+    visit_pushing(bed, from, loop, [&](std::int32_t a, std::int32_t other, From impulse) {
+      put(a, CarriedImpulse<To>{other, static_cast<To>(factor * static_cast<double>(impulse))});
     });
   };
-  collect(bed.grains(), visit_all, contacts.layout.carried);
+  collect(bed.grains(), visit_all, to.layout.carried);
 }
 
 /// Impulse that the contact of grain `a` and `other` had; 0 if it did not push.
@@ -170,13 +171,11 @@ void update_wall_gaps(const SphereBed& bed, const WallRows& rows, double correct
   }
 }
 
-}  // namespace
-
+/// Rows of the candidates with the impulses that they carry.
 template <class Real>
-void lay_out(const SphereBed& bed, const Candidates& candidates, SphereContacts<Real>& contacts,
-             const ParallelFor& loop) {
+void lay_out_carried(const SphereBed& bed, const Candidates& candidates, const ParallelFor& loop,
+                     SphereContacts<Real>& contacts) {
   LayoutColumns<Real>& layout = contacts.layout;
-  collect_impulses(bed, loop, contacts);
   divide(bed, Sphere::subdomain_grains, candidates, loop, layout.subdomains);
   layout.columns.resize(std::max(layout.columns.size(), layout.subdomains.count + 1));
   layout.open_blocks.assign(bed.grains(), 0);
@@ -187,6 +186,27 @@ void lay_out(const SphereBed& bed, const Candidates& candidates, SphereContacts<
   join(loop, contacts);
   set_parts(contacts);
   contacts.extrapolated.assign(contacts.impulse.size(), Real(0));
+}
+
+}  // namespace
+
+template <class Real>
+void lay_out(const SphereBed& bed, const Candidates& candidates, SphereContacts<Real>& contacts,
+             const ParallelFor& loop) {
+  collect_impulses(bed, loop, 1.0, contacts, contacts);
+  lay_out_carried(bed, candidates, loop, contacts);
+}
+
+template <class Real>
+void lay_out_closed(double tolerance, const ExecutionContext& context, const SphereBed& bed,
+                    const Candidates& candidates, double dt, const SphereContacts<Real>& from,
+                    SphereContacts<double>& closed) {
+  collect_impulses(bed, context.loop, 1.0 / (dt * dt), from, closed);
+  lay_out_carried(bed, candidates, context.loop, closed);
+  update_gaps(bed, context, 1.0, closed);
+  for (RowBlock<double>& row : closed.rows) {
+    for (double& gap : row.gap) gap = gap < tolerance ? 0.0 : open_gap;
+  }
 }
 
 template <class Real>
@@ -238,6 +258,10 @@ template void lay_out(const SphereBed&, const Candidates&, SphereContacts<float>
                       const ParallelFor&);
 template void lay_out(const SphereBed&, const Candidates&, SphereContacts<double>&,
                       const ParallelFor&);
+template void lay_out_closed(double, const ExecutionContext&, const SphereBed&, const Candidates&,
+                             double, const SphereContacts<float>&, SphereContacts<double>&);
+template void lay_out_closed(double, const ExecutionContext&, const SphereBed&, const Candidates&,
+                             double, const SphereContacts<double>&, SphereContacts<double>&);
 template double update_gaps(const SphereBed&, const ExecutionContext&, double,
                             SphereContacts<float>&);
 template double update_gaps(const SphereBed&, const ExecutionContext&, double,

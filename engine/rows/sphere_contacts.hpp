@@ -77,6 +77,13 @@ template <class Real>
 void lay_out(const SphereBed& bed, const Candidates& candidates, SphereContacts<Real>& contacts,
              const ParallelFor& loop = serial_for);
 
+/// Lays out the candidates with a gap below `tolerance`, d, as rows without a gap, for a step of
+/// length 1. Contacts keep the forces that they have in `from` after a step of length `dt`.
+template <class Real>
+void lay_out_closed(double tolerance, const ExecutionContext& context, const SphereBed& bed,
+                    const Candidates& candidates, double dt, const SphereContacts<Real>& from,
+                    SphereContacts<double>& closed);
+
 /// Measures normal and gap of every row. `correction`: share of an overlap that a step repairs.
 /// Returns the most by which centres are nearer than sunk_share of the distance at which their
 /// grains touch, d; 0 if none are.

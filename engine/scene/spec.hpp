@@ -57,13 +57,6 @@ enum class Solver {
 /// Number type of the solver's rows and velocities; positions are always f64.
 enum class Precision { f32, f64 };
 
-/// Whether a direct solve of force balance certifies the final contacts. It costs a few
-/// per cent of a packing of 2000 grains and grows faster than the bed.
-enum class BalanceCheck {
-  skip,   ///< "skip"
-  solve,  ///< "solve"
-};
-
 /// How grains come down. See engine/dynamics/settle.hpp.
 enum class Protocol {
   heavy_ball,  ///< "heavy_ball": damped, in long steps; a descent to rest
@@ -81,12 +74,11 @@ struct Accuracy {
   int fall_iterations = 15;   ///< solver iterations per step while the bed compacts
   int creep_steps = 45;       ///< double steps after the fall, while the bed creeps to rest
   int rest_iterations = 100;  ///< most solver iterations per step at the end of the creep
-  double residual_tolerance = 1e-2;  ///< force balance at rest, m g, worst row
+  double residual_tolerance = 1e-2;  ///< worst residual of the last step at rest, m g
   double kinetic_tolerance = 1e-4;   ///< kinetic energy per grain at rest, m g d
-  double contact_tolerance = 0.02;   ///< |contacts / isostatic count - 1| at rest
+  double contact_tolerance = 0.02;   ///< share of the isostatic contacts that may lack at rest
   double overlap_tolerance = 1e-5;   ///< mean overlap of touching pairs at rest, d
   int max_steps = 2000;              ///< a bed that needs more is reported as not settled
-  BalanceCheck force_balance = BalanceCheck::skip;
 
   bool operator==(const Accuracy&) const = default;
 };

@@ -86,7 +86,6 @@ constexpr FieldUse derived_mean{.journal = false, .packings = false, .groups = t
 /// Parts of a result.
 namespace of {
 constexpr auto rest = &Result::rest;
-constexpr auto balance = &Result::balance;
 constexpr auto order = &Result::order;
 constexpr auto shape = &Result::shape_order;
 }  // namespace of
@@ -127,10 +126,18 @@ std::vector<Field> main_fields() {
       in_result<of::rest, &Rest::overlap_mean>(
           "overlap_mean", "d", "mean overlap of the force-bearing contacts", with_mean),
       in_result<of::rest, &Rest::overlap_max>("overlap_max", "d", "deepest overlap"),
-      in_result<of::rest, &Rest::residual>(
-          "residual", "m g",
-          "worst force-balance residual of a contact in the last step, in weights of its lighter "
-          "grain where that is lighter"),
+      in_result<of::rest, &Rest::imbalance, &Imbalance::mean>(
+          "static_imbalance_mean", "",
+          "net force on a grain in its own weight under the best forces on all contacts closed to "
+          "1e-4 d, none of which pulls; of polyhedra or net torque over its circumradius",
+          with_mean),
+      in_result<of::rest, &Rest::imbalance, &Imbalance::max>("static_imbalance_max", "",
+                                                             "the largest of them"),
+      in_result<of::rest, &Rest::step_residual>(
+          "step_residual", "m g",
+          "how well the last step was solved: worst residual of a contact, in weights of its "
+          "lighter "
+          "grain where that is lighter; not a balance of forces"),
       in_result<of::rest, &Rest::kinetic_energy>("kinetic_energy", "m g d",
                                                  "mean per grain in the last step"),
       in_result<&Result::steps>("steps", "", "steps taken", even_if_failed),
@@ -147,17 +154,11 @@ std::vector<Field> further_fields() {
       in_result<&Result::surface_height>("surface_height", "d", "z of the bed's free surface"),
       in_result<&Result::slab_bottom>("slab_bottom", "d", "z where the measured slab begins"),
       in_result<&Result::slab_top>("slab_top", "d", "z where it ends"),
+      in_result<of::rest, &Rest::independent_contacts>(
+          "independent_contacts", "",
+          "contacts that do not depend on others; counted where there are more than needed"),
       in_result<of::rest, &Rest::largest_motion>(
           "largest_motion", "d", "largest displacement of a grain in the last step"),
-      in_result<of::balance, &ForceBalance::unique>(
-          "forces_unique", "",
-          "whether one set of forces fits the contacts best; like the next three only where the "
-          "accuracy asks for a direct solve of force balance"),
-      in_result<of::balance, &ForceBalance::least_force>(
-          "least_force", "m g", "smallest contact force; negative if a contact must pull"),
-      in_result<of::balance, &ForceBalance::unbalance_max>(
-          "unbalance_max", "", "largest net force on a grain, in its own weight"),
-      in_result<of::balance, &ForceBalance::unbalance_mean>("unbalance_mean", "", "mean of it"),
       in_result<&Result::mean_diameter>("mean_diameter", "d", "of all grains"),
       in_result<&Result::mean_diameter_by_volume>("mean_diameter_by_volume", "d",
                                                   "the same, each grain weighted by its volume"),

@@ -271,19 +271,17 @@ Rows accuracy_rows() {
           "accuracy.rest_iterations", "[1, 1000000]",
           "most solver iterations per step at the end of the creep"),
       row<&S::accuracy, &A::residual_tolerance>("accuracy.residual_tolerance", "> 0",
-                                                "worst force imbalance at rest, m g"),
+                                                "worst residual of the last step at rest, m g"),
       row<&S::accuracy, &A::kinetic_tolerance>("accuracy.kinetic_tolerance", "> 0",
                                                "kinetic energy per grain at rest, m g d"),
-      row<&S::accuracy, &A::contact_tolerance>("accuracy.contact_tolerance", "> 0",
-                                               "|contacts / isostatic count - 1| at rest"),
+      row<&S::accuracy, &A::contact_tolerance>(
+          "accuracy.contact_tolerance", "> 0",
+          "share of the isostatic contacts that may lack at rest"),
       row<&S::accuracy, &A::overlap_tolerance>(
           "accuracy.overlap_tolerance", "> 0",
           "mean overlap of touching pairs at rest, d; no pair more than a hundred times it"),
       row<&S::accuracy, &A::max_steps>("accuracy.max_steps", "[1, 2147483647]",
                                        "steps after which a bed counts as not settled"),
-      row<&S::accuracy, &A::force_balance>(
-          "accuracy.force_balance", Names{"skip", "solve"},
-          "certify the final contacts by a direct solve of force balance"),
   };
 }
 

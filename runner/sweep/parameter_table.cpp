@@ -41,13 +41,6 @@ std::string default_text(const Parameter& parameter) {
   return value ? code(written_value(parameter, *value).dump()) : "";
 }
 
-/// A vertical bar would end the cell.
-std::string cell_text(const std::string& text) {
-  std::string escaped;
-  for (const char c : text) escaped += c == '|' ? std::string("\\|") : std::string(1, c);
-  return escaped;
-}
-
 }  // namespace
 
 std::string parameter_table() {
@@ -56,8 +49,8 @@ std::string parameter_table() {
       "|---|---|---|---|---|\n";
   for (const Parameter& parameter : parameters()) {
     table += "| " + code(parameter.path) + " | " + type_of(parameter) + " | " +
-             range_of(parameter) + " | " + default_text(parameter) + " | " +
-             cell_text(parameter.meaning) + " |\n";
+             range_of(parameter) + " | " + default_text(parameter) + " | " + parameter.meaning +
+             " |\n";
   }
   return table;
 }

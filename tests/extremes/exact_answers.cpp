@@ -106,27 +106,19 @@ Finding wedge_of_three(double half) {
   return finding;
 }
 
-/// A bed settled at an accuracy, its forces found again by a direct solve.
+/// A bed settled at an accuracy, and whether its closed contacts can carry it.
 Finding balance(std::int64_t grains, double width, const Accuracy& accuracy) {
   PackingSpec spec = small_spec(grains, accuracy);
   spec.box.length = 20;
   spec.box.width = width;
   SphereBed bed = *start<Sphere>(spec);
-  Workspace memory;
-  const ExecutionContext context(kernels(), serial_for, &memory);
-  const SettleReport report = settle(accuracy, context, bed, [](const Progress&) { return true; });
-  const double dt = last_step(accuracy);
-  const ForceBalance balance =
-      accuracy.precision == Precision::f32
-          ? balance_forces(bed, kernels(), dt,
-                           std::get<StepState<Sphere, float>>(memory.states).contacts)
-          : balance_forces(bed, kernels(), dt,
-                           std::get<StepState<Sphere, double>>(memory.states).contacts);
+  const SettleReport report =
+      settle(accuracy, kernels(), bed, [](const Progress&) { return true; });
   Finding finding;
   finding.finite = is_finite(bed);
   finding.unrest = report.failure;
-  const double bound = std::sqrt(2.0 * accuracy.kinetic_tolerance) / dt;
-  finding.answers = {{"mean unbalanced force of a grain, in its weight", balance.unbalance_mean,
+  const double bound = std::sqrt(2.0 * accuracy.kinetic_tolerance) / last_step(accuracy);
+  finding.answers = {{"mean unbalanced force of a grain, in its weight", report.rest.imbalance.mean,
                       bound,
                       "the best forces leave no more than those found, which move grains no faster "
                       "than the kinetic tolerance"}};

@@ -13,7 +13,8 @@ namespace {
 /// All the numbers that a packing which says nothing of failure must give.
 bool is_finite(const PackingResult& result) {
   bool finite = std::isfinite(result.solid_fraction) && std::isfinite(result.surface_height) &&
-                std::isfinite(result.rest.residual) && std::isfinite(result.rest.kinetic_energy) &&
+                std::isfinite(result.rest.step_residual) &&
+                std::isfinite(result.rest.kinetic_energy) &&
                 std::isfinite(result.rest.overlap_mean) && std::isfinite(result.mean_diameter);
   for (const Coordination& z : result.coordination) finite = finite && std::isfinite(z.with_walls);
   return finite;
