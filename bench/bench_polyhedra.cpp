@@ -1,4 +1,5 @@
-// Narrow phase of polyhedra: items are pairs, at random turns, a third of them overlapping.
+// Narrow phase of polyhedra: items are pairs, at random turns, a third of them overlapping; those
+// of `touching` all touch.
 #include <algorithm>
 #include <random>
 
@@ -7,6 +8,7 @@
 #include "engine/narrow/manifold.hpp"
 #include "engine/shape/hull.hpp"
 #include "engine/shape/pinacoid.hpp"
+#include "tests/support/shapes.hpp"
 
 namespace grainsweep::bench {
 namespace {
@@ -60,6 +62,23 @@ Bed close_pairs(const ConvexShape& shape) {
   return bed;
 }
 
+/// Brings the grains of every pair together along their centres' line, until they overlap by up to
+/// .02 d along it.
+std::vector<PairPose> touching_poses(const ConvexShape& shape) {
+  Random random;
+  std::vector<PairPose> poses = close_pairs(shape).poses;
+  for (PairPose& pose : poses) {
+    const Vector n = pose.centre.normalized();
+    pose.centre = 2.0 * shape.circumradius * n;
+    Simplex simplex;
+    for (int k = 0; k < 40; ++k) {
+      pose.centre -= closest_points({shape, shape, pose}, simplex).distance * n;
+    }
+    pose.centre -= random.uniform(0.0, 0.02) * n;
+  }
+  return poses;
+}
+
 void count_pairs(benchmark::State& run) {
   run.SetItemsProcessed(run.iterations() * static_cast<std::int64_t>(pairs));
   run.counters["per_pair"] =
@@ -87,14 +106,18 @@ void batch_axes(benchmark::State& run) {
 
 /// Calls what(pair, k) for every pair of a shape.
 template <class What>
-void over_pairs(benchmark::State& run, const ConvexShape& shape, What what) {
-  const Bed bed = close_pairs(shape);
+void over_pairs(benchmark::State& run, const ConvexShape& shape, const std::vector<PairPose>& poses,
+                What what) {
   for (auto _ : run) {
     for (std::size_t k = 0; k < pairs; ++k) {
-      what(ShapePair{shape, shape, bed.poses[k]}, k);
+      what(ShapePair{shape, shape, poses[k]}, k);
     }
   }
   count_pairs(run);
+}
+template <class What>
+void over_pairs(benchmark::State& run, const ConvexShape& shape, What what) {
+  over_pairs(run, shape, close_pairs(shape).poses, what);
 }
 
 void axes(benchmark::State& run, const ConvexShape& shape) {
@@ -138,14 +161,23 @@ void clip(benchmark::State& run, const ConvexShape& shape) {
 }
 
 /// The whole chain, warm, with a margin of .05 d.
-void whole_touch(benchmark::State& run, const ConvexShape& shape) {
+void touch_poses(benchmark::State& run, const ConvexShape& shape,
+                 const std::vector<PairPose>& poses) {
   ClipColumns columns;
   std::vector<ContactPoint> points;
   std::vector<PairMemory> memories(pairs);
-  over_pairs(run, shape, [&](const ShapePair& pair, std::size_t k) {
+  over_pairs(run, shape, poses, [&](const ShapePair& pair, std::size_t k) {
     points.clear();
     benchmark::DoNotOptimize(touch(pair, {0.05, 1e-3}, memories[k], columns, points));
   });
+}
+
+void whole_touch(benchmark::State& run, const ConvexShape& shape) {
+  touch_poses(run, shape, close_pairs(shape).poses);
+}
+
+void touching(benchmark::State& run, const ConvexShape& shape) {
+  touch_poses(run, shape, touching_poses(shape));
 }
 
 void on_isas(benchmark::internal::Benchmark* benchmark) {
@@ -166,6 +198,13 @@ BENCHMARK_CAPTURE(clip, pinacoid, pinacoid({}));
 BENCHMARK_CAPTURE(clip, hull_of_20, rock());
 BENCHMARK_CAPTURE(whole_touch, pinacoid, pinacoid({}));
 BENCHMARK_CAPTURE(whole_touch, hull_of_20, rock());
+BENCHMARK_CAPTURE(touching, pinacoid, pinacoid({}));
+BENCHMARK_CAPTURE(touching, hull_of_20, rock());
+BENCHMARK_CAPTURE(touching, cube, testing::cube());
+BENCHMARK_CAPTURE(touching, icosahedron, testing::icosahedron());
+BENCHMARK_CAPTURE(touching, dodecahedron, testing::dodecahedron());
+BENCHMARK_CAPTURE(touching, prism_16, testing::prism(16, 1.0));
+BENCHMARK_CAPTURE(touching, prism_32, testing::prism(32, 1.0));
 
 }  // namespace
 }  // namespace grainsweep::bench

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace grainsweep {
 
@@ -120,81 +121,167 @@ ContactAxis pinacoid_best_face(const ShapePair& pair) {
 
 // ---- any shapes ----
 
-void try_axis(const ShapePair& pair, AxisKind kind, std::int32_t i, std::int32_t j, const Vector& n,
-              ContactAxis& best) {
-  const double bound = n.dot(pair.pose.centre) - inner_reach(pair);
-  if (best.kind != AxisKind::none && bound <= best.separation) return;
-  keep_better({kind, i, j, n, separation_along(pair, n)}, best);
-}
+// Share of the pair's size by which the axis found may be the second best.
+constexpr double same_depth = 1e-14;
+// Cosines this small have no sign.
+constexpr double no_sign = 1e-12;
 
-ContactAxis best_face(const ShapePair& pair) {
-  ContactAxis best;
-  for (std::int32_t k = 0; k < static_cast<std::int32_t>(pair.a.faces.size()); ++k) {
-    try_axis(pair, AxisKind::face_of_a, k, -1, face_normal(pair.a, k), best);
-  }
-  for (std::int32_t k = 0; k < static_cast<std::int32_t>(pair.b.faces.size()); ++k) {
-    try_axis(pair, AxisKind::face_of_b, -1, k, -(pair.pose.turn * face_normal(pair.b, k)), best);
-  }
-  return best;
-}
-
-/// What bounds the separation along n from above: the inner balls of both shapes, and points of
-/// b minus points of a, n . x of which it cannot exceed. The points are those that bounded the last
-/// axes measured: an axis near one of those is mostly ruled out by its points.
-struct Bounds {
-  double inner = 0.0;
-  std::array<Vector, 8> differences = {};
+/// A pair as one of its shapes sees it, in its own frame: some corners of the other shape bound how
+/// far its faces and edges can part the two.
+struct View {
+  const ConvexShape& shape;
+  double scale;
+  const ConvexShape& other;  ///< its point x lies at centre + turn x
+  Vector centre;
+  Matrix turn;  ///< and scale
+  std::array<Vector, 8> corners = {};
   std::size_t count = 0;
 
-  void add(const Vector& difference) { differences[count++ % differences.size()] = difference; }
-
-  /// Whether the axis along n, of any length, may part the shapes by more than `best`.
-  bool allow(const Vector& n, double along, double best) const {
-    const double length = n.norm(), least = best * length;
-    if (along - inner * length <= least) return false;
-    const auto known =
-        differences.begin() + static_cast<std::ptrdiff_t>(std::min(count, differences.size()));
-    return std::all_of(differences.begin(), known,
-                       [&](const Vector& x) { return n.dot(x) > least; });
+  /// Learns the corner of the other shape that is lowest along n.
+  const Vector& add_lowest(const Vector& n) {
+    const auto k = static_cast<std::size_t>(farthest_vertex(other, -(turn.transpose() * n)));
+    return corners[count++ % corners.size()] = centre + turn * other.vertices[k];
+  }
+  double height(std::int32_t face, const Vector& x) const {
+    const Face& plane = shape.faces[static_cast<std::size_t>(face)];
+    return plane.normal.dot(x) - scale * plane.offset;
+  }
+  template <class Below>
+  bool is_above(Below below) const {
+    return std::none_of(
+        corners.begin(),
+        corners.begin() + static_cast<std::ptrdiff_t>(std::min(count, corners.size())), below);
+  }
+  /// Whether a face may part the shapes by more than `best`.
+  bool may_part(std::int32_t face, double best) const {
+    return is_above([&](const Vector& x) { return height(face, x) <= best; });
+  }
+  /// Whether an axis between the normals of the faces at an edge may do so; best <= 0. It cannot if
+  /// a corner lies that deep below both faces: the normals between are their sums with weights of
+  /// together 1 or more.
+  bool may_part(const Edge& edge, double best) const {
+    return is_above([&](const Vector& x) {
+      return height(edge.left, x) <= best && height(edge.right, x) <= best;
+    });
   }
 };
 
-/// Measures the axis n of two edges if it can be the best one.
-void try_edges(const ShapePair& pair, std::int32_t i, std::int32_t j, const Vector& n,
-               Bounds& bounds, ContactAxis& best) {
-  if (!bounds.allow(n, n.dot(pair.pose.centre), best.separation)) return;
-  const std::int32_t p = farthest_vertex(pair.a, n);
-  const std::int32_t q = farthest_vertex(pair.b, -(pair.pose.turn.transpose() * n));
-  const Vector difference = pair.vertex_b(q) - pair.vertex_a(p);
-  bounds.add(difference);
-  const double separation = n.dot(difference);
-  if (separation > best.separation) best = {AxisKind::edges, i, j, n, separation};
+/// The face of the view's shape that parts the shapes by more than `best`, and by the most; -1 if
+/// none does. `best` is its separation then.
+std::int32_t better_face(View& view, double& best) {
+  std::int32_t found = -1;
+  for (std::int32_t k = 0; k < static_cast<std::int32_t>(view.shape.faces.size()); ++k) {
+    if (!view.may_part(k, best)) continue;
+    const double separation = view.height(k, view.add_lowest(face_normal(view.shape, k)));
+    if (separation <= best) continue;
+    best = separation;
+    found = k;
+  }
+  return found;
 }
 
-/// The axes of edges that part the shapes better than their best face; none if there are none.
-ContactAxis better_edges(const ShapePair& pair, double face_separation) {
+ContactAxis best_face(const ShapePair& pair, View& a, View& b) {
+  double best = -std::numeric_limits<double>::infinity();
+  const std::int32_t of_a = better_face(a, best), of_b = better_face(b, best);
+  if (of_b < 0) return {AxisKind::face_of_a, of_a, -1, face_normal(pair.a, of_a), best};
+  return {AxisKind::face_of_b, -1, of_b, -(pair.pose.turn * face_normal(pair.b, of_b)), best};
+}
+
+/// Direction of an edge in the frame of its shape.
+Vector along(const ConvexShape& shape, const Edge& edge) {
+  return (shape.vertices[static_cast<std::size_t>(edge.to)] -
+          shape.vertices[static_cast<std::size_t>(edge.from)])
+      .normalized();
+}
+
+/// An edge in the frame of a, with the normals of the faces at it.
+struct PlacedEdge {
+  Vector from, along, left, right;  ///< `along` is a unit vector
+  std::int32_t direction;
+};
+
+PlacedEdge edge_of_a(const ShapePair& pair, const Edge& edge) {
+  return {pair.vertex_a(edge.from), along(pair.a, edge), face_normal(pair.a, edge.left),
+          face_normal(pair.a, edge.right), edge.direction};
+}
+PlacedEdge edge_of_b(const ShapePair& pair, const Edge& edge) {
+  const Matrix& turn = pair.pose.turn;
+  return {pair.vertex_b(edge.from), turn * along(pair.b, edge),
+          turn * face_normal(pair.b, edge.left), turn * face_normal(pair.b, edge.right),
+          edge.direction};
+}
+
+/// Whether the axis p.along x q.along, times `sign`, lies between the normals at both edges: only
+/// there do they make a face of the difference of the shapes (Gauss map; Gregorius 2013). Kept in
+/// doubt.
+bool arcs_cross(const PlacedEdge& p, const PlacedEdge& q, double sign) {
+  return sign * q.along.dot(p.left) >= -no_sign && sign * q.along.dot(p.right) <= no_sign &&
+         sign * p.along.dot(q.left) >= -no_sign && sign * p.along.dot(q.right) <= no_sign;
+}
+
+void try_edges(const ShapePair& pair, const PlacedEdge& p, const PlacedEdge& q, ContactAxis& best) {
+  for (const double sign : {1.0, -1.0}) {
+    if (!arcs_cross(p, q, sign)) continue;
+    const Vector n = sign * across(p.along, q.along);
+    if (n.dot(q.from - p.from) <= best.separation || n.isZero(0.0)) continue;
+    const double separation = separation_along(pair, n);
+    if (separation <= best.separation) continue;
+    best = {AxisKind::edges, p.direction, q.direction, n, separation};
+  }
+}
+
+/// The edges of a that may part the shapes by more than `best`, from the first one on, as many as
+/// there is room for.
+struct EdgesOfA {
+  std::array<PlacedEdge, 16> edges;
+  std::size_t count = 0;
+
+  /// Returns the first edge that was not looked at.
+  std::size_t fill(const ShapePair& pair, const View& a, std::size_t first, double best) {
+    for (count = 0; first < pair.a.edges.size() && count < edges.size(); ++first) {
+      const Edge& edge = pair.a.edges[first];
+      if (a.may_part(edge, best)) edges[count++] = edge_of_a(pair, edge);
+    }
+    return first;
+  }
+};
+
+/// The axes of edges that part the shapes better than their best face; kind none if there are none.
+ContactAxis better_edges(const ShapePair& pair, const View& a, const View& b, double face) {
+  const double size =
+      pair.pose.scale_a * pair.a.circumradius + pair.pose.scale_b * pair.b.circumradius;
+  const double least = std::min(face, 0.0) + same_depth * size;
   ContactAxis best;
-  best.separation = face_separation;
-  Bounds bounds{inner_reach(pair), {}, 0};
-  for (std::int32_t j = 0; j < static_cast<std::int32_t>(pair.b.edge_directions.size()); ++j) {
-    const Vector v = pair.pose.turn * edge_direction(pair.b, j);
-    for (std::int32_t i = 0; i < static_cast<std::int32_t>(pair.a.edge_directions.size()); ++i) {
-      const Vector& u = edge_direction(pair.a, i);
-      const Vector rough = u.cross(v);
-      const double along = rough.dot(pair.pose.centre);
-      // Nearly parallel edges have a cross product too rough to be judged by.
-      const bool sharp = rough.squaredNorm() > well_crossed;
-      if (sharp && !bounds.allow(rough, along, best.separation) &&
-          !bounds.allow(-rough, -along, best.separation)) {
-        continue;
-      }
-      const Vector n = across(u, v);
-      if (n.isZero(0.0)) continue;
-      try_edges(pair, i, j, n, bounds, best);
-      try_edges(pair, i, j, -n, bounds, best);
+  best.separation = face;
+  EdgesOfA of_a;
+  for (std::size_t next = 0; next < pair.a.edges.size();) {
+    next = of_a.fill(pair, a, next, least);
+    if (of_a.count == 0) break;
+    for (const Edge& edge : pair.b.edges) {
+      if (!b.may_part(edge, least)) continue;
+      const PlacedEdge q = edge_of_b(pair, edge);
+      for (std::size_t k = 0; k < of_a.count; ++k) try_edges(pair, of_a.edges[k], q, best);
     }
   }
   return best.kind == AxisKind::none ? ContactAxis{} : best;
+}
+
+ContactAxes hull_axes(const ShapePair& pair, double enough) {
+  const PairPose& pose = pair.pose;
+  const Matrix back = pose.turn.transpose();
+  View a{pair.a, pose.scale_a, pair.b, pose.centre, pose.scale_b * pose.turn};
+  View b{pair.b, pose.scale_b, pair.a, -(back * pose.centre), pose.scale_a * back};
+  a.add_lowest(a.centre);
+  b.add_lowest(b.centre);
+  const ContactAxis face = best_face(pair, a, b);
+  if (face.separation >= enough) return {face, {}};
+  return {face, better_edges(pair, a, b, face.separation)};
+}
+
+ContactAxes pinacoid_axes(const ShapePair& pair, double enough) {
+  const ContactAxis face = pinacoid_best_face(pair);
+  if (face.separation >= enough) return {face, {}};
+  return {face, pinacoid_better_edges(pair, face)};
 }
 
 bool are_pinacoids(const ShapePair& pair) { return pair.a.pinacoid && pair.b.pinacoid; }
@@ -207,10 +294,7 @@ double separation_along(const ShapePair& pair, const Vector& normal) {
 }
 
 ContactAxes separating_axes(const ShapePair& pair, double enough) {
-  const bool closed = are_pinacoids(pair);
-  const ContactAxis face = closed ? pinacoid_best_face(pair) : best_face(pair);
-  if (face.separation >= enough) return {face, {}};
-  return {face, closed ? pinacoid_better_edges(pair, face) : better_edges(pair, face.separation)};
+  return are_pinacoids(pair) ? pinacoid_axes(pair, enough) : hull_axes(pair, enough);
 }
 
 bool parted_by(const PinacoidBlock& block, std::size_t lane, double margin, double scale) {

@@ -2,8 +2,14 @@
 //
 // The separation along a unit vector n is min n . x over b minus max n . x over a. Its largest
 // value over the face normals of both and the cross products of their edges is minus the depth of
-// an overlap (the shortest translation that parts the shapes), exactly; of shapes apart it is at
-// most their distance, and positive.
+// an overlap (the shortest translation that parts the shapes), exactly; of shapes apart it is
+// positive and at most their distance, which it reaches where a corner faces a face or edges cross.
+//
+// Few of a hull's edges can give the best axis. That of two edges counts only if it lies between
+// the normals of the faces at both edges (their arcs on the Gauss map cross; Gregorius, GDC 2013).
+// And where a corner of the other shape lies as deep below both faces at an edge as the best axis
+// so far says, no normal between those two parts the shapes better: most pairs leave no edge at
+// all.
 #pragma once
 
 #include <limits>
@@ -37,9 +43,9 @@ struct ContactAxes {
 /// Separation along the unit vector `normal` from a to b, d.
 double separation_along(const ShapePair& pair, const Vector& normal);
 
-/// The best axes, f64: every face and every pair of distinct edge directions that can be the best.
-/// Two pinacoids take their widths in closed form (44 axes). Edges are not looked for if a face
-/// parts the shapes by `enough`, d.
+/// The best axes, f64, of every face and every pair of edges that can be the best. Two pinacoids
+/// take their widths in closed form and all 44 axes. Edges are not looked for if a face parts the
+/// shapes by `enough`, d.
 ContactAxes separating_axes(const ShapePair& pair,
                             double enough = std::numeric_limits<double>::infinity());
 

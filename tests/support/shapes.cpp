@@ -30,6 +30,48 @@ ConvexShape cube() { return box_shape(1, 1, 1); }
 
 ConvexShape tetrahedron() { return hull_of({{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}}); }
 
+ConvexShape octahedron() {
+  return hull_of({{0.5, 0, 0}, {-0.5, 0, 0}, {0, 0.5, 0}, {0, -0.5, 0}, {0, 0, 0.5}, {0, 0, -0.5}});
+}
+
+namespace {
+
+const double golden = (1.0 + std::sqrt(5.0)) / 2.0;
+
+/// (0, +-y, +-z) and what turning the axes makes of it.
+void add_turned(double y, double z, std::vector<Vector>& corners) {
+  for (const double p : {-y, y}) {
+    for (const double q : {-z, z}) {
+      corners.insert(corners.end(), {{0, p, q}, {p, q, 0}, {q, 0, p}});
+    }
+  }
+}
+
+}  // namespace
+
+ConvexShape dodecahedron() {
+  std::vector<Vector> corners = box_shape(0.6, 0.6, 0.6).vertices;
+  add_turned(0.3 / golden, 0.3 * golden, corners);
+  return hull_of(corners);
+}
+
+ConvexShape icosahedron() {
+  std::vector<Vector> corners;
+  add_turned(0.3, 0.3 * golden, corners);
+  return hull_of(corners);
+}
+
+ConvexShape prism(int sides, double height) {
+  std::vector<Vector> corners;
+  for (int k = 0; k < sides; ++k) {
+    const double angle = 2.0 * 3.14159265358979323846 * k / sides;
+    for (const double z : {-height / 2.0, height / 2.0}) {
+      corners.emplace_back(0.5 * std::cos(angle), 0.5 * std::sin(angle), z);
+    }
+  }
+  return hull_of(corners);
+}
+
 Vector random_direction(Draw& draw) {
   const Draw::Direction n = draw.direction();
   return {n.x, n.y, n.z};

@@ -20,6 +20,13 @@ HullVertices asked_for(const std::vector<Vector>& points);
 ConvexShape box_shape(double length, double width, double height);
 ConvexShape cube();
 ConvexShape tetrahedron();
+ConvexShape octahedron();
+/// 20 corners.
+ConvexShape dodecahedron();
+/// 12 corners.
+ConvexShape icosahedron();
+/// An upright prism over a regular polygon whose corners lie on a circle of diameter 1.
+ConvexShape prism(int sides, double height);
 
 Vector random_direction(Draw& draw);
 
