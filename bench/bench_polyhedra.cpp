@@ -163,7 +163,7 @@ void clip(benchmark::State& run, const ConvexShape& shape) {
 /// The whole chain, warm, with a margin of .05 d.
 void touch_poses(benchmark::State& run, const ConvexShape& shape,
                  const std::vector<PairPose>& poses) {
-  ClipColumns columns;
+  TouchColumns columns;
   std::vector<ContactPoint> points;
   std::vector<PairMemory> memories(pairs);
   over_pairs(run, shape, poses, [&](const ShapePair& pair, std::size_t k) {

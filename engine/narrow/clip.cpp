@@ -186,13 +186,13 @@ Segment farthest_edge(const PlacedShape& shape, std::int32_t direction, const Ve
   return best;
 }
 
-Vector midway(const Segment& p, const Segment& q) {
+Closeness closest_of(const Segment& p, const Segment& q) {
   const Vector u = p.to - p.from, v = q.to - q.from, w = p.from - q.from;
   const double uu = u.dot(u), uv = u.dot(v), vv = v.dot(v), uw = u.dot(w), vw = v.dot(w);
   const double on_p = std::clamp((uv * vw - vv * uw) / (uu * vv - uv * uv), 0.0, 1.0);
   const double on_q = std::clamp((uv * on_p + vw) / vv, 0.0, 1.0);
   const double again = std::clamp((uv * on_q - uw) / uu, 0.0, 1.0);
-  return (p.from + again * u + q.from + on_q * v) / 2.0;
+  return {(p.from + again * u + q.from + on_q * v) / 2.0, (w + again * u - on_q * v).norm()};
 }
 
 }  // namespace grainsweep

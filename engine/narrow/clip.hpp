@@ -36,7 +36,13 @@ struct Segment {
 /// The edge of a direction (index of edge_directions) that reaches farthest along n.
 Segment farthest_edge(const PlacedShape& shape, std::int32_t direction, const Vector& n);
 
-/// The middle of the shortest line between two segments that are not parallel.
-Vector midway(const Segment& p, const Segment& q);
+/// The shortest line between two segments.
+struct Closeness {
+  Vector midway;
+  double distance;  ///< d
+};
+
+/// Of segments that are not parallel.
+Closeness closest_of(const Segment& p, const Segment& q);
 
 }  // namespace grainsweep

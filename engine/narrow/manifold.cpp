@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <optional>
 
 #include "engine/narrow/clip.hpp"
 
@@ -20,29 +18,20 @@ bool closer_than(const ShapePair& pair, double margin) {
   return pair.pose.centre.squaredNorm() <= reach * reach;
 }
 
-bool parted(const ShapePair& pair, const Vector& axis, double margin) {
-  return !axis.isZero(0.0) && separation_along(pair, axis) > margin;
+bool parted_along(const ShapePair& pair, const Vector& axis, double margin) {
+  return separation_along(pair, axis) > margin;
 }
 
-/// What GJK says of a pair that the axes are to look at: a face that parts the shapes by so much
-/// needs no comparison with edges. Nothing if it finds them further apart than the margin; it then
-/// remembers the axis. Pinacoids need no such test: their axes cost no more.
-std::optional<double> enough_of_a_face(const ShapePair& pair, const TouchSettings& settings,
-                                       PairMemory& memory) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  if (pair.a.pinacoid && pair.b.pinacoid) return infinity;
-  const Closest closest = closest_points(pair, memory.simplex);
-  if (closest.overlap) return infinity;
-  if (closest.distance > settings.margin) {
-    const Vector axis = (closest.on_b - closest.on_a).normalized();
-    // What parts them must do so by itself: where rounding leaves a doubt the axes decide.
-    if (parted(pair, axis, settings.margin)) {
-      memory.axis = axis;
-      return std::nullopt;
-    }
-  }
-  // No edges part them by more than their distance.
-  return closest.distance - settings.preference;
+/// Whether GJK finds a pair further apart than the margin; it then remembers the axis.
+bool parted_by_distance(const ShapePair& pair, double margin, PairMemory& memory) {
+  Simplex simplex;
+  const Closest closest = closest_points(pair, simplex);
+  if (closest.distance <= margin) return false;
+  const Vector axis = (closest.on_b - closest.on_a).normalized();
+  // What parts them must do so by itself: where rounding leaves a doubt they touch.
+  if (!parted_along(pair, axis, margin)) return false;
+  memory.axis = axis;
+  return true;
 }
 
 /// Whether edges part the pair better than every face by more than this.
@@ -53,10 +42,11 @@ bool edges_part_better(const ContactAxes& axes, double preference) {
 
 /// Where nothing lies above the touching face, or no edges cross: a point between the closest
 /// points.
-ContactPoint lone_point(const ShapePair& pair, double separation) {
+void touch_between(const ShapePair& pair, PairContact& contact, std::vector<ContactPoint>& points) {
   Simplex simplex;
   const Closest closest = closest_points(pair, simplex);
-  return {(closest.on_a + closest.on_b) / 2.0, separation};
+  points.push_back({(closest.on_a + closest.on_b) / 2.0, contact.separation});
+  contact.is_beside = true;
 }
 
 void touch_faces(const ShapePair& pair, const ContactAxis& axis, double margin,
@@ -68,29 +58,28 @@ void touch_faces(const ShapePair& pair, const ContactAxis& axis, double margin,
   }
 }
 
-void touch_edges(const ShapePair& pair, const ContactAxis& axis,
-                 std::vector<ContactPoint>& points) {
+void touch_edges(const ShapePair& pair, const ContactAxis& axis, double margin,
+                 PairContact& contact, std::vector<ContactPoint>& points) {
   const PlacedShape a = placed_a(pair), b = placed_b(pair);
   const Segment edge_a = farthest_edge(a, axis.a, axis.normal);
   const Segment edge_b = farthest_edge(b, axis.b, -axis.normal);
   const double between = axis.normal.dot(edge_b.from - edge_a.from);
   const double size = a.scale * a.shape.circumradius + b.scale * b.shape.circumradius;
-  const bool crossing = std::abs(between - axis.separation) <= on_plane * size;
-  points.push_back(crossing ? ContactPoint{midway(edge_a, edge_b), axis.separation}
-                            : lone_point(pair, axis.separation));
+  if (std::abs(between - axis.separation) > on_plane * size) return;
+  const Closeness closest = closest_of(edge_a, edge_b);
+  points.push_back({closest.midway, axis.separation});
+  contact.is_beside = closest.distance > margin;
 }
 
 PairContact touch_along(const ShapePair& pair, const ContactAxis& axis, double margin,
                         ClipColumns& columns, std::vector<ContactPoint>& points) {
-  PairContact contact{axis.normal, axis.separation, axis.kind, points.size(), 0};
+  PairContact contact{axis.normal, axis.separation, axis.kind, points.size(), 0, false};
   if (axis.kind == AxisKind::edges) {
-    touch_edges(pair, axis, points);
+    touch_edges(pair, axis, margin, contact, points);
   } else {
     touch_faces(pair, axis, margin, columns, points);
   }
-  if (points.size() == contact.first) {
-    points.push_back(lone_point(pair, axis.separation));
-  }
+  if (points.size() == contact.first) touch_between(pair, contact, points);
   contact.count = points.size() - contact.first;
   return contact;
 }
@@ -118,17 +107,19 @@ PairContact touch(const ShapePair& pair, const TouchSettings& settings, const Co
 }
 
 PairContact touch(const ShapePair& pair, const TouchSettings& settings, PairMemory& memory,
-                  ClipColumns& columns, std::vector<ContactPoint>& points) {
-  if (!closer_than(pair, settings.margin)) return {};
-  if (parted(pair, memory.axis, settings.margin)) return {};
-  const std::optional<double> enough = enough_of_a_face(pair, settings, memory);
-  if (!enough) return {};
-  const ContactAxes axes = separating_axes(pair, *enough);
-  if (axes.separation() > settings.margin) {
-    memory.axis = axes.face.separation > settings.margin ? axes.face.normal : axes.edges.normal;
+                  TouchColumns& columns, std::vector<ContactPoint>& points) {
+  const double margin = settings.margin;
+  if (!closer_than(pair, margin)) return {};
+  if (!memory.axis.isZero(0.0) && parted_along(pair, memory.axis, margin)) return {};
+  const ContactAxes axes = separating_axes(pair, memory.axis, columns.axes);
+  memory.axis = axes.best().normal;
+  if (axes.separation() > margin) return {};
+  PairContact contact = touch(pair, settings, axes, columns.clip, points);
+  if (contact.is_beside && parted_by_distance(pair, margin, memory)) {
+    points.resize(contact.first);
     return {};
   }
-  return touch(pair, settings, axes, columns, points);
+  return contact;
 }
 
 std::size_t touch_wall(const ConvexShape& shape, const Pose& pose, const Wall& wall, double margin,

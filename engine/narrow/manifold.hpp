@@ -23,8 +23,7 @@ struct TouchSettings {
 
 /// What a pair remembers from step to step; a default one is always allowed.
 struct PairMemory {
-  Vector axis = Vector::Zero();  ///< the axis that parted the pair; zero if none did
-  Simplex simplex;
+  Vector axis = Vector::Zero();  ///< that parted it best, or along which it touched; zero at first
 };
 
 /// A point of contact.
@@ -43,6 +42,9 @@ struct PairContact {
   double separation = 0.0;         ///< along the normal, d; no more than the least gap
   AxisKind kind = AxisKind::none;  ///< what gave the normal; none = no contact within the margin
   std::size_t first = 0, count = 0;
+  /// Its one point does not tell that the shapes are within the margin: the touching features lie
+  /// beside each other.
+  bool is_beside = false;
 };
 
 /// Working memory, kept from call to call.
@@ -51,10 +53,15 @@ struct ClipColumns {
   std::vector<double> beyond;  ///< how far beyond a side each corner of the polygon lies, d
 };
 
+struct TouchColumns {
+  AxisColumns axes;
+  ClipColumns clip;
+};
+
 /// The contact of a pair; its points are appended to `points`. No contact (count 0) if the shapes
 /// are further apart than the margin.
 PairContact touch(const ShapePair& pair, const TouchSettings& settings, PairMemory& memory,
-                  ClipColumns& columns, std::vector<ContactPoint>& points);
+                  TouchColumns& columns, std::vector<ContactPoint>& points);
 
 /// The same with the axes known, as from the batch kernel.
 PairContact touch(const ShapePair& pair, const TouchSettings& settings, const ContactAxes& axes,

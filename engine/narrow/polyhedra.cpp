@@ -31,7 +31,7 @@ void append(GrainPair pair, const PairPose& pose, const PairContact& contact, Co
 /// Any convex shape: pair by pair.
 double touch_each(const TouchSettings& settings, const PolyhedronBed& bed,
                   std::span<const GrainPair> pairs, std::span<PairMemory> memory,
-                  ClipColumns& columns, ContactList& found) {
+                  TouchColumns& columns, ContactList& found) {
   double sunk = 0.0;
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     const Ends at = ends_of(pairs[k]);
@@ -85,8 +85,8 @@ double touch_pinacoids(const TouchSettings& settings, const Kernels& kernels,
     if (parted_by(block, lane, settings.margin, scale)) continue;
     const ShapePair pair{bed.shape, bed.shape, pair_pose(bed, at.a, at.b)};
     const ContactAxes axes = separating_axes(pair, block, lane);
-    append(columns.close[k], pair.pose, touch(pair, settings, axes, columns.clip, found.points),
-           found);
+    append(columns.close[k], pair.pose,
+           touch(pair, settings, axes, columns.touch.clip, found.points), found);
   }
   return sunk;
 }
@@ -103,7 +103,7 @@ double touch_pairs(const TouchSettings& settings, const Kernels& kernels, const 
                    std::span<const GrainPair> pairs, std::span<PairMemory> memory,
                    NarrowColumns& columns, ContactList& found) {
   return bed.shape.pinacoid ? touch_pinacoids(settings, kernels, bed, pairs, columns, found)
-                            : touch_each(settings, bed, pairs, memory, columns.clip, found);
+                            : touch_each(settings, bed, pairs, memory, columns.touch, found);
 }
 
 void touch_wall(std::size_t k, const std::vector<std::int32_t>& grains, double margin,

@@ -1,9 +1,9 @@
 // Which polyhedra of a list of pairs touch, and where.
 //
 // The chain of a pair: balls, then for pinacoids the batch test of separating axes and its best
-// axes measured anew in f64, for other shapes the pair's last parting axis, GJK and separating
-// axes; at last the contact polygon, every point of it (engine/narrow/manifold.hpp). Walls touch
-// with all vertices near them.
+// axes measured anew in f64, for other shapes the pair's last axis and separating axes; at last the
+// contact polygon, every point of it, and GJK where no point tells that the pair is near
+// (engine/narrow/manifold.hpp). Walls touch with all vertices near them.
 #pragma once
 
 #include <cstdint>
@@ -39,7 +39,7 @@ struct ContactList {
 struct NarrowColumns {
   std::vector<GrainPair> close;     ///< pinacoids whose balls meet
   std::vector<PinacoidBlock> axes;  ///< what the batch test says of them
-  ClipColumns clip;
+  TouchColumns touch;
 };
 
 /// Appends the contacts of `pairs`; `memory` is what each of them remembers. Returns the most by

@@ -126,58 +126,70 @@ constexpr double same_depth = 1e-14;
 // Cosines this small have no sign.
 constexpr double no_sign = 1e-12;
 
-/// A pair as one of its shapes sees it, in its own frame: some corners of the other shape bound how
-/// far its faces and edges can part the two.
+/// A pair as one of its shapes sees it, in its own frame. Corners of the other shape, learnt one by
+/// one, bound how far faces and edges can part the two.
 struct View {
   const ConvexShape& shape;
   double scale;
   const ConvexShape& other;  ///< its point x lies at centre + turn x
   Vector centre;
   Matrix turn;  ///< and scale
-  std::array<Vector, 8> corners = {};
-  std::size_t count = 0;
+  CornerHeights& known;
 
-  /// Learns the corner of the other shape that is lowest along n.
-  const Vector& add_lowest(const Vector& n) {
-    const auto k = static_cast<std::size_t>(farthest_vertex(other, -(turn.transpose() * n)));
-    return corners[count++ % corners.size()] = centre + turn * other.vertices[k];
+  std::size_t faces() const { return shape.faces.size(); }
+  void forget() {
+    known.corners.clear();
+    known.heights.clear();
+    known.least.assign(faces(), std::numeric_limits<double>::infinity());
   }
-  double height(std::int32_t face, const Vector& x) const {
-    const Face& plane = shape.faces[static_cast<std::size_t>(face)];
-    return plane.normal.dot(x) - scale * plane.offset;
+  /// Learns the corner that is lowest along n, and returns its heights over the faces.
+  const double* add_lowest(const Vector& n) {
+    const std::int32_t corner = farthest_vertex(other, -(turn.transpose() * n));
+    const auto at = std::find(known.corners.begin(), known.corners.end(), corner);
+    const auto first = static_cast<std::size_t>(at - known.corners.begin()) * faces();
+    if (at == known.corners.end()) add(corner);
+    return known.heights.data() + first;
   }
-  template <class Below>
-  bool is_above(Below below) const {
-    return std::none_of(
-        corners.begin(),
-        corners.begin() + static_cast<std::ptrdiff_t>(std::min(count, corners.size())), below);
+  void add(std::int32_t corner) {
+    const Vector x = centre + turn * other.vertices[static_cast<std::size_t>(corner)];
+    const std::size_t first = known.heights.size();
+    known.corners.push_back(corner);
+    known.heights.resize(first + faces());
+    for (std::size_t k = 0; k < faces(); ++k) {
+      const Face& face = shape.faces[k];
+      const double height = face.normal.dot(x) - scale * face.offset;
+      known.heights[first + k] = height;
+      known.least[k] = std::min(known.least[k], height);
+    }
   }
-  /// Whether a face may part the shapes by more than `best`.
-  bool may_part(std::int32_t face, double best) const {
-    return is_above([&](const Vector& x) { return height(face, x) <= best; });
-  }
-  /// Whether an axis between the normals of the faces at an edge may do so; best <= 0. It cannot if
-  /// a corner lies that deep below both faces: the normals between are their sums with weights of
-  /// together 1 or more.
+  /// Whether an axis between the normals of the faces at an edge may part the shapes by more than
+  /// `best` <= 0. It cannot if a corner lies that deep below both faces: the normals between are
+  /// their sums with weights of together 1 or more.
   bool may_part(const Edge& edge, double best) const {
-    return is_above([&](const Vector& x) {
-      return height(edge.left, x) <= best && height(edge.right, x) <= best;
-    });
+    const double* heights = known.heights.data();
+    for (std::size_t k = 0; k < known.corners.size(); ++k, heights += faces()) {
+      if (heights[edge.left] <= best && heights[edge.right] <= best) return false;
+    }
+    return true;
   }
 };
 
 /// The face of the view's shape that parts the shapes by more than `best`, and by the most; -1 if
-/// none does. `best` is its separation then.
+/// none does. `best` is its separation then. Faces that may do so by the corners known are measured
+/// in the order of what those allow.
 std::int32_t better_face(View& view, double& best) {
   std::int32_t found = -1;
-  for (std::int32_t k = 0; k < static_cast<std::int32_t>(view.shape.faces.size()); ++k) {
-    if (!view.may_part(k, best)) continue;
-    const double separation = view.height(k, view.add_lowest(face_normal(view.shape, k)));
-    if (separation <= best) continue;
-    best = separation;
-    found = k;
+  for (;;) {
+    std::vector<double>& least = view.known.least;
+    const auto most = std::max_element(least.begin(), least.end());
+    if (!(*most > best)) return found;
+    const auto k = static_cast<std::int32_t>(most - least.begin());
+    *most = view.add_lowest(face_normal(view.shape, k))[k];
+    if (*most > best) {
+      best = *most;
+      found = k;
+    }
   }
-  return found;
 }
 
 ContactAxis best_face(const ShapePair& pair, View& a, View& b) {
@@ -230,61 +242,45 @@ void try_edges(const ShapePair& pair, const PlacedEdge& p, const PlacedEdge& q, 
   }
 }
 
-/// The edges of a that may part the shapes by more than `best`, from the first one on, as many as
-/// there is room for.
-struct EdgesOfA {
-  std::array<PlacedEdge, 16> edges;
-  std::size_t count = 0;
-
-  /// Returns the first edge that was not looked at.
-  std::size_t fill(const ShapePair& pair, const View& a, std::size_t first, double best) {
-    for (count = 0; first < pair.a.edges.size() && count < edges.size(); ++first) {
-      const Edge& edge = pair.a.edges[first];
-      if (a.may_part(edge, best)) edges[count++] = edge_of_a(pair, edge);
-    }
-    return first;
-  }
-};
-
 /// The axes of edges that part the shapes better than their best face; kind none if there are none.
-ContactAxis better_edges(const ShapePair& pair, const View& a, const View& b, double face) {
+ContactAxis better_edges(const ShapePair& pair, const View& a, const View& b, double face,
+                         std::vector<const Edge*>& of_a) {
   const double size =
       pair.pose.scale_a * pair.a.circumradius + pair.pose.scale_b * pair.b.circumradius;
   const double least = std::min(face, 0.0) + same_depth * size;
+  of_a.clear();
+  for (const Edge& edge : pair.a.edges) {
+    if (a.may_part(edge, least)) of_a.push_back(&edge);
+  }
+  if (of_a.empty()) return {};
   ContactAxis best;
   best.separation = face;
-  EdgesOfA of_a;
-  for (std::size_t next = 0; next < pair.a.edges.size();) {
-    next = of_a.fill(pair, a, next, least);
-    if (of_a.count == 0) break;
-    for (const Edge& edge : pair.b.edges) {
-      if (!b.may_part(edge, least)) continue;
-      const PlacedEdge q = edge_of_b(pair, edge);
-      for (std::size_t k = 0; k < of_a.count; ++k) try_edges(pair, of_a.edges[k], q, best);
-    }
+  for (const Edge& edge : pair.b.edges) {
+    if (!b.may_part(edge, least)) continue;
+    const PlacedEdge q = edge_of_b(pair, edge);
+    for (const Edge* p : of_a) try_edges(pair, edge_of_a(pair, *p), q, best);
   }
   return best.kind == AxisKind::none ? ContactAxis{} : best;
 }
 
-ContactAxes hull_axes(const ShapePair& pair, double enough) {
+ContactAxes hull_axes(const ShapePair& pair, const Vector& guess, AxisColumns& columns) {
   const PairPose& pose = pair.pose;
   const Matrix back = pose.turn.transpose();
-  View a{pair.a, pose.scale_a, pair.b, pose.centre, pose.scale_b * pose.turn};
-  View b{pair.b, pose.scale_b, pair.a, -(back * pose.centre), pose.scale_a * back};
-  a.add_lowest(a.centre);
-  b.add_lowest(b.centre);
+  View a{pair.a, pose.scale_a, pair.b, pose.centre, pose.scale_b * pose.turn, columns.over_a};
+  View b{pair.b, pose.scale_b, pair.a, -(back * pose.centre), pose.scale_a * back, columns.over_b};
+  const Vector axis = guess.isZero(0.0) ? pose.centre : guess;
+  a.forget();
+  b.forget();
+  a.add_lowest(axis);
+  b.add_lowest(-(back * axis));
   const ContactAxis face = best_face(pair, a, b);
-  if (face.separation >= enough) return {face, {}};
-  return {face, better_edges(pair, a, b, face.separation)};
+  return {face, better_edges(pair, a, b, face.separation, columns.edges_of_a)};
 }
 
-ContactAxes pinacoid_axes(const ShapePair& pair, double enough) {
+ContactAxes pinacoid_axes(const ShapePair& pair) {
   const ContactAxis face = pinacoid_best_face(pair);
-  if (face.separation >= enough) return {face, {}};
   return {face, pinacoid_better_edges(pair, face)};
 }
-
-bool are_pinacoids(const ShapePair& pair) { return pair.a.pinacoid && pair.b.pinacoid; }
 
 }  // namespace
 
@@ -293,8 +289,14 @@ double separation_along(const ShapePair& pair, const Vector& normal) {
          pair.pose.scale_b * reach_along(pair.b, -(pair.pose.turn.transpose() * normal));
 }
 
-ContactAxes separating_axes(const ShapePair& pair, double enough) {
-  return are_pinacoids(pair) ? pinacoid_axes(pair, enough) : hull_axes(pair, enough);
+ContactAxes separating_axes(const ShapePair& pair, const Vector& guess, AxisColumns& columns) {
+  const bool closed = pair.a.pinacoid && pair.b.pinacoid;
+  return closed ? pinacoid_axes(pair) : hull_axes(pair, guess, columns);
+}
+
+ContactAxes separating_axes(const ShapePair& pair) {
+  AxisColumns columns;
+  return separating_axes(pair, Vector::Zero(), columns);
 }
 
 bool parted_by(const PinacoidBlock& block, std::size_t lane, double margin, double scale) {

@@ -12,7 +12,7 @@
 // all.
 #pragma once
 
-#include <limits>
+#include <vector>
 
 #include "engine/narrow/shape_pair.hpp"
 #include "kernels/kernels.hpp"
@@ -35,19 +35,33 @@ struct ContactAxes {
   ContactAxis face;
   ContactAxis edges;  ///< kind none if no edges do better than the face
 
-  double separation() const {
-    return edges.kind == AxisKind::none ? face.separation : edges.separation;
-  }
+  const ContactAxis& best() const { return edges.kind == AxisKind::none ? face : edges; }
+  double separation() const { return best().separation; }
+};
+
+/// Corners of one shape over the faces of the other.
+struct CornerHeights {
+  std::vector<std::int32_t> corners;  ///< vertices of the one
+  std::vector<double> heights;        ///< of each of them over every face, corner after corner, d
+  std::vector<double> least;          ///< bound of how far each face parts the shapes, d
+};
+
+/// Working memory, kept from call to call.
+struct AxisColumns {
+  CornerHeights over_a, over_b;  ///< of corners of b over faces of a, and the other way round
+  std::vector<const Edge*> edges_of_a;
 };
 
 /// Separation along the unit vector `normal` from a to b, d.
 double separation_along(const ShapePair& pair, const Vector& normal);
 
 /// The best axes, f64, of every face and every pair of edges that can be the best. Two pinacoids
-/// take their widths in closed form and all 44 axes. Edges are not looked for if a face parts the
-/// shapes by `enough`, d.
-ContactAxes separating_axes(const ShapePair& pair,
-                            double enough = std::numeric_limits<double>::infinity());
+/// take their widths in closed form and all 44 axes. `guess` is an axis near to the best one, such
+/// as that of the last step, or zero: it saves time and changes nothing.
+ContactAxes separating_axes(const ShapePair& pair, const Vector& guess, AxisColumns& columns);
+
+/// The same with no guess and with memory of its own.
+ContactAxes separating_axes(const ShapePair& pair);
 
 /// Whether the batch kernel found the pair of a lane further apart than `margin`, d. `scale` is
 /// that of the larger grain.

@@ -35,7 +35,7 @@ void look_at(const ShapePair& pair, Errors& errors) {
   const double above = separation - gap, below = truth.overlap ? gap - separation : 0.0;
   errors.separation = std::max({errors.separation, std::isfinite(above) ? above : 1.0, below});
   PairMemory memory;
-  ClipColumns columns;
+  TouchColumns columns;
   std::vector<ContactPoint> points;
   const PairContact contact = touch(pair, {margin, 0.0}, memory, columns, points);
   if (points.empty() && gap < margin) errors.contact = std::max(errors.contact, margin - gap);

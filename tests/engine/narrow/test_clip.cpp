@@ -66,7 +66,7 @@ TEST_CASE("a cube beside a face, or higher above it than the margin, has no poin
 
 TEST_CASE("the middle of the shortest line between two crossing edges lies midway between them") {
   const Segment along_x{{-1, 0, 0}, {1, 0, 0}}, along_y{{0.25, -1, 1}, {0.25, 1, 1}};
-  CHECK((midway(along_x, along_y) - Vector(0.25, 0, 0.5)).norm() < 1e-15);
+  CHECK((closest_of(along_x, along_y).midway - Vector(0.25, 0, 0.5)).norm() < 1e-15);
 }
 
 TEST_CASE("the edge that reaches farthest is the one towards the direction asked for") {

@@ -33,7 +33,7 @@ struct Found {
 
 Found contact_of(const ShapePair& pair, const TouchSettings& settings) {
   PairMemory memory;
-  ClipColumns columns;
+  TouchColumns columns;
   Found found;
   found.contact = touch(pair, settings, memory, columns, found.points);
   REQUIRE(found.contact.first == 0);
@@ -228,7 +228,7 @@ TEST_CASE("a pair that moves gives the same contacts with its memory as without"
   for (const ConvexShape& shape :
        {pinacoid({}), testing::hull_of(testing::random_corners(draw, 16))}) {
     PairMemory memory;
-    ClipColumns columns;
+    TouchColumns columns;
     const double usual = 0.95 * (shape.inradius + shape.circumradius);
     PairPose pose = testing::random_pose(draw, usual, usual);
     int contacts = 0, parted = 0;

@@ -183,6 +183,7 @@ TEST_CASE("upright pinacoids side by side are parted by exact numbers") {
   CHECK(batch.blocks[0].edges_parallel[0] == 1);
 }
 
+// Apart, they are compared over all axes, of a hull over the normals of the shapes' difference.
 TEST_CASE("the axes of a pinacoid in closed form are those of its hull") {
   const ConvexShape closed = pinacoid({}), hull = testing::hull_of(closed.vertices);
   Draw draw(6);
@@ -191,7 +192,8 @@ TEST_CASE("the axes of a pinacoid in closed form are those of its hull") {
       const PairPose pose = testing::pose_of_family(family, draw, closed, closed);
       const double first = separating_axes({closed, closed, pose}).separation();
       const double second = separating_axes({hull, hull, pose}).separation();
-      REQUIRE(first == Approx(second).margin(1e-12));
+      if (first <= 0) REQUIRE(first == Approx(second).margin(1e-12));
+      if (first > 1e-12) REQUIRE((second > 0 && second <= first + 1e-12));
     }
   }
 }
@@ -276,7 +278,7 @@ bool check_contact(const ShapePair& pair) {
   constexpr double margin = 0.05;
   PairMemory memory;
   Simplex simplex;
-  ClipColumns columns;
+  TouchColumns columns;
   std::vector<ContactPoint> points;
   const bool touches = touch(pair, {margin, 0}, memory, columns, points).count > 0;
   const bool near = closest_points(pair, simplex).distance <= margin;
