@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "engine/dynamics/settle.hpp"
+#include "engine/dynamics/sleep.hpp"
 #include "engine/measure/bond_order.hpp"
 #include "engine/measure/coordination.hpp"
 #include "engine/measure/order.hpp"
@@ -33,7 +34,7 @@ std::string why_not_settled(const Fill& fill, const SettleReport& settled) {
   const bool lost = settled.sank && std::holds_alternative<PlacedGrains>(fill);
   return settled.failure.empty() && lost
              ? "two grains of fill.file sank into each other by more than half on the way and may "
-               "have passed through one another: make accuracy.fall_iterations larger"
+               "have passed through one another: make accuracy.path_tolerance smaller"
              : settled.failure;
 }
 
@@ -47,6 +48,7 @@ PackingResult result_of(const Fill& fill, const Bed<Kind>& bed, const SettleRepo
   result.reason = settled.cancelled ? "stopped on request" : failure;
   result.grains = static_cast<std::int64_t>(bed.grains());
   result.rest = settled.rest;
+  result.spurious_path = settled.spurious_path;
   result.steps = settled.steps;
   result.iterations = settled.iterations;
   result.state_hash = state_hash(bed);
@@ -200,16 +202,21 @@ Packing make_packing(const PackingSpec& spec, const ExecutionContext& context,
 
 namespace {
 
-/// Solver iterations that the stages of engine/dynamics/settle.hpp usually need.
+/// Solver iterations over all rows that the stages of engine/dynamics/settle.hpp usually need.
+/// While a bed fills up its deep part sleeps, so that from some height on the fall counts no
+/// further.
 double usual_iterations(const PackingSpec& spec) {
   const Accuracy& a = spec.accuracy;
+  const double layers =
+      static_cast<double>(grain_count(spec)) / (spec.box.length * spec.box.width) + 1.0;
+  const double falling = std::min(layers, 1.5 * sleep_depth);
+  const double solved = std::pow(Accuracy{}.path_tolerance / a.path_tolerance, 0.6);
   if (!is_sphere(spec.shape)) {
-    return (180.0 + 1.3 * a.creep_steps) * a.fall_iterations +
-           (a.creep_steps + 40.0) * a.rest_iterations;
+    return solved * 110.0 * falling + (60.0 + 1.2 * a.creep_steps) * a.rest_iterations;
   }
-  const bool is_dynamic = a.protocol == Protocol::dynamic;
-  const double fall = (is_dynamic ? 2000.0 : 130.0) * a.fall_iterations;
-  return fall + (is_dynamic ? 15.0 : a.creep_steps * 2.0 / 3.0 + 25.0) * a.rest_iterations;
+  const double fall = (a.protocol == Protocol::dynamic ? 600.0 : 200.0) * falling;
+  const double creep = a.protocol == Protocol::dynamic ? 0.0 : 3.5 * a.creep_steps * layers;
+  return solved * (fall + creep) + 30.0 * a.rest_iterations;
 }
 
 }  // namespace

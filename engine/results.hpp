@@ -111,6 +111,10 @@ struct PackingResult {
   std::string reason;  ///< empty when settled
   std::int64_t grains = 0;
   RestReport rest;
+  /// Way that contacts strayed while the bed settled, for want of better solves, d: sum over all
+  /// steps of the root mean square of their residuals times the square of the step, taken over all
+  /// degrees of freedom. The solid fraction errs by it: engine/dynamics/sleep.hpp.
+  double spurious_path = 0.0;
   double surface_height = 0.0;  ///< z of the bed's free surface, d
   double slab_bottom = 0.0;     ///< measured slab, d
   double slab_top = 0.0;

@@ -66,9 +66,9 @@ struct BodyKernels {
   /// Adds H p to the accumulated impulses.
   void (*accumulate_impulses)(BodyRows<Real> rows, std::size_t blocks, const Real* p,
                               Record<Real>* accumulated);
-  /// Largest |min(p, w / A_kk)| over all rows, d m; light grains as in RowKernels::residual.
-  Real (*residual)(BodyRows<Real> rows, std::size_t blocks, const Record<Real>* u, const Real* p,
-                   Real unit_mass);
+  /// As RowKernels::residual, with A_kk for 1/m_a + 1/m_b.
+  Missed<Real> (*residual)(BodyRows<Real> rows, std::size_t blocks, const Record<Real>* u,
+                           const Real* p);
 };
 
 }  // namespace grainsweep

@@ -8,6 +8,7 @@ namespace {
 using grainsweep::BodyBlock;
 using grainsweep::BodyPoints;
 using grainsweep::BodyRows;
+using grainsweep::Missed;
 using grainsweep::Record;
 using grainsweep::SweepRule;
 using grainsweep::SweepSums;
@@ -152,7 +153,8 @@ inline void push_side(const Batch<Real>& p, const Vec<Real>& normal, const Vec<R
 template <class Real>
 SweepSums<Real> gauss_seidel_sweep(BodyRows<Real> rows, std::size_t blocks, Record<Real>* u,
                                    Real* p, Real* y, SweepRule<Real> rule) {
-  LaneSums<Real> residual(Real(0)), restart_test(Real(0));
+  LaneMissed<Real> missed;
+  LaneSums<Real> restart_test(Real(0));
   const Batch<Real> zero(Real(0)), relaxation(rule.relaxation), carry(rule.momentum);
   visit_contacts(rows, blocks, [&](const auto& c, const auto& block, auto lane, auto k) {
     Side<Real> a = load_both(u, c.a), b = load_both(u, c.b);
@@ -165,7 +167,7 @@ SweepSums<Real> gauss_seidel_sweep(BodyRows<Real> rows, std::size_t blocks, Reco
       const Batch<Real> y_old = load(y + at), p_old = load(p + at);
       const Batch<Real> p_new = xsimd::max(zero, y_old - w * relaxation);
       const Batch<Real> change = p_new - p_old, given = p_new - y_old;
-      residual.part[k] = xsimd::max(residual.part[k], natural_residual(y_old, w));
+      missed.add(k, natural_residual(y_old, w), p_new, a.first.w, b.first.w);
       restart_test.part[k] += (y_old - p_new) * change;
       p_new.store_unaligned(p + at);
       (p_new + carry * change).store_unaligned(y + at);
@@ -175,7 +177,7 @@ SweepSums<Real> gauss_seidel_sweep(BodyRows<Real> rows, std::size_t blocks, Reco
     store_side(u, c.a, a);
     store_side(u, c.b, b);
   });
-  return {residual.max(), restart_test.sum()};
+  return {missed.sums(), restart_test.sum()};
 }
 
 template <class Real>
@@ -191,9 +193,9 @@ void accumulate_impulses(BodyRows<Real> rows, std::size_t blocks, const Real* p,
 }
 
 template <class Real>
-Real residual(BodyRows<Real> rows, std::size_t blocks, const Record<Real>* u, const Real* p,
-              Real unit_mass) {
-  LaneSums<Real> worst(Real(0));
+Missed<Real> residual(BodyRows<Real> rows, std::size_t blocks, const Record<Real>* u,
+                      const Real* p) {
+  LaneMissed<Real> missed;
   visit_contacts(rows, blocks, [&](const auto& c, const auto& block, auto lane, auto k) {
     const Side<Real> a = load_both(u, c.a), b = load_both(u, c.b);
     const Motion<Real> m = motion_of(c.normal, a, b);
@@ -201,12 +203,11 @@ Real residual(BodyRows<Real> rows, std::size_t blocks, const Record<Real>* u, co
       const BodyPoints<Real>& points = rows.points[i];
       const Batch<Real> w =
           gap_after(load_points(points, lane), m) * load(points.reduced_mass + lane);
-      const Batch<Real> missed = natural_residual(load(p + i * block_width + lane), w);
-      worst.part[k] =
-          xsimd::max(worst.part[k], of_light_grains(missed, a.first.w, b.first.w, unit_mass));
+      const Batch<Real> impulse = load(p + i * block_width + lane);
+      missed.add(k, natural_residual(impulse, w), impulse, a.first.w, b.first.w);
     }
   });
-  return worst.max();
+  return missed.sums();
 }
 
 template <class Real>

@@ -52,14 +52,6 @@ inline Batch<Real> natural_residual(const Batch<Real>& p, const Batch<Real>& w) 
   return xsimd::abs(xsimd::min(p, w));
 }
 
-/// What a row misses; times unit_mass / m of the lighter of its grains where that is lighter.
-template <class Real>
-inline Batch<Real> of_light_grains(const Batch<Real>& missed, const Batch<Real>& inverse_a,
-                                   const Batch<Real>& inverse_b, Real unit_mass) {
-  const Batch<Real> most = xsimd::max(inverse_a, inverse_b);
-  return missed * xsimd::max(Batch<Real>(Real(1)), most * Batch<Real>(unit_mass));
-}
-
 /// One value per lane of a block, reduced over lanes in a fixed order.
 template <class Real>
 struct LaneSums {
@@ -91,6 +83,24 @@ struct LaneSums {
   Real max() const {
     return reduce([](Real a, Real b) { return a < b ? b : a; });
   }
+};
+
+/// What rows miss, lane by lane.
+template <class Real>
+struct LaneMissed {
+  LaneSums<Real> largest{Real(0)}, squares{Real(0)}, loaded{Real(0)};
+
+  /// Rows of the hardware batch k with these residuals and impulses, of grains with these inverse
+  /// masses.
+  void add(std::size_t k, const Batch<Real>& residual, const Batch<Real>& p,
+           const Batch<Real>& inverse_a, const Batch<Real>& inverse_b) {
+    const Batch<Real> zero(Real(0)), one(Real(1));
+    const Batch<Real> missed = residual * xsimd::max(one, xsimd::max(inverse_a, inverse_b));
+    largest.part[k] = xsimd::max(largest.part[k], missed);
+    squares.part[k] += missed * missed;
+    loaded.part[k] += xsimd::select(p > zero, one, zero);
+  }
+  grainsweep::Missed<Real> sums() const { return {largest.max(), squares.sum(), loaded.sum()}; }
 };
 
 }  // namespace

@@ -44,11 +44,21 @@ struct alignas(64) RowBlock {
   }
 };
 
+/// By how much rows miss min(p, w / A) = 0, where A is 1/m_a + 1/m_b, d m; of a row with a grain
+/// lighter than 1 in masses of that grain.
+template <class Real>
+struct Missed {
+  Real largest = 0;  ///< d m
+  Real squares = 0;  ///< sum over all rows, (d m)^2
+  Real loaded = 0;   ///< number of rows that push
+};
+
 /// What one sweep over rows saw.
 template <class Real>
 struct SweepSums {
-  Real residual;      ///< largest |min(p, w / (1/m_a + 1/m_b))| before the update, d m
-  Real restart_test;  ///< sum of (y - p_new)(p_new - p_old) over rows: positive asks for a restart
+  Missed<Real> missed;  ///< before the update
+  Real restart_test =
+      0;  ///< sum of (y - p_new)(p_new - p_old) over rows: positive asks for a restart
 };
 
 /// Grains have sunk into each other when their centres are nearer than this share of the distance
@@ -85,10 +95,9 @@ struct RowKernels {
   /// Adds H p, the impulses of the rows, to the accumulated impulses of their grains.
   void (*accumulate_impulses)(const RowBlock<Real>* rows, std::size_t blocks, const Real* p,
                               Record<Real>* accumulated);
-  /// Largest |min(p, w / (1/m_a + 1/m_b))| over all rows, d m; each times unit_mass / m of the
-  /// lighter of its grains where that is lighter than unit_mass.
-  Real (*residual)(const RowBlock<Real>* rows, std::size_t blocks, const Record<Real>* u,
-                   const Real* p, Real unit_mass);
+  /// What all rows miss.
+  Missed<Real> (*residual)(const RowBlock<Real>* rows, std::size_t blocks, const Record<Real>* u,
+                           const Real* p);
   /// Normals and gaps of sphere pairs (a, b of `rows`) from their positions, nearest image.
   /// period_x, period_y: d, 0 where the axis is walled. A negative gap is multiplied by
   /// `correction`, the share of an overlap that one step repairs. Where centres coincide the normal

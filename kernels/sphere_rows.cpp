@@ -5,6 +5,7 @@
 
 namespace {
 
+using grainsweep::Missed;
 using grainsweep::Record;
 using grainsweep::RowBlock;
 using grainsweep::SweepRule;
@@ -71,7 +72,8 @@ inline Components<Real> difference(const Components<Real>& b, const Components<R
 template <class Real>
 SweepSums<Real> gauss_seidel_sweep(const RowBlock<Real>* rows, std::size_t blocks, Record<Real>* u,
                                    Real* p, Real* y, SweepRule<Real> rule) {
-  LaneSums<Real> residual(Real(0)), restart_test(Real(0));
+  LaneMissed<Real> missed;
+  LaneSums<Real> restart_test(Real(0));
   const Batch<Real> zero(Real(0)), relaxation(rule.relaxation), carry(rule.momentum);
   for (std::size_t block = 0; block < blocks; ++block) {
     for (std::size_t k = 0; k < batches<Real>; ++k) {
@@ -84,7 +86,7 @@ SweepSums<Real> gauss_seidel_sweep(const RowBlock<Real>* rows, std::size_t block
       const Batch<Real> p_new = xsimd::max(zero, y_old - w * relaxation);
       const Batch<Real> change = p_new - p_old, taken_back = y_old - p_new;
       const Components<Real> push = along_normals(r, p_new - y_old);
-      residual.part[k] = xsimd::max(residual.part[k], natural_residual(y_old, w));
+      missed.add(k, natural_residual(y_old, w), p_new, u_a.w, u_b.w);
       restart_test.part[k] += taken_back * change;
       p_new.store_unaligned(p + at);
       (p_new + carry * change).store_unaligned(y + at);
@@ -92,7 +94,7 @@ SweepSums<Real> gauss_seidel_sweep(const RowBlock<Real>* rows, std::size_t block
       store_records(u, r.b, pushed(u_b, push));
     }
   }
-  return {residual.max(), restart_test.sum()};
+  return {missed.sums(), restart_test.sum()};
 }
 
 template <class Real>
@@ -143,20 +145,20 @@ void accumulate_impulses(const RowBlock<Real>* rows, std::size_t blocks, const R
 }
 
 template <class Real>
-Real residual(const RowBlock<Real>* rows, std::size_t blocks, const Record<Real>* u, const Real* p,
-              Real unit_mass) {
-  LaneSums<Real> worst(Real(0));
+Missed<Real> residual(const RowBlock<Real>* rows, std::size_t blocks, const Record<Real>* u,
+                      const Real* p) {
+  LaneMissed<Real> missed;
   for (std::size_t block = 0; block < blocks; ++block) {
     for (std::size_t k = 0; k < batches<Real>; ++k) {
       const std::size_t lane = k * batch_width<Real>;
       const Rows<Real> r = load_rows(rows[block], lane);
       const Components<Real> u_a = load_records(u, r.a), u_b = load_records(u, r.b);
       const Batch<Real> w = scaled_gap(r, difference(u_b, u_a));
-      const Batch<Real> missed = natural_residual(load(p + block * block_width + lane), w);
-      worst.part[k] = xsimd::max(worst.part[k], of_light_grains(missed, u_a.w, u_b.w, unit_mass));
+      const Batch<Real> impulse = load(p + block * block_width + lane);
+      missed.add(k, natural_residual(impulse, w), impulse, u_a.w, u_b.w);
     }
   }
-  return worst.max();
+  return missed.sums();
 }
 
 constexpr double far_apart = 1e300;

@@ -17,11 +17,16 @@ struct Heights {
   double top = -std::numeric_limits<double>::max();
 };
 
+void include(const Record<double>& ball, Heights& heights) {
+  heights.bottom = std::min(heights.bottom, ball.z);
+  heights.top = std::max(heights.top, ball.z);
+}
+
+/// Of the grains that are awake.
 Heights heights_of(const Balls& balls) {
   Heights heights;
-  for (std::size_t i = 0; i < balls.bed.grains(); ++i) {
-    heights.bottom = std::min(heights.bottom, balls.ball[i].z);
-    heights.top = std::max(heights.top, balls.ball[i].z);
+  for (std::size_t i = balls.bed.first_awake; i < balls.bed.grains(); ++i) {
+    if (!balls.bed.is_asleep(i)) include(balls.ball[i], heights);
   }
   return heights;
 }
@@ -37,8 +42,11 @@ double largest_radius(const Balls& balls, double below) {
 }
 
 /// Sorts the grains into levels. A level holds radii from its largest down to half of that, so that
-/// a bed of one size has one level; the last one holds all that is left.
-void choose_levels(const Balls& balls, std::vector<SizeLevel>& levels) {
+/// a bed of one size has one level; the last one holds all that is left. Of grains that sleep only
+/// those that one awake may touch; `heights` grow by them.
+void choose_levels(const Balls& balls, double reach, Heights& heights,
+                   std::vector<SizeLevel>& levels) {
+  const double lowest_awake = heights.bottom;
   std::size_t count = 0;
   double below = std::numeric_limits<double>::infinity();
   for (double largest = largest_radius(balls, below); count == 0 || largest > 0.0;
@@ -50,6 +58,11 @@ void choose_levels(const Balls& balls, std::vector<SizeLevel>& levels) {
   }
   levels.resize(count);
   for (std::size_t i = 0; i < balls.bed.grains(); ++i) {
+    if (balls.bed.is_asleep(i)) {
+      const double near = balls.ball[i].w + levels.front().largest_radius + reach;
+      if (balls.ball[i].z < lowest_awake - near) continue;
+      include(balls.ball[i], heights);
+    }
     std::size_t level = 0;
     while (level + 1 < count && balls.ball[i].w < 0.5 * levels[level].largest_radius) ++level;
     levels[level].members.push_back(static_cast<std::int32_t>(i));
@@ -193,6 +206,12 @@ void list_pairs(const Balls& balls, float reach, const ExecutionContext& context
       list_pairs_across(balls, level, levels[coarse], reach, context, candidates);
     }
   }
+  if (!balls.bed.asleep.empty()) {
+    std::erase_if(candidates.pairs, [&](const GrainPair& pair) {
+      return balls.bed.is_asleep(static_cast<std::size_t>(pair.a)) &&
+             balls.bed.is_asleep(static_cast<std::size_t>(pair.b));
+    });
+  }
 }
 
 void list_walls(const Balls& balls, Candidates& candidates) {
@@ -201,6 +220,7 @@ void list_walls(const Balls& balls, Candidates& candidates) {
     WallCandidates& near = candidates.walls[k];
     near.grains.clear();
     for (std::size_t i = 0; i < balls.bed.grains(); ++i) {
+      if (balls.bed.is_asleep(i)) continue;
       if (balls.bed.walls[k].gap(balls.ball[i]) < candidates.reach) {
         near.grains.push_back(static_cast<std::int32_t>(i));
       }
@@ -287,9 +307,9 @@ bool has_newcomer(const Balls& balls, const Wall& wall, double near, const Candi
 void find_candidates(const Balls& balls, double reach, const ExecutionContext& context,
                      Candidates& candidates) {
   candidates.reach = reach;
-  choose_levels(balls, candidates.levels);
+  Heights heights = heights_of(balls);
+  choose_levels(balls, reach, heights, candidates.levels);
   candidates.largest_radius = candidates.levels.front().largest_radius;
-  const Heights heights = heights_of(balls);
   const double slack = rounding_slack(balls, heights);
   fill_grids(balls, heights, reach + 2.0 * slack, context.loop, candidates.levels);
   list_pairs(balls, static_cast<float>(reach + slack), context, candidates);

@@ -63,8 +63,9 @@ struct Candidates {
   std::vector<std::size_t> found_begin;       ///< where each part's pairs go
 };
 
-/// Lists all pairs and walls whose balls have a gap below `reach`. The bed must be wrapped; a
-/// periodic axis must be at least two largest diameters and reaches long.
+/// Lists all pairs and walls whose balls have a gap below `reach`, but for those of grains that
+/// sleep among each other and with walls. The bed must be wrapped; a periodic axis must be at least
+/// two largest diameters and reaches long.
 void find_candidates(const Balls& balls, double reach, const ExecutionContext& context,
                      Candidates& candidates);
 

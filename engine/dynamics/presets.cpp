@@ -19,7 +19,7 @@ Accuracy fast() {
 
 Accuracy accurate() {
   Accuracy a;
-  a.fall_iterations = 30;
+  a.path_tolerance = 1e-4;
   a.creep_steps = 300;
   a.residual_tolerance = 1e-3;
   a.kinetic_tolerance = 2e-5;

@@ -122,15 +122,6 @@ std::int64_t zero_modes(const Bed<Kind>& bed, const std::vector<ForceContact>& c
   return modes;
 }
 
-double carried_weight(const Grains& bed, const std::vector<ForceContact>& contacts) {
-  double weight = 0.0, carried = 0.0;
-  for (std::size_t i = 0; i < bed.grains(); ++i) weight += 1.0 / bed.motion[i].w;
-  for (const ForceContact& c : contacts) {
-    if (!bed.is_grain(c.b)) carried += c.force * normal_at(bed, c).z;
-  }
-  return weight > 0.0 ? carried / weight : 1.0;
-}
-
 std::vector<PairForce> pair_forces(const Grains& bed, const std::vector<ForceContact>& contacts) {
   std::vector<PairForce> forces;
   for (const ForceContact& c : contacts) {

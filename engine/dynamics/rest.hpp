@@ -30,9 +30,6 @@ RestReport measure_rest(Bed<Kind>& bed, const ExecutionContext& context, double 
 template <class Kind>
 std::int64_t zero_modes(const Bed<Kind>& bed, const std::vector<ForceContact>& contacts);
 
-/// Share of the grains' weight that walls carry, the floor mostly.
-double carried_weight(const Grains& bed, const std::vector<ForceContact>& contacts);
-
 /// The forces between grains.
 std::vector<PairForce> pair_forces(const Grains& bed, const std::vector<ForceContact>& contacts);
 

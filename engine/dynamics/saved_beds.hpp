@@ -86,6 +86,8 @@ template <class Archive, class Kind, class Real>
 void transfer_bed(Archive& archive, Bed<Kind>& bed, StepState<Kind, Real>& state) {
   archive.column(bed.position);
   archive.column(bed.motion);
+  archive.column(bed.asleep);
+  archive.value(bed.first_awake);
   transfer_kind(archive, bed);
   transfer_candidates(archive, state.candidates);
   transfer_contacts(archive, state.contacts);

@@ -8,6 +8,7 @@
 #include "engine/dynamics/rest.hpp"
 #include "engine/dynamics/saved_beds.hpp"
 #include "engine/dynamics/saved_state.hpp"
+#include "engine/dynamics/sleep.hpp"
 #include "engine/dynamics/stages.hpp"
 #include "engine/dynamics/workspace.hpp"
 
@@ -60,8 +61,7 @@ bool is_fit(const Accuracy& accuracy, const Grains& bed) {
 
 template <class Kind, class Real>
 bool is_carried(const Settling<Kind, Real>& s) {
-  return carried_weight(s.bed, force_contacts(s.bed, s.settings.dt, s.state.contacts)) >
-         carried_share;
+  return s.last.carried > carried_share;
 }
 
 template <class Kind, class Real>
@@ -70,7 +70,7 @@ bool has_fallen(const Settling<Kind, Real>& s) {
 }
 
 template <class Kind, class Real>
-void look(Settling<Kind, Real>& s) {
+void test_rest(Settling<Kind, Real>& s) {
   RestReport& rest = s.report.rest;
   rest = measure_rest(s.bed, s.context, s.settings.dt, s.state);
   rest.step_residual = s.last.solve.residual;
@@ -81,7 +81,7 @@ void look(Settling<Kind, Real>& s) {
 
 template <class Kind, class Real>
 bool is_at_rest(Settling<Kind, Real>& s) {
-  look(s);
+  test_rest(s);
   return s.report.failure.empty();
 }
 
@@ -114,6 +114,7 @@ template <class Kind, class Real>
 void enter(std::size_t stage, Settling<Kind, Real>& s) {
   s.stage = stage;
   s.steps_in_stage = 0;
+  if (wake(s.bed)) s.state.candidates.is_listed = false;
   if (stage == s.stages.size()) return;
   const StepSettings settings = settings_of(s.accuracy, s.rule());
   change_step(settings.dt / s.settings.dt, s.bed, s.state);
@@ -130,6 +131,7 @@ void transfer(Archive& archive, Settling<Kind, Real>& s) {
   archive.value(s.last);
   archive.value(s.sunk_at_start);
   archive.value(s.report.sank);
+  archive.value(s.report.spurious_path);
   archive.value(s.report.steps);
   archive.value(s.report.iterations);
   transfer_bed(archive, s.bed, s.state);
@@ -158,10 +160,20 @@ void restore(std::string_view bytes, Settling<Kind, Real>& s) {
   }
 }
 
+/// In the fall, while the bed fills up.
+template <class Kind, class Real>
+void let_sleep(Settling<Kind, Real>& s) {
+  const bool looks = s.rule().sleeps && s.steps_in_stage > 0 &&
+                     s.steps_in_stage % steps_between_looks == 0 && may_sleep(s.bed);
+  if (looks && put_to_sleep(s.settings.dt, s.bed)) s.state.candidates.is_listed = false;
+}
+
 /// One step; false if the observer does not want another one.
 template <class Kind, class Real>
 bool take_step(Settling<Kind, Real>& s, const KeepGoing& keep_going) {
+  let_sleep(s);
   s.last = step(s.settings, s.context, s.bed, s.state);
+  s.report.spurious_path += s.last.spurious_path;
   if (s.report.steps == 0) s.sunk_at_start = s.last.sunk;
   s.report.sank = s.report.sank || s.last.sunk > s.sunk_at_start + rounding_of_places;
   ++s.report.steps;
@@ -176,7 +188,8 @@ bool take_step(Settling<Kind, Real>& s, const KeepGoing& keep_going) {
 template <class Kind, class Real>
 bool goes_on(const Settling<Kind, Real>& s) {
   return s.stage < s.stages.size() && s.report.steps < s.accuracy.max_steps &&
-         !s.report.cancelled && std::isfinite(s.last.kinetic_energy);
+         s.steps_in_stage < s.rule().most_steps && !s.report.cancelled &&
+         std::isfinite(s.last.kinetic_energy);
 }
 
 /// Stage after stage, until the bed rests, the steps run out or the observer stops it.
@@ -239,7 +252,7 @@ SettleReport settle_in(StepState<Kind, Real>& state, StepState<Kind, double>& cl
     s.report.failure = "the kinetic energy is not a finite number";
     return s.report;
   }
-  look(s);
+  test_rest(s);
   look_closer(s);
   report_forces(s);
   return s.report;

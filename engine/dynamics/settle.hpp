@@ -31,6 +31,7 @@ struct SettleReport {
   /// which they, or the balls within polyhedra, touch: they may have passed through one another. A
   /// random start has nothing to lose by it, a bed that was given its arrangement.
   bool sank = false;
+  double spurious_path = 0.0;  ///< sum of StepReport::spurious_path over all steps, d
   std::int64_t steps = 0;
   std::int64_t iterations = 0;
   std::vector<double> force;           ///< sum of contact force magnitudes on each grain, m g

@@ -20,9 +20,9 @@ namespace grainsweep {
 
 struct SolveLimits {
   Solver solver = Solver::accelerated_gauss_seidel;
-  int iterations = 100;     ///< most sweeps, unless they leave more than `residual_cap`
-  double tolerance = 1e-3;  ///< residual at which to stop, as a mass times d (m g dt^2)
-  double unit_mass = 1.0;   ///< residuals of lighter grains count in their own weights
+  int iterations = 100;        ///< most sweeps, unless they leave more than `residual_cap`
+  double tolerance = 1e-3;     ///< residual at which to stop, as a mass times d (m g dt^2)
+  double rms_tolerance = 0.0;  ///< or, of the rows that push, its root mean square, a mass times d
   /// While the residual is larger, a mass times d, iterations are doubled, up to `iteration_cap`.
   double residual_cap = std::numeric_limits<double>::infinity();
   int iteration_cap = 0;
@@ -31,6 +31,8 @@ struct SolveLimits {
 struct SolveReport {
   int iterations = 0;     ///< sweeps done
   double residual = 0.0;  ///< true residual of the impulses left behind, a mass times d
+  double rms = 0.0;       ///< its root mean square over the rows that push, a mass times d
+  double loaded = 0.0;    ///< number of these rows
 };
 
 /// Motion columns of a solve, indexed like the bed: displacement, d, and inverse mass. Grains that
@@ -38,6 +40,7 @@ struct SolveReport {
 template <class Real>
 struct MotionColumns {
   std::vector<Record<Real>> free;         ///< in: motion without contacts
+  std::size_t first_moving = 0;           ///< in: nothing moves the records before it
   std::vector<Record<Real>> u;            ///< out: motion with the impulses of `contacts`
   std::vector<Record<Real>> accumulated;  ///< impulses on each grain, summed; +0 between sweeps
   std::vector<Record<Real>> before;       ///< motion after the last sweep

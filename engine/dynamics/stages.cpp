@@ -22,11 +22,16 @@ constexpr StageRule look = {.name = "look",
                             .steps = 8,
                             .usual_steps = 8};
 
-/// Full steps with momentum until the floor carries the bed. Overlaps are repaired slowly, so that
-/// loose solves do not throw grains about. An impact has a kinetic energy of about 0.2 m g d.
+/// Steps with momentum until the floor carries the bed. Shorter than full ones they need fewer
+/// iterations to stray as little, and no more steps: grains in the air fall as fast as they may.
+/// Overlaps are repaired slowly, so that loose solves do not throw grains about. An impact has a
+/// kinetic energy of about 0.2 m g d.
 constexpr StageRule fall = {.name = "fall",
                             .end = StageEnd::fallen,
+                            .step = 0.7,
                             .inertia = Inertia::damped,
+                            .path = 1.0,
+                            .sleeps = true,
                             .correction = 0.1,
                             .near = 0.08,
                             .margin = 0.01,
@@ -34,13 +39,15 @@ constexpr StageRule fall = {.name = "fall",
                             .steps = 1,
                             .energy = 5e-3,
                             .usual_steps = 160,
-                            .done_after = 0.3};
+                            .done_after = 0.5};
 
 /// Plain contact dynamics: undamped short steps, until impacts alone have taken the energy.
 constexpr StageRule dynamic_fall = {.name = "fall",
                                     .end = StageEnd::halted,
                                     .step = 0.25,
                                     .inertia = Inertia::full,
+                                    .path = 0.25,
+                                    .sleeps = true,
                                     .near = 0.08,
                                     .margin = 0.05,
                                     .fall_iterations = 1.0,
@@ -49,35 +56,22 @@ constexpr StageRule dynamic_fall = {.name = "fall",
                                     .usual_steps = 1200,
                                     .done_after = 0.85};
 
-/// Double steps with momentum: grains slide into their places. The errors of loose solves act like
-/// tapping, so this is an annealing; well solved throughout, it takes five times as many steps to
-/// the same number of contacts. What repairs of overlaps move is carried on as if it were speed:
-/// repaired whole they would throw beds of two sizes apart.
-constexpr StageRule loose_creep = {.name = "loose creep",
-                                   .step = 2.0,
-                                   .inertia = Inertia::damped,
-                                   .correction = 0.3,
-                                   .near = 0.05,
-                                   .margin = 0.01,
-                                   .rest_iterations = 0.5,
-                                   .creep_to = two_thirds,
-                                   .done_before = 0.3,
-                                   .done_after = 0.5};
-
-/// The last third of the same, solved better.
+/// Double steps with momentum: grains slide into their places. What repairs of overlaps move is
+/// carried on as if it were speed: repaired whole they would throw beds of two sizes apart.
 constexpr StageRule creep = {.name = "creep",
                              .step = 2.0,
                              .inertia = Inertia::damped,
+                             .path = 1.0,
                              .correction = 0.3,
                              .near = 0.05,
                              .margin = 0.01,
-                             .rest_iterations = 1.0,
-                             .creep_from = two_thirds,
+                             .fall_iterations = 1.0,
                              .creep_to = 1.0,
                              .done_before = 0.5,
                              .done_after = 0.75};
 
-/// Full steps without momentum: what still moves is slowed down.
+/// Full steps without momentum: what still moves is slowed down, and contacts close. Half steps
+/// close 1 % fewer of them, in double ones beds fall apart.
 constexpr StageRule halt = {.name = "halt",
                             .correction = 1.0,
                             .near = 0.02,
@@ -88,8 +82,7 @@ constexpr StageRule halt = {.name = "halt",
                             .done_before = 0.75,
                             .done_after = 0.85};
 
-/// Half steps without momentum: contacts close, which takes about as many steps as it has at least,
-/// until every test of rest holds.
+/// Half steps without momentum, until every test of rest holds.
 constexpr StageRule quench = {.name = "quench",
                               .end = StageEnd::rest,
                               .step = 0.5,
@@ -98,11 +91,12 @@ constexpr StageRule quench = {.name = "quench",
                               .margin = 0.01,
                               .rest_iterations = 2.0,
                               .steps = 8,
+                              .most_steps = 1000,
                               .usual_steps = 12,
                               .done_before = 0.85,
                               .done_after = 1.0};
 
-constexpr StageRule heavy_ball[] = {look, fall, loose_creep, creep, halt, quench};
+constexpr StageRule heavy_ball[] = {look, fall, creep, halt, quench};
 constexpr StageRule dynamic[] = {look, dynamic_fall, quench};
 
 // ---- polyhedra ----
@@ -122,26 +116,27 @@ constexpr StageRule turning[] = {
     {.name = "fall",
      .end = StageEnd::fallen,
      .inertia = Inertia::damped,
+     .path = 1.0,
+     .sleeps = true,
      .correction = 0.2,
      .near = 0.05,
      .margin = 0.05,
-     .fall_iterations = two_thirds,
+     .fall_iterations = 1.0,
      .steps = 1,
      .energy = 1e-2,
      .usual_steps = 110,
-     .done_after = 0.2},
-    // Full steps, solved a little better than the fall: as with spheres, more steps of loose solves
-    // reach more contacts than fewer of good ones.
+     .done_after = 0.4},
+    // Full steps.
     {.name = "creep",
      .inertia = Inertia::damped,
      .correction = 0.1,
      .near = 0.03,
      .margin = 0.05,
-     .fall_iterations = 1.0,
+     .rest_iterations = 0.15,
      .steps = 45,
      .creep_to = 0.85,
-     .done_before = 0.2,
-     .done_after = 0.4},
+     .done_before = 0.4,
+     .done_after = 0.6},
     // Half steps: shortened to a quarter at once, they would leave motions that take many short
     // steps to die.
     {.name = "slow",
@@ -150,11 +145,10 @@ constexpr StageRule turning[] = {
      .correction = 0.1,
      .near = 0.015,
      .margin = 0.05,
-     .fall_iterations = two_thirds,
-     .rest_iterations = 0.15,
+     .rest_iterations = 0.25,
      .steps = 85,
      .creep_to = 1.0,
-     .done_before = 0.4,
+     .done_before = 0.6,
      .done_after = 0.78},
     // Quarter steps without momentum, solved half as well as the quench: what still moves is slowed
     // down.
@@ -167,7 +161,19 @@ constexpr StageRule turning[] = {
      .steps = 15,
      .done_before = 0.78,
      .done_after = 0.84},
-    // Quarter steps without momentum: contacts close, until every test of rest holds.
+    // Half steps without momentum: contacts close. Quarter steps take seven times as many for it,
+    // full
+    // ones do not end.
+    {.name = "close",
+     .step = 0.5,
+     .correction = 0.5,
+     .near = 0.015,
+     .margin = 0.05,
+     .rest_iterations = 1.0,
+     .steps = 40,
+     .done_before = 0.84,
+     .done_after = 0.92},
+    // Quarter steps without momentum, until every test of rest holds.
     {.name = "quench",
      .end = StageEnd::rest,
      .step = 0.25,
@@ -175,9 +181,10 @@ constexpr StageRule turning[] = {
      .near = 0.015,
      .margin = 0.05,
      .rest_iterations = 1.0,
-     .steps = 20,
+     .steps = 8,
+     .most_steps = 1000,
      .usual_steps = 24,
-     .done_before = 0.84,
+     .done_before = 0.92,
      .done_after = 1.0},
 };
 
@@ -188,6 +195,8 @@ constexpr StageRule dynamic_turning[] = {
      .end = StageEnd::halted,
      .step = 0.25,
      .inertia = Inertia::full,
+     .path = 0.25,
+     .sleeps = true,
      .near = 0.05,
      .margin = 0.05,
      .fall_iterations = 1.0,
@@ -195,7 +204,7 @@ constexpr StageRule dynamic_turning[] = {
      .energy = 1e-2,
      .usual_steps = 1200,
      .done_after = 0.85},
-    turning[5],
+    turning[6],
 };
 
 /// While a step leaves more, its iterations are doubled. A heavy grain on a light one needs more
@@ -207,6 +216,11 @@ constexpr int iteration_cap = 20'000;  // enough for masses 1e6 to 1
 /// At rest no more may be left than the rest test lets pass. Where f32 stops short of it, more
 /// iterations seldom help: rounding has been reached, or will be in the next step.
 int doublings_at_rest(Precision precision) { return precision == Precision::f64 ? 4 : 1; }
+
+/// How far contacts may stray in a full step, d. A bed of half the step takes twice as many.
+double path_tolerance(const Accuracy& accuracy) {
+  return accuracy.path_tolerance * accuracy.step / Accuracy{}.step;
+}
 
 int iterations_of(const Accuracy& accuracy, const StageRule& rule) {
   return std::max(1,
@@ -244,6 +258,7 @@ StepSettings settings_of(const Accuracy& accuracy, const StageRule& rule) {
   s.near = rule.near;
   s.margin = rule.margin;
   s.limits = {accuracy.solver, iterations_of(accuracy, rule), accuracy.residual_tolerance / 5.0};
+  s.limits.rms_tolerance = rule.path * path_tolerance(accuracy) / (s.dt * s.dt);
   s.limits.residual_cap = residual_cap;
   s.limits.iteration_cap = iteration_cap;
   if (rule.end == StageEnd::rest) {

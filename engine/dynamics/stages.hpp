@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <span>
 
 #include "engine/dynamics/step.hpp"
@@ -30,6 +31,8 @@ struct StageRule {
   StageEnd end = StageEnd::steps;
   double step = 1.0;  ///< in Accuracy::step
   Inertia inertia = Inertia::none;
+  double path = 0.0;        ///< a step that strays by less is solved, in Accuracy::path_tolerance
+  bool sleeps = false;      ///< the deep bed sleeps
   double correction = 0.0;  ///< share of an overlap that a step repairs
   double near = 0.0;        ///< pairs with a smaller gap are rows, d
   double margin = 0.0;      ///< candidates reach this much further, d
@@ -37,7 +40,8 @@ struct StageRule {
   double fall_iterations = 0.0;  ///< so many times Accuracy::fall_iterations and
   double rest_iterations = 0.0;  ///< so many times Accuracy::rest_iterations
   // Steps, if it ends on a condition the least:
-  std::int64_t steps = 0;   ///< these, and
+  std::int64_t steps = 0;                                              ///< these, and
+  std::int64_t most_steps = std::numeric_limits<std::int64_t>::max();  ///< it gives up after these
   double creep_from = 0.0;  ///< of Accuracy::creep_steps what lies from this share
   double creep_to = 0.0;    ///< to this one
   double energy = 0.0;      ///< m g d per grain; a bed with less of it has lost its speed

@@ -31,6 +31,10 @@ void set_free_motion(const StepSettings& settings, const SphereBed& bed, IndexRa
                      std::vector<Record<Real>>& free) {
   const double drop = settings.dt * settings.dt;
   for (std::size_t i = grains.first; i < grains.last; ++i) {
+    if (bed.is_asleep(i)) {
+      free[i] = {Real(0), Real(0), Real(0), Real(0)};
+      continue;
+    }
     const Record<double>& last = bed.motion[i];
     const double x = settings.momentum * last.x, y = settings.momentum * last.y;
     const double z = settings.momentum * last.z - drop;
@@ -45,6 +49,10 @@ void set_free_motion(const StepSettings& settings, const PolyhedronBed& bed, Ind
                      std::vector<Record<Real>>& free) {
   const Vector drop(0.0, 0.0, -settings.dt * settings.dt);
   for (std::size_t i = grains.first; i < grains.last; ++i) {
+    if (bed.is_asleep(i)) {
+      free[2 * i] = free[2 * i + 1] = {Real(0), Real(0), Real(0), Real(0)};
+      continue;
+    }
     const Vector v = settings.momentum * vector(bed.motion[i]) + drop;
     const Vector angles =
         clamped(settings.momentum * bed.spin[i], longest_free_motion / bed.circumradius(i));
@@ -53,43 +61,43 @@ void set_free_motion(const StepSettings& settings, const PolyhedronBed& bed, Ind
   }
 }
 
-/// Moves some grains by `u`, cut at longest_motion.
+void stand_still(SphereBed& bed, std::size_t grain) {
+  bed.motion[grain] = {0.0, 0.0, 0.0, bed.motion[grain].w};
+}
+void stand_still(PolyhedronBed& bed, std::size_t grain) {
+  bed.motion[grain] = {0.0, 0.0, 0.0, bed.motion[grain].w};
+  bed.spin[grain] = Vector::Zero();
+}
+
+/// Moves a grain by `u`, cut at longest_motion.
 template <class Real>
-Moved advance(const std::vector<Record<Real>>& u, IndexRange grains, SphereBed& bed) {
-  double energy = 0.0, longest = 0.0;
-  for (std::size_t i = grains.first; i < grains.last; ++i) {
-    double x = static_cast<double>(u[i].x), y = static_cast<double>(u[i].y);
-    double z = static_cast<double>(u[i].z);
-    double squared = x * x + y * y + z * z;
-    if (squared > longest_motion * longest_motion) {
-      const double keep = longest_motion / std::sqrt(squared);
-      x *= keep, y *= keep, z *= keep;
-      squared = longest_motion * longest_motion;
-    }
-    bed.position[i].x += x;
-    bed.position[i].y += y;
-    bed.position[i].z += z;
-    bed.motion[i].x = x;
-    bed.motion[i].y = y;
-    bed.motion[i].z = z;
-    energy += squared / bed.motion[i].w;
-    longest = std::max(longest, squared);
+void advance(const std::vector<Record<Real>>& u, std::size_t i, SphereBed& bed, Moved& moved) {
+  double x = static_cast<double>(u[i].x), y = static_cast<double>(u[i].y);
+  double z = static_cast<double>(u[i].z);
+  double squared = x * x + y * y + z * z;
+  if (squared > longest_motion * longest_motion) {
+    const double keep = longest_motion / std::sqrt(squared);
+    x *= keep, y *= keep, z *= keep;
+    squared = longest_motion * longest_motion;
   }
-  return {energy, std::sqrt(longest)};
+  bed.position[i].x += x;
+  bed.position[i].y += y;
+  bed.position[i].z += z;
+  bed.motion[i].x = x;
+  bed.motion[i].y = y;
+  bed.motion[i].z = z;
+  moved.energy += squared / bed.motion[i].w;
+  moved.longest = std::max(moved.longest, std::sqrt(squared));
 }
 template <class Real>
-Moved advance(const std::vector<Record<Real>>& u, IndexRange grains, PolyhedronBed& bed) {
-  Moved moved;
-  for (std::size_t i = grains.first; i < grains.last; ++i) {
-    const Vector displacement = clamped(vector(u[2 * i]), longest_motion);
-    const Vector scaled_angles = vector(u[2 * i + 1]);
-    const Vector angles = scaled_angles.cwiseQuotient(bed.root_inertia[i]);
-    move_grain(bed, i, displacement, angles);
-    moved.energy += displacement.squaredNorm() / bed.motion[i].w + scaled_angles.squaredNorm();
-    moved.longest =
-        std::max({moved.longest, displacement.norm(), angles.norm() * bed.circumradius(i)});
-  }
-  return moved;
+void advance(const std::vector<Record<Real>>& u, std::size_t i, PolyhedronBed& bed, Moved& moved) {
+  const Vector displacement = clamped(vector(u[2 * i]), longest_motion);
+  const Vector scaled_angles = vector(u[2 * i + 1]);
+  const Vector angles = scaled_angles.cwiseQuotient(bed.root_inertia[i]);
+  move_grain(bed, i, displacement, angles);
+  moved.energy += displacement.squaredNorm() / bed.motion[i].w + scaled_angles.squaredNorm();
+  moved.longest =
+      std::max({moved.longest, displacement.norm(), angles.norm() * bed.circumradius(i)});
 }
 
 /// The contacts of new candidates.
@@ -131,11 +139,19 @@ void forget_list(const PolyhedronBed&, Candidates&) {}
 
 // ---- the same for all ----
 
+/// Of a bed that has any grains.
+template <class Kind>
+double degrees_of_freedom(const Bed<Kind>& bed) {
+  return static_cast<double>(Kind::degrees_of_freedom * std::max<std::size_t>(bed.grains(), 1));
+}
+
 /// Free motion of all grains; nothing moves the entries that are none.
 template <class Kind, class Real>
 void set_free_motion(const StepSettings& settings, const ParallelFor& loop, const Bed<Kind>& bed,
-                     std::vector<Record<Real>>& free) {
+                     MotionColumns<Real>& motion) {
   constexpr std::size_t records = Contacts<Kind, Real>::records_of_grain;
+  std::vector<Record<Real>>& free = motion.free;
+  motion.first_moving = records * bed.first_awake;
   free.resize(records * bed.position.size());
   parallel_chunks(loop, bed.grains(), bed.subdomains, [&](std::size_t, IndexRange grains) {
     set_free_motion(settings, bed, grains, free);
@@ -145,21 +161,41 @@ void set_free_motion(const StepSettings& settings, const ParallelFor& loop, cons
   }
 }
 
+/// Moves some grains.
+template <class Kind, class Real>
+Moved advance(const MotionColumns<Real>& motion, IndexRange grains, Bed<Kind>& bed) {
+  constexpr std::size_t records = Contacts<Kind, Real>::records_of_grain;
+  Moved moved;
+  for (std::size_t i = grains.first; i < grains.last; ++i) {
+    if (bed.is_asleep(i)) {
+      stand_still(bed, i);
+      continue;
+    }
+    advance(motion.u, i, bed, moved);
+    const Real lift = motion.u[records * i].z - motion.free[records * i].z;
+    moved.lift += static_cast<double>(lift) / bed.motion[i].w;
+    moved.mass += 1.0 / bed.motion[i].w;
+    moved.awake += 1.0;
+  }
+  return moved;
+}
+
 /// Moves all grains and reports how they moved.
 template <class Kind, class Real>
 void advance(double dt, const ParallelFor& loop, Bed<Kind>& bed, StepState<Kind, Real>& state,
              StepReport& report) {
   state.moved.resize(bed.subdomains);
   parallel_chunks(loop, bed.grains(), bed.subdomains, [&](std::size_t part, IndexRange some) {
-    state.moved[part] = advance(state.motion.u, some, bed);
+    state.moved[part] = advance(state.motion, some, bed);
   });
   Moved all;
   for (const Moved& some : state.moved) {
-    all = {all.energy + some.energy, std::max(all.longest, some.longest)};
+    all = {all.energy + some.energy, std::max(all.longest, some.longest), all.lift + some.lift,
+           all.mass + some.mass, all.awake + some.awake};
   }
-  const double grains = static_cast<double>(std::max<std::size_t>(bed.grains(), 1));
-  report.kinetic_energy = all.energy / (2.0 * dt * dt * grains);
+  report.kinetic_energy = all.energy / (2.0 * dt * dt * std::max(all.awake, 1.0));
   report.largest_motion = all.longest;
+  report.carried = all.mass > 0.0 ? all.lift / (dt * dt * all.mass) : 1.0;
 }
 
 }  // namespace
@@ -171,13 +207,16 @@ StepReport step(const StepSettings& settings, const ExecutionContext& context, B
   const double force_unit = settings.dt * settings.dt;  // impulse of 1 m g over the step
   SolveLimits limits = settings.limits;
   limits.tolerance *= force_unit;
-  set_free_motion(settings, context.loop, bed, state.motion.free);
+  limits.rms_tolerance *= force_unit;
+  set_free_motion(settings, context.loop, bed, state.motion);
   report.searched =
       renew_candidates(settings.near, settings.margin, context, bed, state.candidates);
   if (report.searched) take_list(bed, state.candidates, context.loop, state.contacts);
   report.sunk = update_contacts(settings, context, bed, state.contacts);
   report.solve = solve(limits, context, state.contacts, state.motion);
+  report.spurious_path = report.solve.rms * report.solve.loaded / degrees_of_freedom(bed);
   report.solve.residual /= force_unit;
+  report.solve.rms /= force_unit;
   advance(settings.dt, context.loop, bed, state, report);
   return report;
 }

@@ -34,18 +34,27 @@ struct StepSettings {
 
 /// What a step did.
 struct StepReport {
-  SolveReport solve;            ///< residual in m g
+  SolveReport solve;            ///< residuals in m g
   double kinetic_energy = 0.0;  ///< mean per grain of 1/2 m (u/dt)^2, m g d
   double largest_motion = 0.0;  ///< d
+  /// Share of the weight of the grains awake that walls and grains asleep carry.
+  double carried = 0.0;
+  /// Way that contacts strayed for want of a better solve, d: the root mean square of the residuals
+  /// of the rows that push, times their number over that of all degrees of freedom.
+  double spurious_path = 0.0;
   /// Most by which centres were nearer than sunk_share of the distance at which their grains touch,
   /// of polyhedra the balls within them, before the step, d.
   double sunk = 0.0;
   bool searched = false;  ///< whether candidates were listed anew
 };
 
-/// How some grains moved in a step: sum of m u^2, m d^2, and longest way, d.
+/// How some grains moved in a step.
 struct Moved {
-  double energy = 0.0, longest = 0.0;
+  double energy = 0.0;   ///< sum of m u^2, m d^2
+  double longest = 0.0;  ///< longest way, d
+  double lift = 0.0;     ///< sum of m times what contacts add to the motion upwards, m d
+  double mass = 0.0;     ///< of those awake, m
+  double awake = 0.0;    ///< number of them
 };
 
 /// Everything that steps need besides the bed. After a step the contacts are those it found, before

@@ -47,8 +47,7 @@ class BlockWriter {
 
  private:
   Real reduced_mass(std::int32_t a, std::int32_t b) const {
-    return static_cast<Real>(1.0 / (bed_.motion[static_cast<std::size_t>(a)].w +
-                                    bed_.motion[static_cast<std::size_t>(b)].w));
+    return static_cast<Real>(1.0 / (bed_.inverse_mass(a) + bed_.inverse_mass(b)));
   }
 
   const SphereBed& bed_;

@@ -98,22 +98,23 @@ struct ContactRows {
 void add_side_b(const PolyhedronBed& bed, const PolyhedronContact& contact,
                 const ContactPoint* points, ContactRows& rows) {
   const auto b = static_cast<std::size_t>(contact.b);
+  if (bed.is_asleep(b)) return;
   const Vector& root = bed.root_inertia[b];
   for (std::size_t k = 0; k < contact.count; ++k) {
     const Vector torque = (points[k].position - contact.pose.centre).cross(contact.normal);
     rows.each[k].lever_b = (contact.pose.turn.transpose() * torque).cwiseQuotient(root);
   }
-  rows.inverse_masses += bed.motion[b].w;
+  rows.inverse_masses += bed.inverse_mass(contact.b);
 }
 
 void set_rows(const PolyhedronBed& bed, const PolyhedronContact& contact,
               const ContactPoint* points, ContactRows& rows) {
   const auto a = static_cast<std::size_t>(contact.a);
   const Vector& root = bed.root_inertia[a];
-  rows.inverse_masses = bed.motion[a].w;
+  rows.inverse_masses = bed.inverse_mass(contact.a);
   rows.normal = bed.pose(a).orientation * contact.normal;
   rows.each.assign(contact.count, {Vector::Zero(), Vector::Zero()});
-  for (std::size_t k = 0; k < contact.count; ++k) {
+  for (std::size_t k = 0; k < contact.count && !bed.is_asleep(a); ++k) {
     rows.each[k].lever_a = points[k].position.cross(contact.normal).cwiseQuotient(root);
   }
   if (bed.is_grain(contact.b)) add_side_b(bed, contact, points, rows);

@@ -53,6 +53,11 @@ struct Grains {
                                          ///< d; x and y may leave the box
   std::vector<Record<double>> motion;    ///< displacement of the last step, d, and inverse mass
 
+  /// 1 for each grain that nothing moves for now (engine/dynamics/sleep.hpp); empty if all may
+  /// move.
+  std::vector<std::uint8_t> asleep;
+  std::size_t first_awake = 0;  ///< all grains before it sleep
+
   std::size_t subdomains = 1;  ///< max_subdomains of the grains
   int subdomain_axis = 2;      ///< see `subdomain_axis`
 
@@ -67,6 +72,12 @@ struct Grains {
     return static_cast<std::int32_t>(grains() + subdomains + 2 * subdomain);
   }
   std::int32_t void_b(std::size_t subdomain = 0) const { return void_a(subdomain) + 1; }
+  bool is_asleep(std::size_t grain) const { return !asleep.empty() && asleep[grain] != 0; }
+  /// Of an entry, as what pushes it sees it: 0 of a grain that sleeps, 1/m.
+  double inverse_mass(std::int32_t entry) const {
+    const auto i = static_cast<std::size_t>(entry);
+    return is_grain(entry) && is_asleep(i) ? 0.0 : motion[i].w;
+  }
   bool is_void(std::int32_t entry) const { return entry >= void_a(); }
   /// What contacts with walls[k] call their second side.
   std::int32_t wall_name(std::size_t k) const { return static_cast<std::int32_t>(grains() + k); }

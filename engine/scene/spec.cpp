@@ -192,6 +192,7 @@ void check_accuracy(const Accuracy& accuracy, Errors& errors) {
   require_in({0.0, 2.0, true, false}, accuracy.step, "accuracy.step", errors);
   require_in({0.0, 1.0, false, true}, accuracy.momentum, "accuracy.momentum", errors);
   require_in({1.0, 1e6}, accuracy.fall_iterations, "accuracy.fall_iterations", errors);
+  positive(accuracy.path_tolerance, "accuracy.path_tolerance");
   require_in({0.0, 1e6}, accuracy.creep_steps, "accuracy.creep_steps", errors);
   require_in({1.0, 1e6}, accuracy.rest_iterations, "accuracy.rest_iterations", errors);
   positive(accuracy.residual_tolerance, "accuracy.residual_tolerance");

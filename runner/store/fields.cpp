@@ -159,6 +159,11 @@ std::vector<Field> further_fields() {
           "contacts that do not depend on others; counted where there are more than needed"),
       in_result<of::rest, &Rest::largest_motion>(
           "largest_motion", "d", "largest displacement of a grain in the last step"),
+      in_result<&Result::spurious_path>("spurious_path", "d",
+                                        "how far contacts strayed while the bed settled, for want "
+                                        "of better solves: taps that pack "
+                                        "it denser",
+                                        with_mean),
       in_result<&Result::mean_diameter>("mean_diameter", "d", "of all grains"),
       in_result<&Result::mean_diameter_by_volume>("mean_diameter_by_volume", "d",
                                                   "the same, each grain weighted by its volume"),

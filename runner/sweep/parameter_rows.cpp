@@ -263,7 +263,10 @@ Rows accuracy_rows() {
       row<&S::accuracy, &A::momentum>("accuracy.momentum", "[0, 1)",
                                       "share of the last displacement carried on, 0 to 1"),
       row<&S::accuracy, &A::fall_iterations>("accuracy.fall_iterations", "[1, 1000000]",
-                                             "solver iterations per step while the bed compacts"),
+                                             "most solver iterations per step of fall and creep"),
+      row<&S::accuracy, &A::path_tolerance>(
+          "accuracy.path_tolerance", "> 0",
+          "how far contacts may stray in a full step of fall or creep, d, root mean square"),
       row<&S::accuracy, &A::creep_steps>(
           "accuracy.creep_steps", "[0, 1000000]",
           "double steps after the fall, while the bed creeps to rest"),

@@ -251,6 +251,7 @@ TEST_CASE("the cost of a packing grows with its grains and its accuracy") {
   larger.fill = GrainCount{1600};
   finer.accuracy = *preset("accurate");
   wider.accuracy.precision = Precision::f64;
+  larger.box.length *= 10.0;
   CHECK(estimate_cost(larger).cpu_seconds == Approx(10 * estimate_cost(spec).cpu_seconds));
   CHECK(estimate_cost(larger).bytes > estimate_cost(spec).bytes);
   CHECK(estimate_cost(finer).cpu_seconds > 2 * estimate_cost(spec).cpu_seconds);

@@ -60,7 +60,7 @@ void add_tolerances(std::vector<Scene>& scenes) {
 void add_iterations(std::vector<Scene>& scenes) {
   for (const int iterations : {1, 3, 10, 100, 1000, 10'000, 100'000}) {
     for (const Precision precision : {Precision::f32, Precision::f64}) {
-      const bool is_right = iterations > 1 || precision == Precision::f64;
+      const bool is_right = iterations > 3 || precision == Precision::f64;
       scenes.push_back(changed(std::to_string(iterations) + " iterations a step", precision,
                                right_if(is_right), [=](Accuracy& a) {
                                  a.fall_iterations = a.rest_iterations = iterations;

@@ -81,7 +81,8 @@ void push_side_twin(const BodyBlock<Real>& c, const Real (&lever)[3][block_width
 template <class Real>
 SweepSums<Real> body_gauss_seidel_twin(BodyRows<Real> rows, std::size_t blocks, Record<Real>* u,
                                        Real* p, Real* y, SweepRule<Real> rule) {
-  Real residual = 0, restart_test[block_width] = {};
+  MissedTwin<Real> missed;
+  Real restart_test[block_width] = {};
   visit_lanes(rows, blocks, [&](const auto& c, std::size_t block, std::size_t lane) {
     for (std::size_t i = 0; i < c.points; ++i) {
       const PointTwin<Real> t = point_twin(rows, block, lane, i);
@@ -90,13 +91,13 @@ SweepSums<Real> body_gauss_seidel_twin(BodyRows<Real> rows, std::size_t blocks, 
       const Real p_new = larger(Real(0), y_old - w * rule.relaxation), change = p_new - p_old;
       p[at] = p_new;
       y[at] = p_new + rule.momentum * change;
-      residual = larger(residual, std::abs(smaller(y_old, w)));
+      missed.add(lane, std::abs(smaller(y_old, w)), p_new, u[2 * c.a(lane)].w, u[2 * c.b(lane)].w);
       restart_test[lane] += (y_old - p_new) * change;
       push_side_twin(c, t.r.lever_a, lane, Real(0) - (p_new - y_old), u + 2 * c.a(lane));
       push_side_twin(c, t.r.lever_b, lane, p_new - y_old, u + 2 * c.b(lane));
     }
   });
-  return {residual, tree_sum(restart_test)};
+  return {missed.sums(), tree_sum(restart_test)};
 }
 
 template <class Real>
@@ -112,19 +113,19 @@ void body_accumulate_impulses_twin(BodyRows<Real> rows, std::size_t blocks, cons
 }
 
 template <class Real>
-Real body_residual_twin(BodyRows<Real> rows, std::size_t blocks, const Record<Real>* u,
-                        const Real* p, Real unit_mass) {
-  Real worst = 0;
+Missed<Real> body_residual_twin(BodyRows<Real> rows, std::size_t blocks, const Record<Real>* u,
+                                const Real* p) {
+  MissedTwin<Real> missed;
   visit_lanes(rows, blocks, [&](const auto& c, std::size_t block, std::size_t lane) {
     for (std::size_t i = 0; i < c.points; ++i) {
       const PointTwin<Real> t = point_twin(rows, block, lane, i);
       const Real w = t.gap_after(u) * t.r.reduced_mass[lane];
-      const Real inverse = larger(u[2 * c.a(lane)].w, u[2 * c.b(lane)].w);
-      const Real lightest = larger(Real(1), inverse * unit_mass);
-      worst = larger(worst, std::abs(smaller(p[(c.first + i) * block_width + lane], w)) * lightest);
+      const Real impulse = p[(c.first + i) * block_width + lane];
+      missed.add(lane, std::abs(smaller(impulse, w)), impulse, u[2 * c.a(lane)].w,
+                 u[2 * c.b(lane)].w);
     }
   });
-  return worst;
+  return missed.sums();
 }
 
 }  // namespace grainsweep::testing

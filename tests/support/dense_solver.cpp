@@ -47,7 +47,9 @@ DenseSolution state_of(const DenseProblem& problem, std::vector<Number> impulse)
   for (std::size_t c = 0; c < problem.rows.size(); ++c) {
     const DenseRow& row = problem.rows[c];
     const Number w = gap_after(row, state.u) / diagonal(problem, row);
-    state.violation = std::max(state.violation, std::abs(std::min(state.impulse[c], w)));
+    const Number lightest =
+        std::max({Number(1), problem.inverse_mass[row.a], problem.inverse_mass[row.b]});
+    state.violation = std::max(state.violation, lightest * std::abs(std::min(state.impulse[c], w)));
   }
   return state;
 }

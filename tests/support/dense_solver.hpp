@@ -30,7 +30,7 @@ struct DenseProblem {
 struct DenseSolution {
   std::vector<Number> impulse;  ///< of each row
   std::vector<Number> u;        ///< 3 components of each entry
-  Number violation;             ///< largest |min(p, w / A)| over the rows
+  Number violation;  ///< largest |min(p, w / A)| over the rows, in masses of grains lighter than 1
 };
 
 /// The problem that `solve` is given, as written in the rows that are not void.

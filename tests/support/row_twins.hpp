@@ -66,10 +66,26 @@ Real tree_sum(Real (&lane)[block_width]) {
   return lane[0];
 }
 
+/// What rows miss, lane by lane.
+template <class Real>
+struct MissedTwin {
+  Real largest = 0, squares[block_width] = {}, loaded[block_width] = {};
+
+  /// A row of the lane with impulse p; `inverse` masses of its grains.
+  void add(std::size_t lane, Real residual, Real p, Real inverse_a, Real inverse_b) {
+    const Real missed = residual * larger(Real(1), larger(inverse_a, inverse_b));
+    largest = larger(largest, missed);
+    squares[lane] += missed * missed;
+    loaded[lane] += p > 0 ? Real(1) : Real(0);
+  }
+  Missed<Real> sums() { return {largest, tree_sum(squares), tree_sum(loaded)}; }
+};
+
 template <class Real>
 SweepSums<Real> gauss_seidel_twin(const RowBlock<Real>* rows, std::size_t blocks, Record<Real>* u,
                                   Real* p, Real* y, SweepRule<Real> rule) {
-  Real residual = 0, restart_test[block_width] = {};
+  MissedTwin<Real> missed;
+  Real restart_test[block_width] = {};
   for (std::size_t block = 0; block < blocks; ++block) {
     for (std::size_t lane = 0; lane < block_width; ++lane) {
       const std::size_t row = block * block_width + lane;
@@ -77,14 +93,14 @@ SweepSums<Real> gauss_seidel_twin(const RowBlock<Real>* rows, std::size_t blocks
       const Real p_new = larger(Real(0), y_old - w * rule.relaxation), change = p_new - p_old;
       p[row] = p_new;
       y[row] = p_new + rule.momentum * change;
-      residual = larger(residual, std::abs(smaller(y_old, w)));
       restart_test[lane] += (y_old - p_new) * change;
       const RowBlock<Real>& r = rows[block];
+      missed.add(lane, std::abs(smaller(y_old, w)), p_new, u[r.a(lane)].w, u[r.b(lane)].w);
       add_twin(r, lane, p_new - y_old, Real(0) - u[r.a(lane)].w, u[r.a(lane)]);
       add_twin(r, lane, p_new - y_old, u[r.b(lane)].w, u[r.b(lane)]);
     }
   }
-  return {residual, tree_sum(restart_test)};
+  return {missed.sums(), tree_sum(restart_test)};
 }
 
 template <class Real>
@@ -107,18 +123,17 @@ void accumulate_impulses_twin(const RowBlock<Real>* rows, std::size_t blocks, co
 }
 
 template <class Real>
-Real residual_twin(const RowBlock<Real>* rows, std::size_t blocks, const Record<Real>* u,
-                   const Real* p, Real unit_mass) {
-  Real worst = 0;
+Missed<Real> residual_twin(const RowBlock<Real>* rows, std::size_t blocks, const Record<Real>* u,
+                           const Real* p) {
+  MissedTwin<Real> missed;
   for (std::size_t row = 0; row < blocks * block_width; ++row) {
     const Real w = scaled_gap_twin(rows[row / block_width], row % block_width, u);
     const RowBlock<Real>& r = rows[row / block_width];
     const auto a = static_cast<std::size_t>(r.a(row % block_width));
     const auto b = static_cast<std::size_t>(r.b(row % block_width));
-    const Real lightest = larger(Real(1), larger(u[a].w, u[b].w) * unit_mass);
-    worst = larger(worst, std::abs(smaller(p[row], w)) * lightest);
+    missed.add(row % block_width, std::abs(smaller(p[row], w)), p[row], u[a].w, u[b].w);
   }
-  return worst;
+  return missed.sums();
 }
 
 inline double nearest_image_twin(double difference, double period) {

@@ -120,8 +120,8 @@ TEST_CASE("the imbalance of a bed is that of a dense reference, whatever forces 
   SphereBed bed = testing::random_bed({.box = {4, 4, periodic, walls}, .grains = 60});
   StepState<Sphere, float> state;
   StepSettings settings;
-  settings.limits.iterations = 20;
-  for (int k = 0; k < 150; ++k) step(settings, kernels(), bed, state);
+  settings.limits.iterations = 5;
+  for (int k = 0; k < 60; ++k) step(settings, kernels(), bed, state);
   const Imbalance exact = exact_imbalance(bed);
   StepState<Sphere, double> closed;
   const Imbalance warm =

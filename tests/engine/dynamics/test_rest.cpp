@@ -130,14 +130,6 @@ TEST_CASE("a bed without contacts has no overlap") {
   CHECK(rest.isostatic_contacts == 3);
 }
 
-TEST_CASE("the carried weight is the floor's share of all weights") {
-  Pushed pushed(x_periodic, {{2, 0.5, 0.5, 0.5}, {2, 2, 0.25, 0.25}, {4, 2, 3, 0.5}});
-  pushed.with_wall(0, 0, 1).with_wall(1, 0, 0.125).with_wall(0, 1, 7);
-  CHECK(carried_weight(pushed.bed, pushed.forces()) == Approx(1.125 / 2.125));
-  Pushed none(x_periodic, {});
-  CHECK(carried_weight(none.bed, none.forces()) == 1);
-}
-
 TEST_CASE("forces are summed over all contacts of a grain, walls included") {
   Pushed pushed(x_periodic, {{2, 0.5, 0.5, 0.5}, {2, 1.3, 1.1, 0.5}, {4, 2, 3, 0.5}});
   pushed.with_wall(0, 0, 2).with_wall(0, 1, 1.25).with_pair(0, 1, 1.5);

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <set>
+#include <string>
 #include <string_view>
 
 #include <catch2/catch.hpp>
@@ -63,30 +64,48 @@ TEST_CASE("every bed is looked at first and tested for rest last") {
   }
 }
 
-TEST_CASE("the two parts of the creep make up its steps") {
+TEST_CASE("the creep takes the steps that it is given") {
   for (const int steps : {0, 1, 2, 3, 80, 301}) {
     Accuracy accuracy;
     accuracy.creep_steps = steps;
-    const std::int64_t loose = steps_of(accuracy, heavy_ball("loose creep"));
-    CHECK(loose == 2 * steps / 3);
-    CHECK(loose + steps_of(accuracy, heavy_ball("creep")) == steps);
+    CHECK(steps_of(accuracy, heavy_ball("creep")) == steps);
   }
 }
 
-TEST_CASE("the creep is solved better towards its end") {
+TEST_CASE("iterations of fall and creep are bounded apart from those at rest") {
   Accuracy accuracy;
   accuracy.rest_iterations = 300;
   accuracy.fall_iterations = 77;
   const auto iterations = [&](const StageRule& stage) {
     return settings_of(accuracy, stage).limits.iterations;
   };
-  CHECK(iterations(heavy_ball("loose creep")) == 150);
-  CHECK(iterations(heavy_ball("creep")) == 300);
-  CHECK(iterations(heavy_ball("quench")) == 600);
   CHECK(iterations(heavy_ball("fall")) == 77);
+  CHECK(iterations(heavy_ball("creep")) == 77);
+  CHECK(iterations(heavy_ball("quench")) == 600);
   CHECK(iterations(dynamic("fall")) == 77);
-  CHECK(iterations(stage_called("fall", stages_of<Polyhedron>(Protocol::heavy_ball))) ==
-        51);  // two thirds
+  CHECK(iterations(stage_called("fall", stages_of<Polyhedron>(Protocol::heavy_ball))) == 77);
+}
+
+TEST_CASE(
+    "a step may stray by a path, whatever its length, and half as far where full ones are half") {
+  Accuracy accuracy;
+  accuracy.path_tolerance = 3e-4;
+  const auto path = [&](const StageRule& stage) {
+    const StepSettings settings = settings_of(accuracy, stage);
+    return settings.limits.rms_tolerance * settings.dt * settings.dt;
+  };
+  CHECK(path(heavy_ball("fall")) == Approx(3e-4));
+  CHECK(path(heavy_ball("creep")) == Approx(3e-4));
+  CHECK(path(heavy_ball("quench")) == 0.0);
+  accuracy.step = 0.1;
+  CHECK(path(heavy_ball("fall")) == Approx(1.5e-4));
+}
+
+TEST_CASE("a bed sleeps in its fall only") {
+  for (const Stages stages : all_stages()) {
+    for (const StageRule& stage : stages)
+      CHECK(stage.sleeps == (stage.name == std::string("fall")));
+  }
 }
 
 TEST_CASE("plain dynamics is undamped and takes a quarter of a step") {

@@ -75,21 +75,23 @@ TEST_CASE("the groups table as a whole") {
     row->outcome->result.rest.contacts = row->outcome->result.rest.isostatic_contacts;
   }
   const std::vector<Row> rows = {first, second, third};
-  CHECK(
-      groups_csv(groups_of(rows)) ==
-      "label,shape,length,width,boundary_x,boundary_y,small_share,accuracy,n,not_settled,failed,"
-      "pending,solid_fraction,solid_fraction_sd,coordination,coordination_sd,"
-      "coordination_with_walls,coordination_with_walls_sd,contact_ratio,contact_ratio_sd,"
-      "overlap_mean,overlap_mean_sd,static_imbalance_mean,static_imbalance_mean_sd,parameters,"
-      "contacts_simple,contacts_simple_sd,"
-      "contacts_double,contacts_double_sd,contacts_triple,contacts_triple_sd,force_simple,"
-      "force_simple_sd,force_double,force_double_sd,force_triple,force_triple_sd,nematic_x,"
-      "nematic_x_sd,nematic_y,nematic_y_sd,nematic_z,nematic_z_sd\n"
-      "MSP,sphere,20,5,periodic,walls,0,balanced,2,0,0,0,0.625,0.1767766952966369,6,"
-      "0.3535533905932738,6.25,0.3535533905932738,1,0,8e-05,0,0.02,0,\"{\"\"a\"\":5}\",,,,,,,,,,,,,"
-      ",,,,,\n"
-      "MSP,sphere,20,6,periodic,walls,0,balanced,0,1,0,0,,,,,,,,,,,,,\"{\"\"a\"\":6,\"\"b\"\":1}\""
-      ",,,,,,,,,,,,,,,,,,\n");
+  CHECK(groups_csv(groups_of(rows)) ==
+        "label,shape,length,width,boundary_x,boundary_y,small_share,accuracy,n,not_settled,failed,"
+        "pending,solid_fraction,solid_fraction_sd,coordination,coordination_sd,"
+        "coordination_with_walls,coordination_with_walls_sd,contact_ratio,contact_ratio_sd,"
+        "overlap_mean,overlap_mean_sd,static_imbalance_mean,static_imbalance_mean_sd,spurious_path,"
+        "spurious_path_sd,parameters,"
+        "contacts_simple,contacts_simple_sd,"
+        "contacts_double,contacts_double_sd,contacts_triple,contacts_triple_sd,force_simple,"
+        "force_simple_sd,force_double,force_double_sd,force_triple,force_triple_sd,nematic_x,"
+        "nematic_x_sd,nematic_y,nematic_y_sd,nematic_z,nematic_z_sd\n"
+        "MSP,sphere,20,5,periodic,walls,0,balanced,2,0,0,0,0.625,0.1767766952966369,6,"
+        "0.3535533905932738,6.25,0.3535533905932738,1,0,8e-05,0,0.02,0,0,0,\"{\"\"a\"\":5}\",,,,,,,"
+        ",,,,,,"
+        ",,,,,\n"
+        "MSP,sphere,20,6,periodic,walls,0,balanced,0,1,0,0,,,,,,,,,,,,,,,\"{\"\"a\"\":6,\"\"b\"\":"
+        "1}\""
+        ",,,,,,,,,,,,,,,,,,\n");
 }
 
 TEST_CASE("a mean is asked for by the name of its field") {

@@ -19,7 +19,7 @@ const std::string whole_header =
     "static_imbalance_mean,static_imbalance_max,step_residual,kinetic_energy,steps,iterations,cpu_"
     "seconds,length,boundary_x,accuracy,"
     "gap_tolerance,coordination_at_1e-05,coordination_with_walls_at_1e-05,surface_height,"
-    "slab_bottom,slab_top,independent_contacts,largest_motion,"
+    "slab_bottom,slab_top,independent_contacts,largest_motion,spurious_path,"
     "mean_diameter,mean_diameter_by_volume,q6_global,q6_local,three_contact_share,segregation,"
     "force_mean,force_square,state_hash,reason,contacts_simple,contacts_double,contacts_triple,"
     "force_simple,force_double,force_triple,nematic_x,nematic_y,nematic_z\n";
@@ -32,7 +32,7 @@ TEST_CASE("a settled packing is written with every value") {
         whole_header +
             "a1,MSP,1,7,sphere,2000,5,walls,0,settled,0.6125,5.75,6,5990,5991,8e-05,3e-04,0.02,0."
             "25,5e-04,"
-            "1e-09,265,20000,0.75,20,periodic,balanced,1e-04,5.625,5.75,15.5,3,12.5,5990,2e-05,"
+            "1e-09,265,20000,0.75,20,periodic,balanced,1e-04,5.625,5.75,15.5,3,12.5,5990,2e-05,0,"
             "0.98,0.99,0.03,0.4,0.1,,5.5,1.6,abcdef0123456789," +
             no_shape + "\n");
 }
@@ -63,11 +63,11 @@ TEST_CASE("failed and pending packings have no numbers where nothing was measure
       packings_csv({failed, pending}) ==
       whole_header +
           "a1,MSP,1,7,sphere,2000,5,walls,0,failed,,,,,,,,,,,,265,20000,0.75,20,periodic,balanced,"
-          "1e-04,,,,,,,,,,,,,,,,,no room" +
+          "1e-04,,,,,,,,,,,,,,,,,,no room" +
           no_shape + "\n" +
           "a2,MSP,1,7,sphere,,6,walls,0,pending,,,,,,,,,,,,,,,20,periodic,balanced,1e-04,,,,,,,,,,,"
           ","
-          ",,,,," +
+          ",,,,,," +
           no_shape + "\n");
 }
 
@@ -79,7 +79,7 @@ TEST_CASE("every row has as many cells as the header, whatever tolerances its jo
   for (int line = 0; line < 3; ++line) {
     const std::size_t end = text.find('\n', begin);
     CHECK(std::count(text.begin() + static_cast<long>(begin), text.begin() + static_cast<long>(end),
-                     ',') == 46 + 9);
+                     ',') == 47 + 9);
     begin = end + 1;
   }
 }

@@ -1,0 +1,39 @@
+// The deep part of a bed sleeps while the bed fills up.
+//
+// In the fall the deep bed has nothing to do. All it would do is err: what a solve leaves there is
+// a small share of the forces, but a spurious motion in every step, and the repair of the overlaps
+// pushes it out again; over a hundred layers the bed pumps itself denser than it was laid down. So
+// grains far below the filling front stand still, as if they were the floor, until the fall is
+// over.
+//
+//      falling     o   o    o     front: the lowest slice whose grains still fall
+//                 oo oo  o o
+//      settling   oooooooooo      sleep_depth below the front
+//      asleep     oooooooooo      nothing moves them; contacts between two of them are no rows
+#pragma once
+
+#include <cstdint>
+
+#include "engine/scene/bed.hpp"
+
+namespace grainsweep {
+
+/// How far below the filling front grains fall asleep, d: half as deep, those above would miss what
+/// still settles beneath them (the solid fraction comes out 0.002 lower).
+inline constexpr double sleep_depth = 15.0;
+
+/// The front is looked for once in so many steps.
+inline constexpr std::int64_t steps_between_looks = 5;
+
+/// Whether grains of this bed may sleep: small ones that find their way down between large ones
+/// must not find it frozen.
+bool may_sleep(const Grains& bed);
+
+/// Puts the grains to sleep whose centres lie further than sleep_depth below the filling front,
+/// after a step of length `dt`. Returns whether any fell asleep.
+bool put_to_sleep(double dt, Grains& bed);
+
+/// Wakes all grains. Returns whether any slept.
+bool wake(Grains& bed);
+
+}  // namespace grainsweep
