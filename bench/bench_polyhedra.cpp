@@ -70,9 +70,8 @@ std::vector<PairPose> touching_poses(const ConvexShape& shape) {
   for (PairPose& pose : poses) {
     const Vector n = pose.centre.normalized();
     pose.centre = 2.0 * shape.circumradius * n;
-    Simplex simplex;
     for (int k = 0; k < 40; ++k) {
-      pose.centre -= closest_points({shape, shape, pose}, simplex).distance * n;
+      pose.centre -= closest_points({shape, shape, pose}).distance * n;
     }
     pose.centre -= random.uniform(0.0, 0.02) * n;
   }
@@ -126,17 +125,9 @@ void axes(benchmark::State& run, const ConvexShape& shape) {
   });
 }
 
-void gjk_cold(benchmark::State& run, const ConvexShape& shape) {
+void gjk(benchmark::State& run, const ConvexShape& shape) {
   over_pairs(run, shape, [](const ShapePair& pair, std::size_t) {
-    Simplex simplex;
-    benchmark::DoNotOptimize(closest_points(pair, simplex));
-  });
-}
-
-void gjk_warm(benchmark::State& run, const ConvexShape& shape) {
-  std::vector<Simplex> simplices(pairs);
-  over_pairs(run, shape, [&](const ShapePair& pair, std::size_t k) {
-    benchmark::DoNotOptimize(closest_points(pair, simplices[k]));
+    benchmark::DoNotOptimize(closest_points(pair));
   });
 }
 
@@ -160,7 +151,7 @@ void clip(benchmark::State& run, const ConvexShape& shape) {
   });
 }
 
-/// The whole chain, warm, with a margin of .05 d.
+/// The whole chain, with what pairs remember, with a margin of .05 d.
 void touch_poses(benchmark::State& run, const ConvexShape& shape,
                  const std::vector<PairPose>& poses) {
   TouchColumns columns;
@@ -189,10 +180,8 @@ void on_isas(benchmark::internal::Benchmark* benchmark) {
 BENCHMARK(batch_axes)->Apply(on_isas);
 BENCHMARK_CAPTURE(axes, pinacoid, pinacoid({}));
 BENCHMARK_CAPTURE(axes, hull_of_20, rock());
-BENCHMARK_CAPTURE(gjk_cold, pinacoid, pinacoid({}));
-BENCHMARK_CAPTURE(gjk_cold, hull_of_20, rock());
-BENCHMARK_CAPTURE(gjk_warm, pinacoid, pinacoid({}));
-BENCHMARK_CAPTURE(gjk_warm, hull_of_20, rock());
+BENCHMARK_CAPTURE(gjk, pinacoid, pinacoid({}));
+BENCHMARK_CAPTURE(gjk, hull_of_20, rock());
 BENCHMARK_CAPTURE(cached_axis, pinacoid, pinacoid({}));
 BENCHMARK_CAPTURE(clip, pinacoid, pinacoid({}));
 BENCHMARK_CAPTURE(clip, hull_of_20, rock());

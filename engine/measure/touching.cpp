@@ -18,8 +18,7 @@ double pair_gap(const SphereBed& bed, std::size_t a, std::size_t b) {
 }
 double pair_gap(const PolyhedronBed& bed, std::size_t a, std::size_t b) {
   const ShapePair pair{bed.shape, bed.shape, pair_pose(bed, a, b)};
-  Simplex simplex;
-  const Closest closest = closest_points(pair, simplex);
+  const Closest closest = closest_points(pair);
   return closest.distance > 0.0 ? closest.distance : separating_axes(pair).separation();
 }
 

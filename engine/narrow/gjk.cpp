@@ -1,6 +1,7 @@
 #include "engine/narrow/gjk.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "engine/narrow/separating_axes.hpp"
@@ -146,17 +147,12 @@ void add_corner(const ShapePair& pair, std::int32_t a, std::int32_t b, Corners& 
   corners.at[k] = pair.vertex_b(b) - pair.vertex_a(a);
 }
 
-/// The corners that `simplex` names; those of the centres' direction if it is empty.
-Corners first_corners(const ShapePair& pair, const Simplex& simplex) {
+/// The corner in the direction of the centres.
+Corners first_corner(const ShapePair& pair) {
   Corners corners;
-  for (std::size_t k = 0; k < static_cast<std::size_t>(simplex.count); ++k) {
-    add_corner(pair, simplex.a[k], simplex.b[k], corners);
-  }
-  if (corners.count == 0) {
-    const Vector& c = pair.pose.centre;
-    add_corner(pair, farthest_vertex(pair.a, c),
-               farthest_vertex(pair.b, -(pair.pose.turn.transpose() * c)), corners);
-  }
+  const Vector& c = pair.pose.centre;
+  add_corner(pair, farthest_vertex(pair.a, c),
+             farthest_vertex(pair.b, -(pair.pose.turn.transpose() * c)), corners);
   return corners;
 }
 
@@ -197,9 +193,9 @@ void set_witnesses(const ShapePair& pair, const Corners& corners, Closest& resul
 
 }  // namespace
 
-Closest closest_points(const ShapePair& pair, Simplex& simplex) {
+Closest closest_points(const ShapePair& pair) {
   const double touch = touching_share * size_of(pair);
-  Corners best = nearest_of(first_corners(pair, simplex));
+  Corners best = nearest_of(first_corner(pair));
   Vector nearest = best.nearest();
   Closest result;
   for (result.iterations = 1; result.iterations <= max_iterations; ++result.iterations) {
@@ -222,7 +218,6 @@ Closest closest_points(const ShapePair& pair, Simplex& simplex) {
   result.converged = result.iterations <= max_iterations;
   result.distance = result.overlap ? 0.0 : nearest.norm();
   set_witnesses(pair, best, result);
-  simplex = {best.count, best.a, best.b};
   return result;
 }
 

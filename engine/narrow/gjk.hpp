@@ -5,18 +5,9 @@
 // shapes overlap the separating axes decide.
 #pragma once
 
-#include <array>
-
 #include "engine/narrow/shape_pair.hpp"
 
 namespace grainsweep {
-
-/// Corners of the Minkowski difference b - a that held the closest point, named by vertices. It is
-/// a guess for the same pair a step later; an empty one is always allowed.
-struct Simplex {
-  std::int32_t count = 0;  ///< 0 .. 4
-  std::array<std::int32_t, 4> a{}, b{};
-};
 
 struct Closest {
   double distance = 0.0;         ///< d; 0 if the shapes overlap
@@ -27,7 +18,7 @@ struct Closest {
   int iterations = 0;
 };
 
-/// `simplex`: the guess to start from; holds that of the result afterwards.
-Closest closest_points(const ShapePair& pair, Simplex& simplex);
+/// From the corners that lie towards each other's centre on.
+Closest closest_points(const ShapePair& pair);
 
 }  // namespace grainsweep

@@ -24,8 +24,7 @@ bool parted_along(const ShapePair& pair, const Vector& axis, double margin) {
 
 /// Whether GJK finds a pair further apart than the margin; it then remembers the axis.
 bool parted_by_distance(const ShapePair& pair, double margin, PairMemory& memory) {
-  Simplex simplex;
-  const Closest closest = closest_points(pair, simplex);
+  const Closest closest = closest_points(pair);
   if (closest.distance <= margin) return false;
   const Vector axis = (closest.on_b - closest.on_a).normalized();
   // What parts them must do so by itself: where rounding leaves a doubt they touch.
@@ -43,8 +42,7 @@ bool edges_part_better(const ContactAxes& axes, double preference) {
 /// Where nothing lies above the touching face, or no edges cross: a point between the closest
 /// points.
 void touch_between(const ShapePair& pair, PairContact& contact, std::vector<ContactPoint>& points) {
-  Simplex simplex;
-  const Closest closest = closest_points(pair, simplex);
+  const Closest closest = closest_points(pair);
   points.push_back({(closest.on_a + closest.on_b) / 2.0, contact.separation});
   contact.is_beside = true;
 }

@@ -24,8 +24,7 @@ struct Errors {
 void look_at(const ShapePair& pair, Errors& errors) {
   const testing::PairTruth truth = testing::true_gap(pair);
   const auto gap = static_cast<double>(truth.gap());
-  Simplex simplex;
-  const Closest closest = closest_points(pair, simplex);
+  const Closest closest = closest_points(pair);
   const double distance = std::abs(closest.distance - static_cast<double>(truth.distance));
   const bool wrong = closest.overlap != truth.overlap;
   errors.distance = std::max(errors.distance, std::isfinite(distance) ? distance : 1.0);

@@ -49,8 +49,7 @@ Found names_of(const ContactList& found) {
 /// Whether hulls are further apart than the margin though no axis parts them so far, as where a
 /// vertex faces a vertex; pinacoids are not asked.
 bool far_by_distance(const ShapePair& pair, double margin) {
-  Simplex simplex;
-  return !pair.a.pinacoid && closest_points(pair, simplex).distance > margin;
+  return !pair.a.pinacoid && closest_points(pair).distance > margin;
 }
 
 /// Every pair by all axes in f64, every grain and wall.
