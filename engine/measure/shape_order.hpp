@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "engine/measure/slab.hpp"
+#include "engine/results.hpp"
 #include "engine/scene/bed.hpp"
 
 namespace grainsweep {
