@@ -61,7 +61,7 @@ constexpr StageRule dynamic_fall = {.name = "fall",
 constexpr StageRule creep = {.name = "creep",
                              .step = 2.0,
                              .inertia = Inertia::damped,
-                             .path = 1.0,
+                             .path = 1.5,
                              .correction = 0.3,
                              .near = 0.05,
                              .margin = 0.01,
@@ -70,9 +70,9 @@ constexpr StageRule creep = {.name = "creep",
                              .done_before = 0.5,
                              .done_after = 0.75};
 
-/// Full steps without momentum: what still moves is slowed down, and contacts close. Half steps
-/// close 1 % fewer of them, in double ones beds fall apart.
+/// Full steps without momentum: what still moves is slowed down.
 constexpr StageRule halt = {.name = "halt",
+                            .path = 0.5,
                             .correction = 1.0,
                             .near = 0.02,
                             .margin = 0.01,

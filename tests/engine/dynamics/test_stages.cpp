@@ -95,7 +95,7 @@ TEST_CASE(
     return settings.limits.rms_tolerance * settings.dt * settings.dt;
   };
   CHECK(path(heavy_ball("fall")) == Approx(3e-4));
-  CHECK(path(heavy_ball("creep")) == Approx(3e-4));
+  CHECK(path(heavy_ball("creep")) == Approx(4.5e-4));
   CHECK(path(heavy_ball("quench")) == 0.0);
   accuracy.step = 0.1;
   CHECK(path(heavy_ball("fall")) == Approx(1.5e-4));
