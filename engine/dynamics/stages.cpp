@@ -232,10 +232,11 @@ double momentum_of(const Accuracy& accuracy, Inertia inertia) {
   return inertia == Inertia::none ? 0.0 : inertia == Inertia::damped ? accuracy.momentum : 1.0;
 }
 
-/// Step of the creep at which a share of it is over; shares of thirds have rounding errors.
-std::int64_t creep_step(const Accuracy& accuracy, double share) {
+/// Steps of a share of the creep. Shorter steps are more, so that the creep takes as long.
+std::int64_t creep_steps(const Accuracy& accuracy, double share) {
   constexpr double rounding = 1e-9;
-  return static_cast<std::int64_t>(std::floor(share * accuracy.creep_steps + rounding));
+  const double steps = accuracy.creep_steps * (Accuracy{}.step / accuracy.step);
+  return static_cast<std::int64_t>(std::floor(share * steps + rounding));
 }
 
 }  // namespace
@@ -270,7 +271,7 @@ StepSettings settings_of(const Accuracy& accuracy, const StageRule& rule) {
 }
 
 std::int64_t steps_of(const Accuracy& accuracy, const StageRule& rule) {
-  return rule.steps + creep_step(accuracy, rule.creep_to) - creep_step(accuracy, rule.creep_from);
+  return rule.steps + creep_steps(accuracy, rule.creep_to);
 }
 
 double share_done(const Accuracy& accuracy, const StageRule& rule, std::int64_t steps_in_stage) {

@@ -42,9 +42,8 @@ struct StageRule {
   // Steps, if it ends on a condition the least:
   std::int64_t steps = 0;                                              ///< these, and
   std::int64_t most_steps = std::numeric_limits<std::int64_t>::max();  ///< it gives up after these
-  double creep_from = 0.0;  ///< of Accuracy::creep_steps what lies from this share
-  double creep_to = 0.0;    ///< to this one
-  double energy = 0.0;      ///< m g d per grain; a bed with less of it has lost its speed
+  double creep_to = 0.0;  ///< of Accuracy::creep_steps this share
+  double energy = 0.0;    ///< m g d per grain; a bed with less of it has lost its speed
   // What progress bars go by:
   std::int64_t usual_steps = 0;  ///< of stages that end on a condition
   double done_before = 0.0;      ///< share of all work that is usually done before it

@@ -267,9 +267,10 @@ Rows accuracy_rows() {
       row<&S::accuracy, &A::path_tolerance>(
           "accuracy.path_tolerance", "> 0",
           "how far contacts may stray in a full step of fall or creep, d, root mean square"),
-      row<&S::accuracy, &A::creep_steps>(
-          "accuracy.creep_steps", "[0, 1000000]",
-          "double steps after the fall, while the bed creeps to rest"),
+      row<&S::accuracy, &A::creep_steps>("accuracy.creep_steps", "[0, 1000000]",
+                                         "double steps after the fall, while the bed creeps to "
+                                         "rest: of 0.4 sqrt(d/g), of shorter steps as "
+                                         "many more"),
       row<&S::accuracy, &A::rest_iterations>(
           "accuracy.rest_iterations", "[1, 1000000]",
           "most solver iterations per step at the end of the creep"),
