@@ -57,8 +57,8 @@ struct Missed {
 template <class Real>
 struct SweepSums {
   Missed<Real> missed;  ///< before the update
-  Real restart_test =
-      0;  ///< sum of (y - p_new)(p_new - p_old) over rows: positive asks for a restart
+  /// Sum of (y - p_new)(p_new - p_old) over rows: positive asks for a restart.
+  Real restart_test = 0;
 };
 
 /// Grains have sunk into each other when their centres are nearer than this share of the distance

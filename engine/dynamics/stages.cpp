@@ -162,8 +162,7 @@ constexpr StageRule turning[] = {
      .done_before = 0.78,
      .done_after = 0.84},
     // Half steps without momentum: contacts close. Quarter steps take seven times as many for it,
-    // full
-    // ones do not end.
+    // full ones do not end.
     {.name = "close",
      .step = 0.5,
      .correction = 0.5,

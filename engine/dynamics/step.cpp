@@ -25,47 +25,34 @@ Vector vector(const Record<Real>& r) {
   return {static_cast<double>(r.x), static_cast<double>(r.y), static_cast<double>(r.z)};
 }
 
-/// u_free = alpha u_last + g dt^2, clamped.
+/// u_free = alpha u_last + g dt^2, clamped, of a grain.
 template <class Real>
-void set_free_motion(const StepSettings& settings, const SphereBed& bed, IndexRange grains,
+void set_free_motion(const StepSettings& settings, const SphereBed& bed, std::size_t i,
                      std::vector<Record<Real>>& free) {
-  const double drop = settings.dt * settings.dt;
-  for (std::size_t i = grains.first; i < grains.last; ++i) {
-    if (bed.is_asleep(i)) {
-      free[i] = {Real(0), Real(0), Real(0), Real(0)};
-      continue;
-    }
-    const Record<double>& last = bed.motion[i];
-    const double x = settings.momentum * last.x, y = settings.momentum * last.y;
-    const double z = settings.momentum * last.z - drop;
-    const double length = std::sqrt(x * x + y * y + z * z);
-    const double keep = length > longest_free_motion ? longest_free_motion / length : 1.0;
-    free[i] = {static_cast<Real>(keep * x), static_cast<Real>(keep * y),
-               static_cast<Real>(keep * z), static_cast<Real>(last.w)};
-  }
+  const Record<double>& last = bed.motion[i];
+  const double x = settings.momentum * last.x, y = settings.momentum * last.y;
+  const double z = settings.momentum * last.z - settings.dt * settings.dt;
+  const double length = std::sqrt(x * x + y * y + z * z);
+  const double keep = length > longest_free_motion ? longest_free_motion / length : 1.0;
+  free[i] = {static_cast<Real>(keep * x), static_cast<Real>(keep * y), static_cast<Real>(keep * z),
+             static_cast<Real>(last.w)};
 }
 template <class Real>
-void set_free_motion(const StepSettings& settings, const PolyhedronBed& bed, IndexRange grains,
+void set_free_motion(const StepSettings& settings, const PolyhedronBed& bed, std::size_t i,
                      std::vector<Record<Real>>& free) {
   const Vector drop(0.0, 0.0, -settings.dt * settings.dt);
-  for (std::size_t i = grains.first; i < grains.last; ++i) {
-    if (bed.is_asleep(i)) {
-      free[2 * i] = free[2 * i + 1] = {Real(0), Real(0), Real(0), Real(0)};
-      continue;
-    }
-    const Vector v = settings.momentum * vector(bed.motion[i]) + drop;
-    const Vector angles =
-        clamped(settings.momentum * bed.spin[i], longest_free_motion / bed.circumradius(i));
-    free[2 * i] = record<Real>(clamped(v, longest_free_motion), bed.motion[i].w);
-    free[2 * i + 1] = record<Real>(bed.root_inertia[i].cwiseProduct(angles), 1.0);
-  }
+  const Vector v = settings.momentum * vector(bed.motion[i]) + drop;
+  const Vector angles =
+      clamped(settings.momentum * bed.spin[i], longest_free_motion / bed.circumradius(i));
+  free[2 * i] = record<Real>(clamped(v, longest_free_motion), bed.motion[i].w);
+  free[2 * i + 1] = record<Real>(bed.root_inertia[i].cwiseProduct(angles), 1.0);
 }
 
-void stand_still(SphereBed& bed, std::size_t grain) {
+void stand_still(Grains& bed, std::size_t grain) {
   bed.motion[grain] = {0.0, 0.0, 0.0, bed.motion[grain].w};
 }
 void stand_still(PolyhedronBed& bed, std::size_t grain) {
-  bed.motion[grain] = {0.0, 0.0, 0.0, bed.motion[grain].w};
+  stand_still(static_cast<Grains&>(bed), grain);
   bed.spin[grain] = Vector::Zero();
 }
 
@@ -154,7 +141,14 @@ void set_free_motion(const StepSettings& settings, const ParallelFor& loop, cons
   motion.first_moving = records * bed.first_awake;
   free.resize(records * bed.position.size());
   parallel_chunks(loop, bed.grains(), bed.subdomains, [&](std::size_t, IndexRange grains) {
-    set_free_motion(settings, bed, grains, free);
+    for (std::size_t i = grains.first; i < grains.last; ++i) {
+      if (bed.is_asleep(i)) {
+        std::fill_n(free.begin() + static_cast<std::ptrdiff_t>(records * i), records,
+                    Record<Real>{Real(0), Real(0), Real(0), Real(0)});
+      } else {
+        set_free_motion(settings, bed, i, free);
+      }
+    }
   });
   for (std::size_t i = records * bed.grains(); i < free.size(); ++i) {
     free[i] = {Real(0), Real(0), Real(0), static_cast<Real>(bed.motion[i / records].w)};

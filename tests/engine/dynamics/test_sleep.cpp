@@ -13,7 +13,7 @@ using testing::kernels;
 using testing::periodic;
 using testing::walls;
 
-constexpr double dt = 0.2;
+constexpr double step_length = 0.2;
 
 /// Grains exactly above each other, 1 d apart; those from `falling` up move down by 0.15 d a step.
 SphereBed column(int grains, int falling) {
@@ -24,12 +24,12 @@ SphereBed column(int grains, int falling) {
 
 TEST_CASE("grains sleep that lie deeper below the filling front than the depth of sleep") {
   SphereBed bed = column(60, 40);
-  CHECK(put_to_sleep(dt, bed));
+  CHECK(put_to_sleep(step_length, bed));
   for (std::size_t i = 0; i < 60; ++i) {
     CHECK(bed.is_asleep(i) == (bed.position[i].z < 40.0 - sleep_depth));
   }
   CHECK(bed.first_awake == 25);
-  CHECK_FALSE(put_to_sleep(dt, bed));  // again: none is new
+  CHECK_FALSE(put_to_sleep(step_length, bed));  // again: none is new
   CHECK(wake(bed));
   CHECK_FALSE(wake(bed));
   CHECK_FALSE(bed.is_asleep(0));
@@ -37,8 +37,8 @@ TEST_CASE("grains sleep that lie deeper below the filling front than the depth o
 
 TEST_CASE("nothing sleeps in a bed that does not fill up") {
   SphereBed at_rest = column(60, 60), falling = column(60, 0);
-  CHECK_FALSE(put_to_sleep(dt, at_rest));
-  CHECK_FALSE(put_to_sleep(dt, falling));
+  CHECK_FALSE(put_to_sleep(step_length, at_rest));
+  CHECK_FALSE(put_to_sleep(step_length, falling));
 }
 
 TEST_CASE("a bed whose small grains may slip through the large ones does not sleep") {
@@ -85,7 +85,7 @@ TEMPLATE_TEST_CASE("grains that sleep stand still and carry those above", "", fl
   const SphereBed before = bed;
   StepState<Sphere, TestType> state;
   StepSettings settings;
-  settings.dt = dt;
+  settings.dt = step_length;
   settings.limits = {Solver::accelerated_gauss_seidel, 10'000, 1e-5};
   const StepReport report = step(settings, kernels(), bed, state);
   CHECK(report.carried == Approx(1.0).epsilon(1e-4));  // of three grains, by a residual of 1e-5
@@ -93,7 +93,7 @@ TEMPLATE_TEST_CASE("grains that sleep stand still and carry those above", "", fl
     CHECK(bed.position[i].z == Approx(before.position[i].z).margin(1e-5));
     if (i < 3) CHECK(bed.position[i].z == before.position[i].z);
   }
-  for (const ForceContact& contact : force_contacts(bed, dt, state.contacts)) {
+  for (const ForceContact& contact : force_contacts(bed, step_length, state.contacts)) {
     CHECK(std::max(contact.a, contact.b) >= 3);
     CHECK(contact.force == Approx(6 - std::max(contact.a, contact.b)).epsilon(1e-3));
   }

@@ -267,7 +267,7 @@ TEST_CASE("without contacts grains move freely") {
 int sweeps_for_a_column(Solver solver) {
   SphereBed bed = testing::column_bed(50, 0.0);
   SphereContacts<double> contacts = testing::contacts_of<double>(bed, 0.1, kernels());
-  MotionColumns<double> motion{bed.motion, {}, {}, {}, {}, {}};
+  MotionColumns<double> motion{bed.motion, 0, {}, {}, {}, {}, {}};
   for (std::size_t i = 0; i < bed.grains(); ++i) {
     motion.free[i].z = -1.0;
   }
