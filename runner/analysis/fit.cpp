@@ -7,13 +7,11 @@
 namespace grainsweep {
 namespace {
 
-double weight_of(const LinePoint& point, FitWeights weights) {
-  return weights == FitWeights::equal ? 1.0 : 1.0 / (point.error * point.error);
-}
+double weight_of(const LinePoint& point) { return 1.0 / (point.error * point.error); }
 
-bool determines_a_line(const std::vector<LinePoint>& points, FitWeights weights) {
+bool determines_a_line(const std::vector<LinePoint>& points) {
   const auto weighable = [&](const LinePoint& point) {
-    const double weight = weight_of(point, weights);
+    const double weight = weight_of(point);
     return std::isfinite(point.x) && std::isfinite(point.y) && std::isfinite(weight) && weight > 0;
   };
   const auto elsewhere = [&](const LinePoint& point) { return point.x != points.front().x; };
@@ -26,10 +24,10 @@ struct Moments {
   double weight = 0.0, x_mean = 0.0, y_mean = 0.0, xx = 0.0, xy = 0.0, yy = 0.0;
 };
 
-Moments moments_of(const std::vector<LinePoint>& points, FitWeights weights) {
+Moments moments_of(const std::vector<LinePoint>& points) {
   Moments sum;
   for (const LinePoint& point : points) {
-    const double weight = weight_of(point, weights);
+    const double weight = weight_of(point);
     sum.weight += weight;
     sum.x_mean += weight * point.x;
     sum.y_mean += weight * point.y;
@@ -37,7 +35,7 @@ Moments moments_of(const std::vector<LinePoint>& points, FitWeights weights) {
   sum.x_mean /= sum.weight;
   sum.y_mean /= sum.weight;
   for (const LinePoint& point : points) {
-    const double weight = weight_of(point, weights);
+    const double weight = weight_of(point);
     const double dx = point.x - sum.x_mean;
     const double dy = point.y - sum.y_mean;
     sum.xx += weight * dx * dx;
@@ -47,29 +45,28 @@ Moments moments_of(const std::vector<LinePoint>& points, FitWeights weights) {
   return sum;
 }
 
-double chi2_of(const std::vector<LinePoint>& points, FitWeights weights, const LineFit& fit) {
+double chi2_of(const std::vector<LinePoint>& points, const LineFit& fit) {
   double chi2 = 0.0;
   for (const LinePoint& point : points) {
     const double residual = point.y - fit.intercept - fit.slope * point.x;
-    chi2 += weight_of(point, weights) * residual * residual;
+    chi2 += weight_of(point) * residual * residual;
   }
   return chi2;
 }
 
 }  // namespace
 
-std::optional<LineFit> fit_line(const std::vector<LinePoint>& points, FitWeights weights) {
-  if (!determines_a_line(points, weights)) return std::nullopt;
-  const Moments sum = moments_of(points, weights);
+std::optional<LineFit> fit_line(const std::vector<LinePoint>& points) {
+  if (!determines_a_line(points)) return std::nullopt;
+  const Moments sum = moments_of(points);
   LineFit fit;
   fit.slope = sum.xy / sum.xx;
   fit.intercept = sum.y_mean - fit.slope * sum.x_mean;
-  fit.chi2 = chi2_of(points, weights, fit);
+  fit.chi2 = chi2_of(points, fit);
   fit.degrees_of_freedom = static_cast<int>(points.size()) - 2;
-  const double scale = weights == FitWeights::equal ? fit.chi2 / fit.degrees_of_freedom : 1.0;
-  fit.slope_error = std::sqrt(scale / sum.xx);
-  fit.intercept_error = std::sqrt(scale * (1.0 / sum.weight + sum.x_mean * sum.x_mean / sum.xx));
-  fit.covariance = -scale * sum.x_mean / sum.xx;
+  fit.slope_error = std::sqrt(1.0 / sum.xx);
+  fit.intercept_error = std::sqrt(1.0 / sum.weight + sum.x_mean * sum.x_mean / sum.xx);
+  fit.covariance = -sum.x_mean / sum.xx;
   fit.r_squared = sum.yy > 0 ? 1.0 - fit.chi2 / sum.yy : std::numeric_limits<double>::quiet_NaN();
   return fit;
 }

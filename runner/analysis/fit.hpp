@@ -4,8 +4,7 @@
 //   slope = sum w (x - x_m)(y - y_m) / S_xx,      intercept = y_m - slope x_m,
 //   var(slope) = 1 / S_xx,   var(intercept) = 1 / sum w + x_m^2 / S_xx,
 //   cov(intercept, slope) = -x_m / S_xx
-// (Bevington & Robinson, Data Reduction and Error Analysis, ch. 6). With equal weights the same
-// holds for w = 1, the three variances times the residual variance chi2 / (n - 2).
+// (Bevington & Robinson, Data Reduction and Error Analysis, ch. 6).
 #pragma once
 
 #include <optional>
@@ -17,12 +16,7 @@ namespace grainsweep {
 struct LinePoint {
   double x = 0.0;
   double y = 0.0;
-  double error = 0.0;  ///< standard error of y; not used with equal weights
-};
-
-enum class FitWeights {
-  by_error,  ///< w = 1 / error^2; parameter errors follow from the errors of the points
-  equal,     ///< w = 1; parameter errors follow from the scatter about the line
+  double error = 0.0;  ///< standard error of y
 };
 
 /// Units: intercept that of y, slope y / x, and their errors alike.
@@ -32,13 +26,13 @@ struct LineFit {
   double intercept_error = 0.0;  ///< one standard error
   double slope_error = 0.0;      ///< one standard error
   double covariance = 0.0;       ///< of intercept and slope
-  double chi2 = 0.0;             ///< sum of w (y - line)^2; with equal weights in the unit of y^2
+  double chi2 = 0.0;             ///< sum of w (y - line)^2
   int degrees_of_freedom = 0;    ///< number of points - 2
   double r_squared = 0.0;        ///< share of the weighted variance explained; NaN if y is constant
 };
 
 /// Nothing if the points do not determine a line with errors: fewer than three points, fewer than
-/// two different x, or, with weights by error, an error that is not positive and finite.
-std::optional<LineFit> fit_line(const std::vector<LinePoint>& points, FitWeights weights);
+/// two different x, or an error that is not positive and finite.
+std::optional<LineFit> fit_line(const std::vector<LinePoint>& points);
 
 }  // namespace grainsweep

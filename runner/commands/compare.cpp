@@ -53,7 +53,7 @@ int perform(const CompareOptions& options) {
                    fixed(agreement_limit, 0) +
                    " standard errors of both sides together; where\nthe source has no error, ours "
                    "alone counts.\n" +
-                   comparison_text(reference, families_of(groups_of(results.rows)));
+                   comparison_text(reference, analyse(results.rows).families);
   return exit_done;
 }
 

@@ -27,16 +27,9 @@ std::string definition_of(const Group& group, Quantity quantity) {
 
 /// The mean of replicates.
 template <Quantity quantity>
-Measured mean_of(const Family& family, const Group& group) {
+Measured mean_of(const Family& /*family*/, const Group& group) {
   const Spread& spread = spread_of(group, quantity);
-  Measured measured{
-      {spread.mean, pooled_error(family, quantity, spread.n)}, "", definition_of(group, quantity)};
-  if (spread.n == 0) {
-    measured.not_determined = "no packing has settled";
-  } else if (!std::isfinite(measured.estimate.error)) {
-    measured.not_determined = "one settled replicate leaves the error unknown";
-  }
-  return measured;
+  return {{spread.mean, spread.error}, why_no_error(spread), definition_of(group, quantity)};
 }
 
 template <Quantity quantity>
@@ -46,32 +39,28 @@ Measured unconfined(const Family& family) {
   return {{}, "the sweep has no settled packing with periodic y", ""};
 }
 
-Measured fitted(const WallFit& fit, double value, double error) {
-  constexpr double largest_chi2 = 3.0;  // per degree of freedom; about 1 where a line holds
-  const std::string doubt = fit.chi2_per_dof > largest_chi2 ? ": the line does not hold" : "";
-  return {{value, widened(error, fit)},
-          fit.not_determined,
+Measured fitted(const WallFit& fit, const Estimate& estimate) {
+  return {estimate, fit.not_determined,
           "line in 1/W over " + std::to_string(fit.widths) + " widths, χ²/dof " +
-              fixed(fit.chi2_per_dof, 1) + doubt + "; errors widened by its root where above 1"};
+              fixed(fit.chi2_per_dof, 1) + (fit.doubt.empty() ? "" : ": ") + fit.doubt};
 }
 
 template <Quantity quantity>
 Measured bulk_of_fit(const Family& family) {
   const WallFit fit = fit_walls(family, quantity);
-  return fitted(fit, fit.bulk.value, fit.bulk.error);
+  return fitted(fit, fit.bulk);
 }
 
 template <Quantity quantity>
 Measured slope_of_fit(const Family& family) {
   const WallFit fit = fit_walls(family, quantity);
-  return fitted(fit, fit.slope.value, fit.slope.error);
+  return fitted(fit, fit.slope);
 }
 
 Measured zeta_difference(const Family& family) {
   const WallFit phi = fit_walls(family, Quantity::solid_fraction);
   const WallFit z = fit_walls(family, Quantity::coordination);
-  return {{z.zeta.value - phi.zeta.value,
-           std::hypot(widened(z.zeta.error, z), widened(phi.zeta.error, phi))},
+  return {{z.zeta.value - phi.zeta.value, std::hypot(z.zeta.error, phi.zeta.error)},
           phi.not_determined.empty() ? z.not_determined : phi.not_determined,
           "ζ_φ = C / φ_bulk = " + fixed(phi.zeta.value, 3) +
               " d, ζ_Z = C_Z / Z_bulk = " + fixed(z.zeta.value, 3) + " d, walls not counted"};
@@ -107,9 +96,8 @@ Measured decay_over_slope(const Family& family, const Group& group) {
   const DecayFit decay = decay_of(group, GrainClass::large);
   const WallFit phi = fit_walls(family, Quantity::solid_fraction);
   const double ratio = decay.length.value / phi.slope.value;
-  const double error =
-      std::abs(ratio) * std::hypot(decay.length.error / decay.length.value,
-                                   widened(phi.slope.error, phi) / phi.slope.value);
+  const double error = std::abs(ratio) * std::hypot(decay.length.error / decay.length.value,
+                                                    phi.slope.error / phi.slope.value);
   return {{ratio, error},
           decay.not_determined.empty() ? phi.not_determined : decay.not_determined,
           "decay length of the large grains' φ(y) over the slope C of φ"};
@@ -117,7 +105,7 @@ Measured decay_over_slope(const Family& family, const Group& group) {
 
 Measured zone_drop(const Family& /*family*/, const Group& group) {
   const WallZone zone = wall_zone(group);
-  return {{zone.drop.mean, standard_error(zone.drop)},
+  return {{zone.drop.mean, zone.drop.error},
           zone.not_determined,
           "grains farther than " + cell(core_distance) +
               " d from both walls less those nearer "
@@ -128,7 +116,7 @@ Measured zone_drop(const Family& /*family*/, const Group& group) {
 
 Measured zone_width(const Family& /*family*/, const Group& group) {
   const WallZone zone = wall_zone(group);
-  return {{zone.width.mean, standard_error(zone.width)},
+  return {{zone.width.mean, zone.width.error},
           zone.not_determined,
           "of a layer with the wall's Z at each wall that has the packing's mean Z"};
 }

@@ -60,9 +60,8 @@ std::string reference_text(const Family& family, Quantity quantity, int decimals
 
 /// What the line's quality is, in brackets.
 std::string quality_text(const WallFit& fit) {
-  std::string text = "R² " + fixed(fit.r_squared, 3);
-  if (std::isfinite(fit.chi2_per_dof)) text = "χ²/dof " + fixed(fit.chi2_per_dof, 2) + ", " + text;
-  return "(" + text + ", " + std::to_string(fit.widths) + " widths)";
+  return "(χ²/dof " + fixed(fit.chi2_per_dof, 2) + ", R² " + fixed(fit.r_squared, 3) + ", " +
+         std::to_string(fit.widths) + " widths)";
 }
 
 /// One fit: the symbols, bulk value beside the periodic one, slope, and how good the line is.
@@ -72,13 +71,13 @@ std::string fit_text(const Family& family, Quantity quantity, int decimals) {
   const std::string law = "  " + symbol + " = " + symbol + "_bulk - " + slope + "/W:  ";
   const WallFit fit = fit_walls(family, quantity);
   if (!fit.not_determined.empty()) return law + "not determined: " + fit.not_determined + "\n";
-  std::string text = law + symbol +
-                     "_bulk = " + with_error(fit.bulk.value, fit.bulk.error, decimals) +
-                     reference_text(family, quantity, decimals) + "\n" + "      " + slope + " = " +
-                     with_error(fit.slope.value, fit.slope.error, decimals - 1) +
-                     " d,  ζ = " + with_error(fit.zeta.value, fit.zeta.error, 3) + " d  " +
-                     quality_text(fit) + "\n";
-  if (fit.weights.starts_with("equal")) text += "      weights: " + fit.weights + "\n";
+  std::string text =
+      law + symbol + "_bulk = " + with_error(fit.bulk.value, fit.bulk.error, decimals) +
+      reference_text(family, quantity, decimals) + "\n" + "      " + slope + " = " +
+      with_error(fit.slope.value, fit.slope.error, decimals - 1) + " d,  ζ = " + slope + "/" +
+      symbol + "_bulk = " + with_error(fit.zeta.value, fit.zeta.error, 3) + " d  " +
+      quality_text(fit) + "\n";
+  if (!fit.doubt.empty()) text += "      " + fit.doubt + "; errors widened by √(χ²/dof)\n";
   return text;
 }
 

@@ -11,15 +11,6 @@ namespace {
 
 using nlohmann::json;
 
-std::string parameters_without_width(const JobFacts& job) {
-  json parameters = json::parse(job.parameters);
-  if (parameters.contains("box")) {
-    parameters["box"].erase("width");
-    parameters["box"].erase("y");
-  }
-  return parameters.dump();
-}
-
 /// The labels of the walled groups, or of all if none is walled.
 std::string labels_of(const Family& family) {
   std::vector<std::string> labels;
@@ -89,9 +80,8 @@ std::vector<Family> families_of(const std::vector<Group>& groups) {
   std::vector<Family> families;
   std::map<std::string, std::size_t> index_of;
   for (const Group& group : groups) {
-    const std::string parameters = parameters_without_width(group.job);
-    const auto [known, is_new] = index_of.try_emplace(parameters, families.size());
-    if (is_new) families.push_back({"", parameters, {}, {}});
+    const auto [known, is_new] = index_of.try_emplace(group.family, families.size());
+    if (is_new) families.push_back({"", group.family, {}, {}});
     Family& family = families[known->second];
     (group.job.box.y == Boundary::walls ? family.walled : family.periodic).push_back(group);
   }

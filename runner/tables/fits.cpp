@@ -18,50 +18,27 @@ std::vector<const Group*> groups_with_values(const Family& family) {
   return groups;
 }
 
-std::string why_not_determined(const std::vector<const Group*>& groups, int widths) {
+std::string why_not_determined(const std::vector<const Group*>& groups, Quantity quantity,
+                               int widths) {
   if (widths < 3) {
     return "needs settled packings at 3 or more widths with otherwise equal parameters, has " +
            std::to_string(widths);
   }
-  const auto is_single = [](const Group* group) { return group->counts.settled < 2; };
-  if (!std::all_of(groups.begin(), groups.end(), is_single)) return "";
-  return "needs 2 or more settled replicates to know the errors, has 1 at every width";
+  return why_no_error(spread_of(*groups.front(), quantity));
 }
 
-/// Variance of a single packing about the mean of its width, and its degrees of freedom.
-struct Pooled {
-  double variance = 0.0;
-  int degrees_of_freedom = 0;
-};
-
-Pooled pooled_over(const std::vector<const Group*>& groups, Quantity quantity) {
-  Pooled pooled;
-  double squares = 0.0;
-  for (const Group* group : groups) {
-    const Spread& spread = spread_of(*group, quantity);
-    if (spread.n < 2) continue;
-    squares += (spread.n - 1) * spread.sd * spread.sd;
-    pooled.degrees_of_freedom += spread.n - 1;
-  }
-  if (pooled.degrees_of_freedom > 0) pooled.variance = squares / pooled.degrees_of_freedom;
-  return pooled;
-}
-
-std::vector<FitPoint> points_of(const std::vector<const Group*>& groups, Quantity quantity,
-                                const Pooled& pooled) {
+std::vector<FitPoint> points_of(const std::vector<const Group*>& groups, Quantity quantity) {
   std::vector<FitPoint> points;
   for (const Group* group : groups) {
     const Spread& spread = spread_of(*group, quantity);
-    const double error = pooled.variance > 0 ? std::sqrt(pooled.variance / spread.n) : no_number;
-    points.push_back({group->job.box.width, spread.n, spread.mean, error, no_number});
+    points.push_back({group->job.box.width, spread.n, spread.mean, spread.error, no_number});
   }
   return points;
 }
 
-std::string weights_text(const Pooled& pooled) {
-  if (!(pooled.variance > 0)) return "equal (the replicates do not scatter)";
-  return "variance of the replicates pooled over the widths (" +
-         std::to_string(pooled.degrees_of_freedom) + " degrees of freedom)";
+std::string weights_text(const Spread& of) {
+  return "variance of the replicates pooled over the family (" +
+         std::to_string(of.degrees_of_freedom) + " degrees of freedom)";
 }
 
 Estimate zeta_of(const LineFit& line) {
@@ -72,13 +49,17 @@ Estimate zeta_of(const LineFit& line) {
   return {slope / bulk, std::sqrt(std::max(0.0, variance))};
 }
 
-void take_line(const LineFit& line, FitWeights weights, WallFit& fit) {
-  const bool is_weighted = weights == FitWeights::by_error;
-  fit.bulk = {line.intercept, line.intercept_error};
-  fit.slope = {-line.slope, line.slope_error};
+void take_line(const LineFit& line, WallFit& fit) {
+  constexpr double largest_chi2 = 3.0;  // per degree of freedom
+  const double chi2 = line.chi2 / line.degrees_of_freedom;
+  const double widening = std::sqrt(std::max(1.0, chi2));
+  fit.bulk = {line.intercept, line.intercept_error * widening};
+  fit.slope = {-line.slope, line.slope_error * widening};
   fit.zeta = zeta_of(line);
+  fit.zeta.error *= widening;
   fit.degrees_of_freedom = line.degrees_of_freedom;
-  fit.chi2_per_dof = is_weighted ? line.chi2 / line.degrees_of_freedom : no_number;
+  fit.chi2_per_dof = chi2;
+  if (chi2 > largest_chi2) fit.doubt = "the straight line does not hold";
   fit.r_squared = line.r_squared;
   for (FitPoint& point : fit.points) point.fitted = line.intercept + line.slope / point.width;
 }
@@ -123,8 +104,8 @@ Columns<FitLine> fit_status_columns() {
        [](Line line) {
          return cell(line.fit.not_determined.empty() ? "determined" : "not determined");
        }},
-      {"reason", "", "why it is not determined",
-       [](Line line) { return cell(line.fit.not_determined); }},
+      {"reason", "", "why it is not determined, or not to be trusted",
+       [](Line line) { return cell(line.fit.not_determined + line.fit.doubt); }},
       {"widths", "", "different widths with a settled packing",
        [](Line line) { return cell(line.fit.widths); }},
       {"packings", "", "settled packings behind them",
@@ -150,7 +131,8 @@ Columns<FitLine> fit_line_columns() {
   using Value = const Spread&;
   append(columns,
          Columns<FitLine>{
-             {"chi2_per_dof", "", "about 1 if the line holds; empty with equal weights",
+             {"chi2_per_dof", "",
+              "about 1 if the line holds; where it exceeds 1, all errors are widened by its root",
               fit_cell([](Fit fit) { return fit.chi2_per_dof; })},
              {"degrees_of_freedom", "", "points less 2",
               fit_cell([](Fit fit) { return fit.degrees_of_freedom; })},
@@ -184,7 +166,7 @@ Columns<FitPointLine> fit_point_columns() {
       {"width", "d", "of the box along y", [](Line line) { return cell(line.point.width); }},
       {"n", "", "settled packings behind the mean", [](Line line) { return cell(line.point.n); }},
       {"mean", "", "the quantity there", [](Line line) { return cell(line.point.mean); }},
-      {"error", "", "standard error of the mean; empty with equal weights",
+      {"error", "", "standard error of the mean, as in groups.csv",
        [](Line line) { return cell(line.point.error); }},
       {"fitted", "", "what the line says", [](Line line) { return cell(line.point.fitted); }},
       {"residual", "", "mean less fitted",
@@ -202,23 +184,10 @@ const Spread& spread_of(const Group& group, Quantity quantity) {
   return mean_of(group, name_of(quantity));
 }
 
-double widened(double error, const WallFit& fit) {
-  return fit.chi2_per_dof > 1.0 ? error * std::sqrt(fit.chi2_per_dof) : error;
-}
-
-double pooled_error(const Family& family, Quantity quantity, int n) {
-  std::vector<const Group*> groups;
-  for (const Group& group : family.walled) groups.push_back(&group);
-  for (const Group& group : family.periodic) groups.push_back(&group);
-  const Pooled pooled = pooled_over(groups, quantity);
-  return pooled.degrees_of_freedom > 0 && n > 0 ? std::sqrt(pooled.variance / n) : no_number;
-}
-
 WallFit fit_walls(const Family& family, Quantity quantity) {
   const std::vector<const Group*> groups = groups_with_values(family);
-  const Pooled pooled = pooled_over(groups, quantity);
   WallFit fit;
-  fit.points = points_of(groups, quantity, pooled);
+  fit.points = points_of(groups, quantity);
   std::set<double> widths;
   std::vector<LinePoint> points;
   for (const FitPoint& point : fit.points) {
@@ -227,13 +196,12 @@ WallFit fit_walls(const Family& family, Quantity quantity) {
     points.push_back({1.0 / point.width, point.mean, point.error});
   }
   fit.widths = static_cast<int>(widths.size());
-  fit.not_determined = why_not_determined(groups, fit.widths);
+  fit.not_determined = why_not_determined(groups, quantity, fit.widths);
   if (!fit.not_determined.empty()) return fit;
-  const FitWeights weights = pooled.variance > 0 ? FitWeights::by_error : FitWeights::equal;
-  fit.weights = weights_text(pooled);
-  const auto line = fit_line(points, weights);
+  fit.weights = weights_text(spread_of(*groups.front(), quantity));
+  const auto line = fit_line(points);
   if (line) {
-    take_line(*line, weights, fit);
+    take_line(*line, fit);
   } else {
     fit.not_determined = "a mean value is not a number";
   }

@@ -2,11 +2,11 @@
 //
 //   phi = phi_bulk - C / W,     Z = Z_bulk - C_Z / W,     zeta = C / phi_bulk or C_Z / Z_bulk
 //
-// least squares over the widths. The error of each mean is sqrt(s^2 / n) with the variance s^2 of
-// single packings pooled over all widths of the family, sum (n_i - 1) s_i^2 / sum (n_i - 1): the
-// standard deviation of three replicates alone is uncertain by half its value, and weights made
-// from it would let chance decide which widths count. A fit that the packings do not support is
-// "not determined", with the reason, and has no numbers.
+// least squares over the widths, each mean with the error that groups.csv has of it: errors of each
+// width alone would let chance decide which widths count. The errors of a fit follow from those,
+// times sqrt(chi2 per degree of freedom) where that exceeds 1: a line that misses its points by
+// more than their errors is known no better than it misses them. A fit that the packings do not
+// support is "not determined", with the reason, and has no numbers.
 #pragma once
 
 #include <string>
@@ -27,7 +27,7 @@ struct FitPoint {
   double width = 0.0;  ///< d
   int n = 0;           ///< settled packings behind the mean
   double mean = 0.0;
-  double error = 0.0;   ///< standard error of the mean; NaN with equal weights
+  double error = 0.0;   ///< standard error of the mean
   double fitted = 0.0;  ///< NaN if there is no fit
 };
 
@@ -35,24 +35,16 @@ struct WallFit {
   std::string not_determined;  ///< why there is no fit; empty if there is one
   int widths = 0;              ///< different W with a settled packing
   int packings = 0;            ///< settled packings behind them
+  std::string doubt;           ///< why the line may be none; empty if it holds
   std::string weights;         ///< what the errors of the points are
   std::vector<FitPoint> points;
   Estimate bulk;              ///< phi_bulk or Z_bulk
   Estimate slope;             ///< C or C_Z, d
   Estimate zeta;              ///< slope / bulk, d
-  double chi2_per_dof = 0.0;  ///< NaN with equal weights, where it means nothing
+  double chi2_per_dof = 0.0;  ///< about 1 if the line holds
   int degrees_of_freedom = 0;
   double r_squared = 0.0;
 };
-
-/// Standard errors of a fit with the scatter of the points about the line: `error`, the error from
-/// the replicates, times sqrt(chi2 per degree of freedom) where that exceeds 1. A line that misses
-/// its points by more than their errors is known no better than it misses them.
-double widened(double error, const WallFit& fit);
-
-/// Standard error of the mean of `n` packings, from the variance pooled over all groups of the
-/// family, walled and periodic; NaN where none has two settled replicates.
-double pooled_error(const Family& family, Quantity quantity, int n);
 
 WallFit fit_walls(const Family& family, Quantity quantity);
 

@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include <nlohmann/json.hpp>
+
 #include "runner/store/fields.hpp"
 
 namespace grainsweep {
@@ -33,15 +35,51 @@ Spread spread_over(const Members& members, const Field& field) {
   return spread_of(values);
 }
 
+std::string parameters_without_width(const JobFacts& job) {
+  nlohmann::json parameters = nlohmann::json::parse(job.parameters);
+  if (parameters.contains("box")) {
+    parameters["box"].erase("width");
+    parameters["box"].erase("y");
+  }
+  return parameters.dump();
+}
+
 Group group_of(const Members& members) {
   Group group;
   group.job = members.front()->job;
+  group.family = parameters_without_width(group.job);
   for (const Field& field : mean_fields()) group.means.push_back(spread_over(members, field));
   for (const Row* row : members) {
     count(*row, group.counts);
     if (is_settled(*row)) group.settled.emplace_back(row->outcome->result);
   }
   return group;
+}
+
+/// Gives the mean number `k` of the groups of one family the error of their pooled variance.
+void pool_errors(const std::vector<Group*>& family, std::size_t k) {
+  double squares = 0.0;
+  int degrees_of_freedom = 0;
+  for (const Group* group : family) {
+    const Spread& spread = group->means[k];
+    if (!std::isfinite(spread.sd)) continue;
+    squares += (spread.n - 1) * spread.sd * spread.sd;
+    degrees_of_freedom += spread.n - 1;
+  }
+  for (Group* group : family) {
+    Spread& spread = group->means[k];
+    if (spread.n == 0 || degrees_of_freedom == 0) continue;
+    spread.error = std::sqrt(squares / degrees_of_freedom / spread.n);
+    spread.degrees_of_freedom = degrees_of_freedom;
+  }
+}
+
+void pool_errors(std::vector<Group>& groups) {
+  std::map<std::string, std::vector<Group*>> families;
+  for (Group& group : groups) families[group.family].push_back(&group);
+  for (const auto& [name, family] : families) {
+    for (std::size_t k = 0; k < mean_fields().size(); ++k) pool_errors(family, k);
+  }
 }
 
 const JobFacts& job_of_group(const Group& group) { return group.job; }
@@ -61,18 +99,25 @@ Columns<Group> group_count_columns() {
 }  // namespace
 
 Spread spread_of(const std::vector<double>& values) {
-  Spread spread{no_number, no_number, static_cast<int>(values.size())};
+  Spread spread{no_number, no_number, static_cast<int>(values.size()), no_number, 0};
   if (values.empty()) return spread;
   double sum = 0.0, squares = 0.0;
   for (const double value : values) sum += value;
   spread.mean = sum / spread.n;
   for (const double value : values) squares += (value - spread.mean) * (value - spread.mean);
-  if (spread.n > 1) spread.sd = std::sqrt(squares / (spread.n - 1));
+  if (spread.n < 2) return spread;
+  spread.degrees_of_freedom = spread.n - 1;
+  spread.sd = std::sqrt(squares / spread.degrees_of_freedom);
+  spread.error = spread.sd / std::sqrt(spread.n);
   return spread;
 }
 
-double standard_error(const Spread& spread) {
-  return spread.n > 1 ? spread.sd / std::sqrt(spread.n) : no_number;
+std::string why_no_error(const Spread& spread) {
+  constexpr double rounding = 1e-12;  // of sums over the grains of a bed
+  if (spread.n == 0) return "no packing has settled";
+  if (spread.degrees_of_freedom == 0) return "needs 2 or more settled replicates to know the error";
+  if (spread.error > rounding * std::abs(spread.mean)) return "";
+  return "the replicates do not scatter: they are copies, and tell no error";
 }
 
 std::vector<Group> groups_of(const std::vector<Row>& rows) {
@@ -87,6 +132,7 @@ std::vector<Group> groups_of(const std::vector<Row>& rows) {
   std::vector<Group> groups;
   groups.reserve(members.size());
   for (const Members& some : members) groups.push_back(group_of(some));
+  pool_errors(groups);
   return groups;
 }
 

@@ -11,29 +11,37 @@
 
 namespace grainsweep {
 
-/// Mean and sample standard deviation (divisor n - 1); NaN where there are too few values.
+/// Mean, sample standard deviation (divisor n - 1) and standard error of the mean; NaN where there
+/// are too few values.
 struct Spread {
   double mean = 0.0;
   double sd = 0.0;
   int n = 0;
+  double error = 0.0;          ///< sd / sqrt(n), or as pooled by `groups_of`
+  int degrees_of_freedom = 0;  ///< of the variance behind the error
 };
 
 Spread spread_of(const std::vector<double>& values);
 
-/// Standard error of the mean, sd / sqrt(n); NaN below two values.
-double standard_error(const Spread& spread);
+/// Why a mean has no error that could be trusted: no replicates, or replicates that are copies and
+/// scatter by no more than rounding. Empty if it has one.
+std::string why_no_error(const Spread& spread);
 
 /// The packings with one label and one parameter set. Only settled ones enter the means. Refers to
 /// the rows that it was made of.
 struct Group {
-  JobFacts job;  ///< the first of them: its replicate number, id and seed mean nothing here
+  JobFacts job;        ///< the first of them: its replicate number, id and seed mean nothing here
+  std::string family;  ///< canonical JSON of the parameters without box.width and box.y
   std::vector<Spread> means;  ///< of the fields that have one, in the order of the field table
   /// In the order of the rows, with curves as far as they had.
   std::vector<std::reference_wrapper<const PackingResult>> settled;
   StatusCounts counts;
 };
 
-/// In the order in which the groups first appear.
+/// In the order in which the groups first appear. The errors of their means come from the variance
+/// of single packings pooled over the groups of a family, sum (n_i - 1) s_i^2 / sum (n_i - 1): the
+/// standard deviation of three replicates alone is uncertain by half its value. A single packing
+/// has an error, too, if others of its family have replicates.
 std::vector<Group> groups_of(const std::vector<Row>& rows);
 std::vector<Group> groups_of(std::vector<Row>&& rows) = delete;
 

@@ -60,7 +60,7 @@ TEST_CASE("a line that misses its points says that it does not hold") {
   for (Row& row : rows) {
     if (row.job.box.width == 10) row.outcome->result.solid_fraction += 0.05;
   }
-  CHECK_THAT(definition(rows), Catch::Contains("the line does not hold"));
+  CHECK_THAT(definition(rows), Catch::Contains("the straight line does not hold"));
 }
 
 TEST_CASE("families that share one value show it, and others that they do not") {
@@ -80,7 +80,7 @@ TEST_CASE("what a sweep lacks is not determined, with the reason") {
   const auto reason = [&](const std::string& quantity, double width = 0) {
     return measure_quantity(quantity, width, family).not_determined;
   };
-  CHECK(reason("phi", 5) == "one settled replicate leaves the error unknown");
+  CHECK(reason("phi", 5) == "needs 2 or more settled replicates to know the error");
   CHECK(reason("phi", 10) == "the sweep has no packings between walls at W = 10 d");
   CHECK(reason("Z_unconfined") == "the sweep has no settled packing with periodic y");
   CHECK_THAT(reason("C"), Catch::Contains("3 or more widths"));

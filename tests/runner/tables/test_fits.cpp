@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <random>
 #include <string>
 
@@ -31,7 +32,7 @@ TEST_CASE("the planted wall effect is recovered with the errors of its replicate
   CHECK(fit.zeta.value == Approx(0.2 / 0.64));
   CHECK(fit.widths == 4);
   CHECK(fit.packings == 8);
-  CHECK(fit.weights == "variance of the replicates pooled over the widths (4 degrees of freedom)");
+  CHECK(fit.weights == "variance of the replicates pooled over the family (4 degrees of freedom)");
   // Each mean has sd sqrt(2) .001 and error .001; x = .25, .2, .1, .05: S_xx = .025, x_m = .15.
   CHECK(fit.slope.error == Approx(0.001 / std::sqrt(0.025)));
   CHECK(fit.bulk.error == Approx(0.001 * std::sqrt(0.25 + 0.0225 / 0.025)));
@@ -63,7 +64,7 @@ TEST_CASE("a width with one packing takes its error from the others' replicates"
   rows.push_back(settled_row("single", 20, 0.630, 5.95));
   const WallFit fit = fit_walls(family_of(rows), Quantity::solid_fraction);
   REQUIRE(fit.not_determined.empty());
-  CHECK(fit.weights == "variance of the replicates pooled over the widths (3 degrees of freedom)");
+  CHECK(fit.weights == "variance of the replicates pooled over the family (3 degrees of freedom)");
   REQUIRE(fit.points.size() == 4);
   CHECK(fit.points[0].error == Approx(0.001));  // sd sqrt(2) .001 of two
   CHECK(fit.points[3].error == Approx(0.001 * std::sqrt(2.0)));
@@ -81,58 +82,81 @@ TEST_CASE("the variance is pooled by degrees of freedom, not by widths") {
   CHECK(fit.points[1].error == Approx(std::sqrt(variance / 4)));
 }
 
-TEST_CASE("replicates without any scatter lead to equal weights, and the fit says so") {
+TEST_CASE("copies of one packing are no replicates: they determine nothing") {
   std::vector<Row> rows;
   for (const double width : {4.0, 5.0, 10.0}) add_width(rows, width, 0.0);
-  const WallFit fit = fit_walls(family_of(rows), Quantity::solid_fraction);
-  REQUIRE(fit.not_determined.empty());
-  CHECK(fit.weights == "equal (the replicates do not scatter)");
-  CHECK(std::isnan(fit.chi2_per_dof));
+  CHECK(fit_walls(family_of(rows), Quantity::solid_fraction).not_determined ==
+        "the replicates do not scatter: they are copies, and tell no error");
 }
 
-// 1000 sweeps of seven widths with three noisy replicates each. The pooled variance has 14 degrees
-// of freedom, so that the planted values lie within one claimed error in 66.6 % of all sweeps and
-// within 2.145 errors in 95 % (Student's t); by 1000 sweeps to within 1.5 and .7 %, three of which
-// are allowed.
-TEST_CASE("planted walls lie within the claimed errors as often as they must") {
-  std::mt19937_64 generator(41);
-  std::normal_distribution<double> normal;
-  const int sweeps = 1000;
-  int bulk_in_one = 0, slope_in_one = 0, zeta_in_one = 0, slope_in_most = 0;
-  double chi2 = 0.0;
-  for (int sweep = 0; sweep < sweeps; ++sweep) {
-    Family family;
-    for (const double width : {4.0, 5.0, 6.0, 8.0, 10.0, 15.0, 20.0}) {
-      Group group;
-      group.job.box.width = width;
-      std::vector<double> values;
-      for (int k = 0; k < 3; ++k) values.push_back(0.64 - 0.2 / width + 0.001 * normal(generator));
-      group.means = {spread_of(values)};  // of the solid fraction
-      group.counts.settled = 3;
-      family.walled.push_back(group);
+TEST_CASE("a line that misses its points says so and is known no better than it misses them") {
+  std::vector<Row> rows, straight;
+  for (const double width : {4.0, 5.0, 10.0, 20.0}) {
+    add_width(straight, width, 0.001);
+    add_width(rows, width, 0.001);
+    for (std::size_t k = rows.size() - 2; k < rows.size(); ++k) {
+      rows[k].outcome->result.solid_fraction += width == 10.0 ? 0.01 : 0.0;
     }
-    const WallFit fit = fit_walls(family, Quantity::solid_fraction);
-    bulk_in_one += std::abs(fit.bulk.value - 0.64) < fit.bulk.error ? 1 : 0;
-    slope_in_one += std::abs(fit.slope.value - 0.2) < fit.slope.error ? 1 : 0;
-    slope_in_most += std::abs(fit.slope.value - 0.2) < 2.145 * fit.slope.error ? 1 : 0;
-    zeta_in_one += std::abs(fit.zeta.value - 0.2 / 0.64) < fit.zeta.error ? 1 : 0;
-    chi2 += fit.chi2_per_dof / sweeps;
   }
-  CHECK(bulk_in_one / double(sweeps) == Approx(0.666).margin(0.045));
-  CHECK(slope_in_one / double(sweeps) == Approx(0.666).margin(0.045));
-  CHECK(zeta_in_one / double(sweeps) == Approx(0.666).margin(0.045));
-  CHECK(slope_in_most / double(sweeps) == Approx(0.95).margin(0.021));
-  CHECK(chi2 == Approx(14.0 / 12.0).epsilon(0.08));  // mean of F(5, 14); its sd is .9 / sqrt(1000)
+  const WallFit fit = fit_walls(family_of(rows), Quantity::solid_fraction);
+  const WallFit before = fit_walls(family_of(straight), Quantity::solid_fraction);
+  CHECK(before.doubt.empty());
+  CHECK(fit.chi2_per_dof > 3.0);
+  CHECK(fit.doubt == "the straight line does not hold");
+  CHECK(fit.bulk.error == Approx(before.bulk.error * std::sqrt(fit.chi2_per_dof)));
+  CHECK(fit.slope.error == Approx(before.slope.error * std::sqrt(fit.chi2_per_dof)));
+  CHECK_THAT(fits_csv(families_of(groups_of(rows))),
+             Catch::Contains("MSP,solid_fraction,determined,the straight line does not hold,4,8,"));
 }
 
-TEST_CASE("errors widen only where the line misses its points by more than their errors") {
-  WallFit fit;
-  fit.chi2_per_dof = 0.3;
-  CHECK(widened(0.1, fit) == 0.1);
-  fit.chi2_per_dof = 9;
-  CHECK(widened(0.1, fit) == Approx(0.3));
-  fit.chi2_per_dof = std::nan("");
-  CHECK(widened(0.1, fit) == 0.1);
+/// A sweep as users make it: five widths and one without walls, three replicates of each, on known
+/// lines with normal noise.
+std::vector<Row> noisy_sweep(std::mt19937_64& generator) {
+  std::normal_distribution<double> normal;
+  std::vector<Row> rows;
+  const auto add = [&](double width, double phi, double z, Boundary y) {
+    for (int k = 0; k < 3; ++k) {
+      rows.push_back(settled_row(std::to_string(rows.size()), width,
+                                 phi + 0.001 * normal(generator), z + 0.02 * normal(generator), y));
+    }
+  };
+  for (const double width : {4.0, 5.0, 6.0, 8.0, 12.0}) {
+    add(width, 0.64 - 0.2 / width, 6.1 - 3.0 / width, Boundary::walls);
+  }
+  add(12.0, 0.64, 6.1, Boundary::periodic);
+  return rows;
+}
+
+// Values within two printed errors of the truth: 95 % of them, were errors known exactly. Those of
+// means come from 12 degrees of freedom, for which Student's t has 93.1 %; widening keeps fits at
+// 95 to 97 %. Shares of 1000 sweeps are known to 0.7 %.
+TEST_CASE("planted walls and means lie within two printed errors as often as they must") {
+  std::mt19937_64 generator(41);
+  const int sweeps = 1000;
+  std::map<std::string, int> hits;
+  const auto judge = [&](const std::string& name, double value, double error, double truth) {
+    hits[name] += std::abs(value - truth) < 2.0 * error ? 1 : 0;
+  };
+  for (int sweep = 0; sweep < sweeps; ++sweep) {
+    const std::vector<Row> rows = noisy_sweep(generator);
+    const Family family = family_of(rows);
+    const WallFit phi = fit_walls(family, Quantity::solid_fraction);
+    const WallFit z = fit_walls(family, Quantity::coordination);
+    judge("phi_bulk", phi.bulk.value, phi.bulk.error, 0.64);
+    judge("C", phi.slope.value, phi.slope.error, 0.2);
+    judge("zeta", phi.zeta.value, phi.zeta.error, 0.2 / 0.64);
+    judge("Z_bulk", z.bulk.value, z.bulk.error, 6.1);
+    judge("C_Z", z.slope.value, z.slope.error, 3.0);
+    judge("zeta_Z", z.zeta.value, z.zeta.error, 3.0 / 6.1);
+    const Spread& widest = mean_of(family.walled.back(), "solid_fraction");
+    judge("phi at W = 12", widest.mean, widest.error, 0.64 - 0.2 / 12.0);
+    const Spread& periodic = mean_of(family.periodic.front(), "coordination");
+    judge("Z without walls", periodic.mean, periodic.error, 6.1);
+  }
+  for (const auto& [name, count] : hits) {
+    INFO(name);
+    CHECK(count / double(sweeps) == Approx(0.95).margin(0.03));
+  }
 }
 
 TEST_CASE("the points of a fit have their residuals in both units") {
@@ -165,7 +189,7 @@ TEST_CASE("one replicate at every width determines nothing") {
     rows.push_back(settled_row(std::to_string(width), width, 0.6, 6));
   }
   CHECK(fit_walls(family_of(rows), Quantity::solid_fraction).not_determined ==
-        "needs 2 or more settled replicates to know the errors, has 1 at every width");
+        "needs 2 or more settled replicates to know the error");
 }
 
 TEST_CASE("an unsettled packing never moves the line") {
@@ -196,7 +220,7 @@ TEST_CASE("the table of a fit has the periodic value beside it") {
   rows.push_back(settled_row("p", 20, 0.6390, 6.05, Boundary::periodic));
   const std::string text = fits_csv(families_of(groups_of(rows)));
   CHECK_THAT(text, Catch::Contains("MSP,solid_fraction,determined,,4,8,variance of the replicates "
-                                   "pooled over the widths (4 degrees of freedom),0.64"));
+                                   "pooled over the family (4 degrees of freedom),0.64"));
   CHECK_THAT(text, Catch::Contains(",20,0.639,,1,"));
   CHECK_THAT(text, Catch::Contains(",20,6.05,,1,"));
 }

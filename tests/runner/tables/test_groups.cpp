@@ -13,14 +13,14 @@ TEST_CASE("mean and standard deviation of known values") {
   CHECK(spread.mean == Approx(7.0 / 3.0));
   CHECK(spread.sd == Approx(std::sqrt(7.0 / 3.0)));
   CHECK(spread.n == 3);
-  CHECK(standard_error(spread) == Approx(std::sqrt(7.0) / 3.0));
+  CHECK(spread.error == Approx(std::sqrt(7.0) / 3.0));
 }
 
 TEST_CASE("one value has a mean but no scatter, none has neither") {
   CHECK(spread_of(std::vector<double>{5}).mean == 5.0);
   CHECK(std::isnan(spread_of(std::vector<double>{5}).sd));
   CHECK(std::isnan(spread_of(std::vector<double>{}).mean));
-  CHECK(std::isnan(standard_error(spread_of(std::vector<double>{5}))));
+  CHECK(std::isnan(spread_of(std::vector<double>{5}).error));
 }
 
 TEST_CASE("replicates form a group, only the settled ones enter its means") {
