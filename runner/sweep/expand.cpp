@@ -135,6 +135,14 @@ std::vector<const Assignments*> entries_of(const std::vector<Axis>& axes, std::u
   return entries;
 }
 
+/// Where the grains of a packing start.
+struct Start {
+  Fill fill;
+  std::string file = {};     ///< as written; "" if they start at random
+  std::string content = {};  ///< hash of its bytes
+  std::string pointer = {};  ///< its place in a list
+};
+
 /// Multiplies out the blocks; holds the jobs made so far and what has been said about them.
 class Expansion {
  public:
@@ -166,17 +174,30 @@ class Expansion {
     const Block& block = definition_.blocks[index];
     ResolvedSpec resolved = resolve(in_effect);
     if (in_effect[seed_] == nullptr) resolved.seed = definition_.seed;
-    place_grains(block, in_effect, resolved);
+    const std::vector<Start> starts = starts_of(block, in_effect, resolved);
     place_vertices(block, in_effect, resolved);
-    note_broken_rules(block, in_effect, check(resolved.spec));
+    for (const Start& start : starts) {
+      resolved.spec.fill = start.fill;
+      note_broken_rules(block, in_effect, check(resolved.spec), start);
+    }
     if (!diagnostics_.empty()) return;
     Job job{"", block.label,   canonical_parameters(resolved),
             1,  resolved.seed, std::move(resolved.spec)};
-    for (; job.replicate <= block.replicates; ++job.replicate) add(index, job);
+    if (!resolved.hull_file.empty()) job.files["shape.hull.vertices"] = resolved.hull_file;
+    if (!resolved.fill_file.empty()) job.files["fill.file"] = resolved.fill_file;
+    const bool is_listed = !resolved.fill_files.empty();
+    const int replicates = is_listed ? static_cast<int>(starts.size()) : block.replicates;
+    for (; job.replicate <= replicates; ++job.replicate) {
+      const Start& start = starts[is_listed ? static_cast<std::size_t>(job.replicate) - 1 : 0];
+      job.spec.fill = start.fill;
+      if (is_listed) job.files["fill.files"] = start.file;
+      add(index, job,
+          is_listed ? job_hash(job.parameters + start.content, job.seed, 1)
+                    : job_hash(job.parameters, job.seed, job.replicate));
+    }
   }
 
-  void add(std::size_t index, Job& job) {
-    const std::uint64_t hash = job_hash(job.parameters, job.seed, job.replicate);
+  void add(std::size_t index, Job& job, std::uint64_t hash) {
     const auto [entry, is_new] = first_block_.emplace(hash, index);
     if (!is_new) {
       const bool same = definition_.blocks[entry->second].label == job.label;
@@ -188,27 +209,66 @@ class Expansion {
     jobs_.push_back(job);
   }
 
-  /// Fills in the grains of a fill file. If it cannot be read, says so and leaves the fill
-  /// at its default, so that the other rules can still be checked.
-  void place_grains(const Block& block, const InEffect& in_effect, ResolvedSpec& resolved) {
-    const Assignment* diameter = in_effect[diameter_];
-    const Assignment* file = in_effect[file_];
-    if (file == nullptr) {
+  /// Where the grains of a point start: in one way for all replicates, or in a file for each. What
+  /// cannot be read is told and left at the default fill, so that the other rules can be checked.
+  std::vector<Start> starts_of(const Block& block, const InEffect& in_effect,
+                               ResolvedSpec& resolved) {
+    const Assignment *diameter = in_effect[diameter_], *file = in_effect[file_];
+    const Assignment* const files = in_effect[files_];
+    if (file == nullptr && files == nullptr) {
       if (diameter != nullptr) note(*diameter, "belongs to fill.file, and that is not set");
-      return;
+      return {{resolved.spec.fill}};
     }
-    resolved.spec.fill = SolidHeight{};
-    if (!(resolved.fill_diameter > 0.0)) return note(*diameter, "must be positive");
-    const GrainsReading& reading = reading_of(resolved.fill_file, *file, read_grains, grains_);
-    if (!reading.errors.empty()) return;
-    placed_ += reading.grains.size() * static_cast<std::uint64_t>(block.replicates);
+    if (!(resolved.fill_diameter > 0.0)) {
+      note(*diameter, "must be positive");
+      return {{SolidHeight{}}};
+    }
+    if (files != nullptr) return starts_in_list(block, *files, resolved);
+    Start start = start_in(resolved.fill_file, *file, resolved.fill_diameter);
+    resolved.fill_content = start.content;
+    if (block.replicates > 1 && !start.content.empty()) {
+      note(*file, "would give all " + std::to_string(block.replicates) +
+                      " replicates the same start; write \"replicates\": 1, or list a start for "
+                      "each in fill.files");
+    }
+    return {std::move(start)};
+  }
+
+  std::vector<Start> starts_in_list(const Block& block, const Assignment& files,
+                                    const ResolvedSpec& resolved) {
+    std::vector<Start> starts;
+    std::map<std::string, std::string> file_of;  // by content
+    for (const std::string& file : resolved.fill_files) {
+      const Assignment entry{files.parameter, file,
+                             files.pointer + "/" + std::to_string(starts.size())};
+      starts.push_back(start_in(file, entry, resolved.fill_diameter));
+      starts.back().pointer = entry.pointer;
+      const auto [same, is_new] = file_of.try_emplace(starts.back().content, file);
+      if (!is_new && !same->first.empty()) {
+        note(entry, "is the same start as " + same->second + "; replicates must differ");
+      }
+    }
+    if (block.replicates > 1 && static_cast<std::size_t>(block.replicates) != starts.size()) {
+      note(files, "lists " + std::to_string(starts.size()) + " starts for " +
+                      std::to_string(block.replicates) +
+                      " replicates; write \"replicates\": " + std::to_string(starts.size()));
+    }
+    return starts;
+  }
+
+  Start start_in(const std::string& file, const Assignment& assignment, double diameter) {
+    Start start{SolidHeight{}, file, "", ""};
+    const GrainsReading& reading = reading_of(file, assignment, read_grains, grains_);
+    if (!reading.errors.empty()) return start;
+    placed_ += reading.grains.size();
     if (placed_ > most_placed_grains) {
-      return note(*file, "the jobs hold more than " + in_thousands(most_placed_grains) +
-                             " grains from files together; split the sweep");
+      note(assignment, "the jobs hold more than " + in_thousands(most_placed_grains) +
+                           " grains from files together; split the sweep");
+      return start;
     }
-    resolved.spec.fill =
-        PlacedGrains{scaled_grains(reading.grains, resolved.fill_diameter), reading.orientations};
-    resolved.fill_content = reading.content;
+    start.fill = PlacedGrains{scaled_grains(reading.grains, diameter), reading.orientations};
+    start.content = reading.content;
+    return start;
   }
 
   /// Fills in the vertices of a hull. If they cannot be read, says so; what `check` would say
@@ -278,15 +338,19 @@ class Expansion {
   /// Notes what one point breaks. A value that has broken a rule at an earlier point is not named
   /// again.
   void note_broken_rules(const Block& block, const InEffect& in_effect,
-                         const std::vector<SpecError>& errors) {
+                         const std::vector<SpecError>& errors, const Start& start) {
     std::set<std::string> said_now;
     for (const SpecError& error : errors) {
       const Assignment* assignment = assignment_of(error, in_effect);
-      const std::string pointer = assignment == nullptr ? block.pointer : assignment->pointer;
+      const bool is_in_list = error.path == "fill.file" && !start.pointer.empty();
+      const bool has_place = assignment != nullptr || is_in_list;
+      const std::string pointer = is_in_list  ? start.pointer
+                                  : has_place ? assignment->pointer
+                                              : block.pointer;
       const std::string key = pointer + " " + error.path;
       if (said_.count(key) != 0) continue;
       said_now.insert(key);
-      const std::string subject = assignment == nullptr ? error.path + " " : "";
+      const std::string subject = has_place ? "" : error.path + " ";
       diagnostics_.push_back({pointer, subject + error.message});
     }
     said_.merge(said_now);
@@ -309,6 +373,7 @@ class Expansion {
   Diagnostics& diagnostics_;
   const std::size_t seed_ = parameter_with(Role::seed);
   const std::size_t file_ = parameter_with(Role::fill_file);
+  const std::size_t files_ = parameter_with(Role::fill_files);
   const std::size_t diameter_ = parameter_with(Role::fill_diameter);
   const std::size_t hull_vertices_ = parameter_with(Role::hull_vertices);
   const std::size_t hull_file_ = parameter_with(Role::hull_file);

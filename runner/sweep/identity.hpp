@@ -4,7 +4,9 @@
 //     canonical parameters '\n' master seed '\n' replicate
 // with both numbers in decimal; its id is FNV-1a (64 bits) of that text, put through the finaliser
 // of SplitMix64 so that every bit of the text changes every bit of the id. Labels, the order of
-// keys, the order of blocks and the number of replicates do not enter it.
+// keys, the order of blocks and the number of replicates do not enter it. A replicate of fill.files
+// is known by the hash of its file, which stands behind the parameters, and has the number 1: it is
+// the same job wherever its file stands in the list.
 #pragma once
 
 #include <cstdint>

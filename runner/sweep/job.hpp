@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,8 @@ struct Job {
   int replicate = 1;       ///< 1 .. replicates
   std::uint64_t seed = 0;  ///< master seed it was made with
   PackingSpec spec;        ///< random_key is derived from id alone
+  /// Files it was read from, as written, by the parameter that each gave: "fill.file".
+  std::map<std::string, std::string> files = {};
 };
 
 struct Sweep {

@@ -192,8 +192,17 @@ std::optional<Value> get_grains(const ResolvedSpec& resolved) {
 std::optional<Value> get_file(const ResolvedSpec& resolved) {
   return resolved.fill_file.empty() ? std::nullopt : present(resolved.fill_content);
 }
+void set_files(ResolvedSpec& resolved, const Value& value) {
+  resolved.spec.fill = PlacedGrains{};
+  resolved.fill_files = std::get<std::vector<std::string>>(value);
+}
+/// The same for all replicates: what is in its file belongs to each by itself.
+std::optional<Value> get_files(const ResolvedSpec& resolved) {
+  return resolved.fill_files.empty() ? std::nullopt : present(std::string("one per replicate"));
+}
 std::optional<Value> get_diameter(const ResolvedSpec& resolved) {
-  return resolved.fill_file.empty() ? std::nullopt : present(resolved.fill_diameter);
+  const bool is_placed = !resolved.fill_file.empty() || !resolved.fill_files.empty();
+  return is_placed ? present(resolved.fill_diameter) : std::nullopt;
 }
 
 Rows fill_rows() {
@@ -209,7 +218,9 @@ Rows fill_rows() {
           "CSV file of x,y,z,r, and qx,qy,qz,qw of non-spherical grains: where they "
           "start; relative to the sweep file",
           ValueKind::text, Role::fill_file, set_file, get_file),
-      own("fill.diameter", "> 0", "the length in fill.file that is d", ValueKind::number,
+      own("fill.files", "", "a list of such files: a start for each replicate", ValueKind::texts,
+          Role::fill_files, set_files, get_files),
+      own("fill.diameter", "> 0", "the length in those files that is d", ValueKind::number,
           Role::fill_diameter, set_member<&ResolvedSpec::fill_diameter>, get_diameter),
   };
 }

@@ -18,6 +18,8 @@ const char* type_of(const Parameter& parameter) {
       return "name";
     case ValueKind::text:
       return "text";
+    case ValueKind::texts:
+      return "list of texts";
     case ValueKind::numbers:
       return "list of numbers";
     case ValueKind::points:

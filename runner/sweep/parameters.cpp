@@ -41,6 +41,7 @@ Choice choice_of(const Parameter& parameter) {
       return Choice::shape;
     case Role::fill:
     case Role::fill_file:
+    case Role::fill_files:
     case Role::fill_diameter:
       return Choice::fill;
     default:
@@ -87,7 +88,7 @@ std::vector<std::string> known_keys(std::string_view path) {
 
 bool is_fill(std::size_t parameter) {
   const Role role = parameters()[parameter].role;
-  return role == Role::fill || role == Role::fill_file;
+  return role == Role::fill || role == Role::fill_file || role == Role::fill_files;
 }
 
 }  // namespace grainsweep

@@ -18,8 +18,8 @@ namespace grainsweep {
 using Points = std::vector<std::array<double, 3>>;
 
 /// A parameter's value. A choice is the index of its name.
-using Value =
-    std::variant<double, std::int64_t, std::uint64_t, std::string, std::vector<double>, Points>;
+using Value = std::variant<double, std::int64_t, std::uint64_t, std::string, std::vector<double>,
+                           std::vector<std::string>, Points>;
 
 enum class ValueKind {
   number,   ///< double
@@ -27,6 +27,7 @@ enum class ValueKind {
   natural,  ///< uint64
   choice,   ///< int64, index into `choices`
   text,     ///< string
+  texts,    ///< list of strings
   numbers,  ///< list of doubles
   points,   ///< list of points
 };
@@ -41,8 +42,9 @@ enum class Role {
   hull_vertices,  ///< names a hull, and so on
   hull_file,
   hull_size,
-  fill,       ///< a way to fill the box
-  fill_file,  ///< another way
+  fill,        ///< a way to fill the box
+  fill_file,   ///< another way
+  fill_files,  ///< another
   fill_diameter,
 };
 

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "engine/scene/spec.hpp"
 
@@ -12,11 +13,12 @@ namespace grainsweep {
 struct ResolvedSpec {
   ResolvedSpec();
 
-  PackingSpec spec;              ///< random_key is not set here
-  int preset = -1;               ///< index into presets(), -1 for the default
-  std::string fill_file;         ///< as written; "" unless the fill is a file
-  std::string fill_content;      ///< hash of that file's bytes, 16 hex digits
-  double fill_diameter = 1.0;    ///< length in that file that is d here
+  PackingSpec spec;                     ///< random_key is not set here
+  int preset = -1;                      ///< index into presets(), -1 for the default
+  std::string fill_file;                ///< as written; "" unless the fill is a file
+  std::vector<std::string> fill_files;  ///< as written; empty unless each replicate has its own
+  std::string fill_content;             ///< hash of that file's bytes, 16 hex digits
+  double fill_diameter = 1.0;           ///< length in that file that is d here
   double pinacoid_angle = 60.0;  ///< degrees, as written; the specification holds it in radians
   std::string hull_file;         ///< as written; "" unless the shape is a hull from a file
   double hull_size = 1.0;        ///< length in the vertices of a hull that is d here

@@ -35,6 +35,8 @@ Json kind_of(const Parameter& parameter) {
       return {{"type", "integer"}, {"minimum", 0}};
     case ValueKind::text:
       return {{"type", "string"}};
+    case ValueKind::texts:
+      return list_of({{"type", "string"}});
     case ValueKind::numbers:
       return {{"type", "array"}, {"items", {{"type", "number"}}}};
     case ValueKind::points:

@@ -67,6 +67,14 @@ ValueReading read_text(const Parameter& parameter, const Json& value) {
   return fits(value.get<std::string>());
 }
 
+ValueReading read_texts(const Parameter& parameter, const Json& value) {
+  const auto is_text = [](const Json& entry) { return entry.is_string(); };
+  if (!value.is_array() || value.empty() || !std::all_of(value.begin(), value.end(), is_text)) {
+    return mismatch(parameter, value);
+  }
+  return fits(value.get<std::vector<std::string>>());
+}
+
 ValueReading read_numbers(const Parameter& parameter, const Json& value) {
   const auto is_number = [](const Json& entry) { return entry.is_number(); };
   if (!value.is_array() || !std::all_of(value.begin(), value.end(), is_number)) {
@@ -123,6 +131,8 @@ ValueReading read_value(const Parameter& parameter, const Json& value) {
       return read_choice(parameter, value);
     case ValueKind::text:
       return read_text(parameter, value);
+    case ValueKind::texts:
+      return read_texts(parameter, value);
     case ValueKind::points:
       return read_points(parameter, value);
     case ValueKind::numbers:
@@ -163,6 +173,8 @@ std::string wanted_value(const Parameter& parameter) {
       return "a whole number from 0 to 18446744073709551615";
     case ValueKind::text:
       return "a text in double quotes";
+    case ValueKind::texts:
+      return "a list of texts in double quotes";
     case ValueKind::numbers:
       return "a list of numbers";
     case ValueKind::points:

@@ -38,12 +38,21 @@ JobFacts facts_of(const Job& job) {
   facts.box = job.spec.box;
   facts.small_share = job.spec.sizes.small_share;
   facts.measure = job.spec.measure;
+  facts.files = job.files;
   return facts;
 }
 
 std::string gap_tolerance(const JobFacts& job) {
   const auto& gaps = job.measure.gap_tolerances;
   return gaps.empty() ? "" : cell(gaps.front());
+}
+
+std::string start_file(const JobFacts& job) {
+  for (const char* const path : {"fill.file", "fill.files"}) {
+    const auto found = job.files.find(path);
+    if (found != job.files.end()) return cell(found->second);
+  }
+  return "";
 }
 
 Columns<JobFacts> all_job_columns() {
@@ -55,6 +64,7 @@ Columns<JobFacts> all_job_columns() {
       {"replicate", "", "number among packings of equal parameters, from 1",
        [](Job job) { return cell(job.replicate); }},
       {"seed", "", "of the sweep", [](Job job) { return cell(job.seed); }},
+      {"start", "", "file its grains started from; empty if they were drawn at random", start_file},
       {"shape", "", "sphere, pinacoid or hull", [](Job job) { return cell(job.shape); }},
       {"accuracy", "", "name of the preset, or custom", [](Job job) { return cell(job.accuracy); }},
       {"length", "d", "of the box along x", [](Job job) { return cell(job.box.length); }},
@@ -150,6 +160,7 @@ json jobs_json(const std::vector<Row>& rows) {
                     {"label", row.job.label},
                     {"replicate", row.job.replicate},
                     {"seed", row.job.seed},
+                    {"files", row.job.files},
                     {"set", known->second}});
   }
   return {{"parameter_sets", sets}, {"jobs", jobs}};
@@ -169,6 +180,7 @@ std::vector<Row> rows_from_json(const json& from, Detail detail) {
     entry.at("label").get_to(row.job.label);
     entry.at("replicate").get_to(row.job.replicate);
     entry.at("seed").get_to(row.job.seed);
+    entry.at("files").get_to(row.job.files);
   }
   return rows;
 }

@@ -27,6 +27,7 @@ struct JobFacts {
   Box box;
   double small_share = 0.0;
   MeasureSpec measure;
+  std::map<std::string, std::string> files;  ///< as Job::files
 };
 
 /// A job and what came of it; no outcome while it is pending.

@@ -48,7 +48,7 @@ void append_before(std::string_view field, const std::vector<double>& tolerances
   const auto append_facts = [&](const std::vector<std::string>& names) {
     append(columns, job_columns(names), job_of);
   };
-  if (field == "grains") append_facts({"job", "label", "replicate", "seed", "shape"});
+  if (field == "grains") append_facts({"job", "label", "replicate", "seed", "start", "shape"});
   if (field == "solid_fraction") {
     append_facts({"width", "boundary_y", "small_share"});
     columns.push_back({"status", "", "settled, not_settled, failed or pending", status_of});

@@ -178,6 +178,43 @@ TEST_CASE("grains of a file that are no spheres are turned as it says, if it say
   CHECK(error("pinacoid", "long.csv").find("unit quaternion") != std::string::npos);
 }
 
+TEST_CASE("one start is no start for several replicates, a list of starts is one for each") {
+  const ScratchFolder folder;
+  folder.write("a.csv", "x,y,z,r\n2,2,2,0.5\n");
+  folder.write("b.csv", "x,y,z,r\n3,2,2,0.5\n");
+  folder.write("copy.csv", "x,y,z,r\n2,2,2,0.5\n");
+  folder.write("out.csv", "x,y,z,r\n99,2,2,0.5\n");
+  const auto read = [&](const std::string& fill, int replicates) {
+    return read_sweep(folder.write("s.json", R"({"name": "t", "replicates": )" +
+                                                 std::to_string(replicates) +
+                                                 R"(, "base": {"fill": )" + fill + "}}"));
+  };
+  const auto error = [&](const std::string& fill, int replicates) {
+    const auto errors = read(fill, replicates).errors;
+    return errors.empty() ? std::string() : errors.front().pointer + " " + errors.front().message;
+  };
+  CHECK(error(R"({"file": "a.csv"})", 3) ==
+        "/base/fill/file would give all 3 replicates the same start; write \"replicates\": 1, or "
+        "list a start for each in fill.files");
+  CHECK(error(R"({"files": ["a.csv", "b.csv"]})", 3) ==
+        "/base/fill/files lists 2 starts for 3 replicates; write \"replicates\": 2");
+  CHECK(error(R"({"files": ["a.csv", "b.csv", "copy.csv"]})", 1) ==
+        "/base/fill/files/2 is the same start as a.csv; replicates must differ");
+  CHECK_THAT(error(R"({"files": ["a.csv", "out.csv"]})", 2),
+             Catch::StartsWith("/base/fill/files/1 grain 1 lies outside the box"));
+  const std::vector<Job> jobs = read(R"({"files": ["a.csv", "b.csv"]})", 1).sweep.jobs;
+  REQUIRE(jobs.size() == 2);
+  CHECK(jobs[0].parameters == jobs[1].parameters);
+  CHECK(std::get<PlacedGrains>(jobs[1].spec.fill).grains.at(0).x == 3.0);
+  CHECK((jobs[0].replicate == 1 && jobs[1].replicate == 2));
+  CHECK(jobs[1].files.at("fill.files") == "b.csv");
+
+  const std::vector<Job> turned = read(R"({"files": ["b.csv", "a.csv"]})", 2).sweep.jobs;
+  REQUIRE(turned.size() == 2);
+  CHECK((turned[0].id == jobs[1].id && turned[1].id == jobs[0].id));
+  CHECK(turned[0].id != read(R"({"file": "b.csv"})", 1).sweep.jobs.at(0).id);
+}
+
 TEST_CASE("errors of a fill file name its own lines, once for all jobs") {
   const ScratchFolder folder;
   folder.write("bed.csv", "x,y,z,r\n1,1,1,zero\n");

@@ -23,6 +23,8 @@ Json another_value(const Parameter& parameter) {
       return parameter.choices.front();
     case ValueKind::text:
       return "x.csv";
+    case ValueKind::texts:
+      return Json::array({"a.csv", "b.csv"});
     case ValueKind::points:
       return Json::array({{0, 0, 0}, {0.5, 0, 0}, {0, 1, 0}, {0, 0, 1}});
     case ValueKind::numbers:
@@ -80,7 +82,9 @@ TEST_CASE("every parameter that belongs to the identity reads back what was set"
     const std::set<std::string> outside = {"accuracy.preset", "seed", "shape.hull.file",
                                            "shape.hull.size"};
     CHECK(value.has_value() == (outside.count(parameter.path) == 0));
-    if (parameter.kind == ValueKind::points) continue;  // known by their hash
+    const bool is_known_by_hash =
+        parameter.kind == ValueKind::points || parameter.kind == ValueKind::texts;
+    if (is_known_by_hash) continue;
     if (value) CHECK(*value == *reading.value);
   }
 }

@@ -50,6 +50,7 @@ TEST_CASE("jobs read back from JSON are the same, equal parameters kept once") {
   Job second = sample_source();
   second.id = "fedcba9876543210";
   second.replicate = 3;
+  second.files = {{"fill.files", "b.csv"}};
   const std::vector<Row> rows = rows_of(Sweep{"s", 7, 3, {sample_source(), second}});
   const nlohmann::json json = jobs_json(rows);
   CHECK(json.at("parameter_sets").size() == 1);
@@ -57,6 +58,7 @@ TEST_CASE("jobs read back from JSON are the same, equal parameters kept once") {
   CHECK(jobs_json(back) == json);
   REQUIRE(back.size() == 2);
   CHECK(back[1].job.replicate == 3);
+  CHECK(back[1].job.files == second.files);
   CHECK(back[1].job.seed == 18446744073709551615u);
   CHECK(back[1].job.box.width == 5.0);
   CHECK(back[1].job.measure.gap_tolerances == rows[1].job.measure.gap_tolerances);

@@ -14,7 +14,8 @@ Row with_two_tolerances(Row row) {
 }
 
 const std::string whole_header =
-    "job,label,replicate,seed,shape,grains,width,boundary_y,small_share,status,solid_fraction,"
+    "job,label,replicate,seed,start,shape,grains,width,boundary_y,small_share,status,solid_"
+    "fraction,"
     "coordination,coordination_with_walls,contacts,isostatic_contacts,overlap_mean,overlap_max,"
     "static_imbalance_mean,static_imbalance_max,step_residual,kinetic_energy,steps,iterations,cpu_"
     "seconds,length,boundary_x,accuracy,"
@@ -30,7 +31,7 @@ const std::string no_shape = ",,,,,,,,,";
 TEST_CASE("a settled packing is written with every value") {
   CHECK(packings_csv({with_two_tolerances(settled_row("a1", 5, 0.6125, 5.75))}) ==
         whole_header +
-            "a1,MSP,1,7,sphere,2000,5,walls,0,settled,0.6125,5.75,6,5990,5991,8e-05,3e-04,0.02,0."
+            "a1,MSP,1,7,,sphere,2000,5,walls,0,settled,0.6125,5.75,6,5990,5991,8e-05,3e-04,0.02,0."
             "25,5e-04,"
             "1e-09,265,20000,0.75,20,periodic,balanced,1e-04,5.625,5.75,15.5,3,12.5,5990,2e-05,0,"
             "0.98,0.99,0.03,0.4,0.1,,5.5,1.6,abcdef0123456789," +
@@ -47,7 +48,7 @@ TEST_CASE("an unsettled packing keeps its values beside its status and reason") 
 
 TEST_CASE("shapes have their order at the end of the row, pending ones nothing") {
   Row row = with_two_tolerances(polyhedra_row("a1", 5));
-  CHECK_THAT(packings_csv({row}), Catch::Contains("a1,MSP,1,7,pinacoid,2000,5,") &&
+  CHECK_THAT(packings_csv({row}), Catch::Contains("a1,MSP,1,7,,pinacoid,2000,5,") &&
                                       Catch::EndsWith(",abcdef0123456789,,0.5,0.25,0.25,0.25,0.25,"
                                                       "0.5,0.125,0.0625,0.75\n"));
   row.outcome.reset();
@@ -62,10 +63,11 @@ TEST_CASE("failed and pending packings have no numbers where nothing was measure
   CHECK(
       packings_csv({failed, pending}) ==
       whole_header +
-          "a1,MSP,1,7,sphere,2000,5,walls,0,failed,,,,,,,,,,,,265,20000,0.75,20,periodic,balanced,"
+          "a1,MSP,1,7,,sphere,2000,5,walls,0,failed,,,,,,,,,,,,265,20000,0.75,20,periodic,balanced,"
           "1e-04,,,,,,,,,,,,,,,,,,no room" +
           no_shape + "\n" +
-          "a2,MSP,1,7,sphere,,6,walls,0,pending,,,,,,,,,,,,,,,20,periodic,balanced,1e-04,,,,,,,,,,,"
+          "a2,MSP,1,7,,sphere,,6,walls,0,pending,,,,,,,,,,,,,,,20,periodic,balanced,1e-04,,,,,,,,,,"
+          ","
           ","
           ",,,,,," +
           no_shape + "\n");
@@ -79,7 +81,7 @@ TEST_CASE("every row has as many cells as the header, whatever tolerances its jo
   for (int line = 0; line < 3; ++line) {
     const std::size_t end = text.find('\n', begin);
     CHECK(std::count(text.begin() + static_cast<long>(begin), text.begin() + static_cast<long>(end),
-                     ',') == 47 + 9);
+                     ',') == 48 + 9);
     begin = end + 1;
   }
 }
