@@ -11,6 +11,7 @@ readonly build_packages=(
 )
 readonly check_packages=(
   clang-format clang-tidy clang libclang-rt-14-dev strace python3 python3-jsonschema
+  python3-pandas
 )
 readonly emulator_packages=(
   bochs bochs-term bochsbios vgabios isolinux syslinux-common genisoimage cpio busybox-static

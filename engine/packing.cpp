@@ -159,7 +159,11 @@ void measure(const PackingSpec& spec, const SettleReport& settled, const Kernels
   if (slab) {
     result.solid_fraction = solid_fraction(bed, *slab);
     measure_neighbours(spec, near, settled, *slab, bed, result);
-    result.profile_y = profile_along_y(bed, near, *slab, bins_of(spec));
+    if (bed.box.x == Boundary::walls) {
+      result.profile_x = profile_across(bed, near, *slab, bins_of(spec), 0);
+    }
+    result.profile_y = profile_across(bed, near, *slab, bins_of(spec), 1);
+    result.small_share = small_share_of(result.profile_y);
     result.profile_z = profile_along_z(bed, near, bins_of(spec));
   }
   measure_kind(bed, settled, slab, packing);

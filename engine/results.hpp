@@ -119,10 +119,12 @@ struct PackingResult {
   double slab_bottom = 0.0;     ///< measured slab, d
   double slab_top = 0.0;
   double solid_fraction = 0.0;  ///< exact solid volume in the slab over the slab's volume
+  double small_share = 0.0;     ///< share of the small class in the slab's solid volume
   std::vector<Coordination> coordination;  ///< one entry per gap tolerance of the spec
   double mean_diameter = 0.0;              ///< of all grains, d
   double mean_diameter_by_volume = 0.0;    ///< the same, each grain weighted by its volume, d
-  Profile profile_y;                       ///< from wall to wall, in the slab
+  Profile profile_x;                       ///< from wall to wall, in the slab; empty without walls
+  Profile profile_y;                       ///< the same along y, from wall to wall or around
   Profile profile_z;                       ///< from the floor up
   Order order;                             ///< of the slab
   std::optional<ShapeOrder> shape_order;   ///< of non-spherical grains

@@ -82,7 +82,7 @@ double ProfileBin::*class_of(const Record<double>& sphere, const ProfileSettings
   return is_small(sphere, settings) ? &ProfileBin::small : &ProfileBin::large;
 }
 
-/// Volume of a sphere below a plane across y, as far as it lies in the slab.
+/// Volume of a sphere below a plane across x or y, as far as it lies in the slab.
 double volume_in_slab(const Record<double>& sphere, const Slab& slab, double top) {
   const double low = slab.bottom - sphere.z, high = slab.top - sphere.z;
   if (low <= -sphere.w && high >= sphere.w) {
@@ -93,14 +93,17 @@ double volume_in_slab(const Record<double>& sphere, const Slab& slab, double top
 
 // ---- volumes below a plane, by kind of grain ----
 
-/// Volume of a grain below the plane at y, as far as it lies in the slab.
-double volume_below_y(const SphereBed& bed, std::size_t i, double y, const Slab& slab) {
-  return volume_in_slab(bed.position[i], slab, y - bed.position[i].y);
+/// Volume of a grain below the plane at `top` across x or y, as far as it lies in the slab.
+double volume_below(const SphereBed& bed, std::size_t i, int axis, double top, const Slab& slab) {
+  const Record<double>& p = bed.position[i];
+  return volume_in_slab(p, slab, top - (axis == 0 ? p.x : p.y));
 }
-double volume_below_y(const PolyhedronBed& bed, std::size_t i, double y, const Slab& slab) {
+double volume_below(const PolyhedronBed& bed, std::size_t i, int axis, double top,
+                    const Slab& slab) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  return box_volume(bed.shape, bed.pose(i), {-infinity, -infinity, slab.bottom},
-                    {infinity, y, slab.top});
+  Vector high(infinity, infinity, slab.top);
+  high[axis] = top;
+  return box_volume(bed.shape, bed.pose(i), {-infinity, -infinity, slab.bottom}, high);
 }
 
 /// Volume of a grain below the plane at z.
@@ -125,22 +128,26 @@ double highest_point(const Bed<Kind>& bed) {
 }
 
 template <class Kind>
-Profile along_y(const Bed<Kind>& bed, const Touching& touching, const Slab& slab,
-                const ProfileSettings& settings) {
-  const double width = bed.box.width;
+Profile across(const Bed<Kind>& bed, const Touching& touching, const Slab& slab,
+               const ProfileSettings& settings, int axis) {
+  const Box& box = bed.box;
+  const double width = axis == 0 ? box.length : box.width;
+  const double other = axis == 0 ? box.width : box.length;
   const auto count = std::max<std::int64_t>(1, std::llround(width / settings.bin_width));
-  const Bins bins{width / static_cast<double>(count), count, bed.box.y == Boundary::periodic};
+  const Bins bins{width / static_cast<double>(count), count,
+                  (axis == 0 ? box.x : box.y) == Boundary::periodic};
   Profile profile = empty_profile(bins);
   for (std::size_t i = 0; i < bed.grains(); ++i) {
     const Span upright = span_of(bed, i, 2);
     if (upright.high <= slab.bottom || upright.low >= slab.top) continue;
     add_volume(
-        span_of(bed, i, 1), bins, class_of(bed.position[i], settings),
-        [&](double y) { return volume_below_y(bed, i, y, slab); }, profile);
+        span_of(bed, i, axis), bins, class_of(bed.position[i], settings),
+        [&](double top) { return volume_below(bed, i, axis, top, slab); }, profile);
   }
-  divide_volumes(bed.box.length * bins.width * slab.height(), profile);
+  divide_volumes(other * bins.width * slab.height(), profile);
   count_grains(bed, touching, settings, [&](const Record<double>& p) -> ProfileBin* {
-    return slab.contains(p.z) ? &profile.bins[bins.index(bins.number_at(p.y))] : nullptr;
+    const double at = axis == 0 ? p.x : p.y;
+    return slab.contains(p.z) ? &profile.bins[bins.index(bins.number_at(at))] : nullptr;
   });
   return profile;
 }
@@ -165,9 +172,18 @@ Profile along_z(const Bed<Kind>& bed, const Touching& touching, const ProfileSet
 }  // namespace
 
 template <class Kind>
-Profile profile_along_y(const Bed<Kind>& bed, const Touching& touching, const Slab& slab,
-                        const ProfileSettings& settings) {
-  return along_y(bed, touching, slab, settings);
+Profile profile_across(const Bed<Kind>& bed, const Touching& touching, const Slab& slab,
+                       const ProfileSettings& settings, int axis) {
+  return across(bed, touching, slab, settings, axis);
+}
+
+double small_share_of(const Profile& profile) {
+  double large = 0.0, small = 0.0;
+  for (const ProfileBin& bin : profile.bins) {
+    large += bin.large;
+    small += bin.small;
+  }
+  return small / (large + small);  // 0 / 0 is NaN
 }
 
 template <class Kind>
@@ -176,10 +192,10 @@ Profile profile_along_z(const Bed<Kind>& bed, const Touching& touching,
   return along_z(bed, touching, settings);
 }
 
-template Profile profile_along_y(const SphereBed&, const Touching&, const Slab&,
-                                 const ProfileSettings&);
-template Profile profile_along_y(const PolyhedronBed&, const Touching&, const Slab&,
-                                 const ProfileSettings&);
+template Profile profile_across(const SphereBed&, const Touching&, const Slab&,
+                                const ProfileSettings&, int);
+template Profile profile_across(const PolyhedronBed&, const Touching&, const Slab&,
+                                const ProfileSettings&, int);
 template Profile profile_along_z(const SphereBed&, const Touching&, const ProfileSettings&);
 template Profile profile_along_z(const PolyhedronBed&, const Touching&, const ProfileSettings&);
 

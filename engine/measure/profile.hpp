@@ -1,9 +1,9 @@
 // Profiles of one packing: how solid fraction, coordination and the share of small grains change
-// from wall to wall (along y) and from the floor up (along z).
+// from wall to wall (along x or y) and from the floor up (along z).
 //
 // Solid fractions come from exact volumes: each grain is cut by the planes between the bins and,
-// for profiles along y, by the top and the bottom of the measured slab. So the mean over the bins
-// of a profile along y is the solid fraction of the slab, up to rounding. Counts are of grains
+// for profiles across, by the top and the bottom of the measured slab. So the mean over the bins
+// of a profile across is the solid fraction of the slab, up to rounding. Counts are of grains
 // whose centre lies in the bin.
 #pragma once
 
@@ -20,12 +20,15 @@ struct ProfileSettings {
   double gap_tolerance = 1e-4;  ///< grains and walls touch below this gap, d
 };
 
-/// Along y through the slab, from y = 0 to the width of the box, which whole bins divide: their
+/// Across the slab, along x (`axis` 0) or y (1), from wall to wall, which whole bins divide: their
 /// width is the nearest possible to the wanted one. Grains of the slab are those whose centre is in
 /// it. What a grain overlaps a wall belongs to the bin at the wall.
 template <class Kind>
-Profile profile_along_y(const Bed<Kind>& bed, const Touching& touching, const Slab& slab,
-                        const ProfileSettings& settings);
+Profile profile_across(const Bed<Kind>& bed, const Touching& touching, const Slab& slab,
+                       const ProfileSettings& settings, int axis);
+
+/// Share of the small class in the solid volume that a profile holds; NaN if it holds none.
+double small_share_of(const Profile& profile);
 
 /// Along z over the whole floor, from the floor to the highest point of the bed, in bins of the
 /// wanted width.

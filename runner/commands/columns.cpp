@@ -17,7 +17,7 @@ CLI::App& add_command(CLI::App& app, ColumnsOptions& options) {
 }
 
 int perform(const ColumnsOptions& options) {
-  const std::vector<ColumnText> all = all_columns({});
+  const std::vector<ColumnText> all = all_columns({}, {});
   std::cout << (options.markdown ? columns_markdown(all) : columns_csv(all));
   return exit_done;
 }

@@ -86,14 +86,15 @@ std::vector<std::string> load_curves(const std::string& folder, std::vector<Row>
 void write_tables(const std::string& folder, const Provenance& provenance,
                   const std::vector<Row>& rows, const Analysis& analysis) {
   const auto& [groups, families] = analysis;
-  replace_file(folder + "/packings.csv", packings_csv(rows));
+  replace_file(folder + "/packings.csv", packings_csv(rows, groups));
   replace_file(folder + "/groups.csv", groups_csv(groups));
   replace_file(folder + "/fits.csv", fits_csv(families));
   replace_file(folder + "/fit_points.csv", fit_points_csv(families));
   replace_file(folder + "/profiles.csv", profiles_csv(groups));
   replace_file(folder + "/decays.csv", decays_csv(groups));
   replace_file(folder + "/distributions.csv", distributions_csv(groups));
-  replace_file(folder + "/columns.csv", columns_csv(all_columns(further_tolerances(rows))));
+  replace_file(folder + "/columns.csv",
+               columns_csv(all_columns(further_tolerances(rows), varied_of(groups))));
   write_provenance(folder, provenance, rows);
 }
 
@@ -102,12 +103,13 @@ void write_provenance(const std::string& folder, const Provenance& provenance,
   replace_file(provenance_path(folder), provenance_text(provenance, rows));
 }
 
-std::vector<ColumnText> all_columns(const std::vector<double>& tolerances) {
+std::vector<ColumnText> all_columns(const std::vector<double>& tolerances, const Varied& varied) {
   std::vector<ColumnText> all;
   for (const auto& some :
-       {described("packings.csv", packings_columns(tolerances)),
-        described("groups.csv", groups_columns()), profiles_columns(), decays_columns(),
-        distributions_columns(), fits_columns(), fit_points_columns()}) {
+       {described("packings.csv", packings_columns(tolerances, varied)),
+        described("groups.csv", groups_columns(varied)), profiles_columns(varied),
+        decays_columns(varied), distributions_columns(varied), fits_columns(),
+        fit_points_columns(varied)}) {
     all.insert(all.end(), some.begin(), some.end());
   }
   return all;

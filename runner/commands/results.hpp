@@ -38,8 +38,9 @@ void write_tables(const std::string& folder, const Provenance& provenance,
 void write_provenance(const std::string& folder, const Provenance& provenance,
                       const std::vector<Row>& rows);
 
-/// The columns of every table; those of packings.csv with these further gap tolerances.
-std::vector<ColumnText> all_columns(const std::vector<double>& tolerances);
+/// The columns of every table of a sweep with these further gap tolerances that varies these
+/// parameters.
+std::vector<ColumnText> all_columns(const std::vector<double>& tolerances, const Varied& varied);
 
 /// A line of warning for each of `damage`, as of Results.
 std::string damage_warnings(const std::vector<std::string>& damage);

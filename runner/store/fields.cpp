@@ -81,7 +81,6 @@ constexpr FieldUse summary_only{.summary = true, .packings = false, .measured = 
 constexpr FieldUse even_if_failed{.measured = false};
 constexpr FieldUse with_mean{.groups = true};
 constexpr FieldUse derived{.journal = false, .groups = true};
-constexpr FieldUse derived_mean{.journal = false, .packings = false, .groups = true};
 
 /// Parts of a result.
 namespace of {
@@ -121,7 +120,7 @@ std::vector<Field> main_fields() {
           "contact along a line counts 2, one over an area 3"),
       in_result<of::rest, &Rest::isostatic_contacts>(
           "isostatic_contacts", "", "degrees of freedom less those that nothing holds"),
-      {"contact_ratio", "", "contacts over isostatic_contacts, 1 at perfect rest", derived_mean,
+      {"contact_ratio", "", "contacts over isostatic_contacts, 1 at perfect rest", derived,
        contact_ratio},
       in_result<of::rest, &Rest::overlap_mean>(
           "overlap_mean", "d", "mean overlap of the force-bearing contacts", with_mean),
@@ -164,6 +163,10 @@ std::vector<Field> further_fields() {
                                         "of better solves: taps that pack "
                                         "it denser",
                                         with_mean),
+      in_result<&Result::small_share>("slab_small_share", "",
+                                      "share of the slab's solid volume in small grains; where "
+                                      "they sink, other than small_share",
+                                      with_mean),
       in_result<&Result::mean_diameter>("mean_diameter", "d", "of all grains"),
       in_result<&Result::mean_diameter_by_volume>("mean_diameter_by_volume", "d",
                                                   "the same, each grain weighted by its volume"),

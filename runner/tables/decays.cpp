@@ -71,9 +71,9 @@ Columns<DecayLine> decay_status_columns() {
   };
 }
 
-Columns<DecayLine> decay_line_columns() {
+Columns<DecayLine> decay_line_columns(const Varied& varied) {
   Columns<DecayLine> columns;
-  append(columns, group_line_columns());
+  append(columns, group_line_columns(varied));
   append(columns, decay_status_columns());
   const auto add = [&](const char* name, const char* unit, const char* meaning,
                        Estimate DecayFit::*estimate) {
@@ -107,14 +107,16 @@ DecayFit decay_of(const Group& group, GrainClass grains) {
   return fit_decay(halves_of(group, grains), bin_width, fit.window_end);
 }
 
-std::vector<ColumnText> decays_columns() { return described("decays.csv", decay_line_columns()); }
+std::vector<ColumnText> decays_columns(const Varied& varied) {
+  return described("decays.csv", decay_line_columns(varied));
+}
 
 std::string decays_csv(const std::vector<Group>& groups) {
-  const Columns<DecayLine> columns = decay_line_columns();
+  const Columns<DecayLine> columns = decay_line_columns(varied_of(groups));
   std::string text = header_line(columns);
   for (std::size_t k = 0; k < groups.size(); ++k) {
     for (const GrainClass grains : {GrainClass::large, GrainClass::small}) {
-      text += row_line(columns, DecayLine{{groups[k], k + 1}, grains, decay_of(groups[k], grains)});
+      text += row_line(columns, DecayLine{{groups[k]}, grains, decay_of(groups[k], grains)});
     }
   }
   return text;

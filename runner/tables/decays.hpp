@@ -21,6 +21,6 @@ DecayFit decay_of(const Group& group, GrainClass grains);
 /// The whole file: two rows per group.
 std::string decays_csv(const std::vector<Group>& groups);
 
-std::vector<ColumnText> decays_columns();
+std::vector<ColumnText> decays_columns(const Varied& varied);
 
 }  // namespace grainsweep

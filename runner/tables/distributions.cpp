@@ -21,9 +21,9 @@ struct PointLine : GroupLine {
   Spread value;
 };
 
-Columns<PointLine> curve_line_columns() {
+Columns<PointLine> curve_line_columns(const Varied& varied) {
   Columns<PointLine> columns;
-  append(columns, group_line_columns());
+  append(columns, group_line_columns(varied));
   append(columns,
          Columns<PointLine>{
              {"curve", "",
@@ -57,17 +57,16 @@ void append_curve_lines(const GroupLine& of, const char* name, Curve Order::*cur
 
 }  // namespace
 
-std::vector<ColumnText> distributions_columns() {
-  return described("distributions.csv", curve_line_columns());
+std::vector<ColumnText> distributions_columns(const Varied& varied) {
+  return described("distributions.csv", curve_line_columns(varied));
 }
 
 std::string distributions_csv(const std::vector<Group>& groups) {
-  const Columns<PointLine> columns = curve_line_columns();
+  const Columns<PointLine> columns = curve_line_columns(varied_of(groups));
   std::string text = header_line(columns);
-  for (std::size_t k = 0; k < groups.size(); ++k) {
-    append_curve_lines({groups[k], k + 1}, "pair_correlation", &Order::pair_correlation, columns,
-                       text);
-    append_curve_lines({groups[k], k + 1}, "force_density", &Order::force_density, columns, text);
+  for (const Group& group : groups) {
+    append_curve_lines({group}, "pair_correlation", &Order::pair_correlation, columns, text);
+    append_curve_lines({group}, "force_density", &Order::force_density, columns, text);
   }
   return text;
 }

@@ -11,6 +11,6 @@ namespace grainsweep {
 /// The whole file.
 std::string distributions_csv(const std::vector<Group>& groups);
 
-std::vector<ColumnText> distributions_columns();
+std::vector<ColumnText> distributions_columns(const Varied& varied);
 
 }  // namespace grainsweep

@@ -4,12 +4,8 @@
 #include <map>
 #include <set>
 
-#include <nlohmann/json.hpp>
-
 namespace grainsweep {
 namespace {
-
-using nlohmann::json;
 
 /// The labels of the walled groups, or of all if none is walled.
 std::string labels_of(const Family& family) {
@@ -23,25 +19,24 @@ std::string labels_of(const Family& family) {
   return joined.empty() ? "packings" : joined;
 }
 
-/// Dotted path -> value of every parameter; a preset counts as one value.
-std::map<std::string, std::string> flat_parameters(const Family& family) {
-  json parameters = json::parse(family.parameters);
-  const Group& group = family.walled.empty() ? family.periodic.front() : family.walled.front();
-  if (group.job.accuracy != "custom") parameters["accuracy"] = group.job.accuracy;
-  std::map<std::string, std::string> flat;
-  const json flattened = parameters.flatten();
-  for (const auto& [path, value] : flattened.items()) {
-    flat[path] = value.is_string() ? value.get<std::string>() : value.dump();
-  }
+/// What tells families apart; a preset counts as one value.
+std::map<std::string, std::string> parameters_of(const Family& family) {
+  const JobFacts& job = first_group(family).job;
+  std::map<std::string, std::string> flat = flat_parameters(job);
+  std::erase_if(flat, [&](const auto& entry) {
+    const bool is_in_preset = job.accuracy != "custom" && entry.first.starts_with("accuracy.");
+    return is_in_preset || entry.first == "box.width" || entry.first == "box.y";
+  });
+  if (job.accuracy != "custom") flat["accuracy"] = job.accuracy;
   return flat;
 }
 
 /// "small_share=0.25 size_ratio=0.5": the parameters among `paths`, by the last part of their path.
 std::string distinction(const Family& family, const std::set<std::string>& paths) {
   std::string text;
-  for (const auto& [path, value] : flat_parameters(family)) {
+  for (const auto& [path, value] : parameters_of(family)) {
     if (!paths.contains(path)) continue;
-    text.append(" ").append(path, path.rfind('/') + 1).append("=").append(value);
+    text.append(" ").append(path, path.rfind('.') + 1).append("=").append(value);
   }
   return text;
 }
@@ -50,7 +45,7 @@ std::string distinction(const Family& family, const std::set<std::string>& paths
 std::set<std::string> differing_paths(const std::vector<Family*>& families) {
   std::map<std::string, std::map<std::string, std::size_t>> count;
   for (const Family* family : families) {
-    for (const auto& [path, value] : flat_parameters(*family)) ++count[path][value];
+    for (const auto& [path, value] : parameters_of(*family)) ++count[path][value];
   }
   std::set<std::string> paths;
   for (const auto& [path, values] : count) {
@@ -76,6 +71,10 @@ void sort_by_width(std::vector<Group>& groups) {
 
 }  // namespace
 
+const Group& first_group(const Family& family) {
+  return family.walled.empty() ? family.periodic.front() : family.walled.front();
+}
+
 std::vector<Family> families_of(const std::vector<Group>& groups) {
   std::vector<Family> families;
   std::map<std::string, std::size_t> index_of;
@@ -94,6 +93,13 @@ Analysis analyse(const std::vector<Row>& rows) {
   Analysis analysis;
   analysis.groups = groups_of(rows);
   analysis.families = families_of(analysis.groups);
+  std::map<std::string, std::string> names;
+  for (Family& family : analysis.families) {
+    names[family.parameters] = family.name;
+    for (Group& group : family.walled) group.family_name = family.name;
+    for (Group& group : family.periodic) group.family_name = family.name;
+  }
+  for (Group& group : analysis.groups) group.family_name = names[group.family];
   return analysis;
 }
 

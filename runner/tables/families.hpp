@@ -16,6 +16,9 @@ struct Family {
   std::vector<Group> periodic;  ///< y periodic (the unconfined reference), by ascending width
 };
 
+/// Its first group between walls, or without.
+const Group& first_group(const Family& family);
+
 /// In the order in which they first appear.
 std::vector<Family> families_of(const std::vector<Group>& groups);
 

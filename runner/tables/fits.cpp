@@ -31,7 +31,7 @@ std::vector<FitPoint> points_of(const std::vector<const Group*>& groups, Quantit
   std::vector<FitPoint> points;
   for (const Group* group : groups) {
     const Spread& spread = spread_of(*group, quantity);
-    points.push_back({group->job.box.width, spread.n, spread.mean, spread.error, no_number});
+    points.push_back({group, group->job.box.width, spread.n, spread.mean, spread.error, no_number});
   }
   return points;
 }
@@ -152,28 +152,36 @@ Columns<FitLine> fit_line_columns() {
 }
 
 struct FitPointLine {
-  const Family& family;
   Quantity quantity = Quantity::solid_fraction;
   FitPoint point;
 };
 
-Columns<FitPointLine> fit_point_columns() {
+Columns<FitPointLine> fit_point_columns(const Varied& varied) {
   using Line = const FitPointLine&;
-  return {
-      {"family", "", "as in fits.csv", [](Line line) { return cell(line.family.name); }},
-      {"quantity", "", "solid_fraction or coordination",
-       [](Line line) { return cell(name_of(line.quantity)); }},
-      {"width", "d", "of the box along y", [](Line line) { return cell(line.point.width); }},
-      {"n", "", "settled packings behind the mean", [](Line line) { return cell(line.point.n); }},
-      {"mean", "", "the quantity there", [](Line line) { return cell(line.point.mean); }},
-      {"error", "", "standard error of the mean, as in groups.csv",
-       [](Line line) { return cell(line.point.error); }},
-      {"fitted", "", "what the line says", [](Line line) { return cell(line.point.fitted); }},
-      {"residual", "", "mean less fitted",
-       [](Line line) { return cell(line.point.mean - line.point.fitted); }},
-      {"residual_in_errors", "", "residual over error",
-       [](Line line) { return cell((line.point.mean - line.point.fitted) / line.point.error); }},
-  };
+  Columns<Group> of_group = group_key_columns();
+  append(of_group, job_columns({"job", "label", "boundary_y", "small_share"}),
+         [](const Group& group) -> const JobFacts& { return group.job; });
+  append(of_group, varied_columns(varied));
+  Columns<FitPointLine> columns;
+  append(columns, of_group, [](Line line) -> const Group& { return *line.point.group; });
+  append(
+      columns,
+      Columns<FitPointLine>{
+          {"quantity", "", "solid_fraction or coordination",
+           [](Line line) { return cell(name_of(line.quantity)); }},
+          {"width", "d", "of the box along y", [](Line line) { return cell(line.point.width); }},
+          {"n", "", "settled packings behind the mean",
+           [](Line line) { return cell(line.point.n); }},
+          {"mean", "", "the quantity there", [](Line line) { return cell(line.point.mean); }},
+          {"error", "", "standard error of the mean, as in groups.csv",
+           [](Line line) { return cell(line.point.error); }},
+          {"fitted", "", "what the line says", [](Line line) { return cell(line.point.fitted); }},
+          {"residual", "", "mean less fitted",
+           [](Line line) { return cell(line.point.mean - line.point.fitted); }},
+          {"residual_in_errors", "", "residual over error", [](Line line) {
+             return cell((line.point.mean - line.point.fitted) / line.point.error);
+           }}});
+  return columns;
 }
 
 constexpr std::array fitted_quantities = {Quantity::solid_fraction, Quantity::coordination};
@@ -218,8 +226,8 @@ const Group* unconfined_reference(const Family& family) {
 
 std::vector<ColumnText> fits_columns() { return described("fits.csv", fit_line_columns()); }
 
-std::vector<ColumnText> fit_points_columns() {
-  return described("fit_points.csv", fit_point_columns());
+std::vector<ColumnText> fit_points_columns(const Varied& varied) {
+  return described("fit_points.csv", fit_point_columns(varied));
 }
 
 std::string fits_csv(const std::vector<Family>& families) {
@@ -235,12 +243,13 @@ std::string fits_csv(const std::vector<Family>& families) {
 }
 
 std::string fit_points_csv(const std::vector<Family>& families) {
-  const Columns<FitPointLine> columns = fit_point_columns();
+  const Columns<FitPointLine> columns =
+      fit_point_columns(families.empty() ? Varied() : varied_of(first_group(families.front())));
   std::string text = header_line(columns);
   for (const Family& family : families) {
     for (const Quantity quantity : fitted_quantities) {
       for (const FitPoint& point : fit_walls(family, quantity).points) {
-        text += row_line(columns, FitPointLine{family, quantity, point});
+        text += row_line(columns, FitPointLine{quantity, point});
       }
     }
   }

@@ -24,6 +24,7 @@ const Spread& spread_of(const Group& group, Quantity quantity);
 
 /// A width of a fit: what was measured there and what the line says.
 struct FitPoint {
+  const Group* group = nullptr;
   double width = 0.0;  ///< d
   int n = 0;           ///< settled packings behind the mean
   double mean = 0.0;
@@ -59,6 +60,6 @@ std::string fits_csv(const std::vector<Family>& families);
 std::string fit_points_csv(const std::vector<Family>& families);
 
 std::vector<ColumnText> fits_columns();
-std::vector<ColumnText> fit_points_columns();
+std::vector<ColumnText> fit_points_columns(const Varied& varied);
 
 }  // namespace grainsweep

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "runner/store/fields.hpp"
+#include "runner/sweep/parameters.hpp"
 
 namespace grainsweep {
 namespace {
@@ -54,6 +55,21 @@ Group group_of(const Members& members) {
     if (is_settled(*row)) group.settled.emplace_back(row->outcome->result);
   }
   return group;
+}
+
+/// Finds the parameters that are not the same in all groups.
+void note_varied(std::vector<Group>& groups) {
+  std::vector<std::map<std::string, std::string>> all;
+  std::map<std::string, std::map<std::string, std::size_t>> count;  // by path and value
+  for (const Group& group : groups) {
+    for (const auto& [path, value] : all.emplace_back(flat_parameters(group.job))) {
+      ++count[path][value];
+    }
+  }
+  for (const auto& [path, values] : count) {
+    if (values.begin()->second == groups.size()) continue;
+    for (std::size_t k = 0; k < groups.size(); ++k) groups[k].varied[path] = all[k][path];
+  }
 }
 
 /// Gives the mean number `k` of the groups of one family the error of their pooled variance.
@@ -131,7 +147,11 @@ std::vector<Group> groups_of(const std::vector<Row>& rows) {
   }
   std::vector<Group> groups;
   groups.reserve(members.size());
-  for (const Members& some : members) groups.push_back(group_of(some));
+  for (const Members& some : members) {
+    groups.push_back(group_of(some));
+    groups.back().number = groups.size();
+  }
+  note_varied(groups);
   pool_errors(groups);
   return groups;
 }
@@ -143,34 +163,63 @@ const Spread& mean_of(const Group& group, std::string_view field) {
   throw std::out_of_range("no mean of " + std::string(field));
 }
 
-Columns<GroupLine> group_line_columns() {
-  Columns<GroupLine> columns = {{"group", "", "number of its row in groups.csv, from 1",
-                                 [](const GroupLine& line) { return cell(line.number); }}};
-  append(columns, job_columns({"label", "width", "boundary_y", "small_share"}),
-         [](const GroupLine& line) -> const JobFacts& { return line.group.job; });
+Varied varied_of(const Group& any) {
+  Varied paths;
+  for (const auto& [path, value] : any.varied) paths.push_back(path);
+  return paths;
+}
+
+Varied varied_of(const std::vector<Group>& groups) {
+  return groups.empty() ? Varied() : varied_of(groups.front());
+}
+
+Columns<Group> group_key_columns() {
+  using In = const Group&;
+  return {{"group", "", "number of its row in groups.csv, from 1",
+           [](In group) { return cell(group.number); }},
+          {"family", "", "name of the packings that differ in nothing but width and boundary_y",
+           [](In group) { return cell(group.family_name); }}};
+}
+
+Columns<Group> varied_columns(const Varied& varied) {
+  Columns<Group> columns;
+  for (const std::string& path : varied) {
+    const auto known = find_parameter(path);
+    columns.push_back({path, "", known ? parameters()[*known].meaning : "of the sweep",
+                       [path](const Group& group) { return group.varied.at(path); }});
+  }
   return columns;
 }
 
-Columns<Group> groups_columns() {
-  Columns<Group> columns;
+Columns<GroupLine> group_line_columns(const Varied& varied) {
+  Columns<Group> of_group = group_key_columns();
+  append(of_group, job_columns({"job", "label", "width", "boundary_y", "small_share"}),
+         job_of_group);
+  append(of_group, varied_columns(varied));
+  Columns<GroupLine> columns;
+  append(columns, of_group, [](const GroupLine& line) -> const Group& { return line.group; });
+  return columns;
+}
+
+Columns<Group> groups_columns(const Varied& varied) {
+  Columns<Group> columns = group_key_columns();
   append(columns,
-         job_columns({"label", "shape", "length", "width", "boundary_x", "boundary_y",
+         job_columns({"job", "label", "shape", "length", "width", "boundary_x", "boundary_y",
                       "small_share", "accuracy"}),
          job_of_group);
   append(columns, group_count_columns());
   for (std::size_t k = 0; k < mean_fields().size(); ++k) {
     const Field& field = mean_fields()[k];
-    if (field.name == "contacts_simple") {
-      append(columns, job_columns({"parameters"}), job_of_group);
-    }
     append_spread(columns, std::string(field.name), std::string(field.unit),
                   std::string(field.meaning), [k](const Group& group) { return group.means[k]; });
   }
+  append(columns, varied_columns(varied));
+  append(columns, job_columns({"parameters"}), job_of_group);
   return columns;
 }
 
 std::string groups_csv(const std::vector<Group>& groups) {
-  const Columns<Group> columns = groups_columns();
+  const Columns<Group> columns = groups_columns(varied_of(groups));
   std::string text = header_line(columns);
   for (const Group& group : groups) text += row_line(columns, group);
   return text;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -30,8 +31,12 @@ std::string why_no_error(const Spread& spread);
 /// The packings with one label and one parameter set. Only settled ones enter the means. Refers to
 /// the rows that it was made of.
 struct Group {
-  JobFacts job;        ///< the first of them: its replicate number, id and seed mean nothing here
-  std::string family;  ///< canonical JSON of the parameters without box.width and box.y
+  JobFacts job;             ///< the first of them, whose id stands for the group
+  std::size_t number = 0;   ///< of its row in groups.csv, from 1
+  std::string family;       ///< canonical JSON of the parameters without box.width and box.y
+  std::string family_name;  ///< as Family::name, once families are known
+  /// Dotted name -> cell of the parameters that are not the same in all groups.
+  std::map<std::string, std::string> varied;
   std::vector<Spread> means;  ///< of the fields that have one, in the order of the field table
   /// In the order of the rows, with curves as far as they had.
   std::vector<std::reference_wrapper<const PackingResult>> settled;
@@ -48,16 +53,27 @@ std::vector<Group> groups_of(std::vector<Row>&& rows) = delete;
 /// The mean of the field called so, which must be one with a mean in groups.csv: "solid_fraction".
 const Spread& mean_of(const Group& group, std::string_view field);
 
+/// The parameters that are not the same in all groups, by their dotted names.
+using Varied = std::vector<std::string>;
+Varied varied_of(const Group& any);
+Varied varied_of(const std::vector<Group>& groups);
+
+/// Number and family of a group: what tables are joined by.
+Columns<Group> group_key_columns();
+
+/// A column for each of the varied parameters.
+Columns<Group> varied_columns(const Varied& varied);
+
 /// A line of a table with several lines per group.
 struct GroupLine {
   const Group& group;
-  std::size_t number = 0;  ///< of the group's row in groups.csv, from 1
 };
 
-/// What such tables begin with: the number and a few facts of the group.
-Columns<GroupLine> group_line_columns();
+/// What such tables begin with: number, id and a few facts of the group, and what is varied.
+Columns<GroupLine> group_line_columns(const Varied& varied);
 
-/// Appends two columns to a table: mean and standard deviation of what `spread` gives of an item.
+/// Appends three columns to a table: mean, standard deviation and standard error of what `spread`
+/// gives of an item.
 template <class Item, class SpreadOf>
 void append_spread(Columns<Item>& columns, const std::string& name, const std::string& unit,
                    const std::string& meaning, SpreadOf spread) {
@@ -65,9 +81,11 @@ void append_spread(Columns<Item>& columns, const std::string& name, const std::s
       {name, unit, meaning, [=](const Item& item) { return cell(spread(item).mean); }});
   columns.push_back({name + "_sd", unit, "standard deviation of it over the replicates",
                      [=](const Item& item) { return cell(spread(item).sd); }});
+  columns.push_back({name + "_error", unit, "standard error of the mean",
+                     [=](const Item& item) { return cell(spread(item).error); }});
 }
 
-Columns<Group> groups_columns();
+Columns<Group> groups_columns(const Varied& varied);
 
 /// The whole file.
 std::string groups_csv(const std::vector<Group>& groups);

@@ -80,6 +80,20 @@ Columns<JobFacts> all_job_columns() {
   };
 }
 
+/// Adds the values below `path`; a list is one value.
+void add_parameters(const json& value, const std::string& path,
+                    std::map<std::string, std::string>& flat) {
+  if (value.is_object()) {
+    for (const auto& [key, part] : value.items()) {
+      add_parameters(part, path.empty() ? key : path + "." + key, flat);
+    }
+  } else if (value.is_number_float()) {
+    flat[path] = cell(value.get<double>());
+  } else {
+    flat[path] = cell(value.is_string() ? value.get<std::string>() : value.dump());
+  }
+}
+
 Boundary boundary_from(const json& name) {
   return name.get<std::string>() == "walls" ? Boundary::walls : Boundary::periodic;
 }
@@ -126,6 +140,15 @@ Columns<JobFacts> job_columns(const std::vector<std::string>& names) {
                                    [&](const auto& column) { return column.name == name; }));
   }
   return chosen;
+}
+
+std::map<std::string, std::string> flat_parameters(const JobFacts& job) {
+  std::map<std::string, std::string> flat;
+  add_parameters(json::parse(job.parameters), "", flat);
+  for (const auto& [path, file] : job.files) {
+    if (flat.contains(path) && path != "fill.files") flat[path] = cell(file);
+  }
+  return flat;
 }
 
 const char* name_of(Boundary boundary) {

@@ -53,6 +53,9 @@ std::vector<Row> rows_from_json(const nlohmann::json& from, Detail detail = Deta
 /// Columns of jobs, those with these names in this order: "label", "width" ...
 Columns<JobFacts> job_columns(const std::vector<std::string>& names);
 
+/// Dotted name -> cell of every parameter of a job; a file stands under its name as written.
+std::map<std::string, std::string> flat_parameters(const JobFacts& job);
+
 /// "walls" or "periodic".
 const char* name_of(Boundary boundary);
 

@@ -1,6 +1,9 @@
 #include "runner/tables/packings.hpp"
 
 #include <algorithm>
+#include <map>
+#include <string_view>
+#include <utility>
 
 #include "runner/hash.hpp"
 #include "runner/store/fields.hpp"
@@ -48,7 +51,7 @@ void append_before(std::string_view field, const std::vector<double>& tolerances
   const auto append_facts = [&](const std::vector<std::string>& names) {
     append(columns, job_columns(names), job_of);
   };
-  if (field == "grains") append_facts({"job", "label", "replicate", "seed", "start", "shape"});
+  if (field == "grains") append_facts({"job", "label", "replicate", "seed", "shape"});
   if (field == "solid_fraction") {
     append_facts({"width", "boundary_y", "small_share"});
     columns.push_back({"status", "", "settled, not_settled, failed or pending", status_of});
@@ -63,13 +66,20 @@ void append_before(std::string_view field, const std::vector<double>& tolerances
 
 }  // namespace
 
-Columns<Row> packings_columns(const std::vector<double>& further_tolerances) {
-  Columns<Row> columns;
+Columns<PackingLine> packings_columns(const std::vector<double>& further_tolerances,
+                                      const Varied& varied) {
+  Columns<Row> of_row;
   for (const Field& field : fields()) {
     if (!field.use.packings) continue;
-    append_before(field.name, further_tolerances, columns);
-    columns.push_back(column_of(field));
+    append_before(field.name, further_tolerances, of_row);
+    of_row.push_back(column_of(field));
   }
+  append(of_row, job_columns({"start"}), job_of);
+  Columns<PackingLine> columns;
+  append(columns, of_row, [](const PackingLine& line) -> const Row& { return line.row; });
+  Columns<Group> of_group = group_key_columns();
+  append(of_group, varied_columns(varied));
+  append(columns, of_group, [](const PackingLine& line) -> const Group& { return line.group; });
   return columns;
 }
 
@@ -84,10 +94,15 @@ std::vector<double> further_tolerances(const std::vector<Row>& rows) {
   return tolerances;
 }
 
-std::string packings_csv(const std::vector<Row>& rows) {
-  const Columns<Row> columns = packings_columns(further_tolerances(rows));
+std::string packings_csv(const std::vector<Row>& rows, const std::vector<Group>& groups) {
+  const Columns<PackingLine> columns =
+      packings_columns(further_tolerances(rows), varied_of(groups));
+  std::map<std::pair<std::string_view, std::string_view>, const Group*> group_of;
+  for (const Group& group : groups) group_of[{group.job.label, group.job.parameters}] = &group;
   std::string text = header_line(columns);
-  for (const Row& row : rows) text += row_line(columns, row);
+  for (const Row& row : rows) {
+    text += row_line(columns, PackingLine{row, *group_of.at({row.job.label, row.job.parameters})});
+  }
   return text;
 }
 

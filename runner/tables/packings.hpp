@@ -5,19 +5,26 @@
 #include <vector>
 
 #include "runner/tables/columns.hpp"
-#include "runner/tables/job_facts.hpp"
+#include "runner/tables/groups.hpp"
 
 namespace grainsweep {
+
+/// A packing and the group it belongs to.
+struct PackingLine {
+  const Row& row;
+  const Group& group;
+};
 
 /// The columns of a sweep. `coordination` counts at `gap_tolerance`; columns coordination_at_<gap>
 /// hold the other tolerances of its jobs, in d, given ascending. A packing that is pending or
 /// failed has empty cells where nothing was measured. Only cpu_seconds may differ between two runs.
-Columns<Row> packings_columns(const std::vector<double>& further_tolerances);
+Columns<PackingLine> packings_columns(const std::vector<double>& further_tolerances,
+                                      const Varied& varied);
 
 /// Every gap tolerance that is not first in all of the jobs, ascending.
 std::vector<double> further_tolerances(const std::vector<Row>& rows);
 
-/// The whole file.
-std::string packings_csv(const std::vector<Row>& rows);
+/// The whole file. `groups` are those of the rows.
+std::string packings_csv(const std::vector<Row>& rows, const std::vector<Group>& groups);
 
 }  // namespace grainsweep

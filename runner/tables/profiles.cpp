@@ -53,7 +53,7 @@ struct ProfileLine : GroupLine {
 Columns<ProfileLine> profile_bin_columns() {
   using Line = const ProfileLine&;
   return {
-      {"axis", "", "y from wall to wall, z from the floor up",
+      {"axis", "", "x and y from wall to wall, x between walls only; z from the floor up",
        [](Line line) { return cell(line.axis); }},
       {"low", "d", "where the bin begins", [](Line line) { return cell(line.bin.low); }},
       {"high", "d", "where it ends", [](Line line) { return cell(line.bin.high); }},
@@ -64,9 +64,9 @@ Columns<ProfileLine> profile_bin_columns() {
   };
 }
 
-Columns<ProfileLine> profile_line_columns() {
+Columns<ProfileLine> profile_line_columns(const Varied& varied) {
   Columns<ProfileLine> columns;
-  append(columns, group_line_columns());
+  append(columns, group_line_columns(varied));
   append(columns, profile_bin_columns());
   const auto add = [&](const char* name, const char* meaning, Spread MeanBin::*spread) {
     append_spread(columns, name, "", meaning,
@@ -112,16 +112,17 @@ std::vector<MeanBin> mean_profile(const Group& group, Profile PackingResult::*pr
   return means;
 }
 
-std::vector<ColumnText> profiles_columns() {
-  return described("profiles.csv", profile_line_columns());
+std::vector<ColumnText> profiles_columns(const Varied& varied) {
+  return described("profiles.csv", profile_line_columns(varied));
 }
 
 std::string profiles_csv(const std::vector<Group>& groups) {
-  const Columns<ProfileLine> columns = profile_line_columns();
+  const Columns<ProfileLine> columns = profile_line_columns(varied_of(groups));
   std::string text = header_line(columns);
-  for (std::size_t k = 0; k < groups.size(); ++k) {
-    append_profile_lines({groups[k], k + 1}, "y", &PackingResult::profile_y, columns, text);
-    append_profile_lines({groups[k], k + 1}, "z", &PackingResult::profile_z, columns, text);
+  for (const Group& group : groups) {
+    append_profile_lines({group}, "x", &PackingResult::profile_x, columns, text);
+    append_profile_lines({group}, "y", &PackingResult::profile_y, columns, text);
+    append_profile_lines({group}, "z", &PackingResult::profile_z, columns, text);
   }
   return text;
 }

@@ -28,6 +28,6 @@ std::vector<MeanBin> mean_profile(const Group& group, Profile PackingResult::*pr
 /// The whole file: along y and along z of each group.
 std::string profiles_csv(const std::vector<Group>& groups);
 
-std::vector<ColumnText> profiles_columns();
+std::vector<ColumnText> profiles_columns(const Varied& varied);
 
 }  // namespace grainsweep

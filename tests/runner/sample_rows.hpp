@@ -1,8 +1,10 @@
 // Rows and grains as a sweep would leave them, with values that tests choose.
 #pragma once
 
+#include <algorithm>
 #include <limits>
 #include <string>
+#include <vector>
 
 #include "runner/store/states.hpp"
 #include "runner/tables/job_facts.hpp"
@@ -99,6 +101,29 @@ inline Row row_with_status(const std::string& id, double width, PackingStatus st
   row.outcome->result.status = status;
   row.outcome->result.reason = reason;
   return row;
+}
+
+/// The cells of each line of a table; within quotes a comma is a part of its cell.
+inline std::vector<std::vector<std::string>> cells_of_table(const std::string& csv) {
+  std::vector<std::vector<std::string>> lines;
+  bool is_quoted = false, is_new = true;
+  for (const char c : csv) {
+    if (is_new) lines.push_back({""});
+    is_new = c == '\n' && !is_quoted;
+    if (c == '"') is_quoted = !is_quoted;
+    if (is_new) continue;
+    if (c == ',' && !is_quoted) lines.back().emplace_back();
+    if (is_quoted || c != ',') lines.back().back() += c;
+  }
+  return lines;
+}
+
+/// The cell of a table in this line (from 1) and column, with its quotes.
+inline std::string cell_in(const std::string& csv, std::size_t line, const std::string& column) {
+  const auto lines = cells_of_table(csv);
+  const auto& header = lines.at(0);
+  const auto at = std::find(header.begin(), header.end(), column) - header.begin();
+  return lines.at(line).at(static_cast<std::size_t>(at));
 }
 
 }  // namespace grainsweep

@@ -39,7 +39,7 @@ TEST_CASE("one sphere anywhere fills the bins along y with its slices, at any bi
     const double r = draw.uniform(0.05, 1.0), y = draw.uniform(0.0, 4.0), z = draw.uniform(3, 5);
     const SphereBed bed = make_bed({5, 4, periodic, walls}, {{2, y, z, r}});
     const double wanted = draw.uniform(0.01, 4.0);
-    const Profile profile = profile_along_y(bed, {}, {0, 8}, {wanted, 0, 1e-4});
+    const Profile profile = profile_across(bed, {}, {0, 8}, {wanted, 0, 1e-4}, 1);
     const auto bins = profile.bins.size();
     REQUIRE(profile.bin_width * static_cast<double>(bins) == Approx(4.0).epsilon(1e-15));
     for (std::size_t n = 0; n < bins; ++n) {
@@ -52,9 +52,33 @@ TEST_CASE("one sphere anywhere fills the bins along y with its slices, at any bi
   }
 }
 
+TEST_CASE("a profile along x is that along y of the bed turned by a right angle") {
+  const std::vector<PlacedSphere> along_x = {{0.4, 2, 4, 0.5}, {3.1, 1, 6, 0.2}};
+  const std::vector<PlacedSphere> along_y = {{2, 0.4, 4, 0.5}, {1, 3.1, 6, 0.2}};
+  const Profile x =
+      profile_across(make_bed({4, 5, walls, periodic}, along_x), {}, {3, 6.1}, {0.3, 0.3, 1e-4}, 0);
+  const Profile y =
+      profile_across(make_bed({5, 4, periodic, walls}, along_y), {}, {3, 6.1}, {0.3, 0.3, 1e-4}, 1);
+  REQUIRE(x.bins.size() == y.bins.size());
+  for (std::size_t n = 0; n < x.bins.size(); ++n) {
+    CHECK(x.bins[n].large == y.bins[n].large);
+    CHECK(x.bins[n].small == y.bins[n].small);
+    CHECK(x.bins[n].small_grains == y.bins[n].small_grains);
+  }
+}
+
+TEST_CASE("the share of small grains is that of the volumes in the slab") {
+  const SphereBed bed = make_bed({4, 5, periodic, walls}, {{2, 2, 4, 0.5}, {1, 3, 9, 0.2}});
+  const ProfileSettings settings{0.3, 0.3, 1e-4};
+  CHECK(small_share_of(profile_across(bed, {}, {3, 9.2}, settings, 1)) ==
+        Approx(0.008 / (0.125 + 0.008)));
+  CHECK(small_share_of(profile_across(bed, {}, {3, 6}, settings, 1)) == 0.0);
+  CHECK(std::isnan(small_share_of(profile_across(bed, {}, {6, 7}, settings, 1))));
+}
+
 TEST_CASE("a sphere across a periodic border fills the bins of both sides") {
   const SphereBed bed = make_bed({5, 4, periodic, periodic}, {{2, 3.9, 4, 0.5}});
-  const Profile profile = profile_along_y(bed, {}, {0, 8}, {0.5, 0, 1e-4});
+  const Profile profile = profile_across(bed, {}, {0, 8}, {0.5, 0, 1e-4}, 1);
   REQUIRE(profile.bins.size() == 8);
   const double bin = 5 * 8 * 0.5;
   CHECK(profile.bins[6].large * bin == Approx(between(0.5, -0.9, -0.4)).epsilon(1e-12));
@@ -84,7 +108,7 @@ TEST_CASE("one sphere anywhere fills the bins along z with its slices") {
 TEST_CASE("the profile of a cubic block is that of one of its cells") {
   const SphereBed bed = testing::simple_cubic_bed(4, 5, 9);
   for (const double width : {1.0, 0.5, 0.25, 0.1, 0.02}) {
-    const Profile profile = profile_along_y(bed, {}, {1.3, 6.3}, {width, 0, 1e-4});
+    const Profile profile = profile_across(bed, {}, {1.3, 6.3}, {width, 0, 1e-4}, 1);
     for (std::size_t k = 0; k < profile.bins.size(); ++k) {
       const double low = std::remainder(static_cast<double>(k) * width, 1.0);
       const auto filled = [](double t) { return pi * (t / 4 - t * t * t / 3); };
@@ -100,7 +124,7 @@ TEST_CASE("the profile of a cubic block is that of one of its cells") {
 TEST_CASE("whole cells of a face-centred block fill pi / sqrt 18 in every direction") {
   const SphereBed bed = testing::fcc_bed(3, 4, 6);
   const double edge = std::sqrt(2.0), filled = pi / std::sqrt(18.0);
-  const Profile across = profile_along_y(bed, {}, {1.1, 1.1 + 3 * edge}, {edge, 0, 1e-4});
+  const Profile across = profile_across(bed, {}, {1.1, 1.1 + 3 * edge}, {edge, 0, 1e-4}, 1);
   REQUIRE(across.bins.size() == 4);
   for (const ProfileBin& bin : across.bins) CHECK(bin.large == Approx(filled).epsilon(1e-12));
   const Profile up = profile_along_z(bed, {}, {edge, 0, 1e-4});
@@ -115,7 +139,7 @@ TEST_CASE("the mean of the profile is the solid fraction of the slab, both class
       const Slab slab{1.7, 6.9};
       const double phi = solid_fraction(bed, slab);
       for (const double width : {0.07, 0.1, 1.3, 4.0}) {
-        const Profile profile = profile_along_y(bed, {}, slab, {width, 0.3, 1e-4});
+        const Profile profile = profile_across(bed, {}, slab, {width, 0.3, 1e-4}, 1);
         REQUIRE(mean_of(profile) == Approx(phi).epsilon(1e-12));
       }
     }
@@ -143,9 +167,9 @@ TEST_CASE("each class has the profile it has alone") {
   }
   const Slab slab{2, 7};
   const ProfileSettings settings{0.1, 1.0 / 3.0, 1e-4};
-  const Profile mixed = profile_along_y(make_bed(box, both), {}, slab, settings);
-  const Profile alone_large = profile_along_y(make_bed(box, large), {}, slab, settings);
-  const Profile alone_small = profile_along_y(make_bed(box, small), {}, slab, settings);
+  const Profile mixed = profile_across(make_bed(box, both), {}, slab, settings, 1);
+  const Profile alone_large = profile_across(make_bed(box, large), {}, slab, settings, 1);
+  const Profile alone_small = profile_across(make_bed(box, small), {}, slab, settings, 1);
   for (std::size_t k = 0; k < mixed.bins.size(); ++k) {
     CHECK(mixed.bins[k].large == alone_large.bins[k].large);
     CHECK(mixed.bins[k].small == alone_small.bins[k].small);
@@ -172,7 +196,7 @@ TEST_CASE("the bins along y hold the grains and the neighbours of the slab's coo
   SphereBed bed = testing::random_bed({{6, 4, periodic, walls}, 400, 0.2, 0.5, 6, 8});
   const Touching touching = touching_in(bed);
   const Slab slab{1.5, 4.5};
-  const Profile profile = profile_along_y(bed, touching, slab, {0.1, 0.3, 1e-4});
+  const Profile profile = profile_across(bed, touching, slab, {0.1, 0.3, 1e-4}, 1);
   std::int64_t grains = 0, neighbours = 0, with_walls = 0;
   for (const ProfileBin& bin : profile.bins) {
     grains += bin.large_grains + bin.small_grains;
@@ -194,7 +218,7 @@ TEST_CASE("touching is judged at the tolerance of the settings") {
 
 TEST_CASE("an empty bed has empty bins") {
   const SphereBed bed = make_bed({6, 4, periodic, walls}, {});
-  CHECK(mean_of(profile_along_y(bed, {}, {0, 1}, {0.1, 0, 1e-4})) == 0);
+  CHECK(mean_of(profile_across(bed, {}, {0, 1}, {0.1, 0, 1e-4}, 1)) == 0);
   CHECK(mean_of(profile_along_z(bed, {}, {0.1, 0, 1e-4})) == 0);
 }
 

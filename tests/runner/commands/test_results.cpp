@@ -43,7 +43,8 @@ TEST_CASE("tables and journals are enough to know a folder's results") {
   Journal journal(folder.path());
   journal.append(sample_outcome("a2", 0.6, 6));
   journal.append(sample_outcome("other", 0.6, 6));
-  write_tables(folder.path(), stored_provenance(), pending_rows(), {});
+  const std::vector<Row> pending = pending_rows();
+  write_tables(folder.path(), stored_provenance(), pending, analyse(pending));
   const Results results = read_results(folder.path());
   REQUIRE(results.rows.size() == 2);
   CHECK(status_of(results.rows[0]) == "pending");
@@ -113,12 +114,12 @@ TEST_CASE("tables of curves are made of what is stored with the grains") {
   std::vector<Row> rows = stored_rows(folder);
   CHECK(load_curves(folder.path(), rows).empty());
   write_tables(folder.path(), stored_provenance(), rows, analyse(rows));
-  const std::string start = "1,MSP,5,walls,0,";
+  const std::string start = "1,MSP,a1,MSP,5,walls,0,";
   CHECK_THAT(read_file(folder.path() + "/profiles.csv"),
              Catch::Contains("\n" + start + "y,0,0.1,2,2,") &&
-                 Catch::Contains("\n" + start + "z,0,0.25,2,2,0.5,0,"));
+                 Catch::Contains("\n" + start + "z,0,0.25,2,2,0.5,0,0,"));
   CHECK_THAT(read_file(folder.path() + "/distributions.csv"),
-             Catch::Contains("\n" + start + "pair_correlation,0.05,0.1,2,0.1,0\n"));
+             Catch::Contains("\n" + start + "pair_correlation,0.05,0.1,2,0.1,0,0\n"));
   CHECK_THAT(read_file(folder.path() + "/decays.csv"), Catch::Contains("\n" + start + "large,"));
   CHECK_THAT(read_file(folder.path() + "/columns.csv"),
              Catch::Contains("\npackings.csv,coordination_at_1e-05,,") ||
@@ -191,7 +192,7 @@ TEST_CASE("removing results leaves other files alone") {
 
 TEST_CASE("every column of every table has a meaning, and stands in its table once") {
   std::set<std::string> files, columns;
-  for (const ColumnText& one : all_columns({1e-5})) {
+  for (const ColumnText& one : all_columns({1e-5}, {})) {
     files.insert(one.file);
     CHECK(columns.insert(one.file + "/" + one.name).second);
     CHECK_FALSE(one.meaning.empty());

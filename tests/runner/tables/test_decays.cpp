@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include "runner/tables/decays.hpp"
+#include "runner/tables/families.hpp"
 #include "tests/runner/sample_rows.hpp"
 
 namespace grainsweep {
@@ -56,15 +57,17 @@ TEST_CASE("what the packings cannot tell is not determined, with the reason") {
 
 TEST_CASE("the table has two rows a group and no numbers where nothing is determined") {
   const std::vector<Row> rows = {layered_row("a", 1), layered_row("b", 2)};
-  const std::string text = decays_csv(groups_of(rows));
+  const std::string text = decays_csv(analyse(rows).groups);
   CHECK(text.starts_with(
-      "group,label,width,boundary_y,small_share,class,status,reason,packings,window_start,"
+      "group,family,job,label,width,boundary_y,small_share,class,status,reason,packings,window_"
+      "start,"
       "window_end,bins,lambda,lambda_error,bulk,bulk_error,amplitude,amplitude_error,period,"
       "period_error,phase,phase_error,reach,reach_error,r_squared,misfit\n"));
   CHECK(std::count(text.begin(), text.end(), '\n') == 3);
-  CHECK_THAT(text, Catch::Contains("\n1,MSP,10,walls,0,large,determined,,2,0.25,5,48,1."));
-  CHECK_THAT(text, Catch::Contains("\n1,MSP,10,walls,0,small,not determined,there are no small "
-                                   "grains,2,0.25,5,0,,,,,,,,,,,,,,\n"));
+  CHECK_THAT(text, Catch::Contains("\n1,MSP,a,MSP,10,walls,0,large,determined,,2,0.25,5,48,1."));
+  CHECK_THAT(text,
+             Catch::Contains("\n1,MSP,a,MSP,10,walls,0,small,not determined,there are no small "
+                             "grains,2,0.25,5,0,,,,,,,,,,,,,,\n"));
 }
 
 }  // namespace

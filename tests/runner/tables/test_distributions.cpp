@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 
 #include "runner/tables/distributions.hpp"
+#include "runner/tables/families.hpp"
 #include "tests/runner/sample_rows.hpp"
 
 namespace grainsweep {
@@ -17,17 +18,18 @@ TEST_CASE("curves have mean and scatter of the replicates that reach so far") {
   const std::vector<Row> rows = {row_with_curves("a", {0, 2}, {1}),
                                  row_with_curves("b", {0, 4, 5}, {2}),
                                  row_with_status("u", 5, PackingStatus::not_settled, "moves")};
-  CHECK(distributions_csv(groups_of(rows)) ==
-        "group,label,width,boundary_y,small_share,curve,low,high,n,value,value_sd\n"
-        "1,MSP,5,walls,0,pair_correlation,0,0.5,2,0,0\n"
-        "1,MSP,5,walls,0,pair_correlation,0.5,1,2,3,1.4142135623730951\n"
-        "1,MSP,5,walls,0,pair_correlation,1,1.5,1,5,\n"
-        "1,MSP,5,walls,0,force_density,0,0.25,2,1.5,0.7071067811865476\n");
+  CHECK(distributions_csv(analyse(rows).groups) ==
+        "group,family,job,label,width,boundary_y,small_share,curve,low,high,n,value,value_sd,"
+        "value_error\n"
+        "1,MSP,a,MSP,5,walls,0,pair_correlation,0,0.5,2,0,0,0\n"
+        "1,MSP,a,MSP,5,walls,0,pair_correlation,0.5,1,2,3,1.4142135623730951,1\n"
+        "1,MSP,a,MSP,5,walls,0,pair_correlation,1,1.5,1,5,,\n"
+        "1,MSP,a,MSP,5,walls,0,force_density,0,0.25,2,1.5,0.7071067811865476,0.5\n");
 }
 
 TEST_CASE("a group without settled packings has no curves") {
   const std::vector<Row> rows = {row_with_status("u", 5, PackingStatus::failed, "no room")};
-  CHECK(distributions_csv(groups_of(rows)) == distributions_csv({}));
+  CHECK(distributions_csv(analyse(rows).groups) == distributions_csv({}));
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ TEST_CASE("families of one label are told apart by the parameter that differs") 
                                  settled_row("c", 6, 0.6, 6)};
   const auto families = families_of(groups_of(rows));
   REQUIRE(families.size() == 2);
-  CHECK(families[0].name == "MSP small_share=0.0");
+  CHECK(families[0].name == "MSP small_share=0");
   CHECK(families[1].name == "MSP small_share=0.25");
   CHECK(families[0].walled.size() == 2);
 }

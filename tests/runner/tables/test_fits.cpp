@@ -163,12 +163,14 @@ TEST_CASE("the points of a fit have their residuals in both units") {
   std::vector<Row> rows;
   for (const double width : {4.0, 5.0, 10.0, 20.0}) add_width(rows, width, 0.001);
   rows.push_back(settled_row("p", 20, 0.6390, 6.05, Boundary::periodic));
-  const auto families = families_of(groups_of(rows));
+  const auto families = analyse(rows).families;
   const std::string text = fit_points_csv(families);
   CHECK(std::count(text.begin(), text.end(), '\n') == 1 + 8);
-  CHECK(
-      text.starts_with("family,quantity,width,n,mean,error,fitted,residual,"
-                       "residual_in_errors\nMSP,solid_fraction,4,2,"));
+  CHECK(text.starts_with(
+      "group,family,job,label,boundary_y,small_share,box.width,box.y,quantity,width,n,mean,error,"
+      "fitted,residual,residual_in_errors\n1,MSP,a0,MSP,walls,0,4,walls,solid_fraction,4,2,"));
+  CHECK(cell_in(text, 1, "error") ==
+        cell_in(groups_csv(groups_of(rows)), 1, "solid_fraction_error"));
   const FitPoint point = fit_walls(families.at(0), Quantity::solid_fraction).points.at(2);
   CHECK(point.width == 10);
   CHECK(point.fitted == Approx(0.62));

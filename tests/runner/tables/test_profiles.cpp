@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "runner/tables/families.hpp"
 #include "runner/tables/profiles.hpp"
 #include "tests/runner/sample_rows.hpp"
 
@@ -61,17 +62,27 @@ TEST_CASE("the table has a row per bin, axis and group, and unsettled packings l
   Row unsettled = row_with_status("u", 7, PackingStatus::not_settled, "moves");
   unsettled.outcome->result.profile_y = {0.5, {{}}};
   const std::vector<Row> rows = {row_with_profile("a", 0.25, 4), unsettled};
-  const auto groups = groups_of(rows);
-  const std::string text = profiles_csv(groups);
-  const std::string header = text.substr(0, text.find('\n'));
-  CHECK(text.substr(header.size() + 1) ==
-        "1,MSP,1,walls,0,y,0,0.5,1,0,0.25,,0.25,,0,,,,,,,\n"
-        "1,MSP,1,walls,0,y,0.5,1,1,1,0.375,,0.25,,0.125,,6,,7,,0.25,\n");
-  CHECK(header ==
-        "group,label,width,boundary_y,small_share,axis,low,high,n,coordination_n,solid_fraction,"
-        "solid_fraction_sd,solid_fraction_large,solid_fraction_large_sd,solid_fraction_small,"
-        "solid_fraction_small_sd,coordination,coordination_sd,coordination_with_walls,"
-        "coordination_with_walls_sd,small_number_share,small_number_share_sd");
+  const std::string text = profiles_csv(analyse(rows).groups);
+  REQUIRE(cells_of_table(text).size() == 3);
+  CHECK_THAT(text,
+             Catch::StartsWith("group,family,job,label,width,boundary_y,small_share,box.width,"
+                               "axis,low,high,n,coordination_n,solid_fraction,"
+                               "solid_fraction_sd,solid_fraction_error,") &&
+                 Catch::Contains("\n1,MSP,a,MSP,1,walls,0,1,y,0,0.5,1,0,0.25,,,0.25,,,0,"));
+  CHECK(cell_in(text, 1, "coordination").empty());
+  CHECK(cell_in(text, 2, "coordination") == "6");
+  CHECK(cell_in(text, 2, "coordination_with_walls") == "7");
+  CHECK(cell_in(text, 2, "small_number_share") == "0.25");
+}
+
+TEST_CASE("a bed between walls along x has a profile there, too") {
+  Row row = row_with_profile("a", 0.25, 4);
+  row.outcome->result.profile_x = row.outcome->result.profile_y;
+  const std::vector<Row> rows = {row};
+  const std::string text = profiles_csv(groups_of(rows));
+  CHECK(cells_of_table(text).size() == 5);
+  CHECK(cell_in(text, 2, "axis") == "x");
+  CHECK(cell_in(text, 3, "axis") == "y");
 }
 
 }  // namespace

@@ -1,0 +1,125 @@
+#!/usr/bin/env bash
+# Tables join in pandas: by group and by job, on small copies of the sweeps of configs/ and on sweeps
+# over what else can be varied. usage: tables.sh GRAINSWEEP
+set -euo pipefail
+grainsweep=$(realpath "${1:?usage: tables.sh GRAINSWEEP}")
+configs=$(realpath "$(dirname "$0")/../../configs")
+readonly grainsweep configs
+work=$(mktemp -d "${TMPDIR:-/tmp}/grainsweep-tables.XXXXXX")
+trap 'rm -rf "$work"' EXIT
+cd "$work"
+
+if ! /usr/bin/python3 -c 'import pandas' 2>/dev/null; then
+  printf 'SKIPPED: python3-pandas is not installed\n'
+  exit 77
+fi
+
+# Start positions: two beds of a sweep, with an orientation each if they are no spheres.
+cat >starts.json <<'JSON'
+{ "name": "starts", "replicates": 3, "base": { "accuracy": "fast",
+  "box": { "length": 4, "width": 4 }, "fill": { "solid_height": 4 } } }
+JSON
+"$grainsweep" run starts.json --quiet --out starts || [ $? -eq 1 ]
+"$grainsweep" export starts --to . >/dev/null
+mapfile -t beds < <(printf '%s\n' ????????????????.csv)
+
+/usr/bin/python3 - "$configs" "${beds[@]}" <<'PYTHON'
+import glob, json, os, sys
+
+def small(value):
+    """The sweep with beds of a few dozen grains."""
+    if isinstance(value, list):
+        return [small(entry) for entry in value]
+    if not isinstance(value, dict):
+        return value
+    limits = {name: limit for path, limit in (("fill.solid_height", 3.5), ("box.length", 4))
+              for name in (path, path.split(".")[1])}
+    return {key: min(limits[key], entry) if key in limits and isinstance(entry, (int, float))
+            else small(entry) for key, entry in value.items()}
+
+measure = {"exclude_floor": 1, "exclude_surface": 1, "bin_width": 0.5}
+for path in glob.glob(sys.argv[1] + "/*.json"):
+    sweep = json.load(open(path))
+    if "name" not in sweep:
+        continue
+    sweep = small(sweep)
+    sweep.setdefault("base", {})["measure"] = measure
+    varies_accuracy = "accuracy" in json.dumps(sweep.get("sweep", []))
+    sweep["replicates"] = 1 if varies_accuracy else 2
+    if not varies_accuracy:
+        sweep["base"]["accuracy"] = {"preset": "fast", "max_steps": 300}
+    json.dump(sweep, open(f"config-{sweep['name']}.json", "w"))
+
+beds = sys.argv[2:]
+base = {"box": {"length": 4, "width": 4}, "fill": {"solid_height": 4}, "measure": measure,
+        "accuracy": "fast"}
+varied = {
+    "spread": {"grid": {"sizes.spread": [0, 0.05, 0.1]}},
+    "height": {"grid": {"fill.solid_height": [3.5, 4, 4.5], "box.width": [4, 5, 6]}},
+    "angle": {"set": {"shape": {"pinacoid": {}}},
+              "grid": {"shape.pinacoid.angle_deg": [50, 60]}},
+    "accuracy": {"grid": {"accuracy.step": [0.2, 0.3], "accuracy.momentum": [0.8, 0.9]}},
+    "duct": {"set": {"box.x": "walls"}, "zip": {"box.width": [3, 4], "box.length": [3, 4]}},
+    "gaps": {"grid": {"measure.gap_tolerances": [[1e-4], [1e-3, 1e-5]]}},
+    "files": {"set": {"fill": {"files": beds}}, "grid": {"sizes.size_ratio": [0.5, 0.6]}},
+    "file": {"grid": {"fill.file": beds}, "replicates": 1},
+}
+for name, block in varied.items():
+    json.dump({"name": name, "replicates": block.pop("replicates", len(beds)), "base": base,
+               "sweep": [{"label": "a", **block}]}, open(f"varied-{name}.json", "w"))
+PYTHON
+
+sweeps=(config-*.json varied-*.json)
+for sweep in "${sweeps[@]}"; do
+  "$grainsweep" run "$sweep" --quiet --out "out-${sweep%.json}" 2>said || [ $? -eq 1 ] || {
+    cat said
+    exit 1
+  }
+done
+
+/usr/bin/python3 - "${sweeps[@]}" <<'PYTHON'
+import sys
+import pandas
+
+by_group = ["profiles", "decays", "distributions", "fit_points"]
+joined = 0
+for sweep in sys.argv[1:]:
+    folder = "out-" + sweep.removesuffix(".json")
+    table = {name: pandas.read_csv(f"{folder}/{name}.csv")
+             for name in ["packings", "groups", "fits", *by_group]}
+    packings, groups = table["packings"], table["groups"]
+    varied = [column for column in groups if "." in column]
+    assert len(groups) == 1 or varied, folder
+    assert not groups.duplicated(["label", *varied]).any(), f"{folder}: groups that look alike"
+
+    def join(left, right, on):
+        global joined
+        both = left.merge(right, on=on, how="left", validate="m:1", indicator=True)
+        assert (both["_merge"] == "both").all() and len(both) == len(left), (folder, on)
+        shared = ["label", "job", "group", "family", "width", "small_share", *varied]
+        for column in shared:
+            if column not in left or column not in right or column == on:
+                continue
+            same = (both[column + "_x"] == both[column + "_y"]) | both[column + "_x"].isna()
+            assert same.all() or (column == "job" and left is packings), (folder, on, column)
+        joined += 1
+
+    join(packings, groups, "group")
+    join(groups, packings, "job")
+    for name in by_group:
+        join(table[name], groups, "group")
+        join(table[name], packings, "job")
+        join(table[name], groups, "job")
+    walled = groups[groups["family"].isin(table["fits"]["family"])]
+    for quantity, fits in table["fits"].groupby("quantity"):
+        join(walled, fits, "family")
+    columns = pandas.read_csv(f"{folder}/columns.csv")
+    for name, rows in columns.groupby("file"):
+        assert list(rows["column"]) == list(table[name.removesuffix(".csv")]), (folder, name)
+    assert columns["meaning"].notna().all(), folder
+    settled = packings[packings["status"] == "settled"]
+    means = settled.groupby("group")["solid_fraction"].mean()
+    there = groups.set_index("group")["solid_fraction"].dropna()
+    assert (abs(means - there) < 1e-12).all() and len(means) == len(there), folder
+print(f"tables: {joined} joins of {len(sys.argv) - 1} sweeps give each row its partner")
+PYTHON
