@@ -8,6 +8,8 @@
 
 #include <tbb/info.h>
 
+#include "runner/text.hpp"
+
 namespace grainsweep {
 namespace {
 
@@ -53,6 +55,22 @@ std::string utc_now() {
   std::array<char, 32> text{};
   std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &parts);
   return text.data();
+}
+
+std::string command_line() {
+  std::ifstream file("/proc/self/cmdline", std::ios::binary);
+  std::string word, words;
+  while (std::getline(file, word, '\0')) words += (words.empty() ? "" : " ") + shell_word(word);
+  return words;
+}
+
+std::string processor_name() {
+  std::ifstream file("/proc/cpuinfo");
+  std::string line;
+  while (std::getline(file, line)) {
+    if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
+  }
+  return "";
 }
 
 int usable_cores() { return std::max(1, tbb::info::default_concurrency()); }

@@ -14,6 +14,12 @@ double wall_seconds();
 /// "2026-03-01T12:00:00Z"
 std::string utc_now();
 
+/// The command line of this process, as a shell takes it.
+std::string command_line();
+
+/// What the processor calls itself; empty if the system does not tell.
+std::string processor_name();
+
 /// Cores this process may use.
 int usable_cores();
 

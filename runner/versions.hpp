@@ -13,6 +13,10 @@ std::string program_version();
 /// builds of one version apart.
 std::string build_name();
 
+/// What the source was when it was built, by git: "461e38b0a1b2", with "-dirty" behind it if it
+/// had changes; "unknown" without git.
+std::string source_commit();
+
 /// "g++ 12.2.0"
 std::string compiler_version();
 

@@ -48,15 +48,18 @@ void add_runs(const std::vector<RunRecord>& from, std::vector<RunRecord>& to) {
                [&](const RunRecord& run) { return !is_known(run); });
 }
 
-/// Name and file of one sweep, or all names, each once, and no file to go on with.
-void add_name(const Provenance& from, Provenance& to) {
+/// Name and file of a sweep, each once.
+void add_sweep(const Provenance& from, Provenance& to) {
   const std::string names = "+" + to.sweep_name + "+";
   if (names.find("+" + from.sweep_name + "+") == std::string::npos) {
     to.sweep_name += "+" + from.sweep_name;
   }
-  if (from.sweep_text_hash == to.sweep_text_hash) return;
-  to.sweep_file.clear();
-  to.sweep_text_hash.clear();
+  for (const SweepFile& sweep : from.sweeps) {
+    const bool is_known =
+        std::any_of(to.sweeps.begin(), to.sweeps.end(),
+                    [&](const SweepFile& known) { return known.text == sweep.text; });
+    if (!is_known) to.sweeps.push_back(sweep);
+  }
 }
 
 bool is_same_result(const Outcome& a, const Outcome& b) {
@@ -109,13 +112,13 @@ Collection begin_collection(const std::string& folder, const Provenance& first) 
   for (std::size_t i = 0; i < collection.rows.size(); ++i) {
     collection.row_of[collection.rows[i].job.id] = i;
   }
-  collection.provenance.build = {program_version(), compiler_version(), library_versions()};
+  collection.provenance.build = this_build();
   return collection;
 }
 
 void add_results(const std::string& folder, const Results& results, Journal& journal,
                  Collection& to) {
-  add_name(results.provenance, to.provenance);
+  add_sweep(results.provenance, to.provenance);
   add_runs(results.provenance.runs, to.provenance.runs);
   for (const Row& source : results.rows) {
     Row& row = row_of(source.job, to);

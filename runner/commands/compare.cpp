@@ -18,10 +18,11 @@ namespace {
 /// The file asked for, or the one beside the sweep. Throws BadInput if there is none.
 std::string reference_file(const CompareOptions& options, const Provenance& provenance) {
   if (!options.with.empty()) return options.with;
-  std::string beside = reference_beside(provenance.sweep_file);
-  if (!provenance.sweep_file.empty() && file_exists(beside)) return beside;
+  const std::string sweep_file = sweep_file_of(provenance);
+  std::string beside = reference_beside(sweep_file);
+  if (!sweep_file.empty() && file_exists(beside)) return beside;
   throw BadInput(options.folder + ": there are no published values beside the sweep" +
-                 (provenance.sweep_file.empty() ? "" : " (" + beside + ")") +
+                 (sweep_file.empty() ? "" : " (" + beside + ")") +
                  "; name their file: --with configs/paper-spheres.reference.json");
 }
 

@@ -9,12 +9,14 @@
 #include "runner/exit_codes.hpp"
 #include "runner/store/checkpoints.hpp"
 #include "runner/store/files.hpp"
+#include "runner/store/lock.hpp"
 #include "runner/store/states.hpp"
 #include "runner/tables/decays.hpp"
 #include "runner/tables/distributions.hpp"
 #include "runner/tables/fits.hpp"
 #include "runner/tables/packings.hpp"
 #include "runner/tables/profiles.hpp"
+#include "runner/versions.hpp"
 
 namespace grainsweep {
 namespace {
@@ -22,6 +24,9 @@ namespace {
 constexpr std::array tables = {"packings.csv",      "groups.csv",   "fits.csv",
                                "fit_points.csv",    "profiles.csv", "decays.csv",
                                "distributions.csv", "columns.csv",  "provenance.json"};
+
+/// Of the name of a provenance.json that could not be read.
+const std::string damaged_start = "damaged-provenance-";
 
 std::string provenance_path(const std::string& folder) { return folder + "/provenance.json"; }
 
@@ -63,8 +68,11 @@ std::vector<RunRecord> recorded_runs(const std::string& folder, std::vector<std:
   try {
     return read_provenance(folder).provenance.runs;
   } catch (const BadInput&) {
+    const std::string kept = damaged_start + process_name() + ".json";
+    rename_file(provenance_path(folder), folder + "/" + kept);
     damage.push_back(provenance_path(folder) +
-                     ": damaged, or of another version; the record of earlier runs is lost");
+                     ": damaged, or of another version; the record of earlier runs is kept in " +
+                     kept + " alone");
     return {};
   }
 }
@@ -101,6 +109,10 @@ void write_tables(const std::string& folder, const Provenance& provenance,
 void write_provenance(const std::string& folder, const Provenance& provenance,
                       const std::vector<Row>& rows) {
   replace_file(provenance_path(folder), provenance_text(provenance, rows));
+}
+
+Build this_build() {
+  return {program_version(), source_commit(), compiler_version(), library_versions()};
 }
 
 std::vector<ColumnText> all_columns(const std::vector<double>& tolerances, const Varied& varied) {
@@ -151,6 +163,9 @@ void remove_results(const std::string& folder) {
   }
   remove_all_checkpoints(folder);
   for (const char* name : tables) remove_file(folder + "/" + name);
+  for (const std::string& name : files_in(folder, damaged_start, ".json")) {
+    remove_file(folder + "/" + name);
+  }
 }
 
 }  // namespace grainsweep

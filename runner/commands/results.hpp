@@ -21,7 +21,8 @@ struct Results {
 /// FileError if a file cannot be read.
 Results read_results(const std::string& folder, Detail detail = Detail::whole);
 
-/// The runs recorded in the folder so far; none if it is new. Appends to `damage` if they are lost.
+/// The runs recorded in the folder so far; none if it is new. A damaged record is kept beside the
+/// new one, under another name that `damage` tells.
 std::vector<RunRecord> recorded_runs(const std::string& folder, std::vector<std::string>& damage);
 
 /// Opens the stored bed of each row without curves, checks the whole of it and keeps them, 10 kB. A
@@ -37,6 +38,9 @@ void write_tables(const std::string& folder, const Provenance& provenance,
 /// Replaces provenance.json alone.
 void write_provenance(const std::string& folder, const Provenance& provenance,
                       const std::vector<Row>& rows);
+
+/// What this program was built from, for provenance.json.
+Build this_build();
 
 /// The columns of every table of a sweep with these further gap tolerances that varies these
 /// parameters.

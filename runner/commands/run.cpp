@@ -96,9 +96,8 @@ std::vector<std::string> read_packed(RunningSweep& running) {
 Provenance provenance_of(const RunOptions& options, const RunningSweep& running,
                          std::vector<std::string>& damage) {
   Provenance provenance;
-  provenance.build = {program_version(), compiler_version(), library_versions()};
-  provenance.sweep_file = options.file;
-  provenance.sweep_text_hash = text_hash(read_file(options.file));
+  provenance.build = this_build();
+  provenance.sweeps = {{options.file, read_file(options.file)}};
   provenance.sweep_name = running.sweep.name;
   provenance.runs = recorded_runs(running.folder, damage);
   return provenance;
@@ -111,7 +110,9 @@ Packed record_and_pack(RunningSweep& running, const RunOptions& options, Isa isa
   const Limits limits{options.threads > 0 ? options.threads : usable_cores(),
                       memory_for_packings()};
   std::cerr << memory_warning(costs_of(running.pending), limits.memory);
-  provenance.runs.push_back({utc_now(), "", 0.0, process_name(), limits.threads, name_of(isa), 0});
+  provenance.runs.push_back({utc_now(), "", 0.0, process_name(), limits.threads, name_of(isa), 0,
+                             command_line(), host_name(), processor_name(), usable_cores(),
+                             provenance.build.commit});
   write_provenance(running.folder, provenance, running.rows);
   RunRecord& record = provenance.runs.back();
   Packed packed = pack_pending(running, {limits, isa, progress_style(options.quiet),

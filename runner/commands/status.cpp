@@ -26,7 +26,7 @@ std::string progress_text(const StatusCounts& counts, std::size_t packings) {
 void print_status(const Results& results, const std::optional<std::string>& runner,
                   const std::string& folder) {
   const Totals totals = totals_of(results.rows);
-  const std::string& sweep_file = results.provenance.sweep_file;
+  const std::string sweep_file = sweep_file_of(results.provenance);
   std::cout << results.provenance.sweep_name << ": "
             << progress_text(totals.counts, results.rows.size()) << "; "
             << duration_text(totals.cpu_seconds) << " CPU\n"
@@ -43,7 +43,7 @@ void print_status(const Results& results, const std::optional<std::string>& runn
 void print_status_json(const Results& results, const std::optional<std::string>& runner) {
   const Totals totals = totals_of(results.rows);
   nlohmann::ordered_json status = {
-      {"name", results.provenance.sweep_name},    {"sweep_file", results.provenance.sweep_file},
+      {"name", results.provenance.sweep_name},    {"sweep_file", sweep_file_of(results.provenance)},
       {"packings", results.rows.size()},          {"settled", totals.counts.settled},
       {"not_settled", totals.counts.not_settled}, {"failed", totals.counts.failed},
       {"pending", totals.counts.pending},         {"of_an_earlier_sweep", results.orphaned},

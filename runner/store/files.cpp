@@ -153,6 +153,11 @@ void make_folder(const std::string& path) {
   if (!std::filesystem::is_directory(path)) throw FileError(path, "make the folder", ENOTDIR);
 }
 
+void rename_file(const std::string& path, const std::string& new_path) {
+  if (std::rename(path.c_str(), new_path.c_str()) != 0) throw FileError(path, "rename", errno);
+  flush_folder_of(new_path);
+}
+
 void remove_file(const std::string& path) {
   if (unlink(path.c_str()) != 0 && errno != ENOENT) throw FileError(path, "remove", errno);
 }

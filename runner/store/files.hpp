@@ -68,6 +68,9 @@ void replace_file(const std::string& path, std::string_view bytes);
 /// Makes the folder and those above it; nothing happens if it is there.
 void make_folder(const std::string& path);
 
+/// Gives a file another name in its folder.
+void rename_file(const std::string& path, const std::string& new_path);
+
 /// Removes the file; nothing happens if there is none.
 void remove_file(const std::string& path);
 

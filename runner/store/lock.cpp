@@ -15,16 +15,6 @@ namespace {
 
 constexpr const char* lock_name = "/runner.lock";
 
-/// The host's name, with only the characters that are safe in a file name.
-std::string host_name() {
-  std::array<char, 256> name{};
-  if (gethostname(name.data(), name.size() - 1) != 0 || name[0] == '\0') return "unknown";
-  std::string text = name.data();
-  const auto unsafe = [](unsigned char c) { return std::isalnum(c) == 0 && c != '.' && c != '-'; };
-  std::replace_if(text.begin(), text.end(), unsafe, '_');
-  return text;
-}
-
 /// Takes the lock, or sets errno. Tries for a fifth of a second, since a look at the lock
 /// (present_runner) holds it for a moment.
 bool take_lock(int descriptor) {
@@ -47,6 +37,15 @@ std::string owner_in(const std::string& path) {
 }
 
 }  // namespace
+
+std::string host_name() {
+  std::array<char, 256> name{};
+  if (gethostname(name.data(), name.size() - 1) != 0 || name[0] == '\0') return "unknown";
+  std::string text = name.data();
+  const auto unsafe = [](unsigned char c) { return std::isalnum(c) == 0 && c != '.' && c != '-'; };
+  std::replace_if(text.begin(), text.end(), unsafe, '_');
+  return text;
+}
 
 FolderLock::FolderLock(const std::string& folder)
     : file_(folder + lock_name, O_RDWR | O_CREAT), is_held_(take_lock(file_.descriptor())) {

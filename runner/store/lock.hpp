@@ -34,6 +34,9 @@ class FolderLock {
 /// "host, process 4711" of the runner that works in `folder` now; nothing if none does.
 std::optional<std::string> present_runner(const std::string& folder);
 
+/// The machine's name, with only the characters that are safe in a file name.
+std::string host_name();
+
 /// "<host>-<pid>", the name this process writes under.
 std::string process_name();
 

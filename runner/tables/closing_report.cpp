@@ -183,7 +183,7 @@ std::string closing_report(const Provenance& provenance, const std::vector<Row>&
          effort_text(provenance, totals.cpu_seconds) + "Tables in " + folder +
          ": packings.csv, groups.csv, fits.csv, profiles.csv, decays.csv and more;\n"
          "provenance.json says how they were made\n" +
-         next_text(provenance.sweep_file, totals.counts, folder);
+         next_text(sweep_file_of(provenance), totals.counts, folder);
 }
 
 }  // namespace grainsweep

@@ -20,26 +20,41 @@ struct RunRecord {
   double wall_seconds = 0.0;  ///< s
   std::string process;        ///< "<host>-<pid>"
   int threads = 1;
-  std::string isa;   ///< "avx2"
-  int packings = 0;  ///< finished by this run
+  std::string isa;        ///< "avx2"
+  int packings = 0;       ///< finished by this run
+  std::string command;    ///< as it was typed, options and all
+  std::string host;       ///< name of the machine
+  std::string processor;  ///< "AMD EPYC 7763 64-Core Processor"
+  int cores = 0;          ///< that the process might use
+  std::string commit;     ///< as in Build, of the program that ran
 };
 
 /// What the program was built from.
 struct Build {
   std::string version;
+  std::string commit;  ///< of its source, "-dirty" if that was changed; "unknown" outside git
   std::string compiler;
   std::map<std::string, std::string> libraries;  ///< name -> version
 };
 
+/// A sweep file.
+struct SweepFile {
+  std::string file;  ///< as given on the command line
+  std::string text;  ///< all of it, verbatim
+};
+
 struct Provenance {
   Build build;
-  std::string sweep_file;       ///< as given on the command line
-  std::string sweep_text_hash;  ///< text_hash of its bytes
+  std::vector<SweepFile> sweeps;  ///< one, or those of all collected folders, a text once
   std::string sweep_name;
   std::vector<RunRecord> runs;  ///< in the order they started
 };
 
-/// The whole file, with the jobs of `rows` and the totals of their packings.
+/// The file of the only sweep; empty if there are several.
+std::string sweep_file_of(const Provenance& provenance);
+
+/// The whole file, with the jobs of `rows` and the totals of their packings, and a CRC-32 of all
+/// before at its end.
 std::string provenance_text(const Provenance& provenance, const std::vector<Row>& rows);
 
 /// What provenance_text made a text of; the rows are pending, and as of rows_from_json.
@@ -48,11 +63,9 @@ struct ProvenanceReading {
   std::vector<Row> rows;
 };
 
-/// Throws nlohmann::json::exception if `text` is not a provenance.json of this version.
+/// Throws nlohmann::json::exception if `text` is not a provenance.json of this version, every byte
+/// of it.
 ProvenanceReading provenance_from_text(const std::string& text, Detail detail = Detail::whole);
-
-/// "fnv1a64:0123456789abcdef", the 64-bit FNV-1a hash.
-std::string text_hash(std::string_view text);
 
 struct Totals {
   StatusCounts counts;

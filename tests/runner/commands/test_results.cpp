@@ -16,7 +16,7 @@ namespace {
 
 Provenance stored_provenance() {
   Provenance provenance;
-  provenance.sweep_file = "a.json";
+  provenance.sweeps = {{"a.json", ""}};
   provenance.sweep_name = "a";
   provenance.runs.emplace_back();
   return provenance;
@@ -71,7 +71,7 @@ TEST_CASE("a summary counts what the whole results hold") {
   const Results whole = read_results(folder.path());
   const Results summary = read_results(folder.path(), Detail::summary);
   CHECK(summary.provenance.sweep_name == "a");
-  CHECK(summary.provenance.sweep_file == "a.json");
+  CHECK(sweep_file_of(summary.provenance) == "a.json");
   CHECK(summary.rows.size() == 3);
   const Totals expected = totals_of(whole.rows), totals = totals_of(summary.rows);
   CHECK(totals.counts.settled == 1);
@@ -97,6 +97,12 @@ TEST_CASE("a folder without results is refused, and so is a broken provenance") 
   CHECK(recorded_runs(folder.path(), damage).empty());
   REQUIRE(damage.size() == 1);
   CHECK_THAT(damage[0], Catch::Contains("/provenance.json: damaged"));
+  const auto kept = files_in(folder.path(), "damaged-provenance-", ".json");
+  REQUIRE(kept.size() == 1);
+  CHECK_THAT(damage[0], Catch::Contains(kept[0]));
+  CHECK(read_file(folder.path() + "/" + kept[0]) == "{");
+  remove_results(folder.path());
+  CHECK(files_in(folder.path(), "", "").empty());
 }
 
 /// Two packings of one group, stored with their curves.

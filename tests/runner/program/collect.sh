@@ -29,6 +29,7 @@ cp all/provenance.json before.json
 expect_code 0 "$program" collect part walls --out all
 expect_text out.txt "0 packings added"
 cmp before.json all/provenance.json || fail "collecting again changed the record"
+[ "$(grep -c '"text": ' all/provenance.json)" -eq 2 ] || fail "not both sweeps were kept"
 expect_code 0 "$program" collect whole --out all
 expect_text out.txt "which now holds 10 of 10"
 [ "$(cat all/journal-*.jsonl | wc -l)" -eq 10 ] || fail "not one line per packing"

@@ -34,6 +34,8 @@ for file in packings.csv groups.csv fits.csv fit_points.csv profiles.csv decays.
   distributions.csv columns.csv provenance.json; do
   [ -s "out/small/$file" ] || fail "no $file"
 done
+expect_text out/small/provenance.json "run small.json" '"processor": "' '"commit": "' \
+  '"file": "small.json"' '\"label\": \"walls\"'
 [ "$(wc -l <out/small/packings.csv)" -eq 11 ] || fail "packings.csv has not 10 rows"
 [ "$(wc -l <out/small/groups.csv)" -eq 6 ] || fail "groups.csv has not 5 rows"
 [ "$(wc -l <out/small/fits.csv)" -eq 3 ] || fail "fits.csv has not 2 rows"

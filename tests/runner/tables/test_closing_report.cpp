@@ -21,9 +21,11 @@ std::vector<Row> sample_rows() {
 
 Provenance reported_provenance() {
   Provenance provenance;
-  provenance.sweep_file = "a.json";
+  provenance.sweeps = {{"a.json", ""}};
   provenance.sweep_name = "a";
-  provenance.runs = {{"", "end", 3.25, "h-1", 2, "avx2", 8}};
+  RunRecord run;
+  run.ended = "end", run.wall_seconds = 3.25, run.threads = 2, run.isa = "avx2", run.packings = 8;
+  provenance.runs = {run};
   return provenance;
 }
 

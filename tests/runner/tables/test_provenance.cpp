@@ -9,12 +9,12 @@ namespace {
 
 Provenance sample_provenance() {
   Provenance provenance;
-  provenance.build = {"1.2.3", "g++ 12", {{"oneTBB", "2021.8"}}};
-  provenance.sweep_file = "configs/a.json";
-  provenance.sweep_text_hash = text_hash("text");
+  provenance.build = {"1.2.3", "0123abc", "g++ 12", {{"oneTBB", "2021.8"}}};
+  provenance.sweeps = {{"configs/a.json", "{\n \"name\": \"a\" }"}};
   provenance.sweep_name = "a";
-  provenance.runs = {{"2026-01-01T00:00:00Z", "2026-01-01T00:00:02Z", 2.0, "h-1", 2, "avx2", 1},
-                     {"2026-01-02T00:00:00Z", "", 0.0, "h-2", 8, "sse2", 0}};
+  provenance.runs = {{"2026-01-01T00:00:00Z", "2026-01-01T00:00:02Z", 2.0, "h-1", 2, "avx2", 1,
+                      "grainsweep run configs/a.json", "h", "a processor", 4, "0123abc"},
+                     {"2026-01-02T00:00:00Z", "", 0.0, "h-2", 8, "sse2", 0, "", "", "", 0, ""}};
   return provenance;
 }
 
@@ -36,7 +36,7 @@ TEST_CASE("of a summary the jobs are known by their ids") {
   const std::vector<Row> rows = {{sample_job("a1", 5), {}}};
   const auto [back, jobs] =
       provenance_from_text(provenance_text(sample_provenance(), rows), Detail::summary);
-  CHECK(back.sweep_file == "configs/a.json");
+  CHECK(sweep_file_of(back) == "configs/a.json");
   CHECK(jobs.at(0).job.id == "a1");
   CHECK(jobs.at(0).job.parameters.empty());
 }
@@ -55,8 +55,24 @@ TEST_CASE("provenance carries the totals of the packings") {
                                             {"cpu_seconds", 1.5}});
 }
 
-TEST_CASE("the hash of a text says what it is") {
-  CHECK(text_hash("foobar") == "fnv1a64:85944171f73967e8");
+TEST_CASE("the sweep file is kept verbatim; of several none is the one to go on with") {
+  Provenance provenance = sample_provenance();
+  provenance = provenance_from_text(provenance_text(provenance, {})).provenance;
+  CHECK(provenance.sweeps.at(0).text == "{\n \"name\": \"a\" }");
+  CHECK(provenance.runs.at(0).command == "grainsweep run configs/a.json");
+  CHECK(provenance.runs.at(0).processor == "a processor");
+  provenance.sweeps.push_back({"b.json", "{}"});
+  CHECK(sweep_file_of(provenance).empty());
+}
+
+TEST_CASE("provenance with any byte changed is refused") {
+  const std::string text = provenance_text(sample_provenance(), {{sample_job("a1", 5), {}}});
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    std::string changed = text;
+    changed[at] = static_cast<char>(changed[at] ^ 1);
+    CHECK_THROWS_AS(provenance_from_text(changed), nlohmann::json::exception);
+  }
+  CHECK_THROWS_AS(provenance_from_text(text + " "), nlohmann::json::exception);
 }
 
 }  // namespace
