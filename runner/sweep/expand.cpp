@@ -181,6 +181,7 @@ class Expansion {
       note_broken_rules(block, in_effect, check(resolved.spec), start);
     }
     if (!diagnostics_.empty()) return;
+    const std::string scene = canonical_scene(resolved);
     Job job{"", block.label,   canonical_parameters(resolved),
             1,  resolved.seed, std::move(resolved.spec)};
     if (!resolved.hull_file.empty()) job.files["shape.hull.vertices"] = resolved.hull_file;
@@ -190,6 +191,7 @@ class Expansion {
     for (; job.replicate <= replicates; ++job.replicate) {
       const Start& start = starts[is_listed ? static_cast<std::size_t>(job.replicate) - 1 : 0];
       job.spec.fill = start.fill;
+      job.spec.random_key = random_key_of(scene, job.seed, job.replicate);
       if (is_listed) job.files["fill.files"] = start.file;
       add(index, job,
           is_listed ? job_hash(job.parameters + start.content, job.seed, 1)
@@ -205,7 +207,6 @@ class Expansion {
       return;
     }
     job.id = hex16(hash);
-    job.spec.random_key = random_key_of(hash);
     jobs_.push_back(job);
   }
 

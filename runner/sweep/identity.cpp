@@ -70,6 +70,31 @@ void change_groups(const GroupNames& open, const GroupNames& groups, std::string
   }
 }
 
+/// Those that say what is packed.
+std::vector<Member> scene_members() {
+  std::vector<Member> members = sorted_members();
+  std::erase_if(members, [](const Member& member) {
+    const std::string_view path = member.parameter->path;
+    return path.starts_with("accuracy.") || path.starts_with("measure.");
+  });
+  return members;
+}
+
+std::string canonical(const std::vector<Member>& members, const ResolvedSpec& resolved) {
+  const GroupNames none;
+  const GroupNames* open = &none;
+  std::string text = "{";
+  for (const auto& [parameter, groups, key] : members) {
+    const auto value = parameter->get(resolved);
+    if (!value) continue;
+    change_groups(*open, groups, text);
+    open = &groups;
+    text.append("\"").append(key).append("\":");
+    append_value(*parameter, *value, text);
+  }
+  return text.append(open->size() + 1, '}');
+}
+
 }  // namespace
 
 std::string hash_of(const HullVertices& hull) {
@@ -85,18 +110,12 @@ std::string hash_of(const HullVertices& hull) {
 
 std::string canonical_parameters(const ResolvedSpec& resolved) {
   static const std::vector<Member> members = sorted_members();
-  const GroupNames none;
-  const GroupNames* open = &none;
-  std::string text = "{";
-  for (const auto& [parameter, groups, key] : members) {
-    const auto value = parameter->get(resolved);
-    if (!value) continue;
-    change_groups(*open, groups, text);
-    open = &groups;
-    text.append("\"").append(key).append("\":");
-    append_value(*parameter, *value, text);
-  }
-  return text.append(open->size() + 1, '}');
+  return canonical(members, resolved);
+}
+
+std::string canonical_scene(const ResolvedSpec& resolved) {
+  static const std::vector<Member> members = scene_members();
+  return canonical(members, resolved);
 }
 
 std::uint64_t job_hash(std::string_view parameters, std::uint64_t seed, int replicate) {
@@ -106,9 +125,8 @@ std::uint64_t job_hash(std::string_view parameters, std::uint64_t seed, int repl
   return mixed(fnv1a(identity));
 }
 
-std::uint64_t random_key_of(std::uint64_t job_hash) {
-  constexpr std::uint64_t golden_ratio = 0x9e3779b97f4a7c15;  // 2^64 over it, odd
-  return mixed(job_hash + golden_ratio);
+std::uint64_t random_key_of(std::string_view scene, std::uint64_t seed, int replicate) {
+  return job_hash(scene, seed, replicate);
 }
 
 }  // namespace grainsweep

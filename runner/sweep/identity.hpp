@@ -29,7 +29,11 @@ std::string canonical_parameters(const ResolvedSpec& resolved);
 /// The id of a job, as a number.
 std::uint64_t job_hash(std::string_view parameters, std::uint64_t seed, int replicate);
 
-/// The key of a job's random numbers: a function of its id alone, and not the id itself.
-std::uint64_t random_key_of(std::uint64_t job_hash);
+/// What of those is packed: without "accuracy" and "measure".
+std::string canonical_scene(const ResolvedSpec& resolved);
+
+/// The key of a job's random numbers. Jobs that differ in nothing but how accurately they are made
+/// and what is measured of them start from the same grains at the same places.
+std::uint64_t random_key_of(std::string_view scene, std::uint64_t seed, int replicate);
 
 }  // namespace grainsweep

@@ -17,7 +17,7 @@ struct Job {
   std::string parameters;  ///< resolved parameters as canonical JSON (sorted keys), no replicate
   int replicate = 1;       ///< 1 .. replicates
   std::uint64_t seed = 0;  ///< master seed it was made with
-  PackingSpec spec;        ///< random_key is derived from id alone
+  PackingSpec spec;        ///< random_key: of scene, master seed and replicate
   /// Files it was read from, as written, by the parameter that each gave: "fill.file".
   std::map<std::string, std::string> files = {};
 };
