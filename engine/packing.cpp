@@ -175,9 +175,7 @@ Packing pack(const PackingSpec& spec, const ExecutionContext& context, const Kee
              std::string_view saved) {
   std::optional<Bed<Kind>> bed = start<Kind>(spec);
   if (!bed) {
-    return failed(
-        "a grain found no room in the box: it is larger than the gap between the walls, "
-        "or the box is too crowded");
+    return failed("a grain is larger than the gap between the walls; make the box wider");
   }
   if (!is_finite(*bed)) {
     return failed(

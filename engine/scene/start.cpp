@@ -12,7 +12,8 @@ namespace grainsweep {
 
 namespace {
 
-constexpr std::uint32_t max_attempts = 100000;  // per grain; a few suffice at this solid fraction
+constexpr std::uint32_t max_attempts = 100000;  // per grain; a few suffice in a wide box
+constexpr double column_growth = 1.5;           // where they do not
 
 /// Range of centres along one axis.
 struct Range {
@@ -119,9 +120,6 @@ std::optional<PlacedSphere> place(const std::vector<Column>& columns, const Box&
                                   double radius, std::uint64_t key, std::uint64_t grain) {
   const Range x = centres(box.length, box.x, radius), y = centres(box.width, box.y, radius);
   const Range z = {radius, height - radius};
-  if (x.high < x.low || y.high < y.low) {
-    return std::nullopt;
-  }
   for (std::uint32_t attempt = 0; attempt < max_attempts; ++attempt) {
     const auto words = random_words(key, Purpose::place, grain, attempt);
     const PlacedSphere sphere{x.at(words[0]), y.at(words[1]), z.at(words[2]), radius};
@@ -175,6 +173,33 @@ void sort_along_subdomains(const Box& box, double solid_volume, double largest_r
       [&](const PlacedSphere& a, const PlacedSphere& b) { return slice_of(a) < slice_of(b); });
 }
 
+bool has_width_for(double radius, const Box& box) {
+  const Range x = centres(box.length, box.x, radius), y = centres(box.width, box.y, radius);
+  return x.low <= x.high && y.low <= y.high;
+}
+
+/// Spheres placed in a column of this height; nothing if one found no room.
+std::optional<std::vector<PlacedSphere>> fill_column(const Box& box,
+                                                     const std::vector<double>& radii,
+                                                     double height, std::uint64_t key) {
+  const std::vector<double> diameters = column_diameters(radii);
+  std::vector<Column> columns;
+  columns.reserve(diameters.size());
+  for (const double diameter : diameters) {
+    columns.emplace_back(box, height, diameter);
+  }
+  Column all(box, height, diameters.front());
+  for (std::size_t i = 0; i < radii.size(); ++i) {
+    const auto sphere = place(columns, box, height, radii[i], key, i);
+    if (!sphere) {
+      return std::nullopt;
+    }
+    columns[2.0 * radii[i] <= diameters.back() ? columns.size() - 1 : 0].add(*sphere);
+    all.add(*sphere);
+  }
+  return all.sorted();
+}
+
 /// A point in the unit disc, uniform.
 struct DiscPoint {
   double x, y, squared;
@@ -215,23 +240,11 @@ std::vector<Pose> placed_poses(const PlacedGrains& placed, const InputFrame& giv
 std::optional<std::vector<PlacedSphere>> place_at_random(const Box& box,
                                                          const std::vector<double>& radii,
                                                          double min_height, std::uint64_t key) {
-  const std::vector<double> diameters = column_diameters(radii);
-  const double height = std::max(min_height, 1.5 * diameters.front());
-  std::vector<Column> columns;
-  columns.reserve(diameters.size());
-  for (const double diameter : diameters) {
-    columns.emplace_back(box, height, diameter);
+  const double largest = *std::max_element(radii.begin(), radii.end());
+  if (!has_width_for(largest, box)) return std::nullopt;
+  for (double height = std::max(min_height, 3.0 * largest);; height *= column_growth) {
+    if (auto spheres = fill_column(box, radii, height, key)) return spheres;
   }
-  Column all(box, height, diameters.front());
-  for (std::size_t i = 0; i < radii.size(); ++i) {
-    const auto sphere = place(columns, box, height, radii[i], key, i);
-    if (!sphere) {
-      return std::nullopt;
-    }
-    columns[2.0 * radii[i] <= diameters.back() ? columns.size() - 1 : 0].add(*sphere);
-    all.add(*sphere);
-  }
-  return all.sorted();
 }
 
 template <>

@@ -10,7 +10,9 @@
 
 namespace grainsweep {
 
-/// Solid fraction of the column in which grains are placed at random.
+/// Solid fraction of the column in which grains are placed at random. Where they cannot stand so
+/// densely without order, as between walls less than two diameters apart, the column is made half
+/// as high again until they have room.
 inline constexpr double sphere_start_solid_fraction = 0.25;
 inline constexpr double polyhedron_start_solid_fraction = 0.4;
 
@@ -24,12 +26,12 @@ inline constexpr double start_ball = 0.7;
 /// orientations of polyhedra are uniform over all rotations, and their scales are drawn as
 /// diameters of spheres are. Or the user's own placed grains, where and as they are placed. Grains
 /// are numbered from the floor up, those of large flat beds along x or y first. Empty if a grain
-/// does not fit between the walls or no room is found for it.
+/// is larger than the gap between walls.
 template <class Kind>
 std::optional<Bed<Kind>> start(const PackingSpec& spec);
 
 /// Spheres of these radii, at least one, placed in the same way in a column from the floor to
-/// `height`, d, or to one and a half of the largest diameter. Sorted from the floor up.
+/// `height`, d, or to one and a half of the largest diameter, or higher. Sorted from the floor up.
 std::optional<std::vector<PlacedSphere>> place_at_random(const Box& box,
                                                          const std::vector<double>& radii,
                                                          double height, std::uint64_t key);

@@ -160,12 +160,12 @@ TEST_CASE("a bed too low for its slab fails and says what to change") {
   CHECK(packing.grains.size() == 160);  // the bed itself can still be looked at
 }
 
-TEST_CASE("a bed whose grains find no room fails and says why") {
+TEST_CASE("a bed whose grains are larger than the gap between walls fails and says why") {
   PackingSpec spec = small_spec();
   spec.box.width = 0.9;
   const Packing packing = make_packing(spec, kernels_for(best_isa()), always);
   CHECK(packing.result.status == PackingStatus::failed);
-  CHECK(packing.result.reason.find("no room") != std::string::npos);
+  CHECK(packing.result.reason.find("larger than the gap") != std::string::npos);
   CHECK(packing.grains.empty());
 }
 

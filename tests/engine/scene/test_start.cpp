@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <catch2/catch.hpp>
 
@@ -48,6 +49,21 @@ TEST_CASE("grains start apart from each other and from all walls") {
         for (std::size_t i = 0; i < bed->grains(); ++i) {
           REQUIRE(wall.gap(bed->position[i]) >= -1e-15);  // one rounding
         }
+      }
+    }
+  }
+}
+
+TEST_CASE("walls any distance apart and shafts of any width have room for a start") {
+  // Between walls 1.5 to 1.85 d apart random grains jam in the air below the usual solid fraction.
+  for (const double width : {1.0, 1.05, 1.5, 1.707, 1.85, 2.0}) {
+    for (const auto& [length, x] : {std::pair(12.0, periodic), std::pair(2.0, walls)}) {
+      for (std::uint64_t key = 1; key <= 12; ++key) {
+        INFO(length << " x " << width << ", key " << key);
+        const auto bed = start<Sphere>(spec_of({length, width, x, walls}, 200, {0, 0, 0.5}, key));
+        REQUIRE(bed);
+        REQUIRE(bed->grains() == 200);
+        CHECK(testing::pairs_closer_than(*bed, 0.0).empty());
       }
     }
   }
