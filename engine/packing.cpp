@@ -64,7 +64,7 @@ std::optional<Slab> slab_of(const MeasureSpec& spec, PackingResult& result) {
   const Slab slab{spec.exclude_floor, result.surface_height - spec.exclude_surface};
   result.slab_bottom = slab.bottom;
   result.slab_top = slab.top;
-  if (slab.height() >= 1.0) return slab;
+  if (slab.height() >= least_slab_height) return slab;
   result.status = PackingStatus::failed;
   result.reason =
       "the bed is too low to be measured: less than 1 d is left between the zones "

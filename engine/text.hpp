@@ -2,6 +2,8 @@
 #pragma once
 
 #include <charconv>
+#include <cmath>
+#include <cstdint>
 #include <sstream>
 #include <string>
 
@@ -13,6 +15,14 @@ inline std::string number_text(double value, int digits = 3) {
   const auto end =
       std::to_chars(text, text + sizeof text, value, std::chars_format::general, digits);
   return {text, end.ptr};
+}
+
+/// The same to six digits; all digits of a whole number.
+inline std::string bound_text(double value) {
+  if (std::isfinite(value) && value == std::floor(value) && std::abs(value) < 1e15) {
+    return std::to_string(static_cast<std::int64_t>(value));
+  }
+  return number_text(value, 6);
 }
 
 /// All parts, one after the other, as streams print them.

@@ -19,6 +19,10 @@ std::string pad_right(const std::string& text, std::size_t width) {
   return text + pad_left(text, width).substr(0, pad_left(text, width).size() - text.size());
 }
 
+std::string counted(std::size_t count, const std::string& noun) {
+  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
+}
+
 std::string fixed(double value, int decimals) {
   if (!std::isfinite(value)) return "-";
   std::array<char, 64> text{};

@@ -1,5 +1,6 @@
 #include "engine/scene/sizes.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -17,11 +18,14 @@ double expected_volume(double diameter, double spread) {
   return diameter * diameter * diameter * (1.0 + 3.0 * spread * spread);
 }
 
+/// To the nearest; of numbers that are far too large a large one.
+std::int64_t rounded(double count) { return std::llround(std::min(count, 1e17)); }
+
 /// `volume` in grains of diameter 1.
 ClassCounts counts_for_volume(double volume, const SizesSpec& sizes) {
   const double small_volume = volume * sizes.small_share;
-  return {std::llround((volume - small_volume) / expected_volume(1.0, sizes.spread)),
-          std::llround(small_volume / expected_volume(sizes.size_ratio, sizes.spread))};
+  return {rounded((volume - small_volume) / expected_volume(1.0, sizes.spread)),
+          rounded(small_volume / expected_volume(sizes.size_ratio, sizes.spread))};
 }
 
 /// Splits a number of grains so that the small ones hold their share of the volume.
@@ -65,6 +69,16 @@ ClassCounts class_counts(const PackingSpec& spec) {
     return counts_for_volume(volume / extent_of(spec.shape).volume, spec.sizes);
   }
   return counts_for_grains(std::get<GrainCount>(spec.fill).count, spec.sizes);
+}
+
+double solid_height(const PackingSpec& spec) {
+  if (const auto* fill = std::get_if<SolidHeight>(&spec.fill)) return fill->height;
+  const ClassCounts counts = class_counts(spec);
+  const SizesSpec& sizes = spec.sizes;
+  const double grains =
+      static_cast<double>(counts.large) * expected_volume(1.0, sizes.spread) +
+      static_cast<double>(counts.small) * expected_volume(sizes.size_ratio, sizes.spread);
+  return grains * extent_of(spec.shape).volume / (spec.box.length * spec.box.width);
 }
 
 std::vector<double> draw_radii(const PackingSpec& spec) {

@@ -5,7 +5,9 @@
 #include <limits>
 #include <optional>
 
+#include "engine/interval.hpp"
 #include "engine/scene/sizes.hpp"
+#include "engine/scene/start.hpp"
 #include "engine/shape/given_shape.hpp"
 #include "engine/text.hpp"
 
@@ -19,40 +21,26 @@ constexpr std::int64_t max_grains = 10'000'000;  // grain indices are 32 bits wi
 constexpr double settled_wall_overlap = 0.01;    // d; far above that of any settled bed
 constexpr double finest_bin = 0.01;              // d; finer bins hold noise and fill the disk
 constexpr double image_margin = 0.2;             // d; candidates never reach farther than this
-
-std::string text_of(double value) {
-  if (std::isfinite(value) && value == std::floor(value) && std::abs(value) < 1e15) {
-    return std::to_string(static_cast<std::int64_t>(value));
-  }
-  return number_text(value, 6);
-}
-
-struct Interval {
-  double low = 0.0, high = 0.0;
-  bool low_open = false, high_open = false;
-
-  bool holds(double value) const {  // false for NaN
-    return (low_open ? value > low : value >= low) && (high_open ? value < high : value <= high);
-  }
-  std::string text() const {
-    std::string text(low_open ? "(" : "[");
-    text.append(text_of(low)).append(", ").append(text_of(high));
-    return text + (high_open ? ")" : "]");
-  }
-};
+constexpr const char* missing_diameter =
+    "; radii reach more than 1 d: fill.diameter, the length in the file that is d, is missing or "
+    "wrong";
 
 bool require_in(const Interval& interval, double value, const char* path, Errors& errors) {
   if (interval.holds(value)) return true;
-  errors.push_back({path, "must lie in " + interval.text() + ", is " + text_of(value)});
+  errors.push_back({path, "must lie in " + interval.text() + ", is " + bound_text(value)});
   return false;
+}
+
+double largest_radius(const PlacedGrains& placed) {
+  double radius = 0.0;
+  for (const PlacedSphere& grain : placed.grains) radius = std::max(radius, grain.radius);
+  return radius;
 }
 
 /// Largest size that can occur.
 double largest_size(const PackingSpec& spec) {
   if (const auto* placed = std::get_if<PlacedGrains>(&spec.fill)) {
-    double radius = 0.0;
-    for (const PlacedSphere& grain : placed->grains) radius = std::max(radius, grain.radius);
-    return 2.0 * radius;
+    return 2.0 * largest_radius(*placed);
   }
   const double mean = spec.sizes.small_share < 1.0 ? 1.0 : spec.sizes.size_ratio;
   return mean * (1.0 + largest_deviation * spec.sizes.spread);
@@ -87,8 +75,10 @@ bool check_side(const char* path, double side, Boundary boundary, double shortes
   std::string reason;
   if (!walls && needed > shortest) reason = " (periodic: twice the largest grain and a margin)";
   if (walls && needed > shortest) reason = " (the largest grain between two walls)";
-  errors.push_back({path, "must lie in [" + text_of(needed) + ", " + text_of(longest_side) + "]" +
-                              reason + ", is " + text_of(side)});
+  const bool is_in_metres = side > 0.0 && side < 0.2;
+  const std::string unit = is_in_metres ? "; lengths are in d, a large grain's mean diameter" : "";
+  errors.push_back({path, "must lie in [" + bound_text(needed) + ", " + bound_text(longest_side) +
+                              "]" + reason + ", is " + bound_text(side) + unit});
   return false;
 }
 
@@ -101,7 +91,7 @@ bool check_box(const Box& box, double largest, Errors& errors) {
 void require_count(std::int64_t count, const char* path, Errors& errors) {
   if (count >= 1 && count <= max_grains) return;
   errors.push_back({path, "must give 1 to " + std::to_string(max_grains) + " grains, gives " +
-                              std::to_string(count)});
+                              bound_text(static_cast<double>(count))});
 }
 
 bool is_outside(double centre, double radius, double side, Boundary boundary) {
@@ -114,19 +104,19 @@ bool is_outside(double centre, double radius, double side, Boundary boundary) {
 std::string fault_of(const PlacedSphere& grain, double inner, const Box& box) {
   const double within = 2.0 * inner * grain.radius;
   if (!(grain.radius > 0.0 && grain.radius <= longest_side)) {
-    return "the radius must be positive, is " + text_of(grain.radius);
+    return "the radius must be positive, is " + bound_text(grain.radius);
   }
   if (is_outside(grain.x, within, box.length, box.x)) {
-    return "lies outside the box: x = " + text_of(grain.x) + ", radius " + text_of(grain.radius) +
-           ", box.length " + text_of(box.length);
+    return "lies outside the box: x = " + bound_text(grain.x) + ", radius " +
+           bound_text(grain.radius) + ", box.length " + bound_text(box.length);
   }
   if (is_outside(grain.y, within, box.width, box.y)) {
-    return "lies outside the box: y = " + text_of(grain.y) + ", radius " + text_of(grain.radius) +
-           ", box.width " + text_of(box.width);
+    return "lies outside the box: y = " + bound_text(grain.y) + ", radius " +
+           bound_text(grain.radius) + ", box.width " + bound_text(box.width);
   }
   if (!(grain.z >= within - settled_wall_overlap && grain.z <= longest_side)) {
-    return "lies below the floor or too high: z = " + text_of(grain.z) + ", radius " +
-           text_of(grain.radius);
+    return "lies below the floor or too high: z = " + bound_text(grain.z) + ", radius " +
+           bound_text(grain.radius);
   }
   return "";
 }
@@ -136,7 +126,7 @@ std::string fault_of(const std::array<double, 4>& q) {
   constexpr double rounding = 1e-5;
   const double squared = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];
   if (std::abs(squared - 1.0) <= rounding) return "";
-  return "qx, qy, qz, qw must be a unit quaternion; their squares add up to " + text_of(squared);
+  return "qx, qy, qz, qw must be a unit quaternion; their squares add up to " + bound_text(squared);
 }
 
 /// Spheres have no orientation, all others need one each.
@@ -163,7 +153,8 @@ void check_placed(const PlacedGrains& placed, double inner, const Box& box, Erro
   }
   if (bad == 0) return;
   const std::string more = bad == 1 ? "" : "; " + std::to_string(bad) + " grains are wrong in all";
-  errors.push_back({"fill.file", first + more});
+  const bool are_large = largest_radius(placed) > 1.0;
+  errors.push_back({"fill.file", first + more + (are_large ? missing_diameter : "")});
 }
 
 void check_fill(const PackingSpec& spec, const std::optional<ShapeExtent>& shape,
@@ -183,11 +174,76 @@ void check_fill(const PackingSpec& spec, const std::optional<ShapeExtent>& shape
   }
 }
 
+/// Solid fraction that beds never stay below. Between walls nearer than two grains layers do not
+/// interlock: spheres come down to 0.45 between walls and to 0.33 in a shaft.
+double loosest_solid_fraction(const PackingSpec& spec, double across) {
+  double fraction = is_sphere(spec.shape) ? 0.5 : 0.4;
+  const Box& box = spec.box;
+  if (box.x == Boundary::walls && box.length < 2.0 * across) fraction *= 0.65;
+  if (box.y == Boundary::walls && box.width < 2.0 * across) fraction *= 0.65;
+  return fraction;
+}
+
+/// A bed that must come out too low to be measured. Its highest grains stand out by one diameter.
+void check_height(const PackingSpec& spec, double across, Errors& errors) {
+  const double highest = solid_height(spec) / loosest_solid_fraction(spec, across) + across;
+  const double left_out = spec.measure.exclude_floor + spec.measure.exclude_surface;
+  if (highest >= left_out + least_slab_height) return;
+  const MeasureSpec usual;
+  const bool is_usual = left_out <= usual.exclude_floor + usual.exclude_surface;
+  const bool is_counted = std::holds_alternative<GrainCount>(spec.fill);
+  errors.push_back({!is_usual    ? "measure"
+                    : is_counted ? "fill.grains"
+                                 : "fill.solid_height",
+                    "gives a bed too low to be measured: at most " + number_text(highest) +
+                        " d high, and measure.exclude_floor, measure.exclude_surface and a slab "
+                        "of " +
+                        bound_text(least_slab_height) + " d between them take " +
+                        number_text(left_out + least_slab_height) + " d"});
+}
+
+/// Steps in which the highest grain cannot even reach the bed: none falls faster than freely, or,
+/// damped, faster than its momentum lets it.
+void check_fall(const PackingSpec& spec, double across, Errors& errors) {
+  const Accuracy& a = spec.accuracy;
+  const double start =
+      is_sphere(spec.shape) ? sphere_start_solid_fraction : polyhedron_start_solid_fraction;
+  const double drop =
+      solid_height(spec) * (1.0 / start - 1.0 / loosest_solid_fraction(spec, across));
+  if (drop <= 0.0) return;
+  const bool is_damped = a.protocol == Protocol::heavy_ball;
+  const double free_fall = std::sqrt(2.0 * drop) / a.step;
+  const double damped = is_damped ? drop * (1.0 - a.momentum) / (a.step * a.step) : 0.0;
+  const double steps = std::ceil(std::max(free_fall, damped));
+  if (steps <= a.max_steps) return;
+  errors.push_back({"accuracy", "cannot come to rest: in steps of " + number_text(a.step) +
+                                    " the fall alone takes " + number_text(steps) +
+                                    ", max_steps is " + std::to_string(a.max_steps)});
+}
+
+/// What grows out of the parts together, once each of them is right.
+void check_outcome(const PackingSpec& spec, double across, Errors& errors) {
+  if (std::holds_alternative<PlacedGrains>(spec.fill)) return;
+  check_height(spec, across, errors);
+  check_fall(spec, across, errors);
+}
+
+/// A hull far larger or smaller than d has the wrong unit, whatever else is wrong for it.
+void hint_at_size(const ShapeSpec& shape, double across, Errors& errors) {
+  if (!std::holds_alternative<HullVertices>(shape) || (across > 0.2 && across < 5.0)) return;
+  for (SpecError& error : errors) {
+    if (!error.path.starts_with("box.") && !error.path.starts_with("fill.")) continue;
+    error.message += "; the shape is " + number_text(across) +
+                     " d across: shape.hull.size, the length in its vertices that is d, is missing "
+                     "or wrong";
+  }
+}
+
 void check_accuracy(const Accuracy& accuracy, Errors& errors) {
   constexpr double most = std::numeric_limits<double>::max();
   const auto positive = [&](double value, const char* path) {
     if (value > 0.0 && value <= most) return;
-    errors.push_back({path, "must be positive, is " + text_of(value)});
+    errors.push_back({path, "must be positive, is " + bound_text(value)});
   };
   require_in({0.0, 2.0, true, false}, accuracy.step, "accuracy.step", errors);
   require_in({0.0, 1.0, false, true}, accuracy.momentum, "accuracy.momentum", errors);
@@ -207,25 +263,26 @@ void check_accuracy(const Accuracy& accuracy, Errors& errors) {
 
 void check_gap_tolerances(const std::vector<double>& tolerances, Errors& errors) {
   const char* path = "measure.gap_tolerances";
-  if (tolerances.empty() || tolerances.size() > 8) {
-    errors.push_back(
-        {path, "must hold 1 to 8 tolerances, holds " + std::to_string(tolerances.size())});
+  if (tolerances.empty() || tolerances.size() > most_gap_tolerances) {
+    errors.push_back({path, "must hold 1 to " + std::to_string(most_gap_tolerances) +
+                                " tolerances, holds " + std::to_string(tolerances.size())});
     return;
   }
   for (std::size_t i = 0; i < tolerances.size(); ++i) {
     require_in({0.0, 0.1, true, true}, tolerances[i], path, errors);
     const auto here = tolerances.begin() + static_cast<std::ptrdiff_t>(i);
     if (std::find(tolerances.begin(), here, *here) != here) {
-      errors.push_back({path, "must hold distinct tolerances, holds " + text_of(*here) + " twice"});
+      errors.push_back(
+          {path, "must hold distinct tolerances, holds " + bound_text(*here) + " twice"});
     }
   }
 }
 
 void check_bin_width(double bin_width, double box_width, Errors& errors) {
   if (bin_width >= finest_bin && bin_width <= box_width) return;
-  errors.push_back(
-      {"measure.bin_width", "must lie in [" + text_of(finest_bin) + ", " + text_of(box_width) +
-                                "] (no wider than box.width), is " + text_of(bin_width)});
+  errors.push_back({"measure.bin_width",
+                    "must lie in [" + bound_text(finest_bin) + ", " + bound_text(box_width) +
+                        "] (no wider than box.width), is " + bound_text(bin_width)});
 }
 
 void check_measure(const MeasureSpec& measure, Errors& errors) {
@@ -246,6 +303,8 @@ std::vector<SpecError> check(const PackingSpec& spec) {
   check_accuracy(spec.accuracy, errors);
   check_measure(spec.measure, errors);
   if (box) check_bin_width(spec.measure.bin_width, spec.box.width, errors);
+  if (errors.empty()) check_outcome(spec, across, errors);
+  hint_at_size(spec.shape, across, errors);
   return errors;
 }
 

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <variant>
@@ -88,6 +89,9 @@ struct Accuracy {
   bool operator==(const Accuracy&) const = default;
 };
 
+/// Gap tolerances of one packing.
+inline constexpr std::size_t most_gap_tolerances = 8;
+
 /// What is measured, and how. Definitions: engine/measure.
 struct MeasureSpec {
   double exclude_floor = 3.0;    ///< zone above the floor left out, d
@@ -96,6 +100,9 @@ struct MeasureSpec {
   std::vector<double> gap_tolerances = {1e-4, 1e-5, 1e-3, 6e-3};
   double bin_width = 0.1;  ///< of profiles, d; at most the width of the box
 };
+
+/// A bed whose slab between the zones left out is lower than this is not measured, d.
+inline constexpr double least_slab_height = 1.0;
 
 struct PackingSpec {
   ShapeSpec shape;  ///< of a grain of size 1; sizes scale it

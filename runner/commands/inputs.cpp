@@ -5,18 +5,31 @@
 
 #include "runner/exit_codes.hpp"
 #include "runner/sweep/read_sweep.hpp"
+#include "runner/text.hpp"
 #include "runner/versions.hpp"
 
 namespace grainsweep {
 
-Sweep sweep_or_refusal(const std::string& file) {
+namespace {
+
+SweepReading reading_or_refusal(const std::string& file) {
   SweepReading reading = read_sweep(file);
-  if (reading.errors.empty()) return std::move(reading.sweep);
+  if (reading.errors.empty()) return reading;
   std::string text;
   for (const Diagnostic& diagnostic : reading.errors) text += to_string(diagnostic) + "\n";
-  const std::size_t count = reading.errors.size();
-  throw BadInput(text + std::to_string(count) + (count == 1 ? " error" : " errors") +
-                 "; nothing was run");
+  throw BadInput(text + counted(reading.errors.size(), "error") + "; nothing was run");
+}
+
+}  // namespace
+
+Sweep sweep_or_refusal(const std::string& file) {
+  return std::move(reading_or_refusal(file).sweep);
+}
+
+Sweep sweep_with_notes(const std::string& file) {
+  SweepReading reading = reading_or_refusal(file);
+  for (const Diagnostic& note : reading.notes) std::cerr << "note: " << to_string(note) << "\n";
+  return std::move(reading.sweep);
 }
 
 Results results_with_warnings(const std::string& folder, Detail detail) {

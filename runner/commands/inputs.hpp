@@ -11,6 +11,9 @@ namespace grainsweep {
 /// The sweep in `file`. Throws BadInput with every error in it.
 Sweep sweep_or_refusal(const std::string& file);
 
+/// The same; prints what in it is never used, as notes.
+Sweep sweep_with_notes(const std::string& file);
+
 /// What is stored in the output folder; prints warnings of what is damaged or of another version.
 Results results_with_warnings(const std::string& folder, Detail detail = Detail::whole);
 

@@ -96,13 +96,14 @@ Needs needs_of(const std::vector<Cost>& costs, int threads) {
 
 void print_text(const Sweep& sweep, const Needs& needs, int threads) {
   const std::vector<PlannedGroup> groups = planned_groups(sweep);
-  std::cout << sweep.name << ": " << sweep.jobs.size() << " packings, " << groups.size()
-            << " parameter sets\n"
+  std::cout << sweep.name << ": " << counted(sweep.jobs.size(), "packing") << ", "
+            << counted(groups.size(), "parameter set") << "\n"
             << groups_text(groups) << "Estimated: " << duration_text(needs.cpu_seconds)
-            << " CPU, about " << duration_text(needs.wall_seconds) << " on " << threads
-            << (threads == 1 ? " thread" : " threads") << " (" << needs.live
-            << " packings at once), up to " << memory_text(needs.bytes) << " of the "
-            << memory_text(needs.memory) << " that can be had\n";
+            << " CPU, about " << duration_text(needs.wall_seconds) << " on "
+            << counted(static_cast<std::size_t>(threads), "thread") << " ("
+            << counted(static_cast<std::size_t>(needs.live), "packing") << " at once), up to "
+            << memory_text(needs.bytes) << " of the " << memory_text(needs.memory)
+            << " that can be had\n";
 }
 
 /// One line; the parameters are JSON already.
@@ -152,7 +153,7 @@ CLI::App& add_command(CLI::App& app, PlanOptions& options) {
 }
 
 int perform(const PlanOptions& options) {
-  const Sweep sweep = sweep_or_refusal(options.file);
+  const Sweep sweep = sweep_with_notes(options.file);
   const int threads = options.threads > 0 ? options.threads : usable_cores();
   const std::vector<Cost> costs = costs_of(sweep);
   const Needs needs = needs_of(costs, threads);

@@ -10,6 +10,7 @@
 #include "runner/commands/inputs.hpp"
 #include "runner/commands/shared_options.hpp"
 #include "runner/exit_codes.hpp"
+#include "runner/text.hpp"
 
 namespace grainsweep {
 namespace {
@@ -31,9 +32,9 @@ CLI::App& add_command(CLI::App& app, ValidateOptions& options) {
 }
 
 int perform(const ValidateOptions& options) {
-  const Sweep sweep = sweep_or_refusal(options.file);
-  std::cout << options.file << ": right; " << sweep.name << " stands for " << sweep.jobs.size()
-            << " packings in " << count_parameter_sets(sweep) << " parameter sets\n";
+  const Sweep sweep = sweep_with_notes(options.file);
+  std::cout << options.file << ": right: " << counted(sweep.jobs.size(), "packing") << ", "
+            << counted(count_parameter_sets(sweep), "parameter set") << "\n";
   return exit_done;
 }
 

@@ -1,5 +1,7 @@
 #include "runner/sweep/assignments.hpp"
 
+#include <map>
+
 #include "runner/sweep/shape_kind.hpp"
 #include "runner/sweep/suggest.hpp"
 #include "runner/sweep/values.hpp"
@@ -31,11 +33,46 @@ std::string path_that_ends_in(const std::string& key) {
   return found;
 }
 
-/// Keys that the group knows, and the full path of what a misplaced key names.
-std::string unknown_path(const std::string& group, const std::string& key) {
+/// Why there is no parameter for what people of the field look for; "" for other words.
+std::string absence_of(const std::string& key) {
+  static const std::map<std::string_view, const char*> reasons = {
+      {"friction", "grains are frictionless"},
+      {"mu", "grains are frictionless"},
+      {"restitution", "grains do not bounce"},
+      {"stiffness", "grains are rigid"},
+      {"young_modulus", "grains are rigid"},
+      {"cohesion", "grains do not stick"},
+      {"density", "no result depends on the density of the grains"},
+      {"mass", "no result depends on the density of the grains"},
+      {"gravity", "gravity is the unit of acceleration and points down"},
+      {"g", "gravity is the unit of acceleration and points down"},
+      {"unit", "lengths are in d, the mean diameter of the large grains; times in sqrt(d/g)"},
+      {"units", "lengths are in d, the mean diameter of the large grains; times in sqrt(d/g)"},
+      {"height", "the box is open at the top; fill.solid_height says how much is filled in"},
+      {"lid", "the box is open at the top"},
+      {"cylinder", "boxes are rectangular"},
+      {"radius", "boxes are rectangular, and d is the mean diameter of the large grains"},
+      {"mean", "the mean diameter of the large grains is d, the unit of length"},
+      {"diameter", "the mean diameter of the large grains is d, the unit of length"},
+      {"distribution",
+       "sizes of a class are Gaussian; sizes.spread is their deviation over the mean"},
+      {"sigma", "sizes of a class are Gaussian; sizes.spread is their deviation over the mean"},
+      {"std", "sizes of a class are Gaussian; sizes.spread is their deviation over the mean"}};
+  const auto found = reasons.find(key);
+  return found == reasons.end() ? "" : found->second;
+}
+
+/// What is wrong with a key of `group` that nothing has: why there is none, the full path of what
+/// is only misplaced, a word near it, or the keys that `pointer` leads to.
+std::string unknown_path(const std::string& group, const std::string& key,
+                         const std::string& pointer) {
+  const std::string start = "unknown key \"" + shortened(key) + "\"; ";
+  if (std::string reason = absence_of(key); !reason.empty()) return start + reason;
   const std::string elsewhere = path_that_ends_in(key);
-  if (elsewhere.empty()) return unknown_key(key, known_keys(group));
-  return "unknown key \"" + key + "\"; did you mean \"" + elsewhere + "\"?";
+  if (!elsewhere.empty()) return start + "did you mean \"" + elsewhere + "\"?";
+  std::vector<std::string> known = known_keys(group);
+  if (pointer.starts_with("/base/")) std::erase(known, "seed");  // belongs beside it
+  return unknown_key(key, known);
 }
 
 void read_group(const std::string& group, const Json& object, const std::string& pointer,
@@ -46,7 +83,7 @@ void read_group(const std::string& group, const Json& object, const std::string&
     if (find_parameter(path) || (is_group(path) && !key.empty())) {
       read_assignments(path, value, place, assignments, diagnostics);
     } else {
-      diagnostics.push_back({place, unknown_path(group, key), Anchor::key});
+      diagnostics.push_back({place, unknown_path(group, key, place), Anchor::key});
     }
   }
 }
@@ -127,7 +164,7 @@ void read_assignments(const std::string& path, const Json& value, const std::str
 
 bool is_known_path(const std::string& path, const std::string& pointer, Diagnostics& diagnostics) {
   if (find_parameter(path) || (is_group(path) && !path.empty())) return true;
-  diagnostics.push_back({pointer, unknown_path("", path), Anchor::key});
+  diagnostics.push_back({pointer, unknown_path("", path, pointer), Anchor::key});
   return false;
 }
 

@@ -20,6 +20,7 @@ struct Diagnostic {
   std::string message;  ///< what must hold, what was found: "must lie in [0, 1], is 1.4"
   Anchor anchor = Anchor::value;
   std::string place = {};  ///< "spheres.json:12:20", or the file alone; "" until it is looked up
+  bool is_note = false;    ///< worth knowing; the sweep can be run as it is
 };
 using Diagnostics = std::vector<Diagnostic>;
 

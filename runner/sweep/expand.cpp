@@ -108,10 +108,8 @@ bool fits(const SweepDefinition& definition, Diagnostics& diagnostics) {
   return diagnostics.size() == before;
 }
 
-/// The axes of a block with its random points drawn.
-std::vector<Axis> drawn_axes(const Block& block, std::uint64_t seed, std::uint64_t index) {
-  std::vector<Axis> axes = block.axes;
-  if (block.random.empty()) return axes;
+/// The random points of a block, drawn.
+Axis drawn_points(const Block& block, std::uint64_t seed, std::uint64_t index) {
   Axis random{"random", {}};
   for (std::uint64_t point = 0; point < block.random_count; ++point) {
     Assignments& entry = random.entries.emplace_back();
@@ -120,16 +118,16 @@ std::vector<Axis> drawn_axes(const Block& block, std::uint64_t seed, std::uint64
       entry.insert(entry.end(), drawn.begin(), drawn.end());
     }
   }
-  if (!random.entries.empty()) axes.push_back(std::move(random));
-  return axes;
+  return random;
 }
 
 /// The entries that make up the `point`th point of the product, one of each axis.
-std::vector<const Assignments*> entries_of(const std::vector<Axis>& axes, std::uint64_t point) {
+std::vector<const Assignments*> entries_of(const std::vector<const Axis*>& axes,
+                                           std::uint64_t point) {
   std::vector<const Assignments*> entries(axes.size());
   for (std::size_t i = axes.size(); i-- > 0;) {
-    const std::uint64_t size = axes[i].entries.size();
-    entries[i] = &axes[i].entries[static_cast<std::size_t>(point % size)];
+    const std::uint64_t size = axes[i]->entries.size();
+    entries[i] = &axes[i]->entries[static_cast<std::size_t>(point % size)];
     point /= size;
   }
   return entries;
@@ -150,15 +148,20 @@ class Expansion {
       : definition_(definition), folder_(std::move(folder)), diagnostics_(diagnostics) {}
 
   std::vector<Job> run() {
+    const bool is_whole = diagnostics_.empty();  // no value was left out that could not be read
     for (std::size_t i = 0; i < definition_.blocks.size(); ++i) expand_block(i);
     note_shared_jobs();
+    if (is_whole) note_unused();
     return std::move(jobs_);
   }
 
  private:
   void expand_block(std::size_t index) {
     const Block& block = definition_.blocks[index];
-    const std::vector<Axis> axes = drawn_axes(block, definition_.seed, index);
+    std::vector<const Axis*> axes;
+    for (const Axis& axis : block.axes) axes.push_back(&axis);
+    const Axis random = drawn_points(block, definition_.seed, index);
+    if (!block.random.empty() && !random.entries.empty()) axes.push_back(&random);
     InEffect before(parameters().size(), nullptr);
     overlay({&definition_.base}, before);
     overlay({&block.set}, before);
@@ -180,6 +183,7 @@ class Expansion {
       resolved.spec.fill = start.fill;
       note_broken_rules(block, in_effect, check(resolved.spec), start);
     }
+    note_use(in_effect, resolved.spec);
     if (!diagnostics_.empty()) return;
     const std::string scene = canonical_scene(resolved);
     Job job{"", block.label,   canonical_parameters(resolved),
@@ -357,6 +361,52 @@ class Expansion {
     said_.merge(said_now);
   }
 
+  /// Remembers what the values in effect at one point are good for.
+  void note_use(const InEffect& in_effect, const PackingSpec& spec) {
+    for (const Assignment* assignment : in_effect) {
+      if (assignment == nullptr) continue;
+      const auto [use, is_new] = idle_.try_emplace(assignment);
+      if (!is_new && use->second.empty()) continue;
+      use->second = idle_reason(parameters()[assignment->parameter], spec);
+    }
+  }
+
+  void note_unused() {
+    note_unused(definition_.base, "every block sets it itself");
+    for (const Block& block : definition_.blocks) {
+      note_unused(block.set, "");
+      for (const Axis& axis : block.axes) {
+        for (const Assignments& entry : axis.entries) note_unused(entry, "");
+      }
+    }
+  }
+
+  /// Says which of `assignments` no packing depends on. Where `overridden` is no excuse for a value
+  /// that never holds, or the value could never be right, that is an error.
+  void note_unused(const Assignments& assignments, const std::string& overridden) {
+    for (const Assignment& assignment : assignments) {
+      const auto use = idle_.find(&assignment);
+      const Parameter& parameter = parameters()[assignment.parameter];
+      if (use != idle_.end()) {
+        if (use->second.empty()) continue;
+        diagnostics_.push_back(
+            {assignment.pointer, "has no effect: " + use->second, Anchor::value, "", true});
+        continue;
+      }
+      const std::string error = range_error(parameter, assignment.value);
+      if (!error.empty()) {
+        diagnostics_.push_back({assignment.pointer, error});
+      } else if (overridden.empty()) {
+        diagnostics_.push_back(
+            {assignment.pointer, "the block varies " + parameter.path +
+                                     ", so that this value is never used; take one of them out"});
+      } else {
+        diagnostics_.push_back(
+            {assignment.pointer, "is never used: " + overridden, Anchor::value, "", true});
+      }
+    }
+  }
+
   void note_shared_jobs() {
     for (const auto& [pair, count] : shared_) {
       const Block& first = definition_.blocks[pair.first];
@@ -385,6 +435,8 @@ class Expansion {
   std::map<std::string, GrainsReading> grains_;                          // by file
   std::map<std::string, ObjReading> hulls_;                              // by file
   std::set<std::string> said_;
+  /// Of every value that was in effect: why no packing depended on it so far; "" if one did.
+  std::unordered_map<const Assignment*, std::string> idle_;
   std::uint64_t placed_ = 0, vertices_ = 0;
 };
 

@@ -54,30 +54,38 @@ std::optional<Value> get_member(const ResolvedSpec& resolved) {
 
 std::optional<Value> no_identity(const ResolvedSpec&) { return std::nullopt; }
 
-using Names = std::vector<std::string>;
+/// Names, each with what it means.
+using Names = std::vector<std::pair<std::string, std::string>>;
 
-/// What may be written: numbers of a range, or names.
+/// What may be written: numbers of a range, names, or whatever is of the parameter's kind.
 struct Limits {
-  Limits(const char* numbers) : range(numbers) {}
+  Limits() = default;
+  Limits(Interval numbers) : range(numbers) {}
   Limits(Names words) : names(std::move(words)) {}
 
-  std::string range;
-  Names names;
+  std::optional<Interval> range = {};
+  Names names = {};
 };
+
+constexpr Interval positive = {.low = 0.0, .low_open = true};
 
 /// The row of a parameter that is set and read by functions of its own.
 Parameter own(const char* path, Limits limits, const char* meaning, ValueKind kind, Role role,
               void (*set)(ResolvedSpec&, const Value&),
               std::optional<Value> (*get)(const ResolvedSpec&)) {
-  return {.path = path,
-          .meaning = meaning,
-          .kind = kind,
-          .largest = std::numeric_limits<int>::max(),
-          .choices = std::move(limits.names),
-          .set = set,
-          .get = get,
-          .role = role,
-          .range = std::move(limits.range)};
+  Parameter parameter = {.path = path,
+                         .meaning = meaning,
+                         .kind = kind,
+                         .largest = std::numeric_limits<int>::max(),
+                         .set = set,
+                         .get = get,
+                         .role = role,
+                         .range = limits.range};
+  for (auto& [name, what] : limits.names) {
+    parameter.choices.push_back(std::move(name));
+    parameter.choice_meanings.push_back(std::move(what));
+  }
+  return parameter;
 }
 
 /// The row of a member of a packing's specification that is set and read as it is.
@@ -135,36 +143,43 @@ void set_hull_file(ResolvedSpec& resolved, const Value& value) {
 
 template <auto member>
 Parameter side(const char* path, const char* meaning) {
-  return own(path, "> 0", meaning, ValueKind::number, Role::pinacoid, set_side<member>,
+  return own(path, positive, meaning, ValueKind::number, Role::pinacoid, set_side<member>,
              get_side<member>);
 }
 
 /// The shape's name comes before the parts that name a shape too.
 Rows shape_rows() {
   return {
-      own("shape", Names{"sphere", "pinacoid"},
+      own("shape",
+          Names{{"sphere", "a sphere of diameter d"},
+                {"pinacoid",
+                 "a crystal of eight vertices, as long, wide and high as d, ends at 60 degrees"}},
           "what the grains are; a name alone stands for the shape with its defaults",
           ValueKind::choice, Role::shape, set_shape, get_shape),
       side<&PinacoidSize::length>("shape.pinacoid.length", "length of the middle plane, d"),
       side<&PinacoidSize::width>("shape.pinacoid.width", "width of the middle plane, d"),
       side<&PinacoidSize::height>("shape.pinacoid.height", "distance of its two ridges, d"),
-      own("shape.pinacoid.angle_deg", "(0, 89]", "angle between ends and middle plane, degrees",
-          ValueKind::number, Role::pinacoid, set_angle, get_angle),
-      own("shape.hull.vertices", "", "vertices [x, y, z] of a convex grain", ValueKind::points,
-          Role::hull_vertices, set_vertices, get_vertices),
-      own("shape.hull.file", "", "OBJ file of the vertices instead; relative to the sweep file",
-          ValueKind::text, Role::hull_file, set_hull_file, no_identity),
-      own("shape.hull.size", "> 0", "the length in the vertices that is d; 1 if left out",
+      own("shape.pinacoid.angle_deg", Interval{0, 89, true},
+          "angle between ends and middle plane, degrees", ValueKind::number, Role::pinacoid,
+          set_angle, get_angle),
+      own("shape.hull.vertices", Limits{}, "vertices [x, y, z] of a convex grain",
+          ValueKind::points, Role::hull_vertices, set_vertices, get_vertices),
+      own("shape.hull.file", Limits{},
+          "OBJ file of the vertices instead; relative to the sweep file", ValueKind::text,
+          Role::hull_file, set_hull_file, no_identity),
+      own("shape.hull.size", positive, "the length in the vertices that is d; 1 if left out",
           ValueKind::number, Role::hull_size, set_member<&ResolvedSpec::hull_size>, no_identity),
   };
 }
 
 Rows box_rows() {
   using S = PackingSpec;
-  const Names boundaries = {"periodic", "walls"};  // in the order of Boundary
+  const Names boundaries = {// in the order of Boundary
+                            {"periodic", "what leaves on one side comes in on the other"},
+                            {"walls", "two flat walls without friction"}};
   return {
-      row<&S::box, &Box::length>("box.length", "[2, 10000]", "extent of the box along x, d"),
-      row<&S::box, &Box::width>("box.width", "[1, 10000]",
+      row<&S::box, &Box::length>("box.length", Interval{2, 10000}, "extent of the box along x, d"),
+      row<&S::box, &Box::width>("box.width", Interval{1, 10000},
                                 "extent of the box along y, d: the gap between walls"),
       row<&S::box, &Box::x>("box.x", boundaries, "what bounds the box along x"),
       row<&S::box, &Box::y>("box.y", boundaries, "what bounds the box along y"),
@@ -206,21 +221,21 @@ std::optional<Value> get_diameter(const ResolvedSpec& resolved) {
 }
 
 Rows fill_rows() {
-  Parameter grains = own("fill.grains", "[1, 10000000]", "number of grains", ValueKind::whole,
+  Parameter grains = own("fill.grains", Interval{1, 10000000}, "number of grains", ValueKind::whole,
                          Role::fill, set_grains, get_grains);
   grains.largest = std::numeric_limits<std::int64_t>::max();
   return {
-      own("fill.solid_height", "(0, 1000]",
+      own("fill.solid_height", Interval{0, 1000, true},
           "solid volume per floor area, d; as many grains as fill it up", ValueKind::number,
           Role::fill, set_solid_height, get_solid_height),
       std::move(grains),
-      own("fill.file", "",
+      own("fill.file", Limits{},
           "CSV file of x,y,z,r, and qx,qy,qz,qw of non-spherical grains: where they "
           "start; relative to the sweep file",
           ValueKind::text, Role::fill_file, set_file, get_file),
-      own("fill.files", "", "a list of such files: a start for each replicate", ValueKind::texts,
-          Role::fill_files, set_files, get_files),
-      own("fill.diameter", "> 0", "the length in those files that is d", ValueKind::number,
+      own("fill.files", Limits{}, "a list of such files: a start for each replicate",
+          ValueKind::texts, Role::fill_files, set_files, get_files),
+      own("fill.diameter", positive, "the length in those files that is d", ValueKind::number,
           Role::fill_diameter, set_member<&ResolvedSpec::fill_diameter>, get_diameter),
   };
 }
@@ -229,18 +244,19 @@ Rows size_rows() {
   using S = PackingSpec;
   return {
       row<&S::sizes, &SizesSpec::spread>(
-          "sizes.spread", "[0, 0.2]",
+          "sizes.spread", Interval{0, 0.2},
           "standard deviation of the diameter over its mean, each class"),
       row<&S::sizes, &SizesSpec::small_share>(
-          "sizes.small_share", "[0, 1]", "share of the small class in the solid volume, 0 to 1"),
-      row<&S::sizes, &SizesSpec::size_ratio>("sizes.size_ratio", "(0.02, 1]",
+          "sizes.small_share", Interval{0, 1},
+          "share of the small class in the solid volume, 0 to 1"),
+      row<&S::sizes, &SizesSpec::size_ratio>("sizes.size_ratio", Interval{0.02, 1, true},
                                              "mean diameter of the small class, d"),
   };
 }
 
 Names preset_names() {
   Names names;
-  for (const Preset& known : presets()) names.emplace_back(known.name);
+  for (const Preset& known : presets()) names.emplace_back(known.name, known.promise);
   return names;
 }
 
@@ -251,7 +267,10 @@ void set_preset(ResolvedSpec& resolved, const Value& value) {
 
 Parameter solver_row() {
   Parameter solver = row<&PackingSpec::accuracy, &Accuracy::solver>(
-      "accuracy.solver", Names{"pgs", "apgs"}, "iterations that solve a step");
+      "accuracy.solver",
+      Names{{"pgs", "projected Gauss-Seidel sweeps"},
+            {"apgs", "the same with Nesterov's momentum"}},
+      "iterations that solve a step");
   solver.former_choices = {"symmetric_pgs", "nncg", "apgd"};
   return solver;
 }
@@ -265,37 +284,42 @@ Rows accuracy_rows() {
           "named accuracy; parts written beside it override its own", ValueKind::choice,
           Role::preset, set_preset, no_identity),
       row<&S::accuracy, &A::protocol>(
-          "accuracy.protocol", Names{"heavy_ball", "dynamic"},
+          "accuracy.protocol",
+          Names{{"heavy_ball", "damped, in long steps"},
+                {"dynamic", "plain contact dynamics, undamped, in a quarter of the steps' length"}},
           "how grains come down: damped in long steps, or plain dynamics"),
       solver_row(),
-      row<&S::accuracy, &A::precision>("accuracy.precision", Names{"f32", "f64"},
-                                       "number type of the solver"),
-      row<&S::accuracy, &A::step>("accuracy.step", "(0, 2]", "time step, sqrt(d/g)"),
-      row<&S::accuracy, &A::momentum>("accuracy.momentum", "[0, 1)",
+      row<&S::accuracy, &A::precision>(
+          "accuracy.precision",
+          Names{{"f32", "single precision; places are always f64"},
+                {"f64", "double precision, for masses above 1e5 to 1"}},
+          "number type of the solver"),
+      row<&S::accuracy, &A::step>("accuracy.step", Interval{0, 2, true}, "time step, sqrt(d/g)"),
+      row<&S::accuracy, &A::momentum>("accuracy.momentum", Interval{0, 1, false, true},
                                       "share of the last displacement carried on, 0 to 1"),
-      row<&S::accuracy, &A::fall_iterations>("accuracy.fall_iterations", "[1, 1000000]",
+      row<&S::accuracy, &A::fall_iterations>("accuracy.fall_iterations", Interval{1, 1000000},
                                              "most solver iterations per step of fall and creep"),
       row<&S::accuracy, &A::path_tolerance>(
-          "accuracy.path_tolerance", "> 0",
+          "accuracy.path_tolerance", positive,
           "how far contacts may stray in a full step of fall or creep, d, root mean square"),
-      row<&S::accuracy, &A::creep_steps>("accuracy.creep_steps", "[0, 1000000]",
+      row<&S::accuracy, &A::creep_steps>("accuracy.creep_steps", Interval{0, 1000000},
                                          "double steps after the fall, while the bed creeps to "
                                          "rest: of 0.4 sqrt(d/g), of shorter steps as "
                                          "many more"),
       row<&S::accuracy, &A::rest_iterations>(
-          "accuracy.rest_iterations", "[1, 1000000]",
+          "accuracy.rest_iterations", Interval{1, 1000000},
           "most solver iterations per step at the end of the creep"),
-      row<&S::accuracy, &A::residual_tolerance>("accuracy.residual_tolerance", "> 0",
+      row<&S::accuracy, &A::residual_tolerance>("accuracy.residual_tolerance", positive,
                                                 "worst residual of the last step at rest, m g"),
-      row<&S::accuracy, &A::kinetic_tolerance>("accuracy.kinetic_tolerance", "> 0",
+      row<&S::accuracy, &A::kinetic_tolerance>("accuracy.kinetic_tolerance", positive,
                                                "kinetic energy per grain at rest, m g d"),
       row<&S::accuracy, &A::contact_tolerance>(
-          "accuracy.contact_tolerance", "> 0",
+          "accuracy.contact_tolerance", positive,
           "share of the isostatic contacts that may lack at rest"),
       row<&S::accuracy, &A::overlap_tolerance>(
-          "accuracy.overlap_tolerance", "> 0",
+          "accuracy.overlap_tolerance", positive,
           "mean overlap of touching pairs at rest, d; no pair more than a hundred times it"),
-      row<&S::accuracy, &A::max_steps>("accuracy.max_steps", "[1, 2147483647]",
+      row<&S::accuracy, &A::max_steps>("accuracy.max_steps", Interval{1, 2147483647},
                                        "steps after which a bed counts as not settled"),
   };
 }
@@ -304,14 +328,14 @@ Rows measure_rows() {
   using S = PackingSpec;
   using M = MeasureSpec;
   return {
-      row<&S::measure, &M::exclude_floor>("measure.exclude_floor", "[0, 1000]",
+      row<&S::measure, &M::exclude_floor>("measure.exclude_floor", Interval{0, 1000},
                                           "zone above the floor left out, d"),
-      row<&S::measure, &M::exclude_surface>("measure.exclude_surface", "[0, 1000]",
+      row<&S::measure, &M::exclude_surface>("measure.exclude_surface", Interval{0, 1000},
                                             "zone below the surface left out, d"),
       row<&S::measure, &M::gap_tolerances>(
-          "measure.gap_tolerances", "(0, 0.1)",
+          "measure.gap_tolerances", Interval{0, 0.1, true, true},
           "grains touch below these gaps, d; the first is the headline"),
-      row<&S::measure, &M::bin_width>("measure.bin_width", "[0.01, 10000]",
+      row<&S::measure, &M::bin_width>("measure.bin_width", Interval{0.01, 10000},
                                       "width of the bins of profiles, d"),
   };
 }
@@ -324,9 +348,8 @@ std::vector<Parameter> parameter_rows() {
        {shape_rows(), box_rows(), fill_rows(), size_rows(), accuracy_rows(), measure_rows()}) {
     for (Parameter& parameter : rows) all.push_back(std::move(parameter));
   }
-  all.push_back(own("seed", "[0, 18446744073709551615]",
-                    "master seed of the random numbers; in blocks only", ValueKind::natural,
-                    Role::seed, set_member<&ResolvedSpec::seed>, no_identity));
+  all.push_back(own("seed", Limits{}, "master seed of the random numbers; in blocks only",
+                    ValueKind::natural, Role::seed, set_member<&ResolvedSpec::seed>, no_identity));
   return all;
 }
 

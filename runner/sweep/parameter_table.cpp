@@ -30,11 +30,13 @@ const char* type_of(const Parameter& parameter) {
 
 /// Where a number may lie, or the names to choose from.
 std::string range_of(const Parameter& parameter) {
+  if (parameter.kind == ValueKind::natural) return "[0, 18446744073709551615]";
+  if (parameter.range) return parameter.range->text();
   std::string names;
   for (const std::string& name : parameter.choices) {
     names += (names.empty() ? "" : ", ") + code("\"" + name + "\"");
   }
-  return parameter.range + names;
+  return names;
 }
 
 std::string default_text(const Parameter& parameter) {

@@ -1,6 +1,7 @@
 #include "runner/sweep/parameters.hpp"
 
 #include <algorithm>
+#include <map>
 
 #include "runner/sweep/parameter_rows.hpp"
 
@@ -69,6 +70,19 @@ bool is_group(std::string_view path) {
   });
 }
 
+std::string meaning_of_group(std::string_view path) {
+  static const std::map<std::string_view, std::string> meanings = {
+      {"shape", "what the grains are: one shape, by its name or its parts"},
+      {"shape.pinacoid", "a rectangle with a hip roof above it and one below"},
+      {"shape.hull", "a convex polyhedron, by its vertices"},
+      {"box", "the box that the grains fall into: a flat floor, open at the top"},
+      {"fill", "how many grains, in one of three ways: solid_height, grains or file"},
+      {"sizes", "sizes of the grains: one class or two, each Gaussian"},
+      {"accuracy", "how exactly a bed is settled: a preset's name, or parts that override it"},
+      {"measure", "what is measured, and where"}};
+  return meanings.at(path);
+}
+
 std::vector<std::string> known_keys(std::string_view path) {
   const std::string prefix = path.empty() ? "" : std::string(path) + ".";
   std::vector<std::string> heads, dotted;
@@ -84,6 +98,21 @@ std::vector<std::string> known_keys(std::string_view path) {
   }
   heads.insert(heads.end(), dotted.begin(), dotted.end());
   return heads;
+}
+
+std::string idle_reason(const Parameter& parameter, const PackingSpec& spec) {
+  const bool is_damped = spec.accuracy.protocol == Protocol::heavy_ball;
+  const std::string& path = parameter.path;
+  if (path == "sizes.size_ratio" && spec.sizes.small_share == 0.0) {
+    return "sizes.small_share is 0";
+  }
+  if (path == "sizes.spread" && std::holds_alternative<PlacedGrains>(spec.fill)) {
+    return "the sizes stand in fill.file";
+  }
+  if ((path == "accuracy.momentum" || path == "accuracy.creep_steps") && !is_damped) {
+    return "accuracy.protocol is dynamic";
+  }
+  return "";
 }
 
 bool is_fill(std::size_t parameter) {

@@ -10,6 +10,7 @@
 #include <variant>
 #include <vector>
 
+#include "engine/interval.hpp"
 #include "runner/sweep/resolved_spec.hpp"
 
 namespace grainsweep {
@@ -61,11 +62,15 @@ struct Parameter {
   /// The value as it identifies a job; nothing if it does not belong to the job's identity.
   std::optional<Value> (*get)(const ResolvedSpec&) = nullptr;
   Role role = Role::plain;
-  /// Where numbers must lie, for documentation: "(0, 2]". Other parameters may narrow it.
-  std::string range = {};
+  /// Where its numbers must lie. Other parameters may narrow it.
+  std::optional<Interval> range = {};
+  std::vector<std::string> choice_meanings = {};  ///< of each of `choices`, a line
   /// Names of a choice in earlier versions; the last of `choices` took their place.
   std::vector<std::string> former_choices = {};
 };
+
+/// Why a packing does not depend on a parameter that is written; "" if it does.
+std::string idle_reason(const Parameter& parameter, const PackingSpec& spec);
 
 /// All parameters. A preset comes before the parts it sets.
 const std::vector<Parameter>& parameters();
@@ -87,6 +92,9 @@ std::optional<Value> default_of(const Parameter& parameter);
 
 /// Whether parameters lie below `path`: "box", "shape.hull", and "" for all of them.
 bool is_group(std::string_view path);
+
+/// What a group of parameters is about, one line: "box", "shape.hull".
+std::string meaning_of_group(std::string_view path);
 
 /// Keys known inside the group `path`, those of parameters and groups, dotted ones included: "x",
 /// and in "" both "box" and "box.x".

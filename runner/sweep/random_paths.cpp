@@ -29,10 +29,10 @@ std::string bounds_error(const RandomPath& random, const Json& bounds) {
     return "the bounds of log_uniform must be positive, the first is " + describe(bounds[0]);
   }
   const Parameter& parameter = parameters()[random.parameter];
-  if (parameter.kind != ValueKind::whole) return "";
   for (const Json& bound : bounds) {
     const ValueReading reading = read_value(parameter, bound);
     if (!reading.value) return reading.error;
+    if (std::string error = range_error(parameter, *reading.value); !error.empty()) return error;
   }
   return "";
 }

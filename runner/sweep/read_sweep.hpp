@@ -12,6 +12,7 @@ namespace grainsweep {
 struct SweepReading {
   Sweep sweep;                     ///< meaningful only if `errors` is empty
   std::vector<Diagnostic> errors;  ///< all of them, in the order of the file
+  std::vector<Diagnostic> notes;   ///< of a sweep without errors: what is written and never used
 };
 
 /// Reads and expands a sweep file. Never throws for bad input: every error is a Diagnostic.

@@ -1,5 +1,10 @@
 #include "runner/sweep/schema.hpp"
 
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "runner/sweep/parameters.hpp"
 #include "runner/sweep/random_paths.hpp"
 #include "runner/sweep/sweep_definition.hpp"
@@ -21,36 +26,128 @@ Json whole_number(std::int64_t least, std::int64_t most) {
   return {{"type", "integer"}, {"minimum", least}, {"maximum", most}};
 }
 
+Json described(const std::string& description, Json schema) {
+  schema["description"] = description;
+  return schema;
+}
+
 Json point() {
   return {{"type", "array"}, {"minItems", 3}, {"maxItems", 3}, {"items", {{"type", "number"}}}};
+}
+
+/// A number of this type in the parameter's range.
+Json number(const char* type, const Parameter& parameter) {
+  Json schema = {{"type", type}};
+  if (!parameter.range) return schema;
+  const Interval& range = *parameter.range;
+  schema[range.low_open ? "exclusiveMinimum" : "minimum"] = range.low;
+  if (std::isfinite(range.high)) {
+    schema[range.high_open ? "exclusiveMaximum" : "maximum"] = range.high;
+  }
+  return schema;
+}
+
+/// Every name by itself, so that editors show what it means.
+Json names_of(const Parameter& parameter) {
+  Json names = Json::array();
+  for (std::size_t i = 0; i < parameter.choices.size(); ++i) {
+    names.push_back(described(parameter.choice_meanings[i], {{"const", parameter.choices[i]}}));
+  }
+  return {{"anyOf", names}};
 }
 
 Json kind_of(const Parameter& parameter) {
   switch (parameter.kind) {
     case ValueKind::number:
-      return {{"type", "number"}};
+      return number("number", parameter);
     case ValueKind::whole:
-      return whole_number(-parameter.largest, parameter.largest);
+      return number("integer", parameter);
     case ValueKind::natural:
-      return {{"type", "integer"}, {"minimum", 0}};
+      return {{"type", "integer"}, {"minimum", 0}, {"maximum", UINT64_MAX}};
     case ValueKind::text:
-      return {{"type", "string"}};
-    case ValueKind::texts:
-      return list_of({{"type", "string"}});
-    case ValueKind::numbers:
-      return {{"type", "array"}, {"items", {{"type", "number"}}}};
-    case ValueKind::points:
-      return {{"type", "array"}, {"items", point()}};
+      return {{"type", "string"}, {"minLength", 1}};
+    case ValueKind::texts: {
+      Json list = list_of({{"type", "string"}, {"minLength", 1}});
+      list["uniqueItems"] = true;
+      return list;
+    }
+    case ValueKind::numbers: {
+      Json list = list_of(number("number", parameter));
+      list["maxItems"] = most_gap_tolerances;
+      list["uniqueItems"] = true;
+      return list;
+    }
+    case ValueKind::points: {
+      Json list = list_of(point());
+      list["minItems"] = 4;
+      return list;
+    }
     case ValueKind::choice:
       break;
   }
-  return {{"enum", parameter.choices}};
+  return names_of(parameter);
+}
+
+/// That an object holds the member `path`, in each way to write it: "a.b": 1 and "a": {"b": 1}.
+std::vector<Json> spellings(const std::string& path) {
+  std::vector<Json> all = {{{"required", {path}}}};
+  for (std::size_t dot = path.find('.'); dot != std::string::npos; dot = path.find('.', dot + 1)) {
+    const std::string group = path.substr(0, dot);
+    for (Json inside : spellings(path.substr(dot + 1))) {
+      inside["type"] = "object";
+      all.push_back({{"required", {group}}, {"properties", {{group, inside}}}});
+    }
+  }
+  return all;
+}
+
+Json not_both(const Json& one, const Json& other) { return {{"not", {{"allOf", {one, other}}}}}; }
+
+Json in_any_way(const std::string& path) { return {{"anyOf", spellings(path)}}; }
+
+/// What one object may not say together: `group` is the one it describes, "" for all parameters.
+Json exclusions(const std::string& group) {
+  static const std::vector<std::pair<std::string, std::string>> alternatives = [] {
+    std::vector<std::pair<std::string, std::string>> pairs = {
+        {"shape.hull.vertices", "shape.hull.file"}, {"shape.pinacoid", "shape.hull"}};
+    for (std::size_t i = 0; i < parameters().size(); ++i) {
+      for (std::size_t j = 0; is_fill(i) && j < i; ++j) {
+        if (is_fill(j)) pairs.emplace_back(parameters()[j].path, parameters()[i].path);
+      }
+    }
+    return pairs;
+  }();
+  const std::string prefix = group.empty() ? "" : group + ".";
+  const auto is_inside = [&](const std::string& path) { return path.starts_with(prefix); };
+  const auto inside = [&](const std::string& path) { return path.substr(prefix.size()); };
+  Json rules = Json::array();
+  for (const auto& [one, other] : alternatives) {
+    if (!is_inside(one) || !is_inside(other)) continue;
+    rules.push_back(not_both(in_any_way(inside(one)), in_any_way(inside(other))));
+  }
+  for (const Parameter& parameter : parameters()) {
+    if (!is_inside(parameter.path)) continue;
+    const std::vector<Json> ways = spellings(inside(parameter.path));
+    for (std::size_t i = 0; i < ways.size(); ++i) {
+      for (std::size_t j = 0; j < i; ++j) rules.push_back(not_both(ways[j], ways[i]));
+    }
+  }
+  return rules;
+}
+
+/// An object of any parameters, of which each is said once.
+Json layer(const Json& members) {
+  Json schema = closed_object(members);
+  schema["allOf"] = {reference("each once")};
+  return schema;
 }
 
 Json group_members(const std::string& group) {
   Json members;
   for (const std::string& key : known_keys(group)) members[key] = reference(group + "." + key);
-  return closed_object(members);
+  Json schema = described(meaning_of_group(group), closed_object(members));
+  if (Json rules = exclusions(group); !rules.empty()) schema["allOf"] = std::move(rules);
+  return schema;
 }
 
 /// A parameter that is also the name of a group is written as a value or as an object of its parts.
@@ -70,7 +167,8 @@ Json group_schema(const std::string& group) {
   Json object = group_members(group);
   const auto preset = preset_of(group);
   if (!preset) return object;
-  return {{"anyOf", {reference(parameters()[*preset].path), object}}};
+  return described(meaning_of_group(group),
+                   {{"anyOf", {reference(parameters()[*preset].path), object}}});
 }
 
 /// A member for every parameter and group, by dotted path, made from it by `make`.
@@ -83,45 +181,61 @@ Json members_by_path(Make make) {
   return members;
 }
 
-Json lists() {
-  return closed_object(members_by_path([](const auto& path) { return list_of(reference(path)); }));
+std::string meaning_of(const std::string& path) {
+  const auto parameter = find_parameter(path);
+  return parameter ? parameters()[*parameter].meaning : meaning_of_group(path);
+}
+
+Json lists(const std::string& what) {
+  return closed_object(members_by_path([&](const auto& path) {
+    return described(what + meaning_of(path), list_of(reference(path)));
+  }));
+}
+
+/// Of a grid: a value that is there twice would be packed twice.
+Json distinct_lists() {
+  Json schema = lists("every one of these: ");
+  for (auto& list : schema["properties"]) list["uniqueItems"] = true;
+  return schema;
 }
 
 /// Parameters as "base" holds them: the seed belongs beside it.
 Json base_schema() {
   const std::string& seed = parameters()[parameter_with(Role::seed)].path;
-  return closed_object(
+  return layer(
       members_by_path([&](const auto& path) { return path == seed ? Json() : reference(path); }));
 }
 
-Json one_member(const char* name, const Json& value) {
-  Json object = closed_object({{name, value}});
+/// A way to draw a value.
+Json way(const char* name, const char* description, const Json& value) {
+  Json object = closed_object({{name, described(description, value)}});
   object["required"] = {name};
   return object;
 }
 
 Json distribution(const std::string& path) {
-  Json choice = one_member("choice", list_of(reference(path)));
+  Json choice = way("choice", "one of these, each as likely", list_of(reference(path)));
   const auto index = find_parameter(path);
   const bool is_interval = index && (parameters()[*index].kind == ValueKind::number ||
                                      parameters()[*index].kind == ValueKind::whole);
   if (!is_interval) return choice;
   Json bounds = list_of(reference(path));
   bounds["minItems"] = bounds["maxItems"] = 2;
-  return {{"anyOf", {one_member("uniform", bounds), one_member("log_uniform", bounds), choice}}};
+  Json positive = bounds;
+  positive["items"] = {{"allOf", {reference(path), {{"exclusiveMinimum", 0}}}}};
+  return {{"anyOf",
+           {way("uniform", "as likely everywhere between the two", bounds),
+            way("log_uniform", "the same of its logarithm", positive), choice}}};
 }
 
 Json random_schema() {
-  Json members = {{"count", whole_number(1, most_random_points)}};
-  members.update(members_by_path([](const auto& path) { return distribution(path); }));
+  Json members = {{"count", described("points to draw", whole_number(1, most_random_points))}};
+  members.update(members_by_path([](const auto& path) {
+    return described("drawn: " + meaning_of(path), distribution(path));
+  }));
   Json random = closed_object(members);
   random["required"] = {"count"};
   return random;
-}
-
-Json described(const char* description, Json schema) {
-  schema["description"] = description;
-  return schema;
 }
 
 Json replicates() {
@@ -131,18 +245,21 @@ Json replicates() {
 
 Json block_schema() {
   return closed_object(
-      {{"label", described("name of the block in the tables", {{"type", "string"}})},
+      {{"label",
+        described("name of the block in the tables", {{"type", "string"},
+                                                      {"minLength", 1},
+                                                      {"maxLength", 100},
+                                                      {"pattern", "^[^\\u0000-\\u001f]*$"}})},
        {"set", described("values for the whole block",
-                         closed_object(
-                             members_by_path([](const auto& path) { return reference(path); })))},
-       {"grid", described("lists of values: every combination of them", lists())},
-       {"zip", described("equally long lists: taken side by side", lists())},
+                         layer(members_by_path([](const auto& path) { return reference(path); })))},
+       {"grid", described("lists of values: every combination of them", distinct_lists())},
+       {"zip", described("equally long lists: taken side by side", lists("side by side: "))},
        {"random", described("points drawn at random", random_schema())},
        {"replicates", replicates()}});
 }
 
 Json definitions() {
-  Json all;
+  Json all = {{"each once", {{"allOf", exclusions("")}}}};
   for (const std::string& path : known_keys("")) {
     if (!find_parameter(path)) all[path] = group_schema(path);
   }
@@ -169,8 +286,8 @@ std::string sweep_schema() {
   schema.update(closed_object(
       {{"$schema", described("the schema of this file, for editors", {{"type", "string"}})},
        {"name", name_schema()},
-       {"seed",
-        described("master seed of the random numbers", {{"type", "integer"}, {"minimum", 0}})},
+       {"seed", described("master seed of the random numbers",
+                          kind_of(parameters()[parameter_with(Role::seed)]))},
        {"replicates", replicates()},
        {"base", described("what all packings share", base_schema())},
        {"sweep", described("blocks of packings, joined", list_of(block_schema()))}}));

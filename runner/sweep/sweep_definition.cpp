@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cctype>
 #include <limits>
+#include <map>
 #include <set>
+#include <utility>
 
 #include "runner/sweep/random_paths.hpp"
 #include "runner/sweep/shape_kind.hpp"
@@ -159,6 +161,29 @@ std::vector<Assignments> read_list(const std::string& path, const Json& list,
   return entries;
 }
 
+/// What an entry of a list says, for finding another that says the same.
+std::vector<std::pair<std::size_t, Value>> said_by(const Assignments& entry) {
+  std::vector<std::pair<std::size_t, Value>> said;
+  for (const Assignment& assignment : entry)
+    said.emplace_back(assignment.parameter, assignment.value);
+  return said;
+}
+
+/// Notes entries of an axis that say the same as an earlier one; `pointer` leads to its list.
+void refuse_repeats(const std::vector<Assignments>& entries, const std::string& pointer,
+                    const char* what, Diagnostics& diagnostics) {
+  std::map<std::vector<std::pair<std::size_t, Value>>, std::size_t> first;
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    if (entries[i].empty()) continue;
+    const auto [known, is_new] = first.emplace(said_by(entries[i]), i);
+    if (is_new) continue;
+    diagnostics.push_back(
+        {entries[i].front().pointer, std::string("repeats ") + what + " " +
+                                         std::to_string(known->second + 1) + " of " + pointer +
+                                         "; for more packings of a point raise replicates"});
+  }
+}
+
 /// Reads one block; holds what its parts share.
 class BlockReader {
  public:
@@ -195,6 +220,7 @@ class BlockReader {
     if (!is_object(grid, pointer, "an object of lists, one per path", diagnostics_)) return;
     for (const auto& [path, list] : grid.items()) {
       auto entries = read_varied(path, list, child_pointer(pointer, path));
+      refuse_repeats(entries, child_pointer(pointer, path), "value", diagnostics_);
       if (!entries.empty()) block_.axes.push_back({path, std::move(entries)});
     }
   }
@@ -219,6 +245,7 @@ class BlockReader {
       diagnostics_.push_back({pointer, "the lists must be equally long: " + lengths});
       axis.entries.resize(*sizes.begin());
     }
+    refuse_repeats(axis.entries, pointer, "row", diagnostics_);
     if (!axis.entries.empty()) block_.axes.push_back(std::move(axis));
   }
 

@@ -112,7 +112,7 @@ ValueReading read_points(const Parameter& parameter, const Json& value) {
   return fits(std::move(points));
 }
 
-std::string bound_text(const Parameter& parameter) {
+std::string up_to(const Parameter& parameter) {
   if (parameter.largest == std::numeric_limits<std::int64_t>::max()) return "";
   return " up to " + std::to_string(parameter.largest);
 }
@@ -139,6 +139,21 @@ ValueReading read_value(const Parameter& parameter, const Json& value) {
       break;
   }
   return read_numbers(parameter, value);
+}
+
+std::string range_error(const Parameter& parameter, const Value& value) {
+  if (!parameter.range) return "";
+  std::vector<double> numbers;
+  if (const auto* number = std::get_if<double>(&value)) numbers = {*number};
+  if (const auto* whole = std::get_if<std::int64_t>(&value)) {
+    numbers = {static_cast<double>(*whole)};
+  }
+  if (const auto* list = std::get_if<std::vector<double>>(&value)) numbers = *list;
+  for (const double number : numbers) {
+    if (parameter.range->holds(number)) continue;
+    return "must lie in " + parameter.range->text() + ", is " + bound_text(number);
+  }
+  return "";
 }
 
 std::optional<std::int64_t> whole_number_in(const Json& value, std::int64_t low,
@@ -168,7 +183,7 @@ std::string wanted_value(const Parameter& parameter) {
     case ValueKind::number:
       return "a number";
     case ValueKind::whole:
-      return "a whole number" + bound_text(parameter);
+      return "a whole number" + up_to(parameter);
     case ValueKind::natural:
       return "a whole number from 0 to 18446744073709551615";
     case ValueKind::text:

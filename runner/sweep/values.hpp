@@ -18,6 +18,9 @@ struct ValueReading {
 /// `value` as a value of `parameter`.
 ValueReading read_value(const Parameter& parameter, const Json& value);
 
+/// What is wrong with a value that lies outside the parameter's range; "" if it lies inside.
+std::string range_error(const Parameter& parameter, const Value& value);
+
 /// A value of `parameter` as the sweep file writes it.
 nlohmann::json written_value(const Parameter& parameter, const Value& value);
 

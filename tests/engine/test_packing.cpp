@@ -152,7 +152,7 @@ TEST_CASE("a packing that the observer stops is cancelled and not measured") {
 TEST_CASE("a bed too low for its slab fails and says what to change") {
   PackingSpec spec = small_spec();
   spec.measure.exclude_floor = 30;
-  const Packing packing = pack(spec);
+  const Packing packing = make_packing(spec, kernels_for(best_isa()), always);
   CHECK(packing.result.status == PackingStatus::failed);
   CHECK(packing.result.reason.find("too low") != std::string::npos);
   CHECK(packing.result.reason.find("measure.exclude_floor") != std::string::npos);
@@ -231,7 +231,7 @@ TEST_CASE("packings of one and of two grains end without a slab to measure") {
   for (const std::int64_t grains : {1, 2}) {
     PackingSpec spec = small_spec();
     spec.fill = GrainCount{grains};
-    const Packing packing = pack(spec);
+    const Packing packing = make_packing(spec, kernels_for(best_isa()), always);
     CHECK(packing.result.status == PackingStatus::failed);
     CHECK(packing.result.reason.find("too low") != std::string::npos);
     CHECK(packing.result.rest.contacts == grains);

@@ -117,7 +117,11 @@ TEST_CASE("solid height is positive and at most 1000, and gives a possible numbe
 
 TEST_CASE("grains are counted from one to ten million") {
   const auto grains = [](std::int64_t n) {
-    return broken_by([=](PackingSpec& spec) { spec.fill = GrainCount{n}; });
+    return broken_by([=](PackingSpec& spec) {
+      spec.box = {1000, 1000};
+      spec.fill = GrainCount{n};
+      spec.measure.exclude_floor = spec.measure.exclude_surface = 0.0;
+    });
   };
   CHECK(grains(1).empty());
   CHECK(grains(10'000'000).empty());
@@ -153,11 +157,72 @@ TEST_CASE("placed grains must lie in the box, have a radius and be finite") {
   CHECK(placed({{5, 3, 1, nan}}).size() == 1);
 }
 
+TEST_CASE("a bed that must come out too low to be measured is refused where it is filled") {
+  const auto bed = [](double width, const Fill& fill, double exclude_floor) {
+    return broken_by([=](PackingSpec& spec) {
+      spec.box.width = width;
+      spec.fill = fill;
+      spec.measure.exclude_floor = exclude_floor;
+    });
+  };
+  // At 0.5, below which no bed of spheres in a wide box stays, 2 d of solid are 4 d high, and the
+  // highest grain stands out by its diameter.
+  const std::string reason =
+      ": gives a bed too low to be measured: at most 5 d high, and measure.exclude_floor, "
+      "measure.exclude_surface and a slab of 1 d between them take ";
+  CHECK(bed(10, SolidHeight{3}, 3).empty());
+  CHECK(bed(10, SolidHeight{2}, 3) == Messages{"fill.solid_height" + reason + "7 d"});
+  CHECK(bed(10, SolidHeight{2}, 1).empty());
+  CHECK(bed(1.5, SolidHeight{2}, 3).empty());  // 0.45 is reached here
+  CHECK(bed(10, SolidHeight{2}, 20) == Messages{"measure" + reason + "24 d"});
+  REQUIRE(bed(10, GrainCount{3}, 3).size() == 1);
+  CHECK(bed(10, GrainCount{3}, 3)[0].starts_with("fill.grains: gives a bed too low"));
+}
+
+TEST_CASE("steps in which a bed cannot even fall are refused") {
+  const auto steps = [](double step, double momentum, Protocol protocol) {
+    return broken_by([=](PackingSpec& spec) {
+      spec.sizes.spread = 0.0;
+      spec.fill = SolidHeight{8};  // from 32 d high to 16
+      spec.accuracy.step = step;
+      spec.accuracy.momentum = momentum;
+      spec.accuracy.protocol = protocol;
+      spec.accuracy.max_steps = 1000;
+    });
+  };
+  // Damped grains fall step^2 / (1 - momentum) a step at most, free ones 16 d in sqrt(32).
+  CHECK(steps(0.0401, 0.9, Protocol::heavy_ball).empty());
+  CHECK(steps(0.0399, 0.9, Protocol::heavy_ball) ==
+        Messages{"accuracy: cannot come to rest: in steps of 0.0399 the fall alone takes 1.01e+03, "
+                 "max_steps is 1000"});
+  CHECK(steps(0.0057, 0.9, Protocol::dynamic).empty());
+  CHECK(steps(0.0056, 0.9, Protocol::dynamic).size() == 1);
+  CHECK(steps(0.127, 0.0, Protocol::heavy_ball).empty());
+  CHECK(steps(0.126, 0.0, Protocol::heavy_ball).size() == 1);
+}
+
+TEST_CASE("a hull far from d in size is told to have the wrong unit") {
+  const auto hull = [](double size) {
+    return broken_by([=](PackingSpec& spec) {
+      spec.shape = HullVertices{{{0, 0, 0}, {size, 0, 0}, {0, size, 0}, {0, 0, size}}};
+    });
+  };
+  CHECK(hull(1.5).empty());
+  for (const double size : {1e-9, 40.0}) {
+    REQUIRE_FALSE(hull(size).empty());
+    CHECK(hull(size)[0].find("shape.hull.size, the length in its vertices that is d, is missing") !=
+          std::string::npos);
+  }
+  CHECK(
+      hull(1e-9)[0].starts_with("fill.solid_height: must give 1 to 10000000 grains, gives 1e+17"));
+}
+
 TEST_CASE("sizes keep to their intervals") {
   const auto sizes = [](SizesSpec changed_sizes) {
     return broken_by([=](PackingSpec& spec) {
       spec.sizes = changed_sizes;
-      spec.fill = GrainCount{100};
+      spec.fill = GrainCount{1'000'000};
+      spec.measure.exclude_floor = spec.measure.exclude_surface = 0.0;
     });
   };
   CHECK(sizes({0.0, 0.0, 1.0}).empty());

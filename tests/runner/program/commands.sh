@@ -7,7 +7,7 @@ expect_code 0 "$program" --help
 expect_text out.txt "run" "export" "Exit codes"
 expect_code 0 "$program" --version
 expect_code 0 "$program" validate small.json
-expect_text out.txt "10 packings in 5 parameter sets"
+expect_text out.txt "right: 10 packings, 5 parameter sets"
 expect_code 0 "$program" plan small.json --threads 2
 expect_text out.txt "10 packings" "bulk" "2 threads"
 expect_code 0 "$program" plan small.json --json

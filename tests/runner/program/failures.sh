@@ -5,7 +5,7 @@ cat >sweep.json <<'JSON'
   "base": { "box": { "length": 5, "width": 5 }, "fill": { "solid_height": 4 },
             "measure": { "exclude_floor": 1, "exclude_surface": 1 }, "accuracy": "fast" },
   "sweep": [ { "label": "small", "grid": { "box.width": [3, 4] } },
-             { "label": "too low", "set": { "box.width": 6, "measure.exclude_floor": 50 } } ] }
+             { "label": "too low", "set": { "box.width": 6, "measure.exclude_floor": 5.5 } } ] }
 JSON
 failed='too low W=6 #1  failed (the bed is too low'
 

@@ -46,8 +46,14 @@ TEST_CASE("a block's set lies over base and leaves the rest of base alone") {
   CHECK(spec.box.length == 12.0);
 }
 
-TEST_CASE("a grid lies over set") {
-  CHECK(spec_of("{}", R"({"set": {"box.width": 7}, "grid": {"box.width": [8]}})").box.width == 8.0);
+TEST_CASE("a grid lies over base") {
+  CHECK(spec_of(R"({"box.width": 7})", R"({"grid": {"box.width": [8]}})").box.width == 8.0);
+}
+
+TEST_CASE("a value that a block sets and varies is refused") {
+  CHECK(errors_of(sweep_of(R"({"set": {"box.width": 7}, "grid": {"box.width": [8]}})")) ==
+        Messages{"s.json:1:59 /sweep/0/set/box.width: the block varies box.width, so that this "
+                 "value is never used; take one of them out"});
 }
 
 TEST_CASE("a sweep that names no accuracy is balanced") {
@@ -72,16 +78,17 @@ TEST_CASE("a part of the accuracy holds over any preset, in whatever order and l
 }
 
 TEST_CASE("a layer that fills the box replaces the fill below it") {
-  const auto spec = spec_of(R"({"fill": {"solid_height": 5}})", R"({"set": {"fill.grains": 321}})");
-  CHECK(std::get<GrainCount>(spec.fill).count == 321);
-  CHECK(std::get<SolidHeight>(
-            spec_of(R"({"fill": {"grains": 5}})", R"({"grid": {"fill": [{"solid_height": 4.5}]}})")
-                .fill)
+  const auto spec =
+      spec_of(R"({"fill": {"solid_height": 5}})", R"({"set": {"fill.grains": 3210}})");
+  CHECK(std::get<GrainCount>(spec.fill).count == 3210);
+  CHECK(std::get<SolidHeight>(spec_of(R"({"fill": {"grains": 5000}})",
+                                      R"({"grid": {"fill": [{"solid_height": 4.5}]}})")
+                                  .fill)
             .height == 4.5);
 }
 
 TEST_CASE("two ways to fill the box in one object are refused") {
-  CHECK(errors_in_base(R"({"fill": {"solid_height": 9, "grains": 10}})") ==
+  CHECK(errors_in_base(R"({"fill": {"solid_height": 9, "grains": 10000}})") ==
         Messages{"s.json:2:40 /base/fill/grains: the box is already filled by fill.solid_height; "
                  "keep one of solid_height, grains, file"});
 }
@@ -99,9 +106,9 @@ TEST_CASE("an unknown key is refused at the key, with the nearest known one") {
                  "\"sizes.spread\"?"});
   CHECK(errors_in_base(R"({"bx": {}})") ==
         Messages{"s.json:2:2 /base/bx: unknown key \"bx\"; did you mean \"box\"?"});
-  CHECK(errors_in_base(R"({"friction": 0.3})") ==
-        Messages{"s.json:2:2 /base/friction: unknown key \"friction\"; known here: shape, box, "
-                 "fill, sizes, accuracy, measure, seed"});
+  CHECK(errors_in_base(R"({"colour": 0.3})") ==
+        Messages{"s.json:2:2 /base/colour: unknown key \"colour\"; known here: shape, box, "
+                 "fill, sizes, accuracy, measure"});
   CHECK(errors_in_base(R"({"": 1})").size() == 1);
 }
 
@@ -201,8 +208,8 @@ TEST_CASE("a shape that is not said, or misspelt, is refused with what is known"
 }
 
 TEST_CASE("a diameter without a fill file is refused, one that is not positive too") {
-  CHECK(errors_in_base(R"({"fill": {"grains": 5, "diameter": 2}})") ==
-        Messages{"s.json:2:36 /base/fill/diameter: belongs to fill.file, and that is not set"});
+  CHECK(errors_in_base(R"({"fill": {"grains": 5000, "diameter": 2}})") ==
+        Messages{"s.json:2:39 /base/fill/diameter: belongs to fill.file, and that is not set"});
   CHECK(errors_in_base(R"({"fill": {"file": "a.csv", "diameter": 0}})") ==
         Messages{"s.json:2:40 /base/fill/diameter: must be positive"});
 }

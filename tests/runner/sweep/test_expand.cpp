@@ -253,8 +253,49 @@ TEST_CASE("a default that breaks a rule is named at the block that makes it brea
         "walls), is 10");
 }
 
-TEST_CASE("values that no job uses break no rule") {
-  CHECK(errors_of(sweep_of(R"({"set": {"box.width": 5}})", R"({"box.width": 0.5})")).empty());
+/// The notes about `text`, as errors_of gives its errors.
+Messages notes_of(const std::string& text) {
+  const ScratchFolder folder;
+  const SweepReading reading = read_sweep(folder.write("s.json", text));
+  CHECK(reading.errors.empty());
+  Messages notes;
+  for (const Diagnostic& note : reading.notes) {
+    notes.push_back(folder.without_folder(to_string(note)));
+  }
+  return notes;
+}
+
+TEST_CASE("a value that every block sets itself is noted, and refused if none could use it") {
+  const std::string blocks = R"({"set": {"box.width": 5}}, {"grid": {"box.width": [6, 7]}})";
+  CHECK(notes_of(sweep_of(blocks, R"({"box.width": 20})")) ==
+        Messages{"s.json:1:37 /base/box.width: is never used: every block sets it itself"});
+  CHECK(errors_of(sweep_of(blocks, R"({"box.width": 0.5})")) ==
+        Messages{"s.json:1:37 /base/box.width: must lie in [1, 10000], is 0.5"});
+  CHECK(notes_of(sweep_of(R"({"set": {"box.width": 5}}, {})", R"({"box.width": 20})")).empty());
+}
+
+TEST_CASE("a value that has no effect on any packing is noted with the reason") {
+  CHECK(notes_of(sweep_of(R"({"grid": {"sizes.size_ratio": [0.3, 0.4]}})")) ==
+        Messages{
+            "s.json:1:68 /sweep/0/grid/sizes.size_ratio/0: has no effect: sizes.small_share is 0",
+            "s.json:1:73 /sweep/0/grid/sizes.size_ratio/1: has no effect: sizes.small_share is 0"});
+  CHECK(notes_of(sweep_of(R"({"grid": {"sizes.small_share": [0, 0.4]}})",
+                          R"({"sizes.size_ratio": 0.3})"))
+            .empty());
+  CHECK(
+      notes_of(sweep_of("{}", R"({"accuracy": {"protocol": "dynamic", "momentum": 0.5}})")) ==
+      Messages{"s.json:1:72 /base/accuracy/momentum: has no effect: accuracy.protocol is dynamic"});
+}
+
+TEST_CASE("a list that holds a value twice, and a zip with two equal rows, are refused") {
+  CHECK(errors_of(sweep_of(R"({"grid": {"box.width": [5, 6, 5.0]}})")) ==
+        Messages{"s.json:1:67 /sweep/0/grid/box.width/2: repeats value 1 of "
+                 "/sweep/0/grid/box.width; for more packings of a point raise replicates"});
+  CHECK(errors_of(sweep_of(R"({"zip": {"box.width": [5, 6, 5], "box.length": [9, 9, 9]}})")) ==
+        Messages{"s.json:1:66 /sweep/0/zip/box.width/2: repeats row 1 of /sweep/0/zip; for more "
+                 "packings of a point raise replicates"});
+  CHECK(
+      errors_of(sweep_of(R"({"zip": {"box.width": [5, 6, 5], "box.length": [9, 9, 8]}})")).empty());
 }
 
 TEST_CASE("100,000 jobs are expanded in less than two seconds of processor time", "[speed]") {

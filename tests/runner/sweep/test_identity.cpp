@@ -16,7 +16,7 @@ std::vector<std::string> ids_of(const std::string& text) {
 }
 
 const std::string golden_base = R"({
-  "box": {"length": 20, "width": 5, "x": "periodic", "y": "walls"}, "fill": {"grains": 100},
+  "box": {"length": 20, "width": 5, "x": "periodic", "y": "walls"}, "fill": {"grains": 1000},
   "sizes": {"spread": 0.03, "small_share": 0, "size_ratio": 0.5}})";
 
 }  // namespace
@@ -70,7 +70,7 @@ TEST_CASE("canonical parameters are valid JSON with sorted keys and short number
   CHECK(canonical.erase("accuracy") == 1);
   CHECK(text.starts_with(R"({"accuracy":{"contact_tolerance":)"));
   CHECK(text.ends_with(
-      R"(},"box":{"length":20,"width":5,"x":"periodic","y":"walls"},"fill":{"grains":100},)"
+      R"(},"box":{"length":20,"width":5,"x":"periodic","y":"walls"},"fill":{"grains":1000},)"
       R"("measure":{"bin_width":0.1,"exclude_floor":3,"exclude_surface":3,"gap_tolerances":[1e-04,1e-05,0.001,0.006]},)"
       R"("shape":"sphere","sizes":{"size_ratio":0.5,"small_share":0,"spread":0.03}})"));
   CHECK(canonical.at("box").at("width") == 5.0);
@@ -84,11 +84,11 @@ TEST_CASE("the ids of spheres stay what they are") {
       "kinetic_tolerance": 1e-4, "max_steps": 2000, "momentum": 0.9,
       "overlap_tolerance": 1e-5, "path_tolerance": 1e-4, "precision": "f32", "protocol": "heavy_ball",
       "residual_tolerance": 0.01, "rest_iterations": 300, "solver": "apgs", "step": 0.2},
-    "box": {"length": 20, "width": 5, "x": "periodic", "y": "walls"}, "fill": {"grains": 100},
+    "box": {"length": 20, "width": 5, "x": "periodic", "y": "walls"}, "fill": {"grains": 1000},
     "measure": {"bin_width": 0.1, "exclude_floor": 3, "exclude_surface": 3,
       "gap_tolerances": [1e-4, 1e-5, 1e-3, 6e-3]}, "shape": "sphere",
     "sizes": {"size_ratio": 0.5, "small_share": 0, "spread": 0.03}}})")
-            .at(0) == "b3374102cafaad3e");
+            .at(0) == "0f6381df0da54577");
 }
 
 TEST_CASE("canonical parameters of other shapes are groups, a hull that of a hash") {

@@ -1,8 +1,6 @@
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
-#include <optional>
 
 #include <catch2/catch.hpp>
 
@@ -11,28 +9,6 @@
 
 namespace grainsweep {
 namespace {
-
-struct Bound {
-  double value = 0.0;
-  bool is_allowed = false;
-};
-
-double number_in(const std::string& text, std::size_t from) {
-  double value = 0.0;
-  const auto end = std::from_chars(text.data() + from, text.data() + text.size(), value);
-  REQUIRE(end.ec == std::errc{});
-  return value;
-}
-
-Bound lower_bound(const std::string& range) {
-  return {number_in(range, range.front() == '>' ? 2 : 1), range.front() == '['};
-}
-
-/// Nothing if the range goes on for ever.
-std::optional<Bound> upper_bound(const std::string& range) {
-  if (range.front() == '>') return std::nullopt;
-  return Bound{number_in(range, range.find(' ') + 1), range.back() == ']'};
-}
 
 bool is_refused(const Parameter& parameter, double number) {
   ResolvedSpec in_effect;
@@ -70,34 +46,29 @@ TEST_CASE("what lies outside a documented range is refused") {
   for (const Parameter& parameter : parameters()) {
     const bool is_of_the_engine = parameter.role == Role::plain || parameter.role == Role::fill ||
                                   parameter.role == Role::pinacoid;
-    if (parameter.range.empty() || !is_of_the_engine) continue;
-    INFO(parameter.path << " " << parameter.range);
-    const Bound low = lower_bound(parameter.range);
-    CHECK(is_refused(parameter, low.is_allowed ? next_after(parameter, low.value, -1) : low.value));
-    if (const auto high = upper_bound(parameter.range)) {
-      const bool is_largest = high->value >= std::numeric_limits<int>::max();
-      if (is_largest) continue;  // the reader refuses it before
-      CHECK(is_refused(parameter,
-                       high->is_allowed ? next_after(parameter, high->value, 1) : high->value));
-    }
+    if (!parameter.range || !is_of_the_engine) continue;
+    const Interval& range = *parameter.range;
+    INFO(parameter.path << " " << range.text());
+    CHECK(is_refused(parameter, range.low_open ? range.low : next_after(parameter, range.low, -1)));
     ++ranges;
+    if (range.high >= std::numeric_limits<int>::max()) continue;  // the reader refuses more
+    CHECK(
+        is_refused(parameter, range.high_open ? range.high : next_after(parameter, range.high, 1)));
   }
   CHECK(ranges >= 20);
 }
 
 TEST_CASE("the bounds that a documented range holds are allowed where nothing else forbids them") {
-  // Those that other parameters narrow: sides by the largest grain, counts and heights by each
-  // other, bins by the width of the box, the angle of a pinacoid by its sides.
-  for (const char* path :
-       {"sizes.spread", "sizes.small_share", "sizes.size_ratio", "accuracy.step",
-        "accuracy.momentum", "accuracy.fall_iterations", "accuracy.creep_steps",
-        "accuracy.rest_iterations", "accuracy.max_steps", "measure.exclude_floor",
-        "measure.exclude_surface", "shape.pinacoid.angle_deg"}) {
+  // Others are narrowed by what stands beside them: sides by the largest grain, counts and heights
+  // by each other, zones left out by the bed's height, steps by its fall, bins by the box's width.
+  for (const char* path : {"sizes.spread", "sizes.small_share", "sizes.size_ratio", "accuracy.step",
+                           "accuracy.momentum", "accuracy.fall_iterations", "accuracy.creep_steps",
+                           "accuracy.rest_iterations", "shape.pinacoid.angle_deg"}) {
     const Parameter& parameter = parameters()[*find_parameter(path)];
-    INFO(path << " " << parameter.range);
-    const Bound low = lower_bound(parameter.range), high = *upper_bound(parameter.range);
-    if (low.is_allowed) CHECK_FALSE(is_refused(parameter, low.value));
-    if (high.is_allowed) CHECK_FALSE(is_refused(parameter, high.value));
+    const Interval& range = parameter.range.value();
+    INFO(path << " " << range.text());
+    if (!range.low_open) CHECK_FALSE(is_refused(parameter, range.low));
+    if (!range.high_open) CHECK_FALSE(is_refused(parameter, range.high));
   }
 }
 

@@ -1,4 +1,7 @@
 #include <algorithm>
+#include <cmath>
+#include <functional>
+#include <regex>
 #include <string>
 
 #include <catch2/catch.hpp>
@@ -23,29 +26,54 @@ bool has_type(const std::string& type, const Json& value) {
   if (type == "array") return value.is_array();
   if (type == "string") return value.is_string();
   if (type == "number") return value.is_number();
-  return value.is_number_integer();
+  return value.is_number_integer() ||
+         (value.is_number() && value.get<double>() == std::floor(value.get<double>()));
 }
 
 bool fits_members(const Json& rule, const Json& object) {
   for (const Json& key : rule.value("required", Json::array())) {
     if (!object.contains(key.get<std::string>())) return false;
   }
+  const Json known = rule.value("properties", Json::object());
+  const bool is_open = rule.value("additionalProperties", true);
   return std::all_of(object.items().begin(), object.items().end(), [&](const auto& member) {
-    const Json& known = rule.at("properties");
-    return known.contains(member.key()) && fits(known.at(member.key()), member.value());
+    return known.contains(member.key()) ? fits(known.at(member.key()), member.value()) : is_open;
   });
 }
 
 bool fits_entries(const Json& rule, const Json& list) {
+  const bool is_set = rule.value("uniqueItems", false);
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    if (rule.contains("items") && !fits(rule.at("items"), list[i])) return false;
+    if (is_set && std::find(list.begin(), list.begin() + static_cast<std::ptrdiff_t>(i), list[i]) !=
+                      list.begin() + static_cast<std::ptrdiff_t>(i)) {
+      return false;
+    }
+  }
   return list.size() >= rule.value("minItems", 0u) &&
-         list.size() <= rule.value("maxItems", 1u << 20) &&
-         std::all_of(list.begin(), list.end(),
-                     [&](const Json& entry) { return fits(rule.at("items"), entry); });
+         list.size() <= rule.value("maxItems", 1u << 20);
 }
 
-bool fits_bounds(const Json& rule, const Json& value) {
-  return !value.is_number() ||
-         (value >= rule.value("minimum", value) && value <= rule.value("maximum", value));
+bool fits_number(const Json& rule, const Json& value) {
+  const auto keeps = [&](const char* bound, auto is_kept) {
+    return !rule.contains(bound) || is_kept(value.get<double>(), rule.at(bound).get<double>());
+  };
+  return keeps("minimum", std::greater_equal<>()) && keeps("maximum", std::less_equal<>()) &&
+         keeps("exclusiveMinimum", std::greater<>()) && keeps("exclusiveMaximum", std::less<>());
+}
+
+bool fits_text(const Json& rule, const std::string& text) {
+  return text.size() >= rule.value("minLength", 0u) &&
+         text.size() <= rule.value("maxLength", 1000u) &&
+         std::regex_search(text, std::regex(rule.value("pattern", std::string())));
+}
+
+bool fits_parts(const Json& rule, const Json& value) {
+  const auto one = [&](const Json& part) { return fits(part, value); };
+  const Json any = rule.value("anyOf", Json()), all = rule.value("allOf", Json());
+  return (any.is_null() || std::any_of(any.begin(), any.end(), one)) &&
+         std::all_of(all.begin(), all.end(), one) &&
+         !(rule.contains("not") && fits(rule.at("not"), value));
 }
 
 /// The part of JSON Schema that the schema of sweeps uses, by the letter of draft 7.
@@ -56,15 +84,11 @@ bool fits(const Json& rule, const Json& value) {
         schema().at("definitions").at(rule.at("$ref").get<std::string>().substr(prefix.size())),
         value);
   }
-  if (rule.contains("anyOf")) {
-    const Json& any = rule.at("anyOf");
-    return std::any_of(any.begin(), any.end(), [&](const Json& one) { return fits(one, value); });
-  }
-  if (rule.contains("enum")) {
-    const Json& names = rule.at("enum");
-    return std::find(names.begin(), names.end(), value) != names.end();
-  }
-  if (!has_type(rule.at("type"), value) || !fits_bounds(rule, value)) return false;
+  if (rule.contains("const") && value != rule.at("const")) return false;
+  if (rule.contains("type") && !has_type(rule.at("type"), value)) return false;
+  if (!fits_parts(rule, value)) return false;
+  if (value.is_number()) return fits_number(rule, value);
+  if (value.is_string()) return fits_text(rule, value);
   if (value.is_object()) return fits_members(rule, value);
   return !value.is_array() || fits_entries(rule, value);
 }
@@ -76,8 +100,34 @@ TEST_CASE("the schema has every parameter, with its meaning") {
     const Json& definition = schema().at("definitions").at(parameter.path);
     CHECK(definition.at("description") == parameter.meaning);
   }
-  CHECK(schema().at("definitions").at("box.y").at("enum") == Json{"periodic", "walls"});
-  CHECK(schema().at("definitions").at("box.width").at("type") == "number");
+  const Json& walls = schema().at("definitions").at("box.y").at("anyOf").at(1);
+  CHECK(walls.at("const") == "walls");
+  CHECK(walls.at("description") == "two flat walls without friction");
+  const Json& width = schema().at("definitions").at("box.width");
+  CHECK(width.at("type") == "number");
+  CHECK(width.at("minimum") == 1.0);
+  CHECK(width.at("maximum") == 10000.0);
+}
+
+/// Whether everything that can be written has a description, but for entries of lists.
+bool is_described(const Json& rule) {
+  const Json members = rule.value("properties", Json::object());
+  return std::all_of(members.begin(), members.end(), [](const Json& member) {
+    if (member.contains("$ref")) {
+      const auto target = member.at("$ref").get<std::string>().substr(14);
+      return schema().at("definitions").at(target).contains("description");
+    }
+    return member.contains("description") && is_described(member);
+  });
+}
+
+TEST_CASE("the schema describes every key, group, list and name") {
+  CHECK(is_described(schema()));
+  const Json& block = schema().at("properties").at("sweep").at("items");
+  CHECK(is_described(block));
+  for (const Parameter& parameter : parameters()) {
+    CHECK(parameter.choice_meanings.size() == parameter.choices.size());
+  }
 }
 
 TEST_CASE("what the reader takes fits the schema") {
@@ -88,7 +138,7 @@ TEST_CASE("what the reader takes fits the schema") {
        R"("base": {"accuracy": {"preset": "fast", "solver": "pgs"}, "box.y": "walls"})",
        R"("sweep": [{"label": "a", "grid": {"box.width": [5, 6], "accuracy": ["fast"]}}])",
        R"("sweep": [{"zip": {"box.width": [5, 6], "seed": [1, 2]}, "replicates": 2}])",
-       R"("sweep": [{"set": {"measure.gap_tolerances": [1e-4], "fill": {"grains": 400}}}])",
+       R"("sweep": [{"set": {"measure.gap_tolerances": [1e-4], "fill": {"grains": 4000}}}])",
        R"("base": {"shape": "pinacoid"})", R"("base": {"shape": {"pinacoid": {}}})",
        R"("base": {"shape.pinacoid": {"width": 1.5}})",
        R"("base": {"shape": {"pinacoid.width": 1.5}})",
@@ -134,7 +184,21 @@ TEST_CASE("what does not fit the schema the reader refuses") {
         R"("sweep": [{"random": {"box.width": {"uniform": [5, 9]}}}])",
         R"("sweep": [{"random": {"count": 1, "box.width": {"uniform": [5]}}}])",
         R"("sweep": [{"random": {"count": 1, "box.width": {"normal": [5, 6]}}}])",
-        R"("sweep": [{"random": {"count": 1, "box.y": {"uniform": [5, 6]}}}])"}) {
+        R"("sweep": [{"random": {"count": 1, "box.y": {"uniform": [5, 6]}}}])",
+        R"("sweep": [{"random": {"count": 1, "box.width": {"uniform": [0.5, 6]}}}])",
+        R"("sweep": [{"random": {"count": 1, "sizes.small_share": {"log_uniform": [0, 1]}}}])",
+        R"("seed": 1e20)",
+        R"("base": {"box.width": -5})",
+        R"("base": {"sizes.spread": 0.9})",
+        R"("base": {"fill": {"grains": 800, "solid_height": 9.95}})",
+        R"("base": {"fill": {"grains": 800}, "fill.solid_height": 9.95})",
+        R"("base": {"box": {"width": 5}, "box.width": 6})",
+        R"("base": {"shape": {"pinacoid": {"width": 1}}, "shape.pinacoid.width": 1})",
+        R"("base": {"shape": {"pinacoid": {}, "hull": {"file": "a.obj"}}})",
+        R"("base": {"measure": {"gap_tolerances": []}})",
+        R"("base": {"measure": {"gap_tolerances": [0.001, 0.001]}})",
+        R"("sweep": [{"label": ""}])",
+        R"("sweep": [{"grid": {"box.width": [5, 5.0]}}])"}) {
     const std::string text = R"({"name": "a", )" + body + "}";
     INFO(text);
     CHECK_FALSE(errors_of(text).empty());

@@ -118,8 +118,8 @@ TEST_CASE("a parameter that a block varies twice is refused") {
   CHECK(errors_in_block(R"({"grid": {"box.width": [5]}, "zip": {"box": [{"width": 6}]}})") ==
         Messages{"s.json:2:45 /sweep/0/zip/box: box.width is already varied at "
                  "/sweep/0/grid/box.width"});
-  CHECK(errors_in_block(R"({"grid": {"fill.grains": [5], "fill.solid_height": [5]}})") ==
-        Messages{"s.json:2:52 /sweep/0/grid/fill.solid_height: fill is already varied at "
+  CHECK(errors_in_block(R"({"grid": {"fill.grains": [5000], "fill.solid_height": [5]}})") ==
+        Messages{"s.json:2:55 /sweep/0/grid/fill.solid_height: fill is already varied at "
                  "/sweep/0/grid/fill.grains"});
   CHECK(
       errors_in_block(

@@ -1,0 +1,29 @@
+// Where a number must lie.
+#pragma once
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "engine/text.hpp"
+
+namespace grainsweep {
+
+struct Interval {
+  double low = 0.0;
+  double high = std::numeric_limits<double>::infinity();
+  bool low_open = false, high_open = false;  ///< whether the bound itself is left out
+
+  bool holds(double value) const {  // false for NaN
+    return (low_open ? value > low : value >= low) && (high_open ? value < high : value <= high);
+  }
+
+  /// "(0, 2]", "> 0".
+  std::string text() const {
+    if (std::isinf(high)) return (low_open ? "> " : ">= ") + bound_text(low);
+    return (low_open ? "(" : "[") + bound_text(low) + ", " + bound_text(high) +
+           (high_open ? ")" : "]");
+  }
+};
+
+}  // namespace grainsweep
