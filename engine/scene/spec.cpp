@@ -217,7 +217,7 @@ void check_fall(const PackingSpec& spec, double across, Errors& errors) {
   const double steps = std::ceil(std::max(free_fall, damped));
   if (steps <= a.max_steps) return;
   errors.push_back({"accuracy", "cannot come to rest: in steps of " + number_text(a.step) +
-                                    " the fall alone takes " + number_text(steps) +
+                                    " the fall alone takes " + number_text(steps) + " of them" +
                                     ", max_steps is " + std::to_string(a.max_steps)});
 }
 

@@ -89,6 +89,7 @@ std::string message_at(const std::string& text, std::size_t at, const std::strin
   if (has(complaint, "ill-formed UTF-8")) return "is not UTF-8 text here; save the file as UTF-8";
   if (has(complaint, "number overflow")) return "this number is too large for a 64-bit float";
   if (at >= text.size()) return "the file ends too early: a bracket or a quote is not closed";
+  if (is_word(c) && last_before(text, at) == '\0') return "is not JSON, which begins with '{'";
   if (is_nan_or_infinity(std::string_view(text).substr(at))) {
     return "JSON has no NaN and no Infinity; write a finite number";
   }

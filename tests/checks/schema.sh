@@ -23,7 +23,7 @@ if ! python3 -c 'import jsonschema' 2>/dev/null; then
   exit 77
 fi
 python3 - "${sweeps[@]}" <<'PYTHON'
-import copy, json, sys
+import copy, json, re, sys
 import jsonschema
 
 schema = json.load(open("sweep.schema.json"))
@@ -50,5 +50,31 @@ def no_name(sweep): del sweep["name"]
 for change in (misspelt, misspelt_inside, no_number, no_choice, no_preset, no_list, seed_in_base,
                no_count, no_name):
     refuses(change)
-print(f"schema: fits {len(sweeps)} sweeps and refuses what is wrong")
+
+# Each sweep of faulty_sweeps.txt, whose head says how it is written: what the schema refuses, what it
+# cannot know, what is right. Python takes NaN and equal keys for JSON, editors do not.
+def only_json(text):
+    def no_number(word): raise ValueError(word)
+    def once(pairs):
+        if len({key for key, _ in pairs}) < len(pairs): raise ValueError("a key twice")
+        return dict(pairs)
+    return json.loads(text, parse_constant=no_number, object_pairs_hook=once)
+
+def fits(text):
+    try:
+        return validator.is_valid(only_json(text.removeprefix("\ufeff")))
+    except ValueError:
+        return False
+
+page = open("../tests/runner/sweep/faulty_sweeps.txt", encoding="utf-8").read()
+faulty = refused = 0
+for section in re.split("^== ", page, flags=re.M)[1:]:
+    if section.startswith("file "):
+        continue
+    head, mark, said = re.split("^(--|~~)$", section, flags=re.M)
+    title, text = head.split("\n", 1)
+    assert fits(text) == (mark == "~~"), title
+    faulty += said.strip().split("\n")[0] != "right"
+    refused += mark == "--"
+print(f"schema: fits {len(sweeps)} sweeps and refuses {refused} of {faulty} faulty ones")
 PYTHON

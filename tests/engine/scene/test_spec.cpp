@@ -193,7 +193,8 @@ TEST_CASE("steps in which a bed cannot even fall are refused") {
   // Damped grains fall step^2 / (1 - momentum) a step at most, free ones 16 d in sqrt(32).
   CHECK(steps(0.0401, 0.9, Protocol::heavy_ball).empty());
   CHECK(steps(0.0399, 0.9, Protocol::heavy_ball) ==
-        Messages{"accuracy: cannot come to rest: in steps of 0.0399 the fall alone takes 1.01e+03, "
+        Messages{"accuracy: cannot come to rest: in steps of 0.0399 the fall alone takes 1.01e+03 "
+                 "of them, "
                  "max_steps is 1000"});
   CHECK(steps(0.0057, 0.9, Protocol::dynamic).empty());
   CHECK(steps(0.0056, 0.9, Protocol::dynamic).size() == 1);
