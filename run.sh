@@ -9,8 +9,11 @@ readonly build=$root/build/release
 readonly log=$build/build.log
 
 build_grainsweep() {
-  [[ -x $build/runner/grainsweep ]] ||
+  if [[ ! -x $build/runner/grainsweep ]]; then
     printf 'run.sh: building grainsweep in %s, once, a minute or two\n' "$build" >&2
+  elif ! cmake --build "$build" --target grainsweep -- -n 2>/dev/null | grep -q 'no work to do'; then
+    printf 'run.sh: sources have changed, building what depends on them\n' >&2
+  fi
   (
     cd "$root" &&
       { [[ -f $build/build.ninja ]] || cmake --preset release; } &&

@@ -4,6 +4,7 @@
 #include <iostream>
 #include <map>
 #include <set>
+#include <sstream>
 #include <string_view>
 #include <unistd.h>
 #include <utility>
@@ -123,6 +124,21 @@ Packed record_and_pack(RunningSweep& running, const RunOptions& options, Isa isa
   return packed;
 }
 
+/// The options to go on with: those of this run, but for what is done once.
+std::string repeated(const RunOptions& options, const std::string& folder) {
+  std::ostringstream text;
+  text << shell_word(options.file) << " --out " << shell_word(folder);
+  if (options.threads > 0) text << " --threads " << options.threads;
+  if (!options.isa.empty()) text << " --isa " << options.isa;
+  if (options.checkpoint_seconds != RunOptions{}.checkpoint_seconds) {
+    text << " --checkpoint-seconds " << options.checkpoint_seconds;
+  }
+  if (options.retry_failed) text << " --retry-failed";
+  if (options.fail_fast) text << " --fail-fast";
+  if (options.quiet) text << " --quiet";
+  return text.str();
+}
+
 /// Says why the run stopped before its end and how to go on; returns the exit code.
 int stopped(const Packed& packed, const RunOptions& options, const std::string& folder,
             const StatusCounts& counts, std::size_t packings) {
@@ -130,8 +146,10 @@ int stopped(const Packed& packed, const RunOptions& options, const std::string& 
   std::cerr << (by_signal ? "Stopped."
                           : "Stopped by --fail-fast after " + packed.first_failure + ".")
             << " " << packings - static_cast<std::size_t>(counts.pending) << " of " << packings
-            << " packings are kept in " << folder << ".\nGo on with: grainsweep run "
-            << shell_word(options.file) << " --out " << shell_word(folder) << "\n";
+            << " packings are kept in " << folder;
+  const std::size_t saved = saved_packings(folder);
+  if (saved > 0) std::cerr << ", " << saved << " under way in its checkpoints";
+  std::cerr << ".\nGo on with: grainsweep run " << repeated(options, folder) << "\n";
   return by_signal ? exit_stopped + stop_signal() : static_cast<int>(exit_left_out);
 }
 
@@ -198,6 +216,10 @@ int perform(const RunOptions& options) {
   std::cerr << damage_warnings(damage);
   Packed packed;
   if (!running.pending.empty()) {
+    const std::size_t done = running.rows.size() - running.pending.size();
+    if (done > 0 && !options.quiet) {
+      std::cerr << done << " of " << running.rows.size() << " packings are done, going on\n";
+    }
     packed = record_and_pack(running, options, isa, provenance);
     std::cerr << damage_warnings(read_packed(running));
   }

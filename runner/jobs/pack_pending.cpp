@@ -72,7 +72,8 @@ class Packer {
       : running_(running),
         options_(options),
         kernels_(kernels_for(options.isa)),
-        display_(cpu_seconds_of(costs), options.style, stderr),
+        display_(cpu_seconds_of(costs), options.style, stderr,
+                 running.rows.size() - running.pending.size()),
         journal_(running.folder),
         build_(build_name()),
         before_(costs.size()) {}

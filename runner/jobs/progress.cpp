@@ -6,7 +6,10 @@
 #include <numeric>
 #include <utility>
 
+#include <sys/ioctl.h>
+
 #include "runner/machine.hpp"
+#include "runner/text.hpp"
 
 namespace grainsweep {
 namespace {
@@ -19,6 +22,13 @@ std::string bar(double share, int width) {
   std::fill_n(text.begin(), full, '=');
   if (full < width) text[static_cast<std::size_t>(full)] = '>';
   return "[" + text + "]";
+}
+
+/// Of the terminal's window now; as usual if there is none.
+int columns_of(std::FILE* out) {
+  winsize window{};
+  const bool is_known = ioctl(fileno(out), TIOCGWINSZ, &window) == 0 && window.ws_col > 0;
+  return is_known ? window.ws_col : 80;
 }
 
 }  // namespace
@@ -40,25 +50,35 @@ std::string clock_text(double seconds) {
   return text.data();
 }
 
-std::string progress_line(const RunState& state) {
+std::string progress_line(const RunState& state, int columns) {
   const double left = time_left(state);
-  std::array<char, 160> text{};
-  std::snprintf(text.data(), text.size(), " %zu/%zu  %3d %%  %zu running  %s elapsed, %s",
-                state.finished, state.total, static_cast<int>(100.0 * state.share_done),
-                state.running, clock_text(state.elapsed).c_str(),
-                left < 0 ? "time left unknown" : ("about " + clock_text(left) + " left").c_str());
-  std::string rest = text.data();
-  if (state.unsettled > 0) rest += ", " + std::to_string(state.unsettled) + " not settled";
-  const int width = std::clamp(79 - static_cast<int>(rest.size()) - 2, 4, 24);
-  return (bar(state.share_done, width) + rest).substr(0, 79);
+  const std::string count =
+      " " + std::to_string(state.before + state.finished) + "/" + std::to_string(state.total) +
+      "  " + pad_left(std::to_string(static_cast<int>(100.0 * state.share_done)), 3) + " %";
+  const std::string running = "  " + std::to_string(state.running) + " running";
+  const std::string elapsed = "  " + clock_text(state.elapsed) + " elapsed,";
+  const std::string rest = left < 0 ? " time left unknown" : " about " + clock_text(left) + " left";
+  const std::string unsettled =
+      state.unsettled > 0 ? ", " + std::to_string(state.unsettled) + " not settled" : "";
+  const std::size_t room = static_cast<std::size_t>(std::clamp(columns, 2, 80)) - 1;
+  constexpr std::size_t least_bar = 6, widest_bar = 26;
+  for (const std::string& text : {count + running + elapsed + rest + unsettled,
+                                  count + running + elapsed + rest, count + " " + rest, count}) {
+    if (text.size() + least_bar > room) continue;
+    const std::size_t width = std::min(room - text.size(), widest_bar);
+    return bar(state.share_done, static_cast<int>(width) - 2) + text;
+  }
+  return count.substr(1, room);
 }
 
-ProgressDisplay::ProgressDisplay(std::vector<double> costs, ProgressStyle style, std::FILE* out)
+ProgressDisplay::ProgressDisplay(std::vector<double> costs, ProgressStyle style, std::FILE* out,
+                                 std::size_t before)
     : costs_(std::move(costs)),
       shares_(costs_.size(), 0.0),
       style_(style),
       out_(out),
-      started_at_(wall_seconds()) {}
+      started_at_(wall_seconds()),
+      before_(before) {}
 
 void ProgressDisplay::start(std::size_t /*task*/) {
   const std::scoped_lock lock(mutex_);
@@ -79,7 +99,7 @@ void ProgressDisplay::finish(std::size_t task, bool is_settled, const std::strin
   ++finished_;
   unsettled_ += is_settled ? 0 : 1;
   if (style_ == ProgressStyle::plain) {
-    std::fprintf(out_, "%zu/%zu  %s\n", finished_, costs_.size(), line.c_str());
+    std::fprintf(out_, "%zu/%zu  %s\n", before_ + finished_, before_ + costs_.size(), line.c_str());
     std::fflush(out_);
   }
   draw(true);
@@ -87,8 +107,8 @@ void ProgressDisplay::finish(std::size_t task, bool is_settled, const std::strin
 
 void ProgressDisplay::say(const std::string& line) {
   const std::scoped_lock lock(mutex_);
-  const char* const live_line_away = style_ == ProgressStyle::live ? "\r\033[K" : "";
-  std::fprintf(out_, "%s%s\n", live_line_away, line.c_str());
+  if (style_ == ProgressStyle::live) wipe();
+  std::fprintf(out_, "%s\n", line.c_str());
   std::fflush(out_);
   draw(true);
 }
@@ -96,7 +116,7 @@ void ProgressDisplay::say(const std::string& line) {
 void ProgressDisplay::clear() {
   const std::scoped_lock lock(mutex_);
   if (style_ != ProgressStyle::live) return;
-  std::fputs("\r\033[K", out_);
+  wipe();
   std::fflush(out_);
 }
 
@@ -109,8 +129,9 @@ RunState ProgressDisplay::state_now() const {
   const double all = std::accumulate(costs_.begin(), costs_.end(), 0.0);
   const double done = std::inner_product(costs_.begin(), costs_.end(), shares_.begin(), 0.0);
   RunState state;
+  state.before = before_;
   state.finished = finished_;
-  state.total = costs_.size();
+  state.total = before_ + costs_.size();
   state.running = running_;
   state.unsettled = unsettled_;
   state.share_done = all > 0 ? done / all : 0.0;
@@ -121,8 +142,18 @@ RunState ProgressDisplay::state_now() const {
 void ProgressDisplay::draw(bool is_due) {
   if (!is_due || style_ != ProgressStyle::live) return;
   drawn_at_ = wall_seconds();
-  std::fprintf(out_, "\r%s\033[K", progress_line(state_now()).c_str());
+  wipe();
+  const std::string line = progress_line(state_now(), columns_of(out_));
+  std::fputs(line.c_str(), out_);
   std::fflush(out_);
+  drawn_length_ = static_cast<int>(line.size());
+}
+
+void ProgressDisplay::wipe() {
+  const int rows = (drawn_length_ - 1) / columns_of(out_);
+  if (rows > 0) std::fprintf(out_, "\033[%dA", rows);
+  std::fputs("\r\033[J", out_);
+  drawn_length_ = 0;
 }
 
 }  // namespace grainsweep

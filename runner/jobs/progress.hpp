@@ -11,11 +11,12 @@ namespace grainsweep {
 
 /// A run at one moment.
 struct RunState {
-  std::size_t finished = 0;   ///< packings
-  std::size_t total = 0;      ///< packings of this run
+  std::size_t before = 0;     ///< packings that earlier runs made
+  std::size_t finished = 0;   ///< packings that this run made
+  std::size_t total = 0;      ///< packings of this run and of those before
   std::size_t running = 0;    ///< packings
   std::size_t unsettled = 0;  ///< of the finished ones: not settled or failed
-  double share_done = 0.0;    ///< of the estimated work, 0..1
+  double share_done = 0.0;    ///< of this run's estimated work, 0..1
   double elapsed = 0.0;       ///< wall time, s
 };
 
@@ -25,16 +26,18 @@ double time_left(const RunState& state);
 /// "4:05", "1:02:03".
 std::string clock_text(double seconds);
 
-/// "[=======>      ]  12/30  41 %  2 running  0:35 elapsed, about 0:50 left", at most 79 columns.
-std::string progress_line(const RunState& state);
+/// "[=======>      ]  12/30  41 %  2 running  0:35 elapsed, about 0:50 left": as much of it as fits
+/// into a window of so many columns, at most 79 characters.
+std::string progress_line(const RunState& state, int columns = 80);
 
 enum class ProgressStyle { quiet, plain, live };
 
 /// Keeps the state of a run and shows it. All members may be called from any thread.
 class ProgressDisplay {
  public:
-  /// `costs`: estimated CPU time of each task, s.
-  ProgressDisplay(std::vector<double> costs, ProgressStyle style, std::FILE* out);
+  /// `costs`: estimated CPU time of each task, s. `before`: packings that earlier runs made.
+  ProgressDisplay(std::vector<double> costs, ProgressStyle style, std::FILE* out,
+                  std::size_t before = 0);
 
   void start(std::size_t task);
   /// `share_done` of this task, 0..1. Draws five times a second at most.
@@ -51,6 +54,8 @@ class ProgressDisplay {
  private:
   RunState state_now() const;
   void draw(bool is_due);
+  /// Takes the live line away; after a window has become narrower it lies on several rows.
+  void wipe();
 
   mutable std::mutex mutex_;
   std::vector<double> costs_;
@@ -59,7 +64,8 @@ class ProgressDisplay {
   std::FILE* out_;
   double started_at_;
   double drawn_at_ = 0.0;
-  std::size_t finished_ = 0, running_ = 0, unsettled_ = 0;
+  int drawn_length_ = 0;  ///< of the line on the terminal, characters
+  std::size_t before_, finished_ = 0, running_ = 0, unsettled_ = 0;
 };
 
 }  // namespace grainsweep

@@ -74,6 +74,16 @@ std::string CheckpointFiles::path(std::uint64_t number) const {
   return folder_ + "/" + job_ + "." + std::to_string(number % 2);
 }
 
+std::size_t saved_packings(const std::string& folder) {
+  std::set<std::string> jobs;
+  for (const char* ending : {".0", ".1"}) {
+    for (const std::string& name : files_in(checkpoint_folder(folder), "", ending)) {
+      jobs.insert(name.substr(0, name.size() - 2));
+    }
+  }
+  return jobs.size();
+}
+
 void remove_checkpoints_of(const std::string& folder, const std::set<std::string>& jobs) {
   remove_where(folder, [&](const std::string& job) { return jobs.contains(job); });
 }

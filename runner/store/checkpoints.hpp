@@ -6,6 +6,7 @@
 // job or made by another build of the program are never used.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <set>
@@ -52,6 +53,9 @@ struct NumberedCheckpoint {
 /// The file's bytes, and back; nothing if they are not what was written.
 std::string checkpoint_bytes(const NumberedCheckpoint& numbered);
 std::optional<NumberedCheckpoint> checkpoint_from_bytes(std::string_view bytes);
+
+/// How many packings have checkpoints in an output folder.
+std::size_t saved_packings(const std::string& folder);
 
 /// Removes the checkpoints of these jobs, or of all.
 void remove_checkpoints_of(const std::string& folder, const std::set<std::string>& jobs);

@@ -1,4 +1,4 @@
-# SIGTERM and SIGINT at any moment: exit code 143 or 130 within 2 s, the same bytes afterwards.
+# SIGTERM, SIGINT and SIGHUP at any moment: exit code 143, 130 or 129 within 2 s, the same bytes afterwards.
 source "$(dirname "$0")/common.sh" "$1"
 write_small_sweep sweep.json
 make_reference sweep.json
@@ -15,7 +15,7 @@ stop_with() {
 stopped=0
 wanted=$(times 10 200)
 tries=0
-for signal in "TERM 143" "INT 130"; do
+for signal in "TERM 143" "INT 130" "HUP 129"; do
   goal=$((stopped + wanted))
   while [ "$stopped" -lt "$goal" ]; do
     tries=$((tries + 1))

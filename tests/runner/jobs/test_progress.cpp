@@ -66,15 +66,31 @@ TEST_CASE("the progress line shows bar, packings, share, running and times") {
         "[===========>          ] 12/30   50 %  2 running  0:35 elapsed, about 0:35 left");
 }
 
-TEST_CASE("the progress line fits a narrow terminal and tells of unsettled packings") {
-  RunState state = half_done();
-  state.unsettled = 3;
-  CHECK(progress_line(state).size() <= 79);
-  state.unsettled = 0;
-  state.finished = state.total = 100000;
-  state.share_done = 1.0;
-  state.elapsed = 360000;
-  CHECK(progress_line(state).size() <= 79);
+TEST_CASE("the progress line fits every window and tells first how many packings are done") {
+  RunState many = half_done();
+  many.unsettled = 3;
+  many.finished = many.total = 100000;
+  many.share_done = 1.0;
+  many.elapsed = 360000;
+  for (int columns = 1; columns <= 200; ++columns) {
+    INFO(columns);
+    for (const RunState& state : {half_done(), many}) {
+      const auto room = static_cast<std::size_t>(std::clamp(columns, 2, 80));
+      CHECK(progress_line(state, columns).size() < room);
+    }
+  }
+  CHECK(progress_line(half_done(), 50) == "[========>        ] 12/30   50 %  about 0:35 left");
+  CHECK(progress_line(half_done(), 30) == "[=======>      ] 12/30   50 %");
+  CHECK(progress_line(half_done(), 12) == "12/30   50 ");
+}
+
+TEST_CASE("a resumed run counts from what earlier runs made") {
+  Capture out;
+  ProgressDisplay display({1.0, 1.0}, ProgressStyle::plain, out.file(), 4);
+  display.start(0);
+  display.finish(0, true, "settled");
+  CHECK(out.text() == "5/6  settled\n");
+  CHECK(progress_line(display.state()).find(" 5/6   50 %") != std::string::npos);
 }
 
 TEST_CASE("the share done weighs tasks by their cost and never falls") {
@@ -114,7 +130,7 @@ TEST_CASE("live style redraws one line and takes it away at the end") {
   display.clear();
   const std::string text = out.text();
   CHECK(text.find('\n') == std::string::npos);
-  CHECK_THAT(text, Catch::Contains("1/1  100 %") && Catch::EndsWith("\r\033[K"));
+  CHECK_THAT(text, Catch::Contains("1/1  100 %") && Catch::EndsWith("\r\033[J"));
   CHECK_THAT(text, !Catch::Contains("not shown"));
 }
 
@@ -135,7 +151,7 @@ TEST_CASE("a line of its own is printed in every style, above the live line") {
   }
   Capture out;
   ProgressDisplay({1.0}, ProgressStyle::live, out.file()).say("warning: no room");
-  CHECK_THAT(out.text(), Catch::StartsWith("\r\033[Kwarning: no room\n\r["));
+  CHECK_THAT(out.text(), Catch::StartsWith("\r\033[Jwarning: no room\n\r\033[J["));
 }
 
 }  // namespace

@@ -22,18 +22,19 @@ stop_with() {
   wait_until has_packings "$3" 4 || fail "$3: ended too soon: $(cat said.txt)"
   end_in_time "$1"
   [ "$code" -eq "$2" ] || fail "$1 ended with $code: $(cat said.txt)"
-  expect_text said.txt "are kept in $3" "grainsweep run sweep.json --out $3"
+  expect_text said.txt "are kept in $3" "grainsweep run sweep.json --out $3 --threads 2"
   [ "$(grep -c pending "$3/packings.csv")" -ge 1 ] || fail "nothing was left to do after $1"
 }
 
-for signal in INT TERM; do
-  [ $signal = INT ] && expected=130 || expected=143
+for end in INT:130 TERM:143 HUP:129; do
+  signal=${end%:*} expected=${end#*:}
   stop_with $signal $expected stopped-$signal
   expect_code 0 "$program" status stopped-$signal
   expect_text out.txt "Go on with: grainsweep run sweep.json"
   kept=$(lines_in stopped-$signal)
   run_to_the_end stopped-$signal
-  [ "$(wc -l <progress.txt)" -eq $((30 - kept)) ] || fail "a packing was made twice"
+  expect_text progress.txt "$kept of 30 packings are done, going on" "30/30  "
+  [ "$(grep -c '^[0-9]*/30  ' progress.txt)" -eq $((30 - kept)) ] || fail "a packing was made twice"
   [ "$(lines_in stopped-$signal)" -eq 30 ] || fail "not every packing has one line"
   values_of stopped-$signal | cmp - whole.txt || fail "other values after $signal"
 done
