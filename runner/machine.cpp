@@ -2,12 +2,17 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <ctime>
 #include <fstream>
 #include <string>
+#include <system_error>
+#include <thread>
+#include <vector>
 
 #include <tbb/info.h>
 
+#include "runner/exit_codes.hpp"
 #include "runner/text.hpp"
 
 namespace grainsweep {
@@ -71,6 +76,23 @@ std::string processor_name() {
     if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
   }
   return "";
+}
+
+void expect_threads(int count) {
+  std::vector<std::thread> threads;
+  std::atomic<bool> may_end{false};
+  bool is_given = true;
+  try {
+    for (int i = 0; i < count; ++i) threads.emplace_back([&] { may_end.wait(false); });
+  } catch (const std::system_error&) {
+    is_given = false;
+  }
+  may_end = true;
+  may_end.notify_all();
+  for (std::thread& thread : threads) thread.join();
+  if (is_given) return;
+  throw NoResources("the system gives no more than " + std::to_string(threads.size()) + " of " +
+                    std::to_string(count) + " threads; take fewer --threads");
 }
 
 int usable_cores() { return std::max(1, tbb::info::default_concurrency()); }

@@ -20,6 +20,9 @@ std::string command_line();
 /// What the processor calls itself; empty if the system does not tell.
 std::string processor_name();
 
+/// Throws NoResources unless the system gives this process so many threads more.
+void expect_threads(int count);
+
 /// Cores this process may use.
 int usable_cores();
 

@@ -1,10 +1,12 @@
 // grainsweep: what was asked for, doing it, and how it ended.
 #include <exception>
 #include <iostream>
+#include <new>
 #include <variant>
 
 #include "runner/commands/command_line.hpp"
 #include "runner/exit_codes.hpp"
+#include "runner/jobs/stop.hpp"
 #include "runner/store/files.hpp"
 #include "runner/store/lock.hpp"
 
@@ -29,6 +31,7 @@ int main(int argc, char** argv) {
   using namespace grainsweep;
   try {
     ensure_std_descriptors();
+    ignore_file_size_signal();
     const CommandLine line = read_command_line(argc, argv);
     return line.command ? perform_and_print(*line.command) : line.exit_code;
   } catch (const BadInput& error) {
@@ -37,6 +40,13 @@ int main(int argc, char** argv) {
     return refuse(error, exit_busy);
   } catch (const FileError& error) {
     return refuse(error, exit_file_system);
+  } catch (const NoResources& error) {
+    return refuse(error, exit_no_resources);
+  } catch (const std::bad_alloc&) {
+    return refuse(
+        NoResources("out of memory; take fewer --threads or a smaller sweep, or raise the "
+                    "limit of memory"),
+        exit_no_resources);
   } catch (const std::exception& error) {
     return refuse(error, exit_left_out);
   }

@@ -157,7 +157,7 @@ int perform(const CollectOptions& options) {
   const std::vector<Results> sources = read_sources(options);
   make_folder(options.out);
   const FolderLock lock(options.out);
-  if (lock.is_held()) remove_half_written(options.out);
+  clean_up(options.out, lock);
   Collection collection = begin_collection(options.out, sources.front().provenance);
   Journal journal(options.out);
   for (std::size_t i = 0; i < sources.size(); ++i) {

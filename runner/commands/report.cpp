@@ -19,7 +19,8 @@ CLI::App& add_command(CLI::App& app, ReportOptions& options) {
 }
 
 int perform(const ReportOptions& options) {
-  const Results results = results_with_warnings(options.folder);
+  Results results = results_with_warnings(options.folder);
+  std::cerr << damage_warnings(check_beds(options.folder, results.rows));
   std::cout << closing_report(results.provenance, results.rows, analyse(results.rows).families,
                               options.folder);
   return exit_done;

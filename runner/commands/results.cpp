@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iostream>
 #include <utility>
 
 #include <nlohmann/json.hpp>
@@ -47,8 +48,21 @@ ProvenanceReading read_provenance(const std::string& folder, Detail detail = Det
   }
 }
 
-/// Whether curves were read; a bed too low to be measured has none, and they are looked for again.
-bool has_curves(const Outcome& outcome) { return !outcome.result.profile_z.bins.empty(); }
+/// Calls `use` with the stored bed of each row; a row without a sound one becomes a pending one.
+template <class Use>
+std::vector<std::string> use_beds(const std::string& folder, std::vector<Row>& rows, Use use) {
+  std::vector<std::string> damage;
+  for (Row& row : rows) {
+    if (!row.outcome || row.outcome->stored_grains == 0) continue;
+    try {
+      use(read_bed(folder, *row.outcome), row.outcome->result);
+    } catch (const FileError& error) {
+      damage.emplace_back(error.what());
+      row.outcome.reset();
+    }
+  }
+  return damage;
+}
 
 }  // namespace
 
@@ -64,7 +78,14 @@ Results read_results(const std::string& folder, Detail detail) {
 }
 
 std::vector<RunRecord> recorded_runs(const std::string& folder, std::vector<std::string>& damage) {
-  if (!file_exists(provenance_path(folder))) return {};
+  if (!file_exists(provenance_path(folder))) {
+    const bool is_new = files_in(folder, "journal-", ".jsonl").empty();
+    if (!is_new)
+      damage.push_back(provenance_path(folder) +
+                       ": missing, and with it the record of "
+                       "earlier runs");
+    return {};
+  }
   try {
     return read_provenance(folder).provenance.runs;
   } catch (const BadInput&) {
@@ -78,17 +99,13 @@ std::vector<RunRecord> recorded_runs(const std::string& folder, std::vector<std:
 }
 
 std::vector<std::string> load_curves(const std::string& folder, std::vector<Row>& rows) {
-  std::vector<std::string> damage;
-  for (Row& row : rows) {
-    if (!row.outcome || row.outcome->stored_grains == 0 || has_curves(*row.outcome)) continue;
-    try {
-      set_curves(read_bed(folder, *row.outcome).curves, row.outcome->result);
-    } catch (const FileError& error) {
-      damage.emplace_back(error.what());
-      row.outcome.reset();
-    }
-  }
-  return damage;
+  return use_beds(folder, rows, [](StoredBed&& bed, PackingResult& result) {
+    if (result.profile_z.bins.empty()) set_curves(std::move(bed.curves), result);
+  });
+}
+
+std::vector<std::string> check_beds(const std::string& folder, std::vector<Row>& rows) {
+  return use_beds(folder, rows, [](StoredBed&& /*bed*/, PackingResult& /*result*/) {});
 }
 
 void write_tables(const std::string& folder, const Provenance& provenance,
@@ -148,7 +165,12 @@ std::size_t stored_packings(const std::string& folder) {
   return read_journals(folder, Detail::summary).outcomes.size();
 }
 
-void remove_half_written(const std::string& folder) {
+void clean_up(const std::string& folder, const FolderLock& lock) {
+  if (!lock.is_held()) {
+    std::cerr << "warning: " << folder
+              << ": its file system offers no lock; let no other run work here\n";
+    return;
+  }
   for (const char* name : tables) remove_leftovers(folder, name);
   remove_leftovers(folder + "/states", ".grains");
   for (const char* slot : {".0", ".1"}) remove_leftovers(folder + "/checkpoints", slot);

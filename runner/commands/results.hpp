@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "runner/store/lock.hpp"
 #include "runner/tables/families.hpp"
 #include "runner/tables/provenance.hpp"
 
@@ -29,6 +30,9 @@ std::vector<RunRecord> recorded_runs(const std::string& folder, std::vector<std:
 /// row whose bed is missing, damaged or another's becomes a pending one; returns what was left out,
 /// as in Results::damage.
 std::vector<std::string> load_curves(const std::string& folder, std::vector<Row>& rows);
+
+/// Checks the stored beds likewise, and keeps nothing of them.
+std::vector<std::string> check_beds(const std::string& folder, std::vector<Row>& rows);
 
 /// Replaces the CSV tables, made of rows with their curves and their analysis, columns.csv, which
 /// explains them, and provenance.json. Throws FileError.
@@ -56,8 +60,8 @@ std::string other_versions_warning(const std::vector<Row>& rows, const std::stri
 /// Number of stored packings in the folder.
 std::size_t stored_packings(const std::string& folder);
 
-/// Removes what killed runners left half written. The caller must hold the folder's lock.
-void remove_half_written(const std::string& folder);
+/// Removes what killed runners left half written, if the folder's lock is held; warns otherwise.
+void clean_up(const std::string& folder, const FolderLock& lock);
 
 /// Removes journals, grains, checkpoints and tables, and nothing else.
 void remove_results(const std::string& folder);

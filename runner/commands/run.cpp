@@ -111,6 +111,7 @@ Packed record_and_pack(RunningSweep& running, const RunOptions& options, Isa isa
   const Limits limits{options.threads > 0 ? options.threads : usable_cores(),
                       memory_for_packings()};
   std::cerr << memory_warning(costs_of(running.pending), limits.memory);
+  expect_threads(limits.threads);
   provenance.runs.push_back({utc_now(), "", 0.0, process_name(), limits.threads, name_of(isa), 0,
                              command_line(), host_name(), processor_name(), usable_cores(),
                              provenance.build.commit});
@@ -206,7 +207,7 @@ int perform(const RunOptions& options) {
   confirm_fresh(options, folder);
   make_folder(folder);
   const FolderLock lock(folder);
-  if (lock.is_held()) remove_half_written(folder);
+  clean_up(folder, lock);
   if (options.fresh) remove_results(folder);
   watch_stop_signals();
 

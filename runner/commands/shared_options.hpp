@@ -11,8 +11,10 @@ namespace grainsweep {
 
 inline constexpr const char* exit_codes_text =
     "Exit codes: 0 done; 1 done, but some packings failed or did not settle; 2 bad input, nothing\n"
-    "written; 3 another runner works in the folder; 4 file system; 129, 130 or 143 stopped by\n"
-    "SIGHUP, Ctrl-C or SIGTERM: the same command goes on where it stopped.";
+    "written; 3 another runner works in the folder; 4 file system; 5 too little memory or too few\n"
+    "threads; 129, 130 or 143 stopped by SIGHUP, Ctrl-C or SIGTERM: the same command goes on where "
+    "it\n"
+    "stopped.";
 
 /// A sweep file.
 void add_file(CLI::App& command, std::string& file);

@@ -64,7 +64,8 @@ CLI::App& add_command(CLI::App& app, StatusOptions& options) {
 }
 
 int perform(const StatusOptions& options) {
-  const Results results = results_with_warnings(options.folder, Detail::summary);
+  Results results = results_with_warnings(options.folder, Detail::summary);
+  std::cerr << damage_warnings(check_beds(options.folder, results.rows));
   const auto runner = present_runner(options.folder);
   if (options.json) {
     print_status_json(results, runner);

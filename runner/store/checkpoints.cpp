@@ -60,7 +60,7 @@ std::optional<Checkpoint> CheckpointFiles::newest() {
 }
 
 void CheckpointFiles::write(const Checkpoint& checkpoint) {
-  make_folder(folder_);
+  make_folder_inside(folder_);
   replace_file(path(next_), checkpoint_bytes({next_, job_, build_, checkpoint}));
   ++next_;
 }

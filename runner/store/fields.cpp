@@ -96,7 +96,7 @@ std::vector<Field> outcome_fields() {
       stored<&Outcome::exception>("exception", "", "it ended in an exception", summary_only),
       in_result<&Result::status>("status", "", "settled, not_settled or failed", summary_only),
       stored<&Outcome::stored_grains>("stored_grains", "", "grains in states/<job>.grains",
-                                      not_in_tables),
+                                      summary_only),
       in_result<&Result::coordination>(
           "coordinations", "", "gap tolerance, coordination and coordination_with_walls of each",
           not_in_tables),
@@ -184,7 +184,8 @@ std::vector<Field> further_fields() {
           "force_mean", "m g", "of the force-bearing contacts between grains of the slab"),
       in_result<of::order, &Order::force_square>(
           "force_square", "", "mean square of a contact force over the mean of its layer"),
-      in_result<&Result::state_hash>("state_hash", "", "of the final positions and radii"),
+      in_result<&Result::state_hash>("state_hash", "", "of the final positions and radii",
+                                     FieldUse{.summary = true}),
       in_result<&Result::reason>("reason", "", "why the packing did not settle or failed",
                                  even_if_failed),
   };

@@ -49,6 +49,12 @@ void write_and_flush(const std::string& path, std::string_view bytes) {
   flush_to_disk(file);
 }
 
+/// Of the folder `path` that was to be made, with what came of it.
+void expect_folder(const std::string& path, const std::error_code& error) {
+  if (error) throw FileError(path, "make the folder", error.value());
+  if (!std::filesystem::is_directory(path)) throw FileError(path, "make the folder", ENOTDIR);
+}
+
 }  // namespace
 
 FileError::FileError(const std::string& path, const std::string& action, int error)
@@ -149,8 +155,13 @@ void replace_file(const std::string& path, std::string_view bytes) {
 void make_folder(const std::string& path) {
   std::error_code error;
   std::filesystem::create_directories(path, error);
-  if (error) throw FileError(path, "make the folder", error.value());
-  if (!std::filesystem::is_directory(path)) throw FileError(path, "make the folder", ENOTDIR);
+  expect_folder(path, error);
+}
+
+void make_folder_inside(const std::string& path) {
+  std::error_code error;
+  std::filesystem::create_directory(path, error);
+  expect_folder(path, error);
 }
 
 void rename_file(const std::string& path, const std::string& new_path) {

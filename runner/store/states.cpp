@@ -73,7 +73,7 @@ std::optional<StoredBed> bed_from_bytes(std::string_view bytes) {
 }
 
 void write_bed(const std::string& folder, const StoredBed& bed) {
-  make_folder(folder + "/states");
+  make_folder_inside(folder + "/states");
   replace_file(state_path(folder, bed.job), bed_bytes(bed));
 }
 

@@ -1,22 +1,11 @@
 #include "runner/sweep/diagnostic.hpp"
 
+#include "runner/sweep/text_lines.hpp"
+
 namespace grainsweep {
-namespace {
-
-/// Without control characters, which a key may hold and a terminal would obey.
-std::string printable(std::string text) {
-  for (char& c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (byte < 0x20 || byte == 0x7F) c = '?';
-  }
-  return text;
-}
-
-}  // namespace
-
 std::string to_string(const Diagnostic& diagnostic) {
   const std::string pointer = diagnostic.pointer.empty() ? "" : " " + diagnostic.pointer;
-  return printable(diagnostic.place + pointer + ": " + diagnostic.message);
+  return without_controls(diagnostic.place + pointer + ": " + diagnostic.message);
 }
 
 std::string child_pointer(const std::string& pointer, std::string_view key) {

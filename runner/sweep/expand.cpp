@@ -9,7 +9,9 @@
 
 #include "runner/sweep/grains_csv.hpp"
 #include "runner/sweep/identity.hpp"
+#include "runner/sweep/job_limit.hpp"
 #include "runner/sweep/obj.hpp"
+#include "runner/sweep/text_lines.hpp"
 #include "runner/sweep/values.hpp"
 
 namespace grainsweep {
@@ -63,51 +65,6 @@ const Assignment* assignment_of(const SpecError& error, const InEffect& in_effec
   return found;
 }
 
-std::uint64_t job_count(const Block& block) {
-  const std::uint64_t points = point_count(block);
-  const auto replicates = static_cast<std::uint64_t>(block.replicates);
-  return points > UINT64_MAX / replicates ? UINT64_MAX : points * replicates;
-}
-
-std::string count_text(std::uint64_t jobs) {
-  return jobs == UINT64_MAX ? "more than 10^19" : in_thousands(jobs);
-}
-
-/// What makes a block large, longest first: "box.width (1,000 values), 3 replicates".
-std::string factors_of(const Block& block) {
-  std::vector<std::pair<std::uint64_t, std::string>> factors;
-  for (const Axis& axis : block.axes) {
-    if (axis.entries.size() > 1) factors.emplace_back(axis.entries.size(), axis.name);
-  }
-  if (!block.random.empty()) factors.emplace_back(block.random_count, "random");
-  std::stable_sort(factors.begin(), factors.end(),
-                   [](const auto& a, const auto& b) { return a.first > b.first; });
-  std::string text;
-  for (const auto& [count, name] : factors) text += name + " (" + in_thousands(count) + "), ";
-  const auto replicates = static_cast<std::uint64_t>(block.replicates);
-  if (replicates > 1) return text + "replicates (" + in_thousands(replicates) + ")";
-  return text.substr(0, text.size() - 2);  // without the last comma
-}
-
-/// Notes blocks that are too large alone or together; true if there is room for all.
-bool fits(const SweepDefinition& definition, Diagnostics& diagnostics) {
-  std::uint64_t total = 0;
-  const std::size_t before = diagnostics.size();
-  const std::string limit = ", more than the " + in_thousands(most_jobs) + " that a sweep may have";
-  for (const Block& block : definition.blocks) {
-    const std::uint64_t jobs = job_count(block);
-    total = jobs > UINT64_MAX - total ? UINT64_MAX : total + jobs;
-    if (jobs <= most_jobs) continue;
-    diagnostics.push_back({block.pointer, "asks for " + count_text(jobs) + " jobs" + limit +
-                                              "; shorten " + factors_of(block)});
-  }
-  if (diagnostics.size() == before && total > most_jobs) {
-    diagnostics.push_back({"/sweep", "the blocks ask together for " + count_text(total) + " jobs" +
-                                         limit + "; split the file"});
-  }
-  return diagnostics.size() == before;
-}
-
 /// The random points of a block, drawn.
 Axis drawn_points(const Block& block, std::uint64_t seed, std::uint64_t index) {
   Axis random{"random", {}};
@@ -131,6 +88,11 @@ std::vector<const Assignments*> entries_of(const std::vector<const Axis*>& axes,
     point /= size;
   }
   return entries;
+}
+
+/// A file's name as tables show it.
+std::string name_in_tables(const std::string& file) {
+  return without_controls(begins_a_formula(file) ? "./" + file : file);
 }
 
 /// Where the grains of a packing start.
@@ -188,15 +150,16 @@ class Expansion {
     const std::string scene = canonical_scene(resolved);
     Job job{"", block.label,   canonical_parameters(resolved),
             1,  resolved.seed, std::move(resolved.spec)};
-    if (!resolved.hull_file.empty()) job.files["shape.hull.vertices"] = resolved.hull_file;
-    if (!resolved.fill_file.empty()) job.files["fill.file"] = resolved.fill_file;
+    if (!resolved.hull_file.empty())
+      job.files["shape.hull.vertices"] = name_in_tables(resolved.hull_file);
+    if (!resolved.fill_file.empty()) job.files["fill.file"] = name_in_tables(resolved.fill_file);
     const bool is_listed = !resolved.fill_files.empty();
     const int replicates = is_listed ? static_cast<int>(starts.size()) : block.replicates;
     for (; job.replicate <= replicates; ++job.replicate) {
       const Start& start = starts[is_listed ? static_cast<std::size_t>(job.replicate) - 1 : 0];
       job.spec.fill = start.fill;
       job.spec.random_key = random_key_of(scene, job.seed, job.replicate);
-      if (is_listed) job.files["fill.files"] = start.file;
+      if (is_listed) job.files["fill.files"] = name_in_tables(start.file);
       add(index, job,
           is_listed ? job_hash(job.parameters + start.content, job.seed, 1)
                     : job_hash(job.parameters, job.seed, job.replicate));

@@ -10,6 +10,7 @@
 #include "runner/sweep/random_paths.hpp"
 #include "runner/sweep/shape_kind.hpp"
 #include "runner/sweep/suggest.hpp"
+#include "runner/sweep/text_lines.hpp"
 #include "runner/sweep/values.hpp"
 
 namespace grainsweep {
@@ -88,12 +89,13 @@ std::string read_label(const Json& block, const std::string& pointer, std::size_
   const auto found = block.find("label");
   if (found == block.end()) return "block " + std::to_string(number);
   std::string label = found->is_string() ? found->get<std::string>() : "";
-  const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20; };
-  const bool controls = std::any_of(label.begin(), label.end(), is_control);
-  if (!label.empty() && label.size() <= longest && !controls) return label;
+  const bool is_text =
+      !label.empty() && label.size() <= longest && without_controls(label) == label;
+  if (is_text && !begins_a_formula(label)) return label;
   diagnostics.push_back(
       {child_pointer(pointer, "label"),
-       "must be a text of 1 to 100 characters on one line, is " + describe(*found)});
+       is_text ? "must not begin with =, +, - or @, which spreadsheets take for a formula"
+               : "must be a text of 1 to 100 characters on one line, is " + describe(*found)});
   return "block " + std::to_string(number);
 }
 

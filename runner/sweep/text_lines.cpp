@@ -20,11 +20,33 @@ FileText refuse(const std::string& path, const std::string& message) {
   return {"", {{"", message, Anchor::value, path}}};
 }
 
+/// Bytes of the character that `text` begins with if a terminal would obey it, else 0.
+std::size_t bytes_of_control(std::string_view text) {
+  const auto byte = [&](std::size_t at) {
+    return at < text.size() ? static_cast<unsigned char>(text[at]) : 0U;
+  };
+  const auto lies_in = [](unsigned value, unsigned low, unsigned high) {
+    return value >= low && value <= high;
+  };
+  if (byte(0) < 0x20 || byte(0) == 0x7f) return 1;
+  if (byte(0) == 0xc2 && lies_in(byte(1), 0x80, 0x9f)) return 2;  // C1
+  if (byte(0) != 0xe2) return 0;
+  const bool is_mark = byte(1) == 0x80 && lies_in(byte(2), 0x8e, 0x8f);          // U+200E, F
+  const bool is_line_or_turn = byte(1) == 0x80 && lies_in(byte(2), 0xa8, 0xae);  // U+2028 to E
+  const bool is_isolate = byte(1) == 0x81 && lies_in(byte(2), 0xa6, 0xa9);       // U+2066 to 9
+  return is_mark || is_line_or_turn || is_isolate ? 3 : 0;
+}
+
 }  // namespace
 
 FileText read_text(const std::string& path) {
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) return refuse(path, "is a folder, not a file");
+  const auto kind = std::filesystem::status(path, error).type();
+  const bool is_there = kind != std::filesystem::file_type::not_found;
+  if (!error && is_there && kind != std::filesystem::file_type::regular) {
+    return refuse(path, "is a pipe or a device, not a file");
+  }
   errno = 0;
   std::ifstream stream(path, std::ios::binary);
   if (!stream) return refuse(path, std::string("cannot be read: ") + std::strerror(errno));
@@ -36,6 +58,20 @@ FileText read_text(const std::string& path) {
   }
   if (text.find_first_not_of(" \t\r\n") == std::string::npos) return refuse(path, "is empty");
   return {std::move(text), {}};
+}
+
+std::string without_controls(std::string_view text) {
+  std::string plain;
+  while (!text.empty()) {
+    const std::size_t bytes = bytes_of_control(text);
+    plain += bytes > 0 ? '?' : text.front();
+    text.remove_prefix(std::max<std::size_t>(bytes, 1));
+  }
+  return plain;
+}
+
+bool begins_a_formula(std::string_view text) {
+  return !text.empty() && std::string_view("=+-@").find(text.front()) != std::string_view::npos;
 }
 
 std::string_view trimmed(std::string_view text) {

@@ -25,6 +25,13 @@ FileText read_text(const std::string& path);
 /// So many lines of one file are listed as wrong.
 inline constexpr std::size_t most_wrong_lines = 20;
 
+/// UTF-8 text with a question mark for each character that a terminal would obey: control
+/// characters, other ends of lines, and those that turn the direction of writing.
+std::string without_controls(std::string_view text);
+
+/// Whether a spreadsheet would take the text for a formula.
+bool begins_a_formula(std::string_view text);
+
 /// `text` without blanks at its ends.
 std::string_view trimmed(std::string_view text);
 

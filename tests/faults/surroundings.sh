@@ -82,4 +82,28 @@ command=$(sed -n 's/^Go on with: grainsweep //p' said.txt)
 [ -n "$command" ] || fail "no command to go on: $(cat said.txt)"
 ends_with "0 1" "the command to go on" bash -c "'$program' $command --threads 2"
 same_as_reference "$odd/out 1" "gone on with the command that status prints"
+
+# Limits of the shell: of the size of a file, and of memory.
+(ulimit -f 8 && ends_with 4 "a limit of file sizes" "${run[@]}" limited)
+(ulimit -f 8 && "${run[@]}" limited >said.txt 2>&1 || true)
+expect_text said.txt "grainsweep: limited/" "File too large"
+ends_with "0 1" "no limit of file sizes" "${run[@]}" limited
+same_as_reference limited "after a limit of file sizes"
+(ulimit -v 20000 && ends_with 5 "too little memory" "${run[@]}" starved)
+
+# Many beds of one thread, so that there is time while it runs.
+cat >many.json <<'JSON'
+{ "name": "many", "replicates": 40, "base": { "box": { "length": 5, "width": 5 },
+  "fill": { "solid_height": 7 }, "accuracy": "fast" } }
+JSON
+
+# Its folder removed or renamed while it runs: told, and not made anew without its lock.
+for away in "rm -r gone" "mv gone elsewhere"; do
+  start "$program" run many.json --threads 1 --out gone
+  wait_until has_packings gone 2 || fail "nothing was stored"
+  $away
+  wait "$runner" && code=0 || code=$?
+  [ "$code" -eq 4 ] || fail "$away: ended with $code"
+  [ ! -e gone ] || fail "$away: the folder was made anew"
+done
 echo "odd surroundings: refused clearly, or the same bytes"

@@ -174,7 +174,7 @@ TEST_CASE("half written files of every kind are removed, whole ones stay") {
     replace_file(folder.path() + "/" + name, "whole");
     replace_file(folder.path() + "/" + name + ".tmp.77", "half");
   }
-  remove_half_written(folder.path());
+  clean_up(folder.path(), FolderLock(folder.path()));
   for (const std::string& name : names) {
     CHECK(file_exists(folder.path() + "/" + name));
     CHECK_FALSE(file_exists(folder.path() + "/" + name + ".tmp.77"));

@@ -74,10 +74,20 @@ TEST_CASE("control characters in a key do not reach the terminal") {
                                  "replicates, base, sweep, $schema"});
 }
 
-TEST_CASE("a device without end is read no further than a file may be long") {
+TEST_CASE("a file is read no further than one may be long") {
+  const ScratchFolder folder;
+  const std::string path = folder.write("s.json", " ");
+  std::filesystem::resize_file(path,
+                               (std::uintmax_t{256} << 20U) + 1);  // takes no room on the disk
+  const SweepReading reading = read_sweep(path);
+  REQUIRE(reading.errors.size() == 1);
+  CHECK(folder.without_folder(to_string(reading.errors[0])) == "s.json: is larger than 256 MiB");
+}
+
+TEST_CASE("a device is refused at once") {
   const SweepReading reading = read_sweep("/dev/zero");
   REQUIRE(reading.errors.size() == 1);
-  CHECK(to_string(reading.errors[0]) == "/dev/zero: is larger than 256 MiB");
+  CHECK(to_string(reading.errors[0]) == "/dev/zero: is a pipe or a device, not a file");
 }
 
 TEST_CASE("files that cannot be read are refused by name") {

@@ -1,4 +1,5 @@
 #include <catch2/catch.hpp>
+#include <sys/stat.h>
 
 #include "runner/sweep/text_lines.hpp"
 #include "tests/runner/sweep/sweep_files.hpp"
@@ -12,6 +13,22 @@ TEST_CASE("a text has the lines between its line feeds, without blank ones at th
   CHECK(lines_of("a\nb\n\nc\n\n \n") == Lines{"a", "b", "", "c"});
   CHECK(lines_of("\xEF\xBB\xBFx,y") == Lines{"x,y"});
   CHECK(lines_of("") == Lines{""});
+}
+
+TEST_CASE("what a terminal would obey becomes a question mark, other characters stay") {
+  CHECK(without_controls("W = 5 \xC3\xA4 \xE2\x82\xAC") == "W = 5 \xC3\xA4 \xE2\x82\xAC");
+  CHECK(without_controls("a\x1B[2Jb\x7F") == "a?[2Jb?");
+  CHECK(without_controls("\xC2\x9B"
+                         "1m\xE2\x80\xAE"
+                         "x\xE2\x81\xA6\xE2\x80\xA8") == "?1m?x??");
+  CHECK(without_controls("\xE2\x80") == "\xE2\x80");
+}
+
+TEST_CASE("a pipe is no file to read from") {
+  const ScratchFolder folder;
+  const std::string pipe = folder.path("pipe");
+  REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
+  CHECK(read_text(pipe).errors.at(0).message == "is a pipe or a device, not a file");
 }
 
 TEST_CASE("blanks around words are dropped") {

@@ -1,0 +1,95 @@
+# Any file of an output folder damaged at random, the folder finished or half finished: the next run
+# mends it or says what it cannot mend, and until then no command prints other results in silence.
+source "$(dirname "$0")/common.sh" "$1"
+write_small_sweep sweep.json
+make_reference sweep.json
+
+# A folder as a kill leaves it: some packings stored, one under way with both its checkpoints.
+is_half() {
+  local files=(half/checkpoints/*.1)
+  has_packings half 1 && [ -e "${files[0]}" ]
+}
+for kill in $(seq 50); do
+  rm -rf half
+  start "$program" run sweep.json --threads 2 --out half --checkpoint-seconds 0
+  wait_until is_half || true
+  end_runner KILL
+  ! is_half || break
+done
+is_half || fail "no kill in 50 left packings and checkpoints"
+
+# look FOLDER NAME: what commands print of the folder, and what they warn of.
+look() {
+  code=0
+  {
+    "$program" report "$1" && "$program" status "$1" && "$program" export "$1" --to "$here/grains"
+  } >"$2" 2>warned.txt </dev/null || code=$?
+  cat grains/* >>"$2" 2>/dev/null || true
+  rm -rf grains
+}
+for state in reference half; do
+  rm -rf out && cp -r $state out
+  look out $state.seen
+  [ "$code" -eq 0 ] && [ ! -s warned.txt ] || fail "$state is not sound: $(cat warned.txt)"
+done
+
+# damage FILE: flips a bit, cuts, empties or removes it, adds to it, or puts another file in its place.
+damage() {
+  local size byte at others
+  size=$(stat -c %s "$1")
+  at=$(between 0 $((size > 0 ? size - 1 : 0)))
+  kind=$(between 0 7)
+  case $kind in
+    0) truncate -s "$at" "$1" ;;
+    1) rm "$1" ;;
+    2) printf 'x' >>"$1" ;;
+    3)
+      others=("$(dirname "$1")"/*)
+      byte=${others[$(between 0 $((${#others[@]} - 1)))]}
+      [ ! -f "$byte" ] || [ "$byte" = "$1" ] || cp "$byte" "$1"
+      ;;
+    *)
+      byte=$(od -An -tu1 -j "$at" -N 1 "$1")
+      printf "\\x$(printf %x $((${byte:-0} ^ (1 << (RANDOM % 8)))))" |
+        dd of="$1" bs=1 seek="$at" conv=notrunc status=none
+      ;;
+  esac
+}
+
+mended=0 told=0
+tries=$(times 60 2000)
+for number in $(seq "$tries"); do
+  RANDOM=$number
+  state=$([ $((number % 2)) -eq 0 ] && echo reference || echo half)
+  rm -rf out && cp -r $state out
+  mapfile -t files < <(cd out && find . -type f | sort)
+  file=${files[$(between 0 $((${#files[@]} - 1)))]}
+  damage "out/$file"
+  what="try $number, $state/$file, damage $kind"
+  changed=$(cmp -s "$state/$file" "out/$file" || echo yes)
+
+  look out seen.txt
+  if [ "$code" -eq 0 ] && [ ! -s warned.txt ]; then
+    cmp -s seen.txt $state.seen || fail "$what: other results are printed in silence"
+  fi
+
+  code=0
+  "$program" run sweep.json --threads 2 --out out >/dev/null 2>said.txt </dev/null || code=$?
+  if [ "$code" -gt 1 ]; then
+    grep -q '^grainsweep: out' said.txt || fail "$what: ended with $code: $(cat said.txt)"
+    told=$((told + 1))
+    continue
+  fi
+  cmp <(values_of out) <(values_of reference) || fail "$what: other values"
+  for table in reference/*.csv; do
+    table=$(basename "$table")
+    [ "$table" = packings.csv ] || cmp "reference/$table" "out/$table" || fail "$what: other $table"
+  done
+  diff -rq reference/states out/states || fail "$what: other grains"
+  if [ "$file" = ./provenance.json ] && [ "$changed" ]; then
+    grep -q 'warning: out/provenance.json: ' said.txt ||
+      fail "$what: the record of runs is lost in silence"
+  fi
+  mended=$((mended + 1))
+done
+echo "$tries damaged folders: $mended mended by the next run, $told refused and told, none silent"
