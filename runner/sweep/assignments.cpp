@@ -145,6 +145,12 @@ void refuse_second_shape(const Assignments& assignments, Diagnostics& diagnostic
   }
 }
 
+/// Where the first word of a part's name is in a message: "angle" for "shape.pinacoid.angle_deg".
+std::size_t mention_of(const std::string& path, const std::string& message) {
+  const std::string name = path.substr(path.rfind('.') + 1);
+  return message.find(name.substr(0, name.find('_')));
+}
+
 }  // namespace
 
 void read_assignments(const std::string& path, const Json& value, const std::string& pointer,
@@ -221,6 +227,22 @@ ResolvedSpec resolve(const InEffect& in_effect) {
     if (in_effect[i] != nullptr) parameters()[i].set(resolved, in_effect[i]->value);
   }
   return resolved;
+}
+
+const Assignment* assignment_of(const SpecError& error, const InEffect& in_effect) {
+  if (const auto parameter = find_parameter(error.path)) return in_effect[*parameter];
+  const Assignment* found = nullptr;
+  std::size_t first = std::string::npos;
+  for (const Assignment* assignment : in_effect) {
+    if (assignment == nullptr) continue;
+    const std::string& path = parameters()[assignment->parameter].path;
+    if (!path.starts_with(error.path + ".")) continue;
+    const std::size_t mention = mention_of(path, error.message);
+    if (found != nullptr && mention >= first) continue;
+    found = assignment;
+    first = mention;
+  }
+  return found;
 }
 
 }  // namespace grainsweep

@@ -41,30 +41,6 @@ Points scaled_points(Points points, double size) {
   return points;
 }
 
-/// Where the first word of a part's name is in a message: "angle" for "shape.pinacoid.angle_deg".
-std::size_t mention_of(const std::string& path, const std::string& message) {
-  const std::string name = path.substr(path.rfind('.') + 1);
-  return message.find(name.substr(0, name.find('_')));
-}
-
-/// The assignment that an error about `path` is about. Of a group it is the part that is written
-/// and that the message mentions first, or else the first part that is written.
-const Assignment* assignment_of(const SpecError& error, const InEffect& in_effect) {
-  if (const auto parameter = find_parameter(error.path)) return in_effect[*parameter];
-  const Assignment* found = nullptr;
-  std::size_t first = std::string::npos;
-  for (const Assignment* assignment : in_effect) {
-    if (assignment == nullptr) continue;
-    const std::string& path = parameters()[assignment->parameter].path;
-    if (!path.starts_with(error.path + ".")) continue;
-    const std::size_t mention = mention_of(path, error.message);
-    if (found != nullptr && mention >= first) continue;
-    found = assignment;
-    first = mention;
-  }
-  return found;
-}
-
 /// The random points of a block, drawn.
 Axis drawn_points(const Block& block, std::uint64_t seed, std::uint64_t index) {
   Axis random{"random", {}};
