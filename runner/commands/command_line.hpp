@@ -10,7 +10,7 @@
 namespace grainsweep {
 
 /// The options of all commands, in the order in which help lists them.
-using AllOptions = std::tuple<RunOptions, ValidateOptions, PlanOptions, ReportOptions,
+using AllOptions = std::tuple<RunOptions, InitOptions, ValidateOptions, PlanOptions, ReportOptions,
                               CompareOptions, ExportOptions, StatusOptions, CollectOptions,
                               SchemaOptions, ColumnsOptions, DoctorOptions>;
 

@@ -30,6 +30,13 @@ struct RunOptions {
 int perform(const RunOptions& options);
 CLI::App& add_command(CLI::App& app, RunOptions& options);
 
+struct InitOptions {
+  std::string name = "my-sweep";
+};
+/// Writes a sweep file to start from, and the schema of sweep files beside it. Replaces no sweep.
+int perform(const InitOptions& options);
+CLI::App& add_command(CLI::App& app, InitOptions& options);
+
 struct ValidateOptions {
   std::string file;
 };

@@ -68,15 +68,13 @@ void expect_schema_name(const Json& file, Diagnostics& diagnostics) {
 
 /// A name becomes the name of a folder: nothing else, and no way out of it.
 std::string read_name(const Json& file, Diagnostics& diagnostics) {
-  constexpr std::size_t longest = 100;
   const auto found = file.find("name");
   if (found == file.end()) {
     diagnostics.push_back({"", "\"name\" is missing; add one, e.g. \"name\": \"my-sweep\""});
     return "";
   }
   std::string name = found->is_string() ? found->get<std::string>() : "";
-  const bool letters = std::all_of(name.begin(), name.end(), is_name_character);
-  if (letters && !name.empty() && name.size() <= longest && name.front() != '.') return name;
+  if (is_sweep_name(name)) return name;
   diagnostics.push_back(
       {"/name", "must be 1 to 100 letters, digits, '-', '_' and '.', the first no '.'; is " +
                     describe(*found)});
@@ -317,6 +315,12 @@ Assignments read_base(const Json& file, Diagnostics& diagnostics) {
 }
 
 }  // namespace
+
+bool is_sweep_name(const std::string& name) {
+  constexpr std::size_t longest = 100;
+  return !name.empty() && name.size() <= longest && name.front() != '.' &&
+         std::all_of(name.begin(), name.end(), is_name_character);
+}
 
 SweepDefinition read_definition(const Json& file, Diagnostics& diagnostics) {
   SweepDefinition definition;

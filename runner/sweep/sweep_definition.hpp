@@ -41,6 +41,9 @@ struct SweepDefinition {
   std::vector<Block> blocks;
 };
 
+/// Whether a sweep may have this name, which becomes that of a folder.
+bool is_sweep_name(const std::string& name);
+
 /// Reads the schema of a sweep file, noting every problem on the way.
 SweepDefinition read_definition(const Json& file, Diagnostics& diagnostics);
 

@@ -72,6 +72,8 @@ TEST_CASE("every command is understood") {
   CHECK_FALSE(options_of<ColumnsOptions>(read({"columns"})).markdown);
   CHECK(options_of<ColumnsOptions>(read({"columns", "--markdown"})).markdown);
   options_of<SchemaOptions>(read({"schema"}));
+  CHECK(options_of<InitOptions>(read({"init"})).name == "my-sweep");
+  CHECK(options_of<InitOptions>(read({"init", "walls"})).name == "walls");
   const auto collect = options_of<CollectOptions>(read({"collect", "a", "b", "--out", "c"}));
   CHECK(collect.folders == std::vector<std::string>{"a", "b"});
   CHECK(collect.out == "c");
@@ -116,8 +118,8 @@ TEST_CASE("a misspelt command or option is named with the likely one") {
   };
   CHECK(first_line({"rnu", "x.json"}) == "grainsweep: unknown command rnu; did you mean run?");
   CHECK(first_line({"version"}) ==
-        "grainsweep: unknown command version; known: run, validate, plan, report, compare, export, "
-        "status, collect, schema, columns, doctor");
+        "grainsweep: unknown command version; known: run, init, validate, plan, report, compare, "
+        "export, status, collect, schema, columns, doctor");
   CHECK(first_line({"run", "x.json", "--treads", "2"}) ==
         "grainsweep: unknown option --treads; did you mean --threads?");
   CHECK(first_line({"run", "x.json", "--treads=2"}) ==

@@ -90,4 +90,16 @@ expect_text error.txt "--yes"
 
 command -v python3 >/dev/null || skip "python3 is not installed: plan --json was not read"
 python3 -m json.tool plan.json >/dev/null || fail "plan --json is no JSON"
+# A sweep to start from is right, has its schema beside it, and replaces none.
+mkdir anew
+cd anew
+expect_code 0 "$program" init walls
+expect_code 0 "$program" validate walls.json
+expect_text out.txt "walls.json: right: 24 packings, 8 parameter sets"
+[ ! -s error.txt ] || fail "the sweep of init has something unused: $(cat error.txt)"
+"$program" schema | cmp - sweep.schema.json || fail "init wrote another schema"
+expect_code 2 "$program" init walls
+expect_text error.txt "walls.json is there already"
+expect_code 2 "$program" init ../walls
+cd ..
 echo "the commands work"
