@@ -39,7 +39,8 @@ std::string why_no_fit(const Group& group, GrainClass grains) {
   return grains == GrainClass::large ? "there are no large grains" : "there are no small grains";
 }
 
-struct DecayLine : GroupLine {
+struct DecayLine {
+  const Group& group;
   GrainClass grains = GrainClass::large;
   DecayFit fit;
 };
@@ -73,7 +74,8 @@ Columns<DecayLine> decay_status_columns() {
 
 Columns<DecayLine> decay_line_columns(const Varied& varied) {
   Columns<DecayLine> columns;
-  append(columns, group_line_columns(varied));
+  append(columns, group_line_columns(varied),
+         [](const DecayLine& line) -> const Group& { return line.group; });
   append(columns, decay_status_columns());
   const auto add = [&](const char* name, const char* unit, const char* meaning,
                        Estimate DecayFit::*estimate) {
@@ -114,9 +116,9 @@ std::vector<ColumnText> decays_columns(const Varied& varied) {
 std::string decays_csv(const std::vector<Group>& groups) {
   const Columns<DecayLine> columns = decay_line_columns(varied_of(groups));
   std::string text = header_line(columns);
-  for (std::size_t k = 0; k < groups.size(); ++k) {
+  for (const Group& group : groups) {
     for (const GrainClass grains : {GrainClass::large, GrainClass::small}) {
-      text += row_line(columns, DecayLine{{groups[k]}, grains, decay_of(groups[k], grains)});
+      text += row_line(columns, DecayLine{group, grains, decay_of(group, grains)});
     }
   }
   return text;

@@ -15,7 +15,8 @@ Spread spread_at(const Group& group, Curve Order::*curve, std::size_t k) {
   return spread_of(values);
 }
 
-struct PointLine : GroupLine {
+struct PointLine {
+  const Group& group;
   const char* curve = "";
   double low = 0.0, high = 0.0;  ///< of the bin
   Spread value;
@@ -23,7 +24,8 @@ struct PointLine : GroupLine {
 
 Columns<PointLine> curve_line_columns(const Varied& varied) {
   Columns<PointLine> columns;
-  append(columns, group_line_columns(varied));
+  append(columns, group_line_columns(varied),
+         [](const PointLine& line) -> const Group& { return line.group; });
   append(columns,
          Columns<PointLine>{
              {"curve", "",
@@ -41,17 +43,17 @@ Columns<PointLine> curve_line_columns(const Varied& varied) {
   return columns;
 }
 
-void append_curve_lines(const GroupLine& of, const char* name, Curve Order::*curve,
+void append_curve_lines(const Group& group, const char* name, Curve Order::*curve,
                         const Columns<PointLine>& columns, std::string& text) {
   std::size_t longest = 0;
   double width = 0.0;
-  for (const PackingResult& result : of.group.settled) {
+  for (const PackingResult& result : group.settled) {
     longest = std::max(longest, (result.order.*curve).values.size());
     width = (result.order.*curve).bin_width;
   }
   for (std::size_t k = 0; k < longest; ++k) {
     const double low = static_cast<double>(k) * width, high = static_cast<double>(k + 1) * width;
-    text += row_line(columns, PointLine{of, name, low, high, spread_at(of.group, curve, k)});
+    text += row_line(columns, PointLine{group, name, low, high, spread_at(group, curve, k)});
   }
 }
 
@@ -65,8 +67,8 @@ std::string distributions_csv(const std::vector<Group>& groups) {
   const Columns<PointLine> columns = curve_line_columns(varied_of(groups));
   std::string text = header_line(columns);
   for (const Group& group : groups) {
-    append_curve_lines({group}, "pair_correlation", &Order::pair_correlation, columns, text);
-    append_curve_lines({group}, "force_density", &Order::force_density, columns, text);
+    append_curve_lines(group, "pair_correlation", &Order::pair_correlation, columns, text);
+    append_curve_lines(group, "force_density", &Order::force_density, columns, text);
   }
   return text;
 }

@@ -191,13 +191,11 @@ Columns<Group> varied_columns(const Varied& varied) {
   return columns;
 }
 
-Columns<GroupLine> group_line_columns(const Varied& varied) {
-  Columns<Group> of_group = group_key_columns();
-  append(of_group, job_columns({"job", "label", "width", "boundary_y", "small_share"}),
+Columns<Group> group_line_columns(const Varied& varied) {
+  Columns<Group> columns = group_key_columns();
+  append(columns, job_columns({"job", "label", "width", "boundary_y", "small_share"}),
          job_of_group);
-  append(of_group, varied_columns(varied));
-  Columns<GroupLine> columns;
-  append(columns, of_group, [](const GroupLine& line) -> const Group& { return line.group; });
+  append(columns, varied_columns(varied));
   return columns;
 }
 

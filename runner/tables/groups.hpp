@@ -64,13 +64,9 @@ Columns<Group> group_key_columns();
 /// A column for each of the varied parameters.
 Columns<Group> varied_columns(const Varied& varied);
 
-/// A line of a table with several lines per group.
-struct GroupLine {
-  const Group& group;
-};
-
-/// What such tables begin with: number, id and a few facts of the group, and what is varied.
-Columns<GroupLine> group_line_columns(const Varied& varied);
+/// What tables with several lines per group begin with: number, id and a few facts of the group,
+/// and what is varied.
+Columns<Group> group_line_columns(const Varied& varied);
 
 /// Appends three columns to a table: mean, standard deviation and standard error of what `spread`
 /// gives of an item.

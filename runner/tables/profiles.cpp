@@ -45,7 +45,8 @@ MeanBin mean_bin(const Bins& bins, double low, double high) {
   return mean;
 }
 
-struct ProfileLine : GroupLine {
+struct ProfileLine {
+  const Group& group;
   const char* axis = "";
   MeanBin bin;
 };
@@ -66,7 +67,8 @@ Columns<ProfileLine> profile_bin_columns() {
 
 Columns<ProfileLine> profile_line_columns(const Varied& varied) {
   Columns<ProfileLine> columns;
-  append(columns, group_line_columns(varied));
+  append(columns, group_line_columns(varied),
+         [](const ProfileLine& line) -> const Group& { return line.group; });
   append(columns, profile_bin_columns());
   const auto add = [&](const char* name, const char* meaning, Spread MeanBin::*spread) {
     append_spread(columns, name, "", meaning,
@@ -84,10 +86,10 @@ Columns<ProfileLine> profile_line_columns(const Varied& varied) {
   return columns;
 }
 
-void append_profile_lines(const GroupLine& of, const char* axis, Profile PackingResult::*profile,
+void append_profile_lines(const Group& group, const char* axis, Profile PackingResult::*profile,
                           const Columns<ProfileLine>& columns, std::string& text) {
-  for (const MeanBin& bin : mean_profile(of.group, profile)) {
-    text += row_line(columns, ProfileLine{of, axis, bin});
+  for (const MeanBin& bin : mean_profile(group, profile)) {
+    text += row_line(columns, ProfileLine{group, axis, bin});
   }
 }
 
@@ -120,9 +122,9 @@ std::string profiles_csv(const std::vector<Group>& groups) {
   const Columns<ProfileLine> columns = profile_line_columns(varied_of(groups));
   std::string text = header_line(columns);
   for (const Group& group : groups) {
-    append_profile_lines({group}, "x", &PackingResult::profile_x, columns, text);
-    append_profile_lines({group}, "y", &PackingResult::profile_y, columns, text);
-    append_profile_lines({group}, "z", &PackingResult::profile_z, columns, text);
+    append_profile_lines(group, "x", &PackingResult::profile_x, columns, text);
+    append_profile_lines(group, "y", &PackingResult::profile_y, columns, text);
+    append_profile_lines(group, "z", &PackingResult::profile_z, columns, text);
   }
   return text;
 }
