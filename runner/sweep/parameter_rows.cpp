@@ -70,8 +70,8 @@ struct Limits {
 constexpr Interval positive = {.low = 0.0, .low_open = true};
 
 /// The row of a parameter that is set and read by functions of its own.
-Parameter own(const char* path, Limits limits, const char* meaning, ValueKind kind, Role role,
-              void (*set)(ResolvedSpec&, const Value&),
+Parameter own(const char* path, const Limits& limits, const char* meaning, ValueKind kind,
+              Role role, void (*set)(ResolvedSpec&, const Value&),
               std::optional<Value> (*get)(const ResolvedSpec&)) {
   Parameter parameter = {.path = path,
                          .meaning = meaning,
@@ -81,18 +81,18 @@ Parameter own(const char* path, Limits limits, const char* meaning, ValueKind ki
                          .get = get,
                          .role = role,
                          .range = limits.range};
-  for (auto& [name, what] : limits.names) {
-    parameter.choices.push_back(std::move(name));
-    parameter.choice_meanings.push_back(std::move(what));
+  for (const auto& [name, what] : limits.names) {
+    parameter.choices.push_back(name);
+    parameter.choice_meanings.push_back(what);
   }
   return parameter;
 }
 
 /// The row of a member of a packing's specification that is set and read as it is.
 template <auto... members>
-Parameter row(const char* path, Limits limits, const char* meaning) {
+Parameter row(const char* path, const Limits& limits, const char* meaning) {
   using T = std::remove_cvref_t<decltype((std::declval<PackingSpec&>().*....*members))>;
-  return own(path, std::move(limits), meaning, kind_of<T>(), Role::plain,
+  return own(path, limits, meaning, kind_of<T>(), Role::plain,
              set_member<&ResolvedSpec::spec, members...>,
              get_member<&ResolvedSpec::spec, members...>);
 }

@@ -221,11 +221,11 @@ Json distribution(const std::string& path) {
   if (!is_interval) return choice;
   Json bounds = list_of(reference(path));
   bounds["minItems"] = bounds["maxItems"] = 2;
-  Json positive = bounds;
-  positive["items"] = {{"allOf", {reference(path), {{"exclusiveMinimum", 0}}}}};
+  Json above_zero = bounds;
+  above_zero["items"] = {{"allOf", {reference(path), {{"exclusiveMinimum", 0}}}}};
   return {{"anyOf",
            {way("uniform", "as likely everywhere between the two", bounds),
-            way("log_uniform", "the same of its logarithm", positive), choice}}};
+            way("log_uniform", "the same of its logarithm", above_zero), choice}}};
 }
 
 Json random_schema() {
