@@ -45,8 +45,8 @@ struct RestReport {
   /// Those that do not depend on others: all but where they are more than needed.
   std::int64_t independent_contacts = 0;
   std::int64_t isostatic_contacts = 0;  ///< 3 N - zero modes; 6 N of polyhedra
-  Imbalance
-      imbalance;  ///< static, on all contacts closed to 1e-4 d; see engine/dynamics/balance.hpp
+  /// Static, on all contacts closed to Accuracy::imbalance_gap; see engine/dynamics/balance.hpp.
+  Imbalance imbalance;
 };
 
 /// Mean number of touching neighbours per grain whose centre lies in the measured slab.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/dynamics/columns.hpp"
+
 namespace grainsweep {
 
 namespace {
@@ -49,6 +51,7 @@ Imbalance static_imbalance(double tolerance, const ExecutionContext& context, co
   closed.candidates.is_listed = false;
   renew_candidates(tolerance, 0.0, context, wrapped, closed.candidates);
   lay_out_closed(tolerance, context, wrapped, closed.candidates, dt, contacts, closed.contacts);
+  if (is_tall(bed)) carry_weight(1.0, bed, closed.contacts);
   set_free_fall(bed, closed.motion.free);
   SolveLimits limits;
   limits.iterations = most_sweeps;

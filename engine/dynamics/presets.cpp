@@ -8,23 +8,26 @@ namespace {
 
 Accuracy fast() {
   Accuracy a;
-  a.creep_steps = 15;
+  a.creep_steps = 50;
   a.rest_iterations = 40;
   a.residual_tolerance = 2e-2;
   a.kinetic_tolerance = 1e-3;
   a.contact_tolerance = 0.1;
   a.overlap_tolerance = 1e-4;
+  a.imbalance_tolerance = 0.1;
   return a;
 }
 
 Accuracy accurate() {
   Accuracy a;
   a.path_tolerance = 1e-4;
-  a.creep_steps = 300;
+  a.creep_steps = 150;
   a.residual_tolerance = 1e-3;
   a.kinetic_tolerance = 2e-5;
   a.contact_tolerance = 0.006;
   a.overlap_tolerance = 5e-6;
+  a.imbalance_tolerance = 0.0033;
+  a.imbalance_gap = 1e-5;
   return a;
 }
 

@@ -170,6 +170,14 @@ std::string rest_failure(const RestReport& rest, const Accuracy& accuracy) {
     return "contacts / isostatic count " + number_text(contacts / isostatic) +
            " is below 1 by more than " + number_text(accuracy.contact_tolerance);
   }
+  if (!(rest.imbalance.mean <= accuracy.imbalance_tolerance)) {
+    return exceeds("mean static imbalance", rest.imbalance.mean, accuracy.imbalance_tolerance,
+                   "own weights");
+  }
+  if (!(rest.imbalance.max <= largest_imbalance * accuracy.imbalance_tolerance)) {
+    return exceeds("largest static imbalance", rest.imbalance.max,
+                   largest_imbalance * accuracy.imbalance_tolerance, "own weights");
+  }
   return {};
 }
 

@@ -40,6 +40,9 @@ std::vector<double> force_sums(const Grains& bed, const std::vector<ForceContact
 /// stuck in another changes no mean.
 inline constexpr double deepest_overlap = 100.0;
 
+/// No single grain may miss balance by more than so many times what is allowed for the mean.
+inline constexpr double largest_imbalance = 15.0;
+
 /// Whether a bed has more contacts than degrees of freedom by more than the tolerance.
 bool is_hyperstatic(const RestReport& rest, const Accuracy& accuracy);
 

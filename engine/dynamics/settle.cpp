@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/dynamics/balance.hpp"
+#include "engine/dynamics/columns.hpp"
 #include "engine/dynamics/rank.hpp"
 #include "engine/dynamics/rest.hpp"
 #include "engine/dynamics/saved_beds.hpp"
@@ -17,6 +18,7 @@ namespace grainsweep {
 namespace {
 
 constexpr double carried_share = 0.9;        // of its weight, where the floor carries a bed
+constexpr std::int64_t most_rounds = 60;     // a bed that needs more does not come to rest
 constexpr double rounding_of_places = 1e-9;  // d; far from the origin coordinates have fewer digits
 
 /// Most that the masses of a bed may differ by in f32: beyond it the rounding of what pushes a
@@ -37,6 +39,8 @@ struct Settling {
   StepSettings settings;
   StepReport last = {};
   double sunk_at_start = 0.0;  ///< StepReport::sunk of the first step
+  double share_done = 0.0;     ///< the most that was told
+  std::int64_t rounds = 0;     ///< how often the last stages came again
   SettleReport report = {};
 
   const StageRule& rule() const { return stages[stage]; }
@@ -57,6 +61,12 @@ bool is_fit(const Accuracy& accuracy, const Grains& bed) {
          mass_ratio(bed) <= f32_mass_ratio;
 }
 
+template <class Kind, class Real>
+Imbalance imbalance_of(Settling<Kind, Real>& s) {
+  return static_imbalance(s.accuracy.imbalance_gap, s.context, s.bed, s.settings.dt,
+                          s.state.contacts, s.closed);
+}
+
 // ---- stage after stage ----
 
 template <class Kind, class Real>
@@ -69,6 +79,8 @@ bool has_fallen(const Settling<Kind, Real>& s) {
   return s.last.kinetic_energy < s.rule().energy && is_carried(s);
 }
 
+/// All tests of rest; that of the static balance, as dear as some steps, only of beds that pass the
+/// others.
 template <class Kind, class Real>
 void test_rest(Settling<Kind, Real>& s) {
   RestReport& rest = s.report.rest;
@@ -77,12 +89,27 @@ void test_rest(Settling<Kind, Real>& s) {
   rest.kinetic_energy = s.last.kinetic_energy;
   rest.largest_motion = s.last.largest_motion;
   s.report.failure = rest_failure(rest, s.accuracy);
+  if (!s.report.failure.empty()) return;
+  rest.imbalance = imbalance_of(s);
+  s.report.failure = rest_failure(rest, s.accuracy);
 }
 
 template <class Kind, class Real>
 bool is_at_rest(Settling<Kind, Real>& s) {
   test_rest(s);
   return s.report.failure.empty();
+}
+
+/// Whether a bed that does not rest slides on, to be tested once more, and there are steps for it.
+/// The higher it is, the more steps its forces take to settle before.
+template <class Kind, class Real>
+bool slides_on(const Settling<Kind, Real>& s) {
+  constexpr double layers_of_a_step = 8.0;
+  if (s.stage + 1 == s.stages.size() || s.rounds == most_rounds) return false;
+  const std::int64_t round =
+      steps_of(s.accuracy, s.stages[s.stage + 1]) + steps_of(s.accuracy, s.rule());
+  return s.report.steps + round <= s.accuracy.max_steps &&
+         static_cast<double>(s.steps_in_stage) >= top_of(s.bed) / layers_of_a_step;
 }
 
 /// Whether the stage has done its work. Looks at the bed after at least one step.
@@ -97,7 +124,7 @@ bool is_over(Settling<Kind, Real>& s) {
     case StageEnd::halted:
       return has_steps && has_fallen(s) && s.last.kinetic_energy < s.accuracy.kinetic_tolerance;
     case StageEnd::rest:
-      return has_steps && is_at_rest(s);
+      return has_steps && (is_at_rest(s) || slides_on(s));
     case StageEnd::steps:
       break;
   }
@@ -107,11 +134,14 @@ bool is_over(Settling<Kind, Real>& s) {
 template <class Kind, class Real>
 std::size_t next_stage(Settling<Kind, Real>& s) {
   const bool rests_as_given = s.rule().end == StageEnd::look && is_carried(s) && is_at_rest(s);
-  return rests_as_given ? s.stages.size() : s.stage + 1;
+  const bool rests = s.rule().end == StageEnd::rest && s.report.failure.empty();
+  if (rests_as_given || rests) return s.stages.size();
+  return s.rule().back > 0 ? s.stage - s.rule().back : s.stage + 1;
 }
 
 template <class Kind, class Real>
 void enter(std::size_t stage, Settling<Kind, Real>& s) {
+  s.rounds += stage < s.stage ? 1 : 0;
   s.stage = stage;
   s.steps_in_stage = 0;
   if (wake(s.bed)) s.state.candidates.is_listed = false;
@@ -130,6 +160,8 @@ void transfer(Archive& archive, Settling<Kind, Real>& s) {
   archive.value(s.steps_in_stage);
   archive.value(s.last);
   archive.value(s.sunk_at_start);
+  archive.value(s.share_done);
+  archive.value(s.rounds);
   archive.value(s.report.sank);
   archive.value(s.report.spurious_path);
   archive.value(s.report.steps);
@@ -179,8 +211,8 @@ bool take_step(Settling<Kind, Real>& s, const KeepGoing& keep_going) {
   ++s.report.steps;
   ++s.steps_in_stage;
   s.report.iterations += s.last.solve.iterations;
-  const double share = share_done(s.accuracy, s.rule(), s.steps_in_stage - 1);
-  return keep_going({s.report.steps, share, [&s] { return saved(s); }});
+  s.share_done = std::max(s.share_done, share_done(s.accuracy, s.rule(), s.steps_in_stage - 1));
+  return keep_going({s.report.steps, s.share_done, [&s] { return saved(s); }});
 }
 
 /// Whether there is another step to take. A state that is not finite must not be searched: it lies
@@ -214,7 +246,7 @@ void look_closer(Settling<Kind, Real>& s) {
   if (is_hyperstatic(rest, s.accuracy)) {
     rest.independent_contacts = independent_constraints(s.bed, s.context, dt, contacts);
   }
-  rest.imbalance = static_imbalance(closed_gap, s.context, s.bed, dt, contacts, s.closed);
+  if (!s.report.failure.empty()) rest.imbalance = imbalance_of(s);
 }
 
 template <class Kind, class Real>

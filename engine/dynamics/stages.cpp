@@ -11,7 +11,8 @@ constexpr double two_thirds = 2.0 / 3.0;
 
 // ---- spheres ----
 
-/// A bed that rests as it is given stays as it is: a few steps of the quench tell.
+/// A bed that rests as it is given stays as it is: some steps of the quench tell, as many as its
+/// forces take to be found from none.
 constexpr StageRule look = {.name = "look",
                             .end = StageEnd::look,
                             .step = 0.5,
@@ -19,27 +20,25 @@ constexpr StageRule look = {.name = "look",
                             .near = 0.01,
                             .margin = 0.01,
                             .rest_iterations = 2.0,
-                            .steps = 8,
-                            .usual_steps = 8};
+                            .steps = 20,
+                            .usual_steps = 20};
 
-/// Steps with momentum until the floor carries the bed. Shorter than full ones they need fewer
-/// iterations to stray as little, and no more steps: grains in the air fall as fast as they may.
-/// Overlaps are repaired slowly, so that loose solves do not throw grains about. An impact has a
-/// kinetic energy of about 0.2 m g d.
+/// Steps with momentum until the floor carries the bed. Overlaps are repaired slowly, so that loose
+/// solves do not throw grains about. An impact has a kinetic energy of about 0.2 m g d.
 constexpr StageRule fall = {.name = "fall",
                             .end = StageEnd::fallen,
-                            .step = 0.7,
                             .inertia = Inertia::damped,
-                            .path = 1.0,
+                            .path = 2.0,
                             .sleeps = true,
+                            .longest_free = 0.3,
                             .correction = 0.1,
-                            .near = 0.08,
+                            .near = 0.1,
                             .margin = 0.01,
                             .fall_iterations = 1.0,
                             .steps = 1,
                             .energy = 5e-3,
-                            .usual_steps = 160,
-                            .done_after = 0.5};
+                            .usual_steps = 90,
+                            .done_after = 0.25};
 
 /// Plain contact dynamics: undamped short steps, until impacts alone have taken the energy.
 constexpr StageRule dynamic_fall = {.name = "fall",
@@ -54,50 +53,71 @@ constexpr StageRule dynamic_fall = {.name = "fall",
                                     .steps = 1,
                                     .energy = 5e-3,
                                     .usual_steps = 1200,
-                                    .done_after = 0.85};
+                                    .done_after = 0.5};
 
-/// Double steps with momentum: grains slide into their places. What repairs of overlaps move is
-/// carried on as if it were speed: repaired whole they would throw beds of two sizes apart.
+/// Steps with momentum, solved to a path: grains slide into their places. What a bed still sinks
+/// goes with the number of its steps, hardly with their length or momentum, and what it is tapped
+/// by with the path: a few thousandths of it here is what a fall leaves, too.
 constexpr StageRule creep = {.name = "creep",
-                             .step = 2.0,
                              .inertia = Inertia::damped,
-                             .path = 1.5,
+                             .path = 1.0,
+                             .carries = true,
                              .correction = 0.3,
-                             .near = 0.05,
+                             .near = 0.03,
                              .margin = 0.01,
                              .fall_iterations = 1.0,
-                             .creep_to = 1.0,
-                             .done_before = 0.5,
-                             .done_after = 0.75};
+                             .creep = 1.0,
+                             .done_before = 0.25,
+                             .done_after = 0.5};
 
-/// Full steps without momentum: what still moves is slowed down.
-constexpr StageRule halt = {.name = "halt",
-                            .path = 0.5,
-                            .correction = 1.0,
-                            .near = 0.02,
+/// Half steps, that stray half as far as whole ones would: contacts close.
+constexpr StageRule slow = {.name = "slow",
+                            .step = 0.5,
+                            .inertia = Inertia::damped,
+                            .path = 0.25,
+                            .carries = true,
+                            .correction = 0.5,
+                            .near = 0.03,
                             .margin = 0.01,
-                            .rest_iterations = 2.0,
-                            .steps = 6,
-                            .usual_steps = 6,
-                            .done_before = 0.75,
-                            .done_after = 0.85};
+                            .fall_iterations = 1.0,
+                            .creep = 0.8,
+                            .done_before = 0.5,
+                            .done_after = 0.7};
 
-/// Half steps without momentum, until every test of rest holds.
+/// Half steps without momentum: gaps close to far below those that count, and the bed is tested.
 constexpr StageRule quench = {.name = "quench",
                               .end = StageEnd::rest,
                               .step = 0.5,
+                              .carries = true,
                               .correction = 1.0,
                               .near = 0.01,
                               .margin = 0.01,
                               .rest_iterations = 2.0,
-                              .steps = 8,
+                              .steps = 10,
                               .most_steps = 1000,
-                              .usual_steps = 12,
-                              .done_before = 0.85,
-                              .done_after = 1.0};
+                              .usual_steps = 10,
+                              .done_before = 0.7,
+                              .done_after = 0.9};
 
-constexpr StageRule heavy_ball[] = {look, fall, creep, halt, quench};
-constexpr StageRule dynamic[] = {look, dynamic_fall, quench};
+/// Quarter steps with momentum that stray by far less than the gaps that count, so that nothing but
+/// the forces that no contact balances moves the bed: it slides on until it meets new contacts.
+/// Then the quench again.
+constexpr StageRule ease = {.name = "ease",
+                            .step = 0.25,
+                            .inertia = Inertia::damped,
+                            .path_of_gap = 0.1,
+                            .carries = true,
+                            .correction = 0.5,
+                            .near = 0.02,
+                            .margin = 0.01,
+                            .fall_iterations = 1.0,
+                            .steps = 80,
+                            .back = 1,
+                            .done_before = 0.9,
+                            .done_after = 1.0};
+
+constexpr StageRule heavy_ball[] = {look, fall, creep, slow, quench, ease};
+constexpr StageRule dynamic[] = {look, dynamic_fall, slow, quench, ease};
 
 // ---- polyhedra ----
 
@@ -134,7 +154,7 @@ constexpr StageRule turning[] = {
      .margin = 0.05,
      .rest_iterations = 0.15,
      .steps = 45,
-     .creep_to = 0.85,
+     .creep = 0.38,
      .done_before = 0.4,
      .done_after = 0.6},
     // Half steps: shortened to a quarter at once, they would leave motions that take many short
@@ -147,7 +167,7 @@ constexpr StageRule turning[] = {
      .margin = 0.05,
      .rest_iterations = 0.25,
      .steps = 85,
-     .creep_to = 1.0,
+     .creep = 0.45,
      .done_before = 0.6,
      .done_after = 0.78},
     // Quarter steps without momentum, solved half as well as the quench: what still moves is slowed
@@ -257,8 +277,12 @@ StepSettings settings_of(const Accuracy& accuracy, const StageRule& rule) {
   s.correction = rule.correction;
   s.near = rule.near;
   s.margin = rule.margin;
+  s.longest_free = rule.longest_free;
+  s.carries = rule.carries;
   s.limits = {accuracy.solver, iterations_of(accuracy, rule), accuracy.residual_tolerance / 5.0};
-  s.limits.rms_tolerance = rule.path * path_tolerance(accuracy) / (s.dt * s.dt);
+  const double path =
+      rule.path * path_tolerance(accuracy) + rule.path_of_gap * accuracy.imbalance_gap;
+  s.limits.rms_tolerance = path / (s.dt * s.dt);
   s.limits.residual_cap = residual_cap;
   s.limits.iteration_cap = iteration_cap;
   if (rule.end == StageEnd::rest) {
@@ -270,7 +294,7 @@ StepSettings settings_of(const Accuracy& accuracy, const StageRule& rule) {
 }
 
 std::int64_t steps_of(const Accuracy& accuracy, const StageRule& rule) {
-  return rule.steps + creep_steps(accuracy, rule.creep_to);
+  return rule.steps + creep_steps(accuracy, rule.creep);
 }
 
 double share_done(const Accuracy& accuracy, const StageRule& rule, std::int64_t steps_in_stage) {

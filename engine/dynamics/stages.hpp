@@ -18,7 +18,7 @@ enum class StageEnd {
   look,    ///< nothing else, or that the floor does not carry the bed
   fallen,  ///< the floor carries the bed, which has lost its speed
   halted,  ///< the same, and the bed's kinetic energy is below its tolerance
-  rest,    ///< every test of rest holds
+  rest,    ///< every test of rest holds; a bed that fails goes on to the next stage, if any
 };
 
 /// What a step takes over from the motion of the last one.
@@ -31,19 +31,24 @@ struct StageRule {
   StageEnd end = StageEnd::steps;
   double step = 1.0;  ///< in Accuracy::step
   Inertia inertia = Inertia::none;
-  double path = 0.0;        ///< a step that strays by less is solved, in Accuracy::path_tolerance
-  bool sleeps = false;      ///< the deep bed sleeps
-  double correction = 0.0;  ///< share of an overlap that a step repairs
-  double near = 0.0;        ///< pairs with a smaller gap are rows, d
-  double margin = 0.0;      ///< candidates reach this much further, d
+  // A step that strays by less than one of these is solved:
+  double path = 0.0;           ///< so many times Accuracy::path_tolerance
+  double path_of_gap = 0.0;    ///< so many times Accuracy::imbalance_gap
+  bool sleeps = false;         ///< the deep bed sleeps
+  double longest_free = 0.15;  ///< longest free motion, d
+  bool carries = false;        ///< impulses begin such that they carry a tall bed
+  double correction = 0.0;     ///< share of an overlap that a step repairs
+  double near = 0.0;           ///< pairs with a smaller gap are rows, d
+  double margin = 0.0;         ///< candidates reach this much further, d
   // Most iterations a step: the sum of
   double fall_iterations = 0.0;  ///< so many times Accuracy::fall_iterations and
   double rest_iterations = 0.0;  ///< so many times Accuracy::rest_iterations
   // Steps, if it ends on a condition the least:
-  std::int64_t steps = 0;                                              ///< these, and
+  std::int64_t steps = 0;  ///< these, and
+  double creep = 0.0;      ///< of Accuracy::creep_steps this share
   std::int64_t most_steps = std::numeric_limits<std::int64_t>::max();  ///< it gives up after these
-  double creep_to = 0.0;  ///< of Accuracy::creep_steps this share
-  double energy = 0.0;    ///< m g d per grain; a bed with less of it has lost its speed
+  std::size_t back = 0;  ///< after it the stage so many before it comes again
+  double energy = 0.0;   ///< m g d per grain; a bed with less of it has lost its speed
   // What progress bars go by:
   std::int64_t usual_steps = 0;  ///< of stages that end on a condition
   double done_before = 0.0;      ///< share of all work that is usually done before it

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/dynamics/columns.hpp"
+
 namespace grainsweep {
 
 namespace {
@@ -33,7 +35,7 @@ void set_free_motion(const StepSettings& settings, const SphereBed& bed, std::si
   const double x = settings.momentum * last.x, y = settings.momentum * last.y;
   const double z = settings.momentum * last.z - settings.dt * settings.dt;
   const double length = std::sqrt(x * x + y * y + z * z);
-  const double keep = length > longest_free_motion ? longest_free_motion / length : 1.0;
+  const double keep = length > settings.longest_free ? settings.longest_free / length : 1.0;
   free[i] = {static_cast<Real>(keep * x), static_cast<Real>(keep * y), static_cast<Real>(keep * z),
              static_cast<Real>(last.w)};
 }
@@ -43,8 +45,8 @@ void set_free_motion(const StepSettings& settings, const PolyhedronBed& bed, std
   const Vector drop(0.0, 0.0, -settings.dt * settings.dt);
   const Vector v = settings.momentum * vector(bed.motion[i]) + drop;
   const Vector angles =
-      clamped(settings.momentum * bed.spin[i], longest_free_motion / bed.circumradius(i));
-  free[2 * i] = record<Real>(clamped(v, longest_free_motion), bed.motion[i].w);
+      clamped(settings.momentum * bed.spin[i], settings.longest_free / bed.circumradius(i));
+  free[2 * i] = record<Real>(clamped(v, settings.longest_free), bed.motion[i].w);
   free[2 * i + 1] = record<Real>(bed.root_inertia[i].cwiseProduct(angles), 1.0);
 }
 
@@ -207,6 +209,7 @@ StepReport step(const StepSettings& settings, const ExecutionContext& context, B
       renew_candidates(settings.near, settings.margin, context, bed, state.candidates);
   if (report.searched) take_list(bed, state.candidates, context.loop, state.contacts);
   report.sunk = update_contacts(settings, context, bed, state.contacts);
+  if (settings.carries && is_tall(bed)) carry_weight(settings.dt, bed, state.contacts);
   report.solve = solve(limits, context, state.contacts, state.motion);
   report.spurious_path = report.solve.rms * report.solve.loaded / degrees_of_freedom(bed);
   report.solve.residual /= force_unit;

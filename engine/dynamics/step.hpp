@@ -15,9 +15,6 @@
 
 namespace grainsweep {
 
-/// Longest free motion of a grain in one step, d: far below a grain, so that none passes another.
-inline constexpr double longest_free_motion = 0.15;
-
 /// Longest motion of a grain in one step whatever pushes it, d. A solve that is cut short between
 /// grains of very different mass may push the light one with the weight of the heavy one; it must
 /// not be thrown through its neighbours.
@@ -30,6 +27,9 @@ struct StepSettings {
   double near = 0.08;       ///< pairs with a smaller gap are rows, d
   double margin = 0.05;     ///< candidates reach this much further, d
   SolveLimits limits;       ///< tolerance in m g here; `step` turns it into a mass times d
+  /// Longest free motion, d: far below a grain, so that none passes another.
+  double longest_free = 0.15;
+  bool carries = false;  ///< impulses begin such that they carry a tall bed (columns.hpp)
 };
 
 /// What a step did.

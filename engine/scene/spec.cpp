@@ -255,6 +255,8 @@ void check_accuracy(const Accuracy& accuracy, Errors& errors) {
   positive(accuracy.kinetic_tolerance, "accuracy.kinetic_tolerance");
   positive(accuracy.contact_tolerance, "accuracy.contact_tolerance");
   positive(accuracy.overlap_tolerance, "accuracy.overlap_tolerance");
+  positive(accuracy.imbalance_tolerance, "accuracy.imbalance_tolerance");
+  require_in({0.0, 0.01, true, false}, accuracy.imbalance_gap, "accuracy.imbalance_gap", errors);
   if (accuracy.max_steps < 1) {
     errors.push_back(
         {"accuracy.max_steps", "must be at least 1, is " + std::to_string(accuracy.max_steps)});

@@ -76,15 +76,17 @@ struct Accuracy {
   /// How far contacts may stray in a step of fall or creep for want of a better solve, d: root mean
   /// square, of a step of 0.2 sqrt(d/g), of others in proportion. Looser solves tap the bed denser.
   double path_tolerance = 2e-4;
-  /// Double steps after the fall, while the bed creeps to rest: of 0.4 sqrt(d/g), of shorter steps
-  /// as many more.
-  int creep_steps = 45;
-  int rest_iterations = 100;         ///< most solver iterations per step at the end of the creep
-  double residual_tolerance = 1e-2;  ///< worst residual of the last step at rest, m g
-  double kinetic_tolerance = 1e-4;   ///< kinetic energy per grain at rest, m g d
-  double contact_tolerance = 0.02;   ///< share of the isostatic contacts that may lack at rest
-  double overlap_tolerance = 1e-5;   ///< mean overlap of touching pairs at rest, d
-  int max_steps = 20000;             ///< a bed that needs more is reported as not settled
+  /// Steps after the fall, while the bed creeps to rest: of 0.2 sqrt(d/g), of shorter steps as many
+  /// more.
+  int creep_steps = 100;
+  int rest_iterations = 100;          ///< most solver iterations per step at the end of the creep
+  double residual_tolerance = 1e-2;   ///< worst residual of the last step at rest, m g
+  double kinetic_tolerance = 1e-4;    ///< kinetic energy per grain at rest, m g d
+  double contact_tolerance = 0.02;    ///< share of the isostatic contacts that may lack at rest
+  double overlap_tolerance = 1e-5;    ///< mean overlap of touching pairs at rest, d
+  double imbalance_tolerance = 0.02;  ///< mean static imbalance at rest, in own weights
+  double imbalance_gap = 1e-4;        ///< contacts with a smaller gap carry the bed statically, d
+  int max_steps = 20000;              ///< a bed that needs more is reported as not settled
 
   bool operator==(const Accuracy&) const = default;
 };

@@ -128,7 +128,8 @@ std::vector<Field> main_fields() {
       in_result<of::rest, &Rest::imbalance, &Imbalance::mean>(
           "static_imbalance_mean", "",
           "net force on a grain in its own weight under the best forces on all contacts closed to "
-          "1e-4 d, none of which pulls; of polyhedra or net torque over its circumradius",
+          "accuracy.imbalance_gap, none of which pulls; of polyhedra or net torque over its "
+          "circumradius",
           with_mean),
       in_result<of::rest, &Rest::imbalance, &Imbalance::max>("static_imbalance_max", "",
                                                              "the largest of them"),

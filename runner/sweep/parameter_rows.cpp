@@ -303,9 +303,8 @@ Rows accuracy_rows() {
           "accuracy.path_tolerance", positive,
           "how far contacts may stray in a full step of fall or creep, d, root mean square"),
       row<&S::accuracy, &A::creep_steps>("accuracy.creep_steps", Interval{0, 1000000},
-                                         "double steps after the fall, while the bed creeps to "
-                                         "rest: of 0.4 sqrt(d/g), of shorter steps as "
-                                         "many more"),
+                                         "steps after the fall, while the bed creeps to rest: of "
+                                         "0.2 sqrt(d/g), of shorter steps as many more"),
       row<&S::accuracy, &A::rest_iterations>(
           "accuracy.rest_iterations", Interval{1, 1000000},
           "most solver iterations per step at the end of the creep"),
@@ -319,6 +318,12 @@ Rows accuracy_rows() {
       row<&S::accuracy, &A::overlap_tolerance>(
           "accuracy.overlap_tolerance", positive,
           "mean overlap of touching pairs at rest, d; no pair more than a hundred times it"),
+      row<&S::accuracy, &A::imbalance_tolerance>(
+          "accuracy.imbalance_tolerance", positive,
+          "mean static imbalance at rest, in own weights; no grain more than 15 times it"),
+      row<&S::accuracy, &A::imbalance_gap>(
+          "accuracy.imbalance_gap", Interval{0, 0.01, true},
+          "contacts with a smaller gap carry the bed statically, d"),
       row<&S::accuracy, &A::max_steps>("accuracy.max_steps", Interval{1, 2147483647},
                                        "steps after which a bed counts as not settled"),
   };

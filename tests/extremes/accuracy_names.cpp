@@ -11,7 +11,7 @@ NamedAccuracy tight() {
   a.precision = Precision::f64;
   a.residual_tolerance = 1e-9;
   a.rest_iterations = 20'000;
-  a.max_steps = 400;
+  a.max_steps = 2000;
   a.overlap_tolerance = 1e-9;
   return {"`accurate`, f64, 1e-9 m g", a};
 }

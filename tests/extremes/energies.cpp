@@ -28,7 +28,7 @@ double energy_of(const SphereBed& bed, double dt) {
 
 /// Rows must reach as far as grains may approach each other in a step; what has no row may overlap,
 /// and its repair adds energy. Up to a step of .2 the engine's own .08 d is enough here.
-double near_of(double dt) { return dt <= 0.2 ? 0.08 : 2.0 * longest_free_motion; }
+double near_of(double dt) { return dt <= 0.2 ? 0.08 : 2.0 * StepSettings{}.longest_free; }
 
 /// Largest rise of the mean energy in one step of a fall that begins with no overlap. Nothing in a
 /// step adds energy but what a solve leaves undone: overlaps of r dt^2 that are repaired.

@@ -83,7 +83,11 @@ SettledBed settle_scene(SphereBed bed, const Accuracy& accuracy) {
 }
 
 double last_step(const Accuracy& accuracy) {
-  return settings_of(accuracy, stages_of<Sphere>(accuracy.protocol).back()).dt;
+  const Stages stages = stages_of<Sphere>(accuracy.protocol);
+  const auto rest = std::find_if(stages.begin(), stages.end(), [](const StageRule& stage) {
+    return stage.end == StageEnd::rest;
+  });
+  return settings_of(accuracy, *rest).dt;
 }
 
 double unbalance_bound(const SettledBed& settled) {

@@ -68,7 +68,7 @@ Finding settle_tower(const std::vector<double>& masses, const Accuracy& accuracy
 /// Without enough iterations the grains of the tallest towers sink into each other, which is
 /// noticed.
 Scene tower(int grains, const NamedAccuracy& at) {
-  const bool enough = grains <= 200 || (grains <= 500 && at.name == "accurate");
+  const bool enough = grains <= 200;
   const std::vector<double> masses(static_cast<std::size_t>(grains), 1.0);
   return {"towers",
           "tower of " + std::to_string(grains),

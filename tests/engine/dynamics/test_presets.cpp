@@ -24,6 +24,8 @@ TEST_CASE("every preset asks for more than the one before it, and allows it more
     CHECK(fine.kinetic_tolerance < coarse.kinetic_tolerance);
     CHECK(fine.contact_tolerance < coarse.contact_tolerance);
     CHECK(fine.overlap_tolerance < coarse.overlap_tolerance);
+    CHECK(fine.imbalance_tolerance < coarse.imbalance_tolerance);
+    CHECK(fine.imbalance_gap <= coarse.imbalance_gap);
     CHECK(fine.path_tolerance <= coarse.path_tolerance);
     CHECK(fine.rest_iterations >= coarse.rest_iterations);
     CHECK(fine.creep_steps > coarse.creep_steps);

@@ -196,7 +196,7 @@ TEST_CASE("a column that stands by symmetry alone is not called settled") {
   SphereBed bed = testing::column_bed(10, 0.0);
   Accuracy accuracy;
   accuracy.precision = Precision::f64;
-  accuracy.max_steps = 200;
+  accuracy.max_steps = 1000;
   const SettleReport report = settle_bed(bed, accuracy);
   CHECK(report.rest.contacts == 10);
   CHECK(report.rest.isostatic_contacts == 28);

@@ -58,12 +58,13 @@ TEST_CASE("the table knows every member of a specification") {
   [[maybe_unused]] const auto& [length, width, x, y] = box;
   [[maybe_unused]] const auto& [spread, small_share, size_ratio] = sizes;
   [[maybe_unused]] const auto& [protocol, solver, precision, step, momentum, fall, path, creep,
-                                rest, residual, kinetic, contacts, overlap, max_steps] = accuracy;
+                                rest, residual, kinetic, contacts, overlap, imbalance,
+                                imbalance_gap, max_steps] = accuracy;
   [[maybe_unused]] const auto& [exclude_floor, exclude_surface, gap_tolerances, bin_width] =
       measure;
   CHECK(known_keys("box").size() == 4);
   CHECK(known_keys("sizes").size() == 3);
-  CHECK(known_keys("accuracy").size() == 14 + 1);  // and "preset"
+  CHECK(known_keys("accuracy").size() == 16 + 1);  // and "preset"
   CHECK(known_keys("measure").size() == 4);
   [[maybe_unused]] const auto& [side, across, height, angle] = PinacoidSize{};
   CHECK(known_keys("shape.pinacoid").size() == 4);

@@ -1,0 +1,31 @@
+// A tall bed of grains carries its weight.
+//
+// Sweeps pass forces on from contact to contact: an error as long as the bed is high takes as many
+// sweeps to go as the bed has layers. But one thing is known without any: through each horizontal
+// plane of a bed that hardly moves the contacts pass the weight of all grains above it, since walls
+// without friction carry none. All impulses are scaled, by factors linear in height between planes
+// 1 d apart, so that they do; sweeps then have to right short errors only.
+#pragma once
+
+#include "engine/rows/polyhedron_contacts.hpp"
+#include "engine/rows/sphere_contacts.hpp"
+#include "engine/scene/bed.hpp"
+
+namespace grainsweep {
+
+/// Beds lower than this are solved as fast without, d.
+inline constexpr double tall_from = 40.0;
+
+/// Height of the highest centre of a grain above the floor, d; 0 if none is above it.
+double top_of(const Grains& bed);
+
+inline bool is_tall(const Grains& bed) { return top_of(bed) > tall_from; }
+
+/// Scales the impulses of a step of length `dt`; at most to their double or half.
+template <class Real>
+void carry_weight(double dt, const SphereBed& bed, SphereContacts<Real>& contacts);
+/// Polyhedra: nothing is scaled.
+template <class Real>
+void carry_weight(double, const PolyhedronBed&, PolyhedronContacts<Real>&) {}
+
+}  // namespace grainsweep
