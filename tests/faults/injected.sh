@@ -8,7 +8,7 @@ cat >sweep.json <<'JSON'
 { "name": "tiny", "seed": 5, "replicates": 2,
   "base": { "box": { "length": 3, "width": 3 }, "fill": { "solid_height": 4 },
             "measure": { "exclude_floor": 0, "exclude_surface": 1 },
-            "accuracy": { "preset": "fast", "max_steps": 4 } } }
+            "accuracy": { "preset": "fast", "max_steps": 24 } } }
 JSON
 make_reference sweep.json
 

@@ -1,6 +1,6 @@
 # A sweep of 100,000 packings: plan and status in 2 s, each in 300 MB, whether nothing of it is
 # done or all. Few have the time to make them: the journal, of beds as in configs/quick.json, is made
-# from one line. status reads and checks all of it.
+# from one line, without files of grains. status reads and checks all of it.
 source "$(dirname "$0")/common.sh" "$1"
 command -v python3 >/dev/null || skip "python3 is not installed"
 cat >large.json <<'JSON'
@@ -35,12 +35,13 @@ measured 2 status out
 expect_text said.txt "of 100000 packings done"
 
 python3 - out <<'PYTHON'
-import glob, json, sys, zlib
+import glob, json, re, sys, zlib
 folder = sys.argv[1]
 journal = glob.glob(folder + "/journal-*.jsonl")[0]
 line = open(journal, "rb").readline()
 outcome = line[line.index(b'"outcome":') + len(b'"outcome":'):-2]
 job = json.loads(outcome)["job"].encode()
+outcome = re.sub(rb'"stored_grains":\d+', b'"stored_grains":0', outcome)  # no files of grains
 with open(journal, "wb") as out:
     for other in json.load(open(folder + "/provenance.json"))["sweep"]["jobs"]:
         text = outcome.replace(b'"job":"' + job, b'"job":"' + other["id"].encode())

@@ -44,14 +44,14 @@ for number in $(seq "$(times 1 20)"); do
 done
 
 # Beds too low to be measured fail; the others go on, or stop with --fail-fast.
-sed 's/"box.y": "periodic"/"measure.exclude_floor": 50/' sweep.json >failing.json
+sed 's/"box.y": "periodic"/"measure.exclude_floor": 6/' sweep.json >failing.json
 runs_clean 1 failing.json --out failing --fail-fast
 runs_clean 1 failing.json --out failing --retry-failed
 
 # One bed that is large enough to be shared by all threads, saved now and then.
 cat >shared.json <<'JSON'
 { "name": "shared", "base": { "box": { "length": 30, "width": 30 }, "fill": { "grains": 16500 },
-  "accuracy": { "preset": "fast", "max_steps": 24 } } }
+  "accuracy": { "preset": "fast", "max_steps": 55 } } }
 JSON
 start "$program" run shared.json --out shared --threads 8 --checkpoint-seconds 1
 busy_threads=0
