@@ -138,7 +138,7 @@ Json exclusions(const std::string& group) {
 /// An object of any parameters, of which each is said once.
 Json layer(const Json& members) {
   Json schema = closed_object(members);
-  schema["allOf"] = {reference("each once")};
+  schema["allOf"] = Json::array({reference("each once")}); // {…} of one Json: compilers differ
   return schema;
 }
 
