@@ -90,7 +90,7 @@ void add_outcome(const std::string& folder, Outcome outcome, Journal& journal, R
     }
     return;
   }
-  if (outcome.stored_grains > 0 && !copy_bed(folder, outcome, to)) return;
+  if (outcome.stored_bytes > 0 && !copy_bed(folder, outcome, to)) return;
   journal.append(outcome);
   row.outcome = std::move(outcome);
   ++to.added;

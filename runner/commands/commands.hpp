@@ -81,6 +81,7 @@ CLI::App& add_command(CLI::App& app, ExportOptions& options);
 struct StatusOptions {
   std::string folder;
   bool json = false;
+  bool check = false;  ///< reads every file of grains whole
 };
 /// Prints how much of a sweep is done, and whether a runner is at work.
 int perform(const StatusOptions& options);

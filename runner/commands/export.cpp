@@ -15,7 +15,7 @@
 namespace grainsweep {
 namespace {
 
-bool has_grains(const Row& row) { return row.outcome && row.outcome->stored_grains > 0; }
+bool has_grains(const Row& row) { return row.outcome && row.outcome->stored_bytes > 0; }
 
 /// The rows to export: those asked for, or all that have grains. Throws BadInput.
 std::vector<const Row*> rows_to_export(const std::vector<Row>& rows, const ExportOptions& options) {

@@ -48,14 +48,15 @@ ProvenanceReading read_provenance(const std::string& folder, Detail detail = Det
   }
 }
 
-/// Calls `use` with the stored bed of each row; a row without a sound one becomes a pending one.
+/// Calls `use` with each outcome that has a stored bed; a row without a sound one becomes a pending
+/// one.
 template <class Use>
-std::vector<std::string> use_beds(const std::string& folder, std::vector<Row>& rows, Use use) {
+std::vector<std::string> use_beds(std::vector<Row>& rows, Use use) {
   std::vector<std::string> damage;
   for (Row& row : rows) {
-    if (!row.outcome || row.outcome->stored_grains == 0) continue;
+    if (!row.outcome || row.outcome->stored_bytes == 0) continue;
     try {
-      use(read_bed(folder, *row.outcome), row.outcome->result);
+      use(*row.outcome);
     } catch (const FileError& error) {
       damage.emplace_back(error.what());
       row.outcome.reset();
@@ -99,13 +100,18 @@ std::vector<RunRecord> recorded_runs(const std::string& folder, std::vector<std:
 }
 
 std::vector<std::string> load_curves(const std::string& folder, std::vector<Row>& rows) {
-  return use_beds(folder, rows, [](StoredBed&& bed, PackingResult& result) {
-    if (result.profile_z.bins.empty()) set_curves(std::move(bed.curves), result);
+  return use_beds(rows, [&](Outcome& outcome) {
+    StoredBed bed = read_bed(folder, outcome);
+    if (outcome.result.profile_z.bins.empty()) set_curves(std::move(bed.curves), outcome.result);
   });
 }
 
 std::vector<std::string> check_beds(const std::string& folder, std::vector<Row>& rows) {
-  return use_beds(folder, rows, [](StoredBed&& /*bed*/, PackingResult& /*result*/) {});
+  return use_beds(rows, [&](const Outcome& outcome) { read_bed(folder, outcome); });
+}
+
+std::vector<std::string> expect_beds(const std::string& folder, std::vector<Row>& rows) {
+  return use_beds(rows, [&](const Outcome& outcome) { expect_bed(folder, outcome); });
 }
 
 void write_tables(const std::string& folder, const Provenance& provenance,

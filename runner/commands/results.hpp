@@ -34,6 +34,10 @@ std::vector<std::string> load_curves(const std::string& folder, std::vector<Row>
 /// Checks the stored beds likewise, and keeps nothing of them.
 std::vector<std::string> check_beds(const std::string& folder, std::vector<Row>& rows);
 
+/// Looks whether the stored beds are there with the sizes they had, and opens none: 100,000 in a
+/// second. A flipped bit is not seen.
+std::vector<std::string> expect_beds(const std::string& folder, std::vector<Row>& rows);
+
 /// Replaces the CSV tables, made of rows with their curves and their analysis, columns.csv, which
 /// explains them, and provenance.json. Throws FileError.
 void write_tables(const std::string& folder, const Provenance& provenance,

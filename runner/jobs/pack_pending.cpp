@@ -48,11 +48,11 @@ Outcome store(const Job& job, const std::string& folder, Journal& journal, Finis
   outcome.version = program_version();
   outcome.result = std::move(finished.packing.result);
   outcome.exception = finished.threw;
-  outcome.stored_grains = static_cast<std::int64_t>(finished.packing.grains.size());
   outcome.cpu_seconds = finished.cpu_seconds;
-  if (outcome.stored_grains > 0) {
-    write_bed(folder, {job.id, outcome.result.state_hash, job.spec.box, curves_of(outcome.result),
-                       std::move(finished.packing.grains), std::move(finished.packing.turned)});
+  if (!finished.packing.grains.empty()) {
+    outcome.stored_bytes = write_bed(
+        folder, {job.id, outcome.result.state_hash, job.spec.box, curves_of(outcome.result),
+                 std::move(finished.packing.grains), std::move(finished.packing.turned)});
   }
   journal.append(outcome);
   return outcome;

@@ -173,12 +173,14 @@ void remove_file(const std::string& path) {
   if (unlink(path.c_str()) != 0 && errno != ENOENT) throw FileError(path, "remove", errno);
 }
 
-bool file_exists(const std::string& path) {
+std::optional<std::int64_t> file_size(const std::string& path) {
   struct stat status {};
-  if (stat(path.c_str(), &status) == 0) return true;
-  if (errno == ENOENT || errno == ENOTDIR) return false;
+  if (stat(path.c_str(), &status) == 0) return status.st_size;
+  if (errno == ENOENT || errno == ENOTDIR) return std::nullopt;
   throw FileError(path, "look up", errno);
 }
+
+bool file_exists(const std::string& path) { return file_size(path).has_value(); }
 
 std::vector<std::string> files_in(const std::string& folder, std::string_view start,
                                   std::string_view end) {

@@ -4,7 +4,9 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -78,6 +80,9 @@ void rename_file(const std::string& path, const std::string& new_path);
 void remove_file(const std::string& path);
 
 bool file_exists(const std::string& path);
+
+/// In bytes; nothing if there is no such file.
+std::optional<std::int64_t> file_size(const std::string& path);
 
 /// Removes what a replace_file that was killed has left in `folder`: the temporary files of those
 /// whose name ends so. No other process may be writing such files there.

@@ -17,8 +17,8 @@ struct Outcome {
   /// The packing ended in an exception (no memory, say), not in a result: it is tried again by the
   /// next run.
   bool exception = false;
-  /// Grains in states/<job>.grains; 0 if there is no such file, and then there are no curves.
-  std::int64_t stored_grains = 0;
+  /// Size of states/<job>.grains; 0 if there is no such file, and then there are no curves.
+  std::int64_t stored_bytes = 0;
   double cpu_seconds = 0.0;  ///< of all threads that made it
 };
 

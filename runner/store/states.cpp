@@ -47,6 +47,11 @@ namespace {
 
 constexpr std::string_view bed_mark = "GRAINS5\n";
 
+const std::string to_mend = "; run the sweep again to make it anew";
+const std::string missing = "missing" + to_mend;
+const std::string damaged = "damaged, or of another version" + to_mend;
+const std::string of_another = "the bed of another packing" + to_mend;
+
 }  // namespace
 
 Curves curves_of(const PackingResult& result) {
@@ -72,20 +77,27 @@ std::optional<StoredBed> bed_from_bytes(std::string_view bytes) {
   return value_in_file<StoredBed>(bed_mark, bytes);
 }
 
-void write_bed(const std::string& folder, const StoredBed& bed) {
+std::int64_t write_bed(const std::string& folder, const StoredBed& bed) {
   make_folder_inside(folder + "/states");
-  replace_file(state_path(folder, bed.job), bed_bytes(bed));
+  const std::string bytes = bed_bytes(bed);
+  replace_file(state_path(folder, bed.job), bytes);
+  return static_cast<std::int64_t>(bytes.size());
+}
+
+void expect_bed(const std::string& folder, const Outcome& outcome) {
+  const std::string path = state_path(folder, outcome.job);
+  const auto size = file_size(path);
+  if (!size) throw FileError(path, missing);
+  if (*size != outcome.stored_bytes) throw FileError(path, damaged);
 }
 
 StoredBed read_bed(const std::string& folder, const Outcome& outcome) {
   const std::string path = state_path(folder, outcome.job);
-  if (!file_exists(path)) throw FileError(path, "missing; run the sweep again to make it anew");
+  if (!file_exists(path)) throw FileError(path, missing);
   auto bed = bed_from_bytes(read_file(path));
-  if (!bed) {
-    throw FileError(path, "damaged, or of another version; run the sweep again to make it anew");
-  }
+  if (!bed) throw FileError(path, damaged);
   if (bed->job != outcome.job || bed->state_hash != outcome.result.state_hash) {
-    throw FileError(path, "the bed of another packing; run the sweep again to make it anew");
+    throw FileError(path, of_another);
   }
   return std::move(*bed);
 }

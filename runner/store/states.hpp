@@ -42,12 +42,17 @@ struct StoredBed {
 /// <folder>/states/<job>.grains
 std::string state_path(const std::string& folder, const std::string& job);
 
-/// Replaces the file as a whole and flushes it. Makes the folder states if missing.
-void write_bed(const std::string& folder, const StoredBed& bed);
+/// Replaces the file as a whole and flushes it; returns its size. Makes the folder states if
+/// missing.
+std::int64_t write_bed(const std::string& folder, const StoredBed& bed);
 
 /// The whole file, checked. Throws FileError if there is none, if it is damaged or of another
 /// version, or if it is not the bed of this outcome.
 StoredBed read_bed(const std::string& folder, const Outcome& outcome);
+
+/// Looks at name and size of the file alone. Throws FileError if there is none, or if it has not
+/// the size that was written.
+void expect_bed(const std::string& folder, const Outcome& outcome);
 
 /// The file's bytes, and back; nothing if they are damaged or of another version.
 std::string bed_bytes(const StoredBed& bed);

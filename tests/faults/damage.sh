@@ -22,7 +22,8 @@ is_half || fail "no kill in 50 left packings and checkpoints"
 look() {
   code=0
   {
-    "$program" report "$1" && "$program" status "$1" && "$program" export "$1" --to "$here/grains"
+    "$program" report "$1" && "$program" status "$1" && "$program" status "$1" --check &&
+      "$program" export "$1" --to "$here/grains"
   } >"$2" 2>warned.txt </dev/null || code=$?
   cat grains/* >>"$2" 2>/dev/null || true
   rm -rf grains

@@ -109,8 +109,7 @@ TEST_CASE("a folder without results is refused, and so is a broken provenance") 
 std::vector<Row> stored_rows(const TemporaryFolder& folder) {
   std::vector<Row> rows = {settled_row("a1", 5, 0.6, 6), settled_row("a2", 5, 0.61, 6)};
   for (Row& row : rows) {
-    row.outcome->stored_grains = 1;
-    write_bed(folder.path(), bed_of(*row.outcome));
+    row.outcome->stored_bytes = write_bed(folder.path(), bed_of(*row.outcome));
   }
   return rows;
 }
@@ -136,8 +135,8 @@ TEST_CASE("a bed that is missing, damaged anywhere or another's is named and its
   const TemporaryFolder folder;
   std::vector<Row> rows = stored_rows(folder);
   for (const char* id : {"lost", "swapped", "failed"}) rows.push_back(settled_row(id, 5, 0.6, 6));
-  rows[2].outcome->stored_grains = 1;
-  rows[3].outcome->stored_grains = 1;
+  rows[2].outcome->stored_bytes = 1;
+  rows[3].outcome->stored_bytes = 1;
   StoredBed other = bed_of(*rows[3].outcome);
   other.state_hash += 1;
   write_bed(folder.path(), other);
@@ -152,6 +151,28 @@ TEST_CASE("a bed that is missing, damaged anywhere or another's is named and its
   CHECK(status_of(rows[4]) == "settled");  // has no bed
   write_tables(folder.path(), stored_provenance(), rows, analyse(rows));
   CHECK_THAT(read_file(folder.path() + "/profiles.csv"), Catch::Contains(",y,0,0.1,1,1,"));
+}
+
+TEST_CASE("a bed that is cut or gone is seen by its size, a flipped bit by reading it") {
+  const TemporaryFolder folder;
+  const std::vector<Row> stored = stored_rows(folder);
+  std::vector<Row> rows = stored;
+  CHECK(expect_beds(folder.path(), rows).empty());
+  CHECK(check_beds(folder.path(), rows).empty());
+  damage_bed(folder.path(), "a2");
+  CHECK(expect_beds(folder.path(), rows).empty());
+  CHECK(check_beds(folder.path(), rows).size() == 1);
+  CHECK(status_of(rows[1]) == "pending");
+
+  rows = stored;
+  remove_file(state_path(folder.path(), "a1"));
+  replace_file(state_path(folder.path(), "a2"), "GRAINS5");
+  const auto damage = expect_beds(folder.path(), rows);
+  REQUIRE(damage.size() == 2);
+  CHECK_THAT(damage[0], Catch::Contains("/states/a1.grains: missing; run the sweep again"));
+  CHECK_THAT(damage[1], Catch::Contains("/states/a2.grains: damaged"));
+  CHECK(status_of(rows[0]) == "pending");
+  CHECK(status_of(rows[1]) == "pending");
 }
 
 TEST_CASE("packings of another version of the program are counted") {

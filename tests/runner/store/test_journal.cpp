@@ -26,14 +26,14 @@ TEST_CASE("an outcome read from its journal line is the same in every member") {
   Outcome outcome = sample_outcome("00c0ffee00c0ffee", 0.1 + 0.2, 1.0 / 3.0);
   outcome.result.reason = "no \"room\", φ\nsecond line";
   outcome.result.state_hash = std::numeric_limits<std::uint64_t>::max();
-  outcome.stored_grains = 17;
+  outcome.stored_bytes = 17;
   outcome.version = "1.2.3";
   const Outcome back =
       read_journal_line(journal_line(outcome).substr(0, journal_line(outcome).size() - 1)).value();
   CHECK(outcome_text(back) == outcome_text(outcome));
   CHECK(back.result.reason == outcome.result.reason);
   CHECK(back.result.state_hash == outcome.result.state_hash);
-  CHECK(back.stored_grains == 17);
+  CHECK(back.stored_bytes == 17);
   CHECK(back.version == "1.2.3");
 }
 
