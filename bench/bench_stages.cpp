@@ -1,5 +1,7 @@
 // The stages of a step on a bed frozen in mid-fall: items are grains for stages that pass over
 // grains, rows for those that pass over rows, row-iterations for the solve.
+#include <cmath>
+
 #include "bench/beds.hpp"
 
 namespace grainsweep::bench {
@@ -42,6 +44,35 @@ void lay_out(benchmark::State& run) {
   run.SetItemsProcessed(run.iterations() * rows_of(f.state.contacts));
 }
 
+/// Moves every grain by 0.004 d, and one in fifty by 0.03 d, in directions that differ each time.
+void creep_on(int turn, SphereBed& bed) {
+  for (std::size_t i = 0; i < bed.grains(); ++i) {
+    const double way = i % 50 == 7 ? 0.03 : 0.004;
+    const double angle = static_cast<double>(turn + 1) * static_cast<double>(i + 1);
+    bed.position[i].x += way * std::cos(angle);
+    bed.position[i].z += way * std::sin(angle);
+  }
+}
+
+/// What candidates and rows cost in a step of a bed that creeps.
+void rows_of_a_step(benchmark::State& run) {
+  const FrozenBed<float>& frozen = frozen_bed<float>(run.range(0));
+  constexpr int steps = 50;
+  for (auto _ : run) {
+    run.PauseTiming();
+    FrozenBed<float> f = frozen;
+    run.ResumeTiming();
+    for (int turn = 0; turn < steps; ++turn) {
+      run.PauseTiming();
+      creep_on(turn, f.bed);
+      run.ResumeTiming();
+      renew_rows(f.settings.near, f.settings.near + f.settings.margin, kernels(), f.bed,
+                 f.state.candidates, f.state.contacts);
+    }
+  }
+  run.SetItemsProcessed(run.iterations() * steps * run.range(0));
+}
+
 void update_gaps(benchmark::State& run) {
   FrozenBed<float> f = frozen_bed<float>(run.range(0));
   for (auto _ : run) {
@@ -82,6 +113,7 @@ void step(benchmark::State& run) {
 BENCHMARK(still_complete)->Apply(sizes);
 BENCHMARK(find_candidates)->Apply(sizes);
 BENCHMARK(lay_out)->Apply(sizes);
+BENCHMARK(rows_of_a_step)->Apply(sizes)->Unit(benchmark::kMillisecond);
 BENCHMARK(update_gaps)->Apply(sizes);
 BENCHMARK(solve)->Apply(sizes)->Unit(benchmark::kMillisecond);
 BENCHMARK(step)->Apply(sizes)->Unit(benchmark::kMillisecond);

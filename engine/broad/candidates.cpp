@@ -11,12 +11,6 @@ namespace {
 /// Levels of sizes told apart; smaller grains share the last one.
 constexpr std::size_t max_levels = 8;
 
-/// Lowest and highest centre, d.
-struct Heights {
-  double bottom = std::numeric_limits<double>::max();
-  double top = -std::numeric_limits<double>::max();
-};
-
 void include(const Record<double>& ball, Heights& heights) {
   heights.bottom = std::min(heights.bottom, ball.z);
   heights.top = std::max(heights.top, ball.z);
@@ -41,12 +35,10 @@ double largest_radius(const Balls& balls, double below) {
   return largest;
 }
 
-/// Sorts the grains into levels. A level holds radii from its largest down to half of that, so that
-/// a bed of one size has one level; the last one holds all that is left. Of grains that sleep only
-/// those that one awake may touch; `heights` grow by them.
-void choose_levels(const Balls& balls, double reach, Heights& heights,
+/// Sorts the members into levels. A level holds radii from its largest down to half of that, so
+/// that a bed of one size has one level; the last one holds all that is left.
+void choose_levels(const Balls& balls, const std::vector<std::int32_t>& members,
                    std::vector<SizeLevel>& levels) {
-  const double lowest_awake = heights.bottom;
   std::size_t count = 0;
   double below = std::numeric_limits<double>::infinity();
   for (double largest = largest_radius(balls, below); count == 0 || largest > 0.0;
@@ -57,16 +49,32 @@ void choose_levels(const Balls& balls, double reach, Heights& heights,
     below = ++count < max_levels ? std::min(below, 0.5 * largest) : 0.0;
   }
   levels.resize(count);
-  for (std::size_t i = 0; i < balls.bed.grains(); ++i) {
-    if (balls.bed.is_asleep(i)) {
-      const double near = balls.ball[i].w + levels.front().largest_radius + reach;
-      if (balls.ball[i].z < lowest_awake - near) continue;
-      include(balls.ball[i], heights);
-    }
+  for (const std::int32_t grain : members) {
+    const double radius = balls.ball[static_cast<std::size_t>(grain)].w;
     std::size_t level = 0;
-    while (level + 1 < count && balls.ball[i].w < 0.5 * levels[level].largest_radius) ++level;
-    levels[level].members.push_back(static_cast<std::int32_t>(i));
+    while (level + 1 < count && radius < 0.5 * levels[level].largest_radius) ++level;
+    levels[level].members.push_back(grain);
   }
+}
+
+/// All grains awake, and of those that sleep the ones that one awake may touch, at heights from
+/// `lowest` on.
+void choose_members(const Balls& balls, double reach, double lowest, Candidates& candidates) {
+  const double largest = largest_radius(balls, std::numeric_limits<double>::infinity());
+  candidates.members.clear();
+  for (std::size_t i = 0; i < balls.bed.grains(); ++i) {
+    const Record<double>& ball = balls.ball[i];
+    if (balls.bed.is_asleep(i) && ball.z < lowest - (ball.w + largest + reach)) continue;
+    candidates.members.push_back(static_cast<std::int32_t>(i));
+  }
+}
+
+Heights heights_of(const Balls& balls, const std::vector<std::int32_t>& members) {
+  Heights heights;
+  for (const std::int32_t grain : members) {
+    include(balls.ball[static_cast<std::size_t>(grain)], heights);
+  }
+  return heights;
 }
 
 /// What rounding positions to f32 can add to a distance, d: three roundings of the largest number.
@@ -144,12 +152,12 @@ SphereGrid layers_of(SphereGrid grid, IndexRange layers) {
   return grid;
 }
 
-/// The members of a level as they look for neighbours in the grid of a coarser one.
-void fill_queries(const Balls& balls, const SizeLevel& level, const Cells& coarse,
+/// Grains as they look for neighbours in a grid whose cells just hold them or larger ones.
+void fill_queries(const Balls& balls, const std::vector<std::int32_t>& grains, const Cells& coarse,
                   QueryColumns& queries) {
   queries.x.clear(), queries.y.clear(), queries.z.clear(), queries.radius.clear();
   queries.cell.clear();
-  for (const std::int32_t grain : level.members) {
+  for (const std::int32_t grain : grains) {
     const Record<double>& p = balls.ball[static_cast<std::size_t>(grain)];
     queries.x.push_back(static_cast<float>(p.x));
     queries.y.push_back(static_cast<float>(p.y));
@@ -178,7 +186,7 @@ void list_pairs_within(const SizeLevel& level, float reach, const ExecutionConte
 void list_pairs_across(const Balls& balls, const SizeLevel& fine, const SizeLevel& coarse,
                        float reach, const ExecutionContext& context, Candidates& candidates) {
   QueryColumns& q = candidates.queries;
-  fill_queries(balls, fine, coarse.cells, q);
+  fill_queries(balls, fine.members, coarse.cells, q);
   const SphereGrid grid = view_of(coarse.grid, coarse.cells, reach);
   const std::size_t parts = parts_of(fine);
   append_parts(
@@ -229,101 +237,160 @@ void list_walls(const Balls& balls, Candidates& candidates) {
 }
 
 void remember_positions(const Balls& balls, const ParallelFor& loop, Candidates& candidates) {
-  const Cells& cells = candidates.levels.front().cells;
   candidates.built_at.resize(balls.bed.grains());
-  candidates.layers.resize(static_cast<std::size_t>(cells.inner_z));
-  candidates.layer.resize(balls.bed.grains());
-  parallel_chunks(loop, balls.bed.grains(), balls.bed.subdomains,
-                  [&](std::size_t, IndexRange share) {
-                    for (std::size_t i = share.first; i < share.last; ++i) {
-                      candidates.built_at[i] = balls.ball[i];
-                      candidates.layer[i] = cells.layer_of(balls.ball[i]);
-                    }
-                  });
+  parallel_chunks(
+      loop, balls.bed.grains(), balls.bed.subdomains, [&](std::size_t, IndexRange share) {
+        std::copy(balls.ball.begin() + static_cast<std::ptrdiff_t>(share.first),
+                  balls.ball.begin() + static_cast<std::ptrdiff_t>(share.last),
+                  candidates.built_at.begin() + static_cast<std::ptrdiff_t>(share.first));
+      });
 }
 
-void include(Extent& extent, const Record<double>& then, const Record<double>& now) {
-  const double at[3] = {now.x - then.x, now.y - then.y, now.z - then.z};
-  for (int k = 0; k < 3; ++k) {
-    extent.low[k] = extent.empty ? at[k] : std::min(extent.low[k], at[k]);
-    extent.high[k] = extent.empty ? at[k] : std::max(extent.high[k], at[k]);
-  }
-  extent.bottom = extent.empty ? now.z : std::min(extent.bottom, now.z);
-  extent.top = extent.empty ? now.z : std::max(extent.top, now.z);
-  extent.empty = false;
+// ---- strays ----
+
+/// Square of the way that a grain may move from where it was looked up without being a stray, d^2;
+/// negative if none may even stay.
+double squared_leash(double near, const Candidates& candidates) {
+  const double leash = 0.5 * (candidates.reach - near);
+  return leash < 0.0 ? -1.0 : leash * leash;
 }
 
-void measure_layers(const Balls& balls, Candidates& candidates) {
-  std::fill(candidates.layers.begin(), candidates.layers.end(), Extent{{}, {}, 0.0, 0.0, true});
+bool is_stray(const Record<double>& now, const Record<double>& then, double squared_leash) {
+  const double x = now.x - then.x, y = now.y - then.y, z = now.z - then.z;
+  return x * x + y * y + z * z > squared_leash;
+}
+
+void find_strays(const Balls& balls, double near, Candidates& candidates) {
+  const double leash = squared_leash(near, candidates);
+  candidates.strays.clear();
   for (std::size_t i = 0; i < balls.bed.grains(); ++i) {
-    include(candidates.layers[static_cast<std::size_t>(candidates.layer[i])],
-            candidates.built_at[i], balls.ball[i]);
-  }
-}
-
-double diagonal_of_both(const Extent& a, const Extent& b) {
-  double squared = 0.0;
-  for (int k = 0; k < 3; ++k) {
-    const double low = std::min(a.empty ? b.low[k] : a.low[k], b.empty ? a.low[k] : b.low[k]);
-    const double high = std::max(a.empty ? b.high[k] : a.high[k], b.empty ? a.high[k] : b.high[k]);
-    squared += (high - low) * (high - low);
-  }
-  return std::sqrt(squared);
-}
-
-/// Largest relative motion of two grains in the same or in adjacent layers, d.
-double relative_motion(const std::vector<Extent>& layers) {
-  double worst = 0.0;
-  for (std::size_t k = 0; k < layers.size(); ++k) {
-    const Extent& above = layers[std::min(k + 1, layers.size() - 1)];
-    worst = std::max(worst, diagonal_of_both(layers[k], above));
-  }
-  return worst;
-}
-
-/// Least difference in height of two grains that are not in the same or in adjacent layers, d.
-double min_rise(const std::vector<Extent>& layers) {
-  constexpr double beyond_all = std::numeric_limits<double>::max();
-  double least = beyond_all, top = -beyond_all;
-  for (std::size_t k = 2; k < layers.size(); ++k) {
-    top = layers[k - 2].empty ? top : std::max(top, layers[k - 2].top);
-    least = layers[k].empty ? least : std::min(least, layers[k].bottom - top);
-  }
-  return least;
-}
-
-/// Whether a grain that was out of a wall's reach has come near it.
-bool has_newcomer(const Balls& balls, const Wall& wall, double near, const Candidates& candidates) {
-  for (std::size_t i = 0; i < balls.bed.grains(); ++i) {
-    if (wall.gap(balls.ball[i]) < near && wall.gap(candidates.built_at[i]) >= candidates.reach) {
-      return true;
+    if (is_stray(balls.ball[i], candidates.built_at[i], leash)) {
+      candidates.strays.push_back(static_cast<std::int32_t>(i));
     }
   }
-  return false;
+}
+
+/// Whether to look strays up singly: if they are so few that it costs less than a search, if the
+/// list has not grown much by it, and if the grids reach as far as they have got.
+bool may_look_up(const SphereBed& bed, const Candidates& candidates) {
+  const Cells& cells = candidates.levels.front().cells;
+  const double members = static_cast<double>(candidates.members.size());
+  const double in_a_cell =
+      members / (static_cast<double>(cells.inner_x) * cells.inner_y * cells.inner_z);
+  const std::size_t added = candidates.pairs.size() - candidates.searched;
+  return static_cast<double>(candidates.strays.size()) * std::max(1.0, in_a_cell) < 0.5 * members &&
+         4 * added <= candidates.searched &&
+         std::all_of(candidates.strays.begin(), candidates.strays.end(), [&](std::int32_t grain) {
+           const double z = bed.position[static_cast<std::size_t>(grain)].z;
+           return z >= candidates.lookup.bottom && z <= candidates.lookup.top;
+         });
+}
+
+/// Leaves of the pairs met, in their order, those that are not in the list.
+void keep_unlisted(Candidates& candidates) {
+  std::vector<GrainPair>& met = candidates.met;
+  if (!candidates.is_indexed) candidates.index.assign(candidates.built_at.size(), candidates.pairs);
+  candidates.is_indexed = true;
+  std::erase_if(met,
+                [&](GrainPair pair) { return pair.a == pair.b || candidates.index.holds(pair); });
+  std::sort(met.begin(), met.end(),
+            [](GrainPair p, GrainPair q) { return p.a != q.a ? p.a < q.a : p.b < q.b; });
+  const auto is_same = [](GrainPair p, GrainPair q) { return p.a == q.a && p.b == q.b; };
+  met.erase(std::unique(met.begin(), met.end(), is_same), met.end());
+}
+
+/// Lists the walls that strays have come within reach of.
+void add_walls(const SphereBed& bed, Candidates& candidates) {
+  for (std::size_t k = 0; k < bed.walls.size(); ++k) {
+    std::vector<std::int32_t>& near = candidates.walls[k].grains;
+    for (const std::int32_t grain : candidates.strays) {
+      const Record<double>& p = bed.position[static_cast<std::size_t>(grain)];
+      if (bed.walls[k].gap(p) < candidates.reach &&
+          std::find(near.begin(), near.end(), grain) == near.end()) {
+        near.push_back(grain);
+      }
+    }
+  }
+}
+
+/// Lists what strays have come near.
+void look_up(const ExecutionContext& context, SphereBed& bed, Candidates& candidates) {
+  for (const std::int32_t grain : candidates.strays) {
+    const auto i = static_cast<std::size_t>(grain);
+    wrap(bed.box, bed.position[i]);
+    candidates.built_at[i] = bed.position[i];
+  }
+  const Balls balls{bed, candidates.built_at};
+  const Cells& cells = candidates.levels.front().cells;
+  fill_columns(balls, candidates.members, cells, context.loop, candidates.around);
+  QueryColumns& q = candidates.queries;
+  fill_queries(balls, candidates.strays, cells, q);
+  const SphereGrid grid =
+      view_of(candidates.around, cells, static_cast<float>(candidates.reach + candidates.slack));
+  const SphereQueries queries{q.x.data(),
+                              q.y.data(),
+                              q.z.data(),
+                              q.radius.data(),
+                              candidates.strays.data(),
+                              q.cell.data(),
+                              candidates.strays.size()};
+  candidates.met.clear();
+  append_found(
+      [&](GrainPair* pairs, std::size_t capacity) {
+        return context.kernels.sphere_pairs_across(grid, queries, pairs, capacity);
+      },
+      16 * candidates.strays.size(), candidates.met);
+  keep_unlisted(candidates);
+  for (const GrainPair pair : candidates.met) {
+    candidates.pairs.push_back(pair);
+    candidates.index.add(pair);
+  }
+  add_walls(bed, candidates);
 }
 
 }  // namespace
 
 void find_candidates(const Balls& balls, double reach, const ExecutionContext& context,
                      Candidates& candidates) {
+  constexpr double lookup_slack = 0.5;  // d
   candidates.reach = reach;
-  Heights heights = heights_of(balls);
-  choose_levels(balls, reach, heights, candidates.levels);
-  candidates.largest_radius = candidates.levels.front().largest_radius;
+  const Heights awake = heights_of(balls);
+  candidates.lookup = {awake.bottom - lookup_slack, awake.top + lookup_slack};
+  choose_members(balls, reach, candidates.lookup.bottom, candidates);
+  choose_levels(balls, candidates.members, candidates.levels);
+  const Heights heights = heights_of(balls, candidates.members);
   const double slack = rounding_slack(balls, heights);
+  candidates.slack = slack;
   fill_grids(balls, heights, reach + 2.0 * slack, context.loop, candidates.levels);
   list_pairs(balls, static_cast<float>(reach + slack), context, candidates);
   list_walls(balls, candidates);
   remember_positions(balls, context.loop, candidates);
+  candidates.searched = candidates.pairs.size();
+  candidates.is_indexed = false;
 }
 
-bool still_complete(const Balls& balls, double near, Candidates& candidates) {
-  measure_layers(balls, candidates);
-  return relative_motion(candidates.layers) <= candidates.reach - near &&
-         min_rise(candidates.layers) >= 2.0 * candidates.largest_radius + near &&
-         std::none_of(balls.bed.walls.begin(), balls.bed.walls.end(), [&](const Wall& wall) {
-           return has_newcomer(balls, wall, near, candidates);
-         });
+bool still_complete(const Balls& balls, double near, const Candidates& candidates) {
+  const double leash = squared_leash(near, candidates);
+  for (std::size_t i = 0; i < balls.bed.grains(); ++i) {
+    if (is_stray(balls.ball[i], candidates.built_at[i], leash)) return false;
+  }
+  return true;
+}
+
+ListChange complete_candidates(double near, double margin, const ExecutionContext& context,
+                               SphereBed& bed, Candidates& candidates) {
+  if (candidates.is_listed) {
+    find_strays({bed, bed.position}, near, candidates);
+    if (candidates.strays.empty()) return ListChange::none;
+    if (may_look_up(bed, candidates)) {
+      look_up(context, bed, candidates);
+      return ListChange::added;
+    }
+  }
+  wrap(bed, context.loop);
+  find_candidates({bed, bed.position}, near + margin, context, candidates);
+  candidates.is_listed = true;
+  return ListChange::whole;
 }
 
 }  // namespace grainsweep

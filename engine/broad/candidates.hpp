@@ -1,8 +1,8 @@
 // Broad phase: which grains may touch soon.
 //
-// A list of candidates stays good while no two grains that are near each other have moved closer by
-// more than the list's margin. What counts is their relative motion: a bed that falls as one needs
-// no new list.
+// A list of candidates stays good while no grain has moved, since it was looked up, by more than
+// half of what the list reaches beyond near. Grains that have are strays: while they are few they
+// are looked up singly, and what they have come near is added to the list.
 //
 // Grains are searched for by level of size, each level in a grid of cells that just hold its own
 // grains; then every level's grains are looked up in the grids of the larger ones. With one grid of
@@ -10,27 +10,26 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "engine/broad/grid.hpp"
+#include "engine/broad/pair_index.hpp"
 #include "engine/context.hpp"
 #include "engine/scene/bed.hpp"
 #include "kernels/kernels.hpp"
 
 namespace grainsweep {
 
-/// Grains that come within reach of one wall.
-struct WallCandidates {
-  std::vector<std::int32_t> grains;  ///< ascending
+/// Lowest and highest centre, d.
+struct Heights {
+  double bottom = std::numeric_limits<double>::max();
+  double top = -std::numeric_limits<double>::max();
 };
 
-/// How the grains of one layer have moved since the list was made, and where they are now.
-struct Extent {
-  double low[3];  ///< smallest box around their displacements, d
-  double high[3];
-  double bottom;  ///< lowest and highest centre, d
-  double top;
-  bool empty;
+/// Grains that come within reach of one wall.
+struct WallCandidates {
+  std::vector<std::int32_t> grains;  ///< ascending; then those that were added
 };
 
 /// Grains of similar size and their search grid: radii from the largest down to half of it.
@@ -47,20 +46,30 @@ struct QueryColumns {
   std::vector<std::int32_t> cell;
 };
 
+/// Whether a list is as it was, has been added to, or is another one.
+enum class ListChange { none, added, whole };
+
 struct Candidates {
   bool is_listed = false;        ///< whether what follows is of this bed
   double reach = 0.0;            ///< every pair and wall with a gap below it is listed, d
-  double largest_radius = 0.0;   ///< d
-  std::vector<GrainPair> pairs;  ///< each once, a < b, in the order of the search grids
+  double slack = 0.0;            ///< what rounding may add to a distance in a search, d
+  Heights lookup;                ///< heights between which a grain may be looked up, d
+  std::size_t searched = 0;      ///< pairs that the search found
+  std::vector<GrainPair> pairs;  ///< each once, a < b: those in the order of the search grids, then
+                                 ///< those that strays have added
   std::vector<WallCandidates> walls;
-  std::vector<Record<double>> built_at;  ///< positions of the grains when the list was made
-  std::vector<std::int32_t> layer;       ///< horizontal layer of each grain at that time
-  std::vector<Extent> layers;            ///< memory of `still_complete`, one entry per layer
+  std::vector<Record<double>> built_at;  ///< where each grain was looked up
+  std::vector<std::int32_t> members;     ///< grains that can be found, ascending
   std::vector<SizeLevel> levels;         ///< from large to small, at least one
   QueryColumns queries;
   std::vector<Record<double>> balls;          ///< memory of balls_of
   std::vector<std::vector<GrainPair>> found;  ///< memory of the parts of a search
   std::vector<std::size_t> found_begin;       ///< where each part's pairs go
+  std::vector<std::int32_t> strays;           ///< memory of complete_candidates
+  std::vector<GrainPair> met;                 ///< what they come near
+  GridColumns around;                         ///< all members where they were looked up
+  PairIndex index;                            ///< of the pairs
+  bool is_indexed = false;                    ///< whether it knows them
 };
 
 /// Lists all pairs and walls whose balls have a gap below `reach`, but for those of grains that
@@ -69,11 +78,9 @@ struct Candidates {
 void find_candidates(const Balls& balls, double reach, const ExecutionContext& context,
                      Candidates& candidates);
 
-/// Whether the list still holds every pair and wall with a gap below `near` < reach. Pairs are
-/// judged in layers one cell high: no two grains of adjacent layers may have moved relative to each
-/// other by more than reach - near since the list was made, and grains of layers further apart must
-/// still be out of reach by their heights alone.
-bool still_complete(const Balls& balls, double near, Candidates& candidates);
+/// Whether the list still holds every pair and wall with a gap below `near` < reach: no grain has
+/// moved since it was looked up by more than half of reach - near.
+bool still_complete(const Balls& balls, double near, const Candidates& candidates);
 
 /// Lists the candidates with a gap below near + margin anew, and wraps the bed, if the list may
 /// lack one with a gap below `near`. Returns whether it did.
@@ -88,5 +95,12 @@ bool renew_candidates(double near, double margin, const ExecutionContext& contex
   candidates.is_listed = true;
   return true;
 }
+
+/// Completes the list of a bed of spheres as far as pairs and walls with a gap below `near` go, and
+/// says how. Strays are wrapped and looked up singly while they are few; else the whole bed is
+/// wrapped and listed anew as far as near + margin, less where a periodic side is too short for it.
+/// A pair that is no longer near stays in the list until it is made anew.
+ListChange complete_candidates(double near, double margin, const ExecutionContext& context,
+                               SphereBed& bed, Candidates& candidates);
 
 }  // namespace grainsweep

@@ -9,12 +9,14 @@ template <class Archive, class List>
 void transfer_candidates(Archive& archive, List& candidates) {
   archive.value(candidates.is_listed);
   archive.value(candidates.reach);
-  archive.value(candidates.largest_radius);
+  archive.value(candidates.slack);
+  archive.value(candidates.lookup);
+  archive.value(candidates.searched);
   archive.column(candidates.pairs);
   archive.column(candidates.built_at);
-  archive.column(candidates.layer);
-  archive.column(candidates.layers);
+  archive.column(candidates.members);
   archive.list(candidates.walls, [&](auto& near) { archive.column(near.grains); });
+  archive.list(candidates.levels, [&](auto& level) { archive.value(level.cells); });
 }
 
 /// Three numbers; Eigen's vectors are no plain bytes.
@@ -42,6 +44,16 @@ void transfer_contacts(Archive& archive, SphereContacts<Real>& contacts) {
   archive.column(contacts.shares.parts);
   archive.column(contacts.shares.grains);
   archive.column(contacts.impulse);
+  archive.column(contacts.spares.blocks);
+  archive.value(contacts.spares.count);
+  archive.column(contacts.late);
+  archive.value(contacts.taken_pairs);
+  archive.column(contacts.taken_at_walls);
+  archive.value(contacts.layout.subdomains.count);
+  archive.value(contacts.layout.subdomains.is_ring);
+  archive.column(contacts.layout.subdomains.slab);
+  archive.column(contacts.layout.subdomains.of_slab);
+  archive.list(contacts.layout.wall_ranges, [&](auto& ranges) { archive.column(ranges); });
 }
 
 template <class Archive, class Subdomains>

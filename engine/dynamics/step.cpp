@@ -89,16 +89,21 @@ void advance(const std::vector<Record<Real>>& u, std::size_t i, PolyhedronBed& b
       std::max({moved.longest, displacement.norm(), angles.norm() * bed.circumradius(i)});
 }
 
-/// The contacts of new candidates.
+/// Pairs that are near become rows, or candidates of contacts. Returns whether the bed was searched
+/// for candidates anew.
 template <class Real>
-void take_list(const SphereBed& bed, const Candidates& candidates, const ParallelFor& loop,
-               SphereContacts<Real>& contacts) {
-  lay_out(bed, candidates, contacts, loop);
+bool find_near(const StepSettings& settings, const ExecutionContext& context, SphereBed& bed,
+               StepState<Sphere, Real>& state) {
+  return renew_rows(settings.near, settings.near + settings.margin, context, bed, state.candidates,
+                    state.contacts);
 }
 template <class Real>
-void take_list(const PolyhedronBed& bed, const Candidates& candidates, const ParallelFor& loop,
-               PolyhedronContacts<Real>& contacts) {
-  take_candidates(bed, candidates, contacts, loop);
+bool find_near(const StepSettings& settings, const ExecutionContext& context, PolyhedronBed& bed,
+               StepState<Polyhedron, Real>& state) {
+  const bool renewed =
+      renew_candidates(settings.near, settings.margin, context, bed, state.candidates);
+  if (renewed) take_candidates(bed, state.candidates, state.contacts, context.loop);
+  return renewed;
 }
 
 /// Rows with the gaps and normals of the grains where they are; see StepReport::sunk.
@@ -205,9 +210,7 @@ StepReport step(const StepSettings& settings, const ExecutionContext& context, B
   limits.tolerance *= force_unit;
   limits.rms_tolerance *= force_unit;
   set_free_motion(settings, context.loop, bed, state.motion);
-  report.searched =
-      renew_candidates(settings.near, settings.margin, context, bed, state.candidates);
-  if (report.searched) take_list(bed, state.candidates, context.loop, state.contacts);
+  report.searched = find_near(settings, context, bed, state);
   report.sunk = update_contacts(settings, context, bed, state.contacts);
   if (settings.carries && is_tall(bed)) carry_weight(settings.dt, bed, state.contacts);
   report.solve = solve(limits, context, state.contacts, state.motion);

@@ -25,7 +25,8 @@ struct StepSettings {
   double momentum = 0.9;    ///< alpha
   double correction = 0.1;  ///< share of an overlap that the step repairs
   double near = 0.08;       ///< pairs with a smaller gap are rows, d
-  double margin = 0.05;     ///< candidates reach this much further, d
+  double margin = 0.05;     ///< a layout of rows reaches this much further, of polyhedra the list
+                            ///< of candidates, d
   SolveLimits limits;       ///< tolerance in m g here; `step` turns it into a mass times d
   /// Longest free motion, d: far below a grain, so that none passes another.
   double longest_free = 0.15;

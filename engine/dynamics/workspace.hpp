@@ -30,6 +30,8 @@ void forget(SphereContacts<Real>& contacts) {
   contacts.shares.clear();
   contacts.walls.clear();
   contacts.pair_blocks = 0;
+  contacts.spares.blocks.clear();
+  contacts.spares.count = 0;
 }
 template <class Real>
 void forget(PolyhedronContacts<Real>& contacts) {
@@ -39,6 +41,7 @@ void forget(PolyhedronContacts<Real>& contacts) {
 template <class Kind, class Real>
 void forget(StepState<Kind, Real>& state) {
   state.candidates.is_listed = false;
+  state.candidates.is_indexed = false;
   forget(state.contacts);
 }
 

@@ -10,6 +10,12 @@
 
 namespace grainsweep {
 
+/// 1 / (1/m_a + 1/m_b), m.
+template <class Real>
+Real reduced_mass(const SphereBed& bed, std::int32_t a, std::int32_t b) {
+  return static_cast<Real>(1.0 / (bed.inverse_mass(a) + bed.inverse_mass(b)));
+}
+
 /// Appends blocks of void rows of a subdomain and fills their lanes.
 template <class Real>
 class BlockWriter {
@@ -31,7 +37,7 @@ class BlockWriter {
   /// The contact of grain a with grain b.
   void fill(BlockLane at, std::int32_t a, std::int32_t b, Real impulse) {
     columns_.rows[at.block].set_grains(at.lane, a, b);
-    columns_.rows[at.block].reduced_mass[at.lane] = reduced_mass(a, b);
+    columns_.rows[at.block].reduced_mass[at.lane] = reduced_mass<Real>(bed_, a, b);
     columns_.impulse[at.block * block_width + at.lane] = impulse;
   }
   /// Rows of one wall in blocks of their own: no grain touches it twice, so lanes are filled in
@@ -46,10 +52,6 @@ class BlockWriter {
   }
 
  private:
-  Real reduced_mass(std::int32_t a, std::int32_t b) const {
-    return static_cast<Real>(1.0 / (bed_.inverse_mass(a) + bed_.inverse_mass(b)));
-  }
-
   const SphereBed& bed_;
   std::size_t subdomain_;
   RowColumns<Real>& columns_;

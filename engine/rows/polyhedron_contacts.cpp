@@ -333,7 +333,8 @@ TouchSettings touch_settings(double near, double dt) {
 template <class Real>
 void take_candidates(const PolyhedronBed& bed, const Candidates& candidates,
                      PolyhedronContacts<Real>& contacts, const ParallelFor& loop) {
-  divide(bed, Polyhedron::subdomain_grains, candidates, loop, contacts.subdomains);
+  divide(bed, Polyhedron::subdomain_grains, candidates, candidates.pairs, loop,
+         contacts.subdomains);
   contacts.memory.assign(contacts.subdomains.pairs.size(), {});
 }
 

@@ -1,8 +1,10 @@
 #include "engine/rows/sphere_contacts.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "engine/rows/block_writer.hpp"
+#include "engine/rows/late_rows.hpp"
 
 namespace grainsweep {
 
@@ -60,10 +62,12 @@ Real carried_impulse(const LayoutColumns<Real>& layout, std::int32_t a, std::int
   return Real(0);
 }
 
-/// Rows of one subdomain. Those that push come first, so that whole blocks of the others need no
-/// pushing.
+/// Rows of one subdomain, and void blocks for late ones, a share of the others. Those that push
+/// come first, so that whole blocks of the others need no pushing.
 template <class Real>
-void lay_out_subdomain(const SphereBed& bed, std::size_t subdomain, LayoutColumns<Real>& layout) {
+void lay_out_subdomain(const SphereBed& bed, std::size_t subdomain, double late_share,
+                       SphereContacts<Real>& contacts) {
+  LayoutColumns<Real>& layout = contacts.layout;
   RowColumns<Real>& columns = layout.columns[subdomain];
   columns.rows.clear();
   columns.impulse.clear();
@@ -88,6 +92,11 @@ void lay_out_subdomain(const SphereBed& bed, std::size_t subdomain, LayoutColumn
     }
   }
   open.close_all();
+  const std::size_t filled = columns.rows.size();
+  const auto end =
+      static_cast<std::size_t>(std::ceil((1.0 + late_share) * static_cast<double>(filled)));
+  while (columns.rows.size() < end) writer.append_void_block();
+  contacts.late[subdomain] = {0, filled, end};
 }
 
 /// Rows of all walls, wall after wall, in blocks of their own for each subdomain.
@@ -124,7 +133,10 @@ void set_parts(SphereContacts<Real>& contacts) {
   contacts.pair_blocks = layout.first_block[layout.subdomains.count];
   for (WallRows& wall : contacts.walls) wall.first += contacts.pair_blocks;
   share_out(layout.subdomains, contacts.shares, [&](std::size_t subdomain, auto& ranges) {
-    ranges.push_back({layout.first_block[subdomain], layout.columns[subdomain].rows.size()});
+    LateBlocks& late = contacts.late[subdomain];
+    const std::size_t first = layout.first_block[subdomain];
+    late = {ranges.size(), first + late.first, first + late.end};
+    ranges.push_back({first, late.first - first});
     for (const BlockRange& range : layout.wall_ranges[subdomain]) {
       ranges.push_back({contacts.pair_blocks + range.first, range.blocks});
     }
@@ -171,21 +183,38 @@ void update_wall_gaps(const SphereBed& bed, const WallRows& rows, double correct
   }
 }
 
-/// Rows of the candidates with the impulses that they carry.
+/// Rows of some pairs and of all walls, with the impulses that they carry.
 template <class Real>
-void lay_out_carried(const SphereBed& bed, const Candidates& candidates, const ParallelFor& loop,
-                     SphereContacts<Real>& contacts) {
+void lay_out_carried(const SphereBed& bed, const Candidates& candidates,
+                     const std::vector<GrainPair>& pairs, double late_share,
+                     const ParallelFor& loop, SphereContacts<Real>& contacts) {
   LayoutColumns<Real>& layout = contacts.layout;
-  divide(bed, Sphere::subdomain_grains, candidates, loop, layout.subdomains);
+  divide(bed, Sphere::subdomain_grains, candidates, pairs, loop, layout.subdomains);
   layout.columns.resize(std::max(layout.columns.size(), layout.subdomains.count + 1));
   layout.open_blocks.assign(bed.grains(), 0);
   layout.pair_impulse.resize(layout.subdomains.pairs.size());
-  visit_subdomains(layout.subdomains.count, loop,
-                   [&](std::size_t subdomain) { lay_out_subdomain(bed, subdomain, layout); });
+  contacts.late.resize(layout.subdomains.count);
+  visit_subdomains(layout.subdomains.count, loop, [&](std::size_t subdomain) {
+    lay_out_subdomain(bed, subdomain, late_share, contacts);
+  });
   lay_out_walls(bed, candidates, contacts);
   join(loop, contacts);
   set_parts(contacts);
   contacts.extrapolated.assign(contacts.impulse.size(), Real(0));
+}
+
+/// Rows of the candidates with a gap below `reach` and of all with walls; the others are spares.
+template <class Real>
+void lay_out_near(double reach, const ExecutionContext& context, const SphereBed& bed,
+                  const Candidates& candidates, SphereContacts<Real>& contacts) {
+  constexpr double late_share = 1.0 / 16.0;
+  collect_impulses(bed, context.loop, 1.0, contacts, contacts);
+  part_spares(reach, context, bed, candidates, contacts);
+  lay_out_carried(bed, candidates, contacts.layout.near, late_share, context.loop, contacts);
+  contacts.taken_at_walls.clear();
+  for (const WallCandidates& wall : candidates.walls) {
+    contacts.taken_at_walls.push_back(wall.grains.size());
+  }
 }
 
 }  // namespace
@@ -194,7 +223,18 @@ template <class Real>
 void lay_out(const SphereBed& bed, const Candidates& candidates, SphereContacts<Real>& contacts,
              const ParallelFor& loop) {
   collect_impulses(bed, loop, 1.0, contacts, contacts);
-  lay_out_carried(bed, candidates, loop, contacts);
+  lay_out_carried(bed, candidates, candidates.pairs, 0.0, loop, contacts);
+}
+
+template <class Real>
+bool renew_rows(double near, double reach, const ExecutionContext& context, SphereBed& bed,
+                Candidates& candidates, SphereContacts<Real>& contacts) {
+  constexpr double candidate_margin = 0.09;  // d; near enough for the shortest periodic sides
+  const ListChange change = complete_candidates(near, candidate_margin, context, bed, candidates);
+  if (change == ListChange::whole || !add_near(near, context, bed, candidates, contacts)) {
+    lay_out_near(reach, context, bed, candidates, contacts);
+  }
+  return change == ListChange::whole;
 }
 
 template <class Real>
@@ -202,7 +242,7 @@ void lay_out_closed(double tolerance, const ExecutionContext& context, const Sph
                     const Candidates& candidates, double dt, const SphereContacts<Real>& from,
                     SphereContacts<double>& closed) {
   collect_impulses(bed, context.loop, 1.0 / (dt * dt), from, closed);
-  lay_out_carried(bed, candidates, context.loop, closed);
+  lay_out_carried(bed, candidates, candidates.pairs, 0.0, context.loop, closed);
   update_gaps(bed, context, 1.0, closed);
   for (RowBlock<double>& row : closed.rows) {
     for (double& gap : row.gap) gap = gap < tolerance ? 0.0 : open_gap;
@@ -212,21 +252,12 @@ void lay_out_closed(double tolerance, const ExecutionContext& context, const Sph
 template <class Real>
 double update_gaps(const SphereBed& bed, const ExecutionContext& context, double correction,
                    SphereContacts<Real>& contacts) {
-  constexpr std::size_t blocks_of_part = 1024;
-  const std::size_t parts = contacts.pair_blocks / blocks_of_part + 1;
-  contacts.sunk.assign(parts, 0.0);
-  parallel_for(context.loop, parts, [&](std::size_t part) {
-    const std::size_t first = part * blocks_of_part;
-    contacts.sunk[part] =
-        row_kernels<Real>(context.kernels)
-            .sphere_gaps(contacts.rows.data() + first,
-                         std::min(blocks_of_part, contacts.pair_blocks - first),
-                         bed.position.data(), bed.box.period_x(), bed.box.period_y(), correction);
-  });
+  const double sunk = measure_blocks(bed, context, correction, contacts.rows.data(),
+                                     contacts.pair_blocks, contacts.sunk);
   for (const WallRows& wall : contacts.walls) {
     update_wall_gaps(bed, wall, correction, contacts.rows);
   }
-  return std::max(0.0, *std::max_element(contacts.sunk.begin(), contacts.sunk.end()));
+  return sunk;
 }
 
 template <class Real>
@@ -258,6 +289,10 @@ template void lay_out(const SphereBed&, const Candidates&, SphereContacts<float>
                       const ParallelFor&);
 template void lay_out(const SphereBed&, const Candidates&, SphereContacts<double>&,
                       const ParallelFor&);
+template bool renew_rows(double, double, const ExecutionContext&, SphereBed&, Candidates&,
+                         SphereContacts<float>&);
+template bool renew_rows(double, double, const ExecutionContext&, SphereBed&, Candidates&,
+                         SphereContacts<double>&);
 template void lay_out_closed(double, const ExecutionContext&, const SphereBed&, const Candidates&,
                              double, const SphereContacts<float>&, SphereContacts<double>&);
 template void lay_out_closed(double, const ExecutionContext&, const SphereBed&, const Candidates&,

@@ -1,7 +1,13 @@
-// Contacts of spheres: rows that persist while their candidates do.
+// Contacts of spheres: rows that persist from step to step.
 //
 // They are laid out once, in blocks whose lanes never share a grain, and then only their gaps and
-// normals are measured anew in each step. Each wall has blocks of its own after those of the pairs.
+// normals are measured anew in each step. Candidates that are too far apart to be rows are spares;
+// one that comes near becomes a late row, in blocks that each subdomain keeps free behind its
+// others:
+//
+//     | pairs of subdomain 0 | late, free | pairs of 1 | late, free | ... | wall 0 | wall 1 | ...
+//
+// Once these are used up all rows are laid out anew. Each wall has blocks of its own.
 #pragma once
 
 #include <cstdint>
@@ -22,6 +28,20 @@ struct WallRows {
   std::size_t wall = 0;  ///< of the bed's walls
   std::size_t first = 0;
   std::size_t blocks = 0;
+};
+
+/// Blocks of a subdomain that are kept for late rows.
+struct LateBlocks {
+  std::size_t range = 0;  ///< the subdomain's in RowShares::ranges: grows over them
+  std::size_t first = 0;  ///< all of them: first .. end
+  std::size_t end = 0;
+};
+
+/// Candidates that are no rows, as many lanes of the blocks; others are void.
+template <class Real>
+struct Spares {
+  std::vector<RowBlock<Real>> blocks;
+  std::size_t count = 0;
 };
 
 /// An impulse of a contact that pushed, under the name of its second side.
@@ -47,7 +67,8 @@ struct LayoutColumns {
   std::vector<std::size_t> first_block;              ///< of each subdomain in the rows of all
   std::vector<std::uint64_t> open_blocks;  ///< per grain: one bit for each open block it is in
   Carried<CarriedImpulse<Real>> carried;
-  std::vector<Real> pair_impulse;  ///< what each candidate pair carries
+  std::vector<Real> pair_impulse;  ///< what each pair carries
+  std::vector<GrainPair> near;     ///< pairs that become rows
 };
 
 /// Rows and impulses; the impulse of lane k of block b is `impulse[b * block_width + k]`.
@@ -60,6 +81,10 @@ struct Contacts<Sphere, Real> {
   std::vector<Real> impulse;
   std::vector<Real> extrapolated;  ///< the solver's look-ahead impulses
   std::vector<double> sunk;        ///< of each part of a detection: see `update_gaps`
+  Spares<Real> spares;
+  std::vector<LateBlocks> late;             ///< of each subdomain
+  std::size_t taken_pairs = 0;              ///< so many of the candidates are rows or spares
+  std::vector<std::size_t> taken_at_walls;  ///< and so many of each wall's rows
   LayoutColumns<Real> layout;
 
   // What sweeps over a range need: their kernels, its rows, the first of its impulses, and how many
@@ -72,10 +97,17 @@ struct Contacts<Sphere, Real> {
 template <class Real>
 using SphereContacts = Contacts<Sphere, Real>;
 
-/// Lays the candidates out as rows; contacts that were there before keep their impulse.
+/// Lays all candidates out as rows; contacts that were there before keep their impulse.
 template <class Real>
 void lay_out(const SphereBed& bed, const Candidates& candidates, SphereContacts<Real>& contacts,
              const ParallelFor& loop = serial_for);
+
+/// Before a step: completes the candidates, and makes rows of all with a gap below `near`. Where
+/// rows have to be laid out anew they are those with a gap below `reach`. Rows that were there
+/// before keep their impulse. Returns whether the bed was searched for candidates anew.
+template <class Real>
+bool renew_rows(double near, double reach, const ExecutionContext& context, SphereBed& bed,
+                Candidates& candidates, SphereContacts<Real>& contacts);
 
 /// Lays out the candidates with a gap below `tolerance`, d, as rows without a gap, for a step of
 /// length 1. Contacts keep the forces that they have in `from` after a step of length `dt`.

@@ -18,7 +18,7 @@ void count_slabs(const Grains& bed, const Candidates& candidates, const Parallel
   subdomains.slab.resize(bed.grains());
   parallel_chunks(loop, bed.grains(), bed.subdomains, [&](std::size_t, IndexRange share) {
     for (std::size_t i = share.first; i < share.last; ++i) {
-      subdomains.slab[i] = cells.place_along(bed.subdomain_axis, candidates.built_at[i]);
+      subdomains.slab[i] = cells.place_along(bed.subdomain_axis, bed.position[i]);
     }
   });
   subdomains.slab_size.assign(static_cast<std::size_t>(cells.inner(bed.subdomain_axis)), 0);
@@ -77,8 +77,8 @@ void sort_by_subdomain(const ParallelFor& loop, std::size_t count, SubdomainOf s
   visit([&](std::size_t k, std::size_t& next) { put(k, next++); });
 }
 
-void sort_pairs(const Candidates& candidates, const ParallelFor& loop, Subdomains& subdomains) {
-  const std::vector<GrainPair>& pairs = candidates.pairs;
+void sort_pairs(const std::vector<GrainPair>& pairs, const ParallelFor& loop,
+                Subdomains& subdomains) {
   subdomains.pairs.resize(pairs.size());
   sort_by_subdomain(
       loop, pairs.size(), [&](std::size_t k) { return subdomains.subdomain_of(pairs[k]); },
@@ -97,10 +97,10 @@ void sort_grains(const ParallelFor& loop, Subdomains& subdomains) {
       });
 }
 
-void leave_whole(const Candidates& candidates, Subdomains& subdomains) {
+void leave_whole(const std::vector<GrainPair>& pairs, Subdomains& subdomains) {
   subdomains.count = 1;
-  subdomains.pairs.assign(candidates.pairs.begin(), candidates.pairs.end());
-  subdomains.begin.assign({0, candidates.pairs.size()});
+  subdomains.pairs.assign(pairs.begin(), pairs.end());
+  subdomains.begin.assign({0, pairs.size()});
 }
 
 void sort_near_walls(const Candidates& candidates, Subdomains& subdomains) {
@@ -122,15 +122,21 @@ std::size_t Subdomains::subdomain_of(GrainPair pair) const {
   return is_ring && second - first + 1 == count && count > 2 ? second : first;
 }
 
+bool Subdomains::may_hold(GrainPair pair) const {
+  const std::size_t a = subdomain_of(pair.a), b = subdomain_of(pair.b);
+  const std::size_t apart = std::max(a, b) - std::min(a, b);
+  return apart <= 1 || (is_ring && apart + 1 == count);
+}
+
 void divide(const Grains& bed, std::size_t min_grains, const Candidates& candidates,
-            const ParallelFor& loop, Subdomains& subdomains) {
+            const std::vector<GrainPair>& pairs, const ParallelFor& loop, Subdomains& subdomains) {
   subdomains.is_ring = is_periodic(bed.box, bed.subdomain_axis);
   if (bed.subdomains == 1) {
-    leave_whole(candidates, subdomains);
+    leave_whole(pairs, subdomains);
   } else {
     count_slabs(bed, candidates, loop, subdomains);
     cut(min_grains, subdomains);
-    sort_pairs(candidates, loop, subdomains);
+    sort_pairs(pairs, loop, subdomains);
     sort_grains(loop, subdomains);
   }
   sort_near_walls(candidates, subdomains);

@@ -41,12 +41,15 @@ struct Subdomains {
   }
   /// Subdomain of the rows of a pair.
   std::size_t subdomain_of(GrainPair pair) const;
+  /// Whether the grains of a pair lie in one subdomain or in two that follow one another.
+  bool may_hold(GrainPair pair) const;
 };
 
-/// Divides the bed of `candidates` into subdomains of at least so many grains and sorts its pairs,
-/// its grains and those near walls by subdomain.
+/// Divides the bed of `candidates` into subdomains of at least so many grains and sorts `pairs`,
+/// its grains and those near walls by subdomain. No pair may reach further than the candidates did
+/// when they were searched for.
 void divide(const Grains& bed, std::size_t min_grains, const Candidates& candidates,
-            const ParallelFor& loop, Subdomains& subdomains);
+            const std::vector<GrainPair>& pairs, const ParallelFor& loop, Subdomains& subdomains);
 
 /// Calls work(subdomain) for all subdomains: for 0, 2, 4 .. in any order, then for 1, 3, 5 ..
 template <class Work>

@@ -56,7 +56,8 @@ bool holds_all_closer_than(const SphereBed& bed, const Candidates& candidates, d
   for (std::size_t k = 0; k < candidates.walls.size(); ++k) {
     const WallCandidates& near = candidates.walls[k];
     for (std::int32_t i = 0; i < bed.wall(); ++i) {
-      const bool is_listed = std::binary_search(near.grains.begin(), near.grains.end(), i);
+      const bool is_listed =
+          std::find(near.grains.begin(), near.grains.end(), i) != near.grains.end();
       const bool is_close = bed.walls[k].gap(bed.position[static_cast<std::size_t>(i)]) < reach;
       holds = holds && (is_listed || !is_close);
     }

@@ -112,7 +112,7 @@ TEST_CASE("contacts stay complete while grains move and turn, with few searches"
     searches += search.find(bed) ? 1 : 0;
     REQUIRE(difference(names_of(search.found()), brute_force(bed, usual)) == "");
     for (std::size_t i = 0; i < bed.grains(); ++i) {
-      move_grain(bed, i, 0.002 * testing::random_direction(draw),
+      move_grain(bed, i, 0.005 * testing::random_direction(draw),
                  0.3 * testing::random_direction(draw));
     }
   }

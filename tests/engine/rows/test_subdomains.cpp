@@ -59,7 +59,7 @@ TEST_CASE("a small bed is one subdomain, with its pairs as they are") {
   SphereBed bed = tall_bed(2000, Boundary::walls);
   const Candidates candidates = candidates_of(bed);
   Subdomains subdomains;
-  divide(bed, Sphere::subdomain_grains, candidates, serial_for, subdomains);
+  divide(bed, Sphere::subdomain_grains, candidates, candidates.pairs, serial_for, subdomains);
   CHECK(subdomains.count == 1);
   CHECK(subdomains.begin == std::vector<std::size_t>{0, candidates.pairs.size()});
   CHECK(std::equal(subdomains.pairs.begin(), subdomains.pairs.end(), candidates.pairs.begin(),
@@ -70,7 +70,7 @@ TEST_CASE("subdomains of a large bed hold all pairs and all grains") {
   for (SphereBed& bed : large_beds()) {
     const Candidates candidates = candidates_of(bed);
     Subdomains subdomains;
-    divide(bed, Sphere::subdomain_grains, candidates, serial_for, subdomains);
+    divide(bed, Sphere::subdomain_grains, candidates, candidates.pairs, serial_for, subdomains);
     REQUIRE(subdomains.count >= 3);
     CHECK(subdomains.count <= bed.subdomains);
     REQUIRE(subdomains.begin.size() == subdomains.count + 1);
@@ -97,7 +97,7 @@ TEST_CASE("every second subdomain of a large bed shares no grain") {
   for (SphereBed& bed : large_beds()) {
     const Candidates candidates = candidates_of(bed);
     Subdomains subdomains;
-    divide(bed, Sphere::subdomain_grains, candidates, serial_for, subdomains);
+    divide(bed, Sphere::subdomain_grains, candidates, candidates.pairs, serial_for, subdomains);
     for (std::size_t parity = 0; parity < 2; ++parity) {
       std::vector<std::size_t> owner(bed.grains(), subdomains.count);
       for (std::size_t subdomain = parity; subdomain < subdomains.count; subdomain += 2) {
@@ -120,7 +120,7 @@ TEST_CASE("subdomains of a flat bed lie along it, of a ring an even number") {
     REQUIRE(bed.subdomain_axis == 0);
     const Candidates candidates = candidates_of(bed);
     Subdomains subdomains;
-    divide(bed, Sphere::subdomain_grains, candidates, serial_for, subdomains);
+    divide(bed, Sphere::subdomain_grains, candidates, candidates.pairs, serial_for, subdomains);
     CHECK(subdomains.is_ring == (x == Boundary::periodic));
     if (subdomains.is_ring) CHECK(subdomains.count % 2 == 0);
     std::vector<double> last(subdomains.count, 0.0);
@@ -136,7 +136,7 @@ TEST_CASE("subdomains keep the order of their pairs, whoever sorts them") {
   SphereBed bed = tall_bed(30'000, Boundary::periodic);
   const Candidates candidates = candidates_of(bed);
   Subdomains plain;
-  divide(bed, Sphere::subdomain_grains, candidates, serial_for, plain);
+  divide(bed, Sphere::subdomain_grains, candidates, candidates.pairs, serial_for, plain);
   const auto subdomain = [&](GrainPair pair) { return plain.subdomain_of(pair); };
   std::vector<GrainPair> expected = candidates.pairs;
   std::stable_sort(expected.begin(), expected.end(),
@@ -144,7 +144,7 @@ TEST_CASE("subdomains keep the order of their pairs, whoever sorts them") {
   for (const ParallelFor& loop : {ParallelFor(serial_for), ParallelFor(testing::last_part_first),
                                   ParallelFor(testing::two_threads)}) {
     Subdomains subdomains;
-    divide(bed, Sphere::subdomain_grains, candidates, loop, subdomains);
+    divide(bed, Sphere::subdomain_grains, candidates, candidates.pairs, loop, subdomains);
     CHECK(std::equal(subdomains.pairs.begin(), subdomains.pairs.end(), expected.begin(),
                      expected.end(),
                      [](GrainPair p, GrainPair q) { return p.a == q.a && p.b == q.b; }));
@@ -161,7 +161,7 @@ TEST_CASE("a large bed that is flat has no more subdomains than slabs") {
   SphereBed bed = testing::random_bed(scene);
   const Candidates candidates = candidates_of(bed);
   Subdomains subdomains;
-  divide(bed, Sphere::subdomain_grains, candidates, serial_for, subdomains);
+  divide(bed, Sphere::subdomain_grains, candidates, candidates.pairs, serial_for, subdomains);
   CHECK(subdomains.count >= 1);
   CHECK(subdomains.count <= subdomains.slab_size.size());
 }
