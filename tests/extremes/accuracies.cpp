@@ -65,7 +65,7 @@ void add_iterations(std::vector<Scene>& scenes) {
       scenes.push_back(changed(std::to_string(iterations) + " iterations a step", precision,
                                right_if(is_right), [=](Accuracy& a) {
                                  a.fall_iterations = a.rest_iterations = iterations;
-                                 a.max_steps = 1500;
+                                 a.max_steps = 20000;  // of 48 beds at 3, rest after 315 to 5670
                                }));
     }
   }
@@ -91,6 +91,7 @@ void add_limits(std::vector<Scene>& scenes) {
       changed("one step", f32, Outcome::not_settled, [](Accuracy& a) { a.max_steps = 1; }));
   scenes.push_back(changed("every tolerance 1e-12", Precision::f64, right, [](Accuracy& a) {
     a.residual_tolerance = a.kinetic_tolerance = a.overlap_tolerance = a.contact_tolerance = 1e-12;
+    a.max_steps = 20000;
   }));
 }
 
