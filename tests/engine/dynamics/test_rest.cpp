@@ -18,8 +18,8 @@ using testing::periodic;
 using testing::wall_name;
 using testing::walls;
 
-constexpr double time_step = 0.5;
-constexpr double one_weight = time_step * time_step;  // impulse of a force of 1 m g
+constexpr double bed_dt = 0.5;
+constexpr double one_weight = bed_dt * bed_dt;  // impulse of a force of 1 m g
 
 /// A bed and its contacts, which push as told.
 struct Pushed {
@@ -38,9 +38,9 @@ struct Pushed {
   Pushed& with_wall(std::int32_t a, std::size_t k, double force) {
     return with_pair(a, wall_name(bed, k), force);
   }
-  std::vector<ForceContact> forces() const { return force_contacts(bed, time_step, state.contacts); }
+  std::vector<ForceContact> forces() const { return force_contacts(bed, bed_dt, state.contacts); }
   std::int64_t modes() const { return zero_modes(bed, forces()); }
-  RestReport rest() { return measure_rest(bed, kernels(), time_step, state); }
+  RestReport rest() { return measure_rest(bed, kernels(), bed_dt, state); }
 };
 
 constexpr Box x_periodic{6, 4, periodic, walls};
@@ -154,7 +154,7 @@ std::vector<PairForce> forces_at_rest(SphereBed& bed) {
   settings.limits = {Solver::accelerated_gauss_seidel, 100'000, 1e-9};
   StepState<Sphere, double> state;
   REQUIRE(step(settings, kernels(), bed, state).solve.residual <= 1e-9);
-  return pair_forces(bed, force_contacts(bed, settings.time_step, state.contacts));
+  return pair_forces(bed, force_contacts(bed, settings.dt, state.contacts));
 }
 
 TEST_CASE("each contact of a column carries the weight of the grains above it") {
