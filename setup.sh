@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Installs what grainsweep is built with: Debian 12 packages, nothing else. Does nothing when all
+# Installs what grainsweep is built with, and gnuplot, by which it draws: Debian 12 packages, nothing
+# else. Does nothing when all
 # of them are present. See usage below.
 set -euo pipefail
 
@@ -8,6 +9,7 @@ readonly build_packages=(
   libtbb-dev libeigen3-dev libxsimd-dev nlohmann-json3-dev libcli11-dev librandom123-dev
   libqhull-dev zlib1g-dev
   catch2 libbenchmark-dev
+  gnuplot-nox
 )
 readonly check_packages=(
   clang-format clang-tidy clang libclang-rt-14-dev strace python3 python3-jsonschema

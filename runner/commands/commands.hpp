@@ -25,6 +25,7 @@ struct RunOptions {
   bool retry_failed = false;         ///< make failed packings again
   bool fail_fast = false;            ///< stop at the first packing that fails
   bool quiet = false;                ///< print errors and warnings only
+  bool no_report = false;            ///< leave out report.html and its figures
 };
 /// Makes what is missing of a sweep and writes the tables.
 int perform(const RunOptions& options);
@@ -56,7 +57,7 @@ CLI::App& add_command(CLI::App& app, PlanOptions& options);
 struct ReportOptions {
   std::string folder;
 };
-/// Prints the closing table from stored results.
+/// Prints the closing table from stored results and writes report.html.
 int perform(const ReportOptions& options);
 CLI::App& add_command(CLI::App& app, ReportOptions& options);
 

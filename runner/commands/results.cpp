@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "runner/exit_codes.hpp"
+#include "runner/report/report.hpp"
 #include "runner/store/checkpoints.hpp"
 #include "runner/store/files.hpp"
 #include "runner/store/lock.hpp"
@@ -134,6 +135,14 @@ void write_provenance(const std::string& folder, const Provenance& provenance,
   replace_file(provenance_path(folder), provenance_text(provenance, rows));
 }
 
+std::string write_page(const std::string& folder, const Provenance& provenance,
+                       const std::vector<Row>& rows, const Analysis& analysis) {
+  for (const std::string& line : write_report(folder, provenance, rows, analysis)) {
+    std::cerr << "note: " << line << "\n";
+  }
+  return "Page to look at: " + folder + "/report.html\n";
+}
+
 Build this_build() {
   return {program_version(), source_commit(), compiler_version(), library_versions()};
 }
@@ -178,6 +187,7 @@ void clean_up(const std::string& folder, const FolderLock& lock) {
     return;
   }
   for (const char* name : tables) remove_leftovers(folder, name);
+  remove_leftovers(folder, "report.html");
   remove_leftovers(folder + "/states", ".grains");
   for (const char* slot : {".0", ".1"}) remove_leftovers(folder + "/checkpoints", slot);
 }
@@ -191,6 +201,7 @@ void remove_results(const std::string& folder) {
   }
   remove_all_checkpoints(folder);
   for (const char* name : tables) remove_file(folder + "/" + name);
+  remove_report(folder);
   for (const std::string& name : files_in(folder, damaged_start, ".json")) {
     remove_file(folder + "/" + name);
   }

@@ -38,6 +38,11 @@ std::vector<std::string> check_beds(const std::string& folder, std::vector<Row>&
 /// second. A flipped bit is not seen.
 std::vector<std::string> expect_beds(const std::string& folder, std::vector<Row>& rows);
 
+/// Replaces report.html and its figures, made of rows with their curves; prints as notes what is
+/// missing from it. Returns a line that says where it is. Throws FileError.
+std::string write_page(const std::string& folder, const Provenance& provenance,
+                       const std::vector<Row>& rows, const Analysis& analysis);
+
 /// Replaces the CSV tables, made of rows with their curves and their analysis, columns.csv, which
 /// explains them, and provenance.json. Throws FileError.
 void write_tables(const std::string& folder, const Provenance& provenance,

@@ -137,6 +137,7 @@ std::string repeated(const RunOptions& options, const std::string& folder) {
   if (options.retry_failed) text << " --retry-failed";
   if (options.fail_fast) text << " --fail-fast";
   if (options.quiet) text << " --quiet";
+  if (options.no_report) text << " --no-report";
   return text.str();
 }
 
@@ -195,6 +196,7 @@ CLI::App& add_command(CLI::App& app, RunOptions& options) {
   run.add_flag("--fail-fast", options.fail_fast,
                "stop at the first packing that fails; without it the others go on");
   run.add_flag("--quiet", options.quiet, "print warnings and errors only");
+  run.add_flag("--no-report", options.no_report, "leave out the page report.html and its figures");
   run.footer("Example: grainsweep run configs/quick.json --out out/quick --threads 2\n\n" +
              presets_text() + "\n\n" + exit_codes_text);
   return run;
@@ -232,7 +234,13 @@ int perform(const RunOptions& options) {
   write_tables(folder, provenance, rows, analysis);
   const bool is_whole = static_cast<std::size_t>(packed.packings) == running.pending.size();
   if (!is_whole) return stopped(packed, options, folder, counts, rows.size());
-  if (!options.quiet) std::cout << closing_report(provenance, rows, analysis.families, folder);
+  if (!options.quiet) {
+    std::cout << closing_report(provenance, rows, analysis.families, folder) << std::flush;
+  }
+  if (!options.no_report) {
+    const std::string where = write_page(folder, provenance, rows, analysis);
+    if (!options.quiet) std::cout << where;
+  }
   return exit_code_for(counts, folder);
 }
 

@@ -18,8 +18,7 @@ Spread spread_at(const Group& group, Curve Order::*curve, std::size_t k) {
 struct PointLine {
   const Group& group;
   const char* curve = "";
-  double low = 0.0, high = 0.0;  ///< of the bin
-  Spread value;
+  CurvePoint point;
 };
 
 Columns<PointLine> curve_line_columns(const Varied& varied) {
@@ -33,31 +32,39 @@ Columns<PointLine> curve_line_columns(const Varied& varied) {
               "contact force over the mean of its layer",
               [](const PointLine& line) { return cell(line.curve); }},
              {"low", "d or 1", "where the bin begins",
-              [](const PointLine& line) { return cell(line.low); }},
+              [](const PointLine& line) { return cell(line.point.low); }},
              {"high", "d or 1", "where it ends",
-              [](const PointLine& line) { return cell(line.high); }},
+              [](const PointLine& line) { return cell(line.point.high); }},
              {"n", "", "packings that have the bin",
-              [](const PointLine& line) { return cell(line.value.n); }}});
+              [](const PointLine& line) { return cell(line.point.value.n); }}});
   append_spread(columns, "value", "", "of the curve in the bin, mean over the packings",
-                [](const PointLine& line) { return line.value; });
+                [](const PointLine& line) { return line.point.value; });
   return columns;
 }
 
 void append_curve_lines(const Group& group, const char* name, Curve Order::*curve,
                         const Columns<PointLine>& columns, std::string& text) {
+  for (const CurvePoint& point : mean_curve(group, curve)) {
+    text += row_line(columns, PointLine{group, name, point});
+  }
+}
+
+}  // namespace
+
+std::vector<CurvePoint> mean_curve(const Group& group, Curve Order::*curve) {
   std::size_t longest = 0;
   double width = 0.0;
   for (const PackingResult& result : group.settled) {
     longest = std::max(longest, (result.order.*curve).values.size());
     width = (result.order.*curve).bin_width;
   }
+  std::vector<CurvePoint> points;
   for (std::size_t k = 0; k < longest; ++k) {
-    const double low = static_cast<double>(k) * width, high = static_cast<double>(k + 1) * width;
-    text += row_line(columns, PointLine{group, name, low, high, spread_at(group, curve, k)});
+    points.push_back({static_cast<double>(k) * width, static_cast<double>(k + 1) * width,
+                      spread_at(group, curve, k)});
   }
+  return points;
 }
-
-}  // namespace
 
 std::vector<ColumnText> distributions_columns(const Varied& varied) {
   return described("distributions.csv", curve_line_columns(varied));

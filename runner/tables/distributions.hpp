@@ -8,6 +8,16 @@
 
 namespace grainsweep {
 
+/// A bin of a group's mean curve.
+struct CurvePoint {
+  double low = 0.0, high = 0.0;
+  Spread value;
+};
+
+/// The mean of `curve` over the settled packings of a group; of the bins that some of them lack,
+/// over those that have them.
+std::vector<CurvePoint> mean_curve(const Group& group, Curve Order::*curve);
+
 /// The whole file.
 std::string distributions_csv(const std::vector<Group>& groups);
 

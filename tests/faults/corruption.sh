@@ -31,7 +31,7 @@ tries=$(times 8 80)
 for number in $(seq "$tries"); do
   for kill in $(seq 20); do
     rm -rf out
-    start "$program" run long.json --threads 2 --out out --checkpoint-seconds 0
+    start "$program" run long.json --no-report --threads 2 --out out --checkpoint-seconds 0
     wait_until is_damageable || true
     end_runner KILL
     ! is_damageable || break

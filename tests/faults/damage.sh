@@ -11,7 +11,7 @@ is_half() {
 }
 for kill in $(seq 50); do
   rm -rf half
-  start "$program" run sweep.json --threads 2 --out half --checkpoint-seconds 0
+  start "$program" run sweep.json --no-report --threads 2 --out half --checkpoint-seconds 0
   wait_until is_half || true
   end_runner KILL
   ! is_half || break
@@ -75,7 +75,7 @@ for number in $(seq "$tries"); do
   fi
 
   code=0
-  "$program" run sweep.json --threads 2 --out out >/dev/null 2>said.txt </dev/null || code=$?
+  "$program" run sweep.json --no-report --threads 2 --out out >/dev/null 2>said.txt </dev/null || code=$?
   if [ "$code" -gt 1 ]; then
     grep -q '^grainsweep: out' said.txt || fail "$what: ended with $code: $(cat said.txt)"
     told=$((told + 1))

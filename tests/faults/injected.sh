@@ -18,7 +18,7 @@ run_traced() { # FOLDER STRACE-OPTION...
   local folder=$1
   shift
   strace -f -qq -o trace.txt -e trace=write,fsync,rename "$@" \
-    "$program" run sweep.json --threads 1 --out "$folder" --checkpoint-seconds 0 >said.txt 2>&1
+    "$program" run sweep.json --no-report --threads 1 --out "$folder" --checkpoint-seconds 0 >said.txt 2>&1
 }
 
 run_traced counted || [ $? -le 1 ] || fail "cannot be traced: $(cat said.txt)"

@@ -11,7 +11,7 @@ while [ "$kills" -lt "$wanted" ]; do
   [ "$folders" -le $((10 * wanted)) ] || fail "only $kills kills came before the end"
   before=0
   for try in 1 2 3; do
-    start "$program" run sweep.json --threads 2 --out out --checkpoint-seconds 0
+    start "$program" run sweep.json --no-report --threads 2 --out out --checkpoint-seconds 0
     wait_until has_packings out "$(between "$before" "$packings")" || true
     [ $((try % 2)) -eq 0 ] || wait_until has_checkpoint out || true
     pause "$(between 0 20)"

@@ -37,7 +37,7 @@ kill_times() {
   local number
   rm -rf out
   for number in $(seq "$1"); do
-    start "$program" run sweep.json --out out "${options[@]}"
+    start "$program" run sweep.json --no-report --out out "${options[@]}"
     wait_until has_packings out "$(between $((8 * number - 8)) $((8 * number)))" || true
     end_runner KILL
     [ "$code" -eq 137 ] || return 1

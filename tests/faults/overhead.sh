@@ -5,12 +5,12 @@ source "$(dirname "$0")/common.sh" "$1"
 
 TIMEFORMAT='%U %S'
 code=0
-{ time "$program" run "$root/configs/confined-spheres.json" --out out --threads 1 >said.txt 2>&1; } 2>times.txt ||
+{ time "$program" run "$root/configs/confined-spheres.json" --no-report --out out --threads 1 >said.txt 2>&1; } 2>times.txt ||
   code=$?
 [ "$code" -le 1 ] || fail "ended with $code: $(cat said.txt)"
 waited="not measured"
 if command -v strace >/dev/null; then
-  strace -f -o flushes.txt -T -e trace=fsync "$program" run "$root/configs/quick.json" --out traced \
+  strace -f -o flushes.txt -T -e trace=fsync "$program" run "$root/configs/quick.json" --no-report --out traced \
     --threads 1 >/dev/null 2>&1 || true
   waited=$(sed -n 's/.*<\([0-9.]*\)>$/\1/p' flushes.txt | awk '{ sum += $1 } END { print sum " s" }')
 fi

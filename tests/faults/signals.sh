@@ -20,7 +20,7 @@ for signal in "TERM 143" "INT 130" "HUP 129"; do
   while [ "$stopped" -lt "$goal" ]; do
     tries=$((tries + 1))
     [ "$tries" -le $((20 * wanted)) ] || fail "only $stopped of $tries signals came before the end"
-    start "$program" run sweep.json --threads 2 --out out
+    start "$program" run sweep.json --no-report --threads 2 --out out
     wait_until has_packings out "$(between 0 $((packings - 1)))" || true
     pause "$(between 0 10)"
     stop_with $signal || true
@@ -51,7 +51,7 @@ for share in 5 8 12 20; do
   rm -rf out
   inside=0
   for part in 1 2 3; do
-    start "$program" run long.json --threads 2 --out out
+    start "$program" run long.json --no-report --threads 2 --out out
     wait_until has_worked $((cpu / share)) || break
     stop_with TERM 143 && inside=$((inside + 1)) || break
   done

@@ -17,7 +17,7 @@ resident() { awk '/^VmRSS:/ { print $2 }' "/proc/$1/status" 2>/dev/null || true;
 descriptors() { { ls "/proc/$1/fd" 2>/dev/null || true; } | wc -l; }
 
 : >said.txt
-"$program" run sweep.json --threads 2 --out "$folder/out" >said.txt 2>&1 &
+"$program" run sweep.json --no-report --threads 2 --out "$folder/out" >said.txt 2>&1 &
 runner=$!
 first_memory=0 last_memory=0 most_descriptors=0 least_descriptors=1000 seen=0
 while kill -0 $runner 2>/dev/null && [ "$seen" -lt $((packings * 98 / 100)) ]; do

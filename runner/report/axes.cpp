@@ -1,0 +1,173 @@
+#include "runner/report/axes.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <set>
+
+#include "runner/sweep/parameters.hpp"
+
+namespace grainsweep {
+namespace {
+
+const std::string width_parameter = "box.width";
+
+/// The number in a cell; NaN if it holds anything else.
+double number_in(const std::string& cell) {
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+  return error == std::errc() && end == cell.data() + cell.size() ? value : no_number;
+}
+
+/// A cell as it reads, without the quotes of a table.
+std::string unquoted(const std::string& cell) {
+  if (cell.size() < 2 || cell.front() != '"') return cell;
+  std::string text;
+  for (std::size_t k = 1; k + 1 < cell.size(); ++k) {
+    text += cell[k];
+    if (cell[k] == '"') ++k;
+  }
+  return text;
+}
+
+/// Parts of a preset count as one value: its name.
+bool is_part_of_preset(const Group& group, const std::string& path) {
+  return path.starts_with("accuracy.") && group.job.accuracy != "custom";
+}
+
+/// Parameter -> value of what a group does not share with all others, but for `left_out`.
+std::map<std::string, std::string> distinctions(const Group& group, const std::string& left_out) {
+  std::map<std::string, std::string> values;
+  for (const auto& [path, cell] : group.varied) {
+    if (path == left_out) continue;
+    if (is_part_of_preset(group, path))
+      values["accuracy"] = group.job.accuracy;
+    else
+      values[path] = unquoted(cell);
+  }
+  return values;
+}
+
+/// "small_share = 0.25, no walls"
+std::string words(const std::map<std::string, std::string>& values) {
+  std::string text;
+  for (const auto& [path, value] : values) {
+    if (value.empty() || value == "walls") continue;
+    text += text.empty() ? "" : ", ";
+    if (path == "box.y" || path == "box.x")
+      text += path.substr(4) + " " + value;
+    else
+      text += (path == width_parameter ? "W" : path.substr(path.rfind('.') + 1)) + " = " + value;
+  }
+  return text;
+}
+
+/// The values that a parameter takes; none if any of them is no number.
+std::set<double> values_of(const std::vector<Group>& groups, const std::string& path) {
+  std::set<double> values;
+  for (const Group& group : groups) {
+    const double value = number_in(group.varied.at(path));
+    if (std::isnan(value) || is_part_of_preset(group, path)) return {};
+    values.insert(value);
+  }
+  return values;
+}
+
+std::string axis_parameter(const std::vector<Group>& groups) {
+  std::string chosen;
+  std::size_t most = 1;
+  for (const std::string& path : varied_of(groups)) {
+    const std::size_t count = values_of(groups, path).size();
+    if (path == width_parameter && count > 1) return path;
+    if (count > most) {
+      most = count;
+      chosen = path;
+    }
+  }
+  return chosen;
+}
+
+std::string axis_title(const std::string& parameter) {
+  if (parameter.empty()) return "parameter set";
+  if (parameter == width_parameter) return "gap between the walls, W / d";
+  if (parameter == "sizes.small_share") return "share of small grains in the solid volume";
+  const auto known = find_parameter(parameter);
+  return known ? parameters()[*known].path : parameter;
+}
+
+/// The label that all groups of a series have; nothing if they have several.
+std::optional<std::string> common_label(const Series& series) {
+  const std::string& label = series.groups.front()->job.label;
+  const bool is_common = std::all_of(series.groups.begin(), series.groups.end(),
+                                     [&](const Group* group) { return group->job.label == label; });
+  return is_common ? std::optional(label) : std::nullopt;
+}
+
+/// Their common label where it tells a series from the others, else what does.
+void name_series(Axes& axes) {
+  std::map<std::string, int> uses;
+  for (const Series& series : axes.series) ++uses[common_label(series).value_or("")];
+  for (Series& series : axes.series) {
+    const Group& first = *series.groups.front();
+    const auto label = common_label(series);
+    const std::string distinction = words(distinctions(first, axes.parameter));
+    if (label && (uses[*label] == 1 || distinction.empty()))
+      series.name = *label;
+    else
+      series.name = distinction.empty() ? first.job.label
+                    : label             ? shortened(*label, figure_label) + ", " + distinction
+                                        : distinction;
+  }
+}
+
+}  // namespace
+
+Axes axes_of(const std::vector<Group>& groups) {
+  Axes axes;
+  axes.parameter = axis_parameter(groups);
+  axes.title = axis_title(axes.parameter);
+  std::map<std::string, std::size_t> index_of;
+  for (const Group& group : groups) {
+    const std::string key = words(distinctions(group, axes.parameter));
+    const auto [at, is_new] = index_of.try_emplace(key, axes.series.size());
+    if (is_new) axes.series.emplace_back();
+    axes.series[at->second].groups.push_back(&group);
+  }
+  for (Series& series : axes.series) {
+    std::stable_sort(series.groups.begin(), series.groups.end(),
+                     [&](auto* a, auto* b) { return place_on(axes, *a) < place_on(axes, *b); });
+  }
+  name_series(axes);
+  return axes;
+}
+
+double place_on(const Axes& axes, const Group& group) {
+  if (axes.parameter.empty()) return static_cast<double>(group.number);
+  return number_in(group.varied.at(axes.parameter));
+}
+
+bool is_over_width(const Axes& axes) { return axes.parameter == width_parameter; }
+
+std::string title_of(const Group& group, std::size_t longest_label) {
+  const std::string distinction = words(distinctions(group, ""));
+  const std::string label = shortened(group.job.label, longest_label);
+  return distinction.empty() ? label : label + ", " + distinction;
+}
+
+std::string shortened(const std::string& text, std::size_t longest) {
+  std::size_t characters = 0;
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    const bool is_start = (static_cast<unsigned char>(text[at]) & 0xC0u) != 0x80u;
+    if (is_start && ++characters == longest) {
+      const bool is_last =
+          std::all_of(text.begin() + static_cast<std::ptrdiff_t>(at) + 1, text.end(),
+                      [](char c) { return (static_cast<unsigned char>(c) & 0xC0u) == 0x80u; });
+      return is_last ? text : text.substr(0, at) + "…";
+    }
+  }
+  return text;
+}
+
+}  // namespace grainsweep

@@ -1,0 +1,44 @@
+// What a sweep varies, as figures and tables need it: one parameter along the axis, a series of
+// groups for each combination of the others.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "runner/tables/groups.hpp"
+
+namespace grainsweep {
+
+/// Groups that differ in nothing but the axis (and their labels), by ascending value on it.
+struct Series {
+  std::string name;  ///< its label, or what tells it from the others
+  std::vector<const Group*> groups;
+};
+
+struct Axes {
+  std::string parameter;  ///< dotted name of what is along the axis: box.width if it is varied
+  std::string title;      ///< of the axis, with the unit
+  std::vector<Series> series;
+};
+
+/// box.width goes along the axis wherever it is varied, else the number that takes most values; of
+/// a sweep that varies no number, the number of the group. Refers to the groups.
+Axes axes_of(const std::vector<Group>& groups);
+
+/// Where a group lies on the axis.
+double place_on(const Axes& axes, const Group& group);
+
+/// Whether straight lines in 1 / W are fitted along this axis.
+bool is_over_width(const Axes& axes);
+
+/// "walls, W = 5": what tells a group from all others of its sweep. A label that is longer is
+/// shortened to so many characters.
+std::string title_of(const Group& group, std::size_t longest_label = 1000);
+
+/// Characters of a label that a figure has room for beside other words.
+inline constexpr std::size_t figure_label = 16;
+
+/// `text` shortened to so many characters, the last one "…" where any were left out.
+std::string shortened(const std::string& text, std::size_t longest);
+
+}  // namespace grainsweep

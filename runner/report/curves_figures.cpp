@@ -1,0 +1,280 @@
+// Figures over other things than the axis of the sweep: distributions, small grains, effort.
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "runner/report/figures.hpp"
+#include "runner/report/plots.hpp"
+#include "runner/store/fields.hpp"
+#include "runner/tables/decays.hpp"
+#include "runner/tables/distributions.hpp"
+#include "runner/tables/fits.hpp"
+
+namespace grainsweep {
+namespace {
+
+constexpr std::size_t most_curves = 6;
+constexpr double farthest = 4.0;  ///< d, to which g is drawn
+
+std::string curves_csv(const std::vector<const Group*>& groups) {
+  std::string text = csv_line({"curve", "group", "x", "value", "error", "name"});
+  const auto add = [&](Curve Order::*curve, std::size_t first) {
+    for (std::size_t k = 0; k < groups.size(); ++k) {
+      for (const CurvePoint& point : mean_curve(*groups[k], curve)) {
+        text += csv_line({cell(first + k), cell(groups[k]->number),
+                          cell((point.low + point.high) / 2.0), cell(point.value.mean),
+                          cell(point.value.error), cell(title_of(*groups[k]))});
+      }
+    }
+  };
+  add(&Order::pair_correlation, 1);
+  add(&Order::force_density, 1 + groups.size());
+  return text;
+}
+
+/// All that the curves of these groups reach, and 0.
+std::vector<double> curve_values(const std::vector<const Group*>& groups, Curve Order::*curve) {
+  std::vector<double> values = {0.0};
+  for (const Group* group : groups) {
+    for (const CurvePoint& point : mean_curve(*group, curve)) values.push_back(point.value.mean);
+  }
+  return values;
+}
+
+/// The families with different shares of small grains, by share.
+std::multimap<double, const Family*> by_small_share(const std::vector<Family>& families) {
+  std::multimap<double, const Family*> sorted;
+  for (const Family& family : families) {
+    if (!family.walled.empty()) sorted.emplace(family.walled.front().job.small_share, &family);
+  }
+  return sorted;
+}
+
+struct EstimateCells {
+  std::string value, error;
+};
+
+EstimateCells cells_of(const Estimate& estimate, const std::string& not_determined) {
+  if (!not_determined.empty()) return {};
+  return {cell(estimate.value), cell(estimate.error)};
+}
+
+/// What the walls do to a family.
+struct WallReach {
+  double small_share = 0.0;
+  const Family* family = nullptr;
+  WallFit phi, z;
+  DecayFit large, small;  ///< at its widest gap
+};
+
+std::vector<WallReach> reaches_of(const std::multimap<double, const Family*>& families) {
+  std::vector<WallReach> reaches;
+  for (const auto& [share, family] : families) {
+    const Group& widest = family->walled.back();
+    reaches.push_back({share, family, fit_walls(*family, Quantity::solid_fraction),
+                       fit_walls(*family, Quantity::coordination),
+                       decay_of(widest, GrainClass::large), decay_of(widest, GrainClass::small)});
+  }
+  return reaches;
+}
+
+std::string small_share_csv(const std::vector<WallReach>& reaches) {
+  std::string text =
+      csv_line({"all", "small_share", "C", "C_error", "C_Z", "C_Z_error", "reach_large",
+                "reach_large_error", "reach_small", "reach_small_error", "family"});
+  for (const auto& [share, family, phi, z, large, small] : reaches) {
+    std::vector<std::string> cells = {"1", cell(share)};
+    for (const auto& [value, error] :
+         {cells_of(phi.slope, phi.not_determined), cells_of(z.slope, z.not_determined),
+          cells_of(large.reach, large.not_determined), cells_of(small.reach, small.not_determined)})
+      cells.insert(cells.end(), {value, error});
+    cells.push_back(cell(family->name));
+    text += csv_line(cells);
+  }
+  return text;
+}
+
+double value_of(const Row& row, std::string_view name) {
+  for (const Field& field : fields()) {
+    if (field.name == name) return number_of(field, *row.outcome);
+  }
+  return no_number;
+}
+
+/// Of each group, by its parameters and label, the number of its series if that is shown.
+std::map<std::pair<std::string, std::string>, std::size_t> series_numbers(const Axes& axes) {
+  std::map<std::pair<std::string, std::string>, std::size_t> numbers;
+  std::size_t number = 0;
+  for (const Series* series : shown_series(axes)) {
+    ++number;
+    for (const Group* group : series->groups) {
+      numbers[{group->job.label, group->job.parameters}] = number;
+    }
+  }
+  return numbers;
+}
+
+std::string effort_csv(const Axes& axes, const std::vector<Row>& rows) {
+  std::string text =
+      csv_line({"series", "job", "grains", "cpu_seconds", "contact_ratio", "status"});
+  const auto numbers = series_numbers(axes);
+  for (const Row& row : rows) {
+    if (!is_measured(row)) continue;
+    const auto number = numbers.find({row.job.label, row.job.parameters});
+    const std::size_t series = number == numbers.end() ? 0 : number->second;
+    text += csv_line({cell(is_settled(row) ? series : most_series + 1), cell(row.job.id),
+                      cell(row.outcome->result.grains), cell(row.outcome->cpu_seconds),
+                      cell(value_of(row, "contact_ratio")), cell(status_of(row))});
+  }
+  return text;
+}
+
+}  // namespace
+
+Figure distributions_figure(const Axes& axes) {
+  Figure figure{.name = "distributions",
+                .title = "Distances and forces",
+                .caption =
+                    "Left: pair correlation. Right: probability density of a contact force "
+                    "over the mean of its layer. Means over the settled replicates."};
+  const std::vector<const Group*> groups = chosen_groups(axes, most_curves);
+  if (groups.empty()) {
+    figure.not_drawn = "no packing has settled";
+    return figure;
+  }
+  const std::string table = "distributions.csv";
+  figure.tables = {{table, curves_csv(groups)}};
+  std::vector<std::string> pairs, forces;
+  std::vector<KeyEntry> key;
+  for (std::size_t k = 0; k < groups.size(); ++k) {
+    const std::string style = "lines ls " + cell(k + 1) + " lw 1.3";
+    key.push_back({"linespoints ls " + cell(k + 1), title_of(*groups[k], figure_label)});
+    pairs.push_back(plot_part({table, "curve", k + 1, "x", "value", "", style}));
+    forces.push_back(plot_part({table, "curve", k + 1 + groups.size(), "x", "value", "",
+                                "linespoints ls " + cell(k + 1) + " lw 1 ps 0.5"}));
+  }
+  const Panels panels(figure, 2, {1.0}, key, {.right = 24.0});
+  figure.commands =
+      "set multiplot\n" + panels.key() + panels.place(0, 0) + range_command("x", {0.0, farthest}) +
+      label_command("x", "distance of centres, r / d") +
+      label_command("y", "pair correlation g(r)") +
+      range_command("y", range_of(curve_values(groups, &Order::pair_correlation), 0.04)) +
+      plot_command(pairs) + panels.place(1, 0) + "set xrange [0:6]\n" +
+      "set yrange [2e-4:2]\nset logscale y\nset format y '10^{%T}'\n" +
+      label_command("x", "force over the mean, f / <f>") +
+      label_command("y", "probability density P(f)") + plot_command(forces);
+  return figure;
+}
+
+Figure small_share_figure(const std::vector<Family>& families) {
+  Figure figure{.name = "small_grains",
+                .title = "Small grains",
+                .caption =
+                    "Left: slope of the wall effect, φ = φ_bulk - C / W. Right: how far the "
+                    "layers reach from the walls of the widest gap (where their amplitude "
+                    "has fallen to 5 % of the bulk), for large and small grains. A family "
+                    "whose value is not determined has no point; fits.csv and decays.csv "
+                    "say why."};
+  const std::string table = "small_grains.csv";
+  const auto sorted = by_small_share(families);
+  const std::vector<WallReach> reaches = reaches_of(sorted);
+  figure.tables = {{table, small_share_csv(reaches)}};
+  std::vector<double> slopes = {0.0}, lengths = {0.0};
+  for (const WallReach& reach : reaches) {
+    if (reach.phi.not_determined.empty()) slopes.push_back(reach.phi.slope.value);
+    for (const DecayFit* fit : {&reach.large, &reach.small}) {
+      if (fit->not_determined.empty()) lengths.push_back(fit->reach.value);
+    }
+  }
+  if (slopes.size() + lengths.size() == 2) {
+    figure.not_drawn =
+        "neither C nor the reach is determined in any family; fits.csv and "
+        "decays.csv say why";
+  }
+  const Panels panels(figure, 2, {1.0},
+                      {{"points ls 3", "C"},
+                       {"points ls 1", "reach of large grains"},
+                       {"points ls 2", "reach of small grains"}},
+                      {.right = 24.0});
+  const auto part = [&](const std::string& column, int line) {
+    return plot_part(
+        {table, "all", 1, "small_share", column, column + "_error", "points ls " + cell(line)});
+  };
+  const std::string x =
+      range_command("x", range_of({sorted.begin()->first, sorted.rbegin()->first}, 0.08)) +
+      label_command("x", "share of small grains in the solid volume");
+  figure.commands = "set multiplot\n" + panels.key() + panels.place(0, 0) + x +
+                    label_command("y", "C / d") + range_command("y", range_of(slopes, 0.2)) +
+                    plot_command({part("C", 3)}) + panels.place(1, 0) + x +
+                    label_command("y", "reach / d") +
+                    range_command("y", {0.0, range_of(lengths, 0.2).high}) +
+                    plot_command({part("reach_large", 1), part("reach_small", 2)});
+  return figure;
+}
+
+Figure effort_figure(const Axes& axes, const std::vector<Row>& rows) {
+  Figure figure{.name = "effort",
+                .title = "Time and rest",
+                .caption =
+                    "Each packing: processor time, and how near it came to exactly as many "
+                    "contacts as a bed at rest needs (1)."};
+  if (std::none_of(rows.begin(), rows.end(), is_measured)) {
+    figure.not_drawn = "no packing was measured";
+    return figure;
+  }
+  const std::string table = "effort.csv";
+  figure.tables = {{table, effort_csv(axes, rows)}};
+  std::vector<KeyEntry> key = series_key(axes, "points");
+  std::vector<std::string> parts;
+  for (std::size_t k = 0; k < key.size(); ++k) {
+    parts.push_back(plot_part(
+        {table, "series", k + 1, "cpu_seconds", "contact_ratio", "", "points ls " + cell(k + 1)}));
+  }
+  std::vector<double> seconds, ratios = {1.0};
+  bool all_settled = true;
+  for (const Row& row : rows) {
+    if (!is_measured(row)) continue;
+    all_settled = all_settled && is_settled(row);
+    seconds.push_back(std::log10(row.outcome->cpu_seconds));
+    ratios.push_back(value_of(row, "contact_ratio"));
+  }
+  if (!all_settled) {
+    key.push_back({"points lc rgb '#777777' pt 2", "did not settle"});
+    parts.push_back(plot_part({table, "series", most_series + 1, "cpu_seconds", "contact_ratio", "",
+                               "points lc rgb '#777777' pt 2"}));
+  }
+  const auto [fastest, slowest] = std::minmax_element(seconds.begin(), seconds.end());
+  const double fastest_shown = std::pow(10.0, *fastest - 0.1);
+  const double slowest_shown = std::pow(10.0, *slowest + 0.1);
+  const Panels panels(figure, 1, {1.0}, key, {.right = 24.0});
+  figure.commands =
+      "set multiplot\n" + panels.key() + panels.place(0, 0) + "set logscale x\n" +
+      range_command("x", {fastest_shown, slowest_shown}) +
+      decade_tics_command("x", fastest_shown, slowest_shown) +
+      range_command("y", range_of(ratios, 0.06)) +
+      "set arrow 1 from graph 0, first 1 to graph 1, first 1 nohead lc rgb '#444444'\n" +
+      label_command("x", "processor time / s") +
+      label_command("y", "contacts over the isostatic number") + plot_command(parts);
+  return figure;
+}
+
+std::vector<Figure> figures_of(const std::vector<Row>& rows, const Analysis& analysis,
+                               const std::vector<Comparison>& comparisons) {
+  const Axes axes = axes_of(analysis.groups);
+  std::vector<Figure> figures = {means_figure(axes, analysis.families), profiles_figure(axes)};
+  const auto shares = by_small_share(analysis.families);
+  if (!shares.empty() && shares.begin()->first < shares.rbegin()->first) {
+    figures.push_back(small_share_figure(analysis.families));
+  }
+  const bool has_kinds = std::any_of(rows.begin(), rows.end(), [](const Row& row) {
+    return row.outcome && row.outcome->result.shape_order;
+  });
+  if (has_kinds) figures.push_back(contacts_figure(axes));
+  figures.push_back(distributions_figure(axes));
+  figures.push_back(effort_figure(axes, rows));
+  if (!comparisons.empty()) figures.push_back(published_figure(comparisons));
+  return figures;
+}
+
+}  // namespace grainsweep

@@ -1,0 +1,113 @@
+#include "runner/report/figure.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+#include "runner/report/axes.hpp"
+#include "runner/tables/csv.hpp"
+
+namespace grainsweep {
+namespace {
+
+constexpr double left_margin = 96.0, bottom_margin = 66.0;  // px
+constexpr std::size_t longest_title = 44;                   // characters
+const std::string frame =
+    "set border 3 lw 1 lc rgb '#444444'\nset tics nomirror out scale 0.6 textcolor rgb '#222222'\n"
+    "set xtics nomirror\nset ytics nomirror\nset grid lc rgb '#dddddd' lw 0.6 dt solid\n";
+constexpr double key_line = 22.0;  // px
+
+/// Entries of the key that stand side by side.
+std::size_t columns_of(const std::vector<KeyEntry>& key) {
+  constexpr std::size_t longest_of_three = 24;
+  const bool are_short = std::all_of(key.begin(), key.end(), [](const KeyEntry& entry) {
+    return entry.title.size() <= longest_of_three;
+  });
+  return are_short ? 3 : 2;
+}
+
+}  // namespace
+
+std::string quoted(const std::string& text) {
+  std::string inside;
+  for (const char c : text) {
+    inside += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+    if (c == '\'') inside += c;
+  }
+  return "'" + inside + "'";
+}
+
+Panels::Panels(const Figure& figure, std::size_t columns, std::vector<double> heights,
+               std::vector<KeyEntry> key, PanelGaps gaps)
+    : width_(figure.width),
+      height_(figure.height),
+      columns_(columns),
+      heights_(std::move(heights)),
+      key_(std::move(key)),
+      key_columns_(columns_of(key_)),
+      top_(gaps.above + 12.0 +
+           key_line * static_cast<double>((key_.size() + key_columns_ - 1) / key_columns_)),
+      gaps_(gaps) {}
+
+std::string Panels::place(std::size_t column, std::size_t row) const {
+  const double wide = width_ / static_cast<double>(columns_);
+  const double gaps = gaps_.row * static_cast<double>(heights_.size() - 1);
+  const double high = height_ - top_ - bottom_margin - gaps;
+  const auto first = heights_.begin();
+  const double above = std::accumulate(first, first + static_cast<std::ptrdiff_t>(row), 0.0);
+  const double top = height_ - top_ - above * high - static_cast<double>(row) * gaps_.row;
+  const double left = static_cast<double>(column) * wide;
+  const auto margin = [](const char* side, double at) {
+    return std::string("set ") + side + "margin at screen " + cell(at) + "\n";
+  };
+  return margin("l", (left + left_margin) / width_) +
+         margin("r", (left + wide - gaps_.right) / width_) + margin("t", top / height_) +
+         margin("b", (top - heights_[row] * high) / height_);
+}
+
+std::string Panels::key() const {
+  std::string plots;
+  for (const KeyEntry& entry : key_) {
+    plots += (plots.empty() ? "" : ", ") + ("NaN with " + entry.style + " title ") +
+             quoted(shortened(entry.title, longest_title));
+  }
+  return "set lmargin at screen 0.02\nset rmargin at screen 0.98\nset tmargin at screen " +
+         cell(1.0 - 6.0 / height_) + "\nset bmargin at screen " +
+         cell(1.0 - (top_ - gaps_.above) / height_) +
+         "\nset border 0\nunset tics\nunset grid\nset xrange [0:1]\nset yrange [0:1]\n" +
+         "set key center top horizontal Left reverse noenhanced samplen 2 width 2 maxcols "
+         "3\nplot " +
+         plots + "\nset autoscale\nunset key\n" + frame;
+}
+
+std::string figure_style() {
+  std::string text =
+      "set encoding utf8\nset datafile separator comma\nset datafile columnheaders\n"
+      "set bars small\nset samples 400\nset pointintervalbox 0\n"
+      "set errorbars lw 1.2\n";
+  constexpr const char* colours[] = {"#0072B2", "#D55E00", "#009E73", "#CC79A7",
+                                     "#E69F00", "#56B4E9", "#000000"};
+  constexpr int shapes[] = {7, 5, 9, 13, 11, 6, 4, 8, 12, 10, 1, 2};
+  for (std::size_t k = 0; k < most_series; ++k) {
+    text += "set style line " + cell(k + 1) + " lc rgb '" + colours[k % 7] + "' pt " +
+            cell(shapes[k]) + " ps 0.75 lw 1.6\n";
+  }
+  return text + frame + "set style line 20 lc rgb '#777777' pt 7 ps 0.35 lw 1\n";
+}
+
+std::string drawing_commands(const Figure& figure) {
+  const std::string size = cell(figure.width) + "," + cell(figure.height);
+  const std::string twice = cell(2 * figure.width) + "," + cell(2 * figure.height);
+  const auto draw = [&](const std::string& terminal, const std::string& ending) {
+    return "reset session\n" + terminal + "\nset output " + quoted(figure.name + ending) + "\n" +
+           figure_style() + figure.commands + "unset multiplot\nunset output\n";
+  };
+  return draw("set terminal svg size " + size + " font 'sans-serif,13' background 'white' name " +
+                  quoted(figure.name),
+              ".svg") +
+         draw("set terminal pngcairo size " + twice +
+                  " font 'sans-serif,13' fontscale 1.5 linewidth 2 pointscale 2 background 'white'",
+              ".png");
+}
+
+}  // namespace grainsweep

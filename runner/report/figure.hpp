@@ -1,0 +1,74 @@
+// A figure: the numbers it shows, as CSV, and the commands by which gnuplot draws them.
+//
+// Colours are those of Okabe and Ito, which people with any colour vision tell apart; series differ
+// in the shape of their points, too. Text of users stands in single quotes, where gnuplot neither
+// runs nor expands anything.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace grainsweep {
+
+struct Figure {
+  std::string name;     ///< of its files: "wall-effect"
+  std::string title;    ///< for people
+  std::string caption;  ///< what is shown and how to read it, plain text
+  /// Name of a file and its content, a table with a header.
+  std::vector<std::pair<std::string, std::string>> tables = {};
+  std::string commands = {};   ///< from `set multiplot` on, without terminal and output
+  int width = 960;             ///< px, of the SVG
+  int height = 420;            ///< px
+  std::string not_drawn = {};  ///< why there is nothing to see; empty if there is
+};
+
+/// So many series are told apart in one figure.
+inline constexpr std::size_t most_series = 12;
+
+/// A string as gnuplot takes it, without line breaks.
+std::string quoted(const std::string& text);
+
+/// Room beside and between panels, px.
+struct PanelGaps {
+  double right = 62.0;  ///< of each panel
+  double row = 18.0;    ///< between rows of panels
+  double above = 8.0;   ///< between the key and the first row
+};
+
+/// What a style stands for.
+struct KeyEntry {
+  std::string style;  ///< "points ls 1"
+  std::string title;
+};
+
+/// Part of a figure: panels side by side and above each other, below a strip with the key.
+class Panels {
+ public:
+  /// `heights`: share of each row of panels.
+  Panels(const Figure& figure, std::size_t columns, std::vector<double> heights,
+         std::vector<KeyEntry> key, PanelGaps gaps = {});
+
+  /// Places the panel in this column and row, counted from 0 and from above.
+  std::string place(std::size_t column, std::size_t row) const;
+
+  /// The key, above all panels: a plot of its own. Panels have none then.
+  std::string key() const;
+
+ private:
+  double width_, height_;  ///< px
+  std::size_t columns_;
+  std::vector<double> heights_;  ///< shares
+  std::vector<KeyEntry> key_;
+  std::size_t key_columns_;
+  double top_;  ///< px for the key
+  PanelGaps gaps_;
+};
+
+/// What stands before all figures: colours, shapes, frame, how tables are read.
+std::string figure_style();
+
+/// The commands that draw the figure into NAME.svg and NAME.png.
+std::string drawing_commands(const Figure& figure);
+
+}  // namespace grainsweep

@@ -1,0 +1,39 @@
+// The figures of a sweep, drawn from the same numbers as its tables.
+#pragma once
+
+#include <vector>
+
+#include "runner/compare/comparison.hpp"
+#include "runner/report/axes.hpp"
+#include "runner/report/figure.hpp"
+#include "runner/tables/families.hpp"
+
+namespace grainsweep {
+
+/// Solid fraction, porosity and coordination number along the axis, with fits and their residuals.
+Figure means_figure(const Axes& axes, const std::vector<Family>& families);
+
+/// Solid fraction and coordination number across the gap, beside each other, with the damped
+/// cosine that was fitted.
+Figure profiles_figure(const Axes& axes);
+
+/// How far the walls reach and what they cost, against the share of small grains.
+Figure small_share_figure(const std::vector<Family>& families);
+
+/// Pair correlation and the distribution of contact forces.
+Figure distributions_figure(const Axes& axes);
+
+/// Kinds of contact between polyhedra along the axis, and the force they carry.
+Figure contacts_figure(const Axes& axes);
+
+/// What each packing cost and how near to rest it came.
+Figure effort_figure(const Axes& axes, const std::vector<Row>& rows);
+
+/// Measured less published values, in standard errors.
+Figure published_figure(const std::vector<Comparison>& comparisons);
+
+/// Those that have a meaning for this sweep.
+std::vector<Figure> figures_of(const std::vector<Row>& rows, const Analysis& analysis,
+                               const std::vector<Comparison>& comparisons);
+
+}  // namespace grainsweep

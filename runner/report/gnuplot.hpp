@@ -1,0 +1,21 @@
+// Draws figures by gnuplot, a program of its own.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "runner/report/figure.hpp"
+
+namespace grainsweep {
+
+struct Drawing {
+  std::vector<std::string> svgs;  ///< of each figure; empty where there is nothing to see
+  std::string missing;            ///< which pictures there are none of and why; empty if none is
+};
+
+/// Writes tables and commands into `folder`, from which `gnuplot NAME.gnuplot` draws NAME.svg and
+/// NAME.png again, and draws all of them at once. What earlier figures left there is removed.
+/// Throws FileError.
+Drawing draw(const std::vector<Figure>& figures, const std::string& folder);
+
+}  // namespace grainsweep

@@ -1,0 +1,131 @@
+// Kinds of contact, and what others have published.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "runner/report/figures.hpp"
+#include "runner/report/plots.hpp"
+
+namespace grainsweep {
+namespace {
+
+constexpr std::array kinds = {"simple", "double", "triple"};
+
+std::string kinds_csv(const Axes& axes) {
+  std::vector<std::string> header = {"all", "group", "x"};
+  for (const char* of : {"contacts_", "force_"}) {
+    for (const char* kind : kinds) {
+      header.push_back(std::string(of) + kind);
+      header.push_back(header.back() + "_error");
+    }
+  }
+  header.emplace_back("name");
+  std::string text = csv_line(header);
+  for (const Series& series : axes.series) {
+    for (const Group* group : series.groups) {
+      std::vector<std::string> cells = {"1", cell(group->number), cell(abscissa(axes, *group))};
+      for (std::size_t column = 3; column + 1 < header.size(); column += 2) {
+        const Spread& mean = mean_of(*group, header[column]);
+        cells.insert(cells.end(), {cell(mean.mean), cell(mean.error)});
+      }
+      cells.push_back(cell(series.name));
+      text += csv_line(cells);
+    }
+  }
+  return text;
+}
+
+std::string kinds_panel(const std::string& of) {
+  std::vector<std::string> parts;
+  for (std::size_t k = 0; k < kinds.size(); ++k) {
+    const std::string column = of + kinds[k];
+    parts.push_back(plot_part(
+        {"contacts.csv", "all", 1, "x", column, column + "_error", "points ls " + cell(k + 1)}));
+  }
+  return plot_command(parts);
+}
+
+std::vector<double> places_of(const Axes& axes) {
+  std::vector<double> places;
+  for (const Series& series : axes.series) {
+    for (const Group* group : series.groups) places.push_back(abscissa(axes, *group));
+  }
+  return places;
+}
+
+/// Those with a difference that is known in errors.
+std::vector<const Comparison*> measured_of(const std::vector<Comparison>& comparisons) {
+  std::vector<const Comparison*> measured;
+  for (const Comparison& one : comparisons) {
+    const auto errors = difference_in_errors(one);
+    if (!one.chi2_per_dof && errors && std::isfinite(*errors)) measured.push_back(&one);
+  }
+  return measured;
+}
+
+}  // namespace
+
+Figure contacts_figure(const Axes& axes) {
+  Figure figure{.name = "contacts",
+                .title = "Kinds of contact",
+                .caption =
+                    "Shares of the force-bearing contacts between polyhedra, and of the "
+                    "force that they carry; bars are standard errors."};
+  figure.tables = {{"contacts.csv", kinds_csv(axes)}};
+  if (shown_series(axes).empty()) {
+    figure.not_drawn = "no packing has settled";
+    return figure;
+  }
+  const Panels panels(figure, 2, {1.0},
+                      {{"points ls 1", "at a point"},
+                       {"points ls 2", "along a line"},
+                       {"points ls 3", "over an area"}},
+                      {.right = 24.0});
+  const std::string x = range_command("x", range_of(places_of(axes), 0.06)) +
+                        label_command("x", abscissa_title(axes)) + "set yrange [0:*]\n";
+  figure.commands = "set multiplot\n" + panels.key() + panels.place(0, 0) + x +
+                    label_command("y", "share of contacts") + kinds_panel("contacts_") +
+                    panels.place(1, 0) + x + label_command("y", "share of force") +
+                    kinds_panel("force_");
+  return figure;
+}
+
+Figure published_figure(const std::vector<Comparison>& comparisons) {
+  Figure figure{.name = "published",
+                .title = "Beside published values",
+                .caption =
+                    "Measured less published value, in standard errors of both. Within the "
+                    "shaded band both agree. The table below has values and definitions."};
+  const std::vector<const Comparison*> measured = measured_of(comparisons);
+  if (measured.empty()) {
+    figure.not_drawn = "no published value can be set beside a measured one with an error";
+    return figure;
+  }
+  std::string csv = csv_line({"all", "row", "errors", "quantity", "family"}), tics;
+  for (std::size_t k = 0; k < measured.size(); ++k) {
+    const Comparison& one = *measured[k];
+    csv += csv_line(
+        {"1", cell(k + 1), cell(one.family), cell(one.title), cell(*difference_in_errors(one))});
+    tics += (k == 0 ? "" : ", ") +
+            quoted(shortened(one.family, 22) + ": " + shortened(one.title, 30)) + " " + cell(k + 1);
+  }
+  const auto rows = static_cast<int>(measured.size());
+  const std::string limit = cell(agreement_limit);
+  figure.tables = {{"published.csv", csv}};
+  figure.height = 120 + 24 * rows;
+  figure.commands =
+      "set multiplot\nset lmargin at screen 0.42\nset rmargin at screen 0.96\n"
+      "unset key\nset yrange [" +
+      cell(rows) + ".6:0.4]\nset ytics noenhanced (" + tics + ")\nset object 1 rectangle from -" +
+      limit + ", graph 0 to " + limit +
+      ", graph 1 fc rgb '#e8f1f8' fs solid noborder behind\n"
+      "set xrange [-5 < * < -" +
+      limit + ":" + limit + " < *]\n" +
+      "set arrow 1 from 0, graph 0 to 0, graph 1 nohead lc rgb '#444444'\n" +
+      label_command("x", "measured less published, standard errors") +
+      plot_command(
+          {plot_part({"published.csv", "all", 1, "errors", "row", "", "points ls 1 ps 1"})});
+  return figure;
+}
+
+}  // namespace grainsweep

@@ -1,0 +1,233 @@
+// Solid fraction and coordination number along the axis of a sweep.
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <set>
+
+#include "runner/report/figures.hpp"
+#include "runner/report/plots.hpp"
+#include "runner/tables/fits.hpp"
+#include "runner/text.hpp"
+
+namespace grainsweep {
+namespace {
+
+const std::string points_table = "means.csv", residuals_table = "means-residuals.csv";
+
+/// A series with the fits of its family.
+struct FittedSeries {
+  const Series* series = nullptr;
+  std::optional<WallFit> phi, z;
+};
+
+bool is_determined(const std::optional<WallFit>& fit) { return fit && fit->not_determined.empty(); }
+
+/// The family whose packings between walls are those of the series; null if there is none.
+const Family* family_of(const Series& series, const std::vector<Family>& families) {
+  for (const Family& family : families) {
+    const auto is_in = [&](const Group& group) {
+      return group.number == series.groups.front()->number;
+    };
+    if (std::any_of(family.walled.begin(), family.walled.end(), is_in)) return &family;
+  }
+  return nullptr;
+}
+
+std::vector<FittedSeries> fitted(const Axes& axes, const std::vector<Family>& families) {
+  std::vector<FittedSeries> all;
+  for (const Series* series : shown_series(axes)) {
+    FittedSeries one{series, std::nullopt, std::nullopt};
+    const Family* family = is_over_width(axes) ? family_of(*series, families) : nullptr;
+    if (family != nullptr) {
+      one.phi = fit_walls(*family, Quantity::solid_fraction);
+      one.z = fit_walls(*family, Quantity::coordination);
+    }
+    all.push_back(std::move(one));
+  }
+  return all;
+}
+
+std::string points_csv(const Axes& axes) {
+  std::string text =
+      csv_line({"series", "group", "x", "value", "solid_fraction", "solid_fraction_error",
+                "coordination", "coordination_error", "name"});
+  std::size_t number = 0;
+  const auto shown = shown_series(axes);
+  for (const Series& series : axes.series) {
+    const bool is_shown = std::find(shown.begin(), shown.end(), &series) != shown.end();
+    if (is_shown) ++number;
+    for (const Group* group : series.groups) {
+      const Spread &phi = mean_of(*group, "solid_fraction"), &z = mean_of(*group, "coordination");
+      text += csv_line({is_shown ? cell(number) : "", cell(group->number),
+                        cell(abscissa(axes, *group)), cell(place_on(axes, *group)), cell(phi.mean),
+                        cell(phi.error), cell(z.mean), cell(z.error), cell(series.name)});
+    }
+  }
+  return text;
+}
+
+std::string residuals_csv(const std::vector<FittedSeries>& all) {
+  std::string text = csv_line({"series", "quantity", "x", "residual", "error"});
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    for (const auto* fit : {&all[k].phi, &all[k].z}) {
+      if (!is_determined(*fit)) continue;
+      for (const FitPoint& point : (*fit)->points) {
+        text +=
+            csv_line({cell(k + 1 + (fit == &all[k].z ? all.size() : 0)),
+                      fit == &all[k].phi ? "solid_fraction" : "coordination",
+                      cell(1.0 / point.width), cell(point.mean - point.fitted), cell(point.error)});
+      }
+    }
+  }
+  return text;
+}
+
+/// The axis below, and above it the widths themselves where it is d / W.
+std::string abscissa_commands(const Axes& axes, bool is_lowest, bool is_highest) {
+  std::vector<double> at;
+  std::set<double> widths;
+  for (const Series& series : axes.series) {
+    for (const Group* group : series.groups) {
+      at.push_back(abscissa(axes, *group));
+      if (group->job.box.y == Boundary::walls) widths.insert(group->job.box.width);
+    }
+  }
+  if (is_over_width(axes)) at.push_back(0.0);
+  std::string text = range_command("x", range_of(at, 0.06));
+  text += is_lowest ? "set format x\n" : "set format x ''\n";
+  text += label_command("x", is_lowest ? abscissa_title(axes) : "");
+  text += "unset x2tics\nunset x2label\n";
+  if (!is_over_width(axes) || !is_highest) return text;
+  std::string tics;
+  double last = -1.0;
+  const double room = 0.05 * *std::max_element(at.begin(), at.end());
+  for (auto width = widths.rbegin(); width != widths.rend(); ++width) {
+    if (1.0 / *width - last < room) continue;
+    last = 1.0 / *width;
+    tics += (tics.empty() ? "" : ", ") + quoted(cell(*width)) + " " + cell(last);
+  }
+  text += "set link x2\nset x2tics (" + tics + ") scale 0.6 out\n";
+  return text + "set x2label 'W / d' offset 0,-0.6 noenhanced\n";
+}
+
+/// Everything that the panel of a quantity shows, with its errors.
+std::vector<double> heights_of(const std::vector<FittedSeries>& all, Quantity quantity) {
+  std::vector<double> heights;
+  for (const FittedSeries& one : all) {
+    const auto& fit = quantity == Quantity::solid_fraction ? one.phi : one.z;
+    if (is_determined(fit)) heights.push_back(fit->bulk.value);
+    for (const Group* group : one.series->groups) {
+      const Spread& spread = spread_of(*group, quantity);
+      const double error = std::isfinite(spread.error) ? spread.error : 0.0;
+      heights.insert(heights.end(), {spread.mean - error, spread.mean + error});
+    }
+  }
+  return heights;
+}
+
+std::string mean_panel(const std::vector<FittedSeries>& all, Quantity quantity) {
+  const bool is_phi = quantity == Quantity::solid_fraction;
+  const std::string column = is_phi ? "solid_fraction" : "coordination";
+  std::vector<std::string> parts;
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    const std::string style = " ls " + cell(k + 1);
+    const auto& fit = is_phi ? all[k].phi : all[k].z;
+    if (is_determined(fit)) {
+      parts.push_back(cell(fit->bulk.value) + " - (" + cell(fit->slope.value) +
+                      ") * (x >= 0 ? x : NaN) with lines" + style + " lw 1.4 notitle");
+    } else {
+      parts.push_back(plot_part(
+          {points_table, "series", k + 1, "x", column, "", "lines" + style + " lw 0.8 dt 3"}));
+    }
+    parts.push_back(plot_part(
+        {points_table, "series", k + 1, "x", column, column + "_error", "points" + style}));
+  }
+  return plot_command(parts);
+}
+
+std::string residual_panel(const std::vector<FittedSeries>& all, Quantity quantity) {
+  const bool is_phi = quantity == Quantity::solid_fraction;
+  std::vector<std::string> parts = {"0 with lines lc rgb '#444444' lw 1 notitle"};
+  double largest = 0.0;
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    const auto& fit = is_phi ? all[k].phi : all[k].z;
+    if (!is_determined(fit)) continue;
+    for (const FitPoint& point : fit->points) {
+      largest = std::max(largest, std::abs(point.mean - point.fitted) + point.error);
+    }
+    parts.push_back(plot_part({residuals_table, "series", k + 1 + (is_phi ? 0 : all.size()), "x",
+                               "residual", "error", "points ls " + cell(k + 1)}));
+  }
+  return few_tics_command("y", largest) + plot_command(parts);
+}
+
+/// Solid fraction to the left of its panel, porosity to the right; or the coordination number.
+std::string height_commands(const std::vector<double>& heights, Quantity quantity) {
+  const Range range = range_of(heights, 0.07);
+  const std::string text = "set ytics autofreq\n" + range_command("y", range);
+  if (quantity == Quantity::coordination) {
+    return text + label_command("y", "coordination number Z") + "unset y2tics\nunset y2label\n";
+  }
+  return text + label_command("y", "solid fraction φ") +
+         range_command("y2", {1.0 - range.low, 1.0 - range.high}) + "set y2tics nomirror\n" +
+         label_command("y2", "porosity 1 - φ");
+}
+
+std::string means_commands(const Axes& axes, const Figure& figure,
+                           const std::vector<FittedSeries>& all, bool has_fits) {
+  const Panels panels(figure, 2, has_fits ? std::vector{0.74, 0.26} : std::vector{1.0},
+                      series_key(axes, "points"),
+                      {.right = 86.0, .above = is_over_width(axes) ? 58.0 : 8.0});
+  std::string text = "set multiplot\n" + panels.key();
+  for (const Quantity quantity : {Quantity::solid_fraction, Quantity::coordination}) {
+    const std::size_t column = quantity == Quantity::solid_fraction ? 0 : 1;
+    text += panels.place(column, 0) + abscissa_commands(axes, !has_fits, true) +
+            height_commands(heights_of(all, quantity), quantity) + mean_panel(all, quantity) +
+            "unset y2tics\nunset y2label\n";
+    if (!has_fits) continue;
+    text += panels.place(column, 1) + "unset link x2\n" + abscissa_commands(axes, true, false) +
+            label_command("y", "residual") + residual_panel(all, quantity);
+  }
+  return text;
+}
+
+std::string fits_text(const std::vector<FittedSeries>& all) {
+  std::string text;
+  for (const FittedSeries& one : all) {
+    if (one.phi && !one.phi->not_determined.empty()) {
+      text += " No line for " + one.series->name + ": " + one.phi->not_determined + ".";
+    }
+  }
+  return text;
+}
+
+}  // namespace
+
+Figure means_figure(const Axes& axes, const std::vector<Family>& families) {
+  Figure figure{.name = "means",
+                .title = is_over_width(axes) ? "What the walls cost"
+                                             : "Solid fraction and coordination number",
+                .caption = "Means over the settled replicates; bars are their standard errors."};
+  const std::vector<FittedSeries> all = fitted(axes, families);
+  if (all.empty()) {
+    figure.not_drawn = "no packing has settled";
+    return figure;
+  }
+  const bool has_fits = std::any_of(all.begin(), all.end(), [](const FittedSeries& one) {
+    return is_determined(one.phi) || is_determined(one.z);
+  });
+  if (has_fits) {
+    figure.caption +=
+        " Lines: φ = φ_bulk - C / W and Z = Z_bulk - C_Z / W, fitted to the packings between "
+        "walls; below, what the points differ from their line.";
+    figure.height = 560;
+    figure.tables.emplace_back(residuals_table, residuals_csv(all));
+  }
+  if (is_over_width(axes)) figure.caption += " Packings without walls stand at d / W = 0.";
+  figure.caption += fits_text(all) + left_out_text(axes, figure.name);
+  figure.tables.insert(figure.tables.begin(), {points_table, points_csv(axes)});
+  figure.commands = means_commands(axes, figure, all, has_fits);
+  return figure;
+}
+
+}  // namespace grainsweep

@@ -1,0 +1,131 @@
+#include "runner/report/plots.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "runner/report/figure.hpp"
+
+namespace grainsweep {
+namespace {
+
+bool has_settled(const Group* group) { return !group->settled.empty(); }
+
+std::vector<const Group*> settled_groups(const Axes& axes) {
+  std::vector<const Group*> all;
+  for (const Series& series : axes.series) {
+    std::copy_if(series.groups.begin(), series.groups.end(), std::back_inserter(all), has_settled);
+  }
+  return all;
+}
+
+/// At most `most` of them, evenly spread over all.
+std::vector<const Group*> spread_over(const std::vector<const Group*>& all, std::size_t most) {
+  std::vector<const Group*> chosen;
+  const std::size_t count = std::min(most, all.size());
+  for (std::size_t k = 0; k < count; ++k) {
+    chosen.push_back(all[count == 1 ? 0 : k * (all.size() - 1) / (count - 1)]);
+  }
+  return chosen;
+}
+
+}  // namespace
+
+double abscissa(const Axes& axes, const Group& group) {
+  if (!is_over_width(axes)) return place_on(axes, group);
+  return group.job.box.y == Boundary::periodic ? 0.0 : 1.0 / group.job.box.width;
+}
+
+std::string abscissa_title(const Axes& axes) { return is_over_width(axes) ? "d / W" : axes.title; }
+
+std::vector<const Series*> shown_series(const Axes& axes) {
+  std::vector<const Series*> shown;
+  for (const Series& series : axes.series) {
+    const bool is_there = std::any_of(series.groups.begin(), series.groups.end(), has_settled);
+    if (is_there && shown.size() < most_series) shown.push_back(&series);
+  }
+  return shown;
+}
+
+std::string left_out_text(const Axes& axes, const std::string& name) {
+  const std::size_t shown = shown_series(axes).size();
+  if (shown < most_series || shown == axes.series.size()) return "";
+  return " " + cell(shown) + " of " + cell(axes.series.size()) + " series are shown; all are in " +
+         name + ".csv.";
+}
+
+std::vector<const Group*> chosen_groups(const Axes& axes, std::size_t most) {
+  return spread_over(settled_groups(axes), most);
+}
+
+std::vector<const Group*> chosen_walled_groups(const Axes& axes, std::size_t most) {
+  std::vector<const Group*> walled, all = settled_groups(axes);
+  std::copy_if(all.begin(), all.end(), std::back_inserter(walled),
+               [](const Group* group) { return group->job.box.y == Boundary::walls; });
+  return spread_over(walled.empty() ? all : walled, most);
+}
+
+std::vector<KeyEntry> series_key(const Axes& axes, const std::string& style) {
+  std::vector<KeyEntry> entries;
+  for (const Series* series : shown_series(axes)) {
+    entries.push_back({style + " ls " + cell(entries.size() + 1), series->name});
+  }
+  return entries;
+}
+
+std::string plot_part(const Curve2d& curve) {
+  const auto column = [](const std::string& name) { return "(column(" + quoted(name) + "))"; };
+  const std::string points = quoted(curve.table) + " using (" + column(curve.selector) +
+                             "==" + cell(curve.number) + " ? " + column(curve.x) +
+                             " : NaN):" + column(curve.y);
+  const std::string plain = points + " with " + curve.style + " notitle";
+  if (curve.error.empty()) return plain;
+  return points + ":" + column(curve.error) + " with yerrorbars " +
+         curve.style.substr(curve.style.find(' ') + 1) + " ps 0 notitle, " + plain;
+}
+
+std::string plot_command(const std::vector<std::string>& parts) {
+  std::string text = "plot ";
+  for (const std::string& part : parts) text += (&part == parts.data() ? "" : ", \\\n  ") + part;
+  return parts.empty() ? "set xrange [0:1]\nset yrange [0:1]\nplot NaN notitle\n" : text + "\n";
+}
+
+std::string label_command(const std::string& axis, const std::string& text) {
+  return text.empty() ? "unset " + axis + "label\n"
+                      : "set " + axis + "label " + quoted(text) + " noenhanced\n";
+}
+
+std::string few_tics_command(const std::string& axis, double farthest) {
+  if (!(farthest > 0.0)) return "";
+  const double power = std::pow(10.0, std::floor(std::log10(farthest)));
+  const double tic = farthest >= 5.0 * power   ? 5.0 * power
+                     : farthest >= 2.0 * power ? 2.0 * power
+                                               : power;
+  const std::string at = cell(tic), end = cell(1.1 * farthest);
+  return "set " + axis + "range [-" + end + ":" + end + "]\nset " + axis + "tics (-" + at +
+         ", 0, " + at + ")\n";
+}
+
+std::string decade_tics_command(const std::string& axis, double low, double high) {
+  std::string tics;
+  for (int power = -4; power < 8; ++power) {
+    for (const double digit : {1.0, 2.0, 5.0}) {
+      const double at = digit * std::pow(10.0, power);
+      if (at >= low && at <= high) tics += (tics.empty() ? "" : ", ") + cell(at);
+    }
+  }
+  return tics.empty() ? "" : "set " + axis + "tics (" + tics + ")\n";
+}
+
+Range range_of(std::vector<double> values, double room) {
+  std::erase_if(values, [](double value) { return !std::isfinite(value); });
+  if (values.empty()) return {};
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  const double span = *high > *low ? *high - *low : std::max(std::abs(*low), 1.0);
+  return {*low - room * span, *high + room * span};
+}
+
+std::string range_command(const std::string& axis, const Range& range) {
+  return "set " + axis + "range [" + cell(range.low) + ":" + cell(range.high) + "]\n";
+}
+
+}  // namespace grainsweep

@@ -1,0 +1,63 @@
+// Parts that the commands of several figures are made of.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "runner/report/axes.hpp"
+#include "runner/report/figure.hpp"
+
+namespace grainsweep {
+
+/// Where a group stands on the axis of a figure: d / W of a gap between walls, 0 without walls;
+/// over anything else its place on the axis.
+double abscissa(const Axes& axes, const Group& group);
+std::string abscissa_title(const Axes& axes);
+
+/// The series that a figure shows: the first most_series with a settled packing.
+std::vector<const Series*> shown_series(const Axes& axes);
+
+/// "12 of 40 series are shown, all are in NAME.csv"; empty if all are shown.
+std::string left_out_text(const Axes& axes, const std::string& name);
+
+/// Groups with a settled packing, at most `most` of them, evenly spread over all.
+std::vector<const Group*> chosen_groups(const Axes& axes, std::size_t most);
+
+/// The same of groups between walls, if there are any.
+std::vector<const Group*> chosen_walled_groups(const Axes& axes, std::size_t most);
+
+/// A key entry for each of the shown series.
+std::vector<KeyEntry> series_key(const Axes& axes, const std::string& style);
+
+/// One curve of a plot: `using` of the lines of a table whose column `selector` is `number`.
+struct Curve2d {
+  std::string table, selector;
+  std::size_t number = 1;
+  std::string x, y, error = {};  ///< columns; bars stand where there is an error
+  std::string style;             ///< "points ls 1"
+};
+std::string plot_part(const Curve2d& curve);
+
+/// "plot a, b, c"; an empty panel where there are none.
+std::string plot_command(const std::vector<std::string>& parts);
+
+/// "set xlabel '...'", or without a label.
+std::string label_command(const std::string& axis, const std::string& text);
+
+/// Tics at 0 and one to each side, for values that lie around 0, and their range.
+std::string few_tics_command(const std::string& axis, double farthest);
+
+/// Tics at 1, 2 and 5 of each decade of a logarithmic axis.
+std::string decade_tics_command(const std::string& axis, double low, double high);
+
+struct Range {
+  double low = 0.0, high = 1.0;
+};
+
+/// The range of these values with some room at both ends, a share of it.
+Range range_of(std::vector<double> values, double room);
+
+/// "set xrange [0.1:0.3]"; with low above high the axis runs downwards.
+std::string range_command(const std::string& axis, const Range& range);
+
+}  // namespace grainsweep

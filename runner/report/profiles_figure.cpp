@@ -1,0 +1,137 @@
+// Solid fraction and coordination number from wall to wall.
+#include <cmath>
+#include <numbers>
+
+#include "runner/report/figures.hpp"
+#include "runner/report/plots.hpp"
+#include "runner/tables/decays.hpp"
+#include "runner/tables/profiles.hpp"
+#include "runner/text.hpp"
+
+namespace grainsweep {
+namespace {
+
+constexpr std::size_t most_profiles = 3;
+const std::string table = "profiles.csv";
+
+std::string bins_csv(const std::vector<const Group*>& groups) {
+  std::string text =
+      csv_line({"panel", "group", "y", "solid_fraction", "large", "large_error", "coordination",
+                "coordination_error", "coordination_with_walls", "name"});
+  for (std::size_t k = 0; k < groups.size(); ++k) {
+    for (const MeanBin& bin : mean_profile(*groups[k], &PackingResult::profile_y)) {
+      text += csv_line({cell(k + 1), cell(groups[k]->number), cell((bin.low + bin.high) / 2.0),
+                        cell(bin.solid_fraction.mean), cell(bin.large.mean), cell(bin.large.error),
+                        cell(bin.coordination.mean), cell(bin.coordination.error),
+                        cell(bin.coordination_with_walls.mean), cell(title_of(*groups[k]))});
+    }
+  }
+  return text;
+}
+
+/// What all panels of a row show, so that they have one range.
+std::vector<double> values_in(const std::vector<const Group*>& groups,
+                              std::initializer_list<Spread MeanBin::*> spreads) {
+  std::vector<double> values;
+  for (const Group* group : groups) {
+    for (const MeanBin& bin : mean_profile(*group, &PackingResult::profile_y)) {
+      for (const auto spread : spreads) values.push_back((bin.*spread).mean);
+    }
+  }
+  return values;
+}
+
+/// The curve that describes the layers of large grains, from both walls to the middle.
+std::string cosine(const DecayFit& fit, double width) {
+  const std::string y = "(x < " + cell(width / 2.0) + " ? x : " + cell(width) + " - x)";
+  return "(" + y + " < " + cell(decay_window_start) + " ? NaN : " + cell(fit.bulk.value) + " + " +
+         cell(fit.amplitude.value) + " * exp(-" + y + " / " + cell(fit.length.value) + ") * cos(" +
+         cell(2.0 * std::numbers::pi / fit.period.value) + " * " + y + " + " +
+         cell(fit.phase.value) + "))";
+}
+
+std::string solid_panel(std::size_t k, const DecayFit& fit, double width) {
+  std::vector<std::string> parts = {
+      plot_part({table, "panel", k + 1, "y", "solid_fraction", "", "lines ls 3 lw 0.8"}),
+      plot_part({table, "panel", k + 1, "y", "large", "large_error", "points ls 20"})};
+  if (fit.not_determined.empty()) {
+    parts.push_back(cosine(fit, width) + " with lines ls 2 lw 1.4 notitle");
+  }
+  return plot_command(parts);
+}
+
+std::string coordination_panel(std::size_t k) {
+  return plot_command(
+      {plot_part({table, "panel", k + 1, "y", "coordination_with_walls", "", "lines ls 5 lw 1.4"}),
+       plot_part({table, "panel", k + 1, "y", "coordination", "", "lines ls 1 lw 1.4"})});
+}
+
+std::string commands_of(const Figure& figure, const std::vector<const Group*>& groups,
+                        const std::vector<DecayFit>& fits) {
+  const Panels panels(figure, groups.size(), {0.55, 0.45},
+                      {{"points ls 20", "φ of large grains"},
+                       {"lines ls 2", "damped cosine"},
+                       {"lines ls 3", "φ of all grains"},
+                       {"lines ls 1", "Z, walls not counted"},
+                       {"lines ls 5", "Z, walls counted"}},
+                      {.right = 16.0, .above = 26.0});
+  std::string text = "set multiplot\n" + panels.key();
+  const std::string solid = range_command(
+      "y", range_of(values_in(groups, {&MeanBin::solid_fraction, &MeanBin::large}), 0.06));
+  const std::string touching = range_command(
+      "y", range_of(values_in(groups, {&MeanBin::coordination, &MeanBin::coordination_with_walls}),
+                    0.06));
+  for (std::size_t k = 0; k < groups.size(); ++k) {
+    const double width = groups[k]->job.box.width;
+    text += panels.place(k, 0) + range_command("x", {0.0, width}) + "set format x ''\n" +
+            label_command("x", "") + label_command("y", k == 0 ? "solid fraction φ" : "") +
+            "set title " + quoted(title_of(*groups[k], figure_label)) +
+            " offset 0,-0.7 font ',11' noenhanced\n" + solid + solid_panel(k, fits[k], width) +
+            "unset title\n";
+    text += panels.place(k, 1) + "set format x\n" + label_command("x", "y / d, from wall to wall") +
+            label_command("y", k == 0 ? "coordination number Z" : "") + touching +
+            coordination_panel(k);
+  }
+  return text;
+}
+
+std::string decays_text(const std::vector<const Group*>& groups,
+                        const std::vector<DecayFit>& fits) {
+  std::string text;
+  for (std::size_t k = 0; k < groups.size(); ++k) {
+    const DecayFit& fit = fits[k];
+    text += " " + title_of(*groups[k], figure_label) + ": ";
+    text += fit.not_determined.empty()
+                ? "λ = " + fixed(fit.length.value, 2) + " ± " + fixed(fit.length.error, 2) +
+                      " d, reach " + fixed(fit.reach.value, 1) + " ± " + fixed(fit.reach.error, 1) +
+                      " d."
+                : "no curve, " + fit.not_determined + ".";
+  }
+  return text;
+}
+
+}  // namespace
+
+Figure profiles_figure(const Axes& axes) {
+  Figure figure{.name = "profiles",
+                .title = "Layers beside the walls",
+                .caption =
+                    "Solid fraction and coordination number of slices parallel to the "
+                    "walls; bars are standard errors. φ = bulk + A exp(-y / λ) cos(2π y / T + δ) "
+                    "is fitted from "
+                    "both walls."};
+  const std::vector<const Group*> groups = chosen_walled_groups(axes, most_profiles);
+  if (groups.empty()) {
+    figure.not_drawn = "no packing has settled";
+    return figure;
+  }
+  std::vector<DecayFit> fits;
+  for (const Group* group : groups) fits.push_back(decay_of(*group, GrainClass::large));
+  figure.height = 520;
+  figure.caption += decays_text(groups, fits) + " The others are in the folder's profiles.csv.";
+  figure.tables = {{table, bins_csv(groups)}};
+  figure.commands = commands_of(figure, groups, fits);
+  return figure;
+}
+
+}  // namespace grainsweep

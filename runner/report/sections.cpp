@@ -1,0 +1,288 @@
+#include "runner/report/sections.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <utility>
+
+#include "runner/report/html.hpp"
+#include "runner/store/fields.hpp"
+#include "runner/tables/fits.hpp"
+#include "runner/text.hpp"
+
+namespace grainsweep {
+namespace {
+
+/// "0.6087 ± 0.0003"; the value alone where it has no error, "-" without a value.
+std::string mean_text(double value, double error, int decimals) {
+  const std::string text = fixed(value, decimals);
+  return std::isfinite(error) ? text + " ± " + fixed(error, decimals) : text;
+}
+
+std::string mean_text(const Spread& spread, int decimals) {
+  return mean_text(spread.mean, spread.error, decimals);
+}
+
+/// "8.7e-05"; "-" for NaN.
+std::string power_text(double value) {
+  if (!std::isfinite(value)) return "-";
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.1e", value);
+  return text.data();
+}
+
+/// The field of the one table of fields that is called so.
+const Field& field_named(std::string_view name) {
+  return *std::find_if(fields().begin(), fields().end(),
+                       [&](const Field& field) { return field.name == name; });
+}
+
+std::string measured(const Row& row, std::string_view name, int decimals) {
+  return is_measured(row) ? fixed(number_of(field_named(name), *row.outcome), decimals) : "-";
+}
+
+Heading heading(const char* title, std::string_view field) {
+  return {title, std::string(field_named(field).meaning)};
+}
+
+std::string settled_of(const StatusCounts& counts) {
+  const int all = counts.settled + counts.not_settled + counts.failed + counts.pending;
+  return std::to_string(counts.settled) + " of " + std::to_string(all);
+}
+
+std::vector<std::string> group_cells(const Group& group) {
+  return {html_text(title_of(group)),
+          html_text(settled_of(group.counts)),
+          mean_text(mean_of(group, "solid_fraction"), 4),
+          fixed(1.0 - mean_of(group, "solid_fraction").mean, 4),
+          mean_text(mean_of(group, "coordination"), 3),
+          mean_text(mean_of(group, "coordination_with_walls"), 3),
+          fixed(mean_of(group, "contact_ratio").mean, 4),
+          power_text(mean_of(group, "overlap_mean").mean),
+          fixed(mean_of(group, "static_imbalance_mean").mean, 4)};
+}
+
+std::vector<std::string> fit_cells(const Family& family, Quantity quantity) {
+  const bool is_phi = quantity == Quantity::solid_fraction;
+  const int decimals = is_phi ? 4 : 3;
+  const WallFit fit = fit_walls(family, quantity);
+  std::vector<std::string> cells = {html_text(family.name), is_phi ? "φ" : "Z",
+                                    std::to_string(fit.widths)};
+  if (!fit.not_determined.empty()) {
+    cells.insert(cells.end(), {"-", "-", "-", "-", "-"});
+    cells.push_back("not determined: " + html_text(fit.not_determined));
+    return cells;
+  }
+  const Group* reference = unconfined_reference(family);
+  const std::string unconfined =
+      reference == nullptr ? "-" : mean_text(spread_of(*reference, quantity), decimals);
+  cells.insert(cells.end(), {mean_text(fit.bulk.value, fit.bulk.error, decimals), unconfined,
+                             mean_text(fit.slope.value, fit.slope.error, decimals - 1),
+                             mean_text(fit.zeta.value, fit.zeta.error, 3),
+                             fixed(fit.chi2_per_dof, 2), html_text(fit.doubt)});
+  return cells;
+}
+
+/// Those that did not settle come first.
+int order_of(const Row& row) {
+  if (!row.outcome) return 2;
+  if (is_settled(row)) return 3;
+  return row.outcome->result.status == PackingStatus::failed ? 0 : 1;
+}
+
+std::string status_words(const Row& row) {
+  const std::string status = status_of(row);
+  return status == "not_settled" ? "not settled" : status;
+}
+
+/// What tells the group of a packing from the others.
+using Titles = std::map<std::pair<std::string, std::string>, std::string>;
+
+std::vector<std::string> packing_cells(const Row& row, const Titles& titles) {
+  const JobFacts& job = row.job;
+  const std::string remedy = remedy_of(row);
+  const std::string reason = row.outcome ? row.outcome->result.reason : "";
+  return {
+      "<code>" + html_text(job.id) + "</code>",
+      "<span class=\"status " + html_text(status_of(row)) + "\">" + html_text(status_words(row)) +
+          "</span>",
+      html_text(titles.at({job.label, job.parameters})),
+      cell(job.box.width),
+      std::to_string(job.replicate),
+      row.outcome ? std::to_string(row.outcome->result.grains) : "-",
+      measured(row, "solid_fraction", 4),
+      measured(row, "coordination", 3),
+      measured(row, "contact_ratio", 4),
+      measured(row, "static_imbalance_mean", 4),
+      row.outcome ? fixed(row.outcome->cpu_seconds, 2) : "-",
+      html_text(reason) + (remedy.empty() ? "" : "<br><em>What to do:</em> " + html_text(remedy))};
+}
+
+std::string published_value(const Published& published) {
+  return published.text + (published.definition.empty() ? "" : " (" + published.definition + ")");
+}
+
+std::string measured_value(const Measured& measured) {
+  if (!measured.not_determined.empty()) return "not determined: " + measured.not_determined;
+  return mean_text(measured.estimate.value, measured.estimate.error, 4) +
+         (measured.definition.empty() ? "" : " (" + measured.definition + ")");
+}
+
+std::string definition(const std::string& term, const std::string& text) {
+  return text.empty() ? "" : "<dt>" + term + "</dt><dd>" + html_text(text) + "</dd>\n";
+}
+
+std::string build_list(const Build& build) {
+  std::string libraries;
+  for (const auto& [name, version] : build.libraries) {
+    libraries += (libraries.empty() ? "" : ", ") + name + " " + version;
+  }
+  return "<dl>\n" + definition("Program", "grainsweep " + build.version) +
+         definition("Commit", build.commit) + definition("Compiler", build.compiler) +
+         definition("Libraries", libraries) + "</dl>\n";
+}
+
+std::vector<std::string> run_cells(const RunRecord& run) {
+  return {html_text(run.started),
+          run.ended.empty() ? "not ended" : html_text(duration_text(run.wall_seconds)),
+          std::to_string(run.packings),
+          html_text(run.host),
+          html_text(run.processor),
+          std::to_string(run.threads) + " of " + std::to_string(run.cores),
+          html_text(run.isa),
+          html_text(run.commit),
+          "<code>" + html_text(run.command) + "</code>"};
+}
+
+}  // namespace
+
+std::string summary_section(const std::vector<Row>& rows) {
+  const Totals totals = totals_of(rows);
+  const StatusCounts& counts = totals.counts;
+  std::string text =
+      counted(rows.size(), "packing") + ", " + std::to_string(counts.settled) + " settled";
+  const auto add = [&](int count, const char* what) {
+    if (count > 0) text += ", " + std::to_string(count) + " " + what;
+  };
+  add(counts.not_settled, "not settled");
+  add(counts.failed, "failed");
+  add(counts.pending, "not made yet");
+  text += "; processor time " + duration_text(totals.cpu_seconds) + ".";
+  if (counts.settled != static_cast<int>(rows.size())) {
+    text +=
+        " Only settled packings enter means, fits and curves; the table of packings says what "
+        "became of the others.";
+  }
+  return "<p class=\"summary\">" + html_text(text) + "</p>\n";
+}
+
+std::string groups_section(const std::vector<Group>& groups) {
+  HtmlTable table{"groups", "Means and their standard errors", {}, {}};
+  table.headings = {{"parameters", "label and what differs within the sweep"},
+                    {"settled", "packings that enter the means"},
+                    heading("φ", "solid_fraction"),
+                    {"porosity", "1 - φ"},
+                    heading("Z", "coordination"),
+                    heading("Z with walls", "coordination_with_walls"),
+                    heading("contacts / isostatic", "contact_ratio"),
+                    heading("overlap / d", "overlap_mean"),
+                    heading("imbalance", "static_imbalance_mean")};
+  for (const Group& group : groups) table.rows.push_back(group_cells(group));
+  return html_table(table);
+}
+
+std::string fits_section(const std::vector<Family>& families) {
+  HtmlTable table{"fits", "Wall effect: φ = φ_bulk - C / W and Z = Z_bulk - C_Z / W", {}, {}};
+  table.headings = {{"family"},
+                    {"of"},
+                    {"widths"},
+                    {"bulk", "the value without walls, from the line"},
+                    {"periodic", "measured without walls"},
+                    {"C / d", "slope of the line"},
+                    {"ζ / d", "slope over bulk value"},
+                    {"χ²/dof", "about 1 if the line holds"},
+                    {"remark"}};
+  for (const Family& family : families) {
+    if (family.walled.empty()) continue;
+    for (const Quantity quantity : {Quantity::solid_fraction, Quantity::coordination}) {
+      table.rows.push_back(fit_cells(family, quantity));
+    }
+  }
+  return table.rows.empty() ? "" : html_table(table);
+}
+
+std::string published_section(const std::string& source,
+                              const std::vector<Comparison>& comparisons) {
+  if (comparisons.empty()) return "";
+  HtmlTable table{"published-values", source, {}, {}};
+  table.headings = {{"family"}, {"quantity"}, {"published"}, {"measured"}, {"verdict"}};
+  for (const Comparison& one : comparisons) {
+    table.rows.push_back({html_text(one.family), html_text(one.title),
+                          html_text(published_value(one.published)),
+                          html_text(measured_value(one.measured)), html_text(verdict(one))});
+  }
+  return html_table(table);
+}
+
+std::string packings_section(const std::vector<Row>& rows, const std::vector<Group>& groups) {
+  Titles titles;
+  for (const Group& group : groups) {
+    titles[{group.job.label, group.job.parameters}] = title_of(group);
+  }
+  HtmlTable table{"packings", "Packings, those that did not settle first", {}, {}};
+  table.headings = {{"packing", "column job of the tables"},
+                    {"status"},
+                    {"parameters", "label and what differs within the sweep"},
+                    {"W / d", "gap between the walls"},
+                    {"replicate"},
+                    heading("grains", "grains"),
+                    heading("φ", "solid_fraction"),
+                    heading("Z", "coordination"),
+                    heading("contacts / isostatic", "contact_ratio"),
+                    heading("imbalance", "static_imbalance_mean"),
+                    heading("CPU / s", "cpu_seconds"),
+                    {"reason"}};
+  std::vector<const Row*> sorted;
+  for (const Row& row : rows) sorted.push_back(&row);
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [](const Row* a, const Row* b) { return order_of(*a) < order_of(*b); });
+  const std::size_t shown = std::min(most_packings, sorted.size());
+  for (std::size_t k = 0; k < shown; ++k) table.rows.push_back(packing_cells(*sorted[k], titles));
+  const std::string left_out =
+      shown == sorted.size() ? ""
+                             : "<p class=\"note\">The first " + std::to_string(shown) + " of " +
+                                   std::to_string(sorted.size()) +
+                                   " packings; all are in <a href=\"packings.csv\">packings.csv"
+                                   "</a>.</p>\n";
+  return left_out + html_table(table);
+}
+
+std::string remedy_of(const Row& row) {
+  if (!row.outcome) return "run the sweep again: it makes what is missing";
+  if (is_settled(row)) return "";
+  if (row.outcome->exception) return "run the sweep again: packings that broke off are made anew";
+  if (row.outcome->result.status == PackingStatus::failed) {
+    return "mend what the reason names in the sweep file, and run it again";
+  }
+  return "give it more steps (accuracy.max_steps), or more accurate ones "
+         "(accuracy.path_tolerance); "
+         "where few of many do not settle, the others stand for the parameters";
+}
+
+std::string provenance_section(const Provenance& provenance) {
+  HtmlTable runs{"runs", "Runs", {}, {}};
+  runs.headings = {{"started"}, {"took"},    {"packings"}, {"host"},   {"processor"},
+                   {"threads"}, {"kernels"}, {"commit"},   {"command"}};
+  for (const RunRecord& run : provenance.runs) runs.rows.push_back(run_cells(run));
+  std::string text = build_list(provenance.build) + html_table(runs);
+  for (const SweepFile& sweep : provenance.sweeps) {
+    text += "<details><summary>Sweep file " + html_text(sweep.file) +
+            ", verbatim</summary>\n<pre tabindex=\"0\">" + html_text(sweep.text) +
+            "</pre></details>\n";
+  }
+  return text;
+}
+
+}  // namespace grainsweep

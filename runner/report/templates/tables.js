@@ -1,0 +1,61 @@
+// Sorts the table of packings by any column and filters it by words. Without this script the page
+// is complete; with it a heading becomes a button.
+(() => {
+  "use strict";
+  const table = document.getElementById("packings");
+  if (!table) return;
+  const body = table.tBodies[0];
+  const rows = [...body.rows];
+
+  const valueIn = (row, column) => {
+    const text = row.cells[column].textContent.trim();
+    const number = Number(text);
+    return text !== "" && !Number.isNaN(number) ? number : text;
+  };
+
+  // Numbers before text, and what has no value last.
+  const compare = (a, b) => {
+    const kinds = [typeof a === "number" ? 0 : 1, typeof b === "number" ? 0 : 1];
+    if (kinds[0] !== kinds[1]) return kinds[0] - kinds[1];
+    return kinds[0] === 0 ? a - b : a.localeCompare(b);
+  };
+
+  const sortBy = (heading, column) => {
+    const descending = heading.getAttribute("aria-sort") === "ascending";
+    for (const other of table.tHead.rows[0].cells) other.removeAttribute("aria-sort");
+    heading.setAttribute("aria-sort", descending ? "descending" : "ascending");
+    const sign = descending ? -1 : 1;
+    rows.sort((a, b) => sign * compare(valueIn(a, column), valueIn(b, column)));
+    body.append(...rows);
+  };
+
+  [...table.tHead.rows[0].cells].forEach((heading, column) => {
+    const button = document.createElement("button");
+    button.type = "button";
+    button.append(...heading.childNodes);
+    heading.append(button);
+    button.addEventListener("click", () => sortBy(heading, column));
+  });
+
+  const controls = document.createElement("div");
+  controls.className = "controls";
+  const label = document.createElement("label");
+  const input = document.createElement("input");
+  const count = document.createElement("output");
+  input.type = "search";
+  input.id = "filter";
+  label.append("Show rows with", input);
+  controls.append(label, count);
+  table.parentElement.before(controls);
+
+  input.addEventListener("input", () => {
+    const words = input.value.toLowerCase().split(/\s+/).filter(Boolean);
+    let shown = 0;
+    for (const row of rows) {
+      const text = row.textContent.toLowerCase();
+      row.hidden = !words.every((word) => text.includes(word));
+      if (!row.hidden) shown += 1;
+    }
+    count.textContent = words.length ? `${shown} of ${rows.length}` : "";
+  });
+})();

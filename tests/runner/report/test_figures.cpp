@@ -1,0 +1,85 @@
+#include <algorithm>
+
+#include <catch2/catch.hpp>
+
+#include "runner/report/figures.hpp"
+#include "tests/runner/sample_rows.hpp"
+
+using namespace grainsweep;
+
+namespace {
+
+/// Three replicates at three widths that lie on phi = 0.64 - 0.2 / W but for a scatter.
+std::vector<Row> wall_rows() {
+  std::vector<Row> rows;
+  for (const double width : {4.0, 8.0, 16.0}) {
+    for (const int replicate : {1, 2, 3}) {
+      const double scatter = 1e-4 * (replicate - 2);
+      Row row = settled_row(std::to_string(rows.size()), width, 0.64 - 0.2 / width + scatter, 6.0);
+      row.job.replicate = replicate;
+      set_curves(sample_curves(), row.outcome->result);
+      rows.push_back(std::move(row));
+    }
+  }
+  return rows;
+}
+
+const Figure& figure_called(const std::vector<Figure>& figures, const std::string& name) {
+  return *std::find_if(figures.begin(), figures.end(),
+                       [&](const Figure& figure) { return figure.name == name; });
+}
+
+}  // namespace
+
+TEST_CASE("text in a figure's commands cannot end its quotes or the line", "[report]") {
+  CHECK(quoted("a'b`c`\n\"$(d)") == "'a''b`c` \"$(d)'");
+}
+
+TEST_CASE("the means over the width have the line of fits.csv and its residuals", "[report]") {
+  const std::vector<Row> rows = wall_rows();
+  const Analysis analysis = analyse(rows);
+  const std::vector<Figure> figures = figures_of(rows, analysis, {});
+  const Figure& means = figure_called(figures, "means");
+  CHECK(means.not_drawn.empty());
+  REQUIRE(means.tables.size() == 2);
+  CHECK(cell_in(means.tables[0].second, 1, "x") == "0.25");
+  CHECK(cell_in(means.tables[0].second, 1, "value") == "4");
+  CHECK(std::stod(cell_in(means.tables[0].second, 1, "solid_fraction")) == Approx(0.59));
+  CHECK(cells_of_table(means.tables[1].second).size() == 4);
+  CHECK(means.commands.find("means-residuals.csv") != std::string::npos);
+}
+
+TEST_CASE("figures without a meaning for the sweep are left out", "[report]") {
+  const std::vector<Row> rows = wall_rows();
+  const std::vector<Figure> figures = figures_of(rows, analyse(rows), {});
+  const auto has = [&](const char* name) {
+    return std::any_of(figures.begin(), figures.end(),
+                       [&](const Figure& figure) { return figure.name == name; });
+  };
+  CHECK(has("profiles"));
+  CHECK(has("distributions"));
+  CHECK(has("effort"));
+  CHECK_FALSE(has("contacts"));
+  CHECK_FALSE(has("small_grains"));
+  CHECK_FALSE(has("published"));
+}
+
+TEST_CASE("where nothing has settled each figure says so", "[report]") {
+  const std::vector<Row> rows = {row_with_status("a", 4, PackingStatus::not_settled, "moves"),
+                                 row_with_status("b", 5, PackingStatus::failed, "no room")};
+  for (const Figure& figure : figures_of(rows, analyse(rows), {})) {
+    if (figure.name != "effort") CHECK(figure.not_drawn == "no packing has settled");
+  }
+  const std::vector<Row> none;
+  for (const Figure& figure : figures_of(none, analyse(none), {})) {
+    CHECK_FALSE(figure.not_drawn.empty());
+  }
+}
+
+TEST_CASE("kinds of contact are drawn for polyhedra", "[report]") {
+  const std::vector<Row> rows = {polyhedra_row("a", 4), polyhedra_row("b", 5)};
+  const std::vector<Figure> figures = figures_of(rows, analyse(rows), {});
+  const std::string& table = figure_called(figures, "contacts").tables.at(0).second;
+  CHECK(cell_in(table, 1, "contacts_simple") == "0.5");
+  CHECK(cell_in(table, 1, "force_triple") == "0.5");
+}

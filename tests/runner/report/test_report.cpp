@@ -1,0 +1,109 @@
+#include <cstdlib>
+#include <filesystem>
+
+#include <catch2/catch.hpp>
+
+#include "runner/report/report.hpp"
+#include "runner/report/sections.hpp"
+#include "runner/store/files.hpp"
+#include "tests/runner/sample_rows.hpp"
+#include "tests/runner/temporary_folder.hpp"
+
+using namespace grainsweep;
+
+namespace {
+
+const std::string evil = "</script><script>alert(\"1\")</script> 'q', \"c\" `touch here` $(x) %d";
+
+std::vector<Row> evil_rows() {
+  std::vector<Row> rows = {settled_row("a", 4, 0.6, 5.0), settled_row("b", 5, 0.61, 5.2),
+                           row_with_status("c", 6, PackingStatus::not_settled, evil)};
+  for (Row& row : rows) {
+    row.job.label = evil;
+    set_curves(sample_curves(), row.outcome->result);
+  }
+  return rows;
+}
+
+std::size_t count_of(const std::string& text, const std::string& part) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) {
+    ++count;
+  }
+  return count;
+}
+
+}  // namespace
+
+TEST_CASE("labels, reasons and sweep files cannot become part of the page", "[report]") {
+  const TemporaryFolder folder;
+  const std::vector<Row> rows = evil_rows();
+  Provenance provenance;
+  provenance.sweep_name = evil;
+  provenance.sweeps = {{evil, evil}};
+  RunRecord run;
+  run.started = run.command = run.host = evil;
+  provenance.runs = {run};
+  write_report(folder.path(), provenance, rows, analyse(rows));
+  const std::string page = read_file(folder.path() + "/report.html");
+  CHECK(count_of(page, "<script>") == 1);
+  CHECK(count_of(page, "</script>") == 1);
+  CHECK(count_of(page, "`touch here`") > 2);
+  CHECK_FALSE(file_exists(folder.path() + "/figures/here"));
+}
+
+TEST_CASE("the page of a sweep without packings is whole", "[report]") {
+  const TemporaryFolder folder;
+  const std::vector<Row> rows;
+  CHECK(write_report(folder.path(), {}, rows, analyse(rows)).empty());
+  const std::string page = read_file(folder.path() + "/report.html");
+  CHECK(page.find("Not determined: no packing has settled.") != std::string::npos);
+  CHECK(page.find("</html>") != std::string::npos);
+}
+
+TEST_CASE("packings that did not settle come first, with reason and remedy", "[report]") {
+  const std::vector<Row> rows = {settled_row("aa", 4, 0.6, 5.0),
+                                 row_with_status("bb", 5, PackingStatus::failed, "no room"),
+                                 {sample_job("cc", 6), std::nullopt}};
+  const std::string html = packings_section(rows, groups_of(rows));
+  const std::size_t failed = html.find(">bb<"), pending = html.find(">cc<");
+  CHECK(failed < pending);
+  CHECK(pending < html.find(">aa<"));
+  CHECK(html.find("no room") > failed);
+  CHECK(html.find(remedy_of(rows[1])) > failed);
+  CHECK(remedy_of(rows[0]).empty());
+}
+
+TEST_CASE("of many packings the page shows 2,000 and leads to all", "[report]") {
+  std::vector<Row> rows;
+  for (std::size_t k = 0; k < most_packings + 5; ++k) {
+    rows.push_back(settled_row(std::to_string(k), 4, 0.6, 5.0));
+    rows.back().job.replicate = static_cast<int>(k) + 1;
+  }
+  const std::string html = packings_section(rows, groups_of(rows));
+  CHECK(count_of(html, "<tr>") == most_packings + 1);
+  CHECK(html.find("href=\"packings.csv\"") != std::string::npos);
+}
+
+TEST_CASE("without gnuplot the page says so and has all the rest", "[report]") {
+  const TemporaryFolder folder;
+  const std::vector<Row> rows = evil_rows();
+  const std::string path = std::getenv("PATH");
+  setenv("PATH", folder.path().c_str(), 1);
+  const std::vector<std::string> missing = write_report(folder.path(), {}, rows, analyse(rows));
+  setenv("PATH", path.c_str(), 1);
+  REQUIRE(missing.size() == 1);
+  CHECK(missing[0].find("gnuplot-nox") != std::string::npos);
+  const std::string page = read_file(folder.path() + "/report.html");
+  CHECK(page.find("gnuplot-nox") != std::string::npos);
+  CHECK(page.find("<table id=\"packings\">") != std::string::npos);
+  CHECK(file_exists(folder.path() + "/figures/means.csv"));
+}
+
+TEST_CASE("a report that is removed leaves nothing", "[report]") {
+  const TemporaryFolder folder;
+  const std::vector<Row> rows = evil_rows();
+  write_report(folder.path(), {}, rows, analyse(rows));
+  remove_report(folder.path());
+  CHECK(std::filesystem::is_empty(folder.path()));
+}
