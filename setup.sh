@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Installs what grainsweep is built with, and gnuplot, by which it draws: Debian 12 packages, nothing
-# else. Does nothing when all
+# Installs what grainsweep is built with, three.js for its pages, and gnuplot, by which it draws:
+# Debian 12 packages, nothing else. Does nothing when all
 # of them are present. See usage below.
 set -euo pipefail
 
@@ -9,11 +9,11 @@ readonly build_packages=(
   libtbb-dev libeigen3-dev libxsimd-dev nlohmann-json3-dev libcli11-dev librandom123-dev
   libqhull-dev zlib1g-dev
   catch2 libbenchmark-dev
-  gnuplot-nox
+  gnuplot-nox libjs-three
 )
 readonly check_packages=(
   clang-format clang-tidy clang libclang-rt-14-dev strace python3 python3-jsonschema
-  python3-pandas
+  python3-pandas chromium
 )
 readonly emulator_packages=(
   bochs bochs-term bochsbios vgabios isolinux syslinux-common genisoimage cpio busybox-static
@@ -27,7 +27,7 @@ Installs the packages that building and testing grainsweep takes, with apt-get, 
 sudo. Only what is missing is installed; with nothing missing it ends at once.
 
   --checks    also what .ci/run takes: clang-format and clang-tidy, clang for builds under
-              sanitizers, strace and Python for the tests that need them
+              sanitizers, strace, Python and Chromium for the tests that need them
   --emulator  also a PC emulator with AVX-512, for tests/checks/avx512_emulated.sh
   --help      this text
 EOF

@@ -1,5 +1,6 @@
 #include "runner/report/page.hpp"
 
+#include "runner/report/bed_view.hpp"
 #include "runner/report/html.hpp"
 #include "runner/report/templates.hpp"
 
@@ -71,11 +72,13 @@ std::string page_text(const PageParts& parts) {
        {"summary", parts.summary},
        {"figures", figures_section(parts)},
        {"fits", section("wall-effect", "Wall effect", parts.fits)},
+       {"bed", section("bed", "Look inside", parts.bed)},
        {"groups", section("means", "Means", parts.groups + closing_section(parts.closing_table))},
        {"published", section("published", "Published values", parts.published)},
        {"packings", section("all-packings", "Packings", parts.packings)},
        {"provenance", section("provenance", "How this was made", parts.provenance)},
-       {"scripts", "<script>" + std::string(templates::tables_js) + "</script>"}});
+       {"scripts", (parts.bed.empty() ? "" : bed_scripts()) + "<script>" +
+                       std::string(templates::tables_js) + "</script>"}});
 }
 
 }  // namespace grainsweep

@@ -18,6 +18,7 @@ struct PageParts {
   std::string title;                                                   ///< plain text
   std::string summary, groups, fits, published, packings, provenance;  ///< HTML
   std::vector<DrawnFigure> figures;
+  std::string bed;            ///< HTML of the beds that turn; empty if there is none
   std::string no_figures;     ///< which could not be drawn and why, plain text; empty if all are
   std::string closing_table;  ///< as in the terminal, plain text
 };

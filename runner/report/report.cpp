@@ -1,17 +1,22 @@
 #include "runner/report/report.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <optional>
 #include <system_error>
+#include <utility>
 
 #include "runner/compare/comparison.hpp"
 #include "runner/exit_codes.hpp"
+#include "runner/report/bed_view.hpp"
 #include "runner/report/figures.hpp"
 #include "runner/report/gnuplot.hpp"
 #include "runner/report/page.hpp"
+#include "runner/report/picture.hpp"
 #include "runner/report/sections.hpp"
 #include "runner/store/files.hpp"
 #include "runner/tables/closing_report.hpp"
+#include "runner/text.hpp"
 
 namespace grainsweep {
 namespace {
@@ -28,6 +33,58 @@ std::optional<Reference> reference_of(const Provenance& provenance,
     missing.push_back("report.html has no published values: " + std::string(error.what()));
     return std::nullopt;
   }
+}
+
+constexpr std::size_t most_beds = 12, most_view_bytes = 4'000'000;
+constexpr int picture_width = 1200, picture_height = 790;  // px
+
+/// Of groups with a stored bed the first packing, settled if any is; at most most_beds, evenly
+/// spread over all.
+std::vector<std::pair<const Group*, const Row*>> beds_to_show(const std::vector<Row>& rows,
+                                                              const std::vector<Group>& groups) {
+  std::vector<std::pair<const Group*, const Row*>> all, chosen;
+  for (const Group& group : groups) {
+    const Row* first = nullptr;
+    for (const Row& row : rows) {
+      const bool is_here = row.job.label == group.job.label &&
+                           row.job.parameters == group.job.parameters && row.outcome &&
+                           row.outcome->stored_bytes > 0;
+      if (is_here && (first == nullptr || (is_settled(row) && !is_settled(*first)))) first = &row;
+    }
+    if (first != nullptr) all.emplace_back(&group, first);
+  }
+  const std::size_t count = std::min(most_beds, all.size());
+  for (std::size_t k = 0; k < count; ++k) {
+    chosen.push_back(all[count == 1 ? 0 : k * (all.size() - 1) / (count - 1)]);
+  }
+  return chosen;
+}
+
+/// The beds that have room in the page; empty if none is stored. Appends to `missing`.
+std::string beds_of(const std::string& folder, const std::vector<Row>& rows,
+                    const std::vector<Group>& groups, std::vector<std::string>& missing) {
+  BedView view;
+  std::size_t bytes = 0, left_out = 0;
+  for (const auto& [group, row] : beds_to_show(rows, groups)) {
+    const StoredBed bed = read_bed(folder, *row->outcome);
+    bytes += view_size(bed);
+    if (bytes > most_view_bytes) {
+      bytes -= view_size(bed);
+      ++left_out;
+      continue;
+    }
+    const BedFacts facts = facts_of(row->job, title_of(*group));
+    if (view.beds.empty()) {
+      view.title = facts.title;
+      view.picture = picture_of(bed, picture_width, picture_height);
+    }
+    view.beds.push_back(bed_element(bed, facts));
+  }
+  if (left_out > 0) {
+    missing.push_back(counted(left_out, "bed") +
+                      " more would make report.html too large; grainsweep export writes all");
+  }
+  return view.beds.empty() ? "" : bed_section(view);
 }
 
 std::string figures_folder(const std::string& folder) { return folder + "/figures"; }
@@ -49,6 +106,7 @@ std::vector<std::string> write_report(const std::string& folder, const Provenanc
   for (std::size_t k = 0; k < figures.size(); ++k) {
     parts.figures.push_back({&figures[k], drawing.svgs[k]});
   }
+  parts.bed = beds_of(folder, rows, analysis.groups, missing);
   parts.summary = summary_section(rows);
   parts.groups = groups_section(analysis.groups);
   parts.fits = fits_section(analysis.families);

@@ -10,23 +10,10 @@
 namespace grainsweep {
 namespace {
 
-/// The vertices of a grain that is no sphere, in the box, d.
-std::vector<Eigen::Vector3d> vertices_of(const StoredBed& bed, std::size_t grain) {
-  const SettledGrain& at = bed.grains[grain];
-  const auto& [qx, qy, qz, qw] = bed.turned->orientations[grain];
-  const Eigen::Quaterniond turn(qw, qx, qy, qz);
-  std::vector<Eigen::Vector3d> vertices;
-  for (const auto& [x, y, z] : bed.turned->mesh.vertices) {
-    const Eigen::Vector3d turned = turn * Eigen::Vector3d(x, y, z);
-    vertices.emplace_back(Eigen::Vector3d(at.x, at.y, at.z) + 2.0 * at.radius * turned);
-  }
-  return vertices;
-}
-
 double top_of(const StoredBed& bed, std::size_t grain) {
   if (!bed.turned) return bed.grains[grain].z + bed.grains[grain].radius;
   double top = 0.0;
-  for (const Eigen::Vector3d& vertex : vertices_of(bed, grain)) top = std::max(top, vertex.z());
+  for (const Eigen::Vector3d& vertex : vertices_in_box(bed, grain)) top = std::max(top, vertex.z());
   return top;
 }
 
@@ -128,7 +115,7 @@ std::string spheres_vtp(const StoredBed& bed) {
 /// The vertices of the mesh where the grain is.
 std::string corners_of(const StoredBed& bed, std::size_t grain) {
   std::string text;
-  for (const Eigen::Vector3d& p : vertices_of(bed, grain)) {
+  for (const Eigen::Vector3d& p : vertices_in_box(bed, grain)) {
     text += cell(p.x()) + " " + cell(p.y()) + " " + cell(p.z()) + "\n";
   }
   return text;
@@ -168,6 +155,18 @@ std::string polygons_vtp(const StoredBed& bed, const Turned& turned) {
 }
 
 }  // namespace
+
+std::vector<Eigen::Vector3d> vertices_in_box(const StoredBed& bed, std::size_t grain) {
+  const SettledGrain& at = bed.grains[grain];
+  const auto& [qx, qy, qz, qw] = bed.turned->orientations[grain];
+  const Eigen::Quaterniond turn(qw, qx, qy, qz);
+  std::vector<Eigen::Vector3d> vertices;
+  for (const auto& [x, y, z] : bed.turned->mesh.vertices) {
+    const Eigen::Vector3d turned = turn * Eigen::Vector3d(x, y, z);
+    vertices.emplace_back(Eigen::Vector3d(at.x, at.y, at.z) + 2.0 * at.radius * turned);
+  }
+  return vertices;
+}
 
 const char* name_of(ExportFormat format) {
   switch (format) {

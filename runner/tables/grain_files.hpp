@@ -4,6 +4,9 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
+
+#include <Eigen/Core>
 
 #include "runner/store/states.hpp"
 
@@ -32,6 +35,9 @@ std::string grains_xyz(const StoredBed& bed);
 /// polygons of their faces, each with the arrays grain (from 0), size (d), coordination, force of
 /// its grain. In text.
 std::string grains_vtp(const StoredBed& bed);
+
+/// The vertices of a grain that is no sphere, in the frame of the box, d.
+std::vector<Eigen::Vector3d> vertices_in_box(const StoredBed& bed, std::size_t grain);
 
 /// The bed in `format`.
 std::string grains_text(const StoredBed& bed, ExportFormat format);

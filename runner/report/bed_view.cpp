@@ -1,0 +1,110 @@
+#include "runner/report/bed_view.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include <nlohmann/json.hpp>
+
+#include "engine/scene/sizes.hpp"
+#include "runner/report/html.hpp"
+#include "runner/report/templates.hpp"
+
+namespace grainsweep {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr double largest_unsigned = 65535.0, largest_signed = 32767.0;
+
+/// Appends a number of two bytes, the lower one first.
+void append_short(std::string& bytes, long number) {
+  const auto bits = static_cast<std::uint16_t>(number);
+  bytes += static_cast<char>(bits & 0xFFu);
+  bytes += static_cast<char>(bits >> 8u);
+}
+
+/// Appends `value(grain)` of every grain, as shares of `unit`.
+template <class Value>
+void append_column(std::string& bytes, const StoredBed& bed, double unit, Value value) {
+  for (const SettledGrain& grain : bed.grains) {
+    const double share = unit > 0.0 ? std::clamp(value(grain) / unit, 0.0, 1.0) : 0.0;
+    append_short(bytes, std::lround(largest_unsigned * share));
+  }
+}
+
+template <class Value>
+double largest(const StoredBed& bed, Value value) {
+  double most = 0.0;
+  for (const SettledGrain& grain : bed.grains) most = std::max(most, value(grain));
+  return most;
+}
+
+/// Columns of all grains, one behind the other, as templates/bed.js reads them.
+std::string columns_of(const StoredBed& bed, double extent, double radius, double force) {
+  std::string bytes;
+  append_column(bytes, bed, extent, [](const SettledGrain& grain) { return grain.x; });
+  append_column(bytes, bed, extent, [](const SettledGrain& grain) { return grain.y; });
+  append_column(bytes, bed, extent, [](const SettledGrain& grain) { return grain.z; });
+  append_column(bytes, bed, radius, [](const SettledGrain& grain) { return grain.radius; });
+  append_column(bytes, bed, force, [](const SettledGrain& grain) { return grain.force; });
+  for (const SettledGrain& grain : bed.grains) append_short(bytes, grain.touching);
+  if (!bed.turned) return bytes;
+  for (const auto& turn : bed.turned->orientations) {
+    for (const double part : turn) append_short(bytes, std::lround(largest_signed * part));
+  }
+  return bytes;
+}
+
+}  // namespace
+
+std::string bed_element(const StoredBed& bed, const BedFacts& facts) {
+  const double radius = largest(bed, [](const SettledGrain& grain) { return grain.radius; });
+  const double force = largest(bed, [](const SettledGrain& grain) { return grain.force; });
+  const double height =
+      largest(bed, [](const SettledGrain& grain) { return grain.z + grain.radius; });
+  const double extent = std::max({bed.box.length, bed.box.width, height});
+  Json json = {{"count", bed.grains.size()},
+               {"extent", extent},
+               {"largest_radius", radius},
+               {"largest_force", force},
+               {"small_limit", facts.small_limit},
+               {"grains", base64(columns_of(bed, extent, radius, force))}};
+  json["box"] = Json::array({bed.box.length, bed.box.width, height});
+  if (bed.turned) {
+    json["mesh"]["vertices"] = bed.turned->mesh.vertices;
+    json["mesh"]["faces"] = bed.turned->mesh.faces;
+  }
+  return "<script type=\"application/json\" class=\"bed-data\" data-title=\"" +
+         html_text(facts.title) + "\">" + json_in_script(json.dump()) + "</script>\n";
+}
+
+std::size_t view_size(const StoredBed& bed) {
+  const std::size_t bytes = bed.turned ? 20 : 12;
+  return bed.grains.size() * bytes * 4 / 3;
+}
+
+std::string bed_section(const BedView& view) {
+  std::string data;
+  for (const std::string& bed : view.beds) data += bed;
+  return filled(templates::bed_html, {{"title", html_text(view.title)},
+                                      {"picture", data_uri("image/png", view.picture)},
+                                      {"data", data}});
+}
+
+std::string bed_scripts() {
+  return "<script>" + std::string(templates::three_min_js) + "</script>\n<script>" +
+         std::string(templates::bed_js) + "</script>\n";
+}
+
+BedFacts facts_of(const JobFacts& job, const std::string& title) {
+  const auto parameters = flat_parameters(job);
+  const auto ratio = parameters.find("sizes.size_ratio");
+  SizesSpec sizes;
+  sizes.small_share = job.small_share;
+  if (ratio != parameters.end()) sizes.size_ratio = std::stod(ratio->second);
+  const double limit = small_class_limit(sizes);
+  return {title, std::isfinite(limit) ? limit : 0.0};
+}
+
+}  // namespace grainsweep

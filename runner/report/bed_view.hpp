@@ -1,0 +1,41 @@
+// Beds that a browser turns: their grains as the page's script reads them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "runner/store/states.hpp"
+#include "runner/tables/job_facts.hpp"
+
+namespace grainsweep {
+
+/// What is told of a bed beside its grains.
+struct BedFacts {
+  std::string title;
+  double small_limit = 0.0;  ///< grains of a smaller radius are small, d; 0 if all are of one kind
+};
+
+/// The facts of a packing's bed, titled so.
+BedFacts facts_of(const JobFacts& job, const std::string& title);
+
+/// A script element that holds the bed as JSON, its grains in base64. Places are rounded to a
+/// 65535th of the box's longest side, radii, forces and orientations likewise: to look at, not to
+/// compute with.
+std::string bed_element(const StoredBed& bed, const BedFacts& facts);
+
+/// Bytes that the grains of a bed take in the page.
+std::size_t view_size(const StoredBed& bed);
+
+struct BedView {
+  std::string title;              ///< of the first bed
+  std::string picture;            ///< PNG of it
+  std::vector<std::string> beds;  ///< as of bed_element
+};
+
+/// The picture, the controls and the beds.
+std::string bed_section(const BedView& view);
+
+/// The scripts that turn the beds, three.js among them.
+std::string bed_scripts();
+
+}  // namespace grainsweep

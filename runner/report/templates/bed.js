@@ -1,0 +1,331 @@
+// Turns a bed: spheres are drawn as discs whose depth and light are those of a sphere, polyhedra as
+// instances of one mesh. Draws only when something has changed. Until the first frame, and where
+// there is no WebGL, the picture stays.
+(() => {
+  "use strict";
+  const section = document.getElementById("bed");
+  if (!section || typeof THREE === "undefined") return;
+  const sources = [...section.querySelectorAll("script.bed-data")];
+  const picture = document.getElementById("bed-picture");
+  const stage = document.getElementById("bed-stage");
+  const controls = document.getElementById("bed-controls");
+
+  const canvas = document.createElement("canvas");
+  // What was drawn stays, so that people can save it as a picture.
+  const wanted = { antialias: true, preserveDrawingBuffer: true };
+  const context = canvas.getContext("webgl2", wanted) || canvas.getContext("webgl", wanted);
+  if (!context) return;
+  canvas.id = "bed-canvas";
+  canvas.tabIndex = 0;
+  canvas.setAttribute("role", "img");
+  canvas.setAttribute("aria-label", "The bed in three dimensions; arrow keys turn it, plus and minus zoom");
+
+  // Viridis, by eleven of its colours.
+  const scale = [[68, 1, 84], [72, 36, 117], [65, 68, 135], [53, 95, 141], [42, 120, 142],
+                 [33, 145, 140], [34, 168, 132], [68, 191, 112], [122, 209, 81], [189, 223, 38],
+                 [253, 231, 37]];
+  const kinds = [[0, 114, 178], [230, 159, 0]]; // large, small
+
+  const colour = (share) => {
+    const at = Math.min(Math.max(share, 0), 1) * (scale.length - 1);
+    const low = Math.min(Math.floor(at), scale.length - 2);
+    return scale[low].map((value, k) => value + (at - low) * (scale[low + 1][k] - value));
+  };
+
+  const bytesOf = (text) => {
+    const raw = atob(text);
+    const bytes = new Uint8Array(raw.length);
+    for (let k = 0; k < raw.length; k += 1) bytes[k] = raw.charCodeAt(k);
+    return bytes.buffer;
+  };
+
+  // The columns stand one behind the other: x, y, z, radius, force, touching, orientation.
+  const read = (source) => {
+    const bed = JSON.parse(source.textContent);
+    const buffer = bytesOf(bed.grains);
+    const n = bed.count;
+    const column = (index, unit) =>
+      Float32Array.from(new Uint16Array(buffer, 2 * n * index, n), (value) => value * unit / 65535);
+    bed.x = column(0, bed.extent);
+    bed.y = column(1, bed.extent);
+    bed.z = column(2, bed.extent);
+    bed.radius = column(3, bed.largest_radius);
+    bed.force = column(4, bed.largest_force);
+    bed.touching = Float32Array.from(new Uint16Array(buffer, 10 * n, n));
+    if (bed.mesh) {
+      bed.turn = Float32Array.from(new Int16Array(buffer, 12 * n, 4 * n), (value) => value / 32767);
+    }
+    return bed;
+  };
+
+  const valuesOf = (bed, by) => {
+    if (by === "size") return bed.radius.map((radius) => 2 * radius);
+    if (by === "touching") return bed.touching;
+    if (by === "force") return bed.force;
+    if (by === "wall") return bed.y.map((y) => Math.min(y, bed.box[1] - y));
+    return bed.radius.map((radius) => (radius < bed.small_limit ? 1 : 0));
+  };
+
+  const common = `
+    attribute vec3 centre; attribute float radius; attribute vec3 tint;
+    uniform vec3 keep; varying vec3 colour;
+    bool is_cut() { return any(greaterThan(centre, keep)); }`;
+  const light = `
+    vec3 lit(vec3 colour, vec3 normal) {
+      float lamp = max(0.0, dot(normal, normalize(vec3(-0.4, 0.5, 1.0))));
+      return colour * (0.35 + 0.65 * lamp);
+    }`;
+
+  const sphereMaterial = () => new THREE.ShaderMaterial({
+    extensions: { fragDepth: true },
+    vertexShader: `${common}
+      varying vec2 at; varying float middle; varying float reach;
+      void main() {
+        colour = tint; at = position.xy; reach = radius;
+        vec4 seen = modelViewMatrix * vec4(centre, 1.0);
+        middle = seen.z;
+        seen.xy += position.xy * radius;
+        seen.z += radius;
+        gl_Position = is_cut() ? vec4(2.0, 2.0, 2.0, 1.0) : projectionMatrix * seen;
+      }`,
+    fragmentShader: `${light}
+      varying vec3 colour; varying vec2 at; varying float middle; varying float reach;
+      uniform vec2 depth; // near and far
+      void main() {
+        float rest = 1.0 - dot(at, at);
+        if (rest <= 0.0) discard;
+        vec3 normal = vec3(at, sqrt(rest));
+        gl_FragColor = vec4(lit(colour, normal), 1.0);
+        gl_FragDepthEXT = (-(middle + reach * normal.z) - depth.x) / (depth.y - depth.x);
+      }`,
+    uniforms: { keep: { value: new THREE.Vector3() }, depth: { value: new THREE.Vector2() } },
+  });
+
+  const meshMaterial = () => new THREE.ShaderMaterial({
+    vertexShader: `${common}
+      attribute vec4 turn; varying vec3 facing;
+      vec3 turned(vec3 v) { return v + 2.0 * cross(turn.xyz, cross(turn.xyz, v) + turn.w * v); }
+      void main() {
+        colour = tint; facing = normalize(normalMatrix * turned(normal));
+        vec4 seen = modelViewMatrix * vec4(centre + 2.0 * radius * turned(position), 1.0);
+        gl_Position = is_cut() ? vec4(2.0, 2.0, 2.0, 1.0) : projectionMatrix * seen;
+      }`,
+    fragmentShader: `${light}
+      varying vec3 colour; varying vec3 facing;
+      void main() { gl_FragColor = vec4(lit(colour, normalize(facing)), 1.0); }`,
+    uniforms: { keep: { value: new THREE.Vector3() }, depth: { value: new THREE.Vector2() } },
+  });
+
+  // Triangles of the mesh, each with the normal of its face.
+  const meshGeometry = (mesh) => {
+    const corners = [];
+    const normals = [];
+    for (const face of mesh.faces) {
+      const [a, b, c] = face.map((index) => new THREE.Vector3(...mesh.vertices[index]));
+      const normal = b.clone().sub(a).cross(c.clone().sub(a)).normalize();
+      for (let k = 2; k < face.length; k += 1) {
+        for (const index of [face[0], face[k - 1], face[k]]) {
+          corners.push(...mesh.vertices[index]);
+          normals.push(normal.x, normal.y, normal.z);
+        }
+      }
+    }
+    const geometry = new THREE.InstancedBufferGeometry();
+    geometry.setAttribute("position", new THREE.Float32BufferAttribute(corners, 3));
+    geometry.setAttribute("normal", new THREE.Float32BufferAttribute(normals, 3));
+    return geometry;
+  };
+
+  const discGeometry = () => {
+    const geometry = new THREE.InstancedBufferGeometry();
+    geometry.setAttribute("position",
+      new THREE.Float32BufferAttribute([-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0], 3));
+    geometry.setIndex([0, 1, 2, 0, 2, 3]);
+    return geometry;
+  };
+
+  const grainsOf = (bed) => {
+    const geometry = bed.mesh ? meshGeometry(bed.mesh) : discGeometry();
+    const centres = new Float32Array(3 * bed.count);
+    for (let k = 0; k < bed.count; k += 1) {
+      centres.set([bed.x[k], bed.y[k], bed.z[k]], 3 * k);
+    }
+    geometry.setAttribute("centre", new THREE.InstancedBufferAttribute(centres, 3));
+    geometry.setAttribute("radius", new THREE.InstancedBufferAttribute(bed.radius, 1));
+    geometry.setAttribute("tint",
+      new THREE.InstancedBufferAttribute(new Float32Array(3 * bed.count), 3));
+    if (bed.mesh) geometry.setAttribute("turn", new THREE.InstancedBufferAttribute(bed.turn, 4));
+    const grains = new THREE.Mesh(geometry, bed.mesh ? meshMaterial() : sphereMaterial());
+    grains.frustumCulled = false;
+    return grains;
+  };
+
+  const frameOf = (bed) => {
+    const box = new THREE.BoxGeometry(...bed.box);
+    box.translate(bed.box[0] / 2, bed.box[1] / 2, bed.box[2] / 2);
+    return new THREE.LineSegments(new THREE.EdgesGeometry(box),
+      new THREE.LineBasicMaterial({ color: 0x888888 }));
+  };
+
+  const renderer = new THREE.WebGLRenderer({ canvas, context });
+  renderer.setClearColor(0xffffff, 1);
+  const camera = new THREE.OrthographicCamera(-1, 1, 1, -1, 0.1, 1000);
+  let scene, bed, grains;
+  const view = { turn: 0.6, tilt: 0.5, zoom: 1 }; // as in picture.cpp
+  let isWaiting = false;
+
+  const place = () => {
+    const middle = new THREE.Vector3(...bed.box).multiplyScalar(0.5);
+    const far = 2 * middle.length() + 2;
+    const towards = new THREE.Vector3(Math.sin(view.turn) * Math.cos(view.tilt),
+      -Math.cos(view.turn) * Math.cos(view.tilt), Math.sin(view.tilt));
+    camera.up.set(0, 0, 1);
+    camera.position.copy(middle).addScaledVector(towards, far);
+    camera.lookAt(middle);
+    const aspect = canvas.clientWidth / Math.max(1, canvas.clientHeight);
+    const half = 1.05 * middle.length() * Math.max(1, 1 / aspect) / view.zoom;
+    Object.assign(camera, { left: -half * aspect, right: half * aspect, top: half, bottom: -half,
+                            near: 0.1, far: 2 * far });
+    camera.updateProjectionMatrix();
+    grains.material.uniforms.depth.value.set(camera.near, camera.far);
+  };
+
+  const draw = () => {
+    isWaiting = false;
+    const width = stage.clientWidth;
+    const height = Math.round(Math.min(0.66 * width, 620));
+    if (canvas.clientWidth !== width || canvas.clientHeight !== height) {
+      renderer.setPixelRatio(Math.min(window.devicePixelRatio || 1, 2));
+      renderer.setSize(width, height);
+    }
+    place();
+    renderer.render(scene, camera);
+    section.classList.add("turning");
+  };
+
+  const redraw = () => {
+    if (isWaiting) return;
+    isWaiting = true;
+    window.requestAnimationFrame(draw);
+  };
+
+  const pick = (id) => document.getElementById(id);
+
+  const paint = () => {
+    const by = pick("bed-colour").value;
+    const values = valuesOf(bed, by);
+    let low = Infinity;
+    let high = -Infinity;
+    for (const value of values) {
+      low = Math.min(low, value);
+      high = Math.max(high, value);
+    }
+    const tint = grains.geometry.attributes.tint;
+    for (let k = 0; k < bed.count; k += 1) {
+      const rgb = by === "kind" ? kinds[values[k]]
+                                : colour(high > low ? (values[k] - low) / (high - low) : 0.5);
+      tint.setXYZ(k, rgb[0] / 255, rgb[1] / 255, rgb[2] / 255);
+    }
+    tint.needsUpdate = true;
+    const digits = (value) => (Number.isInteger(value) ? String(value) : value.toPrecision(3));
+    const unit = { size: " d", touching: "", force: " m g", wall: " d" }[by];
+    const key = pick("bed-key");
+    key.replaceChildren();
+    if (by === "kind") {
+      key.textContent = "blue: large, orange: small grains";
+    } else {
+      const bar = document.createElement("span");
+      bar.className = "scale";
+      bar.style.background = `linear-gradient(to right, ${scale.map((c) => `rgb(${c})`).join(",")})`;
+      key.append(digits(low) + unit, bar, digits(high) + unit);
+    }
+    redraw();
+  };
+
+  const cut = () => {
+    const axis = Number(pick("bed-axis").value);
+    const keep = [1e9, 1e9, 1e9];
+    keep[axis] = bed.box[axis] * Number(pick("bed-slice").value) / 100;
+    grains.material.uniforms.keep.value.set(...keep);
+    redraw();
+  };
+
+  const show = (index) => {
+    bed = read(sources[index]);
+    scene = new THREE.Scene();
+    grains = grainsOf(bed);
+    scene.add(grains, frameOf(bed));
+    const kind = pick("bed-colour").querySelector("option[value=kind]");
+    kind.disabled = !(bed.small_limit > 0);
+    if (kind.disabled && pick("bed-colour").value === "kind") pick("bed-colour").value = "size";
+    paint();
+    cut();
+  };
+
+  const turn = (right, up) => {
+    view.turn -= right;
+    view.tilt = Math.min(Math.max(view.tilt + up, -1.55), 1.55);
+    redraw();
+  };
+  const zoom = (factor) => {
+    view.zoom = Math.min(Math.max(view.zoom * factor, 0.5), 20);
+    redraw();
+  };
+
+  // One pointer turns, two zoom.
+  const pointers = new Map();
+  const apart = () => {
+    const [a, b] = [...pointers.values()];
+    return Math.hypot(a.x - b.x, a.y - b.y);
+  };
+  canvas.addEventListener("pointerdown", (event) => {
+    canvas.setPointerCapture(event.pointerId);
+    pointers.set(event.pointerId, { x: event.clientX, y: event.clientY });
+  });
+  canvas.addEventListener("pointermove", (event) => {
+    const last = pointers.get(event.pointerId);
+    if (!last) return;
+    const before = pointers.size === 2 ? apart() : 0;
+    const now = { x: event.clientX, y: event.clientY };
+    pointers.set(event.pointerId, now);
+    if (pointers.size === 2) zoom(apart() / before);
+    else turn((now.x - last.x) / 200, (now.y - last.y) / 200);
+  });
+  for (const end of ["pointerup", "pointercancel"]) {
+    canvas.addEventListener(end, (event) => pointers.delete(event.pointerId));
+  }
+  canvas.addEventListener("wheel", (event) => {
+    if (document.activeElement !== canvas) return; // the page scrolls until the bed is picked
+    event.preventDefault();
+    zoom(Math.exp(-event.deltaY / 600));
+  }, { passive: false });
+  canvas.addEventListener("keydown", (event) => {
+    const keys = { ArrowLeft: [-0.1, 0], ArrowRight: [0.1, 0], ArrowUp: [0, 0.1], ArrowDown: [0, -0.1] };
+    if (keys[event.key]) turn(...keys[event.key]);
+    else if (event.key === "+") zoom(1.15);
+    else if (event.key === "-") zoom(1 / 1.15);
+    else return;
+    event.preventDefault();
+  });
+
+  const chooser = pick("bed-choice");
+  sources.forEach((source, index) => {
+    const option = document.createElement("option");
+    option.value = index;
+    option.textContent = source.dataset.title;
+    chooser.append(option);
+  });
+  chooser.addEventListener("change", () => show(Number(chooser.value)));
+  pick("bed-colour").addEventListener("change", paint);
+  pick("bed-slice").addEventListener("input", cut);
+  pick("bed-axis").addEventListener("change", cut);
+  window.addEventListener("resize", redraw);
+
+  try {
+    show(0);
+  } catch (error) {
+    return; // the picture stays
+  }
+  controls.hidden = false;
+  stage.append(canvas);
+})();
