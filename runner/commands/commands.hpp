@@ -71,7 +71,7 @@ CLI::App& add_command(CLI::App& app, CompareOptions& options);
 
 struct ExportOptions {
   std::string folder;
-  std::string format = "csv";     ///< csv, xyz or vtp
+  std::string format = "csv";     ///< csv, xyz, vtp or html
   std::vector<std::string> jobs;  ///< ids; empty: all that are stored
   std::string to;                 ///< folder for the files; empty: <folder>/export
 };

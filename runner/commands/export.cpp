@@ -8,12 +8,16 @@
 #include "runner/commands/inputs.hpp"
 #include "runner/commands/shared_options.hpp"
 #include "runner/exit_codes.hpp"
+#include "runner/report/bed_view.hpp"
 #include "runner/store/files.hpp"
 #include "runner/store/states.hpp"
 #include "runner/tables/grain_files.hpp"
 
 namespace grainsweep {
 namespace {
+
+/// The format that is no file of grains but a page.
+constexpr const char* page_format = "html";
 
 bool has_grains(const Row& row) { return row.outcome && row.outcome->stored_bytes > 0; }
 
@@ -44,8 +48,9 @@ CLI::App& add_command(CLI::App& app, ExportOptions& options) {
   add_folder(grains, options.folder);
   grains
       .add_option("--format", options.format,
-                  "csv, xyz (extended XYZ, for OVITO) or vtp (for ParaView)")
-      ->check(CLI::IsMember({"csv", "xyz", "vtp"}))
+                  "csv, xyz (extended XYZ, for OVITO), vtp (for ParaView), or html: a page "
+                  "in which the bed turns")
+      ->check(CLI::IsMember({"csv", "xyz", "vtp", "html"}))
       ->capture_default_str()
       ->type_name("NAME");
   grains
@@ -61,7 +66,9 @@ CLI::App& add_command(CLI::App& app, ExportOptions& options) {
 
 int perform(const ExportOptions& options) {
   const auto format = export_format(options.format);
-  if (!format) throw BadInput("--format " + options.format + ": use csv, xyz or vtp");
+  if (!format && options.format != page_format) {
+    throw BadInput("--format " + options.format + ": use csv, xyz, vtp or html");
+  }
   const Results results = results_with_warnings(options.folder);
   const std::vector<const Row*> rows = rows_to_export(results.rows, options);
   const std::string to = options.to.empty() ? options.folder + "/export" : options.to;
@@ -69,10 +76,13 @@ int perform(const ExportOptions& options) {
   make_folder(to);
   for (const Row* row : rows) {
     const StoredBed bed = read_bed(options.folder, *row->outcome);
-    replace_file(to + "/" + row->job.id + "." + name_of(*format), grains_text(bed, *format));
+    const std::string text =
+        format ? grains_text(bed, *format)
+               : bed_page(bed, facts_of(row->job, row->job.label + ", packing " + row->job.id));
+    replace_file(to + "/" + row->job.id + "." + options.format, text);
   }
   std::cout << rows.size() << (rows.size() == 1 ? " packing" : " packings") << " written to " << to
-            << "/<job>." << name_of(*format) << "\n";
+            << "/<job>." << options.format << "\n";
   return exit_done;
 }
 

@@ -8,6 +8,7 @@
 
 #include "engine/scene/sizes.hpp"
 #include "runner/report/html.hpp"
+#include "runner/report/picture.hpp"
 #include "runner/report/templates.hpp"
 
 namespace grainsweep {
@@ -90,6 +91,15 @@ std::string bed_section(const BedView& view) {
   return filled(templates::bed_html, {{"title", html_text(view.title)},
                                       {"picture", data_uri("image/png", view.picture)},
                                       {"data", data}});
+}
+
+std::string bed_page(const StoredBed& bed, const BedFacts& facts) {
+  const std::string picture = picture_of(bed, picture_width, picture_height);
+  return filled(templates::view_html,
+                {{"title", html_text(facts.title)},
+                 {"style", std::string(templates::page_css)},
+                 {"bed", bed_section({facts.title, picture, {bed_element(bed, facts)}})},
+                 {"scripts", bed_scripts()}});
 }
 
 std::string bed_scripts() {

@@ -26,6 +26,9 @@ std::string bed_element(const StoredBed& bed, const BedFacts& facts);
 /// Bytes that the grains of a bed take in the page.
 std::size_t view_size(const StoredBed& bed);
 
+/// Pixels of the picture.
+inline constexpr int picture_width = 1200, picture_height = 790;
+
 struct BedView {
   std::string title;              ///< of the first bed
   std::string picture;            ///< PNG of it
@@ -34,6 +37,9 @@ struct BedView {
 
 /// The picture, the controls and the beds.
 std::string bed_section(const BedView& view);
+
+/// A page of this bed alone.
+std::string bed_page(const StoredBed& bed, const BedFacts& facts);
 
 /// The scripts that turn the beds, three.js among them.
 std::string bed_scripts();

@@ -36,7 +36,6 @@ std::optional<Reference> reference_of(const Provenance& provenance,
 }
 
 constexpr std::size_t most_beds = 12, most_view_bytes = 4'000'000;
-constexpr int picture_width = 1200, picture_height = 790;  // px
 
 /// Of groups with a stored bed the first packing, settled if any is; at most most_beds, evenly
 /// spread over all.

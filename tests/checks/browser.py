@@ -192,7 +192,8 @@ def check(browser, path):
     browser.page("Emulation.setScriptExecutionDisabled", value=True)
     browser.open(path)
     plain = browser.value("document.body.innerText")
-    for words in ("How this was made", "Packings", "Means"):
+    is_report = path.endswith("report.html")
+    for words in ("How this was made", "Packings", "Means") if is_report else ():
         if words not in plain:
             faults.append(f'without scripts "{words}" is not there')
     has_bed = browser.value("!!document.getElementById('bed-stage')")

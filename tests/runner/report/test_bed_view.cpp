@@ -1,0 +1,79 @@
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "runner/report/bed_view.hpp"
+#include "runner/report/html.hpp"
+#include "tests/runner/sample_rows.hpp"
+
+using namespace grainsweep;
+
+namespace {
+
+StoredBed two_spheres() {
+  StoredBed bed;
+  bed.box.length = 4.0;
+  bed.box.width = 2.0;
+  bed.grains = {{1.0, 1.0, 0.5, 0.5, 2.0, 3}, {4.0, 2.0, 1.25, 0.25, 1.0, 300}};
+  return bed;
+}
+
+/// What stands between the tags of the element.
+nlohmann::json json_in(const std::string& element) {
+  const std::size_t start = element.find('>') + 1;
+  return nlohmann::json::parse(element.substr(start, element.rfind("</script>") - start));
+}
+
+std::string shorts(const std::vector<unsigned>& numbers) {
+  std::string bytes;
+  for (const unsigned number : numbers) {
+    bytes += static_cast<char>(number & 0xFFu);
+    bytes += static_cast<char>(number >> 8u);
+  }
+  return bytes;
+}
+
+}  // namespace
+
+TEST_CASE("the grains of a bed are columns of 16 bits, as shares of the largest", "[report]") {
+  const nlohmann::json json = json_in(bed_element(two_spheres(), {"a bed", 0.0}));
+  CHECK(json["count"] == 2);
+  CHECK(json["extent"] == 4.0);
+  CHECK(json["box"][2] == 1.5);
+  CHECK(json["grains"] == base64(shorts({16384, 65535, 16384, 32768, 8192, 20480, 65535, 32768,
+                                         65535, 32768, 3, 300})));
+  CHECK_FALSE(json.contains("mesh"));
+}
+
+TEST_CASE("a bed of polyhedra has its mesh and an orientation for each grain", "[report]") {
+  StoredBed bed = two_spheres();
+  bed.turned = sample_turned();
+  const nlohmann::json json = json_in(bed_element(bed, {"a bed", 0.0}));
+  CHECK(json["mesh"]["vertices"].size() == 4);
+  CHECK(json["mesh"]["faces"].size() == 4);
+  const std::string text = json["grains"];
+  const std::string turns = base64(shorts({0, 0, 0, 32767, 19660, 0, 0, 26214}));
+  CHECK(text.substr(32) == turns);  // 24 bytes before, a multiple of 3
+  CHECK(view_size(bed) > view_size(two_spheres()));
+}
+
+TEST_CASE("a bed's title cannot end its element", "[report]") {
+  const std::string element = bed_element(two_spheres(), {"\"></script><b>", 0.0});
+  CHECK(element.find("</script>") == element.rfind("</script>"));
+  CHECK(element.find("<b>") == std::string::npos);
+}
+
+TEST_CASE("grains are of two kinds where a share of them is small", "[report]") {
+  JobFacts job = sample_job("a", 4, 1, Boundary::walls, 0.4);
+  CHECK(facts_of(job, "").small_limit == Approx(0.5 / 1.5));  // between 0.25 and 0.5 d
+  CHECK(facts_of(sample_job("b", 4), "").small_limit == 0.0);
+  job.small_share = 1.0;
+  CHECK(facts_of(job, "").small_limit == 0.0);
+}
+
+TEST_CASE("the page of a bed holds it, a picture, and what turns it", "[report]") {
+  const std::string page = bed_page(two_spheres(), {"a < b", 0.0});
+  CHECK(page.find("<h1>a &lt; b</h1>") != std::string::npos);
+  CHECK(page.find("src=\"data:image/png;base64,") != std::string::npos);
+  CHECK(page.find("class=\"bed-data\"") != std::string::npos);
+  CHECK(page.find("THREE") != std::string::npos);
+}

@@ -1,0 +1,70 @@
+#include <zlib.h>
+
+#include <catch2/catch.hpp>
+
+#include "runner/report/picture.hpp"
+#include "tests/runner/sample_rows.hpp"
+
+using namespace grainsweep;
+
+namespace {
+
+std::size_t number_at(const std::string& png, std::size_t at) {
+  std::size_t number = 0;
+  for (std::size_t k = 0; k < 4; ++k) {
+    number = number << 8u | static_cast<unsigned char>(png[at + k]);
+  }
+  return number;
+}
+
+/// The rows of a PNG of three chunks, each behind the byte of its filter.
+std::string rows_of(const std::string& png, std::size_t size) {
+  const std::size_t data = 8 + 25;  // signature and header
+  std::string rows(size, '\0');
+  uLongf length = size;
+  const int result =
+      uncompress(reinterpret_cast<Bytef*>(rows.data()), &length,
+                 reinterpret_cast<const Bytef*>(png.data() + data + 8), number_at(png, data));
+  return result == Z_OK && length == size ? rows : "";
+}
+
+}  // namespace
+
+TEST_CASE("a PNG has its size, checksums and pixels", "[report]") {
+  const std::string pixels("\x01\x02\x03\x04\x05\x06\x07\x08\x09\x0A\x0B\x0C", 12);
+  const std::string png = png_of(pixels, 2, 2);
+  CHECK(png.substr(1, 3) == "PNG");
+  CHECK(number_at(png, 16) == 2);
+  CHECK(number_at(png, 20) == 2);
+  CHECK(number_at(png, 29) == crc32(0, reinterpret_cast<const Bytef*>(png.data() + 12), 4 + 13));
+  CHECK(rows_of(png, 14) ==
+        std::string(1, '\0') + pixels.substr(0, 6) + std::string(1, '\0') + pixels.substr(6));
+}
+
+TEST_CASE("a sphere stands in the middle of its picture, and nothing in the corners", "[report]") {
+  StoredBed bed;
+  bed.box.length = bed.box.width = 1.0;
+  bed.grains = {{0.5, 0.5, 0.5, 0.5, 1.0, 0}};
+  const std::string rows = rows_of(picture_of(bed, 40, 40), 40 * 121);
+  REQUIRE_FALSE(rows.empty());
+  const auto is_white = [&](std::size_t x, std::size_t y) {
+    return rows.substr(121 * y + 1 + 3 * x, 3) == "\xFF\xFF\xFF";
+  };
+  CHECK_FALSE(is_white(20, 20));
+  CHECK(is_white(0, 0));
+  CHECK(is_white(39, 39));
+}
+
+TEST_CASE("polyhedra are seen, too", "[report]") {
+  StoredBed bed;
+  bed.box.length = bed.box.width = 2.0;
+  bed.grains = {{0.5, 0.5, 0.5, 0.5, 1.0, 0}, {1.0, 1.0, 0.5, 0.4, 1.0, 0}};
+  bed.turned = sample_turned();
+  const std::string rows = rows_of(picture_of(bed, 60, 60), 60 * 181);
+  CHECK(rows.find_first_not_of(std::string("\x00\xFF", 2)) != std::string::npos);
+}
+
+TEST_CASE("a bed without grains gives a white picture", "[report]") {
+  const std::string rows = rows_of(picture_of({}, 8, 8), 8 * 25);
+  CHECK(rows.find_first_not_of(std::string("\x00\xFF", 2)) == std::string::npos);
+}
