@@ -72,6 +72,7 @@ std::string bed_element(const StoredBed& bed, const BedFacts& facts) {
                {"small_limit", facts.small_limit},
                {"grains", base64(columns_of(bed, extent, radius, force))}};
   json["box"] = Json::array({bed.box.length, bed.box.width, height});
+  json["walls"] = Json::array({bed.box.x == Boundary::walls, bed.box.y == Boundary::walls});
   if (bed.turned) {
     json["mesh"]["vertices"] = bed.turned->mesh.vertices;
     json["mesh"]["faces"] = bed.turned->mesh.faces;

@@ -62,7 +62,11 @@
     if (by === "size") return bed.radius.map((radius) => 2 * radius);
     if (by === "touching") return bed.touching;
     if (by === "force") return bed.force;
-    if (by === "wall") return bed.y.map((y) => Math.min(y, bed.box[1] - y));
+    if (by === "wall") {
+      const across = [bed.x, bed.y];
+      return bed.x.map((_, k) => Math.min(...[0, 1].filter((axis) => bed.walls[axis])
+        .map((axis) => Math.min(across[axis][k], bed.box[axis] - across[axis][k]))));
+    }
     return bed.radius.map((radius) => (radius < bed.small_limit ? 1 : 0));
   };
 
@@ -255,9 +259,11 @@
     scene = new THREE.Scene();
     grains = grainsOf(bed);
     scene.add(grains, frameOf(bed));
-    const kind = pick("bed-colour").querySelector("option[value=kind]");
-    kind.disabled = !(bed.small_limit > 0);
-    if (kind.disabled && pick("bed-colour").value === "kind") pick("bed-colour").value = "size";
+    const has = { kind: bed.small_limit > 0, wall: bed.walls.includes(true) };
+    for (const option of pick("bed-colour").options) {
+      option.disabled = has[option.value] === false;
+      if (option.disabled && option.selected) pick("bed-colour").value = "size";
+    }
     paint();
     cut();
   };

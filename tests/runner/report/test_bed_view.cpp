@@ -41,6 +41,7 @@ TEST_CASE("the grains of a bed are columns of 16 bits, as shares of the largest"
   CHECK(json["box"][2] == 1.5);
   CHECK(json["grains"] == base64(shorts({16384, 65535, 16384, 32768, 8192, 20480, 65535, 32768,
                                          65535, 32768, 3, 300})));
+  CHECK(json["walls"] == nlohmann::json::parse("[false, true]"));
   CHECK_FALSE(json.contains("mesh"));
 }
 
