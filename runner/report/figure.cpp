@@ -26,6 +26,11 @@ std::size_t columns_of(const std::vector<KeyEntry>& key) {
   return are_short ? 3 : 2;
 }
 
+double lines_of(std::size_t entries, std::size_t columns) {
+  const std::size_t lines = (entries + columns - 1) / columns;
+  return static_cast<double>(lines);
+}
+
 }  // namespace
 
 std::string quoted(const std::string& text) {
@@ -45,8 +50,7 @@ Panels::Panels(const Figure& figure, std::size_t columns, std::vector<double> he
       heights_(std::move(heights)),
       key_(std::move(key)),
       key_columns_(columns_of(key_)),
-      top_(gaps.above + 12.0 +
-           key_line * static_cast<double>((key_.size() + key_columns_ - 1) / key_columns_)),
+      top_(gaps.above + 12.0 + key_line * lines_of(key_.size(), key_columns_)),
       gaps_(gaps) {}
 
 std::string Panels::place(std::size_t column, std::size_t row) const {

@@ -55,7 +55,7 @@ std::string html_text(std::string_view text) {
   return escaped;
 }
 
-std::string json_in_script(std::string json) {
+std::string json_in_script(const std::string& json) {
   std::string safe;
   safe.reserve(json.size());
   for (const char c : json) {

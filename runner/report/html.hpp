@@ -12,7 +12,7 @@ namespace grainsweep {
 std::string html_text(std::string_view text);
 
 /// JSON that may stand in a script element: no "<", so that nothing in it ends the element.
-std::string json_in_script(std::string json);
+std::string json_in_script(const std::string& json);
 
 /// RFC 4648, with padding.
 std::string base64(std::string_view bytes);

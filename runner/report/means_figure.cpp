@@ -1,6 +1,7 @@
 // Solid fraction and coordination number along the axis of a sweep.
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <optional>
 #include <set>
 
@@ -85,7 +86,7 @@ std::string residuals_csv(const std::vector<FittedSeries>& all) {
 /// The axis below, and above it the widths themselves where it is d / W.
 std::string abscissa_commands(const Axes& axes, bool is_lowest, bool is_highest) {
   std::vector<double> at;
-  std::set<double> widths;
+  std::set<double, std::greater<>> widths;
   for (const Series& series : axes.series) {
     for (const Group* group : series.groups) {
       at.push_back(abscissa(axes, *group));
@@ -101,10 +102,10 @@ std::string abscissa_commands(const Axes& axes, bool is_lowest, bool is_highest)
   std::string tics;
   double last = -1.0;
   const double room = 0.05 * *std::max_element(at.begin(), at.end());
-  for (auto width = widths.rbegin(); width != widths.rend(); ++width) {
-    if (1.0 / *width - last < room) continue;
-    last = 1.0 / *width;
-    tics += (tics.empty() ? "" : ", ") + quoted(cell(*width)) + " " + cell(last);
+  for (const double width : widths) {
+    if (1.0 / width - last < room) continue;
+    last = 1.0 / width;
+    tics += (tics.empty() ? "" : ", ") + quoted(cell(width)) + " " + cell(last);
   }
   text += "set link x2\nset x2tics (" + tics + ") scale 0.6 out\n";
   return text + "set x2label 'W / d' offset 0,-0.6 noenhanced\n";

@@ -39,13 +39,18 @@ struct Canvas {
   Canvas(int wide, int high)
       : width(wide),
         height(high),
-        pixels(static_cast<std::size_t>(3 * wide * high), '\xFF'),
-        nearest(static_cast<std::size_t>(wide * high), -std::numeric_limits<double>::infinity()) {}
+        pixels(3 * area(wide, high), '\xFF'),
+        nearest(area(wide, high), -std::numeric_limits<double>::infinity()) {}
+
+  static std::size_t area(int wide, int high) {
+    return static_cast<std::size_t>(wide) * static_cast<std::size_t>(high);
+  }
 
   /// `light` from 0 to 1.
   void paint(int x, int y, double near, double light, const std::array<double, 3>& colour) {
     if (x < 0 || y < 0 || x >= width || y >= height) return;
-    const auto at = static_cast<std::size_t>(y * width + x);
+    const std::size_t at =
+        static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
     if (near <= nearest[at]) return;
     nearest[at] = near;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -132,6 +137,7 @@ void paint_polyhedron(const StoredBed& bed, std::size_t grain, const Placement& 
                       const std::array<double, 3>& colour, Canvas& canvas) {
   const std::vector<Vector> corners = vertices_in_box(bed, grain);
   std::vector<Vector> on_canvas;
+  on_canvas.reserve(corners.size());
   for (const Vector& corner : corners) on_canvas.push_back(place.on(canvas, corner));
   for (const auto& face : bed.turned->mesh.faces) {
     const auto index = [&](std::size_t k) { return static_cast<std::size_t>(face[k]); };
@@ -195,7 +201,7 @@ std::string png_of(const std::string& pixels, int width, int height) {
   append_number(header, static_cast<std::size_t>(height));
   header += std::string("\x08\x02\x00\x00\x00", 5);  // 8 bits, RGB
   std::string rows;
-  const auto row_size = static_cast<std::size_t>(3 * width);
+  const std::size_t row_size = 3 * static_cast<std::size_t>(width);
   for (std::size_t at = 0; at < pixels.size(); at += row_size) {
     rows += '\0';  // no filter
     rows.append(pixels, at, row_size);

@@ -77,7 +77,7 @@ std::string plot_part(const Curve2d& curve) {
   const std::string points = quoted(curve.table) + " using (" + column(curve.selector) +
                              "==" + cell(curve.number) + " ? " + column(curve.x) +
                              " : NaN):" + column(curve.y);
-  const std::string plain = points + " with " + curve.style + " notitle";
+  std::string plain = points + " with " + curve.style + " notitle";
   if (curve.error.empty()) return plain;
   return points + ":" + column(curve.error) + " with yerrorbars " +
          curve.style.substr(curve.style.find(' ') + 1) + " ps 0 notitle, " + plain;
@@ -94,13 +94,13 @@ std::string label_command(const std::string& axis, const std::string& text) {
                       : "set " + axis + "label " + quoted(text) + " noenhanced\n";
 }
 
-std::string few_tics_command(const std::string& axis, double farthest) {
-  if (!(farthest > 0.0)) return "";
-  const double power = std::pow(10.0, std::floor(std::log10(farthest)));
-  const double tic = farthest >= 5.0 * power   ? 5.0 * power
-                     : farthest >= 2.0 * power ? 2.0 * power
-                                               : power;
-  const std::string at = cell(tic), end = cell(1.1 * farthest);
+std::string few_tics_command(const std::string& axis, double extreme) {
+  if (!(extreme > 0.0)) return "";
+  const double power = std::pow(10.0, std::floor(std::log10(extreme)));
+  const double tic = extreme >= 5.0 * power   ? 5.0 * power
+                     : extreme >= 2.0 * power ? 2.0 * power
+                                              : power;
+  const std::string at = cell(tic), end = cell(1.1 * extreme);
   return "set " + axis + "range [-" + end + ":" + end + "]\nset " + axis + "tics (-" + at +
          ", 0, " + at + ")\n";
 }

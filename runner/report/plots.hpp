@@ -45,7 +45,7 @@ std::string plot_command(const std::vector<std::string>& parts);
 std::string label_command(const std::string& axis, const std::string& text);
 
 /// Tics at 0 and one to each side, for values that lie around 0, and their range.
-std::string few_tics_command(const std::string& axis, double farthest);
+std::string few_tics_command(const std::string& axis, double extreme);
 
 /// Tics at 1, 2 and 5 of each decade of a logarithmic axis.
 std::string decade_tics_command(const std::string& axis, double low, double high);

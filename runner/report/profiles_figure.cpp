@@ -12,7 +12,7 @@ namespace grainsweep {
 namespace {
 
 constexpr std::size_t most_profiles = 3;
-const std::string table = "profiles.csv";
+const std::string bins_table = "profiles.csv";
 
 std::string bins_csv(const std::vector<const Group*>& groups) {
   std::string text =
@@ -52,8 +52,8 @@ std::string cosine(const DecayFit& fit, double width) {
 
 std::string solid_panel(std::size_t k, const DecayFit& fit, double width) {
   std::vector<std::string> parts = {
-      plot_part({table, "panel", k + 1, "y", "solid_fraction", "", "lines ls 3 lw 0.8"}),
-      plot_part({table, "panel", k + 1, "y", "large", "large_error", "points ls 20"})};
+      plot_part({bins_table, "panel", k + 1, "y", "solid_fraction", "", "lines ls 3 lw 0.8"}),
+      plot_part({bins_table, "panel", k + 1, "y", "large", "large_error", "points ls 20"})};
   if (fit.not_determined.empty()) {
     parts.push_back(cosine(fit, width) + " with lines ls 2 lw 1.4 notitle");
   }
@@ -62,8 +62,9 @@ std::string solid_panel(std::size_t k, const DecayFit& fit, double width) {
 
 std::string coordination_panel(std::size_t k) {
   return plot_command(
-      {plot_part({table, "panel", k + 1, "y", "coordination_with_walls", "", "lines ls 5 lw 1.4"}),
-       plot_part({table, "panel", k + 1, "y", "coordination", "", "lines ls 1 lw 1.4"})});
+      {plot_part(
+           {bins_table, "panel", k + 1, "y", "coordination_with_walls", "", "lines ls 5 lw 1.4"}),
+       plot_part({bins_table, "panel", k + 1, "y", "coordination", "", "lines ls 1 lw 1.4"})});
 }
 
 std::string commands_of(const Figure& figure, const std::vector<const Group*>& groups,
@@ -126,10 +127,11 @@ Figure profiles_figure(const Axes& axes) {
     return figure;
   }
   std::vector<DecayFit> fits;
+  fits.reserve(groups.size());
   for (const Group* group : groups) fits.push_back(decay_of(*group, GrainClass::large));
   figure.height = 520;
   figure.caption += decays_text(groups, fits) + " The others are in the folder's profiles.csv.";
-  figure.tables = {{table, bins_csv(groups)}};
+  figure.tables = {{bins_table, bins_csv(groups)}};
   figure.commands = commands_of(figure, groups, fits);
   return figure;
 }

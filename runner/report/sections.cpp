@@ -245,6 +245,7 @@ std::string packings_section(const std::vector<Row>& rows, const std::vector<Gro
                     heading("CPU / s", "cpu_seconds"),
                     {"reason"}};
   std::vector<const Row*> sorted;
+  sorted.reserve(rows.size());
   for (const Row& row : rows) sorted.push_back(&row);
   std::stable_sort(sorted.begin(), sorted.end(),
                    [](const Row* a, const Row* b) { return order_of(*a) < order_of(*b); });
