@@ -35,11 +35,18 @@ Accuracy accurate() {
 
 const std::vector<Preset>& presets() {
   static const std::vector<Preset> all = {
-      {"fast", "at least 90 % of the isostatic contacts, mean overlap below 1e-4 d", fast()},
-      {"balanced", "at least 98 % of the isostatic contacts, mean overlap below 1e-5 d",
-       Accuracy{}},
-      {"accurate", "at least 99.4 % of the isostatic contacts, mean overlap below 5e-6 d",
-       accurate()}};
+      {"fast",
+       "at least 90 % of the isostatic contacts, mean overlap below 1e-4 d",
+       fast(),
+       {{{0.0056, 0.118}, {0.0054, 0.149}, {0.0071, 0.152}}}},
+      {"balanced",
+       "at least 98 % of the isostatic contacts, mean overlap below 1e-5 d",
+       Accuracy{},
+       {{{0.0029, 0.047}, {0.0025, 0.060}, {0.0050, 0.082}}}},
+      {"accurate",
+       "at least 99.4 % of the isostatic contacts, mean overlap below 5e-6 d",
+       accurate(),
+       {{{0.0023, 0.012}, {0.0031, 0.035}, {0.0049, 0.097}}}}};
   return all;
 }
 
@@ -48,6 +55,13 @@ std::optional<Accuracy> preset(std::string_view name) {
     if (known.name == name) {
       return known.accuracy;
     }
+  }
+  return std::nullopt;
+}
+
+std::optional<ProtocolBias> bias_bound(std::string_view preset_name, BedKind kind) {
+  for (const Preset& known : presets()) {
+    if (known.name == preset_name) return known.bias_bounds[static_cast<std::size_t>(kind)];
   }
   return std::nullopt;
 }

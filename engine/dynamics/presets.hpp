@@ -1,6 +1,7 @@
 // Named values of `Accuracy`, and what each promises.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -9,10 +10,24 @@
 
 namespace grainsweep {
 
+/// Kinds of beds whose protocol's error was measured.
+enum class BedKind {
+  spheres,    ///< of one size, with and without walls
+  two_sizes,  ///< spheres, the small ones half as large
+  pinacoids,  ///< 1 by 1 by 1
+};
+
+/// How far means over many beds lie at most from those of beds settled ever better.
+struct ProtocolBias {
+  double solid_fraction = 0.0;
+  double coordination = 0.0;
+};
+
 struct Preset {
   std::string_view name;
   std::string_view promise;  ///< one sentence with numbers, for --help and the README
   Accuracy accuracy;
+  std::array<ProtocolBias, 3> bias_bounds;  ///< by BedKind
 };
 
 /// fast, balanced, accurate.
@@ -20,5 +35,10 @@ const std::vector<Preset>& presets();
 
 /// The preset called `name`, if there is one.
 std::optional<Accuracy> preset(std::string_view name);
+
+/// Bound of the bias of that preset: the measured distance from the limit and two of its standard
+/// errors, of the worst scene of the kind (bench/README.md, "The protocol's own error"). None for
+/// other names: what was not measured has no bound.
+std::optional<ProtocolBias> bias_bound(std::string_view preset_name, BedKind kind);
 
 }  // namespace grainsweep

@@ -64,6 +64,13 @@ void take_line(const LineFit& line, WallFit& fit) {
   for (FitPoint& point : fit.points) point.fitted = line.intercept + line.slope / point.width;
 }
 
+/// Groups of a family differ in their width alone, and share what their way of settling does.
+std::optional<double> bias_bound(const Group& group, Quantity quantity) {
+  if (!group.bias_bound) return std::nullopt;
+  return quantity == Quantity::solid_fraction ? group.bias_bound->solid_fraction
+                                              : group.bias_bound->coordination;
+}
+
 const char* name_of(Quantity quantity) {
   return quantity == Quantity::solid_fraction ? "solid_fraction" : "coordination";
 }
@@ -131,6 +138,10 @@ Columns<FitLine> fit_line_columns() {
   using Value = const Spread&;
   append(columns,
          Columns<FitLine>{
+             {"bulk_bias_bound", "",
+              "how far bulk lies at most from that of beds settled ever better; empty if not "
+              "measured",
+              fit_cell([](Fit fit) { return fit.bias_bound.value_or(no_number); })},
              {"chi2_per_dof", "",
               "about 1 if the line holds; where it exceeds 1, all errors are widened by its root",
               fit_cell([](Fit fit) { return fit.chi2_per_dof; })},
@@ -207,6 +218,7 @@ WallFit fit_walls(const Family& family, Quantity quantity) {
   fit.not_determined = why_not_determined(groups, quantity, fit.widths);
   if (!fit.not_determined.empty()) return fit;
   fit.weights = weights_text(spread_of(*groups.front(), quantity));
+  fit.bias_bound = bias_bound(*groups.front(), quantity);
   const auto line = fit_line(points);
   if (line) {
     take_line(*line, fit);

@@ -9,6 +9,7 @@
 // support is "not determined", with the reason, and has no numbers.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,9 +40,11 @@ struct WallFit {
   std::string doubt;           ///< why the line may be none; empty if it holds
   std::string weights;         ///< what the errors of the points are
   std::vector<FitPoint> points;
-  Estimate bulk;              ///< phi_bulk or Z_bulk
-  Estimate slope;             ///< C or C_Z, d
-  Estimate zeta;              ///< slope / bulk, d
+  Estimate bulk;   ///< phi_bulk or Z_bulk
+  Estimate slope;  ///< C or C_Z, d
+  Estimate zeta;   ///< slope / bulk, d
+  /// How far `bulk` lies at most from that of beds settled ever better; none if not measured.
+  std::optional<double> bias_bound;
   double chi2_per_dof = 0.0;  ///< about 1 if the line holds
   int degrees_of_freedom = 0;
   double r_squared = 0.0;

@@ -49,6 +49,7 @@ Group group_of(const Members& members) {
   Group group;
   group.job = members.front()->job;
   group.family = parameters_without_width(group.job);
+  group.bias_bound = bias_bound(group.job);
   for (const Field& field : mean_fields()) group.means.push_back(spread_over(members, field));
   for (const Row* row : members) {
     count(*row, group.counts);
@@ -110,6 +111,18 @@ Columns<Group> group_count_columns() {
       {"failed", "", "packings that failed", [](In group) { return cell(group.counts.failed); }},
       {"pending", "", "packings not made yet", [](In group) { return cell(group.counts.pending); }},
   };
+}
+
+Columns<Group> bias_columns() {
+  const char* const meaning =
+      "how far the mean lies at most from that of beds settled ever better; empty if not measured";
+  const auto column = [&](const char* name, double ProtocolBias::*bound) {
+    return Column<Group>{name, "", meaning, [=](const Group& group) {
+                           return group.bias_bound ? cell((*group.bias_bound).*bound) : "";
+                         }};
+  };
+  return {column("solid_fraction_bias_bound", &ProtocolBias::solid_fraction),
+          column("coordination_bias_bound", &ProtocolBias::coordination)};
 }
 
 }  // namespace
@@ -211,6 +224,7 @@ Columns<Group> groups_columns(const Varied& varied) {
     append_spread(columns, std::string(field.name), std::string(field.unit),
                   std::string(field.meaning), [k](const Group& group) { return group.means[k]; });
   }
+  append(columns, bias_columns());
   append(columns, varied_columns(varied));
   append(columns, job_columns({"parameters"}), job_of_group);
   return columns;

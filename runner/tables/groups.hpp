@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -37,6 +38,7 @@ struct Group {
   std::string family_name;  ///< as Family::name, once families are known
   /// Dotted name -> cell of the parameters that are not the same in all groups.
   std::map<std::string, std::string> varied;
+  std::optional<ProtocolBias> bias_bound;  ///< of phi and Z, by the way of settling
   std::vector<Spread> means;  ///< of the fields that have one, in the order of the field table
   /// In the order of the rows, with curves as far as they had.
   std::vector<std::reference_wrapper<const PackingResult>> settled;

@@ -6,8 +6,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "engine/dynamics/presets.hpp"
-
 namespace grainsweep {
 namespace {
 
@@ -94,6 +92,27 @@ void add_parameters(const json& value, const std::string& path,
   }
 }
 
+/// What was measured that resembles such a packing.
+std::optional<BedKind> kind_of(const JobFacts& job) {
+  if (job.shape == "sphere" && job.small_share == 0.0) return BedKind::spheres;
+  const auto parameters = flat_parameters(job);
+  const auto is_at = [&](const char* path, double value) {
+    const auto found = parameters.find(path);
+    return found != parameters.end() && found->second == cell(value);
+  };
+  if (job.shape == "sphere" && is_at("sizes.size_ratio", SizesSpec{}.size_ratio)) {
+    return BedKind::two_sizes;
+  }
+  const PinacoidSize isometric;
+  if (job.shape == "pinacoid" && job.small_share == 0.0 &&
+      is_at("shape.pinacoid.length", isometric.length) &&
+      is_at("shape.pinacoid.width", isometric.width) &&
+      is_at("shape.pinacoid.height", isometric.height)) {
+    return BedKind::pinacoids;
+  }
+  return std::nullopt;
+}
+
 Boundary boundary_from(const json& name) {
   return name.get<std::string>() == "walls" ? Boundary::walls : Boundary::periodic;
 }
@@ -149,6 +168,11 @@ std::map<std::string, std::string> flat_parameters(const JobFacts& job) {
     if (flat.contains(path) && path != "fill.files") flat[path] = cell(file);
   }
   return flat;
+}
+
+std::optional<ProtocolBias> bias_bound(const JobFacts& job) {
+  const std::optional<BedKind> kind = kind_of(job);
+  return kind ? bias_bound(job.accuracy, *kind) : std::nullopt;
 }
 
 const char* name_of(Boundary boundary) {

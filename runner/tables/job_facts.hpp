@@ -10,6 +10,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "engine/dynamics/presets.hpp"
 #include "runner/store/journal.hpp"
 #include "runner/sweep/job.hpp"
 #include "runner/tables/columns.hpp"
@@ -55,6 +56,11 @@ Columns<JobFacts> job_columns(const std::vector<std::string>& names);
 
 /// Dotted name -> cell of every parameter of a job; a file stands under its name as written.
 std::map<std::string, std::string> flat_parameters(const JobFacts& job);
+
+/// Bound of the bias that the way of settling gives the means of such packings; none where it was
+/// not measured: accuracies that are no preset, hulls, pinacoids of other proportions, and small
+/// grains that are not half as large.
+std::optional<ProtocolBias> bias_bound(const JobFacts& job);
 
 /// "walls" or "periodic".
 const char* name_of(Boundary boundary);

@@ -32,6 +32,20 @@ TEST_CASE("every preset asks for more than the one before it, and allows it more
   }
 }
 
+TEST_CASE("the bias of a preset is bounded for each kind of bed that was measured") {
+  for (const BedKind kind : {BedKind::spheres, BedKind::two_sizes, BedKind::pinacoids}) {
+    for (const Preset& known : presets()) {
+      const auto bound = bias_bound(known.name, kind);
+      REQUIRE(bound);
+      CHECK(bound->solid_fraction > 0.0);
+      CHECK(bound->solid_fraction < 0.01);
+      CHECK(bound->coordination > 0.0);
+      CHECK(bound->coordination < 0.2);
+    }
+    CHECK_FALSE(bias_bound("custom", kind));
+  }
+}
+
 TEST_CASE("every preset obeys the rules of a specification") {
   for (const Preset& known : presets()) {
     PackingSpec spec;

@@ -208,12 +208,13 @@ TEST_CASE("the table of a family that determines no fit has a reason and no numb
   const std::vector<Row> rows = {row};
   CHECK(fits_csv(families_of(groups_of(rows))) ==
         "family,quantity,status,reason,widths,packings,weights,bulk,bulk_error,C,C_error,zeta,"
-        "zeta_error,chi2_per_dof,degrees_of_freedom,r_squared,biperiodic_width,biperiodic_mean,"
+        "zeta_error,bulk_bias_bound,chi2_per_dof,degrees_of_freedom,r_squared,biperiodic_width,"
+        "biperiodic_mean,"
         "biperiodic_sd,biperiodic_n,parameters\n"
         "MSP,solid_fraction,not determined,\"needs settled packings at 3 or more widths with "
-        "otherwise equal parameters, has 1\",1,1,,,,,,,,,,,,,,,\"{\"\"box\"\":{}}\"\n"
+        "otherwise equal parameters, has 1\",1,1,,,,,,,,,,,,,,,,\"{\"\"box\"\":{}}\"\n"
         "MSP,coordination,not determined,\"needs settled packings at 3 or more widths with "
-        "otherwise equal parameters, has 1\",1,1,,,,,,,,,,,,,,,\"{\"\"box\"\":{}}\"\n");
+        "otherwise equal parameters, has 1\",1,1,,,,,,,,,,,,,,,,\"{\"\"box\"\":{}}\"\n");
 }
 
 TEST_CASE("the table of a fit has the periodic value beside it") {
@@ -225,6 +226,8 @@ TEST_CASE("the table of a fit has the periodic value beside it") {
                                    "pooled over the family (4 degrees of freedom),0.64"));
   CHECK_THAT(text, Catch::Contains(",20,0.639,,1,"));
   CHECK_THAT(text, Catch::Contains(",20,6.05,,1,"));
+  CHECK(cell_in(text, 1, "bulk_bias_bound") == cell(bias_bound(rows[0].job)->solid_fraction));
+  CHECK(cell_in(text, 2, "bulk_bias_bound") == cell(bias_bound(rows[0].job)->coordination));
 }
 
 }  // namespace

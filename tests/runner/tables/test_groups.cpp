@@ -87,6 +87,9 @@ TEST_CASE("the groups table as a whole") {
   CHECK(cells_of_table(text).size() == 3);
   CHECK(cell_in(text, 1, "contact_ratio") == "1");
   CHECK(cell_in(text, 1, "parameters") == R"("{""a"":5}")");
+  CHECK(cell_in(text, 1, "solid_fraction_bias_bound") ==
+        cell(bias_bound(first.job)->solid_fraction));
+  CHECK(cell_in(text, 1, "coordination_bias_bound") == cell(bias_bound(first.job)->coordination));
   CHECK((cell_in(text, 1, "b").empty() && cell_in(text, 2, "b") == "1"));
 }
 

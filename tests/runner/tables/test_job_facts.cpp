@@ -46,6 +46,30 @@ TEST_CASE("an accuracy that is no preset is called custom") {
   CHECK(facts_of(job).accuracy == "custom");
 }
 
+TEST_CASE("the bias of packings is bounded where the like of them was measured, and only there") {
+  const auto bound_of = [](const std::string& shape, double small_share, const char* parameters,
+                           const char* accuracy = "fast") {
+    JobFacts job;
+    job.shape = shape;
+    job.small_share = small_share;
+    job.parameters = parameters;
+    job.accuracy = accuracy;
+    const auto bound = bias_bound(job);
+    return bound ? bound->coordination : 0.0;
+  };
+  const auto of = [](BedKind kind) { return bias_bound("fast", kind)->coordination; };
+  const char* const isometric = R"({"shape":{"pinacoid":{"length":1.0,"width":1.0,"height":1.0}}})";
+  CHECK(bound_of("sphere", 0.0, "{}") == of(BedKind::spheres));
+  CHECK(bound_of("sphere", 0.2, R"({"sizes":{"size_ratio":0.5}})") == of(BedKind::two_sizes));
+  CHECK(bound_of("sphere", 0.2, R"({"sizes":{"size_ratio":0.3}})") == 0.0);
+  CHECK(bound_of("pinacoid", 0.0, isometric) == of(BedKind::pinacoids));
+  CHECK(bound_of("pinacoid", 0.1, isometric) == 0.0);
+  CHECK(bound_of("pinacoid", 0.0,
+                 R"({"shape":{"pinacoid":{"length":1.0,"width":1.0,"height":0.3}}})") == 0.0);
+  CHECK(bound_of("hull", 0.0, "{}") == 0.0);
+  CHECK(bound_of("sphere", 0.0, "{}", "custom") == 0.0);
+}
+
 TEST_CASE("jobs read back from JSON are the same, equal parameters kept once") {
   Job second = sample_source();
   second.id = "fedcba9876543210";
