@@ -48,8 +48,7 @@ CLI::App& add_command(CLI::App& app, ExportOptions& options) {
   add_folder(grains, options.folder);
   grains
       .add_option("--format", options.format,
-                  "csv, xyz (extended XYZ, for OVITO), vtp (for ParaView), or html: a page "
-                  "in which the bed turns")
+                  "csv, xyz (for OVITO), vtp (for ParaView), or html: a bed that turns")
       ->check(CLI::IsMember({"csv", "xyz", "vtp", "html"}))
       ->capture_default_str()
       ->type_name("NAME");
