@@ -188,6 +188,7 @@ void clean_up(const std::string& folder, const FolderLock& lock) {
   }
   for (const char* name : tables) remove_leftovers(folder, name);
   remove_leftovers(folder, "report.html");
+  for (const char* ending : {".csv", ".gnuplot"}) remove_leftovers(folder + "/figures", ending);
   remove_leftovers(folder + "/states", ".grains");
   for (const char* slot : {".0", ".1"}) remove_leftovers(folder + "/checkpoints", slot);
 }

@@ -1,6 +1,7 @@
 // The figures of a sweep, drawn from the same numbers as its tables.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "runner/compare/comparison.hpp"
@@ -9,6 +10,11 @@
 #include "runner/tables/families.hpp"
 
 namespace grainsweep {
+
+/// What the files of figures begin with.
+inline constexpr std::array figure_names = {"means",        "means-residuals", "profiles",
+                                            "small_grains", "contacts",        "distributions",
+                                            "effort",       "published"};
 
 /// Solid fraction, porosity and coordination number along the axis, with fits and their residuals.
 Figure means_figure(const Axes& axes, const std::vector<Family>& families);

@@ -1,5 +1,6 @@
 #include "runner/report/gnuplot.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <csignal>
@@ -11,6 +12,7 @@
 
 #include <sys/wait.h>
 
+#include "runner/report/figures.hpp"
 #include "runner/store/files.hpp"
 
 namespace grainsweep {
@@ -94,17 +96,20 @@ std::string why_none(const std::vector<Drawer>& drawers, const std::string& fail
   return failed.empty() ? "" : "gnuplot could not draw" + failed + "; its words are in " + folder;
 }
 
-void remove_earlier(const std::string& folder) {
-  for (const char* ending : {".svg", ".png", ".csv", ".gnuplot", ".log"}) {
-    for (const std::string& name : files_in(folder, "", ending)) remove_file(folder + "/" + name);
+}  // namespace
+
+void remove_figures(const std::string& folder) {
+  for (const std::string& name : files_in(folder, "", "")) {
+    const std::string stem = name.substr(0, name.find('.'));
+    const bool is_ours =
+        std::find(figure_names.begin(), figure_names.end(), stem) != figure_names.end();
+    if (is_ours) remove_file(folder + "/" + name);
   }
 }
 
-}  // namespace
-
 Drawing draw(const std::vector<Figure>& figures, const std::string& folder) {
   make_folder_inside(folder);
-  remove_earlier(folder);
+  remove_figures(folder);
   std::vector<const Figure*> to_draw;
   std::vector<Drawer> drawers;
   for (const Figure& figure : figures) {

@@ -14,8 +14,10 @@ struct Drawing {
 };
 
 /// Writes tables and commands into `folder`, from which `gnuplot NAME.gnuplot` draws NAME.svg and
-/// NAME.png again, and draws all of them at once. What earlier figures left there is removed.
-/// Throws FileError.
+/// NAME.png again, and draws all of them at once, in the place of earlier ones. Throws FileError.
 Drawing draw(const std::vector<Figure>& figures, const std::string& folder);
+
+/// Removes all files of figures from the folder, half written ones, too; other files stay.
+void remove_figures(const std::string& folder);
 
 }  // namespace grainsweep

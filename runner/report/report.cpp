@@ -119,8 +119,9 @@ std::vector<std::string> write_report(const std::string& folder, const Provenanc
 
 void remove_report(const std::string& folder) {
   remove_file(folder + "/report.html");
-  std::error_code is_gone;
-  std::filesystem::remove_all(figures_folder(folder), is_gone);
+  remove_figures(figures_folder(folder));
+  std::error_code holds_other_files;
+  std::filesystem::remove(figures_folder(folder), holds_other_files);
 }
 
 }  // namespace grainsweep

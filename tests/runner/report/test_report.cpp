@@ -107,3 +107,17 @@ TEST_CASE("a report that is removed leaves nothing", "[report]") {
   remove_report(folder.path());
   CHECK(std::filesystem::is_empty(folder.path()));
 }
+
+TEST_CASE("files that others keep beside the figures stay", "[report]") {
+  const TemporaryFolder folder;
+  const std::vector<Row> rows = evil_rows();
+  write_report(folder.path(), {}, rows, analyse(rows));
+  const std::string own = folder.path() + "/figures/my.svg";
+  const std::string half = folder.path() + "/figures/means.csv.tmp.77";
+  replace_file(own, "mine");
+  replace_file(half, "half");
+  write_report(folder.path(), {}, rows, analyse(rows));
+  CHECK_FALSE(file_exists(half));
+  remove_report(folder.path());
+  CHECK(files_in(folder.path() + "/figures", "", "") == std::vector<std::string>{"my.svg"});
+}
