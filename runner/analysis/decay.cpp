@@ -115,23 +115,6 @@ Eigen::Vector2d step_of(const FittedCurve& curve, const Window& window, double d
   return step.cwiseMax(-1.0).cwiseMin(1.0);
 }
 
-/// The best point of a grid that spans what layers of grains of 0.1 d to 1 d can do.
-FittedCurve best_of_grid(const Window& window) {
-  FittedCurve best;
-  double least = std::numeric_limits<double>::infinity();
-  for (double length = 0.2; length < 8.0; length *= 1.5) {
-    for (double period = 0.15; period < 1.6; period *= 1.06) {
-      FittedCurve curve = best_curve(window, std::log(length), std::log(period));
-      const double squared = curve.residual.squaredNorm();
-      if (squared < least) {
-        least = squared;
-        best = std::move(curve);
-      }
-    }
-  }
-  return best;
-}
-
 /// The minimum next to `curve` in length and period, by Gauss-Newton steps that are damped as
 /// Levenberg and Marquardt do where they lead uphill; nothing if they do not arrive.
 std::optional<FittedCurve> minimum_near(FittedCurve curve, const Window& window) {
@@ -154,6 +137,43 @@ std::optional<FittedCurve> minimum_near(FittedCurve curve, const Window& window)
     damping *= is_downhill ? 0.1 : 10.0;
   }
   return std::nullopt;
+}
+
+/// Lengths and periods that span what layers of grains of 0.1 d to 1 d can do.
+std::vector<double> powers(double first, double last, double ratio) {
+  std::vector<double> values;
+  for (double value = first; value < last; value *= ratio) values.push_back(value);
+  return values;
+}
+
+/// The minima next to those points of a grid that are lower than all around them, the lowest first.
+std::vector<FittedCurve> minima_of(const Window& window) {
+  const std::vector<double> lengths = powers(0.2, 8.0, 1.5), periods = powers(0.15, 1.6, 1.06);
+  const auto rows = static_cast<Index>(lengths.size()),
+             columns = static_cast<Index>(periods.size());
+  const auto curve_at = [&](Index i, Index j) {
+    return best_curve(window, std::log(lengths[static_cast<std::size_t>(i)]),
+                      std::log(periods[static_cast<std::size_t>(j)]));
+  };
+  Eigen::ArrayXXd squares(rows + 2, columns + 2);  // with a rim
+  squares.setConstant(std::numeric_limits<double>::infinity());
+  for (Index i = 0; i < rows; ++i) {
+    for (Index j = 0; j < columns; ++j) {
+      squares(i + 1, j + 1) = curve_at(i, j).residual.squaredNorm();
+    }
+  }
+  std::vector<FittedCurve> minima;
+  for (Index i = 0; i < rows; ++i) {
+    for (Index j = 0; j < columns; ++j) {
+      if (!(squares(i + 1, j + 1) <= squares.block<3, 3>(i, j).minCoeff())) continue;
+      if (auto minimum = minimum_near(curve_at(i, j), window)) minima.push_back(*minimum);
+    }
+  }
+  std::stable_sort(minima.begin(), minima.end(),
+                   [](const FittedCurve& one, const FittedCurve& two) {
+                     return one.residual.squaredNorm() < two.residual.squaredNorm();
+                   });
+  return minima;
 }
 
 /// Mean of the profiles over the window; `left_out` is the profile to leave out, or none.
@@ -205,6 +225,14 @@ VectorXd readable(const VectorXd& p) {
   return values;
 }
 
+/// Quantile of Student's t at 97.5 % over that of the normal distribution (Cornish and Fisher 1938;
+/// within 1 % for 3 degrees of freedom or more).
+double widening(double degrees_of_freedom) {
+  const double z = 1.959964, n = degrees_of_freedom, z2 = z * z;
+  return 1.0 + (z2 + 1.0) / (4.0 * n) + (5.0 * z2 * z2 + 16.0 * z2 + 3.0) / (96.0 * n * n) +
+         (3.0 * z2 * z2 * z2 + 19.0 * z2 * z2 + 17.0 * z2 - 15.0) / (384.0 * n * n * n);
+}
+
 /// Jackknife errors from the values of the fits without each profile.
 VectorXd jackknife_errors(const std::vector<VectorXd>& values) {
   const auto n = static_cast<double>(values.size());
@@ -212,6 +240,11 @@ VectorXd jackknife_errors(const std::vector<VectorXd>& values) {
   for (const VectorXd& value : values) mean += value / n;
   for (const VectorXd& value : values) squares += (value - mean).cwiseAbs2();
   return ((n - 1.0) / n * squares).cwiseSqrt();
+}
+
+/// The same, widened so that two of them to both sides hold the truth in 95 %.
+VectorXd widened_errors(const std::vector<VectorXd>& values) {
+  return widening(static_cast<double>(values.size()) - 1.0) * jackknife_errors(values);
 }
 
 /// Why the window cannot hold a fit; empty if it can.
@@ -274,12 +307,10 @@ void take_values(const VectorXd& values, const VectorXd& errors, DecayFit& fit) 
 struct PartialFits {
   std::vector<VectorXd> fitted, read;
 };
-PartialFits fits_without_each(const std::vector<std::vector<double>>& profiles, double bin_width,
-                              double window_end, const VectorXd& whole) {
+PartialFits fits_of(const std::vector<Window>& windows, const VectorXd& whole) {
   PartialFits parts;
   const double phase = readable(whole)[2];
-  for (std::size_t i = 0; i < profiles.size(); ++i) {
-    const Window window = mean_window(profiles, bin_width, window_end, i);
+  for (const Window& window : windows) {
     const auto curve =
         minimum_near(best_curve(window, whole[log_length], whole[log_period]), window);
     if (!curve) return {};
@@ -297,6 +328,36 @@ double significance_of(const VectorXd& whole, const PartialFits& parts) {
   return std::hypot(whole[a], whole[b]) / std::hypot(errors[a], errors[b]);
 }
 
+/// By how much the squared residuals of one length and period exceed those of another.
+double excess_of(const VectorXd& other, const VectorXd& best, const Window& window) {
+  const auto squares = [&](const VectorXd& p) {
+    return best_curve(window, p[log_length], p[log_period]).residual.squaredNorm();
+  };
+  return squares(other) - squares(best);
+}
+
+/// What a reader must know of another curve that describes the layers as well, of a length beyond
+/// the error of the best and not below a bin; empty if there is none.
+std::string rival_of(const DecayFit& fit, const std::vector<FittedCurve>& minima,
+                     const Window& window, const std::vector<Window>& without_each) {
+  constexpr double least_excess = 2.0;  // in errors
+  for (std::size_t k = 1; k < minima.size(); ++k) {
+    const VectorXd &best = minima[0].p, &other = minima[k].p;
+    const double length = std::exp(other[log_length]);
+    const bool is_one = std::abs(length - fit.length.value) <= 2.0 * fit.length.error;
+    if (is_one || length < window.distance[1] - window.distance[0]) continue;
+    std::vector<VectorXd> excess;
+    for (const Window& part : without_each) {
+      excess.emplace_back(VectorXd::Constant(1, excess_of(other, best, part)));
+    }
+    if (excess_of(other, best, window) < least_excess * widened_errors(excess)[0]) {
+      return "two lengths describe the layers as well: " + number_text(fit.length.value) +
+             " d and " + number_text(length) + " d; add replicates";
+    }
+  }
+  return "";
+}
+
 }  // namespace
 
 DecayFit fit_decay(const std::vector<std::vector<double>>& profiles, double bin_width,
@@ -309,16 +370,21 @@ DecayFit fit_decay(const std::vector<std::vector<double>>& profiles, double bin_
   const VectorXd centred = deviations(window.value);
   const std::string fault = fault_of_window(window, centred, bin_width, window_end);
   if (!fault.empty()) return not_determined(fit, fault);
-  const auto whole = minimum_near(best_of_grid(window), window);
-  const PartialFits parts =
-      whole ? fits_without_each(profiles, bin_width, window_end, whole->p) : PartialFits{};
+  const std::vector<FittedCurve> minima = minima_of(window);
+  std::vector<Window> without_each;
+  for (std::size_t i = 0; i < profiles.size(); ++i) {
+    without_each.push_back(mean_window(profiles, bin_width, window_end, i));
+  }
+  const PartialFits parts = minima.empty() ? PartialFits{} : fits_of(without_each, minima[0].p);
   if (parts.read.empty()) return not_determined(fit, "the fit does not converge");
-  take_values(readable(whole->p), jackknife_errors(parts.read), fit);
-  const double squares = whole->residual.squaredNorm();
+  const FittedCurve& whole = minima[0];
+  take_values(readable(whole.p), widened_errors(parts.read), fit);
+  const double squares = whole.residual.squaredNorm();
   fit.r_squared = 1.0 - squares / centred.squaredNorm();
   fit.misfit =
       std::sqrt(squares / fit.bins / mean_squared_error(profiles, bin_width, window_end, window));
-  const std::string doubt = fault_of_curve(fit, significance_of(whole->p, parts));
+  std::string doubt = fault_of_curve(fit, significance_of(whole.p, parts));
+  if (doubt.empty()) doubt = rival_of(fit, minima, window, without_each);
   return doubt.empty() ? fit : not_determined(fit, doubt);
 }
 
