@@ -10,7 +10,7 @@ set encoding utf8
 set logscale x
 set format x "10^{%T}"
 set xrange [6e-7:1.6e-2]
-set yrange [7.9:8.8]
+set yrange [*<7.9:8.8<*]
 set xlabel "grains touch below this gap / d"
 set ylabel "coordination number"
 set key top left
