@@ -82,9 +82,18 @@ std::vector<Hold> holds_of(const Grains& bed, const std::vector<ForceContact>& c
   return holds;
 }
 
-std::string exceeds(const char* what, double value, double tolerance, const char* unit) {
-  return std::string(what) + " " + number_text(value) + " " + unit + " exceeds " +
-         number_text(tolerance);
+struct RestTest {
+  bool is_passed = false;
+  std::string failure;  ///< what is wrong if it is not
+  std::string remedy;   ///< part of the accuracy that lets it pass if it is larger
+};
+
+RestTest at_most(const char* what, const char* unit, double value, double tolerance,
+                 const char* remedy) {
+  return {value <= tolerance,
+          std::string(what) + " " + number_text(value) + " " + unit + " exceeds " +
+              number_text(tolerance),
+          remedy};
 }
 
 }  // namespace
@@ -148,35 +157,31 @@ bool is_hyperstatic(const RestReport& rest, const Accuracy& accuracy) {
          (1.0 + accuracy.contact_tolerance) * static_cast<double>(rest.isostatic_contacts);
 }
 
-std::string rest_failure(const RestReport& rest, const Accuracy& accuracy) {
-  if (!(rest.step_residual <= accuracy.residual_tolerance)) {
-    return exceeds("residual of the last step", rest.step_residual, accuracy.residual_tolerance,
-                   "m g");
-  }
-  if (!(rest.kinetic_energy <= accuracy.kinetic_tolerance)) {
-    return exceeds("kinetic energy", rest.kinetic_energy, accuracy.kinetic_tolerance,
-                   "m g d per grain");
-  }
-  if (!(rest.overlap_mean <= accuracy.overlap_tolerance)) {
-    return exceeds("mean overlap", rest.overlap_mean, accuracy.overlap_tolerance, "d");
-  }
-  if (!(rest.overlap_max <= deepest_overlap * accuracy.overlap_tolerance)) {
-    return exceeds("deepest overlap", rest.overlap_max,
-                   deepest_overlap * accuracy.overlap_tolerance, "d");
-  }
+std::string rest_failure(const RestReport& rest, const Accuracy& accuracy, bool may_go_on) {
   const auto contacts = static_cast<double>(rest.contacts);
   const auto isostatic = static_cast<double>(rest.isostatic_contacts);
-  if (!(contacts >= (1.0 - accuracy.contact_tolerance) * isostatic)) {
-    return "contacts / isostatic count " + number_text(contacts / isostatic) +
-           " is below 1 by more than " + number_text(accuracy.contact_tolerance);
-  }
-  if (!(rest.imbalance.mean <= accuracy.imbalance_tolerance)) {
-    return exceeds("mean static imbalance", rest.imbalance.mean, accuracy.imbalance_tolerance,
-                   "own weights");
-  }
-  if (!(rest.imbalance.max <= largest_imbalance * accuracy.imbalance_tolerance)) {
-    return exceeds("largest static imbalance", rest.imbalance.max,
-                   largest_imbalance * accuracy.imbalance_tolerance, "own weights");
+  const RestTest tests[] = {
+      at_most("residual of the last step", "m g", rest.step_residual, accuracy.residual_tolerance,
+              "residual_tolerance or accuracy.rest_iterations"),
+      at_most("kinetic energy", "m g d per grain", rest.kinetic_energy, accuracy.kinetic_tolerance,
+              "kinetic_tolerance"),
+      at_most("mean overlap", "d", rest.overlap_mean, accuracy.overlap_tolerance,
+              "overlap_tolerance or accuracy.rest_iterations"),
+      at_most("deepest overlap", "d", rest.overlap_max,
+              deepest_overlap * accuracy.overlap_tolerance,
+              "overlap_tolerance or accuracy.rest_iterations"),
+      {contacts >= (1.0 - accuracy.contact_tolerance) * isostatic,
+       "contacts / isostatic count " + number_text(contacts / isostatic) +
+           " is below 1 by more than " + number_text(accuracy.contact_tolerance),
+       "contact_tolerance or accuracy.creep_steps"},
+      at_most("mean static imbalance", "own weights", rest.imbalance.mean,
+              accuracy.imbalance_tolerance, "imbalance_tolerance or accuracy.imbalance_gap"),
+      at_most("largest static imbalance", "own weights", rest.imbalance.max,
+              largest_imbalance * accuracy.imbalance_tolerance,
+              "imbalance_tolerance or accuracy.imbalance_gap")};
+  for (const RestTest& test : tests) {
+    if (test.is_passed) continue;
+    return test.failure + ": make accuracy." + (may_go_on ? test.remedy : "max_steps") + " larger";
   }
   return {};
 }

@@ -46,7 +46,8 @@ inline constexpr double largest_imbalance = 15.0;
 /// Whether a bed has more contacts than degrees of freedom by more than the tolerance.
 bool is_hyperstatic(const RestReport& rest, const Accuracy& accuracy);
 
-/// The first test of rest that `rest` fails, in words; empty if it passes all.
-std::string rest_failure(const RestReport& rest, const Accuracy& accuracy);
+/// The first test of rest that `rest` fails and what to change, in words; empty if it passes all.
+/// `may_go_on`: accuracy.max_steps left steps to come to rest in.
+std::string rest_failure(const RestReport& rest, const Accuracy& accuracy, bool may_go_on = true);
 
 }  // namespace grainsweep

@@ -79,6 +79,17 @@ bool has_fallen(const Settling<Kind, Real>& s) {
   return s.last.kinetic_energy < s.rule().energy && is_carried(s);
 }
 
+/// Whether there are steps for going on: of beds that slide on before they are tested once more,
+/// for both.
+template <class Kind, class Real>
+bool has_steps_to_go_on(const Settling<Kind, Real>& s) {
+  const std::size_t last = s.stages.size() - 1, back = s.stages[last].back;
+  if (back == 0) return s.report.steps < s.accuracy.max_steps;
+  const std::int64_t round =
+      steps_of(s.accuracy, s.stages[last]) + steps_of(s.accuracy, s.stages[last - back]);
+  return s.report.steps + round <= s.accuracy.max_steps;
+}
+
 /// All tests of rest; that of the static balance, as dear as some steps, only of beds that pass the
 /// others.
 template <class Kind, class Real>
@@ -88,10 +99,11 @@ void test_rest(Settling<Kind, Real>& s) {
   rest.step_residual = s.last.solve.residual;
   rest.kinetic_energy = s.last.kinetic_energy;
   rest.largest_motion = s.last.largest_motion;
-  s.report.failure = rest_failure(rest, s.accuracy);
+  const bool may_go_on = has_steps_to_go_on(s);
+  s.report.failure = rest_failure(rest, s.accuracy, may_go_on);
   if (!s.report.failure.empty()) return;
   rest.imbalance = imbalance_of(s);
-  s.report.failure = rest_failure(rest, s.accuracy);
+  s.report.failure = rest_failure(rest, s.accuracy, may_go_on);
 }
 
 template <class Kind, class Real>
@@ -106,9 +118,7 @@ template <class Kind, class Real>
 bool slides_on(const Settling<Kind, Real>& s) {
   constexpr double layers_of_a_step = 8.0;
   if (s.stage + 1 == s.stages.size() || s.rounds == most_rounds) return false;
-  const std::int64_t round =
-      steps_of(s.accuracy, s.stages[s.stage + 1]) + steps_of(s.accuracy, s.rule());
-  return s.report.steps + round <= s.accuracy.max_steps &&
+  return has_steps_to_go_on(s) &&
          static_cast<double>(s.steps_in_stage) >= top_of(s.bed) / layers_of_a_step;
 }
 

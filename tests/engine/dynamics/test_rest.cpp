@@ -210,12 +210,37 @@ TEST_CASE("the test of rest that failed is named with value and tolerance") {
   overlap.overlap_mean = 2e-3;
   deep.overlap_max = 0.06;
   few.contacts = 900;
-  CHECK(rest_failure(residual, accuracy) == "residual of the last step 0.25 m g exceeds 0.005");
-  CHECK(rest_failure(kinetic, accuracy) == "kinetic energy 0.125 m g d per grain exceeds 0.0002");
-  CHECK(rest_failure(overlap, accuracy) == "mean overlap 0.002 d exceeds 1e-05");
-  CHECK(rest_failure(deep, accuracy) == "deepest overlap 0.06 d exceeds 0.001");
+  CHECK(rest_failure(residual, accuracy) ==
+        "residual of the last step 0.25 m g exceeds 0.005: make accuracy.residual_tolerance or "
+        "accuracy.rest_iterations larger");
+  CHECK(rest_failure(kinetic, accuracy) ==
+        "kinetic energy 0.125 m g d per grain exceeds 0.0002: make accuracy.kinetic_tolerance "
+        "larger");
+  CHECK(rest_failure(overlap, accuracy) ==
+        "mean overlap 0.002 d exceeds 1e-05: make accuracy.overlap_tolerance or "
+        "accuracy.rest_iterations larger");
+  CHECK(rest_failure(deep, accuracy) ==
+        "deepest overlap 0.06 d exceeds 0.001: make accuracy.overlap_tolerance or "
+        "accuracy.rest_iterations larger");
   CHECK(rest_failure(few, accuracy) ==
-        "contacts / isostatic count 0.9 is below 1 by more than 0.04");
+        "contacts / isostatic count 0.9 is below 1 by more than 0.04: make "
+        "accuracy.contact_tolerance or accuracy.creep_steps larger");
+  CHECK(rest_failure(few, accuracy, false) ==
+        "contacts / isostatic count 0.9 is below 1 by more than 0.04: make accuracy.max_steps "
+        "larger");
+}
+
+TEST_CASE("a bed out of balance is told what would call it balanced") {
+  RestReport mean = perfect_rest(), largest = mean;
+  mean.imbalance = {0.5, 0.5};
+  largest.imbalance = {0.0, 7.5};
+  Accuracy accuracy;
+  accuracy.imbalance_tolerance = 0.125;
+  const std::string remedy = ": make accuracy.imbalance_tolerance or accuracy.imbalance_gap larger";
+  CHECK(rest_failure(mean, accuracy) ==
+        "mean static imbalance 0.5 own weights exceeds 0.125" + remedy);
+  CHECK(rest_failure(largest, accuracy) ==
+        "largest static imbalance 7.5 own weights exceeds 1.88" + remedy);
 }
 
 TEST_CASE("more contacts than are needed are no fault, none at all is one") {
