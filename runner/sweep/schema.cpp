@@ -7,6 +7,7 @@
 
 #include "runner/sweep/parameters.hpp"
 #include "runner/sweep/random_paths.hpp"
+#include "runner/sweep/schema_rules.hpp"
 #include "runner/sweep/sweep_definition.hpp"
 #include "runner/sweep/values.hpp"
 
@@ -88,57 +89,10 @@ Json kind_of(const Parameter& parameter) {
   return names_of(parameter);
 }
 
-/// That an object holds the member `path`, in each way to write it: "a.b": 1 and "a": {"b": 1}.
-std::vector<Json> spellings(const std::string& path) {
-  std::vector<Json> all = {{{"required", {path}}}};
-  for (std::size_t dot = path.find('.'); dot != std::string::npos; dot = path.find('.', dot + 1)) {
-    const std::string group = path.substr(0, dot);
-    for (Json inside : spellings(path.substr(dot + 1))) {
-      inside["type"] = "object";
-      all.push_back({{"required", {group}}, {"properties", {{group, inside}}}});
-    }
-  }
-  return all;
-}
-
-Json not_both(const Json& one, const Json& other) { return {{"not", {{"allOf", {one, other}}}}}; }
-
-Json in_any_way(const std::string& path) { return {{"anyOf", spellings(path)}}; }
-
-/// What one object may not say together: `group` is the one it describes, "" for all parameters.
-Json exclusions(const std::string& group) {
-  static const std::vector<std::pair<std::string, std::string>> alternatives = [] {
-    std::vector<std::pair<std::string, std::string>> pairs = {
-        {"shape.hull.vertices", "shape.hull.file"}, {"shape.pinacoid", "shape.hull"}};
-    for (std::size_t i = 0; i < parameters().size(); ++i) {
-      for (std::size_t j = 0; is_fill(i) && j < i; ++j) {
-        if (is_fill(j)) pairs.emplace_back(parameters()[j].path, parameters()[i].path);
-      }
-    }
-    return pairs;
-  }();
-  const std::string prefix = group.empty() ? "" : group + ".";
-  const auto is_inside = [&](const std::string& path) { return path.starts_with(prefix); };
-  const auto inside = [&](const std::string& path) { return path.substr(prefix.size()); };
-  Json rules = Json::array();
-  for (const auto& [one, other] : alternatives) {
-    if (!is_inside(one) || !is_inside(other)) continue;
-    rules.push_back(not_both(in_any_way(inside(one)), in_any_way(inside(other))));
-  }
-  for (const Parameter& parameter : parameters()) {
-    if (!is_inside(parameter.path)) continue;
-    const std::vector<Json> ways = spellings(inside(parameter.path));
-    for (std::size_t i = 0; i < ways.size(); ++i) {
-      for (std::size_t j = 0; j < i; ++j) rules.push_back(not_both(ways[j], ways[i]));
-    }
-  }
-  return rules;
-}
-
 /// An object of any parameters, of which each is said once.
 Json layer(const Json& members) {
   Json schema = closed_object(members);
-  schema["allOf"] = Json::array({reference("each once")}); // {…} of one Json: compilers differ
+  schema["allOf"] = Json::array({reference("each once")});  // {…} of one Json: compilers differ
   return schema;
 }
 
@@ -146,7 +100,7 @@ Json group_members(const std::string& group) {
   Json members;
   for (const std::string& key : known_keys(group)) members[key] = reference(group + "." + key);
   Json schema = described(meaning_of_group(group), closed_object(members));
-  if (Json rules = exclusions(group); !rules.empty()) schema["allOf"] = std::move(rules);
+  if (Json rules = said_once(group); !rules.empty()) schema["allOf"] = std::move(rules);
   return schema;
 }
 
@@ -244,7 +198,9 @@ Json replicates() {
 }
 
 Json block_schema() {
-  return closed_object(
+  Json zipped = lists("side by side: ");
+  zipped["allOf"] = Json::array({equally_long()});
+  Json block = closed_object(
       {{"label",
         described("name of the block in the tables", {{"type", "string"},
                                                       {"minLength", 1},
@@ -253,13 +209,15 @@ Json block_schema() {
        {"set", described("values for the whole block",
                          layer(members_by_path([](const auto& path) { return reference(path); })))},
        {"grid", described("lists of values: every combination of them", distinct_lists())},
-       {"zip", described("equally long lists: taken side by side", lists("side by side: "))},
+       {"zip", described("equally long lists: taken side by side", std::move(zipped))},
        {"random", described("points drawn at random", random_schema())},
        {"replicates", replicates()}});
+  block["allOf"] = set_or_varied();
+  return block;
 }
 
 Json definitions() {
-  Json all = {{"each once", {{"allOf", exclusions("")}}}};
+  Json all = {{"each once", {{"allOf", said_once("")}}}};
   for (const std::string& path : known_keys("")) {
     if (!find_parameter(path)) all[path] = group_schema(path);
   }
@@ -292,8 +250,9 @@ std::string sweep_schema() {
        {"base", described("what all packings share", base_schema())},
        {"sweep", described("blocks of packings, joined", list_of(block_schema()))}}));
   schema["required"] = {"name"};
+  schema["allOf"] = sweep_rules();
   schema["definitions"] = definitions();
-  return schema.dump(2) + "\n";
+  return schema.dump(1) + "\n";
 }
 
 }  // namespace grainsweep

@@ -76,5 +76,7 @@ for section in re.split("^== ", page, flags=re.M)[1:]:
     assert fits(text) == (mark == "~~"), title
     faulty += said.strip().split("\n")[0] != "right"
     refused += mark == "--"
+# The others need arithmetic between values, lists longer than 24, or another file.
+assert refused > 0.79 * faulty, (refused, faulty)
 print(f"schema: fits {len(sweeps)} sweeps and refuses {refused} of {faulty} faulty ones")
 PYTHON

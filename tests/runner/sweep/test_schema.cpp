@@ -35,9 +35,11 @@ bool fits_members(const Json& rule, const Json& object) {
     if (!object.contains(key.get<std::string>())) return false;
   }
   const Json known = rule.value("properties", Json::object());
-  const bool is_open = rule.value("additionalProperties", true);
+  const Json others = rule.value("additionalProperties", Json(true));
+  const Json names = rule.value("propertyNames", Json::object());
   return std::all_of(object.items().begin(), object.items().end(), [&](const auto& member) {
-    return known.contains(member.key()) ? fits(known.at(member.key()), member.value()) : is_open;
+    return fits(names, member.key()) &&
+           fits(known.contains(member.key()) ? known.at(member.key()) : others, member.value());
   });
 }
 
@@ -50,6 +52,8 @@ bool fits_entries(const Json& rule, const Json& list) {
       return false;
     }
   }
+  const auto is_wanted = [&](const Json& entry) { return fits(rule.at("contains"), entry); };
+  if (rule.contains("contains") && std::none_of(list.begin(), list.end(), is_wanted)) return false;
   return list.size() >= rule.value("minItems", 0u) &&
          list.size() <= rule.value("maxItems", 1u << 20);
 }
@@ -78,6 +82,7 @@ bool fits_parts(const Json& rule, const Json& value) {
 
 /// The part of JSON Schema that the schema of sweeps uses, by the letter of draft 7.
 bool fits(const Json& rule, const Json& value) {
+  if (rule.is_boolean()) return rule.get<bool>();
   if (rule.contains("$ref")) {
     const std::string prefix = "#/definitions/";
     return fits(
@@ -197,6 +202,11 @@ TEST_CASE("what does not fit the schema the reader refuses") {
         R"("base": {"shape": {"pinacoid": {}, "hull": {"file": "a.obj"}}})",
         R"("base": {"measure": {"gap_tolerances": []}})",
         R"("base": {"measure": {"gap_tolerances": [0.001, 0.001]}})",
+        R"("base": {"fill.diameter": 3})",
+        R"("replicates": 3, "base": {"fill": {"file": "a.csv"}})",
+        R"("base": {"shape": {"pinacoid": {"angle_deg": 44}}})",
+        R"("sweep": [{"set": {"box": {"width": 5}}, "grid": {"box.width": [6, 7]}}])",
+        R"("sweep": [{"zip": {"box.width": [6, 7], "box.length": [6, 7, 8]}}])",
         R"("sweep": [{"label": ""}])",
         R"("sweep": [{"grid": {"box.width": [5, 5.0]}}])"}) {
     const std::string text = R"({"name": "a", )" + body + "}";
