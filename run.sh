@@ -32,4 +32,7 @@ if ! build_grainsweep; then
   exit 1
 fi
 exec 9>&-
+printf -v GRAINSWEEP_COMMAND '%q' "$0" # what the commands that it prints begin with
+[[ $0 == */* ]] || GRAINSWEEP_COMMAND="bash $GRAINSWEEP_COMMAND"
+export GRAINSWEEP_COMMAND
 exec "$build/runner/grainsweep" "$@"

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cstdlib>
 #include <ctime>
 #include <fstream>
 #include <string>
@@ -67,6 +68,14 @@ std::string command_line() {
   std::string word, words;
   while (std::getline(file, word, '\0')) words += (words.empty() ? "" : " ") + shell_word(word);
   return words;
+}
+
+std::string called_as() {
+  const char* const given = std::getenv("GRAINSWEEP_COMMAND");
+  if (given != nullptr && *given != '\0') return given;
+  std::ifstream file("/proc/self/cmdline", std::ios::binary);
+  std::string word;
+  return std::getline(file, word, '\0') && !word.empty() ? shell_word(word) : "grainsweep";
 }
 
 std::string processor_name() {

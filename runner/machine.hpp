@@ -17,6 +17,10 @@ std::string utc_now();
 /// The command line of this process, as a shell takes it.
 std::string command_line();
 
+/// What this program is called by, as a shell takes it: GRAINSWEEP_COMMAND, which run.sh sets, or
+/// the first word of its command line. Commands that it prints begin with it.
+std::string called_as();
+
 /// What the processor calls itself; empty if the system does not tell.
 std::string processor_name();
 

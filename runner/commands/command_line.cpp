@@ -10,6 +10,7 @@
 
 #include "runner/commands/shared_options.hpp"
 #include "runner/exit_codes.hpp"
+#include "runner/machine.hpp"
 #include "runner/sweep/suggest.hpp"
 #include "runner/versions.hpp"
 
@@ -50,6 +51,17 @@ std::string mistake(const CLI::App& app, const Words& words, const CLI::Error& e
   return found.empty() ? error.what() : found;
 }
 
+/// Makes the examples of its help begin with what the program was called by.
+void call_examples(CLI::App& command) {
+  const std::string written = ": grainsweep ", called = ": " + called_as() + " ";
+  std::string text = command.get_footer();
+  for (std::size_t at = text.find(written); at != std::string::npos;
+       at = text.find(written, at + called.size())) {
+    text.replace(at, written.size(), called);
+  }
+  command.footer(text);
+}
+
 }  // namespace
 
 CommandLine read_command_line(int argc, const char* const* argv) {
@@ -64,6 +76,7 @@ CommandLine read_command_line(int argc, const char* const* argv) {
   app.footer(std::string("Example: grainsweep run configs/quick.json --out out/quick\n"
                          "Help on a command: grainsweep run --help\n\n") +
              exit_codes_text);
+  call_examples(app);
   app.failure_message([&](const CLI::App* /*app*/, const CLI::Error& error) {
     return "grainsweep: " + mistake(app, Words(argv + std::min(1, argc), argv + argc), error) +
            "\nRun with --help for more information.\n";
@@ -71,7 +84,9 @@ CommandLine read_command_line(int argc, const char* const* argv) {
   CommandLine line;
   AllOptions all;
   const auto add = [&](auto& options) {
-    add_command(app, options).callback([&] { line.command = options; });
+    CLI::App& command = add_command(app, options);
+    command.callback([&] { line.command = options; });
+    call_examples(command);
   };
   std::apply([&](auto&... options) { (add(options), ...); }, all);
   try {

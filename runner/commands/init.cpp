@@ -5,6 +5,7 @@
 
 #include "runner/commands/commands.hpp"
 #include "runner/exit_codes.hpp"
+#include "runner/machine.hpp"
 #include "runner/store/files.hpp"
 #include "runner/sweep/schema.hpp"
 #include "runner/sweep/sweep_definition.hpp"
@@ -65,7 +66,7 @@ int perform(const InitOptions& options) {
   replace_file(schema_file, sweep_schema());
   replace_file(file, first_sweep(options.name));
   std::cout << "Written: " << file << ", and " << schema_file << " for completion in editors.\n"
-            << "Next: grainsweep plan " << shell_word(file) << "\n";
+            << "Next: " << called_as() << " plan " << shell_word(file) << "\n";
   return exit_done;
 }
 

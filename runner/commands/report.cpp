@@ -7,6 +7,7 @@
 #include "runner/commands/inputs.hpp"
 #include "runner/commands/shared_options.hpp"
 #include "runner/exit_codes.hpp"
+#include "runner/machine.hpp"
 #include "runner/store/files.hpp"
 #include "runner/tables/closing_report.hpp"
 
@@ -24,7 +25,8 @@ int perform(const ReportOptions& options) {
   Results results = results_with_warnings(options.folder);
   std::cerr << damage_warnings(load_curves(options.folder, results.rows));
   const Analysis analysis = analyse(results.rows);
-  std::cout << closing_report(results.provenance, results.rows, analysis.families, options.folder)
+  std::cout << closing_report(results.provenance, results.rows, analysis.families,
+                              {called_as(), options.folder})
             << std::flush;
   try {
     std::cout << write_page(options.folder, results.provenance, results.rows, analysis);

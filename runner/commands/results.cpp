@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "runner/exit_codes.hpp"
+#include "runner/machine.hpp"
 #include "runner/report/report.hpp"
 #include "runner/store/checkpoints.hpp"
 #include "runner/store/files.hpp"
@@ -18,6 +19,7 @@
 #include "runner/tables/fits.hpp"
 #include "runner/tables/packings.hpp"
 #include "runner/tables/profiles.hpp"
+#include "runner/text.hpp"
 #include "runner/versions.hpp"
 
 namespace grainsweep {
@@ -37,9 +39,8 @@ ProvenanceReading read_provenance(const std::string& folder, Detail detail = Det
   const std::string path = provenance_path(folder);
   if (!file_exists(path)) {
     throw BadInput(folder +
-                   ": no output folder of grainsweep (it has no provenance.json); make one with "
-                   "grainsweep run FILE --out " +
-                   folder);
+                   ": no output folder of grainsweep (it has no provenance.json); make one with " +
+                   called_as() + " run FILE --out " + shell_word(folder));
   }
   try {
     return provenance_from_text(read_file(path), detail);

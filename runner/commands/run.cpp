@@ -151,7 +151,7 @@ int stopped(const Packed& packed, const RunOptions& options, const std::string& 
             << " packings are kept in " << folder;
   const std::size_t saved = saved_packings(folder);
   if (saved > 0) std::cerr << ", " << saved << " under way in its checkpoints";
-  std::cerr << ".\nGo on with: grainsweep run " << repeated(options, folder) << "\n";
+  std::cerr << ".\nGo on with: " << called_as() << " run " << repeated(options, folder) << "\n";
   return by_signal ? exit_stopped + stop_signal() : static_cast<int>(exit_left_out);
 }
 
@@ -235,7 +235,8 @@ int perform(const RunOptions& options) {
   const bool is_whole = static_cast<std::size_t>(packed.packings) == running.pending.size();
   if (!is_whole) return stopped(packed, options, folder, counts, rows.size());
   if (!options.quiet) {
-    std::cout << closing_report(provenance, rows, analysis.families, folder) << std::flush;
+    std::cout << closing_report(provenance, rows, analysis.families, {called_as(), folder})
+              << std::flush;
   }
   if (!options.no_report) {
     const std::string where = write_page(folder, provenance, rows, analysis);

@@ -9,6 +9,7 @@
 #include "runner/commands/inputs.hpp"
 #include "runner/commands/shared_options.hpp"
 #include "runner/exit_codes.hpp"
+#include "runner/machine.hpp"
 #include "runner/store/lock.hpp"
 #include "runner/text.hpp"
 
@@ -35,7 +36,7 @@ void print_status(const Results& results, const std::optional<std::string>& runn
     std::cout << results.orphaned << " stored packings belong to an earlier form of the sweep\n";
   }
   if (!runner && totals.counts.pending > 0 && !sweep_file.empty()) {
-    std::cout << "Go on with: grainsweep run " << shell_word(sweep_file) << " --out "
+    std::cout << "Go on with: " << called_as() << " run " << shell_word(sweep_file) << " --out "
               << shell_word(folder) << "\n";
   }
 }

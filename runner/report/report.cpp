@@ -112,7 +112,7 @@ std::vector<std::string> write_report(const std::string& folder, const Provenanc
   parts.published = published_section(reference ? reference->source : "", comparisons);
   parts.packings = packings_section(rows, analysis.groups);
   parts.provenance = provenance_section(provenance);
-  parts.closing_table = closing_report(provenance, rows, analysis.families, folder);
+  parts.closing_table = closing_report(provenance, rows, analysis.families, {"grainsweep", folder});
   replace_file(folder + "/report.html", page_text(parts));
   return missing;
 }

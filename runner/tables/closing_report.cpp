@@ -1,8 +1,11 @@
 #include "runner/tables/closing_report.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdio>
+#include <map>
 #include <set>
 
 #include "runner/tables/csv.hpp"
@@ -16,8 +19,10 @@ namespace {
 constexpr int solid_fraction_decimals = 4;
 constexpr int coordination_decimals = 3;
 
+/// "0.6390 ± 0.0012", "0.6390" if there is no error.
 std::string with_error(double value, double error, int decimals) {
-  return fixed(value, decimals) + " ± " + fixed(error, decimals);
+  const std::string text = fixed(value, decimals);
+  return std::isfinite(error) ? text + " ± " + fixed(error, decimals) : text;
 }
 
 /// "3 of 5 settled" where some are missing, else "3".
@@ -36,26 +41,61 @@ std::string small_number(double value) {
   return text.data();
 }
 
-std::string report_line(const Group& group) {
+std::string cells_text(const std::string& width, const std::array<std::string, 5>& cells) {
+  return pad_right(width, 12) + pad_left(cells[0], 17) + pad_left(cells[1], 15) +
+         pad_left(cells[2], 14) + pad_left(cells[3], 10) + pad_left(cells[4], 11) + "\n";
+}
+
+std::string cells_of(const Group& group) {
   const bool is_walled = group.job.box.y == Boundary::walls;
   const std::string width = cell(group.job.box.width);
   const Spread& phi = mean_of(group, "solid_fraction");
   const Spread& z = mean_of(group, "coordination");
-  return "  " + pad_right(is_walled ? width : width + " periodic", 14) +
-         pad_left(with_error(phi.mean, phi.sd, solid_fraction_decimals), 18) +
-         pad_left(with_error(z.mean, z.sd, coordination_decimals), 17) +
-         pad_left(fixed(mean_of(group, "contact_ratio").mean, 4), 13) +
-         pad_left(small_number(mean_of(group, "overlap_mean").mean), 12) +
-         pad_left(packings_text(group), 10) + "\n";
+  return cells_text(is_walled ? width : width + " periodic",
+                    {with_error(phi.mean, phi.sd, solid_fraction_decimals),
+                     with_error(z.mean, z.sd, coordination_decimals),
+                     fixed(mean_of(group, "contact_ratio").mean, 4),
+                     small_number(mean_of(group, "overlap_mean").mean), packings_text(group)});
+}
+
+/// A line of a table: a group, and what tells its family from others in the table.
+struct TableLine {
+  std::string name;
+  const Group* group = nullptr;
+};
+
+void append_lines(const Family& family, std::vector<TableLine>& lines) {
+  for (const Group& group : family.walled) lines.push_back({family.distinction, &group});
+  for (const Group& group : family.periodic) lines.push_back({family.distinction, &group});
+}
+
+/// The first of the lines beneath what their columns are. Names stand in a column of their own, or
+/// where they are long above their lines.
+std::string table_text(const std::vector<TableLine>& lines) {
+  constexpr std::size_t longest_in_column = 17, most_lines = 60;
+  std::size_t longest = 0;
+  for (const TableLine& line : lines) longest = std::max(longest, line.name.size());
+  const bool has_column = longest > 0 && longest <= longest_in_column;
+  const auto indent = [&](const std::string& name) {
+    return has_column ? "  " + pad_right(name, longest + 2) : std::string("  ");
+  };
+  std::string text =
+      indent("") + cells_text("W/d", {"φ ± sd", "Z ± sd", "contacts/iso", "overlap/d", "packings"});
+  for (std::size_t k = 0; k < std::min(lines.size(), most_lines); ++k) {
+    const std::string& name = lines[k].name;
+    const bool is_new = k == 0 || name != lines[k - 1].name;
+    if (is_new && longest > longest_in_column) text += " " + name + "\n";
+    text += indent(name) + cells_of(*lines[k].group);
+  }
+  if (lines.size() <= most_lines) return text;
+  return text + "  and " + std::to_string(lines.size() - most_lines) + " more, see groups.csv\n";
 }
 
 std::string reference_text(const Family& family, Quantity quantity, int decimals) {
   const Group* group = unconfined_reference(family);
   if (group == nullptr) return "";
   const Spread& spread = spread_of(*group, quantity);
-  const std::string value = std::isfinite(spread.sd) ? with_error(spread.mean, spread.sd, decimals)
-                                                     : fixed(spread.mean, decimals);
-  return "; periodic " + value;
+  return "; periodic " + with_error(spread.mean, spread.error, decimals);
 }
 
 /// What the line's quality is, in brackets.
@@ -70,7 +110,9 @@ std::string fit_text(const Family& family, Quantity quantity, int decimals) {
   const std::string symbol = is_phi ? "φ" : "Z", slope = is_phi ? "C" : "C_Z";
   const std::string law = "  " + symbol + " = " + symbol + "_bulk - " + slope + "/W:  ";
   const WallFit fit = fit_walls(family, quantity);
-  if (!fit.not_determined.empty()) return law + "not determined: " + fit.not_determined + "\n";
+  if (!fit.not_determined.empty()) {
+    return law + "not determined:\n      " + fit.not_determined + "\n";
+  }
   std::string text =
       law + symbol + "_bulk = " + with_error(fit.bulk.value, fit.bulk.error, decimals) +
       reference_text(family, quantity, decimals) + "\n" + "      " + slope + " = " +
@@ -81,15 +123,48 @@ std::string fit_text(const Family& family, Quantity quantity, int decimals) {
   return text;
 }
 
+/// A family with its fits.
 std::string family_text(const Family& family) {
-  std::string text = "\n" + family.name + "\n  " + pad_right("W/d", 14) + pad_left("φ ± sd", 18) +
-                     pad_left("Z ± sd", 17) + pad_left("contacts/iso", 13) +
-                     pad_left("overlap/d", 12) + pad_left("packings", 10) + "\n";
-  for (const Group& group : family.walled) text += report_line(group);
-  for (const Group& group : family.periodic) text += report_line(group);
-  if (family.walled.empty()) return text;
-  return text + fit_text(family, Quantity::solid_fraction, solid_fraction_decimals) +
+  std::vector<TableLine> lines;
+  append_lines(family, lines);
+  for (TableLine& line : lines) line.name.clear();
+  return "\n" + family.name + "\n" + table_text(lines) +
+         fit_text(family, Quantity::solid_fraction, solid_fraction_decimals) +
          fit_text(family, Quantity::coordination, coordination_decimals);
+}
+
+/// Families of the same labels, all of them at too few widths to tell what walls do.
+std::string families_text(const std::vector<const Family*>& families) {
+  std::vector<TableLine> lines;
+  bool is_walled = false;
+  for (const Family* family : families) {
+    append_lines(*family, lines);
+    is_walled = is_walled || !family->walled.empty();
+  }
+  std::string text = "\n" + families.front()->labels + "\n" + table_text(lines);
+  if (is_walled) {
+    text +=
+        "  φ = φ_bulk - C/W and Z = Z_bulk - C_Z/W:  not determined: needs packings at 3 or more\n"
+        "      widths with otherwise equal parameters\n";
+  }
+  return text;
+}
+
+std::string tables_text(const std::vector<Family>& families) {
+  constexpr std::size_t fewest_widths = 3;
+  std::map<std::string, std::vector<const Family*>> narrow;  // by labels
+  for (const Family& family : families) {
+    if (family.walled.size() < fewest_widths) narrow[family.labels].push_back(&family);
+  }
+  std::string text;
+  for (const Family& family : families) {
+    if (family.walled.size() >= fewest_widths) {
+      text += family_text(family);
+    } else if (narrow[family.labels].front() == &family) {
+      text += families_text(narrow[family.labels]);
+    }
+  }
+  return text;
 }
 
 /// Distinct values of a definition over the sweep: "3", or "2 or 3".
@@ -111,8 +186,8 @@ std::string definitions_text(const std::vector<Row>& rows) {
          " d above\nthe floor and " +
          distinct(rows, [](const MeasureSpec& m) { return m.exclude_surface; }) +
          " d below the surface. Z: neighbours per grain there with gap < " + distinct(rows, gap) +
-         " d, walls not\ncounted. ± in a row: standard deviation of the replicates; of a fitted "
-         "value: its standard error.\ncontacts/iso: force-bearing contacts over the isostatic "
+         " d, walls not\ncounted. ± in a row: standard deviation of the replicates; below the "
+         "rows: standard error.\ncontacts/iso: force-bearing contacts over the isostatic "
          "count, 1 at perfect rest.\nOnly settled packings enter means and fits.\n";
 }
 
@@ -142,8 +217,9 @@ std::string reasons_text(const std::vector<Row>& rows) {
   int count = 0;
   for (const Row& row : rows) {
     if (!row.outcome || is_settled(row) || ++count > reasons_shown) continue;
-    text += "  " + row.job.id + " (" + row.job.label + ", W = " + cell(row.job.box.width) +
-            "): " + status_of(row) + ": " + row.outcome->result.reason + "\n";
+    text += "  " + row.job.id + " (" + row.job.label + (row.job.label.empty() ? "" : ", ") +
+            "W = " + cell(row.job.box.width) + "): " + status_of(row) + "\n      " +
+            row.outcome->result.reason + "\n";
   }
   if (count > reasons_shown) {
     text += "  and " + std::to_string(count - reasons_shown) + " more, see packings.csv\n";
@@ -164,26 +240,28 @@ std::string effort_text(const Provenance& provenance, double cpu_seconds) {
 }
 
 std::string next_text(const std::string& sweep_file, const StatusCounts& counts,
-                      const std::string& folder) {
-  const std::string go_on =
-      "grainsweep run " + shell_word(sweep_file) + " --out " + shell_word(folder);
-  if (counts.pending > 0) return "Next: " + go_on + " makes what is missing\n";
-  return "Next: grainsweep export " + shell_word(folder) +
+                      const ReportPlace& place) {
+  const std::string folder = shell_word(place.folder);
+  const std::string file = sweep_file.empty() ? "FILE" : shell_word(sweep_file);
+  if (counts.pending > 0) {
+    return "Next: " + place.program + " run " + file + " --out " + folder +
+           " makes what is missing\n";
+  }
+  return "Next: " + place.program + " export " + folder +
          " --format vtp writes the grains for ParaView\n";
 }
 
 }  // namespace
 
 std::string closing_report(const Provenance& provenance, const std::vector<Row>& rows,
-                           const std::vector<Family>& families, const std::string& folder) {
+                           const std::vector<Family>& families, const ReportPlace& place) {
   const Totals totals = totals_of(rows);
   std::string text = headline(provenance.sweep_name, rows.size(), totals.counts);
-  for (const Family& family : families) text += family_text(family);
-  return text + definitions_text(rows) + reasons_text(rows) +
-         effort_text(provenance, totals.cpu_seconds) + "Tables in " + folder +
+  return text + tables_text(families) + definitions_text(rows) + reasons_text(rows) +
+         effort_text(provenance, totals.cpu_seconds) + "Tables in " + place.folder +
          ": packings.csv, groups.csv, fits.csv, profiles.csv, decays.csv and more;\n"
          "provenance.json says how they were made\n" +
-         next_text(sweep_file_of(provenance), totals.counts, folder);
+         next_text(sweep_file_of(provenance), totals.counts, place);
 }
 
 }  // namespace grainsweep

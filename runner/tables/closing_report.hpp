@@ -9,10 +9,17 @@
 
 namespace grainsweep {
 
-/// Means and scatter per width, the fitted wall effect of each family, the definitions behind the
-/// numbers, what it cost, where the files are and what to do next. UTF-8, at most 100 columns where
-/// labels are of ordinary length. `folder` is the output folder.
+/// Whose tables they are.
+struct ReportPlace {
+  std::string program;  ///< what the program was called by, as a shell takes it
+  std::string folder;   ///< output folder
+};
+
+/// Means and scatter of the groups, the fitted wall effect of each family with 3 or more widths,
+/// the definitions behind the numbers, what it cost, where the files are and what to do next. Other
+/// families of equal labels share a table. UTF-8, at most 100 columns where labels are of ordinary
+/// length.
 std::string closing_report(const Provenance& provenance, const std::vector<Row>& rows,
-                           const std::vector<Family>& families, const std::string& folder);
+                           const std::vector<Family>& families, const ReportPlace& place);
 
 }  // namespace grainsweep

@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <string_view>
+
+#include "engine/dynamics/presets.hpp"
+#include "runner/sweep/identity.hpp"
 
 namespace grainsweep {
 namespace {
@@ -19,24 +23,74 @@ std::string labels_of(const Family& family) {
   return joined.empty() ? "packings" : joined;
 }
 
-/// What tells families apart; a preset counts as one value.
-std::map<std::string, std::string> parameters_of(const Family& family) {
-  const JobFacts& job = first_group(family).job;
-  std::map<std::string, std::string> flat = flat_parameters(job);
-  std::erase_if(flat, [&](const auto& entry) {
-    const bool is_in_preset = job.accuracy != "custom" && entry.first.starts_with("accuracy.");
-    return is_in_preset || entry.first == "box.width" || entry.first == "box.y";
+using Flat = std::map<std::string, std::string>;  // dotted name -> cell
+
+/// The parts of each named accuracy.
+const std::map<std::string_view, Flat>& flat_presets() {
+  static const auto all = [] {
+    std::map<std::string_view, Flat> flat;
+    for (const Preset& preset : presets()) {
+      ResolvedSpec resolved;
+      resolved.spec.accuracy = preset.accuracy;
+      JobFacts job;
+      job.parameters = canonical_parameters(resolved);
+      flat[preset.name] = flat_parameters(job);
+      std::erase_if(flat[preset.name],
+                    [](const auto& part) { return !part.first.starts_with("accuracy."); });
+    }
+    return flat;
+  }();
+  return all;
+}
+
+/// Whether a part of an accuracy is as in that preset.
+bool is_as_in(const Flat& preset, const Flat::value_type& part) {
+  const auto found = preset.find(part.first);
+  return found != preset.end() && found->second == part.second;
+}
+
+/// The preset that most of the parameters are as in.
+std::string_view nearest_preset(const Flat& parameters) {
+  std::string_view nearest;
+  std::ptrdiff_t most = -1;
+  for (const auto& [name, preset] : flat_presets()) {
+    const auto same = std::count_if(parameters.begin(), parameters.end(),
+                                    [&](const auto& part) { return is_as_in(preset, part); });
+    if (same > most) most = same, nearest = name;
+  }
+  return nearest;
+}
+
+/// The parameters of a family and "accuracy", its preset or the one next to its own.
+Flat parameters_of(const Family& family) {
+  Flat flat = flat_parameters(first_group(family).job);
+  flat.erase("box.width");
+  flat.erase("box.y");
+  const std::string& accuracy = first_group(family).job.accuracy;
+  flat["accuracy"] = accuracy == "custom" ? nearest_preset(flat) : accuracy;
+  return flat;
+}
+
+/// The same without what that preset stands for.
+Flat told_by(const Family& family) {
+  Flat flat = parameters_of(family);
+  const bool is_custom = first_group(family).job.accuracy == "custom";
+  const Flat& preset = flat_presets().at(flat.at("accuracy"));
+  std::erase_if(flat, [&](const auto& part) {
+    return is_custom ? is_as_in(preset, part) : part.first.starts_with("accuracy.");
   });
-  if (job.accuracy != "custom") flat["accuracy"] = job.accuracy;
   return flat;
 }
 
 /// "small_share=0.25 size_ratio=0.5": the parameters among `paths`, by the last part of their path.
-std::string distinction(const Family& family, const std::set<std::string>& paths) {
+std::string distinction_of(const Family& family, const std::set<std::string>& paths) {
   std::string text;
   for (const auto& [path, value] : parameters_of(family)) {
     if (!paths.contains(path)) continue;
-    text.append(" ").append(path, path.rfind('.') + 1).append("=").append(value);
+    text.append(text.empty() ? "" : " ")
+        .append(path, path.rfind('.') + 1)
+        .append("=")
+        .append(value);
   }
   return text;
 }
@@ -45,7 +99,7 @@ std::string distinction(const Family& family, const std::set<std::string>& paths
 std::set<std::string> differing_paths(const std::vector<Family*>& families) {
   std::map<std::string, std::map<std::string, std::size_t>> count;
   for (const Family* family : families) {
-    for (const auto& [path, value] : parameters_of(*family)) ++count[path][value];
+    for (const auto& [path, value] : told_by(*family)) ++count[path][value];
   }
   std::set<std::string> paths;
   for (const auto& [path, values] : count) {
@@ -56,10 +110,16 @@ std::set<std::string> differing_paths(const std::vector<Family*>& families) {
 
 void name_families(std::vector<Family>& families) {
   std::map<std::string, std::vector<Family*>> by_labels;
-  for (Family& family : families) by_labels[labels_of(family)].push_back(&family);
+  for (Family& family : families) {
+    family.labels = labels_of(family);
+    by_labels[family.labels].push_back(&family);
+  }
   for (const auto& [labels, same] : by_labels) {
     const std::set<std::string> paths = differing_paths(same);
-    for (Family* family : same) family->name = labels + distinction(*family, paths);
+    for (Family* family : same) {
+      family->distinction = distinction_of(*family, paths);
+      family->name = labels + (family->distinction.empty() ? "" : " ") + family->distinction;
+    }
   }
 }
 
@@ -80,7 +140,7 @@ std::vector<Family> families_of(const std::vector<Group>& groups) {
   std::map<std::string, std::size_t> index_of;
   for (const Group& group : groups) {
     const auto [known, is_new] = index_of.try_emplace(group.family, families.size());
-    if (is_new) families.push_back({"", group.family, {}, {}});
+    if (is_new) families.emplace_back().parameters = group.family;
     Family& family = families[known->second];
     (group.job.box.y == Boundary::walls ? family.walled : family.periodic).push_back(group);
   }

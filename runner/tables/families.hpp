@@ -10,9 +10,11 @@ namespace grainsweep {
 
 /// Groups with equal parameters but for box.width and box.y.
 struct Family {
-  std::string name;             ///< its labels, and what tells it from families of the same label
-  std::string parameters;       ///< canonical JSON without box.width and box.y
-  std::vector<Group> walled;    ///< y walled, by ascending width
+  std::string labels;         ///< of its walled groups, or of all if none is walled: "MSP + open"
+  std::string distinction;    ///< what tells it from families of the same labels, "solid_height=9"
+  std::string name;           ///< both
+  std::string parameters;     ///< canonical JSON without box.width and box.y
+  std::vector<Group> walled;  ///< y walled, by ascending width
   std::vector<Group> periodic;  ///< y periodic (the unconfined reference), by ascending width
 };
 

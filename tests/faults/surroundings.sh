@@ -78,9 +78,9 @@ ends_with 0 "export of an odd path" "$program" export "$odd/out 1" --format vtp
 journal=$(ls "$odd/out 1"/journal-*.jsonl)
 head -n 2 "$journal" >two && mv two "$journal"
 ends_with 0 "status of an odd path" "$program" status "$odd/out 1"
-command=$(sed -n 's/^Go on with: grainsweep //p' said.txt)
+command=$(sed -n 's/^Go on with: //p' said.txt)
 [ -n "$command" ] || fail "no command to go on: $(cat said.txt)"
-ends_with "0 1" "the command to go on" bash -c "'$program' $command --threads 2"
+ends_with "0 1" "the command to go on" bash -c "$command --threads 2"
 same_as_reference "$odd/out 1" "gone on with the command that status prints"
 
 # Limits of the shell: of the size of a file, and of memory.

@@ -30,7 +30,7 @@ for end in INT:130 TERM:143 HUP:129; do
   signal=${end%:*} expected=${end#*:}
   stop_with $signal $expected stopped-$signal
   expect_code 0 "$program" status stopped-$signal
-  expect_text out.txt "Go on with: grainsweep run sweep.json"
+  expect_text out.txt "Go on with: " "grainsweep run sweep.json"
   kept=$(lines_in stopped-$signal)
   run_to_the_end stopped-$signal
   expect_text progress.txt "$kept of 30 packings are done, going on" "30/30  "

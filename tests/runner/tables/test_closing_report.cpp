@@ -1,7 +1,13 @@
+#include <algorithm>
+#include <sstream>
+#include <string>
+#include <vector>
+
 #include <catch2/catch.hpp>
 
 #include "runner/tables/closing_report.hpp"
 #include "tests/runner/sample_rows.hpp"
+#include "tests/runner/sweep/sweep_files.hpp"
 
 namespace grainsweep {
 namespace {
@@ -31,7 +37,7 @@ Provenance reported_provenance() {
 
 std::string report_of(const Provenance& provenance, const std::vector<Row>& rows,
                       const std::string& folder) {
-  return closing_report(provenance, rows, analyse(rows).families, folder);
+  return closing_report(provenance, rows, analyse(rows).families, {"./run.sh", folder});
 }
 
 TEST_CASE("the closing report as a whole") {
@@ -39,15 +45,15 @@ TEST_CASE("the closing report as a whole") {
         "a: 8 packings, 7 settled; left out of means and fits: 1 did not settle\n"
         "\n"
         "MSP\n"
-        "  W/d                       φ ± sd           Z ± sd contacts/iso   overlap/d  packings\n"
-        "  4                0.5900 ± 0.0014    5.350 ± 0.014       0.9998     8.0e-05         2\n"
-        "  5                0.6000 ± 0.0014    5.500 ± 0.014       0.9998     8.0e-05         2\n"
-        "  10               0.6200 ± 0.0014    5.800 ± 0.014       0.9998     8.0e-05    2 of 3\n"
-        "  20 periodic           0.6390 ± -        6.050 ± -       0.9998     8.0e-05         1\n"
-        "  φ = φ_bulk - C/W:  φ_bulk = 0.6400 ± 0.0018; periodic 0.6390\n"
+        "  W/d                    φ ± sd         Z ± sd  contacts/iso overlap/d   packings\n"
+        "  4             0.5900 ± 0.0014  5.350 ± 0.014        0.9998   8.0e-05          2\n"
+        "  5             0.6000 ± 0.0014  5.500 ± 0.014        0.9998   8.0e-05          2\n"
+        "  10            0.6200 ± 0.0014  5.800 ± 0.014        0.9998   8.0e-05     2 of 3\n"
+        "  20 periodic            0.6390          6.050        0.9998   8.0e-05          1\n"
+        "  φ = φ_bulk - C/W:  φ_bulk = 0.6400 ± 0.0018; periodic 0.6390 ± 0.0014\n"
         "      C = 0.200 ± 0.009 d,  ζ = C/φ_bulk = 0.313 ± 0.014 d  (χ²/dof 0.00, R² 1.000, 3 "
         "widths)\n"
-        "  Z = Z_bulk - C_Z/W:  Z_bulk = 6.100 ± 0.018; periodic 6.050\n"
+        "  Z = Z_bulk - C_Z/W:  Z_bulk = 6.100 ± 0.018; periodic 6.050 ± 0.014\n"
         "      C_Z = 3.00 ± 0.09 d,  ζ = C_Z/Z_bulk = 0.492 ± 0.014 d  (χ²/dof 0.00, R² 1.000, 3 "
         "widths)\n"
         "\n"
@@ -55,18 +61,19 @@ TEST_CASE("the closing report as a whole") {
         "above\n"
         "the floor and 3 d below the surface. Z: neighbours per grain there with gap < 1e-04 d, "
         "walls not\n"
-        "counted. ± in a row: standard deviation of the replicates; of a fitted value: its "
-        "standard error.\n"
+        "counted. ± in a row: standard deviation of the replicates; below the rows: standard "
+        "error.\n"
         "contacts/iso: force-bearing contacts over the isostatic count, 1 at perfect rest.\n"
         "Only settled packings enter means and fits.\n"
         "\n"
         "Not in the means:\n"
-        "  u (MSP, W = 10): not_settled: grains still move\n"
+        "  u (MSP, W = 10): not_settled\n"
+        "      grains still move\n"
         "\n"
         "CPU time of all packings 6.00 s; last run 3.25 s for 8 packings on 2 threads, avx2\n"
         "Tables in out/a: packings.csv, groups.csv, fits.csv, profiles.csv, decays.csv and more;\n"
         "provenance.json says how they were made\n"
-        "Next: grainsweep export out/a --format vtp writes the grains for ParaView\n");
+        "Next: ./run.sh export out/a --format vtp writes the grains for ParaView\n");
 }
 
 TEST_CASE("a report of a stopped run says how to go on") {
@@ -74,13 +81,131 @@ TEST_CASE("a report of a stopped run says how to go on") {
   rows[0].outcome.reset();
   const std::string text = report_of(reported_provenance(), rows, "out/a");
   CHECK_THAT(text, Catch::Contains("1 did not settle, 1 not made yet"));
-  CHECK_THAT(text,
-             Catch::Contains("Next: grainsweep run a.json --out out/a makes what is missing"));
+  CHECK_THAT(text, Catch::Contains("Next: ./run.sh run a.json --out out/a makes what is missing"));
 }
 
 TEST_CASE("a report of too few widths says why there is no fit") {
   const std::string text = report_of(reported_provenance(), {settled_row("a", 5, 0.6, 6)}, "out/a");
-  CHECK_THAT(text, Catch::Contains("φ_bulk - C/W:  not determined: needs settled packings at 3"));
+  CHECK_THAT(text, Catch::Contains("Z_bulk - C_Z/W:  not determined: needs packings at 3 or more"));
+}
+
+TEST_CASE("a report of collected sweeps names no file to go on with") {
+  Provenance collected = reported_provenance();
+  collected.sweeps.push_back({"b.json", ""});
+  CHECK_THAT(report_of(collected, {{sample_job("a", 5), std::nullopt}}, "out/a"),
+             Catch::Contains("Next: ./run.sh run FILE --out out/a makes what is missing"));
+}
+
+/// What a sweep varies, and lines that its closing table must have: what they begin with, then what
+/// they hold.
+struct ReportedSweep {
+  std::string what;
+  std::string blocks;
+  std::vector<std::string> lines;
+  PackingStatus status = PackingStatus::settled;
+};
+
+const std::vector<ReportedSweep> reported_sweeps = {
+    {"nothing", "", {"a", "  10  ", "  φ = φ_bulk - C/W and Z = Z_bulk"}},
+    {"width",
+     R"({ "grid": { "box.width": [5, 8, 12] } })",
+     {"block 1", "  5  ", "  8  ", "  12  ", "      C = 0.", "      C_Z = "}},
+    {"height",
+     R"({ "label": "deep", "grid": { "fill.solid_height": [8, 10, 12.5] } })",
+     {"deep", "  solid_height=8     10  ", "  solid_height=10    10  ",
+      "  solid_height=12.5  10  "}},
+    {"width at two heights",
+     R"({ "grid": { "fill.solid_height": [8, 10], "box.width": [5, 8, 12] } })",
+     {"block 1 solid_height=8", "block 1 solid_height=10", "  5  ", "  12  "}},
+    {"spread",
+     R"({ "grid": { "sizes.spread": [0, 0.1] } })",
+     {"  spread=0    10  ", "  spread=0.1  10  "}},
+    {"angle",
+     R"({ "set": { "shape": "pinacoid" },
+          "grid": { "shape.pinacoid.angle_deg": [45, 60] } })",
+     {"  angle_deg=45  10  ", "  angle_deg=60  10  "}},
+    {"parts of the accuracy, one of them as in the preset",
+     R"({ "grid": { "accuracy.path_tolerance": [1e-4, 2e-4] } })",
+     {" path_tolerance=1e-04", " path_tolerance=2e-04"}},
+    {"presets and a part",
+     R"({ "grid": { "accuracy.preset": ["fast", "accurate"], "accuracy.step": [0.1, 0.2] } })",
+     {" accuracy=fast step=0.1", " accuracy=accurate step=0.2"}},
+    {"presets",
+     R"({ "grid": { "accuracy": ["fast", "balanced"] } })",
+     {"  accuracy=fast      10  ", "  accuracy=balanced  10  "}},
+    {"several at once",
+     R"({ "grid": { "sizes.small_share": [0.1, 0.2], "fill.solid_height": [9, 10] } })",
+     {" solid_height=9 small_share=0.1", " solid_height=10 small_share=0.2", "  10  "}},
+    {"two labels",
+     R"({ "label": "a", "set": { "sizes.spread": 0 } }, { "label": "b" })",
+     {"a", "b", "  10  "}},
+    {"walls and none",
+     R"({ "label": "walls", "grid": { "box.width": [5, 8, 12] } },
+        { "label": "bulk", "set": { "box.width": 20, "box.y": "periodic" } })",
+     {"walls", "  12  ", "  20 periodic  ", "  φ = φ_bulk - C/W:  φ_bulk = "}},
+    {"no walls at all",
+     R"({ "set": { "box.y": "periodic" }, "grid": { "box.width": [5, 8, 12] } })",
+     {"  5 periodic  ", "  12 periodic  "}},
+    {"random points",
+     R"({ "random": { "count": 100, "box.width": { "uniform": [5, 9] },
+                      "sizes.small_share": { "uniform": [0.2, 0.4] } } })",
+     {" small_share=0.", "  and 40 more, see groups.csv"}},
+    {"random widths",
+     R"({ "random": { "count": 100, "box.width": { "uniform": [5, 9] } } })",
+     {"  and 40 more, see groups.csv", "      C = "}},
+    {"everything unsettled",
+     R"({ "grid": { "box.width": [5, 8, 12] } })",
+     {"  5                           -              -             -         -     0 of 2",
+      "  φ = φ_bulk - C/W:  not determined:",
+      "      needs settled packings at 3 or more widths with otherwise equal parameters, has 0",
+      "Not in the means:", "  and 1 more, see packings.csv"},
+     PackingStatus::not_settled},
+};
+
+/// Rows of a sweep with outcomes that differ from replicate to replicate.
+std::vector<Row> rows_of_sweep(const ReportedSweep& reported) {
+  const SweepReading reading = reading_of(
+      R"({ "name": "a", "replicates": 2, "base": { "box": { "length": 12, "width": 10 } })" +
+      (reported.blocks.empty() ? "" : R"(, "sweep": [ )" + reported.blocks + " ]") + " }");
+  CHECK(reading.errors.empty());
+  std::vector<Row> rows = rows_of(reading.sweep);
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const double off = k % 2 == 0 ? 0.001 : -0.001, width = rows[k].job.box.width;
+    rows[k].outcome = sample_outcome(rows[k].job.id, 0.64 - 0.3 / width + off, 6.0 + 5.0 * off);
+    rows[k].outcome->result.status = reported.status;
+  }
+  return rows;
+}
+
+/// Columns of a line as a terminal shows it.
+std::size_t columns_of(const std::string& line) {
+  return static_cast<std::size_t>(std::count_if(line.begin(), line.end(), [](char c) {
+    return (static_cast<unsigned char>(c) & 0xc0U) != 0x80U;
+  }));
+}
+
+TEST_CASE("the closing table of any sweep has a line per group, told apart, on 100 columns") {
+  for (const ReportedSweep& reported : reported_sweeps) {
+    INFO(reported.what);
+    const std::vector<Row> rows = rows_of_sweep(reported);
+    REQUIRE_FALSE(rows.empty());
+    std::istringstream text(report_of(reported_provenance(), rows, "out/a"));
+    std::vector<std::string> lines;
+    std::size_t tabled = 0, left_out = 0;
+    for (std::string line; std::getline(text, line);) {
+      CHECK(columns_of(line) <= 100);
+      const bool is_group = line.ends_with("         2") || line.ends_with(" 0 of 2");
+      tabled += is_group ? 1 : 0;
+      if (line.ends_with("more, see groups.csv")) left_out += std::stoul(line.substr(6));
+      lines.push_back(line);
+    }
+    CHECK(2 * (tabled + left_out) == rows.size());
+    for (const std::string& start : reported.lines) {
+      INFO(start);
+      CHECK(std::any_of(lines.begin(), lines.end(),
+                        [&](const std::string& line) { return line.starts_with(start); }));
+    }
+  }
 }
 
 TEST_CASE("only the first reasons are listed") {
