@@ -347,6 +347,7 @@ std::string rival_of(const DecayFit& fit, const std::vector<FittedCurve>& minima
     const bool is_one = std::abs(length - fit.length.value) <= 2.0 * fit.length.error;
     if (is_one || length < window.distance[1] - window.distance[0]) continue;
     std::vector<VectorXd> excess;
+    excess.reserve(without_each.size());
     for (const Window& part : without_each) {
       excess.emplace_back(VectorXd::Constant(1, excess_of(other, best, part)));
     }

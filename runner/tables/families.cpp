@@ -53,10 +53,11 @@ bool is_as_in(const Flat& preset, const Flat::value_type& part) {
 std::string_view nearest_preset(const Flat& parameters) {
   std::string_view nearest;
   std::ptrdiff_t most = -1;
-  for (const auto& [name, preset] : flat_presets()) {
-    const auto same = std::count_if(parameters.begin(), parameters.end(),
-                                    [&](const auto& part) { return is_as_in(preset, part); });
-    if (same > most) most = same, nearest = name;
+  for (const auto& preset : flat_presets()) {
+    const auto same = std::count_if(parameters.begin(), parameters.end(), [&](const auto& part) {
+      return is_as_in(preset.second, part);
+    });
+    if (same > most) most = same, nearest = preset.first;
   }
   return nearest;
 }
