@@ -98,6 +98,11 @@ std::string reference_text(const Family& family, Quantity quantity, int decimals
   return "; periodic " + with_error(spread.mean, spread.error, decimals);
 }
 
+/// " ± 0.0029 protocol", the second error of a mean; nothing where it was not measured.
+std::string protocol_text(const WallFit& fit, int decimals) {
+  return fit.bias_bound ? " ± " + fixed(*fit.bias_bound, decimals) + " protocol" : "";
+}
+
 /// What the line's quality is, in brackets.
 std::string quality_text(const WallFit& fit) {
   return "(χ²/dof " + fixed(fit.chi2_per_dof, 2) + ", R² " + fixed(fit.r_squared, 3) + ", " +
@@ -115,10 +120,11 @@ std::string fit_text(const Family& family, Quantity quantity, int decimals) {
   }
   std::string text =
       law + symbol + "_bulk = " + with_error(fit.bulk.value, fit.bulk.error, decimals) +
-      reference_text(family, quantity, decimals) + "\n" + "      " + slope + " = " +
-      with_error(fit.slope.value, fit.slope.error, decimals - 1) + " d,  ζ = " + slope + "/" +
-      symbol + "_bulk = " + with_error(fit.zeta.value, fit.zeta.error, 3) + " d  " +
-      quality_text(fit) + "\n";
+      protocol_text(fit, decimals) + reference_text(family, quantity, decimals) + "\n" + "      " +
+      slope + " = " + with_error(fit.slope.value, fit.slope.error, decimals - 1) +
+      " d,  ζ = " + slope + "/" + symbol +
+      "_bulk = " + with_error(fit.zeta.value, fit.zeta.error, 3) + " d  " + quality_text(fit) +
+      "\n";
   if (!fit.doubt.empty()) text += "      " + fit.doubt + "; errors widened by √(χ²/dof)\n";
   return text;
 }
@@ -191,6 +197,22 @@ std::string definitions_text(const std::vector<Row>& rows) {
          "count, 1 at perfect rest.\nOnly settled packings enter means and fits.\n";
 }
 
+/// How far the means lie at most from those of beds settled ever better.
+std::string bias_text(const std::vector<Family>& families) {
+  std::set<std::string> bounds;
+  for (const Family& family : families) {
+    const auto& bound = first_group(family).bias_bound;
+    bounds.insert(bound ? fixed(bound->solid_fraction, solid_fraction_decimals) + " (φ) and " +
+                              fixed(bound->coordination, coordination_decimals) + " (Z)"
+                        : "");
+  }
+  if (bounds.size() > 1) return "Bounds of what the protocol does to means: groups.csv.\n";
+  if (bounds.empty() || bounds.begin()->empty()) {
+    return "What the protocol does to the means of such packings was not measured.\n";
+  }
+  return "Protocol: means of beds settled ever better lie within " + *bounds.begin() + ".\n";
+}
+
 std::string left_out_text(const StatusCounts& counts) {
   std::string text;
   const auto add = [&](int count, const char* what) {
@@ -257,8 +279,9 @@ std::string closing_report(const Provenance& provenance, const std::vector<Row>&
                            const std::vector<Family>& families, const ReportPlace& place) {
   const Totals totals = totals_of(rows);
   std::string text = headline(provenance.sweep_name, rows.size(), totals.counts);
-  return text + tables_text(families) + definitions_text(rows) + reasons_text(rows) +
-         effort_text(provenance, totals.cpu_seconds) + "Tables in " + place.folder +
+  return text + tables_text(families) + definitions_text(rows) + bias_text(families) +
+         reasons_text(rows) + effort_text(provenance, totals.cpu_seconds) + "Tables in " +
+         place.folder +
          ": packings.csv, groups.csv, fits.csv, profiles.csv, decays.csv and more;\n"
          "provenance.json says how they were made\n" +
          next_text(sweep_file_of(provenance), totals.counts, place);

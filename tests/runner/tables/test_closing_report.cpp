@@ -41,39 +41,53 @@ std::string report_of(const Provenance& provenance, const std::vector<Row>& rows
 }
 
 TEST_CASE("the closing report as a whole") {
-  CHECK(report_of(reported_provenance(), sample_rows(), "out/a") ==
-        "a: 8 packings, 7 settled; left out of means and fits: 1 did not settle\n"
-        "\n"
-        "MSP\n"
-        "  W/d                    φ ± sd         Z ± sd  contacts/iso overlap/d   packings\n"
-        "  4             0.5900 ± 0.0014  5.350 ± 0.014        0.9998   8.0e-05          2\n"
-        "  5             0.6000 ± 0.0014  5.500 ± 0.014        0.9998   8.0e-05          2\n"
-        "  10            0.6200 ± 0.0014  5.800 ± 0.014        0.9998   8.0e-05     2 of 3\n"
-        "  20 periodic            0.6390          6.050        0.9998   8.0e-05          1\n"
-        "  φ = φ_bulk - C/W:  φ_bulk = 0.6400 ± 0.0018; periodic 0.6390 ± 0.0014\n"
-        "      C = 0.200 ± 0.009 d,  ζ = C/φ_bulk = 0.313 ± 0.014 d  (χ²/dof 0.00, R² 1.000, 3 "
-        "widths)\n"
-        "  Z = Z_bulk - C_Z/W:  Z_bulk = 6.100 ± 0.018; periodic 6.050 ± 0.014\n"
-        "      C_Z = 3.00 ± 0.09 d,  ζ = C_Z/Z_bulk = 0.492 ± 0.014 d  (χ²/dof 0.00, R² 1.000, 3 "
-        "widths)\n"
-        "\n"
-        "Lengths in d, the mean diameter of the large grains. φ: exact solid volume between 3 d "
-        "above\n"
-        "the floor and 3 d below the surface. Z: neighbours per grain there with gap < 1e-04 d, "
-        "walls not\n"
-        "counted. ± in a row: standard deviation of the replicates; below the rows: standard "
-        "error.\n"
-        "contacts/iso: force-bearing contacts over the isostatic count, 1 at perfect rest.\n"
-        "Only settled packings enter means and fits.\n"
-        "\n"
-        "Not in the means:\n"
-        "  u (MSP, W = 10): not_settled\n"
-        "      grains still move\n"
-        "\n"
-        "CPU time of all packings 6.00 s; last run 3.25 s for 8 packings on 2 threads, avx2\n"
-        "Tables in out/a: packings.csv, groups.csv, fits.csv, profiles.csv, decays.csv and more;\n"
-        "provenance.json says how they were made\n"
-        "Next: ./run.sh export out/a --format vtp writes the grains for ParaView\n");
+  CHECK(
+      report_of(reported_provenance(), sample_rows(), "out/a") ==
+      "a: 8 packings, 7 settled; left out of means and fits: 1 did not settle\n"
+      "\n"
+      "MSP\n"
+      "  W/d                    φ ± sd         Z ± sd  contacts/iso overlap/d   packings\n"
+      "  4             0.5900 ± 0.0014  5.350 ± 0.014        0.9998   8.0e-05          2\n"
+      "  5             0.6000 ± 0.0014  5.500 ± 0.014        0.9998   8.0e-05          2\n"
+      "  10            0.6200 ± 0.0014  5.800 ± 0.014        0.9998   8.0e-05     2 of 3\n"
+      "  20 periodic            0.6390          6.050        0.9998   8.0e-05          1\n"
+      "  φ = φ_bulk - C/W:  φ_bulk = 0.6400 ± 0.0018 ± 0.0029 protocol; periodic 0.6390 ± 0.0014\n"
+      "      C = 0.200 ± 0.009 d,  ζ = C/φ_bulk = 0.313 ± 0.014 d  (χ²/dof 0.00, R² 1.000, 3 "
+      "widths)\n"
+      "  Z = Z_bulk - C_Z/W:  Z_bulk = 6.100 ± 0.018 ± 0.047 protocol; periodic 6.050 ± 0.014\n"
+      "      C_Z = 3.00 ± 0.09 d,  ζ = C_Z/Z_bulk = 0.492 ± 0.014 d  (χ²/dof 0.00, R² 1.000, 3 "
+      "widths)\n"
+      "\n"
+      "Lengths in d, the mean diameter of the large grains. φ: exact solid volume between 3 d "
+      "above\n"
+      "the floor and 3 d below the surface. Z: neighbours per grain there with gap < 1e-04 d, "
+      "walls not\n"
+      "counted. ± in a row: standard deviation of the replicates; below the rows: standard "
+      "error.\n"
+      "contacts/iso: force-bearing contacts over the isostatic count, 1 at perfect rest.\n"
+      "Only settled packings enter means and fits.\n"
+      "Protocol: means of beds settled ever better lie within 0.0029 (φ) and 0.047 (Z).\n"
+      "\n"
+      "Not in the means:\n"
+      "  u (MSP, W = 10): not_settled\n"
+      "      grains still move\n"
+      "\n"
+      "CPU time of all packings 6.00 s; last run 3.25 s for 8 packings on 2 threads, avx2\n"
+      "Tables in out/a: packings.csv, groups.csv, fits.csv, profiles.csv, decays.csv and more;\n"
+      "provenance.json says how they were made\n"
+      "Next: ./run.sh export out/a --format vtp writes the grains for ParaView\n");
+}
+
+TEST_CASE("what the protocol does to means is said to be unknown, or bounded in another table") {
+  std::vector<Row> rows = sample_rows();
+  for (Row& row : rows) row.job.accuracy = "custom";
+  CHECK_THAT(
+      report_of(reported_provenance(), rows, "out"),
+      Catch::Contains("such packings was not measured.\n") && !Catch::Contains(" protocol;"));
+  rows.push_back(settled_row("f", 5, 0.6, 5.5));
+  rows.back().job.parameters = sample_parameters(5.0, Boundary::walls, 0.25);
+  CHECK_THAT(report_of(reported_provenance(), rows, "out"),
+             Catch::Contains("does to means: groups.csv.\n"));
 }
 
 TEST_CASE("a report of a stopped run says how to go on") {
