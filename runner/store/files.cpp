@@ -160,8 +160,9 @@ void make_folder(const std::string& path) {
 
 void make_folder_inside(const std::string& path) {
   std::error_code error;
-  std::filesystem::create_directory(path, error);
+  const bool is_new = std::filesystem::create_directory(path, error);
   expect_folder(path, error);
+  if (is_new) flush_folder_of(path);
 }
 
 void rename_file(const std::string& path, const std::string& new_path) {

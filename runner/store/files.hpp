@@ -70,7 +70,8 @@ void replace_file(const std::string& path, std::string_view bytes);
 /// Makes the folder and those above it; nothing happens if it is there.
 void make_folder(const std::string& path);
 
-/// The same, but the folder above must be there: one that was taken away is not made anew.
+/// The same, but the folder above must be there: one that was taken away is not made anew. It is on
+/// the disk then.
 void make_folder_inside(const std::string& path);
 
 /// Gives a file another name in its folder.

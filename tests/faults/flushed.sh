@@ -1,0 +1,68 @@
+# What counts as done is on the disk first, as the traced calls of a run show: a file's bytes before it
+# takes the place of the old one and its folder after; the grains of a packing before its journal line,
+# and that line before the packing is told and its checkpoints are removed. Figures, which gnuplot draws
+# of the tables and may draw again, are no part of it.
+source "$(dirname "$0")/common.sh" "$1"
+command -v strace >/dev/null || skip "strace is not installed (setup.sh --checks installs it)"
+strace -f -o trace.txt true 2>said.txt || skip "ptrace is forbidden here: $(tail -n 1 said.txt)"
+
+cat >sweep.json <<'JSON'
+{ "name": "tiny", "seed": 5, "replicates": 3,
+  "base": { "box": { "length": 3, "width": 3 }, "fill": { "solid_height": 4 },
+            "measure": { "exclude_floor": 0, "exclude_surface": 1 },
+            "accuracy": { "preset": "fast", "max_steps": 24 } } }
+JSON
+out=$(pwd -P)/out
+
+# One thread, so that calls stand in the trace in their order; with the paths of descriptors.
+code=0
+strace -f -y -qq -s 16 -o trace.txt \
+  -e trace=mkdir,write,pwrite64,fsync,fdatasync,rename,unlink,exit_group \
+  "$program" run sweep.json --threads 1 --out "$out" --checkpoint-seconds 0 >said.txt 2>&1 || code=$?
+[ "$code" -le 1 ] || fail "cannot be traced: $(cat said.txt)"
+
+# Prints every breach of the promise, and what was seen of each kind of file.
+awk -v out="$out" '
+  function folder_of(path) { sub(/\/[^\/]*$/, "", path); return path }
+  function complain(text) { print "BREACH line " NR ": " text; breaches = 1 }
+  # Files whose bytes, and folders whose names, the disk may not have yet.
+  function expect_flushed(when, path) {
+    for (path in unflushed) complain(when " before " path " is on the disk")
+  }
+  { sub(/^[0-9]+ +/, "") }
+  / = -1 E/ { next }
+  { split($0, quoted, "\""); first = quoted[2]; second = quoted[4] }
+  match($0, /^[a-z0-9]+\([0-9]+<[^>]*>/) {
+    path = substr($0, RSTART, RLENGTH); sub(/^[^<]*</, "", path); sub(/>$/, "", path)
+  }
+  /^mkdir\(/ && first ~ "^" out "/" { unflushed[folder_of(first)] = 1 }
+  /^p?write(64)?\(/ {
+    if (path ~ "^" out "/journal-") {
+      expect_flushed("a journal line is written")
+      if (++lines == 1) unflushed[out] = 1 # the journal has just been made
+    }
+    if (path ~ "^" out "/" && path !~ "/runner\\.lock$|/figures/") unflushed[path] = 1
+    else if (/^write\([12]</) { expect_flushed("something is told"); ++told }
+  }
+  /^f(data)?sync\(/ { delete unflushed[path] }
+  /^rename\(/ {
+    if (first in unflushed) complain(second " is replaced before its bytes are on the disk")
+    delete unflushed[first]
+    unflushed[folder_of(second)] = 1
+    name = second; sub("^" out "/", "", name)
+    if (name ~ "/") sub(/\/[0-9a-f]+\./, "/*.", name)
+    ++replaced[name]
+  }
+  /^unlink\(/ && first ~ /\/checkpoints\// { expect_flushed("a checkpoint is removed"); ++removed }
+  /^exit_group\(/ { expect_flushed("the program ends"); ++ended }
+  END {
+    print lines " journal lines, " told " times told, " removed " checkpoints removed, " ended " end"
+    for (name in replaced) print replaced[name] " times " name
+    exit breaches
+  }' trace.txt >found.txt || fail "$(grep BREACH found.txt | head -n 5)"
+
+# None of that went by unseen.
+expect_text found.txt "3 journal lines" "3 times states/*.grains" "times checkpoints/*.0" \
+  "times packings.csv" "times provenance.json"
+! grep -q " 0 times told\|, 0 checkpoints removed\|, 0 end" found.txt || fail "$(cat found.txt)"
+head -n 1 found.txt
