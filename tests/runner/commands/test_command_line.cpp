@@ -1,6 +1,4 @@
 #include <cstdlib>
-#include <iostream>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -8,25 +6,22 @@
 
 #include "runner/commands/command_line.hpp"
 #include "runner/exit_codes.hpp"
+#include "tests/runner/commands/captured.hpp"
 
 namespace grainsweep {
 namespace {
 
 /// What was read, and what was printed.
-struct Reading {
+struct Reading : Printed {
   CommandLine line;
-  std::string out, error;
 };
 
 Reading read(std::vector<const char*> words) {
   words.insert(words.begin(), "grainsweep");
-  std::ostringstream out, error;
-  std::streambuf* const old_out = std::cout.rdbuf(out.rdbuf());
-  std::streambuf* const old_error = std::cerr.rdbuf(error.rdbuf());
-  const CommandLine line = read_command_line(static_cast<int>(words.size()), words.data());
-  std::cout.rdbuf(old_out);
-  std::cerr.rdbuf(old_error);
-  return {line, out.str(), error.str()};
+  CommandLine line;
+  const Printed printed =
+      printed_by([&] { line = read_command_line(static_cast<int>(words.size()), words.data()); });
+  return {printed, line};
 }
 
 template <class Options>

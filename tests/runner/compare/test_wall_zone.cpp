@@ -9,13 +9,14 @@ namespace grainsweep {
 namespace {
 
 /// Ten grains a bin: `wall` neighbours each within `zone` of a wall, six elsewhere.
-Row zoned_row(const std::string& id, double width, double zone, std::int64_t wall) {
+Row zoned_row(const std::string& id, double width, double zone, std::int64_t wall,
+              double bin_width = 0.1) {
   Row row = settled_row(id, width, 0.6, 6);
   Profile& profile = row.outcome->result.profile_y;
-  profile.bin_width = 0.1;
-  const auto bins = static_cast<int>(std::lround(width / 0.1));
+  profile.bin_width = bin_width;
+  const auto bins = static_cast<int>(std::lround(width / bin_width));
   for (int k = 0; k < bins; ++k) {
-    const double distance = std::min(k + 0.5, bins - k - 0.5) * 0.1;
+    const double distance = std::min(k + 0.5, bins - k - 0.5) * bin_width;
     profile.bins.push_back({0.6, 0, 10, 0, 10 * (distance < zone ? wall : 6), 3});
   }
   return row;
@@ -29,6 +30,17 @@ TEST_CASE("a planted zone of fewer neighbours is found with its drop and width")
   CHECK(zone.drop.mean == Approx(2));
   CHECK(zone.width.mean == Approx(1.5));
   CHECK(zone.drop.n == 2);
+}
+
+// Of bins of 0.25 d the first two beside each wall have their middle in the layer at the wall, 0.6
+// d thick, and the third has not.
+TEST_CASE("a bin is in the layer at the wall if its middle is, at either wall") {
+  const std::vector<Row> rows = {zoned_row("a", 10, 0.5, 4, 0.25),
+                                 zoned_row("b", 10, 0.5, 4, 0.25)};
+  const auto groups = groups_of(rows);
+  const WallZone zone = wall_zone(groups.at(0));
+  CHECK(zone.drop.mean == Approx(2));
+  CHECK(zone.width.mean == Approx(0.5));
 }
 
 TEST_CASE("the error of a drop is the scatter of the packings") {

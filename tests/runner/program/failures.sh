@@ -30,6 +30,15 @@ expect_code 1 "$program" run sweep.json --threads 2 --out fast --retry-failed
 expect_text error.txt "6/6  " "$failed"
 [ "$(grep -c '^[0-9]/6  ' error.txt)" -eq 2 ] || fail "--retry-failed made more than the failed ones"
 [ "$(values_of fast)" = "$(values_of all)" ] || fail "other values after --retry-failed"
+
+# Steps that do not suffice: the bed is kept, and neither the table nor the exit code calls it settled.
+sed -e 's/"fast" }/{ "preset": "fast", "max_steps": 24 } }/' -e '/"too low"/d' -e 's/4\] } },/4] } } ] }/' \
+  sweep.json >short.json
+expect_code 1 "$program" run short.json --threads 2 --out short
+[ "$(grep -c ',not_settled,' short/packings.csv)" -eq 4 ] || fail "beds without steps to settle settled"
+expect_code 1 "$program" run short.json --threads 2 --out short
+[ ! -s error.txt ] || fail "beds that did not settle were made again: $(cat error.txt)"
+
 # What is taken out of the folder while the run is at work is missed at its end; the next run makes
 # it again. A run that was too fast to be robbed is made anew.
 for ((try = 1; ; ++try)); do

@@ -1,8 +1,10 @@
+#include <csignal>
 #include <fcntl.h>
 #include <filesystem>
 #include <string>
 
 #include <catch2/catch.hpp>
+#include <sys/resource.h>
 
 #include "runner/store/files.hpp"
 #include "tests/runner/temporary_folder.hpp"
@@ -46,6 +48,46 @@ TEST_CASE("a full disk is reported with path and cause") {
   const OpenFile full("/dev/full", O_WRONLY);
   CHECK_THROWS_WITH(write_all(full, "x"),
                     Catch::Equals("/dev/full: cannot write: No space left on device"));
+}
+
+/// While it lives no file of this process grows beyond `bytes`; what would is told by an error.
+class LargestFile {
+ public:
+  explicit LargestFile(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
+    getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit limit{bytes, before_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  LargestFile(const LargestFile&) = delete;
+  LargestFile& operator=(const LargestFile&) = delete;
+  ~LargestFile() {
+    setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, handler_);
+  }
+
+ private:
+  rlimit before_{};
+  void (*handler_)(int);
+};
+
+// At the limit the system writes less than it is asked to, and calls that success.
+TEST_CASE("a file is written to its end or told, never cut in silence") {
+  const TemporaryFolder folder;
+  const std::string path = folder.path() + "/a.csv", bytes(3000, 'x');
+  replace_file(path, "old");
+  std::string said;
+  {
+    const LargestFile limit(1000);
+    try {
+      replace_file(path, bytes);
+    } catch (const FileError& error) {
+      said = error.what();
+    }
+  }
+  CHECK_THAT(said, StartsWith(path) && Contains("cannot write: File too large"));
+  CHECK(read_file(path) == "old");
+  replace_file(path, bytes);
+  CHECK(read_file(path) == bytes);
 }
 
 TEST_CASE("a folder that cannot replace a file keeps the old file and no rest of the new one") {

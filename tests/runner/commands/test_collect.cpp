@@ -1,0 +1,84 @@
+#include <catch2/catch.hpp>
+
+#include "runner/commands/commands.hpp"
+#include "runner/commands/results.hpp"
+#include "runner/exit_codes.hpp"
+#include "runner/store/files.hpp"
+#include "runner/store/journal.hpp"
+#include "runner/versions.hpp"
+#include "tests/runner/commands/captured.hpp"
+#include "tests/runner/sample_rows.hpp"
+#include "tests/runner/temporary_folder.hpp"
+
+namespace grainsweep {
+namespace {
+
+using Catch::Contains;
+
+/// The folder of a run by process "node-7" that began at `started` and made one packing.
+std::string folder_of_a_run(const TemporaryFolder& parent, const std::string& name,
+                            const std::string& started, const Outcome& outcome) {
+  std::string folder = parent.path() + "/" + name;
+  make_folder(folder);
+  Provenance provenance;
+  provenance.sweeps = {{"a.json", ""}};
+  provenance.sweep_name = "a";
+  RunRecord run;
+  run.started = started;
+  run.process = "node-7";
+  provenance.runs = {run};
+  const std::vector<Row> rows = {{sample_job(outcome.job, 5), outcome}};
+  write_tables(folder, provenance, rows, analyse(rows));
+  Journal(folder).append(outcome);
+  return folder;
+}
+
+TEST_CASE("two folders that differ in a packing are told, and the first one's is kept") {
+  const TemporaryFolder parent;
+  const Outcome first = sample_outcome("a1", 0.6, 6);
+  Outcome other_bits = first, other_end = first;
+  other_bits.result.state_hash ^= 1;
+  other_bits.version = "9.9";
+  other_end.result.status = PackingStatus::not_settled;
+  for (const Outcome& other : {other_bits, other_end}) {
+    const std::string out = parent.path() + "/all-" + name_of(other.result.status);
+    const CollectOptions options{
+        {folder_of_a_run(parent, "first", "1", first), folder_of_a_run(parent, "x", "2", other)},
+        out};
+    const Printed printed = printed_by([&] { CHECK(perform(options) == exit_done); });
+    CHECK_THAT(printed.error,
+               Contains("x: its packing a1 (version " + other.version + ") differs"));
+    const Results all = read_results(out);
+    REQUIRE(all.rows.size() == 1);
+    CHECK(all.rows[0].outcome->result.state_hash == first.result.state_hash);
+    CHECK(status_of(all.rows[0]) == "settled");
+  }
+}
+
+TEST_CASE("folders that agree in a packing are collected without a word of warning") {
+  const TemporaryFolder parent;
+  Outcome outcome = sample_outcome("a1", 0.6, 6);
+  outcome.version = program_version();
+  const CollectOptions options{{folder_of_a_run(parent, "first", "1", outcome),
+                                folder_of_a_run(parent, "second", "2", outcome)},
+                               parent.path() + "/all"};
+  CHECK(printed_by([&] { perform(options); }).error.empty());
+}
+
+// A host gives the number of a process again.
+TEST_CASE("runs of one process name that began at different times are different runs") {
+  const TemporaryFolder parent;
+  const std::string monday =
+      folder_of_a_run(parent, "monday", "2026-01-05T08:00:00Z", sample_outcome("a1", 0.6, 6));
+  const std::string friday =
+      folder_of_a_run(parent, "friday", "2026-01-09T08:00:00Z", sample_outcome("a2", 0.6, 6));
+  const std::string out = parent.path() + "/all";
+  printed_by([&] { perform(CollectOptions{{monday, friday, monday}, out}); });
+  const std::vector<RunRecord> runs = read_results(out).provenance.runs;
+  REQUIRE(runs.size() == 2);
+  CHECK(runs[0].started == "2026-01-05T08:00:00Z");
+  CHECK(runs[1].started == "2026-01-09T08:00:00Z");
+}
+
+}  // namespace
+}  // namespace grainsweep

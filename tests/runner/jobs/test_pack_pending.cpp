@@ -1,0 +1,55 @@
+#include <catch2/catch.hpp>
+
+#include "engine/dynamics/presets.hpp"
+#include "runner/jobs/pack_pending.hpp"
+#include "runner/store/checkpoints.hpp"
+#include "runner/store/journal.hpp"
+#include "runner/versions.hpp"
+#include "tests/runner/temporary_folder.hpp"
+
+namespace grainsweep {
+namespace {
+
+Sweep sweep_of_a_small_bed() {
+  Job job;
+  job.id = "00c0ffee00c0ffee";
+  job.spec.box = {3, 3, Boundary::periodic, Boundary::periodic};
+  job.spec.fill = GrainCount{30};
+  job.spec.accuracy = *preset("fast");
+  job.spec.accuracy.max_steps = 40;
+  job.spec.measure.exclude_floor = 0;
+  job.spec.measure.exclude_surface = 0;
+  return {"small", 1, 1, {job}};
+}
+
+/// A packing after its third step.
+Checkpoint stopped_early(const Job& job, double cpu_seconds) {
+  Checkpoint checkpoint;
+  checkpoint.cpu_seconds = cpu_seconds;
+  make_packing(job.spec, kernels_for(Isa::sse2), [&](const Progress& progress) {
+    checkpoint.step = progress.step;
+    checkpoint.state = progress.save();
+    return progress.step < 3;
+  });
+  return checkpoint;
+}
+
+TEST_CASE("the CPU time of a packing is that of all runs that worked on it") {
+  const TemporaryFolder folder;
+  const Sweep sweep = sweep_of_a_small_bed();
+  const double hour = 3600;  // far longer than what is left of this packing
+  CheckpointFiles(folder.path(), sweep.jobs[0].id, build_name())
+      .write(stopped_early(sweep.jobs[0], hour));
+  RunningSweep running{sweep, folder.path(), {}, {&sweep.jobs[0]}};
+  running.rows.resize(1);
+  PackOptions options;
+  options.isa = Isa::sse2;
+  CHECK(pack_pending(running, options).packings == 1);
+  const Outcome outcome = read_journals(folder.path()).outcomes.at(sweep.jobs[0].id);
+  CHECK(outcome.cpu_seconds > hour);
+  CHECK(outcome.cpu_seconds < hour + 60);
+  CHECK(saved_packings(folder.path()) == 0);
+}
+
+}  // namespace
+}  // namespace grainsweep
