@@ -33,18 +33,19 @@ const char* name_of(Isa isa) {
   return "unknown";
 }
 
-// The compiler's test reads the processor and also asks whether the operating system saves the
-// registers.
+// All that the kernels are compiled with. The compiler's test reads the processor and also asks
+// whether the operating system saves the registers.
 bool is_supported(Isa isa) {
   switch (isa) {
     case Isa::sse2:
       return __builtin_cpu_supports("sse2") != 0;
     case Isa::avx2:
-      return __builtin_cpu_supports("avx2") != 0;
+      return __builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("fma") != 0;
     case Isa::avx512:
       return __builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx512cd") != 0 &&
              __builtin_cpu_supports("avx512dq") != 0 && __builtin_cpu_supports("avx512bw") != 0 &&
-             __builtin_cpu_supports("avx512vl") != 0;
+             __builtin_cpu_supports("avx512vl") != 0 && __builtin_cpu_supports("avx2") != 0 &&
+             __builtin_cpu_supports("fma") != 0;
   }
   return false;
 }

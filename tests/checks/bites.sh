@@ -116,6 +116,11 @@ bite_kernel_objects() {
     finds 'W leaked(int)' "${check[@]}"
     compile_object $isa "$clean"
   done
+  mkdir -p "$copy/sources/kernels"
+  cp "$root"/kernels/{CMakeLists.txt,kernels.cpp} "$copy/sources/kernels"
+  passes "${check[@]}" "$copy/sources"
+  sed -i 's/__builtin_cpu_supports("avx512vl") != 0/true/' "$copy/sources/kernels/kernels.cpp"
+  finds 'avx512 is compiled with -mavx512vl' "${check[@]}" "$copy/sources"
 }
 
 # build_planted: a program of two sources as the preset `thread` builds the runner.
