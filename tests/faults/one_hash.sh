@@ -7,7 +7,9 @@ write_shuffled() {
   widths=$(shuf -e 3 4 5 | paste -sd,)
   blocks=$(shuf -e '{"label": "walls", "grid": {"box.width": ['"$widths"']}}' \
     '{"label": "bulk", "set": {"box.width": 5, "box.y": "periodic"}}' \
-    '{"label": "two sizes", "set": {"box.width": 4, "sizes.small_share": 0.25}}' | paste -sd,)
+    '{"label": "two sizes", "set": {"box.width": 4, "sizes.small_share": 0.25}}' \
+    '{"label": "f64", "replicates": 1, "set": {"box.width": 4, "accuracy.precision": "f64"}}' \
+    '{"label": "shapes", "replicates": 1, "set": {"box.width": 3, "shape": "pinacoid"}}' | paste -sd,)
   cat >"$1" <<JSON
 { "name": "shuffled", "seed": 9, "replicates": 5,
   "base": { "box": { "length": 4 }, "fill": { "solid_height": 4 },

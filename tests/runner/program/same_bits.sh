@@ -1,31 +1,38 @@
-# The same sweep gives the same bytes on any number of threads and any instruction set.
+# The same sweep gives the same bytes on any number of threads and any instruction set: spheres,
+# shapes, f32 and f64, small beds and a large one, whose parts are shared by several threads.
 source "$(dirname "$0")/common.sh" "$1"
-write_sweep sweep.json 2
+cat >sweep.json <<'JSON'
+{ "name": "kinds", "seed": 3,
+  "base": { "box": { "length": 5, "width": 4, "x": "periodic", "y": "walls" },
+            "fill": { "solid_height": 3 },
+            "measure": { "exclude_floor": 1, "exclude_surface": 1 }, "accuracy": "fast" },
+  "sweep": [
+    { "label": "spheres", "grid": { "accuracy.precision": ["f32", "f64"], "box.width": [3, 5] } },
+    { "label": "bulk", "set": { "box.y": "periodic", "sizes.small_share": 0.25 } },
+    { "label": "pinacoids", "set": { "shape": "pinacoid", "box.length": 4 },
+                            "grid": { "accuracy.precision": ["f32", "f64"] } },
+    { "label": "shared ring", "set": { "box.length": 60, "box.width": 30, "box.y": "periodic",
+                                       "fill": { "grains": 20000 }, "accuracy.max_steps": 31 } } ] }
+JSON
+readonly packings=8
 
-values_with() { # FOLDER OPTION...
-  local folder=$1 code=0
-  shift
-  "$program" run sweep.json --out "$folder" "$@" >/dev/null 2>error.txt || code=$?
-  [ "$code" -le 1 ] || fail "run $* ended with $code: $(cat error.txt)"
-  values_of "$folder" >"$folder.txt"
-}
-
-values_with one --threads 1
-[ "$(grep -c ',settled,\|,not_settled,' one.txt)" -eq 10 ] || fail "packings failed: $(cat one.txt)"
-for threads in 2 8; do
-  values_with $threads --threads $threads
-  cmp one.txt $threads.txt || fail "other bits on $threads threads"
-done
-compared=""
+isas=()
 for isa in sse2 avx2 avx512; do
-  "$program" doctor | grep "^instruction sets" | grep -q "$isa[,;]" || continue
-  values_with $isa --isa $isa
-  cmp one.txt $isa.txt || fail "other bits with $isa"
-  grep -q "\"isa\": \"$isa\"" $isa/provenance.json || fail "$isa was not used"
-  compared="$compared $isa"
+  ! "$program" doctor | grep '^instruction sets' | grep -q "$isa[,;]" || isas+=("$isa")
 done
-for folder in 2 8 sse2; do
-  (cd $folder/states && sha256sum -- *.grains) >$folder.sums
-  (cd one/states && sha256sum -- *.grains) | cmp - $folder.sums || fail "other grains in $folder"
+
+# Each number of threads with another instruction set, in turn.
+number=0 made=()
+for threads in 1 2 8; do
+  isa=${isas[number % ${#isas[@]}]} code=0
+  number=$((number + 1))
+  "$program" run sweep.json --out $number --threads $threads --isa "$isa" >/dev/null 2>error.txt || code=$?
+  [ "$code" -le 1 ] || fail "run ended with $code: $(cat error.txt)"
+  grep -q "\"isa\": \"$isa\"" $number/provenance.json || fail "$isa was not used"
+  values_of $number >values-$number.txt
+  [ "$(ls $number/states | wc -l)" -eq "$packings" ] || fail "packings failed: $(cat values-$number.txt)"
+  made+=("$threads threads of $isa")
+  cmp values-1.txt values-$number.txt || fail "${made[0]} and ${made[-1]} differ"
+  diff -rq 1/states $number/states || fail "grains of ${made[0]} and ${made[-1]} differ"
 done
-echo "the same bits on 1, 2 and 8 threads and with$compared"
+printf 'the same bits: %s\n' "${made[*]}"
