@@ -19,7 +19,8 @@ template <class Kind>
 double solid_fraction(const Bed<Kind>& bed, const Slab& slab);
 
 /// Height of the free surface, d: the median, over floor columns about d wide, of the highest point
-/// of the grains whose centres stand above the column. 0 for an empty bed.
+/// of the grains whose centres stand above the column. Of an even number of columns the higher of
+/// the two in the middle counts. 0 for an empty bed.
 template <class Kind>
 double surface_height(const Bed<Kind>& bed);
 

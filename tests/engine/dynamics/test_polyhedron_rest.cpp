@@ -38,5 +38,26 @@ TEST_CASE("overlaps are measured where the grains are, at the deepest point") {
   CHECK(rest.overlap_mean == Approx(0.01).margin(1e-6));
 }
 
+/// Modes that move no contact, of cubes in a row along x that push each other.
+std::int64_t modes_of_a_row(const Box& box, std::int32_t cubes, std::vector<ForceContact> walls) {
+  std::vector<Pose> poses;
+  for (std::int32_t i = 0; i < cubes; ++i) poses.push_back(pose_at(0.5 + i, 0.5, 0.5));
+  const PolyhedronBed bed = make_bed(box, testing::cube(), poses);
+  for (ForceContact& wall : walls) wall.b = bed.wall_name(static_cast<std::size_t>(wall.b));
+  for (std::int32_t i = 0; i + 1 < cubes; ++i) walls.push_back({i, i + 1, 1.0, 3});
+  return zero_modes(bed, walls);
+}
+
+// Grains that turn have six degrees of freedom, and as many contacts less the ways to move all of
+// them at once: along each axis without walls. Only a grain by itself may also turn where it lies.
+TEST_CASE(
+    "a cluster of turning grains slides along every axis that no wall bounds, but never turns") {
+  const ForceContact floor{0, 0, 1.0, 3}, side{0, 1, 1.0, 3};
+  CHECK(modes_of_a_row({6, 6, periodic, periodic}, 3, {floor}) == 2);
+  CHECK(modes_of_a_row({6, 6, periodic, walls}, 3, {floor, side}) == 1);
+  CHECK(modes_of_a_row({6, 6, periodic, periodic}, 1, {floor}) == 3);
+  CHECK(modes_of_a_row({6, 6, periodic, walls}, 1, {floor, side}) == 1);
+}
+
 }  // namespace
 }  // namespace grainsweep

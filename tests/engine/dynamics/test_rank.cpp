@@ -52,6 +52,17 @@ TEST_CASE("a row of four spheres between two walls has one contact more than it 
   CHECK(rank_of(bed, {{0, left}, {0, 1}, {1, 2}, {2, 3}, {3, right}}) == 4);
 }
 
+TEST_CASE("a row that is bent, however little, gives way: all its contacts are independent") {
+  for (const double bend : {0.01, 1e-4}) {
+    const double low = 1.5 - bend / 2, high = 1.5 + bend / 2;
+    const SphereBed bed = make_bed(
+        {4, 3, walls, periodic},
+        {{0.5, low, 0.5, 0.5}, {1.5, high, 0.5, 0.5}, {2.5, low, 0.5, 0.5}, {3.5, high, 0.5, 0.5}});
+    const auto left = wall_name(bed, 1), right = wall_name(bed, 2);
+    CHECK(rank_of(bed, {{0, left}, {0, 1}, {1, 2}, {2, 3}, {3, right}}) == 5);
+  }
+}
+
 /// Rank of a bed of cubes after a well-solved step from rest.
 std::int64_t rank_of_cubes(const Box& box, const std::vector<Pose>& poses) {
   PolyhedronBed bed = make_bed(box, testing::cube(), poses);

@@ -169,6 +169,24 @@ TEST_CASE("the residual of a step is a force in weights, whatever the length of 
   }
 }
 
+TEST_CASE("forces and velocities stay as they are when steps become shorter or longer") {
+  for (const double ratio : {0.25, 2.0}) {
+    SphereBed bed = testing::column_bed(5, 0.0);
+    StepState<Sphere, double> state;
+    StepSettings settings = tight_steps(0.9);
+    take_steps(3, settings, bed, state);
+    for (std::size_t i = 0; i < bed.grains(); ++i) bed.motion[i].x = 0.01 * double(i);
+    const auto before = forces_of(bed, state, settings.dt);
+    change_step(ratio, bed, state);
+    const auto after = forces_of(bed, state, ratio * settings.dt);
+    REQUIRE(after.size() == 5);
+    for (const auto& [name, force] : before) CHECK(after.at(name) == Approx(force));
+    for (std::size_t i = 0; i < bed.grains(); ++i) {
+      CHECK(bed.motion[i].x / (ratio * settings.dt) == Approx(0.01 * double(i) / settings.dt));
+    }
+  }
+}
+
 TEST_CASE("a grain that falls on another one does not pass through it") {
   SphereBed bed = make_bed({8, 5, periodic, walls}, {{2, 2, 0.5, 0.5}, {2, 2, 12, 0.5}});
   StepState<Sphere, double> state;

@@ -49,7 +49,7 @@ std::vector<double> pairs_by_brute_force(const SphereBed& bed, const Slab& slab,
       double least = 1e9;
       for (int i = -1; i <= 1; ++i) {
         const double y = p.y - q.y;
-        least = std::min(least, std::hypot(p.x - q.x + i * bed.box.length, y, p.z - q.z));
+        least = std::min(least, std::hypot(p.x - q.x + i * bed.box.period_x(), y, p.z - q.z));
       }
       const auto bin = static_cast<std::size_t>(least / bin_width);
       if (bin < bins) counts[bin] += 1;
@@ -58,32 +58,63 @@ std::vector<double> pairs_by_brute_force(const SphereBed& bed, const Slab& slab,
   return counts;
 }
 
-// The normalisation is the same for all beds of a region and a number of grains: what is left is
-// the count.
-TEST_CASE("pairs are counted as by a search over all of them") {
-  const Box box{6, 4, periodic, walls};
-  const Slab slab{1, 5};
-  const SphereBed bed = testing::random_bed({box, 300, 0.2, 0.5, 6, 3});
-  const Curve curve = pair_correlation(bed, slab, 0.25, 3);
-  const auto counts = pairs_by_brute_force(bed, slab, 0.25, curve.values.size());
-  REQUIRE(curve.values.size() == 12);
-  double low = 1e9, high = -1e9, n = 0;
+/// Number of the bed's centres in the slab and how far they spread across and along.
+struct Spread {
+  double n = 0, x = 0, y = 0;
+};
+Spread spread_in(const SphereBed& bed, const Slab& slab) {
+  double low_x = 1e9, high_x = -1e9, low_y = 1e9, high_y = -1e9, n = 0;
   for (std::size_t i = 0; i < bed.grains(); ++i) {
     const auto& p = bed.position[i];
     if (p.z < slab.bottom || p.z >= slab.top) continue;
-    low = std::min(low, p.y), high = std::max(high, p.y), n += 1;
+    low_x = std::min(low_x, p.x), high_x = std::max(high_x, p.x);
+    low_y = std::min(low_y, p.y), high_y = std::max(high_y, p.y);
+    n += 1;
   }
-  const double e = high - low, h = 4;  // two bounded edges: L (e - r |u_y|)(h - r |u_z|)
-  const auto covered = [&](double r) {
+  return {n, high_x - low_x, high_y - low_y};
+}
+
+/// Counts the pairs that a curve stands for in bins of 0.25 d and compares them with all there are.
+/// `covered(r)`: integral, over the ball of radius r, of how much of the region is left for the
+/// first grain of a pair when the second one must lie in it, too.
+template <class Covered>
+void check_pairs(const SphereBed& bed, const Slab& slab, double volume, const Covered& covered) {
+  const Curve curve = pair_correlation(bed, slab, 0.25, 3);
+  const auto counts = pairs_by_brute_force(bed, slab, 0.25, curve.values.size());
+  REQUIRE(curve.values.size() == 12);
+  const double n = spread_in(bed, slab).n;
+  for (std::size_t k = 0; k < 12; ++k) {
+    const double share = covered(0.25 * double(k + 1)) - covered(0.25 * double(k));
+    const double expected = n * (n - 1) / 2 * share / (volume * volume);
+    CHECK(curve.values[k] * expected == Approx(counts[k]).epsilon(1e-9));
+  }
+}
+
+// The normalisation is the same for all beds of a region and a number of grains: what is left is
+// the count. u: a direction; its components are 1/2 in the mean, the product of two 2/(3 pi) and of
+// all three 1/(4 pi).
+TEST_CASE("pairs are counted as by a search over all of them") {
+  const Slab slab{1, 5};
+  const double h = slab.height();
+  const SphereBed bed = testing::random_bed({{6, 4, periodic, walls}, 300, 0.2, 0.5, 6, 3});
+  const double e = spread_in(bed, slab).y;
+  check_pairs(bed, slab, 6 * e * h, [&](double r) {  // of L (e - r |u_y|)(h - r |u_z|)
     return 4 * pi * 6 *
            (e * h * std::pow(r, 3) / 3 - (e + h) / 2 * std::pow(r, 4) / 4 +
             2 / (3 * pi) * std::pow(r, 5) / 5);
-  };
-  for (std::size_t k = 0; k < 12; ++k) {
-    const double share = (covered(0.25 * double(k + 1)) - covered(0.25 * double(k)));
-    const double expected = n * (n - 1) / 2 * share / std::pow(6 * e * h, 2);
-    CHECK(curve.values[k] * expected == Approx(counts[k]).epsilon(1e-9));
-  }
+  });
+}
+
+TEST_CASE("pairs between four walls are counted as by a search over all of them") {
+  const Slab slab{1, 5};
+  const double h = slab.height();
+  const SphereBed bed = testing::random_bed({{5, 4, walls, walls}, 300, 0.2, 0.5, 6, 3});
+  const auto [n, d, e] = spread_in(bed, slab);
+  check_pairs(bed, slab, d * e * h, [d = d, e = e, h](double r) {
+    return 4 * pi *  // of (d - r |u_x|)(e - r |u_y|)(h - r |u_z|)
+           (d * e * h * std::pow(r, 3) / 3 - (d * e + d * h + e * h) / 2 * std::pow(r, 4) / 4 +
+            (d + e + h) * 2 / (3 * pi) * std::pow(r, 5) / 5 - std::pow(r, 6) / 6 / (4 * pi));
+  });
 }
 
 TEST_CASE("spheres of a lattice stand at its distances only") {

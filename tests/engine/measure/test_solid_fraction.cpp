@@ -108,6 +108,11 @@ TEST_CASE("the surface is the median of the columns: stray grains and holes do n
   CHECK(surface_height(bed) == Approx(6));
 }
 
+TEST_CASE("of two columns the higher one is the surface") {
+  const Box box{2, 1, periodic, periodic};
+  CHECK(surface_height(make_bed(box, {{0.5, 0.5, 0.5, 0.5}, {1.5, 0.5, 2.5, 0.5}})) == 3);
+}
+
 TEST_CASE("grains beyond a periodic border stand above the columns of their images") {
   SphereBed bed = testing::random_bed({{6, 4, periodic, periodic}, 120, 0.5, 0.5, 6, 5});
   const double height = surface_height(bed);

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include <catch2/catch.hpp>
 
@@ -20,16 +21,16 @@ using testing::periodic;
 using testing::walls;
 
 TEST_CASE("the touching pairs are those a search over all pairs finds, with their gaps") {
-  for (const double tolerance : {1e-5, 1e-3, 0.05}) {
+  for (const double reach : {1e-5, 1e-3, 0.05}) {
     SphereBed bed = testing::random_bed({{5, 4, periodic, walls}, 200, 0.2, 0.5, 5, 8});
-    const Touching touching = find_touching(bed, tolerance, kernels());
+    const Touching touching = find_touching(bed, reach, kernels());
     std::set<NamedPair> found;
     for (const TouchingPair& pair : touching.pairs) {
       REQUIRE(pair.a < pair.b);
       REQUIRE(found.insert({pair.a, pair.b}).second);
       CHECK(pair.gap == Approx(testing::gap_of(bed, pair.a, pair.b)).margin(1e-13));
     }
-    CHECK(found == testing::pairs_closer_than(bed, tolerance));
+    CHECK(found == testing::pairs_closer_than(bed, reach));
     CHECK(found.size() > 100);
   }
 }
@@ -89,6 +90,27 @@ TEST_CASE("grains with corners touch by the distance of their surfaces") {
   CHECK(gap(3, 4) == Approx(-0.1).margin(1e-12));
   REQUIRE(touching.walls.size() == 2);
   for (const TouchingWall& wall : touching.walls) CHECK(wall.gap == Approx(0).margin(1e-15));
+}
+
+// 1e-14 d: rounding of coordinates in a box of this size.
+TEST_CASE("a cube has the same gap from each wall and the floor when its face is as far from it") {
+  const double gap = 1e-9, near = 0.5 + gap;
+  PolyhedronBed bed = make_bed({7, 5, walls, walls}, testing::cube(),
+                               {{{3, 2, near}, 1, Quaternion::Identity()},
+                                {{near, 2, 2}, 1, Quaternion::Identity()},
+                                {{7 - near, 2, 2}, 1, Quaternion::Identity()},
+                                {{3, near, 2}, 1, Quaternion::Identity()},
+                                {{3, 5 - near, 2}, 1, Quaternion::Identity()}});
+  const Touching touching = find_touching(bed, 0.01, kernels());
+  std::set<std::int32_t> grains, found;
+  for (const TouchingWall& wall : touching.walls) {
+    grains.insert(wall.grain);
+    found.insert(wall.wall);
+    CHECK(wall.gap == Approx(gap).margin(1e-14));
+  }
+  CHECK(touching.walls.size() == 5);
+  CHECK(grains.size() == 5);
+  CHECK(found.size() == 5);
 }
 
 }  // namespace

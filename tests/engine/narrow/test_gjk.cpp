@@ -118,6 +118,25 @@ TEST_CASE("distance and depth of hulls are those of brute force, in every positi
   }
 }
 
+// No plane between the shapes can lie further from both than they are apart, and no two of their
+// points nearer to each other: where both bounds meet, they are the distance.
+TEST_CASE("the plane across the shortest line between shapes of many corners proves that it is") {
+  Draw draw(31);
+  int apart = 0;
+  for (int k = 0; k < 300; ++k) {
+    const ConvexShape a = testing::hull_of(testing::random_corners(draw, 60));
+    const ConvexShape b = testing::hull_of(testing::random_corners(draw, 40));
+    const ShapePair pair{a, b, testing::pose_of_family(PairFamily::random, draw, a, b)};
+    const Closest closest = closest_points(pair);
+    if (closest.overlap) continue;
+    ++apart;
+    const Vector between = closest.on_b - closest.on_a;
+    const double parted = separation_along(pair, between.normalized());
+    CHECK(between.norm() - parted == Approx(0).margin(1e-12));  // rounding of corners
+  }
+  CHECK(apart > 50);
+}
+
 // Found by the full counts: a sliver of corners 3e-12 d from the origin, in a direction that parts
 // nothing.
 TEST_CASE("cubes nearly face in face that overlap by 6.5e-7 d are not taken for parted") {

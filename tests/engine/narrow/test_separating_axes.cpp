@@ -285,6 +285,38 @@ bool check_contact(const ShapePair& pair) {
   return touches;
 }
 
+/// How far along `n` the edges of that direction lie that reach farthest with both ends, in the
+/// frame of the shape, d.
+double reach_of_edges(const ConvexShape& shape, std::int32_t direction, const Vector& n) {
+  double reach = -std::numeric_limits<double>::infinity();
+  for (const Edge& edge : shape.edges) {
+    if (edge.direction != direction) continue;
+    const double ends = std::min(n.dot(shape.vertices[static_cast<std::size_t>(edge.from)]),
+                                 n.dot(shape.vertices[static_cast<std::size_t>(edge.to)]));
+    reach = std::max(reach, ends);
+  }
+  return reach;
+}
+
+// Else a contact would lie where the edges do not.
+TEST_CASE("the edges that part two hulls are the outermost of both along their axis") {
+  Draw draw(73);
+  int parted = 0;
+  for (int n = 0; n < 2000; ++n) {
+    const ConvexShape a = testing::tetrahedron(), b = testing::octahedron();
+    const ShapePair pair{a, b, testing::pose_of_family(testing::PairFamily::random, draw, a, b)};
+    const ContactAxis axis = separating_axes(pair).edges;
+    if (axis.kind == AxisKind::none) continue;
+    ++parted;
+    const Vector from_b = -(pair.pose.turn.transpose() * axis.normal);
+    // 1e-9 d: edges that nearly lie along each other cross where rounding says.
+    CHECK(reach_of_edges(a, axis.a, axis.normal) ==
+          Approx(reach_along(a, axis.normal)).margin(1e-9));
+    CHECK(reach_of_edges(b, axis.b, from_b) == Approx(reach_along(b, from_b)).margin(1e-9));
+  }
+  CHECK(parted > 200);
+}
+
 int pairs_of_each() {
   const char* factor = std::getenv("GRAINSWEEP_PAIRS");
   return 50 * (factor != nullptr ? std::atoi(factor) : 1);

@@ -26,10 +26,10 @@ SphereBed tall_bed(std::size_t grains, Boundary y) {
 }
 
 /// A bed three grains high: its subdomains follow one another along x.
-SphereBed flat_bed(Boundary x) {
+SphereBed flat_bed(Boundary x, std::size_t grains = 30'000) {
   testing::RandomScene scene;
   scene.box = {120, 60, x, Boundary::periodic};
-  scene.grains = 30'000;
+  scene.grains = grains;
   scene.height = 3.0;
   scene.min_radius = 0.25;
   return testing::random_bed(scene);
@@ -38,7 +38,7 @@ SphereBed flat_bed(Boundary x) {
 std::vector<SphereBed> large_beds() {
   return {tall_bed(16'000, Boundary::periodic), tall_bed(21'000, Boundary::walls),
           tall_bed(30'000, Boundary::periodic), flat_bed(Boundary::walls),
-          flat_bed(Boundary::periodic)};
+          flat_bed(Boundary::periodic),         flat_bed(Boundary::periodic, 26'000)};
 }
 
 Candidates candidates_of(SphereBed& bed) {

@@ -76,6 +76,12 @@ TEST_CASE("grains ten times smaller start apart from large ones, whichever came 
     REQUIRE(bed);
     CHECK(testing::pairs_closer_than(*bed, 0.0).empty());
   }
+  std::vector<double> small_ones_first(100, 0.05);
+  small_ones_first.insert(small_ones_first.end(), 10, 0.5);
+  const Box box{3, 3, periodic, walls};
+  const auto placed = place_at_random(box, small_ones_first, 3, 1);
+  REQUIRE(placed);
+  CHECK(testing::pairs_closer_than(make_bed(box, *placed), 0.0).empty());
 }
 
 TEST_CASE("grains fill a column of the start's solid fraction") {
