@@ -245,6 +245,35 @@ TEST_CASE("grains placed on the same spot part and settle") {
   CHECK(testing::gap_of(bed, 0, 1) > -1e-3);
 }
 
+/// Two layers of 25 grains in a shaft that a grain of 125 times their mass fills on top of them.
+SphereBed heavy_on_light() {
+  constexpr double small = 0.1, large = 0.5, width = 1.02;
+  std::vector<PlacedSphere> spheres;
+  for (int i = 0; i < 50; ++i) {
+    const int x = i % 5, y = i / 5 % 5, layer = i / 25;
+    const double aside = 0.004 * ((7 * i) % 5), above = 0.002 * ((3 * i) % 4);
+    spheres.push_back({small + 2 * small * x + aside / 2, small + 2 * small * y + aside / 2,
+                       small + 2 * small * layer + above, small});
+  }
+  spheres.push_back({width / 2, width / 2, 4 * small + large + 0.01, large});
+  return make_bed({width, width, walls, walls}, spheres);
+}
+
+// The heavy one is felt in the light ones only after as many sweeps as their masses differ by: more
+// than the ten that a step begins with.
+TEST_CASE(
+    "a heavy grain on light ones comes to rest in f64, however few iterations are asked for") {
+  for (const double residual : {1e-2, 1e-4}) {
+    SphereBed bed = heavy_on_light();
+    Accuracy accuracy;
+    accuracy.precision = Precision::f64;
+    accuracy.rest_iterations = 5;
+    accuracy.residual_tolerance = residual;
+    accuracy.max_steps = 1000;
+    CHECK(settle_bed(bed, accuracy).failure == "");
+  }
+}
+
 TEST_CASE("plain contact dynamics settles a bed, too, in more steps") {
   SphereBed damped = small_bed(7), dynamic = small_bed(7);
   Accuracy accuracy = *preset("fast");

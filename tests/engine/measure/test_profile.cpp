@@ -52,6 +52,15 @@ TEST_CASE("one sphere anywhere fills the bins along y with its slices, at any bi
   }
 }
 
+TEST_CASE("small grains are those below the limit of the classes, one at the limit is large") {
+  const SphereBed bed = make_bed({4, 4, periodic, walls}, {{1, 1, 2, 0.5}, {3, 1, 2, 0.49}});
+  const Profile profile = profile_across(bed, {}, {0, 4}, {4.0, 0.5, 1e-4}, 1);
+  REQUIRE(profile.bins.size() == 1);
+  CHECK(profile.bins[0].large_grains == 1);
+  CHECK(profile.bins[0].small_grains == 1);
+  CHECK(profile.bins[0].large == Approx(sphere_volume(0.5) / 64));
+}
+
 TEST_CASE("a profile along x is that along y of the bed turned by a right angle") {
   const std::vector<PlacedSphere> along_x = {{0.4, 2, 4, 0.5}, {3.1, 1, 6, 0.2}};
   const std::vector<PlacedSphere> along_y = {{2, 0.4, 4, 0.5}, {1, 3.1, 6, 0.2}};
