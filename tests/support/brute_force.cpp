@@ -43,10 +43,13 @@ std::set<NamedPair> pairs_closer_than(const SphereBed& bed, double reach) {
 
 std::set<NamedPair> listed_pairs(const Candidates& candidates) {
   std::set<NamedPair> pairs;
+  bool ordered = true;
   for (const GrainPair& pair : candidates.pairs) {
-    REQUIRE(pair.a < pair.b);
-    REQUIRE(pairs.insert({pair.a, pair.b}).second);
+    ordered = ordered && pair.a < pair.b;
+    pairs.insert({pair.a, pair.b});
   }
+  REQUIRE(ordered);
+  REQUIRE(pairs.size() == candidates.pairs.size());  // none twice
   return pairs;
 }
 
@@ -54,10 +57,10 @@ bool holds_all_closer_than(const SphereBed& bed, const Candidates& candidates, d
   const auto listed = listed_pairs(candidates), close = pairs_closer_than(bed, reach);
   bool holds = std::includes(listed.begin(), listed.end(), close.begin(), close.end());
   for (std::size_t k = 0; k < candidates.walls.size(); ++k) {
-    const WallCandidates& near = candidates.walls[k];
+    const std::set<std::int32_t> listed_at(candidates.walls[k].grains.begin(),
+                                           candidates.walls[k].grains.end());
     for (std::int32_t i = 0; i < bed.wall(); ++i) {
-      const bool is_listed =
-          std::find(near.grains.begin(), near.grains.end(), i) != near.grains.end();
+      const bool is_listed = listed_at.contains(i);
       const bool is_close = bed.walls[k].gap(bed.position[static_cast<std::size_t>(i)]) < reach;
       holds = holds && (is_listed || !is_close);
     }

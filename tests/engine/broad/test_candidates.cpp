@@ -74,8 +74,9 @@ TEST_CASE("the list is right for grains whose sizes differ by a factor of five")
 }
 
 /// Every third grain small by `ratio`, so that each size meets itself and the other.
-SphereBed bed_of_two_sizes(const Box& box, double ratio, std::uint64_t seed) {
-  SphereBed bed = testing::random_bed({box, 400, 0.45, 0.5, 3.0, seed});
+SphereBed bed_of_two_sizes(const Box& box, double ratio, std::uint64_t seed,
+                           std::size_t grains = 400) {
+  SphereBed bed = testing::random_bed({box, grains, 0.45, 0.5, 3.0, seed});
   for (std::size_t i = 0; i < bed.grains(); ++i) {
     if (i % 3 != 0) bed.position[i].w *= ratio;
   }
@@ -323,7 +324,7 @@ TEST_CASE("a list to which strays are added holds every pair that has come near,
       for (std::size_t k = 0; k < std::size(moves); ++k) {
         INFO("walls " << walls_of(box).size() << ", ratio " << ratio << ", motion " << k);
         const Changes changes =
-            changes_of_a_list(bed_of_two_sizes(box, ratio, 5 + k), moves[k], 0.004);
+            changes_of_a_list(bed_of_two_sizes(box, ratio, 5 + k, 120), moves[k], 0.004);
         CHECK(changes.whole >= 1);
       }
     }
