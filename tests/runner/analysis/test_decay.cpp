@@ -69,7 +69,7 @@ TEST_CASE("a damped oscillation without noise gives back what was planted") {
 
 // Two replicates between two walls are four profiles, three are six. Shares of 1000 sets are known
 // to 0.7 %.
-TEST_CASE("a planted decay lies within two printed errors as often as it must") {
+TEST_CASE("a planted decay lies within two printed errors as often as it must", "[slow]") {
   std::mt19937_64 generator(17);
   const double sets = 1000,
                reach = layers.length * std::log(layers.amplitude / (0.05 * layers.bulk));
