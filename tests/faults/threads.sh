@@ -69,5 +69,5 @@ code=0
 TERM=xterm script -qec "'$program' run sweep.json --out live --threads 8" said.txt >/dev/null </dev/null ||
   code=$?
 is_clean "0 1" "$code" "on a terminal"
-grep -q $'\033\\[K' said.txt || fail "no live line on a terminal: $(cat said.txt)"
+grep -q $'\033\\[J' said.txt || fail "no live line on a terminal: $(cat said.txt)"
 echo "$runs runs on eight threads under the thread sanitizer: nothing reported"
