@@ -105,7 +105,7 @@ Figure published_figure(const std::vector<Comparison>& comparisons) {
   for (std::size_t k = 0; k < measured.size(); ++k) {
     const Comparison& one = *measured[k];
     csv += csv_line(
-        {"1", cell(k + 1), cell(one.family), cell(one.title), cell(*difference_in_errors(one))});
+        {"1", cell(k + 1), cell(*difference_in_errors(one)), cell(one.title), cell(one.family)});
     tics += (k == 0 ? "" : ", ") +
             quoted(shortened(one.family, 22) + ": " + shortened(one.title, 30)) + " " + cell(k + 1);
   }

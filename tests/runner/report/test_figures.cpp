@@ -64,6 +64,20 @@ TEST_CASE("figures without a meaning for the sweep are left out", "[report]") {
   CHECK_FALSE(has("published"));
 }
 
+TEST_CASE("a published value is drawn at its distance in errors of both", "[report]") {
+  Comparison comparison;
+  comparison.family = "walls", comparison.title = "Z at W = 10 d";
+  comparison.published.range = {6.0, 6.0, 0.03};
+  comparison.measured.estimate = {6.1, 0.04};
+  const Figure figure = published_figure({comparison});
+  REQUIRE(figure.tables.size() == 1);
+  const std::string& table = figure.tables[0].second;
+  CHECK(std::stod(cell_in(table, 1, "errors")) == Approx(2.0));  // 0.1 / sqrt(0.03^2 + 0.04^2)
+  CHECK(cell_in(table, 1, "row") == "1");
+  CHECK(cell_in(table, 1, "quantity") == "Z at W = 10 d");
+  CHECK(cell_in(table, 1, "family") == "walls");
+}
+
 TEST_CASE("where nothing has settled each figure says so", "[report]") {
   const std::vector<Row> rows = {row_with_status("a", 4, PackingStatus::not_settled, "moves"),
                                  row_with_status("b", 5, PackingStatus::failed, "no room")};
