@@ -16,6 +16,9 @@ std::string counted(std::size_t count, const std::string& noun);
 /// "0.6123" with so many decimals; "-" for NaN.
 std::string fixed(double value, int decimals);
 
+/// "8.7e-05"; "-" for NaN.
+std::string power_text(double value);
+
 /// A word as a shell takes it: in quotes where it has to be, so that printed commands can be
 /// pasted.
 std::string shell_word(const std::string& word);

@@ -95,13 +95,6 @@ std::string small_share_csv(const std::vector<WallReach>& reaches) {
   return text;
 }
 
-double value_of(const Row& row, std::string_view name) {
-  for (const Field& field : fields()) {
-    if (field.name == name) return number_of(field, *row.outcome);
-  }
-  return no_number;
-}
-
 /// Of each group, by its parameters and label, the number of its series if that is shown.
 std::map<std::pair<std::string, std::string>, std::size_t> series_numbers(const Axes& axes) {
   std::map<std::pair<std::string, std::string>, std::size_t> numbers;
@@ -125,7 +118,8 @@ std::string effort_csv(const Axes& axes, const std::vector<Row>& rows) {
     const std::size_t series = number == numbers.end() ? 0 : number->second;
     text += csv_line({cell(is_settled(row) ? series : most_series + 1), cell(row.job.id),
                       cell(row.outcome->result.grains), cell(row.outcome->cpu_seconds),
-                      cell(value_of(row, "contact_ratio")), cell(status_of(row))});
+                      cell(number_of(field_named("contact_ratio"), *row.outcome)),
+                      cell(status_of(row))});
   }
   return text;
 }
@@ -237,7 +231,7 @@ Figure effort_figure(const Axes& axes, const std::vector<Row>& rows) {
     if (!is_measured(row)) continue;
     all_settled = all_settled && is_settled(row);
     seconds.push_back(std::log10(row.outcome->cpu_seconds));
-    ratios.push_back(value_of(row, "contact_ratio"));
+    ratios.push_back(number_of(field_named("contact_ratio"), *row.outcome));
   }
   if (!all_settled) {
     key.push_back({"points lc rgb '#777777' pt 2", "did not settle"});

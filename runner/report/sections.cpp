@@ -1,9 +1,7 @@
 #include "runner/report/sections.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <map>
 #include <utility>
 
@@ -23,20 +21,6 @@ std::string mean_text(double value, double error, int decimals) {
 
 std::string mean_text(const Spread& spread, int decimals) {
   return mean_text(spread.mean, spread.error, decimals);
-}
-
-/// "8.7e-05"; "-" for NaN.
-std::string power_text(double value) {
-  if (!std::isfinite(value)) return "-";
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.1e", value);
-  return text.data();
-}
-
-/// The field of the one table of fields that is called so.
-const Field& field_named(std::string_view name) {
-  return *std::find_if(fields().begin(), fields().end(),
-                       [&](const Field& field) { return field.name == name; });
 }
 
 std::string measured(const Row& row, std::string_view name, int decimals) {

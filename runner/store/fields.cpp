@@ -1,5 +1,6 @@
 #include "runner/store/fields.hpp"
 
+#include <algorithm>
 #include <limits>
 #include <optional>
 #include <type_traits>
@@ -229,6 +230,11 @@ std::vector<Field> all_fields() {
 const std::vector<Field>& fields() {
   static const std::vector<Field> all = all_fields();
   return all;
+}
+
+const Field& field_named(std::string_view name) {
+  return *std::find_if(fields().begin(), fields().end(),
+                       [&](const Field& field) { return field.name == name; });
 }
 
 double number_of(const Field& field, const Outcome& outcome) {

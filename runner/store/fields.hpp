@@ -43,6 +43,9 @@ struct Field {
 /// All of them, in the order of the columns.
 const std::vector<Field>& fields();
 
+/// The one called so, which must be there.
+const Field& field_named(std::string_view name);
+
 /// The value as a number; NaN if there is none.
 double number_of(const Field& field, const Outcome& outcome);
 

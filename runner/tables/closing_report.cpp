@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstdio>
 #include <map>
 #include <set>
 
@@ -33,14 +32,6 @@ std::string packings_text(const Group& group) {
   return counts.settled == all ? settled : settled + " of " + std::to_string(all);
 }
 
-/// "8.7e-05"; "-" for NaN.
-std::string small_number(double value) {
-  if (!std::isfinite(value)) return "-";
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.1e", value);
-  return text.data();
-}
-
 std::string cells_text(const std::string& width, const std::array<std::string, 5>& cells) {
   return pad_right(width, 12) + pad_left(cells[0], 17) + pad_left(cells[1], 15) +
          pad_left(cells[2], 14) + pad_left(cells[3], 10) + pad_left(cells[4], 11) + "\n";
@@ -55,7 +46,7 @@ std::string cells_of(const Group& group) {
                     {with_error(phi.mean, phi.sd, solid_fraction_decimals),
                      with_error(z.mean, z.sd, coordination_decimals),
                      fixed(mean_of(group, "contact_ratio").mean, 4),
-                     small_number(mean_of(group, "overlap_mean").mean), packings_text(group)});
+                     power_text(mean_of(group, "overlap_mean").mean), packings_text(group)});
 }
 
 /// A line of a table: a group, and what tells its family from others in the table.
