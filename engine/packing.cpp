@@ -163,6 +163,9 @@ void measure(const PackingSpec& spec, const SettleReport& settled, const Kernels
       result.profile_x = profile_across(bed, near, *slab, bins_of(spec), 0);
     }
     result.profile_y = profile_across(bed, near, *slab, bins_of(spec), 1);
+    if (bed.box.x == Boundary::walls && bed.box.y == Boundary::walls) {
+      result.profile_from_walls = profile_from_walls(bed, near, *slab, bins_of(spec));
+    }
     result.small_share = small_share_of(result.profile_y);
     result.profile_z = profile_along_z(bed, near, bins_of(spec));
   }

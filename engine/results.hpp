@@ -125,6 +125,7 @@ struct PackingResult {
   double mean_diameter_by_volume = 0.0;    ///< the same, each grain weighted by its volume, d
   Profile profile_x;                       ///< from wall to wall, in the slab; empty without walls
   Profile profile_y;                       ///< the same along y, from wall to wall or around
+  Profile profile_from_walls;              ///< from the nearest wall inwards; empty but in ducts
   Profile profile_z;                       ///< from the floor up
   Order order;                             ///< of the slab
   std::optional<ShapeOrder> shape_order;   ///< of non-spherical grains

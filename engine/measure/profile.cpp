@@ -48,11 +48,12 @@ void add_volume(const Span& span, const Bins& bins, double ProfileBin::*member, 
 }
 
 /// Turns volumes into solid fractions.
+void divide_volume(double bin_volume, ProfileBin& bin) {
+  bin.large /= bin_volume;
+  bin.small /= bin_volume;
+}
 void divide_volumes(double bin_volume, Profile& profile) {
-  for (ProfileBin& bin : profile.bins) {
-    bin.large /= bin_volume;
-    bin.small /= bin_volume;
-  }
+  for (ProfileBin& bin : profile.bins) divide_volume(bin_volume, bin);
 }
 
 /// Counts grains and what they touch; `bin_of(sphere)` is the bin, or null outside.
@@ -106,6 +107,30 @@ double volume_below(const PolyhedronBed& bed, std::size_t i, int axis, double to
   return box_volume(bed.shape, bed.pose(i), {-infinity, -infinity, slab.bottom}, high);
 }
 
+/// The part of a duct that is farther than `distance` from all four walls, within the slab.
+struct Core {
+  Span x, y, z;
+};
+Core core_of(const Box& box, const Slab& slab, double distance) {
+  const auto inner = [&](double extent) {
+    return Span{distance, std::max(distance, extent - distance)};
+  };
+  return {inner(box.length), inner(box.width), {slab.bottom, slab.top}};
+}
+
+/// Volume of a grain in that part.
+double volume_in(const Core& core, const SphereBed& bed, std::size_t i) {
+  const Record<double>& p = bed.position[i];
+  const auto from = [](const Span& span, double origin) {
+    return Span{span.low - origin, span.high - origin};
+  };
+  return sphere_box_volume(p.w, from(core.x, p.x), from(core.y, p.y), from(core.z, p.z));
+}
+double volume_in(const Core& core, const PolyhedronBed& bed, std::size_t i) {
+  return box_volume(bed.shape, bed.pose(i), {core.x.low, core.y.low, core.z.low},
+                    {core.x.high, core.y.high, core.z.high});
+}
+
 /// Volume of a grain below the plane at z.
 double volume_below_z(const SphereBed& bed, std::size_t i, double z) {
   const Record<double>& p = bed.position[i];
@@ -152,6 +177,46 @@ Profile across(const Bed<Kind>& bed, const Touching& touching, const Slab& slab,
   return profile;
 }
 
+double distance_from_walls(const Box& box, double x, double y) {
+  return std::min(std::min(x, box.length - x), std::min(y, box.width - y));
+}
+
+template <class Kind>
+Profile from_walls(const Bed<Kind>& bed, const Touching& touching, const Slab& slab,
+                   const ProfileSettings& settings) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const Box& box = bed.box;
+  const double half = std::min(box.length, box.width) / 2.0;
+  const auto count = std::max<std::int64_t>(1, std::llround(half / settings.bin_width));
+  const Bins bins{half / static_cast<double>(count), count, false};
+  Profile profile = empty_profile(bins);
+  for (std::size_t i = 0; i < bed.grains(); ++i) {
+    const Span upright = span_of(bed, i, 2);
+    if (upright.high <= slab.bottom || upright.low >= slab.top) continue;
+    const Span x = span_of(bed, i, 0), y = span_of(bed, i, 1);
+    const Span reach{
+        std::min(distance_from_walls(box, x.low, y.low), distance_from_walls(box, x.high, y.high)),
+        std::min({x.high, box.length - x.low, y.high, box.width - y.low})};
+    const double whole = volume_in(core_of(box, slab, -infinity), bed, i);
+    add_volume(
+        reach, bins, class_of(bed.position[i], settings),
+        [&](double distance) {
+          return distance >= half ? whole : whole - volume_in(core_of(box, slab, distance), bed, i);
+        },
+        profile);
+  }
+  for (std::int64_t k = 0; k < count; ++k) {
+    const double low = static_cast<double>(k) * bins.width, high = low + bins.width;
+    const double frame = 2.0 * (high - low) * (box.length + box.width - 2.0 * (low + high));
+    divide_volume(frame * slab.height(), profile.bins[static_cast<std::size_t>(k)]);
+  }
+  count_grains(bed, touching, settings, [&](const Record<double>& p) -> ProfileBin* {
+    const double distance = distance_from_walls(box, p.x, p.y);
+    return slab.contains(p.z) ? &profile.bins[bins.index(bins.number_at(distance))] : nullptr;
+  });
+  return profile;
+}
+
 template <class Kind>
 Profile along_z(const Bed<Kind>& bed, const Touching& touching, const ProfileSettings& settings) {
   const double bins_up = std::ceil(highest_point(bed) / settings.bin_width);
@@ -177,6 +242,12 @@ Profile profile_across(const Bed<Kind>& bed, const Touching& touching, const Sla
   return across(bed, touching, slab, settings, axis);
 }
 
+template <class Kind>
+Profile profile_from_walls(const Bed<Kind>& bed, const Touching& touching, const Slab& slab,
+                           const ProfileSettings& settings) {
+  return from_walls(bed, touching, slab, settings);
+}
+
 double small_share_of(const Profile& profile) {
   double large = 0.0, small = 0.0;
   for (const ProfileBin& bin : profile.bins) {
@@ -196,6 +267,10 @@ template Profile profile_across(const SphereBed&, const Touching&, const Slab&,
                                 const ProfileSettings&, int);
 template Profile profile_across(const PolyhedronBed&, const Touching&, const Slab&,
                                 const ProfileSettings&, int);
+template Profile profile_from_walls(const SphereBed&, const Touching&, const Slab&,
+                                    const ProfileSettings&);
+template Profile profile_from_walls(const PolyhedronBed&, const Touching&, const Slab&,
+                                    const ProfileSettings&);
 template Profile profile_along_z(const SphereBed&, const Touching&, const ProfileSettings&);
 template Profile profile_along_z(const PolyhedronBed&, const Touching&, const ProfileSettings&);
 

@@ -23,8 +23,8 @@ constexpr auto members_of(const Curve* /*type*/) {
   return std::tuple(&Curve::bin_width, &Curve::values);
 }
 constexpr auto members_of(const Curves* /*type*/) {
-  return std::tuple(&Curves::profile_x, &Curves::profile_y, &Curves::profile_z,
-                    &Curves::pair_correlation, &Curves::force_density);
+  return std::tuple(&Curves::profile_x, &Curves::profile_y, &Curves::profile_from_walls,
+                    &Curves::profile_z, &Curves::pair_correlation, &Curves::force_density);
 }
 constexpr auto members_of(const SettledGrain* /*type*/) {
   using Grain = SettledGrain;
@@ -45,7 +45,7 @@ constexpr auto members_of(const StoredBed* /*type*/) {
 
 namespace {
 
-constexpr std::string_view bed_mark = "GRAINS5\n";
+constexpr std::string_view bed_mark = "GRAINS6\n";
 
 const std::string to_mend = "; run the sweep again to make it anew";
 const std::string missing = "missing" + to_mend;
@@ -55,13 +55,18 @@ const std::string of_another = "the bed of another packing" + to_mend;
 }  // namespace
 
 Curves curves_of(const PackingResult& result) {
-  return {result.profile_x, result.profile_y, result.profile_z, result.order.pair_correlation,
+  return {result.profile_x,
+          result.profile_y,
+          result.profile_from_walls,
+          result.profile_z,
+          result.order.pair_correlation,
           result.order.force_density};
 }
 
 void set_curves(Curves&& curves, PackingResult& result) {
   result.profile_x = std::move(curves.profile_x);
   result.profile_y = std::move(curves.profile_y);
+  result.profile_from_walls = std::move(curves.profile_from_walls);
   result.profile_z = std::move(curves.profile_z);
   result.order.pair_correlation = std::move(curves.pair_correlation);
   result.order.force_density = std::move(curves.force_density);

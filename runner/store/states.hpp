@@ -1,6 +1,6 @@
 // The curves and grains of each finished bed, so that neither tables nor exporting pack again.
 //
-// states/<job>.grains is "GRAINS5\n", a StoredBed as of runner/store/archive.hpp, in the order of
+// states/<job>.grains is "GRAINS6\n", a StoredBed as of runner/store/archive.hpp, in the order of
 // its members and of those of the engine's structs in states.cpp, and a CRC-32 of all before. Units
 // as in SettledGrain and PackingResult.
 #pragma once
@@ -22,6 +22,7 @@ namespace grainsweep {
 struct Curves {
   Profile profile_x;
   Profile profile_y;
+  Profile profile_from_walls;
   Profile profile_z;
   Curve pair_correlation;
   Curve force_density;

@@ -54,7 +54,9 @@ struct ProfileLine {
 Columns<ProfileLine> profile_bin_columns() {
   using Line = const ProfileLine&;
   return {
-      {"axis", "", "x and y from wall to wall, x between walls only; z from the floor up",
+      {"axis", "",
+       "x and y from wall to wall, x between walls only; walls, in ducts, from the nearest of the "
+       "four inwards; z from the floor up",
        [](Line line) { return cell(line.axis); }},
       {"low", "d", "where the bin begins", [](Line line) { return cell(line.bin.low); }},
       {"high", "d", "where it ends", [](Line line) { return cell(line.bin.high); }},
@@ -124,6 +126,7 @@ std::string profiles_csv(const std::vector<Group>& groups) {
   for (const Group& group : groups) {
     append_profile_lines(group, "x", &PackingResult::profile_x, columns, text);
     append_profile_lines(group, "y", &PackingResult::profile_y, columns, text);
+    append_profile_lines(group, "walls", &PackingResult::profile_from_walls, columns, text);
     append_profile_lines(group, "z", &PackingResult::profile_z, columns, text);
   }
   return text;

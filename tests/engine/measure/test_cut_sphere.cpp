@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <catch2/catch.hpp>
 
@@ -77,6 +78,66 @@ TEST_CASE("a beam from below is a slab once its top lies above the ball") {
     CHECK(sphere_beam_volume(0.5, 0, low, 0.4) ==
           Approx(sphere_slab_volume(0.5, low, 0.4) / 2).margin(1e-15));
   }
+}
+
+/// Volume of the part x > a, y > b, z > c by the midpoint rule over the plane z = 0.
+double summed_octant(double radius, double a, double b, double c) {
+  const int cells = 1000;
+  const double h = 2 * radius / cells;
+  double sum = 0.0;
+  for (int i = 0; i < cells; ++i) {
+    for (int j = 0; j < cells; ++j) {
+      const double x = -radius + (i + 0.5) * h, y = -radius + (j + 0.5) * h;
+      const double high = std::sqrt(std::max(0.0, radius * radius - x * x - y * y));
+      if (x > a && y > b) sum += std::max(0.0, high - std::max(c, -high));
+    }
+  }
+  return sum * h * h;
+}
+
+// Planes stand on borders of the cells, so that what the midpoint rule misses is of the order of
+// h^1.5 at the rim: 2e-5 of a ball of radius 0.5.
+TEST_CASE("three planes leave of a ball what summing gives, wherever they stand") {
+  const double r = 0.5;
+  for (const double a : {-0.6, -0.3, 0.0, 0.2}) {
+    for (const double b : {-0.45, 0.1, 0.35}) {
+      for (const double c : {-0.2, 0.0, 0.3, 0.6}) {
+        INFO(a << " " << b << " " << c);
+        CHECK(sphere_octant_volume(r, a, b, c) ==
+              Approx(summed_octant(r, a, b, c)).margin(2e-5).epsilon(0));
+      }
+    }
+  }
+  CHECK(sphere_octant_volume(r, 0, 0, 0) == Approx(sphere_volume(r) / 8).epsilon(1e-15));
+}
+
+TEST_CASE("the eight parts beyond any three planes have the ball's volume together") {
+  const double r = 0.5;
+  for (double a = -0.55; a < 0.6; a += 0.1) {
+    for (double b = -0.5; b < 0.6; b += 0.1) {
+      for (double c = -0.5; c < 0.6; c += 0.13) {
+        double sum = 0.0;
+        for (const double x : {a, -a}) {
+          for (const double y : {b, -b}) {
+            for (const double z : {c, -c}) sum += sphere_octant_volume(r, x, y, z);
+          }
+        }
+        REQUIRE(sum == Approx(sphere_volume(r)).epsilon(1e-14));
+      }
+    }
+  }
+}
+
+TEST_CASE("a box that two planes at right angles bound holds a beam") {
+  constexpr double far = std::numeric_limits<double>::infinity();
+  for (const double top : {-0.3, 0.0, 0.2, 0.7}) {
+    CHECK(sphere_box_volume(0.5, {-far, far}, {-far, top}, {-0.2, 0.4}) ==
+          Approx(sphere_beam_volume(0.5, top, -0.2, 0.4)).margin(1e-15));
+  }
+  CHECK(sphere_box_volume(0.5, {-1, 1}, {-far, far}, {-0.5, 2}) ==
+        Approx(sphere_volume(0.5)).epsilon(1e-15));
+  CHECK(sphere_box_volume(0.5, {-0.1, 0.1}, {-0.1, 0.1}, {-0.1, 0.1}) ==
+        Approx(0.008).epsilon(1e-13));
 }
 
 }  // namespace

@@ -76,6 +76,56 @@ TEST_CASE("a profile along x is that along y of the bed turned by a right angle"
   }
 }
 
+/// Mean of a profile from the walls of a duct, each bin weighted by the area of its frame.
+double area_mean_of(const Profile& profile, double length, double width) {
+  double sum = 0.0;
+  const auto inside = [&](double s) { return (length - 2 * s) * (width - 2 * s); };
+  for (std::size_t k = 0; k < profile.bins.size(); ++k) {
+    const double low = static_cast<double>(k) * profile.bin_width, high = low + profile.bin_width;
+    const ProfileBin& bin = profile.bins[k];
+    sum += (bin.large + bin.small) * (inside(low) - inside(high));
+  }
+  return sum / (length * width);
+}
+
+// 1e-13: 30 grains, each of whose volumes is a difference of eight parts that are known to 1e-16.
+TEST_CASE("the mean over the frames of a duct is the solid fraction of the slab") {
+  Draw draw(13);
+  for (int k = 0; k < 20; ++k) {
+    const double length = draw.uniform(3, 6), width = draw.uniform(3, 6);
+    std::vector<PlacedSphere> spheres;
+    for (int i = 0; i < 30; ++i) {
+      spheres.push_back({draw.uniform(0, length), draw.uniform(0, width), draw.uniform(2, 9),
+                         draw.uniform(0.1, 0.6)});
+    }
+    const SphereBed bed = make_bed({length, width, walls, walls}, spheres);
+    const Slab slab{3, 8};
+    const Profile profile = profile_from_walls(bed, {}, slab, {draw.uniform(0.05, 3), 0.3, 1e-4});
+    CHECK(profile.bin_width * static_cast<double>(profile.bins.size()) ==
+          Approx(std::min(length, width) / 2));
+    CHECK(area_mean_of(profile, length, width) == Approx(solid_fraction(bed, slab)).epsilon(1e-13));
+  }
+}
+
+TEST_CASE("the frames of a duct hold the slices of spheres at one wall, and corners once") {
+  const SphereBed one = make_bed({6, 4, walls, walls}, {{3, 0.5, 4, 0.5}});
+  const Profile middle = profile_from_walls(one, {}, {0, 8}, {0.25, 0, 1e-4});
+  REQUIRE(middle.bins.size() == 8);
+  for (std::size_t k = 0; k < 8; ++k) {
+    const double low = 0.25 * static_cast<double>(k), high = low + 0.25;
+    const double frame = (6 - 2 * low) * (4 - 2 * low) - (6 - 2 * high) * (4 - 2 * high);
+    CHECK(middle.bins[k].large * frame * 8 ==
+          Approx(between(0.5, low - 0.5, high - 0.5)).margin(1e-14));
+    CHECK(middle.bins[k].large_grains == (k == 2 ? 1 : 0));  // its centre is 0.5 d from the wall
+  }
+  const SphereBed corner = make_bed({6, 4, walls, walls}, {{5.5, 3.5, 4, 0.5}});
+  const Profile both = profile_from_walls(corner, {}, {0, 8}, {0.5, 0, 1e-4});
+  const double quarter = sphere_volume(0.5) / 4;  // more than 0.5 d from both walls
+  CHECK(both.bins[0].large * (6 * 4 - 5 * 3) * 8 == Approx(3 * quarter).epsilon(1e-14));
+  CHECK(both.bins[1].large * (5 * 3 - 4 * 2) * 8 == Approx(quarter).epsilon(1e-14));
+  CHECK(both.bins[2].large == Approx(0).margin(1e-15));
+}
+
 TEST_CASE("the share of small grains is that of the volumes in the slab") {
   const SphereBed bed = make_bed({4, 5, periodic, walls}, {{2, 2, 4, 0.5}, {1, 3, 9, 0.2}});
   const ProfileSettings settings{0.3, 0.3, 1e-4};

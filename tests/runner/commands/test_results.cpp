@@ -166,7 +166,7 @@ TEST_CASE("a bed that is cut or gone is seen by its size, a flipped bit by readi
 
   rows = stored;
   remove_file(state_path(folder.path(), "a1"));
-  replace_file(state_path(folder.path(), "a2"), "GRAINS5");
+  replace_file(state_path(folder.path(), "a2"), "GRAINS6");
   const auto damage = expect_beds(folder.path(), rows);
   REQUIRE(damage.size() == 2);
   CHECK_THAT(damage[0], Catch::Contains("/states/a1.grains: missing; run the sweep again"));

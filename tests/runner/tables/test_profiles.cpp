@@ -75,14 +75,16 @@ TEST_CASE("the table has a row per bin, axis and group, and unsettled packings l
   CHECK(cell_in(text, 2, "small_number_share") == "0.25");
 }
 
-TEST_CASE("a bed between walls along x has a profile there, too") {
+TEST_CASE("a duct has profiles along x and from its nearest wall, too") {
   Row row = row_with_profile("a", 0.25, 4);
   row.outcome->result.profile_x = row.outcome->result.profile_y;
+  row.outcome->result.profile_from_walls = row.outcome->result.profile_y;
   const std::vector<Row> rows = {row};
   const std::string text = profiles_csv(groups_of(rows));
-  CHECK(cells_of_table(text).size() == 5);
+  CHECK(cells_of_table(text).size() == 7);
   CHECK(cell_in(text, 2, "axis") == "x");
   CHECK(cell_in(text, 3, "axis") == "y");
+  CHECK(cell_in(text, 5, "axis") == "walls");
 }
 
 }  // namespace
