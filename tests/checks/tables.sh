@@ -19,7 +19,7 @@ cat >starts.json <<'JSON'
 { "name": "starts", "replicates": 3, "base": { "accuracy": "fast",
   "box": { "length": 4, "width": 4 }, "fill": { "solid_height": 4 } } }
 JSON
-"$grainsweep" run starts.json --quiet --out starts || [ $? -eq 1 ]
+"$grainsweep" run starts.json --quiet --no-report --out starts || [ $? -eq 1 ]
 "$grainsweep" export starts --to . >/dev/null
 mapfile -t beds < <(printf '%s\n' ????????????????.csv)
 
@@ -71,7 +71,7 @@ PYTHON
 
 sweeps=(config-*.json varied-*.json)
 for sweep in "${sweeps[@]}"; do
-  "$grainsweep" run "$sweep" --quiet --out "out-${sweep%.json}" 2>said || [ $? -eq 1 ] || {
+  "$grainsweep" run "$sweep" --quiet --no-report --out "out-${sweep%.json}" 2>said || [ $? -eq 1 ] || {
     cat said
     exit 1
   }

@@ -284,11 +284,11 @@ struct Changes {
   int whole = 0, added = 0, none = 0;
 };
 
-Changes changes_of_a_list(SphereBed bed, Move move, double size) {
+Changes changes_of_a_list(SphereBed bed, Move move, double size, int steps) {
   Draw draw(7);
   Candidates candidates;
   Changes changes;
-  for (int step = 0; step < 150; ++step) {
+  for (int step = 0; step < steps; ++step) {
     switch (complete_candidates(near, 0.09, kernels_for(best_isa()), bed, candidates)) {
       case ListChange::whole:
         ++changes.whole;
@@ -324,7 +324,7 @@ TEST_CASE("a list to which strays are added holds every pair that has come near,
       for (std::size_t k = 0; k < std::size(moves); ++k) {
         INFO("walls " << walls_of(box).size() << ", ratio " << ratio << ", motion " << k);
         const Changes changes =
-            changes_of_a_list(bed_of_two_sizes(box, ratio, 5 + k, 120), moves[k], 0.004);
+            changes_of_a_list(bed_of_two_sizes(box, ratio, 5 + k, 120), moves[k], 0.004, 60);
         CHECK(changes.whole >= 1);
       }
     }
@@ -332,8 +332,8 @@ TEST_CASE("a list to which strays are added holds every pair that has come near,
 }
 
 TEST_CASE("where few grains stray the bed is not searched anew") {
-  const Changes changes =
-      changes_of_a_list(testing::random_bed({boxes[1], 400, 0.5, 0.5, 8, 2}), some_stray, 0.002);
+  const Changes changes = changes_of_a_list(testing::random_bed({boxes[1], 400, 0.5, 0.5, 8, 2}),
+                                            some_stray, 0.002, 150);
   CHECK(changes.added > 50);
   CHECK(changes.whole < 15);
 }

@@ -1,7 +1,7 @@
 // Separating axes in closed form, those of hulls against the exact search over all of them, and the
 // batch test of pinacoids against the f64 one; test_gjk.cpp holds all against brute force in long
-// double. The pairs of the exact search here are those of every run; GRAINSWEEP_PAIRS multiplies
-// them: 100 is the full test of a million pairs.
+// double. GRAINSWEEP_PAIRS multiplies the pairs of the slow test: 100 is the full test of a
+// million pairs.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -317,19 +317,15 @@ TEST_CASE("the edges that part two hulls are the outermost of both along their a
   CHECK(parted > 200);
 }
 
-int pairs_of_each() {
-  const char* factor = std::getenv("GRAINSWEEP_PAIRS");
-  return 50 * (factor != nullptr ? std::atoi(factor) : 1);
-}
-
-TEST_CASE("hulls are parted as far as the exact search finds, and none that touch are missed") {
+/// That many of each shape and family.
+void check_pairs_of_usual_shapes(int of_each) {
   const std::vector<ConvexShape> shapes = usual_shapes();
   const std::size_t families = testing::all_pair_families.size() + 1;
   Draw draw(72);
   int pairs = 0, contacts = 0;
   for (std::size_t k = 0; k < shapes.size(); ++k) {
     for (std::size_t f = 0; f < families; ++f) {
-      for (int n = 0; n < pairs_of_each(); ++n, ++pairs) {
+      for (int n = 0; n < of_each; ++n, ++pairs) {
         const ConvexShape &a = shapes[k], &b = n % 5 == 0 ? shapes[draw.below(shapes.size())] : a;
         const PairPose pose =
             f == 0 ? aligned_pose(draw, a, b)
@@ -342,6 +338,15 @@ TEST_CASE("hulls are parted as far as the exact search finds, and none that touc
   }
   if (std::getenv("GRAINSWEEP_PAIRS") != nullptr) WARN(pairs << " pairs, " << contacts << " touch");
   CHECK(contacts > pairs / 3);
+}
+
+TEST_CASE("hulls are parted as far as the exact search finds, and none that touch are missed") {
+  check_pairs_of_usual_shapes(6);
+}
+
+TEST_CASE("many more hulls are parted so, and none that touch are missed", "[slow]") {
+  const char* factor = std::getenv("GRAINSWEEP_PAIRS");
+  check_pairs_of_usual_shapes(50 * (factor != nullptr ? std::atoi(factor) : 1));
 }
 
 }  // namespace

@@ -107,7 +107,7 @@ TEMPLATE_TEST_CASE("whatever has come near is a row, step after step", "", float
       SphereContacts<TestType> contacts;
       Counts counts;
       Draw draw(9);
-      for (int step = 0; step < 80; ++step) {
+      for (int step = 0; step < 40; ++step) {
         bring_up_to_date(bed, candidates, contacts, counts);
         expect_all_near(bed, contacts);
         move(bed, draw);

@@ -5,7 +5,7 @@ grep -v '"bulk"' sweep.json | sed 's/6\] } },/6] } } ] }/' >walls.json
 
 run_all() { # FILE FOLDER
   local code=0
-  "$program" run "$1" --threads 2 --out "$2" --quiet || code=$?
+  "$program" run "$1" --threads 2 --out "$2" --quiet --no-report || code=$?
   [ "$code" -le 1 ] || fail "run ended with $code"
 }
 

@@ -15,7 +15,7 @@ expect_code 0 "$program" plan shapes.json
 expect_text out.txt "4 packings" "pinacoids" "roofs"
 
 code=0
-"$program" run shapes.json --threads 2 >report.txt 2>progress.txt || code=$?
+"$program" run shapes.json --no-report --threads 2 >report.txt 2>progress.txt || code=$?
 [ "$code" -le 1 ] || fail "run ended with $code: $(cat progress.txt)"
 [ "$(cut -d, -f5 out/shapes/packings.csv | sort -u | tr '\n' ' ')" = "hull pinacoid shape sphere " ] ||
   fail "other shapes: $(cut -d, -f5 out/shapes/packings.csv)"
@@ -58,7 +58,7 @@ cat >again.json <<JSON
   "measure": { "exclude_floor": 1, "exclude_surface": 1 } } }
 JSON
 code=0
-"$program" run again.json >/dev/null 2>error.txt || code=$?
+"$program" run again.json --no-report >/dev/null 2>error.txt || code=$?
 [ "$code" -le 1 ] || fail "a bed that was exported is not packed: $(cat error.txt)"
 [ "$(cut -d, -f6 out/again/packings.csv | tail -n 1)" -eq "$grains" ] || fail "other grains"
 { column solid_fraction 2 && cut -d, -f11 out/again/packings.csv | tail -n 1; } >fractions.txt
@@ -71,11 +71,11 @@ expect_code 2 "$program" validate again.json
 expect_text error.txt "spheres have no orientation"
 
 # One thread makes the same bytes, and so does a run that was cut short.
-"$program" run shapes.json --out one --threads 1 >/dev/null 2>&1 || true
+"$program" run shapes.json --no-report --out one --threads 1 >/dev/null 2>&1 || true
 values_of out/shapes >two.txt
 values_of one | cmp two.txt - || fail "other bits on one thread"
 rm one/states/"$roof".grains
-"$program" run shapes.json --out one --threads 1 >/dev/null 2>error.txt || true
+"$program" run shapes.json --no-report --out one --threads 1 >/dev/null 2>error.txt || true
 cmp out/shapes/states/"$roof".grains one/states/"$roof".grains || fail "the bed was made otherwise"
 
 command -v python3 >/dev/null || skip "python3 is not installed: the VTP file was not read"

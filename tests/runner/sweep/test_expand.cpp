@@ -298,7 +298,7 @@ TEST_CASE("a list that holds a value twice, and a zip with two equal rows, are r
       errors_of(sweep_of(R"({"zip": {"box.width": [5, 6, 5], "box.length": [9, 9, 8]}})")).empty());
 }
 
-TEST_CASE("100,000 jobs are expanded in less than two seconds of processor time", "[speed]") {
+TEST_CASE("100,000 jobs are expanded in less than two seconds of processor time", "[slow]") {
   const std::string text = sweep_of("{\"grid\": {\"box.width\": " + numbers(1000, "") +
                                     ", \"sizes.spread\": " + numbers(100, "0.0") + "}}");
   const std::clock_t start = std::clock();
@@ -308,7 +308,7 @@ TEST_CASE("100,000 jobs are expanded in less than two seconds of processor time"
   CHECK(seconds < 2.0 * patience);
 }
 
-TEST_CASE("100,000 errors are found and placed in less than four seconds", "[speed]") {
+TEST_CASE("100,000 errors are found and placed in less than four seconds", "[slow]") {
   std::string list;
   for (int i = 0; i < 100'000; ++i) list += (i == 0 ? "0." : ",0.") + std::to_string(100'000 + i);
   const std::clock_t start = std::clock();

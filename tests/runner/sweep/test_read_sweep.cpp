@@ -74,7 +74,7 @@ TEST_CASE("control characters in a key do not reach the terminal") {
                                  "replicates, base, sweep, $schema"});
 }
 
-TEST_CASE("a file is read no further than one may be long") {
+TEST_CASE("a file is read no further than one may be long", "[slow]") {  // a second for 256 MiB
   const ScratchFolder folder;
   const std::string path = folder.write("s.json", " ");
   std::filesystem::resize_file(path,
@@ -123,7 +123,7 @@ TEST_CASE("a file with changed bytes is read or refused without harm") {
   std::mt19937 random(1);  // its sequence is fixed by the standard
   const std::string bytes = "{}[]\",:\\0123456789.eE+-xyz\n\t\xC3\xFF";
   int refused = 0;
-  for (int round = 0; round < 3000; ++round) {
+  for (int round = 0; round < 500; ++round) {
     std::string text = whole_file;
     const auto changes = 1 + random() % 4;
     for (unsigned change = 0; change < changes; ++change) {
@@ -134,13 +134,13 @@ TEST_CASE("a file with changed bytes is read or refused without harm") {
     REQUIRE(is_sound(reading));
     refused += reading.errors.empty() ? 0 : 1;
   }
-  CHECK(refused > 1000);
-  CHECK(refused < 3000);
+  CHECK(refused > 166);
+  CHECK(refused < 500);
 }
 
 TEST_CASE("a file with pieces moved about is read or refused without harm") {
   std::mt19937 random(2);
-  for (int round = 0; round < 1000; ++round) {
+  for (int round = 0; round < 200; ++round) {
     std::string text = whole_file;
     const std::size_t from = random() % text.size(), to = random() % text.size();
     const std::string piece = text.substr(from, random() % 60);
