@@ -165,10 +165,13 @@ int perform(const CollectOptions& options) {
   }
   const std::vector<Row>& rows = collection.rows;
   std::cerr << other_versions_warning(rows, program_version());
-  write_tables(options.out, collection.provenance, rows, analyse(rows));
+  const Analysis analysis = analyse(rows);
+  write_tables(options.out, collection.provenance, rows, analysis);
   const auto pending = static_cast<std::size_t>(totals_of(rows).counts.pending);
   std::cout << collection.added << " packings added to " << options.out << ", which now holds "
-            << rows.size() - pending << " of " << rows.size() << "\n";
+            << rows.size() - pending << " of " << rows.size() << "\n"
+            << std::flush;
+  std::cout << write_page(options.out, collection.provenance, rows, analysis);
   return exit_done;
 }
 

@@ -7,6 +7,7 @@
 #include "runner/exit_codes.hpp"
 #include "runner/instruction_set.hpp"
 #include "runner/machine.hpp"
+#include "runner/report/gnuplot.hpp"
 #include "runner/store/files.hpp"
 #include "runner/store/lock.hpp"
 #include "runner/text.hpp"
@@ -22,6 +23,13 @@ double write_test() {
   replace_file(path, "written by grainsweep doctor\n");
   remove_file(path);
   return wall_seconds() - start;
+}
+
+/// What draws the figures of pages, or what is missing without it.
+std::string drawing_text() {
+  const std::string version = gnuplot_version();
+  return version.empty() ? "no gnuplot: pages have no figures (Debian: apt-get install gnuplot-nox)"
+                         : version;
 }
 
 std::string versions_text() {
@@ -44,7 +52,7 @@ int perform(const DoctorOptions& /*options*/) {
             << "\nlibraries         " << versions_text() << "\ninstruction sets  "
             << supported_isas() << "; used: " << name_of(choose_isa("")) << "\ncores             "
             << usable_cores() << "\nmemory            " << fixed(available_memory() / 1e9, 1)
-            << " GB available\n"
+            << " GB available\nfigures           " << drawing_text() << "\n"
             << std::flush;
   std::cout << "writing here      works, " << fixed(1e3 * write_test(), 1)
             << " ms for a file kept on the disk\n";

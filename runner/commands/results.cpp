@@ -9,7 +9,6 @@
 
 #include "runner/exit_codes.hpp"
 #include "runner/machine.hpp"
-#include "runner/report/report.hpp"
 #include "runner/store/checkpoints.hpp"
 #include "runner/store/files.hpp"
 #include "runner/store/lock.hpp"
@@ -137,8 +136,8 @@ void write_provenance(const std::string& folder, const Provenance& provenance,
 }
 
 std::string write_page(const std::string& folder, const Provenance& provenance,
-                       const std::vector<Row>& rows, const Analysis& analysis) {
-  for (const std::string& line : write_report(folder, provenance, rows, analysis)) {
+                       const std::vector<Row>& rows, const Analysis& analysis, PageExtent extent) {
+  for (const std::string& line : write_report(folder, provenance, rows, analysis, extent)) {
     std::cerr << "note: " << line << "\n";
   }
   return "Page to look at: " + folder + "/report.html\n";

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "runner/report/report.hpp"
 #include "runner/store/lock.hpp"
 #include "runner/tables/families.hpp"
 #include "runner/tables/provenance.hpp"
@@ -41,7 +42,8 @@ std::vector<std::string> expect_beds(const std::string& folder, std::vector<Row>
 /// Replaces report.html and its figures, made of rows with their curves; prints as notes what is
 /// missing from it. Returns a line that says where it is. Throws FileError.
 std::string write_page(const std::string& folder, const Provenance& provenance,
-                       const std::vector<Row>& rows, const Analysis& analysis);
+                       const std::vector<Row>& rows, const Analysis& analysis,
+                       PageExtent extent = PageExtent::whole);
 
 /// Replaces the CSV tables, made of rows with their curves and their analysis, columns.csv, which
 /// explains them, and provenance.json. Throws FileError.

@@ -233,16 +233,20 @@ int perform(const RunOptions& options) {
   const Analysis analysis = analyse(rows);
   write_tables(folder, provenance, rows, analysis);
   const bool is_whole = static_cast<std::size_t>(packed.packings) == running.pending.size();
-  if (!is_whole) return stopped(packed, options, folder, counts, rows.size());
-  if (!options.quiet) {
+  if (is_whole && !options.quiet) {
     std::cout << closing_report(provenance, rows, analysis.families, {called_as(), folder})
               << std::flush;
   }
   if (!options.no_report) {
-    const std::string where = write_page(folder, provenance, rows, analysis);
-    if (!options.quiet) std::cout << where;
+    const PageExtent extent = stop_signal() != 0 ? PageExtent::text : PageExtent::whole;
+    const std::string where = write_page(folder, provenance, rows, analysis, extent);
+    if (is_whole && !options.quiet) std::cout << where;
+  } else if (packed.packings > 0 && file_exists(folder + "/report.html")) {
+    std::cerr << "note: " << folder << "/report.html is of an earlier run; " << called_as()
+              << " report " << shell_word(folder) << " writes it anew\n";
   }
-  return exit_code_for(counts, folder);
+  return is_whole ? exit_code_for(counts, folder)
+                  : stopped(packed, options, folder, counts, rows.size());
 }
 
 }  // namespace grainsweep

@@ -4,6 +4,7 @@
 #include <array>
 #include <cerrno>
 #include <csignal>
+#include <cstdio>
 #include <fcntl.h>
 #include <optional>
 #include <spawn.h>
@@ -97,6 +98,16 @@ std::string why_none(const std::vector<Drawer>& drawers, const std::string& fail
 }
 
 }  // namespace
+
+std::string gnuplot_version() {
+  std::FILE* said = popen("gnuplot --version 2>/dev/null", "r");
+  if (said == nullptr) return "";
+  std::array<char, 100> line{};
+  const bool is_there = std::fgets(line.data(), line.size(), said) != nullptr;
+  pclose(said);
+  const std::string text = is_there ? line.data() : "";
+  return text.substr(0, text.find('\n'));
+}
 
 void remove_figures(const std::string& folder) {
   for (const std::string& name : files_in(folder, "", "")) {

@@ -17,6 +17,9 @@ struct Drawing {
 /// NAME.png again, and draws all of them at once, in the place of earlier ones. Throws FileError.
 Drawing draw(const std::vector<Figure>& figures, const std::string& folder);
 
+/// "gnuplot 5.4 patchlevel 4"; empty if there is none.
+std::string gnuplot_version();
+
 /// Removes all files of figures from the folder, half written ones, too; other files stay.
 void remove_figures(const std::string& folder);
 

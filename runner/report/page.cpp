@@ -14,7 +14,7 @@ std::string alternative(const Figure& figure) {
 
 /// Links to the pictures and tables behind a figure.
 std::string links_of(const DrawnFigure& drawn) {
-  const Figure& figure = *drawn.figure;
+  const Figure& figure = drawn.figure;
   std::string text;
   const auto add = [&](const std::string& file, const std::string& what) {
     text += (text.empty() ? "" : " · ") + ("<a href=\"figures/" + html_text(file) + "\">") +
@@ -29,7 +29,7 @@ std::string links_of(const DrawnFigure& drawn) {
 }
 
 std::string figure_section(const DrawnFigure& drawn) {
-  const Figure& figure = *drawn.figure;
+  const Figure& figure = drawn.figure;
   std::string text = "<figure id=\"figure-" + html_text(figure.name) + "\">\n<h3>" +
                      html_text(figure.title) + "</h3>\n";
   if (!figure.not_drawn.empty()) {

@@ -10,7 +10,7 @@ namespace grainsweep {
 
 /// A figure as it stands in the page.
 struct DrawnFigure {
-  const Figure* figure = nullptr;
+  Figure figure;
   std::string svg;  ///< empty where it was not drawn
 };
 

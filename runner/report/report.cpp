@@ -88,24 +88,44 @@ std::string beds_of(const std::string& folder, const std::vector<Row>& rows,
 
 std::string figures_folder(const std::string& folder) { return folder + "/figures"; }
 
+void remove_drawn(const std::string& folder) {
+  remove_figures(figures_folder(folder));
+  std::error_code holds_other_files;
+  std::filesystem::remove(figures_folder(folder), holds_other_files);
+}
+
+/// Figures and beds, all that takes time. Appends to `missing`.
+void add_drawn_parts(const std::string& folder, const std::vector<Row>& rows,
+                     const Analysis& analysis, const std::vector<Comparison>& comparisons,
+                     PageParts& parts, std::vector<std::string>& missing) {
+  std::vector<Figure> figures = figures_of(rows, analysis, comparisons);
+  Drawing drawing = draw(figures, figures_folder(folder));
+  for (std::size_t k = 0; k < figures.size(); ++k) {
+    parts.figures.push_back({std::move(figures[k]), std::move(drawing.svgs[k])});
+  }
+  parts.no_figures = drawing.missing;
+  if (!drawing.missing.empty()) missing.push_back("report.html: " + drawing.missing);
+  parts.bed = beds_of(folder, rows, analysis.groups, missing);
+}
+
 }  // namespace
 
 std::vector<std::string> write_report(const std::string& folder, const Provenance& provenance,
-                                      const std::vector<Row>& rows, const Analysis& analysis) {
+                                      const std::vector<Row>& rows, const Analysis& analysis,
+                                      PageExtent extent) {
   std::vector<std::string> missing;
   const auto reference = reference_of(provenance, missing);
   const std::vector<Comparison> comparisons =
       reference ? compare_with(*reference, analysis.families) : std::vector<Comparison>();
-  const std::vector<Figure> figures = figures_of(rows, analysis, comparisons);
   PageParts parts;
   parts.title = provenance.sweep_name;
-  const Drawing drawing = draw(figures, figures_folder(folder));
-  parts.no_figures = drawing.missing;
-  if (!drawing.missing.empty()) missing.push_back("report.html: " + drawing.missing);
-  for (std::size_t k = 0; k < figures.size(); ++k) {
-    parts.figures.push_back({&figures[k], drawing.svgs[k]});
+  if (extent == PageExtent::whole) {
+    add_drawn_parts(folder, rows, analysis, comparisons, parts, missing);
+  } else {
+    remove_drawn(folder);
+    parts.no_figures =
+        "the run was stopped before its end; grainsweep report " + folder + " draws what there is";
   }
-  parts.bed = beds_of(folder, rows, analysis.groups, missing);
   parts.summary = summary_section(rows);
   parts.groups = groups_section(analysis.groups);
   parts.fits = fits_section(analysis.families);
@@ -119,9 +139,7 @@ std::vector<std::string> write_report(const std::string& folder, const Provenanc
 
 void remove_report(const std::string& folder) {
   remove_file(folder + "/report.html");
-  remove_figures(figures_folder(folder));
-  std::error_code holds_other_files;
-  std::filesystem::remove(figures_folder(folder), holds_other_files);
+  remove_drawn(folder);
 }
 
 }  // namespace grainsweep

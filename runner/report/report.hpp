@@ -9,10 +9,18 @@
 
 namespace grainsweep {
 
-/// Writes <folder>/report.html, and <folder>/figures, of rows with their curves. Returns what is
-/// missing from it and why, lines for people; nothing if it is whole. Throws FileError.
+/// How much of a page is written.
+enum class PageExtent {
+  whole,
+  text,  ///< at once: no figures and no beds, for a run that was told to stop
+};
+
+/// Writes <folder>/report.html, and <folder>/figures, of rows with their curves, in the place of
+/// earlier ones. Returns what is missing from a whole page and why, lines for people; nothing if it
+/// is whole. Throws FileError.
 std::vector<std::string> write_report(const std::string& folder, const Provenance& provenance,
-                                      const std::vector<Row>& rows, const Analysis& analysis);
+                                      const std::vector<Row>& rows, const Analysis& analysis,
+                                      PageExtent extent = PageExtent::whole);
 
 /// Removes what write_report writes.
 void remove_report(const std::string& folder);

@@ -17,7 +17,8 @@ head -n 3 whole/journal-*.jsonl >part/journal-node-1.jsonl
 run_all walls.json walls
 
 expect_code 0 "$program" collect part walls --out all
-expect_text out.txt "packings added to all, which now holds"
+expect_text out.txt "packings added to all, which now holds" "Page to look at: all/report.html"
+expect_text all/report.html "$(cut -d, -f1 walls/packings.csv | tail -n 1)" "</html>"
 expect_code 0 "$program" status all --json
 packed=$(($(sed 's/.*"job":"\([0-9a-f]*\)".*/\1/' part/journal-*.jsonl walls/journal-*.jsonl |
   sort -u | wc -l)))

@@ -21,7 +21,10 @@ expect_text out.txt "packings.csv,solid_fraction,," "decays.csv,lambda,d,"
 expect_code 0 "$program" columns --markdown
 expect_text out.txt '| `overlap_mean` | d | '
 expect_code 0 "$program" doctor
-expect_text out.txt "sse2" "cores" "oneTBB"
+expect_text out.txt "sse2" "cores" "oneTBB" "figures  "
+mkdir no-programs
+expect_code 0 env PATH="$here/no-programs" "$program" doctor
+expect_text out.txt "figures           no gnuplot: pages have no figures (Debian: apt-get install"
 [ ! -e out ] || fail "looking wrote something"
 
 # Whether such small beds all settle is not the point here: 0 and 1 both end a run.
@@ -43,6 +46,9 @@ expect_text out/small/provenance.json "run small.json" '"processor": "' '"commit
 
 expect_code 0 "$program" report out/small
 cmp out.txt report.txt || fail "report prints another table than run"
+expect_code 0 env PATH="$here/no-programs" "$program" report out/small
+[ "$(grep -c gnuplot error.txt)" -eq 1 ] || fail "not told once: $(cat error.txt)"
+expect_text out/small/report.html "for want of gnuplot" "</html>"
 expect_code 2 "$program" compare out/small
 expect_text error.txt "small.reference.json" "--with"
 printf '{"source": "A paper", "families": [{"where": {}, "values": [{"quantity": "Z", "width": 99, "value": 6}]}]}' \

@@ -24,6 +24,8 @@ stop_with() {
   [ "$code" -eq "$2" ] || fail "$1 ended with $code: $(cat said.txt)"
   expect_text said.txt "are kept in $3" "grainsweep run sweep.json --out $3 --threads 2"
   [ "$(grep -c pending "$3/packings.csv")" -ge 1 ] || fail "nothing was left to do after $1"
+  expect_text "$3/report.html" "stopped before its end; grainsweep report $3 draws" ">pending<"
+  [ ! -e "$3/figures" ] || fail "figures were drawn after $1"
 }
 
 for end in INT:130 TERM:143 HUP:129; do
@@ -37,6 +39,7 @@ for end in INT:130 TERM:143 HUP:129; do
   [ "$(grep -c '^[0-9]*/30  ' progress.txt)" -eq $((30 - kept)) ] || fail "a packing was made twice"
   [ "$(lines_in stopped-$signal)" -eq 30 ] || fail "not every packing has one line"
   values_of stopped-$signal | cmp - whole.txt || fail "other values after $signal"
+  ! grep -q "stopped before its end" stopped-$signal/report.html || fail "the page was not made anew"
 done
 
 # Killed outright, with a line torn, a bed lost and the curves of another damaged on top.
@@ -63,6 +66,13 @@ cp whole/packings.csv before.csv
 run_to_the_end whole
 [ ! -s progress.txt ] || fail "a finished sweep was made again: $(cat progress.txt)"
 cmp before.csv whole/packings.csv || fail "tables changed without a new packing"
+
+# A page that a run leaves as it was is told.
+"$program" run sweep.json --threads 2 --out whole --no-report >out.txt 2>error.txt || [ $? -eq 1 ]
+[ ! -s error.txt ] || fail "the page of the same packings was called old: $(cat error.txt)"
+rm "whole/states/$lost"
+"$program" run sweep.json --threads 2 --out whole --no-report >out.txt 2>error.txt || [ $? -eq 1 ]
+expect_text error.txt "note: whole/report.html is of an earlier run; "
 
 # One runner at a time: held up, so that it is still there.
 start "$program" run sweep.json --threads 2 --out busy
