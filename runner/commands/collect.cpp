@@ -62,6 +62,13 @@ void add_sweep(const Provenance& from, Provenance& to) {
   }
 }
 
+/// Units stand for all packings of a folder.
+void add_units(const std::string& folder, const GivenUnits& from, Collection& to) {
+  if (!to.provenance.units || from == to.provenance.units) return;
+  warn(folder + ": has other units than the sweeps before it; the tables have none");
+  to.provenance.units.reset();
+}
+
 bool is_same_result(const Outcome& a, const Outcome& b) {
   return a.result.state_hash == b.result.state_hash && a.result.status == b.result.status;
 }
@@ -119,6 +126,7 @@ Collection begin_collection(const std::string& folder, const Provenance& first) 
 void add_results(const std::string& folder, const Results& results, Journal& journal,
                  Collection& to) {
   add_sweep(results.provenance, to.provenance);
+  add_units(folder, results.provenance.units, to);
   add_runs(results.provenance.runs, to.provenance.runs);
   for (const Row& source : results.rows) {
     Row& row = row_of(source.job, to);

@@ -41,6 +41,12 @@ std::vector<const Row*> rows_to_export(const std::vector<Row>& rows, const Expor
   return chosen;
 }
 
+std::string page_of(const StoredBed& bed, const Row& row, const GivenUnits& units) {
+  BedFacts facts = facts_of(row.job, row.job.label + ", packing " + row.job.id);
+  facts.units = units;
+  return bed_page(bed, facts);
+}
+
 }  // namespace
 
 CLI::App& add_command(CLI::App& app, ExportOptions& options) {
@@ -76,8 +82,7 @@ int perform(const ExportOptions& options) {
   for (const Row* row : rows) {
     const StoredBed bed = read_bed(options.folder, *row->outcome);
     const std::string text =
-        format ? grains_text(bed, *format)
-               : bed_page(bed, facts_of(row->job, row->job.label + ", packing " + row->job.id));
+        format ? grains_text(bed, *format) : page_of(bed, *row, results.provenance.units);
     replace_file(to + "/" + row->job.id + "." + options.format, text);
   }
   std::cout << rows.size() << (rows.size() == 1 ? " packing" : " packings") << " written to " << to

@@ -118,15 +118,16 @@ std::vector<std::string> expect_beds(const std::string& folder, std::vector<Row>
 void write_tables(const std::string& folder, const Provenance& provenance,
                   const std::vector<Row>& rows, const Analysis& analysis) {
   const auto& [groups, families] = analysis;
-  replace_file(folder + "/packings.csv", packings_csv(rows, groups));
-  replace_file(folder + "/groups.csv", groups_csv(groups));
-  replace_file(folder + "/fits.csv", fits_csv(families));
-  replace_file(folder + "/fit_points.csv", fit_points_csv(families));
-  replace_file(folder + "/profiles.csv", profiles_csv(groups));
-  replace_file(folder + "/decays.csv", decays_csv(groups));
-  replace_file(folder + "/distributions.csv", distributions_csv(groups));
+  const GivenUnits& units = provenance.units;
+  replace_file(folder + "/packings.csv", packings_csv(rows, groups, units));
+  replace_file(folder + "/groups.csv", groups_csv(groups, units));
+  replace_file(folder + "/fits.csv", fits_csv(families, units));
+  replace_file(folder + "/fit_points.csv", fit_points_csv(families, units));
+  replace_file(folder + "/profiles.csv", profiles_csv(groups, units));
+  replace_file(folder + "/decays.csv", decays_csv(groups, units));
+  replace_file(folder + "/distributions.csv", distributions_csv(groups, units));
   replace_file(folder + "/columns.csv",
-               columns_csv(all_columns(further_tolerances(rows), varied_of(groups))));
+               columns_csv(all_columns(further_tolerances(rows), varied_of(groups), units)));
   write_provenance(folder, provenance, rows);
 }
 
@@ -147,13 +148,14 @@ Build this_build() {
   return {program_version(), source_commit(), compiler_version(), library_versions()};
 }
 
-std::vector<ColumnText> all_columns(const std::vector<double>& tolerances, const Varied& varied) {
+std::vector<ColumnText> all_columns(const std::vector<double>& tolerances, const Varied& varied,
+                                    const GivenUnits& units) {
   std::vector<ColumnText> all;
   for (const auto& some :
-       {described("packings.csv", packings_columns(tolerances, varied)),
-        described("groups.csv", groups_columns(varied)), profiles_columns(varied),
-        decays_columns(varied), distributions_columns(varied), fits_columns(),
-        fit_points_columns(varied)}) {
+       {described("packings.csv", packings_columns(tolerances, varied, units)),
+        described("groups.csv", groups_columns(varied, units)), profiles_columns(varied, units),
+        decays_columns(varied, units), distributions_columns(varied, units), fits_columns(units),
+        fit_points_columns(varied, units)}) {
     all.insert(all.end(), some.begin(), some.end());
   }
   return all;

@@ -58,8 +58,9 @@ void write_provenance(const std::string& folder, const Provenance& provenance,
 Build this_build();
 
 /// The columns of every table of a sweep with these further gap tolerances that varies these
-/// parameters.
-std::vector<ColumnText> all_columns(const std::vector<double>& tolerances, const Varied& varied);
+/// parameters and gives these units.
+std::vector<ColumnText> all_columns(const std::vector<double>& tolerances, const Varied& varied,
+                                    const GivenUnits& units = {});
 
 /// A line of warning for each of `damage`, as of Results.
 std::string damage_warnings(const std::vector<std::string>& damage);

@@ -100,6 +100,7 @@ Provenance provenance_of(const RunOptions& options, const RunningSweep& running,
   provenance.build = this_build();
   provenance.sweeps = {{options.file, read_file(options.file)}};
   provenance.sweep_name = running.sweep.name;
+  provenance.units = running.sweep.units;
   provenance.runs = recorded_runs(running.folder, damage);
   return provenance;
 }

@@ -19,6 +19,7 @@ struct Axes {
   std::string parameter;  ///< dotted name of what is along the axis: box.width if it is varied
   std::string title;      ///< of the axis, with the unit
   std::vector<Series> series;
+  GivenUnits units = {};  ///< of the sweep
 };
 
 /// box.width goes along the axis wherever it is varied, else the number that takes most values; of

@@ -70,6 +70,8 @@ std::string bed_element(const StoredBed& bed, const BedFacts& facts) {
                {"largest_radius", radius},
                {"largest_force", force},
                {"small_limit", facts.small_limit},
+               {"unit", facts.units ? printed_unit(*facts.units) : "d"},
+               {"d", facts.units ? facts.units->d : 1.0},
                {"grains", base64(columns_of(bed, extent, radius, force))}};
   json["box"] = Json::array({bed.box.length, bed.box.width, height});
   json["walls"] = Json::array({bed.box.x == Boundary::walls, bed.box.y == Boundary::walls});
@@ -115,7 +117,7 @@ BedFacts facts_of(const JobFacts& job, const std::string& title) {
   sizes.small_share = job.small_share;
   if (ratio != parameters.end()) sizes.size_ratio = std::stod(ratio->second);
   const double limit = small_class_limit(sizes);
-  return {title, std::isfinite(limit) ? limit : 0.0};
+  return {title, std::isfinite(limit) ? limit : 0.0, {}};
 }
 
 }  // namespace grainsweep

@@ -6,6 +6,7 @@
 
 #include "runner/store/states.hpp"
 #include "runner/tables/job_facts.hpp"
+#include "runner/tables/units.hpp"
 
 namespace grainsweep {
 
@@ -13,6 +14,7 @@ namespace grainsweep {
 struct BedFacts {
   std::string title;
   double small_limit = 0.0;  ///< grains of a smaller radius are small, d; 0 if all are of one kind
+  GivenUnits units = {};     ///< that lengths are told in; in d where there are none
 };
 
 /// The facts of a packing's bed, titled so.

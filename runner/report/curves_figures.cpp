@@ -254,8 +254,10 @@ Figure effort_figure(const Axes& axes, const std::vector<Row>& rows) {
 }
 
 std::vector<Figure> figures_of(const std::vector<Row>& rows, const Analysis& analysis,
-                               const std::vector<Comparison>& comparisons) {
-  const Axes axes = axes_of(analysis.groups);
+                               const std::vector<Comparison>& comparisons,
+                               const GivenUnits& units) {
+  Axes axes = axes_of(analysis.groups);
+  axes.units = units;
   std::vector<Figure> figures = {means_figure(axes, analysis.families), profiles_figure(axes)};
   const auto shares = by_small_share(analysis.families);
   if (!shares.empty() && shares.begin()->first < shares.rbegin()->first) {

@@ -40,6 +40,7 @@ Figure published_figure(const std::vector<Comparison>& comparisons);
 
 /// Those that have a meaning for this sweep.
 std::vector<Figure> figures_of(const std::vector<Row>& rows, const Analysis& analysis,
-                               const std::vector<Comparison>& comparisons);
+                               const std::vector<Comparison>& comparisons,
+                               const GivenUnits& units = {});
 
 }  // namespace grainsweep

@@ -105,10 +105,12 @@ std::string abscissa_commands(const Axes& axes, bool is_lowest, bool is_highest)
   for (const double width : widths) {
     if (1.0 / width - last < room) continue;
     last = 1.0 / width;
-    tics += (tics.empty() ? "" : ", ") + quoted(cell(width)) + " " + cell(last);
+    const std::string told = axes.units ? length_in(*axes.units, width) : cell(width);
+    tics += (tics.empty() ? "" : ", ") + quoted(told) + " " + cell(last);
   }
   text += "set link x2\nset x2tics (" + tics + ") scale 0.6 out\n";
-  return text + "set x2label 'W / d' offset 0,-0.6 noenhanced\n";
+  const std::string unit = axes.units ? printed_unit(*axes.units) : "d";
+  return text + "set x2label " + quoted("W / " + unit) + " offset 0,-0.6 noenhanced\n";
 }
 
 /// Everything that the panel of a quantity shows, with its errors.

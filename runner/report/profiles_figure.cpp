@@ -96,16 +96,15 @@ std::string commands_of(const Figure& figure, const std::vector<const Group*>& g
   return text;
 }
 
-std::string decays_text(const std::vector<const Group*>& groups,
-                        const std::vector<DecayFit>& fits) {
+std::string decays_text(const std::vector<const Group*>& groups, const std::vector<DecayFit>& fits,
+                        const GivenUnits& units) {
   std::string text;
   for (std::size_t k = 0; k < groups.size(); ++k) {
     const DecayFit& fit = fits[k];
     text += " " + title_of(*groups[k], figure_label) + ": ";
     text += fit.not_determined.empty()
-                ? "λ = " + fixed(fit.length.value, 2) + " ± " + fixed(fit.length.error, 2) +
-                      " d, reach " + fixed(fit.reach.value, 1) + " ± " + fixed(fit.reach.error, 1) +
-                      " d."
+                ? "λ = " + length_text(fit.length.value, fit.length.error, 2, units) + ", reach " +
+                      length_text(fit.reach.value, fit.reach.error, 1, units) + "."
                 : "no curve, " + fit.not_determined + ".";
   }
   return text;
@@ -130,7 +129,8 @@ Figure profiles_figure(const Axes& axes) {
   fits.reserve(groups.size());
   for (const Group* group : groups) fits.push_back(decay_of(*group, GrainClass::large));
   figure.height = 520;
-  figure.caption += decays_text(groups, fits) + " The others are in the folder's profiles.csv.";
+  figure.caption +=
+      decays_text(groups, fits, axes.units) + " The others are in the folder's profiles.csv.";
   figure.tables = {{bins_table, bins_csv(groups)}};
   figure.commands = commands_of(figure, groups, fits);
   return figure;

@@ -60,8 +60,9 @@ std::vector<std::pair<const Group*, const Row*>> beds_to_show(const std::vector<
 }
 
 /// The beds that have room in the page; empty if none is stored. Appends to `missing`.
-std::string beds_of(const std::string& folder, const std::vector<Row>& rows,
-                    const std::vector<Group>& groups, std::vector<std::string>& missing) {
+std::string beds_of(const std::string& folder, const GivenUnits& units,
+                    const std::vector<Row>& rows, const std::vector<Group>& groups,
+                    std::vector<std::string>& missing) {
   BedView view;
   std::size_t bytes = 0, left_out = 0;
   for (const auto& [group, row] : beds_to_show(rows, groups)) {
@@ -72,7 +73,8 @@ std::string beds_of(const std::string& folder, const std::vector<Row>& rows,
       ++left_out;
       continue;
     }
-    const BedFacts facts = facts_of(row->job, title_of(*group));
+    BedFacts facts = facts_of(row->job, title_of(*group));
+    facts.units = units;
     if (view.beds.empty()) {
       view.title = facts.title;
       view.picture = picture_of(bed, picture_width, picture_height);
@@ -95,17 +97,18 @@ void remove_drawn(const std::string& folder) {
 }
 
 /// Figures and beds, all that takes time. Appends to `missing`.
-void add_drawn_parts(const std::string& folder, const std::vector<Row>& rows,
-                     const Analysis& analysis, const std::vector<Comparison>& comparisons,
-                     PageParts& parts, std::vector<std::string>& missing) {
-  std::vector<Figure> figures = figures_of(rows, analysis, comparisons);
+void add_drawn_parts(const std::string& folder, const GivenUnits& units,
+                     const std::vector<Row>& rows, const Analysis& analysis,
+                     const std::vector<Comparison>& comparisons, PageParts& parts,
+                     std::vector<std::string>& missing) {
+  std::vector<Figure> figures = figures_of(rows, analysis, comparisons, units);
   Drawing drawing = draw(figures, figures_folder(folder));
   for (std::size_t k = 0; k < figures.size(); ++k) {
     parts.figures.push_back({std::move(figures[k]), std::move(drawing.svgs[k])});
   }
   parts.no_figures = drawing.missing;
   if (!drawing.missing.empty()) missing.push_back("report.html: " + drawing.missing);
-  parts.bed = beds_of(folder, rows, analysis.groups, missing);
+  parts.bed = beds_of(folder, units, rows, analysis.groups, missing);
 }
 
 }  // namespace
@@ -120,17 +123,17 @@ std::vector<std::string> write_report(const std::string& folder, const Provenanc
   PageParts parts;
   parts.title = provenance.sweep_name;
   if (extent == PageExtent::whole) {
-    add_drawn_parts(folder, rows, analysis, comparisons, parts, missing);
+    add_drawn_parts(folder, provenance.units, rows, analysis, comparisons, parts, missing);
   } else {
     remove_drawn(folder);
     parts.no_figures =
         "the run was stopped before its end; grainsweep report " + folder + " draws what there is";
   }
-  parts.summary = summary_section(rows);
-  parts.groups = groups_section(analysis.groups);
-  parts.fits = fits_section(analysis.families);
+  parts.summary = summary_section(rows, provenance.units);
+  parts.groups = groups_section(analysis.groups, provenance.units);
+  parts.fits = fits_section(analysis.families, provenance.units);
   parts.published = published_section(reference ? reference->source : "", comparisons);
-  parts.packings = packings_section(rows, analysis.groups);
+  parts.packings = packings_section(rows, analysis.groups, provenance.units);
   parts.provenance = provenance_section(provenance);
   parts.closing_table = closing_report(provenance, rows, analysis.families, {"grainsweep", folder});
   replace_file(folder + "/report.html", page_text(parts));

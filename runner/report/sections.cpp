@@ -8,6 +8,7 @@
 #include "runner/report/html.hpp"
 #include "runner/store/fields.hpp"
 #include "runner/tables/fits.hpp"
+#include "runner/tables/units.hpp"
 #include "runner/text.hpp"
 
 namespace grainsweep {
@@ -31,41 +32,66 @@ Heading heading(const char* title, std::string_view field) {
   return {title, std::string(field_named(field).meaning)};
 }
 
+Heading width_heading(const Units& units) {
+  return {"W / " + printed_unit(units), "gap between the walls"};
+}
+
+/// A fitted length in d, and in the unit of the sweep where it has one.
+void append_length(const Estimate& length, int decimals, const GivenUnits& units,
+                   std::vector<std::string>& cells) {
+  cells.push_back(mean_text(length.value, length.error, decimals));
+  if (!units) return;
+  cells.push_back(
+      mean_text(units->d * length.value, units->d * length.error, decimals_in(*units, decimals)));
+}
+
 std::string settled_of(const StatusCounts& counts) {
   const int all = counts.settled + counts.not_settled + counts.failed + counts.pending;
   return std::to_string(counts.settled) + " of " + std::to_string(all);
 }
 
-std::vector<std::string> group_cells(const Group& group) {
-  return {html_text(title_of(group)),
-          html_text(settled_of(group.counts)),
-          mean_text(mean_of(group, "solid_fraction"), 4),
-          fixed(1.0 - mean_of(group, "solid_fraction").mean, 4),
-          mean_text(mean_of(group, "coordination"), 3),
-          mean_text(mean_of(group, "coordination_with_walls"), 3),
-          fixed(mean_of(group, "contact_ratio").mean, 4),
-          power_text(mean_of(group, "overlap_mean").mean),
-          fixed(mean_of(group, "static_imbalance_mean").mean, 4)};
+/// Cells that only a sweep with units has, behind those of the group.
+void append_unit_cells(const Group& group, const GivenUnits& units,
+                       std::vector<std::string>& cells) {
+  if (!units) return;
+  const Spread& phi = mean_of(group, "solid_fraction");
+  cells.push_back(length_in(*units, group.job.box.width));
+  if (units->density) cells.push_back(bulk_density_text(*units, phi.mean, phi.error));
 }
 
-std::vector<std::string> fit_cells(const Family& family, Quantity quantity) {
+std::vector<std::string> group_cells(const Group& group, const GivenUnits& units) {
+  std::vector<std::string> cells = {html_text(title_of(group)),
+                                    html_text(settled_of(group.counts)),
+                                    mean_text(mean_of(group, "solid_fraction"), 4),
+                                    fixed(1.0 - mean_of(group, "solid_fraction").mean, 4),
+                                    mean_text(mean_of(group, "coordination"), 3),
+                                    mean_text(mean_of(group, "coordination_with_walls"), 3),
+                                    fixed(mean_of(group, "contact_ratio").mean, 4),
+                                    power_text(mean_of(group, "overlap_mean").mean),
+                                    fixed(mean_of(group, "static_imbalance_mean").mean, 4)};
+  append_unit_cells(group, units, cells);
+  return cells;
+}
+
+std::vector<std::string> fit_cells(const Family& family, Quantity quantity,
+                                   const GivenUnits& units) {
   const bool is_phi = quantity == Quantity::solid_fraction;
   const int decimals = is_phi ? 4 : 3;
   const WallFit fit = fit_walls(family, quantity);
   std::vector<std::string> cells = {html_text(family.name), is_phi ? "φ" : "Z",
                                     std::to_string(fit.widths)};
   if (!fit.not_determined.empty()) {
-    cells.insert(cells.end(), {"-", "-", "-", "-", "-"});
+    cells.insert(cells.end(), units ? 7 : 5, "-");
     cells.push_back("not determined: " + html_text(fit.not_determined));
     return cells;
   }
   const Group* reference = unconfined_reference(family);
   const std::string unconfined =
       reference == nullptr ? "-" : mean_text(spread_of(*reference, quantity), decimals);
-  cells.insert(cells.end(), {mean_text(fit.bulk.value, fit.bulk.error, decimals), unconfined,
-                             mean_text(fit.slope.value, fit.slope.error, decimals - 1),
-                             mean_text(fit.zeta.value, fit.zeta.error, 3),
-                             fixed(fit.chi2_per_dof, 2), html_text(fit.doubt)});
+  cells.insert(cells.end(), {mean_text(fit.bulk.value, fit.bulk.error, decimals), unconfined});
+  append_length(fit.slope, decimals - 1, units, cells);
+  append_length(fit.zeta, 3, units, cells);
+  cells.insert(cells.end(), {fixed(fit.chi2_per_dof, 2), html_text(fit.doubt)});
   return cells;
 }
 
@@ -84,11 +110,12 @@ std::string status_words(const Row& row) {
 /// What tells the group of a packing from the others.
 using Titles = std::map<std::pair<std::string, std::string>, std::string>;
 
-std::vector<std::string> packing_cells(const Row& row, const Titles& titles) {
+std::vector<std::string> packing_cells(const Row& row, const Titles& titles,
+                                       const GivenUnits& units) {
   const JobFacts& job = row.job;
   const std::string remedy = remedy_of(row);
   const std::string reason = row.outcome ? row.outcome->result.reason : "";
-  return {
+  std::vector<std::string> cells = {
       "<code>" + html_text(job.id) + "</code>",
       "<span class=\"status " + html_text(status_of(row)) + "\">" + html_text(status_words(row)) +
           "</span>",
@@ -102,6 +129,8 @@ std::vector<std::string> packing_cells(const Row& row, const Titles& titles) {
       measured(row, "static_imbalance_mean", 4),
       row.outcome ? fixed(row.outcome->cpu_seconds, 2) : "-",
       html_text(reason) + (remedy.empty() ? "" : "<br><em>What to do:</em> " + html_text(remedy))};
+  if (units) cells.insert(cells.begin() + 4, length_in(*units, job.box.width));
+  return cells;
 }
 
 std::string published_value(const Published& published) {
@@ -142,7 +171,7 @@ std::vector<std::string> run_cells(const RunRecord& run) {
 
 }  // namespace
 
-std::string summary_section(const std::vector<Row>& rows) {
+std::string summary_section(const std::vector<Row>& rows, const GivenUnits& units) {
   const Totals totals = totals_of(rows);
   const StatusCounts& counts = totals.counts;
   std::string text =
@@ -154,6 +183,7 @@ std::string summary_section(const std::vector<Row>& rows) {
   add(counts.failed, "failed");
   add(counts.pending, "not made yet");
   text += "; processor time " + duration_text(totals.cpu_seconds) + ".";
+  if (units) text += " Lengths are in d; " + units_text(*units) + ".";
   if (counts.settled != static_cast<int>(rows.size())) {
     text +=
         " Only settled packings enter means, fits and curves; the table of packings says what "
@@ -162,7 +192,7 @@ std::string summary_section(const std::vector<Row>& rows) {
   return "<p class=\"summary\">" + html_text(text) + "</p>\n";
 }
 
-std::string groups_section(const std::vector<Group>& groups) {
+std::string groups_section(const std::vector<Group>& groups, const GivenUnits& units) {
   HtmlTable table{"groups", "Means and their standard errors", {}, {}};
   table.headings = {{"parameters", "label and what differs within the sweep"},
                     {"settled", "packings that enter the means"},
@@ -173,25 +203,29 @@ std::string groups_section(const std::vector<Group>& groups) {
                     heading("contacts / isostatic", "contact_ratio"),
                     heading("overlap / d", "overlap_mean"),
                     heading("imbalance", "static_imbalance_mean")};
-  for (const Group& group : groups) table.rows.push_back(group_cells(group));
+  if (units) table.headings.push_back(width_heading(*units));
+  if (units && units->density) table.headings.push_back({"bulk density / kg/m³"});
+  for (const Group& group : groups) table.rows.push_back(group_cells(group, units));
   return html_table(table);
 }
 
-std::string fits_section(const std::vector<Family>& families) {
+std::string fits_section(const std::vector<Family>& families, const GivenUnits& units) {
   HtmlTable table{"fits", "Wall effect: φ = φ_bulk - C / W and Z = Z_bulk - C_Z / W", {}, {}};
   table.headings = {{"family"},
                     {"of"},
                     {"widths"},
                     {"bulk", "the value without walls, from the line"},
                     {"periodic", "measured without walls"},
-                    {"C / d", "slope of the line"},
-                    {"ζ / d", "slope over bulk value"},
-                    {"χ²/dof", "about 1 if the line holds"},
-                    {"remark"}};
+                    {"C / d", "slope of the line"}};
+  if (units) table.headings.push_back({"C / " + printed_unit(*units), "slope of the line"});
+  table.headings.push_back({"ζ / d", "slope over bulk value"});
+  if (units) table.headings.push_back({"ζ / " + printed_unit(*units), "slope over bulk value"});
+  table.headings.push_back({"χ²/dof", "about 1 if the line holds"});
+  table.headings.push_back({"remark"});
   for (const Family& family : families) {
     if (family.walled.empty()) continue;
     for (const Quantity quantity : {Quantity::solid_fraction, Quantity::coordination}) {
-      table.rows.push_back(fit_cells(family, quantity));
+      table.rows.push_back(fit_cells(family, quantity, units));
     }
   }
   return table.rows.empty() ? "" : html_table(table);
@@ -210,7 +244,8 @@ std::string published_section(const std::string& source,
   return html_table(table);
 }
 
-std::string packings_section(const std::vector<Row>& rows, const std::vector<Group>& groups) {
+std::string packings_section(const std::vector<Row>& rows, const std::vector<Group>& groups,
+                             const GivenUnits& units) {
   Titles titles;
   for (const Group& group : groups) {
     titles[{group.job.label, group.job.parameters}] = title_of(group);
@@ -228,13 +263,15 @@ std::string packings_section(const std::vector<Row>& rows, const std::vector<Gro
                     heading("imbalance", "static_imbalance_mean"),
                     heading("CPU / s", "cpu_seconds"),
                     {"reason"}};
+  if (units) table.headings.insert(table.headings.begin() + 4, width_heading(*units));
   std::vector<const Row*> sorted;
   sorted.reserve(rows.size());
   for (const Row& row : rows) sorted.push_back(&row);
   std::stable_sort(sorted.begin(), sorted.end(),
                    [](const Row* a, const Row* b) { return order_of(*a) < order_of(*b); });
   const std::size_t shown = std::min(most_packings, sorted.size());
-  for (std::size_t k = 0; k < shown; ++k) table.rows.push_back(packing_cells(*sorted[k], titles));
+  for (std::size_t k = 0; k < shown; ++k)
+    table.rows.push_back(packing_cells(*sorted[k], titles, units));
   const std::string left_out =
       shown == sorted.size() ? ""
                              : "<p class=\"note\">The first " + std::to_string(shown) + " of " +

@@ -15,20 +15,21 @@ namespace grainsweep {
 inline constexpr std::size_t most_packings = 2000;
 
 /// How many packings there are and what became of them, in a sentence.
-std::string summary_section(const std::vector<Row>& rows);
+std::string summary_section(const std::vector<Row>& rows, const GivenUnits& units = {});
 
 /// Means and standard errors of every parameter set.
-std::string groups_section(const std::vector<Group>& groups);
+std::string groups_section(const std::vector<Group>& groups, const GivenUnits& units = {});
 
 /// The wall effect of every family, or why it is not determined; empty without walls.
-std::string fits_section(const std::vector<Family>& families);
+std::string fits_section(const std::vector<Family>& families, const GivenUnits& units = {});
 
 /// Published values beside the measured ones, with both definitions; empty without any.
 std::string published_section(const std::string& source,
                               const std::vector<Comparison>& comparisons);
 
 /// A packing per row, those that did not settle first, with the reason and what to do about it.
-std::string packings_section(const std::vector<Row>& rows, const std::vector<Group>& groups);
+std::string packings_section(const std::vector<Row>& rows, const std::vector<Group>& groups,
+                             const GivenUnits& units = {});
 
 /// What to do about a packing that did not settle; empty if it did.
 std::string remedy_of(const Row& row);

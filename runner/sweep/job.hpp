@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/scene/spec.hpp"
+#include "runner/sweep/units.hpp"
 
 namespace grainsweep {
 
@@ -27,6 +28,7 @@ struct Sweep {
   std::uint64_t seed = 0;
   int replicates = 1;
   std::vector<Job> jobs;  ///< in the order of the file: block, point, replicate; no id twice
+  GivenUnits units = {};  ///< what people want lengths in; no part of any job
 };
 
 }  // namespace grainsweep

@@ -28,7 +28,8 @@ SweepReading read_sweep(const std::string& path) {
     std::erase_if(diagnostics, is_note);
     return {{}, std::move(diagnostics), {}};
   }
-  Sweep sweep{definition.name, definition.seed, definition.replicates, std::move(jobs)};
+  Sweep sweep{definition.name, definition.seed, definition.replicates, std::move(jobs),
+              definition.units};
   return {std::move(sweep), {}, std::move(diagnostics)};
 }
 

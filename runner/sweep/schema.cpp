@@ -9,6 +9,7 @@
 #include "runner/sweep/random_paths.hpp"
 #include "runner/sweep/schema_rules.hpp"
 #include "runner/sweep/sweep_definition.hpp"
+#include "runner/sweep/units.hpp"
 #include "runner/sweep/values.hpp"
 
 namespace grainsweep {
@@ -233,6 +234,20 @@ Json name_schema() {
           {"pattern", "^[A-Za-z0-9_-][A-Za-z0-9._-]{0,99}$"}};
 }
 
+Json units_schema() {
+  Json names = Json::array();
+  for (const char* const unit : length_units) names.push_back({{"const", unit}});
+  Json units = closed_object(
+      {{"d", described("mean diameter of the large grains, in `unit`",
+                       {{"type", "number"}, {"exclusiveMinimum", 0}, {"maximum", largest_length}})},
+       {"unit", described("that lengths are printed in, too", {{"anyOf", names}})},
+       {"density", described("of the grains' solid, kg/m3", {{"type", "number"},
+                                                             {"minimum", least_density},
+                                                             {"maximum", largest_density}})}});
+  units["required"] = {"d", "unit"};
+  return units;
+}
+
 }  // namespace
 
 std::string sweep_schema() {
@@ -247,6 +262,8 @@ std::string sweep_schema() {
        {"seed", described("master seed of the random numbers",
                           kind_of(parameters()[parameter_with(Role::seed)]))},
        {"replicates", replicates()},
+       {"units",
+        described("what d is in a laboratory; packings do not depend on it", units_schema())},
        {"base", described("what all packings share", base_schema())},
        {"sweep", described("blocks of packings, joined", list_of(block_schema()))}}));
   schema["required"] = {"name"};

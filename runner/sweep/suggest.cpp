@@ -64,4 +64,12 @@ std::string unknown_key(std::string_view key, const std::vector<std::string>& kn
   return start + "did you mean \"" + near + "\"?";
 }
 
+void refuse_unknown_keys(const Json& object, const std::string& pointer,
+                         const std::vector<std::string>& known, Diagnostics& diagnostics) {
+  for (const auto& [key, value] : object.items()) {
+    if (std::find(known.begin(), known.end(), key) != known.end()) continue;
+    diagnostics.push_back({child_pointer(pointer, key), unknown_key(key, known), Anchor::key});
+  }
+}
+
 }  // namespace grainsweep

@@ -6,6 +6,9 @@
 #include <string_view>
 #include <vector>
 
+#include "runner/sweep/diagnostic.hpp"
+#include "runner/sweep/json_text.hpp"
+
 namespace grainsweep {
 
 /// Insertions, deletions, replacements and swaps of neighbours that turn `a` into `b`.
@@ -26,5 +29,9 @@ std::string short_list(const std::vector<std::string>& words);
 /// "unknown key "widht"; did you mean "width"?", or the keys known there (without dotted ones) if
 /// none is near.
 std::string unknown_key(std::string_view key, const std::vector<std::string>& known);
+
+/// Notes each member of `object`, which stands at `pointer`, that is not known there.
+void refuse_unknown_keys(const Json& object, const std::string& pointer,
+                         const std::vector<std::string>& known, Diagnostics& diagnostics);
 
 }  // namespace grainsweep

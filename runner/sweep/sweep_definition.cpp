@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "runner/sweep/random_paths.hpp"
+#include "runner/sweep/read_units.hpp"
 #include "runner/sweep/shape_kind.hpp"
 #include "runner/sweep/suggest.hpp"
 #include "runner/sweep/text_lines.hpp"
@@ -15,14 +16,6 @@
 
 namespace grainsweep {
 namespace {
-
-void refuse_unknown_keys(const Json& object, const std::string& pointer,
-                         const std::vector<std::string>& known, Diagnostics& diagnostics) {
-  for (const auto& [key, value] : object.items()) {
-    if (std::find(known.begin(), known.end(), key) != known.end()) continue;
-    diagnostics.push_back({child_pointer(pointer, key), unknown_key(key, known), Anchor::key});
-  }
-}
 
 /// Whether `value` is an object; otherwise a problem is noted.
 bool is_object(const Json& value, const std::string& pointer, const char* what,
@@ -327,12 +320,13 @@ SweepDefinition read_definition(const Json& file, Diagnostics& diagnostics) {
   if (!is_object(file, "", "an object with name, seed, replicates, base, sweep", diagnostics)) {
     return definition;
   }
-  refuse_unknown_keys(file, "", {"name", "seed", "replicates", "base", "sweep", "$schema"},
+  refuse_unknown_keys(file, "", {"name", "seed", "replicates", "units", "base", "sweep", "$schema"},
                       diagnostics);
   expect_schema_name(file, diagnostics);
   definition.name = read_name(file, diagnostics);
   definition.seed = read_seed(file, diagnostics);
   definition.replicates = read_replicates(file, "", 1, diagnostics);
+  definition.units = read_units(file, diagnostics);
   definition.base = read_base(file, diagnostics);
   read_sweep_list(file, definition, diagnostics);
   return definition;

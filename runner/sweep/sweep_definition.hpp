@@ -9,6 +9,7 @@
 #include "runner/sweep/diagnostic.hpp"
 #include "runner/sweep/json_text.hpp"
 #include "runner/sweep/random_points.hpp"
+#include "runner/sweep/units.hpp"
 
 namespace grainsweep {
 
@@ -37,6 +38,7 @@ struct SweepDefinition {
   std::string name;
   std::uint64_t seed = 0;
   int replicates = 1;
+  GivenUnits units;
   Assignments base;
   std::vector<Block> blocks;
 };

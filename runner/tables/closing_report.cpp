@@ -4,12 +4,14 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <map>
 #include <set>
 
 #include "runner/tables/csv.hpp"
 #include "runner/tables/families.hpp"
 #include "runner/tables/fits.hpp"
+#include "runner/tables/units.hpp"
 #include "runner/text.hpp"
 
 namespace grainsweep {
@@ -37,6 +39,12 @@ std::string cells_text(const std::string& width, const std::array<std::string, 5
          pad_left(cells[2], 14) + pad_left(cells[3], 10) + pad_left(cells[4], 11) + "\n";
 }
 
+/// The columns of a table: their heads, and the cells of a group.
+struct TableColumns {
+  std::string heads;
+  std::function<std::string(const Group&)> cells;
+};
+
 std::string cells_of(const Group& group) {
   const bool is_walled = group.job.box.y == Boundary::walls;
   const std::string width = cell(group.job.box.width);
@@ -60,9 +68,32 @@ void append_lines(const Family& family, std::vector<TableLine>& lines) {
   for (const Group& group : family.periodic) lines.push_back({family.distinction, &group});
 }
 
+/// What is measured.
+TableColumns measured_columns() {
+  return {cells_text("W/d", {"φ ± sd", "Z ± sd", "contacts/iso", "overlap/d", "packings"}),
+          cells_of};
+}
+
+/// The same in the units of the sweep.
+TableColumns laboratory_columns(const Units& units) {
+  const auto cells = [](const std::string& width, const std::string& porosity,
+                        const std::string& density) {
+    return pad_right(width, 14) + pad_left(porosity, 19) + pad_left(density, 17) + "\n";
+  };
+  return {cells("W/" + printed_unit(units), "porosity ± sd", units.density ? "kg/m³ ± sd" : ""),
+          [=](const Group& group) {
+            const Spread& phi = mean_of(group, "solid_fraction");
+            const bool is_walled = group.job.box.y == Boundary::walls;
+            return cells(length_in(units, group.job.box.width) + (is_walled ? "" : " periodic"),
+                         with_error(1.0 - phi.mean, phi.sd, solid_fraction_decimals),
+                         units.density ? bulk_density_text(units, phi.mean, phi.sd) : "");
+          }};
+}
+
 /// The first of the lines beneath what their columns are. Names stand in a column of their own, or
 /// where they are long above their lines.
-std::string table_text(const std::vector<TableLine>& lines) {
+std::string table_text(const std::vector<TableLine>& lines,
+                       const TableColumns& columns = measured_columns()) {
   constexpr std::size_t longest_in_column = 17, most_lines = 60;
   std::size_t longest = 0;
   for (const TableLine& line : lines) longest = std::max(longest, line.name.size());
@@ -70,13 +101,12 @@ std::string table_text(const std::vector<TableLine>& lines) {
   const auto indent = [&](const std::string& name) {
     return has_column ? "  " + pad_right(name, longest + 2) : std::string("  ");
   };
-  std::string text =
-      indent("") + cells_text("W/d", {"φ ± sd", "Z ± sd", "contacts/iso", "overlap/d", "packings"});
+  std::string text = indent("") + columns.heads;
   for (std::size_t k = 0; k < std::min(lines.size(), most_lines); ++k) {
     const std::string& name = lines[k].name;
     const bool is_new = k == 0 || name != lines[k - 1].name;
     if (is_new && longest > longest_in_column) text += " " + name + "\n";
-    text += indent(name) + cells_of(*lines[k].group);
+    text += indent(name) + columns.cells(*lines[k].group);
   }
   if (lines.size() <= most_lines) return text;
   return text + "  and " + std::to_string(lines.size() - most_lines) + " more, see groups.csv\n";
@@ -101,7 +131,8 @@ std::string quality_text(const WallFit& fit) {
 }
 
 /// One fit: the symbols, bulk value beside the periodic one, slope, and how good the line is.
-std::string fit_text(const Family& family, Quantity quantity, int decimals) {
+std::string fit_text(const Family& family, Quantity quantity, int decimals,
+                     const GivenUnits& units) {
   const bool is_phi = quantity == Quantity::solid_fraction;
   const std::string symbol = is_phi ? "φ" : "Z", slope = is_phi ? "C" : "C_Z";
   const std::string law = "  " + symbol + " = " + symbol + "_bulk - " + slope + "/W:  ";
@@ -112,22 +143,22 @@ std::string fit_text(const Family& family, Quantity quantity, int decimals) {
   std::string text =
       law + symbol + "_bulk = " + with_error(fit.bulk.value, fit.bulk.error, decimals) +
       protocol_text(fit, decimals) + reference_text(family, quantity, decimals) + "\n" + "      " +
-      slope + " = " + with_error(fit.slope.value, fit.slope.error, decimals - 1) +
-      " d,  ζ = " + slope + "/" + symbol +
-      "_bulk = " + with_error(fit.zeta.value, fit.zeta.error, 3) + " d  " + quality_text(fit) +
-      "\n";
+      slope + " = " + length_text(fit.slope.value, fit.slope.error, decimals - 1, units) +
+      ",  ζ = " + slope + "/" + symbol +
+      "_bulk = " + length_text(fit.zeta.value, fit.zeta.error, 3, units) +
+      (units ? "\n      " : "  ") + quality_text(fit) + "\n";
   if (!fit.doubt.empty()) text += "      " + fit.doubt + "; errors widened by √(χ²/dof)\n";
   return text;
 }
 
 /// A family with its fits.
-std::string family_text(const Family& family) {
+std::string family_text(const Family& family, const GivenUnits& units) {
   std::vector<TableLine> lines;
   append_lines(family, lines);
   for (TableLine& line : lines) line.name.clear();
   return "\n" + family.name + "\n" + table_text(lines) +
-         fit_text(family, Quantity::solid_fraction, solid_fraction_decimals) +
-         fit_text(family, Quantity::coordination, coordination_decimals);
+         fit_text(family, Quantity::solid_fraction, solid_fraction_decimals, units) +
+         fit_text(family, Quantity::coordination, coordination_decimals, units);
 }
 
 /// Families of the same labels, all of them at too few widths to tell what walls do.
@@ -147,7 +178,7 @@ std::string families_text(const std::vector<const Family*>& families) {
   return text;
 }
 
-std::string tables_text(const std::vector<Family>& families) {
+std::string tables_text(const std::vector<Family>& families, const GivenUnits& units) {
   constexpr std::size_t fewest_widths = 3;
   std::map<std::string, std::vector<const Family*>> narrow;  // by labels
   for (const Family& family : families) {
@@ -156,12 +187,25 @@ std::string tables_text(const std::vector<Family>& families) {
   std::string text;
   for (const Family& family : families) {
     if (family.walled.size() >= fewest_widths) {
-      text += family_text(family);
+      text += family_text(family, units);
     } else if (narrow[family.labels].front() == &family) {
       text += families_text(narrow[family.labels]);
     }
   }
   return text;
+}
+
+/// All groups again, in the units of the sweep; nothing without any.
+std::string laboratory_text(const std::vector<Family>& families, const GivenUnits& units) {
+  if (!units) return "";
+  std::vector<TableLine> lines;
+  for (const Family& family : families) append_lines(family, lines);
+  std::size_t line = 0;
+  for (const Family& family : families) {
+    const std::size_t end = line + family.walled.size() + family.periodic.size();
+    for (; line < end; ++line) lines[line].name = families.size() > 1 ? family.name : "";
+  }
+  return "\n" + units_text(*units) + "\n" + table_text(lines, laboratory_columns(*units));
 }
 
 /// Distinct values of a definition over the sweep: "3", or "2 or 3".
@@ -270,9 +314,10 @@ std::string closing_report(const Provenance& provenance, const std::vector<Row>&
                            const std::vector<Family>& families, const ReportPlace& place) {
   const Totals totals = totals_of(rows);
   std::string text = headline(provenance.sweep_name, rows.size(), totals.counts);
-  return text + tables_text(families) + definitions_text(rows) + bias_text(families) +
-         reasons_text(rows) + effort_text(provenance, totals.cpu_seconds) + "Tables in " +
-         place.folder +
+  return text + tables_text(families, provenance.units) +
+         laboratory_text(families, provenance.units) + definitions_text(rows) +
+         bias_text(families) + reasons_text(rows) + effort_text(provenance, totals.cpu_seconds) +
+         "Tables in " + place.folder +
          ": packings.csv, groups.csv, fits.csv, profiles.csv, decays.csv and more;\n"
          "provenance.json says how they were made\n" +
          next_text(sweep_file_of(provenance), totals.counts, place);

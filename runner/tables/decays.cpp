@@ -72,7 +72,7 @@ Columns<DecayLine> decay_status_columns() {
   };
 }
 
-Columns<DecayLine> decay_line_columns(const Varied& varied) {
+Columns<DecayLine> decay_line_columns(const Varied& varied, const GivenUnits& units) {
   Columns<DecayLine> columns;
   append(columns, group_line_columns(varied),
          [](const DecayLine& line) -> const Group& { return line.group; });
@@ -95,6 +95,7 @@ Columns<DecayLine> decay_line_columns(const Varied& varied) {
   columns.push_back({"misfit", "",
                      "root mean square of the residuals over that of the mean's errors",
                      decay_cell([](const DecayFit& fit) { return fit.misfit; })});
+  append_in_units(columns, units);
   return columns;
 }
 
@@ -109,12 +110,12 @@ DecayFit decay_of(const Group& group, GrainClass grains) {
   return fit_decay(halves_of(group, grains), bin_width, fit.window_end);
 }
 
-std::vector<ColumnText> decays_columns(const Varied& varied) {
-  return described("decays.csv", decay_line_columns(varied));
+std::vector<ColumnText> decays_columns(const Varied& varied, const GivenUnits& units) {
+  return described("decays.csv", decay_line_columns(varied, units));
 }
 
-std::string decays_csv(const std::vector<Group>& groups) {
-  const Columns<DecayLine> columns = decay_line_columns(varied_of(groups));
+std::string decays_csv(const std::vector<Group>& groups, const GivenUnits& units) {
+  const Columns<DecayLine> columns = decay_line_columns(varied_of(groups), units);
   std::string text = header_line(columns);
   for (const Group& group : groups) {
     for (const GrainClass grains : {GrainClass::large, GrainClass::small}) {

@@ -9,6 +9,7 @@
 
 #include "runner/analysis/decay.hpp"
 #include "runner/tables/groups.hpp"
+#include "runner/tables/units.hpp"
 
 namespace grainsweep {
 
@@ -19,8 +20,8 @@ enum class GrainClass { large, small };
 DecayFit decay_of(const Group& group, GrainClass grains);
 
 /// The whole file: two rows per group.
-std::string decays_csv(const std::vector<Group>& groups);
+std::string decays_csv(const std::vector<Group>& groups, const GivenUnits& units = {});
 
-std::vector<ColumnText> decays_columns(const Varied& varied);
+std::vector<ColumnText> decays_columns(const Varied& varied, const GivenUnits& units = {});
 
 }  // namespace grainsweep

@@ -21,7 +21,7 @@ struct PointLine {
   CurvePoint point;
 };
 
-Columns<PointLine> curve_line_columns(const Varied& varied) {
+Columns<PointLine> curve_line_columns(const Varied& varied, const GivenUnits& units) {
   Columns<PointLine> columns;
   append(columns, group_line_columns(varied),
          [](const PointLine& line) -> const Group& { return line.group; });
@@ -39,6 +39,7 @@ Columns<PointLine> curve_line_columns(const Varied& varied) {
               [](const PointLine& line) { return cell(line.point.value.n); }}});
   append_spread(columns, "value", "", "of the curve in the bin, mean over the packings",
                 [](const PointLine& line) { return line.point.value; });
+  append_in_units(columns, units);
   return columns;
 }
 
@@ -66,12 +67,12 @@ std::vector<CurvePoint> mean_curve(const Group& group, Curve Order::*curve) {
   return points;
 }
 
-std::vector<ColumnText> distributions_columns(const Varied& varied) {
-  return described("distributions.csv", curve_line_columns(varied));
+std::vector<ColumnText> distributions_columns(const Varied& varied, const GivenUnits& units) {
+  return described("distributions.csv", curve_line_columns(varied, units));
 }
 
-std::string distributions_csv(const std::vector<Group>& groups) {
-  const Columns<PointLine> columns = curve_line_columns(varied_of(groups));
+std::string distributions_csv(const std::vector<Group>& groups, const GivenUnits& units) {
+  const Columns<PointLine> columns = curve_line_columns(varied_of(groups), units);
   std::string text = header_line(columns);
   for (const Group& group : groups) {
     append_curve_lines(group, "pair_correlation", &Order::pair_correlation, columns, text);

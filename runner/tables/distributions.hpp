@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "runner/tables/groups.hpp"
+#include "runner/tables/units.hpp"
 
 namespace grainsweep {
 
@@ -19,8 +20,8 @@ struct CurvePoint {
 std::vector<CurvePoint> mean_curve(const Group& group, Curve Order::*curve);
 
 /// The whole file.
-std::string distributions_csv(const std::vector<Group>& groups);
+std::string distributions_csv(const std::vector<Group>& groups, const GivenUnits& units = {});
 
-std::vector<ColumnText> distributions_columns(const Varied& varied);
+std::vector<ColumnText> distributions_columns(const Varied& varied, const GivenUnits& units = {});
 
 }  // namespace grainsweep

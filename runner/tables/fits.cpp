@@ -122,7 +122,7 @@ Columns<FitLine> fit_status_columns() {
   };
 }
 
-Columns<FitLine> fit_line_columns() {
+Columns<FitLine> fit_line_columns(const GivenUnits& units) {
   Columns<FitLine> columns = fit_status_columns();
   const auto add = [&](const char* name, const char* unit, const char* meaning,
                        Estimate WallFit::*estimate) {
@@ -159,6 +159,7 @@ Columns<FitLine> fit_line_columns() {
               reference_cell([](Reference /*group*/, Value at) { return at.n; })},
              {"parameters", "", "of the family, as JSON",
               [](const FitLine& line) { return cell(line.family.parameters); }}});
+  append_in_units(columns, units);
   return columns;
 }
 
@@ -167,7 +168,7 @@ struct FitPointLine {
   FitPoint point;
 };
 
-Columns<FitPointLine> fit_point_columns(const Varied& varied) {
+Columns<FitPointLine> fit_point_columns(const Varied& varied, const GivenUnits& units) {
   using Line = const FitPointLine&;
   Columns<Group> of_group = group_key_columns();
   append(of_group, job_columns({"job", "label", "boundary_y", "small_share"}),
@@ -192,6 +193,7 @@ Columns<FitPointLine> fit_point_columns(const Varied& varied) {
           {"residual_in_errors", "", "residual over error", [](Line line) {
              return cell((line.point.mean - line.point.fitted) / line.point.error);
            }}});
+  append_in_units(columns, units);
   return columns;
 }
 
@@ -236,14 +238,16 @@ const Group* unconfined_reference(const Family& family) {
   return widest;
 }
 
-std::vector<ColumnText> fits_columns() { return described("fits.csv", fit_line_columns()); }
-
-std::vector<ColumnText> fit_points_columns(const Varied& varied) {
-  return described("fit_points.csv", fit_point_columns(varied));
+std::vector<ColumnText> fits_columns(const GivenUnits& units) {
+  return described("fits.csv", fit_line_columns(units));
 }
 
-std::string fits_csv(const std::vector<Family>& families) {
-  const Columns<FitLine> columns = fit_line_columns();
+std::vector<ColumnText> fit_points_columns(const Varied& varied, const GivenUnits& units) {
+  return described("fit_points.csv", fit_point_columns(varied, units));
+}
+
+std::string fits_csv(const std::vector<Family>& families, const GivenUnits& units) {
+  const Columns<FitLine> columns = fit_line_columns(units);
   std::string text = header_line(columns);
   for (const Family& family : families) {
     if (family.walled.empty()) continue;
@@ -254,9 +258,9 @@ std::string fits_csv(const std::vector<Family>& families) {
   return text;
 }
 
-std::string fit_points_csv(const std::vector<Family>& families) {
-  const Columns<FitPointLine> columns =
-      fit_point_columns(families.empty() ? Varied() : varied_of(first_group(families.front())));
+std::string fit_points_csv(const std::vector<Family>& families, const GivenUnits& units) {
+  const Columns<FitPointLine> columns = fit_point_columns(
+      families.empty() ? Varied() : varied_of(first_group(families.front())), units);
   std::string text = header_line(columns);
   for (const Family& family : families) {
     for (const Quantity quantity : fitted_quantities) {

@@ -56,13 +56,13 @@ WallFit fit_walls(const Family& family, Quantity quantity);
 const Group* unconfined_reference(const Family& family);
 
 /// The whole file: two rows per family with walls.
-std::string fits_csv(const std::vector<Family>& families);
+std::string fits_csv(const std::vector<Family>& families, const GivenUnits& units = {});
 
 /// fit_points.csv: a row per width of each fit, with the residual, in the quantity's unit and in
 /// standard errors of the point.
-std::string fit_points_csv(const std::vector<Family>& families);
+std::string fit_points_csv(const std::vector<Family>& families, const GivenUnits& units = {});
 
-std::vector<ColumnText> fits_columns();
-std::vector<ColumnText> fit_points_columns(const Varied& varied);
+std::vector<ColumnText> fits_columns(const GivenUnits& units = {});
+std::vector<ColumnText> fit_points_columns(const Varied& varied, const GivenUnits& units = {});
 
 }  // namespace grainsweep

@@ -212,7 +212,7 @@ Columns<Group> group_line_columns(const Varied& varied) {
   return columns;
 }
 
-Columns<Group> groups_columns(const Varied& varied) {
+Columns<Group> groups_columns(const Varied& varied, const GivenUnits& units) {
   Columns<Group> columns = group_key_columns();
   append(columns,
          job_columns({"job", "label", "shape", "length", "width", "boundary_x", "boundary_y",
@@ -227,11 +227,12 @@ Columns<Group> groups_columns(const Varied& varied) {
   append(columns, bias_columns());
   append(columns, varied_columns(varied));
   append(columns, job_columns({"parameters"}), job_of_group);
+  append_in_units(columns, units);
   return columns;
 }
 
-std::string groups_csv(const std::vector<Group>& groups) {
-  const Columns<Group> columns = groups_columns(varied_of(groups));
+std::string groups_csv(const std::vector<Group>& groups, const GivenUnits& units) {
+  const Columns<Group> columns = groups_columns(varied_of(groups), units);
   std::string text = header_line(columns);
   for (const Group& group : groups) text += row_line(columns, group);
   return text;

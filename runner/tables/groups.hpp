@@ -10,6 +10,7 @@
 
 #include "runner/tables/columns.hpp"
 #include "runner/tables/job_facts.hpp"
+#include "runner/tables/units.hpp"
 
 namespace grainsweep {
 
@@ -83,9 +84,9 @@ void append_spread(Columns<Item>& columns, const std::string& name, const std::s
                      [=](const Item& item) { return cell(spread(item).error); }});
 }
 
-Columns<Group> groups_columns(const Varied& varied);
+Columns<Group> groups_columns(const Varied& varied, const GivenUnits& units = {});
 
 /// The whole file.
-std::string groups_csv(const std::vector<Group>& groups);
+std::string groups_csv(const std::vector<Group>& groups, const GivenUnits& units = {});
 
 }  // namespace grainsweep

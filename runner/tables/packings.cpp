@@ -67,7 +67,7 @@ void append_before(std::string_view field, const std::vector<double>& tolerances
 }  // namespace
 
 Columns<PackingLine> packings_columns(const std::vector<double>& further_tolerances,
-                                      const Varied& varied) {
+                                      const Varied& varied, const GivenUnits& units) {
   Columns<Row> of_row;
   for (const Field& field : fields()) {
     if (!field.use.packings) continue;
@@ -80,6 +80,7 @@ Columns<PackingLine> packings_columns(const std::vector<double>& further_toleran
   Columns<Group> of_group = group_key_columns();
   append(of_group, varied_columns(varied));
   append(columns, of_group, [](const PackingLine& line) -> const Group& { return line.group; });
+  append_in_units(columns, units);
   return columns;
 }
 
@@ -94,9 +95,10 @@ std::vector<double> further_tolerances(const std::vector<Row>& rows) {
   return tolerances;
 }
 
-std::string packings_csv(const std::vector<Row>& rows, const std::vector<Group>& groups) {
+std::string packings_csv(const std::vector<Row>& rows, const std::vector<Group>& groups,
+                         const GivenUnits& units) {
   const Columns<PackingLine> columns =
-      packings_columns(further_tolerances(rows), varied_of(groups));
+      packings_columns(further_tolerances(rows), varied_of(groups), units);
   std::map<std::pair<std::string_view, std::string_view>, const Group*> group_of;
   for (const Group& group : groups) group_of[{group.job.label, group.job.parameters}] = &group;
   std::string text = header_line(columns);

@@ -19,12 +19,13 @@ struct PackingLine {
 /// hold the other tolerances of its jobs, in d, given ascending. A packing that is pending or
 /// failed has empty cells where nothing was measured. Only cpu_seconds may differ between two runs.
 Columns<PackingLine> packings_columns(const std::vector<double>& further_tolerances,
-                                      const Varied& varied);
+                                      const Varied& varied, const GivenUnits& units = {});
 
 /// Every gap tolerance that is not first in all of the jobs, ascending.
 std::vector<double> further_tolerances(const std::vector<Row>& rows);
 
 /// The whole file. `groups` are those of the rows.
-std::string packings_csv(const std::vector<Row>& rows, const std::vector<Group>& groups);
+std::string packings_csv(const std::vector<Row>& rows, const std::vector<Group>& groups,
+                         const GivenUnits& units = {});
 
 }  // namespace grainsweep

@@ -67,7 +67,7 @@ Columns<ProfileLine> profile_bin_columns() {
   };
 }
 
-Columns<ProfileLine> profile_line_columns(const Varied& varied) {
+Columns<ProfileLine> profile_line_columns(const Varied& varied, const GivenUnits& units) {
   Columns<ProfileLine> columns;
   append(columns, group_line_columns(varied),
          [](const ProfileLine& line) -> const Group& { return line.group; });
@@ -85,6 +85,7 @@ Columns<ProfileLine> profile_line_columns(const Varied& varied) {
       &MeanBin::coordination_with_walls);
   add("small_number_share", "small grains over all grains in the bin",
       &MeanBin::small_number_share);
+  append_in_units(columns, units);
   return columns;
 }
 
@@ -116,12 +117,12 @@ std::vector<MeanBin> mean_profile(const Group& group, Profile PackingResult::*pr
   return means;
 }
 
-std::vector<ColumnText> profiles_columns(const Varied& varied) {
-  return described("profiles.csv", profile_line_columns(varied));
+std::vector<ColumnText> profiles_columns(const Varied& varied, const GivenUnits& units) {
+  return described("profiles.csv", profile_line_columns(varied, units));
 }
 
-std::string profiles_csv(const std::vector<Group>& groups) {
-  const Columns<ProfileLine> columns = profile_line_columns(varied_of(groups));
+std::string profiles_csv(const std::vector<Group>& groups, const GivenUnits& units) {
+  const Columns<ProfileLine> columns = profile_line_columns(varied_of(groups), units);
   std::string text = header_line(columns);
   for (const Group& group : groups) {
     append_profile_lines(group, "x", &PackingResult::profile_x, columns, text);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "runner/tables/groups.hpp"
+#include "runner/tables/units.hpp"
 
 namespace grainsweep {
 
@@ -26,8 +27,8 @@ struct MeanBin {
 std::vector<MeanBin> mean_profile(const Group& group, Profile PackingResult::*profile);
 
 /// The whole file: along y and along z of each group.
-std::string profiles_csv(const std::vector<Group>& groups);
+std::string profiles_csv(const std::vector<Group>& groups, const GivenUnits& units = {});
 
-std::vector<ColumnText> profiles_columns(const Varied& varied);
+std::vector<ColumnText> profiles_columns(const Varied& varied, const GivenUnits& units = {});
 
 }  // namespace grainsweep

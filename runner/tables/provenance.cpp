@@ -23,6 +23,20 @@ json to_json(const Totals& totals, std::size_t packings) {
           {"cpu_seconds", totals.cpu_seconds}};
 }
 
+json to_json(const Units& units) {
+  json text = {{"d", units.d}, {"unit", units.unit}};
+  if (units.density) text["density"] = *units.density;
+  return text;
+}
+
+GivenUnits units_from(const json& sweep) {
+  const auto found = sweep.find("units");
+  if (found == sweep.end()) return std::nullopt;
+  Units units{found->at("d").get<double>(), found->at("unit").get<std::string>(), std::nullopt};
+  if (found->contains("density")) units.density = found->at("density").get<double>();
+  return units;
+}
+
 constexpr std::string_view before_checksum = ",\n  \"crc32\": \"";
 
 std::string with_checksum(std::string_view part) {
@@ -51,6 +65,7 @@ std::string provenance_text(const Provenance& provenance, const std::vector<Row>
   text["totals"] = to_json(totals_of(rows), rows.size());
   json sweep = jobs_json(rows);
   sweep["name"] = provenance.sweep_name;
+  if (provenance.units) sweep["units"] = to_json(*provenance.units);
   text["sweep"] = sweep;
   const std::string whole = text.dump(2, ' ', false, json::error_handler_t::replace);
   return with_checksum(whole.substr(0, whole.size() - 2));  // without the last line, a brace
@@ -70,6 +85,7 @@ ProvenanceReading provenance_from_text(const std::string& text, Detail detail) {
   from.at("runs").get_to(provenance.runs);
   const json& sweep = from.at("sweep");
   sweep.at("name").get_to(provenance.sweep_name);
+  provenance.units = units_from(sweep);
   reading.rows = rows_from_json(sweep, detail);
   return reading;
 }

@@ -9,6 +9,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "runner/sweep/units.hpp"
 #include "runner/tables/job_facts.hpp"
 
 namespace grainsweep {
@@ -47,6 +48,7 @@ struct Provenance {
   Build build;
   std::vector<SweepFile> sweeps;  ///< one, or those of all collected folders, a text once
   std::string sweep_name;
+  GivenUnits units = {};        ///< of the sweep; of collected ones if they agree
   std::vector<RunRecord> runs;  ///< in the order they started
 };
 

@@ -232,7 +232,9 @@
     }
     tint.needsUpdate = true;
     const digits = (value) => (Number.isInteger(value) ? String(value) : value.toPrecision(3));
-    const unit = { size: " d", touching: "", force: " m g", wall: " d" }[by];
+    const length = (value) => `${digits(value * bed.d)} ${bed.unit}`;
+    const told = { size: length, touching: digits, force: (value) => `${digits(value)} m g`,
+                   wall: length }[by];
     const key = pick("bed-key");
     key.replaceChildren();
     if (by === "kind") {
@@ -241,7 +243,7 @@
       const bar = document.createElement("span");
       bar.className = "scale";
       bar.style.background = `linear-gradient(to right, ${scale.map((c) => `rgb(${c})`).join(",")})`;
-      key.append(digits(low) + unit, bar, digits(high) + unit);
+      key.append(told(low), bar, told(high));
     }
     redraw();
   };

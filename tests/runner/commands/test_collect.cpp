@@ -17,12 +17,14 @@ using Catch::Contains;
 
 /// The folder of a run by process "node-7" that began at `started` and made one packing.
 std::string folder_of_a_run(const TemporaryFolder& parent, const std::string& name,
-                            const std::string& started, const Outcome& outcome) {
+                            const std::string& started, const Outcome& outcome,
+                            const GivenUnits& units = {}) {
   std::string folder = parent.path() + "/" + name;
   make_folder(folder);
   Provenance provenance;
   provenance.sweeps = {{"a.json", ""}};
   provenance.sweep_name = "a";
+  provenance.units = units;
   RunRecord run;
   run.started = started;
   run.process = "node-7";
@@ -63,6 +65,24 @@ TEST_CASE("folders that agree in a packing are collected without a word of warni
                                 folder_of_a_run(parent, "second", "2", outcome)},
                                parent.path() + "/all"};
   CHECK(printed_by([&] { perform(options); }).error.empty());
+}
+
+TEST_CASE("units are collected where the folders agree in them") {
+  const TemporaryFolder parent;
+  Outcome outcome = sample_outcome("a1", 0.6, 6);
+  outcome.version = program_version();
+  const Units units{3.2, "mm", std::nullopt};
+  const std::string first = folder_of_a_run(parent, "first", "1", outcome, units);
+  const std::string same = folder_of_a_run(parent, "same", "2", outcome, units);
+  const std::string none = folder_of_a_run(parent, "none", "3", outcome);
+  const std::string out = parent.path() + "/all";
+  CHECK(printed_by([&] { perform(CollectOptions{{first, same}, out}); }).error.empty());
+  CHECK(read_results(out).provenance.units == units);
+  CHECK_THAT(printed_by([&] {
+               perform(CollectOptions{{none}, out});
+             }).error,
+             Contains("none: has other units than the sweeps before it; the tables have none"));
+  CHECK_FALSE(read_results(out).provenance.units);
 }
 
 // A host gives the number of a process again.

@@ -76,6 +76,22 @@ expect_code 0 "$program" export out/small --format xyz --job "$job" --to one
 expect_code 2 "$program" export out/small --job nosuchjob
 expect_text error.txt "nosuchjob"
 
+# Units that are added later change no packing, and all that is printed.
+sed 's/"seed": 3/"units": { "d": 3.2, "unit": "mm", "density": 2500 }, "seed": 3/' small.json >mm.json
+expect_code 0 "$program" validate mm.json
+expect_text out.txt "right: 10 packings, 5 parameter sets, d = 3.2 mm, grains of 2500 kg/m³"
+packed=$(cat out/small/journal-*.jsonl)
+"$program" run mm.json --out out/small >out.txt 2>error.txt || [ $? -eq 1 ]
+[ "$packed" = "$(cat out/small/journal-*.jsonl)" ] || fail "units made packings anew"
+expect_text out.txt "W/mm" "kg/m³ ± sd"
+expect_text out/small/groups.csv "width_mm" "bulk_density_error" "overlap_mean_mm"
+expect_text out/small/fits.csv "zeta_error_mm"
+expect_text out/small/columns.csv "decays.csv,lambda_mm,mm,"
+expect_text out/small/report.html "bulk density / kg/m³" "d = 3.2 mm" "W / mm"
+cp out.txt report.txt
+expect_code 0 "$program" report out/small
+cmp out.txt report.txt || fail "report prints other units than run"
+
 # A file where the output folder should be, and a folder that cannot be written.
 touch taken
 expect_code 4 "$program" run small.json --out taken

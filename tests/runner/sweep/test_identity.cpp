@@ -143,6 +143,11 @@ TEST_CASE("labels, the order of keys and how numbers are written do not enter an
     "seed": 5, "name": "other"})"));
 }
 
+TEST_CASE("what a sweep says of its units does not enter an id") {
+  CHECK(ids_of(R"({"name": "t"})") ==
+        ids_of(R"({"name": "t", "units": {"d": 3.2, "unit": "mm", "density": 2500}})"));
+}
+
 TEST_CASE("writing a default out does not change an id") {
   CHECK(ids_of(R"({"name": "t"})") ==
         ids_of(R"({"name": "t", "base": {"box.y": "walls", "accuracy": "balanced"}})"));

@@ -71,7 +71,7 @@ TEST_CASE("all errors of a file are reported at once, in its order") {
 TEST_CASE("control characters in a key do not reach the terminal") {
   CHECK(errors_of(R"({"name": "t", "\u001b[2J": 1})") ==
         std::vector<std::string>{"s.json:1:15 /?[2J: unknown key \"?[2J\"; known here: name, seed, "
-                                 "replicates, base, sweep, $schema"});
+                                 "replicates, units, base, sweep, $schema"});
 }
 
 TEST_CASE("a file is read no further than one may be long", "[slow]") {  // a second for 256 MiB

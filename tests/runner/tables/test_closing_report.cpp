@@ -40,6 +40,24 @@ std::string report_of(const Provenance& provenance, const std::vector<Row>& rows
   return closing_report(provenance, rows, analyse(rows).families, {"./run.sh", folder});
 }
 
+TEST_CASE("a sweep with units says all again in them") {
+  Provenance provenance = reported_provenance();
+  provenance.units = Units{3.2, "mm", 2500.0};
+  const std::string report = report_of(provenance, sample_rows(), "out/a");
+  CHECK_THAT(report,
+             Catch::Contains("\n"
+                             "      C = 0.200 ± 0.009 d = 0.640 ± 0.030 mm,  ζ = C/φ_bulk = "
+                             "0.313 ± 0.014 d = 1.000 ± 0.044 mm\n"
+                             "      (χ²/dof 0.00, R² 1.000, 3 widths)\n"));
+  CHECK_THAT(report, Catch::Contains("\n"
+                                     "d = 3.2 mm, grains of 2500 kg/m³\n"
+                                     "  W/mm                porosity ± sd       kg/m³ ± sd\n"
+                                     "  12.8              0.4100 ± 0.0014         1475 ± 4\n"
+                                     "  16                0.4000 ± 0.0014         1500 ± 4\n"
+                                     "  32                0.3800 ± 0.0014         1550 ± 4\n"
+                                     "  64 periodic                0.3610             1598\n"));
+}
+
 TEST_CASE("the closing report as a whole") {
   CHECK(
       report_of(reported_provenance(), sample_rows(), "out/a") ==

@@ -65,6 +65,15 @@ TEST_CASE("the sweep file is kept verbatim; of several none is the one to go on 
   CHECK(sweep_file_of(provenance).empty());
 }
 
+TEST_CASE("the units of a sweep are kept, and none where it has none") {
+  Provenance provenance = sample_provenance();
+  CHECK_FALSE(provenance_from_text(provenance_text(provenance, {})).provenance.units);
+  for (const Units& units : {Units{3.2, "mm", 2500.0}, Units{450, "um", std::nullopt}}) {
+    provenance.units = units;
+    CHECK(provenance_from_text(provenance_text(provenance, {})).provenance.units == units);
+  }
+}
+
 TEST_CASE("provenance with any byte changed is refused") {
   const std::string text = provenance_text(sample_provenance(), {{sample_job("a1", 5), {}}});
   for (std::size_t at = 0; at < text.size(); ++at) {
