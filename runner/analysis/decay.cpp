@@ -147,8 +147,11 @@ std::vector<double> powers(double first, double last, double ratio) {
 }
 
 /// The minima next to those points of a grid that are lower than all around them, the lowest first.
+/// A wave shorter than two bins looks in them like a longer one, and is never meant.
 std::vector<FittedCurve> minima_of(const Window& window) {
-  const std::vector<double> lengths = powers(0.2, 8.0, 1.5), periods = powers(0.15, 1.6, 1.06);
+  const double shortest = 2.0 * (window.distance[1] - window.distance[0]);
+  const std::vector<double> lengths = powers(0.2, 8.0, 1.5),
+                            periods = powers(std::max(0.15, shortest), 1.6, 1.06);
   const auto rows = static_cast<Index>(lengths.size()),
              columns = static_cast<Index>(periods.size());
   const auto curve_at = [&](Index i, Index j) {
@@ -166,7 +169,9 @@ std::vector<FittedCurve> minima_of(const Window& window) {
   for (Index i = 0; i < rows; ++i) {
     for (Index j = 0; j < columns; ++j) {
       if (!(squares(i + 1, j + 1) <= squares.block<3, 3>(i, j).minCoeff())) continue;
-      if (auto minimum = minimum_near(curve_at(i, j), window)) minima.push_back(*minimum);
+      const auto minimum = minimum_near(curve_at(i, j), window);
+      const bool is_meant = minimum && std::exp(minimum->p[log_period]) >= shortest;
+      if (is_meant) minima.push_back(*minimum);
     }
   }
   std::stable_sort(minima.begin(), minima.end(),

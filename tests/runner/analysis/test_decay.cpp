@@ -189,6 +189,19 @@ TEST_CASE("the error of a phase near pi knows that pi and -pi are one") {
   CHECK(fit.phase.error == Approx(3.182 / 1.96 * std::sqrt(0.008 / 12)).epsilon(0.01));
 }
 
+// In bins of 0.1 d a wave of 0.1125 d takes the same values as one of 0.9 d.
+TEST_CASE("a wave shorter than two bins is never meant") {
+  std::mt19937_64 generator(5);
+  int determined = 0;
+  for (int sweep = 0; sweep < 50; ++sweep) {
+    const DecayFit fit = fit_decay(noisy_profiles(layers, 3, 0.01, generator), bin_width, 2.0);
+    if (!fit.not_determined.empty()) continue;
+    ++determined;
+    CHECK(fit.period.value == Approx(layers.period).epsilon(0.1));
+  }
+  CHECK(determined > 10);
+}
+
 TEST_CASE("a decay longer than the window is not determined") {
   std::mt19937_64 generator(29);
   const auto profiles = noisy_profiles({0.6, 0.2, 30, 0.9, 0}, 6, 0.002, generator);
