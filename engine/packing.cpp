@@ -154,6 +154,7 @@ void measure(const PackingSpec& spec, const SettleReport& settled, const Kernels
   const std::vector<double>& tolerances = spec.measure.gap_tolerances;
   const Touching near = find_touching(bed, std::max(widest(tolerances), longest_bond_gap), kernels);
   packing.grains = grains_of(bed, near, tolerances.front(), settled.force);
+  packing.forces = settled.pair_forces;
   result.surface_height = surface_height(bed);
   const std::optional<Slab> slab = slab_of(spec.measure, result);
   if (slab) {

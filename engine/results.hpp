@@ -159,6 +159,7 @@ struct Packing {
   PackingResult result;
   std::vector<SettledGrain> grains;  ///< in the order of the start, empty unless a bed exists
   std::optional<Turned> turned;      ///< unless they are spheres
+  std::vector<PairForce> forces;     ///< between the grains
 };
 
 /// Where a packing stands; `share_done` is an estimate in [0, 1] that never falls.

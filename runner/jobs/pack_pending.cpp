@@ -52,7 +52,8 @@ Outcome store(const Job& job, const std::string& folder, Journal& journal, Finis
   if (!finished.packing.grains.empty()) {
     outcome.stored_bytes = write_bed(
         folder, {job.id, outcome.result.state_hash, job.spec.box, curves_of(outcome.result),
-                 std::move(finished.packing.grains), std::move(finished.packing.turned)});
+                 std::move(finished.packing.grains), std::move(finished.packing.turned),
+                 stored_forces(finished.packing.forces)});
   }
   journal.append(outcome);
   return outcome;

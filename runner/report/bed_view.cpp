@@ -57,6 +57,23 @@ std::string columns_of(const StoredBed& bed, double extent, double radius, doubl
   return bytes;
 }
 
+void append_word(std::string& bytes, std::int32_t number) {
+  append_short(bytes, number & 0xFFFF);
+  append_short(bytes, number >> 16);
+}
+
+/// Both grains of each force, and the forces as shares of the largest, as templates/bed.js reads
+/// them.
+std::string forces_of(const StoredBed& bed, double largest_force) {
+  std::string bytes;
+  for (const StoredForce& force : bed.forces) append_word(bytes, force.a);
+  for (const StoredForce& force : bed.forces) append_word(bytes, force.b);
+  for (const StoredForce& force : bed.forces) {
+    append_short(bytes, std::lround(largest_unsigned * force.magnitude / largest_force));
+  }
+  return bytes;
+}
+
 }  // namespace
 
 std::string bed_element(const StoredBed& bed, const BedFacts& facts) {
@@ -64,6 +81,10 @@ std::string bed_element(const StoredBed& bed, const BedFacts& facts) {
   const double force = largest(bed, [](const SettledGrain& grain) { return grain.force; });
   const double height =
       largest(bed, [](const SettledGrain& grain) { return grain.z + grain.radius; });
+  double pair_force = 0.0;
+  for (const StoredForce& one : bed.forces) {
+    pair_force = std::max(pair_force, static_cast<double>(one.magnitude));
+  }
   const double extent = std::max({bed.box.length, bed.box.width, height});
   Json json = {{"count", bed.grains.size()},
                {"extent", extent},
@@ -72,7 +93,10 @@ std::string bed_element(const StoredBed& bed, const BedFacts& facts) {
                {"small_limit", facts.small_limit},
                {"unit", facts.units ? printed_unit(*facts.units) : "d"},
                {"d", facts.units ? facts.units->d : 1.0},
-               {"grains", base64(columns_of(bed, extent, radius, force))}};
+               {"grains", base64(columns_of(bed, extent, radius, force))},
+               {"pairs", bed.forces.size()},
+               {"largest_pair_force", pair_force},
+               {"forces", base64(forces_of(bed, pair_force))}};
   json["box"] = Json::array({bed.box.length, bed.box.width, height});
   json["walls"] = Json::array({bed.box.x == Boundary::walls, bed.box.y == Boundary::walls});
   if (bed.turned) {
@@ -85,7 +109,7 @@ std::string bed_element(const StoredBed& bed, const BedFacts& facts) {
 
 std::size_t view_size(const StoredBed& bed) {
   const std::size_t bytes = bed.turned ? 20 : 12;
-  return bed.grains.size() * bytes * 4 / 3;
+  return (bed.grains.size() * bytes + bed.forces.size() * 10) * 4 / 3;
 }
 
 std::string bed_section(const BedView& view) {
@@ -99,15 +123,15 @@ std::string bed_section(const BedView& view) {
 std::string bed_page(const StoredBed& bed, const BedFacts& facts) {
   const std::string picture = picture_of(bed, picture_width, picture_height);
   return filled(templates::view_html,
-                {{"title", html_text(facts.title)},
-                 {"style", std::string(templates::page_css)},
+                {{"head", html_head(facts.title)},
+                 {"title", html_text(facts.title)},
                  {"bed", bed_section({facts.title, picture, {bed_element(bed, facts)}})},
                  {"scripts", bed_scripts()}});
 }
 
 std::string bed_scripts() {
   return "<script>" + std::string(templates::three_min_js) + "</script>\n<script>" +
-         std::string(templates::bed_js) + "</script>\n";
+         std::string(templates::forces_js) + std::string(templates::bed_js) + "</script>\n";
 }
 
 BedFacts facts_of(const JobFacts& job, const std::string& title) {

@@ -2,6 +2,8 @@
 
 #include <cstdint>
 
+#include "runner/report/templates.hpp"
+
 namespace grainsweep {
 namespace {
 
@@ -110,6 +112,11 @@ std::string html_table(const HtmlTable& table) {
   text += "</tr></thead>\n<tbody>\n";
   for (const auto& row : table.rows) text += table_row(row);
   return text + "</tbody>\n</table>\n</div>\n";
+}
+
+std::string html_head(const std::string& title) {
+  return filled(templates::head_html,
+                {{"title", html_text(title)}, {"style", std::string(templates::page_css)}});
 }
 
 std::string note_paragraph(std::string_view text) {

@@ -40,6 +40,10 @@ struct HtmlTable {
 /// A table that scrolls sideways where it does not fit, each row headed by its first cell.
 std::string html_table(const HtmlTable& table);
 
+/// Everything before the body of a page with this title, plain text: style, and the policy by which
+/// it asks nothing of any network.
+std::string html_head(const std::string& title);
+
 /// "<p class=\"note\">...</p>" of plain text.
 std::string note_paragraph(std::string_view text);
 

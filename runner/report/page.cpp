@@ -67,8 +67,8 @@ std::string closing_section(const std::string& table) {
 std::string page_text(const PageParts& parts) {
   return filled(
       templates::page_html,
-      {{"title", html_text(parts.title)},
-       {"style", std::string(templates::page_css)},
+      {{"head", html_head(parts.title)},
+       {"title", html_text(parts.title)},
        {"summary", parts.summary},
        {"figures", figures_section(parts)},
        {"fits", section("wall-effect", "Wall effect", parts.fits)},

@@ -50,13 +50,20 @@ std::string settled_of(const StatusCounts& counts) {
   return std::to_string(counts.settled) + " of " + std::to_string(all);
 }
 
-/// Cells that only a sweep with units has, behind those of the group.
-void append_unit_cells(const Group& group, const GivenUnits& units,
-                       std::vector<std::string>& cells) {
-  if (!units) return;
+/// Where columns that only a sweep with units has stand among those of a group.
+constexpr std::ptrdiff_t before_units = 4;
+
+std::vector<std::string> unit_cells(const Group& group, const Units& units) {
   const Spread& phi = mean_of(group, "solid_fraction");
-  cells.push_back(length_in(*units, group.job.box.width));
-  if (units->density) cells.push_back(bulk_density_text(*units, phi.mean, phi.error));
+  std::vector<std::string> cells = {length_in(units, group.job.box.width)};
+  if (units.density) cells.push_back(bulk_density_text(units, phi.mean, phi.error));
+  return cells;
+}
+
+std::vector<Heading> unit_headings(const Units& units) {
+  std::vector<Heading> headings = {width_heading(units)};
+  if (units.density) headings.push_back({"bulk density / kg/m³"});
+  return headings;
 }
 
 std::vector<std::string> group_cells(const Group& group, const GivenUnits& units) {
@@ -69,7 +76,10 @@ std::vector<std::string> group_cells(const Group& group, const GivenUnits& units
                                     fixed(mean_of(group, "contact_ratio").mean, 4),
                                     power_text(mean_of(group, "overlap_mean").mean),
                                     fixed(mean_of(group, "static_imbalance_mean").mean, 4)};
-  append_unit_cells(group, units, cells);
+  if (units) {
+    const auto more = unit_cells(group, *units);
+    cells.insert(cells.begin() + before_units, more.begin(), more.end());
+  }
   return cells;
 }
 
@@ -203,8 +213,10 @@ std::string groups_section(const std::vector<Group>& groups, const GivenUnits& u
                     heading("contacts / isostatic", "contact_ratio"),
                     heading("overlap / d", "overlap_mean"),
                     heading("imbalance", "static_imbalance_mean")};
-  if (units) table.headings.push_back(width_heading(*units));
-  if (units && units->density) table.headings.push_back({"bulk density / kg/m³"});
+  if (units) {
+    const auto more = unit_headings(*units);
+    table.headings.insert(table.headings.begin() + before_units, more.begin(), more.end());
+  }
   for (const Group& group : groups) table.rows.push_back(group_cells(group, units));
   return html_table(table);
 }

@@ -37,15 +37,18 @@ constexpr auto members_of(const Mesh* /*type*/) {
 constexpr auto members_of(const Turned* /*type*/) {
   return std::tuple(&Turned::mesh, &Turned::orientations);
 }
+constexpr auto members_of(const StoredForce* /*type*/) {
+  return std::tuple(&StoredForce::a, &StoredForce::b, &StoredForce::magnitude);
+}
 constexpr auto members_of(const StoredBed* /*type*/) {
   using Bed = StoredBed;
   return std::tuple(&Bed::job, &Bed::state_hash, &Bed::box, &Bed::curves, &Bed::grains,
-                    &Bed::turned);
+                    &Bed::turned, &Bed::forces);
 }
 
 namespace {
 
-constexpr std::string_view bed_mark = "GRAINS6\n";
+constexpr std::string_view bed_mark = "GRAINS7\n";
 
 const std::string to_mend = "; run the sweep again to make it anew";
 const std::string missing = "missing" + to_mend;
@@ -70,6 +73,15 @@ void set_curves(Curves&& curves, PackingResult& result) {
   result.profile_z = std::move(curves.profile_z);
   result.order.pair_correlation = std::move(curves.pair_correlation);
   result.order.force_density = std::move(curves.force_density);
+}
+
+std::vector<StoredForce> stored_forces(const std::vector<PairForce>& forces) {
+  std::vector<StoredForce> stored;
+  stored.reserve(forces.size());
+  for (const PairForce& force : forces) {
+    stored.push_back({force.a, force.b, static_cast<float>(force.magnitude)});
+  }
+  return stored;
 }
 
 std::string state_path(const std::string& folder, const std::string& job) {

@@ -1,6 +1,7 @@
-// The curves and grains of each finished bed, so that neither tables nor exporting pack again.
+// The curves, grains and forces of each finished bed, so that neither tables nor exporting pack
+// again.
 //
-// states/<job>.grains is "GRAINS6\n", a StoredBed as of runner/store/archive.hpp, in the order of
+// states/<job>.grains is "GRAINS7\n", a StoredBed as of runner/store/archive.hpp, in the order of
 // its members and of those of the engine's structs in states.cpp, and a CRC-32 of all before. Units
 // as in SettledGrain and PackingResult.
 #pragma once
@@ -31,6 +32,14 @@ struct Curves {
 Curves curves_of(const PackingResult& result);
 void set_curves(Curves&& curves, PackingResult& result);
 
+/// A force that two grains exert on each other.
+struct StoredForce {
+  std::int32_t a = 0, b = 0;  ///< numbers of the grains, from 0
+  float magnitude = 0.0F;     ///< m g
+};
+
+std::vector<StoredForce> stored_forces(const std::vector<PairForce>& forces);
+
 struct StoredBed {
   std::string job;               ///< Job::id
   std::uint64_t state_hash = 0;  ///< PackingResult::state_hash
@@ -38,6 +47,7 @@ struct StoredBed {
   Curves curves;
   std::vector<SettledGrain> grains;
   std::optional<Turned> turned;  ///< of non-spherical grains; an orientation per grain
+  std::vector<StoredForce> forces;
 };
 
 /// <folder>/states/<job>.grains

@@ -9,7 +9,7 @@
 namespace grainsweep {
 
 inline constexpr std::array length_units = {"um", "mm", "cm", "m"};
-inline constexpr double largest_length = 1e6;  ///< of d, in any of them
+inline constexpr double largest_length = 1e6;                             ///< of d, in any of them
 inline constexpr double least_density = 10.0, largest_density = 25000.0;  ///< kg/m3, of solids
 
 struct Units {

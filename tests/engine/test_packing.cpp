@@ -99,6 +99,20 @@ TEST_CASE("the grains of a packing lie in the box with their forces and neighbou
   CHECK(neighbours / 160 == Approx(4.5).margin(1));
 }
 
+TEST_CASE("the forces between grains are part of what bears on each of them") {
+  const Packing packing = pack(small_spec());
+  std::vector<double> left;
+  for (const SettledGrain& grain : packing.grains) left.push_back(grain.force);
+  REQUIRE_FALSE(packing.forces.empty());
+  for (const PairForce& force : packing.forces) {
+    left.at(static_cast<std::size_t>(force.a)) -= force.magnitude;
+    left.at(static_cast<std::size_t>(force.b)) -= force.magnitude;
+  }
+  // What is left are the walls and the floor, whose forces push.
+  CHECK(*std::min_element(left.begin(), left.end()) > -1e-9);
+  CHECK(*std::max_element(left.begin(), left.end()) > 1.0);
+}
+
 TEST_CASE("a grain's neighbours are counted at the first gap tolerance") {
   std::vector<std::int32_t> neighbours;
   for (const auto& tolerances : {std::vector{1e-5, 0.05}, std::vector{0.05, 1e-5}}) {

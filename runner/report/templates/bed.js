@@ -55,6 +55,11 @@
     if (bed.mesh) {
       bed.turn = Float32Array.from(new Int16Array(buffer, 12 * n, 4 * n), (value) => value / 32767);
     }
+    const forces = bytesOf(bed.forces);
+    bed.a = new Uint32Array(forces, 0, bed.pairs);
+    bed.b = new Uint32Array(forces, 4 * bed.pairs, bed.pairs);
+    bed.share = Float32Array.from(new Uint16Array(forces, 8 * bed.pairs, bed.pairs),
+      (value) => value / 65535);
     return bed;
   };
 
@@ -174,7 +179,7 @@
   const renderer = new THREE.WebGLRenderer({ canvas, context });
   renderer.setClearColor(0xffffff, 1);
   const camera = new THREE.OrthographicCamera(-1, 1, 1, -1, 0.1, 1000);
-  let scene, bed, grains;
+  let scene, bed, grains, network;
   const view = { turn: 0.6, tilt: 0.5, zoom: 1 }; // as in picture.cpp
   let isWaiting = false;
 
@@ -192,6 +197,7 @@
                             near: 0.1, far: 2 * far });
     camera.updateProjectionMatrix();
     grains.material.uniforms.depth.value.set(camera.near, camera.far);
+    network.material.uniforms.least.value = 1.2 * half / Math.max(1, canvas.clientHeight);
   };
 
   const draw = () => {
@@ -215,8 +221,18 @@
 
   const pick = (id) => document.getElementById(id);
 
-  const paint = () => {
-    const by = pick("bed-colour").value;
+  // What colours stand for, from the lowest value to the highest.
+  const tell = (low, high, scaleShown) => {
+    const bar = document.createElement("span");
+    bar.className = "scale";
+    const stops = scaleShown.map((rgb) => `rgb(${rgb})`).join(",");
+    bar.style.background = `linear-gradient(to right, ${stops})`;
+    pick("bed-key").replaceChildren(low, bar, high);
+  };
+
+  const digits = (value) => (Number.isInteger(value) ? String(value) : value.toPrecision(3));
+
+  const paintGrains = (by) => {
     const values = valuesOf(bed, by);
     let low = Infinity;
     let high = -Infinity;
@@ -231,20 +247,20 @@
       tint.setXYZ(k, rgb[0] / 255, rgb[1] / 255, rgb[2] / 255);
     }
     tint.needsUpdate = true;
-    const digits = (value) => (Number.isInteger(value) ? String(value) : value.toPrecision(3));
     const length = (value) => `${digits(value * bed.d)} ${bed.unit}`;
     const told = { size: length, touching: digits, force: (value) => `${digits(value)} m g`,
                    wall: length }[by];
-    const key = pick("bed-key");
-    key.replaceChildren();
-    if (by === "kind") {
-      key.textContent = "blue: large, orange: small grains";
-    } else {
-      const bar = document.createElement("span");
-      bar.className = "scale";
-      bar.style.background = `linear-gradient(to right, ${scale.map((c) => `rgb(${c})`).join(",")})`;
-      key.append(told(low), bar, told(high));
-    }
+    if (by === "kind") pick("bed-key").textContent = "blue: large, orange: small grains";
+    else tell(told(low), told(high), scale);
+  };
+
+  const paint = () => {
+    const showsForces = pick("bed-show").value === "forces";
+    grains.visible = !showsForces;
+    network.visible = showsForces;
+    pick("bed-colour").disabled = showsForces;
+    paintGrains(pick("bed-colour").value);
+    if (showsForces) tell("0", `${digits(bed.largest_pair_force)} m g`, [...scale].reverse());
     redraw();
   };
 
@@ -252,7 +268,7 @@
     const axis = Number(pick("bed-axis").value);
     const keep = [1e9, 1e9, 1e9];
     keep[axis] = bed.box[axis] * Number(pick("bed-slice").value) / 100;
-    grains.material.uniforms.keep.value.set(...keep);
+    for (const shown of [grains, network]) shown.material.uniforms.keep.value.set(...keep);
     redraw();
   };
 
@@ -260,11 +276,14 @@
     bed = read(sources[index]);
     scene = new THREE.Scene();
     grains = grainsOf(bed);
-    scene.add(grains, frameOf(bed));
-    const has = { kind: bed.small_limit > 0, wall: bed.walls.includes(true) };
-    for (const option of pick("bed-colour").options) {
-      option.disabled = has[option.value] === false;
-      if (option.disabled && option.selected) pick("bed-colour").value = "size";
+    network = forceNetwork(bed, colour);
+    scene.add(grains, network, frameOf(bed));
+    const has = { kind: bed.small_limit > 0, wall: bed.walls.includes(true), forces: bed.pairs > 0 };
+    for (const id of ["bed-colour", "bed-show"]) {
+      for (const option of pick(id).options) {
+        option.disabled = has[option.value] === false;
+        if (option.disabled && option.selected) pick(id).selectedIndex = 0;
+      }
     }
     paint();
     cut();
@@ -324,6 +343,7 @@
     chooser.append(option);
   });
   chooser.addEventListener("change", () => show(Number(chooser.value)));
+  pick("bed-show").addEventListener("change", paint);
   pick("bed-colour").addEventListener("change", paint);
   pick("bed-slice").addEventListener("input", cut);
   pick("bed-axis").addEventListener("change", cut);

@@ -57,6 +57,27 @@ TEST_CASE("a bed of polyhedra has its mesh and an orientation for each grain", "
   CHECK(view_size(bed) > view_size(two_spheres()));
 }
 
+TEST_CASE("the forces between grains are pairs of their numbers and shares of the largest",
+          "[report]") {
+  StoredBed bed = two_spheres();
+  CHECK(json_in(bed_element(bed, {"a bed", 0.0}))["pairs"] == 0);
+  const std::size_t without = view_size(bed);
+  bed.forces = {{0, 1, 2.5F}, {70000, 1, 5.0F}};
+  const nlohmann::json json = json_in(bed_element(bed, {"a bed", 0.0}));
+  CHECK(json["pairs"] == 2);
+  CHECK(json["largest_pair_force"] == 5.0);
+  CHECK(json["forces"] == base64(shorts({0, 0, 4464, 1, 1, 0, 1, 0, 32768, 65535})));
+  CHECK(view_size(bed) > without);
+}
+
+TEST_CASE("lengths are told in the unit of the sweep, if it has one", "[report]") {
+  CHECK(json_in(bed_element(two_spheres(), {"a bed", 0.0}))["unit"] == "d");
+  const Units units{450, "um", std::nullopt};
+  const nlohmann::json json = json_in(bed_element(two_spheres(), {"a bed", 0.0, units}));
+  CHECK(json["unit"] == "µm");
+  CHECK(json["d"] == 450.0);
+}
+
 TEST_CASE("a bed's title cannot end its element", "[report]") {
   const std::string element = bed_element(two_spheres(), {"\"></script><b>", 0.0});
   CHECK(element.find("</script>") == element.rfind("</script>"));
