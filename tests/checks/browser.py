@@ -1,11 +1,11 @@
 """Opens pages of grainsweep in headless Chromium and says what is wrong with them.
 
-usage: browser.py PAGE.html...
+usage: browser.py [--axe axe.min.js] PAGE.html...
 
-Of each page: no error in the console, no request for anything, every figure has been drawn, the
-table of packings sorts and filters; a bed turns, its slider and colours change what is seen; with
-scripts off everything is there to read; printed, a picture stands in for the bed. Talks to Chromium
-through its debugging pipe, so that nothing but Python is needed.
+Of each page: no error in the console, no dialog, no request for anything, every figure of its
+folder has been drawn and is that file, the table of packings sorts and filters; a bed turns, its
+slider, its colours and its forces change what is seen; with scripts off everything is there to read;
+printed, a picture stands in for the bed; light and wide, dark and narrow, axe-core finds nothing. Talks to Chromium through its debugging pipe, so that nothing but Python is needed.
 """
 import base64, hashlib, json, os, pathlib, shutil, subprocess, sys, tempfile, time
 
@@ -114,6 +114,18 @@ def change(browser, element, value, event="change"):
     return look(browser)
 
 
+def check_forces(browser, faults, seen):
+    forces = change(browser, "bed-show", "forces")
+    if forces in seen or browser.value(f"({COLOURS})({CANVAS})") < 50:
+        faults.append("the forces between grains are not shown")
+    if "m g" not in browser.value("document.getElementById('bed-key').textContent"):
+        faults.append("nothing says how large the forces are")
+    if change(browser, "bed-slice", 40, "input") == forces:
+        faults.append("the slider does not cut the forces")
+    change(browser, "bed-slice", 100, "input")
+    change(browser, "bed-show", "grains")
+
+
 def check_bed(browser, faults):
     if not browser.wait_for(f"!!{CANVAS} && document.getElementById('bed').classList.contains('turning')"):
         faults.append("the bed is never drawn")
@@ -126,9 +138,13 @@ def check_bed(browser, faults):
     if change(browser, "bed-slice", 40, "input") == first:
         faults.append("the slider changes nothing")
     change(browser, "bed-slice", 100, "input")
-    for colour in ("touching", "wall"):
-        if change(browser, "bed-colour", colour) == first:
-            faults.append(f"the colour {colour} changes nothing")
+    offered = "[...document.getElementById('bed-colour').options].filter((o) => !o.disabled).map((o) => o.value)"
+    seen = {first}
+    for colour in browser.value(offered)[1:]:
+        seen.add(change(browser, "bed-colour", colour))
+    if len(seen) < 4 or len(seen) != len(browser.value(offered)):
+        faults.append(f"the colours {browser.value(offered)} show {len(seen)} different pictures")
+    check_forces(browser, faults, seen)
     change(browser, "bed-colour", "size")
     if look(browser) != first:
         faults.append("the first view does not come back")
@@ -142,12 +158,15 @@ def check_bed(browser, faults):
 
 
 def check_table(browser, faults):
-    cells = "[...document.querySelectorAll('#packings tbody tr')].map((row) => row.cells[7].textContent)"
+    column = browser.value("[...document.querySelectorAll('#packings thead th')]"
+                           ".findIndex((heading) => heading.textContent === 'Z')")
+    cells = ("[...document.querySelectorAll('#packings tbody tr')]"
+             f".map((row) => row.cells[{column}].textContent)")
     rows = browser.value(f"{cells}.length")
     if rows < 2:
         return
     for _ in range(2):
-        browser.value("document.querySelectorAll('#packings thead button')[7].click()")
+        browser.value(f"document.querySelectorAll('#packings thead button')[{column}].click()")
     numbers = [float(text) for text in browser.value(cells) if text != "-"]
     if numbers != sorted(numbers, reverse=True):
         faults.append("the table does not sort")
@@ -158,7 +177,13 @@ def check_table(browser, faults):
         faults.append("the table does not filter")
 
 
-def check_figures(browser, faults):
+def check_figures(browser, path, faults):
+    drawn = {file.stem: "data:image/svg+xml;base64," + base64.b64encode(file.read_bytes()).decode()
+             for file in (pathlib.Path(path).parent / "figures").glob("*.svg")}
+    shown = browser.value("Object.fromEntries([...document.querySelectorAll('figure img')]"
+                          ".map((image) => [image.closest('figure').id.slice(7), image.src]))")
+    if drawn != shown:
+        faults.append(f"the page shows {sorted(shown)}, figures/ has {sorted(drawn)}, or others")
     blank = browser.value(
         f"[...document.querySelectorAll('figure img')].filter((image) => ({COLOURS})(image) < 8)"
         ".map((image) => image.closest('figure').id)")
@@ -181,13 +206,47 @@ def check_events(browser, faults):
             faults.append(f"error in the console: {what['entry']['text']}")
         elif kind == "Runtime.consoleAPICalled" and what["type"] == "error":
             faults.append(f"error in the console: {what['args']}")
+        elif kind == "Page.javascriptDialogOpening":
+            faults.append(f"a dialog: {what['message']}")
         elif kind == "Network.requestWillBeSent":
             url = what["request"]["url"]
             if not url.startswith("data:") and what.get("type") != "Document":
                 faults.append(f"a request: {url}")
 
 
-def check(browser, path):
+def set_screen(browser, width, scheme="light"):
+    browser.page("Emulation.setDeviceMetricsOverride", width=width, height=800, deviceScaleFactor=1,
+                 mobile=width < 500)
+    browser.page("Emulation.setEmulatedMedia",
+                 features=[{"name": "prefers-color-scheme", "value": scheme}])
+
+
+def check_access(browser, axe, faults):
+    """What axe-core says that people with a disability could not use."""
+    browser.page("Runtime.evaluate", expression=axe)
+    for width, scheme in ((1200, "light"), (360, "dark")):
+        set_screen(browser, width, scheme)
+        found = json.loads(browser.value(
+            "axe.run().then((report) => JSON.stringify(report.violations.map((one) =>"
+            " one.impact + ': ' + one.help + ': ' + one.nodes[0].html.slice(0, 200))))"))
+        faults.extend(f"{scheme}, {width} px, {one}" for one in found)
+    set_screen(browser, 1200)
+
+
+def check_printed(browser, faults):
+    browser.page("Emulation.setEmulatedMedia", media="print")
+    if browser.value(f"getComputedStyle({CANVAS}).display") != "none":
+        faults.append("printed, the bed is no picture")
+    if browser.value("getComputedStyle(document.getElementById('bed-picture')).display") == "none":
+        faults.append("printed, there is no picture of the bed")
+    browser.page("Emulation.setEmulatedMedia", media="")
+
+
+CONTENT = """({ images: [...document.images].filter((image) => image.naturalWidth > 0).length,
+  rows: document.querySelectorAll('tbody tr').length })"""
+
+
+def check(browser, path, axe):
     faults = []
     browser.page("Emulation.setScriptExecutionDisabled", value=True)
     browser.open(path)
@@ -196,35 +255,36 @@ def check(browser, path):
     for words in ("How this was made", "Packings", "Means") if is_report else ():
         if words not in plain:
             faults.append(f'without scripts "{words}" is not there')
-    has_bed = browser.value("!!document.getElementById('bed-stage')")
-    if has_bed and not browser.value("document.getElementById('bed-picture').naturalWidth > 0"):
-        faults.append("without scripts there is no picture of the bed")
+    content = browser.value(CONTENT)
     browser.page("Emulation.setScriptExecutionDisabled", value=False)
     browser.open(path)
-    check_figures(browser, faults)
+    if browser.value(CONTENT) != content:
+        faults.append(f"without scripts there is only {content}")
+    check_figures(browser, path, faults)
     check_table(browser, faults)
-    if has_bed:
+    if browser.value("!!document.getElementById('bed-stage')"):
         check_bed(browser, faults)
-        browser.page("Emulation.setEmulatedMedia", media="print")
-        if browser.value(f"getComputedStyle({CANVAS}).display") != "none":
-            faults.append("printed, the bed is no picture")
-        browser.page("Emulation.setEmulatedMedia", media="")
-    browser.page("Emulation.setDeviceMetricsOverride", width=360, height=700, deviceScaleFactor=2,
-                 mobile=True)
+        check_printed(browser, faults)
+    set_screen(browser, 360)
     if browser.value("document.documentElement.scrollWidth > innerWidth"):
         faults.append("on a phone the page is wider than the screen")
+    if axe:
+        check_access(browser, axe, faults)
     browser.page("Emulation.clearDeviceMetricsOverride")
     check_events(browser, faults)
     return faults
 
 
-def main(paths):
+def main(arguments):
+    axe, paths = "", arguments
+    if arguments[0] == "--axe":
+        axe, paths = pathlib.Path(arguments[1]).read_text(), arguments[2:]
     failed = False
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as profile:
         browser = Browser(profile)
         try:
             for path in paths:
-                faults = check(browser, path)
+                faults = check(browser, path, axe)
                 failed = failed or bool(faults)
                 for fault in faults:
                     print(f"{path}: {fault}", file=sys.stderr)

@@ -25,6 +25,10 @@ sweep() {
 }
 readonly square='"box": { "length": 4, "width": 4 }'
 harm='</script><script>alert(1)</script><img src=x onerror=alert(1)>\"q\"'\'', `touch x`{{title}}%s'
+printf '{"source": "A </script> paper", "families": [{"where": {}, "values": [
+  {"quantity": "Z", "width": 4, "value": 5.2, "error": 0.1}, {"quantity": "phi", "width": 5, "value": 0.6},
+  {"quantity": "C", "value": [0.1, 0.3]}, {"quantity": "Z_unconfined", "value": 6, "error": 0.02}]}]}' \
+  >widths.reference.json
 sweep widths "$square" '{ "label": "'"$harm"'", "grid": { "box.width": [3, 4, 5] } },
   { "label": "bulk", "set": { "box.width": 5, "box.y": "periodic" } }'
 sweep sizes "$square" '{ "label": "spread", "grid": { "sizes.spread": [0, 0.05, 0.1] } },
@@ -33,12 +37,43 @@ sweep pinacoids '"shape": "pinacoid", '"$square" '{ "label": "walls", "grid": { 
 sweep failed "$square" '{ "label": "short", "set": { "accuracy": { "preset": "fast", "max_steps": 40 } } }'
 sweep empty "$square" '{ "label": "none", "grid": { "box.width": [3, 4] } }'
 
+# has_figures NAME FIGURE...: its page shows these and no others, each with all of its files.
+has_figures() {
+  local name=$1 figure
+  shift
+  for figure in "$@"; do
+    for ending in svg png csv gnuplot; do
+      [ -s "$name/figures/$figure.$ending" ] || fail "$name: no $figure.$ending"
+    done
+  done
+  [ "$(find "$name/figures" -name '*.svg' | wc -l)" -eq $# ] || fail "$name: $(ls "$name/figures")"
+}
+
+fail() {
+  printf 'page: %s\n' "$*" >&2
+  exit 1
+}
+
 pages=()
 for name in widths sizes pinacoids failed empty; do
   "$grainsweep" run "$name.json" --quiet --out "$name" || [ $? -eq 1 ]
   pages+=("$name/report.html")
 done
 [ ! -e x ] && [ ! -e widths/figures/x ]
+has_figures widths means profiles distributions effort published
+has_figures sizes means profiles small_grains distributions effort
+has_figures pinacoids means profiles contacts distributions effort
+has_figures failed effort
+[ -s widths/figures/means-residuals.csv ]
+/usr/bin/python3 - widths <<'EOF'
+import csv, json, pathlib, sys
+folder = pathlib.Path(sys.argv[1])
+label = json.load(open(f"{folder}.json"))["sweep"][0]["label"]
+for name in ("packings", "groups", "profiles", "decays", "distributions"):
+    rows = list(csv.DictReader(open(folder / f"{name}.csv", newline="")))
+    assert {row["label"] for row in rows} == {label, "bulk"}, f"{name}.csv: labels are broken"
+    assert None not in rows[0] and all(None not in row.values() for row in rows), f"{name}.csv: cells"
+EOF
 rm empty/journal-*.jsonl empty/states/*
 "$grainsweep" report empty >/dev/null
 "$grainsweep" run widths.json --quiet --no-report --out without
@@ -48,7 +83,20 @@ rm empty/journal-*.jsonl empty/states/*
 views=(views/*.html)
 pages+=("${views[0]}")
 
-/usr/bin/python3 "$checks/browser.py" "${pages[@]}"
+# axe-core comes from npm, once; without it the rest is checked all the same.
+readonly axe_version=4.14.1
+axe_home=${XDG_CACHE_HOME:-$HOME/.cache}/grainsweep-checks
+axe=$axe_home/node_modules/axe-core/axe.min.js
+grep -qs "axe v$axe_version" "$axe" ||
+  npm install --silent --no-audit --no-fund --prefix "$axe_home" "axe-core@$axe_version" >npm.txt 2>&1 || true
+with_axe=()
+[ ! -s "$axe" ] || with_axe=(--axe "$axe")
+
+/usr/bin/python3 "$checks/browser.py" "${with_axe[@]}" "${pages[@]}"
 size=$(stat -c %s widths/report.html)
 ((size < 8000000)) || { printf 'report.html has %s bytes\n' "$size" && exit 1; }
 printf 'page: %s pages as they should be\n' "${#pages[@]}"
+if ((${#with_axe[@]} == 0)); then
+  printf 'SKIPPED: axe-core was not had from npm: %s\n' "$(cat npm.txt)"
+  exit 77
+fi
