@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/scene/spec.hpp"
 #include "engine/shape/shape_spec.hpp"
 #include "engine/units.hpp"
 #include "runner/sweep/parameters.hpp"
@@ -42,13 +43,26 @@ Json with(const std::string& member, const Json& schema) {
 /// That a block fits.
 Json with_block(const Json& block) { return with("sweep", {{"contains", block}}); }
 
-/// That a block says anything of a group.
-Json with_block_about(const std::string& group) {
-  const Json about = no({{"propertyNames", no({{"pattern", "^" + group + "(\\.|$)"}})}});
+/// That an object has a key that matches.
+Json with_key(const std::string& pattern) {
+  return no({{"propertyNames", no({{"pattern", pattern}})}});
+}
+
+/// That a block has one where it says what its packings are.
+Json with_block_key(const std::string& pattern) {
+  const Json about = with_key(pattern);
   std::vector<Json> ways;
   for (const char* member : {"set", "grid", "zip", "random"}) ways.push_back(with(member, about));
   return with_block({{"anyOf", ways}});
 }
+
+/// Any word of these groups, "a|b".
+std::string about(const std::string& groups) { return "^(" + groups + ")(\\.|$)"; }
+
+/// That a block says anything of a group.
+Json with_block_about(const std::string& group) { return with_block_key(about(group)); }
+
+Json with_base_key(const std::string& pattern) { return with("base", with_key(pattern)); }
 
 Json with_base(const std::string& path, const Json& value = nullptr) {
   return with("base", in_any_way(path, value));
@@ -60,6 +74,45 @@ Json not_all(const std::vector<Json>& schemas) { return no({{"allOf", schemas}})
 double least_usual_angle() {
   const PinacoidSize usual;
   return std::atan(usual.height / usual.length) * 180.0 / pi;
+}
+
+/// The largest multiple of `unit` at which a packing is refused that is usual in all else; `set`
+/// gives it the value.
+template <class Set>
+double most_refused(double unit, Set set) {
+  std::int64_t refused = 0, right = 100'000;
+  while (right - refused > 1) {
+    const std::int64_t middle = (refused + right) / 2;
+    PackingSpec spec;
+    set(spec, unit * static_cast<double>(middle));
+    (check(spec).empty() ? right : refused) = middle;
+  }
+  return unit * static_cast<double>(refused);
+}
+
+/// That a period holds no two spheres of the usual sizes.
+Json too_short_period() {
+  const double most = most_refused(1e-3, [](auto& spec, double d) { spec.box.length = d; });
+  return not_all({with_base("box.length", {{"maximum", most}}),
+                  no(with_base("box.x", {{"const", "walls"}})),
+                  no(with_base("shape", no({{"const", "sphere"}}))),
+                  no(with_base_key("^shape\\.|" + about("sizes"))), no(with_base("fill.file")),
+                  no(with_base("fill.files")),
+                  no(with_block_key(about("shape|sizes|fill") + "|^box(\\.length|\\.x|$)"))});
+}
+
+/// That a bed of the usual spheres, box and zones is too low to be measured.
+Json too_low_bed() {
+  const double height =
+      most_refused(1e-3, [](auto& spec, double d) { spec.fill = SolidHeight{d}; });
+  const double grains = most_refused(1.0, [](auto& spec, double count) {
+    spec.fill = GrainCount{static_cast<std::int64_t>(count)};
+  });
+  return not_all({{{"anyOf",
+                    {with_base("fill.solid_height", {{"maximum", height}}),
+                     with_base("fill.grains", {{"maximum", grains}})}}},
+                  no(with_base_key(about("shape|sizes|box|measure"))),
+                  no(with_block_key(about("shape|sizes|box|measure|fill")))});
 }
 
 }  // namespace
@@ -124,7 +177,8 @@ Json sweep_rules() {
                 no(with_block({{"required", {"replicates"}}}))}),
        not_all({with_base("shape.pinacoid.angle_deg", {{"exclusiveMaximum", least_usual_angle()}}),
                 no(with_base("shape.pinacoid.length")), no(with_base("shape.pinacoid.height")),
-                no(with_block_about("shape"))})});
+                no(with_block_about("shape"))}),
+       too_short_period(), too_low_bed()});
 }
 
 }  // namespace grainsweep

@@ -20,7 +20,8 @@ Json equally_long();
 Json set_or_varied();
 
 /// Of the whole sweep, where no block says otherwise: a length of a start file needs the file, one
-/// start serves no replicates, and the ends of a pinacoid do not cross.
+/// start serves no replicates, the ends of a pinacoid do not cross, a period holds two of the usual
+/// spheres, and a bed of them in the usual box is high enough to be measured.
 Json sweep_rules();
 
 }  // namespace grainsweep

@@ -18,13 +18,15 @@ for kill in $(seq 50); do
 done
 is_half || fail "no kill in 50 left packings and checkpoints"
 
-# look FOLDER NAME: what commands print of the folder, and what they warn of.
+# look FOLDER NAME: what commands print of the folder, and what they warn of. Figures, which take ten
+# times as long as all the rest, are left out.
 look() {
   code=0
   {
-    "$program" report "$1" && "$program" status "$1" && "$program" status "$1" --check &&
+    PATH=none "$program" report "$1" && "$program" status "$1" && "$program" status "$1" --check &&
       "$program" export "$1" --to "$here/grains"
   } >"$2" 2>warned.txt </dev/null || code=$?
+  sed -i '/^note: report.html: no figures, for want of gnuplot/d' warned.txt
   cat grains/* >>"$2" 2>/dev/null || true
   rm -rf grains
 }

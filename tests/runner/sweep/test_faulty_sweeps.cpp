@@ -23,7 +23,7 @@ std::vector<FaultySweep> faulty_sweeps() {
     const bool is_title = line.starts_with("== ");
     if (is_title) {
       all.push_back({line.substr(3), ""});
-    } else if (all.empty() || line == "--" || line == "~~") {
+    } else if (all.empty() || line == "--" || line.starts_with("~~")) {
       is_text = false;
       continue;
     } else if (is_text) {
