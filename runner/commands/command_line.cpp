@@ -37,7 +37,7 @@ std::string misspelling(const std::string& what, const std::string& word, const 
 
 /// What is wrong with the command line, `words` behind the program's name.
 std::string mistake(const CLI::App& app, const Words& words, const CLI::Error& error) {
-  Words commands, options;
+  Words commands = {"help", "version"}, options;
   for (const CLI::App* command : app.get_subcommands(nullptr)) {
     commands.push_back(command->get_name());
     if (!words.empty() && command->get_name() == words[0]) options = options_of(*command);
@@ -49,6 +49,16 @@ std::string mistake(const CLI::App& app, const Words& words, const CLI::Error& e
     if (i > 0 && word.starts_with("--")) found = misspelling("option", word, options);
   }
   return found.empty() ? error.what() : found;
+}
+
+/// "help", "help COMMAND" and "version" as the options that mean the same.
+Words with_options(const CLI::App& app, const Words& words) {
+  if (words == Words{"version"}) return {"--version"};
+  if (words == Words{"help"}) return {"--help"};
+  if (words.size() != 2 || words[0] != "help") return words;
+  const auto is_named = [&](const CLI::App* command) { return command->check_name(words[1]); };
+  if (app.get_subcommands(is_named).empty()) return {words[1]};
+  return {words[1], "--help"};
 }
 
 /// Makes the examples of its help begin with what the program was called by.
@@ -77,8 +87,9 @@ CommandLine read_command_line(int argc, const char* const* argv) {
                          "Help on a command: grainsweep run --help\n\n") +
              exit_codes_text);
   call_examples(app);
+  Words words(argv + std::min(1, argc), argv + argc);
   app.failure_message([&](const CLI::App* /*app*/, const CLI::Error& error) {
-    return "grainsweep: " + mistake(app, Words(argv + std::min(1, argc), argv + argc), error) +
+    return "grainsweep: " + mistake(app, words, error) +
            "\nRun with --help for more information.\n";
   });
   CommandLine line;
@@ -89,8 +100,9 @@ CommandLine read_command_line(int argc, const char* const* argv) {
     call_examples(command);
   };
   std::apply([&](auto&... options) { (add(options), ...); }, all);
+  words = with_options(app, words);
   try {
-    app.parse(argc, argv);
+    app.parse(Words(words.rbegin(), words.rend()));  // CLI11 takes them from the end
   } catch (const CLI::ParseError& error) {
     return {std::nullopt, app.exit(error) == 0 ? exit_done : exit_bad_input};
   }

@@ -1,5 +1,6 @@
 #include <cstdlib>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <catch2/catch.hpp>
@@ -113,9 +114,11 @@ TEST_CASE("a misspelt command or option is named with the likely one") {
     return error.substr(0, error.find('\n'));
   };
   CHECK(first_line({"rnu", "x.json"}) == "grainsweep: unknown command rnu; did you mean run?");
-  CHECK(first_line({"version"}) ==
-        "grainsweep: unknown command version; known: run, init, validate, plan, report, compare, "
-        "export, status, collect, schema, columns, doctor");
+  CHECK(
+      first_line({"pack"}) ==
+      "grainsweep: unknown command pack; known: help, version, run, init, validate, plan, report, "
+      "compare, export, status, collect, schema, columns, doctor");
+  CHECK(first_line({"help", "plna"}) == "grainsweep: unknown command plna; did you mean plan?");
   CHECK(first_line({"run", "x.json", "--treads", "2"}) ==
         "grainsweep: unknown option --treads; did you mean --threads?");
   CHECK(first_line({"run", "x.json", "--treads=2"}) ==
@@ -130,6 +133,19 @@ TEST_CASE("help has the commands, an example and the exit codes, and ends with c
   for (const char* word : {"run", "validate", "plan", "report", "export", "status", "doctor",
                            "collect", "schema", "Example:", "Exit codes:"}) {
     CHECK_THAT(reading.out, Catch::Contains(word));
+  }
+}
+
+TEST_CASE("help and version are commands, too") {
+  for (const auto& [words, same] :
+       std::vector<std::pair<std::vector<const char*>, std::vector<const char*>>>{
+           {{"help"}, {"--help"}},
+           {{"help", "run"}, {"run", "--help"}},
+           {{"version"}, {"--version"}}}) {
+    const Reading reading = read(words);
+    CHECK(reading.line.exit_code == 0);
+    CHECK_FALSE(reading.line.command);
+    CHECK(reading.out == read(same).out);
   }
 }
 
