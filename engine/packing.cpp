@@ -217,12 +217,13 @@ double usual_iterations(const PackingSpec& spec) {
       static_cast<double>(grain_count(spec)) / (spec.box.length * spec.box.width) + 1.0;
   const double falling = std::min(layers, 1.5 * sleep_depth);
   const double solved = std::pow(Accuracy{}.path_tolerance / a.path_tolerance, 0.6);
+  const double creep =
+      std::pow(static_cast<double>(a.creep_steps) / Accuracy{}.creep_steps, 1.3);  // of the usual
   if (!is_sphere(spec.shape)) {
-    return solved * 110.0 * falling + (60.0 + 1.2 * a.creep_steps) * a.rest_iterations;
+    return solved * (110.0 * falling + 7400.0 * creep) + 80.0 * a.rest_iterations;
   }
   const double fall = (a.protocol == Protocol::dynamic ? 600.0 : 200.0) * falling;
-  const double creep = a.protocol == Protocol::dynamic ? 0.0 : 3.5 * a.creep_steps * layers;
-  return solved * (fall + creep) + 30.0 * a.rest_iterations;
+  return solved * (fall + 960.0 * layers * creep) + 30.0 * a.rest_iterations;
 }
 
 }  // namespace

@@ -8,7 +8,7 @@ namespace {
 
 Accuracy fast() {
   Accuracy a;
-  a.creep_steps = 50;
+  a.creep_steps = 160;
   a.rest_iterations = 40;
   a.residual_tolerance = 2e-2;
   a.kinetic_tolerance = 1e-3;
@@ -21,7 +21,7 @@ Accuracy fast() {
 Accuracy accurate() {
   Accuracy a;
   a.path_tolerance = 1e-4;
-  a.creep_steps = 150;
+  a.creep_steps = 960;
   a.residual_tolerance = 1e-3;
   a.kinetic_tolerance = 2e-5;
   a.contact_tolerance = 0.006;

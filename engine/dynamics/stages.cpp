@@ -53,14 +53,14 @@ constexpr StageRule dynamic_fall = {.name = "fall",
                                     .steps = 1,
                                     .energy = 5e-3,
                                     .usual_steps = 1200,
-                                    .done_after = 0.5};
+                                    .done_after = 0.25};
 
 /// Steps with momentum, solved to a path: grains slide into their places. What a bed still sinks
 /// goes with the number of its steps, hardly with their length or momentum, and what it is tapped
-/// by with the path: a few thousandths of it here is what a fall leaves, too.
+/// by with the path of all of them: a hundredth of it.
 constexpr StageRule creep = {.name = "creep",
                              .inertia = Inertia::damped,
-                             .path = 1.0,
+                             .path = 0.5,
                              .carries = true,
                              .correction = 0.3,
                              .near = 0.03,
@@ -74,13 +74,13 @@ constexpr StageRule creep = {.name = "creep",
 constexpr StageRule slow = {.name = "slow",
                             .step = 0.5,
                             .inertia = Inertia::damped,
-                            .path = 0.25,
+                            .path = 0.125,
                             .carries = true,
                             .correction = 0.5,
                             .near = 0.03,
                             .margin = 0.01,
                             .fall_iterations = 1.0,
-                            .creep = 0.8,
+                            .creep = 0.1,
                             .done_before = 0.5,
                             .done_after = 0.7};
 
@@ -117,7 +117,7 @@ constexpr StageRule ease = {.name = "ease",
                             .done_after = 1.0};
 
 constexpr StageRule heavy_ball[] = {look, fall, creep, slow, quench, ease};
-constexpr StageRule dynamic[] = {look, dynamic_fall, slow, quench, ease};
+constexpr StageRule dynamic[] = {look, dynamic_fall, creep, slow, quench, ease};
 
 // ---- polyhedra ----
 
@@ -149,12 +149,13 @@ constexpr StageRule turning[] = {
     // Full steps.
     {.name = "creep",
      .inertia = Inertia::damped,
+     .path = 0.5,
      .correction = 0.1,
      .near = 0.03,
      .margin = 0.05,
-     .rest_iterations = 0.15,
-     .steps = 45,
-     .creep = 0.38,
+     .fall_iterations = 1.0,
+     .steps = 20,
+     .creep = 0.35,
      .done_before = 0.4,
      .done_after = 0.6},
     // Half steps: shortened to a quarter at once, they would leave motions that take many short
@@ -162,12 +163,13 @@ constexpr StageRule turning[] = {
     {.name = "slow",
      .step = 0.5,
      .inertia = Inertia::damped,
+     .path = 0.125,
      .correction = 0.1,
      .near = 0.015,
      .margin = 0.05,
-     .rest_iterations = 0.25,
-     .steps = 85,
-     .creep = 0.45,
+     .fall_iterations = 1.0,
+     .steps = 40,
+     .creep = 0.5,
      .done_before = 0.6,
      .done_after = 0.78},
     // Quarter steps without momentum, solved half as well as the quench: what still moves is slowed
@@ -220,24 +222,23 @@ constexpr StageRule turning[] = {
      .done_after = 1.0},
 };
 
-/// Undamped short steps, until impacts alone have taken the energy; then the quench.
-constexpr StageRule dynamic_turning[] = {
-    turning[0],
-    {.name = "fall",
-     .end = StageEnd::halted,
-     .step = 0.25,
-     .inertia = Inertia::full,
-     .path = 0.25,
-     .sleeps = true,
-     .near = 0.05,
-     .margin = 0.05,
-     .fall_iterations = 1.0,
-     .steps = 1,
-     .energy = 1e-2,
-     .usual_steps = 1200,
-     .done_after = 0.85},
-    turning[6],
-};
+/// Undamped short steps, until impacts alone have taken the energy.
+constexpr StageRule dynamic_turning_fall = {.name = "fall",
+                                            .end = StageEnd::halted,
+                                            .step = 0.25,
+                                            .inertia = Inertia::full,
+                                            .path = 0.25,
+                                            .sleeps = true,
+                                            .near = 0.05,
+                                            .margin = 0.05,
+                                            .fall_iterations = 1.0,
+                                            .steps = 1,
+                                            .energy = 1e-2,
+                                            .usual_steps = 1200,
+                                            .done_after = 0.4};
+
+constexpr StageRule dynamic_turning[] = {turning[0], dynamic_turning_fall, turning[2], turning[3],
+                                         turning[4], turning[5],           turning[6], turning[7]};
 
 /// While a step leaves more, its iterations are doubled. A heavy grain on a light one needs more
 /// sweeps than a bed, or the light one is pressed out from under it; grains of one size leave a
@@ -252,6 +253,15 @@ int doublings_at_rest(Precision precision) { return precision == Precision::f64 
 /// How far contacts may stray in a full step, d. A bed of half the step takes twice as many.
 double path_tolerance(const Accuracy& accuracy) {
   return accuracy.path_tolerance * accuracy.step / Accuracy{}.step;
+}
+
+/// How far contacts may stray in a step of a stage that has such a bound, d. The steps of a creep
+/// share one bound, so that a longer one does not tap the bed denser.
+double path_of(const Accuracy& accuracy, const StageRule& rule) {
+  const double share = rule.creep > 0.0 ? static_cast<double>(Accuracy{}.creep_steps) /
+                                              std::max(1, accuracy.creep_steps)
+                                        : 1.0;
+  return share * rule.path * path_tolerance(accuracy);
 }
 
 int iterations_of(const Accuracy& accuracy, const StageRule& rule) {
@@ -293,8 +303,7 @@ StepSettings settings_of(const Accuracy& accuracy, const StageRule& rule) {
   s.longest_free = rule.longest_free;
   s.carries = rule.carries;
   s.limits = {accuracy.solver, iterations_of(accuracy, rule), accuracy.residual_tolerance / 5.0};
-  const double path =
-      rule.path * path_tolerance(accuracy) + rule.path_of_gap * accuracy.imbalance_gap;
+  const double path = path_of(accuracy, rule) + rule.path_of_gap * accuracy.imbalance_gap;
   s.limits.rms_tolerance = path / (s.dt * s.dt);
   s.limits.residual_cap = residual_cap;
   s.limits.iteration_cap = iteration_cap;

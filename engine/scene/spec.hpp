@@ -73,12 +73,13 @@ struct Accuracy {
   double step = 0.2;          ///< dt, sqrt(d/g)
   double momentum = 0.9;      ///< alpha: share of a displacement carried on in the fall, 0..1
   int fall_iterations = 400;  ///< most solver iterations per step of fall and creep
-  /// How far contacts may stray in a step of fall or creep for want of a better solve, d: root mean
-  /// square, of a step of 0.2 sqrt(d/g), of others in proportion. Looser solves tap the bed denser.
+  /// How far contacts may stray in a step of the fall for want of a better solve, d: root mean
+  /// square, of a step of 0.2 sqrt(d/g), of others in proportion. A creep shares out to its steps
+  /// what 160 such steps may. Looser solves tap the bed denser.
   double path_tolerance = 2e-4;
   /// Steps after the fall, while the bed creeps to rest: of 0.2 sqrt(d/g), of shorter steps as many
   /// more.
-  int creep_steps = 100;
+  int creep_steps = 320;
   int rest_iterations = 100;          ///< most solver iterations per step at the end of the creep
   double residual_tolerance = 1e-2;   ///< worst residual of the last step at rest, m g
   double kinetic_tolerance = 1e-4;    ///< kinetic energy per grain at rest, m g d

@@ -301,7 +301,8 @@ Rows accuracy_rows() {
                                              "most solver iterations per step of fall and creep"),
       row<&S::accuracy, &A::path_tolerance>(
           "accuracy.path_tolerance", positive,
-          "how far contacts may stray in a full step of fall or creep, d, root mean square"),
+          "how far contacts may stray in a full step of the fall, d, root mean square; a creep "
+          "shares out to its steps what 160 such steps may"),
       row<&S::accuracy, &A::creep_steps>("accuracy.creep_steps", Interval{0, 1000000},
                                          "steps after the fall, while the bed creeps to rest: of "
                                          "0.2 sqrt(d/g), of shorter steps as many more"),

@@ -101,16 +101,12 @@ std::vector<std::string> known_keys(std::string_view path) {
 }
 
 std::string idle_reason(const Parameter& parameter, const PackingSpec& spec) {
-  const bool is_damped = spec.accuracy.protocol == Protocol::heavy_ball;
   const std::string& path = parameter.path;
   if (path == "sizes.size_ratio" && spec.sizes.small_share == 0.0) {
     return "sizes.small_share is 0";
   }
   if (path == "sizes.spread" && std::holds_alternative<PlacedGrains>(spec.fill)) {
     return "the sizes stand in fill.file";
-  }
-  if ((path == "accuracy.momentum" || path == "accuracy.creep_steps") && !is_damped) {
-    return "accuracy.protocol is dynamic";
   }
   return "";
 }

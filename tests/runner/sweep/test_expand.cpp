@@ -282,9 +282,6 @@ TEST_CASE("a value that has no effect on any packing is noted with the reason") 
   CHECK(notes_of(sweep_of(R"({"grid": {"sizes.small_share": [0, 0.4]}})",
                           R"({"sizes.size_ratio": 0.3})"))
             .empty());
-  CHECK(
-      notes_of(sweep_of("{}", R"({"accuracy": {"protocol": "dynamic", "momentum": 0.5}})")) ==
-      Messages{"s.json:1:72 /base/accuracy/momentum: has no effect: accuracy.protocol is dynamic"});
 }
 
 TEST_CASE("a list that holds a value twice, and a zip with two equal rows, are refused") {
