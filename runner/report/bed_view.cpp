@@ -131,7 +131,8 @@ std::string bed_page(const StoredBed& bed, const BedFacts& facts) {
 
 std::string bed_scripts() {
   return "<script>" + std::string(templates::three_min_js) + "</script>\n<script>" +
-         std::string(templates::forces_js) + std::string(templates::bed_js) + "</script>\n";
+         std::string(templates::repeat_js) + std::string(templates::forces_js) +
+         std::string(templates::bed_js) + "</script>\n";
 }
 
 BedFacts facts_of(const JobFacts& job, const std::string& title) {

@@ -1,5 +1,5 @@
 // Turns a bed: spheres are drawn as discs whose depth and light are those of a sphere, polyhedra as
-// instances of one mesh. Draws only when something has changed. Until the first frame, and where
+// copies of one mesh. Draws only when something has changed. Until the first frame, and where
 // there is no WebGL, the picture stays.
 (() => {
   "use strict";
@@ -126,7 +126,7 @@
   });
 
   // Triangles of the mesh, each with the normal of its face.
-  const meshGeometry = (mesh) => {
+  const trianglesOf = (mesh) => {
     const corners = [];
     const normals = [];
     for (const face of mesh.faces) {
@@ -139,33 +139,24 @@
         }
       }
     }
-    const geometry = new THREE.InstancedBufferGeometry();
-    geometry.setAttribute("position", new THREE.Float32BufferAttribute(corners, 3));
-    geometry.setAttribute("normal", new THREE.Float32BufferAttribute(normals, 3));
-    return geometry;
+    return { position: [corners, 3], normal: [normals, 3] };
   };
 
-  const discGeometry = () => {
-    const geometry = new THREE.InstancedBufferGeometry();
-    geometry.setAttribute("position",
-      new THREE.Float32BufferAttribute([-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0], 3));
-    geometry.setIndex([0, 1, 2, 0, 2, 3]);
-    return geometry;
-  };
+  const square = { position: [[-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, -1, 0, 1, 1, 0, -1, 1, 0], 3] };
 
   const grainsOf = (bed) => {
-    const geometry = bed.mesh ? meshGeometry(bed.mesh) : discGeometry();
     const centres = new Float32Array(3 * bed.count);
     for (let k = 0; k < bed.count; k += 1) {
       centres.set([bed.x[k], bed.y[k], bed.z[k]], 3 * k);
     }
-    geometry.setAttribute("centre", new THREE.InstancedBufferAttribute(centres, 3));
-    geometry.setAttribute("radius", new THREE.InstancedBufferAttribute(bed.radius, 1));
-    geometry.setAttribute("tint",
-      new THREE.InstancedBufferAttribute(new Float32Array(3 * bed.count), 3));
-    if (bed.mesh) geometry.setAttribute("turn", new THREE.InstancedBufferAttribute(bed.turn, 4));
+    const items = { centre: [centres, 3], radius: [bed.radius, 1],
+                    tint: [new Float32Array(3 * bed.count), 3] };
+    if (bed.mesh) items.turn = [bed.turn, 4];
+    const { geometry, copies } =
+      repeated(bed.mesh ? trianglesOf(bed.mesh) : square, items, bed.count);
     const grains = new THREE.Mesh(geometry, bed.mesh ? meshMaterial() : sphereMaterial());
     grains.frustumCulled = false;
+    grains.userData.copies = copies;
     return grains;
   };
 
@@ -241,10 +232,13 @@
       high = Math.max(high, value);
     }
     const tint = grains.geometry.attributes.tint;
+    const copies = grains.userData.copies;
     for (let k = 0; k < bed.count; k += 1) {
       const rgb = by === "kind" ? kinds[values[k]]
                                 : colour(high > low ? (values[k] - low) / (high - low) : 0.5);
-      tint.setXYZ(k, rgb[0] / 255, rgb[1] / 255, rgb[2] / 255);
+      for (let at = k * copies; at < (k + 1) * copies; at += 1) {
+        tint.setXYZ(at, rgb[0] / 255, rgb[1] / 255, rgb[2] / 255);
+      }
     }
     tint.needsUpdate = true;
     const length = (value) => `${digits(value * bed.d)} ${bed.unit}`;

@@ -54,14 +54,10 @@ const forceNetwork = (() => {
   return (bed, colour) => {
     const lines = linesOf(bed);
     const tint = lines.share.flatMap((share) => colour(1 - share).map((value) => value / 255));
-    const geometry = new THREE.InstancedBufferGeometry();
-    geometry.setAttribute("position",
-      new THREE.Float32BufferAttribute([0, -1, 0, 1, -1, 0, 1, 1, 0, 0, 1, 0], 3));
-    geometry.setIndex([0, 1, 2, 0, 2, 3]);
-    for (const [name, values, size] of [["begin", lines.begin, 3], ["end", lines.end, 3],
-                                        ["share", lines.share, 1], ["tint", tint, 3]]) {
-      geometry.setAttribute(name, new THREE.InstancedBufferAttribute(new Float32Array(values), size));
-    }
+    const ribbon = { position: [[0, -1, 0, 1, -1, 0, 1, 1, 0, 0, -1, 0, 1, 1, 0, 0, 1, 0], 3] };
+    const { geometry } = repeated(ribbon, { begin: [lines.begin, 3], end: [lines.end, 3],
+                                            share: [lines.share, 1], tint: [tint, 3] },
+                                  lines.share.length);
     const network = new THREE.Mesh(geometry, ribbonMaterial(bed));
     network.frustumCulled = false;
     return network;
