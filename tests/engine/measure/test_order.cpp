@@ -28,6 +28,8 @@ TEST_CASE("segregation is the rise of the small grains over the large ones in sl
       {9, 4, periodic, walls},
       {{1, 1, 2, 0.5}, {1, 1, 4, 0.5}, {5, 1, 5, 0.25}, {7, 1, 6, 0.25}, {8, 1, 20, 0.25}});
   CHECK(segregation(bed, {0, 10}, 0.4) == Approx(0.25));
+  CHECK(segregation(bed, {0, 10}, 0.5) == Approx(0.25));  // at the limit grains are large
+  CHECK(std::isnan(segregation(bed, {0, 10}, 0.25)));
   CHECK(std::isnan(segregation(bed, {0, 10}, 0.1)));
   CHECK(std::isnan(segregation(bed, {0, 10}, 0.6)));
 }
