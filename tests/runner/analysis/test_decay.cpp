@@ -145,13 +145,13 @@ TEST_CASE("the misfit is below one where the curve is right, far above where it 
 TEST_CASE("pure noise, a flat profile and a short window determine nothing, and say why") {
   std::mt19937_64 generator(23);
   int determined = 0;
-  for (int set = 0; set < 50; ++set) {
+  for (int set = 0; set < 20; ++set) {
     const auto flat = noisy_profiles({0.6, 0, 1, 1, 0}, 6, 0.01, generator);
     const DecayFit fit = fit_decay(flat, bin_width, 5);
     determined += fit.not_determined.empty() ? 1 : 0;
     if (!fit.not_determined.empty()) CHECK(fit.length.value == 0);
   }
-  CHECK(determined <= 5);
+  CHECK(determined <= 2);
   CHECK_THAT(fit_decay({{0.6}, {0.6}}, 5, 2.5).not_determined, Catch::Contains("holds 1 bins"));
   CHECK_THAT(fit_decay({{0.6}, {0.6}}, 5, 2.4).not_determined, Catch::Contains("holds 0 bins"));
   const std::vector<double> flat(50, 0.6);
