@@ -49,7 +49,7 @@ std::string length_text(double length, double error, int decimals, const GivenUn
     const std::string value = fixed(factor * length, places);
     return std::isfinite(error) ? value + " ± " + fixed(factor * error, places) : value;
   };
-  const std::string text = with_error(1.0, decimals) + " d";
+  std::string text = with_error(1.0, decimals) + " d";
   if (!units) return text;
   return text + " = " + with_error(units->d, decimals_in(*units, decimals)) + " " +
          printed_unit(*units);

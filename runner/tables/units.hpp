@@ -23,7 +23,7 @@ std::vector<Conversion> conversions_of(const std::string& name, const std::strin
                                        const Units& units);
 
 /// A cell converted; empty where it is.
-std::string converted(const std::string& cell, const Conversion& to);
+std::string converted(const std::string& text, const Conversion& to);
 
 /// "µm" of "um", the others as they are.
 std::string printed_unit(const Units& units);
