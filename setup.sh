@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Installs what grainsweep is built with, three.js for its pages, and gnuplot, by which it draws:
-# Debian 12 packages, nothing else. Does nothing when all
-# of them are present. See usage below.
+# Installs what grainsweep is built with, three.js for its pages, and gnuplot, by which it draws, from
+# Debian 12 packages, and for checks axe-core from npm. Does nothing when all of it is present. See
+# usage below.
 set -euo pipefail
 
 readonly build_packages=(
@@ -15,6 +15,9 @@ readonly check_packages=(
   clang-format clang-tidy clang libclang-rt-14-dev strace python3 python3-jsonschema
   python3-pandas chromium
 )
+# Where tests/checks/page.sh looks for axe-core, which finds what keeps people from reading a page.
+readonly axe_version=4.14.1
+readonly axe_home=${XDG_CACHE_HOME:-$HOME/.cache}/grainsweep-checks
 readonly emulator_packages=(
   bochs bochs-term bochsbios vgabios isolinux syslinux-common genisoimage cpio busybox-static
 )
@@ -27,7 +30,8 @@ Installs the packages that building and testing grainsweep takes, with apt-get, 
 sudo. Only what is missing is installed; with nothing missing it ends at once.
 
   --checks    also what .ci/run takes: clang-format and clang-tidy, clang for builds under
-              sanitizers, strace, Python and Chromium for the tests that need them
+              sanitizers, strace, Python and Chromium for the tests that need them, and
+              axe-core, with npm, into ~/.cache/grainsweep-checks
   --emulator  also a PC emulator with AVX-512, for tests/checks/avx512_emulated.sh
   --help      this text
 EOF
@@ -81,10 +85,22 @@ install_missing() {
   rm -f "$log"
 }
 
+# A test that needs axe-core says so where it cannot be had.
+install_axe() {
+  grep -qs "axe v$axe_version" "$axe_home/node_modules/axe-core/axe.min.js" ||
+    npm install --silent --no-audit --no-fund --prefix "$axe_home" "axe-core@$axe_version" >&2 ||
+    printf 'setup.sh: axe-core %s could not be had from npm\n' "$axe_version" >&2
+}
+
+with_checks=no
 packages=("${build_packages[@]}")
 while (($#)); do
   case $1 in
-    --checks) packages+=("${check_packages[@]}") ;;
+    --checks)
+      with_checks=yes
+      packages+=("${check_packages[@]}")
+      command -v npm >/dev/null || packages+=(npm) # nodejs from elsewhere brings its own
+      ;;
     --emulator) packages+=("${emulator_packages[@]}") ;;
     -h | --help) usage && exit 0 ;;
     *) usage >&2 && stop "unknown option $1" ;;
@@ -102,3 +118,4 @@ if ((${#missing[@]})); then
   find_root
   install_missing
 fi
+if [[ $with_checks == yes ]]; then install_axe; fi
