@@ -193,7 +193,8 @@ Packing pack(const PackingSpec& spec, const ExecutionContext& context, const Kee
                   ": a grain's place is no longer a finite number; take accuracy.precision f64, or "
                   "leave out grains far smaller than d");
   }
-  Packing packing{result_of(spec.fill, *bed, settled), {}, {}};
+  Packing packing;
+  packing.result = result_of(spec.fill, *bed, settled);
   if (!settled.cancelled) measure(spec, settled, context.kernels, *bed, packing);
   return packing;
 }

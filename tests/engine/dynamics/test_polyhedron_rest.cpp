@@ -39,13 +39,14 @@ TEST_CASE("overlaps are measured where the grains are, at the deepest point") {
 }
 
 /// Modes that move no contact, of cubes in a row along x that push each other.
-std::int64_t modes_of_a_row(const Box& box, std::int32_t cubes, std::vector<ForceContact> walls) {
+std::int64_t modes_of_a_row(const Box& box, std::int32_t cubes,
+                            std::vector<ForceContact> contacts) {
   std::vector<Pose> poses;
   for (std::int32_t i = 0; i < cubes; ++i) poses.push_back(pose_at(0.5 + i, 0.5, 0.5));
   const PolyhedronBed bed = make_bed(box, testing::cube(), poses);
-  for (ForceContact& wall : walls) wall.b = bed.wall_name(static_cast<std::size_t>(wall.b));
-  for (std::int32_t i = 0; i + 1 < cubes; ++i) walls.push_back({i, i + 1, 1.0, 3});
-  return zero_modes(bed, walls);
+  for (ForceContact& wall : contacts) wall.b = bed.wall_name(static_cast<std::size_t>(wall.b));
+  for (std::int32_t i = 0; i + 1 < cubes; ++i) contacts.push_back({i, i + 1, 1.0, 3});
+  return zero_modes(bed, contacts);
 }
 
 // Grains that turn have six degrees of freedom, and as many contacts less the ways to move all of
