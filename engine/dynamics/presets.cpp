@@ -38,15 +38,15 @@ const std::vector<Preset>& presets() {
       {"fast",
        "at least 90 % of the isostatic contacts, mean overlap below 1e-4 d",
        fast(),
-       {{{0.0056, 0.118}, {0.0054, 0.149}, {0.0071, 0.152}}}},
+       {{{0.0030, 0.087}, {0.0026, 0.115}, {0.0062, 0.185}}}},
       {"balanced",
        "at least 98 % of the isostatic contacts, mean overlap below 1e-5 d",
        Accuracy{},
-       {{{0.0029, 0.047}, {0.0025, 0.060}, {0.0050, 0.082}}}},
+       {{{0.0020, 0.056}, {0.0016, 0.046}, {0.0052, 0.095}}}},
       {"accurate",
        "at least 99.4 % of the isostatic contacts, mean overlap below 5e-6 d",
        accurate(),
-       {{{0.0023, 0.012}, {0.0031, 0.035}, {0.0049, 0.097}}}}};
+       {{{0.0013, 0.012}, {0.0024, 0.050}, {0.0030, 0.067}}}}};
   return all;
 }
 

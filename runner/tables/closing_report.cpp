@@ -119,7 +119,7 @@ std::string reference_text(const Family& family, Quantity quantity, int decimals
   return "; periodic " + with_error(spread.mean, spread.error, decimals);
 }
 
-/// " ± 0.0029 protocol", the second error of a mean; nothing where it was not measured.
+/// " ± 0.0020 protocol", the second error of a mean; nothing where it was not measured.
 std::string protocol_text(const WallFit& fit, int decimals) {
   return fit.bias_bound ? " ± " + fixed(*fit.bias_bound, decimals) + " protocol" : "";
 }
