@@ -78,6 +78,7 @@ class GaussSeidel {
     motion.summed.resize(motion.free.size());
     motion.accumulated.assign(motion.free.size(), {Real(0), Real(0), Real(0), Real(0)});
     std::copy_n(motion.free.begin(), motion.first_moving, motion.u.begin());
+    std::copy_n(motion.free.begin(), motion.first_moving, motion.summed.begin());
     set_motion(motion.u);
   }
 

@@ -321,6 +321,26 @@ TEST_CASE("a large bed shared out in two phases moves as in one, after as many s
   CHECK(farthest < 1e-5);
 }
 
+// What steps before left in the columns of motion must not get into that of grains asleep.
+TEST_CASE("grains asleep at the bottom of a large bed stand still through all sweeps") {
+  constexpr std::size_t asleep = 500;
+  StepProblem<double> problem = large_problem();
+  const SolveLimits limits{Solver::accelerated_gauss_seidel, 100, 0.0};
+  solve(limits, kernels(), problem.contacts, problem.motion);
+  problem.bed.asleep.assign(problem.bed.grains(), 0);
+  std::fill_n(problem.bed.asleep.begin(), asleep, std::uint8_t{1});
+  problem.contacts = testing::contacts_of<double>(problem.bed, 0.1, kernels());
+  REQUIRE(problem.contacts.shares.phases() == 2);
+  std::fill_n(problem.motion.free.begin(), asleep, Record<double>{});
+  problem.motion.first_moving = asleep;
+  const SolveReport report = solve(limits, kernels(), problem.contacts, problem.motion);
+  CHECK(report.residual < 0.1);
+  for (std::size_t i = 0; i < asleep; ++i) {
+    const Record<double>& u = problem.motion.u[i];
+    REQUIRE((u.x == 0.0 && u.y == 0.0 && u.z == 0.0 && u.w == 0.0));
+  }
+}
+
 TEST_CASE("a solve continues beyond its iterations until the residual is below its cap") {
   for (const Solver solver : all_solvers) {
     INFO("solver " << static_cast<int>(solver));
