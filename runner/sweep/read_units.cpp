@@ -9,7 +9,7 @@
 namespace grainsweep {
 namespace {
 
-constexpr Interval lengths{0.0, largest_length, true};
+constexpr Interval allowed_lengths{0.0, largest_length, true};
 constexpr Interval densities{least_density, largest_density};
 
 /// The number at `key`; none if it is wrong, and that is noted.
@@ -41,7 +41,7 @@ GivenUnits read_units(const Json& file, Diagnostics& diagnostics) {
     return std::nullopt;
   }
   refuse_unknown_keys(*found, "/units", {"d", "unit", "density"}, diagnostics);
-  const auto d = number_at("d", found->at("d"), lengths, "", diagnostics);
+  const auto d = number_at("d", found->at("d"), allowed_lengths, "", diagnostics);
   Units units{d.value_or(1.0), unit_at(found->at("unit"), diagnostics), std::nullopt};
   if (const auto density = found->find("density"); density != found->end()) {
     units.density = number_at("density", *density, densities, "of kg/m3 ", diagnostics);
