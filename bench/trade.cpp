@@ -86,7 +86,7 @@ std::vector<Setting> all_settings() {
   add_solvers(settings);
   add_range(settings, "path tolerance", {8e-4, 4e-4, 1e-4, 5e-5},
             [](Accuracy& a, double value) { a.path_tolerance = value; });
-  add_range(settings, "creep steps", {0, 20, 40, 160},
+  add_range(settings, "creep steps", {0, 80, 160, 1280},
             [](Accuracy& a, double value) { a.creep_steps = static_cast<int>(value); });
   add_range(settings, "rest iterations", {25, 50, 200, 400},
             [](Accuracy& a, double value) { a.rest_iterations = static_cast<int>(value); });
