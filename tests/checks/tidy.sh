@@ -20,6 +20,7 @@ declare -A unit_of=()
 mapfile -t compiled < <(sed -nE 's/^.*"file": "([^"]*)".*/\1/p' "$build/compile_commands.json" | sort -u)
 for unit in "${compiled[@]}"; do
   unit_of[$unit]=$unit
+  [[ -f $unit ]] || continue # the build writes it, and it includes none of ours
   while read -r source; do unit_of[$source]=$unit; done \
     < <(sed -nE 's/^#include "(\/.*\.cpp)"$/\1/p' "$unit")
 done
