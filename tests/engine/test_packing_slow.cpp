@@ -138,5 +138,19 @@ TEST_CASE("both number types settle beds of the same solid fraction", "[slow]") 
         Approx(wide.coordination[0].between_grains).margin(0.15));
 }
 
+// Its bottom falls asleep in the sixties of its steps, when it has filled up to 15 d.
+TEST_CASE("a bed of polyhedra that cores share fills up while its bottom sleeps", "[slow]") {
+  PackingSpec spec = bed_spec(20, 6, Boundary::walls, "balanced");
+  spec.shape = PinacoidSize{};
+  spec.fill = SolidHeight{14.5};
+  REQUIRE(check(spec).empty());
+  REQUIRE(grain_count(spec) >= static_cast<std::int64_t>(large_bed_grains<Polyhedron>));
+  const auto result = make_packing(spec, kernels_for(best_isa()), [](const Progress& progress) {
+                        return progress.step < 100;
+                      }).result;
+  CHECK(result.reason == "stopped on request");
+  CHECK(result.status == PackingStatus::cancelled);
+}
+
 }  // namespace
 }  // namespace grainsweep

@@ -50,7 +50,10 @@ with open(journal, "wb") as out:
         text = outcome.replace(b'"job":"' + job, b'"job":"' + name)
         out.write(b'{"length":%d,"crc32":"%08x","outcome":%s}\n' % (len(text), zlib.crc32(text), text))
         if name != job:
-            os.link(bed, f"{folder}/states/{other['id']}.grains")
+            grains = f"{folder}/states/{other['id']}.grains"
+            if os.path.exists(grains):  # the run may have made another before it was killed
+                os.unlink(grains)
+            os.link(bed, grains)
         if number % 50000 == 49999:  # a file has 65,000 names at most
             shutil.copy(bed, bed + ".new")
             os.replace(bed + ".new", bed)
