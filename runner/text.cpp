@@ -30,6 +30,11 @@ std::string fixed(double value, int decimals) {
   return text.data();
 }
 
+std::string with_error(double value, double error, int decimals) {
+  const std::string text = fixed(value, decimals);
+  return std::isfinite(error) ? text + " ± " + fixed(error, decimals) : text;
+}
+
 std::string power_text(double value) {
   if (!std::isfinite(value)) return "-";
   std::array<char, 32> text{};

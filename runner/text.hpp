@@ -16,6 +16,9 @@ std::string counted(std::size_t count, const std::string& noun);
 /// "0.6123" with so many decimals; "-" for NaN.
 std::string fixed(double value, int decimals);
 
+/// "0.6390 ± 0.0012", "0.6390" if there is no error; "-" without a value.
+std::string with_error(double value, double error, int decimals);
+
 /// "8.7e-05"; "-" for NaN.
 std::string power_text(double value);
 

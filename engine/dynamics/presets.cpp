@@ -1,5 +1,7 @@
 #include "engine/dynamics/presets.hpp"
 
+#include <algorithm>
+
 namespace grainsweep {
 
 namespace {
@@ -50,20 +52,26 @@ const std::vector<Preset>& presets() {
   return all;
 }
 
+namespace {
+
+/// Null if none is called so.
+const Preset* find_preset(std::string_view name) {
+  const auto found = std::find_if(presets().begin(), presets().end(),
+                                  [&](const Preset& known) { return known.name == name; });
+  return found != presets().end() ? &*found : nullptr;
+}
+
+}  // namespace
+
 std::optional<Accuracy> preset(std::string_view name) {
-  for (const Preset& known : presets()) {
-    if (known.name == name) {
-      return known.accuracy;
-    }
-  }
-  return std::nullopt;
+  const Preset* known = find_preset(name);
+  return known != nullptr ? std::optional(known->accuracy) : std::nullopt;
 }
 
 std::optional<ProtocolBias> bias_bound(std::string_view preset_name, BedKind kind) {
-  for (const Preset& known : presets()) {
-    if (known.name == preset_name) return known.bias_bounds[static_cast<std::size_t>(kind)];
-  }
-  return std::nullopt;
+  const Preset* known = find_preset(preset_name);
+  return known != nullptr ? std::optional(known->bias_bounds[static_cast<std::size_t>(kind)])
+                          : std::nullopt;
 }
 
 }  // namespace grainsweep

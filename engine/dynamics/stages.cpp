@@ -1,6 +1,7 @@
 #include "engine/dynamics/stages.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace grainsweep {
@@ -117,7 +118,17 @@ constexpr StageRule ease = {.name = "ease",
                             .done_after = 1.0};
 
 constexpr StageRule heavy_ball[] = {look, fall, creep, slow, quench, ease};
-constexpr StageRule dynamic[] = {look, dynamic_fall, creep, slow, quench, ease};
+
+/// The same stages, but for the fall, which comes second.
+template <std::size_t stages>
+constexpr std::array<StageRule, stages> with_fall(const StageRule& other,
+                                                  const StageRule (&rules)[stages]) {
+  std::array<StageRule, stages> changed = std::to_array(rules);
+  changed[1] = other;
+  return changed;
+}
+
+constexpr auto dynamic = with_fall(dynamic_fall, heavy_ball);
 
 // ---- polyhedra ----
 
@@ -222,23 +233,16 @@ constexpr StageRule turning[] = {
      .done_after = 1.0},
 };
 
-/// Undamped short steps, until impacts alone have taken the energy.
-constexpr StageRule dynamic_turning_fall = {.name = "fall",
-                                            .end = StageEnd::halted,
-                                            .step = 0.25,
-                                            .inertia = Inertia::full,
-                                            .path = 0.25,
-                                            .sleeps = true,
-                                            .near = 0.05,
-                                            .margin = 0.05,
-                                            .fall_iterations = 1.0,
-                                            .steps = 1,
-                                            .energy = 1e-2,
-                                            .usual_steps = 1200,
-                                            .done_after = 0.4};
+/// As that of spheres.
+constexpr StageRule dynamic_turning_fall = [] {
+  StageRule fall_of_polyhedra = dynamic_fall;
+  fall_of_polyhedra.near = 0.05;
+  fall_of_polyhedra.energy = 1e-2;
+  fall_of_polyhedra.done_after = 0.4;
+  return fall_of_polyhedra;
+}();
 
-constexpr StageRule dynamic_turning[] = {turning[0], dynamic_turning_fall, turning[2], turning[3],
-                                         turning[4], turning[5],           turning[6], turning[7]};
+constexpr auto dynamic_turning = with_fall(dynamic_turning_fall, turning);
 
 /// While a step leaves more, its iterations are doubled. A heavy grain on a light one needs more
 /// sweeps than a bed, or the light one is pressed out from under it; grains of one size leave a

@@ -1,7 +1,6 @@
 #include "runner/report/sections.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <utility>
 
@@ -14,14 +13,8 @@
 namespace grainsweep {
 namespace {
 
-/// "0.6087 ± 0.0003"; the value alone where it has no error, "-" without a value.
-std::string mean_text(double value, double error, int decimals) {
-  const std::string text = fixed(value, decimals);
-  return std::isfinite(error) ? text + " ± " + fixed(error, decimals) : text;
-}
-
 std::string mean_text(const Spread& spread, int decimals) {
-  return mean_text(spread.mean, spread.error, decimals);
+  return with_error(spread.mean, spread.error, decimals);
 }
 
 std::string measured(const Row& row, std::string_view name, int decimals) {
@@ -39,10 +32,10 @@ Heading width_heading(const Units& units) {
 /// A fitted length in d, and in the unit of the sweep where it has one.
 void append_length(const Estimate& length, int decimals, const GivenUnits& units,
                    std::vector<std::string>& cells) {
-  cells.push_back(mean_text(length.value, length.error, decimals));
+  cells.push_back(with_error(length.value, length.error, decimals));
   if (!units) return;
   cells.push_back(
-      mean_text(units->d * length.value, units->d * length.error, decimals_in(*units, decimals)));
+      with_error(units->d * length.value, units->d * length.error, decimals_in(*units, decimals)));
 }
 
 std::string settled_of(const StatusCounts& counts) {
@@ -98,7 +91,7 @@ std::vector<std::string> fit_cells(const Family& family, Quantity quantity,
   const Group* reference = unconfined_reference(family);
   const std::string unconfined =
       reference == nullptr ? "-" : mean_text(spread_of(*reference, quantity), decimals);
-  cells.insert(cells.end(), {mean_text(fit.bulk.value, fit.bulk.error, decimals), unconfined});
+  cells.insert(cells.end(), {with_error(fit.bulk.value, fit.bulk.error, decimals), unconfined});
   append_length(fit.slope, decimals - 1, units, cells);
   append_length(fit.zeta, 3, units, cells);
   cells.insert(cells.end(), {fixed(fit.chi2_per_dof, 2), html_text(fit.doubt)});
@@ -149,7 +142,7 @@ std::string published_value(const Published& published) {
 
 std::string measured_value(const Measured& measured) {
   if (!measured.not_determined.empty()) return "not determined: " + measured.not_determined;
-  return mean_text(measured.estimate.value, measured.estimate.error, 4) +
+  return with_error(measured.estimate.value, measured.estimate.error, 4) +
          (measured.definition.empty() ? "" : " (" + measured.definition + ")");
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <functional>
 #include <map>
@@ -19,12 +18,6 @@ namespace {
 
 constexpr int solid_fraction_decimals = 4;
 constexpr int coordination_decimals = 3;
-
-/// "0.6390 ± 0.0012", "0.6390" if there is no error.
-std::string with_error(double value, double error, int decimals) {
-  const std::string text = fixed(value, decimals);
-  return std::isfinite(error) ? text + " ± " + fixed(error, decimals) : text;
-}
 
 /// "3 of 5 settled" where some are missing, else "3".
 std::string packings_text(const Group& group) {

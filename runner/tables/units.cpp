@@ -45,13 +45,10 @@ std::string length_in(const Units& units, double length) {
 }
 
 std::string length_text(double length, double error, int decimals, const GivenUnits& units) {
-  const auto with_error = [&](double factor, int places) {
-    const std::string value = fixed(factor * length, places);
-    return std::isfinite(error) ? value + " ± " + fixed(factor * error, places) : value;
-  };
-  std::string text = with_error(1.0, decimals) + " d";
+  const std::string text = with_error(length, error, decimals) + " d";
   if (!units) return text;
-  return text + " = " + with_error(units->d, decimals_in(*units, decimals)) + " " +
+  return text + " = " +
+         with_error(units->d * length, units->d * error, decimals_in(*units, decimals)) + " " +
          printed_unit(*units);
 }
 
@@ -61,8 +58,7 @@ int decimals_in(const Units& units, int decimals) {
 
 std::string bulk_density_text(const Units& units, double solid_fraction, double error) {
   if (!units.density) return "-";
-  const std::string text = fixed(*units.density * solid_fraction, 0);
-  return std::isfinite(error) ? text + " ± " + fixed(*units.density * error, 0) : text;
+  return with_error(*units.density * solid_fraction, *units.density * error, 0);
 }
 
 }  // namespace grainsweep
