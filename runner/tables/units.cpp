@@ -45,7 +45,7 @@ std::string length_in(const Units& units, double length) {
 }
 
 std::string length_text(double length, double error, int decimals, const GivenUnits& units) {
-  const std::string text = with_error(length, error, decimals) + " d";
+  std::string text = with_error(length, error, decimals) + " d";
   if (!units) return text;
   return text + " = " +
          with_error(units->d * length, units->d * error, decimals_in(*units, decimals)) + " " +
