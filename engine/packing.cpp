@@ -160,14 +160,15 @@ void measure(const PackingSpec& spec, const SettleReport& settled, const Kernels
   if (slab) {
     result.solid_fraction = solid_fraction(bed, *slab);
     measure_neighbours(spec, near, settled, *slab, bed, result);
-    if (bed.box.x == Boundary::walls) {
+    const bool is_tube = bed.box.is_tube;
+    if (bed.box.x == Boundary::walls && !is_tube) {
       result.profile_x = profile_across(bed, near, *slab, bins_of(spec), 0);
     }
-    result.profile_y = profile_across(bed, near, *slab, bins_of(spec), 1);
+    if (!is_tube) result.profile_y = profile_across(bed, near, *slab, bins_of(spec), 1);
     if (bed.box.x == Boundary::walls && bed.box.y == Boundary::walls) {
       result.profile_from_walls = profile_from_walls(bed, near, *slab, bins_of(spec));
     }
-    result.small_share = small_share_of(result.profile_y);
+    result.small_share = small_share(bed, *slab, small_class_limit(spec.sizes));
     result.profile_z = profile_along_z(bed, near, bins_of(spec));
   }
   measure_kind(bed, settled, slab, packing);
@@ -214,8 +215,7 @@ namespace {
 /// further.
 double usual_iterations(const PackingSpec& spec) {
   const Accuracy& a = spec.accuracy;
-  const double layers =
-      static_cast<double>(grain_count(spec)) / (spec.box.length * spec.box.width) + 1.0;
+  const double layers = static_cast<double>(grain_count(spec)) / spec.box.floor_area() + 1.0;
   const double falling = std::min(layers, 1.5 * sleep_depth);
   const double solved = std::pow(Accuracy{}.path_tolerance / a.path_tolerance, 0.6);
   const double creep =

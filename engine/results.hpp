@@ -42,6 +42,9 @@ struct RestReport {
   /// Force-bearing contacts closed to 1e-4 d, walls and floor included; of polyhedra a contact
   /// along a line counts 2, one over an area 3.
   std::int64_t contacts = 0;
+  /// Degrees of freedom that a round wall holds besides those of its contacts: it holds a grain
+  /// along the wall, too, as its normal turns where the grain moves.
+  std::int64_t held_by_turning = 0;
   /// Those that do not depend on others: all but where they are more than needed.
   std::int64_t independent_contacts = 0;
   std::int64_t isostatic_contacts = 0;  ///< 3 N - zero modes; 6 N of polyhedra

@@ -44,6 +44,18 @@ struct alignas(64) RowBlock {
   }
 };
 
+// A round wall keeps a grain's centre within a circle about its axis: a row's normal would turn
+// while the grain moves along the wall, and one that is left behind pushes it along the wall. So a
+// contact with a round wall is a pair of rows, in the same lane of two blocks that follow one
+// another: their normals are -x and -y, so that their impulses are the two components of that on
+// the grain, of any sign, and they are solved together: with c the centre from the axis and R the
+// circle's radius
+//
+//   |c + u| <= R, and the impulse is along -(c + u) and not 0 only where |c + u| = R
+//
+// Of such a pair the first block holds c_x as its gap and the grain's mass as its reduced mass; the
+// second one c_y, and |c|^2 - R^2, which loses no digits to rounding, as its reduced mass.
+
 /// By how much rows miss min(p, w / A) = 0, where A is 1/m_a + 1/m_b, d m; of a row with a grain
 /// lighter than 1 in masses of that grain.
 template <class Real>
@@ -86,6 +98,10 @@ struct RowKernels {
   /// column.
   SweepSums<Real> (*gauss_seidel_sweep)(const RowBlock<Real>* rows, std::size_t blocks,
                                         Record<Real>* u, Real* p, Real* y, SweepRule<Real> rule);
+  /// The same for pairs of rows of round walls: a row's maximum becomes the nearest point of the
+  /// circle. `blocks` counts both blocks of a pair.
+  SweepSums<Real> (*round_sweep)(const RowBlock<Real>* rows, std::size_t blocks, Record<Real>* u,
+                                 Real* p, Real* y, SweepRule<Real> rule);
   /// The motion of extrapolated impulses: u = u + momentum (u - before) for `count` records; leaves
   /// what u was in `before`.
   void (*extrapolate)(Real momentum, std::size_t count, Record<Real>* before, Record<Real>* u);
@@ -95,9 +111,11 @@ struct RowKernels {
   /// Adds H p, the impulses of the rows, to the accumulated impulses of their grains.
   void (*accumulate_impulses)(const RowBlock<Real>* rows, std::size_t blocks, const Real* p,
                               Record<Real>* accumulated);
-  /// What all rows miss.
+  /// What all rows miss; of round walls with |p - the impulse that the row would give|.
   Missed<Real> (*residual)(const RowBlock<Real>* rows, std::size_t blocks, const Record<Real>* u,
                            const Real* p);
+  Missed<Real> (*round_residual)(const RowBlock<Real>* rows, std::size_t blocks,
+                                 const Record<Real>* u, const Real* p);
   /// Normals and gaps of sphere pairs (a, b of `rows`) from their positions, nearest image.
   /// period_x, period_y: d, 0 where the axis is walled. A negative gap is multiplied by
   /// `correction`, the share of an overlap that one step repairs. Where centres coincide the normal

@@ -161,6 +161,113 @@ Missed<Real> residual(const RowBlock<Real>* rows, std::size_t blocks, const Reco
   return missed.sums();
 }
 
+/// Two components of vectors.
+template <class Real>
+struct Planar {
+  Batch<Real> x, y;
+};
+
+template <class Real>
+inline Planar<Real> operator-(const Planar<Real>& v, const Planar<Real>& w) {
+  return {v.x - w.x, v.y - w.y};
+}
+template <class Real>
+inline Batch<Real> dot(const Planar<Real>& v, const Planar<Real>& w) {
+  return v.x * w.x + v.y * w.y;
+}
+template <class Real>
+inline Planar<Real> load_planar(const Real* from) {
+  return {load(from), load(from + block_width)};
+}
+template <class Real>
+inline void store(const Planar<Real>& from, Real* to) {
+  from.x.store_unaligned(to);
+  from.y.store_unaligned(to + block_width);
+}
+
+/// One hardware batch of contacts with a round wall.
+template <class Real>
+struct RoundRows {
+  const std::uint32_t* a;
+  Planar<Real> centre;       ///< from the axis
+  Batch<Real> mass, beyond;  ///< beyond: |centre|^2 less the squared radius of the circle
+};
+
+template <class Real>
+inline RoundRows<Real> load_round_rows(const RowBlock<Real>* pair, std::size_t lane) {
+  return {pair[0].offset_a + lane,
+          {load(pair[0].gap + lane), load(pair[1].gap + lane)},
+          load(pair[0].reduced_mass + lane),
+          load(pair[1].reduced_mass + lane)};
+}
+
+/// The impulses that bring grains, which move by u with the impulses y, back into the circle, if a
+/// share `relaxation` of the correction is taken. Only differences of the size of a motion are
+/// subtracted.
+template <class Real>
+inline Planar<Real> round_impulse(const RoundRows<Real>& r, const Planar<Real>& u,
+                                  const Planar<Real>& y, const Batch<Real>& relaxation) {
+  const Batch<Real> zero(Real(0)), two(Real(2)), least(Real(1e-30));
+  const Batch<Real> mass = r.mass * relaxation;
+  const Planar<Real> v = {u.x - y.x / mass, u.y - y.y / mass};
+  const Planar<Real> place = {r.centre.x + v.x, r.centre.y + v.y};
+  const Batch<Real> distance = xsimd::sqrt(dot(place, place));
+  const Batch<Real> radius = xsimd::sqrt(xsimd::max(zero, dot(r.centre, r.centre) - r.beyond));
+  const Batch<Real> squares = r.beyond + two * dot(r.centre, v) + dot(v, v);
+  const Batch<Real> outside = xsimd::max(zero, squares / xsimd::max(least, distance + radius));
+  const Batch<Real> back = mass * outside / xsimd::max(least, distance);
+  return {zero - back * place.x, zero - back * place.y};
+}
+
+template <class Real>
+inline Batch<Real> round_missed(const RoundRows<Real>& r, const Planar<Real>& u,
+                                const Planar<Real>& y) {
+  const Planar<Real> miss = y - round_impulse(r, u, y, Batch<Real>(Real(1)));
+  return xsimd::sqrt(dot(miss, miss));
+}
+
+template <class Real>
+SweepSums<Real> round_sweep(const RowBlock<Real>* rows, std::size_t blocks, Record<Real>* u,
+                            Real* p, Real* y, SweepRule<Real> rule) {
+  LaneMissed<Real> missed;
+  LaneSums<Real> restart_test(Real(0));
+  const Batch<Real> zero(Real(0)), relaxation(rule.relaxation), carry(rule.momentum);
+  for (std::size_t block = 0; block < blocks; block += 2) {
+    for (std::size_t k = 0; k < batches<Real>; ++k) {
+      const std::size_t lane = k * batch_width<Real>;
+      const std::size_t at = block * block_width + lane;
+      const RoundRows<Real> r = load_round_rows(rows + block, lane);
+      const Components<Real> u_a = load_records(u, r.a);
+      const Planar<Real> y_old = load_planar(y + at), p_old = load_planar(p + at);
+      const Planar<Real> p_new = round_impulse(r, {u_a.x, u_a.y}, y_old, relaxation);
+      const Planar<Real> change = p_new - p_old, push = p_new - y_old;
+      missed.add(k, round_missed(r, {u_a.x, u_a.y}, y_old), dot(p_new, p_new), u_a.w, zero);
+      restart_test.part[k] -= dot(push, change);
+      store(p_new, p + at);
+      store<Real>({p_new.x + carry * change.x, p_new.y + carry * change.y}, y + at);
+      store_records(u, r.a, pushed(u_a, {push.x, push.y, zero, zero}));
+    }
+  }
+  return {missed.sums(), restart_test.sum()};
+}
+
+template <class Real>
+Missed<Real> round_residual(const RowBlock<Real>* rows, std::size_t blocks, const Record<Real>* u,
+                            const Real* p) {
+  LaneMissed<Real> missed;
+  const Batch<Real> zero(Real(0));
+  for (std::size_t block = 0; block < blocks; block += 2) {
+    for (std::size_t k = 0; k < batches<Real>; ++k) {
+      const std::size_t lane = k * batch_width<Real>;
+      const RoundRows<Real> r = load_round_rows(rows + block, lane);
+      const Components<Real> u_a = load_records(u, r.a);
+      const Planar<Real> impulse = load_planar(p + block * block_width + lane);
+      missed.add(k, round_missed(r, {u_a.x, u_a.y}, impulse), dot(impulse, impulse), u_a.w, zero);
+    }
+  }
+  return missed.sums();
+}
+
 constexpr double far_apart = 1e300;
 
 template <class Real>
@@ -194,9 +301,9 @@ double sphere_gaps(RowBlock<Real>* rows, std::size_t blocks, const Record<double
 
 template <class Real>
 constexpr grainsweep::RowKernels<Real> table() {
-  return {apply_impulses<Real>,     gauss_seidel_sweep<Real>,  extrapolate<Real>,
-          extrapolate_grains<Real>, accumulate_impulses<Real>, residual<Real>,
-          sphere_gaps<Real>};
+  return {apply_impulses<Real>, gauss_seidel_sweep<Real>, round_sweep<Real>,
+          extrapolate<Real>,    extrapolate_grains<Real>, accumulate_impulses<Real>,
+          residual<Real>,       round_residual<Real>,     sphere_gaps<Real>};
 }
 
 }  // namespace

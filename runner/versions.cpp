@@ -4,6 +4,7 @@
 
 #include <CLI/Version.hpp>
 #include <Eigen/Core>
+#include <boost/version.hpp>
 #include <nlohmann/json.hpp>
 #include <tbb/version.h>
 #include <xsimd/config/xsimd_config.hpp>
@@ -35,13 +36,15 @@ std::string compiler_version() {
 }
 
 std::map<std::string, std::string> library_versions() {
-  return {{"CLI11", CLI11_VERSION},
-          {"Eigen", dotted(EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)},
-          {"nlohmann-json", dotted(NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR,
-                                   NLOHMANN_JSON_VERSION_PATCH)},
-          {"oneTBB", TBB_runtime_version()},
-          {"zlib", ZLIB_VERSION},
-          {"xsimd", dotted(XSIMD_VERSION_MAJOR, XSIMD_VERSION_MINOR, XSIMD_VERSION_PATCH)}};
+  return {
+      {"Boost", dotted(BOOST_VERSION / 100000, BOOST_VERSION / 100 % 1000, BOOST_VERSION % 100)},
+      {"CLI11", CLI11_VERSION},
+      {"Eigen", dotted(EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)},
+      {"nlohmann-json", dotted(NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR,
+                               NLOHMANN_JSON_VERSION_PATCH)},
+      {"oneTBB", TBB_runtime_version()},
+      {"zlib", ZLIB_VERSION},
+      {"xsimd", dotted(XSIMD_VERSION_MAJOR, XSIMD_VERSION_MINOR, XSIMD_VERSION_PATCH)}};
 }
 
 }  // namespace grainsweep

@@ -30,7 +30,7 @@ void visit_lifts(const SphereBed& bed, SphereContacts<Real>& contacts, const Vis
   };
   for (std::size_t at = 0; at < contacts.impulse.size(); ++at) {
     Real& impulse = contacts.impulse[at];
-    if (!(impulse > Real(0))) continue;
+    if (impulse == Real(0)) continue;
     const std::size_t block = at / block_width, lane = at % block_width;
     const RowBlock<Real>& row = contacts.rows[block];
     const double up = std::abs(static_cast<double>(row.normal_z[lane]));

@@ -39,6 +39,7 @@ template <class Archive, class Real>
 void transfer_contacts(Archive& archive, SphereContacts<Real>& contacts) {
   archive.column(contacts.rows);
   archive.value(contacts.pair_blocks);
+  archive.value(contacts.first_round);
   archive.column(contacts.walls);
   archive.column(contacts.shares.ranges);
   archive.column(contacts.shares.parts);

@@ -67,7 +67,7 @@ class GaussSeidel {
  public:
   GaussSeidel(bool is_accelerated, const ExecutionContext& context, Rows& rows,
               MotionColumns<Real>& motion)
-      : kernels_(Rows::kernels_of(context.kernels)),
+      : kernels_(context.kernels),
         record_kernels_(row_kernels<Real>(context.kernels)),
         loop_(context.loop),
         rows_(rows),
@@ -109,9 +109,7 @@ class GaussSeidel {
     end_sweep();
     set_motion(motion_.u);
     const Sums sums = sweep_all([&](BlockRange range) -> Sums {
-      return {kernels_.residual(rows_.rows_of(range), range.blocks, motion_.u.data(),
-                                of(rows_.impulse, range)),
-              Real(0)};
+      return {rows_.residual(kernels_, range, motion_.u.data()), Real(0)};
     });
     return residual_of(sums.missed);
   }
@@ -127,9 +125,7 @@ class GaussSeidel {
   static constexpr double diverged = 100.0;
 
   Sums sweep(BlockRange range, const SweepRule<Real>& rule) {
-    return kernels_.gauss_seidel_sweep(rows_.rows_of(range), range.blocks, motion_.u.data(),
-                                       of(rows_.impulse, range), of(rows_.extrapolated, range),
-                                       rule);
+    return rows_.sweep(kernels_, range, rule, motion_.u.data());
   }
   Sums whole_sweep(const SweepRule<Real>& rule) {
     const Sums sums = sweep_all([&](BlockRange range) { return sweep(range, rule); });
@@ -170,8 +166,7 @@ class GaussSeidel {
   /// u = free + M^-1 H p, without the rounding that sweeps have gathered.
   void set_motion(std::vector<Record<Real>>& u) {
     visit_ranges(rows_.shares, loop_, [&](BlockRange range) {
-      kernels_.accumulate_impulses(rows_.rows_of(range), range.blocks, of(rows_.impulse, range),
-                                   motion_.accumulated.data());
+      rows_.accumulate(kernels_, range, motion_.accumulated.data());
     });
     visit_moving([&](std::size_t first, std::size_t count) {
       record_kernels_.apply_impulses(motion_.free.data() + first, count,
@@ -241,9 +236,6 @@ class GaussSeidel {
     return sums;
   }
 
-  static Real* of(std::vector<Real>& impulses, BlockRange range) {
-    return impulses.data() + Rows::first_impulse(range);
-  }
   /// The same for the records that something may move.
   template <class Work>
   void visit_moving(const Work& work) {
@@ -267,7 +259,7 @@ class GaussSeidel {
     });
   }
 
-  decltype(Rows::kernels_of(std::declval<const Kernels&>())) kernels_;
+  const Kernels& kernels_;
   const RowKernels<Real>& record_kernels_;  ///< for what is done to records, whatever the rows
   const ParallelFor& loop_;
   Rows& rows_;

@@ -30,6 +30,7 @@ void forget(SphereContacts<Real>& contacts) {
   contacts.shares.clear();
   contacts.walls.clear();
   contacts.pair_blocks = 0;
+  contacts.first_round = 0;
   contacts.spares.blocks.clear();
   contacts.spares.count = 0;
 }

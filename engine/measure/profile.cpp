@@ -7,6 +7,8 @@
 
 #include "engine/measure/cut_polyhedron.hpp"
 #include "engine/measure/cut_sphere.hpp"
+#include "engine/measure/cut_tube.hpp"
+#include "engine/units.hpp"
 
 namespace grainsweep {
 
@@ -107,15 +109,25 @@ double volume_below(const PolyhedronBed& bed, std::size_t i, int axis, double to
   return box_volume(bed.shape, bed.pose(i), {-infinity, -infinity, slab.bottom}, high);
 }
 
-/// The part of a duct that is farther than `distance` from all four walls, within the slab.
+/// The part of a duct or a tube that is farther than `distance` from all upright walls, within the
+/// slab.
 struct Core {
   Span x, y, z;
+  bool is_round = false;
+  double axis = 0.0, radius = 0.0;  ///< of a round one: the axis stands at x = y = axis
 };
 Core core_of(const Box& box, const Slab& slab, double distance) {
   const auto inner = [&](double extent) {
     return Span{distance, std::max(distance, extent - distance)};
   };
-  return {inner(box.length), inner(box.width), {slab.bottom, slab.top}};
+  return {inner(box.length), inner(box.width), {slab.bottom, slab.top},
+          box.is_tube,       box.length / 2.0, box.length / 2.0 - distance};
+}
+
+/// Distance of a centre from the axis of a tube, which stands at x = y = axis, d.
+double distance_from(double axis, const Record<double>& p) {
+  const double x = p.x - axis, y = p.y - axis;
+  return std::sqrt(x * x + y * y);
 }
 
 /// Volume of a grain in that part.
@@ -124,6 +136,10 @@ double volume_in(const Core& core, const SphereBed& bed, std::size_t i) {
   const auto from = [](const Span& span, double origin) {
     return Span{span.low - origin, span.high - origin};
   };
+  if (core.is_round) {
+    const Span z = from(core.z, p.z);
+    return sphere_tube_volume(p.w, distance_from(core.axis, p), core.radius, z.low, z.high);
+  }
   return sphere_box_volume(p.w, from(core.x, p.x), from(core.y, p.y), from(core.z, p.z));
 }
 double volume_in(const Core& core, const PolyhedronBed& bed, std::size_t i) {
@@ -178,7 +194,35 @@ Profile across(const Bed<Kind>& bed, const Touching& touching, const Slab& slab,
 }
 
 double distance_from_walls(const Box& box, double x, double y) {
+  const double from_x = x - box.length / 2.0, from_y = y - box.width / 2.0;
+  if (box.is_tube) return box.length / 2.0 - std::sqrt(from_x * from_x + from_y * from_y);
   return std::min(std::min(x, box.length - x), std::min(y, box.width - y));
+}
+
+/// Radius of a ball about its centre that holds a grain, d.
+double ball_radius(const SphereBed& bed, std::size_t i) { return bed.position[i].w; }
+double ball_radius(const PolyhedronBed& bed, std::size_t i) { return bed.circumradius(i); }
+
+/// How far a grain reaches towards the nearest upright wall, and away from it, d; no shorter than
+/// it does.
+template <class Kind>
+Span reach_from_walls(const Bed<Kind>& bed, std::size_t i) {
+  const Box& box = bed.box;
+  if (box.is_tube) {
+    const Record<double>& p = bed.position[i];
+    const double at = distance_from_walls(box, p.x, p.y), radius = ball_radius(bed, i);
+    return {at - radius, std::min(at + radius, box.length / 2.0)};
+  }
+  const Span x = span_of(bed, i, 0), y = span_of(bed, i, 1);
+  return {
+      std::min(distance_from_walls(box, x.low, y.low), distance_from_walls(box, x.high, y.high)),
+      std::min({x.high, box.length - x.low, y.high, box.width - y.low})};
+}
+
+/// Area of the floor between two distances from the upright walls, d^2.
+double frame_area(const Box& box, double low, double high) {
+  return box.is_tube ? pi * (high - low) * (box.length - low - high)
+                     : 2.0 * (high - low) * (box.length + box.width - 2.0 * (low + high));
 }
 
 template <class Kind>
@@ -193,13 +237,9 @@ Profile from_walls(const Bed<Kind>& bed, const Touching& touching, const Slab& s
   for (std::size_t i = 0; i < bed.grains(); ++i) {
     const Span upright = span_of(bed, i, 2);
     if (upright.high <= slab.bottom || upright.low >= slab.top) continue;
-    const Span x = span_of(bed, i, 0), y = span_of(bed, i, 1);
-    const Span reach{
-        std::min(distance_from_walls(box, x.low, y.low), distance_from_walls(box, x.high, y.high)),
-        std::min({x.high, box.length - x.low, y.high, box.width - y.low})};
     const double whole = volume_in(core_of(box, slab, -infinity), bed, i);
     add_volume(
-        reach, bins, class_of(bed.position[i], settings),
+        reach_from_walls(bed, i), bins, class_of(bed.position[i], settings),
         [&](double distance) {
           return distance >= half ? whole : whole - volume_in(core_of(box, slab, distance), bed, i);
         },
@@ -207,8 +247,8 @@ Profile from_walls(const Bed<Kind>& bed, const Touching& touching, const Slab& s
   }
   for (std::int64_t k = 0; k < count; ++k) {
     const double low = static_cast<double>(k) * bins.width, high = low + bins.width;
-    const double frame = 2.0 * (high - low) * (box.length + box.width - 2.0 * (low + high));
-    divide_volume(frame * slab.height(), profile.bins[static_cast<std::size_t>(k)]);
+    divide_volume(frame_area(box, low, high) * slab.height(),
+                  profile.bins[static_cast<std::size_t>(k)]);
   }
   count_grains(bed, touching, settings, [&](const Record<double>& p) -> ProfileBin* {
     const double distance = distance_from_walls(box, p.x, p.y);
@@ -227,7 +267,7 @@ Profile along_z(const Bed<Kind>& bed, const Touching& touching, const ProfileSet
         span_of(bed, i, 2), bins, class_of(bed.position[i], settings),
         [&](double z) { return volume_below_z(bed, i, z); }, profile);
   }
-  divide_volumes(bed.box.length * bed.box.width * bins.width, profile);
+  divide_volumes(bed.box.floor_area() * bins.width, profile);
   count_grains(bed, touching, settings, [&](const Record<double>& p) {
     return &profile.bins[bins.index(bins.number_at(p.z))];
   });
@@ -246,15 +286,6 @@ template <class Kind>
 Profile profile_from_walls(const Bed<Kind>& bed, const Touching& touching, const Slab& slab,
                            const ProfileSettings& settings) {
   return from_walls(bed, touching, slab, settings);
-}
-
-double small_share_of(const Profile& profile) {
-  double large = 0.0, small = 0.0;
-  for (const ProfileBin& bin : profile.bins) {
-    large += bin.large;
-    small += bin.small;
-  }
-  return small / (large + small);  // 0 / 0 is NaN
 }
 
 template <class Kind>

@@ -27,16 +27,13 @@ template <class Kind>
 Profile profile_across(const Bed<Kind>& bed, const Touching& touching, const Slab& slab,
                        const ProfileSettings& settings, int axis);
 
-/// In a duct, a box between walls along x and y: over the distance from the nearest of the four
-/// walls, from 0 to half the smaller extent of the box, which whole bins divide. A bin is a square
-/// frame as high as the slab. Each bin weighted by its area, the mean is the solid fraction of the
-/// slab.
+/// In a tube, or a duct, a box between walls along x and y: over the distance from the nearest of
+/// the four walls, from 0 to half the smaller extent of the box, which whole bins divide. A bin is
+/// a square frame, in a tube a ring, as high as the slab. Each bin weighted by its area, the mean
+/// is the solid fraction of the slab.
 template <class Kind>
 Profile profile_from_walls(const Bed<Kind>& bed, const Touching& touching, const Slab& slab,
                            const ProfileSettings& settings);
-
-/// Share of the small class in the solid volume that a profile holds; NaN if it holds none.
-double small_share_of(const Profile& profile);
 
 /// Along z over the whole floor, from the floor to the highest point of the bed, in bins of the
 /// wanted width.

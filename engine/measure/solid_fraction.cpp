@@ -20,6 +20,13 @@ std::size_t columns_along(double extent) {
   return static_cast<std::size_t>(std::max(1.0, std::floor(extent)));
 }
 
+/// Whether the middle of floor column (i, j) of a tube, `across` columns wide, stands in it.
+bool is_in_tube(std::size_t i, std::size_t j, std::size_t across) {
+  const double half = static_cast<double>(across) / 2.0;
+  const double x = static_cast<double>(i) + 0.5 - half, y = static_cast<double>(j) + 0.5 - half;
+  return x * x + y * y <= half * half;
+}
+
 /// Median over floor columns of the highest top among the grains that stand above each.
 /// `top_of(i)` is the highest point of grain i.
 template <class TopOf>
@@ -32,8 +39,13 @@ double median_top(const Grains& bed, TopOf top_of) {
                           column_of(bed.position[i].x, box.length, columns_x)];
     top = std::max(top, top_of(i));
   }
-  const auto middle = highest.begin() + static_cast<std::ptrdiff_t>(highest.size() / 2);
-  std::nth_element(highest.begin(), middle, highest.end());
+  std::vector<double> tops;
+  for (std::size_t k = 0; k < highest.size(); ++k) {
+    const bool counts = !box.is_tube || is_in_tube(k % columns_x, k / columns_x, columns_x);
+    if (counts) tops.push_back(highest[k]);
+  }
+  const auto middle = tops.begin() + static_cast<std::ptrdiff_t>(tops.size() / 2);
+  std::nth_element(tops.begin(), middle, tops.end());
   return *middle;
 }
 
@@ -67,7 +79,16 @@ template <class Kind>
 double solid_fraction(const Bed<Kind>& bed, const Slab& slab) {
   double solid = 0.0;
   for (std::size_t i = 0; i < bed.grains(); ++i) solid += volume_between(bed, i, slab);
-  return solid / (bed.box.length * bed.box.width * slab.height());
+  return solid / (bed.box.floor_area() * slab.height());
+}
+
+template <class Kind>
+double small_share(const Bed<Kind>& bed, const Slab& slab, double small_below) {
+  double large = 0.0, small = 0.0;
+  for (std::size_t i = 0; i < bed.grains(); ++i) {
+    (bed.position[i].w < small_below ? small : large) += volume_between(bed, i, slab);
+  }
+  return small / (large + small);  // 0 / 0 is NaN
 }
 
 template <class Kind>
@@ -77,6 +98,8 @@ double surface_height(const Bed<Kind>& bed) {
 
 template double solid_fraction(const SphereBed&, const Slab&);
 template double solid_fraction(const PolyhedronBed&, const Slab&);
+template double small_share(const SphereBed&, const Slab&, double);
+template double small_share(const PolyhedronBed&, const Slab&, double);
 template double surface_height(const SphereBed&);
 template double surface_height(const PolyhedronBed&);
 

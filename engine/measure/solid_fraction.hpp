@@ -18,6 +18,11 @@ double sphere_slab_volume(double radius, double low, double high);
 template <class Kind>
 double solid_fraction(const Bed<Kind>& bed, const Slab& slab);
 
+/// Share of the grains of a radius below `small_below` in the slab's solid volume; NaN if it holds
+/// none.
+template <class Kind>
+double small_share(const Bed<Kind>& bed, const Slab& slab, double small_below);
+
 /// Height of the free surface, d: the median, over floor columns about d wide, of the highest point
 /// of the grains whose centres stand above the column. Of an even number of columns the higher of
 /// the two in the middle counts. 0 for an empty bed.

@@ -40,18 +40,38 @@ class BlockWriter {
     columns_.rows[at.block].reduced_mass[at.lane] = reduced_mass<Real>(bed_, a, b);
     columns_.impulse[at.block * block_width + at.lane] = impulse;
   }
-  /// Rows of one wall in blocks of their own: no grain touches it twice, so lanes are filled in
-  /// order.
+  /// Rows of one flat wall in blocks of their own: no grain touches it twice, so lanes are filled
+  /// in order.
   template <class ImpulseOf>
-  void add_wall(const std::vector<std::int32_t>& grains, ImpulseOf impulse_of) {
+  void add_flat_wall(const std::vector<std::int32_t>& grains, ImpulseOf impulse_of) {
     for (std::size_t k = 0; k < grains.size(); ++k) {
       if (k % block_width == 0) append_void_block();
       fill({columns_.rows.size() - 1, k % block_width}, grains[k], bed_.wall(subdomain_),
            impulse_of(grains[k]));
     }
   }
+  /// The same of a round wall: pairs of rows (kernels/row_kernels.hpp). `impulse_of(grain, axis)`:
+  /// along x, 0, or y, 1.
+  template <class ImpulseOf>
+  void add_round_wall(const std::vector<std::int32_t>& grains, ImpulseOf impulse_of) {
+    for (std::size_t k = 0; k < grains.size(); ++k) {
+      if (k % block_width == 0) append_void_pair();
+      const std::size_t first = columns_.rows.size() - 2;
+      for (std::size_t axis = 0; axis < 2; ++axis) {
+        fill({first + axis, k % block_width}, grains[k], bed_.wall(subdomain_),
+             impulse_of(grains[k], axis));
+      }
+    }
+  }
 
  private:
+  void append_void_pair() {
+    RowBlock<Real>& along_x = columns_.rows[append_void_block()];
+    std::fill(std::begin(along_x.normal_x), std::end(along_x.normal_x), Real(-1));
+    RowBlock<Real>& along_y = columns_.rows[append_void_block()];
+    std::fill(std::begin(along_y.normal_y), std::end(along_y.normal_y), Real(-1));
+  }
+
   const SphereBed& bed_;
   std::size_t subdomain_;
   RowColumns<Real>& columns_;

@@ -91,11 +91,13 @@ bool add_at_wall(const SphereBed& bed, const WallRows& wall, std::int32_t grain,
                  SphereContacts<Real>& contacts) {
   const std::size_t subdomain = contacts.layout.subdomains.subdomain_of(grain);
   for (const BlockRange& range : contacts.layout.wall_ranges[subdomain]) {
-    const std::size_t last = contacts.pair_blocks + range.first + range.blocks - 1;
-    if (last < wall.first || last >= wall.first + wall.blocks) continue;
-    const std::size_t lane = free_lane(bed, contacts.rows[last], {grain, grain});
+    const std::size_t end = contacts.pair_blocks + range.first + range.blocks;
+    if (end <= wall.first || end > wall.first + wall.blocks) continue;
+    const std::size_t lane = free_lane(bed, contacts.rows[end - 1], {grain, grain});
     if (lane == block_width) return false;
-    fill(bed, lane, {grain, bed.wall(subdomain)}, contacts.rows[last]);
+    for (std::size_t block = end - contacts.blocks_of_row(wall); block < end; ++block) {
+      fill(bed, lane, {grain, bed.wall(subdomain)}, contacts.rows[block]);
+    }
     return true;
   }
   return false;

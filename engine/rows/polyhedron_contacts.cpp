@@ -405,7 +405,7 @@ std::vector<Closure> closures(PolyhedronBed& bed, const ExecutionContext& contex
   if (renew_candidates(closed_gap, search_margin, context, bed, candidates)) {
     take_candidates(bed, candidates, contacts, context.loop);
   }
-  std::vector<Closure> all(bearing.size(), {std::numeric_limits<double>::infinity(), 0});
+  std::vector<Closure> all(bearing.size(), {std::numeric_limits<double>::infinity(), 0, 0});
   parallel_for(context.loop, contacts.subdomains.count, [&](std::size_t s) {
     NarrowColumns columns;
     ContactList now;

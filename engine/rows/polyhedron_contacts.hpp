@@ -56,12 +56,24 @@ struct Contacts<Polyhedron, Real> {
   std::vector<std::uint64_t> open_blocks;  ///< per grain: one bit for each open block it is in
 
   // As of spheres; a block says itself where its impulses are.
-  static const BodyKernels<Real>& kernels_of(const Kernels& all) { return body_kernels<Real>(all); }
+  static constexpr std::size_t records_of_grain = 2;
+  SweepSums<Real> sweep(const Kernels& all, BlockRange range, const SweepRule<Real>& rule,
+                        Record<Real>* u) {
+    return body_kernels<Real>(all).gauss_seidel_sweep(rows_of(range), range.blocks, u,
+                                                      impulse.data(), extrapolated.data(), rule);
+  }
+  Missed<Real> residual(const Kernels& all, BlockRange range, const Record<Real>* u) const {
+    return body_kernels<Real>(all).residual(rows_of(range), range.blocks, u, impulse.data());
+  }
+  void accumulate(const Kernels& all, BlockRange range, Record<Real>* accumulated) const {
+    body_kernels<Real>(all).accumulate_impulses(rows_of(range), range.blocks, impulse.data(),
+                                                accumulated);
+  }
+
+ private:
   BodyRows<Real> rows_of(BlockRange range) const {
     return {blocks.data() + range.first, points.data()};
   }
-  static std::size_t first_impulse(BlockRange) { return 0; }
-  static constexpr std::size_t records_of_grain = 2;
 };
 template <class Real>
 using PolyhedronContacts = Contacts<Polyhedron, Real>;

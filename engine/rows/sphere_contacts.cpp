@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "engine/rows/block_writer.hpp"
 #include "engine/rows/late_rows.hpp"
@@ -10,7 +11,10 @@ namespace grainsweep {
 
 namespace {
 
-/// Name of the wall that owns `block` in carried impulses.
+/// The first block of a round wall where there is none.
+constexpr std::size_t open_ended = std::numeric_limits<std::size_t>::max();
+
+/// Name of the wall that owns `block` in carried impulses; its second row has the next one.
 template <class Real>
 std::int32_t wall_name(const SphereBed& bed, const SphereContacts<Real>& contacts,
                        std::size_t block) {
@@ -18,7 +22,8 @@ std::int32_t wall_name(const SphereBed& bed, const SphereContacts<Real>& contact
   while (block >= contacts.walls[k].first + contacts.walls[k].blocks) {
     ++k;
   }
-  return bed.wall_name(k);
+  const std::size_t row = block < contacts.first_round ? 0 : (block - contacts.first_round) % 2;
+  return bed.wall_name(k + row);
 }
 
 /// Calls visit(a, other, impulse) for each row that pushed: rows of the same grain never at the
@@ -32,7 +37,7 @@ void visit_pushing(const SphereBed& bed, const SphereContacts<Real>& contacts,
       const std::int32_t wall = is_pair ? 0 : wall_name(bed, contacts, block);
       for (std::size_t lane = 0; lane < block_width; ++lane) {
         const Real impulse = contacts.impulse[block * block_width + lane];
-        if (impulse > Real(0)) {
+        if (impulse != Real(0)) {
           const RowBlock<Real>& r = contacts.rows[block];
           visit(r.a(lane), is_pair ? r.b(lane) : wall, impulse);
         }
@@ -99,30 +104,52 @@ void lay_out_subdomain(const SphereBed& bed, std::size_t subdomain, double late_
   contacts.late[subdomain] = {0, filled, end};
 }
 
+/// How a layout takes round walls.
+enum class RoundWalls { as_they_are, as_tangents };
+
+/// Rows of wall k in a subdomain, with the impulses that they carry.
+template <class Real>
+void add_wall(const SphereBed& bed, std::size_t k, std::size_t subdomain, RoundWalls round,
+              RowColumns<Real>& columns, const LayoutColumns<Real>& layout) {
+  const std::vector<std::int32_t>& grains = layout.subdomains.near_wall(k, subdomain);
+  const auto impulse = [&](std::int32_t grain, std::size_t row) {
+    return carried_impulse(layout, grain, bed.wall_name(k + row));
+  };
+  BlockWriter<Real> writer(bed, subdomain, columns);
+  if (!bed.walls[k].is_round()) {
+    writer.add_flat_wall(grains, [&](std::int32_t grain) { return impulse(grain, 0); });
+  } else if (round == RoundWalls::as_they_are) {
+    writer.add_round_wall(grains, impulse);
+  } else {
+    writer.add_flat_wall(grains, [&](std::int32_t grain) {
+      return std::hypot(impulse(grain, 0), impulse(grain, 1));
+    });
+  }
+}
+
 /// Rows of all walls, wall after wall, in blocks of their own for each subdomain.
 template <class Real>
-void lay_out_walls(const SphereBed& bed, const Candidates& candidates,
+void lay_out_walls(const SphereBed& bed, const Candidates& candidates, RoundWalls round,
                    SphereContacts<Real>& contacts) {
   LayoutColumns<Real>& layout = contacts.layout;
   RowColumns<Real>& columns = layout.columns[layout.subdomains.count];
   columns.rows.clear();
   columns.impulse.clear();
   contacts.walls.clear();
+  contacts.first_round = open_ended;
   layout.wall_ranges.resize(std::max(layout.wall_ranges.size(), layout.subdomains.count));
   for (std::vector<BlockRange>& ranges : layout.wall_ranges) ranges.clear();
   for (std::size_t k = 0; k < candidates.walls.size(); ++k) {
     const std::size_t first = columns.rows.size();
-    const std::int32_t name = bed.wall_name(k);
     for (std::size_t subdomain = 0; subdomain < layout.subdomains.count; ++subdomain) {
       const std::size_t before = columns.rows.size();
-      BlockWriter<Real>(bed, subdomain, columns)
-          .add_wall(layout.subdomains.near_wall(k, subdomain),
-                    [&](std::int32_t grain) { return carried_impulse(layout, grain, name); });
+      add_wall(bed, k, subdomain, round, columns, layout);
       if (columns.rows.size() > before) {
         layout.wall_ranges[subdomain].push_back({before, columns.rows.size() - before});
       }
     }
     contacts.walls.push_back({k, first, columns.rows.size() - first});
+    if (bed.walls[k].is_round() && round == RoundWalls::as_they_are) contacts.first_round = first;
   }
 }
 
@@ -132,6 +159,9 @@ void set_parts(SphereContacts<Real>& contacts) {
   const LayoutColumns<Real>& layout = contacts.layout;
   contacts.pair_blocks = layout.first_block[layout.subdomains.count];
   for (WallRows& wall : contacts.walls) wall.first += contacts.pair_blocks;
+  contacts.first_round = contacts.first_round == open_ended
+                             ? contacts.rows.size()
+                             : contacts.first_round + contacts.pair_blocks;
   share_out(layout.subdomains, contacts.shares, [&](std::size_t subdomain, auto& ranges) {
     LateBlocks& late = contacts.late[subdomain];
     const std::size_t first = layout.first_block[subdomain];
@@ -164,21 +194,45 @@ void join(const ParallelFor& loop, SphereContacts<Real>& contacts) {
   });
 }
 
-/// Normal from the grain to the wall, and gap.
+/// What of a gap a step is told, if it repairs a share `correction` of an overlap.
+double corrected(double gap, double correction) { return gap < 0.0 ? correction * gap : gap; }
+
+/// Normal from the grain to the wall, and gap; of a round wall those of the flat one that touches
+/// it.
 template <class Real>
-void update_wall_gaps(const SphereBed& bed, const WallRows& rows, double correction,
+void update_flat_wall(const SphereBed& bed, const WallRows& rows, double correction,
                       std::vector<RowBlock<Real>>& blocks) {
   const Wall& wall = bed.walls[rows.wall];
   for (std::size_t block = rows.first; block < rows.first + rows.blocks; ++block) {
     RowBlock<Real>& r = blocks[block];
     for (std::size_t lane = 0; lane < block_width; ++lane) {
       const Record<double>& p = bed.position[static_cast<std::size_t>(r.a(lane))];
-      const double gap = bed.is_void(r.a(lane)) ? 1.0 : wall.gap(p);
       const UnitVector inward = wall.normal(p.x, p.y, p.z);
+      const double gap = bed.is_void(r.a(lane)) ? 1.0 : wall.gap(p);
       r.normal_x[lane] = static_cast<Real>(-inward.x);
       r.normal_y[lane] = static_cast<Real>(-inward.y);
       r.normal_z[lane] = static_cast<Real>(-inward.z);
-      r.gap[lane] = static_cast<Real>(gap < 0.0 ? correction * gap : gap);
+      r.gap[lane] = static_cast<Real>(corrected(gap, correction));
+    }
+  }
+}
+
+/// Place of the centre from the axis, and |place|^2 less the squared radius of the circle that it
+/// may not leave: as far from the axis as its gap allows.
+template <class Real>
+void update_round_wall(const SphereBed& bed, const WallRows& rows, double correction,
+                       std::vector<RowBlock<Real>>& blocks) {
+  const Wall& wall = bed.walls[rows.wall];
+  for (std::size_t block = rows.first; block < rows.first + rows.blocks; block += 2) {
+    RowBlock<Real>&along_x = blocks[block], &along_y = blocks[block + 1];
+    for (std::size_t lane = 0; lane < block_width; ++lane) {
+      const bool is_void = bed.is_void(along_x.a(lane));
+      const Record<double>& p = bed.position[static_cast<std::size_t>(along_x.a(lane))];
+      const double x = is_void ? 0.0 : p.x - wall.radius, y = is_void ? 0.0 : p.y - wall.radius;
+      const double gap = is_void ? 1.0 : corrected(wall.gap(p), correction);
+      along_x.gap[lane] = static_cast<Real>(x);
+      along_y.gap[lane] = static_cast<Real>(y);
+      along_y.reduced_mass[lane] = static_cast<Real>(-gap * (2.0 * std::sqrt(x * x + y * y) + gap));
     }
   }
 }
@@ -187,7 +241,8 @@ void update_wall_gaps(const SphereBed& bed, const WallRows& rows, double correct
 template <class Real>
 void lay_out_carried(const SphereBed& bed, const Candidates& candidates,
                      const std::vector<GrainPair>& pairs, double late_share,
-                     const ParallelFor& loop, SphereContacts<Real>& contacts) {
+                     const ParallelFor& loop, SphereContacts<Real>& contacts,
+                     RoundWalls round = RoundWalls::as_they_are) {
   LayoutColumns<Real>& layout = contacts.layout;
   divide(bed, Sphere::subdomain_grains, candidates, pairs, loop, layout.subdomains);
   layout.columns.resize(std::max(layout.columns.size(), layout.subdomains.count + 1));
@@ -197,7 +252,7 @@ void lay_out_carried(const SphereBed& bed, const Candidates& candidates,
   visit_subdomains(layout.subdomains.count, loop, [&](std::size_t subdomain) {
     lay_out_subdomain(bed, subdomain, late_share, contacts);
   });
-  lay_out_walls(bed, candidates, contacts);
+  lay_out_walls(bed, candidates, round, contacts);
   join(loop, contacts);
   set_parts(contacts);
   contacts.extrapolated.assign(contacts.impulse.size(), Real(0));
@@ -242,7 +297,8 @@ void lay_out_closed(double tolerance, const ExecutionContext& context, const Sph
                     const Candidates& candidates, double dt, const SphereContacts<Real>& from,
                     SphereContacts<double>& closed) {
   collect_impulses(bed, context.loop, 1.0 / (dt * dt), from, closed);
-  lay_out_carried(bed, candidates, candidates.pairs, 0.0, context.loop, closed);
+  lay_out_carried(bed, candidates, candidates.pairs, 0.0, context.loop, closed,
+                  RoundWalls::as_tangents);
   update_gaps(bed, context, 1.0, closed);
   for (RowBlock<double>& row : closed.rows) {
     for (double& gap : row.gap) gap = gap < tolerance ? 0.0 : open_gap;
@@ -255,7 +311,9 @@ double update_gaps(const SphereBed& bed, const ExecutionContext& context, double
   const double sunk = measure_blocks(bed, context, correction, contacts.rows.data(),
                                      contacts.pair_blocks, contacts.sunk);
   for (const WallRows& wall : contacts.walls) {
-    update_wall_gaps(bed, wall, correction, contacts.rows);
+    (wall.first < contacts.first_round
+         ? update_flat_wall<Real>
+         : update_round_wall<Real>)(bed, wall, correction, contacts.rows);
   }
   return sunk;
 }
@@ -279,8 +337,13 @@ std::vector<Closure> closures(SphereBed& bed, const ExecutionContext& context, d
   update_gaps(bed, context, 1.0, contacts);
   std::vector<Closure> all;
   visit_force_bearing(contacts, dt, [&](std::size_t block, std::size_t lane, double) {
-    const auto gap = static_cast<double>(contacts.rows[block].gap[lane]);
-    all.push_back({gap, gap < closed_gap ? 1 : 0});
+    const bool is_round = block >= contacts.first_round;
+    const std::int32_t grain = contacts.rows[block].a(lane);
+    const double gap = is_round
+                           ? bed.walls.back().gap(bed.position[static_cast<std::size_t>(grain)])
+                           : static_cast<double>(contacts.rows[block].gap[lane]);
+    const int closed = gap < closed_gap ? 1 : 0;
+    all.push_back({gap, closed, is_round ? closed : 0});
   });
   return all;
 }

@@ -7,9 +7,12 @@
 //
 //     | pairs of subdomain 0 | late, free | pairs of 1 | late, free | ... | wall 0 | wall 1 | ...
 //
-// Once these are used up all rows are laid out anew. Each wall has blocks of its own.
+// Once these are used up all rows are laid out anew. Each wall has blocks of its own; those of a
+// round one come last, and two of them that follow one another hold a contact's two rows
+// (kernels/row_kernels.hpp).
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -77,6 +80,7 @@ struct Contacts<Sphere, Real> {
   std::vector<RowBlock<Real>> rows;
   std::size_t pair_blocks = 0;
   std::vector<WallRows> walls;
+  std::size_t first_round = 0;  ///< block of a round wall; blocks if there is none
   RowShares shares;
   std::vector<Real> impulse;
   std::vector<Real> extrapolated;  ///< the solver's look-ahead impulses
@@ -87,12 +91,29 @@ struct Contacts<Sphere, Real> {
   std::vector<std::size_t> taken_at_walls;  ///< and so many of each wall's rows
   LayoutColumns<Real> layout;
 
-  // What sweeps over a range need: their kernels, its rows, the first of its impulses, and how many
-  // records of motion a grain has.
-  static const RowKernels<Real>& kernels_of(const Kernels& all) { return row_kernels<Real>(all); }
-  const RowBlock<Real>* rows_of(BlockRange range) const { return rows.data() + range.first; }
-  static std::size_t first_impulse(BlockRange range) { return range.first * block_width; }
+  std::size_t blocks_of_row(const WallRows& wall) const { return wall.first < first_round ? 1 : 2; }
+
+  // What the solver asks of contacts of any kind: how many records of motion a grain has, and what
+  // its kernels do to the rows of a range.
   static constexpr std::size_t records_of_grain = 1;
+  SweepSums<Real> sweep(const Kernels& all, BlockRange range, const SweepRule<Real>& rule,
+                        Record<Real>* u) {
+    const RowKernels<Real>& kernels = row_kernels<Real>(all);
+    const std::size_t at = range.first * block_width;
+    return (range.first < first_round ? kernels.gauss_seidel_sweep : kernels.round_sweep)(
+        rows.data() + range.first, range.blocks, u, impulse.data() + at, extrapolated.data() + at,
+        rule);
+  }
+  Missed<Real> residual(const Kernels& all, BlockRange range, const Record<Real>* u) const {
+    const RowKernels<Real>& kernels = row_kernels<Real>(all);
+    return (range.first < first_round ? kernels.residual : kernels.round_residual)(
+        rows.data() + range.first, range.blocks, u, impulse.data() + range.first * block_width);
+  }
+  void accumulate(const Kernels& all, BlockRange range, Record<Real>* accumulated) const {
+    row_kernels<Real>(all).accumulate_impulses(rows.data() + range.first, range.blocks,
+                                               impulse.data() + range.first * block_width,
+                                               accumulated);
+  }
 };
 template <class Real>
 using SphereContacts = Contacts<Sphere, Real>;
@@ -110,7 +131,8 @@ bool renew_rows(double near, double reach, const ExecutionContext& context, Sphe
                 Candidates& candidates, SphereContacts<Real>& contacts);
 
 /// Lays out the candidates with a gap below `tolerance`, d, as rows without a gap, for a step of
-/// length 1. Contacts keep the forces that they have in `from` after a step of length `dt`.
+/// length 1; of a round wall the flat ones that touch it. Contacts keep the forces that they have
+/// in `from` after a step of length `dt`.
 template <class Real>
 void lay_out_closed(double tolerance, const ExecutionContext& context, const SphereBed& bed,
                     const Candidates& candidates, double dt, const SphereContacts<Real>& from,
@@ -123,12 +145,20 @@ template <class Real>
 double update_gaps(const SphereBed& bed, const ExecutionContext& context, double correction,
                    SphereContacts<Real>& contacts);
 
-/// Calls visit(block, lane, impulse) for each row that bore a force.
+/// Calls visit(block, lane, impulse) for each contact that bore a force; of a round wall with the
+/// first of its two blocks.
 template <class Real, class Visit>
 void visit_force_bearing(const SphereContacts<Real>& contacts, double dt, Visit visit) {
   const double least = least_force * dt * dt;
-  for (std::size_t at = 0; at < contacts.impulse.size(); ++at) {
+  const std::size_t round = contacts.first_round * block_width;
+  for (std::size_t at = 0; at < round; ++at) {
     const auto impulse = static_cast<double>(contacts.impulse[at]);
+    if (impulse > least) visit(at / block_width, at % block_width, impulse);
+  }
+  for (std::size_t at = round; at < contacts.impulse.size(); ++at) {
+    if (at / block_width % 2 != contacts.first_round % 2) continue;
+    const double impulse = std::hypot(static_cast<double>(contacts.impulse[at]),
+                                      static_cast<double>(contacts.impulse[at + block_width]));
     if (impulse > least) visit(at / block_width, at % block_width, impulse);
   }
 }

@@ -4,9 +4,11 @@
 // of it is asked for anywhere.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
+#include "engine/units.hpp"
 #include "kernels/row_kernels.hpp"
 
 namespace grainsweep {
@@ -15,11 +17,18 @@ namespace grainsweep {
 enum class Boundary { periodic, walls };
 
 /// The box: floor at z = 0, open above. x runs over [0, length], y over [0, width].
+///
+/// Or an upright round tube that the box's four sides touch: length and width are its diameter, and
+/// x and y have no images.
 struct Box {
   double length = 20.0;  ///< extent along x, d
   double width = 10.0;   ///< extent along y, d; the gap W between the walls when y is walled
   Boundary x = Boundary::periodic;
   Boundary y = Boundary::walls;
+  bool is_tube = false;
+
+  /// Area of the floor, d^2.
+  double floor_area() const { return (is_tube ? pi / 4.0 : 1.0) * length * width; }
 
   /// Period of an axis, d; 0 where it is walled.
   double period_x() const { return x == Boundary::periodic ? length : 0.0; }
@@ -36,6 +45,9 @@ inline double nearest_image(double difference, double period) {
                               : difference;
 }
 
+/// The tube of that diameter, d.
+Box tube_of(double diameter);
+
 /// Brings x and y of a centre back into the box along periodic axes.
 void wrap(const Box& box, Record<double>& centre);
 
@@ -44,24 +56,32 @@ struct UnitVector {
   double x = 0.0, y = 0.0, z = 1.0;
 };
 
-/// A flat wall or the floor: the points of the free space have a positive distance.
+/// A wall that is flat, or round and upright, seen from within: the points of the free space have a
+/// positive distance.
 struct Wall {
-  UnitVector inward;    ///< into the free space
-  double offset = 0.0;  ///< distance of the box's origin, d
+  UnitVector inward;    ///< of a flat wall, into the free space
+  double offset = 0.0;  ///< of a flat wall: distance of the box's origin, d
+  double radius = 0.0;  ///< of a round wall, d; 0: flat. Its axis stands at x = y = radius
 
+  bool is_round() const { return radius > 0.0; }
   /// Distance of a point from the wall, d; negative beyond it.
   double distance(double x, double y, double z) const {
-    return inward.x * x + inward.y * y + inward.z * z + offset;
+    const double from_x = x - radius, from_y = y - radius;
+    return is_round() ? radius - std::sqrt(from_x * from_x + from_y * from_y)
+                      : inward.x * x + inward.y * y + inward.z * z + offset;
   }
   /// Distance of a sphere's surface from the wall, d; negative = overlap. `sphere`: centre, radius.
   double gap(const Record<double>& sphere) const {
     return distance(sphere.x, sphere.y, sphere.z) - sphere.w;
   }
-  /// From the wall into the free space, at the point of the wall that is nearest to x, y, z.
-  UnitVector normal(double /*x*/, double /*y*/, double /*z*/) const { return inward; }
+  /// From the wall into the free space, at the point of the wall that is nearest to x, y, z; of a
+  /// point on the axis of a round wall, which has no nearest one, towards x.
+  UnitVector normal(double x, double y, double z) const;
+  /// The flat wall that touches this one where it is nearest to x, y, z.
+  Wall tangent_at(double x, double y, double z) const;
 };
 
-/// All walls of a box: the floor first.
+/// All walls of a box, or of a tube: the floor first.
 std::vector<Wall> walls_of(const Box& box);
 
 }  // namespace grainsweep

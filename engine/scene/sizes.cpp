@@ -65,7 +65,7 @@ void add_small_volume(const PackingSpec& spec, double wanted, std::vector<double
 
 ClassCounts class_counts(const PackingSpec& spec) {
   if (const auto* fill = std::get_if<SolidHeight>(&spec.fill)) {
-    const double volume = fill->height * spec.box.length * spec.box.width;
+    const double volume = fill->height * spec.box.floor_area();
     return counts_for_volume(volume / extent_of(spec.shape).volume, spec.sizes);
   }
   return counts_for_grains(std::get<GrainCount>(spec.fill).count, spec.sizes);
@@ -78,7 +78,7 @@ double solid_height(const PackingSpec& spec) {
   const double grains =
       static_cast<double>(counts.large) * expected_volume(1.0, sizes.spread) +
       static_cast<double>(counts.small) * expected_volume(sizes.size_ratio, sizes.spread);
-  return grains * extent_of(spec.shape).volume / (spec.box.length * spec.box.width);
+  return grains * extent_of(spec.shape).volume / spec.box.floor_area();
 }
 
 std::vector<double> draw_radii(const PackingSpec& spec) {

@@ -67,14 +67,16 @@ bool check_sizes(const SizesSpec& sizes, Errors& errors) {
 /// One horizontal side. Walls must hold the largest grain; a periodic side must be so long that no
 /// grain meets two images of the same neighbour, or its own.
 bool check_side(const char* path, double side, Boundary boundary, double shortest, double largest,
-                Errors& errors) {
+                bool is_tube, Errors& errors) {
   const bool walls = boundary == Boundary::walls;
   const double needed =
       walls ? std::max(shortest, largest) : std::max(shortest, 2.0 * (largest + image_margin));
   if (side >= needed && side <= longest_side) return true;
   std::string reason;
   if (!walls && needed > shortest) reason = " (periodic: twice the largest grain and a margin)";
-  if (walls && needed > shortest) reason = " (the largest grain between two walls)";
+  if (walls && needed > shortest) {
+    reason = is_tube ? " (the largest grain in a tube)" : " (the largest grain between two walls)";
+  }
   const bool is_in_metres = side > 0.0 && side < 0.2;
   const std::string unit = is_in_metres ? "; lengths are in d, a large grain's mean diameter" : "";
   errors.push_back({path, "must lie in [" + bound_text(needed) + ", " + bound_text(longest_side) +
@@ -83,8 +85,11 @@ bool check_side(const char* path, double side, Boundary boundary, double shortes
 }
 
 bool check_box(const Box& box, double largest, Errors& errors) {
-  const bool length = check_side("box.length", box.length, box.x, 2.0, largest, errors);
-  const bool width = check_side("box.width", box.width, box.y, 1.0, largest, errors);
+  if (box.is_tube) {
+    return check_side("tube.diameter", box.length, Boundary::walls, 1.0, largest, true, errors);
+  }
+  const bool length = check_side("box.length", box.length, box.x, 2.0, largest, false, errors);
+  const bool width = check_side("box.width", box.width, box.y, 1.0, largest, false, errors);
   return length && width;
 }
 
@@ -99,12 +104,24 @@ bool is_outside(double centre, double radius, double side, Boundary boundary) {
   return !(centre >= reach && centre <= side - reach);
 }
 
+/// Of a tube.
+bool is_outside(const PlacedSphere& grain, double radius, const Box& box) {
+  const double x = grain.x - box.length / 2.0, y = grain.y - box.width / 2.0;
+  const double reach = box.length / 2.0 - radius + settled_wall_overlap;
+  return !(reach >= 0.0 && x * x + y * y <= reach * reach);
+}
+
 /// What is wrong with one placed grain; empty if nothing is. A ball of `inner` times its size lies
 /// within it.
 std::string fault_of(const PlacedSphere& grain, double inner, const Box& box) {
   const double within = 2.0 * inner * grain.radius;
   if (!(grain.radius > 0.0 && grain.radius <= longest_side)) {
     return "the radius must be positive, is " + bound_text(grain.radius);
+  }
+  if (box.is_tube && is_outside(grain, within, box)) {
+    return "lies outside the tube, whose axis stands at x = y = " + bound_text(box.length / 2.0) +
+           ": x = " + bound_text(grain.x) + ", y = " + bound_text(grain.y) + ", radius " +
+           bound_text(grain.radius) + ", tube.diameter " + bound_text(box.length);
   }
   if (is_outside(grain.x, within, box.length, box.x)) {
     return "lies outside the box: x = " + bound_text(grain.x) + ", radius " +
@@ -175,10 +192,11 @@ void check_fill(const PackingSpec& spec, const std::optional<ShapeExtent>& shape
 }
 
 /// Solid fraction that beds never stay below. Between walls nearer than two grains layers do not
-/// interlock: spheres come down to 0.45 between walls and to 0.33 in a shaft.
+/// interlock: spheres come down to 0.45 between walls, to 0.33 in a shaft and to 0.32 in a tube.
 double loosest_solid_fraction(const PackingSpec& spec, double across) {
   double fraction = is_sphere(spec.shape) ? 0.5 : 0.4;
   const Box& box = spec.box;
+  if (box.is_tube) return box.length < 2.5 * across ? 0.6 * fraction : fraction;
   if (box.x == Boundary::walls && box.length < 2.0 * across) fraction *= 0.65;
   if (box.y == Boundary::walls && box.width < 2.0 * across) fraction *= 0.65;
   return fraction;
@@ -280,11 +298,13 @@ void check_gap_tolerances(const std::vector<double>& tolerances, Errors& errors)
   }
 }
 
-void check_bin_width(double bin_width, double box_width, Errors& errors) {
-  if (bin_width >= finest_bin && bin_width <= box_width) return;
-  errors.push_back({"measure.bin_width",
-                    "must lie in [" + bound_text(finest_bin) + ", " + bound_text(box_width) +
-                        "] (no wider than box.width), is " + bound_text(bin_width)});
+void check_bin_width(double bin_width, const Box& box, Errors& errors) {
+  const double widest = box.is_tube ? box.width / 2.0 : box.width;
+  if (bin_width >= finest_bin && bin_width <= widest) return;
+  const char* bound = box.is_tube ? "half of tube.diameter" : "box.width";
+  errors.push_back({"measure.bin_width", "must lie in [" + bound_text(finest_bin) + ", " +
+                                             bound_text(widest) + "] (no wider than " + bound +
+                                             "), is " + bound_text(bin_width)});
 }
 
 void check_measure(const MeasureSpec& measure, Errors& errors) {
@@ -301,10 +321,13 @@ std::vector<SpecError> check(const PackingSpec& spec) {
   const bool sizes = check_sizes(spec.sizes, errors);
   const double across = shape ? 2.0 * shape->circumradius : 1.0;
   const bool box = check_box(spec.box, across * (sizes ? largest_size(spec) : 1.0), errors);
+  if (spec.box.is_tube && !is_sphere(spec.shape)) {
+    errors.push_back({"tube.diameter", "a tube holds spheres; other grains lie in a box"});
+  }
   check_fill(spec, shape, shape && sizes && box, errors);
   check_accuracy(spec.accuracy, errors);
   check_measure(spec.measure, errors);
-  if (box) check_bin_width(spec.measure.bin_width, spec.box.width, errors);
+  if (box) check_bin_width(spec.measure.bin_width, spec.box, errors);
   if (errors.empty()) check_outcome(spec, across, errors);
   hint_at_size(spec.shape, across, errors);
   return errors;

@@ -115,6 +115,13 @@ Range centres(double extent, Boundary boundary, double radius) {
   return boundary == Boundary::walls ? Range{radius, extent - radius} : Range{0.0, extent};
 }
 
+/// Whether a centre, at random in the box that the tube touches, is one in the tube.
+bool is_in_tube(const Box& box, double radius, const PlacedSphere& sphere) {
+  const double x = sphere.x - box.length / 2.0, y = sphere.y - box.width / 2.0;
+  const double reach = box.length / 2.0 - radius;
+  return x * x + y * y <= reach * reach;
+}
+
 /// Where a grain overlaps nothing in any column; nothing if no room was found.
 std::optional<PlacedSphere> place(const std::vector<Column>& columns, const Box& box, double height,
                                   double radius, std::uint64_t key, std::uint64_t grain) {
@@ -123,6 +130,7 @@ std::optional<PlacedSphere> place(const std::vector<Column>& columns, const Box&
   for (std::uint32_t attempt = 0; attempt < max_attempts; ++attempt) {
     const auto words = random_words(key, Purpose::place, grain, attempt);
     const PlacedSphere sphere{x.at(words[0]), y.at(words[1]), z.at(words[2]), radius};
+    if (box.is_tube && !is_in_tube(box, radius, sphere)) continue;
     const bool has_room = std::all_of(columns.begin(), columns.end(), [&](const Column& column) {
       return column.has_room_for(sphere);
     });
@@ -235,6 +243,35 @@ std::vector<Pose> placed_poses(const PlacedGrains& placed, const InputFrame& giv
   return poses;
 }
 
+/// Whether a tube is so narrow that its grains come to rest in single file, each touching the wall
+/// and two others alone.
+bool is_single_file(const Box& box, const std::vector<double>& radii) {
+  const double smallest = *std::min_element(radii.begin(), radii.end());
+  return box.is_tube && box.length <= (2.0 + std::sqrt(3.0)) * smallest;
+}
+
+/// Grains of a single file, from the floor up: in a plane through the axis, on either side in turn.
+std::vector<PlacedSphere> place_in_file(const Box& box, const std::vector<double>& radii,
+                                        double min_height, std::uint64_t key) {
+  constexpr double jitter = 0.1;
+  const double largest = *std::max_element(radii.begin(), radii.end());
+  const double apart = std::max(2.0 * largest, min_height / static_cast<double>(radii.size()));
+  const auto share_of = [&](std::uint64_t grain) {
+    return unit_interval(random_words(key, Purpose::place, grain, 0)[0]);
+  };
+  const double angle = 2.0 * pi * share_of(radii.size()), middle = box.length / 2.0;
+  std::vector<PlacedSphere> spheres;
+  double side = 1.0, z = apart;
+  for (std::size_t i = 0; i < radii.size(); ++i) {
+    const double from_axis = side * (middle - radii[i]);
+    spheres.push_back(
+        {middle + from_axis * std::cos(angle), middle + from_axis * std::sin(angle), z, radii[i]});
+    z += apart * (1.0 + jitter * share_of(i));
+    side = -side;
+  }
+  return spheres;
+}
+
 }  // namespace
 
 std::optional<std::vector<PlacedSphere>> place_at_random(const Box& box,
@@ -255,9 +292,12 @@ std::optional<SphereBed> start(const PackingSpec& spec) {
   const std::vector<double> radii = draw_radii(spec);
   if (radii.empty()) return make_bed(spec.box, {});
   const double volume = solid_volume(radii);
-  const double floor = spec.box.length * spec.box.width;
-  auto spheres = place_at_random(spec.box, radii, volume / (sphere_start_solid_fraction * floor),
-                                 spec.random_key);
+  const double floor = spec.box.floor_area();
+  const double height = volume / (sphere_start_solid_fraction * floor);
+  if (is_single_file(spec.box, radii)) {
+    return make_bed(spec.box, place_in_file(spec.box, radii, height, spec.random_key));
+  }
+  auto spheres = place_at_random(spec.box, radii, height, spec.random_key);
   if (!spheres) return std::nullopt;
   sort_along_subdomains<Sphere>(spec.box, volume, *std::max_element(radii.begin(), radii.end()),
                                 *spheres);
@@ -273,7 +313,7 @@ std::optional<PolyhedronBed> start(const PackingSpec& spec) {
   std::vector<double> radii = draw_radii(spec);
   if (radii.empty()) return make_bed(spec.box, shape, std::vector<Pose>{});
   const double volume = volume_of(radii, shape.volume);
-  const double floor = spec.box.length * spec.box.width;
+  const double floor = spec.box.floor_area();
   const double ball = start_ball * std::cbrt(shape.volume / sphere_volume(1.0));
   for (double& radius : radii) radius *= 2.0 * ball;
   auto balls = place_at_random(spec.box, radii, volume / (polyhedron_start_solid_fraction * floor),

@@ -48,8 +48,10 @@ std::string memory_text(double bytes) { return fixed(bytes / 1e6, 1) + " MB"; }
 
 std::string group_text(const PlannedGroup& group) {
   const PackingSpec& spec = group.first->spec;
-  const std::string walls = spec.box.y == Boundary::walls ? "" : " periodic";
-  return "  " + pad_right(group.first->label, 20) + pad_right(cell(spec.box.width) + walls, 14) +
+  const std::string kind = spec.box.is_tube                ? " tube"
+                           : spec.box.y == Boundary::walls ? ""
+                                                           : " periodic";
+  return "  " + pad_right(group.first->label, 20) + pad_right(cell(spec.box.width) + kind, 14) +
          pad_left(std::to_string(group.packings), 9) +
          pad_left(std::to_string(grain_count(spec)), 10) +
          pad_left(duration_text(group.cost.cpu_seconds), 14) +
@@ -57,7 +59,7 @@ std::string group_text(const PlannedGroup& group) {
 }
 
 std::string groups_text(const std::vector<PlannedGroup>& groups) {
-  std::string text = "  " + pad_right("label", 20) + pad_right("W/d", 14) +
+  std::string text = "  " + pad_right("label", 20) + pad_right("W/d, D/d", 14) +
                      pad_left("packings", 9) + pad_left("grains", 10) + pad_left("CPU each", 14) +
                      pad_left("memory each", 12) + "\n";
   for (std::size_t i = 0; i < std::min(groups.size(), groups_shown); ++i) {

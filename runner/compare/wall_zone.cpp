@@ -27,6 +27,7 @@ double coordination_between(const Profile& profile, double from, double to) {
 
 std::string why_no_zone(const Group& group) {
   const double needed = 2.0 * core_distance + least_core;
+  if (group.job.box.is_tube) return "a tube has no flat walls";
   if (group.job.box.y == Boundary::periodic) return "there is no wall along y";
   if (group.job.box.width < needed) {
     return "needs a gap of " + cell(needed) + " d or more between the walls, has " +

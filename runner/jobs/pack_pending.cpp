@@ -25,7 +25,7 @@ namespace {
 
 std::string packing_line(const Job& job, const Outcome& outcome) {
   const PackingResult& result = outcome.result;
-  std::string text = job.label + " W=" + cell(job.spec.box.width) +
+  std::string text = job.label + (job.spec.box.is_tube ? " D=" : " W=") + cell(job.spec.box.width) +
                      (job.spec.box.y == Boundary::walls ? "" : " periodic") + " #" +
                      std::to_string(job.replicate) + "  " + name_of(result.status);
   if (!result.reason.empty()) text += " (" + result.reason + ")";

@@ -13,6 +13,7 @@ namespace grainsweep {
 namespace {
 
 const std::string width_parameter = "box.width";
+const std::string diameter_parameter = "tube.diameter";
 
 /// The number in a cell; NaN if it holds anything else.
 double number_in(const std::string& cell) {
@@ -50,6 +51,11 @@ std::map<std::string, std::string> distinctions(const Group& group, const std::s
   return values;
 }
 
+std::string symbol_of(const std::string& path) {
+  if (path == width_parameter) return "W";
+  return path == diameter_parameter ? "D" : path.substr(path.rfind('.') + 1);
+}
+
 /// "small_share = 0.25, no walls"
 std::string words(const std::map<std::string, std::string>& values) {
   std::string text;
@@ -59,7 +65,7 @@ std::string words(const std::map<std::string, std::string>& values) {
     if (path == "box.y" || path == "box.x")
       text += path.substr(4) + " " + value;
     else
-      text += (path == width_parameter ? "W" : path.substr(path.rfind('.') + 1)) + " = " + value;
+      text += symbol_of(path) + " = " + value;
   }
   return text;
 }
@@ -92,6 +98,7 @@ std::string axis_parameter(const std::vector<Group>& groups) {
 std::string axis_title(const std::string& parameter) {
   if (parameter.empty()) return "parameter set";
   if (parameter == width_parameter) return "gap between the walls, W / d";
+  if (parameter == diameter_parameter) return "diameter of the tube, D / d";
   if (parameter == "sizes.small_share") return "share of small grains in the solid volume";
   const auto known = find_parameter(parameter);
   return known ? parameters()[*known].path : parameter;

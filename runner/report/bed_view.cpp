@@ -99,6 +99,7 @@ std::string bed_element(const StoredBed& bed, const BedFacts& facts) {
                {"forces", base64(forces_of(bed, pair_force))}};
   json["box"] = Json::array({bed.box.length, bed.box.width, height});
   json["walls"] = Json::array({bed.box.x == Boundary::walls, bed.box.y == Boundary::walls});
+  json["tube"] = bed.box.is_tube;
   if (bed.turned) {
     json["mesh"]["vertices"] = bed.turned->mesh.vertices;
     json["mesh"]["faces"] = bed.turned->mesh.faces;

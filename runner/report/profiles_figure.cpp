@@ -19,7 +19,7 @@ std::string bins_csv(const std::vector<const Group*>& groups) {
       csv_line({"panel", "group", "y", "solid_fraction", "large", "large_error", "coordination",
                 "coordination_error", "coordination_with_walls", "name"});
   for (std::size_t k = 0; k < groups.size(); ++k) {
-    for (const MeanBin& bin : mean_profile(*groups[k], &PackingResult::profile_y)) {
+    for (const MeanBin& bin : mean_profile(*groups[k], profile_across(*groups[k]))) {
       text += csv_line({cell(k + 1), cell(groups[k]->number), cell((bin.low + bin.high) / 2.0),
                         cell(bin.solid_fraction.mean), cell(bin.large.mean), cell(bin.large.error),
                         cell(bin.coordination.mean), cell(bin.coordination.error),
@@ -34,7 +34,7 @@ std::vector<double> values_in(const std::vector<const Group*>& groups,
                               std::initializer_list<Spread MeanBin::*> spreads) {
   std::vector<double> values;
   for (const Group* group : groups) {
-    for (const MeanBin& bin : mean_profile(*group, &PackingResult::profile_y)) {
+    for (const MeanBin& bin : mean_profile(*group, profile_across(*group))) {
       for (const auto spread : spreads) values.push_back((bin.*spread).mean);
     }
   }
@@ -83,13 +83,16 @@ std::string commands_of(const Figure& figure, const std::vector<const Group*>& g
       "y", range_of(values_in(groups, {&MeanBin::coordination, &MeanBin::coordination_with_walls}),
                     0.06));
   for (std::size_t k = 0; k < groups.size(); ++k) {
-    const double width = groups[k]->job.box.width;
+    const Box& box = groups[k]->job.box;
+    const double width = box.is_tube ? box.width / 2.0 : box.width;
     text += panels.place(k, 0) + range_command("x", {0.0, width}) + "set format x ''\n" +
             label_command("x", "") + label_command("y", k == 0 ? "solid fraction φ" : "") +
             "set title " + quoted(title_of(*groups[k], figure_label)) +
-            " offset 0,-0.7 font ',11' noenhanced\n" + solid + solid_panel(k, fits[k], width) +
+            " offset 0,-0.7 font ',11' noenhanced\n" + solid + solid_panel(k, fits[k], box.width) +
             "unset title\n";
-    text += panels.place(k, 1) + "set format x\n" + label_command("x", "y / d, from wall to wall") +
+    text += panels.place(k, 1) + "set format x\n" +
+            label_command("x",
+                          box.is_tube ? "distance from the wall / d" : "y / d, from wall to wall") +
             label_command("y", k == 0 ? "coordination number Z" : "") + touching +
             coordination_panel(k);
   }

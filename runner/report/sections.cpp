@@ -25,8 +25,10 @@ Heading heading(const char* title, std::string_view field) {
   return {title, std::string(field_named(field).meaning)};
 }
 
+constexpr const char* gap_or_diameter = "gap between the walls, or diameter of the tube";
+
 Heading width_heading(const Units& units) {
-  return {"W / " + printed_unit(units), "gap between the walls"};
+  return {"W / " + printed_unit(units), gap_or_diameter};
 }
 
 /// A fitted length in d, and in the unit of the sweep where it has one.
@@ -259,7 +261,7 @@ std::string packings_section(const std::vector<Row>& rows, const std::vector<Gro
   table.headings = {{"packing", "column job of the tables"},
                     {"status"},
                     {"parameters", "label and what differs within the sweep"},
-                    {"W / d", "gap between the walls"},
+                    {"W / d", gap_or_diameter},
                     {"replicate"},
                     heading("grains", "grains"),
                     heading("φ", "solid_fraction"),

@@ -10,7 +10,7 @@
 namespace grainsweep {
 
 constexpr auto members_of(const Box* /*type*/) {
-  return std::tuple(&Box::length, &Box::width, &Box::x, &Box::y);
+  return std::tuple(&Box::length, &Box::width, &Box::x, &Box::y, &Box::is_tube);
 }
 constexpr auto members_of(const ProfileBin* /*type*/) {
   return std::tuple(&ProfileBin::large, &ProfileBin::small, &ProfileBin::large_grains,
@@ -48,7 +48,7 @@ constexpr auto members_of(const StoredBed* /*type*/) {
 
 namespace {
 
-constexpr std::string_view bed_mark = "GRAINS7\n";
+constexpr std::string_view bed_mark = "GRAINS8\n";
 
 const std::string to_mend = "; run the sweep again to make it anew";
 const std::string missing = "missing" + to_mend;

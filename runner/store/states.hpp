@@ -1,7 +1,7 @@
 // The curves, grains and forces of each finished bed, so that neither tables nor exporting pack
 // again.
 //
-// states/<job>.grains is "GRAINS7\n", a StoredBed as of runner/store/archive.hpp, in the order of
+// states/<job>.grains is "GRAINS8\n", a StoredBed as of runner/store/archive.hpp, in the order of
 // its members and of those of the engine's structs in states.cpp, and a CRC-32 of all before. Units
 // as in SettledGrain and PackingResult.
 #pragma once

@@ -1,5 +1,6 @@
 #include "runner/sweep/assignments.hpp"
 
+#include <algorithm>
 #include <map>
 
 #include "runner/sweep/shape_kind.hpp"
@@ -50,8 +51,8 @@ std::string absence_of(const std::string& key) {
       {"units", "lengths are in d, the mean diameter of the large grains; times in sqrt(d/g)"},
       {"height", "the box is open at the top; fill.solid_height says how much is filled in"},
       {"lid", "the box is open at the top"},
-      {"cylinder", "boxes are rectangular"},
-      {"radius", "boxes are rectangular, and d is the mean diameter of the large grains"},
+      {"cylinder", "write \"tube\": {\"diameter\": 7} in the place of the box"},
+      {"radius", "a tube has a diameter; d is the mean diameter of the large grains"},
       {"mean", "the mean diameter of the large grains is d, the unit of length"},
       {"diameter", "the mean diameter of the large grains is d, the unit of length"},
       {"distribution",
@@ -145,6 +146,32 @@ void refuse_second_shape(const Assignments& assignments, Diagnostics& diagnostic
   }
 }
 
+/// Notes the first part of a box beside one of a tube, or of a tube beside one of a box.
+void refuse_second_container(const Assignments& assignments, Diagnostics& diagnostics) {
+  const Assignment* first = nullptr;
+  for (const Assignment& assignment : assignments) {
+    const Parameter& parameter = parameters()[assignment.parameter];
+    if (choice_of(parameter) != Choice::container) continue;
+    if (first != nullptr && parameters()[first->parameter].role != parameter.role) {
+      diagnostics.push_back({assignment.pointer, "the container is already described at " +
+                                                     first->pointer + "; keep one of box, tube"});
+      return;
+    }
+    first = &assignment;
+  }
+}
+
+/// Whether one of the assignments replaces the container that others describe.
+bool replaces_container(const Assignment& assignment, const InEffect& in_effect) {
+  const Role role = parameters()[assignment.parameter].role;
+  if (role != Role::box && role != Role::tube) return false;
+  return std::any_of(in_effect.begin(), in_effect.end(), [&](const Assignment* other) {
+    if (other == nullptr) return false;
+    const Parameter& parameter = parameters()[other->parameter];
+    return choice_of(parameter) == Choice::container && parameter.role != role;
+  });
+}
+
 /// Where the first word of a part's name is in a message: "angle" for "shape.pinacoid.angle_deg".
 std::size_t mention_of(const std::string& path, const std::string& message) {
   const std::string name = path.substr(path.rfind('.') + 1);
@@ -176,6 +203,7 @@ bool is_known_path(const std::string& path, const std::string& pointer, Diagnost
 
 void refuse_double_assignments(const Assignments& assignments, Diagnostics& diagnostics) {
   refuse_second_shape(assignments, diagnostics);
+  refuse_second_container(assignments, diagnostics);
   InEffect seen(parameters().size(), nullptr);
   const Assignment* fill = nullptr;
   for (const Assignment& assignment : assignments) {
@@ -205,15 +233,17 @@ Assignments read_layer(const Json& object, const std::string& pointer, Diagnosti
 }
 
 void overlay(const std::vector<const Assignments*>& layer, InEffect& in_effect) {
-  bool fills = false;
+  bool fills = false, is_replaced = false;
   ShapeKind shape = ShapeKind::none;
   for (const Assignments* part : layer) {
     for (const Assignment& assignment : *part) {
       fills = fills || is_fill(assignment.parameter);
+      is_replaced = is_replaced || replaces_container(assignment, in_effect);
       shape = more_exact(shape, shape_named_by(assignment));
     }
   }
   if (fills) unset(Choice::fill, in_effect);
+  if (is_replaced) unset(Choice::container, in_effect);
   const bool is_named = shape != ShapeKind::none;
   if (is_named && exclude_each_other(shape, shape_of(in_effect))) unset(Choice::shape, in_effect);
   for (const Assignments* part : layer) {

@@ -172,17 +172,40 @@ Rows shape_rows() {
   };
 }
 
-Rows box_rows() {
-  using S = PackingSpec;
+// Parts of a box: a tube has none.
+template <auto member>
+std::optional<Value> get_of_box(const ResolvedSpec& resolved) {
+  if (resolved.spec.box.is_tube) return std::nullopt;
+  return get_member<&ResolvedSpec::spec, &PackingSpec::box, member>(resolved);
+}
+template <auto member>
+Parameter of_box(const char* path, const Limits& limits, const char* meaning) {
+  using T = std::remove_cvref_t<decltype(std::declval<Box&>().*member)>;
+  return own(path, limits, meaning, kind_of<T>(), Role::box,
+             set_member<&ResolvedSpec::spec, &PackingSpec::box, member>, get_of_box<member>);
+}
+
+void set_tube(ResolvedSpec& resolved, const Value& value) {
+  resolved.spec.box = tube_of(std::get<double>(value));
+}
+std::optional<Value> get_tube(const ResolvedSpec& resolved) {
+  const Box& box = resolved.spec.box;
+  return box.is_tube ? present(box.length) : std::nullopt;
+}
+
+Rows container_rows() {
   const Names boundaries = {// in the order of Boundary
                             {"periodic", "what leaves on one side comes in on the other"},
                             {"walls", "two flat walls without friction"}};
   return {
-      row<&S::box, &Box::length>("box.length", Interval{2, 10000}, "extent of the box along x, d"),
-      row<&S::box, &Box::width>("box.width", Interval{1, 10000},
-                                "extent of the box along y, d: the gap between walls"),
-      row<&S::box, &Box::x>("box.x", boundaries, "what bounds the box along x"),
-      row<&S::box, &Box::y>("box.y", boundaries, "what bounds the box along y"),
+      of_box<&Box::length>("box.length", Interval{2, 10000}, "extent of the box along x, d"),
+      of_box<&Box::width>("box.width", Interval{1, 10000},
+                          "extent of the box along y, d: the gap between walls"),
+      of_box<&Box::x>("box.x", boundaries, "what bounds the box along x"),
+      of_box<&Box::y>("box.y", boundaries, "what bounds the box along y"),
+      own("tube.diameter", Interval{1, 10000},
+          "inner diameter D of an upright round tube in the box's place, d", ValueKind::number,
+          Role::tube, set_tube, get_tube),
   };
 }
 
@@ -350,8 +373,8 @@ Rows measure_rows() {
 
 std::vector<Parameter> parameter_rows() {
   Rows all;
-  for (Rows rows :
-       {shape_rows(), box_rows(), fill_rows(), size_rows(), accuracy_rows(), measure_rows()}) {
+  for (Rows rows : {shape_rows(), container_rows(), fill_rows(), size_rows(), accuracy_rows(),
+                    measure_rows()}) {
     for (Parameter& parameter : rows) all.push_back(std::move(parameter));
   }
   all.push_back(own("seed", Limits{}, "master seed of the random numbers; in blocks only",

@@ -26,6 +26,12 @@ std::optional<std::size_t> find_parameter(std::string_view path) {
   return std::nullopt;
 }
 
+bool is_interval(const std::string& path) {
+  const auto index = find_parameter(path);
+  return index && (parameters()[*index].kind == ValueKind::number ||
+                   parameters()[*index].kind == ValueKind::whole);
+}
+
 std::size_t parameter_with(Role role) {
   const auto has_role = [&](const Parameter& parameter) { return parameter.role == role; };
   const auto found = std::find_if(parameters().begin(), parameters().end(), has_role);
@@ -40,6 +46,9 @@ Choice choice_of(const Parameter& parameter) {
     case Role::hull_file:
     case Role::hull_size:
       return Choice::shape;
+    case Role::box:
+    case Role::tube:
+      return Choice::container;
     case Role::fill:
     case Role::fill_file:
     case Role::fill_files:
@@ -59,6 +68,7 @@ std::optional<std::size_t> preset_of(std::string_view path) {
 std::optional<Value> default_of(const Parameter& parameter) {
   ResolvedSpec resolved;
   if (parameter.role == Role::pinacoid) resolved.spec.shape = PinacoidSize{};
+  if (parameter.role == Role::tube) return std::nullopt;
   return parameter.get(resolved);
 }
 
@@ -76,6 +86,7 @@ std::string meaning_of_group(std::string_view path) {
       {"shape.pinacoid", "a rectangle with a hip roof above it and one below"},
       {"shape.hull", "a convex polyhedron, by its vertices"},
       {"box", "the box that the grains fall into: a flat floor, open at the top"},
+      {"tube", "an upright round tube in the box's place: a flat floor, open at the top"},
       {"fill", "how many grains, in one of three ways: solid_height, grains or file"},
       {"sizes", "sizes of the grains: one class or two, each Gaussian"},
       {"accuracy", "how exactly a bed is settled: a preset's name, or parts that override it"},

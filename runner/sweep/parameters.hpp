@@ -43,6 +43,8 @@ enum class Role {
   hull_vertices,  ///< names a hull, and so on
   hull_file,
   hull_size,
+  box,         ///< a part of a box
+  tube,        ///< a part of a tube, which stands in the box's place
   fill,        ///< a way to fill the box
   fill_file,   ///< another way
   fill_files,  ///< another
@@ -50,7 +52,7 @@ enum class Role {
 };
 
 /// Parameters that say one thing in several ways: writing one unsets what the others said.
-enum class Choice { none, shape, fill };
+enum class Choice { none, shape, container, fill };
 
 struct Parameter {
   std::string path;     ///< "box.width"
@@ -77,6 +79,9 @@ const std::vector<Parameter>& parameters();
 
 /// Index of the parameter called `path`.
 std::optional<std::size_t> find_parameter(std::string_view path);
+
+/// Whether a path names a number that any value of an interval may have.
+bool is_interval(const std::string& path);
 
 /// Index of the first parameter with this role, which one must have.
 std::size_t parameter_with(Role role);

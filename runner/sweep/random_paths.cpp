@@ -39,15 +39,12 @@ std::string bounds_error(const RandomPath& random, const Json& bounds) {
 
 bool read_bounds(const Json& bounds, const std::string& pointer, RandomPath& random,
                  Diagnostics& diagnostics) {
-  const auto parameter = find_parameter(random.path);
-  const bool varies = parameter && (parameters()[*parameter].kind == ValueKind::number ||
-                                    parameters()[*parameter].kind == ValueKind::whole);
-  if (!varies) {
+  if (!is_interval(random.path)) {
     diagnostics.push_back(
         {pointer, random.path + " is not drawn from an interval; use {\"choice\": [...]}"});
     return false;
   }
-  random.parameter = *parameter;
+  random.parameter = *find_parameter(random.path);
   if (bounds.is_array() && bounds.size() == 2 && bounds[0].is_number() && bounds[1].is_number()) {
     random.low = bounds[0].get<double>();
     random.high = bounds[1].get<double>();

@@ -1,26 +1,17 @@
 #include "runner/sweep/random_points.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include <Random123/philox.h>
 
 #include "runner/sweep/identity.hpp"
+#include "runner/sweep/values.hpp"
 
 namespace grainsweep {
 namespace {
 
 constexpr std::uint64_t sweep_purpose = 0x7377656570647277;  // apart from the engine's numbers
-
-double nine_digits(double value) {
-  char text[40];
-  const auto written =
-      std::to_chars(text, text + sizeof text, value, std::chars_format::general, 9);
-  double rounded = value;
-  std::from_chars(text, written.ptr, rounded);
-  return rounded;
-}
 
 double number_between(const RandomPath& random, double u) {
   double value = random.low + u * (random.high - random.low);

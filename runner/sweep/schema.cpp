@@ -8,6 +8,7 @@
 #include "runner/sweep/parameters.hpp"
 #include "runner/sweep/random_paths.hpp"
 #include "runner/sweep/schema_rules.hpp"
+#include "runner/sweep/spaced_values.hpp"
 #include "runner/sweep/sweep_definition.hpp"
 #include "runner/sweep/units.hpp"
 #include "runner/sweep/values.hpp"
@@ -141,17 +142,30 @@ std::string meaning_of(const std::string& path) {
   return parameter ? parameters()[*parameter].meaning : meaning_of_group(path);
 }
 
+/// Evenly spaced values.
+Json spaced(const std::string& path) {
+  Json object =
+      closed_object({{"from", described("the first value", reference(path))},
+                     {"to", described("the last value", reference(path))},
+                     {"count", described("values in all", whole_number(2, most_spaced_values))}});
+  object["required"] = {"from", "to", "count"};
+  return object;
+}
+
 Json lists(const std::string& what) {
   return closed_object(members_by_path([&](const auto& path) {
     return described(what + meaning_of(path), list_of(reference(path)));
   }));
 }
 
-/// Of a grid: a value that is there twice would be packed twice.
+/// Of a grid: a value that is there twice would be packed twice. Numbers may be spaced evenly.
 Json distinct_lists() {
-  Json schema = lists("every one of these: ");
-  for (auto& list : schema["properties"]) list["uniqueItems"] = true;
-  return schema;
+  return closed_object(members_by_path([&](const auto& path) {
+    Json list = list_of(reference(path));
+    list["uniqueItems"] = true;
+    if (is_interval(path)) list = {{"anyOf", {list, spaced(path)}}};
+    return described("every one of these: " + meaning_of(path), list);
+  }));
 }
 
 /// Parameters as "base" holds them: the seed belongs beside it.
@@ -170,10 +184,7 @@ Json way(const char* name, const char* description, const Json& value) {
 
 Json distribution(const std::string& path) {
   Json choice = way("choice", "one of these, each as likely", list_of(reference(path)));
-  const auto index = find_parameter(path);
-  const bool is_interval = index && (parameters()[*index].kind == ValueKind::number ||
-                                     parameters()[*index].kind == ValueKind::whole);
-  if (!is_interval) return choice;
+  if (!is_interval(path)) return choice;
   Json bounds = list_of(reference(path));
   bounds["minItems"] = bounds["maxItems"] = 2;
   Json above_zero = bounds;

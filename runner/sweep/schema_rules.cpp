@@ -98,7 +98,7 @@ Json too_short_period() {
                   no(with_base("shape", no({{"const", "sphere"}}))),
                   no(with_base_key("^shape\\.|" + about("sizes"))), no(with_base("fill.file")),
                   no(with_base("fill.files")),
-                  no(with_block_key(about("shape|sizes|fill") + "|^box(\\.length|\\.x|$)"))});
+                  no(with_block_key(about("shape|sizes|fill|tube") + "|^box(\\.length|\\.x|$)"))});
 }
 
 /// That a bed of the usual spheres, box and zones is too low to be measured.
@@ -111,8 +111,8 @@ Json too_low_bed() {
   return not_all({{{"anyOf",
                     {with_base("fill.solid_height", {{"maximum", height}}),
                      with_base("fill.grains", {{"maximum", grains}})}}},
-                  no(with_base_key(about("shape|sizes|box|measure"))),
-                  no(with_block_key(about("shape|sizes|box|measure|fill")))});
+                  no(with_base_key(about("shape|sizes|box|tube|measure"))),
+                  no(with_block_key(about("shape|sizes|box|tube|measure|fill")))});
 }
 
 }  // namespace
@@ -120,7 +120,9 @@ Json too_low_bed() {
 Json said_once(const std::string& group) {
   static const std::vector<std::pair<std::string, std::string>> alternatives = [] {
     std::vector<std::pair<std::string, std::string>> pairs = {
-        {"shape.hull.vertices", "shape.hull.file"}, {"shape.pinacoid", "shape.hull"}};
+        {"shape.hull.vertices", "shape.hull.file"},
+        {"shape.pinacoid", "shape.hull"},
+        {"box", "tube"}};
     for (std::size_t i = 0; i < parameters().size(); ++i) {
       for (std::size_t j = 0; is_fill(i) && j < i; ++j) {
         if (is_fill(j)) pairs.emplace_back(parameters()[j].path, parameters()[i].path);

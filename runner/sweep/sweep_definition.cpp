@@ -10,6 +10,7 @@
 #include "runner/sweep/random_paths.hpp"
 #include "runner/sweep/read_units.hpp"
 #include "runner/sweep/shape_kind.hpp"
+#include "runner/sweep/spaced_values.hpp"
 #include "runner/sweep/suggest.hpp"
 #include "runner/sweep/text_lines.hpp"
 #include "runner/sweep/values.hpp"
@@ -212,10 +213,23 @@ class BlockReader {
     const std::string pointer = child_pointer(block_.pointer, "grid");
     if (!is_object(grid, pointer, "an object of lists, one per path", diagnostics_)) return;
     for (const auto& [path, list] : grid.items()) {
-      auto entries = read_varied(path, list, child_pointer(pointer, path));
+      auto entries = list.is_object() ? read_spaced(path, list, child_pointer(pointer, path))
+                                      : read_varied(path, list, child_pointer(pointer, path));
       refuse_repeats(entries, child_pointer(pointer, path), "value", diagnostics_);
       if (!entries.empty()) block_.axes.push_back({path, std::move(entries)});
     }
+  }
+
+  std::vector<Assignments> read_spaced(const std::string& path, const Json& range,
+                                       const std::string& pointer) {
+    if (!is_known_path(path, pointer, diagnostics_)) return {};
+    const Json values = spaced_values(path, range, pointer, diagnostics_);
+    if (values.is_null()) return {};
+    std::vector<Assignments> entries = read_varied(path, values, pointer);
+    for (Assignments& entry : entries) {
+      for (Assignment& assignment : entry) assignment.pointer = pointer;
+    }
+    return entries;
   }
 
   void read_zip(const Json& zip) {

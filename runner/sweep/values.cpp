@@ -1,6 +1,7 @@
 #include "runner/sweep/values.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -210,6 +211,15 @@ std::string in_thousands(std::uint64_t count) {
   std::string digits = std::to_string(count);
   for (std::size_t at = digits.size(); at > 3; at -= 3) digits.insert(at - 3, 1, ',');
   return digits;
+}
+
+double nine_digits(double value) {
+  char text[40];
+  const auto written =
+      std::to_chars(text, text + sizeof text, value, std::chars_format::general, 9);
+  double rounded = value;
+  std::from_chars(text, written.ptr, rounded);
+  return rounded;
 }
 
 }  // namespace grainsweep

@@ -37,4 +37,7 @@ std::string wanted_value(const Parameter& parameter);
 /// Whole numbers in thousands: "1,000,000".
 std::string in_thousands(std::uint64_t count);
 
+/// The number of nine significant digits that is nearest to it.
+double nine_digits(double value);
+
 }  // namespace grainsweep

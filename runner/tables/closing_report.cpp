@@ -61,19 +61,29 @@ void append_lines(const Family& family, std::vector<TableLine>& lines) {
   for (const Group& group : family.periodic) lines.push_back({family.distinction, &group});
 }
 
+/// What the extents of the containers are called: W, the gap between walls, or D, the diameter of a
+/// tube.
+std::string extent_symbol(const std::vector<TableLine>& lines) {
+  const auto is_tube = [](const TableLine& line) { return line.group->job.box.is_tube; };
+  if (std::none_of(lines.begin(), lines.end(), is_tube)) return "W";
+  return std::all_of(lines.begin(), lines.end(), is_tube) ? "D" : "W or D";
+}
+
 /// What is measured.
-TableColumns measured_columns() {
-  return {cells_text("W/d", {"φ ± sd", "Z ± sd", "contacts/iso", "overlap/d", "packings"}),
+TableColumns measured_columns(const std::vector<TableLine>& lines) {
+  return {cells_text(extent_symbol(lines) + "/d",
+                     {"φ ± sd", "Z ± sd", "contacts/iso", "overlap/d", "packings"}),
           cells_of};
 }
 
 /// The same in the units of the sweep.
-TableColumns laboratory_columns(const Units& units) {
+TableColumns laboratory_columns(const std::vector<TableLine>& lines, const Units& units) {
   const auto cells = [](const std::string& width, const std::string& porosity,
                         const std::string& density) {
     return pad_right(width, 14) + pad_left(porosity, 19) + pad_left(density, 17) + "\n";
   };
-  return {cells("W/" + printed_unit(units), "porosity ± sd", units.density ? "kg/m³ ± sd" : ""),
+  return {cells(extent_symbol(lines) + "/" + printed_unit(units), "porosity ± sd",
+                units.density ? "kg/m³ ± sd" : ""),
           [=](const Group& group) {
             const Spread& phi = mean_of(group, "solid_fraction");
             const bool is_walled = group.job.box.y == Boundary::walls;
@@ -85,8 +95,7 @@ TableColumns laboratory_columns(const Units& units) {
 
 /// The first of the lines beneath what their columns are. Names stand in a column of their own, or
 /// where they are long above their lines.
-std::string table_text(const std::vector<TableLine>& lines,
-                       const TableColumns& columns = measured_columns()) {
+std::string table_text(const std::vector<TableLine>& lines, const TableColumns& columns) {
   constexpr std::size_t longest_in_column = 17, most_lines = 60;
   std::size_t longest = 0;
   for (const TableLine& line : lines) longest = std::max(longest, line.name.size());
@@ -103,6 +112,9 @@ std::string table_text(const std::vector<TableLine>& lines,
   }
   if (lines.size() <= most_lines) return text;
   return text + "  and " + std::to_string(lines.size() - most_lines) + " more, see groups.csv\n";
+}
+std::string table_text(const std::vector<TableLine>& lines) {
+  return table_text(lines, measured_columns(lines));
 }
 
 std::string reference_text(const Family& family, Quantity quantity, int decimals) {
@@ -128,7 +140,8 @@ std::string fit_text(const Family& family, Quantity quantity, int decimals,
                      const GivenUnits& units) {
   const bool is_phi = quantity == Quantity::solid_fraction;
   const std::string symbol = is_phi ? "φ" : "Z", slope = is_phi ? "C" : "C_Z";
-  const std::string law = "  " + symbol + " = " + symbol + "_bulk - " + slope + "/W:  ";
+  const std::string extent = first_group(family).job.box.is_tube ? "/D:  " : "/W:  ";
+  const std::string law = "  " + symbol + " = " + symbol + "_bulk - " + slope + extent;
   const WallFit fit = fit_walls(family, quantity);
   if (!fit.not_determined.empty()) {
     return law + "not determined:\n      " + fit.not_determined + "\n";
@@ -164,9 +177,10 @@ std::string families_text(const std::vector<const Family*>& families) {
   }
   std::string text = "\n" + families.front()->labels + "\n" + table_text(lines);
   if (is_walled) {
-    text +=
-        "  φ = φ_bulk - C/W and Z = Z_bulk - C_Z/W:  not determined: needs packings at 3 or more\n"
-        "      widths with otherwise equal parameters\n";
+    const std::string extent = extent_symbol(lines);
+    text += "  φ = φ_bulk - C/" + extent + " and Z = Z_bulk - C_Z/" + extent +
+            ":  not determined: needs packings at 3 or more\n"
+            "      widths with otherwise equal parameters\n";
   }
   return text;
 }
@@ -198,7 +212,7 @@ std::string laboratory_text(const std::vector<Family>& families, const GivenUnit
     const std::size_t end = line + family.walled.size() + family.periodic.size();
     for (; line < end; ++line) lines[line].name = families.size() > 1 ? family.name : "";
   }
-  return "\n" + units_text(*units) + "\n" + table_text(lines, laboratory_columns(*units));
+  return "\n" + units_text(*units) + "\n" + table_text(lines, laboratory_columns(lines, *units));
 }
 
 /// Distinct values of a definition over the sweep: "3", or "2 or 3".
@@ -215,6 +229,8 @@ std::string definitions_text(const std::vector<Row>& rows) {
   const auto gap = [](const MeasureSpec& measure) {
     return measure.gap_tolerances.empty() ? 0.0 : measure.gap_tolerances.front();
   };
+  const bool has_tubes =
+      std::any_of(rows.begin(), rows.end(), [](const Row& row) { return row.job.box.is_tube; });
   return "\nLengths in d, the mean diameter of the large grains. φ: exact solid volume between " +
          distinct(rows, [](const MeasureSpec& m) { return m.exclude_floor; }) +
          " d above\nthe floor and " +
@@ -222,7 +238,10 @@ std::string definitions_text(const std::vector<Row>& rows) {
          " d below the surface. Z: neighbours per grain there with gap < " + distinct(rows, gap) +
          " d, walls not\ncounted. ± in a row: standard deviation of the replicates; below the "
          "rows: standard error.\ncontacts/iso: force-bearing contacts over the isostatic "
-         "count, 1 at perfect rest.\nOnly settled packings enter means and fits.\n";
+         "count, 1 at perfect rest.\n" +
+         (has_tubes ? "In narrow tubes it is less: a round wall holds grains along it, too.\n"
+                    : "") +
+         "Only settled packings enter means and fits.\n";
 }
 
 /// How far the means lie at most from those of beds settled ever better.
@@ -268,8 +287,8 @@ std::string reasons_text(const std::vector<Row>& rows) {
   for (const Row& row : rows) {
     if (!row.outcome || is_settled(row) || ++count > reasons_shown) continue;
     text += "  " + row.job.id + " (" + row.job.label + (row.job.label.empty() ? "" : ", ") +
-            "W = " + cell(row.job.box.width) + "): " + status_of(row) + "\n      " +
-            row.outcome->result.reason + "\n";
+            (row.job.box.is_tube ? "D = " : "W = ") + cell(row.job.box.width) +
+            "): " + status_of(row) + "\n      " + row.outcome->result.reason + "\n";
   }
   if (count > reasons_shown) {
     text += "  and " + std::to_string(count - reasons_shown) + " more, see packings.csv\n";

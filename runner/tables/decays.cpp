@@ -9,13 +9,16 @@ double ProfileBin::*volume_of(GrainClass grains) {
   return grains == GrainClass::large ? &ProfileBin::large : &ProfileBin::small;
 }
 
-/// Both halves of every settled profile, from the wall inwards.
+/// Both halves of every settled profile, from the wall inwards; that of a tube is one half.
 std::vector<std::vector<double>> halves_of(const Group& group, GrainClass grains) {
   std::vector<std::vector<double>> halves;
   for (const PackingResult& result : group.settled) {
     std::vector<double> values;
-    for (const ProfileBin& bin : result.profile_y.bins) values.push_back(bin.*volume_of(grains));
+    for (const ProfileBin& bin : (result.*profile_across(group)).bins) {
+      values.push_back(bin.*volume_of(grains));
+    }
     halves.push_back(values);
+    if (group.job.box.is_tube) continue;
     std::reverse(values.begin(), values.end());
     halves.push_back(values);
   }
@@ -25,7 +28,8 @@ std::vector<std::vector<double>> halves_of(const Group& group, GrainClass grains
 bool has_grains(const Group& group, GrainClass grains) {
   const auto is_filled = [&](const ProfileBin& bin) { return bin.*volume_of(grains) > 0.0; };
   return std::all_of(group.settled.begin(), group.settled.end(), [&](const PackingResult& result) {
-    return std::any_of(result.profile_y.bins.begin(), result.profile_y.bins.end(), is_filled);
+    const std::vector<ProfileBin>& bins = (result.*profile_across(group)).bins;
+    return std::any_of(bins.begin(), bins.end(), is_filled);
   });
 }
 
@@ -101,12 +105,16 @@ Columns<DecayLine> decay_line_columns(const Varied& varied, const GivenUnits& un
 
 }  // namespace
 
+Profile PackingResult::*profile_across(const Group& group) {
+  return group.job.box.is_tube ? &PackingResult::profile_from_walls : &PackingResult::profile_y;
+}
+
 DecayFit decay_of(const Group& group, GrainClass grains) {
   DecayFit fit;
   fit.window_end = group.job.box.width / 2.0;
   fit.not_determined = why_no_fit(group, grains);
   if (!fit.not_determined.empty()) return fit;
-  const double bin_width = group.settled.front().get().profile_y.bin_width;
+  const double bin_width = (group.settled.front().get().*profile_across(group)).bin_width;
   return fit_decay(halves_of(group, grains), bin_width, fit.window_end);
 }
 

@@ -67,6 +67,7 @@ Flat parameters_of(const Family& family) {
   Flat flat = flat_parameters(first_group(family).job);
   flat.erase("box.width");
   flat.erase("box.y");
+  flat.erase("tube.diameter");
   const std::string& accuracy = first_group(family).job.accuracy;
   flat["accuracy"] = accuracy == "custom" ? nearest_preset(flat) : accuracy;
   return flat;

@@ -42,6 +42,7 @@ std::string parameters_without_width(const JobFacts& job) {
     parameters["box"].erase("width");
     parameters["box"].erase("y");
   }
+  if (parameters.contains("tube")) parameters["tube"].erase("diameter");
   return parameters.dump();
 }
 

@@ -53,9 +53,13 @@ std::string start_file(const JobFacts& job) {
   return "";
 }
 
+const char* boundary_name(const Box& box, Boundary boundary) {
+  return box.is_tube ? "tube" : name_of(boundary);
+}
+
 Columns<JobFacts> all_job_columns() {
   using Job = const JobFacts&;
-  const char* const boundary = "walls or periodic";
+  const char* const boundary = "walls, periodic or tube";
   return {
       {"job", "", "id of the packing", [](Job job) { return job.id; }},
       {"label", "", "of the block of the sweep", [](Job job) { return cell(job.label); }},
@@ -65,11 +69,12 @@ Columns<JobFacts> all_job_columns() {
       {"start", "", "file its grains started from; empty if they were drawn at random", start_file},
       {"shape", "", "sphere, pinacoid or hull", [](Job job) { return cell(job.shape); }},
       {"accuracy", "", "name of the preset, or custom", [](Job job) { return cell(job.accuracy); }},
-      {"length", "d", "of the box along x", [](Job job) { return cell(job.box.length); }},
-      {"width", "d", "of the box along y, the gap W between walls",
+      {"length", "d", "of the box along x, or the diameter of the tube",
+       [](Job job) { return cell(job.box.length); }},
+      {"width", "d", "of the box along y, the gap W between walls, or the diameter D of the tube",
        [](Job job) { return cell(job.box.width); }},
-      {"boundary_x", "", boundary, [](Job job) { return cell(name_of(job.box.x)); }},
-      {"boundary_y", "", boundary, [](Job job) { return cell(name_of(job.box.y)); }},
+      {"boundary_x", "", boundary, [](Job job) { return cell(boundary_name(job.box, job.box.x)); }},
+      {"boundary_y", "", boundary, [](Job job) { return cell(boundary_name(job.box, job.box.y)); }},
       {"small_share", "", "share of the solid volume in small grains",
        [](Job job) { return cell(job.small_share); }},
       {"gap_tolerance", "d", "grains with a smaller gap touch", gap_tolerance},
@@ -127,6 +132,7 @@ json shared_json(const JobFacts& job) {
           {"width", job.box.width},
           {"x", name_of(job.box.x)},
           {"y", name_of(job.box.y)},
+          {"tube", job.box.is_tube},
           {"small_share", job.small_share},
           {"exclude_floor", job.measure.exclude_floor},
           {"exclude_surface", job.measure.exclude_surface},
@@ -142,6 +148,7 @@ JobFacts shared_facts_from(const json& set) {
   set.at("width").get_to(facts.box.width);
   facts.box.x = boundary_from(set.at("x"));
   facts.box.y = boundary_from(set.at("y"));
+  set.at("tube").get_to(facts.box.is_tube);
   set.at("small_share").get_to(facts.small_share);
   set.at("exclude_floor").get_to(facts.measure.exclude_floor);
   set.at("exclude_surface").get_to(facts.measure.exclude_surface);

@@ -32,9 +32,12 @@ def small(value):
         return [small(entry) for entry in value]
     if not isinstance(value, dict):
         return value
-    limits = {name: limit for path, limit in (("fill.solid_height", 3.5), ("box.length", 4))
+    limits = {name: limit for path, limit in (("fill.solid_height", 3.5), ("box.length", 4),
+                                              ("fill.grains", 60))
               for name in (path, path.split(".")[1])}
-    return {key: min(limits[key], entry) if key in limits and isinstance(entry, (int, float))
+    narrow = {"tube.diameter": [2.5, 3.5]}  # where so few grains are high enough
+    return {key: narrow[key] if key in narrow
+            else min(limits[key], entry) if key in limits and isinstance(entry, (int, float))
             else small(entry) for key, entry in value.items()}
 
 measure = {"exclude_floor": 1, "exclude_surface": 1, "bin_width": 0.5}

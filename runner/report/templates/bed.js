@@ -67,6 +67,10 @@
     if (by === "size") return bed.radius.map((radius) => 2 * radius);
     if (by === "touching") return bed.touching;
     if (by === "force") return bed.force;
+    if (by === "wall" && bed.tube) {
+      const radius = bed.box[0] / 2;
+      return bed.x.map((x, k) => radius - Math.hypot(x - radius, bed.y[k] - radius));
+    }
     if (by === "wall") {
       const across = [bed.x, bed.y];
       return bed.x.map((_, k) => Math.min(...[0, 1].filter((axis) => bed.walls[axis])
@@ -160,7 +164,17 @@
     return grains;
   };
 
+  const tubeOf = (bed) => {
+    const [diameter, , height] = bed.box;
+    const tube = new THREE.CylinderGeometry(diameter / 2, diameter / 2, height, 48, 1, true);
+    tube.rotateX(Math.PI / 2);
+    tube.translate(diameter / 2, diameter / 2, height / 2);
+    return new THREE.LineSegments(new THREE.EdgesGeometry(tube, 1),
+      new THREE.LineBasicMaterial({ color: 0x888888, transparent: true, opacity: 0.5 }));
+  };
+
   const frameOf = (bed) => {
+    if (bed.tube) return tubeOf(bed);
     const box = new THREE.BoxGeometry(...bed.box);
     box.translate(bed.box[0] / 2, bed.box[1] / 2, bed.box[2] / 2);
     return new THREE.LineSegments(new THREE.EdgesGeometry(box),

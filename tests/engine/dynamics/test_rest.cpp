@@ -105,6 +105,19 @@ TEST_CASE("a contact that bears a force across an open gap is not counted") {
   }
 }
 
+TEST_CASE("a round wall holds a grain along it, too, and on the axis if the grain fills the tube") {
+  Pushed chain(tube_of(1.6), {{0.5, 0.8, 0.5, 0.5}, {1.1, 0.8, 1.3, 0.5}});
+  chain.with_wall(0, 0, 2).with_pair(0, 1, 1.25).with_wall(0, 1, 0.75).with_wall(1, 1, 0.75);
+  const RestReport held = chain.rest();
+  CHECK(held.contacts == 4);
+  CHECK(held.held_by_turning == 2);
+  CHECK(held.isostatic_contacts == 6 - 1);  // together they move along the wall
+  Pushed column(tube_of(1), {{0.5, 0.5, 0.5, 0.5}, {0.5, 0.5, 1.5, 0.5}});
+  column.with_wall(0, 0, 2).with_pair(0, 1, 1);
+  CHECK(column.rest().contacts == 2);
+  CHECK(column.rest().held_by_turning == 4);
+}
+
 TEST_CASE("overlaps are those of force-bearing contacts, measured anew") {
   Pushed pushed(x_periodic, {{2, 2, 0.49, 0.5}, {2, 2, 1.46, 0.5}, {2, 2, 2.41, 0.5}});
   pushed.with_wall(0, 0, 2).with_pair(0, 1, 1);  // the third pair, .05 deep, does not push
@@ -249,6 +262,14 @@ TEST_CASE("more contacts than are needed are no fault, none at all is one") {
   CHECK(rest_failure(rest, Accuracy{}).empty());
   rest.contacts = 0;
   CHECK_FALSE(rest_failure(rest, Accuracy{}).empty());
+}
+
+TEST_CASE("what a round wall holds by turning makes up for contacts that lack") {
+  RestReport rest = perfect_rest();
+  rest.contacts = 667;
+  CHECK_FALSE(rest_failure(rest, Accuracy{}).empty());
+  rest.held_by_turning = 333;
+  CHECK(rest_failure(rest, Accuracy{}).empty());
 }
 
 TEST_CASE("a bed is hyperstatic if it has more contacts than the tolerance lets lack") {

@@ -126,13 +126,81 @@ TEST_CASE("the frames of a duct hold the slices of spheres at one wall, and corn
   CHECK(both.bins[2].large == Approx(0).margin(1e-15));
 }
 
-TEST_CASE("the share of small grains is that of the volumes in the slab") {
-  const SphereBed bed = make_bed({4, 5, periodic, walls}, {{2, 2, 4, 0.5}, {1, 3, 9, 0.2}});
-  const ProfileSettings settings{0.3, 0.3, 1e-4};
-  CHECK(small_share_of(profile_across(bed, {}, {3, 9.2}, settings, 1)) ==
-        Approx(0.008 / (0.125 + 0.008)));
-  CHECK(small_share_of(profile_across(bed, {}, {3, 6}, settings, 1)) == 0.0);
-  CHECK(std::isnan(small_share_of(profile_across(bed, {}, {6, 7}, settings, 1))));
+/// Spheres anywhere in a tube, some reaching through its wall's inner half of them.
+SphereBed random_tube(double diameter, Draw& draw) {
+  std::vector<PlacedSphere> spheres;
+  while (spheres.size() < 60) {
+    const PlacedSphere s{draw.uniform(0, diameter), draw.uniform(0, diameter), draw.uniform(1, 9),
+                         draw.uniform(0.1, 0.5)};
+    if (std::hypot(s.x - diameter / 2, s.y - diameter / 2) + s.radius <= diameter / 2) {
+      spheres.push_back(s);
+    }
+  }
+  return make_bed(tube_of(diameter), spheres);
+}
+
+/// Of a tube, each ring weighted by its area.
+double ring_mean_of(const Profile& profile, double diameter) {
+  double sum = 0;
+  for (std::size_t k = 0; k < profile.bins.size(); ++k) {
+    const double low = profile.bin_width * static_cast<double>(k), high = low + profile.bin_width;
+    sum += (profile.bins[k].large + profile.bins[k].small) * (high - low) * (diameter - low - high);
+  }
+  return sum / (diameter * diameter / 4);
+}
+
+TEST_CASE("the mean over the rings of a tube, each by its area, is its solid fraction") {
+  Draw draw(31);
+  for (const double diameter : {1.3, 2.0, 3.7, 12.0, 400.0}) {
+    const SphereBed bed = random_tube(diameter, draw);
+    const Slab slab{2.3, 7.1};
+    for (const double bin : {0.02, 0.11, 0.6}) {
+      INFO("D = " << diameter << ", bins of " << bin);
+      const Profile profile =
+          profile_from_walls(bed, {}, slab, {std::min(bin * diameter, diameter / 2), 0.3, 1e-4});
+      CHECK(profile.bin_width * static_cast<double>(profile.bins.size()) == Approx(diameter / 2));
+      // 60 spheres, each exact to 1e-13 of its volume, which is up to the whole of what is there.
+      CHECK(ring_mean_of(profile, diameter) == Approx(solid_fraction(bed, slab)).epsilon(1e-12));
+    }
+  }
+}
+
+TEST_CASE("a bed turned about the axis of its tube has the same profile") {
+  Draw draw(32);
+  const double diameter = 4.6, angle = 1.1;
+  const SphereBed bed = random_tube(diameter, draw);
+  SphereBed turned = bed;
+  for (std::size_t i = 0; i < bed.grains(); ++i) {
+    const double x = bed.position[i].x - diameter / 2, y = bed.position[i].y - diameter / 2;
+    turned.position[i].x = diameter / 2 + std::cos(angle) * x - std::sin(angle) * y;
+    turned.position[i].y = diameter / 2 + std::sin(angle) * x + std::cos(angle) * y;
+  }
+  const Slab slab{2, 8};
+  const ProfileSettings settings{0.2, 0.3, 1e-4};
+  const Profile one = profile_from_walls(bed, {}, slab, settings);
+  const Profile other = profile_from_walls(turned, {}, slab, settings);
+  CHECK(solid_fraction(turned, slab) == Approx(solid_fraction(bed, slab)).epsilon(1e-14));
+  REQUIRE(one.bins.size() == other.bins.size());
+  for (std::size_t k = 0; k < one.bins.size(); ++k) {
+    CHECK(other.bins[k].large == Approx(one.bins[k].large).margin(1e-12));
+    CHECK(other.bins[k].small == Approx(one.bins[k].small).margin(1e-12));
+  }
+}
+
+TEST_CASE("the wall of a wide tube shows a sphere as a flat wall does") {
+  // At D = 1e4 d the wall leaves its tangent by 0.5^2 / 1e4 d within a sphere's reach.
+  constexpr double diameter = 1e4;
+  const SphereBed tube = make_bed(tube_of(diameter), {{0.7, diameter / 2, 4, 0.5}});
+  const SphereBed flat =
+      make_bed({diameter, diameter, walls, walls}, {{0.7, diameter / 2, 4, 0.5}});
+  const ProfileSettings settings{0.1, 0.3, 1e-4};
+  const Profile round = profile_from_walls(tube, {}, {0, 8}, settings);
+  const Profile square = profile_across(flat, {}, {0, 8}, settings, 0);
+  for (std::size_t k = 0; k < 13; ++k) {
+    const double low = 0.1 * static_cast<double>(k), area = pi * 0.1 * (diameter - 2 * low - 0.1);
+    CHECK(round.bins[k].large * area * 8 ==
+          Approx(square.bins[k].large * 0.1 * diameter * 8).margin(3e-5 * sphere_volume(0.5)));
+  }
 }
 
 TEST_CASE("a sphere across a periodic border fills the bins of both sides") {

@@ -39,6 +39,23 @@ TEST_CASE("the gap of a tilted wall grows by a step along its normal") {
   CHECK(wall.distance(0, 7, 0) == Approx(-0.2));
 }
 
+TEST_CASE("a tube has a floor and one round wall, whose gap and normal depend on the place") {
+  const Box tube = tube_of(6);
+  CHECK(tube.floor_area() == Approx(9 * pi));
+  CHECK((tube.period_x() == 0 && tube.period_y() == 0));
+  const auto all = walls_of(tube);
+  REQUIRE(all.size() == 2);
+  const Wall& round = all[1];
+  REQUIRE(round.is_round());
+  CHECK(round.gap({3, 3, 1, 0.5}) == 2.5);
+  CHECK(round.gap({3, 0.25, 1, 0.5}) == -0.25);
+  CHECK(points_along(round.normal(3, 5, 1), 0, -1, 0));
+  CHECK(points_along(round.normal(1, 3, 1), 1, 0, 0));
+  CHECK(points_along(round.normal(3, 3, 1), 1, 0, 0));  // on the axis: towards x
+  const UnitVector n = round.normal(4, 4, 7);
+  CHECK(round.distance(4 + 0.1 * n.x, 4 + 0.1 * n.y, 7) == Approx(round.distance(4, 4, 7) + 0.1));
+}
+
 TEST_CASE("the nearest image of a difference is at most half a period away, on either side") {
   for (const double difference : {-14.0, -9.5, -5.5, -4.5, 0.0, 4.5, 5.5, 9.5, 14.0}) {
     const double near = nearest_image(difference, 10.0);

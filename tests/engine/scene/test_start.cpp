@@ -69,6 +69,43 @@ TEST_CASE("walls any distance apart and shafts of any width have room for a star
   }
 }
 
+TEST_CASE("grains start apart from each other and from the wall of any tube") {
+  for (const double diameter : {1.0, 1.05, 1.7, 1.86, 1.87, 2.0, 3.3, 9.0}) {
+    for (const double spread : {0.0, 0.02}) {
+      INFO("D = " << diameter << ", spread " << spread);
+      const double room = diameter + 2 * spread * 3;
+      const auto bed = start<Sphere>(spec_of(tube_of(room), 200, {spread, 0, 0.5}));
+      REQUIRE(bed);
+      REQUIRE(bed->grains() == 200);
+      CHECK(testing::pairs_closer_than(*bed, 0.0).empty());
+      for (const Wall& wall : bed->walls) {
+        for (std::size_t i = 0; i < bed->grains(); ++i) {
+          REQUIRE(wall.gap(bed->position[i]) >= -1e-15 * room);  // one rounding
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("grains in single file start in one plane, turned by the key") {
+  const Box tube = tube_of(1.6);
+  double angles[2] = {};
+  for (const std::uint64_t key : {1U, 2U}) {
+    const auto bed = start<Sphere>(spec_of(tube, 50, {0, 0, 0.5}, key));
+    REQUIRE(bed);
+    const Record<double>& first = bed->position[0];
+    const double x = first.x - 0.8, y = first.y - 0.8;
+    angles[key - 1] = std::atan2(y, x);
+    for (std::size_t i = 0; i < bed->grains(); ++i) {
+      const Record<double>& p = bed->position[i];
+      const double side = i % 2 == 0 ? 1 : -1;
+      CHECK(p.x - 0.8 == Approx(side * x).margin(1e-15));
+      CHECK(p.y - 0.8 == Approx(side * y).margin(1e-15));
+    }
+  }
+  CHECK(std::abs(angles[0] - angles[1]) > 0.1);
+}
+
 TEST_CASE("grains ten times smaller start apart from large ones, whichever came first") {
   // A spread of .2 makes some grains of the large class smaller than half of the largest.
   for (const SizesSpec& sizes : {SizesSpec{0.03, 0.1, 0.1}, SizesSpec{0.2, 0.02, 0.1}}) {

@@ -78,7 +78,7 @@ TEST_CASE("curves are put back where they were taken from") {
 
 TEST_CASE("the file begins as its header states") {
   const std::string bytes = bed_bytes(sample_bed());
-  CHECK(bytes.substr(0, 19) == std::string("GRAINS7\n\3\0\0\0\0\0\0\0job", 19));
+  CHECK(bytes.substr(0, 19) == std::string("GRAINS8\n\3\0\0\0\0\0\0\0job", 19));
 }
 
 TEST_CASE("a bed without grains can be stored") {

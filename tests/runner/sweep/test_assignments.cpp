@@ -107,7 +107,7 @@ TEST_CASE("an unknown key is refused at the key, with the nearest known one") {
   CHECK(errors_in_base(R"({"bx": {}})") ==
         Messages{"s.json:2:2 /base/bx: unknown key \"bx\"; did you mean \"box\"?"});
   CHECK(errors_in_base(R"({"colour": 0.3})") ==
-        Messages{"s.json:2:2 /base/colour: unknown key \"colour\"; known here: shape, box, "
+        Messages{"s.json:2:2 /base/colour: unknown key \"colour\"; known here: shape, box, tube, "
                  "fill, sizes, accuracy, measure"});
   CHECK(errors_in_base(R"({"": 1})").size() == 1);
 }

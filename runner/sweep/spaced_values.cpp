@@ -1,0 +1,66 @@
+#include "runner/sweep/spaced_values.hpp"
+
+#include <cmath>
+#include <optional>
+
+#include "runner/sweep/parameters.hpp"
+#include "runner/sweep/values.hpp"
+
+namespace grainsweep {
+namespace {
+
+const std::string wanted = R"(must be a list of values or {"from": a, "to": b, "count": n})";
+
+/// The number that a member of the range holds; notes what is wrong with it.
+std::optional<double> end_of(const Parameter& parameter, const Json& range, const char* member,
+                             const std::string& pointer, Diagnostics& diagnostics) {
+  const Json& value = range.at(member);
+  const ValueReading reading = read_value(parameter, value);
+  std::string error = reading.value ? range_error(parameter, *reading.value) : reading.error;
+  if (error.empty()) return value.get<double>();
+  diagnostics.push_back({child_pointer(pointer, member), std::move(error)});
+  return std::nullopt;
+}
+
+std::optional<std::int64_t> count_of(const Json& count, const std::string& pointer,
+                                     Diagnostics& diagnostics) {
+  const bool is_whole = count.is_number_integer();
+  if (is_whole && count >= 2 && count <= most_spaced_values) return count.get<std::int64_t>();
+  diagnostics.push_back({child_pointer(pointer, "count"),
+                         "must be a whole number in [2, 1000000], is " + describe(count)});
+  return std::nullopt;
+}
+
+bool has_members(const Json& range) {
+  return range.is_object() && range.size() == 3 && range.contains("from") && range.contains("to") &&
+         range.contains("count");
+}
+
+}  // namespace
+
+Json spaced_values(const std::string& path, const Json& range, const std::string& pointer,
+                   Diagnostics& diagnostics) {
+  if (!is_interval(path) || !has_members(range)) {
+    diagnostics.push_back({pointer, (is_interval(path) ? wanted : "must be a list of values") +
+                                        (", is " + describe(range))});
+    return nullptr;
+  }
+  const Parameter& parameter = parameters()[*find_parameter(path)];
+  const auto from = end_of(parameter, range, "from", pointer, diagnostics);
+  const auto to = end_of(parameter, range, "to", pointer, diagnostics);
+  const auto count = count_of(range.at("count"), pointer, diagnostics);
+  if (!from || !to || !count) return nullptr;
+  Json values = Json::array();
+  for (std::int64_t k = 0; k < *count; ++k) {
+    const double share = static_cast<double>(k) / static_cast<double>(*count - 1);
+    const double value = nine_digits(*from + share * (*to - *from));
+    if (parameter.kind == ValueKind::whole) {
+      values.push_back(static_cast<std::int64_t>(std::round(value)));
+    } else {
+      values.push_back(value);
+    }
+  }
+  return values;
+}
+
+}  // namespace grainsweep

@@ -1,0 +1,119 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+#include "engine/measure/cut_sphere.hpp"
+#include "engine/measure/cut_tube.hpp"
+#include "engine/measure/solid_fraction.hpp"
+#include "engine/units.hpp"
+#include "tests/support/draw.hpp"
+
+namespace grainsweep {
+namespace {
+
+using testing::Draw;
+
+using Long = long double;
+constexpr Long long_pi = std::numbers::pi_v<long double>;
+
+/// Area that two discs share, by the law of cosines.
+Long lens(Long a, Long b, Long distance) {
+  if (a > b) std::swap(a, b);
+  if (distance >= a + b) return 0;
+  if (distance <= b - a) return long_pi * a * a;
+  const auto angle = [&](Long r, Long other) {
+    const Long cosine = (distance * distance + r * r - other * other) / (2 * distance * r);
+    return std::acos(std::clamp(cosine, Long(-1), Long(1)));
+  };
+  const auto segment = [](Long r, Long half) { return r * r * (half - std::sin(2 * half) / 2); };
+  return segment(a, angle(a, b)) + segment(b, angle(b, a));
+}
+
+/// The integral of f, smooth inside, whatever it does at the ends (tanh-sinh rule).
+template <class F>
+Long integral(Long low, Long high, const F& f) {
+  constexpr int steps = 150;
+  constexpr Long step = 4.0L / steps;
+  const Long middle = (low + high) / 2, half = (high - low) / 2;
+  Long sum = 0;
+  for (int k = -steps; k <= steps; ++k) {
+    const Long t = step * k, s = long_pi / 2 * std::sinh(t), c = std::cosh(s);
+    sum += f(middle + half * std::tanh(s)) * long_pi / 2 * std::cosh(t) / (c * c);
+  }
+  return sum * step * half;
+}
+
+/// The same volume by quadrature in long double, between the heights where the form changes.
+double brute_force(double radius, double distance, double tube, double low, double high) {
+  const Long r = radius;
+  std::vector<Long> cuts = {std::max<Long>(-r, low), std::min<Long>(r, high)};
+  if (cuts[0] >= cuts[1]) return 0;
+  const Long bottom = cuts[0], top = cuts[1];
+  for (const Long disc : {std::abs(Long(tube) - distance), Long(tube) + distance}) {
+    if (disc >= r) continue;
+    const Long z = std::sqrt(r * r - disc * disc);
+    for (const Long cut : {z, -z}) {
+      if (cut > bottom && cut < top) cuts.push_back(cut);
+    }
+  }
+  std::sort(cuts.begin(), cuts.end());
+  Long volume = 0;
+  for (std::size_t k = 0; k + 1 < cuts.size(); ++k) {
+    volume += integral(cuts[k], cuts[k + 1], [&](Long z) {
+      return lens(std::sqrt(std::max(Long(0), r * r - z * z)), tube, distance);
+    });
+  }
+  return static_cast<double>(volume);
+}
+
+TEST_CASE("a tube cuts from a sphere what a quadrature of the discs finds") {
+  Draw draw(41);
+  for (int k = 0; k < 400; ++k) {
+    const double radius = draw.uniform(0.05, 0.7);
+    const double tube = k % 3 == 0   ? draw.uniform(0.01, 1.5 * radius)
+                        : k % 3 == 1 ? draw.uniform(1, 10)
+                                     : draw.uniform(10, 1000);
+    double distance = std::max(0.0, tube + draw.uniform(-1.1, 1.1) * radius);
+    if (k % 7 == 0) distance = tube + 1e-6 * draw.unit();      // the centre in the wall
+    if (k % 11 == 0) distance = std::max(0.0, tube - radius);  // it touches from within
+    if (k % 13 == 0) distance = 0;
+    const double low = k % 2 == 0 ? -1 : draw.uniform(-radius, radius);
+    const double high = k % 5 == 0 ? low + draw.uniform(0, radius) : 1;
+    INFO("radius " << radius << ", distance " << distance << ", tube " << tube);
+    CHECK(sphere_tube_volume(radius, distance, tube, low, high) ==
+          Approx(brute_force(radius, distance, tube, low, high))
+              .margin(1e-13 * sphere_volume(radius)));
+  }
+}
+
+TEST_CASE("a tube cuts what is known: all, nothing, a cylinder's core, half at a wide wall") {
+  const double whole = sphere_volume(0.5);
+  CHECK(sphere_tube_volume(0.5, 1.5, 2.0, -1, 1) == Approx(whole).epsilon(1e-15));
+  CHECK(sphere_tube_volume(0.5, 2.5, 2.0, -1, 1) == 0);
+  CHECK(sphere_tube_volume(0.5, 0.2, 0.0, -1, 1) == 0);
+  CHECK(sphere_tube_volume(0.5, 1.0, 2.0, 0.3, 0.3) == 0);
+  // A drill of radius a through the centre leaves 4/3 pi (r^2 - a^2)^(3/2).
+  CHECK(whole - sphere_tube_volume(0.5, 0.0, 0.3, -1, 1) ==
+        Approx(4.0 / 3.0 * pi * std::pow(0.25 - 0.09, 1.5)).epsilon(1e-14));
+  CHECK(sphere_tube_volume(0.5, 1e6, 1e6, -1, 1) == Approx(whole / 2).epsilon(1e-6));
+  CHECK(sphere_tube_volume(0.5, 1.0, 2.0, -0.2, 0.4) ==
+        Approx(sphere_slab_volume(0.5, -0.2, 0.4)).epsilon(1e-14));
+}
+
+TEST_CASE("the area that two discs share does not depend on which comes first") {
+  Draw draw(42);
+  for (int k = 0; k < 200; ++k) {
+    const double a = draw.uniform(0.01, 2), b = draw.uniform(0.01, 2), d = draw.uniform(0, 4);
+    CHECK(shared_area(a, b, d) == shared_area(b, a, d));
+    // Digits that cancel where the discs nearly hold each other: 1e-12 of the smaller one.
+    const double smaller = pi * std::min(a, b) * std::min(a, b);
+    CHECK(shared_area(a, b, d) ==
+          Approx(static_cast<double>(lens(a, b, d))).margin(1e-12 * smaller));
+  }
+}
+
+}  // namespace
+}  // namespace grainsweep
