@@ -56,10 +56,12 @@ struct Hold {
   bool is_grain = true;  ///< it is a single grain
 };
 
-/// The walls' normal where a grain touches it.
+/// The wall's normal where a grain touches it. A round wall is the last one, and has a name for
+/// each vertex.
 UnitVector normal_at(const Grains& bed, const ForceContact& contact) {
   const Record<double>& p = bed.position[static_cast<std::size_t>(contact.a)];
-  return bed.walls[static_cast<std::size_t>(contact.b - bed.wall_name(0))].normal(p.x, p.y, p.z);
+  const auto wall = static_cast<std::size_t>(contact.b - bed.wall_name(0));
+  return bed.walls[std::min(wall, bed.walls.size() - 1)].normal(p.x, p.y, p.z);
 }
 
 /// What holds the clusters of grains that push each other; at the root of each.

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include <boost/math/quadrature/gauss.hpp>
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 
+#include "engine/measure/cut_polyhedron.hpp"
 #include "engine/units.hpp"
 
 namespace grainsweep {
@@ -53,7 +55,139 @@ double crossing_volume(double radius, double distance, double tube, double low, 
              : gauss_kronrod<double, 31>::integrate(shared, 0.0, pi, most_halvings, 1e-13);
 }
 
+// ---- polyhedra ----
+
+/// Of an integral between two heights, in volumes of the grain.
+constexpr double allowed_error = 2e-8;
+
+/// Integral of an area over the height. Where the rim of the disc passes a corner or a side of the
+/// section the area has a kink: pieces are halved until halves of them add up to the whole.
+template <class Area>
+double integral(const Area& area, double low, double high, double error, int halvings = 10) {
+  using boost::math::quadrature::gauss;
+  const double middle = 0.5 * (low + high);
+  const double whole = gauss<double, 7>::integrate(area, low, high);
+  const double halves = gauss<double, 7>::integrate(area, low, middle) +
+                        gauss<double, 7>::integrate(area, middle, high);
+  if (halvings == 0 || std::abs(whole - halves) <= error) return halves;
+  return integral(area, low, middle, error / 2.0, halvings - 1) +
+         integral(area, middle, high, error / 2.0, halvings - 1);
+}
+
+/// A point of a horizontal section, from the axis of the cylinder, d.
+struct Point {
+  double x, y;
+};
+double cross(const Point& a, const Point& b) { return a.x * b.y - a.y * b.x; }
+double dot(const Point& a, const Point& b) { return a.x * b.x + a.y * b.y; }
+
+/// Area that a disc about the origin shares with the triangle of the origin, p and q; negative if
+/// the way from p to q is clockwise.
+double triangle_area(const Point& p, const Point& q, double radius) {
+  const auto sector = [&](const Point& a, const Point& b) {
+    return 0.5 * radius * radius * std::atan2(cross(a, b), dot(a, b));
+  };
+  const Point way{q.x - p.x, q.y - p.y};
+  const double length = dot(way, way), along = dot(p, way);
+  const double beyond = dot(p, p) - radius * radius;
+  const double squared = along * along - length * beyond;
+  if (!(squared > 0.0) || !(length > 0.0)) return sector(p, q);
+  const double root = std::sqrt(squared);
+  const double in = (-along - root) / length, out = (-along + root) / length;
+  if (in >= 1.0 || out <= 0.0) return sector(p, q);
+  const auto at = [&](double share) { return Point{p.x + share * way.x, p.y + share * way.y}; };
+  const Point first = in > 0.0 ? at(in) : p, last = out < 1.0 ? at(out) : q;
+  return (in > 0.0 ? sector(p, first) : 0.0) + 0.5 * cross(first, last) +
+         (out < 1.0 ? sector(last, q) : 0.0);
+}
+
+/// A grain's vertices, from the axis of the cylinder and in the box's frame.
+using Corners = std::vector<Vector>;
+
+/// A corner of a section, and a number that grows with its angle about the section's middle.
+struct Ranked {
+  Point at;
+  double rank;
+};
+
+/// Grows with the angle of a vector from -pi to pi, from -2 to 2.
+double rank_of(const Point& v) {
+  const double along = v.x / (std::abs(v.x) + std::abs(v.y));
+  return v.y < 0.0 ? along - 1.0 : 1.0 - along;
+}
+
+/// The convex polygon in which a horizontal plane cuts a grain, counter-clockwise.
+void cut_section(const ConvexShape& shape, const Corners& corners, double z,
+                 std::vector<Ranked>& polygon) {
+  polygon.clear();
+  Point middle{0.0, 0.0};
+  for (const Edge& edge : shape.edges) {
+    const Vector &a = corners[static_cast<std::size_t>(edge.from)],
+                 &b = corners[static_cast<std::size_t>(edge.to)];
+    if ((a.z() < z) == (b.z() < z)) continue;
+    const double share = (z - a.z()) / (b.z() - a.z());
+    const Point at{a.x() + share * (b.x() - a.x()), a.y() + share * (b.y() - a.y())};
+    polygon.push_back({at, 0.0});
+    middle = {middle.x + at.x, middle.y + at.y};
+  }
+  const auto count = static_cast<double>(polygon.size());
+  for (Ranked& corner : polygon) {
+    corner.rank = rank_of({corner.at.x - middle.x / count, corner.at.y - middle.y / count});
+  }
+  std::sort(polygon.begin(), polygon.end(),
+            [](const Ranked& a, const Ranked& b) { return a.rank < b.rank; });
+}
+
+/// Area that a section shares with the disc.
+double area_in(const std::vector<Ranked>& section, double tube) {
+  double area = 0.0;
+  for (std::size_t k = 0; k < section.size(); ++k) {
+    area += triangle_area(section[k].at, section[(k + 1) % section.size()].at, tube);
+  }
+  return area;
+}
+
+/// Heights of the vertices between two others, and these, in order: between them sections have the
+/// same corners.
+std::vector<double> form_heights(const Corners& corners, double low, double high) {
+  std::vector<double> heights = {low, high};
+  for (const Vector& corner : corners) {
+    if (corner.z() > low && corner.z() < high) heights.push_back(corner.z());
+  }
+  std::sort(heights.begin(), heights.end());
+  return heights;
+}
+
 }  // namespace
+
+double polyhedron_tube_volume(const ConvexShape& shape, const Pose& pose, double axis, double tube,
+                              double low, double high) {
+  const double from_axis = std::hypot(pose.centre.x() - axis, pose.centre.y() - axis);
+  const double reach = pose.scale * shape.circumradius;
+  if (tube <= 0.0 || from_axis - reach >= tube) return 0.0;
+  if (from_axis + reach <= tube) return slab_volume(shape, pose, 2, low, high);
+  Corners corners;
+  Span upright{pose.centre.z(), pose.centre.z()};
+  for (const Vector& vertex : shape.vertices) {
+    const Vector corner = pose.centre + pose.orientation * (pose.scale * vertex);
+    corners.push_back(corner - Vector(axis, axis, 0.0));
+    upright = {std::min(upright.low, corner.z()), std::max(upright.high, corner.z())};
+  }
+  const double bottom = std::max(low, upright.low), top = std::min(high, upright.high);
+  if (bottom >= top) return 0.0;
+  const std::vector<double> heights = form_heights(corners, bottom, top);
+  std::vector<Ranked> polygon;
+  const auto area = [&](double z) {
+    cut_section(shape, corners, z, polygon);
+    return area_in(polygon, tube);
+  };
+  const double error = allowed_error * pose.scale * pose.scale * pose.scale * shape.volume;
+  double volume = 0.0;
+  for (std::size_t k = 0; k + 1 < heights.size(); ++k) {
+    volume += integral(area, heights[k], heights[k + 1], error);
+  }
+  return volume;
+}
 
 double shared_area(double radius, double other_radius, double distance) {
   const double a = std::min(radius, other_radius), b = std::max(radius, other_radius);

@@ -8,6 +8,7 @@
 #pragma once
 
 #include "engine/measure/slab.hpp"
+#include "engine/shape/pose.hpp"
 
 namespace grainsweep {
 
@@ -18,5 +19,11 @@ double shared_area(double radius, double other_radius, double distance);
 /// radius `tube`, in it, and between the heights `low` and `high` above the sphere's centre, d^3.
 /// Exact to 1e-13 of the sphere's volume.
 double sphere_tube_volume(double radius, double distance, double tube, double low, double high);
+
+/// Volume of the part of a grain in an upright cylinder of radius `tube` about the vertical line
+/// through x = y = axis of the box, and between the heights `low` and `high` of the box, d^3. To
+/// 1e-7 of the grain's volume.
+double polyhedron_tube_volume(const ConvexShape& shape, const Pose& pose, double axis, double tube,
+                              double low, double high);
 
 }  // namespace grainsweep

@@ -143,6 +143,10 @@ double volume_in(const Core& core, const SphereBed& bed, std::size_t i) {
   return sphere_box_volume(p.w, from(core.x, p.x), from(core.y, p.y), from(core.z, p.z));
 }
 double volume_in(const Core& core, const PolyhedronBed& bed, std::size_t i) {
+  if (core.is_round) {
+    return polyhedron_tube_volume(bed.shape, bed.pose(i), core.axis, core.radius, core.z.low,
+                                  core.z.high);
+  }
   return box_volume(bed.shape, bed.pose(i), {core.x.low, core.y.low, core.z.low},
                     {core.x.high, core.y.high, core.z.high});
 }

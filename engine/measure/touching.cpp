@@ -1,6 +1,8 @@
 #include "engine/measure/touching.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "engine/broad/candidates.hpp"
 #include "engine/narrow/gjk.hpp"
@@ -25,13 +27,15 @@ double pair_gap(const PolyhedronBed& bed, std::size_t a, std::size_t b) {
 double wall_gap(const SphereBed& bed, const Wall& wall, std::size_t grain) {
   return wall.gap(bed.position[grain]);
 }
-/// Of the lowest point above the wall.
+/// Of the vertex that is nearest to the wall: none is convex.
 double wall_gap(const PolyhedronBed& bed, const Wall& wall, std::size_t grain) {
   const Pose pose = bed.pose(grain);
-  const Vector& c = pose.centre;
-  const UnitVector n = wall.normal(c.x(), c.y(), c.z());
-  const Vector outward = pose.orientation.conjugate() * -Vector(n.x, n.y, n.z);
-  return wall.distance(c.x(), c.y(), c.z()) - pose.scale * reach_along(bed.shape, outward);
+  double gap = std::numeric_limits<double>::infinity();
+  for (const Vector& vertex : bed.shape.vertices) {
+    const Vector place = pose.centre + pose.orientation * (pose.scale * vertex);
+    gap = std::min(gap, wall.distance(place.x(), place.y(), place.z()));
+  }
+  return gap;
 }
 
 }  // namespace

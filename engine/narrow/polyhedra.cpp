@@ -97,6 +97,28 @@ Vector normal_of(const Wall& wall, const Vector& place) {
   return {n.x, n.y, n.z};
 }
 
+/// Every vertex near a round wall touches it alone: its normal is that of its own place.
+void touch_round_wall(std::size_t k, std::int32_t grain, double margin, const PolyhedronBed& bed,
+                      ContactList& found) {
+  const Wall& wall = bed.walls[k];
+  const Pose pose = bed.pose(static_cast<std::size_t>(grain));
+  for (std::size_t v = 0; v < bed.shape.vertices.size(); ++v) {
+    const Vector position = pose.scale * bed.shape.vertices[v];
+    const Vector place = pose.centre + pose.orientation * position;
+    const double gap = wall.distance(place.x(), place.y(), place.z());
+    if (gap > margin) continue;
+    const Vector normal = pose.orientation.conjugate() * -normal_of(wall, place);
+    found.contacts.push_back({grain,
+                              bed.wall_name(k) + static_cast<std::int32_t>(v),
+                              AxisKind::none,
+                              normal,
+                              found.points.size(),
+                              1,
+                              {}});
+    found.points.push_back({position, gap});
+  }
+}
+
 }  // namespace
 
 double touch_pairs(const TouchSettings& settings, const Kernels& kernels, const PolyhedronBed& bed,
@@ -110,6 +132,10 @@ void touch_wall(std::size_t k, const std::vector<std::int32_t>& grains, double m
                 const PolyhedronBed& bed, ContactList& found) {
   const Wall& wall = bed.walls[k];
   for (const std::int32_t grain : grains) {
+    if (wall.is_round()) {
+      touch_round_wall(k, grain, margin, bed, found);
+      continue;
+    }
     const Pose pose = bed.pose(static_cast<std::size_t>(grain));
     const std::size_t first = found.points.size();
     const std::size_t count = touch_wall(bed.shape, pose, wall, margin, found.points);

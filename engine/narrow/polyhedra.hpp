@@ -49,7 +49,8 @@ double touch_pairs(const TouchSettings& settings, const Kernels& kernels, const 
                    std::span<const GrainPair> pairs, std::span<PairMemory> memory,
                    NarrowColumns& columns, ContactList& found);
 
-/// Appends the contacts of grains with wall k of the bed.
+/// Appends the contacts of grains with wall k of the bed. A round wall is concave, so that only
+/// vertices touch it: vertex v of a grain in a contact of its own, of the name wall_name(k) + v.
 void touch_wall(std::size_t k, const std::vector<std::int32_t>& grains, double margin,
                 const PolyhedronBed& bed, ContactList& found);
 

@@ -307,6 +307,10 @@ void check_bin_width(double bin_width, const Box& box, Errors& errors) {
                                              "), is " + bound_text(bin_width)});
 }
 
+/// In times the extent of a grain. A step takes a round wall for the plane that touches it at a
+/// corner of a polyhedron: the narrower the tube, the further a corner slides off it.
+constexpr double narrowest_tube = 2.5;
+
 void check_measure(const MeasureSpec& measure, Errors& errors) {
   require_in({0.0, 1000.0}, measure.exclude_floor, "measure.exclude_floor", errors);
   require_in({0.0, 1000.0}, measure.exclude_surface, "measure.exclude_surface", errors);
@@ -321,8 +325,11 @@ std::vector<SpecError> check(const PackingSpec& spec) {
   const bool sizes = check_sizes(spec.sizes, errors);
   const double across = shape ? 2.0 * shape->circumradius : 1.0;
   const bool box = check_box(spec.box, across * (sizes ? largest_size(spec) : 1.0), errors);
-  if (spec.box.is_tube && !is_sphere(spec.shape)) {
-    errors.push_back({"tube.diameter", "a tube holds spheres; other grains lie in a box"});
+  if (spec.box.is_tube && !is_sphere(spec.shape) && spec.box.length < narrowest_tube * across) {
+    errors.push_back({"tube.diameter", "must be at least " + bound_text(narrowest_tube * across) +
+                                           " (" + bound_text(narrowest_tube) +
+                                           " times the extent of these grains), is " +
+                                           bound_text(spec.box.length)});
   }
   check_fill(spec, shape, shape && sizes && box, errors);
   check_accuracy(spec.accuracy, errors);

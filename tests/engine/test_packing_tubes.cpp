@@ -204,6 +204,76 @@ TEST_CASE("a grain that slides along a round wall never gains energy") {
   }
 }
 
+PackingSpec pinacoids_in_tube(double diameter, std::int64_t grains) {
+  PackingSpec spec = tube_spec(diameter, grains, "fast");
+  spec.shape = PinacoidSize{};
+  spec.measure.exclude_floor = spec.measure.exclude_surface = 1.0;
+  return spec;
+}
+
+/// How far each grain's nearest vertex is from the wall, by nothing but its corners.
+std::vector<double> wall_gaps(const Packing& packing, double diameter) {
+  std::vector<double> gaps;
+  for (std::size_t i = 0; i < packing.grains.size(); ++i) {
+    const SettledGrain& grain = packing.grains[i];
+    const auto& [x, y, z, w] = packing.turned->orientations[i];
+    const Quaternion turn(w, x, y, z);
+    double gap = diameter;
+    for (const auto& vertex : packing.turned->mesh.vertices) {
+      const Vector at = turn * (2.0 * grain.radius * Vector(vertex[0], vertex[1], vertex[2]));
+      const double from_axis =
+          std::hypot(grain.x + at.x() - diameter / 2, grain.y + at.y() - diameter / 2);
+      gap = std::min(gap, diameter / 2 - from_axis);
+    }
+    gaps.push_back(gap);
+  }
+  return gaps;
+}
+
+TEST_CASE("pinacoids in a tube lie in it and touch its wall where their corners do") {
+  constexpr double diameter = 6.0;
+  PackingSpec spec = pinacoids_in_tube(diameter, 250);
+  const Packing packing = packed(spec);
+  INFO(packing.result.reason);
+  REQUIRE(packing.result.status == PackingStatus::settled);
+  const std::vector<double> gaps = wall_gaps(packing, diameter);
+  const auto deepest = *std::min_element(gaps.begin(), gaps.end());
+  CHECK(deepest > -100 * spec.accuracy.overlap_tolerance);  // no pair may be deeper
+  const auto near = [&](double gap) { return gap < 1e-4; };
+  CHECK(std::count_if(gaps.begin(), gaps.end(), near) > 20);
+  std::int64_t touching = 0;
+  for (const ProfileBin& bin : packing.result.profile_z.bins) touching += bin.walls;
+  std::int64_t expected = 0;
+  for (std::size_t i = 0; i < gaps.size(); ++i) {
+    const SettledGrain& grain = packing.grains[i];
+    const auto& [x, y, z, w] = packing.turned->orientations[i];
+    double lowest = grain.z;
+    for (const auto& vertex : packing.turned->mesh.vertices) {
+      const Vector corner = Quaternion(w, x, y, z) * Vector(vertex[0], vertex[1], vertex[2]);
+      lowest = std::min(lowest, grain.z + 2.0 * grain.radius * corner.z());
+    }
+    expected += (gaps[i] < 1e-4 ? 1 : 0) + (lowest < 1e-4 ? 1 : 0);
+  }
+  CHECK(touching == expected);
+}
+
+TEST_CASE("pinacoids in a tube have the same bits for every instruction set") {
+  PackingSpec spec = pinacoids_in_tube(4.5, 60);
+  spec.accuracy.max_steps = 60;
+  const PackingResult expected = make_packing(spec, kernels_for(Isa::sse2), always).result;
+  for (const Isa isa : testing::testable_isas()) {
+    INFO(name_of(isa));
+    CHECK(make_packing(spec, kernels_for(isa), always).result.state_hash == expected.state_hash);
+  }
+}
+
+TEST_CASE("a tube too narrow for its polyhedra is refused with the least diameter") {
+  PackingSpec spec = pinacoids_in_tube(3.0, 60);
+  const auto errors = check(spec);
+  REQUIRE(errors.size() == 1);
+  CHECK(errors[0].path == "tube.diameter");
+}
+
 TEST_CASE("a large bed in a tube has the same bits however its parts are shared out", "[slow]") {
   PackingSpec spec =
       tube_spec(22, static_cast<std::int64_t>(large_bed_grains<Sphere>) + 500, "fast");

@@ -1,13 +1,16 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>
 
 #include <catch2/catch.hpp>
 
+#include "engine/measure/cut_polyhedron.hpp"
 #include "engine/measure/cut_sphere.hpp"
 #include "engine/measure/cut_tube.hpp"
 #include "engine/measure/solid_fraction.hpp"
+#include "engine/shape/given_shape.hpp"
 #include "engine/units.hpp"
 #include "tests/support/draw.hpp"
 
@@ -113,6 +116,61 @@ TEST_CASE("the area that two discs share does not depend on which comes first") 
     CHECK(shared_area(a, b, d) ==
           Approx(static_cast<double>(lens(a, b, d))).margin(1e-12 * smaller));
   }
+}
+
+/// Cut into thin upright slices, each as wide as the tube is there.
+double sliced_volume(const ConvexShape& shape, const Pose& pose, double axis, double tube,
+                     double low, double high) {
+  constexpr int slices = 4000;
+  const Span span = span_along(shape, pose, 0);
+  const double from = std::max(span.low, axis - tube), to = std::min(span.high, axis + tube);
+  const double width = (to - from) / slices;
+  double volume = 0;
+  for (int k = 0; k < slices && width > 0; ++k) {
+    const double x = from + (k + 0.5) * width - axis;
+    const double half = std::sqrt(std::max(0.0, tube * tube - x * x));
+    volume += box_volume(shape, pose, {from + k * width, axis - half, low},
+                         {from + (k + 1) * width, axis + half, high});
+  }
+  return volume;
+}
+
+TEST_CASE("a tube cuts from a polyhedron what thin slices of it add up to") {
+  Draw draw(43);
+  const ConvexShape pinacoid = *shape_of(ShapeSpec{PinacoidSize{}}).shape;
+  for (int k = 0; k < 60; ++k) {
+    Quaternion turn(draw.uniform(-1, 1), draw.uniform(-1, 1), draw.uniform(-1, 1),
+                    draw.uniform(-1, 1));
+    turn.normalize();
+    if (k % 5 == 0) turn = Quaternion::Identity();
+    const double tube = k % 3 == 0 ? draw.uniform(0.2, 1) : draw.uniform(1, 8);
+    const double angle = draw.uniform(0, 7), from_axis = std::max(0.0, tube + draw.uniform(-1, 1));
+    const Pose pose{{8 + from_axis * std::cos(angle), 8 + from_axis * std::sin(angle), 3},
+                    draw.uniform(0.5, 1.2),
+                    turn};
+    const double low = k % 2 == 0 ? 0 : draw.uniform(2.5, 3), high = k % 4 == 0 ? 9 : 3.2;
+    INFO("tube " << tube << ", from the axis " << from_axis);
+    // Slices err by the square of their width over the tube's curvature.
+    CHECK(polyhedron_tube_volume(pinacoid, pose, 8, tube, low, high) ==
+          Approx(sliced_volume(pinacoid, pose, 8, tube, low, high)).margin(3e-6 * pinacoid.volume));
+  }
+}
+
+TEST_CASE("a tube cuts from an upright cube what is known") {
+  const std::vector<std::array<double, 3>> corners = {
+      {-.5, -.5, -.5}, {.5, -.5, -.5}, {-.5, .5, -.5}, {.5, .5, -.5},
+      {-.5, -.5, .5},  {.5, -.5, .5},  {-.5, .5, .5},  {.5, .5, .5}};
+  const ConvexShape cube = *shape_of(ShapeSpec{HullVertices{corners}}).shape;
+  const Pose pose{{2, 2, 1}, 1.0, Quaternion::Identity()};
+  const auto cut = [&](double tube) { return polyhedron_tube_volume(cube, pose, 2, tube, 0, 3); };
+  CHECK(cut(0.4) == Approx(0.16 * pi).margin(1e-7));
+  CHECK(cut(0.8) == Approx(1.0).margin(1e-12));
+  // Beyond the sides four segments of the disc stick out.
+  const double r = 0.6, half = std::acos(0.5 / r);
+  const double segment = r * r * (half - std::sin(half) * std::cos(half));
+  CHECK(cut(r) == Approx(pi * r * r - 4 * segment).margin(1e-7));
+  CHECK(polyhedron_tube_volume(cube, pose, 2, r, 1, 1.25) ==
+        Approx(0.25 * (pi * r * r - 4 * segment)).margin(1e-7));
 }
 
 }  // namespace
