@@ -6,6 +6,9 @@
 #include <cstdint>
 #include <limits>
 
+#include <boost/math/quadrature/gauss.hpp>
+
+#include "engine/measure/cut_tube.hpp"
 #include "engine/units.hpp"
 
 namespace grainsweep {
@@ -24,6 +27,13 @@ struct Side {
 struct Region {
   std::vector<Record<double>> centres;
   std::array<Side, 3> sides{};
+  double disc_radius = 0.0;  ///< in a tube: how far from the axis centres reach, d
+
+  double volume() const {
+    const double floor =
+        disc_radius > 0.0 ? pi * disc_radius * disc_radius : sides[0].length * sides[1].length;
+    return floor * sides[2].length;
+  }
 };
 
 double spread_of(const std::vector<Record<double>>& centres, double Record<double>::*axis) {
@@ -47,10 +57,15 @@ Region region_of(const Grains& bed, const Slab& slab) {
   region.sides = {Side{x > 0.0 ? x : spread_of(region.centres, &Record<double>::x), x > 0.0},
                   Side{y > 0.0 ? y : spread_of(region.centres, &Record<double>::y), y > 0.0},
                   Side{slab.height(), false}};
+  for (const Record<double>& p : region.centres) {
+    const double from_axis = std::hypot(p.x - bed.box.length / 2.0, p.y - bed.box.width / 2.0);
+    if (bed.box.is_tube) region.disc_radius = std::max(region.disc_radius, from_axis);
+  }
   return region;
 }
 
 double reach_of(const Region& region) {
+  if (region.disc_radius > 0.0) return region.sides[2].length;
   double reach = std::numeric_limits<double>::max();
   for (const Side& side : region.sides) {
     reach = std::min(reach, side.is_periodic ? side.length / 2.0 : side.length);
@@ -80,6 +95,29 @@ double covered(const std::array<double, 4>& covariance, double r) {
     sum += covariance[k] * 4.0 * pi * std::pow(r, power) / power;
   }
   return sum;
+}
+
+/// Integral of the set covariance of a cylinder over the vectors of lengths from `low` to `high`:
+/// the part of its disc that a shift leaves in common times the height that it leaves.
+double covered_in_tube(const Region& region, double low, double high) {
+  using boost::math::quadrature::gauss;
+  const double radius = region.disc_radius, height = region.sides[2].length;
+  const auto on_sphere = [&](double r) {
+    const auto of_direction = [&](double tilt) {  // from the axis
+      return std::sin(tilt) * shared_area(radius, radius, r * std::sin(tilt)) *
+             std::max(0.0, height - r * std::cos(tilt));
+    };
+    const double last = std::asin(std::min(1.0, 2.0 * radius / r));  // the discs part
+    return 4.0 * pi * r * r * gauss<double, 20>::integrate(of_direction, 0.0, last);
+  };
+  return gauss<double, 7>::integrate(on_sphere, low, high);
+}
+
+/// The same of the region, whatever its form.
+double covered(const Region& region, const std::array<double, 4>& covariance, double low,
+               double high) {
+  if (region.disc_radius > 0.0) return covered_in_tube(region, low, high);
+  return covered(covariance, high) - covered(covariance, low);
 }
 
 /// Upright columns of the region, at least `reach` wide, so that only adjacent ones hold pairs;
@@ -196,11 +234,10 @@ Curve pair_correlation(const Grains& bed, const Slab& slab, double bin_width, do
   Curve curve{bin_width, count_pairs(region, bin_width, bins)};
   const std::array<double, 4> covariance = covariance_of(region.sides);
   const auto n = static_cast<double>(region.centres.size());
-  const double volume = region.sides[0].length * region.sides[1].length * region.sides[2].length;
-  const double pairs = n * (n - 1.0) / 2.0 / (volume * volume);
+  const double pairs = n * (n - 1.0) / 2.0 / (region.volume() * region.volume());
   for (std::size_t k = 0; k < bins; ++k) {
     const double low = static_cast<double>(k) * bin_width;
-    curve.values[k] /= pairs * (covered(covariance, low + bin_width) - covered(covariance, low));
+    curve.values[k] /= pairs * covered(region, covariance, low, low + bin_width);
   }
   return curve;
 }

@@ -4,6 +4,7 @@
 
 #include "engine/measure/pair_correlation.hpp"
 #include "engine/units.hpp"
+#include "tests/support/draw.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace grainsweep {
@@ -34,6 +35,34 @@ TEST_CASE("points at random have no correlation, whatever bounds the region") {
       const double pairs = beds * n * n / 2 * 4 * pi * middle * middle * 0.5 / volume / 2;
       INFO(box.length << " x " << box.width << ", bin " << bin);
       CHECK(sum[bin] == Approx(1).margin(4 / std::sqrt(pairs) + 0.004));
+    }
+  }
+}
+
+TEST_CASE("points at random in a tube have no correlation, however narrow it is") {
+  testing::Draw draw(77);
+  for (const double diameter : {0.6, 3.0, 9.0}) {
+    const Slab slab{0.5, 5.5};
+    std::vector<double> sum(5, 0.0);
+    const int beds = 60, points = 400;
+    for (int k = 0; k < beds; ++k) {
+      std::vector<PlacedSphere> spheres;
+      while (spheres.size() < points) {
+        const PlacedSphere s{draw.uniform(0, diameter), draw.uniform(0, diameter),
+                             draw.uniform(slab.bottom, slab.top), 0.1};
+        if (std::hypot(s.x - diameter / 2, s.y - diameter / 2) < diameter / 2) spheres.push_back(s);
+      }
+      const SphereBed bed = make_bed(tube_of(diameter), spheres);
+      const Curve curve = pair_correlation(bed, slab, 0.5, 2.5);
+      REQUIRE(curve.values.size() == sum.size());
+      for (std::size_t bin = 0; bin < sum.size(); ++bin) sum[bin] += curve.values[bin] / beds;
+    }
+    for (std::size_t bin = 0; bin < sum.size(); ++bin) {
+      // At least so many pairs in each bin: a tenth of them all in the narrow tube, 1 % in the
+      // wide.
+      const double pairs = beds * 0.5 * points * points * (diameter > 4 ? 0.0012 : 0.01);
+      INFO("D = " << diameter << ", bin " << bin);
+      CHECK(sum[bin] == Approx(1).margin(4 / std::sqrt(pairs) + 0.006));
     }
   }
 }
