@@ -8,8 +8,8 @@
 // directions the product is a polynomial in |h|, since the means of |u_i|, |u_i u_j| and
 // |u_x u_y u_z| over unit vectors are 1/2, 2 / (3 pi) and 1 / (4 pi). So walls, slab and a narrow
 // gap need no correction of their own (the isotropised set covariance; Ohser 1983). In a tube the
-// region is a cylinder, whose set covariance is the area that two discs share times E_z - |h_z|; its
-// mean over directions is a quadrature.
+// region is a cylinder, whose set covariance is the area that two discs share times E_z - |h_z|;
+// its mean over directions is a quadrature.
 #pragma once
 
 #include "engine/measure/slab.hpp"
@@ -19,8 +19,8 @@
 namespace grainsweep {
 
 /// g in bins of `bin_width` up to `largest`, d, or as far as the region allows: half a period, and
-/// its edge along other axes; in a tube its height. All grains alike, whatever their size. Empty with fewer than two
-/// grains.
+/// its edge along other axes; in a tube its height. All grains alike, whatever their size. Empty
+/// with fewer than two grains.
 Curve pair_correlation(const Grains& bed, const Slab& slab, double bin_width, double largest);
 
 }  // namespace grainsweep

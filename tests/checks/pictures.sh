@@ -23,7 +23,8 @@ cat >sweep.json <<'JSON'
   "base": { "box": { "length": 4 }, "fill": { "solid_height": 4 }, "accuracy": "fast",
             "measure": { "exclude_floor": 1, "exclude_surface": 1 } },
   "sweep": [ { "label": "walls", "grid": { "box.width": [4, 5, 6] } },
-             { "label": "bulk", "set": { "box.width": 6, "box.y": "periodic" } } ] }
+             { "label": "bulk", "set": { "box.width": 6, "box.y": "periodic" } },
+             { "label": "tubes", "grid": { "tube.diameter": [3.2, 4] } } ] }
 JSON
 "$grainsweep" run sweep.json --quiet --out out
 
@@ -42,7 +43,8 @@ for script in "$configs"/*.gnuplot; do
 done
 expect_points wall-effect.svg gpPt6 8   # in two plots three widths and the key
 expect_points wall-effect.svg gpPt4 4   # and the value without walls
+expect_points porosity.svg gpPt6 3      # two tubes and the key
 expect_points gap-tolerance.svg gpPt6 9 # two packings at four gaps
-grep -q "$(awk -F, '$2 == "coordination" { printf "%.3f - %.2f d / W", $8, $10 }' out/fits.csv)" \
+grep -q "$(awk -F, '$2 == "coordination" && $3 == "determined" { printf "%.3f - %.2f d / W", $8, $10 }' out/fits.csv)" \
   wall-effect.svg || fail "the line of wall-effect.svg is not that of fits.csv"
 printf 'pictures: all scripts of configs/ draw what the tables hold\n'

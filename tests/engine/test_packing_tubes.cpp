@@ -176,6 +176,27 @@ TEST_CASE("a bed in a tube goes on from saved bytes to the same bits") {
   }
 }
 
+TEST_CASE("a settled bed of a tube placed again stays as it is") {
+  PackingSpec spec = tube_spec(3.4, 120, "accurate");
+  const Packing first = packed(spec);
+  REQUIRE(first.result.status == PackingStatus::settled);
+  PlacedGrains placed;
+  for (const SettledGrain& grain : first.grains) {
+    placed.grains.push_back({grain.x, grain.y, grain.z, grain.radius});
+  }
+  spec.fill = placed;
+  const Packing again = packed(spec);
+  REQUIRE(again.result.status == PackingStatus::settled);
+  for (std::size_t i = 0; i < first.grains.size(); ++i) {
+    // What is left of its forces moves it no further than its gaps.
+    CHECK(again.grains[i].z == Approx(first.grains[i].z).margin(1e-3));
+  }
+  placed.grains[7].x = 3.4;
+  spec.fill = placed;
+  REQUIRE(check(spec).size() == 1);
+  CHECK(check(spec)[0].message.find("outside the tube") != std::string::npos);
+}
+
 // A plane that touches the wall where a grain was would throw it out or let it in: a grain without
 // a way out would gain energy in every step.
 TEST_CASE("a grain that slides along a round wall never gains energy") {

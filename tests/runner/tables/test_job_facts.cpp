@@ -68,6 +68,12 @@ TEST_CASE("the bias of packings is bounded where the like of them was measured, 
                  R"({"shape":{"pinacoid":{"length":1.0,"width":1.0,"height":0.3}}})") == 0.0);
   CHECK(bound_of("hull", 0.0, "{}") == 0.0);
   CHECK(bound_of("sphere", 0.0, "{}", "custom") == 0.0);
+  JobFacts tube;
+  tube.shape = "sphere";
+  tube.accuracy = "fast";
+  CHECK(bias_bound(tube));
+  tube.box = tube_of(5);
+  CHECK_FALSE(bias_bound(tube));
 }
 
 TEST_CASE("jobs read back from JSON are the same, equal parameters kept once") {
