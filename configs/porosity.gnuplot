@@ -31,5 +31,7 @@ tube(x) = strcol("boundary_y") eq "tube" ? column("width") : NaN
 plot file(x) ls 2 title "single file, exact", \
      dixon(x) ls 3 title "with friction: Dixon", \
      benyahia(x) ls 4 title "with friction: Benyahia, O'Neill", \
-     groups using (tube(0)):(1 - column("solid_fraction")):"solid_fraction_error" \
-       with yerrorbars ls 1 title "without friction, measured"
+     groups using (tube(0)):(1 - column("solid_fraction") - column("solid_fraction_error")) \
+       :(0):(2 * column("solid_fraction_error")) with vectors nohead ls 1 notitle, \
+     groups using (tube(0)):(1 - column("solid_fraction")) with points ls 1 \
+       title "without friction, measured"
