@@ -1,6 +1,7 @@
 #include "runner/tables/profiles.hpp"
 
 #include <algorithm>
+#include <string_view>
 
 namespace grainsweep {
 namespace {
@@ -51,15 +52,24 @@ struct ProfileLine {
   MeanBin bin;
 };
 
+/// Of a profile from the wall of a tube, d; not a number elsewhere.
+double from_axis(const ProfileLine& line) {
+  const Box& box = line.group.job.box;
+  const bool is_over_radius = box.is_tube && std::string_view(line.axis) == "walls";
+  return is_over_radius ? box.width / 2.0 - (line.bin.low + line.bin.high) / 2.0 : no_number;
+}
+
 Columns<ProfileLine> profile_bin_columns() {
   using Line = const ProfileLine&;
   return {
       {"axis", "",
-       "x and y from wall to wall, x between walls only; walls, in ducts, from the nearest of the "
-       "four inwards; z from the floor up",
+       "x and y from wall to wall, x between walls only; walls, in ducts and tubes, "
+       "from the nearest one inwards; z from the floor up",
        [](Line line) { return cell(line.axis); }},
       {"low", "d", "where the bin begins", [](Line line) { return cell(line.bin.low); }},
       {"high", "d", "where it ends", [](Line line) { return cell(line.bin.high); }},
+      {"from_axis", "d", "distance of its middle from the axis of a tube; empty elsewhere",
+       [](Line line) { return cell(from_axis(line)); }},
       {"n", "", "packings that have the bin",
        [](Line line) { return cell(line.bin.solid_fraction.n); }},
       {"coordination_n", "", "those of them with grains whose centre is in the bin",

@@ -1,4 +1,6 @@
 #include <cmath>
+#include <string>
+#include <utility>
 
 #include <catch2/catch.hpp>
 
@@ -66,7 +68,7 @@ TEST_CASE("the table has a row per bin, axis and group, and unsettled packings l
   REQUIRE(cells_of_table(text).size() == 3);
   CHECK_THAT(text,
              Catch::StartsWith("group,family,job,label,width,boundary_y,small_share,box.width,"
-                               "axis,low,high,n,coordination_n,solid_fraction,"
+                               "axis,low,high,from_axis,n,coordination_n,solid_fraction,"
                                "solid_fraction_sd,solid_fraction_error,") &&
                  Catch::Contains("\n1,MSP,a,MSP,1,walls,0,1,y,0,0.5,1,0,0.25,,,0.25,,,0,"));
   CHECK(cell_in(text, 1, "coordination").empty());
@@ -85,6 +87,19 @@ TEST_CASE("a duct has profiles along x and from its nearest wall, too") {
   CHECK(cell_in(text, 2, "axis") == "x");
   CHECK(cell_in(text, 3, "axis") == "y");
   CHECK(cell_in(text, 5, "axis") == "walls");
+  CHECK(cell_in(text, 5, "from_axis") == "");
+}
+
+TEST_CASE("the profile of a tube says how far its bins are from the axis") {
+  Row row = row_with_profile("a", 0.25, 4);
+  row.job.box = tube_of(6);
+  row.outcome->result.profile_from_walls = std::exchange(row.outcome->result.profile_y, {});
+  const std::vector<Row> rows = {row};
+  const std::string text = profiles_csv(groups_of(rows));
+  CHECK(cell_in(text, 1, "axis") == "walls");
+  CHECK(std::stod(cell_in(text, 1, "low")) == 0.0);
+  const double high = std::stod(cell_in(text, 1, "high"));
+  CHECK(std::stod(cell_in(text, 1, "from_axis")) == Approx(3 - high / 2));
 }
 
 }  // namespace
