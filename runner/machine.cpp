@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cctype>
 #include <cstdlib>
 #include <ctime>
 #include <fstream>
 #include <string>
 #include <system_error>
 #include <thread>
+#include <unistd.h>
 #include <vector>
 
 #include <tbb/info.h>
@@ -54,6 +56,8 @@ double thread_cpu_seconds() { return seconds_of(CLOCK_THREAD_CPUTIME_ID); }
 
 double wall_seconds() { return seconds_of(CLOCK_MONOTONIC); }
 
+double calendar_seconds() { return seconds_of(CLOCK_REALTIME); }
+
 std::string utc_now() {
   const std::time_t now = std::time(nullptr);
   std::tm parts{};
@@ -77,6 +81,17 @@ std::string called_as() {
   std::string word;
   return std::getline(file, word, '\0') && !word.empty() ? shell_word(word) : "grainsweep";
 }
+
+std::string host_name() {
+  std::array<char, 256> name{};
+  if (gethostname(name.data(), name.size() - 1) != 0 || name[0] == '\0') return "unknown";
+  std::string text = name.data();
+  const auto unsafe = [](unsigned char c) { return std::isalnum(c) == 0 && c != '.' && c != '-'; };
+  std::replace_if(text.begin(), text.end(), unsafe, '_');
+  return text;
+}
+
+std::string process_name() { return host_name() + "-" + std::to_string(getpid()); }
 
 std::string processor_name() {
   std::ifstream file("/proc/cpuinfo");

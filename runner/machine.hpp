@@ -11,6 +11,9 @@ double thread_cpu_seconds();
 /// Time since some fixed moment, s; never goes back.
 double wall_seconds();
 
+/// Time since 1970, s.
+double calendar_seconds();
+
 /// "2026-03-01T12:00:00Z"
 std::string utc_now();
 
@@ -20,6 +23,12 @@ std::string command_line();
 /// What this program is called by, as a shell takes it: GRAINSWEEP_COMMAND, which run.sh sets, or
 /// the first word of its command line. Commands that it prints begin with it.
 std::string called_as();
+
+/// The machine's name, with only the characters that are safe in a file name.
+std::string host_name();
+
+/// "<host>-<pid>", the name this process writes under.
+std::string process_name();
 
 /// What the processor calls itself; empty if the system does not tell.
 std::string processor_name();

@@ -11,23 +11,36 @@
 #include "runner/commands/commands.hpp"
 #include "runner/commands/results.hpp"
 #include "runner/exit_codes.hpp"
+#include "runner/machine.hpp"
 #include "runner/store/files.hpp"
-#include "runner/store/journal.hpp"
-#include "runner/store/lock.hpp"
-#include "runner/store/states.hpp"
+#include "runner/store/shard_files.hpp"
 #include "runner/versions.hpp"
 
 namespace grainsweep {
 namespace {
 
+/// Packings that are added before they are brought to the disk together.
+constexpr std::size_t added_at_once = 1000;
+
 /// The merged folder while it grows.
 struct Collection {
   std::string folder;
+  ShardFiles& files;
   Provenance provenance;
   std::vector<Row> rows;                      ///< with curves
   std::map<std::string, std::size_t> row_of;  ///< by job
   std::size_t added = 0;
 };
+
+/// Of this process; it makes no packing, and is not among the runs.
+RunRecord begun_collection() {
+  RunRecord run;
+  run.started = utc_now();
+  run.process = process_name();
+  run.host = host_name();
+  run.command = command_line();
+  return run;
+}
 
 void warn(const std::string& text) { std::cerr << "warning: " << text << "\n"; }
 
@@ -38,14 +51,14 @@ Row& row_of(const JobFacts& job, Collection& to) {
   return to.rows[known->second];
 }
 
-void add_runs(const std::vector<RunRecord>& from, std::vector<RunRecord>& to) {
-  const auto is_known = [&](const RunRecord& run) {
-    return std::any_of(to.begin(), to.end(), [&](const RunRecord& known) {
-      return known.process == run.process && known.started == run.started;
-    });
-  };
-  std::copy_if(from.begin(), from.end(), std::back_inserter(to),
-               [&](const RunRecord& run) { return !is_known(run); });
+void add_runs(const std::vector<RunRecord>& from, Collection& to) {
+  std::vector<RunRecord>& runs = to.provenance.runs;
+  for (const RunRecord& run : from) {
+    const auto is_this = [&](const RunRecord& known) { return is_same_run(known, run); };
+    if (std::any_of(runs.begin(), runs.end(), is_this)) continue;
+    runs.push_back(run);
+    to.files.add(run);
+  }
 }
 
 /// Name and file of a sweep, each once.
@@ -75,10 +88,10 @@ bool is_same_result(const Outcome& a, const Outcome& b) {
 
 /// Copies the bed of a stored packing and keeps its curves; false, and a warning, if it is missing
 /// or damaged.
-bool copy_bed(const std::string& folder, Outcome& outcome, const Collection& to) {
+bool copy_bed(const std::string& folder, Outcome& outcome, Collection& to) {
   try {
     StoredBed bed = read_bed(folder, outcome);
-    write_bed(to.folder, bed);
+    to.files.add_bed(bed, outcome);
     set_curves(std::move(bed.curves), outcome.result);
     return true;
   } catch (const FileError& error) {
@@ -87,8 +100,7 @@ bool copy_bed(const std::string& folder, Outcome& outcome, const Collection& to)
   }
 }
 
-void add_outcome(const std::string& folder, Outcome outcome, Journal& journal, Row& row,
-                 Collection& to) {
+void add_outcome(const std::string& folder, Outcome outcome, Row& row, Collection& to) {
   if (row.outcome && !row.outcome->exception) {
     if (!outcome.exception && !is_same_result(outcome, *row.outcome)) {
       warn(folder + ": its packing " + outcome.job + " (version " + outcome.version +
@@ -98,22 +110,23 @@ void add_outcome(const std::string& folder, Outcome outcome, Journal& journal, R
     return;
   }
   if (outcome.stored_bytes > 0 && !copy_bed(folder, outcome, to)) return;
-  journal.append(outcome);
+  to.files.add(outcome);
   row.outcome = std::move(outcome);
-  ++to.added;
+  if (++to.added % added_at_once == 0) to.files.flush();
 }
 
 /// What the folder holds already; a new one takes name and file from the first source.
-Collection begin_collection(const std::string& folder, const Provenance& first) {
-  Collection collection;
-  collection.folder = folder;
-  collection.provenance = first;
+Collection begin_collection(const std::string& folder, ShardFiles& files, const RunRecord& own,
+                            const Provenance& first) {
+  Collection collection{folder, files, first, {}, {}, 0};
   collection.provenance.runs.clear();
   if (file_exists(folder + "/provenance.json")) {
     Results results = read_results(folder);
     std::cerr << damage_warnings(results.damage)
               << damage_warnings(load_curves(folder, results.rows));
     collection.provenance = std::move(results.provenance);
+    std::erase_if(collection.provenance.runs,
+                  [&](const RunRecord& run) { return is_same_run(run, own); });
     collection.rows = std::move(results.rows);
   }
   for (std::size_t i = 0; i < collection.rows.size(); ++i) {
@@ -123,14 +136,13 @@ Collection begin_collection(const std::string& folder, const Provenance& first) 
   return collection;
 }
 
-void add_results(const std::string& folder, const Results& results, Journal& journal,
-                 Collection& to) {
+void add_results(const std::string& folder, const Results& results, Collection& to) {
   add_sweep(results.provenance, to.provenance);
   add_units(folder, results.provenance.units, to);
-  add_runs(results.provenance.runs, to.provenance.runs);
+  add_runs(results.provenance.runs, to);
   for (const Row& source : results.rows) {
     Row& row = row_of(source.job, to);
-    if (source.outcome) add_outcome(folder, *source.outcome, journal, row, to);
+    if (source.outcome) add_outcome(folder, *source.outcome, row, to);
   }
 }
 
@@ -164,13 +176,18 @@ CLI::App& add_command(CLI::App& app, CollectOptions& options) {
 int perform(const CollectOptions& options) {
   const std::vector<Results> sources = read_sources(options);
   make_folder(options.out);
-  const FolderLock lock(options.out);
-  clean_up(options.out, lock);
-  Collection collection = begin_collection(options.out, sources.front().provenance);
-  Journal journal(options.out);
+  RunRecord run = begun_collection();
+  ShardFiles files(options.out, {}, run);
+  warn_without_lock(options.out, files);
+  if (files.is_locked()) clean_up(options.out);
+  Collection collection = begin_collection(options.out, files, run, sources.front().provenance);
   for (std::size_t i = 0; i < sources.size(); ++i) {
-    add_results(options.folders[i], sources[i], journal, collection);
+    add_results(options.folders[i], sources[i], collection);
   }
+  run.ended = utc_now();
+  files.add(run);
+  files.flush();
+  sort_runs(collection.provenance.runs);
   const std::vector<Row>& rows = collection.rows;
   std::cerr << other_versions_warning(rows, program_version());
   const Analysis analysis = analyse(rows);

@@ -26,6 +26,8 @@ struct RunOptions {
   bool fail_fast = false;            ///< stop at the first packing that fails
   bool quiet = false;                ///< print errors and warnings only
   bool no_report = false;            ///< leave out report.html and its figures
+  bool no_grains = false;            ///< store curves but no grains
+  std::string shard;                 ///< as of shard_from_option
 };
 /// Makes what is missing of a sweep and writes the tables.
 int perform(const RunOptions& options);

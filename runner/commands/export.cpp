@@ -12,6 +12,7 @@
 #include "runner/store/files.hpp"
 #include "runner/store/states.hpp"
 #include "runner/tables/grain_files.hpp"
+#include "runner/text.hpp"
 
 namespace grainsweep {
 namespace {
@@ -79,14 +80,18 @@ int perform(const ExportOptions& options) {
   const std::string to = options.to.empty() ? options.folder + "/export" : options.to;
   if (rows.empty()) throw BadInput(options.folder + ": holds no finished packing to export");
   make_folder(to);
+  std::size_t written = 0;
   for (const Row* row : rows) {
     const StoredBed bed = read_bed(options.folder, *row->outcome);
+    if (bed.grains.empty()) continue;  // of a run with --no-grains
+    ++written;
     const std::string text =
         format ? grains_text(bed, *format) : page_of(bed, *row, results.provenance.units);
     replace_file(to + "/" + row->job.id + "." + options.format, text);
   }
-  std::cout << rows.size() << (rows.size() == 1 ? " packing" : " packings") << " written to " << to
-            << "/<job>." << options.format << "\n";
+  if (written == 0) throw BadInput(options.folder + ": its packings were stored without grains");
+  std::cout << counted(written, "packing") << " written to " << to << "/<job>." << options.format
+            << "\n";
   return exit_done;
 }
 

@@ -11,7 +11,6 @@
 #include "runner/machine.hpp"
 #include "runner/store/checkpoints.hpp"
 #include "runner/store/files.hpp"
-#include "runner/store/lock.hpp"
 #include "runner/store/states.hpp"
 #include "runner/tables/decays.hpp"
 #include "runner/tables/distributions.hpp"
@@ -28,9 +27,6 @@ constexpr std::array tables = {"packings.csv",      "groups.csv",   "fits.csv",
                                "fit_points.csv",    "profiles.csv", "decays.csv",
                                "distributions.csv", "columns.csv",  "provenance.json"};
 
-/// Of the name of a provenance.json that could not be read.
-const std::string damaged_start = "damaged-provenance-";
-
 std::string provenance_path(const std::string& folder) { return folder + "/provenance.json"; }
 
 /// provenance.json. Throws BadInput.
@@ -46,6 +42,21 @@ ProvenanceReading read_provenance(const std::string& folder, Detail detail = Det
   } catch (const nlohmann::json::exception& error) {
     throw BadInput(path + ": not what grainsweep wrote (" + error.what() +
                    "); run the sweep again to write it anew, stored packings are kept");
+  }
+}
+
+/// Whether provenance.json is of this program, these sweeps and these jobs.
+bool is_recorded(const std::string& folder, const Provenance& provenance,
+                 const std::vector<Row>& rows) {
+  if (!file_exists(provenance_path(folder))) return false;
+  try {
+    const ProvenanceReading known = read_provenance(folder, Detail::summary);
+    return known.provenance.build == provenance.build &&
+           known.provenance.sweeps == provenance.sweeps &&
+           std::equal(known.rows.begin(), known.rows.end(), rows.begin(), rows.end(),
+                      [](const Row& a, const Row& b) { return a.job.id == b.job.id; });
+  } catch (const BadInput&) {
+    return false;
   }
 }
 
@@ -75,29 +86,14 @@ Results read_results(const std::string& folder, Detail detail) {
   results.rows = std::move(reading.rows);
   JournalReading journals = read_journals(folder, detail);
   results.damage = std::move(journals.damage);
+  results.provenance.runs = std::move(journals.runs);
   results.orphaned = take_outcomes(std::move(journals.outcomes), results.rows);
   return results;
 }
 
-std::vector<RunRecord> recorded_runs(const std::string& folder, std::vector<std::string>& damage) {
-  if (!file_exists(provenance_path(folder))) {
-    const bool is_new = files_in(folder, "journal-", ".jsonl").empty();
-    if (!is_new)
-      damage.push_back(provenance_path(folder) +
-                       ": missing, and with it the record of "
-                       "earlier runs");
-    return {};
-  }
-  try {
-    return read_provenance(folder).provenance.runs;
-  } catch (const BadInput&) {
-    const std::string kept = damaged_start + process_name() + ".json";
-    rename_file(provenance_path(folder), folder + "/" + kept);
-    damage.push_back(provenance_path(folder) +
-                     ": damaged, or of another version; the record of earlier runs is kept in " +
-                     kept + " alone");
-    return {};
-  }
+void record_sweep(const std::string& folder, const Provenance& provenance,
+                  const std::vector<Row>& rows) {
+  if (!is_recorded(folder, provenance, rows)) write_provenance(folder, provenance, rows);
 }
 
 std::vector<std::string> load_curves(const std::string& folder, std::vector<Row>& rows) {
@@ -182,32 +178,23 @@ std::size_t stored_packings(const std::string& folder) {
   return read_journals(folder, Detail::summary).outcomes.size();
 }
 
-void clean_up(const std::string& folder, const FolderLock& lock) {
-  if (!lock.is_held()) {
-    std::cerr << "warning: " << folder
-              << ": its file system offers no lock; let no other run work here\n";
-    return;
-  }
+void clean_up(const std::string& folder) {
   for (const char* name : tables) remove_leftovers(folder, name);
   remove_leftovers(folder, "report.html");
   for (const char* ending : {".csv", ".gnuplot"}) remove_leftovers(folder + "/figures", ending);
-  remove_leftovers(folder + "/states", ".grains");
   for (const char* slot : {".0", ".1"}) remove_leftovers(folder + "/checkpoints", slot);
 }
 
-void remove_results(const std::string& folder) {
-  for (const std::string& name : files_in(folder, "journal-", ".jsonl")) {
-    remove_file(folder + "/" + name);
-  }
-  for (const std::string& name : files_in(folder + "/states", "", ".grains")) {
-    remove_file(folder + "/states/" + name);
-  }
+void warn_without_lock(const std::string& folder, const ShardFiles& files) {
+  if (files.is_locked()) return;
+  std::cerr << "warning: " << folder
+            << ": its file system offers no lock; let no other run make the same packings here\n";
+}
+
+void remove_tables(const std::string& folder) {
   remove_all_checkpoints(folder);
   for (const char* name : tables) remove_file(folder + "/" + name);
   remove_report(folder);
-  for (const std::string& name : files_in(folder, damaged_start, ".json")) {
-    remove_file(folder + "/" + name);
-  }
 }
 
 }  // namespace grainsweep

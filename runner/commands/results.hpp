@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "runner/report/report.hpp"
-#include "runner/store/lock.hpp"
+#include "runner/store/shard_files.hpp"
 #include "runner/tables/families.hpp"
 #include "runner/tables/provenance.hpp"
 
@@ -23,9 +23,9 @@ struct Results {
 /// FileError if a file cannot be read.
 Results read_results(const std::string& folder, Detail detail = Detail::whole);
 
-/// The runs recorded in the folder so far; none if it is new. A damaged record is kept beside the
-/// new one, under another name that `damage` tells.
-std::vector<RunRecord> recorded_runs(const std::string& folder, std::vector<std::string>& damage);
+/// Writes provenance.json, from which others know the sweep, unless it stands there already.
+void record_sweep(const std::string& folder, const Provenance& provenance,
+                  const std::vector<Row>& rows);
 
 /// Opens the stored bed of each row without curves, checks the whole of it and keeps them, 10 kB. A
 /// row whose bed is missing, damaged or another's becomes a pending one; returns what was left out,
@@ -72,10 +72,13 @@ std::string other_versions_warning(const std::vector<Row>& rows, const std::stri
 /// Number of stored packings in the folder.
 std::size_t stored_packings(const std::string& folder);
 
-/// Removes what killed runners left half written, if the folder's lock is held; warns otherwise.
-void clean_up(const std::string& folder, const FolderLock& lock);
+/// Removes what killed runners left half written. No other runner may work in the folder.
+void clean_up(const std::string& folder);
 
-/// Removes journals, grains, checkpoints and tables, and nothing else.
-void remove_results(const std::string& folder);
+/// Warns that the file system offers no locks, if so.
+void warn_without_lock(const std::string& folder, const ShardFiles& files);
+
+/// Removes checkpoints and tables, and nothing else.
+void remove_tables(const std::string& folder);
 
 }  // namespace grainsweep

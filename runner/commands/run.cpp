@@ -2,7 +2,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>
-#include <map>
+#include <optional>
 #include <set>
 #include <sstream>
 #include <string_view>
@@ -15,16 +15,18 @@
 #include "runner/commands/commands.hpp"
 #include "runner/commands/inputs.hpp"
 #include "runner/commands/results.hpp"
+#include "runner/commands/shard_option.hpp"
 #include "runner/commands/shared_options.hpp"
 #include "runner/exit_codes.hpp"
 #include "runner/instruction_set.hpp"
 #include "runner/jobs/pack_pending.hpp"
+#include "runner/jobs/split.hpp"
 #include "runner/jobs/stop.hpp"
 #include "runner/machine.hpp"
 #include "runner/store/checkpoints.hpp"
 #include "runner/store/files.hpp"
 #include "runner/store/journal.hpp"
-#include "runner/store/lock.hpp"
+#include "runner/store/shard_files.hpp"
 #include "runner/tables/closing_report.hpp"
 #include "runner/text.hpp"
 #include "runner/versions.hpp"
@@ -40,8 +42,12 @@ ProgressStyle progress_style(bool quiet) {
 }
 
 /// Asks before stored packings are forgotten. Throws BadInput unless that is wanted.
-void confirm_fresh(const RunOptions& options, const std::string& folder) {
-  if (!options.fresh || options.yes) return;
+void confirm_fresh(const RunOptions& options, const std::string& folder, const Shard& shard) {
+  if (!options.fresh) return;
+  if (shard.count > 1) {
+    throw BadInput("--fresh would delete what other shards have made; use it without --shard");
+  }
+  if (options.yes) return;
   const std::size_t count = stored_packings(folder);
   if (count == 0) return;
   const std::string what = std::to_string(count) + " stored packings in " + folder;
@@ -54,76 +60,115 @@ void confirm_fresh(const RunOptions& options, const std::string& folder) {
   if (answer != "y" && answer != "yes") throw BadInput("nothing was deleted, nothing was run");
 }
 
-/// A kill may come between the end of a packing and the end of its checkpoints.
-void remove_finished_checkpoints(const RunningSweep& running) {
-  std::set<std::string> jobs;
-  for (const Row& row : running.rows) jobs.insert(row.job.id);
-  for (const Job* job : running.pending) jobs.erase(job->id);
-  remove_checkpoints_of(running.folder, jobs);
+/// The jobs of a shard, by their places in the sweep.
+std::vector<std::size_t> places_in(const Shard& shard, const Sweep& sweep) {
+  std::vector<const Job*> jobs;
+  for (const Job& job : sweep.jobs) jobs.push_back(&job);
+  const std::vector<int> shard_of = split(costs_of(jobs), shard.count);
+  std::vector<std::size_t> places;
+  for (std::size_t i = 0; i < jobs.size(); ++i) {
+    if (shard_of[i] == shard.number) places.push_back(i);
+  }
+  return places;
 }
 
 /// A packing that ended in an exception is always tried again.
-bool is_to_be_made(const Row& row, bool retry_failed) {
-  return !row.outcome || row.outcome->exception ||
-         (retry_failed && row.outcome->result.status == PackingStatus::failed);
+bool is_to_be_made(const Outcome& outcome, bool retry_failed) {
+  return outcome.exception || (retry_failed && outcome.result.status == PackingStatus::failed);
 }
 
-/// What is stored of the sweep, and what is still to be made. Appends to `damage`.
-RunningSweep resume(const Sweep& sweep, const std::string& folder, bool retry_failed,
-                    std::vector<std::string>& damage) {
-  RunningSweep running{sweep, folder, rows_of(sweep), {}};
-  JournalReading stored = read_journals(folder);
-  take_outcomes(std::move(stored.outcomes), running.rows);
-  const auto damaged_beds = load_curves(folder, running.rows);
-  damage.insert(damage.end(), stored.damage.begin(), stored.damage.end());
-  damage.insert(damage.end(), damaged_beds.begin(), damaged_beds.end());
-  for (std::size_t i = 0; i < sweep.jobs.size(); ++i) {
-    if (is_to_be_made(running.rows[i], retry_failed)) running.pending.push_back(&sweep.jobs[i]);
+/// Whether its bed, if it has one, is stored whole; appends to `damage` why not.
+bool has_sound_bed(const std::string& folder, const Outcome& outcome,
+                   std::vector<std::string>& damage) {
+  if (outcome.stored_bytes == 0) return true;
+  try {
+    read_bed(folder, outcome);
+    return true;
+  } catch (const FileError& error) {
+    damage.emplace_back(error.what());
+    return false;
   }
-  remove_finished_checkpoints(running);
+}
+
+/// The damage that this runner is to mend: all, or what its own journal has lost.
+void keep_own(std::vector<std::string>& damage, const Shard& shard, const std::string& path) {
+  if (shard.count == 1) return;
+  std::erase_if(damage, [&](const std::string& line) { return !line.starts_with(path + ":"); });
+}
+
+/// What of a shard is still to be made. A kill may come between the end of a packing and the end of
+/// its checkpoints: they are removed. Warns of what is damaged.
+RunningSweep resume(const Sweep& sweep, const std::vector<std::size_t>& places, const Shard& shard,
+                    const std::string& folder, ShardFiles& files, bool retry_failed) {
+  RunningSweep running{folder, files, 0, {}};
+  JournalReading stored = read_journals(folder, Detail::summary);
+  keep_own(stored.damage, shard, journal_path(folder, files.name()));
+  std::set<std::string> done;
+  for (const std::size_t place : places) {
+    const Job& job = sweep.jobs[place];
+    const auto known = stored.outcomes.find(job.id);
+    const bool is_done = known != stored.outcomes.end() &&
+                         !is_to_be_made(known->second, retry_failed) &&
+                         has_sound_bed(folder, known->second, stored.damage);
+    if (is_done) {
+      done.insert(job.id);
+    } else {
+      running.pending.push_back(&job);
+    }
+  }
+  running.done = done.size();
+  remove_checkpoints_of(folder, done);
+  std::cerr << damage_warnings(stored.damage);
   return running;
 }
 
-/// What was packed, from the disk: however many packings a run makes, it keeps none of them in
-/// memory meanwhile. Returns what was left out, as in Results::damage.
-std::vector<std::string> read_packed(RunningSweep& running) {
-  JournalReading stored = read_journals(running.folder);
-  std::map<std::string, Outcome> packed;
-  for (const Job* job : running.pending) packed.insert(stored.outcomes.extract(job->id));
-  take_outcomes(std::move(packed), running.rows);
-  return load_curves(running.folder, running.rows);
-}
-
-Provenance provenance_of(const RunOptions& options, const RunningSweep& running,
-                         std::vector<std::string>& damage) {
+Provenance provenance_of(const RunOptions& options, const Sweep& sweep) {
   Provenance provenance;
   provenance.build = this_build();
   provenance.sweeps = {{options.file, read_file(options.file)}};
-  provenance.sweep_name = running.sweep.name;
-  provenance.units = running.sweep.units;
-  provenance.runs = recorded_runs(running.folder, damage);
+  provenance.sweep_name = sweep.name;
+  provenance.units = sweep.units;
   return provenance;
 }
 
-/// Packs between the two entries of the run's record: it is in provenance.json from its start.
-Packed record_and_pack(RunningSweep& running, const RunOptions& options, Isa isa,
-                       Provenance& provenance) {
-  const double start = wall_seconds();
-  const Limits limits{options.threads > 0 ? options.threads : usable_cores(),
-                      memory_for_packings()};
+/// The record of a run that begins now.
+RunRecord begun_run(const RunOptions& options, Isa isa) {
+  const int threads = options.threads > 0 ? options.threads : usable_cores();
+  return {utc_now(),
+          "",
+          0.0,
+          process_name(),
+          threads,
+          name_of(isa),
+          0,
+          command_line(),
+          host_name(),
+          processor_name(),
+          usable_cores(),
+          source_commit()};
+}
+
+Packed pack(RunningSweep& running, const RunOptions& options, Isa isa, const RunRecord& run) {
+  if (running.pending.empty()) return {};
+  if (running.done > 0 && !options.quiet) {
+    std::cerr << running.done << " of " << running.done + running.pending.size()
+              << " packings are done, going on\n";
+  }
+  const Limits limits{run.threads, memory_for_packings()};
   std::cerr << memory_warning(costs_of(running.pending), limits.memory);
   expect_threads(limits.threads);
-  provenance.runs.push_back({utc_now(), "", 0.0, process_name(), limits.threads, name_of(isa), 0,
-                             command_line(), host_name(), processor_name(), usable_cores(),
-                             provenance.build.commit});
-  write_provenance(running.folder, provenance, running.rows);
-  RunRecord& record = provenance.runs.back();
-  Packed packed = pack_pending(running, {limits, isa, progress_style(options.quiet),
-                                         options.checkpoint_seconds, options.fail_fast});
-  record.packings = packed.packings;
-  record.wall_seconds = wall_seconds() - start;
-  record.ended = utc_now();
-  return packed;
+  return pack_pending(running, {limits, isa, progress_style(options.quiet),
+                                options.checkpoint_seconds, options.fail_fast, options.no_grains});
+}
+
+/// What is stored of the sweep, by all shards.
+Results stored_results(const Sweep& sweep, Provenance provenance, const std::string& folder,
+                       Detail detail) {
+  Results results{std::move(provenance), rows_of(sweep), {}, 0};
+  JournalReading stored = read_journals(folder, detail);
+  results.provenance.runs = std::move(stored.runs);
+  results.orphaned = take_outcomes(std::move(stored.outcomes), results.rows);
+  return results;
 }
 
 /// The options to go on with: those of this run, but for what is done once.
@@ -139,7 +184,16 @@ std::string repeated(const RunOptions& options, const std::string& folder) {
   if (options.fail_fast) text << " --fail-fast";
   if (options.quiet) text << " --quiet";
   if (options.no_report) text << " --no-report";
+  if (options.no_grains) text << " --no-grains";
+  if (!options.shard.empty()) text << " --shard " << options.shard;
   return text.str();
+}
+
+/// Of the packings of this runner.
+StatusCounts counts_of(const std::vector<Row>& rows, const std::vector<std::size_t>& places) {
+  StatusCounts counts;
+  for (const std::size_t place : places) count(rows[place], counts);
+  return counts;
 }
 
 /// Says why the run stopped before its end and how to go on; returns the exit code.
@@ -163,6 +217,41 @@ int exit_code_for(const StatusCounts& counts, const std::string& folder) {
               << ", though they were stored there; run the sweep again to make them anew\n";
   }
   return counts.pending + counts.failed + counts.not_settled > 0 ? exit_left_out : exit_done;
+}
+
+/// Tables and page of all packings; with the closing table if the run made all it had to.
+void write_results(Results& results, const RunOptions& options, const std::string& folder,
+                   bool is_whole) {
+  std::cerr << damage_warnings(load_curves(folder, results.rows));
+  std::cerr << other_versions_warning(results.rows, program_version());
+  const Analysis analysis = analyse(results.rows);
+  write_tables(folder, results.provenance, results.rows, analysis);
+  if (is_whole && !options.quiet) {
+    std::cout << closing_report(results.provenance, results.rows, analysis.families,
+                                {called_as(), folder})
+              << std::flush;
+  }
+  if (options.no_report) return;
+  const PageExtent extent = stop_signal() != 0 ? PageExtent::text : PageExtent::whole;
+  const std::string where = write_page(folder, results.provenance, results.rows, analysis, extent);
+  if (is_whole && !options.quiet) std::cout << where;
+}
+
+/// Where a run left an older page as it was.
+void tell_of_old_page(const std::string& folder) {
+  if (!file_exists(folder + "/report.html")) return;
+  std::cerr << "note: " << folder << "/report.html is of an earlier run; " << called_as()
+            << " report " << shell_word(folder) << " writes it anew\n";
+}
+
+/// Where other shards are not ready.
+void tell_of_others(const std::vector<Row>& rows, const Shard& shard, const std::string& folder,
+                    const RunOptions& options) {
+  const auto pending = static_cast<std::size_t>(totals_of(rows).counts.pending);
+  std::cout << "Shard " << shard.number << "/" << shard.count << " is done; of the sweep "
+            << rows.size() - pending << " of " << rows.size() << " packings are in " << folder
+            << ". The last shard writes the tables, or: " << called_as() << " run "
+            << shell_word(options.file) << " --out " << shell_word(folder) << "\n";
 }
 
 std::string presets_text() {
@@ -198,6 +287,13 @@ CLI::App& add_command(CLI::App& app, RunOptions& options) {
                "stop at the first packing that fails; without it the others go on");
   run.add_flag("--quiet", options.quiet, "print warnings and errors only");
   run.add_flag("--no-report", options.no_report, "leave out the page report.html and its figures");
+  run.add_flag("--no-grains", options.no_grains,
+               "store curves but no grains: tables are the same, beds cannot be shown or exported");
+  run.add_option(
+         "--shard", options.shard,
+         "make one part of N, many runners in one folder: I/N, or auto, by the variables of "
+         "cluster and MPI; auto/N where they do not tell N")
+      ->type_name("I/N");
   run.footer("Example: grainsweep run configs/quick.json --out out/quick --threads 2\n\n" +
              presets_text() + "\n\n" + exit_codes_text);
   return run;
@@ -206,48 +302,50 @@ CLI::App& add_command(CLI::App& app, RunOptions& options) {
 int perform(const RunOptions& options) {
   const Sweep sweep = sweep_or_refusal(options.file);
   const Isa isa = choose_isa(options.isa);
+  const Shard shard = shard_from_option(options.shard, std::getenv);
   const std::string folder = options.out.empty() ? "out/" + sweep.name : options.out;
-  confirm_fresh(options, folder);
+  confirm_fresh(options, folder, shard);
   make_folder(folder);
-  const FolderLock lock(folder);
-  clean_up(folder, lock);
-  if (options.fresh) remove_results(folder);
+  const double start = wall_seconds();
+  RunRecord run = begun_run(options, isa);
+  ShardFiles files(folder, shard, run);
+  warn_without_lock(folder, files);
+  if (files.is_locked() && shard.count == 1) clean_up(folder);
+  if (options.fresh) files.remove_all(run), remove_tables(folder);
   watch_stop_signals();
 
-  std::vector<std::string> damage;
-  RunningSweep running = resume(sweep, folder, options.retry_failed, damage);
-  Provenance provenance = provenance_of(options, running, damage);
-  std::cerr << damage_warnings(damage);
-  Packed packed;
-  if (!running.pending.empty()) {
-    const std::size_t done = running.rows.size() - running.pending.size();
-    if (done > 0 && !options.quiet) {
-      std::cerr << done << " of " << running.rows.size() << " packings are done, going on\n";
-    }
-    packed = record_and_pack(running, options, isa, provenance);
-    std::cerr << damage_warnings(read_packed(running));
-  }
-
-  const std::vector<Row>& rows = running.rows;
-  const StatusCounts counts = totals_of(rows).counts;
-  std::cerr << other_versions_warning(rows, program_version());
-  const Analysis analysis = analyse(rows);
-  write_tables(folder, provenance, rows, analysis);
+  const Provenance provenance = provenance_of(options, sweep);
+  record_sweep(folder, provenance, rows_of(sweep));
+  const std::vector<std::size_t> places = places_in(shard, sweep);
+  RunningSweep running = resume(sweep, places, shard, folder, files, options.retry_failed);
+  const Packed packed = pack(running, options, isa, run);
   const bool is_whole = static_cast<std::size_t>(packed.packings) == running.pending.size();
-  if (is_whole && !options.quiet) {
-    std::cout << closing_report(provenance, rows, analysis.families, {called_as(), folder})
-              << std::flush;
+  run.packings = packed.packings;
+  run.wall_seconds = wall_seconds() - start;
+  run.ended = utc_now();
+  files.add(run);
+  files.flush();
+
+  bool has_all = shard.count == 1;
+  Results results =
+      stored_results(sweep, provenance, folder, has_all ? Detail::whole : Detail::summary);
+  if (!has_all && totals_of(results.rows).counts.pending == 0) {
+    has_all = true;
+    results = stored_results(sweep, provenance, folder, Detail::whole);
   }
-  if (!options.no_report) {
-    const PageExtent extent = stop_signal() != 0 ? PageExtent::text : PageExtent::whole;
-    const std::string where = write_page(folder, provenance, rows, analysis, extent);
-    if (is_whole && !options.quiet) std::cout << where;
-  } else if (packed.packings > 0 && file_exists(folder + "/report.html")) {
-    std::cerr << "note: " << folder << "/report.html is of an earlier run; " << called_as()
-              << " report " << shell_word(folder) << " writes it anew\n";
+  if (has_all) {
+    // Of several shards that find everything made at once, the first that takes the place of a run
+    // of the whole, which a run of the whole has already.
+    std::optional<FileLock> place;
+    if (shard.count > 1) place.emplace(journal_path(folder, name_of(Shard{})));
+    if (!place || !place->is_taken()) write_results(results, options, folder, is_whole);
+    if (options.no_report && packed.packings > 0) tell_of_old_page(folder);
+  } else if (is_whole && !options.quiet) {
+    tell_of_others(results.rows, shard, folder, options);
   }
+  const StatusCounts counts = counts_of(results.rows, places);
   return is_whole ? exit_code_for(counts, folder)
-                  : stopped(packed, options, folder, counts, rows.size());
+                  : stopped(packed, options, folder, counts, places.size());
 }
 
 }  // namespace grainsweep

@@ -13,10 +13,8 @@
 #include "runner/machine.hpp"
 #include "runner/store/checkpoints.hpp"
 #include "runner/store/files.hpp"
-#include "runner/store/journal.hpp"
 #include "runner/store/states.hpp"
 #include "runner/tables/csv.hpp"
-#include "runner/tables/job_facts.hpp"
 #include "runner/text.hpp"
 #include "runner/versions.hpp"
 
@@ -40,22 +38,30 @@ std::string went_on_text(std::int64_t step) {
   return step == 0 ? "" : ", went on from step " + std::to_string(step);
 }
 
-/// Puts a finished packing on the disk, grains and curves first: a journal line promises that they
-/// are there.
-Outcome store(const Job& job, const std::string& folder, Journal& journal, Finished&& finished) {
+/// What is stored of a bed.
+StoredBed bed_of(const Job& job, const PackingResult& result, Packing&& packing, bool no_grains) {
+  StoredBed bed{job.id, result.state_hash, job.spec.box, curves_of(result), {}, {}, {}};
+  if (no_grains) return bed;
+  bed.grains = std::move(packing.grains);
+  bed.turned = std::move(packing.turned);
+  bed.forces = stored_forces(packing.forces);
+  return bed;
+}
+
+/// Puts a finished packing on the disk.
+Outcome store(const Job& job, ShardFiles& files, Finished&& finished, bool no_grains) {
   Outcome outcome;
   outcome.job = job.id;
   outcome.version = program_version();
   outcome.result = std::move(finished.packing.result);
   outcome.exception = finished.threw;
   outcome.cpu_seconds = finished.cpu_seconds;
+  outcome.finished_at = calendar_seconds();
   if (!finished.packing.grains.empty()) {
-    outcome.stored_bytes = write_bed(
-        folder, {job.id, outcome.result.state_hash, job.spec.box, curves_of(outcome.result),
-                 std::move(finished.packing.grains), std::move(finished.packing.turned),
-                 stored_forces(finished.packing.forces)});
+    files.add_bed(bed_of(job, outcome.result, std::move(finished.packing), no_grains), outcome);
   }
-  journal.append(outcome);
+  files.add(outcome);
+  files.flush();
   return outcome;
 }
 
@@ -73,9 +79,7 @@ class Packer {
       : running_(running),
         options_(options),
         kernels_(kernels_for(options.isa)),
-        display_(cpu_seconds_of(costs), options.style, stderr,
-                 running.rows.size() - running.pending.size()),
-        journal_(running.folder),
+        display_(cpu_seconds_of(costs), options.style, stderr, running.done),
         build_(build_name()),
         before_(costs.size()) {}
 
@@ -153,7 +157,7 @@ class Packer {
     const std::size_t task = finished.task;
     const Job& job = *running_.pending[task];
     finished.cpu_seconds += before_[task].cpu_seconds;
-    const Outcome outcome = store(job, running_.folder, journal_, std::move(finished));
+    const Outcome outcome = store(job, running_.files, std::move(finished), options_.no_grains);
     checkpoints_of(job).remove();
     ++packed_.packings;
     const std::string line = packing_line(job, outcome) + went_on_text(before_[task].step);
@@ -166,7 +170,6 @@ class Packer {
   const PackOptions& options_;
   const Kernels& kernels_;
   ProgressDisplay display_;
-  Journal journal_;
   const std::string build_;
   std::vector<Before> before_;  ///< by task
   tbb::enumerable_thread_specific<Workspace> workspaces_;

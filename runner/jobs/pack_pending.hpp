@@ -1,22 +1,23 @@
 // The middle of a run: what is missing of a sweep is packed and stored.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
 #include "kernels/isa.hpp"
 #include "runner/jobs/progress.hpp"
 #include "runner/jobs/schedule.hpp"
+#include "runner/store/shard_files.hpp"
 #include "runner/sweep/job.hpp"
-#include "runner/tables/job_facts.hpp"
 
 namespace grainsweep {
 
 /// A run under way.
 struct RunningSweep {
-  const Sweep& sweep;
   std::string folder;
-  std::vector<Row> rows;  ///< one per job of the sweep, with what was stored before
+  ShardFiles& files;
+  std::size_t done = 0;  ///< packings of its shard that were made before
   std::vector<const Job*> pending;
 };
 
@@ -26,6 +27,7 @@ struct PackOptions {
   ProgressStyle style = ProgressStyle::quiet;
   double checkpoint_seconds = 60.0;  ///< wall time between two checkpoints of a packing
   bool fail_fast = false;            ///< the first packing that fails stops the others
+  bool no_grains = false;            ///< of a bed only its curves are stored
 };
 
 /// What came of it.

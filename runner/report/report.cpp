@@ -67,6 +67,7 @@ std::string beds_of(const std::string& folder, const GivenUnits& units,
   std::size_t bytes = 0, left_out = 0;
   for (const auto& [group, row] : beds_to_show(rows, groups)) {
     const StoredBed bed = read_bed(folder, *row->outcome);
+    if (bed.grains.empty()) continue;
     bytes += view_size(bed);
     if (bytes > most_view_bytes) {
       bytes -= view_size(bed);

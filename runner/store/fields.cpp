@@ -96,8 +96,11 @@ std::vector<Field> outcome_fields() {
       stored<&Outcome::version>("version", "", "of the program that made it", summary_only),
       stored<&Outcome::exception>("exception", "", "it ended in an exception", summary_only),
       in_result<&Result::status>("status", "", "settled, not_settled or failed", summary_only),
-      stored<&Outcome::stored_bytes>("stored_bytes", "", "size of states/<job>.grains",
-                                     summary_only),
+      stored<&Outcome::finished_at>("finished_at", "s", "time since 1970 when it was finished",
+                                    summary_only),
+      stored<&Outcome::stored_at>("stored_at", "", "byte of the file of beds where its bed begins",
+                                  summary_only),
+      stored<&Outcome::stored_bytes>("stored_bytes", "", "size of its bed", summary_only),
       in_result<&Result::coordination>(
           "coordinations", "", "gap tolerance, coordination and coordination_with_walls of each",
           not_in_tables),

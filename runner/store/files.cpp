@@ -13,6 +13,8 @@
 
 #include <sys/stat.h>
 
+#include "runner/machine.hpp"
+
 namespace grainsweep {
 namespace {
 
@@ -107,8 +109,9 @@ std::string read_file(const std::string& path) {
   return text;
 }
 
-std::string read_start(const std::string& path, std::size_t size) {
+std::string read_part(const std::string& path, std::int64_t at, std::size_t size) {
   const OpenFile file(path, O_RDONLY);
+  if (lseek(file.descriptor(), at, SEEK_SET) < 0) throw FileError(path, "read", errno);
   std::string text;
   while (text.size() < size && read_more(file, text, size - text.size())) {
   }
@@ -135,13 +138,14 @@ void remove_leftovers(const std::string& folder, std::string_view ending) {
     const std::size_t at = name.rfind(mark);
     if (at == std::string::npos) continue;
     const std::string process = name.substr(at + mark.size());
-    const bool is_number = process.find_first_not_of("0123456789") == std::string::npos;
-    if (is_number && !process.empty()) remove_file(folder + "/" + name);
+    const std::string number = process.substr(process.rfind('-') + 1);
+    const bool is_number = number.find_first_not_of("0123456789") == std::string::npos;
+    if (is_number && !number.empty()) remove_file(folder + "/" + name);
   }
 }
 
 void replace_file(const std::string& path, std::string_view bytes) {
-  const std::string temporary = path + std::string(temporary_mark) + std::to_string(getpid());
+  const std::string temporary = path + std::string(temporary_mark) + process_name();
   try {
     write_and_flush(temporary, bytes);
     if (std::rename(temporary.c_str(), path.c_str()) != 0) throw FileError(path, "replace", errno);
@@ -163,11 +167,6 @@ void make_folder_inside(const std::string& path) {
   const bool is_new = std::filesystem::create_directory(path, error);
   expect_folder(path, error);
   if (is_new) flush_folder_of(path);
-}
-
-void rename_file(const std::string& path, const std::string& new_path) {
-  if (std::rename(path.c_str(), new_path.c_str()) != 0) throw FileError(path, "rename", errno);
-  flush_folder_of(new_path);
 }
 
 void remove_file(const std::string& path) {

@@ -57,8 +57,8 @@ void flush_folder_of(const std::string& path);
 /// The whole file.
 std::string read_file(const std::string& path);
 
-/// The first `size` bytes of a file, or all if it has fewer.
-std::string read_start(const std::string& path, std::size_t size);
+/// `size` bytes of a file from its byte `at` on, counted from 0, or what of them it has.
+std::string read_part(const std::string& path, std::int64_t at, std::size_t size);
 
 /// Calls `use` with each line of a file, without its line feed; the last one may lack it.
 void for_each_line(const std::string& path, const std::function<void(std::string_view)>& use);
@@ -74,9 +74,6 @@ void make_folder(const std::string& path);
 /// the disk then.
 void make_folder_inside(const std::string& path);
 
-/// Gives a file another name in its folder.
-void rename_file(const std::string& path, const std::string& new_path);
-
 /// Removes the file; nothing happens if there is none.
 void remove_file(const std::string& path);
 
@@ -86,7 +83,8 @@ bool file_exists(const std::string& path);
 std::optional<std::int64_t> file_size(const std::string& path);
 
 /// Removes what a replace_file that was killed has left in `folder`: the temporary files of those
-/// whose name ends so. No other process may be writing such files there.
+/// whose name ends so, of this machine or another. No other process may be writing such files
+/// there.
 void remove_leftovers(const std::string& folder, std::string_view ending);
 
 /// Names of the files in `folder` that start and end so, sorted; none if there is no folder.

@@ -1,83 +1,126 @@
 #include "runner/store/journal.hpp"
 
 #include <algorithm>
-#include <fcntl.h>
+#include <tuple>
+#include <utility>
+
+#include <nlohmann/json.hpp>
 
 #include "runner/hash.hpp"
 #include "runner/store/files.hpp"
 #include "runner/store/lock.hpp"
 #include "runner/store/outcome_text.hpp"
+#include "runner/store/shard.hpp"
 
 namespace grainsweep {
 namespace {
 
-std::string line_start(std::string_view outcome) {
-  return R"({"length":)" + std::to_string(outcome.size()) + R"(,"crc32":")" + hex8(crc32(outcome)) +
-         R"(","outcome":)";
+constexpr std::string_view outcome_kind = "outcome", run_kind = "run";
+
+std::string line_start(std::string_view kind, std::string_view text) {
+  return R"({"length":)" + std::to_string(text.size()) + R"(,"crc32":")" + hex8(crc32(text)) +
+         R"(",")" + std::string(kind) + R"(":)";
 }
 
-/// The text of the outcome in a line; nothing if the line is torn or damaged.
-std::optional<std::string_view> checked_text(std::string_view line) {
-  constexpr std::string_view before_outcome = R"("outcome":)";
-  const std::size_t start = line.find(before_outcome);
+std::string line_of(std::string_view kind, std::string_view text) {
+  return line_start(kind, text).append(text).append("}\n");
+}
+
+/// The text of that kind in a line; nothing if the line is torn, damaged or of another kind.
+std::optional<std::string_view> checked_text(std::string_view kind, std::string_view line) {
+  const std::string before_text = std::string(",\"").append(kind).append("\":");
+  const std::size_t start = line.find(before_text);
   if (start == std::string_view::npos || !line.ends_with('}')) return std::nullopt;
-  const std::size_t begin = start + before_outcome.size();
+  const std::size_t begin = start + before_text.size();
   const std::string_view text = line.substr(begin, line.size() - begin - 1);
-  return line.substr(0, begin) == line_start(text) ? std::optional(text) : std::nullopt;
+  return line.substr(0, begin) == line_start(kind, text) ? std::optional(text) : std::nullopt;
 }
 
-/// A crash may have left a line without its end; the next one must not continue it.
-bool ends_inside_a_line(const std::string& path) {
-  if (!file_exists(path)) return false;
-  const std::string text = read_file(path);
-  return !text.empty() && text.back() != '\n';
+/// A later run of the same process and start tells more of it.
+void keep(RunRecord&& run, std::vector<RunRecord>& runs) {
+  const auto known = std::find_if(runs.begin(), runs.end(),
+                                  [&](const RunRecord& other) { return is_same_run(run, other); });
+  if (known == runs.end()) {
+    runs.push_back(std::move(run));
+  } else {
+    *known = std::move(run);
+  }
+}
+
+bool counts_more(const Outcome& one, const Outcome& other) {
+  return std::tuple(!one.exception, one.finished_at) >=
+         std::tuple(!other.exception, other.finished_at);
+}
+
+/// Appends what the journal of one shard holds.
+void read_journal(const std::string& folder, const std::string& name, Detail detail,
+                  JournalReading& reading) {
+  const std::string path = journal_path(folder, name);
+  std::size_t number = 0;
+  bool is_last_damaged = false;
+  for_each_line(path, [&](std::string_view line) {
+    ++number;
+    is_last_damaged = false;
+    if (auto outcome = read_journal_line(line, detail)) {
+      outcome->shard = name;
+      const auto [known, is_new] = reading.outcomes.try_emplace(outcome->job);
+      if (is_new || counts_more(*outcome, known->second)) known->second = std::move(*outcome);
+    } else if (auto run = read_run_line(line)) {
+      keep(std::move(*run), reading.runs);
+    } else {
+      is_last_damaged = true;
+      reading.damage.push_back(path + ":" + std::to_string(number) +
+                               ": torn or damaged line, or one of another version, left out; its "
+                               "packing is made again");
+    }
+  });
+  if (is_last_damaged && is_locked(path)) reading.damage.pop_back();
 }
 
 }  // namespace
 
 std::string journal_line(const Outcome& outcome) {
-  const std::string text = outcome_text(outcome);
-  return line_start(text) + text + "}\n";
+  return line_of(outcome_kind, outcome_text(outcome));
+}
+
+std::string journal_line(const RunRecord& run) {
+  return line_of(
+      run_kind, nlohmann::json(run).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
 }
 
 std::optional<Outcome> read_journal_line(std::string_view line, Detail detail) {
-  const auto text = checked_text(line);
+  const auto text = checked_text(outcome_kind, line);
   return text ? outcome_from_text(*text, detail) : std::nullopt;
 }
 
-Journal::Journal(const std::string& folder)
-    : path_(folder + "/journal-" + process_name() + ".jsonl") {
-  if (ends_inside_a_line(path_)) write_all(OpenFile(path_, O_WRONLY | O_APPEND), "\n");
-}
-
-void Journal::append(const Outcome& outcome) {
-  const bool is_first = !file_exists(path_);
-  const OpenFile file(path_, O_WRONLY | O_APPEND | O_CREAT);
-  write_all(file, journal_line(outcome));
-  flush_to_disk(file);
-  if (is_first) flush_folder_of(path_);
+std::optional<RunRecord> read_run_line(std::string_view line) {
+  const auto text = checked_text(run_kind, line);
+  if (!text) return std::nullopt;
+  try {
+    return nlohmann::json::parse(*text).get<RunRecord>();
+  } catch (const nlohmann::json::exception&) {
+    return std::nullopt;  // whole, but of another version
+  }
 }
 
 JournalReading read_journals(const std::string& folder, Detail detail) {
   JournalReading reading;
-  const auto keep = [&](Outcome&& outcome) {
-    const auto [known, is_new] = reading.outcomes.try_emplace(outcome.job);
-    if (is_new || !outcome.exception || known->second.exception) {
-      known->second = std::move(outcome);
-    }
-  };
-  for (const std::string& name : files_in(folder, "journal-", ".jsonl")) {
-    const std::string path = folder + "/" + name;
-    std::size_t number = 0;
-    for_each_line(path, [&](std::string_view line) {
-      ++number;
-      if (auto outcome = read_journal_line(line, detail)) return keep(std::move(*outcome));
-      reading.damage.push_back(path + ":" + std::to_string(number) +
-                               ": torn or damaged line, or one of another version, left out; its "
-                               "packing is made again");
-    });
+  for (const std::string& name : shards_in(folder)) read_journal(folder, name, detail, reading);
+  for (const std::string& path : beds_without_journal(folder)) {
+    reading.damage.push_back(path + ": its journal is missing; its packings are made again");
   }
+  std::erase_if(reading.runs,
+                [](const RunRecord& run) { return run.packings == 0 && !run.ended.empty(); });
+  sort_runs(reading.runs);
   return reading;
+}
+
+std::optional<RunRecord> last_run_in(const std::string& path) {
+  std::optional<RunRecord> last;
+  for_each_line(path, [&](std::string_view line) {
+    if (auto run = read_run_line(line)) last = std::move(run);
+  });
+  return last;
 }
 
 }  // namespace grainsweep

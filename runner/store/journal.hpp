@@ -1,11 +1,12 @@
-// Finished packings, one line each, in a file of the process that made them.
+// What was finished, a line each: the record that all tables are made of.
 //
 // A line is {"length":<bytes>,"crc32":"<8 hex digits>","outcome":{...}}: valid JSON by itself, with
 // length and checksum of the bytes of {...}, whose members are those fields
 // (runner/store/fields.hpp) of the journal that the outcome has. Not-a-number and infinities are
 // texts. It is written by one write(2) and flushed to the disk before the packing counts as done,
 // so that a crash can only tear the last line. A torn or damaged line is dropped, and its packing
-// made again.
+// made again. Lines with "run" instead of "outcome" tell who wrote the journal, at the beginning of
+// a run and again at its end.
 #pragma once
 
 #include <map>
@@ -15,20 +16,9 @@
 #include <vector>
 
 #include "runner/store/outcome.hpp"
+#include "runner/store/run_record.hpp"
 
 namespace grainsweep {
-
-class Journal {
- public:
-  /// Appends to <folder>/journal-<host>-<pid>.jsonl, or makes it with the first line.
-  explicit Journal(const std::string& folder);
-
-  /// Returns once the outcome is on the disk. Throws FileError.
-  void append(const Outcome& outcome);
-
- private:
-  std::string path_;
-};
 
 /// How much of an outcome is read: all of it, or the fields of the summary at its beginning, which
 /// takes a tenth of the time.
@@ -36,18 +26,25 @@ enum class Detail { whole, summary };
 
 struct JournalReading {
   std::map<std::string, Outcome> outcomes;  ///< by job
-  std::vector<std::string> damage;          ///< "out/journal-a-12.jsonl:3: torn or damaged ..."
+  std::vector<RunRecord> runs;              ///< that made something, in the order they started
+  std::vector<std::string> damage;          ///< "out/shards/1-of-1.jsonl:3: torn or damaged ..."
 };
 
-/// All journals in `folder`. Of two outcomes of a job the later one counts, but a result is never
-/// replaced by an exception. Throws FileError.
+/// The journals of all shards in `folder`. Of two outcomes of a job the later one counts, but a
+/// result is never replaced by an exception. A line that a runner is just writing is left out.
+/// Throws FileError.
 JournalReading read_journals(const std::string& folder, Detail detail = Detail::whole);
 
-/// The line (with its line feed) that holds `outcome`.
+/// The last run in a journal, at work or ended.
+std::optional<RunRecord> last_run_in(const std::string& path);
+
+/// The line (with its line feed) that holds `outcome` or `run`.
 std::string journal_line(const Outcome& outcome);
+std::string journal_line(const RunRecord& run);
 
 /// The outcome in a line without its line feed; nothing if the line is torn or damaged, or has
 /// other members than this version of the program gives it.
 std::optional<Outcome> read_journal_line(std::string_view line, Detail detail = Detail::whole);
+std::optional<RunRecord> read_run_line(std::string_view line);
 
 }  // namespace grainsweep

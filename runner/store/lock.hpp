@@ -1,11 +1,10 @@
-// One runner per output folder, as a courtesy.
+// Who works on a shard.
 //
-// The lock is flock(2) on <folder>/runner.lock, whose text names host and process. It ends with the
-// process however that ends. Network file systems may not honour it; nothing breaks if two runners
-// meet, since each writes its own journal and equal jobs have equal results.
+// The lock is flock(2) on the shard's journal; it ends with the process however that ends. Network
+// file systems may not honour it: two runners that then share a shard write journals of their own
+// names (runner/store/shard.hpp), and equal jobs have equal results.
 #pragma once
 
-#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -13,31 +12,28 @@
 
 namespace grainsweep {
 
-/// Another runner holds the folder; the message names it.
+/// Another runner works there; the message names it.
 struct FolderBusy : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-class FolderLock {
+/// Held while it lives.
+class FileLock {
  public:
-  /// Throws FolderBusy if another process holds the lock, FileError if it cannot be opened.
-  explicit FolderLock(const std::string& folder);
+  /// Makes the file if missing. Tries for a fifth of a second, since a look at the lock holds it
+  /// for a moment. Throws FileError if it cannot be opened.
+  explicit FileLock(const std::string& path);
 
-  /// False where the file system offers no locks: the folder is used without one.
-  bool is_held() const { return is_held_; }
+  bool is_held() const { return error_ == 0; }
+  /// Another process holds it. If neither, the file system offers no locks.
+  bool is_taken() const;
 
  private:
   OpenFile file_;
-  bool is_held_;
+  int error_;
 };
 
-/// "host, process 4711" of the runner that works in `folder` now; nothing if none does.
-std::optional<std::string> present_runner(const std::string& folder);
-
-/// The machine's name, with only the characters that are safe in a file name.
-std::string host_name();
-
-/// "<host>-<pid>", the name this process writes under.
-std::string process_name();
+/// Whether a process holds the lock of this file; not if there is no file.
+bool is_locked(const std::string& path);
 
 }  // namespace grainsweep

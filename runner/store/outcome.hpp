@@ -9,7 +9,7 @@
 namespace grainsweep {
 
 /// Its members are listed, named and explained in runner/store/fields.cpp; the curves are kept with
-/// the grains, in states/<job>.grains.
+/// the grains, in shards/<shard>.beds.
 struct Outcome {
   std::string job;       ///< Job::id
   PackingResult result;  ///< without curves, unless they were read
@@ -17,8 +17,11 @@ struct Outcome {
   /// The packing ended in an exception (no memory, say), not in a result: it is tried again by the
   /// next run.
   bool exception = false;
-  /// Size of states/<job>.grains; 0 if there is no such file, and then there are no curves.
-  std::int64_t stored_bytes = 0;
+  double finished_at = 0.0;  ///< s since 1970
+  std::string shard;         ///< name of the files that hold it, as of runner/store/shard.hpp
+  /// Where in shards/<shard>.beds its bed is, and its size; 0 if there is none, and then there are
+  /// no curves.
+  std::int64_t stored_at = 0, stored_bytes = 0;
   double cpu_seconds = 0.0;  ///< of all threads that made it
 };
 

@@ -6,6 +6,7 @@
 
 #include "runner/store/archive.hpp"
 #include "runner/store/files.hpp"
+#include "runner/store/shard.hpp"
 
 namespace grainsweep {
 
@@ -50,10 +51,12 @@ namespace {
 
 constexpr std::string_view bed_mark = "GRAINS8\n";
 
-const std::string to_mend = "; run the sweep again to make it anew";
-const std::string missing = "missing" + to_mend;
-const std::string damaged = "damaged, or of another version" + to_mend;
-const std::string of_another = "the bed of another packing" + to_mend;
+/// Throws FileError: the bed is not what was stored.
+[[noreturn]] void refuse(const std::string& folder, const Outcome& outcome,
+                         const std::string& why) {
+  throw FileError(beds_path(folder, outcome.shard),
+                  "packing " + outcome.job + ": " + why + "; run the sweep again to make it anew");
+}
 
 }  // namespace
 
@@ -84,37 +87,25 @@ std::vector<StoredForce> stored_forces(const std::vector<PairForce>& forces) {
   return stored;
 }
 
-std::string state_path(const std::string& folder, const std::string& job) {
-  return folder + "/states/" + job + ".grains";
-}
-
 std::string bed_bytes(const StoredBed& bed) { return file_bytes(bed_mark, bed); }
 
 std::optional<StoredBed> bed_from_bytes(std::string_view bytes) {
   return value_in_file<StoredBed>(bed_mark, bytes);
 }
 
-std::int64_t write_bed(const std::string& folder, const StoredBed& bed) {
-  make_folder_inside(folder + "/states");
-  const std::string bytes = bed_bytes(bed);
-  replace_file(state_path(folder, bed.job), bytes);
-  return static_cast<std::int64_t>(bytes.size());
-}
-
 void expect_bed(const std::string& folder, const Outcome& outcome) {
-  const std::string path = state_path(folder, outcome.job);
-  const auto size = file_size(path);
-  if (!size) throw FileError(path, missing);
-  if (*size != outcome.stored_bytes) throw FileError(path, damaged);
+  const auto size = file_size(beds_path(folder, outcome.shard));
+  if (!size) refuse(folder, outcome, "missing");
+  if (*size < outcome.stored_at + outcome.stored_bytes) refuse(folder, outcome, "cut off");
 }
 
 StoredBed read_bed(const std::string& folder, const Outcome& outcome) {
-  const std::string path = state_path(folder, outcome.job);
-  if (!file_exists(path)) throw FileError(path, missing);
-  auto bed = bed_from_bytes(read_file(path));
-  if (!bed) throw FileError(path, damaged);
+  expect_bed(folder, outcome);
+  auto bed = bed_from_bytes(read_part(beds_path(folder, outcome.shard), outcome.stored_at,
+                                      static_cast<std::size_t>(outcome.stored_bytes)));
+  if (!bed) refuse(folder, outcome, "damaged, or of another version");
   if (bed->job != outcome.job || bed->state_hash != outcome.result.state_hash) {
-    throw FileError(path, of_another);
+    refuse(folder, outcome, "the bed of another packing");
   }
   return std::move(*bed);
 }

@@ -1,9 +1,10 @@
 // The curves, grains and forces of each finished bed, so that neither tables nor exporting pack
 // again.
 //
-// states/<job>.grains is "GRAINS8\n", a StoredBed as of runner/store/archive.hpp, in the order of
-// its members and of those of the engine's structs in states.cpp, and a CRC-32 of all before. Units
-// as in SettledGrain and PackingResult.
+// They stand one behind the other in shards/<shard>.beds, where each outcome tells its own. A bed
+// is "GRAINS8\n", a StoredBed as of runner/store/archive.hpp, in the order of its members and of
+// those of the engine's structs in states.cpp, and a CRC-32 of all before. Units as in SettledGrain
+// and PackingResult. What a kill has left between them is never read.
 #pragma once
 
 #include <cstdint>
@@ -50,22 +51,15 @@ struct StoredBed {
   std::vector<StoredForce> forces;
 };
 
-/// <folder>/states/<job>.grains
-std::string state_path(const std::string& folder, const std::string& job);
-
-/// Replaces the file as a whole and flushes it; returns its size. Makes the folder states if
-/// missing.
-std::int64_t write_bed(const std::string& folder, const StoredBed& bed);
-
-/// The whole file, checked. Throws FileError if there is none, if it is damaged or of another
+/// The whole bed, checked. Throws FileError if there is none, if it is damaged or of another
 /// version, or if it is not the bed of this outcome.
 StoredBed read_bed(const std::string& folder, const Outcome& outcome);
 
-/// Looks at name and size of the file alone. Throws FileError if there is none, or if it has not
-/// the size that was written.
+/// Looks at the size of the file that holds it alone. Throws FileError if there is none, or if it
+/// ends before the bed does.
 void expect_bed(const std::string& folder, const Outcome& outcome);
 
-/// The file's bytes, and back; nothing if they are damaged or of another version.
+/// A bed's bytes, and back; nothing if they are damaged or of another version.
 std::string bed_bytes(const StoredBed& bed);
 std::optional<StoredBed> bed_from_bytes(std::string_view bytes);
 

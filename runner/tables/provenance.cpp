@@ -6,8 +6,6 @@
 
 namespace grainsweep {
 
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RunRecord, started, ended, wall_seconds, process, threads, isa,
-                                   packings, command, host, processor, cores, commit)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SweepFile, file, text)
 
 namespace {

@@ -9,26 +9,11 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "runner/store/run_record.hpp"
 #include "runner/sweep/units.hpp"
 #include "runner/tables/job_facts.hpp"
 
 namespace grainsweep {
-
-/// One call of `run`.
-struct RunRecord {
-  std::string started;        ///< UTC, ISO 8601
-  std::string ended;          ///< the same; empty while it runs, or if it was killed
-  double wall_seconds = 0.0;  ///< s
-  std::string process;        ///< "<host>-<pid>"
-  int threads = 1;
-  std::string isa;        ///< "avx2"
-  int packings = 0;       ///< finished by this run
-  std::string command;    ///< as it was typed, options and all
-  std::string host;       ///< name of the machine
-  std::string processor;  ///< "AMD EPYC 7763 64-Core Processor"
-  int cores = 0;          ///< that the process might use
-  std::string commit;     ///< as in Build, of the program that ran
-};
 
 /// What the program was built from.
 struct Build {
@@ -36,12 +21,14 @@ struct Build {
   std::string commit;  ///< of its source, "-dirty" if that was changed; "unknown" outside git
   std::string compiler;
   std::map<std::string, std::string> libraries;  ///< name -> version
+  bool operator==(const Build&) const = default;
 };
 
 /// A sweep file.
 struct SweepFile {
   std::string file;  ///< as given on the command line
   std::string text;  ///< all of it, verbatim
+  bool operator==(const SweepFile&) const = default;
 };
 
 struct Provenance {

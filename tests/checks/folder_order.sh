@@ -23,7 +23,7 @@ readonly ground_floor=(
   engine/context.hpp engine/interval.hpp engine/results.hpp engine/text.hpp engine/units.hpp
   runner/exit_codes.hpp runner/hash.hpp runner/instruction_set.hpp runner/machine.hpp runner/text.hpp
   runner/versions.hpp
-  tests/runner/sample_rows.hpp tests/runner/temporary_folder.hpp
+  tests/runner/sample_rows.hpp tests/runner/stored.hpp tests/runner/temporary_folder.hpp
 )
 
 mapfile -t sources < <(find kernels engine runner tests bench -name '*.[ch]pp' 2>/dev/null | sort)

@@ -47,7 +47,7 @@ run_to_the_end() {
 # The undisturbed run that all others must equal; sets `packings`.
 make_reference() { # FILE
   run_to_the_end "$1" reference --threads 2
-  packings=$(cat reference/journal-*.jsonl | wc -l)
+  packings=$(packing_lines reference | wc -l)
 }
 
 # same_as_reference FOLDER WHAT: tables and grains are, byte by byte, those of the undisturbed run,
@@ -59,7 +59,7 @@ same_as_reference() {
     table=$(basename "$table")
     [ "$table" = packings.csv ] || cmp "reference/$table" "$folder/$table" || fail "$what: other $table"
   done
-  diff -rq reference/states "$folder/states" || fail "$what: other grains"
+  cmp <(beds_in reference) <(beds_in "$folder") || fail "$what: other grains"
   [ "$(whole_jobs "$folder" | sort -u | wc -l)" -eq "$packings" ] || fail "$what: a packing is lost"
   [ "$(whole_jobs "$folder" | wc -l)" -eq "$packings" ] || fail "$what: a packing was made twice"
   nothing_is_left "$folder" "$what"
@@ -73,5 +73,5 @@ nothing_is_left() {
 
 # The jobs of the whole journal lines of a folder, one a line.
 whole_jobs() { # FOLDER
-  cat "$1"/journal-*.jsonl 2>/dev/null | grep '}}$' | sed -n 's/.*"job":"\([0-9a-f]*\)".*/\1/p' || true
+  packing_lines "$1" | grep '}}$' | sed -n 's/.*"job":"\([0-9a-f]*\)".*/\1/p' || true
 }

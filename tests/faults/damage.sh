@@ -69,7 +69,6 @@ for number in $(seq "$tries"); do
   file=${files[$(between 0 $((${#files[@]} - 1)))]}
   damage "out/$file"
   what="try $number, $state/$file, damage $kind"
-  changed=$(cmp -s "$state/$file" "out/$file" || echo yes)
 
   look out seen.txt
   if [ "$code" -eq 0 ] && [ ! -s warned.txt ]; then
@@ -88,11 +87,7 @@ for number in $(seq "$tries"); do
     table=$(basename "$table")
     [ "$table" = packings.csv ] || cmp "reference/$table" "out/$table" || fail "$what: other $table"
   done
-  diff -rq reference/states out/states || fail "$what: other grains"
-  if [ "$file" = ./provenance.json ] && [ "$changed" ]; then
-    grep -q 'warning: out/provenance.json: ' said.txt ||
-      fail "$what: the record of runs is lost in silence"
-  fi
+  cmp <(beds_in reference) <(beds_in out) || fail "$what: other grains"
   mended=$((mended + 1))
 done
 echo "$tries damaged folders: $mended mended by the next run, $told refused and told, none silent"

@@ -37,11 +37,12 @@ awk -v out="$out" '
   }
   /^mkdir\(/ && first ~ "^" out "/" { unflushed[folder_of(first)] = 1 }
   /^p?write(64)?\(/ {
-    if (path ~ "^" out "/journal-") {
+    if (path ~ "^" out "/shards/.*[.]jsonl$") {
       expect_flushed("a journal line is written")
-      if (++lines == 1) unflushed[out] = 1 # the journal has just been made
+      ++lines
     }
-    if (path ~ "^" out "/" && path !~ "/runner\\.lock$|/figures/") unflushed[path] = 1
+    if (path ~ "^" out "/shards/.*[.]beds$") ++beds
+    if (path ~ "^" out "/" && path !~ "/figures/") unflushed[path] = 1
     else if (/^write\([12]</) { expect_flushed("something is told"); ++told }
   }
   /^f(data)?sync\(/ { delete unflushed[path] }
@@ -56,13 +57,13 @@ awk -v out="$out" '
   /^unlink\(/ && first ~ /\/checkpoints\// { expect_flushed("a checkpoint is removed"); ++removed }
   /^exit_group\(/ { expect_flushed("the program ends"); ++ended }
   END {
-    print lines " journal lines, " told " times told, " removed " checkpoints removed, " ended " end"
+    print lines " journal lines, " beds " beds, " told " times told, " removed " checkpoints removed, " ended " end"
     for (name in replaced) print replaced[name] " times " name
     exit breaches
   }' trace.txt >found.txt || fail "$(grep BREACH found.txt | head -n 5)"
 
 # None of that went by unseen.
-expect_text found.txt "3 journal lines" "3 times states/*.grains" "times checkpoints/*.0" \
+expect_text found.txt "5 journal lines, 3 beds" "times checkpoints/*.0" \
   "times packings.csv" "times provenance.json"
 ! grep -q " 0 times told\|, 0 checkpoints removed\|, 0 end" found.txt || fail "$(cat found.txt)"
 head -n 1 found.txt

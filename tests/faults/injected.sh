@@ -56,9 +56,7 @@ for number in $(seq 0 $((wanted - 1))); do
   for table in out/*.csv out/provenance.json; do
     [ ! -e "$table" ] || [ -z "$(tail -c 1 "$table")" ] || fail "$what: $table is cut"
   done
-  for grains in out/states/*.grains; do
-    [ ! -e "$grains" ] || cmp "$grains" "reference/states/$(basename "$grains")" || fail "$what: $grains"
-  done
+  ! comm -13 <(beds_in reference) <(beds_in out) | grep . || fail "$what: a bed of other bytes"
   run_to_the_end sweep.json out --threads 1
   same_as_reference out "$what"
   rm -r out

@@ -26,7 +26,7 @@ without_numbers() {
 
 # One hash over the rows of packings.csv in the order of the ids, without CPU times, and the grains.
 hash_of() {
-  { values_of "$1" | without_numbers | sort && cd "$1/states" && sha256sum -- *.grains; } | sha256sum | cut -c1-16
+  { values_of "$1" | without_numbers | sort && beds_in "$1"; } | sha256sum | cut -c1-16
 }
 
 isas=()

@@ -7,7 +7,7 @@ usage() {
 usage: tests/faults/run.sh [--full] [FAULT...]
 
 Runs the faults on build/release, which has to be built (./test.sh does it), and ends with a table.
-FAULTs: kills signals injected full_disk surroundings corruption damage runners one_hash soak
+FAULTs: kills signals injected full_disk surroundings corruption damage runners shards one_hash soak
 large overhead, and, each in a build of its own that takes minutes, threads (thread sanitizer) and fuzz
 (libFuzzer, clang).
 
@@ -29,7 +29,7 @@ while (($#)); do
   shift
 done
 ((${#faults[@]})) ||
-  faults=(kills signals injected full_disk surroundings corruption damage runners one_hash soak large
+  faults=(kills signals injected full_disk surroundings corruption damage runners shards one_hash soak large
     overhead threads fuzz)
 
 summary=()

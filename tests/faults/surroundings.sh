@@ -21,7 +21,7 @@ else
 fi
 if ! touch kept/file 2>/dev/null; then
   ends_with 4 "read-only folder" "${run[@]}" kept
-  expect_text said.txt "kept/runner.lock: cannot open: "
+  expect_text said.txt "kept/shards: cannot make the folder: "
   ends_with 4 "folder in a read-only folder" "${run[@]}" kept/out
   expect_text said.txt "kept/out: cannot make the folder: "
 else
@@ -54,7 +54,8 @@ same_as_reference none "everything closed"
 ("${run[@]}" pipe 2>&1 || true) | head -n 1 >/dev/null
 same_as_reference pipe "a pipe that closes after a line"
 for folder in closed full errors none pipe; do
-  grep -q '^host [^ ]*, process [0-9]*$' $folder/runner.lock || fail "$folder: runner.lock holds other text"
+  ! grep -qv '^{"length":[0-9]*,"crc32":"[0-9a-f]*","\(run\|outcome\)":{.*}}$' $folder/shards/1-of-1.jsonl ||
+    fail "$folder: the journal holds other text"
 done
 
 # No terminal, no environment, an odd locale, an unknown terminal.
@@ -75,8 +76,8 @@ ends_with "0 1" "an odd path" "$program" run "$odd/größe 1.json" --threads 2 -
 same_as_reference "$odd/out 1" "an odd path"
 ends_with 0 "report of an odd path" "$program" report "$odd/out 1"
 ends_with 0 "export of an odd path" "$program" export "$odd/out 1" --format vtp
-journal=$(ls "$odd/out 1"/journal-*.jsonl)
-head -n 2 "$journal" >two && mv two "$journal"
+journal="$odd/out 1/shards/1-of-1.jsonl"
+head -n 3 "$journal" >two && mv two "$journal"
 ends_with 0 "status of an odd path" "$program" status "$odd/out 1"
 command=$(sed -n 's/^Go on with: //p' said.txt)
 [ -n "$command" ] || fail "no command to go on: $(cat said.txt)"

@@ -15,6 +15,7 @@
 #include "runner/store/files.hpp"
 #include "runner/store/journal.hpp"
 #include "runner/store/outcome_text.hpp"
+#include "runner/store/shard.hpp"
 #include "runner/store/states.hpp"
 #include "tests/runner/sample_rows.hpp"
 #include "tests/runner/temporary_folder.hpp"
@@ -104,10 +105,12 @@ bool is_as_written(const SampleJournal& journal, const JournalReading& reading) 
 
 TEST_CASE("a journal with any bit changed never gives a packing that was not made") {
   const TemporaryFolder folder;
+  make_folder(shards_folder(folder.path()));
+  const std::string path = journal_path(folder.path(), "1-of-1");
   const SampleJournal journal;
   std::size_t sound = 0;
   for (std::size_t number = 0; number < tries(); ++number) {
-    write_quickly(folder.path() + "/journal-x-1.jsonl", flipped(journal.text, number));
+    write_quickly(path, flipped(journal.text, number));
     const JournalReading reading = read_journals(folder.path());
     const bool is_noticed = !reading.damage.empty() && reading.outcomes.size() < 3;
     sound += is_noticed && is_as_written(journal, reading) ? 1 : 0;
@@ -117,11 +120,13 @@ TEST_CASE("a journal with any bit changed never gives a packing that was not mad
 
 TEST_CASE("a journal cut at any byte gives the packings before the cut") {
   const TemporaryFolder folder;
+  make_folder(shards_folder(folder.path()));
+  const std::string path = journal_path(folder.path(), "1-of-1");
   const SampleJournal journal;
   std::size_t sound = 0;
   for (std::size_t number = 0; number < tries(); ++number) {
     const std::string text = cut(journal.text, number);
-    write_quickly(folder.path() + "/journal-x-1.jsonl", text);
+    write_quickly(path, text);
     const JournalReading reading = read_journals(folder.path());
     // A last line that lacks nothing but its line feed is whole.
     const auto lines = static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')) +

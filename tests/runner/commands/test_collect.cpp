@@ -8,6 +8,7 @@
 #include "runner/versions.hpp"
 #include "tests/runner/commands/captured.hpp"
 #include "tests/runner/sample_rows.hpp"
+#include "tests/runner/stored.hpp"
 #include "tests/runner/temporary_folder.hpp"
 
 namespace grainsweep {
@@ -25,13 +26,13 @@ std::string folder_of_a_run(const TemporaryFolder& parent, const std::string& na
   provenance.sweeps = {{"a.json", ""}};
   provenance.sweep_name = "a";
   provenance.units = units;
-  RunRecord run;
-  run.started = started;
+  RunRecord run = sample_run(started);
   run.process = "node-7";
-  provenance.runs = {run};
   const std::vector<Row> rows = {{sample_job(outcome.job, 5), outcome}};
   write_tables(folder, provenance, rows, analyse(rows));
-  Journal(folder).append(outcome);
+  ShardFiles files(folder, {}, run);
+  files.add(outcome);
+  files.flush();
   return folder;
 }
 

@@ -9,6 +9,7 @@
 #include "runner/store/journal.hpp"
 #include "runner/store/states.hpp"
 #include "tests/runner/sample_rows.hpp"
+#include "tests/runner/stored.hpp"
 #include "tests/runner/temporary_folder.hpp"
 
 namespace grainsweep {
@@ -32,17 +33,13 @@ StoredBed bed_of(const Outcome& outcome) {
 }
 
 /// Flips a bit of the last grain of a bed.
-void damage_bed(const std::string& folder, const std::string& job) {
-  std::string bytes = read_file(state_path(folder, job));
-  bytes[bytes.size() - 20] = static_cast<char>(bytes[bytes.size() - 20] ^ 1);
-  replace_file(state_path(folder, job), bytes);
+void damage_grains(const std::string& folder, const Outcome& outcome) {
+  damage_bed(folder, outcome, outcome.stored_bytes - 20);
 }
 
 TEST_CASE("tables and journals are enough to know a folder's results") {
   const TemporaryFolder folder;
-  Journal journal(folder.path());
-  journal.append(sample_outcome("a2", 0.6, 6));
-  journal.append(sample_outcome("other", 0.6, 6));
+  add_outcomes(folder.path(), {sample_outcome("a2", 0.6, 6), sample_outcome("other", 0.6, 6)});
   const std::vector<Row> pending = pending_rows();
   write_tables(folder.path(), stored_provenance(), pending, analyse(pending));
   const Results results = read_results(folder.path());
@@ -51,23 +48,20 @@ TEST_CASE("tables and journals are enough to know a folder's results") {
   CHECK(status_of(results.rows[1]) == "settled");
   CHECK(results.orphaned == 1);
   CHECK(stored_packings(folder.path()) == 2);
-  std::vector<std::string> damage;
-  CHECK(recorded_runs(folder.path(), damage).size() == 1);
-  CHECK(damage.empty());
+  REQUIRE(results.provenance.runs.size() == 1);
+  CHECK(results.provenance.runs[0].process == sample_run().process);
 }
 
 TEST_CASE("a summary counts what the whole results hold") {
   const TemporaryFolder folder;
-  Journal journal(folder.path());
   Outcome failed = sample_outcome("a1", 0.6, 6);
   failed.result.status = PackingStatus::failed;
   failed.version = "0.0.9";
-  journal.append(failed);
-  journal.append(sample_outcome("other", 0.6, 6));
+  add_outcomes(folder.path(), {failed, sample_outcome("other", 0.6, 6)});
   std::vector<Row> rows = pending_rows();
   rows.push_back({sample_job("a3", 7), std::nullopt});
   write_tables(folder.path(), stored_provenance(), rows, analyse(rows));
-  journal.append(sample_outcome("a2", 0.6, 6));
+  add_outcomes(folder.path(), {sample_outcome("a2", 0.6, 6)}, {2, 3});
   const Results whole = read_results(folder.path());
   const Results summary = read_results(folder.path(), Detail::summary);
   CHECK(summary.provenance.sweep_name == "a");
@@ -86,30 +80,35 @@ TEST_CASE("a summary counts what the whole results hold") {
 
 TEST_CASE("a folder without results is refused, and so is a broken provenance") {
   const TemporaryFolder folder;
-  std::vector<std::string> damage;
   CHECK_THROWS_AS(read_results(folder.path()), BadInput);
-  CHECK(recorded_runs(folder.path(), damage).empty());
-  CHECK(damage.empty());
   replace_file(folder.path() + "/provenance.json", "{");
   CHECK_THROWS_WITH(read_results(folder.path()), Catch::Contains("run the sweep again"));
   CHECK_THROWS_WITH(read_results(folder.path(), Detail::summary),
                     Catch::Contains("run the sweep again"));
-  CHECK(recorded_runs(folder.path(), damage).empty());
-  REQUIRE(damage.size() == 1);
-  CHECK_THAT(damage[0], Catch::Contains("/provenance.json: damaged"));
-  const auto kept = files_in(folder.path(), "damaged-provenance-", ".json");
-  REQUIRE(kept.size() == 1);
-  CHECK_THAT(damage[0], Catch::Contains(kept[0]));
-  CHECK(read_file(folder.path() + "/" + kept[0]) == "{");
-  remove_results(folder.path());
-  CHECK(files_in(folder.path(), "", "").empty());
+}
+
+TEST_CASE("the sweep is recorded once, and anew where it is another or damaged") {
+  const TemporaryFolder folder;
+  const std::string path = folder.path() + "/provenance.json";
+  Provenance provenance = stored_provenance();
+  const std::vector<Row> rows = pending_rows();
+  record_sweep(folder.path(), provenance, rows);
+  const std::string recorded = read_file(path);
+  provenance.runs.clear();
+  record_sweep(folder.path(), provenance, rows);
+  CHECK(read_file(path) == recorded);
+  record_sweep(folder.path(), provenance, {rows[0]});
+  CHECK(read_results(folder.path()).rows.size() == 1);
+  replace_file(path, recorded.substr(1));
+  record_sweep(folder.path(), provenance, rows);
+  CHECK(read_results(folder.path()).rows.size() == 2);
 }
 
 /// Two packings of one group, stored with their curves.
 std::vector<Row> stored_rows(const TemporaryFolder& folder) {
   std::vector<Row> rows = {settled_row("a1", 5, 0.6, 6), settled_row("a2", 5, 0.61, 6)};
   for (Row& row : rows) {
-    row.outcome->stored_bytes = write_bed(folder.path(), bed_of(*row.outcome));
+    add_stored_bed(folder.path(), bed_of(*row.outcome), *row.outcome);
   }
   return rows;
 }
@@ -136,16 +135,16 @@ TEST_CASE("a bed that is missing, damaged anywhere or another's is named and its
   std::vector<Row> rows = stored_rows(folder);
   for (const char* id : {"lost", "swapped", "failed"}) rows.push_back(settled_row(id, 5, 0.6, 6));
   rows[2].outcome->stored_bytes = 1;
-  rows[3].outcome->stored_bytes = 1;
+  rows[2].outcome->shard = "2-of-2";
   StoredBed other = bed_of(*rows[3].outcome);
   other.state_hash += 1;
-  write_bed(folder.path(), other);
-  damage_bed(folder.path(), "a2");
+  add_stored_bed(folder.path(), other, *rows[3].outcome);
+  damage_grains(folder.path(), *rows[1].outcome);
   const auto damage = load_curves(folder.path(), rows);
   REQUIRE(damage.size() == 3);
-  CHECK_THAT(damage[0], Catch::Contains("/states/a2.grains: damaged, or of another version"));
-  CHECK_THAT(damage[1], Catch::Contains("/states/lost.grains: missing"));
-  CHECK_THAT(damage[2], Catch::Contains("/states/swapped.grains: the bed of another packing"));
+  CHECK_THAT(damage[0], Catch::Contains("packing a2: damaged, or of another version"));
+  CHECK_THAT(damage[1], Catch::Contains("/2-of-2.beds: packing lost: missing"));
+  CHECK_THAT(damage[2], Catch::Contains("packing swapped: the bed of another packing"));
   CHECK(rows[0].outcome->result.profile_y.bins.size() == 2);
   CHECK(status_of(rows[1]) == "pending");
   CHECK(status_of(rows[4]) == "settled");  // has no bed
@@ -159,19 +158,23 @@ TEST_CASE("a bed that is cut or gone is seen by its size, a flipped bit by readi
   std::vector<Row> rows = stored;
   CHECK(expect_beds(folder.path(), rows).empty());
   CHECK(check_beds(folder.path(), rows).empty());
-  damage_bed(folder.path(), "a2");
+  damage_grains(folder.path(), *rows[1].outcome);
   CHECK(expect_beds(folder.path(), rows).empty());
   CHECK(check_beds(folder.path(), rows).size() == 1);
   CHECK(status_of(rows[1]) == "pending");
 
   rows = stored;
-  remove_file(state_path(folder.path(), "a1"));
-  replace_file(state_path(folder.path(), "a2"), "GRAINS6");
-  const auto damage = expect_beds(folder.path(), rows);
-  REQUIRE(damage.size() == 2);
-  CHECK_THAT(damage[0], Catch::Contains("/states/a1.grains: missing; run the sweep again"));
-  CHECK_THAT(damage[1], Catch::Contains("/states/a2.grains: damaged"));
-  CHECK(status_of(rows[0]) == "pending");
+  const std::string path = beds_path(folder.path(), "1-of-1");
+  replace_file(path,
+               read_file(path).substr(0, static_cast<std::size_t>(file_size(path).value() - 1)));
+  auto damage = expect_beds(folder.path(), rows);
+  REQUIRE(damage.size() == 1);
+  CHECK_THAT(damage[0], Catch::Contains("packing a2: cut off; run the sweep again"));
+  CHECK(status_of(rows[0]) == "settled");
+  remove_file(path);
+  damage = expect_beds(folder.path(), rows);
+  REQUIRE(damage.size() == 1);
+  CHECK_THAT(damage[0], Catch::Contains("packing a1: missing"));
   CHECK(status_of(rows[1]) == "pending");
 }
 
@@ -187,34 +190,28 @@ TEST_CASE("packings of another version of the program are counted") {
 
 TEST_CASE("half written files of every kind are removed, whole ones stay") {
   const TemporaryFolder folder;
-  const std::vector<std::string> names = {"packings.csv", "provenance.json", "states/a1.grains",
-                                          "checkpoints/a1.0", "checkpoints/a1.1"};
-  write_bed(folder.path(), bed_of(sample_outcome("a1", 0.6, 6)));
+  const std::vector<std::string> names = {"packings.csv", "provenance.json", "checkpoints/a1.0",
+                                          "checkpoints/a1.1"};
   CheckpointFiles(folder.path(), "a1", "1.0").write({});
   for (const std::string& name : names) {
     replace_file(folder.path() + "/" + name, "whole");
-    replace_file(folder.path() + "/" + name + ".tmp.77", "half");
+    replace_file(folder.path() + "/" + name + ".tmp.node-77", "half");
   }
-  clean_up(folder.path(), FolderLock(folder.path()));
+  clean_up(folder.path());
   for (const std::string& name : names) {
     CHECK(file_exists(folder.path() + "/" + name));
-    CHECK_FALSE(file_exists(folder.path() + "/" + name + ".tmp.77"));
+    CHECK_FALSE(file_exists(folder.path() + "/" + name + ".tmp.node-77"));
   }
 }
 
-TEST_CASE("removing results leaves other files alone") {
+TEST_CASE("removing tables leaves other files alone") {
   const TemporaryFolder folder;
-  Journal(folder.path()).append(sample_outcome("a1", 0.6, 6));
-  write_bed(folder.path(), bed_of(sample_outcome("a1", 0.6, 6)));
   CheckpointFiles(folder.path(), "a1", "1.0").write({});
   write_tables(folder.path(), stored_provenance(), {}, {});
   replace_file(folder.path() + "/notes.txt", "mine");
-  replace_file(folder.path() + "/states/notes.txt", "mine");
-  remove_results(folder.path());
-  CHECK(files_in(folder.path(), "", "") ==
-        std::vector<std::string>{"checkpoints", "notes.txt", "states"});
+  remove_tables(folder.path());
+  CHECK(files_in(folder.path(), "", "") == std::vector<std::string>{"checkpoints", "notes.txt"});
   CHECK(files_in(folder.path() + "/checkpoints", "", "").empty());
-  CHECK(files_in(folder.path() + "/states", "", "") == std::vector<std::string>{"notes.txt"});
 }
 
 TEST_CASE("every column of every table has a meaning, and stands in its table once") {

@@ -5,6 +5,7 @@
 #include "runner/store/checkpoints.hpp"
 #include "runner/store/journal.hpp"
 #include "runner/versions.hpp"
+#include "tests/runner/stored.hpp"
 #include "tests/runner/temporary_folder.hpp"
 
 namespace grainsweep {
@@ -40,8 +41,8 @@ TEST_CASE("the CPU time of a packing is that of all runs that worked on it") {
   const double hour = 3600;  // far longer than what is left of this packing
   CheckpointFiles(folder.path(), sweep.jobs[0].id, build_name())
       .write(stopped_early(sweep.jobs[0], hour));
-  RunningSweep running{sweep, folder.path(), {}, {&sweep.jobs[0]}};
-  running.rows.resize(1);
+  ShardFiles files(folder.path(), {}, sample_run());
+  RunningSweep running{folder.path(), files, 0, {&sweep.jobs[0]}};
   PackOptions options;
   options.isa = Isa::sse2;
   CHECK(pack_pending(running, options).packings == 1);
@@ -49,6 +50,27 @@ TEST_CASE("the CPU time of a packing is that of all runs that worked on it") {
   CHECK(outcome.cpu_seconds > hour);
   CHECK(outcome.cpu_seconds < hour + 60);
   CHECK(saved_packings(folder.path()) == 0);
+}
+
+TEST_CASE("without grains the same curves are stored") {
+  const Sweep sweep = sweep_of_a_small_bed();
+  std::string curves[2];
+  for (const bool no_grains : {false, true}) {
+    const TemporaryFolder folder;
+    ShardFiles files(folder.path(), {}, sample_run());
+    RunningSweep running{folder.path(), files, 0, {&sweep.jobs[0]}};
+    PackOptions options;
+    options.isa = Isa::sse2;
+    options.no_grains = no_grains;
+    pack_pending(running, options);
+    StoredBed bed =
+        read_bed(folder.path(), read_journals(folder.path()).outcomes.at(sweep.jobs[0].id));
+    CHECK(bed.grains.size() == (no_grains ? 0 : 30));
+    bed.grains.clear();
+    bed.forces.clear();
+    curves[no_grains ? 1 : 0] = bed_bytes(bed);
+  }
+  CHECK(curves[0] == curves[1]);
 }
 
 }  // namespace

@@ -12,18 +12,20 @@ run_all() { # FILE FOLDER
 # `part` holds the first three packings of the journal of `whole`, as if it had been stopped.
 run_all sweep.json whole
 mkdir part
-cp -r whole/states whole/provenance.json part
-head -n 3 whole/journal-*.jsonl >part/journal-node-1.jsonl
+mkdir part/shards
+cp whole/provenance.json part
+cp whole/shards/1-of-1.beds part/shards/2-of-5.beds
+packing_lines whole | head -n 3 >part/shards/2-of-5.jsonl
 run_all walls.json walls
 
 expect_code 0 "$program" collect part walls --out all
 expect_text out.txt "packings added to all, which now holds" "Page to look at: all/report.html"
 expect_text all/report.html "$(cut -d, -f1 walls/packings.csv | tail -n 1)" "</html>"
 expect_code 0 "$program" status all --json
-packed=$(($(sed 's/.*"job":"\([0-9a-f]*\)".*/\1/' part/journal-*.jsonl walls/journal-*.jsonl |
-  sort -u | wc -l)))
+packed=$({ packing_lines part && packing_lines walls; } | sed 's/.*"job":"\([0-9a-f]*\)".*/\1/' |
+  sort -u | wc -l)
 expect_text out.txt '"packings": 10' "\"pending\": $((10 - packed))"
-[ "$(cat all/journal-*.jsonl | wc -l)" -eq "$packed" ] || fail "not one line per packing"
+[ "$(packing_lines all | wc -l)" -eq "$packed" ] || fail "not one line per packing"
 
 # Again: nothing is added, nothing changes. What is missing comes from the last folder.
 cp all/provenance.json before.json
@@ -33,18 +35,17 @@ cmp before.json all/provenance.json || fail "collecting again changed the record
 [ "$(grep -c '"text": ' all/provenance.json)" -eq 2 ] || fail "not both sweeps were kept"
 expect_code 0 "$program" collect whole --out all
 expect_text out.txt "which now holds 10 of 10"
-[ "$(cat all/journal-*.jsonl | wc -l)" -eq 10 ] || fail "not one line per packing"
+[ "$(packing_lines all | wc -l)" -eq 10 ] || fail "not one line per packing"
 [ "$(values_of all | sort)" = "$(values_of whole | sort)" ] || fail "other values after collect"
 cmp whole/groups.csv all/groups.csv || fail "other groups after collect"
-(cd whole/states && sha256sum -- *.grains) >sums
-(cd all/states && sha256sum -c --quiet ../../sums) || fail "other grains after collect"
+cmp <(beds_in whole) <(beds_in all) || fail "other grains after collect"
 
 # A folder of one sweep can be gone on with, and a damaged bed is made again.
 expect_code 0 "$program" collect whole --out copy
 job=$(sed -n 2p whole/packings.csv | cut -d, -f1)
-printf x | dd of="whole/states/$job.grains" bs=1 seek=50 conv=notrunc status=none
+damage_bed whole "$(packing_lines whole | grep "$job")" 50
 expect_code 0 "$program" collect whole --out mended
-expect_text error.txt "whole/states/$job.grains: damaged"
+expect_text error.txt "whole/shards/1-of-1.beds: packing $job: damaged"
 expect_text out.txt "now holds 9 of 10"
 run_all sweep.json mended
 cmp <(values_of copy) <(values_of mended) || fail "other values after going on"

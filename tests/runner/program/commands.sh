@@ -62,7 +62,7 @@ done
 expect_code 0 "$program" status out/small
 expect_text out.txt "10 of 10 packings done" "No runner at work"
 expect_code 0 "$program" status out/small --json
-expect_text out.txt '"packings": 10' '"pending": 0' '"runner": null' '"sweep_file": "small.json"'
+expect_text out.txt '"packings": 10' '"pending": 0' '"runners": []' '"sweep_file": "small.json"'
 
 for format in csv xyz vtp; do
   expect_code 0 "$program" export out/small --format $format
@@ -80,9 +80,9 @@ expect_text error.txt "nosuchjob"
 sed 's/"seed": 3/"units": { "d": 3.2, "unit": "mm", "density": 2500 }, "seed": 3/' small.json >mm.json
 expect_code 0 "$program" validate mm.json
 expect_text out.txt "right: 10 packings, 5 parameter sets, d = 3.2 mm, grains of 2500 kg/m³"
-packed=$(cat out/small/journal-*.jsonl)
+packed=$(packing_lines out/small)
 "$program" run mm.json --out out/small >out.txt 2>error.txt || [ $? -eq 1 ]
-[ "$packed" = "$(cat out/small/journal-*.jsonl)" ] || fail "units made packings anew"
+[ "$packed" = "$(packing_lines out/small)" ] || fail "units made packings anew"
 expect_text out.txt "W/mm" "kg/m³ ± sd"
 expect_text out/small/groups.csv "width_mm" "bulk_density_error" "overlap_mean_mm"
 expect_text out/small/fits.csv "zeta_error_mm"
@@ -105,10 +105,10 @@ code=0
 [ "$code" -le 1 ] && [ ! -s quiet.txt ] || fail "--quiet printed $(cat quiet.txt)"
 
 # --fresh asks, and without a terminal wants --yes.
-before=$(cat out/small/journal-*.jsonl)
+before=$(packing_lines out/small)
 expect_code 2 "$program" run small.json --fresh
 expect_text error.txt "--yes"
-[ "$before" = "$(cat out/small/journal-*.jsonl)" ] || fail "--fresh deleted without asking"
+[ "$before" = "$(packing_lines out/small)" ] || fail "--fresh deleted without asking"
 
 command -v python3 >/dev/null || skip "python3 is not installed: plan --json was not read"
 python3 -m json.tool plan.json >/dev/null || fail "plan --json is no JSON"

@@ -118,15 +118,50 @@ end_in_time() {
   [ "$took" -lt 2000 ] || fail "$1 took $took ms"
 }
 
-# has_packings FOLDER COUNT: so many lines, or more, are in its journal.
+# packing_lines FOLDER: the lines of its journals that hold a packing.
+packing_lines() {
+  grep -hs '"outcome":' "$1"/shards/*.jsonl || true
+}
+
+# has_packings FOLDER COUNT: so many of them, or more, are there.
 has_packings() {
-  local journal text lines=0
-  for journal in "$1"/journal-*.jsonl; do
+  local journal text line lines=0
+  for journal in "$1"/shards/*.jsonl; do
     [ -e "$journal" ] || continue
     mapfile -t text <"$journal"
-    lines=$((lines + ${#text[@]}))
+    for line in "${text[@]}"; do [[ $line != *'"outcome":'* ]] || lines=$((lines + 1)); done
   done
   [ "$lines" -ge "$2" ]
+}
+
+# number_in LINE NAME: the whole number of a member.
+number_in() {
+  sed 's/.*"'"$2"'":\([0-9]*\).*/\1/' <<<"$1"
+}
+
+# beds_in FOLDER: a line for each packing with a bed: its id, and the bed's size and checksums.
+beds_in() {
+  perl -e 'my (%finished, %bed);
+    for my $journal (glob("\"$ARGV[0]\"/shards/*.jsonl")) {
+      (my $beds = $journal) =~ s/jsonl$/beds/;
+      open(my $lines, "<", $journal) or die $journal;
+      for (<$lines>) {
+        next unless /"outcome":.*}}$/ && /"job":"([^"]*)".*"finished_at":([^,]*),"stored_at":(\d+),"stored_bytes":([1-9]\d*)/;
+        next if exists $bed{$1} && $finished{$1} > $2;
+        $finished{$1} = $2;
+        open(my $file, "<:raw", $beds) or die $beds;
+        seek($file, $3, 0);
+        my $got = read($file, my $bytes, $4);
+        $bed{$1} = "$got " . unpack("%32C*", $bytes) . " " . unpack("H*", substr($bytes, -4));
+      }
+    }
+    print "$_ $bed{$_}\n" for sort keys %bed' "$1"
+}
+
+# damage_bed FOLDER LINE PLACE: another byte at that place of the bed of a journal line.
+damage_bed() {
+  local at=$(($(number_in "$2" stored_at) + $3))
+  printf '\xff' | dd of="$1/shards/1-of-1.beds" bs=1 seek="$at" conv=notrunc status=none
 }
 
 # packings.csv without the column cpu_seconds (no cell before it holds a comma).

@@ -45,8 +45,8 @@ for ((try = 1; ; ++try)); do
   rm -rf robbed
   "$program" run sweep.json --no-report --threads 1 --out robbed >out.txt 2>error.txt &
   runner=$!
-  until [ "$(cat robbed/journal-*.jsonl 2>/dev/null | wc -l)" -ge 2 ] || ! kill -0 $runner 2>/dev/null; do :; done
-  mv robbed/states "stolen-$try" 2>/dev/null || true
+  until has_packings robbed 2 || ! kill -0 $runner 2>/dev/null; do :; done
+  mv robbed/shards/1-of-1.beds "stolen-$try" 2>/dev/null || true
   code=0
   wait $runner || code=$?
   if grep -qF "are no longer in robbed" error.txt; then break; fi

@@ -10,7 +10,7 @@ run_to_the_end() { # FOLDER
 }
 
 lines_in() { # FOLDER
-  cat "$1"/journal-*.jsonl 2>/dev/null | wc -l
+  packing_lines "$1" | wc -l
 }
 
 run_to_the_end whole
@@ -46,19 +46,22 @@ done
 start "$program" run sweep.json --threads 2 --out killed
 wait_until has_packings killed 4 || fail "ended too soon: $(cat said.txt)"
 end_runner KILL
-journal=$(ls killed/journal-*.jsonl)
+journal=killed/shards/1-of-1.jsonl
 truncate -s -9 "$journal"
-lost=$(sed -n 1p "$journal" | sed 's/.*"job":"\([0-9a-f]*\)".*/\1/').grains
-damaged=$(sed -n 2p "$journal" | sed 's/.*"job":"\([0-9a-f]*\)".*/\1/').grains
-rm "killed/states/$lost"
-printf '\xff' | dd of="killed/states/$damaged" bs=1 seek=200 conv=notrunc status=none
+mapfile -t lines < <(packing_lines killed)
+jobs=()
+for number in 0 1; do
+  jobs+=("$(sed 's/.*"job":"\([0-9a-f]*\)".*/\1/' <<<"${lines[number]}")")
+  damage_bed killed "${lines[number]}" $((50 + 150 * number))
+done
 run_to_the_end killed
-expect_text progress.txt "warning: killed/journal-" "torn or damaged line" \
-  "warning: killed/states/$lost: missing" "warning: killed/states/$damaged: damaged, or"
+expect_text progress.txt "warning: killed/shards/1-of-1.jsonl:" "torn or damaged line" \
+  "warning: killed/shards/1-of-1.beds: packing ${jobs[0]}: damaged, or" \
+  "warning: killed/shards/1-of-1.beds: packing ${jobs[1]}: damaged, or"
 for table in profiles decays distributions; do
   cmp killed/$table.csv whole/$table.csv || fail "other $table after SIGKILL"
 done
-diff -rq killed/states whole/states || fail "other grains after SIGKILL"
+cmp <(beds_in killed) <(beds_in whole) || fail "other grains after SIGKILL"
 values_of killed | cmp - whole.txt || fail "other values after SIGKILL"
 
 # All there: a run makes nothing, and the tables stay as they are.
@@ -70,7 +73,7 @@ cmp before.csv whole/packings.csv || fail "tables changed without a new packing"
 # A page that a run leaves as it was is told.
 "$program" run sweep.json --threads 2 --out whole --no-report >out.txt 2>error.txt || [ $? -eq 1 ]
 [ ! -s error.txt ] || fail "the page of the same packings was called old: $(cat error.txt)"
-rm "whole/states/$lost"
+damage_bed whole "$(packing_lines whole | head -n 1)" 50
 "$program" run sweep.json --threads 2 --out whole --no-report >out.txt 2>error.txt || [ $? -eq 1 ]
 expect_text error.txt "note: whole/report.html is of an earlier run; "
 
@@ -83,7 +86,7 @@ expect_text error.txt "another runner" "process $runner"
 expect_code 0 "$program" status busy
 expect_text out.txt "Running: host "
 expect_code 0 "$program" status busy --json
-expect_text out.txt '"runner": "host ' "process $runner\""
+expect_text out.txt '"runners": [' '"host ' "process $runner\""
 kill -CONT "$runner"
 end_runner TERM
 

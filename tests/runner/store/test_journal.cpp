@@ -11,6 +11,7 @@
 #include "runner/store/journal.hpp"
 #include "runner/store/outcome_text.hpp"
 #include "tests/runner/sample_rows.hpp"
+#include "tests/runner/stored.hpp"
 #include "tests/runner/temporary_folder.hpp"
 
 namespace grainsweep {
@@ -18,22 +19,27 @@ namespace {
 
 std::uint64_t bits(double value) { return std::bit_cast<std::uint64_t>(value); }
 
-std::string journal_in(const TemporaryFolder& folder) {
-  return folder.path() + "/" + files_in(folder.path(), "journal-", ".jsonl").at(0);
+std::string first_journal(const TemporaryFolder& folder) {
+  make_folder(shards_folder(folder.path()));
+  return journal_path(folder.path(), "1-of-1");
 }
 
 TEST_CASE("an outcome read from its journal line is the same in every member") {
   Outcome outcome = sample_outcome("00c0ffee00c0ffee", 0.1 + 0.2, 1.0 / 3.0);
   outcome.result.reason = "no \"room\", φ\nsecond line";
   outcome.result.state_hash = std::numeric_limits<std::uint64_t>::max();
+  outcome.stored_at = 5'000'000'000;
   outcome.stored_bytes = 17;
+  outcome.finished_at = 1767225600.125;
   outcome.version = "1.2.3";
   const Outcome back =
       read_journal_line(journal_line(outcome).substr(0, journal_line(outcome).size() - 1)).value();
   CHECK(outcome_text(back) == outcome_text(outcome));
   CHECK(back.result.reason == outcome.result.reason);
   CHECK(back.result.state_hash == outcome.result.state_hash);
+  CHECK(back.stored_at == 5'000'000'000);
   CHECK(back.stored_bytes == 17);
+  CHECK(back.finished_at == 1767225600.125);
   CHECK(back.version == "1.2.3");
 }
 
@@ -111,42 +117,62 @@ TEST_CASE("a whole line with other members than ours is of another version, and 
   CHECK_FALSE(read_journal_line(line_of("{\"job\":")));
 }
 
-TEST_CASE("appended outcomes are read back, the later one of a job counts") {
+TEST_CASE("of two outcomes of a job the one that was finished later counts, in whatever journal") {
   const TemporaryFolder folder;
-  Journal journal(folder.path());
-  journal.append(sample_outcome("a", 0.60, 6.0));
-  journal.append(sample_outcome("b", 0.61, 6.0));
-  journal.append(sample_outcome("a", 0.62, 6.0));
+  Outcome earlier = sample_outcome("a", 0.60, 6.0), later = sample_outcome("a", 0.62, 6.0);
+  earlier.finished_at = 1000.0;
+  later.finished_at = 1000.5;
+  add_outcomes(folder.path(), {earlier, sample_outcome("b", 0.61, 6.0), later});
+  add_outcomes(folder.path(), {earlier}, {2, 3});
   const JournalReading reading = read_journals(folder.path());
   CHECK(reading.damage.empty());
   REQUIRE(reading.outcomes.size() == 2);
   CHECK(reading.outcomes.at("a").result.solid_fraction == 0.62);
+  CHECK(reading.outcomes.at("a").shard == "1-of-1");
 }
 
 TEST_CASE("an exception never replaces a result, but a result replaces an exception") {
   const TemporaryFolder folder;
-  Journal journal(folder.path());
   Outcome failed;
   failed.job = "a";
   failed.exception = true;
-  journal.append(failed);
+  failed.finished_at = 2000.0;
+  add_outcomes(folder.path(), {failed});
   CHECK(read_journals(folder.path()).outcomes.at("a").exception);
-  journal.append(sample_outcome("a", 0.60, 6.0));
-  journal.append(failed);
+  add_outcomes(folder.path(), {sample_outcome("a", 0.60, 6.0), failed});
   CHECK_FALSE(read_journals(folder.path()).outcomes.at("a").exception);
+}
+
+TEST_CASE("a run is told by its last line, and one that made nothing is not listed") {
+  const TemporaryFolder folder;
+  RunRecord made = sample_run("2026-01-02"), killed = sample_run("2026-01-01"),
+            idle = sample_run("2026-01-03");
+  const std::string begun = journal_line(made);
+  made.packings = 3;
+  made.ended = idle.ended = "2026-01-04";
+  made.command = "grainsweep run \xff";  // no UTF-8
+  replace_file(first_journal(folder),
+               journal_line(killed) + begun + journal_line(made) + journal_line(idle));
+  const JournalReading reading = read_journals(folder.path());
+  CHECK(reading.damage.empty());
+  REQUIRE(reading.runs.size() == 2);
+  CHECK(reading.runs[0].started == "2026-01-01");
+  CHECK(reading.runs[1].packings == 3);
+  CHECK(last_run_in(first_journal(folder))->started == "2026-01-03");
+  CHECK_FALSE(read_run_line(R"({"length":2,"crc32":"a3d3c5f0","run":{}})"));
 }
 
 TEST_CASE("a line torn at any byte is dropped and reported, the lines before it are kept") {
   const std::string first = journal_line(sample_outcome("a", 0.60, 6.0));
   const std::string second = journal_line(sample_outcome("b", 0.61, 6.0));
   const TemporaryFolder folder;
-  const std::string path = folder.path() + "/journal-host-1.jsonl";
+  const std::string path = first_journal(folder);
   for (std::size_t kept = 1; kept < second.size() - 1; ++kept) {
     replace_file(path, first + second.substr(0, kept));
     const JournalReading reading = read_journals(folder.path());
     REQUIRE(reading.outcomes.size() == 1);
     REQUIRE(reading.damage.size() == 1);
-    CHECK_THAT(reading.damage[0], Catch::Contains("/journal-host-1.jsonl:2: torn or damaged"));
+    CHECK_THAT(reading.damage[0], Catch::Contains("/shards/1-of-1.jsonl:2: torn or damaged"));
     if (kept > 40) kept += 12;  // each file costs a flush; every thirteenth byte is enough there
   }
 }
@@ -168,21 +194,36 @@ TEST_CASE("a whole line that is no outcome is dropped") {
 
 TEST_CASE("a journal that was torn is continued on a new line") {
   const TemporaryFolder folder;
-  Journal(folder.path()).append(sample_outcome("a", 0.60, 6.0));
-  const std::string path = journal_in(folder);
+  add_outcomes(folder.path(), {sample_outcome("a", 0.60, 6.0)});
+  const std::string path = first_journal(folder);
   replace_file(path, read_file(path) + R"({"length":10)");
-  Journal(folder.path()).append(sample_outcome("b", 0.61, 6.0));
+  add_outcomes(folder.path(), {sample_outcome("b", 0.61, 6.0)});
   const JournalReading reading = read_journals(folder.path());
   CHECK(reading.outcomes.size() == 2);
   CHECK(reading.damage.size() == 1);
 }
 
-TEST_CASE("journals of several processes are read together") {
+TEST_CASE("a line that a runner is just writing is no damage") {
   const TemporaryFolder folder;
-  replace_file(folder.path() + "/journal-x-1.jsonl", journal_line(sample_outcome("a", 0.6, 6.0)));
-  replace_file(folder.path() + "/journal-y-2.jsonl", journal_line(sample_outcome("b", 0.6, 6.0)));
+  const std::string path = first_journal(folder);
+  replace_file(path, journal_line(sample_outcome("a", 0.6, 6.0)) + R"({"length":10)");
+  const FileLock at_work(path);
+  const JournalReading reading = read_journals(folder.path());
+  CHECK(reading.outcomes.size() == 1);
+  CHECK(reading.damage.empty());
+}
+
+TEST_CASE("journals of several shards are read together, beds without one are told") {
+  const TemporaryFolder folder;
+  add_outcomes(folder.path(), {sample_outcome("a", 0.6, 6.0)}, {1, 2});
+  add_outcomes(folder.path(), {sample_outcome("b", 0.6, 6.0)}, {2, 2});
+  replace_file(shards_folder(folder.path()) + "/notes.jsonl", "mine");
   CHECK(read_journals(folder.path()).outcomes.size() == 2);
   CHECK(read_journals(folder.path() + "/none").outcomes.empty());
+  replace_file(beds_path(folder.path(), "7-of-9"), "beds");
+  const auto damage = read_journals(folder.path()).damage;
+  REQUIRE(damage.size() == 1);
+  CHECK_THAT(damage[0], Catch::Contains("/shards/7-of-9.beds: its journal is missing"));
 }
 
 }  // namespace

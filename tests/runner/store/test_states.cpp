@@ -7,17 +7,23 @@
 #include "runner/store/files.hpp"
 #include "runner/store/states.hpp"
 #include "tests/runner/sample_rows.hpp"
+#include "tests/runner/stored.hpp"
 #include "tests/runner/temporary_folder.hpp"
 
 namespace grainsweep {
 namespace {
 
-const Outcome outcome_of_bed = sample_outcome("job", 0.6, 6);
+/// Stores a bed of the packing "job", and returns the outcome that knows where.
+Outcome stored(const TemporaryFolder& folder, const StoredBed& bed) {
+  Outcome outcome = sample_outcome("job", 0.6, 6);
+  add_stored_bed(folder.path(), bed, outcome);
+  return outcome;
+}
 
 StoredBed sample_bed() {
   StoredBed bed;
   bed.job = "job";
-  bed.state_hash = outcome_of_bed.result.state_hash;
+  bed.state_hash = sample_outcome("job", 0.6, 6).result.state_hash;
   bed.box = {20.0, 5.5, Boundary::periodic, Boundary::walls};
   bed.grains = {{0.1, 1.0 / 3.0, 5e-324, 0.5, 2.75, 6},
                 {-0.0, 5.0, 1e300, 0.25, std::numeric_limits<double>::infinity(), -1}};
@@ -34,8 +40,7 @@ StoredBed bed_of_polyhedra() {
 
 TEST_CASE("a stored bed of polyhedra reads back bit by bit") {
   const TemporaryFolder folder;
-  write_bed(folder.path(), bed_of_polyhedra());
-  const StoredBed back = read_bed(folder.path(), outcome_of_bed);
+  const StoredBed back = read_bed(folder.path(), stored(folder, bed_of_polyhedra()));
   CHECK(bed_bytes(back) == bed_bytes(bed_of_polyhedra()));
   REQUIRE(back.turned);
   CHECK(back.turned->orientations == sample_turned().orientations);
@@ -45,8 +50,7 @@ TEST_CASE("a stored bed of polyhedra reads back bit by bit") {
 
 TEST_CASE("a stored bed of spheres reads back bit by bit, without orientations") {
   const TemporaryFolder folder;
-  write_bed(folder.path(), sample_bed());
-  const StoredBed back = read_bed(folder.path(), outcome_of_bed);
+  const StoredBed back = read_bed(folder.path(), stored(folder, sample_bed()));
   CHECK(bed_bytes(back) == bed_bytes(sample_bed()));
   REQUIRE(back.grains.size() == 2);
   CHECK(back.grains[0].y == 1.0 / 3.0);
@@ -76,7 +80,7 @@ TEST_CASE("curves are put back where they were taken from") {
   CHECK(bed_bytes(bed) == bed_bytes(sample_bed()));
 }
 
-TEST_CASE("the file begins as its header states") {
+TEST_CASE("a bed begins as its header states") {
   const std::string bytes = bed_bytes(sample_bed());
   CHECK(bytes.substr(0, 19) == std::string("GRAINS8\n\3\0\0\0\0\0\0\0job", 19));
 }
@@ -85,7 +89,7 @@ TEST_CASE("a bed without grains can be stored") {
   CHECK(bed_from_bytes(bed_bytes({})).value().grains.empty());
 }
 
-TEST_CASE("a cut or changed file is refused by name") {
+TEST_CASE("a cut or changed bed is refused by name") {
   const std::string bytes = GENERATE(bed_bytes(sample_bed()), bed_bytes(bed_of_polyhedra()));
   for (std::size_t kept = 0; kept < bytes.size(); ++kept) {
     CHECK_FALSE(bed_from_bytes(bytes.substr(0, kept)));
@@ -96,26 +100,29 @@ TEST_CASE("a cut or changed file is refused by name") {
     CHECK_FALSE(bed_from_bytes(changed));
   }
   const TemporaryFolder folder;
-  write_bed(folder.path(), sample_bed());
-  replace_file(state_path(folder.path(), "job"), bytes.substr(1));
-  CHECK_THROWS_WITH(read_bed(folder.path(), outcome_of_bed),
-                    Catch::Contains("/states/job.grains: damaged, or of another version; "));
+  const Outcome outcome = stored(folder, sample_bed());
+  damage_bed(folder.path(), outcome, 30);
+  CHECK_THROWS_WITH(
+      read_bed(folder.path(), outcome),
+      Catch::Contains("/shards/1-of-1.beds: packing job: damaged, or of another version; "));
 }
 
 TEST_CASE("a missing bed is named") {
   const TemporaryFolder folder;
-  CHECK_THROWS_WITH(read_bed(folder.path(), outcome_of_bed),
-                    Catch::Contains("/states/job.grains: missing"));
+  Outcome outcome = stored(folder, sample_bed());
+  outcome.stored_at += 1;
+  CHECK_THROWS_WITH(read_bed(folder.path(), outcome), Catch::Contains("packing job: cut off"));
+  outcome.shard = "2-of-2";
+  CHECK_THROWS_WITH(read_bed(folder.path(), outcome),
+                    Catch::Contains("/shards/2-of-2.beds: packing job: missing"));
 }
 
-TEST_CASE("the bed of another packing is not taken, whatever its file is called") {
+TEST_CASE("the bed of another packing is not taken, wherever it stands") {
   const TemporaryFolder folder;
   StoredBed other = sample_bed();
   other.job = "other";
-  write_bed(folder.path(), sample_bed());
-  replace_file(state_path(folder.path(), "job"), bed_bytes(other));
-  CHECK_THROWS_WITH(read_bed(folder.path(), outcome_of_bed),
-                    Catch::Contains("/states/job.grains: the bed of another packing"));
+  CHECK_THROWS_WITH(read_bed(folder.path(), stored(folder, other)),
+                    Catch::Contains("packing job: the bed of another packing"));
 }
 
 }  // namespace

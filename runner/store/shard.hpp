@@ -1,0 +1,42 @@
+// The parts of a sweep that are made apart, and the files of an output folder that hold them.
+//
+// shards/3-of-64.jsonl is the journal of one, shards/3-of-64.beds holds its beds one behind the
+// other. A run of the whole sweep is the only shard of one, 1-of-1. Where the file system offers no
+// locks, names end in that of the process, 3-of-64-<host>-<pid>, so that no two write into one
+// file.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace grainsweep {
+
+struct Shard {
+  int number = 1;  ///< 1 .. count
+  int count = 1;
+  bool operator==(const Shard&) const = default;
+};
+
+/// "3-of-64"
+std::string name_of(const Shard& shard);
+
+/// The shard whose files have that name or one that goes on behind it; nothing if none has.
+std::optional<Shard> shard_from_name(std::string_view name);
+
+/// The shard in "3/64"; nothing if it is none.
+std::optional<Shard> shard_from_text(std::string_view text);
+
+/// <folder>/shards
+std::string shards_folder(const std::string& folder);
+std::string journal_path(const std::string& folder, const std::string& name);
+std::string beds_path(const std::string& folder, const std::string& name);
+
+/// Names of all shards with a journal in the folder, sorted.
+std::vector<std::string> shards_in(const std::string& folder);
+
+/// Paths of the files of beds whose journal is missing.
+std::vector<std::string> beds_without_journal(const std::string& folder);
+
+}  // namespace grainsweep
