@@ -13,7 +13,9 @@ enum ExitCode : int {
   exit_busy = 3,          ///< another runner works in the output folder
   exit_file_system = 4,   ///< a file could not be read or written
   exit_no_resources = 5,  ///< the system gives too little memory or too few threads
-  exit_stopped = 128,  ///< + signal: 130 Ctrl-C, 143 SIGTERM, 129 SIGHUP; the same command goes on
+  exit_out_of_time = 6,   ///< the limit of time came before the end; the same command goes on
+  exit_stopped = 128,     ///< + signal: 130 Ctrl-C, 143 SIGTERM, 129 SIGHUP, 138 SIGUSR1; the same
+                          ///< command goes on
 };
 
 /// The system gives less memory or fewer threads than are needed; the message says what to do.

@@ -1,9 +1,13 @@
 // What the program asks the machine for: clocks, cores, memory.
 #pragma once
 
+#include <functional>
 #include <string>
 
 namespace grainsweep {
+
+/// The value of an environment variable; null if it is not set.
+using Environment = std::function<const char*(const char* name)>;
 
 /// CPU time of the calling thread, s.
 double thread_cpu_seconds();

@@ -28,6 +28,8 @@ struct RunOptions {
   bool no_report = false;            ///< leave out report.html and its figures
   bool no_grains = false;            ///< store curves but no grains
   std::string shard;                 ///< as of shard_from_option
+  std::string time_limit;            ///< "1:30:00"; empty: that of the Slurm job, if any
+  std::string tolerate_unsettled;    ///< share, 0..1, that does not count in the exit code
 };
 /// Makes what is missing of a sweep and writes the tables.
 int perform(const RunOptions& options);

@@ -148,7 +148,21 @@ RunRecord begun_run(const RunOptions& options, Isa isa) {
           source_commit()};
 }
 
-Packed pack(RunningSweep& running, const RunOptions& options, Isa isa, const RunRecord& run) {
+/// What the command line gives, or the end of the Slurm job that this is part of. Throws BadInput.
+TimeLimit time_limit_of(const RunOptions& options) {
+  if (!options.time_limit.empty()) {
+    const auto seconds = seconds_in(options.time_limit);
+    if (seconds) return TimeLimit(*seconds);
+    throw BadInput("--time-limit " + options.time_limit +
+                   ": give seconds, minutes:seconds or hours:minutes:seconds, as in 1:30:00");
+  }
+  const char* const end = std::getenv("SLURM_JOB_END_TIME");  // s since 1970
+  const double left = end == nullptr ? 0.0 : std::atof(end) - calendar_seconds();
+  return left > 0.0 ? TimeLimit(left) : TimeLimit();
+}
+
+Packed pack(RunningSweep& running, const RunOptions& options, Isa isa, const RunRecord& run,
+            const TimeLimit& time_limit) {
   if (running.pending.empty()) return {};
   if (running.done > 0 && !options.quiet) {
     std::cerr << running.done << " of " << running.done + running.pending.size()
@@ -157,8 +171,9 @@ Packed pack(RunningSweep& running, const RunOptions& options, Isa isa, const Run
   const Limits limits{run.threads, memory_for_packings()};
   std::cerr << memory_warning(costs_of(running.pending), limits.memory);
   expect_threads(limits.threads);
-  return pack_pending(running, {limits, isa, progress_style(options.quiet),
-                                options.checkpoint_seconds, options.fail_fast, options.no_grains});
+  return pack_pending(running,
+                      {limits, isa, progress_style(options.quiet), options.checkpoint_seconds,
+                       options.fail_fast, time_limit, options.no_grains});
 }
 
 /// What is stored of the sweep, by all shards.
@@ -186,6 +201,10 @@ std::string repeated(const RunOptions& options, const std::string& folder) {
   if (options.no_report) text << " --no-report";
   if (options.no_grains) text << " --no-grains";
   if (!options.shard.empty()) text << " --shard " << options.shard;
+  if (!options.time_limit.empty()) text << " --time-limit " << options.time_limit;
+  if (!options.tolerate_unsettled.empty()) {
+    text << " --tolerate-unsettled=" << options.tolerate_unsettled;
+  }
   return text.str();
 }
 
@@ -199,24 +218,31 @@ StatusCounts counts_of(const std::vector<Row>& rows, const std::vector<std::size
 /// Says why the run stopped before its end and how to go on; returns the exit code.
 int stopped(const Packed& packed, const RunOptions& options, const std::string& folder,
             const StatusCounts& counts, std::size_t packings) {
-  const bool by_signal = stop_signal() != 0;
-  std::cerr << (by_signal ? "Stopped."
-                          : "Stopped by --fail-fast after " + packed.first_failure + ".")
+  const bool by_signal = stop_signal() != 0, by_failure = !packed.first_failure.empty();
+  std::cerr << (by_signal    ? "Stopped."
+                : by_failure ? "Stopped by --fail-fast after " + packed.first_failure + "."
+                             : "Stopped by the limit of time.")
             << " " << packings - static_cast<std::size_t>(counts.pending) << " of " << packings
             << " packings are kept in " << folder;
   const std::size_t saved = saved_packings(folder);
   if (saved > 0) std::cerr << ", " << saved << " under way in its checkpoints";
   std::cerr << ".\nGo on with: " << called_as() << " run " << repeated(options, folder) << "\n";
-  return by_signal ? exit_stopped + stop_signal() : static_cast<int>(exit_left_out);
+  if (by_signal) return exit_stopped + stop_signal();
+  return by_failure ? exit_left_out : exit_out_of_time;
 }
 
 /// Of a run that made all it had to. What is not there at its end was taken away meanwhile.
-int exit_code_for(const StatusCounts& counts, const std::string& folder) {
+int exit_code_for(const StatusCounts& counts, const RunOptions& options,
+                  const std::string& folder) {
   if (counts.pending > 0) {
     std::cerr << "warning: " << counts.pending << " packings are no longer in " << folder
               << ", though they were stored there; run the sweep again to make them anew\n";
   }
-  return counts.pending + counts.failed + counts.not_settled > 0 ? exit_left_out : exit_done;
+  const int unsettled = counts.failed + counts.not_settled;
+  const double share =
+      options.tolerate_unsettled.empty() ? 0.0 : std::stod(options.tolerate_unsettled);
+  const bool is_tolerated = unsettled <= share * (unsettled + counts.settled);
+  return counts.pending == 0 && is_tolerated ? exit_done : exit_left_out;
 }
 
 /// Tables and page of all packings; with the closing table if the run made all it had to.
@@ -294,6 +320,15 @@ CLI::App& add_command(CLI::App& app, RunOptions& options) {
          "make one part of N, many runners in one folder: I/N, or auto, by the variables of "
          "cluster and MPI; auto/N where they do not tell N")
       ->type_name("I/N");
+  run.add_option(
+         "--time-limit", options.time_limit,
+         "begin no packing that takes longer than is left of it, and save the others; [H:]MM:SS "
+         "or seconds (default: the end of the Slurm job)")
+      ->type_name("T");
+  run.add_flag("--tolerate-unsettled{1}", options.tolerate_unsettled,
+               "exit with 0 although packings failed or did not settle; =SHARE: if no more of them "
+               "did, 0 to 1")
+      ->check(CLI::Range(0.0, 1.0));
   run.footer("Example: grainsweep run configs/quick.json --out out/quick --threads 2\n\n" +
              presets_text() + "\n\n" + exit_codes_text);
   return run;
@@ -306,6 +341,7 @@ int perform(const RunOptions& options) {
   const std::string folder = options.out.empty() ? "out/" + sweep.name : options.out;
   confirm_fresh(options, folder, shard);
   make_folder(folder);
+  const TimeLimit time_limit = time_limit_of(options);
   const double start = wall_seconds();
   RunRecord run = begun_run(options, isa);
   ShardFiles files(folder, shard, run);
@@ -318,7 +354,7 @@ int perform(const RunOptions& options) {
   record_sweep(folder, provenance, rows_of(sweep));
   const std::vector<std::size_t> places = places_in(shard, sweep);
   RunningSweep running = resume(sweep, places, shard, folder, files, options.retry_failed);
-  const Packed packed = pack(running, options, isa, run);
+  const Packed packed = pack(running, options, isa, run, time_limit);
   const bool is_whole = static_cast<std::size_t>(packed.packings) == running.pending.size();
   run.packings = packed.packings;
   run.wall_seconds = wall_seconds() - start;
@@ -344,7 +380,7 @@ int perform(const RunOptions& options) {
     tell_of_others(results.rows, shard, folder, options);
   }
   const StatusCounts counts = counts_of(results.rows, places);
-  return is_whole ? exit_code_for(counts, folder)
+  return is_whole ? exit_code_for(counts, options, folder)
                   : stopped(packed, options, folder, counts, places.size());
 }
 

@@ -1,15 +1,12 @@
 // Which part of a sweep a runner is to make, as told on the command line or by a cluster.
 #pragma once
 
-#include <functional>
 #include <string>
 
+#include "runner/machine.hpp"
 #include "runner/store/shard.hpp"
 
 namespace grainsweep {
-
-/// The value of an environment variable; null if it is not set.
-using Environment = std::function<const char*(const char* name)>;
 
 /// "3/64"; "auto", by the variables of arrays and tasks; or "auto/64" where the cluster tells the
 /// number of a task but not how many there are. Empty: the whole sweep. Throws BadInput, which

@@ -12,9 +12,9 @@ namespace grainsweep {
 inline constexpr const char* exit_codes_text =
     "Exit codes: 0 done; 1 done, but some packings failed or did not settle; 2 bad input, nothing\n"
     "written; 3 another runner works in the folder; 4 file system; 5 too little memory or too few\n"
-    "threads; 129, 130 or 143 stopped by SIGHUP, Ctrl-C or SIGTERM: the same command goes on where "
-    "it\n"
-    "stopped.";
+    "threads; 6 out of time; 129, 130, 138 or 143 stopped by SIGHUP, Ctrl-C, SIGUSR1 or SIGTERM. "
+    "After\n"
+    "6 and a signal the same command goes on where it stopped.";
 
 /// A sweep file.
 void add_file(CLI::App& command, std::string& file);

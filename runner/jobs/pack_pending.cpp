@@ -81,11 +81,12 @@ class Packer {
         kernels_(kernels_for(options.isa)),
         display_(cpu_seconds_of(costs), options.style, stderr, running.done),
         build_(build_name()),
+        costs_(costs),
         before_(costs.size()) {}
 
-  Packed pack(const std::vector<Cost>& costs) {
+  Packed pack() {
     run_tasks(
-        costs, options_.limits,
+        costs_, options_.limits,
         [this](std::size_t task, ThreadTeam& team, const KeepGoing& keep_going) {
           return make_one(task, team, keep_going);
         },
@@ -149,7 +150,12 @@ class Packer {
       display_.advance(task, progress.share_done);
     };
     events.finished = [this](Finished&& finished) { keep(std::move(finished)); };
-    events.stop_asked = [this] { return stop_signal() != 0 || has_failed_; };
+    events.stop_asked = [this] {
+      return stop_signal() != 0 || has_failed_ || options_.time_limit.is_over();
+    };
+    events.may_start = [this](std::size_t task) {
+      return options_.time_limit.may_begin(costs_[task].cpu_seconds);
+    };
     return events;
   }
 
@@ -171,6 +177,7 @@ class Packer {
   const Kernels& kernels_;
   ProgressDisplay display_;
   const std::string build_;
+  const std::vector<Cost>& costs_;
   std::vector<Before> before_;  ///< by task
   tbb::enumerable_thread_specific<Workspace> workspaces_;
   Packed packed_;
@@ -189,7 +196,7 @@ std::vector<Cost> costs_of(const std::vector<const Job*>& jobs) {
 
 Packed pack_pending(RunningSweep& running, const PackOptions& options) {
   const std::vector<Cost> costs = costs_of(running.pending);
-  return Packer(running, options, costs).pack(costs);
+  return Packer(running, options, costs).pack();
 }
 
 }  // namespace grainsweep

@@ -8,6 +8,7 @@
 #include "kernels/isa.hpp"
 #include "runner/jobs/progress.hpp"
 #include "runner/jobs/schedule.hpp"
+#include "runner/jobs/time_limit.hpp"
 #include "runner/store/shard_files.hpp"
 #include "runner/sweep/job.hpp"
 
@@ -27,7 +28,8 @@ struct PackOptions {
   ProgressStyle style = ProgressStyle::quiet;
   double checkpoint_seconds = 60.0;  ///< wall time between two checkpoints of a packing
   bool fail_fast = false;            ///< the first packing that fails stops the others
-  bool no_grains = false;            ///< of a bed only its curves are stored
+  TimeLimit time_limit;
+  bool no_grains = false;  ///< of a bed only its curves are stored
 };
 
 /// What came of it.
@@ -39,9 +41,9 @@ struct Packed {
 /// What the packings of jobs will take, in their order.
 std::vector<Cost> costs_of(const std::vector<const Job*>& jobs);
 
-/// Makes the pending packings, as far as no signal and no failure stops it; each is on the disk
-/// when it counts as finished, and then its grains no longer in memory. A long one is saved from
-/// time to time and when it is stopped, and goes on from there. Throws FileError.
+/// Makes the pending packings, as far as no signal, no failure and no end of its time stops it;
+/// each is on the disk when it counts as finished, and then its grains no longer in memory. A long
+/// one is saved from time to time and when it is stopped, and goes on from there. Throws FileError.
 Packed pack_pending(RunningSweep& running, const PackOptions& options);
 
 }  // namespace grainsweep

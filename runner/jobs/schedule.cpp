@@ -50,7 +50,8 @@ class Run {
 
   /// The next task, or stops the pipeline. Called by one thread at a time.
   std::size_t take_next(tbb::flow_control& control) {
-    const std::size_t place = next_.fetch_add(1);
+    std::size_t place = next_.fetch_add(1);
+    while (place < order_.size() && !events_.may_start(order_[place])) place = next_.fetch_add(1);
     const bool goes_on = place < order_.size() && !must_stop();
     const std::size_t index = goes_on ? order_[place] : 0;
     if (!goes_on) control.stop();

@@ -39,6 +39,7 @@ struct TaskEvents {
   std::function<void(std::size_t task, const Progress&)> progressed;
   std::function<void(Finished&&)> finished;
   std::function<bool()> stop_asked;  ///< asked before each task and after each step of a packing
+  std::function<bool(std::size_t task)> may_start;  ///< a task that may not is left out
 };
 
 /// Runs the tasks, one of each of the estimated `costs`; returns when all are finished or, after

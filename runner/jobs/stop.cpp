@@ -13,7 +13,8 @@ static_assert(std::atomic<int>::is_always_lock_free);
 
 extern "C" void receive_signal(int signal) {
   int none = 0;
-  if (!received_signal.compare_exchange_strong(none, signal)) _exit(128 + signal);
+  const bool is_first = received_signal.compare_exchange_strong(none, signal);
+  if (!is_first && signal == SIGINT) _exit(128 + signal);
 }
 
 }  // namespace
@@ -22,7 +23,7 @@ void watch_stop_signals() {
   struct sigaction action {};
   action.sa_handler = receive_signal;
   sigemptyset(&action.sa_mask);
-  for (const int signal : {SIGINT, SIGTERM, SIGXCPU}) sigaction(signal, &action, nullptr);
+  for (const int signal : {SIGINT, SIGTERM, SIGUSR1, SIGXCPU}) sigaction(signal, &action, nullptr);
   struct sigaction before {};
   sigaction(SIGHUP, nullptr, &before);  // nohup has it ignored: so it stays
   if (before.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, nullptr);

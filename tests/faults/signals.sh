@@ -1,4 +1,4 @@
-# SIGTERM, SIGINT and SIGHUP at any moment: exit code 143, 130 or 129 within 2 s, the same bytes afterwards.
+# SIGTERM, SIGINT, SIGHUP and SIGUSR1 at any moment: exit code 143, 130, 129 or 138 within 2 s, the same bytes afterwards.
 source "$(dirname "$0")/common.sh" "$1"
 write_small_sweep sweep.json
 make_reference sweep.json
@@ -15,7 +15,7 @@ stop_with() {
 stopped=0
 wanted=$(times 10 200)
 tries=0
-for signal in "TERM 143" "INT 130" "HUP 129"; do
+for signal in "TERM 143" "INT 130" "HUP 129" "USR1 138"; do
   goal=$((stopped + wanted))
   while [ "$stopped" -lt "$goal" ]; do
     tries=$((tries + 1))
@@ -59,6 +59,14 @@ for share in 5 8 12 20; do
 done
 [ "$inside" -eq 3 ] || fail "the bed of $cpu ms was never stopped three times before its end"
 has_checkpoint out || fail "no checkpoint after SIGTERM"
+
+# A second SIGTERM, as of a launcher beside the batch system, does not end it before all is saved.
+rm -r out
+start "$program" run long.json --no-report --threads 2 --out out
+wait_until has_worked $((cpu / 8)) || fail "ended too soon: $(cat said.txt)"
+kill -TERM "$runner"
+stop_with TERM 143 || fail "ended before the second SIGTERM"
+has_checkpoint out || fail "no checkpoint after two SIGTERMs"
 run_to_the_end long.json out --threads 2
 grep -q 'went on from step [1-9]' said.txt || fail "did not go on from a checkpoint: $(cat said.txt)"
 same_as_reference out "after stopping inside a bed"

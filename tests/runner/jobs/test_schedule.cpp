@@ -43,6 +43,7 @@ struct Log {
     events.progressed = [](std::size_t, const Progress&) {};
     events.finished = [this](Finished&& one) { finished.push_back(std::move(one)); };
     events.stop_asked = [this] { return stop.load(); };
+    events.may_start = [](std::size_t) { return true; };
     return events;
   }
 };
@@ -55,6 +56,17 @@ TEST_CASE("tasks start the longest first, equal ones in their order") {
       log.events());
   CHECK(log.started == std::vector<std::size_t>{1, 3, 2, 4, 0});
   CHECK(log.finished.size() == 5);
+}
+
+TEST_CASE("tasks that may not start are left out, shorter ones behind them are not") {
+  const Bench bench({1, 5, 3, 5, 2});
+  Log log;
+  TaskEvents events = log.events();
+  events.may_start = [&](std::size_t task) { return bench.costs[task].cpu_seconds < 3; };
+  run_tasks(
+      bench.costs, {1, 0}, [](std::size_t, ThreadTeam&, const KeepGoing&) { return settled(); },
+      events);
+  CHECK(log.started == std::vector<std::size_t>{4, 0});
 }
 
 TEST_CASE("every task is finished exactly once on any number of threads") {

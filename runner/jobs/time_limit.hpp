@@ -1,0 +1,33 @@
+// When a runner has to be done, and what it may still begin.
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+namespace grainsweep {
+
+/// The seconds in "90", "45:00" or "10:30:00"; nothing if the text is no such time above 0.
+std::optional<double> seconds_in(std::string_view text);
+
+/// A limit of wall time that counts from its making on. By default there is none.
+class TimeLimit {
+ public:
+  TimeLimit() = default;
+  explicit TimeLimit(double seconds);
+
+  /// Time to save what is under way and to write the tables: half a minute before the end, or a
+  /// tenth of the limit if that is less.
+  bool is_over() const;
+
+  /// Whether a packing of so many seconds may begin: it would end in time, or not in the whole of
+  /// such a limit either, so that it has to be saved at the end of some run.
+  bool may_begin(double seconds) const;
+
+ private:
+  double left() const;
+
+  std::optional<double> begun_at_;
+  double usable_ = 0.0;  ///< from the beginning on, s
+};
+
+}  // namespace grainsweep

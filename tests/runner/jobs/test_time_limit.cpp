@@ -1,0 +1,44 @@
+#include <chrono>
+#include <thread>
+
+#include <catch2/catch.hpp>
+
+#include "runner/jobs/time_limit.hpp"
+
+namespace grainsweep {
+namespace {
+
+TEST_CASE("a time is read as clusters write it") {
+  CHECK(seconds_in("90") == 90.0);
+  CHECK(seconds_in("45:00") == 2700.0);
+  CHECK(seconds_in("240:00:05") == 864005.0);
+  for (const char* text : {"", "0", "-1", "1:", ":1", "1:60", "1:2:3:4", "1h", "1.5", "0:00"}) {
+    CHECK_FALSE(seconds_in(text));
+  }
+}
+
+TEST_CASE("without a limit everything may begin") {
+  CHECK_FALSE(TimeLimit().is_over());
+  CHECK(TimeLimit().may_begin(1e9));
+}
+
+TEST_CASE("what ends in time may begin, and what no such limit would hold") {
+  const TimeLimit hour(3600);
+  CHECK_FALSE(hour.is_over());
+  CHECK(hour.may_begin(3500));
+  CHECK(hour.may_begin(7200));
+}
+
+TEST_CASE("what would end in a limit from its beginning on is not begun late, a tenth is kept") {
+  const TimeLimit short_one(0.5);
+  std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  CHECK_FALSE(short_one.may_begin(0.44));
+  CHECK(short_one.may_begin(0.46));
+  std::this_thread::sleep_for(std::chrono::milliseconds(400));
+  CHECK(short_one.is_over());
+  CHECK_FALSE(short_one.may_begin(0.0));
+  CHECK_FALSE(short_one.may_begin(1e9));
+}
+
+}  // namespace
+}  // namespace grainsweep
