@@ -1,7 +1,8 @@
 # A sweep of 100,000 packings: plan and status in 2 s, each in 300 MB, whether nothing of it is
-# done or all. Few have the time to make them: the journal, of beds as in configs/quick.json, is made
-# from one line, and all have one bed. status reads and checks the journal whole and looks whether every
-# bed is there; that takes no room and tells nothing of reading them, which --check does.
+# done or all, by 64 shards into one folder, in 200 files at most. Few have the time to make them: the
+# journals, of beds as in configs/quick.json, are made from one line, and all have one bed. status reads
+# and checks the journals whole and looks whether every bed is there; that takes no room and tells
+# nothing of reading them, which --check does.
 source "$(dirname "$0")/common.sh" "$1"
 command -v python3 >/dev/null || skip "python3 is not installed"
 cat >large.json <<'JSON'
@@ -36,19 +37,27 @@ measured 2 status out
 expect_text said.txt "of 100000 packings done"
 
 python3 - out <<'PYTHON'
-import json, sys, zlib
+import json, os, shutil, sys, zlib
 folder = sys.argv[1]
 journal = folder + "/shards/1-of-1.jsonl"
 line = next(line for line in open(journal, "rb") if b'"outcome":' in line)
 outcome = line[line.index(b'"outcome":') + len(b'"outcome":'):-2]
 job = json.loads(outcome)["job"].encode()
-with open(journal, "wb") as out:
-    for other in json.load(open(folder + "/provenance.json"))["sweep"]["jobs"]:
-        name = other["id"].encode()
-        text = outcome.replace(b'"job":"' + job, b'"job":"' + name)
-        out.write(b'{"length":%d,"crc32":"%08x","outcome":%s}\n' % (len(text), zlib.crc32(text), text))
+shards = [f"{folder}/shards/{number}-of-64" for number in range(1, 65)]
+journals = [open(shard + ".jsonl", "wb") for shard in shards]
+for number, other in enumerate(json.load(open(folder + "/provenance.json"))["sweep"]["jobs"]):
+    name = other["id"].encode()
+    text = outcome.replace(b'"job":"' + job, b'"job":"' + name)
+    line = b'{"length":%d,"crc32":"%08x","outcome":%s}\n' % (len(text), zlib.crc32(text), text)
+    journals[number % 64].write(line)
+for shard in shards:
+    shutil.copy(folder + "/shards/1-of-1.beds", shard + ".beds")
+os.remove(journal)
+os.remove(folder + "/shards/1-of-1.beds")
 PYTHON
-echo "journal: $(du -m out/shards/*.jsonl | cut -f1) MB"
+files=$(find out -type f | wc -l)
+[ "$files" -le 200 ] || fail "$files files hold the sweep"
+echo "64 journals: $(cat out/shards/*.jsonl | wc -c | awk '{ printf "%d", $1 / 1e6 }') MB; $files files in all"
 measured 2 status out
 expect_text said.txt "100000 of 100000 packings done"
 ! grep -q warning said.txt || fail "a bed that is there is told as missing"

@@ -142,8 +142,9 @@ number_in() {
 # beds_in FOLDER: a line for each packing with a bed: its id, and the bed's size and checksums.
 beds_in() {
   perl -e 'my (%finished, %bed);
-    for my $journal (glob("\"$ARGV[0]\"/shards/*.jsonl")) {
-      (my $beds = $journal) =~ s/jsonl$/beds/;
+    opendir(my $names, "$ARGV[0]/shards") or die $ARGV[0];
+    for my $name (map { /(.*)[.]jsonl$/ ? "$ARGV[0]/shards/$1" : () } readdir($names)) {
+      my ($journal, $beds) = ("$name.jsonl", "$name.beds");
       open(my $lines, "<", $journal) or die $journal;
       for (<$lines>) {
         next unless /"outcome":.*}}$/ && /"job":"([^"]*)".*"finished_at":([^,]*),"stored_at":(\d+),"stored_bytes":([1-9]\d*)/;
