@@ -1,8 +1,8 @@
 # The recipes in configs/cluster make a sweep with the tables of one run. Engines that are not installed
 # are stood in for by what they are to their tasks: their variables. GNU parallel and Snakemake are run
 # where they are.
+recipes=$(realpath "$(dirname "$0")/../../../configs/cluster")
 source "$(dirname "$0")/common.sh" "$1"
-recipes=$(realpath "$(dirname "${BASH_SOURCE[0]}")/../../../configs/cluster")
 write_sweep sweep.json 2
 mkdir bin
 ln -s "$program" bin/grainsweep
