@@ -314,20 +314,15 @@ CLI::App& add_command(CLI::App& app, RunOptions& options) {
   run.add_flag("--quiet", options.quiet, "print warnings and errors only");
   run.add_flag("--no-report", options.no_report, "leave out the page report.html and its figures");
   run.add_flag("--no-grains", options.no_grains,
-               "store curves but no grains: tables are the same, beds cannot be shown or exported");
-  run.add_option(
-         "--shard", options.shard,
-         "make one part of N, many runners in one folder: I/N, or auto, by the variables of "
-         "cluster and MPI; auto/N where they do not tell N")
+               "store curves but no grains: beds cannot be shown or exported");
+  run.add_option("--shard", options.shard,
+                 "make one part of N in a shared folder: I/N, auto, or auto/N")
       ->type_name("I/N");
-  run.add_option(
-         "--time-limit", options.time_limit,
-         "begin no packing that takes longer than is left of it, and save the others; [H:]MM:SS "
-         "or seconds (default: the end of the Slurm job)")
+  run.add_option("--time-limit", options.time_limit,
+                 "end in time; [H:]MM:SS or seconds (default: the end of the Slurm job)")
       ->type_name("T");
   run.add_flag("--tolerate-unsettled{1}", options.tolerate_unsettled,
-               "exit with 0 although packings failed or did not settle; =SHARE: if no more of them "
-               "did, 0 to 1")
+               "exit with 0 although packings did not settle; =SHARE: up to that share")
       ->check(CLI::Range(0.0, 1.0));
   run.footer("Example: grainsweep run configs/quick.json --out out/quick --threads 2\n\n" +
              presets_text() + "\n\n" + exit_codes_text);
