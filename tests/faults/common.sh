@@ -36,6 +36,22 @@ write_small_sweep() {
 JSON
 }
 
+# Beds of a few dozen grains that end, not settled, after 24 steps: few calls of the system each.
+write_tiny_sweep() { # REPLICATES FILE
+  cat >"$2" <<JSON
+{ "name": "tiny", "seed": 5, "replicates": $1,
+  "base": { "box": { "length": 3, "width": 3 }, "fill": { "solid_height": 4 },
+            "measure": { "exclude_floor": 0, "exclude_surface": 1 },
+            "accuracy": { "preset": "fast", "max_steps": 24 } } }
+JSON
+}
+
+# Calls of the system can be traced and made to fail here.
+needs_strace() {
+  command -v strace >/dev/null || skip "strace is not installed (setup.sh --checks installs it)"
+  strace -f -o trace.txt true 2>said.txt || skip "ptrace is forbidden here: $(tail -n 1 said.txt)"
+}
+
 # run_to_the_end FILE FOLDER OPTION...: made whole, with what is said in said.txt.
 run_to_the_end() {
   local file=$1 folder=$2 code=0

@@ -3,15 +3,8 @@
 # and that line before the packing is told and its checkpoints are removed. Figures, which gnuplot draws
 # of the tables and may draw again, are no part of it.
 source "$(dirname "$0")/common.sh" "$1"
-command -v strace >/dev/null || skip "strace is not installed (setup.sh --checks installs it)"
-strace -f -o trace.txt true 2>said.txt || skip "ptrace is forbidden here: $(tail -n 1 said.txt)"
-
-cat >sweep.json <<'JSON'
-{ "name": "tiny", "seed": 5, "replicates": 3,
-  "base": { "box": { "length": 3, "width": 3 }, "fill": { "solid_height": 4 },
-            "measure": { "exclude_floor": 0, "exclude_surface": 1 },
-            "accuracy": { "preset": "fast", "max_steps": 24 } } }
-JSON
+needs_strace
+write_tiny_sweep 3 sweep.json
 out=$(pwd -P)/out
 
 # One thread, so that calls stand in the trace in their order; with the paths of descriptors.

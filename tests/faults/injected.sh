@@ -1,15 +1,8 @@
 # Every write, flush and rename fails once, or is the last thing the program does: a clear message
 # with the path or a run that goes on; no half written file; the same bytes from the next run.
 source "$(dirname "$0")/common.sh" "$1"
-command -v strace >/dev/null || skip "strace is not installed (setup.sh --checks installs it)"
-strace -f -o trace.txt true 2>said.txt || skip "ptrace is forbidden here: $(tail -n 1 said.txt)"
-
-cat >sweep.json <<'JSON'
-{ "name": "tiny", "seed": 5, "replicates": 2,
-  "base": { "box": { "length": 3, "width": 3 }, "fill": { "solid_height": 4 },
-            "measure": { "exclude_floor": 0, "exclude_surface": 1 },
-            "accuracy": { "preset": "fast", "max_steps": 24 } } }
-JSON
+needs_strace
+write_tiny_sweep 2 sweep.json
 make_reference sweep.json
 
 # Of one thread, with a checkpoint after each of its few steps, so that the k-th call is the same one
