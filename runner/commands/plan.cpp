@@ -48,10 +48,9 @@ std::string memory_text(double bytes) { return fixed(bytes / 1e6, 1) + " MB"; }
 
 std::string group_text(const PlannedGroup& group) {
   const PackingSpec& spec = group.first->spec;
-  const std::string kind = spec.box.is_tube                ? " tube"
-                           : spec.box.y == Boundary::walls ? ""
-                                                           : " periodic";
-  return "  " + pad_right(group.first->label, 20) + pad_right(cell(spec.box.width) + kind, 14) +
+  const std::string width = width_text(cell(spec.box.width), spec.box.y);
+  const std::string extent = width + (spec.box.is_tube ? " tube" : "");
+  return "  " + pad_right(group.first->label, 20) + pad_right(extent, 14) +
          pad_left(std::to_string(group.packings), 9) +
          pad_left(std::to_string(grain_count(spec)), 10) +
          pad_left(duration_text(group.cost.cpu_seconds), 14) +

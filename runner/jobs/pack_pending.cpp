@@ -15,6 +15,7 @@
 #include "runner/store/files.hpp"
 #include "runner/store/states.hpp"
 #include "runner/tables/csv.hpp"
+#include "runner/tables/job_facts.hpp"
 #include "runner/text.hpp"
 #include "runner/versions.hpp"
 
@@ -23,9 +24,10 @@ namespace {
 
 std::string packing_line(const Job& job, const Outcome& outcome) {
   const PackingResult& result = outcome.result;
-  std::string text = job.label + (job.spec.box.is_tube ? " D=" : " W=") + cell(job.spec.box.width) +
-                     (job.spec.box.y == Boundary::walls ? "" : " periodic") + " #" +
-                     std::to_string(job.replicate) + "  " + name_of(result.status);
+  const Box& box = job.spec.box;
+  std::string text = job.label + (box.is_tube ? " D=" : " W=") +
+                     width_text(cell(box.width), box.y) + " #" + std::to_string(job.replicate) +
+                     "  " + name_of(result.status);
   if (!result.reason.empty()) text += " (" + result.reason + ")";
   if (!result.coordination.empty()) {
     text += "  φ " + fixed(result.solid_fraction, 4) + "  Z " +

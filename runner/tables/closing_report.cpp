@@ -39,11 +39,10 @@ struct TableColumns {
 };
 
 std::string cells_of(const Group& group) {
-  const bool is_walled = group.job.box.y == Boundary::walls;
-  const std::string width = cell(group.job.box.width);
+  const Box& box = group.job.box;
   const Spread& phi = mean_of(group, "solid_fraction");
   const Spread& z = mean_of(group, "coordination");
-  return cells_text(is_walled ? width : width + " periodic",
+  return cells_text(width_text(cell(box.width), box.y),
                     {with_error(phi.mean, phi.sd, solid_fraction_decimals),
                      with_error(z.mean, z.sd, coordination_decimals),
                      fixed(mean_of(group, "contact_ratio").mean, 4),
@@ -86,8 +85,8 @@ TableColumns laboratory_columns(const std::vector<TableLine>& lines, const Units
                 units.density ? "kg/m³ ± sd" : ""),
           [=](const Group& group) {
             const Spread& phi = mean_of(group, "solid_fraction");
-            const bool is_walled = group.job.box.y == Boundary::walls;
-            return cells(length_in(units, group.job.box.width) + (is_walled ? "" : " periodic"),
+            const Box& box = group.job.box;
+            return cells(width_text(length_in(units, box.width), box.y),
                          with_error(1.0 - phi.mean, phi.sd, solid_fraction_decimals),
                          units.density ? bulk_density_text(units, phi.mean, phi.sd) : "");
           }};

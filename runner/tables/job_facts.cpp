@@ -187,6 +187,10 @@ const char* name_of(Boundary boundary) {
   return boundary == Boundary::walls ? "walls" : "periodic";
 }
 
+std::string width_text(const std::string& width, Boundary y) {
+  return y == Boundary::walls ? width : width + " " + name_of(y);
+}
+
 std::vector<Row> rows_of(const Sweep& sweep) {
   std::vector<Row> rows;
   rows.reserve(sweep.jobs.size());

@@ -65,6 +65,9 @@ std::optional<ProtocolBias> bias_bound(const JobFacts& job);
 /// "walls" or "periodic".
 const char* name_of(Boundary boundary);
 
+/// A width, written in d or another unit, and "periodic" after one without walls.
+std::string width_text(const std::string& width, Boundary y);
+
 /// Whether the row's values may enter means and fits.
 bool is_settled(const Row& row);
 
