@@ -317,7 +317,7 @@ Rows accuracy_rows() {
           Names{{"f32", "single precision; places are always f64"},
                 {"f64", "double precision, for masses above 1e5 to 1"}},
           "number type of the solver"),
-      row<&S::accuracy, &A::step>("accuracy.step", Interval{0, 2, true}, "time step, sqrt(d/g)"),
+      row<&S::accuracy, &A::step>("accuracy.step", Interval{1e-4, 2}, "time step, sqrt(d/g)"),
       row<&S::accuracy, &A::momentum>("accuracy.momentum", Interval{0, 1, false, true},
                                       "share of the last displacement carried on, 0 to 1"),
       row<&S::accuracy, &A::fall_iterations>("accuracy.fall_iterations", Interval{1, 1000000},

@@ -38,6 +38,17 @@ Json point() {
   return {{"type", "array"}, {"minItems", 3}, {"maxItems", 3}, {"items", {{"type", "number"}}}};
 }
 
+/// Of points: that they do not all have x = 0, nor y = 0, nor z = 0.
+Json off_each_coordinate_plane() {
+  Json rules = Json::array(), items = Json::array();
+  for (int axis = 0; axis < 3; ++axis) {
+    items.push_back({{"not", {{"const", 0}}}});
+    rules.push_back({{"contains", {{"items", items}}}});
+    items.back() = Json::object();
+  }
+  return rules;
+}
+
 /// A number of this type in the parameter's range.
 Json number(const char* type, const Parameter& parameter) {
   Json schema = {{"type", type}};
@@ -83,6 +94,7 @@ Json kind_of(const Parameter& parameter) {
     case ValueKind::points: {
       Json list = list_of(point());
       list["minItems"] = 4;
+      list["allOf"] = off_each_coordinate_plane();
       return list;
     }
     case ValueKind::choice:

@@ -64,12 +64,12 @@ ValueReading read_choice(const Parameter& parameter, const Json& value) {
 }
 
 ValueReading read_text(const Parameter& parameter, const Json& value) {
-  if (!value.is_string()) return mismatch(parameter, value);
+  if (!value.is_string() || value == "") return mismatch(parameter, value);
   return fits(value.get<std::string>());
 }
 
 ValueReading read_texts(const Parameter& parameter, const Json& value) {
-  const auto is_text = [](const Json& entry) { return entry.is_string(); };
+  const auto is_text = [](const Json& entry) { return entry.is_string() && entry != ""; };
   if (!value.is_array() || value.empty() || !std::all_of(value.begin(), value.end(), is_text)) {
     return mismatch(parameter, value);
   }
@@ -188,9 +188,9 @@ std::string wanted_value(const Parameter& parameter) {
     case ValueKind::natural:
       return "a whole number from 0 to 18446744073709551615";
     case ValueKind::text:
-      return "a text in double quotes";
+      return "the name of a file in double quotes";
     case ValueKind::texts:
-      return "a list of texts in double quotes";
+      return "a list of names of files in double quotes";
     case ValueKind::numbers:
       return "a list of numbers";
     case ValueKind::points:

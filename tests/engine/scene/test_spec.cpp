@@ -243,8 +243,10 @@ TEST_CASE("every part of the accuracy keeps to its interval") {
     REQUIRE(broken.size() == 1);
     return broken[0];
   };
-  CHECK(accuracy([](Accuracy& a) { a.step = 0; }) == "accuracy.step: must lie in (0, 2], is 0");
-  CHECK(accuracy([](Accuracy& a) { a.step = nan; }) == "accuracy.step: must lie in (0, 2], is nan");
+  CHECK(accuracy([](Accuracy& a) { a.step = 0; }) ==
+        "accuracy.step: must lie in [0.0001, 2], is 0");
+  CHECK(accuracy([](Accuracy& a) { a.step = nan; }) ==
+        "accuracy.step: must lie in [0.0001, 2], is nan");
   CHECK(accuracy([](Accuracy& a) { a.momentum = 1; }) ==
         "accuracy.momentum: must lie in [0, 1), is 1");
   CHECK(accuracy([](Accuracy& a) { a.fall_iterations = 0; }) ==

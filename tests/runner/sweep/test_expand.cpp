@@ -237,7 +237,7 @@ TEST_CASE("a value out of range is named where it is written, once for all jobs"
                  "s.json:4:32 /sweep/0/grid/box.width/1: must lie in [1, 10000], is 0.5",
                  "s.json:5:31 /sweep/1/set/box/width: must lie in [1, 10000], is 0.25",
                  "s.json:6:31 /sweep/2/zip/box.width/1: must lie in [1, 10000], is 0.75",
-                 "s.json:6:56 /sweep/2/zip/accuracy.step/0: must lie in (0, 2], is 3"});
+                 "s.json:6:56 /sweep/2/zip/accuracy.step/0: must lie in [0.0001, 2], is 3"});
 }
 
 TEST_CASE("a default that breaks a rule is named at the block that makes it break") {

@@ -60,8 +60,9 @@ TEST_CASE("what lies outside a documented range is refused") {
 
 TEST_CASE("the bounds that a documented range holds are allowed where nothing else forbids them") {
   // Others are narrowed by what stands beside them: sides by the largest grain, counts and heights
-  // by each other, zones left out by the bed's height, steps by its fall, bins by the box's width.
-  for (const char* path : {"sizes.spread", "sizes.small_share", "sizes.size_ratio", "accuracy.step",
+  // by each other, zones left out by the bed's height, steps, short or few, by its fall, bins by
+  // the box's width.
+  for (const char* path : {"sizes.spread", "sizes.small_share", "sizes.size_ratio",
                            "accuracy.momentum", "accuracy.fall_iterations", "accuracy.creep_steps",
                            "accuracy.rest_iterations", "shape.pinacoid.angle_deg"}) {
     const Parameter& parameter = parameters()[*find_parameter(path)];
@@ -70,6 +71,7 @@ TEST_CASE("the bounds that a documented range holds are allowed where nothing el
     if (!range.low_open) CHECK_FALSE(is_refused(parameter, range.low));
     if (!range.high_open) CHECK_FALSE(is_refused(parameter, range.high));
   }
+  CHECK_FALSE(is_refused(parameters()[*find_parameter("accuracy.step")], 2.0));
 }
 
 }  // namespace grainsweep

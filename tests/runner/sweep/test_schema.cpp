@@ -43,10 +43,17 @@ bool fits_members(const Json& rule, const Json& object) {
   });
 }
 
+/// One for all, or a list of them; what is beyond that is free.
+Json rule_of_entry(const Json& rule, std::size_t number) {
+  const Json items = rule.value("items", Json::object());
+  if (!items.is_array()) return items;
+  return number < items.size() ? items[number] : Json::object();
+}
+
 bool fits_entries(const Json& rule, const Json& list) {
   const bool is_set = rule.value("uniqueItems", false);
   for (std::size_t i = 0; i < list.size(); ++i) {
-    if (rule.contains("items") && !fits(rule.at("items"), list[i])) return false;
+    if (!fits(rule_of_entry(rule, i), list[i])) return false;
     if (is_set && std::find(list.begin(), list.begin() + static_cast<std::ptrdiff_t>(i), list[i]) !=
                       list.begin() + static_cast<std::ptrdiff_t>(i)) {
       return false;
@@ -189,6 +196,7 @@ TEST_CASE("what does not fit the schema the reader refuses") {
         R"("base": {"shape": {"cube": {}}})",
         R"("base": {"shape": {"pinacoid": {"angle": 60}}})",
         R"("base": {"shape": {"hull": {"vertices": [[0, 0]]}}})",
+        R"("base": {"shape": {"hull": {"vertices": [[0,0,2],[1,0,2],[0,0,1],[1,0,1]]}}})",
         R"("base": {"shape": {"hull": {"file": 5}}})",
         R"("base": {"accuracy": {"solver": "gs"}})",
         R"("base": {"fill": {"grains": 1.5}})",
