@@ -239,8 +239,10 @@ Figure effort_figure(const Axes& axes, const std::vector<Row>& rows) {
                                "points lc rgb '#777777' pt 2"}));
   }
   const auto [fastest, slowest] = std::minmax_element(seconds.begin(), seconds.end());
-  const double fastest_shown = std::pow(10.0, *fastest - 0.1);
-  const double slowest_shown = std::pow(10.0, *slowest + 0.1);
+  constexpr double two_tics = 0.8;  // decades, twice those between 2 and 5
+  const double room = std::max(0.1, (two_tics - (*slowest - *fastest)) / 2.0);
+  const double fastest_shown = std::pow(10.0, *fastest - room);
+  const double slowest_shown = std::pow(10.0, *slowest + room);
   const Panels panels(figure, 1, {1.0}, key, {.right = 24.0});
   figure.commands =
       "set multiplot\n" + panels.key() + panels.place(0, 0) + "set logscale x\n" +

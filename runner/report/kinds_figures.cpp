@@ -63,6 +63,30 @@ std::vector<const Comparison*> measured_of(const std::vector<Comparison>& compar
   return measured;
 }
 
+/// Wide enough for all of them and for the band in which both agree.
+Range shown_errors(const std::vector<const Comparison*>& measured) {
+  constexpr double room = 1.3;  // a factor, for far from 0 the scale is logarithmic
+  Range shown{-1.5 * agreement_limit, 1.5 * agreement_limit};
+  for (const Comparison* one : measured) {
+    const double errors = *difference_in_errors(*one);
+    shown.low = std::min(shown.low, room * errors);
+    shown.high = std::max(shown.high, room * errors);
+  }
+  return shown;
+}
+
+/// 0, and 1, 3, 10, 30 ... to both sides.
+std::string tics_of_errors(const Range& shown) {
+  std::string tics = "0";
+  for (double power = 1.0; power < std::max(-shown.low, shown.high); power *= 10.0) {
+    for (const double at : {power, 3.0 * power}) {
+      if (at < shown.high) tics += ", " + cell(at);
+      if (-at > shown.low) tics += ", " + cell(-at);
+    }
+  }
+  return tics;
+}
+
 }  // namespace
 
 Figure contacts_figure(const Axes& axes) {
@@ -94,8 +118,9 @@ Figure published_figure(const std::vector<Comparison>& comparisons) {
   Figure figure{.name = "published",
                 .title = "Beside published values",
                 .caption =
-                    "Measured less published value, in standard errors of both. Within the "
-                    "shaded band both agree. The table below has values and definitions."};
+                    "Measured less published value, in standard errors of both, far from 0 on a "
+                    "logarithmic scale. Within the shaded band both agree. The table below has "
+                    "values and definitions."};
   const std::vector<const Comparison*> measured = measured_of(comparisons);
   if (measured.empty()) {
     figure.not_drawn = "no published value can be set beside a measured one with an error";
@@ -107,9 +132,10 @@ Figure published_figure(const std::vector<Comparison>& comparisons) {
     csv += csv_line(
         {"1", cell(k + 1), cell(*difference_in_errors(one)), cell(one.title), cell(one.family)});
     tics += (k == 0 ? "" : ", ") +
-            quoted(shortened(one.family, 22) + ": " + shortened(one.title, 30)) + " " + cell(k + 1);
+            quoted(shortened(one.family, 22) + ": " + shortened(one.title, 45)) + " " + cell(k + 1);
   }
   const auto rows = static_cast<int>(measured.size());
+  const Range shown = shown_errors(measured);
   const std::string limit = cell(agreement_limit);
   figure.tables = {{"published.csv", csv}};
   figure.height = 120 + 24 * rows;
@@ -119,8 +145,8 @@ Figure published_figure(const std::vector<Comparison>& comparisons) {
       cell(rows) + ".6:0.4]\nset ytics noenhanced (" + tics + ")\nset object 1 rectangle from -" +
       limit + ", graph 0 to " + limit +
       ", graph 1 fc rgb '#e8f1f8' fs solid noborder behind\n"
-      "set xrange [-5 < * < -" +
-      limit + ":" + limit + " < *]\n" +
+      "set nonlinear x via asinh(x) inverse sinh(x)\n" +
+      range_command("x", shown) + "set xtics (" + tics_of_errors(shown) + ")\n" +
       "set arrow 1 from 0, graph 0 to 0, graph 1 nohead lc rgb '#444444'\n" +
       label_command("x", "measured less published, standard errors") +
       plot_command(

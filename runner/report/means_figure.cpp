@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 #include <set>
+#include <utility>
 
 #include "runner/report/figures.hpp"
 #include "runner/report/plots.hpp"
@@ -173,7 +174,7 @@ std::string height_commands(const std::vector<double>& heights, Quantity quantit
   }
   return text + label_command("y", "solid fraction φ") +
          range_command("y2", {1.0 - range.low, 1.0 - range.high}) + "set y2tics nomirror\n" +
-         label_command("y2", "porosity 1 - φ");
+         "set y2label 'porosity 1 - φ' offset -2.5,0 noenhanced\n";
 }
 
 std::string means_commands(const Axes& axes, const Figure& figure,
@@ -194,12 +195,23 @@ std::string means_commands(const Axes& axes, const Figure& figure,
   return text;
 }
 
+/// Which families have no line and why, each reason once.
 std::string fits_text(const std::vector<FittedSeries>& all) {
-  std::string text;
+  std::vector<std::pair<std::string, std::string>> names_by_reason;
   for (const FittedSeries& one : all) {
-    if (one.phi && !one.phi->not_determined.empty()) {
-      text += " No line for " + one.series->name + ": " + one.phi->not_determined + ".";
+    if (!one.phi || is_determined(one.phi)) continue;
+    const std::string& reason = one.phi->not_determined;
+    const auto said = std::find_if(names_by_reason.begin(), names_by_reason.end(),
+                                   [&](const auto& entry) { return entry.first == reason; });
+    if (said == names_by_reason.end()) {
+      names_by_reason.emplace_back(reason, one.series->name);
+    } else {
+      said->second += "; " + one.series->name;
     }
+  }
+  std::string text;
+  for (const auto& [reason, names] : names_by_reason) {
+    text += " No line for " + names + ": " + reason + ".";
   }
   return text;
 }

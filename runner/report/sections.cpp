@@ -118,22 +118,22 @@ using Titles = std::map<std::pair<std::string, std::string>, std::string>;
 std::vector<std::string> packing_cells(const Row& row, const Titles& titles,
                                        const GivenUnits& units) {
   const JobFacts& job = row.job;
-  const std::string remedy = remedy_of(row);
-  const std::string reason = row.outcome ? row.outcome->result.reason : "";
-  std::vector<std::string> cells = {
-      "<code>" + html_text(job.id) + "</code>",
-      "<span class=\"status " + html_text(status_of(row)) + "\">" + html_text(status_words(row)) +
-          "</span>",
-      html_text(titles.at({job.label, job.parameters})),
-      cell(job.box.width),
-      std::to_string(job.replicate),
-      row.outcome ? std::to_string(row.outcome->result.grains) : "-",
-      measured(row, "solid_fraction", 4),
-      measured(row, "coordination", 3),
-      measured(row, "contact_ratio", 4),
-      measured(row, "static_imbalance_mean", 4),
-      row.outcome ? fixed(row.outcome->cpu_seconds, 2) : "-",
-      html_text(reason) + (remedy.empty() ? "" : "<br><em>What to do:</em> " + html_text(remedy))};
+  const std::string reason = html_text(row.outcome ? row.outcome->result.reason : "");
+  const std::string remedy = html_text(remedy_of(row));
+  std::vector<std::string> cells = {"<code>" + html_text(job.id) + "</code>",
+                                    "<span class=\"status " + html_text(status_of(row)) + "\">" +
+                                        html_text(status_words(row)) + "</span>",
+                                    html_text(titles.at({job.label, job.parameters})),
+                                    cell(job.box.width),
+                                    std::to_string(job.replicate),
+                                    row.outcome ? std::to_string(row.outcome->result.grains) : "-",
+                                    measured(row, "solid_fraction", 4),
+                                    measured(row, "coordination", 3),
+                                    measured(row, "contact_ratio", 4),
+                                    measured(row, "static_imbalance_mean", 4),
+                                    row.outcome ? fixed(row.outcome->cpu_seconds, 2) : "-",
+                                    reason + (reason.empty() || remedy.empty() ? "" : "<br>") +
+                                        (remedy.empty() ? "" : "<em>What to do:</em> " + remedy)};
   if (units) cells.insert(cells.begin() + 4, length_in(*units, job.box.width));
   return cells;
 }

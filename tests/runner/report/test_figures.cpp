@@ -49,6 +49,23 @@ TEST_CASE("the means over the width have the line of fits.csv and its residuals"
   CHECK(means.commands.find("means-residuals.csv") != std::string::npos);
 }
 
+TEST_CASE("why families have no line is said once for all of them", "[report]") {
+  std::vector<Row> rows;
+  for (const double width : {4.0, 5.0}) {
+    for (const double small_share : {0.25, 0.5}) {
+      Row row =
+          settled_row(std::to_string(rows.size()), width, 0.6, 5.0, Boundary::walls, small_share);
+      set_curves(sample_curves(), row.outcome->result);
+      rows.push_back(std::move(row));
+    }
+  }
+  const std::vector<Figure> figures = figures_of(rows, analyse(rows), {});
+  const std::string& caption = figure_called(figures, "means").caption;
+  CHECK_THAT(caption, Catch::Contains("small_share = 0.25; ") &&
+                          Catch::Contains("small_share = 0.5: needs settled packings at 3"));
+  CHECK(caption.find("needs") == caption.rfind("needs"));
+}
+
 TEST_CASE("figures without a meaning for the sweep are left out", "[report]") {
   const std::vector<Row> rows = wall_rows();
   const std::vector<Figure> figures = figures_of(rows, analyse(rows), {});
@@ -76,6 +93,15 @@ TEST_CASE("a published value is drawn at its distance in errors of both", "[repo
   CHECK(cell_in(table, 1, "row") == "1");
   CHECK(cell_in(table, 1, "quantity") == "Z at W = 10 d");
   CHECK(cell_in(table, 1, "family") == "walls");
+}
+
+TEST_CASE("however far a published value is, it is on the axis", "[report]") {
+  Comparison below, above;
+  below.published.range = {6.0, 6.0, 0.0}, above.published.range = {1.0, 1.0, 0.0};
+  below.measured.estimate = {5.0, 0.1}, above.measured.estimate = {2.0, 0.01};
+  CHECK_THAT(published_figure({below, above}).commands, Catch::Contains("set xrange [-13:130]") &&
+                                                            Catch::Contains("-10, 30") &&
+                                                            Catch::Contains(", 100)"));
 }
 
 TEST_CASE("where nothing has settled each figure says so", "[report]") {
