@@ -33,10 +33,11 @@ def small(value):
     if not isinstance(value, dict):
         return value
     limits = {name: limit for path, limit in (("fill.solid_height", 3.5), ("box.length", 4),
-                                              ("fill.grains", 60))
+                                              ("box.width", 5), ("fill.grains", 60))
               for name in (path, path.split(".")[1])}
     narrow = {"tube.diameter": [2.5, 3.5]}  # where so few grains are high enough
     return {key: narrow[key] if key in narrow
+            else [3 + width / 10 for width in entry] if key == "box.width" and isinstance(entry, list)
             else min(limits[key], entry) if key in limits and isinstance(entry, (int, float))
             else small(entry) for key, entry in value.items()}
 
@@ -49,8 +50,8 @@ for path in glob.glob(sys.argv[1] + "/*.json"):
     sweep.setdefault("base", {})["measure"] = measure
     varies_accuracy = "accuracy" in json.dumps(sweep.get("sweep", []))
     sweep["replicates"] = 1 if varies_accuracy else 2
-    if not varies_accuracy:
-        sweep["base"]["accuracy"] = {"preset": "fast", "max_steps": 300}
+    sweep["base"]["accuracy"] = {"preset": "balanced" if varies_accuracy else "fast",
+                                 "max_steps": 600}
     json.dump(sweep, open(f"config-{sweep['name']}.json", "w"))
 
 beds = sys.argv[2:]
