@@ -13,9 +13,9 @@ namespace {
 /// What an engine tells its tasks. Tasks count from `first`, which is a variable or a number, in
 /// steps of the variable `step`; the engine gives their count, the number of the last, or neither.
 struct TaskVariables {
-  const char* engine;
-  const char* number;
-  const char* first;
+  const char* engine = nullptr;
+  const char* number = nullptr;
+  const char* first = nullptr;
   const char* step = nullptr;
   const char* count = nullptr;
   const char* last = nullptr;
