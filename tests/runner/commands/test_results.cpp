@@ -120,8 +120,8 @@ TEST_CASE("tables of curves are made of what is stored with the grains") {
   write_tables(folder.path(), stored_provenance(), rows, analyse(rows));
   const std::string start = "1,MSP,a1,MSP,5,walls,0,";
   CHECK_THAT(read_file(folder.path() + "/profiles.csv"),
-             Catch::Contains("\n" + start + "y,0,0.1,2,2,") &&
-                 Catch::Contains("\n" + start + "z,0,0.25,2,2,0.5,0,0,"));
+             Catch::Contains("\n" + start + "y,0,0.1,,2,2,") &&
+                 Catch::Contains("\n" + start + "z,0,0.25,,2,2,0.5,0,0,"));
   CHECK_THAT(read_file(folder.path() + "/distributions.csv"),
              Catch::Contains("\n" + start + "pair_correlation,0.05,0.1,2,0.1,0,0\n"));
   CHECK_THAT(read_file(folder.path() + "/decays.csv"), Catch::Contains("\n" + start + "large,"));
@@ -149,7 +149,7 @@ TEST_CASE("a bed that is missing, damaged anywhere or another's is named and its
   CHECK(status_of(rows[1]) == "pending");
   CHECK(status_of(rows[4]) == "settled");  // has no bed
   write_tables(folder.path(), stored_provenance(), rows, analyse(rows));
-  CHECK_THAT(read_file(folder.path() + "/profiles.csv"), Catch::Contains(",y,0,0.1,1,1,"));
+  CHECK_THAT(read_file(folder.path() + "/profiles.csv"), Catch::Contains(",y,0,0.1,,1,1,"));
 }
 
 TEST_CASE("a bed that is cut or gone is seen by its size, a flipped bit by reading it") {

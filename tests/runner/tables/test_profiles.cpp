@@ -70,7 +70,7 @@ TEST_CASE("the table has a row per bin, axis and group, and unsettled packings l
              Catch::StartsWith("group,family,job,label,width,boundary_y,small_share,box.width,"
                                "axis,low,high,from_axis,n,coordination_n,solid_fraction,"
                                "solid_fraction_sd,solid_fraction_error,") &&
-                 Catch::Contains("\n1,MSP,a,MSP,1,walls,0,1,y,0,0.5,1,0,0.25,,,0.25,,,0,"));
+                 Catch::Contains("\n1,MSP,a,MSP,1,walls,0,1,y,0,0.5,,1,0,0.25,,,0.25,,,0,"));
   CHECK(cell_in(text, 1, "coordination").empty());
   CHECK(cell_in(text, 2, "coordination") == "6");
   CHECK(cell_in(text, 2, "coordination_with_walls") == "7");
