@@ -365,10 +365,9 @@ int perform(const RunOptions& options) {
     results = stored_results(sweep, provenance, folder, Detail::whole);
   }
   if (has_all) {
-    // Of several shards that find everything made at once, the first that takes the place of a run
-    // of the whole, which a run of the whole has already.
+    // Of several shards that find everything made at once, the first one.
     std::optional<FileLock> place;
-    if (shard.count > 1) place.emplace(journal_path(folder, name_of(Shard{})));
+    if (shard.count > 1) place.emplace(tables_lock(folder));
     if (!place || !place->is_taken()) write_results(results, options, folder, is_whole);
     if (options.no_report && packed.packings > 0) tell_of_old_page(folder);
   } else if (is_whole && !options.quiet) {

@@ -44,6 +44,10 @@ std::optional<Shard> shard_from_text(std::string_view text) {
 
 std::string shards_folder(const std::string& folder) { return folder + "/shards"; }
 
+std::string tables_lock(const std::string& folder) {
+  return shards_folder(folder) + "/tables.lock";
+}
+
 std::string journal_path(const std::string& folder, const std::string& name) {
   return shards_folder(folder) + "/" + name + std::string(journal_ending);
 }

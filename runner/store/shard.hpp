@@ -31,6 +31,8 @@ std::optional<Shard> shard_from_text(std::string_view text);
 /// <folder>/shards
 std::string shards_folder(const std::string& folder);
 std::string journal_path(const std::string& folder, const std::string& name);
+/// Locked by the shard that writes the tables of all; a shard that begins meanwhile goes on.
+std::string tables_lock(const std::string& folder);
 std::string beds_path(const std::string& folder, const std::string& name);
 
 /// Names of all shards with a journal in the folder, sorted.
