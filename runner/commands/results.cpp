@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <iostream>
+#include <map>
+#include <optional>
 #include <utility>
 
 #include <nlohmann/json.hpp>
@@ -108,7 +110,12 @@ std::vector<std::string> check_beds(const std::string& folder, std::vector<Row>&
 }
 
 std::vector<std::string> expect_beds(const std::string& folder, std::vector<Row>& rows) {
-  return use_beds(rows, [&](const Outcome& outcome) { expect_bed(folder, outcome); });
+  std::map<std::string, std::optional<std::int64_t>> sizes;  // by shard
+  return use_beds(rows, [&](const Outcome& outcome) {
+    const auto [size, is_new] = sizes.try_emplace(outcome.shard);
+    if (is_new) size->second = file_size(beds_path(folder, outcome.shard));
+    expect_bed(folder, outcome, size->second);
+  });
 }
 
 void write_tables(const std::string& folder, const Provenance& provenance,

@@ -93,14 +93,14 @@ std::optional<StoredBed> bed_from_bytes(std::string_view bytes) {
   return value_in_file<StoredBed>(bed_mark, bytes);
 }
 
-void expect_bed(const std::string& folder, const Outcome& outcome) {
-  const auto size = file_size(beds_path(folder, outcome.shard));
-  if (!size) refuse(folder, outcome, "missing");
-  if (*size < outcome.stored_at + outcome.stored_bytes) refuse(folder, outcome, "cut off");
+void expect_bed(const std::string& folder, const Outcome& outcome,
+                const std::optional<std::int64_t>& file_size) {
+  if (!file_size) refuse(folder, outcome, "missing");
+  if (*file_size < outcome.stored_at + outcome.stored_bytes) refuse(folder, outcome, "cut off");
 }
 
 StoredBed read_bed(const std::string& folder, const Outcome& outcome) {
-  expect_bed(folder, outcome);
+  expect_bed(folder, outcome, file_size(beds_path(folder, outcome.shard)));
   auto bed = bed_from_bytes(read_part(beds_path(folder, outcome.shard), outcome.stored_at,
                                       static_cast<std::size_t>(outcome.stored_bytes)));
   if (!bed) refuse(folder, outcome, "damaged, or of another version");

@@ -55,9 +55,10 @@ struct StoredBed {
 /// version, or if it is not the bed of this outcome.
 StoredBed read_bed(const std::string& folder, const Outcome& outcome);
 
-/// Looks at the size of the file that holds it alone. Throws FileError if there is none, or if it
-/// ends before the bed does.
-void expect_bed(const std::string& folder, const Outcome& outcome);
+/// Tells by the size of the file that holds the bed alone. Throws FileError if there is no file, or
+/// if it ends before the bed does.
+void expect_bed(const std::string& folder, const Outcome& outcome,
+                const std::optional<std::int64_t>& file_size);
 
 /// A bed's bytes, and back; nothing if they are damaged or of another version.
 std::string bed_bytes(const StoredBed& bed);
