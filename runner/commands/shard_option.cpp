@@ -39,7 +39,7 @@ constexpr std::array ranks = {
     TaskVariables{"Slurm tasks", "SLURM_PROCID", "0", nullptr, "SLURM_STEP_NUM_TASKS"},
 };
 
-std::optional<int> number_in(std::string_view text) {
+std::optional<int> integer_in(std::string_view text) {
   int number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   const bool is_all = error == std::errc() && end == text.data() + text.size();
@@ -50,7 +50,7 @@ std::optional<int> number_in(std::string_view text) {
 std::optional<int> number_of(const char* variable, const Environment& environment) {
   if (variable == nullptr) return std::nullopt;
   const char* const value = environment(variable);
-  return number_in(value != nullptr ? value : variable);
+  return integer_in(value != nullptr ? value : variable);
 }
 
 /// What one engine says: the number of a task from 0, and of how many if it tells.
@@ -123,7 +123,7 @@ Shard shard_from_option(const std::string& text, const Environment& environment)
   if (text == "auto") return shard_of_task(environment, std::nullopt);
   const std::string_view automatic = "auto/";
   if (text.starts_with(automatic)) {
-    const auto count = number_in(std::string_view(text).substr(automatic.size()));
+    const auto count = integer_in(std::string_view(text).substr(automatic.size()));
     if (count && *count >= 1) return shard_of_task(environment, count);
   }
   const auto shard = shard_from_text(text);

@@ -22,7 +22,7 @@ void expect_keys(const json& object, const std::vector<std::string>& known) {
   }
 }
 
-Published::Range range_of(const json& value, double error) {
+Published::Range published_range(const json& value, double error) {
   const bool is_range = value.is_array();
   const Published::Range range{is_range ? value.at(0) : value, is_range ? value.at(1) : value,
                                error};
@@ -45,7 +45,8 @@ Published read_published(const json& from) {
                       .definition = from.value("definition", "")};
   const std::string fault = fault_of_quantity(published.quantity, published.width);
   if (!fault.empty()) throw BadInput(fault);
-  if (from.contains("value")) published.range = range_of(from["value"], from.value("error", 0.0));
+  if (from.contains("value"))
+    published.range = published_range(from["value"], from.value("error", 0.0));
   published.text = from.value("text", text_of(published.range));
   return published;
 }

@@ -16,7 +16,7 @@ const std::string width_parameter = "box.width";
 const std::string diameter_parameter = "tube.diameter";
 
 /// The number in a cell; NaN if it holds anything else.
-double number_in(const std::string& cell) {
+double number_of_cell(const std::string& cell) {
   double value = 0.0;
   const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
   return error == std::errc() && end == cell.data() + cell.size() ? value : no_number;
@@ -74,7 +74,7 @@ std::string words(const std::map<std::string, std::string>& values) {
 std::set<double> values_of(const std::vector<Group>& groups, const std::string& path) {
   std::set<double> values;
   for (const Group& group : groups) {
-    const double value = number_in(group.varied.at(path));
+    const double value = number_of_cell(group.varied.at(path));
     if (std::isnan(value) || is_part_of_preset(group, path)) return {};
     values.insert(value);
   }
@@ -152,7 +152,7 @@ Axes axes_of(const std::vector<Group>& groups) {
 
 double place_on(const Axes& axes, const Group& group) {
   if (axes.parameter.empty()) return static_cast<double>(group.number);
-  return number_in(group.varied.at(axes.parameter));
+  return number_of_cell(group.varied.at(axes.parameter));
 }
 
 bool is_over_width(const Axes& axes) { return axes.parameter == width_parameter; }

@@ -14,8 +14,6 @@
 namespace grainsweep {
 namespace {
 
-using Json = nlohmann::json;
-
 constexpr double largest_unsigned = 65535.0, largest_signed = 32767.0;
 
 /// Appends a number of two bytes, the lower one first.
@@ -86,19 +84,20 @@ std::string bed_element(const StoredBed& bed, const BedFacts& facts) {
     pair_force = std::max(pair_force, static_cast<double>(one.magnitude));
   }
   const double extent = std::max({bed.box.length, bed.box.width, height});
-  Json json = {{"count", bed.grains.size()},
-               {"extent", extent},
-               {"largest_radius", radius},
-               {"largest_force", force},
-               {"small_limit", facts.small_limit},
-               {"unit", facts.units ? printed_unit(*facts.units) : "d"},
-               {"d", facts.units ? facts.units->d : 1.0},
-               {"grains", base64(columns_of(bed, extent, radius, force))},
-               {"pairs", bed.forces.size()},
-               {"largest_pair_force", pair_force},
-               {"forces", base64(forces_of(bed, pair_force))}};
-  json["box"] = Json::array({bed.box.length, bed.box.width, height});
-  json["walls"] = Json::array({bed.box.x == Boundary::walls, bed.box.y == Boundary::walls});
+  nlohmann::json json = {{"count", bed.grains.size()},
+                         {"extent", extent},
+                         {"largest_radius", radius},
+                         {"largest_force", force},
+                         {"small_limit", facts.small_limit},
+                         {"unit", facts.units ? printed_unit(*facts.units) : "d"},
+                         {"d", facts.units ? facts.units->d : 1.0},
+                         {"grains", base64(columns_of(bed, extent, radius, force))},
+                         {"pairs", bed.forces.size()},
+                         {"largest_pair_force", pair_force},
+                         {"forces", base64(forces_of(bed, pair_force))}};
+  json["box"] = nlohmann::json::array({bed.box.length, bed.box.width, height});
+  json["walls"] =
+      nlohmann::json::array({bed.box.x == Boundary::walls, bed.box.y == Boundary::walls});
   json["tube"] = bed.box.is_tube;
   if (bed.turned) {
     json["mesh"]["vertices"] = bed.turned->mesh.vertices;
