@@ -103,7 +103,8 @@ Shard shard_of_task(const Environment& environment, std::optional<int> given) {
         "add that, --shard auto/64");
   }
   const int ranks_each = rank ? *rank->count : 1;
-  const int told = element ? element->count.value_or(*given / ranks_each) : 1;
+  int told = 1;
+  if (element) told = element->count ? *element->count : *given / ranks_each;
   const Shard shard{(element ? element->index : 0) * ranks_each + (rank ? rank->index : 0) + 1,
                     told * ranks_each};
   if (shard.number < 1 || shard.number > shard.count || (given && *given != shard.count)) {
