@@ -63,14 +63,18 @@ ValueReading read_choice(const Parameter& parameter, const Json& value) {
   return reading;
 }
 
+bool is_written_text(const Json& value) {
+  return value.is_string() && !value.get_ref<const std::string&>().empty();
+}
+
 ValueReading read_text(const Parameter& parameter, const Json& value) {
-  if (!value.is_string() || value == "") return mismatch(parameter, value);
+  if (!is_written_text(value)) return mismatch(parameter, value);
   return fits(value.get<std::string>());
 }
 
 ValueReading read_texts(const Parameter& parameter, const Json& value) {
-  const auto is_text = [](const Json& entry) { return entry.is_string() && entry != ""; };
-  if (!value.is_array() || value.empty() || !std::all_of(value.begin(), value.end(), is_text)) {
+  if (!value.is_array() || value.empty() ||
+      !std::all_of(value.begin(), value.end(), is_written_text)) {
     return mismatch(parameter, value);
   }
   return fits(value.get<std::vector<std::string>>());
