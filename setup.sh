@@ -14,6 +14,7 @@ readonly build_packages=(
 readonly check_packages=(
   clang-format clang-tidy clang libclang-rt-14-dev strace python3 python3-jsonschema
   python3-pandas chromium parallel snakemake
+  slurmctld slurmd slurm-client munge
 )
 # Where tests/checks/page.sh looks for axe-core, which finds what keeps people from reading a page.
 readonly axe_version=4.14.1
@@ -30,8 +31,8 @@ Installs the packages that building and testing grainsweep takes, with apt-get, 
 sudo. Only what is missing is installed; with nothing missing it ends at once.
 
   --checks    also what .ci/run takes: clang-format and clang-tidy, clang for builds under
-              sanitizers, strace, Python and Chromium for the tests that need them, and
-              axe-core, with npm, into ~/.cache/grainsweep-checks
+              sanitizers, strace, Python, Chromium and Slurm for the tests that need them,
+              and axe-core, with npm, into ~/.cache/grainsweep-checks
   --emulator  also a PC emulator with AVX-512, for tests/checks/avx512_emulated.sh
   --help      this text
 EOF
@@ -67,8 +68,9 @@ find_root() {
   fi
 }
 
+# Services are not started: tests start their own.
 apt() {
-  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -q -o DPkg::Lock::Timeout=300 "$@"
+  "${as_root[@]}" env RUNLEVEL=1 DEBIAN_FRONTEND=noninteractive apt-get -q -o DPkg::Lock::Timeout=300 "$@"
 }
 
 install_missing() {

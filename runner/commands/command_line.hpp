@@ -10,9 +10,9 @@
 namespace grainsweep {
 
 /// The options of all commands, in the order in which help lists them.
-using AllOptions = std::tuple<RunOptions, InitOptions, ValidateOptions, PlanOptions, ReportOptions,
-                              CompareOptions, ExportOptions, StatusOptions, CollectOptions,
-                              SchemaOptions, ColumnsOptions, DoctorOptions>;
+using AllOptions = std::tuple<RunOptions, InitOptions, ValidateOptions, PlanOptions, SlurmOptions,
+                              ReportOptions, CompareOptions, ExportOptions, StatusOptions,
+                              CollectOptions, SchemaOptions, ColumnsOptions, DoctorOptions>;
 
 template <class Options>
 struct OneOf;

@@ -58,6 +58,19 @@ struct PlanOptions {
 int perform(const PlanOptions& options);
 CLI::App& add_command(CLI::App& app, PlanOptions& options);
 
+struct SlurmOptions {
+  std::string file;
+  std::string out;                 ///< as in RunOptions
+  std::string partition;           ///< empty: the cluster's default
+  int shards = 0;                  ///< 0: as many as divide() says
+  int threads = 0;                 ///< of a shard; 0: all cores of a node
+  std::string tolerate_unsettled;  ///< as in RunOptions, of the last job
+  bool print = false;              ///< the scripts, in place of submitting them
+};
+/// Submits a sweep to Slurm: an array of shards, and a job that makes the rest and the tables.
+int perform(const SlurmOptions& options);
+CLI::App& add_command(CLI::App& app, SlurmOptions& options);
+
 struct ReportOptions {
   std::string folder;
 };

@@ -9,6 +9,7 @@
 #include "runner/commands/inputs.hpp"
 #include "runner/commands/shared_options.hpp"
 #include "runner/exit_codes.hpp"
+#include "runner/jobs/estimates.hpp"
 #include "runner/jobs/schedule.hpp"
 #include "runner/machine.hpp"
 #include "runner/tables/csv.hpp"
@@ -36,12 +37,6 @@ std::vector<PlannedGroup> planned_groups(const Sweep& sweep) {
     ++groups[known->second].packings;
   }
   return groups;
-}
-
-std::vector<Cost> costs_of(const Sweep& sweep) {
-  std::vector<Cost> costs;
-  for (const Job& job : sweep.jobs) costs.push_back(estimate_cost(job.spec));
-  return costs;
 }
 
 std::string memory_text(double bytes) { return fixed(bytes / 1e6, 1) + " MB"; }
@@ -84,14 +79,8 @@ Needs needs_of(const std::vector<Cost>& costs, int threads) {
   needs.memory = memory_for_packings();
   needs.live = live_limit(costs, {threads, needs.memory});
   needs.wall_seconds = estimate_wall(costs, needs.live);
-  std::vector<double> bytes;
-  for (const Cost& cost : costs) {
-    needs.cpu_seconds += cost.cpu_seconds;
-    bytes.push_back(cost.bytes);
-  }
-  std::sort(bytes.begin(), bytes.end(), std::greater<>());
-  bytes.resize(std::min(bytes.size(), static_cast<std::size_t>(needs.live)));
-  for (const double size : bytes) needs.bytes += size;
+  needs.cpu_seconds = total_cpu_seconds(costs);
+  needs.bytes = bytes_of_largest(costs, needs.live);
   return needs;
 }
 
@@ -156,7 +145,7 @@ CLI::App& add_command(CLI::App& app, PlanOptions& options) {
 int perform(const PlanOptions& options) {
   const Sweep sweep = sweep_with_notes(options.file);
   const int threads = options.threads > 0 ? options.threads : usable_cores();
-  const std::vector<Cost> costs = costs_of(sweep);
+  const std::vector<Cost> costs = costs_of(sweep.jobs);
   const Needs needs = needs_of(costs, threads);
   std::cerr << memory_warning(costs, needs.memory);
   if (options.json) {

@@ -19,6 +19,7 @@
 #include "runner/commands/shared_options.hpp"
 #include "runner/exit_codes.hpp"
 #include "runner/instruction_set.hpp"
+#include "runner/jobs/estimates.hpp"
 #include "runner/jobs/pack_pending.hpp"
 #include "runner/jobs/split.hpp"
 #include "runner/jobs/stop.hpp"
@@ -62,11 +63,9 @@ void confirm_fresh(const RunOptions& options, const std::string& folder, const S
 
 /// The jobs of a shard, by their places in the sweep.
 std::vector<std::size_t> places_in(const Shard& shard, const Sweep& sweep) {
-  std::vector<const Job*> jobs;
-  for (const Job& job : sweep.jobs) jobs.push_back(&job);
-  const std::vector<int> shard_of = split(costs_of(jobs), shard.count);
+  const std::vector<int> shard_of = split(costs_of(sweep.jobs), shard.count);
   std::vector<std::size_t> places;
-  for (std::size_t i = 0; i < jobs.size(); ++i) {
+  for (std::size_t i = 0; i < shard_of.size(); ++i) {
     if (shard_of[i] == shard.number) places.push_back(i);
   }
   return places;

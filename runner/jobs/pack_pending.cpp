@@ -9,6 +9,7 @@
 #include <tbb/enumerable_thread_specific.h>
 
 #include "engine/dynamics/workspace.hpp"
+#include "runner/jobs/estimates.hpp"
 #include "runner/jobs/stop.hpp"
 #include "runner/machine.hpp"
 #include "runner/store/checkpoints.hpp"
@@ -188,13 +189,6 @@ class Packer {
 };
 
 }  // namespace
-
-std::vector<Cost> costs_of(const std::vector<const Job*>& jobs) {
-  std::vector<Cost> costs;
-  costs.reserve(jobs.size());
-  for (const Job* job : jobs) costs.push_back(estimate_cost(job->spec));
-  return costs;
-}
 
 Packed pack_pending(RunningSweep& running, const PackOptions& options) {
   const std::vector<Cost> costs = costs_of(running.pending);

@@ -38,9 +38,6 @@ struct Packed {
   std::string first_failure;  ///< with fail_fast: the line of the packing that failed
 };
 
-/// What the packings of jobs will take, in their order.
-std::vector<Cost> costs_of(const std::vector<const Job*>& jobs);
-
 /// Makes the pending packings, as far as no signal, no failure and no end of its time stops it;
 /// each is on the disk when it counts as finished, and then its grains no longer in memory. A long
 /// one is saved from time to time and when it is stopped, and goes on from there. Throws FileError.

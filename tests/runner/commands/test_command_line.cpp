@@ -114,10 +114,10 @@ TEST_CASE("a misspelt command or option is named with the likely one") {
     return error.substr(0, error.find('\n'));
   };
   CHECK(first_line({"rnu", "x.json"}) == "grainsweep: unknown command rnu; did you mean run?");
-  CHECK(
-      first_line({"pack"}) ==
-      "grainsweep: unknown command pack; known: help, version, run, init, validate, plan, report, "
-      "compare, export, status, collect, schema, columns, doctor");
+  CHECK(first_line({"pack"}) ==
+        "grainsweep: unknown command pack; known: help, version, run, init, validate, plan, slurm, "
+        "report, "
+        "compare, export, status, collect, schema, columns, doctor");
   CHECK(first_line({"help", "plna"}) == "grainsweep: unknown command plna; did you mean plan?");
   CHECK(first_line({"run", "x.json", "--treads", "2"}) ==
         "grainsweep: unknown option --treads; did you mean --threads?");

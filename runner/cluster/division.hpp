@@ -1,0 +1,37 @@
+// How a sweep is divided among the nodes of a cluster.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/packing.hpp"
+
+namespace grainsweep {
+
+/// What a part of a cluster offers. 0 means that it sets no limit, or does not tell.
+struct ClusterLimits {
+  int nodes = 1;
+  int cores = 1;         ///< of a node
+  double memory = 0.0;   ///< of a node, bytes
+  double seconds = 0.0;  ///< that a job may take
+  int elements = 0;      ///< that an array of jobs may have
+};
+
+/// Shards, each a job on one node.
+struct Division {
+  int shards = 1;
+  int threads = 1;         ///< of a shard
+  double bytes = 0.0;      ///< to ask for, for each shard
+  double estimated = 0.0;  ///< wall time of the longest shard, s
+  double seconds = 0.0;    ///< to ask for, for each shard: twice as much as estimated, if allowed
+  std::string reason;      ///< what decided their number: "the 12 nodes of the partition"
+};
+
+/// As many shards as there are nodes, if each then takes a node 10 to 60 minutes, and at most a
+/// third of the time that a job may take, since estimates may be too low by two; otherwise as many
+/// as come nearest. A shard has a thread for each core of a node, or as many as there is memory
+/// for. `shards` and `threads` other than 0 are taken as they are, but for memory.
+Division divide(const std::vector<Cost>& costs, const ClusterLimits& limits, int shards = 0,
+                int threads = 0);
+
+}  // namespace grainsweep

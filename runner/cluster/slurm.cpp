@@ -1,0 +1,183 @@
+#include "runner/cluster/slurm.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cstdio>
+
+#include <sys/wait.h>
+
+#include "runner/exit_codes.hpp"
+#include "runner/jobs/time_limit.hpp"
+#include "runner/text.hpp"
+
+namespace grainsweep {
+namespace {
+
+constexpr int not_found = 127;  // what a shell ends with
+
+/// What a command printed and ended with.
+struct Said {
+  int code = 0;
+  std::string text;
+};
+
+Said said_by(const std::string& command) {
+  std::FILE* const pipe = popen((command + " 2>&1").c_str(), "r");
+  if (pipe == nullptr) return {not_found, "no process could be started"};
+  Said said;
+  std::array<char, 4096> part{};
+  for (std::size_t size = 1; size > 0;) {
+    size = std::fread(part.data(), 1, part.size(), pipe);
+    said.text.append(part.data(), size);
+  }
+  const int status = pclose(pipe);
+  said.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  while (said.text.ends_with('\n')) said.text.pop_back();
+  return said;
+}
+
+/// What a command of Slurm printed. `name` is its first word.
+std::string answer_to(const std::string& name, const std::string& options) {
+  Said said = said_by(name + " " + options);
+  if (said.code == not_found) {
+    throw BadInput(name +
+                   ": not found; call this where jobs of Slurm are submitted. Without Slurm: "
+                   "run --shard, and the scripts for other engines in configs/cluster");
+  }
+  if (said.code != 0) throw BadInput(name + ": " + said.text);
+  return std::move(said.text);
+}
+
+std::vector<std::string_view> parts_of(std::string_view text, char between) {
+  std::vector<std::string_view> parts;
+  while (true) {
+    const std::size_t end = text.find(between);
+    parts.push_back(text.substr(0, end));
+    if (end == std::string_view::npos) return parts;
+    text.remove_prefix(end + 1);
+  }
+}
+
+/// The number at the front; 0 if there is none. "2+" is what Slurm calls two or more.
+int leading_number(std::string_view text) {
+  int number = 0;
+  std::from_chars(text.data(), text.data() + text.size(), number);
+  return number;
+}
+
+/// Of "1-12:00:00" or "30:00"; 0 if there is no limit.
+double limit_in(std::string_view text) {
+  const std::size_t dash = text.find('-');
+  if (dash == std::string_view::npos) return seconds_in(text).value_or(0.0);
+  return 86400.0 * leading_number(text) + seconds_in(text.substr(dash + 1)).value_or(0.0);
+}
+
+/// Nodes whose memory was not configured say 1 MB.
+double memory_in(std::string_view megabytes) {
+  const int number = leading_number(megabytes);
+  return number > 1 ? 1048576.0 * number : 0.0;
+}
+
+void add(const Partition& some, std::vector<Partition>& partitions) {
+  const auto known = std::find_if(partitions.begin(), partitions.end(),
+                                  [&](const Partition& p) { return p.name == some.name; });
+  if (known == partitions.end()) {
+    partitions.push_back(some);
+    return;
+  }
+  ClusterLimits& limits = known->limits;
+  limits.nodes += some.limits.nodes;
+  limits.cores = std::min(limits.cores, some.limits.cores);
+  limits.memory = std::min(limits.memory, some.limits.memory);
+}
+
+std::string names_of(const std::vector<Partition>& partitions) {
+  std::string names;
+  for (const Partition& partition : partitions) {
+    names += (names.empty() ? "" : ", ") + partition.name;
+  }
+  return names.empty() ? "none" : names;
+}
+
+}  // namespace
+
+std::vector<Partition> partitions_in(std::string_view lines) {
+  std::vector<Partition> partitions;
+  for (const std::string_view line : parts_of(lines, '\n')) {
+    const auto fields = parts_of(line, '|');
+    if (fields.size() != 5) continue;  // a warning of sinfo
+    Partition partition;
+    partition.name = fields[0];
+    partition.is_default = fields[0].ends_with('*');
+    if (partition.is_default) partition.name.pop_back();
+    partition.limits.seconds = limit_in(fields[1]);
+    partition.limits.cores = std::max(1, leading_number(fields[2]));
+    partition.limits.memory = memory_in(fields[3]);
+    partition.limits.nodes = leading_number(fields[4]);
+    add(partition, partitions);
+  }
+  return partitions;
+}
+
+int array_limit_in(std::string_view configuration) {
+  for (const std::string_view line : parts_of(configuration, '\n')) {
+    if (!line.starts_with("MaxArraySize")) continue;
+    const std::size_t number = line.find_first_of("0123456789");
+    // The limit is one above the greatest number of an element, and ours count from 1.
+    return number == std::string_view::npos ? 0 : leading_number(line.substr(number)) - 1;
+  }
+  return 0;
+}
+
+const Partition& chosen(const std::vector<Partition>& partitions, const std::string& name) {
+  const auto found =
+      std::find_if(partitions.begin(), partitions.end(), [&](const Partition& partition) {
+        return name.empty() ? partition.is_default : partition.name == name;
+      });
+  if (found == partitions.end()) {
+    throw BadInput((name.empty()
+                        ? "this cluster has no default partition; give one with --partition"
+                        : "--partition " + name + ": this cluster has none of that name") +
+                   "; it has: " + names_of(partitions));
+  }
+  if (found->limits.nodes == 0) throw BadInput("partition " + found->name + " has no nodes");
+  return *found;
+}
+
+Partition ask_for_partition(const std::string& name) {
+  const std::string lines = answer_to("sinfo", "--noheader --exact --format='%P|%l|%c|%m|%D'");
+  Partition partition = chosen(partitions_in(lines), name);
+  partition.limits.elements = array_limit_in(answer_to("scontrol", "show config"));
+  return partition;
+}
+
+std::string submit(const std::string& script, const std::string& after) {
+  const std::string dependency = after.empty() ? "" : "--dependency=afterany:" + after + " ";
+  const std::string answer = answer_to("sbatch", "--parsable " + dependency + shell_word(script));
+  const std::string last = std::string(parts_of(answer, '\n').back());  // behind any warning
+  return last.substr(0, last.find(';'));                                // a cluster's name follows
+}
+
+Queue queue_in(std::string_view lines, const std::string& scripts) {
+  Queue queue;
+  for (const std::string_view line : parts_of(lines, '\n')) {
+    const auto fields = parts_of(line, '|');
+    if (fields.size() != 3 || !fields[2].starts_with(scripts + "/")) continue;
+    const std::string_view state = fields[0], reason = fields[1];
+    const bool runs = state == "RUNNING" || state == "COMPLETING" || state == "CONFIGURING";
+    ++(runs ? queue.running : queue.pending);
+    constexpr std::array waiting = {"None", "Priority", "Resources", "Dependency", "BeginTime"};
+    const bool waits = std::find(waiting.begin(), waiting.end(), reason) != waiting.end();
+    if (!runs && !waits && queue.blocking.empty()) queue.blocking = reason;
+  }
+  return queue;
+}
+
+std::optional<Queue> ask_for_queue(const std::string& scripts) {
+  const Said said = said_by("squeue --me --noheader --array --format='%T|%r|%o'");
+  if (said.code != 0) return std::nullopt;
+  return queue_in(said.text, scripts);
+}
+
+}  // namespace grainsweep

@@ -1,0 +1,135 @@
+// The command `slurm`: a sweep as jobs of a cluster.
+#include <filesystem>
+#include <iostream>
+
+#include <CLI/App.hpp>
+
+#include "runner/cluster/job_scripts.hpp"
+#include "runner/commands/commands.hpp"
+#include "runner/commands/inputs.hpp"
+#include "runner/commands/shared_options.hpp"
+#include "runner/exit_codes.hpp"
+#include "runner/jobs/estimates.hpp"
+#include "runner/jobs/schedule.hpp"
+#include "runner/machine.hpp"
+#include "runner/store/files.hpp"
+#include "runner/text.hpp"
+
+namespace grainsweep {
+namespace {
+
+std::string absolute(const std::string& path) {
+  return std::filesystem::absolute(path).lexically_normal().string();
+}
+
+ClusterRun cluster_run(const SlurmOptions& options, const Sweep& sweep, const std::string& folder,
+                       const Partition& partition, const Division& division) {
+  return {std::filesystem::read_symlink("/proc/self/exe").string(),
+          absolute(options.file),
+          absolute(folder),
+          sweep.name,
+          partition.name,
+          options.tolerate_unsettled,
+          division};
+}
+
+std::string limits_text(const Partition& partition) {
+  const ClusterLimits& limits = partition.limits;
+  std::string text = "Partition " + partition.name + ": " +
+                     counted(static_cast<std::size_t>(limits.nodes), "node") + " of " +
+                     counted(static_cast<std::size_t>(limits.cores), "core");
+  if (limits.memory > 0.0) text += " and " + fixed(limits.memory / 1e9, 1) + " GB";
+  if (limits.seconds > 0.0) text += ", " + duration_text(limits.seconds) + " a job";
+  if (limits.elements > 0) text += ", " + std::to_string(limits.elements) + " elements an array";
+  return text + "\n";
+}
+
+/// What will be done, and what decided it.
+std::string division_text(const Sweep& sweep, const std::vector<Cost>& costs,
+                          const Division& division, const ClusterLimits& limits) {
+  std::string text = sweep.name + ": " + counted(costs.size(), "packing") + ", about " +
+                     duration_text(total_cpu_seconds(costs)) +
+                     " CPU: " + counted(static_cast<std::size_t>(division.shards), "shard") +
+                     " of about " + duration_text(division.estimated) + " on " +
+                     counted(static_cast<std::size_t>(division.threads), "core") +
+                     "\nDecided by: " + division.reason + "\n";
+  if (division.threads < limits.cores) {
+    text += "Cores left idle on a node: " + std::to_string(limits.cores - division.threads) + "\n";
+  }
+  return text;
+}
+
+/// Says so where one machine is enough.
+std::string small_note(const std::vector<Cost>& costs, const SlurmOptions& options,
+                       const std::string& folder) {
+  const double seconds = estimate_wall(costs, usable_cores());
+  if (seconds > 3600.0) return "";
+  return "note: this machine makes it in about " + duration_text(seconds) +
+         ", no cluster is needed: " + called_as() + " run " + shell_word(options.file) + " --out " +
+         shell_word(folder) + "\n";
+}
+
+/// Writes the scripts and submits them, the second to follow the first.
+void submit_scripts(const ClusterRun& run, const std::string& folder) {
+  const std::string scripts = scripts_folder(run.folder);
+  make_folder(scripts);
+  replace_file(scripts + "/shards.sh", shards_script(run));
+  replace_file(scripts + "/rest.sh", rest_script(run));
+  const std::string array = submit(scripts + "/shards.sh");
+  std::cout << "Submitted job " << array << ", an array of "
+            << counted(static_cast<std::size_t>(run.division.shards), "shard") << std::endl;
+  const std::string rest = submit(scripts + "/rest.sh", array);
+  std::cout << "Submitted job " << rest << ", which follows: the rest, tables and page\n"
+            << "Scripts and logs are in " << scripts_folder(folder)
+            << ". How far it is: " << called_as() << " status " << shell_word(folder)
+            << "; to end it: scancel " << array << " " << rest << "\n";
+}
+
+}  // namespace
+
+CLI::App& add_command(CLI::App& app, SlurmOptions& options) {
+  CLI::App& slurm = *app.add_subcommand(
+      "slurm", "Submit a sweep to Slurm as an array of shards, and a job that ends it");
+  add_file(slurm, options.file);
+  slurm
+      .add_option("--out", options.out,
+                  "output folder, which all nodes see (default: out/<sweep name>)")
+      ->type_name("DIR");
+  slurm.add_flag("--print", options.print, "print the scripts; write and submit nothing");
+  slurm.add_option("--partition", options.partition, "of the cluster (default: its default)")
+      ->type_name("NAME");
+  slurm.add_option("--shards", options.shards, "how many (default: of 10 to 60 min a node)")
+      ->check(CLI::Range(1, 1000000))
+      ->type_name("N");
+  slurm.add_option("--threads", options.threads, "cores of a shard (default: all of a node)")
+      ->check(CLI::Range(1, 1024))
+      ->type_name("N");
+  slurm
+      .add_flag("--tolerate-unsettled{1}", options.tolerate_unsettled,
+                "as of run, for the job that ends it; shards always do")
+      ->check(CLI::Range(0.0, 1.0));
+  slurm.footer(
+      "Example: grainsweep slurm sweep.json --out out/sweep --print\n\n"
+      "The environment of sbatch counts: SBATCH_ACCOUNT, SBATCH_QOS and the others of its manual.");
+  return slurm;
+}
+
+int perform(const SlurmOptions& options) {
+  const Sweep sweep = sweep_with_notes(options.file);
+  const std::string folder = options.out.empty() ? "out/" + sweep.name : options.out;
+  const std::vector<Cost> costs = costs_of(sweep.jobs);
+  const Partition partition = ask_for_partition(options.partition);
+  const Division division = divide(costs, partition.limits, options.shards, options.threads);
+  std::cerr << memory_warning(costs, partition.limits.memory) << limits_text(partition)
+            << division_text(sweep, costs, division, partition.limits)
+            << small_note(costs, options, folder);
+  const ClusterRun run = cluster_run(options, sweep, folder, partition, division);
+  if (options.print) {
+    std::cout << shards_script(run) << "\n" << rest_script(run);
+  } else {
+    submit_scripts(run, folder);
+  }
+  return exit_done;
+}
+
+}  // namespace grainsweep

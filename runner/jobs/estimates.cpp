@@ -1,0 +1,37 @@
+#include "runner/jobs/estimates.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <numeric>
+
+namespace grainsweep {
+
+std::vector<Cost> costs_of(const std::vector<const Job*>& jobs) {
+  std::vector<Cost> costs;
+  costs.reserve(jobs.size());
+  for (const Job* job : jobs) costs.push_back(estimate_cost(job->spec));
+  return costs;
+}
+
+std::vector<Cost> costs_of(const std::vector<Job>& jobs) {
+  std::vector<Cost> costs;
+  costs.reserve(jobs.size());
+  for (const Job& job : jobs) costs.push_back(estimate_cost(job.spec));
+  return costs;
+}
+
+double total_cpu_seconds(const std::vector<Cost>& costs) {
+  return std::accumulate(costs.begin(), costs.end(), 0.0,
+                         [](double sum, const Cost& cost) { return sum + cost.cpu_seconds; });
+}
+
+double bytes_of_largest(const std::vector<Cost>& costs, int live) {
+  std::vector<double> bytes;
+  bytes.reserve(costs.size());
+  for (const Cost& cost : costs) bytes.push_back(cost.bytes);
+  std::sort(bytes.begin(), bytes.end(), std::greater<>());
+  bytes.resize(std::min(bytes.size(), static_cast<std::size_t>(live)));
+  return std::accumulate(bytes.begin(), bytes.end(), 0.0);
+}
+
+}  // namespace grainsweep

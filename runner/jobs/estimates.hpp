@@ -1,0 +1,22 @@
+// What the packings of a sweep will take.
+#pragma once
+
+#include <vector>
+
+#include "engine/packing.hpp"
+#include "runner/sweep/job.hpp"
+
+namespace grainsweep {
+
+/// The estimate of each job, in their order: the same on every machine, so that a sweep can be
+/// divided by it.
+std::vector<Cost> costs_of(const std::vector<const Job*>& jobs);
+std::vector<Cost> costs_of(const std::vector<Job>& jobs);
+
+/// CPU time of all, s.
+double total_cpu_seconds(const std::vector<Cost>& costs);
+
+/// What so many of the costs take that live at once, the largest, bytes.
+double bytes_of_largest(const std::vector<Cost>& costs, int live);
+
+}  // namespace grainsweep

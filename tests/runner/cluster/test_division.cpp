@@ -1,0 +1,74 @@
+#include <catch2/catch.hpp>
+
+#include "runner/cluster/division.hpp"
+
+namespace grainsweep {
+namespace {
+
+using Catch::Contains;
+
+/// So many packings of a minute and 10 MB each.
+std::vector<Cost> minutes_of_work(int packings) {
+  return std::vector<Cost>(static_cast<std::size_t>(packings), Cost{60.0, 1e7});
+}
+
+const ClusterLimits twelve_nodes{12, 10, 64e9, 86400.0, 1000};
+
+TEST_CASE("a sweep is spread over all nodes where each then has 10 to 60 minutes of work") {
+  const Division division = divide(minutes_of_work(12 * 10 * 30), twelve_nodes);
+  CHECK(division.shards == 12);
+  CHECK(division.threads == 10);
+  CHECK(division.estimated == Approx(30 * 60));
+  CHECK(division.seconds == 4200.0);  // twice as much and two minutes, in whole ten minutes
+  CHECK(division.reason == "the partition has so many nodes");
+}
+
+TEST_CASE("little work has fewer shards than there are nodes, and much work more") {
+  const Division little = divide(minutes_of_work(310), twelve_nodes);
+  CHECK(little.shards == 3);
+  CHECK_THAT(little.reason, Contains("10 min 0 s at least"));
+  CHECK(divide(minutes_of_work(5), twelve_nodes).shards == 1);
+  const Division much = divide(minutes_of_work(12 * 10 * 600), twelve_nodes);
+  CHECK(much.shards == 120);
+  CHECK(much.estimated == Approx(3600));
+  CHECK_THAT(much.reason, Contains("1 h 0 min at most"));
+}
+
+TEST_CASE("a short time limit and an array of few elements decide") {
+  ClusterLimits limits = twelve_nodes;
+  limits.seconds = 900.0;
+  limits.elements = 5000;
+  const Division brief = divide(minutes_of_work(12 * 10 * 600), limits);
+  CHECK(brief.shards == 1440);
+  CHECK_THAT(brief.reason, Contains("third of the time limit"));
+  CHECK(brief.seconds == 900.0);
+  limits.elements = 100;
+  const Division few = divide(minutes_of_work(12 * 10 * 600), limits);
+  CHECK(few.shards == 100);
+  CHECK_THAT(few.reason, Contains("MaxArraySize"));
+  CHECK(divide(minutes_of_work(50), limits, 7).shards == 7);
+  CHECK(divide(minutes_of_work(50), limits, 700).shards == 100);
+}
+
+TEST_CASE("no shard is without a packing") {
+  const std::vector<Cost> two_long(2, Cost{36000.0, 1e9});
+  const Division division = divide(two_long, twelve_nodes);
+  CHECK(division.shards == 2);
+  CHECK(division.threads == 10);
+  CHECK_THAT(division.reason, Contains("one packing at least"));
+}
+
+TEST_CASE("a shard has no more threads than there is memory for") {
+  const std::vector<Cost> large(1000, Cost{60.0, 10e9});
+  const Division division = divide(large, twelve_nodes);
+  CHECK(division.threads == 5);  // of four fifths of 64 GB
+  CHECK(division.bytes <= 64e9);
+  CHECK(division.bytes >= 5 * 10e9 / 0.8);
+  ClusterLimits untold = twelve_nodes;
+  untold.memory = 0.0;
+  CHECK(divide(large, untold).threads == 10);
+  CHECK(divide(large, untold).bytes == 0.0);
+}
+
+}  // namespace
+}  // namespace grainsweep

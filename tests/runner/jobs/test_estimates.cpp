@@ -1,0 +1,28 @@
+#include <catch2/catch.hpp>
+
+#include "runner/jobs/estimates.hpp"
+
+namespace grainsweep {
+namespace {
+
+TEST_CASE("the costs of jobs stand in their order, however they are listed") {
+  std::vector<Job> jobs(2);
+  jobs[1].spec.fill = SolidHeight{100.0};
+  const std::vector<Cost> costs = costs_of(jobs);
+  REQUIRE(costs.size() == 2);
+  const std::vector<const Job*> backwards = {&jobs[1], &jobs[0]};
+  CHECK(costs[0].cpu_seconds < costs[1].cpu_seconds);
+  CHECK(costs_of(backwards)[0].cpu_seconds == costs[1].cpu_seconds);
+  CHECK(total_cpu_seconds(costs) == costs[0].cpu_seconds + costs[1].cpu_seconds);
+  CHECK(total_cpu_seconds({}) == 0.0);
+}
+
+TEST_CASE("of packings that live at once the largest count") {
+  const std::vector<Cost> costs = {{1, 10}, {1, 30}, {1, 20}};
+  CHECK(bytes_of_largest(costs, 2) == 50.0);
+  CHECK(bytes_of_largest(costs, 9) == 60.0);
+  CHECK(bytes_of_largest({}, 2) == 0.0);
+}
+
+}  // namespace
+}  // namespace grainsweep
