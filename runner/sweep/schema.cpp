@@ -7,6 +7,7 @@
 
 #include "runner/sweep/parameters.hpp"
 #include "runner/sweep/random_paths.hpp"
+#include "runner/sweep/schema_edges.hpp"
 #include "runner/sweep/schema_rules.hpp"
 #include "runner/sweep/spaced_values.hpp"
 #include "runner/sweep/sweep_definition.hpp"
@@ -199,6 +200,7 @@ Json distribution(const std::string& path) {
   if (!is_interval(path)) return choice;
   Json bounds = list_of(reference(path));
   bounds["minItems"] = bounds["maxItems"] = 2;
+  bounds["allOf"] = Json::array({reference("ascending")});
   Json above_zero = bounds;
   above_zero["items"] = {{"allOf", {reference(path), {{"exclusiveMinimum", 0}}}}};
   return {{"anyOf",
@@ -223,7 +225,8 @@ Json replicates() {
 
 Json block_schema() {
   Json zipped = lists("side by side: ");
-  zipped["allOf"] = Json::array({equally_long()});
+  zipped["allOf"] = distinct_rows();
+  zipped["allOf"].push_back(equally_long());
   Json block = closed_object(
       {{"label",
         described("name of the block in the tables", {{"type", "string"},
@@ -241,7 +244,7 @@ Json block_schema() {
 }
 
 Json definitions() {
-  Json all = {{"each once", {{"allOf", said_once("")}}}};
+  Json all = {{"each once", {{"allOf", said_once("")}}}, {"ascending", {{"allOf", ascending()}}}};
   for (const std::string& path : known_keys("")) {
     if (!find_parameter(path)) all[path] = group_schema(path);
   }
@@ -271,6 +274,21 @@ Json units_schema() {
   return units;
 }
 
+/// Members for people, line by line; of rules, which nobody reads, one a line.
+std::string written(const Json& schema) {
+  std::string text;
+  for (const auto& [key, value] : schema.items()) {
+    text += (text.empty() ? "{\n" : ",\n") + Json(key).dump() + ": ";
+    if (key != "allOf") {
+      text += value.dump(1);
+      continue;
+    }
+    for (const Json& rule : value) text += (&rule == &value[0] ? "[\n" : ",\n") + rule.dump();
+    text += "\n]";
+  }
+  return text + "\n}\n";
+}
+
 }  // namespace
 
 std::string sweep_schema() {
@@ -290,9 +308,10 @@ std::string sweep_schema() {
        {"base", described("what all packings share", base_schema())},
        {"sweep", described("blocks of packings, joined", list_of(block_schema()))}}));
   schema["required"] = {"name"};
-  schema["allOf"] = sweep_rules();
+  schema["allOf"] = start_file_rules();
+  for (Json& rule : edge_rules()) schema["allOf"].push_back(std::move(rule));
   schema["definitions"] = definitions();
-  return schema.dump(1) + "\n";
+  return written(schema);
 }
 
 }  // namespace grainsweep
