@@ -139,15 +139,17 @@ number_in() {
   sed 's/.*"'"$2"'":\([0-9]*\).*/\1/' <<<"$1"
 }
 
-# beds_in FOLDER: a line for each packing with a bed: its id, and the bed's size and checksums.
+# beds_in FOLDER: a line for each packing with a bed: its id, and the bed's size and checksums. Lines
+# of the journal that are not whole by their own checksum count for nothing, as they do for a run.
 beds_in() {
-  perl -e 'my (%finished, %bed);
+  perl -MCompress::Zlib=crc32 -e 'my (%finished, %bed);
     opendir(my $names, "$ARGV[0]/shards") or die $ARGV[0];
     for my $name (map { /(.*)[.]jsonl$/ ? "$ARGV[0]/shards/$1" : () } readdir($names)) {
       my ($journal, $beds) = ("$name.jsonl", "$name.beds");
       open(my $lines, "<", $journal) or die $journal;
       for (<$lines>) {
-        next unless /"outcome":.*}}$/ && /"job":"([^"]*)".*"finished_at":([^,]*),"stored_at":(\d+),"stored_bytes":([1-9]\d*)/;
+        next unless /^\{"length":\d+,"crc32":"([0-9a-f]{8})","outcome":(.*)\}$/ && crc32($2) == hex($1);
+        next unless /"job":"([^"]*)".*"finished_at":([^,]*),"stored_at":(\d+),"stored_bytes":([1-9]\d*)/;
         next if exists $bed{$1} && $finished{$1} > $2;
         $finished{$1} = $2;
         open(my $file, "<:raw", $beds) or die $beds;
