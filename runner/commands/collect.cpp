@@ -1,6 +1,8 @@
 // The command `collect`: the results of several output folders in one.
 #include <algorithm>
+#include <cstdio>
 #include <filesystem>
+#include <functional>
 #include <iostream>
 #include <map>
 #include <optional>
@@ -11,9 +13,12 @@
 #include "runner/commands/commands.hpp"
 #include "runner/commands/results.hpp"
 #include "runner/exit_codes.hpp"
+#include "runner/jobs/progress.hpp"
 #include "runner/machine.hpp"
 #include "runner/store/files.hpp"
+#include "runner/store/shard.hpp"
 #include "runner/store/shard_files.hpp"
+#include "runner/text.hpp"
 #include "runner/versions.hpp"
 
 namespace grainsweep {
@@ -26,8 +31,9 @@ constexpr std::size_t added_at_once = 1000;
 struct Collection {
   std::string folder;
   ShardFiles& files;
+  ProgressDisplay& display;
   Provenance provenance;
-  std::vector<Row> rows;                      ///< with curves
+  std::vector<Row> rows;
   std::map<std::string, std::size_t> row_of;  ///< by job
   std::size_t added = 0;
 };
@@ -42,12 +48,20 @@ RunRecord begun_collection() {
   return run;
 }
 
-void warn(const std::string& text) { std::cerr << "warning: " << text << "\n"; }
+/// The line of progress is drawn anew below.
+void warn(const std::string& text, Collection& to) {
+  to.display.clear();
+  std::cerr << "warning: " << text << "\n";
+}
+
+void warn_of(const std::vector<std::string>& damage, Collection& to) {
+  for (const std::string& line : damage) warn(line, to);
+}
 
 /// The row of a job; a new, pending one if there is none yet.
-Row& row_of(const JobFacts& job, Collection& to) {
+Row& row_of(const JobEntry& job, const JobList& list, Collection& to) {
   const auto [known, is_new] = to.row_of.try_emplace(job.id, to.rows.size());
-  if (is_new) to.rows.push_back({job, std::nullopt});
+  if (is_new) to.rows.push_back({facts_of(job, list), std::nullopt});
   return to.rows[known->second];
 }
 
@@ -78,7 +92,7 @@ void add_sweep(const Provenance& from, Provenance& to) {
 /// Units stand for all packings of a folder.
 void add_units(const std::string& folder, const GivenUnits& from, Collection& to) {
   if (!to.provenance.units || from == to.provenance.units) return;
-  warn(folder + ": has other units than the sweeps before it; the tables have none");
+  warn(folder + ": has other units than the sweeps before it; the tables have none", to);
   to.provenance.units.reset();
 }
 
@@ -86,16 +100,13 @@ bool is_same_result(const Outcome& a, const Outcome& b) {
   return a.result.state_hash == b.result.state_hash && a.result.status == b.result.status;
 }
 
-/// Copies the bed of a stored packing and keeps its curves; false, and a warning, if it is missing
-/// or damaged.
+/// Copies the bed of a stored packing; false, and a warning, if it is missing or damaged.
 bool copy_bed(const std::string& folder, Outcome& outcome, Collection& to) {
   try {
-    StoredBed bed = read_bed(folder, outcome);
-    to.files.add_bed(bed, outcome);
-    set_curves(std::move(bed.curves), outcome.result);
+    to.files.add_bed(read_bed(folder, outcome), outcome);
     return true;
   } catch (const FileError& error) {
-    warn(std::string(error.what()) + "; left out");
+    warn(std::string(error.what()) + "; left out", to);
     return false;
   }
 }
@@ -104,8 +115,9 @@ void add_outcome(const std::string& folder, Outcome outcome, Row& row, Collectio
   if (row.outcome && !row.outcome->exception) {
     if (!outcome.exception && !is_same_result(outcome, *row.outcome)) {
       warn(folder + ": its packing " + outcome.job + " (version " + outcome.version +
-           ") differs from the one collected before (version " + row.outcome->version +
-           "), which is kept");
+               ") differs from the one collected before (version " + row.outcome->version +
+               "), which is kept",
+           to);
     }
     return;
   }
@@ -116,14 +128,14 @@ void add_outcome(const std::string& folder, Outcome outcome, Row& row, Collectio
 }
 
 /// What the folder holds already; a new one takes name and file from the first source.
-Collection begin_collection(const std::string& folder, ShardFiles& files, const RunRecord& own,
-                            const Provenance& first) {
-  Collection collection{folder, files, first, {}, {}, 0};
+Collection begin_collection(const std::string& folder, ShardFiles& files, ProgressDisplay& display,
+                            const RunRecord& own, const Provenance& first) {
+  Collection collection{folder, files, display, first, {}, {}, 0};
   collection.provenance.runs.clear();
   if (file_exists(folder + "/provenance.json")) {
     Results results = read_results(folder);
-    std::cerr << damage_warnings(results.damage)
-              << damage_warnings(load_curves(folder, results.rows));
+    warn_of(results.damage, collection);
+    warn_of(check_beds(folder, results.rows), collection);
     collection.provenance = std::move(results.provenance);
     std::erase_if(collection.provenance.runs,
                   [&](const RunRecord& run) { return is_same_run(run, own); });
@@ -136,28 +148,65 @@ Collection begin_collection(const std::string& folder, ShardFiles& files, const 
   return collection;
 }
 
-void add_results(const std::string& folder, const Results& results, Collection& to) {
-  add_sweep(results.provenance, to.provenance);
-  add_units(folder, results.provenance.units, to);
-  add_runs(results.provenance.runs, to);
-  for (const Row& source : results.rows) {
-    Row& row = row_of(source.job, to);
-    if (source.outcome) add_outcome(folder, *source.outcome, row, to);
+/// Adds what the folder holds, a packing at a time; `tell` is told how much of it is done, 0..1.
+void add_results(const std::string& folder, StoredSweep&& stored, Collection& to,
+                 const std::function<void(double)>& tell) {
+  add_sweep(stored.provenance, to.provenance);
+  add_units(folder, stored.provenance.units, to);
+  add_runs(stored.provenance.runs, to);
+  const double all = static_cast<double>(std::max<std::size_t>(stored.outcomes.size(), 1));
+  for (const JobEntry& job : stored.jobs.jobs) {
+    Row& row = row_of(job, stored.jobs, to);
+    auto outcome = stored.outcomes.extract(job.id);
+    if (!outcome) continue;
+    add_outcome(folder, std::move(outcome.mapped()), row, to);
+    tell(1.0 - static_cast<double>(stored.outcomes.size()) / all);
   }
 }
 
-/// All sources, read before anything is written: a wrong folder costs nothing.
-std::vector<Results> read_sources(const CollectOptions& options) {
-  std::vector<Results> sources;
+/// A wrong folder is refused before anything is written.
+void expect_sources(const CollectOptions& options) {
   for (const std::string& folder : options.folders) {
     std::error_code not_there;
     if (std::filesystem::equivalent(folder, options.out, not_there)) {
       throw BadInput(folder + ": is the folder given with --out; name only the others");
     }
-    sources.push_back(read_results(folder));
-    std::cerr << damage_warnings(sources.back().damage);
+    expect_results(folder);
   }
-  return sources;
+}
+
+/// Bytes of the journals of each folder: what it costs.
+std::vector<double> sizes_of(const std::vector<std::string>& folders) {
+  std::vector<double> sizes;
+  for (const std::string& folder : folders) {
+    double& bytes = sizes.emplace_back(0.0);
+    for (const std::string& shard : shards_in(folder)) {
+      bytes += static_cast<double>(file_size(journal_path(folder, shard)).value_or(0));
+    }
+  }
+  return sizes;
+}
+
+/// One folder after the other, so that of no two the packings are in memory.
+Collection collected(const CollectOptions& options, ShardFiles& files, ProgressDisplay& display,
+                     const RunRecord& own) {
+  std::optional<Collection> collection;
+  for (std::size_t i = 0; i < options.folders.size(); ++i) {
+    const std::string& folder = options.folders[i];
+    display.start(i);
+    StoredSweep stored = read_stored_sweep(folder);
+    if (!collection) {
+      collection.emplace(begin_collection(options.out, files, display, own, stored.provenance));
+    }
+    warn_of(stored.damage, *collection);
+    const std::size_t before = collection->added;
+    add_results(folder, std::move(stored), *collection,
+                [&](double share) { display.advance(i, share); });
+    display.finish(i, true,
+                   folder + ": " + counted(collection->added - before, "packing") + " added");
+  }
+  display.clear();
+  return std::move(*collection);
 }
 
 }  // namespace
@@ -174,23 +223,22 @@ CLI::App& add_command(CLI::App& app, CollectOptions& options) {
 }
 
 int perform(const CollectOptions& options) {
-  const std::vector<Results> sources = read_sources(options);
+  expect_sources(options);
   make_folder(options.out);
   RunRecord run = begun_collection();
   ShardFiles files(options.out, {}, run);
   warn_without_lock(options.out, files);
   if (files.is_locked()) clean_up(options.out);
-  Collection collection = begin_collection(options.out, files, run, sources.front().provenance);
-  for (std::size_t i = 0; i < sources.size(); ++i) {
-    add_results(options.folders[i], sources[i], collection);
-  }
+  ProgressDisplay display(sizes_of(options.folders), progress_style(), stderr);
+  Collection collection = collected(options, files, display, run);
   run.ended = utc_now();
   files.add(run);
   files.flush();
   sort_runs(collection.provenance.runs);
+  collection.row_of.clear();
   const std::vector<Row>& rows = collection.rows;
   std::cerr << other_versions_warning(rows, program_version());
-  const Analysis analysis = analyse(rows);
+  const Analysis analysis = analyse(rows, options.out);
   write_tables(options.out, collection.provenance, rows, analysis);
   const auto pending = static_cast<std::size_t>(totals_of(rows).counts.pending);
   std::cout << collection.added << " packings added to " << options.out << ", which now holds "

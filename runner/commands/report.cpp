@@ -23,8 +23,8 @@ CLI::App& add_command(CLI::App& app, ReportOptions& options) {
 
 int perform(const ReportOptions& options) {
   Results results = results_with_warnings(options.folder);
-  std::cerr << damage_warnings(load_curves(options.folder, results.rows));
-  const Analysis analysis = analyse(results.rows);
+  std::cerr << damage_warnings(check_beds(options.folder, results.rows));
+  const Analysis analysis = analyse(results.rows, options.folder);
   std::cout << closing_report(results.provenance, results.rows, analysis.families,
                               {called_as(), options.folder})
             << std::flush;

@@ -32,7 +32,7 @@ constexpr std::array tables = {"packings.csv",      "groups.csv",   "fits.csv",
 std::string provenance_path(const std::string& folder) { return folder + "/provenance.json"; }
 
 /// provenance.json. Throws BadInput.
-ProvenanceReading read_provenance(const std::string& folder, Detail detail = Detail::whole) {
+ProvenanceReading read_provenance(const std::string& folder) {
   const std::string path = provenance_path(folder);
   if (!file_exists(path)) {
     throw BadInput(folder +
@@ -40,7 +40,7 @@ ProvenanceReading read_provenance(const std::string& folder, Detail detail = Det
                    called_as() + " run FILE --out " + shell_word(folder));
   }
   try {
-    return provenance_from_text(read_file(path), detail);
+    return provenance_from_text(read_file(path));
   } catch (const nlohmann::json::exception& error) {
     throw BadInput(path + ": not what grainsweep wrote (" + error.what() +
                    "); run the sweep again to write it anew, stored packings are kept");
@@ -52,11 +52,11 @@ bool is_recorded(const std::string& folder, const Provenance& provenance,
                  const std::vector<Row>& rows) {
   if (!file_exists(provenance_path(folder))) return false;
   try {
-    const ProvenanceReading known = read_provenance(folder, Detail::summary);
+    const ProvenanceReading known = read_provenance(folder);
     return known.provenance.build == provenance.build &&
            known.provenance.sweeps == provenance.sweeps &&
-           std::equal(known.rows.begin(), known.rows.end(), rows.begin(), rows.end(),
-                      [](const Row& a, const Row& b) { return a.job.id == b.job.id; });
+           std::equal(known.jobs.jobs.begin(), known.jobs.jobs.end(), rows.begin(), rows.end(),
+                      [](const JobEntry& a, const Row& b) { return a.id == b.job.id; });
   } catch (const BadInput&) {
     return false;
   }
@@ -79,30 +79,65 @@ std::vector<std::string> use_beds(std::vector<Row>& rows, Use use) {
   return damage;
 }
 
+void write_packings(const std::string& folder, const std::vector<Row>& rows,
+                    const std::vector<Group>& groups, const GivenUnits& units) {
+  Replacement file(folder + "/packings.csv");
+  write_packings_csv(rows, groups, units, [&](const std::string& line) { file.write(line); });
+  file.commit();
+}
+
+/// A table, and the file that it is written to.
+struct CurveFile {
+  CurveFile(const std::string& path, CurveTable its_table)
+      : file(path), table(std::move(its_table)) {
+    file.write(table.header);
+  }
+
+  Replacement file;
+  CurveTable table;
+};
+
+/// All that need curves, so that each bed is read once, and those of one group are in memory.
+void write_curve_tables(const std::string& folder, const Analysis& analysis,
+                        const GivenUnits& units) {
+  const Varied varied = varied_of(analysis.groups);
+  CurveFile profiles(folder + "/profiles.csv", profiles_table(varied, units)),
+      decays(folder + "/decays.csv", decays_table(varied, units)),
+      distributions(folder + "/distributions.csv", distributions_table(varied, units));
+  const std::array all = {&profiles, &decays, &distributions};
+  for (const Group& group : analysis.groups) {
+    const GroupWithCurves with_curves(group, analysis.folder);
+    for (CurveFile* one : all) one->file.write(one->table.lines(*with_curves));
+  }
+  for (CurveFile* one : all) one->file.commit();
+}
+
 }  // namespace
 
-Results read_results(const std::string& folder, Detail detail) {
-  Results results;
-  ProvenanceReading reading = read_provenance(folder, detail);
-  results.provenance = std::move(reading.provenance);
-  results.rows = std::move(reading.rows);
+void expect_results(const std::string& folder) {
+  const std::string path = provenance_path(folder);
+  if (!file_exists(path) || !has_checksum(read_file(path))) read_provenance(folder);
+}
+
+StoredSweep read_stored_sweep(const std::string& folder, Detail detail) {
+  ProvenanceReading reading = read_provenance(folder);
   JournalReading journals = read_journals(folder, detail);
-  results.damage = std::move(journals.damage);
-  results.provenance.runs = std::move(journals.runs);
-  results.orphaned = take_outcomes(std::move(journals.outcomes), results.rows);
+  reading.provenance.runs = std::move(journals.runs);
+  return {std::move(reading.provenance), std::move(reading.jobs), std::move(journals.outcomes),
+          std::move(journals.damage)};
+}
+
+Results read_results(const std::string& folder, Detail detail) {
+  StoredSweep stored = read_stored_sweep(folder, detail);
+  Results results{std::move(stored.provenance), rows_of(stored.jobs, detail),
+                  std::move(stored.damage), 0};
+  results.orphaned = take_outcomes(std::move(stored.outcomes), results.rows);
   return results;
 }
 
 void record_sweep(const std::string& folder, const Provenance& provenance,
                   const std::vector<Row>& rows) {
   if (!is_recorded(folder, provenance, rows)) write_provenance(folder, provenance, rows);
-}
-
-std::vector<std::string> load_curves(const std::string& folder, std::vector<Row>& rows) {
-  return use_beds(rows, [&](Outcome& outcome) {
-    StoredBed bed = read_bed(folder, outcome);
-    if (outcome.result.profile_z.bins.empty()) set_curves(std::move(bed.curves), outcome.result);
-  });
 }
 
 std::vector<std::string> check_beds(const std::string& folder, std::vector<Row>& rows) {
@@ -120,15 +155,13 @@ std::vector<std::string> expect_beds(const std::string& folder, std::vector<Row>
 
 void write_tables(const std::string& folder, const Provenance& provenance,
                   const std::vector<Row>& rows, const Analysis& analysis) {
-  const auto& [groups, families] = analysis;
+  const auto& [groups, families, beds] = analysis;
   const GivenUnits& units = provenance.units;
-  replace_file(folder + "/packings.csv", packings_csv(rows, groups, units));
+  write_packings(folder, rows, groups, units);
   replace_file(folder + "/groups.csv", groups_csv(groups, units));
   replace_file(folder + "/fits.csv", fits_csv(families, units));
   replace_file(folder + "/fit_points.csv", fit_points_csv(families, units));
-  replace_file(folder + "/profiles.csv", profiles_csv(groups, units));
-  replace_file(folder + "/decays.csv", decays_csv(groups, units));
-  replace_file(folder + "/distributions.csv", distributions_csv(groups, units));
+  write_curve_tables(folder, analysis, units);
   replace_file(folder + "/columns.csv",
                columns_csv(all_columns(further_tolerances(rows), varied_of(groups), units)));
   write_provenance(folder, provenance, rows);

@@ -1,6 +1,7 @@
 // An output folder as a whole: what is stored in it, and the tables written from that.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,20 @@ struct Results {
   std::size_t orphaned = 0;         ///< stored packings that are not of the present sweep
 };
 
+/// Throws BadInput unless `folder` has a provenance.json that is whole.
+void expect_results(const std::string& folder);
+
+/// What provenance.json and the journals of a folder hold, before it is put together.
+struct StoredSweep {
+  Provenance provenance;
+  JobList jobs;
+  std::map<std::string, Outcome> outcomes;  ///< by job
+  std::vector<std::string> damage;          ///< as of Results
+};
+
+/// Throws BadInput if `folder` is no output folder, FileError if a file cannot be read.
+StoredSweep read_stored_sweep(const std::string& folder, Detail detail = Detail::whole);
+
 /// Everything from provenance.json and the journals: all but the curves. Of a summary there is what
 /// `status` needs, in a tenth of the time. Throws BadInput if `folder` is no output folder,
 /// FileError if a file cannot be read.
@@ -27,26 +42,22 @@ Results read_results(const std::string& folder, Detail detail = Detail::whole);
 void record_sweep(const std::string& folder, const Provenance& provenance,
                   const std::vector<Row>& rows);
 
-/// Opens the stored bed of each row without curves, checks the whole of it and keeps them, 10 kB. A
-/// row whose bed is missing, damaged or another's becomes a pending one; returns what was left out,
-/// as in Results::damage.
-std::vector<std::string> load_curves(const std::string& folder, std::vector<Row>& rows);
-
-/// Checks the stored beds likewise, and keeps nothing of them.
+/// Reads the whole of each stored bed. A row whose bed is missing, damaged or another's becomes a
+/// pending one; returns what was left out, as in Results::damage.
 std::vector<std::string> check_beds(const std::string& folder, std::vector<Row>& rows);
 
 /// Looks whether the stored beds are there with the sizes they had, and opens none: 100,000 in a
 /// second. A flipped bit is not seen.
 std::vector<std::string> expect_beds(const std::string& folder, std::vector<Row>& rows);
 
-/// Replaces report.html and its figures, made of rows with their curves; prints as notes what is
-/// missing from it. Returns a line that says where it is. Throws FileError.
+/// Replaces report.html and its figures, made of rows whose beds were checked; prints as notes what
+/// is missing from it. Returns a line that says where it is. Throws FileError.
 std::string write_page(const std::string& folder, const Provenance& provenance,
                        const std::vector<Row>& rows, const Analysis& analysis,
                        PageExtent extent = PageExtent::whole);
 
-/// Replaces the CSV tables, made of rows with their curves and their analysis, columns.csv, which
-/// explains them, and provenance.json. Throws FileError.
+/// Replaces the CSV tables, made of rows whose beds were checked and of their analysis,
+/// columns.csv, which explains them, and provenance.json. Throws FileError.
 void write_tables(const std::string& folder, const Provenance& provenance,
                   const std::vector<Row>& rows, const Analysis& analysis);
 

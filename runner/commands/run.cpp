@@ -35,13 +35,6 @@
 namespace grainsweep {
 namespace {
 
-ProgressStyle progress_style(bool quiet) {
-  if (quiet) return ProgressStyle::quiet;
-  const char* terminal = std::getenv("TERM");
-  const bool can_redraw = terminal != nullptr && std::string_view(terminal) != "dumb";
-  return isatty(STDERR_FILENO) != 0 && can_redraw ? ProgressStyle::live : ProgressStyle::plain;
-}
-
 /// Asks before stored packings are forgotten. Throws BadInput unless that is wanted.
 void confirm_fresh(const RunOptions& options, const std::string& folder, const Shard& shard) {
   if (!options.fresh) return;
@@ -170,9 +163,9 @@ Packed pack(RunningSweep& running, const RunOptions& options, Isa isa, const Run
   const Limits limits{run.threads, memory_for_packings()};
   std::cerr << memory_warning(costs_of(running.pending), limits.memory);
   expect_threads(limits.threads);
-  return pack_pending(running,
-                      {limits, isa, progress_style(options.quiet), options.checkpoint_seconds,
-                       options.fail_fast, time_limit, options.no_grains});
+  return pack_pending(
+      running, {limits, isa, options.quiet ? ProgressStyle::quiet : progress_style(),
+                options.checkpoint_seconds, options.fail_fast, time_limit, options.no_grains});
 }
 
 /// What is stored of the sweep, by all shards.
@@ -247,9 +240,9 @@ int exit_code_for(const StatusCounts& counts, const RunOptions& options,
 /// Tables and page of all packings; with the closing table if the run made all it had to.
 void write_results(Results& results, const RunOptions& options, const std::string& folder,
                    bool is_whole) {
-  std::cerr << damage_warnings(load_curves(folder, results.rows));
+  std::cerr << damage_warnings(check_beds(folder, results.rows));
   std::cerr << other_versions_warning(results.rows, program_version());
-  const Analysis analysis = analyse(results.rows);
+  const Analysis analysis = analyse(results.rows, folder);
   write_tables(folder, results.provenance, results.rows, analysis);
   if (is_whole && !options.quiet) {
     std::cout << closing_report(results.provenance, results.rows, analysis.families,

@@ -93,31 +93,31 @@ std::string verdict(const Comparison& comparison) {
          fixed(std::abs(*errors), 1) + " errors";
 }
 
-std::vector<Comparison> compare_with(const Reference& reference,
-                                     const std::vector<Family>& families) {
+std::vector<Comparison> compare_with(const Reference& reference, const Analysis& analysis) {
+  const auto& [groups, families, folder] = analysis;
   std::vector<Comparison> rows;
   for (const Family& family : families) {
     for (const Published& value : published_of(reference, family)) {
       rows.push_back({family.name, title_of_quantity(value.quantity, value.width), value,
-                      measure_quantity(value.quantity, value.width, family), std::nullopt});
+                      measure_quantity(value.quantity, value.width, family, folder), std::nullopt});
     }
   }
   for (const Published& value : reference.common) {
-    const Shared shared = share_quantity(value.quantity, value.width, families);
+    const Shared shared = share_quantity(value.quantity, value.width, families, folder);
     rows.push_back({"all families", title_of_quantity(value.quantity, value.width), value,
                     shared.measured, shared.chi2_per_dof});
   }
   return rows;
 }
 
-std::string comparison_text(const Reference& reference, const std::vector<Family>& families) {
+std::string comparison_text(const Reference& reference, const Analysis& analysis) {
   std::string text, family;
-  for (const Comparison& row : compare_with(reference, families)) {
+  for (const Comparison& row : compare_with(reference, analysis)) {
     if (row.family != family) text += head_of(row.family);
     family = row.family;
     text += row_text(row);
   }
-  return text + left_out_text(reference, families);
+  return text + left_out_text(reference, analysis.families);
 }
 
 }  // namespace grainsweep

@@ -34,11 +34,10 @@ std::string verdict(const Comparison& comparison);
 
 /// What the source has of each family, then what it says of all. Families of which it has nothing,
 /// and published families that are not in the sweep, are named by comparison_text.
-std::vector<Comparison> compare_with(const Reference& reference,
-                                     const std::vector<Family>& families);
+std::vector<Comparison> compare_with(const Reference& reference, const Analysis& analysis);
 
 /// A table for people: UTF-8, the definitions of both values below each row. Names the families
 /// without published values.
-std::string comparison_text(const Reference& reference, const std::vector<Family>& families);
+std::string comparison_text(const Reference& reference, const Analysis& analysis);
 
 }  // namespace grainsweep

@@ -68,7 +68,7 @@ Measured zeta_difference(const Family& family) {
 
 double mean_over(const Group& group, double PackingResult::*member) {
   double sum = 0.0;
-  for (const PackingResult& result : group.settled) sum += result.*member;
+  for (const Outcome& outcome : group.settled) sum += outcome.result.*member;
   return sum / static_cast<double>(group.settled.size());
 }
 
@@ -174,22 +174,25 @@ std::string title_of_quantity(const std::string& quantity, double width) {
   return width > 0.0 ? title + " at W = " + cell(width) + " d" : title;
 }
 
-Measured measure_quantity(const std::string& quantity, double width, const Family& family) {
+Measured measure_quantity(const std::string& quantity, double width, const Family& family,
+                          const std::string& folder) {
   const NamedQuantity& named = *find_quantity(quantity);
   if (named.of_family != nullptr) return named.of_family(family);
   for (const Group& group : family.walled) {
-    if (group.job.box.width == width) return named.of_group(family, group);
+    if (group.job.box.width == width) {
+      return named.of_group(family, *GroupWithCurves(group, folder));
+    }
   }
   return {{}, "the sweep has no packings between walls at W = " + cell(width) + " d", ""};
 }
 
 Shared share_quantity(const std::string& quantity, double width,
-                      const std::vector<Family>& families) {
+                      const std::vector<Family>& families, const std::string& folder) {
   constexpr std::size_t least_families = 3;
   std::vector<Estimate> values;
   double weight = 0.0, sum = 0.0;
   for (const Family& family : families) {
-    const Measured one = measure_quantity(quantity, width, family);
+    const Measured one = measure_quantity(quantity, width, family, folder);
     if (!one.not_determined.empty()) continue;
     values.push_back(one.estimate);
     weight += std::pow(one.estimate.error, -2);

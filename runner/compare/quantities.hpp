@@ -22,7 +22,9 @@ std::string fault_of_quantity(const std::string& quantity, double width);
 /// "Z at W = 10 d". The quantity and width must be without fault, here and below.
 std::string title_of_quantity(const std::string& quantity, double width);
 
-Measured measure_quantity(const std::string& quantity, double width, const Family& family);
+/// `folder` holds the beds, as of GroupWithCurves.
+Measured measure_quantity(const std::string& quantity, double width, const Family& family,
+                          const std::string& folder = "");
 
 /// The mean of a quantity over all families, weighted by their errors, with its error and, in the
 /// definition, chi2 per degree of freedom: whether one value holds for all.
@@ -31,6 +33,6 @@ struct Shared {
   double chi2_per_dof = 0.0;
 };
 Shared share_quantity(const std::string& quantity, double width,
-                      const std::vector<Family>& families);
+                      const std::vector<Family>& families, const std::string& folder = "");
 
 }  // namespace grainsweep

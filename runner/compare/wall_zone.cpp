@@ -46,10 +46,11 @@ WallZone wall_zone(const Group& group) {
   if (!zone.not_determined.empty()) return zone;
   const double half = group.job.box.width / 2.0;
   std::vector<double> drops, widths;
-  for (const PackingResult& result : group.settled) {
-    const double wall = coordination_between(result.profile_y, 0.0, first_layer);
-    const double core = coordination_between(result.profile_y, core_distance, half + 1.0);
-    const double mean = coordination_between(result.profile_y, 0.0, half + 1.0);
+  for (const Outcome& outcome : group.settled) {
+    const Profile& profile = outcome.result.profile_y;
+    const double wall = coordination_between(profile, 0.0, first_layer);
+    const double core = coordination_between(profile, core_distance, half + 1.0);
+    const double mean = coordination_between(profile, 0.0, half + 1.0);
     drops.push_back(core - wall);
     widths.push_back(half * (core - mean) / (core - wall));
   }

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <numeric>
+#include <string_view>
+#include <unistd.h>
 #include <utility>
 
 #include <sys/ioctl.h>
@@ -69,6 +72,12 @@ std::string progress_line(const RunState& state, int columns) {
     return bar(state.share_done, static_cast<int>(width) - 2) + text;
   }
   return count.substr(1, room);
+}
+
+ProgressStyle progress_style() {
+  const char* terminal = std::getenv("TERM");
+  const bool can_redraw = terminal != nullptr && std::string_view(terminal) != "dumb";
+  return isatty(STDERR_FILENO) != 0 && can_redraw ? ProgressStyle::live : ProgressStyle::plain;
 }
 
 ProgressDisplay::ProgressDisplay(std::vector<double> costs, ProgressStyle style, std::FILE* out,

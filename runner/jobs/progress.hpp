@@ -32,6 +32,9 @@ std::string progress_line(const RunState& state, int columns = 80);
 
 enum class ProgressStyle { quiet, plain, live };
 
+/// Live where standard error is a terminal that can redraw a line, plain elsewhere.
+ProgressStyle progress_style();
+
 /// Keeps the state of a run and shows it. All members may be called from any thread.
 class ProgressDisplay {
  public:

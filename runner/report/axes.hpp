@@ -19,7 +19,8 @@ struct Axes {
   std::string parameter;  ///< dotted name of what is along the axis: box.width if it is varied
   std::string title;      ///< of the axis, with the unit
   std::vector<Series> series;
-  GivenUnits units = {};  ///< of the sweep
+  GivenUnits units = {};    ///< of the sweep
+  std::string folder = {};  ///< as of GroupWithCurves
 };
 
 /// box.width goes along the axis wherever it is varied, else the number that takes most values; of

@@ -1,6 +1,8 @@
 // Figures over other things than the axis of the sweep: distributions, small grains, effort.
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <iterator>
 #include <map>
 #include <set>
 
@@ -17,7 +19,7 @@ namespace {
 constexpr std::size_t most_curves = 6;
 constexpr double farthest = 4.0;  ///< d, to which g is drawn
 
-std::string curves_csv(const std::vector<const Group*>& groups) {
+std::string curves_csv(const std::vector<GroupWithCurves>& groups) {
   std::string text = csv_line({"curve", "group", "x", "value", "error", "name"});
   const auto add = [&](Curve Order::*curve, std::size_t first) {
     for (std::size_t k = 0; k < groups.size(); ++k) {
@@ -34,9 +36,9 @@ std::string curves_csv(const std::vector<const Group*>& groups) {
 }
 
 /// All that the curves of these groups reach, and 0.
-std::vector<double> curve_values(const std::vector<const Group*>& groups, Curve Order::*curve) {
+std::vector<double> curve_values(const std::vector<GroupWithCurves>& groups, Curve Order::*curve) {
   std::vector<double> values = {0.0};
-  for (const Group* group : groups) {
+  for (const GroupWithCurves& group : groups) {
     for (const CurvePoint& point : mean_curve(*group, curve)) values.push_back(point.value.mean);
   }
   return values;
@@ -68,13 +70,14 @@ struct WallReach {
   DecayFit large, small;  ///< at its widest gap
 };
 
-std::vector<WallReach> reaches_of(const std::multimap<double, const Family*>& families) {
+std::vector<WallReach> reaches_of(const std::multimap<double, const Family*>& families,
+                                  const std::string& folder) {
   std::vector<WallReach> reaches;
   for (const auto& [share, family] : families) {
-    const Group& widest = family->walled.back();
+    const GroupWithCurves widest(family->walled.back(), folder);
     reaches.push_back({share, family, fit_walls(*family, Quantity::solid_fraction),
                        fit_walls(*family, Quantity::coordination),
-                       decay_of(widest, GrainClass::large), decay_of(widest, GrainClass::small)});
+                       decay_of(*widest, GrainClass::large), decay_of(*widest, GrainClass::small)});
   }
   return reaches;
 }
@@ -108,12 +111,23 @@ std::map<std::pair<std::string, std::string>, std::size_t> series_numbers(const 
   return numbers;
 }
 
-std::string effort_csv(const Axes& axes, const std::vector<Row>& rows) {
+constexpr std::size_t most_points = 5000;  ///< packings, of which 100,000 make a page of 17 MB
+
+/// Measured packings, evenly spread over all.
+std::vector<std::reference_wrapper<const Row>> points_of(const std::vector<Row>& rows) {
+  std::vector<std::reference_wrapper<const Row>> all, chosen;
+  std::copy_if(rows.begin(), rows.end(), std::back_inserter(all), is_measured);
+  const std::size_t count = std::min(all.size(), most_points);
+  for (std::size_t k = 0; k < count; ++k) chosen.push_back(all[k * all.size() / count]);
+  return chosen;
+}
+
+std::string effort_csv(const Axes& axes,
+                       const std::vector<std::reference_wrapper<const Row>>& points) {
   std::string text =
       csv_line({"series", "job", "grains", "cpu_seconds", "contact_ratio", "status"});
   const auto numbers = series_numbers(axes);
-  for (const Row& row : rows) {
-    if (!is_measured(row)) continue;
+  for (const Row& row : points) {
     const auto number = numbers.find({row.job.label, row.job.parameters});
     const std::size_t series = number == numbers.end() ? 0 : number->second;
     text += csv_line({cell(is_settled(row) ? series : most_series + 1), cell(row.job.id),
@@ -132,7 +146,7 @@ Figure distributions_figure(const Axes& axes) {
                 .caption =
                     "Left: pair correlation. Right: probability density of a contact force "
                     "over the mean of its layer. Means over the settled replicates."};
-  const std::vector<const Group*> groups = chosen_groups(axes, most_curves);
+  const std::vector<GroupWithCurves> groups = chosen_groups(axes, most_curves);
   if (groups.empty()) {
     figure.not_drawn = "no packing has settled";
     return figure;
@@ -161,7 +175,7 @@ Figure distributions_figure(const Axes& axes) {
   return figure;
 }
 
-Figure small_share_figure(const std::vector<Family>& families) {
+Figure small_share_figure(const std::vector<Family>& families, const std::string& folder) {
   Figure figure{.name = "small_grains",
                 .title = "Small grains",
                 .caption =
@@ -172,7 +186,7 @@ Figure small_share_figure(const std::vector<Family>& families) {
                     "say why."};
   const std::string table = "small_grains.csv";
   const auto sorted = by_small_share(families);
-  const std::vector<WallReach> reaches = reaches_of(sorted);
+  const std::vector<WallReach> reaches = reaches_of(sorted, folder);
   figure.tables = {{table, small_share_csv(reaches)}};
   std::vector<double> slopes = {0.0}, lengths = {0.0};
   for (const WallReach& reach : reaches) {
@@ -213,12 +227,16 @@ Figure effort_figure(const Axes& axes, const std::vector<Row>& rows) {
                 .caption =
                     "Each packing: processor time, and how near it came to exactly as many "
                     "contacts as a bed at rest needs (1)."};
-  if (std::none_of(rows.begin(), rows.end(), is_measured)) {
+  const auto points = points_of(rows);
+  if (points.empty()) {
     figure.not_drawn = "no packing was measured";
     return figure;
   }
   const std::string table = "effort.csv";
-  figure.tables = {{table, effort_csv(axes, rows)}};
+  figure.tables = {{table, effort_csv(axes, points)}};
+  if (points.size() == most_points) {
+    figure.caption += " " + cell(most_points) + " packings are drawn; all are in packings.csv.";
+  }
   std::vector<KeyEntry> key = series_key(axes, "points");
   std::vector<std::string> parts;
   for (std::size_t k = 0; k < key.size(); ++k) {
@@ -227,8 +245,7 @@ Figure effort_figure(const Axes& axes, const std::vector<Row>& rows) {
   }
   std::vector<double> seconds, ratios = {1.0};
   bool all_settled = true;
-  for (const Row& row : rows) {
-    if (!is_measured(row)) continue;
+  for (const Row& row : points) {
     all_settled = all_settled && is_settled(row);
     seconds.push_back(std::log10(row.outcome->cpu_seconds));
     ratios.push_back(number_of(field_named("contact_ratio"), *row.outcome));
@@ -260,10 +277,11 @@ std::vector<Figure> figures_of(const std::vector<Row>& rows, const Analysis& ana
                                const GivenUnits& units) {
   Axes axes = axes_of(analysis.groups);
   axes.units = units;
+  axes.folder = analysis.folder;
   std::vector<Figure> figures = {means_figure(axes, analysis.families), profiles_figure(axes)};
   const auto shares = by_small_share(analysis.families);
   if (!shares.empty() && shares.begin()->first < shares.rbegin()->first) {
-    figures.push_back(small_share_figure(analysis.families));
+    figures.push_back(small_share_figure(analysis.families, analysis.folder));
   }
   const bool has_kinds = std::any_of(rows.begin(), rows.end(), [](const Row& row) {
     return row.outcome && row.outcome->result.shape_order;

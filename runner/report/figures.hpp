@@ -24,7 +24,7 @@ Figure means_figure(const Axes& axes, const std::vector<Family>& families);
 Figure profiles_figure(const Axes& axes);
 
 /// How far the walls reach and what they cost, against the share of small grains.
-Figure small_share_figure(const std::vector<Family>& families);
+Figure small_share_figure(const std::vector<Family>& families, const std::string& folder);
 
 /// Pair correlation and the distribution of contact forces.
 Figure distributions_figure(const Axes& axes);

@@ -19,11 +19,12 @@ std::vector<const Group*> settled_groups(const Axes& axes) {
 }
 
 /// At most `most` of them, evenly spread over all.
-std::vector<const Group*> spread_over(const std::vector<const Group*>& all, std::size_t most) {
-  std::vector<const Group*> chosen;
+std::vector<GroupWithCurves> spread_over(const std::vector<const Group*>& all, std::size_t most,
+                                         const std::string& folder) {
+  std::vector<GroupWithCurves> chosen;
   const std::size_t count = std::min(most, all.size());
   for (std::size_t k = 0; k < count; ++k) {
-    chosen.push_back(all[count == 1 ? 0 : k * (all.size() - 1) / (count - 1)]);
+    chosen.emplace_back(*all[count == 1 ? 0 : k * (all.size() - 1) / (count - 1)], folder);
   }
   return chosen;
 }
@@ -53,15 +54,15 @@ std::string left_out_text(const Axes& axes, const std::string& name) {
          name + ".csv.";
 }
 
-std::vector<const Group*> chosen_groups(const Axes& axes, std::size_t most) {
-  return spread_over(settled_groups(axes), most);
+std::vector<GroupWithCurves> chosen_groups(const Axes& axes, std::size_t most) {
+  return spread_over(settled_groups(axes), most, axes.folder);
 }
 
-std::vector<const Group*> chosen_walled_groups(const Axes& axes, std::size_t most) {
+std::vector<GroupWithCurves> chosen_walled_groups(const Axes& axes, std::size_t most) {
   std::vector<const Group*> walled, all = settled_groups(axes);
   std::copy_if(all.begin(), all.end(), std::back_inserter(walled),
                [](const Group* group) { return group->job.box.y == Boundary::walls; });
-  return spread_over(walled.empty() ? all : walled, most);
+  return spread_over(walled.empty() ? all : walled, most, axes.folder);
 }
 
 std::vector<KeyEntry> series_key(const Axes& axes, const std::string& style) {

@@ -20,11 +20,11 @@ std::vector<const Series*> shown_series(const Axes& axes);
 /// "12 of 40 series are shown, all are in NAME.csv"; empty if all are shown.
 std::string left_out_text(const Axes& axes, const std::string& name);
 
-/// Groups with a settled packing, at most `most` of them, evenly spread over all.
-std::vector<const Group*> chosen_groups(const Axes& axes, std::size_t most);
+/// Groups with a settled packing, at most `most` of them, evenly spread over all. Throws FileError.
+std::vector<GroupWithCurves> chosen_groups(const Axes& axes, std::size_t most);
 
 /// The same of groups between walls, if there are any.
-std::vector<const Group*> chosen_walled_groups(const Axes& axes, std::size_t most);
+std::vector<GroupWithCurves> chosen_walled_groups(const Axes& axes, std::size_t most);
 
 /// A key entry for each of the shown series.
 std::vector<KeyEntry> series_key(const Axes& axes, const std::string& style);

@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t most_profiles = 3;
 const std::string bins_table = "profiles.csv";
 
-std::string bins_csv(const std::vector<const Group*>& groups) {
+std::string bins_csv(const std::vector<GroupWithCurves>& groups) {
   std::string text =
       csv_line({"panel", "group", "y", "solid_fraction", "large", "large_error", "coordination",
                 "coordination_error", "coordination_with_walls", "name"});
@@ -30,10 +30,10 @@ std::string bins_csv(const std::vector<const Group*>& groups) {
 }
 
 /// What all panels of a row show, so that they have one range.
-std::vector<double> values_in(const std::vector<const Group*>& groups,
+std::vector<double> values_in(const std::vector<GroupWithCurves>& groups,
                               std::initializer_list<Spread MeanBin::*> spreads) {
   std::vector<double> values;
-  for (const Group* group : groups) {
+  for (const GroupWithCurves& group : groups) {
     for (const MeanBin& bin : mean_profile(*group, profile_across(*group))) {
       for (const auto spread : spreads) values.push_back((bin.*spread).mean);
     }
@@ -67,7 +67,7 @@ std::string coordination_panel(std::size_t k) {
        plot_part({bins_table, "panel", k + 1, "y", "coordination", "", "lines ls 1 lw 1.4"})});
 }
 
-std::string commands_of(const Figure& figure, const std::vector<const Group*>& groups,
+std::string commands_of(const Figure& figure, const std::vector<GroupWithCurves>& groups,
                         const std::vector<DecayFit>& fits) {
   const Panels panels(figure, groups.size(), {0.55, 0.45},
                       {{"points ls 20", "φ of large grains"},
@@ -99,8 +99,8 @@ std::string commands_of(const Figure& figure, const std::vector<const Group*>& g
   return text;
 }
 
-std::string decays_text(const std::vector<const Group*>& groups, const std::vector<DecayFit>& fits,
-                        const GivenUnits& units) {
+std::string decays_text(const std::vector<GroupWithCurves>& groups,
+                        const std::vector<DecayFit>& fits, const GivenUnits& units) {
   std::string text;
   for (std::size_t k = 0; k < groups.size(); ++k) {
     const DecayFit& fit = fits[k];
@@ -123,14 +123,14 @@ Figure profiles_figure(const Axes& axes) {
                     "walls; bars are standard errors. φ = bulk + A exp(-y / λ) cos(2π y / T + δ) "
                     "is fitted from "
                     "both walls."};
-  const std::vector<const Group*> groups = chosen_walled_groups(axes, most_profiles);
+  const std::vector<GroupWithCurves> groups = chosen_walled_groups(axes, most_profiles);
   if (groups.empty()) {
     figure.not_drawn = "no packing has settled";
     return figure;
   }
   std::vector<DecayFit> fits;
   fits.reserve(groups.size());
-  for (const Group* group : groups) fits.push_back(decay_of(*group, GrainClass::large));
+  for (const GroupWithCurves& group : groups) fits.push_back(decay_of(*group, GrainClass::large));
   figure.height = 520;
   figure.caption +=
       decays_text(groups, fits, axes.units) + " The others are in the folder's profiles.csv.";

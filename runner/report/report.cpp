@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <optional>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -41,16 +43,16 @@ constexpr std::size_t most_beds = 12, most_view_bytes = 4'000'000;
 /// spread over all.
 std::vector<std::pair<const Group*, const Row*>> beds_to_show(const std::vector<Row>& rows,
                                                               const std::vector<Group>& groups) {
+  std::map<std::pair<std::string_view, std::string_view>, const Row*> first_of;
+  for (const Row& row : rows) {
+    if (!row.outcome || row.outcome->stored_bytes == 0) continue;
+    const Row*& first = first_of[{row.job.label, row.job.parameters}];
+    if (first == nullptr || (is_settled(row) && !is_settled(*first))) first = &row;
+  }
   std::vector<std::pair<const Group*, const Row*>> all, chosen;
   for (const Group& group : groups) {
-    const Row* first = nullptr;
-    for (const Row& row : rows) {
-      const bool is_here = row.job.label == group.job.label &&
-                           row.job.parameters == group.job.parameters && row.outcome &&
-                           row.outcome->stored_bytes > 0;
-      if (is_here && (first == nullptr || (is_settled(row) && !is_settled(*first)))) first = &row;
-    }
-    if (first != nullptr) all.emplace_back(&group, first);
+    const auto first = first_of.find({group.job.label, group.job.parameters});
+    if (first != first_of.end()) all.emplace_back(&group, first->second);
   }
   const std::size_t count = std::min(most_beds, all.size());
   for (std::size_t k = 0; k < count; ++k) {
@@ -120,7 +122,7 @@ std::vector<std::string> write_report(const std::string& folder, const Provenanc
   std::vector<std::string> missing;
   const auto reference = reference_of(provenance, missing);
   const std::vector<Comparison> comparisons =
-      reference ? compare_with(*reference, analysis.families) : std::vector<Comparison>();
+      reference ? compare_with(*reference, analysis) : std::vector<Comparison>();
   PageParts parts;
   parts.title = provenance.sweep_name;
   if (extent == PageExtent::whole) {

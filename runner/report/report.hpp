@@ -15,9 +15,9 @@ enum class PageExtent {
   text,  ///< at once: no figures and no beds, for a run that was told to stop
 };
 
-/// Writes <folder>/report.html, and <folder>/figures, of rows with their curves, in the place of
-/// earlier ones. Returns what is missing from a whole page and why, lines for people; nothing if it
-/// is whole. Throws FileError.
+/// Writes <folder>/report.html, and <folder>/figures, of rows whose beds were checked, in the place
+/// of earlier ones. Returns what is missing from a whole page and why, lines for people; nothing if
+/// it is whole. Throws FileError.
 std::vector<std::string> write_report(const std::string& folder, const Provenance& provenance,
                                       const std::vector<Row>& rows, const Analysis& analysis,
                                       PageExtent extent = PageExtent::whole);

@@ -45,12 +45,6 @@ bool read_more(const OpenFile& file, std::string& text,
   return count > 0;
 }
 
-void write_and_flush(const std::string& path, std::string_view bytes) {
-  const OpenFile file(path, O_WRONLY | O_CREAT | O_TRUNC);
-  write_all(file, bytes);
-  flush_to_disk(file);
-}
-
 /// Of the folder `path` that was to be made, with what came of it.
 void expect_folder(const std::string& path, const std::error_code& error) {
   if (error) throw FileError(path, "make the folder", error.value());
@@ -145,15 +139,37 @@ void remove_leftovers(const std::string& folder, std::string_view ending) {
 }
 
 void replace_file(const std::string& path, std::string_view bytes) {
-  const std::string temporary = path + std::string(temporary_mark) + process_name();
-  try {
-    write_and_flush(temporary, bytes);
-    if (std::rename(temporary.c_str(), path.c_str()) != 0) throw FileError(path, "replace", errno);
-  } catch (const FileError&) {
-    unlink(temporary.c_str());
-    throw;
+  Replacement file(path);
+  file.write(bytes);
+  file.commit();
+}
+
+Replacement::Replacement(std::string path)
+    : path_(std::move(path)),
+      temporary_(path_ + std::string(temporary_mark) + process_name()),
+      file_(temporary_, O_WRONLY | O_CREAT | O_TRUNC) {}
+
+Replacement::~Replacement() {
+  if (!is_committed_) unlink(temporary_.c_str());
+}
+
+void Replacement::write(std::string_view bytes) {
+  constexpr std::size_t most_kept = 1 << 20;
+  if (bytes_.size() + bytes.size() < most_kept) {
+    bytes_ += bytes;
+    return;
   }
-  flush_folder_of(path);
+  write_all(file_, bytes_);
+  write_all(file_, bytes);
+  bytes_.clear();
+}
+
+void Replacement::commit() {
+  write_all(file_, bytes_);
+  flush_to_disk(file_);
+  if (std::rename(temporary_.c_str(), path_.c_str()) != 0) throw FileError(path_, "replace", errno);
+  is_committed_ = true;
+  flush_folder_of(path_);
 }
 
 void make_folder(const std::string& path) {

@@ -67,6 +67,27 @@ void for_each_line(const std::string& path, const std::function<void(std::string
 /// never a part. Writes a temporary file beside it, flushes it, renames it, flushes the folder.
 void replace_file(const std::string& path, std::string_view bytes);
 
+/// The same for a file that is written bit by bit: nothing of it is seen before it is committed,
+/// nor ever if it is not.
+class Replacement {
+ public:
+  explicit Replacement(std::string path);
+  Replacement(const Replacement&) = delete;
+  Replacement(Replacement&&) = delete;
+  Replacement& operator=(const Replacement&) = delete;
+  Replacement& operator=(Replacement&&) = delete;
+  ~Replacement();
+
+  void write(std::string_view bytes);
+  void commit();
+
+ private:
+  std::string path_, temporary_;
+  OpenFile file_;
+  std::string bytes_;  ///< not yet in the file
+  bool is_committed_ = false;
+};
+
 /// Makes the folder and those above it; nothing happens if it is there.
 void make_folder(const std::string& path);
 

@@ -12,9 +12,9 @@ double ProfileBin::*volume_of(GrainClass grains) {
 /// Both halves of every settled profile, from the wall inwards; that of a tube is one half.
 std::vector<std::vector<double>> halves_of(const Group& group, GrainClass grains) {
   std::vector<std::vector<double>> halves;
-  for (const PackingResult& result : group.settled) {
+  for (const Outcome& outcome : group.settled) {
     std::vector<double> values;
-    for (const ProfileBin& bin : (result.*profile_across(group)).bins) {
+    for (const ProfileBin& bin : (outcome.result.*profile_across(group)).bins) {
       values.push_back(bin.*volume_of(grains));
     }
     halves.push_back(values);
@@ -27,8 +27,8 @@ std::vector<std::vector<double>> halves_of(const Group& group, GrainClass grains
 
 bool has_grains(const Group& group, GrainClass grains) {
   const auto is_filled = [&](const ProfileBin& bin) { return bin.*volume_of(grains) > 0.0; };
-  return std::all_of(group.settled.begin(), group.settled.end(), [&](const PackingResult& result) {
-    const std::vector<ProfileBin>& bins = (result.*profile_across(group)).bins;
+  return std::all_of(group.settled.begin(), group.settled.end(), [&](const Outcome& outcome) {
+    const std::vector<ProfileBin>& bins = (outcome.result.*profile_across(group)).bins;
     return std::any_of(bins.begin(), bins.end(), is_filled);
   });
 }
@@ -114,7 +114,7 @@ DecayFit decay_of(const Group& group, GrainClass grains) {
   fit.window_end = group.job.box.width / 2.0;
   fit.not_determined = why_no_fit(group, grains);
   if (!fit.not_determined.empty()) return fit;
-  const double bin_width = (group.settled.front().get().*profile_across(group)).bin_width;
+  const double bin_width = (group.settled.front().get().result.*profile_across(group)).bin_width;
   return fit_decay(halves_of(group, grains), bin_width, fit.window_end);
 }
 
@@ -122,15 +122,15 @@ std::vector<ColumnText> decays_columns(const Varied& varied, const GivenUnits& u
   return described("decays.csv", decay_line_columns(varied, units));
 }
 
-std::string decays_csv(const std::vector<Group>& groups, const GivenUnits& units) {
-  const Columns<DecayLine> columns = decay_line_columns(varied_of(groups), units);
-  std::string text = header_line(columns);
-  for (const Group& group : groups) {
-    for (const GrainClass grains : {GrainClass::large, GrainClass::small}) {
-      text += row_line(columns, DecayLine{group, grains, decay_of(group, grains)});
-    }
-  }
-  return text;
+CurveTable decays_table(const Varied& varied, const GivenUnits& units) {
+  const Columns<DecayLine> columns = decay_line_columns(varied, units);
+  return {header_line(columns), [columns](const Group& group) {
+            std::string text;
+            for (const GrainClass grains : {GrainClass::large, GrainClass::small}) {
+              text += row_line(columns, DecayLine{group, grains, decay_of(group, grains)});
+            }
+            return text;
+          }};
 }
 
 }  // namespace grainsweep

@@ -24,8 +24,8 @@ Profile PackingResult::*profile_across(const Group& group);
 /// class, or with a single settled replicate, which leaves the errors unknown.
 DecayFit decay_of(const Group& group, GrainClass grains);
 
-/// The whole file: two rows per group.
-std::string decays_csv(const std::vector<Group>& groups, const GivenUnits& units = {});
+/// Two rows per group.
+CurveTable decays_table(const Varied& varied, const GivenUnits& units = {});
 
 std::vector<ColumnText> decays_columns(const Varied& varied, const GivenUnits& units = {});
 

@@ -8,8 +8,8 @@ namespace {
 /// The values of all replicates that have bin `k` of a curve.
 Spread spread_at(const Group& group, Curve Order::*curve, std::size_t k) {
   std::vector<double> values;
-  for (const PackingResult& result : group.settled) {
-    const Curve& one = result.order.*curve;
+  for (const Outcome& outcome : group.settled) {
+    const Curve& one = outcome.result.order.*curve;
     if (k < one.values.size()) values.push_back(one.values[k]);
   }
   return spread_of(values);
@@ -55,9 +55,10 @@ void append_curve_lines(const Group& group, const char* name, Curve Order::*curv
 std::vector<CurvePoint> mean_curve(const Group& group, Curve Order::*curve) {
   std::size_t longest = 0;
   double width = 0.0;
-  for (const PackingResult& result : group.settled) {
-    longest = std::max(longest, (result.order.*curve).values.size());
-    width = (result.order.*curve).bin_width;
+  for (const Outcome& outcome : group.settled) {
+    const Curve& one = outcome.result.order.*curve;
+    longest = std::max(longest, one.values.size());
+    width = one.bin_width;
   }
   std::vector<CurvePoint> points;
   for (std::size_t k = 0; k < longest; ++k) {
@@ -71,14 +72,14 @@ std::vector<ColumnText> distributions_columns(const Varied& varied, const GivenU
   return described("distributions.csv", curve_line_columns(varied, units));
 }
 
-std::string distributions_csv(const std::vector<Group>& groups, const GivenUnits& units) {
-  const Columns<PointLine> columns = curve_line_columns(varied_of(groups), units);
-  std::string text = header_line(columns);
-  for (const Group& group : groups) {
-    append_curve_lines(group, "pair_correlation", &Order::pair_correlation, columns, text);
-    append_curve_lines(group, "force_density", &Order::force_density, columns, text);
-  }
-  return text;
+CurveTable distributions_table(const Varied& varied, const GivenUnits& units) {
+  const Columns<PointLine> columns = curve_line_columns(varied, units);
+  return {header_line(columns), [columns](const Group& group) {
+            std::string text;
+            append_curve_lines(group, "pair_correlation", &Order::pair_correlation, columns, text);
+            append_curve_lines(group, "force_density", &Order::force_density, columns, text);
+            return text;
+          }};
 }
 
 }  // namespace grainsweep

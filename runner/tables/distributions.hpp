@@ -19,8 +19,7 @@ struct CurvePoint {
 /// over those that have them.
 std::vector<CurvePoint> mean_curve(const Group& group, Curve Order::*curve);
 
-/// The whole file.
-std::string distributions_csv(const std::vector<Group>& groups, const GivenUnits& units = {});
+CurveTable distributions_table(const Varied& varied, const GivenUnits& units = {});
 
 std::vector<ColumnText> distributions_columns(const Varied& varied, const GivenUnits& units = {});
 

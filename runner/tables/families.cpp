@@ -151,8 +151,9 @@ std::vector<Family> families_of(const std::vector<Group>& groups) {
   return families;
 }
 
-Analysis analyse(const std::vector<Row>& rows) {
+Analysis analyse(const std::vector<Row>& rows, const std::string& folder) {
   Analysis analysis;
+  analysis.folder = folder;
   analysis.groups = groups_of(rows);
   analysis.families = families_of(analysis.groups);
   std::map<std::string, std::string> names;

@@ -28,10 +28,11 @@ std::vector<Family> families_of(const std::vector<Group>& groups);
 struct Analysis {
   std::vector<Group> groups;
   std::vector<Family> families;
+  std::string folder;  ///< as of GroupWithCurves
 };
 
-/// Refers to the rows.
-Analysis analyse(const std::vector<Row>& rows);
-Analysis analyse(std::vector<Row>&& rows) = delete;
+/// Refers to the rows, whose beds are stored in `folder`.
+Analysis analyse(const std::vector<Row>& rows, const std::string& folder = "");
+Analysis analyse(std::vector<Row>&& rows, const std::string& folder = "") = delete;
 
 }  // namespace grainsweep

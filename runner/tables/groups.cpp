@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "runner/store/fields.hpp"
+#include "runner/store/states.hpp"
 #include "runner/sweep/parameters.hpp"
 
 namespace grainsweep {
@@ -54,7 +55,7 @@ Group group_of(const Members& members) {
   for (const Field& field : mean_fields()) group.means.push_back(spread_over(members, field));
   for (const Row* row : members) {
     count(*row, group.counts);
-    if (is_settled(*row)) group.settled.emplace_back(row->outcome->result);
+    if (is_settled(*row)) group.settled.emplace_back(*row->outcome);
   }
   return group;
 }
@@ -127,6 +128,15 @@ Columns<Group> bias_columns() {
 }
 
 }  // namespace
+
+GroupWithCurves::GroupWithCurves(Group group, const std::string& folder)
+    : group_(std::move(group)) {
+  outcomes_.assign(group_.settled.begin(), group_.settled.end());
+  group_.settled.assign(outcomes_.begin(), outcomes_.end());
+  for (Outcome& outcome : outcomes_) {
+    if (outcome.stored_bytes > 0) set_curves(read_bed(folder, outcome).curves, outcome.result);
+  }
+}
 
 Spread spread_of(const std::vector<double>& values) {
   Spread spread{no_number, no_number, static_cast<int>(values.size()), no_number, 0};

@@ -42,8 +42,33 @@ struct Group {
   std::optional<ProtocolBias> bias_bound;  ///< of phi and Z, by the way of settling
   std::vector<Spread> means;  ///< of the fields that have one, in the order of the field table
   /// In the order of the rows, with curves as far as they had.
-  std::vector<std::reference_wrapper<const PackingResult>> settled;
+  std::vector<std::reference_wrapper<const Outcome>> settled;
   StatusCounts counts;
+};
+
+/// A group whose settled packings have their curves, 10 kB each, for as long as it lives.
+class GroupWithCurves {
+ public:
+  /// Reads the curves of packings whose bed is stored in `folder`. Throws FileError.
+  GroupWithCurves(Group group, const std::string& folder);
+  GroupWithCurves(const GroupWithCurves&) = delete;
+  GroupWithCurves(GroupWithCurves&&) = default;
+  GroupWithCurves& operator=(const GroupWithCurves&) = delete;
+  GroupWithCurves& operator=(GroupWithCurves&&) = default;
+  ~GroupWithCurves() = default;
+
+  const Group& operator*() const { return group_; }
+  const Group* operator->() const { return &group_; }
+
+ private:
+  std::vector<Outcome> outcomes_;
+  Group group_;  ///< refers to the outcomes
+};
+
+/// A table whose lines are made of one group after the other, each with its curves.
+struct CurveTable {
+  std::string header;
+  std::function<std::string(const Group&)> lines;
 };
 
 /// In the order in which the groups first appear. The errors of their means come from the variance

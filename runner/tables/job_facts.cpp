@@ -123,40 +123,6 @@ Boundary boundary_from(const json& name) {
   return name.get<std::string>() == "walls" ? Boundary::walls : Boundary::periodic;
 }
 
-/// Everything that jobs with equal parameters share. The parameters are kept as the text that
-/// identifies a job: written anew from numbers, 1e-04 would become 0.0001.
-json shared_json(const JobFacts& job) {
-  return {{"parameters", job.parameters},
-          {"shape", job.shape},
-          {"accuracy", job.accuracy},
-          {"length", job.box.length},
-          {"width", job.box.width},
-          {"x", name_of(job.box.x)},
-          {"y", name_of(job.box.y)},
-          {"tube", job.box.is_tube},
-          {"small_share", job.small_share},
-          {"exclude_floor", job.measure.exclude_floor},
-          {"exclude_surface", job.measure.exclude_surface},
-          {"gap_tolerances", job.measure.gap_tolerances}};
-}
-
-JobFacts shared_facts_from(const json& set) {
-  JobFacts facts;
-  set.at("parameters").get_to(facts.parameters);
-  set.at("shape").get_to(facts.shape);
-  set.at("accuracy").get_to(facts.accuracy);
-  set.at("length").get_to(facts.box.length);
-  set.at("width").get_to(facts.box.width);
-  facts.box.x = boundary_from(set.at("x"));
-  facts.box.y = boundary_from(set.at("y"));
-  set.at("tube").get_to(facts.box.is_tube);
-  set.at("small_share").get_to(facts.small_share);
-  set.at("exclude_floor").get_to(facts.measure.exclude_floor);
-  set.at("exclude_surface").get_to(facts.measure.exclude_surface);
-  set.at("gap_tolerances").get_to(facts.measure.gap_tolerances);
-  return facts;
-}
-
 }  // namespace
 
 Columns<JobFacts> job_columns(const std::vector<std::string>& names) {
@@ -199,49 +165,95 @@ std::vector<Row> rows_of(const Sweep& sweep) {
 }
 
 std::size_t take_outcomes(std::map<std::string, Outcome>&& outcomes, std::vector<Row>& rows) {
-  std::size_t taken = 0;
   for (Row& row : rows) {
-    const auto found = outcomes.find(row.job.id);
-    if (found == outcomes.end()) continue;
-    row.outcome = std::move(found->second);
-    ++taken;
+    auto found = outcomes.extract(row.job.id);
+    if (found) row.outcome = std::move(found.mapped());
   }
-  return outcomes.size() - taken;
+  return outcomes.size();
 }
 
-json jobs_json(const std::vector<Row>& rows) {
-  json sets = json::array(), jobs = json::array();
-  std::map<std::string, std::size_t> index_of;
-  for (const Row& row : rows) {
-    const auto [known, is_new] = index_of.try_emplace(row.job.parameters, sets.size());
-    if (is_new) sets.push_back(shared_json(row.job));
-    jobs.push_back({{"id", row.job.id},
-                    {"label", row.job.label},
-                    {"replicate", row.job.replicate},
-                    {"seed", row.job.seed},
-                    {"files", row.job.files},
-                    {"set", known->second}});
-  }
-  return {{"parameter_sets", sets}, {"jobs", jobs}};
+void to_json(json& to, const JobEntry& job) {
+  to = {{"id", job.id},     {"label", job.label}, {"replicate", job.replicate},
+        {"seed", job.seed}, {"files", job.files}, {"set", job.set}};
 }
 
-std::vector<Row> rows_from_json(const json& from, Detail detail) {
-  std::vector<JobFacts> sets;
-  for (const json& set : from.at("parameter_sets")) sets.push_back(shared_facts_from(set));
+void from_json(const json& from, JobEntry& job) {
+  from.at("id").get_to(job.id);
+  from.at("label").get_to(job.label);
+  from.at("replicate").get_to(job.replicate);
+  from.at("seed").get_to(job.seed);
+  from.at("files").get_to(job.files);
+  from.at("set").get_to(job.set);
+}
+
+JobList job_list(const std::vector<Row>& rows) {
+  JobList list;
+  std::map<std::string_view, std::size_t> index_of;
+  list.jobs.reserve(rows.size());
+  for (const auto& [job, outcome] : rows) {
+    const auto [known, is_new] = index_of.try_emplace(job.parameters, list.sets.size());
+    if (is_new) list.sets.push_back(job);
+    list.jobs.push_back({job.id, job.label, job.replicate, job.seed, job.files, known->second});
+  }
+  return list;
+}
+
+JobFacts facts_of(const JobEntry& job, const JobList& list) {
+  JobFacts facts = list.sets[job.set];
+  facts.id = job.id;
+  facts.label = job.label;
+  facts.replicate = job.replicate;
+  facts.seed = job.seed;
+  facts.files = job.files;
+  return facts;
+}
+
+std::vector<Row> rows_of(const JobList& list, Detail detail) {
   std::vector<Row> rows;
-  rows.reserve(from.at("jobs").size());
-  for (const json& entry : from.at("jobs")) {
-    const auto set = entry.at("set").get<std::size_t>();
-    if (set >= sets.size()) throw json::out_of_range::create(401, "no such parameter set", &entry);
+  rows.reserve(list.jobs.size());
+  for (const JobEntry& job : list.jobs) {
     Row& row = rows.emplace_back();
-    if (detail == Detail::whole) row.job = sets[set];
-    entry.at("id").get_to(row.job.id);
-    entry.at("label").get_to(row.job.label);
-    entry.at("replicate").get_to(row.job.replicate);
-    entry.at("seed").get_to(row.job.seed);
-    entry.at("files").get_to(row.job.files);
+    if (detail == Detail::whole) {
+      row.job = facts_of(job, list);
+    } else {
+      row.job.id = job.id;
+    }
   }
   return rows;
+}
+
+/// Everything that jobs with equal parameters share. The parameters are kept as the text that
+/// identifies a job: written anew from numbers, 1e-04 would become 0.0001.
+json set_json(const JobFacts& job) {
+  return {{"parameters", job.parameters},
+          {"shape", job.shape},
+          {"accuracy", job.accuracy},
+          {"length", job.box.length},
+          {"width", job.box.width},
+          {"x", name_of(job.box.x)},
+          {"y", name_of(job.box.y)},
+          {"tube", job.box.is_tube},
+          {"small_share", job.small_share},
+          {"exclude_floor", job.measure.exclude_floor},
+          {"exclude_surface", job.measure.exclude_surface},
+          {"gap_tolerances", job.measure.gap_tolerances}};
+}
+
+JobFacts set_from_json(const json& set) {
+  JobFacts facts;
+  set.at("parameters").get_to(facts.parameters);
+  set.at("shape").get_to(facts.shape);
+  set.at("accuracy").get_to(facts.accuracy);
+  set.at("length").get_to(facts.box.length);
+  set.at("width").get_to(facts.box.width);
+  facts.box.x = boundary_from(set.at("x"));
+  facts.box.y = boundary_from(set.at("y"));
+  set.at("tube").get_to(facts.box.is_tube);
+  set.at("small_share").get_to(facts.small_share);
+  set.at("exclude_floor").get_to(facts.measure.exclude_floor);
+  set.at("exclude_surface").get_to(facts.measure.exclude_surface);
+  set.at("gap_tolerances").get_to(facts.measure.gap_tolerances);
+  return facts;
 }
 
 bool is_settled(const Row& row) {

@@ -13,6 +13,7 @@
 #include "engine/dynamics/presets.hpp"
 #include "runner/store/journal.hpp"
 #include "runner/sweep/job.hpp"
+#include "runner/tables/boxed.hpp"
 #include "runner/tables/columns.hpp"
 
 namespace grainsweep {
@@ -34,7 +35,7 @@ struct JobFacts {
 /// A job and what came of it; no outcome while it is pending.
 struct Row {
   JobFacts job;
-  std::optional<Outcome> outcome;
+  Boxed<Outcome> outcome;
 };
 
 /// One pending row per job, in the sweep's order.
@@ -44,12 +45,33 @@ std::vector<Row> rows_of(const Sweep& sweep);
 /// not among the rows.
 std::size_t take_outcomes(std::map<std::string, Outcome>&& outcomes, std::vector<Row>& rows);
 
-/// The jobs of the rows as kept in provenance.json. Equal parameters are kept once.
-nlohmann::json jobs_json(const std::vector<Row>& rows);
+/// What tells a job from the others with its parameters.
+struct JobEntry {
+  std::string id, label;
+  int replicate = 1;
+  std::uint64_t seed = 0;
+  std::map<std::string, std::string> files;
+  std::size_t set = 0;  ///< its parameters, by their place in JobList::sets
+};
+void to_json(nlohmann::json& to, const JobEntry& job);
+void from_json(const nlohmann::json& from, JobEntry& job);
 
-/// Pending rows; of a summary ids alone are read. Throws nlohmann::json::exception if `from` is not
-/// what jobs_json makes.
-std::vector<Row> rows_from_json(const nlohmann::json& from, Detail detail = Detail::whole);
+/// Jobs as kept in provenance.json: equal parameters once, so that 100,000 take 20 MB.
+struct JobList {
+  std::vector<JobFacts> sets;  ///< without what a JobEntry has
+  std::vector<JobEntry> jobs;
+};
+JobList job_list(const std::vector<Row>& rows);
+
+/// What is known of a job of the list.
+JobFacts facts_of(const JobEntry& job, const JobList& list);
+
+/// Pending rows; of a summary without parameters.
+std::vector<Row> rows_of(const JobList& list, Detail detail = Detail::whole);
+
+/// A set of parameters, and back. Throws nlohmann::json::exception.
+nlohmann::json set_json(const JobFacts& set);
+JobFacts set_from_json(const nlohmann::json& from);
 
 /// Columns of jobs, those with these names in this order: "label", "width" ...
 Columns<JobFacts> job_columns(const std::vector<std::string>& names);

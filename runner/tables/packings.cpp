@@ -25,7 +25,8 @@ struct ToCell {
 Column<Row> column_of(const Field& field) {
   return {std::string(field.name), std::string(field.unit), std::string(field.meaning),
           [&field](const Row& row) {
-            const bool has_value = field.use.measured ? is_measured(row) : row.outcome.has_value();
+            const bool has_value =
+                field.use.measured ? is_measured(row) : static_cast<bool>(row.outcome);
             return has_value ? std::visit(ToCell(), field.value(*row.outcome)) : std::string();
           }};
 }
@@ -95,17 +96,17 @@ std::vector<double> further_tolerances(const std::vector<Row>& rows) {
   return tolerances;
 }
 
-std::string packings_csv(const std::vector<Row>& rows, const std::vector<Group>& groups,
-                         const GivenUnits& units) {
+void write_packings_csv(const std::vector<Row>& rows, const std::vector<Group>& groups,
+                        const GivenUnits& units,
+                        const std::function<void(const std::string&)>& write) {
   const Columns<PackingLine> columns =
       packings_columns(further_tolerances(rows), varied_of(groups), units);
   std::map<std::pair<std::string_view, std::string_view>, const Group*> group_of;
   for (const Group& group : groups) group_of[{group.job.label, group.job.parameters}] = &group;
-  std::string text = header_line(columns);
+  write(header_line(columns));
   for (const Row& row : rows) {
-    text += row_line(columns, PackingLine{row, *group_of.at({row.job.label, row.job.parameters})});
+    write(row_line(columns, PackingLine{row, *group_of.at({row.job.label, row.job.parameters})}));
   }
-  return text;
 }
 
 }  // namespace grainsweep

@@ -1,6 +1,7 @@
 // packings.csv: one row per packing, in the sweep's order.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -24,8 +25,9 @@ Columns<PackingLine> packings_columns(const std::vector<double>& further_toleran
 /// Every gap tolerance that is not first in all of the jobs, ascending.
 std::vector<double> further_tolerances(const std::vector<Row>& rows);
 
-/// The whole file. `groups` are those of the rows.
-std::string packings_csv(const std::vector<Row>& rows, const std::vector<Group>& groups,
-                         const GivenUnits& units = {});
+/// Gives `write` the file, a line at a time. `groups` are those of the rows.
+void write_packings_csv(const std::vector<Row>& rows, const std::vector<Group>& groups,
+                        const GivenUnits& units,
+                        const std::function<void(const std::string&)>& write);
 
 }  // namespace grainsweep

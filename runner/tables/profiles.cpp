@@ -110,15 +110,15 @@ void append_profile_lines(const Group& group, const char* axis, Profile PackingR
 
 std::vector<MeanBin> mean_profile(const Group& group, Profile PackingResult::*profile) {
   std::size_t longest = 0;
-  for (const PackingResult& result : group.settled) {
-    longest = std::max(longest, (result.*profile).bins.size());
+  for (const Outcome& outcome : group.settled) {
+    longest = std::max(longest, (outcome.result.*profile).bins.size());
   }
   std::vector<MeanBin> means;
   for (std::size_t k = 0; k < longest; ++k) {
     Bins bins;
     double width = 0.0;
-    for (const PackingResult& result : group.settled) {
-      const Profile& one = result.*profile;
+    for (const Outcome& outcome : group.settled) {
+      const Profile& one = outcome.result.*profile;
       if (k < one.bins.size()) bins.push_back(&one.bins[k]), width = one.bin_width;
     }
     means.push_back(
@@ -131,16 +131,16 @@ std::vector<ColumnText> profiles_columns(const Varied& varied, const GivenUnits&
   return described("profiles.csv", profile_line_columns(varied, units));
 }
 
-std::string profiles_csv(const std::vector<Group>& groups, const GivenUnits& units) {
-  const Columns<ProfileLine> columns = profile_line_columns(varied_of(groups), units);
-  std::string text = header_line(columns);
-  for (const Group& group : groups) {
-    append_profile_lines(group, "x", &PackingResult::profile_x, columns, text);
-    append_profile_lines(group, "y", &PackingResult::profile_y, columns, text);
-    append_profile_lines(group, "walls", &PackingResult::profile_from_walls, columns, text);
-    append_profile_lines(group, "z", &PackingResult::profile_z, columns, text);
-  }
-  return text;
+CurveTable profiles_table(const Varied& varied, const GivenUnits& units) {
+  const Columns<ProfileLine> columns = profile_line_columns(varied, units);
+  return {header_line(columns), [columns](const Group& group) {
+            std::string text;
+            append_profile_lines(group, "x", &PackingResult::profile_x, columns, text);
+            append_profile_lines(group, "y", &PackingResult::profile_y, columns, text);
+            append_profile_lines(group, "walls", &PackingResult::profile_from_walls, columns, text);
+            append_profile_lines(group, "z", &PackingResult::profile_z, columns, text);
+            return text;
+          }};
 }
 
 }  // namespace grainsweep

@@ -26,8 +26,8 @@ struct MeanBin {
 /// profiles differ in length, the bins of those that have them.
 std::vector<MeanBin> mean_profile(const Group& group, Profile PackingResult::*profile);
 
-/// The whole file: along y and along z of each group.
-std::string profiles_csv(const std::vector<Group>& groups, const GivenUnits& units = {});
+/// The file: along x and y, from the walls and along z of each group.
+CurveTable profiles_table(const Varied& varied, const GivenUnits& units = {});
 
 std::vector<ColumnText> profiles_columns(const Varied& varied, const GivenUnits& units = {});
 

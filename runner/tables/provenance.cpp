@@ -37,15 +37,60 @@ GivenUnits units_from(const json& sweep) {
 
 constexpr std::string_view before_checksum = ",\n  \"crc32\": \"";
 
-std::string with_checksum(std::string_view part) {
-  return std::string(part).append(before_checksum).append(hex8(crc32(part))).append("\"\n}\n");
+/// The checksum of all before, and the end of the text.
+std::string checksum_of(std::string_view part) {
+  return std::string(before_checksum) + hex8(crc32(part)) + "\"\n}\n";
 }
 
-bool has_checksum(std::string_view text) {
-  return text == with_checksum(text.substr(0, text.rfind(before_checksum)));
+/// A job as it stands in the text, whose lines of that depth are indented by six columns.
+std::string entry_text(const JobEntry& job) {
+  std::string text;
+  for (const char c : json(job).dump(2, ' ', false, json::error_handler_t::replace)) {
+    text += c;
+    if (c == '\n') text += "      ";
+  }
+  return text;
 }
+
+/// Puts the entries of the jobs where the text has none.
+std::string with_jobs(const std::string& text, const std::vector<JobEntry>& jobs) {
+  constexpr std::string_view none =
+      "\"jobs\": []";  // stands in no string, where quotes are escaped
+  const std::size_t place = text.find(none) + none.size() - 1;
+  constexpr std::size_t usual_entry = 200;  // bytes
+  std::string whole;
+  whole.reserve(text.size() + usual_entry * jobs.size());
+  whole.append(text, 0, place);
+  for (const JobEntry& job : jobs) {
+    whole += (&job == &jobs.front() ? "\n      " : ",\n      ") + entry_text(job);
+  }
+  return whole.append(jobs.empty() ? "" : "\n    ").append(text, place);
+}
+
+/// Takes the jobs out of a text while it is read: 100,000 of them as JSON fill 150 MB.
+class JobTaker {
+ public:
+  explicit JobTaker(std::vector<JobEntry>& jobs) : jobs_(jobs) {}
+
+  /// As nlohmann::json::parser_callback_t; false for what was taken.
+  bool operator()(int depth, json::parse_event_t event, json& parsed) {
+    if (event == json::parse_event_t::key && depth == 2) is_in_jobs_ = parsed == "jobs";
+    if (!is_in_jobs_ || event != json::parse_event_t::object_end || depth != 3) return true;
+    jobs_.push_back(parsed.get<JobEntry>());
+    return false;
+  }
+
+ private:
+  std::vector<JobEntry>& jobs_;
+  bool is_in_jobs_ = false;
+};
 
 }  // namespace
+
+bool has_checksum(std::string_view text) {
+  const std::size_t end = text.rfind(before_checksum);
+  return end != std::string_view::npos && text.substr(end) == checksum_of(text.substr(0, end));
+}
 
 std::string sweep_file_of(const Provenance& provenance) {
   return provenance.sweeps.size() == 1 ? provenance.sweeps.front().file : "";
@@ -61,18 +106,22 @@ std::string provenance_text(const Provenance& provenance, const std::vector<Row>
   text["sweep_files"] = json(provenance.sweeps);
   text["runs"] = json(provenance.runs);
   text["totals"] = to_json(totals_of(rows), rows.size());
-  json sweep = jobs_json(rows);
-  sweep["name"] = provenance.sweep_name;
+  const JobList list = job_list(rows);
+  json sweep = {{"name", provenance.sweep_name}, {"jobs", json::array()}};
+  sweep["parameter_sets"] = json::array();
+  for (const JobFacts& set : list.sets) sweep["parameter_sets"].push_back(set_json(set));
   if (provenance.units) sweep["units"] = to_json(*provenance.units);
   text["sweep"] = sweep;
-  const std::string whole = text.dump(2, ' ', false, json::error_handler_t::replace);
-  return with_checksum(whole.substr(0, whole.size() - 2));  // without the last line, a brace
+  std::string whole =
+      with_jobs(text.dump(2, ' ', false, json::error_handler_t::replace), list.jobs);
+  whole.resize(whole.size() - 2);  // without the last line, a brace
+  return whole.append(checksum_of(whole));
 }
 
-ProvenanceReading provenance_from_text(const std::string& text, Detail detail) {
-  const json from = json::parse(text);
-  if (!has_checksum(text)) throw json::other_error::create(501, "its checksum is wrong", &from);
+ProvenanceReading provenance_from_text(const std::string& text) {
   ProvenanceReading reading;
+  const json from = json::parse(text, JobTaker(reading.jobs.jobs));
+  if (!has_checksum(text)) throw json::other_error::create(501, "its checksum is wrong", &from);
   Provenance& provenance = reading.provenance;
   const json& program = from.at("program");
   program.at("version").get_to(provenance.build.version);
@@ -84,7 +133,12 @@ ProvenanceReading provenance_from_text(const std::string& text, Detail detail) {
   const json& sweep = from.at("sweep");
   sweep.at("name").get_to(provenance.sweep_name);
   provenance.units = units_from(sweep);
-  reading.rows = rows_from_json(sweep, detail);
+  auto& [sets, jobs] = reading.jobs;
+  for (const json& set : sweep.at("parameter_sets")) sets.push_back(set_from_json(set));
+  for (const JobEntry& job : jobs) {
+    if (job.set < sets.size()) continue;
+    throw json::out_of_range::create(401, "no such parameter set", &sweep);
+  }
   return reading;
 }
 

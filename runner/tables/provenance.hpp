@@ -46,15 +46,18 @@ std::string sweep_file_of(const Provenance& provenance);
 /// before at its end.
 std::string provenance_text(const Provenance& provenance, const std::vector<Row>& rows);
 
-/// What provenance_text made a text of; the rows are pending, and as of rows_from_json.
+/// What provenance_text made a text of.
 struct ProvenanceReading {
   Provenance provenance;
-  std::vector<Row> rows;
+  JobList jobs;
 };
 
 /// Throws nlohmann::json::exception if `text` is not a provenance.json of this version, every byte
 /// of it.
-ProvenanceReading provenance_from_text(const std::string& text, Detail detail = Detail::whole);
+ProvenanceReading provenance_from_text(const std::string& text);
+
+/// Whether its checksum is right, which is known at once.
+bool has_checksum(std::string_view text);
 
 struct Totals {
   StatusCounts counts;

@@ -64,7 +64,7 @@ TEST_CASE("one value for all families is judged by their scatter") {
 
 TEST_CASE("each family is set beside the values published of it") {
   const std::vector<Row> sweep = wall_sweep_of_three_families();
-  const auto rows = compare_with(reference(), analyse(sweep).families);
+  const auto rows = compare_with(reference(), analyse(sweep));
   REQUIRE(rows.size() == 4);
   CHECK(rows[0].title == "Z without walls (bi-periodic)");
   CHECK(rows[0].measured.estimate.value == Approx(6.0));
@@ -78,7 +78,7 @@ TEST_CASE("each family is set beside the values published of it") {
 
 TEST_CASE("the table names both values, the verdict, the definitions and what is left out") {
   const std::vector<Row> sweep = wall_sweep_of_three_families();
-  const std::string text = comparison_text(reference(), analyse(sweep).families);
+  const std::string text = comparison_text(reference(), analyse(sweep));
   CHECK_THAT(text,
              Catch::Contains("  Z without walls (bi-periodic)               6.027 ± 0.012        "
                              "6.000 ± 0.013  agrees: -0.027, 1.5 errors\n"
@@ -90,13 +90,13 @@ TEST_CASE("the table names both values, the verdict, the definitions and what is
 
 TEST_CASE("what a sweep lacks is not determined and never a number") {
   const std::vector<Row> rows = {settled_row("a", 5, 0.6, 5.4), settled_row("b", 6, 0.61, 5.5)};
-  const auto families = families_of(groups_of(rows));
-  for (const Comparison& row : compare_with(reference(), families)) {
+  const Analysis analysis = analyse(rows);
+  for (const Comparison& row : compare_with(reference(), analysis)) {
     INFO(row.title);
     CHECK_FALSE(row.measured.not_determined.empty());
     CHECK_FALSE(difference_in_errors(row));
   }
-  CHECK(comparison_text(reference(), families).find("nan") == std::string::npos);
+  CHECK(comparison_text(reference(), analysis).find("nan") == std::string::npos);
 }
 
 }  // namespace

@@ -104,6 +104,15 @@ TEST_CASE("however far a published value is, it is on the axis", "[report]") {
                                                             Catch::Contains(", 100)"));
 }
 
+TEST_CASE("of very many packings the figure of what they cost draws some, and says so",
+          "[report]") {
+  const std::vector<Row> rows(12000, settled_row("a", 4, 0.6, 5.0));
+  const std::vector<Figure> figures = figures_of(rows, analyse(rows), {});
+  const Figure& effort = figure_called(figures, "effort");
+  CHECK(cells_of_table(effort.tables.at(0).second).size() == 1 + 5000);
+  CHECK_THAT(effort.caption, Catch::Contains(" 5000 packings are drawn; all are in packings.csv."));
+}
+
 TEST_CASE("where nothing has settled each figure says so", "[report]") {
   const std::vector<Row> rows = {row_with_status("a", 4, PackingStatus::not_settled, "moves"),
                                  row_with_status("b", 5, PackingStatus::failed, "no room")};

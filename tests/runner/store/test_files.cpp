@@ -100,6 +100,25 @@ TEST_CASE("a folder that cannot replace a file keeps the old file and no rest of
   CHECK(files_in(folder.path(), "", "") == std::vector<std::string>{"taken"});
 }
 
+TEST_CASE("a file that is written bit by bit is seen once it is committed, or never") {
+  const TemporaryFolder folder;
+  const std::string path = folder.path() + "/a.csv", part(700'000, 'x');
+  replace_file(path, "old");
+  {
+    Replacement left_alone(path);
+    left_alone.write(part);
+    left_alone.write(part);
+  }
+  CHECK(read_file(path) == "old");
+  CHECK(files_in(folder.path(), "", "") == std::vector<std::string>{"a.csv"});
+  Replacement file(path);
+  for (const char* const end : {"1", "2", "3"}) file.write(part + end);
+  CHECK(read_file(path) == "old");
+  file.commit();
+  CHECK(read_file(path) == part + "1" + part + "2" + part + "3");
+  CHECK(files_in(folder.path(), "", "") == std::vector<std::string>{"a.csv"});
+}
+
 TEST_CASE("a folder is made with those above it, and making it again changes nothing") {
   const TemporaryFolder folder;
   make_folder(folder.path() + "/a/b/c");

@@ -3,6 +3,7 @@
 #include "runner/tables/distributions.hpp"
 #include "runner/tables/families.hpp"
 #include "tests/runner/sample_rows.hpp"
+#include "tests/runner/tables/table_texts.hpp"
 
 namespace grainsweep {
 namespace {

@@ -5,6 +5,7 @@
 #include "runner/tables/families.hpp"
 #include "runner/tables/packings.hpp"
 #include "tests/runner/sample_rows.hpp"
+#include "tests/runner/tables/table_texts.hpp"
 
 namespace grainsweep {
 namespace {

@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
+#include "runner/hash.hpp"
 #include "runner/tables/provenance.hpp"
 #include "tests/runner/sample_rows.hpp"
 
@@ -21,8 +22,10 @@ Provenance sample_provenance() {
 TEST_CASE("provenance reads back as it was written") {
   const std::vector<Row> rows = {{sample_job("a1", 5), {}}, {sample_job("a2", 6), {}}};
   const std::string text = provenance_text(sample_provenance(), rows);
-  const auto [back, jobs] = provenance_from_text(text);
+  const auto [back, list] = provenance_from_text(text);
+  const std::vector<Row> jobs = rows_of(list);
   CHECK(provenance_text(back, jobs) == text);
+  CHECK(nlohmann::ordered_json::parse(text).dump(2) + "\n" == text);
   REQUIRE(back.runs.size() == 2);
   CHECK(back.runs[0].threads == 2);
   CHECK(back.runs[0].wall_seconds == 2.0);
@@ -34,8 +37,8 @@ TEST_CASE("provenance reads back as it was written") {
 
 TEST_CASE("of a summary the jobs are known by their ids") {
   const std::vector<Row> rows = {{sample_job("a1", 5), {}}};
-  const auto [back, jobs] =
-      provenance_from_text(provenance_text(sample_provenance(), rows), Detail::summary);
+  const auto [back, list] = provenance_from_text(provenance_text(sample_provenance(), rows));
+  const std::vector<Row> jobs = rows_of(list, Detail::summary);
   CHECK(sweep_file_of(back) == "configs/a.json");
   CHECK(jobs.at(0).job.id == "a1");
   CHECK(jobs.at(0).job.parameters.empty());
@@ -72,6 +75,15 @@ TEST_CASE("the units of a sweep are kept, and none where it has none") {
     provenance.units = units;
     CHECK(provenance_from_text(provenance_text(provenance, {})).provenance.units == units);
   }
+}
+
+TEST_CASE("a job of no known parameter set is refused") {
+  std::string text = provenance_text(sample_provenance(), {{sample_job("a1", 5), {}}});
+  const std::string set = "\"set\": 0", before = ",\n  \"crc32\": \"";
+  text.replace(text.find(set), set.size(), "\"set\": 1");
+  const std::string checked = text.substr(0, text.rfind(before));
+  const std::string sealed = checked + before + hex8(crc32(checked)) + "\"\n}\n";
+  CHECK_THROWS_WITH(provenance_from_text(sealed), Catch::Contains("no such parameter set"));
 }
 
 TEST_CASE("provenance with any byte changed is refused") {
