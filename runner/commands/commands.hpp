@@ -97,7 +97,7 @@ int perform(const ExportOptions& options);
 CLI::App& add_command(CLI::App& app, ExportOptions& options);
 
 struct StatusOptions {
-  std::string folder;
+  std::vector<std::string> folders;
   bool json = false;
   bool check = false;  ///< reads every file of grains whole
 };

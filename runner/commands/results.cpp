@@ -124,13 +124,13 @@ StoredSweep read_stored_sweep(const std::string& folder, Detail detail) {
   JournalReading journals = read_journals(folder, detail);
   reading.provenance.runs = std::move(journals.runs);
   return {std::move(reading.provenance), std::move(reading.jobs), std::move(journals.outcomes),
-          std::move(journals.damage)};
+          std::move(journals.last_runs), std::move(journals.damage)};
 }
 
 Results read_results(const std::string& folder, Detail detail) {
   StoredSweep stored = read_stored_sweep(folder, detail);
   Results results{std::move(stored.provenance), rows_of(stored.jobs, detail),
-                  std::move(stored.damage), 0};
+                  std::move(stored.damage), std::move(stored.last_runs), 0};
   results.orphaned = take_outcomes(std::move(stored.outcomes), results.rows);
   return results;
 }

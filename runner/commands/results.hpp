@@ -3,6 +3,7 @@
 
 #include <map>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "runner/report/report.hpp"
@@ -15,8 +16,9 @@ namespace grainsweep {
 struct Results {
   Provenance provenance;
   std::vector<Row> rows;
-  std::vector<std::string> damage;  ///< what was left out, where and why
-  std::size_t orphaned = 0;         ///< stored packings that are not of the present sweep
+  std::vector<std::string> damage;                  ///< what was left out, where and why
+  std::map<std::string, RunRecord> last_runs = {};  ///< as of JournalReading
+  std::size_t orphaned = 0;  ///< stored packings that are not of the present sweep
 };
 
 /// Throws BadInput unless `folder` has a provenance.json that is whole.
@@ -26,8 +28,9 @@ void expect_results(const std::string& folder);
 struct StoredSweep {
   Provenance provenance;
   JobList jobs;
-  std::map<std::string, Outcome> outcomes;  ///< by job
-  std::vector<std::string> damage;          ///< as of Results
+  std::unordered_map<std::string, Outcome> outcomes;  ///< by job
+  std::map<std::string, RunRecord> last_runs;         ///< as of JournalReading
+  std::vector<std::string> damage;                    ///< as of Results
 };
 
 /// Throws BadInput if `folder` is no output folder, FileError if a file cannot be read.

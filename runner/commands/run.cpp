@@ -171,7 +171,7 @@ Packed pack(RunningSweep& running, const RunOptions& options, Isa isa, const Run
 /// What is stored of the sweep, by all shards.
 Results stored_results(const Sweep& sweep, Provenance provenance, const std::string& folder,
                        Detail detail) {
-  Results results{std::move(provenance), rows_of(sweep), {}, 0};
+  Results results{std::move(provenance), rows_of(sweep), {}, {}, 0};
   JournalReading stored = read_journals(folder, detail);
   results.provenance.runs = std::move(stored.runs);
   results.orphaned = take_outcomes(std::move(stored.outcomes), results.rows);

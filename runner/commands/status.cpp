@@ -1,21 +1,76 @@
-// The command `status`: how much of a sweep is done, and who is at work.
+// The command `status`: how much of a sweep is done, who is at work, and how long it will take.
+#include <algorithm>
+#include <filesystem>
 #include <iostream>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <CLI/App.hpp>
 #include <nlohmann/json.hpp>
 
+#include "runner/cluster/job_scripts.hpp"
 #include "runner/commands/commands.hpp"
 #include "runner/commands/inputs.hpp"
-#include "runner/commands/shared_options.hpp"
 #include "runner/exit_codes.hpp"
+#include "runner/jobs/estimates.hpp"
 #include "runner/machine.hpp"
-#include "runner/store/shard_files.hpp"
+#include "runner/store/files.hpp"
+#include "runner/store/runners.hpp"
 #include "runner/text.hpp"
 
 namespace grainsweep {
 namespace {
+
+/// Runners that are named one by one; of more their number is told.
+constexpr std::size_t runners_named = 4;
+
+/// All that is known of an output folder.
+struct Standing {
+  std::string folder;
+  Results results;
+  Totals totals;
+  std::vector<Runner> working, lost;  ///< none is lost where nothing is left to be made
+  std::optional<Queue> queue;         ///< of jobs that the command `slurm` submitted
+  double seconds_left = 0.0;          ///< of CPU, as what is made teaches
+  int threads = 0;                    ///< of all that work
+};
+
+double cpu_seconds_left(const std::vector<Row>& rows) {
+  std::vector<Known> packings;
+  packings.reserve(rows.size());
+  for (const Row& row : rows) {
+    packings.push_back({row.job.estimated, std::nullopt});
+    if (row.outcome) packings.back().measured = row.outcome->cpu_seconds;
+  }
+  const std::vector<double> seconds = learned(packings);
+  double left = 0.0;
+  for (std::size_t i = 0; i < rows.size(); ++i) left += rows[i].outcome ? 0.0 : seconds[i];
+  return left;
+}
+
+std::optional<Queue> queue_of(const std::string& folder) {
+  const std::string scripts =
+      scripts_folder(std::filesystem::absolute(folder).lexically_normal().string());
+  return std::filesystem::is_directory(scripts) ? ask_for_queue(scripts) : std::nullopt;
+}
+
+/// Prints warnings of what is damaged.
+Standing standing_of(const std::string& folder, bool check) {
+  Standing standing{folder, results_with_warnings(folder, Detail::summary), {}, {}, {}, {}};
+  std::vector<Row>& rows = standing.results.rows;
+  std::cerr << damage_warnings(check ? check_beds(folder, rows) : expect_beds(folder, rows));
+  standing.totals = totals_of(rows);
+  const bool is_done = standing.totals.counts.pending == 0;
+  for (Runner& runner : runners_in(folder, standing.results.last_runs)) {
+    if (!runner.is_lost) standing.threads += runner.run.threads;
+    if (runner.is_lost && is_done) continue;
+    (runner.is_lost ? standing.lost : standing.working).push_back(std::move(runner));
+  }
+  standing.queue = queue_of(folder);
+  standing.seconds_left = cpu_seconds_left(rows);
+  return standing;
+}
 
 std::string progress_text(const StatusCounts& counts, std::size_t packings) {
   const std::size_t done = packings - static_cast<std::size_t>(counts.pending);
@@ -25,38 +80,95 @@ std::string progress_text(const StatusCounts& counts, std::size_t packings) {
          " failed";
 }
 
-std::string runners_text(const std::vector<std::string>& runners) {
-  std::string text;
-  for (const std::string& runner : runners) text += (text.empty() ? "Running: " : "; ") + runner;
-  return text.empty() ? "No runner at work" : text;
+std::string name_of(const Runner& runner) {
+  const std::string owner = owner_text(runner.run) + " (" + runner.shard;
+  return owner + (runner.is_lost ? ", silent for " + duration_text(runner.silent) : "") + ")";
 }
 
-void print_status(const Results& results, const std::vector<std::string>& runners,
-                  const std::string& folder) {
-  const Totals totals = totals_of(results.rows);
+std::string names_of(const std::vector<Runner>& runners) {
+  std::string text;
+  for (std::size_t i = 0; i < std::min(runners.size(), runners_named); ++i) {
+    text += (i > 0 ? "; " : "") + name_of(runners[i]);
+  }
+  if (runners.size() <= runners_named) return text;
+  return text + "; and " + std::to_string(runners.size() - runners_named) + " more";
+}
+
+std::string runners_text(const Standing& standing) {
+  std::string text = standing.working.empty() ? "No runner at work\n"
+                                              : "Running: " + names_of(standing.working) + "\n";
+  if (!standing.lost.empty()) {
+    text += "Lost: " + names_of(standing.lost) + "; what they had is made by the next run\n";
+  }
+  return text;
+}
+
+std::string queue_text(const Queue& queue) {
+  std::string text = "Slurm: " + counted(static_cast<std::size_t>(queue.running), "job") +
+                     " running, " + std::to_string(queue.pending) + " pending";
+  if (!queue.blocking.empty()) text += ", held back: " + queue.blocking;
+  return text + "\n";
+}
+
+std::string left_text(const Standing& standing) {
+  std::string text = "Left: about " + duration_text(standing.seconds_left) + " CPU";
+  if (standing.threads > 0) {
+    text += ", " + duration_text(standing.seconds_left / standing.threads) + " on the " +
+            counted(static_cast<std::size_t>(standing.threads), "core") + " at work";
+  }
+  return text + "\n";
+}
+
+bool is_idle(const Standing& standing) {
+  const bool waits = standing.queue && standing.queue->running + standing.queue->pending > 0;
+  return standing.working.empty() && !waits;
+}
+
+void print_status(const Standing& standing) {
+  const Results& results = standing.results;
   const std::string sweep_file = sweep_file_of(results.provenance);
+  const bool is_done = standing.totals.counts.pending == 0;
   std::cout << results.provenance.sweep_name << ": "
-            << progress_text(totals.counts, results.rows.size()) << "; "
-            << duration_text(totals.cpu_seconds) << " CPU\n"
-            << runners_text(runners) << "\n";
+            << progress_text(standing.totals.counts, results.rows.size()) << "; "
+            << duration_text(standing.totals.cpu_seconds) << " CPU\n"
+            << runners_text(standing) << (standing.queue ? queue_text(*standing.queue) : "")
+            << (is_done ? "" : left_text(standing));
   if (results.orphaned > 0) {
     std::cout << results.orphaned << " stored packings belong to an earlier form of the sweep\n";
   }
-  if (runners.empty() && totals.counts.pending > 0 && !sweep_file.empty()) {
+  if (is_idle(standing) && !is_done && !sweep_file.empty()) {
     std::cout << "Go on with: " << called_as() << " run " << shell_word(sweep_file) << " --out "
-              << shell_word(folder) << "\n";
+              << shell_word(standing.folder) << "\n";
   }
 }
 
-void print_status_json(const Results& results, const std::vector<std::string>& runners) {
-  const Totals totals = totals_of(results.rows);
-  nlohmann::ordered_json status = {
-      {"name", results.provenance.sweep_name},    {"sweep_file", sweep_file_of(results.provenance)},
-      {"packings", results.rows.size()},          {"settled", totals.counts.settled},
-      {"not_settled", totals.counts.not_settled}, {"failed", totals.counts.failed},
-      {"pending", totals.counts.pending},         {"of_an_earlier_sweep", results.orphaned},
-      {"cpu_seconds", totals.cpu_seconds},        {"runners", runners}};
-  std::cout << status.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << "\n";
+std::vector<std::string> all_names(const std::vector<Runner>& runners) {
+  std::vector<std::string> names;
+  for (const Runner& runner : runners) names.push_back(name_of(runner));
+  return names;
+}
+
+nlohmann::ordered_json status_json(const Standing& standing) {
+  const Results& results = standing.results;
+  const StatusCounts& counts = standing.totals.counts;
+  nlohmann::ordered_json status = {{"name", results.provenance.sweep_name},
+                                   {"folder", standing.folder},
+                                   {"sweep_file", sweep_file_of(results.provenance)},
+                                   {"packings", results.rows.size()},
+                                   {"settled", counts.settled},
+                                   {"not_settled", counts.not_settled},
+                                   {"failed", counts.failed},
+                                   {"pending", counts.pending},
+                                   {"of_an_earlier_sweep", results.orphaned},
+                                   {"cpu_seconds", standing.totals.cpu_seconds},
+                                   {"cpu_seconds_left", standing.seconds_left},
+                                   {"threads", standing.threads},
+                                   {"runners", all_names(standing.working)},
+                                   {"lost_runners", all_names(standing.lost)}};
+  if (standing.queue) {
+    status["slurm"] = {{"running", standing.queue->running}, {"pending", standing.queue->pending}};
+  }
+  return status;
 }
 
 }  // namespace
@@ -64,8 +176,8 @@ void print_status_json(const Results& results, const std::vector<std::string>& r
 CLI::App& add_command(CLI::App& app, StatusOptions& options) {
   CLI::App& status =
       *app.add_subcommand("status", "Say how much of a sweep is done and who is at work");
-  add_folder(status, options.folder);
-  status.add_flag("--json", options.json, "as JSON");
+  status.add_option("DIR", options.folders, "output folders")->required()->type_name("");
+  status.add_flag("--json", options.json, "as JSON: an object, of several folders a list");
   status.add_flag("--check", options.check,
                   "read every file of grains whole; otherwise only their names and sizes");
   status.footer("Example: grainsweep status out/quick");
@@ -73,14 +185,18 @@ CLI::App& add_command(CLI::App& app, StatusOptions& options) {
 }
 
 int perform(const StatusOptions& options) {
-  Results results = results_with_warnings(options.folder, Detail::summary);
-  const auto look_at_beds = options.check ? check_beds : expect_beds;
-  std::cerr << damage_warnings(look_at_beds(options.folder, results.rows));
-  const std::vector<std::string> runners = present_runners(options.folder);
+  nlohmann::ordered_json all = nlohmann::ordered_json::array();
+  for (const std::string& folder : options.folders) {
+    const Standing standing = standing_of(folder, options.check);
+    if (options.json) {
+      all.push_back(status_json(standing));
+    } else {
+      print_status(standing);
+    }
+  }
   if (options.json) {
-    print_status_json(results, runners);
-  } else {
-    print_status(results, runners, options.folder);
+    const nlohmann::ordered_json& text = all.size() == 1 ? all.front() : all;
+    std::cout << text.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << "\n";
   }
   return exit_done;
 }

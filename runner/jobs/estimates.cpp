@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <functional>
 #include <numeric>
+#include <unordered_map>
 
 namespace grainsweep {
 
@@ -32,6 +33,39 @@ double bytes_of_largest(const std::vector<Cost>& costs, int live) {
   std::sort(bytes.begin(), bytes.end(), std::greater<>());
   bytes.resize(std::min(bytes.size(), static_cast<std::size_t>(live)));
   return std::accumulate(bytes.begin(), bytes.end(), 0.0);
+}
+
+namespace {
+
+/// What packings that are made took together, and what was estimated.
+struct Sums {
+  double measured = 0.0, estimated = 0.0;
+
+  void add(const Known& packing) {
+    measured += *packing.measured;
+    estimated += packing.estimated;
+  }
+  double ratio() const { return estimated > 0.0 ? measured / estimated : 1.0; }
+};
+
+}  // namespace
+
+std::vector<double> learned(const std::vector<Known>& packings) {
+  std::unordered_map<double, Sums> of_estimate;
+  Sums of_all;
+  for (const Known& packing : packings) {
+    if (!packing.measured) continue;
+    of_all.add(packing);
+    of_estimate[packing.estimated].add(packing);
+  }
+  std::vector<double> better;
+  better.reserve(packings.size());
+  for (const Known& packing : packings) {
+    const auto same = of_estimate.find(packing.estimated);
+    const Sums& teacher = same == of_estimate.end() ? of_all : same->second;
+    better.push_back(packing.estimated * teacher.ratio());
+  }
+  return better;
 }
 
 }  // namespace grainsweep

@@ -1,6 +1,7 @@
 // What the packings of a sweep will take.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "engine/packing.hpp"
@@ -18,5 +19,15 @@ double total_cpu_seconds(const std::vector<Cost>& costs);
 
 /// What so many of the costs take that live at once, the largest, bytes.
 double bytes_of_largest(const std::vector<Cost>& costs, int live);
+
+/// The estimated CPU time of a packing and, if it is made, what it took, s.
+struct Known {
+  double estimated = 0.0;
+  std::optional<double> measured;
+};
+
+/// Better estimates of all, s: those that are made teach. What packings of the same estimate took
+/// in the mean, or else the estimate times the ratio over all that are made.
+std::vector<double> learned(const std::vector<Known>& packings);
 
 }  // namespace grainsweep

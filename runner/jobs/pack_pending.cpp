@@ -14,6 +14,7 @@
 #include "runner/machine.hpp"
 #include "runner/store/checkpoints.hpp"
 #include "runner/store/files.hpp"
+#include "runner/store/runners.hpp"
 #include "runner/store/states.hpp"
 #include "runner/tables/csv.hpp"
 #include "runner/tables/job_facts.hpp"
@@ -150,6 +151,7 @@ class Packer {
     TaskEvents events;
     events.started = [this](std::size_t task) { display_.start(task); };
     events.progressed = [this](std::size_t task, const Progress& progress) {
+      beat();
       display_.advance(task, progress.share_done);
     };
     events.finished = [this](Finished&& finished) { keep(std::move(finished)); };
@@ -160,6 +162,13 @@ class Packer {
       return options_.time_limit.may_begin(costs_[task].cpu_seconds);
     };
     return events;
+  }
+
+  void beat() {
+    double due = beat_due_;
+    const double now = wall_seconds();
+    if (now < due || !beat_due_.compare_exchange_strong(due, now + heartbeat_seconds)) return;
+    running_.files.beat();
   }
 
   void keep(Finished&& finished) {
@@ -184,6 +193,7 @@ class Packer {
   std::vector<Before> before_;  ///< by task
   tbb::enumerable_thread_specific<Workspace> workspaces_;
   Packed packed_;
+  std::atomic<double> beat_due_{0.0};  ///< wall time
   std::atomic<bool> warned_{false};
   std::atomic<bool> has_failed_{false};
 };

@@ -66,6 +66,7 @@ void read_journal(const std::string& folder, const std::string& name, Detail det
       const auto [known, is_new] = reading.outcomes.try_emplace(outcome->job);
       if (is_new || counts_more(*outcome, known->second)) known->second = std::move(*outcome);
     } else if (auto run = read_run_line(line)) {
+      reading.last_runs[name] = *run;
       keep(std::move(*run), reading.runs);
     } else {
       is_last_damaged = true;

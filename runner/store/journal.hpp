@@ -13,6 +13,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include "runner/store/outcome.hpp"
@@ -25,9 +26,10 @@ namespace grainsweep {
 enum class Detail { whole, summary };
 
 struct JournalReading {
-  std::map<std::string, Outcome> outcomes;  ///< by job
-  std::vector<RunRecord> runs;              ///< that made something, in the order they started
-  std::vector<std::string> damage;          ///< "out/shards/1-of-1.jsonl:3: torn or damaged ..."
+  std::unordered_map<std::string, Outcome> outcomes;  ///< by job
+  std::vector<RunRecord> runs;                 ///< that made something, in the order they started
+  std::map<std::string, RunRecord> last_runs;  ///< by shard
+  std::vector<std::string> damage;             ///< "out/shards/1-of-1.jsonl:3: torn or damaged ..."
 };
 
 /// The journals of all shards in `folder`. Of two outcomes of a job the later one counts, but a

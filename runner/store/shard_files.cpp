@@ -5,19 +5,14 @@
 
 #include "runner/machine.hpp"
 #include "runner/store/files.hpp"
+#include "runner/store/runners.hpp"
 
 namespace grainsweep {
 namespace {
 
-std::string owner_of(const std::string& path) {
-  const auto run = last_run_in(path);
-  if (!run) return "another process";
-  return "host " + run->host + ", process " + run->process.substr(run->process.rfind('-') + 1);
-}
-
 /// Throws FolderBusy: a runner works on the shard of this journal.
 [[noreturn]] void refuse(const std::string& folder, const std::string& path) {
-  throw FolderBusy(folder + ": another runner works here (" + owner_of(path) +
+  throw FolderBusy(folder + ": another runner works here (" + owner_text(last_run_in(path)) +
                    "); wait for it or give another folder with --out");
 }
 
@@ -96,13 +91,6 @@ void ShardFiles::remove_all(const RunRecord& run) {
   flush();
 }
 
-std::vector<std::string> present_runners(const std::string& folder) {
-  std::vector<std::string> owners;
-  for (const std::string& name : shards_in(folder)) {
-    const std::string path = journal_path(folder, name);
-    if (is_locked(path)) owners.push_back(owner_of(path));
-  }
-  return owners;
-}
+void ShardFiles::beat() const { touch_journal(journal_path(folder_, name_)); }
 
 }  // namespace grainsweep

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "runner/store/journal.hpp"
 #include "runner/store/lock.hpp"
@@ -26,6 +25,9 @@ class ShardFiles {
   void add(const RunRecord& run);
   void flush();
 
+  /// Says that the runner is alive, as of runner/store/runners.hpp.
+  void beat() const;
+
   /// False where the file system offers no locks: the shard is worked on without one.
   bool is_locked() const { return lock_.is_held(); }
   const std::string& name() const { return name_; }
@@ -41,8 +43,5 @@ class ShardFiles {
   std::string beds_, lines_;   ///< added and not yet in the files
   std::int64_t beds_end_ = 0;  ///< where in the file the next bed comes to stand
 };
-
-/// "host, process 4711" of each runner that works in `folder` now.
-std::vector<std::string> present_runners(const std::string& folder);
 
 }  // namespace grainsweep

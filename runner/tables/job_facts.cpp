@@ -6,6 +6,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "engine/packing.hpp"
+
 namespace grainsweep {
 namespace {
 
@@ -37,6 +39,7 @@ JobFacts facts_of(const Job& job) {
   facts.small_share = job.spec.sizes.small_share;
   facts.measure = job.spec.measure;
   facts.files = job.files;
+  facts.estimated = estimate_cost(job.spec).cpu_seconds;
   return facts;
 }
 
@@ -164,7 +167,8 @@ std::vector<Row> rows_of(const Sweep& sweep) {
   return rows;
 }
 
-std::size_t take_outcomes(std::map<std::string, Outcome>&& outcomes, std::vector<Row>& rows) {
+std::size_t take_outcomes(std::unordered_map<std::string, Outcome>&& outcomes,
+                          std::vector<Row>& rows) {
   for (Row& row : rows) {
     auto found = outcomes.extract(row.job.id);
     if (found) row.outcome = std::move(found.mapped());
@@ -217,6 +221,7 @@ std::vector<Row> rows_of(const JobList& list, Detail detail) {
       row.job = facts_of(job, list);
     } else {
       row.job.id = job.id;
+      row.job.estimated = list.sets[job.set].estimated;
     }
   }
   return rows;
@@ -228,6 +233,7 @@ json set_json(const JobFacts& job) {
   return {{"parameters", job.parameters},
           {"shape", job.shape},
           {"accuracy", job.accuracy},
+          {"estimated_cpu_seconds", job.estimated},
           {"length", job.box.length},
           {"width", job.box.width},
           {"x", name_of(job.box.x)},
@@ -244,6 +250,7 @@ JobFacts set_from_json(const json& set) {
   set.at("parameters").get_to(facts.parameters);
   set.at("shape").get_to(facts.shape);
   set.at("accuracy").get_to(facts.accuracy);
+  facts.estimated = set.value("estimated_cpu_seconds", 0.0);  // earlier builds kept none
   set.at("length").get_to(facts.box.length);
   set.at("width").get_to(facts.box.width);
   facts.box.x = boundary_from(set.at("x"));

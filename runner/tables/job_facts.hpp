@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include <nlohmann/json_fwd.hpp>
@@ -30,6 +31,7 @@ struct JobFacts {
   double small_share = 0.0;
   MeasureSpec measure;
   std::map<std::string, std::string> files;  ///< as Job::files
+  double estimated = 0.0;                    ///< CPU time by estimate, s
 };
 
 /// A job and what came of it; no outcome while it is pending.
@@ -43,7 +45,8 @@ std::vector<Row> rows_of(const Sweep& sweep);
 
 /// Moves the outcome of each row's job into it; returns how many outcomes are orphaned, their jobs
 /// not among the rows.
-std::size_t take_outcomes(std::map<std::string, Outcome>&& outcomes, std::vector<Row>& rows);
+std::size_t take_outcomes(std::unordered_map<std::string, Outcome>&& outcomes,
+                          std::vector<Row>& rows);
 
 /// What tells a job from the others with its parameters.
 struct JobEntry {

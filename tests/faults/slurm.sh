@@ -167,6 +167,8 @@ rest=$(sed -n 's/^Submitted job \([0-9]*\), which follows.*/\1/p' out.txt)
 # One element is told to run again, one is cancelled, one loses its node.
 await "an element is at work" halt_one_of 1 2 3 4
 again=$element
+expect_code 0 "$program" status "out dir"
+expect_text out.txt "Running: host $(hostname), process " "Slurm: " " running, " "Left: about "
 scontrol requeue "${array}_$again"
 await "the element that is to run again has ended" has_ended "$runner"
 runs_again() { [ "$(told "${array}_$element" Restarts)" = 1 ]; }
@@ -184,6 +186,8 @@ node=$(told "${array}_$element" NodeList)
 stop_daemon KILL "$node.pid"
 for process in $(processes "$node"); do kill -KILL "$process" 2>/dev/null || true; done
 await "the node's runner has ended" has_ended "$runner"
+expect_code 0 "$program" status "out dir" --json
+expect_text out.txt '"lost_runners": [' "process $runner ($element-of-4, silent for " '"slurm": {'
 await "Slurm begins anew what the node had" runs_again
 
 await "the array has ended" is_over "$array"

@@ -62,7 +62,7 @@ TEST_CASE("every command is understood") {
   CHECK(options_of<ValidateOptions>(read({"validate", "a.json"})).file == "a.json");
   CHECK(options_of<PlanOptions>(read({"plan", "a.json", "--json"})).json);
   CHECK(options_of<ReportOptions>(read({"report", "o"})).folder == "o");
-  CHECK(options_of<StatusOptions>(read({"status", "o"})).folder == "o");
+  CHECK(options_of<StatusOptions>(read({"status", "o"})).folders.front() == "o");
   CHECK_FALSE(options_of<StatusOptions>(read({"status", "o"})).json);
   CHECK(options_of<StatusOptions>(read({"status", "o", "--json"})).json);
   options_of<DoctorOptions>(read({"doctor"}));

@@ -24,5 +24,14 @@ TEST_CASE("of packings that live at once the largest count") {
   CHECK(bytes_of_largest({}, 2) == 0.0);
 }
 
+TEST_CASE("packings that are made teach those of the same estimate, and all teach the others") {
+  const std::vector<double> seconds =
+      learned({{1.0, 3.0}, {1.0, 5.0}, {1.0, std::nullopt}, {10.0, 28.0}, {20.0, std::nullopt}});
+  CHECK(seconds[2] == Approx(4.0));
+  CHECK(seconds[4] == Approx(20.0 * 36.0 / 12.0));
+  CHECK(learned({{2.0, std::nullopt}}) == std::vector<double>{2.0});
+  CHECK(learned({}).empty());
+}
+
 }  // namespace
 }  // namespace grainsweep

@@ -86,7 +86,7 @@ expect_text error.txt "another runner" "process $runner"
 expect_code 0 "$program" status busy
 expect_text out.txt "Running: host "
 expect_code 0 "$program" status busy --json
-expect_text out.txt '"runners": [' '"host ' "process $runner\""
+expect_text out.txt '"runners": [' '"host ' "process $runner (1-of-1)\""
 kill -CONT "$runner"
 end_runner TERM
 

@@ -1,0 +1,48 @@
+#include "runner/store/runners.hpp"
+
+#include <fcntl.h>
+
+#include <sys/stat.h>
+
+#include "runner/machine.hpp"
+#include "runner/store/lock.hpp"
+#include "runner/store/shard.hpp"
+
+namespace grainsweep {
+namespace {
+
+/// Since a file was changed, s; 0 if it is gone.
+double seconds_since_change(const std::string& path) {
+  struct stat facts {};
+  if (stat(path.c_str(), &facts) != 0) return 0.0;
+  const double changed =
+      static_cast<double>(facts.st_mtim.tv_sec) + 1e-9 * static_cast<double>(facts.st_mtim.tv_nsec);
+  return calendar_seconds() - changed;
+}
+
+}  // namespace
+
+std::vector<Runner> runners_in(const std::string& folder,
+                               const std::map<std::string, RunRecord>& last_runs) {
+  std::vector<Runner> runners;
+  for (const std::string& shard : shards_in(folder)) {
+    const std::string path = journal_path(folder, shard);
+    const auto last = last_runs.find(shard);
+    const bool has_run = last != last_runs.end(), has_lock = is_locked(path);
+    if (!has_lock && (!has_run || !last->second.ended.empty())) continue;
+    Runner runner{shard, has_run ? last->second : RunRecord{}, false, seconds_since_change(path)};
+    const bool is_elsewhere = runner.run.host != host_name();
+    runner.is_lost = !has_lock && !(is_elsewhere && runner.silent < lost_after_seconds);
+    runners.push_back(std::move(runner));
+  }
+  return runners;
+}
+
+std::string owner_text(const std::optional<RunRecord>& run) {
+  if (!run || run->process.empty()) return "another process";
+  return "host " + run->host + ", process " + run->process.substr(run->process.rfind('-') + 1);
+}
+
+void touch_journal(const std::string& path) { utimensat(AT_FDCWD, path.c_str(), nullptr, 0); }
+
+}  // namespace grainsweep
