@@ -229,10 +229,11 @@ Json block_schema() {
   zipped["allOf"].push_back(equally_long());
   Json block = closed_object(
       {{"label",
-        described("name of the block in the tables", {{"type", "string"},
-                                                      {"minLength", 1},
-                                                      {"maxLength", 100},
-                                                      {"pattern", "^[^\\u0000-\\u001f]*$"}})},
+        described("name of the block in the tables",
+                  {{"type", "string"},
+                   {"minLength", 1},
+                   {"maxLength", 100},
+                   {"pattern", "^[^=+@\\u0000-\\u001f\\u007f-][^\\u0000-\\u001f\\u007f]*$"}})},
        {"set", described("values for the whole block",
                          layer(members_by_path([](const auto& path) { return reference(path); })))},
        {"grid", described("lists of values: every combination of them", distinct_lists())},

@@ -54,4 +54,18 @@ for number in $(seq 0 $((wanted - 1))); do
   same_as_reference out "$what"
   rm -r out
 done
+# Where the file system has no locks, a run says so, works on a shard of its own, and keeps out
+# nobody; asking for the lock is the one call that fails, each time.
+for error in ENOLCK ENOSYS; do
+  code=0
+  strace -f -qq -o trace.txt -e trace=flock -e inject=flock:error=$error \
+    "$program" run sweep.json --no-report --threads 1 --out unlocked >said.txt 2>&1 || code=$?
+  [ $code -le 1 ] || fail "flock with $error: ended with $code: $(cat said.txt)"
+  expect_text said.txt "warning: unlocked: its file system offers no lock"
+  grep -q INJECTED trace.txt || fail "no lock was asked for"
+  cmp <(values_of unlocked) <(values_of reference) || fail "flock with $error: other values"
+  cmp <(beds_in unlocked) <(beds_in reference) || fail "flock with $error: other grains"
+  rm -r unlocked
+done
+
 echo "$wanted of ${#cases[@]} faults: $told told and stopped, $ended survived, $killed killed; the same bytes"

@@ -215,6 +215,22 @@ TEST_CASE("one start is no start for several replicates, a list of starts is one
   CHECK(turned[0].id != read(R"({"file": "b.csv"})", 1).sweep.jobs.at(0).id);
 }
 
+TEST_CASE(
+    "names of files in tables are no formulas of a spreadsheet and nothing a terminal obeys") {
+  const ScratchFolder folder;
+  const auto name_of = [&](const std::string& file) {
+    folder.write(file, "x,y,z,r\n2,2,2,0.5\n");
+    const auto text = R"({"name": "t", "base": {"fill": {"file": ")" + file + "\"}}}";
+    return read_sweep(folder.write("s.json", text)).sweep.jobs.at(0).files.at("fill.file");
+  };
+  CHECK(name_of("=1+1.csv") == "./=1+1.csv");
+  CHECK(name_of("@a.csv") == "./@a.csv");
+  CHECK(name_of("+a.csv") == "./+a.csv");
+  CHECK(name_of("-a.csv") == "./-a.csv");
+  CHECK(name_of("a\u009b2J.csv") == "a?2J.csv");
+  CHECK(name_of("a=1.csv") == "a=1.csv");
+}
+
 TEST_CASE("errors of a fill file name its own lines, once for all jobs") {
   const ScratchFolder folder;
   folder.write("bed.csv", "x,y,z,r\n1,1,1,zero\n");
