@@ -3,6 +3,10 @@
 #include <catch2/catch.hpp>
 
 #include "runner/compare/quantities.hpp"
+#include "runner/tables/closing_report.hpp"
+#include "runner/tables/csv.hpp"
+#include "runner/tables/fits.hpp"
+#include "runner/text.hpp"
 #include "tests/runner/compare/wall_sweep.hpp"
 
 namespace grainsweep {
@@ -61,6 +65,31 @@ TEST_CASE("a line that misses its points says that it does not hold") {
     if (row.job.box.width == 10) row.outcome->result.solid_fraction += 0.05;
   }
   CHECK_THAT(definition(rows), Catch::Contains("the straight line does not hold"));
+}
+
+TEST_CASE("the closing table, fits.csv and compare tell one value and one error of a fit") {
+  auto rows = wall_sweep();
+  for (const double miss : {0.0, 0.05}) {  // on the line, and far off it
+    for (Row& row : rows) {
+      if (row.job.box.width == 10) row.outcome->result.solid_fraction += miss;
+    }
+    const auto families = families_in(rows);
+    const std::string fits = fits_csv(families);
+    const std::string report = closing_report({}, rows, families, {"./run.sh", "out"});
+    const auto expect = [&](const char* name, std::size_t line, const std::string& column,
+                            const std::string& symbol, int decimals) {
+      INFO(name << ", off the line by " << miss);
+      const Estimate compared = measure_quantity(name, 0, families.at(0)).estimate;
+      CHECK(cell_in(fits, line, column) == cell(compared.value));
+      CHECK(cell_in(fits, line, column + "_error") == cell(compared.error));
+      CHECK_THAT(report, Catch::Contains(symbol + " = " +
+                                         with_error(compared.value, compared.error, decimals)));
+    };
+    expect("phi_bulk", 1, "bulk", "φ_bulk", 4);
+    expect("C", 1, "C", "C", 3);
+    expect("Z_bulk", 2, "bulk", "Z_bulk", 3);
+    expect("C_Z", 2, "C", "C_Z", 2);
+  }
 }
 
 TEST_CASE("families that share one value show it, and others that they do not") {

@@ -1,8 +1,12 @@
 #include <algorithm>
 #include <cstdio>
+#include <fcntl.h>
+#include <pty.h>
 #include <string>
+#include <unistd.h>
 
 #include <catch2/catch.hpp>
+#include <sys/ioctl.h>
 
 #include "runner/jobs/progress.hpp"
 
@@ -132,6 +136,60 @@ TEST_CASE("live style redraws one line and takes it away at the end") {
   CHECK(text.find('\n') == std::string::npos);
   CHECK_THAT(text, Catch::Contains("1/1  100 %") && Catch::EndsWith("\r\033[J"));
   CHECK_THAT(text, !Catch::Contains("not shown"));
+}
+
+/// A terminal whose window can be made wider and narrower.
+class Terminal {
+ public:
+  Terminal() {
+    int terminal = -1;
+    REQUIRE(openpty(&reader_, &terminal, nullptr, nullptr, nullptr) == 0);
+    fcntl(reader_, F_SETFL, O_NONBLOCK);
+    file_ = fdopen(terminal, "w");
+  }
+  Terminal(const Terminal&) = delete;
+  Terminal& operator=(const Terminal&) = delete;
+  ~Terminal() {
+    std::fclose(file_);
+    close(reader_);
+  }
+  std::FILE* file() { return file_; }
+  void resize(int columns) {
+    winsize window{};
+    window.ws_row = 24;
+    window.ws_col = static_cast<unsigned short>(columns);
+    REQUIRE(ioctl(fileno(file_), TIOCSWINSZ, &window) == 0);
+  }
+  /// What was written to it since it was last asked.
+  std::string text() {
+    std::string all;
+    for (char c = 0; read(reader_, &c, 1) == 1;) all += c;
+    return all;
+  }
+
+ private:
+  int reader_ = -1;
+  std::FILE* file_ = nullptr;
+};
+
+TEST_CASE(
+    "the live line fits the window as it is now, and takes away all of what stood in a wider") {
+  Terminal terminal;
+  ProgressDisplay display({1.0, 1.0}, ProgressStyle::live, terminal.file());
+  const auto drawn_in = [&](int columns) {
+    terminal.resize(columns);
+    display.start(0);
+    return terminal.text();
+  };
+  const auto line_of = [](const std::string& text) {
+    return text.substr(text.rfind("\033[J") + 3);
+  };
+  const std::string wide = line_of(drawn_in(100));
+  CHECK((wide.size() > 60 && wide.size() < 80));
+  const std::string narrow = drawn_in(30);
+  CHECK_THAT(narrow, Catch::StartsWith("\033[2A\r\033[J"));  // more than 60 characters are 3 rows
+  CHECK(line_of(narrow).size() < 30);
+  CHECK_THAT(drawn_in(100), Catch::StartsWith("\r\033[J") && Catch::Contains("left"));
 }
 
 TEST_CASE("live style draws no more than a few times a second") {

@@ -89,7 +89,9 @@ TEST_CASE("a thread that waits for parts of its loop begins no other packing") {
     nested += is_busy ? 1 : 0;
     is_busy = true;
     ThreadTeam team;
-    team.loop()(4, [](std::size_t) { work_for(2e-4); });
+    // Asleep, so that parts of a loop are under way side by side however busy the machine is.
+    team.loop()(4,
+                [](std::size_t) { std::this_thread::sleep_for(std::chrono::microseconds(200)); });
     is_busy = false;
     ++done;
   };

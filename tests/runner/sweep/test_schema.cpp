@@ -327,10 +327,12 @@ std::string sweep_near_edges(std::mt19937_64& random) {
 
 TEST_CASE("near the edges of what can be packed the schema accepts all that the reader accepts") {
   std::mt19937_64 random(7);
+  const ScratchFolder folder;
   int right = 0, refused_by_both = 0, refused = 0;
   for (int draw = 0; draw < 800; ++draw) {
     const std::string text = sweep_near_edges(random);
-    const bool is_right = errors_of(text).empty(), does_fit = fits(text);
+    const bool is_right = read_sweep(folder.write("s.json", text)).errors.empty();
+    const bool does_fit = fits(text);
     if (is_right && !does_fit) FAIL(text);
     right += is_right;
     refused += !is_right;
