@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <ctime>
 #include <fstream>
+#include <sstream>
 #include <string>
 #include <system_error>
 #include <thread>
@@ -16,6 +17,7 @@
 #include <tbb/info.h>
 
 #include "runner/exit_codes.hpp"
+#include "runner/memory_limits.hpp"
 #include "runner/text.hpp"
 
 namespace grainsweep {
@@ -25,13 +27,6 @@ double seconds_of(clockid_t clock) {
   timespec time{};
   clock_gettime(clock, &time);
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
-
-/// The number a file starts with; a negative one if it does not (a group without limit says "max").
-double number_in(const std::string& path) {
-  std::ifstream file(path);
-  double number = 0.0;
-  return file >> number ? number : -1.0;
 }
 
 double memory_left_on_the_machine() {
@@ -44,10 +39,11 @@ double memory_left_on_the_machine() {
   return 0.0;
 }
 
-double memory_left_in_the_control_group(double otherwise) {
-  const double limit = number_in("/sys/fs/cgroup/memory.max");
-  const double used = number_in("/sys/fs/cgroup/memory.current");
-  return limit < 0 || used < 0 ? otherwise : std::max(0.0, limit - used);
+double memory_left_in_the_control_groups() {
+  std::ifstream file("/proc/self/cgroup");
+  std::ostringstream groups;
+  groups << file.rdbuf();
+  return memory_left_in_groups(groups.str(), "/sys/fs/cgroup");
 }
 
 }  // namespace
@@ -122,8 +118,8 @@ void expect_threads(int count) {
 int usable_cores() { return std::max(1, tbb::info::default_concurrency()); }
 
 double available_memory() {
-  const double machine = memory_left_on_the_machine();
-  return std::min(machine, memory_left_in_the_control_group(machine));
+  return std::min(
+      {memory_left_on_the_machine(), memory_left_in_the_control_groups(), addresses_left()});
 }
 
 double memory_for_packings() {

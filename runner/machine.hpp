@@ -44,7 +44,7 @@ void expect_threads(int count);
 int usable_cores();
 
 /// Memory that can be taken without swapping: what the kernel calls available, and not more than
-/// the control group leaves. Bytes; 0 if the system does not tell.
+/// limits leave (runner/memory_limits.hpp). Bytes; 0 if the system does not tell.
 double available_memory();
 
 /// What live packings may take together: four fifths of what is available, bytes.
