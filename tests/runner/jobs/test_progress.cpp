@@ -151,7 +151,7 @@ class Terminal {
   Terminal& operator=(const Terminal&) = delete;
   ~Terminal() {
     std::fclose(file_);
-    close(reader_);
+    ::close(reader_);
   }
   std::FILE* file() { return file_; }
   void resize(int columns) {
@@ -163,7 +163,7 @@ class Terminal {
   /// What was written to it since it was last asked.
   std::string text() {
     std::string all;
-    for (char c = 0; read(reader_, &c, 1) == 1;) all += c;
+    for (char c = 0; ::read(reader_, &c, 1) == 1;) all += c;
     return all;
   }
 
