@@ -51,7 +51,9 @@ CLI::App& add_command(CLI::App& app, ValidateOptions& options);
 
 struct PlanOptions {
   std::string file;
+  std::string out;  ///< output folder whose packings teach the estimates; empty: none
   int threads = 0;  ///< as in RunOptions
+  int shards = 0;   ///< parts whose cost is to be told; 0: none
   bool json = false;
 };
 /// Prints the packings of a sweep with estimated time and memory.

@@ -11,7 +11,9 @@
 #include "runner/exit_codes.hpp"
 #include "runner/jobs/estimates.hpp"
 #include "runner/jobs/schedule.hpp"
+#include "runner/jobs/split.hpp"
 #include "runner/machine.hpp"
+#include "runner/store/journal.hpp"
 #include "runner/tables/csv.hpp"
 #include "runner/text.hpp"
 
@@ -28,15 +30,58 @@ struct PlannedGroup {
   Cost cost;  ///< of one packing
 };
 
-std::vector<PlannedGroup> planned_groups(const Sweep& sweep) {
+std::vector<PlannedGroup> planned_groups(const Sweep& sweep, const std::vector<Cost>& costs) {
   std::vector<PlannedGroup> groups;
   std::map<std::pair<std::string, std::string>, std::size_t> index_of;
-  for (const Job& job : sweep.jobs) {
+  for (std::size_t i = 0; i < costs.size(); ++i) {
+    const Job& job = sweep.jobs[i];
     const auto [known, is_new] = index_of.try_emplace({job.label, job.parameters}, groups.size());
-    if (is_new) groups.push_back({&job, 0, estimate_cost(job.spec)});
+    if (is_new) groups.push_back({&job, 0, costs[i]});
     ++groups[known->second].packings;
   }
   return groups;
+}
+
+/// Estimates, corrected by what the packings that are stored in a folder took.
+std::vector<Cost> costs_with(const std::string& folder, const std::vector<Job>& jobs) {
+  std::vector<Cost> costs = costs_of(jobs);
+  if (folder.empty()) return costs;
+  const auto outcomes = read_journals(folder, Detail::summary).outcomes;
+  std::vector<Known> packings;
+  std::size_t made = 0;
+  for (std::size_t i = 0; i < jobs.size(); ++i) {
+    packings.push_back({costs[i].cpu_seconds, std::nullopt});
+    const auto known = outcomes.find(jobs[i].id);
+    if (known == outcomes.end()) continue;
+    packings.back().measured = known->second.cpu_seconds;
+    ++made;
+  }
+  const double before = total_cpu_seconds(costs);
+  const std::vector<double> seconds = learned(packings);
+  for (std::size_t i = 0; i < jobs.size(); ++i) costs[i].cpu_seconds = seconds[i];
+  std::cerr << counted(made, "packing") << " made in " << folder << ": estimates times "
+            << fixed(total_cpu_seconds(costs) / before, 2) << "\n";
+  return costs;
+}
+
+/// How evenly so many shards, which the uncorrected estimates divide, have the work.
+std::string shards_text(const std::vector<Job>& jobs, const std::vector<Cost>& costs, int shards) {
+  std::vector<double> seconds(static_cast<std::size_t>(shards));
+  const std::vector<int> shard_of = split(costs_of(jobs), shards);
+  for (std::size_t i = 0; i < costs.size(); ++i) {
+    seconds[static_cast<std::size_t>(shard_of[i] - 1)] += costs[i].cpu_seconds;
+  }
+  const double longest = *std::max_element(seconds.begin(), seconds.end());
+  const double mean = total_cpu_seconds(costs) / shards;
+  return "In " + counted(seconds.size(), "shard") + ": about " + duration_text(mean) +
+         " CPU each, the longest " + duration_text(longest) + "\n";
+}
+
+/// Whether one machine makes it in a night.
+std::string cluster_text(double wall_seconds) {
+  constexpr double night = 12.0 * 3600.0;
+  return wall_seconds < night ? "No cluster is needed.\n"
+                              : "On a cluster: " + called_as() + " slurm FILE --out DIR\n";
 }
 
 std::string memory_text(double bytes) { return fixed(bytes / 1e6, 1) + " MB"; }
@@ -84,8 +129,9 @@ Needs needs_of(const std::vector<Cost>& costs, int threads) {
   return needs;
 }
 
-void print_text(const Sweep& sweep, const Needs& needs, int threads) {
-  const std::vector<PlannedGroup> groups = planned_groups(sweep);
+void print_text(const Sweep& sweep, const std::vector<Cost>& costs, const Needs& needs,
+                int threads) {
+  const std::vector<PlannedGroup> groups = planned_groups(sweep, costs);
   std::cout << sweep.name << ": " << counted(sweep.jobs.size(), "packing") << ", "
             << counted(groups.size(), "parameter set") << "\n"
             << groups_text(groups) << "Estimated: " << duration_text(needs.cpu_seconds)
@@ -93,7 +139,8 @@ void print_text(const Sweep& sweep, const Needs& needs, int threads) {
             << counted(static_cast<std::size_t>(threads), "thread") << " ("
             << counted(static_cast<std::size_t>(needs.live), "packing") << " at once), up to "
             << memory_text(needs.bytes) << " of the " << memory_text(needs.memory)
-            << " that can be had\n";
+            << " that can be had\n"
+            << cluster_text(needs.wall_seconds);
 }
 
 /// One line; the parameters are JSON already.
@@ -136,7 +183,12 @@ CLI::App& add_command(CLI::App& app, PlanOptions& options) {
   CLI::App& plan =
       *app.add_subcommand("plan", "List the packings of a sweep with estimated time and memory");
   add_file(plan, options.file);
+  plan.add_option("--out", options.out, "output folder: packings made in it teach the estimates")
+      ->type_name("DIR");
   add_threads(plan, options.threads);
+  plan.add_option("--shards", options.shards, "how evenly so many shards divide it")
+      ->check(CLI::Range(1, 1000000))
+      ->type_name("N");
   plan.add_flag("--json", options.json, "every packing, as JSON");
   plan.footer("Example: grainsweep plan configs/confined-spheres.json --threads 8");
   return plan;
@@ -145,13 +197,14 @@ CLI::App& add_command(CLI::App& app, PlanOptions& options) {
 int perform(const PlanOptions& options) {
   const Sweep sweep = sweep_with_notes(options.file);
   const int threads = options.threads > 0 ? options.threads : usable_cores();
-  const std::vector<Cost> costs = costs_of(sweep.jobs);
+  const std::vector<Cost> costs = costs_with(options.out, sweep.jobs);
   const Needs needs = needs_of(costs, threads);
   std::cerr << memory_warning(costs, needs.memory);
   if (options.json) {
     print_json(sweep, costs, needs, threads);
   } else {
-    print_text(sweep, needs, threads);
+    print_text(sweep, costs, needs, threads);
+    if (options.shards > 0) std::cout << shards_text(sweep.jobs, costs, options.shards);
   }
   return exit_done;
 }

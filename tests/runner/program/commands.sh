@@ -60,6 +60,9 @@ for reference in "$configs"/*.reference.json; do
 done
 expect_code 0 "$program" status out/small
 expect_text out.txt "10 of 10 packings done" "No runner at work"
+expect_code 0 "$program" plan small.json --out out/small --shards 3
+expect_text error.txt "packings made in out/small: estimates times "
+expect_text out.txt "No cluster is needed." "In 3 shards: about "
 expect_code 0 "$program" status out/small --json
 expect_text out.txt '"packings": 10' '"pending": 0' '"runners": []' '"sweep_file": "small.json"'
 
