@@ -11,6 +11,7 @@
 #include <cstdint>
 
 #include "kernels/body_kernels.hpp"
+#include "kernels/front_kernels.hpp"
 #include "kernels/isa.hpp"
 #include "kernels/row_kernels.hpp"
 
@@ -86,6 +87,7 @@ struct Kernels {
   const RowKernels<double>& f64;
   const BodyKernels<float>& body_f32;
   const BodyKernels<double>& body_f64;
+  const FrontKernels& front;
   /// All pairs of the grid with gap below `reach`, each once, in the order of the grid. Writes at
   /// most `capacity` of them and returns how many there are.
   std::size_t (*sphere_pairs)(const SphereGrid& grid, GrainPair* pairs, std::size_t capacity);

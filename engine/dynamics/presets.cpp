@@ -33,6 +33,15 @@ Accuracy accurate() {
   return a;
 }
 
+/// Falls and creeps as `accurate`. Rest is found from what `balanced` calls settled.
+Accuracy exact() {
+  Accuracy a;
+  a.path_tolerance = accurate().path_tolerance;
+  a.creep_steps = accurate().creep_steps;
+  a.rest = Rest::exact;
+  return a;
+}
+
 }  // namespace
 
 const std::vector<Preset>& presets() {
@@ -40,15 +49,19 @@ const std::vector<Preset>& presets() {
       {"fast",
        "at least 90 % of the isostatic contacts, mean overlap below 1e-4 d",
        fast(),
-       {{{0.0030, 0.087}, {0.0026, 0.115}, {0.0062, 0.185}}}},
+       {{{{0.0030, 0.087}, {0.0026, 0.115}, {0.0062, 0.185}}}}},
       {"balanced",
        "at least 98 % of the isostatic contacts, mean overlap below 1e-5 d",
        Accuracy{},
-       {{{0.0020, 0.056}, {0.0016, 0.046}, {0.0052, 0.095}}}},
+       {{{{0.0020, 0.056}, {0.0016, 0.046}, {0.0052, 0.095}}}}},
       {"accurate",
        "at least 99.4 % of the isostatic contacts, mean overlap below 5e-6 d",
        accurate(),
-       {{{0.0013, 0.012}, {0.0024, 0.050}, {0.0030, 0.067}}}}};
+       {{{{0.0013, 0.012}, {0.0024, 0.050}, {0.0030, 0.067}}}}},
+      {"exact",
+       "spheres alone: forces balance to 1e-10 m g on contacts closed to 1e-12 d, no more and no "
+       "fewer than hold the bed",
+       exact(), std::nullopt}};
   return all;
 }
 
@@ -70,8 +83,8 @@ std::optional<Accuracy> preset(std::string_view name) {
 
 std::optional<ProtocolBias> bias_bound(std::string_view preset_name, BedKind kind) {
   const Preset* known = find_preset(preset_name);
-  return known != nullptr ? std::optional(known->bias_bounds[static_cast<std::size_t>(kind)])
-                          : std::nullopt;
+  if (known == nullptr || !known->bias_bounds) return std::nullopt;
+  return known->bias_bounds->at(static_cast<std::size_t>(kind));
 }
 
 }  // namespace grainsweep

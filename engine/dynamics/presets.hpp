@@ -27,10 +27,10 @@ struct Preset {
   std::string_view name;
   std::string_view promise;  ///< one sentence with numbers, for --help and the README
   Accuracy accuracy;
-  std::array<ProtocolBias, 3> bias_bounds;  ///< by BedKind
+  std::optional<std::array<ProtocolBias, 3>> bias_bounds;  ///< by BedKind, if measured
 };
 
-/// fast, balanced, accurate.
+/// fast, balanced, accurate, exact.
 const std::vector<Preset>& presets();
 
 /// The preset called `name`, if there is one.

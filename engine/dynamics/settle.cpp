@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "engine/dynamics/balance.hpp"
 #include "engine/dynamics/columns.hpp"
@@ -12,6 +13,7 @@
 #include "engine/dynamics/sleep.hpp"
 #include "engine/dynamics/stages.hpp"
 #include "engine/dynamics/workspace.hpp"
+#include "engine/exact/exact_rest.hpp"
 
 namespace grainsweep {
 
@@ -260,11 +262,64 @@ void look_closer(Settling<Kind, Real>& s) {
 }
 
 template <class Kind, class Real>
-void report_forces(Settling<Kind, Real>& s) {
-  const double dt = s.settings.dt;
-  const std::vector<ForceContact> contacts = force_contacts(s.bed, dt, s.state.contacts);
+void report_forces(const std::vector<ForceContact>& contacts, Settling<Kind, Real>& s) {
   s.report.force = force_sums(s.bed, contacts);
   s.report.pair_forces = pair_forces(s.bed, contacts);
+}
+
+template <class Kind, class Real>
+std::vector<ForceContact> contacts_of_last_step(const Settling<Kind, Real>& s) {
+  return force_contacts(s.bed, s.settings.dt, s.state.contacts);
+}
+
+// ---- exact rest ----
+
+RestReport report_of(const ExactRest& exact, const SphereBed& bed) {
+  RestReport rest;
+  rest.overlap_mean = exact.overlap_mean;
+  rest.overlap_max = exact.overlap_max;
+  rest.contacts = static_cast<std::int64_t>(exact.contacts.size());
+  rest.independent_contacts = rest.contacts;
+  rest.held_by_turning =
+      std::count_if(exact.contacts.begin(), exact.contacts.end(), [&](const ForceContact& contact) {
+        return !bed.is_grain(contact.b) &&
+               bed.walls[static_cast<std::size_t>(contact.b - bed.wall_name(0))].is_round();
+      });
+  rest.isostatic_contacts = Sphere::degrees_of_freedom * static_cast<std::int64_t>(bed.grains()) -
+                            zero_modes(bed, exact.contacts);
+  rest.imbalance = {exact.imbalance_mean, exact.imbalance};
+  return rest;
+}
+
+/// From a bed at rest in steps to exact rest. One from which it is not found slides on and is tried
+/// again.
+template <class Real>
+void rest_exactly(Settling<Sphere, Real>& s, const KeepGoing& keep_going) {
+  constexpr int most_tries = 3;
+  const auto goes_on_trying = [&] {
+    s.report.cancelled = !keep_going({s.report.steps, s.share_done, [&s] { return saved(s); }});
+    return !s.report.cancelled;
+  };
+  for (int tries = 1; s.report.failure.empty() && !s.report.cancelled; ++tries) {
+    SphereBed bed = s.bed;
+    const ExactRest exact = rest_exactly(s.context, contacts_of_last_step(s), bed, goes_on_trying);
+    s.report.iterations += exact.rounds;
+    if (s.report.cancelled) return;
+    if (exact.failure.empty()) {
+      s.bed = std::move(bed);
+      s.report.rest = report_of(exact, s.bed);
+      report_forces(exact.contacts, s);
+      return;
+    }
+    if (tries == most_tries || !has_steps_to_go_on(s)) {
+      s.report.failure = "at rest in steps, but exact rest was not found: " + exact.failure +
+                         "; take another seed, or accuracy.rest in_steps";
+      return;
+    }
+    enter(s.stages.size() - 1, s);
+    come_to_rest(s, keep_going);
+    if (!s.report.cancelled) test_rest(s);
+  }
 }
 
 template <class Kind, class Real>
@@ -296,7 +351,10 @@ SettleReport settle_in(StepState<Kind, Real>& state, StepState<Kind, double>& cl
   }
   test_rest(s);
   look_closer(s);
-  report_forces(s);
+  report_forces(contacts_of_last_step(s), s);
+  if constexpr (std::is_same_v<Kind, Sphere>) {
+    if (accuracy.rest == Rest::exact) rest_exactly(s, keep_going);
+  }
   return s.report;
 }
 

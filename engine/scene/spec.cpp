@@ -336,6 +336,10 @@ std::vector<SpecError> check(const PackingSpec& spec) {
   }
   check_fill(spec, shape, shape && sizes && box, errors);
   check_accuracy(spec.accuracy, errors);
+  if (spec.accuracy.rest == Rest::exact && !is_sphere(spec.shape)) {
+    errors.push_back(
+        {"accuracy.rest", "must be in_steps for grains that are not spheres, is exact"});
+  }
   check_measure(spec.measure, errors);
   if (box) check_bin_width(spec.measure.bin_width, spec.box, errors);
   if (errors.empty()) check_outcome(spec, across, errors);

@@ -55,6 +55,12 @@ enum class Solver {
   accelerated_gauss_seidel,  ///< "apgs": the same sweeps with Nesterov's momentum
 };
 
+/// What a bed is when it counts as settled. See engine/dynamics/settle.hpp.
+enum class Rest {
+  in_steps,  ///< "in_steps": steps pass every test of rest
+  exact,     ///< "exact": then all forces balance; spheres only (engine/exact/exact_rest.hpp)
+};
+
 /// Number type of the solver's rows and velocities; positions are always f64.
 enum class Precision { f32, f64 };
 
@@ -70,6 +76,7 @@ struct Accuracy {
   Protocol protocol = Protocol::heavy_ball;
   Solver solver = Solver::accelerated_gauss_seidel;
   Precision precision = Precision::f32;
+  Rest rest = Rest::in_steps;
   double step = 0.2;          ///< dt, sqrt(d/g)
   double momentum = 0.9;      ///< alpha: share of a displacement carried on in the fall, 0..1
   int fall_iterations = 400;  ///< most solver iterations per step of fall and creep

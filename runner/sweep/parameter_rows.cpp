@@ -317,6 +317,11 @@ Rows accuracy_rows() {
           Names{{"f32", "single precision; places are always f64"},
                 {"f64", "double precision, for masses above 1e5 to 1"}},
           "number type of the solver"),
+      row<&S::accuracy, &A::rest>(
+          "accuracy.rest",
+          Names{{"in_steps", "steps pass every test of rest"},
+                {"exact", "then on to where all forces balance; spheres only"}},
+          "what counts as settled: rest in steps, or, of spheres, exact rest after it"),
       row<&S::accuracy, &A::step>("accuracy.step", Interval{1e-4, 2}, "time step, sqrt(d/g)"),
       row<&S::accuracy, &A::momentum>("accuracy.momentum", Interval{0, 1, false, true},
                                       "share of the last displacement carried on, 0 to 1"),

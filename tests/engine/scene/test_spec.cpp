@@ -300,6 +300,19 @@ TEST_CASE("the bins of a profile are no wider than the box") {
   CHECK(bins(nan) == Messages{rule + "is nan"});
 }
 
+TEST_CASE("exact rest is for spheres of any sizes") {
+  const auto exact = [](const ShapeSpec& shape) {
+    return broken_by([&](PackingSpec& spec) {
+      spec.shape = shape;
+      spec.sizes.small_share = 0.3;
+      spec.accuracy.rest = Rest::exact;
+    });
+  };
+  CHECK(exact({}).empty());
+  CHECK(exact(PinacoidSize{}) ==
+        Messages{"accuracy.rest: must be in_steps for grains that are not spheres, is exact"});
+}
+
 TEST_CASE("a solid height asks for its volume over that of a mean grain") {
   PackingSpec spec;
   spec.box.length = 10.0;

@@ -57,7 +57,7 @@ TEST_CASE("the table knows every member of a specification") {
       PackingSpec{};
   [[maybe_unused]] const auto& [length, width, x, y, is_tube] = box;
   [[maybe_unused]] const auto& [spread, small_share, size_ratio] = sizes;
-  [[maybe_unused]] const auto& [protocol, solver, precision, step, momentum, fall, path, creep,
+  [[maybe_unused]] const auto& [protocol, solver, precision, end, step, momentum, fall, path, creep,
                                 rest, residual, kinetic, contacts, overlap, imbalance,
                                 imbalance_gap, max_steps] = accuracy;
   [[maybe_unused]] const auto& [exclude_floor, exclude_surface, gap_tolerances, bin_width] =
@@ -65,7 +65,7 @@ TEST_CASE("the table knows every member of a specification") {
   CHECK(known_keys("box").size() == 4);
   CHECK(known_keys("tube").size() == 1);
   CHECK(known_keys("sizes").size() == 3);
-  CHECK(known_keys("accuracy").size() == 16 + 1);  // and "preset"
+  CHECK(known_keys("accuracy").size() == 17 + 1);  // and "preset"
   CHECK(known_keys("measure").size() == 4);
   [[maybe_unused]] const auto& [side, across, height, angle] = PinacoidSize{};
   CHECK(known_keys("shape.pinacoid").size() == 4);

@@ -1,0 +1,164 @@
+#include "engine/exact/elimination.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+namespace grainsweep {
+
+namespace {
+
+constexpr std::size_t few_grains = 12;  // not worth a plane
+
+/// The partners of every grain.
+class Neighbours {
+ public:
+  Neighbours(std::size_t grains, const std::vector<GrainPair>& pairs)
+      : begin_(grains + 1, 0), partners_(2 * pairs.size()) {
+    for (const GrainPair pair : pairs) {
+      ++begin_[index(pair.a) + 1];
+      ++begin_[index(pair.b) + 1];
+    }
+    std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
+    std::vector<std::size_t> at(begin_.begin(), begin_.end() - 1);
+    for (const GrainPair pair : pairs) {
+      partners_[at[index(pair.a)]++] = pair.b;
+      partners_[at[index(pair.b)]++] = pair.a;
+    }
+  }
+  std::span<const std::int32_t> of(std::int32_t grain) const {
+    return std::span(partners_).subspan(begin_[index(grain)],
+                                        begin_[index(grain) + 1] - begin_[index(grain)]);
+  }
+
+ private:
+  static std::size_t index(std::int32_t grain) { return static_cast<std::size_t>(grain); }
+
+  std::vector<std::size_t> begin_;
+  std::vector<std::int32_t> partners_;
+};
+
+class Dissection {
+ public:
+  Dissection(std::span<const Record<double>> centres, const std::vector<GrainPair>& pairs)
+      : centres_(centres), neighbours_(centres.size(), pairs), part_(centres.size(), 0) {
+    std::vector<std::int32_t> all(centres.size());
+    std::iota(all.begin(), all.end(), 0);
+    dissect(all.begin(), all.end());
+    number_grains();
+    for (EliminationNode& node : tree_.nodes) find_border(node);
+  }
+  EliminationTree take_tree() { return std::move(tree_); }
+
+ private:
+  using At = std::vector<std::int32_t>::iterator;
+
+  /// Adds the nodes of some grains; returns the last one.
+  std::int32_t dissect(At first, At last) {
+    EliminationNode node;
+    if (static_cast<std::size_t>(last - first) <= few_grains) {
+      node.grains.assign(first, last);
+    } else {
+      const At middle = halve(first, last);
+      const auto [parting, end] = part(first, middle, last);
+      node.grains.assign(end, last);
+      node.children = {dissect(first, parting), dissect(parting, end)};
+    }
+    tree_.nodes.push_back(std::move(node));
+    return static_cast<std::int32_t>(tree_.nodes.size()) - 1;
+  }
+
+  /// Sorts the grains below the middle of their longest extent before those above it.
+  At halve(At first, At last) const {
+    const int axis = longest_axis(first, last);
+    std::sort(first, last, [&](std::int32_t p, std::int32_t q) {
+      return std::pair(coordinate(p, axis), p) < std::pair(coordinate(q, axis), q);
+    });
+    return first + (last - first) / 2;
+  }
+  int longest_axis(At first, At last) const {
+    std::array<double, 3> extent{};
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto [low, high] =
+          std::minmax_element(first, last, [&](std::int32_t p, std::int32_t q) {
+            return coordinate(p, axis) < coordinate(q, axis);
+          });
+      extent[static_cast<std::size_t>(axis)] = coordinate(*high, axis) - coordinate(*low, axis);
+    }
+    return static_cast<int>(std::max_element(extent.begin(), extent.end()) - extent.begin());
+  }
+  double coordinate(std::int32_t grain, int axis) const {
+    const Record<double>& p = centres_[static_cast<std::size_t>(grain)];
+    return axis == 0 ? p.x : axis == 1 ? p.y : p.z;
+  }
+
+  /// Puts the grains of one half that have neighbours in the other behind all others; of the two
+  /// halves that which has fewer of them. Returns where the second half begins, and its end.
+  std::pair<At, At> part(At first, At middle, At last) {
+    const std::int32_t below = ++parts_, above = ++parts_;
+    for (At at = first; at != last; ++at) part_of(*at) = at < middle ? below : above;
+    const auto touches_above = [&](std::int32_t grain) { return touches(grain, above); };
+    const auto touches_below = [&](std::int32_t grain) { return touches(grain, below); };
+    if (std::count_if(first, middle, touches_above) <= std::count_if(middle, last, touches_below)) {
+      const At parting = std::stable_partition(
+          first, middle, [&](std::int32_t grain) { return !touches_above(grain); });
+      return {parting, std::rotate(parting, middle, last)};
+    }
+    const auto apart = [&](std::int32_t grain) { return !touches_below(grain); };
+    return {middle, std::stable_partition(middle, last, apart)};
+  }
+  std::int32_t& part_of(std::int32_t grain) { return part_[static_cast<std::size_t>(grain)]; }
+  bool touches(std::int32_t grain, std::int32_t part) {
+    const auto partners = neighbours_.of(grain);
+    return std::any_of(partners.begin(), partners.end(),
+                       [&](std::int32_t partner) { return part_of(partner) == part; });
+  }
+
+  void number_grains() {
+    tree_.place.resize(centres_.size());
+    tree_.node_of.resize(centres_.size());
+    std::int32_t place = 0;
+    for (std::size_t k = 0; k < tree_.nodes.size(); ++k) {
+      for (const std::int32_t grain : tree_.nodes[k].grains) {
+        tree_.place[static_cast<std::size_t>(grain)] = place++;
+        tree_.node_of[static_cast<std::size_t>(grain)] = static_cast<std::int32_t>(k);
+      }
+    }
+    eliminated_ = 0;
+  }
+
+  /// Of the next node.
+  void find_border(EliminationNode& node) {
+    eliminated_ += static_cast<std::int32_t>(node.grains.size());
+    const auto place = [&](std::int32_t grain) {
+      return tree_.place[static_cast<std::size_t>(grain)];
+    };
+    const auto add = [&](std::span<const std::int32_t> grains) {
+      std::copy_if(grains.begin(), grains.end(), std::back_inserter(node.border),
+                   [&](std::int32_t grain) { return place(grain) >= eliminated_; });
+    };
+    for (const std::int32_t grain : node.grains) add(neighbours_.of(grain));
+    for (const std::int32_t child : node.children) {
+      if (child != EliminationNode::none) add(tree_.nodes[static_cast<std::size_t>(child)].border);
+    }
+    std::sort(node.border.begin(), node.border.end(),
+              [&](std::int32_t p, std::int32_t q) { return place(p) < place(q); });
+    node.border.erase(std::unique(node.border.begin(), node.border.end()), node.border.end());
+  }
+
+  std::span<const Record<double>> centres_;
+  Neighbours neighbours_;
+  std::vector<std::int32_t> part_;  ///< of each grain, the one it was last sorted into
+  std::int32_t parts_ = 0;
+  std::int32_t eliminated_ = 0;  ///< grains up to a node
+  EliminationTree tree_;
+};
+
+}  // namespace
+
+EliminationTree dissect(std::span<const Record<double>> centres,
+                        const std::vector<GrainPair>& pairs) {
+  return Dissection(centres, pairs).take_tree();
+}
+
+}  // namespace grainsweep

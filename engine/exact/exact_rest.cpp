@@ -1,0 +1,450 @@
+#include "engine/exact/exact_rest.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "engine/exact/stiffness.hpp"
+#include "engine/measure/touching.hpp"
+
+namespace grainsweep {
+
+namespace {
+
+constexpr int most_factorisations = 600;
+
+// Products f s, m g d: slacks of loaded contacts are 1e-4 d at first, at the end far below
+// exact_overlap for all forces that hold a bed.
+constexpr double first_product = 1e-4;
+constexpr double last_product = 1e-14;
+constexpr double nearly_balanced = 1e-8;  // m g; the rest is linear
+constexpr double least_slack = 1e-9;
+
+// Lengths, d. Pairs are listed as far as two grains may come near each other before the next list.
+constexpr double leash = 0.03;
+constexpr double listed_gap = 2.0 * leash;
+constexpr double long_way = 0.06, short_way = 0.006;
+
+/// A pair or wall within reach.
+struct Link {
+  std::int32_t a = 0, b = 0;  ///< as of ForceContact
+  double mass = 1.0;          ///< of its lighter grain: the scale of its force, m
+  double gap = 0.0;           ///< d
+  double slack = 0.0;         ///< what the gap should be, positive, d
+  double force = 0.0;         ///< positive, m g
+  double target = 0.0;        ///< of slack * force in this round
+  double slack_step = 0.0, force_step = 0.0;
+
+  std::pair<std::int32_t, std::int32_t> ends() const { return {a, b}; }
+  double stiffness() const { return force / slack; }
+};
+
+/// How far a link can go before a positive value loses more than the share `loss`; at most 1.
+double length_of(double value, double step, double loss) {
+  return step < 0.0 ? std::min(1.0, -loss * value / step) : 1.0;
+}
+
+/// The length that all links can go but for the first `cut_short`. `lengths` is reordered.
+double length_of_all(std::vector<double>& lengths, std::size_t cut_short) {
+  if (lengths.empty()) return 1.0;
+  const auto at =
+      lengths.begin() + static_cast<std::ptrdiff_t>(std::min(cut_short, lengths.size() - 1));
+  std::nth_element(lengths.begin(), at, lengths.end());
+  return *at;
+}
+
+class InteriorPoint {
+ public:
+  InteriorPoint(const ExecutionContext& context, const std::vector<ForceContact>& from,
+                SphereBed& bed)
+      : context_(context), bed_(bed), factors_(context.kernels), drag_(bed.grains(), 1.0) {
+    list_links();
+    start_from(from);
+  }
+
+  ExactRest run(const std::function<bool()>& keep_going) {
+    ExactRest rest;
+    while (!is_found()) {
+      if (!keep_going()) return failed("cancelled", rest);
+      if (rest.rounds == most_factorisations) {
+        return failed("no state without motion was found within 600 rounds", rest);
+      }
+      ++rest.rounds;
+      if (!factor_with_drag()) return failed("the contacts do not hold the bed", rest);
+      find_step();
+      if (is_too_long()) continue;
+      take_step();
+      adapt();
+    }
+    keep_contacts();
+    return certified(rest);
+  }
+
+ private:
+  // ---- links ----
+
+  std::size_t grains() const { return bed_.grains(); }
+  double mass(std::size_t grain) const { return 1.0 / bed_.motion[grain].w; }
+  const Wall& wall_of(const Link& link) const {
+    return bed_.walls[static_cast<std::size_t>(link.b - bed_.wall_name(0))];
+  }
+  bool is_curved(const Link& link) const {
+    return !bed_.is_grain(link.b) && wall_of(link).is_round();
+  }
+
+  /// All pairs and walls within reach of where the grains are now; those listed before stay as they
+  /// are.
+  void list_links() {
+    std::vector<Link> before = std::move(links_);
+    links_.clear();
+    const Touching near = find_touching(bed_, listed_gap, context_.kernels);
+    for (const TouchingPair& pair : near.pairs) add_link(pair.a, pair.b);
+    for (const TouchingWall& wall : near.walls) {
+      add_link(wall.grain, bed_.wall_name(static_cast<std::size_t>(wall.wall)));
+    }
+    const auto by_ends = [](const Link& p, const Link& q) { return p.ends() < q.ends(); };
+    std::sort(links_.begin(), links_.end(), by_ends);
+    std::size_t k = 0;
+    for (Link& link : links_) {
+      while (k < before.size() && by_ends(before[k], link)) ++k;
+      if (k < before.size() && before[k].ends() == link.ends()) {
+        link.slack = before[k].slack, link.force = before[k].force;
+      }
+    }
+    listed_at_.assign(bed_.centres().begin(), bed_.centres().end());
+    lay_out_springs();
+    measure();
+    for (Link& link : links_) {
+      if (link.slack > 0.0) continue;
+      link.slack = std::max(link.gap, least_slack);
+      link.force = product_ * link.mass / link.slack;
+    }
+  }
+  void add_link(std::int32_t a, std::int32_t b) {
+    Link link;
+    link.a = a, link.b = b;
+    link.mass = mass(static_cast<std::size_t>(a));
+    if (bed_.is_grain(b)) link.mass = std::min(link.mass, mass(static_cast<std::size_t>(b)));
+    links_.push_back(link);
+  }
+
+  /// A spring of each link; those with a round wall, which turns as a grain slides along it, have
+  /// another across.
+  void lay_out_springs() {
+    springs_.clear();
+    for (const Link& link : links_) {
+      springs_.push_back({link.a, bed_.is_grain(link.b) ? link.b : Spring::fixed});
+    }
+    for (const Link& link : links_) {
+      if (is_curved(link)) springs_.push_back({link.a, Spring::fixed});
+    }
+    factors_.analyse(bed_.centres(), springs_);
+  }
+
+  /// Gaps and directions at the grains' places. A link's direction leads from its first grain to
+  /// its second side: its gap opens as they part along it.
+  void measure() {
+    std::size_t across = links_.size();
+    for (std::size_t k = 0; k < links_.size(); ++k) {
+      measure_link(links_[k], springs_[k]);
+      if (is_curved(links_[k])) {
+        const Vector along = springs_[k].along;
+        springs_[across++].along = {-along.y(), along.x(), 0.0};
+      }
+    }
+  }
+  void measure_link(Link& link, Spring& spring) {
+    const auto a = static_cast<std::size_t>(link.a), b = static_cast<std::size_t>(link.b);
+    const Record<double>& p = bed_.position[a];
+    if (bed_.is_grain(link.b)) {
+      const Vector difference = nearest_difference(bed_, a, b);
+      const double distance = difference.norm();
+      spring.along = difference / distance;
+      link.gap = distance - p.w - bed_.position[b].w;
+    } else {
+      const UnitVector normal = wall_of(link).normal(p.x, p.y, p.z);
+      spring.along = {-normal.x, -normal.y, -normal.z};
+      link.gap = wall_of(link).gap(p);
+    }
+  }
+
+  /// Slacks and forces near those of a settled bed, with equal products: f - f0 = k (s - gap).
+  void start_from(std::vector<ForceContact> from) {
+    constexpr double per_gap = 1e3;  // k, m g / d
+    const auto ends = [](const ForceContact& c) { return std::pair(c.a, c.b); };
+    std::sort(from.begin(), from.end(),
+              [&](const ForceContact& p, const ForceContact& q) { return ends(p) < ends(q); });
+    std::size_t k = 0;
+    for (Link& link : links_) {
+      while (k < from.size() && ends(from[k]) < link.ends()) ++k;
+      const bool pushed = k < from.size() && ends(from[k]) == link.ends();
+      const double force = pushed ? from[k].force / link.mass : 0.0;
+      const double half = (force - per_gap * std::max(link.gap, 0.0)) / 2.0;
+      const double root = std::sqrt(half * half + per_gap * product_);
+      link.slack = half > 0.0 ? product_ / (half + root) : (root - half) / per_gap;
+      link.force = link.mass * product_ / link.slack;
+    }
+  }
+
+  // ---- a round ----
+
+  bool is_found() const {
+    return product_ <= last_product && reached_ > 0.9 && largest(net_forces()) < nearly_balanced;
+  }
+
+  /// Drag keeps a grain from moving far in a round: a force per way, in weights per d.
+  bool factor_with_drag() {
+    for (std::size_t k = 0; k < links_.size(); ++k) springs_[k].stiffness = links_[k].stiffness();
+    stiffen_across();
+    for (int tries = 0; tries < 12; ++tries) {
+      ground_.resize(grains());
+      for (std::size_t i = 0; i < grains(); ++i) ground_[i] = drag_of_all_ * drag_[i] * mass(i);
+      if (factors_.factor(springs_, ground_)) return true;
+      for (double& drag : drag_) drag *= 30.0;
+    }
+    return false;
+  }
+  /// A round wall of radius R turns a grain's force f by way / (R - r), r its radius.
+  void stiffen_across() {
+    std::size_t across = links_.size();
+    for (const Link& link : links_) {
+      if (!is_curved(link)) continue;
+      const double off_axis =
+          wall_of(link).radius - bed_.position[static_cast<std::size_t>(link.a)].w - link.gap;
+      springs_[across++].stiffness = link.force / std::max(off_axis, least_slack);
+    }
+  }
+
+  /// What a round wants. Targets are changed, with the same factors, until the step is long: those
+  /// products that a longer step would bring far from the others are held back (Gondzio 1996).
+  void find_step() {
+    constexpr int corrections = 6;
+    constexpr double longer = 0.3, far_off = 10.0, gain = 1.02;
+    for (Link& link : links_) link.target = product_ * link.mass;
+    double before = 0.0;
+    for (int k = 0; k < corrections; ++k) {
+      solve_for_targets();
+      const auto [slack, force] = shortest_lengths();
+      reached_ = std::min(slack, force);
+      if (reached_ > 0.95 || reached_ < gain * before) break;
+      before = reached_;
+      for (Link& link : links_) {
+        const double product = link.mass * product_;
+        const double next = (link.slack + std::min(1.0, slack + longer) * link.slack_step) *
+                            (link.force + std::min(1.0, force + longer) * link.force_step);
+        link.target += std::clamp(next, product / far_off, product * far_off) - next;
+        link.target = std::clamp(link.target, -far_off * product, far_off * product);
+      }
+    }
+  }
+  void solve_for_targets() {
+    way_ = net_forces();
+    for (std::size_t k = 0; k < links_.size(); ++k) {
+      const Link& link = links_[k];
+      add_force(k,
+                link.target / link.slack - link.force - link.stiffness() * (link.gap - link.slack),
+                way_);
+    }
+    factors_.solve(way_);
+    for (std::size_t k = 0; k < links_.size(); ++k) {
+      Link& link = links_[k];
+      link.slack_step = opening(k) + link.gap - link.slack;
+      link.force_step = (link.target - link.force * link.slack_step) / link.slack - link.force;
+    }
+  }
+  /// Largest share of a positive value that a round may take away.
+  double loss() const { return product_ < 1e-8 ? 0.99 : 0.9; }
+  std::pair<double, double> shortest_lengths() {
+    double slack = 1.0, force = 1.0;
+    blocked_ = 0;
+    for (const Link& link : links_) {
+      const double s = length_of(link.slack, link.slack_step, loss());
+      const double f = length_of(link.force, link.force_step, loss());
+      slack = std::min(slack, s), force = std::min(force, f);
+      blocked_ += std::min(s, f) < 0.85 ? 1 : 0;
+    }
+    return {slack, force};
+  }
+
+  /// Whether a grain wants to go far: it gets more drag, and the round comes again.
+  bool is_too_long() {
+    constexpr int most_holds = 4;
+    if (largest(way_) <= long_way || holds_ == most_holds) {
+      holds_ = 0;
+      return false;
+    }
+    ++holds_;
+    for (std::size_t i = 0; i < grains(); ++i) {
+      const double way = way_[i].norm();
+      if (way > long_way / 2.0) drag_[i] *= std::max(3.0, 3.0 * way / long_way);
+    }
+    return true;
+  }
+
+  /// One link must not stop a bed: some are cut short, and what they miss is left to later rounds.
+  void take_step() {
+    constexpr double cut_share = 0.02;
+    const auto cut_short = static_cast<std::size_t>(cut_share * static_cast<double>(grains()));
+    std::vector<double> lengths(links_.size());
+    std::transform(links_.begin(), links_.end(), lengths.begin(), [&](const Link& link) {
+      return length_of(link.slack, link.slack_step, loss());
+    });
+    const double of_slack = length_of_all(lengths, cut_short);
+    std::transform(links_.begin(), links_.end(), lengths.begin(), [&](const Link& link) {
+      return length_of(link.force, link.force_step, loss());
+    });
+    const double of_force = length_of_all(lengths, cut_short);
+    move_grains(of_slack);
+    measure();
+    for (Link& link : links_) {
+      const double product = link.mass * product_, kept = 1.0 - loss();
+      link.slack = std::max({link.slack + of_slack * link.slack_step, link.gap, kept * link.slack});
+      link.force = std::max(link.force + of_force * link.force_step, kept * link.force);
+      link.force = std::clamp(link.force, 1e-3 * product / link.slack, 1e3 * product / link.slack);
+    }
+    taken_ = of_slack;
+  }
+  /// By a share of the way that they want, no further than their leash.
+  void move_grains(double share) {
+    double furthest = 0.0;
+    for (std::size_t i = 0; i < grains(); ++i) {
+      Record<double>& p = bed_.position[i];
+      const Vector listed(listed_at_[i].x, listed_at_[i].y, listed_at_[i].z);
+      Vector from = Vector(p.x, p.y, p.z) + share * way_[i] - listed;
+      const double distance = from.norm();
+      if (distance > leash) from *= leash / distance;
+      furthest = std::max(furthest, distance);
+      const Vector to = listed + from;
+      p.x = to.x(), p.y = to.y(), p.z = to.z();
+    }
+    must_list_ = furthest > leash / 2.0;
+  }
+
+  void adapt() {
+    constexpr double centred = 0.85, few_blocked = 0.004;
+    for (std::size_t i = 0; i < grains(); ++i) {
+      const double way = way_[i].norm();
+      if (way > long_way / 2.0) drag_[i] = std::min(3.0 * drag_[i], 1e6);
+      if (way < short_way) drag_[i] = std::max(drag_[i] / 3.0, 1.0);
+    }
+    drag_of_all_ *= reached_ > 0.8 ? 0.5 : reached_ < 0.3 ? 1.5 : 1.0;
+    drag_of_all_ = std::clamp(drag_of_all_, 1e-6, 0.1);
+    full_steps_ = reached_ > centred ? full_steps_ + 1 : 0;
+    const bool few = static_cast<double>(blocked_) < few_blocked * static_cast<double>(grains());
+    if (reached_ > centred || (few && taken_ > 0.5)) {
+      product_ = std::max(last_product, product_ * (full_steps_ >= 2 ? 0.2 : 0.5));
+    }
+    constexpr int most_stuck = 12;
+    stuck_ = reached_ < 0.1 ? stuck_ + 1 : 0;
+    if (stuck_ == most_stuck) product_ = std::min(4.0 * product_, first_product), stuck_ = 0;
+    if (must_list_) list_links();
+  }
+
+  // ---- forces ----
+
+  void add_force(std::size_t link, double force, std::vector<Vector>& to) const {
+    const Spring& spring = springs_[link];
+    to[static_cast<std::size_t>(spring.a)] -= force * spring.along;
+    if (spring.b != Spring::fixed) to[static_cast<std::size_t>(spring.b)] += force * spring.along;
+  }
+  /// On every grain, its weight included, m g.
+  std::vector<Vector> net_forces() const {
+    std::vector<Vector> net(grains());
+    for (std::size_t i = 0; i < grains(); ++i) net[i] = {0.0, 0.0, -mass(i)};
+    for (std::size_t k = 0; k < links_.size(); ++k) add_force(k, links_[k].force, net);
+    return net;
+  }
+  static double largest(const std::vector<Vector>& vectors) {
+    double largest = 0.0;
+    for (const Vector& vector : vectors) largest = std::max(largest, vector.norm());
+    return largest;
+  }
+  /// How much the way of the grains opens a gap, d.
+  double opening(std::size_t link) const {
+    const Spring& spring = springs_[link];
+    Vector apart = -way_[static_cast<std::size_t>(spring.a)];
+    if (spring.b != Spring::fixed) apart += way_[static_cast<std::size_t>(spring.b)];
+    return spring.along.dot(apart);
+  }
+
+  // ---- the end ----
+
+  /// Only links that push are left: their forces are solved for where the grains are.
+  void keep_contacts() {
+    constexpr double pushes = 1e4;  // m g / d; gaps and contacts lie 1e8 and more apart
+    constexpr int refinements = 12;
+    constexpr double stiff = 1e8, held = 1e-13, solved = 1e-12;
+    std::erase_if(links_, [&](const Link& link) { return link.stiffness() <= pushes * link.mass; });
+    lay_out_springs();
+    measure();
+    for (std::size_t k = 0; k < links_.size(); ++k) springs_[k].stiffness = stiff;
+    stiffen_across();
+    ground_.assign(grains(), held * stiff);
+    if (!factors_.factor(springs_, ground_)) return;
+    for (int k = 0; k < refinements; ++k) {
+      way_ = net_forces();
+      if (largest(way_) < solved) return;
+      factors_.solve(way_);
+      for (std::size_t at = 0; at < links_.size(); ++at) {
+        links_[at].force -= stiff * opening(at);
+      }
+    }
+  }
+
+  ExactRest certified(ExactRest rest) {
+    const std::vector<Vector> net = net_forces();
+    rest.imbalance = largest(net);
+    for (const Vector& force : net) rest.imbalance_mean += force.norm();
+    rest.imbalance_mean /= static_cast<double>(std::max<std::size_t>(grains(), 1));
+    double least = 1.0, overlap = 0.0;
+    for (const Link& link : links_) {
+      least = std::min(least, link.force);
+      overlap += std::max(0.0, -link.gap);
+      rest.contacts.push_back({link.a, link.b, link.force});
+    }
+    rest.overlap_mean = overlap / static_cast<double>(std::max<std::size_t>(links_.size(), 1));
+    const Touching near = find_touching(bed_, least_slack, context_.kernels);
+    for (const TouchingPair& pair : near.pairs) {
+      rest.overlap_max = std::max(rest.overlap_max, -pair.gap);
+    }
+    for (const TouchingWall& wall : near.walls) {
+      rest.overlap_max = std::max(rest.overlap_max, -wall.gap);
+    }
+    if (!(rest.imbalance <= exact_imbalance))
+      return failed("forces leave more than 1e-10 m g", rest);
+    if (!(rest.overlap_max <= exact_overlap))
+      return failed("grains overlap by more than 1e-12 d", rest);
+    if (!(least > 0.0)) return failed("a contact pulls", rest);
+    return rest;
+  }
+  static ExactRest failed(const char* why, ExactRest rest) {
+    rest.failure = why;
+    return rest;
+  }
+
+  const ExecutionContext& context_;
+  SphereBed& bed_;
+  StiffnessFactors factors_;
+  std::vector<Link> links_;      ///< by their ends
+  std::vector<Spring> springs_;  ///< of each link; then those across round walls
+  std::vector<Record<double>> listed_at_;
+  std::vector<double> drag_;    ///< of each grain, over that of all
+  std::vector<double> ground_;  ///< memory of factor_with_drag
+  std::vector<Vector> way_;     ///< that grains want to go in this round, d
+  double product_ = first_product;
+  double drag_of_all_ = 1e-2;
+  double reached_ = 0.0;     ///< share of a round's step that no link is in the way of
+  double taken_ = 0.0;       ///< share that was taken
+  std::size_t blocked_ = 0;  ///< links that can go less than most of the step
+  int full_steps_ = 0, stuck_ = 0, holds_ = 0;
+  bool must_list_ = false;
+};
+
+}  // namespace
+
+ExactRest rest_exactly(const ExecutionContext& context, const std::vector<ForceContact>& from,
+                       SphereBed& bed, const std::function<bool()>& keep_going) {
+  return InteriorPoint(context, from, bed).run(keep_going);
+}
+
+}  // namespace grainsweep

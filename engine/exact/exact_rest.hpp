@@ -1,0 +1,45 @@
+// Exact rest of spheres: the state next to a settled bed in which all forces balance.
+//
+// A bed at rest is a minimum of its potential energy: no grain can sink while no gap closes beyond
+// contact. From a settled bed a nonlinear interior-point method goes there, with the gaps as they
+// are: every pair and wall within reach has a slack s, its gap, and a force f, and f s goes to 0
+// for all of them together while grains sink along the valleys between their neighbours. A round
+// takes one factorisation of the bed's stiffness matrix (engine/exact/stiffness.hpp), in which a
+// contact is a spring of stiffness f / s. At the end the contacts that push are told from gaps by a
+// factor of 1e8 and more, as many as hold the bed: their forces are unique, and follow from the
+// weight.
+//
+// How well grains are solved while they fall and creep matters as before: this finds the rest, not
+// the packing.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "engine/context.hpp"
+#include "engine/rows/contacts.hpp"
+#include "engine/scene/bed.hpp"
+
+namespace grainsweep {
+
+/// What exact rest promises.
+inline constexpr double exact_imbalance = 1e-10;  ///< most that forces leave on a grain, m g
+inline constexpr double exact_overlap = 1e-12;    ///< deepest overlap, d
+
+struct ExactRest {
+  std::string failure;                 ///< why none was found; empty if the bed is at exact rest
+  int rounds = 0;                      ///< factorisations
+  std::vector<ForceContact> contacts;  ///< those that push
+  double imbalance = 0.0;              ///< most that their forces leave on a grain, m g
+  double imbalance_mean = 0.0;         ///< the same in the mean
+  double overlap_max = 0.0;            ///< d
+  double overlap_mean = 0.0;           ///< over the contacts, d
+};
+
+/// Moves a settled bed, whose contacts are `from`, to exact rest. The bed is wrapped. `keep_going`
+/// is asked before every round; where it says no the failure is "cancelled".
+ExactRest rest_exactly(const ExecutionContext& context, const std::vector<ForceContact>& from,
+                       SphereBed& bed, const std::function<bool()>& keep_going);
+
+}  // namespace grainsweep

@@ -1,0 +1,166 @@
+#include "engine/exact/stiffness.hpp"
+
+#include <algorithm>
+
+namespace grainsweep {
+
+namespace {
+
+/// Adds stiffness * along along^T to the 3 x 3 block of grains i >= j of a front.
+void add_block(double* front, std::size_t stride, std::size_t i, std::size_t j, const Vector& along,
+               double stiffness) {
+  for (std::size_t q = 0; q < 3; ++q) {
+    const double scaled = stiffness * along[static_cast<Eigen::Index>(q)];
+    double* column = front + (3 * j + q) * stride + 3 * i;
+    for (std::size_t p = 0; p < 3; ++p) column[p] += scaled * along[static_cast<Eigen::Index>(p)];
+  }
+}
+
+}  // namespace
+
+void StiffnessFactors::analyse(std::span<const Record<double>> centres,
+                               const std::vector<Spring>& springs) {
+  std::vector<GrainPair> pairs;
+  for (const Spring& spring : springs) {
+    if (spring.b != Spring::fixed) pairs.push_back({spring.a, spring.b});
+  }
+  tree_ = dissect(centres, pairs);
+  fronts_.assign(tree_.nodes.size(), {});
+  for (std::size_t k = 0; k < springs.size(); ++k) {
+    const Spring& spring = springs[k];
+    const auto a = static_cast<std::size_t>(spring.a), b = static_cast<std::size_t>(spring.b);
+    const bool a_first = spring.b == Spring::fixed || tree_.place[a] < tree_.place[b];
+    fronts_[static_cast<std::size_t>(tree_.node_of[a_first ? a : b])].springs.push_back(
+        {k, spring.a, spring.b});
+  }
+  std::vector<std::int32_t> place(centres.size(), 0);  // of each grain in the front at work
+  std::size_t size = 0, largest = 0;
+  for (std::size_t node = 0; node < fronts_.size(); ++node) {
+    Front& front = fronts_[node];
+    front.columns = 3 * tree_.nodes[node].grains.size();
+    front.rows = 3 * tree_.nodes[node].size();
+    front.stride = (front.rows + block_width - 1) / block_width * block_width;
+    front.factor = size;
+    size += front.columns * front.stride;
+    largest = std::max(largest, front.rows * front.stride);
+    std::int32_t next = 0;
+    for (const std::int32_t grain : grains_of(node))
+      place[static_cast<std::size_t>(grain)] = next++;
+    for (PlacedSpring& spring : front.springs) {
+      spring.a = place[static_cast<std::size_t>(spring.a)];
+      if (spring.b != Spring::fixed) spring.b = place[static_cast<std::size_t>(spring.b)];
+    }
+    for (const std::int32_t child : tree_.nodes[node].children) {
+      if (child != EliminationNode::none) place_border(static_cast<std::size_t>(child), place);
+    }
+  }
+  factors_.resize(size);
+  front_.resize(largest);
+}
+
+/// Those that a node eliminates, then its border.
+std::vector<std::int32_t> StiffnessFactors::grains_of(std::size_t node) const {
+  std::vector<std::int32_t> grains = tree_.nodes[node].grains;
+  const std::vector<std::int32_t>& border = tree_.nodes[node].border;
+  grains.insert(grains.end(), border.begin(), border.end());
+  return grains;
+}
+
+/// `place`: of each grain in the front of the node's parent.
+void StiffnessFactors::place_border(std::size_t node, const std::vector<std::int32_t>& place) {
+  for (const std::int32_t grain : tree_.nodes[node].border) {
+    fronts_[node].at_parent.push_back(place[static_cast<std::size_t>(grain)]);
+  }
+}
+
+bool StiffnessFactors::factor(const std::vector<Spring>& springs,
+                              const std::vector<double>& ground) {
+  for (std::size_t node = 0; node < fronts_.size(); ++node) {
+    Front& front = fronts_[node];
+    gather(node, springs, ground);
+    if (!kernels_->factor(front_.data(), front.rows, front.columns, front.stride)) return false;
+    std::copy_n(front_.data(), front.columns * front.stride, factors_.data() + front.factor);
+    hand_on(front);
+  }
+  return true;
+}
+
+void StiffnessFactors::gather(std::size_t node, const std::vector<Spring>& springs,
+                              const std::vector<double>& ground) {
+  const Front& front = fronts_[node];
+  std::fill_n(front_.begin(), front.rows * front.stride, 0.0);
+  std::size_t diagonal = 0;
+  for (const std::int32_t grain : tree_.nodes[node].grains) {
+    for (int q = 0; q < 3; ++q, diagonal += front.stride + 1) {
+      front_[diagonal] = ground[static_cast<std::size_t>(grain)];
+    }
+  }
+  for (const PlacedSpring& placed : front.springs) {
+    const auto [along, stiffness] =
+        std::pair(springs[placed.spring].along, springs[placed.spring].stiffness);
+    const auto a = static_cast<std::size_t>(placed.a);
+    add_block(front_.data(), front.stride, a, a, along, stiffness);
+    if (placed.b == Spring::fixed) continue;
+    const auto b = static_cast<std::size_t>(placed.b);
+    add_block(front_.data(), front.stride, b, b, along, stiffness);
+    add_block(front_.data(), front.stride, std::max(a, b), std::min(a, b), along, -stiffness);
+  }
+  for (const std::int32_t child : tree_.nodes[node].children) {
+    if (child != EliminationNode::none) {
+      add_left(fronts_[static_cast<std::size_t>(child)], front.stride);
+    }
+  }
+}
+
+void StiffnessFactors::add_left(const Front& child, std::size_t stride) {
+  const std::size_t size = child.rows - child.columns;
+  for (std::size_t j = 0; j < size; ++j) {
+    const std::size_t column = 3 * static_cast<std::size_t>(child.at_parent[j / 3]) + j % 3;
+    double* to = front_.data() + column * stride;
+    const double* from = child.left.data() + j * size;
+    for (std::size_t i = j / 3; i < child.at_parent.size(); ++i) {
+      const auto row = 3 * static_cast<std::size_t>(child.at_parent[i]);
+      for (std::size_t p = 0; p < 3; ++p) to[row + p] += from[3 * i + p];
+    }
+  }
+}
+
+void StiffnessFactors::hand_on(Front& front) {
+  const std::size_t size = front.rows - front.columns;
+  front.left.resize(size * size);
+  for (std::size_t j = 0; j < size; ++j) {
+    const double* column = front_.data() + (front.columns + j) * front.stride + front.columns;
+    std::copy(column + j, column + size, front.left.data() + j * size + j);
+  }
+}
+
+void StiffnessFactors::solve(std::vector<Vector>& x) {
+  for (std::size_t node = 0; node < fronts_.size(); ++node) {
+    solve_front(node, kernels_->solve_forward, x);
+  }
+  for (std::size_t node = fronts_.size(); node-- > 0;) {
+    solve_front(node, kernels_->solve_backward, x);
+  }
+}
+
+template <class Solve>
+void StiffnessFactors::solve_front(std::size_t node, Solve solve_columns, std::vector<Vector>& x) {
+  const Front& front = fronts_[node];
+  const EliminationNode& grains = tree_.nodes[node];
+  const auto visit = [&](auto move) {
+    double* at = at_front_.data();
+    for (const auto* part : {&grains.grains, &grains.border}) {
+      for (const std::int32_t grain : *part) {
+        move(x[static_cast<std::size_t>(grain)], at);
+        at += 3;
+      }
+    }
+  };
+  at_front_.assign(front.stride, 0.0);
+  visit([](const Vector& from, double* to) { std::copy_n(from.data(), 3, to); });
+  solve_columns(factors_.data() + front.factor, front.rows, front.columns, front.stride,
+                at_front_.data());
+  visit([](Vector& to, const double* from) { std::copy_n(from, 3, to.data()); });
+}
+
+}  // namespace grainsweep

@@ -1,0 +1,80 @@
+// The stiffness matrix of a bed whose contacts are springs, and its Cholesky factors.
+//
+// Multifrontal (Duff and Reid 1983): each node of the elimination tree gathers its own springs and
+// what its children leave to it in a dense matrix over its grains and their border, its front;
+// it eliminates its grains and hands on what is left. Nearly all work is dense, in
+// kernels/front_kernels.hpp, with the same bits on every instruction set.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/exact/elimination.hpp"
+#include "engine/shape/convex_shape.hpp"
+#include "kernels/kernels.hpp"
+
+namespace grainsweep {
+
+/// A spring between two grains, or a grain and something fixed.
+struct Spring {
+  static constexpr std::int32_t fixed = -1;
+
+  std::int32_t a = 0;
+  std::int32_t b = fixed;
+  Vector along = Vector::UnitZ();  ///< unit
+  double stiffness = 0.0;          ///< m g / d
+};
+
+class StiffnessFactors {
+ public:
+  explicit StiffnessFactors(const Kernels& kernels) : kernels_(&kernels.front) {}
+
+  /// Prepares for springs between these ends of grains with these centres. Their order must stay;
+  /// their directions and stiffnesses may change.
+  void analyse(std::span<const Record<double>> centres, const std::vector<Spring>& springs);
+
+  /// Factors the matrix of all springs, and of springs of stiffness ground[i] in all directions
+  /// between grain i and the ground. False if rounding leaves it not positive definite.
+  bool factor(const std::vector<Spring>& springs, const std::vector<double>& ground);
+
+  /// Replaces forces on the grains, m g, by the displacements that they cause, d.
+  void solve(std::vector<Vector>& x);
+
+ private:
+  /// The springs of a node are those whose first end it eliminates: where their ends are in its
+  /// front.
+  struct PlacedSpring {
+    std::size_t spring;
+    std::int32_t a;
+    std::int32_t b;  ///< or Spring::fixed
+  };
+  struct Front {
+    std::size_t columns = 0;  ///< of the grains that it eliminates, three of each
+    std::size_t rows = 0;     ///< of its border, too
+    std::size_t stride = 0;
+    std::size_t factor = 0;               ///< where its columns begin in `factors_`
+    std::vector<std::int32_t> at_parent;  ///< place of each grain of the border there
+    std::vector<PlacedSpring> springs;
+    std::vector<double> left;  ///< what it hands on: the lower triangle of its border, by columns
+  };
+
+  std::vector<std::int32_t> grains_of(std::size_t node) const;
+  void place_border(std::size_t node, const std::vector<std::int32_t>& place);
+  void gather(std::size_t node, const std::vector<Spring>& springs,
+              const std::vector<double>& ground);
+  void add_left(const Front& child, std::size_t stride);
+  void hand_on(Front& front);
+  template <class Solve>
+  void solve_front(std::size_t node, Solve solve_columns, std::vector<Vector>& x);
+
+  const FrontKernels* kernels_;
+  EliminationTree tree_;
+  std::vector<Front> fronts_;
+  std::vector<double> factors_;
+  std::vector<double> front_;     ///< memory of the front at work
+  std::vector<double> at_front_;  ///< memory of solve
+};
+
+}  // namespace grainsweep

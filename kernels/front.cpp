@@ -1,0 +1,137 @@
+// Dense fronts of a sparse Cholesky factorisation: eliminating some columns, and solving with them.
+//
+// Every number is made by the same operations in the same order whatever the width of a batch is:
+// batches run over rows, sums over columns. Only the dot products of solve_backward run over rows,
+// in the lanes of a block.
+#include <cmath>
+
+#include "kernels/lanes.hpp"
+#include "kernels/tables.hpp"
+
+namespace {
+
+constexpr std::size_t panel_columns = 16;
+constexpr std::size_t tile_columns = 4;
+
+/// A dense matrix by columns.
+struct Columns {
+  double* at;
+  std::size_t stride;
+
+  double* column(std::size_t j) const { return at + j * stride; }
+};
+
+/// Eliminates `l` from `j`: rows from j on.
+inline void subtract_column(const Columns& m, std::size_t l, std::size_t j) {
+  constexpr std::size_t width = batch_width<double>;
+  const double factor = m.column(l)[j];
+  const Batch<double> factors(factor);
+  for (std::size_t i = j / width * width; i < m.stride; i += width) {
+    (load(m.column(j) + i) - load(m.column(l) + i) * factors).store_unaligned(m.column(j) + i);
+  }
+}
+
+/// The factor's columns first .. last, from which all columns before have been eliminated. False if
+/// a pivot is not positive.
+inline bool factor_panel(const Columns& m, std::size_t first, std::size_t last) {
+  constexpr std::size_t width = batch_width<double>;
+  for (std::size_t j = first; j < last; ++j) {
+    for (std::size_t l = first; l < j; ++l) subtract_column(m, l, j);
+    const double pivot = m.column(j)[j];
+    if (!(pivot > 0.0)) return false;
+    const Batch<double> inverse(1.0 / std::sqrt(pivot));
+    for (std::size_t i = j / width * width; i < m.stride; i += width) {
+      (load(m.column(j) + i) * inverse).store_unaligned(m.column(j) + i);
+    }
+  }
+  return true;
+}
+
+/// Eliminates columns first .. last from columns j .. j + tiles, in `batches_of_rows` batches of
+/// rows from row i on.
+template <std::size_t batches_of_rows, std::size_t tiles>
+inline void eliminate_tile(const Columns& m, std::size_t first, std::size_t last, std::size_t i,
+                           std::size_t j) {
+  constexpr std::size_t width = batch_width<double>;
+  Batch<double> sum[tiles][batches_of_rows];
+  for (std::size_t c = 0; c < tiles; ++c) {
+    for (std::size_t r = 0; r < batches_of_rows; ++r) {
+      sum[c][r] = load(m.column(j + c) + i + r * width);
+    }
+  }
+  for (std::size_t l = first; l < last; ++l) {
+    const double* from = m.column(l);
+    Batch<double> rows[batches_of_rows];
+    for (std::size_t r = 0; r < batches_of_rows; ++r) rows[r] = load(from + i + r * width);
+    for (std::size_t c = 0; c < tiles; ++c) {
+      const Batch<double> factor(from[j + c]);
+      for (std::size_t r = 0; r < batches_of_rows; ++r) sum[c][r] -= rows[r] * factor;
+    }
+  }
+  for (std::size_t c = 0; c < tiles; ++c) {
+    for (std::size_t r = 0; r < batches_of_rows; ++r) {
+      sum[c][r].store_unaligned(m.column(j + c) + i + r * width);
+    }
+  }
+}
+
+template <std::size_t tiles>
+inline void eliminate_from(const Columns& m, std::size_t first, std::size_t last, std::size_t j) {
+  constexpr std::size_t width = batch_width<double>, two = 2 * width;
+  std::size_t i = j / width * width;
+  for (; i + two <= m.stride; i += two) eliminate_tile<2, tiles>(m, first, last, i, j);
+  if (i < m.stride) eliminate_tile<1, tiles>(m, first, last, i, j);
+}
+
+bool eliminate(double* front, std::size_t rows, std::size_t columns, std::size_t stride) {
+  const Columns m{front, stride};
+  for (std::size_t first = 0; first < columns; first += panel_columns) {
+    const std::size_t last = first + panel_columns < columns ? first + panel_columns : columns;
+    if (!factor_panel(m, first, last)) return false;
+    std::size_t j = last;
+    for (; j + tile_columns <= rows; j += tile_columns) {
+      eliminate_from<tile_columns>(m, first, last, j);
+    }
+    for (; j < rows; ++j) eliminate_from<1>(m, first, last, j);
+  }
+  return true;
+}
+
+void solve_forward(const double* factor, std::size_t rows, std::size_t columns, std::size_t stride,
+                   double* x) {
+  constexpr std::size_t width = batch_width<double>;
+  for (std::size_t j = 0; j < columns; ++j) {
+    const double* column = factor + j * stride;
+    x[j] /= column[j];
+    std::size_t i = j + 1;
+    for (; i < rows && i % block_width != 0; ++i) x[i] -= column[i] * x[j];
+    const Batch<double> solved(x[j]);
+    for (; i < rows; i += width) (load(x + i) - load(column + i) * solved).store_unaligned(x + i);
+  }
+}
+
+void solve_backward(const double* factor, std::size_t rows, std::size_t columns, std::size_t stride,
+                    double* x) {
+  constexpr std::size_t width = batch_width<double>;
+  for (std::size_t j = columns; j-- > 0;) {
+    const double* column = factor + j * stride;
+    double known = 0.0;
+    std::size_t i = j + 1;
+    for (; i < rows && i % block_width != 0; ++i) known += column[i] * x[i];
+    LaneSums<double> sums(0.0);
+    for (; i < rows; i += block_width) {
+      for (std::size_t k = 0; k < batches<double>; ++k) {
+        sums.part[k] += load(column + i + k * width) * load(x + i + k * width);
+      }
+    }
+    x[j] = (x[j] - (known + sums.sum())) / column[j];
+  }
+}
+
+}  // namespace
+
+namespace grainsweep::GRAINSWEEP_ISA_NAME {
+
+extern const FrontKernels front_kernels = {eliminate, solve_forward, solve_backward};
+
+}  // namespace grainsweep::GRAINSWEEP_ISA_NAME

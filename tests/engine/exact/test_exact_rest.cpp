@@ -1,0 +1,188 @@
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <vector>
+
+#include <Eigen/QR>
+#include <catch2/catch.hpp>
+
+#include "engine/dynamics/presets.hpp"
+#include "engine/dynamics/rest.hpp"
+#include "engine/dynamics/settle.hpp"
+#include "engine/exact/exact_rest.hpp"
+#include "engine/scene/start.hpp"
+#include "tests/support/brute_force.hpp"
+#include "tests/support/instruction_sets.hpp"
+#include "tests/support/keep_going.hpp"
+#include "tests/support/scenes.hpp"
+
+namespace grainsweep {
+namespace {
+
+using testing::always;
+using testing::periodic;
+using testing::walls;
+
+bool go_on() { return true; }
+
+SphereBed settled_bed(PackingSpec spec, std::vector<ForceContact>& contacts) {
+  SphereBed bed = start<Sphere>(spec).value();
+  const SettleReport report = settle(spec.accuracy, testing::kernels(), bed, always);
+  REQUIRE(report.failure == "");
+  for (const PairForce& force : report.pair_forces) {
+    contacts.push_back({force.a, force.b, force.magnitude});
+  }
+  return bed;
+}
+
+PackingSpec small_spec(const Box& box, std::int64_t grains, std::uint64_t key) {
+  PackingSpec spec;
+  spec.box = box;
+  spec.fill = GrainCount{grains};
+  spec.random_key = key;
+  return spec;
+}
+
+/// The forces of a certificate and the weight, from normals found here; and all gaps, one by one.
+void check_certificate(const SphereBed& bed, const ExactRest& rest) {
+  std::vector<Vector> net(bed.grains(), Vector::Zero());
+  for (std::size_t i = 0; i < bed.grains(); ++i) net[i].z() = -1.0 / bed.motion[i].w;
+  for (const ForceContact& contact : rest.contacts) {
+    CHECK(contact.force > 0.0);
+    const auto a = static_cast<std::size_t>(contact.a), b = static_cast<std::size_t>(contact.b);
+    const Record<double>& p = bed.position[a];
+    if (bed.is_grain(contact.b)) {
+      CHECK(std::abs(testing::gap_of(bed, contact.a, contact.b)) < 1e-10);
+      const Vector push = contact.force * nearest_difference(bed, a, b).normalized();
+      net[a] -= push;
+      net[b] += push;
+    } else {
+      const Wall& wall = bed.walls[b - bed.grains()];
+      CHECK(std::abs(wall.gap(p)) < 1e-10);
+      const UnitVector n = wall.normal(p.x, p.y, p.z);
+      net[a] += contact.force * Vector(n.x, n.y, n.z);
+    }
+  }
+  for (const Vector& left : net) CHECK(left.norm() < exact_imbalance);
+  CHECK(testing::pairs_closer_than(bed, -exact_overlap).empty());
+  for (const Wall& wall : bed.walls) {
+    for (const Record<double>& grain : bed.centres()) CHECK(wall.gap(grain) > -exact_overlap);
+  }
+}
+
+/// Rank of the matrix that turns forces of the contacts into forces on the grains.
+Eigen::Index rank_of(const SphereBed& bed, const std::vector<ForceContact>& contacts) {
+  Eigen::MatrixXd h = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(3 * bed.grains()),
+                                            static_cast<Eigen::Index>(contacts.size()));
+  for (std::size_t k = 0; k < contacts.size(); ++k) {
+    const auto a = static_cast<std::size_t>(contacts[k].a);
+    const auto b = static_cast<std::size_t>(contacts[k].b);
+    const auto column = static_cast<Eigen::Index>(k);
+    const Record<double>& p = bed.position[a];
+    if (bed.is_grain(contacts[k].b)) {
+      const Vector n = nearest_difference(bed, a, b).normalized();
+      h.block<3, 1>(static_cast<Eigen::Index>(3 * a), column) = -n;
+      h.block<3, 1>(static_cast<Eigen::Index>(3 * b), column) = n;
+    } else {
+      const UnitVector n = bed.walls[b - bed.grains()].normal(p.x, p.y, p.z);
+      h.block<3, 1>(static_cast<Eigen::Index>(3 * a), column) = Vector(n.x, n.y, n.z);
+    }
+  }
+  return h.colPivHouseholderQr().rank();
+}
+
+TEST_CASE("a bed at exact rest balances to 1e-10 m g, and its forces are positive and unique") {
+  PackingSpec two_sizes = small_spec({4, 4, periodic, walls}, 150, 3);
+  two_sizes.sizes.small_share = 0.4;
+  for (const PackingSpec& spec :
+       {small_spec({4, 4, periodic, walls}, 120, 1), small_spec({4, 4, periodic, periodic}, 120, 2),
+        small_spec({4, 4, walls, walls}, 120, 4), two_sizes}) {
+    std::vector<ForceContact> contacts;
+    SphereBed bed = settled_bed(spec, contacts);
+    const ExactRest rest = rest_exactly(testing::kernels(), contacts, bed, go_on);
+    REQUIRE(rest.failure == "");
+    check_certificate(bed, rest);
+    const auto held = static_cast<std::int64_t>(3 * bed.grains()) - zero_modes(bed, rest.contacts);
+    CHECK(static_cast<std::int64_t>(rest.contacts.size()) == held);
+    CHECK(rank_of(bed, rest.contacts) == held);
+  }
+}
+
+TEST_CASE("a bed in a round tube comes to exact rest") {
+  std::vector<ForceContact> contacts;
+  SphereBed bed = settled_bed(small_spec(tube_of(3.4), 80, 5), contacts);
+  const ExactRest rest = rest_exactly(testing::kernels(), contacts, bed, go_on);
+  REQUIRE(rest.failure == "");
+  check_certificate(bed, rest);
+}
+
+TEST_CASE("exact rest has the same bits on all instruction sets") {
+  std::vector<ForceContact> contacts;
+  const SphereBed settled = settled_bed(small_spec({4, 4, periodic, walls}, 120, 6), contacts);
+  std::set<std::uint64_t> states;
+  for (const Isa isa : testing::testable_isas()) {
+    SphereBed bed = settled;
+    CHECK(rest_exactly(kernels_for(isa), contacts, bed, go_on).failure == "");
+    states.insert(state_hash(bed));
+  }
+  CHECK(states.size() == 1);
+}
+
+TEST_CASE("a grain that leans on another in a shaft pushes as its place says") {
+  // In opposite corners; their centres are 1 apart, half of it squared upwards.
+  const double upper = 0.5 + std::sqrt(0.5);
+  SphereBed bed = make_bed({1.5, 1.5, walls, walls},
+                           {{0.501, 0.502, 0.5, 0.5}, {0.998, 1.0, upper + 1e-3, 0.5}});
+  const ExactRest rest = rest_exactly(testing::kernels(), {}, bed, go_on);
+  REQUIRE(rest.failure == "");
+  check_certificate(bed, rest);
+  CHECK(bed.position[1].z == Approx(upper).margin(1e-11));
+  REQUIRE(rest.contacts.size() == 6);
+  double floor = 0.0, sides = 0.0, pair = 0.0;
+  for (const ForceContact& contact : rest.contacts) {
+    (bed.is_grain(contact.b)         ? pair
+     : contact.b == bed.wall_name(0) ? floor
+                                     : sides) += contact.force;
+  }
+  CHECK(floor == Approx(2.0).epsilon(1e-10));
+  CHECK(pair == Approx(std::sqrt(2.0)).epsilon(1e-10));
+  CHECK(sides == Approx(4.0 * std::sqrt(0.5)).epsilon(1e-10));  // two walls on each grain
+}
+
+TEST_CASE("a bed that floats is not said to rest") {
+  SphereBed bed = make_bed({4, 4, periodic, walls}, {{2, 2, 5, 0.5}, {2.2, 2, 6, 0.5}});
+  const ExactRest rest = rest_exactly(testing::kernels(), {}, bed, go_on);
+  CHECK(rest.failure != "");
+}
+
+TEST_CASE("the search for exact rest stops when it is asked to") {
+  std::vector<ForceContact> contacts;
+  SphereBed bed = settled_bed(small_spec({4, 4, periodic, walls}, 60, 7), contacts);
+  int rounds = 0;
+  const ExactRest rest =
+      rest_exactly(testing::kernels(), contacts, bed, [&] { return ++rounds < 5; });
+  CHECK(rest.failure == "cancelled");
+  CHECK(rest.rounds == 4);
+}
+
+TEST_CASE("the accuracy exact settles beds with isostatic contacts, near where they were settled") {
+  PackingSpec spec = small_spec({4, 4, periodic, walls}, 120, 8);
+  spec.accuracy = *preset("exact");
+  Accuracy in_steps = spec.accuracy;
+  in_steps.rest = Rest::in_steps;
+  SphereBed before = start<Sphere>(spec).value(), bed = before;
+  settle(in_steps, testing::kernels(), before, always);
+  const SettleReport report = settle(spec.accuracy, testing::kernels(), bed, always);
+  REQUIRE(report.failure == "");
+  CHECK(report.rest.contacts == report.rest.isostatic_contacts);
+  CHECK(report.rest.imbalance.max < exact_imbalance);
+  CHECK(report.rest.overlap_max < exact_overlap);
+  for (std::size_t i = 0; i < bed.grains(); ++i) {
+    const Record<double>&p = bed.position[i], &q = before.position[i];
+    CHECK(std::abs(p.z - q.z) < 0.1);  // no grain has left its place
+  }
+  CHECK(report.force.size() == bed.grains());
+}
+
+}  // namespace
+}  // namespace grainsweep
