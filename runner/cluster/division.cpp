@@ -11,7 +11,7 @@
 namespace grainsweep {
 namespace {
 
-constexpr double shortest = 600.0, longest = 3600.0;  // s of a shard
+constexpr double brief_shard = 600.0, long_shard = 3600.0;  // s of a shard
 
 /// A runner takes so much of what it finds free for packings.
 constexpr double share_for_packings = 0.8;
@@ -34,7 +34,7 @@ int threads_within(const ClusterLimits& limits, const std::vector<Cost>& costs, 
 }
 
 /// A number of shards and what decided it.
-struct Choice {
+struct Decision {
   int shards = 1;
   std::string reason;
 };
@@ -45,10 +45,10 @@ int at_most(double count, std::size_t packings) {
 }
 
 /// By time alone: `node_seconds` is what the sweep takes one node.
-Choice by_time(double node_seconds, const ClusterLimits& limits, std::size_t packings) {
-  const bool is_short = limits.seconds > 0.0 && limits.seconds / 3.0 < longest;
-  const double most = is_short ? limits.seconds / 3.0 : longest;
-  const double least = std::min(shortest, most);
+Decision by_time(double node_seconds, const ClusterLimits& limits, std::size_t packings) {
+  const bool is_short = limits.seconds > 0.0 && limits.seconds / 3.0 < long_shard;
+  const double most = is_short ? limits.seconds / 3.0 : long_shard;
+  const double least = std::min(brief_shard, most);
   const int fewest = at_most(std::ceil(node_seconds / most), packings);
   const int greatest = std::max(fewest, at_most(std::floor(node_seconds / least), packings));
   if (limits.nodes > greatest) {
@@ -61,13 +61,13 @@ Choice by_time(double node_seconds, const ClusterLimits& limits, std::size_t pac
                            : "a shard takes " + duration_text(most) + " at most"};
 }
 
-Choice choose(double node_seconds, const ClusterLimits& limits, std::size_t packings, int asked) {
-  Choice choice =
-      asked > 0 ? Choice{asked, "it was asked for"} : by_time(node_seconds, limits, packings);
-  if (limits.elements > 0 && choice.shards > limits.elements) {
-    choice = {limits.elements, "an array has no more elements (MaxArraySize)"};
+Decision decide(double node_seconds, const ClusterLimits& limits, std::size_t packings, int asked) {
+  Decision decision =
+      asked > 0 ? Decision{asked, "it was asked for"} : by_time(node_seconds, limits, packings);
+  if (limits.elements > 0 && decision.shards > limits.elements) {
+    decision = {limits.elements, "an array has no more elements (MaxArraySize)"};
   }
-  return choice;
+  return decision;
 }
 
 /// Wall time of the longest shard, s.
@@ -104,9 +104,9 @@ Division divide(const std::vector<Cost>& costs, const ClusterLimits& limits, int
   Division division;
   division.threads = threads_within(limits, costs, threads > 0 ? threads : limits.cores);
   const double node_seconds = total_cpu_seconds(costs) / division.threads;
-  Choice choice = choose(node_seconds, limits, costs.size(), shards);
-  division.shards = choice.shards;
-  division.reason = std::move(choice.reason);
+  Decision decision = decide(node_seconds, limits, costs.size(), shards);
+  division.shards = decision.shards;
+  division.reason = std::move(decision.reason);
   division.bytes = memory_to_ask_for(costs, division.threads, limits.memory);
   division.estimated = longest_shard(costs, division.shards, division.threads);
   division.seconds = time_to_ask_for(division.estimated, limits.seconds);

@@ -144,6 +144,7 @@ void print_status(const Standing& standing) {
 
 std::vector<std::string> all_names(const std::vector<Runner>& runners) {
   std::vector<std::string> names;
+  names.reserve(runners.size());
   for (const Runner& runner : runners) names.push_back(name_of(runner));
   return names;
 }
