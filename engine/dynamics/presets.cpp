@@ -58,9 +58,7 @@ const std::vector<Preset>& presets() {
        "at least 99.4 % of the isostatic contacts, mean overlap below 5e-6 d",
        accurate(),
        {{{{0.0013, 0.012}, {0.0024, 0.050}, {0.0030, 0.067}}}}},
-      {"exact",
-       "spheres alone: forces balance to 1e-10 m g on contacts closed to 1e-12 d, no more and no "
-       "fewer than hold the bed",
+      {"exact", "spheres: forces balance to 1e-10 m g, with as many contacts as hold the bed",
        exact(), std::nullopt}};
   return all;
 }

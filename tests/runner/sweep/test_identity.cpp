@@ -83,12 +83,12 @@ TEST_CASE("the ids of spheres stay what they are") {
     "accuracy": {"contact_tolerance": 0.025, "creep_steps": 45, "fall_iterations": 40,
       "imbalance_gap": 1e-4, "imbalance_tolerance": 0.02, "kinetic_tolerance": 1e-4, "max_steps": 2000, "momentum": 0.9,
       "overlap_tolerance": 1e-5, "path_tolerance": 1e-4, "precision": "f32", "protocol": "heavy_ball",
-      "residual_tolerance": 0.01, "rest_iterations": 300, "solver": "apgs", "step": 0.2},
+      "residual_tolerance": 0.01, "rest": "in_steps", "rest_iterations": 300, "solver": "apgs", "step": 0.2},
     "box": {"length": 20, "width": 5, "x": "periodic", "y": "walls"}, "fill": {"grains": 1000},
     "measure": {"bin_width": 0.1, "exclude_floor": 3, "exclude_surface": 3,
       "gap_tolerances": [1e-4, 1e-5, 1e-3, 6e-3]}, "shape": "sphere",
     "sizes": {"size_ratio": 0.5, "small_share": 0, "spread": 0.03}}})")
-            .at(0) == "4407a231f9af4820");
+            .at(0) == "791de99a13b2deb5");
 }
 
 TEST_CASE("canonical parameters of other shapes are groups, a hull that of a hash") {
@@ -121,7 +121,7 @@ TEST_CASE("every part of the accuracy belongs to the identity, the preset's name
   CHECK(balanced.count("preset") == 0);
   CHECK(balanced.at("solver").is_string());
   const std::map<std::string, std::string> other_names = {
-      {"protocol", "dynamic"}, {"solver", "pgs"}, {"precision", "f64"}};
+      {"protocol", "dynamic"}, {"solver", "pgs"}, {"precision", "f64"}, {"rest", "exact"}};
   for (const auto& [part, value] : balanced.items()) {
     const nlohmann::json other =
         value.is_string() ? nlohmann::json(other_names.at(part))
