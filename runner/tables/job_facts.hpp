@@ -73,8 +73,8 @@ JobFacts facts_of(const JobEntry& job, const JobList& list);
 std::vector<Row> rows_of(const JobList& list, Detail detail = Detail::whole);
 
 /// A set of parameters, and back. Throws nlohmann::json::exception.
-nlohmann::json set_json(const JobFacts& set);
-JobFacts set_from_json(const nlohmann::json& from);
+nlohmann::json set_json(const JobFacts& job);
+JobFacts set_from_json(const nlohmann::json& set);
 
 /// Columns of jobs, those with these names in this order: "label", "width" ...
 Columns<JobFacts> job_columns(const std::vector<std::string>& names);
