@@ -6,10 +6,10 @@
 
 namespace grainsweep {
 
-/// "0.1.0"
+/// "0.2.0"
 std::string program_version();
 
-/// "0.1.0-1f2e3d4c": the version and a checksum of the running program's file, which tells two
+/// "0.2.0-1f2e3d4c": the version and a checksum of the running program's file, which tells two
 /// builds of one version apart.
 std::string build_name();
 

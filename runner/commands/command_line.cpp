@@ -74,18 +74,26 @@ void call_examples(CLI::App& command) {
 
 }  // namespace
 
-CommandLine read_command_line(int argc, const char* const* argv) {
-  CLI::App app{
+void describe(CLI::App& app, AllOptions& all) {
+  app.name("grainsweep");
+  app.description(
       "grainsweep " + program_version() +
-          ": packs beds of rigid frictionless grains as a JSON sweep file says, and measures how\n"
-          "walls change solid fraction and coordination number.",
-      "grainsweep"};
-  app.set_version_flag("--version", "grainsweep " + program_version());
+      ": packs beds of rigid frictionless grains as a JSON sweep file says, and measures how\n"
+      "walls change solid fraction and coordination number.");
+  app.set_version_flag("--version",
+                       "grainsweep " + program_version() + " (" + source_commit() + ")");
   app.require_subcommand(1);
   app.get_formatter()->column_width(24);
   app.footer(std::string("Example: grainsweep run configs/quick.json --out out/quick\n"
                          "Help on a command: grainsweep run --help\n\n") +
              exit_codes_text);
+  std::apply([&](auto&... options) { (add_command(app, options), ...); }, all);
+}
+
+CommandLine read_command_line(int argc, const char* const* argv) {
+  CLI::App app;
+  AllOptions all;
+  describe(app, all);
   call_examples(app);
   Words words(argv + std::min(1, argc), argv + argc);
   app.failure_message([&](const CLI::App* /*app*/, const CLI::Error& error) {
@@ -93,13 +101,14 @@ CommandLine read_command_line(int argc, const char* const* argv) {
            "\nRun with --help for more information.\n";
   });
   CommandLine line;
-  AllOptions all;
-  const auto add = [&](auto& options) {
-    CLI::App& command = add_command(app, options);
+  std::vector<CLI::App*> commands = app.get_subcommands(nullptr);
+  std::size_t number = 0;
+  const auto listen_to = [&](auto& options) {
+    CLI::App& command = *commands[number++];
     command.callback([&] { line.command = options; });
     call_examples(command);
   };
-  std::apply([&](auto&... options) { (add(options), ...); }, all);
+  std::apply([&](auto&... options) { (listen_to(options), ...); }, all);
   words = with_options(app, words);
   try {
     app.parse(Words(words.rbegin(), words.rend()));  // CLI11 takes them from the end

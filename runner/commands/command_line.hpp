@@ -10,9 +10,10 @@
 namespace grainsweep {
 
 /// The options of all commands, in the order in which help lists them.
-using AllOptions = std::tuple<RunOptions, InitOptions, ValidateOptions, PlanOptions, SlurmOptions,
-                              ReportOptions, CompareOptions, ExportOptions, StatusOptions,
-                              CollectOptions, SchemaOptions, ColumnsOptions, DoctorOptions>;
+using AllOptions =
+    std::tuple<RunOptions, InitOptions, ValidateOptions, PlanOptions, SlurmOptions, ReportOptions,
+               CompareOptions, ExportOptions, StatusOptions, CollectOptions, SchemaOptions,
+               ColumnsOptions, ManualOptions, DoctorOptions>;
 
 template <class Options>
 struct OneOf;
@@ -28,6 +29,9 @@ struct CommandLine {
   std::optional<Command> command;  ///< nothing after --help, --version or a mistake
   int exit_code = 0;               ///< then to be returned; everything has been printed
 };
+
+/// Tells `app` of the program and of all its commands; what is given to them goes into `all`.
+void describe(CLI::App& app, AllOptions& all);
 
 CommandLine read_command_line(int argc, const char* const* argv);
 

@@ -129,6 +129,13 @@ struct SchemaOptions {
 int perform(const SchemaOptions& options);
 CLI::App& add_command(CLI::App& app, SchemaOptions& options);
 
+struct ManualOptions {
+  std::string folder;
+};
+/// Writes manual pages and completions of shells into a folder.
+int perform(const ManualOptions& options);
+CLI::App& add_command(CLI::App& app, ManualOptions& options);
+
 struct DoctorOptions {};
 /// Prints what the machine offers and tries to write a file here.
 int perform(const DoctorOptions& options);

@@ -117,7 +117,7 @@ TEST_CASE("a misspelt command or option is named with the likely one") {
   CHECK(first_line({"pack"}) ==
         "grainsweep: unknown command pack; known: help, version, run, init, validate, plan, slurm, "
         "report, "
-        "compare, export, status, collect, schema, columns, doctor");
+        "compare, export, status, collect, schema, columns, manual, doctor");
   CHECK(first_line({"help", "plna"}) == "grainsweep: unknown command plna; did you mean plan?");
   CHECK(first_line({"run", "x.json", "--treads", "2"}) ==
         "grainsweep: unknown option --treads; did you mean --threads?");
@@ -163,7 +163,7 @@ TEST_CASE("help of every command fits 100 columns and has an example as the prog
 TEST_CASE("the version is printed") {
   const Reading reading = read({"--version"});
   CHECK(reading.line.exit_code == 0);
-  CHECK_THAT(reading.out, Catch::Matches("grainsweep [0-9]+\\.[0-9]+\\.[0-9]+\n"));
+  CHECK_THAT(reading.out, Catch::Matches("grainsweep [0-9]+\\.[0-9]+\\.[0-9]+ \\(.+\\)\n"));
 }
 
 }  // namespace
