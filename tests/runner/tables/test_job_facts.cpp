@@ -36,7 +36,7 @@ TEST_CASE("a shape is known by its name, whatever parts it has") {
   Job job = sample_source();
   job.spec.shape = PinacoidSize{};
   CHECK(facts_of(job).shape == "pinacoid");
-  job.spec.shape = HullVertices{};
+  job.spec.shape = HullVertices{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
   CHECK(facts_of(job).shape == "hull");
 }
 
