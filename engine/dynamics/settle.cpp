@@ -1,7 +1,9 @@
 #include "engine/dynamics/settle.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "engine/dynamics/balance.hpp"
@@ -20,7 +22,7 @@ namespace grainsweep {
 namespace {
 
 constexpr double carried_share = 0.9;        // of its weight, where the floor carries a bed
-constexpr std::int64_t most_rounds = 60;     // a bed that needs more does not come to rest
+constexpr std::int64_t most_rounds = 32;     // a bed that needs more does not come to rest
 constexpr double rounding_of_places = 1e-9;  // d; far from the origin coordinates have fewer digits
 
 /// Most that the masses of a bed may differ by in f32: beyond it the rounding of what pushes a
@@ -43,6 +45,7 @@ struct Settling {
   double sunk_at_start = 0.0;  ///< StepReport::sunk of the first step
   double share_done = 0.0;     ///< the most that was told
   std::int64_t rounds = 0;     ///< how often the last stages came again
+  bool is_exact = false;       ///< whether the report is that of exact rest
   SettleReport report = {};
 
   const StageRule& rule() const { return stages[stage]; }
@@ -236,18 +239,6 @@ bool goes_on(const Settling<Kind, Real>& s) {
          std::isfinite(s.last.kinetic_energy);
 }
 
-/// Stage after stage, until the bed rests, the steps run out or the observer stops it.
-template <class Kind, class Real>
-void come_to_rest(Settling<Kind, Real>& s, const KeepGoing& keep_going) {
-  while (goes_on(s)) {
-    if (is_over(s)) {
-      enter(next_stage(s), s);
-    } else {
-      s.report.cancelled = !take_step(s, keep_going);
-    }
-  }
-}
-
 // ---- what is found out once, at the end ----
 
 template <class Kind, class Real>
@@ -291,34 +282,76 @@ RestReport report_of(const ExactRest& exact, const SphereBed& bed) {
   return rest;
 }
 
-/// From a bed at rest in steps to exact rest. One from which it is not found slides on and is tried
-/// again.
+/// Whether the bed is at exact rest now; if not it stays as it is, and `failure` says why.
 template <class Real>
-void rest_exactly(Settling<Sphere, Real>& s, const KeepGoing& keep_going) {
-  constexpr int most_tries = 3;
+bool find_exact_rest(Settling<Sphere, Real>& s, const KeepGoing& keep_going, double operations,
+                     std::string& failure) {
   const auto goes_on_trying = [&] {
     s.report.cancelled = !keep_going({s.report.steps, s.share_done, [&s] { return saved(s); }});
     return !s.report.cancelled;
   };
-  for (int tries = 1; s.report.failure.empty() && !s.report.cancelled; ++tries) {
-    SphereBed bed = s.bed;
-    const ExactRest exact = rest_exactly(s.context, contacts_of_last_step(s), bed, goes_on_trying);
-    s.report.iterations += exact.rounds;
-    if (s.report.cancelled) return;
-    if (exact.failure.empty()) {
-      s.bed = std::move(bed);
-      s.report.rest = report_of(exact, s.bed);
-      report_forces(exact.contacts, s);
-      return;
+  SphereBed bed = s.bed;
+  const ExactRest exact =
+      rest_exactly(s.context, contacts_of_last_step(s), bed, {goes_on_trying, operations});
+  s.report.iterations += exact.rounds;
+  failure = exact.failure;
+  if (!failure.empty()) return false;
+  const RestReport rest = report_of(exact, bed);
+  if (rest.contacts + rest.held_by_turning < rest.isostatic_contacts) {
+    failure = "it stands on fewer contacts than hold it";  // by symmetry alone
+    return false;
+  }
+  s.bed = std::move(bed);
+  s.report.failure.clear();
+  s.report.rest = rest;
+  report_forces(exact.contacts, s);
+  s.is_exact = true;
+  return true;
+}
+
+/// Beds that have slid on in vain, as narrow towers do, are tried for exact rest after 2 rounds, 4,
+/// 8 and so on, if a try takes less than a round.
+template <class Kind, class Real>
+bool is_brought_to_rest(Settling<Kind, Real>& s, const KeepGoing& keep_going) {
+  constexpr double most_operations = 3e8;  // a tenth of a second
+  if constexpr (std::is_same_v<Kind, Sphere>) {
+    std::string failure;
+    return s.rule().end == StageEnd::rest && !s.report.failure.empty() && s.rounds > 1 &&
+           std::has_single_bit(static_cast<std::uint64_t>(s.rounds)) &&
+           find_exact_rest(s, keep_going, most_operations, failure);
+  }
+  return false;
+}
+
+/// Stage after stage, until the bed rests, the steps run out or the observer stops it.
+template <class Kind, class Real>
+void come_to_rest(Settling<Kind, Real>& s, const KeepGoing& keep_going) {
+  while (goes_on(s)) {
+    if (is_over(s)) {
+      enter(is_brought_to_rest(s, keep_going) ? s.stages.size() : next_stage(s), s);
+    } else {
+      s.report.cancelled = !take_step(s, keep_going);
     }
+  }
+}
+
+/// From a bed at rest in steps to exact rest. One from which it is not found slides on and is tried
+/// again.
+template <class Real>
+void go_on_to_exact_rest(Settling<Sphere, Real>& s, const KeepGoing& keep_going) {
+  constexpr int most_tries = 3;
+  constexpr double unlimited = std::numeric_limits<double>::infinity();
+  for (int tries = 1; s.report.failure.empty() && !s.report.cancelled && !s.is_exact; ++tries) {
+    std::string failure;
+    if (find_exact_rest(s, keep_going, unlimited, failure) || s.report.cancelled) return;
     if (tries == most_tries || !has_steps_to_go_on(s)) {
-      s.report.failure = "at rest in steps, but exact rest was not found: " + exact.failure +
+      s.report.failure = "at rest in steps, but exact rest was not found: " + failure +
                          "; take another seed, or accuracy.rest in_steps";
       return;
     }
     enter(s.stages.size() - 1, s);
     come_to_rest(s, keep_going);
-    if (!s.report.cancelled) test_rest(s);
+    if (!s.report.cancelled && !s.is_exact) test_rest(s);
   }
 }
 
@@ -349,11 +382,12 @@ SettleReport settle_in(StepState<Kind, Real>& state, StepState<Kind, double>& cl
     s.report.failure = "the kinetic energy is not a finite number";
     return s.report;
   }
+  if (s.is_exact) return s.report;
   test_rest(s);
   look_closer(s);
   report_forces(contacts_of_last_step(s), s);
   if constexpr (std::is_same_v<Kind, Sphere>) {
-    if (accuracy.rest == Rest::exact) rest_exactly(s, keep_going);
+    if (accuracy.rest == Rest::exact) go_on_to_exact_rest(s, keep_going);
   }
   return s.report;
 }

@@ -17,7 +17,7 @@ constexpr int most_factorisations = 600;
 // exact_overlap for all forces that hold a bed.
 constexpr double first_product = 1e-4;
 constexpr double last_product = 1e-14;
-constexpr double nearly_balanced = 1e-8;  // m g; the rest is linear
+constexpr double nearly_balanced = 1e-8;  // of the largest force or weight; the rest is linear
 constexpr double least_slack = 1e-9;
 
 // Lengths, d. Pairs are listed as far as two grains may come near each other before the next list.
@@ -62,10 +62,11 @@ class InteriorPoint {
     start_from(from);
   }
 
-  ExactRest run(const std::function<bool()>& keep_going) {
+  ExactRest run(const ExactRestLimits& limits) {
     ExactRest rest;
+    if (factors_.operations() > limits.operations) return failed("the bed is too large", rest);
     while (!is_found()) {
-      if (!keep_going()) return failed("cancelled", rest);
+      if (!limits.keep_going()) return failed("cancelled", rest);
       if (rest.rounds == most_factorisations) {
         return failed("no state without motion was found within 600 rounds", rest);
       }
@@ -90,6 +91,12 @@ class InteriorPoint {
   }
   bool is_curved(const Link& link) const {
     return !bed_.is_grain(link.b) && wall_of(link).is_round();
+  }
+  /// Whether a pair's curvature counts: grains of narrow tubes may rest where contacts alone,
+  /// without the curvature of both wall and pairs, would not hold them.
+  bool rolls(const Link& link) const {
+    constexpr double narrow = 3.5;  // d
+    return bed_.box.is_tube && bed_.box.length < narrow && bed_.is_grain(link.b);
   }
 
   /// All pairs and walls within reach of where the grains are now; those listed before stay as they
@@ -128,8 +135,8 @@ class InteriorPoint {
     links_.push_back(link);
   }
 
-  /// A spring of each link; those with a round wall, which turns as a grain slides along it, have
-  /// another across.
+  /// A spring of each link; then those across: one of a round wall, which turns as a grain slides
+  /// along it, two of a pair that rolls.
   void lay_out_springs() {
     springs_.clear();
     for (const Link& link : links_) {
@@ -137,6 +144,7 @@ class InteriorPoint {
     }
     for (const Link& link : links_) {
       if (is_curved(link)) springs_.push_back({link.a, Spring::fixed});
+      if (rolls(link)) springs_.insert(springs_.end(), 2, {link.a, link.b});
     }
     factors_.analyse(bed_.centres(), springs_);
   }
@@ -147,9 +155,12 @@ class InteriorPoint {
     std::size_t across = links_.size();
     for (std::size_t k = 0; k < links_.size(); ++k) {
       measure_link(links_[k], springs_[k]);
-      if (is_curved(links_[k])) {
-        const Vector along = springs_[k].along;
-        springs_[across++].along = {-along.y(), along.x(), 0.0};
+      const Vector along = springs_[k].along;
+      if (is_curved(links_[k])) springs_[across++].along = {-along.y(), along.x(), 0.0};
+      if (rolls(links_[k])) {
+        const Vector side = along.unitOrthogonal();
+        springs_[across++].along = side;
+        springs_[across++].along = along.cross(side);
       }
     }
   }
@@ -189,7 +200,10 @@ class InteriorPoint {
   // ---- a round ----
 
   bool is_found() const {
-    return product_ <= last_product && reached_ > 0.9 && largest(net_forces()) < nearly_balanced;
+    double scale = 1.0;
+    for (const Link& link : links_) scale = std::max(scale, link.force);
+    return product_ <= last_product && reached_ > 0.9 &&
+           largest(net_forces()) < nearly_balanced * scale;
   }
 
   /// Drag keeps a grain from moving far in a round: a force per way, in weights per d.
@@ -200,19 +214,36 @@ class InteriorPoint {
       ground_.resize(grains());
       for (std::size_t i = 0; i < grains(); ++i) ground_[i] = drag_of_all_ * drag_[i] * mass(i);
       if (factors_.factor(springs_, ground_)) return true;
-      for (double& drag : drag_) drag *= 30.0;
+      if (tries == 0) {
+        leave_out_rolling();
+      } else {
+        for (double& drag : drag_) drag *= 30.0;
+      }
     }
     return false;
   }
-  /// A round wall of radius R turns a grain's force f by way / (R - r), r its radius.
+  /// A round wall of radius R turns a grain's force f by way / (R - r), r its radius, and holds it;
+  /// a grain on another is turned by way / (r + r'), away from it.
   void stiffen_across() {
     std::size_t across = links_.size();
     for (const Link& link : links_) {
-      if (!is_curved(link)) continue;
-      const double off_axis =
-          wall_of(link).radius - bed_.position[static_cast<std::size_t>(link.a)].w - link.gap;
-      springs_[across++].stiffness = link.force / std::max(off_axis, least_slack);
+      const double radius = bed_.position[static_cast<std::size_t>(link.a)].w;
+      if (is_curved(link)) {
+        const double off_axis = wall_of(link).radius - radius - link.gap;
+        springs_[across++].stiffness = link.force / std::max(off_axis, least_slack);
+      }
+      if (rolls(link)) {
+        const double distance =
+            radius + bed_.position[static_cast<std::size_t>(link.b)].w + link.gap;
+        springs_[across++].stiffness = -link.force / distance;
+        springs_[across++].stiffness = -link.force / distance;
+      }
     }
+  }
+
+  /// Pairs that roll off each other unheld would let forces grow without bound.
+  void leave_out_rolling() {
+    for (Spring& spring : springs_) spring.stiffness = std::max(spring.stiffness, 0.0);
   }
 
   /// What a round wants. Targets are changed, with the same factors, until the step is long: those
@@ -369,25 +400,25 @@ class InteriorPoint {
 
   // ---- the end ----
 
-  /// Only links that push are left: their forces are solved for where the grains are.
+  /// Only links that push are left: their forces are solved for where the grains are. Where
+  /// curvature holds grains, too, it takes their last ways along.
   void keep_contacts() {
     constexpr double pushes = 1e4;  // m g / d; gaps and contacts lie 1e8 and more apart
     constexpr int refinements = 12;
     constexpr double stiff = 1e8, held = 1e-13, solved = 1e-12;
     std::erase_if(links_, [&](const Link& link) { return link.stiffness() <= pushes * link.mass; });
     lay_out_springs();
-    measure();
-    for (std::size_t k = 0; k < links_.size(); ++k) springs_[k].stiffness = stiff;
-    stiffen_across();
-    ground_.assign(grains(), held * stiff);
-    if (!factors_.factor(springs_, ground_)) return;
     for (int k = 0; k < refinements; ++k) {
+      measure();
       way_ = net_forces();
       if (largest(way_) < solved) return;
+      for (std::size_t at = 0; at < links_.size(); ++at) springs_[at].stiffness = stiff;
+      stiffen_across();
+      ground_.assign(grains(), held * stiff);
+      if (!factors_.factor(springs_, ground_)) return;
       factors_.solve(way_);
-      for (std::size_t at = 0; at < links_.size(); ++at) {
-        links_[at].force -= stiff * opening(at);
-      }
+      for (std::size_t at = 0; at < links_.size(); ++at) links_[at].force -= stiff * opening(at);
+      if (springs_.size() > links_.size()) move_grains(1.0);
     }
   }
 
@@ -443,8 +474,8 @@ class InteriorPoint {
 }  // namespace
 
 ExactRest rest_exactly(const ExecutionContext& context, const std::vector<ForceContact>& from,
-                       SphereBed& bed, const std::function<bool()>& keep_going) {
-  return InteriorPoint(context, from, bed).run(keep_going);
+                       SphereBed& bed, const ExactRestLimits& limits) {
+  return InteriorPoint(context, from, bed).run(limits);
 }
 
 }  // namespace grainsweep

@@ -14,6 +14,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -37,9 +38,16 @@ struct ExactRest {
   double overlap_mean = 0.0;           ///< over the contacts, d
 };
 
-/// Moves a settled bed, whose contacts are `from`, to exact rest. The bed is wrapped. `keep_going`
-/// is asked before every round; where it says no the failure is "cancelled".
+struct ExactRestLimits {
+  /// Asked before every round; where it says no the failure is "cancelled".
+  std::function<bool()> keep_going = [] { return true; };
+  /// Most multiplications that a factorisation may take, or no round is begun.
+  double operations = std::numeric_limits<double>::infinity();
+};
+
+/// Moves a settled bed, whose contacts are `from`, to exact rest. The bed is wrapped; if the search
+/// fails its grains are anywhere.
 ExactRest rest_exactly(const ExecutionContext& context, const std::vector<ForceContact>& from,
-                       SphereBed& bed, const std::function<bool()>& keep_going);
+                       SphereBed& bed, const ExactRestLimits& limits = {});
 
 }  // namespace grainsweep

@@ -35,6 +35,9 @@ class StiffnessFactors {
   /// their directions and stiffnesses may change.
   void analyse(std::span<const Record<double>> centres, const std::vector<Spring>& springs);
 
+  /// Multiplications that a factorisation takes.
+  double operations() const;
+
   /// Factors the matrix of all springs, and of springs of stiffness ground[i] in all directions
   /// between grain i and the ground. False if rounding leaves it not positive definite.
   bool factor(const std::vector<Spring>& springs, const std::vector<double>& ground);
