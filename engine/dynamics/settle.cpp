@@ -309,16 +309,23 @@ bool find_exact_rest(Settling<Sphere, Real>& s, const KeepGoing& keep_going, dou
   return true;
 }
 
-/// Beds that have slid on in vain, as narrow towers do, are tried for exact rest after 2 rounds, 4,
-/// 8 and so on, if a try takes less than a round.
+/// Multiplications of a factorisation that take as long as the sweeps so far.
+template <class Kind, class Real>
+double work_so_far(const Settling<Kind, Real>& s) {
+  constexpr double of_a_grain_and_sweep = 40.0;
+  return of_a_grain_and_sweep * static_cast<double>(s.report.iterations) *
+         static_cast<double>(s.bed.grains());
+}
+
+/// Beds that have slid on in vain, as narrow towers do, are tried for exact rest after a round, 2,
+/// 4, 8 and so on, for at most half as long as they have been settled.
 template <class Kind, class Real>
 bool is_brought_to_rest(Settling<Kind, Real>& s, const KeepGoing& keep_going) {
-  constexpr double most_operations = 3e8;  // a tenth of a second
   if constexpr (std::is_same_v<Kind, Sphere>) {
     std::string failure;
-    return s.rule().end == StageEnd::rest && !s.report.failure.empty() && s.rounds > 1 &&
+    return s.rule().end == StageEnd::rest && !s.report.failure.empty() &&
            std::has_single_bit(static_cast<std::uint64_t>(s.rounds)) &&
-           find_exact_rest(s, keep_going, most_operations, failure);
+           find_exact_rest(s, keep_going, work_so_far(s) / 2.0, failure);
   }
   return false;
 }

@@ -11,7 +11,7 @@ namespace grainsweep {
 
 namespace {
 
-constexpr int most_factorisations = 600;
+constexpr double usual_factorisations = 50.0, most_factorisations = 600.0;
 
 // Products f s, m g d: slacks of loaded contacts are 1e-4 d at first, at the end far below
 // exact_overlap for all forces that hold a bed.
@@ -64,11 +64,12 @@ class InteriorPoint {
 
   ExactRest run(const ExactRestLimits& limits) {
     ExactRest rest;
-    if (factors_.operations() > limits.operations) return failed("the bed is too large", rest);
+    const double most = std::min(most_factorisations, limits.operations / factors_.operations());
+    if (most < usual_factorisations) return failed("it would take too long", rest);
     while (!is_found()) {
       if (!limits.keep_going()) return failed("cancelled", rest);
-      if (rest.rounds == most_factorisations) {
-        return failed("no state without motion was found within 600 rounds", rest);
+      if (rest.rounds >= most) {
+        return failed("no state without motion was found in time", rest);
       }
       ++rest.rounds;
       if (!factor_with_drag()) return failed("the contacts do not hold the bed", rest);

@@ -41,7 +41,8 @@ struct ExactRest {
 struct ExactRestLimits {
   /// Asked before every round; where it says no the failure is "cancelled".
   std::function<bool()> keep_going = [] { return true; };
-  /// Most multiplications that a factorisation may take, or no round is begun.
+  /// Most multiplications of all factorisations; no round is begun if they are too few for a usual
+  /// search.
   double operations = std::numeric_limits<double>::infinity();
 };
 
