@@ -11,7 +11,7 @@ namespace grainsweep {
 
 namespace {
 
-constexpr double usual_factorisations = 50.0, most_factorisations = 600.0;
+constexpr double most_factorisations = 600.0;
 
 // Products f s, m g d: slacks of loaded contacts are 1e-4 d at first, at the end far below
 // exact_overlap for all forces that hold a bed.
@@ -65,7 +65,8 @@ class InteriorPoint {
   ExactRest run(const ExactRestLimits& limits) {
     ExactRest rest;
     const double most = std::min(most_factorisations, limits.operations / factors_.operations());
-    if (most < usual_factorisations) return failed("it would take too long", rest);
+    const double usual = std::max(50.0, static_cast<double>(grains()) / 20.0);  // rounds
+    if (most < usual) return failed("it would take too long", rest);
     while (!is_found()) {
       if (!limits.keep_going()) return failed("cancelled", rest);
       if (rest.rounds >= most) {
