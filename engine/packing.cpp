@@ -155,6 +155,7 @@ void measure(const PackingSpec& spec, const SettleReport& settled, const Kernels
   const Touching near = find_touching(bed, std::max(widest(tolerances), longest_bond_gap), kernels);
   packing.grains = grains_of(bed, near, tolerances.front(), settled.force);
   packing.forces = settled.pair_forces;
+  packing.wall_forces = settled.wall_forces;
   result.surface_height = surface_height(bed);
   const std::optional<Slab> slab = slab_of(spec.measure, result);
   if (slab) {

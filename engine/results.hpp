@@ -67,6 +67,12 @@ struct PairForce {
   int constraints = 1;     ///< 1 at a point, as of spheres, 2 along a line, 3 over an area
 };
 
+/// A force that a wall exerts on a grain.
+struct WallForce {
+  std::int32_t grain = 0, wall = 0;  ///< the walls are those of walls_of(Box): 0 is the floor
+  double magnitude = 0.0;            ///< m g
+};
+
 /// One bin of a profile: a slice of the measured part of the bed.
 struct ProfileBin {
   double large = 0.0;             ///< solid volume of the large class over the bin's volume
@@ -163,6 +169,7 @@ struct Packing {
   std::vector<SettledGrain> grains;  ///< in the order of the start, empty unless a bed exists
   std::optional<Turned> turned;      ///< unless they are spheres
   std::vector<PairForce> forces;     ///< between the grains
+  std::vector<WallForce> wall_forces;
 };
 
 /// Where a packing stands; `share_done` is an estimate in [0, 1] that never falls.

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <numeric>
+#include <utility>
 
 #include "engine/text.hpp"
 
@@ -155,6 +157,18 @@ std::vector<PairForce> pair_forces(const Grains& bed, const std::vector<ForceCon
                           2.0;
     forces.push_back({c.a, c.b, height, c.force, c.constraints});
   }
+  return forces;
+}
+
+std::vector<WallForce> wall_forces(const Grains& bed, const std::vector<ForceContact>& contacts) {
+  const auto last_wall = static_cast<std::int32_t>(bed.walls.size()) - 1;
+  std::map<std::pair<std::int32_t, std::int32_t>, double> sums;
+  for (const ForceContact& c : contacts) {
+    if (bed.is_grain(c.b)) continue;
+    sums[{c.a, std::min(c.b - bed.wall_name(0), last_wall)}] += c.force;
+  }
+  std::vector<WallForce> forces;
+  for (const auto& [where, force] : sums) forces.push_back({where.first, where.second, force});
   return forces;
 }
 

@@ -33,6 +33,10 @@ std::int64_t zero_modes(const Bed<Kind>& bed, const std::vector<ForceContact>& c
 /// The forces between grains.
 std::vector<PairForce> pair_forces(const Grains& bed, const std::vector<ForceContact>& contacts);
 
+/// The forces of walls, one for each grain and wall: a polyhedron touches a round wall in several
+/// contacts.
+std::vector<WallForce> wall_forces(const Grains& bed, const std::vector<ForceContact>& contacts);
+
 /// Sum of the magnitudes of the contact forces on each grain, m g.
 std::vector<double> force_sums(const Grains& bed, const std::vector<ForceContact>& contacts);
 

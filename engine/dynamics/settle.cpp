@@ -256,6 +256,7 @@ template <class Kind, class Real>
 void report_forces(const std::vector<ForceContact>& contacts, Settling<Kind, Real>& s) {
   s.report.force = force_sums(s.bed, contacts);
   s.report.pair_forces = pair_forces(s.bed, contacts);
+  s.report.wall_forces = wall_forces(s.bed, contacts);
 }
 
 template <class Kind, class Real>

@@ -36,6 +36,7 @@ struct SettleReport {
   std::int64_t iterations = 0;
   std::vector<double> force;           ///< sum of contact force magnitudes on each grain, m g
   std::vector<PairForce> pair_forces;  ///< of the last step
+  std::vector<WallForce> wall_forces;  ///< of the last step
 };
 
 /// Settles `bed`, whose numbers must be finite; a state that becomes otherwise ends it at once and

@@ -44,11 +44,12 @@ std::string went_on_text(std::int64_t step) {
 
 /// What is stored of a bed.
 StoredBed bed_of(const Job& job, const PackingResult& result, Packing&& packing, bool no_grains) {
-  StoredBed bed{job.id, result.state_hash, job.spec.box, curves_of(result), {}, {}, {}};
+  StoredBed bed{job.id, result.state_hash, job.spec.box, curves_of(result), {}, {}, {}, {}};
   if (no_grains) return bed;
   bed.grains = std::move(packing.grains);
   bed.turned = std::move(packing.turned);
   bed.forces = stored_forces(packing.forces);
+  bed.wall_forces = std::move(packing.wall_forces);
   return bed;
 }
 

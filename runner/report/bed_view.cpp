@@ -81,7 +81,7 @@ std::string bed_element(const StoredBed& bed, const BedFacts& facts) {
       largest(bed, [](const SettledGrain& grain) { return grain.z + grain.radius; });
   double pair_force = 0.0;
   for (const StoredForce& one : bed.forces) {
-    pair_force = std::max(pair_force, static_cast<double>(one.magnitude));
+    pair_force = std::max(pair_force, one.magnitude);
   }
   const double extent = std::max({bed.box.length, bed.box.width, height});
   nlohmann::json json = {{"count", bed.grains.size()},

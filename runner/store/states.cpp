@@ -41,15 +41,18 @@ constexpr auto members_of(const Turned* /*type*/) {
 constexpr auto members_of(const StoredForce* /*type*/) {
   return std::tuple(&StoredForce::a, &StoredForce::b, &StoredForce::magnitude);
 }
+constexpr auto members_of(const WallForce* /*type*/) {
+  return std::tuple(&WallForce::grain, &WallForce::wall, &WallForce::magnitude);
+}
 constexpr auto members_of(const StoredBed* /*type*/) {
   using Bed = StoredBed;
   return std::tuple(&Bed::job, &Bed::state_hash, &Bed::box, &Bed::curves, &Bed::grains,
-                    &Bed::turned, &Bed::forces);
+                    &Bed::turned, &Bed::forces, &Bed::wall_forces);
 }
 
 namespace {
 
-constexpr std::string_view bed_mark = "GRAINS8\n";
+constexpr std::string_view bed_mark = "GRAINS9\n";
 
 /// Throws FileError: the bed is not what was stored.
 [[noreturn]] void refuse(const std::string& folder, const Outcome& outcome,
@@ -82,7 +85,7 @@ std::vector<StoredForce> stored_forces(const std::vector<PairForce>& forces) {
   std::vector<StoredForce> stored;
   stored.reserve(forces.size());
   for (const PairForce& force : forces) {
-    stored.push_back({force.a, force.b, static_cast<float>(force.magnitude)});
+    stored.push_back({force.a, force.b, force.magnitude});
   }
   return stored;
 }

@@ -2,7 +2,7 @@
 // again.
 //
 // They stand one behind the other in shards/<shard>.beds, where each outcome tells its own. A bed
-// is "GRAINS8\n", a StoredBed as of runner/store/archive.hpp, in the order of its members and of
+// is "GRAINS9\n", a StoredBed as of runner/store/archive.hpp, in the order of its members and of
 // those of the engine's structs in states.cpp, and a CRC-32 of all before. Units as in SettledGrain
 // and PackingResult. What a kill has left between them is never read.
 #pragma once
@@ -36,7 +36,7 @@ void set_curves(Curves&& curves, PackingResult& result);
 /// A force that two grains exert on each other.
 struct StoredForce {
   std::int32_t a = 0, b = 0;  ///< numbers of the grains, from 0
-  float magnitude = 0.0F;     ///< m g
+  double magnitude = 0.0;     ///< m g
 };
 
 std::vector<StoredForce> stored_forces(const std::vector<PairForce>& forces);
@@ -49,6 +49,7 @@ struct StoredBed {
   std::vector<SettledGrain> grains;
   std::optional<Turned> turned;  ///< of non-spherical grains; an orientation per grain
   std::vector<StoredForce> forces;
+  std::vector<WallForce> wall_forces;
 };
 
 /// The whole bed, checked. Throws FileError if there is none, if it is damaged or of another

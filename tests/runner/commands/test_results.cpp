@@ -29,7 +29,7 @@ std::vector<Row> pending_rows() {
 
 /// The bed of an outcome with one grain.
 StoredBed bed_of(const Outcome& outcome) {
-  return {outcome.job, outcome.result.state_hash, {}, sample_curves(), {{}}, {}, {}};
+  return {outcome.job, outcome.result.state_hash, {}, sample_curves(), {{}}, {}, {}, {}};
 }
 
 /// Flips a bit of the last grain of a bed.

@@ -62,7 +62,7 @@ TEST_CASE("the forces between grains are pairs of their numbers and shares of th
   StoredBed bed = two_spheres();
   CHECK(json_in(bed_element(bed, {"a bed", 0.0}))["pairs"] == 0);
   const std::size_t without = view_size(bed);
-  bed.forces = {{0, 1, 2.5F}, {70000, 1, 5.0F}};
+  bed.forces = {{0, 1, 2.5}, {70000, 1, 5.0}};
   const nlohmann::json json = json_in(bed_element(bed, {"a bed", 0.0}));
   CHECK(json["pairs"] == 2);
   CHECK(json["largest_pair_force"] == 5.0);
@@ -109,7 +109,7 @@ TEST_CASE("30,000 spheres, and 15,000 polyhedra, with their forces have room in 
     const double x = i % 25 + 0.5, y = i / 25 % 25 + 0.5, z = i / 625 + 0.5;
     bed.grains.push_back({x, y, z, 0.5, 1.0 + i % 7, 6});
     for (const int next : {1, 25, 625}) {
-      bed.forces.push_back({i, (i + next) % 30000, 1.0F + static_cast<float>(i % 5)});
+      bed.forces.push_back({i, (i + next) % 30000, 1.0 + i % 5});
     }
   }
   CHECK(bed_page(bed, {"spheres", 0.0}).size() < 6'000'000);

@@ -49,7 +49,7 @@ TEST_CASE("beds stand one behind the other, also those of a later run") {
   std::vector<Outcome> outcomes;
   for (const char* job : {"a", "b", "c"}) outcomes.push_back(sample_outcome(job, 0.6, 6.0));
   const auto bed_of = [](const Outcome& outcome) {
-    return StoredBed{outcome.job, outcome.result.state_hash, {}, {}, {{}}, {}, {}};
+    return StoredBed{outcome.job, outcome.result.state_hash, {}, {}, {{}}, {}, {}, {}};
   };
   {
     ShardFiles files(folder.path(), {}, sample_run());
@@ -75,7 +75,7 @@ TEST_CASE("a run that starts anew forgets what all shards have stored") {
   const TemporaryFolder folder;
   Outcome other = sample_outcome("b", 0.6, 6.0);
   add_outcomes(folder.path(), {sample_outcome("a", 0.6, 6.0)});
-  add_stored_bed(folder.path(), {"b", other.result.state_hash, {}, {}, {{}}, {}, {}}, other,
+  add_stored_bed(folder.path(), {"b", other.result.state_hash, {}, {}, {{}}, {}, {}, {}}, other,
                  {2, 3});
   replace_file(shards_folder(folder.path()) + "/notes.txt", "mine");
   ShardFiles files(folder.path(), {}, sample_run());

@@ -29,6 +29,7 @@ StoredBed sample_bed() {
                 {-0.0, 5.0, 1e300, 0.25, std::numeric_limits<double>::infinity(), -1}};
   bed.curves = sample_curves();
   bed.forces = stored_forces({{0, 1, 0.5, 2.75, 1}});
+  bed.wall_forces = {{1, 2, 1.0 / 3.0}};
   return bed;
 }
 
@@ -59,7 +60,10 @@ TEST_CASE("a stored bed of spheres reads back bit by bit, without orientations")
   CHECK(back.grains[1].touching == -1);
   REQUIRE(back.forces.size() == 1);
   CHECK(back.forces[0].b == 1);
-  CHECK(back.forces[0].magnitude == 2.75F);
+  CHECK(back.forces[0].magnitude == 2.75);
+  REQUIRE(back.wall_forces.size() == 1);
+  CHECK(back.wall_forces[0].wall == 2);
+  CHECK(back.wall_forces[0].magnitude == 1.0 / 3.0);
   CHECK(back.box.width == 5.5);
   CHECK(back.box.x == Boundary::periodic);
   CHECK(back.box.y == Boundary::walls);
@@ -82,7 +86,7 @@ TEST_CASE("curves are put back where they were taken from") {
 
 TEST_CASE("a bed begins as its header states") {
   const std::string bytes = bed_bytes(sample_bed());
-  CHECK(bytes.substr(0, 19) == std::string("GRAINS8\n\3\0\0\0\0\0\0\0job", 19));
+  CHECK(bytes.substr(0, 19) == std::string("GRAINS9\n\3\0\0\0\0\0\0\0job", 19));
 }
 
 TEST_CASE("a bed without grains can be stored") {
