@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <set>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -51,6 +52,14 @@ void append(Columns<Item>& columns, const Columns<Base>& more, Part part) {
     columns.push_back({column.name, column.unit, column.meaning,
                        [cell = column.cell, part](const Item& item) { return cell(part(item)); }});
   }
+}
+
+/// Removes columns that have the name of one before them: a shape that is varied is a fact of a job
+/// and a parameter.
+template <class Item>
+void remove_repeated(Columns<Item>& columns) {
+  std::set<std::string> names;
+  std::erase_if(columns, [&](const auto& column) { return !names.insert(column.name).second; });
 }
 
 /// A column without what makes its cells.

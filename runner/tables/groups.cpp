@@ -238,6 +238,7 @@ Columns<Group> groups_columns(const Varied& varied, const GivenUnits& units) {
   append(columns, bias_columns());
   append(columns, varied_columns(varied));
   append(columns, job_columns({"parameters"}), job_of_group);
+  remove_repeated(columns);
   append_in_units(columns, units);
   return columns;
 }

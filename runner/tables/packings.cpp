@@ -81,6 +81,7 @@ Columns<PackingLine> packings_columns(const std::vector<double>& further_toleran
   Columns<Group> of_group = group_key_columns();
   append(of_group, varied_columns(varied));
   append(columns, of_group, [](const PackingLine& line) -> const Group& { return line.group; });
+  remove_repeated(columns);
   append_in_units(columns, units);
   return columns;
 }

@@ -28,5 +28,13 @@ TEST_CASE("a table is made of columns, of the item or of what it is derived from
         "| `name` |  | of the point |\n| `x` | d | place |\n");
 }
 
+TEST_CASE("a column that is there already is not added again") {
+  Columns<Point> columns = {{"x", "d", "place", [](const Point& point) { return cell(point.x); }},
+                            {"x", "", "as varied", [](const Point&) { return std::string(); }}};
+  remove_repeated(columns);
+  CHECK(header_line(columns) == "x\n");
+  CHECK(row_line(columns, Point{0.25}) == "0.25\n");
+}
+
 }  // namespace
 }  // namespace grainsweep
