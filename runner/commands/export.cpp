@@ -1,4 +1,4 @@
-// The command `export`: the grains of stored packings, a file each.
+// The command `export`: the beds of stored packings, a file each.
 #include <algorithm>
 #include <iostream>
 
@@ -8,23 +8,46 @@
 #include "runner/commands/inputs.hpp"
 #include "runner/commands/shared_options.hpp"
 #include "runner/exit_codes.hpp"
+#include "runner/export/file_names.hpp"
+#include "runner/export/formats.hpp"
 #include "runner/report/bed_view.hpp"
 #include "runner/store/files.hpp"
-#include "runner/store/states.hpp"
-#include "runner/tables/grain_files.hpp"
 #include "runner/text.hpp"
 
 namespace grainsweep {
 namespace {
 
-/// The format that is no file of grains but a page.
+/// The format that is no file for other programs but a page.
 constexpr const char* page_format = "html";
 
-bool has_grains(const Row& row) { return row.outcome && row.outcome->stored_bytes > 0; }
+std::vector<std::string> format_names() {
+  std::vector<std::string> names;
+  for (const ExportFormat& format : export_formats()) names.emplace_back(format.name);
+  names.emplace_back(page_format);
+  return names;
+}
 
-/// The rows to export: those asked for, or all that have grains. Throws BadInput.
-std::vector<const Row*> rows_to_export(const std::vector<Row>& rows, const ExportOptions& options) {
-  std::vector<const Row*> chosen;
+/// "csv, xyz, ... or html"
+std::string formats_text() {
+  std::string text;
+  for (const ExportFormat& format : export_formats()) {
+    text += (text.empty() ? "" : ", ") + std::string(format.name);
+  }
+  return text + " or " + page_format;
+}
+
+std::vector<std::string> endings() {
+  std::vector<std::string> all = {std::string(".") + page_format};
+  for (const ExportFormat& format : export_formats()) all.emplace_back(format.ending);
+  return all;
+}
+
+bool has_bed(const Row& row) { return row.outcome && row.outcome->stored_bytes > 0; }
+
+/// The numbers of the rows to export: those asked for, or all that have beds. Throws BadInput.
+std::vector<std::size_t> rows_to_export(const std::vector<Row>& rows,
+                                        const ExportOptions& options) {
+  std::vector<std::size_t> chosen;
   for (const std::string& job : options.jobs) {
     const auto found =
         std::find_if(rows.begin(), rows.end(), [&](const Row& row) { return row.job.id == job; });
@@ -32,12 +55,12 @@ std::vector<const Row*> rows_to_export(const std::vector<Row>& rows, const Expor
       throw BadInput("--job " + job + ": no such packing; see the column job in " + options.folder +
                      "/packings.csv");
     }
-    if (!has_grains(*found))
+    if (!has_bed(*found))
       throw BadInput("--job " + job + ": has no grains, it is " + status_of(*found));
-    chosen.push_back(&*found);
+    chosen.push_back(static_cast<std::size_t>(found - rows.begin()));
   }
-  for (const Row& row : rows) {
-    if (options.jobs.empty() && has_grains(row)) chosen.push_back(&row);
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    if (options.jobs.empty() && has_bed(rows[k])) chosen.push_back(k);
   }
   return chosen;
 }
@@ -48,15 +71,19 @@ std::string page_of(const StoredBed& bed, const Row& row, const GivenUnits& unit
   return bed_page(bed, facts);
 }
 
+ExportedBed exported(StoredBed&& bed, const JobFacts& job) {
+  const auto& tolerances = job.measure.gap_tolerances;
+  return {std::move(bed), facts_of(job, "").small_limit,
+          *std::max_element(tolerances.begin(), tolerances.end())};
+}
+
 }  // namespace
 
 CLI::App& add_command(CLI::App& app, ExportOptions& options) {
-  CLI::App& grains = *app.add_subcommand("export", "Write the grains of finished packings");
+  CLI::App& grains = *app.add_subcommand("export", "Write the beds of finished packings");
   add_folder(grains, options.folder);
-  grains
-      .add_option("--format", options.format,
-                  "csv, xyz (for OVITO), vtp (for ParaView), or html: a bed that turns")
-      ->check(CLI::IsMember({"csv", "xyz", "vtp", "html"}))
+  grains.add_option("--format", options.format, formats_text())
+      ->check(CLI::IsMember(format_names()))
       ->capture_default_str()
       ->type_name("NAME");
   grains
@@ -71,27 +98,32 @@ CLI::App& add_command(CLI::App& app, ExportOptions& options) {
 }
 
 int perform(const ExportOptions& options) {
-  const auto format = export_format(options.format);
-  if (!format && options.format != page_format) {
-    throw BadInput("--format " + options.format + ": use csv, xyz, vtp or html");
+  const ExportFormat* format = export_format(options.format);
+  if (format == nullptr && options.format != page_format) {
+    throw BadInput("--format " + options.format + ": use " + formats_text());
   }
+  const std::string ending =
+      format != nullptr ? std::string(format->ending) : std::string(".") + page_format;
   const Results results = results_with_warnings(options.folder);
-  const std::vector<const Row*> rows = rows_to_export(results.rows, options);
+  const std::vector<Row>& rows = results.rows;
+  const std::vector<std::size_t> chosen = rows_to_export(rows, options);
   const std::string to = options.to.empty() ? options.folder + "/export" : options.to;
-  if (rows.empty()) throw BadInput(options.folder + ": holds no finished packing to export");
+  if (chosen.empty()) throw BadInput(options.folder + ": holds no finished packing to export");
   make_folder(to);
+  const std::vector<std::string> stems = file_stems(rows);
   std::size_t written = 0;
-  for (const Row* row : rows) {
-    const StoredBed bed = read_bed(options.folder, *row->outcome);
+  for (const std::size_t k : chosen) {
+    StoredBed bed = read_bed(options.folder, *rows[k].outcome);
     if (bed.grains.empty()) continue;  // of a run with --no-grains
     ++written;
-    const std::string text =
-        format ? grains_text(bed, *format) : page_of(bed, *row, results.provenance.units);
-    replace_file(to + "/" + row->job.id + "." + options.format, text);
+    const std::string text = format != nullptr ? format->text(exported(std::move(bed), rows[k].job))
+                                               : page_of(bed, rows[k], results.provenance.units);
+    replace_file(to + "/" + stems[k] + ending, text);
   }
   if (written == 0) throw BadInput(options.folder + ": its packings were stored without grains");
-  std::cout << counted(written, "packing") << " written to " << to << "/<job>." << options.format
-            << "\n";
+  replace_file(to + "/index.csv", index_csv(to, rows, endings()));
+  std::cout << counted(written, "packing") << " written to " << to << "/<label>-<group>-<replicate>"
+            << ending << ", listed in index.csv\n";
   return exit_done;
 }
 

@@ -10,7 +10,7 @@
 
 #include <Eigen/Geometry>
 
-#include "runner/tables/grain_files.hpp"
+#include "runner/export/exported_bed.hpp"
 
 namespace grainsweep {
 namespace {

@@ -21,7 +21,7 @@ cat >starts.json <<'JSON'
 JSON
 "$grainsweep" run starts.json --quiet --no-report --out starts || [ $? -eq 1 ]
 "$grainsweep" export starts --to . >/dev/null
-mapfile -t beds < <(printf '%s\n' ????????????????.csv)
+mapfile -t beds < <(sed -n 's/\.csv,.*/.csv/p' index.csv)
 
 /usr/bin/python3 - "$configs" "${beds[@]}" <<'PYTHON'
 import glob, json, os, sys

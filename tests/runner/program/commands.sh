@@ -66,15 +66,20 @@ expect_text out.txt "No cluster is needed." "In 3 shards: about "
 expect_code 0 "$program" status out/small --json
 expect_text out.txt '"packings": 10' '"pending": 0' '"runners": []' '"sweep_file": "small.json"'
 
-for format in csv xyz vtp; do
+for format in csv xyz vtp contacts contacts-vtp; do
   expect_code 0 "$program" export out/small --format $format
-  [ "$(ls out/small/export/*.$format | wc -l)" -eq 10 ] || fail "not 10 files of $format"
 done
+for ending in csv xyz vtp contacts.csv contacts.vtp; do
+  [ "$(ls out/small/export/*-1-[0-9].$ending out/small/export/*-[2-9]-[0-9].$ending | wc -l)" -eq 10 ] ||
+    fail "not 10 files *.$ending"
+done
+[ "$(wc -l <out/small/export/index.csv)" -eq 51 ] || fail "the index does not list 50 files"
 job=$(sed -n 2p out/small/packings.csv | cut -d, -f1)
 grains=$(sed -n 2p out/small/packings.csv | cut -d, -f6)
 expect_code 0 "$program" export out/small --format xyz --job "$job" --to one
-[ "$(ls one)" = "$job.xyz" ] || fail "--job wrote $(ls one)"
-[ "$(head -n 1 "one/$job.xyz")" -eq "$grains" ] || fail "wrong number of grains"
+file=$(sed -n "2s/,$job,.*//p" one/index.csv)
+[ "$(ls one)" = "$(printf '%s\n' index.csv "$file")" ] || fail "--job wrote $(ls one)"
+[ "$(head -n 1 "one/$file")" -eq "$grains" ] || fail "wrong number of grains"
 expect_code 2 "$program" export out/small --job nosuchjob
 expect_text error.txt "nosuchjob"
 

@@ -40,10 +40,11 @@ awk '{ if ($1 + $3 + $5 < 1 - 1e-12 || $1 + $3 + $5 > 1 + 1e-12) exit 1 }' share
 for format in csv xyz vtp; do
   expect_code 0 "$program" export out/shapes --format $format
 done
-sphere=$(column job 1) pinacoid=$(column job 2) roof=$(column job 4)
 cd out/shapes/export
-[ "$(head -n 1 "$sphere.csv")" = "x,y,z,radius,force,coordination" ] || fail "spheres are turned"
-[ "$(head -n 1 "$roof.csv")" = "x,y,z,radius,force,coordination,qx,qy,qz,qw" ] || fail "no turns"
+mapfile -t stems < <(sed -n 's/\.csv,.*//p' index.csv)
+sphere=${stems[0]} pinacoid=${stems[1]} roof=${stems[3]}
+[ "$(head -n 1 "$sphere.csv")" = "id,size_class,x,y,z,radius,force,coordination" ] || fail "spheres are turned"
+[ "$(head -n 1 "$roof.csv")" = "id,size_class,x,y,z,radius,force,coordination,qx,qy,qz,qw" ] || fail "no turns"
 grep -q 'orientation:R:4' "$pinacoid.xyz" || fail "no orientation in XYZ"
 grains=$(($(wc -l <"$pinacoid.csv") - 1))
 grep -q "NumberOfPoints=\"$((8 * grains))\".*NumberOfPolys=\"$((8 * grains))\"" "$pinacoid.vtp" ||
@@ -74,7 +75,7 @@ expect_text error.txt "spheres have no orientation"
 "$program" run shapes.json --no-report --out one --threads 1 >/dev/null 2>&1 || true
 values_of out/shapes >two.txt
 values_of one | cmp two.txt - || fail "other bits on one thread"
-damage_bed one "$(packing_lines one | grep "$roof")" 50
+damage_bed one "$(packing_lines one | grep "$(column job 4)")" 50
 "$program" run shapes.json --no-report --out one --threads 1 >/dev/null 2>error.txt || true
 cmp <(beds_in out/shapes) <(beds_in one) || fail "the bed was made otherwise"
 
@@ -94,16 +95,16 @@ corners = [int(corner) for corner in numbers("Polys", "connectivity")]
 ends = [int(end) for end in numbers("Polys", "offsets")]
 assert len(points) == int(piece.get("NumberOfPoints")), "points"
 assert len(ends) == int(piece.get("NumberOfPolys")) and ends[-1] == len(corners), "polygons"
-enclosed = [0.0] * (int(max(numbers("CellData", "grain"))) + 1)
+enclosed = [0.0] * (int(max(numbers("CellData", "id"))))
 sizes = [0.0] * len(enclosed)
-for begin, end, grain, size in zip([0] + ends, ends, numbers("CellData", "grain"),
+for begin, end, grain, size in zip([0] + ends, ends, numbers("CellData", "id"),
                                    numbers("CellData", "size")):
     face = [points[corner] for corner in corners[begin:end]]
     a = face[0]
     for b, c in zip(face[1:], face[2:]):  # six times the volume under a triangle
-        enclosed[int(grain)] += (a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2])
+        enclosed[int(grain) - 1] += (a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2])
                                  + a[2] * (b[0] * c[1] - b[1] * c[0])) / 6
-    sizes[int(grain)] = size
+    sizes[int(grain) - 1] = size
 for volume, size in zip(enclosed, sizes):
     whole = (3 - 3 ** -0.5) / 6 * size ** 3  # of a pinacoid of 60 degrees
     assert abs(volume / whole - 1) < 1e-9, (volume, whole)

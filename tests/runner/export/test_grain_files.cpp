@@ -6,32 +6,32 @@
 
 #include <catch2/catch.hpp>
 
+#include "runner/export/grain_files.hpp"
 #include "runner/sweep/grains_csv.hpp"
-#include "runner/tables/grain_files.hpp"
 
 namespace grainsweep {
 namespace {
 
-StoredBed exported_bed() {
+ExportedBed exported_bed() {
   StoredBed bed;
   bed.box = {20.0, 5.5, Boundary::periodic, Boundary::walls};
   bed.grains = {{0.1, 1.0 / 3.0, 0.5, 0.5, 2.75, 6}, {19.25, 5.0, 1.5, 0.25, 1e-300, 0}};
-  return bed;
+  return {bed, 0.3};
 }
 
 /// One tetrahedron at twice its size, a quarter turn about z: x becomes y.
-StoredBed exported_turned_bed() {
+ExportedBed exported_turned_bed() {
   StoredBed bed;
   bed.box = {20.0, 5.5, Boundary::periodic, Boundary::walls};
   bed.grains = {{5, 2, 1, 1.0, 2.75, 6}, {6, 2, 1, 0.5, 0.5, 0}};
   bed.turned = Turned{
       {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}},
       {{0, 0, std::sqrt(0.5), std::sqrt(0.5)}, {0, 0, 0, 1}}};
-  return bed;
+  return {bed};
 }
 
 /// The numbers in the array called `name` of a VTP file.
-std::vector<double> vtp_array(const std::string& text, const std::string& name) {
+std::vector<double> array_of(const std::string& text, const std::string& name) {
   const std::regex pattern("Name=\"" + name + "\"[^>]*format=\"ascii\">([^<]*)</DataArray>");
   std::smatch match;
   REQUIRE(std::regex_search(text, match, pattern));
@@ -43,29 +43,30 @@ std::vector<double> vtp_array(const std::string& text, const std::string& name) 
 
 TEST_CASE("CSV holds a row per grain that reads back exactly") {
   CHECK(grains_csv(exported_bed()) ==
-        "x,y,z,radius,force,coordination\n"
-        "0.1,0.3333333333333333,0.5,0.5,2.75,6\n"
-        "19.25,5,1.5,0.25,1e-300,0\n");
+        "id,size_class,x,y,z,radius,force,coordination\n"
+        "1,large,0.1,0.3333333333333333,0.5,0.5,2.75,6\n"
+        "2,small,19.25,5,1.5,0.25,1e-300,0\n");
 }
 
 TEST_CASE("extended XYZ holds count, box, periodic axes and a line per grain") {
   CHECK(grains_xyz(exported_bed()) ==
         "2\n"
         "Lattice=\"20 0 0 0 5.5 0 0 0 1.75\" "
-        "Properties=species:S:1:pos:R:3:radius:R:1:coordination:I:1:force:R:1 pbc=\"T F F\"\n"
-        "grain 0.1 0.3333333333333333 0.5 0.5 6 2.75\n"
-        "grain 19.25 5 1.5 0.25 0 1e-300\n");
+        "Properties=species:S:1:pos:R:3:id:I:1:size_class:I:1:radius:R:1:coordination:I:1:"
+        "force:R:1 pbc=\"T F F\"\n"
+        "X 0.1 0.3333333333333333 0.5 1 1 0.5 6 2.75\n"
+        "X 19.25 5 1.5 2 2 0.25 0 1e-300\n");
 }
 
 TEST_CASE("grains that are turned have their quaternion in CSV and extended XYZ") {
-  StoredBed bed = exported_turned_bed();
-  bed.turned->orientations = {{0, 0.6, 0, 0.8}, {0, 0, 0, 1}};
+  ExportedBed bed = exported_turned_bed();
+  bed.bed.turned->orientations = {{0, 0.6, 0, 0.8}, {0, 0, 0, 1}};
   CHECK(grains_csv(bed) ==
-        "x,y,z,radius,force,coordination,qx,qy,qz,qw\n"
-        "5,2,1,1,2.75,6,0,0.6,0,0.8\n"
-        "6,2,1,0.5,0.5,0,0,0,0,1\n");
+        "id,size_class,x,y,z,radius,force,coordination,qx,qy,qz,qw\n"
+        "1,large,5,2,1,1,2.75,6,0,0.6,0,0.8\n"
+        "2,large,6,2,1,0.5,0.5,0,0,0,0,1\n");
   CHECK_THAT(grains_xyz(bed), Catch::Contains("force:R:1:orientation:R:4 pbc=") &&
-                                  Catch::EndsWith("grain 6 2 1 0.5 0 0.5 0 0 0 1\n"));
+                                  Catch::EndsWith("X 6 2 1 2 1 0.5 0 0.5 0 0 0 1\n"));
 }
 
 TEST_CASE("the box of turned grains is as high as their highest vertex") {
@@ -78,7 +79,7 @@ TEST_CASE("a bed that is written as CSV can be read as the grains of another pac
   REQUIRE(reading.errors.empty());
   REQUIRE(reading.grains.size() == 2);
   CHECK(reading.grains[0].radius == 1.0);
-  CHECK(reading.orientations == exported_turned_bed().turned->orientations);
+  CHECK(reading.orientations == exported_turned_bed().bed.turned->orientations);
   CHECK(parse_grains(grains_csv(exported_bed()), "bed.csv").orientations.empty());
 }
 
@@ -87,32 +88,34 @@ TEST_CASE("VTP holds the faces of grains that are turned, where they are") {
   CHECK_THAT(text, Catch::Contains("NumberOfPoints=\"8\" NumberOfVerts=\"0\"") &&
                        Catch::Contains("NumberOfPolys=\"8\"") &&
                        Catch::Contains("<CellData Scalars=\"size\">"));
-  const auto points = vtp_array(text, "Points");
+  const auto points = array_of(text, "Points");
   REQUIRE(points.size() == 24);
   const std::vector<double> first = {5, 2, 1, 5, 4, 1, 3, 2, 1, 5, 2, 3};
   for (std::size_t i = 0; i < first.size(); ++i) {
     CHECK(points[i] == Approx(first[i]).margin(1e-15));  // the root of a half is rounded
   }
-  const auto corners = vtp_array(text, "connectivity");
+  const auto corners = array_of(text, "connectivity");
   REQUIRE(corners.size() == 24);
   CHECK(std::vector<double>(corners.begin() + 9, corners.begin() + 15) ==
         std::vector<double>{1, 2, 3, 4, 6, 5});
-  CHECK(vtp_array(text, "offsets") == std::vector<double>{3, 6, 9, 12, 15, 18, 21, 24});
-  CHECK(vtp_array(text, "grain") == std::vector<double>{0, 0, 0, 0, 1, 1, 1, 1});
-  CHECK(vtp_array(text, "size") == std::vector<double>{2, 2, 2, 2, 1, 1, 1, 1});
-  CHECK(vtp_array(text, "coordination") == std::vector<double>{6, 6, 6, 6, 0, 0, 0, 0});
-  CHECK(vtp_array(text, "force") == std::vector<double>{2.75, 2.75, 2.75, 2.75, .5, .5, .5, .5});
+  CHECK(array_of(text, "offsets") == std::vector<double>{3, 6, 9, 12, 15, 18, 21, 24});
+  CHECK(array_of(text, "id") == std::vector<double>{1, 1, 1, 1, 2, 2, 2, 2});
+  CHECK(array_of(text, "size") == std::vector<double>{2, 2, 2, 2, 1, 1, 1, 1});
+  CHECK(array_of(text, "coordination") == std::vector<double>{6, 6, 6, 6, 0, 0, 0, 0});
+  CHECK(array_of(text, "force") == std::vector<double>{2.75, 2.75, 2.75, 2.75, .5, .5, .5, .5});
 }
 
 TEST_CASE("VTP arrays read back as the grains") {
   const std::string text = grains_vtp(exported_bed());
   CHECK_THAT(text, Catch::Contains("NumberOfPoints=\"2\"") && Catch::EndsWith("</VTKFile>\n"));
-  CHECK(vtp_array(text, "Points") == std::vector<double>{0.1, 1.0 / 3.0, 0.5, 19.25, 5.0, 1.5});
-  CHECK(vtp_array(text, "radius") == std::vector<double>{0.5, 0.25});
-  CHECK(vtp_array(text, "coordination") == std::vector<double>{6, 0});
-  CHECK(vtp_array(text, "force") == std::vector<double>{2.75, 1e-300});
-  CHECK(vtp_array(text, "connectivity") == std::vector<double>{0, 1});
-  CHECK(vtp_array(text, "offsets") == std::vector<double>{1, 2});
+  CHECK(array_of(text, "Points") == std::vector<double>{0.1, 1.0 / 3.0, 0.5, 19.25, 5.0, 1.5});
+  CHECK(array_of(text, "radius") == std::vector<double>{0.5, 0.25});
+  CHECK(array_of(text, "id") == std::vector<double>{1, 2});
+  CHECK(array_of(text, "size_class") == std::vector<double>{1, 2});
+  CHECK(array_of(text, "coordination") == std::vector<double>{6, 0});
+  CHECK(array_of(text, "force") == std::vector<double>{2.75, 1e-300});
+  CHECK(array_of(text, "connectivity") == std::vector<double>{0, 1});
+  CHECK(array_of(text, "offsets") == std::vector<double>{1, 2});
 }
 
 TEST_CASE("every opened element of a VTP file is closed, innermost first") {
@@ -129,14 +132,6 @@ TEST_CASE("every opened element of a VTP file is closed, innermost first") {
     }
   }
   CHECK(open.empty());
-}
-
-TEST_CASE("formats are called by the ending of their files") {
-  for (const auto format : {ExportFormat::csv, ExportFormat::xyz, ExportFormat::vtp}) {
-    CHECK(export_format(name_of(format)) == format);
-  }
-  CHECK_FALSE(export_format("VTP"));
-  CHECK(grains_text(exported_bed(), ExportFormat::vtp) == grains_vtp(exported_bed()));
 }
 
 }  // namespace

@@ -1,0 +1,91 @@
+#include "engine/measure/contact_places.hpp"
+
+#include <algorithm>
+#include <vector>
+
+#include "engine/narrow/constraints.hpp"
+
+namespace grainsweep {
+
+namespace {
+
+/// Faces that lie on each other by less than this are an area, not crossing edges, d.
+constexpr double preference_of_faces = 1e-4;
+
+Vector centre_of(const Grains& bed, std::int32_t grain) {
+  const Record<double>& p = bed.position[static_cast<std::size_t>(grain)];
+  return {p.x, p.y, p.z};
+}
+
+Vector towards(const Wall& wall, const Vector& place) {
+  const UnitVector inward = wall.normal(place.x(), place.y(), place.z());
+  return -Vector(inward.x, inward.y, inward.z);
+}
+
+Vector middle_of(const std::vector<ContactPoint>& points, double tolerance) {
+  Vector sum = Vector::Zero();
+  double count = 0.0;
+  for (const ContactPoint& point : points) {
+    if (point.gap >= tolerance) continue;
+    sum += point.position;
+    count += 1.0;
+  }
+  return sum / count;
+}
+
+int counted(const std::vector<ContactPoint>& points, double tolerance) {
+  return std::max(1, constraints_of(points.data(), points.size(), tolerance));
+}
+
+/// A gap of `gap` is below it, and everything else that touches.
+double reach_of(double gap, double tolerance) {
+  constexpr double rounding = 1e-9;
+  return std::max(tolerance, gap + rounding);
+}
+
+}  // namespace
+
+ContactPlace contact_place(const SphereBed& bed, const TouchingPair& pair, double /*tolerance*/) {
+  const Vector between =
+      nearest_difference(bed, static_cast<std::size_t>(pair.a), static_cast<std::size_t>(pair.b));
+  const Vector normal = between.normalized();
+  const double radius = bed.position[static_cast<std::size_t>(pair.a)].w;
+  return {normal, centre_of(bed, pair.a) + (radius + pair.gap / 2.0) * normal, 1};
+}
+
+ContactPlace contact_place(const PolyhedronBed& bed, const TouchingPair& pair, double tolerance) {
+  const auto a = static_cast<std::size_t>(pair.a), b = static_cast<std::size_t>(pair.b);
+  const double reach = reach_of(pair.gap, tolerance);
+  TouchColumns columns;
+  PairMemory memory;
+  std::vector<ContactPoint> points;
+  const PairContact contact = touch({bed.shape, bed.shape, pair_pose(bed, a, b)},
+                                    {reach, preference_of_faces, 0.0}, memory, columns, points);
+  const Pose pose = bed.pose(a);
+  return {pose.orientation * contact.normal,
+          pose.centre + pose.orientation * middle_of(points, reach), counted(points, tolerance)};
+}
+
+ContactPlace contact_place(const SphereBed& bed, const TouchingWall& touching,
+                           double /*tolerance*/) {
+  const Vector centre = centre_of(bed, touching.grain);
+  const Vector normal = towards(bed.walls[static_cast<std::size_t>(touching.wall)], centre);
+  const double radius = bed.position[static_cast<std::size_t>(touching.grain)].w;
+  return {normal, centre + (radius + touching.gap / 2.0) * normal, 1};
+}
+
+ContactPlace contact_place(const PolyhedronBed& bed, const TouchingWall& touching,
+                           double tolerance) {
+  const Wall& wall = bed.walls[static_cast<std::size_t>(touching.wall)];
+  const Pose pose = bed.pose(static_cast<std::size_t>(touching.grain));
+  std::vector<ContactPoint> points;
+  for (const Vector& vertex : bed.shape.vertices) {
+    const Vector place = pose.centre + pose.orientation * (pose.scale * vertex);
+    points.push_back({place, wall.distance(place.x(), place.y(), place.z())});
+  }
+  const Vector vertex = middle_of(points, reach_of(touching.gap, tolerance));
+  const Vector normal = towards(wall, vertex);
+  return {normal, vertex + touching.gap / 2.0 * normal, counted(points, tolerance)};
+}
+
+}  // namespace grainsweep

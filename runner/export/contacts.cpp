@@ -1,0 +1,181 @@
+#include "runner/export/contacts.hpp"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <utility>
+
+#include "engine/measure/bond_order.hpp"
+#include "engine/shape/hull.hpp"
+#include "kernels/kernels.hpp"
+#include "runner/export/vtp.hpp"
+#include "runner/tables/csv.hpp"
+
+namespace grainsweep {
+namespace {
+
+using Forces = std::map<std::pair<std::int32_t, std::int32_t>, double>;
+
+Forces forces_of_grains(const StoredBed& bed) {
+  Forces forces;
+  for (const StoredForce& force : bed.forces) {
+    forces[std::minmax(force.a, force.b)] += force.magnitude;
+  }
+  return forces;
+}
+
+Forces forces_of_walls(const StoredBed& bed) {
+  Forces forces;
+  for (const WallForce& force : bed.wall_forces) {
+    forces[{force.grain, force.wall}] += force.magnitude;
+  }
+  return forces;
+}
+
+SphereBed spheres_of(const StoredBed& bed) {
+  std::vector<PlacedSphere> spheres;
+  for (const SettledGrain& grain : bed.grains) {
+    spheres.push_back({grain.x, grain.y, grain.z, grain.radius});
+  }
+  return make_bed(bed.box, spheres);
+}
+
+/// Throws std::logic_error if the mesh of the bed is no shape, which no stored one is.
+PolyhedronBed polyhedra_of(const StoredBed& bed) {
+  std::vector<Vector> vertices;
+  for (const auto& [x, y, z] : bed.turned->mesh.vertices) vertices.emplace_back(x, y, z);
+  const ConvexShape shape = convex_hull(vertices).shape.value();
+  const Quaternion given(shape.given.rotation);
+  std::vector<Pose> poses;
+  for (std::size_t k = 0; k < bed.grains.size(); ++k) {
+    const SettledGrain& grain = bed.grains[k];
+    const auto& [x, y, z, w] = bed.turned->orientations[k];
+    poses.push_back(
+        {{grain.x, grain.y, grain.z}, 2.0 * grain.radius, Quaternion(w, x, y, z) * given});
+  }
+  return make_bed(bed.box, shape, poses);
+}
+
+/// Those of `touching` that count, with their forces.
+template <class Bed, class Pair>
+void append(const ExportedBed& exported, const Bed& bed, const Forces& forces,
+            const std::pair<std::int32_t, std::int32_t>& sides, const Pair& touching,
+            std::vector<Contact>& contacts) {
+  const auto force = forces.find(sides);
+  if (touching.gap >= exported.gap_tolerance && force == forces.end()) return;
+  contacts.push_back({static_cast<std::size_t>(sides.first), static_cast<std::size_t>(sides.second),
+                      std::is_same_v<Pair, TouchingWall>, touching.gap,
+                      force == forces.end() ? 0.0 : force->second,
+                      contact_place(bed, touching, exported.gap_tolerance)});
+}
+
+template <class Kind>
+std::vector<Contact> contacts_of(const ExportedBed& exported, Bed<Kind>&& bed) {
+  const double reach = std::max(exported.gap_tolerance, longest_bond_gap);
+  const Touching touching = find_touching(bed, reach, kernels_for(Isa::sse2));
+  std::vector<Contact> contacts;
+  const Forces of_grains = forces_of_grains(exported.bed), of_walls = forces_of_walls(exported.bed);
+  for (const TouchingPair& pair : touching.pairs) {
+    append(exported, bed, of_grains, {pair.a, pair.b}, pair, contacts);
+  }
+  for (const TouchingWall& wall : touching.walls) {
+    append(exported, bed, of_walls, {wall.grain, wall.wall}, wall, contacts);
+  }
+  return contacts;
+}
+
+const char* kind_name(int constraints) {
+  return constraints == 1 ? "point" : constraints == 2 ? "line" : "area";
+}
+
+std::string joined(const Vector& v, char separator) {
+  return cell(v.x()) + separator + cell(v.y()) + separator + cell(v.z());
+}
+
+Vector centre_of(const ExportedBed& exported, std::size_t grain) {
+  const SettledGrain& at = exported.bed.grains[grain];
+  return {at.x, at.y, at.z};
+}
+
+/// The other end of a contact's line: the centre of b beside a, or the wall.
+Vector end_of(const ExportedBed& exported, const Contact& contact) {
+  if (contact.is_wall) return contact.place.point;
+  const Box& box = exported.bed.box;
+  const Vector from = centre_of(exported, contact.a);
+  const Vector between = centre_of(exported, contact.b) - from;
+  return from + Vector(nearest_image(between.x(), box.period_x()),
+                       nearest_image(between.y(), box.period_y()), between.z());
+}
+
+/// The arrays of the lines.
+std::string arrays(const ExportedBed& exported, const std::vector<Contact>& contacts) {
+  const auto of_contact = [&](const std::string& attributes, const auto& value) {
+    return vtp_array(attributes, contacts.size(),
+                     [&](std::size_t k) { return value(contacts[k]); });
+  };
+  const auto number = [](const char* name) {
+    return "type=\"Int64\" Name=\"" + std::string(name) + "\"";
+  };
+  const auto real = [](const char* name) {
+    return "type=\"Float64\" Name=\"" + std::string(name) + "\"";
+  };
+  return of_contact(real("force"), [](const Contact& c) { return cell(c.force); }) +
+         of_contact(real("gap"), [](const Contact& c) { return cell(c.gap); }) +
+         of_contact(number("kind"), [](const Contact& c) { return cell(c.place.constraints); }) +
+         of_contact(number("a"), [](const Contact& c) { return cell(id_of(c.a)); }) +
+         of_contact(number("b"),
+                    [](const Contact& c) { return cell(c.is_wall ? 0 : id_of(c.b)); }) +
+         of_contact(number("size_class_a"),
+                    [&](const Contact& c) { return cell(size_class(exported, c.a)); }) +
+         of_contact(
+             number("size_class_b"),
+             [&](const Contact& c) { return cell(c.is_wall ? 0 : size_class(exported, c.b)); }) +
+         of_contact(real("normal") + " NumberOfComponents=\"3\"",
+                    [](const Contact& c) { return joined(c.place.normal, ' '); });
+}
+
+}  // namespace
+
+std::vector<Contact> contacts_of(const ExportedBed& exported) {
+  return exported.bed.turned ? contacts_of(exported, polyhedra_of(exported.bed))
+                             : contacts_of(exported, spheres_of(exported.bed));
+}
+
+std::string wall_name(const Box& box, std::size_t wall) {
+  if (wall == 0) return "floor";
+  if (box.is_tube) return "tube";
+  const std::array names = {"x_low", "x_high", "y_low", "y_high"};
+  return names.at(wall - 1 + (box.x == Boundary::walls ? 0 : 2));
+}
+
+std::string contacts_csv(const ExportedBed& exported) {
+  std::string text = "a,b,wall,size_class_a,size_class_b,kind,gap,nx,ny,nz,x,y,z,force\n";
+  for (const Contact& c : contacts_of(exported)) {
+    const std::string b = c.is_wall ? "" : cell(id_of(c.b));
+    const std::string wall = c.is_wall ? wall_name(exported.bed.box, c.b) : "";
+    text += csv_line({cell(id_of(c.a)), b, wall, class_name(exported, c.a),
+                      c.is_wall ? "" : class_name(exported, c.b), kind_name(c.place.constraints),
+                      cell(c.gap), joined(c.place.normal, ','), joined(c.place.point, ','),
+                      cell(c.force)});
+  }
+  return text;
+}
+
+std::string contacts_vtp(const ExportedBed& exported) {
+  const std::vector<Contact> contacts = contacts_of(exported);
+  std::string connectivity, offsets;
+  for (std::size_t k = 0; k < contacts.size(); ++k) {
+    connectivity += cell(2 * k) + " " + cell(2 * k + 1) + "\n";
+    offsets += cell(2 * k + 2) + "\n";
+  }
+  const auto end = [&](std::size_t k) {
+    const Contact& contact = contacts[k / 2];
+    return joined(k % 2 == 0 ? centre_of(exported, contact.a) : end_of(exported, contact), ' ');
+  };
+  return vtp_file("Lines", 2 * contacts.size(), contacts.size(),
+                  vtp_points(2 * contacts.size(), end) +
+                      vtp_element("CellData Scalars=\"force\"", arrays(exported, contacts)) +
+                      vtp_cells("Lines", connectivity, offsets));
+}
+
+}  // namespace grainsweep

@@ -1,0 +1,45 @@
+#include "runner/export/exported_bed.hpp"
+
+#include <algorithm>
+
+#include <Eigen/Geometry>
+
+namespace grainsweep {
+namespace {
+
+double top_of(const StoredBed& bed, std::size_t grain) {
+  if (!bed.turned) return bed.grains[grain].z + bed.grains[grain].radius;
+  double top = 0.0;
+  for (const Eigen::Vector3d& vertex : vertices_in_box(bed, grain)) top = std::max(top, vertex.z());
+  return top;
+}
+
+}  // namespace
+
+int size_class(const ExportedBed& exported, std::size_t grain) {
+  return exported.bed.grains[grain].radius < exported.small_limit ? 2 : 1;
+}
+
+const char* class_name(const ExportedBed& exported, std::size_t grain) {
+  return size_class(exported, grain) == 1 ? "large" : "small";
+}
+
+std::vector<Eigen::Vector3d> vertices_in_box(const StoredBed& bed, std::size_t grain) {
+  const SettledGrain& at = bed.grains[grain];
+  const auto& [qx, qy, qz, qw] = bed.turned->orientations[grain];
+  const Eigen::Quaterniond turn(qw, qx, qy, qz);
+  std::vector<Eigen::Vector3d> vertices;
+  for (const auto& [x, y, z] : bed.turned->mesh.vertices) {
+    const Eigen::Vector3d turned = turn * Eigen::Vector3d(x, y, z);
+    vertices.emplace_back(Eigen::Vector3d(at.x, at.y, at.z) + 2.0 * at.radius * turned);
+  }
+  return vertices;
+}
+
+double height_of(const StoredBed& bed) {
+  double height = 0.0;
+  for (std::size_t i = 0; i < bed.grains.size(); ++i) height = std::max(height, top_of(bed, i));
+  return height;
+}
+
+}  // namespace grainsweep

@@ -1,0 +1,34 @@
+// A stored bed with what else files tell of it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "runner/store/states.hpp"
+
+namespace grainsweep {
+
+struct ExportedBed {
+  StoredBed bed;
+  double small_limit = 0.0;  ///< grains of a smaller radius are small, d; 0 if there is one class
+  double gap_tolerance = 1e-4;  ///< grains with a smaller gap touch, d: the widest of the packing
+};
+
+/// What files call a grain: its number from 1.
+inline std::size_t id_of(std::size_t grain) { return grain + 1; }
+
+/// 1 of a large grain, 2 of a small one.
+int size_class(const ExportedBed& exported, std::size_t grain);
+
+/// "large" or "small".
+const char* class_name(const ExportedBed& exported, std::size_t grain);
+
+/// The vertices of a grain that is no sphere, in the frame of the box, d.
+std::vector<Eigen::Vector3d> vertices_in_box(const StoredBed& bed, std::size_t grain);
+
+/// z of the highest point of a grain, d; 0 of no grains.
+double height_of(const StoredBed& bed);
+
+}  // namespace grainsweep

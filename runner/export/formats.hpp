@@ -1,0 +1,24 @@
+// The formats that beds are exported in.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "runner/export/exported_bed.hpp"
+
+namespace grainsweep {
+
+struct ExportFormat {
+  std::string_view name;    ///< as of --format
+  std::string_view ending;  ///< of its files
+  std::string (*text)(const ExportedBed&);
+};
+
+/// All of them.
+const std::vector<ExportFormat>& export_formats();
+
+/// The one of that name, or null.
+const ExportFormat* export_format(std::string_view name);
+
+}  // namespace grainsweep

@@ -1,0 +1,42 @@
+#include <fstream>
+
+#include <catch2/catch.hpp>
+
+#include "runner/export/file_names.hpp"
+#include "tests/runner/temporary_folder.hpp"
+
+namespace grainsweep {
+namespace {
+
+Row row_of(const std::string& job, const std::string& label, const std::string& parameters,
+           int replicate) {
+  Row row;
+  row.job.id = job;
+  row.job.label = label;
+  row.job.parameters = parameters;
+  row.job.replicate = replicate;
+  return row;
+}
+
+std::vector<Row> four_rows() {
+  return {row_of("a", "x/y, z", "{1}", 1), row_of("b", "x/y, z", "{1}", 2),
+          row_of("c", "x_y_ z", "{1}", 1), row_of("d", "x/y, z", "{2}", 1)};
+}
+
+TEST_CASE("files are called by label, group and replicate, and no two alike") {
+  CHECK(file_stems(four_rows()) ==
+        std::vector<std::string>{"x_y__z-1-1", "x_y__z-1-2", "x_y__z-2-1", "x_y__z-3-1"});
+}
+
+TEST_CASE("the index lists the files that are there") {
+  const TemporaryFolder folder;
+  std::ofstream(folder.path() + "/x_y__z-1-2.xyz") << "0";
+  std::ofstream(folder.path() + "/x_y__z-3-1.csv") << "0";
+  CHECK(index_csv(folder.path(), four_rows(), {".csv", ".xyz"}) ==
+        "file,job,label,group,replicate\n"
+        "x_y__z-1-2.xyz,b,\"x/y, z\",1,2\n"
+        "x_y__z-3-1.csv,d,\"x/y, z\",3,1\n");
+}
+
+}  // namespace
+}  // namespace grainsweep
