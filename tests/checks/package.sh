@@ -18,6 +18,8 @@ version=$("$program" --version | cut -d' ' -f2)
 
 mkdir root && (cd root && mkdir -p usr/bin usr/sbin usr/lib usr/lib64 tmp proc && ln -s usr/{bin,sbin,lib,lib64} .)
 dpkg-deb -x "$deb" root
+(cd / && PYTHONPATH=$here/root/usr/lib/python3/dist-packages PYTHONDONTWRITEBYTECODE=1 \
+  /usr/bin/python3 -c "import grainsweep; assert grainsweep.__file__.startswith('$here')") || fail "no Python reader"
 grep -q "^version: $version\$" root/usr/share/doc/grainsweep/CITATION.cff || fail "CITATION.cff is of another version"
 zcat root/usr/share/doc/grainsweep/changelog.gz | grep -q "^## $version " || fail "CHANGELOG.md lacks $version"
 for command in run collect report; do

@@ -1,0 +1,166 @@
+"""Reads output folders of grainsweep: tables as pandas, beds as numpy.
+
+    import grainsweep
+    s = grainsweep.open("out/quick")
+    s.groups                    # a table of the folder as a pandas.DataFrame, read when first asked for
+    s.units("groups")["width"]  # "d"
+    s.meanings("groups")["solid_fraction"]
+    bed = s.bed(s.packings.job[0])
+    bed.positions, bed.radii    # numpy arrays, a row for each grain; lengths in d
+
+Beds are read from the folder itself; contacts are found by the program, which must be on the PATH or
+named by the environment variable GRAINSWEEP.
+"""
+
+import functools
+import io
+import json
+import os
+import pathlib
+import struct
+import subprocess
+import tempfile
+import zlib
+
+import numpy
+import pandas
+
+
+def open(folder):
+    """The output folder of a run. Raises FileNotFoundError if it has no tables."""
+    return Sweep(folder)
+
+
+def _table(source):
+    return pandas.read_csv(source, float_precision="round_trip")
+
+
+class Sweep:
+    """An output folder; its tables are its attributes."""
+
+    def __init__(self, folder):
+        self.folder = pathlib.Path(folder)
+        self._columns = _table(self.folder / "columns.csv").fillna("")
+
+    @property
+    def tables(self):
+        """Names of the tables: packings, groups, fits ..."""
+        names = self._columns["file"].str.removesuffix(".csv").unique()
+        return [name for name in names if (self.folder / f"{name}.csv").exists()]
+
+    def __dir__(self):
+        return [*super().__dir__(), *self.tables]
+
+    def __getattr__(self, name):
+        if name.startswith("_") or name not in self.tables:
+            raise AttributeError(f"{self.folder} has no table {name}, but {', '.join(self.tables)}")
+        table = _table(self.folder / f"{name}.csv")
+        table.attrs = {"units": self.units(name), "meanings": self.meanings(name)}
+        setattr(self, name, table)
+        return table
+
+    def _explained(self, table, by):
+        rows = self._columns[self._columns["file"] == f"{table}.csv"]
+        return dict(zip(rows["column"], rows[by]))
+
+    def units(self, table):
+        """Column -> unit, "" of a number or a word: d, m g."""
+        return self._explained(table, "unit")
+
+    def meanings(self, table):
+        """Column -> what it says."""
+        return self._explained(table, "meaning")
+
+    @functools.cached_property
+    def provenance(self):
+        """provenance.json: the sweep file and how its packings were made."""
+        return json.loads((self.folder / "provenance.json").read_text())
+
+    @functools.cached_property
+    def _places(self):
+        """Job -> file, first byte and number of bytes of its bed."""
+        places = {}
+        for journal in sorted(self.folder.glob("shards/*.jsonl")):
+            for line in journal.read_text().splitlines():
+                if '"stored_at":' not in line:
+                    continue
+                outcome = json.loads(line).get("outcome", {})
+                if outcome.get("stored_bytes"):
+                    place = outcome["stored_at"], outcome["stored_bytes"]
+                    places[outcome["job"]] = journal.with_suffix(".beds"), *place
+        return places
+
+    def bed(self, job):
+        """The bed of a packing, by its id: column job of packings. Raises KeyError if it has none."""
+        file, at, size = self._places[job]
+        with file.open("rb") as beds:
+            beds.seek(at)
+            return Bed(self.folder, job, beds.read(size))
+
+
+class _Bytes:
+    """What runner/store/archive.hpp writes, value after value."""
+
+    def __init__(self, stored):
+        self._bytes, self._at = stored, 0
+
+    def one(self, kind):
+        (value,) = struct.unpack_from("<" + kind, self._bytes, self._at)
+        self._at += struct.calcsize("<" + kind)
+        return value
+
+    def column(self, kind):
+        """Structs of one size, with their number before them."""
+        values = numpy.frombuffer(self._bytes, numpy.dtype(kind), self.one("Q"), self._at)
+        self._at += values.nbytes
+        return values
+
+
+_mark = b"GRAINS9\n"
+_grain = [("position", "<f8", 3), ("radius", "<f8"), ("force", "<f8"), ("coordination", "<i4")]
+
+
+class Bed:
+    """A bed at rest, in d and m g; row k of each array is grain k of the contacts.
+
+    positions, radii; forces, the sum of the contact forces on each grain; coordination, its touching
+    neighbours; box, a dict with length, width, periodic (along x, y) and tube. Of polyhedra also
+    orientations, quaternions x, y, z, w from the shape to the box, and vertices and faces of a grain
+    of size 1: a vertex lies at position + 2 radius times the turned vertex. None of spheres.
+    """
+
+    def __init__(self, folder, job, stored):
+        if not stored.startswith(_mark) or zlib.crc32(stored[:-4]) != _Bytes(stored[-4:]).one("I"):
+            raise ValueError(f"{folder}: the bed of {job} is damaged, or of another version")
+        self._folder, self.job = folder, job
+        data = _Bytes(stored[len(_mark) : -4])
+        data.column("S1"), data.one("Q")  # the job again, and the hash of the state
+        length, width, x, y, tube = (data.one(kind) for kind in "ddii?")
+        self.box = {"length": length, "width": width, "periodic": (x == 0, y == 0), "tube": tube}
+        for kind in ["V48"] * 4 + ["<f8"] * 2:  # curves, which the tables have
+            data.one("d"), data.column(kind)
+        grains = data.column(_grain)
+        self.positions, self.radii = grains["position"], grains["radius"]
+        self.forces, self.coordination = grains["force"], grains["coordination"]
+        self.vertices = self.faces = self.orientations = None
+        if data.one("?"):
+            self.vertices = data.column(("<f8", 3))
+            self.faces = [data.column("<i4") for _ in range(data.one("Q"))]
+            self.orientations = data.column(("<f8", 4))
+
+    @functools.cached_property
+    def contacts(self):
+        """Every contact, a row each: a and b, rows of the grains, b -1 of a wall, which wall names;
+        kind, gap, force, the unit normal (nx, ny, nz) from a to b and a point (x, y, z) of the contact.
+        Those with a gap below the widest gap tolerance of the packing, and all that bear a force.
+        """
+        program = os.environ.get("GRAINSWEEP", "grainsweep")
+        with tempfile.TemporaryDirectory() as to:
+            subprocess.run(
+                [program, "export", self._folder, "--job", self.job, "--format", "contacts", "--to", to],
+                check=True, stdout=subprocess.DEVNULL)
+            (file,) = pathlib.Path(to).glob("*.contacts.csv")
+            contacts = _table(io.StringIO(file.read_text()))
+        contacts["b"] = contacts["b"].fillna(0).astype(int) - 1  # ids begin with 1
+        contacts["a"] -= 1
+        return contacts.fillna({"wall": "", "size_class_b": ""})

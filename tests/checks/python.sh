@@ -1,0 +1,95 @@
+#!/usr/bin/env bash
+# The Python reader gives what the program measured: tables as the CSVs say, and beds whose solid
+# fraction, neighbours and forces, counted anew by numpy, are those of the tables. The example of its
+# manual draws.
+# usage: python.sh GRAINSWEEP
+set -euo pipefail
+GRAINSWEEP=$(realpath "${1:?usage: python.sh GRAINSWEEP}")
+root=$(realpath "$(dirname "$0")/../..")
+work=$(mktemp -d "${TMPDIR:-/tmp}/grainsweep-python.XXXXXX")
+trap 'rm -rf "$work"' EXIT
+cd "$work"
+export GRAINSWEEP PYTHONPATH=$root/runner/python PYTHONDONTWRITEBYTECODE=1 MPLCONFIGDIR=$work
+for module in pandas matplotlib; do
+  if ! /usr/bin/python3 -c "import $module" 2>/dev/null; then
+    printf 'SKIPPED: python3-%s is not installed\n' "$module"
+    exit 77
+  fi
+done
+
+cat >sweep.json <<'JSON'
+{ "name": "sweep", "seed": 5, "replicates": 2,
+  "base": { "accuracy": "fast", "box": { "length": 4 }, "fill": { "solid_height": 5 },
+            "measure": { "exclude_floor": 1, "exclude_surface": 1, "gap_tolerances": [1e-4, 1e-3] } },
+  "sweep": [ { "label": "walls", "grid": { "box.width": [3, 4, 5] } },
+             { "label": "two sizes", "set": { "box.width": 4, "sizes.small_share": 0.3 } },
+             { "label": "tube", "set": { "tube.diameter": 4 } },
+             { "label": "bulk", "set": { "box.width": 4, "box.y": "periodic" } },
+             { "label": "pinacoids", "set": { "box.width": 4, "shape": "pinacoid" } } ] }
+JSON
+"$GRAINSWEEP" run sweep.json --quiet --no-report --out out/quick || [ $? -eq 1 ]
+
+/usr/bin/python3 - <<'PYTHON'
+import csv
+import numpy
+import grainsweep
+
+s = grainsweep.open("out/quick")
+for name in s.tables:
+    rows = list(csv.DictReader(open(f"out/quick/{name}.csv")))
+    table = getattr(s, name)
+    assert len(table) == len(rows) and list(table) == list(rows[0]), name
+    assert list(s.units(name)) == list(table) == list(table.attrs["meanings"]), name
+    for column in table.select_dtypes("number"):
+        for read, row in zip(table[column], rows):
+            assert row[column] == "" and read != read or float(row[column]) == read, (name, column)
+assert set(s.tables) >= {"packings", "groups", "fits", "profiles"} and "groups" in dir(s)
+assert s.units("packings")["width"] == "d" and "solid" in s.meanings("groups")["solid_fraction"]
+
+def below(height, z, radius):
+    """Volume of a sphere below a height."""
+    h = numpy.clip(height - z + radius, 0, 2 * radius)
+    return numpy.pi * h * h * (radius - h / 3)
+
+for row in s.packings.itertuples():
+    bed, z = s.bed(row.job), s.bed(row.job).positions[:, 2]
+    assert len(bed.positions) == row.grains and (bed.box["tube"] == (row.label == "tube")), row.label
+    inside = (row.slab_bottom <= z) & (z < row.slab_top)
+    contacts = bed.contacts
+    grains, walls = contacts[contacts["b"] >= 0], contacts[contacts["b"] < 0]
+    for tolerance, column in (1e-4, "coordination"), (1e-3, "coordination_at_0.001"):
+        near = grains[grains["gap"] < tolerance]
+        ends = inside[near["a"]].sum() + inside[near["b"]].sum()
+        of_walls = inside[walls[walls["gap"] < tolerance]["a"]].sum()
+        with_walls = column.replace("coordination", "coordination_with_walls")
+        values = s.packings.loc[row.Index]
+        assert abs(ends / inside.sum() - values[column]) < 1e-12, (row.label, column)
+        assert abs((ends + of_walls) / inside.sum() - values[with_walls]) < 1e-12, (row.label, column)
+    near = grains[grains["gap"] < 1e-4]
+    counts = numpy.bincount(near["a"], minlength=len(z)) + numpy.bincount(near["b"], minlength=len(z))
+    assert (counts == bed.coordination).all(), row.label
+    forces = numpy.bincount(contacts["a"], contacts["force"], len(z))
+    forces += numpy.bincount(grains["b"], grains["force"], len(z))
+    assert numpy.abs(forces - bed.forces).max() < 1e-9, row.label
+    floor = numpy.pi / 4 * row.width**2 if bed.box["tube"] else row.length * row.width
+    if bed.orientations is None:
+        solid = (below(row.slab_top, z, bed.radii) - below(row.slab_bottom, z, bed.radii)).sum()
+        assert abs(solid / floor / (row.slab_top - row.slab_bottom) - row.solid_fraction) < 1e-12, row.label
+        normal = contacts[["nx", "ny", "nz"]].to_numpy()
+        onward = bed.positions[grains["a"]] + normal[: len(grains)] * (
+            bed.radii[grains["a"]] + bed.radii[grains["b"]] + grains["gap"].to_numpy())[:, None]
+        apart = onward - bed.positions[grains["b"]]
+        for axis, period in enumerate((bed.box["length"], bed.box["width"])):
+            if bed.box["periodic"][axis]:
+                apart[:, axis] -= period * numpy.round(apart[:, axis] / period)
+        assert numpy.abs(apart).max() < 1e-12, row.label
+    else:
+        assert numpy.allclose(numpy.linalg.norm(bed.orientations, axis=1), 1, atol=1e-12)
+        assert len(bed.vertices) == len(bed.faces) == 8 and set(contacts["kind"]) >= {"point", "area"}
+print(f"python: {len(s.packings)} beds counted anew, {len(s.tables)} tables")
+PYTHON
+
+sed -n '/^```python/,/^```/{//!p}' "$root/runner/python/README.md" >example.py
+(($(grep -c . example.py) <= 15)) || { printf 'the example has more than 15 lines\n' && exit 1; }
+MPLBACKEND=Agg /usr/bin/python3 example.py
+[ -s means.png ]
