@@ -5,6 +5,7 @@
 
 #include "runner/exit_codes.hpp"
 #include "runner/sweep/read_sweep.hpp"
+#include "runner/tables/growing_groups.hpp"
 #include "runner/text.hpp"
 #include "runner/versions.hpp"
 
@@ -14,7 +15,11 @@ namespace {
 
 SweepReading reading_or_refusal(const std::string& file) {
   SweepReading reading = read_sweep(file);
-  if (reading.errors.empty()) return reading;
+  if (reading.errors.empty()) {
+    const std::string wishes = unreachable_wishes(reading.sweep);
+    if (!wishes.empty()) throw BadInput(file + ": " + wishes + "nothing was run");
+    return reading;
+  }
   std::string text;
   for (const Diagnostic& diagnostic : reading.errors) text += to_string(diagnostic) + "\n";
   throw BadInput(text + counted(reading.errors.size(), "error") + "; nothing was run");

@@ -11,10 +11,10 @@
 #include "runner/exit_codes.hpp"
 #include "runner/jobs/estimates.hpp"
 #include "runner/jobs/schedule.hpp"
-#include "runner/jobs/split.hpp"
 #include "runner/machine.hpp"
 #include "runner/store/journal.hpp"
 #include "runner/tables/csv.hpp"
+#include "runner/tables/growing_groups.hpp"
 #include "runner/text.hpp"
 
 namespace grainsweep {
@@ -65,9 +65,9 @@ std::vector<Cost> costs_with(const std::string& folder, const std::vector<Job>& 
 }
 
 /// How evenly so many shards, which the uncorrected estimates divide, have the work.
-std::string shards_text(const std::vector<Job>& jobs, const std::vector<Cost>& costs, int shards) {
+std::string shards_text(const Sweep& sweep, const std::vector<Cost>& costs, int shards) {
   std::vector<double> seconds(static_cast<std::size_t>(shards));
-  const std::vector<int> shard_of = split(costs_of(jobs), shards);
+  const std::vector<int> shard_of = shards_of(sweep, shards);
   for (std::size_t i = 0; i < costs.size(); ++i) {
     seconds[static_cast<std::size_t>(shard_of[i] - 1)] += costs[i].cpu_seconds;
   }
@@ -75,6 +75,18 @@ std::string shards_text(const std::vector<Job>& jobs, const std::vector<Cost>& c
   const double mean = total_cpu_seconds(costs) / shards;
   return "In " + counted(seconds.size(), "shard") + ": about " + duration_text(mean) +
          " CPU each, the longest " + duration_text(longest) + "\n";
+}
+
+Outcomes made_in(const std::string& folder) {
+  return folder.empty() ? Outcomes() : read_journals(folder, Detail::whole).outcomes;
+}
+
+/// What a sweep takes at most whose groups grow.
+std::string growth_text(const Sweep& whole) {
+  const std::vector<Cost> costs = costs_of(whole.jobs);
+  return "Groups grow until their errors are as asked for: at most " +
+         counted(costs.size(), "packing") + ", " + duration_text(total_cpu_seconds(costs)) +
+         " CPU; with --out the packings made so far tell how many come next\n";
 }
 
 /// Whether one machine makes it in a night.
@@ -195,7 +207,8 @@ CLI::App& add_command(CLI::App& app, PlanOptions& options) {
 }
 
 int perform(const PlanOptions& options) {
-  const Sweep sweep = sweep_with_notes(options.file);
+  const Sweep whole = sweep_with_notes(options.file);
+  const Sweep sweep = grows(whole) ? called_for(whole, made_in(options.out)) : whole;
   const int threads = options.threads > 0 ? options.threads : usable_cores();
   const std::vector<Cost> costs = costs_with(options.out, sweep.jobs);
   const Needs needs = needs_of(costs, threads);
@@ -204,7 +217,8 @@ int perform(const PlanOptions& options) {
     print_json(sweep, costs, needs, threads);
   } else {
     print_text(sweep, costs, needs, threads);
-    if (options.shards > 0) std::cout << shards_text(sweep.jobs, costs, options.shards);
+    if (grows(whole)) std::cout << growth_text(whole);
+    if (options.shards > 0) std::cout << shards_text(sweep, costs, options.shards);
   }
   return exit_done;
 }

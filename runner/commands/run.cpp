@@ -1,6 +1,7 @@
 // The command `run`: sweep, what is missing of it, packings, tables, report, exit code.
 #include <cstdio>
 #include <cstdlib>
+#include <functional>
 #include <iostream>
 #include <optional>
 #include <set>
@@ -21,7 +22,6 @@
 #include "runner/instruction_set.hpp"
 #include "runner/jobs/estimates.hpp"
 #include "runner/jobs/pack_pending.hpp"
-#include "runner/jobs/split.hpp"
 #include "runner/jobs/stop.hpp"
 #include "runner/machine.hpp"
 #include "runner/store/checkpoints.hpp"
@@ -29,6 +29,7 @@
 #include "runner/store/journal.hpp"
 #include "runner/store/shard_files.hpp"
 #include "runner/tables/closing_report.hpp"
+#include "runner/tables/growing_groups.hpp"
 #include "runner/text.hpp"
 #include "runner/versions.hpp"
 
@@ -54,15 +55,54 @@ void confirm_fresh(const RunOptions& options, const std::string& folder, const S
   if (answer != "y" && answer != "yes") throw BadInput("nothing was deleted, nothing was run");
 }
 
-/// The jobs of a shard, by their places in the sweep.
-std::vector<std::size_t> places_in(const Shard& shard, const Sweep& sweep) {
-  const std::vector<int> shard_of = split(costs_of(sweep.jobs), shard.count);
-  std::vector<std::size_t> places;
+/// The jobs of a shard.
+std::set<std::string> jobs_of(const Shard& shard, const Sweep& whole) {
+  const std::vector<int> shard_of = shards_of(whole, shard.count);
+  std::set<std::string> jobs;
   for (std::size_t i = 0; i < shard_of.size(); ++i) {
-    if (shard_of[i] == shard.number) places.push_back(i);
+    if (shard_of[i] == shard.number) jobs.insert(whole.jobs[i].id);
+  }
+  return jobs;
+}
+
+/// Those of `jobs` that a sweep has, by their places in it.
+std::vector<std::size_t> places_of(const std::set<std::string>& jobs, const Sweep& sweep) {
+  std::vector<std::size_t> places;
+  for (std::size_t i = 0; i < sweep.jobs.size(); ++i) {
+    if (jobs.contains(sweep.jobs[i].id)) places.push_back(i);
   }
   return places;
 }
+
+/// A sweep as far as the packings in the folder call for its jobs.
+class GrowingSweep {
+ public:
+  GrowingSweep(const Sweep& whole, std::string folder)
+      : whole_(whole), folder_(std::move(folder)), grows_(grows(whole)) {
+    grow();
+  }
+
+  const Sweep& now() const { return grows_ ? called_ : whole_; }
+
+  /// Looks at the folder again; whether more is called for.
+  bool grow() {
+    if (!grows_) return false;
+    const std::size_t before = called_.jobs.size();
+    called_ = called_for(whole_, read_journals(folder_, Detail::whole).outcomes);
+    return called_.jobs.size() > before;
+  }
+
+  /// Which errors are as asked for.
+  std::string wishes() const {
+    return grows_ ? wishes_text(whole_, read_journals(folder_, Detail::whole).outcomes) : "";
+  }
+
+ private:
+  const Sweep& whole_;
+  std::string folder_;
+  bool grows_;
+  Sweep called_;  ///< empty if it does not grow
+};
 
 /// A packing that ended in an exception is always tried again.
 bool is_to_be_made(const Outcome& outcome, bool retry_failed) {
@@ -166,6 +206,21 @@ Packed pack(RunningSweep& running, const RunOptions& options, Isa isa, const Run
   return pack_pending(
       running, {limits, isa, options.quiet ? ProgressStyle::quiet : progress_style(),
                 options.checkpoint_seconds, options.fail_fast, time_limit, options.no_grains});
+}
+
+struct Made {
+  Packed packed;
+  bool is_whole = false;  ///< whether all that was called for was made
+};
+
+/// Makes what is called for, and what the results of that call for, and so on.
+Made make_all(GrowingSweep& growing, const std::function<Made(const Sweep&)>& make) {
+  Made all = make(growing.now());
+  while (all.is_whole && growing.grow()) {
+    const Made more = make(growing.now());
+    all = {{all.packed.packings + more.packed.packings, more.packed.first_failure}, more.is_whole};
+  }
+  return all;
 }
 
 /// What is stored of the sweep, by all shards.
@@ -322,10 +377,10 @@ CLI::App& add_command(CLI::App& app, RunOptions& options) {
 }
 
 int perform(const RunOptions& options) {
-  const Sweep sweep = sweep_or_refusal(options.file);
+  const Sweep whole = sweep_or_refusal(options.file);
   const Isa isa = choose_isa(options.isa);
   const Shard shard = shard_from_option(options.shard, std::getenv);
-  const std::string folder = options.out.empty() ? "out/" + sweep.name : options.out;
+  const std::string folder = options.out.empty() ? "out/" + whole.name : options.out;
   confirm_fresh(options, folder, shard);
   make_folder(folder);
   const TimeLimit time_limit = time_limit_of(options);
@@ -337,12 +392,17 @@ int perform(const RunOptions& options) {
   if (options.fresh) files.remove_all(run), remove_tables(folder);
   watch_stop_signals();
 
-  const Provenance provenance = provenance_of(options, sweep);
-  record_sweep(folder, provenance, rows_of(sweep));
-  const std::vector<std::size_t> places = places_in(shard, sweep);
-  RunningSweep running = resume(sweep, places, shard, folder, files, options.retry_failed);
-  const Packed packed = pack(running, options, isa, run, time_limit);
-  const bool is_whole = static_cast<std::size_t>(packed.packings) == running.pending.size();
+  const Provenance provenance = provenance_of(options, whole);
+  const std::set<std::string> jobs = jobs_of(shard, whole);
+  GrowingSweep growing(whole, folder);
+  bool retries = options.retry_failed;  // once
+  const auto [packed, is_whole] = make_all(growing, [&](const Sweep& sweep) {
+    record_sweep(folder, provenance, rows_of(sweep));
+    RunningSweep running =
+        resume(sweep, places_of(jobs, sweep), shard, folder, files, std::exchange(retries, false));
+    const Packed made = pack(running, options, isa, run, time_limit);
+    return Made{made, static_cast<std::size_t>(made.packings) == running.pending.size()};
+  });
   run.packings = packed.packings;
   run.wall_seconds = wall_seconds() - start;
   run.ended = utc_now();
@@ -351,20 +411,22 @@ int perform(const RunOptions& options) {
 
   bool has_all = shard.count == 1;
   Results results =
-      stored_results(sweep, provenance, folder, has_all ? Detail::whole : Detail::summary);
+      stored_results(growing.now(), provenance, folder, has_all ? Detail::whole : Detail::summary);
   if (!has_all && totals_of(results.rows).counts.pending == 0) {
     has_all = true;
-    results = stored_results(sweep, provenance, folder, Detail::whole);
+    results = stored_results(growing.now(), provenance, folder, Detail::whole);
   }
   if (has_all) {
     // Of several shards that find everything made at once, the first one.
     std::optional<FileLock> place;
     if (shard.count > 1) place.emplace(tables_lock(folder));
     if (!place || !place->is_taken()) write_results(results, options, folder, is_whole);
+    if (is_whole && !options.quiet) std::cout << growing.wishes();
     if (options.no_report && packed.packings > 0) tell_of_old_page(folder);
   } else if (is_whole && !options.quiet) {
     tell_of_others(results.rows, shard, folder, options);
   }
+  const std::vector<std::size_t> places = places_of(jobs, growing.now());
   const StatusCounts counts = counts_of(results.rows, places);
   return is_whole ? exit_code_for(counts, options, folder)
                   : stopped(packed, options, folder, counts, places.size());

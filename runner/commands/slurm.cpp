@@ -13,6 +13,7 @@
 #include "runner/jobs/schedule.hpp"
 #include "runner/machine.hpp"
 #include "runner/store/files.hpp"
+#include "runner/tables/growing_groups.hpp"
 #include "runner/text.hpp"
 
 namespace grainsweep {
@@ -115,7 +116,7 @@ CLI::App& add_command(CLI::App& app, SlurmOptions& options) {
 }
 
 int perform(const SlurmOptions& options) {
-  const Sweep sweep = sweep_with_notes(options.file);
+  const Sweep sweep = called_for(sweep_with_notes(options.file), {});
   const std::string folder = options.out.empty() ? "out/" + sweep.name : options.out;
   const std::vector<Cost> costs = costs_of(sweep.jobs);
   const Partition partition = ask_for_partition(options.partition);

@@ -10,6 +10,7 @@
 #include "runner/commands/inputs.hpp"
 #include "runner/commands/shared_options.hpp"
 #include "runner/exit_codes.hpp"
+#include "runner/tables/growing_groups.hpp"
 #include "runner/tables/units.hpp"
 #include "runner/text.hpp"
 
@@ -33,8 +34,9 @@ CLI::App& add_command(CLI::App& app, ValidateOptions& options) {
 }
 
 int perform(const ValidateOptions& options) {
-  const Sweep sweep = sweep_with_notes(options.file);
-  std::cout << options.file << ": right: " << counted(sweep.jobs.size(), "packing") << ", "
+  const Sweep sweep = called_for(sweep_with_notes(options.file), {});
+  std::cout << options.file << ": right: " << (grows(sweep) ? "at least " : "")
+            << counted(sweep.jobs.size(), "packing") << ", "
             << counted(count_parameter_sets(sweep), "parameter set")
             << (sweep.units ? ", " + units_text(*sweep.units) : "") << "\n";
   return exit_done;

@@ -129,6 +129,7 @@ class Expansion {
     if (!resolved.hull_file.empty())
       job.files["shape.hull.vertices"] = name_in_tables(resolved.hull_file);
     if (!resolved.fill_file.empty()) job.files["fill.file"] = name_in_tables(resolved.fill_file);
+    job.wish = block.wish;
     const bool is_listed = !resolved.fill_files.empty();
     const int replicates = is_listed ? static_cast<int>(starts.size()) : block.replicates;
     for (; job.replicate <= replicates; ++job.replicate) {

@@ -11,6 +11,15 @@
 
 namespace grainsweep {
 
+/// Largest error of the means of a group that is asked for: half of the 95 % interval, with the
+/// bound of the bias of settling where one was measured. 0: none is asked for.
+struct ErrorWish {
+  double solid_fraction = 0.0;
+  double coordination = 0.0;
+
+  bool is_given() const { return solid_fraction > 0.0 || coordination > 0.0; }
+};
+
 /// One packing to make.
 struct Job {
   std::string id;          ///< 16 hex digits: hash of `parameters`, master seed and replicate
@@ -21,6 +30,7 @@ struct Job {
   PackingSpec spec;        ///< random_key: of scene, master seed and replicate
   /// Files it was read from, as written, by the parameter that each gave: "fill.file".
   std::map<std::string, std::string> files = {};
+  ErrorWish wish = {};  ///< of its group, which grows until it is met; not part of its identity
 };
 
 struct Sweep {

@@ -219,8 +219,20 @@ Json random_schema() {
 }
 
 Json replicates() {
+  const auto error_of = [](const char* what) {
+    return described(what, {{"type", "number"}, {"exclusiveMinimum", 0}, {"maximum", 1}});
+  };
+  Json until = closed_object({{"solid_fraction", error_of("largest error of its mean")},
+                              {"coordination", error_of("largest error of its mean")}});
+  until["minProperties"] = 1;
+  Json growing = closed_object(
+      {{"until", described("packings are added until the means are known so well: half of the 95 % "
+                           "interval, with what the way of settling may do to them",
+                           std::move(until))},
+       {"most", described("the most packings of a point", whole_number(2, most_replicates))}});
+  growing["required"] = {"until"};
   return described("packings of each point, with other random numbers",
-                   whole_number(1, most_replicates));
+                   {{"anyOf", {whole_number(1, most_replicates), std::move(growing)}}});
 }
 
 Json block_schema() {

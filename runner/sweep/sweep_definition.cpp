@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "engine/interval.hpp"
 #include "runner/sweep/random_paths.hpp"
 #include "runner/sweep/read_units.hpp"
 #include "runner/sweep/shape_kind.hpp"
@@ -26,16 +27,62 @@ bool is_object(const Json& value, const std::string& pointer, const char* what,
   return false;
 }
 
-int read_replicates(const Json& object, const std::string& pointer, int otherwise,
-                    Diagnostics& diagnostics) {
+/// How many packings of a point are made.
+struct Replicates {
+  int most = 1;
+  ErrorWish wish;
+};
+
+/// `key` of the wishes, 0 if it is not there.
+double read_wish(const Json& until, const char* key, const std::string& pointer,
+                 Diagnostics& diagnostics) {
+  constexpr Interval errors{0.0, 1.0, true};
+  const auto found = until.find(key);
+  if (found == until.end()) return 0.0;
+  if (found->is_number() && errors.holds(found->get<double>())) return found->get<double>();
+  diagnostics.push_back(
+      {child_pointer(pointer, key),
+       "must be the largest error to live with, in " + errors.text() + ", is " + describe(*found)});
+  return errors.high;
+}
+
+Replicates read_growing(const Json& value, const std::string& pointer, Diagnostics& diagnostics) {
+  Replicates replicates{usual_most_replicates, {}};
+  refuse_unknown_keys(value, pointer, {"until", "most"}, diagnostics);
+  const std::string until_pointer = child_pointer(pointer, "until");
+  const auto until = value.find("until");
+  if (until == value.end() || !until->is_object() || until->empty()) {
+    diagnostics.push_back(
+        {until == value.end() ? pointer : until_pointer,
+         R"(must say which error is small enough, e.g. "until": { "solid_fraction": 0.001 })"});
+  } else {
+    refuse_unknown_keys(*until, until_pointer, {"solid_fraction", "coordination"}, diagnostics);
+    replicates.wish = {read_wish(*until, "solid_fraction", until_pointer, diagnostics),
+                       read_wish(*until, "coordination", until_pointer, diagnostics)};
+  }
+  const auto most = value.find("most");
+  if (most == value.end()) return replicates;
+  if (const auto count = whole_number_in(*most, 2, most_replicates)) {
+    replicates.most = static_cast<int>(*count);
+  } else {
+    diagnostics.push_back({child_pointer(pointer, "most"), "must be a whole number in [2, " +
+                                                               std::to_string(most_replicates) +
+                                                               "], is " + describe(*most)});
+  }
+  return replicates;
+}
+
+Replicates read_replicates(const Json& object, const std::string& pointer,
+                           const Replicates& otherwise, Diagnostics& diagnostics) {
   const auto found = object.find("replicates");
   if (found == object.end()) return otherwise;
+  const std::string place = child_pointer(pointer, "replicates");
+  if (found->is_object()) return read_growing(*found, place, diagnostics);
   if (const auto count = whole_number_in(*found, 1, most_replicates)) {
-    return static_cast<int>(*count);
+    return {static_cast<int>(*count), {}};
   }
-  diagnostics.push_back({child_pointer(pointer, "replicates"), "must be a whole number in [1, " +
-                                                                   std::to_string(most_replicates) +
-                                                                   "], is " + describe(*found)});
+  diagnostics.push_back({place, "must be a whole number in [1, " + std::to_string(most_replicates) +
+                                    "], is " + describe(*found)});
   return otherwise;
 }
 
@@ -276,7 +323,8 @@ class BlockReader {
   std::vector<Varied> varied_;
 };
 
-Block read_block(const Json& json, std::size_t index, int replicates, Diagnostics& diagnostics) {
+Block read_block(const Json& json, std::size_t index, const SweepDefinition& definition,
+                 Diagnostics& diagnostics) {
   Block block;
   block.pointer = "/sweep/" + std::to_string(index);
   block.label = "block " + std::to_string(index + 1);
@@ -287,7 +335,10 @@ Block read_block(const Json& json, std::size_t index, int replicates, Diagnostic
   refuse_unknown_keys(json, block.pointer, {"label", "set", "grid", "zip", "random", "replicates"},
                       diagnostics);
   block.label = read_label(json, block.pointer, index + 1, diagnostics);
-  block.replicates = read_replicates(json, block.pointer, replicates, diagnostics);
+  const auto [most, wish] =
+      read_replicates(json, block.pointer, {definition.replicates, definition.wish}, diagnostics);
+  block.replicates = most;
+  block.wish = wish;
   BlockReader(json, block, diagnostics).read();
   return block;
 }
@@ -298,13 +349,14 @@ void read_sweep_list(const Json& file, SweepDefinition& definition, Diagnostics&
     definition.blocks.emplace_back();
     definition.blocks.back().label = definition.name;
     definition.blocks.back().replicates = definition.replicates;
+    definition.blocks.back().wish = definition.wish;
   } else if (!sweep->is_array()) {
     diagnostics.push_back({"/sweep", "must be a list of blocks, is " + describe(*sweep)});
   } else if (sweep->empty()) {
     diagnostics.push_back({"/sweep", "holds no block; leave it out to pack \"base\" alone"});
   } else {
     for (std::size_t i = 0; i < sweep->size(); ++i) {
-      definition.blocks.push_back(read_block((*sweep)[i], i, definition.replicates, diagnostics));
+      definition.blocks.push_back(read_block((*sweep)[i], i, definition, diagnostics));
     }
   }
 }
@@ -339,7 +391,9 @@ SweepDefinition read_definition(const Json& file, Diagnostics& diagnostics) {
   expect_schema_name(file, diagnostics);
   definition.name = read_name(file, diagnostics);
   definition.seed = read_seed(file, diagnostics);
-  definition.replicates = read_replicates(file, "", 1, diagnostics);
+  const auto [most, wish] = read_replicates(file, "", {}, diagnostics);
+  definition.replicates = most;
+  definition.wish = wish;
   definition.units = read_units(file, diagnostics);
   definition.base = read_base(file, diagnostics);
   read_sweep_list(file, definition, diagnostics);

@@ -7,6 +7,7 @@
 
 #include "runner/sweep/assignments.hpp"
 #include "runner/sweep/diagnostic.hpp"
+#include "runner/sweep/job.hpp"
 #include "runner/sweep/json_text.hpp"
 #include "runner/sweep/random_points.hpp"
 #include "runner/sweep/units.hpp"
@@ -16,6 +17,7 @@ namespace grainsweep {
 /// Most jobs of one sweep; a job takes about 1.5 kB while a sweep runs.
 inline constexpr std::uint64_t most_jobs = 1'000'000;
 inline constexpr int most_replicates = 10'000;
+inline constexpr int usual_most_replicates = 200;  ///< of points that grow
 
 /// One list that a block runs through: a path of its grid, or its whole zip.
 struct Axis {
@@ -26,8 +28,9 @@ struct Axis {
 /// A block of the sweep: the product of its axes and its random points.
 struct Block {
   std::string label;
-  std::string pointer;  ///< "/sweep/0", "" for a sweep of `base` alone
-  int replicates = 1;
+  std::string pointer;             ///< "/sweep/0", "" for a sweep of `base` alone
+  int replicates = 1;              ///< of each point; the most, if there is a wish
+  ErrorWish wish = {};             ///< makes points grow until it is met
   Assignments set;                 ///< over `base`, under the axes
   std::vector<Axis> axes;          ///< the first one changes slowest
   std::vector<RandomPath> random;  ///< drawn together
@@ -38,6 +41,7 @@ struct SweepDefinition {
   std::string name;
   std::uint64_t seed = 0;
   int replicates = 1;
+  ErrorWish wish = {};
   GivenUnits units;
   Assignments base;
   std::vector<Block> blocks;

@@ -1,0 +1,49 @@
+// Groups that grow: packings are added until the error of a group's means is as small as wished.
+//
+// How many replicates a group has follows from the results of the first so many alone: it is the
+// same for any number of threads and shards, and after a kill.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "engine/dynamics/presets.hpp"
+#include "runner/store/outcome.hpp"
+#include "runner/sweep/job.hpp"
+
+namespace grainsweep {
+
+using Outcomes = std::unordered_map<std::string, Outcome>;  ///< by the id of the job
+
+/// Every group has so many packings before its scatter counts.
+inline constexpr int first_replicates = 6;
+
+/// Half of the 95 % interval (Student) of the mean of n values with this standard deviation;
+/// infinite for less than two values.
+double half_interval(double sd, int n);
+
+/// How many replicates a group has to have, by what came of those made, in their order; nullptr
+/// stands for one that is not made yet. `bound` is the bias of settling that its wish includes.
+int replicates_called_for(const std::vector<const Outcome*>& made, const ErrorWish& wish,
+                          const std::optional<ProtocolBias>& bound);
+
+/// Whether a group of the sweep may grow.
+bool grows(const Sweep& sweep);
+
+/// The sweep without the replicates that these outcomes do not call for; `whole` has the most of
+/// every group.
+Sweep called_for(Sweep whole, const Outcomes& outcomes);
+
+/// The shard of every job, a growing group in one of them; as `split` but for that.
+std::vector<int> shards_of(const Sweep& whole, int shards);
+
+/// A line for each wish that no number of packings can meet, as the way of settling may do more to
+/// the means.
+std::string unreachable_wishes(const Sweep& whole);
+
+/// Which of the wishes were met, for the end of a run; empty if there are none.
+std::string wishes_text(const Sweep& whole, const Outcomes& outcomes);
+
+}  // namespace grainsweep

@@ -1,0 +1,45 @@
+# A sweep whose groups grow until their errors are as asked for has the same tables for any number of
+# threads and shards, and after a kill.
+source "$(dirname "$0")/common.sh" "$1"
+
+cat >sweep.json <<'JSON'
+{ "name": "growing", "seed": 5, "replicates": { "until": { "solid_fraction": 0.009 }, "most": 30 },
+  "base": { "box": { "length": 5 }, "fill": { "grains": 90 }, "accuracy": "fast",
+            "measure": { "exclude_floor": 1, "exclude_surface": 1 } },
+  "sweep": [ { "label": "grows", "grid": { "box.width": [3, 4] } },
+             { "label": "does not", "replicates": 2, "set": { "box.width": 5 } } ] }
+JSON
+"$program" validate sweep.json | grep -q 'at least 14 packings'
+"$program" plan sweep.json | grep -q 'at most 62 packings'
+
+# same FOLDER: it has the tables of one run on one thread.
+same() {
+  local table
+  cmp <(values_of one) <(values_of "$1") || fail "$1: other values"
+  for table in one/*.csv; do
+    table=${table#one/}
+    [ "$table" = packings.csv ] || cmp "one/$table" "$1/$table" || fail "$1: other $table"
+  done
+}
+expect_code 0 "$program" run sweep.json --out one --threads 1 --no-report
+expect_text out.txt "Errors as asked for (95 %) in 2 of 2 groups"
+packings=$(($(wc -l <one/packings.csv) - 1))
+((packings > 14 && packings < 62)) || fail "$packings packings: some groups grow, none to the most"
+expect_code 0 "$program" run sweep.json --out two --threads 2 --no-report --quiet
+same two
+
+for shard in 3 1 2; do
+  "$program" run sweep.json --out shards --shard $shard/3 --no-report >said.txt 2>&1
+done
+same shards
+
+start "$program" run sweep.json --out killed --threads 1 --no-report
+wait_until has_packings killed 8 || fail "there was nothing to kill: $(cat said.txt)"
+end_runner KILL
+expect_code 0 "$program" run sweep.json --out killed --threads 1 --no-report --quiet
+same killed
+
+# What no number of packings can meet.
+sed 's/0.009/0.001/' sweep.json >vain.json
+expect_code 2 "$program" run vain.json --out vain
+expect_text error.txt 'settled as "fast" such packings may be off by 0.003'
