@@ -168,6 +168,7 @@ std::vector<WallForce> wall_forces(const Grains& bed, const std::vector<ForceCon
     sums[{c.a, std::min(c.b - bed.wall_name(0), last_wall)}] += c.force;
   }
   std::vector<WallForce> forces;
+  forces.reserve(sums.size());
   for (const auto& [where, force] : sums) forces.push_back({where.first, where.second, force});
   return forces;
 }

@@ -108,7 +108,7 @@ Vector end_of(const ExportedBed& exported, const Contact& contact) {
 }
 
 /// The arrays of the lines.
-std::string arrays(const ExportedBed& exported, const std::vector<Contact>& contacts) {
+std::string contact_arrays(const ExportedBed& exported, const std::vector<Contact>& contacts) {
   const auto of_contact = [&](const std::string& attributes, const auto& value) {
     return vtp_array(attributes, contacts.size(),
                      [&](std::size_t k) { return value(contacts[k]); });
@@ -172,10 +172,11 @@ std::string contacts_vtp(const ExportedBed& exported) {
     const Contact& contact = contacts[k / 2];
     return joined(k % 2 == 0 ? centre_of(exported, contact.a) : end_of(exported, contact), ' ');
   };
-  return vtp_file("Lines", 2 * contacts.size(), contacts.size(),
-                  vtp_points(2 * contacts.size(), end) +
-                      vtp_element("CellData Scalars=\"force\"", arrays(exported, contacts)) +
-                      vtp_cells("Lines", connectivity, offsets));
+  return vtp_file(
+      "Lines", 2 * contacts.size(), contacts.size(),
+      vtp_points(2 * contacts.size(), end) +
+          vtp_element("CellData Scalars=\"force\"", contact_arrays(exported, contacts)) +
+          vtp_cells("Lines", connectivity, offsets));
 }
 
 }  // namespace grainsweep

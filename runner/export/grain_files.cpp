@@ -29,7 +29,7 @@ std::string orientation(const StoredBed& bed, std::size_t grain, char separator)
 }
 
 /// The arrays that points and faces have, of `size` of them; k belongs to grain k / each.
-std::string arrays(const ExportedBed& exported, std::size_t each) {
+std::string grain_arrays(const ExportedBed& exported, std::size_t each) {
   const auto of_grain = [&](const char* attributes, const auto& value) {
     const auto values = [&](std::size_t k) { return cell(value(k / each)); };
     return vtp_array(attributes, exported.bed.grains.size() * each, values);
@@ -59,7 +59,7 @@ std::string spheres_vtp(const ExportedBed& exported) {
       vtp_points(grains.size(), [&](std::size_t k) { return position(grains[k]); }) +
           vtp_element("PointData Scalars=\"radius\"",
                       vtp_array("type=\"Float64\" Name=\"radius\"", grains.size(), radius) +
-                          arrays(exported, 1)) +
+                          grain_arrays(exported, 1)) +
           vtp_cells("Verts", connectivity, offsets));
 }
 
@@ -99,7 +99,7 @@ std::string polygons_vtp(const ExportedBed& exported) {
                   vtp_points(points.size(), point) +
                       vtp_element("CellData Scalars=\"size\"",
                                   vtp_array("type=\"Float64\" Name=\"size\"", cells, size) +
-                                      arrays(exported, faces)) +
+                                      grain_arrays(exported, faces)) +
                       faces_vtp(bed, mesh));
 }
 
