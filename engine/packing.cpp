@@ -11,6 +11,7 @@
 #include "engine/measure/order.hpp"
 #include "engine/measure/profile.hpp"
 #include "engine/measure/shape_order.hpp"
+#include "engine/measure/size_rows.hpp"
 #include "engine/measure/solid_fraction.hpp"
 #include "engine/measure/touching.hpp"
 #include "engine/scene/sizes.hpp"
@@ -158,6 +159,11 @@ void measure(const PackingSpec& spec, const SettleReport& settled, const Kernels
   packing.wall_forces = settled.wall_forces;
   result.surface_height = surface_height(bed);
   const std::optional<Slab> slab = slab_of(spec.measure, result);
+  const bool are_drawn =
+      spec.sizes.distribution && !std::holds_alternative<PlacedGrains>(spec.fill);
+  if (slab && are_drawn) {
+    result.sizes = size_rows(bed, curve_of(*spec.sizes.distribution), *slab);
+  }
   if (slab) {
     result.solid_fraction = solid_fraction(bed, *slab);
     measure_neighbours(spec, near, settled, *slab, bed, result);

@@ -95,6 +95,15 @@ struct Curve {
   std::vector<double> values;
 };
 
+/// Shares of the grains that are no larger than a diameter, by what the distribution of their sizes
+/// counts.
+struct SizeRow {
+  double diameter = 0.0;  ///< d
+  double asked = 0.0;     ///< of the distribution
+  double packed = 0.0;    ///< of all grains of the bed
+  double slab = 0.0;      ///< of those whose centre lies in the measured slab
+};
+
 /// Order, forces and sizes in the measured slab. A number that the slab does not give is NaN.
 struct Order {
   double q6_global = 0.0;            ///< bond order of all bonds together: 0 if they point anywhere
@@ -132,6 +141,7 @@ struct PackingResult {
   std::vector<Coordination> coordination;  ///< one entry per gap tolerance of the spec
   double mean_diameter = 0.0;              ///< of all grains, d
   double mean_diameter_by_volume = 0.0;    ///< the same, each grain weighted by its volume, d
+  std::vector<SizeRow> sizes;              ///< from fine to coarse; empty without a distribution
   Profile profile_x;                       ///< from wall to wall, in the slab; empty without walls
   Profile profile_y;                       ///< the same along y, from wall to wall or around
   Profile profile_from_walls;              ///< from the nearest wall inwards; empty but in ducts

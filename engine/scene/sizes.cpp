@@ -61,13 +61,22 @@ void add_small_volume(const PackingSpec& spec, double wanted, std::vector<double
   }
 }
 
+std::vector<double> drawn_radii(const SizeCurve& curve, std::int64_t count, std::uint64_t key) {
+  std::vector<double> radii = draw_diameters(curve, count, key);
+  for (double& radius : radii) radius /= 2.0;
+  return radii;
+}
+
 }  // namespace
 
 ClassCounts class_counts(const PackingSpec& spec) {
+  const auto& distribution = spec.sizes.distribution;
   if (const auto* fill = std::get_if<SolidHeight>(&spec.fill)) {
-    const double volume = fill->height * spec.box.floor_area();
-    return counts_for_volume(volume / extent_of(spec.shape).volume, spec.sizes);
+    const double volume = fill->height * spec.box.floor_area() / extent_of(spec.shape).volume;
+    if (distribution) return {rounded(volume / mean_cube(curve_of(*distribution))), 0};
+    return counts_for_volume(volume, spec.sizes);
   }
+  if (distribution) return {std::get<GrainCount>(spec.fill).count, 0};
   return counts_for_grains(std::get<GrainCount>(spec.fill).count, spec.sizes);
 }
 
@@ -75,14 +84,19 @@ double solid_height(const PackingSpec& spec) {
   if (const auto* fill = std::get_if<SolidHeight>(&spec.fill)) return fill->height;
   const ClassCounts counts = class_counts(spec);
   const SizesSpec& sizes = spec.sizes;
+  const double large = sizes.distribution ? mean_cube(curve_of(*sizes.distribution))
+                                          : expected_volume(1.0, sizes.spread);
   const double grains =
-      static_cast<double>(counts.large) * expected_volume(1.0, sizes.spread) +
+      static_cast<double>(counts.large) * large +
       static_cast<double>(counts.small) * expected_volume(sizes.size_ratio, sizes.spread);
   return grains * extent_of(spec.shape).volume / spec.box.floor_area();
 }
 
 std::vector<double> draw_radii(const PackingSpec& spec) {
   const ClassCounts counts = class_counts(spec);
+  if (spec.sizes.distribution) {
+    return drawn_radii(curve_of(*spec.sizes.distribution), counts.large, spec.random_key);
+  }
   std::vector<double> radii;
   double large_volume = 0.0;
   for (std::int64_t i = 0; i < counts.large; ++i) {
@@ -102,7 +116,7 @@ std::vector<double> draw_radii(const PackingSpec& spec) {
 }
 
 double small_class_limit(const SizesSpec& sizes) {
-  if (sizes.small_share <= 0.0) {
+  if (sizes.small_share <= 0.0 || sizes.distribution) {
     return 0.0;
   }
   return sizes.small_share < 1.0 ? sizes.size_ratio / (1.0 + sizes.size_ratio)

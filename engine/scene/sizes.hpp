@@ -1,4 +1,4 @@
-// Grain sizes: one or two Gaussian classes, cut at four standard deviations.
+// Grain sizes: one or two Gaussian classes, cut at four standard deviations, or a distribution.
 #pragma once
 
 #include <cstdint>
@@ -18,20 +18,20 @@ struct ClassCounts {
   std::int64_t small = 0;
 };
 
-/// How many grains of each class the fill asks for, by the expected volume of a grain. Not for
-/// placed grains, which bring their own sizes.
+/// How many grains of each class the fill asks for, by the expected volume of a grain; those of a
+/// distribution are all of the large class. Not for placed grains, which bring their own sizes.
 ClassCounts class_counts(const PackingSpec& spec);
 
-/// Radius of every grain, d, the large class first. Same key, same radii. A fill by solid height
-/// with both classes gets as many small grains as bring their share of the drawn volume nearest to
-/// what is asked for, half a small grain at most from it; they may be a few more or less than
-/// class_counts expects.
+/// Radius of every grain, d, the large class first, or of a distribution the largest grain. Same
+/// key, same radii. A fill by solid height with both classes gets as many small grains as bring
+/// their share of the drawn volume nearest to what is asked for, half a small grain at most from
+/// it; they may be a few more or less than class_counts expects.
 std::vector<double> draw_radii(const PackingSpec& spec);
 
 /// Radius below which a grain counts as small, d: as many standard deviations from the mean of one
 /// class as from that of the other, 2 q / (1 + q) in diameters for a size ratio q. 0 where there is
 /// no small class, infinite where there is no large one. Classes whose means are less than eight
-/// standard deviations apart overlap there.
+/// standard deviations apart overlap there. A distribution has no small class.
 double small_class_limit(const SizesSpec& sizes);
 
 /// Solid volume per floor area that `spec` asks for, d; not of placed grains.

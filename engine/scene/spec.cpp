@@ -42,8 +42,14 @@ double largest_size(const PackingSpec& spec) {
   if (const auto* placed = std::get_if<PlacedGrains>(&spec.fill)) {
     return 2.0 * largest_radius(*placed);
   }
+  if (spec.sizes.distribution) return curve_of(*spec.sizes.distribution).diameters.back();
   const double mean = spec.sizes.small_share < 1.0 ? 1.0 : spec.sizes.size_ratio;
   return mean * (1.0 + largest_deviation * spec.sizes.spread);
+}
+
+/// Size of the grains that a bed is as high and as loose for, d.
+double outcome_size(const PackingSpec& spec) {
+  return spec.sizes.distribution ? largest_size(spec) : 1.0;
 }
 
 /// The shape's extent; nothing if something forbids it.
@@ -57,6 +63,11 @@ std::optional<ShapeExtent> check_shape(const ShapeSpec& spec, Errors& errors) {
 }
 
 bool check_sizes(const SizesSpec& sizes, Errors& errors) {
+  if (sizes.distribution) {
+    const std::string fault = fault_of(*sizes.distribution);
+    if (!fault.empty()) errors.push_back({"sizes.distribution", fault});
+    return fault.empty();
+  }
   const bool spread = require_in({0.0, 0.2}, sizes.spread, "sizes.spread", errors);
   const bool share = require_in({0.0, 1.0}, sizes.small_share, "sizes.small_share", errors);
   const bool ratio =
@@ -342,7 +353,7 @@ std::vector<SpecError> check(const PackingSpec& spec) {
   }
   check_measure(spec.measure, errors);
   if (box) check_bin_width(spec.measure.bin_width, spec.box, errors);
-  if (errors.empty()) check_outcome(spec, across, errors);
+  if (errors.empty()) check_outcome(spec, across * outcome_size(spec), errors);
   hint_at_size(spec.shape, across, errors);
   return errors;
 }

@@ -1,7 +1,8 @@
 // What one packing is: the complete, resolved description of a bed before it exists.
 //
-// Lengths are in d, the mean diameter of the large grains; times in sqrt(d / g); masses in the mass
-// of a large grain of mean size; forces in m g. See engine/units.hpp.
+// Lengths are in d, the mean diameter of the large grains, or a length among those of a
+// distribution; times in sqrt(d / g); masses in the mass of a large grain of mean size; forces in m
+// g. See engine/units.hpp.
 //
 // A specification is plain data. `check` holds every rule about it; nothing else refuses input.
 #pragma once
@@ -9,11 +10,13 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include "engine/scene/box.hpp"
+#include "engine/scene/size_distribution.hpp"
 #include "engine/shape/shape_spec.hpp"
 
 namespace grainsweep {
@@ -41,12 +44,13 @@ struct PlacedGrains {
 };
 using Fill = std::variant<SolidHeight, GrainCount, PlacedGrains>;
 
-/// Sizes: each class is Gaussian, cut at four standard deviations. The diameter of a grain that is
-/// no sphere is its scale.
+/// Sizes: one class or two, each Gaussian, cut at four standard deviations; or, where there is one,
+/// a distribution. The diameter of a grain that is no sphere is its scale.
 struct SizesSpec {
   double spread = 1.0 / 30.0;  ///< standard deviation of the diameter over its mean, each class
   double small_share = 0.0;    ///< share of the small class in the solid volume, 0..1
   double size_ratio = 0.5;     ///< mean diameter of the small class, d
+  std::optional<SizeDistribution> distribution = {};  ///< in the place of the classes
 };
 
 /// The projected iterations that solve one step. See engine/dynamics/solve.hpp.

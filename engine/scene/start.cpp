@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "engine/scene/random.hpp"
 #include "engine/scene/sizes.hpp"
@@ -141,16 +142,27 @@ std::optional<PlacedSphere> place(const std::vector<Column>& columns, const Box&
   return std::nullopt;
 }
 
-/// Largest diameter of the grains, and of those less than half as large; grains of the two sizes
-/// have columns of their own, so that no cell holds hundreds of small ones.
+/// Largest diameter of the grains, of those less than half as large, and so on: grains of each of
+/// these sizes have a column of their own, so that no cell holds hundreds of small ones.
 std::vector<double> column_diameters(const std::vector<double>& radii) {
-  const double largest = *std::max_element(radii.begin(), radii.end());
-  double small = 0.0;
-  for (const double radius : radii) {
-    small = radius < largest / 2.0 ? std::max(small, radius) : small;
+  std::vector<double> diameters;
+  double below = std::numeric_limits<double>::infinity();
+  for (;;) {
+    double largest = 0.0;
+    for (const double radius : radii) {
+      if (radius < below) largest = std::max(largest, radius);
+    }
+    if (largest == 0.0) return diameters;
+    diameters.push_back(2.0 * largest);
+    below = largest / 2.0;
   }
-  return small > 0.0 ? std::vector<double>{2.0 * largest, 2.0 * small}
-                     : std::vector<double>{2.0 * largest};
+}
+
+/// The column, of those that `column_diameters` tells, of a grain of this diameter.
+std::size_t column_for(double diameter, const std::vector<double>& diameters) {
+  std::size_t column = diameters.size() - 1;
+  while (diameter > diameters[column]) --column;
+  return column;
 }
 
 double solid_volume(const std::vector<double>& radii) {
@@ -202,7 +214,7 @@ std::optional<std::vector<PlacedSphere>> fill_column(const Box& box,
     if (!sphere) {
       return std::nullopt;
     }
-    columns[2.0 * radii[i] <= diameters.back() ? columns.size() - 1 : 0].add(*sphere);
+    columns[column_for(2.0 * radii[i], diameters)].add(*sphere);
     all.add(*sphere);
   }
   return all.sorted();

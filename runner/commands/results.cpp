@@ -19,15 +19,16 @@
 #include "runner/tables/fits.hpp"
 #include "runner/tables/packings.hpp"
 #include "runner/tables/profiles.hpp"
+#include "runner/tables/sizes.hpp"
 #include "runner/text.hpp"
 #include "runner/versions.hpp"
 
 namespace grainsweep {
 namespace {
 
-constexpr std::array tables = {"packings.csv",      "groups.csv",   "fits.csv",
-                               "fit_points.csv",    "profiles.csv", "decays.csv",
-                               "distributions.csv", "columns.csv",  "provenance.json"};
+constexpr std::array tables = {
+    "packings.csv", "groups.csv",        "fits.csv",  "fit_points.csv", "profiles.csv",
+    "decays.csv",   "distributions.csv", "sizes.csv", "columns.csv",    "provenance.json"};
 
 std::string provenance_path(const std::string& folder) { return folder + "/provenance.json"; }
 
@@ -103,8 +104,9 @@ void write_curve_tables(const std::string& folder, const Analysis& analysis,
   const Varied varied = varied_of(analysis.groups);
   CurveFile profiles(folder + "/profiles.csv", profiles_table(varied, units)),
       decays(folder + "/decays.csv", decays_table(varied, units)),
-      distributions(folder + "/distributions.csv", distributions_table(varied, units));
-  const std::array all = {&profiles, &decays, &distributions};
+      distributions(folder + "/distributions.csv", distributions_table(varied, units)),
+      sizes(folder + "/sizes.csv", sizes_table(varied, units));
+  const std::array all = {&profiles, &decays, &distributions, &sizes};
   for (const Group& group : analysis.groups) {
     const GroupWithCurves with_curves(group, analysis.folder);
     for (CurveFile* one : all) one->file.write(one->table.lines(*with_curves));
@@ -190,8 +192,8 @@ std::vector<ColumnText> all_columns(const std::vector<double>& tolerances, const
   for (const auto& some :
        {described("packings.csv", packings_columns(tolerances, varied, units)),
         described("groups.csv", groups_columns(varied, units)), profiles_columns(varied, units),
-        decays_columns(varied, units), distributions_columns(varied, units), fits_columns(units),
-        fit_points_columns(varied, units)}) {
+        decays_columns(varied, units), distributions_columns(varied, units),
+        sizes_columns(varied, units), fits_columns(units), fit_points_columns(varied, units)}) {
     all.insert(all.end(), some.begin(), some.end());
   }
   return all;

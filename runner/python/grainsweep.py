@@ -116,7 +116,7 @@ class _Bytes:
         return values
 
 
-_mark = b"GRAINS9\n"
+_mark = b"GRAINS10\n"
 _grain = [("position", "<f8", 3), ("radius", "<f8"), ("force", "<f8"), ("coordination", "<i4")]
 
 
@@ -139,6 +139,7 @@ class Bed:
         self.box = {"length": length, "width": width, "periodic": (x == 0, y == 0), "tube": tube}
         for kind in ["V48"] * 4 + ["<f8"] * 2:  # curves, which the tables have
             data.one("d"), data.column(kind)
+        data.column("V32")  # sizes, likewise
         grains = data.column(_grain)
         self.positions, self.radii = grains["position"], grains["radius"]
         self.forces, self.coordination = grains["force"], grains["coordination"]

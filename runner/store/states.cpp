@@ -23,9 +23,13 @@ constexpr auto members_of(const Profile* /*type*/) {
 constexpr auto members_of(const Curve* /*type*/) {
   return std::tuple(&Curve::bin_width, &Curve::values);
 }
+constexpr auto members_of(const SizeRow* /*type*/) {
+  return std::tuple(&SizeRow::diameter, &SizeRow::asked, &SizeRow::packed, &SizeRow::slab);
+}
 constexpr auto members_of(const Curves* /*type*/) {
   return std::tuple(&Curves::profile_x, &Curves::profile_y, &Curves::profile_from_walls,
-                    &Curves::profile_z, &Curves::pair_correlation, &Curves::force_density);
+                    &Curves::profile_z, &Curves::pair_correlation, &Curves::force_density,
+                    &Curves::sizes);
 }
 constexpr auto members_of(const SettledGrain* /*type*/) {
   using Grain = SettledGrain;
@@ -52,7 +56,7 @@ constexpr auto members_of(const StoredBed* /*type*/) {
 
 namespace {
 
-constexpr std::string_view bed_mark = "GRAINS9\n";
+constexpr std::string_view bed_mark = "GRAINS10\n";
 
 /// Throws FileError: the bed is not what was stored.
 [[noreturn]] void refuse(const std::string& folder, const Outcome& outcome,
@@ -69,7 +73,8 @@ Curves curves_of(const PackingResult& result) {
           result.profile_from_walls,
           result.profile_z,
           result.order.pair_correlation,
-          result.order.force_density};
+          result.order.force_density,
+          result.sizes};
 }
 
 void set_curves(Curves&& curves, PackingResult& result) {
@@ -79,6 +84,7 @@ void set_curves(Curves&& curves, PackingResult& result) {
   result.profile_z = std::move(curves.profile_z);
   result.order.pair_correlation = std::move(curves.pair_correlation);
   result.order.force_density = std::move(curves.force_density);
+  result.sizes = std::move(curves.sizes);
 }
 
 std::vector<StoredForce> stored_forces(const std::vector<PairForce>& forces) {

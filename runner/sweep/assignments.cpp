@@ -55,9 +55,6 @@ std::string absence_of(const std::string& key) {
       {"radius", "a tube has a diameter; d is the mean diameter of the large grains"},
       {"mean", "the mean diameter of the large grains is d, the unit of length"},
       {"diameter", "the mean diameter of the large grains is d, the unit of length"},
-      {"distribution",
-       "sizes of a class are Gaussian; sizes.spread is their deviation over the mean"},
-      {"sigma", "sizes of a class are Gaussian; sizes.spread is their deviation over the mean"},
       {"std", "sizes of a class are Gaussian; sizes.spread is their deviation over the mean"}};
   const auto found = reasons.find(key);
   return found == reasons.end() ? "" : found->second;
@@ -117,6 +114,9 @@ void read_empty_group(const std::string& group, const std::string& pointer,
     read_parameter(shape, "pinacoid", pointer, assignments, diagnostics);
   } else if (are_parts_of(group, Role::hull_vertices)) {
     diagnostics.push_back({pointer, "a hull needs its vertices: write \"vertices\" or \"file\""});
+  } else if (group.starts_with("sizes.distribution")) {
+    diagnostics.push_back(
+        {pointer, "describes no sizes; must have " + short_list(known_keys(group))});
   } else if (find_parameter(group) == shape) {
     diagnostics.push_back(
         {pointer, "names no shape; must be " + wanted_value(parameters()[shape])});
@@ -146,30 +146,35 @@ void refuse_second_shape(const Assignments& assignments, Diagnostics& diagnostic
   }
 }
 
-/// Notes the first part of a box beside one of a tube, or of a tube beside one of a box.
-void refuse_second_container(const Assignments& assignments, Diagnostics& diagnostics) {
-  const Assignment* first = nullptr;
-  for (const Assignment& assignment : assignments) {
-    const Parameter& parameter = parameters()[assignment.parameter];
-    if (choice_of(parameter) != Choice::container) continue;
-    if (first != nullptr && parameters()[first->parameter].role != parameter.role) {
-      diagnostics.push_back({assignment.pointer, "the container is already described at " +
-                                                     first->pointer + "; keep one of box, tube"});
-      return;
-    }
-    first = &assignment;
+/// Notes the first assignment that describes the container, or sizes, in another way than one
+/// before it.
+void refuse_alternatives(const Assignments& assignments, Diagnostics& diagnostics) {
+  for (std::size_t i = 0; i < assignments.size(); ++i) {
+    const Parameter& parameter = parameters()[assignments[i].parameter];
+    const auto end = assignments.begin() + static_cast<std::ptrdiff_t>(i);
+    const auto other = std::find_if(assignments.begin(), end, [&](const Assignment& assignment) {
+      return are_alternatives(parameters()[assignment.parameter], parameter);
+    });
+    if (other == end) continue;
+    const bool is_container = choice_of(parameter) == Choice::container;
+    diagnostics.push_back(
+        {assignments[i].pointer,
+         is_container
+             ? "the container is already described at " + other->pointer + "; keep one of box, tube"
+             : "the sizes are already described at " + other->pointer +
+                   "; keep one: two classes, or one distribution, lognormal, uniform, "
+                   "weibull, or table by lists or file"});
+    return;
   }
 }
 
-/// Whether one of the assignments replaces the container that others describe.
-bool replaces_container(const Assignment& assignment, const InEffect& in_effect) {
-  const Role role = parameters()[assignment.parameter].role;
-  if (role != Role::box && role != Role::tube) return false;
-  return std::any_of(in_effect.begin(), in_effect.end(), [&](const Assignment* other) {
-    if (other == nullptr) return false;
-    const Parameter& parameter = parameters()[other->parameter];
-    return choice_of(parameter) == Choice::container && parameter.role != role;
-  });
+/// Unsets what is described in another way by a new assignment.
+void unset_alternatives(const Assignment& assignment, InEffect& in_effect) {
+  const Parameter& parameter = parameters()[assignment.parameter];
+  if (choice_of(parameter) == Choice::none) return;
+  for (std::size_t i = 0; i < in_effect.size(); ++i) {
+    if (are_alternatives(parameters()[i], parameter)) in_effect[i] = nullptr;
+  }
 }
 
 /// Where the first word of a part's name is in a message: "angle" for "shape.pinacoid.angle_deg".
@@ -203,7 +208,7 @@ bool is_known_path(const std::string& path, const std::string& pointer, Diagnost
 
 void refuse_double_assignments(const Assignments& assignments, Diagnostics& diagnostics) {
   refuse_second_shape(assignments, diagnostics);
-  refuse_second_container(assignments, diagnostics);
+  refuse_alternatives(assignments, diagnostics);
   InEffect seen(parameters().size(), nullptr);
   const Assignment* fill = nullptr;
   for (const Assignment& assignment : assignments) {
@@ -233,17 +238,16 @@ Assignments read_layer(const Json& object, const std::string& pointer, Diagnosti
 }
 
 void overlay(const std::vector<const Assignments*>& layer, InEffect& in_effect) {
-  bool fills = false, is_replaced = false;
+  bool fills = false;
   ShapeKind shape = ShapeKind::none;
   for (const Assignments* part : layer) {
     for (const Assignment& assignment : *part) {
       fills = fills || is_fill(assignment.parameter);
-      is_replaced = is_replaced || replaces_container(assignment, in_effect);
+      unset_alternatives(assignment, in_effect);
       shape = more_exact(shape, shape_named_by(assignment));
     }
   }
   if (fills) unset(Choice::fill, in_effect);
-  if (is_replaced) unset(Choice::container, in_effect);
   const bool is_named = shape != ShapeKind::none;
   if (is_named && exclude_each_other(shape, shape_of(in_effect))) unset(Choice::shape, in_effect);
   for (const Assignments* part : layer) {

@@ -11,6 +11,8 @@
 #include "runner/sweep/identity.hpp"
 #include "runner/sweep/job_limit.hpp"
 #include "runner/sweep/obj.hpp"
+#include "runner/sweep/size_parameters.hpp"
+#include "runner/sweep/sizes_csv.hpp"
 #include "runner/sweep/text_lines.hpp"
 #include "runner/sweep/values.hpp"
 
@@ -71,6 +73,10 @@ std::string name_in_tables(const std::string& file) {
   return without_controls(begins_a_formula(file) ? "./" + file : file);
 }
 
+constexpr const char* no_size_formula =
+    "belongs to a distribution of sizes, and none is set: write lognormal, uniform, weibull or "
+    "table";
+
 /// Where the grains of a packing start.
 struct Start {
   Fill fill;
@@ -117,6 +123,7 @@ class Expansion {
     if (in_effect[seed_] == nullptr) resolved.seed = definition_.seed;
     const std::vector<Start> starts = starts_of(block, in_effect, resolved);
     place_vertices(block, in_effect, resolved);
+    place_sizes(in_effect, resolved);
     for (const Start& start : starts) {
       resolved.spec.fill = start.fill;
       note_broken_rules(block, in_effect, check(resolved.spec), start);
@@ -130,6 +137,9 @@ class Expansion {
       job.files["shape.hull.vertices"] = name_in_tables(resolved.hull_file);
     if (!resolved.fill_file.empty()) job.files["fill.file"] = name_in_tables(resolved.fill_file);
     job.wish = block.wish;
+    if (!resolved.size_file.empty()) {
+      job.files["sizes.distribution.table.file"] = name_in_tables(resolved.size_file);
+    }
     const bool is_listed = !resolved.fill_files.empty();
     const int replicates = is_listed ? static_cast<int>(starts.size()) : block.replicates;
     for (; job.replicate <= replicates; ++job.replicate) {
@@ -240,6 +250,29 @@ class Expansion {
     is_sound = has_room(hull.points.size(), block, *source) && is_sound;
     hull.points = is_sound ? scaled_points(std::move(hull.points), resolved.hull_size) : Points{};
     if (!is_sound) said_.insert(source->pointer + " shape.hull");
+  }
+
+  /// Reads a table of sizes and brings the distribution to units of d. One that cannot be used is
+  /// told and taken out, so that the other rules can be checked.
+  void place_sizes(const InEffect& in_effect, ResolvedSpec& resolved) {
+    auto& distribution = resolved.spec.sizes.distribution;
+    const Assignment *file = in_effect[size_file_], *size = in_effect[size_unit_];
+    if (!resolved.has_size_formula) {
+      for (const Assignment* assignment : in_effect) {
+        const bool is_part =
+            assignment != nullptr && parameters()[assignment->parameter].role == Role::distribution;
+        if (is_part) note(*assignment, no_size_formula);
+      }
+      return distribution.reset();
+    }
+    if (file != nullptr) {
+      const SizesReading& reading = reading_of(resolved.size_file, *file, read_sizes, sizes_);
+      if (!reading.errors.empty()) return distribution.reset();
+      distribution->formula = reading.table;
+    }
+    if (resolved.size_unit > 0.0) return to_units_of(resolved.size_unit, *distribution);
+    note(*size, "must be positive");
+    distribution.reset();
   }
 
   /// Whether the hulls do not hold too many vertices; otherwise a problem is noted.
@@ -369,11 +402,14 @@ class Expansion {
   const std::size_t hull_vertices_ = parameter_with(Role::hull_vertices);
   const std::size_t hull_file_ = parameter_with(Role::hull_file);
   const std::size_t hull_size_ = parameter_with(Role::hull_size);
+  const std::size_t size_file_ = parameter_with(Role::size_file);
+  const std::size_t size_unit_ = *find_parameter("sizes.distribution.size");
   std::vector<Job> jobs_;
   std::unordered_map<std::uint64_t, std::size_t> first_block_;  // of every job, by its hash
   std::map<std::pair<std::size_t, std::size_t>, std::uint64_t> shared_;  // jobs, by two blocks
   std::map<std::string, GrainsReading> grains_;                          // by file
   std::map<std::string, ObjReading> hulls_;                              // by file
+  std::map<std::string, SizesReading> sizes_;                            // by file
   std::set<std::string> said_;
   /// Of every value that was in effect: why no packing depended on it so far; "" if one did.
   std::unordered_map<const Assignment*, std::string> idle_;

@@ -12,28 +12,12 @@
 namespace grainsweep {
 namespace {
 
-using LineCells = std::vector<std::string_view>;
-
 constexpr std::array<std::string_view, 8> column_names = {"x",  "y",  "z",  "r",
                                                           "qx", "qy", "qz", "qw"};
 constexpr std::size_t needed = 4;  ///< the others are there all or not at all
 
 /// Index of the column of each name, or of the needed ones alone.
 using Columns = std::vector<std::size_t>;
-
-LineCells cells_of(std::string_view line) {
-  LineCells cells;
-  for (;;) {
-    const std::size_t comma = line.find(',');
-    std::string_view cell = trimmed(line.substr(0, comma));
-    if (cell.size() > 1 && cell.front() == '"' && cell.back() == '"') {
-      cell = cell.substr(1, cell.size() - 2);
-    }
-    cells.push_back(cell);
-    if (comma == std::string_view::npos) return cells;
-    line.remove_prefix(comma + 1);
-  }
-}
 
 bool is_orientation(std::string_view name) { return name.front() == 'q'; }
 

@@ -108,6 +108,18 @@ std::string hash_of(const HullVertices& hull) {
   return hex16(mixed(fnv1a(text)));
 }
 
+std::string hash_of(const SizeTable& table) {
+  std::string text;
+  for (const auto* list : {&table.diameters, &table.passing, &table.shares}) {
+    for (const double number : *list) {
+      append_number(number, text);
+      text += ',';
+    }
+    text += ';';
+  }
+  return hex16(mixed(fnv1a(text)));
+}
+
 std::string canonical_parameters(const ResolvedSpec& resolved) {
   static const std::vector<Member> members = sorted_members();
   return canonical(members, resolved);

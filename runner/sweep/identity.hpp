@@ -21,9 +21,12 @@ namespace grainsweep {
 /// 16 hex digits: hash of the coordinates, in their order.
 std::string hash_of(const HullVertices& hull);
 
+/// The same of a table of sizes.
+std::string hash_of(const SizeTable& table);
+
 /// Every parameter of the packing as JSON without spaces, keys sorted, numbers as short as they
 /// read back exactly (20, not 20.0). Presets appear as their parts, a fill file as the hash of its
-/// content, a hull as that of its vertices.
+/// content, a hull as that of its vertices, a file of sizes as that of its numbers.
 std::string canonical_parameters(const ResolvedSpec& resolved);
 
 /// The id of a job, as a number.

@@ -7,95 +7,13 @@
 #include "engine/dynamics/presets.hpp"
 #include "engine/units.hpp"
 #include "runner/sweep/identity.hpp"
+#include "runner/sweep/parameter_row.hpp"
+#include "runner/sweep/size_parameters.hpp"
 
 namespace grainsweep {
 namespace {
 
 using Rows = std::vector<Parameter>;
-
-template <class T>
-constexpr ValueKind kind_of() {
-  if constexpr (std::is_enum_v<T>) return ValueKind::choice;
-  if constexpr (std::is_same_v<T, double>) return ValueKind::number;
-  if constexpr (std::is_same_v<T, std::uint64_t>) return ValueKind::natural;
-  if constexpr (std::is_same_v<T, int>) return ValueKind::whole;
-  return ValueKind::numbers;
-}
-
-/// Built in place: g++ 12 warns, wrongly, about a value moved into the optional under sanitizers.
-template <class T>
-std::optional<Value> present(const T& value) {
-  return std::optional<Value>(std::in_place, std::in_place_type<T>, value);
-}
-
-/// `members` leads from a specification to the parameter: &ResolvedSpec::spec, &PackingSpec::box,
-/// &Box::x.
-template <auto... members>
-void set_member(ResolvedSpec& resolved, const Value& value) {
-  auto& target = (resolved.*....*members);
-  using T = std::remove_reference_t<decltype(target)>;
-  if constexpr (std::is_enum_v<T> || std::is_same_v<T, int>) {
-    target = static_cast<T>(std::get<std::int64_t>(value));
-  } else {
-    target = std::get<T>(value);
-  }
-}
-
-template <auto... members>
-std::optional<Value> get_member(const ResolvedSpec& resolved) {
-  const auto& source = (resolved.*....*members);
-  using T = std::remove_cvref_t<decltype(source)>;
-  if constexpr (std::is_enum_v<T> || std::is_same_v<T, int>) {
-    return present<std::int64_t>(static_cast<std::int64_t>(source));
-  } else {
-    return present<T>(source);
-  }
-}
-
-std::optional<Value> no_identity(const ResolvedSpec&) { return std::nullopt; }
-
-/// Names, each with what it means.
-using Names = std::vector<std::pair<std::string, std::string>>;
-
-/// What may be written: numbers of a range, names, or whatever is of the parameter's kind.
-struct Limits {
-  Limits() = default;
-  Limits(Interval numbers) : range(numbers) {}
-  Limits(Names words) : names(std::move(words)) {}
-
-  std::optional<Interval> range = {};
-  Names names = {};
-};
-
-constexpr Interval positive = {.low = 0.0, .low_open = true};
-
-/// The row of a parameter that is set and read by functions of its own.
-Parameter own(const char* path, const Limits& limits, const char* meaning, ValueKind kind,
-              Role role, void (*set)(ResolvedSpec&, const Value&),
-              std::optional<Value> (*get)(const ResolvedSpec&)) {
-  Parameter parameter = {.path = path,
-                         .meaning = meaning,
-                         .kind = kind,
-                         .largest = std::numeric_limits<int>::max(),
-                         .set = set,
-                         .get = get,
-                         .role = role,
-                         .range = limits.range};
-  for (const auto& [name, what] : limits.names) {
-    parameter.choices.push_back(name);
-    parameter.choice_meanings.push_back(what);
-  }
-  return parameter;
-}
-
-/// The row of a member of a packing's specification that is set and read as it is.
-template <auto... members>
-Parameter row(const char* path, const Limits& limits, const char* meaning) {
-  using T = std::remove_cvref_t<decltype((std::declval<PackingSpec&>().*....*members))>;
-  return own(path, limits, meaning, kind_of<T>(), Role::plain,
-             set_member<&ResolvedSpec::spec, members...>,
-             get_member<&ResolvedSpec::spec, members...>);
-}
 
 void set_shape(ResolvedSpec& resolved, const Value& value) {
   resolved.spec.shape =
@@ -263,20 +181,6 @@ Rows fill_rows() {
   };
 }
 
-Rows size_rows() {
-  using S = PackingSpec;
-  return {
-      row<&S::sizes, &SizesSpec::spread>(
-          "sizes.spread", Interval{0, 0.2},
-          "standard deviation of the diameter over its mean, each class"),
-      row<&S::sizes, &SizesSpec::small_share>(
-          "sizes.small_share", Interval{0, 1},
-          "share of the small class in the solid volume, 0 to 1"),
-      row<&S::sizes, &SizesSpec::size_ratio>("sizes.size_ratio", Interval{0.02, 1, true},
-                                             "mean diameter of the small class, d"),
-  };
-}
-
 Names preset_names() {
   Names names;
   for (const Preset& known : presets()) names.emplace_back(known.name, known.promise);
@@ -378,7 +282,7 @@ Rows measure_rows() {
 
 std::vector<Parameter> parameter_rows() {
   Rows all;
-  for (Rows rows : {shape_rows(), container_rows(), fill_rows(), size_rows(), accuracy_rows(),
+  for (Rows rows : {shape_rows(), container_rows(), fill_rows(), size_parameters(), accuracy_rows(),
                     measure_rows()}) {
     for (Parameter& parameter : rows) all.push_back(std::move(parameter));
   }

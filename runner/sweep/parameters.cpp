@@ -12,6 +12,21 @@ void add_new(const std::string& word, std::vector<std::string>& words) {
   if (std::find(words.begin(), words.end(), word) == words.end()) words.push_back(word);
 }
 
+/// The formula of a distribution that such a parameter is a part of.
+std::optional<SizeFormula> usual_formula(Role role) {
+  switch (role) {
+    case Role::lognormal:
+    case Role::distribution:
+      return LognormalSizes{};
+    case Role::uniform:
+      return UniformSizes{};
+    case Role::weibull:
+      return WeibullSizes{};
+    default:
+      return std::nullopt;
+  }
+}
+
 }  // namespace
 
 const std::vector<Parameter>& parameters() {
@@ -54,9 +69,26 @@ Choice choice_of(const Parameter& parameter) {
     case Role::fill_files:
     case Role::fill_diameter:
       return Choice::fill;
+    case Role::size_class:
+    case Role::lognormal:
+    case Role::uniform:
+    case Role::weibull:
+    case Role::size_table:
+    case Role::size_file:
+    case Role::distribution:
+      return Choice::sizes;
     default:
       return Choice::none;
   }
+}
+
+bool are_alternatives(const Parameter& a, const Parameter& b) {
+  const Choice choice = choice_of(a);
+  if (choice != choice_of(b) || a.role == b.role) return false;
+  if (choice == Choice::container) return true;
+  const bool is_part = a.role == Role::distribution || b.role == Role::distribution;
+  const bool is_class = a.role == Role::size_class || b.role == Role::size_class;
+  return choice == Choice::sizes && (is_class || !is_part);
 }
 
 std::optional<std::size_t> preset_of(std::string_view path) {
@@ -69,6 +101,9 @@ std::optional<Value> default_of(const Parameter& parameter) {
   ResolvedSpec resolved;
   if (parameter.role == Role::pinacoid) resolved.spec.shape = PinacoidSize{};
   if (parameter.role == Role::tube) return std::nullopt;
+  if (auto formula = usual_formula(parameter.role)) {
+    resolved.spec.sizes.distribution = SizeDistribution{*formula};
+  }
   return parameter.get(resolved);
 }
 
@@ -88,7 +123,12 @@ std::string meaning_of_group(std::string_view path) {
       {"box", "the box that the grains fall into: a flat floor, open at the top"},
       {"tube", "an upright round tube in the box's place: a flat floor, open at the top"},
       {"fill", "how many grains, in one of three ways: solid_height, grains or file"},
-      {"sizes", "sizes of the grains: one class or two, each Gaussian"},
+      {"sizes", "sizes of the grains: one class or two, each Gaussian, or a distribution"},
+      {"sizes.distribution", "a curve that the diameters of the grains are drawn from"},
+      {"sizes.distribution.lognormal", "the logarithm of the diameter is Gaussian"},
+      {"sizes.distribution.uniform", "as likely everywhere between two diameters"},
+      {"sizes.distribution.weibull", "by volume Rosin-Rammler's curve of ground matter"},
+      {"sizes.distribution.table", "a sieve curve, or the shares of single diameters"},
       {"accuracy", "how exactly a bed is settled: a preset's name, or parts that override it"},
       {"measure", "what is measured, and where"}};
   return meanings.at(path);
@@ -116,7 +156,8 @@ std::string idle_reason(const Parameter& parameter, const PackingSpec& spec) {
   if (path == "sizes.size_ratio" && spec.sizes.small_share == 0.0) {
     return "sizes.small_share is 0";
   }
-  if (path == "sizes.spread" && std::holds_alternative<PlacedGrains>(spec.fill)) {
+  const bool is_drawn_from = path == "sizes.spread" || path.starts_with("sizes.distribution.");
+  if (is_drawn_from && std::holds_alternative<PlacedGrains>(spec.fill)) {
     return "the sizes stand in fill.file";
   }
   return "";

@@ -49,10 +49,17 @@ enum class Role {
   fill_file,   ///< another way
   fill_files,  ///< another
   fill_diameter,
+  size_class,  ///< a part of classes of sizes
+  lognormal,   ///< a part of a distribution of this kind, in their place; and so on
+  uniform,
+  weibull,
+  size_table,
+  size_file,
+  distribution,  ///< a part of any distribution
 };
 
 /// Parameters that say one thing in several ways: writing one unsets what the others said.
-enum class Choice { none, shape, container, fill };
+enum class Choice { none, shape, container, fill, sizes };
 
 struct Parameter {
   std::string path;     ///< "box.width"
@@ -69,6 +76,8 @@ struct Parameter {
   std::vector<std::string> choice_meanings = {};  ///< of each of `choices`, a line
   /// Names of a choice in earlier versions; the last of `choices` took their place.
   std::vector<std::string> former_choices = {};
+  std::size_t most_items = most_gap_tolerances;  ///< of a list of numbers
+  bool are_distinct = true;                      ///< its numbers
 };
 
 /// Why a packing does not depend on a parameter that is written; "" if it does.
@@ -88,6 +97,9 @@ std::size_t parameter_with(Role role);
 
 /// Which choice a parameter belongs to.
 Choice choice_of(const Parameter& parameter);
+
+/// Whether two parameters describe a box and a tube, or sizes in two ways: of these there is one.
+bool are_alternatives(const Parameter& a, const Parameter& b);
 
 /// The preset whose name may be written in the place of the group `path`; nothing if none may.
 std::optional<std::size_t> preset_of(std::string_view path);

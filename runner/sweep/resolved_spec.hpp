@@ -19,10 +19,13 @@ struct ResolvedSpec {
   std::vector<std::string> fill_files;  ///< as written; empty unless each replicate has its own
   std::string fill_content;             ///< hash of that file's bytes, 16 hex digits
   double fill_diameter = 1.0;           ///< length in that file that is d here
-  double pinacoid_angle = 60.0;  ///< degrees, as written; the specification holds it in radians
-  std::string hull_file;         ///< as written; "" unless the shape is a hull from a file
-  double hull_size = 1.0;        ///< length in the vertices of a hull that is d here
-  std::uint64_t seed = 0;        ///< master seed
+  double pinacoid_angle = 60.0;   ///< degrees, as written; the specification holds it in radians
+  std::string hull_file;          ///< as written; "" unless the shape is a hull from a file
+  double hull_size = 1.0;         ///< length in the vertices of a hull that is d here
+  bool has_size_formula = false;  ///< whether a distribution of sizes says more than its parts
+  std::string size_file;          ///< as written; "" unless a table of sizes comes from a file
+  double size_unit = 1.0;         ///< length in a distribution of sizes that is d here
+  std::uint64_t seed = 0;         ///< master seed
 };
 
 /// The preset of a sweep that names none.

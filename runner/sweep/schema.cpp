@@ -88,8 +88,8 @@ Json kind_of(const Parameter& parameter) {
     }
     case ValueKind::numbers: {
       Json list = list_of(number("number", parameter));
-      list["maxItems"] = most_gap_tolerances;
-      list["uniqueItems"] = true;
+      list["maxItems"] = parameter.most_items;
+      if (parameter.are_distinct) list["uniqueItems"] = true;
       return list;
     }
     case ValueKind::points: {
@@ -321,7 +321,7 @@ std::string sweep_schema() {
        {"base", described("what all packings share", base_schema())},
        {"sweep", described("blocks of packings, joined", list_of(block_schema()))}}));
   schema["required"] = {"name"};
-  schema["allOf"] = start_file_rules();
+  schema["allOf"] = rules_of_the_whole();
   for (Json& rule : edge_rules()) schema["allOf"].push_back(std::move(rule));
   schema["definitions"] = definitions();
   return written(schema);

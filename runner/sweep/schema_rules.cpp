@@ -19,6 +19,24 @@ Json with_block_about(const std::string& pattern) {
   return with("sweep", {{"contains", {{"anyOf", ways}}}});
 }
 
+/// Groups and parameters of sizes of which only one may be said.
+std::vector<std::pair<std::string, std::string>> alternative_sizes() {
+  const std::string all = "sizes.distribution", table = all + ".table.";
+  std::vector<std::pair<std::string, std::string>> pairs;
+  for (const char* const part : {"sizes.spread", "sizes.small_share", "sizes.size_ratio"}) {
+    pairs.emplace_back(all, part);
+  }
+  const std::vector<std::string> formulas = {".lognormal", ".uniform", ".weibull", ".table"};
+  for (std::size_t i = 0; i < formulas.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) pairs.emplace_back(all + formulas[j], all + formulas[i]);
+  }
+  for (const char* const part : {"diameters", "passing", "shares"}) {
+    pairs.emplace_back(table + "file", table + part);
+  }
+  pairs.emplace_back(table + "passing", table + "shares");
+  return pairs;
+}
+
 }  // namespace
 
 Json said_once(const std::string& group) {
@@ -27,6 +45,7 @@ Json said_once(const std::string& group) {
         {"shape.hull.vertices", "shape.hull.file"},
         {"shape.pinacoid", "shape.hull"},
         {"box", "tube"}};
+    for (const auto& [one, other] : alternative_sizes()) pairs.emplace_back(one, other);
     for (std::size_t i = 0; i < parameters().size(); ++i) {
       for (std::size_t j = 0; is_fill(i) && j < i; ++j) {
         if (is_fill(j)) pairs.emplace_back(parameters()[j].path, parameters()[i].path);
@@ -90,7 +109,7 @@ Json set_or_varied() {
   return rules;
 }
 
-Json start_file_rules() {
+Json rules_of_the_whole() {
   const auto with_base = [](const char* path) { return with("base", in_any_way(path)); };
   const Json several = with("replicates", {{"minimum", 2}});
   const Json blocks_fill = with_block_about("^fill(\\.|$)");
@@ -98,7 +117,12 @@ Json start_file_rules() {
   return Json::array(
       {not_all({with_base("fill.diameter"), no(with_base("fill.file")), no(with_base("fill.files")),
                 no(blocks_fill)}),
-       not_all({with_base("fill.file"), several, no(blocks_fill), no(blocks_count)})});
+       not_all({with_base("fill.file"), several, no(blocks_fill), no(blocks_count)}),
+       not_all({with_base("sizes.distribution"), no(with_base("sizes.distribution.lognormal")),
+                no(with_base("sizes.distribution.uniform")),
+                no(with_base("sizes.distribution.weibull")),
+                no(with_base("sizes.distribution.table")),
+                no(with_block_about("^sizes(\\.|$)"))})});
 }
 
 }  // namespace grainsweep

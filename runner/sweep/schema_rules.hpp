@@ -26,7 +26,7 @@ Json ascending();
 Json set_or_varied();
 
 /// Of the whole sweep, where no block says otherwise: a length of a start file needs the file, and
-/// one start serves no replicates.
-Json start_file_rules();
+/// one start serves no replicates; and a distribution of sizes needs a formula or a table.
+Json rules_of_the_whole();
 
 }  // namespace grainsweep

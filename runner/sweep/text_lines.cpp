@@ -100,6 +100,20 @@ std::vector<std::string_view> lines_of(std::string_view text) {
   }
 }
 
+LineCells cells_of(std::string_view line) {
+  LineCells cells;
+  for (;;) {
+    const std::size_t comma = line.find(',');
+    std::string_view cell = trimmed(line.substr(0, comma));
+    if (cell.size() > 1 && cell.front() == '"' && cell.back() == '"') {
+      cell = cell.substr(1, cell.size() - 2);
+    }
+    cells.push_back(cell);
+    if (comma == std::string_view::npos) return cells;
+    line.remove_prefix(comma + 1);
+  }
+}
+
 LineIndex::LineIndex(const std::string& text) : size_(text.size()), starts_{0} {
   if (text.starts_with(byte_order_mark)) starts_.front() = byte_order_mark.size();
   for (std::size_t at = starts_.front(); at < text.size(); ++at) {

@@ -39,6 +39,10 @@ std::string_view trimmed(std::string_view text);
 /// one.
 std::vector<std::string_view> lines_of(std::string_view text);
 
+/// The cells of a line of a CSV file, without blanks and quotation marks at their ends.
+using LineCells = std::vector<std::string_view>;
+LineCells cells_of(std::string_view line);
+
 /// The number that all of `text` spells, with a decimal point; nothing for other text, NaN and
 /// infinity.
 std::optional<double> finite_number(std::string_view text);

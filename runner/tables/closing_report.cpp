@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <functional>
 #include <map>
@@ -259,6 +260,33 @@ std::string bias_text(const std::vector<Family>& families) {
   return "Protocol: means of beds settled ever better lie within " + *bounds.begin() + ".\n";
 }
 
+/// Groups whose measured slab holds a tenth more or less of small grains than their beds: small
+/// grains that fit through the gaps of large ones sink to the floor.
+std::string percolation_text(const std::vector<Family>& families) {
+  constexpr double allowed = 0.1;
+  constexpr int groups_shown = 5;
+  std::string text;
+  int count = 0;
+  const auto add = [&](const Group& group) {
+    const double asked = group.job.small_share, slab = mean_of(group, "slab_small_share").mean;
+    if (!(std::abs(slab - asked) > allowed * asked) || ++count > groups_shown) return;
+    text += "  " + group.family_name + (group.job.box.is_tube ? ", D = " : ", W = ") +
+            width_text(cell(group.job.box.width), group.job.box.y) + ": " + fixed(slab, 3) +
+            " of the solid volume, in the whole bed " + fixed(asked, 3) + "\n";
+  };
+  for (const Family& family : families) {
+    for (const Group& group : family.walled) add(group);
+    for (const Group& group : family.periodic) add(group);
+  }
+  if (count > groups_shown) {
+    text += "  and " + std::to_string(count - groups_shown) + " more, see groups.csv\n";
+  }
+  return text.empty() ? ""
+                      : "\nWarning: small grains are not where they were asked for; φ and Z are of "
+                        "the slab, which holds\n" +
+                            text;
+}
+
 std::string left_out_text(const StatusCounts& counts) {
   std::string text;
   const auto add = [&](int count, const char* what) {
@@ -327,8 +355,8 @@ std::string closing_report(const Provenance& provenance, const std::vector<Row>&
   std::string text = headline(provenance.sweep_name, rows.size(), totals.counts);
   return text + tables_text(families, provenance.units) +
          laboratory_text(families, provenance.units) + definitions_text(rows) +
-         bias_text(families) + reasons_text(rows) + effort_text(provenance, totals.cpu_seconds) +
-         "Tables in " + place.folder +
+         bias_text(families) + percolation_text(families) + reasons_text(rows) +
+         effort_text(provenance, totals.cpu_seconds) + "Tables in " + place.folder +
          ": packings.csv, groups.csv, fits.csv, profiles.csv, decays.csv and more;\n"
          "provenance.json says how they were made\n" +
          next_text(sweep_file_of(provenance), totals.counts, place);

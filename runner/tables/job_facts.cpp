@@ -102,7 +102,8 @@ void add_parameters(const json& value, const std::string& path,
 
 /// What was measured that resembles such a packing.
 std::optional<BedKind> kind_of(const JobFacts& job) {
-  if (job.box.is_tube) return std::nullopt;
+  const bool has_distribution = job.parameters.find("\"distribution\":") != std::string::npos;
+  if (job.box.is_tube || has_distribution) return std::nullopt;
   if (job.shape == "sphere" && job.small_share == 0.0) return BedKind::spheres;
   const auto parameters = flat_parameters(job);
   const auto is_at = [&](const char* path, double value) {

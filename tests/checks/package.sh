@@ -59,7 +59,7 @@ packaged --version >said.txt 2>&1 || fail "does not start with ${needed[*]}: $(c
 packaged run /usr/share/grainsweep/configs/quick.json --out /tmp/quick \
   >said.txt 2>&1 || fail "quick.json: $(tail -n 5 said.txt)"
 "$program" run root/usr/share/grainsweep/configs/quick.json --out here >/dev/null 2>&1
-for table in groups fits fit_points profiles decays distributions columns; do
+for table in groups fits fit_points profiles decays distributions sizes columns; do
   cmp "here/$table.csv" "root/tmp/quick/$table.csv" || fail "other $table.csv than outside"
 done
 [ -s root/tmp/quick/report.html ] || fail "no page"

@@ -23,6 +23,7 @@ cat >sweep.json <<'JSON'
             "measure": { "exclude_floor": 1, "exclude_surface": 1, "gap_tolerances": [1e-4, 1e-3] } },
   "sweep": [ { "label": "walls", "grid": { "box.width": [3, 4, 5] } },
              { "label": "two sizes", "set": { "box.width": 4, "sizes.small_share": 0.3 } },
+             { "label": "lognormal", "set": { "box.width": 4, "sizes.distribution.lognormal.sigma": 0.1 } },
              { "label": "tube", "set": { "tube.diameter": 4 } },
              { "label": "bulk", "set": { "box.width": 4, "box.y": "periodic" } },
              { "label": "pinacoids", "set": { "box.width": 4, "shape": "pinacoid" } } ] }

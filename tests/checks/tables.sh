@@ -21,32 +21,34 @@ cat >starts.json <<'JSON'
 JSON
 "$grainsweep" run starts.json --quiet --no-report --out starts || [ $? -eq 1 ]
 "$grainsweep" export starts --to . >/dev/null
+cp "$configs"/*.csv . # tables of sizes
 mapfile -t beds < <(sed -n 's/\.csv,.*/.csv/p' index.csv)
 
 /usr/bin/python3 - "$configs" "${beds[@]}" <<'PYTHON'
 import glob, json, os, sys
 
-def small(value):
-    """The sweep with beds of a few dozen grains."""
+def small(value, length=4, width=5):
+    """The sweep with beds of a few dozen grains in such a box."""
     if isinstance(value, list):
-        return [small(entry) for entry in value]
+        return [small(entry, length, width) for entry in value]
     if not isinstance(value, dict):
         return value
-    limits = {name: limit for path, limit in (("fill.solid_height", 3.5), ("box.length", 4),
-                                              ("box.width", 5), ("fill.grains", 60))
+    limits = {name: limit for path, limit in (("fill.solid_height", 3.5), ("box.length", length),
+                                              ("box.width", width), ("fill.grains", 60))
               for name in (path, path.split(".")[1])}
     narrow = {"tube.diameter": [2.5, 3.5]}  # where so few grains are high enough
     return {key: narrow[key] if key in narrow
             else [3 + width / 10 for width in entry] if key == "box.width" and isinstance(entry, list)
             else min(limits[key], entry) if key in limits and isinstance(entry, (int, float))
-            else small(entry) for key, entry in value.items()}
+            else small(entry, length, width) for key, entry in value.items()}
 
 measure = {"exclude_floor": 1, "exclude_surface": 1, "bin_width": 0.5}
 for path in glob.glob(sys.argv[1] + "/*.json"):
     sweep = json.load(open(path))
     if "name" not in sweep:
         continue
-    sweep = small(sweep)
+    has_large_grains = "distribution" in json.dumps(sweep)
+    sweep = small(sweep, 6, 6) if has_large_grains else small(sweep)
     sweep.setdefault("base", {})["measure"] = measure
     varies_accuracy = "accuracy" in json.dumps(sweep.get("sweep", []))
     sweep["replicates"] = 1 if varies_accuracy else 2
@@ -85,7 +87,7 @@ done
 import sys
 import pandas
 
-by_group = ["profiles", "decays", "distributions", "fit_points"]
+by_group = ["profiles", "decays", "distributions", "sizes", "fit_points"]
 joined = 0
 for sweep in sys.argv[1:]:
     folder = "out-" + sweep.removesuffix(".json")

@@ -67,6 +67,7 @@ inline Curves sample_curves() {
   curves.profile_z = {0.25, {{0.5, 0, 9, 0, -1, 0}}};
   curves.pair_correlation = {0.05, {0, 0.1, 3}};
   curves.force_density = {0.1, {1, std::numeric_limits<double>::quiet_NaN()}};
+  curves.sizes = {{0.5, 0.25, 1.0 / 3.0, 0.125}, {1, 1, 1, 1}};
   return curves;
 }
 

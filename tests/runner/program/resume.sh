@@ -58,7 +58,7 @@ run_to_the_end killed
 expect_text progress.txt "warning: killed/shards/1-of-1.jsonl:" "torn or damaged line" \
   "warning: killed/shards/1-of-1.beds: packing ${jobs[0]}: damaged, or" \
   "warning: killed/shards/1-of-1.beds: packing ${jobs[1]}: damaged, or"
-for table in profiles decays distributions; do
+for table in profiles decays distributions sizes; do
   cmp killed/$table.csv whole/$table.csv || fail "other $table after SIGKILL"
 done
 cmp <(beds_in killed) <(beds_in whole) || fail "other grains after SIGKILL"

@@ -70,6 +70,7 @@ TEST_CASE("a stored bed of spheres reads back bit by bit, without orientations")
   CHECK(back.curves.profile_y.bins.at(0).small == 1.0 / 3.0);
   CHECK(back.curves.profile_z.bins.at(0).neighbours == -1);
   CHECK(std::isnan(back.curves.force_density.values.at(1)));
+  CHECK(back.curves.sizes.at(0).packed == 1.0 / 3.0);
   CHECK_FALSE(back.turned);
 }
 
@@ -79,6 +80,7 @@ TEST_CASE("curves are put back where they were taken from") {
   CHECK(result.profile_y.bin_width == 0.1);
   CHECK(result.profile_z.bins.size() == 1);
   CHECK(result.order.pair_correlation.values.at(2) == 3);
+  CHECK(result.sizes.at(0).slab == 0.125);
   StoredBed bed = sample_bed();
   bed.curves = curves_of(result);
   CHECK(bed_bytes(bed) == bed_bytes(sample_bed()));
@@ -86,7 +88,7 @@ TEST_CASE("curves are put back where they were taken from") {
 
 TEST_CASE("a bed begins as its header states") {
   const std::string bytes = bed_bytes(sample_bed());
-  CHECK(bytes.substr(0, 19) == std::string("GRAINS9\n\3\0\0\0\0\0\0\0job", 19));
+  CHECK(bytes.substr(0, 20) == std::string("GRAINS10\n\3\0\0\0\0\0\0\0job", 20));
 }
 
 TEST_CASE("a bed without grains can be stored") {

@@ -56,7 +56,8 @@ TEST_CASE("the table knows every member of a specification") {
   [[maybe_unused]] const auto& [shape, box, fill, sizes, accuracy, measure, random_key] =
       PackingSpec{};
   [[maybe_unused]] const auto& [length, width, x, y, is_tube] = box;
-  [[maybe_unused]] const auto& [spread, small_share, size_ratio] = sizes;
+  [[maybe_unused]] const auto& [spread, small_share, size_ratio, distribution] = sizes;
+  [[maybe_unused]] const auto& [formula, by, smallest, largest] = SizeDistribution{};
   [[maybe_unused]] const auto& [protocol, solver, precision, end, step, momentum, fall, path, creep,
                                 rest, residual, kinetic, contacts, overlap, imbalance,
                                 imbalance_gap, max_steps] = accuracy;
@@ -64,7 +65,14 @@ TEST_CASE("the table knows every member of a specification") {
       measure;
   CHECK(known_keys("box").size() == 4);
   CHECK(known_keys("tube").size() == 1);
-  CHECK(known_keys("sizes").size() == 3);
+  CHECK(find_parameter("sizes.spread"));
+  CHECK(find_parameter("sizes.small_share"));
+  CHECK(find_parameter("sizes.size_ratio"));
+  const auto parts = known_keys("sizes.distribution");
+  for (const char* part :
+       {"lognormal", "uniform", "weibull", "table", "by", "smallest", "largest"}) {
+    CHECK(std::count(parts.begin(), parts.end(), part) == 1);
+  }
   CHECK(known_keys("accuracy").size() == 17 + 1);  // and "preset"
   CHECK(known_keys("measure").size() == 4);
   [[maybe_unused]] const auto& [side, across, height, angle] = PinacoidSize{};
@@ -82,10 +90,11 @@ TEST_CASE("every parameter that belongs to the identity reads back what was set"
     if (parameter.path == "fill.diameter") resolved.fill_file = "x.csv";
     const auto value = parameter.get(resolved);
     const std::set<std::string> outside = {"accuracy.preset", "seed", "shape.hull.file",
-                                           "shape.hull.size"};
+                                           "shape.hull.size", "sizes.distribution.size"};
     CHECK(value.has_value() == (outside.count(parameter.path) == 0));
-    const bool is_known_by_hash =
-        parameter.kind == ValueKind::points || parameter.kind == ValueKind::texts;
+    const bool is_known_by_hash = parameter.role == Role::size_file ||
+                                  parameter.kind == ValueKind::points ||
+                                  parameter.kind == ValueKind::texts;
     if (is_known_by_hash) continue;
     if (value) CHECK(*value == *reading.value);
   }
@@ -94,7 +103,8 @@ TEST_CASE("every parameter that belongs to the identity reads back what was set"
 TEST_CASE("no two parameters write to the same place") {
   for (const Parameter& written : parameters()) {
     if (written.path == "accuracy.preset" || written.path.starts_with("fill.")) continue;
-    if (written.path.starts_with("shape")) continue;  // one choice, below
+    if (written.path.starts_with("shape")) continue;               // one choice, below
+    if (written.path.starts_with("sizes.distribution")) continue;  // likewise
     ResolvedSpec resolved;
     written.set(resolved, *read_value(written, another_value(written)).value);
     for (const Parameter& other : parameters()) {
@@ -154,7 +164,7 @@ TEST_CASE("a hull is known by its vertices in their order, not by where they cam
   other = hull;
   std::swap(other.points[0], other.points[1]);
   CHECK(hash_of(other) != hash_of(hull));
-  CHECK(hash_of({{{1, 2, 3}}}) != hash_of({{{12, 3, 0}}}));
+  CHECK(hash_of(HullVertices{{{1, 2, 3}}}) != hash_of(HullVertices{{{12, 3, 0}}}));
 }
 
 TEST_CASE("every name of a choice is read as the value it names") {

@@ -8,6 +8,7 @@
 #include "runner/tables/distributions.hpp"
 #include "runner/tables/packings.hpp"
 #include "runner/tables/profiles.hpp"
+#include "runner/tables/sizes.hpp"
 
 namespace grainsweep {
 
@@ -27,6 +28,10 @@ inline std::string decays_csv(const std::vector<Group>& groups) {
 
 inline std::string distributions_csv(const std::vector<Group>& groups) {
   return text_of(distributions_table(varied_of(groups)), groups);
+}
+
+inline std::string sizes_csv(const std::vector<Group>& groups) {
+  return text_of(sizes_table(varied_of(groups)), groups);
 }
 
 inline std::string packings_csv(const std::vector<Row>& rows, const std::vector<Group>& groups,

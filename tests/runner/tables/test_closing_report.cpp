@@ -205,6 +205,7 @@ std::vector<Row> rows_of_sweep(const ReportedSweep& reported) {
     const double off = k % 2 == 0 ? 0.001 : -0.001, width = rows[k].job.box.width;
     rows[k].outcome = sample_outcome(rows[k].job.id, 0.64 - 0.3 / width + off, 6.0 + 5.0 * off);
     rows[k].outcome->result.status = reported.status;
+    rows[k].outcome->result.small_share = rows[k].job.small_share;
   }
   return rows;
 }
@@ -214,6 +215,22 @@ std::size_t columns_of(const std::string& line) {
   return static_cast<std::size_t>(std::count_if(line.begin(), line.end(), [](char c) {
     return (static_cast<unsigned char>(c) & 0xc0U) != 0x80U;
   }));
+}
+
+TEST_CASE("small grains that sank out of the slab are warned of, a few in a hundred are not") {
+  const auto text_of = [](double slab_share) {
+    std::vector<Row> rows = {settled_row("a", 5, 0.6, 6), settled_row("b", 5, 0.6, 6)};
+    for (Row& row : rows) {
+      row.job.small_share = 0.2;
+      row.outcome->result.small_share = slab_share;
+    }
+    return report_of(reported_provenance(), rows, "out/a");
+  };
+  CHECK_THAT(text_of(0.05), Catch::Contains("Warning: small grains are not where") &&
+                                Catch::Contains(", W = 5: 0.050 of the solid volume, in the whole "
+                                                "bed 0.200\n"));
+  CHECK_THAT(text_of(0.23), Catch::Contains("0.230 of the solid volume"));
+  CHECK_THAT(text_of(0.19), !Catch::Contains("Warning"));
 }
 
 TEST_CASE("the closing table of any sweep has a line per group, told apart, on 100 columns") {

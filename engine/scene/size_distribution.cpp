@@ -1,0 +1,334 @@
+#include "engine/scene/size_distribution.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "engine/interval.hpp"
+#include "engine/scene/random.hpp"
+
+namespace grainsweep {
+
+namespace {
+
+constexpr double beyond_cut = 1e-3;  // share that is cut off each end of a curve without ends
+constexpr double cut_deviation = 3.0902323061678132;  // of a Gaussian: 0.1 % lie beyond it
+constexpr int formula_steps = 500;  // keep rows within 1e-5 of a formula, whatever its width
+
+struct Ends {
+  double smallest, largest;
+};
+
+/// `chosen` where it is given.
+Ends ends_of(const SizeDistribution& chosen, double smallest, double largest) {
+  return {chosen.smallest.value_or(smallest), chosen.largest.value_or(largest)};
+}
+
+/// Where a lognormal or Weibull curve begins and ends, d, if nothing else is asked for.
+Ends usual_ends(const LognormalSizes& sizes) {
+  const double factor = std::exp(cut_deviation * sizes.sigma);
+  return {sizes.median / factor, sizes.median * factor};
+}
+Ends usual_ends(const WeibullSizes& sizes) {
+  const double power = 1.0 / sizes.shape;
+  return {sizes.scale * std::pow(-std::log1p(-beyond_cut), power),
+          sizes.scale * std::pow(-std::log(beyond_cut), power)};
+}
+
+double formula_at(const LognormalSizes& sizes, double diameter) {
+  const double deviation = std::log(diameter / sizes.median) / sizes.sigma;
+  return 0.5 * std::erfc(-deviation / std::sqrt(2.0));
+}
+double formula_at(const WeibullSizes& sizes, double diameter) {
+  return -std::expm1(-std::pow(diameter / sizes.scale, sizes.shape));
+}
+
+SizeCurve one_size(double diameter) { return {{diameter, diameter}, {0.0, 1.0}}; }
+
+/// Rows of a formula between two diameters, evenly spaced in their logarithm.
+template <class Formula>
+SizeCurve rows_between(const Formula& formula, const Ends& ends) {
+  SizeCurve curve;
+  const double low = formula_at(formula, ends.smallest);
+  const double whole = formula_at(formula, ends.largest) - low;
+  for (int k = 0; k <= formula_steps; ++k) {
+    const double share = static_cast<double>(k) / formula_steps;
+    const double diameter = k == formula_steps
+                                ? ends.largest
+                                : ends.smallest * std::pow(ends.largest / ends.smallest, share);
+    curve.diameters.push_back(diameter);
+    curve.passing.push_back((formula_at(formula, diameter) - low) / whole);
+  }
+  curve.passing.back() = 1.0;
+  return curve;
+}
+
+template <class Formula>
+SizeCurve curve_of(const Formula& formula, const SizeDistribution& distribution) {
+  const Ends usual = usual_ends(formula);
+  return rows_between(formula, ends_of(distribution, usual.smallest, usual.largest));
+}
+
+/// The rows of a curve between the ends asked for.
+SizeCurve cut(const SizeCurve& curve, const SizeDistribution& distribution) {
+  const auto [smallest, largest] =
+      ends_of(distribution, curve.diameters.front(), curve.diameters.back());
+  // A step at an end belongs to what is left.
+  const double low = passing_at(curve, std::nextafter(smallest, 0.0));
+  const double whole = passing_at(curve, largest) - low;
+  SizeCurve left{{smallest}, {0.0}};
+  for (std::size_t k = 0; k < curve.diameters.size(); ++k) {
+    if (curve.diameters[k] < smallest || curve.diameters[k] > largest) continue;
+    left.diameters.push_back(curve.diameters[k]);
+    left.passing.push_back(std::max(0.0, (curve.passing[k] - low) / whole));
+  }
+  left.diameters.push_back(largest);
+  left.passing.push_back(1.0);
+  return left;
+}
+
+/// The rows of a table; shares are steps.
+SizeCurve rows_of(const SizeTable& table) {
+  if (table.shares.empty()) return {table.diameters, table.passing};
+  SizeCurve curve;
+  double whole = 0.0, passing = 0.0;
+  for (const double share : table.shares) whole += share;
+  for (std::size_t k = 0; k < table.shares.size(); ++k) {
+    curve.diameters.insert(curve.diameters.end(), 2, table.diameters[k]);
+    curve.passing.push_back(passing / whole);
+    passing += table.shares[k];
+    curve.passing.push_back(passing / whole);
+  }
+  return curve;
+}
+
+/// The rows from the last that nothing is finer than to the first that nothing is coarser than.
+SizeCurve without_empty_ends(const SizeCurve& curve) {
+  const auto& passing = curve.passing;
+  const auto first = std::upper_bound(passing.begin(), passing.end(), 0.0) - 1 - passing.begin();
+  const auto last = std::lower_bound(passing.begin(), passing.end(), 1.0) + 1 - passing.begin();
+  return {{curve.diameters.begin() + first, curve.diameters.begin() + last},
+          {passing.begin() + first, passing.begin() + last}};
+}
+
+struct MakeCurve {
+  const SizeDistribution& distribution;
+
+  SizeCurve operator()(const LognormalSizes& sizes) const {
+    if (sizes.sigma == 0.0) return one_size(sizes.median);
+    return curve_of(sizes, distribution);
+  }
+  SizeCurve operator()(const UniformSizes& sizes) const {
+    return cut({{sizes.from, sizes.to}, {0.0, 1.0}}, distribution);
+  }
+  SizeCurve operator()(const WeibullSizes& sizes) const { return curve_of(sizes, distribution); }
+  SizeCurve operator()(const SizeTable& table) const { return cut(rows_of(table), distribution); }
+};
+
+/// Power of the diameter that a grain's weight grows with.
+int power_of(SizeWeight by) {
+  return by == SizeWeight::number ? 0 : by == SizeWeight::area ? 2 : 3;
+}
+
+/// Mean of D^power over diameters spread evenly between two; powers -3, -2, 0, 1 and 3.
+double mean_power(double a, double b, int power) {
+  switch (power) {
+    case -3:
+      return (a + b) / (2.0 * a * a * b * b);
+    case -2:
+      return 1.0 / (a * b);
+    case 1:
+      return (a + b) / 2.0;
+    case 3:
+      return (a + b) * (a * a + b * b) / 4.0;
+    default:
+      return 1.0;
+  }
+}
+
+/// Sum over the segments of a curve of their share times the mean of D^power in them.
+double sum_of_powers(const SizeCurve& curve, int power) {
+  double sum = 0.0;
+  for (std::size_t k = 1; k < curve.diameters.size(); ++k) {
+    sum += (curve.passing[k] - curve.passing[k - 1]) *
+           mean_power(curve.diameters[k - 1], curve.diameters[k], power);
+  }
+  return sum;
+}
+
+/// Share of the grains, by number, that are finer than each row; 1 where nothing follows.
+std::vector<double> finer_by_number(const SizeCurve& curve) {
+  const int power = power_of(curve.by);
+  std::vector<double> finer = {0.0};
+  for (std::size_t k = 1; k < curve.diameters.size(); ++k) {
+    finer.push_back(finer.back() +
+                    (curve.passing[k] - curve.passing[k - 1]) *
+                        mean_power(curve.diameters[k - 1], curve.diameters[k], -power));
+  }
+  const double all = finer.back();
+  for (double& share : finer) share /= all;
+  return finer;
+}
+
+/// The diameter in a segment that a share `t` of its grains, by number, is finer than. Between two
+/// rows grains by weight are spread evenly, by number as D^-power.
+double diameter_within(double a, double b, int power, double t) {
+  if (power == 0) return a + t * (b - a);
+  if (power == 2) return a * b / (b - t * (b - a));
+  return a * b / std::sqrt(b * b - t * (b * b - a * a));
+}
+
+std::string number_fault(const char* name, double value, const Interval& range) {
+  if (range.holds(value)) return "";
+  if (std::isinf(range.high))
+    return std::string(name) + " must be positive, is " + bound_text(value);
+  return std::string(name) + " must lie in " + range.text() + ", is " + bound_text(value);
+}
+
+std::string first_of(std::initializer_list<std::string> faults) {
+  for (const std::string& fault : faults) {
+    if (!fault.empty()) return fault;
+  }
+  return "";
+}
+
+constexpr Interval any_length{.low = 0.0, .low_open = true};
+
+bool ascends(const std::vector<double>& values, bool strictly) {
+  const auto falls = [&](double a, double b) { return strictly ? !(a < b) : !(a <= b); };
+  return std::adjacent_find(values.begin(), values.end(), falls) == values.end();
+}
+
+std::string passing_fault(const std::vector<double>& passing) {
+  if (passing.front() == 0.0 && passing.back() == 1.0 && ascends(passing, false)) return "";
+  return "table.passing must rise from 0 to 1, the share finer than each diameter";
+}
+
+std::string shares_fault(const std::vector<double>& shares) {
+  double whole = 0.0;
+  for (const double share : shares) {
+    if (!(share >= 0.0)) return "table.shares must hold no negative number";
+    whole += share;
+  }
+  constexpr double rounding = 0.001;  // of shares written with three digits
+  if (std::abs(whole - 1.0) <= rounding) return "";
+  return "table.shares must add up to 1, add up to " + number_text(whole);
+}
+
+/// What is wrong with the numbers of a formula.
+struct FindFault {
+  std::string operator()(const LognormalSizes& sizes) const {
+    return first_of({number_fault("lognormal.median", sizes.median, any_length),
+                     number_fault("lognormal.sigma", sizes.sigma, {0.0, 2.0})});
+  }
+  std::string operator()(const UniformSizes& sizes) const {
+    const std::string order =
+        sizes.to >= sizes.from ? "" : "uniform.to must be no smaller than uniform.from";
+    return first_of({number_fault("uniform.from", sizes.from, any_length),
+                     number_fault("uniform.to", sizes.to, any_length), order});
+  }
+  std::string operator()(const WeibullSizes& sizes) const {
+    return first_of({number_fault("weibull.scale", sizes.scale, any_length),
+                     number_fault("weibull.shape", sizes.shape, {0.1, 100.0})});
+  }
+  std::string operator()(const SizeTable& table) const {
+    const bool has_shares = !table.shares.empty();
+    if (has_shares == !table.passing.empty()) {
+      return "table needs one of passing and shares beside its diameters";
+    }
+    const std::size_t rows = has_shares ? table.shares.size() : table.passing.size();
+    if (rows != table.diameters.size() || rows > most_size_rows) {
+      return "table.diameters must hold as many numbers as " +
+             std::string(has_shares ? "table.shares" : "table.passing") + ", at most " +
+             std::to_string(most_size_rows) + ", holds " + std::to_string(table.diameters.size()) +
+             " for " + std::to_string(rows);
+    }
+    if (!(table.diameters.front() > 0.0) || !ascends(table.diameters, true)) {
+      return "table.diameters must be positive and ascend";
+    }
+    return has_shares ? shares_fault(table.shares) : passing_fault(table.passing);
+  }
+};
+
+/// Whether anything of the curve lies between the ends asked for.
+bool leaves_grains(const SizeDistribution& distribution) {
+  SizeDistribution whole = distribution;
+  whole.smallest.reset();
+  whole.largest.reset();
+  const SizeCurve curve = curve_of(whole);
+  const auto [smallest, largest] =
+      ends_of(distribution, curve.diameters.front(), curve.diameters.back());
+  return smallest <= largest &&
+         passing_at(curve, largest) > passing_at(curve, std::nextafter(smallest, 0.0));
+}
+
+/// Of the ends of a curve: what a bed can hold, and that d is one of its lengths.
+std::string ends_fault(const SizeCurve& curve) {
+  const double smallest = curve.diameters.front(), largest = curve.diameters.back();
+  const std::string reach = number_text(smallest) + " to " + number_text(largest) + " d";
+  if (!(smallest <= 1.0 && largest >= 1.0)) {
+    return "size is missing or wrong: grains of " + reach +
+           "; d, the unit of length, must be a length between the smallest and the largest";
+  }
+  if (largest <= most_size_ratio * smallest) return "";
+  return "smallest must cut off more: the largest grain may be " + number_text(most_size_ratio) +
+         " times the smallest, has " + reach;
+}
+
+}  // namespace
+
+std::string fault_of(const SizeDistribution& distribution) {
+  std::string fault =
+      first_of({std::visit(FindFault(), distribution.formula),
+                number_fault("smallest", distribution.smallest.value_or(1.0), any_length),
+                number_fault("largest", distribution.largest.value_or(1.0), any_length)});
+  if (!fault.empty()) return fault;
+  if (!leaves_grains(distribution)) return "smallest and largest leave nothing of the curve";
+  return ends_fault(curve_of(distribution));
+}
+
+SizeCurve curve_of(const SizeDistribution& distribution) {
+  SizeCurve curve = without_empty_ends(std::visit(MakeCurve{distribution}, distribution.formula));
+  curve.by = distribution.by;
+  curve.is_table = std::holds_alternative<SizeTable>(distribution.formula);
+  return curve;
+}
+
+double passing_at(const SizeCurve& curve, double diameter) {
+  const auto& rows = curve.diameters;
+  const auto above = std::upper_bound(rows.begin(), rows.end(), diameter);
+  if (above == rows.begin()) return 0.0;
+  if (above == rows.end()) return 1.0;
+  const auto k = static_cast<std::size_t>(above - rows.begin());
+  const double share = (diameter - rows[k - 1]) / (rows[k] - rows[k - 1]);
+  return curve.passing[k - 1] + share * (curve.passing[k] - curve.passing[k - 1]);
+}
+
+double mean_cube(const SizeCurve& curve) {
+  const int power = power_of(curve.by);
+  return sum_of_powers(curve, 3 - power) / sum_of_powers(curve, -power);
+}
+
+std::vector<double> draw_diameters(const SizeCurve& curve, std::int64_t count, std::uint64_t key) {
+  const int power = power_of(curve.by);
+  const std::vector<double> finer = finer_by_number(curve);
+  std::vector<double> diameters(static_cast<std::size_t>(count));
+  std::size_t row = 1;
+  for (std::size_t i = 0; i < diameters.size(); ++i) {
+    const double within = unit_interval(random_words(key, Purpose::size, i, 0)[0]);
+    const double wanted = (static_cast<double>(i) + within) / static_cast<double>(count);
+    while (finer[row] < wanted) ++row;
+    const double t = (wanted - finer[row - 1]) / (finer[row] - finer[row - 1]);
+    diameters[diameters.size() - 1 - i] =
+        diameter_within(curve.diameters[row - 1], curve.diameters[row], power, t);
+  }
+  return diameters;
+}
+
+double weight_of(SizeWeight by, double diameter) {
+  return by == SizeWeight::number ? 1.0
+         : by == SizeWeight::area ? diameter * diameter
+                                  : diameter * diameter * diameter;
+}
+
+}  // namespace grainsweep

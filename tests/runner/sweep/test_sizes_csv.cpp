@@ -1,0 +1,55 @@
+#include <catch2/catch.hpp>
+
+#include "runner/sweep/sizes_csv.hpp"
+#include "tests/runner/sweep/sweep_files.hpp"
+
+namespace grainsweep {
+namespace {
+
+using Messages = std::vector<std::string>;
+
+Messages errors_of_table(const std::string& text) {
+  Messages errors;
+  for (const Diagnostic& diagnostic : parse_sizes(text, "sieves.csv").errors) {
+    errors.push_back(to_string(diagnostic));
+  }
+  return errors;
+}
+
+TEST_CASE("a sieve curve is read from its columns in any order of columns and rows") {
+  const SizesReading reading = parse_sizes(
+      "sieve, passing ,diameter\r\nd,1,4\r\n\"c\",0.5,2\na,0,\"0.5\"\n\n", "sieves.csv");
+  REQUIRE(reading.errors.empty());
+  CHECK(reading.table.diameters == std::vector<double>{0.5, 2, 4});
+  CHECK(reading.table.passing == std::vector<double>{0, 0.5, 1});
+  CHECK(reading.table.shares.empty());
+}
+
+TEST_CASE("shares of single diameters are read as such") {
+  const SizesReading reading = parse_sizes("diameter,share\n1,0.3\n2,0.7\n", "sieves.csv");
+  REQUIRE(reading.errors.empty());
+  CHECK(reading.table.shares == std::vector<double>{0.3, 0.7});
+  CHECK(reading.table.passing.empty());
+}
+
+TEST_CASE("what a table of sizes lacks is told with its line") {
+  const std::string wanted =
+      "sieves.csv:1: the first line must name the columns diameter and passing, or diameter and "
+      "share; is ";
+  CHECK(errors_of_table("d,passing\n1,0\n") == Messages{wanted + "\"d,passing\""});
+  CHECK(errors_of_table("diameter,passing,share\n") ==
+        Messages{wanted + "\"diameter,passing,share\""});
+  CHECK(errors_of_table("diameter,share\n") ==
+        Messages{"sieves.csv:1: no row follows the first line"});
+  CHECK(errors_of_table("diameter,share\n1\n2,x\nnan,1\n3,1\n") ==
+        Messages{"sieves.csv:2: holds fewer values than the first line names",
+                 "sieves.csv:3: must hold finite numbers, holds \"x\"",
+                 "sieves.csv:4: must hold finite numbers, holds \"nan\""});
+  std::string wrong = "diameter,share\n";
+  for (int k = 0; k < 50; ++k) wrong += "x,1\n";
+  CHECK(errors_of_table(wrong).size() == 20);
+  CHECK(read_sizes("/nowhere/sieves.csv").errors.size() == 1);
+}
+
+}  // namespace
+}  // namespace grainsweep

@@ -1,0 +1,44 @@
+#include <catch2/catch.hpp>
+
+#include "runner/tables/families.hpp"
+#include "runner/tables/sizes.hpp"
+#include "tests/runner/sample_rows.hpp"
+#include "tests/runner/tables/table_texts.hpp"
+
+namespace grainsweep {
+namespace {
+
+Row row_with_sizes(const std::string& id, std::vector<SizeRow> sizes) {
+  Row row = settled_row(id, 5, 0.6, 6);
+  row.outcome->result.sizes = std::move(sizes);
+  return row;
+}
+
+TEST_CASE("sizes asked and packed stand side by side, with the scatter of the replicates") {
+  const std::vector<Row> rows = {row_with_sizes("a", {{0.5, 0.25, 0.25, 0}, {2, 1, 1, 1}}),
+                                 row_with_sizes("b", {{0.5, 0.25, 0.75, 0.5}, {2, 1, 1, 1}})};
+  CHECK(sizes_csv(analyse(rows).groups) ==
+        "group,family,job,label,width,boundary_y,small_share,diameter,asked,n,packed,packed_sd,"
+        "packed_error,slab,slab_sd,slab_error\n"
+        "1,MSP,a,MSP,5,walls,0,0.5,0.25,2,0.5,0.3535533905932738,0.25,0.25,0.3535533905932738,"
+        "0.25\n"
+        "1,MSP,a,MSP,5,walls,0,2,1,2,1,0,0,1,0,0\n");
+}
+
+TEST_CASE("grains without a distribution, and groups without settled packings, have no rows") {
+  const std::vector<Row> rows = {settled_row("a", 5, 0.6, 6),
+                                 row_with_status("u", 5, PackingStatus::failed, "no room")};
+  CHECK(sizes_csv(analyse(rows).groups) == sizes_csv({}));
+}
+
+TEST_CASE("diameters are told in the units of the sweep, too") {
+  const std::vector<Row> rows = {row_with_sizes("a", {{0.5, 1, 1, 1}})};
+  const std::vector<Group> groups = analyse(rows).groups;
+  const GivenUnits millimetres = Units{3.0, "mm", std::nullopt};
+  const std::string text = text_of(sizes_table(varied_of(groups), millimetres), groups);
+  CHECK_THAT(text, Catch::Contains("diameter_mm"));
+  CHECK_THAT(text, Catch::Contains(",1.5"));
+}
+
+}  // namespace
+}  // namespace grainsweep
