@@ -65,7 +65,7 @@ class InteriorPoint {
   ExactRest run(const ExactRestLimits& limits) {
     ExactRest rest;
     const double most = std::min(most_factorisations, limits.operations / factors_.operations());
-    const double usual = std::max(50.0, static_cast<double>(grains()) / 20.0);  // rounds
+    const double usual = std::max(50.0, 2.0 * std::sqrt(static_cast<double>(grains())));  // rounds
     if (most < usual) return failed("it would take too long", rest);
     while (!is_found()) {
       if (!limits.keep_going()) return failed("cancelled", rest);
