@@ -57,7 +57,7 @@ struct EstimateCells {
   std::string value, error;
 };
 
-EstimateCells cells_of(const Estimate& estimate, const std::string& not_determined) {
+EstimateCells estimate_cells(const Estimate& estimate, const std::string& not_determined) {
   if (!not_determined.empty()) return {};
   return {cell(estimate.value), cell(estimate.error)};
 }
@@ -89,8 +89,9 @@ std::string small_share_csv(const std::vector<WallReach>& reaches) {
   for (const auto& [share, family, phi, z, large, small] : reaches) {
     std::vector<std::string> cells = {"1", cell(share)};
     for (const auto& [value, error] :
-         {cells_of(phi.slope, phi.not_determined), cells_of(z.slope, z.not_determined),
-          cells_of(large.reach, large.not_determined), cells_of(small.reach, small.not_determined)})
+         {estimate_cells(phi.slope, phi.not_determined), estimate_cells(z.slope, z.not_determined),
+          estimate_cells(large.reach, large.not_determined),
+          estimate_cells(small.reach, small.not_determined)})
       cells.insert(cells.end(), {value, error});
     cells.push_back(cell(family->name));
     text += csv_line(cells);

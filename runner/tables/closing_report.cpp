@@ -39,7 +39,7 @@ struct TableColumns {
   std::function<std::string(const Group&)> cells;
 };
 
-std::string cells_of(const Group& group) {
+std::string measured_cells(const Group& group) {
   const Box& box = group.job.box;
   const Spread& phi = mean_of(group, "solid_fraction");
   const Spread& z = mean_of(group, "coordination");
@@ -73,7 +73,7 @@ std::string extent_symbol(const std::vector<TableLine>& lines) {
 TableColumns measured_columns(const std::vector<TableLine>& lines) {
   return {cells_text(extent_symbol(lines) + "/d",
                      {"φ ± sd", "Z ± sd", "contacts/iso", "overlap/d", "packings"}),
-          cells_of};
+          measured_cells};
 }
 
 /// The same in the units of the sweep.
