@@ -132,7 +132,7 @@ void keep_own(std::vector<std::string>& damage, const Shard& shard, const std::s
 /// its checkpoints: they are removed. Warns of what is damaged.
 RunningSweep resume(const Sweep& sweep, const std::vector<std::size_t>& places, const Shard& shard,
                     const std::string& folder, ShardFiles& files, bool retry_failed) {
-  RunningSweep running{folder, files, 0, {}};
+  RunningSweep running{folder, files, 0, {}, {}};
   JournalReading stored = read_journals(folder, Detail::summary);
   keep_own(stored.damage, shard, journal_path(folder, files.name()));
   std::set<std::string> done;
@@ -144,6 +144,7 @@ RunningSweep resume(const Sweep& sweep, const std::vector<std::size_t>& places, 
                          has_sound_bed(folder, known->second, stored.damage);
     if (is_done) {
       done.insert(job.id);
+      running.estimates.add(estimate_cost(job.spec).cpu_seconds, known->second.cpu_seconds);
     } else {
       running.pending.push_back(&job);
     }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <functional>
 #include <numeric>
-#include <unordered_map>
 
 namespace grainsweep {
 
@@ -35,36 +34,27 @@ double bytes_of_largest(const std::vector<Cost>& costs, int live) {
   return std::accumulate(bytes.begin(), bytes.end(), 0.0);
 }
 
-namespace {
-
-/// What packings that are made took together, and what was estimated.
-struct Sums {
-  double measured = 0.0, estimated = 0.0;
-
-  void add(const Known& packing) {
-    measured += *packing.measured;
-    estimated += packing.estimated;
+void LearnedEstimates::add(double estimated, double measured) {
+  for (Sums* sums : {&of_all_, &of_estimate_[estimated]}) {
+    sums->measured += measured;
+    sums->estimated += estimated;
   }
-  double ratio() const { return estimated > 0.0 ? measured / estimated : 1.0; }
-};
+}
 
-}  // namespace
+double LearnedEstimates::of(double estimated) const {
+  const auto same = of_estimate_.find(estimated);
+  const Sums& teacher = same == of_estimate_.end() ? of_all_ : same->second;
+  return estimated * teacher.ratio();
+}
 
 std::vector<double> learned(const std::vector<Known>& packings) {
-  std::unordered_map<double, Sums> of_estimate;
-  Sums of_all;
+  LearnedEstimates estimates;
   for (const Known& packing : packings) {
-    if (!packing.measured) continue;
-    of_all.add(packing);
-    of_estimate[packing.estimated].add(packing);
+    if (packing.measured) estimates.add(packing.estimated, *packing.measured);
   }
   std::vector<double> better;
   better.reserve(packings.size());
-  for (const Known& packing : packings) {
-    const auto same = of_estimate.find(packing.estimated);
-    const Sums& teacher = same == of_estimate.end() ? of_all : same->second;
-    better.push_back(packing.estimated * teacher.ratio());
-  }
+  for (const Known& packing : packings) better.push_back(estimates.of(packing.estimated));
   return better;
 }
 

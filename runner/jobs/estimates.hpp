@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <unordered_map>
 #include <vector>
 
 #include "engine/packing.hpp"
@@ -26,8 +27,26 @@ struct Known {
   std::optional<double> measured;
 };
 
-/// Better estimates of all, s: those that are made teach. What packings of the same estimate took
-/// in the mean, or else the estimate times the ratio over all that are made.
+/// Better estimates: packings that are made teach. What those of the same estimate took in the
+/// mean, or else the estimate times the ratio over all that are made.
+class LearnedEstimates {
+ public:
+  /// A packing that was estimated so, and took so long, s.
+  void add(double estimated, double measured);
+  /// What a packing that is estimated so will take, s.
+  double of(double estimated) const;
+
+ private:
+  /// What packings that are made took together, and what was estimated.
+  struct Sums {
+    double measured = 0.0, estimated = 0.0;
+    double ratio() const { return estimated > 0.0 ? measured / estimated : 1.0; }
+  };
+  Sums of_all_;
+  std::unordered_map<double, Sums> of_estimate_;
+};
+
+/// Those of all, s, as all that are made teach them.
 std::vector<double> learned(const std::vector<Known>& packings);
 
 }  // namespace grainsweep

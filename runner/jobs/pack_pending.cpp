@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <cstdio>
+#include <mutex>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -9,7 +10,6 @@
 #include <tbb/enumerable_thread_specific.h>
 
 #include "engine/dynamics/workspace.hpp"
-#include "runner/jobs/estimates.hpp"
 #include "runner/jobs/stop.hpp"
 #include "runner/machine.hpp"
 #include "runner/store/checkpoints.hpp"
@@ -160,7 +160,8 @@ class Packer {
       return stop_signal() != 0 || has_failed_ || options_.time_limit.is_over();
     };
     events.may_start = [this](std::size_t task) {
-      return options_.time_limit.may_begin(costs_[task].cpu_seconds);
+      const std::scoped_lock lock(learning_);
+      return options_.time_limit.may_begin(running_.estimates.of(costs_[task].cpu_seconds));
     };
     return events;
   }
@@ -177,6 +178,10 @@ class Packer {
     const Job& job = *running_.pending[task];
     finished.cpu_seconds += before_[task].cpu_seconds;
     const Outcome outcome = store(job, running_.files, std::move(finished), options_.no_grains);
+    {
+      const std::scoped_lock lock(learning_);
+      running_.estimates.add(costs_[task].cpu_seconds, outcome.cpu_seconds);
+    }
     checkpoints_of(job).remove();
     ++packed_.packings;
     const std::string line = packing_line(job, outcome) + went_on_text(before_[task].step);
@@ -197,6 +202,7 @@ class Packer {
   std::atomic<double> beat_due_{0.0};  ///< wall time
   std::atomic<bool> warned_{false};
   std::atomic<bool> has_failed_{false};
+  std::mutex learning_;  ///< while estimates learn or are asked
 };
 
 }  // namespace

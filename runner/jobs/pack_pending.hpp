@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "kernels/isa.hpp"
+#include "runner/jobs/estimates.hpp"
 #include "runner/jobs/progress.hpp"
 #include "runner/jobs/schedule.hpp"
 #include "runner/jobs/time_limit.hpp"
@@ -20,6 +21,7 @@ struct RunningSweep {
   ShardFiles& files;
   std::size_t done = 0;  ///< packings of its shard that were made before
   std::vector<const Job*> pending;
+  LearnedEstimates estimates = {};  ///< taught by the packings that were made before
 };
 
 struct PackOptions {

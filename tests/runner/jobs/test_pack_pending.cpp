@@ -1,3 +1,6 @@
+#include <chrono>
+#include <thread>
+
 #include <catch2/catch.hpp>
 
 #include "engine/dynamics/presets.hpp"
@@ -42,7 +45,7 @@ TEST_CASE("the CPU time of a packing is that of all runs that worked on it") {
   CheckpointFiles(folder.path(), sweep.jobs[0].id, build_name())
       .write(stopped_early(sweep.jobs[0], hour));
   ShardFiles files(folder.path(), {}, sample_run());
-  RunningSweep running{folder.path(), files, 0, {&sweep.jobs[0]}};
+  RunningSweep running{folder.path(), files, 0, {&sweep.jobs[0]}, {}};
   PackOptions options;
   options.isa = Isa::sse2;
   CHECK(pack_pending(running, options).packings == 1);
@@ -52,13 +55,30 @@ TEST_CASE("the CPU time of a packing is that of all runs that worked on it") {
   CHECK(saved_packings(folder.path()) == 0);
 }
 
+TEST_CASE("no packing begins that would outlive the limit by what others like it took") {
+  const Sweep sweep = sweep_of_a_small_bed();
+  const TemporaryFolder folder;
+  ShardFiles files(folder.path(), {}, sample_run());
+  PackOptions options;
+  options.isa = Isa::sse2;
+  options.time_limit = TimeLimit(10);  // of which 9 s are for packings
+  std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  const auto packed_where_others_took = [&](double seconds) {
+    RunningSweep running{folder.path(), files, 1, {&sweep.jobs[0]}, {}};
+    running.estimates.add(estimate_cost(sweep.jobs[0].spec).cpu_seconds, seconds);
+    return pack_pending(running, options).packings;
+  };
+  CHECK(packed_where_others_took(8.97) == 0);
+  CHECK(packed_where_others_took(1.0) == 1);
+}
+
 TEST_CASE("without grains the same curves are stored") {
   const Sweep sweep = sweep_of_a_small_bed();
   std::string curves[2];
   for (const bool no_grains : {false, true}) {
     const TemporaryFolder folder;
     ShardFiles files(folder.path(), {}, sample_run());
-    RunningSweep running{folder.path(), files, 0, {&sweep.jobs[0]}};
+    RunningSweep running{folder.path(), files, 0, {&sweep.jobs[0]}, {}};
     PackOptions options;
     options.isa = Isa::sse2;
     options.no_grains = no_grains;
