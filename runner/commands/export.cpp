@@ -71,10 +71,23 @@ std::string page_of(const StoredBed& bed, const Row& row, const GivenUnits& unit
   return bed_page(bed, facts);
 }
 
-ExportedBed exported(StoredBed&& bed, const JobFacts& job) {
+/// Throws BadInput.
+ExportSettings settings_of(const ExportOptions& options) {
+  ExportSettings settings{{}, options.periodic_images, options.voxels};
+  if (options.contacts == "touch") return settings;
+  const auto treatment = contact_treatment(options.contacts);
+  if (!treatment) {
+    throw BadInput("--contacts " + options.contacts +
+                   ": use touch, shrink:SHARE or cap:SHARE with a share between 0 and 1");
+  }
+  settings.treatment = *treatment;
+  return settings;
+}
+
+ExportedBed exported(StoredBed&& bed, const JobFacts& job, const ExportSettings& settings) {
   const auto& tolerances = job.measure.gap_tolerances;
   return {std::move(bed), facts_of(job, "").small_limit,
-          *std::max_element(tolerances.begin(), tolerances.end())};
+          *std::max_element(tolerances.begin(), tolerances.end()), settings};
 }
 
 }  // namespace
@@ -91,6 +104,18 @@ CLI::App& add_command(CLI::App& app, ExportOptions& options) {
                   "only this packing: its id in packings.csv; may be repeated")
       ->type_name("ID")
       ->allow_extra_args(false);
+  grains
+      .add_option("--contacts", options.contacts,
+                  "of stl and obj: touch, shrink:SHARE (of all lengths) or\n"
+                  "cap:SHARE (cut off, of so many radii)")
+      ->capture_default_str()
+      ->type_name("HOW");
+  grains.add_flag("--periodic-images", options.periodic_images,
+                  "of stl and obj: also what comes in through periodic sides");
+  grains.add_option("--voxels", options.voxels, "of voxels: so many a d")
+      ->check(CLI::Range(1.0, 1000.0))
+      ->capture_default_str()
+      ->type_name("N");
   grains.add_option("--to", options.to, "folder for the files (default: DIR/export)")
       ->type_name("DIR");
   grains.footer("Example: grainsweep export out/quick --format vtp --to /tmp/beds");
@@ -104,6 +129,7 @@ int perform(const ExportOptions& options) {
   }
   const std::string ending =
       format != nullptr ? std::string(format->ending) : std::string(".") + page_format;
+  const ExportSettings settings = settings_of(options);
   const Results results = results_with_warnings(options.folder);
   const std::vector<Row>& rows = results.rows;
   const std::vector<std::size_t> chosen = rows_to_export(rows, options);
@@ -116,8 +142,9 @@ int perform(const ExportOptions& options) {
     StoredBed bed = read_bed(options.folder, *rows[k].outcome);
     if (bed.grains.empty()) continue;  // of a run with --no-grains
     ++written;
-    const std::string text = format != nullptr ? format->text(exported(std::move(bed), rows[k].job))
-                                               : page_of(bed, rows[k], results.provenance.units);
+    const std::string text = format != nullptr
+                                 ? format->text(exported(std::move(bed), rows[k].job, settings))
+                                 : page_of(bed, rows[k], results.provenance.units);
     replace_file(to + "/" + stems[k] + ending, text);
   }
   if (written == 0) throw BadInput(options.folder + ": its packings were stored without grains");

@@ -1,6 +1,7 @@
 #include "runner/export/exported_bed.hpp"
 
 #include <algorithm>
+#include <charconv>
 
 #include <Eigen/Geometry>
 
@@ -22,6 +23,18 @@ int size_class(const ExportedBed& exported, std::size_t grain) {
 
 const char* class_name(const ExportedBed& exported, std::size_t grain) {
   return size_class(exported, grain) == 1 ? "large" : "small";
+}
+
+std::optional<ContactTreatment> contact_treatment(std::string_view text) {
+  using Kind = ContactTreatment::Kind;
+  const std::size_t colon = text.find(':');
+  const std::string_view name = text.substr(0, colon);
+  if (colon == std::string_view::npos || (name != "shrink" && name != "cap")) return std::nullopt;
+  ContactTreatment treatment{name == "cap" ? Kind::cap : Kind::shrink};
+  const char* const last = text.data() + text.size();
+  const auto [end, error] = std::from_chars(text.data() + colon + 1, last, treatment.share);
+  const bool is_share = treatment.share > 0.0 && treatment.share < 1.0;
+  return error == std::errc() && end == last && is_share ? std::optional(treatment) : std::nullopt;
 }
 
 std::vector<Eigen::Vector3d> vertices_in_box(const StoredBed& bed, std::size_t grain) {

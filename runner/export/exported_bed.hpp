@@ -1,7 +1,8 @@
 // A stored bed with what else files tell of it.
 #pragma once
 
-#include <string>
+#include <optional>
+#include <string_view>
 #include <vector>
 
 #include <Eigen/Core>
@@ -10,10 +11,31 @@
 
 namespace grainsweep {
 
+/// What becomes of grains in surfaces, so that they do not touch each other or the container.
+struct ContactTreatment {
+  enum class Kind {
+    none,
+    shrink,  ///< grains are scaled about their centres by `share`
+    cap,     ///< where grains nearly touch, caps are cut off, of `share` of the radius
+  };
+  Kind kind = Kind::none;
+  double share = 1.0;
+};
+
+/// "shrink:0.99" or "cap:0.2"; nothing if it is no such thing, or the share not in (0, 1).
+std::optional<ContactTreatment> contact_treatment(std::string_view text);
+
+struct ExportSettings {
+  ContactTreatment treatment;    ///< of surfaces
+  bool periodic_images = false;  ///< of surfaces: of grains that cross a periodic side
+  double voxels = 20.0;          ///< a d
+};
+
 struct ExportedBed {
   StoredBed bed;
   double small_limit = 0.0;  ///< grains of a smaller radius are small, d; 0 if there is one class
   double gap_tolerance = 1e-4;  ///< grains with a smaller gap touch, d: the widest of the packing
+  ExportSettings settings = {};
 };
 
 /// What files call a grain: its number from 1.

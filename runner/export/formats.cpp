@@ -4,16 +4,22 @@
 
 #include "runner/export/contacts.hpp"
 #include "runner/export/grain_files.hpp"
+#include "runner/export/lammps.hpp"
+#include "runner/export/surface_files.hpp"
+#include "runner/export/voxels.hpp"
 
 namespace grainsweep {
 
 const std::vector<ExportFormat>& export_formats() {
-  static const std::vector<ExportFormat> formats = {
-      {"csv", ".csv", grains_csv},
-      {"xyz", ".xyz", grains_xyz},
-      {"vtp", ".vtp", grains_vtp},
-      {"contacts", ".contacts.csv", contacts_csv},
-      {"contacts-vtp", ".contacts.vtp", contacts_vtp}};
+  static const std::vector<ExportFormat> formats = {{"csv", ".csv", grains_csv},
+                                                    {"xyz", ".xyz", grains_xyz},
+                                                    {"vtp", ".vtp", grains_vtp},
+                                                    {"contacts", ".contacts.csv", contacts_csv},
+                                                    {"contacts-vtp", ".contacts.vtp", contacts_vtp},
+                                                    {"lammps", ".data", lammps_data},
+                                                    {"stl", ".stl", surfaces_stl},
+                                                    {"obj", ".obj", surfaces_obj},
+                                                    {"voxels", ".nrrd", voxels_nrrd}};
   return formats;
 }
 

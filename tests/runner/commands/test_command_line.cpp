@@ -92,7 +92,7 @@ TEST_CASE("mistakes are refused with exit code 2 and a message") {
       {"run", "a.json", "--threads", "0"},
       {"run", "a.json", "--threads", "many"},
       {"run", "a.json", "--threads", "-1"},
-      {"export", "o", "--format", "stl"},
+      {"export", "o", "--format", "ply"},
       {"report"},
       {"run", "a.json", "--checkpoint-seconds", "-1"},
       {"collect", "a"},

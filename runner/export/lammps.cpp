@@ -1,0 +1,120 @@
+#include "runner/export/lammps.hpp"
+
+#include <algorithm>
+#include <array>
+#include <set>
+#include <utility>
+
+#include "engine/shape/build.hpp"
+#include "engine/units.hpp"
+#include "runner/tables/csv.hpp"
+
+namespace grainsweep {
+namespace {
+
+using Vector = Eigen::Vector3d;
+
+std::string joined(const std::vector<double>& numbers) {
+  std::string text;
+  for (const double number : numbers) text += (text.empty() ? "" : " ") + cell(number);
+  return text;
+}
+
+/// Comment, numbers and bounds.
+std::string header(const ExportedBed& exported) {
+  const StoredBed& bed = exported.bed;
+  const auto boundary = [](Boundary axis) { return axis == Boundary::periodic ? " p" : " f"; };
+  const std::string style = bed.turned ? "body rounded/polyhedron 3 64" : "sphere";
+  const std::string count = cell(bed.grains.size());
+  return "grainsweep, lengths in d; atom_style " + style + "; boundary" + boundary(bed.box.x) +
+         boundary(bed.box.y) + " f\n\n" + count + " atoms\n" +
+         (bed.turned ? count + " bodies\n" : "") + "2 atom types\n\n0 " + cell(bed.box.length) +
+         " xlo xhi\n0 " + cell(bed.box.width) + " ylo yhi\n0 " + cell(height_of(bed)) +
+         " zlo zhi\n\n";
+}
+
+std::string spheres(const ExportedBed& exported) {
+  std::string text = "Atoms # sphere\n\n";
+  const double density = 6.0 / pi;  // so that a sphere of diameter 1 has mass 1
+  for (std::size_t k = 0; k < exported.bed.grains.size(); ++k) {
+    const SettledGrain& grain = exported.bed.grains[k];
+    text += cell(id_of(k)) + " " + cell(size_class(exported, k)) + " " +
+            joined({2.0 * grain.radius, density, grain.x, grain.y, grain.z}) + "\n";
+  }
+  return text;
+}
+
+using Face = std::vector<std::int32_t>;
+
+std::set<std::pair<std::int32_t, std::int32_t>> edges_of(const std::vector<Face>& faces) {
+  std::set<std::pair<std::int32_t, std::int32_t>> edges;
+  for (const Face& face : faces) {
+    for (std::size_t k = 0; k < face.size(); ++k) {
+      edges.insert(std::minmax(face[k], face[(k + 1) % face.size()]));
+    }
+  }
+  return edges;
+}
+
+/// Faces of three and four corners, -1 in place of a fourth.
+std::vector<std::array<std::int32_t, 4>> small_faces(const std::vector<Face>& faces) {
+  std::vector<std::array<std::int32_t, 4>> small;
+  for (const Face& face : faces) {
+    if (face.size() == 4) {
+      small.push_back({face[0], face[1], face[2], face[3]});
+      continue;
+    }
+    for (std::size_t k = 2; k < face.size(); ++k)
+      small.push_back({face[0], face[k - 1], face[k], -1});
+  }
+  return small;
+}
+
+/// Nine to a line: LAMMPS takes at most 32 lines of a body and 256 characters of a line.
+std::string in_lines(const std::vector<double>& numbers) {
+  std::string text;
+  for (std::size_t k = 0; k < numbers.size(); ++k) {
+    text += cell(numbers[k]) + ((k + 1) % 9 == 0 || k + 1 == numbers.size() ? "\n" : " ");
+  }
+  return text;
+}
+
+/// A body: how many numbers, moments of inertia, corners about its centre, edges,
+/// faces, and the diameter of its rounding.
+std::string body(const StoredBed& bed, std::size_t grain) {
+  const Mesh& mesh = bed.turned->mesh;
+  const SettledGrain& at = bed.grains[grain];
+  std::vector<Vector> corners = vertices_in_box(bed, grain);
+  for (Vector& corner : corners) corner -= Vector(at.x, at.y, at.z);
+  const auto edges = edges_of(mesh.faces);
+  const auto faces = small_faces(mesh.faces);
+  const Eigen::Matrix3d inertia =
+      sphere_mass(at.radius) * inertia_of(mass_moments(corners, mesh.faces).second);
+  std::vector<double> numbers = {inertia(0, 0), inertia(1, 1), inertia(2, 2),
+                                 inertia(0, 1), inertia(0, 2), inertia(1, 2)};
+  for (const Vector& corner : corners) numbers.insert(numbers.end(), corner.begin(), corner.end());
+  for (const auto& [from, to] : edges) numbers.insert(numbers.end(), {double(from), double(to)});
+  for (const auto& face : faces) numbers.insert(numbers.end(), face.begin(), face.end());
+  numbers.push_back(1e-9);
+  return cell(id_of(grain)) + " 3 " + cell(numbers.size()) + "\n" + cell(corners.size()) + " " +
+         cell(edges.size()) + " " + cell(faces.size()) + "\n" + in_lines(numbers);
+}
+
+std::string bodies(const ExportedBed& exported) {
+  std::string atoms = "Atoms # body\n\n", text = "\nBodies\n\n";
+  for (std::size_t k = 0; k < exported.bed.grains.size(); ++k) {
+    const SettledGrain& grain = exported.bed.grains[k];
+    atoms += cell(id_of(k)) + " " + cell(size_class(exported, k)) + " 1 " +
+             joined({sphere_mass(grain.radius), grain.x, grain.y, grain.z}) + "\n";
+    text += body(exported.bed, k);
+  }
+  return atoms + text;
+}
+
+}  // namespace
+
+std::string lammps_data(const ExportedBed& exported) {
+  return header(exported) + (exported.bed.turned ? bodies(exported) : spheres(exported));
+}
+
+}  // namespace grainsweep

@@ -1,0 +1,72 @@
+#include "runner/export/surface_files.hpp"
+
+#include <cstdio>
+
+#include "runner/export/surfaces.hpp"
+#include "runner/tables/csv.hpp"
+
+namespace grainsweep {
+namespace {
+
+using Vector = Eigen::Vector3d;
+
+/// Nine digits: what a single-precision reader can use.
+std::string short_text(const Vector& v) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%.9g %.9g %.9g", v.x(), v.y(), v.z());
+  return text;
+}
+
+std::string name_of(const ExportedBed& exported, std::size_t grain) {
+  return "grain_" + cell(id_of(grain)) + "_" + class_name(exported, grain);
+}
+
+/// name and surface of every grain, and of the container.
+template <class Write>
+void for_each_surface(const ExportedBed& exported, Write write) {
+  for (const GrainSurface& grain : grain_surfaces(exported)) {
+    write(name_of(exported, grain.grain), grain.surface);
+  }
+  write("container", container_surface(exported.bed));
+}
+
+std::string facet(const Vector& a, const Vector& b, const Vector& c) {
+  const Vector normal = (b - a).cross(c - a).normalized();
+  return "facet normal " + short_text(normal) + "\nouter loop\nvertex " + short_text(a) +
+         "\nvertex " + short_text(b) + "\nvertex " + short_text(c) + "\nendloop\nendfacet\n";
+}
+
+}  // namespace
+
+std::string surfaces_stl(const ExportedBed& exported) {
+  std::string text;
+  for_each_surface(exported, [&](const std::string& name, const Surface& surface) {
+    text += "solid " + name + "\n";
+    for (const auto& face : surface.faces) {
+      for (std::size_t k = 2; k < face.size(); ++k) {
+        text +=
+            facet(corner(surface, face[0]), corner(surface, face[k - 1]), corner(surface, face[k]));
+      }
+    }
+    text += "endsolid " + name + "\n";
+  });
+  return text;
+}
+
+std::string surfaces_obj(const ExportedBed& exported) {
+  std::string text = "# grainsweep, lengths in d\n";
+  std::size_t first = 1;
+  for_each_surface(exported, [&](const std::string& name, const Surface& surface) {
+    text += "o " + name + "\n";
+    for (const Vector& vertex : surface.vertices) text += "v " + short_text(vertex) + "\n";
+    for (const auto& face : surface.faces) {
+      text += "f";
+      for (const std::int32_t k : face) text += " " + cell(first + static_cast<std::size_t>(k));
+      text += "\n";
+    }
+    first += surface.vertices.size();
+  });
+  return text;
+}
+
+}  // namespace grainsweep

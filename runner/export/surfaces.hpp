@@ -1,0 +1,50 @@
+// Closed surfaces of the grains of a bed, and of what contains it. Lengths in
+// d.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "runner/export/exported_bed.hpp"
+
+namespace grainsweep {
+
+/// A closed surface of flat faces, each edge of which two faces share.
+struct Surface {
+  std::vector<Eigen::Vector3d> vertices;
+  std::vector<std::vector<std::int32_t>> faces;  ///< counter-clockwise seen from outside
+};
+
+/// Vertex k.
+inline const Eigen::Vector3d& corner(const Surface& surface, std::int32_t k) {
+  return surface.vertices[static_cast<std::size_t>(k)];
+}
+
+/// Volume within, d^3.
+double volume_of(const Surface& surface);
+
+/// A sphere of radius 1 about the origin: an icosahedron with each triangle divided in four so many
+/// times; all corners lie on the sphere.
+Surface unit_ball(int divisions);
+
+/// The part of a convex surface where normal . x <= offset; empty if there is
+/// none.
+Surface cut_off(const Surface& surface, const Eigen::Vector3d& normal, double offset);
+
+/// A grain, or an image of it.
+struct GrainSurface {
+  std::size_t grain = 0;
+  Surface surface;
+};
+
+/// The surfaces of all grains with the treatment of their contacts and, where
+/// asked for, the images of those that cross periodic sides.
+std::vector<GrainSurface> grain_surfaces(const ExportedBed& exported);
+
+/// The box, or the tube as a prism around it, up to the highest grain; it
+/// encloses the grains.
+Surface container_surface(const StoredBed& bed);
+
+}  // namespace grainsweep

@@ -1,0 +1,140 @@
+#include "runner/export/voxels.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "engine/shape/hull.hpp"
+#include "runner/tables/csv.hpp"
+
+namespace grainsweep {
+namespace {
+
+/// The numbers of the voxels along an axis whose middles lie within `reach` of `centre`; along a
+/// periodic axis they may lie beyond the grid.
+struct VoxelRange {
+  std::int64_t first = 0, last = -1;
+};
+VoxelRange voxels_within(double centre, double reach, double size) {
+  return {static_cast<std::int64_t>(std::ceil((centre - reach) / size - 0.5)),
+          static_cast<std::int64_t>(std::floor((centre + reach) / size - 0.5))};
+}
+
+/// The place of voxel k on the grid, whose axis is periodic or ends there; -1 beyond it.
+std::int64_t wrapped(std::int64_t k, std::size_t count, bool periodic) {
+  const auto all = static_cast<std::int64_t>(count);
+  if (k >= 0 && k < all) return k;
+  return periodic ? ((k % all) + all) % all : -1;
+}
+
+/// Half-spaces normal . x <= offset about the centre that make up a grain of size 1 in its frame.
+std::vector<Face> faces_of(const Mesh& mesh) {
+  std::vector<Face> faces;
+  for (const auto& corners : mesh.faces) {
+    const auto at = [&](std::size_t k) {
+      const auto& [x, y, z] = mesh.vertices[static_cast<std::size_t>(corners[k])];
+      return Vector(x, y, z);
+    };
+    Vector normal = Vector::Zero();
+    for (std::size_t k = 2; k < corners.size(); ++k) {
+      normal += (at(k - 1) - at(0)).cross(at(k) - at(0));
+    }
+    normal.normalize();
+    faces.push_back({normal, normal.dot(at(0))});
+  }
+  return faces;
+}
+
+/// Of points about a grain's centre whether they lie in it; and how far the grain reaches from it.
+struct Inside {
+  double reach = 0.0;
+  std::vector<Face> faces;  ///< turned and scaled; empty of a sphere
+
+  bool operator()(const Vector& x) const {
+    if (faces.empty()) return x.squaredNorm() <= reach * reach;
+    return std::all_of(faces.begin(), faces.end(),
+                       [&](const Face& face) { return face.normal.dot(x) <= face.offset; });
+  }
+};
+
+Inside inside_of(const StoredBed& bed, const std::vector<Face>& faces, std::size_t grain) {
+  const SettledGrain& at = bed.grains[grain];
+  if (!bed.turned) return {at.radius, {}};
+  Inside inside;
+  for (const Vector& vertex : vertices_in_box(bed, grain)) {
+    inside.reach = std::max(inside.reach, (vertex - Vector(at.x, at.y, at.z)).norm());
+  }
+  const auto& [x, y, z, w] = bed.turned->orientations[grain];
+  const Eigen::Quaterniond turn(w, x, y, z);
+  for (Face face : faces) {
+    face.normal = turn * face.normal;
+    face.offset *= 2.0 * at.radius;
+    inside.faces.push_back(face);
+  }
+  return inside;
+}
+
+/// Writes the class of a grain into its voxels.
+void fill(const StoredBed& bed, const VoxelGrid& grid, std::size_t grain, const Inside& inside,
+          char value, std::string& voxels) {
+  const SettledGrain& at = bed.grains[grain];
+  const Vector centre(at.x, at.y, at.z);
+  const std::array periodic = {bed.box.x == Boundary::periodic, bed.box.y == Boundary::periodic,
+                               false};
+  std::array<VoxelRange, 3> range;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto k = static_cast<std::size_t>(axis);
+    range[k] = voxels_within(centre[axis], inside.reach, grid.size[k]);
+  }
+  const auto middle = [&](std::size_t axis, std::int64_t k) {
+    return (static_cast<double>(k) + 0.5) * grid.size[axis] - centre[static_cast<int>(axis)];
+  };
+  for (std::int64_t k = range[2].first; k <= range[2].last; ++k) {
+    const std::int64_t z = wrapped(k, grid.count[2], false);
+    for (std::int64_t j = range[1].first; j <= range[1].last && z >= 0; ++j) {
+      const std::int64_t y = wrapped(j, grid.count[1], periodic[1]);
+      for (std::int64_t i = range[0].first; i <= range[0].last && y >= 0; ++i) {
+        const std::int64_t x = wrapped(i, grid.count[0], periodic[0]);
+        if (x < 0 || !inside({middle(0, i), middle(1, j), middle(2, k)})) continue;
+        const auto row = static_cast<std::size_t>(z) * grid.count[1] + static_cast<std::size_t>(y);
+        voxels[row * grid.count[0] + static_cast<std::size_t>(x)] = value;
+      }
+    }
+  }
+}
+
+}  // namespace
+
+VoxelGrid voxel_grid(const StoredBed& bed, double per_d) {
+  VoxelGrid grid;
+  const std::array extent = {bed.box.length, bed.box.width, height_of(bed)};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double voxels = extent[axis] * per_d;
+    const double whole = axis < 2 ? std::round(voxels) : std::ceil(voxels);
+    grid.count[axis] = static_cast<std::size_t>(std::max(1.0, whole));
+    grid.size[axis] = axis < 2 ? extent[axis] / static_cast<double>(grid.count[axis]) : 1.0 / per_d;
+  }
+  return grid;
+}
+
+std::string voxels_nrrd(const ExportedBed& exported) {
+  const StoredBed& bed = exported.bed;
+  const VoxelGrid grid = voxel_grid(bed, exported.settings.voxels);
+  const auto& [nx, ny, nz] = grid.count;
+  const auto& [dx, dy, dz] = grid.size;
+  std::string voxels(nx * ny * nz, '\0');
+  const std::vector<Face> faces = bed.turned ? faces_of(bed.turned->mesh) : std::vector<Face>();
+  for (std::size_t k = 0; k < bed.grains.size(); ++k) {
+    const auto value = static_cast<char>(size_class(exported, k));
+    fill(bed, grid, k, inside_of(bed, faces, k), value, voxels);
+  }
+  return "NRRD0004\n# lengths in d; 0 void, 1 large grains, 2 small ones\ntype: uint8\n"
+         "dimension: 3\nsizes: " +
+         cell(nx) + " " + cell(ny) + " " + cell(nz) + "\nspacings: " + cell(dx) + " " + cell(dy) +
+         " " + cell(dz) + "\naxis mins: 0 0 0\ncenters: cell cell cell\nencoding: raw\n\n" + voxels;
+}
+
+}  // namespace grainsweep

@@ -1,0 +1,82 @@
+#!/usr/bin/env bash
+# Exported beds are read by the programs that they are for, and are there what they are in the tables:
+# extended XYZ by ASE, LAMMPS data by lmp, voxels and surfaces by numpy.
+# usage: exports.sh GRAINSWEEP
+set -euo pipefail
+grainsweep=$(realpath "${1:?usage: exports.sh GRAINSWEEP}")
+work=$(mktemp -d "${TMPDIR:-/tmp}/grainsweep-exports.XXXXXX")
+trap 'rm -rf "$work"' EXIT
+cd "$work"
+if ! /usr/bin/python3 -c 'import ase, pandas' 2>/dev/null || ! command -v lmp >/dev/null; then
+  printf 'SKIPPED: python3-ase or lammps is not installed\n'
+  exit 77
+fi
+
+cat >sweep.json <<'JSON'
+{ "name": "sweep", "seed": 5,
+  "base": { "accuracy": "fast", "box": { "length": 4, "width": 3 }, "fill": { "solid_height": 3 },
+            "measure": { "exclude_floor": 0.5, "exclude_surface": 0.5 } },
+  "sweep": [ { "label": "two sizes", "set": { "sizes.small_share": 0.3 } },
+             { "label": "tube", "set": { "tube.diameter": 4 } },
+             { "label": "pinacoids", "set": { "shape": "pinacoid", "box.y": "periodic", "box.width": 4 } } ] }
+JSON
+"$grainsweep" run sweep.json --quiet --no-report --out out || [ $? -eq 1 ]
+for format in csv xyz lammps; do "$grainsweep" export out --format $format --to . >/dev/null; done
+"$grainsweep" export out --format voxels --voxels 60 --to . >/dev/null
+"$grainsweep" export out --format stl --contacts shrink:0.99 --periodic-images --to . >/dev/null
+
+for data in *.data; do
+  style=$(sed -n '1s/.*atom_style \([^;]*\);.*/\1/p' "$data")
+  printf '%s\n' 'units lj' "$(sed -n '1s/.*; \(boundary .*\)/\1/p' "$data")" "atom_style $style" "read_data $data" \
+    'variable n equal count(all)' 'variable m equal mass(all)' 'variable z equal xcm(all,z)' \
+    'print "read $n $(v_m:%.15g) $(v_z:%.15g)"' >in.lmp
+  lmp -in in.lmp -log "${data%.data}.log" >said.txt 2>&1 || { tail -n 5 said.txt && exit 1; }
+done
+
+/usr/bin/python3 - <<'PYTHON'
+import re
+import ase.io
+import numpy
+import pandas
+
+def table(file):
+    return pandas.read_csv(file, float_precision="round_trip")
+
+index = table("index.csv")
+packings = table("out/packings.csv").set_index("job")
+for file, job in zip(index["file"], index["job"]):
+    if not file.endswith(".csv"):
+        continue
+    stem, packing, grains = file[:-4], packings.loc[job], table(file)
+    places, mass = grains[["x", "y", "z"]].to_numpy(), 8 * grains["radius"] ** 3
+
+    atoms = ase.io.read(stem + ".xyz")
+    assert len(atoms) == packing["grains"] and set(atoms.symbols) == {"X"}, stem
+    assert (atoms.positions == places).all() and (atoms.arrays["id"] == grains["id"]).all(), stem
+    assert (atoms.arrays["force"] == grains["force"]).all(), stem
+    small = atoms.arrays["size_class"] == 2
+    assert (small == (grains["size_class"] == "small")).all() and small.any() == (stem[:3] == "two"), stem
+
+    read, total, height = re.search(r"^read (\S+) (\S+) (\S+)$", open(stem + ".log").read(), re.M).groups()
+    assert int(read) == len(grains), stem
+    assert abs(float(total) / mass.sum() - 1) < 1e-12, stem
+    assert abs(float(height) - (mass * grains["z"]).sum() / mass.sum()) < 1e-9, stem
+
+    header, voxels = open(stem + ".nrrd", "rb").read().split(b"\n\n", 1)
+    fields = dict(line.split(": ") for line in header.decode().splitlines() if ": " in line)
+    sizes = [int(size) for size in fields["sizes"].split()]
+    spacing = [float(size) for size in fields["spacings"].split()]
+    solid = numpy.frombuffer(voxels, numpy.uint8).reshape(sizes[::-1]) > 0
+    edges = numpy.arange(sizes[2] + 1) * spacing[2]
+    of_slab = numpy.diff(edges.clip(packing["slab_bottom"], packing["slab_top"]))  # of each layer
+    share = (solid.mean(axis=(1, 2)) * of_slab).sum() / of_slab.sum()
+    share *= 4 / numpy.pi if stem[:4] == "tube" else 1
+    assert abs(share - packing["solid_fraction"]) < 1e-3, (stem, share, packing["solid_fraction"])
+
+    # Every solid is closed: each side of a triangle is that of another one, the other way round.
+    for name, text in re.findall(r"^solid (\S+)\n(.*?)^endsolid", open(stem + ".stl").read(), re.M | re.S):
+        corners = re.findall(r"vertex (.*)", text)
+        sides = [(corners[k + i], corners[k + (i + 1) % 3]) for k in range(0, len(corners), 3) for i in range(3)]
+        assert len(set(sides)) == len(sides) and {(b, a) for a, b in sides} == set(sides), (stem, name)
+print("exports: read as they were written")
+PYTHON

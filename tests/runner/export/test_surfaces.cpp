@@ -1,0 +1,134 @@
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <catch2/catch.hpp>
+
+#include "engine/units.hpp"
+#include "runner/export/contacts.hpp"
+#include "runner/export/surfaces.hpp"
+#include "tests/runner/export/touching_beds.hpp"
+
+namespace grainsweep {
+namespace {
+
+/// Whether each edge of each face is that of one other face, run through the other way.
+bool is_closed(const Surface& surface) {
+  std::map<std::pair<std::int32_t, std::int32_t>, int> edges;
+  for (const auto& face : surface.faces) {
+    for (std::size_t k = 0; k < face.size(); ++k) {
+      ++edges[{face[k], face[(k + 1) % face.size()]}];
+    }
+  }
+  return !edges.empty() && std::all_of(edges.begin(), edges.end(), [&](const auto& edge) {
+    const auto back = edges.find({edge.first.second, edge.first.first});
+    return edge.second == 1 && back != edges.end();
+  });
+}
+
+double reach_along(const Surface& surface, const Vector& normal) {
+  double reach = -1e9;
+  for (const Vector& vertex : surface.vertices) reach = std::max(reach, normal.dot(vertex));
+  return reach;
+}
+
+TEST_CASE("a ball is closed, its corners lie on it, and finer ones are fuller") {
+  double before = 0.0;
+  for (int divisions = 0; divisions < 4; ++divisions) {
+    const Surface ball = unit_ball(divisions);
+    CHECK(ball.faces.size() == 20u << (2 * divisions));
+    CHECK(is_closed(ball));
+    for (const Vector& vertex : ball.vertices) CHECK(vertex.norm() == Approx(1).epsilon(1e-15));
+    CHECK(volume_of(ball) > before);
+    before = volume_of(ball);
+  }
+  CHECK(before / sphere_volume(1) == Approx(1).margin(0.01));
+}
+
+TEST_CASE("a cut leaves a closed surface of what lies below the plane") {
+  const Surface cube = container_surface(empty_box(2, 2, 2).bed);
+  CHECK(volume_of(cube) == 8);
+  const Surface half = cut_off(cube, {0, 0, 1}, 1.5);
+  CHECK(is_closed(half));
+  CHECK(volume_of(half) == Approx(6).epsilon(1e-15));
+  const Vector diagonal = Vector(1, 1, 1).normalized();
+  const Surface corner = cut_off(cube, diagonal, 1.0 / std::sqrt(3.0));
+  CHECK(is_closed(corner));
+  CHECK(volume_of(corner) == Approx(1.0 / 6.0).epsilon(1e-14));
+  CHECK(cut_off(cube, diagonal, 10).faces == cube.faces);
+  CHECK(cut_off(cube, diagonal, -0.1).faces.empty());
+}
+
+TEST_CASE("a ball cut many times stays closed") {
+  Surface ball = unit_ball(3);
+  for (int k = 0; k < 40; ++k) {
+    const Vector normal = Vector(std::sin(1.7 * k), std::cos(2.3 * k), std::sin(0.9 * k + 1));
+    ball = cut_off(ball, normal.normalized(), 0.96);
+    REQUIRE(is_closed(ball));
+  }
+  CHECK(volume_of(ball) < volume_of(unit_ball(3)));
+}
+
+TEST_CASE("shrunk grains keep their share of each length") {
+  ExportedBed exported = stacked_spheres();
+  const double whole = volume_of(grain_surfaces(exported)[0].surface);
+  exported.settings.treatment = *contact_treatment("shrink:0.5");
+  CHECK(volume_of(grain_surfaces(exported)[0].surface) == Approx(whole / 8).epsilon(1e-12));
+}
+
+/// How far treated grains and the container are apart along the normals of their contacts; each is
+/// convex, so that they do not meet.
+double least_way_apart(const ExportedBed& exported) {
+  const auto surfaces = grain_surfaces(exported);
+  double least = 1e9;
+  for (const Contact& contact : contacts_of(exported)) {
+    const Vector& n = contact.place.normal;
+    const double end = contact.is_wall ? -n.dot(contact.place.point)
+                                       : reach_along(surfaces[contact.b].surface, -n);
+    least = std::min(least, -end - reach_along(surfaces[contact.a].surface, n));
+  }
+  return least;
+}
+
+TEST_CASE("caps leave grains apart by two of their depths, and from walls by one") {
+  for (ExportedBed exported : {stacked_spheres(), stacked_cubes()}) {
+    CHECK(least_way_apart(exported) < 1e-6);
+    exported.settings.treatment = *contact_treatment("cap:0.2");
+    const double depth = (1 - std::sqrt(1 - 0.2 * 0.2)) * exported.bed.grains[0].radius;
+    CHECK(least_way_apart(exported) == Approx(depth).epsilon(0.01));
+    for (const GrainSurface& grain : grain_surfaces(exported)) CHECK(is_closed(grain.surface));
+    exported.settings.treatment = *contact_treatment("shrink:0.99");
+    CHECK(least_way_apart(exported) > 0.004);
+  }
+}
+
+TEST_CASE("grains that cross a periodic side have an image beyond the other one") {
+  ExportedBed exported = stacked_spheres();  // one over a corner of the periodic box
+  CHECK(grain_surfaces(exported).size() == 2);
+  exported.settings.periodic_images = true;
+  const auto surfaces = grain_surfaces(exported);
+  REQUIRE(surfaces.size() == 5);
+  CHECK(std::count_if(surfaces.begin(), surfaces.end(),
+                      [](const GrainSurface& grain) { return grain.grain == 0; }) == 4);
+}
+
+TEST_CASE("a tube's surface holds the tube and hardly more") {
+  ExportedBed exported = stacked_spheres();
+  exported.bed.box = tube_of(4);
+  const Surface tube = container_surface(exported.bed);
+  CHECK(is_closed(tube));
+  const double whole = pi * 4 * height_of(exported.bed);
+  CHECK((volume_of(tube) > whole && volume_of(tube) < 1.001 * whole));
+}
+
+TEST_CASE("treatments are read with a share below 1") {
+  CHECK(contact_treatment("shrink:.99")->share == 0.99);
+  CHECK(contact_treatment("cap:0.2")->kind == ContactTreatment::Kind::cap);
+  for (const char* text :
+       {"", "cap", "cap:", "cap:1", "cap:0", "shrink:-1", "weld:0.2", "cap:.2x"}) {
+    CHECK_FALSE(contact_treatment(text));
+  }
+}
+
+}  // namespace
+}  // namespace grainsweep
