@@ -90,9 +90,9 @@ CLI::App& add_command(CLI::App& app, CompareOptions& options);
 
 struct ExportOptions {
   std::string folder;
-  std::string format = "csv";     ///< of export_formats, or html
-  std::vector<std::string> jobs;  ///< ids; empty: all that are stored
-  std::string to;                 ///< folder for the files; empty: <folder>/export
+  std::string format = "csv";      ///< of export_formats, or html
+  std::vector<std::string> jobs;   ///< ids; empty: all that are stored
+  std::string to;                  ///< folder for the files; empty: <folder>/export
   std::string contacts = "touch";  ///< of surfaces: touch, shrink:SHARE or cap:SHARE
   bool periodic_images = false;    ///< of surfaces: of grains that cross a periodic side
   double voxels = 20.0;            ///< a d

@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "runner/exit_codes.hpp"
+#include "runner/jobs/growing_groups.hpp"
 #include "runner/sweep/read_sweep.hpp"
-#include "runner/tables/growing_groups.hpp"
 #include "runner/text.hpp"
 #include "runner/versions.hpp"
 

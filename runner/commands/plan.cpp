@@ -10,11 +10,11 @@
 #include "runner/commands/shared_options.hpp"
 #include "runner/exit_codes.hpp"
 #include "runner/jobs/estimates.hpp"
+#include "runner/jobs/growing_groups.hpp"
 #include "runner/jobs/schedule.hpp"
 #include "runner/machine.hpp"
 #include "runner/store/journal.hpp"
 #include "runner/tables/csv.hpp"
-#include "runner/tables/growing_groups.hpp"
 #include "runner/text.hpp"
 
 namespace grainsweep {

@@ -21,6 +21,7 @@
 #include "runner/exit_codes.hpp"
 #include "runner/instruction_set.hpp"
 #include "runner/jobs/estimates.hpp"
+#include "runner/jobs/growing_groups.hpp"
 #include "runner/jobs/pack_pending.hpp"
 #include "runner/jobs/stop.hpp"
 #include "runner/machine.hpp"
@@ -29,7 +30,6 @@
 #include "runner/store/journal.hpp"
 #include "runner/store/shard_files.hpp"
 #include "runner/tables/closing_report.hpp"
-#include "runner/tables/growing_groups.hpp"
 #include "runner/text.hpp"
 #include "runner/versions.hpp"
 

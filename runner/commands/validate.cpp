@@ -10,7 +10,7 @@
 #include "runner/commands/inputs.hpp"
 #include "runner/commands/shared_options.hpp"
 #include "runner/exit_codes.hpp"
-#include "runner/tables/growing_groups.hpp"
+#include "runner/jobs/growing_groups.hpp"
 #include "runner/tables/units.hpp"
 #include "runner/text.hpp"
 

@@ -1,4 +1,4 @@
-#include "runner/tables/growing_groups.hpp"
+#include "runner/jobs/growing_groups.hpp"
 
 #include <algorithm>
 #include <cmath>

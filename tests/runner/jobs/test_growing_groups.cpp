@@ -7,7 +7,7 @@
 #include <catch2/catch.hpp>
 
 #include "engine/dynamics/presets.hpp"
-#include "runner/tables/growing_groups.hpp"
+#include "runner/jobs/growing_groups.hpp"
 #include "tests/runner/sample_rows.hpp"
 
 namespace grainsweep {
