@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/broad/candidates.hpp"
 #include "engine/dynamics/stages.hpp"
-#include "engine/dynamics/workspace.hpp"
 
 namespace grainsweep::extremes {
 
@@ -44,15 +42,14 @@ double min_mass(const SphereBed& bed) {
 
 }  // namespace
 
-template <class Real>
-void collect_forces(const SphereContacts<Real>& contacts, SettledBed& settled) {
-  const double dt = last_step(settled.accuracy);
-  for (const auto& [name, impulse] : testing::impulses_of(settled.bed, contacts)) {
-    settled.forces[name] = static_cast<double>(impulse) / (dt * dt);
+void collect_forces(const std::vector<PairForce>& pairs, const std::vector<WallForce>& walls,
+                    SettledBed& settled) {
+  for (const PairForce& pair : pairs) settled.forces[{pair.a, pair.b}] = pair.magnitude;
+  for (const WallForce& wall : walls) {
+    settled.forces[{wall.grain, settled.bed.wall_name(static_cast<std::size_t>(wall.wall))}] =
+        wall.magnitude;
   }
 }
-template void collect_forces(const SphereContacts<float>&, SettledBed&);
-template void collect_forces(const SphereContacts<double>&, SettledBed&);
 
 double SettledBed::force(std::int32_t a, std::int32_t b) const {
   const auto found = forces.find({a, b});
@@ -72,13 +69,10 @@ double SettledBed::weight() const {
 }
 
 SettledBed settle_scene(SphereBed bed, const Accuracy& accuracy) {
-  Workspace memory;
-  const ExecutionContext context(kernels_for(best_isa()), serial_for, &memory);
   SettledBed settled{std::move(bed), accuracy, {}, {}};
-  settled.report = settle(accuracy, context, settled.bed, [](const Progress&) { return true; });
-  accuracy.precision == Precision::f32
-      ? collect_forces(std::get<StepState<Sphere, float>>(memory.states).contacts, settled)
-      : collect_forces(std::get<StepState<Sphere, double>>(memory.states).contacts, settled);
+  settled.report =
+      settle(accuracy, kernels_for(best_isa()), settled.bed, [](const Progress&) { return true; });
+  collect_forces(settled.report.pair_forces, settled.report.wall_forces, settled);
   return settled;
 }
 

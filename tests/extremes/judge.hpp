@@ -14,7 +14,7 @@ struct SettledBed {
   SphereBed bed;
   Accuracy accuracy;
   SettleReport report;
-  std::map<testing::ContactName, double> forces;  ///< m g, of every contact that has a row
+  std::map<testing::ContactName, double> forces;  ///< m g, of every contact with a force
 
   /// Force of a contact; 0 if there is none.
   double force(std::int32_t a, std::int32_t b) const;
@@ -24,9 +24,9 @@ struct SettledBed {
 };
 SettledBed settle_scene(SphereBed bed, const Accuracy& accuracy);
 
-/// Takes the forces of the last step's contacts.
-template <class Real>
-void collect_forces(const SphereContacts<Real>& contacts, SettledBed& settled);
+/// Takes the forces that were reported.
+void collect_forces(const std::vector<PairForce>& pairs, const std::vector<WallForce>& walls,
+                    SettledBed& settled);
 
 /// Length of the last steps of a bed that has settled, sqrt(d/g).
 double last_step(const Accuracy& accuracy);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/dynamics/workspace.hpp"
 #include "engine/units.hpp"
 
 namespace grainsweep::extremes {
@@ -44,13 +43,10 @@ Answer touching_answer(const PackingSpec& spec, const SettledBed& settled) {
           "promised by the accuracy"};
 }
 
-std::vector<Answer> answers(const PackingSpec& spec, const Packing& packing,
-                            const Workspace& memory) {
+std::vector<Answer> answers(const PackingSpec& spec, const Packing& packing) {
   SettledBed settled{bed_of(spec, packing.grains), spec.accuracy, {}, {}};
   settled.report.rest = packing.result.rest;
-  spec.accuracy.precision == Precision::f32
-      ? collect_forces(std::get<StepState<Sphere, float>>(memory.states).contacts, settled)
-      : collect_forces(std::get<StepState<Sphere, double>>(memory.states).contacts, settled);
+  collect_forces(packing.forces, packing.wall_forces, settled);
   std::vector<Answer> all = answers_of_any_bed(settled);
   if (spec.sizes.small_share > 0.0) all.push_back(touching_answer(spec, settled));
   return all;
@@ -78,9 +74,8 @@ PackingSpec small_spec(std::int64_t grains, const Accuracy& accuracy) {
 }
 
 Finding pack_unchecked(const PackingSpec& spec) {
-  Workspace memory;
-  const ExecutionContext context(kernels_for(best_isa()), serial_for, &memory);
-  const Packing packing = make_packing(spec, context, [](const Progress&) { return true; });
+  const Packing packing =
+      make_packing(spec, kernels_for(best_isa()), [](const Progress&) { return true; });
   const PackingResult& result = packing.result;
   Finding finding;
   finding.finite = is_finite(packing.grains);
@@ -90,7 +85,7 @@ Finding pack_unchecked(const PackingSpec& spec) {
   }
   finding.finite = finding.finite && is_finite(result);
   finding.unrest = result.reason;
-  if (result.status == PackingStatus::settled) finding.answers = answers(spec, packing, memory);
+  if (result.status == PackingStatus::settled) finding.answers = answers(spec, packing);
   return finding;
 }
 
