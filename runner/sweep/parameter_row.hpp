@@ -61,10 +61,10 @@ inline std::optional<Value> no_identity(const ResolvedSpec&) { return std::nullo
 using Names = std::vector<std::pair<std::string, std::string>>;
 
 /// What may be written: numbers of a range, names, or whatever is of the parameter's kind.
-struct Limits {
-  Limits() = default;
-  Limits(Interval numbers) : range(numbers) {}
-  Limits(Names words) : names(std::move(words)) {}
+struct WrittenValues {
+  WrittenValues() = default;
+  WrittenValues(Interval numbers) : range(numbers) {}
+  WrittenValues(Names words) : names(std::move(words)) {}
 
   std::optional<Interval> range = {};
   Names names = {};
@@ -73,8 +73,8 @@ struct Limits {
 inline constexpr Interval positive = {.low = 0.0, .low_open = true};
 
 /// The row of a parameter that is set and read by functions of its own.
-inline Parameter own(const char* path, const Limits& limits, const char* meaning, ValueKind kind,
-                     Role role, void (*set)(ResolvedSpec&, const Value&),
+inline Parameter own(const char* path, const WrittenValues& limits, const char* meaning,
+                     ValueKind kind, Role role, void (*set)(ResolvedSpec&, const Value&),
                      std::optional<Value> (*get)(const ResolvedSpec&)) {
   Parameter parameter = {.path = path,
                          .meaning = meaning,
@@ -93,7 +93,7 @@ inline Parameter own(const char* path, const Limits& limits, const char* meaning
 
 /// The row of a member of a packing's specification that is set and read as it is.
 template <auto... members>
-Parameter row(const char* path, const Limits& limits, const char* meaning) {
+Parameter row(const char* path, const WrittenValues& limits, const char* meaning) {
   using T = std::remove_cvref_t<decltype((std::declval<PackingSpec&>().*....*members))>;
   return own(path, limits, meaning, kind_of<T>(), Role::plain,
              set_member<&ResolvedSpec::spec, members...>,

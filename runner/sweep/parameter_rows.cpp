@@ -80,9 +80,9 @@ Rows shape_rows() {
       own("shape.pinacoid.angle_deg", Interval{0, 89, true},
           "angle between ends and middle plane, degrees", ValueKind::number, Role::pinacoid,
           set_angle, get_angle),
-      own("shape.hull.vertices", Limits{}, "vertices [x, y, z] of a convex grain",
+      own("shape.hull.vertices", WrittenValues{}, "vertices [x, y, z] of a convex grain",
           ValueKind::points, Role::hull_vertices, set_vertices, get_vertices),
-      own("shape.hull.file", Limits{},
+      own("shape.hull.file", WrittenValues{},
           "OBJ file of the vertices instead; relative to the sweep file", ValueKind::text,
           Role::hull_file, set_hull_file, no_identity),
       own("shape.hull.size", positive, "the length in the vertices that is d; 1 if left out",
@@ -97,7 +97,7 @@ std::optional<Value> get_of_box(const ResolvedSpec& resolved) {
   return get_member<&ResolvedSpec::spec, &PackingSpec::box, member>(resolved);
 }
 template <auto member>
-Parameter of_box(const char* path, const Limits& limits, const char* meaning) {
+Parameter of_box(const char* path, const WrittenValues& limits, const char* meaning) {
   using T = std::remove_cvref_t<decltype(std::declval<Box&>().*member)>;
   return own(path, limits, meaning, kind_of<T>(), Role::box,
              set_member<&ResolvedSpec::spec, &PackingSpec::box, member>, get_of_box<member>);
@@ -170,11 +170,11 @@ Rows fill_rows() {
           "solid volume per floor area, d; as many grains as fill it up", ValueKind::number,
           Role::fill, set_solid_height, get_solid_height),
       std::move(grains),
-      own("fill.file", Limits{},
+      own("fill.file", WrittenValues{},
           "CSV file of x,y,z,r, and qx,qy,qz,qw of non-spherical grains: where they "
           "start; relative to the sweep file",
           ValueKind::text, Role::fill_file, set_file, get_file),
-      own("fill.files", Limits{}, "a list of such files: a start for each replicate",
+      own("fill.files", WrittenValues{}, "a list of such files: a start for each replicate",
           ValueKind::texts, Role::fill_files, set_files, get_files),
       own("fill.diameter", positive, "the length in those files that is d", ValueKind::number,
           Role::fill_diameter, set_member<&ResolvedSpec::fill_diameter>, get_diameter),
@@ -286,7 +286,7 @@ std::vector<Parameter> parameter_rows() {
                     measure_rows()}) {
     for (Parameter& parameter : rows) all.push_back(std::move(parameter));
   }
-  all.push_back(own("seed", Limits{}, "master seed of the random numbers; in blocks only",
+  all.push_back(own("seed", WrittenValues{}, "master seed of the random numbers; in blocks only",
                     ValueKind::natural, Role::seed, set_member<&ResolvedSpec::seed>, no_identity));
   return all;
 }
