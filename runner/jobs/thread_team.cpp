@@ -4,6 +4,7 @@
 
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
+#include <tbb/task_group.h>
 
 #include "runner/machine.hpp"
 
@@ -23,13 +24,14 @@ double ThreadTeam::cpu_seconds() const {
 /// few and of one size, and are divided simply: a static partitioner mails its tasks to threads,
 /// and the mail of a thread that has a packing of its own piles up, some 200 bytes for every loop.
 void ThreadTeam::run(std::size_t parts, const Part& part) {
+  tbb::task_group_context whole(tbb::task_group_context::isolated);
   loops_.fetch_add(1, std::memory_order_release);
   tbb::this_task_arena::isolate([&] {
     // What a task carries goes from thread to thread inside oneTBB, unseen by the thread sanitizer.
     tbb::parallel_for(
         std::size_t{0}, parts,
         [&](std::size_t number) __attribute__((no_sanitize("thread"))) { run_part(part, number); },
-        tbb::simple_partitioner());
+        tbb::simple_partitioner(), whole);
   });
   parts_done_.load(std::memory_order_acquire);
 }

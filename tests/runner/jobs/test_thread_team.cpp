@@ -8,6 +8,7 @@
 
 #include <catch2/catch.hpp>
 #include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 #include <tbb/task_group.h>
 
@@ -66,6 +67,21 @@ TEST_CASE("a loop of no parts does nothing") {
     team.loop()(0, [](std::size_t) { FAIL("there is no part"); });
     SUCCEED();
   });
+}
+
+// oneTBB calls off all that a run has begun once one of its packings cannot be stored.
+TEST_CASE("a loop is whole even where the run that it belongs to is called off") {
+  tbb::task_group_context run;
+  std::atomic<int> parts{0};
+  tbb::parallel_for(
+      0, 1,
+      [&](int) {
+        run.cancel_group_execution();
+        ThreadTeam team;
+        team.loop()(100, [&](std::size_t) { ++parts; });
+      },
+      run);
+  CHECK(parts == 100);
 }
 
 // Whoever runs the parts, their CPU time is the packing's: 40 parts of 5 ms.
