@@ -123,14 +123,13 @@ std::vector<ColumnText> decays_columns(const Varied& varied, const GivenUnits& u
 }
 
 CurveTable decays_table(const Varied& varied, const GivenUnits& units) {
-  const Columns<DecayLine> columns = decay_line_columns(varied, units);
-  return {header_line(columns), [columns](const Group& group) {
-            std::string text;
-            for (const GrainClass grains : {GrainClass::large, GrainClass::small}) {
-              text += row_line(columns, DecayLine{group, grains, decay_of(group, grains)});
-            }
-            return text;
-          }};
+  return curve_table(decay_line_columns(varied, units), [](const Group& group) {
+    std::vector<DecayLine> lines;
+    for (const GrainClass grains : {GrainClass::large, GrainClass::small}) {
+      lines.push_back({group, grains, decay_of(group, grains)});
+    }
+    return lines;
+  });
 }
 
 }  // namespace grainsweep

@@ -43,11 +43,9 @@ Columns<PointLine> curve_line_columns(const Varied& varied, const GivenUnits& un
   return columns;
 }
 
-void append_curve_lines(const Group& group, const char* name, Curve Order::*curve,
-                        const Columns<PointLine>& columns, std::string& text) {
-  for (const CurvePoint& point : mean_curve(group, curve)) {
-    text += row_line(columns, PointLine{group, name, point});
-  }
+void append_points(const Group& group, const char* name, Curve Order::*curve,
+                   std::vector<PointLine>& lines) {
+  for (const CurvePoint& point : mean_curve(group, curve)) lines.push_back({group, name, point});
 }
 
 }  // namespace
@@ -73,13 +71,12 @@ std::vector<ColumnText> distributions_columns(const Varied& varied, const GivenU
 }
 
 CurveTable distributions_table(const Varied& varied, const GivenUnits& units) {
-  const Columns<PointLine> columns = curve_line_columns(varied, units);
-  return {header_line(columns), [columns](const Group& group) {
-            std::string text;
-            append_curve_lines(group, "pair_correlation", &Order::pair_correlation, columns, text);
-            append_curve_lines(group, "force_density", &Order::force_density, columns, text);
-            return text;
-          }};
+  return curve_table(curve_line_columns(varied, units), [](const Group& group) {
+    std::vector<PointLine> lines;
+    append_points(group, "pair_correlation", &Order::pair_correlation, lines);
+    append_points(group, "force_density", &Order::force_density, lines);
+    return lines;
+  });
 }
 
 }  // namespace grainsweep

@@ -160,14 +160,23 @@ std::string why_no_error(const Spread& spread) {
   return "the replicates do not scatter: they are copies, and tell no error";
 }
 
-std::vector<Group> groups_of(const std::vector<Row>& rows) {
-  std::map<std::pair<std::string, std::string>, std::size_t> index_of;
-  std::vector<Members> members;
+std::vector<std::size_t> group_numbers(const std::vector<Row>& rows) {
+  std::map<std::pair<std::string_view, std::string_view>, std::size_t> known;
+  std::vector<std::size_t> numbers;
+  numbers.reserve(rows.size());
   for (const Row& row : rows) {
-    const auto [known, is_new] =
-        index_of.try_emplace({row.job.label, row.job.parameters}, members.size());
-    if (is_new) members.emplace_back();
-    members[known->second].push_back(&row);
+    const std::size_t next = known.size() + 1;
+    numbers.push_back(known.try_emplace({row.job.label, row.job.parameters}, next).first->second);
+  }
+  return numbers;
+}
+
+std::vector<Group> groups_of(const std::vector<Row>& rows) {
+  const std::vector<std::size_t> numbers = group_numbers(rows);
+  std::vector<Members> members;
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    if (numbers[k] > members.size()) members.emplace_back();
+    members[numbers[k] - 1].push_back(&rows[k]);
   }
   std::vector<Group> groups;
   groups.reserve(members.size());

@@ -46,6 +46,9 @@ struct Group {
   StatusCounts counts;
 };
 
+/// The number of each row's group, in the order in which the groups first appear, from 1.
+std::vector<std::size_t> group_numbers(const std::vector<Row>& rows);
+
 /// A group whose settled packings have their curves, 10 kB each, for as long as it lives.
 class GroupWithCurves {
  public:
@@ -71,7 +74,17 @@ struct CurveTable {
   std::function<std::string(const Group&)> lines;
 };
 
-/// In the order in which the groups first appear. The errors of their means come from the variance
+/// The table whose lines are those that `lines_of` lists of a group, which may refer to it.
+template <class Line, class LinesOf>
+CurveTable curve_table(const Columns<Line>& columns, LinesOf lines_of) {
+  return {header_line(columns), [=](const Group& group) {
+            std::string text;
+            for (const Line& line : lines_of(group)) text += row_line(columns, line);
+            return text;
+          }};
+}
+
+/// In the order of their numbers. The errors of their means come from the variance
 /// of single packings pooled over the groups of a family, sum (n_i - 1) s_i^2 / sum (n_i - 1): the
 /// standard deviation of three replicates alone is uncertain by half its value. A single packing
 /// has an error, too, if others of its family have replicates.

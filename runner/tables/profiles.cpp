@@ -99,11 +99,9 @@ Columns<ProfileLine> profile_line_columns(const Varied& varied, const GivenUnits
   return columns;
 }
 
-void append_profile_lines(const Group& group, const char* axis, Profile PackingResult::*profile,
-                          const Columns<ProfileLine>& columns, std::string& text) {
-  for (const MeanBin& bin : mean_profile(group, profile)) {
-    text += row_line(columns, ProfileLine{group, axis, bin});
-  }
+void append_bins(const Group& group, const char* axis, Profile PackingResult::*profile,
+                 std::vector<ProfileLine>& lines) {
+  for (const MeanBin& bin : mean_profile(group, profile)) lines.push_back({group, axis, bin});
 }
 
 }  // namespace
@@ -132,15 +130,14 @@ std::vector<ColumnText> profiles_columns(const Varied& varied, const GivenUnits&
 }
 
 CurveTable profiles_table(const Varied& varied, const GivenUnits& units) {
-  const Columns<ProfileLine> columns = profile_line_columns(varied, units);
-  return {header_line(columns), [columns](const Group& group) {
-            std::string text;
-            append_profile_lines(group, "x", &PackingResult::profile_x, columns, text);
-            append_profile_lines(group, "y", &PackingResult::profile_y, columns, text);
-            append_profile_lines(group, "walls", &PackingResult::profile_from_walls, columns, text);
-            append_profile_lines(group, "z", &PackingResult::profile_z, columns, text);
-            return text;
-          }};
+  return curve_table(profile_line_columns(varied, units), [](const Group& group) {
+    std::vector<ProfileLine> lines;
+    append_bins(group, "x", &PackingResult::profile_x, lines);
+    append_bins(group, "y", &PackingResult::profile_y, lines);
+    append_bins(group, "walls", &PackingResult::profile_from_walls, lines);
+    append_bins(group, "z", &PackingResult::profile_z, lines);
+    return lines;
+  });
 }
 
 }  // namespace grainsweep

@@ -61,14 +61,11 @@ std::vector<ColumnText> sizes_columns(const Varied& varied, const GivenUnits& un
 }
 
 CurveTable sizes_table(const Varied& varied, const GivenUnits& units) {
-  const Columns<GroupSizeLine> columns = size_line_columns(varied, units);
-  return {header_line(columns), [columns](const Group& group) {
-            std::string text;
-            for (const SizeLine& line : mean_sizes(group)) {
-              text += row_line(columns, GroupSizeLine{group, line});
-            }
-            return text;
-          }};
+  return curve_table(size_line_columns(varied, units), [](const Group& group) {
+    std::vector<GroupSizeLine> lines;
+    for (const SizeLine& line : mean_sizes(group)) lines.push_back({group, line});
+    return lines;
+  });
 }
 
 }  // namespace grainsweep
