@@ -37,15 +37,20 @@ std::optional<ContactTreatment> contact_treatment(std::string_view text) {
   return error == std::errc() && end == last && is_share ? std::optional(treatment) : std::nullopt;
 }
 
-std::vector<Eigen::Vector3d> vertices_in_box(const StoredBed& bed, std::size_t grain) {
-  const SettledGrain& at = bed.grains[grain];
+std::vector<Eigen::Vector3d> vertices_about_centre(const StoredBed& bed, std::size_t grain) {
   const auto& [qx, qy, qz, qw] = bed.turned->orientations[grain];
   const Eigen::Quaterniond turn(qw, qx, qy, qz);
   std::vector<Eigen::Vector3d> vertices;
   for (const auto& [x, y, z] : bed.turned->mesh.vertices) {
-    const Eigen::Vector3d turned = turn * Eigen::Vector3d(x, y, z);
-    vertices.emplace_back(Eigen::Vector3d(at.x, at.y, at.z) + 2.0 * at.radius * turned);
+    vertices.emplace_back(2.0 * bed.grains[grain].radius * (turn * Eigen::Vector3d(x, y, z)));
   }
+  return vertices;
+}
+
+std::vector<Eigen::Vector3d> vertices_in_box(const StoredBed& bed, std::size_t grain) {
+  const SettledGrain& at = bed.grains[grain];
+  std::vector<Eigen::Vector3d> vertices = vertices_about_centre(bed, grain);
+  for (Eigen::Vector3d& vertex : vertices) vertex += Eigen::Vector3d(at.x, at.y, at.z);
   return vertices;
 }
 

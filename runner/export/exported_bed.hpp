@@ -47,7 +47,10 @@ int size_class(const ExportedBed& exported, std::size_t grain);
 /// "large" or "small".
 const char* class_name(const ExportedBed& exported, std::size_t grain);
 
-/// The vertices of a grain that is no sphere, in the frame of the box, d.
+/// The vertices of a grain that is no sphere, as they lie in the box, from its centre, d.
+std::vector<Eigen::Vector3d> vertices_about_centre(const StoredBed& bed, std::size_t grain);
+
+/// The same in the frame of the box, d.
 std::vector<Eigen::Vector3d> vertices_in_box(const StoredBed& bed, std::size_t grain);
 
 /// z of the highest point of a grain, d; 0 of no grains.

@@ -6,13 +6,12 @@
 #include <utility>
 
 #include "engine/shape/build.hpp"
+#include "engine/shape/convex_shape.hpp"
 #include "engine/units.hpp"
 #include "runner/tables/csv.hpp"
 
 namespace grainsweep {
 namespace {
-
-using Vector = Eigen::Vector3d;
 
 std::string joined(const std::vector<double>& numbers) {
   std::string text;
@@ -79,17 +78,15 @@ std::string in_lines(const std::vector<double>& numbers) {
   return text;
 }
 
-/// A body: how many numbers, moments of inertia, corners about its centre, edges,
-/// faces, and the diameter of its rounding.
+/// A body: how many numbers, moments of inertia, corners about its centre, edges, faces, and the
+/// diameter of its rounding.
 std::string body(const StoredBed& bed, std::size_t grain) {
   const Mesh& mesh = bed.turned->mesh;
-  const SettledGrain& at = bed.grains[grain];
-  std::vector<Vector> corners = vertices_in_box(bed, grain);
-  for (Vector& corner : corners) corner -= Vector(at.x, at.y, at.z);
+  const std::vector<Vector> corners = vertices_about_centre(bed, grain);
   const auto edges = edges_of(mesh.faces);
   const auto faces = small_faces(mesh.faces);
   const Eigen::Matrix3d inertia =
-      sphere_mass(at.radius) * inertia_of(mass_moments(corners, mesh.faces).second);
+      sphere_mass(bed.grains[grain].radius) * inertia_of(mass_moments(corners, mesh.faces).second);
   std::vector<double> numbers = {inertia(0, 0), inertia(1, 1), inertia(2, 2),
                                  inertia(0, 1), inertia(0, 2), inertia(1, 2)};
   for (const Vector& corner : corners) numbers.insert(numbers.end(), corner.begin(), corner.end());

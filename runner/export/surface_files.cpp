@@ -2,13 +2,12 @@
 
 #include <cstdio>
 
+#include "engine/shape/convex_shape.hpp"
 #include "runner/export/surfaces.hpp"
 #include "runner/tables/csv.hpp"
 
 namespace grainsweep {
 namespace {
-
-using Vector = Eigen::Vector3d;
 
 /// Nine digits: what a single-precision reader can use.
 std::string short_text(const Vector& v) {

@@ -28,8 +28,7 @@ Surface icosahedron() {
       }
     }
   }
-  // Three corners an edge apart are a face; each is found once, and turned
-  // outwards.
+  // Three corners an edge apart are a face; each is found once, and turned outwards.
   const double longest = 1.2;  // an edge is 1.05, the next distance 1.7
   const auto near = [&](std::int32_t a, std::int32_t b) {
     return (corner(surface, a) - corner(surface, b)).norm() < longest;
@@ -90,14 +89,6 @@ Surface compact(const Surface& surface) {
   return small;
 }
 
-/// The surface of a polyhedron about its centre.
-Surface polyhedron_surface(const StoredBed& bed, std::size_t grain) {
-  const SettledGrain& at = bed.grains[grain];
-  Surface surface{vertices_in_box(bed, grain), bed.turned->mesh.faces};
-  for (Vector& vertex : surface.vertices) vertex -= Vector(at.x, at.y, at.z);
-  return surface;
-}
-
 void scale(Surface& surface, double by) {
   for (Vector& vertex : surface.vertices) vertex *= by;
 }
@@ -110,8 +101,12 @@ std::vector<Surface> whole_surfaces(const ExportedBed& exported) {
   const Surface ball = unit_ball(has_caps ? 3 : 2);
   std::vector<Surface> surfaces;
   for (std::size_t k = 0; k < bed.grains.size(); ++k) {
-    surfaces.push_back(bed.turned ? polyhedron_surface(bed, k) : ball);
-    if (!bed.turned) scale(surfaces.back(), bed.grains[k].radius);
+    if (bed.turned) {
+      surfaces.push_back({vertices_about_centre(bed, k), bed.turned->mesh.faces});
+    } else {
+      surfaces.push_back(ball);
+      scale(surfaces.back(), bed.grains[k].radius);
+    }
   }
   return surfaces;
 }
@@ -128,8 +123,7 @@ std::pair<double, double> extent_along(const Surface& surface, int axis) {
   return {(*low)[axis], (*high)[axis]};
 }
 
-/// By how many periods of an axis images of the surface lie in the box, 0
-/// first.
+/// By how many periods of an axis images of the surface lie in the box, 0 first.
 std::vector<double> image_shifts(const Surface& surface, int axis, double period) {
   if (period == 0.0) return {0.0};
   std::vector<double> shifts = {0.0};
@@ -149,8 +143,7 @@ void append_with_images(const StoredBed& bed, std::size_t grain, const Surface& 
   }
 }
 
-/// A prism over a polygon, counter-clockwise seen from above, from the floor
-/// up.
+/// A prism over a polygon, counter-clockwise seen from above, from the floor up.
 Surface prism(const std::vector<Eigen::Vector2d>& polygon, double height) {
   Surface surface;
   const auto corners = static_cast<std::int32_t>(polygon.size());
@@ -172,8 +165,7 @@ Surface prism(const std::vector<Eigen::Vector2d>& polygon, double height) {
 /// How deep a cap of that share of the radius is, in radii.
 double cap_depth(double share) { return 1.0 - std::sqrt(1.0 - share * share); }
 
-/// Cuts the caps of all contacts off the surfaces about the centres of the
-/// grains.
+/// Cuts the caps of all contacts off the surfaces about the centres of the grains.
 void cut_caps(const ExportedBed& exported, std::vector<Surface>& surfaces) {
   const StoredBed& bed = exported.bed;
   const double depth = cap_depth(exported.settings.treatment.share);

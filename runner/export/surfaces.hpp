@@ -1,5 +1,4 @@
-// Closed surfaces of the grains of a bed, and of what contains it. Lengths in
-// d.
+// Closed surfaces of the grains of a bed, and of what contains it. Lengths in d.
 #pragma once
 
 #include <cstdint>
@@ -29,8 +28,7 @@ double volume_of(const Surface& surface);
 /// times; all corners lie on the sphere.
 Surface unit_ball(int divisions);
 
-/// The part of a convex surface where normal . x <= offset; empty if there is
-/// none.
+/// The part of a convex surface where normal . x <= offset; empty if there is none.
 Surface cut_off(const Surface& surface, const Eigen::Vector3d& normal, double offset);
 
 /// A grain, or an image of it.
@@ -39,12 +37,11 @@ struct GrainSurface {
   Surface surface;
 };
 
-/// The surfaces of all grains with the treatment of their contacts and, where
-/// asked for, the images of those that cross periodic sides.
+/// The surfaces of all grains with the treatment of their contacts and, where asked for, the images
+/// of those that cross periodic sides.
 std::vector<GrainSurface> grain_surfaces(const ExportedBed& exported);
 
-/// The box, or the tube as a prism around it, up to the highest grain; it
-/// encloses the grains.
+/// The box, or the tube as a prism around it, up to the highest grain; it encloses the grains.
 Surface container_surface(const StoredBed& bed);
 
 }  // namespace grainsweep

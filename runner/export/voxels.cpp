@@ -64,8 +64,8 @@ Inside inside_of(const StoredBed& bed, const std::vector<Face>& faces, std::size
   const SettledGrain& at = bed.grains[grain];
   if (!bed.turned) return {at.radius, {}};
   Inside inside;
-  for (const Vector& vertex : vertices_in_box(bed, grain)) {
-    inside.reach = std::max(inside.reach, (vertex - Vector(at.x, at.y, at.z)).norm());
+  for (const Vector& vertex : vertices_about_centre(bed, grain)) {
+    inside.reach = std::max(inside.reach, vertex.norm());
   }
   const auto& [x, y, z, w] = bed.turned->orientations[grain];
   const Eigen::Quaterniond turn(w, x, y, z);
