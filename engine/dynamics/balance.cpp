@@ -14,6 +14,52 @@ namespace {
 constexpr double solved_to = 2e-4;
 constexpr int most_sweeps = 4000;
 
+/// A closed contact, by which one sphere lifts another.
+struct Lift {
+  std::size_t from, to;
+};
+
+/// Marks the grains that the floor lifts, and lists by what grains lift others.
+std::vector<Lift> find_lifts(const SphereBed& bed, const SphereContacts<double>& closed,
+                             std::vector<char>& is_held) {
+  const auto height = [&](std::size_t grain) { return bed.position[grain].z; };
+  std::vector<Lift> lifts;
+  for (std::size_t block = 0; block < closed.rows.size(); ++block) {
+    const RowBlock<double>& row = closed.rows[block];
+    for (std::size_t lane = 0; lane < block_width; ++lane) {
+      if (row.gap[lane] > 0.0 || row.normal_z[lane] == 0.0) continue;
+      const auto a = static_cast<std::size_t>(row.a(lane));
+      if (block >= closed.pair_blocks) {
+        is_held[a] = 1;
+        continue;
+      }
+      const auto b = static_cast<std::size_t>(row.b(lane));
+      lifts.push_back(height(a) < height(b) ? Lift{a, b} : Lift{b, a});
+    }
+  }
+  std::sort(lifts.begin(), lifts.end(), [&](const Lift& one, const Lift& other) {
+    return height(one.from) < height(other.from);
+  });
+  return lifts;
+}
+
+/// What the mean imbalance is at least, for the sake of the grains that stand on nothing.
+double least_imbalance(const SphereBed& bed, const SphereContacts<double>& closed) {
+  std::vector<char> is_held(bed.grains(), 0);
+  for (const Lift& lift : find_lifts(bed, closed, is_held)) {
+    if (is_held[lift.from] != 0) is_held[lift.to] = 1;
+  }
+  double falls = 0.0, heaviest = 0.0;
+  for (std::size_t i = 0; i < bed.grains(); ++i) {
+    const double mass = 1.0 / bed.motion[i].w;
+    falls += is_held[i] != 0 ? 0.0 : mass;
+    heaviest = std::max(heaviest, mass);
+  }
+  return bed.grains() == 0 ? 0.0 : falls / (heaviest * static_cast<double>(bed.grains()));
+}
+/// Of polyhedra it is not looked for.
+double least_imbalance(const PolyhedronBed&, const PolyhedronContacts<double>&) { return 0.0; }
+
 /// The accelerations of free fall.
 template <class Kind>
 void set_free_fall(const Bed<Kind>& bed, std::vector<Record<double>>& free) {
@@ -44,13 +90,15 @@ double left_on(const PolyhedronBed& bed, const std::vector<Record<double>>& u, s
 }  // namespace
 
 template <class Kind, class Real>
-Imbalance static_imbalance(double tolerance, const ExecutionContext& context, const Bed<Kind>& bed,
-                           double dt, const Contacts<Kind, Real>& contacts,
+Imbalance static_imbalance(double tolerance, double of_interest, const ExecutionContext& context,
+                           const Bed<Kind>& bed, double dt, const Contacts<Kind, Real>& contacts,
                            StepState<Kind, double>& closed) {
   Bed<Kind> wrapped = bed;
   closed.candidates.is_listed = false;
   renew_candidates(tolerance, 0.0, context, wrapped, closed.candidates);
   lay_out_closed(tolerance, context, wrapped, closed.candidates, dt, contacts, closed.contacts);
+  const double least = least_imbalance(bed, closed.contacts);
+  if (least > of_interest) return {least, least};
   if (is_tall(bed)) carry_weight(1.0, bed, closed.contacts);
   set_free_fall(bed, closed.motion.free);
   SolveLimits limits;
@@ -67,15 +115,17 @@ Imbalance static_imbalance(double tolerance, const ExecutionContext& context, co
   return imbalance;
 }
 
-template Imbalance static_imbalance(double, const ExecutionContext&, const SphereBed&, double,
-                                    const SphereContacts<float>&, StepState<Sphere, double>&);
-template Imbalance static_imbalance(double, const ExecutionContext&, const SphereBed&, double,
-                                    const SphereContacts<double>&, StepState<Sphere, double>&);
-template Imbalance static_imbalance(double, const ExecutionContext&, const PolyhedronBed&, double,
-                                    const PolyhedronContacts<float>&,
+template Imbalance static_imbalance(double, double, const ExecutionContext&, const SphereBed&,
+                                    double, const SphereContacts<float>&,
+                                    StepState<Sphere, double>&);
+template Imbalance static_imbalance(double, double, const ExecutionContext&, const SphereBed&,
+                                    double, const SphereContacts<double>&,
+                                    StepState<Sphere, double>&);
+template Imbalance static_imbalance(double, double, const ExecutionContext&, const PolyhedronBed&,
+                                    double, const PolyhedronContacts<float>&,
                                     StepState<Polyhedron, double>&);
-template Imbalance static_imbalance(double, const ExecutionContext&, const PolyhedronBed&, double,
-                                    const PolyhedronContacts<double>&,
+template Imbalance static_imbalance(double, double, const ExecutionContext&, const PolyhedronBed&,
+                                    double, const PolyhedronContacts<double>&,
                                     StepState<Polyhedron, double>&);
 
 }  // namespace grainsweep

@@ -4,6 +4,8 @@
 #include <numeric>
 #include <utility>
 
+#include "engine/exact/halves.hpp"
+
 namespace grainsweep {
 
 namespace {
@@ -34,7 +36,9 @@ class Dissection {
 
   void dissect(At first, At last) {
     if (static_cast<std::size_t>(last - first) <= few_contacts) return;
-    const At middle = halve(first, last);
+    const At middle = halve(first, last, [&](std::int32_t contact, int axis) {
+      return node(contact).place[static_cast<std::size_t>(axis)];
+    });
     count_grains(first, middle, last);
     const At below_end =
         std::stable_partition(first, middle, [&](std::int32_t k) { return !parts(k, true); });
@@ -43,27 +47,6 @@ class Dissection {
     const At taken_out = std::rotate(below_end, middle, above_end);
     dissect(first, below_end);
     dissect(below_end, taken_out);
-  }
-
-  /// Sorts the contacts below the middle of their longest extent before those above it.
-  At halve(At first, At last) const {
-    const std::size_t axis = longest_axis(first, last);
-    std::sort(first, last, [&](std::int32_t p, std::int32_t q) {
-      return std::pair(node(p).place[axis], p) < std::pair(node(q).place[axis], q);
-    });
-    return first + (last - first) / 2;
-  }
-  std::size_t longest_axis(At first, At last) const {
-    std::array<double, 3> extent{};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const auto [low, high] =
-          std::minmax_element(first, last, [&](std::int32_t p, std::int32_t q) {
-            return node(p).place[axis] < node(q).place[axis];
-          });
-      extent[axis] = node(*high).place[axis] - node(*low).place[axis];
-    }
-    return static_cast<std::size_t>(std::max_element(extent.begin(), extent.end()) -
-                                    extent.begin());
   }
 
   /// Contacts of each grain on both sides of the middle.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -285,6 +286,9 @@ SolveReport solve(const SolveLimits& limits, const ExecutionContext& context, Ro
   SolveReport report;
   SolveLimits worth_a_look = limits;
   std::int64_t most = limits.iterations;
+  constexpr int most_in_vain = 2;  // one alone may come before others that bring it on
+  int in_vain = 0;                 // doublings that did not bring the residual down
+  double left_before = std::numeric_limits<double>::infinity();  // when iterations were doubled
   for (bool is_done = false; !is_done;) {
     descent.restart();
     Residual seen{};
@@ -297,9 +301,14 @@ SolveReport solve(const SolveLimits& limits, const ExecutionContext& context, Ro
     report.rms = left.rms;
     report.loaded = left.loaded;
     const bool is_spent = report.iterations >= most;
-    const bool may_continue = left.largest > limits.residual_cap && most < limits.iteration_cap;
+    if (is_spent && left.largest >= left_before) ++in_vain;
+    const bool may_continue =
+        left.largest > limits.residual_cap && most < limits.iteration_cap && in_vain < most_in_vain;
     is_done = left.is_within(limits) || (is_spent && !may_continue);
-    most *= is_spent ? 2 : 1;
+    if (is_spent) {
+      most *= 2;
+      left_before = left.largest;
+    }
     worth_a_look.tolerance =
         std::min(seen.largest, worth_a_look.tolerance) * limits.tolerance / left.largest;
     worth_a_look.rms_tolerance =

@@ -4,6 +4,8 @@
 #include <numeric>
 #include <utility>
 
+#include "engine/exact/halves.hpp"
+
 namespace grainsweep {
 
 namespace {
@@ -59,7 +61,8 @@ class Dissection {
     if (static_cast<std::size_t>(last - first) <= few_grains) {
       node.grains.assign(first, last);
     } else {
-      const At middle = halve(first, last);
+      const At middle =
+          halve(first, last, [&](std::int32_t grain, int axis) { return coordinate(grain, axis); });
       const auto [parting, end] = part(first, middle, last);
       node.grains.assign(end, last);
       node.children = {dissect(first, parting), dissect(parting, end)};
@@ -68,25 +71,6 @@ class Dissection {
     return static_cast<std::int32_t>(tree_.nodes.size()) - 1;
   }
 
-  /// Sorts the grains below the middle of their longest extent before those above it.
-  At halve(At first, At last) const {
-    const int axis = longest_axis(first, last);
-    std::sort(first, last, [&](std::int32_t p, std::int32_t q) {
-      return std::pair(coordinate(p, axis), p) < std::pair(coordinate(q, axis), q);
-    });
-    return first + (last - first) / 2;
-  }
-  int longest_axis(At first, At last) const {
-    std::array<double, 3> extent{};
-    for (int axis = 0; axis < 3; ++axis) {
-      const auto [low, high] =
-          std::minmax_element(first, last, [&](std::int32_t p, std::int32_t q) {
-            return coordinate(p, axis) < coordinate(q, axis);
-          });
-      extent[static_cast<std::size_t>(axis)] = coordinate(*high, axis) - coordinate(*low, axis);
-    }
-    return static_cast<int>(std::max_element(extent.begin(), extent.end()) - extent.begin());
-  }
   double coordinate(std::int32_t grain, int axis) const {
     const Record<double>& p = centres_[static_cast<std::size_t>(grain)];
     return axis == 0 ? p.x : axis == 1 ? p.y : p.z;

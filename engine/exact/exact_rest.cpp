@@ -13,6 +13,10 @@ namespace {
 
 constexpr double most_factorisations = 600.0;
 
+/// What a round takes besides its factorisation, in multiplications of one for each grain: it goes
+/// through all links up to seven times.
+constexpr double of_a_grain_and_round = 4000.0;
+
 // Products f s, m g d: slacks of loaded contacts are 1e-4 d at first, at the end far below
 // exact_overlap for all forces that hold a bed.
 constexpr double first_product = 1e-4;
@@ -64,7 +68,9 @@ class InteriorPoint {
 
   ExactRest run(const ExactRestLimits& limits) {
     ExactRest rest;
-    const double most = std::min(most_factorisations, limits.operations / factors_.operations());
+    const double of_a_round =
+        factors_.operations() + of_a_grain_and_round * static_cast<double>(grains());
+    const double most = std::min(most_factorisations, limits.operations / of_a_round);
     const double usual = std::max(50.0, 2.0 * std::sqrt(static_cast<double>(grains())));  // rounds
     if (most < usual) return failed("it would take too long", rest);
     while (!is_found()) {
@@ -72,6 +78,7 @@ class InteriorPoint {
       if (rest.rounds >= most) {
         return failed("no state without motion was found in time", rest);
       }
+      if (has_diverged()) return failed("forces grow without bound", rest);
       ++rest.rounds;
       if (!factor_with_drag()) return failed("the contacts do not hold the bed", rest);
       find_step();
@@ -206,6 +213,15 @@ class InteriorPoint {
     for (const Link& link : links_) scale = std::max(scale, link.force);
     return product_ <= last_product && reached_ > 0.9 &&
            largest(net_forces()) < nearly_balanced * scale;
+  }
+
+  /// No wedge multiplies the weight of a whole bed so often.
+  bool has_diverged() const {
+    constexpr double multiplied = 1e8;
+    double weight = 0.0, most = 0.0;
+    for (std::size_t i = 0; i < grains(); ++i) weight += mass(i);
+    for (const Link& link : links_) most = std::max(most, link.force);
+    return most > multiplied * weight;
   }
 
   /// Drag keeps a grain from moving far in a round: a force per way, in weights per d.

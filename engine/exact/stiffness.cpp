@@ -34,7 +34,7 @@ void StiffnessFactors::analyse(std::span<const Record<double>> centres,
         {k, spring.a, spring.b});
   }
   std::vector<std::int32_t> place(centres.size(), 0);  // of each grain in the front at work
-  std::size_t size = 0, largest = 0;
+  std::size_t size = 0;
   for (std::size_t node = 0; node < fronts_.size(); ++node) {
     Front& front = fronts_[node];
     front.columns = 3 * tree_.nodes[node].grains.size();
@@ -42,7 +42,6 @@ void StiffnessFactors::analyse(std::span<const Record<double>> centres,
     front.stride = (front.rows + block_width - 1) / block_width * block_width;
     front.factor = size;
     size += front.columns * front.stride;
-    largest = std::max(largest, front.rows * front.stride);
     std::int32_t next = 0;
     for (const std::int32_t grain : grains_of(node))
       place[static_cast<std::size_t>(grain)] = next++;
@@ -53,6 +52,14 @@ void StiffnessFactors::analyse(std::span<const Record<double>> centres,
     for (const std::int32_t child : tree_.nodes[node].children) {
       if (child != EliminationNode::none) place_border(static_cast<std::size_t>(child), place);
     }
+  }
+}
+
+void StiffnessFactors::allocate() {
+  std::size_t size = 0, largest = 0;
+  for (const Front& front : fronts_) {
+    size = front.factor + front.columns * front.stride;
+    largest = std::max(largest, front.rows * front.stride);
   }
   factors_.resize(size);
   front_.resize(largest);
@@ -85,6 +92,7 @@ double StiffnessFactors::operations() const {
 
 bool StiffnessFactors::factor(const std::vector<Spring>& springs,
                               const std::vector<double>& ground) {
+  allocate();
   for (std::size_t node = 0; node < fronts_.size(); ++node) {
     Front& front = fronts_[node];
     gather(node, springs, ground);

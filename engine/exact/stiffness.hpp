@@ -32,7 +32,8 @@ class StiffnessFactors {
   explicit StiffnessFactors(const Kernels& kernels) : kernels_(&kernels.front) {}
 
   /// Prepares for springs between these ends of grains with these centres. Their order must stay;
-  /// their directions and stiffnesses may change.
+  /// their directions and stiffnesses may change. The factors, which may take gigabytes, have no
+  /// memory before the first factorisation.
   void analyse(std::span<const Record<double>> centres, const std::vector<Spring>& springs);
 
   /// Multiplications that a factorisation takes.
@@ -63,6 +64,7 @@ class StiffnessFactors {
     std::vector<double> left;  ///< what it hands on: the lower triangle of its border, by columns
   };
 
+  void allocate();
   std::vector<std::int32_t> grains_of(std::size_t node) const;
   void place_border(std::size_t node, const std::vector<std::int32_t>& place);
   void gather(std::size_t node, const std::vector<Spring>& springs,

@@ -1,11 +1,15 @@
 #include "engine/measure/cut_tube.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
 #include <boost/math/quadrature/gauss.hpp>
 #include <boost/math/quadrature/gauss_kronrod.hpp>
+#include <boost/math/special_functions/ellint_rd.hpp>
+#include <boost/math/special_functions/ellint_rf.hpp>
+#include <boost/math/special_functions/ellint_rj.hpp>
 
 #include "engine/measure/cut_polyhedron.hpp"
 #include "engine/units.hpp"
@@ -53,6 +57,82 @@ double crossing_volume(double radius, double distance, double tube, double low, 
   return std::abs(tube - distance) > 0.1 * radius
              ? gauss<double, 30>::integrate(shared, 0.0, pi)
              : gauss_kronrod<double, 31>::integrate(shared, 0.0, pi, most_halvings, 1e-13);
+}
+
+// ---- whole spheres ----
+
+using InDouble = boost::math::policies::policy<boost::math::policies::promote_double<false>>;
+
+/// Integral of s^2 c^2 / sqrt(1 - k^2 s^2), s = sin t and c = cos t, from 0 to pi/2, for a small
+/// k^2: there the combination of complete integrals that it is would lose digits. The integrand is
+/// periodic, so that the midpoint rule converges like (k^2 / 16)^2n.
+double midpoint_integral(double k_squared) {
+  constexpr std::size_t points = 6;
+  static const std::array<double, points> sine_squared = [] {
+    std::array<double, points> squares{};
+    for (std::size_t j = 0; j < points; ++j) {
+      const double sine = std::sin((static_cast<double>(j) + 0.5) * pi / (2.0 * points));
+      squares[j] = sine * sine;
+    }
+    return squares;
+  }();
+  double sum = 0.0;
+  for (const double s : sine_squared) sum += s * (1.0 - s) / std::sqrt(1.0 - k_squared * s);
+  return sum * pi / (2.0 * points);
+}
+
+/// Volume that a ball and an endless cylinder share.
+///
+/// By parts it is 4 pi/3 a^3, if the cylinder's axis meets the ball's middle height within its rim,
+/// less 4/3 of the integral of (a^2 - u)^(3/2) over the half angle of the arc that lies in the
+/// cylinder, of the circle with radius sqrt(u) about the ball's centre. In u it is elliptic:
+///
+///   1/2 (a^2 - u)^2 (u + R^2 - b^2) / (u sqrt((a^2 - u) ((b + R)^2 - u) (u - (b - R)^2))) du
+///
+/// from the third root to the nearest other one (a: radius, R: tube, b: distance). With
+/// u = C + (B - C) sin^2 t it becomes four complete integrals, in Carlson's forms, of 1, u, u^2 and
+/// 1/u over sqrt(1 - k^2 sin^2 t).
+double whole_volume(double radius, double distance, double tube) {
+  using boost::math::ellint_rd, boost::math::ellint_rf, boost::math::ellint_rj;
+  constexpr double least = 1e-100;       // k = 1: what grows like its logarithm has no weight
+  constexpr double small_modulus = 0.1;  // above it one digit is lost
+  const double ball = 4.0 / 3.0 * pi * radius * radius * radius;
+  const double squared = radius * radius, far = (tube + distance) * (tube + distance);
+  const double near = (tube - distance) * (tube - distance);
+  const double inside = tube > distance ? ball : tube < distance ? 0.0 : ball / 2.0;
+  if (near >= squared) return inside;
+  const double end = std::min(squared, far), width = end - near;
+  const double wide = std::max(squared, far) - near, k_squared = width / wide;
+  const double rest = std::max(std::abs(squared - far) / wide, least);  // 1 - k^2
+  const double zeroth = ellint_rf(0.0, rest, 1.0, InDouble());
+  const double first = ellint_rd(0.0, rest, 1.0, InDouble()) / 3.0;  // of sin^2 t, next of sin^4 t
+  const double second = k_squared < small_modulus
+                            ? first - midpoint_integral(k_squared)
+                            : (2.0 * (1.0 + k_squared) * first - zeroth) / (3.0 * k_squared);
+  const auto inverse = [&] {
+    const double third = ellint_rj(0.0, rest, 1.0, rest * near / end, InDouble());
+    return (zeroth + width * rest / (3.0 * end) * third) / end;
+  };
+  const double u = near * zeroth + width * first;
+  const double uu = near * near * zeroth + width * (2.0 * near * first + width * second);
+  const double beyond = (tube - distance) * (tube + distance);
+  const double of_inverse = near > 0.0 ? squared * squared * beyond * inverse() : 0.0;
+  const double sum =
+      uu + (beyond - 2.0 * squared) * u + squared * (squared - 2.0 * beyond) * zeroth + of_inverse;
+  return inside - 4.0 / 3.0 * sum / std::sqrt(wide);
+}
+
+/// The part of it between the middle of the ball and a height above it.
+double volume_up_to(double height, double radius, double distance, double tube) {
+  // The height at which the ball's disc has a radius; 0 if none is so large.
+  const auto height_of = [&](double disc) {
+    return disc < radius ? std::sqrt((radius - disc) * (radius + disc)) : 0.0;
+  };
+  const double holds = std::min(height, height_of(tube + distance));  // discs hold the tube's,
+  const double crosses = std::min(height, height_of(std::abs(tube - distance)));  // or cross it
+  const double below =
+      pi * tube * tube * holds + crossing_volume(radius, distance, tube, holds, crosses);
+  return distance >= tube ? below : below + layer_volume(radius, crosses, height);
 }
 
 // ---- polyhedra ----
@@ -204,22 +284,18 @@ double shared_area(double radius, double other_radius, double distance) {
 }
 
 double sphere_tube_volume(double radius, double distance, double tube, double low, double high) {
-  const double bottom = std::clamp(low, -radius, radius), top = std::clamp(high, -radius, radius);
-  if (bottom >= top || tube <= 0.0 || distance - tube >= radius) return 0.0;
+  if (low >= std::min(high, radius) || high <= -radius || tube <= 0.0) return 0.0;
+  if (distance - tube >= radius) return 0.0;
   tube = std::min(tube, distance + radius);  // a wider one holds as much
-  // The height above the centre at which the ball's disc has a radius; 0 if none is so large.
-  const auto height_of = [&](double disc) {
-    return disc < radius ? std::sqrt((radius - disc) * (radius + disc)) : 0.0;
+  const auto up_to = [&](double height) {
+    const double half = std::abs(height) >= radius
+                            ? 0.5 * whole_volume(radius, distance, tube)
+                            : volume_up_to(std::abs(height), radius, distance, tube);
+    return std::copysign(half, height);
   };
-  const auto within = [&](double z) { return std::clamp(z, bottom, top); };
-  const double holds = height_of(tube + distance);              // below it discs hold the tube's,
-  const double crosses = height_of(std::abs(tube - distance));  // below it they cross its rim
-  const double whole = pi * tube * tube * (within(holds) - within(-holds));
-  const double crossing = crossing_volume(radius, distance, tube, within(holds), within(crosses)) +
-                          crossing_volume(radius, distance, tube, within(-crosses), within(-holds));
-  if (distance >= tube) return whole + crossing;
-  return whole + crossing + layer_volume(radius, within(crosses), top) +
-         layer_volume(radius, bottom, within(-crosses));
+  const double bottom = std::max(low, -radius), top = std::min(high, radius);
+  return top == radius && bottom == -radius ? whole_volume(radius, distance, tube)
+                                            : up_to(top) - up_to(bottom);
 }
 
 }  // namespace grainsweep

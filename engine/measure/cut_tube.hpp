@@ -4,7 +4,8 @@
 // either shares with the disc of the cylinder is known in closed form; it is integrated over z
 // between the heights where its form changes. There it behaves like a power 3/2 of the distance,
 // which the substitution z = middle - half cos(t) turns into a smooth function of t, so that
-// Gauss's rule converges fast (spheres: rounding; polyhedra: see below).
+// Gauss's rule converges fast (spheres: rounding; polyhedra: see below). Of a sphere's whole height
+// the integral is known, in complete elliptic integrals.
 #pragma once
 
 #include "engine/measure/slab.hpp"
@@ -17,7 +18,7 @@ double shared_area(double radius, double other_radius, double distance);
 
 /// Volume of the part of a sphere whose centre lies at `distance` from the axis of a cylinder of
 /// radius `tube`, in it, and between the heights `low` and `high` above the sphere's centre, d^3.
-/// Exact to 1e-13 of the sphere's volume.
+/// Exact to 1e-13 of the sphere's volume, and to rounding where both heights lie beyond the sphere.
 double sphere_tube_volume(double radius, double distance, double tube, double low, double high);
 
 /// Volume of the part of a grain in an upright cylinder of radius `tube` about the vertical line

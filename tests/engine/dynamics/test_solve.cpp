@@ -361,6 +361,20 @@ TEST_CASE("a solve continues beyond its iterations until the residual is below i
   }
 }
 
+TEST_CASE("a solve that rounding stops does not go on for a residual that it cannot reach") {
+  for (const Solver solver : all_solvers) {
+    INFO("solver " << static_cast<int>(solver));
+    SolveLimits limits{solver, 16, 0.0};
+    limits.residual_cap = 1e-12;  // far below the rounding of f32
+    limits.iteration_cap = 100'000'000;
+    StepProblem<float> problem = random_problem<float>(16, 4);
+    const SolveReport report = solve(limits, kernels(), problem.contacts, problem.motion);
+    CHECK(report.residual > limits.residual_cap);
+    CHECK(report.residual < 1e-4);         // it has got as far as f32 goes
+    CHECK(report.iterations < 1'000'000);  // 16 times a power of two; seconds here if it went on
+  }
+}
+
 // Rows that take too much of their own correction, 1.8 times: plain sweeps converge up to twice.
 TEST_CASE("momentum is given up where it makes sweeps diverge") {
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {

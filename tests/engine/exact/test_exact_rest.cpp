@@ -185,7 +185,7 @@ TEST_CASE("the accuracy exact settles beds with isostatic contacts, near where t
 /// Layers of three fit into this tube by 0.001 d: they wedge, and steps leave forces that grow and
 /// shrink without end.
 PackingSpec wedged_spec() {
-  PackingSpec spec = small_spec(tube_of(2.1525), 60, 7);
+  PackingSpec spec = small_spec(tube_of(2.1525), 60, 2);
   spec.sizes.spread = 0.0;
   spec.accuracy = *preset("fast");
   return spec;

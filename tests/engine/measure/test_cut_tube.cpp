@@ -92,6 +92,24 @@ TEST_CASE("a tube cuts from a sphere what a quadrature of the discs finds") {
   }
 }
 
+TEST_CASE("what a tube cuts from a sphere in its whole height is known to the last digits") {
+  Draw draw(44);
+  for (int k = 0; k < 300; ++k) {
+    const double radius = draw.uniform(0.05, 0.7);
+    double tube = k % 2 == 0 ? draw.uniform(0.01, 2 * radius) : draw.uniform(1, 1000);
+    double distance = std::max(0.0, tube + draw.uniform(-1, 1) * radius);
+    const double nearly = std::pow(10, -draw.uniform(1, 15)) * draw.uniform(-1, 1);
+    if (k % 5 == 0) distance = tube;                                    // the centre in the wall
+    if (k % 5 == 1) distance = tube + nearly;                           // or nearly
+    if (k % 7 == 0) tube = std::max(0.01, radius - distance) + nearly;  // it touches from within
+    if (k % 11 == 0) distance = std::max(0.0, nearly);
+    INFO("radius " << radius << ", distance " << distance << ", tube " << tube);
+    const double exact = brute_force(radius, distance, tube, -radius, radius);
+    CHECK(sphere_tube_volume(radius, distance, tube, -radius, radius) ==
+          Approx(exact).margin(5e-15 * sphere_volume(radius)));
+  }
+}
+
 TEST_CASE("a tube cuts what is known: all, nothing, a cylinder's core, half at a wide wall") {
   const double whole = sphere_volume(0.5);
   CHECK(sphere_tube_volume(0.5, 1.5, 2.0, -1, 1) == Approx(whole).epsilon(1e-15));
