@@ -129,13 +129,23 @@ Mesh mesh_of(const ConvexShape& shape) {
 }
 
 Turned orientations_of(const PolyhedronBed& bed) {
-  Turned turned{mesh_of(bed.shape), {}};
-  const Quaternion back = Quaternion(bed.shape.given.rotation).conjugate();
+  Turned turned{mesh_of(bed.shapes.front()), {}};
+  const Quaternion back = Quaternion(bed.shapes.front().given.rotation).conjugate();
   for (std::size_t i = 0; i < bed.grains(); ++i) {
     const Quaternion q = bed.pose(i).orientation * back;
     turned.orientations.push_back({q.x(), q.y(), q.z(), q.w()});
   }
   return turned;
+}
+
+/// All that is within a gap that counts as a contact or a bond.
+Touching touching_or_bonded(const MeasureSpec& spec, const Kernels& kernels, SphereBed& bed) {
+  const double tolerance = widest(spec.gap_tolerances);
+  const auto tolerance_of = [=](double a, double b) { return std::max(tolerance, bond_gap(a, b)); };
+  return find_touching(bed, tolerance_of, kernels);
+}
+Touching touching_or_bonded(const MeasureSpec& spec, const Kernels& kernels, PolyhedronBed& bed) {
+  return find_touching(bed, std::max(widest(spec.gap_tolerances), longest_bond_gap), kernels);
 }
 
 // What is known of one kind of grains only.
@@ -153,7 +163,7 @@ void measure(const PackingSpec& spec, const SettleReport& settled, const Kernels
   PackingResult& result = packing.result;
   measure_sizes(bed, result);
   const std::vector<double>& tolerances = spec.measure.gap_tolerances;
-  const Touching near = find_touching(bed, std::max(widest(tolerances), longest_bond_gap), kernels);
+  const Touching near = touching_or_bonded(spec.measure, kernels, bed);
   packing.grains = grains_of(bed, near, tolerances.front(), settled.force);
   packing.forces = settled.pair_forces;
   packing.wall_forces = settled.wall_forces;

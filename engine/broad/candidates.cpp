@@ -2,14 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 namespace grainsweep {
 
 namespace {
-
-/// Levels of sizes told apart; smaller grains share the last one.
-constexpr std::size_t max_levels = 8;
 
 void include(const Record<double>& ball, Heights& heights) {
   heights.bottom = std::min(heights.bottom, ball.z);
@@ -23,38 +21,6 @@ Heights heights_of(const Balls& balls) {
     if (!balls.bed.is_asleep(i)) include(balls.ball[i], heights);
   }
   return heights;
-}
-
-/// Largest radius below `below`, d; 0 if there is none.
-double largest_radius(const Balls& balls, double below) {
-  double largest = 0.0;
-  for (std::size_t i = 0; i < balls.bed.grains(); ++i) {
-    const double radius = balls.ball[i].w;
-    if (radius < below) largest = std::max(largest, radius);
-  }
-  return largest;
-}
-
-/// Sorts the members into levels. A level holds radii from its largest down to half of that, so
-/// that a bed of one size has one level; the last one holds all that is left.
-void choose_levels(const Balls& balls, const std::vector<std::int32_t>& members,
-                   std::vector<SizeLevel>& levels) {
-  std::size_t count = 0;
-  double below = std::numeric_limits<double>::infinity();
-  for (double largest = largest_radius(balls, below); count == 0 || largest > 0.0;
-       largest = largest_radius(balls, below)) {
-    if (levels.size() <= count) levels.emplace_back();
-    levels[count].largest_radius = largest;
-    levels[count].members.clear();
-    below = ++count < max_levels ? std::min(below, 0.5 * largest) : 0.0;
-  }
-  levels.resize(count);
-  for (const std::int32_t grain : members) {
-    const double radius = balls.ball[static_cast<std::size_t>(grain)].w;
-    std::size_t level = 0;
-    while (level + 1 < count && radius < 0.5 * levels[level].largest_radius) ++level;
-    levels[level].members.push_back(grain);
-  }
 }
 
 /// All grains awake, and of those that sleep the ones that one awake may touch, at heights from
@@ -84,12 +50,15 @@ double rounding_slack(const Balls& balls, const Heights& heights) {
   return 8.0 * static_cast<double>(std::numeric_limits<float>::epsilon()) * extent;
 }
 
-/// Fills the grid of every level; all have the same origin. No pair with a gap below `reach` lies
-/// further apart than in adjacent cells.
-void fill_grids(const Balls& balls, const Heights& heights, double reach, const ParallelFor& loop,
-                std::vector<SizeLevel>& levels) {
+/// How far apart the grains of a pair are listed, d, by their levels.
+using LevelReach = std::function<double(const SizeLevel&, const SizeLevel&)>;
+
+/// Fills the grid of every level; all have the same origin. No pair with a gap below its reach and
+/// `slack` lies further apart than in adjacent cells.
+void fill_grids(const Balls& balls, const Heights& heights, const LevelReach& reach_of,
+                double slack, const ParallelFor& loop, std::vector<SizeLevel>& levels) {
   for (SizeLevel& level : levels) {
-    const double least = 2.0 * level.largest_radius + reach;
+    const double least = 2.0 * level.largest_radius + (reach_of(level, level) + slack);
     level.cells =
         make_cells(balls.bed.box, heights.bottom, heights.top, least, level.members.size());
     fill_columns(balls, level.members, level.cells, loop, level.grid);
@@ -203,15 +172,19 @@ void list_pairs_across(const Balls& balls, const SizeLevel& fine, const SizeLeve
       candidates);
 }
 
-void list_pairs(const Balls& balls, float reach, const ExecutionContext& context,
+void list_pairs(const Balls& balls, const LevelReach& reach_of, const ExecutionContext& context,
                 Candidates& candidates) {
   candidates.pairs.clear();
+  const auto reach = [&](const SizeLevel& one, const SizeLevel& other) {
+    return static_cast<float>(reach_of(one, other) + candidates.slack);
+  };
   const std::vector<SizeLevel>& levels = candidates.levels;
   for (std::size_t k = 0; k < levels.size(); ++k) {
     const SizeLevel& level = levels[k];
-    list_pairs_within(level, reach, context, candidates);
+    list_pairs_within(level, reach(level, level), context, candidates);
     for (std::size_t coarse = 0; coarse < k; ++coarse) {
-      list_pairs_across(balls, level, levels[coarse], reach, context, candidates);
+      list_pairs_across(balls, level, levels[coarse], reach(level, levels[coarse]), context,
+                        candidates);
     }
   }
   if (!balls.bed.asleep.empty()) {
@@ -248,23 +221,20 @@ void remember_positions(const Balls& balls, const ParallelFor& loop, Candidates&
 
 // ---- strays ----
 
-/// Square of the way that a grain may move from where it was looked up without being a stray, d^2;
-/// negative if none may even stay.
-double squared_leash(double near, const Candidates& candidates) {
-  const double leash = 0.5 * (candidates.reach - near);
-  return leash < 0.0 ? -1.0 : leash * leash;
-}
-
-bool is_stray(const Record<double>& now, const Record<double>& then, double squared_leash) {
+/// Whether a grain has moved from where it was looked up by more than half of what its pairs are
+/// listed beyond `near`; if that is nothing it has even where it stays.
+bool is_stray(const Record<double>& now, const Record<double>& then, double near,
+              const Candidates& candidates) {
+  const double less = candidates.levels[level_of(now.w, candidates.levels)].less;
+  const double leash = 0.5 * (candidates.reach - near) - less;
   const double x = now.x - then.x, y = now.y - then.y, z = now.z - then.z;
-  return x * x + y * y + z * z > squared_leash;
+  return leash < 0.0 || x * x + y * y + z * z > leash * leash;
 }
 
 void find_strays(const Balls& balls, double near, Candidates& candidates) {
-  const double leash = squared_leash(near, candidates);
   candidates.strays.clear();
   for (std::size_t i = 0; i < balls.bed.grains(); ++i) {
-    if (is_stray(balls.ball[i], candidates.built_at[i], leash)) {
+    if (is_stray(balls.ball[i], candidates.built_at[i], near, candidates)) {
       candidates.strays.push_back(static_cast<std::int32_t>(i));
     }
   }
@@ -284,6 +254,17 @@ bool may_look_up(const SphereBed& bed, const Candidates& candidates) {
            const double z = bed.position[static_cast<std::size_t>(grain)].z;
            return z >= candidates.lookup.bottom && z <= candidates.lookup.top;
          });
+}
+
+/// Whether a pair lies further apart, where its grains were looked up, than its sizes are listed.
+bool is_far(const SphereBed& bed, GrainPair pair, const Candidates& candidates) {
+  const Record<double>& p = candidates.built_at[static_cast<std::size_t>(pair.a)];
+  const Record<double>& q = candidates.built_at[static_cast<std::size_t>(pair.b)];
+  const std::vector<SizeLevel>& levels = candidates.levels;
+  const double x = nearest_image(p.x - q.x, bed.box.period_x());
+  const double y = nearest_image(p.y - q.y, bed.box.period_y()), z = p.z - q.z;
+  const double less = levels[level_of(p.w, levels)].less + levels[level_of(q.w, levels)].less;
+  return std::sqrt(x * x + y * y + z * z) - p.w - q.w >= candidates.reach - less;
 }
 
 /// Leaves of the pairs met, in their order, those that are not in the list.
@@ -340,6 +321,9 @@ void look_up(const ExecutionContext& context, SphereBed& bed, Candidates& candid
         return context.kernels.sphere_pairs_across(grid, queries, pairs, capacity);
       },
       16 * candidates.strays.size(), candidates.met);
+  if (candidates.levels.back().less > 0.0) {
+    std::erase_if(candidates.met, [&](GrainPair pair) { return is_far(bed, pair, candidates); });
+  }
   keep_unlisted(candidates);
   for (const GrainPair pair : candidates.met) {
     candidates.pairs.push_back(pair);
@@ -348,31 +332,46 @@ void look_up(const ExecutionContext& context, SphereBed& bed, Candidates& candid
   add_walls(bed, candidates);
 }
 
-}  // namespace
-
-void find_candidates(const Balls& balls, double reach, const ExecutionContext& context,
-                     Candidates& candidates) {
+/// Lists all pairs with a gap below `reach_of` their levels, and walls with one below `reach`.
+/// Small grains have less of `margin`.
+void list_candidates(const Balls& balls, double reach, double margin, const LevelReach& reach_of,
+                     const ExecutionContext& context, Candidates& candidates) {
   constexpr double lookup_slack = 0.5;  // d
   candidates.reach = reach;
   const Heights awake = heights_of(balls);
   candidates.lookup = {awake.bottom - lookup_slack, awake.top + lookup_slack};
   choose_members(balls, reach, candidates.lookup.bottom, candidates);
-  choose_levels(balls, candidates.members, candidates.levels);
+  choose_levels(balls, candidates.members, margin, candidates.levels);
   const Heights heights = heights_of(balls, candidates.members);
-  const double slack = rounding_slack(balls, heights);
-  candidates.slack = slack;
-  fill_grids(balls, heights, reach + 2.0 * slack, context.loop, candidates.levels);
-  list_pairs(balls, static_cast<float>(reach + slack), context, candidates);
+  candidates.slack = rounding_slack(balls, heights);
+  fill_grids(balls, heights, reach_of, 2.0 * candidates.slack, context.loop, candidates.levels);
+  list_pairs(balls, reach_of, context, candidates);
   list_walls(balls, candidates);
   remember_positions(balls, context.loop, candidates);
   candidates.searched = candidates.pairs.size();
   candidates.is_indexed = false;
 }
 
+}  // namespace
+
+void find_candidates(const Balls& balls, double reach, const ExecutionContext& context,
+                     Candidates& candidates) {
+  const auto everywhere = [=](const SizeLevel&, const SizeLevel&) { return reach; };
+  list_candidates(balls, reach, 0.0, everywhere, context, candidates);
+}
+
+void find_candidates(const Balls& balls, const PairReach& reach_of, const ExecutionContext& context,
+                     Candidates& candidates) {
+  constexpr double largest = std::numeric_limits<double>::infinity();
+  const auto by_size = [&](const SizeLevel& one, const SizeLevel& other) {
+    return reach_of(one.largest_radius, other.largest_radius);
+  };
+  list_candidates(balls, reach_of(largest, largest), 0.0, by_size, context, candidates);
+}
+
 bool still_complete(const Balls& balls, double near, const Candidates& candidates) {
-  const double leash = squared_leash(near, candidates);
   for (std::size_t i = 0; i < balls.bed.grains(); ++i) {
-    if (is_stray(balls.ball[i], candidates.built_at[i], leash)) return false;
+    if (is_stray(balls.ball[i], candidates.built_at[i], near, candidates)) return false;
   }
   return true;
 }
@@ -388,7 +387,11 @@ ListChange complete_candidates(double near, double margin, const ExecutionContex
     }
   }
   wrap(bed, context.loop);
-  find_candidates({bed, bed.position}, near + margin, context, candidates);
+  const double reach = near + margin;
+  const auto less_of_small = [=](const SizeLevel& one, const SizeLevel& other) {
+    return reach - one.less - other.less;
+  };
+  list_candidates({bed, bed.position}, reach, margin, less_of_small, context, candidates);
   candidates.is_listed = true;
   return ListChange::whole;
 }

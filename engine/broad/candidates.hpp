@@ -4,17 +4,22 @@
 // half of what the list reaches beyond near. Grains that have are strays: while they are few they
 // are looked up singly, and what they have come near is added to the list.
 //
+// Around grains a hundredth as large as the reach beyond near there would be a hundred times more
+// pairs than they touch: those of small grains are listed less far, and they stray sooner.
+//
 // Grains are searched for by level of size, each level in a grid of cells that just hold its own
 // grains; then every level's grains are looked up in the grids of the larger ones. With one grid of
 // large cells a grain ten times smaller would meet a thousand others in each.
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <vector>
 
 #include "engine/broad/grid.hpp"
 #include "engine/broad/pair_index.hpp"
+#include "engine/broad/size_levels.hpp"
 #include "engine/context.hpp"
 #include "engine/scene/bed.hpp"
 #include "kernels/kernels.hpp"
@@ -32,14 +37,6 @@ struct WallCandidates {
   std::vector<std::int32_t> grains;  ///< ascending; then those that were added
 };
 
-/// Grains of similar size and their search grid: radii from the largest down to half of it.
-struct SizeLevel {
-  double largest_radius = 0.0;        ///< d
-  std::vector<std::int32_t> members;  ///< ascending
-  Cells cells;
-  GridColumns grid;
-};
-
 /// Memory of a search across levels: the spheres of one level on their way through another's grid.
 struct QueryColumns {
   std::vector<float> x, y, z, radius;
@@ -50,11 +47,12 @@ struct QueryColumns {
 enum class ListChange { none, added, whole };
 
 struct Candidates {
-  bool is_listed = false;        ///< whether what follows is of this bed
-  double reach = 0.0;            ///< every pair and wall with a gap below it is listed, d
-  double slack = 0.0;            ///< what rounding may add to a distance in a search, d
-  Heights lookup;                ///< heights between which a grain may be looked up, d
-  std::size_t searched = 0;      ///< pairs that the search found
+  bool is_listed = false;    ///< whether what follows is of this bed
+  double reach = 0.0;        ///< every pair with a gap below it is listed, but for what the levels
+                             ///< of its grains are listed less far, and every wall, d
+  double slack = 0.0;        ///< what rounding may add to a distance in a search, d
+  Heights lookup;            ///< heights between which a grain may be looked up, d
+  std::size_t searched = 0;  ///< pairs that the search found
   std::vector<GrainPair> pairs;  ///< each once, a < b: those in the order of the search grids, then
                                  ///< those that strays have added
   std::vector<WallCandidates> walls;
@@ -78,8 +76,16 @@ struct Candidates {
 void find_candidates(const Balls& balls, double reach, const ExecutionContext& context,
                      Candidates& candidates);
 
+/// How near two balls of these radii have to be to count, d; no less for larger ones.
+using PairReach = std::function<double(double, double)>;
+
+/// The same where it depends on the size of the balls, for lists that are used at once: all pairs
+/// with a gap below what it says of them, and some with one below what it says of larger ones.
+void find_candidates(const Balls& balls, const PairReach& reach_of, const ExecutionContext& context,
+                     Candidates& candidates);
+
 /// Whether the list still holds every pair and wall with a gap below `near` < reach: no grain has
-/// moved since it was looked up by more than half of reach - near.
+/// moved since it was looked up by more than half of what its pairs are listed further.
 bool still_complete(const Balls& balls, double near, const Candidates& candidates);
 
 /// Lists the candidates with a gap below near + margin anew, and wraps the bed, if the list may
@@ -98,7 +104,7 @@ bool renew_candidates(double near, double margin, const ExecutionContext& contex
 
 /// Completes the list of a bed of spheres as far as pairs and walls with a gap below `near` go, and
 /// says how. Strays are wrapped and looked up singly while they are few; else the whole bed is
-/// wrapped and listed anew as far as near + margin, less where a periodic side is too short for it.
+/// wrapped and listed anew as far as near + margin, with a smaller margin of small grains.
 /// A pair that is no longer near stays in the list until it is made anew.
 ListChange complete_candidates(double near, double margin, const ExecutionContext& context,
                                SphereBed& bed, Candidates& candidates);

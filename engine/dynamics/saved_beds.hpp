@@ -16,7 +16,11 @@ void transfer_candidates(Archive& archive, List& candidates) {
   archive.column(candidates.built_at);
   archive.column(candidates.members);
   archive.list(candidates.walls, [&](auto& near) { archive.column(near.grains); });
-  archive.list(candidates.levels, [&](auto& level) { archive.value(level.cells); });
+  archive.list(candidates.levels, [&](auto& level) {
+    archive.value(level.largest_radius);
+    archive.value(level.less);
+    archive.value(level.cells);
+  });
 }
 
 /// Three numbers; Eigen's vectors are no plain bytes.

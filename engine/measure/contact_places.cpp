@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "engine/narrow/constraints.hpp"
+#include "engine/narrow/polyhedra.hpp"
 
 namespace grainsweep {
 
@@ -59,8 +60,8 @@ ContactPlace contact_place(const PolyhedronBed& bed, const TouchingPair& pair, d
   TouchColumns columns;
   PairMemory memory;
   std::vector<ContactPoint> points;
-  const PairContact contact = touch({bed.shape, bed.shape, pair_pose(bed, a, b)},
-                                    {reach, preference_of_faces, 0.0}, memory, columns, points);
+  const PairContact contact =
+      touch(shape_pair(bed, a, b), {reach, preference_of_faces, 0.0}, memory, columns, points);
   const Pose pose = bed.pose(a);
   return {pose.orientation * contact.normal,
           pose.centre + pose.orientation * middle_of(points, reach), counted(points, tolerance)};
@@ -79,7 +80,7 @@ ContactPlace contact_place(const PolyhedronBed& bed, const TouchingWall& touchin
   const Wall& wall = bed.walls[static_cast<std::size_t>(touching.wall)];
   const Pose pose = bed.pose(static_cast<std::size_t>(touching.grain));
   std::vector<ContactPoint> points;
-  for (const Vector& vertex : bed.shape.vertices) {
+  for (const Vector& vertex : bed.shape(static_cast<std::size_t>(touching.grain)).vertices) {
     const Vector place = pose.centre + pose.orientation * (pose.scale * vertex);
     points.push_back({place, wall.distance(place.x(), place.y(), place.z())});
   }

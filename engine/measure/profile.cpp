@@ -106,7 +106,7 @@ double volume_below(const PolyhedronBed& bed, std::size_t i, int axis, double to
   constexpr double infinity = std::numeric_limits<double>::infinity();
   Vector high(infinity, infinity, slab.top);
   high[axis] = top;
-  return box_volume(bed.shape, bed.pose(i), {-infinity, -infinity, slab.bottom}, high);
+  return box_volume(bed.shape(i), bed.pose(i), {-infinity, -infinity, slab.bottom}, high);
 }
 
 /// The part of a duct or a tube that is farther than `distance` from all upright walls, within the
@@ -144,10 +144,10 @@ double volume_in(const Core& core, const SphereBed& bed, std::size_t i) {
 }
 double volume_in(const Core& core, const PolyhedronBed& bed, std::size_t i) {
   if (core.is_round) {
-    return polyhedron_tube_volume(bed.shape, bed.pose(i), core.axis, core.radius, core.z.low,
+    return polyhedron_tube_volume(bed.shape(i), bed.pose(i), core.axis, core.radius, core.z.low,
                                   core.z.high);
   }
-  return box_volume(bed.shape, bed.pose(i), {core.x.low, core.y.low, core.z.low},
+  return box_volume(bed.shape(i), bed.pose(i), {core.x.low, core.y.low, core.z.low},
                     {core.x.high, core.y.high, core.z.high});
 }
 
@@ -158,7 +158,7 @@ double volume_below_z(const SphereBed& bed, std::size_t i, double z) {
 }
 double volume_below_z(const PolyhedronBed& bed, std::size_t i, double z) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  return slab_volume(bed.shape, bed.pose(i), 2, -infinity, z);
+  return slab_volume(bed.shape(i), bed.pose(i), 2, -infinity, z);
 }
 
 Profile empty_profile(const Bins& bins) {

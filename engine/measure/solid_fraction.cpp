@@ -55,7 +55,7 @@ double volume_between(const SphereBed& bed, std::size_t grain, const Slab& slab)
   return sphere_slab_volume(p.w, slab.bottom - p.z, slab.top - p.z);
 }
 double volume_between(const PolyhedronBed& bed, std::size_t grain, const Slab& slab) {
-  return slab_volume(bed.shape, bed.pose(grain), 2, slab.bottom, slab.top);
+  return slab_volume(bed.shape(grain), bed.pose(grain), 2, slab.bottom, slab.top);
 }
 
 }  // namespace
@@ -72,7 +72,7 @@ Span span_of(const SphereBed& bed, std::size_t grain, int axis) {
   return {centre - p.w, centre + p.w};
 }
 Span span_of(const PolyhedronBed& bed, std::size_t grain, int axis) {
-  return span_along(bed.shape, bed.pose(grain), axis);
+  return span_along(bed.shape(grain), bed.pose(grain), axis);
 }
 
 template <class Kind>

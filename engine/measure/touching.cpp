@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "engine/broad/candidates.hpp"
 #include "engine/narrow/gjk.hpp"
+#include "engine/narrow/polyhedra.hpp"
 #include "engine/narrow/separating_axes.hpp"
 
 namespace grainsweep {
@@ -19,7 +19,7 @@ double pair_gap(const SphereBed& bed, std::size_t a, std::size_t b) {
   return std::sqrt(between.squaredNorm()) - (bed.position[a].w + bed.position[b].w);
 }
 double pair_gap(const PolyhedronBed& bed, std::size_t a, std::size_t b) {
-  const ShapePair pair{bed.shape, bed.shape, pair_pose(bed, a, b)};
+  const ShapePair pair = shape_pair(bed, a, b);
   const Closest closest = closest_points(pair);
   return closest.distance > 0.0 ? closest.distance : separating_axes(pair).separation();
 }
@@ -31,11 +31,34 @@ double wall_gap(const SphereBed& bed, const Wall& wall, std::size_t grain) {
 double wall_gap(const PolyhedronBed& bed, const Wall& wall, std::size_t grain) {
   const Pose pose = bed.pose(grain);
   double gap = std::numeric_limits<double>::infinity();
-  for (const Vector& vertex : bed.shape.vertices) {
+  for (const Vector& vertex : bed.shape(grain).vertices) {
     const Vector place = pose.centre + pose.orientation * (pose.scale * vertex);
     gap = std::min(gap, wall.distance(place.x(), place.y(), place.z()));
   }
   return gap;
+}
+
+/// Of the candidates those with a gap below what `tolerance_of` says of their radii.
+template <class Kind, class ToleranceOf>
+Touching touching_among(const Candidates& candidates, const Bed<Kind>& bed,
+                        const ToleranceOf& tolerance_of) {
+  Touching touching;
+  for (const GrainPair pair : candidates.pairs) {
+    const auto a = static_cast<std::size_t>(pair.a), b = static_cast<std::size_t>(pair.b);
+    const double gap = pair_gap(bed, a, b);
+    if (gap < tolerance_of(bed.position[a].w, bed.position[b].w)) {
+      touching.pairs.push_back({pair.a, pair.b, gap});
+    }
+  }
+  for (std::size_t k = 0; k < candidates.walls.size(); ++k) {
+    for (const std::int32_t grain : candidates.walls[k].grains) {
+      const double gap = wall_gap(bed, bed.walls[k], static_cast<std::size_t>(grain));
+      if (gap < candidates.reach) {
+        touching.walls.push_back({grain, static_cast<std::int32_t>(k), gap});
+      }
+    }
+  }
+  return touching;
 }
 
 }  // namespace
@@ -46,21 +69,14 @@ Touching find_touching(Bed<Kind>& bed, double gap_tolerance, const Kernels& kern
   std::vector<Record<double>> column;
   Candidates candidates;
   find_candidates(balls_of(bed, column), gap_tolerance, kernels, candidates);
-  Touching touching;
-  for (const GrainPair pair : candidates.pairs) {
-    const double gap =
-        pair_gap(bed, static_cast<std::size_t>(pair.a), static_cast<std::size_t>(pair.b));
-    if (gap < gap_tolerance) touching.pairs.push_back({pair.a, pair.b, gap});
-  }
-  for (std::size_t k = 0; k < candidates.walls.size(); ++k) {
-    for (const std::int32_t grain : candidates.walls[k].grains) {
-      const double gap = wall_gap(bed, bed.walls[k], static_cast<std::size_t>(grain));
-      if (gap < gap_tolerance) {
-        touching.walls.push_back({grain, static_cast<std::int32_t>(k), gap});
-      }
-    }
-  }
-  return touching;
+  return touching_among(candidates, bed, [=](double, double) { return gap_tolerance; });
+}
+
+Touching find_touching(SphereBed& bed, const PairReach& tolerance_of, const Kernels& kernels) {
+  wrap(bed);
+  Candidates candidates;
+  find_candidates(Balls{bed, bed.position}, tolerance_of, kernels, candidates);
+  return touching_among(candidates, bed, tolerance_of);
 }
 
 template Touching find_touching(SphereBed&, double, const Kernels&);

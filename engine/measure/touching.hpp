@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "engine/broad/candidates.hpp"
 #include "engine/scene/bed.hpp"
 #include "kernels/kernels.hpp"
 
@@ -28,5 +29,9 @@ struct Touching {
 /// their surfaces, and minus the least way that parts them where they overlap. Wraps the bed.
 template <class Kind>
 Touching find_touching(Bed<Kind>& bed, double gap_tolerance, const Kernels& kernels);
+
+/// The same with a tolerance that depends on the radii of the two spheres, d, infinite ones for
+/// walls: lists of small grains are shorter by far.
+Touching find_touching(SphereBed& bed, const PairReach& tolerance_of, const Kernels& kernels);
 
 }  // namespace grainsweep

@@ -16,7 +16,10 @@ Ends ends_of(GrainPair pair) {
 
 /// By how much two centres at this squared distance are too near, d; negative if they are not.
 double sunk_by(const PolyhedronBed& bed, Ends at, double squared) {
-  const double inner = bed.shape.inradius * (bed.scale(at.a) + bed.scale(at.b));
+  const double a = bed.shape(at.a).inradius, b = bed.shape(at.b).inradius;
+  // a scale_a + b scale_b, in the bits of a (scale_a + scale_b) where both are alike.
+  const double inner = (a + b) / 2.0 * (bed.scale(at.a) + bed.scale(at.b)) +
+                       (a - b) / 2.0 * (bed.scale(at.a) - bed.scale(at.b));
   const double nearest = sunk_share * inner;
   return squared < nearest * nearest ? nearest - std::sqrt(squared) : 0.0;
 }
@@ -35,7 +38,7 @@ double touch_each(const TouchSettings& settings, const PolyhedronBed& bed,
   double sunk = 0.0;
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     const Ends at = ends_of(pairs[k]);
-    const ShapePair shapes{bed.shape, bed.shape, pair_pose(bed, at.a, at.b)};
+    const ShapePair shapes = shape_pair(bed, at.a, at.b);
     sunk = std::max(sunk, sunk_by(bed, at, shapes.pose.centre.squaredNorm()));
     append(pairs[k], shapes.pose, touch(shapes, settings, memory[k], columns, found.points), found);
   }
@@ -59,7 +62,7 @@ double list_close(double margin, const PolyhedronBed& bed, std::span<const Grain
 }
 
 void batch_axes(const Kernels& kernels, const PolyhedronBed& bed, NarrowColumns& columns) {
-  const PinacoidHalves& w = *bed.shape.pinacoid;
+  const PinacoidHalves& w = *bed.shapes.front().pinacoid;
   columns.axes.assign((columns.close.size() + block_width - 1) / block_width, {});
   for (std::size_t k = 0; k < columns.axes.size() * block_width; ++k) {
     const GrainPair pair = k < columns.close.size() ? columns.close[k] : GrainPair{0, 0};
@@ -83,7 +86,7 @@ double touch_pinacoids(const TouchSettings& settings, const Kernels& kernels,
     const Ends at = ends_of(columns.close[k]);
     const double scale = std::max(bed.scale(at.a), bed.scale(at.b));
     if (parted_by(block, lane, settings.margin, scale)) continue;
-    const ShapePair pair{bed.shape, bed.shape, pair_pose(bed, at.a, at.b)};
+    const ShapePair pair = shape_pair(bed, at.a, at.b);
     const ContactAxes axes = separating_axes(pair, block, lane);
     append(columns.close[k], pair.pose,
            touch(pair, settings, axes, columns.touch.clip, found.points), found);
@@ -102,8 +105,9 @@ void touch_round_wall(std::size_t k, std::int32_t grain, double margin, const Po
                       ContactList& found) {
   const Wall& wall = bed.walls[k];
   const Pose pose = bed.pose(static_cast<std::size_t>(grain));
-  for (std::size_t v = 0; v < bed.shape.vertices.size(); ++v) {
-    const Vector position = pose.scale * bed.shape.vertices[v];
+  const std::vector<Vector>& vertices = bed.shape(static_cast<std::size_t>(grain)).vertices;
+  for (std::size_t v = 0; v < vertices.size(); ++v) {
+    const Vector position = pose.scale * vertices[v];
     const Vector place = pose.centre + pose.orientation * position;
     const double gap = wall.distance(place.x(), place.y(), place.z());
     if (gap > margin) continue;
@@ -124,8 +128,9 @@ void touch_round_wall(std::size_t k, std::int32_t grain, double margin, const Po
 double touch_pairs(const TouchSettings& settings, const Kernels& kernels, const PolyhedronBed& bed,
                    std::span<const GrainPair> pairs, std::span<PairMemory> memory,
                    NarrowColumns& columns, ContactList& found) {
-  return bed.shape.pinacoid ? touch_pinacoids(settings, kernels, bed, pairs, columns, found)
-                            : touch_each(settings, bed, pairs, memory, columns.touch, found);
+  const bool are_one_pinacoid = bed.shapes.size() == 1 && bed.shapes.front().pinacoid;
+  return are_one_pinacoid ? touch_pinacoids(settings, kernels, bed, pairs, columns, found)
+                          : touch_each(settings, bed, pairs, memory, columns.touch, found);
 }
 
 void touch_wall(std::size_t k, const std::vector<std::int32_t>& grains, double margin,
@@ -138,7 +143,8 @@ void touch_wall(std::size_t k, const std::vector<std::int32_t>& grains, double m
     }
     const Pose pose = bed.pose(static_cast<std::size_t>(grain));
     const std::size_t first = found.points.size();
-    const std::size_t count = touch_wall(bed.shape, pose, wall, margin, found.points);
+    const std::size_t count =
+        touch_wall(bed.shape(static_cast<std::size_t>(grain)), pose, wall, margin, found.points);
     if (count > 0) {
       const Vector normal = pose.orientation.conjugate() * -normal_of(wall, pose.centre);
       found.contacts.push_back({grain, bed.wall_name(k), AxisKind::none, normal, first, count, {}});

@@ -15,6 +15,11 @@
 
 namespace grainsweep {
 
+/// Grains a and b of a bed, which must outlive it, b of its nearest image.
+inline ShapePair shape_pair(const PolyhedronBed& bed, std::size_t a, std::size_t b) {
+  return {bed.shape(a), bed.shape(b), pair_pose(bed, a, b)};
+}
+
 /// Contact of grain a with grain b > a, or with the wall of that name (Grains::wall_name). Its
 /// points are `points[first]` .. `points[first + count - 1]`.
 struct PolyhedronContact {

@@ -103,16 +103,31 @@ SphereBed make_bed(const Box& box, const std::vector<PlacedSphere>& spheres) {
 }
 
 PolyhedronBed make_bed(const Box& box, ConvexShape shape, const std::vector<Pose>& poses) {
+  return make_bed(box, std::vector{std::move(shape)}, {}, poses);
+}
+
+PolyhedronBed make_bed(const Box& box, std::vector<ConvexShape> shapes,
+                       std::vector<std::uint8_t> components, const std::vector<Pose>& poses) {
+  const auto shape_of = [&](std::size_t i) -> const ConvexShape& {
+    return shapes[components.empty() ? 0 : components[i]];
+  };
   double volume = 0.0;
-  for (const Pose& p : poses) volume += p.scale * p.scale * p.scale * shape.volume;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const double scale = poses[i].scale;
+    volume += scale * scale * scale * shape_of(i).volume;
+  }
   PolyhedronBed bed = empty_bed<Polyhedron>(box, poses.size(), volume);
-  bed.shape = std::move(shape);
-  for (const Pose& p : poses) {
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const Pose& p = poses[i];
+    const ConvexShape& shape = shape_of(i);
+    const double unit_mass = shape.volume / shapes.front().volume;
     bed.position.push_back({p.centre.x(), p.centre.y(), p.centre.z(), 0.5 * p.scale});
     bed.orientation.push_back(record_of(p.orientation));
-    bed.motion.push_back({0.0, 0.0, 0.0, 1.0 / (p.scale * p.scale * p.scale)});
-    bed.root_inertia.emplace_back(p.scale * (bed.shape.inertia / bed.motion.back().w).cwiseSqrt());
+    bed.motion.push_back({0.0, 0.0, 0.0, 1.0 / (p.scale * p.scale * p.scale * unit_mass)});
+    bed.root_inertia.emplace_back(p.scale * (shape.inertia / bed.motion.back().w).cwiseSqrt());
   }
+  bed.shapes = std::move(shapes);
+  bed.components = std::move(components);
   bed.spin.assign(poses.size(), Vector::Zero());
   append_padding(bed);
   return bed;
@@ -149,8 +164,9 @@ void move_grain(PolyhedronBed& bed, std::size_t grain, const Vector& displacemen
   motion = {displacement.x(), displacement.y(), displacement.z(), motion.w};
   const Quaternion step = rotation_by(angles);
   bed.orientation[grain] = record_of((bed.pose(grain).orientation * step).normalized());
-  const Vector momentum = step.conjugate() * bed.shape.inertia.cwiseProduct(angles);
-  bed.spin[grain] = momentum.cwiseQuotient(bed.shape.inertia);
+  const Vector& inertia = bed.shape(grain).inertia;
+  const Vector momentum = step.conjugate() * inertia.cwiseProduct(angles);
+  bed.spin[grain] = momentum.cwiseQuotient(inertia);
 }
 
 std::uint64_t state_hash(const SphereBed& bed) {

@@ -90,11 +90,15 @@ template <>
 struct Bed<Sphere> : Grains {};
 using SphereBed = Bed<Sphere>;
 
-/// Grains of one convex shape. The mass of a grain of scale s is s^3 (that of a grain of scale 1 is
-/// the unit), its principal moments are s^5 times `shape.inertia`.
+/// Grains of one convex shape, or of several: the components of a mixture. The mass of a grain of
+/// scale s is s^3 times its component's volume over that of the first (so that a grain of scale 1
+/// of the first has the unit of mass), its principal moments are s^2 times that mass times the
+/// component's `inertia`.
 template <>
 struct Bed<Polyhedron> : Grains {
-  ConvexShape shape;
+  std::vector<ConvexShape> shapes;  ///< one for each component
+  /// Of each grain, as of `shapes`; empty if there is one.
+  std::vector<std::uint8_t> components;
   /// Unit quaternion x, y, z, w: shape frame to box frame.
   std::vector<Record<double>> orientation;
   /// Angle vector of the next step if nothing acts, grain frame, radians.
@@ -103,7 +107,11 @@ struct Bed<Polyhedron> : Grains {
 
   double scale(std::size_t grain) const { return 2.0 * position[grain].w; }
   Pose pose(std::size_t grain) const { return pose_of(position[grain], orientation[grain]); }
-  double circumradius(std::size_t grain) const { return scale(grain) * shape.circumradius; }
+  std::size_t component(std::size_t grain) const {
+    return components.empty() ? 0 : components[grain];
+  }
+  const ConvexShape& shape(std::size_t grain) const { return shapes[component(grain)]; }
+  double circumradius(std::size_t grain) const { return scale(grain) * shape(grain).circumradius; }
 };
 using PolyhedronBed = Bed<Polyhedron>;
 
@@ -112,6 +120,10 @@ SphereBed make_bed(const Box& box, const std::vector<PlacedSphere>& spheres);
 
 /// The same of grains of `shape`. Requires unit quaternions and positive scales.
 PolyhedronBed make_bed(const Box& box, ConvexShape shape, const std::vector<Pose>& poses);
+
+/// The same of grains of several shapes, `components` telling which of each grain.
+PolyhedronBed make_bed(const Box& box, std::vector<ConvexShape> shapes,
+                       std::vector<std::uint8_t> components, const std::vector<Pose>& poses);
 
 /// Whether every grain's place, size, motion and inverse mass, and orientation and angle vector if
 /// it has one, are finite numbers.

@@ -130,7 +130,8 @@ int power_of(SizeWeight by) {
   return by == SizeWeight::number ? 0 : by == SizeWeight::area ? 2 : 3;
 }
 
-/// Mean of D^power over diameters spread evenly between two; powers -3, -2, 0, 1 and 3.
+/// Mean of D^power over diameters spread evenly between two; powers -3, -2, 0, 1, 3, 4 and
+/// 6.
 double mean_power(double a, double b, int power) {
   switch (power) {
     case -3:
@@ -141,6 +142,10 @@ double mean_power(double a, double b, int power) {
       return (a + b) / 2.0;
     case 3:
       return (a + b) * (a * a + b * b) / 4.0;
+    case 4:
+      return (a * a * a * a + b * b * b * b + a * b * (a * a + a * b + b * b)) / 5.0;
+    case 6:
+      return ((a + b) * (a * a + b * b) * (a * a * a + b * b * b) - a * a * a * b * b * b) / 7.0;
     default:
       return 1.0;
   }
@@ -307,6 +312,11 @@ double passing_at(const SizeCurve& curve, double diameter) {
 double mean_cube(const SizeCurve& curve) {
   const int power = power_of(curve.by);
   return sum_of_powers(curve, 3 - power) / sum_of_powers(curve, -power);
+}
+
+double mean_cube_by_volume(const SizeCurve& curve) {
+  const int power = power_of(curve.by);
+  return sum_of_powers(curve, 6 - power) / sum_of_powers(curve, 3 - power);
 }
 
 std::vector<double> draw_diameters(const SizeCurve& curve, std::int64_t count, std::uint64_t key) {

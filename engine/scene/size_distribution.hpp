@@ -77,6 +77,8 @@ double passing_at(const SizeCurve& curve, double diameter);
 
 /// Mean of the cube of the diameter, each grain counted once, d^3.
 double mean_cube(const SizeCurve& curve);
+/// The same, each grain weighted with its volume.
+double mean_cube_by_volume(const SizeCurve& curve);
 
 /// Diameters of `count` grains, d, the largest first: one from each of as many equal parts of the
 /// grains by number. So the share of those finer than any diameter is that of the curve within

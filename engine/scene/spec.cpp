@@ -57,8 +57,7 @@ std::optional<ShapeExtent> check_shape(const ShapeSpec& spec, Errors& errors) {
   if (is_sphere(spec)) return extent_of(spec);
   const Hull hull = shape_of(spec);
   if (hull.shape) return extent_of(*hull.shape);
-  const bool is_hull = std::holds_alternative<HullVertices>(spec);
-  errors.push_back({is_hull ? "shape.hull" : "shape.pinacoid", hull.error});
+  errors.push_back({"shape." + std::string(name_of(spec)), hull.error});
   return std::nullopt;
 }
 

@@ -1,11 +1,19 @@
 #include "engine/shape/given_shape.hpp"
 
+#include <stdexcept>
+
+#include "engine/shape/named_shapes.hpp"
 #include "engine/shape/pinacoid.hpp"
 #include "engine/units.hpp"
 
 namespace grainsweep {
 
 namespace {
+
+/// Nothing asks for the corners of a sphere.
+[[noreturn]] Hull shape_from(const SphereShape& /*sphere*/) {
+  throw std::logic_error("a sphere is no polyhedron");
+}
 
 Hull shape_from(const PinacoidSize& size) {
   const std::string problem = problem_with(size);
@@ -19,12 +27,29 @@ Hull shape_from(const HullVertices& hull) {
   return convex_hull(points);
 }
 
+template <class Size>
+Hull shape_from(const Size& size) {
+  const std::string problem = problem_with(size);
+  return problem.empty() ? convex_hull(corners_of(size)) : Hull{std::nullopt, problem};
+}
+
+struct CountCorners {
+  std::size_t operator()(const SphereShape& /*sphere*/) const { return 0; }
+  std::size_t operator()(const PinacoidSize& /*size*/) const { return 8; }
+  std::size_t operator()(const HullVertices& hull) const { return hull.points.size(); }
+  template <class Size>
+  std::size_t operator()(const Size& size) const {
+    return corners_of(size).size();
+  }
+};
+
 }  // namespace
 
 Hull shape_of(const ShapeSpec& spec) {
-  const auto* hull = std::get_if<HullVertices>(&spec);
-  return hull != nullptr ? shape_from(*hull) : shape_from(std::get<PinacoidSize>(spec));
+  return std::visit([](const auto& size) { return shape_from(size); }, spec);
 }
+
+std::size_t corner_count(const ShapeSpec& spec) { return std::visit(CountCorners(), spec); }
 
 ShapeExtent extent_of(const ConvexShape& shape) {
   return {shape.volume, shape.circumradius, shape.inradius};

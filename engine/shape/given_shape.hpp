@@ -1,7 +1,7 @@
 // From the shape that a packing asks for to the one it is made with.
 #pragma once
 
-#include <string>
+#include <cstddef>
 
 #include "engine/shape/hull.hpp"
 #include "engine/shape/shape_spec.hpp"
@@ -12,6 +12,9 @@ inline bool is_sphere(const ShapeSpec& spec) { return std::holds_alternative<Sph
 
 /// The convex shape of a spec that is not a sphere, or what forbids it.
 Hull shape_of(const ShapeSpec& spec);
+
+/// Corners of a shape that nothing forbids; 0 of a sphere.
+std::size_t corner_count(const ShapeSpec& spec);
 
 /// What a check of sizes has to know of a shape, at size 1.
 struct ShapeExtent {

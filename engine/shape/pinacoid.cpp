@@ -1,10 +1,9 @@
 #include "engine/shape/pinacoid.hpp"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "engine/shape/build.hpp"
+#include "engine/shape/lengths.hpp"
 #include "engine/text.hpp"
 #include "engine/units.hpp"
 
@@ -50,11 +49,6 @@ void set_mass(const PinacoidHalves& w, ConvexShape& shape) {
   shape.inertia = {yy + zz, xx + zz, xx + yy};
 }
 
-std::string problem_with_length(const char* name, double value) {
-  if (std::isfinite(value) && value > 0.0) return "";
-  return joined(name, " must be a positive finite number, is ", value);
-}
-
 std::string problem_with_angle(const PinacoidSize& size) {
   const double degrees = size.angle / degree;
   if (!(size.angle > 0.0) || !(degrees <= 89.0)) {
@@ -72,12 +66,9 @@ std::string problem_with_angle(const PinacoidSize& size) {
 }  // namespace
 
 std::string problem_with(const PinacoidSize& size) {
-  const std::array lengths = {problem_with_length("length", size.length),
-                              problem_with_length("width", size.width),
-                              problem_with_length("height", size.height)};
-  const auto wrong = std::find_if(lengths.begin(), lengths.end(),
-                                  [](const std::string& problem) { return !problem.empty(); });
-  return wrong != lengths.end() ? *wrong : problem_with_angle(size);
+  const std::string problem = problem_with_lengths(
+      {{"length", size.length}, {"width", size.width}, {"height", size.height}});
+  return problem.empty() ? problem_with_angle(size) : problem;
 }
 
 ConvexShape pinacoid(const PinacoidSize& size) {

@@ -1,8 +1,15 @@
 // What the grains of a packing are, as it is asked for: plain data, worked out into a ConvexShape
-// by engine/shape/pinacoid.hpp and engine/shape/hull.hpp. Spheres need no more than their name.
+// by engine/shape/pinacoid.hpp, engine/shape/named_shapes.hpp and engine/shape/hull.hpp. Spheres
+// need no more than their name.
+//
+// Every length is that of a grain of size 1, in d. With its defaults each shape but the
+// tetrahedron, the octahedron and round ones is as long, wide and high as d; each stands d high on
+// a face.
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -18,11 +25,67 @@ struct PinacoidSize {
   double angle = 1.0471975511965976;  ///< radians, in (0, pi / 2]
 };
 
+struct CubeSize {
+  double edge = 1.0;  ///< d
+};
+
+/// A brick.
+struct CuboidSize {
+  double length = 1.0;  ///< d
+  double width = 1.0;   ///< d
+  double height = 1.0;  ///< d
+};
+
+/// A regular tetrahedron: sqrt(2/3) times its edge from a face to the corner opposite.
+struct TetrahedronSize {
+  double height = 1.0;  ///< d
+};
+
+/// A regular octahedron: sqrt(2/3) times its edge from a face to that opposite.
+struct OctahedronSize {
+  double height = 1.0;  ///< d
+};
+
+/// A regular dodecahedron: 2.2270 times its edge from a face to that opposite.
+struct DodecahedronSize {
+  double height = 1.0;  ///< d
+};
+
+/// A regular icosahedron: 1.5115 times its edge from a face to that opposite.
+struct IcosahedronSize {
+  double height = 1.0;  ///< d
+};
+
+/// An upright prism over a regular polygon.
+struct PrismSize {
+  int sides = 6;          ///< of the polygon
+  double height = 1.0;    ///< d
+  double diameter = 1.0;  ///< of the circle that the polygon's corners lie on, d
+};
+
+/// A cylinder, packed as the prism within it of the fewest sides that stray nowhere further from it
+/// than `chord_error`.
+struct CylinderSize {
+  double height = 1.0;        ///< d
+  double diameter = 1.0;      ///< d
+  double chord_error = 0.01;  ///< from the middle of a side to the cylinder, d
+};
+
 /// The convex hull of points, which are its vertices; see engine/shape/hull.hpp.
 struct HullVertices {
   std::vector<std::array<double, 3>> points;  ///< of a grain of size 1, d
 };
 
-using ShapeSpec = std::variant<SphereShape, PinacoidSize, HullVertices>;
+/// A hull is the last: the others need no part that is written.
+using ShapeSpec =
+    std::variant<SphereShape, PinacoidSize, CubeSize, CuboidSize, TetrahedronSize, OctahedronSize,
+                 DodecahedronSize, IcosahedronSize, PrismSize, CylinderSize, HullVertices>;
+
+/// Names of the shapes, as sweeps and tables write them, in that order.
+inline constexpr std::array<std::string_view, std::variant_size_v<ShapeSpec>> shape_names = {
+    "sphere",       "pinacoid",    "cube",  "cuboid",   "tetrahedron", "octahedron",
+    "dodecahedron", "icosahedron", "prism", "cylinder", "hull"};
+
+inline std::string_view name_of(const ShapeSpec& shape) { return shape_names[shape.index()]; }
 
 }  // namespace grainsweep

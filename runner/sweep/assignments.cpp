@@ -55,6 +55,7 @@ std::string absence_of(const std::string& key) {
       {"radius", "a tube has a diameter; d is the mean diameter of the large grains"},
       {"mean", "the mean diameter of the large grains is d, the unit of length"},
       {"diameter", "the mean diameter of the large grains is d, the unit of length"},
+      {"edge", "a regular solid has a height, which is its edge times what configs/README.md says"},
       {"std", "sizes of a class are Gaussian; sizes.spread is their deviation over the mean"}};
   const auto found = reasons.find(key);
   return found == reasons.end() ? "" : found->second;
@@ -92,27 +93,30 @@ void unset(Choice choice, InEffect& in_effect) {
   }
 }
 
-ShapeKind shape_of(const InEffect& in_effect) {
-  ShapeKind shape = ShapeKind::none;
+std::string_view shape_of(const InEffect& in_effect) {
+  std::string_view shape;
   for (const Assignment* assignment : in_effect) {
     if (assignment != nullptr) shape = more_exact(shape, shape_named_by(*assignment));
   }
   return shape;
 }
 
-/// Whether all parameters of the group name the same shape as `part` does.
-bool are_parts_of(const std::string& group, Role part) {
-  const std::string& path = parameters()[parameter_with(part)].path;
-  return path.substr(0, path.rfind('.')) == group;
+/// The name of the shape that a group holds the parts of, if that has defaults; "" if not.
+std::string usual_shape_of(const std::string& group) {
+  const Parameter& shape = parameters()[parameter_with(Role::shape)];
+  for (const std::string& name : shape.choices) {
+    if (group == dotted(shape.path, name)) return name;
+  }
+  return "";
 }
 
-/// An empty group says nothing, except that grains are pinacoids of the default size.
+/// An empty group says nothing, except that grains have a shape with its defaults.
 void read_empty_group(const std::string& group, const std::string& pointer,
                       Assignments& assignments, Diagnostics& diagnostics) {
   const std::size_t shape = parameter_with(Role::shape);
-  if (are_parts_of(group, Role::pinacoid)) {
-    read_parameter(shape, "pinacoid", pointer, assignments, diagnostics);
-  } else if (are_parts_of(group, Role::hull_vertices)) {
+  if (const std::string name = usual_shape_of(group); !name.empty()) {
+    read_parameter(shape, name, pointer, assignments, diagnostics);
+  } else if (group == "shape.hull") {
     diagnostics.push_back({pointer, "a hull needs its vertices: write \"vertices\" or \"file\""});
   } else if (group.starts_with("sizes.distribution")) {
     diagnostics.push_back(
@@ -131,17 +135,15 @@ std::string wanted_group(const std::string& path) {
 /// Notes the first assignment of a shape that excludes what was set before it.
 void refuse_second_shape(const Assignments& assignments, Diagnostics& diagnostics) {
   const Assignment* first = nullptr;
-  ShapeKind kind = ShapeKind::none;
+  std::string_view kind;
   for (const Assignment& assignment : assignments) {
-    const ShapeKind named = shape_named_by(assignment);
+    const std::string_view named = shape_named_by(assignment);
     if (exclude_each_other(kind, named)) {
-      diagnostics.push_back(
-          {assignment.pointer, "the grains already have the shape at " + first->pointer +
-                                   "; keep one of sphere, pinacoid, hull.vertices, "
-                                   "hull.file"});
+      diagnostics.push_back({assignment.pointer, "the grains already have the shape at " +
+                                                     first->pointer + "; keep one of them"});
       return;
     }
-    if (first == nullptr && named != ShapeKind::none) first = &assignment;
+    if (first == nullptr && !named.empty()) first = &assignment;
     kind = more_exact(kind, named);
   }
 }
@@ -239,7 +241,7 @@ Assignments read_layer(const Json& object, const std::string& pointer, Diagnosti
 
 void overlay(const std::vector<const Assignments*>& layer, InEffect& in_effect) {
   bool fills = false;
-  ShapeKind shape = ShapeKind::none;
+  std::string_view shape;
   for (const Assignments* part : layer) {
     for (const Assignment& assignment : *part) {
       fills = fills || is_fill(assignment.parameter);
@@ -248,8 +250,7 @@ void overlay(const std::vector<const Assignments*>& layer, InEffect& in_effect) 
     }
   }
   if (fills) unset(Choice::fill, in_effect);
-  const bool is_named = shape != ShapeKind::none;
-  if (is_named && exclude_each_other(shape, shape_of(in_effect))) unset(Choice::shape, in_effect);
+  if (exclude_each_other(shape, shape_of(in_effect))) unset(Choice::shape, in_effect);
   for (const Assignments* part : layer) {
     for (const Assignment& assignment : *part) in_effect[assignment.parameter] = &assignment;
   }

@@ -10,9 +10,9 @@
 #include "runner/sweep/grains_csv.hpp"
 #include "runner/sweep/identity.hpp"
 #include "runner/sweep/job_limit.hpp"
-#include "runner/sweep/obj.hpp"
 #include "runner/sweep/size_parameters.hpp"
 #include "runner/sweep/sizes_csv.hpp"
+#include "runner/sweep/stl.hpp"
 #include "runner/sweep/text_lines.hpp"
 #include "runner/sweep/values.hpp"
 
@@ -26,7 +26,7 @@ constexpr std::uint64_t most_placed_grains = 50'000'000;
 constexpr std::uint64_t most_vertices = 50'000'000;
 constexpr std::size_t most_vertices_of_a_grain = 1'000;
 
-Points points_of(const ObjReading& reading) {
+Points points_of(const VerticesReading& reading) {
   Points points;
   points.reserve(reading.vertices.size());
   for (const Vector& vertex : reading.vertices) {
@@ -239,7 +239,7 @@ class Expansion {
     auto& hull = std::get<HullVertices>(resolved.spec.shape);
     bool is_sound = true;
     if (file != nullptr) {
-      const ObjReading& reading = reading_of(resolved.hull_file, *file, read_obj, hulls_);
+      const VerticesReading& reading = reading_of(resolved.hull_file, *file, read_vertices, hulls_);
       is_sound = reading.errors.empty();
       hull.points = points_of(reading);
     }
@@ -408,7 +408,7 @@ class Expansion {
   std::unordered_map<std::uint64_t, std::size_t> first_block_;  // of every job, by its hash
   std::map<std::pair<std::size_t, std::size_t>, std::uint64_t> shared_;  // jobs, by two blocks
   std::map<std::string, GrainsReading> grains_;                          // by file
-  std::map<std::string, ObjReading> hulls_;                              // by file
+  std::map<std::string, VerticesReading> hulls_;                         // by file
   std::map<std::string, SizesReading> sizes_;                            // by file
   std::set<std::string> said_;
   /// Of every value that was in effect: why no packing depended on it so far; "" if one did.

@@ -17,7 +17,8 @@ std::string_view next_word(std::string_view& line) {
   return word;
 }
 
-/// Reads the coordinates that follow "v"; what is wrong with them otherwise.
+}  // namespace
+
 std::string read_vertex(std::string_view coordinates, Vector& vertex) {
   for (int axis = 0; axis < 3; ++axis) {
     const std::string_view word = next_word(coordinates);
@@ -34,10 +35,8 @@ std::string read_vertex(std::string_view coordinates, Vector& vertex) {
   return "";
 }
 
-}  // namespace
-
-ObjReading parse_obj(const std::string& text, const std::string& file) {
-  ObjReading reading;
+VerticesReading parse_obj(const std::string& text, const std::string& file) {
+  VerticesReading reading;
   const auto lines = lines_of(text);
   for (std::size_t k = 0; k < lines.size() && reading.errors.size() < most_wrong_lines; ++k) {
     std::string_view line = lines[k];
@@ -58,10 +57,10 @@ ObjReading parse_obj(const std::string& text, const std::string& file) {
   return reading;
 }
 
-ObjReading read_obj(const std::string& path) {
+VerticesReading read_obj(const std::string& path) {
   FileText file = read_text(path);
   if (file.errors.empty()) return parse_obj(file.text, path);
-  ObjReading reading;
+  VerticesReading reading;
   reading.errors = std::move(file.errors);
   return reading;
 }

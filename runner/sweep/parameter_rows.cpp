@@ -5,90 +5,14 @@
 #include <utility>
 
 #include "engine/dynamics/presets.hpp"
-#include "engine/units.hpp"
-#include "runner/sweep/identity.hpp"
 #include "runner/sweep/parameter_row.hpp"
+#include "runner/sweep/shape_parameters.hpp"
 #include "runner/sweep/size_parameters.hpp"
 
 namespace grainsweep {
 namespace {
 
 using Rows = std::vector<Parameter>;
-
-void set_shape(ResolvedSpec& resolved, const Value& value) {
-  resolved.spec.shape =
-      std::get<std::int64_t>(value) == 0 ? ShapeSpec(SphereShape{}) : PinacoidSize{};
-}
-/// Other shapes are known by their parts.
-std::optional<Value> get_shape(const ResolvedSpec& resolved) {
-  if (!std::holds_alternative<SphereShape>(resolved.spec.shape)) return std::nullopt;
-  return present(std::int64_t{0});
-}
-
-PinacoidSize& pinacoid_of(ResolvedSpec& resolved) {
-  auto* pinacoid = std::get_if<PinacoidSize>(&resolved.spec.shape);
-  return pinacoid != nullptr ? *pinacoid : resolved.spec.shape.emplace<PinacoidSize>();
-}
-template <auto member>
-void set_side(ResolvedSpec& resolved, const Value& value) {
-  pinacoid_of(resolved).*member = std::get<double>(value);
-}
-template <auto member>
-std::optional<Value> get_side(const ResolvedSpec& resolved) {
-  const auto* pinacoid = std::get_if<PinacoidSize>(&resolved.spec.shape);
-  return pinacoid != nullptr ? present(pinacoid->*member) : std::nullopt;
-}
-void set_angle(ResolvedSpec& resolved, const Value& value) {
-  resolved.pinacoid_angle = std::get<double>(value);
-  pinacoid_of(resolved).angle = resolved.pinacoid_angle * (pi / 180.0);
-}
-std::optional<Value> get_angle(const ResolvedSpec& resolved) {
-  const bool is_pinacoid = std::holds_alternative<PinacoidSize>(resolved.spec.shape);
-  return is_pinacoid ? present(resolved.pinacoid_angle) : std::nullopt;
-}
-
-void set_vertices(ResolvedSpec& resolved, const Value& value) {
-  resolved.spec.shape = HullVertices{std::get<Points>(value)};
-}
-std::optional<Value> get_vertices(const ResolvedSpec& resolved) {
-  const auto* hull = std::get_if<HullVertices>(&resolved.spec.shape);
-  return hull != nullptr ? present(hash_of(*hull)) : std::nullopt;
-}
-void set_hull_file(ResolvedSpec& resolved, const Value& value) {
-  resolved.spec.shape = HullVertices{};
-  resolved.hull_file = std::get<std::string>(value);
-}
-
-template <auto member>
-Parameter side(const char* path, const char* meaning) {
-  return own(path, positive, meaning, ValueKind::number, Role::pinacoid, set_side<member>,
-             get_side<member>);
-}
-
-/// The shape's name comes before the parts that name a shape too.
-Rows shape_rows() {
-  return {
-      own("shape",
-          Names{{"sphere", "a sphere of diameter d"},
-                {"pinacoid",
-                 "a crystal of eight vertices, as long, wide and high as d, ends at 60 degrees"}},
-          "what the grains are; a name alone stands for the shape with its defaults",
-          ValueKind::choice, Role::shape, set_shape, get_shape),
-      side<&PinacoidSize::length>("shape.pinacoid.length", "length of the middle plane, d"),
-      side<&PinacoidSize::width>("shape.pinacoid.width", "width of the middle plane, d"),
-      side<&PinacoidSize::height>("shape.pinacoid.height", "distance of its two ridges, d"),
-      own("shape.pinacoid.angle_deg", Interval{0, 89, true},
-          "angle between ends and middle plane, degrees", ValueKind::number, Role::pinacoid,
-          set_angle, get_angle),
-      own("shape.hull.vertices", WrittenValues{}, "vertices [x, y, z] of a convex grain",
-          ValueKind::points, Role::hull_vertices, set_vertices, get_vertices),
-      own("shape.hull.file", WrittenValues{},
-          "OBJ file of the vertices instead; relative to the sweep file", ValueKind::text,
-          Role::hull_file, set_hull_file, no_identity),
-      own("shape.hull.size", positive, "the length in the vertices that is d; 1 if left out",
-          ValueKind::number, Role::hull_size, set_member<&ResolvedSpec::hull_size>, no_identity),
-  };
-}
 
 // Parts of a box: a tube has none.
 template <auto member>
@@ -282,8 +206,8 @@ Rows measure_rows() {
 
 std::vector<Parameter> parameter_rows() {
   Rows all;
-  for (Rows rows : {shape_rows(), container_rows(), fill_rows(), size_parameters(), accuracy_rows(),
-                    measure_rows()}) {
+  for (Rows rows : {shape_parameters(), container_rows(), fill_rows(), size_parameters(),
+                    accuracy_rows(), measure_rows()}) {
     for (Parameter& parameter : rows) all.push_back(std::move(parameter));
   }
   all.push_back(own("seed", WrittenValues{}, "master seed of the random numbers; in blocks only",

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "runner/sweep/parameter_rows.hpp"
+#include "runner/sweep/shape_parameters.hpp"
 
 namespace grainsweep {
 namespace {
@@ -56,7 +57,7 @@ std::size_t parameter_with(Role role) {
 Choice choice_of(const Parameter& parameter) {
   switch (parameter.role) {
     case Role::shape:
-    case Role::pinacoid:
+    case Role::shape_part:
     case Role::hull_vertices:
     case Role::hull_file:
     case Role::hull_size:
@@ -99,7 +100,7 @@ std::optional<std::size_t> preset_of(std::string_view path) {
 
 std::optional<Value> default_of(const Parameter& parameter) {
   ResolvedSpec resolved;
-  if (parameter.role == Role::pinacoid) resolved.spec.shape = PinacoidSize{};
+  if (parameter.role == Role::shape_part) resolved.spec.shape = shape_with_part(parameter.path);
   if (parameter.role == Role::tube) return std::nullopt;
   if (auto formula = usual_formula(parameter.role)) {
     resolved.spec.sizes.distribution = SizeDistribution{*formula};
@@ -119,6 +120,14 @@ std::string meaning_of_group(std::string_view path) {
   static const std::map<std::string_view, std::string> meanings = {
       {"shape", "what the grains are: one shape, by its name or its parts"},
       {"shape.pinacoid", "a rectangle with a hip roof above it and one below"},
+      {"shape.cube", "a cube"},
+      {"shape.cuboid", "a brick"},
+      {"shape.tetrahedron", "a regular tetrahedron"},
+      {"shape.octahedron", "a regular octahedron"},
+      {"shape.dodecahedron", "a regular dodecahedron, of twelve pentagons"},
+      {"shape.icosahedron", "a regular icosahedron, of twenty triangles"},
+      {"shape.prism", "an upright prism over a regular polygon"},
+      {"shape.cylinder", "a cylinder, packed as a prism of as many sides as its chord error takes"},
       {"shape.hull", "a convex polyhedron, by its vertices"},
       {"box", "the box that the grains fall into: a flat floor, open at the top"},
       {"tube", "an upright round tube in the box's place: a flat floor, open at the top"},

@@ -39,7 +39,7 @@ enum class Role {
   seed,           ///< master seed: set by blocks, not by "base"
   preset,         ///< gives the other parts of its group their values; its name may stand for them
   shape,          ///< names the shape of the grains
-  pinacoid,       ///< a part of a pinacoid; writing it names that shape
+  shape_part,     ///< a part of a shape that has defaults; writing it names that shape
   hull_vertices,  ///< names a hull, and so on
   hull_file,
   hull_size,

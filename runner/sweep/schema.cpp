@@ -71,7 +71,7 @@ Json names_of(const Parameter& parameter) {
   return {{"anyOf", names}};
 }
 
-Json kind_of(const Parameter& parameter) {
+Json kind_schema(const Parameter& parameter) {
   switch (parameter.kind) {
     case ValueKind::number:
       return number("number", parameter);
@@ -123,9 +123,9 @@ Json group_members(const std::string& group) {
 Json parameter_schema(const Parameter& parameter) {
   Json schema = {{"description", parameter.meaning}};
   if (is_group(parameter.path)) {
-    schema["anyOf"] = {kind_of(parameter), group_members(parameter.path)};
+    schema["anyOf"] = {kind_schema(parameter), group_members(parameter.path)};
   } else {
-    schema.update(kind_of(parameter));
+    schema.update(kind_schema(parameter));
   }
   const auto value = default_of(parameter);
   if (value) schema["default"] = written_value(parameter, *value);
@@ -314,7 +314,7 @@ std::string sweep_schema() {
       {{"$schema", described("the schema of this file, for editors", {{"type", "string"}})},
        {"name", name_schema()},
        {"seed", described("master seed of the random numbers",
-                          kind_of(parameters()[parameter_with(Role::seed)]))},
+                          kind_schema(parameters()[parameter_with(Role::seed)]))},
        {"replicates", replicates()},
        {"units",
         described("what d is in a laboratory; packings do not depend on it", units_schema())},

@@ -37,14 +37,38 @@ std::vector<std::pair<std::string, std::string>> alternative_sizes() {
   return pairs;
 }
 
+/// Keys that begin with this name: "cube", "cube.edge".
+Json begins_with(const std::string& name) { return {{"pattern", "^" + name + "(\\.|$)"}}; }
+
+/// That all keys of the object "shape" are parts of one shape.
+Json one_shape_inside() {
+  Json ways = Json::array();
+  for (const std::string_view name : shape_names) {
+    ways.push_back({{"propertyNames", begins_with(std::string(name))}});
+  }
+  return {{"anyOf", ways}};
+}
+
+/// That an object of parameters says one shape, by name, by its parts, or not at all.
+Json one_shape() {
+  const Json about_others = no(begins_with("shape\\.[a-z]+"));
+  std::vector<Json> ways;
+  for (const std::string_view name : shape_names) {
+    const Json here = begins_with("shape\\." + std::string(name));
+    const Json parts = {{"type", "object"}, {"propertyNames", begins_with(std::string(name))}};
+    const Json shape = {{"anyOf", {{{"const", name}}, parts}}};
+    ways.push_back(
+        {{"propertyNames", {{"anyOf", {about_others, here}}}}, {"properties", {{"shape", shape}}}});
+  }
+  return {{"anyOf", ways}};
+}
+
 }  // namespace
 
 Json said_once(const std::string& group) {
   static const std::vector<std::pair<std::string, std::string>> alternatives = [] {
     std::vector<std::pair<std::string, std::string>> pairs = {
-        {"shape.hull.vertices", "shape.hull.file"},
-        {"shape.pinacoid", "shape.hull"},
-        {"box", "tube"}};
+        {"shape.hull.vertices", "shape.hull.file"}, {"box", "tube"}};
     for (const auto& [one, other] : alternative_sizes()) pairs.emplace_back(one, other);
     for (std::size_t i = 0; i < parameters().size(); ++i) {
       for (std::size_t j = 0; is_fill(i) && j < i; ++j) {
@@ -57,6 +81,8 @@ Json said_once(const std::string& group) {
   const auto is_inside = [&](const std::string& path) { return path.starts_with(prefix); };
   const auto inside = [&](const std::string& path) { return path.substr(prefix.size()); };
   Json rules = Json::array();
+  if (group == "shape") rules.push_back(one_shape_inside());
+  if (group.empty()) rules.push_back(one_shape());
   for (const auto& [one, other] : alternatives) {
     if (!is_inside(one) || !is_inside(other)) continue;
     rules.push_back(not_both(in_any_way(inside(one)), in_any_way(inside(other))));

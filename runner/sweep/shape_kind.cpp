@@ -1,38 +1,32 @@
 #include "runner/sweep/shape_kind.hpp"
 
-#include <algorithm>
+#include <variant>
 
 namespace grainsweep {
 namespace {
 
-bool is_hull(ShapeKind kind) { return kind >= ShapeKind::hull; }
+constexpr std::string_view group = "shape.";
 
 }  // namespace
 
-ShapeKind shape_named_by(const Assignment& assignment) {
-  switch (parameters()[assignment.parameter].role) {
-    case Role::shape:
-      return std::get<std::int64_t>(assignment.value) == 0 ? ShapeKind::sphere
-                                                           : ShapeKind::pinacoid;
-    case Role::pinacoid:
-      return ShapeKind::pinacoid;
-    case Role::hull_vertices:
-      return ShapeKind::hull_vertices;
-    case Role::hull_file:
-      return ShapeKind::hull_file;
-    case Role::hull_size:
-      return ShapeKind::hull;
-    default:
-      return ShapeKind::none;
+std::string_view shape_named_by(const Assignment& assignment) {
+  const Parameter& parameter = parameters()[assignment.parameter];
+  if (choice_of(parameter) != Choice::shape) return "";
+  if (parameter.role == Role::shape) {
+    return parameter.choices[static_cast<std::size_t>(std::get<std::int64_t>(assignment.value))];
   }
+  const std::string_view path = std::string_view(parameter.path).substr(group.size());
+  const bool says_whence =
+      parameter.role == Role::hull_vertices || parameter.role == Role::hull_file;
+  return says_whence ? path : path.substr(0, path.find('.'));
 }
 
-bool exclude_each_other(ShapeKind a, ShapeKind b) {
-  if (a == ShapeKind::none || b == ShapeKind::none || a == b) return false;
-  const bool is_part = a == ShapeKind::hull || b == ShapeKind::hull;
-  return !(is_part && is_hull(a) && is_hull(b));
+bool exclude_each_other(std::string_view a, std::string_view b) {
+  return !a.starts_with(b) && !b.starts_with(a);
 }
 
-ShapeKind more_exact(ShapeKind a, ShapeKind b) { return std::max(a, b); }
+std::string_view more_exact(std::string_view a, std::string_view b) {
+  return a.size() < b.size() ? b : a;
+}
 
 }  // namespace grainsweep

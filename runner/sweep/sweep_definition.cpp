@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 #include <set>
+#include <string_view>
 #include <utility>
 
 #include "engine/interval.hpp"
@@ -142,7 +143,7 @@ std::string read_label(const Json& block, const std::string& pointer, std::size_
 struct Varied {
   std::string path, pointer;
   std::set<std::size_t> parameters = {};
-  std::set<ShapeKind> shapes = {};
+  std::set<std::string_view> shapes = {};
 
   void add(const Assignments& assignments) {
     for (const Assignment& assignment : assignments) {
@@ -153,9 +154,9 @@ struct Varied {
 };
 
 bool name_different_shapes(const Varied& a, const Varied& b) {
-  return std::any_of(a.shapes.begin(), a.shapes.end(), [&](ShapeKind one) {
+  return std::any_of(a.shapes.begin(), a.shapes.end(), [&](std::string_view one) {
     return std::any_of(b.shapes.begin(), b.shapes.end(),
-                       [&](ShapeKind other) { return exclude_each_other(one, other); });
+                       [&](std::string_view other) { return exclude_each_other(one, other); });
   });
 }
 

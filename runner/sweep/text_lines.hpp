@@ -1,4 +1,4 @@
-// Text files: sweeps, and what they name, beds as CSV and shapes as OBJ.
+// Text files: sweeps, and what they name, beds as CSV and shapes as OBJ or STL.
 #pragma once
 
 #include <cstddef>

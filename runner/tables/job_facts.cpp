@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <utility>
-#include <variant>
 
 #include <nlohmann/json.hpp>
 
@@ -18,29 +17,6 @@ std::string accuracy_name(const Accuracy& accuracy) {
     if (preset.accuracy == accuracy) return std::string(preset.name);
   }
   return "custom";
-}
-
-struct ShapeName {
-  const char* operator()(const SphereShape& /*shape*/) const { return "sphere"; }
-  const char* operator()(const PinacoidSize& /*shape*/) const { return "pinacoid"; }
-  const char* operator()(const HullVertices& /*shape*/) const { return "hull"; }
-};
-
-JobFacts facts_of(const Job& job) {
-  JobFacts facts;
-  facts.id = job.id;
-  facts.label = job.label;
-  facts.parameters = job.parameters;
-  facts.replicate = job.replicate;
-  facts.seed = job.seed;
-  facts.shape = std::visit(ShapeName(), job.spec.shape);
-  facts.accuracy = accuracy_name(job.spec.accuracy);
-  facts.box = job.spec.box;
-  facts.small_share = job.spec.sizes.small_share;
-  facts.measure = job.spec.measure;
-  facts.files = job.files;
-  facts.estimated = estimate_cost(job.spec).cpu_seconds;
-  return facts;
 }
 
 std::string gap_tolerance(const JobFacts& job) {
@@ -70,7 +46,8 @@ Columns<JobFacts> all_job_columns() {
        [](Job job) { return cell(job.replicate); }},
       {"seed", "", "of the sweep", [](Job job) { return cell(job.seed); }},
       {"start", "", "file its grains started from; empty if they were drawn at random", start_file},
-      {"shape", "", "sphere, pinacoid or hull", [](Job job) { return cell(job.shape); }},
+      {"shape", "", "name of the grains' shape: sphere, pinacoid, cube, hull, ...",
+       [](Job job) { return cell(job.shape); }},
       {"accuracy", "", "name of the preset, or custom", [](Job job) { return cell(job.accuracy); }},
       {"length", "d", "of the box along x, or the diameter of the tube",
        [](Job job) { return cell(job.box.length); }},
@@ -100,12 +77,18 @@ void add_parameters(const json& value, const std::string& path,
   }
 }
 
+using FlatParameters = std::map<std::string, std::string>;
+
+bool has_distribution(const FlatParameters& parameters) {
+  const auto first = parameters.lower_bound("sizes.distribution");
+  return first != parameters.end() && first->first.starts_with("sizes.distribution");
+}
+
 /// What was measured that resembles such a packing.
 std::optional<BedKind> kind_of(const JobFacts& job) {
-  const bool has_distribution = job.parameters.find("\"distribution\":") != std::string::npos;
-  if (job.box.is_tube || has_distribution) return std::nullopt;
+  const FlatParameters parameters = flat_parameters(job);
+  if (job.box.is_tube || has_distribution(parameters)) return std::nullopt;
   if (job.shape == "sphere" && job.small_share == 0.0) return BedKind::spheres;
-  const auto parameters = flat_parameters(job);
   const auto is_at = [&](const char* path, double value) {
     const auto found = parameters.find(path);
     return found != parameters.end() && found->second == cell(value);
@@ -161,10 +144,29 @@ std::string width_text(const std::string& width, Boundary y) {
   return y == Boundary::walls ? width : width + " " + name_of(y);
 }
 
+JobFacts facts_of(const Job& job) {
+  JobFacts facts;
+  facts.id = job.id;
+  facts.label = job.label;
+  facts.parameters = job.parameters;
+  facts.replicate = job.replicate;
+  facts.seed = job.seed;
+  facts.shape = name_of(job.spec.shape);
+  facts.accuracy = accuracy_name(job.spec.accuracy);
+  facts.box = job.spec.box;
+  facts.small_share = job.spec.sizes.small_share;
+  facts.measure = job.spec.measure;
+  facts.files = job.files;
+  return facts;
+}
+
 std::vector<Row> rows_of(const Sweep& sweep) {
   std::vector<Row> rows;
   rows.reserve(sweep.jobs.size());
-  for (const Job& job : sweep.jobs) rows.push_back({facts_of(job), std::nullopt});
+  for (const Job& job : sweep.jobs) {
+    rows.push_back({facts_of(job), std::nullopt});
+    rows.back().job.estimated = estimate_cost(job.spec).cpu_seconds;
+  }
   return rows;
 }
 

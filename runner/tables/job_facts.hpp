@@ -25,7 +25,7 @@ struct JobFacts {
   std::string parameters;  ///< canonical JSON, as Job::parameters
   int replicate = 1;
   std::uint64_t seed = 0;
-  std::string shape;     ///< "sphere", "pinacoid" or "hull"
+  std::string shape;     ///< its name: "sphere", "cube", "hull"
   std::string accuracy;  ///< name of a preset, or "custom"
   Box box;
   double small_share = 0.0;
@@ -39,6 +39,9 @@ struct Row {
   JobFacts job;
   Boxed<Outcome> outcome;
 };
+
+/// What tables need of a job, but for its estimate.
+JobFacts facts_of(const Job& job);
 
 /// One pending row per job, in the sweep's order.
 std::vector<Row> rows_of(const Sweep& sweep);

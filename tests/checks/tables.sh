@@ -47,7 +47,7 @@ for path in glob.glob(sys.argv[1] + "/*.json"):
     sweep = json.load(open(path))
     if "name" not in sweep:
         continue
-    has_large_grains = "distribution" in json.dumps(sweep)
+    has_large_grains = any(word in json.dumps(sweep) for word in ("distribution", "cylinder"))
     sweep = small(sweep, 6, 6) if has_large_grains else small(sweep)
     sweep.setdefault("base", {})["measure"] = measure
     varies_accuracy = "accuracy" in json.dumps(sweep.get("sweep", []))

@@ -7,6 +7,7 @@
 #include "engine/packing.hpp"
 #include "engine/scene/bed.hpp"
 #include "engine/shape/given_shape.hpp"
+#include "engine/shape/named_shapes.hpp"
 #include "tests/support/instruction_sets.hpp"
 #include "tests/support/keep_going.hpp"
 #include "tests/support/part_loops.hpp"
@@ -168,6 +169,22 @@ TEST_CASE("a large packing of pinacoids goes on from what it has saved to the sa
   CHECK(rest.steps == whole.steps);
   CHECK(rest.state_hash == whole.state_hash);
   CHECK(rest.rest.step_residual == whole.rest.step_residual);
+}
+
+TEST_CASE("a named solid packs as the hull of its corners does, bit for bit") {
+  for (const int sides : {3, 6}) {
+    const PrismSize prism{sides, 0.8, 1.1};
+    HullVertices hull;
+    for (const Vector& corner : corners_of(prism)) {
+      hull.points.push_back({corner.x(), corner.y(), corner.z()});
+    }
+    const PackingResult named = pack(small_spec(prism)).result,
+                        given = pack(small_spec(hull)).result;
+    CHECK(named.state_hash == given.state_hash);
+    CHECK(named.solid_fraction == given.solid_fraction);
+    CHECK(named.rest.isostatic_contacts == given.rest.isostatic_contacts);
+    CHECK(named.steps > 0);
+  }
 }
 
 TEST_CASE("shapes that cannot be packed are refused with the reason") {

@@ -320,7 +320,7 @@ void some_stray(SphereBed& bed, double size, Draw& draw) {
 TEST_CASE("a list to which strays are added holds every pair that has come near, none twice") {
   const Move moves[] = {jitter, compact, shear, one_falls, some_stray};
   for (const Box& box : {boxes[0], boxes[1], boxes[2], boxes[7]}) {
-    for (const double ratio : {1.0, 0.5, 0.15}) {
+    for (const double ratio : {1.0, 0.5, 0.15, 0.05}) {
       for (std::size_t k = 0; k < std::size(moves); ++k) {
         INFO("walls " << walls_of(box).size() << ", ratio " << ratio << ", motion " << k);
         const Changes changes =
@@ -329,6 +329,22 @@ TEST_CASE("a list to which strays are added holds every pair that has come near,
       }
     }
   }
+}
+
+TEST_CASE("pairs of grains below a quarter of the largest are listed less far, all others not") {
+  const auto listed = [](double one, double other, double gap) {
+    SphereBed bed =
+        make_bed(boxes[2], {{4, 2, 1, one}, {4, 2, 1 + one + other + gap, other}, {1, 1, 4, 0.5}});
+    Candidates candidates;
+    complete_candidates(0.03, 0.08, kernels_for(best_isa()), bed, candidates);
+    return !candidates.pairs.empty();
+  };
+  CHECK(listed(0.5, 0.5, 0.109));
+  CHECK(listed(0.5, 0.125, 0.109));
+  CHECK(listed(0.5, 0.05, 0.08));  // 0.03, 0.04 of the large and 0.016 of the small one
+  CHECK_FALSE(listed(0.5, 0.05, 0.09));
+  CHECK(listed(0.05, 0.05, 0.06));
+  CHECK_FALSE(listed(0.05, 0.05, 0.065));
 }
 
 TEST_CASE("where few grains stray the bed is not searched anew") {

@@ -37,7 +37,7 @@ TEST_CASE("a bed of pinacoids settles within every tolerance of its accuracy", "
                       << " mean, " << report.rest.overlap_max << " most");
     CHECK(report.failure == "");
     CHECK(report.rest.overlap_max < 1e-3);  // no pair is left deep in another
-    for (const Record<double>& c : bed->centres()) REQUIRE(c.z > bed->shape.inradius * 0.85);
+    for (const Record<double>& c : bed->centres()) REQUIRE(c.z > bed->shapes[0].inradius * 0.85);
   }
 }
 

@@ -88,8 +88,8 @@ struct Lie {
 };
 Lie lie_of(const PolyhedronBed& bed, std::size_t grain) {
   Lie lie{0, 10};
-  for (std::size_t k = 0; k < bed.shape.faces.size(); ++k) {
-    const Vector n = bed.pose(grain).orientation * bed.shape.faces[k].normal;
+  for (std::size_t k = 0; k < bed.shape(grain).faces.size(); ++k) {
+    const Vector n = bed.pose(grain).orientation * bed.shape(grain).faces[k].normal;
     const double tilt = std::atan2(std::hypot(n.x(), n.y()), -n.z());
     if (tilt < lie.tilt) lie = {k, tilt};
   }

@@ -35,6 +35,26 @@ TEST_CASE("the touching pairs are those a search over all pairs finds, with thei
   }
 }
 
+TEST_CASE("a tolerance by size finds the pairs that a search over all of them finds") {
+  const auto tolerance_of = [](double a, double b) { return std::min(0.2 * (a + b), 0.2); };
+  for (const double small : {0.5, 0.1, 0.02}) {
+    SphereBed bed = testing::random_bed({{5, 4, periodic, walls}, 250, small, 0.7, 5, 8});
+    std::set<NamedPair> found, expected;
+    for (const TouchingPair& pair : find_touching(bed, tolerance_of, kernels()).pairs) {
+      REQUIRE(found.insert({pair.a, pair.b}).second);
+    }
+    for (const NamedPair& pair : testing::pairs_closer_than(bed, 0.2)) {
+      const auto radius = [&](std::int32_t i) {
+        return bed.position[static_cast<std::size_t>(i)].w;
+      };
+      const double gap = testing::gap_of(bed, pair.first, pair.second);
+      if (gap < tolerance_of(radius(pair.first), radius(pair.second))) expected.insert(pair);
+    }
+    CHECK(found == expected);
+    CHECK(found.size() > 20);
+  }
+}
+
 TEST_CASE("the touching walls are those within the tolerance, the floor being wall 0") {
   SphereBed bed =
       make_bed({6, 4, walls, walls},

@@ -59,14 +59,14 @@ Found brute_force(const PolyhedronBed& bed, const TouchSettings& settings) {
   std::vector<ContactPoint> points;
   for (std::size_t i = 0; i < bed.grains(); ++i) {
     for (std::size_t j = i + 1; j < bed.grains(); ++j) {
-      const ShapePair pair{bed.shape, bed.shape, pair_pose(bed, i, j)};
+      const ShapePair pair = shape_pair(bed, i, j);
       if (far_by_distance(pair, settings.margin)) continue;
       const PairContact c = touch(pair, settings, separating_axes(pair), clip, points);
       if (c.count > 0) names[{static_cast<int>(i), static_cast<int>(j)}] = c.count;
     }
     for (std::size_t k = 0; k < bed.walls.size(); ++k) {
       std::size_t count = 0;
-      for (const Vector& v : bed.shape.vertices) {
+      for (const Vector& v : bed.shape(i).vertices) {
         const Vector x = bed.pose(i).centre + bed.scale(i) * (bed.pose(i).orientation * v);
         count += bed.walls[k].distance(x.x(), x.y(), x.z()) <= settings.margin ? 1 : 0;
       }
@@ -125,7 +125,7 @@ TEST_CASE("a pinacoid and the hull of its corners touch at the same points") {
   // At random no two axes are equally good, so that both choose the same.
   PolyhedronBed closed = testing::random_shape_bed({6, 5, periodic, walls}, shape, 120, 4, 2);
   PolyhedronBed open = closed;
-  open.shape = hull;
+  open.shapes = {hull};
   Search search_closed, search_open;
   search_closed.find(closed);
   search_open.find(open);

@@ -51,7 +51,7 @@ TEST_CASE("mass goes with the cube of the scale and moments with its fifth power
   CHECK(1 / unit.motion[0].w == 1);
   CHECK(1 / large.motion[0].w == 8);
   CHECK((large.root_inertia[0].cwiseAbs2() - 32 * unit.root_inertia[0].cwiseAbs2()).norm() < 1e-14);
-  CHECK((unit.root_inertia[0].cwiseAbs2() - unit.shape.inertia).norm() < 1e-15);
+  CHECK((unit.root_inertia[0].cwiseAbs2() - unit.shape(0).inertia).norm() < 1e-15);
 }
 
 TEST_CASE("pairs are seen across periodic sides and not across walls") {

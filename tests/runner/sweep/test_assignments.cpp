@@ -143,6 +143,11 @@ TEST_CASE("a shape is named alone, in an object or by the path of a part") {
   CHECK(angle_of(R"({"shape.pinacoid.angle_deg": 60})") == sixty);
   CHECK(std::holds_alternative<SphereShape>(spec_of(R"({"shape": "sphere"})").shape));
   CHECK(std::holds_alternative<SphereShape>(spec_of("{}").shape));
+  for (const std::string base : {R"({"shape": "prism"})", R"({"shape": {"prism": {}}})",
+                                 R"({"shape.prism": {"sides": 6}})"}) {
+    CHECK(std::get<PrismSize>(spec_of(base).shape).sides == 6);
+  }
+  CHECK(std::get<CubeSize>(spec_of(R"({"shape": {"cube": {"edge": 0.5}}})").shape).edge == 0.5);
 }
 
 TEST_CASE("a layer that names another shape replaces the one below with all its parts") {
@@ -167,7 +172,7 @@ TEST_CASE("a layer that names the same shape changes only the parts it writes") 
 }
 
 TEST_CASE("two shapes in one object are refused") {
-  const std::string keep = "; keep one of sphere, pinacoid, hull.vertices, hull.file";
+  const std::string keep = "; keep one of them";
   CHECK(errors_in_base(R"({"shape": "sphere", "shape.pinacoid.width": 2})") ==
         Messages{"s.json:2:45 /base/shape.pinacoid.width: the grains already have the shape at "
                  "/base/shape" +
@@ -181,12 +186,19 @@ TEST_CASE("two shapes in one object are refused") {
   CHECK(errors_in_base(R"({"shape": {"pinacoid": {}, "hull": {"size": 2}}})")
             .at(0)
             .starts_with("s.json:2:45 /base/shape/hull/size: the grains already have"));
+  CHECK(errors_in_base(R"({"shape": {"cube": {}, "prism": {"sides": 5}}})") ==
+        Messages{"s.json:2:43 /base/shape/prism/sides: the grains already have the shape at "
+                 "/base/shape/cube" +
+                 keep});
 }
 
 TEST_CASE("a shape that is not said, or misspelt, is refused with what is known") {
   CHECK(errors_in_base(R"({"shape": {}})") ==
-        Messages{"s.json:2:11 /base/shape: names no shape; must be \"sphere\", \"pinacoid\" or an "
-                 "object with pinacoid, hull"});
+        Messages{"s.json:2:11 /base/shape: names no shape; must be \"sphere\", \"pinacoid\", "
+                 "\"cube\", \"cuboid\", \"tetrahedron\", \"octahedron\", \"dodecahedron\", "
+                 "\"icosahedron\", \"prism\", \"cylinder\" or an object with pinacoid, cube, "
+                 "cuboid, tetrahedron, octahedron, dodecahedron, icosahedron, prism, cylinder, "
+                 "hull"});
   CHECK(errors_in_base(R"({"shape": {"hull": {}}})") ==
         Messages{"s.json:2:20 /base/shape/hull: a hull needs its vertices: write \"vertices\" or "
                  "\"file\""});

@@ -103,6 +103,12 @@ TEST_CASE("canonical parameters of other shapes are groups, a hull that of a has
         R"("shape":{"pinacoid":{"angle_deg":60,"height":1,"length":1,"width":1}})");
   CHECK(shape(R"({"pinacoid": {"angle_deg": 52.5}})") ==
         R"("shape":{"pinacoid":{"angle_deg":52.5,"height":1,"length":1,"width":1}})");
+  CHECK(shape("\"cube\"") == R"("shape":{"cube":{"edge":1}})");
+  CHECK(shape(R"({"octahedron": {}})") == R"("shape":{"octahedron":{"height":1}})");
+  CHECK(shape(R"({"prism": {"sides": 8}})") ==
+        R"("shape":{"prism":{"diameter":1,"height":1,"sides":8}})");
+  CHECK(shape("\"cylinder\"") ==
+        R"("shape":{"cylinder":{"chord_error":0.01,"diameter":1,"height":1}})");
   const HullVertices corner{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
   CHECK(shape(R"({"hull": {"vertices": [[0,0,-0.0],[1,0,0],[0,1,0],[0,0,1]]}})") ==
         R"("shape":{"hull":{"vertices":")" + hash_of(corner) + "\"}}");

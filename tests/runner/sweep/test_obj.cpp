@@ -17,7 +17,7 @@ std::vector<std::string> errors_of_obj(const std::string& text) {
 using Messages = std::vector<std::string>;
 
 TEST_CASE("the vertices of an OBJ file are read past everything else in it") {
-  const ObjReading reading = parse_obj(
+  const VerticesReading reading = parse_obj(
       "# a rock\r\nmtllib a.mtl\no rock\nv 1 2 3\r\n  v\t-0.5 1e-1 .25 1.0\nvn 0 0 1\n"
       "vt 0 0\nv 4 5 6 0.5 0.5 0.5\nf 1 2 3\n\n",
       "rock.obj");
@@ -51,7 +51,7 @@ TEST_CASE("no more than twenty errors of an OBJ file are listed") {
 }
 
 TEST_CASE("an OBJ file that is missing is named") {
-  const ObjReading reading = read_obj("/nowhere/rock.obj");
+  const VerticesReading reading = read_obj("/nowhere/rock.obj");
   REQUIRE(reading.errors.size() == 1);
   CHECK(to_string(reading.errors[0]).find("/nowhere/rock.obj") != std::string::npos);
   CHECK(reading.vertices.empty());

@@ -47,7 +47,7 @@ TEST_CASE("what lies outside a documented range is refused") {
   int ranges = 0;
   for (const Parameter& parameter : parameters()) {
     const bool is_of_the_engine = parameter.role == Role::plain || parameter.role == Role::fill ||
-                                  parameter.role == Role::pinacoid;
+                                  parameter.role == Role::shape_part;
     if (!parameter.range || !is_of_the_engine) continue;
     const Interval& range = *parameter.range;
     INFO(parameter.path << " " << range.text());

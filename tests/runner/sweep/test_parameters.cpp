@@ -119,18 +119,36 @@ TEST_CASE("no two parameters write to the same place") {
   }
 }
 
-TEST_CASE("no two parts of a pinacoid write to the same place") {
-  const auto parts = known_keys("shape.pinacoid");
-  for (const std::string& part : parts) {
-    const Parameter& written = parameter_at(("shape.pinacoid." + part).c_str());
-    ResolvedSpec resolved;
-    written.set(resolved, 0.25);
-    CHECK_FALSE(parameter_at("shape").get(resolved));
-    for (const std::string& other : parts) {
-      const Parameter& read = parameter_at(("shape.pinacoid." + other).c_str());
-      INFO(part << " and " << other);
-      CHECK((read.get(resolved) == default_of(read)) == (other != part));
+TEST_CASE("no two parts of a shape write to the same place") {
+  std::size_t shapes = 0;
+  for (const std::string_view name : shape_names) {
+    const std::string group = "shape." + std::string(name);
+    const auto parts =
+        name == "hull" || name == "sphere" ? std::vector<std::string>{} : known_keys(group);
+    shapes += parts.empty() ? 0 : 1;
+    for (const std::string& part : parts) {
+      const Parameter& written = parameter_at((group + "." + part).c_str());
+      ResolvedSpec resolved;
+      const bool is_whole = written.kind == ValueKind::whole;
+      written.set(resolved, is_whole ? Value(std::int64_t{9}) : Value(0.25));
+      CHECK_FALSE(parameter_at("shape").get(resolved));
+      for (const std::string& other : parts) {
+        const Parameter& read = parameter_at((group + "." + other).c_str());
+        INFO(group << ": " << part << " and " << other);
+        CHECK((read.get(resolved) == default_of(read)) == (other != part));
+      }
     }
+  }
+  CHECK(shapes == shape_names.size() - 2);
+}
+
+TEST_CASE("the shapes to choose from are those of the engine, in their order") {
+  const Parameter& shape = parameter_at("shape");
+  CHECK(shape.choices == std::vector<std::string>(shape_names.begin(), shape_names.end() - 1));
+  for (std::size_t k = 0; k < shape.choices.size(); ++k) {
+    ResolvedSpec resolved;
+    shape.set(resolved, static_cast<std::int64_t>(k));
+    CHECK(name_of(resolved.spec.shape) == shape.choices[k]);
   }
 }
 
@@ -224,8 +242,11 @@ TEST_CASE("a solver of earlier versions is refused with the one that took its pl
 
 TEST_CASE("what is no shape is refused with the shapes there are") {
   const std::string wanted =
-      "must be \"sphere\", \"pinacoid\" or an object with pinacoid, hull, is ";
-  CHECK(error_of("shape", "cube") == wanted + "the text \"cube\"");
+      "must be \"sphere\", \"pinacoid\", \"cube\", \"cuboid\", \"tetrahedron\", "
+      "\"octahedron\", \"dodecahedron\", \"icosahedron\", \"prism\", \"cylinder\" or an object "
+      "with pinacoid, cube, cuboid, tetrahedron, octahedron, dodecahedron, icosahedron, "
+      "prism, cylinder, hull, is ";
+  CHECK(error_of("shape", "rock") == wanted + "the text \"rock\"");
   CHECK(error_of("shape", "hull") == wanted + "the text \"hull\"");
   CHECK(error_of("shape", "pinacoit") ==
         wanted + "the text \"pinacoit\"; did you mean \"pinacoid\"?");
@@ -265,7 +286,7 @@ TEST_CASE("groups are what parameters lie below") {
   CHECK(known_keys("box") == std::vector<std::string>{"length", "width", "x", "y"});
   const std::vector<std::string> shapes = known_keys("shape");
   CHECK(std::vector<std::string>(shapes.begin(), shapes.begin() + 3) ==
-        std::vector<std::string>{"pinacoid", "hull", "pinacoid.length"});
+        std::vector<std::string>{"pinacoid", "cube", "cuboid"});
   const std::vector<std::string> all = known_keys("");
   CHECK(std::count(all.begin(), all.end(), "shape.hull") == 1);
 }

@@ -21,8 +21,6 @@ Job sample_source() {
   return job;
 }
 
-JobFacts facts_of(const Job& job) { return rows_of(Sweep{"s", 7, 1, {job}}).at(0).job; }
-
 TEST_CASE("facts name what a job is made of") {
   const JobFacts job = facts_of(sample_source());
   CHECK(job.id == "0123456789abcdef");
@@ -68,7 +66,9 @@ TEST_CASE("the bias of packings is bounded where the like of them was measured, 
                  R"({"shape":{"pinacoid":{"length":1.0,"width":1.0,"height":0.3}}})") == 0.0);
   CHECK(bound_of("hull", 0.0, "{}") == 0.0);
   CHECK(bound_of("sphere", 0.0, "{}", "custom") == 0.0);
+  CHECK(bound_of("sphere", 0.0, R"({"sizes":{"distribution":{"kind":"uniform"}}})") == 0.0);
   JobFacts tube;
+  tube.parameters = "{}";
   tube.shape = "sphere";
   tube.accuracy = "fast";
   CHECK(bias_bound(tube));
