@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "engine/dynamics/settle.hpp"
-#include "engine/dynamics/sleep.hpp"
 #include "engine/measure/bond_order.hpp"
 #include "engine/measure/coordination.hpp"
 #include "engine/measure/order.hpp"
@@ -223,67 +222,6 @@ Packing make_packing(const PackingSpec& spec, const ExecutionContext& context,
                      const KeepGoing& keep_going, std::string_view saved) {
   return is_sphere(spec.shape) ? pack<Sphere>(spec, context, keep_going, saved)
                                : pack<Polyhedron>(spec, context, keep_going, saved);
-}
-
-namespace {
-
-/// What beds of a kind cost over what usual_iterations says, by how far they are settled: creeps
-/// shorter than the usual one, of its length, and longer. Measured by bench/costs.sh, whose table
-/// is in bench/README.md.
-struct KindFactors {
-  double loose = 1.0, usual = 1.0, strict = 1.0;
-};
-constexpr KindFactors one_size{1.0, 1.0, 1.0}, half_size{1.0, 1.0, 2.0}, smaller{5.3, 1.0, 2.0},
-    pinacoids{2.6, 1.7, 1.3}, hulls{6.0, 2.6, 2.6};
-
-const KindFactors& factors_of(const PackingSpec& spec) {
-  if (std::holds_alternative<HullVertices>(spec.shape)) return hulls;
-  if (!is_sphere(spec.shape)) return pinacoids;
-  if (spec.sizes.small_share == 0.0 || spec.sizes.size_ratio > 0.7) return one_size;
-  return spec.sizes.size_ratio > 0.4 ? half_size : smaller;
-}
-
-double kind_factor(const PackingSpec& spec) {
-  constexpr double usual_corners = 20.0;  // of a hull; more of them cost more
-  const auto* hull = std::get_if<HullVertices>(&spec.shape);
-  const double corners = hull == nullptr ? 0.0 : static_cast<double>(hull->points.size());
-  const KindFactors& factors = factors_of(spec);
-  const int steps = spec.accuracy.creep_steps, usual = Accuracy{}.creep_steps;
-  const double factor = steps < usual   ? factors.loose
-                        : steps > usual ? factors.strict
-                                        : factors.usual;
-  return factor * std::sqrt(std::max(1.0, corners / usual_corners));
-}
-
-/// Solver iterations over all rows that the stages of engine/dynamics/settle.hpp usually need.
-/// While a bed fills up its deep part sleeps, so that from some height on the fall counts no
-/// further; the creep of spheres grows with the layers that forces have to find their way through.
-double usual_iterations(const PackingSpec& spec) {
-  const Accuracy& a = spec.accuracy;
-  const double layers = static_cast<double>(grain_count(spec)) / spec.box.floor_area() + 1.0;
-  const double falling = std::min(layers, 1.5 * sleep_depth);
-  const double solved = std::pow(Accuracy{}.path_tolerance / a.path_tolerance, 0.6);
-  const double creep =
-      std::pow(static_cast<double>(a.creep_steps) / Accuracy{}.creep_steps, 1.3);  // of the usual
-  if (!is_sphere(spec.shape)) {
-    return solved * (110.0 * falling + 7400.0 * creep) + 80.0 * a.rest_iterations;
-  }
-  const double fall = (a.protocol == Protocol::dynamic ? 600.0 : 200.0) * falling;
-  return solved * (fall + 2000.0 * std::pow(layers, 0.75) * creep) + 30.0 * a.rest_iterations;
-}
-
-}  // namespace
-
-// Measured on one core of a 2.4 GHz server: an iteration costs 2.7 ns a row, of which a bed of
-// spheres has about four per grain; with its share of the narrow phase it costs 75 ns a grain that
-// turns.
-Cost estimate_cost(const PackingSpec& spec) {
-  const bool turn = !is_sphere(spec.shape);
-  const double seconds = turn ? 75e-9 : 4.0 * 2.7e-9, bytes = turn ? 5000.0 : 900.0;
-  const auto grains = static_cast<double>(grain_count(spec));
-  const double number_size = spec.accuracy.precision == Precision::f32 ? 1.0 : 2.0;
-  return {grains * number_size * kind_factor(spec) * usual_iterations(spec) * seconds,
-          1e6 + grains * bytes * number_size};
 }
 
 }  // namespace grainsweep

@@ -19,11 +19,4 @@ namespace grainsweep {
 Packing make_packing(const PackingSpec& spec, const ExecutionContext& context,
                      const KeepGoing& keep_going, std::string_view saved = {});
 
-/// What a packing will cost. Estimates: order of magnitude for sorting and planning, not promises.
-struct Cost {
-  double cpu_seconds = 0.0;  ///< on one core of a present-day machine
-  double bytes = 0.0;        ///< peak memory
-};
-Cost estimate_cost(const PackingSpec& spec);
-
 }  // namespace grainsweep

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/packing.hpp"
+#include "engine/cost.hpp"
 
 namespace grainsweep {
 

@@ -14,6 +14,7 @@
 #include "runner/jobs/schedule.hpp"
 #include "runner/machine.hpp"
 #include "runner/store/journal.hpp"
+#include "runner/sweep/costs.hpp"
 #include "runner/tables/csv.hpp"
 #include "runner/text.hpp"
 
@@ -42,11 +43,17 @@ std::vector<PlannedGroup> planned_groups(const Sweep& sweep, const std::vector<C
   return groups;
 }
 
+/// What is stored in a folder, if one is given, in as much detail as the sweep needs.
+Outcomes made_in(const std::string& folder, const Sweep& whole) {
+  if (folder.empty()) return {};
+  return read_journals(folder, grows(whole) ? Detail::whole : Detail::summary).outcomes;
+}
+
 /// Estimates, corrected by what the packings that are stored in a folder took.
-std::vector<Cost> costs_with(const std::string& folder, const std::vector<Job>& jobs) {
+std::vector<Cost> costs_with(const std::string& folder, const Outcomes& outcomes,
+                             const std::vector<Job>& jobs) {
   std::vector<Cost> costs = costs_of(jobs);
   if (folder.empty()) return costs;
-  const auto outcomes = read_journals(folder, Detail::summary).outcomes;
   std::vector<Known> packings;
   std::size_t made = 0;
   for (std::size_t i = 0; i < jobs.size(); ++i) {
@@ -75,10 +82,6 @@ std::string shards_text(const Sweep& sweep, const std::vector<Cost>& costs, int 
   const double mean = total_cpu_seconds(costs) / shards;
   return "In " + counted(seconds.size(), "shard") + ": about " + duration_text(mean) +
          " CPU each, the longest " + duration_text(longest) + "\n";
-}
-
-Outcomes made_in(const std::string& folder) {
-  return folder.empty() ? Outcomes() : read_journals(folder, Detail::whole).outcomes;
 }
 
 /// What a sweep takes at most whose groups grow.
@@ -208,9 +211,11 @@ CLI::App& add_command(CLI::App& app, PlanOptions& options) {
 
 int perform(const PlanOptions& options) {
   const Sweep whole = sweep_with_notes(options.file);
-  const Sweep sweep = grows(whole) ? called_for(whole, made_in(options.out)) : whole;
+  const Outcomes made = made_in(options.out, whole);
+  const GrowingSweep growing(whole, made);
+  const Sweep& sweep = growing.now();
   const int threads = options.threads > 0 ? options.threads : usable_cores();
-  const std::vector<Cost> costs = costs_with(options.out, sweep.jobs);
+  const std::vector<Cost> costs = costs_with(options.out, made, sweep.jobs);
   const Needs needs = needs_of(costs, threads);
   std::cerr << memory_warning(costs, needs.memory);
   if (options.json) {

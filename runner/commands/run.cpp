@@ -29,6 +29,7 @@
 #include "runner/store/files.hpp"
 #include "runner/store/journal.hpp"
 #include "runner/store/shard_files.hpp"
+#include "runner/sweep/costs.hpp"
 #include "runner/tables/closing_report.hpp"
 #include "runner/text.hpp"
 #include "runner/versions.hpp"
@@ -74,35 +75,10 @@ std::vector<std::size_t> places_of(const std::set<std::string>& jobs, const Swee
   return places;
 }
 
-/// A sweep as far as the packings in the folder call for its jobs.
-class GrowingSweep {
- public:
-  GrowingSweep(const Sweep& whole, std::string folder)
-      : whole_(whole), folder_(std::move(folder)), grows_(grows(whole)) {
-    grow();
-  }
-
-  const Sweep& now() const { return grows_ ? called_ : whole_; }
-
-  /// Looks at the folder again; whether more is called for.
-  bool grow() {
-    if (!grows_) return false;
-    const std::size_t before = called_.jobs.size();
-    called_ = called_for(whole_, read_journals(folder_, Detail::whole).outcomes);
-    return called_.jobs.size() > before;
-  }
-
-  /// Which errors are as asked for.
-  std::string wishes() const {
-    return grows_ ? wishes_text(whole_, read_journals(folder_, Detail::whole).outcomes) : "";
-  }
-
- private:
-  const Sweep& whole_;
-  std::string folder_;
-  bool grows_;
-  Sweep called_;  ///< empty if it does not grow
-};
+/// What a growing sweep has to look at; of others nothing.
+Outcomes made_for_growth(const std::string& folder, const Sweep& whole) {
+  return grows(whole) ? read_journals(folder, Detail::whole).outcomes : Outcomes();
+}
 
 /// A packing that ended in an exception is always tried again.
 bool is_to_be_made(const Outcome& outcome, bool retry_failed) {
@@ -135,6 +111,7 @@ RunningSweep resume(const Sweep& sweep, const std::vector<std::size_t>& places, 
   RunningSweep running{folder, files, 0, {}, {}};
   JournalReading stored = read_journals(folder, Detail::summary);
   keep_own(stored.damage, shard, journal_path(folder, files.name()));
+  const std::vector<Cost> costs = costs_of(sweep.jobs);
   std::set<std::string> done;
   for (const std::size_t place : places) {
     const Job& job = sweep.jobs[place];
@@ -144,7 +121,7 @@ RunningSweep resume(const Sweep& sweep, const std::vector<std::size_t>& places, 
                          has_sound_bed(folder, known->second, stored.damage);
     if (is_done) {
       done.insert(job.id);
-      running.estimates.add(estimate_cost(job.spec).cpu_seconds, known->second.cpu_seconds);
+      running.estimates.add(costs[place].cpu_seconds, known->second.cpu_seconds);
     } else {
       running.pending.push_back(&job);
     }
@@ -214,10 +191,11 @@ struct Made {
   bool is_whole = false;  ///< whether all that was called for was made
 };
 
-/// Makes what is called for, and what the results of that call for, and so on.
-Made make_all(GrowingSweep& growing, const std::function<Made(const Sweep&)>& make) {
+/// Makes what is called for, and what the results of that, `made`, call for, and so on.
+Made make_all(GrowingSweep& growing, const std::function<Outcomes()>& made,
+              const std::function<Made(const Sweep&)>& make) {
   Made all = make(growing.now());
-  while (all.is_whole && growing.grow()) {
+  while (all.is_whole && growing.grow(made())) {
     const Made more = make(growing.now());
     all = {{all.packed.packings + more.packed.packings, more.packed.first_failure}, more.is_whole};
   }
@@ -395,14 +373,15 @@ int perform(const RunOptions& options) {
 
   const Provenance provenance = provenance_of(options, whole);
   const std::set<std::string> jobs = jobs_of(shard, whole);
-  GrowingSweep growing(whole, folder);
+  const auto made = [&] { return made_for_growth(folder, whole); };
+  GrowingSweep growing(whole, made());
   bool retries = options.retry_failed;  // once
-  const auto [packed, is_whole] = make_all(growing, [&](const Sweep& sweep) {
+  const auto [packed, is_whole] = make_all(growing, made, [&](const Sweep& sweep) {
     record_sweep(folder, provenance, rows_of(sweep));
     RunningSweep running =
         resume(sweep, places_of(jobs, sweep), shard, folder, files, std::exchange(retries, false));
-    const Packed made = pack(running, options, isa, run, time_limit);
-    return Made{made, static_cast<std::size_t>(made.packings) == running.pending.size()};
+    const Packed now = pack(running, options, isa, run, time_limit);
+    return Made{now, static_cast<std::size_t>(now.packings) == running.pending.size()};
   });
   run.packings = packed.packings;
   run.wall_seconds = wall_seconds() - start;

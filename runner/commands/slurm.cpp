@@ -14,6 +14,7 @@
 #include "runner/jobs/schedule.hpp"
 #include "runner/machine.hpp"
 #include "runner/store/files.hpp"
+#include "runner/sweep/costs.hpp"
 #include "runner/text.hpp"
 
 namespace grainsweep {
@@ -116,7 +117,9 @@ CLI::App& add_command(CLI::App& app, SlurmOptions& options) {
 }
 
 int perform(const SlurmOptions& options) {
-  const Sweep sweep = called_for(sweep_with_notes(options.file), {});
+  const Sweep whole = sweep_with_notes(options.file);
+  const GrowingSweep growing(whole, {});
+  const Sweep& sweep = growing.now();
   const std::string folder = options.out.empty() ? "out/" + sweep.name : options.out;
   const std::vector<Cost> costs = costs_of(sweep.jobs);
   const Partition partition = ask_for_partition(options.partition);

@@ -34,8 +34,10 @@ CLI::App& add_command(CLI::App& app, ValidateOptions& options) {
 }
 
 int perform(const ValidateOptions& options) {
-  const Sweep sweep = called_for(sweep_with_notes(options.file), {});
-  std::cout << options.file << ": right: " << (grows(sweep) ? "at least " : "")
+  const Sweep whole = sweep_with_notes(options.file);
+  const GrowingSweep growing(whole, {});
+  const Sweep& sweep = growing.now();
+  std::cout << options.file << ": right: " << (grows(whole) ? "at least " : "")
             << counted(sweep.jobs.size(), "packing") << ", "
             << counted(count_parameter_sets(sweep), "parameter set")
             << (sweep.units ? ", " + units_text(*sweep.units) : "") << "\n";

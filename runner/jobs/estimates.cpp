@@ -6,20 +6,6 @@
 
 namespace grainsweep {
 
-std::vector<Cost> costs_of(const std::vector<const Job*>& jobs) {
-  std::vector<Cost> costs;
-  costs.reserve(jobs.size());
-  for (const Job* job : jobs) costs.push_back(estimate_cost(job->spec));
-  return costs;
-}
-
-std::vector<Cost> costs_of(const std::vector<Job>& jobs) {
-  std::vector<Cost> costs;
-  costs.reserve(jobs.size());
-  for (const Job& job : jobs) costs.push_back(estimate_cost(job.spec));
-  return costs;
-}
-
 double total_cpu_seconds(const std::vector<Cost>& costs) {
   return std::accumulate(costs.begin(), costs.end(), 0.0,
                          [](double sum, const Cost& cost) { return sum + cost.cpu_seconds; });

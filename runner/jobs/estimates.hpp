@@ -1,19 +1,13 @@
-// What the packings of a sweep will take.
+// What packings will take together, and what those that are made teach of it.
 #pragma once
 
 #include <optional>
 #include <unordered_map>
 #include <vector>
 
-#include "engine/packing.hpp"
-#include "runner/sweep/job.hpp"
+#include "engine/cost.hpp"
 
 namespace grainsweep {
-
-/// The estimate of each job, in their order: the same on every machine, so that a sweep can be
-/// divided by it.
-std::vector<Cost> costs_of(const std::vector<const Job*>& jobs);
-std::vector<Cost> costs_of(const std::vector<Job>& jobs);
 
 /// CPU time of all, s.
 double total_cpu_seconds(const std::vector<Cost>& costs);

@@ -7,8 +7,8 @@
 #include <limits>
 #include <sstream>
 
-#include "runner/jobs/estimates.hpp"
 #include "runner/jobs/split.hpp"
+#include "runner/sweep/costs.hpp"
 #include "runner/tables/groups.hpp"
 #include "runner/tables/job_facts.hpp"
 #include "runner/text.hpp"
@@ -35,9 +35,7 @@ std::vector<Places> groups_in(const Sweep& sweep) {
   return groups;
 }
 
-std::optional<ProtocolBias> bound_of(const Job& job) {
-  return bias_bound(rows_of(Sweep{"", 0, 1, {job}}).front().job);
-}
+std::optional<ProtocolBias> bound_of(const Job& job) { return bias_bound(facts_of(job)); }
 
 /// The settled ones of the first `count`.
 struct Means {
@@ -89,13 +87,25 @@ Called called_for(const Sweep& whole, const Places& group, const Outcomes& outco
   return called;
 }
 
+/// The sweep without the replicates that are not called for.
+Sweep called_for(const Sweep& whole, const Outcomes& outcomes) {
+  Sweep called{whole.name, whole.seed, whole.replicates, {}, whole.units};
+  for (const Places& group : groups_in(whole)) {
+    const auto count = whole.jobs[group.begin].wish.is_given()
+                           ? static_cast<std::size_t>(called_for(whole, group, outcomes).count)
+                           : group.end - group.begin;
+    const auto first = whole.jobs.begin() + static_cast<std::ptrdiff_t>(group.begin);
+    called.jobs.insert(called.jobs.end(), first, first + static_cast<std::ptrdiff_t>(count));
+  }
+  return called;
+}
+
 void append_wish(const char* what, double wish, double bias, const Job& job, std::string& text) {
   if (wish == 0.0 || wish > bias) return;
   std::ostringstream line;
   line << "replicates.until of \"" << job.label << "\" asks for " << what << " within " << wish
-       << ", but settled as \"" << rows_of(Sweep{"", 0, 1, {job}}).front().job.accuracy
-       << "\" such packings may be off by " << bias
-       << " however many there are; ask for more than that, or take a finer accuracy\n";
+       << ", but settled as \"" << facts_of(job).accuracy << "\" such packings may be off by "
+       << bias << " however many there are; ask for more than that, or take a finer accuracy\n";
   if (text.find(line.str()) == std::string::npos) text += line.str();
 }
 
@@ -133,17 +143,17 @@ bool grows(const Sweep& sweep) {
                      [](const Job& job) { return job.wish.is_given(); });
 }
 
-Sweep called_for(Sweep whole, const Outcomes& outcomes) {
-  if (!grows(whole)) return whole;
-  Sweep called{whole.name, whole.seed, whole.replicates, {}, whole.units};
-  for (const Places& group : groups_in(whole)) {
-    const auto count = whole.jobs[group.begin].wish.is_given()
-                           ? static_cast<std::size_t>(called_for(whole, group, outcomes).count)
-                           : group.end - group.begin;
-    const auto first = whole.jobs.begin() + static_cast<std::ptrdiff_t>(group.begin);
-    called.jobs.insert(called.jobs.end(), first, first + static_cast<std::ptrdiff_t>(count));
-  }
-  return called;
+GrowingSweep::GrowingSweep(const Sweep& whole, const Outcomes& made)
+    : whole_(whole), grows_(grows(whole)) {
+  grow(made);
+}
+
+bool GrowingSweep::grow(const Outcomes& made) {
+  if (!grows_) return false;
+  const std::size_t before = called_.jobs.size();
+  called_ = called_for(whole_, made);
+  wishes_ = wishes_text(whole_, made);
+  return called_.jobs.size() > before;
 }
 
 std::vector<int> shards_of(const Sweep& whole, int shards) {

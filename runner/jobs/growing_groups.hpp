@@ -32,9 +32,27 @@ int replicates_called_for(const std::vector<const Outcome*>& made, const ErrorWi
 /// Whether a group of the sweep may grow.
 bool grows(const Sweep& sweep);
 
-/// The sweep without the replicates that these outcomes do not call for; `whole` has the most of
-/// every group.
-Sweep called_for(Sweep whole, const Outcomes& outcomes);
+/// A sweep as far as the packings that are made call for its jobs. Refers to the whole sweep, which
+/// has the most replicates of every group, and is that if none may grow.
+class GrowingSweep {
+ public:
+  GrowingSweep(const Sweep& whole, const Outcomes& made);
+  GrowingSweep(Sweep&& whole, const Outcomes& made) = delete;
+
+  const Sweep& now() const { return grows_ ? called_ : whole_; }
+
+  /// Looks at all that is made by now; whether more is called for than before.
+  bool grow(const Outcomes& made);
+
+  /// Which errors were as asked for when it was looked at last: `wishes_text`.
+  const std::string& wishes() const { return wishes_; }
+
+ private:
+  const Sweep& whole_;
+  bool grows_;
+  Sweep called_;  ///< empty if it does not grow
+  std::string wishes_;
+};
 
 /// The shard of every job, a growing group in one of them; as `split` but for that.
 std::vector<int> shards_of(const Sweep& whole, int shards);

@@ -10,12 +10,14 @@
 #include <tbb/enumerable_thread_specific.h>
 
 #include "engine/dynamics/workspace.hpp"
+#include "engine/packing.hpp"
 #include "runner/jobs/stop.hpp"
 #include "runner/machine.hpp"
 #include "runner/store/checkpoints.hpp"
 #include "runner/store/files.hpp"
 #include "runner/store/runners.hpp"
 #include "runner/store/states.hpp"
+#include "runner/sweep/costs.hpp"
 #include "runner/tables/csv.hpp"
 #include "runner/tables/job_facts.hpp"
 #include "runner/text.hpp"

@@ -11,7 +11,9 @@
 #include <string>
 #include <vector>
 
-#include "engine/packing.hpp"
+#include "engine/context.hpp"
+#include "engine/cost.hpp"
+#include "engine/results.hpp"
 #include "runner/jobs/thread_team.hpp"
 
 namespace grainsweep {

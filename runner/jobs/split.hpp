@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "engine/packing.hpp"
+#include "engine/cost.hpp"
 
 namespace grainsweep {
 

@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "engine/packing.hpp"
+#include "runner/sweep/costs.hpp"
 
 namespace grainsweep {
 namespace {
@@ -163,9 +163,10 @@ JobFacts facts_of(const Job& job) {
 std::vector<Row> rows_of(const Sweep& sweep) {
   std::vector<Row> rows;
   rows.reserve(sweep.jobs.size());
-  for (const Job& job : sweep.jobs) {
-    rows.push_back({facts_of(job), std::nullopt});
-    rows.back().job.estimated = estimate_cost(job.spec).cpu_seconds;
+  const std::vector<Cost> costs = costs_of(sweep.jobs);
+  for (std::size_t i = 0; i < costs.size(); ++i) {
+    rows.push_back({facts_of(sweep.jobs[i]), std::nullopt});
+    rows.back().job.estimated = costs[i].cpu_seconds;
   }
   return rows;
 }

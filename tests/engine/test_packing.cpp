@@ -267,35 +267,5 @@ TEST_CASE("every status has a name") {
   CHECK(std::string(name_of(PackingStatus::failed)) == "failed");
 }
 
-TEST_CASE("the cost of a packing grows with its grains and its accuracy") {
-  PackingSpec spec = small_spec(), larger = spec, finer = spec, wider = spec;
-  larger.fill = GrainCount{1600};
-  finer.accuracy = *preset("accurate");
-  wider.accuracy.precision = Precision::f64;
-  larger.box.length *= 10.0;
-  CHECK(estimate_cost(larger).cpu_seconds == Approx(10 * estimate_cost(spec).cpu_seconds));
-  CHECK(estimate_cost(larger).bytes > estimate_cost(spec).bytes);
-  CHECK(estimate_cost(finer).cpu_seconds > 2 * estimate_cost(spec).cpu_seconds);
-  CHECK(estimate_cost(wider).cpu_seconds > estimate_cost(spec).cpu_seconds);
-}
-
-// Kinds as of bench/costs.sh.
-TEST_CASE("polyhedra, hulls of many corners and small grains cost more than spheres of one size") {
-  PackingSpec spec = small_spec();
-  spec.fill = GrainCount{1000};
-  const auto seconds = [](const PackingSpec& some) { return estimate_cost(some).cpu_seconds; };
-  PackingSpec small = spec, pinacoids = spec, cubes = spec, round = spec;
-  small.accuracy = *preset("fast");
-  spec.accuracy = small.accuracy;
-  small.sizes = {0.0, 0.5, 0.25};
-  CHECK(seconds(small) > 4 * seconds(spec));
-  pinacoids.shape = PinacoidSize{};
-  cubes.shape = HullVertices{std::vector<std::array<double, 3>>(8)};
-  round.shape = HullVertices{std::vector<std::array<double, 3>>(80)};
-  CHECK(seconds(cubes) > seconds(pinacoids));
-  CHECK(seconds(pinacoids) > seconds(spec));
-  CHECK(seconds(round) == Approx(2 * seconds(cubes)));
-}
-
 }  // namespace
 }  // namespace grainsweep

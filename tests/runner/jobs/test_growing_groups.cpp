@@ -118,18 +118,28 @@ TEST_CASE("a sweep has the packings that its groups call for, and all of groups 
   Sweep whole{"s", 7, 1, growing_group("a", 5.0, 20, {0.0034, 0.0})};
   for (const Job& job : growing_group("b", 6.0, 3, {})) whole.jobs.push_back(job);
   CHECK(grows(whole));
-  CHECK(called_for(whole, {}).jobs.size() == 9);
+  GrowingSweep growing(whole, {});
+  CHECK(growing.now().jobs.size() == 9);
+  CHECK_FALSE(growing.grow({}));
   Outcomes outcomes;
   for (int i = 1; i <= 6; ++i) {
     const std::string id = "a" + std::to_string(i);
     outcomes[id] = sample_outcome(id, i % 2 == 0 ? 0.5 : 0.7, 5.5);
   }
-  CHECK(called_for(whole, outcomes).jobs.size() == 15);
+  CHECK(growing.grow(outcomes));
+  CHECK(growing.now().jobs.size() == 15);
+  CHECK(growing.wishes() == wishes_text(whole, outcomes));
   outcomes["a3"].exception = true;  // is made once more before anything else
-  CHECK(called_for(whole, outcomes).jobs.size() == 9);
-  Sweep still{"s", 7, 1, growing_group("b", 6.0, 3, {})};
+  CHECK(GrowingSweep(whole, outcomes).now().jobs.size() == 9);
+}
+
+TEST_CASE("a sweep of which no group may grow is called for as it is, without a copy") {
+  const Sweep still{"s", 7, 1, growing_group("b", 6.0, 3, {})};
   CHECK_FALSE(grows(still));
-  CHECK(called_for(still, {}).jobs.size() == 3);
+  GrowingSweep growing(still, {});
+  CHECK(&growing.now() == &still);
+  CHECK_FALSE(growing.grow({}));
+  CHECK(growing.wishes().empty());
 }
 
 TEST_CASE("a growing group belongs to one shard") {

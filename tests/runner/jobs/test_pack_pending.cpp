@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "engine/dynamics/presets.hpp"
+#include "engine/packing.hpp"
 #include "runner/jobs/pack_pending.hpp"
 #include "runner/store/checkpoints.hpp"
 #include "runner/store/journal.hpp"

@@ -1,0 +1,145 @@
+#include "engine/cost.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/dynamics/sleep.hpp"
+#include "engine/scene/size_distribution.hpp"
+#include "engine/shape/given_shape.hpp"
+
+namespace grainsweep {
+
+namespace {
+
+/// What the sizes of grains are like.
+struct SizeMoments {
+  double mean_cube = 1.0;            ///< of the diameter, each grain counted once, d^3
+  double mean_cube_by_volume = 1.0;  ///< each weighted with its volume, d^3
+
+  /// How much heavier the grain is that a part of the solids belongs to than one of all grains; 1
+  /// if all are alike.
+  double unevenness() const { return mean_cube_by_volume / mean_cube; }
+};
+
+SizeMoments moments_of(const SizesSpec& sizes) {
+  if (sizes.distribution) {
+    const SizeCurve curve = curve_of(*sizes.distribution);
+    return {mean_cube(curve), mean_cube_by_volume(curve)};
+  }
+  const double small = std::pow(sizes.size_ratio, 3.0), share = sizes.small_share;
+  const double spread = 1.0 + 9.0 * sizes.spread * sizes.spread;
+  return {1.0 / (1.0 - share + share / small), (1.0 - share + share * small) * spread};
+}
+
+SizeMoments moments_of(const PlacedGrains& placed) {
+  double cubes = 0.0, squares = 0.0;
+  for (const PlacedSphere& grain : placed.grains) {
+    const double cube = std::pow(2.0 * grain.radius, 3.0);
+    cubes += cube, squares += cube * cube;
+  }
+  return {cubes / static_cast<double>(placed.grains.size()), squares / cubes};
+}
+
+SizeMoments moments_of(const PackingSpec& spec) {
+  const auto* placed = std::get_if<PlacedGrains>(&spec.fill);
+  return placed != nullptr ? moments_of(*placed) : moments_of(spec.sizes);
+}
+
+/// Whether the creep is shorter than the usual one, of its length, or longer.
+enum class Creep { loose, usual, strict };
+Creep creep_of(const Accuracy& a) {
+  const int usual = Accuracy{}.creep_steps;
+  return a.creep_steps < usual    ? Creep::loose
+         : a.creep_steps == usual ? Creep::usual
+                                  : Creep::strict;
+}
+
+/// Spheres that differ in size take more rounds to come to rest: in a loose one as many times more
+/// as a part of the solids is heavier than a grain, but many more where small ones fit into the
+/// holes between the large; else some four times more. The worst grain of many is worse than that
+/// of few.
+double unevenness_factor(const PackingSpec& spec, double grains) {
+  constexpr double of_fillers = 5.0;  // large and small grains a third as large have 6
+  const double uneven = moments_of(spec).unevenness(), more = std::max(0.0, uneven - 1.0);
+  const double many = std::pow(std::max(1.0, grains / 5000.0), std::min(0.4, 0.4 * more));
+  switch (creep_of(spec.accuracy)) {
+    case Creep::loose:
+      return uneven < of_fillers ? uneven : 25.0;
+    case Creep::usual:
+      return std::min(4.5, 1.0 + 8.0 * more) * many;
+    case Creep::strict:
+      return std::min(3.0, 1.0 + 8.0 * more) * many;
+  }
+  return 1.0;
+}
+
+/// Polyhedra over spheres of the same number, and large beds over small ones.
+double polyhedron_factor(const PackingSpec& spec, double grains) {
+  const double many = std::pow(std::max(1.0, grains / 1000.0), 0.6);
+  const Creep creep = creep_of(spec.accuracy);
+  if (std::holds_alternative<PinacoidSize>(spec.shape)) {
+    return many * (creep == Creep::loose ? 2.6 : creep == Creep::usual ? 1.7 : 1.3);
+  }
+  constexpr double usual_corners = 20.0;  // of other shapes; more of them cost more
+  const auto corners = static_cast<double>(corner_count(spec.shape));
+  return many * (creep == Creep::loose ? 6.0 : 2.6) *
+         std::sqrt(std::max(1.0, corners / usual_corners));
+}
+
+/// How much longer a sweep takes where the rows of a bed of spheres leave the caches.
+double memory_factor(double grains) { return std::clamp(std::sqrt(grains / 15000.0), 1.0, 1.45); }
+
+/// Solver iterations over all rows that the stages of engine/dynamics/settle.hpp usually need.
+/// While a bed fills up its deep part sleeps, so that from some height on the fall counts no
+/// further; the creep of spheres grows with the layers that forces have to find their way through.
+double usual_iterations(const PackingSpec& spec, double layers) {
+  const Accuracy& a = spec.accuracy;
+  const double falling = std::min(layers, 1.5 * sleep_depth);
+  const double solved = std::pow(Accuracy{}.path_tolerance / a.path_tolerance, 0.6);
+  const double creep =
+      std::pow(static_cast<double>(a.creep_steps) / Accuracy{}.creep_steps, 1.3);  // of the usual
+  if (!is_sphere(spec.shape)) {
+    return solved * (110.0 * falling + 7400.0 * creep) + 80.0 * a.rest_iterations;
+  }
+  const double fall = (a.protocol == Protocol::dynamic ? 600.0 : 200.0) * falling;
+  return solved * (fall + 2000.0 * std::pow(layers, 0.75) * creep) + 30.0 * a.rest_iterations;
+}
+
+/// Of the search for exact rest: rounds, more of them in larger beds, that each factor the bed's
+/// stiffness.
+double exact_seconds(const PackingSpec& spec, double grains) {
+  return spec.accuracy.rest == Rest::exact ? 4e-8 * std::pow(grains, 2.5) : 0.0;
+}
+
+/// Pairs of a sphere's that are listed in a fall, by what engine/dynamics/stages.cpp calls near and
+/// engine/rows/sphere_contacts.cpp adds: those within reach in a bed of solid fraction 0.6.
+double listed_pairs(double diameter) {
+  const double reach = 0.1 + 0.09 * std::min(1.0, 4.0 * diameter);
+  return 0.5 * 0.6 * 8.0 * std::pow(1.0 + reach / diameter, 3.0);
+}
+
+double bytes_of_grain(const PackingSpec& spec) {
+  const double number_size = spec.accuracy.precision == Precision::f32 ? 1.0 : 1.3;
+  if (!is_sphere(spec.shape)) return 11000.0 * number_size;
+  return number_size * (2000.0 + 95.0 * listed_pairs(std::cbrt(moments_of(spec).mean_cube)));
+}
+
+}  // namespace
+
+// Measured on one core of a 2.4 GHz server: an iteration costs 2.7 ns a row, of which a bed of
+// spheres has about four per grain, more where the bed leaves the caches; with its share of the
+// narrow phase it costs 75 ns a grain that turns.
+Cost estimate_cost(const PackingSpec& spec) {
+  const auto grains = static_cast<double>(grain_count(spec));
+  const double layers = grains * moments_of(spec).mean_cube / spec.box.floor_area() + 1.0;
+  const double number_size = spec.accuracy.precision == Precision::f32 ? 1.0 : 2.0;
+  const bool turn = !is_sphere(spec.shape);
+  const double seconds = turn ? 75e-9 : 4.0 * 2.7e-9;
+  const double factor = turn ? polyhedron_factor(spec, grains)
+                             : unevenness_factor(spec, grains) * memory_factor(grains);
+  return {grains * number_size * factor * usual_iterations(spec, layers) * seconds +
+              exact_seconds(spec, grains),
+          8e6 + grains * bytes_of_grain(spec)};
+}
+
+}  // namespace grainsweep

@@ -1,0 +1,72 @@
+#include <catch2/catch.hpp>
+
+#include "engine/cost.hpp"
+#include "engine/dynamics/presets.hpp"
+
+namespace grainsweep {
+namespace {
+
+PackingSpec thousand_spheres() {
+  PackingSpec spec;
+  spec.box = {8, 8, Boundary::periodic, Boundary::walls};
+  spec.fill = GrainCount{1000};
+  spec.accuracy = *preset("fast");
+  return spec;
+}
+
+double seconds(const PackingSpec& spec) { return estimate_cost(spec).cpu_seconds; }
+
+TEST_CASE("the cost of a packing grows with its grains and its accuracy") {
+  PackingSpec spec = thousand_spheres(), larger = spec, finer = spec, wider = spec, exact = spec;
+  larger.fill = GrainCount{4000};
+  larger.box.length *= 4.0;
+  finer.accuracy = *preset("accurate");
+  wider.accuracy.precision = Precision::f64;
+  exact.accuracy = *preset("exact");
+  CHECK(seconds(larger) == Approx(4 * seconds(spec)));
+  CHECK(estimate_cost(larger).bytes > estimate_cost(spec).bytes);
+  CHECK(seconds(finer) > 2 * seconds(spec));
+  CHECK(seconds(wider) > seconds(spec));
+  CHECK(seconds(exact) > seconds(finer));
+}
+
+// Kinds as of bench/costs.sh.
+TEST_CASE("polyhedra and hulls of many corners cost more than spheres of one size") {
+  PackingSpec spec = thousand_spheres(), pinacoids = spec, cubes = spec, round = spec;
+  pinacoids.shape = PinacoidSize{};
+  cubes.shape = HullVertices{std::vector<std::array<double, 3>>(8)};
+  round.shape = HullVertices{std::vector<std::array<double, 3>>(80)};
+  CHECK(seconds(cubes) > seconds(pinacoids));
+  CHECK(seconds(pinacoids) > seconds(spec));
+  CHECK(seconds(round) == Approx(2 * seconds(cubes)));
+}
+
+TEST_CASE("grains of several sizes cost more than as many of one, however the sizes are given") {
+  PackingSpec one = thousand_spheres(), two = one, drawn = one, placed = one;
+  two.sizes = {0.0, 0.5, 0.5};
+  // The same two sizes as a table by volume, and one by one: an eighth of the grains are large.
+  drawn.sizes.distribution = {SizeTable{{0.5, 1.0}, {}, {0.5, 0.5}}, SizeWeight::volume};
+  PlacedGrains grains;
+  for (int i = 0; i < 900; ++i) grains.grains.push_back({0, 0, 0, i < 100 ? 0.5 : 0.25});
+  placed.fill = grains;
+  for (const char* name : {"fast", "balanced", "accurate"}) {
+    for (PackingSpec* spec : {&one, &two, &drawn, &placed}) spec->accuracy = *preset(name);
+    one.fill = two.fill = drawn.fill = SolidHeight{10.0};
+    CHECK(seconds(two) > 4 * seconds(one));
+    CHECK(seconds(drawn) == Approx(seconds(two)).epsilon(0.02));
+    two.fill = GrainCount{900};
+    CHECK(seconds(placed) == Approx(seconds(two)).epsilon(0.02));
+  }
+}
+
+TEST_CASE("small grains, which have many others around them, take more memory") {
+  PackingSpec one = thousand_spheres(), small = one;
+  small.sizes = {0.0, 0.5, 0.05};
+  CHECK(estimate_cost(small).bytes - estimate_cost(one).bytes > 3e6);
+  PackingSpec pinacoids = one;
+  pinacoids.shape = PinacoidSize{};
+  CHECK(estimate_cost(pinacoids).bytes > estimate_cost(one).bytes);
+}
+
+}  // namespace
+}  // namespace grainsweep
