@@ -45,6 +45,12 @@ class Directions {
     for (std::size_t k = 0; k < count_; ++k) rest -= rest.dot(basis_[k]) * basis_[k];
     if (count_ < basis_.size() && rest.norm() > dependent) basis_[count_++] = rest.normalized();
   }
+  /// As many unit vectors as three less these, across them and each other.
+  std::vector<Vector> across() const {
+    Directions all = *this;
+    for (const UnitVector& axis : {UnitVector{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}) all.add(axis);
+    return {all.basis_.begin() + static_cast<std::ptrdiff_t>(count_), all.basis_.end()};
+  }
 
  private:
   std::array<Vector, 3> basis_{};
@@ -53,9 +59,10 @@ class Directions {
 
 /// What holds one cluster.
 struct Hold {
-  Directions walls;      ///< in which walls push it
-  bool stands = false;   ///< a wall pushes it up
-  bool is_grain = true;  ///< it is a single grain
+  std::vector<std::int32_t> grains;  ///< that push each other
+  Directions walls;                  ///< in which walls push it
+  bool stands = false;               ///< a wall pushes it up
+  bool is_grain = true;              ///< it is a single grain
 };
 
 /// The wall's normal where a grain touches it. A round wall is the last one, and has a name for
@@ -73,6 +80,9 @@ std::vector<Hold> holds_of(const Grains& bed, const std::vector<ForceContact>& c
     if (bed.is_grain(c.b)) clusters.join(c.a, c.b);
   }
   std::vector<Hold> holds(bed.grains());
+  for (std::size_t i = 0; i < bed.grains(); ++i) {
+    holds[clusters.root(i)].grains.push_back(static_cast<std::int32_t>(i));
+  }
   for (const ForceContact& c : contacts) {
     Hold& hold = holds[clusters.root(static_cast<std::size_t>(c.a))];
     if (bed.is_grain(c.b)) {
@@ -146,6 +156,27 @@ std::int64_t zero_modes(const Bed<Kind>& bed, const std::vector<ForceContact>& c
     modes += turns && hold.is_grain && hold.walls.count() == 1 ? 1 : 0;
   }
   return modes;
+}
+
+std::vector<std::vector<std::int32_t>> standing_clusters(
+    const SphereBed& bed, const std::vector<ForceContact>& contacts) {
+  std::vector<std::vector<std::int32_t>> clusters;
+  for (Hold& hold : holds_of(bed, contacts)) {
+    if (hold.stands) clusters.push_back(std::move(hold.grains));
+  }
+  return clusters;
+}
+
+std::vector<FreeMotion> free_motions(const SphereBed& bed,
+                                     const std::vector<ForceContact>& contacts) {
+  std::vector<FreeMotion> motions;
+  for (Hold& hold : holds_of(bed, contacts)) {
+    if (!hold.stands) continue;
+    for (const Vector& direction : hold.walls.across()) {
+      motions.push_back({hold.grains, direction});
+    }
+  }
+  return motions;
 }
 
 std::vector<PairForce> pair_forces(const Grains& bed, const std::vector<ForceContact>& contacts) {

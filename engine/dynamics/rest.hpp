@@ -30,6 +30,22 @@ RestReport measure_rest(Bed<Kind>& bed, const ExecutionContext& context, double 
 template <class Kind>
 std::int64_t zero_modes(const Bed<Kind>& bed, const std::vector<ForceContact>& contacts);
 
+/// Grains that push each other, of each cluster that a floor pushes up.
+std::vector<std::vector<std::int32_t>> standing_clusters(const SphereBed& bed,
+                                                         const std::vector<ForceContact>& contacts);
+
+/// Grains that push each other but no wall across `direction`: moved along it, all of them alike,
+/// no contact opens or closes.
+struct FreeMotion {
+  std::vector<std::int32_t> grains;
+  Vector direction;  ///< unit, box frame
+};
+
+/// The zero modes of spheres, one by one. Those of a tube are of its wall as it is, which holds
+/// grains along it, too, but for turning them all about the axis.
+std::vector<FreeMotion> free_motions(const SphereBed& bed,
+                                     const std::vector<ForceContact>& contacts);
+
 /// The forces between grains.
 std::vector<PairForce> pair_forces(const Grains& bed, const std::vector<ForceContact>& contacts);
 

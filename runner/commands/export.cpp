@@ -27,13 +27,13 @@ std::vector<std::string> format_names() {
   return names;
 }
 
-/// "csv, xyz, ... or html"
-std::string formats_text() {
+/// "csv, xyz, ... or html"; `last` stands before the last.
+std::string formats_text(const char* last = " or ") {
   std::string text;
   for (const ExportFormat& format : export_formats()) {
     text += (text.empty() ? "" : ", ") + std::string(format.name);
   }
-  return text + " or " + page_format;
+  return text + last + page_format;
 }
 
 std::vector<std::string> endings() {
@@ -95,7 +95,7 @@ ExportedBed exported(StoredBed&& bed, const JobFacts& job, const ExportSettings&
 CLI::App& add_command(CLI::App& app, ExportOptions& options) {
   CLI::App& grains = *app.add_subcommand("export", "Write the beds of finished packings");
   add_folder(grains, options.folder);
-  grains.add_option("--format", options.format, formats_text())
+  grains.add_option("--format", options.format, formats_text("\nor "))
       ->check(CLI::IsMember(format_names()))
       ->capture_default_str()
       ->type_name("NAME");

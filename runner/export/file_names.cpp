@@ -2,24 +2,12 @@
 
 #include <cctype>
 #include <filesystem>
-#include <map>
-#include <utility>
 
 #include "runner/tables/csv.hpp"
+#include "runner/tables/groups.hpp"
 
 namespace grainsweep {
 namespace {
-
-/// Number of each row's group, as of groups_of.
-std::vector<std::size_t> group_numbers(const std::vector<Row>& rows) {
-  std::map<std::pair<std::string, std::string>, std::size_t> known;
-  std::vector<std::size_t> numbers;
-  for (const Row& row : rows) {
-    const std::size_t next = known.size() + 1;
-    numbers.push_back(known.try_emplace({row.job.label, row.job.parameters}, next).first->second);
-  }
-  return numbers;
-}
 
 std::string as_file_name(std::string label) {
   for (char& letter : label) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "runner/export/certificate.hpp"
 #include "runner/export/contacts.hpp"
 #include "runner/export/grain_files.hpp"
 #include "runner/export/lammps.hpp"
@@ -11,15 +12,17 @@
 namespace grainsweep {
 
 const std::vector<ExportFormat>& export_formats() {
-  static const std::vector<ExportFormat> formats = {{"csv", ".csv", grains_csv},
-                                                    {"xyz", ".xyz", grains_xyz},
-                                                    {"vtp", ".vtp", grains_vtp},
-                                                    {"contacts", ".contacts.csv", contacts_csv},
-                                                    {"contacts-vtp", ".contacts.vtp", contacts_vtp},
-                                                    {"lammps", ".data", lammps_data},
-                                                    {"stl", ".stl", surfaces_stl},
-                                                    {"obj", ".obj", surfaces_obj},
-                                                    {"voxels", ".nrrd", voxels_nrrd}};
+  static const std::vector<ExportFormat> formats = {
+      {"csv", ".csv", grains_csv},
+      {"xyz", ".xyz", grains_xyz},
+      {"vtp", ".vtp", grains_vtp},
+      {"contacts", ".contacts.csv", contacts_csv},
+      {"contacts-vtp", ".contacts.vtp", contacts_vtp},
+      {"lammps", ".data", lammps_data},
+      {"stl", ".stl", surfaces_stl},
+      {"obj", ".obj", surfaces_obj},
+      {"voxels", ".nrrd", voxels_nrrd},
+      {"certificate", ".certificate.json", certificate_json}};
   return formats;
 }
 

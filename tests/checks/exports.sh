@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
 # Exported beds are read by the programs that they are for, and are there what they are in the tables:
-# extended XYZ by ASE, LAMMPS data by lmp, voxels and surfaces by numpy.
+# extended XYZ by ASE, LAMMPS data by lmp, voxels, surfaces and certificates by numpy.
 # usage: exports.sh GRAINSWEEP
 set -euo pipefail
 grainsweep=$(realpath "${1:?usage: exports.sh GRAINSWEEP}")
+check=$(realpath "$(dirname "$0")/../../runner/python/check_certificate.py")
 work=$(mktemp -d "${TMPDIR:-/tmp}/grainsweep-exports.XXXXXX")
 trap 'rm -rf "$work"' EXIT
 cd "$work"
@@ -21,6 +22,22 @@ cat >sweep.json <<'JSON'
              { "label": "pinacoids", "set": { "shape": "pinacoid", "box.y": "periodic", "box.width": 4 } } ] }
 JSON
 "$grainsweep" run sweep.json --quiet --no-report --out out || [ $? -eq 1 ]
+
+# Beds at exact rest are certified without the program; one whose forces do not balance is not.
+cat >exact.json <<'JSON'
+{ "name": "exact", "seed": 3,
+  "base": { "accuracy": "exact", "box": { "length": 5, "width": 4 }, "fill": { "grains": 150 },
+            "measure": { "exclude_floor": 0.5, "exclude_surface": 0.5 } },
+  "sweep": [ { "label": "walls", "grid": { "box.y": ["walls", "periodic"] } },
+             { "label": "two sizes", "set": { "sizes.small_share": 0.3 } },
+             { "label": "tube", "grid": { "tube.diameter": [1.7, 4.5] } } ] }
+JSON
+"$grainsweep" run exact.json --quiet --no-report --out exact
+"$grainsweep" export exact --format certificate --to certificates >/dev/null
+(($(/usr/bin/python3 "$check" certificates/*.json | grep -c ' holds ') == 5))
+sed '/^"wall_forces"/,$s/\(,[0-9]\.[0-9]\)[0-9]*/\1/' certificates/walls-1-1.certificate.json >rounded.json
+! cmp --quiet rounded.json certificates/walls-1-1.certificate.json
+! /usr/bin/python3 "$check" rounded.json >said.txt && grep -q 'DOES NOT HOLD' said.txt
 for format in csv xyz lammps; do "$grainsweep" export out --format $format --to . >/dev/null; done
 "$grainsweep" export out --format voxels --voxels 60 --to . >/dev/null
 "$grainsweep" export out --format stl --contacts shrink:0.99 --periodic-images --to . >/dev/null

@@ -83,6 +83,19 @@ TEST_CASE("a wall that pushes one grain of a cluster holds the whole cluster") {
   CHECK(pushed.modes() == 1 + 2);
 }
 
+TEST_CASE("zero modes are listed by the grains that go and the direction across their walls") {
+  Pushed pushed(x_periodic, {{2, 0.5, 0.5, 0.5}, {2, 1.3, 1.1, 0.5}, {2, 3, 0.5, 0.5}});
+  pushed.with_wall(0, 0, 2).with_wall(0, 1, 1).with_pair(0, 1, 1).with_wall(2, 0, 1);
+  const auto motions = free_motions(pushed.bed, pushed.forces());
+  REQUIRE(static_cast<std::int64_t>(motions.size()) == pushed.modes());
+  for (const FreeMotion& motion : motions) {
+    CHECK(motion.direction.z() == 0.0);
+    CHECK(motion.direction.norm() == 1.0);
+    if (motion.grains.size() == 2) CHECK(std::abs(motion.direction.x()) == 1.0);
+  }
+  CHECK(standing_clusters(pushed.bed, pushed.forces()).size() == 2);
+}
+
 TEST_CASE("grains in mid-air have no free directions on the floor, nor has an empty bed") {
   CHECK(Pushed(x_periodic, {{2, 2, 3, 0.5}}).modes() == 0);
   CHECK(Pushed(x_periodic, {}).modes() == 0);
