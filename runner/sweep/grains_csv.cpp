@@ -79,8 +79,7 @@ std::string read_grain(const LineCells& cells, const Columns& columns, std::size
 bool note(GrainsReading& reading, const std::string& file, std::size_t line, std::string message) {
   const bool last = reading.errors.size() + 1 == most_wrong_lines;
   if (last) message += " (further lines are not listed)";
-  reading.errors.push_back(
-      {"", std::move(message), Anchor::value, file + ":" + std::to_string(line)});
+  reading.errors.push_back(wrong_line(file, line, std::move(message)));
   return !last;
 }
 
@@ -105,13 +104,7 @@ GrainsReading parse_grains(const std::string& text, const std::string& file) {
   return reading;
 }
 
-GrainsReading read_grains(const std::string& path) {
-  FileText file = read_text(path);
-  if (file.errors.empty()) return parse_grains(file.text, path);
-  GrainsReading reading;
-  reading.errors = std::move(file.errors);
-  return reading;
-}
+GrainsReading read_grains(const std::string& path) { return read_parsed(path, parse_grains); }
 
 std::vector<PlacedSphere> scaled_grains(std::vector<PlacedSphere> grains, double diameter) {
   for (PlacedSphere& grain : grains) {

@@ -46,23 +46,16 @@ VerticesReading parse_obj(const std::string& text, const std::string& file) {
     if (error.empty()) {
       reading.vertices.push_back(vertex);
     } else {
-      reading.errors.push_back({"", error, Anchor::value, file + ":" + std::to_string(k + 1)});
+      reading.errors.push_back(wrong_line(file, k + 1, error));
     }
   }
   if (reading.vertices.empty() && reading.errors.empty()) {
-    reading.errors.push_back(
-        {"", "no vertex in it; only Wavefront OBJ is read, at least 4 lines \"v x y z\"",
-         Anchor::value, file + ":1"});
+    reading.errors.push_back(wrong_line(
+        file, 1, "no vertex in it; only Wavefront OBJ is read, at least 4 lines \"v x y z\""));
   }
   return reading;
 }
 
-VerticesReading read_obj(const std::string& path) {
-  FileText file = read_text(path);
-  if (file.errors.empty()) return parse_obj(file.text, path);
-  VerticesReading reading;
-  reading.errors = std::move(file.errors);
-  return reading;
-}
+VerticesReading read_obj(const std::string& path) { return read_parsed(path, parse_obj); }
 
 }  // namespace grainsweep

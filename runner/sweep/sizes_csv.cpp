@@ -64,8 +64,7 @@ SizeTable table_of(std::vector<SizeRowRead> rows, bool is_passing) {
 SizesReading parse_sizes(const std::string& text, const std::string& file) {
   SizesReading reading;
   const auto note = [&](std::size_t line, std::string message) {
-    reading.errors.push_back(
-        {"", std::move(message), Anchor::value, file + ":" + std::to_string(line)});
+    reading.errors.push_back(wrong_line(file, line, std::move(message)));
   };
   const auto lines = lines_of(text);
   const auto columns = size_columns(cells_of(lines.front()));
@@ -86,10 +85,6 @@ SizesReading parse_sizes(const std::string& text, const std::string& file) {
   return reading;
 }
 
-SizesReading read_sizes(const std::string& path) {
-  FileText file = read_text(path);
-  if (file.errors.empty()) return parse_sizes(file.text, path);
-  return {{}, std::move(file.errors)};
-}
+SizesReading read_sizes(const std::string& path) { return read_parsed(path, parse_sizes); }
 
 }  // namespace grainsweep

@@ -47,10 +47,6 @@ class Vertices {
   std::set<std::tuple<double, double, double>> known_;
 };
 
-Diagnostic error_at(const std::string& file, std::size_t line, const std::string& message) {
-  return {"", message, Anchor::value, file + ":" + std::to_string(line)};
-}
-
 VerticesReading parse_bytes(const std::string& bytes, const std::string& file) {
   VerticesReading reading;
   Vertices vertices;
@@ -84,7 +80,7 @@ VerticesReading parse_text(const std::string& text, const std::string& file) {
     Vector vertex = Vector::Zero();
     const std::string error = read_vertex(line.substr(keyword.size()), vertex);
     if (error.empty()) vertices.take(vertex);
-    if (!error.empty()) reading.errors.push_back(error_at(file, k + 1, error));
+    if (!error.empty()) reading.errors.push_back(wrong_line(file, k + 1, error));
   }
   reading.vertices = std::move(vertices).all();
   return reading;
@@ -104,7 +100,7 @@ VerticesReading parse_stl(const std::string& bytes, const std::string& file) {
   if (triangles > 0 && bytes.size() == size_with(triangles)) return parse_bytes(bytes, file);
   VerticesReading reading = parse_text(bytes, file);
   if (reading.vertices.empty() && reading.errors.empty()) {
-    reading.errors.push_back(error_at(
+    reading.errors.push_back(wrong_line(
         file, 1,
         "no vertex in it; STL is text with lines \"vertex x y z\", or bytes: a heading of 80, the "
         "number of triangles and 50 for each, " +
@@ -113,13 +109,7 @@ VerticesReading parse_stl(const std::string& bytes, const std::string& file) {
   return reading;
 }
 
-VerticesReading read_stl(const std::string& path) {
-  FileText file = read_text(path);
-  if (file.errors.empty()) return parse_stl(file.text, path);
-  VerticesReading reading;
-  reading.errors = std::move(file.errors);
-  return reading;
-}
+VerticesReading read_stl(const std::string& path) { return read_parsed(path, parse_stl); }
 
 VerticesReading read_vertices(const std::string& path) {
   return is_stl(path) ? read_stl(path) : read_obj(path);

@@ -60,6 +60,10 @@ FileText read_text(const std::string& path) {
   return {std::move(text), {}};
 }
 
+Diagnostic wrong_line(const std::string& file, std::size_t line, std::string message) {
+  return {"", std::move(message), Anchor::value, file + ":" + std::to_string(line)};
+}
+
 std::string without_controls(std::string_view text) {
   std::string plain;
   while (!text.empty()) {

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "runner/sweep/diagnostic.hpp"
@@ -22,8 +23,22 @@ struct FileText {
 /// Reads a whole file of at most 256 MiB. Refuses what is missing, unreadable, a folder or empty.
 FileText read_text(const std::string& path);
 
+/// What `parse(text, path)` makes of the file at `path`; if that cannot be read, its `errors`
+/// alone.
+template <class Parse>
+auto read_parsed(const std::string& path, Parse parse) {
+  FileText file = read_text(path);
+  if (file.errors.empty()) return parse(file.text, path);
+  decltype(parse(file.text, path)) reading;
+  reading.errors = std::move(file.errors);
+  return reading;
+}
+
 /// So many lines of one file are listed as wrong.
 inline constexpr std::size_t most_wrong_lines = 20;
+
+/// What is wrong with a line of `file`; lines count from 1.
+Diagnostic wrong_line(const std::string& file, std::size_t line, std::string message);
 
 /// UTF-8 text with a question mark for each character that a terminal would obey: control
 /// characters, other ends of lines, and those that turn the direction of writing.
