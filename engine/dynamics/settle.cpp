@@ -387,6 +387,7 @@ SettleReport settle_in(StepState<Kind, Real>& state, StepState<Kind, double>& cl
   restore(saved, s);
   const bool rested_when_saved = s.stage == s.stages.size();
   come_to_rest(s, keep_going);
+  if (s.report.cancelled) return s.report;
   if (!std::isfinite(s.last.kinetic_energy)) {
     s.report.failure = "the kinetic energy is not a finite number";
     return s.report;
