@@ -23,6 +23,7 @@ namespace {
 
 constexpr double carried_share = 0.9;        // of its weight, where the floor carries a bed
 constexpr std::int64_t most_rounds = 32;     // a bed that needs more does not come to rest
+constexpr std::int64_t most_unsolved = 9;    // of them in a row that leave forces unsolved
 constexpr double rounding_of_places = 1e-9;  // d; far from the origin coordinates have fewer digits
 
 /// Most that the masses of a bed may differ by in f32: beyond it the rounding of what pushes a
@@ -45,6 +46,7 @@ struct Settling {
   double sunk_at_start = 0.0;  ///< StepReport::sunk of the first step
   double share_done = 0.0;     ///< the most that was told
   std::int64_t rounds = 0;     ///< how often the last stages came again
+  std::int64_t unsolved = 0;   ///< so many of the last rounds ended with too large a residual
   bool is_exact = false;       ///< whether the report is that of exact rest
   SettleReport report = {};
 
@@ -157,7 +159,11 @@ std::size_t next_stage(Settling<Kind, Real>& s) {
 
 template <class Kind, class Real>
 void enter(std::size_t stage, Settling<Kind, Real>& s) {
-  s.rounds += stage < s.stage ? 1 : 0;
+  if (stage < s.stage) {
+    ++s.rounds;
+    const bool is_solved = s.report.rest.step_residual <= s.accuracy.residual_tolerance;
+    s.unsolved = is_solved ? 0 : s.unsolved + 1;
+  }
   s.stage = stage;
   s.steps_in_stage = 0;
   if (wake(s.bed)) s.state.candidates.is_listed = false;
@@ -178,6 +184,7 @@ void transfer(Archive& archive, Settling<Kind, Real>& s) {
   archive.value(s.sunk_at_start);
   archive.value(s.share_done);
   archive.value(s.rounds);
+  archive.value(s.unsolved);
   archive.value(s.report.sank);
   archive.value(s.report.spurious_path);
   archive.value(s.report.steps);
@@ -231,13 +238,14 @@ bool take_step(Settling<Kind, Real>& s, const KeepGoing& keep_going) {
   return keep_going({s.report.steps, s.share_done, [&s] { return saved(s); }});
 }
 
-/// Whether there is another step to take. A state that is not finite must not be searched: it lies
-/// in no cell.
+/// Whether there is another step to take. Sliding on brings a bed to other contacts; it is of no
+/// use where rounding keeps the forces of those that it has from being found. A state that is not
+/// finite must not be searched: it lies in no cell.
 template <class Kind, class Real>
 bool goes_on(const Settling<Kind, Real>& s) {
   return s.stage < s.stages.size() && s.report.steps < s.accuracy.max_steps &&
-         s.steps_in_stage < s.rule().most_steps && !s.report.cancelled &&
-         std::isfinite(s.last.kinetic_energy);
+         s.steps_in_stage < s.rule().most_steps && s.unsolved < most_unsolved &&
+         !s.report.cancelled && std::isfinite(s.last.kinetic_energy);
 }
 
 // ---- what is found out once, at the end ----

@@ -90,6 +90,18 @@ PolyhedronBed few_grains(const ConvexShape& shape) {
                    pose_at(2, 2, 3.2, Quaternion(0.8, 0.6, 0, 0)), pose_at(3.3, 2, 1)});
 }
 
+// f32 knows forces to 6e-8 of a weight, and 1e-12 is asked for. Nine rounds of 120 steps follow the
+// fall and the creep, which take less than as many again; all 32 would take 3840.
+TEST_CASE("a bed whose forces rounding keeps from being found is given up after nine rounds") {
+  PolyhedronBed bed = few_grains(testing::cube());
+  Accuracy accuracy;
+  accuracy.residual_tolerance = 1e-12;
+  const SettleReport report = settle(accuracy, kernels(), bed, always);
+  CHECK(report.failure.find("residual of the last step") != std::string::npos);
+  CHECK(report.steps > 9 * 120);
+  CHECK(report.steps < 2 * 9 * 120);
+}
+
 /// Four grains may stand on fewer points than they could.
 Accuracy few_on_few_points() {
   Accuracy accuracy;
