@@ -155,6 +155,7 @@ void add_results(const std::string& folder, StoredSweep&& stored, Collection& to
   add_units(folder, stored.provenance.units, to);
   add_runs(stored.provenance.runs, to);
   const double all = static_cast<double>(std::max<std::size_t>(stored.outcomes.size(), 1));
+  if (to.rows.empty()) to.rows.reserve(stored.jobs.jobs.size());
   for (const JobEntry& job : stored.jobs.jobs) {
     Row& row = row_of(job, stored.jobs, to);
     auto outcome = stored.outcomes.extract(job.id);
