@@ -6,6 +6,7 @@
 #include "engine/dynamics/sleep.hpp"
 #include "engine/scene/size_distribution.hpp"
 #include "engine/shape/given_shape.hpp"
+#include "engine/shape/mixture.hpp"
 
 namespace grainsweep {
 
@@ -73,17 +74,33 @@ double unevenness_factor(const PackingSpec& spec, double grains) {
   return 1.0;
 }
 
-/// Polyhedra over spheres of the same number, and large beds over small ones.
+/// Polyhedra over spheres of the same number.
+double shape_factor(const ShapeSpec& shape, Creep creep) {
+  if (std::holds_alternative<PinacoidSize>(shape)) {
+    return creep == Creep::loose ? 2.6 : creep == Creep::usual ? 1.7 : 1.3;
+  }
+  constexpr double usual_corners = 20.0;  // of other shapes; more of them cost more
+  const auto corners = static_cast<double>(corner_count(shape));
+  return (creep == Creep::loose ? 6.0 : 2.6) * std::sqrt(std::max(1.0, corners / usual_corners));
+}
+
+/// The mean over the grains.
+double shape_factor(const Mixture& mixture, Creep creep) {
+  const std::vector<double> shares = number_shares(mixture);
+  double mean = 0.0;
+  for (std::size_t k = 0; k < shares.size(); ++k) {
+    mean += shares[k] * shape_factor(mixture.components[k].shape, creep);
+  }
+  return mean;
+}
+
+/// The same of all grains, and large beds over small ones.
 double polyhedron_factor(const PackingSpec& spec, double grains) {
   const double many = std::pow(std::max(1.0, grains / 1000.0), 0.6);
   const Creep creep = creep_of(spec.accuracy);
-  if (std::holds_alternative<PinacoidSize>(spec.shape)) {
-    return many * (creep == Creep::loose ? 2.6 : creep == Creep::usual ? 1.7 : 1.3);
-  }
-  constexpr double usual_corners = 20.0;  // of other shapes; more of them cost more
-  const auto corners = static_cast<double>(corner_count(spec.shape));
-  return many * (creep == Creep::loose ? 6.0 : 2.6) *
-         std::sqrt(std::max(1.0, corners / usual_corners));
+  const auto* mixture = std::get_if<Mixture>(&spec.shape);
+  return many *
+         (mixture != nullptr ? shape_factor(*mixture, creep) : shape_factor(spec.shape, creep));
 }
 
 /// How much longer a sweep takes where the rows of a bed of spheres leave the caches.

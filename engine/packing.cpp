@@ -90,10 +90,18 @@ ProfileSettings bins_of(const PackingSpec& packing) {
   return {spec.bin_width, small_class_limit(packing.sizes), spec.gap_tolerances.front()};
 }
 
-void measure_sizes(const Grains& bed, PackingResult& result) {
+/// Of a grain of size 1, in that of the first component, or a sphere.
+double unit_mass(const SphereBed& /*bed*/, std::size_t /*grain*/) { return 1.0; }
+double unit_mass(const PolyhedronBed& bed, std::size_t grain) {
+  return bed.shape(grain).volume / bed.shapes.front().volume;
+}
+
+template <class Kind>
+void measure_sizes(const Bed<Kind>& bed, PackingResult& result) {
   double volume = 0.0, by_volume = 0.0, diameters = 0.0;
   for (std::size_t i = 0; i < bed.grains(); ++i) {
-    const double diameter = 2.0 * bed.position[i].w, mass = sphere_mass(bed.position[i].w);
+    const double diameter = 2.0 * bed.position[i].w;
+    const double mass = unit_mass(bed, i) * sphere_mass(bed.position[i].w);
     diameters += diameter;
     volume += mass;
     by_volume += mass * diameter;
@@ -128,9 +136,11 @@ Mesh mesh_of(const ConvexShape& shape) {
 }
 
 Turned orientations_of(const PolyhedronBed& bed) {
-  Turned turned{mesh_of(bed.shapes.front()), {}};
-  const Quaternion back = Quaternion(bed.shapes.front().given.rotation).conjugate();
+  Turned turned;
+  for (const ConvexShape& shape : bed.shapes) turned.meshes.push_back(mesh_of(shape));
+  turned.components = bed.components;
   for (std::size_t i = 0; i < bed.grains(); ++i) {
+    const Quaternion back = Quaternion(bed.shape(i).given.rotation).conjugate();
     const Quaternion q = bed.pose(i).orientation * back;
     turned.orientations.push_back({q.x(), q.y(), q.z(), q.w()});
   }

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -168,10 +169,16 @@ struct Mesh {
 
 /// What non-spherical grains have besides.
 struct Turned {
-  Mesh mesh;
+  std::vector<Mesh> meshes;              ///< one for each component of a mixture, else one
+  std::vector<std::uint8_t> components;  ///< of each grain, from 0; empty if there is one mesh
   /// Unit quaternion x, y, z, w of each grain: a point of the mesh lies at centre + 2 radius times
   /// the turned point.
   std::vector<std::array<double, 4>> orientations;
+
+  std::size_t component(std::size_t grain) const {
+    return components.empty() ? 0 : components[grain];
+  }
+  const Mesh& mesh(std::size_t grain) const { return meshes[component(grain)]; }
 };
 
 struct Packing {

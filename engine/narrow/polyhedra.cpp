@@ -94,6 +94,15 @@ double touch_pinacoids(const TouchSettings& settings, const Kernels& kernels,
   return sunk;
 }
 
+/// Whether all grains are of one pinacoid, whatever component they are called.
+bool are_one_pinacoid(const std::vector<ConvexShape>& shapes) {
+  const auto& first = shapes.front().pinacoid;
+  return first && std::all_of(shapes.begin() + 1, shapes.end(), [&](const ConvexShape& shape) {
+           const auto& w = shape.pinacoid;
+           return w && w->a == first->a && w->b == first->b && w->c == first->c && w->e == first->e;
+         });
+}
+
 /// A wall's normal at the point nearest to a place of the box.
 Vector normal_of(const Wall& wall, const Vector& place) {
   const UnitVector n = wall.normal(place.x(), place.y(), place.z());
@@ -128,9 +137,9 @@ void touch_round_wall(std::size_t k, std::int32_t grain, double margin, const Po
 double touch_pairs(const TouchSettings& settings, const Kernels& kernels, const PolyhedronBed& bed,
                    std::span<const GrainPair> pairs, std::span<PairMemory> memory,
                    NarrowColumns& columns, ContactList& found) {
-  const bool are_one_pinacoid = bed.shapes.size() == 1 && bed.shapes.front().pinacoid;
-  return are_one_pinacoid ? touch_pinacoids(settings, kernels, bed, pairs, columns, found)
-                          : touch_each(settings, bed, pairs, memory, columns.touch, found);
+  return are_one_pinacoid(bed.shapes)
+             ? touch_pinacoids(settings, kernels, bed, pairs, columns, found)
+             : touch_each(settings, bed, pairs, memory, columns.touch, found);
 }
 
 void touch_wall(std::size_t k, const std::vector<std::int32_t>& grains, double margin,

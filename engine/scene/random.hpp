@@ -12,7 +12,7 @@
 namespace grainsweep {
 
 /// What a random number is for.
-enum class Purpose : std::uint32_t { size = 1, place = 2, orientation = 3 };
+enum class Purpose : std::uint32_t { size = 1, place = 2, orientation = 3, component = 4 };
 
 /// Four independent 32-bit words.
 inline r123::Philox4x32::ctr_type random_words(std::uint64_t key, Purpose purpose,

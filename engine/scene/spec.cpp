@@ -9,6 +9,7 @@
 #include "engine/scene/sizes.hpp"
 #include "engine/scene/start.hpp"
 #include "engine/shape/given_shape.hpp"
+#include "engine/shape/mixture.hpp"
 #include "engine/text.hpp"
 
 namespace grainsweep {
@@ -55,6 +56,12 @@ double outcome_size(const PackingSpec& spec) {
 /// The shape's extent; nothing if something forbids it.
 std::optional<ShapeExtent> check_shape(const ShapeSpec& spec, Errors& errors) {
   if (is_sphere(spec)) return extent_of(spec);
+  if (const auto* mixture = std::get_if<Mixture>(&spec)) {
+    const std::string problem = problem_with(*mixture);
+    if (problem.empty()) return extent_of(spec);
+    errors.push_back({"shape.mixture", problem});
+    return std::nullopt;
+  }
   const Hull hull = shape_of(spec);
   if (hull.shape) return extent_of(*hull.shape);
   errors.push_back({"shape." + std::string(name_of(spec)), hull.error});
@@ -198,6 +205,11 @@ void check_fill(const PackingSpec& spec, const std::optional<ShapeExtent>& shape
     require_count(grain_count(spec), "fill.file", errors);
     if (shape) check_placed(placed, shape->inradius, spec.box, errors);
     check_orientations(placed, is_sphere(spec.shape), errors);
+    if (std::holds_alternative<Mixture>(spec.shape)) {
+      errors.push_back({"fill.file",
+                        "does not say which grain is of which component of a mixture: fill by "
+                        "fill.solid_height or fill.grains, or name one shape"});
+    }
   }
 }
 

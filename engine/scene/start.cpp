@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
+#include "engine/scene/components.hpp"
 #include "engine/scene/random.hpp"
 #include "engine/scene/sizes.hpp"
-#include "engine/shape/given_shape.hpp"
+#include "engine/shape/mixture.hpp"
 #include "engine/units.hpp"
 
 namespace grainsweep {
@@ -52,15 +54,15 @@ class Column {
     return true;
   }
 
-  void add(const PlacedSphere& s) {
+  void add(const NumberedSphere& s) {
     cell_[at(index(s.x, box_.length, cells_x_), index(s.y, box_.width, cells_y_),
              index(s.z, height_, cells_z_))]
         .push_back(s);
   }
 
   /// All spheres, cell by cell from the floor up: neighbours in space get neighbouring numbers.
-  std::vector<PlacedSphere> sorted() const {
-    std::vector<PlacedSphere> all;
+  std::vector<NumberedSphere> sorted() const {
+    std::vector<NumberedSphere> all;
     for (const auto& cell : cell_) {
       all.insert(all.end(), cell.begin(), cell.end());
     }
@@ -109,7 +111,7 @@ class Column {
   double largest_radius_;
   int cells_x_, cells_y_, cells_z_;
   double height_;
-  std::vector<std::vector<PlacedSphere>> cell_;
+  std::vector<std::vector<NumberedSphere>> cell_;
 };
 
 Range centres(double extent, Boundary boundary, double radius) {
@@ -124,13 +126,14 @@ bool is_in_tube(const Box& box, double radius, const PlacedSphere& sphere) {
 }
 
 /// Where a grain overlaps nothing in any column; nothing if no room was found.
-std::optional<PlacedSphere> place(const std::vector<Column>& columns, const Box& box, double height,
-                                  double radius, std::uint64_t key, std::uint64_t grain) {
+std::optional<NumberedSphere> place(const std::vector<Column>& columns, const Box& box,
+                                    double height, double radius, std::uint64_t key,
+                                    std::uint64_t grain) {
   const Range x = centres(box.length, box.x, radius), y = centres(box.width, box.y, radius);
   const Range z = {radius, height - radius};
   for (std::uint32_t attempt = 0; attempt < max_attempts; ++attempt) {
     const auto words = random_words(key, Purpose::place, grain, attempt);
-    const PlacedSphere sphere{x.at(words[0]), y.at(words[1]), z.at(words[2]), radius};
+    const NumberedSphere sphere{{x.at(words[0]), y.at(words[1]), z.at(words[2]), radius}, grain};
     if (box.is_tube && !is_in_tube(box, radius, sphere)) continue;
     const bool has_room = std::all_of(columns.begin(), columns.end(), [&](const Column& column) {
       return column.has_room_for(sphere);
@@ -170,18 +173,49 @@ double solid_volume(const std::vector<double>& radii) {
   for (const double radius : radii) volume += sphere_volume(radius);
   return volume;
 }
-/// The same of grains whose volume at size 1 is `unit_volume`, d^3.
-double volume_of(const std::vector<double>& radii, double unit_volume) {
+
+/// The grains of a start of polyhedra, in the order in which they are drawn.
+struct DrawnGrains {
+  std::vector<ConvexShape> shapes;
+  std::vector<std::uint8_t> components;  ///< of each grain; empty if there is one shape
+  std::vector<double> radii;             ///< half their scales, d
+
+  const ConvexShape& shape(std::size_t i) const {
+    return shapes[components.empty() ? 0 : components[i]];
+  }
+  /// Radius of the ball that keeps a grain from others, at size 1, d.
+  double ball(std::size_t i) const {
+    return start_ball * std::cbrt(shape(i).volume / sphere_volume(1.0));
+  }
+};
+
+DrawnGrains draw_grains(const PackingSpec& spec) {
+  DrawnGrains grains{shapes_of(spec.shape), {}, draw_radii(spec)};
+  grains.components = draw_components(spec.shape, grains.radii.size(), spec.random_key);
+  return grains;
+}
+
+double solid_volume(const DrawnGrains& grains) {
   double volume = 0.0;
-  for (const double radius : radii) volume += unit_volume * sphere_mass(radius);
+  for (std::size_t i = 0; i < grains.radii.size(); ++i) {
+    volume += grains.shape(i).volume * sphere_mass(grains.radii[i]);
+  }
   return volume;
+}
+
+std::vector<double> ball_radii(const DrawnGrains& grains) {
+  std::vector<double> radii;
+  for (std::size_t i = 0; i < grains.radii.size(); ++i) {
+    radii.push_back(grains.radii[i] * (2.0 * grains.ball(i)));
+  }
+  return radii;
 }
 
 /// Numbers the grains of a large bed along the axis of its subdomains, slice by slice, and in each
 /// as they were: what a subdomain is made of lies together in memory.
 template <class Kind>
 void sort_along_subdomains(const Box& box, double solid_volume, double largest_radius,
-                           std::vector<PlacedSphere>& spheres) {
+                           std::vector<NumberedSphere>& spheres) {
   const int axis = subdomain_axis(box, solid_volume);
   if (max_subdomains<Kind>(spheres.size()) == 1 || axis == 2) return;
   const double slice = 2.0 * largest_radius;
@@ -199,9 +233,9 @@ bool has_width_for(double radius, const Box& box) {
 }
 
 /// Spheres placed in a column of this height; nothing if one found no room.
-std::optional<std::vector<PlacedSphere>> fill_column(const Box& box,
-                                                     const std::vector<double>& radii,
-                                                     double height, std::uint64_t key) {
+std::optional<std::vector<NumberedSphere>> fill_column(const Box& box,
+                                                       const std::vector<double>& radii,
+                                                       double height, std::uint64_t key) {
   const std::vector<double> diameters = column_diameters(radii);
   std::vector<Column> columns;
   columns.reserve(diameters.size());
@@ -286,9 +320,9 @@ std::vector<PlacedSphere> place_in_file(const Box& box, const std::vector<double
 
 }  // namespace
 
-std::optional<std::vector<PlacedSphere>> place_at_random(const Box& box,
-                                                         const std::vector<double>& radii,
-                                                         double min_height, std::uint64_t key) {
+std::optional<std::vector<NumberedSphere>> place_at_random(const Box& box,
+                                                           const std::vector<double>& radii,
+                                                           double min_height, std::uint64_t key) {
   const double largest = *std::max_element(radii.begin(), radii.end());
   if (!has_width_for(largest, box)) return std::nullopt;
   for (double height = std::max(min_height, 3.0 * largest);; height *= column_growth) {
@@ -313,32 +347,33 @@ std::optional<SphereBed> start(const PackingSpec& spec) {
   if (!spheres) return std::nullopt;
   sort_along_subdomains<Sphere>(spec.box, volume, *std::max_element(radii.begin(), radii.end()),
                                 *spheres);
-  return make_bed(spec.box, *spheres);
+  return make_bed(spec.box, std::vector<PlacedSphere>(spheres->begin(), spheres->end()));
 }
 
 template <>
 std::optional<PolyhedronBed> start(const PackingSpec& spec) {
-  const ConvexShape shape = *shape_of(spec.shape).shape;
   if (const auto* placed = std::get_if<PlacedGrains>(&spec.fill)) {
+    const ConvexShape shape = shapes_of(spec.shape).front();
     return make_bed(spec.box, shape, placed_poses(*placed, shape.given));
   }
-  std::vector<double> radii = draw_radii(spec);
-  if (radii.empty()) return make_bed(spec.box, shape, std::vector<Pose>{});
-  const double volume = volume_of(radii, shape.volume);
-  const double floor = spec.box.floor_area();
-  const double ball = start_ball * std::cbrt(shape.volume / sphere_volume(1.0));
-  for (double& radius : radii) radius *= 2.0 * ball;
-  auto balls = place_at_random(spec.box, radii, volume / (polyhedron_start_solid_fraction * floor),
-                               spec.random_key);
+  DrawnGrains grains = draw_grains(spec);
+  std::vector<Pose> poses;
+  if (grains.radii.empty()) return make_bed(spec.box, std::move(grains.shapes), {}, poses);
+  const double volume = solid_volume(grains);
+  const double height = volume / (polyhedron_start_solid_fraction * spec.box.floor_area());
+  const std::vector<double> radii = ball_radii(grains);
+  auto balls = place_at_random(spec.box, radii, height, spec.random_key);
   if (!balls) return std::nullopt;
   sort_along_subdomains<Polyhedron>(spec.box, volume, *std::max_element(radii.begin(), radii.end()),
                                     *balls);
-  std::vector<Pose> poses;
-  for (const PlacedSphere& s : *balls) {
-    poses.push_back(
-        {{s.x, s.y, s.z}, s.radius / ball, random_orientation(spec.random_key, poses.size())});
+  std::vector<std::uint8_t> components;
+  for (const NumberedSphere& s : *balls) {
+    poses.push_back({{s.x, s.y, s.z},
+                     s.radius / grains.ball(s.number),
+                     random_orientation(spec.random_key, poses.size())});
+    if (!grains.components.empty()) components.push_back(grains.components[s.number]);
   }
-  return make_bed(spec.box, shape, poses);
+  return make_bed(spec.box, std::move(grains.shapes), std::move(components), poses);
 }
 
 }  // namespace grainsweep

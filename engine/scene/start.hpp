@@ -24,16 +24,22 @@ inline constexpr double start_ball = 0.7;
 /// As many grains as `spec` asks for, placed one after the other at random where they (polyhedra:
 /// their balls) overlap no other (random sequential addition), in a column above the floor; the
 /// orientations of polyhedra are uniform over all rotations, and their scales are drawn as
-/// diameters of spheres are. Or the user's own placed grains, where and as they are placed. Grains
-/// are numbered from the floor up, those of large flat beds along x or y first. Empty if a grain
-/// is larger than the gap between walls.
+/// diameters of spheres are; which grain of a mixture is of which component is drawn as well. Or
+/// the user's own placed grains, where and as they are placed. Grains are numbered from the floor
+/// up, those of large flat beds along x or y first. Empty if a grain is larger than the gap between
+/// walls.
 template <class Kind>
 std::optional<Bed<Kind>> start(const PackingSpec& spec);
 
+/// A sphere, and which it is of those that were to be placed, from 0.
+struct NumberedSphere : PlacedSphere {
+  std::size_t number = 0;
+};
+
 /// Spheres of these radii, at least one, placed in the same way in a column from the floor to
 /// `height`, d, or to one and a half of the largest diameter, or higher. Sorted from the floor up.
-std::optional<std::vector<PlacedSphere>> place_at_random(const Box& box,
-                                                         const std::vector<double>& radii,
-                                                         double height, std::uint64_t key);
+std::optional<std::vector<NumberedSphere>> place_at_random(const Box& box,
+                                                           const std::vector<double>& radii,
+                                                           double height, std::uint64_t key);
 
 }  // namespace grainsweep

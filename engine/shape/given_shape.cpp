@@ -1,7 +1,10 @@
 #include "engine/shape/given_shape.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
+#include "engine/shape/mixture.hpp"
 #include "engine/shape/named_shapes.hpp"
 #include "engine/shape/pinacoid.hpp"
 #include "engine/units.hpp"
@@ -13,6 +16,11 @@ namespace {
 /// Nothing asks for the corners of a sphere.
 [[noreturn]] Hull shape_from(const SphereShape& /*sphere*/) {
   throw std::logic_error("a sphere is no polyhedron");
+}
+
+/// Its components have one each.
+[[noreturn]] Hull shape_from(const Mixture& /*mixture*/) {
+  throw std::logic_error("a mixture is no single polyhedron");
 }
 
 Hull shape_from(const PinacoidSize& size) {
@@ -37,11 +45,32 @@ struct CountCorners {
   std::size_t operator()(const SphereShape& /*sphere*/) const { return 0; }
   std::size_t operator()(const PinacoidSize& /*size*/) const { return 8; }
   std::size_t operator()(const HullVertices& hull) const { return hull.points.size(); }
+  std::size_t operator()(const Mixture& mixture) const {
+    const std::vector<double> shares = number_shares(mixture);
+    double mean = 0.0;
+    for (std::size_t k = 0; k < shares.size(); ++k) {
+      mean += shares[k] * static_cast<double>(corner_count(mixture.components[k].shape));
+    }
+    return static_cast<std::size_t>(std::llround(mean));
+  }
   template <class Size>
   std::size_t operator()(const Size& size) const {
     return corners_of(size).size();
   }
 };
+
+ShapeExtent mean_extent(const Mixture& mixture) {
+  const std::vector<double> shares = number_shares(mixture);
+  ShapeExtent all = extent_of(mixture.components.front().shape);
+  const double first = all.volume;  // so that equal components have its bits
+  for (std::size_t k = 1; k < shares.size(); ++k) {
+    const ShapeExtent one = extent_of(mixture.components[k].shape);
+    all.volume += shares[k] * (one.volume - first);
+    all.circumradius = std::max(all.circumradius, one.circumradius);
+    all.inradius = std::min(all.inradius, one.inradius);
+  }
+  return all;
+}
 
 }  // namespace
 
@@ -56,6 +85,7 @@ ShapeExtent extent_of(const ConvexShape& shape) {
 }
 
 ShapeExtent extent_of(const ShapeSpec& spec) {
+  if (const auto* mixture = std::get_if<Mixture>(&spec)) return mean_extent(*mixture);
   return is_sphere(spec) ? ShapeExtent{sphere_volume(0.5), 0.5, 0.5}
                          : extent_of(*shape_of(spec).shape);
 }

@@ -10,17 +10,17 @@ namespace grainsweep {
 
 inline bool is_sphere(const ShapeSpec& spec) { return std::holds_alternative<SphereShape>(spec); }
 
-/// The convex shape of a spec that is not a sphere, or what forbids it.
+/// The convex shape of a spec that is neither a sphere nor a mixture, or what forbids it.
 Hull shape_of(const ShapeSpec& spec);
 
-/// Corners of a shape that nothing forbids; 0 of a sphere.
+/// Corners of a shape that nothing forbids; 0 of a sphere, of a mixture the mean over the grains.
 std::size_t corner_count(const ShapeSpec& spec);
 
 /// What a check of sizes has to know of a shape, at size 1.
 struct ShapeExtent {
-  double volume = 0.0;        ///< d^3
-  double circumradius = 0.0;  ///< d
-  double inradius = 0.0;      ///< d
+  double volume = 0.0;        ///< of a mixture the mean over the grains, d^3
+  double circumradius = 0.0;  ///< of a mixture the largest, d
+  double inradius = 0.0;      ///< of a mixture the least, d
 };
 ShapeExtent extent_of(const ConvexShape& shape);
 

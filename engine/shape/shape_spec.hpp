@@ -76,15 +76,38 @@ struct HullVertices {
   std::vector<std::array<double, 3>> points;  ///< of a grain of size 1, d
 };
 
-/// A hull is the last: the others need no part that is written.
+/// What the shares of a mixture are shares of.
+enum class ShareBy {
+  volume,  ///< "volume": of the solid volume, and so of the mass
+  number,  ///< "number": of the grains
+};
+
+struct MixtureComponent;
+
+/// Grains of several shapes, none of them a sphere or itself a mixture. Sizes are drawn alike for
+/// all of them.
+struct Mixture {
+  std::vector<MixtureComponent> components;
+  ShareBy by = ShareBy::volume;
+};
+
+/// Hull and mixture are the last: the others need no part that is written.
 using ShapeSpec =
     std::variant<SphereShape, PinacoidSize, CubeSize, CuboidSize, TetrahedronSize, OctahedronSize,
-                 DodecahedronSize, IcosahedronSize, PrismSize, CylinderSize, HullVertices>;
+                 DodecahedronSize, IcosahedronSize, PrismSize, CylinderSize, HullVertices, Mixture>;
+
+struct MixtureComponent {
+  double share = 1.0;  ///< 0 to 1
+  ShapeSpec shape;
+};
+
+/// Most components of a mixture.
+inline constexpr std::size_t most_components = 16;
 
 /// Names of the shapes, as sweeps and tables write them, in that order.
 inline constexpr std::array<std::string_view, std::variant_size_v<ShapeSpec>> shape_names = {
     "sphere",       "pinacoid",    "cube",  "cuboid",   "tetrahedron", "octahedron",
-    "dodecahedron", "icosahedron", "prism", "cylinder", "hull"};
+    "dodecahedron", "icosahedron", "prism", "cylinder", "hull",        "mixture"};
 
 inline std::string_view name_of(const ShapeSpec& shape) { return shape_names[shape.index()]; }
 

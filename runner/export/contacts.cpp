@@ -40,20 +40,26 @@ SphereBed spheres_of(const StoredBed& bed) {
   return make_bed(bed.box, spheres);
 }
 
-/// Throws std::logic_error if the mesh of the bed is no shape, which no stored one is.
-PolyhedronBed polyhedra_of(const StoredBed& bed) {
+/// Throws std::logic_error if the mesh is no shape, which no stored one is.
+ConvexShape shape_of(const Mesh& mesh) {
   std::vector<Vector> vertices;
-  for (const auto& [x, y, z] : bed.turned->mesh.vertices) vertices.emplace_back(x, y, z);
-  const ConvexShape shape = convex_hull(vertices).shape.value();
-  const Quaternion given(shape.given.rotation);
+  for (const auto& [x, y, z] : mesh.vertices) vertices.emplace_back(x, y, z);
+  return convex_hull(vertices).shape.value();
+}
+
+PolyhedronBed polyhedra_of(const StoredBed& bed) {
+  const Turned& turned = *bed.turned;
+  std::vector<ConvexShape> shapes;
+  for (const Mesh& mesh : turned.meshes) shapes.push_back(shape_of(mesh));
   std::vector<Pose> poses;
   for (std::size_t k = 0; k < bed.grains.size(); ++k) {
     const SettledGrain& grain = bed.grains[k];
-    const auto& [x, y, z, w] = bed.turned->orientations[k];
+    const auto& [x, y, z, w] = turned.orientations[k];
+    const Quaternion given(shapes[turned.component(k)].given.rotation);
     poses.push_back(
         {{grain.x, grain.y, grain.z}, 2.0 * grain.radius, Quaternion(w, x, y, z) * given});
   }
-  return make_bed(bed.box, shape, poses);
+  return make_bed(bed.box, std::move(shapes), turned.components, poses);
 }
 
 /// Those of `touching` that count, with their forces.

@@ -21,6 +21,13 @@ int size_class(const ExportedBed& exported, std::size_t grain) {
   return exported.bed.grains[grain].radius < exported.small_limit ? 2 : 1;
 }
 
+bool has_components(const StoredBed& bed) { return bed.turned && !bed.turned->components.empty(); }
+
+std::string component_text(const StoredBed& bed, std::size_t grain, char separator) {
+  if (!has_components(bed)) return "";
+  return separator + std::to_string(bed.turned->component(grain) + 1);
+}
+
 const char* class_name(const ExportedBed& exported, std::size_t grain) {
   return size_class(exported, grain) == 1 ? "large" : "small";
 }
@@ -41,7 +48,7 @@ std::vector<Eigen::Vector3d> vertices_about_centre(const StoredBed& bed, std::si
   const auto& [qx, qy, qz, qw] = bed.turned->orientations[grain];
   const Eigen::Quaterniond turn(qw, qx, qy, qz);
   std::vector<Eigen::Vector3d> vertices;
-  for (const auto& [x, y, z] : bed.turned->mesh.vertices) {
+  for (const auto& [x, y, z] : bed.turned->mesh(grain).vertices) {
     vertices.emplace_back(2.0 * bed.grains[grain].radius * (turn * Eigen::Vector3d(x, y, z)));
   }
   return vertices;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -43,6 +44,12 @@ inline std::size_t id_of(std::size_t grain) { return grain + 1; }
 
 /// 1 of a large grain, 2 of a small one.
 int size_class(const ExportedBed& exported, std::size_t grain);
+
+/// Whether its grains are of several components of a mixture.
+bool has_components(const StoredBed& bed);
+
+/// The component of a grain of a mixture, from 1, behind a separator; else "".
+std::string component_text(const StoredBed& bed, std::size_t grain, char separator);
 
 /// "large" or "small".
 const char* class_name(const ExportedBed& exported, std::size_t grain);

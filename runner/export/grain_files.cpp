@@ -28,16 +28,24 @@ std::string orientation(const StoredBed& bed, std::size_t grain, char separator)
   return text;
 }
 
-/// The arrays that points and faces have, of `size` of them; k belongs to grain k / each.
-std::string grain_arrays(const ExportedBed& exported, std::size_t each) {
+/// Whose each point or face is: numbers of grains.
+using Owners = std::vector<std::size_t>;
+
+/// The arrays that points and faces have.
+std::string grain_arrays(const ExportedBed& exported, const Owners& owners) {
   const auto of_grain = [&](const char* attributes, const auto& value) {
-    const auto values = [&](std::size_t k) { return cell(value(k / each)); };
-    return vtp_array(attributes, exported.bed.grains.size() * each, values);
+    const auto values = [&](std::size_t k) { return cell(value(owners[k])); };
+    return vtp_array(attributes, owners.size(), values);
   };
+  const StoredBed& bed = exported.bed;
   const auto& grains = exported.bed.grains;
   return of_grain("type=\"Int64\" Name=\"id\"", id_of) +
          of_grain("type=\"Int32\" Name=\"size_class\"",
                   [&](std::size_t k) { return size_class(exported, k); }) +
+         (has_components(bed)
+              ? of_grain("type=\"Int32\" Name=\"component\"",
+                         [&](std::size_t k) { return bed.turned->component(k) + 1; })
+              : "") +
          of_grain("type=\"Int32\" Name=\"coordination\"",
                   [&](std::size_t k) { return grains[k].touching; }) +
          of_grain("type=\"Float64\" Name=\"force\"",
@@ -49,9 +57,11 @@ std::string grain_arrays(const ExportedBed& exported, std::size_t each) {
 std::string spheres_vtp(const ExportedBed& exported) {
   const auto& grains = exported.bed.grains;
   std::string connectivity, offsets;
+  Owners owners;
   for (std::size_t point = 0; point < grains.size(); ++point) {
     connectivity += cell(point) + "\n";
     offsets += cell(point + 1) + "\n";
+    owners.push_back(point);
   }
   const auto radius = [&](std::size_t k) { return cell(grains[k].radius); };
   return vtp_file(
@@ -59,16 +69,16 @@ std::string spheres_vtp(const ExportedBed& exported) {
       vtp_points(grains.size(), [&](std::size_t k) { return position(grains[k]); }) +
           vtp_element("PointData Scalars=\"radius\"",
                       vtp_array("type=\"Float64\" Name=\"radius\"", grains.size(), radius) +
-                          grain_arrays(exported, 1)) +
+                          grain_arrays(exported, owners)) +
           vtp_cells("Verts", connectivity, offsets));
 }
 
 /// Faces of all grains: where each ends in the list of corners, and the corners.
-std::string faces_vtp(const StoredBed& bed, const Mesh& mesh) {
+std::string faces_vtp(const StoredBed& bed) {
   std::string connectivity, offsets;
-  std::size_t corners = 0;
+  std::size_t corners = 0, first = 0;
   for (std::size_t grain = 0; grain < bed.grains.size(); ++grain) {
-    const std::size_t first = grain * mesh.vertices.size();
+    const Mesh& mesh = bed.turned->mesh(grain);
     for (const auto& face : mesh.faces) {
       for (const std::int32_t corner : face) {
         connectivity += cell(first + static_cast<std::size_t>(corner)) + " ";
@@ -77,30 +87,30 @@ std::string faces_vtp(const StoredBed& bed, const Mesh& mesh) {
       corners += face.size();
       offsets += cell(corners) + "\n";
     }
+    first += mesh.vertices.size();
   }
   return vtp_cells("Polys", connectivity, offsets);
 }
 
 std::string polygons_vtp(const ExportedBed& exported) {
   const StoredBed& bed = exported.bed;
-  const Mesh& mesh = bed.turned->mesh;
-  const std::size_t corners = mesh.vertices.size(), faces = mesh.faces.size();
   std::vector<Eigen::Vector3d> points;
+  Owners owners;
   for (std::size_t i = 0; i < bed.grains.size(); ++i) {
     const auto vertices = vertices_in_box(bed, i);
     points.insert(points.end(), vertices.begin(), vertices.end());
+    owners.insert(owners.end(), bed.turned->mesh(i).faces.size(), i);
   }
   const auto point = [&](std::size_t k) {
     return cell(points[k].x()) + " " + cell(points[k].y()) + " " + cell(points[k].z());
   };
-  const auto size = [&](std::size_t k) { return cell(2.0 * bed.grains[k / faces].radius); };
-  const std::size_t cells = bed.grains.size() * faces;
-  return vtp_file("Polys", bed.grains.size() * corners, cells,
+  const auto size = [&](std::size_t k) { return cell(2.0 * bed.grains[owners[k]].radius); };
+  return vtp_file("Polys", points.size(), owners.size(),
                   vtp_points(points.size(), point) +
                       vtp_element("CellData Scalars=\"size\"",
-                                  vtp_array("type=\"Float64\" Name=\"size\"", cells, size) +
-                                      grain_arrays(exported, faces)) +
-                      faces_vtp(bed, mesh));
+                                  vtp_array("type=\"Float64\" Name=\"size\"", owners.size(), size) +
+                                      grain_arrays(exported, owners)) +
+                      faces_vtp(bed));
 }
 
 }  // namespace
@@ -108,12 +118,14 @@ std::string polygons_vtp(const ExportedBed& exported) {
 std::string grains_csv(const ExportedBed& exported) {
   const StoredBed& bed = exported.bed;
   const std::string turned = bed.turned ? ",qx,qy,qz,qw" : "";
-  return "id,size_class,x,y,z,radius,force,coordination" + turned + "\n" +
+  const std::string component = has_components(bed) ? ",component" : "";
+  return "id,size_class,x,y,z,radius,force,coordination" + turned + component + "\n" +
          lines(bed, [&](std::size_t k) {
            const SettledGrain& grain = bed.grains[k];
            return cell(id_of(k)) + "," + class_name(exported, k) + "," + cell(grain.x) + "," +
                   cell(grain.y) + "," + cell(grain.z) + "," + cell(grain.radius) + "," +
-                  cell(grain.force) + "," + cell(grain.touching) + orientation(bed, k, ',');
+                  cell(grain.force) + "," + cell(grain.touching) + orientation(bed, k, ',') +
+                  component_text(bed, k, ',');
          });
 }
 
@@ -121,17 +133,19 @@ std::string grains_xyz(const ExportedBed& exported) {
   const StoredBed& bed = exported.bed;
   const auto flag = [](Boundary boundary) { return boundary == Boundary::periodic ? "T" : "F"; };
   const std::string turned = bed.turned ? ":orientation:R:4" : "";
+  const std::string component = has_components(bed) ? ":component:I:1" : "";
   const std::string comment =
       "Lattice=\"" + cell(bed.box.length) + " 0 0 0 " + cell(bed.box.width) + " 0 0 0 " +
       cell(height_of(bed)) +
       "\" Properties=species:S:1:pos:R:3:id:I:1:size_class:I:1:radius:R:1:coordination:I:1:force:"
       "R:1" +
-      turned + " pbc=\"" + flag(bed.box.x) + " " + flag(bed.box.y) + " F\"\n";
+      turned + component + " pbc=\"" + flag(bed.box.x) + " " + flag(bed.box.y) + " F\"\n";
   return cell(bed.grains.size()) + "\n" + comment + lines(bed, [&](std::size_t k) {
            const SettledGrain& grain = bed.grains[k];
            return "X " + position(grain) + " " + cell(id_of(k)) + " " +
                   cell(size_class(exported, k)) + " " + cell(grain.radius) + " " +
-                  cell(grain.touching) + " " + cell(grain.force) + orientation(bed, k, ' ');
+                  cell(grain.touching) + " " + cell(grain.force) + orientation(bed, k, ' ') +
+                  component_text(bed, k, ' ');
          });
 }
 

@@ -19,6 +19,16 @@ std::string joined(const std::vector<double>& numbers) {
   return text;
 }
 
+/// Classes of sizes; of a mixture those of the first component, then those of the second, ...
+std::size_t type_count(const StoredBed& bed) {
+  return 2 * (bed.turned ? bed.turned->meshes.size() : 1);
+}
+std::size_t type_of(const ExportedBed& exported, std::size_t grain) {
+  const auto& turned = exported.bed.turned;
+  const auto by_size = static_cast<std::size_t>(size_class(exported, grain));
+  return by_size + 2 * (turned ? turned->component(grain) : 0);
+}
+
 /// Comment, numbers and bounds.
 std::string header(const ExportedBed& exported) {
   const StoredBed& bed = exported.bed;
@@ -27,9 +37,9 @@ std::string header(const ExportedBed& exported) {
   const std::string count = cell(bed.grains.size());
   return "grainsweep, lengths in d; atom_style " + style + "; boundary" + boundary(bed.box.x) +
          boundary(bed.box.y) + " f\n\n" + count + " atoms\n" +
-         (bed.turned ? count + " bodies\n" : "") + "2 atom types\n\n0 " + cell(bed.box.length) +
-         " xlo xhi\n0 " + cell(bed.box.width) + " ylo yhi\n0 " + cell(height_of(bed)) +
-         " zlo zhi\n\n";
+         (bed.turned ? count + " bodies\n" : "") + cell(type_count(bed)) + " atom types\n\n0 " +
+         cell(bed.box.length) + " xlo xhi\n0 " + cell(bed.box.width) + " ylo yhi\n0 " +
+         cell(height_of(bed)) + " zlo zhi\n\n";
 }
 
 std::string spheres(const ExportedBed& exported) {
@@ -37,7 +47,7 @@ std::string spheres(const ExportedBed& exported) {
   const double density = 6.0 / pi;  // so that a sphere of diameter 1 has mass 1
   for (std::size_t k = 0; k < exported.bed.grains.size(); ++k) {
     const SettledGrain& grain = exported.bed.grains[k];
-    text += cell(id_of(k)) + " " + cell(size_class(exported, k)) + " " +
+    text += cell(id_of(k)) + " " + cell(type_of(exported, k)) + " " +
             joined({2.0 * grain.radius, density, grain.x, grain.y, grain.z}) + "\n";
   }
   return text;
@@ -78,15 +88,28 @@ std::string in_lines(const std::vector<double>& numbers) {
   return text;
 }
 
+double volume_of(const Mesh& mesh) {
+  std::vector<Vector> corners;
+  for (const auto& [x, y, z] : mesh.vertices) corners.emplace_back(x, y, z);
+  return mass_moments(corners, mesh.faces).volume;
+}
+
+/// In that of a grain of size 1, of the first component of a mixture.
+double mass_of(const StoredBed& bed, std::size_t grain) {
+  const double by_size = sphere_mass(bed.grains[grain].radius);
+  if (bed.turned->component(grain) == 0) return by_size;
+  return by_size * volume_of(bed.turned->mesh(grain)) / volume_of(bed.turned->meshes.front());
+}
+
 /// A body: how many numbers, moments of inertia, corners about its centre, edges, faces, and the
 /// diameter of its rounding.
 std::string body(const StoredBed& bed, std::size_t grain) {
-  const Mesh& mesh = bed.turned->mesh;
+  const Mesh& mesh = bed.turned->mesh(grain);
   const std::vector<Vector> corners = vertices_about_centre(bed, grain);
   const auto edges = edges_of(mesh.faces);
   const auto faces = small_faces(mesh.faces);
   const Eigen::Matrix3d inertia =
-      sphere_mass(bed.grains[grain].radius) * inertia_of(mass_moments(corners, mesh.faces).second);
+      mass_of(bed, grain) * inertia_of(mass_moments(corners, mesh.faces).second);
   std::vector<double> numbers = {inertia(0, 0), inertia(1, 1), inertia(2, 2),
                                  inertia(0, 1), inertia(0, 2), inertia(1, 2)};
   for (const Vector& corner : corners) numbers.insert(numbers.end(), corner.begin(), corner.end());
@@ -101,8 +124,8 @@ std::string bodies(const ExportedBed& exported) {
   std::string atoms = "Atoms # body\n\n", text = "\nBodies\n\n";
   for (std::size_t k = 0; k < exported.bed.grains.size(); ++k) {
     const SettledGrain& grain = exported.bed.grains[k];
-    atoms += cell(id_of(k)) + " " + cell(size_class(exported, k)) + " 1 " +
-             joined({sphere_mass(grain.radius), grain.x, grain.y, grain.z}) + "\n";
+    atoms += cell(id_of(k)) + " " + cell(type_of(exported, k)) + " 1 " +
+             joined({mass_of(exported.bed, k), grain.x, grain.y, grain.z}) + "\n";
     text += body(exported.bed, k);
   }
   return atoms + text;

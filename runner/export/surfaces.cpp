@@ -102,7 +102,7 @@ std::vector<Surface> whole_surfaces(const ExportedBed& exported) {
   std::vector<Surface> surfaces;
   for (std::size_t k = 0; k < bed.grains.size(); ++k) {
     if (bed.turned) {
-      surfaces.push_back({vertices_about_centre(bed, k), bed.turned->mesh.faces});
+      surfaces.push_back({vertices_about_centre(bed, k), bed.turned->mesh(k).faces});
     } else {
       surfaces.push_back(ball);
       scale(surfaces.back(), bed.grains[k].radius);

@@ -60,7 +60,8 @@ struct Inside {
   }
 };
 
-Inside inside_of(const StoredBed& bed, const std::vector<Face>& faces, std::size_t grain) {
+Inside inside_of(const StoredBed& bed, const std::vector<std::vector<Face>>& faces,
+                 std::size_t grain) {
   const SettledGrain& at = bed.grains[grain];
   if (!bed.turned) return {at.radius, {}};
   Inside inside;
@@ -69,7 +70,7 @@ Inside inside_of(const StoredBed& bed, const std::vector<Face>& faces, std::size
   }
   const auto& [x, y, z, w] = bed.turned->orientations[grain];
   const Eigen::Quaterniond turn(w, x, y, z);
-  for (Face face : faces) {
+  for (Face face : faces[bed.turned->component(grain)]) {
     face.normal = turn * face.normal;
     face.offset *= 2.0 * at.radius;
     inside.faces.push_back(face);
@@ -77,7 +78,7 @@ Inside inside_of(const StoredBed& bed, const std::vector<Face>& faces, std::size
   return inside;
 }
 
-/// Writes the class of a grain into its voxels.
+/// Writes the class or component of a grain into its voxels.
 void fill(const StoredBed& bed, const VoxelGrid& grid, std::size_t grain, const Inside& inside,
           char value, std::string& voxels) {
   const SettledGrain& at = bed.grains[grain];
@@ -126,15 +127,22 @@ std::string voxels_nrrd(const ExportedBed& exported) {
   const auto& [nx, ny, nz] = grid.count;
   const auto& [dx, dy, dz] = grid.size;
   std::string voxels(nx * ny * nz, '\0');
-  const std::vector<Face> faces = bed.turned ? faces_of(bed.turned->mesh) : std::vector<Face>();
+  const bool is_mixture = has_components(bed);
+  std::vector<std::vector<Face>> faces;  // of each mesh
+  if (bed.turned) {
+    for (const Mesh& mesh : bed.turned->meshes) faces.push_back(faces_of(mesh));
+  }
   for (std::size_t k = 0; k < bed.grains.size(); ++k) {
-    const auto value = static_cast<char>(size_class(exported, k));
+    const auto value =
+        static_cast<char>(is_mixture ? bed.turned->component(k) + 1
+                                     : static_cast<std::size_t>(size_class(exported, k)));
     fill(bed, grid, k, inside_of(bed, faces, k), value, voxels);
   }
-  return "NRRD0004\n# lengths in d; 0 void, 1 large grains, 2 small ones\ntype: uint8\n"
-         "dimension: 3\nsizes: " +
-         cell(nx) + " " + cell(ny) + " " + cell(nz) + "\nspacings: " + cell(dx) + " " + cell(dy) +
-         " " + cell(dz) + "\naxis mins: 0 0 0\ncenters: cell cell cell\nencoding: raw\n\n" + voxels;
+  return "NRRD0004\n# lengths in d; 0 void, " +
+         std::string(is_mixture ? "else the component" : "1 large grains, 2 small ones") +
+         "\ntype: uint8\ndimension: 3\nsizes: " + cell(nx) + " " + cell(ny) + " " + cell(nz) +
+         "\nspacings: " + cell(dx) + " " + cell(dy) + " " + cell(dz) +
+         "\naxis mins: 0 0 0\ncenters: cell cell cell\nencoding: raw\n\n" + voxels;
 }
 
 }  // namespace grainsweep

@@ -52,6 +52,7 @@ std::string columns_of(const StoredBed& bed, double extent, double radius, doubl
   for (const auto& turn : bed.turned->orientations) {
     for (const double part : turn) append_short(bytes, std::lround(largest_signed * part));
   }
+  for (const std::uint8_t component : bed.turned->components) append_short(bytes, component);
   return bytes;
 }
 
@@ -100,15 +101,16 @@ std::string bed_element(const StoredBed& bed, const BedFacts& facts) {
       nlohmann::json::array({bed.box.x == Boundary::walls, bed.box.y == Boundary::walls});
   json["tube"] = bed.box.is_tube;
   if (bed.turned) {
-    json["mesh"]["vertices"] = bed.turned->mesh.vertices;
-    json["mesh"]["faces"] = bed.turned->mesh.faces;
+    for (const Mesh& mesh : bed.turned->meshes) {
+      json["meshes"].push_back({{"vertices", mesh.vertices}, {"faces", mesh.faces}});
+    }
   }
   return "<script type=\"application/json\" class=\"bed-data\" data-title=\"" +
          html_text(facts.title) + "\">" + json_in_script(json.dump()) + "</script>\n";
 }
 
 std::size_t view_size(const StoredBed& bed) {
-  const std::size_t bytes = bed.turned ? 20 : 12;
+  const std::size_t bytes = !bed.turned ? 12 : bed.turned->components.empty() ? 20 : 22;
   return (bed.grains.size() * bytes + bed.forces.size() * 10) * 4 / 3;
 }
 

@@ -139,7 +139,7 @@ void paint_polyhedron(const StoredBed& bed, std::size_t grain, const Placement& 
   std::vector<Vector> on_canvas;
   on_canvas.reserve(corners.size());
   for (const Vector& corner : corners) on_canvas.push_back(place.on(canvas, corner));
-  for (const auto& face : bed.turned->mesh.faces) {
+  for (const auto& face : bed.turned->mesh(grain).faces) {
     const auto index = [&](std::size_t k) { return static_cast<std::size_t>(face[k]); };
     const Vector normal = (corners[index(1)] - corners[index(0)])
                               .cross(corners[index(2)] - corners[index(0)])

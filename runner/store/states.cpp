@@ -40,7 +40,7 @@ constexpr auto members_of(const Mesh* /*type*/) {
   return std::tuple(&Mesh::vertices, &Mesh::faces);
 }
 constexpr auto members_of(const Turned* /*type*/) {
-  return std::tuple(&Turned::mesh, &Turned::orientations);
+  return std::tuple(&Turned::meshes, &Turned::components, &Turned::orientations);
 }
 constexpr auto members_of(const StoredForce* /*type*/) {
   return std::tuple(&StoredForce::a, &StoredForce::b, &StoredForce::magnitude);
@@ -56,7 +56,7 @@ constexpr auto members_of(const StoredBed* /*type*/) {
 
 namespace {
 
-constexpr std::string_view bed_mark = "GRAINS10\n";
+constexpr std::string_view bed_mark = "GRAINS11\n";
 
 /// Throws FileError: the bed is not what was stored.
 [[noreturn]] void refuse(const std::string& folder, const Outcome& outcome,

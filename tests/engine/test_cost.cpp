@@ -41,6 +41,14 @@ TEST_CASE("polyhedra and hulls of many corners cost more than spheres of one siz
   CHECK(seconds(round) == Approx(2 * seconds(cubes)));
 }
 
+TEST_CASE("a mixture costs what its components do, weighted by their numbers") {
+  PackingSpec cubes = thousand_spheres(), prisms = cubes, mixed = cubes;
+  cubes.shape = CubeSize{};
+  prisms.shape = PrismSize{40, 1, 1};
+  mixed.shape = Mixture{{{0.25, cubes.shape}, {0.75, prisms.shape}}, ShareBy::number};
+  CHECK(seconds(mixed) == Approx(0.25 * seconds(cubes) + 0.75 * seconds(prisms)));
+}
+
 TEST_CASE("grains of several sizes cost more than as many of one, however the sizes are given") {
   PackingSpec one = thousand_spheres(), two = one, drawn = one, placed = one;
   two.sizes = {0.0, 0.5, 0.5};

@@ -7,6 +7,7 @@
 #include "engine/packing.hpp"
 #include "engine/scene/bed.hpp"
 #include "engine/shape/given_shape.hpp"
+#include "engine/shape/mixture.hpp"
 #include "engine/shape/named_shapes.hpp"
 #include "tests/support/instruction_sets.hpp"
 #include "tests/support/keep_going.hpp"
@@ -52,8 +53,8 @@ TEST_CASE("a packing of pinacoids is settled, measured and given back grain by g
         Approx(1));
   for (const double order : r.shape_order->nematic) CHECK((order >= 0 && order <= 1));
   REQUIRE(packing.turned);
-  CHECK(packing.turned->mesh.vertices.size() == 8);
-  CHECK(packing.turned->mesh.faces.size() == 8);
+  CHECK(packing.turned->meshes.front().vertices.size() == 8);
+  CHECK(packing.turned->meshes.front().faces.size() == 8);
   REQUIRE(packing.turned->orientations.size() == packing.grains.size());
   for (const auto& [x, y, z, w] : packing.turned->orientations) {
     REQUIRE(x * x + y * y + z * z + w * w == Approx(1));
@@ -187,6 +188,66 @@ TEST_CASE("a named solid packs as the hull of its corners does, bit for bit") {
   }
 }
 
+/// Isometric and flat pinacoids, by halves of the volume.
+Mixture flat_and_isometric() { return {{{0.5, PinacoidSize{}}, {0.5, PinacoidSize{1, 1, 0.4}}}}; }
+
+TEST_CASE("a mixture settles, and each grain is given back with the mesh of its component") {
+  const PackingSpec spec = small_spec(flat_and_isometric());
+  const Packing packing = pack(spec);
+  INFO(packing.result.reason);
+  REQUIRE(packing.result.status == PackingStatus::settled);
+  CHECK(packing.result.grains == grain_count(spec));
+  CHECK((packing.result.solid_fraction > 0.5 && packing.result.solid_fraction < 0.8));
+  REQUIRE(packing.turned);
+  REQUIRE(packing.turned->meshes.size() == 2);
+  REQUIRE(packing.turned->components.size() == packing.grains.size());
+  const std::vector<ConvexShape> shapes = shapes_of(spec.shape);
+  for (std::size_t i = 0; i < packing.grains.size(); ++i) {
+    double top = 0;
+    for (const auto& vertex : packing.turned->mesh(i).vertices) top = std::max(top, vertex[2]);
+    REQUIRE(top == Approx(packing.turned->component(i) == 0 ? 0.5 : 0.2));
+  }
+}
+
+TEST_CASE("the slab's profile of a mixture holds the solid volume that is measured at once") {
+  const PackingResult r = pack(small_spec(flat_and_isometric())).result;
+  REQUIRE(r.status == PackingStatus::settled);
+  double mean = 0;
+  for (const ProfileBin& bin : r.profile_y.bins) mean += bin.large;
+  mean /= static_cast<double>(r.profile_y.bins.size());
+  CHECK(mean == Approx(r.solid_fraction).epsilon(1e-12));
+}
+
+TEST_CASE("a mixture of equal components packs as their shape alone does, bit by bit") {
+  const PinacoidSize pinacoid{1.2, 1, 0.8};
+  const PrismSize prism{5, 0.8, 1.1};
+  for (const ShapeSpec& shape : {ShapeSpec(pinacoid), ShapeSpec(prism)}) {
+    const PackingResult alone = pack(small_spec(shape)).result;
+    for (const Mixture& mixture :
+         {Mixture{{{1.0, shape}}}, Mixture{{{0.3, shape}, {0.7, shape}}}}) {
+      const PackingResult mixed = pack(small_spec(mixture)).result;
+      CHECK(mixed.state_hash == alone.state_hash);
+      CHECK(mixed.solid_fraction == alone.solid_fraction);
+      CHECK(mixed.rest.step_residual == alone.rest.step_residual);
+      CHECK(mixed.mean_diameter_by_volume == alone.mean_diameter_by_volume);
+    }
+  }
+}
+
+TEST_CASE("a mixture goes on from what it has saved to the same bits") {
+  PackingSpec spec = small_spec(flat_and_isometric());
+  spec.accuracy.max_steps = 20;
+  std::string saved;
+  const auto save_at_12 = [&](const Progress& progress) {
+    if (progress.step == 12) saved = progress.save();
+    return true;
+  };
+  const PackingResult whole = make_packing(spec, kernels(), save_at_12).result;
+  REQUIRE_FALSE(saved.empty());
+  const PackingResult rest = make_packing(spec, kernels(), testing::always, saved).result;
+  CHECK(rest.state_hash == whole.state_hash);
+}
+
 TEST_CASE("shapes that cannot be packed are refused with the reason") {
   const auto errors_of = [](const PackingSpec& spec) {
     std::string all;
@@ -197,6 +258,11 @@ TEST_CASE("shapes that cannot be packed are refused with the reason") {
   CHECK(errors_of(small_spec(PinacoidSize{1, 1, 1, 0.1})).find("shape.pinacoid") == 0);
   CHECK(errors_of(small_spec(HullVertices{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}})).find("shape.hull") ==
         0);
+  CHECK(errors_of(small_spec(Mixture{{{1.0, SphereShape{}}}})).find("shape.mixture component 1") ==
+        0);
+  PackingSpec placed = small_spec(flat_and_isometric());
+  placed.fill = PlacedGrains{{{2, 2, 1, 0.5}}, {{0, 0, 0, 1}}};
+  CHECK(errors_of(placed).find("fill.file does not say which grain is of which component") == 0);
   PackingSpec tight = small_spec();
   tight.box.width = 1.2;  // the circumscribed ball is 1.41 d across
   CHECK(errors_of(tight).find("box.width") == 0);

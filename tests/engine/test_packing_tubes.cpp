@@ -240,7 +240,7 @@ std::vector<double> wall_gaps(const Packing& packing, double diameter) {
     const auto& [x, y, z, w] = packing.turned->orientations[i];
     const Quaternion turn(w, x, y, z);
     double gap = diameter;
-    for (const auto& vertex : packing.turned->mesh.vertices) {
+    for (const auto& vertex : packing.turned->meshes.front().vertices) {
       const Vector at = turn * (2.0 * grain.radius * Vector(vertex[0], vertex[1], vertex[2]));
       const double from_axis =
           std::hypot(grain.x + at.x() - diameter / 2, grain.y + at.y() - diameter / 2);
@@ -269,7 +269,7 @@ TEST_CASE("pinacoids in a tube lie in it and touch its wall where their corners 
     const SettledGrain& grain = packing.grains[i];
     const auto& [x, y, z, w] = packing.turned->orientations[i];
     double lowest = grain.z;
-    for (const auto& vertex : packing.turned->mesh.vertices) {
+    for (const auto& vertex : packing.turned->meshes.front().vertices) {
       const Vector corner = Quaternion(w, x, y, z) * Vector(vertex[0], vertex[1], vertex[2]);
       lowest = std::min(lowest, grain.z + 2.0 * grain.radius * corner.z());
     }

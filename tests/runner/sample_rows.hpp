@@ -74,8 +74,8 @@ inline Curves sample_curves() {
 /// Two grains that are turned: a tetrahedron with an edge along each axis.
 inline Turned sample_turned() {
   Turned turned;
-  turned.mesh.vertices = {{0, 0, 0}, {1.0 / 3.0, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  turned.mesh.faces = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+  turned.meshes = {{{{0, 0, 0}, {1.0 / 3.0, 0, 0}, {0, 1, 0}, {0, 0, 1}},
+                    {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}}};
   turned.orientations = {{0, 0, 0, 1}, {0.6, -0.0, 0, 0.8}};
   return turned;
 }

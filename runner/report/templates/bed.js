@@ -1,5 +1,5 @@
 // Turns a bed: spheres are drawn as discs whose depth and light are those of a sphere, polyhedra as
-// copies of one mesh. Draws only when something has changed. Until the first frame, and where
+// copies of their meshes. Draws only when something has changed. Until the first frame, and where
 // there is no WebGL, the picture stays.
 (() => {
   "use strict";
@@ -39,7 +39,8 @@
     return bytes.buffer;
   };
 
-  // The columns stand one behind the other: x, y, z, radius, force, touching, orientation.
+  // The columns stand one behind the other: x, y, z, radius, force, touching,
+  // orientation, and of a mixture component.
   const read = (source) => {
     const bed = JSON.parse(source.textContent);
     const buffer = bytesOf(bed.grains);
@@ -52,8 +53,10 @@
     bed.radius = column(3, bed.largest_radius);
     bed.force = column(4, bed.largest_force);
     bed.touching = Float32Array.from(new Uint16Array(buffer, 10 * n, n));
-    if (bed.mesh) {
+    if (bed.meshes) {
       bed.turn = Float32Array.from(new Int16Array(buffer, 12 * n, 4 * n), (value) => value / 32767);
+      bed.component = bed.meshes.length > 1
+        ? Float32Array.from(new Uint16Array(buffer, 20 * n, n)) : new Float32Array(n);
     }
     const forces = bytesOf(bed.forces);
     bed.a = new Uint32Array(forces, 0, bed.pairs);
@@ -116,12 +119,13 @@
 
   const meshMaterial = () => new THREE.ShaderMaterial({
     vertexShader: `${common}
-      attribute vec4 turn; varying vec3 facing;
+      attribute vec4 turn; attribute float part, component; varying vec3 facing;
       vec3 turned(vec3 v) { return v + 2.0 * cross(turn.xyz, cross(turn.xyz, v) + turn.w * v); }
       void main() {
         colour = tint; facing = normalize(normalMatrix * turned(normal));
         vec4 seen = modelViewMatrix * vec4(centre + 2.0 * radius * turned(position), 1.0);
-        gl_Position = is_cut() ? vec4(2.0, 2.0, 2.0, 1.0) : projectionMatrix * seen;
+        gl_Position = is_cut() || part != component
+          ? vec4(2.0, 2.0, 2.0, 1.0) : projectionMatrix * seen;
       }`,
     fragmentShader: `${light}
       varying vec3 colour; varying vec3 facing;
@@ -129,21 +133,24 @@
     uniforms: { keep: { value: new THREE.Vector3() }, depth: { value: new THREE.Vector2() } },
   });
 
-  // Triangles of the mesh, each with the normal of its face.
-  const trianglesOf = (mesh) => {
+  // Triangles of all meshes, each with the normal of its face and the number of its mesh: a grain
+  // shows those of its own alone.
+  const trianglesOf = (meshes) => {
     const corners = [];
     const normals = [];
-    for (const face of mesh.faces) {
+    const parts = [];
+    for (const [face, mesh] of meshes.flatMap((mesh) => mesh.faces.map((face) => [face, mesh]))) {
       const [a, b, c] = face.map((index) => new THREE.Vector3(...mesh.vertices[index]));
       const normal = b.clone().sub(a).cross(c.clone().sub(a)).normalize();
       for (let k = 2; k < face.length; k += 1) {
         for (const index of [face[0], face[k - 1], face[k]]) {
           corners.push(...mesh.vertices[index]);
           normals.push(normal.x, normal.y, normal.z);
+          parts.push(meshes.indexOf(mesh));
         }
       }
     }
-    return { position: [corners, 3], normal: [normals, 3] };
+    return { position: [corners, 3], normal: [normals, 3], part: [parts, 1] };
   };
 
   const square = { position: [[-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, -1, 0, 1, 1, 0, -1, 1, 0], 3] };
@@ -155,10 +162,10 @@
     }
     const items = { centre: [centres, 3], radius: [bed.radius, 1],
                     tint: [new Float32Array(3 * bed.count), 3] };
-    if (bed.mesh) items.turn = [bed.turn, 4];
+    if (bed.meshes) Object.assign(items, { turn: [bed.turn, 4], component: [bed.component, 1] });
     const { geometry, copies } =
-      repeated(bed.mesh ? trianglesOf(bed.mesh) : square, items, bed.count);
-    const grains = new THREE.Mesh(geometry, bed.mesh ? meshMaterial() : sphereMaterial());
+      repeated(bed.meshes ? trianglesOf(bed.meshes) : square, items, bed.count);
+    const grains = new THREE.Mesh(geometry, bed.meshes ? meshMaterial() : sphereMaterial());
     grains.frustumCulled = false;
     grains.userData.copies = copies;
     return grains;

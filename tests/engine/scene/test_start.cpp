@@ -118,7 +118,8 @@ TEST_CASE("grains ten times smaller start apart from large ones, whichever came 
   const Box box{3, 3, periodic, walls};
   const auto placed = place_at_random(box, small_ones_first, 3, 1);
   REQUIRE(placed);
-  CHECK(testing::pairs_closer_than(make_bed(box, *placed), 0.0).empty());
+  const std::vector<PlacedSphere> spheres(placed->begin(), placed->end());
+  CHECK(testing::pairs_closer_than(make_bed(box, spheres), 0.0).empty());
 }
 
 TEST_CASE("grains fill a column of the start's solid fraction") {

@@ -24,9 +24,10 @@ ExportedBed exported_turned_bed() {
   StoredBed bed;
   bed.box = {20.0, 5.5, Boundary::periodic, Boundary::walls};
   bed.grains = {{5, 2, 1, 1.0, 2.75, 6}, {6, 2, 1, 0.5, 0.5, 0}};
-  bed.turned = Turned{
-      {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}},
-      {{0, 0, std::sqrt(0.5), std::sqrt(0.5)}, {0, 0, 0, 1}}};
+  bed.turned = Turned{{{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
+                        {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}}},
+                      {},
+                      {{0, 0, std::sqrt(0.5), std::sqrt(0.5)}, {0, 0, 0, 1}}};
   return {bed};
 }
 

@@ -28,11 +28,11 @@ inline ExportedBed stacked_cubes() {
   exported.bed.box = {4, 4, Boundary::periodic, Boundary::periodic};
   exported.bed.grains = {{2, 2, 0.5, 0.5, 2, 1}, {2.25, 2, 1.5, 0.5, 1, 1}};
   Turned turned;
+  Mesh& mesh = turned.meshes.emplace_back();
   for (int k = 0; k < 8; ++k) {
-    turned.mesh.vertices.push_back({k & 1 ? 0.5 : -0.5, k & 2 ? 0.5 : -0.5, k & 4 ? 0.5 : -0.5});
+    mesh.vertices.push_back({k & 1 ? 0.5 : -0.5, k & 2 ? 0.5 : -0.5, k & 4 ? 0.5 : -0.5});
   }
-  turned.mesh.faces = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
-                       {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+  mesh.faces = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
   turned.orientations = {{0, 0, 0, 1}, {0, 0, 0, 1}};
   exported.bed.turned = turned;
   return exported;

@@ -42,15 +42,15 @@ TEST_CASE("the grains of a bed are columns of 16 bits, as shares of the largest"
   CHECK(json["grains"] == base64(shorts({16384, 65535, 16384, 32768, 8192, 20480, 65535, 32768,
                                          65535, 32768, 3, 300})));
   CHECK(json["walls"] == nlohmann::json::parse("[false, true]"));
-  CHECK_FALSE(json.contains("mesh"));
+  CHECK_FALSE(json.contains("meshes"));
 }
 
 TEST_CASE("a bed of polyhedra has its mesh and an orientation for each grain", "[report]") {
   StoredBed bed = two_spheres();
   bed.turned = sample_turned();
   const nlohmann::json json = json_in(bed_element(bed, {"a bed", 0.0}));
-  CHECK(json["mesh"]["vertices"].size() == 4);
-  CHECK(json["mesh"]["faces"].size() == 4);
+  CHECK(json["meshes"][0]["vertices"].size() == 4);
+  CHECK(json["meshes"][0]["faces"].size() == 4);
   const std::string text = json["grains"];
   const std::string turns = base64(shorts({0, 0, 0, 32767, 19660, 0, 0, 26214}));
   CHECK(text.substr(32) == turns);  // 24 bytes before, a multiple of 3

@@ -45,8 +45,23 @@ TEST_CASE("a stored bed of polyhedra reads back bit by bit") {
   CHECK(bed_bytes(back) == bed_bytes(bed_of_polyhedra()));
   REQUIRE(back.turned);
   CHECK(back.turned->orientations == sample_turned().orientations);
-  CHECK(back.turned->mesh.vertices == sample_turned().mesh.vertices);
-  CHECK(back.turned->mesh.faces == sample_turned().mesh.faces);
+  CHECK(back.turned->mesh(0).vertices == sample_turned().mesh(0).vertices);
+  CHECK(back.turned->mesh(0).faces == sample_turned().mesh(0).faces);
+}
+
+TEST_CASE(
+    "a stored bed of a mixture has a mesh for each component, and the component of each grain") {
+  StoredBed bed = bed_of_polyhedra();
+  bed.turned->meshes.push_back(bed.turned->meshes[0]);
+  bed.turned->meshes[1].vertices[3][2] = 0.25;
+  bed.turned->components = {1, 0};
+  const TemporaryFolder folder;
+  const StoredBed back = read_bed(folder.path(), stored(folder, bed));
+  CHECK(bed_bytes(back) == bed_bytes(bed));
+  REQUIRE(back.turned);
+  CHECK(back.turned->components == bed.turned->components);
+  CHECK(back.turned->mesh(0).vertices[3][2] == 0.25);
+  CHECK(back.turned->mesh(1).vertices[3][2] == 1);
 }
 
 TEST_CASE("a stored bed of spheres reads back bit by bit, without orientations") {
@@ -88,7 +103,7 @@ TEST_CASE("curves are put back where they were taken from") {
 
 TEST_CASE("a bed begins as its header states") {
   const std::string bytes = bed_bytes(sample_bed());
-  CHECK(bytes.substr(0, 20) == std::string("GRAINS10\n\3\0\0\0\0\0\0\0job", 20));
+  CHECK(bytes.substr(0, 20) == std::string("GRAINS11\n\3\0\0\0\0\0\0\0job", 20));
 }
 
 TEST_CASE("a bed without grains can be stored") {

@@ -1,0 +1,37 @@
+#include "engine/scene/components.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "engine/scene/random.hpp"
+#include "engine/shape/mixture.hpp"
+
+namespace grainsweep {
+
+namespace {
+
+/// Puts the entries into random order (Fisher and Yates).
+void shuffle(std::uint64_t key, std::vector<std::uint8_t>& entries) {
+  for (std::size_t i = entries.size(); i-- > 1;) {
+    const double place = unit_interval(random_words(key, Purpose::component, i, 0)[0]);
+    std::swap(entries[i], entries[static_cast<std::size_t>(place * static_cast<double>(i + 1))]);
+  }
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> draw_components(const ShapeSpec& shape, std::size_t grains,
+                                          std::uint64_t key) {
+  std::vector<std::uint8_t> components;
+  const auto* mixture = std::get_if<Mixture>(&shape);
+  if (mixture == nullptr) return components;
+  const auto counts = component_counts(number_shares(*mixture), static_cast<std::int64_t>(grains));
+  for (std::size_t k = 0; k < counts.size(); ++k) {
+    components.insert(components.end(), static_cast<std::size_t>(counts[k]),
+                      static_cast<std::uint8_t>(k));
+  }
+  shuffle(key, components);
+  return components;
+}
+
+}  // namespace grainsweep
