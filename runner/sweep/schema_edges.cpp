@@ -43,7 +43,7 @@ std::optional<double> last_refused(double refused, double right, Set set) {
 /// What is refused: `anywhere` may be said wherever one likes and changes nothing as long as it
 /// fits; of the `steps` one is said in the base, or true of what is usual and not denied by the
 /// base. Nothing else of the groups is said.
-struct Edge {
+struct EdgeRule {
   std::string groups;
   std::vector<Mention> anywhere;
   std::vector<Json> steps;
@@ -62,12 +62,12 @@ Json said_or_usual(const std::string& path, const Json& value, bool is_usual) {
   return is_usual ? no(said(path, no(value))) : said(path, value);
 }
 
-Json forbidden(const Edge& edge) {
+Json forbidden(const EdgeRule& edge) {
   return not_all({says_only(edge.groups, edge.anywhere, edge.in_base), {{"anyOf", edge.steps}}});
 }
 
 /// That a period holds no two spheres of the usual sizes.
-Edge short_periods() {
+EdgeRule short_periods() {
   const auto most = last_refused(1.0, 15.0, [](auto& spec, double d) { spec.box.length = d; });
   return {all_groups,
           {{"box.x", named("periodic")},
@@ -96,7 +96,7 @@ Json too_low(double floor, double surface) {
                           surface <= usual.exclude_surface)}}};
 }
 
-Edge low_beds() {
+EdgeRule low_beds() {
   const MeasureSpec usual;
   std::vector<Json> steps = {too_low(usual.exclude_floor, usual.exclude_surface)};
   for (const double zone : round_numbers(4.0, 500.0)) {
@@ -116,7 +116,7 @@ Edge low_beds() {
 }
 
 /// So few spheres in the usual box that nothing is left between the usual zones.
-Edge few_grains() {
+EdgeRule few_grains() {
   const auto most = last_refused(1.0, 1e5, [](auto& spec, double count) {
     spec.fill = GrainCount{static_cast<std::int64_t>(count)};
   });
@@ -127,7 +127,7 @@ Edge few_grains() {
 }
 
 /// More spheres than can be numbered.
-Edge huge_beds() {
+EdgeRule huge_beds() {
   std::vector<Json> steps;
   for (const double height : round_numbers(1.0, 1000.0)) {
     const auto side = last_refused(1e4, 20.0, [&](auto& spec, double d) {
@@ -148,7 +148,7 @@ Edge huge_beds() {
 }
 
 /// Ends of a pinacoid of the usual length and height that cross.
-Edge flat_ends() {
+EdgeRule flat_ends() {
   const PinacoidSize usual;
   const double least = std::atan(usual.height / usual.length) * 180.0 / pi;
   return {"shape",
@@ -158,7 +158,7 @@ Edge flat_ends() {
 }
 
 /// Periods that hold no two pinacoids, which are no shorter than their middle plane.
-Edge long_pinacoids() {
+EdgeRule long_pinacoids() {
   std::vector<Json> steps;
   for (const double length : round_numbers(2.0, 200.0)) {
     const auto most = last_refused(2.0, 1e4, [&](auto& spec, double d) {
@@ -188,7 +188,7 @@ Edge long_pinacoids() {
 
 /// Hulls so small that even the least box takes more of them than can be numbered: the lengths in
 /// their vertices are not d.
-Edge tiny_hulls() {
+EdgeRule tiny_hulls() {
   constexpr double solid_height = 1.0;  // d
   const auto half = last_refused(1e-6, 0.1, [&](auto& spec, double d) {
     HullVertices cube;
@@ -214,7 +214,7 @@ Edge tiny_hulls() {
 }
 
 /// Tubes too narrow for the usual pinacoids.
-Edge narrow_tubes() {
+EdgeRule narrow_tubes() {
   const auto most = last_refused(2.0, 10.0, [](auto& spec, double d) {
     spec.shape = PinacoidSize{};
     spec.box = tube_of(d);
@@ -235,7 +235,7 @@ double too_short_step(const ShapeSpec& shape) {
 }
 
 /// Such steps, or shorter ones, of that bed or a higher one.
-Edge short_steps() {
+EdgeRule short_steps() {
   const auto with_shape = [](const ShapeSpec& shape, const Json& name) -> Json {
     return {{"allOf",
              {said_or_usual("shape", name, name == named("sphere")),
