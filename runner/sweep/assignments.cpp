@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "runner/sweep/mixture_components.hpp"
 #include "runner/sweep/shape_kind.hpp"
 #include "runner/sweep/suggest.hpp"
 #include "runner/sweep/values.hpp"
@@ -16,6 +17,11 @@ std::string dotted(const std::string& path, const std::string& key) {
 
 void read_parameter(std::size_t index, const Json& value, const std::string& pointer,
                     Assignments& assignments, Diagnostics& diagnostics) {
+  if (parameters()[index].kind == ValueKind::components) {  // each has a place of its own
+    auto components = read_components(value, pointer, diagnostics);
+    if (components) assignments.push_back({index, std::move(*components), pointer});
+    return;
+  }
   ValueReading reading = read_value(parameters()[index], value);
   if (reading.value) {
     assignments.push_back({index, std::move(*reading.value), pointer});

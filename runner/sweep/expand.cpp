@@ -22,9 +22,8 @@ namespace {
 /// Grains from fill files over all jobs, each of which keeps its own copy: 1.6 GB.
 constexpr std::uint64_t most_placed_grains = 50'000'000;
 
-/// Vertices of hulls over all jobs, likewise, 1.2 GB; and of one grain: a check takes their square.
+/// Vertices of hulls over all jobs, likewise, 1.2 GB.
 constexpr std::uint64_t most_vertices = 50'000'000;
-constexpr std::size_t most_vertices_of_a_grain = 1'000;
 
 Points points_of(const VerticesReading& reading) {
   Points points;
@@ -226,12 +225,16 @@ class Expansion {
     return start;
   }
 
-  /// Fills in the vertices of a hull. If they cannot be read, says so; what `check` would say
-  /// of a hull without vertices is then said already.
+  /// Fills in what a shape needs besides its own parts: the vertices of a hull. If they cannot be
+  /// read, says so; what `check` would say of a hull without vertices is then said already.
   void place_vertices(const Block& block, const InEffect& in_effect, ResolvedSpec& resolved) {
     const Assignment* size = in_effect[hull_size_];
     const Assignment* file = in_effect[hull_file_];
     const Assignment* source = file != nullptr ? file : in_effect[hull_vertices_];
+    const Assignment* by = in_effect[mixture_by_];
+    if (by != nullptr && in_effect[mixture_] == nullptr) {
+      note(*by, "belongs to shape.mixture, and that is not set");
+    }
     if (source == nullptr) {
       if (size == nullptr) return;
       return note(*size, "belongs to shape.hull.vertices or shape.hull.file; neither is set");
@@ -399,6 +402,8 @@ class Expansion {
   const std::size_t file_ = parameter_with(Role::fill_file);
   const std::size_t files_ = parameter_with(Role::fill_files);
   const std::size_t diameter_ = parameter_with(Role::fill_diameter);
+  const std::size_t mixture_ = parameter_with(Role::mixture);
+  const std::size_t mixture_by_ = parameter_with(Role::mixture_by);
   const std::size_t hull_vertices_ = parameter_with(Role::hull_vertices);
   const std::size_t hull_file_ = parameter_with(Role::hull_file);
   const std::size_t hull_size_ = parameter_with(Role::hull_size);

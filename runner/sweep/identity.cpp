@@ -52,6 +52,14 @@ void append_value(const Parameter& parameter, const Value& value, std::string& t
       append_number(entry, text);
     }
     text += ']';
+  } else if (const auto* components = std::get_if<Components>(&value)) {
+    text += '{';
+    for (const WrittenComponent& one : *components) {
+      const auto number = static_cast<std::size_t>(&one - components->data()) + 1;
+      text.append(number > 1 ? "," : "").append("\"").append(std::to_string(number));
+      text.append("\":").append(one.text);
+    }
+    text += '}';
   } else if (parameter.kind == ValueKind::choice) {
     const auto index = static_cast<std::size_t>(std::get<std::int64_t>(value));
     text.append("\"").append(parameter.choices[index]).append("\"");
@@ -77,6 +85,14 @@ std::vector<Member> scene_members() {
     const std::string_view path = member.parameter->path;
     return path.starts_with("accuracy.") || path.starts_with("measure.");
   });
+  return members;
+}
+
+/// Those that say what the grains are.
+std::vector<Member> shape_members() {
+  std::vector<Member> members = sorted_members();
+  std::erase_if(members,
+                [](const Member& member) { return choice_of(*member.parameter) != Choice::shape; });
   return members;
 }
 
@@ -118,6 +134,16 @@ std::string hash_of(const SizeTable& table) {
     text += ';';
   }
   return hex16(mixed(fnv1a(text)));
+}
+
+std::string canonical_component(double share, const ResolvedSpec& shape) {
+  static const std::vector<Member> members = shape_members();
+  constexpr std::string_view before = R"({"shape":)", after = "}}";
+  const std::string all = canonical(members, shape);
+  std::string text = all.substr(before.size(), all.size() - before.size() - after.size());
+  text.append(R"(,"share":)");
+  append_number(share, text);
+  return text + "}";
 }
 
 std::string canonical_parameters(const ResolvedSpec& resolved) {

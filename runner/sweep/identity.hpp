@@ -24,9 +24,13 @@ std::string hash_of(const HullVertices& hull);
 /// The same of a table of sizes.
 std::string hash_of(const SizeTable& table);
 
+/// Share and shape of a component of a mixture: {"cube":{"edge":1},"share":0.7}.
+std::string canonical_component(double share, const ResolvedSpec& shape);
+
 /// Every parameter of the packing as JSON without spaces, keys sorted, numbers as short as they
 /// read back exactly (20, not 20.0). Presets appear as their parts, a fill file as the hash of its
-/// content, a hull as that of its vertices, a file of sizes as that of its numbers.
+/// content, a hull as that of its vertices, a file of sizes as that of its numbers, a mixture as
+/// its components by their numbers, from 1.
 std::string canonical_parameters(const ResolvedSpec& resolved);
 
 /// The id of a job, as a number.

@@ -24,6 +24,8 @@ const char* type_of(const Parameter& parameter) {
       return "list of numbers";
     case ValueKind::points:
       return "list of points";
+    case ValueKind::components:
+      return "list of components";
   }
   return "";
 }

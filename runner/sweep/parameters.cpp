@@ -61,6 +61,8 @@ Choice choice_of(const Parameter& parameter) {
     case Role::hull_vertices:
     case Role::hull_file:
     case Role::hull_size:
+    case Role::mixture:
+    case Role::mixture_by:
       return Choice::shape;
     case Role::box:
     case Role::tube:
@@ -101,6 +103,7 @@ std::optional<std::size_t> preset_of(std::string_view path) {
 std::optional<Value> default_of(const Parameter& parameter) {
   ResolvedSpec resolved;
   if (parameter.role == Role::shape_part) resolved.spec.shape = shape_with_part(parameter.path);
+  if (parameter.role == Role::mixture_by) resolved.spec.shape = Mixture{};
   if (parameter.role == Role::tube) return std::nullopt;
   if (auto formula = usual_formula(parameter.role)) {
     resolved.spec.sizes.distribution = SizeDistribution{*formula};

@@ -20,17 +20,18 @@ using Points = std::vector<std::array<double, 3>>;
 
 /// A parameter's value. A choice is the index of its name.
 using Value = std::variant<double, std::int64_t, std::uint64_t, std::string, std::vector<double>,
-                           std::vector<std::string>, Points>;
+                           std::vector<std::string>, Points, Components>;
 
 enum class ValueKind {
-  number,   ///< double
-  whole,    ///< int64, at most `largest`
-  natural,  ///< uint64
-  choice,   ///< int64, index into `choices`
-  text,     ///< string
-  texts,    ///< list of strings
-  numbers,  ///< list of doubles
-  points,   ///< list of points
+  number,      ///< double
+  whole,       ///< int64, at most `largest`
+  natural,     ///< uint64
+  choice,      ///< int64, index into `choices`
+  text,        ///< string
+  texts,       ///< list of strings
+  numbers,     ///< list of doubles
+  points,      ///< list of points
+  components,  ///< of a mixture
 };
 
 /// What a parameter decides beside its own value.
@@ -43,6 +44,8 @@ enum class Role {
   hull_vertices,  ///< names a hull, and so on
   hull_file,
   hull_size,
+  mixture,     ///< names a mixture
+  mixture_by,  ///< a part of one
   box,         ///< a part of a box
   tube,        ///< a part of a tube, which stands in the box's place
   fill,        ///< a way to fill the box

@@ -1,6 +1,7 @@
 // One point of a sweep while its parameters are being written into it.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -8,6 +9,21 @@
 #include "engine/scene/spec.hpp"
 
 namespace grainsweep {
+
+/// A component of a mixture as it is written.
+struct WrittenComponent {
+  double share = 0.0;
+  ShapeSpec shape;
+  double pinacoid_angle = 60.0;  ///< degrees, as ResolvedSpec::pinacoid_angle
+  std::string text;              ///< share and shape as they identify a job, canonical JSON
+
+  bool operator==(const WrittenComponent& other) const { return text == other.text; }
+  bool operator<(const WrittenComponent& other) const { return text < other.text; }
+};
+using Components = std::vector<WrittenComponent>;
+
+/// Most vertices of a hull: a check takes their square.
+inline constexpr std::size_t most_vertices_of_a_grain = 1'000;
 
 /// A packing's specification, and what a sweep file says that the engine does not know.
 struct ResolvedSpec {
@@ -19,7 +35,9 @@ struct ResolvedSpec {
   std::vector<std::string> fill_files;  ///< as written; empty unless each replicate has its own
   std::string fill_content;             ///< hash of that file's bytes, 16 hex digits
   double fill_diameter = 1.0;           ///< length in that file that is d here
-  double pinacoid_angle = 60.0;   ///< degrees, as written; the specification holds it in radians
+  double pinacoid_angle = 60.0;  ///< degrees, as written; the specification holds it in radians
+  Components mixture;            ///< of the shape, where that is a mixture
+  ShareBy mixture_by = ShareBy::volume;
   std::string hull_file;          ///< as written; "" unless the shape is a hull from a file
   double hull_size = 1.0;         ///< length in the vertices of a hull that is d here
   bool has_size_formula = false;  ///< whether a distribution of sizes says more than its parts

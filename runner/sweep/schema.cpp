@@ -71,6 +71,24 @@ Json names_of(const Parameter& parameter) {
   return {{"anyOf", names}};
 }
 
+/// Components of a mixture: each a share and a shape.
+Json components() {
+  Json members = {{"share", described("of the mixture, 0 to 1; all of them add up to 1",
+                                      {{"type", "number"}, {"minimum", 0}, {"maximum", 1}})}};
+  for (const std::string_view name : shape_names) {
+    if (name == "sphere" || name == "mixture" || name == "hull") continue;
+    members[std::string(name)] = reference("shape." + std::string(name));
+  }
+  members["hull"] = closed_object({{"vertices", reference("shape.hull.vertices")}});
+  members["hull"]["required"] = Json::array({"vertices"});
+  Json component = closed_object(members);
+  component["required"] = Json::array({"share"});
+  component["minProperties"] = component["maxProperties"] = 2;
+  Json list = list_of(component);
+  list["maxItems"] = most_components;
+  return list;
+}
+
 Json kind_schema(const Parameter& parameter) {
   switch (parameter.kind) {
     case ValueKind::number:
@@ -98,6 +116,8 @@ Json kind_schema(const Parameter& parameter) {
       list["allOf"] = off_each_coordinate_plane();
       return list;
     }
+    case ValueKind::components:
+      return components();
     case ValueKind::choice:
       break;
   }

@@ -40,22 +40,27 @@ std::vector<std::pair<std::string, std::string>> alternative_sizes() {
 /// Keys that begin with this name: "cube", "cube.edge".
 Json begins_with(const std::string& name) { return {{"pattern", "^" + name + "(\\.|$)"}}; }
 
+/// Matches the keys that a shape has: those of a mixture begin alike.
+std::string keys_of(std::string_view name) {
+  return std::string(name) + (name == "mixture" ? "(_by)?" : "");
+}
+
 /// That all keys of the object "shape" are parts of one shape.
 Json one_shape_inside() {
   Json ways = Json::array();
   for (const std::string_view name : shape_names) {
-    ways.push_back({{"propertyNames", begins_with(std::string(name))}});
+    ways.push_back({{"propertyNames", begins_with(keys_of(name))}});
   }
   return {{"anyOf", ways}};
 }
 
 /// That an object of parameters says one shape, by name, by its parts, or not at all.
 Json one_shape() {
-  const Json about_others = no(begins_with("shape\\.[a-z]+"));
+  const Json about_others = no(begins_with("shape\\.[a-z_]+"));
   std::vector<Json> ways;
   for (const std::string_view name : shape_names) {
-    const Json here = begins_with("shape\\." + std::string(name));
-    const Json parts = {{"type", "object"}, {"propertyNames", begins_with(std::string(name))}};
+    const Json here = begins_with("shape\\." + keys_of(name));
+    const Json parts = {{"type", "object"}, {"propertyNames", begins_with(keys_of(name))}};
     const Json shape = {{"anyOf", {{{"const", name}}, parts}}};
     ways.push_back(
         {{"propertyNames", {{"anyOf", {about_others, here}}}}, {"properties", {{"shape", shape}}}});
@@ -144,6 +149,8 @@ Json rules_of_the_whole() {
       {not_all({with_base("fill.diameter"), no(with_base("fill.file")), no(with_base("fill.files")),
                 no(blocks_fill)}),
        not_all({with_base("fill.file"), several, no(blocks_fill), no(blocks_count)}),
+       not_all({with_base("shape.mixture_by"), no(with_base("shape.mixture")),
+                no(with_block_about("^shape(\\.|$)"))}),
        not_all({with_base("sizes.distribution"), no(with_base("sizes.distribution.lognormal")),
                 no(with_base("sizes.distribution.uniform")),
                 no(with_base("sizes.distribution.weibull")),

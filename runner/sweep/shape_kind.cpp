@@ -16,6 +16,7 @@ std::string_view shape_named_by(const Assignment& assignment) {
     return parameter.choices[static_cast<std::size_t>(std::get<std::int64_t>(assignment.value))];
   }
   const std::string_view path = std::string_view(parameter.path).substr(group.size());
+  if (parameter.role == Role::mixture_by) return "mixture";
   const bool says_whence =
       parameter.role == Role::hull_vertices || parameter.role == Role::hull_file;
   return says_whence ? path : path.substr(0, path.find('.'));

@@ -95,6 +95,35 @@ void set_hull_file(ResolvedSpec& resolved, const Value& value) {
   resolved.hull_file = std::get<std::string>(value);
 }
 
+/// A mixture of one component is that shape.
+void set_mixture(ResolvedSpec& resolved, const Value& value) {
+  const auto& components = std::get<Components>(value);
+  if (components.size() == 1 && components.front().share == 1.0) {
+    resolved.spec.shape = components.front().shape;
+    resolved.pinacoid_angle = components.front().pinacoid_angle;
+    return;
+  }
+  resolved.mixture = components;
+  Mixture mixture{{}, resolved.mixture_by};
+  for (const WrittenComponent& one : components) {
+    mixture.components.push_back({one.share, one.shape});
+  }
+  resolved.spec.shape = std::move(mixture);
+}
+std::optional<Value> get_mixture(const ResolvedSpec& resolved) {
+  const bool is_mixture = std::holds_alternative<Mixture>(resolved.spec.shape);
+  return is_mixture ? present(resolved.mixture) : std::nullopt;
+}
+void set_mixture_by(ResolvedSpec& resolved, const Value& value) {
+  resolved.mixture_by = static_cast<ShareBy>(std::get<std::int64_t>(value));
+  auto* mixture = std::get_if<Mixture>(&resolved.spec.shape);
+  if (mixture != nullptr) mixture->by = resolved.mixture_by;
+}
+std::optional<Value> get_mixture_by(const ResolvedSpec& resolved) {
+  const auto* mixture = std::get_if<Mixture>(&resolved.spec.shape);
+  return mixture != nullptr ? present(static_cast<std::int64_t>(mixture->by)) : std::nullopt;
+}
+
 /// The names of shapes that have defaults, in the order of ShapeSpec.
 Names usual_shapes() {
   return {
@@ -162,13 +191,27 @@ Rows hull_rows() {
   };
 }
 
+Rows mixture_rows() {
+  return {
+      own("shape.mixture", WrittenValues{},
+          "grains of several shapes that are no spheres, each with its share: "
+          "`[{\"share\": 0.7, \"cube\": {}}, {\"share\": 0.3, \"prism\": {\"sides\": 5}}]`",
+          ValueKind::components, Role::mixture, set_mixture, get_mixture),
+      own("shape.mixture_by",
+          Names{{"volume", "of their volume, and so of their mass"},
+                {"number", "of the grains, each counted once"}},
+          "what the shares of a mixture are shares of", ValueKind::choice, Role::mixture_by,
+          set_mixture_by, get_mixture_by),
+  };
+}
+
 }  // namespace
 
 std::vector<Parameter> shape_parameters() {
   Rows all = {own("shape", usual_shapes(),
                   "what the grains are; a name alone stands for the shape with its defaults",
                   ValueKind::choice, Role::shape, set_shape, get_shape)};
-  for (Rows rows : {pinacoid_rows(), solid_rows(), hull_rows()}) {
+  for (Rows rows : {pinacoid_rows(), solid_rows(), hull_rows(), mixture_rows()}) {
     for (Parameter& parameter : rows) all.push_back(std::move(parameter));
   }
   return all;

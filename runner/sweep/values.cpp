@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "runner/sweep/mixture_components.hpp"
 #include "runner/sweep/suggest.hpp"
 
 namespace grainsweep {
@@ -117,6 +118,26 @@ ValueReading read_points(const Parameter& parameter, const Json& value) {
   return fits(std::move(points));
 }
 
+/// The first problem stands for all.
+ValueReading read_mixture(const Json& value) {
+  Diagnostics diagnostics;
+  auto components = read_components(value, "", diagnostics);
+  if (!components) return {{}, diagnostics.front().message};
+  return fits(std::move(*components));
+}
+
+struct WrittenJson {
+  nlohmann::json operator()(const Components& components) const {
+    auto list = nlohmann::json::array();
+    for (const WrittenComponent& one : components) list.push_back(nlohmann::json::parse(one.text));
+    return list;
+  }
+  template <class Known>
+  nlohmann::json operator()(const Known& value) const {
+    return nlohmann::json(value);
+  }
+};
+
 std::string up_to(const Parameter& parameter) {
   if (parameter.largest == std::numeric_limits<std::int64_t>::max()) return "";
   return " up to " + std::to_string(parameter.largest);
@@ -140,6 +161,8 @@ ValueReading read_value(const Parameter& parameter, const Json& value) {
       return read_texts(parameter, value);
     case ValueKind::points:
       return read_points(parameter, value);
+    case ValueKind::components:
+      return read_mixture(value);
     case ValueKind::numbers:
       break;
   }
@@ -173,7 +196,7 @@ nlohmann::json written_value(const Parameter& parameter, const Value& value) {
   if (parameter.kind == ValueKind::choice) {
     return parameter.choices[static_cast<std::size_t>(std::get<std::int64_t>(value))];
   }
-  return std::visit([](const auto& known) { return nlohmann::json(known); }, value);
+  return std::visit(WrittenJson(), value);
 }
 
 std::string describe(const Json& value) {
@@ -199,6 +222,8 @@ std::string wanted_value(const Parameter& parameter) {
       return "a list of numbers";
     case ValueKind::points:
       return "a list of points [x, y, z]";
+    case ValueKind::components:
+      return "a list of components";
     case ValueKind::choice:
       break;
   }

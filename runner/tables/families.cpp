@@ -84,15 +84,18 @@ Flat told_by(const Family& family) {
   return flat;
 }
 
+/// The last part of a path; of a component's share its number, too: "2.share".
+std::string_view short_name(std::string_view path) {
+  constexpr std::string_view mixture = "shape.mixture.";
+  return path.substr(path.starts_with(mixture) ? mixture.size() : path.rfind('.') + 1);
+}
+
 /// "small_share=0.25 size_ratio=0.5": the parameters among `paths`, by the last part of their path.
 std::string distinction_of(const Family& family, const std::set<std::string>& paths) {
   std::string text;
   for (const auto& [path, value] : parameters_of(family)) {
     if (!paths.contains(path)) continue;
-    text.append(text.empty() ? "" : " ")
-        .append(path, path.rfind('.') + 1)
-        .append("=")
-        .append(value);
+    text.append(text.empty() ? "" : " ").append(short_name(path)).append("=").append(value);
   }
   return text;
 }

@@ -47,6 +47,12 @@ TEST_CASE("a mixture costs what its components do, weighted by their numbers") {
   prisms.shape = PrismSize{40, 1, 1};
   mixed.shape = Mixture{{{0.25, cubes.shape}, {0.75, prisms.shape}}, ShareBy::number};
   CHECK(seconds(mixed) == Approx(0.25 * seconds(cubes) + 0.75 * seconds(prisms)));
+  PackingSpec pinacoids = cubes;
+  pinacoids.shape = PinacoidSize{};
+  mixed.shape = Mixture{{{0.5, PinacoidSize{}}, {0.5, PinacoidSize{}}}};
+  CHECK(seconds(mixed) == Approx(seconds(pinacoids)));
+  mixed.shape = Mixture{{{0.5, PinacoidSize{}}, {0.5, PinacoidSize{1, 1, 0.5}}}};
+  CHECK(seconds(mixed) > 3 * seconds(pinacoids));  // one by one
 }
 
 TEST_CASE("grains of several sizes cost more than as many of one, however the sizes are given") {

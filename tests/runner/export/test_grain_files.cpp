@@ -135,5 +135,27 @@ TEST_CASE("every opened element of a VTP file is closed, innermost first") {
   CHECK(open.empty());
 }
 
+TEST_CASE("grains of a mixture tell their component, and have faces of its mesh alone") {
+  ExportedBed exported = exported_turned_bed();
+  Turned& turned = *exported.bed.turned;
+  turned.components = {1, 0};
+  const double half = 0.5;  // a pyramid of five faces
+  turned.meshes.push_back(
+      {{{-half, -half, 0}, {half, -half, 0}, {half, half, 0}, {-half, half, 0}, {0, 0, 1}},
+       {{0, 3, 2, 1}, {0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}}});
+  const std::string csv = grains_csv(exported);
+  CHECK(csv.substr(0, csv.find('\n')).ends_with(",qw,component"));
+  CHECK_THAT(csv, Catch::Contains(",2\n2,large,") && Catch::EndsWith(",0,0,0,1,1\n"));
+  const std::string xyz = grains_xyz(exported);
+  CHECK_THAT(xyz, Catch::Contains(":orientation:R:4:component:I:1 pbc"));
+  const std::string vtp = grains_vtp(exported);
+  CHECK(array_of(vtp, "component") == std::vector<double>{2, 2, 2, 2, 2, 1, 1, 1, 1});
+  CHECK(array_of(vtp, "Points").size() == 3 * (5 + 4));
+  const std::vector<double> corners = array_of(vtp, "connectivity");
+  REQUIRE(corners.size() == 4 + 4 * 3 + 4 * 3);
+  CHECK(corners[16] == 5);  // the first corner of the second grain
+  CHECK(array_of(vtp, "offsets").back() == 28);
+}
+
 }  // namespace
 }  // namespace grainsweep

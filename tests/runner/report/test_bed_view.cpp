@@ -57,6 +57,21 @@ TEST_CASE("a bed of polyhedra has its mesh and an orientation for each grain", "
   CHECK(view_size(bed) > view_size(two_spheres()));
 }
 
+TEST_CASE("a bed of a mixture has all meshes, and the component of each grain behind the rest",
+          "[report]") {
+  StoredBed bed = two_spheres();
+  bed.turned = sample_turned();
+  const std::size_t of_one = view_size(bed);
+  bed.turned->meshes.push_back(bed.turned->meshes.front());
+  bed.turned->components = {1, 0};
+  const nlohmann::json json = json_in(bed_element(bed, {"a bed", 0.0}));
+  CHECK(json["meshes"].size() == 2);
+  const std::string text = json["grains"];
+  const std::string ends = base64(shorts({0, 0, 0, 32767, 19660, 0, 0, 26214, 1, 0}));
+  CHECK(text.substr(32) == ends);
+  CHECK(view_size(bed) > of_one);
+}
+
 TEST_CASE("the forces between grains are pairs of their numbers and shares of the largest",
           "[report]") {
   StoredBed bed = two_spheres();

@@ -198,7 +198,7 @@ TEST_CASE("a shape that is not said, or misspelt, is refused with what is known"
                  "\"cube\", \"cuboid\", \"tetrahedron\", \"octahedron\", \"dodecahedron\", "
                  "\"icosahedron\", \"prism\", \"cylinder\" or an object with pinacoid, cube, "
                  "cuboid, tetrahedron, octahedron, dodecahedron, icosahedron, prism, cylinder, "
-                 "hull"});
+                 "hull, mixture, mixture_by"});
   CHECK(errors_in_base(R"({"shape": {"hull": {}}})") ==
         Messages{"s.json:2:20 /base/shape/hull: a hull needs its vertices: write \"vertices\" or "
                  "\"file\""});

@@ -27,6 +27,8 @@ Json another_value(const Parameter& parameter) {
       return Json::array({"a.csv", "b.csv"});
     case ValueKind::points:
       return Json::array({{0, 0, 0}, {0.5, 0, 0}, {0, 1, 0}, {0, 0, 1}});
+    case ValueKind::components:
+      return Json::parse(R"([{"share": 0.5, "cube": {}}, {"share": 0.5, "prism": {"sides": 5}}])");
     case ValueKind::numbers:
       break;
   }
@@ -88,6 +90,7 @@ TEST_CASE("every parameter that belongs to the identity reads back what was set"
     parameter.set(resolved, *reading.value);
     if (parameter.path.starts_with("fill.")) resolved.fill_content = "x.csv";
     if (parameter.path == "fill.diameter") resolved.fill_file = "x.csv";
+    if (parameter.path == "shape.mixture_by") resolved.spec.shape = Mixture{};
     const auto value = parameter.get(resolved);
     const std::set<std::string> outside = {"accuracy.preset", "seed", "shape.hull.file",
                                            "shape.hull.size", "sizes.distribution.size"};
@@ -245,7 +248,7 @@ TEST_CASE("what is no shape is refused with the shapes there are") {
       "must be \"sphere\", \"pinacoid\", \"cube\", \"cuboid\", \"tetrahedron\", "
       "\"octahedron\", \"dodecahedron\", \"icosahedron\", \"prism\", \"cylinder\" or an object "
       "with pinacoid, cube, cuboid, tetrahedron, octahedron, dodecahedron, icosahedron, "
-      "prism, cylinder, hull, is ";
+      "prism, cylinder, hull, mixture, mixture_by, is ";
   CHECK(error_of("shape", "rock") == wanted + "the text \"rock\"");
   CHECK(error_of("shape", "hull") == wanted + "the text \"hull\"");
   CHECK(error_of("shape", "pinacoit") ==

@@ -19,6 +19,8 @@ TEST_CASE("a shape is named by its name and by each of its parts, by nothing els
   CHECK(named_by("shape.hull.vertices", Points{}) == "hull.vertices");
   CHECK(named_by("shape.hull.file", std::string("a.obj")) == "hull.file");
   CHECK(named_by("shape.hull.size") == "hull");
+  CHECK(named_by("shape.mixture", Components{}) == "mixture");
+  CHECK(named_by("shape.mixture_by", std::int64_t{1}) == "mixture");
   for (const Parameter& parameter : parameters()) {
     if (parameter.path.starts_with("shape")) continue;
     CHECK(named_by(parameter.path.c_str()).empty());
