@@ -6,6 +6,7 @@
 
 #include "engine/dynamics/settle.hpp"
 #include "engine/measure/bond_order.hpp"
+#include "engine/measure/components.hpp"
 #include "engine/measure/coordination.hpp"
 #include "engine/measure/order.hpp"
 #include "engine/measure/profile.hpp"
@@ -158,11 +159,14 @@ Touching touching_or_bonded(const MeasureSpec& spec, const Kernels& kernels, Pol
 }
 
 // What is known of one kind of grains only.
-void measure_kind(const SphereBed&, const SettleReport&, const std::optional<Slab>&, Packing&) {}
-void measure_kind(const PolyhedronBed& bed, const SettleReport& settled,
+void measure_kind(const SphereBed&, const Touching&, double, const std::optional<Slab>&, Packing&) {
+}
+void measure_kind(const PolyhedronBed& bed, const Touching& near, double gap_tolerance,
                   const std::optional<Slab>& slab, Packing& packing) {
   packing.turned = orientations_of(bed);
-  if (slab) packing.result.shape_order = measure_shape_order(bed, settled.pair_forces, *slab);
+  if (!slab) return;
+  packing.result.shape_order = measure_shape_order(bed, packing.forces, *slab);
+  packing.result.components = measure_components(bed, near, *slab, gap_tolerance);
 }
 
 /// Measures what `spec` asks for.
@@ -197,7 +201,7 @@ void measure(const PackingSpec& spec, const SettleReport& settled, const Kernels
     result.small_share = small_share(bed, *slab, small_class_limit(spec.sizes));
     result.profile_z = profile_along_z(bed, near, bins_of(spec));
   }
-  measure_kind(bed, settled, slab, packing);
+  measure_kind(bed, near, tolerances.front(), slab, packing);
 }
 
 /// From the start to the measured values.

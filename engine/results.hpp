@@ -125,6 +125,19 @@ struct ShapeOrder {
   std::array<double, 3> nematic{};  ///< nematic order of the axes x, y, z of the shape's frame
 };
 
+/// A component of a mixture in the measured slab. A number that the slab does not give is NaN.
+struct ComponentMeasure {
+  std::int64_t grains = 0;               ///< of the whole bed
+  std::int64_t slab_grains = 0;          ///< whose centre lies in the slab
+  double packed = 0.0;                   ///< share of the solid volume of the whole bed
+  double slab_share = 0.0;               ///< share of the solid volume in the slab
+  double solid_fraction = 0.0;           ///< its exact solid volume in the slab over the slab's
+  double coordination = 0.0;             ///< touching grains of one of its grains, mean
+  double coordination_with_walls = 0.0;  ///< the same, walls and floor counted as neighbours
+  std::vector<double> neighbours;        ///< those of `coordination` by their component
+  std::array<double, 3> nematic{};       ///< as of ShapeOrder
+};
+
 struct PackingResult {
   PackingStatus status = PackingStatus::failed;
   std::string reason;  ///< empty when settled
@@ -149,6 +162,7 @@ struct PackingResult {
   Profile profile_z;                       ///< from the floor up
   Order order;                             ///< of the slab
   std::optional<ShapeOrder> shape_order;   ///< of non-spherical grains
+  std::vector<ComponentMeasure> components;  ///< of a mixture, in its order; else empty
   std::int64_t steps = 0;
   std::int64_t iterations = 0;
   std::uint64_t state_hash = 0;  ///< of the final positions and radii

@@ -116,7 +116,7 @@ class _Bytes:
         return values
 
 
-_mark = b"GRAINS10\n"
+_mark = b"GRAINS11\n"
 _grain = [("position", "<f8", 3), ("radius", "<f8"), ("force", "<f8"), ("coordination", "<i4")]
 
 
@@ -126,7 +126,8 @@ class Bed:
     positions, radii; forces, the sum of the contact forces on each grain; coordination, its touching
     neighbours; box, a dict with length, width, periodic (along x, y) and tube. Of polyhedra also
     orientations, quaternions x, y, z, w from the shape to the box, and vertices and faces of a grain
-    of size 1: a vertex lies at position + 2 radius times the turned vertex. None of spheres.
+    of size 1: a vertex lies at position + 2 radius times the turned vertex. Of a mixture meshes has
+    vertices and faces of each component, and components which of them each grain is. None of others.
     """
 
     def __init__(self, folder, job, stored):
@@ -140,14 +141,20 @@ class Bed:
         for kind in ["V48"] * 4 + ["<f8"] * 2:  # curves, which the tables have
             data.one("d"), data.column(kind)
         data.column("V32")  # sizes, likewise
+        for _ in range(data.one("Q")):  # components, likewise
+            [data.one(kind) for kind in "qqddddd"], data.column("<f8"), [data.one("d") for _ in range(3)]
         grains = data.column(_grain)
         self.positions, self.radii = grains["position"], grains["radius"]
         self.forces, self.coordination = grains["force"], grains["coordination"]
-        self.vertices = self.faces = self.orientations = None
+        self.vertices = self.faces = self.orientations = self.meshes = self.components = None
         if data.one("?"):
-            self.vertices = data.column(("<f8", 3))
-            self.faces = [data.column("<i4") for _ in range(data.one("Q"))]
-            self.orientations = data.column(("<f8", 4))
+            meshes = [(data.column(("<f8", 3)), [data.column("<i4") for _ in range(data.one("Q"))])
+                      for _ in range(data.one("Q"))]
+            components, self.orientations = data.column("u1"), data.column(("<f8", 4))
+            if len(components) == 0:
+                ((self.vertices, self.faces),) = meshes
+            else:
+                self.meshes, self.components = meshes, components
 
     @functools.cached_property
     def contacts(self):

@@ -26,10 +26,16 @@ constexpr auto members_of(const Curve* /*type*/) {
 constexpr auto members_of(const SizeRow* /*type*/) {
   return std::tuple(&SizeRow::diameter, &SizeRow::asked, &SizeRow::packed, &SizeRow::slab);
 }
+constexpr auto members_of(const ComponentMeasure* /*type*/) {
+  using Measure = ComponentMeasure;
+  return std::tuple(&Measure::grains, &Measure::slab_grains, &Measure::packed, &Measure::slab_share,
+                    &Measure::solid_fraction, &Measure::coordination,
+                    &Measure::coordination_with_walls, &Measure::neighbours, &Measure::nematic);
+}
 constexpr auto members_of(const Curves* /*type*/) {
   return std::tuple(&Curves::profile_x, &Curves::profile_y, &Curves::profile_from_walls,
                     &Curves::profile_z, &Curves::pair_correlation, &Curves::force_density,
-                    &Curves::sizes);
+                    &Curves::sizes, &Curves::components);
 }
 constexpr auto members_of(const SettledGrain* /*type*/) {
   using Grain = SettledGrain;
@@ -74,7 +80,8 @@ Curves curves_of(const PackingResult& result) {
           result.profile_z,
           result.order.pair_correlation,
           result.order.force_density,
-          result.sizes};
+          result.sizes,
+          result.components};
 }
 
 void set_curves(Curves&& curves, PackingResult& result) {
@@ -85,6 +92,7 @@ void set_curves(Curves&& curves, PackingResult& result) {
   result.order.pair_correlation = std::move(curves.pair_correlation);
   result.order.force_density = std::move(curves.force_density);
   result.sizes = std::move(curves.sizes);
+  result.components = std::move(curves.components);
 }
 
 std::vector<StoredForce> stored_forces(const std::vector<PairForce>& forces) {

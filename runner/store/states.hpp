@@ -19,8 +19,9 @@
 
 namespace grainsweep {
 
-/// The curves of a packing, by far the most of what is measured of it: kept with its grains, not in
-/// the journal. Members as of PackingResult and its Order; empty if nothing was measured.
+/// The curves and lists of a packing, by far the most of what is measured of it: kept with its
+/// grains, not in the journal. Members as of PackingResult and its Order; empty if nothing was
+/// measured.
 struct Curves {
   Profile profile_x;
   Profile profile_y;
@@ -29,6 +30,7 @@ struct Curves {
   Curve pair_correlation;
   Curve force_density;
   std::vector<SizeRow> sizes;
+  std::vector<ComponentMeasure> components;
 };
 
 Curves curves_of(const PackingResult& result);

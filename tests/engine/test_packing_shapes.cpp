@@ -209,6 +209,25 @@ TEST_CASE("a mixture settles, and each grain is given back with the mesh of its 
   }
 }
 
+TEST_CASE("the components of a mixture add up to the whole bed") {
+  const PackingResult r = pack(small_spec(flat_and_isometric())).result;
+  REQUIRE(r.components.size() == 2);
+  const auto &isometric = r.components[0], &flat = r.components[1];
+  CHECK(isometric.grains + flat.grains == r.grains);
+  CHECK(isometric.packed + flat.packed == Approx(1));
+  CHECK(flat.packed == Approx(0.5).margin(0.02));  // sizes scatter: a tenth over the root of 100
+  CHECK(isometric.slab_share + flat.slab_share == Approx(1));
+  CHECK(isometric.solid_fraction + flat.solid_fraction == Approx(r.solid_fraction));
+  double ends = 0, grains = 0;
+  for (const ComponentMeasure& one : r.components) {
+    CHECK(one.neighbours[0] + one.neighbours[1] == Approx(one.coordination));
+    ends += one.coordination * static_cast<double>(one.slab_grains);
+    grains += static_cast<double>(one.slab_grains);
+  }
+  CHECK(ends / grains == Approx(r.coordination.front().between_grains));
+  CHECK(pack(small_spec()).result.components.empty());
+}
+
 TEST_CASE("the slab's profile of a mixture holds the solid volume that is measured at once") {
   const PackingResult r = pack(small_spec(flat_and_isometric())).result;
   REQUIRE(r.status == PackingStatus::settled);

@@ -68,6 +68,8 @@ inline Curves sample_curves() {
   curves.pair_correlation = {0.05, {0, 0.1, 3}};
   curves.force_density = {0.1, {1, std::numeric_limits<double>::quiet_NaN()}};
   curves.sizes = {{0.5, 0.25, 1.0 / 3.0, 0.125}, {1, 1, 1, 1}};
+  curves.components = {{10, 5, 0.5, 0.25, 0.125, 4, 5, {3, 1}, {0.25, 0.5, 0.75}},
+                       {20, 9, 0.5, 0.75, 0.375, 3, 3, {2, 1}, {0.5, 0.5, 0.5}}};
   return curves;
 }
 

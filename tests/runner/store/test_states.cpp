@@ -86,6 +86,7 @@ TEST_CASE("a stored bed of spheres reads back bit by bit, without orientations")
   CHECK(back.curves.profile_z.bins.at(0).neighbours == -1);
   CHECK(std::isnan(back.curves.force_density.values.at(1)));
   CHECK(back.curves.sizes.at(0).packed == 1.0 / 3.0);
+  CHECK(back.curves.components.at(0).nematic[2] == 0.75);
   CHECK_FALSE(back.turned);
 }
 
@@ -96,6 +97,7 @@ TEST_CASE("curves are put back where they were taken from") {
   CHECK(result.profile_z.bins.size() == 1);
   CHECK(result.order.pair_correlation.values.at(2) == 3);
   CHECK(result.sizes.at(0).slab == 0.125);
+  CHECK(result.components.at(0).neighbours == std::vector<double>{3, 1});
   StoredBed bed = sample_bed();
   bed.curves = curves_of(result);
   CHECK(bed_bytes(bed) == bed_bytes(sample_bed()));

@@ -1,0 +1,102 @@
+#include "engine/measure/components.hpp"
+
+#include <cstddef>
+
+#include "engine/measure/cut_polyhedron.hpp"
+#include "engine/measure/nematic.hpp"
+#include "engine/units.hpp"
+
+namespace grainsweep {
+
+namespace {
+
+using Components = std::vector<ComponentMeasure>;
+
+bool has_centre_in(const PolyhedronBed& bed, const Slab& slab, std::size_t grain) {
+  return slab.contains(bed.position[grain].z);
+}
+
+/// Numbers of grains and their volumes, d^3, in the places of shares.
+void add_volumes(const PolyhedronBed& bed, const Slab& slab, Components& components) {
+  for (std::size_t i = 0; i < bed.grains(); ++i) {
+    ComponentMeasure& own = components[bed.component(i)];
+    ++own.grains;
+    own.slab_grains += has_centre_in(bed, slab, i) ? 1 : 0;
+    own.packed += bed.shape(i).volume * sphere_mass(bed.position[i].w);
+    own.slab_share += slab_volume(bed.shape(i), bed.pose(i), 2, slab.bottom, slab.top);
+  }
+}
+
+/// From volumes to shares and solid fractions.
+void divide_volumes(double slab_volume, Components& components) {
+  double packed = 0.0, in_slab = 0.0;
+  for (const ComponentMeasure& one : components) {
+    packed += one.packed;
+    in_slab += one.slab_share;
+  }
+  for (ComponentMeasure& one : components) {
+    one.solid_fraction = one.slab_share / slab_volume;
+    one.packed /= packed;
+    one.slab_share /= in_slab;  // 0 / 0 is NaN
+  }
+}
+
+void add_neighbour(const PolyhedronBed& bed, const Slab& slab, std::size_t grain, std::size_t other,
+                   Components& components) {
+  if (!has_centre_in(bed, slab, grain)) return;
+  components[bed.component(grain)].neighbours[bed.component(other)] += 1.0;
+}
+
+void count_neighbours(const PolyhedronBed& bed, const Touching& touching, const Slab& slab,
+                      double gap_tolerance, Components& components) {
+  for (ComponentMeasure& one : components) one.neighbours.assign(components.size(), 0.0);
+  for (const TouchingPair& pair : touching.pairs) {
+    if (pair.gap >= gap_tolerance) continue;
+    const auto a = static_cast<std::size_t>(pair.a), b = static_cast<std::size_t>(pair.b);
+    add_neighbour(bed, slab, a, b, components);
+    add_neighbour(bed, slab, b, a, components);
+  }
+  for (const TouchingWall& wall : touching.walls) {
+    const auto grain = static_cast<std::size_t>(wall.grain);
+    if (wall.gap >= gap_tolerance || !has_centre_in(bed, slab, grain)) continue;
+    components[bed.component(grain)].coordination_with_walls += 1.0;
+  }
+  for (ComponentMeasure& one : components) {
+    const auto grains = static_cast<double>(one.slab_grains);
+    for (double& neighbours : one.neighbours) {
+      one.coordination += neighbours / grains;
+      neighbours /= grains;
+    }
+    one.coordination_with_walls = one.coordination + one.coordination_with_walls / grains;
+  }
+}
+
+std::vector<Vector> axes_of(const PolyhedronBed& bed, const Slab& slab, std::size_t component,
+                            int axis) {
+  std::vector<Vector> axes;
+  for (std::size_t i = 0; i < bed.grains(); ++i) {
+    if (bed.component(i) != component || !has_centre_in(bed, slab, i)) continue;
+    axes.emplace_back(bed.pose(i).orientation * Vector(Vector::Unit(axis)));
+  }
+  return axes;
+}
+
+}  // namespace
+
+std::vector<ComponentMeasure> measure_components(const PolyhedronBed& bed, const Touching& touching,
+                                                 const Slab& slab, double gap_tolerance) {
+  Components components(bed.components.empty() ? 0 : bed.shapes.size());
+  if (components.empty()) return components;
+  add_volumes(bed, slab, components);
+  divide_volumes(bed.box.floor_area() * slab.height(), components);
+  count_neighbours(bed, touching, slab, gap_tolerance, components);
+  for (std::size_t k = 0; k < components.size(); ++k) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      components[k].nematic[axis] =
+          nematic_order(axes_of(bed, slab, k, static_cast<int>(axis))).order;
+    }
+  }
+  return components;
+}
+
+}  // namespace grainsweep

@@ -1,0 +1,18 @@
+// What the components of a mixture do in one bed; see ComponentMeasure in engine/results.hpp.
+#pragma once
+
+#include <vector>
+
+#include "engine/measure/slab.hpp"
+#include "engine/measure/touching.hpp"
+#include "engine/results.hpp"
+#include "engine/scene/bed.hpp"
+
+namespace grainsweep {
+
+/// An entry for each component; none of a bed whose grains have none. Neighbours are counted as in
+/// engine/measure/coordination.hpp; solid fractions add up to that of the slab.
+std::vector<ComponentMeasure> measure_components(const PolyhedronBed& bed, const Touching& touching,
+                                                 const Slab& slab, double gap_tolerance);
+
+}  // namespace grainsweep

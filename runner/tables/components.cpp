@@ -1,0 +1,113 @@
+#include "runner/tables/components.hpp"
+
+#include <string>
+
+namespace grainsweep {
+namespace {
+
+/// What `value` gives of component `k`, over all replicates.
+template <class Value>
+Spread spread_of_component(const Group& group, std::size_t k, Value value) {
+  std::vector<double> values;
+  for (const Outcome& outcome : group.settled) {
+    const std::vector<ComponentMeasure>& all = outcome.result.components;
+    if (k < all.size()) values.push_back(value(all[k]));
+  }
+  return spread_of(values);
+}
+
+ComponentLine line_of(const Group& group, std::size_t k, std::size_t other) {
+  using Measure = ComponentMeasure;
+  const auto mean = [&](double Measure::*value) {
+    return spread_of_component(group, k, [=](const Measure& one) { return one.*value; });
+  };
+  ComponentLine line;
+  line.component = k + 1;
+  line.other = other + 1;
+  line.grains = spread_of_component(
+      group, k, [](const Measure& one) { return static_cast<double>(one.grains); });
+  line.packed = mean(&Measure::packed);
+  line.slab_share = mean(&Measure::slab_share);
+  line.solid_fraction = mean(&Measure::solid_fraction);
+  line.coordination = mean(&Measure::coordination);
+  line.coordination_with_walls = mean(&Measure::coordination_with_walls);
+  for (std::size_t axis = 0; axis < line.nematic.size(); ++axis) {
+    line.nematic[axis] =
+        spread_of_component(group, k, [=](const Measure& one) { return one.nematic[axis]; });
+  }
+  line.neighbours =
+      spread_of_component(group, k, [=](const Measure& one) { return one.neighbours.at(other); });
+  return line;
+}
+
+struct GroupComponentLine {
+  const Group& group;
+  ComponentLine line;
+};
+
+Columns<GroupComponentLine> component_line_columns(const Varied& varied, const GivenUnits& units) {
+  using Line = GroupComponentLine;
+  Columns<Line> columns;
+  append(columns, group_line_columns(varied),
+         [](const Line& line) -> const Group& { return line.group; });
+  append(columns, Columns<Line>{{"component", "", "its number in shape.mixture, from 1",
+                                 [](const Line& line) { return cell(line.line.component); }},
+                                {"other", "", "the number of a component, its own among them",
+                                 [](const Line& line) { return cell(line.line.other); }},
+                                {"n", "", "packings that enter the means",
+                                 [](const Line& line) { return cell(line.line.grains.n); }}});
+  append_spread(columns, "neighbours", "",
+                "grains of the other component that one of the component touches, with its centre "
+                "in the slab, at gap_tolerance; all that follows is of the component alone",
+                [](const Line& line) { return line.line.neighbours; });
+  append_spread(columns, "grains", "", "of the component in the whole bed",
+                [](const Line& line) { return line.line.grains; });
+  append_spread(columns, "packed", "", "its share of the solid volume of the whole bed",
+                [](const Line& line) { return line.line.packed; });
+  append_spread(columns, "slab", "", "its share of the solid volume in the slab",
+                [](const Line& line) { return line.line.slab_share; });
+  append_spread(columns, "solid_fraction", "",
+                "its exact solid volume in the slab over the slab's volume",
+                [](const Line& line) { return line.line.solid_fraction; });
+  append_spread(columns, "coordination", "",
+                "touching grains of any component per grain of its own",
+                [](const Line& line) { return line.line.coordination; });
+  append_spread(columns, "coordination_with_walls", "", "the same, walls and floor counted",
+                [](const Line& line) { return line.line.coordination_with_walls; });
+  const std::array names = {"nematic_x", "nematic_y", "nematic_z"};
+  for (std::size_t axis = 0; axis < names.size(); ++axis) {
+    append_spread(columns, names[axis], "",
+                  std::string("nematic order of the axis ") + names[axis][8] + " of its frame",
+                  [=](const Line& line) { return line.line.nematic[axis]; });
+  }
+  append_in_units(columns, units);
+  return columns;
+}
+
+}  // namespace
+
+std::vector<ComponentLine> mean_components(const Group& group) {
+  std::vector<ComponentLine> lines;
+  if (group.settled.empty()) return lines;
+  const std::size_t components = group.settled.front().get().result.components.size();
+  for (std::size_t k = 0; k < components; ++k) {
+    for (std::size_t other = 0; other < components; ++other) {
+      lines.push_back(line_of(group, k, other));
+    }
+  }
+  return lines;
+}
+
+std::vector<ColumnText> components_columns(const Varied& varied, const GivenUnits& units) {
+  return described("components.csv", component_line_columns(varied, units));
+}
+
+CurveTable components_table(const Varied& varied, const GivenUnits& units) {
+  return curve_table(component_line_columns(varied, units), [](const Group& group) {
+    std::vector<GroupComponentLine> lines;
+    for (const ComponentLine& line : mean_components(group)) lines.push_back({group, line});
+    return lines;
+  });
+}
+
+}  // namespace grainsweep

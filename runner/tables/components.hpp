@@ -1,0 +1,28 @@
+// components.csv: what each component of a mixture does, a row for each pair of components.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "runner/tables/groups.hpp"
+#include "runner/tables/units.hpp"
+
+namespace grainsweep {
+
+/// A component, and how one of its grains touches those of another, or of its own.
+struct ComponentLine {
+  std::size_t component = 0, other = 0;  ///< from 1
+  Spread grains, packed, slab_share, solid_fraction, coordination, coordination_with_walls;
+  std::array<Spread, 3> nematic;
+  Spread neighbours;
+};
+
+/// Over the settled packings of a group; none of grains that are no mixture.
+std::vector<ComponentLine> mean_components(const Group& group);
+
+CurveTable components_table(const Varied& varied, const GivenUnits& units = {});
+
+std::vector<ColumnText> components_columns(const Varied& varied, const GivenUnits& units = {});
+
+}  // namespace grainsweep
