@@ -19,7 +19,9 @@ cat >sweep.json <<'JSON'
             "measure": { "exclude_floor": 0.5, "exclude_surface": 0.5 } },
   "sweep": [ { "label": "two sizes", "set": { "sizes.small_share": 0.3 } },
              { "label": "tube", "set": { "tube.diameter": 4 } },
-             { "label": "pinacoids", "set": { "shape": "pinacoid", "box.y": "periodic", "box.width": 4 } } ] }
+             { "label": "pinacoids", "set": { "shape": "pinacoid", "box.y": "periodic", "box.width": 4 } },
+             { "label": "mixture", "set": { "box.y": "periodic", "box.width": 5, "box.length": 5, "shape": { "mixture": [
+               { "share": 0.5, "cube": {} }, { "share": 0.5, "cuboid": { "height": 0.4 } } ] } } } ] }
 JSON
 "$grainsweep" run sweep.json --quiet --no-report --out out || [ $? -eq 1 ]
 
@@ -66,6 +68,8 @@ for file, job in zip(index["file"], index["job"]):
         continue
     stem, packing, grains = file[:-4], packings.loc[job], table(file)
     places, mass = grains[["x", "y", "z"]].to_numpy(), 8 * grains["radius"] ** 3
+    if "component" in grains:
+        mass *= numpy.where(grains["component"] == 2, 0.4, 1.0)  # volumes of the components
 
     atoms = ase.io.read(stem + ".xyz")
     assert len(atoms) == packing["grains"] and set(atoms.symbols) == {"X"}, stem

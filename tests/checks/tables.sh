@@ -48,7 +48,12 @@ for path in glob.glob(sys.argv[1] + "/*.json"):
     if "name" not in sweep:
         continue
     has_large_grains = any(word in json.dumps(sweep) for word in ("distribution", "cylinder"))
-    sweep = small(sweep, 6, 6) if has_large_grains else small(sweep)
+    if "mixture" in json.dumps(sweep):  # long grains need a wide box; two of the shares
+        for block in sweep["sweep"]:
+            block["grid"]["shape.mixture"] = block["grid"]["shape.mixture"][1::4]
+        sweep = small(sweep, 8, 8)
+    else:
+        sweep = small(sweep, 6, 6) if has_large_grains else small(sweep)
     sweep.setdefault("base", {})["measure"] = measure
     varies_accuracy = "accuracy" in json.dumps(sweep.get("sweep", []))
     sweep["replicates"] = 1 if varies_accuracy else 2
@@ -87,7 +92,7 @@ done
 import sys
 import pandas
 
-by_group = ["profiles", "decays", "distributions", "sizes", "fit_points"]
+by_group = ["profiles", "decays", "distributions", "sizes", "components", "fit_points"]
 joined = 0
 for sweep in sys.argv[1:]:
     folder = "out-" + sweep.removesuffix(".json")

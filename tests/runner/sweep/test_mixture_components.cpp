@@ -88,6 +88,21 @@ TEST_CASE("a mixture may vary, and another shape takes its place with all its pa
   CHECK(std::holds_alternative<SphereShape>(jobs[2].spec.shape));
 }
 
+TEST_CASE("shares that do not add up, and grains placed by hand, are refused at their place") {
+  CHECK(errors_of(R"({"name": "m", "base": {"shape": {"mixture": [
+  {"share": 0.5, "cube": {}}, {"share": 0.4, "pinacoid": {"height": 0.5}}]}}})") ==
+        std::vector<std::string>{
+            "s.json:1:45 /base/shape/mixture: shares must add up to 1, add up to 0.9"});
+  const ScratchFolder folder;
+  folder.write("one.csv", "x,y,z,r,qx,qy,qz,qw\n2,2,2,0.5,0,0.6,0,0.8\n");
+  const SweepReading reading = read_sweep(folder.write(
+      "s.json",
+      R"({"name": "m", "base": {"fill.file": "one.csv", "shape.mixture": )" + halves + "}}"));
+  REQUIRE(reading.errors.size() == 1);
+  CHECK(reading.errors[0].pointer == "/base/fill.file");
+  CHECK(reading.errors[0].message.starts_with("does not say which grain is of which component"));
+}
+
 TEST_CASE("what is wrong with a component is told at its place") {
   CHECK(error_of("[]").starts_with("/m must be a list of components"));
   CHECK(error_of("{}").starts_with("/m must be a list of components"));
