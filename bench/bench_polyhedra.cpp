@@ -95,8 +95,8 @@ void batch_axes(benchmark::State& run) {
   }
   const Kernels& kernels = kernels_for(static_cast<Isa>(run.range(0)));
   for (auto _ : run) {
-    kernels.pinacoid_axes(*shape.pinacoid, blocks.data(), blocks.size(), bed.centres.data(),
-                          bed.orientations.data(), 20, 20);
+    kernels.pinacoid_axes(*shape.pinacoid, *shape.pinacoid, blocks.data(), blocks.size(),
+                          bed.centres.data(), bed.orientations.data(), 20, 20);
     benchmark::ClobberMemory();
   }
   run.SetLabel(name_of(kernels.isa));

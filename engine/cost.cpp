@@ -84,27 +84,12 @@ double shape_factor(const ShapeSpec& shape, Creep creep) {
   return (creep == Creep::loose ? 6.0 : 2.6) * std::sqrt(std::max(1.0, corners / usual_corners));
 }
 
-/// Whether all components are pinacoids of the same sides and angle.
-bool is_one_pinacoid(const Mixture& mixture) {
-  const auto* first = std::get_if<PinacoidSize>(&mixture.components.front().shape);
-  return std::all_of(mixture.components.begin(), mixture.components.end(), [&](const auto& other) {
-    const auto* size = std::get_if<PinacoidSize>(&other.shape);
-    return first != nullptr && size != nullptr && size->length == first->length &&
-           size->width == first->width && size->height == first->height &&
-           size->angle == first->angle;
-  });
-}
-
-/// The mean over the grains. Pinacoids that differ are not tested in batches.
+/// The mean over the grains.
 double shape_factor(const Mixture& mixture, Creep creep) {
-  constexpr double one_by_one = 3.5;  // times as long: 3.5 at "fast", 4 at "balanced"
-  const bool are_batched = is_one_pinacoid(mixture);
   const std::vector<double> shares = number_shares(mixture);
   double mean = 0.0;
   for (std::size_t k = 0; k < shares.size(); ++k) {
-    const ShapeSpec& shape = mixture.components[k].shape;
-    const bool takes_longer = std::holds_alternative<PinacoidSize>(shape) && !are_batched;
-    mean += shares[k] * shape_factor(shape, creep) * (takes_longer ? one_by_one : 1.0);
+    mean += shares[k] * shape_factor(mixture.components[k].shape, creep);
   }
   return mean;
 }

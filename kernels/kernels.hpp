@@ -60,7 +60,8 @@ inline constexpr float parallel_edges_sine2 = 2.5e-3F;
 /// closer than 4 d lose some 20 roundings of 6e-8, which the least sine of edges divides by .05.
 inline constexpr float pinacoid_rounding = 2e-5F;
 
-/// `block_width` pairs of pinacoids of one shape: which, and what parts them.
+/// `block_width` pairs of pinacoids, all grains a of one shape and all grains b of one: which, and
+/// what parts them.
 /// An axis has the number 0 .. 3 for face normal k of grain a, 4 .. 7 for face normal k - 4 of
 /// grain b, 8 + 6 i + j for the cross product of edge direction i of a and j of b. Unused lanes
 /// name grain 0 twice.
@@ -100,9 +101,9 @@ struct Kernels {
   /// shape's frame to the box's. period_x, period_y: d, 0 where the axis is walled. A pair
   /// whose larger separation exceeds a margin by pinacoid_rounding is further apart than the
   /// margin.
-  void (*pinacoid_axes)(const PinacoidHalves& shape, PinacoidBlock* pairs, std::size_t blocks,
-                        const Record<double>* centres, const Record<double>* orientations,
-                        double period_x, double period_y);
+  void (*pinacoid_axes)(const PinacoidHalves& shape_a, const PinacoidHalves& shape_b,
+                        PinacoidBlock* pairs, std::size_t blocks, const Record<double>* centres,
+                        const Record<double>* orientations, double period_x, double period_y);
 };
 
 /// The kernels compiled for `isa`. Requires is_supported(isa).

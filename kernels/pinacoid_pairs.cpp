@@ -1,9 +1,10 @@
 // Narrow phase of pinacoids: the separating-axis test of 16 pairs at a time.
 //
-// For each axis n the separation is |n . c| - s_a h(n) - s_b h(R^T n), with c the difference of
-// centres and R the turn of b, both in the frame of a, and h the half width. Edge axes are cross
-// products e_i x R e_j, taken in both frames from constants, and not normalised: with s the
-// separation times |n|, they are compared by s |s| / |n|^2 without a division.
+// For each axis n the separation is |n . c| - s_a h_a(n) - s_b h_b(R^T n), with c the difference of
+// centres and R the turn of b, both in the frame of a, and h_a, h_b the half widths of the shapes.
+// Edge axes are cross products e_i x R e_j, taken in both frames from constants, and not
+// normalised: with s the separation times |n|, they are compared by s |s| / |n|^2 without a
+// division.
 #include "kernels/lanes.hpp"
 #include "kernels/tables.hpp"
 
@@ -160,34 +161,41 @@ inline Normals normals(const Pinacoid& p, const Vec (&axis)[3]) {
   return {{roof_z + roof_y, roof_z - roof_y, end_z + end_x, end_z - end_x}};
 }
 
+/// A shape and the scales of its grains.
+struct Scaled {
+  const Pinacoid& shape;
+  const Lanes& scale;
+};
+
 /// Tests the normals of one grain: `along` is n . c, `seen` the normals in the frame of the other.
-inline void test_faces(const Pinacoid& p, const Lanes (&along)[4], const Normals& seen,
-                       const Lanes& own_scale, const Lanes& other_scale, int first,
-                       BestFace& best) {
-  const Lanes roof = own_scale * Lanes(p.roof_y * p.b), end = own_scale * Lanes(p.end_x * p.a);
+inline void test_faces(const Scaled& own, const Scaled& other, const Lanes (&along)[4],
+                       const Normals& seen, int first, BestFace& best) {
+  const Pinacoid& p = own.shape;
+  const Lanes roof = own.scale * Lanes(p.roof_y * p.b), end = own.scale * Lanes(p.end_x * p.a);
   for (int k = 0; k < 4; ++k) {
-    const Lanes width = (k < 2 ? roof : end) + other_scale * half_width(p, seen.n[k]);
+    const Lanes width = (k < 2 ? roof : end) + other.scale * half_width(other.shape, seen.n[k]);
     best.take(xsimd::abs(along[k]) - width, first + k);
   }
 }
 
-inline BestFace best_face(const Pinacoid& p, const Pairs& pairs) {
+inline BestFace best_face(const Scaled& a, const Scaled& b, const Pairs& pairs) {
+  const Pinacoid& p = a.shape;
   const Vec& c = pairs.centre;
   const Lanes ry = Lanes(p.roof_y) * c.y, rz = Lanes(p.roof_z) * c.z;
   const Lanes ex = Lanes(p.end_x) * c.x, ez = Lanes(p.end_z) * c.z;
   const Lanes along_a[4] = {rz + ry, rz - ry, ez + ex, ez - ex};
   BestFace best{Lanes(-1e30F), Lanes(0.0F)};
-  test_faces(p, along_a, normals(p, pairs.row), pairs.scale_a, pairs.scale_b, 0, best);
-  const Normals of_b = normals(p, pairs.column);
+  test_faces(a, b, along_a, normals(p, pairs.row), 0, best);
+  const Normals of_b = normals(b.shape, pairs.column);
   const Lanes along_b[4] = {dot(of_b.n[0], c), dot(of_b.n[1], c), dot(of_b.n[2], c),
                             dot(of_b.n[3], c)};
-  test_faces(p, along_b, of_b, pairs.scale_b, pairs.scale_a, 4, best);
+  test_faces(b, a, along_b, of_b, 4, best);
   return best;
 }
 
 // ---- edge axes: directions 0 along x, 1 .. 4 the hips, 5 along y ----
 
-/// A direction and its products with the components of a hip.
+/// A direction of one grain and its products with the components of a hip of the other.
 struct Direction {
   Vec v;
   Lanes xy, xz;  ///< hip_x times y, z
@@ -195,20 +203,21 @@ struct Direction {
   Lanes zx, zy;  ///< hip_z times x, y
 };
 
-inline Direction direction(const Pinacoid& p, const Vec& v) {
-  const Lanes x(p.hip_x), y(p.hip_y), z(p.hip_z);
+inline Direction direction(const Pinacoid& other, const Vec& v) {
+  const Lanes x(other.hip_x), y(other.hip_y), z(other.hip_z);
   return {v, x * v.y, x * v.z, y * v.x, y * v.z, z * v.x, z * v.y};
 }
 
 /// The six directions of one grain as the other sees them.
-inline void directions(const Pinacoid& p, const Vec (&axis)[3], Direction (&seen)[6]) {
+inline void directions(const Pinacoid& p, const Pinacoid& other, const Vec (&axis)[3],
+                       Direction (&seen)[6]) {
   const Vec x = p.hip_x * axis[0], y = p.hip_y * axis[1], z = p.hip_z * axis[2];
-  seen[0] = direction(p, axis[0]);
-  seen[1] = direction(p, x - y + z);
-  seen[2] = direction(p, x + y - z);
-  seen[3] = direction(p, y + z - x);
-  seen[4] = direction(p, x + y + z);  // its sign does not matter
-  seen[5] = direction(p, axis[1]);
+  seen[0] = direction(other, axis[0]);
+  seen[1] = direction(other, x - y + z);
+  seen[2] = direction(other, x + y - z);
+  seen[3] = direction(other, y + z - x);
+  seen[4] = direction(other, x + y + z);  // its sign does not matter
+  seen[5] = direction(other, axis[1]);
 }
 
 /// Cross product of an own direction and one of the other grain.
@@ -240,36 +249,36 @@ struct BestEdges {
 };
 
 template <int i, int j>
-inline void test_edges(const Pinacoid& p, const Pairs& pairs, const Direction& of_b,
+inline void test_edges(const Scaled& a, const Scaled& b, const Pairs& pairs, const Direction& of_b,
                        const Direction& of_a, BestEdges& best) {
   const Vec n = cross<i>(of_b), m = cross<j>(of_a);
-  const Lanes width = pairs.scale_a * half_width(p, n) + pairs.scale_b * half_width(p, m);
+  const Lanes width = a.scale * half_width(a.shape, n) + b.scale * half_width(b.shape, m);
   best.take(xsimd::abs(dot(n, pairs.centre)) - width, dot(n, n), 8 + 6 * i + j);
 }
 
 /// All edges of a against direction j of b.
 template <int j>
-inline void test_all_edges(const Pinacoid& p, const Pairs& pairs, const Direction& of_b,
-                           const Direction (&of_a)[6], BestEdges& best) {
-  test_edges<0, j>(p, pairs, of_b, of_a[0], best);
-  test_edges<1, j>(p, pairs, of_b, of_a[1], best);
-  test_edges<2, j>(p, pairs, of_b, of_a[2], best);
-  test_edges<3, j>(p, pairs, of_b, of_a[3], best);
-  test_edges<4, j>(p, pairs, of_b, of_a[4], best);
-  test_edges<5, j>(p, pairs, of_b, of_a[5], best);
+inline void test_all_edges(const Scaled& a, const Scaled& b, const Pairs& pairs,
+                           const Direction& of_b, const Direction (&of_a)[6], BestEdges& best) {
+  test_edges<0, j>(a, b, pairs, of_b, of_a[0], best);
+  test_edges<1, j>(a, b, pairs, of_b, of_a[1], best);
+  test_edges<2, j>(a, b, pairs, of_b, of_a[2], best);
+  test_edges<3, j>(a, b, pairs, of_b, of_a[3], best);
+  test_edges<4, j>(a, b, pairs, of_b, of_a[4], best);
+  test_edges<5, j>(a, b, pairs, of_b, of_a[5], best);
 }
 
-inline BestEdges best_edges(const Pinacoid& p, const Pairs& pairs) {
+inline BestEdges best_edges(const Scaled& a, const Scaled& b, const Pairs& pairs) {
   Direction of_a[6], of_b[6];
-  directions(p, pairs.row, of_a);
-  directions(p, pairs.column, of_b);
+  directions(a.shape, b.shape, pairs.row, of_a);
+  directions(b.shape, a.shape, pairs.column, of_b);
   BestEdges best{Lanes(-1e30F), Lanes(1.0F), Lanes(8.0F), Lanes(1.0F)};
-  test_all_edges<0>(p, pairs, of_b[0], of_a, best);
-  test_all_edges<1>(p, pairs, of_b[1], of_a, best);
-  test_all_edges<2>(p, pairs, of_b[2], of_a, best);
-  test_all_edges<3>(p, pairs, of_b[3], of_a, best);
-  test_all_edges<4>(p, pairs, of_b[4], of_a, best);
-  test_all_edges<5>(p, pairs, of_b[5], of_a, best);
+  test_all_edges<0>(a, b, pairs, of_b[0], of_a, best);
+  test_all_edges<1>(a, b, pairs, of_b[1], of_a, best);
+  test_all_edges<2>(a, b, pairs, of_b[2], of_a, best);
+  test_all_edges<3>(a, b, pairs, of_b[3], of_a, best);
+  test_all_edges<4>(a, b, pairs, of_b[4], of_a, best);
+  test_all_edges<5>(a, b, pairs, of_b[5], of_a, best);
   return best;
 }
 
@@ -281,11 +290,12 @@ inline void store_numbers(const Lanes& numbers, std::int32_t* to) {
   }
 }
 
-inline void test_pairs(const Pinacoid& p, const Grains& grains, std::size_t lane,
-                       PinacoidBlock& block) {
+inline void test_pairs(const Pinacoid& shape_a, const Pinacoid& shape_b, const Grains& grains,
+                       std::size_t lane, PinacoidBlock& block) {
   const Pairs pairs = pairs_of(grains, lane);
-  const BestFace face = best_face(p, pairs);
-  const BestEdges edges = best_edges(p, pairs);
+  const Scaled a{shape_a, pairs.scale_a}, b{shape_b, pairs.scale_b};
+  const BestFace face = best_face(a, b, pairs);
+  const BestEdges edges = best_edges(a, b, pairs);
   const Lanes zero(0.0F), size = xsimd::sqrt(xsimd::abs(edges.signed_square) / edges.length2);
   face.separation.store_unaligned(block.face_separation + lane);
   xsimd::select(edges.signed_square < zero, zero - size, size)
@@ -300,15 +310,15 @@ inline void test_pairs(const Pinacoid& p, const Grains& grains, std::size_t lane
 
 namespace grainsweep::GRAINSWEEP_ISA_NAME {
 
-void pinacoid_axes(const PinacoidHalves& shape, PinacoidBlock* pairs, std::size_t blocks,
-                   const Record<double>* centres, const Record<double>* orientations,
-                   double period_x, double period_y) {
-  const Pinacoid p = pinacoid_of(shape);
+void pinacoid_axes(const PinacoidHalves& shape_a, const PinacoidHalves& shape_b,
+                   PinacoidBlock* pairs, std::size_t blocks, const Record<double>* centres,
+                   const Record<double>* orientations, double period_x, double period_y) {
+  const Pinacoid a = pinacoid_of(shape_a), b = pinacoid_of(shape_b);
   Grains grains{};
   for (std::size_t block = 0; block < blocks; ++block) {
     read_grains(pairs[block], centres, orientations, period_x, period_y, grains);
     for (std::size_t lane = 0; lane < block_width; lane += batch_width<float>) {
-      test_pairs(p, grains, lane, pairs[block]);
+      test_pairs(a, b, grains, lane, pairs[block]);
     }
   }
 }

@@ -16,8 +16,8 @@ extern const FrontKernels front_kernels;
 std::size_t sphere_pairs(const SphereGrid& grid, GrainPair* pairs, std::size_t capacity);
 std::size_t sphere_pairs_across(const SphereGrid& grid, const SphereQueries& queries,
                                 GrainPair* pairs, std::size_t capacity);
-void pinacoid_axes(const PinacoidHalves& shape, PinacoidBlock* pairs, std::size_t blocks,
-                   const Record<double>* centres, const Record<double>* orientations,
-                   double period_x, double period_y);
+void pinacoid_axes(const PinacoidHalves& shape_a, const PinacoidHalves& shape_b,
+                   PinacoidBlock* pairs, std::size_t blocks, const Record<double>* centres,
+                   const Record<double>* orientations, double period_x, double period_y);
 
 }  // namespace grainsweep::GRAINSWEEP_ISA_NAME

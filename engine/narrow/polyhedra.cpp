@@ -45,62 +45,120 @@ double touch_each(const TouchSettings& settings, const PolyhedronBed& bed,
   return sunk;
 }
 
+/// The pinacoids of different proportions among the shapes of a bed.
+struct PinacoidKinds {
+  std::vector<PinacoidHalves> kinds;
+  std::vector<std::size_t> of_shape;  ///< the kind of each shape; their number if it is another
+};
+
+bool are_equal(const PinacoidHalves& p, const PinacoidHalves& q) {
+  return p.a == q.a && p.b == q.b && p.c == q.c && p.e == q.e;
+}
+
+PinacoidKinds pinacoid_kinds(const std::vector<ConvexShape>& shapes) {
+  PinacoidKinds all;
+  for (const ConvexShape& shape : shapes) {
+    if (!shape.pinacoid) continue;
+    const bool is_known = std::any_of(all.kinds.begin(), all.kinds.end(), [&](const auto& kind) {
+      return are_equal(kind, *shape.pinacoid);
+    });
+    if (!is_known) all.kinds.push_back(*shape.pinacoid);
+  }
+  for (const ConvexShape& shape : shapes) {
+    const auto at = std::find_if(all.kinds.begin(), all.kinds.end(), [&](const auto& kind) {
+      return shape.pinacoid && are_equal(kind, *shape.pinacoid);
+    });
+    all.of_shape.push_back(static_cast<std::size_t>(at - all.kinds.begin()));
+  }
+  return all;
+}
+
 /// Lists the pairs whose balls are no further apart than the margin; returns what touch_pairs does.
 double list_close(double margin, const PolyhedronBed& bed, std::span<const GrainPair> pairs,
-                  std::vector<GrainPair>& close) {
+                  std::vector<ClosePair>& close) {
   double sunk = 0.0;
   close.clear();
-  for (const GrainPair pair : pairs) {
-    const Ends at = ends_of(pair);
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    const Ends at = ends_of(pairs[k]);
     const double reach = bed.circumradius(at.a) + bed.circumradius(at.b) + margin;
     const double squared = nearest_difference(bed, at.a, at.b).squaredNorm();
     if (squared > reach * reach) continue;
-    close.push_back(pair);
+    close.push_back({static_cast<std::uint32_t>(k), ClosePair::no_lane});
     sunk = std::max(sunk, sunk_by(bed, at, squared));
   }
   return sunk;
 }
 
-void batch_axes(const Kernels& kernels, const PolyhedronBed& bed, NarrowColumns& columns) {
-  const PinacoidHalves& w = *bed.shapes.front().pinacoid;
-  columns.axes.assign((columns.close.size() + block_width - 1) / block_width, {});
-  for (std::size_t k = 0; k < columns.axes.size() * block_width; ++k) {
-    const GrainPair pair = k < columns.close.size() ? columns.close[k] : GrainPair{0, 0};
-    columns.axes[k / block_width].set_grains(k % block_width, pair.a, pair.b);
-  }
-  // The records hold radii, half the scales.
-  kernels.pinacoid_axes({2.0 * w.a, 2.0 * w.b, 2.0 * w.c, 2.0 * w.e}, columns.axes.data(),
-                        columns.axes.size(), bed.position.data(), bed.orientation.data(),
-                        bed.box.period_x(), bed.box.period_y());
+/// Which kinds the grains of a pair are of: a number below that of all pairs of kinds, which it is
+/// if one of them is no pinacoid.
+std::size_t kinds_of(const PolyhedronBed& bed, const PinacoidKinds& all, GrainPair pair) {
+  const Ends at = ends_of(pair);
+  const std::size_t kinds = all.kinds.size();
+  const std::size_t a = all.of_shape[bed.component(at.a)], b = all.of_shape[bed.component(at.b)];
+  return a < kinds && b < kinds ? a * kinds + b : kinds * kinds;
 }
 
-/// Pinacoids: all axes of 16 pairs at a time.
+/// Gives close pairs of pinacoids lanes of blocks, those of two kinds in blocks of their own, and
+/// returns where the blocks of each pair of kinds begin, and where they end.
+std::vector<std::size_t> take_lanes(const PolyhedronBed& bed, const PinacoidKinds& all,
+                                    std::span<const GrainPair> pairs, NarrowColumns& columns) {
+  const std::size_t count = all.kinds.size() * all.kinds.size();
+  std::vector<std::size_t> lanes(count + 1, 0), begin(1, 0), next;
+  for (const ClosePair& close : columns.close) ++lanes[kinds_of(bed, all, pairs[close.number])];
+  for (std::size_t k = 0; k < count; ++k) {
+    next.push_back(begin.back() * block_width);
+    begin.push_back(begin.back() + (lanes[k] + block_width - 1) / block_width);
+  }
+  columns.axes.assign(begin.back(), {});
+  for (ClosePair& close : columns.close) {
+    const GrainPair pair = pairs[close.number];
+    const std::size_t k = kinds_of(bed, all, pair);
+    if (k == count) continue;
+    const std::size_t lane = next[k]++;
+    columns.axes[lane / block_width].set_grains(lane % block_width, pair.a, pair.b);
+    close.lane = static_cast<std::uint32_t>(lane);
+  }
+  return begin;
+}
+
+/// Tests the axes of all close pairs of pinacoids.
+void batch_axes(const Kernels& kernels, const PolyhedronBed& bed, const PinacoidKinds& all,
+                std::span<const GrainPair> pairs, NarrowColumns& columns) {
+  const std::vector<std::size_t> begin = take_lanes(bed, all, pairs, columns);
+  const auto doubled = [](const PinacoidHalves& w) {  // the records hold radii, half the scales
+    return PinacoidHalves{2.0 * w.a, 2.0 * w.b, 2.0 * w.c, 2.0 * w.e};
+  };
+  for (std::size_t k = 0; k + 1 < begin.size(); ++k) {
+    kernels.pinacoid_axes(doubled(all.kinds[k / all.kinds.size()]),
+                          doubled(all.kinds[k % all.kinds.size()]), columns.axes.data() + begin[k],
+                          begin[k + 1] - begin[k], bed.position.data(), bed.orientation.data(),
+                          bed.box.period_x(), bed.box.period_y());
+  }
+}
+
+/// Beds with pinacoids: all axes of 16 pairs of them at a time; other pairs one by one.
 double touch_pinacoids(const TouchSettings& settings, const Kernels& kernels,
-                       const PolyhedronBed& bed, std::span<const GrainPair> pairs,
+                       const PolyhedronBed& bed, const PinacoidKinds& all,
+                       std::span<const GrainPair> pairs, std::span<PairMemory> memory,
                        NarrowColumns& columns, ContactList& found) {
   const double sunk = list_close(settings.margin, bed, pairs, columns.close);
-  batch_axes(kernels, bed, columns);
-  for (std::size_t k = 0; k < columns.close.size(); ++k) {
-    const PinacoidBlock& block = columns.axes[k / block_width];
-    const std::size_t lane = k % block_width;
-    const Ends at = ends_of(columns.close[k]);
+  batch_axes(kernels, bed, all, pairs, columns);
+  for (const ClosePair& close : columns.close) {
+    const GrainPair pair = pairs[close.number];
+    const Ends at = ends_of(pair);
+    const bool is_tested = close.lane != ClosePair::no_lane;
+    const PinacoidBlock* block = is_tested ? &columns.axes[close.lane / block_width] : nullptr;
+    const std::size_t lane = close.lane % block_width;
     const double scale = std::max(bed.scale(at.a), bed.scale(at.b));
-    if (parted_by(block, lane, settings.margin, scale)) continue;
-    const ShapePair pair = shape_pair(bed, at.a, at.b);
-    const ContactAxes axes = separating_axes(pair, block, lane);
-    append(columns.close[k], pair.pose,
-           touch(pair, settings, axes, columns.touch.clip, found.points), found);
+    if (is_tested && parted_by(*block, lane, settings.margin, scale)) continue;
+    const ShapePair shapes = shape_pair(bed, at.a, at.b);
+    append(pair, shapes.pose,
+           is_tested ? touch(shapes, settings, separating_axes(shapes, *block, lane),
+                             columns.touch.clip, found.points)
+                     : touch(shapes, settings, memory[close.number], columns.touch, found.points),
+           found);
   }
   return sunk;
-}
-
-/// Whether all grains are of one pinacoid, whatever component they are called.
-bool are_one_pinacoid(const std::vector<ConvexShape>& shapes) {
-  const auto& first = shapes.front().pinacoid;
-  return first && std::all_of(shapes.begin() + 1, shapes.end(), [&](const ConvexShape& shape) {
-           const auto& w = shape.pinacoid;
-           return w && w->a == first->a && w->b == first->b && w->c == first->c && w->e == first->e;
-         });
 }
 
 /// A wall's normal at the point nearest to a place of the box.
@@ -137,9 +195,10 @@ void touch_round_wall(std::size_t k, std::int32_t grain, double margin, const Po
 double touch_pairs(const TouchSettings& settings, const Kernels& kernels, const PolyhedronBed& bed,
                    std::span<const GrainPair> pairs, std::span<PairMemory> memory,
                    NarrowColumns& columns, ContactList& found) {
-  return are_one_pinacoid(bed.shapes)
-             ? touch_pinacoids(settings, kernels, bed, pairs, columns, found)
-             : touch_each(settings, bed, pairs, memory, columns.touch, found);
+  const PinacoidKinds kinds = pinacoid_kinds(bed.shapes);
+  return kinds.kinds.empty()
+             ? touch_each(settings, bed, pairs, memory, columns.touch, found)
+             : touch_pinacoids(settings, kernels, bed, kinds, pairs, memory, columns, found);
 }
 
 void touch_wall(std::size_t k, const std::vector<std::int32_t>& grains, double margin,

@@ -1,9 +1,9 @@
 // Which polyhedra of a list of pairs touch, and where.
 //
-// The chain of a pair: balls, then for pinacoids the batch test of separating axes and its best
-// axes measured anew in f64, for other shapes the pair's last axis and separating axes; at last the
-// contact polygon, every point of it, and GJK where no point tells that the pair is near
-// (engine/narrow/manifold.hpp). Walls touch with all vertices near them.
+// The chain of a pair: balls, then for pinacoids, of the same proportions or not, the batch test of
+// separating axes and its best axes measured anew in f64, for other shapes the pair's last axis and
+// separating axes; at last the contact polygon, every point of it, and GJK where no point tells
+// that the pair is near (engine/narrow/manifold.hpp). Walls touch with all vertices near them.
 #pragma once
 
 #include <cstdint>
@@ -40,9 +40,16 @@ struct ContactList {
   }
 };
 
+/// A pair whose balls meet.
+struct ClosePair {
+  std::uint32_t number = 0;  ///< in the list of pairs
+  std::uint32_t lane = 0;    ///< of the blocks of the batch test, or `no_lane`
+  static constexpr std::uint32_t no_lane = 0xFFFFFFFF;
+};
+
 /// Working memory, kept from call to call.
 struct NarrowColumns {
-  std::vector<GrainPair> close;     ///< pinacoids whose balls meet
+  std::vector<ClosePair> close;     ///< if any of the grains are pinacoids
   std::vector<PinacoidBlock> axes;  ///< what the batch test says of them
   TouchColumns touch;
 };

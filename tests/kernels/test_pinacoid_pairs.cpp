@@ -46,17 +46,20 @@ Grains random_grains(std::size_t blocks, std::uint64_t seed) {
 TEST_CASE("the pinacoid kernel gives the bits of its plain-loop twin") {
   const PinacoidHalves shapes[] = {
       {0.5, 0.5, 0.21132486540518713, 0.5}, {0.75, 0.4, 0.5, 0.3}, {0.5, 0.5, 0, 0.5}};
-  for (const PinacoidHalves& shape : shapes) {
+  for (std::size_t k = 0; k < 6; ++k) {  // with themselves, and with the next one
+    const PinacoidHalves &shape = shapes[k % 3], &other = shapes[(k + k / 3) % 3];
     for (const double period : {0.0, 3.0}) {
       const Grains grains = random_grains(50, 7);
       std::vector<PinacoidBlock> expected = grains.blocks;
-      testing::pinacoid_axes_twin(shape, expected.data(), expected.size(), grains.centres.data(),
-                                  grains.orientations.data(), period, period);
+      testing::pinacoid_axes_twin(shape, other, expected.data(), expected.size(),
+                                  grains.centres.data(), grains.orientations.data(), period,
+                                  period);
       for (const Isa isa : testing::testable_isas()) {
-        INFO(name_of(isa) << ", ridge " << shape.c << ", period " << period);
+        INFO(name_of(isa) << ", ridges " << shape.c << " and " << other.c << ", period " << period);
         std::vector<PinacoidBlock> found = grains.blocks;
-        kernels_for(isa).pinacoid_axes(shape, found.data(), found.size(), grains.centres.data(),
-                                       grains.orientations.data(), period, period);
+        kernels_for(isa).pinacoid_axes(shape, other, found.data(), found.size(),
+                                       grains.centres.data(), grains.orientations.data(), period,
+                                       period);
         REQUIRE(testing::same_bits(found, expected));
       }
     }
@@ -65,7 +68,8 @@ TEST_CASE("the pinacoid kernel gives the bits of its plain-loop twin") {
 
 TEST_CASE("no blocks are no work") {
   for (const Isa isa : testing::testable_isas()) {
-    kernels_for(isa).pinacoid_axes({0.5, 0.5, 0.2, 0.5}, nullptr, 0, nullptr, nullptr, 0, 0);
+    kernels_for(isa).pinacoid_axes({0.5, 0.5, 0.2, 0.5}, {0.5, 0.5, 0.2, 0.5}, nullptr, 0, nullptr,
+                                   nullptr, 0, 0);
     SUCCEED(name_of(isa));
   }
 }

@@ -78,27 +78,29 @@ inline PairTwin pair_twin(const Record<double>& a, const Record<double>& b,
             {c.axis[0].z, c.axis[1].z, c.axis[2].z}}}};
 }
 
-inline void face_twin(const PinacoidTwin& p, const PairTwin& pair, PinacoidBlock& block,
-                      std::size_t lane) {
-  const auto normals = [&](const Axes3f& s, Vec3f(&n)[4]) {
+inline void face_twin(const PinacoidTwin& own_a, const PinacoidTwin& own_b, const PairTwin& pair,
+                      PinacoidBlock& block, std::size_t lane) {
+  const auto normals = [](const PinacoidTwin& p, const Axes3f& s, Vec3f(&n)[4]) {
     const Vec3f y = p.roof_y * s.axis[1], z = p.roof_z * s.axis[2];
     const Vec3f ex = p.end_x * s.axis[0], ez = p.end_z * s.axis[2];
     n[0] = z + y, n[1] = z - y, n[2] = ez + ex, n[3] = ez - ex;
   };
   const Vec3f c = pair.centre;
   Vec3f seen_by_b[4], of_b[4];
-  normals(pair.rows, seen_by_b);
-  normals(pair.columns, of_b);
-  const float ry = p.roof_y * c.y, rz = p.roof_z * c.z, ex = p.end_x * c.x, ez = p.end_z * c.z;
+  normals(own_a, pair.rows, seen_by_b);
+  normals(own_b, pair.columns, of_b);
+  const float ry = own_a.roof_y * c.y, rz = own_a.roof_z * c.z;
+  const float ex = own_a.end_x * c.x, ez = own_a.end_z * c.z;
   const float along_a[4] = {rz + ry, rz - ry, ez + ex, ez - ex};
   block.face_separation[lane] = -1e30F;
   for (int k = 0; k < 8; ++k) {
     const bool a = k < 4;
+    const PinacoidTwin &p = a ? own_a : own_b, &seer = a ? own_b : own_a;
     const float own = a ? pair.scale_a : pair.scale_b, other = a ? pair.scale_b : pair.scale_a;
     const float reach = own * (k % 4 < 2 ? p.roof_y * p.b : p.end_x * p.a);
     const Vec3f n = a ? seen_by_b[k] : of_b[k - 4];
     const float along = std::abs(a ? along_a[k] : dot(n, c));
-    const float separation = along - (reach + other * p.width(n));
+    const float separation = along - (reach + other * seer.width(n));
     if (separation > block.face_separation[lane]) {
       block.face_separation[lane] = separation;
       block.face_axis[lane] = k;
@@ -124,17 +126,17 @@ inline Vec3f cross_twin(const PinacoidTwin& p, int own, Vec3f v) {
   return {h.y * v.z - h.z * v.y, h.z * v.x - h.x * v.z, h.x * v.y - h.y * v.x};
 }
 
-inline void edges_twin(const PinacoidTwin& p, const PairTwin& pair, PinacoidBlock& block,
-                       std::size_t lane) {
+inline void edges_twin(const PinacoidTwin& a, const PinacoidTwin& b, const PairTwin& pair,
+                       PinacoidBlock& block, std::size_t lane) {
   Vec3f of_a[6], of_b[6];
-  directions_twin(p, pair.rows, of_a);
-  directions_twin(p, pair.columns, of_b);
+  directions_twin(a, pair.rows, of_a);
+  directions_twin(b, pair.columns, of_b);
   float square = -1e30F, length2 = 1, least = 1;
   block.edge_axis[lane] = 8;
   for (int j = 0; j < 6; ++j) {
     for (int i = 0; i < 6; ++i) {
-      const Vec3f n = cross_twin(p, i, of_b[j]), m = cross_twin(p, j, of_a[i]);
-      const float width = pair.scale_a * p.width(n) + pair.scale_b * p.width(m);
+      const Vec3f n = cross_twin(a, i, of_b[j]), m = cross_twin(b, j, of_a[i]);
+      const float width = pair.scale_a * a.width(n) + pair.scale_b * b.width(m);
       const float separation = std::abs(dot(n, pair.centre)) - width, l = dot(n, n);
       const float its_square = separation * std::abs(separation);
       if (its_square * length2 > square * l && l > parallel_edges_sine2) {
@@ -149,11 +151,11 @@ inline void edges_twin(const PinacoidTwin& p, const PairTwin& pair, PinacoidBloc
   block.edges_parallel[lane] = least <= parallel_edges_sine2 ? 1 : 0;
 }
 
-inline void pinacoid_axes_twin(const PinacoidHalves& shape, PinacoidBlock* pairs,
-                               std::size_t blocks, const Record<double>* centres,
-                               const Record<double>* orientations, double period_x,
-                               double period_y) {
-  const PinacoidTwin p(shape);
+inline void pinacoid_axes_twin(const PinacoidHalves& shape_a, const PinacoidHalves& shape_b,
+                               PinacoidBlock* pairs, std::size_t blocks,
+                               const Record<double>* centres, const Record<double>* orientations,
+                               double period_x, double period_y) {
+  const PinacoidTwin of_a(shape_a), of_b(shape_b);
   for (std::size_t row = 0; row < blocks * block_width; ++row) {
     PinacoidBlock& block = pairs[row / block_width];
     const std::size_t lane = row % block_width;
@@ -161,8 +163,8 @@ inline void pinacoid_axes_twin(const PinacoidHalves& shape, PinacoidBlock* pairs
     const std::size_t b = block.offset_b[lane] / sizeof(Record<double>);
     const PairTwin pair =
         pair_twin(centres[a], centres[b], orientations[a], orientations[b], period_x, period_y);
-    face_twin(p, pair, block, lane);
-    edges_twin(p, pair, block, lane);
+    face_twin(of_a, of_b, pair, block, lane);
+    edges_twin(of_a, of_b, pair, block, lane);
   }
 }
 

@@ -66,8 +66,9 @@ Batch batch_of(PairFamily family, const ConvexShape& shape, std::size_t blocks, 
 }
 
 void test(const ConvexShape& shape, Isa isa, Batch& batch, double period = 0) {
-  kernels_for(isa).pinacoid_axes(halves_of(shape), batch.blocks.data(), batch.blocks.size(),
-                                 batch.centres.data(), batch.orientations.data(), period, period);
+  kernels_for(isa).pinacoid_axes(halves_of(shape), halves_of(shape), batch.blocks.data(),
+                                 batch.blocks.size(), batch.centres.data(),
+                                 batch.orientations.data(), period, period);
 }
 
 // pinacoid_rounding is what the header promises; after the f64 measurement it is the most by which
