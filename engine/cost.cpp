@@ -74,8 +74,9 @@ double unevenness_factor(const PackingSpec& spec, double grains) {
   return 1.0;
 }
 
-/// Polyhedra over spheres of the same number.
+/// Polyhedra, and spheres among them, over spheres of the same number.
 double shape_factor(const ShapeSpec& shape, Creep creep) {
+  if (is_sphere(shape)) return creep == Creep::loose ? 1.4 : 0.5;
   if (std::holds_alternative<PinacoidSize>(shape)) {
     return creep == Creep::loose ? 2.6 : creep == Creep::usual ? 1.7 : 1.3;
   }

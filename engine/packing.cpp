@@ -125,6 +125,7 @@ std::vector<SettledGrain> grains_of(const Grains& bed, const Touching& near, dou
 /// The mesh in the frame in which the shape was written, about its centroid.
 Mesh mesh_of(const ConvexShape& shape) {
   Mesh mesh;
+  if (shape.is_ball) return mesh;
   for (const Vector& vertex : shape.vertices) {
     const Vector v = shape.given.rotation * vertex;
     mesh.vertices.push_back({v.x(), v.y(), v.z()});

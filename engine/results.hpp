@@ -43,12 +43,12 @@ struct RestReport {
   /// Force-bearing contacts closed to 1e-4 d, walls and floor included; of polyhedra a contact
   /// along a line counts 2, one over an area 3.
   std::int64_t contacts = 0;
-  /// Degrees of freedom that a round wall holds besides those of its contacts: it holds a grain
-  /// along the wall, too, as its normal turns where the grain moves.
+  /// Degrees of freedom that contacts hold besides, as their normals turn: a round wall holds a
+  /// grain along the wall, too, and spheres that push its faces keep a polyhedron from turning.
   std::int64_t held_by_turning = 0;
   /// Those that do not depend on others: all but where they are more than needed.
   std::int64_t independent_contacts = 0;
-  std::int64_t isostatic_contacts = 0;  ///< 3 N - zero modes; 6 N of polyhedra
+  std::int64_t isostatic_contacts = 0;  ///< 3 a sphere, 6 a polyhedron, less zero modes
   /// Static, on all contacts closed to Accuracy::imbalance_gap; see engine/dynamics/balance.hpp.
   Imbalance imbalance;
 };
@@ -122,7 +122,8 @@ struct Order {
 struct ShapeOrder {
   std::array<double, 3> contact_share{};  ///< of the force-bearing contacts, simple, double, triple
   std::array<double, 3> force_share{};    ///< of the sum of their forces
-  std::array<double, 3> nematic{};  ///< nematic order of the axes x, y, z of the shape's frame
+  /// Nematic order of the axes x, y, z of the shape's frame; spheres, which have none, left out.
+  std::array<double, 3> nematic{};
 };
 
 /// A component of a mixture in the measured slab. A number that the slab does not give is NaN.
@@ -135,7 +136,7 @@ struct ComponentMeasure {
   double coordination = 0.0;             ///< touching grains of one of its grains, mean
   double coordination_with_walls = 0.0;  ///< the same, walls and floor counted as neighbours
   std::vector<double> neighbours;        ///< those of `coordination` by their component
-  std::array<double, 3> nematic{};       ///< as of ShapeOrder
+  std::array<double, 3> nematic{};       ///< as of ShapeOrder; of spheres NaN
 };
 
 struct PackingResult {
@@ -175,10 +176,13 @@ struct SettledGrain {
   std::int32_t touching = 0;  ///< touching grains at the first gap tolerance, walls not counted
 };
 
-/// The surface of a grain of size 1 in its own frame, d.
+/// The surface of a grain of size 1 in its own frame, d. A sphere among polyhedra, whose diameter is
+/// d, has neither vertices nor faces.
 struct Mesh {
   std::vector<std::array<double, 3>> vertices;
   std::vector<std::vector<std::int32_t>> faces;  ///< counter-clockwise seen from outside
+
+  bool is_ball() const { return vertices.empty(); }
 };
 
 /// What non-spherical grains have besides.

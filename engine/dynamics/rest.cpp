@@ -73,6 +73,23 @@ UnitVector normal_at(const Grains& bed, const ForceContact& contact) {
   return bed.walls[std::min(wall, bed.walls.size() - 1)].normal(p.x, p.y, p.z);
 }
 
+bool can_turn(const SphereBed& /*bed*/, std::int32_t /*grain*/) { return false; }
+bool can_turn(const PolyhedronBed& bed, std::int32_t grain) {
+  return bed.turns(static_cast<std::size_t>(grain));
+}
+
+/// Of the grains of a contact the one that its turning normal holds.
+std::size_t turning_grain(const SphereBed& /*bed*/, const ForceContact& contact) {
+  return static_cast<std::size_t>(contact.a);
+}
+std::size_t turning_grain(const PolyhedronBed& bed, const ForceContact& contact) {
+  const bool is_b = bed.is_grain(contact.b) && !can_turn(bed, contact.a);
+  return static_cast<std::size_t>(is_b ? contact.b : contact.a);
+}
+
+/// Directions that turning normals can hold a grain in: a polyhedron's three turns.
+constexpr std::int64_t most_by_turning = 3;
+
 /// What holds the clusters of grains that push each other; at the root of each.
 std::vector<Hold> holds_of(const Grains& bed, const std::vector<ForceContact>& contacts) {
   Clusters clusters(bed.grains());
@@ -129,31 +146,35 @@ RestReport measure_rest(Bed<Kind>& bed, const ExecutionContext& context, double 
   RestReport rest;
   double overlap = 0.0, closed = 0.0;
   const std::vector<ForceContact> contacts = force_contacts(bed, dt, state.contacts);
+  std::vector<std::int64_t> by_turning(bed.grains(), 0);
+  auto contact = contacts.begin();
   for (const Closure& closure : closures(bed, context, dt, state.candidates, state.contacts)) {
+    const ForceContact& of = *contact++;
     if (!std::isfinite(closure.gap)) continue;
     const double depth = std::max(0.0, -closure.gap);
     overlap += depth;
     closed += 1.0;
     rest.overlap_max = std::max(rest.overlap_max, depth);
     rest.contacts += closure.constraints;
-    rest.held_by_turning += closure.by_turning;
+    by_turning[turning_grain(bed, of)] += closure.by_turning;
   }
+  for (const std::int64_t held : by_turning)
+    rest.held_by_turning += std::min(held, most_by_turning);
   rest.held_by_turning += held_on_axis(bed);
   rest.independent_contacts = rest.contacts;
   rest.overlap_mean = overlap / std::max(closed, 1.0);
-  rest.isostatic_contacts = Kind::degrees_of_freedom * static_cast<std::int64_t>(bed.grains()) -
-                            zero_modes(bed, contacts);
+  rest.isostatic_contacts = degrees_of_freedom(bed) - zero_modes(bed, contacts);
   return rest;
 }
 
 template <class Kind>
 std::int64_t zero_modes(const Bed<Kind>& bed, const std::vector<ForceContact>& contacts) {
-  constexpr bool turns = Kind::degrees_of_freedom > 3;
   std::int64_t modes = 0;
   for (const Hold& hold : holds_of(bed, contacts)) {
     if (!hold.stands) continue;
     modes += 3 - static_cast<std::int64_t>(hold.walls.count());
-    modes += turns && hold.is_grain && hold.walls.count() == 1 ? 1 : 0;
+    const bool spins = hold.is_grain && can_turn(bed, hold.grains.front());
+    modes += spins && hold.walls.count() == 1 ? 1 : 0;
   }
   return modes;
 }

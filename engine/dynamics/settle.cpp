@@ -288,8 +288,7 @@ RestReport report_of(const ExactRest& exact, const SphereBed& bed) {
         return !bed.is_grain(contact.b) &&
                bed.walls[static_cast<std::size_t>(contact.b - bed.wall_name(0))].is_round();
       });
-  rest.isostatic_contacts = Sphere::degrees_of_freedom * static_cast<std::int64_t>(bed.grains()) -
-                            zero_modes(bed, exact.contacts);
+  rest.isostatic_contacts = degrees_of_freedom(bed) - zero_modes(bed, exact.contacts);
   rest.imbalance = {exact.imbalance_mean, exact.imbalance};
   return rest;
 }

@@ -106,6 +106,10 @@ bool find_near(const StepSettings& settings, const ExecutionContext& context, Po
   return renewed;
 }
 
+/// Nothing turns spheres.
+template <class Real>
+void hold_turning(const SphereContacts<Real>&, SphereBed&) {}
+
 /// Rows with the gaps and normals of the grains where they are; see StepReport::sunk.
 template <class Real>
 double update_contacts(const StepSettings& settings, const ExecutionContext& context,
@@ -132,12 +136,6 @@ void forget_list(const SphereBed&, Candidates& candidates) { candidates.is_liste
 void forget_list(const PolyhedronBed&, Candidates&) {}
 
 // ---- the same for all ----
-
-/// Of a bed that has any grains.
-template <class Kind>
-double degrees_of_freedom(const Bed<Kind>& bed) {
-  return static_cast<double>(Kind::degrees_of_freedom * std::max<std::size_t>(bed.grains(), 1));
-}
 
 /// Free motion of all grains; nothing moves the entries that are none.
 template <class Kind, class Real>
@@ -209,12 +207,14 @@ StepReport step(const StepSettings& settings, const ExecutionContext& context, B
   SolveLimits limits = settings.limits;
   limits.tolerance *= force_unit;
   limits.rms_tolerance *= force_unit;
+  hold_turning(state.contacts, bed);
   set_free_motion(settings, context.loop, bed, state.motion);
   report.searched = find_near(settings, context, bed, state);
   report.sunk = update_contacts(settings, context, bed, state.contacts);
   if (settings.carries && is_tall(bed)) carry_weight(settings.dt, bed, state.contacts);
   report.solve = solve(limits, context, state.contacts, state.motion);
-  report.spurious_path = report.solve.rms * report.solve.loaded / degrees_of_freedom(bed);
+  report.spurious_path = report.solve.rms * report.solve.loaded /
+                         static_cast<double>(std::max<std::int64_t>(degrees_of_freedom(bed), 1));
   report.solve.residual /= force_unit;
   report.solve.rms /= force_unit;
   advance(settings.dt, context.loop, bed, state, report);

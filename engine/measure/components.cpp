@@ -75,7 +75,8 @@ std::vector<Vector> axes_of(const PolyhedronBed& bed, const Slab& slab, std::siz
                             int axis) {
   std::vector<Vector> axes;
   for (std::size_t i = 0; i < bed.grains(); ++i) {
-    if (bed.component(i) != component || !has_centre_in(bed, slab, i)) continue;
+    const bool counts = bed.component(i) == component && bed.turns(i);
+    if (!counts || !has_centre_in(bed, slab, i)) continue;
     axes.emplace_back(bed.pose(i).orientation * Vector(Vector::Unit(axis)));
   }
   return axes;

@@ -44,6 +44,14 @@ double reach_of(double gap, double tolerance) {
   return std::max(tolerance, gap + rounding);
 }
 
+/// Of a sphere at a wall.
+ContactPlace place_of_sphere(const Grains& bed, const TouchingWall& touching) {
+  const Vector centre = centre_of(bed, touching.grain);
+  const Vector normal = towards(bed.walls[static_cast<std::size_t>(touching.wall)], centre);
+  const double radius = bed.position[static_cast<std::size_t>(touching.grain)].w;
+  return {normal, centre + (radius + touching.gap / 2.0) * normal, 1};
+}
+
 }  // namespace
 
 ContactPlace contact_place(const SphereBed& bed, const TouchingPair& pair, double /*tolerance*/) {
@@ -69,14 +77,12 @@ ContactPlace contact_place(const PolyhedronBed& bed, const TouchingPair& pair, d
 
 ContactPlace contact_place(const SphereBed& bed, const TouchingWall& touching,
                            double /*tolerance*/) {
-  const Vector centre = centre_of(bed, touching.grain);
-  const Vector normal = towards(bed.walls[static_cast<std::size_t>(touching.wall)], centre);
-  const double radius = bed.position[static_cast<std::size_t>(touching.grain)].w;
-  return {normal, centre + (radius + touching.gap / 2.0) * normal, 1};
+  return place_of_sphere(bed, touching);
 }
 
 ContactPlace contact_place(const PolyhedronBed& bed, const TouchingWall& touching,
                            double tolerance) {
+  if (!bed.turns(static_cast<std::size_t>(touching.grain))) return place_of_sphere(bed, touching);
   const Wall& wall = bed.walls[static_cast<std::size_t>(touching.wall)];
   const Pose pose = bed.pose(static_cast<std::size_t>(touching.grain));
   std::vector<ContactPoint> points;

@@ -7,6 +7,9 @@
 #include <span>
 #include <utility>
 
+#include "engine/measure/cut_sphere.hpp"
+#include "engine/measure/solid_fraction.hpp"
+
 namespace grainsweep {
 
 namespace {
@@ -80,9 +83,21 @@ bool planes_through(const ConvexShape& shape, const Pose& pose, const Vector& lo
   return true;
 }
 
+/// Of a sphere among polyhedra.
+double ball_volume(double radius, const Vector& centre, const Vector& low, const Vector& high) {
+  const auto from_centre = [&](int axis) {
+    return Span{low[axis] - centre[axis], high[axis] - centre[axis]};
+  };
+  return sphere_box_volume(radius, from_centre(0), from_centre(1), from_centre(2));
+}
+
 }  // namespace
 
 Span span_along(const ConvexShape& shape, const Pose& pose, int axis) {
+  if (shape.is_ball) {
+    const double radius = pose.scale * shape.inradius;
+    return {pose.centre[axis] - radius, pose.centre[axis] + radius};
+  }
   const Vector along = pose.orientation.conjugate() * Vector::Unit(axis);
   return {pose.centre[axis] - pose.scale * reach_along(shape, -along),
           pose.centre[axis] + pose.scale * reach_along(shape, along)};
@@ -90,6 +105,7 @@ Span span_along(const ConvexShape& shape, const Pose& pose, int axis) {
 
 double box_volume(const ConvexShape& shape, const Pose& pose, const Vector& low,
                   const Vector& high) {
+  if (shape.is_ball) return ball_volume(pose.scale * shape.inradius, pose.centre, low, high);
   Planes planes{};
   if (!planes_through(shape, pose, low, high, planes)) return 0.0;
   if (planes.count == 0) return pose.scale * pose.scale * pose.scale * shape.volume;
@@ -108,6 +124,10 @@ double box_volume(const ConvexShape& shape, const Pose& pose, const Vector& low,
 }
 
 double slab_volume(const ConvexShape& shape, const Pose& pose, int axis, double low, double high) {
+  if (shape.is_ball) {
+    const double at = pose.centre[axis];
+    return sphere_slab_volume(pose.scale * shape.inradius, low - at, high - at);
+  }
   constexpr double infinity = std::numeric_limits<double>::infinity();
   Vector lows = Vector::Constant(-infinity), highs = Vector::Constant(infinity);
   lows[axis] = low;

@@ -245,6 +245,10 @@ double polyhedron_tube_volume(const ConvexShape& shape, const Pose& pose, double
   const double from_axis = std::hypot(pose.centre.x() - axis, pose.centre.y() - axis);
   const double reach = pose.scale * shape.circumradius;
   if (tube <= 0.0 || from_axis - reach >= tube) return 0.0;
+  if (shape.is_ball) {
+    return sphere_tube_volume(reach, from_axis, tube, low - pose.centre.z(),
+                              high - pose.centre.z());
+  }
   if (from_axis + reach <= tube) return slab_volume(shape, pose, 2, low, high);
   Corners corners;
   Span upright{pose.centre.z(), pose.centre.z()};

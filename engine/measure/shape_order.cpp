@@ -10,7 +10,7 @@ namespace {
 std::vector<Vector> turned_axes(const PolyhedronBed& bed, const Slab& slab, int number) {
   std::vector<Vector> axes;
   for (std::size_t i = 0; i < bed.grains(); ++i) {
-    if (!slab.contains(bed.position[i].z)) continue;
+    if (!bed.turns(i) || !slab.contains(bed.position[i].z)) continue;
     axes.emplace_back(bed.pose(i).orientation * Vector(Vector::Unit(number)));
   }
   return axes;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/narrow/ball_pair.hpp"
 #include "engine/narrow/gjk.hpp"
 #include "engine/narrow/polyhedra.hpp"
 #include "engine/narrow/separating_axes.hpp"
@@ -20,6 +21,7 @@ double pair_gap(const SphereBed& bed, std::size_t a, std::size_t b) {
 }
 double pair_gap(const PolyhedronBed& bed, std::size_t a, std::size_t b) {
   const ShapePair pair = shape_pair(bed, a, b);
+  if (has_ball(pair)) return ball_contact(pair).gap;
   const Closest closest = closest_points(pair);
   return closest.distance > 0.0 ? closest.distance : separating_axes(pair).separation();
 }
@@ -27,8 +29,9 @@ double pair_gap(const PolyhedronBed& bed, std::size_t a, std::size_t b) {
 double wall_gap(const SphereBed& bed, const Wall& wall, std::size_t grain) {
   return wall.gap(bed.position[grain]);
 }
-/// Of the vertex that is nearest to the wall: none is convex.
+/// Of the vertex that is nearest to the wall, none of which is convex; or of a sphere.
 double wall_gap(const PolyhedronBed& bed, const Wall& wall, std::size_t grain) {
+  if (bed.shape(grain).is_ball) return wall.gap(bed.position[grain]);
   const Pose pose = bed.pose(grain);
   double gap = std::numeric_limits<double>::infinity();
   for (const Vector& vertex : bed.shape(grain).vertices) {

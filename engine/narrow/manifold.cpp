@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/narrow/ball_pair.hpp"
 #include "engine/narrow/clip.hpp"
 
 namespace grainsweep {
@@ -82,6 +83,16 @@ PairContact touch_along(const ShapePair& pair, const ContactAxis& axis, double m
   return contact;
 }
 
+/// Of a pair with a sphere.
+PairContact touch_ball(const ShapePair& pair, double margin, PairMemory& memory,
+                       std::vector<ContactPoint>& points) {
+  const BallContact contact = ball_contact(pair);
+  memory.axis = contact.normal;
+  if (contact.gap > margin) return {};
+  points.push_back({contact.position, contact.gap});
+  return {contact.normal, contact.gap, contact.kind, points.size() - 1, 1, false};
+}
+
 }  // namespace
 
 double min_gap(const ContactPoint* points, std::size_t count) {
@@ -109,6 +120,7 @@ PairContact touch(const ShapePair& pair, const TouchSettings& settings, PairMemo
   const double margin = settings.margin;
   if (!closer_than(pair, margin)) return {};
   if (!memory.axis.isZero(0.0) && parted_along(pair, memory.axis, margin)) return {};
+  if (has_ball(pair)) return touch_ball(pair, margin, memory, points);
   const ContactAxes axes = separating_axes(pair, memory.axis, columns.axes);
   memory.axis = axes.best().normal;
   if (axes.separation() > margin) return {};
@@ -126,6 +138,12 @@ std::size_t touch_wall(const ConvexShape& shape, const Pose& pose, const Wall& w
   const UnitVector inward = wall.normal(c.x(), c.y(), c.z());
   const Vector normal = pose.orientation.conjugate() * Vector(inward.x, inward.y, inward.z);
   const double centre = wall.distance(c.x(), c.y(), c.z());
+  if (shape.is_ball) {
+    const double radius = pose.scale * shape.inradius;
+    if (centre - radius > margin) return 0;
+    points.push_back({-radius * normal, centre - radius});
+    return 1;
+  }
   const std::size_t before = points.size();
   for (const Vector& vertex : shape.vertices) {
     const double gap = centre + pose.scale * normal.dot(vertex);

@@ -67,8 +67,9 @@ PairContact touch(const ShapePair& pair, const TouchSettings& settings, PairMemo
 PairContact touch(const ShapePair& pair, const TouchSettings& settings, const ContactAxes& axes,
                   ClipColumns& columns, std::vector<ContactPoint>& points);
 
-/// Appends every vertex of the grain whose gap to the wall is below `margin`; returns their number.
-/// Positions are those of the vertices in the frame of the grain, about its centre, d.
+/// Appends every vertex of the grain whose gap to the wall is below `margin`, or the point of a
+/// sphere that is nearest to it; returns their number. Positions are those of the points in the
+/// frame of the grain, about its centre, d.
 std::size_t touch_wall(const ConvexShape& shape, const Pose& pose, const Wall& wall, double margin,
                        std::vector<ContactPoint>& points);
 

@@ -205,7 +205,7 @@ void touch_wall(std::size_t k, const std::vector<std::int32_t>& grains, double m
                 const PolyhedronBed& bed, ContactList& found) {
   const Wall& wall = bed.walls[k];
   for (const std::int32_t grain : grains) {
-    if (wall.is_round()) {
+    if (wall.is_round() && bed.turns(static_cast<std::size_t>(grain))) {
       touch_round_wall(k, grain, margin, bed, found);
       continue;
     }

@@ -3,7 +3,8 @@
 // The chain of a pair: balls, then for pinacoids, of the same proportions or not, the batch test of
 // separating axes and its best axes measured anew in f64, for other shapes the pair's last axis and
 // separating axes; at last the contact polygon, every point of it, and GJK where no point tells
-// that the pair is near (engine/narrow/manifold.hpp). Walls touch with all vertices near them.
+// that the pair is near (engine/narrow/manifold.hpp). Spheres touch at one point
+// (engine/narrow/ball_pair.hpp). Walls touch with all vertices near them.
 #pragma once
 
 #include <cstdint>

@@ -19,7 +19,16 @@
 
 namespace grainsweep {
 
-enum class AxisKind { none, face_of_a, face_of_b, edges };
+/// What gives a contact its normal.
+enum class AxisKind {
+  none,
+  face_of_a,
+  face_of_b,
+  edges,
+  ball_on_face,  ///< a sphere that touches a polyhedron there
+  ball_on_edge,
+  round,  ///< a sphere at a corner or at a sphere
+};
 
 /// A candidate direction of contact. `a` and `b` are the faces, or the edge directions, it is made
 /// of; -1 where a shape has no part in it.

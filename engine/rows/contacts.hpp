@@ -66,8 +66,10 @@ inline constexpr double open_gap = 1e6;
 struct Closure {
   double gap = 0.0;     ///< least of its points, d; infinite if it is open by more than closed_gap
   int constraints = 0;  ///< 1, 2 or 3 as of ForceContact; 0 if it is open
-  int by_turning = 0;   ///< directions in which it holds besides as its normal turns: 1 of a sphere
-                        ///< at a round wall, which goes back to where the wall is farthest
+  /// Directions in which it holds besides, as its normal turns: 1 of a sphere at a round wall,
+  /// which goes back to where the wall is farthest; of a polyhedron that a sphere pushes 2 on a
+  /// face and 1 on an edge, as turning it would bring the sphere nearer.
+  int by_turning = 0;
 };
 
 }  // namespace grainsweep

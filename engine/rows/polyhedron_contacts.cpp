@@ -100,7 +100,7 @@ void add_side_b(const PolyhedronBed& bed, const PolyhedronContact& contact,
   const auto b = static_cast<std::size_t>(contact.b);
   if (bed.is_asleep(b)) return;
   const Vector& root = bed.root_inertia[b];
-  for (std::size_t k = 0; k < contact.count; ++k) {
+  for (std::size_t k = 0; k < contact.count && bed.turns(b); ++k) {
     const Vector torque = (points[k].position - contact.pose.centre).cross(contact.normal);
     rows.each[k].lever_b = (contact.pose.turn.transpose() * torque).cwiseQuotient(root);
   }
@@ -114,7 +114,8 @@ void set_rows(const PolyhedronBed& bed, const PolyhedronContact& contact,
   rows.inverse_masses = bed.inverse_mass(contact.a);
   rows.normal = bed.pose(a).orientation * contact.normal;
   rows.each.assign(contact.count, {Vector::Zero(), Vector::Zero()});
-  for (std::size_t k = 0; k < contact.count && !bed.is_asleep(a); ++k) {
+  const bool is_turned = bed.turns(a) && !bed.is_asleep(a);
+  for (std::size_t k = 0; k < contact.count && is_turned; ++k) {
     rows.each[k].lever_a = points[k].position.cross(contact.normal).cwiseQuotient(root);
   }
   if (bed.is_grain(contact.b)) add_side_b(bed, contact, points, rows);
@@ -221,6 +222,16 @@ void collect_impulses(const PolyhedronBed& bed, const ParallelFor& loop, double 
   collect(bed.grains(), visit_all, carried);
 }
 
+/// Adds to the moments of a polyhedron what holds it as it turns against a sphere.
+void add_hold(const PolyhedronContact& c, double impulse, PolyhedronBed& bed) {
+  const auto a = static_cast<std::size_t>(c.a), b = static_cast<std::size_t>(c.b);
+  const PairPose now = pair_pose(bed, a, b);  // a bed that was read back has no older one
+  const Vector normal = bed.turns(a) ? c.normal : Vector(now.turn.transpose() * c.normal);
+  const double hold = impulse * std::abs(c.normal.dot(now.centre));
+  Vector& root = bed.root_inertia[bed.turns(a) ? a : b];
+  root = (root.cwiseAbs2() + hold * (Vector::Ones() - normal.cwiseAbs2())).cwiseSqrt();
+}
+
 /// All contacts of a subdomain between the candidates. Returns what touch_pairs does.
 template <class Real>
 double touch_subdomain(const TouchSettings& settings, const Kernels& kernels,
@@ -316,6 +327,13 @@ NamedPlaces::const_iterator place_of(const PolyhedronContact& c, const NamedPlac
   return at != places.end() && (*at)[0] == c.a && (*at)[1] == c.b ? at : places.end();
 }
 
+/// See Closure.
+int by_turning(const PolyhedronContact& contact) {
+  return contact.kind == AxisKind::ball_on_face   ? 2
+         : contact.kind == AxisKind::ball_on_edge ? 1
+                                                  : 0;
+}
+
 /// Contacts with a gap below `near`, d, with no preference of faces that would hide the depth of an
 /// overlap.
 TouchSettings as_deep_as_they_are(double near, double dt) {
@@ -336,6 +354,18 @@ void take_candidates(const PolyhedronBed& bed, const Candidates& candidates,
   divide(bed, Polyhedron::subdomain_grains, candidates, candidates.pairs, loop,
          contacts.subdomains);
   contacts.memory.assign(contacts.subdomains.pairs.size(), {});
+}
+
+template <class Real>
+void hold_turning(const PolyhedronContacts<Real>& contacts, PolyhedronBed& bed) {
+  if (!bed.has_balls()) return;
+  set_inertia(bed);
+  visit_contacts(contacts, [&](const ContactPart<Real>& part, std::size_t k) {
+    const PolyhedronContact& c = part.found.contacts[k];
+    if (bed.is_grain(c.b) && by_turning(c) > 0) {
+      add_hold(c, impulse_of(contacts, part, k, 0), bed);
+    }
+  });
 }
 
 template <class Real>
@@ -415,8 +445,8 @@ std::vector<Closure> closures(PolyhedronBed& bed, const ExecutionContext& contex
       const auto at = place_of(c, places);
       if (at == places.end()) continue;
       const ContactPoint* points = now.points.data() + c.first;
-      all[static_cast<std::size_t>((*at)[2])] = {min_gap(points, c.count),
-                                                 constraints_of(points, c.count, closed_gap)};
+      all[static_cast<std::size_t>((*at)[2])] = {
+          min_gap(points, c.count), constraints_of(points, c.count, closed_gap), by_turning(c)};
     }
   });
   return all;
@@ -426,6 +456,8 @@ template void take_candidates(const PolyhedronBed&, const Candidates&, Polyhedro
                               const ParallelFor&);
 template void take_candidates(const PolyhedronBed&, const Candidates&, PolyhedronContacts<double>&,
                               const ParallelFor&);
+template void hold_turning(const PolyhedronContacts<float>&, PolyhedronBed&);
+template void hold_turning(const PolyhedronContacts<double>&, PolyhedronBed&);
 template double find_contacts(const TouchSettings&, double, const PolyhedronBed&,
                               const ExecutionContext&, PolyhedronContacts<float>&);
 template double find_contacts(const TouchSettings&, double, const PolyhedronBed&,

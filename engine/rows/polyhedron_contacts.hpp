@@ -86,6 +86,14 @@ template <class Real>
 void take_candidates(const PolyhedronBed& bed, const Candidates& candidates,
                      PolyhedronContacts<Real>& contacts, const ParallelFor& loop = serial_for);
 
+/// Where spheres push polyhedra, adds to a polyhedron's moments what their forces in the last step
+/// hold it with: turned by t about an axis across the normal, a face comes t^2 / 2 times the
+/// centres' distance along the normal nearer to the sphere. Rows tell that of a step only after it,
+/// so that a light grain under a large force would swing for ever; with dt^2 times that stiffness
+/// in its inertia it does not, and rests where it would rest without.
+template <class Real>
+void hold_turning(const PolyhedronContacts<Real>& contacts, PolyhedronBed& bed);
+
 /// Finds the contacts between the candidates taken last, lays out their rows, and gives the
 /// impulses of the contacts before to the nearest point of the contact between the same two,
 /// whatever its normal is now; those of contacts that are no more are dropped. `correction`: share

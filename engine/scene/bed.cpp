@@ -90,6 +90,17 @@ int subdomain_axis(const Box& box, double solid_volume) {
   return std::max(box.length, box.width) > flat * height ? longer : 2;
 }
 
+std::int64_t degrees_of_freedom(const SphereBed& bed) {
+  return Sphere::degrees_of_freedom * static_cast<std::int64_t>(bed.grains());
+}
+std::int64_t degrees_of_freedom(const PolyhedronBed& bed) {
+  std::int64_t sum = 0;
+  for (std::size_t i = 0; i < bed.grains(); ++i) {
+    sum += bed.turns(i) ? Polyhedron::degrees_of_freedom : Sphere::degrees_of_freedom;
+  }
+  return sum;
+}
+
 SphereBed make_bed(const Box& box, const std::vector<PlacedSphere>& spheres) {
   double volume = 0.0;
   for (const PlacedSphere& s : spheres) volume += sphere_volume(s.radius);
@@ -124,13 +135,26 @@ PolyhedronBed make_bed(const Box& box, std::vector<ConvexShape> shapes,
     bed.position.push_back({p.centre.x(), p.centre.y(), p.centre.z(), 0.5 * p.scale});
     bed.orientation.push_back(record_of(p.orientation));
     bed.motion.push_back({0.0, 0.0, 0.0, 1.0 / (p.scale * p.scale * p.scale * unit_mass)});
-    bed.root_inertia.emplace_back(p.scale * (shape.inertia / bed.motion.back().w).cwiseSqrt());
   }
   bed.shapes = std::move(shapes);
   bed.components = std::move(components);
   bed.spin.assign(poses.size(), Vector::Zero());
+  set_inertia(bed);
   append_padding(bed);
   return bed;
+}
+
+bool PolyhedronBed::has_balls() const {
+  return std::any_of(shapes.begin(), shapes.end(),
+                     [](const ConvexShape& one) { return one.is_ball; });
+}
+
+void set_inertia(PolyhedronBed& bed) {
+  bed.root_inertia.resize(bed.orientation.size());
+  for (std::size_t i = 0; i < bed.root_inertia.size(); ++i) {
+    const Vector& of_unit = bed.shape(i).inertia;
+    bed.root_inertia[i] = bed.scale(i) * (of_unit / bed.motion[i].w).cwiseSqrt();
+  }
 }
 
 bool is_finite(const SphereBed& bed) { return are_finite(bed.position) && are_finite(bed.motion); }

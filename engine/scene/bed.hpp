@@ -24,7 +24,7 @@ struct Sphere {
   static constexpr std::size_t subdomain_grains = 4000;
 };
 struct Polyhedron {
-  static constexpr int degrees_of_freedom = 6;
+  static constexpr int degrees_of_freedom = 6;  ///< at most: spheres among polyhedra do not turn
   static constexpr std::size_t subdomain_grains = 1000;  ///< their steps are dearer
 };
 
@@ -90,7 +90,8 @@ template <>
 struct Bed<Sphere> : Grains {};
 using SphereBed = Bed<Sphere>;
 
-/// Grains of one convex shape, or of several: the components of a mixture. The mass of a grain of
+/// Grains of one convex shape, or of several: the components of a mixture, spheres among them. The
+/// mass of a grain of
 /// scale s is s^3 times its component's volume over that of the first (so that a grain of scale 1
 /// of the first has the unit of mass), its principal moments are s^2 times that mass times the
 /// component's `inertia`.
@@ -103,7 +104,9 @@ struct Bed<Polyhedron> : Grains {
   std::vector<Record<double>> orientation;
   /// Angle vector of the next step if nothing acts, grain frame, radians.
   std::vector<Vector> spin;
-  std::vector<Vector> root_inertia;  ///< square roots of the principal moments, sqrt(m) d
+  /// Square roots of the principal moments, sqrt(m) d; a step may have added to them (hold_turning
+  /// in engine/rows/polyhedron_contacts.hpp).
+  std::vector<Vector> root_inertia;
 
   double scale(std::size_t grain) const { return 2.0 * position[grain].w; }
   Pose pose(std::size_t grain) const { return pose_of(position[grain], orientation[grain]); }
@@ -112,8 +115,15 @@ struct Bed<Polyhedron> : Grains {
   }
   const ConvexShape& shape(std::size_t grain) const { return shapes[component(grain)]; }
   double circumradius(std::size_t grain) const { return scale(grain) * shape(grain).circumradius; }
+  /// Whether forces can turn it: without friction nothing turns the spheres of a mixture.
+  bool turns(std::size_t grain) const { return !shape(grain).is_ball; }
+  bool has_balls() const;
 };
 using PolyhedronBed = Bed<Polyhedron>;
+
+/// Ways in which the grains can move: 3 of a sphere, 6 of a polyhedron.
+std::int64_t degrees_of_freedom(const SphereBed& bed);
+std::int64_t degrees_of_freedom(const PolyhedronBed& bed);
 
 /// A bed at rest in mid-air: the given spheres, and the entries that are no grains.
 SphereBed make_bed(const Box& box, const std::vector<PlacedSphere>& spheres);
@@ -124,6 +134,9 @@ PolyhedronBed make_bed(const Box& box, ConvexShape shape, const std::vector<Pose
 /// The same of grains of several shapes, `components` telling which of each grain.
 PolyhedronBed make_bed(const Box& box, std::vector<ConvexShape> shapes,
                        std::vector<std::uint8_t> components, const std::vector<Pose>& poses);
+
+/// Gives all grains their own moments.
+void set_inertia(PolyhedronBed& bed);
 
 /// Whether every grain's place, size, motion and inverse mass, and orientation and angle vector if
 /// it has one, are finite numbers.

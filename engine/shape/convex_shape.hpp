@@ -49,7 +49,7 @@ struct InputFrame {
 };
 
 /// A grain of scale w has volume w^3 volume, moments w^2 inertia over its mass, and w times the
-/// radii.
+/// radii. A sphere among polyhedra is one, too: it has one vertex, its centre, and no faces.
 struct ConvexShape {
   std::vector<Vector> vertices;
   std::vector<Face> faces;
@@ -64,6 +64,7 @@ struct ConvexShape {
   double circumradius = 0.0;                     ///< of the smallest ball around the centroid, d
   double inradius = 0.0;                   ///< of the largest ball around the centroid within, d
   std::optional<PinacoidHalves> pinacoid;  ///< if the shape is one
+  bool is_ball = false;                    ///< a sphere; both radii are its own
   InputFrame given;                        ///< that in which its vertices were written
 };
 
@@ -92,7 +93,7 @@ inline std::int32_t farthest_vertex(const ConvexShape& shape, const Vector& n) {
   return static_cast<std::int32_t>(best);
 }
 
-/// Largest n . x over the shape, d.
+/// Largest n . x over a polyhedron, d.
 inline double reach_along(const ConvexShape& shape, const Vector& n) {
   double reach = n.dot(shape.vertices[0]);
   for (std::size_t k = 1; k < shape.vertices.size(); ++k) {

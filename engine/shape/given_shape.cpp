@@ -13,9 +13,15 @@ namespace grainsweep {
 
 namespace {
 
-/// Nothing asks for the corners of a sphere.
-[[noreturn]] Hull shape_from(const SphereShape& /*sphere*/) {
-  throw std::logic_error("a sphere is no polyhedron");
+Hull shape_from(const SphereShape& /*sphere*/) {
+  constexpr double radius = 0.5;  // d
+  ConvexShape ball;
+  ball.vertices = {Vector::Zero()};
+  ball.volume = sphere_volume(radius);
+  ball.inertia = Vector::Constant(0.4 * radius * radius);
+  ball.circumradius = ball.inradius = radius;
+  ball.is_ball = true;
+  return {ball, ""};
 }
 
 /// Its components have one each.

@@ -10,7 +10,8 @@ namespace grainsweep {
 
 inline bool is_sphere(const ShapeSpec& spec) { return std::holds_alternative<SphereShape>(spec); }
 
-/// The convex shape of a spec that is neither a sphere nor a mixture, or what forbids it.
+/// The convex shape of a spec that is no mixture, or what forbids it; of a sphere that of one among
+/// polyhedra.
 Hull shape_of(const ShapeSpec& spec);
 
 /// Corners of a shape that nothing forbids; 0 of a sphere, of a mixture the mean over the grains.

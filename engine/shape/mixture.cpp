@@ -17,10 +17,6 @@ std::string problem_with_component(const MixtureComponent& component) {
   if (!(component.share >= 0.0 && component.share <= 1.0)) {
     return "its share must lie in [0, 1], is " + bound_text(component.share);
   }
-  if (is_sphere(component.shape)) {
-    return "must be a polyhedron: spheres do not yet mix with other shapes; take a shape of many "
-           "faces in its place, or a sweep of its own for spheres";
-  }
   if (std::holds_alternative<Mixture>(component.shape)) return "must not be a mixture itself";
   return shape_of(component.shape).error;
 }

@@ -84,8 +84,7 @@ enum class ShareBy {
 
 struct MixtureComponent;
 
-/// Grains of several shapes, none of them a sphere or itself a mixture. Sizes are drawn alike for
-/// all of them.
+/// Grains of several shapes, none of them itself a mixture. Sizes are drawn alike for all of them.
 struct Mixture {
   std::vector<MixtureComponent> components;
   ShareBy by = ShareBy::volume;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "engine/measure/bond_order.hpp"
+#include "engine/shape/given_shape.hpp"
 #include "engine/shape/hull.hpp"
 #include "kernels/kernels.hpp"
 #include "runner/export/vtp.hpp"
@@ -42,6 +43,7 @@ SphereBed spheres_of(const StoredBed& bed) {
 
 /// Throws std::logic_error if the mesh is no shape, which no stored one is.
 ConvexShape shape_of(const Mesh& mesh) {
+  if (mesh.is_ball()) return shape_of(ShapeSpec(SphereShape{})).shape.value();
   std::vector<Vector> vertices;
   for (const auto& [x, y, z] : mesh.vertices) vertices.emplace_back(x, y, z);
   return convex_hull(vertices).shape.value();

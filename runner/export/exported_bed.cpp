@@ -9,7 +9,7 @@ namespace grainsweep {
 namespace {
 
 double top_of(const StoredBed& bed, std::size_t grain) {
-  if (!bed.turned) return bed.grains[grain].z + bed.grains[grain].radius;
+  if (is_sphere(bed, grain)) return bed.grains[grain].z + bed.grains[grain].radius;
   double top = 0.0;
   for (const Eigen::Vector3d& vertex : vertices_in_box(bed, grain)) top = std::max(top, vertex.z());
   return top;
@@ -19,6 +19,10 @@ double top_of(const StoredBed& bed, std::size_t grain) {
 
 int size_class(const ExportedBed& exported, std::size_t grain) {
   return exported.bed.grains[grain].radius < exported.small_limit ? 2 : 1;
+}
+
+bool is_sphere(const StoredBed& bed, std::size_t grain) {
+  return !bed.turned || bed.turned->mesh(grain).is_ball();
 }
 
 bool has_components(const StoredBed& bed) { return bed.turned && !bed.turned->components.empty(); }

@@ -54,6 +54,9 @@ std::string component_text(const StoredBed& bed, std::size_t grain, char separat
 /// "large" or "small".
 const char* class_name(const ExportedBed& exported, std::size_t grain);
 
+/// Whether a grain is a sphere; others of its bed may be none.
+bool is_sphere(const StoredBed& bed, std::size_t grain);
+
 /// The vertices of a grain that is no sphere, as they lie in the box, from its centre, d.
 std::vector<Eigen::Vector3d> vertices_about_centre(const StoredBed& bed, std::size_t grain);
 

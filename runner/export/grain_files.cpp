@@ -2,6 +2,7 @@
 
 #include <functional>
 
+#include "runner/export/surfaces.hpp"
 #include "runner/export/vtp.hpp"
 #include "runner/tables/csv.hpp"
 
@@ -92,7 +93,9 @@ std::string faces_vtp(const StoredBed& bed) {
   return vtp_cells("Polys", connectivity, offsets);
 }
 
-std::string polygons_vtp(const ExportedBed& exported) {
+/// Spheres of a mixture have 320 triangles.
+std::string polygons_vtp(ExportedBed exported) {
+  for (Mesh& mesh : exported.bed.turned->meshes) mesh = drawn_mesh(mesh, 2);
   const StoredBed& bed = exported.bed;
   std::vector<Eigen::Vector3d> points;
   Owners owners;

@@ -29,11 +29,19 @@ std::size_t type_of(const ExportedBed& exported, std::size_t grain) {
   return by_size + 2 * (turned ? turned->component(grain) : 0);
 }
 
+/// That a body may have: LAMMPS makes room by it, and a sphere among polyhedra has one.
+std::string fewest_corners(const StoredBed& bed) {
+  const auto& meshes = bed.turned->meshes;
+  const auto is_ball = [](const Mesh& mesh) { return mesh.is_ball(); };
+  return std::any_of(meshes.begin(), meshes.end(), is_ball) ? "1" : "3";
+}
+
 /// Comment, numbers and bounds.
 std::string header(const ExportedBed& exported) {
   const StoredBed& bed = exported.bed;
   const auto boundary = [](Boundary axis) { return axis == Boundary::periodic ? " p" : " f"; };
-  const std::string style = bed.turned ? "body rounded/polyhedron 3 64" : "sphere";
+  const std::string style =
+      bed.turned ? "body rounded/polyhedron " + fewest_corners(bed) + " 64" : "sphere";
   const std::string count = cell(bed.grains.size());
   return "grainsweep, lengths in d; atom_style " + style + "; boundary" + boundary(bed.box.x) +
          boundary(bed.box.y) + " f\n\n" + count + " atoms\n" +
@@ -88,7 +96,9 @@ std::string in_lines(const std::vector<double>& numbers) {
   return text;
 }
 
+/// Of a grain of size 1.
 double volume_of(const Mesh& mesh) {
+  if (mesh.is_ball()) return sphere_volume(0.5);
   std::vector<Vector> corners;
   for (const auto& [x, y, z] : mesh.vertices) corners.emplace_back(x, y, z);
   return mass_moments(corners, mesh.faces).volume;
@@ -101,10 +111,19 @@ double mass_of(const StoredBed& bed, std::size_t grain) {
   return by_size * volume_of(bed.turned->mesh(grain)) / volume_of(bed.turned->meshes.front());
 }
 
+/// A sphere among polyhedra: one corner with a rounding.
+std::string round_body(const StoredBed& bed, std::size_t grain) {
+  const double radius = bed.grains[grain].radius;
+  const double moment = 0.4 * mass_of(bed, grain) * radius * radius;
+  const std::vector<double> numbers = {moment, moment, moment, 0, 0, 0, 0, 0, 0, 2.0 * radius};
+  return cell(id_of(grain)) + " 3 " + cell(numbers.size()) + "\n1 0 0\n" + in_lines(numbers);
+}
+
 /// A body: how many numbers, moments of inertia, corners about its centre, edges, faces, and the
 /// diameter of its rounding.
 std::string body(const StoredBed& bed, std::size_t grain) {
   const Mesh& mesh = bed.turned->mesh(grain);
+  if (mesh.is_ball()) return round_body(bed, grain);
   const std::vector<Vector> corners = vertices_about_centre(bed, grain);
   const auto edges = edges_of(mesh.faces);
   const auto faces = small_faces(mesh.faces);

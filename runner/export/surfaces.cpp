@@ -101,11 +101,11 @@ std::vector<Surface> whole_surfaces(const ExportedBed& exported) {
   const Surface ball = unit_ball(has_caps ? 3 : 2);
   std::vector<Surface> surfaces;
   for (std::size_t k = 0; k < bed.grains.size(); ++k) {
-    if (bed.turned) {
-      surfaces.push_back({vertices_about_centre(bed, k), bed.turned->mesh(k).faces});
-    } else {
+    if (is_sphere(bed, k)) {
       surfaces.push_back(ball);
       scale(surfaces.back(), bed.grains[k].radius);
+    } else {
+      surfaces.push_back({vertices_about_centre(bed, k), bed.turned->mesh(k).faces});
     }
   }
   return surfaces;
@@ -206,6 +206,17 @@ Surface unit_ball(int divisions) {
   Surface ball = icosahedron();
   for (int k = 0; k < divisions; ++k) ball = divided(ball);
   return ball;
+}
+
+Mesh drawn_mesh(const Mesh& mesh, int divisions) {
+  if (!mesh.is_ball()) return mesh;
+  constexpr double radius = 0.5;  // of a sphere of size 1, d
+  const Surface ball = unit_ball(divisions);
+  Mesh drawn{{}, ball.faces};
+  for (const Vector& v : ball.vertices) {
+    drawn.vertices.push_back({radius * v.x(), radius * v.y(), radius * v.z()});
+  }
+  return drawn;
 }
 
 Surface cut_off(const Surface& surface, const Vector& normal, double offset) {

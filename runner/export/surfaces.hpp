@@ -28,6 +28,9 @@ double volume_of(const Surface& surface);
 /// times; all corners lie on the sphere.
 Surface unit_ball(int divisions);
 
+/// A mesh as it is drawn: as it is, or of a sphere with triangles, as of unit_ball.
+Mesh drawn_mesh(const Mesh& mesh, int divisions);
+
 /// The part of a convex surface where normal . x <= offset; empty if there is none.
 Surface cut_off(const Surface& surface, const Eigen::Vector3d& normal, double offset);
 

@@ -63,7 +63,7 @@ struct Inside {
 Inside inside_of(const StoredBed& bed, const std::vector<std::vector<Face>>& faces,
                  std::size_t grain) {
   const SettledGrain& at = bed.grains[grain];
-  if (!bed.turned) return {at.radius, {}};
+  if (is_sphere(bed, grain)) return {at.radius, {}};
   Inside inside;
   for (const Vector& vertex : vertices_about_centre(bed, grain)) {
     inside.reach = std::max(inside.reach, vertex.norm());

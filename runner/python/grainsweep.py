@@ -127,7 +127,8 @@ class Bed:
     neighbours; box, a dict with length, width, periodic (along x, y) and tube. Of polyhedra also
     orientations, quaternions x, y, z, w from the shape to the box, and vertices and faces of a grain
     of size 1: a vertex lies at position + 2 radius times the turned vertex. Of a mixture meshes has
-    vertices and faces of each component, and components which of them each grain is. None of others.
+    vertices and faces of each component, none of spheres, and components which of them each grain is.
+    None of others.
     """
 
     def __init__(self, folder, job, stored):

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/scene/sizes.hpp"
+#include "runner/export/surfaces.hpp"
 #include "runner/report/html.hpp"
 #include "runner/report/picture.hpp"
 #include "runner/report/templates.hpp"
@@ -102,7 +103,9 @@ std::string bed_element(const StoredBed& bed, const BedFacts& facts) {
   json["tube"] = bed.box.is_tube;
   if (bed.turned) {
     for (const Mesh& mesh : bed.turned->meshes) {
-      json["meshes"].push_back({{"vertices", mesh.vertices}, {"faces", mesh.faces}});
+      const Mesh drawn = drawn_mesh(mesh, 1);  // 80 triangles of a sphere
+      json["meshes"].push_back(
+          {{"vertices", drawn.vertices}, {"faces", drawn.faces}, {"is_ball", mesh.is_ball()}});
     }
   }
   return "<script type=\"application/json\" class=\"bed-data\" data-title=\"" +

@@ -187,10 +187,10 @@ std::string picture_of(const StoredBed& bed, int width, int height) {
   for (std::size_t i = 0; i < bed.grains.size(); ++i) {
     const SettledGrain& grain = bed.grains[i];
     const auto colour = colour_of(grain.radius, smallest->radius, largest->radius);
-    if (bed.turned)
-      paint_polyhedron(bed, i, place, colour, canvas);
-    else
+    if (is_sphere(bed, i))
       paint_sphere(grain, place, colour, canvas);
+    else
+      paint_polyhedron(bed, i, place, colour, canvas);
   }
   return png_of(canvas.pixels, width, height);
 }

@@ -1,3 +1,4 @@
+#include "engine/shape/given_shape.hpp"
 #include "runner/sweep/identity.hpp"
 
 #include <algorithm>
@@ -139,7 +140,8 @@ std::string hash_of(const SizeTable& table) {
 std::string canonical_component(double share, const ResolvedSpec& shape) {
   static const std::vector<Member> members = shape_members();
   constexpr std::string_view before = R"({"shape":)", after = "}}";
-  const std::string all = canonical(members, shape);
+  const std::string all =
+      is_sphere(shape.spec.shape) ? R"({"shape":{"sphere":{}}})" : canonical(members, shape);
   std::string text = all.substr(before.size(), all.size() - before.size() - after.size());
   text.append(R"(,"share":)");
   append_number(share, text);

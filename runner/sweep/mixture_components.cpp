@@ -20,17 +20,13 @@ constexpr Interval shares{0.0, 1.0};
 std::vector<std::string> component_keys() {
   std::vector<std::string> keys = {share_key};
   for (const std::string_view name : shape_names) {
-    if (name != "sphere" && name != "mixture") keys.emplace_back(name);
+    if (name != "mixture") keys.emplace_back(name);
   }
   return keys;
 }
 
 /// What is wrong with a key of a component; "" if nothing is.
 std::string key_error(const std::string& key) {
-  if (key == "sphere") {
-    return "spheres do not yet mix with other shapes; take a shape of many faces in its place, or "
-           "pack spheres in a sweep of their own";
-  }
   if (key.starts_with("mixture")) return "a component must not be a mixture itself";
   const std::vector<std::string> keys = component_keys();
   const bool is_known = std::find(keys.begin(), keys.end(), key) != keys.end();
@@ -50,6 +46,7 @@ class ComponentReader {
     Json shape = value;
     shape.erase(share_key);
     if (!has_right_keys(shape) || !has_share(value)) return;
+    if (shape.contains("sphere")) shape = "sphere";  // which has no parts
     Assignments assignments;
     const std::size_t before = diagnostics_.size();
     read_assignments("shape", shape, pointer_, assignments, diagnostics_);
@@ -71,6 +68,8 @@ class ComponentReader {
       const bool is_known = error.empty();
       if (is_known && !part.is_object()) {
         error = "must be an object of the shape's parts, {} for its defaults, is " + describe(part);
+      } else if (is_known && key == "sphere" && !part.empty()) {
+        error = "a sphere has no parts: write {}; its diameter is d times its size";
       }
       if (error.empty()) continue;
       note(key, error, is_known ? Anchor::value : Anchor::key);

@@ -79,6 +79,7 @@ Json components() {
     if (name == "sphere" || name == "mixture" || name == "hull") continue;
     members[std::string(name)] = reference("shape." + std::string(name));
   }
+  members["sphere"] = described("a sphere of diameter d", closed_object(Json::object()));
   members["hull"] = closed_object({{"vertices", reference("shape.hull.vertices")}});
   members["hull"]["required"] = Json::array({"vertices"});
   Json component = closed_object(members);

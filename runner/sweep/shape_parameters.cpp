@@ -194,7 +194,7 @@ Rows hull_rows() {
 Rows mixture_rows() {
   return {
       own("shape.mixture", WrittenValues{},
-          "grains of several shapes that are no spheres, each with its share: "
+          "grains of several shapes, each with its share: "
           "`[{\"share\": 0.7, \"cube\": {}}, {\"share\": 0.3, \"prism\": {\"sides\": 5}}]`",
           ValueKind::components, Role::mixture, set_mixture, get_mixture),
       own("shape.mixture_by",

@@ -20,6 +20,8 @@ cat >sweep.json <<'JSON'
   "sweep": [ { "label": "two sizes", "set": { "sizes.small_share": 0.3 } },
              { "label": "tube", "set": { "tube.diameter": 4 } },
              { "label": "pinacoids", "set": { "shape": "pinacoid", "box.y": "periodic", "box.width": 4 } },
+             { "label": "spheres among cubes", "set": { "box.y": "periodic", "box.width": 5, "box.length": 5, "shape": { "mixture": [
+               { "share": 0.5, "cube": {} }, { "share": 0.5, "sphere": {} } ] } } },
              { "label": "mixture", "set": { "box.y": "periodic", "box.width": 5, "box.length": 5, "shape": { "mixture": [
                { "share": 0.5, "cube": {} }, { "share": 0.5, "cuboid": { "height": 0.4 } } ] } } } ] }
 JSON
@@ -69,7 +71,8 @@ for file, job in zip(index["file"], index["job"]):
     stem, packing, grains = file[:-4], packings.loc[job], table(file)
     places, mass = grains[["x", "y", "z"]].to_numpy(), 8 * grains["radius"] ** 3
     if "component" in grains:
-        mass *= numpy.where(grains["component"] == 2, 0.4, 1.0)  # volumes of the components
+        other = 0.4 if stem[:3] == "mix" else numpy.pi / 6  # volumes of the components
+        mass *= numpy.where(grains["component"] == 2, other, 1.0)
 
     atoms = ase.io.read(stem + ".xyz")
     assert len(atoms) == packing["grains"] and set(atoms.symbols) == {"X"}, stem

@@ -133,8 +133,8 @@
     uniforms: { keep: { value: new THREE.Vector3() }, depth: { value: new THREE.Vector2() } },
   });
 
-  // Triangles of all meshes, each with the normal of its face and the number of its mesh: a grain
-  // shows those of its own alone.
+  // Triangles of all meshes, each with the normal of its face, or of the sphere that it belongs to,
+  // and the number of its mesh: a grain shows those of its own alone.
   const trianglesOf = (meshes) => {
     const corners = [];
     const normals = [];
@@ -145,7 +145,7 @@
       for (let k = 2; k < face.length; k += 1) {
         for (const index of [face[0], face[k - 1], face[k]]) {
           corners.push(...mesh.vertices[index]);
-          normals.push(normal.x, normal.y, normal.z);
+          normals.push(...(mesh.is_ball ? mesh.vertices[index] : [normal.x, normal.y, normal.z]));
           parts.push(meshes.indexOf(mesh));
         }
       }

@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 
 #include "engine/dynamics/rest.hpp"
+#include "engine/shape/mixture.hpp"
 #include "tests/support/instruction_sets.hpp"
 #include "tests/support/shape_beds.hpp"
 
@@ -23,6 +24,25 @@ TEST_CASE("a lone grain on the floor has three constraints and is isostatic") {
   CHECK(rest.contacts == 3);
   CHECK(rest.isostatic_contacts == 3);
   CHECK(rest.overlap_max < 1e-6);
+}
+
+TEST_CASE("spheres of a mixture have three freedoms, and hold a polyhedron they push by turning") {
+  const auto shapes = shapes_of(Mixture{{{0.5, CubeSize{}}, {0.5, SphereShape{}}}});
+  const Quaternion upright = Quaternion::Identity();
+  PolyhedronBed bed = make_bed({6, 6, periodic, walls}, shapes, {0, 1, 1, 1},
+                               {pose_at(3, 3, 0.5), pose_at(2.8, 3, 1.2, upright, 0.4),
+                                pose_at(3.2, 3, 1.2, upright, 0.4), pose_at(5, 1, 0.5)});
+  CHECK(degrees_of_freedom(bed) == 6 + 3 * 3);
+  StepState<Polyhedron, double> state;
+  StepSettings settings;
+  settings.momentum = 0;
+  settings.limits = {Solver::accelerated_gauss_seidel, 10'000, 1e-9};
+  step(settings, kernels(), bed, state);
+  const RestReport rest = measure_rest(bed, kernels(), settings.dt, state);
+  CHECK(rest.contacts == 3 + 2 + 1);
+  CHECK(rest.held_by_turning == 3);  // of 2 by each sphere
+  // Less two translations of the cube and its spheres, and of the sphere that lies alone.
+  CHECK(rest.isostatic_contacts == 6 + 3 * 3 - 2 - 2);
 }
 
 TEST_CASE("overlaps are measured where the grains are, at the deepest point") {

@@ -3,7 +3,9 @@
 
 #include <catch2/catch.hpp>
 
+#include "engine/dynamics/step.hpp"
 #include "engine/rows/polyhedron_contacts.hpp"
+#include "engine/shape/mixture.hpp"
 #include "tests/support/instruction_sets.hpp"
 #include "tests/support/shape_beds.hpp"
 
@@ -76,6 +78,29 @@ TEST_CASE("every point of every contact has a row of its own, all other rows are
   }
   // Contacts in a block have about as many points as one another: little is wasted on void rows.
   CHECK(used.size() * 2 > scene.rows.impulse.size());
+}
+
+TEST_CASE("a sphere that pushes a face holds the polyhedron's turns across the normal") {
+  const auto shapes = shapes_of(Mixture{{{0.5, CubeSize{}}, {0.5, SphereShape{}}}});
+  PolyhedronBed bed = make_bed({6, 6, periodic, walls}, shapes, {0, 1},
+                               {testing::pose_at(3, 3, 0.5), testing::pose_at(3.1, 3.2, 1.5)});
+  StepState<Polyhedron, double> state;
+  StepSettings settings;
+  settings.momentum = 0;
+  settings.limits = {Solver::accelerated_gauss_seidel, 10'000, 1e-9};
+  step(settings, kernels_for(best_isa()), bed, state);
+  const Vector own = bed.root_inertia[0].cwiseAbs2();
+  hold_turning(state.contacts, bed);
+  const double weight = bed.shapes[1].volume;  // of the sphere, m g: the cube has mass 1
+  const Vector added = bed.root_inertia[0].cwiseAbs2() - own;
+  // By the force times dt^2 times the distance of the centres along the normal.
+  const double dt2 = settings.dt * settings.dt;
+  CHECK(added.x() == Approx(weight * dt2).epsilon(1e-6));
+  CHECK(added.y() == Approx(weight * dt2).epsilon(1e-6));
+  CHECK(std::abs(added.z()) < 1e-12);
+  CHECK(bed.root_inertia[1].cwiseAbs2().isApprox(Vector(0.1, 0.1, 0.1) * weight));
+  hold_turning(state.contacts, bed);  // nothing adds up
+  CHECK((bed.root_inertia[0].cwiseAbs2() - own).isApprox(added));
 }
 
 /// Where a point fixed to a grain goes when the grain moves by its part of a motion.

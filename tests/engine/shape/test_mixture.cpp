@@ -4,6 +4,7 @@
 
 #include "engine/shape/given_shape.hpp"
 #include "engine/shape/mixture.hpp"
+#include "engine/units.hpp"
 #include "tests/support/draw.hpp"
 
 namespace grainsweep {
@@ -62,8 +63,7 @@ TEST_CASE("what is wrong with a mixture is told with the number of the component
         "shares must add up to 1, add up to 0.9");
   CHECK(problem_with(Mixture{{{0.333, CubeSize{}}, {0.667, CubeSize{}}}}).empty());
   CHECK(problem_with(bricks(1.5)) == "component 1 (cube) its share must lie in [0, 1], is -0.5");
-  CHECK(problem_with(Mixture{{{0.5, CubeSize{}}, {0.5, SphereShape{}}}})
-            .starts_with("component 2 (sphere) must be a polyhedron: spheres do not yet mix"));
+  CHECK(problem_with(Mixture{{{0.5, CubeSize{}}, {0.5, SphereShape{}}}}).empty());
   CHECK(problem_with(Mixture{{{1.0, bricks(0.5)}}}) ==
         "component 1 (mixture) must not be a mixture itself");
   CHECK(problem_with(Mixture{{{1.0, CubeSize{-1}}}}).starts_with("component 1 (cube) "));
@@ -74,6 +74,16 @@ TEST_CASE("a mixture has the shapes of its components, another shape its own") {
   const auto shapes = shapes_of(bricks(0.5));
   REQUIRE(shapes.size() == 2);
   CHECK(shapes[1].volume == Approx(0.25));
+}
+
+TEST_CASE("a sphere among polyhedra is as heavy and as hard to turn as a ball of diameter d") {
+  const auto shapes = shapes_of(Mixture{{{0.5, CubeSize{}}, {0.5, SphereShape{}}}});
+  CHECK((shapes[1].is_ball && !shapes[0].is_ball));
+  CHECK(shapes[1].volume == Approx(pi / 6));
+  CHECK(shapes[1].inertia == Vector(0.1, 0.1, 0.1));
+  CHECK((shapes[1].circumradius == 0.5 && shapes[1].inradius == 0.5));
+  CHECK(extent_of(Mixture{{{0.5, CubeSize{}}, {0.5, SphereShape{}}}, ShareBy::number}).volume ==
+        Approx(0.5 + pi / 12));
 }
 
 }  // namespace

@@ -115,8 +115,8 @@ TEST_CASE("what is wrong with a component is told at its place") {
   CHECK(error_of(R"([{"share": 1, "cube": {"height": 3}}])").starts_with("/m/0/cube/height"));
   CHECK(error_of(R"([{"share": 1, "cube": {}, "prism": {}}])")
             .starts_with("/m/0 names several shapes"));
-  CHECK(error_of(R"([{"share": 0.5, "cube": {}}, {"share": 0.5, "sphere": {}}])")
-            .starts_with("/m/1/sphere spheres do not yet mix"));
+  CHECK(error_of(R"([{"share": 0.5, "cube": {}}, {"share": 0.5, "sphere": {"diameter": 2}}])")
+            .starts_with("/m/1/sphere a sphere has no parts"));
   CHECK(error_of(R"([{"share": 1, "mixture": []}])").starts_with("/m/0/mixture a component must"));
   CHECK(error_of(R"([{"share": 1, "hull": {"file": "a.obj"}}])")
             .starts_with("/m/0/hull/file a hull in a mixture"));
