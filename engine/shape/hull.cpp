@@ -6,6 +6,7 @@
 #include <limits>
 #include <memory>
 #include <set>
+#include <stdexcept>
 #include <utility>
 
 #include <Eigen/Eigenvalues>
@@ -297,6 +298,13 @@ Hull convex_hull(const std::vector<Vector>& points) {
     return refused(problem);
   }
   return whole_hull(points);
+}
+
+Loops hull_faces(const std::vector<Vector>& points) {
+  std::string error;
+  Loops loops = hull_loops(points, error);
+  if (loops.empty()) throw std::invalid_argument(error);
+  return loops;
 }
 
 }  // namespace grainsweep

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/shape/build.hpp"
 #include "engine/shape/convex_shape.hpp"
 
 namespace grainsweep {
@@ -20,5 +21,9 @@ struct Hull {
 /// given twice, and points that lie on a plane or a line. Points inside the hull are refused too: a
 /// shape that is not convex would silently become another.
 Hull convex_hull(const std::vector<Vector>& points);
+
+/// The faces of the hull of `points`, which keep their numbers; those within it are on no face.
+/// Throws std::invalid_argument where there is no hull.
+Loops hull_faces(const std::vector<Vector>& points);
 
 }  // namespace grainsweep

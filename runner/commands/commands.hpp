@@ -93,7 +93,7 @@ struct ExportOptions {
   std::string format = "csv";      ///< of export_formats, or html
   std::vector<std::string> jobs;   ///< ids; empty: all that are stored
   std::string to;                  ///< folder for the files; empty: <folder>/export
-  std::string contacts = "touch";  ///< of surfaces: touch, shrink:SHARE or cap:SHARE
+  std::string contacts = "touch";  ///< of surfaces: touch, shrink:SHARE, cap:SHARE or bridge:SHARE
   bool periodic_images = false;    ///< of surfaces: of grains that cross a periodic side
   double voxels = 20.0;            ///< a d
 };

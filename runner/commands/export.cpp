@@ -77,8 +77,9 @@ ExportSettings settings_of(const ExportOptions& options) {
   if (options.contacts == "touch") return settings;
   const auto treatment = contact_treatment(options.contacts);
   if (!treatment) {
-    throw BadInput("--contacts " + options.contacts +
-                   ": use touch, shrink:SHARE or cap:SHARE with a share between 0 and 1");
+    throw BadInput(
+        "--contacts " + options.contacts +
+        ": use touch, shrink:SHARE, cap:SHARE or bridge:SHARE with a share between 0 and 1");
   }
   settings.treatment = *treatment;
   return settings;
@@ -106,8 +107,9 @@ CLI::App& add_command(CLI::App& app, ExportOptions& options) {
       ->allow_extra_args(false);
   grains
       .add_option("--contacts", options.contacts,
-                  "of stl and obj: touch, shrink:SHARE (of all lengths) or\n"
-                  "cap:SHARE (cut off, of so many radii)")
+                  "of stl and obj: touch, shrink:SHARE (of all lengths),\n"
+                  "cap:SHARE (cut off, of so many radii) or\n"
+                  "bridge:SHARE (joined by necks of so many)")
       ->capture_default_str()
       ->type_name("HOW");
   grains.add_flag("--periodic-images", options.periodic_images,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <map>
 
 #include <Eigen/Geometry>
 
@@ -40,8 +41,11 @@ std::optional<ContactTreatment> contact_treatment(std::string_view text) {
   using Kind = ContactTreatment::Kind;
   const std::size_t colon = text.find(':');
   const std::string_view name = text.substr(0, colon);
-  if (colon == std::string_view::npos || (name != "shrink" && name != "cap")) return std::nullopt;
-  ContactTreatment treatment{name == "cap" ? Kind::cap : Kind::shrink};
+  const std::map<std::string_view, Kind> kinds = {
+      {"shrink", Kind::shrink}, {"cap", Kind::cap}, {"bridge", Kind::bridge}};
+  const auto kind = kinds.find(name);
+  if (colon == std::string_view::npos || kind == kinds.end()) return std::nullopt;
+  ContactTreatment treatment{kind->second};
   const char* const last = text.data() + text.size();
   const auto [end, error] = std::from_chars(text.data() + colon + 1, last, treatment.share);
   const bool is_share = treatment.share > 0.0 && treatment.share < 1.0;

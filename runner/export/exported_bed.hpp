@@ -12,18 +12,21 @@
 
 namespace grainsweep {
 
-/// What becomes of grains in surfaces, so that they do not touch each other or the container.
+/// What becomes of grains in surfaces, so that they do not touch the container, and each other not
+/// or all over a neck.
 struct ContactTreatment {
   enum class Kind {
     none,
     shrink,  ///< grains are scaled about their centres by `share`
     cap,     ///< where grains nearly touch, caps are cut off, of `share` of the radius
+    bridge,  ///< where grains nearly touch, necks of `share` of the smaller radius join them
   };
   Kind kind = Kind::none;
   double share = 1.0;
 };
 
-/// "shrink:0.99" or "cap:0.2"; nothing if it is no such thing, or the share not in (0, 1).
+/// "shrink:0.99", "cap:0.2" or "bridge:0.2"; nothing if it is no such thing, or the share not in
+/// (0, 1).
 std::optional<ContactTreatment> contact_treatment(std::string_view text);
 
 struct ExportSettings {

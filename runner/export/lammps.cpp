@@ -61,11 +61,11 @@ std::string spheres(const ExportedBed& exported) {
   return text;
 }
 
-using Face = std::vector<std::int32_t>;
+using Corners = std::vector<std::int32_t>;
 
-std::set<std::pair<std::int32_t, std::int32_t>> edges_of(const std::vector<Face>& faces) {
+std::set<std::pair<std::int32_t, std::int32_t>> edges_of(const std::vector<Corners>& faces) {
   std::set<std::pair<std::int32_t, std::int32_t>> edges;
-  for (const Face& face : faces) {
+  for (const Corners& face : faces) {
     for (std::size_t k = 0; k < face.size(); ++k) {
       edges.insert(std::minmax(face[k], face[(k + 1) % face.size()]));
     }
@@ -74,9 +74,9 @@ std::set<std::pair<std::int32_t, std::int32_t>> edges_of(const std::vector<Face>
 }
 
 /// Faces of three and four corners, -1 in place of a fourth.
-std::vector<std::array<std::int32_t, 4>> small_faces(const std::vector<Face>& faces) {
+std::vector<std::array<std::int32_t, 4>> small_faces(const std::vector<Corners>& faces) {
   std::vector<std::array<std::int32_t, 4>> small;
-  for (const Face& face : faces) {
+  for (const Corners& face : faces) {
     if (face.size() == 4) {
       small.push_back({face[0], face[1], face[2], face[3]});
       continue;

@@ -16,7 +16,9 @@ std::string short_text(const Vector& v) {
   return text;
 }
 
-std::string name_of(const ExportedBed& exported, std::size_t grain) {
+std::string name_of(const ExportedBed& exported, const GrainSurface& surface) {
+  const std::size_t grain = surface.grain;
+  if (surface.grains > 1) return "joined_" + cell(id_of(grain));
   return "grain_" + cell(id_of(grain)) + "_" + class_name(exported, grain);
 }
 
@@ -24,7 +26,7 @@ std::string name_of(const ExportedBed& exported, std::size_t grain) {
 template <class Write>
 void for_each_surface(const ExportedBed& exported, Write write) {
   for (const GrainSurface& grain : grain_surfaces(exported)) {
-    write(name_of(exported, grain.grain), grain.surface);
+    write(name_of(exported, grain), grain.surface);
   }
   write("container", container_surface(exported.bed));
 }

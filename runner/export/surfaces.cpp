@@ -7,7 +7,8 @@
 #include <utility>
 
 #include "engine/units.hpp"
-#include "runner/export/contacts.hpp"
+#include "runner/export/bridges.hpp"
+#include "runner/export/caps.hpp"
 
 namespace grainsweep {
 namespace {
@@ -74,41 +75,8 @@ std::vector<std::int32_t> loop_of(const std::map<std::int32_t, std::int32_t>& ne
   return loop;
 }
 
-/// A surface without the corners that no face has.
-Surface compact(const Surface& surface) {
-  Surface small;
-  std::map<std::int32_t, std::int32_t> number;
-  for (const auto& face : surface.faces) {
-    std::vector<std::int32_t>& corners = small.faces.emplace_back();
-    for (const std::int32_t k : face) {
-      const auto [known, is_new] = number.try_emplace(k, next_corner(small.vertices));
-      if (is_new) small.vertices.push_back(corner(surface, k));
-      corners.push_back(known->second);
-    }
-  }
-  return small;
-}
-
 void scale(Surface& surface, double by) {
   for (Vector& vertex : surface.vertices) vertex *= by;
-}
-
-/// The surfaces of all grains about their centres.
-std::vector<Surface> whole_surfaces(const ExportedBed& exported) {
-  const StoredBed& bed = exported.bed;
-  // 320 triangles; the flat ends of caps take smaller ones.
-  const bool has_caps = exported.settings.treatment.kind == ContactTreatment::Kind::cap;
-  const Surface ball = unit_ball(has_caps ? 3 : 2);
-  std::vector<Surface> surfaces;
-  for (std::size_t k = 0; k < bed.grains.size(); ++k) {
-    if (is_sphere(bed, k)) {
-      surfaces.push_back(ball);
-      scale(surfaces.back(), bed.grains[k].radius);
-    } else {
-      surfaces.push_back({vertices_about_centre(bed, k), bed.turned->mesh(k).faces});
-    }
-  }
-  return surfaces;
 }
 
 void shift(Surface& surface, const Vector& by) {
@@ -137,7 +105,7 @@ void append_with_images(const StoredBed& bed, std::size_t grain, const Surface& 
                         std::vector<GrainSurface>& surfaces) {
   for (const double x : image_shifts(surface, 0, bed.box.period_x())) {
     for (const double y : image_shifts(surface, 1, bed.box.period_y())) {
-      surfaces.push_back({grain, surface});
+      surfaces.push_back({grain, 1, surface});
       shift(surfaces.back().surface, {x, y, 0.0});
     }
   }
@@ -160,33 +128,6 @@ Surface prism(const std::vector<Eigen::Vector2d>& polygon, double height) {
   surface.faces.push_back(bottom);
   surface.faces.push_back(top);
   return surface;
-}
-
-/// How deep a cap of that share of the radius is, in radii.
-double cap_depth(double share) { return 1.0 - std::sqrt(1.0 - share * share); }
-
-/// Cuts the caps of all contacts off the surfaces about the centres of the grains.
-void cut_caps(const ExportedBed& exported, std::vector<Surface>& surfaces) {
-  const StoredBed& bed = exported.bed;
-  const double depth = cap_depth(exported.settings.treatment.share);
-  ExportedBed near = exported;
-  near.gap_tolerance = std::max(exported.gap_tolerance, depth);
-  for (const Contact& contact : contacts_of(near)) {
-    const Vector& normal = contact.place.normal;
-    const auto cut = [&](std::size_t grain, const Vector& outward, const Vector& point) {
-      const double offset =
-          outward.dot(point) - contact.gap / 2.0 - depth * bed.grains[grain].radius;
-      surfaces[grain] = cut_off(surfaces[grain], outward, offset);
-    };
-    const SettledGrain& a = bed.grains[contact.a];
-    const Vector point = contact.place.point - Vector(a.x, a.y, a.z);
-    cut(contact.a, normal, point);
-    if (contact.is_wall) continue;
-    const SettledGrain& b = bed.grains[contact.b];
-    const Vector between(nearest_image(b.x - a.x, bed.box.period_x()),
-                         nearest_image(b.y - a.y, bed.box.period_y()), b.z - a.z);
-    cut(contact.b, -normal, point - between);
-  }
 }
 
 }  // namespace
@@ -217,6 +158,20 @@ Mesh drawn_mesh(const Mesh& mesh, int divisions) {
     drawn.vertices.push_back({radius * v.x(), radius * v.y(), radius * v.z()});
   }
   return drawn;
+}
+
+Surface compact(const Surface& surface) {
+  Surface small;
+  std::map<std::int32_t, std::int32_t> number;
+  for (const auto& face : surface.faces) {
+    std::vector<std::int32_t>& corners = small.faces.emplace_back();
+    for (const std::int32_t k : face) {
+      const auto [known, is_new] = number.try_emplace(k, next_corner(small.vertices));
+      if (is_new) small.vertices.push_back(corner(surface, k));
+      corners.push_back(known->second);
+    }
+  }
+  return small;
 }
 
 Surface cut_off(const Surface& surface, const Vector& normal, double offset) {
@@ -253,9 +208,27 @@ Surface cut_off(const Surface& surface, const Vector& normal, double offset) {
   return compact(left);
 }
 
+std::vector<Surface> whole_surfaces(const ExportedBed& exported) {
+  const StoredBed& bed = exported.bed;
+  // 320 triangles; the flat ends of caps take smaller ones.
+  const bool has_caps = exported.settings.treatment.kind == ContactTreatment::Kind::cap;
+  const Surface ball = unit_ball(has_caps ? 3 : 2);
+  std::vector<Surface> surfaces;
+  for (std::size_t k = 0; k < bed.grains.size(); ++k) {
+    if (bed.turned) {
+      surfaces.push_back({vertices_about_centre(bed, k), bed.turned->mesh(k).faces});
+    } else {
+      surfaces.push_back(ball);
+      scale(surfaces.back(), bed.grains[k].radius);
+    }
+  }
+  return surfaces;
+}
+
 std::vector<GrainSurface> grain_surfaces(const ExportedBed& exported) {
   const StoredBed& bed = exported.bed;
   const ContactTreatment& treatment = exported.settings.treatment;
+  if (treatment.kind == ContactTreatment::Kind::bridge) return bridged_surfaces(exported);
   std::vector<Surface> surfaces = whole_surfaces(exported);
   if (treatment.kind == ContactTreatment::Kind::shrink) {
     for (Surface& surface : surfaces) scale(surface, treatment.share);
@@ -268,7 +241,7 @@ std::vector<GrainSurface> grain_surfaces(const ExportedBed& exported) {
     if (exported.settings.periodic_images) {
       append_with_images(bed, k, surfaces[k], placed);
     } else {
-      placed.push_back({k, surfaces[k]});
+      placed.push_back({k, 1, surfaces[k]});
     }
   }
   return placed;

@@ -34,11 +34,19 @@ Mesh drawn_mesh(const Mesh& mesh, int divisions);
 /// The part of a convex surface where normal . x <= offset; empty if there is none.
 Surface cut_off(const Surface& surface, const Eigen::Vector3d& normal, double offset);
 
-/// A grain, or an image of it.
+/// The same without the corners that no face has.
+Surface compact(const Surface& surface);
+
+/// A grain, or an image of it, or several that necks join.
 struct GrainSurface {
-  std::size_t grain = 0;
+  std::size_t grain = 0;   ///< or the first one of those joined
+  std::size_t grains = 0;  ///< and images of them
   Surface surface;
 };
+
+/// The surfaces of all grains about their centres, untreated; those of spheres have smaller faces
+/// where their contacts will be cut.
+std::vector<Surface> whole_surfaces(const ExportedBed& exported);
 
 /// The surfaces of all grains with the treatment of their contacts and, where asked for, the images
 /// of those that cross periodic sides.

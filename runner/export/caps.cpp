@@ -1,0 +1,55 @@
+#include "runner/export/caps.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace grainsweep {
+namespace {
+
+/// An offset not above the given one to which no corner is nearer than `clearance`: slivers that
+/// rounding would turn inside out are not left.
+double clear_offset(const Surface& surface, const Vector& normal, double offset, double clearance) {
+  std::vector<double> heights;
+  for (const Vector& vertex : surface.vertices) heights.push_back(normal.dot(vertex));
+  std::sort(heights.begin(), heights.end(), std::greater<>());
+  for (const double height : heights) {
+    if (std::abs(height - offset) < clearance) offset = height - clearance;
+  }
+  return offset;
+}
+
+}  // namespace
+
+double cap_depth(double share) { return 1.0 - std::sqrt(1.0 - share * share); }
+
+std::vector<Contact> treated_contacts(const ExportedBed& exported) {
+  ExportedBed near = exported;
+  near.gap_tolerance =
+      std::max(exported.gap_tolerance, cap_depth(exported.settings.treatment.share));
+  return contacts_of(near);
+}
+
+void cut_caps(const ExportedBed& exported, std::vector<Surface>& surfaces) {
+  constexpr double clearance = 1e-4;  // in radii
+  const StoredBed& bed = exported.bed;
+  const double depth = cap_depth(exported.settings.treatment.share);
+  for (const Contact& contact : treated_contacts(exported)) {
+    const Vector& normal = contact.place.normal;
+    const auto cut = [&](std::size_t grain, const Vector& outward, const Vector& point) {
+      const double radius = bed.grains[grain].radius;
+      const double offset = outward.dot(point) - contact.gap / 2.0 - depth * radius;
+      surfaces[grain] = cut_off(surfaces[grain], outward,
+                                clear_offset(surfaces[grain], outward, offset, clearance * radius));
+    };
+    const SettledGrain& a = bed.grains[contact.a];
+    const Vector point = contact.place.point - Vector(a.x, a.y, a.z);
+    cut(contact.a, normal, point);
+    if (contact.is_wall) continue;
+    const SettledGrain& b = bed.grains[contact.b];
+    const Vector between(nearest_image(b.x - a.x, bed.box.period_x()),
+                         nearest_image(b.y - a.y, bed.box.period_y()), b.z - a.z);
+    cut(contact.b, -normal, point - between);
+  }
+}
+
+}  // namespace grainsweep

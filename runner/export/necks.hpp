@@ -1,0 +1,52 @@
+// Necks that join grains where they nearly touch. Lengths in d.
+//
+// A neck is a prism about the normal of a contact. Where a neck as wide as was asked for would meet
+// another one or a third grain, both necks, or it, are made narrower in steps of a fifth.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "engine/shape/convex_shape.hpp"
+#include "runner/export/exported_bed.hpp"
+
+namespace grainsweep {
+
+inline constexpr int neck_sides = 12;
+
+/// Between grain a and grain b, or an image of b; or the flat place of grain a at wall b.
+struct Neck {
+  std::size_t a = 0, b = 0;
+  bool is_wall = false;
+  Vector between = Vector::Zero();  ///< from the centre of a to that of b, or of its image
+  Vector normal = Vector::UnitZ();  ///< unit, from a to b
+  Vector across = Vector::UnitX();  ///< unit, upright on the normal: towards corner 0
+  Vector middle = Vector::Zero();   ///< of the axis, from the centre of a, upright on the normal
+  double asked = 0.0;               ///< radius that was asked for
+  double radius = 0.0;              ///< of the circle through its corners
+  double low = 0.0, high = 0.0;     ///< ends along the normal from the centre of a
+};
+
+/// Corner k, counter-clockwise seen against the normal, at that height along the normal, from the
+/// centre of a.
+Vector neck_corner(const Neck& neck, int k, double height);
+
+/// Whether two convex hulls are further apart than `distance`; near it the answer may be no where
+/// it should be yes.
+bool are_apart(const std::vector<Vector>& points, const std::vector<Vector>& others,
+               double distance);
+
+/// Grains as convex hulls of points about their centres, with all that is nearer to them than their
+/// radius: a sphere is a point with its own.
+struct GrainBodies {
+  std::vector<std::vector<Vector>> points;
+  std::vector<double> radii;  ///< 0 of polyhedra
+};
+
+/// Makes necks narrower until none meets another one, or a grain that it does not join; `fit` sets
+/// the ends of a neck after its radius. Takes away those that would be narrower than a tenth of
+/// what was asked for, of spheres than a thousandth, which only grains that overlap call for.
+void narrow(const ExportedBed& exported, const GrainBodies& grains,
+            const std::function<void(Neck&)>& fit, std::vector<Neck>& necks);
+
+}  // namespace grainsweep

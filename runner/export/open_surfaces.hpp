@@ -1,0 +1,47 @@
+// Surfaces of grains with a hole for each neck. Lengths in d.
+#pragma once
+
+#include <vector>
+
+#include "runner/export/necks.hpp"
+#include "runner/export/surfaces.hpp"
+#include "runner/export/triangles.hpp"
+
+namespace grainsweep {
+
+/// Where a neck begins or ends on a grain.
+struct Hole {
+  std::size_t neck = 0;
+  std::vector<Loop> sides;  ///< corners of the rim from corner k of the neck up to the next one
+  std::vector<Loop> lid;    ///< the faces that close it where the neck is left out
+};
+
+struct OpenSurface {
+  Surface surface;  ///< without its lids
+  std::vector<Hole> holes;
+};
+
+/// All necks of a bed, and the surfaces of its grains about their centres with the holes of them.
+struct OpenSurfaces {
+  std::vector<Neck> necks;  ///< between grains
+  std::vector<OpenSurface> grains;
+};
+
+/// Of spheres: necks end in circles of their radius on both, and flat places remain at walls.
+OpenSurfaces open_spheres(const ExportedBed& exported);
+
+/// Of polyhedra: caps are cut off at every contact first, as by cut_caps; a neck is a column
+/// about the normal that ends where it meets what is left of the two.
+OpenSurfaces open_polyhedra(const ExportedBed& exported);
+
+/// A neck whose ends a column has on a convex polyhedron about its centre.
+struct NeckColumn {
+  const Neck* neck = nullptr;
+  std::size_t number = 0;  ///< of the neck
+  bool is_of_b = false;    ///< whether the polyhedron is grain b
+};
+
+/// The polyhedron with the holes of columns that lie apart and within its outline.
+OpenSurface with_holes(const Surface& convex, const std::vector<NeckColumn>& columns);
+
+}  // namespace grainsweep

@@ -1,0 +1,142 @@
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <Eigen/Geometry>
+
+#include "engine/shape/hull.hpp"
+#include "runner/export/caps.hpp"
+#include "runner/export/open_surfaces.hpp"
+
+namespace grainsweep {
+namespace {
+
+/// Height of the circle of a neck's radius on a sphere above its centre.
+double circle_height(double radius, double of_circle) {
+  return std::sqrt(radius * radius - of_circle * of_circle);
+}
+
+void fit_to_spheres(const StoredBed& bed, Neck& neck) {
+  neck.low = circle_height(bed.grains[neck.a].radius, neck.radius);
+  neck.high = neck.is_wall
+                  ? neck.low
+                  : neck.between.norm() - circle_height(bed.grains[neck.b].radius, neck.radius);
+}
+
+std::vector<Neck> asked_necks(const ExportedBed& exported) {
+  const StoredBed& bed = exported.bed;
+  std::vector<Neck> necks;
+  for (const Contact& contact : treated_contacts(exported)) {
+    Neck& neck = necks.emplace_back();
+    neck.a = contact.a;
+    neck.b = contact.b;
+    neck.is_wall = contact.is_wall;
+    neck.normal = contact.place.normal;
+    neck.across = neck.normal.unitOrthogonal();
+    const double radius = bed.grains[neck.a].radius;
+    double smaller = radius;
+    if (!neck.is_wall) {
+      const double other = bed.grains[neck.b].radius;
+      neck.between = (radius + contact.gap + other) * neck.normal;
+      smaller = std::min(radius, other);
+    }
+    neck.asked = neck.radius = exported.settings.treatment.share * smaller;
+    fit_to_spheres(bed, neck);
+  }
+  return necks;
+}
+
+/// A circle on a sphere about its centre, with the corners of a neck in their order.
+struct Rim {
+  const Neck* neck = nullptr;
+  std::size_t number = 0;
+  bool is_of_b = false;
+
+  Vector outward() const { return is_of_b ? Vector(-neck->normal) : neck->normal; }
+  Vector corner(int k) const {
+    return is_of_b ? Vector(neck_corner(*neck, k, neck->high) - neck->between)
+                   : neck_corner(*neck, k, neck->low);
+  }
+};
+
+/// The corners of a ball that lie outside the rims, by at least half an edge.
+std::vector<Vector> corners_outside(const Surface& ball, double radius,
+                                    const std::vector<Rim>& rims) {
+  constexpr double half_edge = 0.06;  // as an angle
+  std::vector<Vector> left;
+  for (const Vector& corner : ball.vertices) {
+    const bool is_free = std::all_of(rims.begin(), rims.end(), [&](const Rim& rim) {
+      const double angle = std::acos(std::clamp(rim.outward().dot(corner), -1.0, 1.0));
+      return angle > std::asin(rim.neck->radius / radius) + half_edge;
+    });
+    if (is_free) left.emplace_back(radius * corner);
+  }
+  return left;
+}
+
+/// The hole of rim r, whose corners the surface has from number neck_sides * r on.
+Hole hole_of(const Rim& rim, std::size_t r) {
+  Hole hole{rim.number, {}, {{}}};
+  for (int k = 0; k < neck_sides; ++k) {
+    hole.sides.push_back({static_cast<std::int32_t>(r) * neck_sides + k});
+    hole.lid.front().push_back(hole.sides.back().front());
+  }
+  if (rim.is_of_b) std::reverse(hole.lid.front().begin(), hole.lid.front().end());
+  return hole;
+}
+
+/// The hull of the rims and what is left of the ball, without the flat faces within the rims.
+OpenSurface open_sphere(const Surface& ball, double radius, const std::vector<Rim>& rims) {
+  OpenSurface open;
+  for (std::size_t r = 0; r < rims.size(); ++r) {
+    for (int k = 0; k < neck_sides; ++k) open.surface.vertices.push_back(rims[r].corner(k));
+    open.holes.push_back(hole_of(rims[r], r));
+  }
+  const auto of_rims = static_cast<std::int32_t>(open.surface.vertices.size());
+  const std::vector<Vector> others = corners_outside(ball, radius, rims);
+  open.surface.vertices.insert(open.surface.vertices.end(), others.begin(), others.end());
+  open.surface.faces = hull_faces(open.surface.vertices);
+  std::erase_if(open.surface.faces, [&](const Loop& face) {
+    return std::all_of(face.begin(), face.end(), [&](std::int32_t k) {
+      return k < of_rims && k / neck_sides == face.front() / neck_sides;
+    });
+  });
+  return open;
+}
+
+/// Flat places at walls are closed for good.
+void close_walls(const std::vector<Neck>& necks, OpenSurface& open) {
+  for (const Hole& hole : open.holes) {
+    if (necks[hole.neck].is_wall) open.surface.faces.push_back(hole.lid.front());
+  }
+  std::erase_if(open.holes, [&](const Hole& hole) { return necks[hole.neck].is_wall; });
+}
+
+}  // namespace
+
+OpenSurfaces open_spheres(const ExportedBed& exported) {
+  const StoredBed& bed = exported.bed;
+  GrainBodies bodies;
+  for (const SettledGrain& grain : bed.grains) {
+    bodies.points.push_back({Vector::Zero()});
+    bodies.radii.push_back(grain.radius);
+  }
+  std::vector<Neck> necks = asked_necks(exported);
+  narrow(
+      exported, bodies, [&](Neck& neck) { fit_to_spheres(bed, neck); }, necks);
+  std::vector<std::vector<Rim>> rims(bed.grains.size());
+  for (std::size_t k = 0; k < necks.size(); ++k) {
+    rims[necks[k].a].push_back({&necks[k], k, false});
+    if (!necks[k].is_wall) rims[necks[k].b].push_back({&necks[k], k, true});
+  }
+  OpenSurfaces all;
+  const Surface ball = unit_ball(3);
+  for (std::size_t k = 0; k < rims.size(); ++k) {
+    all.grains.push_back(open_sphere(ball, bed.grains[k].radius, rims[k]));
+    close_walls(necks, all.grains.back());
+  }
+  all.necks = std::move(necks);
+  return all;
+}
+
+}  // namespace grainsweep

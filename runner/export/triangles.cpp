@@ -1,0 +1,194 @@
+#include "runner/export/triangles.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+
+#include <Eigen/Geometry>
+
+namespace grainsweep {
+namespace {
+
+using Place = Eigen::Vector2d;
+
+/// Twice the area of a triangle, positive if it turns counter-clockwise.
+double turn_of(const Place& a, const Place& b, const Place& c) {
+  return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
+}
+
+/// A corner of a region in its plane.
+struct FlatCorner {
+  std::int32_t number = 0;
+  Place place;
+};
+using FlatLoop = std::vector<FlatCorner>;
+
+double doubled_area(const FlatLoop& loop) {
+  double area = 0.0;
+  for (std::size_t k = 2; k < loop.size(); ++k) {
+    area += turn_of(loop[0].place, loop[k - 1].place, loop[k].place);
+  }
+  return area;
+}
+
+FlatLoop flattened(const std::vector<Eigen::Vector3d>& corners, const Eigen::Vector3d& normal,
+                   const Loop& loop) {
+  const Eigen::Vector3d x = normal.unitOrthogonal(), y = normal.normalized().cross(x);
+  FlatLoop flat;
+  for (const std::int32_t k : loop) {
+    const Eigen::Vector3d& corner = corners[static_cast<std::size_t>(k)];
+    flat.push_back({k, {x.dot(corner), y.dot(corner)}});
+  }
+  return flat;
+}
+
+bool is_around(const FlatLoop& loop, const Place& place) {
+  bool inside = false;
+  for (std::size_t k = 0, before = loop.size() - 1; k < loop.size(); before = k++) {
+    const Place &p = loop[before].place, &q = loop[k].place;
+    if ((p.y() > place.y()) == (q.y() > place.y())) continue;
+    inside ^= (turn_of(p, q, place) > 0.0) == (q.y() > p.y());
+  }
+  return inside;
+}
+
+/// Whether the line from p to q meets that from a to b elsewhere than at a common end.
+bool lines_meet(const FlatCorner& p, const FlatCorner& q, const FlatCorner& a,
+                const FlatCorner& b) {
+  for (const FlatCorner* end : {&a, &b}) {
+    if (end->number == p.number || end->number == q.number) return false;
+  }
+  return (turn_of(p.place, q.place, a.place) > 0.0) != (turn_of(p.place, q.place, b.place) > 0.0) &&
+         (turn_of(a.place, b.place, p.place) > 0.0) != (turn_of(a.place, b.place, q.place) > 0.0);
+}
+
+bool is_free(const FlatCorner& p, const FlatCorner& q, const std::vector<FlatLoop>& loops) {
+  return std::all_of(loops.begin(), loops.end(), [&](const FlatLoop& loop) {
+    for (std::size_t k = 0, before = loop.size() - 1; k < loop.size(); before = k++) {
+      if (lines_meet(p, q, loop[before], loop[k])) return false;
+    }
+    return true;
+  });
+}
+
+/// Where a hole is cut open towards the region's edge.
+struct Slit {
+  std::size_t outer = 0, hole = 0;
+  double length = std::numeric_limits<double>::infinity();
+};
+
+Slit shortest_slit(const FlatLoop& outer, const FlatLoop& hole,
+                   const std::vector<FlatLoop>& loops) {
+  Slit best;
+  for (std::size_t j = 0; j < outer.size(); ++j) {
+    for (std::size_t k = 0; k < hole.size(); ++k) {
+      const double length = (outer[j].place - hole[k].place).norm();
+      if (length < best.length && is_free(outer[j], hole[k], loops)) best = {j, k, length};
+    }
+  }
+  if (best.length == std::numeric_limits<double>::infinity()) {
+    throw std::logic_error("a hole of a flat region cannot be reached from its edge");
+  }
+  return best;
+}
+
+/// Holes joined to the edge around them, one after the other, by slits of no width.
+FlatLoop opened(FlatLoop outer, std::vector<FlatLoop> holes) {
+  while (!holes.empty()) {
+    std::vector<FlatLoop> all = holes;
+    all.push_back(outer);
+    std::size_t nearest = 0;
+    Slit best;
+    for (std::size_t k = 0; k < holes.size(); ++k) {
+      const Slit slit = shortest_slit(outer, holes[k], all);
+      if (slit.length >= best.length) continue;
+      best = slit;
+      nearest = k;
+    }
+    FlatLoop& hole = holes[nearest];
+    std::rotate(hole.begin(), hole.begin() + static_cast<std::ptrdiff_t>(best.hole), hole.end());
+    hole.push_back(hole.front());
+    hole.push_back(outer[best.outer]);
+    outer.insert(outer.begin() + static_cast<std::ptrdiff_t>(best.outer) + 1, hole.begin(),
+                 hole.end());
+    holes.erase(holes.begin() + static_cast<std::ptrdiff_t>(nearest));
+  }
+  return outer;
+}
+
+/// Twice the area over the square of the longest side: 0.87 at best, 0 of a line.
+double quality_of(const Place& a, const Place& b, const Place& c) {
+  const double longest =
+      std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
+  return turn_of(a, b, c) / longest;
+}
+
+/// How good a triangle corner k and the two beside it are; 0 if it cannot be cut off.
+double ear_quality(const FlatLoop& loop, std::size_t k) {
+  constexpr double flat = 1e-9;
+  const FlatCorner& a = loop[(k + loop.size() - 1) % loop.size()];
+  const FlatCorner& b = loop[k];
+  const FlatCorner& c = loop[(k + 1) % loop.size()];
+  const double quality = quality_of(a.place, b.place, c.place);
+  if (quality <= flat) return 0.0;
+  const double margin = -flat * (c.place - a.place).squaredNorm();
+  const bool is_clear = std::none_of(loop.begin(), loop.end(), [&](const FlatCorner& other) {
+    return other.number != a.number && other.number != b.number && other.number != c.number &&
+           turn_of(a.place, b.place, other.place) >= margin &&
+           turn_of(b.place, c.place, other.place) >= margin &&
+           turn_of(c.place, a.place, other.place) >= margin;
+  });
+  return is_clear ? quality : 0.0;
+}
+
+/// Cuts off the best ear of those left until a triangle is: all turn counter-clockwise, and
+/// therefore fill the loop without overlap.
+void append_ears(FlatLoop loop, std::vector<Loop>& triangles) {
+  while (loop.size() >= 3) {
+    std::size_t best = 0;
+    double quality = 0.0;
+    for (std::size_t k = 0; k < loop.size(); ++k) {
+      const double of_ear = ear_quality(loop, k);
+      if (of_ear <= quality) continue;
+      quality = of_ear;
+      best = k;
+    }
+    if (quality == 0.0) throw std::logic_error("a flat region has an edge that crosses itself");
+    const std::size_t count = loop.size();
+    triangles.push_back({loop[(best + count - 1) % count].number, loop[best].number,
+                         loop[(best + 1) % count].number});
+    if (count == 3) return;
+    loop.erase(loop.begin() + static_cast<std::ptrdiff_t>(best));
+  }
+}
+
+}  // namespace
+
+Eigen::Vector3d area_of(const std::vector<Eigen::Vector3d>& corners, const Loop& loop) {
+  const auto at = [&](std::size_t k) { return corners[static_cast<std::size_t>(loop[k])]; };
+  Eigen::Vector3d doubled = Eigen::Vector3d::Zero();
+  for (std::size_t k = 2; k < loop.size(); ++k) {
+    doubled += (at(k - 1) - at(0)).cross(at(k) - at(0));
+  }
+  return doubled / 2.0;
+}
+
+std::vector<Loop> triangles_of(const std::vector<Eigen::Vector3d>& corners,
+                               const Eigen::Vector3d& normal, const std::vector<Loop>& loops) {
+  std::vector<FlatLoop> outer, holes;
+  for (const Loop& loop : loops) {
+    FlatLoop flat = flattened(corners, normal, loop);
+    (doubled_area(flat) > 0.0 ? outer : holes).push_back(std::move(flat));
+  }
+  std::vector<Loop> triangles;
+  for (const FlatLoop& edge : outer) {
+    std::vector<FlatLoop> within;
+    for (const FlatLoop& hole : holes) {
+      if (is_around(edge, hole.front().place)) within.push_back(hole);
+    }
+    append_ears(opened(edge, within), triangles);
+  }
+  return triangles;
+}
+
+}  // namespace grainsweep
