@@ -30,8 +30,8 @@ std::vector<Contact> treated_contacts(const ExportedBed& exported) {
 }
 
 void cut_caps(const ExportedBed& exported, std::vector<Surface>& surfaces) {
-  constexpr double clearance = 1e-4;  // in radii
   const StoredBed& bed = exported.bed;
+  const double clearance = bed.turned ? 1e-3 : 1e-4;  // in radii
   const double depth = cap_depth(exported.settings.treatment.share);
   for (const Contact& contact : treated_contacts(exported)) {
     const Vector& normal = contact.place.normal;

@@ -9,6 +9,9 @@
 namespace grainsweep {
 namespace {
 
+/// Of the container's top above the highest grain, which would touch it otherwise, d.
+constexpr double headroom = 0.1;
+
 /// Nine digits: what a single-precision reader can use.
 std::string short_text(const Vector& v) {
   char text[64];
@@ -28,7 +31,7 @@ void for_each_surface(const ExportedBed& exported, Write write) {
   for (const GrainSurface& grain : grain_surfaces(exported)) {
     write(name_of(exported, grain), grain.surface);
   }
-  write("container", container_surface(exported.bed));
+  write("container", container_surface(exported.bed.box, height_of(exported.bed) + headroom));
 }
 
 std::string facet(const Vector& a, const Vector& b, const Vector& c) {

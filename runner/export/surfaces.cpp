@@ -247,9 +247,7 @@ std::vector<GrainSurface> grain_surfaces(const ExportedBed& exported) {
   return placed;
 }
 
-Surface container_surface(const StoredBed& bed) {
-  const Box& box = bed.box;
-  const double height = height_of(bed);
+Surface container_surface(const Box& box, double height) {
   if (!box.is_tube) {
     return prism({{0, 0}, {box.length, 0}, {box.length, box.width}, {0, box.width}}, height);
   }

@@ -52,7 +52,7 @@ std::vector<Surface> whole_surfaces(const ExportedBed& exported);
 /// of those that cross periodic sides.
 std::vector<GrainSurface> grain_surfaces(const ExportedBed& exported);
 
-/// The box, or the tube as a prism around it, up to the highest grain; it encloses the grains.
-Surface container_surface(const StoredBed& bed);
+/// The box up to that height, or the tube as a prism around it.
+Surface container_surface(const Box& box, double height);
 
 }  // namespace grainsweep

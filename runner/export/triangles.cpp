@@ -1,8 +1,11 @@
 #include "runner/export/triangles.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <map>
 #include <stdexcept>
+#include <utility>
 
 #include <Eigen/Geometry>
 
@@ -143,7 +146,8 @@ double ear_quality(const FlatLoop& loop, std::size_t k) {
 
 /// Cuts off the best ear of those left until a triangle is: all turn counter-clockwise, and
 /// therefore fill the loop without overlap.
-void append_ears(FlatLoop loop, std::vector<Loop>& triangles) {
+std::vector<Loop> ears_of(FlatLoop loop) {
+  std::vector<Loop> triangles;
   while (loop.size() >= 3) {
     std::size_t best = 0;
     double quality = 0.0;
@@ -157,9 +161,75 @@ void append_ears(FlatLoop loop, std::vector<Loop>& triangles) {
     const std::size_t count = loop.size();
     triangles.push_back({loop[(best + count - 1) % count].number, loop[best].number,
                          loop[(best + 1) % count].number});
-    if (count == 3) return;
+    if (count == 3) break;
     loop.erase(loop.begin() + static_cast<std::ptrdiff_t>(best));
   }
+  return triangles;
+}
+
+/// Triangles of a region with the edges that two of them share.
+struct Net {
+  std::map<std::int32_t, Place> places;
+  std::vector<Loop> triangles;
+  std::map<std::pair<std::int32_t, std::int32_t>, std::size_t> left_of;  ///< directed edges
+
+  void set(std::size_t k, const Loop& triangle) {
+    triangles[k] = triangle;
+    for (std::size_t j = 0; j < 3; ++j) left_of[{triangle[j], triangle[(j + 1) % 3]}] = k;
+  }
+};
+
+Net net_of(const FlatLoop& corners, const std::vector<Loop>& triangles) {
+  Net net;
+  for (const FlatCorner& corner : corners) net.places[corner.number] = corner.place;
+  net.triangles.resize(triangles.size());
+  for (std::size_t k = 0; k < triangles.size(); ++k) net.set(k, triangles[k]);
+  return net;
+}
+
+std::int32_t opposite(const Loop& triangle, std::int32_t a, std::int32_t b) {
+  return *std::find_if(triangle.begin(), triangle.end(),
+                       [&](std::int32_t k) { return k != a && k != b; });
+}
+
+double angle_at(const Place& corner, const Place& a, const Place& b) {
+  return std::atan2(turn_of(corner, a, b), (a - corner).dot(b - corner));
+}
+
+/// Turns the edge from a to b, with triangles on both sides, to join the corners opposite to it, if
+/// those are then more even: the angles at them add up to more than two right ones.
+bool flip(Net& net, std::int32_t a, std::int32_t b) {
+  constexpr double flat = 1e-9, two_right = 3.1415927;  // with a margin, so that it ends
+  const auto left = net.left_of.find({a, b}), right = net.left_of.find({b, a});
+  if (left == net.left_of.end() || right == net.left_of.end()) return false;
+  const std::size_t of_left = left->second, of_right = right->second;
+  const std::int32_t c = opposite(net.triangles[of_left], a, b);
+  const std::int32_t d = opposite(net.triangles[of_right], a, b);
+  const Place &p = net.places[a], &q = net.places[b], &r = net.places[c], &s = net.places[d];
+  if (angle_at(r, p, q) + angle_at(s, q, p) <= two_right) return false;
+  if (quality_of(r, p, s) <= flat || quality_of(s, q, r) <= flat) return false;
+  net.left_of.erase(left);
+  net.left_of.erase(right);
+  net.set(of_left, {c, a, d});
+  net.set(of_right, {d, b, c});
+  return true;
+}
+
+/// The same region in triangles as even as its corners allow (Delaunay's, within its edges).
+std::vector<Loop> evened(const FlatLoop& corners, const std::vector<Loop>& triangles) {
+  constexpr int most_rounds = 100;
+  Net net = net_of(corners, triangles);
+  bool is_even = false;
+  for (int round = 0; round < most_rounds && !is_even; ++round) {
+    is_even = true;
+    for (std::size_t k = 0; k < net.triangles.size(); ++k) {
+      for (std::size_t j = 0; j < 3; ++j) {
+        const Loop& triangle = net.triangles[k];
+        if (flip(net, triangle[j], triangle[(j + 1) % 3])) is_even = false;
+      }
+    }
+  }
+  return net.triangles;
 }
 
 }  // namespace
@@ -186,7 +256,8 @@ std::vector<Loop> triangles_of(const std::vector<Eigen::Vector3d>& corners,
     for (const FlatLoop& hole : holes) {
       if (is_around(edge, hole.front().place)) within.push_back(hole);
     }
-    append_ears(opened(edge, within), triangles);
+    const FlatLoop loop = opened(edge, within);
+    for (Loop& triangle : evened(loop, ears_of(loop))) triangles.push_back(std::move(triangle));
   }
   return triangles;
 }

@@ -46,7 +46,7 @@ TEST_CASE("a ball is closed, its corners lie on it, and finer ones are fuller") 
 }
 
 TEST_CASE("a cut leaves a closed surface of what lies below the plane") {
-  const Surface cube = container_surface(empty_box(2, 2, 2).bed);
+  const Surface cube = container_surface(empty_box(2, 2, 2).bed.box, 2);
   CHECK(volume_of(cube) == 8);
   const Surface half = cut_off(cube, {0, 0, 1}, 1.5);
   CHECK(is_closed(half));
@@ -115,7 +115,7 @@ TEST_CASE("grains that cross a periodic side have an image beyond the other one"
 TEST_CASE("a tube's surface holds the tube and hardly more") {
   ExportedBed exported = stacked_spheres();
   exported.bed.box = tube_of(4);
-  const Surface tube = container_surface(exported.bed);
+  const Surface tube = container_surface(exported.bed.box, height_of(exported.bed));
   CHECK(is_closed(tube));
   const double whole = pi * 4 * height_of(exported.bed);
   CHECK((volume_of(tube) > whole && volume_of(tube) < 1.001 * whole));
