@@ -74,6 +74,17 @@ bool is_free(const FlatCorner& p, const FlatCorner& q, const std::vector<FlatLoo
   });
 }
 
+/// Whether a place lies within the angle at corner k of a loop: a corner at which a slit ends is in
+/// the loop twice, with the region in another direction each time.
+bool is_ahead(const FlatLoop& loop, std::size_t k, const Place& place) {
+  const Place& before = loop[(k + loop.size() - 1) % loop.size()].place;
+  const Place &at = loop[k].place, &after = loop[(k + 1) % loop.size()].place;
+  const bool left_of_first = turn_of(before, at, place) > 0.0;
+  const bool left_of_second = turn_of(at, after, place) > 0.0;
+  return turn_of(before, at, after) > 0.0 ? left_of_first && left_of_second
+                                          : left_of_first || left_of_second;
+}
+
 /// Where a hole is cut open towards the region's edge.
 struct Slit {
   std::size_t outer = 0, hole = 0;
@@ -86,7 +97,8 @@ Slit shortest_slit(const FlatLoop& outer, const FlatLoop& hole,
   for (std::size_t j = 0; j < outer.size(); ++j) {
     for (std::size_t k = 0; k < hole.size(); ++k) {
       const double length = (outer[j].place - hole[k].place).norm();
-      if (length < best.length && is_free(outer[j], hole[k], loops)) best = {j, k, length};
+      if (length >= best.length || !is_ahead(outer, j, hole[k].place)) continue;
+      if (is_free(outer[j], hole[k], loops)) best = {j, k, length};
     }
   }
   if (best.length == std::numeric_limits<double>::infinity()) {
