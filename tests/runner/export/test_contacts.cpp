@@ -5,10 +5,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "engine/dynamics/presets.hpp"
-#include "engine/packing.hpp"
-#include "kernels/kernels.hpp"
 #include "runner/export/contacts.hpp"
+#include "tests/runner/export/packed_bed.hpp"
 
 namespace grainsweep {
 namespace {
@@ -56,26 +54,6 @@ TEST_CASE("walls are called by their side, or tube") {
   CHECK(wall_name(tube_of(4), 1) == "tube");
 }
 
-ExportedBed packed(const ShapeSpec& shape, const Box& box) {
-  PackingSpec spec;
-  spec.shape = shape;
-  spec.box = box;
-  spec.fill = GrainCount{90};
-  spec.accuracy = *preset("fast");
-  spec.measure.exclude_floor = 1.0;
-  spec.measure.exclude_surface = 1.0;
-  Packing packing =
-      make_packing(spec, kernels_for(Isa::sse2), [](const Progress&) { return true; });
-  ExportedBed exported;
-  exported.bed.box = spec.box;
-  exported.bed.grains = packing.grains;
-  exported.bed.turned = packing.turned;
-  exported.bed.forces = stored_forces(packing.forces);
-  exported.bed.wall_forces = packing.wall_forces;
-  exported.gap_tolerance = spec.measure.gap_tolerances.front();
-  return exported;
-}
-
 /// Forces and neighbours of every grain, added up over the contacts.
 void check_sums(const ExportedBed& exported) {
   const auto& grains = exported.bed.grains;
@@ -97,16 +75,16 @@ void check_sums(const ExportedBed& exported) {
 }
 
 TEST_CASE("contacts of spheres add up to the neighbours and forces that each grain has") {
-  check_sums(packed(SphereShape{}, {4, 3, Boundary::periodic, Boundary::walls}));
+  check_sums(packed_bed(SphereShape{}, {4, 3, Boundary::periodic, Boundary::walls}, 90));
 }
 
 TEST_CASE("contacts of polyhedra add up to the neighbours and forces that each grain has") {
   const Box box{4, 3, Boundary::periodic, Boundary::walls};
-  check_sums(packed(PinacoidSize{}, box));
+  check_sums(packed_bed(PinacoidSize{}, box, 90));
 }
 
 TEST_CASE("contacts of polyhedra in a tube add up, though they touch its wall in many places") {
-  check_sums(packed(PinacoidSize{}, tube_of(4)));
+  check_sums(packed_bed(PinacoidSize{}, tube_of(4), 90));
 }
 
 }  // namespace

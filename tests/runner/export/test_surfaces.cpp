@@ -1,30 +1,16 @@
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include <catch2/catch.hpp>
 
 #include "engine/units.hpp"
 #include "runner/export/contacts.hpp"
 #include "runner/export/surfaces.hpp"
+#include "tests/runner/export/closed_surfaces.hpp"
 #include "tests/runner/export/touching_beds.hpp"
 
 namespace grainsweep {
 namespace {
-
-/// Whether each edge of each face is that of one other face, run through the other way.
-bool is_closed(const Surface& surface) {
-  std::map<std::pair<std::int32_t, std::int32_t>, int> edges;
-  for (const auto& face : surface.faces) {
-    for (std::size_t k = 0; k < face.size(); ++k) {
-      ++edges[{face[k], face[(k + 1) % face.size()]}];
-    }
-  }
-  return !edges.empty() && std::all_of(edges.begin(), edges.end(), [&](const auto& edge) {
-    const auto back = edges.find({edge.first.second, edge.first.first});
-    return edge.second == 1 && back != edges.end();
-  });
-}
 
 double reach_along(const Surface& surface, const Vector& normal) {
   double reach = -1e9;
@@ -124,6 +110,7 @@ TEST_CASE("a tube's surface holds the tube and hardly more") {
 TEST_CASE("treatments are read with a share below 1") {
   CHECK(contact_treatment("shrink:.99")->share == 0.99);
   CHECK(contact_treatment("cap:0.2")->kind == ContactTreatment::Kind::cap);
+  CHECK(contact_treatment("bridge:0.2")->kind == ContactTreatment::Kind::bridge);
   for (const char* text :
        {"", "cap", "cap:", "cap:1", "cap:0", "shrink:-1", "weld:0.2", "cap:.2x"}) {
     CHECK_FALSE(contact_treatment(text));

@@ -1,0 +1,149 @@
+#include <cmath>
+#include <numeric>
+
+#include <catch2/catch.hpp>
+
+#include "engine/units.hpp"
+#include "runner/export/bridges.hpp"
+#include "runner/export/caps.hpp"
+#include "runner/export/open_surfaces.hpp"
+#include "tests/runner/export/closed_surfaces.hpp"
+#include "tests/runner/export/packed_bed.hpp"
+#include "tests/runner/export/touching_beds.hpp"
+
+namespace grainsweep {
+namespace {
+
+ExportedBed bridged(ExportedBed exported, const char* treatment = "bridge:0.2") {
+  exported.settings.treatment = *contact_treatment(treatment);
+  return exported;
+}
+
+/// Two spheres of radii 0.5 and `other` above the floor, with a gap between them.
+ExportedBed pair_of(double other, double gap) {
+  ExportedBed exported = empty_box(6, 6, 0);
+  exported.bed.grains = {{3, 3, 2, 0.5, 0, 0}, {3, 3, 2.5 + gap + other, other, 0, 0}};
+  return bridged(exported);
+}
+
+/// Volume of a sphere without the cap beyond a circle of radius rim on it.
+double without_cap(double radius, double rim) {
+  const double depth = radius - std::sqrt(radius * radius - rim * rim);
+  return 4.0 / 3.0 * pi * std::pow(radius, 3) - pi * depth * depth * (radius - depth / 3.0);
+}
+
+double height_within(double radius, double rim) { return std::sqrt(radius * radius - rim * rim); }
+
+TEST_CASE("two spheres and their neck are one closed body of their volume") {
+  for (const double other : {0.5, 0.2}) {
+    for (const double gap : {-1e-6, 0.0, 1e-6, 0.01}) {
+      const auto surfaces = bridged_surfaces(pair_of(other, gap));
+      REQUIRE(surfaces.size() == 1);
+      CHECK(surfaces[0].grains == 2);
+      CHECK(is_closed(surfaces[0].surface));
+      CHECK(euler_characteristic(surfaces[0].surface) == 2);
+      CHECK(crossings(surfaces) == 0);
+      const double rim = 0.2 * other;
+      const double length = 0.5 + gap + other - height_within(0.5, rim) - height_within(other, rim);
+      const double exact =
+          without_cap(0.5, rim) + without_cap(other, rim) + pi * rim * rim * length;
+      // A ball of 1280 triangles within its sphere lacks 0.85 %, a prism of 12 sides 4.5 % of 0.1
+      // %.
+      const double volume = volume_of(surfaces[0].surface);
+      CHECK((volume < exact && volume > 0.99 * exact));
+    }
+  }
+}
+
+TEST_CASE("spheres further apart than a cap is deep stay alone") {
+  const auto surfaces = bridged_surfaces(pair_of(0.5, 0.03));
+  REQUIRE(surfaces.size() == 2);
+  CHECK(surfaces[0].grains == 1);
+}
+
+/// Corners less edges plus faces of all bodies.
+int euler_characteristic(const std::vector<GrainSurface>& surfaces) {
+  return std::accumulate(surfaces.begin(), surfaces.end(), 0, [](int sum, const auto& body) {
+    return sum + euler_characteristic(body.surface);
+  });
+}
+
+void check_bodies(const ExportedBed& exported, const OpenSurfaces& open, double share_of_necks) {
+  const auto surfaces = bridged_surfaces(exported);
+  for (const GrainSurface& body : surfaces) CHECK(is_closed(body.surface));
+  int grains = 0, necks = 0, asked = 0;
+  for (const GrainSurface& body : surfaces) grains += static_cast<int>(body.grains);
+  for (const Neck& neck : open.necks) necks += !neck.is_wall;
+  for (const Contact& contact : treated_contacts(exported)) asked += !contact.is_wall;
+  CHECK(grains == static_cast<int>(exported.bed.grains.size()));
+  CHECK(euler_characteristic(surfaces) == 2 * (grains - necks));
+  CHECK(necks >= share_of_necks * asked);
+  CHECK(crossings(surfaces) == 0);
+}
+
+TEST_CASE("a bed of spheres is joined by all its necks without a face through another") {
+  const Box walls{3, 3, Boundary::walls, Boundary::walls};
+  const ExportedBed bed = bridged(packed_bed(SphereShape{}, walls, 25));
+  check_bodies(bed, open_spheres(bed), 1.0);
+  const ExportedBed wide = bridged(bed, "bridge:0.6");  // necks that would meet on a grain
+  check_bodies(wide, open_spheres(wide), 1.0);
+}
+
+TEST_CASE("beds of polyhedra are joined at points, along lines and over areas") {
+  const Box walls{4, 3, Boundary::walls, Boundary::walls};
+  for (const ShapeSpec& shape : {ShapeSpec(CubeSize{}), ShapeSpec(PinacoidSize{})}) {
+    const ExportedBed bed = bridged(packed_bed(shape, walls, 40));
+    check_bodies(bed, open_polyhedra(bed), 0.95);
+    // Of contacts with gaps up to 0.2 d many leave less than a tenth of a neck of 0.3 d.
+    const ExportedBed wide = bridged(bed, "bridge:0.6");
+    check_bodies(wide, open_polyhedra(wide), 0.6);
+  }
+}
+
+TEST_CASE("a cube on another has a neck of the radius asked for in the middle of their contact") {
+  const ExportedBed exported = bridged(stacked_cubes());
+  const OpenSurfaces open = open_polyhedra(exported);
+  REQUIRE(open.necks.size() == 1);
+  CHECK(open.necks[0].radius == Approx(0.1).epsilon(1e-12));
+  CHECK((open.necks[0].middle - Vector(0.125, 0, 0)).norm() < 1e-12);
+  const auto surfaces = bridged_surfaces(exported);
+  REQUIRE(surfaces.size() == 1);
+  CHECK(euler_characteristic(surfaces[0].surface) == 2);
+  // Three caps of 1 d^2 are cut off, and a prism of 12 sides, 3 of its radius squared, fills two.
+  const double depth = (1 - std::sqrt(1 - 0.2 * 0.2)) * 0.5;
+  CHECK(volume_of(surfaces[0].surface) ==
+        Approx(2 - 3 * depth + 2 * depth * 3 * 0.01).epsilon(1e-9));
+}
+
+TEST_CASE("across a periodic side grains have flat ends, or images that are joined") {
+  ExportedBed exported = bridged(stacked_spheres());
+  const double x = 0.6, y = std::sqrt(1 - x * x);
+  exported.bed.grains[1].x = 0.1 - x + 4;
+  exported.bed.grains[1].y = 0.1 - y + 4;
+  const auto apart = bridged_surfaces(exported);
+  REQUIRE(apart.size() == 2);
+  for (const GrainSurface& body : apart) CHECK(is_closed(body.surface));
+  exported.settings.periodic_images = true;
+  const auto images = bridged_surfaces(exported);
+  CHECK(crossings(images) == 0);
+  int joined = 0;
+  for (const GrainSurface& body : images) {
+    CHECK(is_closed(body.surface));
+    CHECK(euler_characteristic(body.surface) == 2);
+    joined += body.grains == 2;
+  }
+  // Where the neck is within the box, over its corner, it joins; where both sides see it, twice.
+  CHECK(joined >= 1);
+}
+
+TEST_CASE("periodic beds of cubes with images are closed and cross nowhere") {
+  ExportedBed bed =
+      bridged(packed_bed(CubeSize{}, {4, 4, Boundary::periodic, Boundary::periodic}, 40));
+  bed.settings.periodic_images = true;
+  const auto surfaces = bridged_surfaces(bed);
+  for (const GrainSurface& body : surfaces) CHECK(is_closed(body.surface));
+  CHECK(crossings(surfaces) == 0);
+}
+
+}  // namespace
+}  // namespace grainsweep
