@@ -32,8 +32,7 @@ sudo. Only what is missing is installed; with nothing missing it ends at once.
 
   --checks    also what .ci/run takes: clang-format and clang-tidy, clang for builds under
               sanitizers, strace, Python, LAMMPS, gmsh, Chromium and Slurm for the tests that need
-              them,
-              and axe-core, with npm, into ~/.cache/grainsweep-checks
+              them, and axe-core, with npm, into ~/.cache/grainsweep-checks
   --emulator  also a PC emulator with AVX-512, for tests/checks/avx512_emulated.sh
   --help      this text
 EOF

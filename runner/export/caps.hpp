@@ -16,8 +16,8 @@ double cap_depth(double share);
 std::vector<Contact> treated_contacts(const ExportedBed& exported);
 
 /// Cuts the caps of all treated contacts off the surfaces about the centres of the grains, with
-/// walls, too: each as deep as a cap of the grain's radius, and a little deeper where a corner would
-/// lie nearer to the cut than a thousandth of it, on spheres a ten-thousandth.
+/// walls, too: each as deep as a cap of the grain's radius, and a little deeper where a corner
+/// would lie nearer to the cut than a thousandth of it, on spheres a ten-thousandth.
 void cut_caps(const ExportedBed& exported, std::vector<Surface>& surfaces);
 
 }  // namespace grainsweep

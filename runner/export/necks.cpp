@@ -19,7 +19,7 @@ std::vector<Vector> body_of(const Neck& neck, const Vector& offset) {
   std::vector<Vector> corners;
   for (const double height : {neck.low, neck.high}) {
     for (int k = 0; k < neck_sides; ++k) {
-      corners.push_back(offset + neck_corner(neck, k, height));
+      corners.emplace_back(offset + neck_corner(neck, k, height));
     }
   }
   return corners;

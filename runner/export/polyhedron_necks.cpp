@@ -1,8 +1,7 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
-#include <map>
-#include <optional>
 
 #include <Eigen/Geometry>
 
@@ -190,6 +189,7 @@ double clearance_at(const End& end, const Neck& neck) {
   const Vector up = neck.normal.cross(neck.across);
   const auto flat = [&](const Vector& v) { return Flat(v.dot(neck.across), v.dot(up)); };
   std::vector<Flat> rim;
+  rim.reserve(neck_sides);
   for (int k = 0; k < neck_sides; ++k) rim.push_back(flat(neck_corner(neck, k, 0.0)));
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t f = 0; f < end.spaces.size(); ++f) {
@@ -215,11 +215,12 @@ void turn_clear(const Polyhedra& bed, Neck& neck) {
   Neck best = neck;
   double largest = -1.0;
   for (int k = 0; k < turns * sizes && largest < enough * best.radius; ++k) {
+    const int size = k / turns;
     Neck turned = neck;
     const double angle = 2.0 * pi * (k % turns) / (turns * neck_sides);
     turned.across =
         std::cos(angle) * neck.across + std::sin(angle) * neck.normal.cross(neck.across);
-    turned.radius *= 1.0 - 0.02 * (k / turns);
+    turned.radius *= 1.0 - 0.02 * size;
     const auto [a, b] = ends_of(turned, bed);
     const double clearance = std::min(clearance_at(a, turned), clearance_at(b, turned));
     if (clearance <= largest) continue;

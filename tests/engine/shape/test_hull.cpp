@@ -1,5 +1,7 @@
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 #include <string>
 
 #include <catch2/catch.hpp>
@@ -212,6 +214,18 @@ TEST_CASE("a tilted plane of points is refused whatever its place and scale") {
     }
     CHECK(says(refusal(points), "on a plane"));
   }
+}
+
+TEST_CASE("faces of a hull leave out points within it, and points without a hull are refused") {
+  std::vector<Vector> points = {{0.1, 0.2, 0.3}};
+  for (int k = 0; k < 8; ++k) points.emplace_back(k & 1, (k >> 1) & 1, k >> 2);
+  const Loops faces = hull_faces(points);
+  CHECK(faces.size() == 6);
+  for (const auto& face : faces) {
+    CHECK(face.size() == 4);
+    CHECK(*std::min_element(face.begin(), face.end()) > 0);
+  }
+  CHECK_THROWS_AS(hull_faces({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}), std::invalid_argument);
 }
 
 }  // namespace

@@ -40,5 +40,13 @@ TEST_CASE("OBJ has the same surfaces as objects, with their polygons") {
                        Catch::Contains("o container\nv 0 0 0\n"));
 }
 
+TEST_CASE("joined grains are one solid, called by the first, below the container's top") {
+  ExportedBed exported = stacked_cubes();
+  exported.settings.treatment = *contact_treatment("bridge:0.2");
+  const std::string text = surfaces_stl(exported);
+  CHECK(count_of(text, "\nsolid ") == 1);
+  CHECK_THAT(text, Catch::StartsWith("solid joined_1\n") && Catch::Contains("vertex 4 4 2.1\n"));
+}
+
 }  // namespace
 }  // namespace grainsweep
