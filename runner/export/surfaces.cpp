@@ -215,11 +215,11 @@ std::vector<Surface> whole_surfaces(const ExportedBed& exported) {
   const Surface ball = unit_ball(has_caps ? 3 : 2);
   std::vector<Surface> surfaces;
   for (std::size_t k = 0; k < bed.grains.size(); ++k) {
-    if (bed.turned) {
-      surfaces.push_back({vertices_about_centre(bed, k), bed.turned->mesh(k).faces});
-    } else {
+    if (is_sphere(bed, k)) {
       surfaces.push_back(ball);
       scale(surfaces.back(), bed.grains[k].radius);
+    } else {
+      surfaces.push_back({vertices_about_centre(bed, k), bed.turned->mesh(k).faces});
     }
   }
   return surfaces;
