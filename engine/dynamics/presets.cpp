@@ -85,4 +85,14 @@ std::optional<ProtocolBias> bias_bound(std::string_view preset_name, BedKind kin
   return known->bias_bounds->at(static_cast<std::size_t>(kind));
 }
 
+std::string_view settles_as(const Accuracy& accuracy) {
+  for (const Preset& known : presets()) {
+    Accuracy same = known.accuracy;
+    same.precision = accuracy.precision;
+    same.max_steps = accuracy.max_steps;
+    if (same == accuracy) return known.name;
+  }
+  return "";
+}
+
 }  // namespace grainsweep

@@ -30,7 +30,7 @@ struct Preset {
   std::optional<std::array<ProtocolBias, 3>> bias_bounds;  ///< by BedKind, if measured
 };
 
-/// fast, balanced, accurate, exact.
+/// fast, balanced, accurate, exact: the cheaper ones first, of those at rest in steps.
 const std::vector<Preset>& presets();
 
 /// The preset called `name`, if there is one.
@@ -40,5 +40,10 @@ std::optional<Accuracy> preset(std::string_view name);
 /// errors, of the worst scene of the kind (bench/README.md, "The protocol's own error"). None for
 /// other names: what was not measured has no bound.
 std::optional<ProtocolBias> bias_bound(std::string_view preset_name, BedKind kind);
+
+/// The preset that an accuracy settles as, which has its bounds: it is one but for `precision`,
+/// which changes no mean by more than its error (the same place), and for `max_steps`, which
+/// changes no bed that settles. Empty if there is none.
+std::string_view settles_as(const Accuracy& accuracy);
 
 }  // namespace grainsweep

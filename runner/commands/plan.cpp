@@ -15,6 +15,7 @@
 #include "runner/machine.hpp"
 #include "runner/store/journal.hpp"
 #include "runner/sweep/costs.hpp"
+#include "runner/tables/chosen_presets.hpp"
 #include "runner/tables/csv.hpp"
 #include "runner/text.hpp"
 
@@ -149,8 +150,9 @@ void print_text(const Sweep& sweep, const std::vector<Cost>& costs, const Needs&
   const std::vector<PlannedGroup> groups = planned_groups(sweep, costs);
   std::cout << sweep.name << ": " << counted(sweep.jobs.size(), "packing") << ", "
             << counted(groups.size(), "parameter set") << "\n"
-            << groups_text(groups) << "Estimated: " << duration_text(needs.cpu_seconds)
-            << " CPU, about " << duration_text(needs.wall_seconds) << " on "
+            << groups_text(groups) << chosen_presets_text(sweep)
+            << "Estimated: " << duration_text(needs.cpu_seconds) << " CPU, about "
+            << duration_text(needs.wall_seconds) << " on "
             << counted(static_cast<std::size_t>(threads), "thread") << " ("
             << counted(static_cast<std::size_t>(needs.live), "packing") << " at once), up to "
             << memory_text(needs.bytes) << " of the " << memory_text(needs.memory)

@@ -11,6 +11,7 @@
 #include "runner/commands/shared_options.hpp"
 #include "runner/exit_codes.hpp"
 #include "runner/jobs/growing_groups.hpp"
+#include "runner/tables/chosen_presets.hpp"
 #include "runner/tables/units.hpp"
 #include "runner/text.hpp"
 
@@ -40,7 +41,8 @@ int perform(const ValidateOptions& options) {
   std::cout << options.file << ": right: " << (grows(whole) ? "at least " : "")
             << counted(sweep.jobs.size(), "packing") << ", "
             << counted(count_parameter_sets(sweep), "parameter set")
-            << (sweep.units ? ", " + units_text(*sweep.units) : "") << "\n";
+            << (sweep.units ? ", " + units_text(*sweep.units) : "") << "\n"
+            << chosen_presets_text(sweep);
   return exit_done;
 }
 

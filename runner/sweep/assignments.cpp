@@ -154,8 +154,22 @@ void refuse_second_shape(const Assignments& assignments, Diagnostics& diagnostic
   }
 }
 
-/// Notes the first assignment that describes the container, or sizes, in another way than one
-/// before it.
+/// That what is to be chosen is described in another way at `pointer`.
+std::string described_already(Choice choice, const std::string& pointer) {
+  if (choice == Choice::container) {
+    return "the container is already described at " + pointer + "; keep one of box, tube";
+  }
+  if (choice == Choice::accuracy) {
+    return "the accuracy is already described at " + pointer +
+           "; keep one: a preset, or what is asked for, solid_fraction and coordination";
+  }
+  return "the sizes are already described at " + pointer +
+         "; keep one: two classes, or one distribution, lognormal, uniform, weibull, or table by "
+         "lists or file";
+}
+
+/// Notes the first assignment that describes the container, sizes or the accuracy in another way
+/// than one before it.
 void refuse_alternatives(const Assignments& assignments, Diagnostics& diagnostics) {
   for (std::size_t i = 0; i < assignments.size(); ++i) {
     const Parameter& parameter = parameters()[assignments[i].parameter];
@@ -164,14 +178,8 @@ void refuse_alternatives(const Assignments& assignments, Diagnostics& diagnostic
       return are_alternatives(parameters()[assignment.parameter], parameter);
     });
     if (other == end) continue;
-    const bool is_container = choice_of(parameter) == Choice::container;
     diagnostics.push_back(
-        {assignments[i].pointer,
-         is_container
-             ? "the container is already described at " + other->pointer + "; keep one of box, tube"
-             : "the sizes are already described at " + other->pointer +
-                   "; keep one: two classes, or one distribution, lognormal, uniform, "
-                   "weibull, or table by lists or file"});
+        {assignments[i].pointer, described_already(choice_of(parameter), other->pointer)});
     return;
   }
 }

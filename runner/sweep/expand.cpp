@@ -7,6 +7,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "runner/sweep/asked_accuracy.hpp"
 #include "runner/sweep/grains_csv.hpp"
 #include "runner/sweep/identity.hpp"
 #include "runner/sweep/job_limit.hpp"
@@ -123,6 +124,9 @@ class Expansion {
     const std::vector<Start> starts = starts_of(block, in_effect, resolved);
     place_vertices(block, in_effect, resolved);
     place_sizes(in_effect, resolved);
+    for (const auto& problem : take_asked_accuracy(in_effect, resolved)) {
+      note(*problem.assignment, problem.message);
+    }
     for (const Start& start : starts) {
       resolved.spec.fill = start.fill;
       note_broken_rules(block, in_effect, check(resolved.spec), start);
@@ -136,6 +140,7 @@ class Expansion {
       job.files["shape.hull.vertices"] = name_in_tables(resolved.hull_file);
     if (!resolved.fill_file.empty()) job.files["fill.file"] = name_in_tables(resolved.fill_file);
     job.wish = block.wish;
+    job.asked_accuracy = resolved.asked_accuracy;
     if (!resolved.size_file.empty()) {
       job.files["sizes.distribution.table.file"] = name_in_tables(resolved.size_file);
     }

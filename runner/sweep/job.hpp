@@ -7,18 +7,10 @@
 #include <vector>
 
 #include "engine/scene/spec.hpp"
+#include "runner/sweep/error_wish.hpp"
 #include "runner/sweep/units.hpp"
 
 namespace grainsweep {
-
-/// Largest error of the means of a group that is asked for: half of the 95 % interval, with the
-/// bound of the bias of settling where one was measured. 0: none is asked for.
-struct ErrorWish {
-  double solid_fraction = 0.0;
-  double coordination = 0.0;
-
-  bool is_given() const { return solid_fraction > 0.0 || coordination > 0.0; }
-};
 
 /// One packing to make.
 struct Job {
@@ -30,7 +22,10 @@ struct Job {
   PackingSpec spec;        ///< random_key: of scene, master seed and replicate
   /// Files it was read from, as written, by the parameter that each gave: "fill.file".
   std::map<std::string, std::string> files = {};
-  ErrorWish wish = {};  ///< of its group, which grows until it is met; not part of its identity
+  /// Of its group, which grows until half of the 95 % interval of its means, with the bound of the
+  /// bias of settling where one was measured, is no larger; not part of its identity.
+  ErrorWish wish = {};
+  ErrorWish asked_accuracy = {};  ///< what chose the preset it settles as; none if that was named
 };
 
 struct Sweep {

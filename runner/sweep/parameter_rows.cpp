@@ -134,6 +134,15 @@ Rows accuracy_rows() {
       own("accuracy.preset", preset_names(),
           "named accuracy; parts written beside it override its own", ValueKind::choice,
           Role::preset, set_preset, no_identity),
+      own("accuracy.solid_fraction", Interval{0, 1, true},
+          "in place of a preset: the cheapest one is taken that moves no mean solid fraction by "
+          "more than this, by its measured bound",
+          ValueKind::number, Role::asked_accuracy,
+          set_member<&ResolvedSpec::asked_accuracy, &ErrorWish::solid_fraction>, no_identity),
+      own("accuracy.coordination", Interval{0, 1, true},
+          "the same of the mean coordination number; both may be asked for", ValueKind::number,
+          Role::asked_accuracy, set_member<&ResolvedSpec::asked_accuracy, &ErrorWish::coordination>,
+          no_identity),
       row<&S::accuracy, &A::protocol>(
           "accuracy.protocol",
           Names{{"heavy_ball", "damped, in long steps"},

@@ -80,6 +80,9 @@ Choice choice_of(const Parameter& parameter) {
     case Role::size_file:
     case Role::distribution:
       return Choice::sizes;
+    case Role::preset:
+    case Role::asked_accuracy:
+      return Choice::accuracy;
     default:
       return Choice::none;
   }
@@ -88,7 +91,7 @@ Choice choice_of(const Parameter& parameter) {
 bool are_alternatives(const Parameter& a, const Parameter& b) {
   const Choice choice = choice_of(a);
   if (choice != choice_of(b) || a.role == b.role) return false;
-  if (choice == Choice::container) return true;
+  if (choice == Choice::container || choice == Choice::accuracy) return true;
   const bool is_part = a.role == Role::distribution || b.role == Role::distribution;
   const bool is_class = a.role == Role::size_class || b.role == Role::size_class;
   return choice == Choice::sizes && (is_class || !is_part);
@@ -141,7 +144,8 @@ std::string meaning_of_group(std::string_view path) {
       {"sizes.distribution.uniform", "as likely everywhere between two diameters"},
       {"sizes.distribution.weibull", "by volume Rosin-Rammler's curve of ground matter"},
       {"sizes.distribution.table", "a sieve curve, or the shares of single diameters"},
-      {"accuracy", "how exactly a bed is settled: a preset's name, or parts that override it"},
+      {"accuracy",
+       "how exactly a bed is settled: a preset's name, or parts that override it, or asked for"},
       {"measure", "what is measured, and where"}};
   return meanings.at(path);
 }

@@ -37,11 +37,12 @@ enum class ValueKind {
 /// What a parameter decides beside its own value.
 enum class Role {
   plain,
-  seed,           ///< master seed: set by blocks, not by "base"
-  preset,         ///< gives the other parts of its group their values; its name may stand for them
-  shape,          ///< names the shape of the grains
-  shape_part,     ///< a part of a shape that has defaults; writing it names that shape
-  hull_vertices,  ///< names a hull, and so on
+  seed,            ///< master seed: set by blocks, not by "base"
+  preset,          ///< gives the other parts of its group their values; its name may stand for them
+  asked_accuracy,  ///< chooses the preset, in the place of its name
+  shape,           ///< names the shape of the grains
+  shape_part,      ///< a part of a shape that has defaults; writing it names that shape
+  hull_vertices,   ///< names a hull, and so on
   hull_file,
   hull_size,
   mixture,     ///< names a mixture
@@ -62,7 +63,7 @@ enum class Role {
 };
 
 /// Parameters that say one thing in several ways: writing one unsets what the others said.
-enum class Choice { none, shape, container, fill, sizes };
+enum class Choice { none, shape, container, fill, sizes, accuracy };
 
 struct Parameter {
   std::string path;     ///< "box.width"
@@ -101,7 +102,8 @@ std::size_t parameter_with(Role role);
 /// Which choice a parameter belongs to.
 Choice choice_of(const Parameter& parameter);
 
-/// Whether two parameters describe a box and a tube, or sizes in two ways: of these there is one.
+/// Whether two parameters describe a box and a tube, or sizes or the accuracy in two ways: of these
+/// there is one.
 bool are_alternatives(const Parameter& a, const Parameter& b);
 
 /// The preset whose name may be written in the place of the group `path`; nothing if none may.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/scene/spec.hpp"
+#include "runner/sweep/error_wish.hpp"
 
 namespace grainsweep {
 
@@ -31,6 +32,7 @@ struct ResolvedSpec {
 
   PackingSpec spec;                     ///< random_key is not set here
   int preset = -1;                      ///< index into presets(), -1 for the default
+  ErrorWish asked_accuracy;             ///< in place of a preset: the largest bias of settling
   std::string fill_file;                ///< as written; "" unless the fill is a file
   std::vector<std::string> fill_files;  ///< as written; empty unless each replicate has its own
   std::string fill_content;             ///< hash of that file's bytes, 16 hex digits

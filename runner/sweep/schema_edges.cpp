@@ -1,10 +1,12 @@
 #include "runner/sweep/schema_edges.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <optional>
 #include <utility>
 
+#include "engine/dynamics/presets.hpp"
 #include "engine/scene/spec.hpp"
 #include "engine/shape/shape_spec.hpp"
 #include "engine/units.hpp"
@@ -252,12 +254,51 @@ EdgeRule short_steps() {
       {{"shape"}, {"accuracy.step"}}};
 }
 
+/// Accuracies that no preset keeps of spheres of one size, or of the usual pinacoids.
+EdgeRule unkept_accuracies() {
+  std::vector<Json> steps;
+  const auto add = [&](BedKind kind, const char* path, double ProtocolBias::*bound) {
+    double least = 1.0;
+    for (const Preset& known : presets()) {
+      if (const auto of = bias_bound(known.name, kind)) least = std::min(least, (*of).*bound);
+    }
+    const bool is_sphere = kind == BedKind::spheres;
+    steps.push_back({{"allOf",
+                      {said_or_usual("shape", named(is_sphere ? "sphere" : "pinacoid"), is_sphere),
+                       said(path, number_with({{"exclusiveMaximum", least}}))}}});
+  };
+  for (const BedKind kind : {BedKind::spheres, BedKind::pinacoids}) {
+    add(kind, "accuracy.solid_fraction", &ProtocolBias::solid_fraction);
+    add(kind, "accuracy.coordination", &ProtocolBias::coordination);
+  }
+  return {"shape|sizes|tube|accuracy",
+          {},
+          steps,
+          {{"shape"}, {"accuracy.solid_fraction"}, {"accuracy.coordination"}}};
+}
+
+/// Accuracies that are asked for of tubes, or of shapes of which no bound was measured.
+EdgeRule unmeasured_accuracies() {
+  const Json asks = {{"anyOf",
+                      {said("accuracy.solid_fraction", Json::object()),
+                       said("accuracy.coordination", Json::object())}}};
+  const Json usual = {{"anyOf", {named("sphere"), named("pinacoid")}}};
+  const Json unmeasured = {{"anyOf",
+                            {said("tube.diameter", Json::object()),
+                             said("shape", {{"type", "string"}, {"not", usual}})}}};
+  return {"shape|sizes|box|tube|accuracy",
+          {},
+          {{{"allOf", {asks, unmeasured}}}},
+          {{"shape"}, {"tube.diameter"}, {"accuracy.solid_fraction"}, {"accuracy.coordination"}}};
+}
+
 }  // namespace
 
 Json edge_rules() {
   Json rules = Json::array();
-  for (const auto& made : {short_periods, low_beds, few_grains, huge_beds, flat_ends,
-                           long_pinacoids, tiny_hulls, narrow_tubes, short_steps}) {
+  for (const auto& made :
+       {short_periods, low_beds, few_grains, huge_beds, flat_ends, long_pinacoids, tiny_hulls,
+        narrow_tubes, short_steps, unkept_accuracies, unmeasured_accuracies}) {
     rules.push_back(forbidden(made()));
   }
   return rules;

@@ -3,6 +3,7 @@
 #include <utility>
 #include <vector>
 
+#include "runner/sweep/asked_accuracy.hpp"
 #include "runner/sweep/parameters.hpp"
 #include "runner/sweep/schema_words.hpp"
 
@@ -68,6 +69,21 @@ Json one_shape() {
   return {{"anyOf", ways}};
 }
 
+/// Of a layer, or of the group: beside an accuracy that is asked for stands no preset, nor a part
+/// that changes how beds settle.
+Json asked_for_alone(const std::string& group) {
+  const std::string all = "accuracy.";
+  const std::size_t inside = group.empty() ? 0 : all.size();
+  std::vector<Json> asked, others;
+  for (const Parameter& parameter : parameters()) {
+    if (!parameter.path.starts_with(all) || leaves_the_bound(parameter)) continue;
+    const bool asks = parameter.role == Role::asked_accuracy;
+    (asks ? asked : others).push_back(in_any_way(parameter.path.substr(inside)));
+  }
+  if (group.empty()) others.push_back(with("accuracy", {{"type", "string"}}));
+  return not_both({{"anyOf", asked}}, {{"anyOf", others}});
+}
+
 }  // namespace
 
 Json said_once(const std::string& group) {
@@ -88,6 +104,7 @@ Json said_once(const std::string& group) {
   Json rules = Json::array();
   if (group == "shape") rules.push_back(one_shape_inside());
   if (group.empty()) rules.push_back(one_shape());
+  if (group.empty() || group == "accuracy") rules.push_back(asked_for_alone(group));
   for (const auto& [one, other] : alternatives) {
     if (!is_inside(one) || !is_inside(other)) continue;
     rules.push_back(not_both(in_any_way(inside(one)), in_any_way(inside(other))));

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "runner/sweep/bed_kind.hpp"
 #include "runner/sweep/costs.hpp"
 
 namespace grainsweep {
@@ -12,11 +13,13 @@ namespace {
 
 using nlohmann::json;
 
+constexpr const char* custom = "custom";
+
 std::string accuracy_name(const Accuracy& accuracy) {
   for (const Preset& preset : presets()) {
     if (preset.accuracy == accuracy) return std::string(preset.name);
   }
-  return "custom";
+  return custom;
 }
 
 std::string gap_tolerance(const JobFacts& job) {
@@ -77,35 +80,6 @@ void add_parameters(const json& value, const std::string& path,
   }
 }
 
-using FlatParameters = std::map<std::string, std::string>;
-
-bool has_distribution(const FlatParameters& parameters) {
-  const auto first = parameters.lower_bound("sizes.distribution");
-  return first != parameters.end() && first->first.starts_with("sizes.distribution");
-}
-
-/// What was measured that resembles such a packing.
-std::optional<BedKind> kind_of(const JobFacts& job) {
-  const FlatParameters parameters = flat_parameters(job);
-  if (job.box.is_tube || has_distribution(parameters)) return std::nullopt;
-  if (job.shape == "sphere" && job.small_share == 0.0) return BedKind::spheres;
-  const auto is_at = [&](const char* path, double value) {
-    const auto found = parameters.find(path);
-    return found != parameters.end() && found->second == cell(value);
-  };
-  if (job.shape == "sphere" && is_at("sizes.size_ratio", SizesSpec{}.size_ratio)) {
-    return BedKind::two_sizes;
-  }
-  const PinacoidSize isometric;
-  if (job.shape == "pinacoid" && job.small_share == 0.0 &&
-      is_at("shape.pinacoid.length", isometric.length) &&
-      is_at("shape.pinacoid.width", isometric.width) &&
-      is_at("shape.pinacoid.height", isometric.height)) {
-    return BedKind::pinacoids;
-  }
-  return std::nullopt;
-}
-
 Boundary boundary_from(const json& name) {
   return name.get<std::string>() == "walls" ? Boundary::walls : Boundary::periodic;
 }
@@ -132,8 +106,9 @@ std::map<std::string, std::string> flat_parameters(const JobFacts& job) {
 }
 
 std::optional<ProtocolBias> bias_bound(const JobFacts& job) {
-  const std::optional<BedKind> kind = kind_of(job);
-  return kind ? bias_bound(job.accuracy, *kind) : std::nullopt;
+  const auto kind = bed_kind(job.shape, job.box, job.small_share, json::parse(job.parameters));
+  const std::string& preset = job.settles_as.empty() ? job.accuracy : job.settles_as;
+  return kind ? bias_bound(preset, *kind) : std::nullopt;
 }
 
 const char* name_of(Boundary boundary) {
@@ -153,6 +128,7 @@ JobFacts facts_of(const Job& job) {
   facts.seed = job.seed;
   facts.shape = name_of(job.spec.shape);
   facts.accuracy = accuracy_name(job.spec.accuracy);
+  if (facts.accuracy == custom) facts.settles_as = settles_as(job.spec.accuracy);
   facts.box = job.spec.box;
   facts.small_share = job.spec.sizes.small_share;
   facts.measure = job.spec.measure;
@@ -237,6 +213,7 @@ json set_json(const JobFacts& job) {
   return {{"parameters", job.parameters},
           {"shape", job.shape},
           {"accuracy", job.accuracy},
+          {"settles_as", job.settles_as},
           {"estimated_cpu_seconds", job.estimated},
           {"length", job.box.length},
           {"width", job.box.width},
@@ -254,7 +231,8 @@ JobFacts set_from_json(const json& set) {
   set.at("parameters").get_to(facts.parameters);
   set.at("shape").get_to(facts.shape);
   set.at("accuracy").get_to(facts.accuracy);
-  facts.estimated = set.value("estimated_cpu_seconds", 0.0);  // earlier builds kept none
+  facts.settles_as = set.value("settles_as", std::string());  // earlier builds kept none
+  facts.estimated = set.value("estimated_cpu_seconds", 0.0);  // likewise
   set.at("length").get_to(facts.box.length);
   set.at("width").get_to(facts.box.width);
   facts.box.x = boundary_from(set.at("x"));

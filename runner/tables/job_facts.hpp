@@ -25,8 +25,9 @@ struct JobFacts {
   std::string parameters;  ///< canonical JSON, as Job::parameters
   int replicate = 1;
   std::uint64_t seed = 0;
-  std::string shape;     ///< its name: "sphere", "cube", "hull"
-  std::string accuracy;  ///< name of a preset, or "custom"
+  std::string shape;       ///< its name: "sphere", "cube", "hull"
+  std::string accuracy;    ///< name of a preset, or "custom"
+  std::string settles_as;  ///< of a custom one: the preset that has its bounds; "" if none has
   Box box;
   double small_share = 0.0;
   MeasureSpec measure;
@@ -86,8 +87,8 @@ Columns<JobFacts> job_columns(const std::vector<std::string>& names);
 std::map<std::string, std::string> flat_parameters(const JobFacts& job);
 
 /// Bound of the bias that the way of settling gives the means of such packings; none where it was
-/// not measured: accuracies that are no preset, hulls, pinacoids of other proportions, and small
-/// grains that are not half as large.
+/// not measured: accuracies that settle as no preset, hulls, pinacoids of other proportions, and
+/// small grains that are not half as large.
 std::optional<ProtocolBias> bias_bound(const JobFacts& job);
 
 /// "walls" or "periodic".

@@ -49,6 +49,18 @@ TEST_CASE("the bias of a preset is bounded for each kind of bed that was measure
   }
 }
 
+TEST_CASE("an accuracy settles as the preset that it is but for precision and most steps") {
+  for (const Preset& known : presets()) {
+    Accuracy accuracy = known.accuracy;
+    CHECK(settles_as(accuracy) == known.name);
+    accuracy.precision = Precision::f64;
+    accuracy.max_steps = 77;
+    CHECK(settles_as(accuracy) == known.name);
+    accuracy.step /= 2.0;
+    CHECK(settles_as(accuracy).empty());
+  }
+}
+
 TEST_CASE("the last preset ends at exact rest") {
   CHECK(presets().back().name == "exact");
   CHECK(presets().back().accuracy.rest == Rest::exact);

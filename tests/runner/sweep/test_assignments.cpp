@@ -126,7 +126,7 @@ TEST_CASE("a group that is no object is refused with its keys") {
   CHECK(errors_in_base(R"({"accuracy": 5})")
             .at(0)
             .starts_with("s.json:2:14 /base/accuracy: must be the name of a preset or an object "
-                         "with preset, protocol, solver"));
+                         "with preset, solid_fraction, coordination"));
   CHECK(errors_in_base("[]") ==
         Messages{"s.json:2:1 /base: must be an object of parameters, is a list"});
 }

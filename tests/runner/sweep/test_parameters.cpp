@@ -75,7 +75,7 @@ TEST_CASE("the table knows every member of a specification") {
        {"lognormal", "uniform", "weibull", "table", "by", "smallest", "largest"}) {
     CHECK(std::count(parts.begin(), parts.end(), part) == 1);
   }
-  CHECK(known_keys("accuracy").size() == 17 + 1);  // and "preset"
+  CHECK(known_keys("accuracy").size() == 17 + 3);  // and what names or chooses a preset
   CHECK(known_keys("measure").size() == 4);
   [[maybe_unused]] const auto& [side, across, height, angle] = PinacoidSize{};
   CHECK(known_keys("shape.pinacoid").size() == 4);
@@ -92,8 +92,9 @@ TEST_CASE("every parameter that belongs to the identity reads back what was set"
     if (parameter.path == "fill.diameter") resolved.fill_file = "x.csv";
     if (parameter.path == "shape.mixture_by") resolved.spec.shape = Mixture{};
     const auto value = parameter.get(resolved);
-    const std::set<std::string> outside = {"accuracy.preset", "seed", "shape.hull.file",
-                                           "shape.hull.size", "sizes.distribution.size"};
+    const std::set<std::string> outside = {
+        "accuracy.preset", "accuracy.solid_fraction", "accuracy.coordination",  "seed",
+        "shape.hull.file", "shape.hull.size",         "sizes.distribution.size"};
     CHECK(value.has_value() == (outside.count(parameter.path) == 0));
     const bool is_known_by_hash = parameter.role == Role::size_file ||
                                   parameter.kind == ValueKind::points ||

@@ -44,6 +44,21 @@ TEST_CASE("an accuracy that is no preset is called custom") {
   CHECK(facts_of(job).accuracy == "custom");
 }
 
+TEST_CASE("another precision leaves a packing the bounds of its preset, another step does not") {
+  Job job = sample_source();
+  job.parameters = sample_parameters(5.0, Boundary::walls, 0.0);
+  job.spec.sizes.small_share = 0.0;
+  job.spec.accuracy.precision = Precision::f64;
+  CHECK(facts_of(job).accuracy == "custom");
+  REQUIRE(bias_bound(facts_of(job)));
+  CHECK(bias_bound(facts_of(job))->coordination ==
+        bias_bound("fast", BedKind::spheres)->coordination);
+  const std::vector<Row> rows = rows_of(Sweep{"s", 7, 1, {job}});
+  CHECK(bias_bound(set_from_json(set_json(rows.at(0).job))));
+  job.spec.accuracy.step = 0.1;
+  CHECK_FALSE(bias_bound(facts_of(job)));
+}
+
 TEST_CASE("the bias of packings is bounded where the like of them was measured, and only there") {
   const auto bound_of = [](const std::string& shape, double small_share, const char* parameters,
                            const char* accuracy = "fast") {

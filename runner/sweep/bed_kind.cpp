@@ -1,0 +1,53 @@
+#include "runner/sweep/bed_kind.hpp"
+
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "engine/scene/spec.hpp"
+
+namespace grainsweep {
+namespace {
+
+using nlohmann::json;
+
+/// Whether the parameters hold this number at this place, "/sizes/size_ratio".
+bool is_at(const json& parameters, const std::string& place, double value) {
+  const json::json_pointer pointer(place);
+  return parameters.contains(pointer) && parameters.at(pointer) == value;
+}
+
+}  // namespace
+
+std::optional<BedKind> bed_kind(std::string_view shape, const Box& box, double small_share,
+                                const json& parameters) {
+  const bool has_distribution = parameters.contains(json::json_pointer("/sizes/distribution"));
+  if (box.is_tube || has_distribution) return std::nullopt;
+  if (shape == "sphere" && small_share == 0.0) return BedKind::spheres;
+  if (shape == "sphere" && is_at(parameters, "/sizes/size_ratio", SizesSpec{}.size_ratio)) {
+    return BedKind::two_sizes;
+  }
+  const PinacoidSize isometric;
+  const std::string pinacoid = "/shape/pinacoid/";
+  if (shape == "pinacoid" && small_share == 0.0 &&
+      is_at(parameters, pinacoid + "length", isometric.length) &&
+      is_at(parameters, pinacoid + "width", isometric.width) &&
+      is_at(parameters, pinacoid + "height", isometric.height)) {
+    return BedKind::pinacoids;
+  }
+  return std::nullopt;
+}
+
+const char* name_of(BedKind kind) {
+  switch (kind) {
+    case BedKind::spheres:
+      return "spheres of one size";
+    case BedKind::two_sizes:
+      return "spheres of two sizes, 1 to 2";
+    case BedKind::pinacoids:
+      return "pinacoids 1 by 1 by 1";
+  }
+  return "";
+}
+
+}  // namespace grainsweep

@@ -1,0 +1,23 @@
+// Which of the kinds of beds whose protocol's error was measured a bed is of.
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "engine/dynamics/presets.hpp"
+#include "engine/scene/box.hpp"
+
+namespace grainsweep {
+
+/// By the name of its grains' shape, its container, the share of small grains, and its canonical
+/// parameters; none for beds of which nothing alike was measured: tubes, distributions of sizes,
+/// small grains that are not half as large, other shapes and other proportions.
+std::optional<BedKind> bed_kind(std::string_view shape, const Box& box, double small_share,
+                                const nlohmann::json& parameters);
+
+/// "spheres of one size".
+const char* name_of(BedKind kind);
+
+}  // namespace grainsweep

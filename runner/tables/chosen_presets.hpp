@@ -1,0 +1,14 @@
+// Which presets were taken where an accuracy is asked for, and why.
+#pragma once
+
+#include <string>
+
+#include "runner/sweep/job.hpp"
+
+namespace grainsweep {
+
+/// A line for each preset, kind of bed and accuracy that was asked for, in the sweep's order; empty
+/// if the sweep asks for none.
+std::string chosen_presets_text(const Sweep& sweep);
+
+}  // namespace grainsweep
