@@ -93,6 +93,32 @@ std::string growth_text(const Sweep& whole) {
          " CPU; with --out the packings made so far tell how many come next\n";
 }
 
+/// Which packings of growing groups come next, after those that are made.
+std::string next_text(const Sweep& sweep, const Outcomes& made) {
+  constexpr std::size_t most_shown = 8;
+  std::vector<std::pair<const Job*, std::size_t>> next;  // of each group, how many
+  std::size_t all = 0;
+  for (const Job& job : sweep.jobs) {
+    if (!may_grow(job) || made.contains(job.id)) continue;
+    const bool is_new = next.empty() || next.back().first->parameters != job.parameters;
+    if (is_new) next.emplace_back(&job, 0);
+    ++next.back().second;
+    ++all;
+  }
+  if (all == 0) return "Nothing comes next: what was asked for is met, or the most is made\n";
+  std::string text = "Next: " + counted(all, "packing") + ": ";
+  for (std::size_t i = 0; i < std::min(next.size(), most_shown); ++i) {
+    const auto& [job, count] = next[i];
+    const Box& box = job->spec.box;
+    text += (i == 0 ? "" : ", ") + std::to_string(count) + " of " + job->label +
+            (box.is_tube ? " D = " : " W = ") + width_text(cell(box.width), box.y);
+  }
+  if (next.size() > most_shown) {
+    text += " and of " + counted(next.size() - most_shown, "other group");
+  }
+  return text + "\n";
+}
+
 /// Whether one machine makes it in a night.
 std::string cluster_text(double wall_seconds) {
   constexpr double night = 12.0 * 3600.0;
@@ -224,7 +250,7 @@ int perform(const PlanOptions& options) {
     print_json(sweep, costs, needs, threads);
   } else {
     print_text(sweep, costs, needs, threads);
-    if (grows(whole)) std::cout << growth_text(whole);
+    if (grows(whole)) std::cout << next_text(sweep, made) << growth_text(whole);
     if (options.shards > 0) std::cout << shards_text(sweep, costs, options.shards);
   }
   return exit_done;

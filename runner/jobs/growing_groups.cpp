@@ -4,12 +4,15 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
-#include <limits>
+#include <map>
+#include <set>
 #include <sstream>
 
+#include "runner/jobs/growing_fits.hpp"
+#include "runner/jobs/replicate_means.hpp"
 #include "runner/jobs/split.hpp"
 #include "runner/sweep/costs.hpp"
-#include "runner/tables/groups.hpp"
+#include "runner/tables/fits.hpp"
 #include "runner/tables/job_facts.hpp"
 #include "runner/text.hpp"
 
@@ -35,22 +38,12 @@ std::vector<Places> groups_in(const Sweep& sweep) {
   return groups;
 }
 
-std::optional<ProtocolBias> bound_of(const Job& job) { return bias_bound(facts_of(job)); }
-
-/// The settled ones of the first `count`.
-struct Means {
-  Spread solid_fraction, coordination;
-};
-Means means_of(const std::vector<const Outcome*>& made, int count) {
-  std::vector<double> fractions, numbers;
-  for (int i = 0; i < count; ++i) {
-    const PackingResult& result = made[static_cast<std::size_t>(i)]->result;
-    if (result.status != PackingStatus::settled || result.coordination.empty()) continue;
-    fractions.push_back(result.solid_fraction);
-    numbers.push_back(result.coordination.front().between_grains);
-  }
-  return {spread_of(fractions), spread_of(numbers)};
+bool has_fit_wish(const Sweep& whole) {
+  return std::any_of(whole.jobs.begin(), whole.jobs.end(),
+                     [](const Job& job) { return job.fit_wish.is_given(); });
 }
+
+std::optional<ProtocolBias> bound_of(const Job& job) { return bias_bound(facts_of(job)); }
 
 /// The interval over what the wish leaves for it; at most 1 if the wish is met.
 double over_wish(const Spread& spread, double wish, double bias) {
@@ -87,17 +80,95 @@ Called called_for(const Sweep& whole, const Places& group, const Outcomes& outco
   return called;
 }
 
+/// The groups that one wall effect is fitted to, by their places in the list of groups.
+struct GrowingFamily {
+  std::vector<std::size_t> groups;
+  FitWish wish;
+};
+
+bool is_walled(const Job& job) { return job.spec.box.y == Boundary::walls; }
+
+void take_smaller(double FitWish::*part, const FitWish& other, FitWish& wish) {
+  const double asked = other.*part;
+  if (asked > 0.0 && (wish.*part == 0.0 || asked < wish.*part)) wish.*part = asked;
+}
+
+/// Families whose fit is to have small errors; of several wishes for one fit the smallest holds.
+std::vector<GrowingFamily> growing_families(const Sweep& whole, const std::vector<Places>& groups) {
+  std::vector<GrowingFamily> families;
+  if (!has_fit_wish(whole)) return families;
+  std::map<std::string, std::size_t> index_of;
+  for (std::size_t k = 0; k < groups.size(); ++k) {
+    const Job& job = whole.jobs[groups[k].begin];
+    const auto [known, is_new] =
+        index_of.try_emplace(parameters_of_family(facts_of(job)), families.size());
+    if (is_new) families.emplace_back();
+    GrowingFamily& family = families[known->second];
+    family.groups.push_back(k);
+    for (double FitWish::*part : {&FitWish::phi_bulk, &FitWish::c, &FitWish::z_bulk, &FitWish::c_z})
+      take_smaller(part, job.fit_wish, family.wish);
+  }
+  std::erase_if(families, [](const GrowingFamily& family) { return !family.wish.is_given(); });
+  return families;
+}
+
+/// A group of a fit. Those without walls tell how packings scatter, and have as many as all have at
+/// first.
+FitGroup fit_group_of(const Sweep& whole, const Places& group, const Outcomes& outcomes) {
+  const Job& job = whole.jobs[group.begin];
+  FitGroup of_fit{job.spec.box.width, is_walled(job), false, made_of(whole, group, outcomes)};
+  if (!job.fit_wish.is_given()) return of_fit;
+  of_fit.may_grow = of_fit.is_walled;
+  if (!of_fit.is_walled && of_fit.made.size() > first_replicates) {
+    of_fit.made.resize(first_replicates);
+  }
+  return of_fit;
+}
+
+CalledFit called_for(const Sweep& whole, const std::vector<Places>& groups,
+                     const GrowingFamily& family, const Outcomes& outcomes) {
+  std::vector<FitGroup> of_fit;
+  of_fit.reserve(family.groups.size());
+  for (const std::size_t k : family.groups) {
+    of_fit.push_back(fit_group_of(whole, groups[k], outcomes));
+  }
+  const Job& first = whole.jobs[groups[family.groups.front()].begin];
+  return called_for_fit(of_fit, family.wish, bound_of(first));
+}
+
+/// How many packings of each group are called for.
+std::vector<std::size_t> counts_called_for(const Sweep& whole, const std::vector<Places>& groups,
+                                           const Outcomes& outcomes) {
+  std::vector<std::size_t> counts;
+  counts.reserve(groups.size());
+  for (const Places& group : groups) {
+    counts.push_back(whole.jobs[group.begin].wish.is_given()
+                         ? static_cast<std::size_t>(called_for(whole, group, outcomes).count)
+                         : group.end - group.begin);
+  }
+  for (const GrowingFamily& family : growing_families(whole, groups)) {
+    const CalledFit called = called_for(whole, groups, family, outcomes);
+    for (std::size_t i = 0; i < family.groups.size(); ++i) {
+      counts[family.groups[i]] = static_cast<std::size_t>(called.replicates[i]);
+    }
+  }
+  return counts;
+}
+
 /// The sweep without the replicates that are not called for.
 Sweep called_for(const Sweep& whole, const Outcomes& outcomes) {
   Sweep called{whole.name, whole.seed, whole.replicates, {}, whole.units};
-  for (const Places& group : groups_in(whole)) {
-    const auto count = whole.jobs[group.begin].wish.is_given()
-                           ? static_cast<std::size_t>(called_for(whole, group, outcomes).count)
-                           : group.end - group.begin;
-    const auto first = whole.jobs.begin() + static_cast<std::ptrdiff_t>(group.begin);
-    called.jobs.insert(called.jobs.end(), first, first + static_cast<std::ptrdiff_t>(count));
+  const std::vector<Places> groups = groups_in(whole);
+  const std::vector<std::size_t> counts = counts_called_for(whole, groups, outcomes);
+  for (std::size_t k = 0; k < groups.size(); ++k) {
+    const auto first = whole.jobs.begin() + static_cast<std::ptrdiff_t>(groups[k].begin);
+    called.jobs.insert(called.jobs.end(), first, first + static_cast<std::ptrdiff_t>(counts[k]));
   }
   return called;
+}
+
+void append_once(const std::string& line, std::string& text) {
+  if (text.find(line) == std::string::npos) text += line;
 }
 
 void append_wish(const char* what, double wish, double bias, const Job& job, std::string& text) {
@@ -106,24 +177,132 @@ void append_wish(const char* what, double wish, double bias, const Job& job, std
   line << "replicates.until of \"" << job.label << "\" asks for " << what << " within " << wish
        << ", but settled as \"" << facts_of(job).accuracy << "\" such packings may be off by "
        << bias << " however many there are; ask for more than that, or take a finer accuracy\n";
-  if (text.find(line.str()) == std::string::npos) text += line.str();
+  append_once(line.str(), text);
+}
+
+/// What keeps the wishes of a fit from being met.
+void append_fit(const Sweep& whole, const std::vector<Places>& groups, const GrowingFamily& family,
+                std::string& text) {
+  const Job* asking = nullptr;
+  const Job* asks_of_means = nullptr;
+  std::set<double> widths;
+  for (const std::size_t k : family.groups) {
+    const Job& job = whole.jobs[groups[k].begin];
+    if (job.wish.is_given()) asks_of_means = &job;
+    if (asking == nullptr && job.fit_wish.is_given()) asking = &job;
+    if (is_walled(job)) widths.insert(job.spec.box.width);
+  }
+  const std::string start = "replicates.until of \"" + asking->label + "\" asks for a fit, ";
+  if (widths.size() < 3) {
+    append_once(start +
+                    "which takes 3 or more widths between walls with otherwise equal "
+                    "parameters, and there are " +
+                    std::to_string(widths.size()) + "; add widths, or ask for errors of means\n",
+                text);
+  }
+  if (asks_of_means != nullptr) {
+    append_once(start + "and that of \"" + asks_of_means->label +
+                    "\", of the same family, for errors of means; ask for one of them\n",
+                text);
+  }
+  const ProtocolBias bias = bound_of(*asking).value_or(ProtocolBias());
+  append_wish("phi_bulk", family.wish.phi_bulk, bias.solid_fraction, *asking, text);
+  append_wish("Z_bulk", family.wish.z_bulk, bias.coordination, *asking, text);
+}
+
+/// Jobs that belong to one shard.
+struct Part {
+  std::vector<Places> jobs;
+  Cost cost;
+};
+
+/// Adds a group to a part, with what it takes at first.
+void add_group(const Sweep& whole, const Places& group, const std::vector<Cost>& costs,
+               Part& part) {
+  const Cost& one = costs[group.begin];
+  const std::size_t count = may_grow(whole.jobs[group.begin])
+                                ? static_cast<std::size_t>(first_replicates)
+                                : group.end - group.begin;
+  part.jobs.push_back(group);
+  part.cost.cpu_seconds += one.cpu_seconds * static_cast<double>(count);
+  part.cost.bytes = std::max(part.cost.bytes, one.bytes);
+}
+
+std::vector<Part> parts_of(const Sweep& whole, const std::vector<Cost>& costs) {
+  const std::vector<Places> groups = groups_in(whole);
+  std::vector<Part> parts;
+  std::set<std::size_t> of_families;
+  for (const GrowingFamily& family : growing_families(whole, groups)) {
+    parts.emplace_back();
+    for (const std::size_t k : family.groups) add_group(whole, groups[k], costs, parts.back());
+    of_families.insert(family.groups.begin(), family.groups.end());
+  }
+  for (std::size_t k = 0; k < groups.size(); ++k) {
+    if (of_families.contains(k)) continue;
+    if (may_grow(whole.jobs[groups[k].begin])) {
+      add_group(whole, groups[k], costs, parts.emplace_back());
+      continue;
+    }
+    for (std::size_t i = groups[k].begin; i < groups[k].end; ++i) {
+      parts.push_back({{{i, i + 1}}, costs[i]});
+    }
+  }
+  return parts;
+}
+
+std::string unmeasured_text(std::size_t count, const char* noun) {
+  if (count == 0) return "";
+  return "; what settling does to the means of " + counted(count, noun) +
+         " was not measured and is left out";
+}
+
+std::string end_of_text(std::size_t met, std::size_t all) {
+  return met < all ? "; raise replicates.most for the others\n" : "\n";
+}
+
+std::string means_text(const Sweep& whole, const std::vector<Places>& all,
+                       const Outcomes& outcomes) {
+  std::size_t groups = 0, met = 0, packings = 0, unbounded = 0;
+  for (const Places& group : all) {
+    const ErrorWish& wish = whole.jobs[group.begin].wish;
+    if (!wish.is_given()) continue;
+    const Called called = called_for(whole, group, outcomes);
+    ++groups;
+    packings += static_cast<std::size_t>(called.count);
+    unbounded += called.bound ? 0 : 1;
+    const auto end = called.made.begin() + called.count;
+    const bool is_made = std::find(called.made.begin(), end, nullptr) == end;
+    met += is_made && over_wishes(means_of(called.made, called.count), wish, called.bound) <= 1.0;
+  }
+  if (groups == 0) return "";
+  return "Errors as asked for (95 %) in " + std::to_string(met) + " of " +
+         counted(groups, "group") + ", by " + counted(packings, "packing") +
+         unmeasured_text(unbounded, "group") + end_of_text(met, groups);
+}
+
+std::string fits_text(const Sweep& whole, const std::vector<Places>& groups,
+                      const Outcomes& outcomes) {
+  std::size_t met = 0, packings = 0, unbounded = 0, bent = 0;
+  const std::vector<GrowingFamily> families = growing_families(whole, groups);
+  if (families.empty()) return "";
+  for (const GrowingFamily& family : families) {
+    const CalledFit called = called_for(whole, groups, family, outcomes);
+    for (const int count : called.replicates) packings += static_cast<std::size_t>(count);
+    met += called.is_made && called.is_met ? 1 : 0;
+    bent += called.chi2_per_dof > largest_chi2 ? 1 : 0;
+    unbounded += bound_of(whole.jobs[groups[family.groups.front()].begin]) ? 0 : 1;
+  }
+  std::string text = "Errors as asked for (95 %) in " + std::to_string(met) + " of " +
+                     counted(families.size(), "fit") + ", by " + counted(packings, "packing") +
+                     unmeasured_text(unbounded, "fit");
+  if (bent > 0) {
+    text += "; the straight line does not hold in " + std::to_string(bent) +
+            " of them, whose errors in fits.csv are wider";
+  }
+  return text + end_of_text(met, families.size());
 }
 
 }  // namespace
-
-double half_interval(double sd, int n) {
-  if (n < 2) return std::numeric_limits<double>::infinity();
-  // Quantile 0.975 of Student's distribution by that of the normal one (Abramowitz and Stegun
-  // 26.7.5); from 5 degrees of freedom, which growing groups begin with, right to 1e-3.
-  constexpr double x = 1.959963984540054, x2 = x * x;
-  constexpr double terms[] = {
-      x * (x2 + 1.0) / 4.0, x * ((5.0 * x2 + 16.0) * x2 + 3.0) / 96.0,
-      x * (((3.0 * x2 + 19.0) * x2 + 17.0) * x2 - 15.0) / 384.0,
-      x * ((((79.0 * x2 + 776.0) * x2 + 1482.0) * x2 - 1920.0) * x2 - 945.0) / 92160.0};
-  double quantile = x, power = 1.0;
-  for (const double term : terms) quantile += term / (power *= n - 1.0);
-  return quantile * sd / std::sqrt(static_cast<double>(n));
-}
 
 int replicates_called_for(const std::vector<const Outcome*>& made, const ErrorWish& wish,
                           const std::optional<ProtocolBias>& bound) {
@@ -138,9 +317,10 @@ int replicates_called_for(const std::vector<const Outcome*>& made, const ErrorWi
   return count;
 }
 
+bool may_grow(const Job& job) { return job.wish.is_given() || job.fit_wish.is_given(); }
+
 bool grows(const Sweep& sweep) {
-  return std::any_of(sweep.jobs.begin(), sweep.jobs.end(),
-                     [](const Job& job) { return job.wish.is_given(); });
+  return std::any_of(sweep.jobs.begin(), sweep.jobs.end(), may_grow);
 }
 
 GrowingSweep::GrowingSweep(const Sweep& whole, const Outcomes& made)
@@ -159,21 +339,17 @@ bool GrowingSweep::grow(const Outcomes& made) {
 std::vector<int> shards_of(const Sweep& whole, int shards) {
   const std::vector<Cost> costs = costs_of(whole.jobs);
   if (!grows(whole)) return split(costs, shards);
-  std::vector<Places> parts;
+  const std::vector<Part> parts = parts_of(whole, costs);
   std::vector<Cost> of_parts;
-  for (const Places& group : groups_in(whole)) {
-    const bool is_one = whole.jobs[group.begin].wish.is_given();
-    for (std::size_t i = group.begin; i < (is_one ? group.begin + 1 : group.end); ++i) {
-      parts.push_back({i, is_one ? group.end : i + 1});
-      of_parts.push_back(costs[i]);
-      if (is_one) of_parts.back().cpu_seconds *= first_replicates;
-    }
-  }
+  of_parts.reserve(parts.size());
+  for (const Part& part : parts) of_parts.push_back(part.cost);
   const std::vector<int> shard_of_part = split(of_parts, shards);
   std::vector<int> shard_of(whole.jobs.size());
   for (std::size_t k = 0; k < parts.size(); ++k) {
-    std::fill(shard_of.begin() + static_cast<std::ptrdiff_t>(parts[k].begin),
-              shard_of.begin() + static_cast<std::ptrdiff_t>(parts[k].end), shard_of_part[k]);
+    for (const Places& places : parts[k].jobs) {
+      std::fill(shard_of.begin() + static_cast<std::ptrdiff_t>(places.begin),
+                shard_of.begin() + static_cast<std::ptrdiff_t>(places.end), shard_of_part[k]);
+    }
   }
   return shard_of;
 }
@@ -181,37 +357,24 @@ std::vector<int> shards_of(const Sweep& whole, int shards) {
 std::string unreachable_wishes(const Sweep& whole) {
   std::string text;
   if (!grows(whole)) return text;
-  for (const Places& group : groups_in(whole)) {
+  const std::vector<Places> groups = groups_in(whole);
+  for (const Places& group : groups) {
     const Job& job = whole.jobs[group.begin];
     const auto bound = job.wish.is_given() ? bound_of(job) : std::nullopt;
     if (!bound) continue;
     append_wish("solid_fraction", job.wish.solid_fraction, bound->solid_fraction, job, text);
     append_wish("coordination", job.wish.coordination, bound->coordination, job, text);
   }
+  for (const GrowingFamily& family : growing_families(whole, groups)) {
+    append_fit(whole, groups, family, text);
+  }
   return text;
 }
 
 std::string wishes_text(const Sweep& whole, const Outcomes& outcomes) {
-  std::size_t groups = 0, met = 0, packings = 0, unbounded = 0;
   if (!grows(whole)) return "";
-  for (const Places& group : groups_in(whole)) {
-    const ErrorWish& wish = whole.jobs[group.begin].wish;
-    if (!wish.is_given()) continue;
-    const Called called = called_for(whole, group, outcomes);
-    ++groups;
-    packings += static_cast<std::size_t>(called.count);
-    unbounded += called.bound ? 0 : 1;
-    const auto end = called.made.begin() + called.count;
-    const bool is_made = std::find(called.made.begin(), end, nullptr) == end;
-    met += is_made && over_wishes(means_of(called.made, called.count), wish, called.bound) <= 1.0;
-  }
-  std::string text = "Errors as asked for (95 %) in " + std::to_string(met) + " of " +
-                     counted(groups, "group") + ", by " + counted(packings, "packing");
-  if (unbounded > 0) {
-    text += "; what settling does to the means of " + counted(unbounded, "group") +
-            " was not measured and is left out";
-  }
-  return text + (met < groups ? "; raise replicates.most for the others\n" : "\n");
+  const std::vector<Places> groups = groups_in(whole);
+  return means_text(whole, groups, outcomes) + fits_text(whole, groups, outcomes);
 }
 
 }  // namespace grainsweep

@@ -1,7 +1,8 @@
-// Groups that grow: packings are added until the error of a group's means is as small as wished.
+// Groups that grow: packings are added until the error of a group's means is as small as wished, or
+// that of a fit to the groups of a family (growing_fits.hpp).
 //
-// How many replicates a group has follows from the results of the first so many alone: it is the
-// same for any number of threads and shards, and after a kill.
+// How many replicates a group has follows from the results of the first so many alone, its own or
+// those of its family: it is the same for any number of threads and shards, and after a kill.
 #pragma once
 
 #include <optional>
@@ -17,17 +18,13 @@ namespace grainsweep {
 
 using Outcomes = std::unordered_map<std::string, Outcome>;  ///< by the id of the job
 
-/// Every group has so many packings before its scatter counts.
-inline constexpr int first_replicates = 6;
-
-/// Half of the 95 % interval (Student) of the mean of n values with this standard deviation;
-/// infinite for less than two values.
-double half_interval(double sd, int n);
-
 /// How many replicates a group has to have, by what came of those made, in their order; nullptr
 /// stands for one that is not made yet. `bound` is the bias of settling that its wish includes.
 int replicates_called_for(const std::vector<const Outcome*>& made, const ErrorWish& wish,
                           const std::optional<ProtocolBias>& bound);
+
+/// Whether the group of a job may grow.
+bool may_grow(const Job& job);
 
 /// Whether a group of the sweep may grow.
 bool grows(const Sweep& sweep);
@@ -54,11 +51,12 @@ class GrowingSweep {
   std::string wishes_;
 };
 
-/// The shard of every job, a growing group in one of them; as `split` but for that.
+/// The shard of every job, a growing group in one of them, and a family whose fit grows, too; as
+/// `split` but for that.
 std::vector<int> shards_of(const Sweep& whole, int shards);
 
-/// A line for each wish that no number of packings can meet, as the way of settling may do more to
-/// the means.
+/// A line for each wish that no number of packings can meet: the way of settling may do more to the
+/// means, or a fit has fewer than three widths, or groups whose own wishes it would have to follow.
 std::string unreachable_wishes(const Sweep& whole);
 
 /// Which of the wishes were met, for the end of a run; empty if there are none.

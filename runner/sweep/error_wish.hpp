@@ -1,4 +1,4 @@
-// What people ask for of the means of a group.
+// What people ask for of the means of a group, and of what is fitted to them.
 #pragma once
 
 namespace grainsweep {
@@ -9,6 +9,17 @@ struct ErrorWish {
   double coordination = 0.0;
 
   bool is_given() const { return solid_fraction > 0.0 || coordination > 0.0; }
+};
+
+/// Largest error of what is fitted to a family, phi = phi_bulk - C / W and Z = Z_bulk - C_Z / W,
+/// that is asked for; 0: none is.
+struct FitWish {
+  double phi_bulk = 0.0;
+  double c = 0.0;  ///< d
+  double z_bulk = 0.0;
+  double c_z = 0.0;  ///< d
+
+  bool is_given() const { return phi_bulk > 0.0 || c > 0.0 || z_bulk > 0.0 || c_z > 0.0; }
 };
 
 }  // namespace grainsweep

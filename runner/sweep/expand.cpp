@@ -140,6 +140,7 @@ class Expansion {
       job.files["shape.hull.vertices"] = name_in_tables(resolved.hull_file);
     if (!resolved.fill_file.empty()) job.files["fill.file"] = name_in_tables(resolved.fill_file);
     job.wish = block.wish;
+    job.fit_wish = block.fit_wish;
     job.asked_accuracy = resolved.asked_accuracy;
     if (!resolved.size_file.empty()) {
       job.files["sizes.distribution.table.file"] = name_in_tables(resolved.size_file);

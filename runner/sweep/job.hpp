@@ -25,6 +25,9 @@ struct Job {
   /// Of its group, which grows until half of the 95 % interval of its means, with the bound of the
   /// bias of settling where one was measured, is no larger; not part of its identity.
   ErrorWish wish = {};
+  /// Of its family: the groups between walls grow until half of the 95 % intervals are no larger,
+  /// that of a bulk value with the same bound. Not beside a wish of its group.
+  FitWish fit_wish = {};
   ErrorWish asked_accuracy = {};  ///< what chose the preset it settles as; none if that was named
 };
 

@@ -7,6 +7,7 @@
 
 #include "runner/sweep/parameters.hpp"
 #include "runner/sweep/random_paths.hpp"
+#include "runner/sweep/read_replicates.hpp"
 #include "runner/sweep/schema_edges.hpp"
 #include "runner/sweep/schema_rules.hpp"
 #include "runner/sweep/spaced_values.hpp"
@@ -243,9 +244,19 @@ Json replicates() {
   const auto error_of = [](const char* what) {
     return described(what, {{"type", "number"}, {"exclusiveMinimum", 0}, {"maximum", 1}});
   };
-  Json until = closed_object({{"solid_fraction", error_of("largest error of its mean")},
-                              {"coordination", error_of("largest error of its mean")}});
+  Json fit = closed_object({{"phi_bulk", error_of("largest error of it")},
+                            {"C", error_of("largest error of it, d")},
+                            {"Z_bulk", error_of("largest error of it")},
+                            {"C_Z", error_of("largest error of it, d")}});
+  fit["minProperties"] = 1;
+  Json until =
+      closed_object({{"solid_fraction", error_of("largest error of its mean")},
+                     {"coordination", error_of("largest error of its mean")},
+                     {"fit", described("in place of means: the wall effect of each family, "
+                                       "phi = phi_bulk - C / W and Z = Z_bulk - C_Z / W",
+                                       std::move(fit))}});
   until["minProperties"] = 1;
+  until["dependencies"] = {{"fit", {{"maxProperties", 1}}}};
   Json growing = closed_object(
       {{"until", described("packings are added until the means are known so well: half of the 95 % "
                            "interval, with what the way of settling may do to them",

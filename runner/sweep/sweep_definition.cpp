@@ -8,8 +8,8 @@
 #include <string_view>
 #include <utility>
 
-#include "engine/interval.hpp"
 #include "runner/sweep/random_paths.hpp"
+#include "runner/sweep/read_replicates.hpp"
 #include "runner/sweep/read_units.hpp"
 #include "runner/sweep/shape_kind.hpp"
 #include "runner/sweep/spaced_values.hpp"
@@ -26,65 +26,6 @@ bool is_object(const Json& value, const std::string& pointer, const char* what,
   if (value.is_object()) return true;
   diagnostics.push_back({pointer, std::string("must be ") + what + ", is " + describe(value)});
   return false;
-}
-
-/// How many packings of a point are made.
-struct Replicates {
-  int most = 1;
-  ErrorWish wish;
-};
-
-/// `key` of the wishes, 0 if it is not there.
-double read_wish(const Json& until, const char* key, const std::string& pointer,
-                 Diagnostics& diagnostics) {
-  constexpr Interval errors{0.0, 1.0, true};
-  const auto found = until.find(key);
-  if (found == until.end()) return 0.0;
-  if (found->is_number() && errors.holds(found->get<double>())) return found->get<double>();
-  diagnostics.push_back(
-      {child_pointer(pointer, key),
-       "must be the largest error to live with, in " + errors.text() + ", is " + describe(*found)});
-  return errors.high;
-}
-
-Replicates read_growing(const Json& value, const std::string& pointer, Diagnostics& diagnostics) {
-  Replicates replicates{usual_most_replicates, {}};
-  refuse_unknown_keys(value, pointer, {"until", "most"}, diagnostics);
-  const std::string until_pointer = child_pointer(pointer, "until");
-  const auto until = value.find("until");
-  if (until == value.end() || !until->is_object() || until->empty()) {
-    diagnostics.push_back(
-        {until == value.end() ? pointer : until_pointer,
-         R"(must say which error is small enough, e.g. "until": { "solid_fraction": 0.001 })"});
-  } else {
-    refuse_unknown_keys(*until, until_pointer, {"solid_fraction", "coordination"}, diagnostics);
-    replicates.wish = {read_wish(*until, "solid_fraction", until_pointer, diagnostics),
-                       read_wish(*until, "coordination", until_pointer, diagnostics)};
-  }
-  const auto most = value.find("most");
-  if (most == value.end()) return replicates;
-  if (const auto count = whole_number_in(*most, 2, most_replicates)) {
-    replicates.most = static_cast<int>(*count);
-  } else {
-    diagnostics.push_back({child_pointer(pointer, "most"), "must be a whole number in [2, " +
-                                                               std::to_string(most_replicates) +
-                                                               "], is " + describe(*most)});
-  }
-  return replicates;
-}
-
-Replicates read_replicates(const Json& object, const std::string& pointer,
-                           const Replicates& otherwise, Diagnostics& diagnostics) {
-  const auto found = object.find("replicates");
-  if (found == object.end()) return otherwise;
-  const std::string place = child_pointer(pointer, "replicates");
-  if (found->is_object()) return read_growing(*found, place, diagnostics);
-  if (const auto count = whole_number_in(*found, 1, most_replicates)) {
-    return {static_cast<int>(*count), {}};
-  }
-  diagnostics.push_back({place, "must be a whole number in [1, " + std::to_string(most_replicates) +
-                                    "], is " + describe(*found)});
-  return otherwise;
 }
 
 std::uint64_t read_seed(const Json& file, Diagnostics& diagnostics) {
@@ -336,10 +277,12 @@ Block read_block(const Json& json, std::size_t index, const SweepDefinition& def
   refuse_unknown_keys(json, block.pointer, {"label", "set", "grid", "zip", "random", "replicates"},
                       diagnostics);
   block.label = read_label(json, block.pointer, index + 1, diagnostics);
-  const auto [most, wish] =
-      read_replicates(json, block.pointer, {definition.replicates, definition.wish}, diagnostics);
+  const auto [most, wish, fit_wish] =
+      read_replicates(json, block.pointer,
+                      {definition.replicates, definition.wish, definition.fit_wish}, diagnostics);
   block.replicates = most;
   block.wish = wish;
+  block.fit_wish = fit_wish;
   BlockReader(json, block, diagnostics).read();
   return block;
 }
@@ -351,6 +294,7 @@ void read_sweep_list(const Json& file, SweepDefinition& definition, Diagnostics&
     definition.blocks.back().label = definition.name;
     definition.blocks.back().replicates = definition.replicates;
     definition.blocks.back().wish = definition.wish;
+    definition.blocks.back().fit_wish = definition.fit_wish;
   } else if (!sweep->is_array()) {
     diagnostics.push_back({"/sweep", "must be a list of blocks, is " + describe(*sweep)});
   } else if (sweep->empty()) {
@@ -392,9 +336,10 @@ SweepDefinition read_definition(const Json& file, Diagnostics& diagnostics) {
   expect_schema_name(file, diagnostics);
   definition.name = read_name(file, diagnostics);
   definition.seed = read_seed(file, diagnostics);
-  const auto [most, wish] = read_replicates(file, "", {}, diagnostics);
+  const auto [most, wish, fit_wish] = read_replicates(file, "", {}, diagnostics);
   definition.replicates = most;
   definition.wish = wish;
+  definition.fit_wish = fit_wish;
   definition.units = read_units(file, diagnostics);
   definition.base = read_base(file, diagnostics);
   read_sweep_list(file, definition, diagnostics);

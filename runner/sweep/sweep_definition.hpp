@@ -16,8 +16,6 @@ namespace grainsweep {
 
 /// Most jobs of one sweep; a job takes about 1.5 kB while a sweep runs.
 inline constexpr std::uint64_t most_jobs = 1'000'000;
-inline constexpr int most_replicates = 10'000;
-inline constexpr int usual_most_replicates = 200;  ///< of points that grow
 
 /// One list that a block runs through: a path of its grid, or its whole zip.
 struct Axis {
@@ -31,6 +29,7 @@ struct Block {
   std::string pointer;             ///< "/sweep/0", "" for a sweep of `base` alone
   int replicates = 1;              ///< of each point; the most, if there is a wish
   ErrorWish wish = {};             ///< makes points grow until it is met
+  FitWish fit_wish = {};           ///< makes families grow until it is met
   Assignments set;                 ///< over `base`, under the axes
   std::vector<Axis> axes;          ///< the first one changes slowest
   std::vector<RandomPath> random;  ///< drawn together
@@ -42,6 +41,7 @@ struct SweepDefinition {
   std::uint64_t seed = 0;
   int replicates = 1;
   ErrorWish wish = {};
+  FitWish fit_wish = {};
   GivenUnits units;
   Assignments base;
   std::vector<Block> blocks;

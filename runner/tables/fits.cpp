@@ -50,7 +50,6 @@ Estimate zeta_of(const LineFit& line) {
 }
 
 void take_line(const LineFit& line, WallFit& fit) {
-  constexpr double largest_chi2 = 3.0;  // per degree of freedom
   const double chi2 = line.chi2 / line.degrees_of_freedom;
   const double widening = std::sqrt(std::max(1.0, chi2));
   fit.bulk = {line.intercept, line.intercept_error * widening};

@@ -37,20 +37,10 @@ Spread spread_over(const Members& members, const Field& field) {
   return spread_of(values);
 }
 
-std::string parameters_without_width(const JobFacts& job) {
-  nlohmann::json parameters = nlohmann::json::parse(job.parameters);
-  if (parameters.contains("box")) {
-    parameters["box"].erase("width");
-    parameters["box"].erase("y");
-  }
-  if (parameters.contains("tube")) parameters["tube"].erase("diameter");
-  return parameters.dump();
-}
-
 Group group_of(const Members& members) {
   Group group;
   group.job = members.front()->job;
-  group.family = parameters_without_width(group.job);
+  group.family = parameters_of_family(group.job);
   group.bias_bound = bias_bound(group.job);
   for (const Field& field : mean_fields()) group.means.push_back(spread_over(members, field));
   for (const Row* row : members) {
@@ -128,6 +118,16 @@ Columns<Group> bias_columns() {
 }
 
 }  // namespace
+
+std::string parameters_of_family(const JobFacts& job) {
+  nlohmann::json parameters = nlohmann::json::parse(job.parameters);
+  if (parameters.contains("box")) {
+    parameters["box"].erase("width");
+    parameters["box"].erase("y");
+  }
+  if (parameters.contains("tube")) parameters["tube"].erase("diameter");
+  return parameters.dump();
+}
 
 GroupWithCurves::GroupWithCurves(Group group, const std::string& folder)
     : group_(std::move(group)) {

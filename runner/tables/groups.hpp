@@ -46,6 +46,10 @@ struct Group {
   StatusCounts counts;
 };
 
+/// The parameters of a family, canonical JSON: those of a job without the width of its container
+/// and what bounds it along y.
+std::string parameters_of_family(const JobFacts& job);
+
 /// The number of each row's group, in the order in which the groups first appear, from 1.
 std::vector<std::size_t> group_numbers(const std::vector<Row>& rows);
 

@@ -1,6 +1,6 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <map>
 #include <random>
 #include <set>
 
@@ -8,6 +8,7 @@
 
 #include "engine/dynamics/presets.hpp"
 #include "runner/jobs/growing_groups.hpp"
+#include "runner/jobs/replicate_means.hpp"
 #include "tests/runner/sample_rows.hpp"
 
 namespace grainsweep {
@@ -34,17 +35,6 @@ std::vector<const Outcome*> pointers(const std::vector<Outcome>& outcomes, std::
   std::vector<const Outcome*> made(most, nullptr);
   for (std::size_t i = 0; i < std::min(most, outcomes.size()); ++i) made[i] = &outcomes[i];
   return made;
-}
-
-TEST_CASE("half of a 95 % interval is that of Student's distribution") {
-  const auto quantile = [](int degrees) {  // printed tables have three decimals
-    return half_interval(std::sqrt(degrees + 1.0), degrees + 1);
-  };
-  CHECK(quantile(5) == Approx(2.571).margin(1e-3));
-  CHECK(quantile(10) == Approx(2.228).margin(1e-3));
-  CHECK(quantile(30) == Approx(2.042).margin(1e-3));
-  CHECK(quantile(100000) == Approx(1.960).margin(1e-3));
-  CHECK(std::isinf(half_interval(0.0, 1)));
 }
 
 TEST_CASE("a group has six packings before its scatter counts, and none more if they are alike") {
@@ -152,6 +142,96 @@ TEST_CASE("a growing group belongs to one shard") {
   REQUIRE(shard_of.size() == whole.jobs.size());
   for (std::size_t i = 0; i < shard_of.size(); ++i) CHECK(shard_of[i] == shard_of[i / 10 * 10]);
   CHECK(std::set<int>(shard_of.begin(), shard_of.end()).size() == 3);
+}
+
+/// Three groups between walls and one without, whose fit is to be so precise.
+Sweep fit_sweep(int most, const FitWish& wish, const std::string& name = "f") {
+  Sweep whole{"s", 7, 1, {}};
+  for (const double width : {4.0, 5.0, 8.0, 9.0}) {
+    for (Job& job :
+         growing_group(name + std::to_string(static_cast<int>(width)) + "-", width, most, {})) {
+      job.spec.box.width = width;
+      job.spec.box.y = width == 9.0 ? Boundary::periodic : Boundary::walls;
+      job.parameters = sample_parameters(width, job.spec.box.y, 0.0);
+      job.parameters.insert(1, "\"name\":\"" + name + "\",");
+      job.fit_wish = wish;
+      whole.jobs.push_back(job);
+    }
+  }
+  return whole;
+}
+
+/// All packings of a sweep, which scatter about a line.
+Outcomes made_for(const Sweep& sweep) {
+  Outcomes outcomes;
+  for (const Job& job : sweep.jobs) {
+    const double scatter = job.replicate % 2 == 0 ? 0.003 : -0.003;
+    outcomes[job.id] =
+        sample_outcome(job.id, 0.64 - 0.15 / job.spec.box.width + scatter, 5.5 + scatter);
+  }
+  return outcomes;
+}
+
+TEST_CASE("a family grows where its fit gains most; without walls a group stays at six") {
+  const Sweep whole = fit_sweep(100, {0.005, 0, 0, 0});
+  REQUIRE(grows(whole));
+  GrowingSweep growing(whole, {});
+  CHECK(growing.now().jobs.size() == 24);
+  while (growing.grow(made_for(growing.now()))) {
+  }
+  std::map<double, int> count;
+  for (const Job& job : growing.now().jobs) ++count[job.spec.box.width];
+  CHECK(count.at(4) > 6);
+  CHECK(count.at(5) == 6);
+  CHECK(count.at(8) > count.at(4));
+  CHECK(count.at(9) == 6);
+  CHECK(growing.wishes() == "Errors as asked for (95 %) in 1 of 1 fit, by " +
+                                std::to_string(growing.now().jobs.size()) + " packings\n");
+}
+
+TEST_CASE("a fit waits for all of its round, whatever else is made") {
+  const Sweep whole = fit_sweep(100, {0.005, 0, 0, 0});
+  Outcomes outcomes = made_for(whole);
+  outcomes.erase("f5-6");
+  CHECK(GrowingSweep(whole, outcomes).now().jobs.size() == 24);
+  outcomes = made_for(GrowingSweep(whole, {}).now());
+  const std::size_t second = GrowingSweep(whole, outcomes).now().jobs.size();
+  CHECK(second > 24);
+  outcomes["f8-7"] =
+      sample_outcome("f8-7", 0.9, 9.0);  // one of the next round alone changes nothing
+  CHECK(GrowingSweep(whole, outcomes).now().jobs.size() == second);
+}
+
+TEST_CASE("a family whose fit grows belongs to one shard") {
+  Sweep whole{"s", 7, 1, {}};
+  for (const char* const name : {"a", "b", "c"}) {
+    const Sweep one = fit_sweep(10, {0.005, 0, 0, 0}, name);
+    whole.jobs.insert(whole.jobs.end(), one.jobs.begin(), one.jobs.end());
+  }
+  const std::vector<int> shard_of = shards_of(whole, 3);
+  REQUIRE(shard_of.size() == 120);
+  for (std::size_t i = 0; i < shard_of.size(); ++i) CHECK(shard_of[i] == shard_of[i / 40 * 40]);
+  CHECK(std::set<int>(shard_of.begin(), shard_of.end()).size() == 3);
+}
+
+TEST_CASE(
+    "fits that cannot be had are refused: too few widths, too fine, or beside wishes of means") {
+  CHECK(unreachable_wishes(fit_sweep(10, {0.005, 0, 0, 0})).empty());
+  const std::string fine = unreachable_wishes(fit_sweep(10, {0.001, 1e-6, 0.5, 0}));
+  CHECK(fine.find("asks for phi_bulk within 0.001, but settled as \"balanced\"") !=
+        std::string::npos);
+  CHECK(fine.find("Z_bulk") == std::string::npos);
+  Sweep narrow = fit_sweep(10, {0.005, 0, 0, 0});
+  narrow.jobs.erase(narrow.jobs.begin(), narrow.jobs.begin() + 10);
+  CHECK(unreachable_wishes(narrow).find("takes 3 or more widths between walls with otherwise equal "
+                                        "parameters, and there are 2;") != std::string::npos);
+  Sweep both = fit_sweep(10, {0.005, 0, 0, 0});
+  for (int i = 0; i < 10; ++i) {
+    both.jobs[static_cast<std::size_t>(i)].fit_wish = {};
+    both.jobs[static_cast<std::size_t>(i)].wish = {0.01, 0.0};
+  }
+  CHECK(unreachable_wishes(both).find("of the same family, for errors of means") !=
+        std::string::npos);
 }
 
 TEST_CASE("wishes below the bias of settling are refused, with what it is") {

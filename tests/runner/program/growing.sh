@@ -12,13 +12,13 @@ JSON
 "$program" validate sweep.json | grep -q 'at least 14 packings'
 "$program" plan sweep.json | grep -q 'at most 62 packings'
 
-# same FOLDER: it has the tables of one run on one thread.
+# same FOLDER [ONE]: it has the tables of one run on one thread.
 same() {
-  local table
-  cmp <(values_of one) <(values_of "$1") || fail "$1: other values"
-  for table in one/*.csv; do
-    table=${table#one/}
-    [ "$table" = packings.csv ] || cmp "one/$table" "$1/$table" || fail "$1: other $table"
+  local table one=${2:-one}
+  cmp <(values_of "$one") <(values_of "$1") || fail "$1: other values"
+  for table in "$one"/*.csv; do
+    table=${table#"$one"/}
+    [ "$table" = packings.csv ] || cmp "$one/$table" "$1/$table" || fail "$1: other $table"
   done
 }
 expect_code 0 "$program" run sweep.json --out one --threads 1 --no-report
@@ -43,3 +43,27 @@ same killed
 sed 's/0.009/0.001/' sweep.json >vain.json
 expect_code 2 "$program" run vain.json --out vain
 expect_text error.txt 'settled as "fast" such packings may be off by 0.003'
+
+# A fit whose packings go where they gain most: the same wherever and however often it is run.
+sed 's/"solid_fraction": 0.009/"fit": { "phi_bulk": 0.02 }/; s/\[3, 4\]/[2.5, 3, 4]/' sweep.json >fit.json
+"$program" plan fit.json | grep -q 'Next: 18 packings: 6 of grows W = 2.5, 6 of grows W = 3, 6 of grows W = 4'
+expect_code 0 "$program" run fit.json --out fit-one --threads 1 --no-report
+expect_text out.txt "Errors as asked for (95 %) in 1 of 1 fit"
+packings=$(($(wc -l <fit-one/packings.csv) - 1))
+((packings > 20 && packings < 92)) || fail "$packings packings: the fit grows, not to the most"
+"$program" plan fit.json --out fit-one | grep -q 'Nothing comes next'
+expect_code 0 "$program" run fit.json --out fit-two --threads 2 --no-report --quiet
+same fit-two fit-one
+for shard in 2 3 1; do
+  "$program" run fit.json --out fit-shards --shard $shard/3 --no-report >said.txt 2>&1
+done
+same fit-shards fit-one
+start "$program" run fit.json --out fit-killed --threads 1 --no-report
+wait_until has_packings fit-killed 22 || fail "there was nothing to kill: $(cat said.txt)"
+end_runner KILL
+"$program" plan fit.json --out fit-killed | grep -q 'Next: '
+expect_code 0 "$program" run fit.json --out fit-killed --threads 1 --no-report --quiet
+same fit-killed fit-one
+sed 's/\[2.5, 3, 4\]/[3]/' fit.json >narrow.json
+expect_code 2 "$program" validate narrow.json
+expect_text error.txt 'takes 3 or more widths'

@@ -1,0 +1,209 @@
+#include "runner/jobs/growing_fits.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <set>
+
+#include "runner/analysis/fit.hpp"
+#include "runner/jobs/replicate_means.hpp"
+
+namespace grainsweep {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// A coefficient that is asked for.
+struct Target {
+  bool is_coordination = false;
+  bool is_slope = false;
+  double half_interval = 0.0;  ///< what is left for the scatter
+};
+
+std::vector<Target> targets_of(const FitWish& wish, const std::optional<ProtocolBias>& bound) {
+  const ProtocolBias bias = bound.value_or(ProtocolBias());
+  std::vector<Target> targets;
+  const auto add = [&](bool is_coordination, bool is_slope, double asked, double known) {
+    if (asked > 0.0) targets.push_back({is_coordination, is_slope, asked - known});
+  };
+  add(false, false, wish.phi_bulk, bias.solid_fraction);
+  add(false, true, wish.c, 0.0);
+  add(true, false, wish.z_bulk, bias.coordination);
+  add(true, true, wish.c_z, 0.0);
+  return targets;
+}
+
+/// Sums over the packings of a line, of 1, x and x^2 with x = 1 / W.
+struct Design {
+  double n = 0.0, x = 0.0, xx = 0.0;
+
+  void add(double count, double at) {
+    n += count;
+    x += count * at;
+    xx += count * at * at;
+  }
+  double determinant() const { return n * xx - x * x; }
+
+  /// Variance of a coefficient, in that of a single packing.
+  double variance(bool is_slope) const { return (is_slope ? n : xx) / determinant(); }
+
+  /// What one more packing takes from it.
+  double gain(bool is_slope, double at) const {
+    const double to_both = (is_slope ? n * at - x : xx - x * at) / determinant();
+    const double leverage = (xx - 2.0 * x * at + n * at * at) / determinant();
+    return to_both * to_both / (1.0 + leverage);
+  }
+};
+
+/// The first packings of each group, which are made.
+class Round {
+ public:
+  Round(const std::vector<FitGroup>& groups, const std::vector<int>& replicates)
+      : groups_(groups), replicates_(replicates) {
+    std::set<double> widths;
+    for (std::size_t k = 0; k < groups.size(); ++k) {
+      const Means means = means_of(groups[k].made, replicates[k]);
+      means_.push_back(means);
+      pool(means);
+      if (!groups[k].is_walled || means.solid_fraction.n == 0) continue;
+      widths.insert(groups[k].width);
+      design_.add(means.solid_fraction.n, 1.0 / groups[k].width);
+    }
+    has_line_ = widths.size() >= 3 && degrees_of_freedom_ > 0;
+  }
+
+  /// The worst half of a 95 % interval over what is asked for; at most 1 if all are met.
+  double over(const std::vector<Target>& targets) const {
+    double worst = 0.0;
+    for (const Target& target : targets) worst = std::max(worst, over(target, design_));
+    return worst;
+  }
+
+  double chi2_per_dof(bool is_coordination) const {
+    std::vector<LinePoint> points;
+    for (std::size_t k = 0; k < groups_.size(); ++k) {
+      const Spread& mean = is_coordination ? means_[k].coordination : means_[k].solid_fraction;
+      if (!groups_[k].is_walled || mean.n == 0) continue;
+      points.push_back(
+          {1.0 / groups_[k].width, mean.mean, std::sqrt(variance(is_coordination) / mean.n)});
+    }
+    const auto line = has_line_ ? fit_line(points) : std::nullopt;
+    return line ? line->chi2 / line->degrees_of_freedom : 0.0;
+  }
+
+  /// As many replicates as these results call for; the same ones if none may be added.
+  std::vector<int> next(const std::vector<Target>& targets) const {
+    std::vector<int> more = replicates_;
+    int before = 0;
+    for (std::size_t k = 0; k < more.size(); ++k) before += groups_[k].may_grow ? more[k] : 0;
+    if (!has_line_) {
+      for (std::size_t k = 0; k < more.size(); ++k) more[k] = std::min(2 * more[k], most(k));
+      return more;
+    }
+    Design design = design_;
+    for (int added = 0; added < before; ++added) {
+      const Target& target = *std::max_element(
+          targets.begin(), targets.end(),
+          [&](const Target& a, const Target& b) { return over(a, design) < over(b, design); });
+      const bool is_enough = added > 0 && over(target, design) <= 1.0;
+      const auto best = is_enough ? std::nullopt : best_group(target, design, more);
+      if (!best) break;
+      ++more[*best];
+      design.add(1.0, 1.0 / groups_[*best].width);
+    }
+    return more;
+  }
+
+ private:
+  void pool(const Means& means) {
+    const int degrees = std::max(0, means.solid_fraction.n - 1);
+    if (degrees == 0) return;
+    degrees_of_freedom_ += degrees;
+    phi_squares_ += degrees * means.solid_fraction.sd * means.solid_fraction.sd;
+    z_squares_ += degrees * means.coordination.sd * means.coordination.sd;
+  }
+
+  /// Of a single packing.
+  double variance(bool is_coordination) const {
+    return (is_coordination ? z_squares_ : phi_squares_) / degrees_of_freedom_;
+  }
+
+  double over(const Target& target, const Design& design) const {
+    if (!has_line_) return infinity;
+    const double squared = variance(target.is_coordination) * design.variance(target.is_slope);
+    return student_quantile(degrees_of_freedom_) * std::sqrt(squared) / target.half_interval;
+  }
+
+  int most(std::size_t k) const {
+    return groups_[k].may_grow ? static_cast<int>(groups_[k].made.size()) : replicates_[k];
+  }
+
+  /// Where one more packing gains most; nothing if no group may have more. Groups of which no
+  /// packing settles are left alone.
+  std::optional<std::size_t> best_group(const Target& target, const Design& design,
+                                        const std::vector<int>& replicates) const {
+    std::optional<std::size_t> best;
+    double most_gained = -1.0;
+    for (std::size_t k = 0; k < groups_.size(); ++k) {
+      if (replicates[k] >= most(k) || means_[k].solid_fraction.n == 0) continue;
+      const double gained = design.gain(target.is_slope, 1.0 / groups_[k].width);
+      if (gained <= most_gained) continue;
+      most_gained = gained;
+      best = k;
+    }
+    return best;
+  }
+
+  const std::vector<FitGroup>& groups_;
+  const std::vector<int>& replicates_;
+  std::vector<Means> means_;
+  Design design_;
+  bool has_line_ = false;
+  int degrees_of_freedom_ = 0;
+  double phi_squares_ = 0.0, z_squares_ = 0.0;
+};
+
+bool are_made(const std::vector<FitGroup>& groups, const std::vector<int>& replicates) {
+  for (std::size_t k = 0; k < groups.size(); ++k) {
+    const auto end = groups[k].made.begin() + replicates[k];
+    if (std::find(groups[k].made.begin(), end, nullptr) != end) return false;
+  }
+  return true;
+}
+
+double worst_chi2(const Round& round, const std::vector<Target>& targets) {
+  double worst = 0.0;
+  for (const Target& target : targets) {
+    worst = std::max(worst, round.chi2_per_dof(target.is_coordination));
+  }
+  return worst;
+}
+
+}  // namespace
+
+CalledFit called_for_fit(const std::vector<FitGroup>& groups, const FitWish& wish,
+                         const std::optional<ProtocolBias>& bound) {
+  const std::vector<Target> targets = targets_of(wish, bound);
+  CalledFit called;
+  for (const FitGroup& group : groups) {
+    const int most = static_cast<int>(group.made.size());
+    called.replicates.push_back(group.may_grow ? std::min(first_replicates, most) : most);
+  }
+  while (are_made(groups, called.replicates)) {
+    const Round round(groups, called.replicates);
+    std::vector<int> next = called.replicates;
+    called.is_met = round.over(targets) <= 1.0;
+    if (!called.is_met) next = round.next(targets);
+    if (next == called.replicates) {
+      called.is_made = true;
+      called.chi2_per_dof = worst_chi2(round, targets);
+      return called;
+    }
+    called.replicates = std::move(next);
+  }
+  called.is_met = false;
+  return called;
+}
+
+}  // namespace grainsweep

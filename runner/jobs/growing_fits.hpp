@@ -1,0 +1,47 @@
+// Fits that grow: packings are added to the widths of a family until the errors of its wall effect,
+//
+//   phi = phi_bulk - C / W,     Z = Z_bulk - C_Z / W,
+//
+// are as small as wished. Each next packing goes where it makes the variance of what is furthest
+// from its wish smallest: with f = (1, 1 / W), M = sum n f f^T over the widths, and e the
+// coefficient, one more packing at f takes (e^T M^-1 f)^2 / (1 + f^T M^-1 f) from e^T M^-1 e
+// (Sherman and Morrison). So packings end up at the narrowest and the widest gap; those between
+// have what they began with.
+//
+// The errors are those of fits.csv, of the variance of single packings pooled over the family,
+// before they are widened: a line that misses its points is not mended by more packings.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "engine/dynamics/presets.hpp"
+#include "runner/store/outcome.hpp"
+#include "runner/sweep/error_wish.hpp"
+
+namespace grainsweep {
+
+/// A group of a family.
+struct FitGroup {
+  double width = 0.0;      ///< d
+  bool is_walled = false;  ///< whether it is on the line; others only tell how packings scatter
+  bool may_grow = false;   ///< otherwise all its packings are made
+  /// What came of its packings, in their order; nullptr stands for one that is not made yet.
+  std::vector<const Outcome*> made;
+};
+
+/// What is called for of a family, and what came of it.
+struct CalledFit {
+  std::vector<int> replicates;  ///< of each group
+  bool is_made = false;         ///< whether all of them are
+  bool is_met = false;          ///< whether the errors are as asked for, if they are made
+  double chi2_per_dof = 0.0;    ///< the larger one of the fits that are asked for; 0 without a line
+};
+
+/// How many replicates each group has to have: it follows from whole rounds, of which the first one
+/// is `first_replicates` of every group, and each at most doubles the family. `bound` is the bias
+/// of settling that wishes for bulk values include; what it does to slopes was not measured.
+CalledFit called_for_fit(const std::vector<FitGroup>& groups, const FitWish& wish,
+                         const std::optional<ProtocolBias>& bound);
+
+}  // namespace grainsweep
