@@ -48,7 +48,8 @@ expect_text error.txt 'settled as "fast" such packings may be off by 0.003'
 sed 's/"solid_fraction": 0.009/"fit": { "phi_bulk": 0.02 }/; s/\[3, 4\]/[2.5, 3, 4]/' sweep.json >fit.json
 "$program" plan fit.json | grep -q 'Next: 18 packings: 6 of grows W = 2.5, 6 of grows W = 3, 6 of grows W = 4'
 expect_code 0 "$program" run fit.json --out fit-one --threads 1 --no-report
-expect_text out.txt "Errors as asked for (95 %) in 1 of 1 fit"
+# At such narrow gaps the solid fraction is no straight line.
+expect_text out.txt "Errors as asked for (95 %) in 0 of 1 fit" "in 1 more the packings scatter as little"
 packings=$(($(wc -l <fit-one/packings.csv) - 1))
 ((packings > 20 && packings < 92)) || fail "$packings packings: the fit grows, not to the most"
 "$program" plan fit.json --out fit-one | grep -q 'Nothing comes next'
