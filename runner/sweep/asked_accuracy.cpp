@@ -85,7 +85,7 @@ void take_parts(const InEffect& in_effect, ResolvedSpec& resolved,
   }
 }
 
-std::optional<BedKind> kind_of(const ResolvedSpec& resolved) {
+std::optional<BedKind> bed_kind_of(const ResolvedSpec& resolved) {
   const PackingSpec& spec = resolved.spec;
   return bed_kind(name_of(spec.shape), spec.box, spec.sizes.small_share,
                   nlohmann::json::parse(canonical_parameters(resolved)));
@@ -114,7 +114,7 @@ std::vector<AccuracyProblem> take_asked_accuracy(const InEffect& in_effect,
   const Asked& first = solid_fraction.assignment != nullptr ? solid_fraction : coordination;
   if (first.assignment == nullptr) return {};
   std::vector<AccuracyProblem> problems;
-  const auto kind = kind_of(resolved);
+  const auto kind = bed_kind_of(resolved);
   if (kind) {
     MeasuredPresets measured = measured_for(*kind);
     keep_reaching(solid_fraction, *kind, measured, problems);
