@@ -97,6 +97,20 @@ std::array<double, 3> colour_of(double radius, double smallest, double largest) 
   return colour;
 }
 
+/// Of a component of a mixture, as in bed.js; there are eight, then the first again.
+std::array<double, 3> colour_of(std::size_t component) {
+  constexpr std::array<std::array<int, 3>, 8> all = {{{0, 114, 178},
+                                                      {230, 159, 0},
+                                                      {0, 158, 115},
+                                                      {204, 121, 167},
+                                                      {86, 180, 233},
+                                                      {213, 94, 0},
+                                                      {240, 228, 66},
+                                                      {110, 110, 110}}};
+  const auto& [red, green, blue] = all[component % all.size()];
+  return {red / 255.0, green / 255.0, blue / 255.0};
+}
+
 void paint_sphere(const SettledGrain& grain, const Placement& place,
                   const std::array<double, 3>& colour, Canvas& canvas) {
   const Vector at = place.on(canvas, {grain.x, grain.y, grain.z});
@@ -186,7 +200,9 @@ std::string picture_of(const StoredBed& bed, int width, int height) {
       [](const SettledGrain& a, const SettledGrain& b) { return a.radius < b.radius; });
   for (std::size_t i = 0; i < bed.grains.size(); ++i) {
     const SettledGrain& grain = bed.grains[i];
-    const auto colour = colour_of(grain.radius, smallest->radius, largest->radius);
+    const auto colour = has_components(bed)
+                            ? colour_of(bed.turned->component(i))
+                            : colour_of(grain.radius, smallest->radius, largest->radius);
     if (is_sphere(bed, i))
       paint_sphere(grain, place, colour, canvas);
     else

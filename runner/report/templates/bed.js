@@ -24,7 +24,9 @@
   const scale = [[68, 1, 84], [72, 36, 117], [65, 68, 135], [53, 95, 141], [42, 120, 142],
                  [33, 145, 140], [34, 168, 132], [68, 191, 112], [122, 209, 81], [189, 223, 38],
                  [253, 231, 37]];
-  const kinds = [[0, 114, 178], [230, 159, 0]]; // large, small
+  // Large and small grains, or the components of a mixture; as in picture.cpp.
+  const kinds = [[0, 114, 178], [230, 159, 0], [0, 158, 115], [204, 121, 167],
+                 [86, 180, 233], [213, 94, 0], [240, 228, 66], [110, 110, 110]];
 
   const colour = (share) => {
     const at = Math.min(Math.max(share, 0), 1) * (scale.length - 1);
@@ -70,6 +72,7 @@
     if (by === "size") return bed.radius.map((radius) => 2 * radius);
     if (by === "touching") return bed.touching;
     if (by === "force") return bed.force;
+    if (by === "component") return bed.component;
     if (by === "wall" && bed.tube) {
       const radius = bed.box[0] / 2;
       return bed.x.map((x, k) => radius - Math.hypot(x - radius, bed.y[k] - radius));
@@ -242,10 +245,23 @@
     pick("bed-key").replaceChildren(low, bar, high);
   };
 
+  const colourOfKind = (number) => kinds[number % kinds.length];
+
+  // What kinds have which colour.
+  const tellKinds = (names) => {
+    pick("bed-key").replaceChildren(...names.flatMap((name, k) => {
+      const square = document.createElement("span");
+      square.className = "scale square";
+      square.style.background = `rgb(${colourOfKind(k)})`;
+      return [square, name];
+    }));
+  };
+
   const digits = (value) => (Number.isInteger(value) ? String(value) : value.toPrecision(3));
 
   const paintGrains = (by) => {
     const values = valuesOf(bed, by);
+    const areKinds = by === "kind" || by === "component";
     let low = Infinity;
     let high = -Infinity;
     for (const value of values) {
@@ -255,8 +271,8 @@
     const tint = grains.geometry.attributes.tint;
     const copies = grains.userData.copies;
     for (let k = 0; k < bed.count; k += 1) {
-      const rgb = by === "kind" ? kinds[values[k]]
-                                : colour(high > low ? (values[k] - low) / (high - low) : 0.5);
+      const rgb = areKinds ? colourOfKind(values[k])
+                           : colour(high > low ? (values[k] - low) / (high - low) : 0.5);
       for (let at = k * copies; at < (k + 1) * copies; at += 1) {
         tint.setXYZ(at, rgb[0] / 255, rgb[1] / 255, rgb[2] / 255);
       }
@@ -265,7 +281,8 @@
     const length = (value) => `${digits(value * bed.d)} ${bed.unit}`;
     const told = { size: length, touching: digits, force: (value) => `${digits(value)} m g`,
                    wall: length }[by];
-    if (by === "kind") pick("bed-key").textContent = "blue: large, orange: small grains";
+    if (by === "kind") tellKinds(["large", "small"]);
+    else if (by === "component") tellKinds(bed.meshes.map((_, k) => String(k + 1)));
     else tell(told(low), told(high), scale);
   };
 
@@ -293,7 +310,9 @@
     grains = grainsOf(bed);
     network = forceNetwork(bed, colour);
     scene.add(grains, network, frameOf(bed));
-    const has = { kind: bed.small_limit > 0, wall: bed.walls.includes(true), forces: bed.pairs > 0 };
+    const isMixture = Boolean(bed.meshes) && bed.meshes.length > 1;
+    const has = { kind: bed.small_limit > 0, component: isMixture, wall: bed.walls.includes(true),
+                  forces: bed.pairs > 0 };
     for (const id of ["bed-colour", "bed-show"]) {
       for (const option of pick(id).options) {
         option.disabled = has[option.value] === false;
@@ -366,6 +385,8 @@
 
   try {
     show(0);
+    if (bed.meshes && bed.meshes.length > 1) pick("bed-colour").value = "component";
+    paint();
   } catch (error) {
     return; // the picture stays
   }

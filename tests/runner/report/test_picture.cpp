@@ -64,6 +64,27 @@ TEST_CASE("polyhedra are seen, too", "[report]") {
   CHECK(rows.find_first_not_of(std::string("\x00\xFF", 2)) != std::string::npos);
 }
 
+TEST_CASE("components of a mixture have colours of their own, spheres among them", "[report]") {
+  StoredBed bed;
+  bed.box.length = bed.box.width = 2.0;
+  bed.grains = {{0.5, 0.5, 0.5, 0.5, 1.0, 0}, {1.5, 1.5, 0.5, 0.5, 1.0, 0}};
+  bed.turned = sample_turned();
+  bed.turned->meshes.emplace_back();
+  bed.turned->components = {0, 1};
+  const std::string rows = rows_of(picture_of(bed, 60, 60), 60 * 181);
+  std::size_t blue = 0, orange = 0;
+  for (std::size_t y = 0; y < 60; ++y) {
+    for (std::size_t x = 0; x < 60; ++x) {
+      const auto part = [&](std::size_t k) {
+        return static_cast<unsigned char>(rows[181 * y + 1 + 3 * x + k]);
+      };
+      blue += part(0) < part(2) ? 1 : 0;
+      orange += part(0) > part(2) ? 1 : 0;
+    }
+  }
+  CHECK((blue > 20 && orange > 200));  // a small tetrahedron, and a sphere
+}
+
 TEST_CASE("a bed without grains gives a white picture", "[report]") {
   const std::string rows = rows_of(picture_of({}, 8, 8), 8 * 25);
   CHECK(rows.find_first_not_of(std::string("\x00\xFF", 2)) == std::string::npos);
