@@ -46,8 +46,9 @@ struct RestReport {
   /// Degrees of freedom that contacts hold besides, as their normals turn: a round wall holds a
   /// grain along the wall, too, and spheres that push its faces keep a polyhedron from turning.
   std::int64_t held_by_turning = 0;
-  /// Those that do not depend on others: all but where they are more than needed.
-  std::int64_t independent_contacts = 0;
+  /// Contacts that do not depend on others: all but where they are more than needed. NaN if those
+  /// are too many to be counted (engine/dynamics/settle.cpp).
+  double independent_contacts = 0.0;
   std::int64_t isostatic_contacts = 0;  ///< 3 a sphere, 6 a polyhedron, less zero modes
   /// Static, on all contacts closed to Accuracy::imbalance_gap; see engine/dynamics/balance.hpp.
   Imbalance imbalance;
@@ -176,8 +177,8 @@ struct SettledGrain {
   std::int32_t touching = 0;  ///< touching grains at the first gap tolerance, walls not counted
 };
 
-/// The surface of a grain of size 1 in its own frame, d. A sphere among polyhedra, whose diameter is
-/// d, has neither vertices nor faces.
+/// The surface of a grain of size 1 in its own frame, d. A sphere among polyhedra, whose diameter
+/// is d, has neither vertices nor faces.
 struct Mesh {
   std::vector<std::array<double, 3>> vertices;
   std::vector<std::vector<std::int32_t>> faces;  ///< counter-clockwise seen from outside

@@ -161,7 +161,7 @@ RestReport measure_rest(Bed<Kind>& bed, const ExecutionContext& context, double 
   for (const std::int64_t held : by_turning)
     rest.held_by_turning += std::min(held, most_by_turning);
   rest.held_by_turning += held_on_axis(bed);
-  rest.independent_contacts = rest.contacts;
+  rest.independent_contacts = static_cast<double>(rest.contacts);
   rest.overlap_mean = overlap / std::max(closed, 1.0);
   rest.isostatic_contacts = degrees_of_freedom(bed) - zero_modes(bed, contacts);
   return rest;

@@ -160,7 +160,9 @@ std::vector<Field> further_fields() {
       in_result<&Result::slab_top>("slab_top", "d", "z where it ends"),
       in_result<of::rest, &Rest::independent_contacts>(
           "independent_contacts", "",
-          "contacts that do not depend on others; counted where there are more than needed"),
+          "contacts that do not depend on others; counted where there are more than needed, but "
+          "not "
+          "more than 30,000"),
       in_result<of::rest, &Rest::largest_motion>(
           "largest_motion", "d", "largest displacement of a grain in the last step"),
       in_result<&Result::spurious_path>("spurious_path", "d",

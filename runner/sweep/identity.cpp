@@ -1,9 +1,9 @@
-#include "engine/shape/given_shape.hpp"
 #include "runner/sweep/identity.hpp"
 
 #include <algorithm>
 #include <charconv>
 
+#include "engine/shape/given_shape.hpp"
 #include "runner/sweep/parameters.hpp"
 
 namespace grainsweep {

@@ -331,6 +331,32 @@ TEST_CASE("a mixture goes on from what it has saved to the same bits") {
   CHECK(rest.state_hash == whole.state_hash);
 }
 
+/// A block of cubes that touch each other and the walls.
+PackingSpec block_of_cubes(int across, int up) {
+  PackingSpec spec = small_spec(CubeSize{});
+  const auto width = static_cast<double>(across);
+  spec.box = {width, width, Boundary::walls, Boundary::walls};
+  PlacedGrains cubes;
+  for (int z = 0; z < up; ++z) {
+    for (int y = 0; y < across; ++y) {
+      for (int x = 0; x < across; ++x) {
+        cubes.grains.push_back({x + 0.5, y + 0.5, z + 0.5, 0.5});
+        cubes.orientations.push_back({0, 0, 0, 1});
+      }
+    }
+  }
+  spec.fill = cubes;
+  return spec;
+}
+
+TEST_CASE("contacts that depend on others are told apart") {
+  const RestReport few = pack(block_of_cubes(4, 6)).result.rest;
+  INFO(few.contacts);
+  CHECK(static_cast<double>(few.contacts) > 1.1 * static_cast<double>(few.isostatic_contacts));
+  CHECK(few.independent_contacts <= static_cast<double>(few.isostatic_contacts));
+  CHECK(few.independent_contacts > 0.5 * static_cast<double>(few.isostatic_contacts));
+}
+
 TEST_CASE("shapes that cannot be packed are refused with the reason") {
   const auto errors_of = [](const PackingSpec& spec) {
     std::string all;
