@@ -57,19 +57,19 @@ Creep creep_of(const Accuracy& a) {
 
 /// Spheres that differ in size take more rounds to come to rest: in a loose one as many times more
 /// as a part of the solids is heavier than a grain, but many more where small ones fit into the
-/// holes between the large; else some four times more. The worst grain of many is worse than that
-/// of few.
+/// holes between the large; else in proportion to that, up to five times. The worst grain of many
+/// is worse than that of few.
 double unevenness_factor(const PackingSpec& spec, double grains) {
   constexpr double of_fillers = 5.0;  // large and small grains a third as large have 6
   const double uneven = moments_of(spec).unevenness(), more = std::max(0.0, uneven - 1.0);
-  const double many = std::pow(std::max(1.0, grains / 5000.0), std::min(0.4, 0.4 * more));
+  const double many = std::pow(std::max(1.0, grains / 5000.0), std::min(0.6, 0.6 * more));
   switch (creep_of(spec.accuracy)) {
     case Creep::loose:
-      return uneven < of_fillers ? uneven : 25.0;
+      return uneven < of_fillers ? uneven : 19.0;
     case Creep::usual:
-      return std::min(4.5, 1.0 + 8.0 * more) * many;
+      return std::min(5.0, 1.0 + 0.6 * more) * many;
     case Creep::strict:
-      return std::min(3.0, 1.0 + 8.0 * more) * many;
+      return std::min(3.0, 1.0 + 0.65 * more) * many;
   }
   return 1.0;
 }
@@ -82,7 +82,7 @@ double shape_factor(const ShapeSpec& shape, Creep creep) {
   }
   constexpr double usual_corners = 20.0;  // of other shapes; more of them cost more
   const auto corners = static_cast<double>(corner_count(shape));
-  return (creep == Creep::loose ? 6.0 : 2.6) * std::sqrt(std::max(1.0, corners / usual_corners));
+  return (creep == Creep::loose ? 5.2 : 2.6) * std::sqrt(std::max(1.0, corners / usual_corners));
 }
 
 /// The mean over the grains.
@@ -123,10 +123,21 @@ double usual_iterations(const PackingSpec& spec, double layers) {
   return solved * (fall + 2000.0 * std::pow(layers, 0.75) * creep) + 30.0 * a.rest_iterations;
 }
 
+/// Rounds of creep and rest that high beds of spheres take over those of low ones: few iterations
+/// hardly reach through many layers of a box, and many layers of many grains take more of them,
+/// too.
+double rounds_factor(const PackingSpec& spec, double grains, double layers) {
+  if (creep_of(spec.accuracy) == Creep::loose && !spec.box.is_tube) {
+    return std::pow(std::max(1.0, layers / 40.0), 1.2);
+  }
+  constexpr double many = 6e5;  // grains times layers
+  return std::pow(std::max(1.0, grains * layers / many), 0.7);
+}
+
 /// Of the search for exact rest: rounds, more of them in larger beds, that each factor the bed's
 /// stiffness.
 double exact_seconds(const PackingSpec& spec, double grains) {
-  return spec.accuracy.rest == Rest::exact ? 4e-8 * std::pow(grains, 2.5) : 0.0;
+  return spec.accuracy.rest == Rest::exact ? 9e-10 * std::pow(grains, 3.0) : 0.0;
 }
 
 /// Pairs of a sphere's that are listed in a fall, by what engine/dynamics/stages.cpp calls near and
@@ -144,17 +155,19 @@ double bytes_of_grain(const PackingSpec& spec) {
 
 }  // namespace
 
-// Measured on one core of a 2.4 GHz server: an iteration costs 2.7 ns a row, of which a bed of
-// spheres has about four per grain, more where the bed leaves the caches; with its share of the
-// narrow phase it costs 75 ns a grain that turns.
+// An iteration costs 1.9 ns a row, of which a bed of spheres has about four per grain, more where
+// the bed leaves the caches; with its share of the narrow phase it costs 65 ns a grain that turns.
+// Measured on servers of 2.4 to 2.6 GHz: with AVX-512 spheres take 0.7 times that, without it 1.4
+// times, grains that turn 0.9 and 1.15 times.
 Cost estimate_cost(const PackingSpec& spec) {
   const auto grains = static_cast<double>(grain_count(spec));
   const double layers = grains * moments_of(spec).mean_cube / spec.box.floor_area() + 1.0;
-  const double number_size = spec.accuracy.precision == Precision::f32 ? 1.0 : 2.0;
+  const double number_size = spec.accuracy.precision == Precision::f32 ? 1.0 : 1.7;
   const bool turn = !is_sphere(spec.shape);
-  const double seconds = turn ? 75e-9 : 4.0 * 2.7e-9;
+  const double seconds = turn ? 65e-9 : 4.0 * 1.9e-9;
   const double factor = turn ? polyhedron_factor(spec, grains)
-                             : unevenness_factor(spec, grains) * memory_factor(grains);
+                             : unevenness_factor(spec, grains) * memory_factor(grains) *
+                                   rounds_factor(spec, grains, layers);
   return {grains * number_size * factor * usual_iterations(spec, layers) * seconds +
               exact_seconds(spec, grains),
           8e6 + grains * bytes_of_grain(spec)};
