@@ -268,6 +268,16 @@ std::string rest_failure(const RestReport& rest, const Accuracy& accuracy, bool 
   return {};
 }
 
+std::string remedy_of_rounding(const RestReport& rest, const Accuracy& accuracy, double height) {
+  constexpr double error_of_a_layer = 1e-4;  // of forces in f32 for every d of height, m g
+  const bool is_rounding = accuracy.precision == Precision::f32 &&
+                           rest.step_residual > accuracy.residual_tolerance &&
+                           error_of_a_layer * height > accuracy.residual_tolerance / 2.0;
+  return is_rounding ? "; or rather take accuracy.precision f64: in f32 the forces of a bed " +
+                           number_text(height) + " d high are not known better"
+                     : "";
+}
+
 template RestReport measure_rest(SphereBed&, const ExecutionContext&, double,
                                  StepState<Sphere, float>&);
 template RestReport measure_rest(SphereBed&, const ExecutionContext&, double,

@@ -270,6 +270,12 @@ void look_closer(Settling<Kind, Real>& s) {
   }
 }
 
+double highest_centre(const Grains& bed) {
+  double height = 0.0;
+  for (const Record<double>& centre : bed.centres()) height = std::max(height, centre.z);
+  return height;
+}
+
 template <class Kind, class Real>
 void report_forces(const std::vector<ForceContact>& contacts, Settling<Kind, Real>& s) {
   s.report.force = force_sums(s.bed, contacts);
@@ -409,6 +415,9 @@ SettleReport settle_in(StepState<Kind, Real>& state, StepState<Kind, double>& cl
   if (s.is_exact) return s.report;
   if (rested_when_saved || s.stage < s.stages.size()) test_rest(s);  // others have just passed
   look_closer(s);
+  if (!s.report.failure.empty()) {
+    s.report.failure += remedy_of_rounding(s.report.rest, accuracy, highest_centre(bed));
+  }
   report_forces(contacts_of_last_step(s), s);
   if constexpr (std::is_same_v<Kind, Sphere>) {
     if (accuracy.rest == Rest::exact) go_on_to_exact_rest(s, keep_going);

@@ -304,5 +304,21 @@ TEST_CASE("a number that is none never passes for rest") {
   }
 }
 
+TEST_CASE("a high bed is advised to take f64 where f32 keeps its residual large") {
+  RestReport rest = perfect_rest();
+  Accuracy accuracy;
+  rest.step_residual = 2.0 * accuracy.residual_tolerance;
+  CHECK(remedy_of_rounding(rest, accuracy, 240.0) ==
+        "; or rather take accuracy.precision f64: in f32 the forces of a bed 240 d high are not "
+        "known "
+        "better");
+  CHECK(remedy_of_rounding(rest, accuracy, 20.0).empty());
+  accuracy.precision = Precision::f64;
+  CHECK(remedy_of_rounding(rest, accuracy, 240.0).empty());
+  accuracy.precision = Precision::f32;
+  rest.step_residual = accuracy.residual_tolerance;  // something else failed
+  CHECK(remedy_of_rounding(rest, accuracy, 240.0).empty());
+}
+
 }  // namespace
 }  // namespace grainsweep
