@@ -270,12 +270,6 @@ void look_closer(Settling<Kind, Real>& s) {
   }
 }
 
-double highest_centre(const Grains& bed) {
-  double height = 0.0;
-  for (const Record<double>& centre : bed.centres()) height = std::max(height, centre.z);
-  return height;
-}
-
 template <class Kind, class Real>
 void report_forces(const std::vector<ForceContact>& contacts, Settling<Kind, Real>& s) {
   s.report.force = force_sums(s.bed, contacts);
@@ -416,7 +410,7 @@ SettleReport settle_in(StepState<Kind, Real>& state, StepState<Kind, double>& cl
   if (rested_when_saved || s.stage < s.stages.size()) test_rest(s);  // others have just passed
   look_closer(s);
   if (!s.report.failure.empty()) {
-    s.report.failure += remedy_of_rounding(s.report.rest, accuracy, highest_centre(bed));
+    s.report.failure += remedy_of_rounding(s.report.rest, accuracy, top_of(bed));
   }
   report_forces(contacts_of_last_step(s), s);
   if constexpr (std::is_same_v<Kind, Sphere>) {

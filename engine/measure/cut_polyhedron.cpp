@@ -94,10 +94,6 @@ double ball_volume(double radius, const Vector& centre, const Vector& low, const
 }  // namespace
 
 Span span_along(const ConvexShape& shape, const Pose& pose, int axis) {
-  if (shape.is_ball) {
-    const double radius = pose.scale * shape.inradius;
-    return {pose.centre[axis] - radius, pose.centre[axis] + radius};
-  }
   const Vector along = pose.orientation.conjugate() * Vector::Unit(axis);
   return {pose.centre[axis] - pose.scale * reach_along(shape, -along),
           pose.centre[axis] + pose.scale * reach_along(shape, along)};

@@ -285,11 +285,8 @@ ContactAxes pinacoid_axes(const ShapePair& pair) {
 }  // namespace
 
 double separation_along(const ShapePair& pair, const Vector& normal) {
-  const auto reach = [](const ConvexShape& shape, const Vector& n) {
-    return shape.is_ball ? shape.inradius : reach_along(shape, n);
-  };
-  return normal.dot(pair.pose.centre) - pair.pose.scale_a * reach(pair.a, normal) -
-         pair.pose.scale_b * reach(pair.b, -(pair.pose.turn.transpose() * normal));
+  return normal.dot(pair.pose.centre) - pair.pose.scale_a * reach_along(pair.a, normal) -
+         pair.pose.scale_b * reach_along(pair.b, -(pair.pose.turn.transpose() * normal));
 }
 
 ContactAxes separating_axes(const ShapePair& pair, const Vector& guess, AxisColumns& columns) {

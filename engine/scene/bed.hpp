@@ -91,10 +91,9 @@ struct Bed<Sphere> : Grains {};
 using SphereBed = Bed<Sphere>;
 
 /// Grains of one convex shape, or of several: the components of a mixture, spheres among them. The
-/// mass of a grain of
-/// scale s is s^3 times its component's volume over that of the first (so that a grain of scale 1
-/// of the first has the unit of mass), its principal moments are s^2 times that mass times the
-/// component's `inertia`.
+/// mass of a grain of scale s is s^3 times its component's volume over that of the first (so that a
+/// grain of scale 1 of the first has the unit of mass), its principal moments are s^2 times that
+/// mass times the component's `inertia`.
 template <>
 struct Bed<Polyhedron> : Grains {
   std::vector<ConvexShape> shapes;  ///< one for each component

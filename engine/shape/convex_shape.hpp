@@ -93,8 +93,9 @@ inline std::int32_t farthest_vertex(const ConvexShape& shape, const Vector& n) {
   return static_cast<std::int32_t>(best);
 }
 
-/// Largest n . x over a polyhedron, d.
+/// Largest n . x over the shape, d. Requires a unit vector n of a sphere.
 inline double reach_along(const ConvexShape& shape, const Vector& n) {
+  if (shape.is_ball) return shape.inradius;
   double reach = n.dot(shape.vertices[0]);
   for (std::size_t k = 1; k < shape.vertices.size(); ++k) {
     const double along = n.dot(shape.vertices[k]);

@@ -30,11 +30,6 @@ Vector way_of(const Box& box, const Shift& shift) {
   return {shift.x * box.period_x(), shift.y * box.period_y(), 0.0};
 }
 
-Vector centre_in_box(const StoredBed& bed, std::size_t grain) {
-  const SettledGrain& at = bed.grains[grain];
-  return {at.x, at.y, at.z};
-}
-
 int periods_in(double way, double period) {
   return period == 0.0 ? 0 : static_cast<int>(std::lround(way / period));
 }
@@ -71,16 +66,6 @@ std::vector<Shift> shifts_of(const Box& box) {
   return shifts;
 }
 
-std::vector<Vector> points_of_neck(const StoredBed& bed, const Neck& neck) {
-  std::vector<Vector> points;
-  for (const double height : {neck.low, neck.high}) {
-    for (int k = 0; k < neck_sides; ++k) {
-      points.emplace_back(centre_in_box(bed, neck.a) + neck_corner(neck, k, height));
-    }
-  }
-  return points;
-}
-
 /// Numbers of the copies by grain and shift, in the order in which they are met.
 class Copies {
  public:
@@ -112,7 +97,9 @@ Copies copies_of(const ExportedBed& exported, const OpenSurfaces& open) {
       if (reaches_into(bed.box, open.grains[k].surface.vertices, of_grain)) copies.add(k, shift);
     }
     for (const Neck& neck : open.necks) {
-      if (neck.is_wall || !reaches_into(bed.box, points_of_neck(bed, neck), way)) continue;
+      if (neck.is_wall ||
+          !reaches_into(bed.box, neck_corners(neck, centre_in_box(bed, neck.a)), way))
+        continue;
       copies.add(neck.a, shift);
       copies.add(neck.b, shift + shift_of(bed, neck));
     }

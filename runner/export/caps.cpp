@@ -41,14 +41,10 @@ void cut_caps(const ExportedBed& exported, std::vector<Surface>& surfaces) {
       surfaces[grain] = cut_off(surfaces[grain], outward,
                                 clear_offset(surfaces[grain], outward, offset, clearance * radius));
     };
-    const SettledGrain& a = bed.grains[contact.a];
-    const Vector point = contact.place.point - Vector(a.x, a.y, a.z);
+    const Vector point = contact.place.point - centre_in_box(bed, contact.a);
     cut(contact.a, normal, point);
     if (contact.is_wall) continue;
-    const SettledGrain& b = bed.grains[contact.b];
-    const Vector between(nearest_image(b.x - a.x, bed.box.period_x()),
-                         nearest_image(b.y - a.y, bed.box.period_y()), b.z - a.z);
-    cut(contact.b, -normal, point - between);
+    cut(contact.b, -normal, point - between_centres(bed, contact.a, contact.b));
   }
 }
 

@@ -100,19 +100,11 @@ std::string joined(const Vector& v, char separator) {
   return cell(v.x()) + separator + cell(v.y()) + separator + cell(v.z());
 }
 
-Vector centre_of(const ExportedBed& exported, std::size_t grain) {
-  const SettledGrain& at = exported.bed.grains[grain];
-  return {at.x, at.y, at.z};
-}
-
 /// The other end of a contact's line: the centre of b beside a, or the wall.
 Vector end_of(const ExportedBed& exported, const Contact& contact) {
   if (contact.is_wall) return contact.place.point;
-  const Box& box = exported.bed.box;
-  const Vector from = centre_of(exported, contact.a);
-  const Vector between = centre_of(exported, contact.b) - from;
-  return from + Vector(nearest_image(between.x(), box.period_x()),
-                       nearest_image(between.y(), box.period_y()), between.z());
+  return centre_in_box(exported.bed, contact.a) +
+         between_centres(exported.bed, contact.a, contact.b);
 }
 
 /// The arrays of the lines.
@@ -178,7 +170,8 @@ std::string contacts_vtp(const ExportedBed& exported) {
   }
   const auto end = [&](std::size_t k) {
     const Contact& contact = contacts[k / 2];
-    return joined(k % 2 == 0 ? centre_of(exported, contact.a) : end_of(exported, contact), ' ');
+    return joined(k % 2 == 0 ? centre_in_box(exported.bed, contact.a) : end_of(exported, contact),
+                  ' ');
   };
   return vtp_file(
       "Lines", 2 * contacts.size(), contacts.size(),

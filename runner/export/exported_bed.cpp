@@ -62,10 +62,20 @@ std::vector<Eigen::Vector3d> vertices_about_centre(const StoredBed& bed, std::si
   return vertices;
 }
 
-std::vector<Eigen::Vector3d> vertices_in_box(const StoredBed& bed, std::size_t grain) {
+Eigen::Vector3d centre_in_box(const StoredBed& bed, std::size_t grain) {
   const SettledGrain& at = bed.grains[grain];
+  return {at.x, at.y, at.z};
+}
+
+Eigen::Vector3d between_centres(const StoredBed& bed, std::size_t a, std::size_t b) {
+  const Eigen::Vector3d between = centre_in_box(bed, b) - centre_in_box(bed, a);
+  return {nearest_image(between.x(), bed.box.period_x()),
+          nearest_image(between.y(), bed.box.period_y()), between.z()};
+}
+
+std::vector<Eigen::Vector3d> vertices_in_box(const StoredBed& bed, std::size_t grain) {
   std::vector<Eigen::Vector3d> vertices = vertices_about_centre(bed, grain);
-  for (Eigen::Vector3d& vertex : vertices) vertex += Eigen::Vector3d(at.x, at.y, at.z);
+  for (Eigen::Vector3d& vertex : vertices) vertex += centre_in_box(bed, grain);
   return vertices;
 }
 

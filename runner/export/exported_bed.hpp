@@ -66,6 +66,12 @@ std::vector<Eigen::Vector3d> vertices_about_centre(const StoredBed& bed, std::si
 /// The same in the frame of the box, d.
 std::vector<Eigen::Vector3d> vertices_in_box(const StoredBed& bed, std::size_t grain);
 
+/// The centre of a grain, box frame, d.
+Eigen::Vector3d centre_in_box(const StoredBed& bed, std::size_t grain);
+
+/// From the centre of grain a to that of b, or of its image nearest to a, box frame, d.
+Eigen::Vector3d between_centres(const StoredBed& bed, std::size_t a, std::size_t b);
+
 /// z of the highest point of a grain, d; 0 of no grains.
 double height_of(const StoredBed& bed);
 

@@ -15,16 +15,6 @@ constexpr double narrower = 0.8;
 constexpr double narrowest = 0.1, narrowest_of_spheres = 1e-3;  // of what was asked for
 constexpr double neck_clearance = 0.1;                          // of a radius, that necks keep
 
-std::vector<Vector> body_of(const Neck& neck, const Vector& offset) {
-  std::vector<Vector> corners;
-  for (const double height : {neck.low, neck.high}) {
-    for (int k = 0; k < neck_sides; ++k) {
-      corners.emplace_back(offset + neck_corner(neck, k, height));
-    }
-  }
-  return corners;
-}
-
 /// What lies about a neck.
 struct Surroundings {
   const ExportedBed& exported;
@@ -32,12 +22,6 @@ struct Surroundings {
   std::vector<std::vector<std::size_t>> neighbours = {};  ///< of each grain, with itself
   std::vector<std::vector<std::size_t>> necks = {};       ///< of each grain
 };
-
-Vector between_centres(const StoredBed& bed, std::size_t a, std::size_t b) {
-  const SettledGrain &from = bed.grains[a], &to = bed.grains[b];
-  return {nearest_image(to.x - from.x, bed.box.period_x()),
-          nearest_image(to.y - from.y, bed.box.period_y()), to.z - from.z};
-}
 
 void sort_out(std::vector<std::size_t>& numbers) {
   std::sort(numbers.begin(), numbers.end());
@@ -78,7 +62,7 @@ std::vector<std::size_t> grains_about(const Neck& neck, const Surroundings& arou
 bool meets_third_grain(const Neck& neck, const std::vector<std::size_t>& grains,
                        const Surroundings& around) {
   if (neck.is_wall) return false;
-  const std::vector<Vector> body = body_of(neck, Vector::Zero());
+  const std::vector<Vector> body = neck_corners(neck, Vector::Zero());
   const double margin = neck_clearance * neck.radius;
   return std::any_of(grains.begin(), grains.end(), [&](std::size_t grain) {
     if (grain == neck.a || grain == neck.b) return false;
@@ -119,7 +103,7 @@ bool necks_meet(const Neck& neck, const Neck& other, const Surroundings& around)
   }
   if (neck.is_wall || other.is_wall) return false;
   const Vector offset = between_necks(neck, other, around.exported.bed);
-  return !are_apart(body_of(neck, Vector::Zero()), body_of(other, offset),
+  return !are_apart(neck_corners(neck, Vector::Zero()), neck_corners(other, offset),
                     neck_clearance * std::min(neck.radius, other.radius));
 }
 
@@ -165,6 +149,16 @@ Vector neck_corner(const Neck& neck, int k, double height) {
   const Vector up = neck.normal.cross(neck.across);
   return neck.middle + height * neck.normal +
          neck.radius * (std::cos(angle) * neck.across + std::sin(angle) * up);
+}
+
+std::vector<Vector> neck_corners(const Neck& neck, const Vector& centre) {
+  std::vector<Vector> corners;
+  for (const double height : {neck.low, neck.high}) {
+    for (int k = 0; k < neck_sides; ++k) {
+      corners.emplace_back(centre + neck_corner(neck, k, height));
+    }
+  }
+  return corners;
 }
 
 bool are_apart(const std::vector<Vector>& points, const std::vector<Vector>& others,

@@ -31,6 +31,9 @@ struct Neck {
 /// centre of a.
 Vector neck_corner(const Neck& neck, int k, double height);
 
+/// All corners of a neck whose grain a lies at `centre`.
+std::vector<Vector> neck_corners(const Neck& neck, const Vector& centre);
+
 /// Whether two convex hulls are further apart than `distance`; near it the answer may be no where
 /// it should be yes.
 bool are_apart(const std::vector<Vector>& points, const std::vector<Vector>& others,

@@ -233,7 +233,6 @@ void turn_clear(const Polyhedra& bed, Neck& neck) {
 
 std::vector<Neck> placed_necks(const ExportedBed& exported, const Polyhedra& bed) {
   const auto& grains = exported.bed.grains;
-  const Box& box = exported.bed.box;
   std::vector<Neck> necks;
   for (const Contact& contact : treated_contacts(exported)) {
     if (contact.is_wall) continue;
@@ -241,8 +240,7 @@ std::vector<Neck> placed_necks(const ExportedBed& exported, const Polyhedra& bed
     Neck neck;
     neck.a = contact.a;
     neck.b = contact.b;
-    neck.between = {nearest_image(b.x - a.x, box.period_x()),
-                    nearest_image(b.y - a.y, box.period_y()), b.z - a.z};
+    neck.between = between_centres(exported.bed, neck.a, neck.b);
     neck.normal = contact.place.normal;
     neck.across = neck.normal.unitOrthogonal();
     neck.asked = exported.settings.treatment.share * std::min(a.radius, b.radius);

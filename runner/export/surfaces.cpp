@@ -236,8 +236,7 @@ std::vector<GrainSurface> grain_surfaces(const ExportedBed& exported) {
   if (treatment.kind == ContactTreatment::Kind::cap) cut_caps(exported, surfaces);
   std::vector<GrainSurface> placed;
   for (std::size_t k = 0; k < surfaces.size(); ++k) {
-    const SettledGrain& at = bed.grains[k];
-    shift(surfaces[k], {at.x, at.y, at.z});
+    shift(surfaces[k], centre_in_box(bed, k));
     if (exported.settings.periodic_images) {
       append_with_images(bed, k, surfaces[k], placed);
     } else {

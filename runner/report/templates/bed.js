@@ -41,6 +41,8 @@
     return bytes.buffer;
   };
 
+  const isMixture = (bed) => Boolean(bed.meshes) && bed.meshes.length > 1;
+
   // The columns stand one behind the other: x, y, z, radius, force, touching,
   // orientation, and of a mixture component.
   const read = (source) => {
@@ -57,7 +59,7 @@
     bed.touching = Float32Array.from(new Uint16Array(buffer, 10 * n, n));
     if (bed.meshes) {
       bed.turn = Float32Array.from(new Int16Array(buffer, 12 * n, 4 * n), (value) => value / 32767);
-      bed.component = bed.meshes.length > 1
+      bed.component = isMixture(bed)
         ? Float32Array.from(new Uint16Array(buffer, 20 * n, n)) : new Float32Array(n);
     }
     const forces = bytesOf(bed.forces);
@@ -310,9 +312,8 @@
     grains = grainsOf(bed);
     network = forceNetwork(bed, colour);
     scene.add(grains, network, frameOf(bed));
-    const isMixture = Boolean(bed.meshes) && bed.meshes.length > 1;
-    const has = { kind: bed.small_limit > 0, component: isMixture, wall: bed.walls.includes(true),
-                  forces: bed.pairs > 0 };
+    const has = { kind: bed.small_limit > 0, component: isMixture(bed),
+                  wall: bed.walls.includes(true), forces: bed.pairs > 0 };
     for (const id of ["bed-colour", "bed-show"]) {
       for (const option of pick(id).options) {
         option.disabled = has[option.value] === false;
@@ -385,8 +386,10 @@
 
   try {
     show(0);
-    if (bed.meshes && bed.meshes.length > 1) pick("bed-colour").value = "component";
-    paint();
+    if (isMixture(bed)) {
+      pick("bed-colour").value = "component";
+      paint();
+    }
   } catch (error) {
     return; // the picture stays
   }
