@@ -334,13 +334,13 @@ double work_so_far(const Settling<Kind, Real>& s) {
 }
 
 /// Beds that have slid on in vain, as narrow towers do, are tried for exact rest after a round, 2,
-/// 4, 8 and so on, for at most half as long as they have been settled.
+/// 4, 8 and so on, for at most as long as they have been settled.
 template <class Kind, class Real>
 bool is_brought_to_rest(Settling<Kind, Real>& s, const KeepGoing& keep_going) {
   if constexpr (std::is_same_v<Kind, Sphere>) {
     return s.rule().end == StageEnd::rest && !s.report.failure.empty() &&
            std::has_single_bit(static_cast<std::uint64_t>(s.rounds)) &&
-           find_exact_rest(s, keep_going, work_so_far(s) / 2.0).empty();
+           find_exact_rest(s, keep_going, work_so_far(s)).empty();
   }
   return false;
 }

@@ -17,12 +17,14 @@ constexpr double most_factorisations = 600.0;
 /// through all links up to seven times.
 constexpr double of_a_grain_and_round = 4000.0;
 
-// Products f s, m g d: slacks of loaded contacts are 1e-4 d at first, at the end far below
-// exact_overlap for all forces that hold a bed.
-constexpr double first_product = 1e-4;
+// Products f s, m g d: slacks of loaded contacts are 1e-5 d at first, 1e-4 d where a bed that
+// slides far is loosened, and at the end far below exact_overlap for all forces that hold a bed.
+constexpr double first_product = 1e-5;
+constexpr double loosest_product = 1e-4;
 constexpr double last_product = 1e-14;
 constexpr double nearly_balanced = 1e-8;  // of the largest force or weight; the rest is linear
 constexpr double least_slack = 1e-9;
+constexpr double stiff = 1e8;  // of contacts whose gaps are closed, m g / d
 
 // Lengths, d. Pairs are listed as far as two grains may come near each other before the next list.
 constexpr double leash = 0.03;
@@ -71,7 +73,7 @@ class InteriorPoint {
     const double of_a_round =
         factors_.operations() + of_a_grain_and_round * static_cast<double>(grains());
     const double most = std::min(most_factorisations, limits.operations / of_a_round);
-    const double usual = std::max(50.0, 2.0 * std::sqrt(static_cast<double>(grains())));  // rounds
+    const double usual = std::max(30.0, std::sqrt(static_cast<double>(grains())));  // rounds
     if (most < usual) return failed("it would take too long", rest);
     while (!is_found()) {
       if (!limits.keep_going()) return failed("cancelled", rest);
@@ -82,7 +84,6 @@ class InteriorPoint {
       ++rest.rounds;
       if (!factor_with_drag()) return failed("the contacts do not hold the bed", rest);
       find_step();
-      if (is_too_long()) continue;
       take_step();
       adapt();
     }
@@ -315,24 +316,9 @@ class InteriorPoint {
     return {slack, force};
   }
 
-  /// Whether a grain wants to go far: it gets more drag, and the round comes again.
-  bool is_too_long() {
-    constexpr int most_holds = 4;
-    if (largest(way_) <= long_way || holds_ == most_holds) {
-      holds_ = 0;
-      return false;
-    }
-    ++holds_;
-    for (std::size_t i = 0; i < grains(); ++i) {
-      const double way = way_[i].norm();
-      if (way > long_way / 2.0) drag_[i] *= std::max(3.0, 3.0 * way / long_way);
-    }
-    return true;
-  }
-
   /// One link must not stop a bed: some are cut short, and what they miss is left to later rounds.
   void take_step() {
-    constexpr double cut_share = 0.02;
+    constexpr double cut_share = 0.05;
     const auto cut_short = static_cast<std::size_t>(cut_share * static_cast<double>(grains()));
     std::vector<double> lengths(links_.size());
     std::transform(links_.begin(), links_.end(), lengths.begin(), [&](const Link& link) {
@@ -370,10 +356,12 @@ class InteriorPoint {
   }
 
   void adapt() {
-    constexpr double centred = 0.85, few_blocked = 0.004;
+    constexpr double centred = 0.85, well_centred = 0.95, few_blocked = 0.004;
     for (std::size_t i = 0; i < grains(); ++i) {
       const double way = way_[i].norm();
-      if (way > long_way / 2.0) drag_[i] = std::min(3.0 * drag_[i], 1e6);
+      if (way > long_way / 2.0) {
+        drag_[i] = std::min(3.0 * std::max(1.0, way / long_way) * drag_[i], 1e6);
+      }
       if (way < short_way) drag_[i] = std::max(drag_[i] / 3.0, 1.0);
     }
     drag_of_all_ *= reached_ > 0.8 ? 0.5 : reached_ < 0.3 ? 1.5 : 1.0;
@@ -381,11 +369,12 @@ class InteriorPoint {
     full_steps_ = reached_ > centred ? full_steps_ + 1 : 0;
     const bool few = static_cast<double>(blocked_) < few_blocked * static_cast<double>(grains());
     if (reached_ > centred || (few && taken_ > 0.5)) {
-      product_ = std::max(last_product, product_ * (full_steps_ >= 2 ? 0.2 : 0.5));
+      const double kept = full_steps_ < 2 ? 0.5 : reached_ > well_centred ? 0.05 : 0.2;
+      product_ = std::max(last_product, kept * product_);
     }
-    constexpr int most_stuck = 12;
+    constexpr int most_stuck = 4;
     stuck_ = reached_ < 0.1 ? stuck_ + 1 : 0;
-    if (stuck_ == most_stuck) product_ = std::min(4.0 * product_, first_product), stuck_ = 0;
+    if (stuck_ == most_stuck) product_ = std::min(4.0 * product_, loosest_product), stuck_ = 0;
     if (must_list_) list_links();
   }
 
@@ -418,26 +407,54 @@ class InteriorPoint {
 
   // ---- the end ----
 
-  /// Only links that push are left: their forces are solved for where the grains are. Where
-  /// curvature holds grains, too, it takes their last ways along.
+  /// Only links that push are left: their gaps are closed, and their forces solved for where the
+  /// grains then are.
   void keep_contacts() {
     constexpr double pushes = 1e4;  // m g / d; gaps and contacts lie 1e8 and more apart
-    constexpr int refinements = 12;
-    constexpr double stiff = 1e8, held = 1e-13, solved = 1e-12;
     std::erase_if(links_, [&](const Link& link) { return link.stiffness() <= pushes * link.mass; });
     lay_out_springs();
+    close_gaps();
+    solve_for_forces();
+  }
+  bool factor_contacts() {
+    constexpr double held = 1e-13;
+    for (std::size_t at = 0; at < links_.size(); ++at) springs_[at].stiffness = stiff;
+    stiffen_across();
+    ground_.assign(grains(), held * stiff);
+    return factors_.factor(springs_, ground_);
+  }
+  void close_gaps() {
+    constexpr int newton_steps = 4;
+    constexpr double closed = 5e-14;
+    for (int k = 0; k < newton_steps; ++k) {
+      measure();
+      if (widest_gap() < closed || !factor_contacts()) return;
+      way_.assign(grains(), Vector::Zero());
+      for (std::size_t at = 0; at < links_.size(); ++at) {
+        add_force(at, -stiff * links_[at].gap, way_);
+      }
+      factors_.solve(way_);
+      move_grains(1.0);
+    }
+  }
+  /// Where curvature holds grains, too, it takes their last ways along.
+  void solve_for_forces() {
+    constexpr int refinements = 12;
+    constexpr double balanced = 1e-12;
     for (int k = 0; k < refinements; ++k) {
       measure();
       way_ = net_forces();
-      if (largest(way_) < solved) return;
-      for (std::size_t at = 0; at < links_.size(); ++at) springs_[at].stiffness = stiff;
-      stiffen_across();
-      ground_.assign(grains(), held * stiff);
-      if (!factors_.factor(springs_, ground_)) return;
+      if (largest(way_) < balanced || !factor_contacts()) return;
       factors_.solve(way_);
       for (std::size_t at = 0; at < links_.size(); ++at) links_[at].force -= stiff * opening(at);
       if (springs_.size() > links_.size()) move_grains(1.0);
     }
+  }
+  /// Or the deepest overlap, d.
+  double widest_gap() const {
+    double widest = 0.0;
+    for (const Link& link : links_) widest = std::max(widest, std::abs(link.gap));
+    return widest;
   }
 
   ExactRest certified(ExactRest rest) {
@@ -485,7 +502,7 @@ class InteriorPoint {
   double reached_ = 0.0;     ///< share of a round's step that no link is in the way of
   double taken_ = 0.0;       ///< share that was taken
   std::size_t blocked_ = 0;  ///< links that can go less than most of the step
-  int full_steps_ = 0, stuck_ = 0, holds_ = 0;
+  int full_steps_ = 0, stuck_ = 0;
   bool must_list_ = false;
 };
 
