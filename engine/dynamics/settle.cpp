@@ -328,19 +328,19 @@ std::string find_exact_rest(Settling<Sphere, Real>& s, const KeepGoing& keep_goi
 /// Multiplications of a factorisation that take as long as the sweeps so far.
 template <class Kind, class Real>
 double work_so_far(const Settling<Kind, Real>& s) {
-  constexpr double of_a_grain_and_sweep = 40.0;
+  constexpr double of_a_grain_and_sweep = 120.0;
   return of_a_grain_and_sweep * static_cast<double>(s.report.iterations) *
          static_cast<double>(s.bed.grains());
 }
 
 /// Beds that have slid on in vain, as narrow towers do, are tried for exact rest after a round, 2,
-/// 4, 8 and so on, for at most as long as they have been settled.
+/// 4, 8 and so on, for at most half as long as they have been settled.
 template <class Kind, class Real>
 bool is_brought_to_rest(Settling<Kind, Real>& s, const KeepGoing& keep_going) {
   if constexpr (std::is_same_v<Kind, Sphere>) {
     return s.rule().end == StageEnd::rest && !s.report.failure.empty() &&
            std::has_single_bit(static_cast<std::uint64_t>(s.rounds)) &&
-           find_exact_rest(s, keep_going, work_so_far(s)).empty();
+           find_exact_rest(s, keep_going, work_so_far(s) / 2.0).empty();
   }
   return false;
 }
