@@ -368,12 +368,13 @@ class InteriorPoint {
     drag_of_all_ = std::clamp(drag_of_all_, 1e-6, 0.1);
     full_steps_ = reached_ > centred ? full_steps_ + 1 : 0;
     const bool few = static_cast<double>(blocked_) < few_blocked * static_cast<double>(grains());
-    if (reached_ > centred || (few && taken_ > 0.5)) {
+    const bool gets_on = few && taken_ > 0.5;
+    if (reached_ > centred || gets_on) {
       const double kept = full_steps_ < 2 ? 0.5 : reached_ > well_centred ? 0.05 : 0.2;
       product_ = std::max(last_product, kept * product_);
     }
     constexpr int most_stuck = 4;
-    stuck_ = reached_ < 0.1 ? stuck_ + 1 : 0;
+    stuck_ = reached_ < 0.1 && !gets_on ? stuck_ + 1 : 0;
     if (stuck_ == most_stuck) product_ = std::min(4.0 * product_, loosest_product), stuck_ = 0;
     if (must_list_) list_links();
   }
