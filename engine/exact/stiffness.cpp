@@ -106,7 +106,10 @@ bool StiffnessFactors::factor(const std::vector<Spring>& springs,
 void StiffnessFactors::gather(std::size_t node, const std::vector<Spring>& springs,
                               const std::vector<double>& ground) {
   const Front& front = fronts_[node];
-  std::fill_n(front_.begin(), front.rows * front.stride, 0.0);
+  for (std::size_t j = 0; j < front.rows; ++j) {
+    const std::size_t first = j / block_width * block_width;  // no kernel reads above this block
+    std::fill_n(front_.data() + j * front.stride + first, front.stride - first, 0.0);
+  }
   std::size_t diagonal = 0;
   for (const std::int32_t grain : tree_.nodes[node].grains) {
     for (int q = 0; q < 3; ++q, diagonal += front.stride + 1) {
