@@ -21,11 +21,12 @@ for scene in "$@"; do
     --threads 1 --no-grains --no-report --quiet --tolerate-unsettled
 done
 
-begun=()
+begun=() missing=()
 for scene in "${all[@]}"; do
-  [ ! -e "$folder/$scene/provenance.json" ] || begun+=("$folder/$scene")
+  if [ -e "$folder/$scene/provenance.json" ]; then begun+=("$folder/$scene"); else missing+=("$scene"); fi
 done
 "$root/build/release/bench/trade/bench_trade" "$folder/trade.md" "$folder/trade.csv" "${begun[@]}"
+((!${#missing[@]})) || printf '\nNot settled yet: %s.\n' "${missing[*]}" >>"$folder/trade.md"
 printf '%s\n' "$folder/trade.md" "$folder/trade.csv"
 if command -v gnuplot >/dev/null; then
   gnuplot -c "$root/bench/trade.gnuplot" "$folder/trade.csv" "$folder/trade.svg"
