@@ -2,8 +2,9 @@
 # Measures the trade of speed for accuracy: settles the sweeps of bench/trade, 64 starts with each of
 # about 30 accuracies, and compares every accuracy with exact rest, start by start. Writes trade.md,
 # trade.csv and, with gnuplot, trade.svg of all scenes that FOLDER holds; --readme puts them into
-# bench/README.md. Scenes take half an hour to four hours of one core; stopped, it goes on where it was.
-# usage: bench/trade.sh [--readme] [FOLDER [SCENE...]]       scenes: walls tube two-sizes ...
+# bench/README.md. Scenes take a third of an hour to three hours of one core; stopped, it goes on where it was.
+# usage: bench/trade.sh [--readme] [FOLDER [SCENE...]]
+# Scenes are walls, tube, two-sizes, tall, no-walls and pinacoids; none writes tables and picture alone.
 set -euo pipefail
 root=$(dirname "$(dirname "$(readlink -f "$0")")")
 readme=
@@ -12,6 +13,7 @@ readonly root readme folder=${1:-out/trade}
 shift || true
 readonly all=(walls tube two-sizes tall no-walls pinacoids)
 (($#)) || set -- "${all[@]}"
+[ "$*" != none ] || set --
 
 cmake -S "$root" --preset release >/dev/null
 cmake --build "$root/build/release" --target grainsweep bench_trade >/dev/null
