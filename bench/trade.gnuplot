@@ -20,11 +20,11 @@ set xrange [0.15:*]
 set xzeroaxis lt 1 lc rgb "#999999"
 set xlabel "CPU time of a packing over that of balanced"
 set offsets graph 0, graph 0.05, graph 0.1, graph 0.05
-set key bottom right
 do for [scene = 1:scenes] {
   do for [quantity = 0:1] {
     at = 10 + 2 * quantity
     set title title_of(scene)
+    if (quantity == 0) { unset key } else { set key bottom right }
     set ylabel quantity == 0 ? "φ less that of exact rest" : "Z less that of exact rest"
     pick(line) = ($1 == scene && kind(0) == line) ? column(at) : NaN
     plot ARG1 every ::1 using 9:(pick(1)):(column(at + 1)) with yerrorbars ls 1 title "a cheaper one is nearer", \
