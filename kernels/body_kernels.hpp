@@ -55,12 +55,19 @@ struct BodyRows {
   const BodyPoints<Real>* points;
 };
 
+/// A sweep solves the points of a contact one after the other, those of a block with more of them
+/// forth and back. A face on a face has at most three forces that are independent, whatever the
+/// number of its corners: the more there are, the less one order of them is like the other, and
+/// momentum makes sweeps in one order diverge. There and back is a symmetric matrix, as that of a
+/// gradient step is. Two faces of four corners have no more points than eight.
+inline constexpr std::size_t most_points_swept_once = 8;
+
 /// Solver sweeps for one number type. `u` and `accumulated` hold two records per grain. The impulse
 /// of lane k of points[i] is p[i * block_width + k].
 template <class Real>
 struct BodyKernels {
-  /// As RowKernels::gauss_seidel_sweep, with A_kk for 1/m_a + 1/m_b; the points of a contact one
-  /// after the other.
+  /// As RowKernels::gauss_seidel_sweep, with A_kk for 1/m_a + 1/m_b. Of points swept forth and back
+  /// the residuals are those on the way forth; the restart test adds up both ways.
   SweepSums<Real> (*gauss_seidel_sweep)(BodyRows<Real> rows, std::size_t blocks, Record<Real>* u,
                                         Real* p, Real* y, SweepRule<Real> rule);
   /// Adds H p to the accumulated impulses.

@@ -150,29 +150,60 @@ inline void push_side(const Batch<Real>& p, const Vec<Real>& normal, const Vec<R
   side.second.z += side.second.w * (p * lever.z);
 }
 
+/// What the row of a point misses before it is solved, in impulses, and its impulse after.
+template <class Real>
+struct Solved {
+  Batch<Real> missed, impulse;
+};
+
+/// Solves the row of a point that has the impulse `before`: moves both of its grains by the change.
+template <class Real>
+inline Solved<Real> solve_point(const BodyPoints<Real>& points, std::size_t lane,
+                                const Vec<Real>& normal, const Batch<Real>& before,
+                                const Batch<Real>& relaxation, Side<Real>& a, Side<Real>& b) {
+  const Batch<Real> zero(Real(0));
+  const Points<Real> r = load_points(points, lane);
+  const Batch<Real> w = gap_after(r, motion_of(normal, a, b)) * load(points.reduced_mass + lane);
+  const Batch<Real> after = xsimd::max(zero, before - w * relaxation), given = after - before;
+  push_side(zero - given, normal, r.lever_a, a);
+  push_side(given, normal, r.lever_b, b);
+  return {w, after};
+}
+
 template <class Real>
 SweepSums<Real> gauss_seidel_sweep(BodyRows<Real> rows, std::size_t blocks, Record<Real>* u,
                                    Real* p, Real* y, SweepRule<Real> rule) {
   LaneMissed<Real> missed;
   LaneSums<Real> restart_test(Real(0));
-  const Batch<Real> zero(Real(0)), relaxation(rule.relaxation), carry(rule.momentum);
+  const Batch<Real> relaxation(rule.relaxation), carry(rule.momentum);
   visit_contacts(rows, blocks, [&](const auto& c, const auto& block, auto lane, auto k) {
     Side<Real> a = load_both(u, c.a), b = load_both(u, c.b);
-    for (std::size_t i = block.first; i < block.first + block.points; ++i) {
-      const BodyPoints<Real>& points = rows.points[i];
-      const Points<Real> r = load_points(points, lane);
-      const std::size_t at = i * block_width + lane;
-      const Batch<Real> w =
-          gap_after(r, motion_of(c.normal, a, b)) * load(points.reduced_mass + lane);
-      const Batch<Real> y_old = load(y + at), p_old = load(p + at);
-      const Batch<Real> p_new = xsimd::max(zero, y_old - w * relaxation);
-      const Batch<Real> change = p_new - p_old, given = p_new - y_old;
-      missed.add(k, natural_residual(y_old, w), p_new, a.first.w, b.first.w);
-      restart_test.part[k] += (y_old - p_new) * change;
+    const bool goes_back = block.points > grainsweep::most_points_swept_once;
+    const std::size_t end = block.first + block.points;
+    const auto leave = [&](const Batch<Real>& before, const Batch<Real>& p_new, std::size_t at) {
+      const Batch<Real> change = p_new - load(p + at);
+      restart_test.part[k] += (before - p_new) * change;
       p_new.store_unaligned(p + at);
       (p_new + carry * change).store_unaligned(y + at);
-      push_side(zero - given, c.normal, r.lever_a, a);
-      push_side(given, c.normal, r.lever_b, b);
+    };
+    for (std::size_t i = block.first; i < end; ++i) {
+      const std::size_t at = i * block_width + lane;
+      const Batch<Real> before = load(y + at);
+      const Solved<Real> now =
+          solve_point(rows.points[i], lane, c.normal, before, relaxation, a, b);
+      missed.add(k, natural_residual(before, now.missed), now.impulse, a.first.w, b.first.w);
+      if (goes_back) {
+        restart_test.part[k] += (before - now.impulse) * (now.impulse - load(p + at));
+        now.impulse.store_unaligned(y + at);
+      } else {
+        leave(before, now.impulse, at);
+      }
+    }
+    for (std::size_t i = end; goes_back && i-- > block.first;) {
+      const std::size_t at = i * block_width + lane;
+      const Batch<Real> before = load(y + at);
+      leave(before, solve_point(rows.points[i], lane, c.normal, before, relaxation, a, b).impulse,
+            at);
     }
     store_side(u, c.a, a);
     store_side(u, c.b, b);

@@ -84,18 +84,24 @@ SweepSums<Real> body_gauss_seidel_twin(BodyRows<Real> rows, std::size_t blocks, 
   MissedTwin<Real> missed;
   Real restart_test[block_width] = {};
   visit_lanes(rows, blocks, [&](const auto& c, std::size_t block, std::size_t lane) {
-    for (std::size_t i = 0; i < c.points; ++i) {
+    const auto solve = [&](std::size_t i, bool is_first, bool is_last) {
       const PointTwin<Real> t = point_twin(rows, block, lane, i);
       const std::size_t at = (c.first + i) * block_width + lane;
       const Real w = t.gap_after(u) * t.r.reduced_mass[lane], y_old = y[at], p_old = p[at];
       const Real p_new = larger(Real(0), y_old - w * rule.relaxation), change = p_new - p_old;
-      p[at] = p_new;
-      y[at] = p_new + rule.momentum * change;
-      missed.add(lane, std::abs(smaller(y_old, w)), p_new, u[2 * c.a(lane)].w, u[2 * c.b(lane)].w);
+      if (is_last) p[at] = p_new;
+      y[at] = is_last ? p_new + rule.momentum * change : p_new;
+      if (is_first) {
+        missed.add(lane, std::abs(smaller(y_old, w)), p_new, u[2 * c.a(lane)].w,
+                   u[2 * c.b(lane)].w);
+      }
       restart_test[lane] += (y_old - p_new) * change;
       push_side_twin(c, t.r.lever_a, lane, Real(0) - (p_new - y_old), u + 2 * c.a(lane));
       push_side_twin(c, t.r.lever_b, lane, p_new - y_old, u + 2 * c.b(lane));
-    }
+    };
+    const bool goes_back = c.points > most_points_swept_once;
+    for (std::size_t i = 0; i < c.points; ++i) solve(i, true, !goes_back);
+    for (std::size_t i = c.points; goes_back && i-- > 0;) solve(i, false, true);
   });
   return {missed.sums(), tree_sum(restart_test)};
 }
