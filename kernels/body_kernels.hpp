@@ -56,11 +56,11 @@ struct BodyRows {
 };
 
 /// A sweep solves the points of a contact one after the other, those of a block with more of them
-/// forth and back. A face on a face has at most three forces that are independent, whatever the
+/// than this forth and back. Of the forces of a face on a face three are independent, whatever the
 /// number of its corners: the more there are, the less one order of them is like the other, and
 /// momentum makes sweeps in one order diverge. There and back is a symmetric matrix, as that of a
-/// gradient step is. Two faces of four corners have no more points than eight.
-inline constexpr std::size_t most_points_swept_once = 8;
+/// gradient step is.
+inline constexpr std::size_t most_points_swept_once = 3;
 
 /// Solver sweeps for one number type. `u` and `accumulated` hold two records per grain. The impulse
 /// of lane k of points[i] is p[i * block_width + k].

@@ -67,7 +67,7 @@ void add_block(BodyProblem<Real>& problem, bool of_wall, Draw& draw) {
   problem.blocks.emplace_back();
   BodyBlock<Real>& block = problem.blocks.back();
   block.first = static_cast<std::uint32_t>(problem.points.size());
-  block.points = static_cast<std::uint32_t>(1 + draw.below(2 * most_points_swept_once));
+  block.points = static_cast<std::uint32_t>(1 + draw.below(12));
   problem.points.resize(block.first + block.points);
   problem.p.resize(problem.points.size() * block_width);
   problem.y.resize(problem.p.size());
