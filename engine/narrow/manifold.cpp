@@ -83,6 +83,15 @@ PairContact touch_along(const ShapePair& pair, const ContactAxis& axis, double m
   return contact;
 }
 
+/// Whether what touches lies above the face: if edges part the pair better than any face, one point
+/// at least must be no further from the face than the edges are from each other, but for `beyond`.
+bool is_above_face(const ContactAxes& axes, const PairContact& contact,
+                   const std::vector<ContactPoint>& points, double beyond) {
+  if (!edges_part_better(axes, 0.0)) return true;
+  const double nearest = min_gap(points.data() + contact.first, contact.count);
+  return !contact.is_beside && nearest <= axes.edges.separation + beyond;
+}
+
 /// Of a pair with a sphere.
 PairContact touch_ball(const ShapePair& pair, double margin, PairMemory& memory,
                        std::vector<ContactPoint>& points) {
@@ -106,13 +115,13 @@ PairContact touch(const ShapePair& pair, const TouchSettings& settings, const Co
   if (!(axes.separation() <= settings.margin)) return {};
   const bool edges = edges_part_better(axes, settings.preference);
   const double overlap = edges ? std::max(0.0, -axes.edges.separation) : 0.0;
-  if (edges && !edges_part_better(axes, settings.preference + settings.of_depth * overlap)) {
+  if (!edges_part_better(axes, settings.preference + settings.of_depth * overlap)) {
     PairContact contact = touch_along(pair, axes.face, settings.margin, columns, points);
-    const double deepest = min_gap(points.data() + contact.first, contact.count);
-    if (deepest <= axes.edges.separation) return contact;
-    points.resize(contact.first);  // the overlap is not above the face
+    const double beyond = edges ? 0.0 : settings.preference;
+    if (is_above_face(axes, contact, points, beyond)) return contact;
+    points.resize(contact.first);
   }
-  return touch_along(pair, edges ? axes.edges : axes.face, settings.margin, columns, points);
+  return touch_along(pair, axes.edges, settings.margin, columns, points);
 }
 
 PairContact touch(const ShapePair& pair, const TouchSettings& settings, PairMemory& memory,

@@ -4,7 +4,9 @@
 // grain has no balance of torques and cannot rest without friction. A face is preferred to a pair
 // of edges unless the edges' separation is larger by the `preference`: an edge axis that wins by
 // rounding would replace a polygon by a single point. In a moving bed the preference is of the
-// order of g dt^2.
+// order of g dt^2. What touches must lie above that face, though: beside the narrow faces of a
+// prism with many sides it often does not, and grains held by such a face would sink into each
+// other.
 #pragma once
 
 #include <vector>

@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include "engine/narrow/constraints.hpp"
+#include "engine/shape/named_shapes.hpp"
 #include "tests/support/shape_pairs.hpp"
 
 namespace grainsweep {
@@ -287,6 +288,32 @@ TEST_CASE(
   }
   CHECK(faces > 1000);
   CHECK(edges > 10);
+}
+
+// The sides of such a prism are narrow: what touches often lies beside the one that parts a pair
+// best, and not above it.
+TEST_CASE("a face is touched on only where what touches lies above it") {
+  const ConvexShape prism = testing::hull_of(corners_of(PrismSize{32}));
+  Draw draw(29);
+  constexpr double preference = 1.25e-3;  // of a quarter of a step
+  int touched = 0, on_faces = 0;
+  for (int k = 0; k < 2000; ++k) {
+    const Draw::Direction n = draw.direction();
+    const Vector centre = draw.uniform(0.9, 1.2) * Vector(n.x, n.y, n.z);
+    const Matrix rotation = testing::random_rotation(draw).toRotationMatrix();
+    const ShapePair pair{prism, prism, at(centre, rotation)};
+    const double separation = separating_axes(pair).separation();
+    for (const double margin : {0.015, 1e-4}) {  // of steps, and of measuring them
+      const Found found = contact_of(pair, margin, preference);
+      if (found.points.empty()) continue;
+      ++touched;
+      on_faces += found.contact.kind == AxisKind::edges ? 0 : 1;
+      INFO(k << ", separation " << separation);
+      REQUIRE(found.deepest() <= separation + preference + 1e-12);
+    }
+  }
+  CHECK(touched > 500);
+  CHECK(on_faces > touched / 4);
 }
 
 TEST_CASE("edges that are apart give the normal whatever is preferred by their depth") {
