@@ -50,6 +50,8 @@ struct RestReport {
   /// are too many to be counted (engine/dynamics/settle.cpp).
   double independent_contacts = 0.0;
   std::int64_t isostatic_contacts = 0;  ///< 3 a sphere, 6 a polyhedron, less zero modes
+  /// Whether a bed may rest on fewer: polyhedra may, as the faces that hold them turn.
+  bool may_rest_on_fewer = false;
   /// Static, on all contacts closed to Accuracy::imbalance_gap; see engine/dynamics/balance.hpp.
   Imbalance imbalance;
 };

@@ -269,6 +269,30 @@ TEST_CASE("a bed out of balance is told what would call it balanced") {
         "largest static imbalance 7.5 own weights exceeds 1.88" + remedy);
 }
 
+TEST_CASE("polyhedra may rest on fewer contacts if they are balanced twice as well") {
+  const Accuracy accuracy;
+  RestReport rest = perfect_rest();
+  rest.contacts = 950;
+  CHECK_FALSE(rest_failure(rest, accuracy).empty());  // spheres may not
+  rest.may_rest_on_fewer = true;
+  const double half = accuracy.imbalance_tolerance / 2.0;
+  rest.imbalance = {half, largest_imbalance * half};
+  CHECK(rest_failure(rest, accuracy).empty());
+  rest.imbalance.mean = 0.015;
+  CHECK(
+      rest_failure(rest, accuracy) ==
+      "mean static imbalance 0.015 own weights exceeds 0.01, half of the tolerance since contacts "
+      "/ isostatic count is 0.95: make accuracy.imbalance_tolerance or accuracy.imbalance_gap "
+      "larger");
+  rest.imbalance = {half, 1.01 * largest_imbalance * half};
+  CHECK_FALSE(rest_failure(rest, accuracy).empty());
+  rest.contacts = 1000;
+  CHECK(rest_failure(rest, accuracy).empty());
+  rest.imbalance = {};
+  rest.contacts = 0;  // in the air
+  CHECK_FALSE(rest_failure(rest, accuracy).empty());
+}
+
 TEST_CASE("more contacts than are needed are no fault, none at all is one") {
   RestReport rest = perfect_rest();
   rest.contacts = 2000;
