@@ -39,7 +39,7 @@ inline Outcome sample_outcome(const std::string& job, double solid_fraction, dou
   PackingResult& result = outcome.result;
   result.status = PackingStatus::settled;
   result.grains = 2000;
-  result.rest = {5e-4, 1e-9, 2e-5, 8e-5, 3e-4, 5990, 0, 5990, 5991, {0.02, 0.25}};
+  result.rest = {5e-4, 1e-9, 2e-5, 8e-5, 3e-4, 5990, 0, 5990, 5991, false, {0.02, 0.25}};
   result.surface_height = 15.5;
   result.slab_bottom = 3.0;
   result.slab_top = 12.5;
