@@ -110,11 +110,17 @@ class Expansion {
     overlay({&definition_.base}, before);
     overlay({&block.set}, before);
     const std::uint64_t points = point_count(block);
+    make_room(points * static_cast<std::uint64_t>(block.replicates));
     for (std::uint64_t point = 0; point < points; ++point) {
       InEffect in_effect = before;
       overlay(entries_of(axes, point), in_effect);
       make_jobs(index, in_effect);
     }
+  }
+
+  /// For one large block at once; many small ones let the list grow by itself.
+  void make_room(std::uint64_t jobs) {
+    if (jobs > jobs_.size()) jobs_.reserve(jobs_.size() + static_cast<std::size_t>(jobs));
   }
 
   void make_jobs(std::size_t index, const InEffect& in_effect) {
