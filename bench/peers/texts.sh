@@ -3,14 +3,8 @@
 # hand. usage: texts.sh SOURCES PROGRAMS   (bench/peers in the sources and in the build)
 set -euo pipefail
 sources=$(realpath "$1") programs=$(realpath "$2")
-here=$(mktemp -d)
-trap 'rm -rf "$here"' EXIT
-cd "$here"
+source "$sources/../text_test.sh"
 
-fail() {
-  echo "FAILED: $*" >&2
-  exit 1
-}
 expect() { # expect WHAT WANTED FOUND
   [ "$2" = "$3" ] || fail "$1 is \"$3\" instead of \"$2\""
 }

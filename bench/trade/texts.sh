@@ -3,14 +3,7 @@
 # usage: texts.sh GRAINSWEEP BENCH_TRADE SOURCES        (bench/trade in the sources)
 set -euo pipefail
 grainsweep=$(realpath "$1") trade=$(realpath "$2") sources=$(realpath "$3")
-here=$(mktemp -d)
-trap 'rm -rf "$here"' EXIT
-cd "$here"
-
-fail() {
-  echo "FAILED: $*" >&2
-  exit 1
-}
+source "$sources/../text_test.sh"
 
 cat >small.json <<'JSON'
 { "name": "small", "replicates": 2,
