@@ -1,32 +1,17 @@
 #include "bench/trade/paired.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <numeric>
+#include <iterator>
 
 #include "runner/tables/csv.hpp"
+#include "runner/tables/groups.hpp"
 
 namespace grainsweep::bench {
-namespace {
-
-double mean_of(const std::vector<double>& values) {
-  return values.empty() ? no_number
-                        : std::accumulate(values.begin(), values.end(), 0.0) /
-                              static_cast<double>(values.size());
-}
-
-double squares_about(double centre, const std::vector<double>& values) {
-  return std::accumulate(values.begin(), values.end(), 0.0, [&](double sum, double value) {
-    return sum + (value - centre) * (value - centre);
-  });
-}
-
-}  // namespace
 
 double mean(const ByStart& values) {
-  double sum = 0.0;
-  for (const auto& [start, value] : values) sum += value;
-  return sum / static_cast<double>(values.size());
+  std::vector<double> all;
+  for (const auto& [start, value] : values) all.push_back(value);
+  return spread_of(all).mean;
 }
 
 MeanError paired_difference(const ByStart& changed, const ByStart& reference) {
@@ -35,10 +20,8 @@ MeanError paired_difference(const ByStart& changed, const ByStart& reference) {
     const auto other = reference.find(start);
     if (other != reference.end()) differences.push_back(value - other->second);
   }
-  const double centre = mean_of(differences), n = static_cast<double>(differences.size());
-  const double error =
-      n < 2.0 ? no_number : std::sqrt(squares_about(centre, differences) / (n - 1.0) / n);
-  return {centre, error, static_cast<int>(differences.size())};
+  const Spread spread = spread_of(differences);
+  return {spread.mean, spread.error, spread.n};
 }
 
 double median(std::vector<double> values) {
@@ -57,10 +40,9 @@ MeanError jackknife(const std::vector<int>& starts, int groups,
                  [&](int start) { return start % groups != group; });
     if (kept.size() < starts.size()) without.push_back(estimate(kept));
   }
-  const double g = static_cast<double>(without.size());
-  const double error =
-      g < 2.0 ? no_number : std::sqrt((g - 1.0) / g * squares_about(mean_of(without), without));
-  return {estimate(starts), error, static_cast<int>(starts.size())};
+  const Spread spread = spread_of(without);
+  const double times_standard_error = spread.n - 1.0;
+  return {estimate(starts), times_standard_error * spread.error, static_cast<int>(starts.size())};
 }
 
 }  // namespace grainsweep::bench

@@ -23,13 +23,9 @@ std::string table_head(const std::vector<std::string>& cells) {
   return line + "\n";
 }
 
-/// "1.2": three significant digits of what is below 100.
+/// "1.20", "12.0", "120".
 std::string short_number(double value) {
-  return std::isnan(value) ? "-"
-                           : fixed(value, value < 1.0     ? 2
-                                          : value < 10.0  ? 2
-                                          : value < 100.0 ? 1
-                                                          : 0);
+  return std::isnan(value) ? "-" : fixed(value, value < 10.0 ? 2 : value < 100.0 ? 1 : 0);
 }
 
 std::string settled_text(const Setting& setting) {
