@@ -438,17 +438,20 @@ class InteriorPoint {
       move_grains(1.0);
     }
   }
-  /// Where curvature holds grains, too, it takes their last ways along.
+  /// Where curvature holds grains, too, it takes their last ways along; else they stay, and so do
+  /// the factors.
   void solve_for_forces() {
     constexpr int refinements = 12;
     constexpr double balanced = 1e-12;
+    const bool grains_move = springs_.size() > links_.size();
     for (int k = 0; k < refinements; ++k) {
       measure();
       way_ = net_forces();
-      if (largest(way_) < balanced || !factor_contacts()) return;
+      if (largest(way_) < balanced) return;
+      if ((k == 0 || grains_move) && !factor_contacts()) return;
       factors_.solve(way_);
       for (std::size_t at = 0; at < links_.size(); ++at) links_[at].force -= stiff * opening(at);
-      if (springs_.size() > links_.size()) move_grains(1.0);
+      if (grains_move) move_grains(1.0);
     }
   }
   /// Or the deepest overlap, d.
