@@ -12,6 +12,7 @@
 
 #include "kernels/body_kernels.hpp"
 #include "kernels/front_kernels.hpp"
+#include "kernels/hull_kernels.hpp"
 #include "kernels/isa.hpp"
 #include "kernels/row_kernels.hpp"
 
@@ -89,6 +90,7 @@ struct Kernels {
   const BodyKernels<float>& body_f32;
   const BodyKernels<double>& body_f64;
   const FrontKernels& front;
+  const HullKernels& hull;
   /// All pairs of the grid with gap below `reach`, each once, in the order of the grid. Writes at
   /// most `capacity` of them and returns how many there are.
   std::size_t (*sphere_pairs)(const SphereGrid& grid, GrainPair* pairs, std::size_t capacity);

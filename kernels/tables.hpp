@@ -11,6 +11,7 @@ extern const RowKernels<double> row_kernels_f64;
 extern const BodyKernels<float> body_kernels_f32;
 extern const BodyKernels<double> body_kernels_f64;
 extern const FrontKernels front_kernels;
+extern const HullKernels hull_kernels;
 
 // As the members of Kernels.
 std::size_t sphere_pairs(const SphereGrid& grid, GrainPair* pairs, std::size_t capacity);

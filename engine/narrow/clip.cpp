@@ -88,11 +88,14 @@ void cut_by_sides(const Reference& reference, ClipColumns& columns) {
   }
 }
 
-/// Among the faces at the lowest vertex of `other`, the one that faces `normal` most.
-const Face& touching_face(const Incident& other, const Vector& normal) {
+/// Among the faces at the lowest vertex of `other`, the one that faces `normal` most. Finds out how
+/// far all vertices reach.
+const Face& touching_face(const Incident& other, const Vector& normal, ClipColumns& columns) {
   const ConvexShape& shape = other.shape;
   const Vector down = -(other.turn.transpose() * normal);
-  const auto lowest = static_cast<std::size_t>(farthest_vertex(shape, down));
+  columns.reach.resize(shape.corner_columns.padded());
+  const std::size_t lowest =
+      columns.kernels->farthest(shape.corner_columns.columns(), down.data(), columns.reach.data());
   const auto first = shape.vertex_faces.begin() + shape.vertex_faces_begin[lowest];
   const auto last = shape.vertex_faces.begin() + shape.vertex_faces_begin[lowest + 1];
   const std::int32_t best = *std::max_element(first, last, [&](std::int32_t f, std::int32_t g) {
@@ -117,12 +120,12 @@ void add_point(const Reference& reference, const Vector& x, double margin, std::
 /// Vertices within the margin that are no corners of the touching face: where an edge lies on the
 /// reference, a face at one of its ends may be the touching one, and would leave out the other end.
 void add_other_vertices(const Reference& reference, const Incident& other, const Face& touching,
-                        double margin, std::size_t first, std::vector<ContactPoint>& points) {
-  const Vector up = other.turn.transpose() * reference.face.normal;
-  const double least = margin - reference.gap(other.centre);
+                        const std::vector<double>& reach, double margin, std::size_t first,
+                        std::vector<ContactPoint>& points) {
+  const double least = reference.gap(other.centre) - margin;
   const std::span<const std::int32_t> corners = corners_of(other.shape, touching);
   for (std::size_t v = 0; v < other.shape.vertices.size(); ++v) {
-    if (up.dot(other.shape.vertices[v]) > least) continue;
+    if (reach[v] < least) continue;
     if (std::find(corners.begin(), corners.end(), static_cast<std::int32_t>(v)) != corners.end()) {
       continue;
     }
@@ -135,13 +138,13 @@ void add_other_vertices(const Reference& reference, const Incident& other, const
 void clip(const Reference& reference, const Incident& other, double margin, ClipColumns& columns,
           std::vector<ContactPoint>& points) {
   const std::size_t first = points.size();
-  const Face& touching = touching_face(other, reference.face.normal);
+  const Face& touching = touching_face(other, reference.face.normal, columns);
   place_face(other, touching, columns.polygon);
   cut_by_sides(reference, columns);
   for (const Vector& x : columns.polygon) {
     add_point(reference, x, margin, first, points);
   }
-  add_other_vertices(reference, other, touching, margin, first, points);
+  add_other_vertices(reference, other, touching, columns.reach, margin, first, points);
 }
 
 }  // namespace

@@ -53,11 +53,15 @@ struct PairContact {
 struct ClipColumns {
   std::vector<Vector> polygon, clipped;
   std::vector<double> beyond;  ///< how far beyond a side each corner of the polygon lies, d
+  std::vector<double> reach;   ///< of the vertices of a shape along a normal, d
+  const HullKernels* kernels = &kernels_for(best_isa()).hull;
 };
 
 struct TouchColumns {
   AxisColumns axes;
   ClipColumns clip;
+
+  void use(const Kernels& kernels) { axes.kernels = clip.kernels = &kernels.hull; }
 };
 
 /// The contact of a pair; its points are appended to `points`. No contact (count 0) if the shapes

@@ -32,9 +32,10 @@ void append(GrainPair pair, const PairPose& pose, const PairContact& contact, Co
 }
 
 /// Any convex shape: pair by pair.
-double touch_each(const TouchSettings& settings, const PolyhedronBed& bed,
+double touch_each(const TouchSettings& settings, const Kernels& kernels, const PolyhedronBed& bed,
                   std::span<const GrainPair> pairs, std::span<PairMemory> memory,
                   TouchColumns& columns, ContactList& found) {
+  columns.use(kernels);
   double sunk = 0.0;
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     const Ends at = ends_of(pairs[k]);
@@ -143,6 +144,7 @@ double touch_pinacoids(const TouchSettings& settings, const Kernels& kernels,
                        NarrowColumns& columns, ContactList& found) {
   const double sunk = list_close(settings.margin, bed, pairs, columns.close);
   batch_axes(kernels, bed, all, pairs, columns);
+  columns.touch.use(kernels);
   for (const ClosePair& close : columns.close) {
     const GrainPair pair = pairs[close.number];
     const Ends at = ends_of(pair);
@@ -197,7 +199,7 @@ double touch_pairs(const TouchSettings& settings, const Kernels& kernels, const 
                    NarrowColumns& columns, ContactList& found) {
   const PinacoidKinds kinds = pinacoid_kinds(bed.shapes);
   return kinds.kinds.empty()
-             ? touch_each(settings, bed, pairs, memory, columns.touch, found)
+             ? touch_each(settings, kernels, bed, pairs, memory, columns.touch, found)
              : touch_pinacoids(settings, kernels, bed, kinds, pairs, memory, columns, found);
 }
 

@@ -129,6 +129,7 @@ constexpr double no_sign = 1e-12;
 /// A pair as one of its shapes sees it, in its own frame. Corners of the other shape, learnt one by
 /// one, bound how far faces and edges can part the two.
 struct View {
+  const HullKernels& kernels;
   const ConvexShape& shape;
   double scale;
   const ConvexShape& other;  ///< its point x lies at centre + turn x
@@ -136,17 +137,20 @@ struct View {
   Matrix turn;  ///< and scale
   CornerHeights& known;
 
-  std::size_t faces() const { return shape.faces.size(); }
+  std::size_t stride() const { return shape.normal_columns.padded(); }
   void forget() {
     known.corners.clear();
     known.heights.clear();
-    known.least.assign(faces(), std::numeric_limits<double>::infinity());
+    known.least.assign(stride(), std::numeric_limits<double>::infinity());
+    known.reach.resize(other.corner_columns.padded());
   }
   /// Learns the corner that is lowest along n, and returns its heights over the faces.
   const double* add_lowest(const Vector& n) {
-    const std::int32_t corner = farthest_vertex(other, -(turn.transpose() * n));
+    const Vector down = -(turn.transpose() * n);
+    const auto corner = static_cast<std::int32_t>(
+        kernels.farthest(other.corner_columns.columns(), down.data(), known.reach.data()));
     const auto at = std::find(known.corners.begin(), known.corners.end(), corner);
-    const auto first = static_cast<std::size_t>(at - known.corners.begin()) * faces();
+    const auto first = static_cast<std::size_t>(at - known.corners.begin()) * stride();
     if (at == known.corners.end()) add(corner);
     return known.heights.data() + first;
   }
@@ -154,23 +158,21 @@ struct View {
     const Vector x = centre + turn * other.vertices[static_cast<std::size_t>(corner)];
     const std::size_t first = known.heights.size();
     known.corners.push_back(corner);
-    known.heights.resize(first + faces());
-    for (std::size_t k = 0; k < faces(); ++k) {
-      const Face& face = shape.faces[k];
-      const double height = face.normal.dot(x) - scale * face.offset;
-      known.heights[first + k] = height;
-      known.least[k] = std::min(known.least[k], height);
-    }
+    known.heights.resize(first + stride());
+    kernels.heights({shape.normal_columns.columns(), shape.offset_columns.data()}, scale, x.data(),
+                    known.heights.data() + first, known.least.data());
+  }
+  /// Finds out which corners lie no higher than `best` <= 0 over each face.
+  void sink(double best) {
+    known.below.resize(stride());
+    kernels.below(known.heights.data(), stride(), known.corners.size(), best, known.below.data());
   }
   /// Whether an axis between the normals of the faces at an edge may part the shapes by more than
-  /// `best` <= 0. It cannot if a corner lies that deep below both faces: the normals between are
-  /// their sums with weights of together 1 or more.
-  bool may_part(const Edge& edge, double best) const {
-    const double* heights = known.heights.data();
-    for (std::size_t k = 0; k < known.corners.size(); ++k, heights += faces()) {
-      if (heights[edge.left] <= best && heights[edge.right] <= best) return false;
-    }
-    return true;
+  /// that. It cannot if a corner lies that deep below both faces: the normals between are their
+  /// sums with weights of together 1 or more.
+  bool may_part(const Edge& edge) const {
+    return (known.below[static_cast<std::size_t>(edge.left)] &
+            known.below[static_cast<std::size_t>(edge.right)]) == 0;
   }
 };
 
@@ -181,13 +183,12 @@ std::int32_t better_face(View& view, double& best) {
   std::int32_t found = -1;
   for (;;) {
     std::vector<double>& least = view.known.least;
-    const auto most = std::max_element(least.begin(), least.end());
-    if (!(*most > best)) return found;
-    const auto k = static_cast<std::int32_t>(most - least.begin());
-    *most = view.add_lowest(face_normal(view.shape, k))[k];
-    if (*most > best) {
-      best = *most;
-      found = k;
+    const std::size_t k = view.kernels.largest(least.data(), view.shape.faces.size());
+    if (!(least[k] > best)) return found;
+    least[k] = view.add_lowest(view.shape.faces[k].normal)[k];
+    if (least[k] > best) {
+      best = least[k];
+      found = static_cast<std::int32_t>(k);
     }
   }
 }
@@ -199,66 +200,83 @@ ContactAxis best_face(const ShapePair& pair, View& a, View& b) {
   return {AxisKind::face_of_b, -1, of_b, -(pair.pose.turn * face_normal(pair.b, of_b)), best};
 }
 
-/// Direction of an edge in the frame of its shape.
-Vector along(const ConvexShape& shape, const Edge& edge) {
-  return (shape.vertices[static_cast<std::size_t>(edge.to)] -
-          shape.vertices[static_cast<std::size_t>(edge.from)])
-      .normalized();
+/// Places the edges of a that may part the shapes.
+void place_edges(const ShapePair& pair, const View& a, PlacedEdges& placed) {
+  for (VectorColumns* column : {&placed.from, &placed.along, &placed.left, &placed.right}) {
+    column->clear();
+  }
+  placed.edges.clear();
+  for (const Edge& edge : a.shape.edges) {
+    if (!a.may_part(edge)) continue;
+    placed.from.add(pair.vertex_a(edge.from));
+    placed.along.add(edge.along);
+    placed.left.add(face_normal(a.shape, edge.left));
+    placed.right.add(face_normal(a.shape, edge.right));
+    placed.edges.push_back(&edge);
+  }
+  placed.crossings.resize(placed.along.padded());
+  placed.parted.resize(placed.along.padded());
 }
 
-/// An edge in the frame of a, with the normals of the faces at it.
-struct PlacedEdge {
-  Vector from, along, left, right;  ///< `along` is a unit vector
-  std::int32_t direction;
-};
-
-PlacedEdge edge_of_a(const ShapePair& pair, const Edge& edge) {
-  return {pair.vertex_a(edge.from), along(pair.a, edge), face_normal(pair.a, edge.left),
-          face_normal(pair.a, edge.right), edge.direction};
-}
-PlacedEdge edge_of_b(const ShapePair& pair, const Edge& edge) {
+HullEdge edge_of_b(const ShapePair& pair, const Edge& edge) {
   const Matrix& turn = pair.pose.turn;
-  return {pair.vertex_b(edge.from), turn * along(pair.b, edge),
-          turn * face_normal(pair.b, edge.left), turn * face_normal(pair.b, edge.right),
-          edge.direction};
+  HullEdge placed{};
+  Eigen::Map<Vector>(placed.from) = pair.vertex_b(edge.from);
+  Eigen::Map<Vector>(placed.along) = turn * edge.along;
+  Eigen::Map<Vector>(placed.left) = turn * face_normal(pair.b, edge.left);
+  Eigen::Map<Vector>(placed.right) = turn * face_normal(pair.b, edge.right);
+  return placed;
 }
 
-/// Whether the axis p.along x q.along, times `sign`, lies between the normals at both edges: only
-/// there do they make a face of the difference of the shapes (Gauss map; Gregorius 2013). Kept in
-/// doubt.
-bool arcs_cross(const PlacedEdge& p, const PlacedEdge& q, double sign) {
-  return sign * q.along.dot(p.left) >= -no_sign && sign * q.along.dot(p.right) <= no_sign &&
-         sign * p.along.dot(q.left) >= -no_sign && sign * p.along.dot(q.right) <= no_sign;
-}
-
-void try_edges(const ShapePair& pair, const PlacedEdge& p, const PlacedEdge& q, ContactAxis& best) {
-  for (const double sign : {1.0, -1.0}) {
-    if (!arcs_cross(p, q, sign)) continue;
-    const Vector n = sign * across(p.along, q.along);
-    if (n.dot(q.from - p.from) <= best.separation || n.isZero(0.0)) continue;
-    const double separation = separation_along(pair, n);
-    if (separation <= best.separation) continue;
+/// Takes the axis of edges p of a and q of b, which is `along`, times `sign` if it parts the shapes
+/// better.
+void try_edges(const ShapePair& pair, const Edge& p, const Edge& q, const Vector& along,
+               double sign, ContactAxis& best) {
+  const Vector n = sign * across(p.along, along);
+  if (n.isZero(0.0)) return;
+  const double separation = separation_along(pair, n);
+  if (separation > best.separation) {
     best = {AxisKind::edges, p.direction, q.direction, n, separation};
   }
 }
 
+/// Tries an edge of b with those of a that it crosses: only where the axis lies between the normals
+/// at both edges do they make a face of the difference of the shapes (Gauss map; Gregorius 2013).
+/// What is in doubt is tried, too.
+void try_edges(const ShapePair& pair, const HullKernels& kernels, PlacedEdges& of_a, const Edge& q,
+               ContactAxis& best) {
+  const HullEdge other = edge_of_b(pair, q);
+  kernels.crossings(
+      {of_a.from.columns(), of_a.along.columns(), of_a.left.columns(), of_a.right.columns()}, other,
+      no_sign, parallel, of_a.parted.data(), of_a.crossings.data());
+  const Eigen::Map<const Vector> along(other.along);
+  for (std::size_t k = 0; k < of_a.edges.size(); ++k) {
+    const std::uint8_t crossing = of_a.crossings[k];
+    if (crossing == no_crossing) continue;
+    const double parted = of_a.parted[k];
+    const Edge& p = *of_a.edges[k];
+    if ((crossing & along_product) != 0 && parted > best.separation) {
+      try_edges(pair, p, q, along, 1.0, best);
+    }
+    if ((crossing & against_product) != 0 && -parted > best.separation) {
+      try_edges(pair, p, q, along, -1.0, best);
+    }
+  }
+}
+
 /// The axes of edges that part the shapes better than their best face; kind none if there are none.
-ContactAxis better_edges(const ShapePair& pair, const View& a, const View& b, double face,
-                         std::vector<const Edge*>& of_a) {
+ContactAxis better_edges(const ShapePair& pair, View& a, View& b, double face, PlacedEdges& of_a) {
   const double size =
       pair.pose.scale_a * pair.a.circumradius + pair.pose.scale_b * pair.b.circumradius;
   const double least = std::min(face, 0.0) + same_depth * size;
-  of_a.clear();
-  for (const Edge& edge : pair.a.edges) {
-    if (a.may_part(edge, least)) of_a.push_back(&edge);
-  }
-  if (of_a.empty()) return {};
+  a.sink(least);
+  place_edges(pair, a, of_a);
+  if (of_a.edges.empty()) return {};
+  b.sink(least);
   ContactAxis best;
   best.separation = face;
   for (const Edge& edge : pair.b.edges) {
-    if (!b.may_part(edge, least)) continue;
-    const PlacedEdge q = edge_of_b(pair, edge);
-    for (const Edge* p : of_a) try_edges(pair, edge_of_a(pair, *p), q, best);
+    if (b.may_part(edge)) try_edges(pair, a.kernels, of_a, edge, best);
   }
   return best.kind == AxisKind::none ? ContactAxis{} : best;
 }
@@ -266,8 +284,11 @@ ContactAxis better_edges(const ShapePair& pair, const View& a, const View& b, do
 ContactAxes hull_axes(const ShapePair& pair, const Vector& guess, AxisColumns& columns) {
   const PairPose& pose = pair.pose;
   const Matrix back = pose.turn.transpose();
-  View a{pair.a, pose.scale_a, pair.b, pose.centre, pose.scale_b * pose.turn, columns.over_a};
-  View b{pair.b, pose.scale_b, pair.a, -(back * pose.centre), pose.scale_a * back, columns.over_b};
+  const HullKernels& kernels = *columns.kernels;
+  View a{kernels,       pair.a, pose.scale_a, pair.b, pose.centre, pose.scale_b * pose.turn,
+         columns.over_a};
+  View b{kernels,       pair.b, pose.scale_b, pair.a, -(back * pose.centre), pose.scale_a * back,
+         columns.over_b};
   const Vector axis = guess.isZero(0.0) ? pose.centre : guess;
   a.forget();
   b.forget();

@@ -51,14 +51,27 @@ struct ContactAxes {
 /// Corners of one shape over the faces of the other.
 struct CornerHeights {
   std::vector<std::int32_t> corners;  ///< vertices of the one
-  std::vector<double> heights;        ///< of each of them over every face, corner after corner, d
-  std::vector<double> least;          ///< bound of how far each face parts the shapes, d
+  /// Of each of them over every face, corner after corner, with room as VectorColumns have it, d.
+  std::vector<double> heights;
+  std::vector<double> least;         ///< bound of how far each face parts the shapes, d
+  std::vector<std::uint64_t> below;  ///< which corners lie low over each face, as bits
+  std::vector<double> reach;         ///< of the vertices along a normal, d
 };
 
-/// Working memory, kept from call to call.
+/// Edges in the frame of a, with the normals of the faces at them.
+struct PlacedEdges {
+  VectorColumns from;                ///< d
+  VectorColumns along, left, right;  ///< unit vectors
+  std::vector<const Edge*> edges;
+  std::vector<double> parted;           ///< of each, as of kernels/hull_kernels.hpp, d
+  std::vector<std::uint8_t> crossings;  ///< of each
+};
+
+/// Working memory, kept from call to call, and the kernels to work with.
 struct AxisColumns {
+  const HullKernels* kernels = &kernels_for(best_isa()).hull;
   CornerHeights over_a, over_b;  ///< of corners of b over faces of a, and the other way round
-  std::vector<const Edge*> edges_of_a;
+  PlacedEdges edges_of_a;
 };
 
 /// Separation along the unit vector `normal` from a to b, d.

@@ -71,7 +71,7 @@ void add_edges(const Loops& loops, ConvexShape& shape) {
       met[{from, to}] = shape.edges.size();
       const Vector along = (at(shape.vertices, to) - at(shape.vertices, from)).normalized();
       shape.edges.push_back({from, to, static_cast<std::int32_t>(f), -1,
-                             direction_number(along, shape.edge_directions)});
+                             direction_number(along, shape.edge_directions), along});
     }
   }
 }
@@ -96,6 +96,16 @@ void add_radii(ConvexShape& shape) {
   for (const Face& face : shape.faces) {
     shape.inradius = std::min(shape.inradius, face.offset);
   }
+}
+
+void add_columns(ConvexShape& shape) {
+  for (const Vector& vertex : shape.vertices) shape.corner_columns.add(vertex);
+  for (const Face& face : shape.faces) {
+    shape.normal_columns.add(face.normal);
+    shape.offset_columns.push_back(face.offset);
+  }
+  shape.offset_columns.resize(shape.normal_columns.padded(),
+                              std::numeric_limits<double>::infinity());
 }
 
 }  // namespace
@@ -136,6 +146,7 @@ ConvexShape build_shape(std::vector<Vector> vertices, const Loops& loops) {
   shape.volume = moments.volume;
   shape.inertia = inertia_of(moments.second).diagonal();
   add_radii(shape);
+  add_columns(shape);
   return shape;
 }
 

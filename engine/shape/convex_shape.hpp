@@ -13,6 +13,7 @@
 
 #include <Eigen/Core>
 
+#include "engine/shape/vector_columns.hpp"
 #include "kernels/kernels.hpp"
 
 namespace grainsweep {
@@ -40,6 +41,7 @@ struct Edge {
   std::int32_t from = 0, to = 0;     ///< vertices
   std::int32_t left = 0, right = 0;  ///< faces
   std::int32_t direction = 0;        ///< in `edge_directions`, up to sign
+  Vector along = Vector::Zero();     ///< unit, towards `to`
 };
 
 /// Where a shape in its frame came from: x_given = rotation x_shape + centroid.
@@ -53,8 +55,11 @@ struct InputFrame {
 struct ConvexShape {
   std::vector<Vector> vertices;
   std::vector<Face> faces;
-  std::vector<std::int32_t> loops;  ///< vertices of the faces, face after face
-  std::vector<Side> sides;          ///< of the faces, each from the corner of its place in `loops`
+  VectorColumns corner_columns;        ///< the vertices
+  VectorColumns normal_columns;        ///< those of the faces
+  std::vector<double> offset_columns;  ///< of the faces, with as much room
+  std::vector<std::int32_t> loops;     ///< vertices of the faces, face after face
+  std::vector<Side> sides;  ///< of the faces, each from the corner of its place in `loops`
   std::vector<Edge> edges;
   std::vector<Vector> edge_directions;           ///< unit, distinct up to sign
   std::vector<std::int32_t> vertex_faces;        ///< faces at each vertex, vertex after vertex

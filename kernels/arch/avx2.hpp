@@ -199,6 +199,9 @@ inline void apply_to_records(const Record<double>* free, Record<double>* accumul
 inline std::uint32_t bits_of(const xsimd::batch_bool<float, Arch>& mask) {
   return static_cast<std::uint32_t>(_mm256_movemask_ps(mask));
 }
+inline std::uint32_t bits_of(const xsimd::batch_bool<double, Arch>& mask) {
+  return static_cast<std::uint32_t>(_mm256_movemask_pd(mask));
+}
 
 /// For each mask of eight lanes the lanes that are set, in order.
 struct SetLanes {

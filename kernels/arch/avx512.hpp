@@ -257,6 +257,9 @@ inline void apply_to_records(const Record<double>* free, Record<double>* accumul
 inline std::uint32_t bits_of(const xsimd::batch_bool<float, Arch>& mask) {
   return static_cast<std::uint32_t>(static_cast<__mmask16>(mask));
 }
+inline std::uint32_t bits_of(const xsimd::batch_bool<double, Arch>& mask) {
+  return static_cast<std::uint32_t>(static_cast<__mmask8>(mask));
+}
 
 /// Writes the pairs of grain i with those of the others whose bit is set, in their order, the
 /// smaller number first. What lies behind them, up to a batch of pairs, is overwritten.

@@ -137,6 +137,9 @@ inline void apply_to_records(const Record<double>* free, Record<double>* accumul
 inline std::uint32_t bits_of(const xsimd::batch_bool<float, Arch>& mask) {
   return static_cast<std::uint32_t>(_mm_movemask_ps(mask));
 }
+inline std::uint32_t bits_of(const xsimd::batch_bool<double, Arch>& mask) {
+  return static_cast<std::uint32_t>(_mm_movemask_pd(mask));
+}
 
 /// Writes the pairs of grain i with those of the others whose bit is set, in their order, the
 /// smaller number first.
