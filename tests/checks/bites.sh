@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Each check finds what it is for: violations planted in a temporary copy, one at a time, and
 # nothing in the copy without them. usage: bites.sh CHECK...
-# CHECK: folder_order links kernel_objects one_definition format tidy tidy_config
+# CHECK: folder_order links kernel_objects one_definition meshes format tidy tidy_config
 set -euo pipefail
 root=$(cd "$(dirname "$0")/../.." && pwd)
 copy=$(mktemp -d "${TMPDIR:-/tmp}/grainsweep-bites.XXXXXX")
@@ -142,6 +142,43 @@ int main() { return 0; }'
   finds 'violates the C++ One Definition Rule' build_planted
   sed -i 's/Fit/Line/g' "$copy/project/two.cpp"
   passes build_planted
+}
+
+# box NAME X Y Z SIDE: a cube as a solid of an STL file, its lowest corner at X Y Z.
+box() {
+  local name=$1 side=$5 corner triangle k
+  local -a at=("$2" "$3" "$4")
+  printf 'solid %s\n' "$name"
+  for triangle in '0 3 1' '0 2 3' '4 5 7' '4 7 6' '0 1 5' '0 5 4' '2 7 3' '2 6 7' '0 6 2' '0 4 6' '1 3 7' '1 7 5'; do
+    printf 'facet normal 0 0 0\nouter loop\n'
+    for corner in $triangle; do
+      printf 'vertex'
+      for k in 0 1 2; do awk "BEGIN { printf \" %.9g\", ${at[k]} + $side * $(((corner >> k) & 1)) }"; done
+      printf '\n'
+    done
+    printf 'endloop\nendfacet\n'
+  done
+  printf 'endsolid %s\n' "$name"
+}
+
+bite_meshes() {
+  if ! command -v gmsh >/dev/null || ! /usr/bin/python3 -c 'import numpy' 2>/dev/null; then
+    printf 'SKIPPED: gmsh or python3-numpy is not installed\n'
+    exit 77
+  fi
+  cd "$copy"
+  local check=(/usr/bin/python3 "$root/tests/checks/meshes.py" 9 bed.stl) container
+  container=$(box container 0 0 0 4)
+  plant bed.stl <<<"$(box grain_1 1 1 1 1)"$'\n'"$(box grain_2 2.1 1.2 1.3 1)"$'\n'"$container"
+  passes "${check[@]}"
+  plant bed.stl <<<"$(box grain_1 1 1 1 1)"$'\n'"$(box grain_2 1.9 1.2 1.3 1)"$'\n'"$container"
+  finds 'bed.stl: gmsh ends with' "${check[@]}" # which cross
+  plant bed.stl <<<"$(box grain_1 1 1 1 1)"$'\n'"$(box grain_2 3.5 1.2 1.3 1)"$'\n'"$container"
+  finds 'bed.stl: gmsh ends with' "${check[@]}" # a grain through the wall
+  plant bed.stl <<<"$(box grain_1 1 1 1 1 | sed '2,8d')"$'\n'"$container"
+  finds 'bed.stl: surface 1 has a hole' "${check[@]}"
+  plant bed.stl <<<"$(box grain_1 1 1 1 1)"$'\n'"$(sed '2,8d' <<<"$container")"
+  finds 'bed.stl: surface 2 has a hole' "${check[@]}"
 }
 
 # Writes the compile commands of every source in the copy.
