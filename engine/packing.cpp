@@ -159,15 +159,51 @@ Touching touching_or_bonded(const MeasureSpec& spec, const Kernels& kernels, Pol
   return find_touching(bed, std::max(widest(spec.gap_tolerances), longest_bond_gap), kernels);
 }
 
-// What is known of one kind of grains only.
-void measure_kind(const SphereBed&, const Touching&, double, const std::optional<Slab>&, Packing&) {
+// Which profiles a bed has besides that along z.
+bool has_profile_x(const Box& box) { return box.x == Boundary::walls && !box.is_tube; }
+bool has_profile_y(const Box& box) { return !box.is_tube; }
+bool has_profile_from_walls(const Box& box) {
+  return box.x == Boundary::walls && box.y == Boundary::walls;
 }
-void measure_kind(const PolyhedronBed& bed, const Touching& near, double gap_tolerance,
+
+/// Gives each component its profile.
+void share_out(std::vector<ComponentProfile> profiles, ComponentProfile ComponentMeasure::*profile,
+               std::vector<ComponentMeasure>& components) {
+  for (std::size_t k = 0; k < profiles.size(); ++k) {
+    components[k].*profile = std::move(profiles[k]);
+  }
+}
+
+/// Of the components of a mixture.
+void measure_profiles(const PolyhedronBed& bed, const Touching& near, const Slab& slab,
+                      const ProfileSettings& settings, std::vector<ComponentMeasure>& components) {
+  using Measure = ComponentMeasure;
+  if (has_profile_x(bed.box)) {
+    share_out(component_profiles_across(bed, near, slab, settings, 0), &Measure::profile_x,
+              components);
+  }
+  if (has_profile_y(bed.box)) {
+    share_out(component_profiles_across(bed, near, slab, settings, 1), &Measure::profile_y,
+              components);
+  }
+  if (has_profile_from_walls(bed.box)) {
+    share_out(component_profiles_from_walls(bed, near, slab, settings),
+              &Measure::profile_from_walls, components);
+  }
+  share_out(component_profiles_along_z(bed, near, settings), &Measure::profile_z, components);
+}
+
+// What is known of one kind of grains only.
+void measure_kind(const SphereBed&, const Touching&, const ProfileSettings&,
+                  const std::optional<Slab>&, Packing&) {}
+void measure_kind(const PolyhedronBed& bed, const Touching& near, const ProfileSettings& settings,
                   const std::optional<Slab>& slab, Packing& packing) {
   packing.turned = orientations_of(bed);
   if (!slab) return;
   packing.result.shape_order = measure_shape_order(bed, packing.forces, *slab);
-  packing.result.components = measure_components(bed, near, *slab, gap_tolerance);
+  std::vector<ComponentMeasure>& components = packing.result.components;
+  components = measure_components(bed, near, packing.forces, *slab, settings.gap_tolerance);
+  if (!components.empty()) measure_profiles(bed, near, *slab, settings, components);
 }
 
 /// Measures what `spec` asks for.
@@ -191,18 +227,19 @@ void measure(const PackingSpec& spec, const SettleReport& settled, const Kernels
   if (slab) {
     result.solid_fraction = solid_fraction(bed, *slab);
     measure_neighbours(spec, near, settled, *slab, bed, result);
-    const bool is_tube = bed.box.is_tube;
-    if (bed.box.x == Boundary::walls && !is_tube) {
+    if (has_profile_x(bed.box)) {
       result.profile_x = profile_across(bed, near, *slab, bins_of(spec), 0);
     }
-    if (!is_tube) result.profile_y = profile_across(bed, near, *slab, bins_of(spec), 1);
-    if (bed.box.x == Boundary::walls && bed.box.y == Boundary::walls) {
+    if (has_profile_y(bed.box)) {
+      result.profile_y = profile_across(bed, near, *slab, bins_of(spec), 1);
+    }
+    if (has_profile_from_walls(bed.box)) {
       result.profile_from_walls = profile_from_walls(bed, near, *slab, bins_of(spec));
     }
     result.small_share = small_share(bed, *slab, small_class_limit(spec.sizes));
     result.profile_z = profile_along_z(bed, near, bins_of(spec));
   }
-  measure_kind(bed, near, tolerances.front(), slab, packing);
+  measure_kind(bed, near, bins_of(spec), slab, packing);
 }
 
 /// From the start to the measured values.

@@ -93,6 +93,22 @@ struct Profile {
   std::vector<ProfileBin> bins;
 };
 
+/// A component's part of a bin of a profile.
+struct ComponentBin {
+  double solid_fraction = 0.0;  ///< solid volume of its grains over the bin's volume
+  std::int64_t grains = 0;      ///< of its own whose centre is in the bin
+  /// Touching grains of those, added up, by the component of what is touched.
+  std::vector<std::int64_t> neighbours;
+  std::int64_t walls = 0;           ///< touching walls and floor of those, added up
+  std::array<double, 3> nematic{};  ///< of those, as of ShapeOrder; NaN without any that turn
+};
+
+/// As a Profile: a component's part of the profile of the bed, which has the same bins.
+struct ComponentProfile {
+  double bin_width = 0.0;  ///< d
+  std::vector<ComponentBin> bins;
+};
+
 /// Values in bins of equal width from 0.
 struct Curve {
   double bin_width = 0.0;
@@ -140,6 +156,14 @@ struct ComponentMeasure {
   double coordination_with_walls = 0.0;  ///< the same, walls and floor counted as neighbours
   std::vector<double> neighbours;        ///< those of `coordination` by their component
   std::array<double, 3> nematic{};       ///< as of ShapeOrder; of spheres NaN
+  /// Force-bearing contacts in the slab of its grains with those of each component: numbers of
+  /// simple, double and triple ones as of ShapeOrder. A contact of two components stands with both.
+  std::vector<std::array<std::int64_t, 3>> contacts = {};
+  // Where the packing has such a profile.
+  ComponentProfile profile_x = {};
+  ComponentProfile profile_y = {};
+  ComponentProfile profile_from_walls = {};
+  ComponentProfile profile_z = {};
 };
 
 struct PackingResult {

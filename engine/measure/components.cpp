@@ -71,6 +71,19 @@ void count_neighbours(const PolyhedronBed& bed, const Touching& touching, const 
   }
 }
 
+void count_contacts(const PolyhedronBed& bed, const std::vector<PairForce>& pair_forces,
+                    const Slab& slab, Components& components) {
+  for (ComponentMeasure& one : components) one.contacts.resize(components.size());
+  for (const PairForce& force : pair_forces) {
+    if (!slab.contains(force.height)) continue;
+    const std::size_t a = bed.component(static_cast<std::size_t>(force.a));
+    const std::size_t b = bed.component(static_cast<std::size_t>(force.b));
+    const auto kind = static_cast<std::size_t>(force.constraints - 1);
+    ++components[a].contacts[b][kind];
+    if (a != b) ++components[b].contacts[a][kind];
+  }
+}
+
 std::vector<Vector> axes_of(const PolyhedronBed& bed, const Slab& slab, std::size_t component,
                             int axis) {
   std::vector<Vector> axes;
@@ -85,12 +98,14 @@ std::vector<Vector> axes_of(const PolyhedronBed& bed, const Slab& slab, std::siz
 }  // namespace
 
 std::vector<ComponentMeasure> measure_components(const PolyhedronBed& bed, const Touching& touching,
+                                                 const std::vector<PairForce>& pair_forces,
                                                  const Slab& slab, double gap_tolerance) {
   Components components(bed.components.empty() ? 0 : bed.shapes.size());
   if (components.empty()) return components;
   add_volumes(bed, slab, components);
   divide_volumes(bed.box.floor_area() * slab.height(), components);
   count_neighbours(bed, touching, slab, gap_tolerance, components);
+  count_contacts(bed, pair_forces, slab, components);
   for (std::size_t k = 0; k < components.size(); ++k) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       components[k].nematic[axis] =

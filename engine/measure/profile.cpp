@@ -4,10 +4,13 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
+#include <utility>
 
 #include "engine/measure/cut_polyhedron.hpp"
 #include "engine/measure/cut_sphere.hpp"
 #include "engine/measure/cut_tube.hpp"
+#include "engine/measure/nematic.hpp"
 #include "engine/units.hpp"
 
 namespace grainsweep {
@@ -34,55 +37,151 @@ bool is_small(const Record<double>& sphere, const ProfileSettings& settings) {
   return sphere.w < settings.small_below;
 }
 
+/// Number of the bin of each grain, none outside; `bin_of(centre)` gives it.
+using BinOfGrain = std::vector<std::optional<std::size_t>>;
+template <class BinOf>
+BinOfGrain bins_of_grains(const Grains& bed, BinOf bin_of) {
+  BinOfGrain bins(bed.grains());
+  for (std::size_t i = 0; i < bins.size(); ++i) bins[i] = bin_of(bed.position[i]);
+  return bins;
+}
+
+/// Calls `pair(grain, other, bin)` for each of two touching grains that is in a bin, and
+/// `wall(grain, bin)` for each wall that one touches.
+template <class Pair, class Wall>
+void visit_touching(const Touching& touching, double gap_tolerance, const BinOfGrain& bins,
+                    Pair pair, Wall wall) {
+  for (const TouchingPair& one : touching.pairs) {
+    if (one.gap >= gap_tolerance) continue;
+    const auto a = static_cast<std::size_t>(one.a), b = static_cast<std::size_t>(one.b);
+    if (bins[a]) pair(a, b, *bins[a]);
+    if (bins[b]) pair(b, a, *bins[b]);
+  }
+  for (const TouchingWall& one : touching.walls) {
+    const auto grain = static_cast<std::size_t>(one.grain);
+    if (one.gap < gap_tolerance && bins[grain]) wall(grain, *bins[grain]);
+  }
+}
+
+/// Gathers the profile of all grains, by their class of size.
+template <class Kind>
+class OfClasses {
+ public:
+  using Gathered = Profile;
+
+  OfClasses(const Bed<Kind>& bed, const ProfileSettings& settings)
+      : bed_(bed), settings_(settings) {}
+
+  void begin(const Bins& bins) {
+    profile_ = {bins.width, std::vector<ProfileBin>(static_cast<std::size_t>(bins.count))};
+  }
+  void add_volume(std::size_t grain, std::size_t bin, double volume) {
+    const bool small = is_small(bed_.position[grain], settings_);
+    (small ? profile_.bins[bin].small : profile_.bins[bin].large) += volume;
+  }
+  void divide_volume(std::size_t bin, double bin_volume) {
+    profile_.bins[bin].large /= bin_volume;
+    profile_.bins[bin].small /= bin_volume;
+  }
+  void count(const Touching& touching, const BinOfGrain& bins) {
+    auto& in = profile_.bins;
+    for (std::size_t i = 0; i < bins.size(); ++i) {
+      if (!bins[i]) continue;
+      ++(is_small(bed_.position[i], settings_) ? in[*bins[i]].small_grains
+                                               : in[*bins[i]].large_grains);
+    }
+    visit_touching(
+        touching, settings_.gap_tolerance, bins,
+        [&](std::size_t, std::size_t, std::size_t bin) { ++in[bin].neighbours; },
+        [&](std::size_t, std::size_t bin) { ++in[bin].walls; });
+  }
+  Profile result() { return std::move(profile_); }
+
+ private:
+  const Bed<Kind>& bed_;
+  const ProfileSettings& settings_;
+  Profile profile_;
+};
+
+/// Gathers the profile of each component of a mixture.
+class OfComponents {
+ public:
+  using Gathered = std::vector<ComponentProfile>;
+
+  OfComponents(const PolyhedronBed& bed, const ProfileSettings& settings)
+      : bed_(bed), gap_tolerance_(settings.gap_tolerance) {}
+
+  void begin(const Bins& bins) {
+    ComponentBin empty;
+    empty.neighbours.resize(bed_.shapes.size());
+    profiles_.assign(bed_.shapes.size(),
+                     {bins.width, {static_cast<std::size_t>(bins.count), empty}});
+  }
+  void add_volume(std::size_t grain, std::size_t bin, double volume) {
+    at(grain, bin).solid_fraction += volume;
+  }
+  void divide_volume(std::size_t bin, double bin_volume) {
+    for (ComponentProfile& profile : profiles_) profile.bins[bin].solid_fraction /= bin_volume;
+  }
+  void count(const Touching& touching, const BinOfGrain& bins) {
+    for (std::size_t i = 0; i < bins.size(); ++i) {
+      if (bins[i]) ++at(i, *bins[i]).grains;
+    }
+    visit_touching(
+        touching, gap_tolerance_, bins,
+        [&](std::size_t grain, std::size_t other, std::size_t bin) {
+          ++at(grain, bin).neighbours[bed_.component(other)];
+        },
+        [&](std::size_t grain, std::size_t bin) { ++at(grain, bin).walls; });
+    for (int axis = 0; axis < 3; ++axis) set_nematic(axis, bins);
+  }
+  std::vector<ComponentProfile> result() { return std::move(profiles_); }
+
+ private:
+  ComponentBin& at(std::size_t grain, std::size_t bin) {
+    return profiles_[bed_.component(grain)].bins[bin];
+  }
+  /// Of one axis of the shapes' frames, in each bin of each component.
+  void set_nematic(int axis, const BinOfGrain& bins) {
+    const std::size_t count = profiles_.front().bins.size();
+    std::vector<std::vector<Vector>> axes(profiles_.size() * count);
+    for (std::size_t i = 0; i < bins.size(); ++i) {
+      if (!bins[i] || !bed_.turns(i)) continue;
+      axes[bed_.component(i) * count + *bins[i]].emplace_back(bed_.pose(i).orientation *
+                                                              Vector(Vector::Unit(axis)));
+    }
+    for (std::size_t k = 0; k < axes.size(); ++k) {
+      profiles_[k / count].bins[k % count].nematic[static_cast<std::size_t>(axis)] =
+          nematic_order(axes[k]).order;
+    }
+  }
+
+  const PolyhedronBed& bed_;
+  double gap_tolerance_;
+  std::vector<ComponentProfile> profiles_;
+};
+
 /// Adds the volume of one grain to the bins it reaches; `below(t)` is its volume below the plane at
 /// t, all of it for t infinite. Differences of one function: nothing is lost between bins.
-template <class Below>
-void add_volume(const Span& span, const Bins& bins, double ProfileBin::*member, Below below,
-                Profile& profile) {
+template <class Below, class Gather>
+void add_volume(std::size_t grain, const Span& span, const Bins& bins, Below below,
+                Gather& gather) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   const std::int64_t last = bins.number_at(span.high);
   double before = 0.0;
   for (std::int64_t k = bins.number_at(span.low); k <= last; ++k) {
     const double volume = below(k == last ? infinity : static_cast<double>(k + 1) * bins.width);
-    profile.bins[bins.index(k)].*member += volume - before;
+    gather.add_volume(grain, bins.index(k), volume - before);
     before = volume;
   }
 }
 
-/// Turns volumes into solid fractions.
-void divide_volume(double bin_volume, ProfileBin& bin) {
-  bin.large /= bin_volume;
-  bin.small /= bin_volume;
-}
-void divide_volumes(double bin_volume, Profile& profile) {
-  for (ProfileBin& bin : profile.bins) divide_volume(bin_volume, bin);
-}
-
-/// Counts grains and what they touch; `bin_of(sphere)` is the bin, or null outside.
-template <class BinOf>
-void count_grains(const Grains& bed, const Touching& touching, const ProfileSettings& settings,
-                  BinOf bin_of) {
-  const auto at = [&](std::int32_t i) { return bin_of(bed.position[static_cast<std::size_t>(i)]); };
-  for (std::int32_t i = 0; i < bed.wall(); ++i) {
-    if (ProfileBin* bin = at(i)) {
-      ++(is_small(bed.position[static_cast<std::size_t>(i)], settings) ? bin->small_grains
-                                                                       : bin->large_grains);
-    }
+/// Turns volumes into solid fractions; all bins have this volume.
+template <class Gather>
+void divide_volumes(const Bins& bins, double bin_volume, Gather& gather) {
+  for (std::size_t k = 0; k < static_cast<std::size_t>(bins.count); ++k) {
+    gather.divide_volume(k, bin_volume);
   }
-  for (const TouchingPair& pair : touching.pairs) {
-    for (const std::int32_t grain : {pair.a, pair.b}) {
-      ProfileBin* bin = pair.gap < settings.gap_tolerance ? at(grain) : nullptr;
-      if (bin != nullptr) ++bin->neighbours;
-    }
-  }
-  for (const TouchingWall& wall : touching.walls) {
-    ProfileBin* bin = wall.gap < settings.gap_tolerance ? at(wall.grain) : nullptr;
-    if (bin != nullptr) ++bin->walls;
-  }
-}
-
-double ProfileBin::*class_of(const Record<double>& sphere, const ProfileSettings& settings) {
-  return is_small(sphere, settings) ? &ProfileBin::small : &ProfileBin::large;
 }
 
 /// Volume of a sphere below a plane across x or y, as far as it lies in the slab.
@@ -161,8 +260,10 @@ double volume_below_z(const PolyhedronBed& bed, std::size_t i, double z) {
   return slab_volume(bed.shape(i), bed.pose(i), 2, -infinity, z);
 }
 
-Profile empty_profile(const Bins& bins) {
-  return {bins.width, std::vector<ProfileBin>(static_cast<std::size_t>(bins.count))};
+/// The bin of a centre at height z of the slab; none above and below.
+std::optional<std::size_t> bin_in(const Slab& slab, const Bins& bins, double z, double coordinate) {
+  if (!slab.contains(z)) return std::nullopt;
+  return bins.index(bins.number_at(coordinate));
 }
 
 template <class Kind>
@@ -172,29 +273,28 @@ double highest_point(const Bed<Kind>& bed) {
   return top;
 }
 
-template <class Kind>
-Profile across(const Bed<Kind>& bed, const Touching& touching, const Slab& slab,
-               const ProfileSettings& settings, int axis) {
+template <class Kind, class Gather>
+typename Gather::Gathered across(const Bed<Kind>& bed, const Touching& touching, const Slab& slab,
+                                 const ProfileSettings& settings, int axis, Gather gather) {
   const Box& box = bed.box;
   const double width = axis == 0 ? box.length : box.width;
   const double other = axis == 0 ? box.width : box.length;
   const auto count = std::max<std::int64_t>(1, std::llround(width / settings.bin_width));
   const Bins bins{width / static_cast<double>(count), count,
                   (axis == 0 ? box.x : box.y) == Boundary::periodic};
-  Profile profile = empty_profile(bins);
+  gather.begin(bins);
   for (std::size_t i = 0; i < bed.grains(); ++i) {
     const Span upright = span_of(bed, i, 2);
     if (upright.high <= slab.bottom || upright.low >= slab.top) continue;
     add_volume(
-        span_of(bed, i, axis), bins, class_of(bed.position[i], settings),
-        [&](double top) { return volume_below(bed, i, axis, top, slab); }, profile);
+        i, span_of(bed, i, axis), bins,
+        [&](double top) { return volume_below(bed, i, axis, top, slab); }, gather);
   }
-  divide_volumes(other * bins.width * slab.height(), profile);
-  count_grains(bed, touching, settings, [&](const Record<double>& p) -> ProfileBin* {
-    const double at = axis == 0 ? p.x : p.y;
-    return slab.contains(p.z) ? &profile.bins[bins.index(bins.number_at(at))] : nullptr;
-  });
-  return profile;
+  divide_volumes(bins, other * bins.width * slab.height(), gather);
+  gather.count(touching, bins_of_grains(bed, [&](const Record<double>& p) {
+                 return bin_in(slab, bins, p.z, axis == 0 ? p.x : p.y);
+               }));
+  return gather.result();
 }
 
 double distance_from_walls(const Box& box, double x, double y) {
@@ -229,53 +329,52 @@ double frame_area(const Box& box, double low, double high) {
                      : 2.0 * (high - low) * (box.length + box.width - 2.0 * (low + high));
 }
 
-template <class Kind>
-Profile from_walls(const Bed<Kind>& bed, const Touching& touching, const Slab& slab,
-                   const ProfileSettings& settings) {
+template <class Kind, class Gather>
+typename Gather::Gathered from_walls(const Bed<Kind>& bed, const Touching& touching,
+                                     const Slab& slab, const ProfileSettings& settings,
+                                     Gather gather) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   const Box& box = bed.box;
   const double half = std::min(box.length, box.width) / 2.0;
   const auto count = std::max<std::int64_t>(1, std::llround(half / settings.bin_width));
   const Bins bins{half / static_cast<double>(count), count, false};
-  Profile profile = empty_profile(bins);
+  gather.begin(bins);
   for (std::size_t i = 0; i < bed.grains(); ++i) {
     const Span upright = span_of(bed, i, 2);
     if (upright.high <= slab.bottom || upright.low >= slab.top) continue;
     const double whole = volume_in(core_of(box, slab, -infinity), bed, i);
     add_volume(
-        reach_from_walls(bed, i), bins, class_of(bed.position[i], settings),
+        i, reach_from_walls(bed, i), bins,
         [&](double distance) {
           return distance >= half ? whole : whole - volume_in(core_of(box, slab, distance), bed, i);
         },
-        profile);
+        gather);
   }
   for (std::int64_t k = 0; k < count; ++k) {
     const double low = static_cast<double>(k) * bins.width, high = low + bins.width;
-    divide_volume(frame_area(box, low, high) * slab.height(),
-                  profile.bins[static_cast<std::size_t>(k)]);
+    gather.divide_volume(static_cast<std::size_t>(k), frame_area(box, low, high) * slab.height());
   }
-  count_grains(bed, touching, settings, [&](const Record<double>& p) -> ProfileBin* {
-    const double distance = distance_from_walls(box, p.x, p.y);
-    return slab.contains(p.z) ? &profile.bins[bins.index(bins.number_at(distance))] : nullptr;
-  });
-  return profile;
+  gather.count(touching, bins_of_grains(bed, [&](const Record<double>& p) {
+                 return bin_in(slab, bins, p.z, distance_from_walls(box, p.x, p.y));
+               }));
+  return gather.result();
 }
 
-template <class Kind>
-Profile along_z(const Bed<Kind>& bed, const Touching& touching, const ProfileSettings& settings) {
+template <class Kind, class Gather>
+typename Gather::Gathered along_z(const Bed<Kind>& bed, const Touching& touching,
+                                  const ProfileSettings& settings, Gather gather) {
   const double bins_up = std::ceil(highest_point(bed) / settings.bin_width);
   const Bins bins{settings.bin_width, std::max<std::int64_t>(1, std::llround(bins_up)), false};
-  Profile profile = empty_profile(bins);
+  gather.begin(bins);
   for (std::size_t i = 0; i < bed.grains(); ++i) {
     add_volume(
-        span_of(bed, i, 2), bins, class_of(bed.position[i], settings),
-        [&](double z) { return volume_below_z(bed, i, z); }, profile);
+        i, span_of(bed, i, 2), bins, [&](double z) { return volume_below_z(bed, i, z); }, gather);
   }
-  divide_volumes(bed.box.floor_area() * bins.width, profile);
-  count_grains(bed, touching, settings, [&](const Record<double>& p) {
-    return &profile.bins[bins.index(bins.number_at(p.z))];
-  });
-  return profile;
+  divide_volumes(bins, bed.box.floor_area() * bins.width, gather);
+  gather.count(touching, bins_of_grains(bed, [&](const Record<double>& p) {
+                 return std::optional(bins.index(bins.number_at(p.z)));
+               }));
+  return gather.result();
 }
 
 }  // namespace
@@ -283,19 +382,38 @@ Profile along_z(const Bed<Kind>& bed, const Touching& touching, const ProfileSet
 template <class Kind>
 Profile profile_across(const Bed<Kind>& bed, const Touching& touching, const Slab& slab,
                        const ProfileSettings& settings, int axis) {
-  return across(bed, touching, slab, settings, axis);
+  return across(bed, touching, slab, settings, axis, OfClasses(bed, settings));
 }
 
 template <class Kind>
 Profile profile_from_walls(const Bed<Kind>& bed, const Touching& touching, const Slab& slab,
                            const ProfileSettings& settings) {
-  return from_walls(bed, touching, slab, settings);
+  return from_walls(bed, touching, slab, settings, OfClasses(bed, settings));
 }
 
 template <class Kind>
 Profile profile_along_z(const Bed<Kind>& bed, const Touching& touching,
                         const ProfileSettings& settings) {
-  return along_z(bed, touching, settings);
+  return along_z(bed, touching, settings, OfClasses(bed, settings));
+}
+
+std::vector<ComponentProfile> component_profiles_across(const PolyhedronBed& bed,
+                                                        const Touching& touching, const Slab& slab,
+                                                        const ProfileSettings& settings, int axis) {
+  return across(bed, touching, slab, settings, axis, OfComponents(bed, settings));
+}
+
+std::vector<ComponentProfile> component_profiles_from_walls(const PolyhedronBed& bed,
+                                                            const Touching& touching,
+                                                            const Slab& slab,
+                                                            const ProfileSettings& settings) {
+  return from_walls(bed, touching, slab, settings, OfComponents(bed, settings));
+}
+
+std::vector<ComponentProfile> component_profiles_along_z(const PolyhedronBed& bed,
+                                                         const Touching& touching,
+                                                         const ProfileSettings& settings) {
+  return along_z(bed, touching, settings, OfComponents(bed, settings));
 }
 
 template Profile profile_across(const SphereBed&, const Touching&, const Slab&,

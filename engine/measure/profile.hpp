@@ -7,6 +7,8 @@
 // whose centre lies in the bin.
 #pragma once
 
+#include <vector>
+
 #include "engine/measure/solid_fraction.hpp"
 #include "engine/measure/touching.hpp"
 #include "engine/results.hpp"
@@ -40,5 +42,21 @@ Profile profile_from_walls(const Bed<Kind>& bed, const Touching& touching, const
 template <class Kind>
 Profile profile_along_z(const Bed<Kind>& bed, const Touching& touching,
                         const ProfileSettings& settings);
+
+// The parts of the components of a mixture, one each, in the same bins: solid fractions and counts
+// of all of them add up to those of the profile. Nothing depends on the classes of size.
+
+std::vector<ComponentProfile> component_profiles_across(const PolyhedronBed& bed,
+                                                        const Touching& touching, const Slab& slab,
+                                                        const ProfileSettings& settings, int axis);
+
+std::vector<ComponentProfile> component_profiles_from_walls(const PolyhedronBed& bed,
+                                                            const Touching& touching,
+                                                            const Slab& slab,
+                                                            const ProfileSettings& settings);
+
+std::vector<ComponentProfile> component_profiles_along_z(const PolyhedronBed& bed,
+                                                         const Touching& touching,
+                                                         const ProfileSettings& settings);
 
 }  // namespace grainsweep

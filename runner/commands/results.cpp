@@ -14,6 +14,7 @@
 #include "runner/store/checkpoints.hpp"
 #include "runner/store/files.hpp"
 #include "runner/store/states.hpp"
+#include "runner/tables/component_profiles.hpp"
 #include "runner/tables/components.hpp"
 #include "runner/tables/decays.hpp"
 #include "runner/tables/distributions.hpp"
@@ -27,10 +28,10 @@
 namespace grainsweep {
 namespace {
 
-constexpr std::array tables = {"packings.csv",      "groups.csv",     "fits.csv",
-                               "fit_points.csv",    "profiles.csv",   "decays.csv",
-                               "distributions.csv", "sizes.csv",      "components.csv",
-                               "columns.csv",       "provenance.json"};
+constexpr std::array tables = {"packings.csv",           "groups.csv",   "fits.csv",
+                               "fit_points.csv",         "profiles.csv", "decays.csv",
+                               "distributions.csv",      "sizes.csv",    "components.csv",
+                               "component_profiles.csv", "columns.csv",  "provenance.json"};
 
 std::string provenance_path(const std::string& folder) { return folder + "/provenance.json"; }
 
@@ -108,8 +109,11 @@ void write_curve_tables(const std::string& folder, const Analysis& analysis,
       decays(folder + "/decays.csv", decays_table(varied, units)),
       distributions(folder + "/distributions.csv", distributions_table(varied, units)),
       sizes(folder + "/sizes.csv", sizes_table(varied, units)),
-      components(folder + "/components.csv", components_table(varied, units));
-  const std::array all = {&profiles, &decays, &distributions, &sizes, &components};
+      components(folder + "/components.csv", components_table(varied, units)),
+      component_profiles(folder + "/component_profiles.csv",
+                         component_profiles_table(varied, units));
+  const std::array all = {&profiles, &decays,     &distributions,
+                          &sizes,    &components, &component_profiles};
   for (const Group& group : analysis.groups) {
     const GroupWithCurves with_curves(group, analysis.folder);
     for (CurveFile* one : all) one->file.write(one->table.lines(*with_curves));
@@ -196,7 +200,8 @@ std::vector<ColumnText> all_columns(const std::vector<double>& tolerances, const
        {described("packings.csv", packings_columns(tolerances, varied, units)),
         described("groups.csv", groups_columns(varied, units)), profiles_columns(varied, units),
         decays_columns(varied, units), distributions_columns(varied, units),
-        sizes_columns(varied, units), components_columns(varied, units), fits_columns(units),
+        sizes_columns(varied, units), components_columns(varied, units),
+        component_profiles_columns(varied, units), fits_columns(units),
         fit_points_columns(varied, units)}) {
     all.insert(all.end(), some.begin(), some.end());
   }

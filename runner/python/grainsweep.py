@@ -116,7 +116,7 @@ class _Bytes:
         return values
 
 
-_mark = b"GRAINS11\n"
+_mark = b"GRAINS12\n"
 _grain = [("position", "<f8", 3), ("radius", "<f8"), ("force", "<f8"), ("coordination", "<i4")]
 
 
@@ -144,6 +144,11 @@ class Bed:
         data.column("V32")  # sizes, likewise
         for _ in range(data.one("Q")):  # components, likewise
             [data.one(kind) for kind in "qqddddd"], data.column("<f8"), [data.one("d") for _ in range(3)]
+            data.column("V24")  # contacts by kind
+            for _ in range(4):  # profiles
+                data.one("d")
+                for _ in range(data.one("Q")):
+                    data.one("d"), data.one("q"), data.column("<i8"), [data.one(kind) for kind in "qddd"]
         grains = data.column(_grain)
         self.positions, self.radii = grains["position"], grains["radius"]
         self.forces, self.coordination = grains["force"], grains["coordination"]

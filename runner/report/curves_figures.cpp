@@ -284,6 +284,9 @@ std::vector<Figure> figures_of(const std::vector<Row>& rows, const Analysis& ana
   if (!shares.empty() && shares.begin()->first < shares.rbegin()->first) {
     figures.push_back(small_share_figure(analysis.families, analysis.folder));
   }
+  if (std::any_of(rows.begin(), rows.end(), [](const Row& row) { return is_mixture(row.job); })) {
+    figures.push_back(components_figure(axes));
+  }
   const bool has_kinds = std::any_of(rows.begin(), rows.end(), [](const Row& row) {
     return row.outcome && row.outcome->result.shape_order;
   });

@@ -12,9 +12,9 @@
 namespace grainsweep {
 
 /// What the files of figures begin with.
-inline constexpr std::array figure_names = {"means",        "means-residuals", "profiles",
-                                            "small_grains", "contacts",        "distributions",
-                                            "effort",       "published"};
+inline constexpr std::array figure_names = {"means",         "means-residuals", "profiles",
+                                            "small_grains",  "components",      "contacts",
+                                            "distributions", "effort",          "published"};
 
 /// Solid fraction, porosity and coordination number along the axis, with fits and their residuals.
 Figure means_figure(const Axes& axes, const std::vector<Family>& families);
@@ -28,6 +28,9 @@ Figure small_share_figure(const std::vector<Family>& families, const std::string
 
 /// Pair correlation and the distribution of contact forces.
 Figure distributions_figure(const Axes& axes);
+
+/// Solid fraction and coordination number of the components of mixtures, across the gap.
+Figure components_figure(const Axes& axes);
 
 /// Kinds of contact between polyhedra along the axis, and the force they carry.
 Figure contacts_figure(const Axes& axes);

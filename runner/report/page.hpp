@@ -17,6 +17,7 @@ struct DrawnFigure {
 struct PageParts {
   std::string title;                                                   ///< plain text
   std::string summary, groups, fits, published, packings, provenance;  ///< HTML
+  std::string components;  ///< likewise; empty without mixtures
   std::vector<DrawnFigure> figures;
   std::string bed;            ///< HTML of the beds that turn; empty if there is none
   std::string no_figures;     ///< which could not be drawn and why, plain text; empty if all are

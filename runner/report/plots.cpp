@@ -65,6 +65,13 @@ std::vector<GroupWithCurves> chosen_walled_groups(const Axes& axes, std::size_t 
   return spread_over(walled.empty() ? all : walled, most, axes.folder);
 }
 
+std::vector<GroupWithCurves> chosen_mixtures(const Axes& axes, std::size_t most) {
+  std::vector<const Group*> mixtures, all = settled_groups(axes);
+  std::copy_if(all.begin(), all.end(), std::back_inserter(mixtures),
+               [](const Group* group) { return is_mixture(group->job); });
+  return spread_over(mixtures, most, axes.folder);
+}
+
 std::vector<KeyEntry> series_key(const Axes& axes, const std::string& style) {
   std::vector<KeyEntry> entries;
   for (const Series* series : shown_series(axes)) {

@@ -26,6 +26,9 @@ std::vector<GroupWithCurves> chosen_groups(const Axes& axes, std::size_t most);
 /// The same of groups between walls, if there are any.
 std::vector<GroupWithCurves> chosen_walled_groups(const Axes& axes, std::size_t most);
 
+/// The same of mixtures.
+std::vector<GroupWithCurves> chosen_mixtures(const Axes& axes, std::size_t most);
+
 /// A key entry for each of the shown series.
 std::vector<KeyEntry> series_key(const Axes& axes, const std::string& style);
 

@@ -134,6 +134,7 @@ std::vector<std::string> write_report(const std::string& folder, const Provenanc
   }
   parts.summary = summary_section(rows, provenance.units);
   parts.groups = groups_section(analysis.groups, provenance.units);
+  parts.components = components_section(analysis.groups, analysis.folder);
   parts.fits = fits_section(analysis.families, provenance.units);
   parts.published = published_section(reference ? reference->source : "", comparisons);
   parts.packings = packings_section(rows, analysis.groups, provenance.units);

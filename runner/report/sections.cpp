@@ -6,6 +6,7 @@
 
 #include "runner/report/html.hpp"
 #include "runner/store/fields.hpp"
+#include "runner/tables/components.hpp"
 #include "runner/tables/fits.hpp"
 #include "runner/tables/units.hpp"
 #include "runner/text.hpp"
@@ -75,6 +76,16 @@ std::vector<std::string> group_cells(const Group& group, const GivenUnits& units
     const auto more = unit_cells(group, *units);
     cells.insert(cells.begin() + before_units, more.begin(), more.end());
   }
+  return cells;
+}
+
+std::vector<std::string> component_cells(const Group& group, const ComponentLine& line) {
+  std::vector<std::string> cells = {html_text(title_of(group)), std::to_string(line.component),
+                                    std::to_string(line.other), mean_text(line.neighbours, 3),
+                                    mean_text(line.contacts, 3)};
+  for (const Spread& kind : line.contact_kinds) cells.push_back(mean_text(kind, 3));
+  cells.insert(cells.end(), {mean_text(line.solid_fraction, 4), mean_text(line.coordination, 3)});
+  for (const Spread& order : line.nematic) cells.push_back(mean_text(order, 3));
   return cells;
 }
 
@@ -214,6 +225,39 @@ std::string groups_section(const std::vector<Group>& groups, const GivenUnits& u
   }
   for (const Group& group : groups) table.rows.push_back(group_cells(group, units));
   return html_table(table);
+}
+
+std::string components_section(const std::vector<Group>& groups, const std::string& folder) {
+  HtmlTable table{"components", "Components of mixtures, a row for each pair", {}, {}};
+  table.headings = {{"parameters", "label and what differs within the sweep"},
+                    {"component", "its number in the mixture"},
+                    {"other", "the component whose grains it touches"},
+                    {"neighbours", "grains of the other that one of the component touches"},
+                    {"contacts", "share of the force-bearing contacts that join the two"},
+                    {"at a point", "share of those"},
+                    {"along a line", "share of those"},
+                    {"over an area", "share of those"},
+                    {"φ", "solid fraction of the component"},
+                    {"Z", "grains of any component that one of the component touches"},
+                    {"nematic x", "nematic order of the axis x of the component's frame"},
+                    {"nematic y", "the same of y"},
+                    {"nematic z", "the same of z"}};
+  std::size_t shown = 0, all = 0;
+  for (const Group& group : groups) {
+    if (!is_mixture(group.job) || group.settled.empty() || ++all > most_mixtures_of_page) continue;
+    ++shown;
+    const GroupWithCurves with_curves(group, folder);
+    for (const ComponentLine& line : mean_components(*with_curves)) {
+      table.rows.push_back(component_cells(group, line));
+    }
+  }
+  if (table.rows.empty()) return "";
+  const std::string left_out =
+      shown == all
+          ? ""
+          : note_paragraph("The first " + std::to_string(shown) + " of " + std::to_string(all) +
+                           " mixtures; all are in the folder's components.csv.");
+  return left_out + html_table(table);
 }
 
 std::string fits_section(const std::vector<Family>& families, const GivenUnits& units) {

@@ -20,6 +20,13 @@ std::string summary_section(const std::vector<Row>& rows, const GivenUnits& unit
 /// Means and standard errors of every parameter set.
 std::string groups_section(const std::vector<Group>& groups, const GivenUnits& units = {});
 
+/// So many mixtures stand in the page; components.csv has all.
+inline constexpr std::size_t most_mixtures_of_page = 50;
+
+/// Means of the components of mixtures, and how they touch each other; empty without any. Curves
+/// are read from `folder`, as of GroupWithCurves. Throws FileError.
+std::string components_section(const std::vector<Group>& groups, const std::string& folder);
+
 /// The wall effect of every family, or why it is not determined; empty without walls.
 std::string fits_section(const std::vector<Family>& families, const GivenUnits& units = {});
 

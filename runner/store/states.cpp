@@ -26,11 +26,20 @@ constexpr auto members_of(const Curve* /*type*/) {
 constexpr auto members_of(const SizeRow* /*type*/) {
   return std::tuple(&SizeRow::diameter, &SizeRow::asked, &SizeRow::packed, &SizeRow::slab);
 }
+constexpr auto members_of(const ComponentBin* /*type*/) {
+  return std::tuple(&ComponentBin::solid_fraction, &ComponentBin::grains, &ComponentBin::neighbours,
+                    &ComponentBin::walls, &ComponentBin::nematic);
+}
+constexpr auto members_of(const ComponentProfile* /*type*/) {
+  return std::tuple(&ComponentProfile::bin_width, &ComponentProfile::bins);
+}
 constexpr auto members_of(const ComponentMeasure* /*type*/) {
   using Measure = ComponentMeasure;
   return std::tuple(&Measure::grains, &Measure::slab_grains, &Measure::packed, &Measure::slab_share,
                     &Measure::solid_fraction, &Measure::coordination,
-                    &Measure::coordination_with_walls, &Measure::neighbours, &Measure::nematic);
+                    &Measure::coordination_with_walls, &Measure::neighbours, &Measure::nematic,
+                    &Measure::contacts, &Measure::profile_x, &Measure::profile_y,
+                    &Measure::profile_from_walls, &Measure::profile_z);
 }
 constexpr auto members_of(const Curves* /*type*/) {
   return std::tuple(&Curves::profile_x, &Curves::profile_y, &Curves::profile_from_walls,
@@ -62,7 +71,7 @@ constexpr auto members_of(const StoredBed* /*type*/) {
 
 namespace {
 
-constexpr std::string_view bed_mark = "GRAINS11\n";
+constexpr std::string_view bed_mark = "GRAINS12\n";
 
 /// Throws FileError: the bed is not what was stored.
 [[noreturn]] void refuse(const std::string& folder, const Outcome& outcome,

@@ -2,7 +2,7 @@
 // again.
 //
 // They stand one behind the other in shards/<shard>.beds, where each outcome tells its own. A bed
-// is "GRAINS11\n", a StoredBed as of runner/store/archive.hpp, in the order of its members and of
+// is "GRAINS12\n", a StoredBed as of runner/store/archive.hpp, in the order of its members and of
 // those of the engine's structs in states.cpp, and a CRC-32 of all before. Units as in SettledGrain
 // and PackingResult. What a kill has left between them is never read.
 #pragma once

@@ -5,6 +5,10 @@
 namespace grainsweep {
 namespace {
 
+std::int64_t sum_of(const std::array<std::int64_t, 3>& numbers) {
+  return numbers[0] + numbers[1] + numbers[2];
+}
+
 /// What `value` gives of component `k`, over all replicates.
 template <class Value>
 Spread spread_of_component(const Group& group, std::size_t k, Value value) {
@@ -14,6 +18,38 @@ Spread spread_of_component(const Group& group, std::size_t k, Value value) {
     if (k < all.size()) values.push_back(value(all[k]));
   }
   return spread_of(values);
+}
+
+/// Force-bearing contacts of a packing's slab, each once.
+double contacts_of(const std::vector<ComponentMeasure>& components) {
+  std::int64_t sum = 0;
+  for (std::size_t k = 0; k < components.size(); ++k) {
+    for (std::size_t other = k; other < components.size(); ++other) {
+      sum += sum_of(components[k].contacts[other]);
+    }
+  }
+  return static_cast<double>(sum);
+}
+
+/// Their share that joins two components, and of those the share of each kind. A packing without
+/// any enters none of the means.
+void set_contacts(const Group& group, std::size_t k, std::size_t other, ComponentLine& line) {
+  std::vector<double> shares;
+  std::array<std::vector<double>, 3> kinds;
+  for (const Outcome& outcome : group.settled) {
+    const std::vector<ComponentMeasure>& all = outcome.result.components;
+    if (k >= all.size() || other >= all[k].contacts.size()) continue;
+    const std::array<std::int64_t, 3>& some = all[k].contacts[other];
+    const double whole = contacts_of(all), joining = static_cast<double>(sum_of(some));
+    if (whole > 0.0) shares.push_back(joining / whole);
+    for (std::size_t kind = 0; joining > 0.0 && kind < kinds.size(); ++kind) {
+      kinds[kind].push_back(static_cast<double>(some[kind]) / joining);
+    }
+  }
+  line.contacts = spread_of(shares);
+  for (std::size_t kind = 0; kind < kinds.size(); ++kind) {
+    line.contact_kinds[kind] = spread_of(kinds[kind]);
+  }
 }
 
 ComponentLine line_of(const Group& group, std::size_t k, std::size_t other) {
@@ -37,6 +73,7 @@ ComponentLine line_of(const Group& group, std::size_t k, std::size_t other) {
   }
   line.neighbours =
       spread_of_component(group, k, [=](const Measure& one) { return one.neighbours.at(other); });
+  set_contacts(group, k, other, line);
   return line;
 }
 
@@ -58,9 +95,19 @@ Columns<GroupComponentLine> component_line_columns(const Varied& varied, const G
                                  [](const Line& line) { return cell(line.line.grains.n); }}});
   append_spread(columns, "neighbours", "",
                 "grains of the other component that one of the component touches, with its centre "
-                "in the slab, at gap_tolerance; all that follows is of the component alone",
+                "in the slab, at gap_tolerance",
                 [](const Line& line) { return line.line.neighbours; });
-  append_spread(columns, "grains", "", "of the component in the whole bed",
+  append_spread(columns, "contacts", "",
+                "share of the slab's force-bearing contacts between grains that join the two",
+                [](const Line& line) { return line.line.contacts; });
+  const std::array kinds = {"contacts_simple", "contacts_double", "contacts_triple"};
+  const std::array places = {"share of those at a point", "along a line", "over an area"};
+  for (std::size_t kind = 0; kind < kinds.size(); ++kind) {
+    append_spread(columns, kinds[kind], "", places[kind],
+                  [=](const Line& line) { return line.line.contact_kinds[kind]; });
+  }
+  append_spread(columns, "grains", "",
+                "of the component in the whole bed; all that follows is of the component alone",
                 [](const Line& line) { return line.line.grains; });
   append_spread(columns, "packed", "", "its share of the solid volume of the whole bed",
                 [](const Line& line) { return line.line.packed; });
@@ -86,10 +133,13 @@ Columns<GroupComponentLine> component_line_columns(const Varied& varied, const G
 
 }  // namespace
 
+std::size_t components_of(const Group& group) {
+  return group.settled.empty() ? 0 : group.settled.front().get().result.components.size();
+}
+
 std::vector<ComponentLine> mean_components(const Group& group) {
   std::vector<ComponentLine> lines;
-  if (group.settled.empty()) return lines;
-  const std::size_t components = group.settled.front().get().result.components.size();
+  const std::size_t components = components_of(group);
   for (std::size_t k = 0; k < components; ++k) {
     for (std::size_t other = 0; other < components; ++other) {
       lines.push_back(line_of(group, k, other));

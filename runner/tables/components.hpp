@@ -16,7 +16,13 @@ struct ComponentLine {
   Spread grains, packed, slab_share, solid_fraction, coordination, coordination_with_walls;
   std::array<Spread, 3> nematic;
   Spread neighbours;
+  Spread contacts;                      ///< share of all of the slab that join the two
+  std::array<Spread, 3> contact_kinds;  ///< of those, the shares at a point, along a line, over an
+                                        ///< area
 };
+
+/// Components of the grains of a group; 0 of grains that are no mixture, and if none has settled.
+std::size_t components_of(const Group& group);
 
 /// Over the settled packings of a group; none of grains that are no mixture.
 std::vector<ComponentLine> mean_components(const Group& group);

@@ -35,6 +35,9 @@ struct JobFacts {
   double estimated = 0.0;                    ///< CPU time by estimate, s
 };
 
+/// Whether its grains are a mixture of shapes.
+inline bool is_mixture(const JobFacts& job) { return job.shape == "mixture"; }
+
 /// A job and what came of it; no outcome while it is pending.
 struct Row {
   JobFacts job;

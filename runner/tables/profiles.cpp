@@ -1,7 +1,6 @@
 #include "runner/tables/profiles.hpp"
 
 #include <algorithm>
-#include <string_view>
 
 namespace grainsweep {
 namespace {
@@ -52,24 +51,16 @@ struct ProfileLine {
   MeanBin bin;
 };
 
-/// Of a profile from the wall of a tube, d; not a number elsewhere.
-double from_axis(const ProfileLine& line) {
-  const Box& box = line.group.job.box;
-  const bool is_over_radius = box.is_tube && std::string_view(line.axis) == "walls";
-  return is_over_radius ? box.width / 2.0 - (line.bin.low + line.bin.high) / 2.0 : no_number;
-}
-
 Columns<ProfileLine> profile_bin_columns() {
   using Line = const ProfileLine&;
   return {
-      {"axis", "",
-       "x and y from wall to wall, x between walls only; walls, in ducts and tubes, "
-       "from the nearest one inwards; z from the floor up",
-       [](Line line) { return cell(line.axis); }},
+      {"axis", "", profile_axis_meaning, [](Line line) { return cell(line.axis); }},
       {"low", "d", "where the bin begins", [](Line line) { return cell(line.bin.low); }},
       {"high", "d", "where it ends", [](Line line) { return cell(line.bin.high); }},
       {"from_axis", "d", "distance of its middle from the axis of a tube; empty elsewhere",
-       [](Line line) { return cell(from_axis(line)); }},
+       [](Line line) {
+         return cell(from_axis(line.group, line.axis, line.bin.low, line.bin.high));
+       }},
       {"n", "", "packings that have the bin",
        [](Line line) { return cell(line.bin.solid_fraction.n); }},
       {"coordination_n", "", "those of them with grains whose centre is in the bin",
@@ -105,6 +96,11 @@ void append_bins(const Group& group, const char* axis, Profile PackingResult::*p
 }
 
 }  // namespace
+
+double from_axis(const Group& group, std::string_view axis, double low, double high) {
+  const Box& box = group.job.box;
+  return box.is_tube && axis == "walls" ? box.width / 2.0 - (low + high) / 2.0 : no_number;
+}
 
 std::vector<MeanBin> mean_profile(const Group& group, Profile PackingResult::*profile) {
   std::size_t longest = 0;

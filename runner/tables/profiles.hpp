@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "runner/tables/groups.hpp"
@@ -21,6 +22,15 @@ struct MeanBin {
   Spread coordination_with_walls;  ///< the same, walls and floor counted
   Spread small_number_share;       ///< small grains over all grains
 };
+
+/// What the column `axis` of a table of profiles says.
+inline constexpr const char* profile_axis_meaning =
+    "x and y from wall to wall, x between walls only; walls, in ducts and tubes, "
+    "from the nearest one inwards; z from the floor up";
+
+/// Distance of the middle of a bin from the axis of a tube, d, of a profile from the walls, which
+/// is called "walls"; not a number elsewhere.
+double from_axis(const Group& group, std::string_view axis, double low, double high);
 
 /// The mean of `profile` (profile_y or profile_z) over the settled packings of a group. Where the
 /// profiles differ in length, the bins of those that have them.

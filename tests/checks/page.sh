@@ -34,6 +34,7 @@ sweep widths "$square" '{ "label": "'"$harm"'", "grid": { "box.width": [3, 4, 5]
 sweep sizes "$square" '{ "label": "spread", "grid": { "sizes.spread": [0, 0.05, 0.1] } },
   { "label": "small", "grid": { "sizes.small_share": [0.3, 0.6], "box.width": [3, 4, 5] } }'
 sweep pinacoids '"shape": "pinacoid", '"$square" '{ "label": "walls", "grid": { "box.width": [3, 4] } }'
+sweep mixture '"shape": { "mixture": [ { "share": 0.5, "cube": {} }, { "share": 0.5, "sphere": {} } ] }, '"$square" '{ "label": "walls", "set": { "box.width": 5, "box.length": 5 } }'
 sweep failed "$square" '{ "label": "short", "set": { "accuracy": { "preset": "fast", "max_steps": 40 } } }'
 sweep empty "$square" '{ "label": "none", "grid": { "box.width": [3, 4] } }'
 
@@ -55,7 +56,7 @@ fail() {
 }
 
 pages=()
-for name in widths sizes pinacoids failed empty; do
+for name in widths sizes pinacoids mixture failed empty; do
   "$grainsweep" run "$name.json" --quiet --out "$name" || [ $? -eq 1 ]
   pages+=("$name/report.html")
 done
@@ -63,6 +64,7 @@ done
 has_figures widths means profiles distributions effort published
 has_figures sizes means profiles small_grains distributions effort
 has_figures pinacoids means profiles contacts distributions effort
+has_figures mixture means profiles components contacts distributions effort
 has_figures failed effort
 [ -s widths/figures/means-residuals.csv ]
 /usr/bin/python3 - widths <<'EOF'

@@ -92,7 +92,8 @@ done
 import sys
 import pandas
 
-by_group = ["profiles", "decays", "distributions", "sizes", "components", "fit_points"]
+by_group = ["profiles", "decays", "distributions", "sizes", "components",
+            "component_profiles", "fit_points"]
 joined = 0
 for sweep in sys.argv[1:]:
     folder = "out-" + sweep.removesuffix(".json")

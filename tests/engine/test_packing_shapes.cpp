@@ -226,6 +226,17 @@ TEST_CASE("the components of a mixture add up to the whole bed") {
     grains += static_cast<double>(one.slab_grains);
   }
   CHECK(ends / grains == Approx(r.coordination.front().between_grains));
+  REQUIRE(r.shape_order);
+  const auto &own = isometric.contacts[0], &mixed = isometric.contacts[1],
+             &flats = flat.contacts[1];
+  CHECK(mixed == flat.contacts[0]);
+  std::int64_t contacts = 0;
+  for (std::size_t kind = 0; kind < 3; ++kind) contacts += own[kind] + mixed[kind] + flats[kind];
+  for (std::size_t kind = 0; kind < 3; ++kind) {
+    CHECK(static_cast<double>(own[kind] + mixed[kind] + flats[kind]) /
+              static_cast<double>(contacts) ==
+          r.shape_order->contact_share[kind]);
+  }
   CHECK(pack(small_spec()).result.components.empty());
 }
 
@@ -236,6 +247,25 @@ TEST_CASE("the slab's profile of a mixture holds the solid volume that is measur
   for (const ProfileBin& bin : r.profile_y.bins) mean += bin.large;
   mean /= static_cast<double>(r.profile_y.bins.size());
   CHECK(mean == Approx(r.solid_fraction).epsilon(1e-12));
+}
+
+TEST_CASE("components have the profiles that the bed has, which hold their solid volume") {
+  PackingSpec spec = small_spec(flat_and_isometric());
+  for (const Boundary x : {Boundary::periodic, Boundary::walls}) {
+    spec.box.x = x;
+    const PackingResult r = pack(spec).result;
+    REQUIRE(r.components.size() == 2);
+    for (const ComponentMeasure& one : r.components) {
+      CHECK(one.profile_x.bins.size() == r.profile_x.bins.size());
+      CHECK(one.profile_from_walls.bins.size() == r.profile_from_walls.bins.size());
+      CHECK(one.profile_z.bins.size() == r.profile_z.bins.size());
+      REQUIRE(one.profile_y.bins.size() == r.profile_y.bins.size());
+      double mean = 0;
+      for (const ComponentBin& bin : one.profile_y.bins) mean += bin.solid_fraction;
+      mean /= static_cast<double>(r.profile_y.bins.size());
+      CHECK(mean == Approx(one.solid_fraction).epsilon(1e-12));
+    }
+  }
 }
 
 TEST_CASE("a mixture of equal components packs as their shape alone does, bit by bit") {

@@ -70,6 +70,10 @@ inline Curves sample_curves() {
   curves.sizes = {{0.5, 0.25, 1.0 / 3.0, 0.125}, {1, 1, 1, 1}};
   curves.components = {{10, 5, 0.5, 0.25, 0.125, 4, 5, {3, 1}, {0.25, 0.5, 0.75}},
                        {20, 9, 0.5, 0.75, 0.375, 3, 3, {2, 1}, {0.5, 0.5, 0.5}}};
+  curves.components[0].contacts = {{7, 8, 9}, {1, 2, 3}};
+  curves.components[1].contacts = {{1, 2, 3}, {4, 5, 6}};
+  curves.components[1].profile_z = {
+      0.25, {{1.0 / 3.0, 7, {8, 9}, -1, {-0.0, 0.5, 1}}, {0, 0, {0, 0}, 0, {}}}};
   return curves;
 }
 
@@ -95,6 +99,24 @@ inline Row polyhedra_row(const std::string& id, double width) {
   row.job.shape = "pinacoid";
   row.outcome->result.shape_order =
       ShapeOrder{{0.5, 0.25, 0.25}, {0.25, 0.25, 0.5}, {0.125, 0.0625, 0.75}};
+  return row;
+}
+
+/// The row of a packing of a mixture of two components with a profile along y, a bin of which holds
+/// grains of the first alone.
+inline Row mixture_row(const std::string& id, double width) {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  Row row = polyhedra_row(id, width);
+  row.job.shape = "mixture";
+  auto& components = row.outcome->result.components;
+  components = {{30, 10, 0.75, 0.75, 0.5, 6, 6.5, {4, 2}, {0.25, 0.25, 0.5}},
+                {40, 20, 0.25, 0.25, 0.125, 5, 5, {1, 4}, {0.5, 0.5, 0.75}}};
+  components[0].contacts = {{6, 2, 0}, {3, 1, 4}};
+  components[1].contacts = {{3, 1, 4}, {0, 0, 0}};
+  components[0].profile_y = {
+      0.5, {{0.25, 4, {8, 12}, 4, {0.25, 0.5, 1}}, {0.5, 2, {4, 6}, 0, {1, 1, 1}}}};
+  components[1].profile_y = {
+      0.5, {{0.125, 4, {8, 2}, 0, {0.5, 0.5, 0.5}}, {0, 0, {0, 0}, 0, {none, none, none}}}};
   return row;
 }
 

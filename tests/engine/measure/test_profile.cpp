@@ -5,15 +5,18 @@
 
 #include "engine/measure/coordination.hpp"
 #include "engine/measure/profile.hpp"
+#include "engine/shape/mixture.hpp"
 #include "engine/units.hpp"
 #include "tests/support/draw.hpp"
 #include "tests/support/scenes.hpp"
+#include "tests/support/shape_beds.hpp"
 
 namespace grainsweep {
 namespace {
 
 using testing::Draw;
 using testing::periodic;
+using testing::random_rotation;
 using testing::walls;
 
 Touching touching_in(SphereBed& bed) { return find_touching(bed, 1e-3, kernels_for(best_isa())); }
@@ -341,6 +344,140 @@ TEST_CASE("touching is judged at the tolerance of the settings") {
   const Touching touching = touching_in(bed);
   CHECK(profile_along_z(bed, touching, {1, 0, 1e-3}).bins[2].neighbours == 2);
   CHECK(profile_along_z(bed, touching, {1, 0, 1e-4}).bins[2].neighbours == 0);
+}
+
+/// Cubes, flat bricks and spheres at random, in a bed of which some touch.
+PolyhedronBed mixture_bed(const Box& box, std::uint64_t seed) {
+  Draw draw(seed);
+  std::vector<std::uint8_t> components;
+  std::vector<Pose> poses;
+  for (std::size_t i = 0; i < 150; ++i) {
+    components.push_back(static_cast<std::uint8_t>(draw.uniform(0, 3)));
+    const double x = draw.uniform(0.6, box.length - 0.6), y = draw.uniform(0.6, box.width - 0.6);
+    poses.push_back({{x, y, draw.uniform(0.5, 5)}, draw.uniform(0.5, 1), random_rotation(draw)});
+  }
+  return make_bed(
+      box,
+      shapes_of(Mixture{{{0.4, CubeSize{}}, {0.3, CuboidSize{1, 1, 0.4}}, {0.3, SphereShape{}}}}),
+      components, poses);
+}
+
+/// The profiles of a bed, whole and of its components, along each axis that it has.
+struct BothProfiles {
+  Profile whole;
+  std::vector<ComponentProfile> parts;
+};
+std::vector<BothProfiles> profiles_of(const PolyhedronBed& bed, const Touching& touching,
+                                      const Slab& slab, const ProfileSettings& s) {
+  std::vector<BothProfiles> all = {
+      {profile_along_z(bed, touching, s), component_profiles_along_z(bed, touching, s)}};
+  if (!bed.box.is_tube) {
+    for (const int axis : {0, 1}) {
+      all.push_back({profile_across(bed, touching, slab, s, axis),
+                     component_profiles_across(bed, touching, slab, s, axis)});
+    }
+  }
+  if (bed.box.x == walls) {
+    all.push_back({profile_from_walls(bed, touching, slab, s),
+                   component_profiles_from_walls(bed, touching, slab, s)});
+  }
+  return all;
+}
+
+TEST_CASE("the profiles of the components of a mixture add up to that of the bed") {
+  Box tube{4, 4, walls, walls};
+  tube.is_tube = true;
+  for (const Box& box : {Box{5, 4, periodic, walls}, Box{5, 4, walls, walls}, tube}) {
+    PolyhedronBed bed = mixture_bed(box, 7);
+    const Touching touching = find_touching(bed, 0.05, kernels_for(best_isa()));
+    REQUIRE(touching.pairs.size() > 50);
+    for (const auto& [whole, parts] : profiles_of(bed, touching, {1, 4}, {0.3, 0.4, 0.05})) {
+      REQUIRE(parts.size() == 3);
+      for (const ComponentProfile& part : parts) {
+        REQUIRE(part.bin_width == whole.bin_width);
+        REQUIRE(part.bins.size() == whole.bins.size());
+      }
+      for (std::size_t k = 0; k < whole.bins.size(); ++k) {
+        double filled = 0;
+        std::int64_t grains = 0, neighbours = 0, touched_walls = 0;
+        for (const ComponentProfile& part : parts) {
+          const ComponentBin& bin = part.bins[k];
+          filled += bin.solid_fraction;
+          grains += bin.grains;
+          touched_walls += bin.walls;
+          for (const std::int64_t number : bin.neighbours) neighbours += number;
+        }
+        const ProfileBin& bin = whole.bins[k];
+        // Hundreds of volumes are added up in two orders, each rounded; a full bin is 1.
+        CHECK(filled == Approx(bin.large + bin.small).margin(1e-13));
+        CHECK(grains == bin.large_grains + bin.small_grains);
+        CHECK(neighbours == bin.neighbours);
+        CHECK(touched_walls == bin.walls);
+      }
+    }
+  }
+}
+
+TEST_CASE("neighbours in the profiles of components are those of a count over all pairs") {
+  PolyhedronBed bed = mixture_bed({5, 4, periodic, walls}, 8);
+  const Touching touching = find_touching(bed, 0.05, kernels_for(best_isa()));
+  const Slab slab{1, 4};
+  const auto parts = component_profiles_across(bed, touching, slab, {0.5, 0, 0.02}, 1);
+  for (std::size_t k = 0; k < 3; ++k) {
+    for (std::size_t number = 0; number < 8; ++number) {
+      const auto is_in = [&](std::int32_t index) {
+        const auto i = static_cast<std::size_t>(index);
+        const Record<double>& p = bed.position[i];
+        const double low = 0.5 * static_cast<double>(number);
+        return bed.component(i) == k && slab.contains(p.z) && p.y >= low && p.y < low + 0.5;
+      };
+      const ComponentBin& bin = parts[k].bins[number];
+      std::int64_t grains = 0;
+      for (std::int32_t i = 0; i < bed.wall(); ++i) grains += is_in(i) ? 1 : 0;
+      CHECK(bin.grains == grains);
+      for (std::size_t other = 0; other < 3; ++other) {
+        const auto counts = [&](std::int32_t grain, std::int32_t touched) {
+          return is_in(grain) && bed.component(static_cast<std::size_t>(touched)) == other ? 1 : 0;
+        };
+        std::int64_t expected = 0;
+        for (const TouchingPair& pair : touching.pairs) {
+          if (pair.gap < 0.02) expected += counts(pair.a, pair.b) + counts(pair.b, pair.a);
+        }
+        CHECK(bin.neighbours[other] == expected);
+      }
+    }
+  }
+}
+
+TEST_CASE("a component's profile is that of its grains alone, and says how they point") {
+  const Quaternion lying(Eigen::AngleAxisd(pi / 2, Vector::UnitX()));
+  const std::vector<ConvexShape> shapes =
+      shapes_of(Mixture{{{0.5, CuboidSize{1, 1, 0.5}}, {0.5, SphereShape{}}}});
+  // Two bricks below y = 2, one of which lies on its side, and an upright one above; a sphere.
+  const std::vector<Pose> bricks = {{{1, 1, 2}, 1, Quaternion::Identity()},
+                                    {{3, 1, 2}, 1, lying},
+                                    {{1, 3, 2}, 1, Quaternion::Identity()}};
+  std::vector<Pose> both = bricks;
+  both.push_back({{3, 3, 2}, 1, Quaternion::Identity()});
+  const Box box{4, 4, periodic, walls};
+  const Slab slab{0.5, 4};
+  const PolyhedronBed bed = make_bed(box, shapes, {0, 0, 0, 1}, both);
+  const auto parts = component_profiles_across(bed, {}, slab, {2, 0, 1e-4}, 1);
+  const Profile alone =
+      profile_across(make_bed(box, shapes.front(), bricks), {}, slab, {2, 0, 1e-4}, 1);
+  REQUIRE(parts.size() == 2);
+  for (std::size_t k : {0, 1}) {
+    CHECK(parts[0].bins[k].solid_fraction == alone.bins[k].large);
+    CHECK(parts[0].bins[k].grains == alone.bins[k].large_grains);
+  }
+  // Axes z and y at right angles are both in one plane, 1/4; x is shared, and so is any of one.
+  CHECK(parts[0].bins[0].nematic[0] == Approx(1));
+  CHECK(parts[0].bins[0].nematic[1] == Approx(0.25));
+  CHECK(parts[0].bins[0].nematic[2] == Approx(0.25));
+  CHECK(parts[0].bins[1].nematic[2] == Approx(1));
+  CHECK(std::isnan(parts[1].bins[1].nematic[2]));  // spheres point nowhere
+  CHECK(parts[1].bins[1].solid_fraction == Approx(sphere_volume(0.5) / (4 * 2 * 3.5)));
+  CHECK(parts[1].bins[0].grains == 0);
 }
 
 TEST_CASE("an empty bed has empty bins") {

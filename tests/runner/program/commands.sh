@@ -39,7 +39,7 @@ code=0
 expect_text report.txt "small: 10 packings" "walls" "5 periodic" "Tables in out/small" "CPU time"
 expect_text progress.txt "10/10  "
 for file in packings.csv groups.csv fits.csv fit_points.csv profiles.csv decays.csv \
-  distributions.csv sizes.csv components.csv columns.csv provenance.json; do
+  distributions.csv sizes.csv components.csv component_profiles.csv columns.csv provenance.json; do
   [ -s "out/small/$file" ] || fail "no $file"
 done
 expect_text out/small/provenance.json "run small.json" '"processor": "' '"commit": "' \

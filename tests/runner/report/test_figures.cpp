@@ -132,3 +132,21 @@ TEST_CASE("kinds of contact are drawn for polyhedra", "[report]") {
   CHECK(cell_in(table, 1, "contacts_simple") == "0.5");
   CHECK(cell_in(table, 1, "force_triple") == "0.5");
 }
+
+TEST_CASE("each component of a mixture has its curve from wall to wall", "[report]") {
+  const std::vector<Row> rows = {mixture_row("a", 4), polyhedra_row("b", 5)};
+  const std::vector<Figure> figures = figures_of(rows, analyse(rows), {});
+  const Figure& figure = figure_called(figures, "components");
+  const std::string& table = figure.tables.at(0).second;
+  REQUIRE(cells_of_table(table).size() == 5);
+  CHECK(cell_in(table, 1, "y") == "0.25");
+  CHECK(cell_in(table, 1, "solid_fraction") == "0.25");
+  CHECK(cell_in(table, 2, "coordination") == "5");
+  CHECK(cell_in(table, 3, "component") == "2");
+  CHECK(cell_in(table, 4, "coordination").empty());
+  CHECK_THAT(figure.commands, Catch::Contains("component 1") && Catch::Contains("component 2"));
+  const std::vector<Row> others = {polyhedra_row("b", 5)};
+  for (const Figure& other : figures_of(others, analyse(others), {})) {
+    CHECK(other.name != "components");
+  }
+}

@@ -74,6 +74,16 @@ TEST_CASE("packings that did not settle come first, with reason and remedy", "[r
   CHECK(remedy_of(rows[0]).empty());
 }
 
+TEST_CASE("the page tells how the components of mixtures touch each other", "[report]") {
+  const std::vector<Row> rows = {mixture_row("a", 4), mixture_row("b", 4), polyhedra_row("c", 5)};
+  const std::vector<Group> groups = groups_of(rows);
+  const std::string html = components_section(groups, "");
+  CHECK(count_of(html, "<tr>") == 1 + 4);  // and the headings
+  CHECK_THAT(html, Catch::Contains("over an area") && Catch::Contains("<td>0.500"));
+  const std::vector<Row> others = {polyhedra_row("b", 5)};
+  CHECK(components_section(groups_of(others), "").empty());
+}
+
 TEST_CASE("of many packings the page shows 2,000 and leads to all", "[report]") {
   std::vector<Row> rows;
   for (std::size_t k = 0; k < most_packings + 5; ++k) {

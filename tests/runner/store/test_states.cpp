@@ -87,6 +87,8 @@ TEST_CASE("a stored bed of spheres reads back bit by bit, without orientations")
   CHECK(std::isnan(back.curves.force_density.values.at(1)));
   CHECK(back.curves.sizes.at(0).packed == 1.0 / 3.0);
   CHECK(back.curves.components.at(0).nematic[2] == 0.75);
+  CHECK(back.curves.components.at(1).contacts.at(1)[2] == 6);
+  CHECK(back.curves.components.at(1).profile_z.bins.at(0).neighbours.at(1) == 9);
   CHECK_FALSE(back.turned);
 }
 
@@ -105,7 +107,7 @@ TEST_CASE("curves are put back where they were taken from") {
 
 TEST_CASE("a bed begins as its header states") {
   const std::string bytes = bed_bytes(sample_bed());
-  CHECK(bytes.substr(0, 20) == std::string("GRAINS11\n\3\0\0\0\0\0\0\0job", 20));
+  CHECK(bytes.substr(0, 20) == std::string("GRAINS12\n\3\0\0\0\0\0\0\0job", 20));
 }
 
 TEST_CASE("a bed without grains can be stored") {

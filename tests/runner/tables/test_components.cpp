@@ -15,6 +15,8 @@ Row row_of_mixture(const std::string& id, double solid_fraction) {
   row.outcome->result.components = {
       {30, 10, 0.75, 0.75, 0.5, 6, 6.5, {4, 2}, {0.25, 0.25, 0.5}},
       {40, 20, 0.25, 0.25, solid_fraction, 5, 5, {1, 4}, {0.5, 0.5, 0.75}}};
+  row.outcome->result.components[0].contacts = {{6, 2, 0}, {3, 1, 4}};
+  row.outcome->result.components[1].contacts = {{3, 1, 4}, {0, 0, 0}};
   return row;
 }
 
@@ -33,6 +35,24 @@ TEST_CASE("components have a line for each pair, with means over the replicates"
   CHECK(lines[3].nematic[2].mean == 0.75);
   CHECK(lines[0].grains.mean == 30);
   CHECK(lines[0].coordination_with_walls.mean == 6.5);
+}
+
+TEST_CASE("contacts of two components are a share of all, and have kinds where there are any") {
+  std::vector<Row> rows = {row_of_mixture("a", 0.25), row_of_mixture("b", 0.25)};
+  rows[1].outcome->result.components[0].contacts = {{4, 0, 4}, {8, 0, 0}};
+  rows[1].outcome->result.components[1].contacts = {{8, 0, 0}, {0, 0, 16}};
+  const std::vector<Group> groups = analyse(rows).groups;
+  const std::vector<ComponentLine> lines = mean_components(groups[0]);
+  REQUIRE(lines.size() == 4);
+  CHECK(lines[0].contacts.mean == 0.375);  // 8 of 16, 8 of 32
+  CHECK(lines[0].contacts.error == Approx(0.125));
+  CHECK(lines[0].contact_kinds[0].mean == 0.625);  // 6 of 8, 4 of 8
+  CHECK(lines[0].contact_kinds[1].mean == 0.125);
+  CHECK(lines[1].contacts.mean == lines[2].contacts.mean);
+  CHECK(lines[1].contact_kinds[2].mean == 0.25);  // 4 of 8, 0 of 8
+  CHECK(lines[3].contacts.mean == 0.25);
+  CHECK((lines[3].contact_kinds[2].mean == 1 && lines[3].contact_kinds[2].n == 1));
+  CHECK(lines[0].contacts.mean + lines[1].contacts.mean + lines[3].contacts.mean == 1);
 }
 
 TEST_CASE("the table of components names what stands in it") {

@@ -1,0 +1,128 @@
+// What the components of mixtures do from wall to wall.
+#include <algorithm>
+
+#include "runner/report/figures.hpp"
+#include "runner/report/plots.hpp"
+#include "runner/tables/component_profiles.hpp"
+#include "runner/tables/components.hpp"
+
+namespace grainsweep {
+namespace {
+
+constexpr std::size_t most_mixtures = 3;
+const std::string components_table_name = "components.csv";
+
+using Mixtures = std::vector<GroupWithCurves>;
+
+std::vector<MeanComponentBin> profile_of(const Group& group, std::size_t component) {
+  const auto across =
+      group.job.box.is_tube ? &ComponentMeasure::profile_from_walls : &ComponentMeasure::profile_y;
+  return mean_component_profile(group, across, component, component);
+}
+
+/// What selects a component's lines of the table.
+std::size_t curve_number(std::size_t panel, std::size_t component) {
+  return panel * most_components + component + 1;
+}
+
+std::string component_bins_csv(const Mixtures& groups) {
+  std::string text =
+      csv_line({"curve", "group", "component", "y", "solid_fraction", "solid_fraction_error",
+                "coordination", "coordination_error", "name"});
+  for (std::size_t panel = 0; panel < groups.size(); ++panel) {
+    const Group& group = *groups[panel];
+    for (std::size_t k = 0; k < components_of(group); ++k) {
+      for (const MeanComponentBin& bin : profile_of(group, k)) {
+        text += csv_line({cell(curve_number(panel, k)), cell(group.number), cell(k + 1),
+                          cell((bin.low + bin.high) / 2.0), cell(bin.solid_fraction.mean),
+                          cell(bin.solid_fraction.error), cell(bin.coordination.mean),
+                          cell(bin.coordination.error), cell(title_of(group))});
+      }
+    }
+  }
+  return text;
+}
+
+/// What all panels of a row show, so that they have one range.
+std::vector<double> component_values_in(const Mixtures& groups, Spread MeanComponentBin::*spread) {
+  std::vector<double> values;
+  for (const GroupWithCurves& group : groups) {
+    for (std::size_t k = 0; k < components_of(*group); ++k) {
+      for (const MeanComponentBin& bin : profile_of(*group, k)) {
+        values.push_back((bin.*spread).mean);
+      }
+    }
+  }
+  return values;
+}
+
+std::size_t shown_components(const Mixtures& groups) {
+  std::size_t most = 0;
+  for (const GroupWithCurves& group : groups) most = std::max(most, components_of(*group));
+  return std::min(most, most_series);
+}
+
+std::string component_style(std::size_t component) {
+  return "lines ls " + cell(component + 1) + " lw 1.4";
+}
+
+std::string component_panel(std::size_t number, const Group& group, const std::string& column) {
+  std::vector<std::string> parts;
+  for (std::size_t k = 0; k < std::min(components_of(group), most_series); ++k) {
+    parts.push_back(plot_part({components_table_name, "curve", curve_number(number, k), "y", column,
+                               "", component_style(k)}));
+  }
+  return plot_command(parts);
+}
+
+std::string component_commands_of(const Figure& figure, const Mixtures& groups) {
+  std::vector<KeyEntry> key;
+  for (std::size_t k = 0; k < shown_components(groups); ++k) {
+    key.push_back({component_style(k), "component " + cell(k + 1)});
+  }
+  const Panels panels(figure, groups.size(), {0.55, 0.45}, key, {.right = 16.0, .above = 26.0});
+  const std::string solid = range_command(
+      "y", range_of(component_values_in(groups, &MeanComponentBin::solid_fraction), 0.06));
+  const std::string touching = range_command(
+      "y", range_of(component_values_in(groups, &MeanComponentBin::coordination), 0.06));
+  std::string text = "set multiplot\n" + panels.key();
+  for (std::size_t k = 0; k < groups.size(); ++k) {
+    const Group& group = *groups[k];
+    const Box& box = group.job.box;
+    text += panels.place(k, 0) +
+            range_command("x", {0.0, box.is_tube ? box.width / 2.0 : box.width}) +
+            "set format x ''\n" + label_command("x", "") +
+            label_command("y", k == 0 ? "solid fraction φ" : "") + "set title " +
+            quoted(title_of(group, figure_label)) + " offset 0,-0.7 font ',11' noenhanced\n" +
+            solid + component_panel(k, group, "solid_fraction") + "unset title\n";
+    text += panels.place(k, 1) + "set format x\n" +
+            label_command("x",
+                          box.is_tube ? "distance from the wall / d" : "y / d, from wall to wall") +
+            label_command("y", k == 0 ? "coordination number Z" : "") + touching +
+            component_panel(k, group, "coordination");
+  }
+  return text;
+}
+
+}  // namespace
+
+Figure components_figure(const Axes& axes) {
+  Figure figure{.name = "components",
+                .title = "Components from wall to wall",
+                .caption =
+                    "Solid fraction of each component of a mixture, and how many grains of any "
+                    "component one of its own touches, in slices parallel to the walls. The "
+                    "components are numbered as in the sweep file; the errors, the other mixtures "
+                    "and the order of each component are in the folder's component_profiles.csv."};
+  const Mixtures groups = chosen_mixtures(axes, most_mixtures);
+  if (groups.empty()) {
+    figure.not_drawn = "no packing has settled";
+    return figure;
+  }
+  figure.height = 520;
+  figure.tables = {{components_table_name, component_bins_csv(groups)}};
+  figure.commands = component_commands_of(figure, groups);
+  return figure;
+}
+
+}  // namespace grainsweep
