@@ -191,6 +191,24 @@ void check_placed(const PlacedGrains& placed, double inner, const Box& box, Erro
   errors.push_back({"fill.file", first + more + (are_large ? missing_diameter : "")});
 }
 
+/// Every grain of a mixture is of one of its components; the first that is not speaks for all.
+void check_components(const PlacedGrains& placed, const Mixture& mixture, Errors& errors) {
+  const std::string wanted =
+      "the column component must hold the number of each grain's component "
+      "in shape.mixture, 1 to " +
+      std::to_string(mixture.components.size());
+  if (placed.components.size() != placed.grains.size()) {
+    errors.push_back({"fill.file", "does not say which grain is of which component: " + wanted});
+    return;
+  }
+  const auto bad =
+      std::find_if(placed.components.begin(), placed.components.end(),
+                   [&](std::uint8_t component) { return component >= mixture.components.size(); });
+  if (bad == placed.components.end()) return;
+  errors.push_back({"fill.file", "grain " + std::to_string(bad - placed.components.begin() + 1) +
+                                     " is of no component: " + wanted});
+}
+
 void check_fill(const PackingSpec& spec, const std::optional<ShapeExtent>& shape,
                 bool counts_are_defined, Errors& errors) {
   if (const auto* solid = std::get_if<SolidHeight>(&spec.fill)) {
@@ -205,10 +223,8 @@ void check_fill(const PackingSpec& spec, const std::optional<ShapeExtent>& shape
     require_count(grain_count(spec), "fill.file", errors);
     if (shape) check_placed(placed, shape->inradius, spec.box, errors);
     check_orientations(placed, is_sphere(spec.shape), errors);
-    if (std::holds_alternative<Mixture>(spec.shape)) {
-      errors.push_back({"fill.file",
-                        "does not say which grain is of which component of a mixture: fill by "
-                        "fill.solid_height or fill.grains, or name one shape"});
+    if (const auto* mixture = std::get_if<Mixture>(&spec.shape)) {
+      check_components(placed, *mixture, errors);
     }
   }
 }
@@ -270,9 +286,17 @@ void check_outcome(const PackingSpec& spec, double across, Errors& errors) {
   check_fall(spec, across, errors);
 }
 
+bool has_hull(const ShapeSpec& shape) {
+  if (const auto* mixture = std::get_if<Mixture>(&shape)) {
+    return std::any_of(mixture->components.begin(), mixture->components.end(),
+                       [](const MixtureComponent& one) { return has_hull(one.shape); });
+  }
+  return std::holds_alternative<HullVertices>(shape);
+}
+
 /// A hull far larger or smaller than d has the wrong unit, whatever else is wrong for it.
 void hint_at_size(const ShapeSpec& shape, double across, Errors& errors) {
-  if (!std::holds_alternative<HullVertices>(shape) || (across > 0.2 && across < 5.0)) return;
+  if (!has_hull(shape) || (across > 0.2 && across < 5.0)) return;
   for (SpecError& error : errors) {
     if (!error.path.starts_with("box.") && !error.path.starts_with("fill.")) continue;
     error.message += "; the shape is " + number_text(across) +

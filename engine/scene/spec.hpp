@@ -41,6 +41,8 @@ struct PlacedGrains {
   /// How each is turned: unit quaternions x, y, z, w from the shape's frame to the box's. Empty for
   /// spheres.
   std::vector<std::array<double, 4>> orientations = {};
+  /// Which component of a mixture each is, from 0; of no meaning without one.
+  std::vector<std::uint8_t> components = {};
 };
 using Fill = std::variant<SolidHeight, GrainCount, PlacedGrains>;
 

@@ -275,18 +275,21 @@ Quaternion random_orientation(std::uint64_t key, std::uint64_t grain) {
   }
 }
 
-/// The poses of placed grains, whose orientations are those of the shape as it is written.
-std::vector<Pose> placed_poses(const PlacedGrains& placed, const InputFrame& given) {
-  const Quaternion rotation(given.rotation);
+/// Placed grains, whose orientations are those of the shapes as they are written.
+PolyhedronBed placed_bed(const PackingSpec& spec, const PlacedGrains& placed) {
+  std::vector<ConvexShape> shapes = shapes_of(spec.shape);
+  const bool are_mixed = std::holds_alternative<Mixture>(spec.shape);
   std::vector<Pose> poses;
   for (std::size_t i = 0; i < placed.grains.size(); ++i) {
     const PlacedSphere& grain = placed.grains[i];
     const auto& [x, y, z, w] = placed.orientations[i];
-    const Quaternion orientation(w, x, y, z);
-    poses.push_back(
-        {{grain.x, grain.y, grain.z}, 2.0 * grain.radius, (orientation * rotation).normalized()});
+    const Quaternion rotation(shapes[are_mixed ? placed.components[i] : 0].given.rotation);
+    poses.push_back({{grain.x, grain.y, grain.z},
+                     2.0 * grain.radius,
+                     (Quaternion(w, x, y, z) * rotation).normalized()});
   }
-  return poses;
+  return make_bed(spec.box, std::move(shapes),
+                  are_mixed ? placed.components : std::vector<std::uint8_t>(), poses);
 }
 
 /// Whether a tube is so narrow that its grains come to rest in single file, each touching the wall
@@ -352,10 +355,7 @@ std::optional<SphereBed> start(const PackingSpec& spec) {
 
 template <>
 std::optional<PolyhedronBed> start(const PackingSpec& spec) {
-  if (const auto* placed = std::get_if<PlacedGrains>(&spec.fill)) {
-    const ConvexShape shape = shapes_of(spec.shape).front();
-    return make_bed(spec.box, shape, placed_poses(*placed, shape.given));
-  }
+  if (const auto* placed = std::get_if<PlacedGrains>(&spec.fill)) return placed_bed(spec, *placed);
   DrawnGrains grains = draw_grains(spec);
   std::vector<Pose> poses;
   if (grains.radii.empty()) return make_bed(spec.box, std::move(grains.shapes), {}, poses);

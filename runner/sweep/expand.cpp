@@ -11,6 +11,7 @@
 #include "runner/sweep/grains_csv.hpp"
 #include "runner/sweep/identity.hpp"
 #include "runner/sweep/job_limit.hpp"
+#include "runner/sweep/mixture_components.hpp"
 #include "runner/sweep/size_parameters.hpp"
 #include "runner/sweep/sizes_csv.hpp"
 #include "runner/sweep/stl.hpp"
@@ -129,6 +130,7 @@ class Expansion {
     if (in_effect[seed_] == nullptr) resolved.seed = definition_.seed;
     const std::vector<Start> starts = starts_of(block, in_effect, resolved);
     place_vertices(block, in_effect, resolved);
+    place_components(block, in_effect, resolved);
     place_sizes(in_effect, resolved);
     for (const auto& problem : take_asked_accuracy(in_effect, resolved)) {
       note(*problem.assignment, problem.message);
@@ -144,6 +146,7 @@ class Expansion {
             1,  resolved.seed, std::move(resolved.spec)};
     if (!resolved.hull_file.empty())
       job.files["shape.hull.vertices"] = name_in_tables(resolved.hull_file);
+    note_hull_files(resolved.mixture, job);
     if (!resolved.fill_file.empty()) job.files["fill.file"] = name_in_tables(resolved.fill_file);
     job.wish = block.wish;
     job.fit_wish = block.fit_wish;
@@ -161,6 +164,15 @@ class Expansion {
       add(index, job,
           is_listed ? job_hash(job.parameters + start.content, job.seed, 1)
                     : job_hash(job.parameters, job.seed, job.replicate));
+    }
+  }
+
+  /// What files the components of a mixture come from.
+  static void note_hull_files(const Components& mixture, Job& job) {
+    for (std::size_t k = 0; k < mixture.size(); ++k) {
+      if (mixture[k].hull_file.empty()) continue;
+      job.files["shape.mixture." + std::to_string(k + 1) + ".hull.vertices"] =
+          name_in_tables(mixture[k].hull_file);
     }
   }
 
@@ -232,7 +244,8 @@ class Expansion {
                            " grains from files together; split the sweep");
       return start;
     }
-    start.fill = PlacedGrains{scaled_grains(reading.grains, diameter), reading.orientations};
+    start.fill = PlacedGrains{scaled_grains(reading.grains, diameter), reading.orientations,
+                              reading.components};
     start.content = reading.content;
     return start;
   }
@@ -265,6 +278,44 @@ class Expansion {
     is_sound = has_room(hull.points.size(), block, *source) && is_sound;
     hull.points = is_sound ? scaled_points(std::move(hull.points), resolved.hull_size) : Points{};
     if (!is_sound) said_.insert(source->pointer + " shape.hull");
+  }
+
+  /// The same of the hulls among the components of a mixture.
+  void place_components(const Block& block, const InEffect& in_effect, ResolvedSpec& resolved) {
+    const Assignment* mixture = in_effect[mixture_];
+    if (mixture == nullptr) return;
+    auto components = std::get<Components>(mixture->value);
+    bool is_sound = true, has_hulls = false;
+    for (std::size_t k = 0; k < components.size(); ++k) {
+      if (!std::holds_alternative<HullVertices>(components[k].shape)) continue;
+      has_hulls = true;
+      const std::string place = mixture->pointer + "/" + std::to_string(k) + "/hull/";
+      const bool in_file = !components[k].hull_file.empty();
+      const Assignment source{mixture->parameter, components[k].hull_file,
+                              place + (in_file ? "file" : "vertices")};
+      is_sound = place_component(block, source, components[k]) && is_sound;
+    }
+    if (!has_hulls) return;
+    parameters()[mixture_].set(resolved, components);
+    if (is_sound) return;
+    said_.insert(mixture->pointer + " shape.mixture");
+    said_.insert(block.pointer + " shape.hull");
+  }
+
+  /// Of one of them, written at `source`; false if it cannot be used.
+  bool place_component(const Block& block, const Assignment& source, WrittenComponent& component) {
+    Points points = std::get<HullVertices>(component.shape).points;
+    bool is_sound = true;
+    if (!component.hull_file.empty()) {
+      const VerticesReading& reading =
+          reading_of(component.hull_file, source, read_vertices, hulls_);
+      is_sound = reading.errors.empty();
+      points = points_of(reading);
+    }
+    is_sound = has_room(points.size(), block, source) && is_sound;
+    place_hull(is_sound ? scaled_points(std::move(points), component.hull_size) : Points{},
+               component);
+    return is_sound;
   }
 
   /// Reads a table of sizes and brings the distribution to units of d. One that cannot be used is

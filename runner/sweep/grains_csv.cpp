@@ -16,8 +16,13 @@ constexpr std::array<std::string_view, 8> column_names = {"x",  "y",  "z",  "r",
                                                           "qx", "qy", "qz", "qw"};
 constexpr std::size_t needed = 4;  ///< the others are there all or not at all
 
-/// Index of the column of each name, or of the needed ones alone.
-using Columns = std::vector<std::size_t>;
+constexpr std::string_view component_name = "component";
+
+/// Where the columns are.
+struct Columns {
+  std::vector<std::size_t> numbers;      ///< of column_names, or of the needed ones alone
+  std::optional<std::size_t> component;  ///< if there is one
+};
 
 bool is_orientation(std::string_view name) { return name.front() == 'q'; }
 
@@ -47,9 +52,23 @@ std::optional<Columns> columns_of(const LineCells& header, std::string& error) {
       return std::nullopt;
     }
     const auto found = std::find_if(header.begin(), header.end(), matches);
-    columns.push_back(static_cast<std::size_t>(found - header.begin()));
+    columns.numbers.push_back(static_cast<std::size_t>(found - header.begin()));
+  }
+  const auto component = std::find(header.begin(), header.end(), component_name);
+  if (component != header.end()) {
+    columns.component = static_cast<std::size_t>(component - header.begin());
   }
   return columns;
+}
+
+/// The component that a cell tells, from 1 there and from 0 here. What tells none is left to those
+/// that need it: the file of grains that are no mixture may hold anything there.
+std::uint8_t component_in(std::string_view cell) {
+  const auto number = finite_number(cell);
+  for (std::uint8_t k = 0; number && k < most_components; ++k) {
+    if (*number == k + 1.0) return k;
+  }
+  return no_component;
 }
 
 /// What is wrong with a line; otherwise the grain in it is added.
@@ -60,8 +79,8 @@ std::string read_grain(const LineCells& cells, const Columns& columns, std::size
            std::to_string(cells.size());
   }
   std::array<double, column_names.size()> v{};
-  for (std::size_t i = 0; i < columns.size(); ++i) {
-    const std::string_view cell = cells[columns[i]];
+  for (std::size_t i = 0; i < columns.numbers.size(); ++i) {
+    const std::string_view cell = cells[columns.numbers[i]];
     const auto value = finite_number(cell);
     if (!value) {
       return std::string(column_names[i]) + " must be a finite number, is \"" + shortened(cell) +
@@ -69,9 +88,10 @@ std::string read_grain(const LineCells& cells, const Columns& columns, std::size
     }
     v[i] = *value;
   }
-  if (!(v[3] > 0.0)) return "r must be positive, is " + std::string(cells[columns[3]]);
+  if (!(v[3] > 0.0)) return "r must be positive, is " + std::string(cells[columns.numbers[3]]);
   reading.grains.push_back({v[0], v[1], v[2], v[3]});
-  if (columns.size() > needed) reading.orientations.push_back({v[4], v[5], v[6], v[7]});
+  if (columns.numbers.size() > needed) reading.orientations.push_back({v[4], v[5], v[6], v[7]});
+  if (columns.component) reading.components.push_back(component_in(cells[*columns.component]));
   return "";
 }
 

@@ -93,31 +93,35 @@ class ComponentReader {
     return false;
   }
 
-  /// That a hull, if it is one, is given by as many vertices as a grain may have.
+  /// That a hull, if it is one, has vertices, and a size.
   bool has_vertices(const Assignments& assignments) {
-    for (const Assignment& assignment : assignments) {
-      const Role role = parameters()[assignment.parameter].role;
-      std::string error;
-      if (role == Role::hull_file || role == Role::hull_size) {
-        error = "a hull in a mixture is given by its vertices in d; write \"vertices\"";
-      } else if (role == Role::hull_vertices &&
-                 std::get<Points>(assignment.value).size() > most_vertices_of_a_grain) {
-        error = "holds more than the " + in_thousands(most_vertices_of_a_grain) +
-                " vertices that a grain may have; simplify the shape";
-      }
-      if (error.empty()) continue;
-      diagnostics_.push_back({assignment.pointer, error});
+    const auto has_role = [](Role role) {
+      return [role](const Assignment& one) { return parameters()[one.parameter].role == role; };
+    };
+    const auto size =
+        std::find_if(assignments.begin(), assignments.end(), has_role(Role::hull_size));
+    if (size == assignments.end()) return true;
+    if (assignments.size() == 1) {
+      note("hull", "a hull needs its vertices: write \"vertices\" or \"file\"");
       return false;
     }
-    return true;
+    if (std::get<double>(size->value) > 0.0) return true;
+    diagnostics_.push_back({size->pointer, "must be positive"});
+    return false;
   }
 
   static WrittenComponent component_of(double share, const Assignments& assignments) {
     InEffect in_effect(parameters().size(), nullptr);
     for (const Assignment& assignment : assignments) in_effect[assignment.parameter] = &assignment;
     const ResolvedSpec resolved = resolve(in_effect);
-    return {share, resolved.spec.shape, resolved.pinacoid_angle,
-            canonical_component(share, resolved)};
+    const bool is_hull = std::holds_alternative<HullVertices>(resolved.spec.shape);
+    const Json source = {resolved.hull_file, resolved.hull_size};
+    return {share,
+            resolved.spec.shape,
+            resolved.pinacoid_angle,
+            canonical_component(share, resolved) + (is_hull ? source.dump() : ""),
+            resolved.hull_file,
+            resolved.hull_size};
   }
 
   std::string pointer_;
@@ -140,6 +144,13 @@ std::optional<Components> read_components(const Json& value, const std::string& 
     ComponentReader(pointer + "/" + std::to_string(i), diagnostics).read(value[i], components);
   }
   return diagnostics.size() == before ? std::optional(std::move(components)) : std::nullopt;
+}
+
+void place_hull(std::vector<std::array<double, 3>> points, WrittenComponent& component) {
+  ResolvedSpec resolved;
+  resolved.spec.shape = HullVertices{std::move(points)};
+  component.shape = resolved.spec.shape;
+  component.text = canonical_component(component.share, resolved);
 }
 
 }  // namespace grainsweep

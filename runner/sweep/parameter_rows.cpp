@@ -95,8 +95,8 @@ Rows fill_rows() {
           Role::fill, set_solid_height, get_solid_height),
       std::move(grains),
       own("fill.file", WrittenValues{},
-          "CSV file of x,y,z,r, and qx,qy,qz,qw of non-spherical grains: where they "
-          "start; relative to the sweep file",
+          "CSV file of x,y,z,r, and qx,qy,qz,qw of non-spherical grains, and of a mixture "
+          "component: where they start; relative to the sweep file",
           ValueKind::text, Role::fill_file, set_file, get_file),
       own("fill.files", WrittenValues{}, "a list of such files: a start for each replicate",
           ValueKind::texts, Role::fill_files, set_files, get_files),

@@ -176,6 +176,9 @@ std::string idle_reason(const Parameter& parameter, const PackingSpec& spec) {
   if (is_drawn_from && std::holds_alternative<PlacedGrains>(spec.fill)) {
     return "the sizes stand in fill.file";
   }
+  if (path == "shape.mixture_by" && std::holds_alternative<PlacedGrains>(spec.fill)) {
+    return "the component of each grain stands in fill.file";
+  }
   return "";
 }
 

@@ -16,7 +16,11 @@ struct WrittenComponent {
   double share = 0.0;
   ShapeSpec shape;
   double pinacoid_angle = 60.0;  ///< degrees, as ResolvedSpec::pinacoid_angle
-  std::string text;              ///< share and shape as they identify a job, canonical JSON
+  /// Share and shape as they identify a job, canonical JSON; of a hull, until it is placed, with
+  /// its file and size behind it.
+  std::string text;
+  std::string hull_file = {};  ///< as ResolvedSpec::hull_file
+  double hull_size = 1.0;      ///< as ResolvedSpec::hull_size
 
   bool operator==(const WrittenComponent& other) const { return text == other.text; }
   bool operator<(const WrittenComponent& other) const { return text < other.text; }

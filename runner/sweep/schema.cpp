@@ -81,8 +81,11 @@ Json components() {
     members[std::string(name)] = reference("shape." + std::string(name));
   }
   members["sphere"] = described("a sphere of diameter d", closed_object(Json::object()));
-  members["hull"] = closed_object({{"vertices", reference("shape.hull.vertices")}});
-  members["hull"]["required"] = Json::array({"vertices"});
+  members["hull"] = closed_object({{"vertices", reference("shape.hull.vertices")},
+                                   {"file", reference("shape.hull.file")},
+                                   {"size", reference("shape.hull.size")}});
+  members["hull"]["anyOf"] = Json::array({{{"required", {"vertices"}}}, {{"required", {"file"}}}});
+  members["hull"]["not"] = {{"required", {"vertices", "file"}}};
   Json component = closed_object(members);
   component["required"] = Json::array({"share"});
   component["minProperties"] = component["maxProperties"] = 2;

@@ -101,6 +101,7 @@ void set_mixture(ResolvedSpec& resolved, const Value& value) {
   if (components.size() == 1 && components.front().share == 1.0) {
     resolved.spec.shape = components.front().shape;
     resolved.pinacoid_angle = components.front().pinacoid_angle;
+    resolved.hull_file = components.front().hull_file;
     return;
   }
   resolved.mixture = components;

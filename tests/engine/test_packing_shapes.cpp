@@ -107,6 +107,35 @@ TEST_CASE("a bed of hulls placed again as it was given back stays as it is") {
   CHECK(again.result.rest.overlap_max < 0.01);
 }
 
+TEST_CASE("a bed of a mixture placed again as it was given back stays as it is") {
+  // A hull that is not given about its centroid, flat bricks, and spheres.
+  PackingSpec spec = small_spec(Mixture{
+      {{0.4, HullVertices{{{1, 0, 0}, {2, 0.1, 0}, {1.9, 0.9, 0}, {1, 1, 0.1}, {1.5, 0.4, 0.8}}}},
+       {0.3, CuboidSize{1, 1, 0.5}},
+       {0.3, SphereShape{}}}});
+  const Packing first = pack(spec);
+  INFO(first.result.reason);
+  REQUIRE(first.result.status == PackingStatus::settled);
+  PlacedGrains placed;
+  for (const SettledGrain& grain : first.grains) {
+    placed.grains.push_back({grain.x, grain.y, grain.z, grain.radius});
+  }
+  placed.orientations = first.turned->orientations;
+  placed.components = first.turned->components;
+  spec.fill = placed;
+  REQUIRE(check(spec).empty());
+  spec.accuracy.max_steps = 1;  // a look at it, no more
+  const Packing again = pack(spec);
+  CHECK(again.turned->components == first.turned->components);
+  CHECK(again.result.solid_fraction == Approx(first.result.solid_fraction).epsilon(1e-3));
+  double farthest = 0;
+  for (std::size_t i = 0; i < first.grains.size(); ++i) {
+    farthest = std::max(farthest, std::abs(again.grains[i].z - first.grains[i].z));
+  }
+  CHECK(farthest < 0.01);
+  CHECK(again.result.rest.overlap_max < 0.01);
+}
+
 TEST_CASE("a shape that starts at no finite place is a failure by name") {
   PackingSpec spec = small_spec();
   const double none = std::numeric_limits<double>::quiet_NaN();
@@ -402,6 +431,10 @@ TEST_CASE("shapes that cannot be packed are refused with the reason") {
   PackingSpec placed = small_spec(flat_and_isometric());
   placed.fill = PlacedGrains{{{2, 2, 1, 0.5}}, {{0, 0, 0, 1}}};
   CHECK(errors_of(placed).find("fill.file does not say which grain is of which component") == 0);
+  std::get<PlacedGrains>(placed.fill).components = {2};
+  CHECK(errors_of(placed).find("fill.file grain 1 is of no component") == 0);
+  std::get<PlacedGrains>(placed.fill).components = {1};
+  CHECK(errors_of(placed).empty());
   PackingSpec tight = small_spec();
   tight.box.width = 1.2;  // the circumscribed ball is 1.41 d across
   CHECK(errors_of(tight).find("box.width") == 0);

@@ -57,6 +57,14 @@ TEST_CASE("columns of an orientation are there all or not at all, and hold numbe
         Messages{"b.csv:2: qw must be a finite number, is \"one\""});
 }
 
+TEST_CASE("components are read from 1 where the first line names their column") {
+  const GrainsReading reading =
+      parse_grains("component,x,y,z,r\n1,1,2,3,1\n16,1,2,3,1\n17,1,2,3,1\nsand,1,2,3,1\n", "f");
+  REQUIRE(reading.errors.empty());
+  CHECK(reading.components == std::vector<std::uint8_t>{0, 15, no_component, no_component});
+  CHECK(parse_grains("x,y,z,r\n1,2,3,4\n", "f").components.empty());
+}
+
 TEST_CASE("line ends of other systems, quotes and a byte order mark change no grain") {
   const GrainsReading reading =
       parse_grains("\xEF\xBB\xBF\"x\",\"y\",\"z\",\"r\"\r\n1,\"2\",3,0.5\r\n\r\n", "f");

@@ -1,3 +1,7 @@
+#include <array>
+#include <string>
+#include <vector>
+
 #include <catch2/catch.hpp>
 
 #include "engine/units.hpp"
@@ -88,19 +92,131 @@ TEST_CASE("a mixture may vary, and another shape takes its place with all its pa
   CHECK(std::holds_alternative<SphereShape>(jobs[2].spec.shape));
 }
 
-TEST_CASE("shares that do not add up, and grains placed by hand, are refused at their place") {
+TEST_CASE("shares that do not add up are refused at their place") {
   CHECK(errors_of(R"({"name": "m", "base": {"shape": {"mixture": [
   {"share": 0.5, "cube": {}}, {"share": 0.4, "pinacoid": {"height": 0.5}}]}}})") ==
         std::vector<std::string>{
             "s.json:1:45 /base/shape/mixture: shares must add up to 1, add up to 0.9"});
+}
+
+/// The vertices of a mixture's component.
+const std::vector<std::array<double, 3>>& hull_of(const Job& job, std::size_t component) {
+  const auto& mixture = std::get<Mixture>(job.spec.shape);
+  return std::get<HullVertices>(mixture.components.at(component).shape).points;
+}
+
+TEST_CASE("hulls of a mixture are those of files beside the sweep, in units of their sizes") {
   const ScratchFolder folder;
-  folder.write("one.csv", "x,y,z,r,qx,qy,qz,qw\n2,2,2,0.5,0,0.6,0,0.8\n");
-  const SweepReading reading = read_sweep(folder.write(
-      "s.json",
-      R"({"name": "m", "base": {"fill.file": "one.csv", "shape.mixture": )" + halves + "}}"));
-  REQUIRE(reading.errors.size() == 1);
-  CHECK(reading.errors[0].pointer == "/base/fill.file");
-  CHECK(reading.errors[0].message.starts_with("does not say which grain is of which component"));
+  folder.write("rock.obj", "v 0 0 -0\nv 2 0 0\nv 0 2 0\nv 0 0 2\n");
+  folder.write("rock.stl",
+               "solid\nfacet\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\n"
+               "endfacet\nfacet\nouter loop\nvertex 0 0 1\nvertex 1 0 0\nvertex 0 1 0\nendloop\n"
+               "endfacet\nendsolid\n");
+  const auto job_with = [&](const std::string& hull, const std::string& share = "0.5") {
+    const SweepReading reading = read_sweep(folder.write(
+        "s.json", R"({"name": "t", "base": {"shape.mixture": [{"share": )" + share +
+                      R"(, "hull": )" + hull + "}" +
+                      (share == "1" ? "" : R"(, {"share": 0.5, "cube": {}})") + "]}}"));
+    for (const Diagnostic& diagnostic : reading.errors) FAIL(to_string(diagnostic));
+    return reading.sweep.jobs.at(0);
+  };
+  const Job from_file = job_with(R"({"file": "rock.obj", "size": 4})");
+  REQUIRE(hull_of(from_file, 0).size() == 4);
+  CHECK(hull_of(from_file, 0)[1] == std::array{0.5, 0.0, 0.0});
+  CHECK(from_file.files.at("shape.mixture.1.hull.vertices") == "rock.obj");
+  const std::string written = R"({"vertices": [[0,0,0],[0.5,0,0],[0,0.5,0],[0,0,0.5]]})";
+  CHECK(from_file.id == job_with(written).id);
+  CHECK(from_file.id ==
+        job_with(R"({"vertices": [[0,0,0],[1,0,0],[0,1,0],[0,0,1]], "size": 2})").id);
+  CHECK(hull_of(job_with(R"({"file": "rock.stl", "size": 2})"), 0).size() == 4);
+  CHECK(from_file.id != job_with(R"({"file": "rock.obj", "size": 3})").id);
+  CHECK(job_with(R"({"file": "rock.obj", "size": 4})", "1").id ==
+        job_of(R"({"hull": )" + written + "}").id);
+}
+
+TEST_CASE("two mixtures that differ in the file of a hull alone are two") {
+  const ScratchFolder folder;
+  folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n");
+  folder.write("b.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 0.8\n");
+  const auto with = [](const std::string& file) {
+    return R"([{"share": 0.5, "cube": {}}, {"share": 0.5, "hull": {"file": ")" + file + R"("}}])";
+  };
+  const SweepReading reading =
+      read_sweep(folder.write("s.json", sweep_of(R"({"grid": {"shape.mixture": [)" + with("a.obj") +
+                                                 ", " + with("b.obj") + "]}}")));
+  REQUIRE(reading.errors.empty());
+  REQUIRE(reading.sweep.jobs.size() == 2);
+  CHECK(hull_of(reading.sweep.jobs[1], 1)[3][2] == 0.8);
+}
+
+TEST_CASE("errors of the file of a component name its lines, or the component without them") {
+  const ScratchFolder folder;
+  folder.write("bad.obj", "v 0 0 0\nv 0 zero 0\n");
+  folder.write("flat.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\n");
+  folder.write("large.obj", "v 0 0 0\nv 90 0 0\nv 0 90 0\nv 0 0 90\n");
+  const auto errors_with = [&](const std::string& file) {
+    std::vector<std::string> errors;
+    const SweepReading reading =
+        read_sweep(folder.write("s.json",
+                                R"({"name": "t", "replicates": 2, "base": {"shape.mixture": [
+{"share": 0.5, "cube": {}}, {"share": 0.5, "hull": {"file": ")" +
+                                    file + R"("}}]},
+"sweep": [{"grid": {"box.length": [7, 8]}}]})"));
+    for (const Diagnostic& diagnostic : reading.errors) {
+      errors.push_back(folder.without_folder(to_string(diagnostic)));
+    }
+    return errors;
+  };
+  CHECK(errors_with("bad.obj") ==
+        std::vector<std::string>{"bad.obj:2: y must be a finite number, is \"zero\""});
+  CHECK(errors_with("none.obj") ==
+        std::vector<std::string>{"s.json:2:61 /base/shape.mixture/1/hull/file: none.obj cannot be "
+                                 "read: No such file or directory"});
+  const auto flat = errors_with("flat.obj"), large = errors_with("large.obj");
+  REQUIRE(flat.size() == 1);
+  CHECK_THAT(flat[0], Catch::Contains("/base/shape.mixture: component 2") &&
+                          Catch::Contains("lie on a plane"));
+  REQUIRE_FALSE(large.empty());
+  CHECK_THAT(large[0], Catch::Contains("shape.hull.size"));
+}
+
+TEST_CASE("grains of a mixture that a file places are of the components that it names") {
+  const ScratchFolder folder;
+  const std::string turned = ",0.5,0,0,0,1";
+  const auto read = [&](const std::string& column, const std::string& one, const std::string& two) {
+    const auto cell = [](const std::string& text) { return text.empty() ? "" : "," + text; };
+    folder.write("bed.csv", "x,y,z,r,qx,qy,qz,qw" + cell(column) + "\n2,2,2" + turned + cell(one) +
+                                "\n3.5,2,2" + turned + cell(two) + "\n");
+    return read_sweep(folder.write(
+        "s.json",
+        R"({"name": "m", "base": {"fill.file": "bed.csv", "shape.mixture": )" + halves + "}}"));
+  };
+  const auto error = [&](const std::string& column, const std::string& one,
+                         const std::string& two) {
+    const SweepReading reading = read(column, one, two);
+    REQUIRE(reading.errors.size() == 1);
+    return reading.errors[0].pointer + " " + reading.errors[0].message;
+  };
+  const SweepReading reading = read("component", "2", "1");
+  REQUIRE(reading.errors.empty());
+  const auto& fill = std::get<PlacedGrains>(reading.sweep.jobs.at(0).spec.fill);
+  CHECK(fill.components == std::vector<std::uint8_t>{1, 0});
+  const std::string wanted =
+      "the column component must hold the number of each grain's component in shape.mixture, 1 to "
+      "2";
+  CHECK(error("", "", "") ==
+        "/base/fill.file does not say which grain is of which component: " + wanted);
+  for (const std::string wrong : {"3", "0", "1.5", "cube", "-1"}) {
+    CHECK(error("component", "2", wrong) ==
+          "/base/fill.file grain 2 is of no component: " + wanted);
+  }
+}
+
+TEST_CASE("a column component is of no meaning to grains that are no mixture") {
+  const ScratchFolder folder;
+  folder.write("bed.csv", "x,y,z,r,component\n2,2,2,0.5,glass\n");
+  CHECK(read_sweep(folder.write("s.json", R"({"name": "m", "base": {"fill.file": "bed.csv"}})"))
+            .errors.empty());
 }
 
 TEST_CASE("what is wrong with a component is told at its place") {
@@ -118,8 +234,11 @@ TEST_CASE("what is wrong with a component is told at its place") {
   CHECK(error_of(R"([{"share": 0.5, "cube": {}}, {"share": 0.5, "sphere": {"diameter": 2}}])")
             .starts_with("/m/1/sphere a sphere has no parts"));
   CHECK(error_of(R"([{"share": 1, "mixture": []}])").starts_with("/m/0/mixture a component must"));
-  CHECK(error_of(R"([{"share": 1, "hull": {"file": "a.obj"}}])")
-            .starts_with("/m/0/hull/file a hull in a mixture"));
+  CHECK(error_of(R"([{"share": 1, "hull": {"size": 2}}])").starts_with("/m/0/hull a hull needs"));
+  CHECK(error_of(R"([{"share": 1, "hull": {"file": "a.obj", "size": 0}}])") ==
+        "/m/0/hull/size must be positive");
+  CHECK(error_of(R"([{"share": 1, "hull": {"file": "a.obj", "vertices": [[0, 0, 0]]}}])")
+            .starts_with("/m/0/hull/"));
 }
 
 }  // namespace grainsweep

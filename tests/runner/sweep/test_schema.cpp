@@ -233,6 +233,8 @@ TEST_CASE("what does not fit the schema the reader refuses") {
         R"("base": {"shape": {"hull": {"vertices": [[0, 0]]}}})",
         R"("base": {"shape": {"hull": {"vertices": [[0,0,2],[1,0,2],[0,0,1],[1,0,1]]}}})",
         R"("base": {"shape": {"hull": {"file": 5}}})",
+        R"("base": {"shape.mixture": [{"share": 1, "hull": {"size": 1}}]})",
+        R"("base": {"shape.mixture": [{"share": 1, "hull": {"file": "a.obj", "vertices": []}}]})",
         R"("base": {"accuracy": {"solver": "gs"}})",
         R"("base": {"fill": {"grains": 1.5}})",
         R"("sweep": [])",
