@@ -106,7 +106,7 @@ std::map<std::pair<std::string, std::string>, std::size_t> series_numbers(const 
   for (const Series* series : shown_series(axes)) {
     ++number;
     for (const Group* group : series->groups) {
-      numbers[{group->job.label, group->job.parameters}] = number;
+      numbers[{group->job.label, group->job.parameters.text()}] = number;
     }
   }
   return numbers;
@@ -129,7 +129,7 @@ std::string effort_csv(const Axes& axes,
       csv_line({"series", "job", "grains", "cpu_seconds", "contact_ratio", "status"});
   const auto numbers = series_numbers(axes);
   for (const Row& row : points) {
-    const auto number = numbers.find({row.job.label, row.job.parameters});
+    const auto number = numbers.find({row.job.label, row.job.parameters.text()});
     const std::size_t series = number == numbers.end() ? 0 : number->second;
     text += csv_line({cell(is_settled(row) ? series : most_series + 1), cell(row.job.id),
                       cell(row.outcome->result.grains), cell(row.outcome->cpu_seconds),

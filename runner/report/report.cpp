@@ -46,12 +46,12 @@ std::vector<std::pair<const Group*, const Row*>> beds_to_show(const std::vector<
   std::map<std::pair<std::string_view, std::string_view>, const Row*> first_of;
   for (const Row& row : rows) {
     if (!row.outcome || row.outcome->stored_bytes == 0) continue;
-    const Row*& first = first_of[{row.job.label, row.job.parameters}];
+    const Row*& first = first_of[{row.job.label, row.job.parameters.text()}];
     if (first == nullptr || (is_settled(row) && !is_settled(*first))) first = &row;
   }
   std::vector<std::pair<const Group*, const Row*>> all, chosen;
   for (const Group& group : groups) {
-    const auto first = first_of.find({group.job.label, group.job.parameters});
+    const auto first = first_of.find({group.job.label, group.job.parameters.text()});
     if (first != first_of.end()) all.emplace_back(&group, first->second);
   }
   const std::size_t count = std::min(most_beds, all.size());

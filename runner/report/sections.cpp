@@ -134,7 +134,7 @@ std::vector<std::string> packing_cells(const Row& row, const Titles& titles,
   std::vector<std::string> cells = {"<code>" + html_text(job.id) + "</code>",
                                     "<span class=\"status " + html_text(status_of(row)) + "\">" +
                                         html_text(status_words(row)) + "</span>",
-                                    html_text(titles.at({job.label, job.parameters})),
+                                    html_text(titles.at({job.label, job.parameters.text()})),
                                     cell(job.box.width),
                                     std::to_string(job.replicate),
                                     row.outcome ? std::to_string(row.outcome->result.grains) : "-",
@@ -299,7 +299,7 @@ std::string packings_section(const std::vector<Row>& rows, const std::vector<Gro
                              const GivenUnits& units) {
   Titles titles;
   for (const Group& group : groups) {
-    titles[{group.job.label, group.job.parameters}] = title_of(group);
+    titles[{group.job.label, group.job.parameters.text()}] = title_of(group);
   }
   HtmlTable table{"packings", "Packings, those that did not settle first", {}, {}};
   table.headings = {{"packing", "column job of the tables"},

@@ -27,8 +27,8 @@ std::string both_text(double solid_fraction, double coordination) {
 /// Of a job whose preset was chosen, which it therefore has bounds of.
 std::string reason_text(const Job& job) {
   const JobFacts facts = facts_of(job);
-  const auto kind =
-      bed_kind(facts.shape, facts.box, facts.small_share, nlohmann::json::parse(facts.parameters));
+  const auto kind = bed_kind(facts.shape, facts.box, facts.small_share,
+                             nlohmann::json::parse(facts.parameters.text()));
   const auto bound = bias_bound(facts);
   if (!kind || !bound) return "";
   const ErrorWish& asked = job.asked_accuracy;

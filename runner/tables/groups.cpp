@@ -120,7 +120,7 @@ Columns<Group> bias_columns() {
 }  // namespace
 
 std::string parameters_of_family(const JobFacts& job) {
-  nlohmann::json parameters = nlohmann::json::parse(job.parameters);
+  nlohmann::json parameters = nlohmann::json::parse(job.parameters.text());
   if (parameters.contains("box")) {
     parameters["box"].erase("width");
     parameters["box"].erase("y");
@@ -166,7 +166,8 @@ std::vector<std::size_t> group_numbers(const std::vector<Row>& rows) {
   numbers.reserve(rows.size());
   for (const Row& row : rows) {
     const std::size_t next = known.size() + 1;
-    numbers.push_back(known.try_emplace({row.job.label, row.job.parameters}, next).first->second);
+    numbers.push_back(
+        known.try_emplace({row.job.label, row.job.parameters.text()}, next).first->second);
   }
   return numbers;
 }

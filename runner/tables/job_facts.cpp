@@ -62,7 +62,7 @@ Columns<JobFacts> all_job_columns() {
        [](Job job) { return cell(job.small_share); }},
       {"gap_tolerance", "d", "grains with a smaller gap touch", gap_tolerance},
       {"parameters", "", "all of them, as canonical JSON",
-       [](Job job) { return cell(job.parameters); }},
+       [](Job job) { return cell(job.parameters.text()); }},
   };
 }
 
@@ -98,7 +98,7 @@ Columns<JobFacts> job_columns(const std::vector<std::string>& names) {
 
 std::map<std::string, std::string> flat_parameters(const JobFacts& job) {
   std::map<std::string, std::string> flat;
-  add_parameters(json::parse(job.parameters), "", flat);
+  add_parameters(json::parse(job.parameters.text()), "", flat);
   for (const auto& [path, file] : job.files) {
     if (flat.contains(path) && path != "fill.files") flat[path] = cell(file);
   }
@@ -106,7 +106,8 @@ std::map<std::string, std::string> flat_parameters(const JobFacts& job) {
 }
 
 std::optional<ProtocolBias> bias_bound(const JobFacts& job) {
-  const auto kind = bed_kind(job.shape, job.box, job.small_share, json::parse(job.parameters));
+  const auto kind =
+      bed_kind(job.shape, job.box, job.small_share, json::parse(job.parameters.text()));
   const std::string& preset = job.settles_as.empty() ? job.accuracy : job.settles_as;
   return kind ? bias_bound(preset, *kind) : std::nullopt;
 }
@@ -141,8 +142,11 @@ std::vector<Row> rows_of(const Sweep& sweep) {
   rows.reserve(sweep.jobs.size());
   const std::vector<Cost> costs = costs_of(sweep.jobs);
   for (std::size_t i = 0; i < costs.size(); ++i) {
-    rows.push_back({facts_of(sweep.jobs[i]), std::nullopt});
-    rows.back().job.estimated = costs[i].cpu_seconds;
+    JobFacts facts = facts_of(sweep.jobs[i]);
+    facts.estimated = costs[i].cpu_seconds;
+    const bool is_replicate = i > 0 && rows.back().job.parameters == facts.parameters;
+    if (is_replicate) facts.parameters = rows.back().job.parameters;
+    rows.push_back({std::move(facts), std::nullopt});
   }
   return rows;
 }
@@ -175,7 +179,7 @@ JobList job_list(const std::vector<Row>& rows) {
   std::map<std::string_view, std::size_t> index_of;
   list.jobs.reserve(rows.size());
   for (const auto& [job, outcome] : rows) {
-    const auto [known, is_new] = index_of.try_emplace(job.parameters, list.sets.size());
+    const auto [known, is_new] = index_of.try_emplace(job.parameters.text(), list.sets.size());
     if (is_new) list.sets.push_back(job);
     list.jobs.push_back({job.id, job.label, job.replicate, job.seed, job.files, known->second});
   }
@@ -210,7 +214,7 @@ std::vector<Row> rows_of(const JobList& list, Detail detail) {
 /// Everything that jobs with equal parameters share. The parameters are kept as the text that
 /// identifies a job: written anew from numbers, 1e-04 would become 0.0001.
 json set_json(const JobFacts& job) {
-  return {{"parameters", job.parameters},
+  return {{"parameters", job.parameters.text()},
           {"shape", job.shape},
           {"accuracy", job.accuracy},
           {"settles_as", job.settles_as},
@@ -228,7 +232,7 @@ json set_json(const JobFacts& job) {
 
 JobFacts set_from_json(const json& set) {
   JobFacts facts;
-  set.at("parameters").get_to(facts.parameters);
+  facts.parameters = set.at("parameters").get<std::string>();
   set.at("shape").get_to(facts.shape);
   set.at("accuracy").get_to(facts.accuracy);
   facts.settles_as = set.value("settles_as", std::string());  // earlier builds kept none

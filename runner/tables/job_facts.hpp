@@ -16,13 +16,14 @@
 #include "runner/sweep/job.hpp"
 #include "runner/tables/boxed.hpp"
 #include "runner/tables/columns.hpp"
+#include "runner/tables/shared_text.hpp"
 
 namespace grainsweep {
 
 struct JobFacts {
   std::string id;
   std::string label;
-  std::string parameters;  ///< canonical JSON, as Job::parameters
+  SharedText parameters;  ///< canonical JSON, as Job::parameters
   int replicate = 1;
   std::uint64_t seed = 0;
   std::string shape;       ///< its name: "sphere", "cube", "hull"

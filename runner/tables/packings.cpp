@@ -103,10 +103,12 @@ void write_packings_csv(const std::vector<Row>& rows, const std::vector<Group>& 
   const Columns<PackingLine> columns =
       packings_columns(further_tolerances(rows), varied_of(groups), units);
   std::map<std::pair<std::string_view, std::string_view>, const Group*> group_of;
-  for (const Group& group : groups) group_of[{group.job.label, group.job.parameters}] = &group;
+  for (const Group& group : groups)
+    group_of[{group.job.label, group.job.parameters.text()}] = &group;
   write(header_line(columns));
   for (const Row& row : rows) {
-    write(row_line(columns, PackingLine{row, *group_of.at({row.job.label, row.job.parameters})}));
+    write(row_line(columns,
+                   PackingLine{row, *group_of.at({row.job.label, row.job.parameters.text()})}));
   }
 }
 

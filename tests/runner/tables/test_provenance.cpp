@@ -41,7 +41,7 @@ TEST_CASE("of a summary the jobs are known by their ids") {
   const std::vector<Row> jobs = rows_of(list, Detail::summary);
   CHECK(sweep_file_of(back) == "configs/a.json");
   CHECK(jobs.at(0).job.id == "a1");
-  CHECK(jobs.at(0).job.parameters.empty());
+  CHECK(jobs.at(0).job.parameters.text().empty());
 }
 
 TEST_CASE("provenance carries the totals of the packings") {
