@@ -47,7 +47,8 @@ struct Settling {
   double share_done = 0.0;     ///< the most that was told
   std::int64_t rounds = 0;     ///< how often the last stages came again
   std::int64_t unsolved = 0;   ///< so many of the last rounds ended with too large a residual
-  bool is_exact = false;       ///< whether the report is that of exact rest
+  std::int64_t iterations_before = 0;  ///< those until the bed was first tested for rest
+  bool is_exact = false;               ///< whether the report is that of exact rest
   SettleReport report = {};
 
   const StageRule& rule() const { return stages[stage]; }
@@ -164,6 +165,7 @@ void enter(std::size_t stage, Settling<Kind, Real>& s) {
     const bool is_solved = s.report.rest.step_residual <= s.accuracy.residual_tolerance;
     s.unsolved = is_solved ? 0 : s.unsolved + 1;
   }
+  if (s.rounds == 0) s.iterations_before = s.report.iterations;
   s.stage = stage;
   s.steps_in_stage = 0;
   if (wake(s.bed)) s.state.candidates.is_listed = false;
@@ -185,6 +187,7 @@ void transfer(Archive& archive, Settling<Kind, Real>& s) {
   archive.value(s.share_done);
   archive.value(s.rounds);
   archive.value(s.unsolved);
+  archive.value(s.iterations_before);
   archive.value(s.report.sank);
   archive.value(s.report.spurious_path);
   archive.value(s.report.steps);
@@ -325,22 +328,23 @@ std::string find_exact_rest(Settling<Sphere, Real>& s, const KeepGoing& keep_goi
   return "";
 }
 
-/// Multiplications of a factorisation that take as long as the sweeps so far.
+/// Multiplications of a factorisation that take as long as sliding on has taken.
 template <class Kind, class Real>
-double work_so_far(const Settling<Kind, Real>& s) {
+double work_of_sliding(const Settling<Kind, Real>& s) {
   constexpr double of_a_grain_and_sweep = 120.0;
-  return of_a_grain_and_sweep * static_cast<double>(s.report.iterations) *
+  return of_a_grain_and_sweep * static_cast<double>(s.report.iterations - s.iterations_before) *
          static_cast<double>(s.bed.grains());
 }
 
 /// Beds that have slid on in vain, as narrow towers do, are tried for exact rest after a round, 2,
-/// 4, 8 and so on, for at most half as long as they have been settled.
+/// 4, 8 and so on, once a search takes no longer than they have slid on: so it costs at most as
+/// much again, and beds that need a round or two, as most do, are spared it where it is dear.
 template <class Kind, class Real>
 bool is_brought_to_rest(Settling<Kind, Real>& s, const KeepGoing& keep_going) {
   if constexpr (std::is_same_v<Kind, Sphere>) {
     return s.rule().end == StageEnd::rest && !s.report.failure.empty() &&
            std::has_single_bit(static_cast<std::uint64_t>(s.rounds)) &&
-           find_exact_rest(s, keep_going, work_so_far(s) / 2.0).empty();
+           find_exact_rest(s, keep_going, work_of_sliding(s)).empty();
   }
   return false;
 }
