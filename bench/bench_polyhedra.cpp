@@ -151,7 +151,7 @@ void clip(benchmark::State& run, const ConvexShape& shape) {
   });
 }
 
-/// The whole chain, with what pairs remember, with a margin of .05 d.
+/// The whole chain, with the axis that pairs remember, with a margin of .05 d.
 void touch_poses(benchmark::State& run, const ConvexShape& shape,
                  const std::vector<PairPose>& poses) {
   TouchColumns columns;
@@ -159,6 +159,7 @@ void touch_poses(benchmark::State& run, const ConvexShape& shape,
   std::vector<PairMemory> memories(pairs);
   over_pairs(run, shape, poses, [&](const ShapePair& pair, std::size_t k) {
     points.clear();
+    memories[k].candidates = {};
     benchmark::DoNotOptimize(touch(pair, {0.05, 1e-3}, memories[k], columns, points));
   });
 }

@@ -92,7 +92,10 @@ void transfer_part(Archive& archive, Part& part) {
 template <class Archive, class Real>
 void transfer_contacts(Archive& archive, PolyhedronContacts<Real>& contacts) {
   transfer_subdomains(archive, contacts.subdomains);
-  archive.list(contacts.memory, [&](auto& memory) { transfer_vector(archive, memory.axis); });
+  archive.list(contacts.memory, [&](auto& memory) {
+    transfer_vector(archive, memory.axis);
+    archive.value(memory.candidates);
+  });
   archive.value(contacts.found_parts);
   archive.list(contacts.parts, [&](auto& part) { transfer_part(archive, part); });
   archive.column(contacts.impulse);

@@ -37,6 +37,7 @@ void forget(SphereContacts<Real>& contacts) {
 template <class Real>
 void forget(PolyhedronContacts<Real>& contacts) {
   contacts.found_parts = 0;
+  forget_pairs(contacts);
   contacts.impulse.clear();
 }
 template <class Kind, class Real>

@@ -130,7 +130,7 @@ PairContact touch(const ShapePair& pair, const TouchSettings& settings, PairMemo
   if (!closer_than(pair, margin)) return {};
   if (!memory.axis.isZero(0.0) && parted_along(pair, memory.axis, margin)) return {};
   if (has_ball(pair)) return touch_ball(pair, margin, memory, points);
-  const ContactAxes axes = separating_axes(pair, memory.axis, columns.axes);
+  const ContactAxes axes = separating_axes(pair, memory.axis, memory.candidates, columns.axes);
   memory.axis = axes.best().normal;
   if (axes.separation() > margin) return {};
   PairContact contact = touch(pair, settings, axes, columns.clip, points);

@@ -26,6 +26,7 @@ struct TouchSettings {
 /// What a pair remembers from step to step; a default one is always allowed.
 struct PairMemory {
   Vector axis = Vector::Zero();  ///< that parted it best, or along which it touched; zero at first
+  AxisCandidates candidates;
 };
 
 /// A point of contact.

@@ -194,6 +194,11 @@ void touch_round_wall(std::size_t k, std::int32_t grain, double margin, const Po
 
 }  // namespace
 
+bool needs_memory(const PolyhedronBed& bed) {
+  return std::any_of(bed.shapes.begin(), bed.shapes.end(),
+                     [](const ConvexShape& shape) { return !shape.pinacoid; });
+}
+
 double touch_pairs(const TouchSettings& settings, const Kernels& kernels, const PolyhedronBed& bed,
                    std::span<const GrainPair> pairs, std::span<PairMemory> memory,
                    NarrowColumns& columns, ContactList& found) {

@@ -55,9 +55,12 @@ struct NarrowColumns {
   TouchColumns touch;
 };
 
-/// Appends the contacts of `pairs`; `memory` is what each of them remembers. Returns the most by
-/// which centres are nearer than sunk_share of the distance at which the balls within their grains
-/// touch, d; 0 if none are.
+/// Whether pairs of the bed remember anything: those of pinacoids do not.
+bool needs_memory(const PolyhedronBed& bed);
+
+/// Appends the contacts of `pairs`; `memory` is what each of them remembers, if any does. Returns
+/// the most by which centres are nearer than sunk_share of the distance at which the balls within
+/// their grains touch, d; 0 if none are.
 double touch_pairs(const TouchSettings& settings, const Kernels& kernels, const PolyhedronBed& bed,
                    std::span<const GrainPair> pairs, std::span<PairMemory> memory,
                    NarrowColumns& columns, ContactList& found);

@@ -67,6 +67,21 @@ struct PlacedEdges {
   std::vector<std::uint8_t> crossings;  ///< of each
 };
 
+/// The faces and edges that the best axis can come from while two hulls move little: all others
+/// part them by less. Found where the two had hardly moved since the last call, and of the pose
+/// then. A default one is always allowed.
+struct AxisCandidates {
+  static constexpr std::size_t most_faces = 6, most_edges = 12;
+
+  double centre[3] = {}, turn[9] = {};  ///< of grain b as a sees it, d
+  bool is_set = false;                  ///< whether that is a pose
+  bool is_listed = false;               ///< whether the candidates are those of it
+  bool are_too_many = false;            ///< of it there are more than have room here
+  std::uint8_t faces = 0, edges = 0;
+  std::int16_t face[most_faces] = {};  ///< k of a, or -1 - k of b
+  std::int16_t edge_of_a[most_edges] = {}, edge_of_b[most_edges] = {};
+};
+
 /// Working memory, kept from call to call, and the kernels to work with.
 struct AxisColumns {
   const HullKernels* kernels = &kernels_for(best_isa()).hull;
@@ -79,8 +94,9 @@ double separation_along(const ShapePair& pair, const Vector& normal);
 
 /// The best axes, f64, of every face and every pair of edges that can be the best. Two pinacoids
 /// take their widths in closed form and all 44 axes. `guess` is an axis near to the best one, such
-/// as that of the last step, or zero: it saves time and changes nothing.
-ContactAxes separating_axes(const ShapePair& pair, const Vector& guess, AxisColumns& columns);
+/// as that of the last step, or zero: it saves time and changes nothing; so do candidates.
+ContactAxes separating_axes(const ShapePair& pair, const Vector& guess, AxisCandidates& candidates,
+                            AxisColumns& columns);
 
 /// The same with no guess and with memory of its own.
 ContactAxes separating_axes(const ShapePair& pair);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <span>
 
 #include "engine/narrow/constraints.hpp"
 #include "engine/rows/lanes.hpp"
@@ -241,8 +242,10 @@ double touch_subdomain(const TouchSettings& settings, const Kernels& kernels,
   const Subdomains& all = contacts.subdomains;
   const std::size_t begin = all.begin[subdomain], count = all.begin[subdomain + 1] - begin;
   found.clear();
-  const double sunk = touch_pairs(settings, kernels, bed, {all.pairs.data() + begin, count},
-                                  {contacts.memory.data() + begin, count}, columns, found);
+  const std::span<PairMemory> memory(contacts.memory);
+  const double sunk =
+      touch_pairs(settings, kernels, bed, {all.pairs.data() + begin, count},
+                  memory.empty() ? memory : memory.subspan(begin, count), columns, found);
   for (std::size_t k = 0; k < bed.walls.size(); ++k) {
     touch_wall(k, all.near_wall(k, subdomain), settings.margin, bed, found);
   }
@@ -351,9 +354,13 @@ TouchSettings touch_settings(double near, double dt) {
 template <class Real>
 void take_candidates(const PolyhedronBed& bed, const Candidates& candidates,
                      PolyhedronContacts<Real>& contacts, const ParallelFor& loop) {
+  std::vector<GrainPair>& pairs = contacts.subdomains.pairs;
+  contacts.remembered.pairs.assign(pairs.begin(), pairs.end());
   divide(bed, Polyhedron::subdomain_grains, candidates, candidates.pairs, loop,
          contacts.subdomains);
-  contacts.memory.assign(contacts.subdomains.pairs.size(), {});
+  if (needs_memory(bed)) {
+    keep_memories(bed.grains(), pairs, loop, contacts.memory, contacts.remembered);
+  }
 }
 
 template <class Real>
@@ -382,6 +389,7 @@ void lay_out_closed(double tolerance, const ExecutionContext& context, const Pol
                     const Candidates& candidates, double dt, const PolyhedronContacts<Real>& from,
                     PolyhedronContacts<double>& closed) {
   collect_impulses(bed, context.loop, 1.0 / (dt * dt), from, closed.carried);
+  forget_pairs(closed);  // they would depend on when the bed was balanced last
   take_candidates(bed, candidates, closed, context.loop);
   touch_candidates(as_deep_as_they_are(tolerance, dt), bed, context, closed);
   for (std::size_t p = 0; p < closed.found_parts; ++p) {

@@ -12,6 +12,7 @@
 #include "engine/context.hpp"
 #include "engine/narrow/polyhedra.hpp"
 #include "engine/rows/contacts.hpp"
+#include "engine/rows/pair_memories.hpp"
 #include "engine/rows/partition.hpp"
 #include "engine/rows/subdomains.hpp"
 #include "engine/scene/bed.hpp"
@@ -44,7 +45,8 @@ struct ContactPart {
 template <class Real>
 struct Contacts<Polyhedron, Real> {
   Subdomains subdomains;
-  std::vector<PairMemory> memory;        ///< of each of subdomains.pairs
+  std::vector<PairMemory> memory;  ///< of each of subdomains.pairs
+  PairMemoryColumns remembered;
   std::vector<ContactPart<Real>> parts;  ///< memory of more than `found_parts` may be left
   std::size_t found_parts = 0;           ///< parts that the last step found
   std::vector<BodyBlock<Real>> blocks;
@@ -81,7 +83,15 @@ using PolyhedronContacts = Contacts<Polyhedron, Real>;
 /// Contacts of a step of length `dt` are those with a gap below `near`, d.
 TouchSettings touch_settings(double near, double dt);
 
-/// Takes a new list of candidates; contacts stay what they are until they are found anew.
+/// Forgets the pairs and what they remember.
+template <class Real>
+void forget_pairs(PolyhedronContacts<Real>& contacts) {
+  contacts.subdomains.pairs.clear();
+  contacts.memory.clear();
+}
+
+/// Takes a new list of candidates; contacts stay what they are until they are found anew, and pairs
+/// that were listed before remember what they did.
 template <class Real>
 void take_candidates(const PolyhedronBed& bed, const Candidates& candidates,
                      PolyhedronContacts<Real>& contacts, const ParallelFor& loop = serial_for);
