@@ -163,11 +163,6 @@ bool holds(const Corners& corners, std::int32_t a, std::int32_t b) {
   return false;
 }
 
-/// Size of the numbers that positions of this pair are rounded at, d.
-double size_of(const ShapePair& pair) {
-  return pair.pose.scale_a * pair.a.circumradius + pair.pose.scale_b * pair.b.circumradius;
-}
-
 struct Advance {
   bool is_nearer = false;
   bool parts = false;  ///< the direction of the nearest point parts the shapes
@@ -194,7 +189,7 @@ void set_witnesses(const ShapePair& pair, const Corners& corners, Closest& resul
 }  // namespace
 
 Closest closest_points(const ShapePair& pair) {
-  const double touch = touching_share * size_of(pair);
+  const double touch = touching_share * pair.size();
   Corners best = nearest_of(first_corner(pair));
   Vector nearest = best.nearest();
   Closest result;

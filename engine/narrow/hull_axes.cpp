@@ -7,7 +7,6 @@
 // have turned still do not cross. The candidates are all others.
 #include <algorithm>
 #include <limits>
-#include <utility>
 
 #include "engine/narrow/axes.hpp"
 
@@ -46,6 +45,11 @@ struct View {
   }
   Vector place(std::int32_t corner) const {
     return centre + turn * other.vertices[static_cast<std::size_t>(corner)];
+  }
+  /// How far a face parts the shapes.
+  double separation(std::int32_t number) {
+    const Face& face = shape.faces[static_cast<std::size_t>(number)];
+    return face.normal.dot(place(lowest(face.normal))) - scale * face.offset;
   }
   /// Learns the corner that is lowest along n, and returns its heights over the faces.
   const double* add_lowest(const Vector& n) {
@@ -94,11 +98,19 @@ std::int32_t better_face(View& view, double& best) {
   }
 }
 
+/// The axis of a face of either.
+ContactAxis axis_of_a(const ShapePair& pair, std::int32_t face, double separation) {
+  return {AxisKind::face_of_a, face, -1, face_normal(pair.a, face), separation};
+}
+ContactAxis axis_of_b(const ShapePair& pair, std::int32_t face, double separation) {
+  const Vector normal = -(pair.pose.turn * face_normal(pair.b, face));
+  return {AxisKind::face_of_b, -1, face, normal, separation};
+}
+
 ContactAxis best_face(const ShapePair& pair, View& a, View& b) {
   double best = -std::numeric_limits<double>::infinity();
   const std::int32_t of_a = better_face(a, best), of_b = better_face(b, best);
-  if (of_b < 0) return {AxisKind::face_of_a, of_a, -1, face_normal(pair.a, of_a), best};
-  return {AxisKind::face_of_b, -1, of_b, -(pair.pose.turn * face_normal(pair.b, of_b)), best};
+  return of_b < 0 ? axis_of_a(pair, of_a, best) : axis_of_b(pair, of_b, best);
 }
 
 /// Places the edges of a that may part the shapes.
@@ -129,11 +141,17 @@ HullEdge edge_of_b(const ShapePair& pair, const Edge& edge) {
   return placed;
 }
 
-/// Takes the axis of edges p of a and q of b, which is `along`, times `sign` if it parts the shapes
-/// better.
-void try_edges(const ShapePair& pair, const Edge& p, const Edge& q, const Vector& along,
-               double sign, ContactAxis& best) {
-  const Vector n = sign * across(p.along, along);
+/// How the edges placed cross one of b.
+void find_crossings(const HullKernels& kernels, const HullEdge& other, double in_doubt,
+                    PlacedEdges& of_a) {
+  kernels.crossings(
+      {of_a.from.columns(), of_a.along.columns(), of_a.left.columns(), of_a.right.columns()}, other,
+      in_doubt, parallel, of_a.parted.data(), of_a.crossings.data());
+}
+
+/// Takes the axis n of edges p of a and q of b if it parts the shapes better.
+void try_edges(const ShapePair& pair, const Edge& p, const Edge& q, const Vector& n,
+               ContactAxis& best) {
   if (n.isZero(0.0)) return;
   const double separation = separation_along(pair, n);
   if (separation > best.separation) {
@@ -147,9 +165,7 @@ void try_edges(const ShapePair& pair, const Edge& p, const Edge& q, const Vector
 void try_edges(const ShapePair& pair, const HullKernels& kernels, PlacedEdges& of_a, const Edge& q,
                ContactAxis& best) {
   const HullEdge other = edge_of_b(pair, q);
-  kernels.crossings(
-      {of_a.from.columns(), of_a.along.columns(), of_a.left.columns(), of_a.right.columns()}, other,
-      no_sign, parallel, of_a.parted.data(), of_a.crossings.data());
+  find_crossings(kernels, other, no_sign, of_a);
   const Eigen::Map<const Vector> along(other.along);
   for (std::size_t k = 0; k < of_a.edges.size(); ++k) {
     const std::uint8_t crossing = of_a.crossings[k];
@@ -157,10 +173,10 @@ void try_edges(const ShapePair& pair, const HullKernels& kernels, PlacedEdges& o
     const double parted = of_a.parted[k];
     const Edge& p = *of_a.edges[k];
     if ((crossing & along_product) != 0 && parted > best.separation) {
-      try_edges(pair, p, q, along, 1.0, best);
+      try_edges(pair, p, q, across(p.along, along), best);
     }
     if ((crossing & against_product) != 0 && -parted > best.separation) {
-      try_edges(pair, p, q, along, -1.0, best);
+      try_edges(pair, p, q, -across(p.along, along), best);
     }
   }
 }
@@ -178,15 +194,13 @@ void try_crossing(const ShapePair& pair, const Edge& p, const Edge& q, ContactAx
   for (const double sign : {1.0, -1.0}) {
     const bool crosses = sign * to_left >= -no_sign && sign * to_right <= no_sign &&
                          sign * from_left >= -no_sign && sign * from_right <= no_sign;
-    if (crosses && sign * parted > best.separation) try_edges(pair, p, q, along, sign, best);
+    if (crosses && sign * parted > best.separation) try_edges(pair, p, q, sign * n, best);
   }
 }
 
 /// The axes of edges that part the shapes better than their best face; kind none if there are none.
 ContactAxis better_edges(const ShapePair& pair, View& a, View& b, double face, PlacedEdges& of_a) {
-  const double size =
-      pair.pose.scale_a * pair.a.circumradius + pair.pose.scale_b * pair.b.circumradius;
-  const double least = std::min(face, 0.0) + same_depth * size;
+  const double least = std::min(face, 0.0) + same_depth * pair.size();
   a.sink(least);
   place_edges(pair, a, of_a);
   if (of_a.edges.empty()) return {};
@@ -207,17 +221,13 @@ constexpr double slack_of_size = 0.02, slack_of_cosine = 0.02;
 // They are listed where the pair has moved so little since its last search: for several steps more.
 constexpr double slow_share = 1.0 / 16.0;
 
-double size_of(const ShapePair& pair) {
-  return pair.pose.scale_a * pair.a.circumradius + pair.pose.scale_b * pair.b.circumradius;
-}
-
 /// Share of the slack that a pair has used since the pose of its candidates; they hold below a
 /// half.
 double slack_used(const ShapePair& pair, const AxisCandidates& candidates) {
   if (!candidates.is_set) return std::numeric_limits<double>::infinity();
   const Eigen::Map<const Vector> centre(candidates.centre);
   const Eigen::Map<const Matrix> turn(candidates.turn);
-  const double turned = (pair.pose.turn - turn).norm(), size = size_of(pair);
+  const double turned = (pair.pose.turn - turn).norm(), size = pair.size();
   // No point of either shape, seen from the other one, has moved by more.
   const double moved = (pair.pose.centre - centre).norm() + turned * (size + centre.norm());
   return std::max(moved / (slack_of_size * size), turned / slack_of_cosine);
@@ -247,9 +257,7 @@ bool list_edges(const ShapePair& pair, View& a, View& b, double limit, PlacedEdg
   if (of_a.edges.empty()) return true;
   for (const Edge& q : pair.b.edges) {
     if (!b.may_part(q)) continue;
-    a.kernels.crossings(
-        {of_a.from.columns(), of_a.along.columns(), of_a.left.columns(), of_a.right.columns()},
-        edge_of_b(pair, q), slack_of_cosine, parallel, of_a.parted.data(), of_a.crossings.data());
+    find_crossings(a.kernels, edge_of_b(pair, q), slack_of_cosine, of_a);
     for (std::size_t k = 0; k < of_a.edges.size(); ++k) {
       if (of_a.crossings[k] == no_crossing) continue;
       if (candidates.edges == AxisCandidates::most_edges) return false;
@@ -275,7 +283,7 @@ void list_candidates(const ShapePair& pair, View& a, View& b, double face, doubl
   candidates = {};
   set_pose(pair.pose, candidates);
   if (used > slow_share) return;
-  const double slack = slack_of_size * size_of(pair);
+  const double slack = slack_of_size * pair.size();
   candidates.is_listed = list_faces(a, face - slack, true, candidates) &&
                          list_faces(b, face - slack, false, candidates) &&
                          list_edges(pair, a, b, std::min(face, 0.0) - slack, of_a, candidates);
@@ -285,13 +293,9 @@ void list_candidates(const ShapePair& pair, View& a, View& b, double face, doubl
 /// The axis of face k of a, or -1 - k of b.
 ContactAxis face_axis(const ShapePair& pair, View& a, View& b, std::int32_t k) {
   const bool of_a = k >= 0;
-  View& view = of_a ? a : b;
-  const std::int32_t number = of_a ? k : -1 - k;
-  const Face& face = view.shape.faces[static_cast<std::size_t>(number)];
-  const Vector x = view.place(view.lowest(face.normal));
-  const double separation = face.normal.dot(x) - view.scale * face.offset;
-  if (of_a) return {AxisKind::face_of_a, number, -1, face.normal, separation};
-  return {AxisKind::face_of_b, -1, number, -(pair.pose.turn * face.normal), separation};
+  const std::int32_t face = of_a ? k : -1 - k;
+  return of_a ? axis_of_a(pair, face, a.separation(face))
+              : axis_of_b(pair, face, b.separation(face));
 }
 
 /// The best of the candidates.

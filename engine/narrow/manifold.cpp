@@ -14,8 +14,7 @@ namespace {
 constexpr double on_plane = 1e-9;
 
 bool closer_than(const ShapePair& pair, double margin) {
-  const double reach =
-      pair.pose.scale_a * pair.a.circumradius + pair.pose.scale_b * pair.b.circumradius + margin;
+  const double reach = pair.size() + margin;
   return pair.pose.centre.squaredNorm() <= reach * reach;
 }
 
@@ -63,8 +62,7 @@ void touch_edges(const ShapePair& pair, const ContactAxis& axis, double margin,
   const Segment edge_a = farthest_edge(a, axis.a, axis.normal);
   const Segment edge_b = farthest_edge(b, axis.b, -axis.normal);
   const double between = axis.normal.dot(edge_b.from - edge_a.from);
-  const double size = a.scale * a.shape.circumradius + b.scale * b.shape.circumradius;
-  if (std::abs(between - axis.separation) > on_plane * size) return;
+  if (std::abs(between - axis.separation) > on_plane * pair.size()) return;
   const Closeness closest = closest_of(edge_a, edge_b);
   points.push_back({closest.midway, axis.separation});
   contact.is_beside = closest.distance > margin;

@@ -13,6 +13,8 @@ struct ShapePair {
   const ConvexShape& b;
   PairPose pose;
 
+  /// Distance of the centres at which the balls around the two touch, d.
+  double size() const { return pose.scale_a * a.circumradius + pose.scale_b * b.circumradius; }
   /// A vertex of either grain, in the frame of a.
   Vector vertex_a(std::int32_t k) const {
     return pose.scale_a * a.vertices[static_cast<std::size_t>(k)];

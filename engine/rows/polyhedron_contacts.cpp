@@ -6,6 +6,7 @@
 #include <limits>
 #include <numeric>
 #include <span>
+#include <utility>
 
 #include "engine/narrow/constraints.hpp"
 #include "engine/rows/lanes.hpp"
@@ -355,12 +356,11 @@ template <class Real>
 void take_candidates(const PolyhedronBed& bed, const Candidates& candidates,
                      PolyhedronContacts<Real>& contacts, const ParallelFor& loop) {
   std::vector<GrainPair>& pairs = contacts.subdomains.pairs;
-  contacts.remembered.pairs.assign(pairs.begin(), pairs.end());
+  const bool remembers = needs_memory(bed);
+  if (remembers) std::swap(pairs, contacts.remembered.pairs);
   divide(bed, Polyhedron::subdomain_grains, candidates, candidates.pairs, loop,
          contacts.subdomains);
-  if (needs_memory(bed)) {
-    keep_memories(bed.grains(), pairs, loop, contacts.memory, contacts.remembered);
-  }
+  if (remembers) keep_memories(bed.grains(), pairs, loop, contacts.memory, contacts.remembered);
 }
 
 template <class Real>
