@@ -88,18 +88,8 @@ std::string component_commands_of(const Figure& figure, const Mixtures& groups) 
   std::string text = "set multiplot\n" + panels.key();
   for (std::size_t k = 0; k < groups.size(); ++k) {
     const Group& group = *groups[k];
-    const Box& box = group.job.box;
-    text += panels.place(k, 0) +
-            range_command("x", {0.0, box.is_tube ? box.width / 2.0 : box.width}) +
-            "set format x ''\n" + label_command("x", "") +
-            label_command("y", k == 0 ? "solid fraction φ" : "") + "set title " +
-            quoted(title_of(group, figure_label)) + " offset 0,-0.7 font ',11' noenhanced\n" +
-            solid + component_panel(k, group, "solid_fraction") + "unset title\n";
-    text += panels.place(k, 1) + "set format x\n" +
-            label_command("x",
-                          box.is_tube ? "distance from the wall / d" : "y / d, from wall to wall") +
-            label_command("y", k == 0 ? "coordination number Z" : "") + touching +
-            component_panel(k, group, "coordination");
+    text += panels_across(panels, k, group, solid + component_panel(k, group, "solid_fraction"),
+                          touching + component_panel(k, group, "coordination"));
   }
   return text;
 }

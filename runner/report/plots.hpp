@@ -47,6 +47,11 @@ std::string plot_command(const std::vector<std::string>& parts);
 /// "set xlabel '...'", or without a label.
 std::string label_command(const std::string& axis, const std::string& text);
 
+/// Two panels of column k, one above the other, of what the group does from wall to wall: `solid`
+/// plots the solid fraction, `touching` the coordination number.
+std::string panels_across(const Panels& panels, std::size_t k, const Group& group,
+                          const std::string& solid, const std::string& touching);
+
 /// Tics at 0 and one to each side, for values that lie around 0, and their range.
 std::string few_tics_command(const std::string& axis, double extreme);
 

@@ -83,18 +83,9 @@ std::string commands_of(const Figure& figure, const std::vector<GroupWithCurves>
       "y", range_of(values_in(groups, {&MeanBin::coordination, &MeanBin::coordination_with_walls}),
                     0.06));
   for (std::size_t k = 0; k < groups.size(); ++k) {
-    const Box& box = groups[k]->job.box;
-    const double width = box.is_tube ? box.width / 2.0 : box.width;
-    text += panels.place(k, 0) + range_command("x", {0.0, width}) + "set format x ''\n" +
-            label_command("x", "") + label_command("y", k == 0 ? "solid fraction φ" : "") +
-            "set title " + quoted(title_of(*groups[k], figure_label)) +
-            " offset 0,-0.7 font ',11' noenhanced\n" + solid + solid_panel(k, fits[k], box.width) +
-            "unset title\n";
-    text += panels.place(k, 1) + "set format x\n" +
-            label_command("x",
-                          box.is_tube ? "distance from the wall / d" : "y / d, from wall to wall") +
-            label_command("y", k == 0 ? "coordination number Z" : "") + touching +
-            coordination_panel(k);
+    text += panels_across(panels, k, *groups[k],
+                          solid + solid_panel(k, fits[k], groups[k]->job.box.width),
+                          touching + coordination_panel(k));
   }
   return text;
 }

@@ -138,20 +138,10 @@ void append_component_bins(const Group& group, const char* axis,
 std::vector<MeanComponentBin> mean_component_profile(const Group& group,
                                                      ComponentProfile ComponentMeasure::*profile,
                                                      std::size_t k, std::size_t other) {
-  std::vector<MeanComponentBin> means;
-  const std::vector<const ComponentProfile*> profiles = component_profiles_of(group, profile, k);
-  for (std::size_t number = 0;; ++number) {
-    ComponentBins bins;
-    double width = 0.0;
-    for (const ComponentProfile* one : profiles) {
-      if (number >= one->bins.size()) continue;
-      bins.push_back(&one->bins[number]);
-      width = one->bin_width;
-    }
-    if (bins.empty()) return means;
-    means.push_back(mean_component_bin(bins, other, static_cast<double>(number) * width,
-                                       static_cast<double>(number + 1) * width));
-  }
+  return mean_bins(component_profiles_of(group, profile, k),
+                   [other](const ComponentBins& bins, double low, double high) {
+                     return mean_component_bin(bins, other, low, high);
+                   });
 }
 
 std::vector<ColumnText> component_profiles_columns(const Varied& varied, const GivenUnits& units) {

@@ -1,7 +1,5 @@
 #include "runner/tables/profiles.hpp"
 
-#include <algorithm>
-
 namespace grainsweep {
 namespace {
 
@@ -103,22 +101,9 @@ double from_axis(const Group& group, std::string_view axis, double low, double h
 }
 
 std::vector<MeanBin> mean_profile(const Group& group, Profile PackingResult::*profile) {
-  std::size_t longest = 0;
-  for (const Outcome& outcome : group.settled) {
-    longest = std::max(longest, (outcome.result.*profile).bins.size());
-  }
-  std::vector<MeanBin> means;
-  for (std::size_t k = 0; k < longest; ++k) {
-    Bins bins;
-    double width = 0.0;
-    for (const Outcome& outcome : group.settled) {
-      const Profile& one = outcome.result.*profile;
-      if (k < one.bins.size()) bins.push_back(&one.bins[k]), width = one.bin_width;
-    }
-    means.push_back(
-        mean_bin(bins, static_cast<double>(k) * width, static_cast<double>(k + 1) * width));
-  }
-  return means;
+  std::vector<const Profile*> profiles;
+  for (const Outcome& outcome : group.settled) profiles.push_back(&(outcome.result.*profile));
+  return mean_bins(profiles, mean_bin);
 }
 
 std::vector<ColumnText> profiles_columns(const Varied& varied, const GivenUnits& units) {

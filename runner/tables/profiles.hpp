@@ -4,6 +4,7 @@
 
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include "runner/tables/groups.hpp"
@@ -31,6 +32,24 @@ inline constexpr const char* profile_axis_meaning =
 /// Distance of the middle of a bin from the axis of a tube, d, of a profile from the walls, which
 /// is called "walls"; not a number elsewhere.
 double from_axis(const Group& group, std::string_view axis, double low, double high);
+
+/// What `mean(bins, low, high)` makes of the bins of each number, which lie from `low` to `high`,
+/// d, in those of the profiles that have it.
+template <class AnyProfile, class Mean>
+auto mean_bins(const std::vector<const AnyProfile*>& profiles, Mean mean) {
+  using Bin = typename decltype(AnyProfile::bins)::value_type;
+  using Bins = std::vector<const Bin*>;
+  std::vector<std::invoke_result_t<Mean, const Bins&, double, double>> means;
+  for (std::size_t k = 0;; ++k) {
+    Bins bins;
+    double width = 0.0;
+    for (const AnyProfile* one : profiles) {
+      if (k < one->bins.size()) bins.push_back(&one->bins[k]), width = one->bin_width;
+    }
+    if (bins.empty()) return means;
+    means.push_back(mean(bins, static_cast<double>(k) * width, static_cast<double>(k + 1) * width));
+  }
+}
 
 /// The mean of `profile` (profile_y or profile_z) over the settled packings of a group. Where the
 /// profiles differ in length, the bins of those that have them.
