@@ -81,6 +81,17 @@ TEST_CASE("spheres have neither a mesh nor orientations nor an order of shapes")
   CHECK_FALSE(packing.result.shape_order);
 }
 
+/// The grains of a packing as it gives them back.
+PlacedGrains placed_as_in(const Packing& packing) {
+  PlacedGrains placed;
+  for (const SettledGrain& grain : packing.grains) {
+    placed.grains.push_back({grain.x, grain.y, grain.z, grain.radius});
+  }
+  placed.orientations = packing.turned->orientations;
+  placed.components = packing.turned->components;
+  return placed;
+}
+
 TEST_CASE("a bed of hulls placed again as it was given back stays as it is") {
   // Not centred, not along its principal axes: given back in the frame in which it is written.
   PackingSpec spec = small_spec(testing::asked_for(
@@ -88,12 +99,7 @@ TEST_CASE("a bed of hulls placed again as it was given back stays as it is") {
   const Packing first = pack(spec);
   INFO(first.result.reason);
   REQUIRE(first.result.status == PackingStatus::settled);
-  PlacedGrains placed;
-  for (const SettledGrain& grain : first.grains) {
-    placed.grains.push_back({grain.x, grain.y, grain.z, grain.radius});
-  }
-  placed.orientations = first.turned->orientations;
-  spec.fill = placed;
+  spec.fill = placed_as_in(first);
   spec.accuracy.max_steps = 1;  // a look at it, no more
   const Packing again = pack(spec);
   double farthest = 0;
@@ -116,13 +122,7 @@ TEST_CASE("a bed of a mixture placed again as it was given back stays as it is")
   const Packing first = pack(spec);
   INFO(first.result.reason);
   REQUIRE(first.result.status == PackingStatus::settled);
-  PlacedGrains placed;
-  for (const SettledGrain& grain : first.grains) {
-    placed.grains.push_back({grain.x, grain.y, grain.z, grain.radius});
-  }
-  placed.orientations = first.turned->orientations;
-  placed.components = first.turned->components;
-  spec.fill = placed;
+  spec.fill = placed_as_in(first);
   REQUIRE(check(spec).empty());
   spec.accuracy.max_steps = 1;  // a look at it, no more
   const Packing again = pack(spec);

@@ -25,14 +25,14 @@ has_checkpoint() {
   [ -e "${files[0]}" ]
 }
 
-# Six beds of 60 to 130 grains.
+# write_small_sweep FILE [POINT]: six beds of 60 to 130 grains, and those of another point of the sweep.
 write_small_sweep() {
-  cat >"$1" <<'JSON'
+  cat >"$1" <<JSON
 { "name": "small", "seed": 5, "replicates": 2,
   "base": { "box": { "length": 4, "width": 4 }, "fill": { "solid_height": 4 },
             "measure": { "exclude_floor": 1, "exclude_surface": 1 }, "accuracy": "fast" },
   "sweep": [ { "label": "walls", "grid": { "box.width": [3, 4] } },
-             { "label": "bulk", "set": { "box.width": 5, "box.y": "periodic" } } ] }
+             { "label": "bulk", "set": { "box.width": 5, "box.y": "periodic" } }${2:+, $2} ] }
 JSON
 }
 

@@ -2,16 +2,9 @@
 source "$(dirname "$0")/common.sh" "$1"
 # Six beds of 10 to 20 ms beside one of a quarter of a second, which begins first: however late a
 # signal comes after any of the six, the runner is at work.
-cat >sweep.json <<'JSON'
-{ "name": "small", "seed": 5, "replicates": 2,
-  "base": { "box": { "length": 4, "width": 4 }, "fill": { "solid_height": 4 },
-            "measure": { "exclude_floor": 1, "exclude_surface": 1 }, "accuracy": "fast" },
-  "sweep": [ { "label": "walls", "grid": { "box.width": [3, 4] } },
-             { "label": "bulk", "set": { "box.width": 5, "box.y": "periodic" } },
-             { "label": "long", "replicates": 1,
-               "set": { "box": { "length": 7, "width": 7 }, "fill.solid_height": 10,
-                        "accuracy": "balanced" } } ] }
-JSON
+write_small_sweep sweep.json \
+  '{ "label": "long", "replicates": 1, "set": { "box": { "length": 7, "width": 7 },
+     "fill.solid_height": 10, "accuracy": "balanced" } }'
 make_reference sweep.json
 
 # stop_with SIGNAL CODE: the runner ends so within 2 s; false if it had ended before.
