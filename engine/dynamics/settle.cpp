@@ -41,6 +41,7 @@ struct Settling {
   Stages stages;
   std::size_t stage = 0;  ///< the number of stages when the bed is at rest
   std::int64_t steps_in_stage = 0;
+  double height = 0.0;  ///< of the bed when the stage began, d
   StepSettings settings;
   StepReport last = {};
   double sunk_at_start = 0.0;  ///< StepReport::sunk of the first step
@@ -170,18 +171,20 @@ void enter(std::size_t stage, Settling<Kind, Real>& s) {
   s.steps_in_stage = 0;
   if (wake(s.bed)) s.state.candidates.is_listed = false;
   if (stage == s.stages.size()) return;
-  const StepSettings settings = settings_of(s.accuracy, s.rule());
+  s.height = top_of(s.bed);
+  const StepSettings settings = settings_of(s.accuracy, s.rule(), s.height);
   change_step(settings.dt / s.settings.dt, s.bed, s.state);
   s.settings = settings;
 }
 
 // ---- saving and going on ----
 
-/// Lists what a packing needs to go on; settings follow from the stage.
+/// Lists what a packing needs to go on; settings follow from the stage and the height.
 template <class Archive, class Kind, class Real>
 void transfer(Archive& archive, Settling<Kind, Real>& s) {
   archive.value(s.stage);
   archive.value(s.steps_in_stage);
+  archive.value(s.height);
   archive.value(s.last);
   archive.value(s.sunk_at_start);
   archive.value(s.share_done);
@@ -214,7 +217,7 @@ void restore(std::string_view bytes, Settling<Kind, Real>& s) {
   if (const auto payload = unsealed(kind_of(s), bytes)) {
     StateReader reader(*payload);
     transfer(reader, s);
-    s.settings = settings_of(s.accuracy, s.rule());
+    s.settings = settings_of(s.accuracy, s.rule(), s.height);
   }
 }
 
@@ -331,7 +334,7 @@ std::string find_exact_rest(Settling<Sphere, Real>& s, const KeepGoing& keep_goi
 /// Multiplications of a factorisation that take as long as sliding on has taken.
 template <class Kind, class Real>
 double work_of_sliding(const Settling<Kind, Real>& s) {
-  constexpr double of_a_grain_and_sweep = 120.0;
+  constexpr double of_a_grain_and_sweep = 50.0;
   return of_a_grain_and_sweep * static_cast<double>(s.report.iterations - s.iterations_before) *
          static_cast<double>(s.bed.grains());
 }

@@ -268,10 +268,16 @@ double path_of(const Accuracy& accuracy, const StageRule& rule) {
   return share * rule.path * path_tolerance(accuracy);
 }
 
-int iterations_of(const Accuracy& accuracy, const StageRule& rule) {
-  return std::max(1,
-                  static_cast<int>(std::lround(rule.fall_iterations * accuracy.fall_iterations +
-                                               rule.rest_iterations * accuracy.rest_iterations)));
+/// At rest forces are passed on from the surface to the floor: a bed higher than 27 d needs more
+/// sweeps than the 40 of `fast`. With them such a bed of 65 d does not rest and slides on, five to
+/// ten times as long as it takes with 100.
+constexpr double sweeps_of_a_diameter = 1.5;
+
+int iterations_of(const Accuracy& accuracy, const StageRule& rule, double height) {
+  const double at_rest =
+      std::max(static_cast<double>(accuracy.rest_iterations), sweeps_of_a_diameter * height);
+  return std::max(1, static_cast<int>(std::lround(rule.fall_iterations * accuracy.fall_iterations +
+                                                  rule.rest_iterations * at_rest)));
 }
 
 double momentum_of(const Accuracy& accuracy, Inertia inertia) {
@@ -297,7 +303,7 @@ Stages stages_of<Polyhedron>(Protocol protocol) {
   return protocol == Protocol::dynamic ? Stages(dynamic_turning) : Stages(turning);
 }
 
-StepSettings settings_of(const Accuracy& accuracy, const StageRule& rule) {
+StepSettings settings_of(const Accuracy& accuracy, const StageRule& rule, double height) {
   StepSettings s;
   s.dt = rule.step * accuracy.step;
   s.momentum = momentum_of(accuracy, rule.inertia);
@@ -306,7 +312,7 @@ StepSettings settings_of(const Accuracy& accuracy, const StageRule& rule) {
   s.margin = rule.margin;
   s.longest_free = rule.longest_free;
   s.carries = rule.carries;
-  s.limits = {accuracy.solver, iterations_of(accuracy, rule), accuracy.residual_tolerance / 5.0};
+  s.limits = {accuracy.solver, iterations_of(accuracy, rule, height), accuracy.residual_tolerance / 5.0};
   const double path = path_of(accuracy, rule) + rule.path_of_gap * accuracy.imbalance_gap;
   s.limits.rms_tolerance = path / (s.dt * s.dt);
   s.limits.residual_cap = residual_cap;

@@ -60,8 +60,8 @@ using Stages = std::span<const StageRule>;
 template <class Kind>
 Stages stages_of(Protocol protocol);
 
-/// A step of a stage.
-StepSettings settings_of(const Accuracy& accuracy, const StageRule& rule);
+/// A step of a stage of a bed so high, d.
+StepSettings settings_of(const Accuracy& accuracy, const StageRule& rule, double height = 0.0);
 
 /// Steps that a stage takes; for the stages that end on a condition, the least.
 std::int64_t steps_of(const Accuracy& accuracy, const StageRule& rule);

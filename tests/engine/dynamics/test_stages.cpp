@@ -90,6 +90,19 @@ TEST_CASE("iterations of fall and creep are bounded apart from those at rest") {
   CHECK(iterations(stage_called("fall", stages_of<Polyhedron>(Protocol::heavy_ball))) == 77);
 }
 
+TEST_CASE("high beds have sweeps enough at rest for forces to pass from the surface to the floor") {
+  Accuracy accuracy;
+  accuracy.rest_iterations = 60;
+  const auto iterations = [&](const StageRule& stage, double height) {
+    return settings_of(accuracy, stage, height).limits.iterations;
+  };
+  CHECK(iterations(heavy_ball("quench"), 40.0) == 120);
+  CHECK(iterations(heavy_ball("quench"), 80.0) == 240);
+  CHECK(iterations(stage_called("quench", stages_of<Polyhedron>(Protocol::heavy_ball)), 80.0) ==
+        120);
+  CHECK(iterations(heavy_ball("ease"), 80.0) == iterations(heavy_ball("ease"), 0.0));
+}
+
 TEST_CASE(
     "a step may stray by a path, whatever its length, and half as far where full ones are half") {
   Accuracy accuracy;
