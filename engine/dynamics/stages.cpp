@@ -312,7 +312,8 @@ StepSettings settings_of(const Accuracy& accuracy, const StageRule& rule, double
   s.margin = rule.margin;
   s.longest_free = rule.longest_free;
   s.carries = rule.carries;
-  s.limits = {accuracy.solver, iterations_of(accuracy, rule, height), accuracy.residual_tolerance / 5.0};
+  s.limits = {accuracy.solver, iterations_of(accuracy, rule, height),
+              accuracy.residual_tolerance / 5.0};
   const double path = path_of(accuracy, rule) + rule.path_of_gap * accuracy.imbalance_gap;
   s.limits.rms_tolerance = path / (s.dt * s.dt);
   s.limits.residual_cap = residual_cap;

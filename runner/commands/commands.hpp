@@ -28,6 +28,7 @@ struct RunOptions {
   bool no_report = false;            ///< leave out report.html and its figures
   bool no_grains = false;            ///< store curves but no grains
   std::string shard;                 ///< as of shard_from_option
+  bool alone = false;                ///< take over nothing from other shards
   std::string time_limit;            ///< "1:30:00"; empty: that of the Slurm job, if any
   std::string tolerate_unsettled;    ///< share, 0..1, that does not count in the exit code
 };

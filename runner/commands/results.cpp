@@ -12,6 +12,7 @@
 #include "runner/exit_codes.hpp"
 #include "runner/machine.hpp"
 #include "runner/store/checkpoints.hpp"
+#include "runner/store/claims.hpp"
 #include "runner/store/files.hpp"
 #include "runner/store/states.hpp"
 #include "runner/tables/component_profiles.hpp"
@@ -230,6 +231,7 @@ std::size_t stored_packings(const std::string& folder) {
 }
 
 void clean_up(const std::string& folder) {
+  forget_claims(folder);
   for (const char* name : tables) remove_leftovers(folder, name);
   remove_leftovers(folder, "report.html");
   for (const char* ending : {".csv", ".gnuplot"}) remove_leftovers(folder + "/figures", ending);

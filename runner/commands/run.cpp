@@ -22,6 +22,7 @@
 #include "runner/instruction_set.hpp"
 #include "runner/jobs/estimates.hpp"
 #include "runner/jobs/growing_groups.hpp"
+#include "runner/jobs/helping.hpp"
 #include "runner/jobs/pack_pending.hpp"
 #include "runner/jobs/stop.hpp"
 #include "runner/machine.hpp"
@@ -109,6 +110,7 @@ void keep_own(std::vector<std::string>& damage, const Shard& shard, const std::s
 RunningSweep resume(const Sweep& sweep, const std::vector<std::size_t>& places, const Shard& shard,
                     const std::string& folder, ShardFiles& files, bool retry_failed) {
   RunningSweep running{folder, files, 0, {}, {}};
+  if (shard.count > 1) running.claims = claims_in(folder);
   JournalReading stored = read_journals(folder, Detail::summary);
   keep_own(stored.damage, shard, journal_path(folder, files.name()));
   const std::vector<Cost> costs = costs_of(sweep.jobs);
@@ -191,15 +193,47 @@ struct Made {
   bool is_whole = false;  ///< whether all that was called for was made
 };
 
+Packed joined(const Packed& before, const Packed& now) {
+  return {before.packings + now.packings, before.left_to_others + now.left_to_others,
+          now.first_failure};
+}
+
 /// Makes what is called for, and what the results of that, `made`, call for, and so on.
 Made make_all(GrowingSweep& growing, const std::function<Outcomes()>& made,
               const std::function<Made(const Sweep&)>& make) {
   Made all = make(growing.now());
   while (all.is_whole && growing.grow(made())) {
     const Made more = make(growing.now());
-    all = {{all.packed.packings + more.packed.packings, more.packed.first_failure}, more.is_whole};
+    all = {joined(all.packed, more.packed), more.is_whole};
   }
   return all;
+}
+
+/// Whether nothing but the packings themselves was in the way.
+bool was_stopped(const Packed& packed) {
+  return stop_signal() != 0 || !packed.first_failure.empty();
+}
+
+std::string packings_text(std::size_t count) {
+  return std::to_string(count) + (count == 1 ? " packing" : " packings");
+}
+
+/// Of a runner whose shard is made: takes over from others until nobody needs help.
+Made help(const Sweep& sweep, const Shard& shard, const std::string& folder, ShardFiles& files,
+          bool is_quiet, const std::function<Packed(RunningSweep&)>& make) {
+  const Helping helping(sweep, shard, folder);
+  Made all{{}, true};
+  for (;;) {
+    TakenOver taken = helping.next();
+    if (taken.jobs.empty()) return all;
+    if (!is_quiet) std::cerr << packings_text(taken.jobs.size()) << " of other shards taken over\n";
+    RunningSweep running{folder, files, 0, std::move(taken.jobs), {}, std::move(taken.claims)};
+    const Packed now = make(running);
+    all.packed = joined(all.packed, now);
+    all.is_whole = !was_stopped(now);
+    const auto made = static_cast<std::size_t>(now.packings);
+    if (!all.is_whole || made < running.pending.size()) return all;  // or there is no time for more
+  }
 }
 
 /// What is stored of the sweep, by all shards.
@@ -227,6 +261,7 @@ std::string repeated(const RunOptions& options, const std::string& folder) {
   if (options.no_report) text << " --no-report";
   if (options.no_grains) text << " --no-grains";
   if (!options.shard.empty()) text << " --shard " << options.shard;
+  if (options.alone) text << " --alone";
   if (!options.time_limit.empty()) text << " --time-limit " << options.time_limit;
   if (!options.tolerate_unsettled.empty()) {
     text << " --tolerate-unsettled=" << options.tolerate_unsettled;
@@ -257,18 +292,20 @@ int stopped(const Packed& packed, const RunOptions& options, const std::string& 
   return by_failure ? exit_left_out : exit_out_of_time;
 }
 
-/// Of a run that made all it had to. What is not there at its end was taken away meanwhile.
-int exit_code_for(const StatusCounts& counts, const RunOptions& options,
+/// Of a run that made all it had to. What is not there at its end others are still making, or it
+/// was taken away meanwhile.
+int exit_code_for(const StatusCounts& counts, int left_to_others, const RunOptions& options,
                   const std::string& folder) {
-  if (counts.pending > 0) {
-    std::cerr << "warning: " << counts.pending << " packings are no longer in " << folder
+  if (counts.pending > left_to_others) {
+    std::cerr << "warning: " << counts.pending - left_to_others << " packings are no longer in "
+              << folder
               << ", though they were stored there; run the sweep again to make them anew\n";
   }
   const int unsettled = counts.failed + counts.not_settled;
   const double share =
       options.tolerate_unsettled.empty() ? 0.0 : std::stod(options.tolerate_unsettled);
   const bool is_tolerated = unsettled <= share * (unsettled + counts.settled);
-  return counts.pending == 0 && is_tolerated ? exit_done : exit_left_out;
+  return counts.pending <= left_to_others && is_tolerated ? exit_done : exit_left_out;
 }
 
 /// Tables and page of all packings; with the closing table if the run made all it had to.
@@ -344,6 +381,8 @@ CLI::App& add_command(CLI::App& app, RunOptions& options) {
   run.add_option("--shard", options.shard,
                  "make one part of N in a shared folder: I/N, auto, or auto/N")
       ->type_name("I/N");
+  run.add_flag("--alone", options.alone,
+               "end with the shard, without taking over what others have not begun");
   run.add_option("--time-limit", options.time_limit,
                  "end in time; [H:]MM:SS or seconds (default: the end of the Slurm job)")
       ->type_name("T");
@@ -376,13 +415,22 @@ int perform(const RunOptions& options) {
   const auto made = [&] { return made_for_growth(folder, whole); };
   GrowingSweep growing(whole, made());
   bool retries = options.retry_failed;  // once
-  const auto [packed, is_whole] = make_all(growing, made, [&](const Sweep& sweep) {
+  const auto make = [&](RunningSweep& running) {
+    return pack(running, options, isa, run, time_limit);
+  };
+  Made own = make_all(growing, made, [&](const Sweep& sweep) {
     record_sweep(folder, provenance, rows_of(sweep));
     RunningSweep running =
         resume(sweep, places_of(jobs, sweep), shard, folder, files, std::exchange(retries, false));
-    const Packed now = pack(running, options, isa, run, time_limit);
-    return Made{now, static_cast<std::size_t>(now.packings) == running.pending.size()};
+    const Packed now = make(running);
+    const int seen_to = now.packings + now.left_to_others;
+    return Made{now, static_cast<std::size_t>(seen_to) == running.pending.size()};
   });
+  if (own.is_whole && shard.count > 1 && !options.alone && !grows(whole)) {
+    const Made more = help(whole, shard, folder, files, options.quiet, make);
+    own = {joined(own.packed, more.packed), more.is_whole};
+  }
+  const auto& [packed, is_whole] = own;
   run.packings = packed.packings;
   run.wall_seconds = wall_seconds() - start;
   run.ended = utc_now();
@@ -401,6 +449,7 @@ int perform(const RunOptions& options) {
     std::optional<FileLock> place;
     if (shard.count > 1) place.emplace(tables_lock(folder));
     if (!place || !place->is_taken()) write_results(results, options, folder, is_whole);
+    forget_claims(folder);
     if (is_whole && !options.quiet) std::cout << growing.wishes();
     if (options.no_report && packed.packings > 0) tell_of_old_page(folder);
   } else if (is_whole && !options.quiet) {
@@ -408,7 +457,7 @@ int perform(const RunOptions& options) {
   }
   const std::vector<std::size_t> places = places_of(jobs, growing.now());
   const StatusCounts counts = counts_of(results.rows, places);
-  return is_whole ? exit_code_for(counts, options, folder)
+  return is_whole ? exit_code_for(counts, packed.left_to_others, options, folder)
                   : stopped(packed, options, folder, counts, places.size());
 }
 

@@ -162,10 +162,23 @@ class Packer {
       return stop_signal() != 0 || has_failed_ || options_.time_limit.is_over();
     };
     events.may_start = [this](std::size_t task) {
-      const std::scoped_lock lock(learning_);
-      return options_.time_limit.may_begin(running_.estimates.of(costs_[task].cpu_seconds));
+      return has_time_for(task) && is_left_to_me(task);
     };
     return events;
+  }
+
+  bool has_time_for(std::size_t task) {
+    const std::scoped_lock lock(learning_);
+    return options_.time_limit.may_begin(running_.estimates.of(costs_[task].cpu_seconds));
+  }
+
+  /// Asked by one thread at a time.
+  bool is_left_to_me(std::size_t task) {
+    if (!running_.claims || running_.claims->may_begin(running_.pending[task]->id)) {
+      return true;
+    }
+    ++packed_.left_to_others;
+    return false;
   }
 
   void beat() {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "runner/jobs/progress.hpp"
 #include "runner/jobs/schedule.hpp"
 #include "runner/jobs/time_limit.hpp"
+#include "runner/store/claims.hpp"
 #include "runner/store/shard_files.hpp"
 #include "runner/sweep/job.hpp"
 
@@ -21,7 +23,8 @@ struct RunningSweep {
   ShardFiles& files;
   std::size_t done = 0;  ///< packings of its shard that were made before
   std::vector<const Job*> pending;
-  LearnedEstimates estimates = {};  ///< taught by the packings that were made before
+  LearnedEstimates estimates = {};    ///< taught by the packings that were made before
+  std::optional<Claims> claims = {};  ///< where runners help each other
 };
 
 struct PackOptions {
@@ -37,6 +40,7 @@ struct PackOptions {
 /// What came of it.
 struct Packed {
   int packings = 0;           ///< finished now
+  int left_to_others = 0;     ///< that other runners have taken over
   std::string first_failure;  ///< with fail_fast: the line of the packing that failed
 };
 

@@ -1,5 +1,5 @@
 # A sweep made by 1, 2, 7 and 64 runners in one folder: the tables and beds of one run, also after
-# random kills and where two runners are given the same shard.
+# random kills, where two runners are given the same shard, and where they help each other.
 source "$(dirname "$0")/common.sh" "$1"
 cat >sweep.json <<'JSON'
 { "name": "mixed", "seed": 5, "replicates": 30,
@@ -38,8 +38,27 @@ for count in 1 2 7 64; do
   [ ${#files[@]} -le $((2 * count + 1)) ] || fail "$count shards left ${#files[@]} files"
   expect_code 0 "$program" status out
   expect_text out.txt "$packings of $packings packings done" "No runner at work"
+  [ ! -e out/shards/claims ] || fail "$count shards left claims"
   rm -r out
 done
+
+# A runner that has ended takes over what another one, held in its first packing, has not begun. Going on,
+# that leaves out what was taken, and finds the sweep made.
+start "$program" run sweep.json --no-report --threads 1 --out out --shard 1/2
+wait_until has_packings out 1 || fail "ended too soon: $(cat said.txt)"
+kill -STOP "$runner"
+shard 2 2 --alone
+alone=$(packing_lines out | wc -l)
+[ "$alone" -lt $((packings - 1)) ] || fail "nothing was left to take over: $alone of $packings are made"
+shard 2 2
+helped=$(packing_lines out | wc -l)
+[ "$helped" -eq $((packings - 1)) ] || fail "$helped packings after help, $alone before, of $packings"
+kill -CONT "$runner"
+wait "$runner" && code=0 || code=$?
+[ "$code" -le 1 ] || fail "after help the runner ended with $code: $(cat said.txt)"
+same_as_reference out "a runner that helped"
+[ ! -e out/shards/claims ] || fail "claims are left"
+rm -r out
 
 # Each shard given to two runners at once: one works, or both in turn.
 busy=0
@@ -95,7 +114,7 @@ for other in "" "--shard 1/2" "--shard 3/7"; do
   expect_code 3 "$program" run sweep.json --no-report --out out $other
   expect_text error.txt "another runner works here (host " "process $runner"
 done
-shard 2 2
+shard 2 2 --alone
 kill -CONT "$runner"
 end_runner TERM
 expect_text said.txt "Go on with: " " --shard 1/2"
