@@ -8,8 +8,6 @@ namespace grainsweep {
 
 namespace {
 
-constexpr double two_thirds = 2.0 / 3.0;
-
 // ---- spheres ----
 
 /// A bed that rests as it is given stays as it is: some steps of the quench tell, as many as its

@@ -93,7 +93,9 @@ struct Accuracy {
   /// Steps after the fall, while the bed creeps to rest: of 0.2 sqrt(d/g), of shorter steps as many
   /// more.
   int creep_steps = 320;
-  int rest_iterations = 100;          ///< most solver iterations per step at the end of the creep
+  /// Most solver iterations per step at the end of the creep; 1.5 for each d of height, if that is
+  /// more.
+  int rest_iterations = 100;
   double residual_tolerance = 1e-2;   ///< worst residual of the last step at rest, m g
   double kinetic_tolerance = 1e-4;    ///< kinetic energy per grain at rest, m g d
   double contact_tolerance = 0.02;    ///< share of the isostatic contacts that may lack at rest

@@ -26,9 +26,8 @@ std::string rest_of(const std::string& path, std::int64_t from) {
 }  // namespace
 
 Claims::Claims(const std::string& folder, std::string runner, const std::set<std::string>& at_work)
-    : path_(claims_path(folder)), runner_(std::move(runner)), at_work_(&at_work) {
-  read();
-  at_work_ = nullptr;
+    : path_(claims_path(folder)), runner_(std::move(runner)) {
+  read(&at_work);
 }
 
 std::string Claims::owner_of(const std::string& job) const {
@@ -56,21 +55,21 @@ bool Claims::may_begin(const std::string& job) {
   return !file_exists(path_) || !take({job}).empty();
 }
 
-void Claims::read() {
+void Claims::read(const std::set<std::string>* at_work) {
   const std::string text = rest_of(path_, read_to_);
   std::string_view rest = text;
   for (std::size_t end = rest.find('\n'); end != std::string_view::npos; end = rest.find('\n')) {
-    read_line(rest.substr(0, end));
+    read_line(rest.substr(0, end), at_work);
     rest.remove_prefix(end + 1);
   }
   read_to_ += static_cast<std::int64_t>(text.size() - rest.size());
 }
 
-void Claims::read_line(std::string_view line) {
+void Claims::read_line(std::string_view line, const std::set<std::string>* at_work) {
   const std::size_t space = line.find(' ');
   if (space == std::string_view::npos) return;
   const std::string job(line.substr(0, space)), runner(line.substr(space + 1));
-  const bool is_void = at_work_ != nullptr && runner != runner_ && !at_work_->contains(runner);
+  const bool is_void = at_work != nullptr && runner != runner_ && !at_work->contains(runner);
   if (is_void) {
     if (!owners_.contains(job)) abandoned_.insert(job);
   } else if (owners_.try_emplace(job, runner).second) {

@@ -36,13 +36,12 @@ class Claims {
   const std::set<std::string>& abandoned() const { return abandoned_; }
 
  private:
-  /// What was appended since.
-  void read();
-  void read_line(std::string_view line);
+  /// What was appended since. `at_work`: none if all claims count.
+  void read(const std::set<std::string>* at_work = nullptr);
+  void read_line(std::string_view line, const std::set<std::string>* at_work);
 
   std::string path_;
   std::string runner_;
-  const std::set<std::string>* at_work_;                 ///< while claims of before are read
   std::unordered_map<std::string, std::string> owners_;  ///< of each job
   std::set<std::string> abandoned_;
   std::int64_t read_to_ = 0;

@@ -171,9 +171,10 @@ Rows accuracy_rows() {
       row<&S::accuracy, &A::creep_steps>("accuracy.creep_steps", Interval{0, 1000000},
                                          "steps after the fall, while the bed creeps to rest: of "
                                          "0.2 sqrt(d/g), of shorter steps as many more"),
-      row<&S::accuracy, &A::rest_iterations>(
-          "accuracy.rest_iterations", Interval{1, 1000000},
-          "most solver iterations per step at the end of the creep"),
+      row<&S::accuracy, &A::rest_iterations>("accuracy.rest_iterations", Interval{1, 1000000},
+                                             "most solver iterations per step at the end of the "
+                                             "creep; 1.5 for each d of height, if that "
+                                             "is more"),
       row<&S::accuracy, &A::residual_tolerance>("accuracy.residual_tolerance", positive,
                                                 "worst residual of the last step at rest, m g"),
       row<&S::accuracy, &A::kinetic_tolerance>("accuracy.kinetic_tolerance", positive,
