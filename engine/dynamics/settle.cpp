@@ -21,9 +21,10 @@ namespace grainsweep {
 
 namespace {
 
-constexpr double carried_share = 0.9;        // of its weight, where the floor carries a bed
-constexpr std::int64_t most_rounds = 32;     // a bed that needs more does not come to rest
-constexpr std::int64_t most_unsolved = 9;    // of them in a row that leave forces unsolved
+constexpr double carried_share = 0.9;      // of its weight, where the floor carries a bed
+constexpr std::int64_t most_rounds = 32;   // a bed that needs more does not come to rest
+constexpr std::int64_t most_unsolved = 9;  // of them in a row that leave forces unsolved
+constexpr double unlimited = std::numeric_limits<double>::infinity();
 constexpr double rounding_of_places = 1e-9;  // d; far from the origin coordinates have fewer digits
 
 /// Most that the masses of a bed may differ by in f32: beyond it the rounding of what pushes a
@@ -159,12 +160,17 @@ std::size_t next_stage(Settling<Kind, Real>& s) {
   return s.rule().back > 0 ? s.stage - s.rule().back : s.stage + 1;
 }
 
+/// Whether the forces of the last test of rest were found.
+template <class Kind, class Real>
+bool is_solved(const Settling<Kind, Real>& s) {
+  return s.report.rest.step_residual <= s.accuracy.residual_tolerance;
+}
+
 template <class Kind, class Real>
 void enter(std::size_t stage, Settling<Kind, Real>& s) {
   if (stage < s.stage) {
     ++s.rounds;
-    const bool is_solved = s.report.rest.step_residual <= s.accuracy.residual_tolerance;
-    s.unsolved = is_solved ? 0 : s.unsolved + 1;
+    s.unsolved = is_solved(s) ? 0 : s.unsolved + 1;
   }
   if (s.rounds == 0) s.iterations_before = s.report.iterations;
   s.stage = stage;
@@ -331,23 +337,26 @@ std::string find_exact_rest(Settling<Sphere, Real>& s, const KeepGoing& keep_goi
   return "";
 }
 
-/// Multiplications of a factorisation that take as long as sliding on has taken.
+/// Multiplications of a factorisation that a search may take: so many as last as long as sliding on
+/// has; without limit where steps have left forces unsolved twice in a row, as rounding does in
+/// high beds, which sliding on does not mend.
 template <class Kind, class Real>
-double work_of_sliding(const Settling<Kind, Real>& s) {
+double work_of_search(const Settling<Kind, Real>& s) {
   constexpr double of_a_grain_and_sweep = 50.0;
+  if (!is_solved(s) && s.unsolved > 0) return unlimited;
   return of_a_grain_and_sweep * static_cast<double>(s.report.iterations - s.iterations_before) *
          static_cast<double>(s.bed.grains());
 }
 
 /// Beds that have slid on in vain, as narrow towers do, are tried for exact rest after a round, 2,
-/// 4, 8 and so on, once a search takes no longer than they have slid on: so it costs at most as
-/// much again, and beds that need a round or two, as most do, are spared it where it is dear.
+/// 4, 8 and so on: so it costs about as much again, and beds that need a round or two, as most do,
+/// are spared it where it is dear.
 template <class Kind, class Real>
 bool is_brought_to_rest(Settling<Kind, Real>& s, const KeepGoing& keep_going) {
   if constexpr (std::is_same_v<Kind, Sphere>) {
     return s.rule().end == StageEnd::rest && !s.report.failure.empty() &&
            std::has_single_bit(static_cast<std::uint64_t>(s.rounds)) &&
-           find_exact_rest(s, keep_going, work_of_sliding(s)).empty();
+           find_exact_rest(s, keep_going, work_of_search(s)).empty();
   }
   return false;
 }
@@ -369,7 +378,6 @@ void come_to_rest(Settling<Kind, Real>& s, const KeepGoing& keep_going) {
 template <class Real>
 void go_on_to_exact_rest(Settling<Sphere, Real>& s, const KeepGoing& keep_going) {
   constexpr int most_tries = 3;
-  constexpr double unlimited = std::numeric_limits<double>::infinity();
   for (int tries = 1; s.report.failure.empty() && !s.report.cancelled && !s.is_exact; ++tries) {
     const std::string failure = find_exact_rest(s, keep_going, unlimited);
     if (failure.empty() || s.report.cancelled) return;
