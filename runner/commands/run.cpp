@@ -214,10 +214,6 @@ bool was_stopped(const Packed& packed) {
   return stop_signal() != 0 || !packed.first_failure.empty();
 }
 
-std::string packings_text(std::size_t count) {
-  return std::to_string(count) + (count == 1 ? " packing" : " packings");
-}
-
 /// Of a runner whose shard is made: takes over from others until nobody needs help.
 Made help(const Sweep& sweep, const Shard& shard, const std::string& folder, ShardFiles& files,
           bool is_quiet, const std::function<Packed(RunningSweep&)>& make) {
@@ -226,7 +222,9 @@ Made help(const Sweep& sweep, const Shard& shard, const std::string& folder, Sha
   for (;;) {
     TakenOver taken = helping.next();
     if (taken.jobs.empty()) return all;
-    if (!is_quiet) std::cerr << packings_text(taken.jobs.size()) << " of other shards taken over\n";
+    if (!is_quiet) {
+      std::cerr << counted(taken.jobs.size(), "packing") << " of other shards taken over\n";
+    }
     RunningSweep running{folder, files, 0, std::move(taken.jobs), {}, std::move(taken.claims)};
     const Packed now = make(running);
     all.packed = joined(all.packed, now);

@@ -53,6 +53,7 @@ std::vector<std::size_t> jobs_to_take_over(const std::vector<LeftToDo>& shards,
 }
 
 Claims claims_in(const std::string& folder) {
+  if (!has_claims(folder)) return {folder, process_name()};  // no journal has to be read for them
   std::map<std::string, RunRecord> last_runs;
   for (const std::string& shard : shards_in(folder)) {
     if (auto run = last_run_in(journal_path(folder, shard))) last_runs[shard] = *std::move(run);

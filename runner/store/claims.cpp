@@ -25,8 +25,11 @@ std::string rest_of(const std::string& path, std::int64_t from) {
 
 }  // namespace
 
+Claims::Claims(const std::string& folder, std::string runner)
+    : path_(claims_path(folder)), runner_(std::move(runner)) {}
+
 Claims::Claims(const std::string& folder, std::string runner, const std::set<std::string>& at_work)
-    : path_(claims_path(folder)), runner_(std::move(runner)) {
+    : Claims(folder, std::move(runner)) {
   read(&at_work);
 }
 
@@ -38,12 +41,15 @@ std::string Claims::owner_of(const std::string& job) const {
 std::vector<std::string> Claims::take(const std::vector<std::string>& jobs) {
   if (jobs.empty()) return {};
   read();
-  std::string lines = "\n";  // what was torn before ends here
+  std::string lines;
   for (const std::string& job : jobs) {
     if (owner_of(job).empty()) lines.append(job).append(" ").append(runner_).append("\n");
   }
-  write_all(OpenFile(path_, O_WRONLY | O_APPEND | O_CREAT), lines);
-  read();
+  if (!lines.empty()) {
+    // What was torn before ends at the first line feed.
+    write_all(OpenFile(path_, O_WRONLY | O_APPEND | O_CREAT), "\n" + lines);
+    read();
+  }
   std::vector<std::string> own;
   for (const std::string& job : jobs) {
     if (owner_of(job) == runner_) own.push_back(job);
@@ -75,6 +81,10 @@ void Claims::read_line(std::string_view line, const std::set<std::string>* at_wo
   } else if (owners_.try_emplace(job, runner).second) {
     abandoned_.erase(job);
   }
+}
+
+bool has_claims(const std::string& folder) {
+  return file_size(claims_path(folder)).value_or(0) > 0;
 }
 
 void open_claims(const std::string& folder) {

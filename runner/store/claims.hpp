@@ -19,8 +19,10 @@ namespace grainsweep {
 /// Every function throws FileError.
 class Claims {
  public:
-  /// Of `runner`, a process. Claims that are in the file now are void if their runner is not among
-  /// those `at_work`.
+  /// Of `runner`, a process. All claims count.
+  Claims(const std::string& folder, std::string runner);
+
+  /// Claims that are in the file now are void if their runner is not among those `at_work`.
   Claims(const std::string& folder, std::string runner, const std::set<std::string>& at_work);
 
   /// Claims those of the jobs that no other runner has; returns them.
@@ -46,6 +48,9 @@ class Claims {
   std::set<std::string> abandoned_;
   std::int64_t read_to_ = 0;
 };
+
+/// Whether a runner has claimed something.
+bool has_claims(const std::string& folder);
 
 /// From now on every runner claims what it begins.
 void open_claims(const std::string& folder);
