@@ -160,7 +160,7 @@ void add_results(const std::string& folder, StoredSweep&& stored, Collection& to
     Row& row = row_of(job, stored.jobs, to);
     auto outcome = stored.outcomes.extract(job.id);
     if (!outcome) continue;
-    add_outcome(folder, std::move(outcome.mapped()), row, to);
+    add_outcome(folder, std::move(*outcome.mapped()), row, to);
     tell(1.0 - static_cast<double>(stored.outcomes.size()) / all);
   }
 }

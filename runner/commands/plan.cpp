@@ -61,7 +61,7 @@ std::vector<Cost> costs_with(const std::string& folder, const Outcomes& outcomes
     packings.push_back({costs[i].cpu_seconds, std::nullopt});
     const auto known = outcomes.find(jobs[i].id);
     if (known == outcomes.end()) continue;
-    packings.back().measured = known->second.cpu_seconds;
+    packings.back().measured = known->second->cpu_seconds;
     ++made;
   }
   const double before = total_cpu_seconds(costs);

@@ -3,7 +3,6 @@
 
 #include <map>
 #include <string>
-#include <unordered_map>
 #include <vector>
 
 #include "runner/report/report.hpp"
@@ -28,9 +27,9 @@ void expect_results(const std::string& folder);
 struct StoredSweep {
   Provenance provenance;
   JobList jobs;
-  std::unordered_map<std::string, Outcome> outcomes;  ///< by job
-  std::map<std::string, RunRecord> last_runs;         ///< as of JournalReading
-  std::vector<std::string> damage;                    ///< as of Results
+  Outcomes outcomes;
+  std::map<std::string, RunRecord> last_runs;  ///< as of JournalReading
+  std::vector<std::string> damage;             ///< as of Results
 };
 
 /// Throws BadInput if `folder` is no output folder, FileError if a file cannot be read.

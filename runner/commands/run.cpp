@@ -119,11 +119,11 @@ RunningSweep resume(const Sweep& sweep, const std::vector<std::size_t>& places, 
     const Job& job = sweep.jobs[place];
     const auto known = stored.outcomes.find(job.id);
     const bool is_done = known != stored.outcomes.end() &&
-                         !is_to_be_made(known->second, retry_failed) &&
-                         has_sound_bed(folder, known->second, stored.damage);
+                         !is_to_be_made(*known->second, retry_failed) &&
+                         has_sound_bed(folder, *known->second, stored.damage);
     if (is_done) {
       done.insert(job.id);
-      running.estimates.add(costs[place].cpu_seconds, known->second.cpu_seconds);
+      running.estimates.add(costs[place].cpu_seconds, known->second->cpu_seconds);
     } else {
       running.pending.push_back(&job);
     }

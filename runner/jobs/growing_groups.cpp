@@ -61,8 +61,8 @@ std::vector<const Outcome*> made_of(const Sweep& sweep, const Places& group,
   std::vector<const Outcome*> made;
   for (std::size_t i = group.begin; i < group.end; ++i) {
     const auto found = outcomes.find(sweep.jobs[i].id);
-    const bool is_made = found != outcomes.end() && !found->second.exception;
-    made.push_back(is_made ? &found->second : nullptr);
+    const bool is_made = found != outcomes.end() && !found->second->exception;
+    made.push_back(is_made ? &*found->second : nullptr);
   }
   return made;
 }

@@ -7,16 +7,13 @@
 
 #include <optional>
 #include <string>
-#include <unordered_map>
 #include <vector>
 
 #include "engine/dynamics/presets.hpp"
-#include "runner/store/outcome.hpp"
+#include "runner/store/journal.hpp"
 #include "runner/sweep/job.hpp"
 
 namespace grainsweep {
-
-using Outcomes = std::unordered_map<std::string, Outcome>;  ///< by the id of the job
 
 /// How many replicates a group has to have, by what came of those made, in their order; nullptr
 /// stands for one that is not made yet. `bound` is the bias of settling that its wish includes.

@@ -18,8 +18,12 @@ namespace {
 constexpr std::string_view outcome_kind = "outcome", run_kind = "run";
 
 std::string line_start(std::string_view kind, std::string_view text) {
-  return R"({"length":)" + std::to_string(text.size()) + R"(,"crc32":")" + hex8(crc32(text)) +
-         R"(",")" + std::string(kind) + R"(":)";
+  constexpr std::size_t usual_start = 64;  // bytes
+  std::string start;
+  start.reserve(usual_start);
+  start.append(R"({"length":)").append(std::to_string(text.size()));
+  start.append(R"(,"crc32":")").append(hex8(crc32(text)));
+  return start.append(R"(",")").append(kind).append(R"(":)");
 }
 
 std::string line_of(std::string_view kind, std::string_view text) {
@@ -64,7 +68,7 @@ void read_journal(const std::string& folder, const std::string& name, Detail det
     if (auto outcome = read_journal_line(line, detail)) {
       outcome->shard = name;
       const auto [known, is_new] = reading.outcomes.try_emplace(outcome->job);
-      if (is_new || counts_more(*outcome, known->second)) known->second = std::move(*outcome);
+      if (is_new || counts_more(*outcome, *known->second)) known->second = std::move(outcome);
     } else if (auto run = read_run_line(line)) {
       reading.last_runs[name] = *run;
       keep(std::move(*run), reading.runs);
@@ -89,9 +93,10 @@ std::string journal_line(const RunRecord& run) {
       run_kind, nlohmann::json(run).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
 }
 
-std::optional<Outcome> read_journal_line(std::string_view line, Detail detail) {
+Boxed<Outcome> read_journal_line(std::string_view line, Detail detail) {
   const auto text = checked_text(outcome_kind, line);
-  return text ? outcome_from_text(*text, detail) : std::nullopt;
+  if (!text) return std::nullopt;
+  return outcome_from_text(*text, detail);
 }
 
 std::optional<RunRecord> read_run_line(std::string_view line) {

@@ -16,6 +16,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "runner/store/boxed.hpp"
 #include "runner/store/outcome.hpp"
 #include "runner/store/run_record.hpp"
 
@@ -25,8 +26,11 @@ namespace grainsweep {
 /// takes a tenth of the time.
 enum class Detail { whole, summary };
 
+/// By job. An outcome has more than a kilobyte: it stays where it was read.
+using Outcomes = std::unordered_map<std::string, Boxed<Outcome>>;
+
 struct JournalReading {
-  std::unordered_map<std::string, Outcome> outcomes;  ///< by job
+  Outcomes outcomes;
   std::vector<RunRecord> runs;                 ///< that made something, in the order they started
   std::map<std::string, RunRecord> last_runs;  ///< by shard
   std::vector<std::string> damage;             ///< "out/shards/1-of-1.jsonl:3: torn or damaged ..."
@@ -46,7 +50,7 @@ std::string journal_line(const RunRecord& run);
 
 /// The outcome in a line without its line feed; nothing if the line is torn or damaged, or has
 /// other members than this version of the program gives it.
-std::optional<Outcome> read_journal_line(std::string_view line, Detail detail = Detail::whole);
+Boxed<Outcome> read_journal_line(std::string_view line, Detail detail = Detail::whole);
 std::optional<RunRecord> read_run_line(std::string_view line);
 
 }  // namespace grainsweep

@@ -85,15 +85,15 @@ class OutcomeReader final : public nlohmann::json_sax<nlohmann::json> {
   explicit OutcomeReader(Detail detail) : detail_(detail) {}
 
   /// Nothing unless every field was read.
-  std::optional<Outcome> take() {
-    if (seen_ != count_fields(outcome_, detail_)) return std::nullopt;
+  Boxed<Outcome> take() {
+    if (seen_ != count_fields(*outcome_, detail_)) return std::nullopt;
     return std::move(outcome_);
   }
 
   bool key(std::string& name) override {
     const Field* field = field_called(name);
     const bool is_read = field != nullptr && (detail_ == Detail::whole || field->use.summary);
-    if (is_read) place_ = field->place(outcome_), ++seen_;
+    if (is_read) place_ = field->place(*outcome_), ++seen_;
     return is_read;
   }
   bool boolean(bool value) override { return set(value); }
@@ -149,7 +149,7 @@ class OutcomeReader final : public nlohmann::json_sax<nlohmann::json> {
   }
 
   Detail detail_;
-  Outcome outcome_;
+  Boxed<Outcome> outcome_{Outcome()};
   FieldPlace place_;
   std::size_t seen_ = 0;
   int item_ = 0;  ///< of the three of a coordination
@@ -170,10 +170,11 @@ std::string outcome_text(const Outcome& outcome) {
   return all.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
 }
 
-std::optional<Outcome> outcome_from_text(std::string_view text, Detail detail) {
+Boxed<Outcome> outcome_from_text(std::string_view text, Detail detail) {
   OutcomeReader reader(detail);
   const bool is_whole = nlohmann::json::sax_parse(text, &reader);
-  return is_whole || detail == Detail::summary ? reader.take() : std::nullopt;
+  if (!is_whole && detail == Detail::whole) return std::nullopt;
+  return reader.take();
 }
 
 }  // namespace grainsweep

@@ -1,7 +1,6 @@
 // An outcome as JSON, and back: the fields of the journal, one member each.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <string_view>
 
@@ -14,6 +13,6 @@ std::string outcome_text(const Outcome& outcome);
 
 /// Nothing if `text` is no such JSON, or has not just the members that outcome_text would give what
 /// was read.
-std::optional<Outcome> outcome_from_text(std::string_view text, Detail detail = Detail::whole);
+Boxed<Outcome> outcome_from_text(std::string_view text, Detail detail = Detail::whole);
 
 }  // namespace grainsweep

@@ -151,8 +151,7 @@ std::vector<Row> rows_of(const Sweep& sweep) {
   return rows;
 }
 
-std::size_t take_outcomes(std::unordered_map<std::string, Outcome>&& outcomes,
-                          std::vector<Row>& rows) {
+std::size_t take_outcomes(Outcomes&& outcomes, std::vector<Row>& rows) {
   for (Row& row : rows) {
     auto found = outcomes.extract(row.job.id);
     if (found) row.outcome = std::move(found.mapped());
@@ -161,8 +160,12 @@ std::size_t take_outcomes(std::unordered_map<std::string, Outcome>&& outcomes,
 }
 
 void to_json(json& to, const JobEntry& job) {
-  to = {{"id", job.id},     {"label", job.label}, {"replicate", job.replicate},
-        {"seed", job.seed}, {"files", job.files}, {"set", job.set}};
+  to = {{"id", job.id},
+        {"label", job.label},
+        {"replicate", job.replicate},
+        {"seed", job.seed},
+        {"set", job.set}};
+  if (!job.files.empty()) to["files"] = job.files;
 }
 
 void from_json(const json& from, JobEntry& job) {
@@ -170,7 +173,7 @@ void from_json(const json& from, JobEntry& job) {
   from.at("label").get_to(job.label);
   from.at("replicate").get_to(job.replicate);
   from.at("seed").get_to(job.seed);
-  from.at("files").get_to(job.files);
+  if (const auto files = from.find("files"); files != from.end()) files->get_to(job.files);
   from.at("set").get_to(job.set);
 }
 

@@ -6,15 +6,14 @@
 #include <map>
 #include <optional>
 #include <string>
-#include <unordered_map>
 #include <vector>
 
 #include <nlohmann/json_fwd.hpp>
 
 #include "engine/dynamics/presets.hpp"
+#include "runner/store/boxed.hpp"
 #include "runner/store/journal.hpp"
 #include "runner/sweep/job.hpp"
-#include "runner/tables/boxed.hpp"
 #include "runner/tables/columns.hpp"
 #include "runner/tables/shared_text.hpp"
 
@@ -53,8 +52,7 @@ std::vector<Row> rows_of(const Sweep& sweep);
 
 /// Moves the outcome of each row's job into it; returns how many outcomes are orphaned, their jobs
 /// not among the rows.
-std::size_t take_outcomes(std::unordered_map<std::string, Outcome>&& outcomes,
-                          std::vector<Row>& rows);
+std::size_t take_outcomes(Outcomes&& outcomes, std::vector<Row>& rows);
 
 /// What tells a job from the others with its parameters.
 struct JobEntry {

@@ -42,14 +42,9 @@ std::string checksum_of(std::string_view part) {
   return std::string(before_checksum) + hex8(crc32(part)) + "\"\n}\n";
 }
 
-/// A job as it stands in the text, whose lines of that depth are indented by six columns.
+/// A job on a line of its own.
 std::string entry_text(const JobEntry& job) {
-  std::string text;
-  for (const char c : json(job).dump(2, ' ', false, json::error_handler_t::replace)) {
-    text += c;
-    if (c == '\n') text += "      ";
-  }
-  return text;
+  return json(job).dump(-1, ' ', false, json::error_handler_t::replace);
 }
 
 /// Puts the entries of the jobs where the text has none.
@@ -57,7 +52,7 @@ std::string with_jobs(const std::string& text, const std::vector<JobEntry>& jobs
   constexpr std::string_view none =
       "\"jobs\": []";  // stands in no string, where quotes are escaped
   const std::size_t place = text.find(none) + none.size() - 1;
-  constexpr std::size_t usual_entry = 200;  // bytes
+  constexpr std::size_t usual_entry = 100;  // bytes
   std::string whole;
   whole.reserve(text.size() + usual_entry * jobs.size());
   whole.append(text, 0, place);
@@ -120,7 +115,8 @@ std::string provenance_text(const Provenance& provenance, const std::vector<Row>
 
 ProvenanceReading provenance_from_text(const std::string& text) {
   ProvenanceReading reading;
-  const json from = json::parse(text, JobTaker(reading.jobs.jobs));
+  const json from =
+      json::parse(text.data(), text.data() + text.size(), JobTaker(reading.jobs.jobs));
   if (!has_checksum(text)) throw json::other_error::create(501, "its checksum is wrong", &from);
   Provenance& provenance = reading.provenance;
   const json& program = from.at("program");

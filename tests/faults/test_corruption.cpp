@@ -99,7 +99,7 @@ bool is_as_written(const SampleJournal& journal, const JournalReading& reading) 
   return std::all_of(reading.outcomes.begin(), reading.outcomes.end(), [&](const auto& entry) {
     const auto known = journal.outcomes.find(entry.first);
     return known != journal.outcomes.end() &&
-           outcome_text(known->second) == outcome_text(entry.second);
+           outcome_text(known->second) == outcome_text(*entry.second);
   });
 }
 

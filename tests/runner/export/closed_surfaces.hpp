@@ -77,19 +77,28 @@ inline bool pierces(const Triangle3& one, const Triangle3& other) {
   return false;
 }
 
-/// Pairs of triangles that go through each other, every one against every other.
+/// Pairs of triangles that go through each other, every one against every other that its extent
+/// along x meets.
 inline int crossings(const std::vector<GrainSurface>& surfaces) {
-  const std::vector<Triangle3> triangles = triangles_in(surfaces);
-  std::vector<Eigen::AlignedBox3d> boxes;
-  for (const Triangle3& triangle : triangles) {
-    Eigen::AlignedBox3d& box = boxes.emplace_back();
+  struct Bounded {
+    Triangle3 triangle;
+    Eigen::AlignedBox3d box;
+  };
+  std::vector<Bounded> all;
+  for (const Triangle3& triangle : triangles_in(surfaces)) {
+    Eigen::AlignedBox3d box;
     for (const Eigen::Vector3d& at : triangle) box.extend(at);
+    all.push_back({triangle, box});
   }
+  std::sort(all.begin(), all.end(), [](const Bounded& one, const Bounded& other) {
+    return one.box.min().x() < other.box.min().x();
+  });
   int count = 0;
-  for (std::size_t i = 0; i < triangles.size(); ++i) {
-    for (std::size_t k = 0; k < i; ++k) {
-      if (!boxes[i].intersects(boxes[k])) continue;
-      count += pierces(triangles[i], triangles[k]) || pierces(triangles[k], triangles[i]);
+  for (auto one = all.begin(); one != all.end(); ++one) {
+    for (auto other = one + 1; other != all.end(); ++other) {
+      if (other->box.min().x() > one->box.max().x()) break;
+      if (!one->box.intersects(other->box)) continue;
+      count += pierces(one->triangle, other->triangle) || pierces(other->triangle, one->triangle);
     }
   }
   return count;

@@ -119,7 +119,7 @@ TEST_CASE("a sweep has the packings that its groups call for, and all of groups 
   CHECK(growing.grow(outcomes));
   CHECK(growing.now().jobs.size() == 15);
   CHECK(growing.wishes() == wishes_text(whole, outcomes));
-  outcomes["a3"].exception = true;  // is made once more before anything else
+  outcomes["a3"]->exception = true;  // is made once more before anything else
   CHECK(GrowingSweep(whole, outcomes).now().jobs.size() == 9);
 }
 
@@ -193,7 +193,7 @@ TEST_CASE("a fit whose line does not hold is told apart, and grows no more") {
   const Sweep whole = fit_sweep(100, {0.05, 0, 0, 0});
   Outcomes outcomes = made_for(GrowingSweep(whole, {}).now());
   for (int i = 1; i <= 6; ++i) {
-    outcomes.at("f5-" + std::to_string(i)).result.solid_fraction += 0.02;
+    outcomes.at("f5-" + std::to_string(i))->result.solid_fraction += 0.02;
   }
   CHECK(GrowingSweep(whole, outcomes).now().jobs.size() == 24);
   CHECK(
@@ -267,7 +267,7 @@ TEST_CASE("the end of a run says which wishes were met") {
   CHECK(wishes_text(whole, outcomes) ==
         "Errors as asked for (95 %) in 1 of 1 group, by 6 packings\n");
   for (int i = 1; i <= 8; i += 2) {
-    outcomes["a" + std::to_string(i)].result.solid_fraction = 0.7;
+    outcomes["a" + std::to_string(i)]->result.solid_fraction = 0.7;
   }
   CHECK(wishes_text(whole, outcomes) ==
         "Errors as asked for (95 %) in 0 of 1 group, by 8 packings; raise replicates.most for the "

@@ -50,7 +50,7 @@ TEST_CASE("the CPU time of a packing is that of all runs that worked on it") {
   PackOptions options;
   options.isa = Isa::sse2;
   CHECK(pack_pending(running, options).packings == 1);
-  const Outcome outcome = read_journals(folder.path()).outcomes.at(sweep.jobs[0].id);
+  const Outcome outcome = *read_journals(folder.path()).outcomes.at(sweep.jobs[0].id);
   CHECK(outcome.cpu_seconds > hour);
   CHECK(outcome.cpu_seconds < hour + 60);
   CHECK(saved_packings(folder.path()) == 0);
@@ -85,7 +85,7 @@ TEST_CASE("without grains the same curves are stored") {
     options.no_grains = no_grains;
     pack_pending(running, options);
     StoredBed bed =
-        read_bed(folder.path(), read_journals(folder.path()).outcomes.at(sweep.jobs[0].id));
+        read_bed(folder.path(), *read_journals(folder.path()).outcomes.at(sweep.jobs[0].id));
     CHECK(bed.grains.size() == (no_grains ? 0 : 30));
     bed.grains.clear();
     bed.forces.clear();

@@ -25,7 +25,9 @@ TEST_CASE("provenance reads back as it was written") {
   const auto [back, list] = provenance_from_text(text);
   const std::vector<Row> jobs = rows_of(list);
   CHECK(provenance_text(back, jobs) == text);
-  CHECK(nlohmann::ordered_json::parse(text).dump(2) + "\n" == text);
+  const auto as_json = nlohmann::ordered_json::parse(text);
+  const std::string all_jobs = ",\n      " + as_json["sweep"]["jobs"][1].dump() + "\n    ]";
+  CHECK(text.find(all_jobs) != std::string::npos);  // a line each
   REQUIRE(back.runs.size() == 2);
   CHECK(back.runs[0].threads == 2);
   CHECK(back.runs[0].wall_seconds == 2.0);
@@ -79,8 +81,8 @@ TEST_CASE("the units of a sweep are kept, and none where it has none") {
 
 TEST_CASE("a job of no known parameter set is refused") {
   std::string text = provenance_text(sample_provenance(), {{sample_job("a1", 5), {}}});
-  const std::string set = "\"set\": 0", before = ",\n  \"crc32\": \"";
-  text.replace(text.find(set), set.size(), "\"set\": 1");
+  const std::string set = "\"set\":0", before = ",\n  \"crc32\": \"";
+  text.replace(text.find(set), set.size(), "\"set\":1");
   const std::string checked = text.substr(0, text.rfind(before));
   const std::string sealed = checked + before + hex8(crc32(checked)) + "\"\n}\n";
   CHECK_THROWS_WITH(provenance_from_text(sealed), Catch::Contains("no such parameter set"));

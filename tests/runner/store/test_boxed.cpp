@@ -2,7 +2,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "runner/tables/boxed.hpp"
+#include "runner/store/boxed.hpp"
 
 namespace grainsweep {
 namespace {
