@@ -338,12 +338,13 @@ std::string find_exact_rest(Settling<Sphere, Real>& s, const KeepGoing& keep_goi
 }
 
 /// Multiplications of a factorisation that a search may take: so many as last as long as sliding on
-/// has; without limit where steps have left forces unsolved twice in a row, as rounding does in
+/// has; without limit after eight rounds where steps leave forces unsolved, as rounding does in
 /// high beds, which sliding on does not mend.
 template <class Kind, class Real>
 double work_of_search(const Settling<Kind, Real>& s) {
   constexpr double of_a_grain_and_sweep = 50.0;
-  if (!is_solved(s) && s.unsolved > 0) return unlimited;
+  constexpr std::int64_t rounds_in_vain = 8;
+  if (!is_solved(s) && s.unsolved > 0 && s.rounds >= rounds_in_vain) return unlimited;
   return of_a_grain_and_sweep * static_cast<double>(s.report.iterations - s.iterations_before) *
          static_cast<double>(s.bed.grains());
 }
