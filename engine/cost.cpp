@@ -78,11 +78,11 @@ double unevenness_factor(const PackingSpec& spec, double grains) {
 double shape_factor(const ShapeSpec& shape, Creep creep) {
   if (is_sphere(shape)) return creep == Creep::loose ? 1.4 : 0.5;
   if (std::holds_alternative<PinacoidSize>(shape)) {
-    return creep == Creep::loose ? 2.6 : creep == Creep::usual ? 1.7 : 1.3;
+    return creep == Creep::loose ? 2.6 : creep == Creep::usual ? 2.1 : 1.3;
   }
   constexpr double usual_corners = 20.0;  // of other shapes; more of them cost more
   const auto corners = static_cast<double>(corner_count(shape));
-  return (creep == Creep::loose ? 5.2 : 2.6) * std::sqrt(std::max(1.0, corners / usual_corners));
+  return (creep == Creep::loose ? 4.6 : 2.6) * std::sqrt(std::max(1.0, corners / usual_corners));
 }
 
 /// The mean over the grains.
@@ -115,23 +115,27 @@ double usual_iterations(const PackingSpec& spec, double layers) {
   const double falling = std::min(layers, 1.5 * sleep_depth);
   const double solved = std::pow(Accuracy{}.path_tolerance / a.path_tolerance, 0.6);
   const double creep =
-      std::pow(static_cast<double>(a.creep_steps) / Accuracy{}.creep_steps, 1.3);  // of the usual
+      std::pow(static_cast<double>(a.creep_steps) / Accuracy{}.creep_steps, 1.4);  // of the usual
   if (!is_sphere(spec.shape)) {
     return solved * (110.0 * falling + 7400.0 * creep) + 80.0 * a.rest_iterations;
   }
-  const double fall = (a.protocol == Protocol::dynamic ? 600.0 : 200.0) * falling;
+  const double fall = (a.protocol == Protocol::dynamic ? 800.0 : 200.0) * falling;
   return solved * (fall + 2000.0 * std::pow(layers, 0.75) * creep) + 30.0 * a.rest_iterations;
 }
 
 /// Rounds of creep and rest that high beds of spheres take over those of low ones: few iterations
 /// hardly reach through many layers of a box, and many layers of many grains take more of them,
-/// too.
+/// too, and searches for exact rest.
 double rounds_factor(const PackingSpec& spec, double grains, double layers) {
   if (creep_of(spec.accuracy) == Creep::loose && !spec.box.is_tube) {
-    return std::pow(std::max(1.0, layers / 40.0), 1.2);
+    return std::pow(std::max(1.0, layers / 40.0), 0.8);
   }
   constexpr double many = 6e5;  // grains times layers
-  return std::pow(std::max(1.0, grains * layers / many), 0.7);
+  const double of_many = std::pow(std::max(1.0, grains * layers / many), 0.7);
+  if (creep_of(spec.accuracy) == Creep::strict || spec.box.is_tube) return of_many;
+  constexpr double searched = 2e5;  // grains times layers, from where on beds are
+  return std::max(
+      of_many, std::min(std::pow(grains * layers / searched, 1.1), std::pow(layers / 80.0, 4.0)));
 }
 
 /// Of the search for exact rest: rounds, more of them in larger beds, that each factor the bed's
@@ -155,8 +159,8 @@ double bytes_of_grain(const PackingSpec& spec) {
 
 }  // namespace
 
-// An iteration costs 1.9 ns a row, of which a bed of spheres has about four per grain, more where
-// the bed leaves the caches; with its share of the narrow phase it costs 65 ns a grain that turns.
+// An iteration costs 2.05 ns a row, of which a bed of spheres has about four per grain, more where
+// the bed leaves the caches; with its share of the narrow phase it costs 68 ns a grain that turns.
 // Measured on servers of 2.4 to 2.6 GHz: with AVX-512 spheres take 0.7 times that, without it 1.4
 // times, grains that turn 0.9 and 1.15 times.
 Cost estimate_cost(const PackingSpec& spec) {
@@ -164,7 +168,7 @@ Cost estimate_cost(const PackingSpec& spec) {
   const double layers = grains * moments_of(spec).mean_cube / spec.box.floor_area() + 1.0;
   const double number_size = spec.accuracy.precision == Precision::f32 ? 1.0 : 1.7;
   const bool turn = !is_sphere(spec.shape);
-  const double seconds = turn ? 65e-9 : 4.0 * 1.9e-9;
+  const double seconds = turn ? 68e-9 : 4.0 * 2.05e-9;
   const double factor = turn ? polyhedron_factor(spec, grains)
                              : unevenness_factor(spec, grains) * memory_factor(grains) *
                                    rounds_factor(spec, grains, layers);
