@@ -125,7 +125,7 @@ double usual_iterations(const PackingSpec& spec, double layers) {
 
 /// Rounds of creep and rest that high beds of spheres take over those of low ones: few iterations
 /// hardly reach through many layers of a box, and many layers of many grains take more of them,
-/// too, and searches for exact rest.
+/// too, and searches for exact rest; wide low ones rest without.
 double rounds_factor(const PackingSpec& spec, double grains, double layers) {
   if (creep_of(spec.accuracy) == Creep::loose && !spec.box.is_tube) {
     return std::pow(std::max(1.0, layers / 40.0), 0.8);
@@ -161,8 +161,8 @@ double bytes_of_grain(const PackingSpec& spec) {
 
 // An iteration costs 2.05 ns a row, of which a bed of spheres has about four per grain, more where
 // the bed leaves the caches; with its share of the narrow phase it costs 68 ns a grain that turns.
-// Measured on servers of 2.4 to 2.6 GHz: with AVX-512 spheres take 0.7 times that, without it 1.4
-// times, grains that turn 0.9 and 1.15 times.
+// Measured on servers of 2.4 to 2.6 GHz: with AVX-512 spheres take 0.65 to 1.1 times that, without
+// it 1.3 times, grains that turn 0.85 to 1.1 and 1.1 times.
 Cost estimate_cost(const PackingSpec& spec) {
   const auto grains = static_cast<double>(grain_count(spec));
   const double layers = grains * moments_of(spec).mean_cube / spec.box.floor_area() + 1.0;

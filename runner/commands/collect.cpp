@@ -111,18 +111,18 @@ bool copy_bed(const std::string& folder, Outcome& outcome, Collection& to) {
   }
 }
 
-void add_outcome(const std::string& folder, Outcome outcome, Row& row, Collection& to) {
+void add_outcome(const std::string& folder, Boxed<Outcome> outcome, Row& row, Collection& to) {
   if (row.outcome && !row.outcome->exception) {
-    if (!outcome.exception && !is_same_result(outcome, *row.outcome)) {
-      warn(folder + ": its packing " + outcome.job + " (version " + outcome.version +
+    if (!outcome->exception && !is_same_result(*outcome, *row.outcome)) {
+      warn(folder + ": its packing " + outcome->job + " (version " + outcome->version +
                ") differs from the one collected before (version " + row.outcome->version +
                "), which is kept",
            to);
     }
     return;
   }
-  if (outcome.stored_bytes > 0 && !copy_bed(folder, outcome, to)) return;
-  to.files.add(outcome);
+  if (outcome->stored_bytes > 0 && !copy_bed(folder, *outcome, to)) return;
+  to.files.add(*outcome);
   row.outcome = std::move(outcome);
   if (++to.added % added_at_once == 0) to.files.flush();
 }
@@ -160,7 +160,7 @@ void add_results(const std::string& folder, StoredSweep&& stored, Collection& to
     Row& row = row_of(job, stored.jobs, to);
     auto outcome = stored.outcomes.extract(job.id);
     if (!outcome) continue;
-    add_outcome(folder, std::move(*outcome.mapped()), row, to);
+    add_outcome(folder, std::move(outcome.mapped()), row, to);
     tell(1.0 - static_cast<double>(stored.outcomes.size()) / all);
   }
 }

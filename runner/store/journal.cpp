@@ -18,12 +18,8 @@ namespace {
 constexpr std::string_view outcome_kind = "outcome", run_kind = "run";
 
 std::string line_start(std::string_view kind, std::string_view text) {
-  constexpr std::size_t usual_start = 64;  // bytes
-  std::string start;
-  start.reserve(usual_start);
-  start.append(R"({"length":)").append(std::to_string(text.size()));
-  start.append(R"(,"crc32":")").append(hex8(crc32(text)));
-  return start.append(R"(",")").append(kind).append(R"(":)");
+  return R"({"length":)" + std::to_string(text.size()) + R"(,"crc32":")" + hex8(crc32(text)) +
+         R"(",")" + std::string(kind) + R"(":)";
 }
 
 std::string line_of(std::string_view kind, std::string_view text) {

@@ -115,8 +115,7 @@ std::string provenance_text(const Provenance& provenance, const std::vector<Row>
 
 ProvenanceReading provenance_from_text(const std::string& text) {
   ProvenanceReading reading;
-  const json from =
-      json::parse(text.data(), text.data() + text.size(), JobTaker(reading.jobs.jobs));
+  const json from = json::parse(text, JobTaker(reading.jobs.jobs));
   if (!has_checksum(text)) throw json::other_error::create(501, "its checksum is wrong", &from);
   Provenance& provenance = reading.provenance;
   const json& program = from.at("program");

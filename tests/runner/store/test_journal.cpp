@@ -2,6 +2,8 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <string>
+#include <string_view>
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
@@ -19,6 +21,19 @@ namespace {
 
 std::uint64_t bits(double value) { return std::bit_cast<std::uint64_t>(value); }
 
+/// The line that holds it, without its line feed.
+std::string bare_line(const Outcome& outcome) {
+  std::string line = journal_line(outcome);
+  line.pop_back();
+  return line;
+}
+
+Outcome read_back(std::string_view line, Detail detail = Detail::whole) {
+  const auto outcome = read_journal_line(line, detail);
+  REQUIRE(outcome);
+  return *outcome;
+}
+
 std::string first_journal(const TemporaryFolder& folder) {
   make_folder(shards_folder(folder.path()));
   return journal_path(folder.path(), "1-of-1");
@@ -32,8 +47,7 @@ TEST_CASE("an outcome read from its journal line is the same in every member") {
   outcome.stored_bytes = 17;
   outcome.finished_at = 1767225600.125;
   outcome.version = "1.2.3";
-  const Outcome back =
-      *read_journal_line(journal_line(outcome).substr(0, journal_line(outcome).size() - 1));
+  const Outcome back = read_back(bare_line(outcome));
   CHECK(outcome_text(back) == outcome_text(outcome));
   CHECK(back.result.reason == outcome.result.reason);
   CHECK(back.result.state_hash == outcome.result.state_hash);
@@ -47,8 +61,7 @@ TEST_CASE("how shapes touch and point reads back, spheres have no member for it"
   Outcome outcome = *polyhedra_row("a", 5).outcome;
   outcome.result.shape_order->force_share[2] = 1.0 / 3.0;
   outcome.result.shape_order->nematic[1] = std::numeric_limits<double>::quiet_NaN();
-  const std::string line = journal_line(outcome);
-  const Outcome back = *read_journal_line(std::string_view(line).substr(0, line.size() - 1));
+  const Outcome back = read_back(bare_line(outcome));
   CHECK(outcome_text(back) == outcome_text(outcome));
   REQUIRE(back.result.shape_order);
   CHECK(bits(back.result.shape_order->force_share[2]) == bits(1.0 / 3.0));
@@ -65,8 +78,7 @@ TEST_CASE("doubles of every kind read back with the same bits") {
     Outcome outcome = sample_outcome("a", value, value);
     outcome.result.rest.step_residual = value;
     outcome.cpu_seconds = value;
-    const std::string line = journal_line(outcome);
-    const Outcome back = *read_journal_line(std::string_view(line).substr(0, line.size() - 1));
+    const Outcome back = read_back(bare_line(outcome));
     CHECK(bits(back.result.solid_fraction) == bits(value));
     CHECK(bits(back.result.rest.step_residual) == bits(value));
     CHECK(bits(back.result.coordination.at(0).between_grains) == bits(value));
@@ -83,9 +95,8 @@ TEST_CASE("a journal line is valid JSON by itself") {
 TEST_CASE("a summary is the beginning of the whole") {
   Outcome outcome = sample_outcome("a", 0.6, 6.0);
   outcome.version = "1.2.3";
-  std::string line = journal_line(outcome);
-  line.pop_back();
-  const Outcome summary = *read_journal_line(line, Detail::summary);
+  std::string line = bare_line(outcome);
+  const Outcome summary = read_back(line, Detail::summary);
   CHECK(summary.job == "a");
   CHECK(summary.version == "1.2.3");
   CHECK(summary.result.status == PackingStatus::settled);

@@ -1,3 +1,6 @@
+#include <string>
+#include <utility>
+
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
@@ -25,9 +28,14 @@ TEST_CASE("provenance reads back as it was written") {
   const auto [back, list] = provenance_from_text(text);
   const std::vector<Row> jobs = rows_of(list);
   CHECK(provenance_text(back, jobs) == text);
-  const auto as_json = nlohmann::ordered_json::parse(text);
-  const std::string all_jobs = ",\n      " + as_json["sweep"]["jobs"][1].dump() + "\n    ]";
-  CHECK(text.find(all_jobs) != std::string::npos);  // a line each
+  auto as_json = nlohmann::ordered_json::parse(text);
+  const auto entries = std::exchange(as_json["sweep"]["jobs"], nlohmann::json::array());
+  std::string with_a_line_each = as_json.dump(2) + "\n";
+  const std::string before = "\"jobs\": [";
+  with_a_line_each.insert(
+      with_a_line_each.find(before) + before.size(),
+      "\n      " + entries[0].dump() + ",\n      " + entries[1].dump() + "\n    ");
+  CHECK(with_a_line_each == text);
   REQUIRE(back.runs.size() == 2);
   CHECK(back.runs[0].threads == 2);
   CHECK(back.runs[0].wall_seconds == 2.0);
