@@ -116,6 +116,18 @@ struct RowKernels {
                            const Real* p);
   Missed<Real> (*round_residual)(const RowBlock<Real>* rows, std::size_t blocks,
                                  const Record<Real>* u, const Real* p);
+  /// The same where impulses p and y are changes of those in `from`, and u and the gaps count from
+  /// the motion of these: what is small is not rounded with what is large.
+  SweepSums<Real> (*sweep_of_changes)(const RowBlock<Real>* rows, std::size_t blocks,
+                                      const Real* from, Record<Real>* u, Real* p, Real* y,
+                                      SweepRule<Real> rule);
+  SweepSums<Real> (*round_sweep_of_changes)(const RowBlock<Real>* rows, std::size_t blocks,
+                                            const Real* from, Record<Real>* u, Real* p, Real* y,
+                                            SweepRule<Real> rule);
+  Missed<Real> (*residual_of_changes)(const RowBlock<Real>* rows, std::size_t blocks,
+                                      const Real* from, const Record<Real>* u, const Real* p);
+  Missed<Real> (*round_residual_of_changes)(const RowBlock<Real>* rows, std::size_t blocks,
+                                            const Real* from, const Record<Real>* u, const Real* p);
   /// Normals and gaps of sphere pairs (a, b of `rows`) from their positions, nearest image.
   /// period_x, period_y: d, 0 where the axis is walled. A negative gap is multiplied by
   /// `correction`, the share of an overlap that one step repairs. Where centres coincide the normal

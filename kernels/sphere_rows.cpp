@@ -69,12 +69,33 @@ inline Components<Real> difference(const Components<Real>& b, const Components<R
   return {b.x - a.x, b.y - a.y, b.z - a.z, b.w};
 }
 
+/// What impulses are counted from: nothing, or a column of impulses.
+struct Nothing {};
+
 template <class Real>
-SweepSums<Real> gauss_seidel_sweep(const RowBlock<Real>* rows, std::size_t blocks, Record<Real>* u,
-                                   Real* p, Real* y, SweepRule<Real> rule) {
+inline Batch<Real> least(Nothing, std::size_t) {
+  return Batch<Real>(Real(0));
+}
+template <class Real>
+inline Batch<Real> whole(const Batch<Real>& impulse, Nothing, std::size_t) {
+  return impulse;
+}
+/// As much as the impulse that is counted from may be lost, no more.
+template <class Real>
+inline Batch<Real> least(const Real* from, std::size_t at) {
+  return Batch<Real>(Real(0)) - load(from + at);
+}
+template <class Real>
+inline Batch<Real> whole(const Batch<Real>& impulse, const Real* from, std::size_t at) {
+  return load(from + at) + impulse;
+}
+
+template <class Real, class From>
+SweepSums<Real> any_sweep(const RowBlock<Real>* rows, std::size_t blocks, From from,
+                          Record<Real>* u, Real* p, Real* y, SweepRule<Real> rule) {
   LaneMissed<Real> missed;
   LaneSums<Real> restart_test(Real(0));
-  const Batch<Real> zero(Real(0)), relaxation(rule.relaxation), carry(rule.momentum);
+  const Batch<Real> relaxation(rule.relaxation), carry(rule.momentum);
   for (std::size_t block = 0; block < blocks; ++block) {
     for (std::size_t k = 0; k < batches<Real>; ++k) {
       const std::size_t lane = k * batch_width<Real>;
@@ -83,10 +104,11 @@ SweepSums<Real> gauss_seidel_sweep(const RowBlock<Real>* rows, std::size_t block
       const Components<Real> u_a = load_records(u, r.a), u_b = load_records(u, r.b);
       const Batch<Real> w = scaled_gap(r, difference(u_b, u_a));
       const Batch<Real> y_old = load(y + at), p_old = load(p + at);
-      const Batch<Real> p_new = xsimd::max(zero, y_old - w * relaxation);
+      const Batch<Real> p_new = xsimd::max(least<Real>(from, at), y_old - w * relaxation);
       const Batch<Real> change = p_new - p_old, taken_back = y_old - p_new;
       const Components<Real> push = along_normals(r, p_new - y_old);
-      missed.add(k, natural_residual(y_old, w), p_new, u_a.w, u_b.w);
+      missed.add(k, natural_residual(whole(y_old, from, at), w), whole(p_new, from, at), u_a.w,
+                 u_b.w);
       restart_test.part[k] += taken_back * change;
       p_new.store_unaligned(p + at);
       (p_new + carry * change).store_unaligned(y + at);
@@ -95,6 +117,17 @@ SweepSums<Real> gauss_seidel_sweep(const RowBlock<Real>* rows, std::size_t block
     }
   }
   return {missed.sums(), restart_test.sum()};
+}
+
+template <class Real>
+SweepSums<Real> gauss_seidel_sweep(const RowBlock<Real>* rows, std::size_t blocks, Record<Real>* u,
+                                   Real* p, Real* y, SweepRule<Real> rule) {
+  return any_sweep(rows, blocks, Nothing{}, u, p, y, rule);
+}
+template <class Real>
+SweepSums<Real> sweep_of_changes(const RowBlock<Real>* rows, std::size_t blocks, const Real* from,
+                                 Record<Real>* u, Real* p, Real* y, SweepRule<Real> rule) {
+  return any_sweep(rows, blocks, from, u, p, y, rule);
 }
 
 template <class Real>
@@ -144,21 +177,33 @@ void accumulate_impulses(const RowBlock<Real>* rows, std::size_t blocks, const R
   }
 }
 
-template <class Real>
-Missed<Real> residual(const RowBlock<Real>* rows, std::size_t blocks, const Record<Real>* u,
-                      const Real* p) {
+template <class Real, class From>
+Missed<Real> any_residual(const RowBlock<Real>* rows, std::size_t blocks, From from,
+                          const Record<Real>* u, const Real* p) {
   LaneMissed<Real> missed;
   for (std::size_t block = 0; block < blocks; ++block) {
     for (std::size_t k = 0; k < batches<Real>; ++k) {
       const std::size_t lane = k * batch_width<Real>;
+      const std::size_t at = block * block_width + lane;
       const Rows<Real> r = load_rows(rows[block], lane);
       const Components<Real> u_a = load_records(u, r.a), u_b = load_records(u, r.b);
       const Batch<Real> w = scaled_gap(r, difference(u_b, u_a));
-      const Batch<Real> impulse = load(p + block * block_width + lane);
+      const Batch<Real> impulse = whole(load(p + at), from, at);
       missed.add(k, natural_residual(impulse, w), impulse, u_a.w, u_b.w);
     }
   }
   return missed.sums();
+}
+
+template <class Real>
+Missed<Real> residual(const RowBlock<Real>* rows, std::size_t blocks, const Record<Real>* u,
+                      const Real* p) {
+  return any_residual(rows, blocks, Nothing{}, u, p);
+}
+template <class Real>
+Missed<Real> residual_of_changes(const RowBlock<Real>* rows, std::size_t blocks, const Real* from,
+                                 const Record<Real>* u, const Real* p) {
+  return any_residual(rows, blocks, from, u, p);
 }
 
 /// Two components of vectors.
@@ -176,8 +221,28 @@ inline Batch<Real> dot(const Planar<Real>& v, const Planar<Real>& w) {
   return v.x * w.x + v.y * w.y;
 }
 template <class Real>
+inline Planar<Real> operator+(const Planar<Real>& v, const Planar<Real>& w) {
+  return {v.x + w.x, v.y + w.y};
+}
+template <class Real>
 inline Planar<Real> load_planar(const Real* from) {
   return {load(from), load(from + block_width)};
+}
+template <class Real>
+inline Planar<Real> whole(const Planar<Real>& impulse, Nothing, std::size_t) {
+  return impulse;
+}
+template <class Real>
+inline Planar<Real> change_to(const Planar<Real>& impulse, Nothing, std::size_t) {
+  return impulse;
+}
+template <class Real>
+inline Planar<Real> whole(const Planar<Real>& impulse, const Real* from, std::size_t at) {
+  return load_planar(from + at) + impulse;
+}
+template <class Real>
+inline Planar<Real> change_to(const Planar<Real>& impulse, const Real* from, std::size_t at) {
+  return impulse - load_planar(from + at);
 }
 template <class Real>
 inline void store(const Planar<Real>& from, Real* to) {
@@ -226,9 +291,9 @@ inline Batch<Real> round_missed(const RoundRows<Real>& r, const Planar<Real>& u,
   return xsimd::sqrt(dot(miss, miss));
 }
 
-template <class Real>
-SweepSums<Real> round_sweep(const RowBlock<Real>* rows, std::size_t blocks, Record<Real>* u,
-                            Real* p, Real* y, SweepRule<Real> rule) {
+template <class Real, class From>
+SweepSums<Real> any_round_sweep(const RowBlock<Real>* rows, std::size_t blocks, From from,
+                                Record<Real>* u, Real* p, Real* y, SweepRule<Real> rule) {
   LaneMissed<Real> missed;
   LaneSums<Real> restart_test(Real(0));
   const Batch<Real> zero(Real(0)), relaxation(rule.relaxation), carry(rule.momentum);
@@ -239,9 +304,11 @@ SweepSums<Real> round_sweep(const RowBlock<Real>* rows, std::size_t blocks, Reco
       const RoundRows<Real> r = load_round_rows(rows + block, lane);
       const Components<Real> u_a = load_records(u, r.a);
       const Planar<Real> y_old = load_planar(y + at), p_old = load_planar(p + at);
-      const Planar<Real> p_new = round_impulse(r, {u_a.x, u_a.y}, y_old, relaxation);
+      const Planar<Real> y_whole = whole(y_old, from, at);
+      const Planar<Real> p_whole = round_impulse(r, {u_a.x, u_a.y}, y_whole, relaxation);
+      const Planar<Real> p_new = change_to(p_whole, from, at);
       const Planar<Real> change = p_new - p_old, push = p_new - y_old;
-      missed.add(k, round_missed(r, {u_a.x, u_a.y}, y_old), dot(p_new, p_new), u_a.w, zero);
+      missed.add(k, round_missed(r, {u_a.x, u_a.y}, y_whole), dot(p_whole, p_whole), u_a.w, zero);
       restart_test.part[k] -= dot(push, change);
       store(p_new, p + at);
       store<Real>({p_new.x + carry * change.x, p_new.y + carry * change.y}, y + at);
@@ -252,20 +319,44 @@ SweepSums<Real> round_sweep(const RowBlock<Real>* rows, std::size_t blocks, Reco
 }
 
 template <class Real>
-Missed<Real> round_residual(const RowBlock<Real>* rows, std::size_t blocks, const Record<Real>* u,
-                            const Real* p) {
+SweepSums<Real> round_sweep(const RowBlock<Real>* rows, std::size_t blocks, Record<Real>* u,
+                            Real* p, Real* y, SweepRule<Real> rule) {
+  return any_round_sweep(rows, blocks, Nothing{}, u, p, y, rule);
+}
+template <class Real>
+SweepSums<Real> round_sweep_of_changes(const RowBlock<Real>* rows, std::size_t blocks,
+                                       const Real* from, Record<Real>* u, Real* p, Real* y,
+                                       SweepRule<Real> rule) {
+  return any_round_sweep(rows, blocks, from, u, p, y, rule);
+}
+
+template <class Real, class From>
+Missed<Real> any_round_residual(const RowBlock<Real>* rows, std::size_t blocks, From from,
+                                const Record<Real>* u, const Real* p) {
   LaneMissed<Real> missed;
   const Batch<Real> zero(Real(0));
   for (std::size_t block = 0; block < blocks; block += 2) {
     for (std::size_t k = 0; k < batches<Real>; ++k) {
       const std::size_t lane = k * batch_width<Real>;
+      const std::size_t at = block * block_width + lane;
       const RoundRows<Real> r = load_round_rows(rows + block, lane);
       const Components<Real> u_a = load_records(u, r.a);
-      const Planar<Real> impulse = load_planar(p + block * block_width + lane);
+      const Planar<Real> impulse = whole(load_planar(p + at), from, at);
       missed.add(k, round_missed(r, {u_a.x, u_a.y}, impulse), dot(impulse, impulse), u_a.w, zero);
     }
   }
   return missed.sums();
+}
+
+template <class Real>
+Missed<Real> round_residual(const RowBlock<Real>* rows, std::size_t blocks, const Record<Real>* u,
+                            const Real* p) {
+  return any_round_residual(rows, blocks, Nothing{}, u, p);
+}
+template <class Real>
+Missed<Real> round_residual_of_changes(const RowBlock<Real>* rows, std::size_t blocks,
+                                       const Real* from, const Record<Real>* u, const Real* p) {
+  return any_round_residual(rows, blocks, from, u, p);
 }
 
 constexpr double far_apart = 1e300;
@@ -301,9 +392,19 @@ double sphere_gaps(RowBlock<Real>* rows, std::size_t blocks, const Record<double
 
 template <class Real>
 constexpr grainsweep::RowKernels<Real> table() {
-  return {apply_impulses<Real>, gauss_seidel_sweep<Real>, round_sweep<Real>,
-          extrapolate<Real>,    extrapolate_grains<Real>, accumulate_impulses<Real>,
-          residual<Real>,       round_residual<Real>,     sphere_gaps<Real>};
+  return {apply_impulses<Real>,
+          gauss_seidel_sweep<Real>,
+          round_sweep<Real>,
+          extrapolate<Real>,
+          extrapolate_grains<Real>,
+          accumulate_impulses<Real>,
+          residual<Real>,
+          round_residual<Real>,
+          sweep_of_changes<Real>,
+          round_sweep_of_changes<Real>,
+          residual_of_changes<Real>,
+          round_residual_of_changes<Real>,
+          sphere_gaps<Real>};
 }
 
 }  // namespace

@@ -191,7 +191,7 @@ class GaussSeidel {
   /// Begins again from no impulses at all.
   void give_momentum_up() {
     has_momentum_ = false;
-    std::fill(rows_.impulse.begin(), rows_.impulse.end(), Real(0));
+    rows_.drop_impulses();
     set_motion(motion_.u);
     restart();
   }

@@ -15,6 +15,7 @@
 #include "engine/rows/polyhedron_contacts.hpp"
 #include "engine/rows/sphere_contacts.hpp"
 #include "engine/scene/spec.hpp"
+#include "engine/shape/convex_shape.hpp"
 
 namespace grainsweep {
 
@@ -47,6 +48,8 @@ struct MotionColumns {
   std::vector<Record<Real>> before;       ///< motion after the last sweep
   std::vector<Record<Real>> summed;       ///< the same without the rounding of the sweeps
   std::vector<SweepSums<Real>> seen;      ///< by each part of the last phase
+  std::vector<Vector> changed_from;       ///< memory of solve_changes: what `u` is a change of, d
+  std::vector<Record<Real>> whole_free;   ///< memory of the same
 };
 
 /// Improves `contacts.impulse`, starting from what it holds, until the residual is below the

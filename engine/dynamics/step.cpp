@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/dynamics/changes.hpp"
 #include "engine/dynamics/columns.hpp"
 
 namespace grainsweep {
@@ -131,6 +132,22 @@ void scale_motion(double ratio, PolyhedronBed& bed) {
   for (Vector& spin : bed.spin) spin *= ratio;
 }
 
+/// Impulses begin such that they carry the bed; of a high one their changes are solved for.
+template <class Real>
+SolveReport solve_tall(double dt, const SolveLimits& limits, const ExecutionContext& context,
+                       const SphereBed& bed, StepState<Sphere, Real>& state) {
+  carry_weight(dt, bed, state.contacts);
+  if (std::is_same_v<Real, float> && is_high(bed)) {
+    return solve_changes(limits, context, state.contacts, state.motion);
+  }
+  return solve(limits, context, state.contacts, state.motion);
+}
+template <class Real>
+SolveReport solve_tall(double, const SolveLimits& limits, const ExecutionContext& context,
+                       const PolyhedronBed&, StepState<Polyhedron, Real>& state) {
+  return solve(limits, context, state.contacts, state.motion);
+}
+
 /// Rows of spheres are laid out for the steps they were listed for.
 void forget_list(const SphereBed&, Candidates& candidates) { candidates.is_listed = false; }
 void forget_list(const PolyhedronBed&, Candidates&) {}
@@ -211,8 +228,9 @@ StepReport step(const StepSettings& settings, const ExecutionContext& context, B
   set_free_motion(settings, context.loop, bed, state.motion);
   report.searched = find_near(settings, context, bed, state);
   report.sunk = update_contacts(settings, context, bed, state.contacts);
-  if (settings.carries && is_tall(bed)) carry_weight(settings.dt, bed, state.contacts);
-  report.solve = solve(limits, context, state.contacts, state.motion);
+  report.solve = settings.carries && is_tall(bed)
+                     ? solve_tall(settings.dt, limits, context, bed, state)
+                     : solve(limits, context, state.contacts, state.motion);
   report.spurious_path = report.solve.rms * report.solve.loaded /
                          static_cast<double>(std::max<std::int64_t>(degrees_of_freedom(bed), 1));
   report.solve.residual /= force_unit;

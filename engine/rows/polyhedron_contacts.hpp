@@ -5,6 +5,7 @@
 // the same number of them; no two lanes of a block share a grain.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -64,6 +65,8 @@ struct Contacts<Polyhedron, Real> {
     return body_kernels<Real>(all).gauss_seidel_sweep(rows_of(range), range.blocks, u,
                                                       impulse.data(), extrapolated.data(), rule);
   }
+  /// No contact pushes.
+  void drop_impulses() { std::fill(impulse.begin(), impulse.end(), Real(0)); }
   Missed<Real> residual(const Kernels& all, BlockRange range, const Record<Real>* u) const {
     return body_kernels<Real>(all).residual(rows_of(range), range.blocks, u, impulse.data());
   }

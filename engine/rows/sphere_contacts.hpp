@@ -12,6 +12,7 @@
 // (kernels/row_kernels.hpp).
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -84,6 +85,7 @@ struct Contacts<Sphere, Real> {
   RowShares shares;
   std::vector<Real> impulse;
   std::vector<Real> extrapolated;  ///< the solver's look-ahead impulses
+  std::vector<Real> changed_from;  ///< while impulses are changes of others: those; else empty
   std::vector<double> sunk;        ///< of each part of a detection: see `update_gaps`
   Spares<Real> spares;
   std::vector<LateBlocks> late;             ///< of each subdomain
@@ -99,15 +101,33 @@ struct Contacts<Sphere, Real> {
   SweepSums<Real> sweep(const Kernels& all, BlockRange range, const SweepRule<Real>& rule,
                         Record<Real>* u) {
     const RowKernels<Real>& kernels = row_kernels<Real>(all);
+    const bool is_flat = range.first < first_round;
     const std::size_t at = range.first * block_width;
-    return (range.first < first_round ? kernels.gauss_seidel_sweep : kernels.round_sweep)(
-        rows.data() + range.first, range.blocks, u, impulse.data() + at, extrapolated.data() + at,
-        rule);
+    const RowBlock<Real>* first = rows.data() + range.first;
+    Real *const p = impulse.data() + at, *const y = extrapolated.data() + at;
+    if (changed_from.empty()) {
+      return (is_flat ? kernels.gauss_seidel_sweep : kernels.round_sweep)(first, range.blocks, u, p,
+                                                                          y, rule);
+    }
+    return (is_flat ? kernels.sweep_of_changes : kernels.round_sweep_of_changes)(
+        first, range.blocks, changed_from.data() + at, u, p, y, rule);
   }
   Missed<Real> residual(const Kernels& all, BlockRange range, const Record<Real>* u) const {
     const RowKernels<Real>& kernels = row_kernels<Real>(all);
-    return (range.first < first_round ? kernels.residual : kernels.round_residual)(
-        rows.data() + range.first, range.blocks, u, impulse.data() + range.first * block_width);
+    const bool is_flat = range.first < first_round;
+    const std::size_t at = range.first * block_width;
+    const RowBlock<Real>* first = rows.data() + range.first;
+    const Real* const p = impulse.data() + at;
+    if (changed_from.empty()) {
+      return (is_flat ? kernels.residual : kernels.round_residual)(first, range.blocks, u, p);
+    }
+    return (is_flat ? kernels.residual_of_changes : kernels.round_residual_of_changes)(
+        first, range.blocks, changed_from.data() + at, u, p);
+  }
+  /// No contact pushes.
+  void drop_impulses() {
+    std::fill(impulse.begin(), impulse.end(), Real(0));
+    for (std::size_t at = 0; at < changed_from.size(); ++at) impulse[at] = -changed_from[at];
   }
   void accumulate(const Kernels& all, BlockRange range, Record<Real>* accumulated) const {
     row_kernels<Real>(all).accumulate_impulses(rows.data() + range.first, range.blocks,

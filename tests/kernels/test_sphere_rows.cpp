@@ -124,10 +124,45 @@ TEMPLATE_TEST_CASE("a Gauss-Seidel sweep gives the bits of its plain-loop twin",
     const auto sums =
         kernels.gauss_seidel_sweep(problem.rows.data(), problem.rows.size(), problem.u.data(),
                                    problem.p.data(), problem.y.data(), rule);
-    const auto expected = testing::gauss_seidel_twin(
-        twin.rows.data(), twin.rows.size(), twin.u.data(), twin.p.data(), twin.y.data(), rule);
+    const auto expected =
+        testing::gauss_seidel_twin<TestType>(twin.rows.data(), twin.rows.size(), nullptr,
+                                             twin.u.data(), twin.p.data(), twin.y.data(), rule);
     REQUIRE(same_bits(sums.missed, expected.missed));
     REQUIRE(same_bits(sums.restart_test, expected.restart_test));
+  });
+}
+
+/// Impulses that those of a problem may be changes of: half of its rows push.
+template <class Real>
+std::vector<Real> impulses_before(const RowProblem<Real>& problem) {
+  Draw draw(problem.p.size());
+  std::vector<Real> before;
+  for (std::size_t k = 0; k < problem.p.size(); ++k) {
+    const bool is_void = problem.rows[k / block_width].a(k % block_width) == void_a;
+    const bool pushes = !is_void && draw.chance(0.5);
+    before.push_back(static_cast<Real>(pushes ? draw.uniform(0.0, 2.0) : 0.0));
+  }
+  return before;
+}
+
+TEMPLATE_TEST_CASE("a sweep of changes of impulses gives the bits of its plain-loop twin", "",
+                   float, double) {
+  const SweepRule<TestType> rule{TestType(0.9), TestType(0.7)};
+  on_random_row_problems<TestType>([&](const auto& kernels, auto& problem, auto& twin) {
+    const std::vector<TestType> from = impulses_before(problem);
+    const auto sums =
+        kernels.sweep_of_changes(problem.rows.data(), problem.rows.size(), from.data(),
+                                 problem.u.data(), problem.p.data(), problem.y.data(), rule);
+    const auto expected =
+        testing::gauss_seidel_twin(twin.rows.data(), twin.rows.size(), from.data(), twin.u.data(),
+                                   twin.p.data(), twin.y.data(), rule);
+    REQUIRE(same_bits(sums.missed, expected.missed));
+    REQUIRE(same_bits(sums.restart_test, expected.restart_test));
+    for (std::size_t k = 0; k < from.size(); ++k) REQUIRE(from[k] + problem.p[k] >= 0);
+    REQUIRE(same_bits(kernels.residual_of_changes(problem.rows.data(), problem.rows.size(),
+                                                  from.data(), problem.u.data(), problem.p.data()),
+                      testing::residual_twin(twin.rows.data(), twin.rows.size(), from.data(),
+                                             twin.u.data(), twin.p.data())));
   });
 }
 
@@ -233,7 +268,8 @@ TEMPLATE_TEST_CASE("the residual has the bits of its plain-loop twin", "", float
   on_random_row_problems<TestType>([](const auto& kernels, auto& problem, auto& twin) {
     const auto residual = kernels.residual(problem.rows.data(), problem.rows.size(),
                                            problem.u.data(), problem.p.data());
-    REQUIRE(same_bits(residual, testing::residual_twin(twin.rows.data(), twin.rows.size(),
+    REQUIRE(same_bits(residual,
+                      testing::residual_twin<TestType>(twin.rows.data(), twin.rows.size(), nullptr,
                                                        twin.u.data(), twin.p.data())));
   });
 }

@@ -81,21 +81,25 @@ struct MissedTwin {
   Missed<Real> sums() { return {largest, tree_sum(squares), tree_sum(loaded)}; }
 };
 
+/// Of impulses p and y that are changes of those in `from`; of whole ones where that is none.
 template <class Real>
-SweepSums<Real> gauss_seidel_twin(const RowBlock<Real>* rows, std::size_t blocks, Record<Real>* u,
-                                  Real* p, Real* y, SweepRule<Real> rule) {
+SweepSums<Real> gauss_seidel_twin(const RowBlock<Real>* rows, std::size_t blocks, const Real* from,
+                                  Record<Real>* u, Real* p, Real* y, SweepRule<Real> rule) {
   MissedTwin<Real> missed;
   Real restart_test[block_width] = {};
   for (std::size_t block = 0; block < blocks; ++block) {
     for (std::size_t lane = 0; lane < block_width; ++lane) {
       const std::size_t row = block * block_width + lane;
       const Real w = scaled_gap_twin(rows[block], lane, u), y_old = y[row], p_old = p[row];
-      const Real p_new = larger(Real(0), y_old - w * rule.relaxation), change = p_new - p_old;
+      const Real before = from == nullptr ? Real(0) : from[row];
+      const Real p_new = larger(Real(0) - before, y_old - w * rule.relaxation);
+      const Real change = p_new - p_old;
       p[row] = p_new;
       y[row] = p_new + rule.momentum * change;
       restart_test[lane] += (y_old - p_new) * change;
       const RowBlock<Real>& r = rows[block];
-      missed.add(lane, std::abs(smaller(y_old, w)), p_new, u[r.a(lane)].w, u[r.b(lane)].w);
+      missed.add(lane, std::abs(smaller(before + y_old, w)), before + p_new, u[r.a(lane)].w,
+                 u[r.b(lane)].w);
       add_twin(r, lane, p_new - y_old, Real(0) - u[r.a(lane)].w, u[r.a(lane)]);
       add_twin(r, lane, p_new - y_old, u[r.b(lane)].w, u[r.b(lane)]);
     }
@@ -123,15 +127,16 @@ void accumulate_impulses_twin(const RowBlock<Real>* rows, std::size_t blocks, co
 }
 
 template <class Real>
-Missed<Real> residual_twin(const RowBlock<Real>* rows, std::size_t blocks, const Record<Real>* u,
-                           const Real* p) {
+Missed<Real> residual_twin(const RowBlock<Real>* rows, std::size_t blocks, const Real* from,
+                           const Record<Real>* u, const Real* p) {
   MissedTwin<Real> missed;
   for (std::size_t row = 0; row < blocks * block_width; ++row) {
     const Real w = scaled_gap_twin(rows[row / block_width], row % block_width, u);
     const RowBlock<Real>& r = rows[row / block_width];
     const auto a = static_cast<std::size_t>(r.a(row % block_width));
     const auto b = static_cast<std::size_t>(r.b(row % block_width));
-    missed.add(row % block_width, std::abs(smaller(p[row], w)), p[row], u[a].w, u[b].w);
+    const Real whole = from == nullptr ? p[row] : from[row] + p[row];
+    missed.add(row % block_width, std::abs(smaller(whole, w)), whole, u[a].w, u[b].w);
   }
   return missed.sums();
 }

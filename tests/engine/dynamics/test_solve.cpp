@@ -3,7 +3,6 @@
 #include <catch2/catch.hpp>
 
 #include "engine/dynamics/solve.hpp"
-#include "engine/scene/start.hpp"
 #include "tests/support/bits.hpp"
 #include "tests/support/dense_solver.hpp"
 #include "tests/support/draw.hpp"
@@ -11,6 +10,7 @@
 #include "tests/support/named_contacts.hpp"
 #include "tests/support/scenes.hpp"
 #include "tests/support/solvers.hpp"
+#include "tests/support/step_problems.hpp"
 
 namespace grainsweep {
 namespace {
@@ -21,42 +21,9 @@ using testing::DenseSolution;
 using testing::Draw;
 using testing::kernels;
 using testing::periodic;
+using testing::random_problem;
+using testing::StepProblem;
 using testing::walls;
-
-/// Grains apart from each other, and free motions that would drive them into each other.
-template <class Real>
-struct StepProblem {
-  SphereBed bed;
-  SphereContacts<Real> contacts;
-  MotionColumns<Real> motion;
-};
-
-template <class Real>
-std::vector<Record<Real>> colliding_motion(const SphereBed& bed, Draw& draw) {
-  std::vector<Record<Real>> motion;
-  for (std::size_t i = 0; i < bed.motion.size(); ++i) {
-    const double size = i < bed.grains() ? 0.3 : 0.0;
-    const double x = draw.uniform(-size, size), y = draw.uniform(-size, size);
-    motion.push_back({static_cast<Real>(x), static_cast<Real>(y),
-                      static_cast<Real>(draw.uniform(-2 * size, 0.0)),
-                      static_cast<Real>(bed.motion[i].w)});
-  }
-  return motion;
-}
-
-template <class Real>
-StepProblem<Real> random_problem(std::int64_t grains, std::uint64_t seed) {
-  Draw draw(seed);
-  PackingSpec spec;
-  spec.box = {2.6, 2.6, draw.chance(0.5) ? periodic : walls, walls};
-  spec.fill = GrainCount{grains};
-  spec.sizes = {0.05, 0.2, 0.6};
-  spec.random_key = seed;
-  StepProblem<Real> problem{start<Sphere>(spec).value(), {}, {}};
-  problem.contacts = testing::contacts_of<Real>(problem.bed, 0.4, kernels());
-  problem.motion.free = colliding_motion<Real>(problem.bed, draw);
-  return problem;
-}
 
 template <class Real>
 DenseProblem dense(const StepProblem<Real>& problem) {
@@ -267,7 +234,8 @@ TEST_CASE("without contacts grains move freely") {
 int sweeps_for_a_column(int grains, Solver solver) {
   SphereBed bed = testing::column_bed(grains, 0.0);
   SphereContacts<double> contacts = testing::contacts_of<double>(bed, 0.1, kernels());
-  MotionColumns<double> motion{bed.motion, 0, {}, {}, {}, {}, {}};
+  MotionColumns<double> motion;
+  motion.free = bed.motion;
   for (std::size_t i = 0; i < bed.grains(); ++i) {
     motion.free[i].z = -1.0;
   }
