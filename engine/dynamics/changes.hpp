@@ -14,7 +14,7 @@
 namespace grainsweep {
 
 /// Lower beds come to rest as soon without, d: f32 leaves 1e-4 m g for every d of height.
-inline constexpr double high_from = 80.0;
+inline constexpr double high_from = 100.0;
 
 /// Whether steps in f32 solve for changes. Of polyhedra they do not.
 inline bool is_high(const SphereBed& bed) { return top_of(bed) > high_from; }

@@ -96,7 +96,7 @@ TEST_CASE("f32 knows the small changes of large impulses nearly as well as f64")
 TEST_CASE("steps of a high bed of several subdomains have the same bits in any order of parts") {
   std::vector<PlacedSphere> grains;
   Draw draw(3);
-  constexpr int side = 15, layers = 82;
+  constexpr int side = 13, layers = 102;
   for (int k = 0; k < layers; ++k) {
     for (int i = 0; i < side * side; ++i) {
       const double x = 0.5 + i % side, y = 0.5 + i / side;
