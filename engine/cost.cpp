@@ -125,7 +125,7 @@ double usual_iterations(const PackingSpec& spec, double layers) {
 
 /// Rounds of creep and rest that high beds of spheres take over those of low ones: few iterations
 /// hardly reach through many layers of a box, and many layers of many grains take more of them,
-/// too, and searches for exact rest; wide low ones rest without.
+/// too.
 double rounds_factor(const PackingSpec& spec, double grains, double layers) {
   if (creep_of(spec.accuracy) == Creep::loose && !spec.box.is_tube) {
     return std::pow(std::max(1.0, layers / 40.0), 0.8);
@@ -133,9 +133,7 @@ double rounds_factor(const PackingSpec& spec, double grains, double layers) {
   constexpr double many = 6e5;  // grains times layers
   const double of_many = std::pow(std::max(1.0, grains * layers / many), 0.7);
   if (creep_of(spec.accuracy) == Creep::strict || spec.box.is_tube) return of_many;
-  constexpr double searched = 2e5;  // grains times layers, from where on beds are
-  return std::max(
-      of_many, std::min(std::pow(grains * layers / searched, 1.1), std::pow(layers / 80.0, 4.0)));
+  return of_many * std::pow(std::max(1.0, layers / 110.0), 1.2);
 }
 
 /// Of the search for exact rest: rounds, more of them in larger beds, that each factor the bed's
