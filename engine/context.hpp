@@ -50,6 +50,15 @@ void parallel_chunks(const ParallelFor& loop, std::size_t size, std::size_t part
   parallel_for(loop, parts, [&](std::size_t part) { work(part, chunk_of(size, part, parts)); });
 }
 
+/// Calls work(first, count) for `size` items that are little work each, some thousands at a time.
+template <class Work>
+void parallel_items(const ParallelFor& loop, std::size_t size, const Work& work) {
+  constexpr std::size_t items_of_part = 8192;
+  parallel_chunks(loop, size, size / items_of_part + 1, [&](std::size_t, IndexRange items) {
+    work(items.first, items.last - items.first);
+  });
+}
+
 struct Workspace;  // engine/dynamics/workspace.hpp
 
 struct ExecutionContext {

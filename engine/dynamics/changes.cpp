@@ -1,7 +1,5 @@
 #include "engine/dynamics/changes.hpp"
 
-#include <algorithm>
-
 #include "engine/shape/convex_shape.hpp"
 
 namespace grainsweep {
@@ -27,14 +25,6 @@ void visit_lanes(const ParallelFor& loop, SphereContacts<Real>& contacts, const 
   });
 }
 
-template <class Work>
-void visit_records(const ParallelFor& loop, std::size_t records, const Work& work) {
-  constexpr std::size_t records_of_part = 8192;
-  parallel_chunks(loop, records, records / records_of_part + 1, [&](std::size_t, IndexRange part) {
-    for (std::size_t i = part.first; i < part.last; ++i) work(i);
-  });
-}
-
 /// The motion of each grain with the impulses that the contacts hold.
 template <class Real>
 void set_motion_before(const ParallelFor& loop, SphereContacts<Real>& contacts,
@@ -48,11 +38,13 @@ void set_motion_before(const ParallelFor& loop, SphereContacts<Real>& contacts,
     whole[static_cast<std::size_t>(row.a(lane))] -= push;
     whole[static_cast<std::size_t>(row.b(lane))] += push;
   });
-  visit_records(loop, whole.size(), [&](std::size_t i) {
-    const Record<Real>& free = motion.free[i];
-    whole[i] = Vector(static_cast<double>(free.x), static_cast<double>(free.y),
-                      static_cast<double>(free.z)) +
-               static_cast<double>(free.w) * whole[i];
+  parallel_items(loop, whole.size(), [&](std::size_t first, std::size_t count) {
+    for (std::size_t i = first; i < first + count; ++i) {
+      const Record<Real>& free = motion.free[i];
+      whole[i] = Vector(static_cast<double>(free.x), static_cast<double>(free.y),
+                        static_cast<double>(free.z)) +
+                 static_cast<double>(free.w) * whole[i];
+    }
   });
 }
 
@@ -93,12 +85,14 @@ SolveReport solve_changes(const SolveLimits& limits, const ExecutionContext& con
   for (Record<Real>& free : motion.free) free = {Real(0), Real(0), Real(0), free.w};
   const SolveReport report = solve(limits, context, contacts, motion);
   motion.free.swap(motion.whole_free);
-  visit_records(context.loop, motion.u.size(), [&](std::size_t i) {
-    const Vector& from = motion.changed_from[i];
-    Record<Real>& u = motion.u[i];
-    u = {static_cast<Real>(from.x() + static_cast<double>(u.x)),
-         static_cast<Real>(from.y() + static_cast<double>(u.y)),
-         static_cast<Real>(from.z() + static_cast<double>(u.z)), u.w};
+  parallel_items(context.loop, motion.u.size(), [&](std::size_t first, std::size_t count) {
+    for (std::size_t i = first; i < first + count; ++i) {
+      const Vector& from = motion.changed_from[i];
+      Record<Real>& u = motion.u[i];
+      u = {static_cast<Real>(from.x() + static_cast<double>(u.x)),
+           static_cast<Real>(from.y() + static_cast<double>(u.y)),
+           static_cast<Real>(from.z() + static_cast<double>(u.z)), u.w};
+    }
   });
   for (std::size_t at = 0; at < contacts.impulse.size(); ++at) {
     contacts.impulse[at] += contacts.changed_from[at];

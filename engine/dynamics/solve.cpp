@@ -241,21 +241,13 @@ class GaussSeidel {
   template <class Work>
   void visit_moving(const Work& work) {
     const std::size_t before = motion_.first_moving;
-    visit_items(motion_.u.size() - before,
-                [&](std::size_t first, std::size_t count) { work(before + first, count); });
-  }
-  /// Calls work(first, count) for `size` items, part by part.
-  template <class Work>
-  void visit_items(std::size_t size, const Work& work) {
-    constexpr std::size_t items_of_part = 8192;
-    parallel_chunks(loop_, size, size / items_of_part + 1, [&](std::size_t, IndexRange items) {
-      work(items.first, items.last - items.first);
-    });
+    parallel_items(loop_, motion_.u.size() - before,
+                   [&](std::size_t first, std::size_t count) { work(before + first, count); });
   }
   template <class Item>
   void copy(const std::vector<Item>& from, std::vector<Item>& to) {
     to.resize(from.size());
-    visit_items(from.size(), [&](std::size_t first, std::size_t count) {
+    parallel_items(loop_, from.size(), [&](std::size_t first, std::size_t count) {
       std::copy_n(from.data() + first, count, to.data() + first);
     });
   }
