@@ -12,10 +12,12 @@ namespace grainsweep {
 
 /// Kept from call to call.
 struct PairMemoryColumns {
-  std::vector<GrainPair> pairs;    ///< those of the list before
-  std::vector<PairMemory> memory;  ///< of each of them
-  std::vector<std::size_t> begin;  ///< of each first grain's in `by_first`; one more at the end
-  std::vector<std::size_t> by_first;
+  std::vector<GrainPair> pairs;      ///< those of the list before
+  std::vector<PairMemory> memory;    ///< of each of them
+  std::vector<std::size_t> begin;    ///< of each first grain's in what follows; one more at the end
+  std::vector<std::int32_t> second;  ///< second grains, of each first grain ascending
+  std::vector<std::size_t> number;   ///< of their pairs
+  std::vector<std::size_t> by_second;  ///< memory: the pairs, by their second grains
 };
 
 /// Gives the pairs of a new list what those of the list before, columns.pairs, remembered in
