@@ -94,6 +94,7 @@ void transfer_contacts(Archive& archive, PolyhedronContacts<Real>& contacts) {
   transfer_subdomains(archive, contacts.subdomains);
   archive.list(contacts.memory, [&](auto& memory) {
     transfer_vector(archive, memory.axis);
+    archive.value(memory.touched);
     archive.value(memory.candidates);
   });
   archive.value(contacts.found_parts);

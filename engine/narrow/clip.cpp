@@ -71,15 +71,34 @@ void cut(const std::vector<Vector>& polygon, const std::vector<double>& beyond, 
   }
 }
 
-/// Cuts columns.polygon by all sides; most of them leave it as it is.
+/// A ball around all corners of a polygon of one or more.
+struct Around {
+  Vector centre = Vector::Zero();
+  double radius = 0.0;
+};
+Around around(const std::vector<Vector>& polygon) {
+  Around ball;
+  for (const Vector& corner : polygon) ball.centre += corner;
+  ball.centre /= static_cast<double>(polygon.size());
+  double squared = 0.0;
+  for (const Vector& corner : polygon) {
+    squared = std::max(squared, (corner - ball.centre).squaredNorm());
+  }
+  ball.radius = std::sqrt(squared);
+  return ball;
+}
+
+/// Cuts columns.polygon by all sides; most of them leave it as it is, many of them by far.
 void cut_by_sides(const Reference& reference, ClipColumns& columns) {
   const double tolerance = on_side * reference.size();
+  const Around ball = around(columns.polygon);
   for (const Side& side : reference.sides()) {
+    if (reference.beyond(side, ball.centre) + ball.radius < 0.0) continue;
     double farthest = -std::numeric_limits<double>::infinity();
-    columns.beyond.clear();
-    for (const Vector& corner : columns.polygon) {
-      columns.beyond.push_back(reference.beyond(side, corner));
-      farthest = std::max(farthest, columns.beyond.back());
+    columns.beyond.resize(columns.polygon.size());
+    for (std::size_t k = 0; k < columns.polygon.size(); ++k) {
+      columns.beyond[k] = reference.beyond(side, columns.polygon[k]);
+      farthest = std::max(farthest, columns.beyond[k]);
     }
     if (farthest > tolerance) {
       cut(columns.polygon, columns.beyond, tolerance, columns.clipped);
@@ -119,16 +138,16 @@ void add_point(const Reference& reference, const Vector& x, double margin, std::
 
 /// Vertices within the margin that are no corners of the touching face: where an edge lies on the
 /// reference, a face at one of its ends may be the touching one, and would leave out the other end.
+/// Forgets how far those corners reach.
 void add_other_vertices(const Reference& reference, const Incident& other, const Face& touching,
-                        const std::vector<double>& reach, double margin, std::size_t first,
+                        double margin, std::size_t first, std::vector<double>& reach,
                         std::vector<ContactPoint>& points) {
   const double least = reference.gap(other.centre) - margin;
-  const std::span<const std::int32_t> corners = corners_of(other.shape, touching);
+  for (const std::int32_t corner : corners_of(other.shape, touching)) {
+    reach[static_cast<std::size_t>(corner)] = -std::numeric_limits<double>::infinity();
+  }
   for (std::size_t v = 0; v < other.shape.vertices.size(); ++v) {
     if (reach[v] < least) continue;
-    if (std::find(corners.begin(), corners.end(), static_cast<std::int32_t>(v)) != corners.end()) {
-      continue;
-    }
     const Vector x = other.place(v);
     if (reference.is_below(x)) add_point(reference, x, margin, first, points);
   }
@@ -144,7 +163,7 @@ void clip(const Reference& reference, const Incident& other, double margin, Clip
   for (const Vector& x : columns.polygon) {
     add_point(reference, x, margin, first, points);
   }
-  add_other_vertices(reference, other, touching, columns.reach, margin, first, points);
+  add_other_vertices(reference, other, touching, margin, first, columns.reach, points);
 }
 
 }  // namespace

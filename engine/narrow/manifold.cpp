@@ -126,7 +126,10 @@ PairContact touch(const ShapePair& pair, const TouchSettings& settings, PairMemo
                   TouchColumns& columns, std::vector<ContactPoint>& points) {
   const double margin = settings.margin;
   if (!closer_than(pair, margin)) return {};
-  if (!memory.axis.isZero(0.0) && parted_along(pair, memory.axis, margin)) return {};
+  if (!memory.touched && !memory.axis.isZero(0.0) && parted_along(pair, memory.axis, margin)) {
+    return {};
+  }
+  memory.touched = false;
   if (has_ball(pair)) return touch_ball(pair, margin, memory, points);
   const ContactAxes axes = separating_axes(pair, memory.axis, memory.candidates, columns.axes);
   memory.axis = axes.best().normal;
@@ -136,6 +139,7 @@ PairContact touch(const ShapePair& pair, const TouchSettings& settings, PairMemo
     points.resize(contact.first);
     return {};
   }
+  memory.touched = true;
   return contact;
 }
 

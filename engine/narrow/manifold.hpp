@@ -26,6 +26,7 @@ struct TouchSettings {
 /// What a pair remembers from step to step; a default one is always allowed.
 struct PairMemory {
   Vector axis = Vector::Zero();  ///< that parted it best, or along which it touched; zero at first
+  bool touched = false;          ///< whether it did; then no time is lost on parting it along axis
   AxisCandidates candidates;
 };
 
