@@ -1,38 +1,34 @@
-# The trade of speed for accuracy as a picture, from the table of bench_trade: a row for each scene.
+# The trade of speed for accuracy in a scene as a picture, from the table of bench_trade.
 # usage: gnuplot -c bench/trade.gnuplot trade.csv trade.svg
 if (ARGC < 2) { print "usage: gnuplot -c trade.gnuplot TABLE.csv PICTURE.svg"; exit status 2 }
 set datafile separator ","
 set datafile missing ""
 set encoding utf8
-stats ARG1 every ::1 using 1 nooutput
-scenes = int(STATS_max)
-set terminal svg size 1100,360 * scenes font "sans-serif,14" background "white"
+set terminal svg size 1100,360 font "sans-serif,14" background "white"
 set output ARG2
 set style line 1 lc rgb "#8aa4bf" pt 7 ps 0.5
 set style line 2 lc rgb "#1f5a92" pt 7 ps 0.7
 set style line 3 lc rgb "#c0392b" pt 5 ps 0.9
 set style line 4 lc rgb "#c0392b" pt 4 ps 0.9
-title_of(scene) = system(sprintf("awk -F'\"' 'NR > 1 && $1 == \"%d,\" { print $2; exit }' '%s'", scene, ARG1))
-kind(unused) = strlen(strcol(4)) > 0 ? ($19 == 1 ? 3 : 4) : ($19 == 1 ? 2 : 1)
-set multiplot layout scenes,2
+scene = system(sprintf("awk -F'\"' 'NR > 1 { print $2; exit }' '%s'", ARG1))
+kind(unused) = strlen(strcol(3)) > 0 ? ($18 == 1 ? 3 : 4) : ($18 == 1 ? 2 : 1)
+set multiplot layout 1,2
 set logscale x
 set xrange [0.15:*]
 set xzeroaxis lt 1 lc rgb "#999999"
 set xlabel "CPU time of a packing over that of balanced"
 set offsets graph 0, graph 0.05, graph 0.1, graph 0.05
-do for [scene = 1:scenes] {
-  do for [quantity = 0:1] {
-    at = 10 + 2 * quantity
-    set title title_of(scene)
-    if (quantity == 0) { unset key } else { set key bottom right }
-    set ylabel quantity == 0 ? "φ less that of exact rest" : "Z less that of exact rest"
-    pick(line) = ($1 == scene && kind(0) == line) ? column(at) : NaN
-    plot ARG1 every ::1 using 9:(pick(1)):(column(at + 1)) with yerrorbars ls 1 title "a cheaper one is nearer", \
-         ARG1 every ::1 using 9:(pick(2)):(column(at + 1)) with yerrorbars ls 2 title "on the front", \
-         ARG1 every ::1 using 9:(pick(3)):(column(at + 1)) with yerrorbars ls 3 title "presets on the front", \
-         ARG1 every ::1 using 9:(pick(4)):(column(at + 1)) with yerrorbars ls 4 title "presets beside it", \
-         ARG1 every ::1 using 9:(pick(3)):4 with labels offset 0,1 tc rgb "#c0392b" notitle, \
-         ARG1 every ::1 using 9:(pick(4)):4 with labels offset 0,1 tc rgb "#c0392b" notitle
-  }
+do for [quantity = 0:1] {
+  at = 9 + 2 * quantity
+  set title scene
+  if (quantity == 0) { unset key } else { set key bottom right }
+  set ylabel (quantity == 0 ? "φ" : "Z")." less that of the reference"
+  pick(line) = kind(0) == line ? column(at) : NaN
+  plot ARG1 every ::1 using 8:(pick(1)):(column(at + 1)) with yerrorbars ls 1 title "a cheaper one is nearer", \
+       ARG1 every ::1 using 8:(pick(2)):(column(at + 1)) with yerrorbars ls 2 title "on the front", \
+       ARG1 every ::1 using 8:(pick(3)):(column(at + 1)) with yerrorbars ls 3 title "presets on the front", \
+       ARG1 every ::1 using 8:(pick(4)):(column(at + 1)) with yerrorbars ls 4 title "presets beside it", \
+       ARG1 every ::1 using 8:(pick(3)):3 with labels offset 0,1 tc rgb "#c0392b" notitle, \
+       ARG1 every ::1 using 8:(pick(4)):3 with labels offset 0,1 tc rgb "#c0392b" notitle
 }
 unset multiplot

@@ -90,46 +90,46 @@ std::string scene_table(const SceneRows& compared) {
   return text + "\n";
 }
 
-std::string bound_cells(const std::string& scene, const Compared& row) {
+std::string bound_line(const Compared& row) {
   const ProtocolBias& bound = *row.setting->bound;
   const bool holds = std::abs(row.solid_fraction.mean) <= bound.solid_fraction &&
                      std::abs(row.coordination.mean) <= bound.coordination;
-  return table_row({scene, "`" + row.setting->name + "`",
+  return table_row({"`" + row.setting->name + "`",
                     difference_text(row.solid_fraction, solid_fraction_decimals),
                     fixed(bound.solid_fraction, 4),
                     difference_text(row.coordination, coordination_decimals),
                     fixed(bound.coordination, 3), holds ? "yes" : "no"});
 }
 
-std::string bounds_table(const std::vector<SceneRows>& scenes) {
-  std::string text = table_head({"scene", "preset", "phi", "its bound", "Z", "its bound", "holds"});
-  for (const SceneRows& compared : scenes) {
-    for (const Compared& row : compared.rows) {
-      if (row.setting->bound && !row.setting->preset.empty()) {
-        text += bound_cells(compared.scene->name, row);
-      }
-    }
+/// Empty without a preset that has bounds.
+std::string bounds_table(const SceneRows& compared) {
+  std::string lines;
+  for (const Compared& row : compared.rows) {
+    if (row.setting->bound && !row.setting->preset.empty()) lines += bound_line(row);
   }
-  return text + "\n";
+  if (lines.empty()) return "";
+  return "Presets beside the bounds of their biases that `groups.csv` prints:\n\n" +
+         table_head({"preset", "phi", "its bound", "Z", "its bound", "holds"}) + lines + "\n";
 }
 
-std::string exact_table(const std::vector<SceneRows>& scenes) {
-  std::string text = table_head({"scene", "beds of", "certified", "pairs", "phi", "Z"});
-  for (const SceneRows& compared : scenes) {
-    for (const ExactChange& change : exact_changes(*compared.scene)) {
-      text += table_row({compared.scene->name, "`" + change.begins->name + "`",
-                         settled_text(*change.exact), std::to_string(change.solid_fraction.n),
-                         difference_text(change.solid_fraction, solid_fraction_decimals),
-                         difference_text(change.coordination, coordination_decimals)});
-    }
+/// Empty where nothing is searched for exact rest.
+std::string exact_table(const SceneRows& compared) {
+  std::string lines;
+  for (const ExactChange& change : exact_changes(*compared.scene)) {
+    lines += table_row({"`" + change.begins->name + "`", settled_text(*change.exact),
+                        std::to_string(change.solid_fraction.n),
+                        difference_text(change.solid_fraction, solid_fraction_decimals),
+                        difference_text(change.coordination, coordination_decimals)});
   }
-  return text;
+  if (lines.empty()) return "";
+  return "What the search for exact rest changes, against the same starts without it:\n\n" +
+         table_head({"beds of", "certified", "pairs", "phi", "Z"}) + lines + "\n";
 }
 
-std::string csv_row(std::size_t scene, const std::string& name, const Compared& row) {
+std::string csv_row(const std::string& scene, const Compared& row) {
   const Setting& setting = *row.setting;
   const auto two = [](const MeanError& of) { return cell(of.mean) + "," + cell(of.error); };
-  return cell(scene) + "," + cell(name) + "," + cell(setting.name) + "," + cell(setting.preset) +
+  return cell(scene) + "," + cell(setting.name) + "," + cell(setting.preset) +
          "," + cell(row.solid_fraction.n) + "," + cell(setting.made) + "," + cell(setting.settled) +
          "," + cell(row.cpu_seconds) + "," + cell(row.relative_cost) + "," +
          two(row.solid_fraction) + "," + two(row.coordination) + "," + two(row.lambda) + "," +
@@ -145,25 +145,16 @@ std::string difference_text(const MeanError& difference, int decimals) {
          fixed(difference.error, decimals);
 }
 
-std::string trade_markdown(const std::vector<SceneRows>& scenes) {
-  std::string text;
-  for (const SceneRows& compared : scenes) text += scene_table(compared);
-  return text + "Presets beside the bounds of their biases that `groups.csv` prints:\n\n" +
-         bounds_table(scenes) +
-         "What the search for exact rest changes, against the same starts without it:\n\n" +
-         exact_table(scenes);
+std::string trade_markdown(const SceneRows& compared) {
+  return scene_table(compared) + bounds_table(compared) + exact_table(compared);
 }
 
-std::string trade_csv(const std::vector<SceneRows>& scenes) {
+std::string trade_csv(const SceneRows& compared) {
   std::string text =
-      "number,scene,accuracy,preset,pairs,made,settled,cpu_seconds,relative_cost,solid_fraction,"
+      "scene,accuracy,preset,pairs,made,settled,cpu_seconds,relative_cost,solid_fraction,"
       "solid_fraction_error,coordination,coordination_error,lambda,lambda_error,force_square,"
       "force_square_error,contact_ratio,on_front\n";
-  for (std::size_t k = 0; k < scenes.size(); ++k) {
-    for (const Compared& row : scenes[k].rows) {
-      text += csv_row(k + 1, scenes[k].scene->name, row);
-    }
-  }
+  for (const Compared& row : compared.rows) text += csv_row(compared.scene->name, row);
   return text;
 }
 

@@ -1,4 +1,4 @@
-// The trade as tables: for the README, and for the picture.
+// The trade of a scene as tables: for its README, and for the picture.
 #pragma once
 
 #include <string>
@@ -17,11 +17,11 @@ struct SceneRows {
 /// "-0.0012 +- 0.0002"; "-" if there is none.
 std::string difference_text(const MeanError& difference, int decimals);
 
-/// Markdown: for each scene its reference and a row for each setting; the presets beside their
-/// bounds; and what the search for exact rest changes. A scene that is not whole says so.
-std::string trade_markdown(const std::vector<SceneRows>& scenes);
+/// Markdown: the reference and a row for each setting; the presets beside their bounds; and what the
+/// search for exact rest changes. A scene that is not whole says so.
+std::string trade_markdown(const SceneRows& compared);
 
-/// A line for each setting of each scene. The number of the scene, from 1, comes first.
-std::string trade_csv(const std::vector<SceneRows>& scenes);
+/// A line for each setting.
+std::string trade_csv(const SceneRows& compared);
 
 }  // namespace grainsweep::bench

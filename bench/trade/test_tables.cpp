@@ -32,7 +32,7 @@ Scene small_scene() {
 }
 
 std::string markdown_of(const Scene& scene) {
-  return trade_markdown({{&scene, compare_settings(scene)}});
+  return trade_markdown({&scene, compare_settings(scene)});
 }
 
 TEST_CASE("a difference has a sign, its error, and a dash where there is none") {
@@ -47,7 +47,7 @@ TEST_CASE("the tables tell reference, certificates, differences and bounds that 
   CHECK_THAT(text, Contains("2 of 2 beds are certified"));
   CHECK_THAT(text, Contains("| **balanced** | 2 | 2 of 2 | 3.00 | 1.00 | -0.00150 +- 0.00000 | "
                             "-0.1000 +- 0.0000 | - | +0.000 +- 0.000 | 0.9950 | front |"));
-  CHECK_THAT(text, Contains("| a scene | `balanced` | -0.00150 +- 0.00000 | 0.0020 | "
+  CHECK_THAT(text, Contains("| `balanced` | -0.00150 +- 0.00000 | 0.0020 | "
                             "-0.1000 +- 0.0000 | 0.050 | no |"));
   CHECK_THAT(text, !Contains("not finished"));
 }
@@ -61,8 +61,14 @@ TEST_CASE("a bound that holds is said to hold") {
 TEST_CASE("exact beds stand beside those they began from") {
   Scene scene = small_scene();
   scene.settings[1].parts["preset"] = "begun";
-  CHECK_THAT(markdown_of(scene), Contains("| a scene | `balanced` | 2 of 2 | 2 | "
+  CHECK_THAT(markdown_of(scene), Contains("| `balanced` | 2 of 2 | 2 | "
                                           "+0.00150 +- 0.00000 | +0.1000 +- 0.0000 |"));
+}
+
+TEST_CASE("a scene without bounds and exact beds has no table of them") {
+  Scene scene = small_scene();
+  scene.settings[1].bound.reset();
+  CHECK_THAT(markdown_of(scene), !Contains("bound") && !Contains("What the search"));
 }
 
 TEST_CASE("a scene that is not whole says so") {
@@ -75,9 +81,9 @@ TEST_CASE("the table of the picture has a line for each setting, under its colum
   Scene scene = small_scene();
   scene.settings[0].solid_fraction = {{1, 0.75}, {2, 0.75}};
   scene.settings[1].solid_fraction = {{1, 0.5}, {2, 0.5}};
-  const std::string text = trade_csv({{&scene, compare_settings(scene)}});
-  CHECK_THAT(text, Contains("number,scene,accuracy,preset,pairs,made,settled,cpu_seconds,"));
-  CHECK_THAT(text, Contains("\n1,a scene,balanced,balanced,2,2,2,3,1,-0.25,0,-0."));
+  const std::string text = trade_csv({&scene, compare_settings(scene)});
+  CHECK_THAT(text, Contains("scene,accuracy,preset,pairs,made,settled,cpu_seconds,"));
+  CHECK_THAT(text, Contains("\na scene,balanced,balanced,2,2,2,3,1,-0.25,0,-0."));
   CHECK(std::count(text.begin(), text.end(), '\n') == 3);
 }
 

@@ -1,29 +1,23 @@
-// The trade of speed for accuracy: the tables of scenes that bench/trade.sh has settled.
+// The trade of speed for accuracy: the tables of a scene that bench/trade.sh has settled.
 //
-//   bench_trade TABLES.md TABLE.csv FOLDER...          a folder for each scene
+//   bench_trade FOLDER TABLES.md TABLE.csv
 #include <cstdio>
-#include <deque>
 #include <exception>
-#include <vector>
 
 #include "bench/trade/tables.hpp"
 #include "runner/store/files.hpp"
 
 int main(int argc, char** argv) {
   using namespace grainsweep;
-  if (argc < 4) {
-    std::fprintf(stderr, "usage: bench_trade TABLES.md TABLE.csv FOLDER...\n");
+  if (argc != 4) {
+    std::fprintf(stderr, "usage: bench_trade FOLDER TABLES.md TABLE.csv\n");
     return 2;
   }
   try {
-    std::deque<bench::Scene> scenes;  // whose settings stay where they are
-    std::vector<bench::SceneRows> rows;
-    for (int k = 3; k < argc; ++k) {
-      const bench::Scene& scene = scenes.emplace_back(bench::read_scene(argv[k]));
-      rows.push_back({&scene, bench::compare_settings(scene)});
-    }
-    replace_file(argv[1], bench::trade_markdown(rows));
-    replace_file(argv[2], bench::trade_csv(rows));
+    const bench::Scene scene = bench::read_scene(argv[1]);
+    const bench::SceneRows compared{&scene, bench::compare_settings(scene)};
+    replace_file(argv[2], bench::trade_markdown(compared));
+    replace_file(argv[3], bench::trade_csv(compared));
   } catch (const std::exception& error) {
     std::fprintf(stderr, "bench_trade: %s\n", error.what());
     return 1;
