@@ -1,12 +1,16 @@
+#include <algorithm>
 #include <cmath>
 
 #include <catch2/catch.hpp>
 
 #include "engine/narrow/clip.hpp"
+#include "tests/support/draw.hpp"
 #include "tests/support/shapes.hpp"
 
 namespace grainsweep {
 namespace {
+
+using testing::Draw;
 
 std::int32_t face_towards(const ConvexShape& shape, const Vector& direction) {
   std::int32_t face = 0;
@@ -62,6 +66,56 @@ TEST_CASE("a cube beside a face, or higher above it than the margin, has no poin
   const double side = height_of(cube);
   CHECK(on_upper_face({cube, cube, above(1.5 * side, side + 0.01)}).empty());
   CHECK(on_upper_face({cube, cube, above(0, side + 0.11)}).empty());
+}
+
+/// Whether a point lies within the sides of an upright prism, up to 1e-12 d.
+bool is_within(const ConvexShape& prism, const Matrix& turn, const Vector& centre,
+               const Vector& x) {
+  const Vector seen = turn.transpose() * (x - centre);
+  return std::all_of(prism.faces.begin(), prism.faces.end(), [&](const Face& face) {
+    return std::abs(face.normal.z()) > 0.5 || face.normal.dot(seen) <= face.offset + 1e-12;
+  });
+}
+
+TEST_CASE(
+    "faces of many sides touch at each other's corners that lie above, and where edges cross") {
+  Draw draw(41);
+  int crossings = 0, corners = 0;
+  for (const int sides : {3, 8, 32, 60}) {
+    const ConvexShape shape = testing::prism(sides, 0.5);
+    for (int k = 0; k < 200; ++k) {
+      const double gap = draw.uniform(-0.05, 0.05);
+      const Vector centre(draw.uniform(-0.7, 0.7), draw.uniform(-0.7, 0.7), height_of(shape) + gap);
+      const Matrix turn(Eigen::AngleAxisd(draw.uniform(0, 6), Vector::UnitZ()));
+      const std::vector<ContactPoint> points = on_upper_face({shape, shape, {centre, turn, 1, 1}});
+      std::size_t expected = 0;
+      for (const Vector& vertex : shape.vertices) {
+        const Vector upper = centre + turn * vertex;
+        if (vertex.z() > 0) expected += is_within(shape, turn, centre, vertex) ? 1 : 0;
+        if (vertex.z() < 0)
+          expected += is_within(shape, Matrix::Identity(), {0, 0, 0}, upper) ? 1 : 0;
+      }
+      corners += static_cast<int>(expected);
+      std::size_t crossed = 0;
+      for (const ContactPoint& point : points) {
+        CHECK(point.gap == Approx(gap).margin(1e-12));
+        CHECK(is_within(shape, Matrix::Identity(), {0, 0, 0}, point.position));
+        CHECK(is_within(shape, turn, centre, point.position));
+        const bool is_corner =
+            std::any_of(shape.vertices.begin(), shape.vertices.end(), [&](const Vector& vertex) {
+              const Vector from_a = vertex - point.position;
+              const Vector from_b = centre + turn * vertex - point.position;
+              return std::min(from_a.head<2>().norm(), from_b.head<2>().norm()) < 1e-9;
+            });
+        crossed += is_corner ? 0 : 1;
+      }
+      CHECK(points.size() - crossed == expected);
+      CHECK(crossed % 2 == 0);  // each polygon enters the other as often as it leaves it
+      crossings += static_cast<int>(crossed);
+    }
+  }
+  CHECK(crossings > 500);
+  CHECK(corners > 1000);
 }
 
 TEST_CASE("the middle of the shortest line between two crossing edges lies midway between them") {
