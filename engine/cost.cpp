@@ -74,15 +74,20 @@ double unevenness_factor(const PackingSpec& spec, double grains) {
   return 1.0;
 }
 
-/// Polyhedra, and spheres among them, over spheres of the same number.
+/// Polyhedra, and spheres among them, over spheres of the same number. Flat and long grains have
+/// more neighbours in reach, and take more rounds to come to rest.
 double shape_factor(const ShapeSpec& shape, Creep creep) {
   if (is_sphere(shape)) return creep == Creep::loose ? 1.4 : 0.5;
+  const ShapeExtent extent = extent_of(shape);
+  const double slender = extent.circumradius / extent.inradius;
   if (std::holds_alternative<PinacoidSize>(shape)) {
-    return creep == Creep::loose ? 2.6 : creep == Creep::usual ? 2.1 : 1.3;
+    const double stout = creep == Creep::loose ? 2.2 : creep == Creep::usual ? 1.85 : 1.3;
+    return stout * std::pow(std::max(1.0, slender / 2.0), creep == Creep::strict ? 0.3 : 0.6);
   }
   constexpr double usual_corners = 20.0;  // of other shapes; more of them cost more
   const auto corners = static_cast<double>(corner_count(shape));
-  return (creep == Creep::loose ? 4.6 : 2.6) * std::sqrt(std::max(1.0, corners / usual_corners));
+  return (creep == Creep::loose ? 3.6 : 2.6) *
+         std::pow(std::max(1.0, corners / usual_corners), 0.6) * std::max(1.0, slender / 5.0);
 }
 
 /// The mean over the grains.
