@@ -32,6 +32,19 @@ TEST_CASE("the cost of a packing grows with its grains and its accuracy") {
   CHECK(seconds(exact) > seconds(finer));
 }
 
+TEST_CASE("exact rest costs less in a tower than in a bed as wide as high") {
+  PackingSpec wide = thousand_spheres(), tower = wide;
+  wide.box.length = wide.box.width = 10.0;
+  tower.box.length = tower.box.width = 5.0;
+  const auto of_search = [](PackingSpec spec) {
+    spec.accuracy = *preset("exact");
+    const double whole = seconds(spec);
+    spec.accuracy.rest = Rest::in_steps;
+    return whole - seconds(spec);
+  };
+  CHECK(of_search(wide) > 2 * of_search(tower));
+}
+
 // Kinds as of bench/costs.sh.
 TEST_CASE("polyhedra and hulls of many corners cost more than spheres of one size") {
   PackingSpec spec = thousand_spheres(), pinacoids = spec, cubes = spec, round = spec;
