@@ -17,8 +17,8 @@ struct SceneRows {
 /// "-0.0012 +- 0.0002"; "-" if there is none.
 std::string difference_text(const MeanError& difference, int decimals);
 
-/// Markdown: the reference and a row for each setting; the presets beside their bounds; and what the
-/// search for exact rest changes. A scene that is not whole says so.
+/// Markdown: the reference and a row for each setting; the presets beside their bounds; and what
+/// the search for exact rest changes. A scene that is not whole says so.
 std::string trade_markdown(const SceneRows& compared);
 
 /// A line for each setting.
