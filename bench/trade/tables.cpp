@@ -94,11 +94,10 @@ std::string bound_line(const Compared& row) {
   const ProtocolBias& bound = *row.setting->bound;
   const bool holds = std::abs(row.solid_fraction.mean) <= bound.solid_fraction &&
                      std::abs(row.coordination.mean) <= bound.coordination;
-  return table_row({"`" + row.setting->name + "`",
-                    difference_text(row.solid_fraction, solid_fraction_decimals),
-                    fixed(bound.solid_fraction, 4),
-                    difference_text(row.coordination, coordination_decimals),
-                    fixed(bound.coordination, 3), holds ? "yes" : "no"});
+  return table_row(
+      {"`" + row.setting->name + "`", difference_text(row.solid_fraction, solid_fraction_decimals),
+       fixed(bound.solid_fraction, 4), difference_text(row.coordination, coordination_decimals),
+       fixed(bound.coordination, 3), holds ? "yes" : "no"});
 }
 
 /// Empty without a preset that has bounds.
@@ -129,12 +128,11 @@ std::string exact_table(const SceneRows& compared) {
 std::string csv_row(const std::string& scene, const Compared& row) {
   const Setting& setting = *row.setting;
   const auto two = [](const MeanError& of) { return cell(of.mean) + "," + cell(of.error); };
-  return cell(scene) + "," + cell(setting.name) + "," + cell(setting.preset) +
-         "," + cell(row.solid_fraction.n) + "," + cell(setting.made) + "," + cell(setting.settled) +
-         "," + cell(row.cpu_seconds) + "," + cell(row.relative_cost) + "," +
-         two(row.solid_fraction) + "," + two(row.coordination) + "," + two(row.lambda) + "," +
-         two(row.force_square) + "," + cell(row.contact_ratio) + "," + cell(row.on_front ? 1 : 0) +
-         "\n";
+  return cell(scene) + "," + cell(setting.name) + "," + cell(setting.preset) + "," +
+         cell(row.solid_fraction.n) + "," + cell(setting.made) + "," + cell(setting.settled) + "," +
+         cell(row.cpu_seconds) + "," + cell(row.relative_cost) + "," + two(row.solid_fraction) +
+         "," + two(row.coordination) + "," + two(row.lambda) + "," + two(row.force_square) + "," +
+         cell(row.contact_ratio) + "," + cell(row.on_front ? 1 : 0) + "\n";
 }
 
 }  // namespace
