@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/dynamics/sleep.hpp"
+#include "engine/scene/bed.hpp"
 #include "engine/scene/size_distribution.hpp"
 #include "engine/shape/given_shape.hpp"
 #include "engine/shape/mixture.hpp"
@@ -142,19 +143,18 @@ double rounds_factor(const PackingSpec& spec, double grains, double layers) {
 }
 
 /// Grains in the smallest of the sections through the middle of a bed along its axes.
-double smallest_section(const PackingSpec& spec, double grains, double solid_height) {
-  constexpr double solid_fraction = 0.6;  // about that of all settled beds
-  const double height = solid_height / solid_fraction, area = spec.box.floor_area();
-  const double section = area * height / std::max({spec.box.length, spec.box.width, height});
-  return section / std::pow(area * height / grains, 2.0 / 3.0);
+double smallest_section(const Box& box, double grains, double solid_volume) {
+  const double height = usual_height(box, solid_volume), volume = box.floor_area() * height;
+  const double section = volume / std::max({box.length, box.width, height});
+  return section / std::pow(volume / grains, 2.0 / 3.0);
 }
 
 /// Of the search for exact rest: rounds, more of them in larger beds, that each factor the bed's
 /// stiffness, which takes the longer the larger the sections are that cut it.
-double exact_seconds(const PackingSpec& spec, double grains, double solid_height) {
+double exact_seconds(const PackingSpec& spec, double grains, double solid_volume) {
   if (spec.accuracy.rest != Rest::exact) return 0.0;
   constexpr double section_of_bed = 85.0;  // of 2000 grains at W = 5 d
-  const double section = smallest_section(spec, grains, solid_height);
+  const double section = smallest_section(spec.box, grains, solid_volume);
   return 7e-10 * std::pow(grains, 3.0) * std::pow(section / section_of_bed, 1.5);
 }
 
@@ -179,8 +179,8 @@ double bytes_of_grain(const PackingSpec& spec) {
 // it 1.3 times, grains that turn 0.85 to 1.1 and 1.1 times.
 Cost estimate_cost(const PackingSpec& spec) {
   const auto grains = static_cast<double>(grain_count(spec));
-  const double cubes = grains * moments_of(spec).mean_cube, area = spec.box.floor_area();
-  const double layers = cubes / area + 1.0;
+  const double cubes = grains * moments_of(spec).mean_cube;
+  const double layers = cubes / spec.box.floor_area() + 1.0;
   const double number_size = spec.accuracy.precision == Precision::f32 ? 1.0 : 1.7;
   const bool turn = !is_sphere(spec.shape);
   const double seconds = turn ? 68e-9 : 4.0 * 2.05e-9;
@@ -188,7 +188,7 @@ Cost estimate_cost(const PackingSpec& spec) {
                              : unevenness_factor(spec, grains) * memory_factor(grains) *
                                    rounds_factor(spec, grains, layers);
   return {grains * number_size * factor * usual_iterations(spec, layers) * seconds +
-              exact_seconds(spec, grains, pi / 6.0 * cubes / area),
+              exact_seconds(spec, grains, pi / 6.0 * cubes),
           8e6 + grains * bytes_of_grain(spec)};
 }
 

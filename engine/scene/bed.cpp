@@ -82,10 +82,14 @@ Record<double> record_of(const Quaternion& q) { return {q.x(), q.y(), q.z(), q.w
 
 }  // namespace
 
-int subdomain_axis(const Box& box, double solid_volume) {
-  constexpr double flat = 1.5;            // times as long as high: worth other subdomains
+double usual_height(const Box& box, double solid_volume) {
   constexpr double solid_fraction = 0.6;  // about that of all settled beds
-  const double height = solid_volume / (solid_fraction * box.floor_area());
+  return solid_volume / (solid_fraction * box.floor_area());
+}
+
+int subdomain_axis(const Box& box, double solid_volume) {
+  constexpr double flat = 1.5;  // times as long as high: worth other subdomains
+  const double height = usual_height(box, solid_volume);
   const int longer = box.length >= box.width ? 0 : 1;
   return std::max(box.length, box.width) > flat * height ? longer : 2;
 }

@@ -38,6 +38,9 @@ constexpr std::size_t max_subdomains(std::size_t grains) {
   return grains < large_bed_grains<Kind> ? 1 : grains / Kind::subdomain_grains + 1;
 }
 
+/// Height to which grains of that volume, d^3, usually settle, d.
+double usual_height(const Box& box, double solid_volume);
+
 /// Axis along which a large bed is cut into subdomains: of a flat bed the longer one of x and y, 0
 /// or 1; of others upwards, 2. `solid_volume`: of all grains, d^3.
 int subdomain_axis(const Box& box, double solid_volume);

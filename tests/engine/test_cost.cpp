@@ -76,8 +76,14 @@ TEST_CASE("a mixture costs what its components do, weighted by their numbers") {
   pinacoids.shape = PinacoidSize{};
   mixed.shape = Mixture{{{0.5, PinacoidSize{}}, {0.5, PinacoidSize{}}}};
   CHECK(seconds(mixed) == Approx(seconds(pinacoids)));
-  mixed.shape = Mixture{{{0.5, PinacoidSize{}}, {0.5, SphereShape{}}}};
-  CHECK(seconds(mixed) < 0.9 * seconds(pinacoids));
+  PackingSpec flat = pinacoids, balls = pinacoids;
+  flat.shape = PinacoidSize{1, 1, 0.5};
+  mixed.shape = Mixture{{{0.5, pinacoids.shape}, {0.5, flat.shape}}, ShareBy::number};
+  CHECK(seconds(mixed) == Approx(0.5 * seconds(pinacoids) + 0.5 * seconds(flat)));
+  balls.shape = Mixture{{{0.5, SphereShape{}}, {0.5, SphereShape{}}}};
+  CHECK(seconds(balls) < 0.7 * seconds(pinacoids));
+  mixed.shape = Mixture{{{0.5, pinacoids.shape}, {0.5, SphereShape{}}}, ShareBy::number};
+  CHECK(seconds(mixed) == Approx(0.5 * seconds(pinacoids) + 0.5 * seconds(balls)));
 }
 
 TEST_CASE("grains of several sizes cost more than as many of one, however the sizes are given") {
