@@ -11,7 +11,7 @@ readonly log=$build/build.log
 build_grainsweep() {
   if [[ ! -x $build/runner/grainsweep ]]; then
     printf 'run.sh: building grainsweep in %s, once, a minute or two\n' "$build" >&2
-  elif ! cmake --build "$build" --target grainsweep -- -n 2>/dev/null | grep -q 'no work to do'; then
+  elif ! cmake --build "$build" --target grainsweep -- -n 2>/dev/null | grep 'no work to do' >/dev/null; then
     printf 'run.sh: sources have changed, building what depends on them\n' >&2
   fi
   (

@@ -31,7 +31,7 @@ for page in "${pages[@]}"; do
     [[ -z $target ]] || file=$(dirname "$page")/$target
     if [[ ! -e $file ]]; then
       report "$page: leads to $target, which does not exist"
-    elif [[ -n $heading ]] && ! headings_of "$file" | grep -qxF -- "$heading"; then
+    elif [[ -n $heading ]] && ! headings_of "$file" | grep -xF -- "$heading" >/dev/null; then
       report "$page: leads to the heading #$heading, which $file does not have"
     fi
   done < <(grep -oE '\]\([^) ]+\)' "$page" | sed -E 's/^\]\((.*)\)$/\1/' || true)

@@ -21,7 +21,7 @@ dpkg-deb -x "$deb" root
 (cd / && PYTHONPATH=$here/root/usr/lib/python3/dist-packages PYTHONDONTWRITEBYTECODE=1 \
   /usr/bin/python3 -c "import grainsweep; assert grainsweep.__file__.startswith('$here')") || fail "no Python reader"
 grep -q "^version: $version\$" root/usr/share/doc/grainsweep/CITATION.cff || fail "CITATION.cff is of another version"
-zcat root/usr/share/doc/grainsweep/changelog.gz | grep -q "^## $version " || fail "CHANGELOG.md lacks $version"
+zcat root/usr/share/doc/grainsweep/changelog.gz | grep "^## $version " >/dev/null || fail "CHANGELOG.md lacks $version"
 for command in run collect report; do
   zcat "root/usr/share/man/man1/grainsweep-$command.1.gz" >page.1
   "$program" $command --help | grep -oE -- '--[a-z][a-z-]+' | sort -u >options

@@ -31,7 +31,7 @@ hash_of() {
 
 isas=()
 for isa in sse2 avx2 avx512; do
-  ! "$program" doctor | grep '^instruction sets' | grep -q "$isa[,;]" || isas+=("$isa")
+  ! "$program" doctor | grep '^instruction sets' | grep "$isa[,;]" >/dev/null || isas+=("$isa")
 done
 
 # kill_times COUNT: kills a run so often before it ends; false if it came to its end.

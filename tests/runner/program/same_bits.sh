@@ -18,7 +18,7 @@ readonly packings=8
 
 isas=()
 for isa in sse2 avx2 avx512; do
-  ! "$program" doctor | grep '^instruction sets' | grep -q "$isa[,;]" || isas+=("$isa")
+  ! "$program" doctor | grep '^instruction sets' | grep "$isa[,;]" >/dev/null || isas+=("$isa")
 done
 
 # Each number of threads with another instruction set, in turn.
