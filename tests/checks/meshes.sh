@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # gmsh fills the void between exported grains and their container with tetrahedra, for each treatment
 # of contacts: it refuses surfaces that cross or touch, and what it fills is the container less the
-# grains. 200 spheres with caps take as long as all others and stand alone.
-# usage: meshes.sh GRAINSWEEP caps|others
+# grains. Spheres with caps take as long as all others and stand alone. GRAINSWEEP_FAULTS=full: thrice
+# the grains. usage: meshes.sh GRAINSWEEP caps|others
 set -euo pipefail
 grainsweep=$(realpath "${1:?usage: meshes.sh GRAINSWEEP caps|others}")
 which=${2:?usage: meshes.sh GRAINSWEEP caps|others}
@@ -15,13 +15,14 @@ if ! command -v gmsh >/dev/null || ! /usr/bin/python3 -c 'import numpy' 2>/dev/n
   exit 77
 fi
 
-spheres='{ "label": "spheres", "set": { "fill.grains": 200 } }'
-others='{ "label": "cubes", "set": { "shape": "cube", "fill.grains": 100 } },
+[ "${GRAINSWEEP_FAULTS:-}" = full ] && grains=(200 100) side=5 || grains=(65 35) side=4
+spheres='{ "label": "spheres", "set": { "fill.grains": '${grains[0]}' } }'
+others='{ "label": "cubes", "set": { "shape": "cube", "fill.grains": '${grains[1]}' } },
         { "label": "periodic", "set": { "fill.grains": 30, "box.length": 3, "box.width": 3, "box.x": "periodic" } }'
 [ "$which" = caps ] && blocks=$spheres || blocks="$spheres, $others"
 cat >sweep.json <<JSON
 { "name": "sweep", "seed": 5,
-  "base": { "accuracy": "fast", "box": { "length": 5, "width": 5, "x": "walls", "y": "walls" },
+  "base": { "accuracy": "fast", "box": { "length": $side, "width": $side, "x": "walls", "y": "walls" },
             "measure": { "exclude_floor": 0.5, "exclude_surface": 0.5 } },
   "sweep": [ $blocks ] }
 JSON

@@ -6,8 +6,7 @@ set -euo pipefail
 cd -P "${1:-$(dirname "$0")/../..}"
 readonly build=${2:-build/tidy}
 
-(($# > 1)) ||
-  cmake --preset release -B "$build" -DCMAKE_UNITY_BUILD_BATCH_SIZE=25 --log-level=WARNING >/dev/null
+(($# > 1)) || cmake --preset release -B "$build" --log-level=WARNING >/dev/null
 if [[ ! -f $build/compile_commands.json ]]; then
   printf 'tidy: no %s/compile_commands.json\n' "$build" >&2
   exit 1

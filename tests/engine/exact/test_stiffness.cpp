@@ -55,10 +55,13 @@ Eigen::MatrixXd matrix_of(const Net& net) {
     matrix.diagonal().segment(static_cast<Eigen::Index>(3 * i), 3).setConstant(net.ground[i]);
   }
   for (const Spring& spring : net.springs) {
-    Eigen::VectorXd column = Eigen::VectorXd::Zero(size);
-    column.segment(3 * spring.a, 3) = -spring.along;
-    if (spring.b != Spring::fixed) column.segment(3 * spring.b, 3) = spring.along;
-    matrix += spring.stiffness * column * column.transpose();
+    const Eigen::Matrix3d block = spring.stiffness * spring.along * spring.along.transpose();
+    const Eigen::Index a = 3 * spring.a, b = 3 * spring.b;
+    matrix.block<3, 3>(a, a) += block;
+    if (spring.b == Spring::fixed) continue;
+    matrix.block<3, 3>(b, b) += block;
+    matrix.block<3, 3>(a, b) -= block;
+    matrix.block<3, 3>(b, a) -= block;
   }
   return matrix;
 }

@@ -196,8 +196,8 @@ int ideal_packings(const std::vector<double>& widths, double sd, const FitWish& 
   }
 }
 
-TEST_CASE(
-    "wishes of fits are met in 93 %, by at most half more packings than the best share takes") {
+TEST_CASE("wishes of fits are met in 93 %, by at most half more packings than the best share takes",
+          "[slow]") {
   constexpr int repetitions = 1000;
   constexpr double sd = 0.004;
   std::mt19937_64 random(20221124);
