@@ -11,7 +11,11 @@ namespace grainsweep {
 
 namespace {
 
-constexpr double most_factorisations = 600.0;
+// A bed that still sinks gets nearer: it is given up once it has hardly sunk for so many rounds,
+// mean of the grains, d, and at the latest after six times as many.
+constexpr int rounds_to_sink = 600;
+constexpr double has_sunk = 1e-4;
+constexpr double most_factorisations = 6.0 * rounds_to_sink;
 
 /// What a round takes besides its factorisation, in multiplications of one for each grain: it goes
 /// through all links up to seven times.
@@ -75,9 +79,10 @@ class InteriorPoint {
     const double most = std::min(most_factorisations, limits.operations / of_a_round);
     const double usual = std::max(30.0, std::sqrt(static_cast<double>(grains())));  // rounds
     if (most < usual) return failed("it would take too long", rest);
+    double height = mean_height();
     while (!is_found()) {
       if (!limits.keep_going()) return failed("cancelled", rest);
-      if (rest.rounds >= most) {
+      if (rest.rounds >= most || (is_time_to_look(rest.rounds) && !still_sinks(height))) {
         return failed("no state without motion was found in time", rest);
       }
       if (has_diverged()) return failed("forces grow without bound", rest);
@@ -214,6 +219,23 @@ class InteriorPoint {
     for (const Link& link : links_) scale = std::max(scale, link.force);
     return product_ <= last_product && reached_ > 0.9 &&
            largest(net_forces()) < nearly_balanced * scale;
+  }
+
+  static bool is_time_to_look(std::int64_t rounds) {
+    return rounds > 0 && rounds % rounds_to_sink == 0;
+  }
+  /// Whether the bed has sunk since its grains were at `height`, which becomes that of now.
+  bool still_sinks(double& height) const {
+    const double before = std::exchange(height, mean_height());
+    return before - height > has_sunk;
+  }
+  double mean_height() const {
+    double sum = 0.0, weight = 0.0;
+    for (std::size_t i = 0; i < grains(); ++i) {
+      sum += mass(i) * bed_.position[i].z;
+      weight += mass(i);
+    }
+    return sum / weight;
   }
 
   /// No wedge multiplies the weight of a whole bed so often.
