@@ -9,12 +9,12 @@
 namespace grainsweep {
 namespace {
 
-constexpr std::array kinds = {"simple", "double", "triple"};
+constexpr std::array kind_names = {"simple", "double", "triple"};
 
 std::string kinds_csv(const Axes& axes) {
   std::vector<std::string> header = {"all", "group", "x"};
   for (const char* of : {"contacts_", "force_"}) {
-    for (const char* kind : kinds) {
+    for (const char* kind : kind_names) {
       header.push_back(std::string(of) + kind);
       header.push_back(header.back() + "_error");
     }
@@ -37,8 +37,8 @@ std::string kinds_csv(const Axes& axes) {
 
 std::string kinds_panel(const std::string& of) {
   std::vector<std::string> parts;
-  for (std::size_t k = 0; k < kinds.size(); ++k) {
-    const std::string column = of + kinds[k];
+  for (std::size_t k = 0; k < kind_names.size(); ++k) {
+    const std::string column = of + kind_names[k];
     parts.push_back(plot_part(
         {"contacts.csv", "all", 1, "x", column, column + "_error", "points ls " + cell(k + 1)}));
   }
