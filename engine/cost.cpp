@@ -155,7 +155,7 @@ double exact_seconds(const PackingSpec& spec, double grains, double solid_volume
   if (spec.accuracy.rest != Rest::exact) return 0.0;
   constexpr double section_of_bed = 85.0;  // of 2000 grains at W = 5 d
   const double section = smallest_section(spec.box, grains, solid_volume);
-  return 7e-10 * std::pow(grains, 3.0) * std::pow(section / section_of_bed, 1.5);
+  return 1.1e-8 * std::pow(grains, 2.6) * std::pow(section / section_of_bed, 1.5);
 }
 
 /// Pairs of a sphere's that are listed in a fall, by what engine/dynamics/stages.cpp calls near and
