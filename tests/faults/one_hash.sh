@@ -29,10 +29,7 @@ hash_of() {
   { values_of "$1" | without_numbers | sort && beds_in "$1"; } | sha256sum | cut -c1-16
 }
 
-isas=()
-for isa in sse2 avx2 avx512; do
-  ! "$program" doctor | grep '^instruction sets' | grep "$isa[,;]" >/dev/null || isas+=("$isa")
-done
+find_isas
 
 # kill_times COUNT: kills a run so often before it ends; false if it came to its end.
 kill_times() {

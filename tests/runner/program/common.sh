@@ -19,6 +19,16 @@ skip() {
   exit 77
 }
 
+# Sets `isas` to the instruction sets that this processor has.
+find_isas() {
+  local isa said
+  said=$("$program" doctor)
+  isas=()
+  for isa in sse2 avx2 avx512; do
+    ! grep -q "^instruction sets.*$isa[,;]" <<<"$said" || isas+=("$isa")
+  done
+}
+
 # expect_code CODE COMMAND...: runs it, output in out.txt and error.txt.
 expect_code() {
   local expected=$1 code=0

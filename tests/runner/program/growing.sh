@@ -9,8 +9,10 @@ cat >sweep.json <<'JSON'
   "sweep": [ { "label": "grows", "grid": { "box.width": [3, 4] } },
              { "label": "does not", "replicates": 2, "set": { "box.width": 5 } } ] }
 JSON
-"$program" validate sweep.json | grep 'at least 14 packings' >/dev/null
-"$program" plan sweep.json | grep 'at most 62 packings' >/dev/null
+expect_code 0 "$program" validate sweep.json
+expect_text out.txt 'at least 14 packings'
+expect_code 0 "$program" plan sweep.json
+expect_text out.txt 'at most 62 packings'
 
 # same FOLDER [ONE]: it has the tables of one run on one thread.
 same() {
@@ -46,13 +48,15 @@ expect_text error.txt 'settled as "fast" such packings may be off by 0.003'
 
 # A fit whose packings go where they gain most: the same wherever and however often it is run.
 sed 's/"solid_fraction": 0.009/"fit": { "phi_bulk": 0.02 }/; s/\[3, 4\]/[2.5, 3, 4]/' sweep.json >fit.json
-"$program" plan fit.json | grep 'Next: 18 packings: 6 of grows W = 2.5, 6 of grows W = 3, 6 of grows W = 4' >/dev/null
+expect_code 0 "$program" plan fit.json
+expect_text out.txt 'Next: 18 packings: 6 of grows W = 2.5, 6 of grows W = 3, 6 of grows W = 4'
 expect_code 0 "$program" run fit.json --out fit-one --threads 1 --no-report
 # At such narrow gaps the solid fraction is no straight line.
 expect_text out.txt "Errors as asked for (95 %) in 0 of 1 fit" "in 1 more the packings scatter as little"
 packings=$(($(wc -l <fit-one/packings.csv) - 1))
 ((packings > 20 && packings < 92)) || fail "$packings packings: the fit grows, not to the most"
-"$program" plan fit.json --out fit-one | grep 'Nothing comes next' >/dev/null
+expect_code 0 "$program" plan fit.json --out fit-one
+expect_text out.txt 'Nothing comes next'
 expect_code 0 "$program" run fit.json --out fit-two --threads 2 --no-report --quiet
 same fit-two fit-one
 for shard in 2 3 1; do
@@ -62,7 +66,8 @@ same fit-shards fit-one
 start "$program" run fit.json --out fit-killed --threads 1 --no-report
 wait_until has_packings fit-killed 22 || fail "there was nothing to kill: $(cat said.txt)"
 end_runner KILL
-"$program" plan fit.json --out fit-killed | grep 'Next: ' >/dev/null
+expect_code 0 "$program" plan fit.json --out fit-killed
+expect_text out.txt 'Next: '
 expect_code 0 "$program" run fit.json --out fit-killed --threads 1 --no-report --quiet
 same fit-killed fit-one
 sed 's/\[2.5, 3, 4\]/[3]/' fit.json >narrow.json

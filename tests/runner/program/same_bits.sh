@@ -16,10 +16,7 @@ cat >sweep.json <<'JSON'
 JSON
 readonly packings=8
 
-isas=()
-for isa in sse2 avx2 avx512; do
-  ! "$program" doctor | grep '^instruction sets' | grep "$isa[,;]" >/dev/null || isas+=("$isa")
-done
+find_isas
 
 # Each number of threads with another instruction set, in turn.
 number=0 made=()
