@@ -130,6 +130,12 @@ constexpr auto dynamic = with_fall(dynamic_fall, heavy_ball);
 
 // ---- polyhedra ----
 
+/// A polyhedron that turns between its neighbours is turned back, or on, by about the weight on it
+/// times d, which a step sees only after it. Steps of 0.2 sqrt(d/g), and halves of them, are calm up
+/// to heights of 50 d. In a bed of 90 d grains swing with up to 0.5 m g d each, through all stages
+/// that follow, and pack denser by 0.012.
+constexpr double load_of_turning = 2.0;
+
 constexpr StageRule turning[] = {
     // As that of spheres.
     {.name = "look",
@@ -157,6 +163,7 @@ constexpr StageRule turning[] = {
      .done_after = 0.4},
     // Full steps.
     {.name = "creep",
+     .most_load = load_of_turning,
      .inertia = Inertia::damped,
      .path = 0.5,
      .correction = 0.1,
@@ -171,6 +178,7 @@ constexpr StageRule turning[] = {
     // steps to die.
     {.name = "slow",
      .step = 0.5,
+     .most_load = load_of_turning,
      .inertia = Inertia::damped,
      .path = 0.125,
      .correction = 0.1,
@@ -185,6 +193,7 @@ constexpr StageRule turning[] = {
     // down.
     {.name = "halt",
      .step = 0.25,
+     .most_load = load_of_turning,
      .correction = 0.5,
      .near = 0.015,
      .margin = 0.05,
@@ -196,6 +205,7 @@ constexpr StageRule turning[] = {
     // full ones do not end.
     {.name = "close",
      .step = 0.5,
+     .most_load = load_of_turning,
      .correction = 0.5,
      .near = 0.015,
      .margin = 0.05,
@@ -207,6 +217,7 @@ constexpr StageRule turning[] = {
     {.name = "quench",
      .end = StageEnd::rest,
      .step = 0.25,
+     .most_load = load_of_turning,
      .correction = 0.5,
      .near = 0.015,
      .margin = 0.05,
@@ -219,6 +230,7 @@ constexpr StageRule turning[] = {
     // As that of spheres: what is not balanced slides on until it meets new contacts.
     {.name = "ease",
      .step = 0.25,
+     .most_load = load_of_turning,
      .inertia = Inertia::damped,
      .path_of_gap = 0.1,
      .correction = 0.5,
@@ -278,6 +290,13 @@ int iterations_of(const Accuracy& accuracy, const StageRule& rule, double height
                                                   rule.rest_iterations * at_rest)));
 }
 
+/// Length of a step, sqrt(d/g).
+double step_of(const Accuracy& accuracy, const StageRule& rule, double height) {
+  const double most = std::sqrt(rule.most_load / height);
+  const bool is_loaded = rule.most_load > 0.0 && height > 0.0 && accuracy.step > most;
+  return rule.step * (is_loaded ? most : accuracy.step);
+}
+
 double momentum_of(const Accuracy& accuracy, Inertia inertia) {
   return inertia == Inertia::none ? 0.0 : inertia == Inertia::damped ? accuracy.momentum : 1.0;
 }
@@ -303,7 +322,7 @@ Stages stages_of<Polyhedron>(Protocol protocol) {
 
 StepSettings settings_of(const Accuracy& accuracy, const StageRule& rule, double height) {
   StepSettings s;
-  s.dt = rule.step * accuracy.step;
+  s.dt = step_of(accuracy, rule, height);
   s.momentum = momentum_of(accuracy, rule.inertia);
   s.correction = rule.correction;
   s.near = rule.near;

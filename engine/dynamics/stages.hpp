@@ -30,6 +30,9 @@ struct StageRule {
   const char* name = "";
   StageEnd end = StageEnd::steps;
   double step = 1.0;  ///< in Accuracy::step
+  /// Most that the square of Accuracy::step times the height of the bed is taken for, d^2/g: in
+  /// higher beds steps are shorter. 0: any.
+  double most_load = 0.0;
   Inertia inertia = Inertia::none;
   // A step that strays by less than one of these is solved:
   double path = 0.0;           ///< so many times Accuracy::path_tolerance

@@ -23,10 +23,10 @@ SphereBed column(int grains, int falling) {
 }
 
 TEST_CASE("grains sleep that lie deeper below the filling front than the depth of sleep") {
-  SphereBed bed = column(60, 40);
+  SphereBed bed = column(100, 65);
   CHECK(put_to_sleep(step_length, bed));
-  for (std::size_t i = 0; i < 60; ++i) {
-    CHECK(bed.is_asleep(i) == (bed.position[i].z < 40.0 - sleep_depth));
+  for (std::size_t i = 0; i < 100; ++i) {
+    CHECK(bed.is_asleep(i) == (bed.position[i].z < 65.0 - sleep_depth));
   }
   CHECK(bed.first_awake == 25);
   CHECK_FALSE(put_to_sleep(step_length, bed));  // again: none is new
