@@ -131,9 +131,9 @@ constexpr auto dynamic = with_fall(dynamic_fall, heavy_ball);
 // ---- polyhedra ----
 
 /// A polyhedron that turns between its neighbours is turned back, or on, by about the weight on it
-/// times d, which a step sees only after it. Steps of 0.2 sqrt(d/g), and halves of them, are calm up
-/// to heights of 50 d. In a bed of 90 d grains swing with up to 0.5 m g d each, through all stages
-/// that follow, and pack denser by 0.012.
+/// times d, which a step sees only after it. Steps of 0.2 sqrt(d/g), and halves of them, are calm
+/// up to heights of 50 d. In a bed of 90 d grains swing with up to 0.5 m g d each, through all
+/// stages that follow, and pack denser by 0.012.
 constexpr double load_of_turning = 2.0;
 
 constexpr StageRule turning[] = {
