@@ -131,15 +131,16 @@ double usual_iterations(const PackingSpec& spec, double layers) {
 
 /// Rounds of creep and rest that high beds of spheres take over those of low ones: few iterations
 /// hardly reach through many layers of a box, and many layers of many grains take more of them,
-/// too.
+/// too; at `balanced` those above the depth of sleep have slid on in the fall.
 double rounds_factor(const PackingSpec& spec, double grains, double layers) {
-  if (creep_of(spec.accuracy) == Creep::loose && !spec.box.is_tube) {
-    return std::pow(std::max(1.0, layers / 40.0), 0.8);
+  const Creep creep = creep_of(spec.accuracy);
+  if (creep == Creep::loose && !spec.box.is_tube) {
+    return std::pow(std::max(1.0, layers / 40.0), 0.25);
   }
   constexpr double many = 6e5;  // grains times layers
-  const double of_many = std::pow(std::max(1.0, grains * layers / many), 0.7);
-  if (creep_of(spec.accuracy) == Creep::strict || spec.box.is_tube) return of_many;
-  return of_many * std::pow(std::max(1.0, layers / 110.0), 1.2);
+  const bool has_slid = creep == Creep::usual && !spec.box.is_tube;
+  const double counted = has_slid ? std::min(layers, 1.5 * sleep_depth) : layers;
+  return std::pow(std::max(1.0, grains * counted / many), 0.7);
 }
 
 /// Grains in the smallest of the sections through the middle of a bed along its axes.
