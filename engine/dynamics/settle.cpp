@@ -57,6 +57,22 @@ struct Settling {
   const StageRule& rule() const { return stages[stage]; }
 };
 
+/// The smallest grain that turns, in the size of its shape.
+double smallest_turning(const SphereBed&) { return 1.0; }
+double smallest_turning(const PolyhedronBed& bed) {
+  double smallest = 1.0;
+  for (std::size_t i = 0; i < bed.grains(); ++i) {
+    if (bed.turns(i)) smallest = std::min(smallest, bed.scale(i));
+  }
+  return smallest;
+}
+
+/// Steps of the stage that the bed is in.
+template <class Kind, class Real>
+StepSettings settings_of(const Settling<Kind, Real>& s) {
+  return settings_of(s.accuracy, s.rule(), s.height, smallest_turning(s.bed));
+}
+
 /// Heaviest over lightest grain.
 double mass_ratio(const Grains& bed) {
   double least = bed.motion.front().w, most = least;
@@ -189,7 +205,7 @@ void enter(std::size_t stage, Settling<Kind, Real>& s) {
   if (wake(s.bed)) s.state.candidates.is_listed = false;
   if (stage == s.stages.size()) return;
   s.height = top_of(s.bed);
-  const StepSettings settings = settings_of(s.accuracy, s.rule(), s.height);
+  const StepSettings settings = settings_of(s);
   change_step(settings.dt / s.settings.dt, s.bed, s.state);
   s.settings = settings;
 }
@@ -234,7 +250,7 @@ void restore(std::string_view bytes, Settling<Kind, Real>& s) {
   if (const auto payload = unsealed(kind_of(s), bytes)) {
     StateReader reader(*payload);
     transfer(reader, s);
-    s.settings = settings_of(s.accuracy, s.rule(), s.height);
+    s.settings = settings_of(s);
   }
 }
 

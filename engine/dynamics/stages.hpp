@@ -30,8 +30,8 @@ struct StageRule {
   const char* name = "";
   StageEnd end = StageEnd::steps;
   double step = 1.0;  ///< in Accuracy::step
-  /// Most that the square of Accuracy::step times the height of the bed is taken for, d^2/g: in
-  /// higher beds steps are shorter. 0: any.
+  /// Most that the square of Accuracy::step times the height of the bed is taken for, d^2/g, over
+  /// the square of the smallest size: in higher beds steps are shorter. 0: any.
   double most_load = 0.0;
   Inertia inertia = Inertia::none;
   // A step that strays by less than one of these is solved:
@@ -63,8 +63,10 @@ using Stages = std::span<const StageRule>;
 template <class Kind>
 Stages stages_of(Protocol protocol);
 
-/// A step of a stage of a bed so high, d.
-StepSettings settings_of(const Accuracy& accuracy, const StageRule& rule, double height = 0.0);
+/// A step of a stage of a bed so high, d, whose smallest grain that turns is so large, in the size
+/// of its shape.
+StepSettings settings_of(const Accuracy& accuracy, const StageRule& rule, double height = 0.0,
+                         double smallest = 1.0);
 
 /// Steps that a stage takes; for the stages that end on a condition, the least.
 std::int64_t steps_of(const Accuracy& accuracy, const StageRule& rule);

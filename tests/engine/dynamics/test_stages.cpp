@@ -105,8 +105,8 @@ TEST_CASE("high beds have sweeps enough at rest for forces to pass from the surf
 
 TEST_CASE("steps of polyhedra are shorter in high beds, but for those of the fall") {
   Accuracy accuracy;
-  const auto length = [&](const StageRule& stage, double height) {
-    return settings_of(accuracy, stage, height).dt;
+  const auto length = [&](const StageRule& stage, double height, double smallest = 1.0) {
+    return settings_of(accuracy, stage, height, smallest).dt;
   };
   for (const Protocol protocol : {Protocol::heavy_ball, Protocol::dynamic}) {
     for (const StageRule& stage : stages_of<Sphere>(protocol)) {
@@ -117,6 +117,8 @@ TEST_CASE("steps of polyhedra are shorter in high beds, but for those of the fal
       CHECK(length(stage, 0.0) == stage.step * accuracy.step);
       CHECK(length(stage, 49.0) == stage.step * accuracy.step);
       CHECK(length(stage, 200.0) == Approx(stage.step * (is_first ? accuracy.step : 0.1)));
+      CHECK(length(stage, 12.0, 0.5) == stage.step * accuracy.step);
+      CHECK(length(stage, 50.0, 0.5) == Approx(stage.step * (is_first ? accuracy.step : 0.1)));
     }
   }
   accuracy.step = 0.05;
