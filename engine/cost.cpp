@@ -113,12 +113,16 @@ double polyhedron_factor(const PackingSpec& spec, double grains) {
 /// How much longer a sweep takes where the rows of a bed of spheres leave the caches.
 double memory_factor(double grains) { return std::clamp(std::sqrt(grains / 15000.0), 1.0, 1.45); }
 
+/// Most layers that are awake in a fall, by the solids: those above the depth of sleep and the
+/// front.
+constexpr double most_layers_awake = 1.5 * sleep_depth;
+
 /// Solver iterations over all rows that the stages of engine/dynamics/settle.hpp usually need.
 /// While a bed fills up its deep part sleeps, so that from some height on the fall counts no
 /// further; the creep of spheres grows with the layers that forces have to find their way through.
 double usual_iterations(const PackingSpec& spec, double layers) {
   const Accuracy& a = spec.accuracy;
-  const double falling = std::min(layers, 1.5 * sleep_depth);
+  const double falling = std::min(layers, most_layers_awake);
   const double solved = std::pow(Accuracy{}.path_tolerance / a.path_tolerance, 0.6);
   const double creep =
       std::pow(static_cast<double>(a.creep_steps) / Accuracy{}.creep_steps, 1.4);  // of the usual
@@ -131,15 +135,15 @@ double usual_iterations(const PackingSpec& spec, double layers) {
 
 /// Rounds of creep and rest that high beds of spheres take over those of low ones: few iterations
 /// hardly reach through many layers of a box, and many layers of many grains take more of them,
-/// too; at `balanced` those above the depth of sleep have slid on in the fall.
+/// too, but at `balanced` no more than are awake in the fall, where they have slid on.
 double rounds_factor(const PackingSpec& spec, double grains, double layers) {
   const Creep creep = creep_of(spec.accuracy);
   if (creep == Creep::loose && !spec.box.is_tube) {
     return std::pow(std::max(1.0, layers / 40.0), 0.25);
   }
   constexpr double many = 6e5;  // grains times layers
-  const bool has_slid = creep == Creep::usual && !spec.box.is_tube;
-  const double counted = has_slid ? std::min(layers, 1.5 * sleep_depth) : layers;
+  const bool counts_all = creep == Creep::strict || spec.box.is_tube;
+  const double counted = counts_all ? layers : std::min(layers, most_layers_awake);
   return std::pow(std::max(1.0, grains * counted / many), 0.7);
 }
 

@@ -30,8 +30,8 @@ struct StageRule {
   const char* name = "";
   StageEnd end = StageEnd::steps;
   double step = 1.0;  ///< in Accuracy::step
-  /// Most that the square of Accuracy::step times the height of the bed is taken for, d^2/g, over
-  /// the square of the smallest size: in higher beds steps are shorter. 0: any.
+  /// An Accuracy::step is cut to the smallest size times the root of this over the height of the
+  /// bed, d^2/g. 0: none is.
   double most_load = 0.0;
   Inertia inertia = Inertia::none;
   // A step that strays by less than one of these is solved:
