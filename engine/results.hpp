@@ -124,16 +124,40 @@ struct SizeRow {
   double slab = 0.0;      ///< of those whose centre lies in the measured slab
 };
 
-/// Order, forces and sizes in the measured slab. A number that the slab does not give is NaN.
+/// Order, forces and sizes in the measured slab; order_numbers says what each number is. One that
+/// the slab does not give is NaN.
 struct Order {
-  double q6_global = 0.0;            ///< bond order of all bonds together: 0 if they point anywhere
-  double q6_local = 0.0;             ///< bond order of a grain's own bonds, mean over grains
-  double three_contact_share = 0.0;  ///< grains that touch exactly three grains, walls included
-  double segregation = 0.0;   ///< mean height of small less that of large grains, in slab heights
-  double force_mean = 0.0;    ///< of the force-bearing contacts between grains, m g
-  double force_square = 0.0;  ///< mean square of a force over the mean of its layer
-  Curve pair_correlation;     ///< g over distance, d
-  Curve force_density;        ///< probability density of a force over the mean of its layer
+  double q6_global = 0.0;
+  double q6_local = 0.0;
+  double three_contact_share = 0.0;
+  double segregation = 0.0;
+  double force_mean = 0.0;
+  double force_square = 0.0;
+  Curve pair_correlation;  ///< g over distance, d
+  Curve force_density;     ///< probability density of a force over the mean of its layer
+};
+
+/// A number of a part of a result, as tables and the manual call and explain it.
+template <class Part>
+struct NamedNumber {
+  const char* name;
+  const char* unit;
+  const char* meaning;
+  double Part::*value;
+};
+
+inline constexpr NamedNumber<Order> order_numbers[] = {
+    {"q6_global", "", "bond order of all bonds in the slab together, 0 if they point anywhere",
+     &Order::q6_global},
+    {"q6_local", "", "bond order of a grain's own bonds, mean over grains", &Order::q6_local},
+    {"three_contact_share", "", "grains that touch exactly three others, walls included",
+     &Order::three_contact_share},
+    {"segregation", "", "mean height of small less that of large grains, in heights of the slab",
+     &Order::segregation},
+    {"force_mean", "m g", "of the force-bearing contacts between grains of the slab",
+     &Order::force_mean},
+    {"force_square", "", "mean square of a contact force over the mean of its layer",
+     &Order::force_square},
 };
 
 /// How polyhedra touch and point, in the measured slab. A contact is simple at a point, double

@@ -1,9 +1,11 @@
 #include "runner/store/fields.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <optional>
 #include <type_traits>
+#include <utility>
 
 namespace grainsweep {
 namespace {
@@ -177,20 +179,20 @@ std::vector<Field> further_fields() {
       in_result<&Result::mean_diameter>("mean_diameter", "d", "of all grains"),
       in_result<&Result::mean_diameter_by_volume>("mean_diameter_by_volume", "d",
                                                   "the same, each grain weighted by its volume"),
-      in_result<of::order, &Order::q6_global>(
-          "q6_global", "",
-          "bond order of all bonds in the slab together, 0 if they point anywhere"),
-      in_result<of::order, &Order::q6_local>("q6_local", "",
-                                             "bond order of a grain's own bonds, mean over grains"),
-      in_result<of::order, &Order::three_contact_share>(
-          "three_contact_share", "", "grains that touch exactly three others, walls included"),
-      in_result<of::order, &Order::segregation>(
-          "segregation", "",
-          "mean height of small less that of large grains, in heights of the slab"),
-      in_result<of::order, &Order::force_mean>(
-          "force_mean", "m g", "of the force-bearing contacts between grains of the slab"),
-      in_result<of::order, &Order::force_square>(
-          "force_square", "", "mean square of a contact force over the mean of its layer"),
+  };
+}
+
+/// The numbers that the engine itself names.
+std::vector<Field> order_fields() {
+  const auto each = []<std::size_t... k>(std::index_sequence<k...>) {
+    return std::vector<Field>{in_result<of::order, order_numbers[k].value>(
+        order_numbers[k].name, order_numbers[k].unit, order_numbers[k].meaning)...};
+  };
+  return each(std::make_index_sequence<std::size(order_numbers)>());
+}
+
+std::vector<Field> last_fields() {
+  return {
       in_result<&Result::state_hash>("state_hash", "", "of the final positions and radii",
                                      FieldUse{.summary = true}),
       in_result<&Result::reason>("reason", "", "why the packing did not settle or failed",
@@ -224,7 +226,8 @@ std::vector<Field> shape_fields() {
 
 std::vector<Field> all_fields() {
   std::vector<Field> all;
-  for (const auto& some : {outcome_fields(), main_fields(), further_fields(), shape_fields()}) {
+  for (const auto& some : {outcome_fields(), main_fields(), further_fields(), order_fields(),
+                           last_fields(), shape_fields()}) {
     all.insert(all.end(), some.begin(), some.end());
   }
   return all;

@@ -1,7 +1,7 @@
 // The one table of what is known of a finished packing: each value stands in it once, with name,
 // unit and meaning. From it come the journal line and its reading, the columns of packings.csv and
 // groups.csv, columns.csv and the manual. A new number needs a member in the engine's result and a
-// line here.
+// line here; one of the measured slab's order a line beside it (engine/results.hpp, order_numbers).
 #pragma once
 
 #include <cstdint>
