@@ -78,6 +78,7 @@ void transfer_part(Archive& archive, Part& part) {
     archive.value(contact.a);
     archive.value(contact.b);
     archive.value(contact.kind);
+    archive.value(contact.edges);
     transfer_vector(archive, contact.normal);
     archive.value(contact.first);
     archive.value(contact.count);

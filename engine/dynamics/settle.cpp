@@ -57,20 +57,10 @@ struct Settling {
   const StageRule& rule() const { return stages[stage]; }
 };
 
-/// The smallest grain that turns, in the size of its shape.
-double smallest_turning(const SphereBed&) { return 1.0; }
-double smallest_turning(const PolyhedronBed& bed) {
-  double smallest = 1.0;
-  for (std::size_t i = 0; i < bed.grains(); ++i) {
-    if (bed.turns(i)) smallest = std::min(smallest, bed.scale(i));
-  }
-  return smallest;
-}
-
 /// Steps of the stage that the bed is in.
 template <class Kind, class Real>
 StepSettings settings_of(const Settling<Kind, Real>& s) {
-  return settings_of(s.accuracy, s.rule(), s.height, smallest_turning(s.bed));
+  return settings_of(s.accuracy, s.rule(), s.height);
 }
 
 /// Heaviest over lightest grain.

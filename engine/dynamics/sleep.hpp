@@ -21,8 +21,7 @@ namespace grainsweep {
 /// How far below the filling front grains fall asleep, d. At 7 d those above would miss what still
 /// settles beneath them (the solid fraction comes out 0.002 lower). What has slid on while little
 /// lay on it has less to do under the whole bed: at 15 d beds of 100 d took twice as long. Deeper
-/// down loose solves add up (at 60 d the solid fraction comes out 0.001 higher), and long steps
-/// would make polyhedra swing (StageRule::most_load).
+/// down loose solves add up: at 60 d the solid fraction comes out 0.001 higher.
 inline constexpr double sleep_depth = 40.0;
 
 /// The front is looked for once in so many steps.

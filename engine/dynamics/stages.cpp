@@ -130,13 +130,6 @@ constexpr auto dynamic = with_fall(dynamic_fall, heavy_ball);
 
 // ---- polyhedra ----
 
-/// A polyhedron that turns between its neighbours is turned back, or on, by a torque that goes with
-/// the weight on it, which a step sees only after it: over its moment of inertia it is the larger
-/// the smaller the grain is. Steps of 0.2 sqrt(d/g), and halves of them, are calm up to heights of
-/// 50 d. In a bed of 90 d grains swing with up to 0.5 m g d each, through all stages that follow,
-/// and pack denser by 0.012; at 22 d those half as large do, and it is 0.005.
-constexpr double load_of_turning = 2.0;
-
 constexpr StageRule turning[] = {
     // As that of spheres.
     {.name = "look",
@@ -164,7 +157,6 @@ constexpr StageRule turning[] = {
      .done_after = 0.4},
     // Full steps.
     {.name = "creep",
-     .most_load = load_of_turning,
      .inertia = Inertia::damped,
      .path = 0.5,
      .correction = 0.1,
@@ -179,7 +171,6 @@ constexpr StageRule turning[] = {
     // steps to die.
     {.name = "slow",
      .step = 0.5,
-     .most_load = load_of_turning,
      .inertia = Inertia::damped,
      .path = 0.125,
      .correction = 0.1,
@@ -194,7 +185,6 @@ constexpr StageRule turning[] = {
     // down.
     {.name = "halt",
      .step = 0.25,
-     .most_load = load_of_turning,
      .correction = 0.5,
      .near = 0.015,
      .margin = 0.05,
@@ -206,7 +196,6 @@ constexpr StageRule turning[] = {
     // full ones do not end.
     {.name = "close",
      .step = 0.5,
-     .most_load = load_of_turning,
      .correction = 0.5,
      .near = 0.015,
      .margin = 0.05,
@@ -218,7 +207,6 @@ constexpr StageRule turning[] = {
     {.name = "quench",
      .end = StageEnd::rest,
      .step = 0.25,
-     .most_load = load_of_turning,
      .correction = 0.5,
      .near = 0.015,
      .margin = 0.05,
@@ -231,7 +219,6 @@ constexpr StageRule turning[] = {
     // As that of spheres: what is not balanced slides on until it meets new contacts.
     {.name = "ease",
      .step = 0.25,
-     .most_load = load_of_turning,
      .inertia = Inertia::damped,
      .path_of_gap = 0.1,
      .correction = 0.5,
@@ -291,13 +278,6 @@ int iterations_of(const Accuracy& accuracy, const StageRule& rule, double height
                                                   rule.rest_iterations * at_rest)));
 }
 
-/// Length of a step, sqrt(d/g).
-double step_of(const Accuracy& accuracy, const StageRule& rule, double height, double smallest) {
-  const bool is_limited = rule.most_load > 0.0 && height > 0.0;
-  const double most = is_limited ? smallest * std::sqrt(rule.most_load / height) : accuracy.step;
-  return rule.step * std::min(accuracy.step, most);
-}
-
 double momentum_of(const Accuracy& accuracy, Inertia inertia) {
   return inertia == Inertia::none ? 0.0 : inertia == Inertia::damped ? accuracy.momentum : 1.0;
 }
@@ -321,10 +301,9 @@ Stages stages_of<Polyhedron>(Protocol protocol) {
   return protocol == Protocol::dynamic ? Stages(dynamic_turning) : Stages(turning);
 }
 
-StepSettings settings_of(const Accuracy& accuracy, const StageRule& rule, double height,
-                         double smallest) {
+StepSettings settings_of(const Accuracy& accuracy, const StageRule& rule, double height) {
   StepSettings s;
-  s.dt = step_of(accuracy, rule, height, smallest);
+  s.dt = rule.step * accuracy.step;
   s.momentum = momentum_of(accuracy, rule.inertia);
   s.correction = rule.correction;
   s.near = rule.near;

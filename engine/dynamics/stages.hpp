@@ -30,9 +30,6 @@ struct StageRule {
   const char* name = "";
   StageEnd end = StageEnd::steps;
   double step = 1.0;  ///< in Accuracy::step
-  /// An Accuracy::step is cut to the smallest size times the root of this over the height of the
-  /// bed, d^2/g. 0: none is.
-  double most_load = 0.0;
   Inertia inertia = Inertia::none;
   // A step that strays by less than one of these is solved:
   double path = 0.0;           ///< so many times Accuracy::path_tolerance
@@ -63,10 +60,8 @@ using Stages = std::span<const StageRule>;
 template <class Kind>
 Stages stages_of(Protocol protocol);
 
-/// A step of a stage of a bed so high, d, whose smallest grain that turns is so large, in the size
-/// of its shape.
-StepSettings settings_of(const Accuracy& accuracy, const StageRule& rule, double height = 0.0,
-                         double smallest = 1.0);
+/// A step of a stage of a bed so high, d.
+StepSettings settings_of(const Accuracy& accuracy, const StageRule& rule, double height = 0.0);
 
 /// Steps that a stage takes; for the stages that end on a condition, the least.
 std::int64_t steps_of(const Accuracy& accuracy, const StageRule& rule);

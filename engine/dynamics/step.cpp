@@ -109,7 +109,7 @@ bool find_near(const StepSettings& settings, const ExecutionContext& context, Po
 
 /// Nothing turns spheres.
 template <class Real>
-void hold_turning(const SphereContacts<Real>&, SphereBed&) {}
+void hold_turning(const SphereContacts<Real>&, const ParallelFor&, SphereBed&) {}
 
 /// Rows with the gaps and normals of the grains where they are; see StepReport::sunk.
 template <class Real>
@@ -224,7 +224,7 @@ StepReport step(const StepSettings& settings, const ExecutionContext& context, B
   SolveLimits limits = settings.limits;
   limits.tolerance *= force_unit;
   limits.rms_tolerance *= force_unit;
-  hold_turning(state.contacts, bed);
+  hold_turning(state.contacts, context.loop, bed);
   set_free_motion(settings, context.loop, bed, state.motion);
   report.searched = find_near(settings, context, bed, state);
   report.sunk = update_contacts(settings, context, bed, state.contacts);

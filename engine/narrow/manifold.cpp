@@ -70,8 +70,9 @@ void touch_edges(const ShapePair& pair, const ContactAxis& axis, double margin,
 
 PairContact touch_along(const ShapePair& pair, const ContactAxis& axis, double margin,
                         ClipColumns& columns, std::vector<ContactPoint>& points) {
-  PairContact contact{axis.normal, axis.separation, axis.kind, points.size(), 0, false};
+  PairContact contact{axis.normal, axis.separation, axis.kind, points.size(), 0};
   if (axis.kind == AxisKind::edges) {
+    contact.edges = {axis.a, axis.b};
     touch_edges(pair, axis, margin, contact, points);
   } else {
     touch_faces(pair, axis, margin, columns, points);
@@ -97,7 +98,7 @@ PairContact touch_ball(const ShapePair& pair, double margin, PairMemory& memory,
   memory.axis = contact.normal;
   if (contact.gap > margin) return {};
   points.push_back({contact.position, contact.gap});
-  return {contact.normal, contact.gap, contact.kind, points.size() - 1, 1, false};
+  return {contact.normal, contact.gap, contact.kind, points.size() - 1, 1};
 }
 
 }  // namespace

@@ -40,6 +40,11 @@ struct ContactPoint {
 /// Least gap of one point or more, d.
 double min_gap(const ContactPoint* points, std::size_t count);
 
+/// Of a contact of edges, their directions in ConvexShape::edge_directions; else -1.
+struct CrossedEdges {
+  std::int32_t of_a = -1, of_b = -1;
+};
+
 /// Contact of two grains; its points are `points[first]` .. `points[first + count - 1]`.
 struct PairContact {
   Vector normal = Vector::Zero();  ///< unit, from a to b, frame of a; the same for all points
@@ -49,6 +54,7 @@ struct PairContact {
   /// Its one point does not tell that the shapes are within the margin: the touching features lie
   /// beside each other.
   bool is_beside = false;
+  CrossedEdges edges = {};
 };
 
 /// Working memory, kept from call to call.

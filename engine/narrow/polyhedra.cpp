@@ -26,8 +26,8 @@ double sunk_by(const PolyhedronBed& bed, Ends at, double squared) {
 
 void append(GrainPair pair, const PairPose& pose, const PairContact& contact, ContactList& found) {
   if (contact.count > 0) {
-    found.contacts.push_back(
-        {pair.a, pair.b, contact.kind, contact.normal, contact.first, contact.count, pose});
+    found.contacts.push_back({pair.a, pair.b, contact.kind, contact.normal, contact.first,
+                              contact.count, pose, contact.edges});
   }
 }
 

@@ -29,6 +29,7 @@ struct PolyhedronContact {
   Vector normal = Vector::Zero();  ///< unit, from a to b, frame of a
   std::size_t first = 0, count = 0;
   PairPose pose;  ///< grain b as a sees it; not set for a wall
+  CrossedEdges edges = {};
 };
 
 struct ContactList {

@@ -224,14 +224,65 @@ void collect_impulses(const PolyhedronBed& bed, const ParallelFor& loop, double 
   collect(bed.grains(), visit_all, carried);
 }
 
-/// Adds to the moments of a polyhedron what holds it as it turns against a sphere.
-void add_hold(const PolyhedronContact& c, double impulse, PolyhedronBed& bed) {
+/// See Closure.
+int by_turning(const PolyhedronContact& contact) {
+  return contact.kind == AxisKind::ball_on_face   ? 2
+         : contact.kind == AxisKind::ball_on_edge ? 1
+                                                  : 0;
+}
+
+/// What a contact holds the turns of its grains with, in their principal moments.
+struct Hold {
+  Vector of_a = Vector::Zero(), of_b = Vector::Zero();
+};
+
+Vector about_axes_across(const Vector& normal) { return Vector::Ones() - normal.cwiseAbs2(); }
+
+/// By the forces on its points, each times how far the point, or the centre of a sphere, lies from
+/// the grain's centre along the normal; `now` is grain b as a sees it.
+template <class Real>
+Hold hold_of(const PolyhedronContacts<Real>& contacts, const ContactPart<Real>& part, std::size_t k,
+             const PolyhedronBed& bed, const PairPose& now) {
+  const PolyhedronContact& c = part.found.contacts[k];
+  double force = 0.0, arm_of_a = 0.0;
+  for (std::size_t j = 0; j < c.count; ++j) {
+    const double at_point = impulse_of(contacts, part, k, j);
+    force += at_point;
+    arm_of_a += at_point * part.found.points[c.first + j].position.dot(c.normal);
+  }
+  const double arms = force * now.centre.dot(c.normal);
   const auto a = static_cast<std::size_t>(c.a), b = static_cast<std::size_t>(c.b);
-  const PairPose now = pair_pose(bed, a, b);  // a bed that was read back has no older one
-  const Vector normal = bed.turns(a) ? c.normal : Vector(now.turn.transpose() * c.normal);
-  const double hold = impulse * std::abs(c.normal.dot(now.centre));
-  Vector& root = bed.root_inertia[bed.turns(a) ? a : b];
-  root = (root.cwiseAbs2() + hold * (Vector::Ones() - normal.cwiseAbs2())).cwiseSqrt();
+  const auto into_b = [&](const Vector& v) { return Vector(now.turn.transpose() * v); };
+  const auto edge = [](const ConvexShape& shape, std::int32_t direction) {
+    return shape.edge_directions[static_cast<std::size_t>(direction)];
+  };
+  switch (c.kind) {
+    case AxisKind::face_of_a:
+      return {arm_of_a * about_axes_across(c.normal), Vector::Zero()};
+    case AxisKind::face_of_b:
+      return {Vector::Zero(), (arms - arm_of_a) * about_axes_across(into_b(c.normal))};
+    case AxisKind::edges:
+      return {arm_of_a * (now.turn * edge(bed.shape(b), c.edges.of_b)).cwiseAbs2(),
+              (arms - arm_of_a) * into_b(edge(bed.shape(a), c.edges.of_a)).cwiseAbs2()};
+    case AxisKind::ball_on_face:
+    case AxisKind::ball_on_edge:
+      return {arms * about_axes_across(c.normal), arms * about_axes_across(into_b(c.normal))};
+    default:
+      return {};
+  }
+}
+
+/// Adds it to the squares of root_inertia of grains that turn.
+template <class Real>
+void add_hold(const PolyhedronContacts<Real>& contacts, const ContactPart<Real>& part,
+              std::size_t k, PolyhedronBed& bed) {
+  const PolyhedronContact& c = part.found.contacts[k];
+  if (!bed.is_grain(c.b)) return;
+  const auto a = static_cast<std::size_t>(c.a), b = static_cast<std::size_t>(c.b);
+  // A bed that was read back knows no older pose.
+  const Hold hold = hold_of(contacts, part, k, bed, pair_pose(bed, a, b));
+  if (bed.turns(a)) bed.root_inertia[a] += hold.of_a.cwiseMax(0.0);
+  if (bed.turns(b)) bed.root_inertia[b] += hold.of_b.cwiseMax(0.0);
 }
 
 /// All contacts of a subdomain between the candidates. Returns what touch_pairs does.
@@ -331,13 +382,6 @@ NamedPlaces::const_iterator place_of(const PolyhedronContact& c, const NamedPlac
   return at != places.end() && (*at)[0] == c.a && (*at)[1] == c.b ? at : places.end();
 }
 
-/// See Closure.
-int by_turning(const PolyhedronContact& contact) {
-  return contact.kind == AxisKind::ball_on_face   ? 2
-         : contact.kind == AxisKind::ball_on_edge ? 1
-                                                  : 0;
-}
-
 /// Contacts with a gap below `near`, d, with no preference of faces that would hide the depth of an
 /// overlap.
 TouchSettings as_deep_as_they_are(double near, double dt) {
@@ -364,15 +408,19 @@ void take_candidates(const PolyhedronBed& bed, const Candidates& candidates,
 }
 
 template <class Real>
-void hold_turning(const PolyhedronContacts<Real>& contacts, PolyhedronBed& bed) {
-  if (!bed.has_balls()) return;
-  set_inertia(bed);
-  visit_contacts(contacts, [&](const ContactPart<Real>& part, std::size_t k) {
-    const PolyhedronContact& c = part.found.contacts[k];
-    if (bed.is_grain(c.b) && by_turning(c) > 0) {
-      add_hold(c, impulse_of(contacts, part, k, 0), bed);
-    }
+void hold_turning(const PolyhedronContacts<Real>& contacts, const ParallelFor& loop,
+                  PolyhedronBed& bed) {
+  const auto visit_grains = [&](const auto& change) {
+    parallel_chunks(loop, bed.grains(), bed.subdomains, [&](std::size_t, IndexRange grains) {
+      for (std::size_t i = grains.first; i < grains.last; ++i) change(i);
+    });
+  };
+  visit_grains([&](std::size_t i) { bed.root_inertia[i] = principal_moments(bed, i); });
+  visit_subdomains(contacts.found_parts, loop, [&](std::size_t p) {
+    const ContactPart<Real>& part = contacts.parts[p];
+    for (std::size_t k = 0; k < part.found.contacts.size(); ++k) add_hold(contacts, part, k, bed);
   });
+  visit_grains([&](std::size_t i) { bed.root_inertia[i] = bed.root_inertia[i].cwiseSqrt(); });
 }
 
 template <class Real>
@@ -464,8 +512,8 @@ template void take_candidates(const PolyhedronBed&, const Candidates&, Polyhedro
                               const ParallelFor&);
 template void take_candidates(const PolyhedronBed&, const Candidates&, PolyhedronContacts<double>&,
                               const ParallelFor&);
-template void hold_turning(const PolyhedronContacts<float>&, PolyhedronBed&);
-template void hold_turning(const PolyhedronContacts<double>&, PolyhedronBed&);
+template void hold_turning(const PolyhedronContacts<float>&, const ParallelFor&, PolyhedronBed&);
+template void hold_turning(const PolyhedronContacts<double>&, const ParallelFor&, PolyhedronBed&);
 template double find_contacts(const TouchSettings&, double, const PolyhedronBed&,
                               const ExecutionContext&, PolyhedronContacts<float>&);
 template double find_contacts(const TouchSettings&, double, const PolyhedronBed&,

@@ -143,22 +143,16 @@ PolyhedronBed make_bed(const Box& box, std::vector<ConvexShape> shapes,
   bed.shapes = std::move(shapes);
   bed.components = std::move(components);
   bed.spin.assign(poses.size(), Vector::Zero());
-  set_inertia(bed);
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    bed.root_inertia.push_back(principal_moments(bed, i).cwiseSqrt());
+  }
   append_padding(bed);
   return bed;
 }
 
-bool PolyhedronBed::has_balls() const {
-  return std::any_of(shapes.begin(), shapes.end(),
-                     [](const ConvexShape& one) { return one.is_ball; });
-}
-
-void set_inertia(PolyhedronBed& bed) {
-  bed.root_inertia.resize(bed.orientation.size());
-  for (std::size_t i = 0; i < bed.root_inertia.size(); ++i) {
-    const Vector& of_unit = bed.shape(i).inertia;
-    bed.root_inertia[i] = bed.scale(i) * (of_unit / bed.motion[i].w).cwiseSqrt();
-  }
+Vector principal_moments(const PolyhedronBed& bed, std::size_t grain) {
+  const double scale = bed.scale(grain);
+  return scale * scale / bed.motion[grain].w * bed.shape(grain).inertia;
 }
 
 bool is_finite(const SphereBed& bed) { return are_finite(bed.position) && are_finite(bed.motion); }

@@ -119,7 +119,6 @@ struct Bed<Polyhedron> : Grains {
   double circumradius(std::size_t grain) const { return scale(grain) * shape(grain).circumradius; }
   /// Whether forces can turn it: without friction nothing turns the spheres of a mixture.
   bool turns(std::size_t grain) const { return !shape(grain).is_ball; }
-  bool has_balls() const;
 };
 using PolyhedronBed = Bed<Polyhedron>;
 
@@ -137,8 +136,8 @@ PolyhedronBed make_bed(const Box& box, ConvexShape shape, const std::vector<Pose
 PolyhedronBed make_bed(const Box& box, std::vector<ConvexShape> shapes,
                        std::vector<std::uint8_t> components, const std::vector<Pose>& poses);
 
-/// Gives all grains their own moments.
-void set_inertia(PolyhedronBed& bed);
+/// Principal moments of inertia of a grain, m d^2.
+Vector principal_moments(const PolyhedronBed& bed, std::size_t grain);
 
 /// Whether every grain's place, size, motion and inverse mass, and orientation and angle vector if
 /// it has one, are finite numbers.

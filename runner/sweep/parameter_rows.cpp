@@ -159,10 +159,7 @@ Rows accuracy_rows() {
           Names{{"in_steps", "steps pass every test of rest"},
                 {"exact", "then on to where all forces balance; spheres only"}},
           "what counts as settled: rest in steps, or, of spheres, exact rest after it"),
-      row<&S::accuracy, &A::step>("accuracy.step", Interval{1e-4, 2},
-                                  "time step, sqrt(d/g); of shapes after the fall at most sqrt(2 / "
-                                  "height) times the smallest "
-                                  "size"),
+      row<&S::accuracy, &A::step>("accuracy.step", Interval{1e-4, 2}, "time step, sqrt(d/g)"),
       row<&S::accuracy, &A::momentum>("accuracy.momentum", Interval{0, 1, false, true},
                                       "share of the last displacement carried on, 0 to 1"),
       row<&S::accuracy, &A::fall_iterations>("accuracy.fall_iterations", Interval{1, 1000000},

@@ -103,28 +103,6 @@ TEST_CASE("high beds have sweeps enough at rest for forces to pass from the surf
   CHECK(iterations(heavy_ball("ease"), 80.0) == iterations(heavy_ball("ease"), 0.0));
 }
 
-TEST_CASE("steps of polyhedra are shorter in high beds, but for those of the fall") {
-  Accuracy accuracy;
-  const auto length = [&](const StageRule& stage, double height, double smallest = 1.0) {
-    return settings_of(accuracy, stage, height, smallest).dt;
-  };
-  for (const Protocol protocol : {Protocol::heavy_ball, Protocol::dynamic}) {
-    for (const StageRule& stage : stages_of<Sphere>(protocol)) {
-      CHECK(length(stage, 200.0) == stage.step * accuracy.step);
-    }
-    for (const StageRule& stage : stages_of<Polyhedron>(protocol)) {
-      const bool is_first = stage.end == StageEnd::look || stage.sleeps;
-      CHECK(length(stage, 0.0) == stage.step * accuracy.step);
-      CHECK(length(stage, 49.0) == stage.step * accuracy.step);
-      CHECK(length(stage, 200.0) == Approx(stage.step * (is_first ? accuracy.step : 0.1)));
-      CHECK(length(stage, 12.0, 0.5) == stage.step * accuracy.step);
-      CHECK(length(stage, 50.0, 0.5) == Approx(stage.step * (is_first ? accuracy.step : 0.1)));
-    }
-  }
-  accuracy.step = 0.05;
-  CHECK(length(stage_called("creep", stages_of<Polyhedron>(Protocol::heavy_ball)), 200.0) == 0.05);
-}
-
 TEST_CASE(
     "a step may stray by a path, whatever its length, and half as far where full ones are half") {
   Accuracy accuracy;

@@ -90,7 +90,7 @@ TEST_CASE("a sphere that pushes a face holds the polyhedron's turns across the n
   settings.limits = {Solver::accelerated_gauss_seidel, 10'000, 1e-9};
   step(settings, kernels_for(best_isa()), bed, state);
   const Vector own = bed.root_inertia[0].cwiseAbs2();
-  hold_turning(state.contacts, bed);
+  hold_turning(state.contacts, serial_for, bed);
   const double weight = bed.shapes[1].volume;  // of the sphere, m g: the cube has mass 1
   const Vector added = bed.root_inertia[0].cwiseAbs2() - own;
   // By the force times dt^2 times the distance of the centres along the normal.
@@ -99,8 +99,59 @@ TEST_CASE("a sphere that pushes a face holds the polyhedron's turns across the n
   CHECK(added.y() == Approx(weight * dt2).epsilon(1e-6));
   CHECK(std::abs(added.z()) < 1e-12);
   CHECK(bed.root_inertia[1].cwiseAbs2().isApprox(Vector(0.1, 0.1, 0.1) * weight));
-  hold_turning(state.contacts, bed);  // nothing adds up
+  hold_turning(state.contacts, serial_for, bed);  // nothing adds up
   CHECK((bed.root_inertia[0].cwiseAbs2() - own).isApprox(added));
+}
+
+/// What a step adds to the moments of two cubes, the upper one turned so that it touches the lower
+/// one below its centre, in its weight times dt^2.
+struct HeldCubes {
+  PolyhedronBed bed;
+  Vector lower, upper;
+
+  HeldCubes(const Quaternion& of_lower, double height_of_lower, const Quaternion& of_upper,
+            double height_of_upper)
+      : bed(make_bed({6, 6, periodic, walls}, *shape_of(ShapeSpec{CubeSize{}}).shape,
+                     {testing::pose_at(3, 3, height_of_lower, of_lower),
+                      testing::pose_at(3, 3, height_of_upper, of_upper)})) {
+    StepState<Polyhedron, double> state;
+    StepSettings settings;
+    settings.momentum = 0;
+    settings.limits = {Solver::accelerated_gauss_seidel, 10'000, 1e-9};
+    step(settings, kernels_for(best_isa()), bed, state);
+    const double dt2 = settings.dt * settings.dt;
+    const auto own = [&](std::size_t k) { return principal_moments(bed, k); };
+    hold_turning(state.contacts, serial_for, bed);
+    lower = (bed.root_inertia[0].cwiseAbs2() - own(0)) / dt2;
+    upper = (bed.root_inertia[1].cwiseAbs2() - own(1)) / dt2;
+  }
+};
+
+TEST_CASE("a corner on a face holds the face's grain by its weight times the height of the face") {
+  const Quaternion on_corner =
+      Quaternion::FromTwoVectors(Vector(1, 1, 1).normalized(), Vector::UnitZ());
+  const HeldCubes cubes(Quaternion::Identity(), 0.5, on_corner, 1.0 + std::sqrt(0.75));
+  CHECK(cubes.lower.isApprox(Vector(0.5, 0.5, 0.0), 1e-6));
+  CHECK(cubes.upper.norm() < 1e-6);
+}
+
+TEST_CASE("edges that cross hold both grains, each about the other one's edge") {
+  const double half_turn = std::acos(-1.0);
+  const Quaternion edge_along_x(Eigen::AngleAxisd(0.25 * half_turn, Vector::UnitX()));
+  const Quaternion edge_along_y(Eigen::AngleAxisd(0.25 * half_turn, Vector::UnitY()));
+  const double height = std::sqrt(0.5);  // of an edge over the centre
+  const HeldCubes cubes(edge_along_x, height, edge_along_y, 3.0 * height);
+  // Each turns about the other one's edge: seen from the upper cube, which is turned about y,
+  // that of the lower one along x lies between its axes x and z.
+  CHECK(cubes.lower.isApprox(height * Vector(0.0, 0.5, 0.5), 1e-6));
+  CHECK(cubes.upper.isApprox(height * Vector(0.5, 0.0, 0.5), 1e-6));
+}
+
+TEST_CASE("faces on one another hold both grains, and the floor holds none") {
+  const HeldCubes cubes(Quaternion::Identity(), 0.5, Quaternion::Identity(), 1.5);
+  // Which face counts as that of the contact is a matter of rounding.
+  const Vector both = cubes.lower + cubes.upper;
+  CHECK(both.isApprox(Vector(0.5, 0.5, 0.0), 1e-6));
 }
 
 /// Where a point fixed to a grain goes when the grain moves by its part of a motion.

@@ -68,35 +68,68 @@ int euler_characteristic(const std::vector<GrainSurface>& surfaces) {
   });
 }
 
-void check_bodies(const ExportedBed& exported, const OpenSurfaces& open, double share_of_necks) {
+/// Contacts between grains, and necks that are made of them.
+struct Necks {
+  int made = 0, asked = 0;
+};
+
+Necks necks_of(const ExportedBed& exported, const OpenSurfaces& open) {
+  Necks necks;
+  for (const Neck& neck : open.necks) necks.made += !neck.is_wall;
+  for (const Contact& contact : treated_contacts(exported)) necks.asked += !contact.is_wall;
+  return necks;
+}
+
+void check_bodies(const ExportedBed& exported, const OpenSurfaces& open) {
   const auto surfaces = bridged_surfaces(exported);
   for (const GrainSurface& body : surfaces) CHECK(is_closed(body.surface));
-  int grains = 0, necks = 0, asked = 0;
+  int grains = 0;
   for (const GrainSurface& body : surfaces) grains += static_cast<int>(body.grains);
-  for (const Neck& neck : open.necks) necks += !neck.is_wall;
-  for (const Contact& contact : treated_contacts(exported)) asked += !contact.is_wall;
   CHECK(grains == static_cast<int>(exported.bed.grains.size()));
-  CHECK(euler_characteristic(surfaces) == 2 * (grains - necks));
-  CHECK(necks >= share_of_necks * asked);
+  CHECK(euler_characteristic(surfaces) == 2 * (grains - necks_of(exported, open).made));
   CHECK(crossings(surfaces) == 0);
 }
 
 TEST_CASE("a bed of spheres is joined by all its necks without a face through another") {
   const Box walls{3, 3, Boundary::walls, Boundary::walls};
   const ExportedBed bed = bridged(packed_bed(SphereShape{}, walls, 25));
-  check_bodies(bed, open_spheres(bed), 1.0);
   const ExportedBed wide = bridged(bed, "bridge:0.6");  // necks that would meet on a grain
-  check_bodies(wide, open_spheres(wide), 1.0);
+  for (const ExportedBed& one : {bed, wide}) {
+    check_bodies(one, open_spheres(one));
+    const Necks necks = necks_of(one, open_spheres(one));
+    CHECK(necks.made == necks.asked);
+  }
 }
 
 TEST_CASE("beds of polyhedra are joined at points, along lines and over areas") {
   const Box walls{4, 3, Boundary::walls, Boundary::walls};
   for (const ShapeSpec& shape : {ShapeSpec(CubeSize{}), ShapeSpec(PinacoidSize{})}) {
     const ExportedBed bed = bridged(packed_bed(shape, walls, 40));
-    check_bodies(bed, open_polyhedra(bed), 0.95);
-    // Of contacts with gaps up to 0.2 d many leave less than a tenth of a neck of 0.3 d.
+    check_bodies(bed, open_polyhedra(bed));
     const ExportedBed wide = bridged(bed, "bridge:0.6");
-    check_bodies(wide, open_polyhedra(wide), 0.6);
+    check_bodies(wide, open_polyhedra(wide));
+  }
+}
+
+// Of twelve beds of 36 to 58 cubes 0.90 to 0.99 of the contacts have necks, 0.95 in all; of
+// pinacoids 0.98 to 1. Of contacts with gaps up to 0.2 d many leave less than a tenth of a neck of
+// 0.3 d.
+TEST_CASE(
+    "nearly all contacts of polyhedra have a neck, and most of those that ask for a wide one") {
+  const Box walls{4, 3, Boundary::walls, Boundary::walls};
+  for (const ShapeSpec& shape : {ShapeSpec(CubeSize{}), ShapeSpec(PinacoidSize{})}) {
+    Necks usual, wide;
+    const auto add = [](const ExportedBed& bed, Necks& sum) {
+      const Necks own = necks_of(bed, open_polyhedra(bed));
+      sum = {sum.made + own.made, sum.asked + own.asked};
+    };
+    for (const std::int64_t grains : {36, 40, 44, 48}) {
+      const ExportedBed bed = bridged(packed_bed(shape, walls, grains));
+      add(bed, usual);
+      add(bridged(bed, "bridge:0.6"), wide);
+    }
+    CHECK(usual.made >= 0.9 * usual.asked);  // four beds of cubes differ by 0.015
+    CHECK(wide.made >= 0.6 * wide.asked);
   }
 }
 
