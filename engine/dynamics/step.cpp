@@ -81,11 +81,13 @@ void advance(const std::vector<Record<Real>>& u, std::size_t i, SphereBed& bed, 
 }
 template <class Real>
 void advance(const std::vector<Record<Real>>& u, std::size_t i, PolyhedronBed& bed, Moved& moved) {
+  const Vector& root = bed.root_inertia[i];
   const Vector displacement = clamped(vector(u[2 * i]), longest_motion);
-  const Vector scaled_angles = vector(u[2 * i + 1]);
-  const Vector angles = scaled_angles.cwiseQuotient(bed.root_inertia[i]);
+  const Vector angles =
+      clamped(vector(u[2 * i + 1]).cwiseQuotient(root), longest_motion / bed.circumradius(i));
   move_grain(bed, i, displacement, angles);
-  moved.energy += displacement.squaredNorm() / bed.motion[i].w + scaled_angles.squaredNorm();
+  moved.energy +=
+      displacement.squaredNorm() / bed.motion[i].w + root.cwiseProduct(angles).squaredNorm();
   moved.longest =
       std::max({moved.longest, displacement.norm(), angles.norm() * bed.circumradius(i)});
 }

@@ -15,9 +15,9 @@
 
 namespace grainsweep {
 
-/// Longest motion of a grain in one step whatever pushes it, d. A solve that is cut short between
-/// grains of very different mass may push the light one with the weight of the heavy one; it must
-/// not be thrown through its neighbours.
+/// Longest motion of a grain in one step whatever pushes it, d; its turn moves no corner further. A
+/// solve that is cut short between grains of very different mass may push the light one with the
+/// weight of the heavy one; it must not be thrown through its neighbours.
 inline constexpr double longest_motion = 0.3;
 
 struct StepSettings {
