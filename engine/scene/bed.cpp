@@ -144,7 +144,7 @@ PolyhedronBed make_bed(const Box& box, std::vector<ConvexShape> shapes,
   bed.components = std::move(components);
   bed.spin.assign(poses.size(), Vector::Zero());
   for (std::size_t i = 0; i < poses.size(); ++i) {
-    bed.root_inertia.push_back(principal_moments(bed, i).cwiseSqrt());
+    bed.root_inertia.emplace_back(principal_moments(bed, i).cwiseSqrt());
   }
   append_padding(bed);
   return bed;
