@@ -239,10 +239,10 @@ struct Hold {
 Vector about_axes_across(const Vector& normal) { return Vector::Ones() - normal.cwiseAbs2(); }
 
 /// By the forces on its points, each times how far the point, or the centre of a sphere, lies from
-/// the grain's centre along the normal; `now` is grain b as a sees it.
+/// the grain's centre along the normal.
 template <class Real>
 Hold hold_of(const PolyhedronContacts<Real>& contacts, const ContactPart<Real>& part, std::size_t k,
-             const PolyhedronBed& bed, const PairPose& now) {
+             const PolyhedronBed& bed) {
   const PolyhedronContact& c = part.found.contacts[k];
   double force = 0.0, arm_of_a = 0.0;
   for (std::size_t j = 0; j < c.count; ++j) {
@@ -250,8 +250,10 @@ Hold hold_of(const PolyhedronContacts<Real>& contacts, const ContactPart<Real>& 
     force += at_point;
     arm_of_a += at_point * part.found.points[c.first + j].position.dot(c.normal);
   }
-  const double arms = force * now.centre.dot(c.normal);
+  if (!(force > 0.0)) return {};
   const auto a = static_cast<std::size_t>(c.a), b = static_cast<std::size_t>(c.b);
+  const PairPose now = pair_pose(bed, a, b);  // a bed that was read back knows no older one
+  const double arms = force * now.centre.dot(c.normal);
   const auto into_b = [&](const Vector& v) { return Vector(now.turn.transpose() * v); };
   const auto edge = [](const ConvexShape& shape, std::int32_t direction) {
     return shape.edge_directions[static_cast<std::size_t>(direction)];
@@ -279,8 +281,7 @@ void add_hold(const PolyhedronContacts<Real>& contacts, const ContactPart<Real>&
   const PolyhedronContact& c = part.found.contacts[k];
   if (!bed.is_grain(c.b)) return;
   const auto a = static_cast<std::size_t>(c.a), b = static_cast<std::size_t>(c.b);
-  // A bed that was read back knows no older pose.
-  const Hold hold = hold_of(contacts, part, k, bed, pair_pose(bed, a, b));
+  const Hold hold = hold_of(contacts, part, k, bed);
   if (bed.turns(a)) bed.root_inertia[a] += hold.of_a.cwiseMax(0.0);
   if (bed.turns(b)) bed.root_inertia[b] += hold.of_b.cwiseMax(0.0);
 }

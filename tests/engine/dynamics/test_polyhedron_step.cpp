@@ -163,8 +163,6 @@ TEST_CASE("no grain is thrown out of a start whose solve diverges at first") {
   }
 }
 
-// The ends of such prisms touch in up to 64 points, of which three are independent: swept in one
-// order, with momentum, 100,000 sweeps do not solve some of these steps.
 // As of spheres: forty on one spot, whose impulses grow.
 TEST_CASE("no grain moves or turns further in a step than the longest motion") {
   testing::Draw draw(5);
@@ -187,6 +185,8 @@ TEST_CASE("no grain moves or turns further in a step than the longest motion") {
   }
 }
 
+// The ends of such prisms touch in up to 64 points, of which three are independent: swept in one
+// order, with momentum, 100,000 sweeps do not solve some of these steps.
 TEST_CASE("steps of prisms with 32 sides are solved within a few hundred sweeps") {
   PackingSpec spec;
   spec.box = {4, 4, periodic, periodic};

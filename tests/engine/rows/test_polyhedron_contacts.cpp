@@ -6,6 +6,7 @@
 #include "engine/dynamics/step.hpp"
 #include "engine/rows/polyhedron_contacts.hpp"
 #include "engine/shape/mixture.hpp"
+#include "engine/units.hpp"
 #include "tests/support/instruction_sets.hpp"
 #include "tests/support/shape_beds.hpp"
 
@@ -80,14 +81,20 @@ TEST_CASE("every point of every contact has a row of its own, all other rows are
   CHECK(used.size() * 2 > scene.rows.impulse.size());
 }
 
+/// A step from rest, solved to 1e-9 m g.
+StepSettings solved_step() {
+  StepSettings settings;
+  settings.momentum = 0;
+  settings.limits = {Solver::accelerated_gauss_seidel, 10'000, 1e-9};
+  return settings;
+}
+
 TEST_CASE("a sphere that pushes a face holds the polyhedron's turns across the normal") {
   const auto shapes = shapes_of(Mixture{{{0.5, CubeSize{}}, {0.5, SphereShape{}}}});
   PolyhedronBed bed = make_bed({6, 6, periodic, walls}, shapes, {0, 1},
                                {testing::pose_at(3, 3, 0.5), testing::pose_at(3.1, 3.2, 1.5)});
   StepState<Polyhedron, double> state;
-  StepSettings settings;
-  settings.momentum = 0;
-  settings.limits = {Solver::accelerated_gauss_seidel, 10'000, 1e-9};
+  const StepSettings settings = solved_step();
   step(settings, kernels_for(best_isa()), bed, state);
   const Vector own = bed.root_inertia[0].cwiseAbs2();
   hold_turning(state.contacts, serial_for, bed);
@@ -111,13 +118,11 @@ struct HeldCubes {
 
   HeldCubes(const Quaternion& of_lower, double height_of_lower, const Quaternion& of_upper,
             double height_of_upper)
-      : bed(make_bed({6, 6, periodic, walls}, *shape_of(ShapeSpec{CubeSize{}}).shape,
+      : bed(make_bed({6, 6, periodic, walls}, testing::cube(),
                      {testing::pose_at(3, 3, height_of_lower, of_lower),
                       testing::pose_at(3, 3, height_of_upper, of_upper)})) {
     StepState<Polyhedron, double> state;
-    StepSettings settings;
-    settings.momentum = 0;
-    settings.limits = {Solver::accelerated_gauss_seidel, 10'000, 1e-9};
+    const StepSettings settings = solved_step();
     step(settings, kernels_for(best_isa()), bed, state);
     const double dt2 = settings.dt * settings.dt;
     const auto own = [&](std::size_t k) { return principal_moments(bed, k); };
@@ -136,9 +141,8 @@ TEST_CASE("a corner on a face holds the face's grain by its weight times the hei
 }
 
 TEST_CASE("edges that cross hold both grains, each about the other one's edge") {
-  const double half_turn = std::acos(-1.0);
-  const Quaternion edge_along_x(Eigen::AngleAxisd(0.25 * half_turn, Vector::UnitX()));
-  const Quaternion edge_along_y(Eigen::AngleAxisd(0.25 * half_turn, Vector::UnitY()));
+  const Quaternion edge_along_x(Eigen::AngleAxisd(0.25 * pi, Vector::UnitX()));
+  const Quaternion edge_along_y(Eigen::AngleAxisd(0.25 * pi, Vector::UnitY()));
   const double height = std::sqrt(0.5);  // of an edge over the centre
   const HeldCubes cubes(edge_along_x, height, edge_along_y, 3.0 * height);
   // Each turns about the other one's edge: seen from the upper cube, which is turned about y,

@@ -111,11 +111,11 @@ TEST_CASE("beds of polyhedra are joined at points, along lines and over areas") 
   }
 }
 
-// Of twelve beds of 36 to 58 cubes 0.90 to 0.99 of the contacts have necks, 0.95 in all; of
-// pinacoids 0.98 to 1. Of contacts with gaps up to 0.2 d many leave less than a tenth of a neck of
-// 0.3 d.
-TEST_CASE(
-    "nearly all contacts of polyhedra have a neck, and most of those that ask for a wide one") {
+// Single beds of cubes have necks at 0.90 to 0.99 of their contacts, twelve of them at 0.955 +-
+// 0.009; of pinacoids at 0.98 to 1. Of contacts with gaps up to 0.2 d many leave less than a tenth
+// of a neck of 0.3 d.
+TEST_CASE("nearly all contacts of polyhedra have a neck, and most of those that ask for a wide one",
+          "[slow]") {
   const Box walls{4, 3, Boundary::walls, Boundary::walls};
   for (const ShapeSpec& shape : {ShapeSpec(CubeSize{}), ShapeSpec(PinacoidSize{})}) {
     Necks usual, wide;
@@ -123,12 +123,12 @@ TEST_CASE(
       const Necks own = necks_of(bed, open_polyhedra(bed));
       sum = {sum.made + own.made, sum.asked + own.asked};
     };
-    for (const std::int64_t grains : {36, 40, 44, 48}) {
+    for (std::int64_t grains = 36; grains < 60; grains += 2) {
       const ExportedBed bed = bridged(packed_bed(shape, walls, grains));
       add(bed, usual);
       add(bridged(bed, "bridge:0.6"), wide);
     }
-    CHECK(usual.made >= 0.9 * usual.asked);  // four beds of cubes differ by 0.015
+    CHECK(usual.made >= 0.95 * usual.asked);
     CHECK(wide.made >= 0.6 * wide.asked);
   }
 }
