@@ -26,7 +26,7 @@ readonly root
 preset=release
 setup_options=()
 test=1
-ctest_options=(--parallel $(($(nproc) + 1))) # one of them often waits
+ctest_options=(--parallel $(($(nproc) + 2))) # two of them often wait
 while (($#)); do
   case $1 in
     --fast) ctest_options+=(--label-regex '^fast$') ;;

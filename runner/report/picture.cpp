@@ -176,8 +176,8 @@ void append_chunk(std::string& bytes, const std::string& name, const std::string
   append_number(bytes, content.size());
   const std::string checked = name + content;
   bytes += checked;
-  append_number(bytes, crc32(0, reinterpret_cast<const Bytef*>(checked.data()),
-                             static_cast<uInt>(checked.size())));
+  append_number(bytes, ::crc32(0, reinterpret_cast<const Bytef*>(checked.data()),
+                               static_cast<uInt>(checked.size())));
 }
 
 std::string compressed(const std::string& bytes) {

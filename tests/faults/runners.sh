@@ -34,7 +34,7 @@ start_all() {
 }
 
 # A runner waits a fifth of a second for the lock; one that waited until the work was done met nobody.
-rounds=$(times 10 100)
+rounds=$(times 6 100)
 for count in 2 8; do
   goal=$((busy + rounds * count / 2))
   for ((round = 1; round <= rounds || busy < goal; ++round)); do

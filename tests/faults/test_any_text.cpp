@@ -12,6 +12,7 @@
 #include "runner/store/files.hpp"
 #include "tests/faults/any_text.hpp"
 #include "tests/support/draw.hpp"
+#include "tests/support/tries.hpp"
 
 namespace grainsweep {
 namespace {
@@ -180,11 +181,7 @@ TEST_CASE("the sweep files that are damaged are whole") {
 
 TEST_CASE("a damaged sweep file is read or refused, and never for longer than a second") {
   const std::vector<std::string> sweeps = whole_sweeps();
-#ifdef GRAINSWEEP_SANITIZED
-  constexpr int tries = 20'000;  // each takes ten times as long
-#else
-  constexpr int tries = 100'000;
-#endif
+  constexpr int tries = testing::is_sanitized ? 5'000 : 100'000;
   Draw draw(20130708);
   Tally tally;
   for (int number = 0; number < tries; ++number) tally.add(damaged(sweeps, draw));

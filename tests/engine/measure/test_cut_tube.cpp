@@ -13,6 +13,7 @@
 #include "engine/shape/given_shape.hpp"
 #include "engine/units.hpp"
 #include "tests/support/draw.hpp"
+#include "tests/support/tries.hpp"
 
 namespace grainsweep {
 namespace {
@@ -156,7 +157,7 @@ double sliced_volume(const ConvexShape& shape, const Pose& pose, double axis, do
 TEST_CASE("a tube cuts from a polyhedron what thin slices of it add up to") {
   Draw draw(43);
   const ConvexShape pinacoid = *shape_of(ShapeSpec{PinacoidSize{}}).shape;
-  for (int k = 0; k < 60; ++k) {
+  for (int k = 0; k < testing::tries(60); ++k) {
     Quaternion turn(draw.uniform(-1, 1), draw.uniform(-1, 1), draw.uniform(-1, 1),
                     draw.uniform(-1, 1));
     turn.normalize();

@@ -15,6 +15,7 @@
 #include "tests/support/bits.hpp"
 #include "tests/support/instruction_sets.hpp"
 #include "tests/support/shape_pairs.hpp"
+#include "tests/support/tries.hpp"
 
 namespace grainsweep {
 namespace {
@@ -342,7 +343,7 @@ void check_pairs_of_usual_shapes(int of_each) {
 }
 
 TEST_CASE("hulls are parted as far as the exact search finds, and none that touch are missed") {
-  check_pairs_of_usual_shapes(6);
+  check_pairs_of_usual_shapes(testing::tries(6));
 }
 
 TEST_CASE("many more hulls are parted so, and none that touch are missed", "[slow]") {

@@ -9,6 +9,7 @@
 #include "tests/support/bits.hpp"
 #include "tests/support/brute_force.hpp"
 #include "tests/support/scenes.hpp"
+#include "tests/support/tries.hpp"
 
 namespace grainsweep {
 namespace {
@@ -58,7 +59,7 @@ TEST_CASE("walls any distance apart and shafts of any width have room for a star
   // Between walls 1.5 to 1.85 d apart random grains jam in the air below the usual solid fraction.
   for (const double width : {1.0, 1.05, 1.5, 1.707, 1.85, 2.0}) {
     for (const auto& [length, x] : {std::pair(12.0, periodic), std::pair(2.0, walls)}) {
-      for (std::uint64_t key = 1; key <= 4; ++key) {
+      for (std::uint64_t key = 1; key <= testing::tries(4U); ++key) {
         INFO(length << " x " << width << ", key " << key);
         const auto bed = start<Sphere>(spec_of({length, width, x, walls}, 200, {0, 0, 0.5}, key));
         REQUIRE(bed);

@@ -6,6 +6,7 @@
 
 #include "runner/sweep/expand.hpp"
 #include "tests/runner/sweep/sweep_files.hpp"
+#include "tests/support/tries.hpp"
 
 namespace grainsweep {
 namespace {
@@ -23,11 +24,7 @@ Rows rows_of(const std::string& text) {
 }
 
 /// What the sanitizers cost is not what a user waits for.
-#ifdef GRAINSWEEP_SANITIZED
-constexpr double patience = 10.0;
-#else
-constexpr double patience = 1.0;
-#endif
+constexpr double patience = testing::is_sanitized ? 10.0 : 1.0;
 
 std::string numbers(int count, const std::string& start) {
   std::string list;
