@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "runner/tables/fits.hpp"
 #include "runner/text.hpp"
 
 namespace grainsweep {
@@ -81,7 +82,6 @@ std::optional<double> difference_in_errors(const Comparison& comparison) {
 }
 
 std::string verdict(const Comparison& comparison) {
-  constexpr double largest_chi2 = 3.0;  // per degree of freedom; about 1 where one value holds
   if (comparison.chi2_per_dof && comparison.measured.not_determined.empty()) {
     return *comparison.chi2_per_dof > largest_chi2 ? "not one value for all" : "one value for all";
   }

@@ -18,7 +18,7 @@
 
 namespace grainsweep {
 
-/// Of a line that holds chi2 per degree of freedom is seldom larger.
+/// Of a line, or one value for all, that holds chi2 per degree of freedom is seldom larger.
 inline constexpr double largest_chi2 = 3.0;
 
 enum class Quantity { solid_fraction, coordination };
