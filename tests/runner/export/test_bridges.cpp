@@ -93,7 +93,8 @@ void check_bodies(const ExportedBed& exported, const OpenSurfaces& open) {
 
 TEST_CASE("a bed of spheres is joined by all its necks without a face through another") {
   const Box walls{3, 3, Boundary::walls, Boundary::walls};
-  const ExportedBed bed = bridged(packed_bed(SphereShape{}, walls, 9 + testing::tries(16)));
+  const ExportedBed bed =
+      bridged(packed_bed(SphereShape{}, walls, testing::is_sanitized ? 13 : 25));
   const ExportedBed wide = bridged(bed, "bridge:0.6");  // necks that would meet on a grain
   for (const ExportedBed& one : {bed, wide}) {
     check_bodies(one, open_spheres(one));
@@ -105,7 +106,7 @@ TEST_CASE("a bed of spheres is joined by all its necks without a face through an
 TEST_CASE("beds of polyhedra are joined at points, along lines and over areas") {
   const Box walls{4, 3, Boundary::walls, Boundary::walls};
   for (const ShapeSpec& shape : {ShapeSpec(CubeSize{}), ShapeSpec(PinacoidSize{})}) {
-    const ExportedBed bed = bridged(packed_bed(shape, walls, 8 + testing::tries(32)));
+    const ExportedBed bed = bridged(packed_bed(shape, walls, testing::is_sanitized ? 16 : 40));
     check_bodies(bed, open_polyhedra(bed));
     const ExportedBed wide = bridged(bed, "bridge:0.6");
     check_bodies(wide, open_polyhedra(wide));
@@ -172,7 +173,7 @@ TEST_CASE("across a periodic side grains have flat ends, or images that are join
 
 TEST_CASE("periodic beds of cubes with images are closed and cross nowhere") {
   ExportedBed bed = bridged(packed_bed(CubeSize{}, {4, 4, Boundary::periodic, Boundary::periodic},
-                                       20 + testing::tries(20)));
+                                       testing::is_sanitized ? 25 : 40));
   bed.settings.periodic_images = true;
   const auto surfaces = bridged_surfaces(bed);
   for (const GrainSurface& body : surfaces) CHECK(is_closed(body.surface));
