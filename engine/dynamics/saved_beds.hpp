@@ -98,6 +98,10 @@ void transfer_contacts(Archive& archive, PolyhedronContacts<Real>& contacts) {
     archive.value(memory.touched);
     archive.value(memory.candidates);
   });
+  archive.column(contacts.far_until);
+  archive.column(contacts.travel.position);
+  archive.column(contacts.travel.orientation);
+  archive.column(contacts.travel.way);
   archive.value(contacts.found_parts);
   archive.list(contacts.parts, [&](auto& part) { transfer_part(archive, part); });
   archive.column(contacts.impulse);

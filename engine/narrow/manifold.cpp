@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "engine/narrow/ball_pair.hpp"
 #include "engine/narrow/clip.hpp"
@@ -18,19 +19,23 @@ bool closer_than(const ShapePair& pair, double margin) {
   return pair.pose.centre.squaredNorm() <= reach * reach;
 }
 
-bool parted_along(const ShapePair& pair, const Vector& axis, double margin) {
-  return separation_along(pair, axis) > margin;
+/// No contact: the shapes are that far apart or further.
+PairContact apart_by(double separation) {
+  PairContact none;
+  none.separation = separation;
+  return none;
 }
 
-/// Whether GJK finds a pair further apart than the margin; it then remembers the axis.
-bool parted_by_distance(const ShapePair& pair, double margin, PairMemory& memory) {
+/// By how much GJK parts a pair that is further apart than the margin; it then remembers the axis.
+std::optional<double> parted_by_distance(const ShapePair& pair, double margin, PairMemory& memory) {
   const Closest closest = closest_points(pair);
-  if (closest.distance <= margin) return false;
+  if (closest.distance <= margin) return {};
   const Vector axis = (closest.on_b - closest.on_a).normalized();
   // What parts them must do so by itself: where rounding leaves a doubt they touch.
-  if (!parted_along(pair, axis, margin)) return false;
+  const double separation = separation_along(pair, axis);
+  if (!(separation > margin)) return {};
   memory.axis = axis;
-  return true;
+  return separation;
 }
 
 /// Whether edges part the pair better than every face by more than this.
@@ -96,7 +101,7 @@ PairContact touch_ball(const ShapePair& pair, double margin, PairMemory& memory,
                        std::vector<ContactPoint>& points) {
   const BallContact contact = ball_contact(pair);
   memory.axis = contact.normal;
-  if (contact.gap > margin) return {};
+  if (contact.gap > margin) return apart_by(contact.gap);
   points.push_back({contact.position, contact.gap});
   return {contact.normal, contact.gap, contact.kind, points.size() - 1, 1};
 }
@@ -111,7 +116,7 @@ double min_gap(const ContactPoint* points, std::size_t count) {
 
 PairContact touch(const ShapePair& pair, const TouchSettings& settings, const ContactAxes& axes,
                   ClipColumns& columns, std::vector<ContactPoint>& points) {
-  if (!(axes.separation() <= settings.margin)) return {};
+  if (!(axes.separation() <= settings.margin)) return apart_by(axes.separation());
   const bool edges = edges_part_better(axes, settings.preference);
   const double overlap = edges ? std::max(0.0, -axes.edges.separation) : 0.0;
   if (!edges_part_better(axes, settings.preference + settings.of_depth * overlap)) {
@@ -126,19 +131,22 @@ PairContact touch(const ShapePair& pair, const TouchSettings& settings, const Co
 PairContact touch(const ShapePair& pair, const TouchSettings& settings, PairMemory& memory,
                   TouchColumns& columns, std::vector<ContactPoint>& points) {
   const double margin = settings.margin;
-  if (!closer_than(pair, margin)) return {};
-  if (!memory.touched && !memory.axis.isZero(0.0) && parted_along(pair, memory.axis, margin)) {
-    return {};
+  if (!closer_than(pair, margin)) return apart_by(pair.pose.centre.norm() - pair.size());
+  if (!memory.touched && !memory.axis.isZero(0.0)) {
+    const double separation = separation_along(pair, memory.axis);
+    if (separation > margin) return apart_by(separation);
   }
   memory.touched = false;
   if (has_ball(pair)) return touch_ball(pair, margin, memory, points);
   const ContactAxes axes = separating_axes(pair, memory.axis, memory.candidates, columns.axes);
   memory.axis = axes.best().normal;
-  if (axes.separation() > margin) return {};
   PairContact contact = touch(pair, settings, axes, columns.clip, points);
-  if (contact.is_beside && parted_by_distance(pair, margin, memory)) {
-    points.resize(contact.first);
-    return {};
+  if (contact.count == 0) return contact;
+  if (contact.is_beside) {
+    if (const std::optional<double> separation = parted_by_distance(pair, margin, memory)) {
+      points.resize(contact.first);
+      return apart_by(*separation);
+    }
   }
   memory.touched = true;
   return contact;

@@ -48,7 +48,8 @@ struct CrossedEdges {
 /// Contact of two grains; its points are `points[first]` .. `points[first + count - 1]`.
 struct PairContact {
   Vector normal = Vector::Zero();  ///< unit, from a to b, frame of a; the same for all points
-  double separation = 0.0;         ///< along the normal, d; no more than the least gap
+  /// Along the normal, d; no more than the least gap. Of no contact one that parts the shapes.
+  double separation = 0.0;
   AxisKind kind = AxisKind::none;  ///< what gave the normal; none = no contact within the margin
   std::size_t first = 0, count = 0;
   /// Its one point does not tell that the shapes are within the margin: the touching features lie

@@ -24,6 +24,24 @@ double sunk_by(const PolyhedronBed& bed, Ends at, double squared) {
   return squared < nearest * nearest ? nearest - std::sqrt(squared) : 0.0;
 }
 
+// What rounding may add to a separation or to what grains have come, d.
+constexpr double rounding = 1e-9;
+
+/// Whether a pair cannot have come within the margin since it was found apart.
+bool is_far(const FarPairs& far, std::size_t k, GrainPair pair, double margin) {
+  return far.until[k] - far.travel_of(pair) > margin + rounding;
+}
+
+/// Notes that a pair whose nearest images, at this distance, were parted by `separation` is apart:
+/// by that, or by as much as its next images are at least, which lie beyond a period.
+void note_apart(const PolyhedronBed& bed, std::size_t k, GrainPair pair, double distance,
+                double separation, const FarPairs& far) {
+  const Ends at = ends_of(pair);
+  const double of_next =
+      shortest_period(bed.box) - distance - bed.circumradius(at.a) - bed.circumradius(at.b);
+  far.until[k] = far.travel_of(pair) + std::min(separation, of_next);
+}
+
 void append(GrainPair pair, const PairPose& pose, const PairContact& contact, ContactList& found) {
   if (contact.count > 0) {
     found.contacts.push_back({pair.a, pair.b, contact.kind, contact.normal, contact.first,
@@ -33,15 +51,20 @@ void append(GrainPair pair, const PairPose& pose, const PairContact& contact, Co
 
 /// Any convex shape: pair by pair.
 double touch_each(const TouchSettings& settings, const Kernels& kernels, const PolyhedronBed& bed,
-                  std::span<const GrainPair> pairs, std::span<PairMemory> memory,
-                  TouchColumns& columns, ContactList& found) {
+                  std::span<const GrainPair> pairs, const FarPairs& far,
+                  std::span<PairMemory> memory, TouchColumns& columns, ContactList& found) {
   columns.use(kernels);
   double sunk = 0.0;
   for (std::size_t k = 0; k < pairs.size(); ++k) {
+    if (is_far(far, k, pairs[k], settings.margin)) continue;
     const Ends at = ends_of(pairs[k]);
     const ShapePair shapes = shape_pair(bed, at.a, at.b);
     sunk = std::max(sunk, sunk_by(bed, at, shapes.pose.centre.squaredNorm()));
-    append(pairs[k], shapes.pose, touch(shapes, settings, memory[k], columns, found.points), found);
+    const PairContact contact = touch(shapes, settings, memory[k], columns, found.points);
+    if (contact.count == 0) {
+      note_apart(bed, k, pairs[k], shapes.pose.centre.norm(), contact.separation, far);
+    }
+    append(pairs[k], shapes.pose, contact, found);
   }
   return sunk;
 }
@@ -76,14 +99,19 @@ PinacoidKinds pinacoid_kinds(const std::vector<ConvexShape>& shapes) {
 
 /// Lists the pairs whose balls are no further apart than the margin; returns what touch_pairs does.
 double list_close(double margin, const PolyhedronBed& bed, std::span<const GrainPair> pairs,
-                  std::vector<ClosePair>& close) {
+                  const FarPairs& far, std::vector<ClosePair>& close) {
   double sunk = 0.0;
   close.clear();
   for (std::size_t k = 0; k < pairs.size(); ++k) {
+    if (is_far(far, k, pairs[k], margin)) continue;
     const Ends at = ends_of(pairs[k]);
-    const double reach = bed.circumradius(at.a) + bed.circumradius(at.b) + margin;
+    const double size = bed.circumradius(at.a) + bed.circumradius(at.b), reach = size + margin;
     const double squared = nearest_difference(bed, at.a, at.b).squaredNorm();
-    if (squared > reach * reach) continue;
+    if (squared > reach * reach) {
+      const double distance = std::sqrt(squared);
+      note_apart(bed, k, pairs[k], distance, distance - size, far);
+      continue;
+    }
     close.push_back({static_cast<std::uint32_t>(k), ClosePair::no_lane});
     sunk = std::max(sunk, sunk_by(bed, at, squared));
   }
@@ -140,9 +168,9 @@ void batch_axes(const Kernels& kernels, const PolyhedronBed& bed, const Pinacoid
 /// Beds with pinacoids: all axes of 16 pairs of them at a time; other pairs one by one.
 double touch_pinacoids(const TouchSettings& settings, const Kernels& kernels,
                        const PolyhedronBed& bed, const PinacoidKinds& all,
-                       std::span<const GrainPair> pairs, std::span<PairMemory> memory,
-                       NarrowColumns& columns, ContactList& found) {
-  const double sunk = list_close(settings.margin, bed, pairs, columns.close);
+                       std::span<const GrainPair> pairs, const FarPairs& far,
+                       std::span<PairMemory> memory, NarrowColumns& columns, ContactList& found) {
+  const double sunk = list_close(settings.margin, bed, pairs, far, columns.close);
   batch_axes(kernels, bed, all, pairs, columns);
   columns.touch.use(kernels);
   for (const ClosePair& close : columns.close) {
@@ -152,13 +180,23 @@ double touch_pinacoids(const TouchSettings& settings, const Kernels& kernels,
     const PinacoidBlock* block = is_tested ? &columns.axes[close.lane / block_width] : nullptr;
     const std::size_t lane = close.lane % block_width;
     const double scale = std::max(bed.scale(at.a), bed.scale(at.b));
-    if (is_tested && parted_by(*block, lane, settings.margin, scale)) continue;
+    const auto note = [&](double distance, double separation) {
+      note_apart(bed, close.number, pair, distance, separation, far);
+    };
+    if (is_tested) {
+      const double separation = parted_by(*block, lane, scale);
+      if (separation > settings.margin) {
+        note(nearest_difference(bed, at.a, at.b).norm(), separation);
+        continue;
+      }
+    }
     const ShapePair shapes = shape_pair(bed, at.a, at.b);
-    append(pair, shapes.pose,
-           is_tested ? touch(shapes, settings, separating_axes(shapes, *block, lane),
-                             columns.touch.clip, found.points)
-                     : touch(shapes, settings, memory[close.number], columns.touch, found.points),
-           found);
+    const PairContact contact =
+        is_tested ? touch(shapes, settings, separating_axes(shapes, *block, lane),
+                          columns.touch.clip, found.points)
+                  : touch(shapes, settings, memory[close.number], columns.touch, found.points);
+    if (contact.count == 0) note(shapes.pose.centre.norm(), contact.separation);
+    append(pair, shapes.pose, contact, found);
   }
   return sunk;
 }
@@ -200,12 +238,12 @@ bool needs_memory(const PolyhedronBed& bed) {
 }
 
 double touch_pairs(const TouchSettings& settings, const Kernels& kernels, const PolyhedronBed& bed,
-                   std::span<const GrainPair> pairs, std::span<PairMemory> memory,
+                   std::span<const GrainPair> pairs, FarPairs far, std::span<PairMemory> memory,
                    NarrowColumns& columns, ContactList& found) {
   const PinacoidKinds kinds = pinacoid_kinds(bed.shapes);
   return kinds.kinds.empty()
-             ? touch_each(settings, kernels, bed, pairs, memory, columns.touch, found)
-             : touch_pinacoids(settings, kernels, bed, kinds, pairs, memory, columns, found);
+             ? touch_each(settings, kernels, bed, pairs, far, memory, columns.touch, found)
+             : touch_pinacoids(settings, kernels, bed, kinds, pairs, far, memory, columns, found);
 }
 
 void touch_wall(std::size_t k, const std::vector<std::int32_t>& grains, double margin,

@@ -1,10 +1,11 @@
 // Which polyhedra of a list of pairs touch, and where.
 //
-// The chain of a pair: balls, then for pinacoids, of the same proportions or not, the batch test of
-// separating axes and its best axes measured anew in f64, for other shapes the pair's last axis and
-// separating axes; at last the contact polygon, every point of it, and GJK where no point tells
-// that the pair is near (engine/narrow/manifold.hpp). Spheres touch at one point
-// (engine/narrow/ball_pair.hpp). Walls touch with all vertices near them.
+// The chain of a pair: how far its grains have come since it was found apart; balls; then for
+// pinacoids, of the same proportions or not, the batch test of separating axes and its best axes
+// measured anew in f64, for other shapes the pair's last axis and separating axes; at last the
+// contact polygon, every point of it, and GJK where no point tells that the pair is near
+// (engine/narrow/manifold.hpp). Spheres touch at one point (engine/narrow/ball_pair.hpp). Walls
+// touch with all vertices near them.
 #pragma once
 
 #include <cstdint>
@@ -49,6 +50,19 @@ struct ClosePair {
   static constexpr std::uint32_t no_lane = 0xFFFFFFFF;
 };
 
+/// Which pairs need not be looked at: those that were found apart, and whose grains have come less
+/// far since then than would bring them together.
+struct FarPairs {
+  std::span<const double> travel;  ///< of each grain, d; see engine/rows/travel.hpp
+  /// Of each pair, the travel of its two grains together with which they may touch, d; less than
+  /// that of any if they have not been looked at.
+  std::span<double> until;
+
+  double travel_of(GrainPair pair) const {
+    return travel[static_cast<std::size_t>(pair.a)] + travel[static_cast<std::size_t>(pair.b)];
+  }
+};
+
 /// Working memory, kept from call to call.
 struct NarrowColumns {
   std::vector<ClosePair> close;     ///< if any of the grains are pinacoids
@@ -59,11 +73,12 @@ struct NarrowColumns {
 /// Whether pairs of the bed remember anything: those of pinacoids do not.
 bool needs_memory(const PolyhedronBed& bed);
 
-/// Appends the contacts of `pairs`; `memory` is what each of them remembers, if any does. Returns
-/// the most by which centres are nearer than sunk_share of the distance at which the balls within
-/// their grains touch, d; 0 if none are.
+/// Appends the contacts of `pairs`; `far` tells which are none, and learns it of others; `memory`
+/// is what each of them remembers, if any does. Both save time and change nothing. Returns the most
+/// by which centres are nearer than sunk_share of the distance at which the balls within their
+/// grains touch, d; 0 if none are.
 double touch_pairs(const TouchSettings& settings, const Kernels& kernels, const PolyhedronBed& bed,
-                   std::span<const GrainPair> pairs, std::span<PairMemory> memory,
+                   std::span<const GrainPair> pairs, FarPairs far, std::span<PairMemory> memory,
                    NarrowColumns& columns, ContactList& found);
 
 /// Appends the contacts of grains with wall k of the bed. A round wall is concave, so that only

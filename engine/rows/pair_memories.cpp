@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <numeric>
-#include <utility>
 
 namespace grainsweep {
 
@@ -52,15 +51,13 @@ std::size_t number_before(GrainPair pair, const PairMemoryColumns& columns) {
 
 }  // namespace
 
-void keep_memories(std::size_t grains, const std::vector<GrainPair>& pairs, const ParallelFor& loop,
-                   std::vector<PairMemory>& memory, PairMemoryColumns& columns) {
-  std::swap(memory, columns.memory);
+void match_pairs(std::size_t grains, const std::vector<GrainPair>& pairs, const ParallelFor& loop,
+                 PairMemoryColumns& columns) {
   sort_by_grains(grains, columns);
-  memory.resize(pairs.size());
+  columns.before.resize(pairs.size());
   parallel_items(loop, pairs.size(), [&](std::size_t first, std::size_t count) {
     for (std::size_t k = first; k < first + count; ++k) {
-      const std::size_t before = number_before(pairs[k], columns);
-      memory[k] = before < columns.pairs.size() ? columns.memory[before] : PairMemory{};
+      columns.before[k] = number_before(pairs[k], columns);
     }
   });
 }

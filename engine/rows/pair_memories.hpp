@@ -2,10 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "engine/context.hpp"
-#include "engine/narrow/manifold.hpp"
 #include "kernels/kernels.hpp"
 
 namespace grainsweep {
@@ -13,16 +13,31 @@ namespace grainsweep {
 /// Kept from call to call.
 struct PairMemoryColumns {
   std::vector<GrainPair> pairs;      ///< those of the list before
-  std::vector<PairMemory> memory;    ///< of each of them
+  std::vector<std::size_t> before;   ///< see match_pairs
   std::vector<std::size_t> begin;    ///< of each first grain's in what follows; one more at the end
   std::vector<std::int32_t> second;  ///< second grains, of each first grain ascending
   std::vector<std::size_t> number;   ///< of their pairs
   std::vector<std::size_t> by_second;  ///< memory: the pairs, by their second grains
 };
 
-/// Gives the pairs of a new list what those of the list before, columns.pairs, remembered in
-/// `memory`, which is then of the new ones. Pairs that were not listed remember nothing.
-void keep_memories(std::size_t grains, const std::vector<GrainPair>& pairs, const ParallelFor& loop,
-                   std::vector<PairMemory>& memory, PairMemoryColumns& columns);
+/// Finds each pair of a new list in the list before, columns.pairs: columns.before becomes its
+/// number in it, or the number of its pairs if it was not listed.
+void match_pairs(std::size_t grains, const std::vector<GrainPair>& pairs, const ParallelFor& loop,
+                 PairMemoryColumns& columns);
+
+/// Gives the pairs of the new list what those of the list before remembered in `memory`, which is
+/// then of the new ones. Pairs that were not listed remember `nothing`. `spare`: memory.
+template <class Memory>
+void keep_memories(const PairMemoryColumns& columns, const ParallelFor& loop, const Memory& nothing,
+                   std::vector<Memory>& memory, std::vector<Memory>& spare) {
+  std::swap(memory, spare);
+  memory.resize(columns.before.size());
+  parallel_items(loop, memory.size(), [&](std::size_t first, std::size_t count) {
+    for (std::size_t k = first; k < first + count; ++k) {
+      const std::size_t before = columns.before[k];
+      memory[k] = before < columns.pairs.size() ? spare[before] : nothing;
+    }
+  });
+}
 
 }  // namespace grainsweep

@@ -296,8 +296,9 @@ double touch_subdomain(const TouchSettings& settings, const Kernels& kernels,
   const std::size_t begin = all.begin[subdomain], count = all.begin[subdomain + 1] - begin;
   found.clear();
   const std::span<PairMemory> memory(contacts.memory);
+  const FarPairs far{contacts.travel.way, {contacts.far_until.data() + begin, count}};
   const double sunk =
-      touch_pairs(settings, kernels, bed, {all.pairs.data() + begin, count},
+      touch_pairs(settings, kernels, bed, {all.pairs.data() + begin, count}, far,
                   memory.empty() ? memory : memory.subspan(begin, count), columns, found);
   for (std::size_t k = 0; k < bed.walls.size(); ++k) {
     touch_wall(k, all.near_wall(k, subdomain), settings.margin, bed, found);
@@ -334,6 +335,7 @@ void join(const ParallelFor& loop, PolyhedronContacts<Real>& contacts,
 template <class Real>
 double touch_candidates(const TouchSettings& settings, const PolyhedronBed& bed,
                         const ExecutionContext& context, PolyhedronContacts<Real>& contacts) {
+  add_travel(bed, context.loop, contacts.travel);
   contacts.found_parts = contacts.subdomains.count;
   contacts.parts.resize(std::max(contacts.parts.size(), contacts.found_parts));
   parallel_for(context.loop, contacts.found_parts, [&](std::size_t s) {
@@ -401,11 +403,16 @@ template <class Real>
 void take_candidates(const PolyhedronBed& bed, const Candidates& candidates,
                      PolyhedronContacts<Real>& contacts, const ParallelFor& loop) {
   std::vector<GrainPair>& pairs = contacts.subdomains.pairs;
-  const bool remembers = needs_memory(bed);
-  if (remembers) std::swap(pairs, contacts.remembered.pairs);
+  PairMemoryColumns& before = contacts.listed_before;
+  std::swap(pairs, before.pairs);
   divide(bed, Polyhedron::subdomain_grains, candidates, candidates.pairs, loop,
          contacts.subdomains);
-  if (remembers) keep_memories(bed.grains(), pairs, loop, contacts.memory, contacts.remembered);
+  match_pairs(bed.grains(), pairs, loop, before);
+  constexpr double unseen = -std::numeric_limits<double>::infinity();
+  keep_memories(before, loop, unseen, contacts.far_until, contacts.spare_until);
+  if (needs_memory(bed)) {
+    keep_memories(before, loop, PairMemory{}, contacts.memory, contacts.spare_memory);
+  }
 }
 
 template <class Real>
@@ -472,6 +479,7 @@ std::vector<ContactList> closed_contacts(PolyhedronBed& bed, const ExecutionCont
   PolyhedronContacts<double> now;
   renew_candidates(closed_gap, 0.0, context, bed, candidates);
   take_candidates(bed, candidates, now, context.loop);
+  add_travel(bed, context.loop, now.travel);
   std::vector<ContactList> lists(now.subdomains.count);
   parallel_for(context.loop, lists.size(), [&](std::size_t s) {
     NarrowColumns columns;
@@ -492,6 +500,7 @@ std::vector<Closure> closures(PolyhedronBed& bed, const ExecutionContext& contex
   if (renew_candidates(closed_gap, search_margin, context, bed, candidates)) {
     take_candidates(bed, candidates, contacts, context.loop);
   }
+  add_travel(bed, context.loop, contacts.travel);
   std::vector<Closure> all(bearing.size(), {std::numeric_limits<double>::infinity(), 0, 0});
   parallel_for(context.loop, contacts.subdomains.count, [&](std::size_t s) {
     NarrowColumns columns;

@@ -16,6 +16,7 @@
 #include "engine/rows/pair_memories.hpp"
 #include "engine/rows/partition.hpp"
 #include "engine/rows/subdomains.hpp"
+#include "engine/rows/travel.hpp"
 #include "engine/scene/bed.hpp"
 #include "kernels/kernels.hpp"
 
@@ -46,8 +47,11 @@ struct ContactPart {
 template <class Real>
 struct Contacts<Polyhedron, Real> {
   Subdomains subdomains;
-  std::vector<PairMemory> memory;  ///< of each of subdomains.pairs
-  PairMemoryColumns remembered;
+  std::vector<PairMemory> memory;  ///< of each of subdomains.pairs, if any remembers
+  Travel travel;
+  std::vector<double> far_until, spare_until;  ///< of each of subdomains.pairs; see FarPairs
+  PairMemoryColumns listed_before;
+  std::vector<PairMemory> spare_memory;
   std::vector<ContactPart<Real>> parts;  ///< memory of more than `found_parts` may be left
   std::size_t found_parts = 0;           ///< parts that the last step found
   std::vector<BodyBlock<Real>> blocks;
@@ -91,6 +95,8 @@ template <class Real>
 void forget_pairs(PolyhedronContacts<Real>& contacts) {
   contacts.subdomains.pairs.clear();
   contacts.memory.clear();
+  contacts.far_until.clear();
+  contacts.travel = {};
 }
 
 /// Takes a new list of candidates; contacts stay what they are until they are found anew, and pairs

@@ -4,8 +4,10 @@
 // of it is asked for anywhere.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "engine/units.hpp"
@@ -34,6 +36,14 @@ struct Box {
   double period_x() const { return x == Boundary::periodic ? length : 0.0; }
   double period_y() const { return y == Boundary::periodic ? width : 0.0; }
 };
+
+/// The shorter of its periods, d; infinite if it has none.
+inline double shortest_period(const Box& box) {
+  const auto of = [](double period) {
+    return period > 0.0 ? period : std::numeric_limits<double>::infinity();
+  };
+  return std::min(of(box.period_x()), of(box.period_y()));
+}
 
 /// The difference between two coordinates, of their nearest images along an axis of that period, d;
 /// period 0: as it is. Requires a difference of less than one and a half periods.

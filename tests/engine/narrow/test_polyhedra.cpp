@@ -120,6 +120,64 @@ TEST_CASE("contacts stay complete while grains move and turn, with few searches"
   CHECK(searches < 20);
 }
 
+/// Share of the pairs listed that need no look where their grains are.
+double share_far(const PolyhedronContacts<double>& contacts) {
+  const std::vector<GrainPair>& pairs = contacts.subdomains.pairs;
+  const auto way = [&](std::int32_t grain) {
+    return contacts.travel.way[static_cast<std::size_t>(grain)];
+  };
+  double far = 0;
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    far += contacts.far_until[k] - way(pairs[k].a) - way(pairs[k].b) > usual.margin ? 1 : 0;
+  }
+  return far / static_cast<double>(pairs.size());
+}
+
+TEST_CASE("pairs found apart are not looked at until they may touch") {
+  const ConvexShape long_one = pinacoid({.length = 2.0, .width = 1.0, .height = 0.3});
+  for (const ConvexShape& shape : {long_one, testing::hull_of(long_one.vertices)}) {
+    PolyhedronBed bed = testing::random_shape_bed({6, 5, periodic, walls}, shape, 60, 5, 3);
+    testing::Draw draw(6);
+    std::vector<Vector> course, spin;
+    for (std::size_t i = 0; i < bed.grains(); ++i) {
+      course.push_back(0.02 * testing::random_direction(draw));
+      spin.push_back(0.02 * testing::random_direction(draw));
+    }
+    Search search;
+    for (int k = 0; k < 150; ++k) {
+      search.find(bed);
+      REQUIRE(difference(names_of(search.found()), brute_force(bed, usual)) == "");
+      for (std::size_t i = 0; i < bed.grains(); ++i) move_grain(bed, i, course[i], spin[i]);
+    }
+    CHECK(share_far(search.contacts) > 0.4);
+  }
+}
+
+TEST_CASE("two grains that part on one side may meet on the other of a narrow box") {
+  const ConvexShape spike =
+      testing::hull_of({{1.2, 0, 0}, {0, 0.3, 0}, {0, -0.2, 0.2}, {0, -0.2, -0.2}});
+  const double least = 2.0 * (2.0 * spike.circumradius + 0.1);  // that such a box may have
+  const Vector tip = *std::max_element(
+      spike.vertices.begin(), spike.vertices.end(),
+      [](const Vector& p, const Vector& q) { return p.squaredNorm() < q.squaredNorm(); });
+  const auto pointed = [&](double x, double tip_x) {
+    return testing::pose_at(x, 1, 2, Quaternion::FromTwoVectors(tip, Vector(tip_x, 0, 0)));
+  };
+  // Back to back, and tip to tip across the box.
+  PolyhedronBed bed = make_bed({least, least, periodic, periodic}, spike,
+                               {pointed(least / 2, 1), pointed(0.05, -1)});
+  Search search;
+  std::size_t met = 0;
+  for (int k = 0; k < 60; ++k) {
+    search.find(bed);
+    const Found expected = brute_force(bed, usual);
+    REQUIRE(difference(names_of(search.found()), expected) == "");
+    met += expected.size();
+    move_grain(bed, 1, {-0.02, 0, 0}, Vector::Zero());
+  }
+  CHECK(met > 10);
+}
+
 TEST_CASE("a pinacoid and the hull of its corners touch at the same points") {
   const ConvexShape shape = pinacoid({}), hull = testing::hull_of(shape.vertices);
   // At random no two axes are equally good, so that both choose the same.

@@ -118,7 +118,7 @@ TEST_CASE("a pair that the batch parts is apart, one that it does not part is ne
   int parted = 0;
   for (std::size_t k = 0; k < batch.pairs(); ++k) {
     const ShapePair pair = batch.pair(shape, k);
-    const bool apart = parted_by(batch.blocks[k / block_width], k % block_width, 0.05, 1.1);
+    const bool apart = parted_by(batch.blocks[k / block_width], k % block_width, 1.1) > 0.05;
     const double separation = separating_axes(pair).separation();
     parted += apart ? 1 : 0;
     if (apart) REQUIRE(separation > 0.05);

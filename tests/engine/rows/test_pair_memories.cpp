@@ -23,7 +23,7 @@ std::vector<GrainPair> drawn_pairs(Draw& draw, std::int32_t grains, double share
   return pairs;
 }
 
-Vector mark_of(const GrainPair& pair) { return {double(pair.a), double(pair.b), 1.0}; }
+constexpr GrainPair nothing{-1, -1};
 
 TEST_CASE("pairs that were listed before remember what they did, others nothing") {
   Draw draw(3);
@@ -31,16 +31,17 @@ TEST_CASE("pairs that were listed before remember what they did, others nothing"
     PairMemoryColumns columns;
     const std::vector<GrainPair> pairs = drawn_pairs(draw, grains, 0.4);
     columns.pairs = drawn_pairs(draw, grains, 0.4);
-    std::vector<PairMemory> memory(columns.pairs.size());
-    for (std::size_t k = 0; k < memory.size(); ++k) memory[k].axis = mark_of(columns.pairs[k]);
-    keep_memories(static_cast<std::size_t>(grains), pairs, serial_for, memory, columns);
+    std::vector<GrainPair> memory = columns.pairs, spare;
+    match_pairs(static_cast<std::size_t>(grains), pairs, serial_for, columns);
+    keep_memories(columns, serial_for, nothing, memory, spare);
     REQUIRE(memory.size() == pairs.size());
     for (std::size_t k = 0; k < pairs.size(); ++k) {
       bool was_listed = false;
       for (const GrainPair& pair : columns.pairs) {
         was_listed = was_listed || (pair.a == pairs[k].a && pair.b == pairs[k].b);
       }
-      CHECK(memory[k].axis == (was_listed ? mark_of(pairs[k]) : Vector(Vector::Zero())));
+      CHECK(memory[k].a == (was_listed ? pairs[k].a : nothing.a));
+      CHECK(memory[k].b == (was_listed ? pairs[k].b : nothing.b));
     }
   }
 }
