@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "engine/exact/halves.hpp"
+#include "engine/exact/vertex_cover.hpp"
 
 namespace grainsweep {
 
@@ -43,7 +44,10 @@ class Neighbours {
 class Dissection {
  public:
   Dissection(std::span<const Record<double>> centres, const std::vector<GrainPair>& pairs)
-      : centres_(centres), neighbours_(centres.size(), pairs), part_(centres.size(), 0) {
+      : centres_(centres),
+        neighbours_(centres.size(), pairs),
+        part_(centres.size(), 0),
+        number_(centres.size(), none) {
     std::vector<std::int32_t> all(centres.size());
     std::iota(all.begin(), all.end(), 0);
     dissect(all.begin(), all.end());
@@ -76,27 +80,50 @@ class Dissection {
     return axis == 0 ? p.x : axis == 1 ? p.y : p.z;
   }
 
-  /// Puts the grains of one half that have neighbours in the other behind all others; of the two
-  /// halves that which has fewer of them. Returns where the second half begins, and its end.
+  /// Puts as few grains as can part the halves behind all others: of every two neighbours in
+  /// different halves one. Returns where the rest of the second half begins, and its end.
   std::pair<At, At> part(At first, At middle, At last) {
-    const std::int32_t below = ++parts_, above = ++parts_;
+    const std::int32_t below = ++parts_, above = ++parts_, parting = ++parts_;
     for (At at = first; at != last; ++at) part_of(*at) = at < middle ? below : above;
-    const auto touches_above = [&](std::int32_t grain) { return touches(grain, above); };
-    const auto touches_below = [&](std::int32_t grain) { return touches(grain, below); };
-    if (std::count_if(first, middle, touches_above) <= std::count_if(middle, last, touches_below)) {
-      const At parting = std::stable_partition(
-          first, middle, [&](std::int32_t grain) { return !touches_above(grain); });
-      return {parting, std::rotate(parting, middle, last)};
+    for (const std::int32_t grain : cover(first, middle, above)) part_of(grain) = parting;
+    const auto stays = [&](std::int32_t grain) { return part_of(grain) != parting; };
+    const At begin = std::stable_partition(first, middle, stays);
+    const At end = std::stable_partition(middle, last, stays);
+    return {begin, std::rotate(begin, middle, end)};
+  }
+  /// The fewest grains that have one of every two neighbours of which one is in the first half, the
+  /// other in the part `above`.
+  std::vector<std::int32_t> cover(At first, At middle, std::int32_t above) {
+    Partners partners;
+    std::vector<std::int32_t> below_grains, above_grains;
+    for (At at = first; at != middle; ++at) {
+      std::vector<std::int32_t> own;
+      for (const std::int32_t partner : neighbours_.of(*at)) {
+        if (part_of(partner) != above) continue;
+        std::int32_t& number = number_[static_cast<std::size_t>(partner)];
+        if (number == none) {
+          number = static_cast<std::int32_t>(above_grains.size());
+          above_grains.push_back(partner);
+        }
+        own.push_back(number);
+      }
+      if (own.empty()) continue;
+      below_grains.push_back(*at);
+      partners.push_back(std::move(own));
     }
-    const auto apart = [&](std::int32_t grain) { return !touches_below(grain); };
-    return {middle, std::stable_partition(middle, last, apart)};
+    for (const std::int32_t grain : above_grains) number_[static_cast<std::size_t>(grain)] = none;
+    const VertexCover taken = smallest_cover(partners, above_grains.size());
+    std::vector<std::int32_t> grains;
+    const auto take = [&](const std::vector<std::int32_t>& side, const auto& flags) {
+      for (std::size_t k = 0; k < side.size(); ++k) {
+        if (flags[k] != 0) grains.push_back(side[k]);
+      }
+    };
+    take(below_grains, taken.left);
+    take(above_grains, taken.right);
+    return grains;
   }
   std::int32_t& part_of(std::int32_t grain) { return part_[static_cast<std::size_t>(grain)]; }
-  bool touches(std::int32_t grain, std::int32_t part) {
-    const auto partners = neighbours_.of(grain);
-    return std::any_of(partners.begin(), partners.end(),
-                       [&](std::int32_t partner) { return part_of(partner) == part; });
-  }
 
   void number_grains() {
     tree_.place.resize(centres_.size());
@@ -134,7 +161,9 @@ class Dissection {
   Neighbours neighbours_;
   std::vector<std::int32_t> part_;  ///< of each grain, the one it was last sorted into
   std::int32_t parts_ = 0;
-  std::int32_t eliminated_ = 0;  ///< grains up to a node
+  static constexpr std::int32_t none = -1;
+  std::vector<std::int32_t> number_;  ///< of each grain among those that touch the half at work
+  std::int32_t eliminated_ = 0;       ///< grains up to a node
   EliminationTree tree_;
 };
 

@@ -1,10 +1,11 @@
 // The order in which the grains of a bed are eliminated, so that the factors of its stiffness
 // matrix stay sparse: nested dissection.
 //
-// Two grains are neighbours if they are a pair. A plane halves the bed; the grains of one half that
-// have neighbours in the other part them and come last; what is left of each half is parted in the
-// same way (George 1973). The parting grains of all halvings are the nodes of a binary tree, and
-// the factors of a node depend on those of its children alone.
+// Two grains are neighbours if they are a pair. A plane halves the bed; as few grains as part the
+// halves, one of every two neighbours on different sides of the plane
+// (engine/exact/vertex_cover.hpp), come last; what is left of each half is parted in the same way
+// (George 1973). The parting grains of all halvings are the nodes of a binary tree, and the factors
+// of a node depend on those of its children alone.
 #pragma once
 
 #include <array>

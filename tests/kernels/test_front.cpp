@@ -54,7 +54,8 @@ TEST_CASE("a front is eliminated as number by number, with the same bits on all 
                                       {16, 16},
                                       {33, 30},
                                       {61, 21},
-                                      {100, 100}}) {
+                                      {100, 100},
+                                      {250, 150}}) {
     INFO(rows << " rows, " << columns << " columns");
     const Front given = drawn_front(rows, rows);
     Front plain = given;

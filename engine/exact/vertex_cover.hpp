@@ -1,0 +1,23 @@
+// The fewest vertices of a bipartite graph that have an end of each of its edges.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace grainsweep {
+
+/// The edges of a graph between left vertices 0, 1, 2 .. and right ones: the partners of each left
+/// one.
+using Partners = std::vector<std::vector<std::int32_t>>;
+
+/// 1 for each vertex that is taken, 0 for others.
+struct VertexCover {
+  std::vector<std::uint8_t> left, right;
+};
+
+/// As many vertices as edges of which no two meet (Koenig 1931); the same of several such covers
+/// every time. `right`: number of right vertices.
+VertexCover smallest_cover(const Partners& partners, std::size_t right);
+
+}  // namespace grainsweep
