@@ -58,6 +58,7 @@ class Dissection {
 
  private:
   using At = std::vector<std::int32_t>::iterator;
+  static constexpr std::int32_t none = -1;
 
   /// Adds the nodes of some grains; returns the last one.
   std::int32_t dissect(At first, At last) {
@@ -161,7 +162,6 @@ class Dissection {
   Neighbours neighbours_;
   std::vector<std::int32_t> part_;  ///< of each grain, the one it was last sorted into
   std::int32_t parts_ = 0;
-  static constexpr std::int32_t none = -1;
   std::vector<std::int32_t> number_;  ///< of each grain among those that touch the half at work
   std::int32_t eliminated_ = 0;       ///< grains up to a node
   EliminationTree tree_;

@@ -43,10 +43,8 @@ void note_apart(const PolyhedronBed& bed, std::size_t k, GrainPair pair, double 
 }
 
 void append(GrainPair pair, const PairPose& pose, const PairContact& contact, ContactList& found) {
-  if (contact.count > 0) {
-    found.contacts.push_back({pair.a, pair.b, contact.kind, contact.normal, contact.first,
-                              contact.count, pose, contact.edges});
-  }
+  found.contacts.push_back({pair.a, pair.b, contact.kind, contact.normal, contact.first,
+                            contact.count, pose, contact.edges});
 }
 
 /// Any convex shape: pair by pair.
@@ -63,8 +61,9 @@ double touch_each(const TouchSettings& settings, const Kernels& kernels, const P
     const PairContact contact = touch(shapes, settings, memory[k], columns, found.points);
     if (contact.count == 0) {
       note_apart(bed, k, pairs[k], shapes.pose.centre.norm(), contact.separation, far);
+    } else {
+      append(pairs[k], shapes.pose, contact, found);
     }
-    append(pairs[k], shapes.pose, contact, found);
   }
   return sunk;
 }
@@ -112,7 +111,7 @@ double list_close(double margin, const PolyhedronBed& bed, std::span<const Grain
       note_apart(bed, k, pairs[k], distance, distance - size, far);
       continue;
     }
-    close.push_back({static_cast<std::uint32_t>(k), ClosePair::no_lane});
+    close.push_back({static_cast<std::uint32_t>(k), ClosePair::no_lane, squared});
     sunk = std::max(sunk, sunk_by(bed, at, squared));
   }
   return sunk;
@@ -180,13 +179,13 @@ double touch_pinacoids(const TouchSettings& settings, const Kernels& kernels,
     const PinacoidBlock* block = is_tested ? &columns.axes[close.lane / block_width] : nullptr;
     const std::size_t lane = close.lane % block_width;
     const double scale = std::max(bed.scale(at.a), bed.scale(at.b));
-    const auto note = [&](double distance, double separation) {
-      note_apart(bed, close.number, pair, distance, separation, far);
+    const auto note = [&](double separation) {
+      note_apart(bed, close.number, pair, std::sqrt(close.squared), separation, far);
     };
     if (is_tested) {
       const double separation = parted_by(*block, lane, scale);
       if (separation > settings.margin) {
-        note(nearest_difference(bed, at.a, at.b).norm(), separation);
+        note(separation);
         continue;
       }
     }
@@ -195,8 +194,11 @@ double touch_pinacoids(const TouchSettings& settings, const Kernels& kernels,
         is_tested ? touch(shapes, settings, separating_axes(shapes, *block, lane),
                           columns.touch.clip, found.points)
                   : touch(shapes, settings, memory[close.number], columns.touch, found.points);
-    if (contact.count == 0) note(shapes.pose.centre.norm(), contact.separation);
-    append(pair, shapes.pose, contact, found);
+    if (contact.count == 0) {
+      note(contact.separation);
+    } else {
+      append(pair, shapes.pose, contact, found);
+    }
   }
   return sunk;
 }

@@ -47,6 +47,7 @@ struct ContactList {
 struct ClosePair {
   std::uint32_t number = 0;  ///< in the list of pairs
   std::uint32_t lane = 0;    ///< of the blocks of the batch test, or `no_lane`
+  double squared = 0.0;      ///< distance of the centres, d^2
   static constexpr std::uint32_t no_lane = 0xFFFFFFFF;
 };
 
@@ -70,7 +71,7 @@ struct NarrowColumns {
   TouchColumns touch;
 };
 
-/// Whether pairs of the bed remember anything: those of pinacoids do not.
+/// Whether pairs of the bed have a PairMemory: those of pinacoids have none.
 bool needs_memory(const PolyhedronBed& bed);
 
 /// Appends the contacts of `pairs`; `far` tells which are none, and learns it of others; `memory`

@@ -9,12 +9,6 @@ namespace {
 
 double square(double x) { return x * x; }
 
-/// How far the centre of a grain has come, d.
-double moved(const Box& box, const Record<double>& from, const Record<double>& to) {
-  return std::sqrt(square(nearest_image(to.x - from.x, box.period_x())) +
-                   square(nearest_image(to.y - from.y, box.period_y())) + square(to.z - from.z));
-}
-
 /// No less than how far a point at a distance of 1 from the axis of a turn has come: twice the sine
 /// of half its angle, where two quaternions are twice the sine of a quarter of it apart.
 double turned(const Record<double>& from, const Record<double>& to) {
@@ -35,7 +29,7 @@ void add_travel(const PolyhedronBed& bed, const ParallelFor& loop, Travel& trave
   parallel_items(loop, bed.grains(), [&](std::size_t first, std::size_t count) {
     for (std::size_t i = first; i < first + count; ++i) {
       if (i < before) {
-        travel.way[i] += moved(bed.box, travel.position[i], bed.position[i]) +
+        travel.way[i] += nearest_difference(bed.box, travel.position[i], bed.position[i]).norm() +
                          bed.circumradius(i) * turned(travel.orientation[i], bed.orientation[i]);
       }
       travel.position[i] = bed.position[i];

@@ -168,10 +168,13 @@ void wrap(Grains& bed, const ParallelFor& loop) {
   });
 }
 
+Vector nearest_difference(const Box& box, const Record<double>& p, const Record<double>& q) {
+  return {nearest_image(q.x - p.x, box.period_x()), nearest_image(q.y - p.y, box.period_y()),
+          q.z - p.z};
+}
+
 Vector nearest_difference(const Grains& bed, std::size_t a, std::size_t b) {
-  const Record<double>&p = bed.position[a], &q = bed.position[b];
-  return {nearest_image(q.x - p.x, bed.box.period_x()),
-          nearest_image(q.y - p.y, bed.box.period_y()), q.z - p.z};
+  return nearest_difference(bed.box, bed.position[a], bed.position[b]);
 }
 
 PairPose pair_pose(const PolyhedronBed& bed, std::size_t a, std::size_t b) {

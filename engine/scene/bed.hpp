@@ -147,7 +147,10 @@ bool is_finite(const PolyhedronBed& bed);
 /// Brings x and y of every centre back into the box along periodic axes.
 void wrap(Grains& bed, const ParallelFor& loop = serial_for);
 
-/// Centre of grain b minus that of grain a, of the nearest image, box frame, d.
+/// Place q minus place p, of the nearest image, box frame, d.
+Vector nearest_difference(const Box& box, const Record<double>& p, const Record<double>& q);
+
+/// Centre of grain b minus that of grain a, the same.
 Vector nearest_difference(const Grains& bed, std::size_t a, std::size_t b);
 
 /// Grain b, of its nearest image, as grain a sees it.

@@ -123,12 +123,10 @@ TEST_CASE("contacts stay complete while grains move and turn, with few searches"
 /// Share of the pairs listed that need no look where their grains are.
 double share_far(const PolyhedronContacts<double>& contacts) {
   const std::vector<GrainPair>& pairs = contacts.subdomains.pairs;
-  const auto way = [&](std::int32_t grain) {
-    return contacts.travel.way[static_cast<std::size_t>(grain)];
-  };
+  const FarPairs grains{contacts.travel.way, {}};
   double far = 0;
   for (std::size_t k = 0; k < pairs.size(); ++k) {
-    far += contacts.far_until[k] - way(pairs[k].a) - way(pairs[k].b) > usual.margin ? 1 : 0;
+    far += contacts.far_until[k] - grains.travel_of(pairs[k]) > usual.margin ? 1 : 0;
   }
   return far / static_cast<double>(pairs.size());
 }

@@ -29,13 +29,8 @@ TEST_CASE("no point of a grain comes further than its travel, and hardly less fa
       for (std::size_t v = 0; v < 8; ++v) before.push_back(corner(i, v));
       const Vector step = 0.3 * testing::random_direction(draw);
       move_grain(bed, i, step, turn * testing::random_direction(draw));
-      for (int axis = 0; axis < 4 && k % 2 == 1; ++axis) {  // the same orientation
-        double& part = axis == 0   ? bed.orientation[i].x
-                       : axis == 1 ? bed.orientation[i].y
-                       : axis == 2 ? bed.orientation[i].z
-                                   : bed.orientation[i].w;
-        part = -part;
-      }
+      Record<double>& q = bed.orientation[i];
+      if (k % 2 == 1) q = {-q.x, -q.y, -q.z, -q.w};  // the same orientation
       double farthest = 0.0;
       for (std::size_t v = 0; v < 8; ++v) {
         farthest = std::max(farthest, (corner(i, v) - before[v] + step).norm());
