@@ -66,9 +66,9 @@ class Dissection {
     if (static_cast<std::size_t>(last - first) <= few_grains) {
       node.grains.assign(first, last);
     } else {
-      const At middle =
-          halve(first, last, [&](std::int32_t grain, int axis) { return coordinate(grain, axis); });
-      const auto [parting, end] = part(first, middle, last);
+      const Halving halving = best_halving(first, last);
+      std::copy(halving.order.begin(), halving.order.end(), first);
+      const auto [parting, end] = part(first, first + halving.middle, last, halving.parting_grains);
       node.grains.assign(end, last);
       node.children = {dissect(first, parting), dissect(parting, end)};
     }
@@ -81,20 +81,41 @@ class Dissection {
     return axis == 0 ? p.x : axis == 1 ? p.y : p.z;
   }
 
-  /// Puts as few grains as can part the halves behind all others: of every two neighbours in
-  /// different halves one. Returns where the rest of the second half begins, and its end.
-  std::pair<At, At> part(At first, At middle, At last) {
-    const std::int32_t below = ++parts_, above = ++parts_, parting = ++parts_;
-    for (At at = first; at != last; ++at) part_of(*at) = at < middle ? below : above;
-    for (const std::int32_t grain : cover(first, middle, above)) part_of(grain) = parting;
+  struct Halving {
+    std::vector<std::int32_t> order;  ///< the first half, then the second
+    std::ptrdiff_t middle = 0;        ///< where that begins
+    std::vector<std::int32_t> parting_grains;
+  };
+  /// Along the axis that leaves the fewest grains to part the halves, the first of several.
+  Halving best_halving(At first, At last) {
+    Halving best;
+    for (int axis = 0; axis < 3; ++axis) {
+      const At middle = halve_along(axis, first, last, [&](std::int32_t grain, int along) {
+        return coordinate(grain, along);
+      });
+      std::vector<std::int32_t> parting = cover(first, middle, last);
+      if (axis == 0 || parting.size() < best.parting_grains.size()) {
+        best = {{first, last}, middle - first, std::move(parting)};
+      }
+    }
+    return best;
+  }
+
+  /// Puts the parting grains behind all others. Returns where the rest of the second half begins,
+  /// and its end.
+  std::pair<At, At> part(At first, At middle, At last, const std::vector<std::int32_t>& grains) {
+    const std::int32_t parting = ++parts_;
+    for (const std::int32_t grain : grains) part_of(grain) = parting;
     const auto stays = [&](std::int32_t grain) { return part_of(grain) != parting; };
     const At begin = std::stable_partition(first, middle, stays);
     const At end = std::stable_partition(middle, last, stays);
     return {begin, std::rotate(begin, middle, end)};
   }
-  /// The fewest grains that have one of every two neighbours of which one is in the first half, the
-  /// other in the part `above`.
-  std::vector<std::int32_t> cover(At first, At middle, std::int32_t above) {
+  /// The fewest grains that have one of every two neighbours in different halves.
+  std::vector<std::int32_t> cover(At first, At middle, At last) {
+    const std::int32_t above = ++parts_;
+    std::for_each(first, middle, [&](std::int32_t grain) { part_of(grain) = none; });
+    std::for_each(middle, last, [&](std::int32_t grain) { part_of(grain) = above; });
     Partners partners;
     std::vector<std::int32_t> below_grains, above_grains;
     for (At at = first; at != middle; ++at) {

@@ -4,8 +4,10 @@
 // Two grains are neighbours if they are a pair. A plane halves the bed; as few grains as part the
 // halves, one of every two neighbours on different sides of the plane
 // (engine/exact/vertex_cover.hpp), come last; what is left of each half is parted in the same way
-// (George 1973). The parting grains of all halvings are the nodes of a binary tree, and the factors
-// of a node depend on those of its children alone.
+// (George 1973). Of the planes across the three axes the one is taken whose halves the fewest
+// grains part: where neighbours meet around a periodic box, they are parted at two places. The
+// parting grains of all halvings are the nodes of a binary tree, and the factors of a node depend
+// on those of its children alone.
 #pragma once
 
 #include <array>

@@ -23,15 +23,20 @@ int longest_axis(At first, At last, const Coordinate& coordinate) {
   return static_cast<int>(std::max_element(extent.begin(), extent.end()) - extent.begin());
 }
 
-/// Sorts items, at least one, by their coordinate along their longest extent, those with the same
-/// by their number. Returns where the second half begins, which has one more of an odd number.
+/// Sorts items by their coordinate along an axis, those with the same by their number. Returns
+/// where the second half begins, which has one more of an odd number.
 template <class At, class Coordinate>
-At halve(At first, At last, const Coordinate& coordinate) {
-  const int axis = longest_axis(first, last, coordinate);
+At halve_along(int axis, At first, At last, const Coordinate& coordinate) {
   std::sort(first, last, [&](std::int32_t p, std::int32_t q) {
     return std::pair(coordinate(p, axis), p) < std::pair(coordinate(q, axis), q);
   });
   return first + (last - first) / 2;
+}
+
+/// Halves items, at least one, along their longest extent.
+template <class At, class Coordinate>
+At halve(At first, At last, const Coordinate& coordinate) {
+  return halve_along(longest_axis(first, last, coordinate), first, last, coordinate);
 }
 
 }  // namespace grainsweep

@@ -56,13 +56,11 @@ void StiffnessFactors::analyse(std::span<const Record<double>> centres,
 }
 
 void StiffnessFactors::allocate() {
-  std::size_t size = 0, largest = 0;
+  std::size_t size = 0;
   for (const Front& front : fronts_) {
-    size = front.factor + front.columns * front.stride;
-    largest = std::max(largest, front.rows * front.stride);
+    size = std::max(size, front.factor + front.rows * front.stride);
   }
   factors_.resize(size);
-  front_.resize(largest);
 }
 
 /// Those that a node eliminates, then its border.
@@ -96,8 +94,7 @@ bool StiffnessFactors::factor(const std::vector<Spring>& springs,
   for (std::size_t node = 0; node < fronts_.size(); ++node) {
     Front& front = fronts_[node];
     gather(node, springs, ground);
-    if (!kernels_->factor(front_.data(), front.rows, front.columns, front.stride)) return false;
-    std::copy_n(front_.data(), front.columns * front.stride, factors_.data() + front.factor);
+    if (!kernels_->factor(matrix_of(front), front.rows, front.columns, front.stride)) return false;
     hand_on(front);
   }
   return true;
@@ -106,38 +103,39 @@ bool StiffnessFactors::factor(const std::vector<Spring>& springs,
 void StiffnessFactors::gather(std::size_t node, const std::vector<Spring>& springs,
                               const std::vector<double>& ground) {
   const Front& front = fronts_[node];
+  double* matrix = matrix_of(front);
   for (std::size_t j = 0; j < front.rows; ++j) {
     const std::size_t first = j / block_width * block_width;  // no kernel reads above this block
-    std::fill_n(front_.data() + j * front.stride + first, front.stride - first, 0.0);
+    std::fill_n(matrix + j * front.stride + first, front.stride - first, 0.0);
   }
   std::size_t diagonal = 0;
   for (const std::int32_t grain : tree_.nodes[node].grains) {
     for (int q = 0; q < 3; ++q, diagonal += front.stride + 1) {
-      front_[diagonal] = ground[static_cast<std::size_t>(grain)];
+      matrix[diagonal] = ground[static_cast<std::size_t>(grain)];
     }
   }
   for (const PlacedSpring& placed : front.springs) {
     const auto [along, stiffness] =
         std::pair(springs[placed.spring].along, springs[placed.spring].stiffness);
     const auto a = static_cast<std::size_t>(placed.a);
-    add_block(front_.data(), front.stride, a, a, along, stiffness);
+    add_block(matrix, front.stride, a, a, along, stiffness);
     if (placed.b == Spring::fixed) continue;
     const auto b = static_cast<std::size_t>(placed.b);
-    add_block(front_.data(), front.stride, b, b, along, stiffness);
-    add_block(front_.data(), front.stride, std::max(a, b), std::min(a, b), along, -stiffness);
+    add_block(matrix, front.stride, b, b, along, stiffness);
+    add_block(matrix, front.stride, std::max(a, b), std::min(a, b), along, -stiffness);
   }
   for (const std::int32_t child : tree_.nodes[node].children) {
     if (child != EliminationNode::none) {
-      add_left(fronts_[static_cast<std::size_t>(child)], front.stride);
+      add_left(fronts_[static_cast<std::size_t>(child)], matrix, front.stride);
     }
   }
 }
 
-void StiffnessFactors::add_left(const Front& child, std::size_t stride) {
+void StiffnessFactors::add_left(const Front& child, double* matrix, std::size_t stride) {
   const std::size_t size = child.rows - child.columns;
   for (std::size_t j = 0; j < size; ++j) {
     const std::size_t column = 3 * static_cast<std::size_t>(child.at_parent[j / 3]) + j % 3;
-    double* to = front_.data() + column * stride;
+    double* to = matrix + column * stride;
     const double* from = child.left.data() + j * size;
     for (std::size_t i = j / 3; i < child.at_parent.size(); ++i) {
       const auto row = 3 * static_cast<std::size_t>(child.at_parent[i]);
@@ -150,7 +148,7 @@ void StiffnessFactors::hand_on(Front& front) {
   const std::size_t size = front.rows - front.columns;
   front.left.resize(size * size);
   for (std::size_t j = 0; j < size; ++j) {
-    const double* column = front_.data() + (front.columns + j) * front.stride + front.columns;
+    const double* column = matrix_of(front) + (front.columns + j) * front.stride + front.columns;
     std::copy(column + j, column + size, front.left.data() + j * size + j);
   }
 }

@@ -69,7 +69,9 @@ class StiffnessFactors {
   void place_border(std::size_t node, const std::vector<std::int32_t>& place);
   void gather(std::size_t node, const std::vector<Spring>& springs,
               const std::vector<double>& ground);
-  void add_left(const Front& child, std::size_t stride);
+  /// Its columns, and behind them those of its border, where later fronts will be.
+  double* matrix_of(const Front& front) { return factors_.data() + front.factor; }
+  static void add_left(const Front& child, double* matrix, std::size_t stride);
   void hand_on(Front& front);
   template <class Solve>
   void solve_front(std::size_t node, Solve solve_columns, std::vector<Vector>& x);
@@ -78,7 +80,6 @@ class StiffnessFactors {
   EliminationTree tree_;
   std::vector<Front> fronts_;
   std::vector<double> factors_;
-  std::vector<double> front_;     ///< memory of the front at work
   std::vector<double> at_front_;  ///< memory of solve
 };
 

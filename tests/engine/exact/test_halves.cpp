@@ -22,6 +22,16 @@ TEST_CASE("items are halved across their longest extent, equal ones by their num
   CHECK(middle - items.begin() == 2);
 }
 
+TEST_CASE("items are halved along an axis that is asked for") {
+  const std::vector<double> heights = {3, 1, 2, 0};
+  std::vector<std::int32_t> items = {0, 1, 2, 3};
+  const auto middle = halve_along(2, items.begin(), items.end(), [&](std::int32_t item, int axis) {
+    return axis == 2 ? heights[static_cast<std::size_t>(item)] : 10.0 * item;
+  });
+  CHECK(items == std::vector<std::int32_t>{3, 1, 2, 0});
+  CHECK(middle - items.begin() == 2);
+}
+
 TEST_CASE("a single item is in the second half") {
   std::vector<std::int32_t> items = {7};
   const auto middle = halve(items.begin(), items.end(), [](std::int32_t, int) { return 0.5; });
