@@ -14,21 +14,24 @@ namespace {
 // follows, larger than any cache, is read and written a quarter as often.
 constexpr std::size_t panel_columns = 16, wide_columns = 64;
 // Two batches of rows of so many columns and what is taken from them are held in registers.
-constexpr std::size_t tile_columns = batch_width<double> >= 8 ? 8 : 4;
+template <class Real>
+constexpr std::size_t tile_columns = batch_width<Real> * sizeof(Real) >= 64 ? 8 : 4;
 
 /// A dense matrix by columns.
+template <class Real>
 struct Columns {
-  double* at;
+  Real* at;
   std::size_t stride;
 
-  double* column(std::size_t j) const { return at + j * stride; }
+  Real* column(std::size_t j) const { return at + j * stride; }
 };
 
 /// Eliminates `l` from `j`: rows from j on.
-inline void subtract_column(const Columns& m, std::size_t l, std::size_t j) {
-  constexpr std::size_t width = batch_width<double>;
-  const double factor = m.column(l)[j];
-  const Batch<double> factors(factor);
+template <class Real>
+inline void subtract_column(const Columns<Real>& m, std::size_t l, std::size_t j) {
+  constexpr std::size_t width = batch_width<Real>;
+  const Real factor = m.column(l)[j];
+  const Batch<Real> factors(factor);
   for (std::size_t i = j / width * width; i < m.stride; i += width) {
     (load(m.column(j) + i) - load(m.column(l) + i) * factors).store_unaligned(m.column(j) + i);
   }
@@ -36,13 +39,14 @@ inline void subtract_column(const Columns& m, std::size_t l, std::size_t j) {
 
 /// The factor's columns first .. last, from which all columns before have been eliminated. False if
 /// a pivot is not positive.
-inline bool factor_panel(const Columns& m, std::size_t first, std::size_t last) {
-  constexpr std::size_t width = batch_width<double>;
+template <class Real>
+inline bool factor_panel(const Columns<Real>& m, std::size_t first, std::size_t last) {
+  constexpr std::size_t width = batch_width<Real>;
   for (std::size_t j = first; j < last; ++j) {
     for (std::size_t l = first; l < j; ++l) subtract_column(m, l, j);
-    const double pivot = m.column(j)[j];
-    if (!(pivot > 0.0)) return false;
-    const Batch<double> inverse(1.0 / std::sqrt(pivot));
+    const Real pivot = m.column(j)[j];
+    if (!(pivot > Real(0))) return false;
+    const Batch<Real> inverse(Real(1) / std::sqrt(pivot));
     for (std::size_t i = j / width * width; i < m.stride; i += width) {
       (load(m.column(j) + i) * inverse).store_unaligned(m.column(j) + i);
     }
@@ -52,22 +56,22 @@ inline bool factor_panel(const Columns& m, std::size_t first, std::size_t last) 
 
 /// Eliminates columns first .. last from columns j .. j + tiles, in `batches_of_rows` batches of
 /// rows from row i on.
-template <std::size_t batches_of_rows, std::size_t tiles>
-inline void eliminate_tile(const Columns& m, std::size_t first, std::size_t last, std::size_t i,
-                           std::size_t j) {
-  constexpr std::size_t width = batch_width<double>;
-  Batch<double> sum[tiles][batches_of_rows];
+template <std::size_t batches_of_rows, std::size_t tiles, class Real>
+inline void eliminate_tile(const Columns<Real>& m, std::size_t first, std::size_t last,
+                           std::size_t i, std::size_t j) {
+  constexpr std::size_t width = batch_width<Real>;
+  Batch<Real> sum[tiles][batches_of_rows];
   for (std::size_t c = 0; c < tiles; ++c) {
     for (std::size_t r = 0; r < batches_of_rows; ++r) {
       sum[c][r] = load(m.column(j + c) + i + r * width);
     }
   }
   for (std::size_t l = first; l < last; ++l) {
-    const double* from = m.column(l);
-    Batch<double> rows[batches_of_rows];
+    const Real* from = m.column(l);
+    Batch<Real> rows[batches_of_rows];
     for (std::size_t r = 0; r < batches_of_rows; ++r) rows[r] = load(from + i + r * width);
     for (std::size_t c = 0; c < tiles; ++c) {
-      const Batch<double> factor(from[j + c]);
+      const Batch<Real> factor(from[j + c]);
       for (std::size_t r = 0; r < batches_of_rows; ++r) sum[c][r] -= rows[r] * factor;
     }
   }
@@ -78,26 +82,29 @@ inline void eliminate_tile(const Columns& m, std::size_t first, std::size_t last
   }
 }
 
-template <std::size_t tiles>
-inline void eliminate_from(const Columns& m, std::size_t first, std::size_t last, std::size_t j) {
-  constexpr std::size_t width = batch_width<double>, two = 2 * width;
+template <std::size_t tiles, class Real>
+inline void eliminate_from(const Columns<Real>& m, std::size_t first, std::size_t last,
+                           std::size_t j) {
+  constexpr std::size_t width = batch_width<Real>, two = 2 * width;
   std::size_t i = j / width * width;
   for (; i + two <= m.stride; i += two) eliminate_tile<2, tiles>(m, first, last, i, j);
   if (i < m.stride) eliminate_tile<1, tiles>(m, first, last, i, j);
 }
 
 /// Eliminates columns first .. last from columns j .. end.
-inline void eliminate_columns(const Columns& m, std::size_t first, std::size_t last, std::size_t j,
-                              std::size_t end) {
-  for (; j + tile_columns <= end; j += tile_columns) {
-    eliminate_from<tile_columns>(m, first, last, j);
+template <class Real>
+inline void eliminate_columns(const Columns<Real>& m, std::size_t first, std::size_t last,
+                              std::size_t j, std::size_t end) {
+  for (; j + tile_columns<Real> <= end; j += tile_columns<Real>) {
+    eliminate_from<tile_columns<Real>>(m, first, last, j);
   }
   for (; j < end; ++j) eliminate_from<1>(m, first, last, j);
 }
 
 /// Numbers lose the columns before theirs in the order of those, whatever the widths above.
-bool eliminate(double* front, std::size_t rows, std::size_t columns, std::size_t stride) {
-  const Columns m{front, stride};
+template <class Real>
+bool eliminate(Real* front, std::size_t rows, std::size_t columns, std::size_t stride) {
+  const Columns<Real> m{front, stride};
   for (std::size_t first = 0; first < columns; first += wide_columns) {
     const std::size_t last = first + wide_columns < columns ? first + wide_columns : columns;
     for (std::size_t k = first; k < last; k += panel_columns) {
@@ -110,30 +117,32 @@ bool eliminate(double* front, std::size_t rows, std::size_t columns, std::size_t
   return true;
 }
 
-void solve_forward(const double* factor, std::size_t rows, std::size_t columns, std::size_t stride,
-                   double* x) {
-  constexpr std::size_t width = batch_width<double>;
+template <class Real>
+void solve_forward(const Real* factor, std::size_t rows, std::size_t columns, std::size_t stride,
+                   Real* x) {
+  constexpr std::size_t width = batch_width<Real>;
   for (std::size_t j = 0; j < columns; ++j) {
-    const double* column = factor + j * stride;
+    const Real* column = factor + j * stride;
     x[j] /= column[j];
     std::size_t i = j + 1;
     for (; i < rows && i % block_width != 0; ++i) x[i] -= column[i] * x[j];
-    const Batch<double> solved(x[j]);
+    const Batch<Real> solved(x[j]);
     for (; i < rows; i += width) (load(x + i) - load(column + i) * solved).store_unaligned(x + i);
   }
 }
 
-void solve_backward(const double* factor, std::size_t rows, std::size_t columns, std::size_t stride,
-                    double* x) {
-  constexpr std::size_t width = batch_width<double>;
+template <class Real>
+void solve_backward(const Real* factor, std::size_t rows, std::size_t columns, std::size_t stride,
+                    Real* x) {
+  constexpr std::size_t width = batch_width<Real>;
   for (std::size_t j = columns; j-- > 0;) {
-    const double* column = factor + j * stride;
-    double known = 0.0;
+    const Real* column = factor + j * stride;
+    Real known = 0;
     std::size_t i = j + 1;
     for (; i < rows && i % block_width != 0; ++i) known += column[i] * x[i];
-    LaneSums<double> sums(0.0);
+    LaneSums<Real> sums(0);
     for (; i < rows; i += block_width) {
-      for (std::size_t k = 0; k < batches<double>; ++k) {
+      for (std::size_t k = 0; k < batches<Real>; ++k) {
         sums.part[k] += load(column + i + k * width) * load(x + i + k * width);
       }
     }
@@ -145,6 +154,9 @@ void solve_backward(const double* factor, std::size_t rows, std::size_t columns,
 
 namespace grainsweep::GRAINSWEEP_ISA_NAME {
 
-extern const FrontKernels front_kernels = {eliminate, solve_forward, solve_backward};
+extern const FrontKernels<float> front_kernels_f32 = {eliminate<float>, solve_forward<float>,
+                                                      solve_backward<float>};
+extern const FrontKernels<double> front_kernels_f64 = {eliminate<double>, solve_forward<double>,
+                                                       solve_backward<double>};
 
 }  // namespace grainsweep::GRAINSWEEP_ISA_NAME

@@ -9,17 +9,18 @@
 
 namespace grainsweep {
 
+template <class Real>
 struct FrontKernels {
   /// Eliminates the first `columns` of a front: they become columns of its Cholesky factor, the
   /// others what is left of them. False if a pivot is not positive.
-  bool (*factor)(double* front, std::size_t rows, std::size_t columns, std::size_t stride);
+  bool (*factor)(Real* front, std::size_t rows, std::size_t columns, std::size_t stride);
   /// x = L^-1 x, of the columns of a factor: as many of x are solved for, the rest is changed
   /// accordingly. x has room for `stride` numbers, of which those beyond `rows` are 0.
-  void (*solve_forward)(const double* factor, std::size_t rows, std::size_t columns,
-                        std::size_t stride, double* x);
+  void (*solve_forward)(const Real* factor, std::size_t rows, std::size_t columns,
+                        std::size_t stride, Real* x);
   /// x = L^-T x: as many of x are solved for by the rest.
-  void (*solve_backward)(const double* factor, std::size_t rows, std::size_t columns,
-                         std::size_t stride, double* x);
+  void (*solve_backward)(const Real* factor, std::size_t rows, std::size_t columns,
+                         std::size_t stride, Real* x);
 };
 
 }  // namespace grainsweep

@@ -89,7 +89,8 @@ struct Kernels {
   const RowKernels<double>& f64;
   const BodyKernels<float>& body_f32;
   const BodyKernels<double>& body_f64;
-  const FrontKernels& front;
+  const FrontKernels<float>& front_f32;
+  const FrontKernels<double>& front_f64;
   const HullKernels& hull;
   /// All pairs of the grid with gap below `reach`, each once, in the order of the grid. Writes at
   /// most `capacity` of them and returns how many there are.
@@ -133,6 +134,18 @@ inline const BodyKernels<float>& body_kernels<float>(const Kernels& kernels) {
 template <>
 inline const BodyKernels<double>& body_kernels<double>(const Kernels& kernels) {
   return kernels.body_f64;
+}
+
+/// Front kernels of `kernels` for a number type.
+template <class Real>
+const FrontKernels<Real>& front_kernels(const Kernels& kernels);
+template <>
+inline const FrontKernels<float>& front_kernels<float>(const Kernels& kernels) {
+  return kernels.front_f32;
+}
+template <>
+inline const FrontKernels<double>& front_kernels<double>(const Kernels& kernels) {
+  return kernels.front_f64;
 }
 
 }  // namespace grainsweep

@@ -10,7 +10,8 @@ extern const RowKernels<float> row_kernels_f32;
 extern const RowKernels<double> row_kernels_f64;
 extern const BodyKernels<float> body_kernels_f32;
 extern const BodyKernels<double> body_kernels_f64;
-extern const FrontKernels front_kernels;
+extern const FrontKernels<float> front_kernels_f32;
+extern const FrontKernels<double> front_kernels_f64;
 extern const HullKernels hull_kernels;
 
 // As the members of Kernels.

@@ -26,7 +26,8 @@ constexpr double of_a_grain_and_round = 4000.0;
 constexpr double first_product = 1e-5;
 constexpr double loosest_product = 1e-4;
 constexpr double last_product = 1e-14;
-constexpr double nearly_balanced = 1e-8;  // of the largest force or weight; the rest is linear
+constexpr double least_coarse_product = 1e-5;  // where f32 says well enough where grains go
+constexpr double nearly_balanced = 1e-8;       // of the largest force or weight; the rest is linear
 constexpr double least_slack = 1e-9;
 constexpr double stiff = 1e8;  // of contacts whose gaps are closed, m g / d
 
@@ -254,7 +255,8 @@ class InteriorPoint {
     for (int tries = 0; tries < 12; ++tries) {
       ground_.resize(grains());
       for (std::size_t i = 0; i < grains(); ++i) ground_[i] = drag_of_all_ * drag_[i] * mass(i);
-      if (factors_.factor(springs_, ground_)) return true;
+      is_coarse_ = product_ >= least_coarse_product && factors_.factor<float>(springs_, ground_);
+      if (is_coarse_ || factors_.factor<double>(springs_, ground_)) return true;
       if (tries == 0) {
         leave_out_rolling();
       } else {
@@ -317,11 +319,31 @@ class InteriorPoint {
                 link.target / link.slack - link.force - link.stiffness() * (link.gap - link.slack),
                 way_);
     }
-    factors_.solve(way_);
+    if (is_coarse_) {
+      solve_coarsely();
+    } else {
+      factors_.solve<double>(way_);
+    }
     for (std::size_t k = 0; k < links_.size(); ++k) {
       Link& link = links_[k];
       link.slack_step = opening(k) + link.gap - link.slack;
       link.force_step = (link.target - link.force * link.slack_step) / link.slack - link.force;
+    }
+  }
+  /// With factors in f32, and once more for what they leave: a hundredth of a weight on a grain
+  /// becomes a thousandth, and ways are wrong by some 1e-6 d.
+  void solve_coarsely() {
+    std::vector<Vector> left = way_;
+    factors_.solve<float>(way_);
+    take_forces_of_way(left);
+    factors_.solve<float>(left);
+    for (std::size_t i = 0; i < grains(); ++i) way_[i] += left[i];
+  }
+  /// Those of springs and ground, m g.
+  void take_forces_of_way(std::vector<Vector>& from) const {
+    for (std::size_t i = 0; i < grains(); ++i) from[i] -= ground_[i] * way_[i];
+    for (std::size_t k = 0; k < springs_.size(); ++k) {
+      add_force(k, -springs_[k].stiffness * opening(k), from);
     }
   }
   /// Largest share of a positive value that a round may take away.
@@ -446,7 +468,7 @@ class InteriorPoint {
     for (std::size_t at = 0; at < links_.size(); ++at) springs_[at].stiffness = stiff;
     stiffen_across();
     ground_.assign(grains(), held * stiff);
-    return factors_.factor(springs_, ground_);
+    return factors_.factor<double>(springs_, ground_);
   }
   void close_gaps() {
     constexpr int newton_steps = 4;
@@ -458,7 +480,7 @@ class InteriorPoint {
       for (std::size_t at = 0; at < links_.size(); ++at) {
         add_force(at, -stiff * links_[at].gap, way_);
       }
-      factors_.solve(way_);
+      factors_.solve<double>(way_);
       move_grains(1.0);
     }
   }
@@ -473,7 +495,7 @@ class InteriorPoint {
       way_ = net_forces();
       if (largest(way_) < balanced) return;
       if ((k == 0 || grains_move) && !factor_contacts()) return;
-      factors_.solve(way_);
+      factors_.solve<double>(way_);
       for (std::size_t at = 0; at < links_.size(); ++at) links_[at].force -= stiff * opening(at);
       if (grains_move) move_grains(1.0);
     }
@@ -531,6 +553,7 @@ class InteriorPoint {
   double taken_ = 0.0;       ///< share that was taken
   std::size_t blocked_ = 0;  ///< links that can go less than most of the step
   int full_steps_ = 0, stuck_ = 0;
+  bool is_coarse_ = false;  ///< whether the factors of this round are in f32
   bool must_list_ = false;
 };
 

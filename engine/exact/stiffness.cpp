@@ -7,12 +7,15 @@ namespace grainsweep {
 namespace {
 
 /// Adds stiffness * along along^T to the 3 x 3 block of grains i >= j of a front.
-void add_block(double* front, std::size_t stride, std::size_t i, std::size_t j, const Vector& along,
+template <class Real>
+void add_block(Real* front, std::size_t stride, std::size_t i, std::size_t j, const Vector& along,
                double stiffness) {
   for (std::size_t q = 0; q < 3; ++q) {
     const double scaled = stiffness * along[static_cast<Eigen::Index>(q)];
-    double* column = front + (3 * j + q) * stride + 3 * i;
-    for (std::size_t p = 0; p < 3; ++p) column[p] += scaled * along[static_cast<Eigen::Index>(p)];
+    Real* column = front + (3 * j + q) * stride + 3 * i;
+    for (std::size_t p = 0; p < 3; ++p) {
+      column[p] += static_cast<Real>(scaled * along[static_cast<Eigen::Index>(p)]);
+    }
   }
 }
 
@@ -55,12 +58,14 @@ void StiffnessFactors::analyse(std::span<const Record<double>> centres,
   }
 }
 
-void StiffnessFactors::allocate() {
+template <class Real>
+void StiffnessFactors::allocate(Numbers<Real>& numbers) {
   std::size_t size = 0;
   for (const Front& front : fronts_) {
     size = std::max(size, front.factor + front.rows * front.stride);
   }
-  factors_.resize(size);
+  numbers.factors.resize(size);
+  numbers.left.resize(fronts_.size());
 }
 
 /// Those that a node eliminates, then its border.
@@ -88,30 +93,37 @@ double StiffnessFactors::operations() const {
   return sum;
 }
 
+template <class Real>
 bool StiffnessFactors::factor(const std::vector<Spring>& springs,
                               const std::vector<double>& ground) {
-  allocate();
+  const FrontKernels<Real>& kernels = front_kernels<Real>(*kernels_);
+  Numbers<Real> own = std::move(numbers<Real>());
+  numbers_ = {};  // factors of the other type would take as much memory again
+  allocate(own);
   for (std::size_t node = 0; node < fronts_.size(); ++node) {
-    Front& front = fronts_[node];
-    gather(node, springs, ground);
-    if (!kernels_->factor(matrix_of(front), front.rows, front.columns, front.stride)) return false;
-    hand_on(front);
+    const Front& front = fronts_[node];
+    gather(node, springs, ground, own);
+    if (!kernels.factor(own.matrix_of(front), front.rows, front.columns, front.stride))
+      return false;
+    hand_on(front, own.matrix_of(front), own.left[node]);
   }
+  numbers<Real>() = std::move(own);
   return true;
 }
 
+template <class Real>
 void StiffnessFactors::gather(std::size_t node, const std::vector<Spring>& springs,
-                              const std::vector<double>& ground) {
+                              const std::vector<double>& ground, Numbers<Real>& numbers) {
   const Front& front = fronts_[node];
-  double* matrix = matrix_of(front);
+  Real* matrix = numbers.matrix_of(front);
   for (std::size_t j = 0; j < front.rows; ++j) {
     const std::size_t first = j / block_width * block_width;  // no kernel reads above this block
-    std::fill_n(matrix + j * front.stride + first, front.stride - first, 0.0);
+    std::fill_n(matrix + j * front.stride + first, front.stride - first, Real(0));
   }
   std::size_t diagonal = 0;
   for (const std::int32_t grain : tree_.nodes[node].grains) {
     for (int q = 0; q < 3; ++q, diagonal += front.stride + 1) {
-      matrix[diagonal] = ground[static_cast<std::size_t>(grain)];
+      matrix[diagonal] = static_cast<Real>(ground[static_cast<std::size_t>(grain)]);
     }
   }
   for (const PlacedSpring& placed : front.springs) {
@@ -126,17 +138,20 @@ void StiffnessFactors::gather(std::size_t node, const std::vector<Spring>& sprin
   }
   for (const std::int32_t child : tree_.nodes[node].children) {
     if (child != EliminationNode::none) {
-      add_left(fronts_[static_cast<std::size_t>(child)], matrix, front.stride);
+      const auto at = static_cast<std::size_t>(child);
+      add_left(fronts_[at], numbers.left[at], matrix, front.stride);
     }
   }
 }
 
-void StiffnessFactors::add_left(const Front& child, double* matrix, std::size_t stride) {
+template <class Real>
+void StiffnessFactors::add_left(const Front& child, const std::vector<Real>& left, Real* matrix,
+                                std::size_t stride) {
   const std::size_t size = child.rows - child.columns;
   for (std::size_t j = 0; j < size; ++j) {
     const std::size_t column = 3 * static_cast<std::size_t>(child.at_parent[j / 3]) + j % 3;
-    double* to = matrix + column * stride;
-    const double* from = child.left.data() + j * size;
+    Real* to = matrix + column * stride;
+    const Real* from = left.data() + j * size;
     for (std::size_t i = j / 3; i < child.at_parent.size(); ++i) {
       const auto row = 3 * static_cast<std::size_t>(child.at_parent[i]);
       for (std::size_t p = 0; p < 3; ++p) to[row + p] += from[3 * i + p];
@@ -144,30 +159,34 @@ void StiffnessFactors::add_left(const Front& child, double* matrix, std::size_t 
   }
 }
 
-void StiffnessFactors::hand_on(Front& front) {
+template <class Real>
+void StiffnessFactors::hand_on(const Front& front, const Real* matrix, std::vector<Real>& left) {
   const std::size_t size = front.rows - front.columns;
-  front.left.resize(size * size);
+  left.resize(size * size);
   for (std::size_t j = 0; j < size; ++j) {
-    const double* column = matrix_of(front) + (front.columns + j) * front.stride + front.columns;
-    std::copy(column + j, column + size, front.left.data() + j * size + j);
+    const Real* column = matrix + (front.columns + j) * front.stride + front.columns;
+    std::copy(column + j, column + size, left.data() + j * size + j);
   }
 }
 
+template <class Real>
 void StiffnessFactors::solve(std::vector<Vector>& x) {
+  const FrontKernels<Real>& kernels = front_kernels<Real>(*kernels_);
   for (std::size_t node = 0; node < fronts_.size(); ++node) {
-    solve_front(node, kernels_->solve_forward, x);
+    solve_front(node, kernels.solve_forward, x, numbers<Real>());
   }
   for (std::size_t node = fronts_.size(); node-- > 0;) {
-    solve_front(node, kernels_->solve_backward, x);
+    solve_front(node, kernels.solve_backward, x, numbers<Real>());
   }
 }
 
-template <class Solve>
-void StiffnessFactors::solve_front(std::size_t node, Solve solve_columns, std::vector<Vector>& x) {
+template <class Real, class Solve>
+void StiffnessFactors::solve_front(std::size_t node, Solve solve_columns, std::vector<Vector>& x,
+                                   Numbers<Real>& numbers) {
   const Front& front = fronts_[node];
   const EliminationNode& grains = tree_.nodes[node];
   const auto visit = [&](auto move) {
-    double* at = at_front_.data();
+    Real* at = numbers.at_front.data();
     for (const auto* part : {&grains.grains, &grains.border}) {
       for (const std::int32_t grain : *part) {
         move(x[static_cast<std::size_t>(grain)], at);
@@ -175,11 +194,21 @@ void StiffnessFactors::solve_front(std::size_t node, Solve solve_columns, std::v
       }
     }
   };
-  at_front_.assign(front.stride, 0.0);
-  visit([](const Vector& from, double* to) { std::copy_n(from.data(), 3, to); });
-  solve_columns(factors_.data() + front.factor, front.rows, front.columns, front.stride,
-                at_front_.data());
-  visit([](Vector& to, const double* from) { std::copy_n(from, 3, to.data()); });
+  const auto in_type = [](double number) { return static_cast<Real>(number); };
+  numbers.at_front.assign(front.stride, Real(0));
+  visit([&](const Vector& from, Real* to) {
+    std::transform(from.data(), from.data() + 3, to, in_type);
+  });
+  solve_columns(numbers.factors.data() + front.factor, front.rows, front.columns, front.stride,
+                numbers.at_front.data());
+  visit([](Vector& to, const Real* from) { std::copy_n(from, 3, to.data()); });
 }
+
+template bool StiffnessFactors::factor<float>(const std::vector<Spring>&,
+                                              const std::vector<double>&);
+template bool StiffnessFactors::factor<double>(const std::vector<Spring>&,
+                                               const std::vector<double>&);
+template void StiffnessFactors::solve<float>(std::vector<Vector>&);
+template void StiffnessFactors::solve<double>(std::vector<Vector>&);
 
 }  // namespace grainsweep

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "engine/exact/elimination.hpp"
@@ -29,7 +30,7 @@ struct Spring {
 
 class StiffnessFactors {
  public:
-  explicit StiffnessFactors(const Kernels& kernels) : kernels_(&kernels.front) {}
+  explicit StiffnessFactors(const Kernels& kernels) : kernels_(&kernels) {}
 
   /// Prepares for springs between these ends of grains with these centres. Their order must stay;
   /// their directions and stiffnesses may change. The factors, which may take gigabytes, have no
@@ -40,10 +41,14 @@ class StiffnessFactors {
   double operations() const;
 
   /// Factors the matrix of all springs, and of springs of stiffness ground[i] in all directions
-  /// between grain i and the ground. False if rounding leaves it not positive definite.
+  /// between grain i and the ground, in numbers of type Real. False if rounding leaves it not
+  /// positive definite.
+  template <class Real>
   bool factor(const std::vector<Spring>& springs, const std::vector<double>& ground);
 
-  /// Replaces forces on the grains, m g, by the displacements that they cause, d.
+  /// Replaces forces on the grains, m g, by the displacements that they cause, d, with the factors
+  /// that were made last, of this type.
+  template <class Real>
   void solve(std::vector<Vector>& x);
 
  private:
@@ -61,26 +66,43 @@ class StiffnessFactors {
     std::size_t factor = 0;               ///< where its columns begin in `factors_`
     std::vector<std::int32_t> at_parent;  ///< place of each grain of the border there
     std::vector<PlacedSpring> springs;
-    std::vector<double> left;  ///< what it hands on: the lower triangle of its border, by columns
+  };
+  template <class Real>
+  struct Numbers {
+    std::vector<Real> factors;
+    /// What each front hands on: the lower triangle of its border, by columns.
+    std::vector<std::vector<Real>> left;
+    std::vector<Real> at_front;  ///< memory of solve
+
+    /// Its columns, and behind them those of its border, where later fronts will be.
+    Real* matrix_of(const Front& front) { return factors.data() + front.factor; }
   };
 
-  void allocate();
+  template <class Real>
+  void allocate(Numbers<Real>& numbers);
   std::vector<std::int32_t> grains_of(std::size_t node) const;
   void place_border(std::size_t node, const std::vector<std::int32_t>& place);
+  template <class Real>
   void gather(std::size_t node, const std::vector<Spring>& springs,
-              const std::vector<double>& ground);
-  /// Its columns, and behind them those of its border, where later fronts will be.
-  double* matrix_of(const Front& front) { return factors_.data() + front.factor; }
-  static void add_left(const Front& child, double* matrix, std::size_t stride);
-  void hand_on(Front& front);
-  template <class Solve>
-  void solve_front(std::size_t node, Solve solve_columns, std::vector<Vector>& x);
+              const std::vector<double>& ground, Numbers<Real>& numbers);
+  template <class Real>
+  static void add_left(const Front& child, const std::vector<Real>& left, Real* matrix,
+                       std::size_t stride);
+  template <class Real>
+  static void hand_on(const Front& front, const Real* matrix, std::vector<Real>& left);
+  template <class Real, class Solve>
+  void solve_front(std::size_t node, Solve solve_columns, std::vector<Vector>& x,
+                   Numbers<Real>& numbers);
 
-  const FrontKernels* kernels_;
+  template <class Real>
+  Numbers<Real>& numbers() {
+    return std::get<Numbers<Real>>(numbers_);
+  }
+
+  const Kernels* kernels_;
   EliminationTree tree_;
   std::vector<Front> fronts_;
-  std::vector<double> factors_;
-  std::vector<double> at_front_;  ///< memory of solve
+  std::tuple<Numbers<float>, Numbers<double>> numbers_;
 };
 
 }  // namespace grainsweep

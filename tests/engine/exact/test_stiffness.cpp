@@ -1,3 +1,4 @@
+#include <limits>
 #include <vector>
 
 #include <Eigen/Dense>
@@ -66,8 +67,11 @@ Eigen::MatrixXd matrix_of(const Net& net) {
   return matrix;
 }
 
-TEST_CASE(
-    "factors of springs solve as a dense matrix does, with the same bits on all instruction sets") {
+// Stiffnesses differ by a factor of 1e4 at most: as many roundings.
+TEMPLATE_TEST_CASE(
+    "factors of springs solve as a dense matrix does, with the same bits on all instruction sets",
+    "", float, double) {
+  constexpr double rounding = 1e5 * std::numeric_limits<TestType>::epsilon();
   for (const std::size_t grains : {1U, 5U, 40U, 150U}) {
     INFO(grains << " grains");
     const Net net = drawn_net(grains);
@@ -85,13 +89,12 @@ TEST_CASE(
       StiffnessFactors factors(kernels_for(isa));
       factors.analyse(net.centres, net.springs);
       for (int twice = 0; twice < 2; ++twice) {
-        REQUIRE(factors.factor(net.springs, net.ground));
+        REQUIRE(factors.factor<TestType>(net.springs, net.ground));
         std::vector<Vector> ways = forces;
-        factors.solve(ways);
+        factors.solve<TestType>(ways);
         for (std::size_t i = 0; i < grains; ++i) {
-          // Stiffnesses differ by a factor of 1e4 at most.
           const Vector way = expected.segment(static_cast<Eigen::Index>(3 * i), 3);
-          CHECK((ways[i] - way).norm() < 1e-11 * expected.norm());
+          CHECK((ways[i] - way).norm() < rounding * expected.norm());
         }
         if (first.empty()) first = ways;
         CHECK(ways == first);
@@ -100,14 +103,29 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("a grain that nothing holds has no factors") {
+TEST_CASE("factors of one type replace those of the other") {
+  const Net net = drawn_net(40);
+  StiffnessFactors factors(testing::kernels()), fresh(testing::kernels());
+  factors.analyse(net.centres, net.springs);
+  fresh.analyse(net.centres, net.springs);
+  REQUIRE(factors.factor<float>(net.springs, net.ground));
+  REQUIRE(factors.factor<double>(net.springs, net.ground));
+  REQUIRE(factors.factor<float>(net.springs, net.ground));
+  REQUIRE(fresh.factor<float>(net.springs, net.ground));
+  std::vector<Vector> ways(40, Vector::UnitZ()), expected = ways;
+  factors.solve<float>(ways);
+  fresh.solve<float>(expected);
+  CHECK(ways == expected);
+}
+
+TEMPLATE_TEST_CASE("a grain that nothing holds has no factors", "", float, double) {
   Net net = drawn_net(30);
   net.ground.assign(30, 0.0);
   net.centres.push_back({1.0, 1.0, 20.0, 0.5});
   net.ground.push_back(0.0);
   StiffnessFactors factors(testing::kernels());
   factors.analyse(net.centres, net.springs);
-  CHECK_FALSE(factors.factor(net.springs, net.ground));
+  CHECK_FALSE(factors.factor<TestType>(net.springs, net.ground));
 }
 
 }  // namespace
