@@ -63,7 +63,7 @@ class StiffnessFactors {
     std::size_t columns = 0;  ///< of the grains that it eliminates, three of each
     std::size_t rows = 0;     ///< of its border, too
     std::size_t stride = 0;
-    std::size_t factor = 0;               ///< where its columns begin in `factors_`
+    std::size_t factor = 0;               ///< where its columns begin in `factors`
     std::vector<std::int32_t> at_parent;  ///< place of each grain of the border there
     std::vector<PlacedSpring> springs;
   };
