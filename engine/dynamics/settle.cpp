@@ -51,6 +51,8 @@ struct Settling {
   std::int64_t rounds = 0;     ///< how often the last stages came again
   std::int64_t unsolved = 0;   ///< so many of the last rounds ended with too large a residual
   std::int64_t iterations_before = 0;  ///< those until the bed was first tested for rest
+  std::int64_t searches_failed = 0;    ///< of those for exact rest from a bed at rest in steps
+  bool is_tested = false;              ///< whether the report tells how the bed rests as it is
   bool is_exact = false;               ///< whether the report is that of exact rest
   SettleReport report = {};
 
@@ -112,6 +114,7 @@ bool has_steps_to_go_on(const Settling<Kind, Real>& s) {
 /// others.
 template <class Kind, class Real>
 void test_rest(Settling<Kind, Real>& s) {
+  s.is_tested = true;
   RestReport& rest = s.report.rest;
   rest = measure_rest(s.bed, s.context, s.settings.dt, s.state);
   rest.step_residual = s.last.solve.residual;
@@ -194,6 +197,7 @@ void enter(std::size_t stage, Settling<Kind, Real>& s) {
   s.steps_in_stage = 0;
   if (wake(s.bed)) s.state.candidates.is_listed = false;
   if (stage == s.stages.size()) return;
+  s.is_tested = false;
   s.height = top_of(s.bed);
   const StepSettings settings = settings_of(s);
   change_step(settings.dt / s.settings.dt, s.bed, s.state);
@@ -202,18 +206,20 @@ void enter(std::size_t stage, Settling<Kind, Real>& s) {
 
 // ---- saving and going on ----
 
-/// Lists what a packing needs to go on; settings follow from the stage and the height.
+/// Lists what a packing needs to go on.
 template <class Archive, class Kind, class Real>
 void transfer(Archive& archive, Settling<Kind, Real>& s) {
   archive.value(s.stage);
   archive.value(s.steps_in_stage);
   archive.value(s.height);
+  archive.value(s.settings);
   archive.value(s.last);
   archive.value(s.sunk_at_start);
   archive.value(s.share_done);
   archive.value(s.rounds);
   archive.value(s.unsolved);
   archive.value(s.iterations_before);
+  archive.value(s.searches_failed);
   archive.value(s.report.sank);
   archive.value(s.report.spurious_path);
   archive.value(s.report.steps);
@@ -240,7 +246,6 @@ void restore(std::string_view bytes, Settling<Kind, Real>& s) {
   if (const auto payload = unsealed(kind_of(s), bytes)) {
     StateReader reader(*payload);
     transfer(reader, s);
-    s.settings = settings_of(s);
   }
 }
 
@@ -257,6 +262,7 @@ template <class Kind, class Real>
 bool take_step(Settling<Kind, Real>& s, const KeepGoing& keep_going) {
   let_sleep(s);
   s.last = step(s.settings, s.context, s.bed, s.state);
+  s.is_tested = false;
   s.report.spurious_path += s.last.spurious_path;
   if (s.report.steps == 0) s.sunk_at_start = s.last.sunk;
   s.report.sank = s.report.sank || s.last.sunk > s.sunk_at_start + rounding_of_places;
@@ -309,6 +315,17 @@ void report_forces(const std::vector<ForceContact>& contacts, Settling<Kind, Rea
 template <class Kind, class Real>
 std::vector<ForceContact> contacts_of_last_step(const Settling<Kind, Real>& s) {
   return force_contacts(s.bed, s.settings.dt, s.state.contacts);
+}
+
+/// Of a bed that has come to rest, or has no steps left.
+template <class Kind, class Real>
+void tell_rest(Settling<Kind, Real>& s) {
+  if (!s.is_tested) test_rest(s);
+  look_closer(s);
+  if (!s.report.failure.empty() && !is_high(s.bed)) {
+    s.report.failure += remedy_of_rounding(s.report.rest, s.accuracy, top_of(s.bed));
+  }
+  report_forces(contacts_of_last_step(s), s);
 }
 
 // ---- exact rest ----
@@ -391,23 +408,24 @@ void come_to_rest(Settling<Kind, Real>& s, const KeepGoing& keep_going) {
   }
 }
 
-/// From a bed at rest in steps to exact rest. One from which it is not found slides on and is tried
-/// again.
-template <class Real>
-void go_on_to_exact_rest(Settling<Sphere, Real>& s, const KeepGoing& keep_going) {
-  constexpr int most_tries = 3;
-  for (int tries = 1; s.report.failure.empty() && !s.report.cancelled && !s.is_exact; ++tries) {
+/// From a bed at rest in steps to exact rest, if that is asked for. One from which it is not found
+/// slides on, to be tried again: then there is more to do.
+template <class Kind, class Real>
+bool slides_on_to_exact_rest(Settling<Kind, Real>& s, const KeepGoing& keep_going) {
+  if constexpr (std::is_same_v<Kind, Sphere>) {
+    constexpr std::int64_t most_failed = 3;
+    if (s.accuracy.rest != Rest::exact || !s.report.failure.empty()) return false;
     const std::string failure = find_exact_rest(s, keep_going, unlimited);
-    if (failure.empty() || s.report.cancelled) return;
-    if (tries == most_tries || !has_steps_to_go_on(s)) {
-      s.report.failure = "at rest in steps, but exact rest was not found: " + failure +
-                         "; take another seed, or accuracy.rest in_steps";
-      return;
+    if (failure.empty() || s.report.cancelled) return false;
+    ++s.searches_failed;
+    if (s.searches_failed < most_failed && has_steps_to_go_on(s)) {
+      enter(s.stages.size() - 1, s);
+      return true;
     }
-    enter(s.stages.size() - 1, s);
-    come_to_rest(s, keep_going);
-    if (!s.report.cancelled && !s.is_exact) test_rest(s);
+    s.report.failure = "at rest in steps, but exact rest was not found: " + failure +
+                       "; take another seed, or accuracy.rest in_steps";
   }
+  return false;
 }
 
 template <class Kind, class Real>
@@ -432,23 +450,15 @@ SettleReport settle_in(StepState<Kind, Real>& state, StepState<Kind, double>& cl
                          .stages = stages,
                          .settings = settings_of(accuracy, stages.front())};
   restore(saved, s);
-  const bool rested_when_saved = s.stage == s.stages.size();
-  come_to_rest(s, keep_going);
-  if (s.report.cancelled) return s.report;
-  if (!std::isfinite(s.last.kinetic_energy)) {
-    s.report.failure = "the kinetic energy is not a finite number";
-    return s.report;
-  }
-  if (s.is_exact) return s.report;
-  if (rested_when_saved || s.stage < s.stages.size()) test_rest(s);  // others have just passed
-  look_closer(s);
-  if (!s.report.failure.empty() && !is_high(bed)) {
-    s.report.failure += remedy_of_rounding(s.report.rest, accuracy, top_of(bed));
-  }
-  report_forces(contacts_of_last_step(s), s);
-  if constexpr (std::is_same_v<Kind, Sphere>) {
-    if (accuracy.rest == Rest::exact) go_on_to_exact_rest(s, keep_going);
-  }
+  do {
+    come_to_rest(s, keep_going);
+    if (s.report.cancelled || s.is_exact) return s.report;
+    if (!std::isfinite(s.last.kinetic_energy)) {
+      s.report.failure = "the kinetic energy is not a finite number";
+      return s.report;
+    }
+    tell_rest(s);
+  } while (slides_on_to_exact_rest(s, keep_going));
   return s.report;
 }
 

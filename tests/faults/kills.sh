@@ -1,7 +1,7 @@
 # SIGKILL between two beds, inside a bed or while tables are written, then the same command: nothing
 # lost, nothing done twice, the same bytes, and no checkpoint of a bed that was gone on with.
 source "$(dirname "$0")/common.sh" "$1"
-write_small_sweep sweep.json
+write_small_sweep sweep.json '{ "label": "exact", "set": { "accuracy": "exact" } }'
 make_reference sweep.json
 
 kills=0 inside=0 folders=0

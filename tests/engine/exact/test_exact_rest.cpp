@@ -231,24 +231,68 @@ TEST_CASE("a small bed of spheres that steps do not bring to rest is brought to 
   CHECK(report.rest.contacts + report.rest.held_by_turning >= report.rest.isostatic_contacts);
 }
 
-TEST_CASE("a bed that is stopped on its way to exact rest goes on to the same bits") {
-  const PackingSpec spec = wedged_spec();
-  SphereBed whole = start<Sphere>(spec).value();
+/// A bed that is stopped when its observer is asked for the `last` time, and another one that goes
+/// on from the bytes saved then.
+SettleReport settle_stopped(const Accuracy& accuracy, std::int64_t last, SphereBed first,
+                            SphereBed& other) {
+  std::string saved;
   std::int64_t asked = 0;
-  const auto count = [&](const Progress& /*progress*/) { return ++asked > 0; };
-  settle(spec.accuracy, testing::kernels(), whole, count);
-  for (const std::int64_t last : {asked - 1, asked - 9}) {
-    std::string saved;
-    SphereBed bed = start<Sphere>(spec).value();
-    std::int64_t now = 0;
-    settle(spec.accuracy, testing::kernels(), bed, [&](const Progress& progress) {
-      if (++now == last) saved = progress.save();
-      return now < last;
-    });
-    bed = start<Sphere>(spec).value();
-    settle(spec.accuracy, testing::kernels(), bed, always, saved);
-    CHECK(state_hash(bed) == state_hash(whole));
+  settle(accuracy, testing::kernels(), first, [&](const Progress& progress) {
+    if (++asked == last) saved = progress.save();
+    return asked < last;
+  });
+  REQUIRE_FALSE(saved.empty());
+  return settle(accuracy, testing::kernels(), other, always, saved);
+}
+
+/// Stops a bed so many questions before its end, in searches for exact rest or before.
+void check_stopped(const Accuracy& accuracy, const SphereBed& bed,
+                   const std::vector<std::int64_t>& before_end) {
+  SphereBed whole = bed;
+  std::int64_t asked = 0;
+  const SettleReport expected = settle(accuracy, testing::kernels(), whole,
+                                       [&](const Progress& /*progress*/) { return ++asked > 0; });
+  for (const std::int64_t before : before_end) {
+    INFO("stopped " << before << " questions before the end of " << asked);
+    SphereBed other = bed;
+    const SettleReport report = settle_stopped(accuracy, asked - before, bed, other);
+    CHECK(report.failure == expected.failure);
+    CHECK(state_hash(other) == state_hash(whole));
+    CHECK(report.force == expected.force);
+    CHECK(report.steps == expected.steps);
+    CHECK(report.iterations == expected.iterations);
+    CHECK(report.rest.imbalance.max == expected.rest.imbalance.max);
   }
+}
+
+TEST_CASE("a bed that is stopped on its way to exact rest goes on to the same bits") {
+  const PackingSpec spec = small_spec({4, 4, periodic, walls}, 120, 8);
+  check_stopped(*preset("exact"), start<Sphere>(spec).value(), {1, 9, 200});
+  const PackingSpec wedged = wedged_spec();
+  check_stopped(wedged.accuracy, start<Sphere>(wedged).value(), {1, 9, 200});
+}
+
+TEST_CASE("a bed that is stopped between searches in vain for exact rest goes on to the same end") {
+  // A row that its box just holds rests in steps, where its grains do not push each other.
+  const SphereBed row =
+      make_bed({4, 4, walls, walls},
+               {{0.5, 2, 0.5, 0.5}, {1.5, 2, 0.5, 0.5}, {2.5, 2, 0.5, 0.5}, {3.5, 2, 0.5, 0.5}});
+  SphereBed bed = row;
+  std::vector<std::int64_t> steps;  // before each question; none lies between those of a search
+  const SettleReport report =
+      settle(*preset("exact"), testing::kernels(), bed, [&](const Progress& progress) {
+        steps.push_back(progress.step);
+        return true;
+      });
+  CHECK(report.failure.starts_with("at rest in steps, but exact rest was not found"));
+  std::vector<std::int64_t> searches;  // their first questions, counted from the end
+  for (std::size_t k = 1; k < steps.size(); ++k) {
+    const bool is_first = steps[k] == steps[k - 1] && (k == 1 || steps[k - 1] != steps[k - 2]);
+    if (is_first) searches.push_back(static_cast<std::int64_t>(steps.size() - 1 - k));
+  }
+  REQUIRE(searches.size() == 3);
+  check_stopped(*preset("exact"), row, searches);
+  check_stopped(*preset("exact"), row, {searches.back() + 40});  // in the steps between
 }
 
 TEST_CASE("grains that stand by symmetry alone are not said to rest") {
