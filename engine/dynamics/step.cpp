@@ -112,6 +112,7 @@ bool find_near(const StepSettings& settings, const ExecutionContext& context, Po
 /// Nothing turns spheres.
 template <class Real>
 void hold_turning(const SphereContacts<Real>&, const ParallelFor&, SphereBed&) {}
+void release_turning(const ParallelFor&, SphereBed&) {}
 
 /// Rows with the gaps and normals of the grains where they are; see StepReport::sunk.
 template <class Real>
@@ -238,6 +239,7 @@ StepReport step(const StepSettings& settings, const ExecutionContext& context, B
   report.solve.residual /= force_unit;
   report.solve.rms /= force_unit;
   advance(settings.dt, context.loop, bed, state, report);
+  release_turning(context.loop, bed);
   return report;
 }
 

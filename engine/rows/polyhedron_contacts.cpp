@@ -286,6 +286,13 @@ void add_hold(const PolyhedronContacts<Real>& contacts, const ContactPart<Real>&
   if (bed.turns(b)) bed.root_inertia[b] += hold.of_b.cwiseMax(0.0);
 }
 
+template <class Change>
+void visit_grains(const ParallelFor& loop, const PolyhedronBed& bed, const Change& change) {
+  parallel_chunks(loop, bed.grains(), bed.subdomains, [&](std::size_t, IndexRange grains) {
+    for (std::size_t i = grains.first; i < grains.last; ++i) change(i);
+  });
+}
+
 /// All contacts of a subdomain between the candidates. Returns what touch_pairs does.
 template <class Real>
 double touch_subdomain(const TouchSettings& settings, const Kernels& kernels,
@@ -418,17 +425,18 @@ void take_candidates(const PolyhedronBed& bed, const Candidates& candidates,
 template <class Real>
 void hold_turning(const PolyhedronContacts<Real>& contacts, const ParallelFor& loop,
                   PolyhedronBed& bed) {
-  const auto visit_grains = [&](const auto& change) {
-    parallel_chunks(loop, bed.grains(), bed.subdomains, [&](std::size_t, IndexRange grains) {
-      for (std::size_t i = grains.first; i < grains.last; ++i) change(i);
-    });
-  };
-  visit_grains([&](std::size_t i) { bed.root_inertia[i] = principal_moments(bed, i); });
+  visit_grains(loop, bed, [&](std::size_t i) { bed.root_inertia[i] = principal_moments(bed, i); });
   visit_subdomains(contacts.found_parts, loop, [&](std::size_t p) {
     const ContactPart<Real>& part = contacts.parts[p];
     for (std::size_t k = 0; k < part.found.contacts.size(); ++k) add_hold(contacts, part, k, bed);
   });
-  visit_grains([&](std::size_t i) { bed.root_inertia[i] = bed.root_inertia[i].cwiseSqrt(); });
+  visit_grains(loop, bed,
+               [&](std::size_t i) { bed.root_inertia[i] = bed.root_inertia[i].cwiseSqrt(); });
+}
+
+void release_turning(const ParallelFor& loop, PolyhedronBed& bed) {
+  visit_grains(loop, bed,
+               [&](std::size_t i) { bed.root_inertia[i] = principal_moments(bed, i).cwiseSqrt(); });
 }
 
 template <class Real>

@@ -105,15 +105,18 @@ template <class Real>
 void take_candidates(const PolyhedronBed& bed, const Candidates& candidates,
                      PolyhedronContacts<Real>& contacts, const ParallelFor& loop = serial_for);
 
-/// Adds to the moments of inertia of polyhedra what forces of the last step hold them with: turned
-/// by t about an axis across its normal, a face comes t^2 / 2 times the distance from the grain's
-/// centre along the normal nearer to what touches it; to a sphere that of its centre. Rows tell
-/// that of a step only after it, so that grains under many others, or light ones under a large
+/// Adds to the moments of inertia, for a step, what forces of the last step hold polyhedra with:
+/// turned by t about an axis across its normal, a face comes t^2 / 2 times the distance from the
+/// grain's centre along the normal nearer to what touches it; to a sphere that of its centre. Rows
+/// tell that of a step only after it, so that grains under many others, or light ones under a large
 /// force, would swing; with dt^2 times that stiffness in their inertia they do not, and rest where
 /// they would rest without. Of edges that cross each is held as a face is, about the other.
 template <class Real>
 void hold_turning(const PolyhedronContacts<Real>& contacts, const ParallelFor& loop,
                   PolyhedronBed& bed);
+
+/// Ends that: between steps moments of inertia are those of the grains alone.
+void release_turning(const ParallelFor& loop, PolyhedronBed& bed);
 
 /// Finds the contacts between the candidates taken last, lays out their rows, and gives the
 /// impulses of the contacts before to the nearest point of the contact between the same two,

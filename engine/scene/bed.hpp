@@ -106,8 +106,8 @@ struct Bed<Polyhedron> : Grains {
   std::vector<Record<double>> orientation;
   /// Angle vector of the next step if nothing acts, grain frame, radians.
   std::vector<Vector> spin;
-  /// Square roots of the principal moments, sqrt(m) d; a step may have added to them (hold_turning
-  /// in engine/rows/polyhedron_contacts.hpp).
+  /// Square roots of the principal moments, sqrt(m) d; within a step of more than those
+  /// (hold_turning in engine/rows/polyhedron_contacts.hpp).
   std::vector<Vector> root_inertia;
 
   double scale(std::size_t grain) const { return 2.0 * position[grain].w; }
