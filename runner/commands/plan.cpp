@@ -17,6 +17,8 @@
 #include "runner/sweep/costs.hpp"
 #include "runner/tables/chosen_presets.hpp"
 #include "runner/tables/csv.hpp"
+#include "runner/tables/named_lines.hpp"
+#include "runner/tables/packing_names.hpp"
 #include "runner/text.hpp"
 
 namespace grainsweep {
@@ -94,7 +96,7 @@ std::string growth_text(const Sweep& whole) {
 }
 
 /// Which packings of growing groups come next, after those that are made.
-std::string next_text(const Sweep& sweep, const Outcomes& made) {
+std::string next_text(const Sweep& sweep, const Outcomes& made, const PackingNames& names) {
   constexpr std::size_t most_shown = 8;
   std::vector<std::pair<const Job*, std::size_t>> next;  // of each group, how many
   std::size_t all = 0;
@@ -109,12 +111,10 @@ std::string next_text(const Sweep& sweep, const Outcomes& made) {
   std::string text = "Next: " + counted(all, "packing") + ": ";
   for (std::size_t i = 0; i < std::min(next.size(), most_shown); ++i) {
     const auto& [job, count] = next[i];
-    const Box& box = job->spec.box;
-    text += (i == 0 ? "" : ", ") + std::to_string(count) + " of " + job->label +
-            (box.is_tube ? " D = " : " W = ") + width_text(cell(box.width), box.y);
+    text += (i == 0 ? "" : "; ") + std::to_string(count) + " of " + names.set_of(facts_of(*job));
   }
   if (next.size() > most_shown) {
-    text += " and of " + counted(next.size() - most_shown, "other group");
+    text += "; and of " + counted(next.size() - most_shown, "other group");
   }
   return text + "\n";
 }
@@ -128,24 +128,28 @@ std::string cluster_text(double wall_seconds) {
 
 std::string memory_text(double bytes) { return fixed(bytes / 1e6, 1) + " MB"; }
 
-std::string group_text(const PlannedGroup& group) {
+std::string cells_text(const std::string& extent, const std::string& packings,
+                       const std::string& grains, const std::string& cpu,
+                       const std::string& memory) {
+  return pad_right(extent, 14) + pad_left(packings, 9) + pad_left(grains, 10) + pad_left(cpu, 14) +
+         pad_left(memory, 13);
+}
+
+std::string cells_of(const PlannedGroup& group) {
   const PackingSpec& spec = group.first->spec;
   const std::string width = width_text(cell(spec.box.width), spec.box.y);
   const std::string extent = width + (spec.box.is_tube ? " tube" : "");
-  return "  " + pad_right(group.first->label, 20) + pad_right(extent, 14) +
-         pad_left(std::to_string(group.packings), 9) +
-         pad_left(std::to_string(grain_count(spec)), 10) +
-         pad_left(duration_text(group.cost.cpu_seconds), 14) +
-         pad_left(memory_text(group.cost.bytes), 12) + "\n";
+  return cells_text(extent, std::to_string(group.packings), std::to_string(grain_count(spec)),
+                    duration_text(group.cost.cpu_seconds), memory_text(group.cost.bytes));
 }
 
-std::string groups_text(const std::vector<PlannedGroup>& groups) {
-  std::string text = "  " + pad_right("label", 20) + pad_right("W/d, D/d", 14) +
-                     pad_left("packings", 9) + pad_left("grains", 10) + pad_left("CPU each", 14) +
-                     pad_left("memory each", 12) + "\n";
+std::string groups_text(const std::vector<PlannedGroup>& groups, const PackingNames& names) {
+  std::vector<NamedLine> lines;
   for (std::size_t i = 0; i < std::min(groups.size(), groups_shown); ++i) {
-    text += group_text(groups[i]);
+    lines.push_back({names.family_of(facts_of(*groups[i].first)), cells_of(groups[i])});
   }
+  std::string text = named_lines(
+      "label", cells_text("W/d, D/d", "packings", "grains", "CPU each", "memory each"), lines);
   if (groups.size() > groups_shown) {
     text += "  and " + std::to_string(groups.size() - groups_shown) + " more; --json lists all\n";
   }
@@ -171,12 +175,12 @@ Needs needs_of(const std::vector<Cost>& costs, int threads) {
   return needs;
 }
 
-void print_text(const Sweep& sweep, const std::vector<Cost>& costs, const Needs& needs,
-                int threads) {
+void print_text(const Sweep& sweep, const std::vector<Cost>& costs, const Needs& needs, int threads,
+                const PackingNames& names) {
   const std::vector<PlannedGroup> groups = planned_groups(sweep, costs);
   std::cout << sweep.name << ": " << counted(sweep.jobs.size(), "packing") << ", "
             << counted(groups.size(), "parameter set") << "\n"
-            << groups_text(groups) << chosen_presets_text(sweep)
+            << groups_text(groups, names) << chosen_presets_text(sweep)
             << "Estimated: " << duration_text(needs.cpu_seconds) << " CPU, about "
             << duration_text(needs.wall_seconds) << " on "
             << counted(static_cast<std::size_t>(threads), "thread") << " ("
@@ -249,8 +253,9 @@ int perform(const PlanOptions& options) {
   if (options.json) {
     print_json(sweep, costs, needs, threads);
   } else {
-    print_text(sweep, costs, needs, threads);
-    if (grows(whole)) std::cout << next_text(sweep, made) << growth_text(whole);
+    const PackingNames names = names_in(sweep);
+    print_text(sweep, costs, needs, threads, names);
+    if (grows(whole)) std::cout << next_text(sweep, made, names) << growth_text(whole);
     if (options.shards > 0) std::cout << shards_text(sweep, costs, options.shards);
   }
   return exit_done;

@@ -32,6 +32,7 @@
 #include "runner/store/shard_files.hpp"
 #include "runner/sweep/costs.hpp"
 #include "runner/tables/closing_report.hpp"
+#include "runner/tables/packing_names.hpp"
 #include "runner/text.hpp"
 #include "runner/versions.hpp"
 
@@ -173,8 +174,8 @@ TimeLimit time_limit_of(const RunOptions& options) {
   return left > 0.0 ? TimeLimit(left) : TimeLimit();
 }
 
-Packed pack(RunningSweep& running, const RunOptions& options, Isa isa, const RunRecord& run,
-            const TimeLimit& time_limit) {
+Packed pack(RunningSweep& running, const Sweep& whole, const RunOptions& options, Isa isa,
+            const RunRecord& run, const TimeLimit& time_limit) {
   if (running.pending.empty()) return {};
   if (running.done > 0 && !options.quiet) {
     std::cerr << running.done << " of " << running.done + running.pending.size()
@@ -183,9 +184,11 @@ Packed pack(RunningSweep& running, const RunOptions& options, Isa isa, const Run
   const Limits limits{run.threads, memory_for_packings()};
   std::cerr << memory_warning(costs_of(running.pending), limits.memory);
   expect_threads(limits.threads);
+  const ProgressStyle style = options.quiet ? ProgressStyle::quiet : progress_style();
+  const bool tells_packings = style == ProgressStyle::plain || options.fail_fast;
   return pack_pending(
-      running, {limits, isa, options.quiet ? ProgressStyle::quiet : progress_style(),
-                options.checkpoint_seconds, options.fail_fast, time_limit, options.no_grains});
+      running, {limits, isa, style, options.checkpoint_seconds, options.fail_fast, time_limit,
+                options.no_grains, tells_packings ? names_in(whole) : PackingNames()});
 }
 
 struct Made {
@@ -414,7 +417,7 @@ int perform(const RunOptions& options) {
   GrowingSweep growing(whole, made());
   bool retries = options.retry_failed;  // once
   const auto make = [&](RunningSweep& running) {
-    return pack(running, options, isa, run, time_limit);
+    return pack(running, whole, options, isa, run, time_limit);
   };
   Made own = make_all(growing, made, [&](const Sweep& sweep) {
     record_sweep(folder, provenance, rows_of(sweep));

@@ -26,12 +26,9 @@
 namespace grainsweep {
 namespace {
 
-std::string packing_line(const Job& job, const Outcome& outcome) {
+std::string packing_line(const std::string& name, int replicate, const Outcome& outcome) {
   const PackingResult& result = outcome.result;
-  const Box& box = job.spec.box;
-  std::string text = job.label + (box.is_tube ? " D=" : " W=") +
-                     width_text(cell(box.width), box.y) + " #" + std::to_string(job.replicate) +
-                     "  " + name_of(result.status);
+  std::string text = name + " #" + std::to_string(replicate) + "  " + name_of(result.status);
   if (!result.reason.empty()) text += " (" + result.reason + ")";
   if (!result.coordination.empty()) {
     text += "  φ " + fixed(result.solid_fraction, 4) + "  Z " +
@@ -199,7 +196,9 @@ class Packer {
     }
     checkpoints_of(job).remove();
     ++packed_.packings;
-    const std::string line = packing_line(job, outcome) + went_on_text(before_[task].step);
+    const std::string line =
+        packing_line(options_.names.set_of(facts_of(job)), job.replicate, outcome) +
+        went_on_text(before_[task].step);
     display_.finish(task, outcome.result.status == PackingStatus::settled, line);
     if (!options_.fail_fast || outcome.result.status != PackingStatus::failed) return;
     if (!has_failed_.exchange(true)) packed_.first_failure = line;

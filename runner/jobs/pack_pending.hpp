@@ -14,6 +14,7 @@
 #include "runner/store/claims.hpp"
 #include "runner/store/shard_files.hpp"
 #include "runner/sweep/job.hpp"
+#include "runner/tables/packing_names.hpp"
 
 namespace grainsweep {
 
@@ -35,6 +36,7 @@ struct PackOptions {
   bool fail_fast = false;            ///< the first packing that fails stops the others
   TimeLimit time_limit;
   bool no_grains = false;  ///< of a bed only its curves are stored
+  PackingNames names = {};
 };
 
 /// What came of it.

@@ -11,6 +11,8 @@
 #include "runner/tables/csv.hpp"
 #include "runner/tables/families.hpp"
 #include "runner/tables/fits.hpp"
+#include "runner/tables/named_lines.hpp"
+#include "runner/tables/packing_names.hpp"
 #include "runner/tables/units.hpp"
 #include "runner/text.hpp"
 
@@ -30,7 +32,7 @@ std::string packings_text(const Group& group) {
 
 std::string cells_text(const std::string& width, const std::array<std::string, 5>& cells) {
   return pad_right(width, 12) + pad_left(cells[0], 17) + pad_left(cells[1], 15) +
-         pad_left(cells[2], 14) + pad_left(cells[3], 10) + pad_left(cells[4], 11) + "\n";
+         pad_left(cells[2], 14) + pad_left(cells[3], 10) + pad_left(cells[4], 11);
 }
 
 /// The columns of a table: their heads, and the cells of a group.
@@ -80,7 +82,7 @@ TableColumns measured_columns(const std::vector<TableLine>& lines) {
 TableColumns laboratory_columns(const std::vector<TableLine>& lines, const Units& units) {
   const auto cells = [](const std::string& width, const std::string& porosity,
                         const std::string& density) {
-    return pad_right(width, 14) + pad_left(porosity, 19) + pad_left(density, 17) + "\n";
+    return pad_right(width, 14) + pad_left(porosity, 19) + pad_left(density, 17);
   };
   return {cells(extent_symbol(lines) + "/" + printed_unit(units), "porosity ± sd",
                 units.density ? "kg/m³ ± sd" : ""),
@@ -93,23 +95,14 @@ TableColumns laboratory_columns(const std::vector<TableLine>& lines, const Units
           }};
 }
 
-/// The first of the lines beneath what their columns are. Names stand in a column of their own, or
-/// where they are long above their lines.
+/// The first of the lines beneath what their columns are.
 std::string table_text(const std::vector<TableLine>& lines, const TableColumns& columns) {
-  constexpr std::size_t longest_in_column = 17, most_lines = 60;
-  std::size_t longest = 0;
-  for (const TableLine& line : lines) longest = std::max(longest, line.name.size());
-  const bool has_column = longest > 0 && longest <= longest_in_column;
-  const auto indent = [&](const std::string& name) {
-    return has_column ? "  " + pad_right(name, longest + 2) : std::string("  ");
-  };
-  std::string text = indent("") + columns.heads;
-  for (std::size_t k = 0; k < std::min(lines.size(), most_lines); ++k) {
-    const std::string& name = lines[k].name;
-    const bool is_new = k == 0 || name != lines[k - 1].name;
-    if (is_new && longest > longest_in_column) text += " " + name + "\n";
-    text += indent(name) + columns.cells(*lines[k].group);
+  constexpr std::size_t most_lines = 60;
+  std::vector<NamedLine> first;
+  for (const TableLine& line : lines) {
+    if (first.size() < most_lines) first.push_back({line.name, columns.cells(*line.group)});
   }
+  const std::string text = named_lines("", columns.heads, first);
   if (lines.size() <= most_lines) return text;
   return text + "  and " + std::to_string(lines.size() - most_lines) + " more, see groups.csv\n";
 }
@@ -307,15 +300,14 @@ std::string headline(const std::string& name, std::size_t packings, const Status
 }
 
 /// The first few packings that failed or did not settle, and why.
-std::string reasons_text(const std::vector<Row>& rows) {
+std::string reasons_text(const std::vector<Row>& rows, const PackingNames& names) {
   constexpr int reasons_shown = 5;
   std::string text;
   int count = 0;
   for (const Row& row : rows) {
     if (!row.outcome || is_settled(row) || ++count > reasons_shown) continue;
-    text += "  " + row.job.id + " (" + row.job.label + (row.job.label.empty() ? "" : ", ") +
-            (row.job.box.is_tube ? "D = " : "W = ") + cell(row.job.box.width) +
-            "): " + status_of(row) + "\n      " + row.outcome->result.reason + "\n";
+    text += "  " + row.job.id + " (" + names.set_of(row.job) + "): " + status_of(row) + "\n      " +
+            row.outcome->result.reason + "\n";
   }
   if (count > reasons_shown) {
     text += "  and " + std::to_string(count - reasons_shown) + " more, see packings.csv\n";
@@ -355,8 +347,9 @@ std::string closing_report(const Provenance& provenance, const std::vector<Row>&
   std::string text = headline(provenance.sweep_name, rows.size(), totals.counts);
   return text + tables_text(families, provenance.units) +
          laboratory_text(families, provenance.units) + definitions_text(rows) +
-         bias_text(families) + percolation_text(families) + reasons_text(rows) +
-         effort_text(provenance, totals.cpu_seconds) + "Tables in " + place.folder +
+         bias_text(families) + percolation_text(families) +
+         reasons_text(rows, PackingNames(families)) + effort_text(provenance, totals.cpu_seconds) +
+         "Tables in " + place.folder +
          ": packings.csv, groups.csv, fits.csv, profiles.csv, decays.csv and more;\n"
          "provenance.json says how they were made\n" +
          next_text(sweep_file_of(provenance), totals.counts, place);

@@ -25,6 +25,8 @@ std::string labels_of(const Family& family) {
 
 using Flat = std::map<std::string, std::string>;  // dotted name -> cell
 
+bool is_of_accuracy(std::string_view path) { return path.starts_with("accuracy."); }
+
 /// The parts of each named accuracy.
 const std::map<std::string_view, Flat>& flat_presets() {
   static const auto all = [] {
@@ -36,7 +38,7 @@ const std::map<std::string_view, Flat>& flat_presets() {
       job.parameters = canonical_parameters(resolved);
       flat[preset.name] = flat_parameters(job);
       std::erase_if(flat[preset.name],
-                    [](const auto& part) { return !part.first.starts_with("accuracy."); });
+                    [](const auto& part) { return !is_of_accuracy(part.first); });
     }
     return flat;
   }();
@@ -62,12 +64,14 @@ std::string_view nearest_preset(const Flat& parameters) {
   return nearest;
 }
 
-/// The parameters of a family and "accuracy", its preset or the one next to its own.
+/// The parameters of a family; "shape", what its grains are; and "accuracy", its preset or the one
+/// next to its own.
 Flat parameters_of(const Family& family) {
   Flat flat = flat_parameters(first_group(family).job);
   flat.erase("box.width");
   flat.erase("box.y");
   flat.erase("tube.diameter");
+  flat["shape"] = first_group(family).job.shape;
   const std::string& accuracy = first_group(family).job.accuracy;
   flat["accuracy"] = accuracy == "custom" ? nearest_preset(flat) : accuracy;
   return flat;
@@ -79,7 +83,7 @@ Flat told_by(const Family& family) {
   const bool is_custom = first_group(family).job.accuracy == "custom";
   const Flat& preset = flat_presets().at(flat.at("accuracy"));
   std::erase_if(flat, [&](const auto& part) {
-    return is_custom ? is_as_in(preset, part) : part.first.starts_with("accuracy.");
+    return is_custom ? is_as_in(preset, part) : is_of_accuracy(part.first);
   });
   return flat;
 }
@@ -91,25 +95,47 @@ std::string_view short_name(std::string_view path) {
 }
 
 /// "small_share=0.25 size_ratio=0.5": the parameters among `paths`, by the last part of their path.
+/// Of several parts of accuracies those are left out that are as in the preset.
 std::string distinction_of(const Family& family, const std::set<std::string>& paths) {
   std::string text;
+  const bool tells_presets = std::count_if(paths.begin(), paths.end(), is_of_accuracy) > 1;
+  const Flat told = told_by(family);
   for (const auto& [path, value] : parameters_of(family)) {
-    if (!paths.contains(path)) continue;
+    const bool is_implied = tells_presets && is_of_accuracy(path) && !told.contains(path);
+    if (!paths.contains(path) || is_implied) continue;
     text.append(text.empty() ? "" : " ").append(short_name(path)).append("=").append(value);
   }
   return text;
 }
 
-/// Paths whose value is not the same in all of `families`.
+using Counts =
+    std::map<std::string, std::map<std::string, std::size_t>>;  // path, value -> families
+
+/// How many families have the shape that a parameter is of; all if it is of none.
+std::size_t families_with(const std::string& path, const Counts& counts, std::size_t all) {
+  constexpr std::string_view of_shape = "shape.";
+  if (!path.starts_with(of_shape)) return all;
+  const std::map<std::string, std::size_t>& shapes = counts.at("shape");
+  const auto found =
+      shapes.find(path.substr(of_shape.size(), path.find('.', of_shape.size()) - of_shape.size()));
+  return found == shapes.end() ? all : found->second;
+}
+
+/// Paths whose value is not the same in all of `families`, or in all of one shape. Where several
+/// parts of accuracies differ, their presets are told.
 std::set<std::string> differing_paths(const std::vector<Family*>& families) {
-  std::map<std::string, std::map<std::string, std::size_t>> count;
+  Counts counts;
   for (const Family* family : families) {
-    for (const auto& [path, value] : told_by(*family)) ++count[path][value];
+    for (const auto& [path, value] : told_by(*family)) ++counts[path][value];
   }
   std::set<std::string> paths;
-  for (const auto& [path, values] : count) {
-    if (values.begin()->second != families.size()) paths.insert(path);
+  std::size_t parts = 0;
+  for (const auto& [path, values] : counts) {
+    if (values.begin()->second == families_with(path, counts, families.size())) continue;
+    paths.insert(path);
+    parts += is_of_accuracy(path) ? 1 : 0;
   }
+  if (parts > 1) paths.insert("accuracy");
   return paths;
 }
 

@@ -7,7 +7,7 @@ cat >sweep.json <<'JSON'
   "sweep": [ { "label": "small", "grid": { "box.width": [3, 4] } },
              { "label": "too low", "set": { "box.width": 6, "measure.exclude_floor": 5.5 } } ] }
 JSON
-failed='too low W=6 #1  failed (the bed is too low'
+failed='too low, W = 6 #1  failed (the bed is too low'
 
 expect_code 1 "$program" run sweep.json --no-report --threads 2 --out all
 expect_text error.txt "6/6  " "$failed"

@@ -1,0 +1,31 @@
+#include "runner/tables/packing_names.hpp"
+
+#include "runner/tables/csv.hpp"
+
+namespace grainsweep {
+
+PackingNames::PackingNames(const std::vector<Family>& families) {
+  for (const Family& family : families) {
+    if (!family.distinction.empty()) distinctions_[family.parameters] = family.distinction;
+  }
+}
+
+std::string PackingNames::family_of(const JobFacts& job) const {
+  if (distinctions_.empty()) return job.label;
+  const auto found = distinctions_.find(parameters_of_family(job));
+  if (found == distinctions_.end()) return job.label;
+  return job.label + (job.label.empty() ? "" : " ") + found->second;
+}
+
+std::string PackingNames::set_of(const JobFacts& job) const {
+  const std::string family = family_of(job);
+  return family + (family.empty() ? "" : ", ") + (job.box.is_tube ? "D = " : "W = ") +
+         width_text(cell(job.box.width), job.box.y);
+}
+
+PackingNames names_in(const Sweep& sweep) {
+  const std::vector<Row> rows = rows_of(sweep);
+  return PackingNames(families_of(groups_of(rows)));
+}
+
+}  // namespace grainsweep
