@@ -279,8 +279,7 @@ std::string fault_of_curve(const DecayFit& fit, double significance) {
     return "the window of " + number_text(span) + " d holds no whole period";
   }
   if (!(fit.length.value <= span)) {
-    return "the fitted length " + length + " is longer than the window of " + number_text(span) +
-           " d";
+    return "the layers do not decay within the window of " + number_text(span) + " d";
   }
   if (!(fit.length.error <= largest_relative_error * fit.length.value)) {
     return "the length " + length + " is too uncertain; add replicates";

@@ -6,6 +6,7 @@
 #include <iostream>
 #include <map>
 #include <optional>
+#include <string_view>
 #include <utility>
 
 #include <CLI/App.hpp>
@@ -35,6 +36,8 @@ struct Collection {
   Provenance provenance;
   std::vector<Row> rows;
   std::map<std::string, std::size_t> row_of;  ///< by job
+  /// The first row of each set of parameters, by their text, which the rows keep.
+  std::map<std::string_view, std::size_t> row_with;
   std::size_t added = 0;
 };
 
@@ -58,10 +61,22 @@ void warn_of(const std::vector<std::string>& damage, Collection& to) {
   for (const std::string& line : damage) warn(line, to);
 }
 
+/// Packings of equal parameters are one group: they get the label of the first. Adds one that is
+/// renamed so to `renamed`, "its label" -> "the first one's".
+void add_row(Row&& row, Collection& to, std::map<std::string, std::string>& renamed) {
+  const auto [first, is_new] = to.row_with.try_emplace(row.job.parameters.text(), to.rows.size());
+  if (!is_new && to.rows[first->second].job.label != row.job.label) {
+    const std::string& label = to.rows[first->second].job.label;
+    renamed[std::exchange(row.job.label, label)] = label;
+  }
+  to.rows.push_back(std::move(row));
+}
+
 /// The row of a job; a new, pending one if there is none yet.
-Row& row_of(const JobEntry& job, const JobList& list, Collection& to) {
+Row& row_of(const JobEntry& job, const JobList& list, Collection& to,
+            std::map<std::string, std::string>& renamed) {
   const auto [known, is_new] = to.row_of.try_emplace(job.id, to.rows.size());
-  if (is_new) to.rows.push_back({facts_of(job, list), std::nullopt});
+  if (is_new) add_row({facts_of(job, list), std::nullopt}, to, renamed);
   return to.rows[known->second];
 }
 
@@ -130,7 +145,7 @@ void add_outcome(const std::string& folder, Boxed<Outcome> outcome, Row& row, Co
 /// What the folder holds already; a new one takes name and file from the first source.
 Collection begin_collection(const std::string& folder, ShardFiles& files, ProgressDisplay& display,
                             const RunRecord& own, const Provenance& first) {
-  Collection collection{folder, files, display, first, {}, {}, 0};
+  Collection collection{folder, files, display, first, {}, {}, {}, 0};
   collection.provenance.runs.clear();
   if (file_exists(folder + "/provenance.json")) {
     Results results = read_results(folder);
@@ -143,6 +158,7 @@ Collection begin_collection(const std::string& folder, ShardFiles& files, Progre
   }
   for (std::size_t i = 0; i < collection.rows.size(); ++i) {
     collection.row_of[collection.rows[i].job.id] = i;
+    collection.row_with.try_emplace(collection.rows[i].job.parameters.text(), i);
   }
   collection.provenance.build = this_build();
   return collection;
@@ -156,12 +172,18 @@ void add_results(const std::string& folder, StoredSweep&& stored, Collection& to
   add_runs(stored.provenance.runs, to);
   const double all = static_cast<double>(std::max<std::size_t>(stored.outcomes.size(), 1));
   if (to.rows.empty()) to.rows.reserve(stored.jobs.jobs.size());
+  std::map<std::string, std::string> renamed;
   for (const JobEntry& job : stored.jobs.jobs) {
-    Row& row = row_of(job, stored.jobs, to);
+    Row& row = row_of(job, stored.jobs, to, renamed);
     auto outcome = stored.outcomes.extract(job.id);
     if (!outcome) continue;
     add_outcome(folder, std::move(outcome.mapped()), row, to);
     tell(1.0 - static_cast<double>(stored.outcomes.size()) / all);
+  }
+  for (const auto& [label, first] : renamed) {
+    warn(folder + ": packings called \"" + label + "\" have the parameters of \"" + first +
+             "\" collected before, and are called so, too",
+         to);
   }
 }
 

@@ -43,8 +43,10 @@ std::string versions_text() {
 }  // namespace
 
 CLI::App& add_command(CLI::App& app, DoctorOptions& /*options*/) {
-  return *app.add_subcommand("doctor",
-                             "Say what this machine offers and whether results can be written");
+  CLI::App& doctor = *app.add_subcommand(
+      "doctor", "Say what this machine offers and whether results can be written");
+  doctor.footer("Example: grainsweep doctor");
+  return doctor;
 }
 
 int perform(const DoctorOptions& /*options*/) {

@@ -71,8 +71,24 @@ std::string page_of(const StoredBed& bed, const Row& row, const GivenUnits& unit
   return bed_page(bed, facts);
 }
 
+/// What other formats would leave out in silence. Throws BadInput.
+void refuse_what_does_not_apply(const ExportOptions& options) {
+  const auto expect = [&](bool is_given, const char* option, bool applies, const char* formats) {
+    if (is_given && !applies) {
+      throw BadInput(std::string(option) + " is of --format " + formats + ", not of " +
+                     options.format);
+    }
+  };
+  const ExportOptions usual;
+  const bool has_surfaces = options.format == "stl" || options.format == "obj";
+  expect(options.contacts != usual.contacts, "--contacts", has_surfaces, "stl and obj");
+  expect(options.periodic_images, "--periodic-images", has_surfaces, "stl and obj");
+  expect(options.voxels != usual.voxels, "--voxels", options.format == "voxels", "voxels");
+}
+
 /// Throws BadInput.
 ExportSettings settings_of(const ExportOptions& options) {
+  refuse_what_does_not_apply(options);
   ExportSettings settings{{}, options.periodic_images, options.voxels};
   if (options.contacts == "touch") return settings;
   const auto treatment = contact_treatment(options.contacts);
@@ -139,11 +155,12 @@ int perform(const ExportOptions& options) {
   if (chosen.empty()) throw BadInput(options.folder + ": holds no finished packing to export");
   make_folder(to);
   const std::vector<std::string> stems = file_stems(rows);
-  std::size_t written = 0;
+  std::size_t written = 0, unsettled = 0;
   for (const std::size_t k : chosen) {
     StoredBed bed = read_bed(options.folder, *rows[k].outcome);
     if (bed.grains.empty()) continue;  // of a run with --no-grains
     ++written;
+    unsettled += is_settled(rows[k]) ? 0 : 1;
     const std::string text = format != nullptr
                                  ? format->text(exported(std::move(bed), rows[k].job, settings))
                                  : page_of(bed, rows[k], results.provenance.units);
@@ -153,6 +170,9 @@ int perform(const ExportOptions& options) {
   replace_file(to + "/index.csv", index_csv(to, rows, endings()));
   std::cout << counted(written, "packing") << " written to " << to << "/<label>-<group>-<replicate>"
             << ending << ", listed in index.csv\n";
+  if (unsettled > 0) {
+    std::cout << unsettled << " of them did not come to rest: see the column status there\n";
+  }
   return exit_done;
 }
 

@@ -52,26 +52,30 @@ Outcomes made_in(const std::string& folder, const Sweep& whole) {
   return read_journals(folder, grows(whole) ? Detail::whole : Detail::summary).outcomes;
 }
 
-/// Estimates, corrected by what the packings that are stored in a folder took.
-std::vector<Cost> costs_with(const std::string& folder, const Outcomes& outcomes,
-                             const std::vector<Job>& jobs) {
+/// Estimates, corrected by what packings that are made took.
+std::vector<Cost> costs_with(const Outcomes& outcomes, const std::vector<Job>& jobs) {
   std::vector<Cost> costs = costs_of(jobs);
-  if (folder.empty()) return costs;
+  if (outcomes.empty()) return costs;
   std::vector<Known> packings;
-  std::size_t made = 0;
   for (std::size_t i = 0; i < jobs.size(); ++i) {
     packings.push_back({costs[i].cpu_seconds, std::nullopt});
     const auto known = outcomes.find(jobs[i].id);
     if (known == outcomes.end()) continue;
     packings.back().measured = known->second->cpu_seconds;
-    ++made;
   }
-  const double before = total_cpu_seconds(costs);
   const std::vector<double> seconds = learned(packings);
   for (std::size_t i = 0; i < jobs.size(); ++i) costs[i].cpu_seconds = seconds[i];
-  std::cerr << counted(made, "packing") << " made in " << folder << ": estimates times "
-            << fixed(total_cpu_seconds(costs) / before, 2) << "\n";
   return costs;
+}
+
+/// How estimates were corrected by what is made in a folder.
+std::string learned_text(const std::string& folder, const Outcomes& outcomes,
+                         const std::vector<Job>& jobs, const std::vector<Cost>& costs) {
+  const auto made = std::count_if(jobs.begin(), jobs.end(),
+                                  [&](const Job& job) { return outcomes.contains(job.id); });
+  return counted(static_cast<std::size_t>(made), "packing") + " made in " + folder +
+         ": estimates times " +
+         fixed(total_cpu_seconds(costs) / total_cpu_seconds(costs_of(jobs)), 2) + "\n";
 }
 
 /// How evenly so many shards, which the uncorrected estimates divide, have the work.
@@ -88,8 +92,8 @@ std::string shards_text(const Sweep& sweep, const std::vector<Cost>& costs, int 
 }
 
 /// What a sweep takes at most whose groups grow.
-std::string growth_text(const Sweep& whole) {
-  const std::vector<Cost> costs = costs_of(whole.jobs);
+std::string growth_text(const Sweep& whole, const Outcomes& made) {
+  const std::vector<Cost> costs = costs_with(made, whole.jobs);
   return "Groups grow until their errors are as asked for: at most " +
          counted(costs.size(), "packing") + ", " + duration_text(total_cpu_seconds(costs)) +
          " CPU; with --out the packings made so far tell how many come next\n";
@@ -148,8 +152,14 @@ std::string groups_text(const std::vector<PlannedGroup>& groups, const PackingNa
   for (std::size_t i = 0; i < std::min(groups.size(), groups_shown); ++i) {
     lines.push_back({names.family_of(facts_of(*groups[i].first)), cells_of(groups[i])});
   }
+  const auto has_extent = [&](bool is_tube) {
+    return std::any_of(groups.begin(), groups.end(), [&](const PlannedGroup& group) {
+      return group.first->spec.box.is_tube == is_tube;
+    });
+  };
+  const std::string extent = !has_extent(true) ? "W/d" : has_extent(false) ? "W/d, D/d" : "D/d";
   std::string text = named_lines(
-      "label", cells_text("W/d, D/d", "packings", "grains", "CPU each", "memory each"), lines);
+      "label", cells_text(extent, "packings", "grains", "CPU each", "memory each"), lines);
   if (groups.size() > groups_shown) {
     text += "  and " + std::to_string(groups.size() - groups_shown) + " more; --json lists all\n";
   }
@@ -247,7 +257,8 @@ int perform(const PlanOptions& options) {
   const GrowingSweep growing(whole, made);
   const Sweep& sweep = growing.now();
   const int threads = options.threads > 0 ? options.threads : usable_cores();
-  const std::vector<Cost> costs = costs_with(options.out, made, sweep.jobs);
+  const std::vector<Cost> costs = costs_with(made, sweep.jobs);
+  if (!options.out.empty()) std::cerr << learned_text(options.out, made, sweep.jobs, costs);
   const Needs needs = needs_of(costs, threads);
   std::cerr << memory_warning(costs, needs.memory);
   if (options.json) {
@@ -255,7 +266,7 @@ int perform(const PlanOptions& options) {
   } else {
     const PackingNames names = names_in(sweep);
     print_text(sweep, costs, needs, threads, names);
-    if (grows(whole)) std::cout << next_text(sweep, made, names) << growth_text(whole);
+    if (grows(whole)) std::cout << next_text(sweep, made, names) << growth_text(whole, made);
     if (options.shards > 0) std::cout << shards_text(sweep, costs, options.shards);
   }
   return exit_done;

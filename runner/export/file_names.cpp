@@ -14,17 +14,34 @@ std::string as_file_name(std::string label) {
     const bool stays = std::isalnum(static_cast<unsigned char>(letter)) != 0 || letter == '.';
     if (!stays) letter = '_';
   }
+  if (label.starts_with('.')) label.front() = '_';
   return label;
+}
+
+/// Whether each group, by its number less one, has packings of several seeds.
+std::vector<bool> have_seeds(const std::vector<Row>& rows,
+                             const std::vector<std::size_t>& numbers) {
+  std::vector<std::uint64_t> first_seed;
+  std::vector<bool> several;
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const std::size_t group = numbers[k] - 1;
+    if (group == first_seed.size())
+      first_seed.push_back(rows[k].job.seed), several.push_back(false);
+    if (rows[k].job.seed != first_seed[group]) several[group] = true;
+  }
+  return several;
 }
 
 }  // namespace
 
 std::vector<std::string> file_stems(const std::vector<Row>& rows) {
   const std::vector<std::size_t> numbers = group_numbers(rows);
+  const std::vector<bool> several_seeds = have_seeds(rows, numbers);
   std::vector<std::string> stems;
   for (std::size_t k = 0; k < rows.size(); ++k) {
-    stems.push_back(as_file_name(rows[k].job.label) + "-" + cell(numbers[k]) + "-" +
-                    cell(rows[k].job.replicate));
+    const JobFacts& job = rows[k].job;
+    stems.push_back(as_file_name(job.label) + "-" + cell(numbers[k]) + "-" + cell(job.replicate));
+    if (several_seeds[numbers[k] - 1]) stems.back() += "-seed" + cell(job.seed);
   }
   return stems;
 }
@@ -33,14 +50,14 @@ std::string index_csv(const std::string& folder, const std::vector<Row>& rows,
                       const std::vector<std::string>& endings) {
   const std::vector<std::string> stems = file_stems(rows);
   const std::vector<std::size_t> numbers = group_numbers(rows);
-  std::string text = "file,job,label,group,replicate\n";
+  std::string text = "file,job,label,group,replicate,seed,status\n";
   for (std::size_t k = 0; k < rows.size(); ++k) {
     for (const std::string& ending : endings) {
       const std::string file = stems[k] + ending;
       if (!std::filesystem::exists(std::filesystem::path(folder) / file)) continue;
       const JobFacts& job = rows[k].job;
-      text +=
-          csv_line({cell(file), job.id, cell(job.label), cell(numbers[k]), cell(job.replicate)});
+      text += csv_line({cell(file), job.id, cell(job.label), cell(numbers[k]), cell(job.replicate),
+                        cell(job.seed), status_of(rows[k])});
     }
   }
   return text;

@@ -9,12 +9,13 @@
 namespace grainsweep {
 
 /// Of each row the name of its files without their ending: label, number of the group in groups.csv
-/// and replicate, as "two_sizes-3-1". What is no letter, digit, point, or underscore of a label is
-/// an underscore. No two rows have the same.
+/// and replicate, as "two_sizes-3-1"; in groups of several seeds the seed, too:
+/// "two_sizes-3-1-seed5". What is no letter, digit, point, or underscore of a label is an
+/// underscore, and so is a point that would hide the file. No two rows have the same.
 std::vector<std::string> file_stems(const std::vector<Row>& rows);
 
-/// index.csv: file, job, label, group and replicate of every file in `folder` that is one of the
-/// rows' with one of the endings.
+/// index.csv: file, job, label, group, replicate, seed and status of every file in `folder` that is
+/// one of the rows' with one of the endings.
 std::string index_csv(const std::string& folder, const std::vector<Row>& rows,
                       const std::vector<std::string>& endings);
 

@@ -14,6 +14,7 @@
 #include "runner/sweep/costs.hpp"
 #include "runner/tables/fits.hpp"
 #include "runner/tables/job_facts.hpp"
+#include "runner/tables/packing_names.hpp"
 #include "runner/text.hpp"
 
 namespace grainsweep {
@@ -260,9 +261,25 @@ std::string end_of_text(std::size_t met, std::size_t all) {
   return met < all ? "; raise replicates.most for the others\n" : "\n";
 }
 
+/// Which groups have larger errors than wished, by their first jobs.
+std::string missed_text(const Sweep& whole, const std::vector<const Job*>& missed) {
+  constexpr std::size_t most_named = 5;
+  if (missed.empty()) return "";
+  const PackingNames names = names_in(whole);
+  std::string text;
+  for (std::size_t k = 0; k < std::min(missed.size(), most_named); ++k) {
+    text += (k == 0 ? "Larger: " : "; ") + names.set_of(facts_of(*missed[k]));
+  }
+  if (missed.size() > most_named) {
+    text += "; and " + counted(missed.size() - most_named, "other group");
+  }
+  return text + "\n";
+}
+
 std::string means_text(const Sweep& whole, const std::vector<Places>& all,
                        const Outcomes& outcomes) {
-  std::size_t groups = 0, met = 0, packings = 0, unbounded = 0;
+  std::size_t groups = 0, packings = 0, unbounded = 0;
+  std::vector<const Job*> missed;
   for (const Places& group : all) {
     const ErrorWish& wish = whole.jobs[group.begin].wish;
     if (!wish.is_given()) continue;
@@ -272,12 +289,16 @@ std::string means_text(const Sweep& whole, const std::vector<Places>& all,
     unbounded += called.bound ? 0 : 1;
     const auto end = called.made.begin() + called.count;
     const bool is_made = std::find(called.made.begin(), end, nullptr) == end;
-    met += is_made && over_wishes(means_of(called.made, called.count), wish, called.bound) <= 1.0;
+    const bool is_met =
+        is_made && over_wishes(means_of(called.made, called.count), wish, called.bound) <= 1.0;
+    if (!is_met) missed.push_back(&whole.jobs[group.begin]);
   }
   if (groups == 0) return "";
+  const std::size_t met = groups - missed.size();
   return "Errors as asked for (95 %) in " + std::to_string(met) + " of " +
          counted(groups, "group") + ", by " + counted(packings, "packing") +
-         unmeasured_text(unbounded, "group") + end_of_text(met, groups);
+         unmeasured_text(unbounded, "group") + end_of_text(met, groups) +
+         missed_text(whole, missed);
 }
 
 std::string fits_text(const Sweep& whole, const std::vector<Places>& groups,

@@ -179,12 +179,12 @@ Figure distributions_figure(const Axes& axes) {
 Figure small_share_figure(const std::vector<Family>& families, const std::string& folder) {
   Figure figure{.name = "small_grains",
                 .title = "Small grains",
-                .caption =
-                    "Left: slope of the wall effect, φ = φ_bulk - C / W. Right: how far the "
-                    "layers reach from the walls of the widest gap (where their amplitude "
-                    "has fallen to 5 % of the bulk), for large and small grains. A family "
-                    "whose value is not determined has no point; fits.csv and decays.csv "
-                    "say why."};
+                .caption = "Left: slope of the wall effect, φ = φ_bulk - C / " +
+                           extent_symbol(families) +
+                           ". Right: how far the layers reach from the walls of the widest gap "
+                           "(where their amplitude has fallen to 5 % of the bulk), for large and "
+                           "small grains. A family whose value is not determined has no point; "
+                           "fits.csv and decays.csv say why."};
   const std::string table = "small_grains.csv";
   const auto sorted = by_small_share(families);
   const std::vector<WallReach> reaches = reaches_of(sorted, folder);

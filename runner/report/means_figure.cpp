@@ -232,9 +232,10 @@ Figure means_figure(const Axes& axes, const std::vector<Family>& families) {
     return is_determined(one.phi) || is_determined(one.z);
   });
   if (has_fits) {
-    figure.caption +=
-        " Lines: φ = φ_bulk - C / W and Z = Z_bulk - C_Z / W, fitted to the packings between "
-        "walls; below, what the points differ from their line.";
+    const std::string extent = extent_symbol(families);
+    figure.caption += " Lines: φ = φ_bulk - C / " + extent + " and Z = Z_bulk - C_Z / " + extent +
+                      ", fitted to the packings between walls; below, what the points differ from "
+                      "their line.";
     figure.height = 560;
     figure.tables.emplace_back(residuals_table, residuals_csv(all));
   }

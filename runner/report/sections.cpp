@@ -28,8 +28,8 @@ Heading heading(const char* title, std::string_view field) {
 
 constexpr const char* gap_or_diameter = "gap between the walls, or diameter of the tube";
 
-Heading width_heading(const Units& units) {
-  return {"W / " + printed_unit(units), gap_or_diameter};
+Heading extent_heading(const std::vector<Group>& groups, const std::string& unit) {
+  return {extent_symbol(groups) + " / " + unit, gap_or_diameter};
 }
 
 /// A fitted length in d, and in the unit of the sweep where it has one.
@@ -56,8 +56,8 @@ std::vector<std::string> unit_cells(const Group& group, const Units& units) {
   return cells;
 }
 
-std::vector<Heading> unit_headings(const Units& units) {
-  std::vector<Heading> headings = {width_heading(units)};
+std::vector<Heading> unit_headings(const std::vector<Group>& groups, const Units& units) {
+  std::vector<Heading> headings = {extent_heading(groups, printed_unit(units))};
   if (units.density) headings.push_back({"bulk density / kg/m³"});
   return headings;
 }
@@ -220,7 +220,7 @@ std::string groups_section(const std::vector<Group>& groups, const GivenUnits& u
                     heading("overlap / d", "overlap_mean"),
                     heading("imbalance", "static_imbalance_mean")};
   if (units) {
-    const auto more = unit_headings(*units);
+    const auto more = unit_headings(groups, *units);
     table.headings.insert(table.headings.begin() + before_units, more.begin(), more.end());
   }
   for (const Group& group : groups) table.rows.push_back(group_cells(group, units));
@@ -261,7 +261,11 @@ std::string components_section(const std::vector<Group>& groups, const std::stri
 }
 
 std::string fits_section(const std::vector<Family>& families, const GivenUnits& units) {
-  HtmlTable table{"fits", "Wall effect: φ = φ_bulk - C / W and Z = Z_bulk - C_Z / W", {}, {}};
+  const std::string extent = extent_symbol(families);
+  HtmlTable table{"fits",
+                  "Wall effect: φ = φ_bulk - C / " + extent + " and Z = Z_bulk - C_Z / " + extent,
+                  {},
+                  {}};
   table.headings = {{"family"},
                     {"of"},
                     {"widths"},
@@ -305,7 +309,7 @@ std::string packings_section(const std::vector<Row>& rows, const std::vector<Gro
   table.headings = {{"packing", "column job of the tables"},
                     {"status"},
                     {"parameters", "label and what differs within the sweep"},
-                    {"W / d", gap_or_diameter},
+                    extent_heading(groups, "d"),
                     {"replicate"},
                     heading("grains", "grains"),
                     heading("φ", "solid_fraction"),
@@ -314,7 +318,8 @@ std::string packings_section(const std::vector<Row>& rows, const std::vector<Gro
                     heading("imbalance", "static_imbalance_mean"),
                     heading("CPU / s", "cpu_seconds"),
                     {"reason"}};
-  if (units) table.headings.insert(table.headings.begin() + 4, width_heading(*units));
+  if (units)
+    table.headings.insert(table.headings.begin() + 4, extent_heading(groups, printed_unit(*units)));
   std::vector<const Row*> sorted;
   sorted.reserve(rows.size());
   for (const Row& row : rows) sorted.push_back(&row);

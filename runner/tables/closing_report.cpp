@@ -63,12 +63,10 @@ void append_lines(const Family& family, std::vector<TableLine>& lines) {
   for (const Group& group : family.periodic) lines.push_back({family.distinction, &group});
 }
 
-/// What the extents of the containers are called: W, the gap between walls, or D, the diameter of a
-/// tube.
 std::string extent_symbol(const std::vector<TableLine>& lines) {
-  const auto is_tube = [](const TableLine& line) { return line.group->job.box.is_tube; };
-  if (std::none_of(lines.begin(), lines.end(), is_tube)) return "W";
-  return std::all_of(lines.begin(), lines.end(), is_tube) ? "D" : "W or D";
+  std::vector<const Group*> groups;
+  for (const TableLine& line : lines) groups.push_back(line.group);
+  return extent_symbol(groups);
 }
 
 /// What is measured.
@@ -218,13 +216,23 @@ std::string distinct(const std::vector<Row>& rows, Value value) {
   return text;
 }
 
+/// What d is: a length of the user's choice where sizes are a distribution.
+std::string unit_meaning(const std::vector<Row>& rows) {
+  const auto has_distribution = [](const Row& row) {
+    return row.job.parameters.text().find("\"distribution\":") != std::string::npos;
+  };
+  return std::any_of(rows.begin(), rows.end(), has_distribution)
+             ? ", the unit that sizes are given in"
+             : ", the mean diameter of the large grains";
+}
+
 std::string definitions_text(const std::vector<Row>& rows) {
   const auto gap = [](const MeasureSpec& measure) {
     return measure.gap_tolerances.empty() ? 0.0 : measure.gap_tolerances.front();
   };
   const bool has_tubes =
       std::any_of(rows.begin(), rows.end(), [](const Row& row) { return row.job.box.is_tube; });
-  return "\nLengths in d, the mean diameter of the large grains. φ: exact solid volume between " +
+  return "\nLengths in d" + unit_meaning(rows) + ". φ: exact solid volume between " +
          distinct(rows, [](const MeasureSpec& m) { return m.exclude_floor; }) +
          " d above\nthe floor and " +
          distinct(rows, [](const MeasureSpec& m) { return m.exclude_surface; }) +

@@ -116,7 +116,7 @@ Columns<ComponentProfileLine> component_profile_columns(const Varied& varied,
                       " of its frame; of a single grain 1, of a few far above that of many",
                   [=](In line) { return line.bin.nematic[axis]; });
   }
-  append_in_units(columns, units);
+  append_in_units_of_component(columns, units);
   return columns;
 }
 

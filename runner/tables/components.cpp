@@ -127,7 +127,7 @@ Columns<GroupComponentLine> component_line_columns(const Varied& varied, const G
                   std::string("nematic order of the axis ") + names[axis][8] + " of its frame",
                   [=](const Line& line) { return line.line.nematic[axis]; });
   }
-  append_in_units(columns, units);
+  append_in_units_of_component(columns, units);
   return columns;
 }
 

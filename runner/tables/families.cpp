@@ -94,16 +94,22 @@ std::string_view short_name(std::string_view path) {
   return path.substr(path.starts_with(mixture) ? mixture.size() : path.rfind('.') + 1);
 }
 
+/// A cell of a table as people read it, without its quotes.
+std::string told(std::string cell) {
+  if (cell.starts_with('"')) std::erase(cell, '"');
+  return cell;
+}
+
 /// "small_share=0.25 size_ratio=0.5": the parameters among `paths`, by the last part of their path.
 /// Of several parts of accuracies those are left out that are as in the preset.
 std::string distinction_of(const Family& family, const std::set<std::string>& paths) {
   std::string text;
   const bool tells_presets = std::count_if(paths.begin(), paths.end(), is_of_accuracy) > 1;
-  const Flat told = told_by(family);
+  const Flat own = told_by(family);
   for (const auto& [path, value] : parameters_of(family)) {
-    const bool is_implied = tells_presets && is_of_accuracy(path) && !told.contains(path);
+    const bool is_implied = tells_presets && is_of_accuracy(path) && !own.contains(path);
     if (!paths.contains(path) || is_implied) continue;
-    text.append(text.empty() ? "" : " ").append(short_name(path)).append("=").append(value);
+    text.append(text.empty() ? "" : " ").append(short_name(path)).append("=").append(told(value));
   }
   return text;
 }
@@ -164,6 +170,23 @@ void sort_by_width(std::vector<Group>& groups) {
 
 const Group& first_group(const Family& family) {
   return family.walled.empty() ? family.periodic.front() : family.walled.front();
+}
+
+std::string extent_symbol(const std::vector<const Group*>& groups) {
+  const auto tubes = std::count_if(groups.begin(), groups.end(),
+                                   [](const Group* group) { return group->job.box.is_tube; });
+  if (tubes == 0) return "W";
+  return static_cast<std::size_t>(tubes) == groups.size() ? "D" : "W or D";
+}
+std::string extent_symbol(const std::vector<Group>& groups) {
+  std::vector<const Group*> all;
+  for (const Group& group : groups) all.push_back(&group);
+  return extent_symbol(all);
+}
+std::string extent_symbol(const std::vector<Family>& families) {
+  std::vector<const Group*> all;
+  for (const Family& family : families) all.push_back(&first_group(family));
+  return extent_symbol(all);
 }
 
 std::vector<Family> families_of(const std::vector<Group>& groups) {

@@ -21,6 +21,12 @@ struct Family {
 /// Its first group between walls, or without.
 const Group& first_group(const Family& family);
 
+/// What the extents of their containers are called: W, the gap between walls, D, the diameter of a
+/// tube, or "W or D".
+std::string extent_symbol(const std::vector<const Group*>& groups);
+std::string extent_symbol(const std::vector<Group>& groups);
+std::string extent_symbol(const std::vector<Family>& families);
+
 /// In the order in which they first appear.
 std::vector<Family> families_of(const std::vector<Group>& groups);
 

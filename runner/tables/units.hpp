@@ -59,4 +59,12 @@ void append_in_units(Columns<Item>& columns, const GivenUnits& units) {
   columns.insert(columns.end(), more.begin(), more.end());
 }
 
+/// The same for a component of a mixture, without porosity: what others fill is no pore.
+template <class Item>
+void append_in_units_of_component(Columns<Item>& columns, const GivenUnits& units) {
+  append_in_units(columns, units);
+  std::erase_if(columns,
+                [](const Column<Item>& column) { return column.name.starts_with("porosity"); });
+}
+
 }  // namespace grainsweep

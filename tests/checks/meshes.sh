@@ -15,10 +15,10 @@ if ! command -v gmsh >/dev/null || ! /usr/bin/python3 -c 'import numpy' 2>/dev/n
   exit 77
 fi
 
-[ "${GRAINSWEEP_FAULTS:-}" = full ] && grains=(200 100) side=5 || grains=(65 35) side=4
+[ "${GRAINSWEEP_FAULTS:-}" = full ] && grains=(200 100) side=5 || grains=(36 20) side=3.5
 spheres='{ "label": "spheres", "set": { "fill.grains": '${grains[0]}' } }'
 others='{ "label": "cubes", "set": { "shape": "cube", "fill.grains": '${grains[1]}' } },
-        { "label": "periodic", "set": { "fill.grains": 30, "box.length": 3, "box.width": 3, "box.x": "periodic" } }'
+        { "label": "periodic", "set": { "fill.grains": 20, "box.length": 3, "box.width": 3, "box.x": "periodic" } }'
 [ "$which" = caps ] && blocks=$spheres || blocks="$spheres, $others"
 cat >sweep.json <<JSON
 { "name": "sweep", "seed": 5,

@@ -206,7 +206,7 @@ TEST_CASE("a decay longer than the window is not determined") {
   std::mt19937_64 generator(29);
   const auto profiles = noisy_profiles({0.6, 0.2, 30, 0.9, 0}, 6, 0.002, generator);
   CHECK_THAT(fit_decay(profiles, bin_width, 5).not_determined,
-             Catch::Contains("longer than the window of 4.75 d"));
+             Catch::Contains("do not decay within the window of 4.75 d"));
 }
 
 TEST_CASE("a period longer than the window is not determined") {

@@ -19,7 +19,7 @@ using Catch::Contains;
 /// The folder of a run by process "node-7" that began at `started` and made one packing.
 std::string folder_of_a_run(const TemporaryFolder& parent, const std::string& name,
                             const std::string& started, const Outcome& outcome,
-                            const GivenUnits& units = {}) {
+                            const GivenUnits& units = {}, const std::string& label = "MSP") {
   std::string folder = parent.path() + "/" + name;
   make_folder(folder);
   Provenance provenance;
@@ -28,7 +28,8 @@ std::string folder_of_a_run(const TemporaryFolder& parent, const std::string& na
   provenance.units = units;
   RunRecord run = sample_run(started);
   run.process = "node-7";
-  const std::vector<Row> rows = {{sample_job(outcome.job, 5), outcome}};
+  std::vector<Row> rows = {{sample_job(outcome.job, 5), outcome}};
+  rows[0].job.label = label;
   write_tables(folder, provenance, rows, analyse(rows));
   ShardFiles files(folder, {}, run);
   files.add(outcome);
@@ -84,6 +85,21 @@ TEST_CASE("units are collected where the folders agree in them") {
              }).error,
              Contains("none: has other units than the sweeps before it; the tables have none"));
   CHECK_FALSE(read_results(out).provenance.units);
+}
+
+TEST_CASE("packings of equal parameters are collected under one label, and so are one group") {
+  const TemporaryFolder parent;
+  const std::string first = folder_of_a_run(parent, "first", "1", sample_outcome("a1", 0.6, 6));
+  const std::string renamed =
+      folder_of_a_run(parent, "renamed", "2", sample_outcome("a2", 0.6, 6), {}, "narrow");
+  const std::string out = parent.path() + "/all";
+  const Printed printed = printed_by([&] { perform(CollectOptions{{first, renamed}, out}); });
+  CHECK_THAT(printed.error, Contains("renamed: packings called \"narrow\" have the parameters of "
+                                     "\"MSP\" collected before, and are called so, too"));
+  const Results all = read_results(out);
+  REQUIRE(all.rows.size() == 2);
+  CHECK(all.rows[1].job.label == "MSP");
+  CHECK(groups_of(all.rows).size() == 1);
 }
 
 // A host gives the number of a process again.

@@ -28,14 +28,28 @@ TEST_CASE("files are called by label, group and replicate, and no two alike") {
         std::vector<std::string>{"x_y__z-1-1", "x_y__z-1-2", "x_y__z-2-1", "x_y__z-3-1"});
 }
 
+TEST_CASE("files of groups of several seeds have the seed in their names") {
+  std::vector<Row> rows = four_rows();
+  rows.push_back(rows[0]);
+  rows.back().job.id = "e";
+  rows.back().job.seed = 5;
+  CHECK(file_stems(rows) == std::vector<std::string>{"x_y__z-1-1-seed0", "x_y__z-1-2-seed0",
+                                                     "x_y__z-2-1", "x_y__z-3-1",
+                                                     "x_y__z-1-1-seed5"});
+}
+
+TEST_CASE("no file is hidden, and none is put into another folder") {
+  CHECK(file_stems({row_of("a", "../b", "{}", 1)}) == std::vector<std::string>{"_._b-1-1"});
+}
+
 TEST_CASE("the index lists the files that are there") {
   const TemporaryFolder folder;
   std::ofstream(folder.path() + "/x_y__z-1-2.xyz") << "0";
   std::ofstream(folder.path() + "/x_y__z-3-1.csv") << "0";
   CHECK(index_csv(folder.path(), four_rows(), {".csv", ".xyz"}) ==
-        "file,job,label,group,replicate\n"
-        "x_y__z-1-2.xyz,b,\"x/y, z\",1,2\n"
-        "x_y__z-3-1.csv,d,\"x/y, z\",3,1\n");
+        "file,job,label,group,replicate,seed,status\n"
+        "x_y__z-1-2.xyz,b,\"x/y, z\",1,2,0,pending\n"
+        "x_y__z-3-1.csv,d,\"x/y, z\",3,1,0,pending\n");
 }
 
 }  // namespace

@@ -271,7 +271,7 @@ TEST_CASE("the end of a run says which wishes were met") {
   }
   CHECK(wishes_text(whole, outcomes) ==
         "Errors as asked for (95 %) in 0 of 1 group, by 8 packings; raise replicates.most for the "
-        "others\n");
+        "others\nLarger: MSP, W = 10\n");
 }
 
 }  // namespace

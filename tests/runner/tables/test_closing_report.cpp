@@ -116,6 +116,16 @@ TEST_CASE("a report of a stopped run says how to go on") {
   CHECK_THAT(text, Catch::Contains("Next: ./run.sh run a.json --out out/a makes what is missing"));
 }
 
+TEST_CASE("where sizes are a distribution d is not called a diameter") {
+  Row row = settled_row("a", 5, 0.6, 6);
+  CHECK_THAT(report_of(reported_provenance(), {row}, "out"),
+             Catch::Contains("Lengths in d, the mean diameter of the large grains."));
+  row.job.parameters =
+      R"({"box":{"width":5},"sizes":{"distribution":{"lognormal":{"sigma":0.1}}}})";
+  CHECK_THAT(report_of(reported_provenance(), {row}, "out"),
+             Catch::Contains("Lengths in d, the unit that sizes are given in. φ"));
+}
+
 TEST_CASE("a report of too few widths says why there is no fit") {
   const std::string text = report_of(reported_provenance(), {settled_row("a", 5, 0.6, 6)}, "out/a");
   CHECK_THAT(text, Catch::Contains("Z_bulk - C_Z/W:  not determined: needs packings at 3 or more"));
@@ -166,6 +176,9 @@ const std::vector<ReportedSweep> reported_sweeps = {
      R"({ "grid": { "accuracy": ["fast", {"preset": "fast", "step": 0.1},
                                  {"preset": "fast", "creep_steps": 80}] } })",
      {" accuracy=fast", " accuracy=fast step=0.1", " accuracy=fast creep_steps=80"}},
+    {"lists",
+     R"({ "grid": { "measure.gap_tolerances": [[1e-4], [1e-4, 1e-3]] } })",
+     {" gap_tolerances=[0.0001,0.001]"}},
     {"shapes",
      R"({ "set": { "box.width": 8, "box.y": "periodic" },
           "grid": { "shape": ["cube", "octahedron", {"prism": {"sides": 3}},

@@ -27,6 +27,14 @@ TEST_CASE("lengths gain a column in the unit of the sweep, solid fractions poros
   CHECK(cell_of("bulk_density") == 0.6 * 2500.0);
 }
 
+TEST_CASE("a component of a mixture has a bulk density and no porosity") {
+  Columns<double> columns = {{"solid_fraction", "", "", [](double phi) { return cell(phi); }}};
+  append_in_units_of_component(columns, Units{2.0, "mm", 2500.0});
+  REQUIRE(columns.size() == 2);
+  CHECK(columns[1].name == "bulk_density");
+  CHECK(columns[1].cell(0.5) == "1250");
+}
+
 TEST_CASE("scatter and errors of porosity are those of the solid fraction") {
   const auto of_error = conversions_of("solid_fraction_error", "", millimetres);
   REQUIRE(of_error.size() == 2);
