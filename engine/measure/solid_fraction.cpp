@@ -10,14 +10,36 @@ namespace grainsweep {
 
 namespace {
 
-/// Number of the column, at most d wide, that holds a coordinate; wraps beyond the box.
+double volume_of(const SphereBed& bed, std::size_t grain) {
+  return sphere_volume(bed.position[grain].w);
+}
+double volume_of(const PolyhedronBed& bed, std::size_t grain) {
+  const double scale = bed.scale(grain);
+  return scale * scale * scale * bed.shape(grain).volume;
+}
+
+/// Least width of a floor column, d: that of the grains that fill most of the bed, if it is larger
+/// than d, or most columns would be those that no grain's centre stands above.
+template <class Kind>
+double least_column(const Bed<Kind>& bed) {
+  constexpr double larger = 1.25;  // what spread of sizes leaves below
+  double volume = 0.0, weighted = 0.0;
+  for (std::size_t i = 0; i < bed.grains(); ++i) {
+    const double own = volume_of(bed, i);
+    volume += own;
+    weighted += own * std::cbrt(6.0 / pi * own);
+  }
+  return weighted > larger * volume ? weighted / volume : 1.0;
+}
+
+/// Number of the column that holds a coordinate; wraps beyond the box.
 std::size_t column_of(double coordinate, double extent, std::size_t columns) {
   const double share = coordinate / extent - std::floor(coordinate / extent);
   return std::min(static_cast<std::size_t>(share * static_cast<double>(columns)), columns - 1);
 }
 
-std::size_t columns_along(double extent) {
-  return static_cast<std::size_t>(std::max(1.0, std::floor(extent)));
+std::size_t columns_along(double extent, double least) {
+  return static_cast<std::size_t>(std::max(1.0, std::floor(extent / least)));
 }
 
 /// Whether the middle of floor column (i, j) of a tube, `across` columns wide, stands in it.
@@ -30,9 +52,11 @@ bool is_in_tube(std::size_t i, std::size_t j, std::size_t across) {
 /// Median over floor columns of the highest top among the grains that stand above each.
 /// `top_of(i)` is the highest point of grain i.
 template <class TopOf>
-double median_top(const Grains& bed, TopOf top_of) {
+double median_top(const Grains& bed, double least, TopOf top_of) {
   const Box& box = bed.box;
-  const std::size_t columns_x = columns_along(box.length), columns_y = columns_along(box.width);
+  const std::size_t columns_x = columns_along(box.length, least),
+                    columns_y = columns_along(box.width, least);
+  if (columns_x > 4 * bed.grains() / columns_y) return 0.0;  // even of a tube most are empty
   std::vector<double> highest(columns_x * columns_y, 0.0);
   for (std::size_t i = 0; i < bed.grains(); ++i) {
     double& top = highest[column_of(bed.position[i].y, box.width, columns_y) * columns_x +
@@ -93,7 +117,7 @@ double small_share(const Bed<Kind>& bed, const Slab& slab, double small_below) {
 
 template <class Kind>
 double surface_height(const Bed<Kind>& bed) {
-  return median_top(bed, [&](std::size_t i) { return span_of(bed, i, 2).high; });
+  return median_top(bed, least_column(bed), [&](std::size_t i) { return span_of(bed, i, 2).high; });
 }
 
 template double solid_fraction(const SphereBed&, const Slab&);

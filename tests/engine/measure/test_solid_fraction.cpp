@@ -5,6 +5,8 @@
 #include "engine/measure/solid_fraction.hpp"
 #include "engine/units.hpp"
 #include "tests/support/scenes.hpp"
+#include "tests/support/shape_beds.hpp"
+#include "tests/support/shapes.hpp"
 
 namespace grainsweep {
 namespace {
@@ -106,6 +108,24 @@ TEST_CASE("the surface is the median of the columns: stray grains and holes do n
     bed.position[i].z = 0.5;  // twenty gone: most columns end a layer lower
   }
   CHECK(surface_height(bed) == Approx(6));
+}
+
+TEST_CASE("large grains have wide columns, so that a block of them has its height") {
+  const SphereBed spheres = testing::simple_cubic_bed(4, 5, 3);
+  std::vector<PlacedSphere> centres;
+  std::vector<Pose> poses;
+  for (std::size_t i = 0; i < spheres.grains(); ++i) {
+    const Record<double>& p = spheres.position[i];
+    centres.push_back({3 * p.x, 3 * p.y, 3 * p.z, 3 * p.w});
+    poses.push_back(testing::pose_at(3 * p.x, 3 * p.y, 3 * p.z, Quaternion::Identity(), 3));
+  }
+  const Box box{12, 15, periodic, periodic};
+  CHECK(surface_height(make_bed(box, centres)) == Approx(9));
+  CHECK(surface_height(make_bed(box, testing::cube(), poses)) == Approx(9));
+}
+
+TEST_CASE("a few grains on a wide floor have no surface, and take no memory for its columns") {
+  CHECK(surface_height(make_bed({1e6, 1e6, periodic, walls}, {{1, 1, 0.5, 0.5}})) == 0);
 }
 
 TEST_CASE("of two columns the higher one is the surface") {
