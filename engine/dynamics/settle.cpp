@@ -317,10 +317,22 @@ std::vector<ForceContact> contacts_of_last_step(const Settling<Kind, Real>& s) {
   return force_contacts(s.bed, s.settings.dt, s.state.contacts);
 }
 
+/// Whether a bed that passes the tests of rest rests: not if it was still on its way there when its
+/// steps ran out.
+template <class Kind, class Real>
+bool has_arrived(const Settling<Kind, Real>& s) {
+  return s.stage == s.stages.size() || s.rule().end == StageEnd::look ||
+         (s.rule().end == StageEnd::rest && s.steps_in_stage >= steps_of(s.accuracy, s.rule()));
+}
+
 /// Of a bed that has come to rest, or has no steps left.
 template <class Kind, class Real>
 void tell_rest(Settling<Kind, Real>& s) {
   if (!s.is_tested) test_rest(s);
+  if (s.report.failure.empty() && !has_arrived(s)) {
+    s.report.failure = "its steps ended in the stage " + std::string(s.rule().name) +
+                       ", on its way to rest: make accuracy.max_steps larger";
+  }
   look_closer(s);
   if (!s.report.failure.empty() && !is_high(s.bed)) {
     s.report.failure += remedy_of_rounding(s.report.rest, s.accuracy, top_of(s.bed));

@@ -146,6 +146,20 @@ TEST_CASE("a bed that runs out of steps says which test of rest it failed") {
   }
 }
 
+// Its contacts are nearly as many as at rest half way through its creep, and its tolerances are
+// wide.
+TEST_CASE("a bed whose steps run out on its way to rest is not at rest, whatever tests it passes") {
+  Accuracy accuracy;
+  accuracy.contact_tolerance = accuracy.imbalance_tolerance = 1.0;
+  accuracy.kinetic_tolerance = accuracy.overlap_tolerance = accuracy.residual_tolerance = 1.0;
+  SphereBed whole = small_bed(6);
+  CHECK(settle_bed(whole, accuracy).failure == "");
+  accuracy.max_steps = 250;
+  SphereBed bed = small_bed(6);
+  CHECK(settle_bed(bed, accuracy).failure ==
+        "its steps ended in the stage creep, on its way to rest: make accuracy.max_steps larger");
+}
+
 /// A small bed settled without interruption, or stopped after step `last` and gone on from its
 /// saved bytes in a new bed.
 SettleReport settle_interrupted(const Accuracy& accuracy, std::int64_t last, SphereBed& bed) {
