@@ -27,6 +27,7 @@ template <class Real>
 void forget(SphereContacts<Real>& contacts) {
   contacts.rows.clear();
   contacts.impulse.clear();
+  contacts.changed_from.clear();  // filled where a solve ran out of memory
   contacts.shares.clear();
   contacts.walls.clear();
   contacts.pair_blocks = 0;

@@ -157,7 +157,8 @@ std::string why_no_error(const Spread& spread) {
   if (spread.n == 0) return "no packing has settled";
   if (spread.degrees_of_freedom == 0) return "needs 2 or more settled replicates to know the error";
   if (spread.error > rounding * std::abs(spread.mean)) return "";
-  return "the replicates do not scatter: they are copies, and tell no error";
+  return "the replicates do not scatter, as copies or packings of one possible state: they tell no "
+         "error";
 }
 
 std::vector<std::size_t> group_numbers(const std::vector<Row>& rows) {

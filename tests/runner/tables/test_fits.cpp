@@ -86,7 +86,8 @@ TEST_CASE("copies of one packing are no replicates: they determine nothing") {
   std::vector<Row> rows;
   for (const double width : {4.0, 5.0, 10.0}) add_width(rows, width, 0.0);
   CHECK(fit_walls(family_of(rows), Quantity::solid_fraction).not_determined ==
-        "the replicates do not scatter: they are copies, and tell no error");
+        "the replicates do not scatter, as copies or packings of one possible state: they tell no "
+        "error");
 }
 
 TEST_CASE("a line that misses its points says so and is known no better than it misses them") {
