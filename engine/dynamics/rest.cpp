@@ -127,8 +127,9 @@ std::int64_t held_on_axis(const Grains& bed) {
 
 struct RestTest {
   bool is_passed = false;
-  std::string failure;  ///< what is wrong if it is not
-  std::string remedy;   ///< part of the accuracy that lets it pass if it is larger
+  std::string failure;      ///< what is wrong if it is not
+  std::string remedy;       ///< part of the accuracy that lets it pass if it is larger
+  std::string advice = {};  ///< what to do if no accuracy does
 };
 
 RestTest at_most(const char* what, const char* unit, double value, double tolerance,
@@ -242,6 +243,8 @@ bool is_hyperstatic(const RestReport& rest, const Accuracy& accuracy) {
 }
 
 std::string rest_failure(const RestReport& rest, const Accuracy& accuracy, bool may_go_on) {
+  constexpr double most_by_symmetry =
+      0.8;  // of the isostatic count; beds that creep soon have more
   const auto held = static_cast<double>(rest.contacts + rest.held_by_turning);
   const auto isostatic = static_cast<double>(rest.isostatic_contacts);
   const bool has_enough = held >= (1.0 - accuracy.contact_tolerance) * isostatic;
@@ -264,7 +267,10 @@ std::string rest_failure(const RestReport& rest, const Accuracy& accuracy, bool 
       {has_enough || (rest.may_rest_on_fewer && rest.contacts > 0),
        "contacts / isostatic count " + number_text(held / isostatic) + " is below 1 by more than " +
            number_text(accuracy.contact_tolerance),
-       "contact_tolerance or accuracy.creep_steps"},
+       "contact_tolerance or accuracy.creep_steps",
+       held < most_by_symmetry * isostatic ? "its grains stand by symmetry, as columns do, or just "
+                                             "fit: move the start a little or give sizes a spread"
+                                           : ""},
       at_most("mean static imbalance", "own weights", rest.imbalance.mean, imbalance_tolerance,
               "imbalance_tolerance or accuracy.imbalance_gap", why),
       at_most("largest static imbalance", "own weights", rest.imbalance.max,
@@ -272,6 +278,7 @@ std::string rest_failure(const RestReport& rest, const Accuracy& accuracy, bool 
               "imbalance_tolerance or accuracy.imbalance_gap", why)};
   for (const RestTest& test : tests) {
     if (test.is_passed) continue;
+    if (may_go_on && !test.advice.empty()) return test.failure + ": " + test.advice;
     return test.failure + ": make accuracy." + (may_go_on ? test.remedy : "max_steps") + " larger";
   }
   return {};

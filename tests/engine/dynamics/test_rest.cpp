@@ -251,6 +251,11 @@ TEST_CASE("the test of rest that failed is named with value and tolerance") {
   CHECK(rest_failure(few, accuracy) ==
         "contacts / isostatic count 0.9 is below 1 by more than 0.04: make "
         "accuracy.contact_tolerance or accuracy.creep_steps larger");
+  RestReport column = few;
+  column.contacts = few.isostatic_contacts / 2;
+  CHECK(rest_failure(column, accuracy) ==
+        "contacts / isostatic count 0.5 is below 1 by more than 0.04: its grains stand by "
+        "symmetry, as columns do, or just fit: move the start a little or give sizes a spread");
   CHECK(rest_failure(few, accuracy, false) ==
         "contacts / isostatic count 0.9 is below 1 by more than 0.04: make accuracy.max_steps "
         "larger");
