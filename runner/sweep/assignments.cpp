@@ -154,20 +154,6 @@ void refuse_second_shape(const Assignments& assignments, Diagnostics& diagnostic
   }
 }
 
-/// That what is to be chosen is described in another way at `pointer`.
-std::string described_already(Choice choice, const std::string& pointer) {
-  if (choice == Choice::container) {
-    return "the container is already described at " + pointer + "; keep one of box, tube";
-  }
-  if (choice == Choice::accuracy) {
-    return "the accuracy is already described at " + pointer +
-           "; keep one: a preset, or what is asked for, solid_fraction and coordination";
-  }
-  return "the sizes are already described at " + pointer +
-         "; keep one: two classes, or one distribution, lognormal, uniform, weibull, or table by "
-         "lists or file";
-}
-
 /// Notes the first assignment that describes the container, sizes or the accuracy in another way
 /// than one before it.
 void refuse_alternatives(const Assignments& assignments, Diagnostics& diagnostics) {
@@ -220,6 +206,19 @@ bool is_known_path(const std::string& path, const std::string& pointer, Diagnost
   if (find_parameter(path) || (is_group(path) && !path.empty())) return true;
   diagnostics.push_back({pointer, unknown_path("", path, pointer), Anchor::key});
   return false;
+}
+
+std::string described_already(Choice choice, const std::string& pointer) {
+  if (choice == Choice::container) {
+    return "the container is already described at " + pointer + "; keep one of box, tube";
+  }
+  if (choice == Choice::accuracy) {
+    return "the accuracy is already described at " + pointer +
+           "; keep one: a preset, or what is asked for, solid_fraction and coordination";
+  }
+  return "the sizes are already described at " + pointer +
+         "; keep one: two classes, or one distribution, lognormal, uniform, weibull, or table by "
+         "lists or file";
 }
 
 void refuse_double_assignments(const Assignments& assignments, Diagnostics& diagnostics) {

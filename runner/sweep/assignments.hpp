@@ -32,8 +32,11 @@ Assignments read_layer(const Json& object, const std::string& pointer, Diagnosti
 /// Whether `path` names a parameter or a group; otherwise a problem at the key is noted.
 bool is_known_path(const std::string& path, const std::string& pointer, Diagnostics& diagnostics);
 
-/// Notes every parameter that is set twice in `assignments`, every second way to fill the box and a
-/// second shape.
+/// That what is to be chosen is described in another way at `pointer`, and what to keep.
+std::string described_already(Choice choice, const std::string& pointer);
+
+/// Notes every parameter that is set twice in `assignments`, every second way to fill the box, a
+/// second shape, and what describes the container, the sizes or the accuracy in another way.
 void refuse_double_assignments(const Assignments& assignments, Diagnostics& diagnostics);
 
 /// For every parameter the assignment that holds, or null for the default.

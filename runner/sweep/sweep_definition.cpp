@@ -82,7 +82,8 @@ std::string read_label(const Json& block, const std::string& pointer, std::size_
 
 /// A path that a block varies, for finding what is varied twice.
 struct Varied {
-  std::string path, pointer;
+  std::string pointer;
+  bool is_zipped = false;  ///< meets the other lists of the zip row by row
   std::set<std::size_t> parameters = {};
   std::set<std::string_view> shapes = {};
 
@@ -101,24 +102,31 @@ bool name_different_shapes(const Varied& a, const Varied& b) {
   });
 }
 
-bool vary_the_same(const Varied& a, const Varied& b, std::string& path) {
-  for (const std::size_t parameter : b.parameters) {
-    const bool fills_again =
-        is_fill(parameter) && std::any_of(a.parameters.begin(), a.parameters.end(), is_fill);
-    if (a.parameters.count(parameter) == 0 && !fills_again) continue;
-    path = fills_again ? "fill" : parameters()[parameter].path;
-    return true;
+/// What is wrong with varying `b` beside `a`; "" if nothing is.
+std::string double_variation(const Varied& a, const Varied& b) {
+  const std::string varied_already = " is already varied at " + a.pointer;
+  const auto is_in_a = [&](const auto& matches) {
+    return std::any_of(a.parameters.begin(), a.parameters.end(), matches);
+  };
+  for (const std::size_t index : b.parameters) {
+    const Parameter& parameter = parameters()[index];
+    if (is_fill(index) && is_in_a(is_fill)) return "fill" + varied_already;
+    if (a.parameters.count(index) != 0) return parameter.path + varied_already;
+    const auto excludes_it = [&](std::size_t other) {
+      return are_alternatives(parameters()[other], parameter);
+    };
+    if (is_in_a(excludes_it)) return described_already(choice_of(parameter), a.pointer);
   }
-  path = "shape";
-  return name_different_shapes(a, b);
+  return name_different_shapes(a, b) ? "shape" + varied_already : "";
 }
 
 void refuse_double_variation(const std::vector<Varied>& all, Diagnostics& diagnostics) {
   for (std::size_t i = 0; i < all.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
-      std::string path;
-      if (!vary_the_same(all[j], all[i], path)) continue;
-      diagnostics.push_back({all[i].pointer, path + " is already varied at " + all[j].pointer});
+      if (all[i].is_zipped && all[j].is_zipped) continue;  // read_zip looks at each row
+      const std::string problem = double_variation(all[j], all[i]);
+      if (problem.empty()) continue;
+      diagnostics.push_back({all[i].pointer, problem});
       break;
     }
   }
@@ -138,7 +146,6 @@ std::vector<Assignments> read_list(const std::string& path, const Json& list,
     for (std::size_t i = 0; i < list.size(); ++i) {
       Assignments& entry = entries.emplace_back();
       read_assignments(path, list[i], pointer + "/" + std::to_string(i), entry, diagnostics);
-      refuse_double_assignments(entry, diagnostics);
     }
   }
   return entries;
@@ -190,10 +197,13 @@ class BlockReader {
   }
 
   std::vector<Assignments> read_varied(const std::string& path, const Json& list,
-                                       const std::string& pointer) {
+                                       const std::string& pointer, bool is_zipped = false) {
     std::vector<Assignments> entries = read_list(path, list, pointer, diagnostics_);
-    Varied varied{path, pointer, {}};
-    for (const Assignments& entry : entries) varied.add(entry);
+    Varied varied{pointer, is_zipped};
+    for (const Assignments& entry : entries) {
+      varied.add(entry);
+      if (!is_zipped) refuse_double_assignments(entry, diagnostics_);
+    }
     varied_.push_back(std::move(varied));
     return entries;
   }
@@ -228,7 +238,7 @@ class BlockReader {
     std::string lengths;
     std::set<std::size_t> sizes;
     for (const auto& [path, list] : zip.items()) {
-      const auto entries = read_varied(path, list, child_pointer(pointer, path));
+      const auto entries = read_varied(path, list, child_pointer(pointer, path), true);
       if (entries.empty()) continue;
       sizes.insert(entries.size());
       lengths += (lengths.empty() ? "" : ", ") + path + " has " + std::to_string(entries.size());
@@ -237,6 +247,7 @@ class BlockReader {
         axis.entries[i].insert(axis.entries[i].end(), entries[i].begin(), entries[i].end());
       }
     }
+    for (const Assignments& row : axis.entries) refuse_double_assignments(row, diagnostics_);
     if (sizes.size() > 1) {
       diagnostics_.push_back({pointer, "the lists must be equally long: " + lengths});
       axis.entries.resize(*sizes.begin());
@@ -252,7 +263,7 @@ class BlockReader {
     block_.random_count = read_random_count(random, pointer, diagnostics_);
     block_.random = read_random_paths(random, pointer, diagnostics_);
     for (const RandomPath& path : block_.random) {
-      Varied varied{path.path, path.pointer, {}};
+      Varied varied{path.pointer};
       for (const Assignments& choice : path.choices) varied.add(choice);
       if (path.choices.empty()) varied.add({{path.parameter, path.low, path.pointer}});
       varied_.push_back(std::move(varied));

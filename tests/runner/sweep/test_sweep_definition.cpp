@@ -153,6 +153,65 @@ TEST_CASE("a shape that a block varies twice is refused, parts of one shape are 
             .empty());
 }
 
+TEST_CASE(
+    "what a block describes in two ways in its lists is refused, in whatever lists they are") {
+  const std::string box =
+      "s.json:2:52 /sweep/0/grid/tube.diameter: the container is already "
+      "described at /sweep/0/grid/box.width; keep one of box, tube";
+  CHECK(errors_in_block(R"({"grid": {"box.width": [4, 5, 7], "tube.diameter": [5, 6]}})") ==
+        Messages{"s.json:2:52 /sweep/0/grid/tube.diameter: the container is already described at "
+                 "/sweep/0/grid/box.width; keep one of box, tube"});
+  const std::string keep =
+      "; keep one: two classes, or one distribution, lognormal, uniform, weibull, or table by "
+      "lists or file";
+  const std::string spread = "the sizes are already described at /sweep/0/grid/sizes.spread" + keep;
+  CHECK(errors_in_block(R"({"grid": {"sizes.spread": [0.1, 0.05]}, "random": {"count": 2,
+    "sizes.distribution.lognormal.sigma": {"uniform": [0.1, 0.2]}}})") ==
+        Messages{"s.json:3:43 /sweep/0/random/sizes.distribution.lognormal.sigma: " + spread});
+  CHECK(errors_in_block(R"({"grid": {"sizes.spread": [0.1, 0.05]}, "zip": {
+    "sizes.distribution.uniform": [{"from": 0.5}, {"from": 0.6}]}})") ==
+        Messages{"s.json:3:35 /sweep/0/zip/sizes.distribution.uniform: " + spread});
+  CHECK(errors_in_block(R"({"grid": {"sizes.distribution.uniform.from": [0.5, 0.6],
+    "sizes.distribution.lognormal.sigma": {"from": 0.1, "to": 0.2, "count": 3}}})") ==
+        Messages{"s.json:3:43 /sweep/0/grid/sizes.distribution.lognormal.sigma: the sizes are "
+                 "already described at /sweep/0/grid/sizes.distribution.uniform.from" +
+                 keep});
+  CHECK(errors_in_block(R"({"grid": {"accuracy.preset": ["fast", "balanced"],
+    "accuracy.solid_fraction": [0.01, 0.02]}})") ==
+        Messages{"s.json:3:32 /sweep/0/grid/accuracy.solid_fraction: the accuracy is already "
+                 "described at /sweep/0/grid/accuracy.preset; keep one: a preset, or what is asked "
+                 "for, solid_fraction and coordination"});
+  CHECK(errors_in_block(R"({"random": {"count": 2, "box.length": {"uniform": [5, 6]},
+    "tube.diameter": {"choice": [5, 6]}}})") ==
+        Messages{"s.json:3:22 /sweep/0/random/tube.diameter: the container is already described at "
+                 "/sweep/0/random/box.length; keep one of box, tube"});
+}
+
+TEST_CASE("parts of one description are varied together, and one list runs through several") {
+  CHECK(errors_in_block(R"({"grid": {"box.width": [4, 5], "box.length": [9, 10]}})").empty());
+  CHECK(errors_in_block(R"({"grid": {"sizes.distribution.lognormal.sigma": [0.1, 0.2],
+    "sizes.distribution.lognormal.median": [1, 1.1], "sizes.distribution.by": ["number"]}})")
+            .empty());
+  CHECK(errors_in_block(R"({"grid": {"sizes": [{"spread": 0.1},
+    {"distribution": {"lognormal": {"sigma": 0.1}}}], "accuracy": ["fast", {"step": 0.1}],
+    "accuracy.creep_steps": [10, 20]}})")
+            .empty());
+  CHECK(errors_of(R"({"name": "t", "base": {"box.width": 5}, "sweep": [
+    {"grid": {"box.length": [9, 10]}}, {"grid": {"tube.diameter": [5, 6]}}]})")
+            .empty());
+}
+
+TEST_CASE("a zip describes a thing in two ways in different rows, not in one") {
+  CHECK(errors_in_block(R"({"zip": {"box": [{"width": 7}, {}], "tube": [{}, {"diameter": 6}]}})")
+            .empty());
+  CHECK(errors_in_block(R"({"zip": {"box": [{"width": 7}, {}], "tube.diameter": [5, 6]}})") ==
+        Messages{"s.json:2:55 /sweep/0/zip/tube.diameter/0: the container is already described at "
+                 "/sweep/0/zip/box/0/width; keep one of box, tube"});
+  CHECK(errors_in_block(R"({"zip": {"box": [{"width": 7}, {}], "box.width": [5, 6]}})") ==
+        Messages{"s.json:2:51 /sweep/0/zip/box.width/0: box.width is already set at "
+                 "/sweep/0/zip/box/0/width"});
+}
+
 TEST_CASE("points are counted without overflow") {
   Block block;
   for (int i = 0; i < 7; ++i) block.axes.push_back({"a", std::vector<Assignments>(1000)});
