@@ -1,7 +1,8 @@
 #include "runner/sweep/assignments.hpp"
 
 #include <algorithm>
-#include <map>
+#include <string_view>
+#include <utility>
 
 #include "runner/sweep/mixture_components.hpp"
 #include "runner/sweep/shape_kind.hpp"
@@ -30,53 +31,74 @@ void read_parameter(std::size_t index, const Json& value, const std::string& poi
   }
 }
 
-/// The shortest full path that ends in a misplaced key; "" if none does.
-std::string path_that_ends_in(const std::string& key) {
+/// The shortest full path that ends in a key misplaced into `group`; "" if none does. The parts of
+/// a shape or a distribution are looked for in the groups that it is in, as others have other
+/// parts.
+std::string path_that_ends_in(const std::string& key, const std::string& group) {
   std::string found;
   for (const std::string& path : known_keys("")) {
+    if (!path.ends_with("." + key)) continue;
+    const std::string home = path.substr(0, path.size() - key.size() - 1);
+    const bool is_related =
+        group.find('.') == std::string::npos || group.starts_with(home) || home.starts_with(group);
     const bool is_shorter = found.empty() || path.size() < found.size();
-    if (path.ends_with("." + key) && is_shorter) found = path;
+    if (is_related && is_shorter) found = path;
   }
   return found;
 }
 
-/// Why there is no parameter for what people of the field look for; "" for other words.
-std::string absence_of(const std::string& key) {
-  static const std::map<std::string_view, const char*> reasons = {
-      {"friction", "grains are frictionless"},
-      {"mu", "grains are frictionless"},
-      {"restitution", "grains do not bounce"},
-      {"stiffness", "grains are rigid"},
-      {"young_modulus", "grains are rigid"},
-      {"cohesion", "grains do not stick"},
-      {"density", "no result depends on the density of the grains"},
-      {"mass", "no result depends on the density of the grains"},
-      {"gravity", "gravity is the unit of acceleration and points down"},
-      {"g", "gravity is the unit of acceleration and points down"},
-      {"unit", "lengths are in d, the mean diameter of the large grains; times in sqrt(d/g)"},
-      {"units", "lengths are in d, the mean diameter of the large grains; times in sqrt(d/g)"},
-      {"height", "the box is open at the top; fill.solid_height says how much is filled in"},
-      {"lid", "the box is open at the top"},
-      {"cylinder", "write \"tube\": {\"diameter\": 7} in the place of the box"},
-      {"radius", "a tube has a diameter; d is the mean diameter of the large grains"},
-      {"mean", "the mean diameter of the large grains is d, the unit of length"},
-      {"diameter", "the mean diameter of the large grains is d, the unit of length"},
-      {"edge", "a regular solid has a height, which is its edge times what configs/README.md says"},
-      {"std", "sizes of a class are Gaussian; sizes.spread is their deviation over the mean"}};
-  const auto found = reasons.find(key);
-  return found == reasons.end() ? "" : found->second;
+/// Why there is no parameter for what people of the field look for at `path`; "" for other paths.
+/// "*.mu" stands for "mu" in whatever group.
+std::string absence_of(const std::string& path) {
+  using Reason = std::pair<const char*, std::vector<std::string_view>>;
+  static const std::vector<Reason> reasons = {
+      {"grains are frictionless", {"*.friction", "*.mu"}},
+      {"grains do not bounce", {"*.restitution"}},
+      {"grains are rigid", {"*.stiffness", "*.young_modulus"}},
+      {"grains do not stick", {"*.cohesion"}},
+      {"no result depends on the density of the grains; units.density, at the top of the file, "
+       "is for bulk densities",
+       {"*.density", "*.mass"}},
+      {"gravity is the unit of acceleration and points down", {"*.gravity", "*.g"}},
+      {"\"units\" stands at the top of the file; here lengths are in d, the mean diameter of the "
+       "large grains, times in sqrt(d/g)",
+       {"*.unit", "*.units"}},
+      {"the box is open at the top; fill.solid_height says how much is filled in",
+       {"height", "box.height", "tube.height", "fill.height"}},
+      {"the box is open at the top", {"*.lid"}},
+      {"write \"tube\": {\"diameter\": 7} in the place of the box", {"cylinder", "box.cylinder"}},
+      {"a tube has a diameter; d is the mean diameter of the large grains",
+       {"radius", "box.radius", "tube.radius"}},
+      {"write \"diameter\", twice the radius", {"shape.cylinder.radius", "shape.prism.radius"}},
+      {"the mean diameter of the large grains is d, the unit of length",
+       {"mean", "diameter", "sizes.mean", "sizes.diameter"}},
+      {"write \"median\"; the mean is exp(sigma^2 / 2) times it",
+       {"sizes.distribution.lognormal.mean"}},
+      {"a regular solid has a height, which is its edge times what configs/README.md says",
+       {"shape.tetrahedron.edge", "shape.octahedron.edge", "shape.dodecahedron.edge",
+        "shape.icosahedron.edge"}},
+      {"sizes of a class are Gaussian; sizes.spread is their deviation over the mean",
+       {"std", "sizes.std"}}};
+  const std::string in_any_group = "*." + path.substr(path.rfind('.') + 1);
+  for (const auto& [reason, paths] : reasons) {
+    for (const std::string_view absent : paths) {
+      if (absent == path || absent == in_any_group) return reason;
+    }
+  }
+  return "";
 }
 
-/// What is wrong with a key of `group` that nothing has: why there is none, the full path of what
-/// is only misplaced, a word near it, or the keys that `pointer` leads to.
+/// What is wrong with a key of `group` that nothing has: why there is none, a word near it, the
+/// full path of what is only misplaced, or the keys that `pointer` leads to.
 std::string unknown_path(const std::string& group, const std::string& key,
                          const std::string& pointer) {
   const std::string start = "unknown key \"" + shortened(key) + "\"; ";
-  if (std::string reason = absence_of(key); !reason.empty()) return start + reason;
-  const std::string elsewhere = path_that_ends_in(key);
-  if (!elsewhere.empty()) return start + "did you mean \"" + elsewhere + "\"?";
+  if (auto reason = absence_of(dotted(group, key)); !reason.empty()) return start + reason;
   std::vector<std::string> known = known_keys(group);
   if (pointer.starts_with("/base/")) std::erase(known, "seed");  // belongs beside it
+  const bool is_misspelt = !group.empty() && !nearest(key, known).empty();
+  const std::string elsewhere = is_misspelt ? "" : path_that_ends_in(key, group);
+  if (!elsewhere.empty()) return start + "did you mean \"" + elsewhere + "\"?";
   return unknown_key(key, known);
 }
 

@@ -117,6 +117,59 @@ TEST_CASE("a key that belongs elsewhere is sent there") {
         Messages{"s.json:2:2 /base/width: unknown key \"width\"; did you mean \"box.width\"?"});
 }
 
+TEST_CASE("why there is no parameter of a name depends on where it is looked for") {
+  const auto hint = [](const std::string& base) {
+    const Messages errors = errors_in_base(base);
+    REQUIRE(errors.size() == 1);
+    return errors[0].substr(errors[0].find("\"; ") + 3);
+  };
+  const std::string is_unit = "the mean diameter of the large grains is d, the unit of length";
+  CHECK(hint(R"({"diameter": 1})") == is_unit);
+  CHECK(hint(R"({"sizes": {"mean": 1}})") == is_unit);
+  CHECK(hint(R"({"sizes": {"distribution": {"table": {"diameter": 1}}}})") ==
+        "did you mean \"diameters\"?");
+  CHECK(hint(R"({"sizes": {"distribution": {"uniform": {"diameter": 1}}}})") ==
+        "known here: from, to");
+  CHECK(hint(R"({"sizes": {"distribution": {"lognormal": {"mean": 1}}}})") ==
+        "write \"median\"; the mean is exp(sigma^2 / 2) times it");
+  CHECK(hint(R"({"sizes": {"distribution": {"lognormal": {"std": 1}}}})") ==
+        "known here: median, sigma");
+  CHECK(hint(R"({"sizes": {"distribution": {"lognormal": {"by": 1}}}})") ==
+        "did you mean \"sizes.distribution.by\"?");
+  CHECK(hint(R"({"sizes": {"distribution": {"sigma": 1}}})") ==
+        "did you mean \"sizes.distribution.lognormal.sigma\"?");
+  CHECK(hint(R"({"shape": {"icosahedron": {"edge": 1}}})") ==
+        "a regular solid has a height, which is its edge times what configs/README.md says");
+  CHECK(hint(R"({"shape": {"cuboid": {"edge": 1}}})") == "known here: length, width, height");
+  CHECK(hint(R"({"shape": {"cube": {"height": 1}}})") == "known here: edge");
+  CHECK(hint(R"({"shape": {"cylinder": {"radius": 1}}})") ==
+        "write \"diameter\", twice the radius");
+  CHECK(hint(R"({"tube": {"radius": 1}})") ==
+        "a tube has a diameter; d is the mean diameter of the large grains");
+  CHECK(hint(R"({"box": {"friction": 1}})") == "grains are frictionless");
+}
+
+TEST_CASE("what is looked for inside base and stands at the top of the file is sent there") {
+  CHECK(
+      errors_in_base(R"({"units": {"d": 3.2, "unit": "mm"}})") ==
+      Messages{"s.json:2:2 /base/units: unknown key \"units\"; \"units\" stands at the top of the "
+               "file; here lengths are in d, the mean diameter of the large grains, times in "
+               "sqrt(d/g)"});
+  CHECK(errors_in_base(R"({"density": 2500})") ==
+        Messages{"s.json:2:2 /base/density: unknown key \"density\"; no result depends on the "
+                 "density of the grains; units.density, at the top of the file, is for bulk "
+                 "densities"});
+}
+
+TEST_CASE("hints are the same for a dotted key") {
+  CHECK(errors_in_base(R"({"shape.cylinder.radius": 1})") ==
+        Messages{"s.json:2:2 /base/shape.cylinder.radius: unknown key \"shape.cylinder.radius\"; "
+                 "write \"diameter\", twice the radius"});
+  CHECK(errors_of(sweep_of(R"({"grid": {"box.friction": [0.1, 0.2]}})")) ==
+        Messages{"s.json:1:47 /sweep/0/grid/box.friction: unknown key \"box.friction\"; grains are "
+                 "frictionless"});
+}
+
 TEST_CASE("a group that is no object is refused with its keys") {
   CHECK(errors_in_base(R"({"box": 5})") ==
         Messages{"s.json:2:9 /base/box: must be an object with length, width, x, y, is 5"});
