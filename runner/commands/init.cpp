@@ -1,5 +1,6 @@
 // The command `init`: a sweep to start from, and the schema with which editors complete it.
 #include <iostream>
+#include <string_view>
 
 #include <CLI/App.hpp>
 
@@ -15,6 +16,7 @@ namespace grainsweep {
 namespace {
 
 constexpr const char* schema_file = "sweep.schema.json";
+constexpr std::string_view ending = ".json";
 
 /// One block of each kind that most sweeps need; labels say what each adds.
 std::string first_sweep(const std::string& name) {
@@ -47,7 +49,7 @@ CLI::App& add_command(CLI::App& app, InitOptions& options) {
   CLI::App& init = *app.add_subcommand(
       "init",
       "Write a sweep file to start from, and beside it the schema that editors complete it by");
-  init.add_option("NAME", options.name, "name of the sweep and of its file")
+  init.add_option("NAME", options.name, "name of the sweep, or of its file, which ends in .json")
       ->capture_default_str()
       ->type_name("");
   init.footer("Example: grainsweep init my-sweep");
@@ -55,16 +57,18 @@ CLI::App& add_command(CLI::App& app, InitOptions& options) {
 }
 
 int perform(const InitOptions& options) {
-  if (!is_sweep_name(options.name)) {
+  std::string name = options.name;
+  if (name.ends_with(ending)) name.resize(name.size() - ending.size());
+  if (!is_sweep_name(name)) {
     throw BadInput(
         "the name of a sweep has 1 to 100 letters, digits, '-', '_' and '.', the first no "
         "'.'; is \"" +
         options.name + "\"");
   }
-  const std::string file = options.name + ".json";
+  const std::string file = name + std::string(ending);
   if (file_exists(file)) throw BadInput(file + " is there already; take another name");
   replace_file(schema_file, sweep_schema());
-  replace_file(file, first_sweep(options.name));
+  replace_file(file, first_sweep(name));
   std::cout << "Written: " << file << ", and " << schema_file << " for completion in editors.\n"
             << "Next: " << called_as() << " plan " << shell_word(file) << "\n";
   return exit_done;

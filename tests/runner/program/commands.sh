@@ -134,6 +134,13 @@ expect_text out.txt "walls.json: right: 24 packings, 8 parameter sets"
 "$program" schema | cmp - sweep.schema.json || fail "init wrote another schema"
 expect_code 2 "$program" init walls
 expect_text error.txt "walls.json is there already"
+expect_code 2 "$program" init walls.json
+expect_text error.txt "walls.json is there already"
+expect_code 0 "$program" init gaps.json
+expect_code 0 "$program" validate gaps.json
+grep -q '"name": "gaps"' gaps.json || fail "init took the name of its file for that of the sweep"
+[ ! -e gaps.json.json ] || fail "init ended the name of its file twice"
 expect_code 2 "$program" init ../walls
+expect_code 2 "$program" init .json
 cd ..
 echo "the commands work"
