@@ -12,6 +12,7 @@
 #include "runner/sweep/identity.hpp"
 #include "runner/sweep/job_limit.hpp"
 #include "runner/sweep/mixture_components.hpp"
+#include "runner/sweep/point_problems.hpp"
 #include "runner/sweep/size_parameters.hpp"
 #include "runner/sweep/sizes_csv.hpp"
 #include "runner/sweep/stl.hpp"
@@ -90,11 +91,15 @@ struct Start {
 class Expansion {
  public:
   Expansion(const SweepDefinition& definition, std::string folder, Diagnostics& diagnostics)
-      : definition_(definition), folder_(std::move(folder)), diagnostics_(diagnostics) {}
+      : definition_(definition),
+        folder_(std::move(folder)),
+        diagnostics_(diagnostics),
+        problems_(definition, diagnostics) {}
 
   std::vector<Job> run() {
     const bool is_whole = diagnostics_.empty();  // no value was left out that could not be read
     for (std::size_t i = 0; i < definition_.blocks.size(); ++i) expand_block(i);
+    problems_.name_points();
     note_shared_jobs();
     if (is_whole) note_unused();
     return std::move(jobs_);
@@ -114,7 +119,9 @@ class Expansion {
     make_room(points * static_cast<std::uint64_t>(block.replicates));
     for (std::uint64_t point = 0; point < points; ++point) {
       InEffect in_effect = before;
-      overlay(entries_of(axes, point), in_effect);
+      const std::vector<const Assignments*> entries = entries_of(axes, point);
+      overlay(entries, in_effect);
+      problems_.begin_point(block, entries, in_effect);
       make_jobs(index, in_effect);
     }
   }
@@ -133,7 +140,8 @@ class Expansion {
     place_components(block, in_effect, resolved);
     place_sizes(in_effect, resolved);
     for (const auto& problem : take_asked_accuracy(in_effect, resolved)) {
-      note(*problem.assignment, problem.message);
+      const std::string& pointer = problem.assignment->pointer;
+      problems_.note(pointer, pointer, problem.message, problem.assignment);
     }
     for (const Start& start : starts) {
       resolved.spec.fill = start.fill;
@@ -277,7 +285,7 @@ class Expansion {
     }
     is_sound = has_room(hull.points.size(), block, *source) && is_sound;
     hull.points = is_sound ? scaled_points(std::move(hull.points), resolved.hull_size) : Points{};
-    if (!is_sound) said_.insert(source->pointer + " shape.hull");
+    if (!is_sound) problems_.skip(source->pointer + " shape.hull");
   }
 
   /// The same of the hulls among the components of a mixture.
@@ -298,8 +306,8 @@ class Expansion {
     if (!has_hulls) return;
     parameters()[mixture_].set(resolved, components);
     if (is_sound) return;
-    said_.insert(mixture->pointer + " shape.mixture");
-    said_.insert(block.pointer + " shape.hull");
+    problems_.skip(mixture->pointer + " shape.mixture");
+    problems_.skip(block.pointer + " shape.hull");
   }
 
   /// Of one of them, written at `source`; false if it cannot be used.
@@ -379,25 +387,20 @@ class Expansion {
       diagnostics_.push_back({assignment.pointer, message});
   }
 
-  /// Notes what one point breaks. A value that has broken a rule at an earlier point is not named
-  /// again.
+  /// Notes what one point breaks.
   void note_broken_rules(const Block& block, const InEffect& in_effect,
                          const std::vector<SpecError>& errors, const Start& start) {
-    std::set<std::string> said_now;
     for (const SpecError& error : errors) {
-      const Assignment* assignment = assignment_of(error, in_effect);
       const bool is_in_list = error.path == "fill.file" && !start.pointer.empty();
-      const bool has_place = assignment != nullptr || is_in_list;
+      const Assignment* assignment =
+          is_in_list ? in_effect[files_] : assignment_of(error, in_effect);
+      const bool has_place = assignment != nullptr;
       const std::string pointer = is_in_list  ? start.pointer
                                   : has_place ? assignment->pointer
                                               : block.pointer;
-      const std::string key = pointer + " " + error.path;
-      if (said_.count(key) != 0) continue;
-      said_now.insert(key);
       const std::string subject = has_place ? "" : error.path + " ";
-      diagnostics_.push_back({pointer, subject + error.message});
+      problems_.note(pointer + " " + error.path, pointer, subject + error.message, assignment);
     }
-    said_.merge(said_now);
   }
 
   /// Remembers what the values in effect at one point are good for.
@@ -478,6 +481,7 @@ class Expansion {
   std::map<std::string, GrainsReading> grains_;                          // by file
   std::map<std::string, VerticesReading> hulls_;                         // by file
   std::map<std::string, SizesReading> sizes_;                            // by file
+  PointProblems problems_;
   std::set<std::string> said_;
   /// Of every value that was in effect: why no packing depended on it so far; "" if one did.
   std::unordered_map<const Assignment*, std::string> idle_;

@@ -16,8 +16,9 @@ namespace grainsweep {
 /// grains and of vertices are looked for from `folder`.
 ///
 /// Notes as diagnostics: more than `most_jobs` jobs, before any is made; every rule of `check` that
-/// a point breaks, at the place of the value, once; files that cannot be read; and jobs that two
-/// blocks of different labels share. With any problem the jobs are not to be used.
+/// a point breaks, at the place of the value, once, with the point where that matters; files that
+/// cannot be read; and jobs that two blocks of different labels share. With any problem the jobs
+/// are not to be used.
 std::vector<Job> expand(const SweepDefinition& definition, const std::string& folder,
                         Diagnostics& diagnostics);
 

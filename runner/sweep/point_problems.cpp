@@ -1,0 +1,84 @@
+#include "runner/sweep/point_problems.hpp"
+
+#include <algorithm>
+#include <variant>
+
+#include "engine/text.hpp"
+#include "runner/sweep/suggest.hpp"
+#include "runner/sweep/values.hpp"
+
+namespace grainsweep {
+namespace {
+
+/// `shape "cube"`.
+std::string text_of(const Assignment& assignment) {
+  const Parameter& parameter = parameters()[assignment.parameter];
+  const auto* number = std::get_if<double>(&assignment.value);
+  return parameter.path + " " +
+         (number != nullptr ? bound_text(*number)
+                            : shortened(written_value(parameter, assignment.value).dump()));
+}
+
+/// `block "plates"`; those without a label are numbered by one.
+std::string name_of(const Block& block) {
+  return block.label.starts_with("block ") ? block.label : "block \"" + block.label + "\"";
+}
+
+}  // namespace
+
+void PointProblems::begin_point(const Block& block, const std::vector<const Assignments*>& entries,
+                                const InEffect& in_effect) {
+  ++point_;
+  block_ = &block;
+  entries_ = entries;
+  ++points_with_[&block];
+  for (const Assignment* assignment : in_effect) {
+    if (assignment != nullptr) ++points_with_[assignment];
+  }
+}
+
+void PointProblems::note(const std::string& key, const std::string& pointer,
+                         const std::string& message, const Assignment* value) {
+  const auto [entry, is_new] = said_.try_emplace(key);
+  Said& said = entry->second;
+  if (is_new) {
+    said.holder = value != nullptr ? static_cast<const void*>(value) : block_;
+    said.first_point = point_;
+    said.where = name_of_point();
+  }
+  if (said.last_point != point_) ++said.points;
+  said.last_point = point_;
+  const bool is_said =
+      std::any_of(said.diagnostics.begin(), said.diagnostics.end(),
+                  [&](std::size_t index) { return diagnostics_[index].message == message; });
+  if (is_said) return;
+  if (said.first_point != point_) {
+    said.differs = true;
+    return;
+  }
+  said.diagnostics.push_back(diagnostics_.size());
+  diagnostics_.push_back({pointer, message});
+}
+
+void PointProblems::name_points() {
+  for (const auto& [key, said] : said_) {
+    const bool is_of_all = said.points >= points_with_[said.holder] && !said.differs;
+    if (is_of_all) continue;
+    for (const std::size_t index : said.diagnostics) {
+      diagnostics_[index].message += " (" + said.where + ")";
+    }
+  }
+}
+
+std::string PointProblems::name_of_point() const {
+  std::string name = definition_.blocks.size() > 1 ? "in " + name_of(*block_) : "";
+  std::string values;
+  for (const Assignments* entry : entries_) {
+    for (const Assignment& assignment : *entry) {
+      values += (values.empty() ? "with " : ", ") + text_of(assignment);
+    }
+  }
+  return name + (name.empty() || values.empty() ? "" : " ") + values;
+}
+
+}  // namespace grainsweep

@@ -1,0 +1,61 @@
+// What the points of a sweep break. Each value is named once, for the first point that breaks a
+// rule with it. Where other points have the value and do not, or break it otherwise, the message
+// says which point it is about.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "runner/sweep/assignments.hpp"
+#include "runner/sweep/diagnostic.hpp"
+#include "runner/sweep/sweep_definition.hpp"
+
+namespace grainsweep {
+
+class PointProblems {
+ public:
+  /// Both must outlive it; the diagnostics may grow meanwhile, but not shrink.
+  PointProblems(const SweepDefinition& definition, Diagnostics& diagnostics)
+      : definition_(definition), diagnostics_(diagnostics) {}
+
+  /// What is noted from here on is of this point of `block`, where its lists give the values
+  /// `entries`, which must live until the next point begins.
+  void begin_point(const Block& block, const std::vector<const Assignments*>& entries,
+                   const InEffect& in_effect);
+
+  /// Notes at `pointer` what the point breaks with `value`, or with a default if that is null. What
+  /// has the same `key` is noted of the first point only.
+  void note(const std::string& key, const std::string& pointer, const std::string& message,
+            const Assignment* value);
+
+  /// Takes what has this key for said already.
+  void skip(const std::string& key) { said_.try_emplace(key); }
+
+  /// Adds to the messages which points they are about, once all points are through.
+  void name_points();
+
+ private:
+  struct Said {
+    std::vector<std::size_t> diagnostics = {};  ///< of the first point, by index
+    const void* holder = nullptr;               ///< the value, or its block: an address alone
+    std::uint64_t first_point = 0, last_point = 0, points = 0;  ///< that break the rule
+    bool differs = false;                                       ///< at a later point
+    std::string where = {};                                     ///< the first point
+  };
+
+  std::string name_of_point() const;
+
+  const SweepDefinition& definition_;
+  Diagnostics& diagnostics_;
+  const Block* block_ = nullptr;
+  std::vector<const Assignments*> entries_;
+  std::uint64_t point_ = 0;                                     // counted from 1
+  std::unordered_map<const void*, std::uint64_t> points_with_;  // a value, or of a block
+  std::map<std::string, Said> said_;                            // by key
+};
+
+}  // namespace grainsweep
