@@ -150,6 +150,9 @@ Collection begin_collection(const std::string& folder, ShardFiles& files, Progre
   if (file_exists(folder + "/provenance.json")) {
     Results results = read_results(folder);
     warn_of(results.damage, collection);
+    for (const Row& row : results.rows) {
+      if (row.outcome) files.count_after(*row.outcome);
+    }
     warn_of(check_beds(folder, results.rows), collection);
     collection.provenance = std::move(results.provenance);
     std::erase_if(collection.provenance.runs,

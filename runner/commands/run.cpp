@@ -127,6 +127,7 @@ RunningSweep resume(const Sweep& sweep, const std::vector<std::size_t>& places, 
       running.estimates.add(costs[place].cpu_seconds, known->second->cpu_seconds);
     } else {
       running.pending.push_back(&job);
+      if (known != stored.outcomes.end()) files.count_after(*known->second);
     }
   }
   running.done = done.size();

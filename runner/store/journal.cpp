@@ -47,15 +47,31 @@ void keep(RunRecord&& run, std::vector<RunRecord>& runs) {
   }
 }
 
+/// Of two lines of one journal the later one counts, whatever the clock said.
+void keep(Boxed<Outcome>&& later, Outcomes& own) {
+  const auto [known, is_new] = own.try_emplace(later->job);
+  if (is_new || !later->exception || known->second->exception) known->second = std::move(later);
+}
+
 bool counts_more(const Outcome& one, const Outcome& other) {
   return std::tuple(!one.exception, one.finished_at) >=
          std::tuple(!other.exception, other.finished_at);
+}
+
+/// Adds what counts in one journal to what counts in those before it.
+void add(Outcomes&& own, Outcomes& all) {
+  all.merge(own);
+  for (auto& [job, outcome] : own) {  // what is left of it is known from another journal
+    Boxed<Outcome>& known = all.at(job);
+    if (counts_more(*outcome, *known)) known = std::move(outcome);
+  }
 }
 
 /// Appends what the journal of one shard holds.
 void read_journal(const std::string& folder, const std::string& name, Detail detail,
                   JournalReading& reading) {
   const std::string path = journal_path(folder, name);
+  Outcomes own;
   std::size_t number = 0;
   bool is_last_damaged = false;
   for_each_line(path, [&](std::string_view line) {
@@ -63,8 +79,7 @@ void read_journal(const std::string& folder, const std::string& name, Detail det
     is_last_damaged = false;
     if (auto outcome = read_journal_line(line, detail)) {
       outcome->shard = name;
-      const auto [known, is_new] = reading.outcomes.try_emplace(outcome->job);
-      if (is_new || counts_more(*outcome, *known->second)) known->second = std::move(outcome);
+      keep(std::move(outcome), own);
     } else if (auto run = read_run_line(line)) {
       reading.last_runs[name] = *run;
       keep(std::move(*run), reading.runs);
@@ -76,6 +91,7 @@ void read_journal(const std::string& folder, const std::string& name, Detail det
     }
   });
   if (is_last_damaged && is_locked(path)) reading.damage.pop_back();
+  add(std::move(own), reading.outcomes);
 }
 
 }  // namespace

@@ -36,9 +36,9 @@ struct JournalReading {
   std::vector<std::string> damage;             ///< "out/shards/1-of-1.jsonl:3: torn or damaged ..."
 };
 
-/// The journals of all shards in `folder`. Of two outcomes of a job the later one counts, but a
-/// result is never replaced by an exception. A line that a runner is just writing is left out.
-/// Throws FileError.
+/// The journals of all shards in `folder`. Of two outcomes of a job the later line of a journal
+/// counts, and of two journals the one that finished later; but a result is never replaced by an
+/// exception. A line that a runner is just writing is left out. Throws FileError.
 JournalReading read_journals(const std::string& folder, Detail detail = Detail::whole);
 
 /// The last run in a journal, at work or ended.

@@ -1,6 +1,9 @@
 #include "runner/store/shard_files.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <fcntl.h>
+#include <limits>
 #include <unistd.h>
 
 #include "runner/machine.hpp"
@@ -69,7 +72,14 @@ void ShardFiles::add_bed(const StoredBed& bed, Outcome& outcome) {
   beds_ += bytes;
 }
 
-void ShardFiles::add(const Outcome& outcome) { lines_ += journal_line(outcome); }
+void ShardFiles::add(Outcome outcome) {
+  const auto known = known_at_.find(outcome.job);
+  if (known != known_at_.end()) {
+    constexpr double forever = std::numeric_limits<double>::infinity();
+    outcome.finished_at = std::max(outcome.finished_at, std::nextafter(known->second, forever));
+  }
+  lines_ += journal_line(outcome);
+}
 
 void ShardFiles::add(const RunRecord& run) { lines_ += journal_line(run); }
 

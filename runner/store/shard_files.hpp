@@ -1,7 +1,9 @@
 // What a runner adds to an output folder: finished packings, and that it is at work.
 #pragma once
 
+#include <cstdint>
 #include <string>
+#include <unordered_map>
 
 #include "runner/store/journal.hpp"
 #include "runner/store/lock.hpp"
@@ -19,9 +21,13 @@ class ShardFiles {
   /// sweep, which overlaps with it.
   ShardFiles(const std::string& folder, const Shard& shard, const RunRecord& run);
 
+  /// What is added for its job from now on counts more than this outcome, of whatever journal: it
+  /// was finished later, even where a clock was set back.
+  void count_after(const Outcome& known) { known_at_[known.job] = known.finished_at; }
+
   /// Sets where the bed is stored. To be followed by add(outcome).
   void add_bed(const StoredBed& bed, Outcome& outcome);
-  void add(const Outcome& outcome);
+  void add(Outcome outcome);
   void add(const RunRecord& run);
   void flush();
 
@@ -42,6 +48,7 @@ class ShardFiles {
   std::string name_;
   std::string beds_, lines_;   ///< added and not yet in the files
   std::int64_t beds_end_ = 0;  ///< where in the file the next bed comes to stand
+  std::unordered_map<std::string, double> known_at_;  ///< Outcome::finished_at, by job
 };
 
 }  // namespace grainsweep

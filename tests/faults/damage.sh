@@ -91,4 +91,26 @@ for number in $(seq "$tries"); do
   cmp <(beds_in reference) <(beds_in out) || fail "$what: other grains"
   mended=$((mended + 1))
 done
+
+# A bed damaged after the clock was set back by a day: what is made anew counts, in whatever journal.
+make_of_tomorrow() { # JOURNAL
+  perl -MCompress::Zlib=crc32 -i -pe 'next unless /"outcome":(.*)\}$/;
+    my $text = $1 =~ s/"finished_at":\K[\d.]+/$& + 86400/er;
+    $_ = sprintf(qq({"length":%d,"crc32":"%08x","outcome":%s}\n), length($text), crc32($text), $text)
+  ' "$1"
+}
+for shards in 1/1 "1/2 2/2"; do
+  rm -rf out
+  for shard in $shards; do run_to_the_end sweep.json out --threads 2 --shard "$shard" --alone; done
+  for journal in out/shards/*.jsonl; do
+    make_of_tomorrow "$journal"
+    printf '\xff' | dd of="${journal%.jsonl}.beds" bs=1 seek=500 conv=notrunc status=none
+  done
+  run_to_the_end sweep.json out --threads 2
+  expect_text said.txt "out/shards/${shards%%/*}-of-${shards##*/}.beds: packing "
+  cmp <(values_of out) <(values_of reference) || fail "shards $shards of tomorrow: other values"
+  cmp <(beds_in out) <(beds_in reference) || fail "shards $shards of tomorrow: other grains"
+  expect_code 0 "$program" status out --check
+  [ ! -s error.txt ] || fail "shards $shards of tomorrow: not mended: $(cat error.txt)"
+done
 echo "$tries damaged folders: $mended mended by the next run, $told refused and told, none silent"

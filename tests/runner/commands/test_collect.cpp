@@ -69,6 +69,36 @@ TEST_CASE("folders that agree in a packing are collected without a word of warni
   CHECK(printed_by([&] { perform(options); }).error.empty());
 }
 
+/// Stores the outcome again, with a bed.
+void store_with_bed(const std::string& folder, Outcome& outcome, const Shard& shard = {}) {
+  add_stored_bed(folder, {outcome.job, outcome.result.state_hash, {}, {}, {{}}, {}, {}, {}},
+                 outcome, shard);
+  add_outcomes(folder, {outcome}, shard);
+}
+
+TEST_CASE("a sound bed that is collected in the place of a damaged one of later date stays") {
+  for (const Shard& shard : {Shard{}, Shard{2, 2}}) {
+    const TemporaryFolder parent;
+    Outcome sound = sample_outcome("a1", 0.6, 6), damaged = sound;
+    damaged.finished_at = sound.finished_at + 60;
+    const std::string source = folder_of_a_run(parent, "source", "1", sound);
+    const std::string out = folder_of_a_run(parent, "out", "2", damaged);
+    store_with_bed(source, sound);
+    store_with_bed(out, damaged, shard);
+    damage_bed(out, damaged, 30);
+    const auto collect = [&] {
+      return printed_by([&] { perform(CollectOptions{{source}, out}); });
+    };
+    const Printed mending = collect();
+    CHECK_THAT(mending.error, Contains(name_of(shard) + ".beds: packing a1: damaged"));
+    CHECK_THAT(mending.out, Contains("1 packings added to " + out + ", which now holds 1 of 1"));
+    Results all = read_results(out);
+    CHECK(check_beds(out, all.rows).empty());
+    CHECK(status_of(all.rows[0]) == "settled");
+    CHECK_THAT(collect().out, Contains("0 packings added"));
+  }
+}
+
 TEST_CASE("units are collected where the folders agree in them") {
   const TemporaryFolder parent;
   Outcome outcome = sample_outcome("a1", 0.6, 6);

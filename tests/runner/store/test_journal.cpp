@@ -141,6 +141,24 @@ TEST_CASE("of two outcomes of a job the one that was finished later counts, in w
   CHECK(reading.outcomes.at("a")->shard == "1-of-1");
 }
 
+TEST_CASE(
+    "of two lines of one journal the later counts, though the clock was set back between them") {
+  Outcome first = sample_outcome("a", 0.60, 6.0), remade = sample_outcome("a", 0.62, 6.0),
+          of_another = sample_outcome("a", 0.64, 6.0);
+  first.finished_at = 3000.0;
+  remade.finished_at = 1000.0;
+  of_another.finished_at = 2000.0;
+  const TemporaryFolder alone;
+  add_outcomes(alone.path(), {first, remade});
+  CHECK(read_journals(alone.path()).outcomes.at("a")->result.solid_fraction == 0.62);
+  for (const int number : {1, 2}) {  // what counts does not depend on which is read first
+    const TemporaryFolder folder;
+    add_outcomes(folder.path(), {first, remade}, {number, 2});
+    add_outcomes(folder.path(), {of_another}, {3 - number, 2});
+    CHECK(read_journals(folder.path()).outcomes.at("a")->result.solid_fraction == 0.64);
+  }
+}
+
 TEST_CASE("an exception never replaces a result, but a result replaces an exception") {
   const TemporaryFolder folder;
   Outcome failed;

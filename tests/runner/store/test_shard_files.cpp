@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <cmath>
+
 #include <catch2/catch.hpp>
 
 #include "runner/store/shard_files.hpp"
@@ -61,6 +64,23 @@ TEST_CASE("beds stand one behind the other, also those of a later run") {
   for (const Outcome& outcome : outcomes)
     CHECK(read_bed(folder.path(), outcome).job == outcome.job);
   CHECK(outcomes[2].stored_at == 2 * outcomes[0].stored_bytes);
+}
+
+TEST_CASE("what is made anew counts more than what was known, by whatever clock, in any journal") {
+  Outcome known = sample_outcome("a", 0.60, 6.0), remade = sample_outcome("a", 0.62, 6.0);
+  known.finished_at = 2000.0;
+  for (const double finished_at : {1000.0, 2000.0, 3000.0}) {
+    const TemporaryFolder folder;
+    add_outcomes(folder.path(), {known}, {2, 3});
+    remade.finished_at = finished_at;
+    ShardFiles files(folder.path(), {1, 3}, sample_run());
+    files.count_after(known);
+    files.add(remade);
+    files.flush();
+    const Outcome counts = *read_journals(folder.path()).outcomes.at("a");
+    CHECK(counts.result.solid_fraction == 0.62);
+    CHECK(counts.finished_at == std::max(finished_at, std::nextafter(2000.0, 3000.0)));
+  }
 }
 
 TEST_CASE("a journal that was taken away is not made anew") {
