@@ -60,7 +60,9 @@ std::vector<std::string> beds_without_journal(const std::string& folder) {
   std::vector<std::string> paths;
   for (const std::string& file : files_in(shards_folder(folder), "", beds_ending)) {
     const std::string name = file.substr(0, file.size() - beds_ending.size());
-    if (!file_exists(journal_path(folder, name))) paths.push_back(beds_path(folder, name));
+    if (shard_from_name(name) && !file_exists(journal_path(folder, name))) {
+      paths.push_back(beds_path(folder, name));
+    }
   }
   return paths;
 }

@@ -38,7 +38,7 @@ std::string beds_path(const std::string& folder, const std::string& name);
 /// Names of all shards with a journal in the folder, sorted.
 std::vector<std::string> shards_in(const std::string& folder);
 
-/// Paths of the files of beds whose journal is missing.
+/// Paths of the files of beds of shards whose journal is missing.
 std::vector<std::string> beds_without_journal(const std::string& folder);
 
 }  // namespace grainsweep

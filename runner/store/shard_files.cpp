@@ -96,6 +96,7 @@ void ShardFiles::remove_all(const RunRecord& run) {
     remove_file(beds_path(folder_, name));
     if (name != name_) remove_file(journal_path(folder_, name));
   }
+  for (const std::string& path : beds_without_journal(folder_)) remove_file(path);
   empty_file(journal_path(folder_, name_));
   add(run);
   flush();

@@ -28,7 +28,7 @@ TEST_CASE("the shards of a folder are those with a journal") {
   CHECK(shards_in(folder.path()).empty());
   make_folder(shards_folder(folder.path()));
   for (const char* name :
-       {"2-of-2.jsonl", "1-of-2.jsonl", "1-of-2.beds", "3-of-4.beds", "x.jsonl"}) {
+       {"2-of-2.jsonl", "1-of-2.jsonl", "1-of-2.beds", "3-of-4.beds", "x.jsonl", "y.beds"}) {
     replace_file(shards_folder(folder.path()) + "/" + name, "");
   }
   CHECK(shards_in(folder.path()) == std::vector<std::string>{"1-of-2", "2-of-2"});

@@ -97,13 +97,16 @@ TEST_CASE("a run that starts anew forgets what all shards have stored") {
   add_outcomes(folder.path(), {sample_outcome("a", 0.6, 6.0)});
   add_stored_bed(folder.path(), {"b", other.result.state_hash, {}, {}, {{}}, {}, {}, {}}, other,
                  {2, 3});
-  replace_file(shards_folder(folder.path()) + "/notes.txt", "mine");
+  for (const char* name : {"2-of-2.beds", "notes.beds", "notes.txt"}) {
+    replace_file(shards_folder(folder.path()) + "/" + name, "");
+  }
   ShardFiles files(folder.path(), {}, sample_run());
   files.remove_all(sample_run());
   CHECK(read_journals(folder.path()).outcomes.empty());
   CHECK(last_run_in(journal_path(folder.path(), "1-of-1")));
   CHECK(files_in(shards_folder(folder.path()), "", "") ==
-        std::vector<std::string>{"1-of-1.jsonl", "notes.txt"});
+        std::vector<std::string>{"1-of-1.jsonl", "notes.beds", "notes.txt"});
+  CHECK(read_journals(folder.path()).damage.empty());
 }
 
 }  // namespace
