@@ -86,8 +86,8 @@ void read_journal(const std::string& folder, const std::string& name, Detail det
     } else {
       is_last_damaged = true;
       reading.damage.push_back(path + ":" + std::to_string(number) +
-                               ": torn or damaged line, or one of another version, left out; its "
-                               "packing is made again");
+                               ": torn or damaged line, or one of another version, left out; run "
+                               "makes again what is missing");
     }
   });
   if (is_last_damaged && is_locked(path)) reading.damage.pop_back();
@@ -125,7 +125,8 @@ JournalReading read_journals(const std::string& folder, Detail detail) {
   JournalReading reading;
   for (const std::string& name : shards_in(folder)) read_journal(folder, name, detail, reading);
   for (const std::string& path : beds_without_journal(folder)) {
-    reading.damage.push_back(path + ": its journal is missing; its packings are made again");
+    reading.damage.push_back(path +
+                             ": left out, its journal is missing; run makes again what is missing");
   }
   std::erase_if(reading.runs,
                 [](const RunRecord& run) { return run.packings == 0 && !run.ended.empty(); });

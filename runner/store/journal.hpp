@@ -4,9 +4,9 @@
 // length and checksum of the bytes of {...}, whose members are those fields
 // (runner/store/fields.hpp) of the journal that the outcome has. Not-a-number and infinities are
 // texts. It is written by one write(2) and flushed to the disk before the packing counts as done,
-// so that a crash can only tear the last line. A torn or damaged line is dropped, and its packing
-// made again. Lines with "run" instead of "outcome" tell who wrote the journal, at the beginning of
-// a run and again at its end.
+// so that a crash can only tear the last line. A torn or damaged line is dropped, and what is then
+// missing made again. Lines with "run" instead of "outcome" tell who wrote the journal, at the
+// beginning of a run and again at its end.
 #pragma once
 
 #include <map>

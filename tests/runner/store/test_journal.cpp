@@ -231,6 +231,18 @@ TEST_CASE("a journal that was torn is continued on a new line") {
   CHECK(reading.damage.size() == 1);
 }
 
+TEST_CASE("a torn line is told as left out, be it of a run or of a packing that is there again") {
+  const TemporaryFolder folder;
+  const std::string path = first_journal(folder);
+  for (const std::string& line :
+       {journal_line(sample_run()), journal_line(sample_outcome("a", 0.60, 6.0))}) {
+    replace_file(path, line.substr(0, line.size() / 2) + "\n" + line);
+    CHECK(read_journals(folder.path()).damage ==
+          std::vector<std::string>{path + ":1: torn or damaged line, or one of another version, "
+                                          "left out; run makes again what is missing"});
+  }
+}
+
 TEST_CASE("a line that a runner is just writing is no damage") {
   const TemporaryFolder folder;
   const std::string path = first_journal(folder);
@@ -251,7 +263,9 @@ TEST_CASE("journals of several shards are read together, beds without one are to
   replace_file(beds_path(folder.path(), "7-of-9"), "beds");
   const auto damage = read_journals(folder.path()).damage;
   REQUIRE(damage.size() == 1);
-  CHECK_THAT(damage[0], Catch::Contains("/shards/7-of-9.beds: its journal is missing"));
+  CHECK_THAT(damage[0],
+             Catch::EndsWith("/shards/7-of-9.beds: left out, its journal is missing; run makes "
+                             "again what is missing"));
 }
 
 }  // namespace
