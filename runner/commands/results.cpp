@@ -245,7 +245,7 @@ void warn_without_lock(const std::string& folder, const ShardFiles& files) {
 }
 
 void remove_tables(const std::string& folder) {
-  remove_all_checkpoints(folder);
+  std::cerr << damage_warnings(remove_all_checkpoints(folder));
   for (const char* name : tables) remove_file(folder + "/" + name);
   remove_report(folder);
 }

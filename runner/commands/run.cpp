@@ -131,8 +131,8 @@ RunningSweep resume(const Sweep& sweep, const std::vector<std::size_t>& places, 
     }
   }
   running.done = done.size();
-  remove_checkpoints_of(folder, done);
-  std::cerr << damage_warnings(stored.damage);
+  std::cerr << damage_warnings(remove_checkpoints_of(folder, done))
+            << damage_warnings(stored.damage);
   return running;
 }
 

@@ -194,7 +194,9 @@ class Packer {
       const std::scoped_lock lock(learning_);
       running_.estimates.add(costs_[task].cpu_seconds, outcome.cpu_seconds);
     }
-    checkpoints_of(job).remove();
+    for (const std::string& line : checkpoints_of(job).remove()) {
+      display_.say("warning: " + line);
+    }
     ++packed_.packings;
     const std::string line =
         packing_line(options_.names.set_of(facts_of(job)), job.replicate, outcome) +

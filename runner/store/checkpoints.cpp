@@ -22,15 +22,26 @@ constexpr std::string_view checkpoint_mark = "GRAINCP2";
 
 std::string checkpoint_folder(const std::string& folder) { return folder + "/checkpoints"; }
 
+/// Where the file cannot be removed, `failures` tells why.
+void try_to_remove(const std::string& path, std::vector<std::string>& failures) {
+  try {
+    remove_file(path);
+  } catch (const FileError& error) {
+    failures.push_back(std::string(error.what()) + "; it is not needed, remove it by hand");
+  }
+}
+
 /// Removes the files whose name without its ending is wanted.
 template <class IsWanted>
-void remove_where(const std::string& folder, IsWanted is_wanted) {
+std::vector<std::string> remove_where(const std::string& folder, IsWanted is_wanted) {
+  std::vector<std::string> failures;
   for (const char* ending : {".0", ".1"}) {
     for (const std::string& name : files_in(checkpoint_folder(folder), "", ending)) {
       const std::string job = name.substr(0, name.size() - 2);
-      if (is_wanted(job)) remove_file(checkpoint_folder(folder) + "/" + name);
+      if (is_wanted(job)) try_to_remove(checkpoint_folder(folder) + "/" + name, failures);
     }
   }
+  return failures;
 }
 
 }  // namespace
@@ -65,9 +76,11 @@ void CheckpointFiles::write(const Checkpoint& checkpoint) {
   ++next_;
 }
 
-void CheckpointFiles::remove() const {
-  remove_file(path(0));
-  remove_file(path(1));
+std::vector<std::string> CheckpointFiles::remove() const {
+  std::vector<std::string> failures;
+  try_to_remove(path(0), failures);
+  try_to_remove(path(1), failures);
+  return failures;
 }
 
 std::string CheckpointFiles::path(std::uint64_t number) const {
@@ -84,12 +97,13 @@ std::size_t saved_packings(const std::string& folder) {
   return jobs.size();
 }
 
-void remove_checkpoints_of(const std::string& folder, const std::set<std::string>& jobs) {
-  remove_where(folder, [&](const std::string& job) { return jobs.contains(job); });
+std::vector<std::string> remove_checkpoints_of(const std::string& folder,
+                                               const std::set<std::string>& jobs) {
+  return remove_where(folder, [&](const std::string& job) { return jobs.contains(job); });
 }
 
-void remove_all_checkpoints(const std::string& folder) {
-  remove_where(folder, [](const std::string&) { return true; });
+std::vector<std::string> remove_all_checkpoints(const std::string& folder) {
+  return remove_where(folder, [](const std::string&) { return true; });
 }
 
 }  // namespace grainsweep

@@ -12,6 +12,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace grainsweep {
 
@@ -33,8 +34,8 @@ class CheckpointFiles {
   /// Returns once it is on the disk. Makes the folder checkpoints if missing. Throws FileError.
   void write(const Checkpoint& checkpoint);
 
-  /// Removes both files. Throws FileError.
-  void remove() const;
+  /// Removes both files. Returns which of them it could not and why, lines for people.
+  std::vector<std::string> remove() const;
 
  private:
   std::string path(std::uint64_t number) const;
@@ -57,8 +58,10 @@ std::optional<NumberedCheckpoint> checkpoint_from_bytes(std::string_view bytes);
 /// How many packings have checkpoints in an output folder.
 std::size_t saved_packings(const std::string& folder);
 
-/// Removes the checkpoints of these jobs, or of all.
-void remove_checkpoints_of(const std::string& folder, const std::set<std::string>& jobs);
-void remove_all_checkpoints(const std::string& folder);
+/// Removes the checkpoints of these jobs, or of all. Returns which it could not, as above. Throws
+/// FileError if the folder cannot be listed.
+std::vector<std::string> remove_checkpoints_of(const std::string& folder,
+                                               const std::set<std::string>& jobs);
+std::vector<std::string> remove_all_checkpoints(const std::string& folder);
 
 }  // namespace grainsweep

@@ -113,4 +113,15 @@ for shards in 1/1 "1/2 2/2"; do
   expect_code 0 "$program" status out --check
   [ ! -s error.txt ] || fail "shards $shards of tomorrow: not mended: $(cat error.txt)"
 done
+
+# A folder in the place of a checkpoint, of a packing that is made and of one that is not: told, no more.
+for option in "" "--fresh --yes"; do
+  rm -rf out && cp -r half out
+  for job in $(tail -n +2 reference/packings.csv | cut -d, -f1); do
+    rm -f out/checkpoints/$job.0 && mkdir -p out/checkpoints/$job.0
+  done
+  run_to_the_end sweep.json out --threads 2 $option
+  expect_text said.txt "warning: out/checkpoints/$job.0: cannot remove: Is a directory; "
+  cmp <(values_of out) <(values_of reference) || fail "folders as checkpoints, run $option: other values"
+done
 echo "$tries damaged folders: $mended mended by the next run, $told refused and told, none silent"

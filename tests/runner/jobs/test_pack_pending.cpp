@@ -56,6 +56,19 @@ TEST_CASE("the CPU time of a packing is that of all runs that worked on it") {
   CHECK(saved_packings(folder.path()) == 0);
 }
 
+TEST_CASE("a folder in the place of a checkpoint is no reason to stop a run") {
+  const TemporaryFolder folder;
+  const Sweep sweep = sweep_of_a_small_bed();
+  make_folder(folder.path() + "/checkpoints/" + sweep.jobs[0].id + ".0");
+  ShardFiles files(folder.path(), {}, sample_run());
+  RunningSweep running{folder.path(), files, 0, {&sweep.jobs[0]}, {}};
+  PackOptions options;
+  options.isa = Isa::sse2;
+  options.checkpoint_seconds = 0;
+  CHECK(pack_pending(running, options).packings == 1);
+  CHECK(read_journals(folder.path()).outcomes.size() == 1);
+}
+
 TEST_CASE("no packing begins that would outlive the limit by what others like it took") {
   const Sweep sweep = sweep_of_a_small_bed();
   const TemporaryFolder folder;

@@ -108,5 +108,19 @@ TEST_CASE("checkpoints are removed by job, or all of them, and nothing else is")
   remove_all_checkpoints(folder.path() + "/none");
 }
 
+TEST_CASE("a checkpoint that cannot be removed is told, and the others are removed all the same") {
+  const TemporaryFolder folder;
+  const std::vector<std::string> told = {
+      path_of(folder, 0) + ": cannot remove: Is a directory; it is not needed, remove it by hand"};
+  for (const int how : {0, 1, 2}) {
+    make_folder(path_of(folder, 0));
+    replace_file(path_of(folder, 1), "state");
+    CHECK((how == 0   ? files_in_folder(folder).remove()
+           : how == 1 ? remove_checkpoints_of(folder.path(), {job_id})
+                      : remove_all_checkpoints(folder.path())) == told);
+    CHECK_FALSE(file_exists(path_of(folder, 1)));
+  }
+}
+
 }  // namespace
 }  // namespace grainsweep
