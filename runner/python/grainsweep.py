@@ -78,16 +78,23 @@ class Sweep:
 
     @functools.cached_property
     def _places(self):
-        """Job -> file, first byte and number of bytes of its bed."""
-        places = {}
+        """Job -> file, first byte and number of bytes of its bed. Of one journal the later line
+        counts, of two journals the packing that was finished later."""
+        places, finished = {}, {}
         for journal in sorted(self.folder.glob("shards/*.jsonl")):
+            own = {}
             for line in journal.read_text().splitlines():
                 if '"stored_at":' not in line:
                     continue
                 outcome = json.loads(line).get("outcome", {})
                 if outcome.get("stored_bytes"):
-                    place = outcome["stored_at"], outcome["stored_bytes"]
-                    places[outcome["job"]] = journal.with_suffix(".beds"), *place
+                    own[outcome["job"]] = outcome
+            for job, outcome in own.items():
+                if outcome["finished_at"] < finished.get(job, 0.0):
+                    continue
+                finished[job] = outcome["finished_at"]
+                place = outcome["stored_at"], outcome["stored_bytes"]
+                places[job] = journal.with_suffix(".beds"), *place
         return places
 
     def bed(self, job):
