@@ -36,8 +36,9 @@ const std::vector<Preset>& presets();
 /// The preset called `name`, if there is one.
 std::optional<Accuracy> preset(std::string_view name);
 
-/// Bound of the bias of that preset: the measured distance from the limit and two of its standard
-/// errors, of the worst scene of the kind (bench/README.md, "The protocol's own error"). None for
+/// Bound of the bias of that preset: the measured distance from the limit, or of spheres from exact
+/// rest where that is larger, and two of its standard errors, of the worst scene of the kind
+/// (bench/README.md, "The protocol's own error"). None for
 /// other names: what was not measured has no bound.
 std::optional<ProtocolBias> bias_bound(std::string_view preset_name, BedKind kind);
 

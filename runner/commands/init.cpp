@@ -16,7 +16,7 @@ namespace grainsweep {
 namespace {
 
 constexpr const char* schema_file = "sweep.schema.json";
-constexpr std::string_view ending = ".json";
+constexpr std::string_view sweep_ending = ".json";
 
 /// One block of each kind that most sweeps need; labels say what each adds.
 std::string first_sweep(const std::string& name) {
@@ -58,14 +58,14 @@ CLI::App& add_command(CLI::App& app, InitOptions& options) {
 
 int perform(const InitOptions& options) {
   std::string name = options.name;
-  if (name.ends_with(ending)) name.resize(name.size() - ending.size());
+  if (name.ends_with(sweep_ending)) name.resize(name.size() - sweep_ending.size());
   if (!is_sweep_name(name)) {
     throw BadInput(
         "the name of a sweep has 1 to 100 letters, digits, '-', '_' and '.', the first no "
         "'.'; is \"" +
         options.name + "\"");
   }
-  const std::string file = name + std::string(ending);
+  const std::string file = name + std::string(sweep_ending);
   if (file_exists(file)) throw BadInput(file + " is there already; take another name");
   replace_file(schema_file, sweep_schema());
   replace_file(file, first_sweep(name));

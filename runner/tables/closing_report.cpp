@@ -65,6 +65,7 @@ void append_lines(const Family& family, std::vector<TableLine>& lines) {
 
 std::string extent_symbol(const std::vector<TableLine>& lines) {
   std::vector<const Group*> groups;
+  groups.reserve(lines.size());
   for (const TableLine& line : lines) groups.push_back(line.group);
   return extent_symbol(groups);
 }
@@ -100,7 +101,7 @@ std::string table_text(const std::vector<TableLine>& lines, const TableColumns& 
   for (const TableLine& line : lines) {
     if (first.size() < most_lines) first.push_back({line.name, columns.cells(*line.group)});
   }
-  const std::string text = named_lines("", columns.heads, first);
+  std::string text = named_lines("", columns.heads, first);
   if (lines.size() <= most_lines) return text;
   return text + "  and " + std::to_string(lines.size() - most_lines) + " more, see groups.csv\n";
 }

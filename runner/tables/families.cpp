@@ -180,11 +180,13 @@ std::string extent_symbol(const std::vector<const Group*>& groups) {
 }
 std::string extent_symbol(const std::vector<Group>& groups) {
   std::vector<const Group*> all;
+  all.reserve(groups.size());
   for (const Group& group : groups) all.push_back(&group);
   return extent_symbol(all);
 }
 std::string extent_symbol(const std::vector<Family>& families) {
   std::vector<const Group*> all;
+  all.reserve(families.size());
   for (const Family& family : families) all.push_back(&first_group(family));
   return extent_symbol(all);
 }

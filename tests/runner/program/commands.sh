@@ -14,7 +14,7 @@ expect_code 0 "$program" plan small.json --json
 expect_text out.txt '"packings": 10' '"estimated_bytes"' '"available_bytes"'
 [ "$(grep -c '"job":"[0-9a-f]*",.*"parameters":{"accuracy".*}' out.txt)" -eq 10 ] || fail "not 10 jobs"
 cp out.txt plan.json
-printf '%s\n' '{"name": "asked", "base": {"accuracy": {"coordination": 0.09}}}' >asked.json
+printf '%s\n' '{"name": "asked", "base": {"accuracy": {"coordination": 0.1}}}' >asked.json
 for command in validate plan; do
   expect_code 0 "$program" "$command" asked.json
   expect_text out.txt 'of 1 parameter set of spheres of one size: "fast"' "bounds: 0.003 in solid fraction"

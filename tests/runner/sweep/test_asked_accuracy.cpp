@@ -58,7 +58,7 @@ TEST_CASE("each bed has the preset that its own kind takes") {
 
 TEST_CASE("what is asked for may be varied, and replaces a preset of the base, as a preset it") {
   CHECK(ids_in(R"({"name": "a", "base": {"accuracy": "accurate"},
-                   "sweep": [{"grid": {"accuracy.coordination": [0.1, 0.06]}}]})") ==
+                   "sweep": [{"grid": {"accuracy.coordination": [0.1, 0.07]}}]})") ==
         ids_in(R"({"name": "a", "sweep": [{"grid": {"accuracy": ["fast", "balanced"]}}]})"));
   CHECK(ids_in(R"({"name": "a", "base": {"accuracy": {"coordination": 0.02}},
                    "sweep": [{"set": {"accuracy": "fast"}}]})") ==
@@ -90,7 +90,7 @@ TEST_CASE("what no preset keeps is refused with the smallest bound that can be h
                                  "0.0013," +
                                      smallest + "0.001",
                                  "s.json:1:78 /base/accuracy/coordination: must be at least "
-                                 "0.012," +
+                                 "0.018," +
                                      smallest + "0.01"});
 }
 
