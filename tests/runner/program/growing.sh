@@ -49,7 +49,7 @@ expect_text error.txt 'settled as "fast" such packings may be off by 0.003'
 # A fit whose packings go where they gain most: the same wherever and however often it is run.
 sed 's/"solid_fraction": 0.009/"fit": { "phi_bulk": 0.02 }/; s/\[3, 4\]/[2.5, 3, 4]/' sweep.json >fit.json
 expect_code 0 "$program" plan fit.json
-expect_text out.txt 'Next: 18 packings: 6 of grows W = 2.5, 6 of grows W = 3, 6 of grows W = 4'
+expect_text out.txt 'Next: 18 packings: 6 of grows, W = 2.5; 6 of grows, W = 3; 6 of grows, W = 4'
 expect_code 0 "$program" run fit.json --out fit-one --threads 1 --no-report
 # At such narrow gaps the solid fraction is no straight line.
 expect_text out.txt "Errors as asked for (95 %) in 0 of 1 fit" "in 1 more the packings scatter as little"
