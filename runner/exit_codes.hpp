@@ -14,6 +14,7 @@ enum ExitCode : int {
   exit_file_system = 4,   ///< a file could not be read or written
   exit_no_resources = 5,  ///< the system gives too little memory or too few threads
   exit_out_of_time = 6,   ///< the limit of time came before the end; the same command goes on
+  exit_unforeseen = 7,    ///< an error that the program did not foresee; not all was done
   exit_stopped = 128,     ///< + signal: 130 Ctrl-C, 143 SIGTERM, 129 SIGHUP, 138 SIGUSR1; the same
                           ///< command goes on
 };

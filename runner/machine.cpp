@@ -124,7 +124,7 @@ double available_memory() {
 
 double memory_for_packings() {
   constexpr double share = 0.8;
-  return share * available_memory();
+  return std::max(1.0, share * available_memory());  // 0 would mean that there is no limit
 }
 
 }  // namespace grainsweep

@@ -48,6 +48,7 @@ int main(int argc, char** argv) {
                     "limit of memory"),
         exit_no_resources);
   } catch (const std::exception& error) {
-    return refuse(error, exit_left_out);
+    return refuse(std::runtime_error(std::string("unforeseen error: ") + error.what()),
+                  exit_unforeseen);
   }
 }

@@ -228,6 +228,9 @@ Collection collected(const CollectOptions& options, ShardFiles& files, ProgressD
     const std::size_t before = collection->added;
     add_results(folder, std::move(stored), *collection,
                 [&](double share) { display.advance(i, share); });
+    // A collection that is killed later goes on from here.
+    files.flush();
+    record_sweep(options.out, collection->provenance, collection->rows);
     display.finish(i, true,
                    folder + ": " + counted(collection->added - before, "packing") + " added");
   }

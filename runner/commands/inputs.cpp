@@ -1,5 +1,6 @@
 #include "runner/commands/inputs.hpp"
 
+#include <algorithm>
 #include <iostream>
 #include <utility>
 
@@ -39,7 +40,9 @@ Sweep sweep_with_notes(const std::string& file) {
 
 Results results_with_warnings(const std::string& folder, Detail detail) {
   Results results = read_results(folder, detail);
-  std::cerr << damage_warnings(results.damage);
+  const bool is_whole = std::all_of(results.rows.begin(), results.rows.end(),
+                                    [](const Row& row) { return static_cast<bool>(row.outcome); });
+  if (!is_whole) std::cerr << damage_warnings(results.damage);
   std::cerr << other_versions_warning(results.rows, program_version());
   return results;
 }

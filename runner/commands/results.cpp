@@ -226,8 +226,14 @@ std::string other_versions_warning(const std::vector<Row>& rows, const std::stri
          "; run with --fresh to make all anew\n";
 }
 
-std::size_t stored_packings(const std::string& folder) {
-  return read_journals(folder, Detail::summary).outcomes.size();
+std::string stored_packings(const std::string& folder) {
+  const JournalReading stored = read_journals(folder, Detail::summary);
+  std::string text;
+  if (!stored.outcomes.empty()) text = counted(stored.outcomes.size(), "stored packing");
+  if (stored.damage.empty()) return text;
+  return text + (text.empty() ? "" : " and ") +
+         counted(stored.damage.size(), "line or file of results") +
+         " that cannot be read (damaged, or of another version)";
 }
 
 void clean_up(const std::string& folder) {

@@ -82,8 +82,8 @@ std::string damage_warnings(const std::vector<std::string>& damage);
 /// into one table with this one's; empty if there are none.
 std::string other_versions_warning(const std::vector<Row>& rows, const std::string& version);
 
-/// Number of stored packings in the folder.
-std::size_t stored_packings(const std::string& folder);
+/// "12 stored packings", and what cannot be read beside them; empty if there is neither.
+std::string stored_packings(const std::string& folder);
 
 /// Removes what killed runners left half written. No other runner may work in the folder.
 void clean_up(const std::string& folder);

@@ -46,9 +46,9 @@ void confirm_fresh(const RunOptions& options, const std::string& folder, const S
     throw BadInput("--fresh would delete what other shards have made; use it without --shard");
   }
   if (options.yes) return;
-  const std::size_t count = stored_packings(folder);
-  if (count == 0) return;
-  const std::string what = std::to_string(count) + " stored packings in " + folder;
+  const std::string stored = stored_packings(folder);
+  if (stored.empty()) return;
+  const std::string what = stored + " in " + folder;
   if (isatty(STDIN_FILENO) == 0) {
     throw BadInput("--fresh would delete " + what + "; add --yes to confirm");
   }
@@ -112,7 +112,8 @@ RunningSweep resume(const Sweep& sweep, const std::vector<std::size_t>& places, 
                     const std::string& folder, ShardFiles& files, bool retry_failed) {
   RunningSweep running{folder, files, 0, {}, {}};
   if (shard.count > 1) running.claims = claims_in(folder);
-  JournalReading stored = read_journals(folder, Detail::summary);
+  // Whole, as the tables will read them: a line that they could not read is made again.
+  JournalReading stored = read_journals(folder, Detail::whole);
   keep_own(stored.damage, shard, journal_path(folder, files.name()));
   const std::vector<Cost> costs = costs_of(sweep.jobs);
   std::set<std::string> done;
@@ -131,8 +132,8 @@ RunningSweep resume(const Sweep& sweep, const std::vector<std::size_t>& places, 
     }
   }
   running.done = done.size();
-  std::cerr << damage_warnings(remove_checkpoints_of(folder, done))
-            << damage_warnings(stored.damage);
+  std::cerr << damage_warnings(remove_checkpoints_of(folder, done));
+  if (!running.pending.empty()) std::cerr << damage_warnings(stored.damage);
   return running;
 }
 

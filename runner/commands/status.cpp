@@ -52,7 +52,8 @@ double cpu_seconds_left(const std::vector<Row>& rows) {
 std::optional<Queue> queue_of(const std::string& folder) {
   const std::string scripts =
       scripts_folder(std::filesystem::absolute(folder).lexically_normal().string());
-  return std::filesystem::is_directory(scripts) ? ask_for_queue(scripts) : std::nullopt;
+  std::error_code not_there;
+  return std::filesystem::is_directory(scripts, not_there) ? ask_for_queue(scripts) : std::nullopt;
 }
 
 /// Prints warnings of what is damaged.

@@ -87,6 +87,7 @@ ProgressDisplay::ProgressDisplay(std::vector<double> costs, ProgressStyle style,
       style_(style),
       out_(out),
       started_at_(wall_seconds()),
+      all_(std::accumulate(costs_.begin(), costs_.end(), 0.0)),
       before_(before) {}
 
 void ProgressDisplay::start(std::size_t /*task*/) {
@@ -97,13 +98,13 @@ void ProgressDisplay::start(std::size_t /*task*/) {
 
 void ProgressDisplay::advance(std::size_t task, double share_done) {
   const std::scoped_lock lock(mutex_);
-  shares_[task] = std::clamp(share_done, shares_[task], 1.0);
+  reach(task, std::clamp(share_done, shares_[task], 1.0));
   draw(wall_seconds() - drawn_at_ > seconds_between_drawings);
 }
 
 void ProgressDisplay::finish(std::size_t task, bool is_settled, const std::string& line) {
   const std::scoped_lock lock(mutex_);
-  shares_[task] = 1.0;
+  reach(task, 1.0);
   --running_;
   ++finished_;
   unsettled_ += is_settled ? 0 : 1;
@@ -134,16 +135,19 @@ RunState ProgressDisplay::state() const {
   return state_now();
 }
 
+void ProgressDisplay::reach(std::size_t task, double share_done) {
+  done_ += costs_[task] * (share_done - shares_[task]);
+  shares_[task] = share_done;
+}
+
 RunState ProgressDisplay::state_now() const {
-  const double all = std::accumulate(costs_.begin(), costs_.end(), 0.0);
-  const double done = std::inner_product(costs_.begin(), costs_.end(), shares_.begin(), 0.0);
   RunState state;
   state.before = before_;
   state.finished = finished_;
   state.total = before_ + costs_.size();
   state.running = running_;
   state.unsettled = unsettled_;
-  state.share_done = all > 0 ? done / all : 0.0;
+  state.share_done = all_ > 0 ? std::min(done_ / all_, 1.0) : 0.0;
   state.elapsed = wall_seconds() - started_at_;
   return state;
 }

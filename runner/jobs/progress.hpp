@@ -55,6 +55,8 @@ class ProgressDisplay {
   RunState state() const;
 
  private:
+  /// Notes how much of a task is done.
+  void reach(std::size_t task, double share_done);
   RunState state_now() const;
   void draw(bool is_due);
   /// Takes the live line away; after a window has become narrower it lies on several rows.
@@ -66,6 +68,7 @@ class ProgressDisplay {
   ProgressStyle style_;
   std::FILE* out_;
   double started_at_;
+  double all_, done_ = 0.0;  ///< cost of all tasks, and of what is done of them, s
   double drawn_at_ = 0.0;
   int drawn_length_ = 0;  ///< of the line on the terminal, characters
   std::size_t before_, finished_ = 0, running_ = 0, unsettled_ = 0;

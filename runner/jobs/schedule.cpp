@@ -83,6 +83,7 @@ class Run {
 
   void report(Finished&& finished) {
     const std::scoped_lock lock(reporting_);
+    if (broken_) return;  // what could not be stored may have left half a line
     try {
       events_.finished(std::move(finished));
     } catch (...) {

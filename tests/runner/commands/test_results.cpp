@@ -47,7 +47,7 @@ TEST_CASE("tables and journals are enough to know a folder's results") {
   CHECK(status_of(results.rows[0]) == "pending");
   CHECK(status_of(results.rows[1]) == "settled");
   CHECK(results.orphaned == 1);
-  CHECK(stored_packings(folder.path()) == 2);
+  CHECK(stored_packings(folder.path()) == "2 stored packings");
   REQUIRE(results.provenance.runs.size() == 1);
   CHECK(results.provenance.runs[0].process == sample_run().process);
 }
