@@ -100,11 +100,13 @@ std::string bound_line(const Compared& row) {
        fixed(bound.coordination, 3), holds ? "yes" : "no"});
 }
 
-/// Empty without a preset that has bounds.
+/// Empty without a preset that has bounds. The reference, whose own bound is of its limit, is none.
 std::string bounds_table(const SceneRows& compared) {
   std::string lines;
   for (const Compared& row : compared.rows) {
-    if (row.setting->bound && !row.setting->preset.empty()) lines += bound_line(row);
+    const Setting& setting = *row.setting;
+    if (&setting == &compared.scene->settings.front() || setting.preset.empty()) continue;
+    if (setting.bound) lines += bound_line(row);
   }
   if (lines.empty()) return "";
   return "Presets beside the bounds of their biases that `groups.csv` prints:\n\n" +

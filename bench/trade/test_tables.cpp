@@ -56,6 +56,8 @@ TEST_CASE("a bound that holds is said to hold") {
   Scene scene = small_scene();
   scene.settings[1].bound = ProtocolBias{0.002, 0.11};
   CHECK_THAT(markdown_of(scene), Contains("| 0.110 | yes |"));
+  scene.settings[0].bound = ProtocolBias{0.001, 0.01};
+  CHECK_THAT(markdown_of(scene), !Contains("| `exact` |"));  // it is what the others differ from
 }
 
 TEST_CASE("exact beds stand beside those they began from") {

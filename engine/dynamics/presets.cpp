@@ -49,17 +49,19 @@ const std::vector<Preset>& presets() {
       {"fast",
        "at least 90 % of the isostatic contacts, mean overlap below 1e-4 d",
        fast(),
-       {{{{0.0030, 0.094}, {0.0026, 0.115}, {0.0062, 0.185}}}}},
+       {ProtocolBias{0.0030, 0.094}, ProtocolBias{0.0026, 0.115}, ProtocolBias{0.0062, 0.185}}},
       {"balanced",
        "at least 98 % of the isostatic contacts, mean overlap below 1e-5 d",
        Accuracy{},
-       {{{{0.0020, 0.063}, {0.0016, 0.051}, {0.0052, 0.095}}}}},
+       {ProtocolBias{0.0020, 0.063}, ProtocolBias{0.0016, 0.051}, ProtocolBias{0.0052, 0.095}}},
       {"accurate",
        "at least 99.4 % of the isostatic contacts, mean overlap below 5e-6 d",
        accurate(),
-       {{{{0.0013, 0.018}, {0.0024, 0.050}, {0.0030, 0.067}}}}},
-      {"exact", "spheres: forces balance to 1e-10 m g, with as many contacts as hold the bed",
-       exact(), std::nullopt}};
+       {ProtocolBias{0.0013, 0.018}, ProtocolBias{0.0024, 0.050}, ProtocolBias{0.0030, 0.067}}},
+      {"exact",
+       "spheres: forces balance to 1e-10 m g, with as many contacts as hold the bed",
+       exact(),
+       {}}};
   return all;
 }
 
@@ -81,8 +83,7 @@ std::optional<Accuracy> preset(std::string_view name) {
 
 std::optional<ProtocolBias> bias_bound(std::string_view preset_name, BedKind kind) {
   const Preset* known = find_preset(preset_name);
-  if (known == nullptr || !known->bias_bounds) return std::nullopt;
-  return known->bias_bounds->at(static_cast<std::size_t>(kind));
+  return known != nullptr ? known->bias_bounds.at(static_cast<std::size_t>(kind)) : std::nullopt;
 }
 
 std::string_view settles_as(const Accuracy& accuracy) {

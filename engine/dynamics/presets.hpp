@@ -12,9 +12,9 @@ namespace grainsweep {
 
 /// Kinds of beds whose protocol's error was measured.
 enum class BedKind {
-  spheres,    ///< of one size, with and without walls
-  two_sizes,  ///< spheres, the small ones half as large
-  pinacoids,  ///< 1 by 1 by 1
+  spheres,    ///< of one size, with and without walls, and in tubes
+  two_sizes,  ///< spheres in boxes, the small ones half as large
+  pinacoids,  ///< 1 by 1 by 1, in boxes
 };
 
 /// How far means over many beds lie at most from those of beds settled ever better.
@@ -27,7 +27,7 @@ struct Preset {
   std::string_view name;
   std::string_view promise;  ///< one sentence with numbers, for --help and the README
   Accuracy accuracy;
-  std::optional<std::array<ProtocolBias, 3>> bias_bounds;  ///< by BedKind, if measured
+  std::array<std::optional<ProtocolBias>, 3> bias_bounds;  ///< by BedKind; none if not measured
 };
 
 /// fast, balanced, accurate, exact: the cheaper ones first, of those at rest in steps.

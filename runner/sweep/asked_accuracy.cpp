@@ -92,11 +92,8 @@ std::optional<BedKind> bed_kind_of(const ResolvedSpec& resolved) {
 }
 
 std::string measured_kinds() {
-  std::string text;
-  for (const BedKind kind : {BedKind::spheres, BedKind::two_sizes, BedKind::pinacoids}) {
-    text += joined(text.empty() ? "" : ", ", name_of(kind));
-  }
-  return text;
+  return joined(name_of(BedKind::spheres), ", and in boxes of ", name_of(BedKind::pinacoids),
+                " and of ", name_of(BedKind::two_sizes));
 }
 
 }  // namespace
@@ -121,10 +118,10 @@ std::vector<AccuracyProblem> take_asked_accuracy(const InEffect& in_effect,
     keep_reaching(coordination, *kind, measured, problems);
     resolved.spec.accuracy = measured.front().preset->accuracy;
   } else {
-    problems.push_back(
-        {first.assignment,
-         "cannot be promised of such beds, as no bound was measured but of " + measured_kinds() +
-             ", in boxes; write \"preset\" in its place, for example \"" + default_preset + "\""});
+    problems.push_back({first.assignment,
+                        "cannot be promised of such beds, as no bound was measured but of " +
+                            measured_kinds() + "; write \"preset\" in its place, for example \"" +
+                            default_preset + "\""});
   }
   take_parts(in_effect, resolved, problems);
   return problems;

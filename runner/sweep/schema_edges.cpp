@@ -277,14 +277,17 @@ EdgeRule unkept_accuracies() {
           {{"shape"}, {"accuracy.solid_fraction"}, {"accuracy.coordination"}}};
 }
 
-/// Accuracies that are asked for of tubes, or of shapes of which no bound was measured.
+/// Accuracies that are asked for of shapes of which no bound was measured, or of tubes of others
+/// than spheres.
 EdgeRule unmeasured_accuracies() {
   const Json asks = {{"anyOf",
                       {said("accuracy.solid_fraction", Json::object()),
                        said("accuracy.coordination", Json::object())}}};
   const Json usual = {{"anyOf", {named("sphere"), named("pinacoid")}}};
   const Json unmeasured = {{"anyOf",
-                            {said("tube.diameter", Json::object()),
+                            {{{"allOf",
+                               {said("tube.diameter", Json::object()),
+                                said("shape", {{"type", "string"}, {"not", named("sphere")}})}}},
                              said("shape", {{"type", "string"}, {"not", usual}})}}};
   return {"shape|sizes|box|tube|accuracy",
           {},

@@ -88,6 +88,9 @@ TEST_CASE("the bias of packings is bounded where the like of them was measured, 
   tube.accuracy = "fast";
   CHECK(bias_bound(tube));
   tube.box = tube_of(5);
+  CHECK(bias_bound(tube));
+  tube.small_share = 0.2;
+  tube.parameters = R"({"sizes":{"size_ratio":0.5}})";
   CHECK_FALSE(bias_bound(tube));
 }
 
