@@ -17,7 +17,8 @@ namespace grainsweep {
 
 enum class PackingStatus {
   settled,      ///< at rest within every tolerance of its accuracy
-  not_settled,  ///< ran to its last step without coming to rest; `reason` says which test failed
+  not_settled,  ///< has not come to rest, in all its steps or as far as there was hope; `reason`
+                ///< says why
   cancelled,    ///< the observer asked to stop; nothing was measured
   failed,       ///< could not be made; `reason` says why (e.g. no room to place the grains)
 };

@@ -1,8 +1,11 @@
 // Units inside the engine, once and for all.
 //
-//   length  d           mean diameter of the large grains, or a length among those of a
-//   distribution mass    rho pi/6 d^3  a sphere of diameter d; a sphere of radius r has mass (2
-//   r)^3 time    sqrt(d / g) force   m g         weight of a grain of mass 1
+// clang-format off
+//   length  d              mean diameter of the large grains, or one of those of a distribution
+//   mass    rho pi/6 d^3   a sphere of diameter d; a sphere of radius r has mass (2 r)^3
+//   time    sqrt(d / g)
+//   force   m g            weight of a grain of mass 1
+// clang-format on
 //
 // So g = 1, and no result depends on density or gravity: a frictionless packing of rigid grains
 // knows no other scale. Lengths of a bed that comes from elsewhere are divided by its d on reading.

@@ -24,7 +24,6 @@ struct Cells {
   }
   /// Inner coordinate along an axis; what lies outside belongs to the nearest cell.
   std::int32_t place_along(int axis, const Record<double>& sphere) const;
-  std::int32_t layer_of(const Record<double>& sphere) const { return place_along(2, sphere); }
   std::int32_t inner(int axis) const { return axis == 0 ? inner_x : axis == 1 ? inner_y : inner_z; }
   /// Number of the inner cell.
   std::int32_t cell_of(const Record<double>& sphere) const;

@@ -114,16 +114,35 @@ std::vector<Hold> holds_of(const Grains& bed, const std::vector<ForceContact>& c
   return holds;
 }
 
-/// Degrees of freedom of grains that fill a tube from side to side: it holds them on its axis,
-/// without a force.
-std::int64_t held_on_axis(const Grains& bed) {
-  if (!bed.box.is_tube) return 0;
+/// Whether a grain of this radius fills a container from one wall to the other.
+bool fills(Boundary boundary, double extent, double radius) {
+  return boundary == Boundary::walls && extent / 2.0 - radius < closed_gap;
+}
+
+/// Degrees of freedom of spheres that fill a tube or the space between two walls: those hold them
+/// on the axis or in a plane, without a force.
+std::int64_t held_in_place(const SphereBed& bed) {
+  const Box& box = bed.box;
   std::int64_t held = 0;
   for (const Record<double>& grain : bed.centres()) {
-    held += bed.box.length / 2.0 - grain.w < closed_gap ? 2 : 0;
+    held += fills(box.x, box.length, grain.w) ? 1 : 0;
+    held += fills(box.y, box.width, grain.w) ? 1 : 0;
   }
   return held;
 }
+std::int64_t held_in_place(const PolyhedronBed& /*bed*/) { return 0; }
+
+/// Whether it is with a flat wall that holds the grain in place together with the one across, with
+/// forces that are any.
+bool is_held_by(const SphereBed& bed, const ForceContact& contact) {
+  if (bed.box.is_tube || bed.is_grain(contact.b)) return false;
+  const double radius = bed.position[static_cast<std::size_t>(contact.a)].w;
+  const UnitVector normal = normal_at(bed, contact);
+  const bool along_x = normal.x != 0.0, along_y = normal.y != 0.0;
+  return (along_x && fills(bed.box.x, bed.box.length, radius)) ||
+         (along_y && fills(bed.box.y, bed.box.width, radius));
+}
+bool is_held_by(const PolyhedronBed& /*bed*/, const ForceContact& /*contact*/) { return false; }
 
 struct RestTest {
   bool is_passed = false;
@@ -157,12 +176,13 @@ RestReport measure_rest(Bed<Kind>& bed, const ExecutionContext& context, double 
     overlap += depth;
     closed += 1.0;
     rest.overlap_max = std::max(rest.overlap_max, depth);
+    if (is_held_by(bed, of)) continue;
     rest.contacts += closure.constraints;
     by_turning[turning_grain(bed, of)] += closure.by_turning;
   }
   for (const std::int64_t held : by_turning)
     rest.held_by_turning += std::min(held, most_by_turning);
-  rest.held_by_turning += held_on_axis(bed);
+  rest.held_by_turning += held_in_place(bed);
   rest.independent_contacts = static_cast<double>(rest.contacts);
   rest.overlap_mean = overlap / std::max(closed, 1.0);
   rest.isostatic_contacts = degrees_of_freedom(bed) - zero_modes(bed, contacts);

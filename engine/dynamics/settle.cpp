@@ -99,6 +99,15 @@ bool has_fallen(const Settling<Kind, Real>& s) {
   return s.last.kinetic_energy < s.rule().energy && is_carried(s);
 }
 
+/// Whether what is looked at may be a bed at rest, which the floor carries. The first step tells of
+/// most; the forces of a high bed take some steps to get down to the floor.
+template <class Kind, class Real>
+bool is_bed(const Settling<Kind, Real>& s) {
+  constexpr double enough_at_first = 0.3;
+  constexpr std::int64_t steps_down = 4;
+  return s.last.carried > (s.steps_in_stage < steps_down ? enough_at_first : carried_share);
+}
+
 /// Whether there are steps for going on: of beds that slide on before they are tested once more,
 /// for both.
 template <class Kind, class Real>
@@ -164,8 +173,8 @@ template <class Kind, class Real>
 bool is_over(Settling<Kind, Real>& s) {
   const bool has_steps = s.steps_in_stage >= steps_of(s.accuracy, s.rule());
   switch (s.rule().end) {
-    case StageEnd::look:  // a bed that is not carried is none, the first step tells
-      return has_steps || (s.steps_in_stage > 0 && !is_carried(s));
+    case StageEnd::look:
+      return has_steps || (s.steps_in_stage > 0 && !is_bed(s));
     case StageEnd::fallen:
       return has_steps && has_fallen(s);
     case StageEnd::halted:
@@ -220,6 +229,7 @@ void transfer(Archive& archive, Settling<Kind, Real>& s) {
   archive.value(s.unsolved);
   archive.value(s.iterations_before);
   archive.value(s.searches_failed);
+  archive.value(s.report.rest);
   archive.value(s.report.sank);
   archive.value(s.report.spurious_path);
   archive.value(s.report.steps);
@@ -325,9 +335,11 @@ bool has_arrived(const Settling<Kind, Real>& s) {
          (s.rule().end == StageEnd::rest && s.steps_in_stage >= steps_of(s.accuracy, s.rule()));
 }
 
-/// Of a bed that has come to rest, or has no steps left.
+/// Of a bed that has come to rest, or has no steps left. What slept until then has contacts again,
+/// though no forces: those are of the last step.
 template <class Kind, class Real>
 void tell_rest(Settling<Kind, Real>& s) {
+  if (wake(s.bed)) s.state.candidates.is_listed = false, s.is_tested = false;
   if (!s.is_tested) test_rest(s);
   if (s.report.failure.empty() && !has_arrived(s)) {
     s.report.failure = "its steps ended in the stage " + std::string(s.rule().name) +
@@ -354,7 +366,7 @@ RestReport report_of(const ExactRest& exact, const SphereBed& bed) {
                bed.walls[static_cast<std::size_t>(contact.b - bed.wall_name(0))].is_round();
       });
   rest.isostatic_contacts = degrees_of_freedom(bed) - zero_modes(bed, exact.contacts);
-  rest.imbalance = {exact.imbalance_mean, exact.imbalance};
+  rest.imbalance = exact.of_weight;
   return rest;
 }
 
@@ -460,7 +472,8 @@ SettleReport settle_in(StepState<Kind, Real>& state, StepState<Kind, double>& cl
                          .state = state,
                          .closed = closed,
                          .stages = stages,
-                         .settings = settings_of(accuracy, stages.front())};
+                         .height = top_of(bed),
+                         .settings = settings_of(accuracy, stages.front(), top_of(bed))};
   restore(saved, s);
   do {
     come_to_rest(s, keep_going);

@@ -4,8 +4,8 @@
 // is if it rests as it is given; the fall, until the floor carries the bed; a creep, in which
 // grains slide into their places; a halt; and the quench, in which contacts close until every test
 // of rest holds. With the protocol `dynamic` grains fall as in plain contact dynamics, undamped and
-// in steps of a quarter, until they have lost their kinetic energy by impacts alone; then comes the
-// quench. What a step is like in each stage, and why, stands in engine/dynamics/stages.cpp.
+// in steps of a quarter, until they have lost their kinetic energy by impacts alone; the other
+// stages follow. What a step is like in each stage, and why, stands in engine/dynamics/stages.cpp.
 //
 // How loosely the fall is solved is part of how a bed was packed, for the errors of loose solves
 // act like tapping: see engine/dynamics/presets.hpp.

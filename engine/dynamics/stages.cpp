@@ -15,12 +15,13 @@ namespace {
 constexpr StageRule look = {.name = "look",
                             .end = StageEnd::look,
                             .step = 0.5,
+                            .carries = true,
                             .correction = 1.0,
                             .near = 0.01,
                             .margin = 0.01,
                             .rest_iterations = 2.0,
-                            .steps = 20,
-                            .usual_steps = 20};
+                            .steps = 40,
+                            .usual_steps = 40};
 
 /// Steps with momentum until the floor carries the bed. Overlaps are repaired slowly, so that loose
 /// solves do not throw grains about. An impact has a kinetic energy of about 0.2 m g d.

@@ -510,8 +510,11 @@ class InteriorPoint {
   ExactRest certified(ExactRest rest) {
     const std::vector<Vector> net = net_forces();
     rest.imbalance = largest(net);
-    for (const Vector& force : net) rest.imbalance_mean += force.norm();
-    rest.imbalance_mean /= static_cast<double>(std::max<std::size_t>(grains(), 1));
+    for (std::size_t i = 0; i < net.size(); ++i) {
+      const double of_weight = net[i].norm() / mass(i);
+      rest.of_weight.mean += of_weight / static_cast<double>(net.size());
+      rest.of_weight.max = std::max(rest.of_weight.max, of_weight);
+    }
     double least = 1.0, overlap = 0.0;
     for (const Link& link : links_) {
       least = std::min(least, link.force);

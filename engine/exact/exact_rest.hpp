@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "engine/context.hpp"
+#include "engine/results.hpp"
 #include "engine/rows/contacts.hpp"
 #include "engine/scene/bed.hpp"
 
@@ -33,7 +34,7 @@ struct ExactRest {
   int rounds = 0;                      ///< factorisations
   std::vector<ForceContact> contacts;  ///< those that push
   double imbalance = 0.0;              ///< most that their forces leave on a grain, m g
-  double imbalance_mean = 0.0;         ///< the same in the mean
+  Imbalance of_weight;                 ///< that of a grain in its own weights
   double overlap_max = 0.0;            ///< d
   double overlap_mean = 0.0;           ///< over the contacts, d
 };

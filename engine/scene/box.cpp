@@ -25,12 +25,6 @@ UnitVector Wall::normal(double x, double y, double /*z*/) const {
                         : UnitVector{1.0, 0.0, 0.0};
 }
 
-Wall Wall::tangent_at(double x, double y, double z) const {
-  if (!is_round()) return *this;
-  const UnitVector n = normal(x, y, z);
-  return {n, radius - radius * (n.x + n.y)};
-}
-
 void wrap(const Box& box, Record<double>& centre) {
   centre.x = box.x == Boundary::periodic ? wrapped(centre.x, box.length) : centre.x;
   centre.y = box.y == Boundary::periodic ? wrapped(centre.y, box.width) : centre.y;

@@ -87,8 +87,6 @@ struct Wall {
   /// From the wall into the free space, at the point of the wall that is nearest to x, y, z; of a
   /// point on the axis of a round wall, which has no nearest one, towards x.
   UnitVector normal(double x, double y, double z) const;
-  /// The flat wall that touches this one where it is nearest to x, y, z.
-  Wall tangent_at(double x, double y, double z) const;
 };
 
 /// All walls of a box, or of a tube: the floor first.

@@ -373,10 +373,12 @@ std::vector<SpecError> check(const PackingSpec& spec) {
   const auto shape = check_shape(spec.shape, errors);
   const bool sizes = check_sizes(spec.sizes, errors);
   const double across = shape ? 2.0 * shape->circumradius : 1.0;
-  const bool box = check_box(spec.box, across * (sizes ? largest_size(spec) : 1.0), errors);
-  if (spec.box.is_tube && !is_sphere(spec.shape) && spec.box.length < narrowest_tube * across) {
-    errors.push_back({"tube.diameter", "must be at least " + bound_text(narrowest_tube * across) +
-                                           " (" + bound_text(narrowest_tube) +
+  const double largest = across * (sizes ? largest_size(spec) : 1.0);
+  const bool box = check_box(spec.box, largest, errors);
+  const double narrowest = narrowest_tube * across * (sizes ? outcome_size(spec) : 1.0);
+  if (spec.box.is_tube && !is_sphere(spec.shape) && spec.box.length < narrowest) {
+    errors.push_back({"tube.diameter", "must be at least " + bound_text(narrowest) + " (" +
+                                           bound_text(narrowest_tube) +
                                            " times the extent of these grains), is " +
                                            bound_text(spec.box.length)});
   }

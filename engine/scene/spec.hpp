@@ -84,7 +84,7 @@ struct Accuracy {
   Precision precision = Precision::f32;
   Rest rest = Rest::in_steps;
   double step = 0.2;          ///< dt, sqrt(d/g)
-  double momentum = 0.9;      ///< alpha: share of a displacement carried on in the fall, 0..1
+  double momentum = 0.9;      ///< alpha: share of a displacement that damped steps carry on, 0..1
   int fall_iterations = 400;  ///< most solver iterations per step of fall and creep
   /// How far contacts may stray in a step of the fall for want of a better solve, d: root mean
   /// square, of a step of 0.2 sqrt(d/g), of others in proportion. A creep shares out to its steps

@@ -24,25 +24,69 @@ struct Range {
   double at(std::uint32_t word) const { return low + (high - low) * unit_interval(word); }
 };
 
-/// Spheres placed so far, in cells no smaller than the largest diameter.
+/// A column of cells no smaller than `least_side`, d.
+class ColumnCells {
+ public:
+  ColumnCells(const Box& box, double height, double least_side)
+      : extent_{box.length, box.width, height},
+        count_{cells(box.length, least_side), cells(box.width, least_side),
+               cells(height, least_side)} {}
+
+  int count(std::size_t axis) const { return count_[axis]; }
+  std::size_t count() const {
+    return static_cast<std::size_t>(count_[0]) * static_cast<std::size_t>(count_[1]) *
+           static_cast<std::size_t>(count_[2]);
+  }
+  int index(std::size_t axis, double coordinate) const {
+    return std::clamp(static_cast<int>(coordinate / extent_[axis] * count_[axis]), 0,
+                      count_[axis] - 1);
+  }
+  /// How many cells away what lies this far away may be.
+  int cells_to(std::size_t axis, double reach) const {
+    return std::min(count_[axis],
+                    static_cast<int>(std::ceil(reach * count_[axis] / extent_[axis])));
+  }
+  std::size_t at(int x, int y, int z) const {
+    const auto row = static_cast<std::size_t>(z) * static_cast<std::size_t>(count_[1]) +
+                     static_cast<std::size_t>(y);
+    return row * static_cast<std::size_t>(count_[0]) + static_cast<std::size_t>(x);
+  }
+  std::size_t cell_of(const PlacedSphere& s) const {
+    return at(index(0, s.x), index(1, s.y), index(2, s.z));
+  }
+
+ private:
+  static int cells(double extent, double side) {
+    return std::max(1, static_cast<int>(extent / side));
+  }
+
+  double extent_[3];
+  int count_[3];
+};
+
+/// Side of the cells for so many spheres of up to this diameter: where few lie in a wide box there
+/// are not many more cells than spheres.
+double side_for(std::size_t spheres, double diameter, const Box& box, double height) {
+  const double most_cells = 4.0 * static_cast<double>(spheres) + 64.0;
+  return std::max(diameter, std::cbrt(box.length * box.width * height / most_cells));
+}
+
+/// Spheres placed so far, of which there will be `spheres` of up to this diameter.
 class Column {
  public:
-  Column(const Box& box, double height, double largest_diameter)
+  Column(const Box& box, double height, double largest_diameter, std::size_t spheres)
       : box_(box),
         largest_radius_(largest_diameter / 2.0),
-        cells_x_(cells(box.length, largest_diameter)),
-        cells_y_(cells(box.width, largest_diameter)),
-        cells_z_(cells(height, largest_diameter)),
-        height_(height),
-        cell_(static_cast<std::size_t>(cells_x_ * cells_y_ * cells_z_)) {}
+        cells_(box, height, side_for(spheres, largest_diameter, box, height)),
+        cell_(cells_.count()) {}
 
   bool has_room_for(const PlacedSphere& s) const {
-    const int x = index(s.x, box_.length, cells_x_), y = index(s.y, box_.width, cells_y_);
-    const int z = index(s.z, height_, cells_z_);
-    const int far_x = cells_to(s, box_.length, cells_x_), far_y = cells_to(s, box_.width, cells_y_);
-    const int far_z = cells_to(s, height_, cells_z_);
+    const double reach = s.radius + largest_radius_;
+    const int x = cells_.index(0, s.x), y = cells_.index(1, s.y), z = cells_.index(2, s.z);
+    const int far_x = cells_.cells_to(0, reach), far_y = cells_.cells_to(1, reach);
+    const int far_z = cells_.cells_to(2, reach);
     if (overlaps_cell(s, x, y, z)) return false;  // the likeliest one
-    for (int k = std::max(z - far_z, 0); k <= std::min(z + far_z, cells_z_ - 1); ++k) {
+    for (int k = std::max(z - far_z, 0); k <= std::min(z + far_z, cells_.count(2) - 1); ++k) {
       for (int j = y - far_y; j <= y + far_y; ++j) {
         for (int i = x - far_x; i <= x + far_x; ++i) {
           if (overlaps_cell(s, i, j, k)) {
@@ -54,45 +98,17 @@ class Column {
     return true;
   }
 
-  void add(const NumberedSphere& s) {
-    cell_[at(index(s.x, box_.length, cells_x_), index(s.y, box_.width, cells_y_),
-             index(s.z, height_, cells_z_))]
-        .push_back(s);
-  }
-
-  /// All spheres, cell by cell from the floor up: neighbours in space get neighbouring numbers.
-  std::vector<NumberedSphere> sorted() const {
-    std::vector<NumberedSphere> all;
-    for (const auto& cell : cell_) {
-      all.insert(all.end(), cell.begin(), cell.end());
-    }
-    return all;
-  }
+  void add(const PlacedSphere& s) { cell_[cells_.cell_of(s)].push_back(s); }
 
  private:
-  static int cells(double extent, double size) {
-    return std::max(1, static_cast<int>(extent / size));
-  }
-  static int index(double coordinate, double extent, int cells) {
-    return std::clamp(static_cast<int>(coordinate / extent * cells), 0, cells - 1);
-  }
-  /// How many cells away a sphere may be that overlaps `s`: 1 unless `s` is larger than all here.
-  int cells_to(const PlacedSphere& s, double extent, int cells) const {
-    const double reach = s.radius + largest_radius_;
-    return std::min(cells, static_cast<int>(std::ceil(reach * cells / extent)));
-  }
-  std::size_t at(int x, int y, int z) const {
-    const auto row = static_cast<std::size_t>(z) * static_cast<std::size_t>(cells_y_) +
-                     static_cast<std::size_t>(y);
-    return row * static_cast<std::size_t>(cells_x_) + static_cast<std::size_t>(x);
-  }
   /// Cells beyond a periodic border are those of the other side; beyond a wall there are none.
   bool overlaps_cell(const PlacedSphere& s, int x, int y, int z) const {
-    const bool outside_x = x < 0 || x >= cells_x_, outside_y = y < 0 || y >= cells_y_;
+    const int cells_x = cells_.count(0), cells_y = cells_.count(1);
+    const bool outside_x = x < 0 || x >= cells_x, outside_y = y < 0 || y >= cells_y;
     if ((outside_x && box_.x == Boundary::walls) || (outside_y && box_.y == Boundary::walls)) {
       return false;
     }
-    const auto& cell = cell_[at(wrapped(x, cells_x_), wrapped(y, cells_y_), z)];
+    const auto& cell = cell_[cells_.at(wrapped(x, cells_x), wrapped(y, cells_y), z)];
     return std::any_of(cell.begin(), cell.end(),
                        [&](const PlacedSphere& other) { return overlap(s, other); });
   }
@@ -109,9 +125,8 @@ class Column {
 
   Box box_;
   double largest_radius_;
-  int cells_x_, cells_y_, cells_z_;
-  double height_;
-  std::vector<std::vector<NumberedSphere>> cell_;
+  ColumnCells cells_;
+  std::vector<std::vector<PlacedSphere>> cell_;
 };
 
 Range centres(double extent, Boundary boundary, double radius) {
@@ -232,26 +247,39 @@ bool has_width_for(double radius, const Box& box) {
   return x.low <= x.high && y.low <= y.high;
 }
 
+/// Cell by cell from the floor up, in one as they were: neighbours in space get neighbouring
+/// numbers.
+void sort_by_place(const ColumnCells& cells, std::vector<NumberedSphere>& spheres) {
+  std::stable_sort(spheres.begin(), spheres.end(),
+                   [&](const PlacedSphere& a, const PlacedSphere& b) {
+                     return cells.cell_of(a) < cells.cell_of(b);
+                   });
+}
+
 /// Spheres placed in a column of this height; nothing if one found no room.
 std::optional<std::vector<NumberedSphere>> fill_column(const Box& box,
                                                        const std::vector<double>& radii,
                                                        double height, std::uint64_t key) {
   const std::vector<double> diameters = column_diameters(radii);
+  std::vector<std::size_t> counts(diameters.size(), 0);
+  for (const double radius : radii) ++counts[column_for(2.0 * radius, diameters)];
   std::vector<Column> columns;
   columns.reserve(diameters.size());
-  for (const double diameter : diameters) {
-    columns.emplace_back(box, height, diameter);
+  for (std::size_t k = 0; k < diameters.size(); ++k) {
+    columns.emplace_back(box, height, diameters[k], counts[k]);
   }
-  Column all(box, height, diameters.front());
+  std::vector<NumberedSphere> placed;
+  placed.reserve(radii.size());
   for (std::size_t i = 0; i < radii.size(); ++i) {
     const auto sphere = place(columns, box, height, radii[i], key, i);
     if (!sphere) {
       return std::nullopt;
     }
     columns[column_for(2.0 * radii[i], diameters)].add(*sphere);
-    all.add(*sphere);
+    placed.push_back(*sphere);
   }
-  return all.sorted();
+  sort_by_place(ColumnCells(box, height, diameters.front()), placed);
+  return placed;
 }
 
 /// A point in the unit disc, uniform.

@@ -37,7 +37,7 @@ Loops loops_of_points() {
   return {{0, 1, 4}, {2, 3, 4}, {0, 4, 3}, {2, 4, 1}, {5, 3, 2}, {5, 1, 0}, {1, 5, 2}, {3, 5, 0}};
 }
 
-/// Subdomains at height t e are rectangles of half lengths a - s t and b (1 - t).
+/// Sections at height t e are rectangles of half lengths a - s t and b (1 - t).
 void set_mass(const PinacoidHalves& w, ConvexShape& shape) {
   const double a = w.a, s = w.a - w.c, e_b = 8.0 * w.e * w.b;
   const double volume = e_b * (a / 2.0 - s / 6.0);

@@ -22,7 +22,7 @@ struct PinacoidSize {
   double length = 1.0;                ///< d
   double width = 1.0;                 ///< d
   double height = 1.0;                ///< d
-  double angle = 1.0471975511965976;  ///< radians, in (0, pi / 2]
+  double angle = 1.0471975511965976;  ///< radians, above 0 and at most 89 degrees
 };
 
 struct CubeSize {

@@ -4,6 +4,8 @@
 #include <catch2/catch.hpp>
 
 #include "engine/dynamics/presets.hpp"
+#include "engine/measure/coordination.hpp"
+#include "engine/measure/touching.hpp"
 #include "engine/packing.hpp"
 #include "engine/units.hpp"
 #include "tests/support/keep_going.hpp"
@@ -158,6 +160,38 @@ TEST_CASE("a settled bed placed again stays as it is") {
     moved += std::abs(again.grains[i].z - first.grains[i].z) / 160;
   }
   CHECK(moved < 0.01);
+}
+
+TEST_CASE("spheres between walls one diameter apart settle, each held by both") {
+  PackingSpec spec;
+  spec.box = {10, 1, Boundary::periodic, Boundary::walls};
+  spec.sizes.spread = 0.0;
+  spec.fill = GrainCount{60};
+  spec.measure.exclude_floor = spec.measure.exclude_surface = 0.5;
+  const PackingResult result = pack(spec).result;
+  CHECK(result.reason == "");
+  CHECK(result.status == PackingStatus::settled);
+}
+
+// Grains sleep under 40 d of others while a bed fills up.
+TEST_CASE("a bed whose steps end in its fall is measured with what slept awake") {
+  PackingSpec spec;
+  spec.box = {3, 3, Boundary::periodic, Boundary::walls};
+  spec.fill = SolidHeight{70};
+  spec.accuracy.max_steps = 440;
+  const Packing packing = make_packing(spec, kernels_for(best_isa()), always);
+  REQUIRE(packing.result.status == PackingStatus::not_settled);
+  std::vector<PlacedSphere> spheres;
+  for (const SettledGrain& grain : packing.grains) {
+    spheres.push_back({grain.x, grain.y, grain.z, grain.radius});
+  }
+  SphereBed bed = make_bed(spec.box, spheres);
+  const Coordination& measured = packing.result.coordination.front();
+  const Coordination anew =
+      coordination(bed, find_touching(bed, 2.0 * measured.gap_tolerance, kernels_for(best_isa())),
+                   {packing.result.slab_bottom, packing.result.slab_top}, measured.gap_tolerance);
+  CHECK(measured.between_grains == anew.between_grains);
+  CHECK(measured.with_walls == anew.with_walls);
 }
 
 // Who stops it does not want to wait for a static balance of grains in the air.

@@ -47,6 +47,23 @@ TEST_CASE("a bed five diameters wide has the known solid fraction and coordinati
   CHECK(result.rest.overlap_mean < 5e-6);
 }
 
+// From no forces it takes several steps until the floor carries a bed of this height.
+TEST_CASE("a high settled bed placed again stays as it is", "[slow]") {
+  PackingSpec spec = bed_spec(3, 3, Boundary::walls, "balanced");
+  spec.fill = SolidHeight{40};
+  const Packing first = make_packing(spec, kernels_for(best_isa()), always);
+  REQUIRE(first.result.status == PackingStatus::settled);
+  PlacedGrains placed;
+  for (const SettledGrain& grain : first.grains) {
+    placed.grains.push_back({grain.x, grain.y, grain.z, grain.radius});
+  }
+  spec.fill = placed;
+  const Packing again = make_packing(spec, kernels_for(best_isa()), always);
+  CHECK(again.result.status == PackingStatus::settled);
+  CHECK(again.result.steps <= 40);  // no more than a look
+  CHECK(again.result.solid_fraction == Approx(first.result.solid_fraction).margin(1e-4));
+}
+
 // In the bulk every force between grains belongs to two of them: Z = 6, and rattlers there are
 // none.
 TEST_CASE("a bi-periodic bed has six neighbours a grain", "[slow]") {

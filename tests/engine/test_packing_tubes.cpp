@@ -295,6 +295,15 @@ TEST_CASE("a tube too narrow for its polyhedra is refused with the least diamete
   CHECK(errors[0].path == "tube.diameter");
 }
 
+TEST_CASE("the largest of a distribution of sizes is what a tube of polyhedra is wide for") {
+  PackingSpec spec = pinacoids_in_tube(6.0, 60);
+  CHECK(check(spec).empty());
+  spec.sizes.distribution = {UniformSizes{1.0, 2.5}, SizeWeight::number};
+  const auto errors = check(spec);
+  REQUIRE(errors.size() == 1);
+  CHECK(errors[0].path == "tube.diameter");
+}
+
 TEST_CASE("a large bed in a tube has the same bits however its parts are shared out", "[slow]") {
   PackingSpec spec =
       tube_spec(22, static_cast<std::int64_t>(large_bed_grains<Sphere>) + 500, "fast");

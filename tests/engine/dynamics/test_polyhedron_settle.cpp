@@ -102,6 +102,26 @@ TEST_CASE("a bed whose forces rounding keeps from being found is given up after 
   CHECK(report.steps < 2 * 9 * 120);
 }
 
+// Whether forces were found, the last test of rest has told, up to 80 steps before.
+TEST_CASE("rounds that leave forces unsolved are counted alike by a bed that is stopped between") {
+  Accuracy accuracy;
+  accuracy.residual_tolerance = 1e-12;
+  PolyhedronBed whole = few_grains(testing::cube());
+  const SettleReport expected = settle(accuracy, kernels(), whole, always);
+  const std::int64_t half = expected.steps / 2;
+  for (const std::int64_t last : {half, half + 40, half + 80}) {
+    INFO("saved after step " << last << " of " << expected.steps);
+    std::string saved;
+    PolyhedronBed first = few_grains(testing::cube()), bed = few_grains(testing::cube());
+    settle(accuracy, kernels(), first, [&](const Progress& progress) {
+      saved = progress.step == last ? progress.save() : saved;
+      return progress.step < last;
+    });
+    CHECK(settle(accuracy, kernels(), bed, always, saved).steps == expected.steps);
+    CHECK(state_hash(bed) == state_hash(whole));
+  }
+}
+
 /// Four grains may stand on fewer points than they could.
 Accuracy few_on_few_points() {
   Accuracy accuracy;

@@ -131,6 +131,17 @@ TEST_CASE("a round wall holds a grain along it, too, and on the axis if the grai
   CHECK(column.rest().held_by_turning == 4);
 }
 
+TEST_CASE("walls hold a grain that fills the space between them, whatever they push it with") {
+  const Box slit{6, 1, periodic, walls};
+  for (const double push : {0.0, 2.0}) {
+    Pushed column(slit, {{2, 0.5, 0.5, 0.5}, {2, 0.5, 1.5, 0.5}});
+    column.with_wall(0, 0, 2).with_pair(0, 1, 1);
+    if (push > 0.0) column.with_wall(1, 1, push).with_wall(1, 2, push);
+    CHECK(column.rest().contacts == 2);
+    CHECK(column.rest().held_by_turning == 2);
+  }
+}
+
 TEST_CASE("overlaps are those of force-bearing contacts, measured anew") {
   Pushed pushed(x_periodic, {{2, 2, 0.49, 0.5}, {2, 2, 1.46, 0.5}, {2, 2, 2.41, 0.5}});
   pushed.with_wall(0, 0, 2).with_pair(0, 1, 1);  // the third pair, .05 deep, does not push

@@ -123,6 +123,15 @@ TEST_CASE("grains ten times smaller start apart from large ones, whichever came 
   CHECK(testing::pairs_closer_than(make_bed(box, spheres), 0.0).empty());
 }
 
+// Cells of small grains alone would be 1e10 here.
+TEST_CASE("few small grains in a wide box start in as few cells") {
+  PackingSpec spec = spec_of({1966, 1966, periodic, periodic}, 1000, {0.0, 0.5, 0.03});
+  const auto bed = start<Sphere>(spec);
+  REQUIRE(bed);
+  CHECK(bed->grains() == 1000);
+  CHECK(testing::pairs_closer_than(*bed, 0.0).empty());
+}
+
 TEST_CASE("grains fill a column of the start's solid fraction") {
   const auto bed = start<Sphere>(spec_of({8, 8, periodic, periodic}, 800));
   REQUIRE(bed);
