@@ -2,5 +2,5 @@
 # 16 shards on the machines of a file, by GNU parallel: bash parallel.sh SWEEP.json DIR MACHINES
 # A line of MACHINES is "2/node7", two shards at once on node7; all see the same folders. ":" is this one.
 set -e
-seq 16 | parallel --sshloginfile "$3" --wd . --halt never \
+seq 16 | parallel --quote --sshloginfile "$3" --wd . --halt never \
   grainsweep run "$1" --out "$2" --shard {}/16 --tolerate-unsettled
