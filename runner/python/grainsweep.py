@@ -35,6 +35,22 @@ def _table(source):
     return pandas.read_csv(source, float_precision="round_trip")
 
 
+def _outcomes(journal):
+    """Job -> what counts of it in one journal: the later line, but no exception in the place of a
+    result. Lines that are torn or damaged by their length and checksum count for nothing."""
+    own = {}
+    for line in journal.read_bytes().split(b"\n"):
+        before, _, rest = line.partition(b',"outcome":')
+        text = rest[:-1]
+        is_whole = before == b'{"length":%d,"crc32":"%08x"' % (len(text), zlib.crc32(text))
+        if not is_whole or not rest.endswith(b"}"):
+            continue
+        outcome = json.loads(text)
+        if not outcome["exception"] or own.get(outcome["job"], outcome)["exception"]:
+            own[outcome["job"]] = outcome
+    return own
+
+
 class Sweep:
     """An output folder; its tables are its attributes."""
 
@@ -78,24 +94,16 @@ class Sweep:
 
     @functools.cached_property
     def _places(self):
-        """Job -> file, first byte and number of bytes of its bed. Of one journal the later line
-        counts, of two journals the packing that was finished later."""
-        places, finished = {}, {}
+        """Job -> file, first byte and number of bytes of its bed. Of several journals the packing
+        that was finished later counts, but none that ended in an exception before a result."""
+        counting = {}
         for journal in sorted(self.folder.glob("shards/*.jsonl")):
-            own = {}
-            for line in journal.read_text().splitlines():
-                if '"stored_at":' not in line:
-                    continue
-                outcome = json.loads(line).get("outcome", {})
-                if outcome.get("stored_bytes"):
-                    own[outcome["job"]] = outcome
-            for job, outcome in own.items():
-                if outcome["finished_at"] < finished.get(job, 0.0):
-                    continue
-                finished[job] = outcome["finished_at"]
-                place = outcome["stored_at"], outcome["stored_bytes"]
-                places[job] = journal.with_suffix(".beds"), *place
-        return places
+            for job, outcome in _outcomes(journal).items():
+                rank = not outcome["exception"], outcome["finished_at"]
+                if job not in counting or rank >= counting[job][0]:
+                    place = outcome["stored_at"], outcome["stored_bytes"]
+                    counting[job] = rank, (journal.with_suffix(".beds"), *place)
+        return {job: place for job, (_, place) in counting.items() if place[2] > 0}
 
     def bed(self, job):
         """The bed of a packing, by its id: column job of packings. Raises KeyError if it has none."""
