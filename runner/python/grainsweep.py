@@ -31,8 +31,14 @@ def open(folder):
     return Sweep(folder)
 
 
+# Columns that are texts even where all their cells look like numbers: 23e2135835385298 is an id.
+_texts = ["job", "label", "family", "state_hash", "start", "fill.file"]
+
+
 def _table(source):
-    return pandas.read_csv(source, float_precision="round_trip")
+    """Only an empty cell holds nothing: "NA" and "None" are labels."""
+    return pandas.read_csv(source, float_precision="round_trip", dtype=dict.fromkeys(_texts, str),
+                           keep_default_na=False, na_values=[""])
 
 
 def _outcomes(journal):

@@ -139,6 +139,21 @@ for outcome in first, second, third, *outcomes[5:]:
 assert fails(fourth["job"]) and fails(fifth["job"])
 PYTHON
 
+# Ids and labels are read as they stand, and empty cells as no number.
+mkdir words
+cp out/quick/columns.csv words
+printf '%s\n' job,label,state_hash,family,grains,width 0012345678901234,None,00e1,10,7,5 \
+  23e2135835385298,NA,1234567890123456,11,, >words/packings.csv
+/usr/bin/python3 - <<'PYTHON'
+import grainsweep
+
+packings = grainsweep.open("words").packings
+assert list(packings.job) == ["0012345678901234", "23e2135835385298"]
+assert list(packings.label) == ["None", "NA"] and list(packings.family) == ["10", "11"]
+assert list(packings.state_hash) == ["00e1", "1234567890123456"]
+assert list(packings.isna().sum()) == [0, 0, 0, 0, 1, 1] and packings.grains[0] == 7
+PYTHON
+
 sed -n '/^```python/,/^```/{//!p}' "$root/runner/python/README.md" >example.py
 (($(grep -c . example.py) <= 15)) || { printf 'the example has more than 15 lines\n' && exit 1; }
 MPLBACKEND=Agg /usr/bin/python3 example.py
