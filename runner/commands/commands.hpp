@@ -30,7 +30,7 @@ struct RunOptions {
   std::string shard;                 ///< as of shard_from_option
   bool alone = false;                ///< take over nothing from other shards
   std::string time_limit;            ///< "1:30:00"; empty: that of the Slurm job, if any
-  std::string tolerate_unsettled;    ///< share, 0..1, that does not count in the exit code
+  double tolerate_unsettled = 0.0;   ///< share, 0..1, that does not count in the exit code
 };
 /// Makes what is missing of a sweep and writes the tables.
 int perform(const RunOptions& options);
@@ -63,12 +63,12 @@ CLI::App& add_command(CLI::App& app, PlanOptions& options);
 
 struct SlurmOptions {
   std::string file;
-  std::string out;                 ///< as in RunOptions
-  std::string partition;           ///< empty: the cluster's default
-  int shards = 0;                  ///< 0: as many as divide() says
-  int threads = 0;                 ///< of a shard; 0: all cores of a node
-  std::string tolerate_unsettled;  ///< as in RunOptions, of the last job
-  bool print = false;              ///< the scripts, in place of submitting them
+  std::string out;                  ///< as in RunOptions
+  std::string partition;            ///< empty: the cluster's default
+  int shards = 0;                   ///< 0: as many as divide() says
+  int threads = 0;                  ///< of a shard; 0: all cores of a node
+  double tolerate_unsettled = 0.0;  ///< as in RunOptions, of the last job
+  bool print = false;               ///< the scripts, in place of submitting them
 };
 /// Submits a sweep to Slurm: an array of shards, and a job that makes the rest and the tables.
 int perform(const SlurmOptions& options);

@@ -131,7 +131,7 @@ CLI::App& add_command(CLI::App& app, ExportOptions& options) {
   grains.add_flag("--periodic-images", options.periodic_images,
                   "of stl and obj: also what comes in through periodic sides");
   grains.add_option("--voxels", options.voxels, "of voxels: so many a d")
-      ->check(CLI::Range(1.0, 1000.0))
+      ->check(number_within(1.0, 1000.0))
       ->capture_default_str()
       ->type_name("N");
   grains.add_option("--to", options.to, "folder for the files (default: DIR/export)")

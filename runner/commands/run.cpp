@@ -32,6 +32,7 @@
 #include "runner/store/shard_files.hpp"
 #include "runner/sweep/costs.hpp"
 #include "runner/tables/closing_report.hpp"
+#include "runner/tables/csv.hpp"
 #include "runner/tables/packing_names.hpp"
 #include "runner/text.hpp"
 #include "runner/versions.hpp"
@@ -266,8 +267,8 @@ std::string repeated(const RunOptions& options, const std::string& folder) {
   if (!options.shard.empty()) text << " --shard " << options.shard;
   if (options.alone) text << " --alone";
   if (!options.time_limit.empty()) text << " --time-limit " << options.time_limit;
-  if (!options.tolerate_unsettled.empty()) {
-    text << " --tolerate-unsettled=" << options.tolerate_unsettled;
+  if (options.tolerate_unsettled > 0.0) {
+    text << " --tolerate-unsettled=" << cell(options.tolerate_unsettled);
   }
   return text.str();
 }
@@ -305,9 +306,7 @@ int exit_code_for(const StatusCounts& counts, int left_to_others, const RunOptio
               << ", though they were stored there; run the sweep again to make them anew\n";
   }
   const int unsettled = counts.failed + counts.not_settled;
-  const double share =
-      options.tolerate_unsettled.empty() ? 0.0 : std::stod(options.tolerate_unsettled);
-  const bool is_tolerated = unsettled <= share * (unsettled + counts.settled);
+  const bool is_tolerated = unsettled <= options.tolerate_unsettled * (unsettled + counts.settled);
   return counts.pending <= left_to_others && is_tolerated ? exit_done : exit_left_out;
 }
 
@@ -368,7 +367,7 @@ CLI::App& add_command(CLI::App& app, RunOptions& options) {
       ->type_name("NAME");
   run.add_option("--checkpoint-seconds", options.checkpoint_seconds,
                  "save packings under way this often; stopping always saves them")
-      ->check(CLI::Range(0.0, 86400.0))
+      ->check(number_within(0.0, 86400.0))
       ->capture_default_str()
       ->type_name("S");
   run.add_flag("--fresh", options.fresh, "delete what is stored in the folder and start anew");
@@ -389,9 +388,8 @@ CLI::App& add_command(CLI::App& app, RunOptions& options) {
   run.add_option("--time-limit", options.time_limit,
                  "end in time; [H:]MM:SS or seconds (default: the end of the Slurm job)")
       ->type_name("T");
-  run.add_flag("--tolerate-unsettled{1}", options.tolerate_unsettled,
-               "exit with 0 although packings did not settle; =SHARE: up to that share")
-      ->check(CLI::Range(0.0, 1.0));
+  add_tolerance(run, options.tolerate_unsettled,
+                "exit with 0 although packings did not settle; =SHARE: up to that share");
   run.footer("Example: grainsweep run configs/quick.json --out out/quick --threads 2\n\n" +
              presets_text() + "\n\n" + exit_codes_text);
   return run;

@@ -5,7 +5,8 @@
 
 namespace CLI {  // NOLINT(readability-identifier-naming): as CLI11 calls it
 class App;
-}
+class Validator;
+}  // namespace CLI
 
 namespace grainsweep {
 
@@ -25,5 +26,12 @@ void add_folder(CLI::App& command, std::string& folder);
 
 /// How many packings are made at once; stays 0 if it is not given.
 void add_threads(CLI::App& command, int& threads);
+
+/// What share of packings, 0..1, may be unsettled without counting in the exit code; stays as it is
+/// if it is not asked for, and is 1 if no share is given.
+void add_tolerance(CLI::App& command, double& share, const std::string& meaning);
+
+/// Takes numbers in [least, most] alone; CLI::Range lets nan pass, which lies in no range.
+CLI::Validator number_within(double least, double most);
 
 }  // namespace grainsweep

@@ -15,6 +15,7 @@
 #include "runner/machine.hpp"
 #include "runner/store/files.hpp"
 #include "runner/sweep/costs.hpp"
+#include "runner/tables/csv.hpp"
 #include "runner/text.hpp"
 
 namespace grainsweep {
@@ -31,7 +32,7 @@ ClusterRun cluster_run(const SlurmOptions& options, const Sweep& sweep, const st
           absolute(folder),
           sweep.name,
           partition.name,
-          options.tolerate_unsettled,
+          options.tolerate_unsettled > 0.0 ? cell(options.tolerate_unsettled) : "",
           division};
 }
 
@@ -106,10 +107,8 @@ CLI::App& add_command(CLI::App& app, SlurmOptions& options) {
   slurm.add_option("--threads", options.threads, "cores of a shard (default: all of a node)")
       ->check(CLI::Range(1, 1024))
       ->type_name("N");
-  slurm
-      .add_flag("--tolerate-unsettled{1}", options.tolerate_unsettled,
-                "as of run, for the job that ends it; shards always do")
-      ->check(CLI::Range(0.0, 1.0));
+  add_tolerance(slurm, options.tolerate_unsettled,
+                "as of run, for the job that ends it; shards always do");
   slurm.footer(
       "Example: grainsweep slurm sweep.json --out out/sweep --print\n\n"
       "The environment of sbatch counts: SBATCH_ACCOUNT, SBATCH_QOS and the others of its manual.");

@@ -58,6 +58,18 @@ TEST_CASE("options not given have their defaults") {
   CHECK(options_of<ExportOptions>(read({"export", "o"})).format == "csv");
 }
 
+TEST_CASE("a share of unsettled packings is tolerated as given, and without a number any share") {
+  const auto share = [](const char* option) {
+    return options_of<RunOptions>(read({"run", "a.json", option})).tolerate_unsettled;
+  };
+  CHECK(share("--quiet") == 0.0);
+  CHECK(share("--tolerate-unsettled") == 1.0);
+  CHECK(share("--tolerate-unsettled=0.25") == 0.25);
+  CHECK(share("--tolerate-unsettled=1e-400") == 0.0);
+  CHECK(options_of<SlurmOptions>(read({"slurm", "a.json", "--tolerate-unsettled=1e-3"}))
+            .tolerate_unsettled == 1e-3);
+}
+
 TEST_CASE("every command is understood") {
   CHECK(options_of<ValidateOptions>(read({"validate", "a.json"})).file == "a.json");
   CHECK(options_of<PlanOptions>(read({"plan", "a.json", "--json"})).json);
@@ -95,6 +107,14 @@ TEST_CASE("mistakes are refused with exit code 2 and a message") {
       {"export", "o", "--format", "ply"},
       {"report"},
       {"run", "a.json", "--checkpoint-seconds", "-1"},
+      {"run", "a.json", "--checkpoint-seconds", "nan"},
+      {"run", "a.json", "--checkpoint-seconds", ""},
+      {"run", "a.json", "--tolerate-unsettled=nan"},
+      {"run", "a.json", "--tolerate-unsettled=inf"},
+      {"run", "a.json", "--tolerate-unsettled=half"},
+      {"slurm", "a.json", "--tolerate-unsettled=nan"},
+      {"export", "o", "--format", "voxels", "--voxels", "nan"},
+      {"export", "o", "--format", "voxels", "--voxels", "20d"},
       {"collect", "a"},
       {"collect", "--out", "b"},
       {"completion", "bash"},
@@ -124,6 +144,8 @@ TEST_CASE("a misspelt command or option is named with the likely one") {
   CHECK(first_line({"run", "x.json", "--treads=2"}) ==
         "grainsweep: unknown option --treads; did you mean --threads?");
   CHECK(first_line({"run", "x.json", "--threads", "0"}).starts_with("grainsweep: --threads: "));
+  CHECK(first_line({"run", "x.json", "--checkpoint-seconds", "nan"}) ==
+        "grainsweep: --checkpoint-seconds: must be a number in [0, 86400], is nan");
 }
 
 TEST_CASE("help has the commands, an example and the exit codes, and ends with code 0") {
