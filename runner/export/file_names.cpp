@@ -1,8 +1,9 @@
 #include "runner/export/file_names.hpp"
 
 #include <cctype>
-#include <filesystem>
+#include <unordered_set>
 
+#include "runner/store/files.hpp"
 #include "runner/tables/csv.hpp"
 #include "runner/tables/groups.hpp"
 
@@ -50,11 +51,13 @@ std::string index_csv(const std::string& folder, const std::vector<Row>& rows,
                       const std::vector<std::string>& endings) {
   const std::vector<std::string> stems = file_stems(rows);
   const std::vector<std::size_t> numbers = group_numbers(rows);
+  const std::vector<std::string> names = files_in(folder, "", "");
+  const std::unordered_set<std::string> there(names.begin(), names.end());
   std::string text = "file,job,label,group,replicate,seed,status\n";
   for (std::size_t k = 0; k < rows.size(); ++k) {
     for (const std::string& ending : endings) {
       const std::string file = stems[k] + ending;
-      if (!std::filesystem::exists(std::filesystem::path(folder) / file)) continue;
+      if (!there.contains(file)) continue;
       const JobFacts& job = rows[k].job;
       text += csv_line({cell(file), job.id, cell(job.label), cell(numbers[k]), cell(job.replicate),
                         cell(job.seed), status_of(rows[k])});
