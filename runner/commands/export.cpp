@@ -1,6 +1,7 @@
 // The command `export`: the beds of stored packings, a file each.
 #include <algorithm>
 #include <iostream>
+#include <optional>
 
 #include <CLI/App.hpp>
 
@@ -101,6 +102,16 @@ ExportSettings settings_of(const ExportOptions& options) {
   return settings;
 }
 
+/// The bed of a packing; nothing, and a warning, if it cannot be read.
+std::optional<StoredBed> bed_or_warning(const std::string& folder, const Outcome& outcome) {
+  try {
+    return read_bed(folder, outcome);
+  } catch (const FileError& error) {
+    std::cerr << damage_warnings({error.what()});
+    return std::nullopt;
+  }
+}
+
 ExportedBed exported(StoredBed&& bed, const JobFacts& job, const ExportSettings& settings) {
   const auto& tolerances = job.measure.gap_tolerances;
   return {std::move(bed), facts_of(job, "").small_limit,
@@ -155,17 +166,19 @@ int perform(const ExportOptions& options) {
   if (chosen.empty()) throw BadInput(options.folder + ": holds no finished packing to export");
   make_folder(to);
   const std::vector<std::string> stems = file_stems(rows);
-  std::size_t written = 0, unsettled = 0;
+  std::size_t written = 0, unsettled = 0, left_out = 0;
   for (const std::size_t k : chosen) {
-    StoredBed bed = read_bed(options.folder, *rows[k].outcome);
-    if (bed.grains.empty()) continue;  // of a run with --no-grains
+    std::optional<StoredBed> bed = bed_or_warning(options.folder, *rows[k].outcome);
+    left_out += bed ? 0 : 1;
+    if (!bed || bed->grains.empty()) continue;  // the latter of a run with --no-grains
     ++written;
     unsettled += is_settled(rows[k]) ? 0 : 1;
     const std::string text = format != nullptr
-                                 ? format->text(exported(std::move(bed), rows[k].job, settings))
-                                 : page_of(bed, rows[k], results.provenance.units);
+                                 ? format->text(exported(std::move(*bed), rows[k].job, settings))
+                                 : page_of(*bed, rows[k], results.provenance.units);
     replace_file(to + "/" + stems[k] + ending, text);
   }
+  if (written == 0 && left_out > 0) return exit_file_system;
   if (written == 0) throw BadInput(options.folder + ": its packings were stored without grains");
   replace_file(to + "/index.csv", index_csv(to, rows, endings()));
   std::cout << counted(written, "packing") << " written to " << to << "/<label>-<group>-<replicate>"
@@ -173,7 +186,7 @@ int perform(const ExportOptions& options) {
   if (unsettled > 0) {
     std::cout << unsettled << " of them did not come to rest: see the column status there\n";
   }
-  return exit_done;
+  return left_out > 0 ? exit_file_system : exit_done;
 }
 
 }  // namespace grainsweep

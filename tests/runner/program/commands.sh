@@ -88,6 +88,19 @@ file=$(sed -n "2s/,$job,.*//p" one/index.csv)
 expect_code 2 "$program" export out/small --job nosuchjob
 expect_text error.txt "nosuchjob"
 
+# A bed that cannot be read is told, and ends nothing but its own file.
+cp -r out/small damaged
+rm -r damaged/export
+damage_bed damaged "$(packing_lines damaged | grep "$job")" 50
+expect_code 4 "$program" export damaged --format xyz
+expect_text error.txt "warning: damaged/shards/1-of-1.beds: packing $job: damaged"
+expect_text out.txt "9 packings written to damaged/export"
+[ "$(wc -l <damaged/export/index.csv)" -eq 10 ] || fail "the index does not list 9 files"
+[ "$(ls damaged/export/*.xyz | wc -l)" -eq 9 ] || fail "a damaged bed kept others from their files"
+expect_code 4 "$program" export damaged --format xyz --job "$job" --to none
+expect_text error.txt "packing $job: damaged"
+[ -z "$(ls none)" ] || fail "a damaged bed was written: $(ls none)"
+
 # Units that are added later change no packing, and all that is printed.
 sed 's/"seed": 3/"units": { "d": 3.2, "unit": "mm", "density": 2500 }, "seed": 3/' small.json >mm.json
 expect_code 0 "$program" validate mm.json
