@@ -38,10 +38,12 @@ bool is_part_of_preset(const Group& group, const std::string& path) {
   return path.starts_with("accuracy.") && group.job.accuracy != "custom";
 }
 
-/// Parameter -> value of what a group does not share with all others, but for `left_out`.
-std::map<std::string, std::string> distinctions(const Group& group, const std::string& left_out) {
-  std::map<std::string, std::string> values;
-  for (const auto& [path, cell] : group.varied) {
+using Values = std::map<std::string, std::string>;  // by parameter
+
+/// What a group does not share with all others, but for `left_out`.
+Values distinctions(const Group& group, const std::string& left_out) {
+  Values values;
+  for (const auto& [path, cell] : group.told) {
     if (path == left_out) continue;
     if (is_part_of_preset(group, path))
       values["accuracy"] = group.job.accuracy;
@@ -51,13 +53,22 @@ std::map<std::string, std::string> distinctions(const Group& group, const std::s
   return values;
 }
 
-std::string symbol_of(const std::string& path) {
+/// The last parts of a path, as many as no other of the values ends with: "sigma".
+std::string symbol_of(const std::string& path, const Values& values) {
   if (path == width_parameter) return "W";
-  return path == diameter_parameter ? "D" : path.substr(path.rfind('.') + 1);
+  if (path == diameter_parameter) return "D";
+  const std::string whole = "." + path;
+  std::size_t dot = whole.rfind('.');
+  const auto ends_so = [&](const Values::value_type& other) {
+    return ("." + other.first).ends_with(whole.substr(dot));
+  };
+  while (dot > 0 && std::count_if(values.begin(), values.end(), ends_so) > 1)
+    dot = whole.rfind('.', dot - 1);
+  return whole.substr(dot + 1);
 }
 
 /// "small_share = 0.25, no walls"
-std::string words(const std::map<std::string, std::string>& values) {
+std::string words(const Values& values) {
   std::string text;
   for (const auto& [path, value] : values) {
     if (value.empty() || value == "walls") continue;
@@ -65,7 +76,7 @@ std::string words(const std::map<std::string, std::string>& values) {
     if (path == "box.y" || path == "box.x")
       text += path.substr(4) + " " + value;
     else
-      text += symbol_of(path) + " = " + value;
+      text += symbol_of(path, values) + " = " + value;
   }
   return text;
 }
@@ -135,10 +146,10 @@ Axes axes_of(const std::vector<Group>& groups) {
   Axes axes;
   axes.parameter = axis_parameter(groups);
   axes.title = axis_title(axes.parameter);
-  std::map<std::string, std::size_t> index_of;
+  std::map<Values, std::size_t> index_of;
   for (const Group& group : groups) {
-    const std::string key = words(distinctions(group, axes.parameter));
-    const auto [at, is_new] = index_of.try_emplace(key, axes.series.size());
+    const auto [at, is_new] =
+        index_of.try_emplace(distinctions(group, axes.parameter), axes.series.size());
     if (is_new) axes.series.emplace_back();
     axes.series[at->second].groups.push_back(&group);
   }

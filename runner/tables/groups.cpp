@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <map>
+#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -62,6 +63,23 @@ void note_varied(std::vector<Group>& groups) {
   for (const auto& [path, values] : count) {
     if (values.begin()->second == groups.size()) continue;
     for (std::size_t k = 0; k < groups.size(); ++k) groups[k].varied[path] = all[k][path];
+  }
+}
+
+bool is_of_shape(const std::string& path) { return path == "shape" || path.starts_with("shape."); }
+
+/// Finds what groups are told apart by, of what is varied.
+void note_told(std::vector<Group>& groups) {
+  std::map<std::string, std::map<std::string, std::set<std::string>>> values;  // by shape and path
+  for (const Group& group : groups) {
+    for (const auto& [path, value] : group.varied) values[group.job.shape][path].insert(value);
+  }
+  for (Group& group : groups) {
+    const auto& of_shape = values[group.job.shape];
+    for (const auto& [path, value] : group.varied) {
+      if (!is_of_shape(path) || of_shape.at(path).size() > 1) group.told[path] = value;
+    }
+    if (values.size() > 1) group.told["shape"] = group.job.shape;
   }
 }
 
@@ -187,6 +205,7 @@ std::vector<Group> groups_of(const std::vector<Row>& rows) {
     groups.back().number = groups.size();
   }
   note_varied(groups);
+  note_told(groups);
   pool_errors(groups);
   return groups;
 }

@@ -39,6 +39,9 @@ struct Group {
   std::string family_name;  ///< as Family::name, once families are known
   /// Dotted name -> cell of the parameters that are not the same in all groups.
   std::map<std::string, std::string> varied;
+  /// The same as people tell groups apart: where their shapes differ, the name of the shape stands
+  /// under "shape", and of the parameters of shapes those that also differ among groups of its own.
+  std::map<std::string, std::string> told;
   std::optional<ProtocolBias> bias_bound;  ///< of phi and Z, by the way of settling
   std::vector<Spread> means;  ///< of the fields that have one, in the order of the field table
   /// In the order of the rows, with curves as far as they had.

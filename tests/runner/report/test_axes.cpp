@@ -11,6 +11,21 @@ Row row_at(const std::string& id, double width, double small_share, Boundary y =
   return settled_row(id, width, 0.6, 5.5, y, small_share);
 }
 
+Row shaped_row(const std::string& id, double width, const std::string& shape,
+               const std::string& parameters) {
+  Row row = row_at(id, width, 0.0);
+  row.job.shape = shape;
+  row.job.parameters =
+      R"({"box":{"width":)" + std::to_string(width) + R"(},"shape":)" + parameters + "}";
+  return row;
+}
+
+std::vector<std::string> names_of(const Axes& axes) {
+  std::vector<std::string> names;
+  for (const Series& series : axes.series) names.push_back(series.name);
+  return names;
+}
+
 }  // namespace
 
 TEST_CASE("the width goes along the axis wherever it is varied", "[report]") {
@@ -46,6 +61,43 @@ TEST_CASE("a sweep that varies nothing has the number of the group along the axi
   CHECK(axes.parameter.empty());
   CHECK(place_on(axes, groups[0]) == 1.0);
   CHECK(axes_of({}).series.empty());
+}
+
+TEST_CASE("shapes are series of their own, told by their names where these tell them", "[report]") {
+  const std::string octahedron = R"({"octahedron":{"height":1.0}})",
+                    icosahedron = R"({"icosahedron":{"height":1.0}})",
+                    prism = R"({"prism":{"height":1.0,"sides":3}})",
+                    other_prism = R"({"prism":{"height":1.0,"sides":5}})";
+  std::vector<Row> rows;
+  for (const double width : {5.0, 6.0}) {
+    const std::string id = std::to_string(width);
+    rows.push_back(shaped_row("o" + id, width, "octahedron", octahedron));
+    rows.push_back(shaped_row("i" + id, width, "icosahedron", icosahedron));
+    rows.push_back(shaped_row("p" + id, width, "prism", prism));
+    rows.push_back(shaped_row("q" + id, width, "prism", other_prism));
+    rows.push_back(shaped_row("s" + id, width, "sphere", R"("sphere")"));
+  }
+  const std::vector<Group> groups = groups_of(rows);
+  const Axes axes = axes_of(groups);
+  CHECK(is_over_width(axes));
+  CHECK(names_of(axes) ==
+        std::vector<std::string>{"MSP, shape = octahedron", "MSP, shape = icosahedron",
+                                 "MSP, shape = prism, sides = 3", "MSP, shape = prism, sides = 5",
+                                 "MSP, shape = sphere"});
+  for (const Series& series : axes.series) {
+    CHECK(series.groups.size() == 2);
+    CHECK(series.groups.front()->family == series.groups.back()->family);
+  }
+  CHECK(title_of(groups[1]) == "MSP, W = 5, shape = icosahedron");
+}
+
+TEST_CASE("parameters whose paths end alike have as much of them as tells them", "[report]") {
+  std::vector<Row> rows = {row_at("a", 6, 0.0), row_at("b", 6, 0.0)};
+  rows[0].job.parameters = R"({"sizes":{"lognormal":{"sigma":0.1}}})";
+  rows[1].job.parameters = R"({"sizes":{"normal":{"sigma":0.1}}})";
+  const std::vector<Group> groups = groups_of(rows);
+  CHECK(names_of(axes_of(groups)) ==
+        std::vector<std::string>{"MSP, lognormal.sigma = 0.1", "MSP, normal.sigma = 0.1"});
 }
 
 TEST_CASE("text is shortened by characters, not bytes", "[report]") {
