@@ -142,8 +142,7 @@ Turned orientations_of(const PolyhedronBed& bed) {
   for (const ConvexShape& shape : bed.shapes) turned.meshes.push_back(mesh_of(shape));
   turned.components = bed.components;
   for (std::size_t i = 0; i < bed.grains(); ++i) {
-    const Quaternion back = Quaternion(bed.shape(i).given.rotation).conjugate();
-    const Quaternion q = bed.pose(i).orientation * back;
+    const Quaternion q = bed.given_orientation(i);
     turned.orientations.push_back({q.x(), q.y(), q.z(), q.w()});
   }
   return turned;

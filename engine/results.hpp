@@ -166,7 +166,8 @@ inline constexpr NamedNumber<Order> order_numbers[] = {
 struct ShapeOrder {
   std::array<double, 3> contact_share{};  ///< of the force-bearing contacts, simple, double, triple
   std::array<double, 3> force_share{};    ///< of the sum of their forces
-  /// Nematic order of the axes x, y, z of the shape's frame; spheres, which have none, left out.
+  /// Nematic order of the axes x, y, z of the frame in which the shape is written; spheres, which
+  /// have none, left out.
   std::array<double, 3> nematic{};
 };
 

@@ -84,15 +84,14 @@ void count_contacts(const PolyhedronBed& bed, const std::vector<PairForce>& pair
   }
 }
 
-std::vector<Vector> axes_of(const PolyhedronBed& bed, const Slab& slab, std::size_t component,
-                            int axis) {
-  std::vector<Vector> axes;
+/// The grains of the slab, by component.
+std::vector<std::vector<std::size_t>> grains_of_components(const PolyhedronBed& bed,
+                                                           const Slab& slab) {
+  std::vector<std::vector<std::size_t>> grains(bed.shapes.size());
   for (std::size_t i = 0; i < bed.grains(); ++i) {
-    const bool counts = bed.component(i) == component && bed.turns(i);
-    if (!counts || !has_centre_in(bed, slab, i)) continue;
-    axes.emplace_back(bed.pose(i).orientation * Vector(Vector::Unit(axis)));
+    if (has_centre_in(bed, slab, i)) grains[bed.component(i)].push_back(i);
   }
-  return axes;
+  return grains;
 }
 
 }  // namespace
@@ -106,11 +105,9 @@ std::vector<ComponentMeasure> measure_components(const PolyhedronBed& bed, const
   divide_volumes(bed.box.floor_area() * slab.height(), components);
   count_neighbours(bed, touching, slab, gap_tolerance, components);
   count_contacts(bed, pair_forces, slab, components);
+  const auto grains = grains_of_components(bed, slab);
   for (std::size_t k = 0; k < components.size(); ++k) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      components[k].nematic[axis] =
-          nematic_order(axes_of(bed, slab, k, static_cast<int>(axis))).order;
-    }
+    components[k].nematic = nematic_orders(bed, grains[k]);
   }
   return components;
 }

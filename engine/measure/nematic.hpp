@@ -1,9 +1,11 @@
 // Nematic order: do the axes of the grains point the same way, up to sign?
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <vector>
 
-#include "engine/shape/convex_shape.hpp"
+#include "engine/scene/bed.hpp"
 
 namespace grainsweep {
 
@@ -15,5 +17,10 @@ struct NematicOrder {
 /// Largest eigenvalue, and its eigenvector, of Q = mean over axes of (3 u u^T - 1) / 2 (de Gennes).
 /// `axes` are unit vectors, all of one frame; NaN without any.
 NematicOrder nematic_order(const std::vector<Vector>& axes);
+
+/// The order of each axis of the frames in which the shapes of `grains` are written, of those of
+/// them that turn.
+std::array<double, 3> nematic_orders(const PolyhedronBed& bed,
+                                     const std::vector<std::size_t>& grains);
 
 }  // namespace grainsweep

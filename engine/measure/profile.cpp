@@ -133,7 +133,7 @@ class OfComponents {
           ++at(grain, bin).neighbours[bed_.component(other)];
         },
         [&](std::size_t grain, std::size_t bin) { ++at(grain, bin).walls; });
-    for (int axis = 0; axis < 3; ++axis) set_nematic(axis, bins);
+    set_nematic(bins);
   }
   std::vector<ComponentProfile> result() { return std::move(profiles_); }
 
@@ -141,18 +141,15 @@ class OfComponents {
   ComponentBin& at(std::size_t grain, std::size_t bin) {
     return profiles_[bed_.component(grain)].bins[bin];
   }
-  /// Of one axis of the shapes' frames, in each bin of each component.
-  void set_nematic(int axis, const BinOfGrain& bins) {
+  /// In each bin of each component.
+  void set_nematic(const BinOfGrain& bins) {
     const std::size_t count = profiles_.front().bins.size();
-    std::vector<std::vector<Vector>> axes(profiles_.size() * count);
+    std::vector<std::vector<std::size_t>> grains(profiles_.size() * count);
     for (std::size_t i = 0; i < bins.size(); ++i) {
-      if (!bins[i] || !bed_.turns(i)) continue;
-      axes[bed_.component(i) * count + *bins[i]].emplace_back(bed_.pose(i).orientation *
-                                                              Vector(Vector::Unit(axis)));
+      if (bins[i]) grains[bed_.component(i) * count + *bins[i]].push_back(i);
     }
-    for (std::size_t k = 0; k < axes.size(); ++k) {
-      profiles_[k / count].bins[k % count].nematic[static_cast<std::size_t>(axis)] =
-          nematic_order(axes[k]).order;
+    for (std::size_t k = 0; k < grains.size(); ++k) {
+      profiles_[k / count].bins[k % count].nematic = nematic_orders(bed_, grains[k]);
     }
   }
 

@@ -6,14 +6,12 @@ namespace grainsweep {
 
 namespace {
 
-/// The axes of the grains of the slab that were axis `number` of the shape's frame.
-std::vector<Vector> turned_axes(const PolyhedronBed& bed, const Slab& slab, int number) {
-  std::vector<Vector> axes;
+std::vector<std::size_t> grains_in(const PolyhedronBed& bed, const Slab& slab) {
+  std::vector<std::size_t> grains;
   for (std::size_t i = 0; i < bed.grains(); ++i) {
-    if (!bed.turns(i) || !slab.contains(bed.position[i].z)) continue;
-    axes.emplace_back(bed.pose(i).orientation * Vector(Vector::Unit(number)));
+    if (slab.contains(bed.position[i].z)) grains.push_back(i);
   }
-  return axes;
+  return grains;
 }
 
 }  // namespace
@@ -32,9 +30,7 @@ ShapeOrder measure_shape_order(const PolyhedronBed& bed, const std::vector<PairF
   }
   for (double& share : order.contact_share) share /= contacts;  // 0 / 0 is NaN
   for (double& share : order.force_share) share /= forces;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    order.nematic[axis] = nematic_order(turned_axes(bed, slab, static_cast<int>(axis))).order;
-  }
+  order.nematic = nematic_orders(bed, grains_in(bed, slab));
   return order;
 }
 

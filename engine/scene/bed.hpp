@@ -112,6 +112,10 @@ struct Bed<Polyhedron> : Grains {
 
   double scale(std::size_t grain) const { return 2.0 * position[grain].w; }
   Pose pose(std::size_t grain) const { return pose_of(position[grain], orientation[grain]); }
+  /// From the frame in which its shape is written to the box frame.
+  Quaternion given_orientation(std::size_t grain) const {
+    return pose(grain).orientation * Quaternion(shape(grain).given.rotation).conjugate();
+  }
   std::size_t component(std::size_t grain) const {
     return components.empty() ? 0 : components[grain];
   }

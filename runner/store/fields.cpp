@@ -218,7 +218,8 @@ std::vector<Field> shape_fields() {
       in_result<of::shape, &Shape::force_share, 2>("force_triple", "", "that triple ones carry",
                                                    with_mean),
       in_result<of::shape, &Shape::nematic, 0>(
-          "nematic_x", "", "nematic order of the axis x of the shape's frame", with_mean),
+          "nematic_x", "", "nematic order of the axis x of the frame in which the shape is written",
+          with_mean),
       in_result<of::shape, &Shape::nematic, 1>("nematic_y", "", "the same of y", with_mean),
       in_result<of::shape, &Shape::nematic, 2>("nematic_z", "", "the same of z", with_mean),
   };
