@@ -72,11 +72,19 @@ struct PairForce {
   int constraints = 1;     ///< 1 at a point, as of spheres, 2 along a line, 3 over an area
 };
 
-/// A force that a wall exerts on a grain.
+/// A force that a wall exerts on a grain; of a tube each vertex of a polyhedron has its own.
 struct WallForce {
-  std::int32_t grain = 0, wall = 0;  ///< the walls are those of walls_of(Box): 0 is the floor
-  double magnitude = 0.0;            ///< m g
+  /// The walls are those of walls_of(Box): 0 is the floor. Vertices at a tube have names of their
+  /// own, as of wall_of_vertex.
+  std::int32_t grain = 0, wall = 0;
+  double magnitude = 0.0;  ///< m g
 };
+
+/// WallForce::wall of a sphere at a tube.
+inline constexpr std::int32_t tube_wall = 1;
+
+/// The same of vertex `v` of a polyhedron, as of ConvexShape::vertices and Mesh::vertices.
+constexpr std::int32_t wall_of_vertex(std::int32_t v) { return tube_wall + 1 + v; }
 
 /// One bin of a profile: a slice of the measured part of the bed.
 struct ProfileBin {

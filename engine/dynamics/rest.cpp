@@ -88,6 +88,17 @@ std::size_t turning_grain(const PolyhedronBed& bed, const ForceContact& contact)
   return static_cast<std::size_t>(is_b ? contact.b : contact.a);
 }
 
+/// WallForce::wall of a contact with a wall.
+std::int32_t wall_of(const SphereBed& bed, const ForceContact& contact) {
+  const auto last_wall = static_cast<std::int32_t>(bed.walls.size()) - 1;
+  return std::min(contact.b - bed.wall_name(0), last_wall);
+}
+std::int32_t wall_of(const PolyhedronBed& bed, const ForceContact& contact) {
+  const std::int32_t wall = contact.b - bed.wall_name(0);
+  const bool is_vertex = bed.box.is_tube && wall >= tube_wall && can_turn(bed, contact.a);
+  return is_vertex ? wall_of_vertex(wall - tube_wall) : wall;
+}
+
 /// Directions that turning normals can hold a grain in: a polyhedron's three turns.
 constexpr std::int64_t most_by_turning = 3;
 
@@ -235,12 +246,12 @@ std::vector<PairForce> pair_forces(const Grains& bed, const std::vector<ForceCon
   return forces;
 }
 
-std::vector<WallForce> wall_forces(const Grains& bed, const std::vector<ForceContact>& contacts) {
-  const auto last_wall = static_cast<std::int32_t>(bed.walls.size()) - 1;
+template <class Kind>
+std::vector<WallForce> wall_forces(const Bed<Kind>& bed,
+                                   const std::vector<ForceContact>& contacts) {
   std::map<std::pair<std::int32_t, std::int32_t>, double> sums;
   for (const ForceContact& c : contacts) {
-    if (bed.is_grain(c.b)) continue;
-    sums[{c.a, std::min(c.b - bed.wall_name(0), last_wall)}] += c.force;
+    if (!bed.is_grain(c.b)) sums[{c.a, wall_of(bed, c)}] += c.force;
   }
   std::vector<WallForce> forces;
   forces.reserve(sums.size());
@@ -324,5 +335,7 @@ template RestReport measure_rest(PolyhedronBed&, const ExecutionContext&, double
                                  StepState<Polyhedron, double>&);
 template std::int64_t zero_modes(const SphereBed&, const std::vector<ForceContact>&);
 template std::int64_t zero_modes(const PolyhedronBed&, const std::vector<ForceContact>&);
+template std::vector<WallForce> wall_forces(const SphereBed&, const std::vector<ForceContact>&);
+template std::vector<WallForce> wall_forces(const PolyhedronBed&, const std::vector<ForceContact>&);
 
 }  // namespace grainsweep

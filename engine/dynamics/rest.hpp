@@ -55,9 +55,10 @@ std::vector<FreeMotion> free_motions(const SphereBed& bed,
 /// The forces between grains.
 std::vector<PairForce> pair_forces(const Grains& bed, const std::vector<ForceContact>& contacts);
 
-/// The forces of walls, one for each grain and wall: a polyhedron touches a round wall in several
-/// contacts.
-std::vector<WallForce> wall_forces(const Grains& bed, const std::vector<ForceContact>& contacts);
+/// The forces of walls, one for each grain and wall, and of a round wall for each vertex of a
+/// polyhedron: their normals differ.
+template <class Kind>
+std::vector<WallForce> wall_forces(const Bed<Kind>& bed, const std::vector<ForceContact>& contacts);
 
 /// Sum of the magnitudes of the contact forces on each grain, m g.
 std::vector<double> force_sums(const Grains& bed, const std::vector<ForceContact>& contacts);

@@ -44,6 +44,18 @@ double reach_of(double gap, double tolerance) {
   return std::max(tolerance, gap + rounding);
 }
 
+/// The vertices of a grain, in the box frame, with their gaps to a wall.
+std::vector<ContactPoint> points_of(const PolyhedronBed& bed, const TouchingWall& touching) {
+  const Wall& wall = bed.walls[static_cast<std::size_t>(touching.wall)];
+  const Pose pose = bed.pose(static_cast<std::size_t>(touching.grain));
+  std::vector<ContactPoint> points;
+  for (const Vector& vertex : bed.shape(static_cast<std::size_t>(touching.grain)).vertices) {
+    const Vector place = pose.centre + pose.orientation * (pose.scale * vertex);
+    points.push_back({place, wall.distance(place.x(), place.y(), place.z())});
+  }
+  return points;
+}
+
 /// Of a sphere at a wall.
 ContactPlace place_of_sphere(const Grains& bed, const TouchingWall& touching) {
   const Vector centre = centre_of(bed, touching.grain);
@@ -84,15 +96,22 @@ ContactPlace contact_place(const PolyhedronBed& bed, const TouchingWall& touchin
                            double tolerance) {
   if (!bed.turns(static_cast<std::size_t>(touching.grain))) return place_of_sphere(bed, touching);
   const Wall& wall = bed.walls[static_cast<std::size_t>(touching.wall)];
-  const Pose pose = bed.pose(static_cast<std::size_t>(touching.grain));
-  std::vector<ContactPoint> points;
-  for (const Vector& vertex : bed.shape(static_cast<std::size_t>(touching.grain)).vertices) {
-    const Vector place = pose.centre + pose.orientation * (pose.scale * vertex);
-    points.push_back({place, wall.distance(place.x(), place.y(), place.z())});
-  }
+  const std::vector<ContactPoint> points = points_of(bed, touching);
   const Vector vertex = middle_of(points, reach_of(touching.gap, tolerance));
   const Vector normal = towards(wall, vertex);
   return {normal, vertex + touching.gap / 2.0 * normal, counted(points, tolerance)};
+}
+
+std::vector<VertexPlace> vertex_places(const PolyhedronBed& bed, const TouchingWall& touching) {
+  const Wall& wall = bed.walls[static_cast<std::size_t>(touching.wall)];
+  std::vector<VertexPlace> places;
+  for (const ContactPoint& point : points_of(bed, touching)) {
+    const Vector normal = towards(wall, point.position);
+    places.push_back({static_cast<std::int32_t>(places.size()),
+                      point.gap,
+                      {normal, point.position + point.gap / 2.0 * normal, 1}});
+  }
+  return places;
 }
 
 }  // namespace grainsweep

@@ -24,4 +24,14 @@ ContactPlace contact_place(const SphereBed& bed, const TouchingWall& touching, d
 ContactPlace contact_place(const PolyhedronBed& bed, const TouchingWall& touching,
                            double tolerance);
 
+/// A vertex of a polyhedron and how it lies at a round wall, where it is a contact of its own.
+struct VertexPlace {
+  std::int32_t vertex = 0;  ///< as of ConvexShape::vertices
+  double gap = 0.0;         ///< d
+  ContactPlace place;
+};
+
+/// Of each vertex, however far it is from the wall.
+std::vector<VertexPlace> vertex_places(const PolyhedronBed& bed, const TouchingWall& touching);
+
 }  // namespace grainsweep

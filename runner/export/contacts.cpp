@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include "engine/measure/bond_order.hpp"
@@ -15,7 +16,8 @@
 namespace grainsweep {
 namespace {
 
-using Forces = std::map<std::pair<std::int32_t, std::int32_t>, double>;
+using Sides = std::pair<std::int32_t, std::int32_t>;  // two grains, or a grain and WallForce::wall
+using Forces = std::map<Sides, double>;
 
 Forces forces_of_grains(const StoredBed& bed) {
   Forces forces;
@@ -64,17 +66,47 @@ PolyhedronBed polyhedra_of(const StoredBed& bed) {
   return make_bed(bed.box, std::move(shapes), turned.components, poses);
 }
 
-/// Those of `touching` that count, with their forces.
+/// What bears `sides`, m g; nothing if they bear no force.
+std::optional<double> force_of(const Forces& forces, const Sides& sides) {
+  const auto found = forces.find(sides);
+  return found == forces.end() ? std::nullopt : std::optional(found->second);
+}
+
+bool counts(const ExportedBed& exported, double gap, const std::optional<double>& force) {
+  return force || gap < exported.gap_tolerance;
+}
+
+/// Appends `touching` if it counts, with its force.
 template <class Bed, class Pair>
-void append(const ExportedBed& exported, const Bed& bed, const Forces& forces,
-            const std::pair<std::int32_t, std::int32_t>& sides, const Pair& touching,
-            std::vector<Contact>& contacts) {
-  const auto force = forces.find(sides);
-  if (touching.gap >= exported.gap_tolerance && force == forces.end()) return;
+void append(const ExportedBed& exported, const Bed& bed, const Forces& forces, const Sides& sides,
+            const Pair& touching, std::vector<Contact>& contacts) {
+  const std::optional<double> force = force_of(forces, sides);
+  if (!counts(exported, touching.gap, force)) return;
   contacts.push_back({static_cast<std::size_t>(sides.first), static_cast<std::size_t>(sides.second),
-                      std::is_same_v<Pair, TouchingWall>, touching.gap,
-                      force == forces.end() ? 0.0 : force->second,
+                      std::is_same_v<Pair, TouchingWall>, touching.gap, force.value_or(0.0),
                       contact_place(bed, touching, exported.gap_tolerance)});
+}
+
+void append_wall(const ExportedBed& exported, const SphereBed& bed, const Forces& forces,
+                 const TouchingWall& wall, std::vector<Contact>& contacts) {
+  append(exported, bed, forces, {wall.grain, wall.wall}, wall, contacts);
+}
+/// A polyhedron touches a tube with its vertices, each of them in a contact of its own; where their
+/// forces were stored as one sum, as they used to be, in one contact.
+void append_wall(const ExportedBed& exported, const PolyhedronBed& bed, const Forces& forces,
+                 const TouchingWall& wall, std::vector<Contact>& contacts) {
+  const bool is_tube = bed.walls[static_cast<std::size_t>(wall.wall)].is_round();
+  const bool has_sum = force_of(forces, {wall.grain, wall.wall}).has_value();
+  if (!is_tube || has_sum || !bed.turns(static_cast<std::size_t>(wall.grain))) {
+    append(exported, bed, forces, {wall.grain, wall.wall}, wall, contacts);
+    return;
+  }
+  for (const VertexPlace& at : vertex_places(bed, wall)) {
+    const auto force = force_of(forces, {wall.grain, wall_of_vertex(at.vertex)});
+    if (!counts(exported, at.gap, force)) continue;
+    contacts.push_back({static_cast<std::size_t>(wall.grain), static_cast<std::size_t>(wall.wall),
+                        true, at.gap, force.value_or(0.0), at.place});
+  }
 }
 
 template <class Kind>
@@ -87,7 +119,7 @@ std::vector<Contact> contacts_of(const ExportedBed& exported, Bed<Kind>&& bed) {
     append(exported, bed, of_grains, {pair.a, pair.b}, pair, contacts);
   }
   for (const TouchingWall& wall : touching.walls) {
-    append(exported, bed, of_walls, {wall.grain, wall.wall}, wall, contacts);
+    append_wall(exported, bed, of_walls, wall, contacts);
   }
   return contacts;
 }

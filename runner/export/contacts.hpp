@@ -9,7 +9,8 @@
 
 namespace grainsweep {
 
-/// A contact of grain a with grain b, or with wall b of walls_of(Box).
+/// A contact of grain a with grain b, or with wall b of walls_of(Box). Each vertex of a polyhedron
+/// at a tube is a contact of its own.
 struct Contact {
   std::size_t a = 0, b = 0;
   bool is_wall = false;

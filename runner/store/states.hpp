@@ -52,6 +52,7 @@ struct StoredBed {
   std::vector<SettledGrain> grains;
   std::optional<Turned> turned;  ///< of non-spherical grains; an orientation per grain
   std::vector<StoredForce> forces;
+  /// Beds of older versions have one sum for all vertices of a grain in a tube, as of tube_wall.
   std::vector<WallForce> wall_forces;
 };
 

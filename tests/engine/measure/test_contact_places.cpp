@@ -81,5 +81,21 @@ TEST_CASE("a contact wider than the tolerance that it is asked for is one at a p
   }
 }
 
+TEST_CASE("every vertex of a cube lies at a tube with a normal and a gap of its own") {
+  // Its corners are at 1 / 4 and 5 / 4 d along x from the axis, 1 / 2 d to both sides.
+  const PolyhedronBed bed =
+      make_bed(tube_of(4), testing::cube(), {{{2.75, 2, 1}, 1, Quaternion::Identity()}});
+  const auto places = vertex_places(bed, {0, 1, 0});
+  REQUIRE(places.size() == 8);
+  for (const VertexPlace& at : places) {
+    const Vector corner = bed.shape(0).vertices[static_cast<std::size_t>(at.vertex)];
+    const Vector from_axis(0.75 + corner.x(), corner.y(), 0);
+    const Vector outward = from_axis.normalized();
+    CHECK(at.gap == Approx(2 - from_axis.norm()));
+    check_place(at.place, outward,
+                Vector(2, 2, 1 + corner.z()) + (from_axis.norm() + at.gap / 2) * outward, 1);
+  }
+}
+
 }  // namespace
 }  // namespace grainsweep

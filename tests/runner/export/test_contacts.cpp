@@ -1,4 +1,6 @@
 #include <cmath>
+#include <map>
+#include <set>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -85,6 +87,42 @@ TEST_CASE("contacts of polyhedra add up to the neighbours and forces that each g
 
 TEST_CASE("contacts of polyhedra in a tube add up, though they touch its wall in many places") {
   check_sums(packed_bed(PinacoidSize{}, tube_of(4), 90));
+}
+
+/// Horizontal force that is left on the grains which touch a wall, own weights, mean.
+double left_at_walls(const ExportedBed& exported) {
+  std::vector<Eigen::Vector3d> left(exported.bed.grains.size(), Eigen::Vector3d::Zero());
+  std::set<std::size_t> at_wall;
+  for (const Contact& contact : contacts_of(exported)) {
+    left[contact.a] -= contact.force * contact.place.normal;
+    if (!contact.is_wall) left[contact.b] += contact.force * contact.place.normal;
+    if (contact.is_wall && contact.b > 0 && contact.force > 0) at_wall.insert(contact.a);
+  }
+  REQUIRE_FALSE(at_wall.empty());
+  double sum = 0;
+  for (const std::size_t grain : at_wall) sum += left[grain].head<2>().norm();
+  return sum / static_cast<double>(at_wall.size());
+}
+
+// What the last step of an accuracy of `fast` leaves, in a bed of grains of one weight.
+TEST_CASE("forces of a tube on the vertices of polyhedra balance what pushes them there") {
+  CHECK(left_at_walls(packed_bed(PinacoidSize{}, tube_of(4), 90)) < 0.05);
+}
+
+TEST_CASE("forces of a tube that were stored as one sum of each grain are one contact of it") {
+  ExportedBed exported = packed_bed(PinacoidSize{}, tube_of(4), 90);
+  std::map<std::int32_t, double> sums;
+  std::vector<WallForce> stored;
+  for (const WallForce& force : exported.bed.wall_forces) {
+    if (force.wall > 0) sums[force.grain] += force.magnitude;
+    if (force.wall == 0) stored.push_back(force);
+  }
+  for (const auto& [grain, sum] : sums) stored.push_back({grain, tube_wall, sum});
+  exported.bed.wall_forces = stored;
+  check_sums(exported);
+  std::map<std::size_t, int> rows;
+  for (const Contact& contact : contacts_of(exported)) rows[contact.a] += contact.b == 1;
+  for (const auto& [grain, sum] : sums) CHECK(rows[static_cast<std::size_t>(grain)] == 1);
 }
 
 }  // namespace
