@@ -9,6 +9,7 @@
 
 #include "runner/export/contacts.hpp"
 #include "tests/runner/export/packed_bed.hpp"
+#include "tests/runner/export/touching_beds.hpp"
 
 namespace grainsweep {
 namespace {
@@ -45,6 +46,19 @@ TEST_CASE("a pair with a force is listed whatever its gap, another one only if i
   CHECK(contacts_of(exported).size() == 3);
   exported.bed.forces.clear();
   CHECK(contacts_of(exported).size() == 2);
+}
+
+TEST_CASE("a contact that bears a force is of the kind of what is closed, as in the tables") {
+  ExportedBed exported = stacked_cubes();
+  const double tilt = 0.002;  // the upper cube stands on an edge, 0.0015 d open at the other end
+  exported.bed.turned->orientations[1] = {0, -std::sin(tilt / 2), 0, std::cos(tilt / 2)};
+  exported.bed.grains[1].z = 1 + 0.5 * (std::sin(tilt) + std::cos(tilt));
+  exported.gap_tolerance = 0.006;
+  CHECK(contacts_of(exported).at(0).place.constraints == 3);
+  exported.bed.forces = {{0, 1, 1.0}};
+  const Contact bearing = contacts_of(exported).at(0);
+  CHECK(bearing.place.constraints == 2);
+  CHECK(bearing.place.point.x() == Approx(1.75).margin(tilt));  // at the edge
 }
 
 TEST_CASE("walls are called by their side, or tube") {
