@@ -114,7 +114,7 @@ std::optional<StoredBed> bed_or_warning(const std::string& folder, const Outcome
 
 ExportedBed exported(StoredBed&& bed, const JobFacts& job, const ExportSettings& settings) {
   const auto& tolerances = job.measure.gap_tolerances;
-  return {std::move(bed), facts_of(job, "").small_limit,
+  return {std::move(bed), small_class_limit(job),
           *std::max_element(tolerances.begin(), tolerances.end()), settings};
 }
 

@@ -37,7 +37,8 @@ struct ExportSettings {
 
 struct ExportedBed {
   StoredBed bed;
-  double small_limit = 0.0;  ///< grains of a smaller radius are small, d; 0 if there is one class
+  /// Grains of a smaller radius are small, d; 0 where none are, infinite where all are.
+  double small_limit = 0.0;
   double gap_tolerance = 1e-4;  ///< grains with a smaller gap touch, d: the widest of the packing
   ExportSettings settings = {};
 };

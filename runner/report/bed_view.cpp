@@ -6,7 +6,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "engine/scene/sizes.hpp"
 #include "runner/export/surfaces.hpp"
 #include "runner/report/html.hpp"
 #include "runner/report/picture.hpp"
@@ -141,12 +140,7 @@ std::string bed_scripts() {
 }
 
 BedFacts facts_of(const JobFacts& job, const std::string& title) {
-  const auto parameters = flat_parameters(job);
-  const auto ratio = parameters.find("sizes.size_ratio");
-  SizesSpec sizes;
-  sizes.small_share = job.small_share;
-  if (ratio != parameters.end()) sizes.size_ratio = std::stod(ratio->second);
-  const double limit = small_class_limit(sizes);
+  const double limit = small_class_limit(job);
   return {title, std::isfinite(limit) ? limit : 0.0, {}};
 }
 

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "engine/scene/sizes.hpp"
 #include "runner/sweep/bed_kind.hpp"
 #include "runner/sweep/costs.hpp"
 
@@ -103,6 +104,15 @@ std::map<std::string, std::string> flat_parameters(const JobFacts& job) {
     if (flat.contains(path) && path != "fill.files") flat[path] = cell(file);
   }
   return flat;
+}
+
+double small_class_limit(const JobFacts& job) {
+  const auto parameters = flat_parameters(job);
+  const auto ratio = parameters.find("sizes.size_ratio");
+  SizesSpec sizes;
+  sizes.small_share = job.small_share;
+  if (ratio != parameters.end()) sizes.size_ratio = std::stod(ratio->second);
+  return small_class_limit(sizes);
 }
 
 std::optional<ProtocolBias> bias_bound(const JobFacts& job) {

@@ -88,6 +88,10 @@ Columns<JobFacts> job_columns(const std::vector<std::string>& names);
 /// Dotted name -> cell of every parameter of a job; a file stands under its name as written.
 std::map<std::string, std::string> flat_parameters(const JobFacts& job);
 
+/// Radius below which its grains count as small, d, as in engine/scene/sizes.hpp: 0 where none do,
+/// infinite where all do.
+double small_class_limit(const JobFacts& job);
+
 /// Bound of the bias that the way of settling gives the means of such packings; none where it was
 /// not measured: accuracies that settle as no preset, hulls, pinacoids of other proportions, and
 /// small grains that are not half as large.

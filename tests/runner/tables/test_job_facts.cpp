@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
@@ -150,6 +152,14 @@ TEST_CASE("only a settled packing counts as settled, an unsettled one is still m
   CHECK(is_measured(unsettled));
   const Row failed = row_with_status("a", 5, PackingStatus::failed, "no room");
   CHECK_FALSE(is_measured(failed));
+}
+
+TEST_CASE("all grains are small where there is no large class, and none where no small one") {
+  JobFacts job = sample_job("a", 5, 1, Boundary::walls, 0.4);
+  CHECK(small_class_limit(job) == Approx(0.5 / 1.5));  // between 0.25 and 0.5 d
+  job.small_share = 1.0;
+  CHECK(std::isinf(small_class_limit(job)));
+  CHECK(small_class_limit(sample_job("b", 5)) == 0.0);
 }
 
 }  // namespace
