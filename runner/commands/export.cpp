@@ -2,8 +2,10 @@
 #include <algorithm>
 #include <iostream>
 #include <optional>
+#include <set>
 
 #include <CLI/App.hpp>
+#include <nlohmann/json.hpp>
 
 #include "runner/commands/commands.hpp"
 #include "runner/commands/inputs.hpp"
@@ -70,6 +72,37 @@ std::string page_of(const StoredBed& bed, const Row& row, const GivenUnits& unit
   BedFacts facts = facts_of(row.job, row.job.label + ", packing " + row.job.id);
   facts.units = units;
   return bed_page(bed, facts);
+}
+
+/// Its canonical parameters that say what its grains are.
+std::string shape_of(const JobFacts& job) {
+  return nlohmann::json::parse(job.parameters.text()).at("shape").dump();
+}
+
+/// Why the format cannot hold the grains of a packing; "" if it can, or if its bed cannot be read,
+/// which is told when it is to be written.
+std::string fault_of(const ExportFormat& format, const std::string& folder, const Row& row) {
+  try {
+    return format.fault(read_bed(folder, *row.outcome));
+  } catch (const FileError&) {
+    return "";
+  }
+}
+
+/// Looks at the first bed of each shape, before anything is written. Throws BadInput.
+void refuse_shapes_without_room(const ExportFormat* format, const std::string& folder,
+                                const std::vector<Row>& rows,
+                                const std::vector<std::size_t>& chosen) {
+  if (format == nullptr || format->fault == nullptr) return;
+  std::set<std::string> seen;
+  for (const std::size_t k : chosen) {
+    const JobFacts& job = rows[k].job;
+    if (!seen.insert(shape_of(job)).second) continue;
+    const std::string fault = fault_of(*format, folder, rows[k]);
+    if (fault.empty()) continue;
+    throw BadInput("--format " + std::string(format->name) + ": packing " + job.id + ", shape " +
+                   job.shape + ": " + fault);
+  }
 }
 
 /// What other formats would leave out in silence. Throws BadInput.
@@ -164,6 +197,7 @@ int perform(const ExportOptions& options) {
   const std::vector<std::size_t> chosen = rows_to_export(rows, options);
   const std::string to = options.to.empty() ? options.folder + "/export" : options.to;
   if (chosen.empty()) throw BadInput(options.folder + ": holds no finished packing to export");
+  refuse_shapes_without_room(format, options.folder, rows, chosen);
   make_folder(to);
   const std::vector<std::string> stems = file_stems(rows);
   std::size_t written = 0, unsettled = 0, left_out = 0;

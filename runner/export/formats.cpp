@@ -18,7 +18,7 @@ const std::vector<ExportFormat>& export_formats() {
       {"vtp", ".vtp", grains_vtp},
       {"contacts", ".contacts.csv", contacts_csv},
       {"contacts-vtp", ".contacts.vtp", contacts_vtp},
-      {"lammps", ".data", lammps_data},
+      {"lammps", ".data", lammps_data, fault_for_lammps},
       {"stl", ".stl", surfaces_stl},
       {"obj", ".obj", surfaces_obj},
       {"voxels", ".nrrd", voxels_nrrd},

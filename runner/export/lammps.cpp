@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <set>
+#include <string_view>
 #include <utility>
 
 #include "engine/shape/build.hpp"
@@ -27,27 +29,6 @@ std::size_t type_of(const ExportedBed& exported, std::size_t grain) {
   const auto& turned = exported.bed.turned;
   const auto by_size = static_cast<std::size_t>(size_class(exported, grain));
   return by_size + 2 * (turned ? turned->component(grain) : 0);
-}
-
-/// That a body may have: LAMMPS makes room by it, and a sphere among polyhedra has one.
-std::string fewest_corners(const StoredBed& bed) {
-  const auto& meshes = bed.turned->meshes;
-  const auto is_ball = [](const Mesh& mesh) { return mesh.is_ball(); };
-  return std::any_of(meshes.begin(), meshes.end(), is_ball) ? "1" : "3";
-}
-
-/// Comment, numbers and bounds.
-std::string header(const ExportedBed& exported) {
-  const StoredBed& bed = exported.bed;
-  const auto boundary = [](Boundary axis) { return axis == Boundary::periodic ? " p" : " f"; };
-  const std::string style =
-      bed.turned ? "body rounded/polyhedron " + fewest_corners(bed) + " 64" : "sphere";
-  const std::string count = cell(bed.grains.size());
-  return "grainsweep, lengths in d; atom_style " + style + "; boundary" + boundary(bed.box.x) +
-         boundary(bed.box.y) + " f\n\n" + count + " atoms\n" +
-         (bed.turned ? count + " bodies\n" : "") + cell(type_count(bed)) + " atom types\n\n0 " +
-         cell(bed.box.length) + " xlo xhi\n0 " + cell(bed.box.width) + " ylo yhi\n0 " +
-         cell(height_of(bed)) + " zlo zhi\n\n";
 }
 
 std::string spheres(const ExportedBed& exported) {
@@ -87,13 +68,98 @@ std::vector<std::array<std::int32_t, 4>> small_faces(const std::vector<Corners>&
   return small;
 }
 
-/// Nine to a line: LAMMPS takes at most 32 lines of a body and 256 characters of a line.
-std::string in_lines(const std::vector<double>& numbers) {
+// What LAMMPS reads of a body: 32 lines with its two headers, each of 255 characters with its end.
+constexpr std::size_t most_lines = 30, most_characters = 254;
+
+using Words = std::vector<std::string>;
+
+Words words_of(const std::vector<double>& numbers) {
+  Words words;
+  for (const double number : numbers) words.push_back(cell(number));
+  return words;
+}
+
+/// As many words to a line as LAMMPS reads.
+std::string in_lines(const Words& words) {
   std::string text;
-  for (std::size_t k = 0; k < numbers.size(); ++k) {
-    text += cell(numbers[k]) + ((k + 1) % 9 == 0 || k + 1 == numbers.size() ? "\n" : " ");
+  std::size_t length = 0;
+  for (const std::string& word : words) {
+    const bool is_full = length + 1 + word.size() > most_characters;
+    if (length > 0) text += is_full ? "\n" : " ";
+    length = word.size() + (length == 0 || is_full ? 0 : length + 1);
+    text += word;
   }
-  return text;
+  return text + "\n";
+}
+
+/// Corners, edges and small faces of a mesh.
+struct Parts {
+  explicit Parts(const Mesh& mesh)
+      : corners(mesh.is_ball() ? 1 : mesh.vertices.size()),
+        edges(edges_of(mesh.faces)),
+        faces(small_faces(mesh.faces)) {}
+
+  std::size_t corners;
+  std::set<std::pair<std::int32_t, std::int32_t>> edges;
+  std::vector<std::array<std::int32_t, 4>> faces;
+};
+
+/// The words of a body: moments of inertia, corners about its centre, edges, faces, and the
+/// diameter of its rounding.
+Words body_words(const Parts& parts, const Words& moments, const Words& corners) {
+  Words words = moments;
+  words.insert(words.end(), corners.begin(), corners.end());
+  for (const auto& [from, to] : parts.edges) words.insert(words.end(), {cell(from), cell(to)});
+  for (const auto& face : parts.faces) {
+    for (const std::int32_t corner : face) words.push_back(cell(corner));
+  }
+  words.emplace_back("1e-09");
+  return words;
+}
+
+/// To 15 decimals, which rounding leaves of lengths near d, so that no coordinate is longer than
+/// longest_coordinate.
+double rounded(double coordinate) {
+  constexpr double decimals = 1e15;
+  return std::round(coordinate * decimals) / decimals;
+}
+constexpr std::string_view longest_coordinate = "-12.345678901234567";
+constexpr std::string_view longest_number = "-1.2345678901234567e-100";
+
+/// Whether a body of these parts has room in the lines that LAMMPS reads, however it is turned.
+bool has_room(const Parts& parts) {
+  const Words moments(6, std::string(longest_number));
+  const Words corners(3 * parts.corners, std::string(longest_coordinate));
+  const std::string lines = in_lines(body_words(parts, moments, corners));
+  return static_cast<std::size_t>(std::count(lines.begin(), lines.end(), '\n')) <= most_lines;
+}
+
+/// Fewest and most corners that a body may have: LAMMPS makes room by them, for as many edges and
+/// faces as corners, two and four numbers of each. A sphere among polyhedra has one corner.
+std::string corners_to_ask_for(const StoredBed& bed) {
+  constexpr std::size_t per_corner = 9, usual = 64;
+  std::size_t fewest = 3, most = usual;
+  for (const Mesh& mesh : bed.turned->meshes) {
+    const Parts parts(mesh);
+    const std::size_t numbers = 3 * parts.corners + 2 * parts.edges.size() + 4 * parts.faces.size();
+    fewest = std::min(fewest, parts.corners);
+    most = std::max({most, parts.corners, (numbers + per_corner - 1) / per_corner});
+  }
+  return cell(fewest) + " " + cell(most);
+}
+
+/// Comment, numbers and bounds.
+std::string header(const ExportedBed& exported) {
+  const StoredBed& bed = exported.bed;
+  const auto boundary = [](Boundary axis) { return axis == Boundary::periodic ? " p" : " f"; };
+  const std::string style =
+      bed.turned ? "body rounded/polyhedron " + corners_to_ask_for(bed) : "sphere";
+  const std::string count = cell(bed.grains.size());
+  return "grainsweep, lengths in d; atom_style " + style + "; boundary" + boundary(bed.box.x) +
+         boundary(bed.box.y) + " f\n\n" + count + " atoms\n" +
+         (bed.turned ? count + " bodies\n" : "") + cell(type_count(bed)) + " atom types\n\n0 " +
+         cell(bed.box.length) + " xlo xhi\n0 " + cell(bed.box.width) + " ylo yhi\n0 " +
+         cell(height_of(bed)) + " zlo zhi\n\n";
 }
 
 /// Of a grain of size 1.
@@ -116,27 +182,28 @@ std::string round_body(const StoredBed& bed, std::size_t grain) {
   const double radius = bed.grains[grain].radius;
   const double moment = 0.4 * mass_of(bed, grain) * radius * radius;
   const std::vector<double> numbers = {moment, moment, moment, 0, 0, 0, 0, 0, 0, 2.0 * radius};
-  return cell(id_of(grain)) + " 3 " + cell(numbers.size()) + "\n1 0 0\n" + in_lines(numbers);
+  return cell(id_of(grain)) + " 3 " + cell(numbers.size()) + "\n1 0 0\n" +
+         in_lines(words_of(numbers));
 }
 
-/// A body: how many numbers, moments of inertia, corners about its centre, edges, faces, and the
-/// diameter of its rounding.
+/// A body: how many numbers, corners, edges and faces, and its words.
 std::string body(const StoredBed& bed, std::size_t grain) {
   const Mesh& mesh = bed.turned->mesh(grain);
   if (mesh.is_ball()) return round_body(bed, grain);
+  std::vector<double> coordinates;
   const std::vector<Vector> corners = vertices_about_centre(bed, grain);
-  const auto edges = edges_of(mesh.faces);
-  const auto faces = small_faces(mesh.faces);
+  for (const Vector& corner : corners) {
+    for (const double along : corner) coordinates.push_back(rounded(along));
+  }
   const Eigen::Matrix3d inertia =
       mass_of(bed, grain) * inertia_of(mass_moments(corners, mesh.faces).second);
-  std::vector<double> numbers = {inertia(0, 0), inertia(1, 1), inertia(2, 2),
-                                 inertia(0, 1), inertia(0, 2), inertia(1, 2)};
-  for (const Vector& corner : corners) numbers.insert(numbers.end(), corner.begin(), corner.end());
-  for (const auto& [from, to] : edges) numbers.insert(numbers.end(), {double(from), double(to)});
-  for (const auto& face : faces) numbers.insert(numbers.end(), face.begin(), face.end());
-  numbers.push_back(1e-9);
-  return cell(id_of(grain)) + " 3 " + cell(numbers.size()) + "\n" + cell(corners.size()) + " " +
-         cell(edges.size()) + " " + cell(faces.size()) + "\n" + in_lines(numbers);
+  const Parts parts(mesh);
+  const Words words = body_words(parts,
+                                 words_of({inertia(0, 0), inertia(1, 1), inertia(2, 2),
+                                           inertia(0, 1), inertia(0, 2), inertia(1, 2)}),
+                                 words_of(coordinates));
+  return cell(id_of(grain)) + " 3 " + cell(words.size()) + "\n" + cell(parts.corners) + " " +
+         cell(parts.edges.size()) + " " + cell(parts.faces.size()) + "\n" + in_lines(words);
 }
 
 std::string bodies(const ExportedBed& exported) {
@@ -151,6 +218,19 @@ std::string bodies(const ExportedBed& exported) {
 }
 
 }  // namespace
+
+std::string fault_for_lammps(const StoredBed& bed) {
+  if (!bed.turned) return "";
+  for (const Mesh& mesh : bed.turned->meshes) {
+    const Parts parts(mesh);
+    if (has_room(parts)) continue;
+    return "a grain has " + cell(parts.corners) + " corners and " + cell(parts.edges.size()) +
+           " edges, more than the 32 lines that LAMMPS reads of a body can hold; take a shape of "
+           "fewer, as prisms and cylinders of up to " +
+           cell(most_sides_for_lammps) + " sides are, or --format vtp or stl";
+  }
+  return "";
+}
 
 std::string lammps_data(const ExportedBed& exported) {
   return header(exported) + (exported.bed.turned ? bodies(exported) : spheres(exported));

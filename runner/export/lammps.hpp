@@ -12,4 +12,10 @@ namespace grainsweep {
 /// those of a grain of size 1. The first line says which boundaries to ask for.
 std::string lammps_data(const ExportedBed& exported);
 
+/// Why LAMMPS cannot read grains of these shapes, with what to take instead; "" if it can.
+std::string fault_for_lammps(const StoredBed& bed);
+
+/// Prisms and cylinders of so many sides still have room in a body of LAMMPS.
+inline constexpr int most_sides_for_lammps = 41;
+
 }  // namespace grainsweep

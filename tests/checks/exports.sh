@@ -20,6 +20,8 @@ cat >sweep.json <<'JSON'
   "sweep": [ { "label": "two sizes", "set": { "sizes.small_share": 0.3 } },
              { "label": "small", "set": { "sizes.small_share": 1, "sizes.size_ratio": 0.7 } },
              { "label": "tube", "set": { "tube.diameter": 4 } },
+             { "label": "cylinders", "set": { "shape": "cylinder", "box.y": "periodic", "box.width": 4 } },
+             { "label": "prisms", "set": { "shape": { "prism": { "sides": 41 } }, "box.y": "periodic", "box.width": 4 } },
              { "label": "pinacoids", "set": { "shape": "pinacoid", "box.y": "periodic", "box.width": 4 } },
              { "label": "spheres among cubes", "set": { "box.y": "periodic", "box.width": 5, "box.length": 5, "shape": { "mixture": [
                { "share": 0.5, "cube": {} }, { "share": 0.5, "sphere": {} } ] } } },
@@ -46,6 +48,17 @@ sed '/^"wall_forces"/,$s/\(,[0-9]\.[0-9]\)[0-9]*/\1/' certificates/walls-1-1.cer
 for format in csv xyz lammps; do "$grainsweep" export out --format $format --to . >/dev/null; done
 "$grainsweep" export out --format voxels --voxels 60 --to . >/dev/null
 "$grainsweep" export out --format stl --contacts shrink:0.99 --periodic-images --to . >/dev/null
+
+# Shapes that LAMMPS cannot read are refused before anything is written.
+cat >round.json <<'JSON'
+{ "name": "round", "base": { "accuracy": "fast", "box": { "length": 5, "width": 4 }, "fill": { "solid_height": 2 },
+            "measure": { "exclude_floor": 0.3, "exclude_surface": 0.3 } },
+  "sweep": [ { "label": "cubes", "set": { "shape": "cube" } },
+             { "label": "round", "set": { "shape": { "prism": { "sides": 42 } } } } ] }
+JSON
+"$grainsweep" run round.json --quiet --no-report --out round || [ $? -eq 1 ]
+! "$grainsweep" export round --format lammps --to refused 2>said.txt
+grep -q 'shape prism: a grain has 84 corners' said.txt && [ ! -e refused ]
 
 for data in *.data; do
   style=$(sed -n '1s/.*atom_style \([^;]*\);.*/\1/p' "$data")

@@ -1,3 +1,6 @@
+#include <cmath>
+#include <numbers>
+#include <sstream>
 #include <string>
 
 #include <catch2/catch.hpp>
@@ -28,8 +31,56 @@ TEST_CASE("LAMMPS data of polyhedra: bodies with moments of inertia, corners, ed
              Catch::Contains("1 atoms\n1 bodies\n") &&
                  Catch::Contains("Atoms # body\n\n1 1 1 1 2 2 0.5\n\nBodies\n\n1 3 79\n"
                                  "8 12 6\n0.16666666666666") &&
-                 Catch::Contains(" -0.5 -0.5 -0.5\n0.5 -0.5 -0.5 -0.5 0.5 -0.5 0.5 0.5 -0.5\n") &&
-                 Catch::EndsWith("\n0 2 3 1 4 5 7 6 0\n1 5 4 2 6 7 3 0 4\n6 2 1 3 7 5 1e-09\n"));
+                 Catch::Contains(" -0.5 -0.5 -0.5 0.5 -0.5 -0.5 -0.5 0.5 -0.5 0.5 0.5 -0.5 ") &&
+                 Catch::EndsWith(" 0 2 3 1 4 5 7 6 0 1 5 4 2 6 7 3\n0 4 6 2 1 3 7 5 1e-09\n"));
+}
+
+/// A prism of that many sides, turned so that its coordinates have all their digits.
+ExportedBed lying_prism(int sides) {
+  ExportedBed exported = stacked_cubes();
+  exported.bed.grains.resize(1);
+  exported.bed.turned->orientations = {{0.1, 0.3, std::sqrt(0.65), 0.5}};
+  Mesh& mesh = exported.bed.turned->meshes.front();
+  mesh = {};
+  mesh.faces.resize(2);
+  for (int k = 0; k < sides; ++k) {
+    const double angle = 2 * std::numbers::pi * k / sides;
+    for (const double z : {-0.5, 0.5}) {
+      mesh.vertices.push_back({std::cos(angle) / 2, std::sin(angle) / 2, z});
+    }
+    const int next = (k + 1) % sides;
+    mesh.faces.push_back({2 * k, 2 * next, 2 * next + 1, 2 * k + 1});
+    mesh.faces[0].insert(mesh.faces[0].begin(), 2 * k);
+    mesh.faces[1].push_back(2 * k + 1);
+  }
+  return exported;
+}
+
+TEST_CASE("a body of LAMMPS has no more lines and characters than LAMMPS reads") {
+  for (const int sides : {12, 32, most_sides_for_lammps}) {
+    INFO(sides << " sides");
+    const ExportedBed exported = lying_prism(sides);
+    CHECK(fault_for_lammps(exported.bed).empty());
+    std::istringstream text(lammps_data(exported));
+    std::string line;
+    while (line != "Bodies") std::getline(text, line);
+    std::getline(text, line);
+    int lines = 0;
+    for (; std::getline(text, line); ++lines) CHECK(line.size() < 255);
+    CHECK(lines <= 32);
+  }
+}
+
+// It has 9 numbers of each: 3 of a corner, 2 of an edge, 4 of a face.
+TEST_CASE("LAMMPS is asked for as many corners as it needs to make room for edges and faces") {
+  CHECK_THAT(lammps_data(lying_prism(12)), Catch::Contains("body rounded/polyhedron 3 64;"));
+  CHECK_THAT(lammps_data(lying_prism(32)), Catch::Contains("body rounded/polyhedron 3 84;"));
+}
+
+TEST_CASE("shapes of more corners than LAMMPS reads are refused with what to take instead") {
+  CHECK_THAT(fault_for_lammps(lying_prism(44).bed),
+             Catch::Contains("88 corners") && Catch::Contains("up to 41 sides"));
+  CHECK(fault_for_lammps(stacked_spheres().bed).empty());
 }
 
 }  // namespace
