@@ -19,7 +19,7 @@ int decimals_for(double error) {
 std::vector<Published> published_of(const Reference& reference, const Family& family) {
   std::vector<Published> values;
   for (const PublishedFamily& entry : reference.families) {
-    if (!describes(entry, family.parameters)) continue;
+    if (!describes(entry, family)) continue;
     values.insert(values.end(), entry.values.begin(), entry.values.end());
   }
   return values;
@@ -56,12 +56,16 @@ std::string left_out_text(const Reference& reference, const std::vector<Family>&
   if (!text.empty()) text = "\nNothing is published there of\n" + text;
   for (const PublishedFamily& entry : reference.families) {
     const bool is_here = std::any_of(families.begin(), families.end(), [&](const Family& family) {
-      return describes(entry, family.parameters);
+      return describes(entry, family);
     });
     if (is_here) continue;
     text += "\nNot in the sweep:";
     for (const auto& [path, value] : entry.where) text.append(" ").append(path + "=" + value);
     text += "\n";
+    for (const auto& [path, value] : entry.where) {
+      const std::string advice = advice_on(path);
+      if (!advice.empty()) text.append("  ").append(advice + "\n");
+    }
   }
   return text;
 }
@@ -98,13 +102,15 @@ std::vector<Comparison> compare_with(const Reference& reference, const Analysis&
   std::vector<Comparison> rows;
   for (const Family& family : families) {
     for (const Published& value : published_of(reference, family)) {
-      rows.push_back({family.name, title_of_quantity(value.quantity, value.width), value,
+      const std::string symbol = extent_symbol(family.walled);
+      rows.push_back({family.name, title_of_quantity(value.quantity, value.width, symbol), value,
                       measure_quantity(value.quantity, value.width, family, folder), std::nullopt});
     }
   }
   for (const Published& value : reference.common) {
     const Shared shared = share_quantity(value.quantity, value.width, families, folder);
-    rows.push_back({"all families", title_of_quantity(value.quantity, value.width), value,
+    rows.push_back({"all families",
+                    title_of_quantity(value.quantity, value.width, extent_symbol(families)), value,
                     shared.measured, shared.chi2_per_dof});
   }
   return rows;

@@ -39,22 +39,23 @@ Measured unconfined(const Family& family) {
   return {{}, "the sweep has no settled packing with periodic y", ""};
 }
 
-Measured fitted(const WallFit& fit, const Estimate& estimate) {
+Measured fitted(const Family& family, const WallFit& fit, const Estimate& estimate) {
   return {estimate, fit.not_determined,
-          "line in 1/W over " + std::to_string(fit.widths) + " widths, χ²/dof " +
-              fixed(fit.chi2_per_dof, 1) + (fit.doubt.empty() ? "" : ": ") + fit.doubt};
+          "line in 1/" + extent_symbol(family.walled) + " over " + std::to_string(fit.widths) +
+              " widths, χ²/dof " + fixed(fit.chi2_per_dof, 1) + (fit.doubt.empty() ? "" : ": ") +
+              fit.doubt};
 }
 
 template <Quantity quantity>
 Measured bulk_of_fit(const Family& family) {
   const WallFit fit = fit_walls(family, quantity);
-  return fitted(fit, fit.bulk);
+  return fitted(family, fit, fit.bulk);
 }
 
 template <Quantity quantity>
 Measured slope_of_fit(const Family& family) {
   const WallFit fit = fit_walls(family, quantity);
-  return fitted(fit, fit.slope);
+  return fitted(family, fit, fit.slope);
 }
 
 Measured zeta_difference(const Family& family) {
@@ -169,9 +170,10 @@ std::string fault_of_quantity(const std::string& quantity, double width) {
   return "";
 }
 
-std::string title_of_quantity(const std::string& quantity, double width) {
+std::string title_of_quantity(const std::string& quantity, double width,
+                              const std::string& symbol) {
   const std::string title(find_quantity(quantity)->title);
-  return width > 0.0 ? title + " at W = " + cell(width) + " d" : title;
+  return width > 0.0 ? title + " at " + symbol + " = " + cell(width) + " d" : title;
 }
 
 Measured measure_quantity(const std::string& quantity, double width, const Family& family,
@@ -183,7 +185,10 @@ Measured measure_quantity(const std::string& quantity, double width, const Famil
       return named.of_group(family, *GroupWithCurves(group, folder));
     }
   }
-  return {{}, "the sweep has no packings between walls at W = " + cell(width) + " d", ""};
+  return {{},
+          "the sweep has no packings between walls at " + extent_symbol(family.walled) + " = " +
+              cell(width) + " d",
+          ""};
 }
 
 Shared share_quantity(const std::string& quantity, double width,

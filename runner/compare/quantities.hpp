@@ -19,8 +19,9 @@ struct Measured {
 /// it; empty if there can be one.
 std::string fault_of_quantity(const std::string& quantity, double width);
 
-/// "Z at W = 10 d". The quantity and width must be without fault, here and below.
-std::string title_of_quantity(const std::string& quantity, double width);
+/// "Z at W = 10 d", `symbol` as of extent_symbol. The quantity and width must be without fault,
+/// here and below.
+std::string title_of_quantity(const std::string& quantity, double width, const std::string& symbol);
 
 /// `folder` holds the beds, as of GroupWithCurves.
 Measured measure_quantity(const std::string& quantity, double width, const Family& family,

@@ -102,13 +102,31 @@ std::string reference_beside(const std::string& sweep_file) {
          ".reference.json";
 }
 
-bool describes(const PublishedFamily& family, const std::string& parameters) {
-  const json known = json::parse(parameters).flatten();
-  return std::all_of(family.where.begin(), family.where.end(), [&](const auto& entry) {
-    std::string pointer = "/" + entry.first;
+bool describes(const PublishedFamily& published, const Family& family) {
+  const JobFacts& job = first_group(family).job;
+  const json known = json::parse(family.parameters).flatten();
+  return std::all_of(published.where.begin(), published.where.end(), [&](const auto& entry) {
+    const auto& [path, value] = entry;
+    if (path == "shape") return value == plain(job.shape);
+    if (path == "accuracy" || path == "accuracy.preset") {
+      return value == plain(job.accuracy) || value == plain(job.settles_as);
+    }
+    std::string pointer = "/" + path;
     std::replace(pointer.begin(), pointer.end(), '.', '/');
-    return known.contains(pointer) && plain(known[pointer]) == entry.second;
+    return known.contains(pointer) && plain(known[pointer]) == value;
   });
+}
+
+std::string advice_on(const std::string& path) {
+  if (path == "box.width" || path == "tube.diameter") {
+    return "a family has packings of any " + path +
+           ": leave it out of \"where\", and give values their \"width\"";
+  }
+  if (path == "box.y") {
+    return "a family has packings with walls and without: leave box.y out of \"where\"; quantities "
+           "that end in _unconfined are of those without";
+  }
+  return "";
 }
 
 }  // namespace grainsweep

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "runner/tables/families.hpp"
+
 namespace grainsweep {
 
 /// One published value, in d where it is a length; for some quantities a source has words alone.
@@ -22,7 +24,7 @@ struct Published {
   std::string definition;  ///< what the source says of it; may be empty
 };
 
-/// Values of the families whose parameters are those of `where`: dotted path -> value.
+/// Values of the families that `where` describes: dotted path -> value, as JSON.
 struct PublishedFamily {
   std::map<std::string, std::string> where;
   std::vector<Published> values;
@@ -42,7 +44,12 @@ Reference read_reference(const std::string& path);
 /// "configs/paper.json".
 std::string reference_beside(const std::string& sweep_file);
 
-/// Whether packings with these parameters (canonical JSON) are those that `where` describes.
-bool describes(const PublishedFamily& family, const std::string& parameters);
+/// Whether `family` is one that the `where` of `published` describes: by its parameters, by the
+/// name of its shape, and by that of the preset that it settles as.
+bool describes(const PublishedFamily& published, const Family& family);
+
+/// What to write in `where` in place of a parameter that families do not have, since their packings
+/// differ in it; "" of any other path.
+std::string advice_on(const std::string& path);
 
 }  // namespace grainsweep

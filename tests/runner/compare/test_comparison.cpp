@@ -99,5 +99,23 @@ TEST_CASE("what a sweep lacks is not determined and never a number") {
   CHECK(comparison_text(reference(), analysis).find("nan") == std::string::npos);
 }
 
+TEST_CASE("of a family that is described by its width the table says what to write instead") {
+  Reference by_width;
+  by_width.families = {{{{"box.width", "5.0"}}, {}}};
+  const std::vector<Row> rows = {settled_row("a", 5, 0.6, 5.4)};
+  CHECK_THAT(comparison_text(by_width, analyse(rows)),
+             Catch::Contains("\nNot in the sweep: box.width=5.0\n"
+                             "  a family has packings of any box.width: leave it out of "));
+}
+
+TEST_CASE("what tubes have at a width is told to be at a D") {
+  std::vector<Row> rows = wall_sweep();
+  std::erase_if(rows, [](const Row& row) { return row.job.box.y == Boundary::periodic; });
+  for (Row& row : rows) row.job.box = tube_of(row.job.box.width);
+  const std::string text = comparison_text(reference(), analyse(rows));
+  CHECK_THAT(text, Catch::Contains("  Z at D = 10 d ") && Catch::Contains("line in 1/D over 3"));
+  CHECK_THAT(text, !Catch::Contains("W = ") && !Catch::Contains("1/W"));
+}
+
 }  // namespace
 }  // namespace grainsweep

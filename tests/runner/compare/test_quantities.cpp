@@ -124,7 +124,7 @@ TEST_CASE("unknown quantities and widths that do not belong are told") {
              Catch::Contains("unknown quantity \"zeta\"") && Catch::Contains("zeta_difference"));
   CHECK(fault_of_quantity("Z", 0) == "Z needs a \"width\"");
   CHECK(fault_of_quantity("C", 5) == "C belongs to no \"width\"");
-  CHECK(title_of_quantity("Z", 10) == "Z at W = 10 d");
+  CHECK(title_of_quantity("Z", 10, "W") == "Z at W = 10 d");
 }
 
 }  // namespace

@@ -63,21 +63,54 @@ TEST_CASE("what is wrong in a file of published values is told with its place") 
   CHECK_THAT(told_of(R"("quantity": "C", "value": [2, 1])"), Catch::Contains("[low, high]"));
 }
 
+/// The family of a packing with these parameters.
+Family family_of(const std::string& parameters, const std::string& shape) {
+  Family family;
+  family.parameters = parameters;
+  family.walled.emplace_back().job = sample_job("a", 5);
+  family.walled.front().job.shape = shape;
+  return family;
+}
+
+bool describes_it(const std::string& where, const Family& family) {
+  return describes(
+      reference_of(R"({"source": "S", "families": [{"where": )" + where + "}]}").families.at(0),
+      family);
+}
+
 TEST_CASE("values belong to the families whose parameters are those of `where`") {
-  const auto describes_it = [](const std::string& where, const std::string& parameters) {
-    return describes(
-        reference_of(R"({"source": "S", "families": [{"where": )" + where + "}]}").families.at(0),
-        parameters);
-  };
-  const std::string spheres = sample_parameters(5, Boundary::walls, 0.4);
+  const Family spheres = family_of(sample_parameters(5, Boundary::walls, 0.4), "sphere");
   CHECK(describes_it("{}", spheres));
   CHECK(describes_it(R"({"shape": "sphere", "sizes.small_share": 0.4})", spheres));
   CHECK_FALSE(describes_it(R"({"shape": "sphere", "sizes.small_share": 0.5})", spheres));
   CHECK_FALSE(describes_it(R"({"shape": "pinacoid"})", spheres));
-  const std::string pinacoids = R"({"shape":{"pinacoid":{"angle_deg":60,"height":1}}})";
+  const Family pinacoids =
+      family_of(R"({"shape":{"pinacoid":{"angle_deg":60,"height":1}}})", "pinacoid");
   CHECK(describes_it(R"({"shape.pinacoid.angle_deg": 60.0})", pinacoids));
   CHECK_FALSE(describes_it(R"({"shape.pinacoid.angle_deg": 50})", pinacoids));
   CHECK_FALSE(describes_it(R"({"shape.pinacoid.angle_deg": 60})", spheres));
+  CHECK(describes_it(R"({"shape": "pinacoid"})", pinacoids));
+  CHECK_FALSE(describes_it(R"({"shape": "sphere"})", pinacoids));
+}
+
+TEST_CASE("an accuracy is described by the name of its preset, or of the one that it settles as") {
+  Family family = family_of(R"({"accuracy":{"step":0.2}})", "sphere");
+  for (const char* const path : {"accuracy", "accuracy.preset"}) {
+    const std::string of_path = std::string("{\"") + path + "\": ";
+    family.walled.front().job.accuracy = "balanced", family.walled.front().job.settles_as = "";
+    CHECK(describes_it(of_path + "\"balanced\"}", family));
+    CHECK_FALSE(describes_it(of_path + "\"fast\"}", family));
+    family.walled.front().job.accuracy = "custom", family.walled.front().job.settles_as = "fast";
+    CHECK(describes_it(of_path + "\"fast\"}", family));
+    CHECK(describes_it(of_path + "\"custom\"}", family));
+  }
+}
+
+TEST_CASE("what packings of a family differ in is told to be no part of `where`") {
+  CHECK_THAT(advice_on("box.width"), Catch::Contains("give values their \"width\""));
+  CHECK_THAT(advice_on("tube.diameter"), Catch::Contains("give values their \"width\""));
+  CHECK_THAT(advice_on("box.y"), Catch::Contains("_unconfined"));
+  CHECK(advice_on("box.length").empty());
 }
 
 TEST_CASE("published values lie beside their sweep") {
