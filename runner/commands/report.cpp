@@ -25,8 +25,9 @@ int perform(const ReportOptions& options) {
   Results results = results_with_warnings(options.folder);
   std::cerr << damage_warnings(check_beds(options.folder, results.rows));
   const Analysis analysis = analyse(results.rows, options.folder);
-  std::cout << closing_report(results.provenance, results.rows, analysis.families,
-                              {called_as(), options.folder})
+  std::cout << closing_report(
+                   results.provenance, results.rows, analysis.families,
+                   {called_as(), options.folder, has_grains(options.folder, results.rows)})
             << std::flush;
   try {
     std::cout << write_page(options.folder, results.provenance, results.rows, analysis);

@@ -319,7 +319,7 @@ void write_results(Results& results, const RunOptions& options, const std::strin
   write_tables(folder, results.provenance, results.rows, analysis);
   if (is_whole && !options.quiet) {
     std::cout << closing_report(results.provenance, results.rows, analysis.families,
-                                {called_as(), folder})
+                                {called_as(), folder, has_grains(folder, results.rows)})
               << std::flush;
   }
   if (options.no_report) return;

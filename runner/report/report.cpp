@@ -139,7 +139,8 @@ std::vector<std::string> write_report(const std::string& folder, const Provenanc
   parts.published = published_section(reference ? reference->source : "", comparisons);
   parts.packings = packings_section(rows, analysis.groups, provenance.units);
   parts.provenance = provenance_section(provenance);
-  parts.closing_table = closing_report(provenance, rows, analysis.families, {"grainsweep", folder});
+  parts.closing_table = closing_report(provenance, rows, analysis.families,
+                                       {"grainsweep", folder, has_grains(folder, rows)});
   replace_file(folder + "/report.html", page_text(parts));
   return missing;
 }

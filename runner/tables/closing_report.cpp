@@ -8,6 +8,8 @@
 #include <map>
 #include <set>
 
+#include "runner/store/files.hpp"
+#include "runner/store/states.hpp"
 #include "runner/tables/csv.hpp"
 #include "runner/tables/families.hpp"
 #include "runner/tables/fits.hpp"
@@ -344,11 +346,24 @@ std::string next_text(const std::string& sweep_file, const StatusCounts& counts,
     return "Next: " + place.program + " run " + file + " --out " + folder +
            " makes what is missing\n";
   }
+  if (!place.has_grains) return "";
   return "Next: " + place.program + " export " + folder +
          " --format vtp writes the grains for ParaView\n";
 }
 
 }  // namespace
+
+bool has_grains(const std::string& folder, const std::vector<Row>& rows) {
+  for (const Row& row : rows) {
+    if (!row.outcome || row.outcome->stored_bytes == 0) continue;
+    try {
+      return !read_bed(folder, *row.outcome).grains.empty();
+    } catch (const FileError&) {
+      continue;  // whoever reads results is warned of damaged beds
+    }
+  }
+  return false;
+}
 
 std::string closing_report(const Provenance& provenance, const std::vector<Row>& rows,
                            const std::vector<Family>& families, const ReportPlace& place) {

@@ -7,7 +7,9 @@
 
 #include "runner/tables/closing_report.hpp"
 #include "tests/runner/sample_rows.hpp"
+#include "tests/runner/stored.hpp"
 #include "tests/runner/sweep/sweep_files.hpp"
+#include "tests/runner/temporary_folder.hpp"
 
 namespace grainsweep {
 namespace {
@@ -94,6 +96,29 @@ TEST_CASE("the closing report as a whole") {
       "Tables in out/a: packings.csv, groups.csv, fits.csv, profiles.csv, decays.csv and more;\n"
       "provenance.json says how they were made\n"
       "Next: ./run.sh export out/a --format vtp writes the grains for ParaView\n");
+}
+
+TEST_CASE("of beds without grains the report says no more than where the tables are") {
+  const std::vector<Row> rows = sample_rows();
+  CHECK_THAT(closing_report(reported_provenance(), rows, analyse(rows).families,
+                            {"./run.sh", "out/a", false}),
+             Catch::EndsWith("provenance.json says how they were made\n"));
+}
+
+TEST_CASE("whether beds have grains is told by the first of them that can be read") {
+  const TemporaryFolder folder;
+  std::vector<Row> rows = {settled_row("a", 5, 0.6, 6), settled_row("b", 5, 0.6, 6)};
+  CHECK_FALSE(has_grains(folder.path(), rows));  // none has a bed
+  StoredBed bed;
+  bed.state_hash = rows[0].outcome->result.state_hash;
+  for (Row& row : rows) {
+    bed.job = row.job.id;
+    bed.grains.resize(row.job.id == "a" ? 0 : 3);
+    add_stored_bed(folder.path(), bed, *row.outcome);
+  }
+  CHECK_FALSE(has_grains(folder.path(), rows));
+  damage_bed(folder.path(), *rows[0].outcome, 30);
+  CHECK(has_grains(folder.path(), rows));
 }
 
 TEST_CASE("what the protocol does to means is said to be unknown, or bounded in another table") {
