@@ -1,6 +1,8 @@
 #include "runner/tables/distributions.hpp"
 
 #include <algorithm>
+#include <cstddef>
+#include <string_view>
 
 namespace grainsweep {
 namespace {
@@ -15,11 +17,28 @@ Spread spread_at(const Group& group, Curve Order::*curve, std::size_t k) {
   return spread_of(values);
 }
 
+constexpr std::string_view pair_correlation = "pair_correlation";
+
 struct PointLine {
   const Group& group;
-  const char* curve = "";
+  std::string_view curve;
   CurvePoint point;
 };
+
+/// Where bins of the pair correlation begin and end, in the unit of the sweep: forces have none.
+void append_distances(Columns<PointLine>& columns, const GivenUnits& units) {
+  const auto distance = [](double CurvePoint::*edge) {
+    return [edge](const PointLine& line) {
+      return line.curve == pair_correlation ? cell(line.point.*edge) : std::string();
+    };
+  };
+  Columns<PointLine> distances = {
+      {"low", "d", "where a bin of pair_correlation begins", distance(&CurvePoint::low)},
+      {"high", "d", "where it ends", distance(&CurvePoint::high)}};
+  const auto in_d = static_cast<std::ptrdiff_t>(distances.size());
+  append_in_units(distances, units);
+  columns.insert(columns.end(), distances.begin() + in_d, distances.end());
+}
 
 Columns<PointLine> curve_line_columns(const Varied& varied, const GivenUnits& units) {
   Columns<PointLine> columns;
@@ -40,10 +59,11 @@ Columns<PointLine> curve_line_columns(const Varied& varied, const GivenUnits& un
   append_spread(columns, "value", "", "of the curve in the bin, mean over the packings",
                 [](const PointLine& line) { return line.point.value; });
   append_in_units(columns, units);
+  append_distances(columns, units);
   return columns;
 }
 
-void append_points(const Group& group, const char* name, Curve Order::*curve,
+void append_points(const Group& group, std::string_view name, Curve Order::*curve,
                    std::vector<PointLine>& lines) {
   for (const CurvePoint& point : mean_curve(group, curve)) lines.push_back({group, name, point});
 }
@@ -73,7 +93,7 @@ std::vector<ColumnText> distributions_columns(const Varied& varied, const GivenU
 CurveTable distributions_table(const Varied& varied, const GivenUnits& units) {
   return curve_table(curve_line_columns(varied, units), [](const Group& group) {
     std::vector<PointLine> lines;
-    append_points(group, "pair_correlation", &Order::pair_correlation, lines);
+    append_points(group, pair_correlation, &Order::pair_correlation, lines);
     append_points(group, "force_density", &Order::force_density, lines);
     return lines;
   });

@@ -28,6 +28,18 @@ TEST_CASE("curves have mean and scatter of the replicates that reach so far") {
         "1,MSP,a,MSP,5,walls,0,force_density,0,0.25,2,1.5,0.7071067811865476,0.5\n");
 }
 
+TEST_CASE("distances of the pair correlation are told in the unit of the sweep, too") {
+  const std::vector<Row> rows = {row_with_curves("a", {0, 2}, {1})};
+  const auto groups = analyse(rows).groups;
+  const std::string text =
+      text_of(distributions_table(varied_of(groups), Units{3.0, "mm", std::nullopt}), groups);
+  CHECK(cell_in(text, 2, "curve") == "pair_correlation");
+  CHECK(cell_in(text, 2, "low_mm") == "1.5");
+  CHECK(cell_in(text, 2, "high_mm") == "3");
+  CHECK(cell_in(text, 3, "curve") == "force_density");
+  CHECK(cell_in(text, 3, "low_mm").empty());
+}
+
 TEST_CASE("a group without settled packings has no curves") {
   const std::vector<Row> rows = {row_with_status("u", 5, PackingStatus::failed, "no room")};
   CHECK(distributions_csv(analyse(rows).groups) == distributions_csv({}));
