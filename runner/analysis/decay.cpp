@@ -10,6 +10,7 @@
 
 #include "engine/text.hpp"
 #include "engine/units.hpp"
+#include "runner/analysis/student.hpp"
 
 namespace grainsweep {
 
@@ -230,14 +231,6 @@ VectorXd readable(const VectorXd& p) {
   return values;
 }
 
-/// Quantile of Student's t at 97.5 % over that of the normal distribution (Cornish and Fisher 1938;
-/// within 1 % for 3 degrees of freedom or more).
-double widening(double degrees_of_freedom) {
-  const double z = 1.959964, n = degrees_of_freedom, z2 = z * z;
-  return 1.0 + (z2 + 1.0) / (4.0 * n) + (5.0 * z2 * z2 + 16.0 * z2 + 3.0) / (96.0 * n * n) +
-         (3.0 * z2 * z2 * z2 + 19.0 * z2 * z2 + 17.0 * z2 - 15.0) / (384.0 * n * n * n);
-}
-
 /// Jackknife errors from the values of the fits without each profile.
 VectorXd jackknife_errors(const std::vector<VectorXd>& values) {
   const auto n = static_cast<double>(values.size());
@@ -249,7 +242,8 @@ VectorXd jackknife_errors(const std::vector<VectorXd>& values) {
 
 /// The same, widened so that two of them to both sides hold the truth in 95 %.
 VectorXd widened_errors(const std::vector<VectorXd>& values) {
-  return widening(static_cast<double>(values.size()) - 1.0) * jackknife_errors(values);
+  const double widening = student_quantile(static_cast<int>(values.size()) - 1) / normal_quantile;
+  return widening * jackknife_errors(values);
 }
 
 /// Why the window cannot hold a fit; empty if it can.

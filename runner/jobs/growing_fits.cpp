@@ -7,6 +7,7 @@
 #include <set>
 
 #include "runner/analysis/fit.hpp"
+#include "runner/analysis/student.hpp"
 #include "runner/jobs/replicate_means.hpp"
 
 namespace grainsweep {

@@ -11,10 +11,6 @@ namespace grainsweep {
 /// Every group that grows has so many packings before its scatter counts.
 inline constexpr int first_replicates = 6;
 
-/// Quantile 0.975 of Student's distribution; right to 1e-3 from 5 degrees of freedom on, which
-/// growing groups begin with.
-double student_quantile(int degrees_of_freedom);
-
 /// Half of the 95 % interval (Student) of the mean of n values with this standard deviation;
 /// infinite for less than two values.
 double half_interval(double sd, int n);

@@ -175,7 +175,7 @@ TEST_CASE("layers whose strength is uncertain are lost in the noise, however wel
 
 // Waves of one length that differ in phase by delta add up to one of the mean phase, to within
 // delta^2; the jackknife error of a mean is sqrt(sum delta^2 / n (n - 1)). Student's t with three
-// degrees of freedom widens it by 3.182 / 1.96, which the fit knows to 1 %.
+// degrees of freedom widens it by 3.182 / 1.96.
 TEST_CASE("the error of a phase near pi knows that pi and -pi are one") {
   std::vector<std::vector<double>> profiles;
   for (const double delta : {-0.06, -0.02, 0.02, 0.06}) {

@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 
 #include "runner/analysis/fit.hpp"
+#include "runner/analysis/student.hpp"
 #include "runner/jobs/growing_fits.hpp"
 #include "runner/jobs/replicate_means.hpp"
 #include "runner/tables/fits.hpp"

@@ -12,6 +12,8 @@ TEST_CASE("half of a 95 % interval is that of Student's distribution") {
   const auto quantile = [](int degrees) {  // printed tables have three decimals
     return half_interval(std::sqrt(degrees + 1.0), degrees + 1);
   };
+  CHECK(quantile(1) == Approx(12.706).margin(1e-3));  // of two that settled
+  CHECK(quantile(2) == Approx(4.303).margin(1e-3));
   CHECK(quantile(5) == Approx(2.571).margin(1e-3));
   CHECK(quantile(10) == Approx(2.228).margin(1e-3));
   CHECK(quantile(30) == Approx(2.042).margin(1e-3));
