@@ -1,6 +1,7 @@
 // The command `plan`: what a sweep stands for and will cost, without running it.
 #include <algorithm>
 #include <iostream>
+#include <map>
 
 #include <CLI/App.hpp>
 #include <nlohmann/json.hpp>
@@ -12,6 +13,7 @@
 #include "runner/jobs/estimates.hpp"
 #include "runner/jobs/growing_groups.hpp"
 #include "runner/jobs/schedule.hpp"
+#include "runner/jobs/sweep_parts.hpp"
 #include "runner/machine.hpp"
 #include "runner/store/journal.hpp"
 #include "runner/sweep/costs.hpp"
@@ -103,12 +105,13 @@ std::string growth_text(const Sweep& whole, const Outcomes& made) {
 std::string next_text(const Sweep& sweep, const Outcomes& made, const PackingNames& names) {
   constexpr std::size_t most_shown = 8;
   std::vector<std::pair<const Job*, std::size_t>> next;  // of each group, how many
+  std::map<std::pair<std::string, std::string>, std::size_t> index_of;
   std::size_t all = 0;
   for (const Job& job : sweep.jobs) {
     if (!may_grow(job) || made.contains(job.id)) continue;
-    const bool is_new = next.empty() || next.back().first->parameters != job.parameters;
+    const auto [known, is_new] = index_of.try_emplace({job.label, job.parameters}, next.size());
     if (is_new) next.emplace_back(&job, 0);
-    ++next.back().second;
+    ++next[known->second].second;
     ++all;
   }
   if (all == 0) return "Nothing comes next: what was asked for is met, or the most is made\n";

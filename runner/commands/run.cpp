@@ -25,6 +25,7 @@
 #include "runner/jobs/helping.hpp"
 #include "runner/jobs/pack_pending.hpp"
 #include "runner/jobs/stop.hpp"
+#include "runner/jobs/sweep_parts.hpp"
 #include "runner/machine.hpp"
 #include "runner/store/checkpoints.hpp"
 #include "runner/store/files.hpp"

@@ -3,48 +3,18 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <functional>
 #include <map>
 #include <set>
 #include <sstream>
 
 #include "runner/jobs/growing_fits.hpp"
 #include "runner/jobs/replicate_means.hpp"
-#include "runner/jobs/split.hpp"
-#include "runner/sweep/costs.hpp"
-#include "runner/tables/fits.hpp"
 #include "runner/tables/job_facts.hpp"
 #include "runner/tables/packing_names.hpp"
 #include "runner/text.hpp"
 
 namespace grainsweep {
 namespace {
-
-/// Jobs of a group, which follow one another, by their places in the sweep.
-struct Places {
-  std::size_t begin = 0, end = 0;
-};
-
-std::vector<Places> groups_in(const Sweep& sweep) {
-  std::vector<Places> groups;
-  for (std::size_t i = 0; i < sweep.jobs.size(); ++i) {
-    const Job& job = sweep.jobs[i];
-    const Job* const before = i == 0 ? nullptr : &sweep.jobs[i - 1];
-    if (before != nullptr && before->parameters == job.parameters && before->label == job.label) {
-      groups.back().end = i + 1;
-    } else {
-      groups.push_back({i, i + 1});
-    }
-  }
-  return groups;
-}
-
-bool has_fit_wish(const Sweep& whole) {
-  return std::any_of(whole.jobs.begin(), whole.jobs.end(),
-                     [](const Job& job) { return job.fit_wish.is_given(); });
-}
-
-std::optional<ProtocolBias> bound_of(const Job& job) { return bias_bound(facts_of(job)); }
 
 /// The interval over what the wish leaves for it; at most 1 if the wish is met.
 double over_wish(const Spread& spread, double wish, double bias) {
@@ -60,7 +30,7 @@ double over_wishes(const Means& means, const ErrorWish& wish,
 std::vector<const Outcome*> made_of(const Sweep& sweep, const Places& group,
                                     const Outcomes& outcomes) {
   std::vector<const Outcome*> made;
-  for (std::size_t i = group.begin; i < group.end; ++i) {
+  for (const std::size_t i : group) {
     const auto found = outcomes.find(sweep.jobs[i].id);
     const bool is_made = found != outcomes.end() && !found->second->exception;
     made.push_back(is_made ? &*found->second : nullptr);
@@ -75,48 +45,16 @@ struct Called {
   int count = 0;
 };
 Called called_for(const Sweep& whole, const Places& group, const Outcomes& outcomes) {
-  const Job& first = whole.jobs[group.begin];
+  const Job& first = whole.jobs[group.front()];
   Called called{made_of(whole, group, outcomes), bound_of(first), 0};
   called.count = replicates_called_for(called.made, first.wish, called.bound);
   return called;
 }
 
-/// The groups that one wall effect is fitted to, by their places in the list of groups.
-struct GrowingFamily {
-  std::vector<std::size_t> groups;
-  FitWish wish;
-};
-
-bool is_walled(const Job& job) { return job.spec.box.y == Boundary::walls; }
-
-void take_smaller(double FitWish::*part, const FitWish& other, FitWish& wish) {
-  const double asked = other.*part;
-  if (asked > 0.0 && (wish.*part == 0.0 || asked < wish.*part)) wish.*part = asked;
-}
-
-/// Families whose fit is to have small errors; of several wishes for one fit the smallest holds.
-std::vector<GrowingFamily> growing_families(const Sweep& whole, const std::vector<Places>& groups) {
-  std::vector<GrowingFamily> families;
-  if (!has_fit_wish(whole)) return families;
-  std::map<std::string, std::size_t> index_of;
-  for (std::size_t k = 0; k < groups.size(); ++k) {
-    const Job& job = whole.jobs[groups[k].begin];
-    const auto [known, is_new] =
-        index_of.try_emplace(parameters_of_family(facts_of(job)), families.size());
-    if (is_new) families.emplace_back();
-    GrowingFamily& family = families[known->second];
-    family.groups.push_back(k);
-    for (double FitWish::*part : {&FitWish::phi_bulk, &FitWish::c, &FitWish::z_bulk, &FitWish::c_z})
-      take_smaller(part, job.fit_wish, family.wish);
-  }
-  std::erase_if(families, [](const GrowingFamily& family) { return !family.wish.is_given(); });
-  return families;
-}
-
 /// A group of a fit. Those without walls tell how packings scatter, and have as many as all have at
 /// first.
 FitGroup fit_group_of(const Sweep& whole, const Places& group, const Outcomes& outcomes) {
-  const Job& job = whole.jobs[group.begin];
+  const Job& job = whole.jobs[group.front()];
   FitGroup of_fit{job.spec.box.width, is_walled(job), false, made_of(whole, group, outcomes)};
   if (!job.fit_wish.is_given()) return of_fit;
   of_fit.may_grow = of_fit.is_walled;
@@ -133,7 +71,7 @@ CalledFit called_for(const Sweep& whole, const std::vector<Places>& groups,
   for (const std::size_t k : family.groups) {
     of_fit.push_back(fit_group_of(whole, groups[k], outcomes));
   }
-  const Job& first = whole.jobs[groups[family.groups.front()].begin];
+  const Job& first = whole.jobs[groups[family.groups.front()].front()];
   return called_for_fit(of_fit, family.wish, bound_of(first));
 }
 
@@ -143,9 +81,9 @@ std::vector<std::size_t> counts_called_for(const Sweep& whole, const std::vector
   std::vector<std::size_t> counts;
   counts.reserve(groups.size());
   for (const Places& group : groups) {
-    counts.push_back(whole.jobs[group.begin].wish.is_given()
+    counts.push_back(whole.jobs[group.front()].wish.is_given()
                          ? static_cast<std::size_t>(called_for(whole, group, outcomes).count)
-                         : group.end - group.begin);
+                         : group.size());
   }
   for (const GrowingFamily& family : growing_families(whole, groups)) {
     const CalledFit called = called_for(whole, groups, family, outcomes);
@@ -161,10 +99,14 @@ Sweep called_for(const Sweep& whole, const Outcomes& outcomes) {
   Sweep called{whole.name, whole.seed, whole.replicates, {}, whole.units};
   const std::vector<Places> groups = groups_in(whole);
   const std::vector<std::size_t> counts = counts_called_for(whole, groups, outcomes);
+  Places places;
   for (std::size_t k = 0; k < groups.size(); ++k) {
-    const auto first = whole.jobs.begin() + static_cast<std::ptrdiff_t>(groups[k].begin);
-    called.jobs.insert(called.jobs.end(), first, first + static_cast<std::ptrdiff_t>(counts[k]));
+    const auto end = groups[k].begin() + static_cast<std::ptrdiff_t>(counts[k]);
+    places.insert(places.end(), groups[k].begin(), end);
   }
+  std::sort(places.begin(), places.end());
+  called.jobs.reserve(places.size());
+  for (const std::size_t i : places) called.jobs.push_back(whole.jobs[i]);
   return called;
 }
 
@@ -188,7 +130,7 @@ void append_fit(const Sweep& whole, const std::vector<Places>& groups, const Gro
   const Job* asks_of_means = nullptr;
   std::set<double> widths;
   for (const std::size_t k : family.groups) {
-    const Job& job = whole.jobs[groups[k].begin];
+    const Job& job = whole.jobs[groups[k].front()];
     if (job.wish.is_given()) asks_of_means = &job;
     if (asking == nullptr && job.fit_wish.is_given()) asking = &job;
     if (is_walled(job)) widths.insert(job.spec.box.width);
@@ -211,46 +153,6 @@ void append_fit(const Sweep& whole, const std::vector<Places>& groups, const Gro
   append_wish("Z_bulk", family.wish.z_bulk, bias.coordination, *asking, text);
 }
 
-/// Jobs that belong to one shard.
-struct Part {
-  std::vector<Places> jobs;
-  Cost cost;
-};
-
-/// Adds a group to a part, with what it takes at first.
-void add_group(const Sweep& whole, const Places& group, const std::vector<Cost>& costs,
-               Part& part) {
-  const Cost& one = costs[group.begin];
-  const std::size_t count = may_grow(whole.jobs[group.begin])
-                                ? static_cast<std::size_t>(first_replicates)
-                                : group.end - group.begin;
-  part.jobs.push_back(group);
-  part.cost.cpu_seconds += one.cpu_seconds * static_cast<double>(count);
-  part.cost.bytes = std::max(part.cost.bytes, one.bytes);
-}
-
-std::vector<Part> parts_of(const Sweep& whole, const std::vector<Cost>& costs) {
-  const std::vector<Places> groups = groups_in(whole);
-  std::vector<Part> parts;
-  std::set<std::size_t> of_families;
-  for (const GrowingFamily& family : growing_families(whole, groups)) {
-    parts.emplace_back();
-    for (const std::size_t k : family.groups) add_group(whole, groups[k], costs, parts.back());
-    of_families.insert(family.groups.begin(), family.groups.end());
-  }
-  for (std::size_t k = 0; k < groups.size(); ++k) {
-    if (of_families.contains(k)) continue;
-    if (may_grow(whole.jobs[groups[k].begin])) {
-      add_group(whole, groups[k], costs, parts.emplace_back());
-      continue;
-    }
-    for (std::size_t i = groups[k].begin; i < groups[k].end; ++i) {
-      parts.push_back({{{i, i + 1}}, costs[i]});
-    }
-  }
-  return parts;
-}
-
 std::string unmeasured_text(std::size_t count, const char* noun) {
   if (count == 0) return "";
   return "; what settling does to the means of " + counted(count, noun) +
@@ -261,6 +163,12 @@ std::string end_of_text(std::size_t met, std::size_t all) {
   return met < all ? "; raise replicates.most for the others\n" : "\n";
 }
 
+/// Whether seeds tell groups apart.
+bool has_seeds(const Sweep& whole) {
+  return std::any_of(whole.jobs.begin(), whole.jobs.end(),
+                     [&](const Job& job) { return job.seed != whole.jobs.front().seed; });
+}
+
 /// Which groups have larger errors than wished, by their first jobs.
 std::string missed_text(const Sweep& whole, const std::vector<const Job*>& missed) {
   constexpr std::size_t most_named = 5;
@@ -269,6 +177,7 @@ std::string missed_text(const Sweep& whole, const std::vector<const Job*>& misse
   std::string text;
   for (std::size_t k = 0; k < std::min(missed.size(), most_named); ++k) {
     text += (k == 0 ? "Larger: " : "; ") + names.set_of(facts_of(*missed[k]));
+    if (has_seeds(whole)) text += ", seed " + std::to_string(missed[k]->seed);
   }
   if (missed.size() > most_named) {
     text += "; and " + counted(missed.size() - most_named, "other group");
@@ -281,7 +190,7 @@ std::string means_text(const Sweep& whole, const std::vector<Places>& all,
   std::size_t groups = 0, packings = 0, unbounded = 0;
   std::vector<const Job*> missed;
   for (const Places& group : all) {
-    const ErrorWish& wish = whole.jobs[group.begin].wish;
+    const ErrorWish& wish = whole.jobs[group.front()].wish;
     if (!wish.is_given()) continue;
     const Called called = called_for(whole, group, outcomes);
     ++groups;
@@ -291,7 +200,7 @@ std::string means_text(const Sweep& whole, const std::vector<Places>& all,
     const bool is_made = std::find(called.made.begin(), end, nullptr) == end;
     const bool is_met =
         is_made && over_wishes(means_of(called.made, called.count), wish, called.bound) <= 1.0;
-    if (!is_met) missed.push_back(&whole.jobs[group.begin]);
+    if (!is_met) missed.push_back(&whole.jobs[group.front()]);
   }
   if (groups == 0) return "";
   const std::size_t met = groups - missed.size();
@@ -313,7 +222,7 @@ std::string fits_text(const Sweep& whole, const std::vector<Places>& groups,
     const bool is_bent = called.chi2_per_dof > largest_chi2;
     met += is_met && !is_bent ? 1 : 0;
     bent += is_met && is_bent ? 1 : 0;
-    unbounded += bound_of(whole.jobs[groups[family.groups.front()].begin]) ? 0 : 1;
+    unbounded += bound_of(whole.jobs[groups[family.groups.front()].front()]) ? 0 : 1;
   }
   std::string text = "Errors as asked for (95 %) in " + std::to_string(met) + " of " +
                      counted(families.size(), "fit") + ", by " + counted(packings, "packing") +
@@ -341,12 +250,6 @@ int replicates_called_for(const std::vector<const Outcome*>& made, const ErrorWi
   return count;
 }
 
-bool may_grow(const Job& job) { return job.wish.is_given() || job.fit_wish.is_given(); }
-
-bool grows(const Sweep& sweep) {
-  return std::any_of(sweep.jobs.begin(), sweep.jobs.end(), may_grow);
-}
-
 GrowingSweep::GrowingSweep(const Sweep& whole, const Outcomes& made)
     : whole_(whole), grows_(grows(whole)) {
   grow(made);
@@ -360,30 +263,12 @@ bool GrowingSweep::grow(const Outcomes& made) {
   return called_.jobs.size() > before;
 }
 
-std::vector<int> shards_of(const Sweep& whole, int shards) {
-  const std::vector<Cost> costs = costs_of(whole.jobs);
-  if (!grows(whole)) return split(costs, shards);
-  const std::vector<Part> parts = parts_of(whole, costs);
-  std::vector<Cost> of_parts;
-  of_parts.reserve(parts.size());
-  for (const Part& part : parts) of_parts.push_back(part.cost);
-  const std::vector<int> shard_of_part = split(of_parts, shards);
-  std::vector<int> shard_of(whole.jobs.size());
-  for (std::size_t k = 0; k < parts.size(); ++k) {
-    for (const Places& places : parts[k].jobs) {
-      std::fill(shard_of.begin() + static_cast<std::ptrdiff_t>(places.begin),
-                shard_of.begin() + static_cast<std::ptrdiff_t>(places.end), shard_of_part[k]);
-    }
-  }
-  return shard_of;
-}
-
 std::string unreachable_wishes(const Sweep& whole) {
   std::string text;
   if (!grows(whole)) return text;
   const std::vector<Places> groups = groups_in(whole);
   for (const Places& group : groups) {
-    const Job& job = whole.jobs[group.begin];
+    const Job& job = whole.jobs[group.front()];
     const auto bound = job.wish.is_given() ? bound_of(job) : std::nullopt;
     if (!bound) continue;
     append_wish("solid_fraction", job.wish.solid_fraction, bound->solid_fraction, job, text);

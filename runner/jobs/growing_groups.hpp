@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "engine/dynamics/presets.hpp"
+#include "runner/jobs/growing_families.hpp"
 #include "runner/store/journal.hpp"
 #include "runner/sweep/job.hpp"
 
@@ -19,12 +20,6 @@ namespace grainsweep {
 /// stands for one that is not made yet. `bound` is the bias of settling that its wish includes.
 int replicates_called_for(const std::vector<const Outcome*>& made, const ErrorWish& wish,
                           const std::optional<ProtocolBias>& bound);
-
-/// Whether the group of a job may grow.
-bool may_grow(const Job& job);
-
-/// Whether a group of the sweep may grow.
-bool grows(const Sweep& sweep);
 
 /// A sweep as far as the packings that are made call for its jobs. Refers to the whole sweep, which
 /// has the most replicates of every group, and is that if none may grow.
@@ -47,10 +42,6 @@ class GrowingSweep {
   Sweep called_;  ///< empty if it does not grow
   std::string wishes_;
 };
-
-/// The shard of every job, a growing group in one of them, and a family whose fit grows, too; as
-/// `split` but for that.
-std::vector<int> shards_of(const Sweep& whole, int shards);
 
 /// A line for each wish that no number of packings can meet: the way of settling may do more to the
 /// means, or a fit has fewer than three widths, or groups whose own wishes it would have to follow.

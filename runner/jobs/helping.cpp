@@ -5,8 +5,8 @@
 #include <set>
 #include <utility>
 
-#include "runner/jobs/growing_groups.hpp"
 #include "runner/jobs/schedule.hpp"
+#include "runner/jobs/sweep_parts.hpp"
 #include "runner/machine.hpp"
 #include "runner/store/journal.hpp"
 #include "runner/store/runners.hpp"

@@ -2,34 +2,16 @@
 #include <cmath>
 #include <map>
 #include <random>
-#include <set>
 
 #include <catch2/catch.hpp>
 
-#include "engine/dynamics/presets.hpp"
 #include "runner/jobs/growing_groups.hpp"
 #include "runner/jobs/replicate_means.hpp"
+#include "tests/runner/jobs/growing_sweeps.hpp"
 #include "tests/runner/sample_rows.hpp"
 
 namespace grainsweep {
 namespace {
-
-/// A group of spheres between walls, settled as `balanced`, that may have so many packings.
-std::vector<Job> growing_group(const std::string& name, double width, int most, ErrorWish wish) {
-  std::vector<Job> jobs;
-  for (int replicate = 1; replicate <= most; ++replicate) {
-    Job job;
-    job.id = name + std::to_string(replicate);
-    job.label = "MSP";
-    job.parameters = sample_parameters(width, Boundary::walls, 0.0);
-    job.replicate = replicate;
-    job.spec.accuracy = *preset("balanced");
-    job.spec.sizes.small_share = 0.0;
-    job.wish = wish;
-    jobs.push_back(job);
-  }
-  return jobs;
-}
 
 std::vector<const Outcome*> pointers(const std::vector<Outcome>& outcomes, std::size_t most) {
   std::vector<const Outcome*> made(most, nullptr);
@@ -123,6 +105,22 @@ TEST_CASE("a sweep has the packings that its groups call for, and all of groups 
   CHECK(GrowingSweep(whole, outcomes).now().jobs.size() == 9);
 }
 
+TEST_CASE("each seed of a point grows by itself, and the called packings keep the sweep's order") {
+  Sweep whole{"s", 1, 1, growing_group("a", 5.0, 8, {0.01, 0.0})};
+  for (Job& job : whole.jobs) job.seed = 1;
+  for (Job job : growing_group("b", 5.0, 8, {0.01, 0.0})) {
+    job.seed = 2;
+    whole.jobs.push_back(job);
+  }
+  const GrowingSweep growing(whole, {});
+  std::vector<std::string> ids;
+  for (const Job& job : growing.now().jobs) ids.push_back(job.id);
+  CHECK(ids == std::vector<std::string>{"a1", "a2", "a3", "a4", "a5", "a6",  //
+                                        "b1", "b2", "b3", "b4", "b5", "b6"});
+  CHECK_THAT(wishes_text(whole, {}), Catch::EndsWith("Larger: MSP, W = 10, seed 1; MSP, W = 10, "
+                                                     "seed 2\n"));
+}
+
 TEST_CASE("a sweep of which no group may grow is called for as it is, without a copy") {
   const Sweep still{"s", 7, 1, growing_group("b", 6.0, 3, {})};
   CHECK_FALSE(grows(still));
@@ -130,35 +128,6 @@ TEST_CASE("a sweep of which no group may grow is called for as it is, without a 
   CHECK(&growing.now() == &still);
   CHECK_FALSE(growing.grow({}));
   CHECK(growing.wishes().empty());
-}
-
-TEST_CASE("a growing group belongs to one shard") {
-  Sweep whole{"s", 7, 1, {}};
-  for (int group = 0; group < 8; ++group) {
-    const auto jobs = growing_group("g" + std::to_string(group), 4.0 + group, 10, {0.01, 0.0});
-    whole.jobs.insert(whole.jobs.end(), jobs.begin(), jobs.end());
-  }
-  const std::vector<int> shard_of = shards_of(whole, 3);
-  REQUIRE(shard_of.size() == whole.jobs.size());
-  for (std::size_t i = 0; i < shard_of.size(); ++i) CHECK(shard_of[i] == shard_of[i / 10 * 10]);
-  CHECK(std::set<int>(shard_of.begin(), shard_of.end()).size() == 3);
-}
-
-/// Three groups between walls and one without, whose fit is to be so precise.
-Sweep fit_sweep(int most, const FitWish& wish, const std::string& name = "f") {
-  Sweep whole{"s", 7, 1, {}};
-  for (const double width : {4.0, 5.0, 8.0, 9.0}) {
-    for (Job& job :
-         growing_group(name + std::to_string(static_cast<int>(width)) + "-", width, most, {})) {
-      job.spec.box.width = width;
-      job.spec.box.y = width == 9.0 ? Boundary::periodic : Boundary::walls;
-      job.parameters = sample_parameters(width, job.spec.box.y, 0.0);
-      job.parameters.insert(1, "\"name\":\"" + name + "\",");
-      job.fit_wish = wish;
-      whole.jobs.push_back(job);
-    }
-  }
-  return whole;
 }
 
 /// All packings of a sweep, which scatter about a line.
@@ -214,18 +183,6 @@ TEST_CASE("a fit waits for all of its round, whatever else is made") {
   outcomes["f8-7"] =
       sample_outcome("f8-7", 0.9, 9.0);  // one of the next round alone changes nothing
   CHECK(GrowingSweep(whole, outcomes).now().jobs.size() == second);
-}
-
-TEST_CASE("a family whose fit grows belongs to one shard") {
-  Sweep whole{"s", 7, 1, {}};
-  for (const char* const name : {"a", "b", "c"}) {
-    const Sweep one = fit_sweep(10, {0.005, 0, 0, 0}, name);
-    whole.jobs.insert(whole.jobs.end(), one.jobs.begin(), one.jobs.end());
-  }
-  const std::vector<int> shard_of = shards_of(whole, 3);
-  REQUIRE(shard_of.size() == 120);
-  for (std::size_t i = 0; i < shard_of.size(); ++i) CHECK(shard_of[i] == shard_of[i / 40 * 40]);
-  CHECK(std::set<int>(shard_of.begin(), shard_of.end()).size() == 3);
 }
 
 TEST_CASE(

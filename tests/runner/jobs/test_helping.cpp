@@ -4,8 +4,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "runner/jobs/growing_groups.hpp"
 #include "runner/jobs/helping.hpp"
+#include "runner/jobs/sweep_parts.hpp"
 #include "runner/machine.hpp"
 #include "runner/store/shard_files.hpp"
 #include "tests/runner/stored.hpp"

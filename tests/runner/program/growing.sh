@@ -41,6 +41,11 @@ end_runner KILL
 expect_code 0 "$program" run sweep.json --out killed --threads 1 --no-report --quiet
 same killed
 
+# Each seed of a point grows by itself, whichever key of the grid comes first.
+sed 's/"box.width": \[3, 4\]/"box.width": [3, 4], "seed": [1, 2]/' sweep.json >seeds.json
+expect_code 0 "$program" plan seeds.json
+expect_text out.txt 'Next: 24 packings: 12 of grows, W = 3; 12 of grows, W = 4' 'at most 122 packings'
+
 # What no number of packings can meet.
 sed 's/0.009/0.001/' sweep.json >vain.json
 expect_code 2 "$program" run vain.json --out vain

@@ -1,0 +1,74 @@
+#include "runner/jobs/growing_families.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <tuple>
+
+#include "runner/tables/fits.hpp"
+#include "runner/tables/job_facts.hpp"
+
+namespace grainsweep {
+namespace {
+
+/// What the jobs of a group have in common. Refers to the job.
+using GroupKey = std::tuple<std::uint64_t, std::string_view, std::string_view, ErrorWish, FitWish>;
+
+GroupKey key_of(const Job& job) {
+  return {job.seed, job.label, job.parameters, job.wish, job.fit_wish};
+}
+
+bool has_fit_wish(const Sweep& whole) {
+  return std::any_of(whole.jobs.begin(), whole.jobs.end(),
+                     [](const Job& job) { return job.fit_wish.is_given(); });
+}
+
+void take_smaller(double FitWish::*part, const FitWish& other, FitWish& wish) {
+  const double asked = other.*part;
+  if (asked > 0.0 && (wish.*part == 0.0 || asked < wish.*part)) wish.*part = asked;
+}
+
+}  // namespace
+
+bool may_grow(const Job& job) { return job.wish.is_given() || job.fit_wish.is_given(); }
+
+bool grows(const Sweep& sweep) {
+  return std::any_of(sweep.jobs.begin(), sweep.jobs.end(), may_grow);
+}
+
+std::vector<Places> groups_in(const Sweep& sweep) {
+  std::vector<Places> groups;
+  std::map<GroupKey, std::size_t> index_of;
+  for (std::size_t i = 0; i < sweep.jobs.size(); ++i) {
+    const auto [known, is_new] = index_of.try_emplace(key_of(sweep.jobs[i]), groups.size());
+    if (is_new) groups.emplace_back();
+    groups[known->second].push_back(i);
+  }
+  return groups;
+}
+
+std::vector<GrowingFamily> growing_families(const Sweep& whole, const std::vector<Places>& groups) {
+  std::vector<GrowingFamily> families;
+  if (!has_fit_wish(whole)) return families;
+  std::map<std::string, std::size_t> index_of;
+  for (std::size_t k = 0; k < groups.size(); ++k) {
+    const Job& job = whole.jobs[groups[k].front()];
+    const auto [known, is_new] =
+        index_of.try_emplace(parameters_of_family(facts_of(job)), families.size());
+    if (is_new) families.emplace_back();
+    GrowingFamily& family = families[known->second];
+    family.groups.push_back(k);
+    for (double FitWish::*part : {&FitWish::phi_bulk, &FitWish::c, &FitWish::z_bulk, &FitWish::c_z})
+      take_smaller(part, job.fit_wish, family.wish);
+  }
+  std::erase_if(families, [](const GrowingFamily& family) { return !family.wish.is_given(); });
+  return families;
+}
+
+bool is_walled(const Job& job) { return job.spec.box.y == Boundary::walls; }
+
+std::optional<ProtocolBias> bound_of(const Job& job) { return bias_bound(facts_of(job)); }
+
+}  // namespace grainsweep

@@ -1,0 +1,41 @@
+// The groups of a sweep, and the families whose fit grows: what grows as a whole.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "engine/dynamics/presets.hpp"
+#include "runner/sweep/job.hpp"
+
+namespace grainsweep {
+
+/// Whether the group of a job may grow.
+bool may_grow(const Job& job);
+
+/// Whether a group of the sweep may grow.
+bool grows(const Sweep& sweep);
+
+/// The jobs of a group, by their places in the sweep: those with one label, one parameter set, one
+/// seed and one wish, wherever they stand.
+using Places = std::vector<std::size_t>;
+
+/// In the order of their first jobs.
+std::vector<Places> groups_in(const Sweep& sweep);
+
+/// The groups that one wall effect is fitted to, by their places in the list of groups.
+struct GrowingFamily {
+  std::vector<std::size_t> groups;
+  FitWish wish;  ///< of several for one fit the smallest
+};
+
+/// Families whose fit is to have small errors.
+std::vector<GrowingFamily> growing_families(const Sweep& whole, const std::vector<Places>& groups);
+
+/// Whether a job is on the line that is fitted to its family.
+bool is_walled(const Job& job);
+
+/// What the way of settling may do to the means of a job's group; nothing if it was not measured.
+std::optional<ProtocolBias> bound_of(const Job& job);
+
+}  // namespace grainsweep
