@@ -114,7 +114,7 @@ std::string next_text(const Sweep& sweep, const Outcomes& made, const PackingNam
     ++next[known->second].second;
     ++all;
   }
-  if (all == 0) return "Nothing comes next: what was asked for is met, or the most is made\n";
+  if (all == 0) return "Nothing comes next: what was asked for is met, the most is made, or too few settle\n";
   std::string text = "Next: " + counted(all, "packing") + ": ";
   for (std::size_t i = 0; i < std::min(next.size(), most_shown); ++i) {
     const auto& [job, count] = next[i];

@@ -71,7 +71,8 @@ class Round {
       widths.insert(groups[k].width);
       design_.add(means.solid_fraction.n, 1.0 / groups[k].width);
     }
-    has_line_ = widths.size() >= 3 && degrees_of_freedom_ > 0;
+    has_widths_ = widths.size() >= 3;
+    has_line_ = has_widths_ && degrees_of_freedom_ > 0;
   }
 
   /// The worst half of a 95 % interval over what is asked for; at most 1 if all are met.
@@ -93,13 +94,25 @@ class Round {
     return line ? line->chi2 / line->degrees_of_freedom : 0.0;
   }
 
-  /// As many replicates as these results call for; the same ones if none may be added.
+  /// Whether no packings would help, however many might be made: too few of them settle.
+  bool settles_too_seldom() const {
+    for (std::size_t k = 0; k < groups_.size(); ++k) {
+      if (has_widths_ && goes_on(k)) return false;
+    }
+    return true;
+  }
+
+  /// As many replicates as these results call for; the same ones if none may be added. Where
+  /// nothing settled at first nothing is added, so that fewer than three widths never become a
+  /// line.
   std::vector<int> next(const std::vector<Target>& targets) const {
     std::vector<int> more = replicates_;
     int before = 0;
     for (std::size_t k = 0; k < more.size(); ++k) before += groups_[k].may_grow ? more[k] : 0;
     if (!has_line_) {
-      for (std::size_t k = 0; k < more.size(); ++k) more[k] = std::min(2 * more[k], most(k));
+      for (std::size_t k = 0; has_widths_ && k < more.size(); ++k) {
+        more[k] = std::min(2 * more[k], most(k));
+      }
       return more;
     }
     Design design = design_;
@@ -136,18 +149,22 @@ class Round {
     return student_quantile(degrees_of_freedom_) * std::sqrt(squared) / target.half_interval;
   }
 
-  int most(std::size_t k) const {
-    return groups_[k].may_grow ? static_cast<int>(groups_[k].made.size()) : replicates_[k];
+  /// Whether packings may be added to a group.
+  bool goes_on(std::size_t k) const {
+    return groups_[k].may_grow && !settle_too_seldom(means_[k].solid_fraction.n, replicates_[k]);
   }
 
-  /// Where one more packing gains most; nothing if no group may have more. Groups of which no
-  /// packing settles are left alone.
+  int most(std::size_t k) const {
+    return goes_on(k) ? static_cast<int>(groups_[k].made.size()) : replicates_[k];
+  }
+
+  /// Where one more packing gains most; nothing if no group may have more.
   std::optional<std::size_t> best_group(const Target& target, const Design& design,
                                         const std::vector<int>& replicates) const {
     std::optional<std::size_t> best;
     double most_gained = -1.0;
     for (std::size_t k = 0; k < groups_.size(); ++k) {
-      if (replicates[k] >= most(k) || means_[k].solid_fraction.n == 0) continue;
+      if (replicates[k] >= most(k)) continue;
       const double gained = design.gain(target.is_slope, 1.0 / groups_[k].width);
       if (gained <= most_gained) continue;
       most_gained = gained;
@@ -160,6 +177,7 @@ class Round {
   const std::vector<int>& replicates_;
   std::vector<Means> means_;
   Design design_;
+  bool has_widths_ = false;  ///< so many that there may be a line
   bool has_line_ = false;
   int degrees_of_freedom_ = 0;
   double phi_squares_ = 0.0, z_squares_ = 0.0;
@@ -198,6 +216,7 @@ CalledFit called_for_fit(const std::vector<FitGroup>& groups, const FitWish& wis
     if (!called.is_met) next = round.next(targets);
     if (next == called.replicates) {
       called.is_made = true;
+      called.settles_too_seldom = !called.is_met && round.settles_too_seldom();
       called.chi2_per_dof = worst_chi2(round, targets);
       return called;
     }

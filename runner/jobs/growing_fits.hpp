@@ -8,6 +8,9 @@
 // (Sherman and Morrison). So packings end up at the narrowest and the widest gap; those between
 // have what they began with.
 //
+// A width of which fewer than one in six packings settle has no more of them, and a family that has
+// fewer than three widths of which any settle does not grow.
+//
 // The errors are those of fits.csv, of the variance of single packings pooled over the family,
 // before they are widened: a line that misses its points is not mended by more packings.
 #pragma once
@@ -32,10 +35,11 @@ struct FitGroup {
 
 /// What is called for of a family, and what came of it.
 struct CalledFit {
-  std::vector<int> replicates;  ///< of each group
-  bool is_made = false;         ///< whether all of them are
-  bool is_met = false;          ///< whether the errors are as asked for, if they are made
-  double chi2_per_dof = 0.0;    ///< the larger one of the fits that are asked for; 0 without a line
+  std::vector<int> replicates;      ///< of each group
+  bool is_made = false;             ///< whether all of them are
+  bool is_met = false;              ///< whether the errors are as asked for, if they are made
+  bool settles_too_seldom = false;  ///< whether that is why they are not, if they are made
+  double chi2_per_dof = 0.0;  ///< the larger one of the fits that are asked for; 0 without a line
 };
 
 /// How many replicates each group has to have: it follows from whole rounds, of which the first one

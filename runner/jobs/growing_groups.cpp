@@ -9,6 +9,7 @@
 
 #include "runner/jobs/growing_fits.hpp"
 #include "runner/jobs/replicate_means.hpp"
+#include "runner/tables/fits.hpp"
 #include "runner/tables/job_facts.hpp"
 #include "runner/tables/packing_names.hpp"
 #include "runner/text.hpp"
@@ -38,17 +39,14 @@ std::vector<const Outcome*> made_of(const Sweep& sweep, const Places& group,
   return made;
 }
 
-/// What is called for of a growing group.
-struct Called {
-  std::vector<const Outcome*> made;
-  std::optional<ProtocolBias> bound;
-  int count = 0;
-};
-Called called_for(const Sweep& whole, const Places& group, const Outcomes& outcomes) {
+bool are_made(const std::vector<const Outcome*>& made, int count) {
+  return std::find(made.begin(), made.begin() + count, nullptr) == made.begin() + count;
+}
+
+/// How many packings are called for of a growing group.
+int count_called_for(const Sweep& whole, const Places& group, const Outcomes& outcomes) {
   const Job& first = whole.jobs[group.front()];
-  Called called{made_of(whole, group, outcomes), bound_of(first), 0};
-  called.count = replicates_called_for(called.made, first.wish, called.bound);
-  return called;
+  return replicates_called_for(made_of(whole, group, outcomes), first.wish, bound_of(first));
 }
 
 /// A group of a fit. Those without walls tell how packings scatter, and have as many as all have at
@@ -82,7 +80,7 @@ std::vector<std::size_t> counts_called_for(const Sweep& whole, const std::vector
   counts.reserve(groups.size());
   for (const Places& group : groups) {
     counts.push_back(whole.jobs[group.front()].wish.is_given()
-                         ? static_cast<std::size_t>(called_for(whole, group, outcomes).count)
+                         ? static_cast<std::size_t>(count_called_for(whole, group, outcomes))
                          : group.size());
   }
   for (const GrowingFamily& family : growing_families(whole, groups)) {
@@ -159,8 +157,22 @@ std::string unmeasured_text(std::size_t count, const char* noun) {
          " was not measured and is left out";
 }
 
-std::string end_of_text(std::size_t met, std::size_t all) {
-  return met < all ? "; raise replicates.most for the others\n" : "\n";
+/// What became of the wishes of groups, or of fits.
+struct Tally {
+  std::size_t met = 0;
+  std::size_t seldom_settled = 0;  ///< these grow no more
+  std::size_t at_most = 0;         ///< these would, but for replicates.most
+};
+
+/// What the others take whose wishes are not met. Those that were not made say so themselves.
+std::string others_text(const Tally& tally) {
+  std::string text;
+  if (tally.seldom_settled > 0) {
+    text += "; " + std::to_string(tally.seldom_settled) +
+            " stopped growing, since fewer than one packing in six settles";
+  }
+  if (tally.at_most > 0) text += "; raise replicates.most for the others";
+  return text + "\n";
 }
 
 /// Whether seeds tell groups apart.
@@ -169,62 +181,80 @@ bool has_seeds(const Sweep& whole) {
                      [&](const Job& job) { return job.seed != whole.jobs.front().seed; });
 }
 
-/// Which groups have larger errors than wished, by their first jobs.
-std::string missed_text(const Sweep& whole, const std::vector<const Job*>& missed) {
+/// Names some groups by their first jobs.
+std::string named_text(const std::string& title, const std::vector<const Job*>& firsts,
+                       const Sweep& whole, const PackingNames& names) {
   constexpr std::size_t most_named = 5;
-  if (missed.empty()) return "";
-  const PackingNames names = names_in(whole);
+  if (firsts.empty()) return "";
   std::string text;
-  for (std::size_t k = 0; k < std::min(missed.size(), most_named); ++k) {
-    text += (k == 0 ? "Larger: " : "; ") + names.set_of(facts_of(*missed[k]));
-    if (has_seeds(whole)) text += ", seed " + std::to_string(missed[k]->seed);
+  for (std::size_t k = 0; k < std::min(firsts.size(), most_named); ++k) {
+    text += (k == 0 ? title + ": " : "; ") + names.set_of(facts_of(*firsts[k]));
+    if (has_seeds(whole)) text += ", seed " + std::to_string(firsts[k]->seed);
   }
-  if (missed.size() > most_named) {
-    text += "; and " + counted(missed.size() - most_named, "other group");
+  if (firsts.size() > most_named) {
+    text += "; and " + counted(firsts.size() - most_named, "other group");
   }
   return text + "\n";
 }
 
+/// The groups that grow for their means, as far as they are made, and what came of them.
+struct GrownMeans {
+  std::size_t groups = 0, packings = 0, unbounded = 0;
+  Tally tally;
+  std::vector<const Job*> larger, seldom_settled;  ///< their first jobs
+};
+
+void add_grown(const Sweep& whole, const Places& group, const Outcomes& outcomes,
+               GrownMeans& grown) {
+  const Job& first = whole.jobs[group.front()];
+  const std::vector<const Outcome*> made = made_of(whole, group, outcomes);
+  const auto bound = bound_of(first);
+  const int count = replicates_called_for(made, first.wish, bound);
+  ++grown.groups;
+  grown.packings += static_cast<std::size_t>(count);
+  grown.unbounded += bound ? 0 : 1;
+  if (!are_made(made, count)) return grown.larger.push_back(&first);
+  const Means means = means_of(made, count);
+  const bool is_met = over_wishes(means, first.wish, bound) <= 1.0;
+  const bool is_seldom = !is_met && settle_too_seldom(means.solid_fraction.n, count);
+  ++(is_met ? grown.tally.met : is_seldom ? grown.tally.seldom_settled : grown.tally.at_most);
+  if (!is_met) (is_seldom ? grown.seldom_settled : grown.larger).push_back(&first);
+}
+
 std::string means_text(const Sweep& whole, const std::vector<Places>& all,
                        const Outcomes& outcomes) {
-  std::size_t groups = 0, packings = 0, unbounded = 0;
-  std::vector<const Job*> missed;
+  GrownMeans grown;
   for (const Places& group : all) {
-    const ErrorWish& wish = whole.jobs[group.front()].wish;
-    if (!wish.is_given()) continue;
-    const Called called = called_for(whole, group, outcomes);
-    ++groups;
-    packings += static_cast<std::size_t>(called.count);
-    unbounded += called.bound ? 0 : 1;
-    const auto end = called.made.begin() + called.count;
-    const bool is_made = std::find(called.made.begin(), end, nullptr) == end;
-    const bool is_met =
-        is_made && over_wishes(means_of(called.made, called.count), wish, called.bound) <= 1.0;
-    if (!is_met) missed.push_back(&whole.jobs[group.front()]);
+    if (whole.jobs[group.front()].wish.is_given()) add_grown(whole, group, outcomes, grown);
   }
-  if (groups == 0) return "";
-  const std::size_t met = groups - missed.size();
-  return "Errors as asked for (95 %) in " + std::to_string(met) + " of " +
-         counted(groups, "group") + ", by " + counted(packings, "packing") +
-         unmeasured_text(unbounded, "group") + end_of_text(met, groups) +
-         missed_text(whole, missed);
+  if (grown.groups == 0) return "";
+  const bool are_all_met = grown.tally.met == grown.groups;
+  const PackingNames names = are_all_met ? PackingNames() : names_in(whole);
+  return "Errors as asked for (95 %) in " + std::to_string(grown.tally.met) + " of " +
+         counted(grown.groups, "group") + ", by " + counted(grown.packings, "packing") +
+         unmeasured_text(grown.unbounded, "group") + others_text(grown.tally) +
+         named_text("Larger", grown.larger, whole, names) +
+         named_text("Seldom settle", grown.seldom_settled, whole, names);
 }
 
 std::string fits_text(const Sweep& whole, const std::vector<Places>& groups,
                       const Outcomes& outcomes) {
-  std::size_t met = 0, packings = 0, unbounded = 0, bent = 0;
+  std::size_t packings = 0, unbounded = 0, bent = 0;
+  Tally tally;
   const std::vector<GrowingFamily> families = growing_families(whole, groups);
   if (families.empty()) return "";
   for (const GrowingFamily& family : families) {
     const CalledFit called = called_for(whole, groups, family, outcomes);
     for (const int count : called.replicates) packings += static_cast<std::size_t>(count);
-    const bool is_met = called.is_made && called.is_met;
-    const bool is_bent = called.chi2_per_dof > largest_chi2;
-    met += is_met && !is_bent ? 1 : 0;
-    bent += is_met && is_bent ? 1 : 0;
     unbounded += bound_of(whole.jobs[groups[family.groups.front()].front()]) ? 0 : 1;
+    if (!called.is_made) continue;
+    const bool is_bent = called.is_met && called.chi2_per_dof > largest_chi2;
+    ++(is_bent                     ? bent
+       : called.is_met             ? tally.met
+       : called.settles_too_seldom ? tally.seldom_settled
+                                   : tally.at_most);
   }
-  std::string text = "Errors as asked for (95 %) in " + std::to_string(met) + " of " +
+  std::string text = "Errors as asked for (95 %) in " + std::to_string(tally.met) + " of " +
                      counted(families.size(), "fit") + ", by " + counted(packings, "packing") +
                      unmeasured_text(unbounded, "fit");
   if (bent > 0) {
@@ -232,7 +262,7 @@ std::string fits_text(const Sweep& whole, const std::vector<Places>& groups,
             " more the packings scatter as little, but the straight line does not hold: its errors "
             "in fits.csv are wider, and no packings mend it";
   }
-  return text + end_of_text(met + bent, families.size());
+  return text + others_text(tally);
 }
 
 }  // namespace
@@ -241,9 +271,12 @@ int replicates_called_for(const std::vector<const Outcome*>& made, const ErrorWi
                           const std::optional<ProtocolBias>& bound) {
   const int most = static_cast<int>(made.size());
   int count = std::min(first_replicates, most);
-  while (std::find(made.begin(), made.begin() + count, nullptr) == made.begin() + count) {
-    const double over = over_wishes(means_of(made, count), wish, bound);
-    if (over <= 1.0 || count == most) return count;
+  while (are_made(made, count)) {
+    const Means means = means_of(made, count);
+    const double over = over_wishes(means, wish, bound);
+    if (over <= 1.0 || count == most || settle_too_seldom(means.solid_fraction.n, count)) {
+      return count;
+    }
     const double next = std::min(std::ceil(count * over * over), 2.0 * count);
     count = std::min(std::max(static_cast<int>(next), count + 1), most);
   }

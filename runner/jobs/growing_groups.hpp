@@ -1,6 +1,9 @@
 // Groups that grow: packings are added until the error of a group's means is as small as wished, or
 // that of a fit to the groups of a family (growing_fits.hpp).
 //
+// A group of which fewer than one in six packings settle, or none of the first six, grows no more:
+// packings that do not settle take longest, and say nothing of its means.
+//
 // How many replicates a group has follows from the results of the first so many alone, its own or
 // those of its family: it is the same for any number of threads and shards, and after a kill.
 #pragma once

@@ -158,14 +158,35 @@ TEST_CASE("groups that may not grow are waited for, and count on the line") {
   CHECK(called[0] + called[2] > 12);
 }
 
-TEST_CASE("where nothing settles at a width, there is no line and all grow to the most") {
-  SampleFamily family({4, 5, 8}, 10);
-  family.make({10, 10, 0}, alternating);
+TEST_CASE("where nothing settles at a width, nothing is added to it") {
   const Outcome unsettled = *row_with_status("a", 8, PackingStatus::not_settled, "creeps").outcome;
-  std::fill(family[2].made.begin(), family[2].made.end(), &unsettled);
+  const FitWish wish{0.01, 0, 0, 0};
+  SampleFamily three({4, 5, 8}, 10);
+  three.make({10, 10, 0}, alternating);
+  std::fill(three[2].made.begin(), three[2].made.end(), &unsettled);
+  const CalledFit none = called_for_fit(three.groups(), wish, {});
+  CHECK(none.replicates == std::vector<int>{6, 6, 6});  // there is no line, and will be none
+  CHECK(none.is_made);
+  CHECK(none.settles_too_seldom);
+  SampleFamily four({4, 5, 6, 8}, 10);
+  four.make({10, 10, 10, 0}, alternating);
+  std::fill(four[3].made.begin(), four[3].made.end(), &unsettled);
+  const CalledFit line = called_for_fit(four.groups(), wish, {});
+  CHECK(line.replicates == std::vector<int>{10, 10, 10, 6});
+  CHECK_FALSE(line.is_met);
+  CHECK_FALSE(line.settles_too_seldom);  // more at the other widths would help
+}
+
+TEST_CASE("a family of which one packing in six settles at each width grows, until fewer do") {
+  const Outcome unsettled = *row_with_status("a", 8, PackingStatus::not_settled, "creeps").outcome;
+  SampleFamily family({4, 5, 8}, 100);
+  family.make({100, 100, 100}, alternating);
+  for (std::size_t k = 0; k < 3; ++k) {
+    std::fill(family[k].made.begin() + 1, family[k].made.end(), &unsettled);
+  }
   const CalledFit called = called_for_fit(family.groups(), {0.01, 0, 0, 0}, {});
-  CHECK(called.replicates == std::vector<int>{10, 10, 10});
-  CHECK_FALSE(called.is_met);
+  CHECK(called.replicates == std::vector<int>{12, 12, 12});
+  CHECK(called.settles_too_seldom);
 }
 
 TEST_CASE("a line that misses its points is told") {

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <map>
 #include <random>
+#include <set>
 
 #include <catch2/catch.hpp>
 
@@ -41,9 +42,50 @@ TEST_CASE("a group grows to at most twice its size at once, and never beyond the
 TEST_CASE("packings that did not settle count as made, but not in the means") {
   std::vector<Outcome> made(6, sample_outcome("a", 0.6, 5.5));
   for (Outcome& outcome : made) outcome.result.status = PackingStatus::not_settled;
+  made[3].result.status = PackingStatus::settled;
   CHECK(replicates_called_for(pointers(made, 50), {0.001, 0.0}, {}) == 12);
   made[0].result.status = made[1].result.status = PackingStatus::settled;
   CHECK(replicates_called_for(pointers(made, 50), {0.001, 0.0}, {}) == 6);
+}
+
+/// How many packings a group ends with that may have so many, of which those with these numbers
+/// settle.
+int grown_to(const std::set<int>& settled, int most) {
+  std::vector<Outcome> made;
+  made.reserve(static_cast<std::size_t>(most));
+  for (int i = 1; i <= most; ++i) {
+    made.push_back(sample_outcome("a", 0.5 + 0.001 * i, 5.5));
+    if (!settled.contains(i)) made.back().result.status = PackingStatus::not_settled;
+  }
+  return replicates_called_for(pointers(made, made.size()), {0.001, 0.0}, {});
+}
+
+TEST_CASE("a group of which fewer than one packing in six settles grows no more") {
+  CHECK(grown_to({}, 200) == 6);
+  CHECK(grown_to({7, 8, 9, 10, 11, 12}, 200) == 6);
+  CHECK(grown_to({2}, 200) == 12);
+  CHECK(grown_to({2, 7}, 200) == 24);
+  CHECK(grown_to({2, 7, 14, 20}, 200) == 48);
+  CHECK(grown_to({}, 4) == 4);
+}
+
+TEST_CASE("the end of a run tells what seldom settles from what needs more packings") {
+  Sweep whole{"s", 7, 1, growing_group("a", 5.0, 200, {0.01, 0.0})};
+  for (const Job& job : growing_group("b", 6.0, 8, {0.01, 0.0})) whole.jobs.push_back(job);
+  for (const Job& job : growing_group("c", 7.0, 8, {0.01, 0.0})) whole.jobs.push_back(job);
+  Outcomes outcomes;
+  for (const Job& job : whole.jobs) {
+    const bool is_b = job.id[0] == 'b';
+    outcomes[job.id] = sample_outcome(job.id, is_b && job.replicate % 2 == 0 ? 0.7 : 0.6, 5.5);
+    if (job.id[0] == 'a') outcomes[job.id]->result.status = PackingStatus::not_settled;
+  }
+  CHECK_THAT(wishes_text(whole, outcomes),
+             Catch::StartsWith("Errors as asked for (95 %) in 1 of 3 groups, by 20 packings; 1 "
+                               "stopped growing, since fewer than one packing in six settles; "
+                               "raise replicates.most for the others\nLarger: ") &&
+                 Catch::Contains("\nSeldom settle: "));
+  outcomes["b3"]->exception = true;
+  CHECK_THAT(wishes_text(whole, outcomes), !Catch::Contains("replicates.most"));
 }
 
 TEST_CASE("the bias of settling leaves less of a wish for the scatter") {
