@@ -5,7 +5,6 @@
 
 #include "runner/jobs/estimates.hpp"
 #include "runner/jobs/schedule.hpp"
-#include "runner/jobs/split.hpp"
 #include "runner/text.hpp"
 
 namespace grainsweep {
@@ -39,55 +38,82 @@ struct Decision {
   std::string reason;
 };
 
-int at_most(double count, std::size_t packings) {
+int at_most(double count, std::size_t parts) {
   return static_cast<int>(
-      std::clamp(count, 1.0, static_cast<double>(std::max<std::size_t>(1, packings))));
+      std::clamp(count, 1.0, static_cast<double>(std::max<std::size_t>(1, parts))));
+}
+
+/// As many shards as there are parts.
+Decision by_count(const std::vector<Part>& parts) {
+  const bool is_divided = std::all_of(parts.begin(), parts.end(), [](const Part& part) {
+    return part.first.size() + part.later.size() == 1;
+  });
+  return {at_most(static_cast<double>(parts.size()), parts.size()),
+          is_divided ? "a shard has one packing at least"
+                     : "a shard has one packing at least, and growing groups and families whole"};
 }
 
 /// By time alone: `node_seconds` is what the sweep takes one node.
-Decision by_time(double node_seconds, const ClusterLimits& limits, std::size_t packings) {
+Decision by_time(double node_seconds, const ClusterLimits& limits, const std::vector<Part>& parts) {
   const bool is_short = limits.seconds > 0.0 && limits.seconds / 3.0 < long_shard;
   const double most = is_short ? limits.seconds / 3.0 : long_shard;
   const double least = std::min(brief_shard, most);
-  const int fewest = at_most(std::ceil(node_seconds / most), packings);
-  const int greatest = std::max(fewest, at_most(std::floor(node_seconds / least), packings));
+  const int fewest = at_most(std::ceil(node_seconds / most), parts.size());
+  const int greatest = std::max(fewest, at_most(std::floor(node_seconds / least), parts.size()));
+  const bool is_by_count = static_cast<std::size_t>(greatest) == parts.size();
   if (limits.nodes > greatest) {
-    const bool is_by_count = static_cast<std::size_t>(greatest) == packings;
-    return {greatest, is_by_count ? "a shard has one packing at least"
-                                  : "a shard takes " + duration_text(least) + " at least"};
+    if (is_by_count) return by_count(parts);
+    return {greatest, "a shard takes " + duration_text(least) + " at least"};
   }
   if (limits.nodes >= fewest) return {limits.nodes, "the partition has so many nodes"};
+  if (node_seconds / most > static_cast<double>(parts.size())) return by_count(parts);
   return {fewest, is_short ? "a shard takes a third of the time limit at most"
                            : "a shard takes " + duration_text(most) + " at most"};
 }
 
-Decision decide(double node_seconds, const ClusterLimits& limits, std::size_t packings, int asked) {
+Decision decide(double node_seconds, const ClusterLimits& limits, const std::vector<Part>& parts,
+                int asked) {
   Decision decision =
-      asked > 0 ? Decision{asked, "it was asked for"} : by_time(node_seconds, limits, packings);
+      asked > 0 ? Decision{asked, "it was asked for"} : by_time(node_seconds, limits, parts);
+  if (static_cast<std::size_t>(decision.shards) > parts.size()) decision = by_count(parts);
   if (limits.elements > 0 && decision.shards > limits.elements) {
     decision = {limits.elements, "an array has no more elements (MaxArraySize)"};
   }
   return decision;
 }
 
-/// Wall time of the longest shard, s.
-double longest_shard(const std::vector<Cost>& costs, int shards, int threads) {
-  std::vector<std::vector<Cost>> of_shard(static_cast<std::size_t>(shards));
-  const std::vector<int> shard_of = split(costs, shards);
-  for (std::size_t i = 0; i < costs.size(); ++i) {
-    of_shard[static_cast<std::size_t>(shard_of[i] - 1)].push_back(costs[i]);
+void append(const Places& jobs, const std::vector<Cost>& costs, std::vector<Cost>& some) {
+  for (const std::size_t i : jobs) some.push_back(costs[i]);
+}
+
+/// Wall time of the longest shard at first, or when all has grown to the most, s.
+double longest_shard(const std::vector<Part>& parts, const std::vector<Cost>& costs,
+                     const Division& division, bool is_grown) {
+  std::vector<std::vector<Cost>> of_shard(static_cast<std::size_t>(division.shards));
+  const std::vector<int> shard_of = shards_of(parts, division.shards);
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    std::vector<Cost>& some = of_shard[static_cast<std::size_t>(shard_of[k] - 1)];
+    append(parts[k].first, costs, some);
+    if (is_grown) append(parts[k].later, costs, some);
   }
   double seconds = 0.0;
   for (const std::vector<Cost>& some : of_shard) {
-    seconds = std::max(seconds, estimate_wall(some, threads));
+    seconds = std::max(seconds, estimate_wall(some, division.threads));
   }
   return seconds;
 }
 
-/// Twice as much and time to begin and end, in whole ten minutes.
-double time_to_ask_for(double estimated, double limit) {
-  const double seconds = 600.0 * std::ceil((2.0 * estimated + 120.0) / 600.0);
+/// With time to begin and end, in whole ten minutes.
+double time_to_ask_for(double needed, double limit) {
+  const double seconds = 600.0 * std::ceil((needed + 120.0) / 600.0);
   return limit > 0.0 ? std::min(seconds, limit) : seconds;
+}
+
+/// Of a node with so many threads, for the packings that are made at first.
+double node_seconds_of(const std::vector<Part>& parts, int threads) {
+  double seconds = 0.0;
+  for (const Part& part : parts) seconds += part.cost.cpu_seconds;
+  return seconds / threads;
 }
 
 double memory_to_ask_for(const std::vector<Cost>& costs, int threads, double limit) {
@@ -99,17 +125,18 @@ double memory_to_ask_for(const std::vector<Cost>& costs, int threads, double lim
 
 }  // namespace
 
-Division divide(const std::vector<Cost>& costs, const ClusterLimits& limits, int shards,
-                int threads) {
+Division divide(const std::vector<Part>& parts, const std::vector<Cost>& costs,
+                const ClusterLimits& limits, int shards, int threads) {
   Division division;
   division.threads = threads_within(limits, costs, threads > 0 ? threads : limits.cores);
-  const double node_seconds = total_cpu_seconds(costs) / division.threads;
-  Decision decision = decide(node_seconds, limits, costs.size(), shards);
+  Decision decision = decide(node_seconds_of(parts, division.threads), limits, parts, shards);
   division.shards = decision.shards;
   division.reason = std::move(decision.reason);
   division.bytes = memory_to_ask_for(costs, division.threads, limits.memory);
-  division.estimated = longest_shard(costs, division.shards, division.threads);
-  division.seconds = time_to_ask_for(division.estimated, limits.seconds);
+  division.estimated = longest_shard(parts, costs, division, false);
+  division.grown = longest_shard(parts, costs, division, true);
+  division.seconds =
+      time_to_ask_for(std::max(2.0 * division.estimated, division.grown), limits.seconds);
   return division;
 }
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <iostream>
 #include <map>
+#include <set>
 
 #include <CLI/App.hpp>
 #include <nlohmann/json.hpp>
@@ -84,21 +85,20 @@ std::string learned_text(const std::string& folder, const Outcomes& outcomes,
 std::string shards_text(const Sweep& sweep, const std::vector<Cost>& costs, int shards) {
   std::vector<double> seconds(static_cast<std::size_t>(shards));
   const std::vector<int> shard_of = shards_of(sweep, shards);
+  std::set<int> at_work;
   for (std::size_t i = 0; i < costs.size(); ++i) {
     seconds[static_cast<std::size_t>(shard_of[i] - 1)] += costs[i].cpu_seconds;
+    at_work.insert(shard_of[i]);
   }
   const double longest = *std::max_element(seconds.begin(), seconds.end());
   const double mean = total_cpu_seconds(costs) / shards;
-  return "In " + counted(seconds.size(), "shard") + ": about " + duration_text(mean) +
-         " CPU each, the longest " + duration_text(longest) + "\n";
-}
-
-/// What a sweep takes at most whose groups grow.
-std::string growth_text(const Sweep& whole, const Outcomes& made) {
-  const std::vector<Cost> costs = costs_with(made, whole.jobs);
-  return "Groups grow until their errors are as asked for: at most " +
-         counted(costs.size(), "packing") + ", " + duration_text(total_cpu_seconds(costs)) +
-         " CPU; with --out the packings made so far tell how many come next\n";
+  std::string text = "In " + counted(seconds.size(), "shard") + ": about " + duration_text(mean) +
+                     " CPU each, the longest " + duration_text(longest);
+  if (at_work.size() < seconds.size()) {
+    text += "; " + std::to_string(seconds.size() - at_work.size()) + " have nothing to make";
+    if (grows(sweep)) text += ", since growing groups and families remain whole";
+  }
+  return text + "\n";
 }
 
 /// Which packings of growing groups come next, after those that are made.
@@ -114,7 +114,8 @@ std::string next_text(const Sweep& sweep, const Outcomes& made, const PackingNam
     ++next[known->second].second;
     ++all;
   }
-  if (all == 0) return "Nothing comes next: what was asked for is met, the most is made, or too few settle\n";
+  if (all == 0)
+    return "Nothing comes next: what was asked for is met, the most is made, or too few settle\n";
   std::string text = "Next: " + counted(all, "packing") + ": ";
   for (std::size_t i = 0; i < std::min(next.size(), most_shown); ++i) {
     const auto& [job, count] = next[i];
@@ -126,11 +127,11 @@ std::string next_text(const Sweep& sweep, const Outcomes& made, const PackingNam
   return text + "\n";
 }
 
-/// Whether one machine makes it in a night.
-std::string cluster_text(double wall_seconds) {
+/// Whether one machine makes it in a night: at first, and if all that may grow has grown.
+std::string cluster_text(double wall_seconds, double grown_wall_seconds) {
   constexpr double night = 12.0 * 3600.0;
-  return wall_seconds < night ? "No cluster is needed.\n"
-                              : "On a cluster: " + called_as() + " slurm FILE --out DIR\n";
+  if (grown_wall_seconds < night) return "No cluster is needed.\n";
+  return wall_seconds < night ? "" : "On a cluster: " + called_as() + " slurm FILE --out DIR\n";
 }
 
 std::string memory_text(double bytes) { return fixed(bytes / 1e6, 1) + " MB"; }
@@ -188,8 +189,8 @@ Needs needs_of(const std::vector<Cost>& costs, int threads) {
   return needs;
 }
 
-void print_text(const Sweep& sweep, const std::vector<Cost>& costs, const Needs& needs, int threads,
-                const PackingNames& names) {
+void print_text(const Sweep& sweep, const std::vector<Cost>& costs, const Needs& needs,
+                double grown_wall_seconds, int threads, const PackingNames& names) {
   const std::vector<PlannedGroup> groups = planned_groups(sweep, costs);
   std::cout << sweep.name << ": " << counted(sweep.jobs.size(), "packing") << ", "
             << counted(groups.size(), "parameter set") << "\n"
@@ -200,7 +201,7 @@ void print_text(const Sweep& sweep, const std::vector<Cost>& costs, const Needs&
             << counted(static_cast<std::size_t>(needs.live), "packing") << " at once), up to "
             << memory_text(needs.bytes) << " of the " << memory_text(needs.memory)
             << " that can be had\n"
-            << cluster_text(needs.wall_seconds);
+            << cluster_text(needs.wall_seconds, grown_wall_seconds);
 }
 
 /// One line; the parameters are JSON already.
@@ -268,8 +269,12 @@ int perform(const PlanOptions& options) {
     print_json(sweep, costs, needs, threads);
   } else {
     const PackingNames names = names_in(sweep);
-    print_text(sweep, costs, needs, threads, names);
-    if (grows(whole)) std::cout << next_text(sweep, made, names) << growth_text(whole, made);
+    const std::vector<Cost> most = grows(whole) ? costs_with(made, whole.jobs) : costs;
+    print_text(sweep, costs, needs, needs_of(most, threads).wall_seconds, threads, names);
+    if (grows(whole)) {
+      std::cout << next_text(sweep, made, names) << growth_text(most)
+                << "; with --out the packings made so far tell how many come next\n";
+    }
     if (options.shards > 0) std::cout << shards_text(sweep, costs, options.shards);
   }
   return exit_done;

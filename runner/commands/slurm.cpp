@@ -12,6 +12,7 @@
 #include "runner/jobs/estimates.hpp"
 #include "runner/jobs/growing_groups.hpp"
 #include "runner/jobs/schedule.hpp"
+#include "runner/jobs/sweep_parts.hpp"
 #include "runner/machine.hpp"
 #include "runner/store/files.hpp"
 #include "runner/sweep/costs.hpp"
@@ -47,10 +48,11 @@ std::string limits_text(const Partition& partition) {
   return text + "\n";
 }
 
-/// What will be done, and what decided it.
+/// What will be done, and what decided it. `costs`: of what is made at first.
 std::string division_text(const Sweep& sweep, const std::vector<Cost>& costs,
                           const Division& division, const ClusterLimits& limits) {
-  std::string text = sweep.name + ": " + counted(costs.size(), "packing") + ", about " +
+  std::string text = sweep.name + ": " + counted(costs.size(), "packing") +
+                     (grows(sweep) ? " at first" : "") + ", about " +
                      duration_text(total_cpu_seconds(costs)) +
                      " CPU: " + counted(static_cast<std::size_t>(division.shards), "shard") +
                      " of about " + duration_text(division.estimated) + " on " +
@@ -62,10 +64,17 @@ std::string division_text(const Sweep& sweep, const std::vector<Cost>& costs,
   return text;
 }
 
-/// Says so where one machine is enough.
-std::string small_note(const std::vector<Cost>& costs, const SlurmOptions& options,
+/// What a growing sweep may take, and what is asked for.
+std::string growth_of_shards_text(const std::vector<Cost>& most, const Division& division) {
+  return growth_text(most) + ", the longest shard " + duration_text(division.grown) +
+         "; each asks for " + duration_text(division.seconds) +
+         ", and what it leaves is made by the job that follows\n";
+}
+
+/// Says so where one machine is enough, whatever grows. `most`: costs of all that there may be.
+std::string small_note(const std::vector<Cost>& most, const SlurmOptions& options,
                        const std::string& folder) {
-  const double seconds = estimate_wall(costs, usable_cores());
+  const double seconds = estimate_wall(most, usable_cores());
   if (seconds > 3600.0) return "";
   return "note: this machine makes it in about " + duration_text(seconds) +
          ", no cluster is needed: " + called_as() + " run " + shell_word(options.file) + " --out " +
@@ -117,16 +126,17 @@ CLI::App& add_command(CLI::App& app, SlurmOptions& options) {
 
 int perform(const SlurmOptions& options) {
   const Sweep whole = sweep_with_notes(options.file);
-  const GrowingSweep growing(whole, {});
-  const Sweep& sweep = growing.now();
-  const std::string folder = options.out.empty() ? "out/" + sweep.name : options.out;
-  const std::vector<Cost> costs = costs_of(sweep.jobs);
+  const std::string folder = options.out.empty() ? "out/" + whole.name : options.out;
+  const std::vector<Cost> most = costs_of(whole.jobs);
+  const std::vector<Cost> costs = costs_of(GrowingSweep(whole, {}).now().jobs);
   const Partition partition = ask_for_partition(options.partition);
-  const Division division = divide(costs, partition.limits, options.shards, options.threads);
+  const Division division =
+      divide(parts_of(whole, most), most, partition.limits, options.shards, options.threads);
   std::cerr << memory_warning(costs, partition.limits.memory) << limits_text(partition)
-            << division_text(sweep, costs, division, partition.limits)
-            << small_note(costs, options, folder);
-  const ClusterRun run = cluster_run(options, sweep, folder, partition, division);
+            << division_text(whole, costs, division, partition.limits)
+            << (grows(whole) ? growth_of_shards_text(most, division) : "")
+            << small_note(most, options, folder);
+  const ClusterRun run = cluster_run(options, whole, folder, partition, division);
   if (options.print) {
     std::cout << shards_script(run) << "\n" << rest_script(run);
   } else {

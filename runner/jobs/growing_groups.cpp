@@ -7,6 +7,7 @@
 #include <set>
 #include <sstream>
 
+#include "runner/jobs/estimates.hpp"
 #include "runner/jobs/growing_fits.hpp"
 #include "runner/jobs/replicate_means.hpp"
 #include "runner/tables/fits.hpp"
@@ -311,6 +312,11 @@ std::string unreachable_wishes(const Sweep& whole) {
     append_fit(whole, groups, family, text);
   }
   return text;
+}
+
+std::string growth_text(const std::vector<Cost>& most) {
+  return "Groups grow until their errors are as asked for: at most " +
+         counted(most.size(), "packing") + ", " + duration_text(total_cpu_seconds(most)) + " CPU";
 }
 
 std::string wishes_text(const Sweep& whole, const Outcomes& outcomes) {

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/cost.hpp"
 #include "engine/dynamics/presets.hpp"
 #include "runner/jobs/growing_families.hpp"
 #include "runner/store/journal.hpp"
@@ -49,6 +50,9 @@ class GrowingSweep {
 /// A line for each wish that no number of packings can meet: the way of settling may do more to the
 /// means, or a fit has fewer than three widths, or groups whose own wishes it would have to follow.
 std::string unreachable_wishes(const Sweep& whole);
+
+/// What a sweep takes at most whose groups grow, by the costs of all its jobs.
+std::string growth_text(const std::vector<Cost>& most);
 
 /// Which of the wishes were met, for the end of a run; empty if there are none.
 std::string wishes_text(const Sweep& whole, const Outcomes& outcomes);

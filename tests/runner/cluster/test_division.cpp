@@ -12,6 +12,13 @@ std::vector<Cost> minutes_of_work(int packings) {
   return std::vector<Cost>(static_cast<std::size_t>(packings), Cost{60.0, 1e7});
 }
 
+/// Divides packings each of which is a part.
+Division divide(const std::vector<Cost>& costs, const ClusterLimits& limits, int shards = 0) {
+  std::vector<Part> parts;
+  for (std::size_t i = 0; i < costs.size(); ++i) parts.push_back({{i}, {}, costs[i]});
+  return divide(parts, costs, limits, shards);
+}
+
 const ClusterLimits twelve_nodes{12, 10, 64e9, 86400.0, 1000};
 
 TEST_CASE("a sweep is spread over all nodes where each then has 10 to 60 minutes of work") {
@@ -47,7 +54,7 @@ TEST_CASE("a short time limit and an array of few elements decide") {
   CHECK(few.shards == 100);
   CHECK_THAT(few.reason, Contains("MaxArraySize"));
   CHECK(divide(minutes_of_work(50), limits, 7).shards == 7);
-  CHECK(divide(minutes_of_work(50), limits, 700).shards == 100);
+  CHECK(divide(minutes_of_work(700), limits, 700).shards == 100);
 }
 
 TEST_CASE("no shard is without a packing") {
@@ -56,6 +63,36 @@ TEST_CASE("no shard is without a packing") {
   CHECK(division.shards == 2);
   CHECK(division.threads == 10);
   CHECK_THAT(division.reason, Contains("one packing at least"));
+  CHECK(divide(two_long, twelve_nodes, 7).shards == 2);
+}
+
+/// Parts of so many packings of a minute, which grow from six.
+std::vector<Part> growing_parts(int count, std::size_t packings) {
+  std::vector<Part> parts;
+  for (int k = 0; k < count; ++k) {
+    Part& part = parts.emplace_back();
+    for (std::size_t i = 0; i < packings; ++i) {
+      (i < 6 ? part.first : part.later).push_back(parts.size() * packings - packings + i);
+    }
+    part.cost = {360.0, 1e7};
+  }
+  return parts;
+}
+
+TEST_CASE("what grows as a whole is not divided, and has time to grow") {
+  const Division one = divide(growing_parts(1, 600), minutes_of_work(600), twelve_nodes, 20);
+  CHECK(one.shards == 1);
+  CHECK_THAT(one.reason, Contains("growing groups and families whole"));
+  CHECK(one.estimated == Approx(60.0));  // six on ten threads
+  CHECK(one.grown == Approx(3600.0));
+  CHECK(one.seconds == 4200.0);
+  ClusterLimits brief = twelve_nodes;
+  brief.seconds = 1800.0;
+  CHECK(divide(growing_parts(1, 600), minutes_of_work(600), brief).seconds == 1800.0);
+  const Division many = divide(growing_parts(300, 10), minutes_of_work(3000), twelve_nodes);
+  CHECK(many.shards == 12);
+  CHECK(many.estimated == Approx(15 * 60.0));  // of 25 groups each
+  CHECK(many.seconds == 2400.0);               // twice as much: more than they may grow to
 }
 
 TEST_CASE("a shard has no more threads than there is memory for") {

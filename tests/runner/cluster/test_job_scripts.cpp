@@ -14,7 +14,7 @@ ClusterRun small_run() {
           "quick",
           "main",
           "0.01",
-          {64, 16, 3e9, 1500.0, 3120.0, "it was asked for"}};
+          {64, 16, 3e9, 1500.0, 1500.0, 3120.0, "it was asked for"}};
 }
 
 TEST_CASE("an array has an element for each shard, told before its time is up") {

@@ -20,6 +20,17 @@ TEST_CASE("a growing group belongs to one shard") {
   CHECK(std::set<int>(shard_of.begin(), shard_of.end()).size() == 3);
 }
 
+TEST_CASE("a part has the jobs that are made at first, and those that it may grow by") {
+  Sweep whole{"s", 7, 1, growing_group("g", 4.0, 10, {0.01, 0.0})};
+  for (const Job& job : growing_group("h", 5.0, 2, {})) whole.jobs.push_back(job);
+  const std::vector<Part> parts = parts_of(whole, std::vector<Cost>(12, Cost{60.0, 1e7}));
+  REQUIRE(parts.size() == 3);
+  CHECK(parts[0].first == Places{0, 1, 2, 3, 4, 5});
+  CHECK(parts[0].later == Places{6, 7, 8, 9});
+  CHECK(parts[0].cost.cpu_seconds == 360.0);
+  CHECK(parts[2].first == Places{11});
+}
+
 TEST_CASE("a family whose fit grows belongs to one shard") {
   Sweep whole{"s", 7, 1, {}};
   for (const char* const name : {"a", "b", "c"}) {

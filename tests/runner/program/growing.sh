@@ -46,6 +46,21 @@ sed 's/"box.width": \[3, 4\]/"box.width": [3, 4], "seed": [1, 2]/' sweep.json >s
 expect_code 0 "$program" plan seeds.json
 expect_text out.txt 'Next: 24 packings: 12 of grows, W = 3; 12 of grows, W = 4' 'at most 122 packings'
 
+# On a cluster a growing group remains whole, and has time to grow.
+mkdir bin
+echo "echo 'main*|1-00:00:00|2|64000|12'" >bin/sinfo
+echo "echo 'MaxArraySize = 1001'" >bin/scontrol
+chmod +x bin/sinfo bin/scontrol
+sed 's/"most": 30/"most": 10000/; s/"grains": 90/"grains": 400000/; s/"length": 5/"length": 400/' \
+  sweep.json >long.json
+PATH=$here/bin:$PATH expect_code 0 "$program" slurm long.json --out long --print --shards 9
+expect_text error.txt 'growing: 14 packings at first' '4 shards' 'growing groups and families whole' \
+  'at most 20002 packings'
+expect_text out.txt '#SBATCH --array=1-4'
+if grep -q 'no cluster is needed' error.txt; then fail "what may grow for hours needs no cluster"; fi
+expect_code 0 "$program" plan long.json --shards 9
+expect_text out.txt '5 have nothing to make, since growing groups and families remain whole'
+
 # What no number of packings can meet.
 sed 's/0.009/0.001/' sweep.json >vain.json
 expect_code 2 "$program" run vain.json --out vain
