@@ -145,6 +145,17 @@ Results read_results(const std::string& folder, Detail detail) {
   return results;
 }
 
+Results read_called_for(GrowingSweep& growing, Provenance provenance, const std::string& folder,
+                        Detail detail) {
+  JournalReading stored = read_journals(folder, detail);
+  growing.grow(stored.outcomes);
+  Results results{std::move(provenance),          rows_of(growing.now()), {}, {}, 0,
+                  growing.wishes(stored.outcomes)};
+  results.provenance.runs = std::move(stored.runs);
+  results.orphaned = take_outcomes(std::move(stored.outcomes), results.rows);
+  return results;
+}
+
 void record_sweep(const std::string& folder, const Provenance& provenance,
                   const std::vector<Row>& rows) {
   if (!is_recorded(folder, provenance, rows)) write_provenance(folder, provenance, rows);

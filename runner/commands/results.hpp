@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "runner/jobs/growing_groups.hpp"
 #include "runner/report/report.hpp"
 #include "runner/store/shard_files.hpp"
 #include "runner/tables/families.hpp"
@@ -18,6 +19,7 @@ struct Results {
   std::vector<std::string> damage;                  ///< what was left out, where and why
   std::map<std::string, RunRecord> last_runs = {};  ///< as of JournalReading
   std::size_t orphaned = 0;  ///< stored packings that are not of the present sweep
+  std::string wishes = {};   ///< of what a growing sweep calls for: wishes_text
 };
 
 /// Throws BadInput unless `folder` has a provenance.json that is whole.
@@ -39,6 +41,12 @@ StoredSweep read_stored_sweep(const std::string& folder, Detail detail = Detail:
 /// `status` needs, in a tenth of the time. Throws BadInput if `folder` is no output folder,
 /// FileError if a file cannot be read.
 Results read_results(const std::string& folder, Detail detail = Detail::whole);
+
+/// What is stored by now of the packings that a sweep calls for by now: both of one reading, so
+/// that where none is pending nothing more is called for, whatever other runners made meanwhile.
+/// Those of a growing sweep take Detail::whole.
+Results read_called_for(GrowingSweep& growing, Provenance provenance, const std::string& folder,
+                        Detail detail);
 
 /// Writes provenance.json, from which others know the sweep, unless it stands there already.
 void record_sweep(const std::string& folder, const Provenance& provenance,

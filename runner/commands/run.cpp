@@ -178,7 +178,23 @@ TimeLimit time_limit_of(const RunOptions& options) {
   return left > 0.0 ? TimeLimit(left) : TimeLimit();
 }
 
-Packed pack(RunningSweep& running, const Sweep& whole, const RunOptions& options, Isa isa,
+/// The names of a sweep's packings, found when they are first needed.
+class PackingNamesOnce {
+ public:
+  explicit PackingNamesOnce(const Sweep& sweep) : sweep_(sweep) {}
+  explicit PackingNamesOnce(Sweep&& sweep) = delete;
+
+  const PackingNames& get() {
+    if (!names_) names_ = names_in(sweep_);
+    return *names_;
+  }
+
+ private:
+  const Sweep& sweep_;
+  std::optional<PackingNames> names_;
+};
+
+Packed pack(RunningSweep& running, PackingNamesOnce& names, const RunOptions& options, Isa isa,
             const RunRecord& run, const TimeLimit& time_limit) {
   if (running.pending.empty()) return {};
   if (running.done > 0 && !options.quiet) {
@@ -192,7 +208,7 @@ Packed pack(RunningSweep& running, const Sweep& whole, const RunOptions& options
   const bool tells_packings = style == ProgressStyle::plain || options.fail_fast;
   return pack_pending(
       running, {limits, isa, style, options.checkpoint_seconds, options.fail_fast, time_limit,
-                options.no_grains, tells_packings ? names_in(whole) : PackingNames()});
+                options.no_grains, tells_packings ? names.get() : PackingNames()});
 }
 
 struct Made {
@@ -239,16 +255,6 @@ Made help(const Sweep& sweep, const Shard& shard, const std::string& folder, Sha
     const auto made = static_cast<std::size_t>(now.packings);
     if (!all.is_whole || made < running.pending.size()) return all;  // or there is no time for more
   }
-}
-
-/// What is stored of the sweep, by all shards.
-Results stored_results(const Sweep& sweep, Provenance provenance, const std::string& folder,
-                       Detail detail) {
-  Results results{std::move(provenance), rows_of(sweep), {}, {}, 0};
-  JournalReading stored = read_journals(folder, detail);
-  results.provenance.runs = std::move(stored.runs);
-  results.orphaned = take_outcomes(std::move(stored.outcomes), results.rows);
-  return results;
 }
 
 /// The options to go on with: those of this run, but for what is done once.
@@ -417,8 +423,9 @@ int perform(const RunOptions& options) {
   const auto made = [&] { return made_for_growth(folder, whole); };
   GrowingSweep growing(whole, made());
   bool retries = options.retry_failed;  // once
+  PackingNamesOnce names(whole);
   const auto make = [&](RunningSweep& running) {
-    return pack(running, whole, options, isa, run, time_limit);
+    return pack(running, names, options, isa, run, time_limit);
   };
   Made own = make_all(growing, made, [&](const Sweep& sweep) {
     record_sweep(folder, provenance, rows_of(sweep));
@@ -439,20 +446,21 @@ int perform(const RunOptions& options) {
   files.add(run);
   files.flush();
 
-  bool has_all = shard.count == 1;
-  Results results =
-      stored_results(growing.now(), provenance, folder, has_all ? Detail::whole : Detail::summary);
-  if (!has_all && totals_of(results.rows).counts.pending == 0) {
-    has_all = true;
-    results = stored_results(growing.now(), provenance, folder, Detail::whole);
-  }
+  const auto stored = [&](Detail detail) {
+    return read_called_for(growing, provenance, folder, detail);
+  };
+  const bool is_alone = shard.count == 1;
+  Results results = stored(is_alone || grows(whole) ? Detail::whole : Detail::summary);
+  const bool has_all = is_alone || totals_of(results.rows).counts.pending == 0;
+  if (has_all && !is_alone) results = stored(Detail::whole);
   if (has_all) {
-    // Of several shards that find everything made at once, the first one.
+    // Of several shards that find everything made at once, which is the same for all, the first
+    // one.
     std::optional<FileLock> place;
     if (shard.count > 1) place.emplace(tables_lock(folder));
     if (!place || !place->is_taken()) write_results(results, options, folder, is_whole);
     forget_claims(folder);
-    if (is_whole && !options.quiet) std::cout << growing.wishes();
+    if (is_whole && !options.quiet) std::cout << results.wishes;
     if (options.no_report && packed.packings > 0) tell_of_old_page(folder);
   } else if (is_whole && !options.quiet) {
     tell_of_others(results.rows, shard, folder, options);

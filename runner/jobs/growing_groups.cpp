@@ -293,7 +293,6 @@ bool GrowingSweep::grow(const Outcomes& made) {
   if (!grows_) return false;
   const std::size_t before = called_.jobs.size();
   called_ = called_for(whole_, made);
-  wishes_ = wishes_text(whole_, made);
   return called_.jobs.size() > before;
 }
 

@@ -25,6 +25,9 @@ namespace grainsweep {
 int replicates_called_for(const std::vector<const Outcome*>& made, const ErrorWish& wish,
                           const std::optional<ProtocolBias>& bound);
 
+/// Which of the wishes were met, for the end of a run; empty if there are none.
+std::string wishes_text(const Sweep& whole, const Outcomes& outcomes);
+
 /// A sweep as far as the packings that are made call for its jobs. Refers to the whole sweep, which
 /// has the most replicates of every group, and is that if none may grow.
 class GrowingSweep {
@@ -37,14 +40,13 @@ class GrowingSweep {
   /// Looks at all that is made by now; whether more is called for than before.
   bool grow(const Outcomes& made);
 
-  /// Which errors were as asked for when it was looked at last: `wishes_text`.
-  const std::string& wishes() const { return wishes_; }
+  /// Which errors are as asked for, by all that is made: `wishes_text` of the whole sweep.
+  std::string wishes(const Outcomes& made) const { return wishes_text(whole_, made); }
 
  private:
   const Sweep& whole_;
   bool grows_;
   Sweep called_;  ///< empty if it does not grow
-  std::string wishes_;
 };
 
 /// A line for each wish that no number of packings can meet: the way of settling may do more to the
@@ -53,8 +55,5 @@ std::string unreachable_wishes(const Sweep& whole);
 
 /// What a sweep takes at most whose groups grow, by the costs of all its jobs.
 std::string growth_text(const std::vector<Cost>& most);
-
-/// Which of the wishes were met, for the end of a run; empty if there are none.
-std::string wishes_text(const Sweep& whole, const Outcomes& outcomes);
 
 }  // namespace grainsweep

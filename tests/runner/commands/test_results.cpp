@@ -8,6 +8,7 @@
 #include "runner/store/files.hpp"
 #include "runner/store/journal.hpp"
 #include "runner/store/states.hpp"
+#include "tests/runner/jobs/growing_sweeps.hpp"
 #include "tests/runner/sample_rows.hpp"
 #include "tests/runner/stored.hpp"
 #include "tests/runner/temporary_folder.hpp"
@@ -50,6 +51,27 @@ TEST_CASE("tables and journals are enough to know a folder's results") {
   CHECK(stored_packings(folder.path()) == "2 stored packings");
   REQUIRE(results.provenance.runs.size() == 1);
   CHECK(results.provenance.runs[0].process == sample_run().process);
+}
+
+TEST_CASE("what is called for and what is made of it are of one reading") {
+  const TemporaryFolder folder;
+  const Sweep whole{"s", 7, 1, growing_group("a", 5.0, 200, {0.01, 0.0})};
+  const auto make = [&](int from, int to, const Shard& shard) {
+    std::vector<Outcome> outcomes;
+    for (int i = from; i <= to; ++i) {
+      outcomes.push_back(sample_outcome("a" + std::to_string(i), i % 2 == 0 ? 0.6 : 0.7, 5.5));
+    }
+    add_outcomes(folder.path(), outcomes, shard);
+  };
+  make(1, 5, {1, 2});
+  GrowingSweep growing(whole, read_journals(folder.path()).outcomes);
+  CHECK(growing.now().jobs.size() == 6);
+  make(6, 6, {2, 2});  // by another runner, meanwhile: calls for six more
+  const Results results =
+      read_called_for(growing, stored_provenance(), folder.path(), Detail::whole);
+  CHECK(results.rows.size() == 12);
+  CHECK(totals_of(results.rows).counts.pending == 6);
+  CHECK(results.wishes == wishes_text(whole, read_journals(folder.path()).outcomes));
 }
 
 TEST_CASE("a summary counts what the whole results hold") {
