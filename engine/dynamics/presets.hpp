@@ -20,8 +20,12 @@ enum class BedKind {
 /// How far means over many beds lie at most from those of beds settled ever better.
 struct ProtocolBias {
   double solid_fraction = 0.0;
-  double coordination = 0.0;
+  double coordination = 0.0;  ///< counted at measured_gap
 };
+
+/// Below which grains were neighbours where biases were measured, d. Beds that are not solved to
+/// the end have contacts that are open by less, which others than this do not count alike.
+inline constexpr double measured_gap = 1e-4;
 
 struct Preset {
   std::string_view name;

@@ -38,6 +38,8 @@ struct Collection {
   std::map<std::string, std::size_t> row_of;  ///< by job
   /// The first row of each set of parameters, by their text, which the rows keep.
   std::map<std::string_view, std::size_t> row_with;
+  /// What is stored of earlier forms of the sweeps, which no table has.
+  Outcomes others;
   std::size_t added = 0;
 };
 
@@ -126,8 +128,14 @@ bool copy_bed(const std::string& folder, Outcome& outcome, Collection& to) {
   }
 }
 
+/// Whether both have the same bed, and `known` was stored without its grains.
+bool brings_grains(const Outcome& outcome, const Outcome& known) {
+  return is_same_result(outcome, known) && outcome.stored_bytes > known.stored_bytes;
+}
+
 void add_outcome(const std::string& folder, Boxed<Outcome> outcome, Row& row, Collection& to) {
-  if (row.outcome && !row.outcome->exception) {
+  const bool is_known = row.outcome && !row.outcome->exception;
+  if (is_known && !(!outcome->exception && brings_grains(*outcome, *row.outcome))) {
     if (!outcome->exception && !is_same_result(*outcome, *row.outcome)) {
       warn(folder + ": its packing " + outcome->job + " (version " + outcome->version +
                ") differs from the one collected before (version " + row.outcome->version +
@@ -137,27 +145,50 @@ void add_outcome(const std::string& folder, Boxed<Outcome> outcome, Row& row, Co
     return;
   }
   if (outcome->stored_bytes > 0 && !copy_bed(folder, *outcome, to)) return;
+  if (row.outcome) to.files.count_after(*row.outcome);
   to.files.add(*outcome);
   row.outcome = std::move(outcome);
   if (++to.added % added_at_once == 0) to.files.flush();
 }
 
+/// Keeps what a folder holds beside its sweep: that of an earlier form, which may come again.
+void add_others(const std::string& folder, Outcomes&& outcomes, Collection& to) {
+  std::size_t kept = 0;
+  for (auto& [job, outcome] : outcomes) {
+    if (const auto row = to.row_of.find(job); row != to.row_of.end()) {
+      add_outcome(folder, std::move(outcome), to.rows[row->second], to);
+      continue;
+    }
+    if (outcome->exception || to.others.contains(job)) continue;
+    if (outcome->stored_bytes > 0 && !copy_bed(folder, *outcome, to)) continue;
+    to.files.add(*outcome);
+    to.others.emplace(job, std::move(outcome));
+    ++kept;
+  }
+  if (kept == 0) return;
+  warn(folder + ": " + counted(kept, "packing") +
+           " of an earlier form of its sweep: kept for a run of that, but in no table",
+       to);
+}
+
 /// What the folder holds already; a new one takes name and file from the first source.
 Collection begin_collection(const std::string& folder, ShardFiles& files, ProgressDisplay& display,
                             const RunRecord& own, const Provenance& first) {
-  Collection collection{folder, files, display, first, {}, {}, {}, 0};
+  Collection collection{folder, files, display, first, {}, {}, {}, {}, 0};
   collection.provenance.runs.clear();
   if (file_exists(folder + "/provenance.json")) {
-    Results results = read_results(folder);
-    warn_of(results.damage, collection);
-    for (const Row& row : results.rows) {
+    StoredSweep stored = read_stored_sweep(folder);
+    warn_of(stored.damage, collection);
+    collection.rows = rows_of(stored.jobs);
+    for (Row& row : collection.rows) {
+      if (auto known = stored.outcomes.extract(row.job.id)) row.outcome = std::move(known.mapped());
       if (row.outcome) files.count_after(*row.outcome);
     }
-    warn_of(check_beds(folder, results.rows), collection);
-    collection.provenance = std::move(results.provenance);
+    collection.others = std::move(stored.outcomes);
+    warn_of(check_beds(folder, collection.rows), collection);
+    collection.provenance = std::move(stored.provenance);
     std::erase_if(collection.provenance.runs,
                   [&](const RunRecord& run) { return is_same_run(run, own); });
-    collection.rows = std::move(results.rows);
   }
   for (std::size_t i = 0; i < collection.rows.size(); ++i) {
     collection.row_of[collection.rows[i].job.id] = i;
@@ -179,10 +210,16 @@ void add_results(const std::string& folder, StoredSweep&& stored, Collection& to
   for (const JobEntry& job : stored.jobs.jobs) {
     Row& row = row_of(job, stored.jobs, to, renamed);
     auto outcome = stored.outcomes.extract(job.id);
-    if (!outcome) continue;
+    if (!outcome) {
+      if (auto other = to.others.extract(job.id); other && !row.outcome) {
+        row.outcome = std::move(other.mapped());
+      }
+      continue;
+    }
     add_outcome(folder, std::move(outcome.mapped()), row, to);
     tell(1.0 - static_cast<double>(stored.outcomes.size()) / all);
   }
+  add_others(folder, std::move(stored.outcomes), to);
   for (const auto& [label, first] : renamed) {
     warn(folder + ": packings called \"" + label + "\" have the parameters of \"" + first +
              "\" collected before, and are called so, too",

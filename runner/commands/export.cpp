@@ -200,27 +200,45 @@ int perform(const ExportOptions& options) {
   refuse_shapes_without_room(format, options.folder, rows, chosen);
   make_folder(to);
   const std::vector<std::string> stems = file_stems(rows);
-  std::size_t written = 0, unsettled = 0, left_out = 0;
+  std::set<std::string> written;
+  std::size_t unsettled = 0, damaged = 0, without_grains = 0;
+  std::vector<std::string> refused;
   for (const std::size_t k : chosen) {
     std::optional<StoredBed> bed = bed_or_warning(options.folder, *rows[k].outcome);
-    left_out += bed ? 0 : 1;
-    if (!bed || bed->grains.empty()) continue;  // the latter of a run with --no-grains
-    ++written;
-    unsettled += is_settled(rows[k]) ? 0 : 1;
-    const std::string text = format != nullptr
-                                 ? format->text(exported(std::move(*bed), rows[k].job, settings))
-                                 : page_of(*bed, rows[k], results.provenance.units);
+    damaged += bed ? 0 : 1;
+    if (!bed) continue;
+    without_grains += bed->grains.empty() ? 1 : 0;
+    if (bed->grains.empty()) continue;
+    std::string text;
+    try {
+      text = format != nullptr ? format->text(exported(std::move(*bed), rows[k].job, settings))
+                               : page_of(*bed, rows[k], results.provenance.units);
+    } catch (const BadInput& error) {  // no bed for this format; others may be
+      if (!options.jobs.empty()) throw;
+      refused.emplace_back(error.what());
+      continue;
+    }
     replace_file(to + "/" + stems[k] + ending, text);
+    written.insert(stems[k] + ending);
+    unsettled += is_settled(rows[k]) ? 0 : 1;
   }
-  if (written == 0 && left_out > 0) return exit_file_system;
-  if (written == 0) throw BadInput(options.folder + ": its packings were stored without grains");
-  replace_file(to + "/index.csv", index_csv(to, rows, endings()));
-  std::cout << counted(written, "packing") << " written to " << to << "/<label>-<group>-<replicate>"
-            << ending << ", listed in index.csv\n";
+  if (written.empty() && damaged > 0) return exit_file_system;
+  if (written.empty() && !refused.empty()) throw BadInput(refused.front());
+  if (written.empty()) throw BadInput(options.folder + ": its packings were stored without grains");
+  replace_file(to + "/index.csv", index_csv(to, rows, endings(), written));
+  std::cout << counted(written.size(), "packing") << " written to " << to
+            << "/<label>-<group>-<replicate>" << ending << ", listed in index.csv\n";
   if (unsettled > 0) {
     std::cout << unsettled << " of them did not come to rest: see the column status there\n";
   }
-  return left_out > 0 ? exit_file_system : exit_done;
+  if (!refused.empty()) {
+    std::cout << counted(refused.size(), "packing") << " left out: " << refused.front()
+              << (refused.size() > 1 ? ", and others" : "") << "\n";
+  }
+  if (without_grains > 0) {
+    std::cout << counted(without_grains, "packing") << " left out: stored without grains\n";
+  }
+  return damaged > 0 ? exit_file_system : exit_done;
 }
 
 }  // namespace grainsweep

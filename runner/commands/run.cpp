@@ -142,7 +142,9 @@ RunningSweep resume(const Sweep& sweep, const std::vector<std::size_t>& places, 
 Provenance provenance_of(const RunOptions& options, const Sweep& sweep) {
   Provenance provenance;
   provenance.build = this_build();
-  provenance.sweeps = {{options.file, read_file(options.file)}};
+  std::error_code unknown;
+  provenance.sweeps = {
+      {options.file, read_file(options.file), std::filesystem::current_path(unknown).string()}};
   provenance.sweep_name = sweep.name;
   provenance.units = sweep.units;
   return provenance;

@@ -49,11 +49,16 @@ double cpu_seconds_left(const std::vector<Row>& rows) {
   return left;
 }
 
-std::optional<Queue> queue_of(const std::string& folder) {
-  const std::string scripts =
-      scripts_folder(std::filesystem::absolute(folder).lexically_normal().string());
+/// Whether the command `slurm` has submitted shards of it.
+bool is_submitted(const std::string& folder) {
   std::error_code not_there;
-  return std::filesystem::is_directory(scripts, not_there) ? ask_for_queue(scripts) : std::nullopt;
+  return std::filesystem::is_directory(scripts_folder(folder), not_there);
+}
+
+std::optional<Queue> queue_of(const std::string& folder) {
+  if (!is_submitted(folder)) return std::nullopt;
+  return ask_for_queue(
+      scripts_folder(std::filesystem::absolute(folder).lexically_normal().string()));
 }
 
 /// Prints warnings of what is damaged.
@@ -173,6 +178,30 @@ nlohmann::ordered_json status_json(const Standing& standing) {
   return status;
 }
 
+/// Of a folder whose shards are submitted, but none has begun.
+nlohmann::ordered_json waiting_json(const std::string& folder) {
+  nlohmann::ordered_json status = {{"folder", folder}, {"packings", nullptr}};
+  if (const auto queue = queue_of(folder)) {
+    status["slurm"] = {{"running", queue->running}, {"pending", queue->pending}};
+  }
+  return status;
+}
+
+void print_waiting(const std::string& folder) {
+  const std::optional<Queue> queue = queue_of(folder);
+  std::cout << folder << ": submitted, nothing is made yet\n" << (queue ? queue_text(*queue) : "");
+}
+
+/// Prints what is known of a folder, or adds it to `all`.
+void tell(const std::string& folder, const StatusOptions& options, nlohmann::ordered_json& all) {
+  if (is_submitted(folder) && !file_exists(folder + "/provenance.json")) {
+    options.json ? all.push_back(waiting_json(folder)) : print_waiting(folder);
+    return;
+  }
+  const Standing standing = standing_of(folder, options.check);
+  options.json ? all.push_back(status_json(standing)) : print_status(standing);
+}
+
 }  // namespace
 
 CLI::App& add_command(CLI::App& app, StatusOptions& options) {
@@ -188,19 +217,21 @@ CLI::App& add_command(CLI::App& app, StatusOptions& options) {
 
 int perform(const StatusOptions& options) {
   nlohmann::ordered_json all = nlohmann::ordered_json::array();
+  ExitCode end = exit_done;
   for (const std::string& folder : options.folders) {
-    const Standing standing = standing_of(folder, options.check);
-    if (options.json) {
-      all.push_back(status_json(standing));
-    } else {
-      print_status(standing);
+    try {
+      tell(folder, options, all);
+    } catch (const BadInput& error) {
+      if (options.folders.size() == 1) throw;
+      std::cerr << error.what() << "\n";  // the others are told
+      end = exit_bad_input;
     }
   }
   if (options.json) {
-    const nlohmann::ordered_json& text = all.size() == 1 ? all.front() : all;
+    const nlohmann::ordered_json& text = options.folders.size() == 1 ? all.front() : all;
     std::cout << text.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << "\n";
   }
-  return exit_done;
+  return end;
 }
 
 }  // namespace grainsweep

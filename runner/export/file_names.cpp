@@ -1,6 +1,8 @@
 #include "runner/export/file_names.hpp"
 
 #include <cctype>
+#include <map>
+#include <string_view>
 #include <unordered_set>
 
 #include "runner/store/files.hpp"
@@ -33,6 +35,18 @@ std::vector<bool> have_seeds(const std::vector<Row>& rows,
   return several;
 }
 
+/// The lines of the index that stands in a folder, by their files.
+std::map<std::string, std::string> index_lines(const std::string& folder) {
+  std::map<std::string, std::string> lines;
+  const std::string path = folder + "/index.csv";
+  if (!file_exists(path)) return lines;
+  for_each_line(path, [&](std::string_view line) {
+    const std::string file(line.substr(0, line.find(',')));
+    if (file != "file") lines[file] = line;
+  });
+  return lines;
+}
+
 }  // namespace
 
 std::vector<std::string> file_stems(const std::vector<Row>& rows) {
@@ -48,20 +62,29 @@ std::vector<std::string> file_stems(const std::vector<Row>& rows) {
 }
 
 std::string index_csv(const std::string& folder, const std::vector<Row>& rows,
-                      const std::vector<std::string>& endings) {
+                      const std::vector<std::string>& endings,
+                      const std::set<std::string>& written) {
   const std::vector<std::string> stems = file_stems(rows);
   const std::vector<std::size_t> numbers = group_numbers(rows);
   const std::vector<std::string> names = files_in(folder, "", "");
   const std::unordered_set<std::string> there(names.begin(), names.end());
+  std::map<std::string, std::string> listed = index_lines(folder);
   std::string text = "file,job,label,group,replicate,seed,status\n";
   for (std::size_t k = 0; k < rows.size(); ++k) {
     for (const std::string& ending : endings) {
       const std::string file = stems[k] + ending;
       if (!there.contains(file)) continue;
       const JobFacts& job = rows[k].job;
+      const auto line = listed.find(file);
+      const bool is_its = line != listed.end() && line->second.starts_with(file + "," + job.id);
+      if (!written.contains(file) && !is_its) continue;
+      if (line != listed.end()) listed.erase(line);
       text += csv_line({cell(file), job.id, cell(job.label), cell(numbers[k]), cell(job.replicate),
                         cell(job.seed), status_of(rows[k])});
     }
+  }
+  for (const auto& [file, line] : listed) {
+    if (there.contains(file)) text += line + "\n";
   }
   return text;
 }

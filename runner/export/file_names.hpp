@@ -1,6 +1,7 @@
 // What exported files are called, and the list of them.
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -14,9 +15,11 @@ namespace grainsweep {
 /// underscore, and so is a point that would hide the file. No two rows have the same.
 std::vector<std::string> file_stems(const std::vector<Row>& rows);
 
-/// index.csv: file, job, label, group, replicate, seed and status of every file in `folder` that is
-/// one of the rows' with one of the endings.
+/// index.csv: file, job, label, group, replicate, seed and status of the files in `folder`: of
+/// those `written` now, and of others with one of the endings that its index has listed. What that
+/// says of a packing which the rows call otherwise, as after a sweep has changed, stays as it is.
 std::string index_csv(const std::string& folder, const std::vector<Row>& rows,
-                      const std::vector<std::string>& endings);
+                      const std::vector<std::string>& endings,
+                      const std::set<std::string>& written);
 
 }  // namespace grainsweep

@@ -1,6 +1,7 @@
 #include "runner/jobs/growing_families.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <map>
 #include <string>
@@ -13,11 +14,16 @@
 namespace grainsweep {
 namespace {
 
-/// What the jobs of a group have in common. Refers to the job.
-using GroupKey = std::tuple<std::uint64_t, std::string_view, std::string_view, ErrorWish, FitWish>;
+/// What the jobs of a group have in common, with their wishes. Refers to the job.
+using GroupKey = std::tuple<std::uint64_t, std::string_view, std::string_view, double, double,
+                            double, double, double, double>;
 
 GroupKey key_of(const Job& job) {
-  return {job.seed, job.label, job.parameters, job.wish, job.fit_wish};
+  const ErrorWish& means = job.wish;
+  const FitWish& fit = job.fit_wish;
+  return {
+      job.seed, job.label,  job.parameters, means.solid_fraction, means.coordination, fit.phi_bulk,
+      fit.c,    fit.z_bulk, fit.c_z};
 }
 
 bool has_fit_wish(const Sweep& whole) {
@@ -69,6 +75,12 @@ std::vector<GrowingFamily> growing_families(const Sweep& whole, const std::vecto
 
 bool is_walled(const Job& job) { return job.spec.box.y == Boundary::walls; }
 
-std::optional<ProtocolBias> bound_of(const Job& job) { return bias_bound(facts_of(job)); }
+std::optional<ProtocolBias> bound_of(const Job& job) {
+  auto bound = bias_bound(facts_of(job));
+  if (!bound || !std::isnan(bound->coordination)) return bound;
+  if (job.wish.coordination > 0.0 || job.fit_wish.z_bulk > 0.0) return std::nullopt;
+  bound->coordination = 0.0;  // is not asked for
+  return bound;
+}
 
 }  // namespace grainsweep

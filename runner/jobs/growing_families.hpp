@@ -35,7 +35,8 @@ std::vector<GrowingFamily> growing_families(const Sweep& whole, const std::vecto
 /// Whether a job is on the line that is fitted to its family.
 bool is_walled(const Job& job);
 
-/// What the way of settling may do to the means of a job's group; nothing if it was not measured.
+/// What the way of settling may do to the means of a job's group; nothing if it was not measured of
+/// all that is asked for.
 std::optional<ProtocolBias> bound_of(const Job& job);
 
 }  // namespace grainsweep

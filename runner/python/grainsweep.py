@@ -116,7 +116,10 @@ class Sweep:
         file, at, size = self._places[job]
         with file.open("rb") as beds:
             beds.seek(at)
-            return Bed(self.folder, job, beds.read(size))
+            bed = Bed(self.folder, job, beds.read(size))
+        if len(bed.positions) == 0:
+            raise KeyError(f"{job}: stored without grains, by run --no-grains")
+        return bed
 
 
 class _Bytes:

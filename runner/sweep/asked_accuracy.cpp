@@ -111,6 +111,13 @@ std::vector<AccuracyProblem> take_asked_accuracy(const InEffect& in_effect,
   const Asked& first = solid_fraction.assignment != nullptr ? solid_fraction : coordination;
   if (first.assignment == nullptr) return {};
   std::vector<AccuracyProblem> problems;
+  const std::vector<double>& gaps = resolved.spec.measure.gap_tolerances;
+  if (coordination.assignment != nullptr && !gaps.empty() && gaps.front() != measured_gap) {
+    problems.push_back({coordination.assignment,
+                        joined("cannot be promised of neighbours by a gap below ", gaps.front(),
+                               " d, as bounds were measured at ", measured_gap,
+                               " d; put that first in measure.gap_tolerances")});
+  }
   const auto kind = bed_kind_of(resolved);
   if (kind) {
     MeasuredPresets measured = measured_for(*kind);

@@ -1,8 +1,6 @@
 // What people ask for of the means of a group, and of what is fitted to them.
 #pragma once
 
-#include <compare>
-
 namespace grainsweep {
 
 /// Largest error of the means that is asked for; 0: none is.
@@ -10,7 +8,6 @@ struct ErrorWish {
   double solid_fraction = 0.0;
   double coordination = 0.0;
 
-  auto operator<=>(const ErrorWish&) const = default;
   bool is_given() const { return solid_fraction > 0.0 || coordination > 0.0; }
 };
 
@@ -22,7 +19,6 @@ struct FitWish {
   double z_bulk = 0.0;
   double c_z = 0.0;  ///< d
 
-  auto operator<=>(const FitWish&) const = default;
   bool is_given() const { return phi_bulk > 0.0 || c > 0.0 || z_bulk > 0.0 || c_z > 0.0; }
 };
 

@@ -253,9 +253,12 @@ std::string bias_text(const std::vector<Family>& families) {
   std::set<std::string> bounds;
   for (const Family& family : families) {
     const auto& bound = first_group(family).bias_bound;
-    bounds.insert(bound ? fixed(bound->solid_fraction, solid_fraction_decimals) + " (φ) and " +
-                              fixed(bound->coordination, coordination_decimals) + " (Z)"
-                        : "");
+    const auto of_z = [&] {
+      return std::isnan(bound->coordination)
+                 ? " (φ); of Z at that gap it was not measured"
+                 : " (φ) and " + fixed(bound->coordination, coordination_decimals) + " (Z)";
+    };
+    bounds.insert(bound ? fixed(bound->solid_fraction, solid_fraction_decimals) + of_z() : "");
   }
   if (bounds.size() > 1) return "Bounds of what the protocol does to means: groups.csv.\n";
   if (bounds.empty() || bounds.begin()->empty()) {

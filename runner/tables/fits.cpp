@@ -66,8 +66,9 @@ void take_line(const LineFit& line, WallFit& fit) {
 /// Groups of a family differ in their width alone, and share what their way of settling does.
 std::optional<double> bias_bound(const Group& group, Quantity quantity) {
   if (!group.bias_bound) return std::nullopt;
-  return quantity == Quantity::solid_fraction ? group.bias_bound->solid_fraction
-                                              : group.bias_bound->coordination;
+  const double bound = quantity == Quantity::solid_fraction ? group.bias_bound->solid_fraction
+                                                            : group.bias_bound->coordination;
+  return std::isnan(bound) ? std::nullopt : std::optional(bound);
 }
 
 const char* name_of(Quantity quantity) {

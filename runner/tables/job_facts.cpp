@@ -119,7 +119,9 @@ std::optional<ProtocolBias> bias_bound(const JobFacts& job) {
   const auto kind =
       bed_kind(job.shape, job.box, job.small_share, json::parse(job.parameters.text()));
   const std::string& preset = job.settles_as.empty() ? job.accuracy : job.settles_as;
-  return kind ? bias_bound(preset, *kind) : std::nullopt;
+  auto bound = kind ? bias_bound(preset, *kind) : std::nullopt;
+  if (bound && job.measure.gap_tolerances.front() != measured_gap) bound->coordination = no_number;
+  return bound;
 }
 
 const char* name_of(Boundary boundary) {

@@ -1,14 +1,35 @@
 #include "runner/tables/provenance.hpp"
 
+#include <filesystem>
+#include <system_error>
+
 #include <nlohmann/json.hpp>
 
 #include "runner/hash.hpp"
 
 namespace grainsweep {
 
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SweepFile, file, text)
+void to_json(nlohmann::json& json, const SweepFile& sweep) {
+  json = {{"file", sweep.file}, {"folder", sweep.folder}, {"text", sweep.text}};
+}
+void from_json(const nlohmann::json& json, SweepFile& sweep) {
+  json.at("file").get_to(sweep.file);
+  json.at("text").get_to(sweep.text);
+  sweep.folder = json.value("folder", "");
+}
 
 namespace {
+
+/// The file as it is called in the present folder.
+std::string name_from_here(const SweepFile& sweep) {
+  namespace fs = std::filesystem;
+  std::error_code unknown;
+  const fs::path here = fs::current_path(unknown), file(sweep.file);
+  if (unknown || sweep.folder.empty() || file.is_absolute() || here == sweep.folder) {
+    return sweep.file;
+  }
+  return (fs::path(sweep.folder) / file).lexically_normal().lexically_proximate(here).string();
+}
 
 using nlohmann::json;
 
@@ -88,7 +109,7 @@ bool has_checksum(std::string_view text) {
 }
 
 std::string sweep_file_of(const Provenance& provenance) {
-  return provenance.sweeps.size() == 1 ? provenance.sweeps.front().file : "";
+  return provenance.sweeps.size() == 1 ? name_from_here(provenance.sweeps.front()) : "";
 }
 
 std::string provenance_text(const Provenance& provenance, const std::vector<Row>& rows) {

@@ -26,8 +26,9 @@ struct Build {
 
 /// A sweep file.
 struct SweepFile {
-  std::string file;  ///< as given on the command line
-  std::string text;  ///< all of it, verbatim
+  std::string file;         ///< as given on the command line
+  std::string text;         ///< all of it, verbatim
+  std::string folder = {};  ///< in which it was given, absolute
   bool operator==(const SweepFile&) const = default;
 };
 

@@ -42,14 +42,32 @@ TEST_CASE("no file is hidden, and none is put into another folder") {
   CHECK(file_stems({row_of("a", "../b", "{}", 1)}) == std::vector<std::string>{"_._b-1-1"});
 }
 
-TEST_CASE("the index lists the files that are there") {
+const std::string index_head = "file,job,label,group,replicate,seed,status\n";
+
+TEST_CASE("the index lists the files that are written, and those there that it has listed") {
   const TemporaryFolder folder;
-  std::ofstream(folder.path() + "/x_y__z-1-2.xyz") << "0";
+  const std::string written = "x_y__z-1-2.xyz,b,\"x/y, z\",1,2,0,pending\n",
+                    listed = "x_y__z-3-1.csv,d,\"x/y, z\",3,1,0,pending\n";
+  for (const char* file : {"x_y__z-1-2.xyz", "x_y__z-3-1.csv", "x_y__z-1-1.csv"}) {
+    std::ofstream(folder.path() + "/" + file) << "0";
+  }
+  const auto index = [&] {
+    return index_csv(folder.path(), four_rows(), {".csv", ".xyz"}, {"x_y__z-1-2.xyz"});
+  };
+  CHECK(index() == index_head + written);
+  std::ofstream(folder.path() + "/index.csv") << index_head + listed;
+  CHECK(index() == index_head + written + listed);
+}
+
+TEST_CASE("a file that another packing would be called now stays that of its own in the index") {
+  const TemporaryFolder folder;
+  const std::string before = "x_y__z-3-1.csv,other,\"x/y, z\",3,1,0,settled\n",
+                    gone = "x_y__z-1-1.csv,gone,\"x/y, z\",1,1,0,settled\n";
   std::ofstream(folder.path() + "/x_y__z-3-1.csv") << "0";
-  CHECK(index_csv(folder.path(), four_rows(), {".csv", ".xyz"}) ==
-        "file,job,label,group,replicate,seed,status\n"
-        "x_y__z-1-2.xyz,b,\"x/y, z\",1,2,0,pending\n"
-        "x_y__z-3-1.csv,d,\"x/y, z\",3,1,0,pending\n");
+  std::ofstream(folder.path() + "/index.csv") << index_head + gone + before;
+  CHECK(index_csv(folder.path(), four_rows(), {".csv"}, {}) == index_head + before);
+  CHECK(index_csv(folder.path(), four_rows(), {".csv"}, {"x_y__z-3-1.csv"}) ==
+        index_head + "x_y__z-3-1.csv,d,\"x/y, z\",3,1,0,pending\n");
 }
 
 }  // namespace

@@ -61,6 +61,18 @@ TEST_CASE("another precision leaves a packing the bounds of its preset, another 
   CHECK_FALSE(bias_bound(facts_of(job)));
 }
 
+TEST_CASE("the bias of Z is bounded at the gap at which it was measured, and only there") {
+  JobFacts job;
+  job.parameters = "{}";
+  job.shape = "sphere";
+  job.accuracy = "fast";
+  CHECK(bias_bound(job)->coordination == bias_bound("fast", BedKind::spheres)->coordination);
+  job.measure.gap_tolerances = {1e-6, 1e-4};
+  REQUIRE(bias_bound(job));
+  CHECK(std::isnan(bias_bound(job)->coordination));
+  CHECK(bias_bound(job)->solid_fraction == bias_bound("fast", BedKind::spheres)->solid_fraction);
+}
+
 TEST_CASE("the bias of packings is bounded where the like of them was measured, and only there") {
   const auto bound_of = [](const std::string& shape, double small_share, const char* parameters,
                            const char* accuracy = "fast") {

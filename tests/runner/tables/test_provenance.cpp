@@ -1,3 +1,4 @@
+#include <filesystem>
 #include <string>
 #include <utility>
 
@@ -76,6 +77,17 @@ TEST_CASE("the sweep file is kept verbatim; of several none is the one to go on 
   CHECK(provenance.runs.at(0).processor == "a processor");
   provenance.sweeps.push_back({"b.json", "{}"});
   CHECK(sweep_file_of(provenance).empty());
+}
+
+TEST_CASE("a sweep file that was given in another folder is found from here") {
+  Provenance provenance;
+  const std::filesystem::path here = std::filesystem::current_path();
+  provenance.sweeps = {{"a/../b.json", "{}", here.string()}};
+  CHECK(sweep_file_of(provenance) == "a/../b.json");
+  provenance.sweeps[0].folder = (here / "in").string();
+  CHECK(sweep_file_of(provenance) == "in/b.json");
+  provenance.sweeps[0].file = "/c.json";
+  CHECK(sweep_file_of(provenance) == "/c.json");
 }
 
 TEST_CASE("the units of a sweep are kept, and none where it has none") {
