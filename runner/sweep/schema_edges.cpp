@@ -295,13 +295,25 @@ EdgeRule unmeasured_accuracies() {
           {{"shape"}, {"tube.diameter"}, {"accuracy.solid_fraction"}, {"accuracy.coordination"}}};
 }
 
+/// Neighbours by another gap than that at which bounds of their number were measured.
+EdgeRule unmeasured_gaps() {
+  const Json other = {{"not", {{"const", measured_gap}}}};
+  const Json gaps = {{"type", "array"}, {"minItems", 1}, {"items", Json::array({other})}};
+  return {
+      all_and_measure,
+      {},
+      {{{"allOf",
+         {said("accuracy.coordination", Json::object()), said("measure.gap_tolerances", gaps)}}}},
+      {{"measure.gap_tolerances"}, {"accuracy.coordination"}}};
+}
+
 }  // namespace
 
 Json edge_rules() {
   Json rules = Json::array();
   for (const auto& made :
        {short_periods, low_beds, few_grains, huge_beds, flat_ends, long_pinacoids, tiny_hulls,
-        narrow_tubes, short_steps, unkept_accuracies, unmeasured_accuracies}) {
+        narrow_tubes, short_steps, unkept_accuracies, unmeasured_accuracies, unmeasured_gaps}) {
     rules.push_back(forbidden(made()));
   }
   return rules;

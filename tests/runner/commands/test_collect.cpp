@@ -69,10 +69,14 @@ TEST_CASE("folders that agree in a packing are collected without a word of warni
   CHECK(printed_by([&] { perform(options); }).error.empty());
 }
 
-/// Stores the outcome again, with a bed.
-void store_with_bed(const std::string& folder, Outcome& outcome, const Shard& shard = {}) {
-  add_stored_bed(folder, {outcome.job, outcome.result.state_hash, {}, {}, {{}}, {}, {}, {}},
-                 outcome, shard);
+/// Stores the outcome again, with a bed of so many grains.
+void store_with_bed(const std::string& folder, Outcome& outcome, const Shard& shard = {},
+                    std::size_t grains = 1) {
+  StoredBed bed;
+  bed.job = outcome.job;
+  bed.state_hash = outcome.result.state_hash;
+  bed.grains.resize(grains);
+  add_stored_bed(folder, bed, outcome, shard);
   add_outcomes(folder, {outcome}, shard);
 }
 
@@ -97,6 +101,42 @@ TEST_CASE("a sound bed that is collected in the place of a damaged one of later 
     CHECK(status_of(all.rows[0]) == "settled");
     CHECK_THAT(collect().out, Contains("0 packings added"));
   }
+}
+
+TEST_CASE("of two copies of a bed the one with grains is kept, in either order") {
+  for (const bool grains_come_first : {true, false}) {
+    const TemporaryFolder parent;
+    Outcome with = sample_outcome("a1", 0.6, 6), without = with;
+    const std::string full = folder_of_a_run(parent, "full", "1", with);
+    const std::string bare = folder_of_a_run(parent, "bare", "2", without);
+    store_with_bed(full, with);
+    store_with_bed(bare, without, {}, 0);
+    const std::string out = parent.path() + "/all";
+    const auto folders = grains_come_first ? std::vector{full, bare} : std::vector{bare, full};
+    printed_by([&] { perform(CollectOptions{folders, out}); });
+    const Results all = read_results(out);
+    REQUIRE(all.rows.size() == 1);
+    CHECK(read_bed(out, *all.rows[0].outcome).grains.size() == 1);
+  }
+}
+
+TEST_CASE("what a folder holds of an earlier form of its sweep is kept, once") {
+  const TemporaryFolder parent;
+  Outcome earlier = sample_outcome("b2", 0.6, 6);
+  const std::string source = folder_of_a_run(parent, "source", "1", sample_outcome("a1", 0.6, 6));
+  store_with_bed(source, earlier);
+  const std::string out = parent.path() + "/all";
+  const auto collect = [&] {
+    return printed_by([&] { perform(CollectOptions{{source}, out}); }).error;
+  };
+  CHECK_THAT(collect(), Contains("source: 1 packing of an earlier form of its sweep: kept"));
+  CHECK_THAT(collect(), !Contains("earlier form"));
+  const Results all = read_results(out);
+  CHECK(all.rows.size() == 1);
+  CHECK(all.orphaned == 1);
+  const JournalReading stored = read_journals(out, Detail::whole);
+  REQUIRE(stored.outcomes.contains("b2"));
+  CHECK(read_bed(out, *stored.outcomes.at("b2")).grains.size() == 1);
 }
 
 TEST_CASE("units are collected where the folders agree in them") {
