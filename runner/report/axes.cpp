@@ -40,11 +40,17 @@ bool is_part_of_preset(const Group& group, const std::string& path) {
 
 using Values = std::map<std::string, std::string>;  // by parameter
 
+/// Whether a group lies along the width of others by its diameter.
+bool lies_by_diameter(const Group& group, const std::string& parameter) {
+  return parameter == width_parameter && group.job.box.is_tube;
+}
+
 /// What a group does not share with all others, but for `left_out`.
 Values distinctions(const Group& group, const std::string& left_out) {
   Values values;
   for (const auto& [path, cell] : group.told) {
     if (path == left_out) continue;
+    if (path == diameter_parameter && lies_by_diameter(group, left_out)) continue;
     if (is_part_of_preset(group, path))
       values["accuracy"] = group.job.accuracy;
     else
@@ -85,6 +91,7 @@ std::string words(const Values& values) {
 std::set<double> values_of(const std::vector<Group>& groups, const std::string& path) {
   std::set<double> values;
   for (const Group& group : groups) {
+    if (lies_by_diameter(group, path)) continue;
     const double value = number_of_cell(group.varied.at(path));
     if (std::isnan(value) || is_part_of_preset(group, path)) return {};
     values.insert(value);
@@ -146,6 +153,10 @@ Axes axes_of(const std::vector<Group>& groups) {
   Axes axes;
   axes.parameter = axis_parameter(groups);
   axes.title = axis_title(axes.parameter);
+  if (std::any_of(groups.begin(), groups.end(),
+                  [&](const Group& group) { return lies_by_diameter(group, axes.parameter); })) {
+    axes.title += ", and diameter of tubes, D / d";
+  }
   std::map<Values, std::size_t> index_of;
   for (const Group& group : groups) {
     const auto [at, is_new] =
@@ -163,6 +174,7 @@ Axes axes_of(const std::vector<Group>& groups) {
 
 double place_on(const Axes& axes, const Group& group) {
   if (axes.parameter.empty()) return static_cast<double>(group.number);
+  if (lies_by_diameter(group, axes.parameter)) return group.job.box.width;
   return number_of_cell(group.varied.at(axes.parameter));
 }
 

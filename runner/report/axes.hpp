@@ -23,8 +23,9 @@ struct Axes {
   std::string folder = {};  ///< as of GroupWithCurves
 };
 
-/// box.width goes along the axis wherever it is varied, else the number that takes most values; of
-/// a sweep that varies no number, the number of the group. Refers to the groups.
+/// box.width goes along the axis wherever it is varied, with tubes at their diameter, else the
+/// number that takes most values; of a sweep that varies no number, the number of the group. Refers
+/// to the groups.
 Axes axes_of(const std::vector<Group>& groups);
 
 /// Where a group lies on the axis.

@@ -49,6 +49,11 @@ std::vector<FittedSeries> fitted(const Axes& axes, const std::vector<Family>& fa
   return all;
 }
 
+bool has_tubes(const Axes& axes) {
+  return std::any_of(axes.series.begin(), axes.series.end(),
+                     [](const Series& series) { return series.groups.front()->job.box.is_tube; });
+}
+
 std::string points_csv(const Axes& axes) {
   std::string text =
       csv_line({"series", "group", "x", "value", "solid_fraction", "solid_fraction_error",
@@ -239,7 +244,8 @@ Figure means_figure(const Axes& axes, const std::vector<Family>& families) {
     figure.height = 560;
     figure.tables.emplace_back(residuals_table, residuals_csv(all));
   }
-  if (is_over_width(axes)) figure.caption += " Packings without walls stand at d / W = 0.";
+  if (is_over_width(axes)) figure.caption += " Packings without walls stand at d / W = 0";
+  if (is_over_width(axes)) figure.caption += has_tubes(axes) ? ", tubes at d / D." : ".";
   figure.caption += fits_text(all) + left_out_text(axes, figure.name);
   figure.tables.insert(figure.tables.begin(), {points_table, points_csv(axes)});
   figure.commands = means_commands(axes, figure, all, has_fits);

@@ -43,6 +43,27 @@ TEST_CASE("the width goes along the axis wherever it is varied", "[report]") {
   CHECK(title_of(groups[2]) == "MSP, W = 5, small_share = 0.4");
 }
 
+TEST_CASE("tubes lie along the width of others by their diameter, in a series of their own",
+          "[report]") {
+  std::vector<Row> rows = {row_at("a", 10, 0.0), row_at("b", 5, 0.0), row_at("c", 4, 0.0),
+                           row_at("d", 7, 0.0)};
+  for (std::size_t k : {2, 3}) {
+    const double diameter = rows[k].job.box.width;
+    rows[k].job.box = tube_of(diameter);
+    rows[k].job.parameters =
+        R"({"accuracy":"balanced","shape":"sphere","sizes":{"small_share":0.0},"tube":{"diameter":)" +
+        std::to_string(diameter) + "}}";
+  }
+  const std::vector<Group> groups = groups_of(rows);
+  const Axes axes = axes_of(groups);
+  REQUIRE(is_over_width(axes));
+  CHECK(axes.title == "gap between the walls, W / d, and diameter of tubes, D / d");
+  REQUIRE(axes.series.size() == 2);
+  REQUIRE(axes.series[1].groups.size() == 2);
+  CHECK(place_on(axes, *axes.series[1].groups[0]) == 4.0);
+  CHECK(place_on(axes, *axes.series[1].groups[1]) == 7.0);
+}
+
 TEST_CASE("a sweep over something else has that along the axis", "[report]") {
   const std::vector<Row> rows = {row_at("a", 6, 0.4), row_at("b", 6, 0.0), row_at("c", 6, 0.2)};
   const std::vector<Group> groups = groups_of(rows);
