@@ -26,6 +26,9 @@ std::vector<Contact> treated_contacts(const ExportedBed& exported) {
   ExportedBed near = exported;
   near.gap_tolerance =
       std::max(exported.gap_tolerance, cap_depth(exported.settings.treatment.share));
+  near.bed.forces
+      .clear();  // a place is the middle of all that is near, whatever of it bears a force
+  near.bed.wall_forces.clear();
   return contacts_of(near);
 }
 

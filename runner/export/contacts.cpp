@@ -77,18 +77,17 @@ bool counts(const ExportedBed& exported, double gap, const std::optional<double>
   return force || gap < exported.gap_tolerance;
 }
 
-/// Appends `touching` if it counts, with its force. Where there is one, its kind is that of the
-/// tables, of what is closed; the place is the middle of all that touches.
+/// Appends `touching` if it counts, with its force. Where there is one, points of a line or an area
+/// count as in the tables.
 template <class Bed, class Pair>
 void append(const ExportedBed& exported, const Bed& bed, const Forces& forces, const Sides& sides,
             const Pair& touching, std::vector<Contact>& contacts) {
   const std::optional<double> force = force_of(forces, sides);
   if (!counts(exported, touching.gap, force)) return;
-  ContactPlace place = contact_place(bed, touching, exported.gap_tolerance);
-  if (force) place.constraints = contact_place(bed, touching, closed_gap).constraints;
+  const double of_points = force ? closed_gap : exported.gap_tolerance;
   contacts.push_back({static_cast<std::size_t>(sides.first), static_cast<std::size_t>(sides.second),
                       std::is_same_v<Pair, TouchingWall>, touching.gap, force.value_or(0.0),
-                      place});
+                      contact_place(bed, touching, of_points)});
 }
 
 void append_wall(const ExportedBed& exported, const SphereBed& bed, const Forces& forces,
