@@ -28,10 +28,6 @@ constexpr std::int64_t most_unsolved = 9;  // of them in a row that leave forces
 constexpr double unlimited = std::numeric_limits<double>::infinity();
 constexpr double rounding_of_places = 1e-9;  // d; far from the origin coordinates have fewer digits
 
-/// Most that the masses of a bed may differ by in f32: beyond it the rounding of what pushes a
-/// heavy grain, 6e-8 of its weight, nears the weight of a light one.
-constexpr double f32_mass_ratio = 1e5;
-
 /// Everything a settling bed carries from step to step.
 template <class Kind, class Real>
 struct Settling {

@@ -66,7 +66,8 @@ SizeCurve rows_between(const Formula& formula, const Ends& ends) {
 template <class Formula>
 SizeCurve curve_of(const Formula& formula, const SizeDistribution& distribution) {
   const Ends usual = usual_ends(formula);
-  return rows_between(formula, ends_of(distribution, usual.smallest, usual.largest));
+  const Ends ends = ends_of(distribution, usual.smallest, usual.largest);
+  return ends.smallest == ends.largest ? one_size(ends.smallest) : rows_between(formula, ends);
 }
 
 /// The rows of a curve between the ends asked for.

@@ -366,6 +366,18 @@ void check_measure(const MeasureSpec& measure, Errors& errors) {
   check_gap_tolerances(measure.gap_tolerances, errors);
 }
 
+/// Grains of two sizes; of distributions it depends on what is drawn.
+void check_masses(const PackingSpec& spec, Errors& errors) {
+  const SizesSpec& sizes = spec.sizes;
+  const bool has_both = !sizes.distribution && sizes.small_share > 0.0 && sizes.small_share < 1.0;
+  const double least = std::cbrt(1.0 / f32_mass_ratio);
+  if (!has_both || spec.accuracy.precision == Precision::f64 || sizes.size_ratio >= least) return;
+  errors.push_back({"sizes.size_ratio", "must be at least " + bound_text(least) +
+                                            " in f32, in which masses may differ by 1e5 to 1, is " +
+                                            bound_text(sizes.size_ratio) +
+                                            "; take accuracy.precision f64"});
+}
+
 }  // namespace
 
 std::vector<SpecError> check(const PackingSpec& spec) {
@@ -384,6 +396,7 @@ std::vector<SpecError> check(const PackingSpec& spec) {
   }
   check_fill(spec, shape, shape && sizes && box, errors);
   check_accuracy(spec.accuracy, errors);
+  if (sizes) check_masses(spec, errors);
   if (spec.accuracy.rest == Rest::exact && !is_sphere(spec.shape)) {
     errors.push_back(
         {"accuracy.rest", "must be in_steps for grains that are not spheres, is exact"});

@@ -110,6 +110,10 @@ struct Accuracy {
 /// Gap tolerances of one packing.
 inline constexpr std::size_t most_gap_tolerances = 8;
 
+/// Most that the masses of a bed may differ by in f32: beyond it the rounding of what pushes a
+/// heavy grain, 6e-8 of its weight, nears the weight of a light one.
+inline constexpr double f32_mass_ratio = 1e5;
+
 /// What is measured, and how. Definitions: engine/measure.
 struct MeasureSpec {
   double exclude_floor = 3.0;    ///< zone above the floor left out, d

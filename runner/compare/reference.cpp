@@ -15,7 +15,15 @@ namespace {
 
 using nlohmann::json;
 
+/// What an exception says, without the name that the JSON library gives it.
+std::string fault_of(const std::exception& error) {
+  const std::string text = error.what();
+  const bool is_named = text.starts_with("[json.exception.");
+  return is_named ? text.substr(text.find("] ") + 2) : text;
+}
+
 void expect_keys(const json& object, const std::vector<std::string>& known) {
+  if (!object.is_object()) throw BadInput("must be an object, is " + object.dump());
   for (const auto& [key, value] : object.items()) {
     const bool is_known = std::find(known.begin(), known.end(), key) != known.end();
     if (!is_known) throw BadInput(unknown_key(key, known));
@@ -24,6 +32,10 @@ void expect_keys(const json& object, const std::vector<std::string>& known) {
 
 Published::Range published_range(const json& value, double error) {
   const bool is_range = value.is_array();
+  if (is_range ? value.size() != 2 : !value.is_number()) {
+    throw BadInput("value must be a number or a range [low, high], is " + value.dump());
+  }
+  if (!(error >= 0.0)) throw BadInput("error must not be negative, is " + cell(error));
   const Published::Range range{is_range ? value.at(0) : value, is_range ? value.at(1) : value,
                                error};
   if (range.low > range.high) throw BadInput("a range must be [low, high]");
@@ -38,6 +50,7 @@ std::string text_of(const std::optional<Published::Range>& range) {
 
 Published read_published(const json& from) {
   expect_keys(from, {"quantity", "width", "value", "error", "text", "definition"});
+  if (!from.contains("quantity")) throw BadInput("needs \"quantity\", its name");
   Published published{.quantity = from.at("quantity"),
                       .width = from.value("width", 0.0),
                       .text = {},
@@ -55,11 +68,13 @@ Published read_published(const json& from) {
 template <typename Read>
 auto read_list(const json& object, const std::string& key, const Read& read) {
   std::vector<decltype(read(object))> elements;
-  for (const json& element : object.value(key, json::array())) {
+  const json list = object.value(key, json::array());
+  if (!list.is_array()) throw BadInput(key + " must be a list, is " + list.dump());
+  for (const json& element : list) {
     try {
       elements.push_back(read(element));
     } catch (const std::exception& error) {
-      throw BadInput("/" + key + "/" + std::to_string(elements.size()) + ": " + error.what());
+      throw BadInput("/" + key + "/" + std::to_string(elements.size()) + ": " + fault_of(error));
     }
   }
   return elements;
@@ -72,6 +87,9 @@ std::string plain(const json& value) {
 
 PublishedFamily read_family(const json& from) {
   expect_keys(from, {"where", "values"});
+  if (!from.contains("where") || !from["where"].is_object()) {
+    throw BadInput("needs \"where\", an object with what the parameters of the family are");
+  }
   PublishedFamily family{.where = {}, .values = read_list(from, "values", read_published)};
   for (const auto& [path, value] : from.at("where").items()) family.where[path] = plain(value);
   return family;
@@ -79,6 +97,10 @@ PublishedFamily read_family(const json& from) {
 
 Reference reference_of(const json& from) {
   expect_keys(from, {"source", "families", "common"});
+  if (!from.contains("source")) throw BadInput("needs \"source\", where the values are from");
+  if (!from.contains("families") && !from.contains("common")) {
+    throw BadInput("needs \"families\" or \"common\", lists of published values");
+  }
   return {.source = from.at("source"),
           .families = read_list(from, "families", read_family),
           .common = read_list(from, "common", read_published)};
@@ -91,7 +113,7 @@ Reference read_reference(const std::string& path) {
   try {
     return reference_of(json::parse(text));
   } catch (const std::exception& error) {
-    throw BadInput(path + ": " + error.what());
+    throw BadInput(path + ": " + fault_of(error));
   }
 }
 

@@ -148,7 +148,7 @@ void read_empty_group(const std::string& group, const std::string& pointer,
     diagnostics.push_back({pointer, "a hull needs its vertices: write \"vertices\" or \"file\""});
   } else if (group.starts_with("sizes.distribution")) {
     diagnostics.push_back(
-        {pointer, "describes no sizes; must have " + short_list(known_keys(group))});
+        {pointer, "describes no sizes; name at least one of " + short_list(known_keys(group))});
   } else if (find_parameter(group) == shape) {
     diagnostics.push_back(
         {pointer, "names no shape; must be " + wanted_value(parameters()[shape])});

@@ -21,7 +21,9 @@ bool is_at(const json& parameters, const std::string& place, double value) {
 
 std::optional<BedKind> bed_kind(std::string_view shape, const Box& box, double small_share,
                                 const json& parameters) {
-  if (parameters.contains(json::json_pointer("/sizes/distribution"))) return std::nullopt;
+  for (const char* place : {"/sizes/distribution", "/fill/file"}) {
+    if (parameters.contains(json::json_pointer(place))) return std::nullopt;
+  }
   if (shape == "sphere" && small_share == 0.0) return BedKind::spheres;
   if (box.is_tube) return std::nullopt;
   if (shape == "sphere" && is_at(parameters, "/sizes/size_ratio", SizesSpec{}.size_ratio)) {

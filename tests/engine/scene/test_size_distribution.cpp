@@ -168,6 +168,16 @@ TEST_CASE("grains of one size are what a lognormal curve of no width gives") {
   CHECK(std::count(drawn.begin(), drawn.end(), 1.0) == 100);
 }
 
+TEST_CASE("a curve that is cut to one length gives grains of that") {
+  for (const SizeFormula& formula :
+       {SizeFormula(LognormalSizes{1.0, 0.2}), SizeFormula(WeibullSizes{1.0, 3.0}),
+        SizeFormula(UniformSizes{0.5, 1.5})}) {
+    const SizeDistribution distribution = distribution_of(formula, SizeWeight::volume, 1.0, 1.0);
+    CHECK(fault_of(distribution).empty());
+    for (const double drawn : draw_diameters(curve_of(distribution), 5, 1)) CHECK(drawn == 1.0);
+  }
+}
+
 TEST_CASE("the mean cube is that of the drawn grains") {
   for (const SizeFormula& formula : formulas()) {
     for (const SizeWeight by : all_weights) {

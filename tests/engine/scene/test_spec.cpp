@@ -300,6 +300,19 @@ TEST_CASE("the bins of a profile are no wider than the box") {
   CHECK(bins(nan) == Messages{rule + "is nan"});
 }
 
+TEST_CASE("two sizes whose masses differ by more than 1e5 to 1 take f64") {
+  PackingSpec spec;
+  spec.sizes = {0.0, 1e-4, 0.0205};
+  const auto errors = check(spec);
+  REQUIRE(errors.size() == 1);
+  CHECK(errors[0].path == "sizes.size_ratio");
+  spec.accuracy.precision = Precision::f64;
+  CHECK(check(spec).empty());
+  spec.accuracy.precision = Precision::f32;
+  spec.sizes.size_ratio = 0.022;
+  CHECK(check(spec).empty());
+}
+
 TEST_CASE("exact rest is for spheres of any sizes") {
   const auto exact = [](const ShapeSpec& shape) {
     return broken_by([&](PackingSpec& spec) {

@@ -54,12 +54,22 @@ TEST_CASE("what is wrong in a file of published values is told with its place") 
     return told(R"({"source": "S", "families": [{"where": {}, "values": [{)" + members + "}]}]}");
   };
   CHECK_THAT(told("{"), Catch::Contains("r.json") && Catch::Contains("parse error"));
-  CHECK_THAT(told("{}"), Catch::Contains("'source' not found"));
+  CHECK_THAT(told("{}"), Catch::Contains("needs \"source\""));
+  CHECK_THAT(told(R"({"source": "S"})"), Catch::Contains("needs \"families\" or \"common\""));
+  CHECK_THAT(told(R"({"source": "S", "families": {}})"), Catch::Contains("must be a list, is {}"));
+  CHECK_THAT(told(R"({"source": "S", "families": [5]})"),
+             Catch::Contains("/families/0: must be an object, is 5"));
+  CHECK_THAT(told(R"({"source": "S", "families": [{"where": null}]})"),
+             Catch::Contains("needs \"where\""));
   CHECK_THAT(told(R"({"source": "S", "famlies": []})"), Catch::Contains("\"families\"?"));
   CHECK_THAT(told_of(R"("quantity": "zet")"), Catch::Contains("/families/0: /values/0: unknown"));
   CHECK_THAT(told_of(R"("quantity": "C", "eror": 1)"), Catch::Contains("did you mean \"error\""));
-  CHECK_THAT(told_of(R"("quantity": "C", "value": "1")"), Catch::Contains("must be number"));
-  CHECK_THAT(told_of(R"("quantity": "C", "value": [1])"), Catch::Contains("out of range"));
+  CHECK_THAT(told_of(R"("quantity": "C", "value": "1")"), Catch::Contains("a number or a range"));
+  CHECK_THAT(told_of(R"("quantity": "C", "value": [1])"), Catch::Contains("a number or a range"));
+  CHECK_THAT(told_of(R"("quantity": "C", "value": 1, "error": -1)"),
+             Catch::Contains("must not be negative"));
+  CHECK_THAT(told_of(R"("quantity": 5)"), !Catch::Contains("json.exception"));
+  CHECK_THAT(told_of(R"("value": 5)"), Catch::Contains("needs \"quantity\""));
   CHECK_THAT(told_of(R"("quantity": "C", "value": [2, 1])"), Catch::Contains("[low, high]"));
 }
 

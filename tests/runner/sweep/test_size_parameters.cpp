@@ -102,7 +102,8 @@ TEST_CASE("what is wrong with a distribution is told where it is written") {
         Messages{"s.json:2:35 /base/sizes/distribution/by: belongs to a distribution of sizes, and "
                  "none is set: write lognormal, uniform, weibull or table"});
   CHECK(errors_in(R"({"distribution": {"lognormal": {}}})") ==
-        Messages{"s.json:2:42 /base/sizes/distribution/lognormal: describes no sizes; must have "
+        Messages{"s.json:2:42 /base/sizes/distribution/lognormal: describes no sizes; name at "
+                 "least one of "
                  "median, sigma"});
   CHECK(errors_in(R"({"distribution": {"lognormal": {"sigma": 3}}})") ==
         Messages{"s.json:2:52 /base/sizes/distribution/lognormal/sigma: lognormal.sigma must lie "

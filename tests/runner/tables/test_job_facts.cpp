@@ -96,6 +96,7 @@ TEST_CASE("the bias of packings is bounded where the like of them was measured, 
   CHECK(bound_of("hull", 0.0, "{}") == 0.0);
   CHECK(bound_of("sphere", 0.0, "{}", "custom") == 0.0);
   CHECK(bound_of("sphere", 0.0, R"({"sizes":{"distribution":{"kind":"uniform"}}})") == 0.0);
+  CHECK(bound_of("sphere", 0.0, R"({"fill":{"file":"00c0ffee00c0ffee"}})") == 0.0);
   JobFacts tube;
   tube.parameters = "{}";
   tube.shape = "sphere";
