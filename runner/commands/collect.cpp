@@ -159,16 +159,39 @@ void add_others(const std::string& folder, Outcomes&& outcomes, Collection& to) 
       add_outcome(folder, std::move(outcome), to.rows[row->second], to);
       continue;
     }
-    if (outcome->exception || to.others.contains(job)) continue;
-    if (outcome->stored_bytes > 0 && !copy_bed(folder, *outcome, to)) continue;
+    if (outcome->exception) continue;
+    const auto [known, is_new] = to.others.try_emplace(job);
+    const bool is_better =
+        is_new || known->second->exception || brings_grains(*outcome, *known->second);
+    if (!is_better || (outcome->stored_bytes > 0 && !copy_bed(folder, *outcome, to))) {
+      if (is_new) to.others.erase(known);
+      continue;
+    }
+    if (!is_new) to.files.count_after(*known->second);
     to.files.add(*outcome);
-    to.others.emplace(job, std::move(outcome));
+    known->second = std::move(outcome);
     ++kept;
   }
   if (kept == 0) return;
   warn(folder + ": " + counted(kept, "packing") +
            " of an earlier form of its sweep: kept for a run of that, but in no table",
        to);
+}
+
+/// Leaves out those of outcomes whose beds are missing or damaged; returns why.
+std::vector<std::string> keep_sound(const std::string& folder, Outcomes& outcomes) {
+  std::vector<std::string> damage;
+  std::erase_if(outcomes, [&](const auto& entry) {
+    if (entry.second->stored_bytes == 0) return false;
+    try {
+      read_bed(folder, *entry.second);
+      return false;
+    } catch (const FileError& error) {
+      damage.emplace_back(error.what());
+      return true;
+    }
+  });
+  return damage;
 }
 
 /// What the folder holds already; a new one takes name and file from the first source.
@@ -184,8 +207,9 @@ Collection begin_collection(const std::string& folder, ShardFiles& files, Progre
       if (auto known = stored.outcomes.extract(row.job.id)) row.outcome = std::move(known.mapped());
       if (row.outcome) files.count_after(*row.outcome);
     }
-    collection.others = std::move(stored.outcomes);
     warn_of(check_beds(folder, collection.rows), collection);
+    warn_of(keep_sound(folder, stored.outcomes), collection);
+    collection.others = std::move(stored.outcomes);
     collection.provenance = std::move(stored.provenance);
     std::erase_if(collection.provenance.runs,
                   [&](const RunRecord& run) { return is_same_run(run, own); });
@@ -209,13 +233,11 @@ void add_results(const std::string& folder, StoredSweep&& stored, Collection& to
   std::map<std::string, std::string> renamed;
   for (const JobEntry& job : stored.jobs.jobs) {
     Row& row = row_of(job, stored.jobs, to, renamed);
-    auto outcome = stored.outcomes.extract(job.id);
-    if (!outcome) {
-      if (auto other = to.others.extract(job.id); other && !row.outcome) {
-        row.outcome = std::move(other.mapped());
-      }
-      continue;
+    if (auto other = to.others.extract(job.id); other && !row.outcome) {
+      row.outcome = std::move(other.mapped());
     }
+    auto outcome = stored.outcomes.extract(job.id);
+    if (!outcome) continue;
     add_outcome(folder, std::move(outcome.mapped()), row, to);
     tell(1.0 - static_cast<double>(stored.outcomes.size()) / all);
   }

@@ -3,6 +3,7 @@
 #include <iostream>
 #include <optional>
 #include <set>
+#include <stdexcept>
 
 #include <CLI/App.hpp>
 #include <nlohmann/json.hpp>
@@ -214,8 +215,10 @@ int perform(const ExportOptions& options) {
       text = format != nullptr ? format->text(exported(std::move(*bed), rows[k].job, settings))
                                : page_of(*bed, rows[k], results.provenance.units);
     } catch (const BadInput& error) {  // no bed for this format; others may be
-      if (!options.jobs.empty()) throw;
       refused.emplace_back(error.what());
+      continue;
+    } catch (const std::logic_error& error) {  // a surface that could not be cut or joined
+      refused.push_back("packing " + rows[k].job.id + ": " + error.what());
       continue;
     }
     replace_file(to + "/" + stems[k] + ending, text);
@@ -238,7 +241,8 @@ int perform(const ExportOptions& options) {
   if (without_grains > 0) {
     std::cout << counted(without_grains, "packing") << " left out: stored without grains\n";
   }
-  return damaged > 0 ? exit_file_system : exit_done;
+  if (damaged > 0) return exit_file_system;
+  return refused.empty() || options.jobs.empty() ? exit_done : exit_bad_input;
 }
 
 }  // namespace grainsweep

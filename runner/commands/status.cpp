@@ -190,6 +190,10 @@ nlohmann::ordered_json waiting_json(const std::string& folder) {
 void print_waiting(const std::string& folder) {
   const std::optional<Queue> queue = queue_of(folder);
   std::cout << folder << ": submitted, nothing is made yet\n" << (queue ? queue_text(*queue) : "");
+  if (queue && queue->running + queue->pending == 0) {
+    std::cout << "None of its jobs waits or runs: see the logs in " << scripts_folder(folder)
+              << ", and submit it again\n";
+  }
 }
 
 /// Prints what is known of a folder, or adds it to `all`.

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+
+#include "runner/exit_codes.hpp"
 
 namespace grainsweep {
 namespace {
@@ -43,6 +46,10 @@ void cut_caps(const ExportedBed& exported, std::vector<Surface>& surfaces) {
       const double offset = outward.dot(point) - contact.gap / 2.0 - depth * radius;
       surfaces[grain] = cut_off(surfaces[grain], outward,
                                 clear_offset(surfaces[grain], outward, offset, clearance * radius));
+      if (surfaces[grain].faces.empty()) {
+        throw BadInput("--contacts: caps of that share leave nothing of grain " +
+                       std::to_string(grain) + " of packing " + bed.job + "; take a smaller share");
+      }
     };
     const Vector point = contact.place.point - centre_in_box(bed, contact.a);
     cut(contact.a, normal, point);

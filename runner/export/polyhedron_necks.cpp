@@ -264,11 +264,13 @@ OpenSurfaces open_polyhedra(const ExportedBed& exported) {
   }
   OpenSurfaces all;
   all.necks = placed_necks(exported, bed);
+  // Turned before it is tested what they meet: where a neck runs along a face a turn shifts its
+  // ends.
+  for (Neck& neck : all.necks) turn_clear(bed, neck);
   narrow(
-      exported, bodies, [&](Neck& neck) { fit_to_polyhedra(bed, neck); }, all.necks);
+      exported, bodies, [&](Neck& neck) { turn_clear(bed, neck); }, all.necks);
   std::vector<std::vector<NeckColumn>> columns(bed.surfaces.size());
   for (std::size_t k = 0; k < all.necks.size(); ++k) {
-    turn_clear(bed, all.necks[k]);
     columns[all.necks[k].a].push_back({&all.necks[k], k, false});
     columns[all.necks[k].b].push_back({&all.necks[k], k, true});
   }

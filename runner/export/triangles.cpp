@@ -91,6 +91,7 @@ struct Slit {
   double length = std::numeric_limits<double>::infinity();
 };
 
+/// Of infinite length if other holes hide this one from the whole edge.
 Slit shortest_slit(const FlatLoop& outer, const FlatLoop& hole,
                    const std::vector<FlatLoop>& loops) {
   Slit best;
@@ -100,9 +101,6 @@ Slit shortest_slit(const FlatLoop& outer, const FlatLoop& hole,
       if (length >= best.length || !is_ahead(outer, j, hole[k].place)) continue;
       if (is_free(outer[j], hole[k], loops)) best = {j, k, length};
     }
-  }
-  if (best.length == std::numeric_limits<double>::infinity()) {
-    throw std::logic_error("a hole of a flat region cannot be reached from its edge");
   }
   return best;
 }
@@ -119,6 +117,9 @@ FlatLoop opened(FlatLoop outer, std::vector<FlatLoop> holes) {
       if (slit.length >= best.length) continue;
       best = slit;
       nearest = k;
+    }
+    if (best.length == std::numeric_limits<double>::infinity()) {
+      throw std::logic_error("no hole of a flat region can be reached from its edge");
     }
     FlatLoop& hole = holes[nearest];
     std::rotate(hole.begin(), hole.begin() + static_cast<std::ptrdiff_t>(best.hole), hole.end());

@@ -20,7 +20,7 @@ void from_json(const nlohmann::json& json, SweepFile& sweep) {
 
 namespace {
 
-/// The file as it is called in the present folder.
+/// The file as it is called in the present folder, which may have been moved with it.
 std::string name_from_here(const SweepFile& sweep) {
   namespace fs = std::filesystem;
   std::error_code unknown;
@@ -28,7 +28,9 @@ std::string name_from_here(const SweepFile& sweep) {
   if (unknown || sweep.folder.empty() || file.is_absolute() || here == sweep.folder) {
     return sweep.file;
   }
-  return (fs::path(sweep.folder) / file).lexically_normal().lexically_proximate(here).string();
+  const fs::path given = (fs::path(sweep.folder) / file).lexically_normal();
+  const bool has_moved = !fs::exists(given, unknown) && fs::exists(file, unknown);
+  return has_moved ? sweep.file : given.lexically_proximate(here).string();
 }
 
 using nlohmann::json;

@@ -135,6 +135,29 @@ TEST_CASE("nearly all contacts of polyhedra have a neck, and most of those that 
   }
 }
 
+// On a triangular face holes hide others from the edge; necks along faces shift their ends as they
+// are turned.
+TEST_CASE("tetrahedra and cylinders are joined to closed bodies by necks of any width", "[slow]") {
+  const Box walls{4, 3, Boundary::walls, Boundary::walls};
+  for (const ShapeSpec& shape : {ShapeSpec(TetrahedronSize{}), ShapeSpec(CylinderSize{})}) {
+    const ExportedBed bed = packed_bed(shape, walls, 60);
+    for (const char* treatment : {"bridge:0.1", "bridge:0.2", "bridge:0.3"}) {
+      const auto bodies = bridged_surfaces(bridged(bed, treatment));
+      REQUIRE_FALSE(bodies.empty());
+      for (const GrainSurface& body : bodies) CHECK(is_closed(body.surface));
+    }
+  }
+}
+
+TEST_CASE("caps that leave nothing of a grain are refused") {
+  const Box walls{4, 3, Boundary::walls, Boundary::walls};
+  CuboidSize plate;
+  plate.height = 0.2;
+  const ExportedBed bed = packed_bed(plate, walls, 60);
+  CHECK_THROWS_WITH(grain_surfaces(bridged(bed, "cap:0.6")), Catch::Contains("leave nothing of"));
+  CHECK_NOTHROW(grain_surfaces(bridged(bed, "cap:0.2")));
+}
+
 TEST_CASE("a cube on another has a neck of the radius asked for in the middle of their contact") {
   const ExportedBed exported = bridged(stacked_cubes());
   const OpenSurfaces open = open_polyhedra(exported);
