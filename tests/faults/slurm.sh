@@ -130,6 +130,20 @@ told() {
   scontrol show job "$1" 2>/dev/null | grep -o "\b$2=[^ ]*" | head -n 1 | cut -d= -f2
 }
 
+# Waits until a process that was sent SIGSTOP has stopped, which a loaded machine does a little later;
+# false if it has ended before.
+is_halted() {
+  local state
+  while true; do
+    state=$(sed -n 's/^State:\t\(.\).*/\1/p' "/proc/$1/status" 2>/dev/null) || true
+    case $state in
+      T) return 0 ;;
+      "" | Z | X) return 1 ;;
+    esac
+    sleep 0.01
+  done
+}
+
 # Finds an element at work that has stored a packing, and halts it, so that it cannot end before
 # what it is meant for happens. Sets `element` and `runner`. ELEMENTS are those to choose from.
 halt_one_of() {
@@ -139,7 +153,7 @@ halt_one_of() {
     grep -qs '"outcome":' "$journal" || continue
     runner=$(grep '"process":' "$journal" | tail -n 1 | sed 's/.*"process":"[^"]*-\([0-9]*\)".*/\1/')
     kill -STOP "$runner" 2>/dev/null || continue
-    grep -q '^State:.*T' "/proc/$runner/status" 2>/dev/null || continue
+    is_halted "$runner" || continue
     element=$number
     return 0
   done
