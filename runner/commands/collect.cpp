@@ -133,9 +133,20 @@ bool brings_grains(const Outcome& outcome, const Outcome& known) {
   return is_same_result(outcome, known) && outcome.stored_bytes > known.stored_bytes;
 }
 
+/// Stores an outcome and its bed, so that it counts more than what was `known`, which it becomes;
+/// false, and a warning, if the bed is missing or damaged.
+bool store(const std::string& folder, Boxed<Outcome>&& outcome, Boxed<Outcome>& known,
+           Collection& to) {
+  if (outcome->stored_bytes > 0 && !copy_bed(folder, *outcome, to)) return false;
+  if (known) to.files.count_after(*known);
+  to.files.add(*outcome);
+  known = std::move(outcome);
+  return true;
+}
+
 void add_outcome(const std::string& folder, Boxed<Outcome> outcome, Row& row, Collection& to) {
   const bool is_known = row.outcome && !row.outcome->exception;
-  if (is_known && !(!outcome->exception && brings_grains(*outcome, *row.outcome))) {
+  if (is_known && !brings_grains(*outcome, *row.outcome)) {
     if (!outcome->exception && !is_same_result(*outcome, *row.outcome)) {
       warn(folder + ": its packing " + outcome->job + " (version " + outcome->version +
                ") differs from the one collected before (version " + row.outcome->version +
@@ -144,10 +155,7 @@ void add_outcome(const std::string& folder, Boxed<Outcome> outcome, Row& row, Co
     }
     return;
   }
-  if (outcome->stored_bytes > 0 && !copy_bed(folder, *outcome, to)) return;
-  if (row.outcome) to.files.count_after(*row.outcome);
-  to.files.add(*outcome);
-  row.outcome = std::move(outcome);
+  if (!store(folder, std::move(outcome), row.outcome, to)) return;
   if (++to.added % added_at_once == 0) to.files.flush();
 }
 
@@ -160,17 +168,9 @@ void add_others(const std::string& folder, Outcomes&& outcomes, Collection& to) 
       continue;
     }
     if (outcome->exception) continue;
-    const auto [known, is_new] = to.others.try_emplace(job);
-    const bool is_better =
-        is_new || known->second->exception || brings_grains(*outcome, *known->second);
-    if (!is_better || (outcome->stored_bytes > 0 && !copy_bed(folder, *outcome, to))) {
-      if (is_new) to.others.erase(known);
-      continue;
-    }
-    if (!is_new) to.files.count_after(*known->second);
-    to.files.add(*outcome);
-    known->second = std::move(outcome);
-    ++kept;
+    Boxed<Outcome>& known = to.others[job];  // nothing, if it is new
+    const bool is_better = !known || known->exception || brings_grains(*outcome, *known);
+    kept += is_better && store(folder, std::move(outcome), known, to) ? 1 : 0;
   }
   if (kept == 0) return;
   warn(folder + ": " + counted(kept, "packing") +
@@ -178,28 +178,12 @@ void add_others(const std::string& folder, Outcomes&& outcomes, Collection& to) 
        to);
 }
 
-/// Leaves out those of outcomes whose beds are missing or damaged; returns why.
-std::vector<std::string> keep_sound(const std::string& folder, Outcomes& outcomes) {
-  std::vector<std::string> damage;
-  std::erase_if(outcomes, [&](const auto& entry) {
-    if (entry.second->stored_bytes == 0) return false;
-    try {
-      read_bed(folder, *entry.second);
-      return false;
-    } catch (const FileError& error) {
-      damage.emplace_back(error.what());
-      return true;
-    }
-  });
-  return damage;
-}
-
 /// What the folder holds already; a new one takes name and file from the first source.
 Collection begin_collection(const std::string& folder, ShardFiles& files, ProgressDisplay& display,
                             const RunRecord& own, const Provenance& first) {
   Collection collection{folder, files, display, first, {}, {}, {}, {}, 0};
   collection.provenance.runs.clear();
-  if (file_exists(folder + "/provenance.json")) {
+  if (file_exists(provenance_path(folder))) {
     StoredSweep stored = read_stored_sweep(folder);
     warn_of(stored.damage, collection);
     collection.rows = rows_of(stored.jobs);
@@ -208,8 +192,11 @@ Collection begin_collection(const std::string& folder, ShardFiles& files, Progre
       if (row.outcome) files.count_after(*row.outcome);
     }
     warn_of(check_beds(folder, collection.rows), collection);
-    warn_of(keep_sound(folder, stored.outcomes), collection);
     collection.others = std::move(stored.outcomes);
+    std::vector<std::string> damage;
+    std::erase_if(collection.others,
+                  [&](const auto& other) { return !has_sound_bed(folder, *other.second, damage); });
+    warn_of(damage, collection);
     collection.provenance = std::move(stored.provenance);
     std::erase_if(collection.provenance.runs,
                   [&](const RunRecord& run) { return is_same_run(run, own); });

@@ -27,14 +27,14 @@
 #include "runner/versions.hpp"
 
 namespace grainsweep {
+std::string provenance_path(const std::string& folder) { return folder + "/provenance.json"; }
+
 namespace {
 
 constexpr std::array tables = {"packings.csv",           "groups.csv",   "fits.csv",
                                "fit_points.csv",         "profiles.csv", "decays.csv",
                                "distributions.csv",      "sizes.csv",    "components.csv",
                                "component_profiles.csv", "columns.csv",  "provenance.json"};
-
-std::string provenance_path(const std::string& folder) { return folder + "/provenance.json"; }
 
 /// provenance.json. Throws BadInput.
 ProvenanceReading read_provenance(const std::string& folder) {
@@ -159,6 +159,18 @@ Results read_called_for(GrowingSweep& growing, Provenance provenance, const std:
 void record_sweep(const std::string& folder, const Provenance& provenance,
                   const std::vector<Row>& rows) {
   if (!is_recorded(folder, provenance, rows)) write_provenance(folder, provenance, rows);
+}
+
+bool has_sound_bed(const std::string& folder, const Outcome& outcome,
+                   std::vector<std::string>& damage) {
+  if (outcome.stored_bytes == 0) return true;
+  try {
+    read_bed(folder, outcome);
+    return true;
+  } catch (const FileError& error) {
+    damage.emplace_back(error.what());
+    return false;
+  }
 }
 
 std::vector<std::string> check_beds(const std::string& folder, std::vector<Row>& rows) {

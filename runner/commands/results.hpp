@@ -22,6 +22,9 @@ struct Results {
   std::string wishes = {};   ///< of what a growing sweep calls for: wishes_text
 };
 
+/// The record of a sweep, which every output folder has.
+std::string provenance_path(const std::string& folder);
+
 /// Throws BadInput unless `folder` has a provenance.json that is whole.
 void expect_results(const std::string& folder);
 
@@ -51,6 +54,10 @@ Results read_called_for(GrowingSweep& growing, Provenance provenance, const std:
 /// Writes provenance.json, from which others know the sweep, unless it stands there already.
 void record_sweep(const std::string& folder, const Provenance& provenance,
                   const std::vector<Row>& rows);
+
+/// Whether its bed, if it has one, is stored whole; appends to `damage` why not.
+bool has_sound_bed(const std::string& folder, const Outcome& outcome,
+                   std::vector<std::string>& damage);
 
 /// Reads the whole of each stored bed. A row whose bed is missing, damaged or another's becomes a
 /// pending one; returns what was left out, as in Results::damage.

@@ -89,19 +89,6 @@ bool is_to_be_made(const Outcome& outcome, bool retry_failed) {
   return outcome.exception || (retry_failed && outcome.result.status == PackingStatus::failed);
 }
 
-/// Whether its bed, if it has one, is stored whole; appends to `damage` why not.
-bool has_sound_bed(const std::string& folder, const Outcome& outcome,
-                   std::vector<std::string>& damage) {
-  if (outcome.stored_bytes == 0) return true;
-  try {
-    read_bed(folder, outcome);
-    return true;
-  } catch (const FileError& error) {
-    damage.emplace_back(error.what());
-    return false;
-  }
-}
-
 /// The damage that this runner is to mend: all, or what its own journal has lost.
 void keep_own(std::vector<std::string>& damage, const Shard& shard, const std::string& path) {
   if (shard.count == 1) return;

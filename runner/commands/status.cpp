@@ -198,7 +198,7 @@ void print_waiting(const std::string& folder) {
 
 /// Prints what is known of a folder, or adds it to `all`.
 void tell(const std::string& folder, const StatusOptions& options, nlohmann::ordered_json& all) {
-  if (is_submitted(folder) && !file_exists(folder + "/provenance.json")) {
+  if (is_submitted(folder) && !file_exists(provenance_path(folder))) {
     options.json ? all.push_back(waiting_json(folder)) : print_waiting(folder);
     return;
   }
