@@ -50,17 +50,12 @@ int count_called_for(const Sweep& whole, const Places& group, const Outcomes& ou
   return replicates_called_for(made_of(whole, group, outcomes), first.wish, bound_of(first));
 }
 
-/// A group of a fit. Those without walls tell how packings scatter, and have as many as all have at
-/// first.
+/// A group of a fit. Those without walls only tell how packings scatter.
 FitGroup fit_group_of(const Sweep& whole, const Places& group, const Outcomes& outcomes) {
   const Job& job = whole.jobs[group.front()];
-  FitGroup of_fit{job.spec.box.width, is_walled(job), false, made_of(whole, group, outcomes)};
-  if (!job.fit_wish.is_given()) return of_fit;
-  of_fit.may_grow = of_fit.is_walled;
-  if (!of_fit.is_walled && of_fit.made.size() > first_replicates) {
-    of_fit.made.resize(first_replicates);
-  }
-  return of_fit;
+  const bool walled = is_walled(job);
+  return {job.spec.box.width, walled, walled && job.fit_wish.is_given(),
+          made_of(whole, group, outcomes)};
 }
 
 CalledFit called_for(const Sweep& whole, const std::vector<Places>& groups,

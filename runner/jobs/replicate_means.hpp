@@ -8,9 +8,6 @@
 
 namespace grainsweep {
 
-/// Every group that grows has so many packings before its scatter counts.
-inline constexpr int first_replicates = 6;
-
 /// Whether fewer than one in six of so many packings settle. What settles so seldom grows no more:
 /// every value of a mean would cost six beds that take all their steps.
 constexpr bool settle_too_seldom(int settled, int packings) { return 6 * settled < packings; }

@@ -3,6 +3,9 @@
 
 namespace grainsweep {
 
+/// Every group that grows has so many packings before its scatter counts.
+inline constexpr int first_replicates = 6;
+
 /// Largest error of the means that is asked for; 0: none is.
 struct ErrorWish {
   double solid_fraction = 0.0;

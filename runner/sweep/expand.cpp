@@ -163,7 +163,8 @@ class Expansion {
       job.files["sizes.distribution.table.file"] = name_in_tables(resolved.size_file);
     }
     const bool is_listed = !resolved.fill_files.empty();
-    const int replicates = is_listed ? static_cast<int>(starts.size()) : block.replicates;
+    const int replicates =
+        is_listed ? static_cast<int>(starts.size()) : most_replicates_of(block, job.spec);
     for (; job.replicate <= replicates; ++job.replicate) {
       const Start& start = starts[is_listed ? static_cast<std::size_t>(job.replicate) - 1 : 0];
       job.spec.fill = start.fill;
@@ -173,6 +174,13 @@ class Expansion {
           is_listed ? job_hash(job.parameters + start.content, job.seed, 1)
                     : job_hash(job.parameters, job.seed, job.replicate));
     }
+  }
+
+  /// How many packings of a point there may be. Without walls nothing is on the line of a fit that
+  /// is asked for: such packings tell how they scatter, and stay at those that all have at first.
+  static int most_replicates_of(const Block& block, const PackingSpec& spec) {
+    const bool is_beside_fit = block.fit_wish.is_given() && spec.box.y == Boundary::periodic;
+    return is_beside_fit ? std::min(first_replicates, block.replicates) : block.replicates;
   }
 
   /// What files the components of a mixture come from.

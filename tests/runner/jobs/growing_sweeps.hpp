@@ -32,10 +32,11 @@ inline std::vector<Job> growing_group(const std::string& name, double width, int
 inline Sweep fit_sweep(int most, const FitWish& wish, const std::string& name = "f") {
   Sweep whole{"s", 7, 1, {}};
   for (const double width : {4.0, 5.0, 8.0, 9.0}) {
-    for (Job& job :
-         growing_group(name + std::to_string(static_cast<int>(width)) + "-", width, most, {})) {
+    const bool is_walled = width < 9.0;
+    for (Job& job : growing_group(name + std::to_string(static_cast<int>(width)) + "-", width,
+                                  is_walled ? most : first_replicates, {})) {
       job.spec.box.width = width;
-      job.spec.box.y = width == 9.0 ? Boundary::periodic : Boundary::walls;
+      job.spec.box.y = is_walled ? Boundary::walls : Boundary::periodic;
       job.parameters = sample_parameters(width, job.spec.box.y, 0.0);
       job.parameters.insert(1, "\"name\":\"" + name + "\",");
       job.fit_wish = wish;

@@ -38,8 +38,11 @@ TEST_CASE("a family whose fit grows belongs to one shard") {
     whole.jobs.insert(whole.jobs.end(), one.jobs.begin(), one.jobs.end());
   }
   const std::vector<int> shard_of = shards_of(whole, 3);
-  REQUIRE(shard_of.size() == 120);
-  for (std::size_t i = 0; i < shard_of.size(); ++i) CHECK(shard_of[i] == shard_of[i / 40 * 40]);
+  const std::size_t of_family = 3 * 10 + first_replicates;
+  REQUIRE(shard_of.size() == 3 * of_family);
+  for (std::size_t i = 0; i < shard_of.size(); ++i) {
+    CHECK(shard_of[i] == shard_of[i / of_family * of_family]);
+  }
   CHECK(std::set<int>(shard_of.begin(), shard_of.end()).size() == 3);
 }
 

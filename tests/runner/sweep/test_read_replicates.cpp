@@ -36,6 +36,17 @@ TEST_CASE("points that grow have so many packings at most, others just as many")
   CHECK(count("5") == 5);
 }
 
+TEST_CASE("points without walls have as many packings beside a fit as all have at first") {
+  const auto count = [](const std::string& replicates) {
+    return reading_of(R"({"name": "r", "base": {"box": {"y": "periodic"}}, "replicates": )" +
+                      replicates + "}")
+        .sweep.jobs.size();
+  };
+  CHECK(count(R"({"until": {"fit": {"C": 0.5}}})") == first_replicates);
+  CHECK(count(R"({"until": {"fit": {"C": 0.5}}, "most": 3})") == 3);
+  CHECK(count(R"({"until": {"coordination": 0.5}})") == usual_most_replicates);
+}
+
 TEST_CASE("a block asks for its own errors, or for those of the sweep") {
   const auto reading = reading_of(R"({"name": "r", "replicates": {"until": {"fit": {"C": 0.5}}},
       "sweep": [{"set": {"box.width": 5}},
