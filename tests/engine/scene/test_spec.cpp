@@ -326,6 +326,21 @@ TEST_CASE("exact rest is for spheres of any sizes") {
         Messages{"accuracy.rest: must be in_steps for grains that are not spheres, is exact"});
 }
 
+TEST_CASE("exact rest takes some room between walls that hold all grains of one size") {
+  const auto exact = [](double width, double spread) {
+    return broken_by([&](PackingSpec& spec) {
+      spec.box.width = width;
+      spec.sizes.spread = spread;
+      spec.accuracy.rest = Rest::exact;
+    });
+  };
+  CHECK(exact(1.0, 0.0) ==
+        Messages{"accuracy.rest: must be in_steps where walls are nearer than 1.005 d and hold "
+                 "every large grain on both sides, is exact"});
+  CHECK(exact(1.01, 0.0).empty());
+  CHECK(exact(1.1333334, 0.0333333).empty());
+}
+
 TEST_CASE("a solid height asks for its volume over that of a mean grain") {
   PackingSpec spec;
   spec.box.length = 10.0;
