@@ -81,16 +81,37 @@ std::string small_note(const std::vector<Cost>& most, const SlurmOptions& option
          shell_word(folder) + "\n";
 }
 
+/// Submits the shards. Scripts that are refused do not stay: they would look as if they wait.
+std::string submit_shards(const std::string& scripts) try {
+  return submit(scripts + "/shards.sh");
+} catch (...) {
+  std::error_code stays;  // logs of jobs before
+  for (const char* name : {"/shards.sh", "/rest.sh", ""}) {
+    std::filesystem::remove(scripts + name, stays);
+  }
+  throw;
+}
+
+/// Submits what follows the shards, which go on if it is refused.
+std::string submit_rest(const std::string& scripts, const std::string& array) try {
+  return submit(scripts + "/rest.sh", array);
+} catch (const BadInput& refused) {
+  throw BadInput(std::string(refused.what()) +
+                 "\nThe shards are submitted, and the job that ends "
+                 "the sweep is not. When they are done: sbatch " +
+                 shell_word(scripts + "/rest.sh") + "; to end them: scancel " + array);
+}
+
 /// Writes the scripts and submits them, the second to follow the first.
 void submit_scripts(const ClusterRun& run, const std::string& folder) {
   const std::string scripts = scripts_folder(run.folder);
   make_folder(scripts);
   replace_file(scripts + "/shards.sh", shards_script(run));
   replace_file(scripts + "/rest.sh", rest_script(run));
-  const std::string array = submit(scripts + "/shards.sh");
+  const std::string array = submit_shards(scripts);
   std::cout << "Submitted job " << array << ", an array of "
             << counted(static_cast<std::size_t>(run.division.shards), "shard") << std::endl;
-  const std::string rest = submit(scripts + "/rest.sh", array);
+  const std::string rest = submit_rest(scripts, array);
   std::cout << "Submitted job " << rest << ", which follows: the rest, tables and page\n"
             << "Scripts and logs are in " << scripts_folder(folder)
             << ". How far it is: " << called_as() << " status " << shell_word(folder)

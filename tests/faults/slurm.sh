@@ -174,6 +174,10 @@ expect_text out.txt "#SBATCH --array=1-5" "#SBATCH --signal=B:TERM@90" "exec $pr
 expect_code 2 "$program" slurm "$configs/quick.json" --partition large
 expect_text error.txt "--partition large: this cluster has none of that name; it has: main"
 
+SBATCH_RESERVATION=nowhere expect_code 2 "$program" slurm "$configs/quick.json" --out refused
+expect_text error.txt "sbatch: "
+[ ! -e refused/slurm ] || fail "scripts stay that were refused"
+
 expect_code 0 "$program" slurm "$configs/quick.json" --out "out dir" --shards 4
 array=$(sed -n 's/^Submitted job \([0-9]*\), an array of 4 shards/\1/p' out.txt)
 rest=$(sed -n 's/^Submitted job \([0-9]*\), which follows.*/\1/p' out.txt)
