@@ -15,12 +15,8 @@ namespace grainsweep {
 namespace {
 
 SweepReading reading_or_refusal(const std::string& file) {
-  SweepReading reading = read_sweep(file);
-  if (reading.errors.empty()) {
-    const std::string wishes = unreachable_wishes(reading.sweep);
-    if (!wishes.empty()) throw BadInput(file + ": " + wishes + "nothing was run");
-    return reading;
-  }
+  SweepReading reading = read_sweep(file, unreachable_wishes);
+  if (reading.errors.empty()) return reading;
   std::string text;
   for (const Diagnostic& diagnostic : reading.errors) text += to_string(diagnostic) + "\n";
   throw BadInput(text + counted(reading.errors.size(), "error") + "; nothing was run");

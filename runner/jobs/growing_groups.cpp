@@ -104,22 +104,39 @@ Sweep called_for(const Sweep& whole, const Outcomes& outcomes) {
   return called;
 }
 
-void append_once(const std::string& line, std::string& text) {
-  if (text.find(line) == std::string::npos) text += line;
+/// Where a wish of the job's block is written.
+std::string place_of(const std::string& wish, const Sweep& whole, const Job& job) {
+  const auto& pointers = whole.wish_pointers;
+  return (job.block < pointers.size() ? pointers[job.block] : "") + "/" + wish;
 }
 
-void append_wish(const char* what, double wish, double bias, const Job& job, std::string& text) {
-  if (wish == 0.0 || wish > bias) return;
-  std::ostringstream line;
-  line << "replicates.until of \"" << job.label << "\" asks for " << what << " within " << wish
-       << ", but settled as \"" << facts_of(job).accuracy << "\" such packings may be off by "
-       << bias << " however many there are; ask for more than that, or take a finer accuracy\n";
-  append_once(line.str(), text);
+/// The presets whose beds may be off by less than `wish`, as what else to take; "" if none is.
+std::string finer_text(const Job& job, double wish, double ProtocolBias::*bound) {
+  JobFacts facts = facts_of(job);
+  for (const Preset& preset : presets()) {
+    facts.settles_as = preset.name;
+    const auto bias = bias_bound(facts);
+    if (bias && (*bias).*bound < wish) return ", or take \"" + facts.settles_as + "\"";
+  }
+  return "";
 }
 
-/// What keeps the wishes of a fit from being met.
-void append_fit(const Sweep& whole, const std::vector<Places>& groups, const GrowingFamily& family,
-                std::string& text) {
+/// Notes a wish, called `key` in the file, that is no larger than what settling may do.
+void refuse_wish(const std::string& key, double wish, double ProtocolBias::*bound,
+                 const Sweep& whole, const Job& job, Diagnostics& diagnostics) {
+  if (wish == 0.0) return;
+  const double bias = bound_of(job).value_or(ProtocolBias()).*bound;
+  if (wish > bias) return;
+  std::ostringstream message;
+  message << "cannot be met in \"" << job.label << "\": settled as \"" << facts_of(job).accuracy
+          << "\" such packings may be off by " << bias
+          << " however many there are; ask for more than that" << finer_text(job, wish, bound);
+  diagnostics.push_back({place_of(key, whole, job), message.str()});
+}
+
+/// Notes what keeps the wishes of a fit from being met.
+void refuse_fit(const Sweep& whole, const std::vector<Places>& groups, const GrowingFamily& family,
+                Diagnostics& diagnostics) {
   const Job* asking = nullptr;
   const Job* asks_of_means = nullptr;
   std::set<double> widths;
@@ -129,22 +146,24 @@ void append_fit(const Sweep& whole, const std::vector<Places>& groups, const Gro
     if (asking == nullptr && job.fit_wish.is_given()) asking = &job;
     if (is_walled(job)) widths.insert(job.spec.box.width);
   }
-  const std::string start = "replicates.until of \"" + asking->label + "\" asks for a fit, ";
+  const std::string place = place_of("fit", whole, *asking);
+  const std::string start = "cannot be had of \"" + asking->label + "\": ";
   if (widths.size() < 3) {
-    append_once(start +
-                    "which takes 3 or more widths between walls with otherwise equal "
-                    "parameters, and there are " +
-                    std::to_string(widths.size()) + "; add widths, or ask for errors of means\n",
-                text);
+    diagnostics.push_back({place, start +
+                                      "a fit takes 3 or more widths between walls with otherwise "
+                                      "equal parameters, and there are " +
+                                      std::to_string(widths.size()) +
+                                      "; add widths, or ask for errors of means"});
   }
   if (asks_of_means != nullptr) {
-    append_once(start + "and that of \"" + asks_of_means->label +
-                    "\", of the same family, for errors of means; ask for one of them\n",
-                text);
+    diagnostics.push_back({place, start + "\"" + asks_of_means->label +
+                                      "\", of the same family, asks for errors of means; ask for "
+                                      "one of them"});
   }
-  const ProtocolBias bias = bound_of(*asking).value_or(ProtocolBias());
-  append_wish("phi_bulk", family.wish.phi_bulk, bias.solid_fraction, *asking, text);
-  append_wish("Z_bulk", family.wish.z_bulk, bias.coordination, *asking, text);
+  refuse_wish("fit/phi_bulk", family.wish.phi_bulk, &ProtocolBias::solid_fraction, whole, *asking,
+              diagnostics);
+  refuse_wish("fit/Z_bulk", family.wish.z_bulk, &ProtocolBias::coordination, whole, *asking,
+              diagnostics);
 }
 
 std::string unmeasured_text(std::size_t count, const char* noun) {
@@ -291,21 +310,22 @@ bool GrowingSweep::grow(const Outcomes& made) {
   return called_.jobs.size() > before;
 }
 
-std::string unreachable_wishes(const Sweep& whole) {
-  std::string text;
-  if (!grows(whole)) return text;
+Diagnostics unreachable_wishes(const Sweep& whole) {
+  Diagnostics diagnostics;
+  if (!grows(whole)) return diagnostics;
   const std::vector<Places> groups = groups_in(whole);
   for (const Places& group : groups) {
     const Job& job = whole.jobs[group.front()];
-    const auto bound = job.wish.is_given() ? bound_of(job) : std::nullopt;
-    if (!bound) continue;
-    append_wish("solid_fraction", job.wish.solid_fraction, bound->solid_fraction, job, text);
-    append_wish("coordination", job.wish.coordination, bound->coordination, job, text);
+    if (!job.wish.is_given()) continue;
+    refuse_wish("solid_fraction", job.wish.solid_fraction, &ProtocolBias::solid_fraction, whole,
+                job, diagnostics);
+    refuse_wish("coordination", job.wish.coordination, &ProtocolBias::coordination, whole, job,
+                diagnostics);
   }
   for (const GrowingFamily& family : growing_families(whole, groups)) {
-    append_fit(whole, groups, family, text);
+    refuse_fit(whole, groups, family, diagnostics);
   }
-  return text;
+  return diagnostics;
 }
 
 std::string growth_text(const std::vector<Cost>& most) {

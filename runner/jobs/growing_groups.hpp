@@ -16,6 +16,7 @@
 #include "engine/dynamics/presets.hpp"
 #include "runner/jobs/growing_families.hpp"
 #include "runner/store/journal.hpp"
+#include "runner/sweep/diagnostic.hpp"
 #include "runner/sweep/job.hpp"
 
 namespace grainsweep {
@@ -49,9 +50,10 @@ class GrowingSweep {
   Sweep called_;  ///< empty if it does not grow
 };
 
-/// A line for each wish that no number of packings can meet: the way of settling may do more to the
-/// means, or a fit has fewer than three widths, or groups whose own wishes it would have to follow.
-std::string unreachable_wishes(const Sweep& whole);
+/// Each wish that no number of packings can meet, where it is written: the way of settling may do
+/// more to the means, or a fit has fewer than three widths, or groups whose own wishes it would
+/// have to follow.
+Diagnostics unreachable_wishes(const Sweep& whole);
 
 /// What a sweep takes at most whose groups grow, by the costs of all its jobs.
 std::string growth_text(const std::vector<Cost>& most);

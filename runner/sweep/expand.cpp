@@ -116,7 +116,7 @@ class Expansion {
     overlay({&definition_.base}, before);
     overlay({&block.set}, before);
     const std::uint64_t points = point_count(block);
-    make_room(points * static_cast<std::uint64_t>(block.replicates));
+    make_room(points * static_cast<std::uint64_t>(block.replicates.most));
     for (std::uint64_t point = 0; point < points; ++point) {
       InEffect in_effect = before;
       const std::vector<const Assignments*> entries = entries_of(axes, point);
@@ -156,8 +156,9 @@ class Expansion {
       job.files["shape.hull.vertices"] = name_in_tables(resolved.hull_file);
     note_hull_files(resolved.mixture, job);
     if (!resolved.fill_file.empty()) job.files["fill.file"] = name_in_tables(resolved.fill_file);
-    job.wish = block.wish;
-    job.fit_wish = block.fit_wish;
+    job.wish = block.replicates.wish;
+    job.fit_wish = block.replicates.fit_wish;
+    job.block = index;
     job.asked_accuracy = resolved.asked_accuracy;
     if (!resolved.size_file.empty()) {
       job.files["sizes.distribution.table.file"] = name_in_tables(resolved.size_file);
@@ -179,8 +180,10 @@ class Expansion {
   /// How many packings of a point there may be. Without walls nothing is on the line of a fit that
   /// is asked for: such packings tell how they scatter, and stay at those that all have at first.
   static int most_replicates_of(const Block& block, const PackingSpec& spec) {
-    const bool is_beside_fit = block.fit_wish.is_given() && spec.box.y == Boundary::periodic;
-    return is_beside_fit ? std::min(first_replicates, block.replicates) : block.replicates;
+    const int most = block.replicates.most;
+    const bool is_walled = spec.box.y == Boundary::walls;
+    const bool is_beside_fit = block.replicates.fit_wish.is_given() && !is_walled;
+    return is_beside_fit ? std::min(first_replicates, most) : most;
   }
 
   /// What files the components of a mixture come from.
@@ -220,8 +223,8 @@ class Expansion {
     if (files != nullptr) return starts_in_list(block, *files, resolved);
     Start start = start_in(resolved.fill_file, *file, resolved.fill_diameter);
     resolved.fill_content = start.content;
-    if (block.replicates > 1 && !start.content.empty()) {
-      note(*file, "would give all " + std::to_string(block.replicates) +
+    if (block.replicates.most > 1 && !start.content.empty()) {
+      note(*file, "would give all " + std::to_string(block.replicates.most) +
                       " replicates the same start; write \"replicates\": 1, or list a start for "
                       "each in fill.files");
     }
@@ -242,9 +245,10 @@ class Expansion {
         note(entry, "is the same start as " + same->second + "; replicates must differ");
       }
     }
-    if (block.replicates > 1 && static_cast<std::size_t>(block.replicates) != starts.size()) {
+    if (block.replicates.most > 1 &&
+        static_cast<std::size_t>(block.replicates.most) != starts.size()) {
       note(files, "lists " + std::to_string(starts.size()) + " starts for " +
-                      std::to_string(block.replicates) +
+                      std::to_string(block.replicates.most) +
                       " replicates; write \"replicates\": " + std::to_string(starts.size()));
     }
     return starts;
@@ -365,7 +369,7 @@ class Expansion {
                        " that a grain may have; simplify the shape");
       return false;
     }
-    vertices_ += count * static_cast<std::uint64_t>(block.replicates);
+    vertices_ += count * static_cast<std::uint64_t>(block.replicates.most);
     if (vertices_ <= most_vertices) return true;
     note(source, "the jobs hold more than " + in_thousands(most_vertices) +
                      " vertices together; split the sweep");

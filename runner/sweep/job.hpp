@@ -1,6 +1,7 @@
 // A sweep as the runner works on it: the jobs that a sweep file stands for.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <string>
@@ -29,6 +30,7 @@ struct Job {
   /// that of a bulk value with the same bound. Not beside a wish of its group.
   FitWish fit_wish = {};
   ErrorWish asked_accuracy = {};  ///< what chose the preset it settles as; none if that was named
+  std::size_t block = 0;          ///< of the sweep, that it comes from
 };
 
 struct Sweep {
@@ -37,6 +39,7 @@ struct Sweep {
   int replicates = 1;
   std::vector<Job> jobs;  ///< in the order of the file: block, point, replicate; no id twice
   GivenUnits units = {};  ///< what people want lengths in; no part of any job
+  std::vector<std::string> wish_pointers = {};  ///< where each block's wishes are written
 };
 
 }  // namespace grainsweep

@@ -12,7 +12,7 @@ namespace {
 
 std::uint64_t job_count(const Block& block) {
   const std::uint64_t points = point_count(block);
-  const auto replicates = static_cast<std::uint64_t>(block.replicates);
+  const auto replicates = static_cast<std::uint64_t>(block.replicates.most);
   return points > UINT64_MAX / replicates ? UINT64_MAX : points * replicates;
 }
 
@@ -31,7 +31,7 @@ std::string factors_of(const Block& block) {
                    [](const auto& a, const auto& b) { return a.first > b.first; });
   std::string text;
   for (const auto& [count, name] : factors) text += name + " (" + in_thousands(count) + "), ";
-  const auto replicates = static_cast<std::uint64_t>(block.replicates);
+  const auto replicates = static_cast<std::uint64_t>(block.replicates.most);
   if (replicates > 1) return text + "replicates (" + in_thousands(replicates) + ")";
   return text.substr(0, text.size() - 2);  // without the last comma
 }

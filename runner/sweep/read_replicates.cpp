@@ -48,9 +48,9 @@ void read_until(const Json& until, const std::string& pointer, Replicates& repli
 }
 
 Replicates read_growing(const Json& value, const std::string& pointer, Diagnostics& diagnostics) {
-  Replicates replicates{usual_most_replicates};
+  Replicates replicates{usual_most_replicates, {}, {}, child_pointer(pointer, "until")};
   refuse_unknown_keys(value, pointer, {"until", "most"}, diagnostics);
-  const std::string until_pointer = child_pointer(pointer, "until");
+  const std::string& until_pointer = replicates.wish_pointer;
   const auto until = value.find("until");
   if (until == value.end() || !until->is_object() || until->empty()) {
     diagnostics.push_back(

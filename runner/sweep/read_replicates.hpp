@@ -17,6 +17,7 @@ struct Replicates {
   int most = 1;
   ErrorWish wish = {};
   FitWish fit_wish = {};
+  std::string wish_pointer = {};  ///< where the wishes are written
 };
 
 /// What `object`, which `pointer` leads to, says of them; `otherwise` if it says nothing, or

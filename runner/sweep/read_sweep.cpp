@@ -11,7 +11,16 @@
 
 namespace grainsweep {
 
-SweepReading read_sweep(const std::string& path) {
+namespace {
+
+bool has_errors(const Diagnostics& diagnostics) {
+  return !std::all_of(diagnostics.begin(), diagnostics.end(),
+                      [](const Diagnostic& diagnostic) { return diagnostic.is_note; });
+}
+
+}  // namespace
+
+SweepReading read_sweep(const std::string& path, const SweepCheck& check) {
   FileText file = read_text(path);
   if (!file.errors.empty()) return {{}, std::move(file.errors), {}};
   JsonReading json = parse_strictly(file.text, path);
@@ -20,17 +29,20 @@ SweepReading read_sweep(const std::string& path) {
   Diagnostics diagnostics;
   const SweepDefinition definition = read_definition(json.value, diagnostics);
   const std::string folder = std::filesystem::path(path).parent_path().string();
-  std::vector<Job> jobs = expand(definition, folder, diagnostics);
-
-  locate(json, file.text, path, diagnostics);
-  const auto is_note = [](const Diagnostic& diagnostic) { return diagnostic.is_note; };
-  if (!std::all_of(diagnostics.begin(), diagnostics.end(), is_note)) {
-    std::erase_if(diagnostics, is_note);
-    return {{}, std::move(diagnostics), {}};
+  Sweep sweep{definition.name, definition.seed, definition.replicates.most,
+              expand(definition, folder, diagnostics), definition.units};
+  for (const Block& block : definition.blocks) {
+    sweep.wish_pointers.push_back(block.replicates.wish_pointer);
   }
-  Sweep sweep{definition.name, definition.seed, definition.replicates, std::move(jobs),
-              definition.units};
-  return {std::move(sweep), {}, std::move(diagnostics)};
+  if (check && !has_errors(diagnostics)) {
+    for (Diagnostic& broken : check(sweep)) diagnostics.push_back(std::move(broken));
+  }
+
+  const bool is_refused = has_errors(diagnostics);
+  locate(json, file.text, path, diagnostics);
+  if (!is_refused) return {std::move(sweep), {}, std::move(diagnostics)};
+  std::erase_if(diagnostics, [](const Diagnostic& diagnostic) { return diagnostic.is_note; });
+  return {{}, std::move(diagnostics), {}};
 }
 
 }  // namespace grainsweep

@@ -1,6 +1,7 @@
 // From a sweep file to its jobs, or to everything that is wrong with it.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -15,7 +16,11 @@ struct SweepReading {
   std::vector<Diagnostic> notes;   ///< of a sweep without errors: what is written and never used
 };
 
-/// Reads and expands a sweep file. Never throws for bad input: every error is a Diagnostic.
-SweepReading read_sweep(const std::string& path);
+/// What is wrong with a sweep that is right by its file.
+using SweepCheck = std::function<Diagnostics(const Sweep&)>;
+
+/// Reads and expands a sweep file, and looks at what `check` says of it. Never throws for bad
+/// input: every error is a Diagnostic.
+SweepReading read_sweep(const std::string& path, const SweepCheck& check = {});
 
 }  // namespace grainsweep

@@ -288,12 +288,7 @@ Block read_block(const Json& json, std::size_t index, const SweepDefinition& def
   refuse_unknown_keys(json, block.pointer, {"label", "set", "grid", "zip", "random", "replicates"},
                       diagnostics);
   block.label = read_label(json, block.pointer, index + 1, diagnostics);
-  const auto [most, wish, fit_wish] =
-      read_replicates(json, block.pointer,
-                      {definition.replicates, definition.wish, definition.fit_wish}, diagnostics);
-  block.replicates = most;
-  block.wish = wish;
-  block.fit_wish = fit_wish;
+  block.replicates = read_replicates(json, block.pointer, definition.replicates, diagnostics);
   BlockReader(json, block, diagnostics).read();
   return block;
 }
@@ -304,8 +299,6 @@ void read_sweep_list(const Json& file, SweepDefinition& definition, Diagnostics&
     definition.blocks.emplace_back();
     definition.blocks.back().label = definition.name;
     definition.blocks.back().replicates = definition.replicates;
-    definition.blocks.back().wish = definition.wish;
-    definition.blocks.back().fit_wish = definition.fit_wish;
   } else if (!sweep->is_array()) {
     diagnostics.push_back({"/sweep", "must be a list of blocks, is " + describe(*sweep)});
   } else if (sweep->empty()) {
@@ -347,10 +340,7 @@ SweepDefinition read_definition(const Json& file, Diagnostics& diagnostics) {
   expect_schema_name(file, diagnostics);
   definition.name = read_name(file, diagnostics);
   definition.seed = read_seed(file, diagnostics);
-  const auto [most, wish, fit_wish] = read_replicates(file, "", {}, diagnostics);
-  definition.replicates = most;
-  definition.wish = wish;
-  definition.fit_wish = fit_wish;
+  definition.replicates = read_replicates(file, "", {}, diagnostics);
   definition.units = read_units(file, diagnostics);
   definition.base = read_base(file, diagnostics);
   read_sweep_list(file, definition, diagnostics);

@@ -10,6 +10,7 @@
 #include "runner/sweep/job.hpp"
 #include "runner/sweep/json_text.hpp"
 #include "runner/sweep/random_points.hpp"
+#include "runner/sweep/read_replicates.hpp"
 #include "runner/sweep/units.hpp"
 
 namespace grainsweep {
@@ -27,9 +28,7 @@ struct Axis {
 struct Block {
   std::string label;
   std::string pointer;             ///< "/sweep/0", "" for a sweep of `base` alone
-  int replicates = 1;              ///< of each point; the most, if there is a wish
-  ErrorWish wish = {};             ///< makes points grow until it is met
-  FitWish fit_wish = {};           ///< makes families grow until it is met
+  Replicates replicates;           ///< of each point
   Assignments set;                 ///< over `base`, under the axes
   std::vector<Axis> axes;          ///< the first one changes slowest
   std::vector<RandomPath> random;  ///< drawn together
@@ -39,9 +38,7 @@ struct Block {
 struct SweepDefinition {
   std::string name;
   std::uint64_t seed = 0;
-  int replicates = 1;
-  ErrorWish wish = {};
-  FitWish fit_wish = {};
+  Replicates replicates;
   GivenUnits units;
   Assignments base;
   std::vector<Block> blocks;

@@ -19,7 +19,7 @@ std::uint64_t job_count_of(const SweepDefinition& definition) {
   for (const Block& block : definition.blocks) {
     const std::uint64_t points = point_count(block);
     if (points > most_expanded) return points;
-    jobs += points * static_cast<std::uint64_t>(block.replicates);
+    jobs += points * static_cast<std::uint64_t>(block.replicates.most);
   }
   return jobs;
 }

@@ -230,29 +230,40 @@ TEST_CASE("a fit waits for all of its round, whatever else is made") {
 TEST_CASE(
     "fits that cannot be had are refused: too few widths, too fine, or beside wishes of means") {
   CHECK(unreachable_wishes(fit_sweep(10, {0.005, 0, 0, 0})).empty());
-  const std::string fine = unreachable_wishes(fit_sweep(10, {0.001, 1e-6, 0.5, 0}));
-  CHECK(fine.find("asks for phi_bulk within 0.001, but settled as \"balanced\"") !=
-        std::string::npos);
-  CHECK(fine.find("Z_bulk") == std::string::npos);
+  Sweep too_fine = fit_sweep(10, {0.0015, 1e-6, 0.5, 0});
+  too_fine.wish_pointers = {"/replicates/until"};
+  const Diagnostics fine = unreachable_wishes(too_fine);
+  REQUIRE(fine.size() == 1);
+  CHECK(fine[0].pointer == "/replicates/until/fit/phi_bulk");
+  CHECK_THAT(fine[0].message,
+             Catch::EndsWith(": settled as \"balanced\" such packings may be off by 0.002 however "
+                             "many there are; ask for more than that, or take \"accurate\""));
   Sweep narrow = fit_sweep(10, {0.005, 0, 0, 0});
   narrow.jobs.erase(narrow.jobs.begin(), narrow.jobs.begin() + 10);
-  CHECK(unreachable_wishes(narrow).find("takes 3 or more widths between walls with otherwise equal "
-                                        "parameters, and there are 2;") != std::string::npos);
+  REQUIRE(unreachable_wishes(narrow).size() == 1);
+  CHECK_THAT(unreachable_wishes(narrow)[0].message,
+             Catch::Contains("takes 3 or more widths between walls with otherwise equal "
+                             "parameters, and there are 2;"));
   Sweep both = fit_sweep(10, {0.005, 0, 0, 0});
   for (int i = 0; i < 10; ++i) {
     both.jobs[static_cast<std::size_t>(i)].fit_wish = {};
     both.jobs[static_cast<std::size_t>(i)].wish = {0.01, 0.0};
   }
-  CHECK(unreachable_wishes(both).find("of the same family, for errors of means") !=
-        std::string::npos);
+  REQUIRE(unreachable_wishes(both).size() == 1);
+  CHECK_THAT(unreachable_wishes(both)[0].message,
+             Catch::Contains("of the same family, asks for errors of means"));
 }
 
 TEST_CASE("wishes below the bias of settling are refused, with what it is") {
-  const Sweep whole{"s", 7, 1, growing_group("a", 5.0, 20, {0.001, 0.5})};
-  const std::string said = unreachable_wishes(whole);
-  CHECK(said.find("asks for solid_fraction within 0.001") != std::string::npos);
-  CHECK(said.find("\"balanced\"") != std::string::npos);
-  CHECK(said.find("coordination") == std::string::npos);
+  Sweep whole{"s", 7, 1, growing_group("a", 5.0, 20, {0.001, 0.5})};
+  whole.wish_pointers = {"/replicates/until"};
+  const Diagnostics said = unreachable_wishes(whole);
+  REQUIRE(said.size() == 1);
+  CHECK(said[0].pointer == "/replicates/until/solid_fraction");
+  CHECK(said[0].message ==
+        "cannot be met in \"" + whole.jobs[0].label +
+            "\": settled as \"balanced\" such packings may be off by 0.002 however many there are; "
+            "ask for more than that");
   CHECK(unreachable_wishes({"s", 7, 1, growing_group("a", 5.0, 20, {0.01, 0.0})}).empty());
 }
 

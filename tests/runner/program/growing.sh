@@ -14,6 +14,13 @@ expect_text out.txt 'at least 14 packings'
 expect_code 0 "$program" plan sweep.json
 expect_text out.txt 'at most 62 packings'
 
+# What no number of packings can meet is told where it is written.
+sed 's/0.009/0.001/; s/"replicates": 2/"replicates": { "until": { "fit": { "C": 0.1 } } }/' \
+  sweep.json >wishes.json
+expect_code 2 "$program" validate wishes.json
+expect_text error.txt 'wishes.json:1:78 /replicates/until/solid_fraction: cannot be met in "grows"' \
+  'wishes.json:5:71 /sweep/1/replicates/until/fit: cannot be had of "does not"' '2 errors'
+
 # same FOLDER [ONE]: it has the tables of one run on one thread.
 same() {
   local table one=${2:-one}
