@@ -206,8 +206,19 @@ bool ascends(const std::vector<double>& values, bool strictly) {
 }
 
 std::string passing_fault(const std::vector<double>& passing) {
-  if (passing.front() == 0.0 && passing.back() == 1.0 && ascends(passing, false)) return "";
-  return "table.passing must rise from 0 to 1, the share finer than each diameter";
+  const double first = passing.front(), last = passing.back();
+  if (first == 0.0 && last == 1.0 && ascends(passing, false)) return "";
+  const std::string rule =
+      "table.passing must rise from 0 to 1, the share finer than each diameter; ";
+  if (last > 1.0) return rule + "ends at " + number_text(last) + ": divide percentages by 100";
+  if (!(first == 0.0)) {
+    return rule + "begins at " + number_text(first) +
+           ": add the largest diameter that nothing is finer than";
+  }
+  if (!(last == 1.0)) {
+    return rule + "ends at " + number_text(last) + ": add a diameter that all is finer than";
+  }
+  return rule + "falls on the way";
 }
 
 std::string shares_fault(const std::vector<double>& shares) {

@@ -102,19 +102,6 @@ std::string unknown_path(const std::string& group, const std::string& key,
   return unknown_key(key, known);
 }
 
-void read_group(const std::string& group, const Json& object, const std::string& pointer,
-                Assignments& assignments, Diagnostics& diagnostics) {
-  for (const auto& [key, value] : object.items()) {
-    const std::string path = dotted(group, key);
-    const std::string place = child_pointer(pointer, key);
-    if (find_parameter(path) || (is_group(path) && !key.empty())) {
-      read_assignments(path, value, place, assignments, diagnostics);
-    } else {
-      diagnostics.push_back({place, unknown_path(group, key, place), Anchor::key});
-    }
-  }
-}
-
 void unset(Choice choice, InEffect& in_effect) {
   for (std::size_t i = 0; i < in_effect.size(); ++i) {
     if (choice_of(parameters()[i]) == choice) in_effect[i] = nullptr;
@@ -138,10 +125,21 @@ std::string usual_shape_of(const std::string& group) {
   return "";
 }
 
-/// An empty group says nothing, except that grains have a shape with its defaults.
+/// Sets the first part of an empty group, by which the group takes the place of another.
+void read_usual_part(const std::string& group, const std::string& pointer,
+                     Assignments& assignments) {
+  const std::size_t part = *find_parameter(dotted(group, known_keys(group).front()));
+  assignments.push_back({part, *default_of(parameters()[part]), pointer, true});
+}
+
+/// An empty group says nothing, except that a shape or a curve of sizes with its defaults takes the
+/// place of another.
 void read_empty_group(const std::string& group, const std::string& pointer,
                       Assignments& assignments, Diagnostics& diagnostics) {
   const std::size_t shape = parameter_with(Role::shape);
+  const bool is_curve =
+      group.starts_with("sizes.distribution.") && group != "sizes.distribution.table";
+  if (is_curve) return read_usual_part(group, pointer, assignments);
   if (const std::string name = usual_shape_of(group); !name.empty()) {
     read_parameter(shape, name, pointer, assignments, diagnostics);
   } else if (group == "shape.hull") {
@@ -152,6 +150,26 @@ void read_empty_group(const std::string& group, const std::string& pointer,
   } else if (find_parameter(group) == shape) {
     diagnostics.push_back(
         {pointer, "names no shape; must be " + wanted_value(parameters()[shape])});
+  }
+}
+
+/// Reads what an object says of the parts of a group. An empty box takes the place of a tube here;
+/// in a list, where others of its rows may be of tubes, it says nothing.
+void read_group(const std::string& group, const Json& object, const std::string& pointer,
+                Assignments& assignments, Diagnostics& diagnostics) {
+  for (const auto& [key, value] : object.items()) {
+    const std::string path = dotted(group, key);
+    const std::string place = child_pointer(pointer, key);
+    const bool is_empty = value.is_object() && value.empty();
+    if (is_empty && path == "box") {
+      read_usual_part(path, place, assignments);
+    } else if (is_empty && path == "tube") {
+      diagnostics.push_back({place, R"(a tube needs its diameter: write {"diameter": 7})"});
+    } else if (find_parameter(path) || (is_group(path) && !key.empty())) {
+      read_assignments(path, value, place, assignments, diagnostics);
+    } else {
+      diagnostics.push_back({place, unknown_path(group, key, place), Anchor::key});
+    }
   }
 }
 
@@ -249,6 +267,7 @@ void refuse_double_assignments(const Assignments& assignments, Diagnostics& diag
   InEffect seen(parameters().size(), nullptr);
   const Assignment* fill = nullptr;
   for (const Assignment& assignment : assignments) {
+    if (assignment.is_usual) continue;
     const Assignment*& first = seen[assignment.parameter];
     const std::string& path = parameters()[assignment.parameter].path;
     if (first != nullptr) {
@@ -287,7 +306,10 @@ void overlay(const std::vector<const Assignments*>& layer, InEffect& in_effect) 
   if (fills) unset(Choice::fill, in_effect);
   if (exclude_each_other(shape, shape_of(in_effect))) unset(Choice::shape, in_effect);
   for (const Assignments* part : layer) {
-    for (const Assignment& assignment : *part) in_effect[assignment.parameter] = &assignment;
+    for (const Assignment& assignment : *part) {
+      const Assignment*& holds = in_effect[assignment.parameter];
+      if (holds == nullptr || !assignment.is_usual) holds = &assignment;
+    }
   }
 }
 

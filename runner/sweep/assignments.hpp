@@ -16,6 +16,9 @@ struct Assignment {
   std::size_t parameter = 0;  ///< index into parameters()
   Value value;
   std::string pointer;  ///< where it is written
+  /// Of a group that is written without parts: it stands there, with this default unless another
+  /// value of the parameter holds.
+  bool is_usual = false;
 };
 using Assignments = std::vector<Assignment>;
 

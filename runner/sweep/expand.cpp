@@ -439,6 +439,7 @@ class Expansion {
   /// that never holds, or the value could never be right, that is an error.
   void note_unused(const Assignments& assignments, const std::string& overridden) {
     for (const Assignment& assignment : assignments) {
+      if (assignment.is_usual) continue;
       const auto use = idle_.find(&assignment);
       const Parameter& parameter = parameters()[assignment.parameter];
       if (use != idle_.end()) {

@@ -136,6 +136,14 @@ Json layer(const Json& members) {
   return schema;
 }
 
+/// A parameter or a group in "base" or "set". A tube needs its diameter there; in a list, where
+/// others of its rows may be of boxes, an empty one says nothing.
+Json held(const std::string& path) {
+  if (path != "tube") return reference(path);
+  return described(meaning_of_group(path),
+                   {{"allOf", {reference(path), {{"required", {"diameter"}}}}}});
+}
+
 Json group_members(const std::string& group) {
   Json members;
   for (const std::string& key : known_keys(group)) members[key] = reference(group + "." + key);
@@ -210,7 +218,7 @@ Json distinct_lists() {
 Json base_schema() {
   const std::string& seed = parameters()[parameter_with(Role::seed)].path;
   return layer(
-      members_by_path([&](const auto& path) { return path == seed ? Json() : reference(path); }));
+      members_by_path([&](const auto& path) { return path == seed ? Json() : held(path); }));
 }
 
 /// A way to draw a value.
@@ -282,7 +290,7 @@ Json block_schema() {
                    {"maxLength", 100},
                    {"pattern", "^[^=+@\\u0000-\\u001f\\u007f-][^\\u0000-\\u001f\\u007f]*$"}})},
        {"set", described("values for the whole block",
-                         layer(members_by_path([](const auto& path) { return reference(path); })))},
+                         layer(members_by_path([](const auto& path) { return held(path); })))},
        {"grid", described("lists of values: every combination of them", distinct_lists())},
        {"zip", described("equally long lists: taken side by side", std::move(zipped))},
        {"random", described("points drawn at random", random_schema())},

@@ -248,7 +248,15 @@ TEST_CASE("what is wrong with a distribution is said") {
   CHECK(fault(SizeTable{{1.0, 2.0}, {0.0, 1.0}, {0.5, 0.5}}).starts_with("table needs one of"));
   CHECK(fault(SizeTable{{1.0, 2.0}, {0.0, 0.5, 1.0}, {}}).starts_with("table.diameters must hold"));
   CHECK(fault(SizeTable{{1.0, 1.0}, {0.0, 1.0}, {}}).starts_with("table.diameters must be positi"));
-  CHECK(fault(SizeTable{{0.5, 1.0}, {0.1, 1.0}, {}}).starts_with("table.passing must rise from"));
+  const std::string rises =
+      "table.passing must rise from 0 to 1, the share finer than each diameter; ";
+  CHECK(fault(SizeTable{{0.5, 1.0}, {0.1, 1.0}, {}}) ==
+        rises + "begins at 0.1: add the largest diameter that nothing is finer than");
+  CHECK(fault(SizeTable{{0.5, 1.0}, {0, 0.98}, {}}) ==
+        rises + "ends at 0.98: add a diameter that all is finer than");
+  CHECK(fault(SizeTable{{0.5, 1.0}, {0, 100}, {}}) ==
+        rises + "ends at 100: divide percentages by 100");
+  CHECK(fault(SizeTable{{0.5, 0.7, 0.8, 1.0}, {0, 0.5, 0.4, 1}, {}}) == rises + "falls on the way");
   CHECK(fault(SizeTable{{0.5, 1.0}, {}, {0.5, 0.4}}).starts_with("table.shares must add up to 1"));
 }
 

@@ -56,6 +56,20 @@ TEST_CASE("a value that a block sets and varies is refused") {
                  "value is never used; take one of them out"});
 }
 
+TEST_CASE("a container without parts is a box with its defaults, and no tube") {
+  const PackingSpec spec = spec_of(R"({"tube.diameter": 7})", R"({"set": {"box": {}}})");
+  CHECK_FALSE(spec.box.is_tube);
+  CHECK(spec.box.length == 20.0);
+  CHECK(spec_of(R"({"box.length": 12})", R"({"set": {"box": {}}})").box.length == 12.0);
+  CHECK(spec_of(R"({"box": {}, "box.length": 12})").box.length == 12.0);
+  CHECK(
+      errors_in_base(R"({"box": {}, "tube.diameter": 7})") ==
+      Messages{"s.json:2:30 /base/tube.diameter: the container is already described at /base/box; "
+               "keep one of box, tube"});
+  CHECK(errors_in_base(R"({"tube": {}})") ==
+        Messages{R"(s.json:2:10 /base/tube: a tube needs its diameter: write {"diameter": 7})"});
+}
+
 TEST_CASE("a sweep that names no accuracy is balanced") {
   CHECK(equal(spec_of("{}").accuracy, *preset("balanced")));
 }

@@ -97,14 +97,33 @@ TEST_CASE("another layer replaces a distribution, or the classes, and keeps what
   CHECK(jobs[1].spec.sizes.small_share == 0.5);
 }
 
+TEST_CASE("a curve without parts has its defaults, and those that are written elsewhere") {
+  const std::string lognormal = R"({"sizes.distribution": {"lognormal": {}}})";
+  const auto jobs = jobs_of(sweep_of(
+      R"({}, {"label": "b", "set": {"sizes.distribution.lognormal": {}},
+              "grid": {"sizes.distribution.lognormal.median": [2, 1.5]}},
+         {"label": "c", "set": {"sizes.distribution": {"weibull": {}}}})",
+      lognormal));
+  REQUIRE(jobs.size() == 4);
+  const auto curve_of = [](const Job& job) { return job.spec.sizes.distribution.value().formula; };
+  CHECK(std::get<LognormalSizes>(curve_of(jobs[0])).median == 1.0);
+  CHECK(std::get<LognormalSizes>(curve_of(jobs[0])).sigma == 0.3);
+  CHECK(std::get<LognormalSizes>(curve_of(jobs[1])).median == 2.0);
+  CHECK(std::get<WeibullSizes>(curve_of(jobs[3])).shape == 3.0);
+  CHECK(std::get<LognormalSizes>(
+            curve_of(jobs_of(sweep_of(R"({"set": {"sizes.distribution.lognormal": {}}})",
+                                      R"({"sizes.distribution.lognormal.median": 1.25})"))[0]))
+            .median == 1.25);
+}
+
 TEST_CASE("what is wrong with a distribution is told where it is written") {
   CHECK(errors_in(R"({"distribution": {"by": "number"}})") ==
         Messages{"s.json:2:35 /base/sizes/distribution/by: belongs to a distribution of sizes, and "
                  "none is set: write lognormal, uniform, weibull or table"});
-  CHECK(errors_in(R"({"distribution": {"lognormal": {}}})") ==
-        Messages{"s.json:2:42 /base/sizes/distribution/lognormal: describes no sizes; name at "
+  CHECK(errors_in(R"({"distribution": {"table": {}}})") ==
+        Messages{"s.json:2:38 /base/sizes/distribution/table: describes no sizes; name at "
                  "least one of "
-                 "median, sigma"});
+                 "diameters, passing, shares, file"});
   CHECK(errors_in(R"({"distribution": {"lognormal": {"sigma": 3}}})") ==
         Messages{"s.json:2:52 /base/sizes/distribution/lognormal/sigma: lognormal.sigma must lie "
                  "in [0, 2], is 3"});
