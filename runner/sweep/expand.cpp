@@ -101,6 +101,7 @@ class Expansion {
     for (std::size_t i = 0; i < definition_.blocks.size(); ++i) expand_block(i);
     problems_.name_points();
     note_shared_jobs();
+    note_repeated_points();
     if (is_whole) note_unused();
     return std::move(jobs_);
   }
@@ -200,6 +201,7 @@ class Expansion {
     if (!is_new) {
       const bool same = definition_.blocks[entry->second].label == job.label;
       if (!same) ++shared_[{entry->second, index}];
+      if (entry->second == index && job.replicate == 1) ++repeated_[index];
       return;
     }
     job.id = hex16(hash);
@@ -474,6 +476,20 @@ class Expansion {
     }
   }
 
+  /// Points of a block that are drawn again: equal ones are one point.
+  void note_repeated_points() {
+    for (const auto& [index, count] : repeated_) {
+      const Block& block = definition_.blocks[index];
+      if (block.random.empty()) continue;
+      diagnostics_.push_back({block.pointer + "/random/count",
+                              in_thousands(count) + " of " + in_thousands(point_count(block)) +
+                                  (count == 1 ? " points is" : " points are") +
+                                  " drawn again and packed once; for more packings of a point "
+                                  "raise replicates",
+                              Anchor::value, "", true});
+    }
+  }
+
   const SweepDefinition& definition_;
   const std::string folder_;
   Diagnostics& diagnostics_;
@@ -491,9 +507,10 @@ class Expansion {
   std::vector<Job> jobs_;
   std::unordered_map<std::uint64_t, std::size_t> first_block_;  // of every job, by its hash
   std::map<std::pair<std::size_t, std::size_t>, std::uint64_t> shared_;  // jobs, by two blocks
-  std::map<std::string, GrainsReading> grains_;                          // by file
-  std::map<std::string, VerticesReading> hulls_;                         // by file
-  std::map<std::string, SizesReading> sizes_;                            // by file
+  std::map<std::size_t, std::uint64_t> repeated_;  // points that were drawn before, by block
+  std::map<std::string, GrainsReading> grains_;    // by file
+  std::map<std::string, VerticesReading> hulls_;   // by file
+  std::map<std::string, SizesReading> sizes_;      // by file
   PointProblems problems_;
   std::set<std::string> said_;
   /// Of every value that was in effect: why no packing depended on it so far; "" if one did.

@@ -39,6 +39,19 @@ TEST_CASE("draws depend on seed, block, point and path, each of them") {
   CHECK(uniform_draw({1, 2, 3}, "box.length") != draw_of);
 }
 
+TEST_CASE("points that are drawn again are one, and that is noted") {
+  const SweepReading reading = reading_of(
+      sweep_of(R"({"random": {"count": 9, "box.width": {"choice": [4, 5]}}, "replicates": 3})"));
+  CHECK(reading.sweep.jobs.size() == 6);
+  REQUIRE(reading.notes.size() == 1);
+  CHECK(reading.notes[0].pointer == "/sweep/0/random/count");
+  CHECK(reading.notes[0].message ==
+        "7 of 9 points are drawn again and packed once; for more packings of a point raise "
+        "replicates");
+  CHECK(reading_of(sweep_of(R"({"random": {"count": 9, "box.width": {"uniform": [4, 5]}}})"))
+            .notes.empty());
+}
+
 TEST_CASE("uniform draws fill their interval evenly") {
   // Of 10,000 draws, a tenth of the interval holds 1000 +- 30; five standard deviations are
   // allowed.
