@@ -12,13 +12,17 @@
 namespace grainsweep {
 namespace {
 
-std::string as_file_name(std::string label) {
-  for (char& letter : label) {
-    const bool stays = std::isalnum(static_cast<unsigned char>(letter)) != 0 || letter == '.';
-    if (!stays) letter = '_';
+/// A letter for each character of UTF-8.
+std::string as_file_name(const std::string& label) {
+  std::string name;
+  for (const char letter : label) {
+    const auto byte = static_cast<unsigned char>(letter);
+    const bool goes_on = (byte & 0xC0U) == 0x80U;
+    const bool stays = std::isalnum(byte) != 0 || letter == '.';
+    if (!goes_on) name += stays ? letter : '_';
   }
-  if (label.starts_with('.')) label.front() = '_';
-  return label;
+  if (name.starts_with('.')) name.front() = '_';
+  return name;
 }
 
 /// Whether each group, by its number less one, has packings of several seeds.

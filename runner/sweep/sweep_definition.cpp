@@ -71,7 +71,7 @@ std::string read_label(const Json& block, const std::string& pointer, std::size_
   if (found == block.end()) return "block " + std::to_string(number);
   std::string label = found->is_string() ? found->get<std::string>() : "";
   const bool is_text =
-      !label.empty() && label.size() <= longest && without_controls(label) == label;
+      !label.empty() && characters(label) <= longest && without_controls(label) == label;
   if (is_text && !begins_a_formula(label)) return label;
   diagnostics.push_back(
       {child_pointer(pointer, "label"),

@@ -74,6 +74,11 @@ std::string without_controls(std::string_view text) {
   return plain;
 }
 
+std::size_t characters(std::string_view text) {
+  const auto is_start = [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; };
+  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), is_start));
+}
+
 bool begins_a_formula(std::string_view text) {
   return !text.empty() && std::string_view("=+-@").find(text.front()) != std::string_view::npos;
 }

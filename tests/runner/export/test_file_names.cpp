@@ -38,6 +38,10 @@ TEST_CASE("files of groups of several seeds have the seed in their names") {
                                                      "x_y__z-1-1-seed5"});
 }
 
+TEST_CASE("a character of any script is one in the name of a file") {
+  CHECK(file_stems({row_of("a", "20 \u00b5m", "{}", 1)}) == std::vector<std::string>{"20__m-1-1"});
+}
+
 TEST_CASE("no file is hidden, and none is put into another folder") {
   CHECK(file_stems({row_of("a", "../b", "{}", 1)}) == std::vector<std::string>{"_._b-1-1"});
 }

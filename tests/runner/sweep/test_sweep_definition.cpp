@@ -87,6 +87,13 @@ TEST_CASE("a block must be an object with known keys and a label on one line") {
                  "is the text \"\""});
 }
 
+TEST_CASE("labels are limited in characters, not in bytes") {
+  std::string label;
+  for (int k = 0; k < 100; ++k) label += "\u00b5";
+  CHECK(errors_in_block(R"({"label": ")" + label + "\"}").empty());
+  CHECK(errors_in_block(R"({"label": "x)" + label + "\"}").size() == 1);
+}
+
 TEST_CASE("no label begins as a formula of a spreadsheet does") {
   for (const char* const label : {"=cmd|' /C calc'!A0", "@SUM(1+1)", "+1", "-1"}) {
     INFO(label);
