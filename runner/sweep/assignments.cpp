@@ -64,7 +64,9 @@ std::string absence_of(const std::string& path) {
        "large grains, times in sqrt(d/g)",
        {"*.unit", "*.units"}},
       {"the box is open at the top; fill.solid_height says how much is filled in",
-       {"height", "box.height", "tube.height", "fill.height"}},
+       {"height", "box.height", "fill.height"}},
+      {"a tube is open at the top; fill.solid_height says how much is filled in",
+       {"tube.height", "tube.length"}},
       {"the box is open at the top", {"*.lid"}},
       {"write \"tube\": {\"diameter\": 7} in the place of the box", {"cylinder", "box.cylinder"}},
       {"a tube has a diameter; d is the mean diameter of the large grains",
@@ -78,7 +80,10 @@ std::string absence_of(const std::string& path) {
        {"shape.tetrahedron.edge", "shape.octahedron.edge", "shape.dodecahedron.edge",
         "shape.icosahedron.edge"}},
       {"sizes of a class are Gaussian; sizes.spread is their deviation over the mean",
-       {"std", "sizes.std"}}};
+       {"std", "sizes.std"}},
+      {"write \"shape\": \"sphere\"; a sphere has no parts", {"shape.sphere"}},
+      {"it stands beside \"base\", or in a block beside \"set\"", {"replicates"}},
+      {"it stands in a block, beside \"set\"", {"label"}}};
   const std::string in_any_group = "*." + path.substr(path.rfind('.') + 1);
   for (const auto& [reason, paths] : reasons) {
     for (const std::string_view absent : paths) {
@@ -322,7 +327,10 @@ ResolvedSpec resolve(const InEffect& in_effect) {
 }
 
 const Assignment* assignment_of(const SpecError& error, const InEffect& in_effect) {
-  if (const auto parameter = find_parameter(error.path)) return in_effect[*parameter];
+  if (const auto parameter = find_parameter(error.path)) {
+    const bool is_of_preset = error.path.starts_with("accuracy.") && !in_effect[*parameter];
+    return in_effect[is_of_preset ? parameter_with(Role::preset) : *parameter];
+  }
   const Assignment* found = nullptr;
   std::size_t first = std::string::npos;
   for (const Assignment* assignment : in_effect) {

@@ -55,7 +55,8 @@ void overlay(const std::vector<const Assignments*>& layer, InEffect& in_effect);
 ResolvedSpec resolve(const InEffect& in_effect);
 
 /// The assignment that an error about `path` is about. Of a group it is the part that is written
-/// and that the message mentions first, or else the first part that is written.
+/// and that the message mentions first, or else the first part that is written; of a part of the
+/// accuracy that is not written it is the preset.
 const Assignment* assignment_of(const SpecError& error, const InEffect& in_effect);
 
 }  // namespace grainsweep

@@ -412,7 +412,9 @@ class Expansion {
       const std::string pointer = is_in_list  ? start.pointer
                                   : has_place ? assignment->pointer
                                               : block.pointer;
-      const std::string subject = has_place ? "" : error.path + " ";
+      const bool is_of_preset =
+          has_place && parameters()[assignment->parameter].role == Role::preset;
+      const std::string subject = has_place && !is_of_preset ? "" : error.path + " ";
       problems_.note(pointer + " " + error.path, pointer, subject + error.message, assignment);
     }
   }
@@ -428,18 +430,41 @@ class Expansion {
   }
 
   void note_unused() {
-    note_unused(definition_.base, "every block sets it itself");
+    note_unused(definition_.base, "every block sets it itself", nullptr);
     for (const Block& block : definition_.blocks) {
-      note_unused(block.set, "");
+      note_unused(block.set, "", &block);
       for (const Axis& axis : block.axes) {
-        for (const Assignments& entry : axis.entries) note_unused(entry, "");
+        for (const Assignments& entry : axis.entries) note_unused(entry, "", &block);
       }
     }
   }
 
+  /// What a block varies in the place of a value that it sets.
+  static std::string varied_instead(const Assignment& value, const Block& block) {
+    std::vector<std::size_t> varied;
+    for (const Axis& axis : block.axes) {
+      for (const Assignments& entry : axis.entries) {
+        for (const Assignment& assignment : entry) varied.push_back(assignment.parameter);
+      }
+    }
+    for (const RandomPath& path : block.random) {
+      if (path.choices.empty()) varied.push_back(path.parameter);
+      for (const Assignments& choice : path.choices) {
+        for (const Assignment& assignment : choice) varied.push_back(assignment.parameter);
+      }
+    }
+    const Parameter& set = parameters()[value.parameter];
+    if (std::find(varied.begin(), varied.end(), value.parameter) != varied.end()) return set.path;
+    const auto other = std::find_if(varied.begin(), varied.end(), [&](std::size_t parameter) {
+      return choice_of(set) != Choice::none && choice_of(parameters()[parameter]) == choice_of(set);
+    });
+    return other != varied.end() ? parameters()[*other].path : set.path;
+  }
+
   /// Says which of `assignments` no packing depends on. Where `overridden` is no excuse for a value
   /// that never holds, or the value could never be right, that is an error.
-  void note_unused(const Assignments& assignments, const std::string& overridden) {
+  void note_unused(const Assignments& assignments, const std::string& overridden,
+                   const Block* block) {
     for (const Assignment& assignment : assignments) {
       if (assignment.is_usual) continue;
       const auto use = idle_.find(&assignment);
@@ -455,7 +480,7 @@ class Expansion {
         diagnostics_.push_back({assignment.pointer, error});
       } else if (overridden.empty()) {
         diagnostics_.push_back(
-            {assignment.pointer, "the block varies " + parameter.path +
+            {assignment.pointer, "the block varies " + varied_instead(assignment, *block) +
                                      ", so that this value is never used; take one of them out"});
       } else {
         diagnostics_.push_back(

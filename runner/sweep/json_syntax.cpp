@@ -76,6 +76,21 @@ std::string decimal_comma_message(std::string_view text, std::size_t at) {
          word_at(text, word_start(text, at - 2)) + "." + word_at(text, at);
 }
 
+/// Whether every bracket before `at` is closed, and one is there.
+bool is_behind_the_end(std::string_view text, std::size_t at) {
+  if (last_before(text, at) != '}') return false;
+  int depth = 0;
+  bool is_quoted = false;
+  for (std::size_t i = 0; i < at; ++i) {
+    if (text[i] == '"') is_quoted = !is_quoted;
+    if (is_quoted && text[i] == '\\') ++i;
+    if (is_quoted) continue;
+    if (text[i] == '{' || text[i] == '[') ++depth;
+    if (text[i] == '}' || text[i] == ']') --depth;
+  }
+  return depth == 0 && !is_quoted;
+}
+
 /// The token that ends before `end`, for a message.
 std::string token_before(std::string_view text, std::size_t end) {
   const char last = text[end - 1];
@@ -95,6 +110,7 @@ std::string message_at(const std::string& text, std::size_t at, const std::strin
   }
   if (c == '\'') return "a string needs double quotes";
   if (c == '/' || c == '#') return "JSON has no comments; remove it";
+  if (is_behind_the_end(text, at)) return "the sweep has ended before this; remove it";
   if ((c == '}' || c == ']') && last_before(text, at) == ',') {
     return std::string("remove the comma before this '") + c + "'";
   }

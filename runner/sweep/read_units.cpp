@@ -34,10 +34,13 @@ std::string unit_at(const Json& value, Diagnostics& diagnostics) {
 GivenUnits read_units(const Json& file, Diagnostics& diagnostics) {
   const auto found = file.find("units");
   if (found == file.end()) return std::nullopt;
-  if (!found->is_object() || !found->contains("d") || !found->contains("unit")) {
+  const bool is_object = found->is_object();
+  if (!is_object || !found->contains("d") || !found->contains("unit")) {
+    const char* missing = is_object && found->contains("d") ? "unit" : "d";
     diagnostics.push_back(
         {"/units",
-         R"(must say how long d is, e.g. { "d": 3.2, "unit": "mm" }, is )" + describe(*found)});
+         R"(must say how long d is, e.g. { "d": 3.2, "unit": "mm" }, )" +
+             (is_object ? "has no \"" + std::string(missing) + "\"" : "is " + describe(*found))});
     return std::nullopt;
   }
   refuse_unknown_keys(*found, "/units", {"d", "unit", "density"}, diagnostics);

@@ -139,6 +139,9 @@ struct WrittenJson {
 };
 
 std::string up_to(const Parameter& parameter) {
+  if (parameter.range && !std::isinf(parameter.range->high)) {
+    return " in " + parameter.range->text();
+  }
   if (parameter.largest == std::numeric_limits<std::int64_t>::max()) return "";
   return " up to " + std::to_string(parameter.largest);
 }

@@ -56,6 +56,12 @@ TEST_CASE("a value that a block sets and varies is refused") {
                  "value is never used; take one of them out"});
 }
 
+TEST_CASE("of a container that a block sets and varies, what it varies is named") {
+  CHECK(errors_of(sweep_of(R"({"set": {"tube.diameter": 7}, "grid": {"box.width": [8]}})")) ==
+        Messages{"s.json:1:63 /sweep/0/set/tube.diameter: the block varies box.width, so that this "
+                 "value is never used; take one of them out"});
+}
+
 TEST_CASE("a container without parts is a box with its defaults, and no tube") {
   const PackingSpec spec = spec_of(R"({"tube.diameter": 7})", R"({"set": {"box": {}}})");
   CHECK_FALSE(spec.box.is_tube);
@@ -68,6 +74,12 @@ TEST_CASE("a container without parts is a box with its defaults, and no tube") {
                "keep one of box, tube"});
   CHECK(errors_in_base(R"({"tube": {}})") ==
         Messages{R"(s.json:2:10 /base/tube: a tube needs its diameter: write {"diameter": 7})"});
+}
+
+TEST_CASE("what a preset breaks is told where the preset is named") {
+  CHECK(errors_in_base(R"({"shape": "cube", "accuracy": "exact"})") ==
+        Messages{"s.json:2:31 /base/accuracy: accuracy.rest must be in_steps for grains that are "
+                 "not spheres, is exact"});
 }
 
 TEST_CASE("a sweep that names no accuracy is balanced") {
@@ -140,6 +152,11 @@ TEST_CASE("why there is no parameter of a name depends on where it is looked for
   const std::string is_unit = "the mean diameter of the large grains is d, the unit of length";
   CHECK(hint(R"({"diameter": 1})") == is_unit);
   CHECK(hint(R"({"sizes": {"mean": 1}})") == is_unit);
+  CHECK(hint(R"({"tube": {"diameter": 5, "length": 9}})") ==
+        "a tube is open at the top; fill.solid_height says how much is filled in");
+  CHECK(hint(R"({"shape": {"sphere": {}}})") ==
+        "write \"shape\": \"sphere\"; a sphere has no parts");
+  CHECK(hint(R"({"replicates": 3})") == "it stands beside \"base\", or in a block beside \"set\"");
   CHECK(hint(R"({"sizes": {"distribution": {"table": {"diameter": 1}}}})") ==
         "did you mean \"diameters\"?");
   CHECK(hint(R"({"sizes": {"distribution": {"uniform": {"diameter": 1}}}})") ==

@@ -35,7 +35,9 @@ TEST_CASE("malformed JSON is refused with line, column and what to change") {
   CHECK(message_about("# why\n{}") == "f:1:1: JSON has no comments; remove it");
   CHECK(message_about(R"({"a" 5})") ==
         "f:1:6: malformed JSON: unexpected number literal; expected ':'");
-  CHECK(message_about("{}}") == "f:1:3: malformed JSON: unexpected '}'; expected end of input");
+  CHECK(message_about("{}}") == "f:1:3: the sweep has ended before this; remove it");
+  CHECK(message_about(R"({"a": "}"} more)") ==
+        "f:1:12: the sweep has ended before this; remove it");
 }
 
 TEST_CASE("a text that ends too early is refused at its end") {

@@ -177,7 +177,7 @@ TEST_CASE("distributions that cannot be drawn from are refused") {
   CHECK(error("box.y", R"({"uniform": [0, 1]})") ==
         "box.y/uniform: box.y is not drawn from an interval; use {\"choice\": [...]}");
   CHECK(error("fill.grains", R"({"uniform": [1.5, 2]})") ==
-        "fill.grains/uniform: must be a whole number, is 1.5");
+        "fill.grains/uniform: must be a whole number in [1, 10000000], is 1.5");
   CHECK(error("box.width", R"({"choice": []})") ==
         "box.width/choice: must be a list of at least one value, is empty");
   CHECK(error("box.width", R"({"choice": [5, "a"]})") ==

@@ -26,7 +26,7 @@ TEST_CASE("wrong units are told with what they must be") {
   CHECK(error("3.2") ==
         R"(/units: must say how long d is, e.g. { "d": 3.2, "unit": "mm" }, is 3.2)");
   CHECK(error(R"({"d": 3})") ==
-        R"(/units: must say how long d is, e.g. { "d": 3.2, "unit": "mm" }, is an object)");
+        R"(/units: must say how long d is, e.g. { "d": 3.2, "unit": "mm" }, has no "unit")");
   CHECK(error(R"({"d": 0, "unit": "mm"})") == "/units/d: must be a number in (0, 1000000], is 0");
   CHECK(error(R"({"d": "3", "unit": "mm"})") ==
         R"(/units/d: must be a number in (0, 1000000], is the text "3")");
