@@ -77,6 +77,10 @@ inline constexpr double imbalance_share_of_few = 0.5;
 /// Whether a bed has more contacts than degrees of freedom by more than the tolerance.
 bool is_hyperstatic(const RestReport& rest, const Accuracy& accuracy);
 
+/// In longer steps gravity outruns the longest motion of a step, and beds may not come to rest,
+/// sqrt(d/g).
+inline constexpr double longest_settling_step = 0.4;
+
 /// The first test of rest that `rest` fails and what to change, in words; empty if it passes all.
 /// `may_go_on`: accuracy.max_steps left steps to come to rest in.
 std::string rest_failure(const RestReport& rest, const Accuracy& accuracy, bool may_go_on = true);

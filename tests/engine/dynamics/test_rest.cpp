@@ -270,6 +270,11 @@ TEST_CASE("the test of rest that failed is named with value and tolerance") {
   CHECK(rest_failure(few, accuracy, false) ==
         "contacts / isostatic count 0.9 is below 1 by more than 0.04: make accuracy.max_steps "
         "larger");
+  Accuracy too_long = accuracy;
+  too_long.step = 0.8;
+  CHECK(rest_failure(overlap, too_long, false) ==
+        "mean overlap 0.002 d exceeds 1e-05: make accuracy.step smaller, 0.4 sqrt(d/g) at most, "
+        "for gravity outruns the motion of longer ones");
 }
 
 TEST_CASE("a bed out of balance is told what would call it balanced") {
