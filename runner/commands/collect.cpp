@@ -316,8 +316,8 @@ int perform(const CollectOptions& options) {
   const Analysis analysis = analyse(rows, options.out);
   write_tables(options.out, collection.provenance, rows, analysis);
   const auto pending = static_cast<std::size_t>(totals_of(rows).counts.pending);
-  std::cout << collection.added << " packings added to " << options.out << ", which now holds "
-            << rows.size() - pending << " of " << rows.size() << "\n"
+  std::cout << counted(collection.added, "packing") << " added to " << options.out
+            << ", which now holds " << rows.size() - pending << " of " << rows.size() << "\n"
             << std::flush;
   std::cout << write_page(options.out, collection.provenance, rows, analysis);
   return exit_done;

@@ -9,6 +9,7 @@
 #include "runner/exit_codes.hpp"
 #include "runner/machine.hpp"
 #include "runner/store/files.hpp"
+#include "runner/store/runners.hpp"
 #include "runner/tables/closing_report.hpp"
 
 namespace grainsweep {
@@ -27,7 +28,8 @@ int perform(const ReportOptions& options) {
   const Analysis analysis = analyse(results.rows, options.folder);
   std::cout << closing_report(
                    results.provenance, results.rows, analysis.families,
-                   {called_as(), options.folder, has_grains(options.folder, results.rows)})
+                   {called_as(), options.folder, has_grains(options.folder, results.rows),
+                    is_worked_on(options.folder, results.last_runs)})
             << std::flush;
   try {
     std::cout << write_page(options.folder, results.provenance, results.rows, analysis);

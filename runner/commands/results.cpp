@@ -244,8 +244,8 @@ std::string other_versions_warning(const std::vector<Row>& rows, const std::stri
   };
   const auto count = std::count_if(rows.begin(), rows.end(), is_other);
   if (count == 0) return "";
-  return "warning: " + std::to_string(count) + " of " + std::to_string(rows.size()) +
-         " packings were made by another version than " + version +
+  return "warning: " + std::to_string(count) + " of " + counted(rows.size(), "packing") +
+         (rows.size() == 1 ? " was" : " were") + " made by another version than " + version +
          "; run with --fresh to make all anew\n";
 }
 

@@ -280,11 +280,12 @@ StatusCounts counts_of(const std::vector<Row>& rows, const std::vector<std::size
 int stopped(const Packed& packed, const RunOptions& options, const std::string& folder,
             const StatusCounts& counts, std::size_t packings) {
   const bool by_signal = stop_signal() != 0, by_failure = !packed.first_failure.empty();
+  const std::size_t made = packings - static_cast<std::size_t>(counts.pending);
   std::cerr << (by_signal    ? "Stopped."
                 : by_failure ? "Stopped by --fail-fast after " + packed.first_failure + "."
                              : "Stopped by the limit of time.")
-            << " " << packings - static_cast<std::size_t>(counts.pending) << " of " << packings
-            << " packings are kept in " << folder;
+            << " " << made << " of " << counted(packings, "packing")
+            << (packings == 1 ? " is" : " are") << " kept in " << folder;
   const std::size_t saved = saved_packings(folder);
   if (saved > 0) std::cerr << ", " << saved << " under way in its checkpoints";
   std::cerr << ".\nGo on with: " << called_as() << " run " << repeated(options, folder) << "\n";
@@ -297,9 +298,10 @@ int stopped(const Packed& packed, const RunOptions& options, const std::string& 
 int exit_code_for(const StatusCounts& counts, int left_to_others, const RunOptions& options,
                   const std::string& folder) {
   if (counts.pending > left_to_others) {
-    std::cerr << "warning: " << counts.pending - left_to_others << " packings are no longer in "
-              << folder
-              << ", though they were stored there; run the sweep again to make them anew\n";
+    const auto lost = static_cast<std::size_t>(counts.pending - left_to_others);
+    std::cerr << "warning: " << counted(lost, "packing") << (lost == 1 ? " is" : " are")
+              << " no longer in " << folder
+              << ", though stored there; run the sweep again to make what is missing anew\n";
   }
   const int unsettled = counts.failed + counts.not_settled;
   const bool is_tolerated = unsettled <= options.tolerate_unsettled * (unsettled + counts.settled);
@@ -336,7 +338,8 @@ void tell_of_others(const std::vector<Row>& rows, const Shard& shard, const std:
                     const RunOptions& options) {
   const auto pending = static_cast<std::size_t>(totals_of(rows).counts.pending);
   std::cout << "Shard " << shard.number << "/" << shard.count << " is done; of the sweep "
-            << rows.size() - pending << " of " << rows.size() << " packings are in " << folder
+            << rows.size() - pending << " of " << counted(rows.size(), "packing")
+            << (rows.size() == 1 ? " is in " : " are in ") << folder
             << ". The last shard writes the tables, or: " << called_as() << " run "
             << shell_word(options.file) << " --out " << shell_word(folder) << "\n";
 }

@@ -80,8 +80,8 @@ Standing standing_of(const std::string& folder, bool check) {
 
 std::string progress_text(const StatusCounts& counts, std::size_t packings) {
   const std::size_t done = packings - static_cast<std::size_t>(counts.pending);
-  return std::to_string(done) + " of " + std::to_string(packings) +
-         " packings done: " + std::to_string(counts.settled) + " settled, " +
+  return std::to_string(done) + " of " + counted(packings, "packing") +
+         " done: " + std::to_string(counts.settled) + " settled, " +
          std::to_string(counts.not_settled) + " not settled, " + std::to_string(counts.failed) +
          " failed";
 }
@@ -140,7 +140,9 @@ void print_status(const Standing& standing) {
             << runners_text(standing) << (standing.queue ? queue_text(*standing.queue) : "")
             << (is_done ? "" : left_text(standing));
   if (results.orphaned > 0) {
-    std::cout << results.orphaned << " stored packings belong to an earlier form of the sweep\n";
+    std::cout << counted(results.orphaned, "stored packing")
+              << (results.orphaned == 1 ? " belongs" : " belong")
+              << " to an earlier form of the sweep\n";
   }
   if (is_idle(standing) && !is_done && !sweep_file.empty()) {
     std::cout << "Go on with: " << called_as() << " run " << shell_word(sweep_file) << " --out "

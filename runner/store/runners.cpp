@@ -1,5 +1,6 @@
 #include "runner/store/runners.hpp"
 
+#include <algorithm>
 #include <fcntl.h>
 
 #include <sys/stat.h>
@@ -36,6 +37,12 @@ std::vector<Runner> runners_in(const std::string& folder,
     runners.push_back(std::move(runner));
   }
   return runners;
+}
+
+bool is_worked_on(const std::string& folder, const std::map<std::string, RunRecord>& last_runs) {
+  const std::vector<Runner> runners = runners_in(folder, last_runs);
+  return std::any_of(runners.begin(), runners.end(),
+                     [](const Runner& runner) { return !runner.is_lost; });
 }
 
 std::string owner_text(const std::optional<RunRecord>& run) {

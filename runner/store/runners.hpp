@@ -28,6 +28,9 @@ struct Runner {
 std::vector<Runner> runners_in(const std::string& folder,
                                const std::map<std::string, RunRecord>& last_runs);
 
+/// Whether one of them is at work.
+bool is_worked_on(const std::string& folder, const std::map<std::string, RunRecord>& last_runs);
+
 /// "host n7, process 4711"; "another process" if there is no run.
 std::string owner_text(const std::optional<RunRecord>& run);
 

@@ -307,7 +307,7 @@ std::string left_out_text(const StatusCounts& counts) {
 
 std::string headline(const std::string& name, std::size_t packings, const StatusCounts& counts) {
   const std::string left_out = left_out_text(counts);
-  std::string text = name + ": " + std::to_string(packings) + " packings, " +
+  std::string text = name + ": " + counted(packings, "packing") + ", " +
                      std::to_string(counts.settled) + " settled";
   if (!left_out.empty()) text += "; left out of means and fits: " + left_out;
   return text + "\n";
@@ -333,10 +333,13 @@ std::string effort_text(const Provenance& provenance, double cpu_seconds) {
   std::string text = "\nCPU time of all packings " + duration_text(cpu_seconds);
   if (!provenance.runs.empty()) {
     const RunRecord& last = provenance.runs.back();
-    text += "; last run " + (last.ended.empty() ? "not ended" : duration_text(last.wall_seconds)) +
-            " for " + std::to_string(last.packings) + " packings on " +
-            std::to_string(last.threads) + (last.threads == 1 ? " thread" : " threads") + ", " +
-            last.isa;
+    const auto of = [](int count, const char* noun) {
+      return counted(static_cast<std::size_t>(count), noun);
+    };
+    text += last.ended.empty() ? "; the last run has not ended"
+                               : "; last run " + duration_text(last.wall_seconds) + " for " +
+                                     of(last.packings, "packing") + " on " +
+                                     of(last.threads, "thread") + ", " + last.isa;
   }
   return text + "\n";
 }
@@ -345,6 +348,10 @@ std::string next_text(const std::string& sweep_file, const StatusCounts& counts,
                       const ReportPlace& place) {
   const std::string folder = shell_word(place.folder);
   const std::string file = sweep_file.empty() ? "FILE" : shell_word(sweep_file);
+  if (counts.pending > 0 && place.is_worked_on) {
+    return "A runner makes what is missing: " + place.program + " status " + folder +
+           " tells how far it is\n";
+  }
   if (counts.pending > 0) {
     return "Next: " + place.program + " run " + file + " --out " + folder +
            " makes what is missing\n";

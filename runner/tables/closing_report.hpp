@@ -11,9 +11,10 @@ namespace grainsweep {
 
 /// Whose tables they are.
 struct ReportPlace {
-  std::string program;     ///< what the program was called by, as a shell takes it
-  std::string folder;      ///< output folder
-  bool has_grains = true;  ///< whether its beds can be exported, as of has_grains
+  std::string program;        ///< what the program was called by, as a shell takes it
+  std::string folder;         ///< output folder
+  bool has_grains = true;     ///< whether its beds can be exported, as of has_grains
+  bool is_worked_on = false;  ///< a runner makes what is missing
 };
 
 /// Whether the first bed that is stored in the folder has its grains, which those of a run with

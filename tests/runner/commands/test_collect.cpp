@@ -95,7 +95,7 @@ TEST_CASE("a sound bed that is collected in the place of a damaged one of later 
     };
     const Printed mending = collect();
     CHECK_THAT(mending.error, Contains(name_of(shard) + ".beds: packing a1: damaged"));
-    CHECK_THAT(mending.out, Contains("1 packings added to " + out + ", which now holds 1 of 1"));
+    CHECK_THAT(mending.out, Contains("1 packing added to " + out + ", which now holds 1 of 1"));
     Results all = read_results(out);
     CHECK(check_beds(out, all.rows).empty());
     CHECK(status_of(all.rows[0]) == "settled");

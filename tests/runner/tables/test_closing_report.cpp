@@ -98,6 +98,28 @@ TEST_CASE("the closing report as a whole") {
       "Next: ./run.sh export out/a --format vtp writes the grains for ParaView\n");
 }
 
+TEST_CASE("during a run the report proposes no other one") {
+  std::vector<Row> rows = sample_rows();
+  rows[0].outcome = {};
+  const auto report_where = [&](bool is_worked_on) {
+    return closing_report(reported_provenance(), rows, analyse(rows).families,
+                          {"./run.sh", "out/a", true, is_worked_on});
+  };
+  CHECK_THAT(report_where(false), Catch::Contains("Next: ./run.sh run a.json --out out/a makes"));
+  Provenance at_work = reported_provenance();
+  at_work.runs[0].ended.clear();
+  CHECK_THAT(report_of(at_work, rows, "out/a"), Catch::Contains("; the last run has not ended\n"));
+  CHECK_THAT(report_where(true), !Catch::Contains("Next: ") &&
+                                     Catch::EndsWith("A runner makes what is missing: ./run.sh "
+                                                     "status out/a tells how far it is\n"));
+}
+
+TEST_CASE("a single packing is told as one") {
+  const std::vector<Row> rows = {settled_row("a", 5, 0.6, 6)};
+  CHECK_THAT(report_of(reported_provenance(), rows, "out/a"),
+             Catch::StartsWith("a: 1 packing, 1 settled\n"));
+}
+
 TEST_CASE("of beds without grains the report says no more than where the tables are") {
   const std::vector<Row> rows = sample_rows();
   CHECK_THAT(closing_report(reported_provenance(), rows, analyse(rows).families,
