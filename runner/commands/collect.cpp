@@ -13,6 +13,7 @@
 
 #include "runner/commands/commands.hpp"
 #include "runner/commands/results.hpp"
+#include "runner/commands/shared_options.hpp"
 #include "runner/exit_codes.hpp"
 #include "runner/jobs/progress.hpp"
 #include "runner/machine.hpp"
@@ -292,6 +293,7 @@ CLI::App& add_command(CLI::App& app, CollectOptions& options) {
   collect.add_option("DIR", options.folders, "output folders")->required()->type_name("");
   collect.add_option("--out", options.out, "folder to merge into; what it holds stays")
       ->required()
+      ->check(not_empty())
       ->type_name("DIR");
   collect.footer("Example: grainsweep collect out/node1 out/node2 --out out/all");
   return collect;

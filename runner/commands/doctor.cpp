@@ -56,8 +56,14 @@ int perform(const DoctorOptions& /*options*/) {
             << usable_cores() << "\nmemory            " << fixed(available_memory() / 1e9, 1)
             << " GB available\nfigures           " << drawing_text() << "\n"
             << std::flush;
-  std::cout << "writing here      works, " << fixed(1e3 * write_test(), 1)
-            << " ms for a file kept on the disk\n";
+  std::cout << "writing here      " << std::flush;
+  try {
+    const double seconds = write_test();
+    std::cout << "works, " << fixed(1e3 * seconds, 1) << " ms for a file kept on the disk\n";
+  } catch (const FileError& error) {
+    std::cout << "fails: " << error.what() << "\n";
+    return exit_file_system;
+  }
   return exit_done;
 }
 

@@ -16,6 +16,7 @@
 #include "runner/export/formats.hpp"
 #include "runner/report/bed_view.hpp"
 #include "runner/store/files.hpp"
+#include "runner/tables/units.hpp"
 #include "runner/text.hpp"
 
 namespace grainsweep {
@@ -180,6 +181,7 @@ CLI::App& add_command(CLI::App& app, ExportOptions& options) {
       ->capture_default_str()
       ->type_name("N");
   grains.add_option("--to", options.to, "folder for the files (default: DIR/export)")
+      ->check(not_empty())
       ->type_name("DIR");
   grains.footer("Example: grainsweep export out/quick --format vtp --to /tmp/beds");
   return grains;
@@ -231,6 +233,10 @@ int perform(const ExportOptions& options) {
   replace_file(to + "/index.csv", index_csv(to, rows, endings(), written));
   std::cout << counted(written.size(), "packing") << " written to " << to
             << "/<label>-<group>-<replicate>" << ending << ", listed in index.csv\n";
+  if (const GivenUnits& units = results.provenance.units; units && format != nullptr) {
+    std::cout << "Lengths in them are in d, which is " << length_in(*units, 1.0) << " "
+              << printed_unit(*units) << "\n";
+  }
   if (unsettled > 0) {
     std::cout << unsettled << " of them did not come to rest: see the column status there\n";
   }

@@ -245,6 +245,7 @@ CLI::App& add_command(CLI::App& app, PlanOptions& options) {
       *app.add_subcommand("plan", "List the packings of a sweep with estimated time and memory");
   add_file(plan, options.file);
   plan.add_option("--out", options.out, "output folder: packings made in it teach the estimates")
+      ->check(not_empty())
       ->type_name("DIR");
   add_threads(plan, options.threads);
   plan.add_option("--shards", options.shards, "how evenly so many shards divide it")

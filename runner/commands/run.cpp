@@ -359,6 +359,7 @@ CLI::App& add_command(CLI::App& app, RunOptions& options) {
       "run", "Make the packings of a sweep, or what is missing of them, and the tables");
   add_file(run, options.file);
   run.add_option("--out", options.out, "output folder (default: out/<sweep name>)")
+      ->check(not_empty())
       ->type_name("DIR");
   add_threads(run, options.threads);
   run.add_option("--isa", options.isa,

@@ -32,6 +32,13 @@ CLI::Validator number_within(double least, double most) {
   return {mistake, "FLOAT in [" + from + " - " + to + "]"};
 }
 
+CLI::Validator not_empty() {
+  const auto mistake = [](const std::string& word) {
+    return word.empty() ? std::string("is empty; name a folder or leave it out") : std::string();
+  };
+  return {mistake, ""};
+}
+
 void add_file(CLI::App& command, std::string& file) {
   command.add_option("FILE", file, "sweep definition, JSON")->required()->type_name("");
 }

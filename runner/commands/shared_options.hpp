@@ -24,6 +24,9 @@ void add_file(CLI::App& command, std::string& file);
 /// The output folder of a run.
 void add_folder(CLI::App& command, std::string& folder);
 
+/// For the name of a folder that may be left out, but not be empty, as that of an unset variable.
+CLI::Validator not_empty();
+
 /// How many packings are made at once; stays 0 if it is not given.
 void add_threads(CLI::App& command, int& threads);
 

@@ -127,6 +127,7 @@ CLI::App& add_command(CLI::App& app, SlurmOptions& options) {
   slurm
       .add_option("--out", options.out,
                   "output folder, which all nodes see (default: out/<sweep name>)")
+      ->check(not_empty())
       ->type_name("DIR");
   slurm.add_flag("--print", options.print, "print the scripts; write and submit nothing");
   slurm.add_option("--partition", options.partition, "of the cluster (default: its default)")

@@ -117,6 +117,8 @@ TEST_CASE("mistakes are refused with exit code 2 and a message") {
       {"export", "o", "--format", "voxels", "--voxels", "20d"},
       {"collect", "a"},
       {"collect", "--out", "b"},
+      {"run", "a.json", "--out", ""},
+      {"export", "a", "--to", ""},
       {"completion", "bash"},
       {"doctor", "--quiet"}};
   for (const auto& words : mistakes) {

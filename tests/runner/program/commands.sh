@@ -30,6 +30,8 @@ expect_text out.txt "sse2" "cores" "oneTBB" "figures  "
 mkdir no-programs
 expect_code 0 env PATH="$here/no-programs" "$program" doctor
 expect_text out.txt "figures           no gnuplot: pages have no figures (Debian: apt-get install"
+expect_code 4 bash -c 'mkdir gone && cd gone && rmdir ../gone && exec "$0" doctor' "$program"
+expect_text out.txt "writing here      fails: "
 [ ! -e out ] || fail "looking wrote something"
 
 # Whether such small beds all settle is not the point here: 0 and 1 both end a run.
@@ -116,6 +118,8 @@ expect_text out/small/report.html "bulk density / kg/m³" "d = 3.2 mm" "W / mm"
 cp out.txt report.txt
 expect_code 0 env PATH="$here/no-programs" "$program" report out/small
 cmp out.txt report.txt || fail "report prints other units than run"
+expect_code 0 "$program" export out/small --job "$job" --to one
+expect_text out.txt "Lengths in them are in d, which is 3.2 mm"
 
 # A file where the output folder should be, and a folder that cannot be written.
 touch taken
