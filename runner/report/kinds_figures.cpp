@@ -53,6 +53,14 @@ std::vector<double> places_of(const Axes& axes) {
   return places;
 }
 
+bool has_contacts(const Axes& axes) {
+  return std::any_of(axes.series.begin(), axes.series.end(), [](const Series& series) {
+    return std::any_of(series.groups.begin(), series.groups.end(), [](const Group* group) {
+      return std::isfinite(mean_of(*group, "contacts_simple").mean);
+    });
+  });
+}
+
 /// Those with a difference that is known in errors.
 std::vector<const Comparison*> measured_of(const std::vector<Comparison>& comparisons) {
   std::vector<const Comparison*> measured;
@@ -98,6 +106,10 @@ Figure contacts_figure(const Axes& axes) {
   figure.tables = {{"contacts.csv", kinds_csv(axes)}};
   if (shown_series(axes).empty()) {
     figure.not_drawn = "no packing has settled";
+    return figure;
+  }
+  if (!has_contacts(axes)) {
+    figure.not_drawn = "no grains press on each other";
     return figure;
   }
   const Panels panels(figure, 2, {1.0},

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <limits>
 
 #include <catch2/catch.hpp>
 
@@ -111,6 +112,14 @@ TEST_CASE("of very many packings the figure of what they cost draws some, and sa
   const Figure& effort = figure_called(figures, "effort");
   CHECK(cells_of_table(effort.tables.at(0).second).size() == 1 + 5000);
   CHECK_THAT(effort.caption, Catch::Contains(" 5000 packings are drawn; all are in packings.csv."));
+}
+
+TEST_CASE("where no grains press on each other the kinds of contact say so", "[report]") {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  std::vector<Row> rows = {polyhedra_row("a", 4), polyhedra_row("b", 5)};
+  for (Row& row : rows) row.outcome->result.shape_order->contact_share = {none, none, none};
+  CHECK(figure_called(figures_of(rows, analyse(rows), {}), "contacts").not_drawn ==
+        "no grains press on each other");
 }
 
 TEST_CASE("where nothing has settled each figure says so", "[report]") {
