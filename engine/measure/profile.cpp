@@ -159,7 +159,8 @@ class OfComponents {
 };
 
 /// Adds the volume of one grain to the bins it reaches; `below(t)` is its volume below the plane at
-/// t, all of it for t infinite. Differences of one function: nothing is lost between bins.
+/// t, all of it for t infinite. Differences of one function, which rounding does not let fall:
+/// nothing is lost between bins, and none has less than nothing.
 template <class Below, class Gather>
 void add_volume(std::size_t grain, const Span& span, const Bins& bins, Below below,
                 Gather& gather) {
@@ -167,7 +168,8 @@ void add_volume(std::size_t grain, const Span& span, const Bins& bins, Below bel
   const std::int64_t last = bins.number_at(span.high);
   double before = 0.0;
   for (std::int64_t k = bins.number_at(span.low); k <= last; ++k) {
-    const double volume = below(k == last ? infinity : static_cast<double>(k + 1) * bins.width);
+    const double end = k == last ? infinity : static_cast<double>(k + 1) * bins.width;
+    const double volume = std::max(before, below(end));
     gather.add_volume(grain, bins.index(k), volume - before);
     before = volume;
   }

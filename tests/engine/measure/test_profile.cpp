@@ -384,6 +384,27 @@ std::vector<BothProfiles> profiles_of(const PolyhedronBed& bed, const Touching& 
   return all;
 }
 
+// Bins are differences of volumes, each of which is known to rounding.
+TEST_CASE("no bin of a profile holds less than nothing") {
+  Draw draw(37);
+  for (int k = 0; k < 20; ++k) {
+    const double length = draw.uniform(2, 6), width = draw.uniform(2, 6);
+    const Slab slab{draw.uniform(0, 2), draw.uniform(3, 7)};
+    const ProfileSettings settings{draw.uniform(0.01, 0.3), 0.7, 1e-4};
+    for (const Box& box : {Box{length, width, walls, walls}, tube_of(length)}) {
+      for (const BothProfiles& profiles :
+           profiles_of(mixture_bed(box, 100 + static_cast<std::uint64_t>(k)), {}, slab, settings)) {
+        for (const ProfileBin& bin : profiles.whole.bins) {
+          REQUIRE(std::min(bin.large, bin.small) >= 0);
+        }
+        for (const ComponentProfile& part : profiles.parts) {
+          for (const ComponentBin& bin : part.bins) REQUIRE(bin.solid_fraction >= 0);
+        }
+      }
+    }
+  }
+}
+
 TEST_CASE("the profiles of the components of a mixture add up to that of the bed") {
   Box tube{4, 4, walls, walls};
   tube.is_tube = true;
