@@ -23,9 +23,9 @@ void gauss_seidel_sweep(benchmark::State& run) {
   auto& motion = f.state.motion;
   const SweepRule<Real> rule{Real(0.9), Real(0.5)};
   for (auto _ : run) {
-    benchmark::DoNotOptimize(kernels.gauss_seidel_sweep(contacts.rows.data(), contacts.rows.size(),
-                                                        motion.u.data(), contacts.impulse.data(),
-                                                        contacts.extrapolated.data(), rule));
+    benchmark::DoNotOptimize(kernels.gauss_seidel_sweep(
+        contacts.rows.data(), contacts.rows.size(), nullptr, motion.u.data(),
+        contacts.impulse.data(), contacts.extrapolated.data(), rule));
     kernels.extrapolate(rule.momentum, motion.u.size(), motion.before.data(), motion.u.data());
   }
   count_rows(run, contacts.rows.size());
@@ -37,7 +37,7 @@ void residual(benchmark::State& run) {
   const RowKernels<Real>& kernels = row_kernels<Real>(kernels_of(run));
   const auto& contacts = f.state.contacts;
   for (auto _ : run) {
-    benchmark::DoNotOptimize(kernels.residual(contacts.rows.data(), contacts.rows.size(),
+    benchmark::DoNotOptimize(kernels.residual(contacts.rows.data(), contacts.rows.size(), nullptr,
                                               f.state.motion.u.data(), contacts.impulse.data()));
   }
   count_rows(run, contacts.rows.size());

@@ -95,13 +95,15 @@ struct RowKernels {
   /// Reads the extrapolated impulses y and their motion u = u(y); a row writes
   /// p = max(0, y - relaxation w / A), moves its grains by p - y at once, and then writes
   /// y = p + momentum (p - p_old). Leaves u = u(p). Without momentum y and p may be the same
-  /// column.
+  /// column. Unless `from` is null, impulses p and y are changes of those in it, and u and the gaps
+  /// count from the motion of these: what is small is not rounded with what is large.
   SweepSums<Real> (*gauss_seidel_sweep)(const RowBlock<Real>* rows, std::size_t blocks,
-                                        Record<Real>* u, Real* p, Real* y, SweepRule<Real> rule);
+                                        const Real* from, Record<Real>* u, Real* p, Real* y,
+                                        SweepRule<Real> rule);
   /// The same for pairs of rows of round walls: a row's maximum becomes the nearest point of the
   /// circle. `blocks` counts both blocks of a pair.
-  SweepSums<Real> (*round_sweep)(const RowBlock<Real>* rows, std::size_t blocks, Record<Real>* u,
-                                 Real* p, Real* y, SweepRule<Real> rule);
+  SweepSums<Real> (*round_sweep)(const RowBlock<Real>* rows, std::size_t blocks, const Real* from,
+                                 Record<Real>* u, Real* p, Real* y, SweepRule<Real> rule);
   /// The motion of extrapolated impulses: u = u + momentum (u - before) for `count` records; leaves
   /// what u was in `before`.
   void (*extrapolate)(Real momentum, std::size_t count, Record<Real>* before, Record<Real>* u);
@@ -111,23 +113,12 @@ struct RowKernels {
   /// Adds H p, the impulses of the rows, to the accumulated impulses of their grains.
   void (*accumulate_impulses)(const RowBlock<Real>* rows, std::size_t blocks, const Real* p,
                               Record<Real>* accumulated);
-  /// What all rows miss; of round walls with |p - the impulse that the row would give|.
-  Missed<Real> (*residual)(const RowBlock<Real>* rows, std::size_t blocks, const Record<Real>* u,
-                           const Real* p);
-  Missed<Real> (*round_residual)(const RowBlock<Real>* rows, std::size_t blocks,
+  /// What all rows miss, `from` as in a sweep; of round walls with |p - the impulse that the row
+  /// would give|.
+  Missed<Real> (*residual)(const RowBlock<Real>* rows, std::size_t blocks, const Real* from,
+                           const Record<Real>* u, const Real* p);
+  Missed<Real> (*round_residual)(const RowBlock<Real>* rows, std::size_t blocks, const Real* from,
                                  const Record<Real>* u, const Real* p);
-  /// The same where impulses p and y are changes of those in `from`, and u and the gaps count from
-  /// the motion of these: what is small is not rounded with what is large.
-  SweepSums<Real> (*sweep_of_changes)(const RowBlock<Real>* rows, std::size_t blocks,
-                                      const Real* from, Record<Real>* u, Real* p, Real* y,
-                                      SweepRule<Real> rule);
-  SweepSums<Real> (*round_sweep_of_changes)(const RowBlock<Real>* rows, std::size_t blocks,
-                                            const Real* from, Record<Real>* u, Real* p, Real* y,
-                                            SweepRule<Real> rule);
-  Missed<Real> (*residual_of_changes)(const RowBlock<Real>* rows, std::size_t blocks,
-                                      const Real* from, const Record<Real>* u, const Real* p);
-  Missed<Real> (*round_residual_of_changes)(const RowBlock<Real>* rows, std::size_t blocks,
-                                            const Real* from, const Record<Real>* u, const Real* p);
   /// Normals and gaps of sphere pairs (a, b of `rows`) from their positions, nearest image.
   /// period_x, period_y: d, 0 where the axis is walled. A negative gap is multiplied by
   /// `correction`, the share of an overlap that one step repairs. Where centres coincide the normal

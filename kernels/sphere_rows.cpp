@@ -120,16 +120,11 @@ SweepSums<Real> any_sweep(const RowBlock<Real>* rows, std::size_t blocks, From f
 }
 
 template <class Real>
-SweepSums<Real> gauss_seidel_sweep(const RowBlock<Real>* rows, std::size_t blocks, Record<Real>* u,
-                                   Real* p, Real* y, SweepRule<Real> rule) {
-  return any_sweep(rows, blocks, Nothing{}, u, p, y, rule);
+SweepSums<Real> gauss_seidel_sweep(const RowBlock<Real>* rows, std::size_t blocks, const Real* from,
+                                   Record<Real>* u, Real* p, Real* y, SweepRule<Real> rule) {
+  return from == nullptr ? any_sweep(rows, blocks, Nothing{}, u, p, y, rule)
+                         : any_sweep(rows, blocks, from, u, p, y, rule);
 }
-template <class Real>
-SweepSums<Real> sweep_of_changes(const RowBlock<Real>* rows, std::size_t blocks, const Real* from,
-                                 Record<Real>* u, Real* p, Real* y, SweepRule<Real> rule) {
-  return any_sweep(rows, blocks, from, u, p, y, rule);
-}
-
 template <class Real>
 void extrapolate(Real momentum, std::size_t count, Record<Real>* before, Record<Real>* u) {
   constexpr std::size_t numbers_of_record = 4;
@@ -196,16 +191,11 @@ Missed<Real> any_residual(const RowBlock<Real>* rows, std::size_t blocks, From f
 }
 
 template <class Real>
-Missed<Real> residual(const RowBlock<Real>* rows, std::size_t blocks, const Record<Real>* u,
-                      const Real* p) {
-  return any_residual(rows, blocks, Nothing{}, u, p);
+Missed<Real> residual(const RowBlock<Real>* rows, std::size_t blocks, const Real* from,
+                      const Record<Real>* u, const Real* p) {
+  return from == nullptr ? any_residual(rows, blocks, Nothing{}, u, p)
+                         : any_residual(rows, blocks, from, u, p);
 }
-template <class Real>
-Missed<Real> residual_of_changes(const RowBlock<Real>* rows, std::size_t blocks, const Real* from,
-                                 const Record<Real>* u, const Real* p) {
-  return any_residual(rows, blocks, from, u, p);
-}
-
 /// Two components of vectors.
 template <class Real>
 struct Planar {
@@ -319,17 +309,11 @@ SweepSums<Real> any_round_sweep(const RowBlock<Real>* rows, std::size_t blocks, 
 }
 
 template <class Real>
-SweepSums<Real> round_sweep(const RowBlock<Real>* rows, std::size_t blocks, Record<Real>* u,
-                            Real* p, Real* y, SweepRule<Real> rule) {
-  return any_round_sweep(rows, blocks, Nothing{}, u, p, y, rule);
+SweepSums<Real> round_sweep(const RowBlock<Real>* rows, std::size_t blocks, const Real* from,
+                            Record<Real>* u, Real* p, Real* y, SweepRule<Real> rule) {
+  return from == nullptr ? any_round_sweep(rows, blocks, Nothing{}, u, p, y, rule)
+                         : any_round_sweep(rows, blocks, from, u, p, y, rule);
 }
-template <class Real>
-SweepSums<Real> round_sweep_of_changes(const RowBlock<Real>* rows, std::size_t blocks,
-                                       const Real* from, Record<Real>* u, Real* p, Real* y,
-                                       SweepRule<Real> rule) {
-  return any_round_sweep(rows, blocks, from, u, p, y, rule);
-}
-
 template <class Real, class From>
 Missed<Real> any_round_residual(const RowBlock<Real>* rows, std::size_t blocks, From from,
                                 const Record<Real>* u, const Real* p) {
@@ -349,16 +333,11 @@ Missed<Real> any_round_residual(const RowBlock<Real>* rows, std::size_t blocks, 
 }
 
 template <class Real>
-Missed<Real> round_residual(const RowBlock<Real>* rows, std::size_t blocks, const Record<Real>* u,
-                            const Real* p) {
-  return any_round_residual(rows, blocks, Nothing{}, u, p);
+Missed<Real> round_residual(const RowBlock<Real>* rows, std::size_t blocks, const Real* from,
+                            const Record<Real>* u, const Real* p) {
+  return from == nullptr ? any_round_residual(rows, blocks, Nothing{}, u, p)
+                         : any_round_residual(rows, blocks, from, u, p);
 }
-template <class Real>
-Missed<Real> round_residual_of_changes(const RowBlock<Real>* rows, std::size_t blocks,
-                                       const Real* from, const Record<Real>* u, const Real* p) {
-  return any_round_residual(rows, blocks, from, u, p);
-}
-
 constexpr double far_apart = 1e300;
 
 template <class Real>
@@ -392,19 +371,9 @@ double sphere_gaps(RowBlock<Real>* rows, std::size_t blocks, const Record<double
 
 template <class Real>
 constexpr grainsweep::RowKernels<Real> table() {
-  return {apply_impulses<Real>,
-          gauss_seidel_sweep<Real>,
-          round_sweep<Real>,
-          extrapolate<Real>,
-          extrapolate_grains<Real>,
-          accumulate_impulses<Real>,
-          residual<Real>,
-          round_residual<Real>,
-          sweep_of_changes<Real>,
-          round_sweep_of_changes<Real>,
-          residual_of_changes<Real>,
-          round_residual_of_changes<Real>,
-          sphere_gaps<Real>};
+  return {apply_impulses<Real>, gauss_seidel_sweep<Real>, round_sweep<Real>,
+          extrapolate<Real>,    extrapolate_grains<Real>, accumulate_impulses<Real>,
+          residual<Real>,       round_residual<Real>,     sphere_gaps<Real>};
 }
 
 }  // namespace

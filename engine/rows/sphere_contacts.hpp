@@ -101,28 +101,16 @@ struct Contacts<Sphere, Real> {
   SweepSums<Real> sweep(const Kernels& all, BlockRange range, const SweepRule<Real>& rule,
                         Record<Real>* u) {
     const RowKernels<Real>& kernels = row_kernels<Real>(all);
-    const bool is_flat = range.first < first_round;
     const std::size_t at = range.first * block_width;
-    const RowBlock<Real>* first = rows.data() + range.first;
-    Real *const p = impulse.data() + at, *const y = extrapolated.data() + at;
-    if (changed_from.empty()) {
-      return (is_flat ? kernels.gauss_seidel_sweep : kernels.round_sweep)(first, range.blocks, u, p,
-                                                                          y, rule);
-    }
-    return (is_flat ? kernels.sweep_of_changes : kernels.round_sweep_of_changes)(
-        first, range.blocks, changed_from.data() + at, u, p, y, rule);
+    return (range.first < first_round ? kernels.gauss_seidel_sweep : kernels.round_sweep)(
+        rows.data() + range.first, range.blocks, from(at), u, impulse.data() + at,
+        extrapolated.data() + at, rule);
   }
   Missed<Real> residual(const Kernels& all, BlockRange range, const Record<Real>* u) const {
     const RowKernels<Real>& kernels = row_kernels<Real>(all);
-    const bool is_flat = range.first < first_round;
     const std::size_t at = range.first * block_width;
-    const RowBlock<Real>* first = rows.data() + range.first;
-    const Real* const p = impulse.data() + at;
-    if (changed_from.empty()) {
-      return (is_flat ? kernels.residual : kernels.round_residual)(first, range.blocks, u, p);
-    }
-    return (is_flat ? kernels.residual_of_changes : kernels.round_residual_of_changes)(
-        first, range.blocks, changed_from.data() + at, u, p);
+    return (range.first < first_round ? kernels.residual : kernels.round_residual)(
+        rows.data() + range.first, range.blocks, from(at), u, impulse.data() + at);
   }
   /// No contact pushes.
   void drop_impulses() {
@@ -133,6 +121,12 @@ struct Contacts<Sphere, Real> {
     row_kernels<Real>(all).accumulate_impulses(rows.data() + range.first, range.blocks,
                                                impulse.data() + range.first * block_width,
                                                accumulated);
+  }
+
+ private:
+  /// Of what the impulses from place `at` on are changes; null where they are whole.
+  const Real* from(std::size_t at) const {
+    return changed_from.empty() ? nullptr : changed_from.data() + at;
   }
 };
 template <class Real>

@@ -122,8 +122,8 @@ TEMPLATE_TEST_CASE("a Gauss-Seidel sweep gives the bits of its plain-loop twin",
   const SweepRule<TestType> rule{TestType(0.9), TestType(0.7)};
   on_random_row_problems<TestType>([&](const auto& kernels, auto& problem, auto& twin) {
     const auto sums =
-        kernels.gauss_seidel_sweep(problem.rows.data(), problem.rows.size(), problem.u.data(),
-                                   problem.p.data(), problem.y.data(), rule);
+        kernels.gauss_seidel_sweep(problem.rows.data(), problem.rows.size(), nullptr,
+                                   problem.u.data(), problem.p.data(), problem.y.data(), rule);
     const auto expected =
         testing::gauss_seidel_twin<TestType>(twin.rows.data(), twin.rows.size(), nullptr,
                                              twin.u.data(), twin.p.data(), twin.y.data(), rule);
@@ -151,16 +151,16 @@ TEMPLATE_TEST_CASE("a sweep of changes of impulses gives the bits of its plain-l
   on_random_row_problems<TestType>([&](const auto& kernels, auto& problem, auto& twin) {
     const std::vector<TestType> from = impulses_before(problem);
     const auto sums =
-        kernels.sweep_of_changes(problem.rows.data(), problem.rows.size(), from.data(),
-                                 problem.u.data(), problem.p.data(), problem.y.data(), rule);
+        kernels.gauss_seidel_sweep(problem.rows.data(), problem.rows.size(), from.data(),
+                                   problem.u.data(), problem.p.data(), problem.y.data(), rule);
     const auto expected =
         testing::gauss_seidel_twin(twin.rows.data(), twin.rows.size(), from.data(), twin.u.data(),
                                    twin.p.data(), twin.y.data(), rule);
     REQUIRE(same_bits(sums.missed, expected.missed));
     REQUIRE(same_bits(sums.restart_test, expected.restart_test));
     for (std::size_t k = 0; k < from.size(); ++k) REQUIRE(from[k] + problem.p[k] >= 0);
-    REQUIRE(same_bits(kernels.residual_of_changes(problem.rows.data(), problem.rows.size(),
-                                                  from.data(), problem.u.data(), problem.p.data()),
+    REQUIRE(same_bits(kernels.residual(problem.rows.data(), problem.rows.size(), from.data(),
+                                       problem.u.data(), problem.p.data()),
                       testing::residual_twin(twin.rows.data(), twin.rows.size(), from.data(),
                                              twin.u.data(), twin.p.data())));
   });
@@ -170,12 +170,12 @@ TEMPLATE_TEST_CASE("a Gauss-Seidel sweep without momentum needs one column of im
                    double) {
   on_random_row_problems<TestType>([](const auto& kernels, auto& problem, auto& twin) {
     twin.y = twin.p;
-    const auto sums =
-        kernels.gauss_seidel_sweep(problem.rows.data(), problem.rows.size(), problem.u.data(),
-                                   problem.p.data(), problem.p.data(), SweepRule<TestType>{});
+    const auto sums = kernels.gauss_seidel_sweep(problem.rows.data(), problem.rows.size(), nullptr,
+                                                 problem.u.data(), problem.p.data(),
+                                                 problem.p.data(), SweepRule<TestType>{});
     const auto expected =
-        kernels.gauss_seidel_sweep(twin.rows.data(), twin.rows.size(), twin.u.data(), twin.p.data(),
-                                   twin.y.data(), SweepRule<TestType>{});
+        kernels.gauss_seidel_sweep(twin.rows.data(), twin.rows.size(), nullptr, twin.u.data(),
+                                   twin.p.data(), twin.y.data(), SweepRule<TestType>{});
     REQUIRE(same_bits(sums.missed, expected.missed));
     problem.y = problem.p;
   });
@@ -266,7 +266,7 @@ TEMPLATE_TEST_CASE("accumulated impulses are divided by the masses and are gone 
 
 TEMPLATE_TEST_CASE("the residual has the bits of its plain-loop twin", "", float, double) {
   on_random_row_problems<TestType>([](const auto& kernels, auto& problem, auto& twin) {
-    const auto residual = kernels.residual(problem.rows.data(), problem.rows.size(),
+    const auto residual = kernels.residual(problem.rows.data(), problem.rows.size(), nullptr,
                                            problem.u.data(), problem.p.data());
     REQUIRE(same_bits(residual,
                       testing::residual_twin<TestType>(twin.rows.data(), twin.rows.size(), nullptr,
@@ -332,7 +332,7 @@ TEMPLATE_TEST_CASE("one Gauss-Seidel sweep stops two grains where they meet", ""
     problem.u[0] = {0.5, 0, 0, 1};   // mass 1
     problem.u[1] = {-0.5, 0, 0, 3};  // mass 1/3: they would overlap by .75
     const auto sums = row_kernels<TestType>(kernels_for(isa))
-                          .gauss_seidel_sweep(problem.rows.data(), 1, problem.u.data(),
+                          .gauss_seidel_sweep(problem.rows.data(), 1, nullptr, problem.u.data(),
                                               problem.p.data(), problem.p.data(), {});
     CHECK(problem.p[3] == TestType(0.75 / 4));
     CHECK(problem.u[0].x == TestType(0.5 - 0.75 / 4));
@@ -347,14 +347,15 @@ TEMPLATE_TEST_CASE("what a row misses counts in weights of its lighter grain", "
     RowProblem<TestType> problem = one_row(TestType(-1), TestType(0.25));
     problem.u[0] = {0, 0, 0, 8};  // mass 1/8
     problem.u[1] = {0, 0, 0, TestType(0.5)};
-    const auto missed = row_kernels<TestType>(kernels_for(isa))
-                            .residual(problem.rows.data(), 1, problem.u.data(), problem.p.data());
+    const auto missed =
+        row_kernels<TestType>(kernels_for(isa))
+            .residual(problem.rows.data(), 1, nullptr, problem.u.data(), problem.p.data());
     CHECK(missed.largest == TestType(2));  // 0.25 of a mass of 1, 8 times as light
     CHECK(missed.squares == TestType(4));
     CHECK(missed.loaded == TestType(0));
     problem.p[3] = TestType(0.5);
     CHECK(row_kernels<TestType>(kernels_for(isa))
-              .residual(problem.rows.data(), 1, problem.u.data(), problem.p.data())
+              .residual(problem.rows.data(), 1, nullptr, problem.u.data(), problem.p.data())
               .loaded == TestType(1));
   }
 }
@@ -365,7 +366,7 @@ TEMPLATE_TEST_CASE("a contact that opens loses its impulse", "", float, double) 
     RowProblem<TestType> problem = one_row(TestType(1));
     problem.p[3] = TestType(0.125);
     row_kernels<TestType>(kernels_for(isa))
-        .gauss_seidel_sweep(problem.rows.data(), 1, problem.u.data(), problem.p.data(),
+        .gauss_seidel_sweep(problem.rows.data(), 1, nullptr, problem.u.data(), problem.p.data(),
                             problem.p.data(), {});
     CHECK(problem.p[3] == 0);
     CHECK(problem.u[0].x == TestType(0.125));
