@@ -1,21 +1,27 @@
 #include "engine/dynamics/dissection.hpp"
 
 #include <algorithm>
+#include <array>
 #include <numeric>
+#include <optional>
 #include <utility>
-
-#include "engine/exact/halves.hpp"
 
 namespace grainsweep {
 
 namespace {
 
-constexpr std::size_t few_contacts = 32;  // not worth a plane
+constexpr std::ptrdiff_t few_contacts = 32;  // not worth a plane
+
+/// Where a plane stands along the axis across which it lies.
+struct Plane {
+  double Record<double>::*axis = &Record<double>::x;
+  double place = 0.0;  ///< d
+};
 
 class Dissection {
  public:
-  Dissection(const std::vector<ContactNode>& contacts, std::size_t grains)
-      : contacts_(contacts), order_(contacts.size()), below_(grains, 0), above_(grains, 0) {
+  Dissection(std::span<const Record<double>> centres, const std::vector<GrainPair>& contacts)
+      : centres_(centres), contacts_(contacts), order_(contacts.size()) {
     std::iota(order_.begin(), order_.end(), 0);
     dissect(order_.begin(), order_.end());
   }
@@ -24,63 +30,63 @@ class Dissection {
  private:
   using At = std::vector<std::int32_t>::iterator;
 
-  const ContactNode& node(std::int32_t contact) const {
-    return contacts_[static_cast<std::size_t>(contact)];
-  }
-  template <class Visit>
-  void visit_grains(std::int32_t contact, Visit visit) const {
-    for (const std::int32_t grain : {node(contact).a, node(contact).b}) {
-      if (grain != ContactNode::no_grain) visit(static_cast<std::size_t>(grain));
-    }
-  }
-
   void dissect(At first, At last) {
-    if (static_cast<std::size_t>(last - first) <= few_contacts) return;
-    const At middle = halve(first, last, [&](std::int32_t contact, int axis) {
-      return node(contact).place[static_cast<std::size_t>(axis)];
-    });
-    count_grains(first, middle, last);
-    const At below_end =
-        std::stable_partition(first, middle, [&](std::int32_t k) { return !parts(k, true); });
-    const At above_end =
-        std::stable_partition(middle, last, [&](std::int32_t k) { return !parts(k, false); });
-    const At taken_out = std::rotate(below_end, middle, above_end);
+    if (last - first <= few_contacts) return;
+    const std::optional<Plane> plane = best_plane(first, last);
+    if (!plane) return;
+    const At below_end = std::stable_partition(
+        first, last, [&](std::int32_t contact) { return grains_above(*plane, contact) == 0; });
+    const At above_end = std::stable_partition(
+        below_end, last, [&](std::int32_t contact) { return grains_above(*plane, contact) == 2; });
     dissect(first, below_end);
-    dissect(below_end, taken_out);
+    dissect(below_end, above_end);
   }
 
-  /// Contacts of each grain on both sides of the middle.
-  void count_grains(At first, At middle, At last) {
-    for (At at = first; at != last; ++at) {
-      visit_grains(*at, [&](std::size_t grain) { below_[grain] = above_[grain] = 0; });
+  /// None if each leaves no contact on one of its sides.
+  std::optional<Plane> best_plane(At first, At last) const {
+    std::optional<Plane> best;
+    std::ptrdiff_t fewest = last - first;
+    for (const auto axis : {&Record<double>::x, &Record<double>::y, &Record<double>::z}) {
+      std::vector<double> middles;
+      for (At at = first; at != last; ++at) {
+        const auto [p, q] = grains_of(*at);
+        middles.push_back((p.*axis + q.*axis) / 2.0);
+      }
+      std::sort(middles.begin(), middles.end());
+      for (const double share : {0.46, 0.48, 0.5, 0.52, 0.54}) {
+        const Plane plane{
+            axis, middles[static_cast<std::size_t>(share * static_cast<double>(middles.size()))]};
+        std::array<std::ptrdiff_t, 3> count{};
+        for (At at = first; at != last; ++at) ++count[grains_above(plane, *at)];
+        if (count[0] == 0 || count[2] == 0 || count[1] >= fewest) continue;
+        fewest = count[1];
+        best = plane;
+      }
     }
-    for (At at = first; at != middle; ++at) {
-      visit_grains(*at, [&](std::size_t grain) { ++below_[grain]; });
-    }
-    for (At at = middle; at != last; ++at) {
-      visit_grains(*at, [&](std::size_t grain) { ++above_[grain]; });
-    }
-  }
-  /// Whether a contact has to go for the halves to share no grain: of a grain with contacts on both
-  /// sides those of the side with fewer do.
-  bool parts(std::int32_t contact, bool is_below) const {
-    bool found = false;
-    visit_grains(contact, [&](std::size_t grain) {
-      const bool is_shared = below_[grain] > 0 && above_[grain] > 0;
-      found = found || (is_shared && (below_[grain] <= above_[grain]) == is_below);
-    });
-    return found;
+    return best;
   }
 
-  const std::vector<ContactNode>& contacts_;
+  /// Of the two of a contact.
+  std::size_t grains_above(const Plane& plane, std::int32_t contact) const {
+    const auto [p, q] = grains_of(contact);
+    return (p.*plane.axis < plane.place ? 0 : 1) + (q.*plane.axis < plane.place ? 0 : 1);
+  }
+
+  std::pair<const Record<double>&, const Record<double>&> grains_of(std::int32_t contact) const {
+    const GrainPair pair = contacts_[static_cast<std::size_t>(contact)];
+    return {centres_[static_cast<std::size_t>(pair.a)], centres_[static_cast<std::size_t>(pair.b)]};
+  }
+
+  std::span<const Record<double>> centres_;
+  const std::vector<GrainPair>& contacts_;
   std::vector<std::int32_t> order_;
-  std::vector<int> below_, above_;
 };
 
 }  // namespace
 
-std::vector<std::int32_t> dissect(const std::vector<ContactNode>& contacts, std::size_t grains) {
-  return Dissection(contacts, grains).take_order();
+std::vector<std::int32_t> elimination_order(std::span<const Record<double>> centres,
+                                            const std::vector<GrainPair>& contacts) {
+  return Dissection(centres, contacts).take_order();
 }
 
 }  // namespace grainsweep

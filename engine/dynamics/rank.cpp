@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cmath>
-#include <utility>
 #include <vector>
 
 #include <Eigen/SparseCholesky>
@@ -22,8 +21,7 @@ constexpr double least_eigenvalue = 1e-10;
 /// A force of 1 between two sides, along its normal: the force that it is on each of them and, on
 /// polyhedra, the torque, times M^-1/2.
 struct ForceColumn {
-  std::int32_t a = 0, b = 0;      ///< as of ForceContact
-  Vector place = Vector::Zero();  ///< d
+  std::int32_t a = 0, b = 0;  ///< as of ForceContact
   std::array<double, 6> on_a{}, on_b{};
 };
 
@@ -55,7 +53,6 @@ std::vector<ForceColumn> force_columns(const SphereBed& bed, const ExecutionCont
       normal = -Vector(n.x, n.y, n.z);
     }
     set_force(bed.motion[a].w, -normal, column.on_a);
-    column.place = Vector(p.x, p.y, p.z) + p.w * normal;
     columns.push_back(column);
   }
   return columns;
@@ -65,9 +62,8 @@ std::vector<ForceColumn> force_columns(const SphereBed& bed, const ExecutionCont
 ForceColumn column_of(const PolyhedronBed& bed, const PolyhedronContact& c,
                       const Vector& position) {
   const auto a = static_cast<std::size_t>(c.a);
-  const Pose pose = bed.pose(a);
-  const Vector normal = pose.orientation * c.normal;
-  ForceColumn column{c.a, c.b, pose.centre + pose.orientation * position};
+  const Vector normal = bed.pose(a).orientation * c.normal;
+  ForceColumn column{c.a, c.b};
   set_force(bed.motion[a].w, -normal, column.on_a);
   set_torque(-position.cross(c.normal).cwiseQuotient(bed.root_inertia[a]), column.on_a);
   if (bed.is_grain(c.b)) {
@@ -101,32 +97,25 @@ std::vector<ForceColumn> force_columns(PolyhedronBed& bed, const ExecutionContex
 
 // Degrees of freedom follow one another, grain after grain.
 
-/// M^-1/2 H, in an order that suits its factors; `columns` are put into it.
+/// M^-1/2 H, its columns in an order that suits its factors.
 template <class Kind>
-SparseMatrix contact_matrix(const Bed<Kind>& bed, std::vector<ForceColumn>& columns) {
-  std::vector<ContactNode> nodes;
-  nodes.reserve(columns.size());
-  for (const ForceColumn& c : columns) {
-    nodes.push_back({{c.place.x(), c.place.y(), c.place.z()},
-                     c.a,
-                     bed.is_grain(c.b) ? c.b : ContactNode::no_grain});
-  }
-  std::vector<ForceColumn> ordered;
-  ordered.reserve(columns.size());
-  for (const std::int32_t k : dissect(nodes, bed.grains())) {
-    ordered.push_back(columns[static_cast<std::size_t>(k)]);
-  }
-  columns = std::move(ordered);
+SparseMatrix contact_matrix(const Bed<Kind>& bed, const std::vector<ForceColumn>& columns) {
+  std::vector<GrainPair> contacts;
+  contacts.reserve(columns.size());
+  for (const ForceColumn& c : columns) contacts.push_back({c.a, bed.is_grain(c.b) ? c.b : c.a});
   std::vector<Eigen::Triplet<double>> entries;
-  for (std::size_t k = 0; k < columns.size(); ++k) {
+  int place = 0;
+  for (const std::int32_t k : elimination_order(bed.centres(), contacts)) {
+    const ForceColumn& column = columns[static_cast<std::size_t>(k)];
     const auto add_side = [&](std::int32_t grain, const std::array<double, 6>& side) {
       for (int i = 0; i < Kind::degrees_of_freedom; ++i) {
-        entries.emplace_back(Kind::degrees_of_freedom * grain + i, static_cast<int>(k),
+        entries.emplace_back(Kind::degrees_of_freedom * grain + i, place,
                              side[static_cast<std::size_t>(i)]);
       }
     };
-    if (bed.is_grain(columns[k].b)) add_side(columns[k].b, columns[k].on_b);
-    add_side(columns[k].a, columns[k].on_a);
+    if (bed.is_grain(column.b)) add_side(column.b, column.on_b);
+    add_side(column.a, column.on_a);
+    ++place;
   }
   SparseMatrix matrix(Kind::degrees_of_freedom * static_cast<Eigen::Index>(bed.grains()),
                       static_cast<Eigen::Index>(columns.size()));
@@ -140,7 +129,7 @@ SparseMatrix contact_matrix(const Bed<Kind>& bed, std::vector<ForceColumn>& colu
 template <class Kind, class Real>
 std::int64_t independent_constraints(Bed<Kind>& bed, const ExecutionContext& context, double dt,
                                      const Contacts<Kind, Real>& contacts) {
-  std::vector<ForceColumn> columns = force_columns(bed, context, dt, contacts);
+  const std::vector<ForceColumn> columns = force_columns(bed, context, dt, contacts);
   if (columns.empty()) return 0;
   const SparseMatrix h = contact_matrix(bed, columns);
   const SparseMatrix a = h.transpose() * h;

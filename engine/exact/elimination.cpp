@@ -4,7 +4,6 @@
 #include <numeric>
 #include <utility>
 
-#include "engine/exact/halves.hpp"
 #include "engine/exact/vertex_cover.hpp"
 
 namespace grainsweep {
@@ -90,15 +89,22 @@ class Dissection {
   Halving best_halving(At first, At last) {
     Halving best;
     for (int axis = 0; axis < 3; ++axis) {
-      const At middle = halve_along(axis, first, last, [&](std::int32_t grain, int along) {
-        return coordinate(grain, along);
-      });
+      const At middle = halve_along(axis, first, last);
       std::vector<std::int32_t> parting = cover(first, middle, last);
       if (axis == 0 || parting.size() < best.parting_grains.size()) {
         best = {{first, last}, middle - first, std::move(parting)};
       }
     }
     return best;
+  }
+
+  /// Sorts grains by their coordinate along an axis, those with the same by their number. Returns
+  /// where the second half begins, which has one more of an odd number.
+  At halve_along(int axis, At first, At last) const {
+    std::sort(first, last, [&](std::int32_t p, std::int32_t q) {
+      return std::pair(coordinate(p, axis), p) < std::pair(coordinate(q, axis), q);
+    });
+    return first + (last - first) / 2;
   }
 
   /// Puts the parting grains behind all others. Returns where the rest of the second half begins,

@@ -13,37 +13,47 @@ namespace {
 
 using testing::Draw;
 
-/// Contacts of a cubic lattice of grains with their neighbours, and of its lowest layer with the
-/// floor, in random order.
-std::vector<ContactNode> lattice(int side) {
-  std::vector<ContactNode> contacts;
+using Contacts = std::vector<GrainPair>;
+
+struct Lattice {
+  std::vector<Record<double>> centres;
+  Contacts contacts;
+
+  std::vector<std::int32_t> order() const { return elimination_order(centres, contacts); }
+  Contacts in_order() const {
+    Contacts sorted;
+    for (const std::int32_t k : order()) sorted.push_back(contacts[static_cast<std::size_t>(k)]);
+    return sorted;
+  }
+};
+
+/// A cubic lattice of grains, their contacts with their neighbours, and of the lowest layer with
+/// the floor, in random order.
+Lattice lattice(int side) {
+  Lattice all;
+  Contacts& contacts = all.contacts;
   const auto grain = [&](int x, int y, int z) { return (z * side + y) * side + x; };
   for (int z = 0; z < side; ++z) {
     for (int y = 0; y < side; ++y) {
       for (int x = 0; x < side; ++x) {
         const std::int32_t a = grain(x, y, z);
-        if (x + 1 < side) contacts.push_back({{x + 0.5, y + 0.0, z + 0.0}, a, grain(x + 1, y, z)});
-        if (y + 1 < side) contacts.push_back({{x + 0.0, y + 0.5, z + 0.0}, a, grain(x, y + 1, z)});
-        if (z + 1 < side) contacts.push_back({{x + 0.0, y + 0.0, z + 0.5}, a, grain(x, y, z + 1)});
-        if (z == 0) contacts.push_back({{x + 0.0, y + 0.0, -0.5}, a, ContactNode::no_grain});
+        all.centres.push_back({x + 0.0, y + 0.0, z + 0.0, 0.5});
+        if (x + 1 < side) contacts.push_back({a, grain(x + 1, y, z)});
+        if (y + 1 < side) contacts.push_back({a, grain(x, y + 1, z)});
+        if (z + 1 < side) contacts.push_back({a, grain(x, y, z + 1)});
+        if (z == 0) contacts.push_back({a, a});
       }
     }
   }
   Draw(7).shuffle(contacts);
-  return contacts;
+  return all;
 }
 
-std::size_t grains_of(int side) { return static_cast<std::size_t>(side * side * side); }
-
-bool share_a_grain(const ContactNode& p, const ContactNode& q) {
-  const auto is_of_p = [&](std::int32_t grain) {
-    return grain != ContactNode::no_grain && (grain == p.a || grain == p.b);
-  };
-  return is_of_p(q.a) || is_of_p(q.b);
+bool share_a_grain(GrainPair p, GrainPair q) {
+  return q.a == p.a || q.a == p.b || q.b == p.a || q.b == p.b;
 }
-
 /// A regular matrix whose entries are the contacts that share a grain.
-Eigen::SparseMatrix<double> matrix_of(const std::vector<ContactNode>& contacts) {
+Eigen::SparseMatrix<double> matrix_of(const Contacts& contacts) {
   std::vector<Eigen::Triplet<double>> entries;
   const auto size = static_cast<int>(contacts.size());
   for (int i = 0; i < size; ++i) {
@@ -65,39 +75,35 @@ Eigen::Index factor_entries(const Eigen::SparseMatrix<double>& matrix) {
   return factors.matrixL().nestedExpression().nonZeros();
 }
 
-std::vector<ContactNode> in_order(const std::vector<ContactNode>& contacts,
-                                  const std::vector<std::int32_t>& order) {
-  std::vector<ContactNode> sorted;
-  for (const std::int32_t k : order) sorted.push_back(contacts[static_cast<std::size_t>(k)]);
-  return sorted;
-}
-
 TEST_CASE("every contact is eliminated once") {
   for (const int side : {1, 2, 3, 9}) {
-    const std::vector<ContactNode> contacts = lattice(side);
-    std::vector<std::int32_t> order = dissect(contacts, grains_of(side));
-    REQUIRE(order.size() == contacts.size());
+    const Lattice all = lattice(side);
+    std::vector<std::int32_t> order = all.order();
+    REQUIRE(order.size() == all.contacts.size());
     std::sort(order.begin(), order.end());
     for (std::size_t k = 0; k < order.size(); ++k) {
       CHECK(order[k] == static_cast<std::int32_t>(k));
     }
   }
-  CHECK(dissect({}, 0).empty());
+  CHECK(elimination_order({}, {}).empty());
 }
 
 TEST_CASE("contacts at one place, or all of one grain, are ordered, too") {
-  CHECK(dissect(std::vector<ContactNode>(300, {{1, 1, 1}, 0, 1}), 2).size() == 300);
-  std::vector<ContactNode> star;
-  for (std::int32_t k = 1; k <= 300; ++k) star.push_back({{k + 0.0, 0, 0}, 0, k});
-  CHECK(dissect(star, 301).size() == 300);
+  const std::vector<Record<double>> twins(2, {1.0, 1.0, 1.0, 0.5});
+  CHECK(elimination_order(twins, Contacts(300, {0, 1})).size() == 300);
+  std::vector<Record<double>> centres = {{0.0, 0.0, 0.0, 0.5}};
+  Contacts star;
+  for (std::int32_t k = 1; k <= 300; ++k) {
+    centres.push_back({k + 0.0, 0.0, 0.0, 0.5});
+    star.push_back({0, k});
+  }
+  CHECK(elimination_order(centres, star).size() == 300);
 }
 
 // A third of a lattice's contacts, and more, are cut off from another third by those that come
 // last.
 TEST_CASE("the last contacts part the others") {
-  const int side = 10;
-  const std::vector<ContactNode> sorted =
-      in_order(lattice(side), dissect(lattice(side), grains_of(side)));
+  const Contacts sorted = lattice(10).in_order();
   std::size_t apart = 0;
   for (std::size_t cut = sorted.size() / 3; cut < 2 * sorted.size() / 3; ++cut) {
     std::set<std::int32_t> before;
@@ -114,10 +120,10 @@ TEST_CASE("the last contacts part the others") {
 
 TEST_CASE("factors have fewer entries than by minimum degree") {
   for (const int side : {10, testing::is_sanitized ? 11 : 14}) {
-    const std::vector<ContactNode> contacts = lattice(side);
-    const std::vector<ContactNode> sorted = in_order(contacts, dissect(contacts, grains_of(side)));
-    const Eigen::Index dissected = factor_entries<Eigen::NaturalOrdering<int>>(matrix_of(sorted));
-    const Eigen::Index degrees = factor_entries<Eigen::AMDOrdering<int>>(matrix_of(contacts));
+    const Lattice all = lattice(side);
+    const Eigen::Index dissected =
+        factor_entries<Eigen::NaturalOrdering<int>>(matrix_of(all.in_order()));
+    const Eigen::Index degrees = factor_entries<Eigen::AMDOrdering<int>>(matrix_of(all.contacts));
     INFO("side " << side << ": " << dissected << " and " << degrees);
     CHECK(dissected < degrees);
   }
