@@ -41,26 +41,19 @@ void divide_volumes(double slab_volume, Components& components) {
   }
 }
 
-void add_neighbour(const PolyhedronBed& bed, const Slab& slab, std::size_t grain, std::size_t other,
-                   Components& components) {
-  if (!has_centre_in(bed, slab, grain)) return;
-  components[bed.component(grain)].neighbours[bed.component(other)] += 1.0;
-}
-
 void count_neighbours(const PolyhedronBed& bed, const Touching& touching, const Slab& slab,
                       double gap_tolerance, Components& components) {
   for (ComponentMeasure& one : components) one.neighbours.assign(components.size(), 0.0);
-  for (const TouchingPair& pair : touching.pairs) {
-    if (pair.gap >= gap_tolerance) continue;
-    const auto a = static_cast<std::size_t>(pair.a), b = static_cast<std::size_t>(pair.b);
-    add_neighbour(bed, slab, a, b, components);
-    add_neighbour(bed, slab, b, a, components);
-  }
-  for (const TouchingWall& wall : touching.walls) {
-    const auto grain = static_cast<std::size_t>(wall.grain);
-    if (wall.gap >= gap_tolerance || !has_centre_in(bed, slab, grain)) continue;
-    components[bed.component(grain)].coordination_with_walls += 1.0;
-  }
+  visit_touching(
+      touching, gap_tolerance,
+      [&](std::size_t grain, std::size_t other) {
+        if (!has_centre_in(bed, slab, grain)) return;
+        components[bed.component(grain)].neighbours[bed.component(other)] += 1.0;
+      },
+      [&](std::size_t grain) {
+        if (!has_centre_in(bed, slab, grain)) return;
+        components[bed.component(grain)].coordination_with_walls += 1.0;
+      });
   for (ComponentMeasure& one : components) {
     const auto grains = static_cast<double>(one.slab_grains);
     for (double& neighbours : one.neighbours) {

@@ -6,18 +6,11 @@ namespace grainsweep {
 
 namespace {
 
-bool lies_in(const Grains& bed, std::int32_t grain, const Slab& slab) {
-  return slab.contains(bed.position[static_cast<std::size_t>(grain)].z);
-}
-
 std::int64_t grains_in(const Grains& bed, const Slab& slab) {
   std::int64_t count = 0;
-  for (std::int32_t i = 0; i < bed.wall(); ++i) {
-    count += lies_in(bed, i, slab) ? 1 : 0;
-  }
+  for (const Record<double>& centre : bed.centres()) count += slab.contains(centre.z) ? 1 : 0;
   return count;
 }
-
 }  // namespace
 
 Coordination coordination(const Grains& bed, const Touching& touching, const Slab& slab,
@@ -28,14 +21,10 @@ Coordination coordination(const Grains& bed, const Touching& touching, const Sla
     return {gap_tolerance, unknown, unknown};
   }
   std::int64_t ends = 0, wall_ends = 0;
-  for (const TouchingPair& pair : touching.pairs) {
-    if (pair.gap < gap_tolerance) {
-      ends += (lies_in(bed, pair.a, slab) ? 1 : 0) + (lies_in(bed, pair.b, slab) ? 1 : 0);
-    }
-  }
-  for (const TouchingWall& wall : touching.walls) {
-    wall_ends += wall.gap < gap_tolerance && lies_in(bed, wall.grain, slab) ? 1 : 0;
-  }
+  const auto in_slab = [&](std::size_t i) { return slab.contains(bed.position[i].z) ? 1 : 0; };
+  visit_touching(
+      touching, gap_tolerance, [&](std::size_t grain, std::size_t) { ends += in_slab(grain); },
+      [&](std::size_t grain) { wall_ends += in_slab(grain); });
   const double per_grain = 1.0 / static_cast<double>(grains);
   return {gap_tolerance, static_cast<double>(ends) * per_grain,
           static_cast<double>(ends + wall_ends) * per_grain};
@@ -44,12 +33,9 @@ Coordination coordination(const Grains& bed, const Touching& touching, const Sla
 std::vector<std::int32_t> neighbour_counts(std::size_t grains, const Touching& touching,
                                            double gap_tolerance) {
   std::vector<std::int32_t> counts(grains, 0);
-  for (const TouchingPair& pair : touching.pairs) {
-    if (pair.gap < gap_tolerance) {
-      ++counts[static_cast<std::size_t>(pair.a)];
-      ++counts[static_cast<std::size_t>(pair.b)];
-    }
-  }
+  visit_touching(
+      touching, gap_tolerance, [&](std::size_t grain, std::size_t) { ++counts[grain]; },
+      [](std::size_t) {});
   return counts;
 }
 

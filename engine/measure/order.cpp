@@ -15,26 +15,14 @@ namespace {
 constexpr double distance_bin = 0.05, largest_distance = 4.0;
 constexpr double force_bin = 0.1, largest_force = 8.0;
 
-/// Touching grains and walls of each grain.
-std::vector<int> contact_counts(std::size_t grains, const Touching& touching,
-                                double gap_tolerance) {
-  std::vector<int> counts(grains, 0);
-  for (const TouchingPair& pair : touching.pairs) {
-    const int touches = pair.gap < gap_tolerance ? 1 : 0;
-    counts[static_cast<std::size_t>(pair.a)] += touches;
-    counts[static_cast<std::size_t>(pair.b)] += touches;
-  }
-  for (const TouchingWall& wall : touching.walls) {
-    counts[static_cast<std::size_t>(wall.grain)] += wall.gap < gap_tolerance ? 1 : 0;
-  }
-  return counts;
-}
-
 }  // namespace
 
 double share_with_contacts(const Grains& bed, const Touching& touching, const Slab& slab,
                            double gap_tolerance, int contacts) {
-  const std::vector<int> counts = contact_counts(bed.grains(), touching, gap_tolerance);
+  std::vector<int> counts(bed.grains(), 0);  // of touching grains and walls
+  visit_touching(
+      touching, gap_tolerance, [&](std::size_t grain, std::size_t) { ++counts[grain]; },
+      [&](std::size_t grain) { ++counts[grain]; });
   double grains = 0.0, matching = 0.0;
   for (std::size_t i = 0; i < counts.size(); ++i) {
     if (!slab.contains(bed.position[i].z)) continue;

@@ -46,23 +46,6 @@ BinOfGrain bins_of_grains(const Grains& bed, BinOf bin_of) {
   return bins;
 }
 
-/// Calls `pair(grain, other, bin)` for each of two touching grains that is in a bin, and
-/// `wall(grain, bin)` for each wall that one touches.
-template <class Pair, class Wall>
-void visit_touching(const Touching& touching, double gap_tolerance, const BinOfGrain& bins,
-                    Pair pair, Wall wall) {
-  for (const TouchingPair& one : touching.pairs) {
-    if (one.gap >= gap_tolerance) continue;
-    const auto a = static_cast<std::size_t>(one.a), b = static_cast<std::size_t>(one.b);
-    if (bins[a]) pair(a, b, *bins[a]);
-    if (bins[b]) pair(b, a, *bins[b]);
-  }
-  for (const TouchingWall& one : touching.walls) {
-    const auto grain = static_cast<std::size_t>(one.grain);
-    if (one.gap < gap_tolerance && bins[grain]) wall(grain, *bins[grain]);
-  }
-}
-
 /// Gathers the profile of all grains, by their class of size.
 template <class Kind>
 class OfClasses {
@@ -91,9 +74,13 @@ class OfClasses {
                                                : in[*bins[i]].large_grains);
     }
     visit_touching(
-        touching, settings_.gap_tolerance, bins,
-        [&](std::size_t, std::size_t, std::size_t bin) { ++in[bin].neighbours; },
-        [&](std::size_t, std::size_t bin) { ++in[bin].walls; });
+        touching, settings_.gap_tolerance,
+        [&](std::size_t grain, std::size_t) {
+          if (bins[grain]) ++in[*bins[grain]].neighbours;
+        },
+        [&](std::size_t grain) {
+          if (bins[grain]) ++in[*bins[grain]].walls;
+        });
   }
   Profile result() { return std::move(profile_); }
 
@@ -128,11 +115,13 @@ class OfComponents {
       if (bins[i]) ++at(i, *bins[i]).grains;
     }
     visit_touching(
-        touching, gap_tolerance_, bins,
-        [&](std::size_t grain, std::size_t other, std::size_t bin) {
-          ++at(grain, bin).neighbours[bed_.component(other)];
+        touching, gap_tolerance_,
+        [&](std::size_t grain, std::size_t other) {
+          if (bins[grain]) ++at(grain, *bins[grain]).neighbours[bed_.component(other)];
         },
-        [&](std::size_t grain, std::size_t bin) { ++at(grain, bin).walls; });
+        [&](std::size_t grain) {
+          if (bins[grain]) ++at(grain, *bins[grain]).walls;
+        });
     set_nematic(bins);
   }
   std::vector<ComponentProfile> result() { return std::move(profiles_); }

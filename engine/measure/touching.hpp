@@ -25,6 +25,21 @@ struct Touching {
   std::vector<TouchingWall> walls;
 };
 
+/// Calls pair(grain, other) for each of two grains with a gap below `gap_tolerance`, d, and
+/// wall(grain) for each wall as near.
+template <class Pair, class Wall>
+void visit_touching(const Touching& touching, double gap_tolerance, const Pair& pair,
+                    const Wall& wall) {
+  for (const TouchingPair& one : touching.pairs) {
+    if (!(one.gap < gap_tolerance)) continue;
+    pair(static_cast<std::size_t>(one.a), static_cast<std::size_t>(one.b));
+    pair(static_cast<std::size_t>(one.b), static_cast<std::size_t>(one.a));
+  }
+  for (const TouchingWall& one : touching.walls) {
+    if (one.gap < gap_tolerance) wall(static_cast<std::size_t>(one.grain));
+  }
+}
+
 /// All pairs and walls with a gap below `gap_tolerance`, d. Gaps of polyhedra are the distances of
 /// their surfaces, and minus the least way that parts them where they overlap. Wraps the bed.
 template <class Kind>
