@@ -354,12 +354,6 @@ void list_candidates(const Balls& balls, double reach, double margin, const Leve
 
 }  // namespace
 
-void find_candidates(const Balls& balls, double reach, const ExecutionContext& context,
-                     Candidates& candidates) {
-  const auto everywhere = [=](const SizeLevel&, const SizeLevel&) { return reach; };
-  list_candidates(balls, reach, 0.0, everywhere, context, candidates);
-}
-
 void find_candidates(const Balls& balls, const PairReach& reach_of, const ExecutionContext& context,
                      Candidates& candidates) {
   constexpr double largest = std::numeric_limits<double>::infinity();

@@ -70,20 +70,23 @@ struct Candidates {
   bool is_indexed = false;                    ///< whether it knows them
 };
 
-/// Lists all pairs and walls whose balls have a gap below `reach`, but for those of grains that
-/// sleep among each other and with walls. The bed must be wrapped; a periodic axis must be at least
-/// two largest diameters and reaches long.
-void find_candidates(const Balls& balls, double reach, const ExecutionContext& context,
-                     Candidates& candidates);
-
 /// How near two balls of these radii have to be to count, d; no less for larger ones.
 using PairReach = std::function<double(double, double)>;
 
-/// The same where it depends on the size of the balls, for lists that are used at once: all pairs
-/// with a gap below what it says of them, and some with one below what it says of larger ones.
+/// Lists all pairs whose balls have a gap below what `reach_of` says of them, and some with one
+/// below what it says of larger ones, and walls as near as infinite balls, but for those of grains
+/// that sleep among each other and with walls. The bed must be wrapped; a periodic axis must be at
+/// least two largest diameters and reaches long. Where the reach depends on the size of the balls
+/// the list is for use at once.
 void find_candidates(const Balls& balls, const PairReach& reach_of, const ExecutionContext& context,
                      Candidates& candidates);
 
+/// The same with one reach for all, d.
+inline void find_candidates(const Balls& balls, double reach, const ExecutionContext& context,
+                            Candidates& candidates) {
+  find_candidates(
+      balls, [=](double, double) { return reach; }, context, candidates);
+}
 /// Whether the list still holds every pair and wall with a gap below `near` < reach: no grain has
 /// moved since it was looked up by more than half of what its pairs are listed further.
 bool still_complete(const Balls& balls, double near, const Candidates& candidates);

@@ -41,10 +41,14 @@ double wall_gap(const PolyhedronBed& bed, const Wall& wall, std::size_t grain) {
   return gap;
 }
 
-/// Of the candidates those with a gap below what `tolerance_of` says of their radii.
-template <class Kind, class ToleranceOf>
-Touching touching_among(const Candidates& candidates, const Bed<Kind>& bed,
-                        const ToleranceOf& tolerance_of) {
+}  // namespace
+
+template <class Kind>
+Touching find_touching(Bed<Kind>& bed, const PairReach& tolerance_of, const Kernels& kernels) {
+  wrap(bed);
+  std::vector<Record<double>> column;
+  Candidates candidates;
+  find_candidates(balls_of(bed, column), tolerance_of, kernels, candidates);
   Touching touching;
   for (const GrainPair pair : candidates.pairs) {
     const auto a = static_cast<std::size_t>(pair.a), b = static_cast<std::size_t>(pair.b);
@@ -64,25 +68,6 @@ Touching touching_among(const Candidates& candidates, const Bed<Kind>& bed,
   return touching;
 }
 
-}  // namespace
-
-template <class Kind>
-Touching find_touching(Bed<Kind>& bed, double gap_tolerance, const Kernels& kernels) {
-  wrap(bed);
-  std::vector<Record<double>> column;
-  Candidates candidates;
-  find_candidates(balls_of(bed, column), gap_tolerance, kernels, candidates);
-  return touching_among(candidates, bed, [=](double, double) { return gap_tolerance; });
-}
-
-Touching find_touching(SphereBed& bed, const PairReach& tolerance_of, const Kernels& kernels) {
-  wrap(bed);
-  Candidates candidates;
-  find_candidates(Balls{bed, bed.position}, tolerance_of, kernels, candidates);
-  return touching_among(candidates, bed, tolerance_of);
-}
-
-template Touching find_touching(SphereBed&, double, const Kernels&);
-template Touching find_touching(PolyhedronBed&, double, const Kernels&);
-
+template Touching find_touching(SphereBed&, const PairReach&, const Kernels&);
+template Touching find_touching(PolyhedronBed&, const PairReach&, const Kernels&);
 }  // namespace grainsweep

@@ -40,13 +40,16 @@ void visit_touching(const Touching& touching, double gap_tolerance, const Pair& 
   }
 }
 
-/// All pairs and walls with a gap below `gap_tolerance`, d. Gaps of polyhedra are the distances of
-/// their surfaces, and minus the least way that parts them where they overlap. Wraps the bed.
+/// All pairs and walls with a gap below a tolerance, d. Gaps of polyhedra are the distances of
+/// their surfaces, and minus the least way that parts them where they overlap. Wraps the bed. The
+/// tolerance of spheres may depend on the radii of the two, infinite ones for walls: lists of small
+/// grains are shorter by far.
 template <class Kind>
-Touching find_touching(Bed<Kind>& bed, double gap_tolerance, const Kernels& kernels);
+Touching find_touching(Bed<Kind>& bed, const PairReach& tolerance_of, const Kernels& kernels);
 
-/// The same with a tolerance that depends on the radii of the two spheres, d, infinite ones for
-/// walls: lists of small grains are shorter by far.
-Touching find_touching(SphereBed& bed, const PairReach& tolerance_of, const Kernels& kernels);
-
+/// The same with one tolerance for all.
+template <class Kind>
+Touching find_touching(Bed<Kind>& bed, double gap_tolerance, const Kernels& kernels) {
+  return find_touching(bed, PairReach([=](double, double) { return gap_tolerance; }), kernels);
+}
 }  // namespace grainsweep
