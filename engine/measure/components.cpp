@@ -2,9 +2,8 @@
 
 #include <cstddef>
 
-#include "engine/measure/cut_polyhedron.hpp"
 #include "engine/measure/nematic.hpp"
-#include "engine/units.hpp"
+#include "engine/measure/solid_fraction.hpp"
 
 namespace grainsweep {
 
@@ -22,8 +21,8 @@ void add_volumes(const PolyhedronBed& bed, const Slab& slab, Components& compone
     ComponentMeasure& own = components[bed.component(i)];
     ++own.grains;
     own.slab_grains += has_centre_in(bed, slab, i) ? 1 : 0;
-    own.packed += bed.shape(i).volume * sphere_mass(bed.position[i].w);
-    own.slab_share += slab_volume(bed.shape(i), bed.pose(i), 2, slab.bottom, slab.top);
+    own.packed += volume_of(bed, i);
+    own.slab_share += volume_in(slab, bed, i);
   }
 }
 

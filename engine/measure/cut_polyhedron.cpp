@@ -104,7 +104,7 @@ double box_volume(const ConvexShape& shape, const Pose& pose, const Vector& low,
   if (shape.is_ball) return ball_volume(pose.scale * shape.inradius, pose.centre, low, high);
   Planes planes{};
   if (!planes_through(shape, pose, low, high, planes)) return 0.0;
-  if (planes.count == 0) return pose.scale * pose.scale * pose.scale * shape.volume;
+  if (planes.count == 0) return shape.volume_at(pose.scale);
   const Matrix turn = pose.scale * pose.orientation.toRotationMatrix();
   double volume = 0.0;
   for (const Face& face : shape.faces) {

@@ -11,6 +11,7 @@
 #include "engine/measure/cut_sphere.hpp"
 #include "engine/measure/cut_tube.hpp"
 #include "engine/measure/nematic.hpp"
+#include "engine/measure/solid_fraction.hpp"
 #include "engine/units.hpp"
 
 namespace grainsweep {
@@ -238,16 +239,6 @@ double volume_in(const Core& core, const PolyhedronBed& bed, std::size_t i) {
                     {core.x.high, core.y.high, core.z.high});
 }
 
-/// Volume of a grain below the plane at z.
-double volume_below_z(const SphereBed& bed, std::size_t i, double z) {
-  const Record<double>& p = bed.position[i];
-  return sphere_slab_volume(p.w, -p.w, z - p.z);
-}
-double volume_below_z(const PolyhedronBed& bed, std::size_t i, double z) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  return slab_volume(bed.shape(i), bed.pose(i), 2, -infinity, z);
-}
-
 /// The bin of a centre at height z of the slab; none above and below.
 std::optional<std::size_t> bin_in(const Slab& slab, const Bins& bins, double z, double coordinate) {
   if (!slab.contains(z)) return std::nullopt;
@@ -351,12 +342,17 @@ typename Gather::Gathered from_walls(const Bed<Kind>& bed, const Touching& touch
 template <class Kind, class Gather>
 typename Gather::Gathered along_z(const Bed<Kind>& bed, const Touching& touching,
                                   const ProfileSettings& settings, Gather gather) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
   const double bins_up = std::ceil(highest_point(bed) / settings.bin_width);
   const Bins bins{settings.bin_width, std::max<std::int64_t>(1, std::llround(bins_up)), false};
   gather.begin(bins);
   for (std::size_t i = 0; i < bed.grains(); ++i) {
     add_volume(
-        i, span_of(bed, i, 2), bins, [&](double z) { return volume_below_z(bed, i, z); }, gather);
+        i, span_of(bed, i, 2), bins,
+        [&](double z) {
+          return volume_in(Slab{-infinity, z}, bed, i);
+        },
+        gather);
   }
   divide_volumes(bins, bed.box.floor_area() * bins.width, gather);
   gather.count(touching, bins_of_grains(bed, [&](const Record<double>& p) {

@@ -10,14 +10,6 @@ namespace grainsweep {
 
 namespace {
 
-double volume_of(const SphereBed& bed, std::size_t grain) {
-  return sphere_volume(bed.position[grain].w);
-}
-double volume_of(const PolyhedronBed& bed, std::size_t grain) {
-  const double scale = bed.scale(grain);
-  return scale * scale * scale * bed.shape(grain).volume;
-}
-
 /// Least width of a floor column, d: that of the grains that fill most of the bed, if it is larger
 /// than d, or most columns would be those that no grain's centre stands above.
 template <class Kind>
@@ -73,15 +65,6 @@ double median_top(const Grains& bed, double least, TopOf top_of) {
   return *middle;
 }
 
-/// Volume of the part of a grain in the slab, d^3.
-double volume_between(const SphereBed& bed, std::size_t grain, const Slab& slab) {
-  const Record<double>& p = bed.position[grain];
-  return sphere_slab_volume(p.w, slab.bottom - p.z, slab.top - p.z);
-}
-double volume_between(const PolyhedronBed& bed, std::size_t grain, const Slab& slab) {
-  return slab_volume(bed.shape(grain), bed.pose(grain), 2, slab.bottom, slab.top);
-}
-
 }  // namespace
 
 double sphere_slab_volume(double radius, double low, double high) {
@@ -99,10 +82,18 @@ Span span_of(const PolyhedronBed& bed, std::size_t grain, int axis) {
   return span_along(bed.shape(grain), bed.pose(grain), axis);
 }
 
+double volume_in(const Slab& slab, const SphereBed& bed, std::size_t grain) {
+  const Record<double>& p = bed.position[grain];
+  return sphere_slab_volume(p.w, slab.bottom - p.z, slab.top - p.z);
+}
+double volume_in(const Slab& slab, const PolyhedronBed& bed, std::size_t grain) {
+  return slab_volume(bed.shape(grain), bed.pose(grain), 2, slab.bottom, slab.top);
+}
+
 template <class Kind>
 double solid_fraction(const Bed<Kind>& bed, const Slab& slab) {
   double solid = 0.0;
-  for (std::size_t i = 0; i < bed.grains(); ++i) solid += volume_between(bed, i, slab);
+  for (std::size_t i = 0; i < bed.grains(); ++i) solid += volume_in(slab, bed, i);
   return solid / (bed.box.floor_area() * slab.height());
 }
 
@@ -110,7 +101,7 @@ template <class Kind>
 double small_share(const Bed<Kind>& bed, const Slab& slab, double small_below) {
   double large = 0.0, small = 0.0;
   for (std::size_t i = 0; i < bed.grains(); ++i) {
-    (bed.position[i].w < small_below ? small : large) += volume_between(bed, i, slab);
+    (bed.position[i].w < small_below ? small : large) += volume_in(slab, bed, i);
   }
   return small / (large + small);  // 0 / 0 is NaN
 }

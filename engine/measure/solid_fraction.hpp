@@ -14,6 +14,10 @@ Span span_of(const PolyhedronBed& bed, std::size_t grain, int axis);
 /// `low` < `high` from its centre, d^3:  pi (r^2 t - t^3 / 3) between the clamped limits.
 double sphere_slab_volume(double radius, double low, double high);
 
+/// Volume of the part of a grain in the slab, which may be endless, d^3.
+double volume_in(const Slab& slab, const SphereBed& bed, std::size_t grain);
+double volume_in(const Slab& slab, const PolyhedronBed& bed, std::size_t grain);
+
 /// Solid volume in the slab over the slab's volume. The slab must have a positive height.
 template <class Kind>
 double solid_fraction(const Bed<Kind>& bed, const Slab& slab);

@@ -127,10 +127,7 @@ PolyhedronBed make_bed(const Box& box, std::vector<ConvexShape> shapes,
     return shapes[components.empty() ? 0 : components[i]];
   };
   double volume = 0.0;
-  for (std::size_t i = 0; i < poses.size(); ++i) {
-    const double scale = poses[i].scale;
-    volume += scale * scale * scale * shape_of(i).volume;
-  }
+  for (std::size_t i = 0; i < poses.size(); ++i) volume += shape_of(i).volume_at(poses[i].scale);
   PolyhedronBed bed = empty_bed<Polyhedron>(box, poses.size(), volume);
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const Pose& p = poses[i];

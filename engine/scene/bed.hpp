@@ -14,6 +14,7 @@
 #include "engine/scene/box.hpp"
 #include "engine/scene/spec.hpp"
 #include "engine/shape/pose.hpp"
+#include "engine/units.hpp"
 
 namespace grainsweep {
 
@@ -139,6 +140,14 @@ PolyhedronBed make_bed(const Box& box, ConvexShape shape, const std::vector<Pose
 /// The same of grains of several shapes, `components` telling which of each grain.
 PolyhedronBed make_bed(const Box& box, std::vector<ConvexShape> shapes,
                        std::vector<std::uint8_t> components, const std::vector<Pose>& poses);
+
+/// Solid volume of a grain, d^3.
+inline double volume_of(const SphereBed& bed, std::size_t grain) {
+  return sphere_volume(bed.position[grain].w);
+}
+inline double volume_of(const PolyhedronBed& bed, std::size_t grain) {
+  return bed.shape(grain).volume_at(bed.scale(grain));
+}
 
 /// Principal moments of inertia of a grain, m d^2.
 Vector principal_moments(const PolyhedronBed& bed, std::size_t grain);

@@ -213,7 +213,7 @@ DrawnGrains draw_grains(const PackingSpec& spec) {
 double solid_volume(const DrawnGrains& grains) {
   double volume = 0.0;
   for (std::size_t i = 0; i < grains.radii.size(); ++i) {
-    volume += grains.shape(i).volume * sphere_mass(grains.radii[i]);
+    volume += grains.shape(i).volume_at(2.0 * grains.radii[i]);
   }
   return volume;
 }

@@ -71,6 +71,9 @@ struct ConvexShape {
   std::optional<PinacoidHalves> pinacoid;  ///< if the shape is one
   bool is_ball = false;                    ///< a sphere; both radii are its own
   InputFrame given;                        ///< that in which its vertices were written
+
+  /// Of a grain of that scale, d^3.
+  double volume_at(double scale) const { return scale * scale * scale * volume; }
 };
 
 /// Vertices of a face, counter-clockwise seen from outside.
