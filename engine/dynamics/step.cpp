@@ -92,23 +92,20 @@ void advance(const std::vector<Record<Real>>& u, std::size_t i, PolyhedronBed& b
       std::max({moved.longest, displacement.norm(), angles.norm() * bed.circumradius(i)});
 }
 
-/// Pairs that are near become rows, or candidates of contacts. Returns whether the bed was searched
-/// for candidates anew.
+/// Pairs that are near become rows, or candidates of contacts.
 template <class Real>
-bool find_near(const StepSettings& settings, const ExecutionContext& context, SphereBed& bed,
+void find_near(const StepSettings& settings, const ExecutionContext& context, SphereBed& bed,
                StepState<Sphere, Real>& state) {
-  return renew_rows(settings.near, settings.near + settings.margin, context, bed, state.candidates,
-                    state.contacts);
+  renew_rows(settings.near, settings.near + settings.margin, context, bed, state.candidates,
+             state.contacts);
 }
 template <class Real>
-bool find_near(const StepSettings& settings, const ExecutionContext& context, PolyhedronBed& bed,
+void find_near(const StepSettings& settings, const ExecutionContext& context, PolyhedronBed& bed,
                StepState<Polyhedron, Real>& state) {
-  const bool renewed =
-      renew_candidates(settings.near, settings.margin, context, bed, state.candidates);
-  if (renewed) take_candidates(bed, state.candidates, state.contacts, context.loop);
-  return renewed;
+  if (renew_candidates(settings.near, settings.margin, context, bed, state.candidates)) {
+    take_candidates(bed, state.candidates, state.contacts, context.loop);
+  }
 }
-
 /// Nothing turns spheres.
 template <class Real>
 void hold_turning(const SphereContacts<Real>&, const ParallelFor&, SphereBed&) {}
@@ -229,7 +226,7 @@ StepReport step(const StepSettings& settings, const ExecutionContext& context, B
   limits.rms_tolerance *= force_unit;
   hold_turning(state.contacts, context.loop, bed);
   set_free_motion(settings, context.loop, bed, state.motion);
-  report.searched = find_near(settings, context, bed, state);
+  find_near(settings, context, bed, state);
   report.sunk = update_contacts(settings, context, bed, state.contacts);
   report.solve = settings.carries && is_tall(bed)
                      ? solve_tall(settings.dt, limits, context, bed, state)

@@ -46,7 +46,6 @@ struct StepReport {
   /// Most by which centres were nearer than sunk_share of the distance at which their grains touch,
   /// of polyhedra the balls within them, before the step, d.
   double sunk = 0.0;
-  bool searched = false;  ///< whether candidates were listed anew
 };
 
 /// How some grains moved in a step.
