@@ -6,15 +6,14 @@
 
 namespace grainsweep {
 
-NematicOrder nematic_order(const std::vector<Vector>& axes) {
-  if (axes.empty()) return {std::numeric_limits<double>::quiet_NaN(), Vector::Zero()};
+double nematic_order(const std::vector<Vector>& axes) {
+  if (axes.empty()) return std::numeric_limits<double>::quiet_NaN();
   Matrix sum = Matrix::Zero();
   for (const Vector& axis : axes) {
     sum += axis * axis.transpose();
   }
   const Matrix q = 1.5 * sum / static_cast<double>(axes.size()) - 0.5 * Matrix::Identity();
-  const Eigen::SelfAdjointEigenSolver<Matrix> solver(q);  // eigenvalues ascend
-  return {solver.eigenvalues()[2], solver.eigenvectors().col(2)};
+  return Eigen::SelfAdjointEigenSolver<Matrix>(q).eigenvalues()[2];  // they ascend
 }
 
 std::array<double, 3> nematic_orders(const PolyhedronBed& bed,
@@ -27,7 +26,7 @@ std::array<double, 3> nematic_orders(const PolyhedronBed& bed,
       axes[static_cast<std::size_t>(axis)].emplace_back(orientation * Vector(Vector::Unit(axis)));
     }
   }
-  return {nematic_order(axes[0]).order, nematic_order(axes[1]).order, nematic_order(axes[2]).order};
+  return {nematic_order(axes[0]), nematic_order(axes[1]), nematic_order(axes[2])};
 }
 
 }  // namespace grainsweep

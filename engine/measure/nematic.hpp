@@ -9,14 +9,10 @@
 
 namespace grainsweep {
 
-struct NematicOrder {
-  double order = 0.0;  ///< 1 if all are parallel, 0 in all directions alike, 1/4 all in one plane
-  Vector director = Vector::Zero();  ///< unit; the direction they share, up to sign
-};
-
-/// Largest eigenvalue, and its eigenvector, of Q = mean over axes of (3 u u^T - 1) / 2 (de Gennes).
-/// `axes` are unit vectors, all of one frame; NaN without any.
-NematicOrder nematic_order(const std::vector<Vector>& axes);
+/// Largest eigenvalue of Q = mean over axes of (3 u u^T - 1) / 2 (de Gennes): 1 if all are
+/// parallel, 0 in all directions alike, 1/4 all in one plane. `axes` are unit vectors, all of one
+/// frame; NaN without any.
+double nematic_order(const std::vector<Vector>& axes);
 
 /// The order of each axis of the frames in which the shapes of `grains` are written, of those of
 /// them that turn.
