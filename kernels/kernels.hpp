@@ -52,6 +52,7 @@ struct GrainPair {
 /// reaches max(a |nx| + b |ny|, c |nx| + e |nz|) from its centre, times the size in its record.
 struct PinacoidHalves {
   double a = 0.0, b = 0.0, c = 0.0, e = 0.0;
+  bool operator==(const PinacoidHalves&) const = default;
 };
 
 /// Edges whose angle has a smaller square of its sine are parallel to f32.

@@ -74,24 +74,16 @@ struct PinacoidKinds {
   std::vector<std::size_t> of_shape;  ///< the kind of each shape; their number if it is another
 };
 
-bool are_equal(const PinacoidHalves& p, const PinacoidHalves& q) {
-  return p.a == q.a && p.b == q.b && p.c == q.c && p.e == q.e;
-}
-
 PinacoidKinds pinacoid_kinds(const std::vector<ConvexShape>& shapes) {
   PinacoidKinds all;
+  const auto place_of = [&](const ConvexShape& shape) {
+    return std::find(all.kinds.begin(), all.kinds.end(), shape.pinacoid);
+  };
   for (const ConvexShape& shape : shapes) {
-    if (!shape.pinacoid) continue;
-    const bool is_known = std::any_of(all.kinds.begin(), all.kinds.end(), [&](const auto& kind) {
-      return are_equal(kind, *shape.pinacoid);
-    });
-    if (!is_known) all.kinds.push_back(*shape.pinacoid);
+    if (shape.pinacoid && place_of(shape) == all.kinds.end()) all.kinds.push_back(*shape.pinacoid);
   }
   for (const ConvexShape& shape : shapes) {
-    const auto at = std::find_if(all.kinds.begin(), all.kinds.end(), [&](const auto& kind) {
-      return shape.pinacoid && are_equal(kind, *shape.pinacoid);
-    });
-    all.of_shape.push_back(static_cast<std::size_t>(at - all.kinds.begin()));
+    all.of_shape.push_back(static_cast<std::size_t>(place_of(shape) - all.kinds.begin()));
   }
   return all;
 }
