@@ -49,19 +49,6 @@ std::string problem_with(const CuboidSize& size) {
       {{"length", size.length}, {"width", size.width}, {"height", size.height}});
 }
 
-std::string problem_with(const TetrahedronSize& size) {
-  return problem_with_length("height", size.height);
-}
-std::string problem_with(const OctahedronSize& size) {
-  return problem_with_length("height", size.height);
-}
-std::string problem_with(const DodecahedronSize& size) {
-  return problem_with_length("height", size.height);
-}
-std::string problem_with(const IcosahedronSize& size) {
-  return problem_with_length("height", size.height);
-}
-
 std::string problem_with(const PrismSize& size) {
   if (size.sides < 3 || size.sides > most_sides) {
     return joined("sides must be 3 to ", most_sides, ", is ", size.sides);

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "engine/shape/convex_shape.hpp"
+#include "engine/shape/lengths.hpp"
 #include "engine/shape/shape_spec.hpp"
-
 namespace grainsweep {
 
 /// Most sides of a prism: a cylinder of chord error 1e-4 of its diameter has 158.
@@ -22,10 +22,10 @@ int sides_of(const CylinderSize& size);
 /// What forbids such a solid, with what to change; "" if nothing does.
 std::string problem_with(const CubeSize& size);
 std::string problem_with(const CuboidSize& size);
-std::string problem_with(const TetrahedronSize& size);
-std::string problem_with(const OctahedronSize& size);
-std::string problem_with(const DodecahedronSize& size);
-std::string problem_with(const IcosahedronSize& size);
+template <int faces>
+std::string problem_with(const RegularSolid<faces>& size) {
+  return problem_with_length("height", size.height);
+}
 std::string problem_with(const PrismSize& size);
 std::string problem_with(const CylinderSize& size);
 

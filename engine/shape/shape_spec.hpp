@@ -36,26 +36,19 @@ struct CuboidSize {
   double height = 1.0;  ///< d
 };
 
-/// A regular tetrahedron: sqrt(2/3) times its edge from a face to the corner opposite.
-struct TetrahedronSize {
-  double height = 1.0;  ///< d
+/// A regular solid of so many faces.
+template <int faces>
+struct RegularSolid {
+  double height = 1.0;  ///< from a face to what is opposite, d
 };
-
-/// A regular octahedron: sqrt(2/3) times its edge from a face to that opposite.
-struct OctahedronSize {
-  double height = 1.0;  ///< d
-};
-
-/// A regular dodecahedron: 2.2270 times its edge from a face to that opposite.
-struct DodecahedronSize {
-  double height = 1.0;  ///< d
-};
-
-/// A regular icosahedron: 1.5115 times its edge from a face to that opposite.
-struct IcosahedronSize {
-  double height = 1.0;  ///< d
-};
-
+/// sqrt(2/3) times its edge from a face to the corner opposite.
+using TetrahedronSize = RegularSolid<4>;
+/// sqrt(2/3) times its edge from a face to that opposite.
+using OctahedronSize = RegularSolid<8>;
+/// 2.2270 times its edge from a face to that opposite.
+using DodecahedronSize = RegularSolid<12>;
+/// 1.5115 times its edge from a face to that opposite.
+using IcosahedronSize = RegularSolid<20>;
 /// An upright prism over a regular polygon.
 struct PrismSize {
   int sides = 6;          ///< of the polygon
