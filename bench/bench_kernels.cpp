@@ -6,7 +6,7 @@
 namespace grainsweep::bench {
 namespace {
 
-const Kernels& kernels_of(const benchmark::State& run) {
+const Kernels& table_of(const benchmark::State& run) {
   return kernels_for(static_cast<Isa>(run.range(0)));
 }
 
@@ -18,7 +18,7 @@ void count_rows(benchmark::State& run, std::size_t blocks) {
 template <class Real>
 void gauss_seidel_sweep(benchmark::State& run) {
   FrozenBed<Real> f = frozen_bed<Real>(run.range(1));
-  const RowKernels<Real>& kernels = row_kernels<Real>(kernels_of(run));
+  const RowKernels<Real>& kernels = kernels_of<Real>(table_of(run)).rows;
   auto& contacts = f.state.contacts;
   auto& motion = f.state.motion;
   const SweepRule<Real> rule{Real(0.9), Real(0.5)};
@@ -34,7 +34,7 @@ void gauss_seidel_sweep(benchmark::State& run) {
 template <class Real>
 void residual(benchmark::State& run) {
   FrozenBed<Real> f = frozen_bed<Real>(run.range(1));
-  const RowKernels<Real>& kernels = row_kernels<Real>(kernels_of(run));
+  const RowKernels<Real>& kernels = kernels_of<Real>(table_of(run)).rows;
   const auto& contacts = f.state.contacts;
   for (auto _ : run) {
     benchmark::DoNotOptimize(kernels.residual(contacts.rows.data(), contacts.rows.size(), nullptr,
@@ -46,7 +46,7 @@ void residual(benchmark::State& run) {
 template <class Real>
 void sphere_gaps(benchmark::State& run) {
   FrozenBed<Real> f = frozen_bed<Real>(run.range(1));
-  const RowKernels<Real>& kernels = row_kernels<Real>(kernels_of(run));
+  const RowKernels<Real>& kernels = kernels_of<Real>(table_of(run)).rows;
   auto& contacts = f.state.contacts;
   for (auto _ : run) {
     kernels.sphere_gaps(contacts.rows.data(), contacts.pair_blocks, f.bed.position.data(),
@@ -62,7 +62,7 @@ void sphere_pairs(benchmark::State& run) {
   Candidates candidates;
   for (auto _ : run) {
     wrap(f.bed);
-    find_candidates({f.bed, f.bed.position}, 0.13, kernels_of(run), candidates);
+    find_candidates({f.bed, f.bed.position}, 0.13, table_of(run), candidates);
     benchmark::DoNotOptimize(candidates.pairs.data());
   }
   run.SetItemsProcessed(run.iterations() * static_cast<std::int64_t>(f.bed.grains()));

@@ -46,7 +46,7 @@ void over_rows(benchmark::State& run, Sweep sweep) {
   const auto isa = static_cast<Isa>(run.range(0));
   auto& rows = frozen.state.contacts;
   for (auto _ : run) {
-    sweep(body_kernels<Real>(kernels_for(isa)),
+    sweep(kernels_of<Real>(kernels_for(isa)).bodies,
           BodyRows<Real>{rows.blocks.data(), rows.points.data()}, rows.blocks.size(), frozen.state);
   }
   count_rows(run, frozen, isa);

@@ -84,14 +84,18 @@ struct alignas(64) PinacoidBlock {
   }
 };
 
+/// The kernels that there are of each number type.
+template <class Real>
+struct NumberKernels {
+  const RowKernels<Real>& rows;
+  const BodyKernels<Real>& bodies;
+  const FrontKernels<Real>& fronts;
+};
+
 struct Kernels {
   Isa isa;
-  const RowKernels<float>& f32;
-  const RowKernels<double>& f64;
-  const BodyKernels<float>& body_f32;
-  const BodyKernels<double>& body_f64;
-  const FrontKernels<float>& front_f32;
-  const FrontKernels<double>& front_f64;
+  NumberKernels<float> f32;
+  NumberKernels<double> f64;
   const HullKernels& hull;
   /// All pairs of the grid with gap below `reach`, each once, in the order of the grid. Writes at
   /// most `capacity` of them and returns how many there are.
@@ -113,40 +117,14 @@ struct Kernels {
 /// The kernels compiled for `isa`. Requires is_supported(isa).
 const Kernels& kernels_for(Isa isa);
 
-/// Row kernels of `kernels` for a number type.
+/// Those of `kernels` for a number type.
 template <class Real>
-const RowKernels<Real>& row_kernels(const Kernels& kernels);
-template <>
-inline const RowKernels<float>& row_kernels<float>(const Kernels& kernels) {
-  return kernels.f32;
-}
-template <>
-inline const RowKernels<double>& row_kernels<double>(const Kernels& kernels) {
-  return kernels.f64;
-}
-
-/// Lever kernels of `kernels` for a number type.
-template <class Real>
-const BodyKernels<Real>& body_kernels(const Kernels& kernels);
-template <>
-inline const BodyKernels<float>& body_kernels<float>(const Kernels& kernels) {
-  return kernels.body_f32;
-}
-template <>
-inline const BodyKernels<double>& body_kernels<double>(const Kernels& kernels) {
-  return kernels.body_f64;
-}
-
-/// Front kernels of `kernels` for a number type.
-template <class Real>
-const FrontKernels<Real>& front_kernels(const Kernels& kernels);
-template <>
-inline const FrontKernels<float>& front_kernels<float>(const Kernels& kernels) {
-  return kernels.front_f32;
-}
-template <>
-inline const FrontKernels<double>& front_kernels<double>(const Kernels& kernels) {
-  return kernels.front_f64;
+const NumberKernels<Real>& kernels_of(const Kernels& kernels) {
+  if constexpr (sizeof(Real) == sizeof(float)) {
+    return kernels.f32;
+  } else {
+    return kernels.f64;
+  }
 }
 
 }  // namespace grainsweep

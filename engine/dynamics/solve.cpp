@@ -69,7 +69,7 @@ class GaussSeidel {
   GaussSeidel(bool is_accelerated, const ExecutionContext& context, Rows& rows,
               MotionColumns<Real>& motion)
       : kernels_(context.kernels),
-        record_kernels_(row_kernels<Real>(context.kernels)),
+        record_kernels_(kernels_of<Real>(context.kernels).rows),
         loop_(context.loop),
         rows_(rows),
         motion_(motion),

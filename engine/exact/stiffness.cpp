@@ -96,7 +96,7 @@ double StiffnessFactors::operations() const {
 template <class Real>
 bool StiffnessFactors::factor(const std::vector<Spring>& springs,
                               const std::vector<double>& ground) {
-  const FrontKernels<Real>& kernels = front_kernels<Real>(*kernels_);
+  const FrontKernels<Real>& kernels = kernels_of<Real>(*kernels_).fronts;
   Numbers<Real> own = std::move(numbers<Real>());
   numbers_ = {};  // factors of the other type would take as much memory again
   allocate(own);
@@ -171,7 +171,7 @@ void StiffnessFactors::hand_on(const Front& front, const Real* matrix, std::vect
 
 template <class Real>
 void StiffnessFactors::solve(std::vector<Vector>& x) {
-  const FrontKernels<Real>& kernels = front_kernels<Real>(*kernels_);
+  const FrontKernels<Real>& kernels = kernels_of<Real>(*kernels_).fronts;
   for (std::size_t node = 0; node < fronts_.size(); ++node) {
     solve_front(node, kernels.solve_forward, x, numbers<Real>());
   }

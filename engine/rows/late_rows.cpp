@@ -126,10 +126,10 @@ double measure_blocks(const SphereBed& bed, const ExecutionContext& context, dou
   sunk.assign(parts, 0.0);
   parallel_for(context.loop, parts, [&](std::size_t part) {
     const std::size_t first = part * blocks_of_part;
-    sunk[part] =
-        row_kernels<Real>(context.kernels)
-            .sphere_gaps(rows + first, std::min(blocks_of_part, blocks - first),
-                         bed.position.data(), bed.box.period_x(), bed.box.period_y(), correction);
+    sunk[part] = kernels_of<Real>(context.kernels)
+                     .rows.sphere_gaps(rows + first, std::min(blocks_of_part, blocks - first),
+                                       bed.position.data(), bed.box.period_x(), bed.box.period_y(),
+                                       correction);
   });
   return std::max(0.0, *std::max_element(sunk.begin(), sunk.end()));
 }

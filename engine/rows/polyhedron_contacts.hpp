@@ -66,17 +66,17 @@ struct Contacts<Polyhedron, Real> {
   static constexpr std::size_t records_of_grain = 2;
   SweepSums<Real> sweep(const Kernels& all, BlockRange range, const SweepRule<Real>& rule,
                         Record<Real>* u) {
-    return body_kernels<Real>(all).gauss_seidel_sweep(rows_of(range), range.blocks, u,
-                                                      impulse.data(), extrapolated.data(), rule);
+    return kernels_of<Real>(all).bodies.gauss_seidel_sweep(
+        rows_of(range), range.blocks, u, impulse.data(), extrapolated.data(), rule);
   }
   /// No contact pushes.
   void drop_impulses() { std::fill(impulse.begin(), impulse.end(), Real(0)); }
   Missed<Real> residual(const Kernels& all, BlockRange range, const Record<Real>* u) const {
-    return body_kernels<Real>(all).residual(rows_of(range), range.blocks, u, impulse.data());
+    return kernels_of<Real>(all).bodies.residual(rows_of(range), range.blocks, u, impulse.data());
   }
   void accumulate(const Kernels& all, BlockRange range, Record<Real>* accumulated) const {
-    body_kernels<Real>(all).accumulate_impulses(rows_of(range), range.blocks, impulse.data(),
-                                                accumulated);
+    kernels_of<Real>(all).bodies.accumulate_impulses(rows_of(range), range.blocks, impulse.data(),
+                                                     accumulated);
   }
 
  private:

@@ -100,14 +100,14 @@ struct Contacts<Sphere, Real> {
   static constexpr std::size_t records_of_grain = 1;
   SweepSums<Real> sweep(const Kernels& all, BlockRange range, const SweepRule<Real>& rule,
                         Record<Real>* u) {
-    const RowKernels<Real>& kernels = row_kernels<Real>(all);
+    const RowKernels<Real>& kernels = kernels_of<Real>(all).rows;
     const std::size_t at = range.first * block_width;
     return (range.first < first_round ? kernels.gauss_seidel_sweep : kernels.round_sweep)(
         rows.data() + range.first, range.blocks, from(at), u, impulse.data() + at,
         extrapolated.data() + at, rule);
   }
   Missed<Real> residual(const Kernels& all, BlockRange range, const Record<Real>* u) const {
-    const RowKernels<Real>& kernels = row_kernels<Real>(all);
+    const RowKernels<Real>& kernels = kernels_of<Real>(all).rows;
     const std::size_t at = range.first * block_width;
     return (range.first < first_round ? kernels.residual : kernels.round_residual)(
         rows.data() + range.first, range.blocks, from(at), u, impulse.data() + at);
@@ -118,9 +118,9 @@ struct Contacts<Sphere, Real> {
     for (std::size_t at = 0; at < changed_from.size(); ++at) impulse[at] = -changed_from[at];
   }
   void accumulate(const Kernels& all, BlockRange range, Record<Real>* accumulated) const {
-    row_kernels<Real>(all).accumulate_impulses(rows.data() + range.first, range.blocks,
-                                               impulse.data() + range.first * block_width,
-                                               accumulated);
+    kernels_of<Real>(all).rows.accumulate_impulses(rows.data() + range.first, range.blocks,
+                                                   impulse.data() + range.first * block_width,
+                                                   accumulated);
   }
 
  private:

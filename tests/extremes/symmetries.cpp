@@ -166,7 +166,7 @@ PairRow row_of(const Record<double>& a, const Record<double>& b) {
   RowBlock<double> block{};
   for (std::size_t lane = 0; lane < block_width; ++lane) block.set_grains(lane, 0, 1);
   const Record<double> positions[2] = {a, b};
-  kernels_for(best_isa()).f64.sphere_gaps(&block, 1, positions, 0.0, 0.0, 1.0);
+  kernels_for(best_isa()).f64.rows.sphere_gaps(&block, 1, positions, 0.0, 0.0, 1.0);
   return {block.normal_x[0], block.normal_y[0], block.normal_z[0], block.gap[0]};
 }
 

@@ -122,7 +122,7 @@ void on_random_body_problems(Compare compare) {
         INFO(name_of(isa) << ", " << blocks << " blocks, seed " << seed);
         BodyProblem<Real> problem = random_body_problem<Real>(blocks, 100 * blocks + seed);
         BodyProblem<Real> twin = problem;
-        compare(body_kernels<Real>(kernels_for(isa)), problem, twin);
+        compare(kernels_of<Real>(kernels_for(isa)).bodies, problem, twin);
         REQUIRE(same_bits(problem.p, twin.p));
         REQUIRE(same_bits(problem.y, twin.y));
         REQUIRE(same_bits(problem.u, twin.u));
@@ -197,9 +197,9 @@ TEMPLATE_TEST_CASE("one impulse stops the approach of two grains at their point 
     INFO(name_of(isa));
     BodyProblem<TestType> problem = one_contact(TestType(1), TestType(-1));
     problem.u[0].x = 1;  // a runs into b: the approach is 1, A is 4, so the impulse is 1/4
-    const auto sums = body_kernels<TestType>(kernels_for(isa))
-                          .gauss_seidel_sweep(problem.rows(), 1, problem.u.data(), problem.p.data(),
-                                              problem.p.data(), {});
+    const auto sums = kernels_of<TestType>(kernels_for(isa))
+                          .bodies.gauss_seidel_sweep(problem.rows(), 1, problem.u.data(),
+                                                     problem.p.data(), problem.p.data(), {});
     CHECK(sums.missed.largest == TestType(0.25));
     CHECK(problem.p[5] == TestType(0.25));
     CHECK(problem.u[0].x == TestType(0.75));

@@ -69,13 +69,13 @@ TEMPLATE_TEST_CASE(
     Front<TestType> plain = given;
     eliminate_plainly(plain, columns);
     Front<TestType> first = given;
-    REQUIRE(front_kernels<TestType>(kernels_for(Isa::sse2))
-                .factor(first.numbers.data(), rows, columns, given.stride));
+    REQUIRE(kernels_of<TestType>(kernels_for(Isa::sse2))
+                .fronts.factor(first.numbers.data(), rows, columns, given.stride));
     for (const Isa isa : testable_isas()) {
       INFO(name_of(isa));
       Front<TestType> front = given;
-      REQUIRE(front_kernels<TestType>(kernels_for(isa))
-                  .factor(front.numbers.data(), rows, columns, given.stride));
+      REQUIRE(kernels_of<TestType>(kernels_for(isa))
+                  .fronts.factor(front.numbers.data(), rows, columns, given.stride));
       for (std::size_t j = 0; j < rows; ++j) {
         for (std::size_t i = j; i < rows; ++i) {
           // A few roundings of numbers of the size of the diagonal.
@@ -92,8 +92,8 @@ TEMPLATE_TEST_CASE("a front with a pivot that is not positive is refused", "", f
   for (const double pivot : {0.0, -1.0, std::nan("")}) {
     auto front = drawn_front<TestType>(20, 1);
     front.at(17, 17) = static_cast<TestType>(pivot);
-    CHECK_FALSE(front_kernels<TestType>(kernels_for(best_isa()))
-                    .factor(front.numbers.data(), 20, 20, front.stride));
+    CHECK_FALSE(kernels_of<TestType>(kernels_for(best_isa()))
+                    .fronts.factor(front.numbers.data(), 20, 20, front.stride));
   }
 }
 
@@ -112,7 +112,7 @@ TEMPLATE_TEST_CASE("solving forward and backward with all columns solves the sys
     std::vector<TestType> first;
     for (const Isa isa : testable_isas()) {
       INFO(name_of(isa) << ", " << rows << " rows");
-      const FrontKernels<TestType>& kernels = front_kernels<TestType>(kernels_for(isa));
+      const FrontKernels<TestType>& kernels = kernels_of<TestType>(kernels_for(isa)).fronts;
       Front<TestType> front = given;
       REQUIRE(kernels.factor(front.numbers.data(), rows, rows, given.stride));
       std::vector<TestType> x = right;

@@ -41,21 +41,24 @@ TEST_CASE("each table holds the kernels of its own instruction set") {
     for (const Isa other : all) {
       const Kernels& theirs = kernels_for(other);
       CHECK((own.sphere_pairs == theirs.sphere_pairs) == (isa == other));
-      CHECK((own.front_f32.factor == theirs.front_f32.factor) == (isa == other));
-      CHECK((own.front_f64.factor == theirs.front_f64.factor) == (isa == other));
-      CHECK((own.f32.gauss_seidel_sweep == theirs.f32.gauss_seidel_sweep) == (isa == other));
-      CHECK((own.f64.gauss_seidel_sweep == theirs.f64.gauss_seidel_sweep) == (isa == other));
-      CHECK((own.f32.accumulate_impulses == theirs.f32.accumulate_impulses) == (isa == other));
-      CHECK((own.f64.residual == theirs.f64.residual) == (isa == other));
-      CHECK((own.f64.sphere_gaps == theirs.f64.sphere_gaps) == (isa == other));
+      CHECK((own.f32.fronts.factor == theirs.f32.fronts.factor) == (isa == other));
+      CHECK((own.f64.fronts.factor == theirs.f64.fronts.factor) == (isa == other));
+      CHECK((own.f32.rows.gauss_seidel_sweep == theirs.f32.rows.gauss_seidel_sweep) ==
+            (isa == other));
+      CHECK((own.f64.rows.gauss_seidel_sweep == theirs.f64.rows.gauss_seidel_sweep) ==
+            (isa == other));
+      CHECK((own.f32.rows.accumulate_impulses == theirs.f32.rows.accumulate_impulses) ==
+            (isa == other));
+      CHECK((own.f64.rows.residual == theirs.f64.rows.residual) == (isa == other));
+      CHECK((own.f64.rows.sphere_gaps == theirs.f64.rows.sphere_gaps) == (isa == other));
     }
   }
 }
 
-TEST_CASE("the row kernels of a table are found by their number type") {
+TEST_CASE("the kernels of a table are found by their number type") {
   const Kernels& kernels = kernels_for(Isa::sse2);
-  CHECK(&row_kernels<float>(kernels) == &kernels.f32);
-  CHECK(&row_kernels<double>(kernels) == &kernels.f64);
+  CHECK(&kernels_of<float>(kernels) == &kernels.f32);
+  CHECK(&kernels_of<double>(kernels) == &kernels.f64);
 }
 
 }  // namespace

@@ -86,7 +86,7 @@ TEMPLATE_TEST_CASE("sweeps over round walls have the same bits on every instruct
   for (const std::size_t grains : {1U, 15U, 16U, 33U, 100U}) {
     const RoundProblem<TestType> problem = random_round_problem<TestType>(grains, draw);
     RoundProblem<TestType> expected = problem;
-    const auto& reference = row_kernels<TestType>(kernels_for(Isa::sse2));
+    const auto& reference = kernels_of<TestType>(kernels_for(Isa::sse2)).rows;
     const auto sums =
         reference.round_sweep(expected.rows.data(), expected.rows.size(), nullptr,
                               expected.u.data(), expected.p.data(), expected.y.data(), rule);
@@ -94,7 +94,7 @@ TEMPLATE_TEST_CASE("sweeps over round walls have the same bits on every instruct
                                                expected.u.data(), expected.p.data());
     for (const Isa isa : testing::testable_isas()) {
       INFO(name_of(isa) << ", " << grains << " grains");
-      const auto& kernels = row_kernels<TestType>(kernels_for(isa));
+      const auto& kernels = kernels_of<TestType>(kernels_for(isa)).rows;
       RoundProblem<TestType> twin = problem;
       const auto other = kernels.round_sweep(twin.rows.data(), twin.rows.size(), nullptr,
                                              twin.u.data(), twin.p.data(), twin.y.data(), rule);
@@ -121,7 +121,7 @@ TEMPLATE_TEST_CASE("sweeps over changes at round walls do what sweeps over the i
   for (TestType& p : changes.p) p /= 2;
   const std::vector<TestType> from = changes.p;
   for (std::size_t k = 0; k < from.size(); ++k) changes.y[k] = whole.y[k] - from[k];
-  const auto& reference = row_kernels<TestType>(testing::kernels());
+  const auto& reference = kernels_of<TestType>(testing::kernels()).rows;
   const auto sums = reference.round_sweep(whole.rows.data(), whole.rows.size(), nullptr,
                                           whole.u.data(), whole.p.data(), whole.y.data(), rule);
   const auto left = reference.round_residual(whole.rows.data(), whole.rows.size(), nullptr,
@@ -129,7 +129,7 @@ TEMPLATE_TEST_CASE("sweeps over changes at round walls do what sweeps over the i
   std::vector<RoundProblem<TestType>> swept;
   for (const Isa isa : testing::testable_isas()) {
     INFO(name_of(isa));
-    const auto& kernels = row_kernels<TestType>(kernels_for(isa));
+    const auto& kernels = kernels_of<TestType>(kernels_for(isa)).rows;
     RoundProblem<TestType>& p = swept.emplace_back(changes);
     const auto other = kernels.round_sweep(p.rows.data(), p.rows.size(), from.data(), p.u.data(),
                                            p.p.data(), p.y.data(), rule);
@@ -158,7 +158,7 @@ TEMPLATE_TEST_CASE("a grain that leaves a round wall's circle is put back on its
   RoundProblem<TestType> problem = random_round_problem<TestType>(80, draw);
   RoundProblem<TestType> start = problem;
   start.y = start.p = problem.y = problem.p;
-  const auto& kernels = row_kernels<TestType>(testing::kernels());
+  const auto& kernels = kernels_of<TestType>(testing::kernels()).rows;
   kernels.round_sweep(problem.rows.data(), problem.rows.size(), nullptr, problem.u.data(),
                       problem.p.data(), problem.y.data(), SweepRule<TestType>{});
   int outside = 0;
@@ -192,7 +192,7 @@ TEMPLATE_TEST_CASE("a grain that fills its tube is held on the axis, and one far
   set_contact(0, 0, 0, 0, 2, problem);
   set_contact(1, 0.5, 0, 4, 2, problem);
   problem.u[0].x = problem.u[1].x = TestType(0.125);
-  const auto& kernels = row_kernels<TestType>(testing::kernels());
+  const auto& kernels = kernels_of<TestType>(testing::kernels()).rows;
   kernels.round_sweep(problem.rows.data(), problem.rows.size(), nullptr, problem.u.data(),
                       problem.p.data(), problem.y.data(), SweepRule<TestType>{});
   CHECK(problem.u[0].x == 0);
@@ -206,7 +206,7 @@ TEST_CASE("the gap of a wide tube keeps its digits in f32") {
   RoundProblem<float> problem = round_problem<float>(1);
   set_contact(0, 499.5, 0, 1e-5, 1, problem);
   problem.u[0].x = 3e-5F;
-  const auto& kernels = row_kernels<float>(testing::kernels());
+  const auto& kernels = kernels_of<float>(testing::kernels()).rows;
   kernels.round_sweep(problem.rows.data(), problem.rows.size(), nullptr, problem.u.data(),
                       problem.p.data(), problem.y.data(), SweepRule<float>{});
   CHECK(static_cast<double>(problem.u[0].x) == Approx(1e-5).epsilon(1e-5));

@@ -107,7 +107,7 @@ void on_random_row_problems(Compare compare) {
         INFO(name_of(isa) << ", " << blocks << " blocks, seed " << seed);
         RowProblem<Real> problem = random_row_problem<Real>(blocks, 100 * blocks + seed);
         RowProblem<Real> twin = problem;
-        compare(row_kernels<Real>(kernels_for(isa)), problem, twin);
+        compare(kernels_of<Real>(kernels_for(isa)).rows, problem, twin);
         REQUIRE(same_bits(problem.p, twin.p));
         REQUIRE(same_bits(problem.y, twin.y));
         REQUIRE(same_bits(problem.u, twin.u));
@@ -215,8 +215,8 @@ TEMPLATE_TEST_CASE("motion goes on by a share of its change, record by record", 
       Records before(records, {1, 1, 1, 4}), u(records, {3, 1, -1, 4}), last = before, next = u;
       std::fill(last.begin(), last.begin() + taken, Record<TestType>{3, 1, -1, 4});
       std::fill(next.begin(), next.begin() + taken, Record<TestType>{4, 1, -2, 4});
-      row_kernels<TestType>(kernels_for(isa))
-          .extrapolate(TestType(0.5), count, before.data(), u.data());
+      kernels_of<TestType>(kernels_for(isa))
+          .rows.extrapolate(TestType(0.5), count, before.data(), u.data());
       CHECK(same_bits(u, next));
       CHECK(same_bits(before, last));
     }
@@ -256,8 +256,8 @@ TEMPLATE_TEST_CASE("accumulated impulses are divided by the masses and are gone 
       std::fill(accumulated_after.begin(), accumulated_after.begin() + taken,
                 Record<TestType>{0, 0, 0, 0});
       std::fill(u_after.begin(), u_after.begin() + taken, Record<TestType>{5, -2, 5, 4});
-      row_kernels<TestType>(kernels_for(isa))
-          .apply_impulses(free.data(), count, accumulated.data(), u.data());
+      kernels_of<TestType>(kernels_for(isa))
+          .rows.apply_impulses(free.data(), count, accumulated.data(), u.data());
       CHECK(same_bits(u, u_after));
       CHECK(same_bits(accumulated, accumulated_after));
     }
@@ -331,9 +331,10 @@ TEMPLATE_TEST_CASE("one Gauss-Seidel sweep stops two grains where they meet", ""
     RowProblem<TestType> problem = one_row(TestType(0.25), TestType(0.25));
     problem.u[0] = {0.5, 0, 0, 1};   // mass 1
     problem.u[1] = {-0.5, 0, 0, 3};  // mass 1/3: they would overlap by .75
-    const auto sums = row_kernels<TestType>(kernels_for(isa))
-                          .gauss_seidel_sweep(problem.rows.data(), 1, nullptr, problem.u.data(),
-                                              problem.p.data(), problem.p.data(), {});
+    const auto sums =
+        kernels_of<TestType>(kernels_for(isa))
+            .rows.gauss_seidel_sweep(problem.rows.data(), 1, nullptr, problem.u.data(),
+                                     problem.p.data(), problem.p.data(), {});
     CHECK(problem.p[3] == TestType(0.75 / 4));
     CHECK(problem.u[0].x == TestType(0.5 - 0.75 / 4));
     CHECK(problem.u[1].x == TestType(-0.5 + 3 * 0.75 / 4));
@@ -348,14 +349,14 @@ TEMPLATE_TEST_CASE("what a row misses counts in weights of its lighter grain", "
     problem.u[0] = {0, 0, 0, 8};  // mass 1/8
     problem.u[1] = {0, 0, 0, TestType(0.5)};
     const auto missed =
-        row_kernels<TestType>(kernels_for(isa))
-            .residual(problem.rows.data(), 1, nullptr, problem.u.data(), problem.p.data());
+        kernels_of<TestType>(kernels_for(isa))
+            .rows.residual(problem.rows.data(), 1, nullptr, problem.u.data(), problem.p.data());
     CHECK(missed.largest == TestType(2));  // 0.25 of a mass of 1, 8 times as light
     CHECK(missed.squares == TestType(4));
     CHECK(missed.loaded == TestType(0));
     problem.p[3] = TestType(0.5);
-    CHECK(row_kernels<TestType>(kernels_for(isa))
-              .residual(problem.rows.data(), 1, nullptr, problem.u.data(), problem.p.data())
+    CHECK(kernels_of<TestType>(kernels_for(isa))
+              .rows.residual(problem.rows.data(), 1, nullptr, problem.u.data(), problem.p.data())
               .loaded == TestType(1));
   }
 }
@@ -365,9 +366,9 @@ TEMPLATE_TEST_CASE("a contact that opens loses its impulse", "", float, double) 
     INFO(name_of(isa));
     RowProblem<TestType> problem = one_row(TestType(1));
     problem.p[3] = TestType(0.125);
-    row_kernels<TestType>(kernels_for(isa))
-        .gauss_seidel_sweep(problem.rows.data(), 1, nullptr, problem.u.data(), problem.p.data(),
-                            problem.p.data(), {});
+    kernels_of<TestType>(kernels_for(isa))
+        .rows.gauss_seidel_sweep(problem.rows.data(), 1, nullptr, problem.u.data(),
+                                 problem.p.data(), problem.p.data(), {});
     CHECK(problem.p[3] == 0);
     CHECK(problem.u[0].x == TestType(0.125));
     CHECK(problem.u[1].x == TestType(-0.125));
@@ -383,7 +384,7 @@ TEMPLATE_TEST_CASE("an overlap is repaired by the share asked for, a gap is left
   for (const Isa isa : testing::testable_isas()) {
     INFO(name_of(isa));
     RowProblem<TestType> problem = one_row(TestType(0));
-    const auto& kernels = row_kernels<TestType>(kernels_for(isa));
+    const auto& kernels = kernels_of<TestType>(kernels_for(isa)).rows;
     const double sunk = kernels.sphere_gaps(problem.rows.data(), 1, positions.data(), 7, 0, 0.5);
     CHECK(sunk == sunk_share - 0.75);  // .75 apart, and of radius .5
     CHECK(problem.rows[0].gap[3] == TestType(-0.125));
@@ -403,8 +404,8 @@ TEMPLATE_TEST_CASE("grains whose centres coincide are given a normal to part alo
   for (const Isa isa : testing::testable_isas()) {
     INFO(name_of(isa));
     RowProblem<TestType> problem = one_row(TestType(0));
-    const double sunk = row_kernels<TestType>(kernels_for(isa))
-                            .sphere_gaps(problem.rows.data(), 1, positions.data(), 0, 0, 1);
+    const double sunk = kernels_of<TestType>(kernels_for(isa))
+                            .rows.sphere_gaps(problem.rows.data(), 1, positions.data(), 0, 0, 1);
     CHECK(sunk == sunk_share);
     CHECK(problem.rows[0].gap[3] == -1);
     CHECK(problem.rows[0].normal_x[3] == 0);
