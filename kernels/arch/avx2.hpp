@@ -53,12 +53,6 @@ inline void store_records(Record<float>* base, const std::uint32_t* offset,
   store_two(base, offset, 3, r3);
 }
 
-/// Takes `push` from record a and gives it to record b.
-inline void push_pair(Record<float>& a, Record<float>& b, __m128 push) {
-  _mm_store_ps(&a.x, _mm_sub_ps(_mm_load_ps(&a.x), push));
-  _mm_store_ps(&b.x, _mm_add_ps(_mm_load_ps(&b.x), push));
-}
-
 inline void push_records(Record<float>* base, const std::uint32_t* a, const std::uint32_t* b,
                          const Components<float>& c) {
   __m256 r0 = c.x, r1 = c.y, r2 = c.z, r3 = c.w;

@@ -59,12 +59,6 @@ inline void store_records(Record<float>* base, const std::uint32_t* offset,
   store_four(base, offset, 3, r3);
 }
 
-/// Takes `push` from record a and gives it to record b.
-inline void push_pair(Record<float>& a, Record<float>& b, __m128 push) {
-  _mm_store_ps(&a.x, _mm_sub_ps(_mm_load_ps(&a.x), push));
-  _mm_store_ps(&b.x, _mm_add_ps(_mm_load_ps(&b.x), push));
-}
-
 /// Calls put(lane, record) for the records of quarter `quarter` of four transposed batches.
 template <int quarter, class Put>
 [[gnu::always_inline]] inline void put_quarter(const Put& put, __m512 r0, __m512 r1, __m512 r2,
@@ -151,10 +145,6 @@ inline void push_records(Record<double>* base, const std::uint32_t* a, const std
     _mm256_store_pd(from, _mm256_sub_pd(_mm256_load_pd(from), r.record[k]));
     _mm256_store_pd(to, _mm256_add_pd(_mm256_load_pd(to), r.record[k]));
   }
-}
-
-inline void add_to(Record<float>& to, __m128 record) {
-  _mm_store_ps(&to.x, _mm_add_ps(_mm_load_ps(&to.x), record));
 }
 
 /// Adds each record of `c` to its place; lanes may share one.

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <xmmintrin.h>
 
 #include "kernels/kernels.hpp"
 
@@ -31,6 +32,16 @@ inline const Record<Real>& at(const Record<Real>* base, std::uint32_t offset) {
 template <class Real>
 inline Record<Real>& at(Record<Real>* base, std::uint32_t offset) {
   return *reinterpret_cast<Record<Real>*>(reinterpret_cast<std::byte*>(base) + offset);
+}
+
+/// Takes `push` from record a and gives it to record b.
+inline void push_pair(Record<float>& a, Record<float>& b, __m128 push) {
+  _mm_store_ps(&a.x, _mm_sub_ps(_mm_load_ps(&a.x), push));
+  _mm_store_ps(&b.x, _mm_add_ps(_mm_load_ps(&b.x), push));
+}
+
+inline void add_to(Record<float>& to, __m128 record) {
+  _mm_store_ps(&to.x, _mm_add_ps(_mm_load_ps(&to.x), record));
 }
 
 /// Components of two records that follow each other in memory, as those of a polyhedron.

@@ -34,12 +34,6 @@ inline void store_records(Record<float>* base, const std::uint32_t* offset,
   _mm_store_ps(&at(base, offset[3]).x, r3);
 }
 
-/// Takes `push` from record a and gives it to record b.
-inline void push_pair(Record<float>& a, Record<float>& b, __m128 push) {
-  _mm_store_ps(&a.x, _mm_sub_ps(_mm_load_ps(&a.x), push));
-  _mm_store_ps(&b.x, _mm_add_ps(_mm_load_ps(&b.x), push));
-}
-
 inline void push_records(Record<float>* base, const std::uint32_t* a, const std::uint32_t* b,
                          const Components<float>& c) {
   __m128 r0 = c.x, r1 = c.y, r2 = c.z, r3 = c.w;
@@ -81,10 +75,6 @@ inline void push_records(Record<double>* base, const std::uint32_t* a, const std
                          const Components<double>& c) {
   push_pair(at(base, a[0]), at(base, b[0]), _mm_unpacklo_pd(c.x, c.y), _mm_unpacklo_pd(c.z, c.w));
   push_pair(at(base, a[1]), at(base, b[1]), _mm_unpackhi_pd(c.x, c.y), _mm_unpackhi_pd(c.z, c.w));
-}
-
-inline void add_to(Record<float>& to, __m128 record) {
-  _mm_store_ps(&to.x, _mm_add_ps(_mm_load_ps(&to.x), record));
 }
 
 /// Adds each record of `c` to its place; lanes may share one.
