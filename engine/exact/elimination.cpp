@@ -5,48 +5,21 @@
 #include <utility>
 
 #include "engine/exact/vertex_cover.hpp"
-
+#include "engine/rows/contacts.hpp"
 namespace grainsweep {
 
 namespace {
 
 constexpr std::size_t few_grains = 12;  // not worth a plane
 
-/// The partners of every grain.
-class Neighbours {
- public:
-  Neighbours(std::size_t grains, const std::vector<GrainPair>& pairs)
-      : begin_(grains + 1, 0), partners_(2 * pairs.size()) {
-    for (const GrainPair pair : pairs) {
-      ++begin_[index(pair.a) + 1];
-      ++begin_[index(pair.b) + 1];
-    }
-    std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
-    std::vector<std::size_t> at(begin_.begin(), begin_.end() - 1);
-    for (const GrainPair pair : pairs) {
-      partners_[at[index(pair.a)]++] = pair.b;
-      partners_[at[index(pair.b)]++] = pair.a;
-    }
-  }
-  std::span<const std::int32_t> of(std::int32_t grain) const {
-    return std::span(partners_).subspan(begin_[index(grain)],
-                                        begin_[index(grain) + 1] - begin_[index(grain)]);
-  }
-
- private:
-  static std::size_t index(std::int32_t grain) { return static_cast<std::size_t>(grain); }
-
-  std::vector<std::size_t> begin_;
-  std::vector<std::int32_t> partners_;
-};
-
 class Dissection {
  public:
   Dissection(std::span<const Record<double>> centres, const std::vector<GrainPair>& pairs)
-      : centres_(centres),
-        neighbours_(centres.size(), pairs),
-        part_(centres.size(), 0),
-        number_(centres.size(), none) {
+      : centres_(centres), part_(centres.size(), 0), number_(centres.size(), none) {
+    const auto visit_partners = [&](const auto& put) {
+      for (const GrainPair pair : pairs) put(pair.a, pair.b), put(pair.b, pair.a);
+    };
+    collect(centres.size(), visit_partners, neighbours_);
     std::vector<std::int32_t> all(centres.size());
     std::iota(all.begin(), all.end(), 0);
     dissect(all.begin(), all.end());
@@ -186,7 +159,7 @@ class Dissection {
   }
 
   std::span<const Record<double>> centres_;
-  Neighbours neighbours_;
+  ByGrain<std::int32_t> neighbours_;
   std::vector<std::int32_t> part_;  ///< of each grain, the one it was last sorted into
   std::int32_t parts_ = 0;
   std::vector<std::int32_t> number_;  ///< of each grain among those that touch the half at work

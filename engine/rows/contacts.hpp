@@ -17,9 +17,9 @@ namespace grainsweep {
 template <class Kind, class Real>
 struct Contacts;
 
-/// What contacts carry from one layout of rows to the next, by the first grain of each.
+/// Entries of grains, those of each together.
 template <class Entry>
-struct Carried {
+struct ByGrain {
   std::vector<std::size_t> begin;  ///< where each grain's entries begin; one more at the end
   std::vector<Entry> entries;
 
@@ -32,14 +32,14 @@ struct Carried {
 /// Sorts entries by grain, of each in their order. `visit_all(put)` calls put(grain, entry) for all
 /// entries, those of a grain never at the same time, and does so twice.
 template <class Entry, class VisitAll>
-void collect(std::size_t grains, const VisitAll& visit_all, Carried<Entry>& carried) {
-  std::vector<std::size_t>& begin = carried.begin;
+void collect(std::size_t grains, const VisitAll& visit_all, ByGrain<Entry>& sorted) {
+  std::vector<std::size_t>& begin = sorted.begin;
   begin.assign(grains + 2, 0);
   visit_all([&](std::int32_t a, const Entry&) { ++begin[static_cast<std::size_t>(a) + 2]; });
   for (std::size_t i = 2; i < begin.size(); ++i) begin[i] += begin[i - 1];
-  carried.entries.resize(begin.back());
+  sorted.entries.resize(begin.back());
   visit_all([&](std::int32_t a, const Entry& entry) {
-    carried.entries[begin[static_cast<std::size_t>(a) + 1]++] = entry;
+    sorted.entries[begin[static_cast<std::size_t>(a) + 1]++] = entry;
   });
 }
 

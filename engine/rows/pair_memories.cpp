@@ -1,52 +1,32 @@
 #include "engine/rows/pair_memories.hpp"
 
 #include <algorithm>
-#include <numeric>
+#include <span>
 
 namespace grainsweep {
 
 namespace {
 
-/// Sets begin[g + 1] to where the entries of grain g go among all in the order of their grains;
-/// counted up with each that is put there, begin[g] is where those of g begin. `grain_of` tells the
-/// grain of each of the entries.
-template <class GrainOf>
-void make_room(std::size_t grains, std::size_t entries, GrainOf grain_of,
-               std::vector<std::size_t>& begin) {
-  begin.assign(grains + 2, 0);
-  for (std::size_t k = 0; k < entries; ++k) ++begin[grain_of(k) + 2];
-  std::partial_sum(begin.begin(), begin.end(), begin.begin());
-}
-
 /// Lists the pairs before by their first grain, and those of each by the second.
 void sort_by_grains(std::size_t grains, PairMemoryColumns& columns) {
   const std::vector<GrainPair>& pairs = columns.pairs;
-  const auto first = [&](std::size_t k) { return static_cast<std::size_t>(pairs[k].a); };
-  const auto second = [&](std::size_t k) { return static_cast<std::size_t>(pairs[k].b); };
-  columns.by_second.resize(pairs.size());
-  columns.second.resize(pairs.size());
-  columns.number.resize(pairs.size());
-  make_room(grains, pairs.size(), second, columns.begin);
-  for (std::size_t k = 0; k < pairs.size(); ++k) {
-    columns.by_second[columns.begin[second(k) + 1]++] = k;
-  }
-  make_room(grains, pairs.size(), first, columns.begin);
-  for (const std::size_t k : columns.by_second) {
-    const std::size_t at = columns.begin[first(k) + 1]++;
-    columns.second[at] = pairs[k].b;
-    columns.number[at] = k;
-  }
+  const auto visit_pairs = [&](const auto& put) {
+    for (std::size_t k = 0; k < pairs.size(); ++k) put(pairs[k].b, k);
+  };
+  collect(grains, visit_pairs, columns.by_second);
+  const auto visit_partners = [&](const auto& put) {
+    for (const std::size_t k : columns.by_second.entries) {
+      put(pairs[k].a, PairMemoryColumns::Partner{pairs[k].b, k});
+    }
+  };
+  collect(grains, visit_partners, columns.partners);
 }
-
 /// Number of a pair in the list before; that of its pairs if it was not listed.
 std::size_t number_before(GrainPair pair, const PairMemoryColumns& columns) {
-  const auto a = static_cast<std::size_t>(pair.a);
-  const auto first = columns.second.begin() + static_cast<std::ptrdiff_t>(columns.begin[a]);
-  const auto last = columns.second.begin() + static_cast<std::ptrdiff_t>(columns.begin[a + 1]);
-  const auto at = std::lower_bound(first, last, pair.b);
-  return at != last && *at == pair.b
-             ? columns.number[static_cast<std::size_t>(at - columns.second.begin())]
-             : columns.pairs.size();
+  const std::span<const PairMemoryColumns::Partner> partners = columns.partners.of(pair.a);
+  const auto at = std::lower_bound(partners.begin(), partners.end(), pair.b,
+                                   [](const auto& one, std::int32_t b) { return one.second < b; });
+  return at != partners.end() && at->second == pair.b ? at->number : columns.pairs.size();
 }
 
 }  // namespace

@@ -6,20 +6,23 @@
 #include <vector>
 
 #include "engine/context.hpp"
+#include "engine/rows/contacts.hpp"
 #include "kernels/kernels.hpp"
 
 namespace grainsweep {
 
 /// Kept from call to call.
 struct PairMemoryColumns {
-  std::vector<GrainPair> pairs;      ///< those of the list before
-  std::vector<std::size_t> before;   ///< see match_pairs
-  std::vector<std::size_t> begin;    ///< of each first grain's in what follows; one more at the end
-  std::vector<std::int32_t> second;  ///< second grains, of each first grain ascending
-  std::vector<std::size_t> number;   ///< of their pairs
-  std::vector<std::size_t> by_second;  ///< memory: the pairs, by their second grains
-};
+  struct Partner {
+    std::int32_t second;  ///< grain of a pair
+    std::size_t number;   ///< of the pair
+  };
 
+  std::vector<GrainPair> pairs;     ///< those of the list before
+  std::vector<std::size_t> before;  ///< see match_pairs
+  ByGrain<Partner> partners;        ///< of each first grain, by the second ascending
+  ByGrain<std::size_t> by_second;   ///< memory: the pairs, by their second grains
+};
 /// Finds each pair of a new list in the list before, columns.pairs: columns.before becomes its
 /// number in it, or the number of its pairs if it was not listed.
 void match_pairs(std::size_t grains, const std::vector<GrainPair>& pairs, const ParallelFor& loop,

@@ -184,7 +184,7 @@ void lay_out_part(const PolyhedronBed& bed, std::size_t subdomain, double correc
 
 /// Gives each carried impulse to a point of the part's contacts.
 template <class Real>
-void carry_impulses(const Carried<CarriedPoint>& carried, ContactPart<Real>& part) {
+void carry_impulses(const ByGrain<CarriedPoint>& carried, ContactPart<Real>& part) {
   for (std::size_t k = 0; k < part.found.contacts.size(); ++k) {
     const PolyhedronContact& contact = part.found.contacts[k];
     for (const CarriedPoint& point : carried.of(contact.a)) {
@@ -207,7 +207,7 @@ void visit_contacts(const PolyhedronContacts<Real>& contacts, Visit visit) {
 /// Impulses of contacts times `factor`. Parts that are not neighbours name no grain in common.
 template <class Real>
 void collect_impulses(const PolyhedronBed& bed, const ParallelFor& loop, double factor,
-                      const PolyhedronContacts<Real>& contacts, Carried<CarriedPoint>& carried) {
+                      const PolyhedronContacts<Real>& contacts, ByGrain<CarriedPoint>& carried) {
   const auto visit_all = [&](const auto& put) {
     visit_subdomains(contacts.found_parts, loop, [&](std::size_t p) {
       const ContactPart<Real>& part = contacts.parts[p];

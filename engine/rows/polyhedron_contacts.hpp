@@ -59,7 +59,7 @@ struct Contacts<Polyhedron, Real> {
   RowShares shares;
   std::vector<Real> impulse;
   std::vector<Real> extrapolated;  ///< the solver's look-ahead impulses
-  Carried<CarriedPoint> carried;
+  ByGrain<CarriedPoint> carried;   ///< from the last step, by the first grain of each contact
   std::vector<std::uint64_t> open_blocks;  ///< per grain: one bit for each open block it is in
 
   // As of spheres; a block says itself where its impulses are.

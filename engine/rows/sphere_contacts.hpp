@@ -70,9 +70,9 @@ struct LayoutColumns {
   std::vector<std::vector<BlockRange>> wall_ranges;  ///< of each subdomain in the rows of the walls
   std::vector<std::size_t> first_block;              ///< of each subdomain in the rows of all
   std::vector<std::uint64_t> open_blocks;  ///< per grain: one bit for each open block it is in
-  Carried<CarriedImpulse<Real>> carried;
-  std::vector<Real> pair_impulse;  ///< what each pair carries
-  std::vector<GrainPair> near;     ///< pairs that become rows
+  ByGrain<CarriedImpulse<Real>> carried;   ///< by the first grain of each contact
+  std::vector<Real> pair_impulse;          ///< what each pair carries
+  std::vector<GrainPair> near;             ///< pairs that become rows
 };
 
 /// Rows and impulses; the impulse of lane k of block b is `impulse[b * block_width + k]`.
