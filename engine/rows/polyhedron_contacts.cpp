@@ -80,60 +80,33 @@ class BodyBlocks {
   OpenBlocks open_;
 };
 
-/// A row of a contact, before it is rounded and stored.
-struct RowEntry {
-  Vector lever_a, lever_b;
-
-  /// A_kk of the row of two grains with these inverse masses.
-  double diagonal(double inverse_masses) const {
-    return inverse_masses + lever_a.squaredNorm() + lever_b.squaredNorm();
-  }
-};
-
-/// The rows of one contact.
-struct ContactRows {
-  double inverse_masses = 0.0;  ///< 1/m_a + 1/m_b
-  Vector normal;                ///< box frame
-  std::vector<RowEntry> each;   ///< of each point
-};
-
-void add_side_b(const PolyhedronBed& bed, const PolyhedronContact& contact,
-                const ContactPoint* points, ContactRows& rows) {
-  const auto b = static_cast<std::size_t>(contact.b);
-  if (bed.is_asleep(b)) return;
-  const Vector& root = bed.root_inertia[b];
-  for (std::size_t k = 0; k < contact.count && bed.turns(b); ++k) {
-    const Vector torque = (points[k].position - contact.pose.centre).cross(contact.normal);
-    rows.each[k].lever_b = (contact.pose.turn.transpose() * torque).cwiseQuotient(root);
-  }
-  rows.inverse_masses += bed.inverse_mass(contact.b);
-}
-
-void set_rows(const PolyhedronBed& bed, const PolyhedronContact& contact,
-              const ContactPoint* points, ContactRows& rows) {
-  const auto a = static_cast<std::size_t>(contact.a);
-  const Vector& root = bed.root_inertia[a];
-  rows.inverse_masses = bed.inverse_mass(contact.a);
-  rows.normal = bed.pose(a).orientation * contact.normal;
-  rows.each.assign(contact.count, {Vector::Zero(), Vector::Zero()});
-  const bool is_turned = bed.turns(a) && !bed.is_asleep(a);
-  for (std::size_t k = 0; k < contact.count && is_turned; ++k) {
-    rows.each[k].lever_a = points[k].position.cross(contact.normal).cwiseQuotient(root);
-  }
-  if (bed.is_grain(contact.b)) add_side_b(bed, contact, points, rows);
-}
-
+/// The row of a point; an overlap counts as much as a step repairs of it.
 template <class Real>
-void store_row(const RowEntry& row, double inverse_masses, double gap, std::size_t lane,
+void store_row(const PolyhedronBed& bed, const PolyhedronContact& contact,
+               const ContactPoint& point, double correction, std::size_t lane,
                BodyPoints<Real>& points) {
-  for (int axis = 0; axis < 3; ++axis) {
-    points.lever_a[axis][lane] = static_cast<Real>(row.lever_a[axis]);
-    points.lever_b[axis][lane] = static_cast<Real>(row.lever_b[axis]);
+  const auto is_turned = [&](std::size_t i) { return bed.turns(i) && !bed.is_asleep(i); };
+  const auto a = static_cast<std::size_t>(contact.a), b = static_cast<std::size_t>(contact.b);
+  Vector lever_a = Vector::Zero(), lever_b = Vector::Zero();
+  double inverse_masses = bed.inverse_mass(contact.a);
+  if (is_turned(a)) {
+    lever_a = point.position.cross(contact.normal).cwiseQuotient(bed.root_inertia[a]);
   }
-  points.gap[lane] = static_cast<Real>(gap);
-  points.reduced_mass[lane] = static_cast<Real>(1.0 / row.diagonal(inverse_masses));
+  if (bed.is_grain(contact.b)) {
+    inverse_masses += bed.inverse_mass(contact.b);
+    const Vector torque = (point.position - contact.pose.centre).cross(contact.normal);
+    if (is_turned(b)) {
+      lever_b = (contact.pose.turn.transpose() * torque).cwiseQuotient(bed.root_inertia[b]);
+    }
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    points.lever_a[axis][lane] = static_cast<Real>(lever_a[axis]);
+    points.lever_b[axis][lane] = static_cast<Real>(lever_b[axis]);
+  }
+  points.gap[lane] = static_cast<Real>(point.gap < 0.0 ? correction * point.gap : point.gap);
+  points.reduced_mass[lane] =
+      static_cast<Real>(1.0 / (inverse_masses + lever_a.squaredNorm() + lever_b.squaredNorm()));
 }
-
 template <class Real>
 void store_normal(const Vector& normal, std::size_t lane, BodyBlock<Real>& block) {
   block.normal_x[lane] = static_cast<Real>(normal.x());
@@ -162,19 +135,16 @@ void lay_out_part(const PolyhedronBed& bed, std::size_t subdomain, double correc
   part.points.clear();
   part.first.resize(found.contacts.size());
   BodyBlocks<Real> blocks(bed, subdomain, words, part);
-  ContactRows own;
   sort_by_points(found, part.order);
   for (const std::size_t k : part.order) {
     const PolyhedronContact& contact = found.contacts[k];
-    const ContactPoint* points = found.points.data() + contact.first;
     const BlockLane at = blocks.take(contact);
     const std::size_t first = part.blocks[at.block].first;
     part.first[k] = first * block_width + at.lane;
-    set_rows(bed, contact, points, own);
-    store_normal(own.normal, at.lane, part.blocks[at.block]);
+    store_normal(bed.pose(static_cast<std::size_t>(contact.a)).orientation * contact.normal,
+                 at.lane, part.blocks[at.block]);
     for (std::size_t j = 0; j < contact.count; ++j) {
-      const double gap = points[j].gap;
-      store_row(own.each[j], own.inverse_masses, gap < 0.0 ? correction * gap : gap, at.lane,
+      store_row(bed, contact, found.points[contact.first + j], correction, at.lane,
                 part.points[first + j]);
     }
   }
