@@ -12,26 +12,13 @@ Vector normal_of(const RowBlock<Real>& row, std::size_t lane) {
           static_cast<double>(row.normal_z[lane])};
 }
 
-/// Calls visit(row block, lane, place of its impulse) for all rows that are swept: those of the
-/// same grain never at the same time.
-template <class Real, class Visit>
-void visit_lanes(const ParallelFor& loop, SphereContacts<Real>& contacts, const Visit& visit) {
-  visit_ranges(contacts.shares, loop, [&](BlockRange range) {
-    for (std::size_t block = range.first; block < range.first + range.blocks; ++block) {
-      for (std::size_t lane = 0; lane < block_width; ++lane) {
-        visit(block, lane, block * block_width + lane);
-      }
-    }
-  });
-}
-
 /// The motion of each grain with the impulses that the contacts hold.
 template <class Real>
 void set_motion_before(const ParallelFor& loop, SphereContacts<Real>& contacts,
                        MotionColumns<Real>& motion) {
   std::vector<Vector>& whole = motion.changed_from;
   whole.assign(motion.free.size(), Vector::Zero());
-  visit_lanes(loop, contacts, [&](std::size_t block, std::size_t lane, std::size_t at) {
+  visit_lanes(contacts, loop, [&](std::size_t block, std::size_t lane, std::size_t at) {
     if (contacts.impulse[at] == Real(0)) return;
     const RowBlock<Real>& row = contacts.rows[block];
     const Vector push = static_cast<double>(contacts.impulse[at]) * normal_of(row, lane);
@@ -55,7 +42,7 @@ void move_gaps(const ParallelFor& loop, const std::vector<Vector>& by,
   const auto add = [](double change, Real& to) {
     to = static_cast<Real>(static_cast<double>(to) + change);
   };
-  visit_lanes(loop, contacts, [&](std::size_t block, std::size_t lane, std::size_t) {
+  visit_lanes(contacts, loop, [&](std::size_t block, std::size_t lane, std::size_t) {
     RowBlock<Real>& row = contacts.rows[block];
     const Vector& a = by[static_cast<std::size_t>(row.a(lane))];
     if (block < contacts.first_round) {

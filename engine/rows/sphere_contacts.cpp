@@ -26,33 +26,41 @@ std::int32_t wall_name(const SphereBed& bed, const SphereContacts<Real>& contact
   return bed.wall_name(k + row);
 }
 
-/// Calls visit(a, other, impulse) for each row that pushed: rows of the same grain never at the
-/// same time.
-template <class Real, class Visit>
-void visit_pushing(const SphereBed& bed, const SphereContacts<Real>& contacts,
-                   const ParallelFor& loop, const Visit& visit) {
-  visit_ranges(contacts.shares, loop, [&](BlockRange range) {
-    for (std::size_t block = range.first; block < range.first + range.blocks; ++block) {
-      const bool is_pair = block < contacts.pair_blocks;
-      const std::int32_t wall = is_pair ? 0 : wall_name(bed, contacts, block);
-      for (std::size_t lane = 0; lane < block_width; ++lane) {
-        const Real impulse = contacts.impulse[block * block_width + lane];
-        if (impulse != Real(0)) {
-          const RowBlock<Real>& r = contacts.rows[block];
-          visit(r.a(lane), is_pair ? r.b(lane) : wall, impulse);
-        }
-      }
-    }
-  });
+/// The second side of a row's contact in carried impulses.
+template <class Real>
+std::int32_t other_side(const SphereBed& bed, const SphereContacts<Real>& contacts,
+                        std::size_t block, std::size_t lane) {
+  return block < contacts.pair_blocks ? contacts.rows[block].b(lane)
+                                      : wall_name(bed, contacts, block);
 }
 
+/// Calls visit(block, lane, impulse) for each contact that bore a force; of a round wall with the
+/// first of its two blocks.
+template <class Real, class Visit>
+void visit_force_bearing(const SphereContacts<Real>& contacts, double dt, Visit visit) {
+  const double least = least_force * dt * dt;
+  const std::size_t round = contacts.first_round * block_width;
+  for (std::size_t at = 0; at < round; ++at) {
+    const auto impulse = static_cast<double>(contacts.impulse[at]);
+    if (impulse > least) visit(at / block_width, at % block_width, impulse);
+  }
+  for (std::size_t at = round; at < contacts.impulse.size(); ++at) {
+    if (at / block_width % 2 != contacts.first_round % 2) continue;
+    const double impulse = std::hypot(static_cast<double>(contacts.impulse[at]),
+                                      static_cast<double>(contacts.impulse[at + block_width]));
+    if (impulse > least) visit(at / block_width, at % block_width, impulse);
+  }
+}
 /// What `to` takes over from the contacts `from`: their impulses times `factor`.
 template <class From, class To>
 void collect_impulses(const SphereBed& bed, const ParallelFor& loop, double factor,
                       const SphereContacts<From>& from, SphereContacts<To>& to) {
   const auto visit_all = [&](const auto& put) {
-    visit_pushing(bed, from, loop, [&](std::int32_t a, std::int32_t other, From impulse) {
-      put(a, CarriedImpulse<To>{other, static_cast<To>(factor * static_cast<double>(impulse))});
+    visit_lanes(from, loop, [&](std::size_t block, std::size_t lane, std::size_t at) {
+      if (from.impulse[at] == From(0)) return;
+      put(from.rows[block].a(lane),
+          CarriedImpulse<To>{other_side(bed, from, block, lane),
+                             static_cast<To>(factor * static_cast<double>(from.impulse[at]))});
     });
   };
   collect(bed.grains(), visit_all, to.layout.carried);
@@ -323,10 +331,8 @@ std::vector<ForceContact> force_contacts(const SphereBed& bed, double dt,
                                          const SphereContacts<Real>& contacts) {
   std::vector<ForceContact> all;
   visit_force_bearing(contacts, dt, [&](std::size_t block, std::size_t lane, double impulse) {
-    const RowBlock<Real>& r = contacts.rows[block];
-    const bool is_pair = block < contacts.pair_blocks;
-    all.push_back(
-        {r.a(lane), is_pair ? r.b(lane) : wall_name(bed, contacts, block), impulse / (dt * dt)});
+    all.push_back({contacts.rows[block].a(lane), other_side(bed, contacts, block, lane),
+                   impulse / (dt * dt)});
   });
   return all;
 }

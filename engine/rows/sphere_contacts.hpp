@@ -159,24 +159,19 @@ template <class Real>
 double update_gaps(const SphereBed& bed, const ExecutionContext& context, double correction,
                    SphereContacts<Real>& contacts);
 
-/// Calls visit(block, lane, impulse) for each contact that bore a force; of a round wall with the
-/// first of its two blocks.
+/// Calls visit(block, lane, place of its impulse) for all rows that are swept: those of the same
+/// grain never at the same time.
 template <class Real, class Visit>
-void visit_force_bearing(const SphereContacts<Real>& contacts, double dt, Visit visit) {
-  const double least = least_force * dt * dt;
-  const std::size_t round = contacts.first_round * block_width;
-  for (std::size_t at = 0; at < round; ++at) {
-    const auto impulse = static_cast<double>(contacts.impulse[at]);
-    if (impulse > least) visit(at / block_width, at % block_width, impulse);
-  }
-  for (std::size_t at = round; at < contacts.impulse.size(); ++at) {
-    if (at / block_width % 2 != contacts.first_round % 2) continue;
-    const double impulse = std::hypot(static_cast<double>(contacts.impulse[at]),
-                                      static_cast<double>(contacts.impulse[at + block_width]));
-    if (impulse > least) visit(at / block_width, at % block_width, impulse);
-  }
+void visit_lanes(const SphereContacts<Real>& contacts, const ParallelFor& loop,
+                 const Visit& visit) {
+  visit_ranges(contacts.shares, loop, [&](BlockRange range) {
+    for (std::size_t block = range.first; block < range.first + range.blocks; ++block) {
+      for (std::size_t lane = 0; lane < block_width; ++lane) {
+        visit(block, lane, block * block_width + lane);
+      }
+    }
+  });
 }
-
 /// The contacts that bore a force in the last step, of length `dt`.
 template <class Real>
 std::vector<ForceContact> force_contacts(const SphereBed& bed, double dt,
