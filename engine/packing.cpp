@@ -158,40 +158,38 @@ Touching touching_or_bonded(const MeasureSpec& spec, const Kernels& kernels, Pol
   return find_touching(bed, std::max(widest(spec.gap_tolerances), longest_bond_gap), kernels);
 }
 
-// Which profiles a bed has besides that along z.
-bool has_profile_x(const Box& box) { return box.x == Boundary::walls && !box.is_tube; }
-bool has_profile_y(const Box& box) { return !box.is_tube; }
-bool has_profile_from_walls(const Box& box) {
-  return box.x == Boundary::walls && box.y == Boundary::walls;
-}
+/// Where a profile of a bed, and its components' parts of it, go.
+struct ProfilePlace {
+  ProfileAxis axis;
+  Profile PackingResult::*whole;
+  ComponentProfile ComponentMeasure::*part;
+};
+constexpr ProfilePlace profile_places[] = {
+    {ProfileAxis::x, &PackingResult::profile_x, &ComponentMeasure::profile_x},
+    {ProfileAxis::y, &PackingResult::profile_y, &ComponentMeasure::profile_y},
+    {ProfileAxis::from_walls, &PackingResult::profile_from_walls,
+     &ComponentMeasure::profile_from_walls},
+    {ProfileAxis::z, &PackingResult::profile_z, &ComponentMeasure::profile_z}};
 
-/// Gives each component its profile.
-void share_out(std::vector<ComponentProfile> profiles, ComponentProfile ComponentMeasure::*profile,
-               std::vector<ComponentMeasure>& components) {
-  for (std::size_t k = 0; k < profiles.size(); ++k) {
-    components[k].*profile = std::move(profiles[k]);
-  }
+bool has_profile(const Box& box, ProfileAxis axis) {
+  const bool is_duct = box.x == Boundary::walls && box.y == Boundary::walls;
+  return axis == ProfileAxis::x            ? box.x == Boundary::walls && !box.is_tube
+         : axis == ProfileAxis::y          ? !box.is_tube
+         : axis == ProfileAxis::from_walls ? is_duct
+                                           : true;
 }
 
 /// Of the components of a mixture.
 void measure_profiles(const PolyhedronBed& bed, const Touching& near, const Slab& slab,
                       const ProfileSettings& settings, std::vector<ComponentMeasure>& components) {
-  using Measure = ComponentMeasure;
-  if (has_profile_x(bed.box)) {
-    share_out(component_profiles_across(bed, near, slab, settings, 0), &Measure::profile_x,
-              components);
+  for (const ProfilePlace& place : profile_places) {
+    if (!has_profile(bed.box, place.axis)) continue;
+    auto profiles = component_profiles(place.axis, bed, near, slab, settings);
+    for (std::size_t k = 0; k < profiles.size(); ++k) {
+      components[k].*place.part = std::move(profiles[k]);
+    }
   }
-  if (has_profile_y(bed.box)) {
-    share_out(component_profiles_across(bed, near, slab, settings, 1), &Measure::profile_y,
-              components);
-  }
-  if (has_profile_from_walls(bed.box)) {
-    share_out(component_profiles_from_walls(bed, near, slab, settings),
-              &Measure::profile_from_walls, components);
-  }
-  share_out(component_profiles_along_z(bed, near, settings), &Measure::profile_z, components);
 }
-
 // What is known of one kind of grains only.
 void measure_kind(const SphereBed&, const Touching&, const ProfileSettings&,
                   const std::optional<Slab>&, Packing&) {}
@@ -226,17 +224,11 @@ void measure(const PackingSpec& spec, const SettleReport& settled, const Kernels
   if (slab) {
     result.solid_fraction = solid_fraction(bed, *slab);
     measure_neighbours(spec, near, settled, *slab, bed, result);
-    if (has_profile_x(bed.box)) {
-      result.profile_x = profile_across(bed, near, *slab, bins_of(spec), 0);
-    }
-    if (has_profile_y(bed.box)) {
-      result.profile_y = profile_across(bed, near, *slab, bins_of(spec), 1);
-    }
-    if (has_profile_from_walls(bed.box)) {
-      result.profile_from_walls = profile_from_walls(bed, near, *slab, bins_of(spec));
-    }
     result.small_share = small_share(bed, *slab, small_class_limit(spec.sizes));
-    result.profile_z = profile_along_z(bed, near, bins_of(spec));
+    for (const ProfilePlace& place : profile_places) {
+      if (!has_profile(bed.box, place.axis)) continue;
+      result.*place.whole = profile_along(place.axis, bed, near, *slab, bins_of(spec));
+    }
   }
   measure_kind(bed, near, bins_of(spec), slab, packing);
 }

@@ -361,54 +361,39 @@ typename Gather::Gathered along_z(const Bed<Kind>& bed, const Touching& touching
   return gather.result();
 }
 
+template <class Kind, class Gather>
+typename Gather::Gathered along(ProfileAxis axis, const Bed<Kind>& bed, const Touching& touching,
+                                const Slab& slab, const ProfileSettings& settings, Gather gather) {
+  switch (axis) {
+    case ProfileAxis::x:
+      return across(bed, touching, slab, settings, 0, gather);
+    case ProfileAxis::y:
+      return across(bed, touching, slab, settings, 1, gather);
+    case ProfileAxis::from_walls:
+      return from_walls(bed, touching, slab, settings, gather);
+    case ProfileAxis::z:
+      break;
+  }
+  return along_z(bed, touching, settings, gather);
+}
+
 }  // namespace
 
 template <class Kind>
-Profile profile_across(const Bed<Kind>& bed, const Touching& touching, const Slab& slab,
-                       const ProfileSettings& settings, int axis) {
-  return across(bed, touching, slab, settings, axis, OfClasses(bed, settings));
+Profile profile_along(ProfileAxis axis, const Bed<Kind>& bed, const Touching& touching,
+                      const Slab& slab, const ProfileSettings& settings) {
+  return along(axis, bed, touching, slab, settings, OfClasses(bed, settings));
 }
 
-template <class Kind>
-Profile profile_from_walls(const Bed<Kind>& bed, const Touching& touching, const Slab& slab,
-                           const ProfileSettings& settings) {
-  return from_walls(bed, touching, slab, settings, OfClasses(bed, settings));
+std::vector<ComponentProfile> component_profiles(ProfileAxis axis, const PolyhedronBed& bed,
+                                                 const Touching& touching, const Slab& slab,
+                                                 const ProfileSettings& settings) {
+  return along(axis, bed, touching, slab, settings, OfComponents(bed, settings));
 }
 
-template <class Kind>
-Profile profile_along_z(const Bed<Kind>& bed, const Touching& touching,
-                        const ProfileSettings& settings) {
-  return along_z(bed, touching, settings, OfClasses(bed, settings));
-}
-
-std::vector<ComponentProfile> component_profiles_across(const PolyhedronBed& bed,
-                                                        const Touching& touching, const Slab& slab,
-                                                        const ProfileSettings& settings, int axis) {
-  return across(bed, touching, slab, settings, axis, OfComponents(bed, settings));
-}
-
-std::vector<ComponentProfile> component_profiles_from_walls(const PolyhedronBed& bed,
-                                                            const Touching& touching,
-                                                            const Slab& slab,
-                                                            const ProfileSettings& settings) {
-  return from_walls(bed, touching, slab, settings, OfComponents(bed, settings));
-}
-
-std::vector<ComponentProfile> component_profiles_along_z(const PolyhedronBed& bed,
-                                                         const Touching& touching,
-                                                         const ProfileSettings& settings) {
-  return along_z(bed, touching, settings, OfComponents(bed, settings));
-}
-
-template Profile profile_across(const SphereBed&, const Touching&, const Slab&,
-                                const ProfileSettings&, int);
-template Profile profile_across(const PolyhedronBed&, const Touching&, const Slab&,
-                                const ProfileSettings&, int);
-template Profile profile_from_walls(const SphereBed&, const Touching&, const Slab&,
-                                    const ProfileSettings&);
-template Profile profile_from_walls(const PolyhedronBed&, const Touching&, const Slab&,
-                                    const ProfileSettings&);
-template Profile profile_along_z(const SphereBed&, const Touching&, const ProfileSettings&);
-template Profile profile_along_z(const PolyhedronBed&, const Touching&, const ProfileSettings&);
+template Profile profile_along(ProfileAxis, const SphereBed&, const Touching&, const Slab&,
+                               const ProfileSettings&);
+template Profile profile_along(ProfileAxis, const PolyhedronBed&, const Touching&, const Slab&,
+                               const ProfileSettings&);
 
 }  // namespace grainsweep

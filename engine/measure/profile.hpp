@@ -22,41 +22,32 @@ struct ProfileSettings {
   double gap_tolerance = 1e-4;  ///< grains and walls touch below this gap, d
 };
 
-/// Across the slab, along x (`axis` 0) or y (1), from wall to wall, which whole bins divide: their
-/// width is the nearest possible to the wanted one. Grains of the slab are those whose centre is in
-/// it. What a grain overlaps a wall belongs to the bin at the wall.
+/// Along what a profile is taken.
+enum class ProfileAxis {
+  /// Across the slab, along x or y, from wall to wall, which whole bins divide: their width is the
+  /// nearest possible to the wanted one. Grains of the slab are those whose centre is in it. What a
+  /// grain overlaps a wall belongs to the bin at the wall.
+  x,
+  y,
+  /// In a tube, or a duct, a box between walls along x and y: over the distance from the nearest of
+  /// the four walls, from 0 to half the smaller extent of the box, which whole bins divide. A bin
+  /// is
+  /// a square frame, in a tube a ring, as high as the slab. Each bin weighted by its area, the mean
+  /// is the solid fraction of the slab.
+  from_walls,
+  /// Over the whole floor, from the floor to the highest point of the bed, in bins of the wanted
+  /// width, whatever the slab is.
+  z,
+};
+
 template <class Kind>
-Profile profile_across(const Bed<Kind>& bed, const Touching& touching, const Slab& slab,
-                       const ProfileSettings& settings, int axis);
+Profile profile_along(ProfileAxis axis, const Bed<Kind>& bed, const Touching& touching,
+                      const Slab& slab, const ProfileSettings& settings);
 
-/// In a tube, or a duct, a box between walls along x and y: over the distance from the nearest of
-/// the four walls, from 0 to half the smaller extent of the box, which whole bins divide. A bin is
-/// a square frame, in a tube a ring, as high as the slab. Each bin weighted by its area, the mean
-/// is the solid fraction of the slab.
-template <class Kind>
-Profile profile_from_walls(const Bed<Kind>& bed, const Touching& touching, const Slab& slab,
-                           const ProfileSettings& settings);
-
-/// Along z over the whole floor, from the floor to the highest point of the bed, in bins of the
-/// wanted width.
-template <class Kind>
-Profile profile_along_z(const Bed<Kind>& bed, const Touching& touching,
-                        const ProfileSettings& settings);
-
-// The parts of the components of a mixture, one each, in the same bins: solid fractions and counts
-// of all of them add up to those of the profile. Nothing depends on the classes of size.
-
-std::vector<ComponentProfile> component_profiles_across(const PolyhedronBed& bed,
-                                                        const Touching& touching, const Slab& slab,
-                                                        const ProfileSettings& settings, int axis);
-
-std::vector<ComponentProfile> component_profiles_from_walls(const PolyhedronBed& bed,
-                                                            const Touching& touching,
-                                                            const Slab& slab,
-                                                            const ProfileSettings& settings);
-
-std::vector<ComponentProfile> component_profiles_along_z(const PolyhedronBed& bed,
-                                                         const Touching& touching,
-                                                         const ProfileSettings& settings);
+/// The parts of the components of a mixture, one each, in the same bins: solid fractions and counts
+/// of all of them add up to those of the profile. Nothing depends on the classes of size.
+std::vector<ComponentProfile> component_profiles(ProfileAxis axis, const PolyhedronBed& bed,
+                                                 const Touching& touching, const Slab& slab,
+                                                 const ProfileSettings& settings);
 
 }  // namespace grainsweep

@@ -42,7 +42,7 @@ TEST_CASE("one sphere anywhere fills the bins along y with its slices, at any bi
     const double r = draw.uniform(0.05, 1.0), y = draw.uniform(0.0, 4.0), z = draw.uniform(3, 5);
     const SphereBed bed = make_bed({5, 4, periodic, walls}, {{2, y, z, r}});
     const double wanted = draw.uniform(0.01, 4.0);
-    const Profile profile = profile_across(bed, {}, {0, 8}, {wanted, 0, 1e-4}, 1);
+    const Profile profile = profile_along(ProfileAxis::y, bed, {}, {0, 8}, {wanted, 0, 1e-4});
     const auto bins = profile.bins.size();
     REQUIRE(profile.bin_width * static_cast<double>(bins) == Approx(4.0).epsilon(1e-15));
     for (std::size_t n = 0; n < bins; ++n) {
@@ -57,7 +57,7 @@ TEST_CASE("one sphere anywhere fills the bins along y with its slices, at any bi
 
 TEST_CASE("small grains are those below the limit of the classes, one at the limit is large") {
   const SphereBed bed = make_bed({4, 4, periodic, walls}, {{1, 1, 2, 0.5}, {3, 1, 2, 0.49}});
-  const Profile profile = profile_across(bed, {}, {0, 4}, {4.0, 0.5, 1e-4}, 1);
+  const Profile profile = profile_along(ProfileAxis::y, bed, {}, {0, 4}, {4.0, 0.5, 1e-4});
   REQUIRE(profile.bins.size() == 1);
   CHECK(profile.bins[0].large_grains == 1);
   CHECK(profile.bins[0].small_grains == 1);
@@ -67,10 +67,10 @@ TEST_CASE("small grains are those below the limit of the classes, one at the lim
 TEST_CASE("a profile along x is that along y of the bed turned by a right angle") {
   const std::vector<PlacedSphere> along_x = {{0.4, 2, 4, 0.5}, {3.1, 1, 6, 0.2}};
   const std::vector<PlacedSphere> along_y = {{2, 0.4, 4, 0.5}, {1, 3.1, 6, 0.2}};
-  const Profile x =
-      profile_across(make_bed({4, 5, walls, periodic}, along_x), {}, {3, 6.1}, {0.3, 0.3, 1e-4}, 0);
-  const Profile y =
-      profile_across(make_bed({5, 4, periodic, walls}, along_y), {}, {3, 6.1}, {0.3, 0.3, 1e-4}, 1);
+  const Profile x = profile_along(ProfileAxis::x, make_bed({4, 5, walls, periodic}, along_x), {},
+                                  {3, 6.1}, {0.3, 0.3, 1e-4});
+  const Profile y = profile_along(ProfileAxis::y, make_bed({5, 4, periodic, walls}, along_y), {},
+                                  {3, 6.1}, {0.3, 0.3, 1e-4});
   REQUIRE(x.bins.size() == y.bins.size());
   for (std::size_t n = 0; n < x.bins.size(); ++n) {
     CHECK(x.bins[n].large == y.bins[n].large);
@@ -103,7 +103,8 @@ TEST_CASE("the mean over the frames of a duct is the solid fraction of the slab"
     }
     const SphereBed bed = make_bed({length, width, walls, walls}, spheres);
     const Slab slab{3, 8};
-    const Profile profile = profile_from_walls(bed, {}, slab, {draw.uniform(0.05, 3), 0.3, 1e-4});
+    const Profile profile =
+        profile_along(ProfileAxis::from_walls, bed, {}, slab, {draw.uniform(0.05, 3), 0.3, 1e-4});
     CHECK(profile.bin_width * static_cast<double>(profile.bins.size()) ==
           Approx(std::min(length, width) / 2));
     CHECK(area_mean_of(profile, length, width) == Approx(solid_fraction(bed, slab)).epsilon(1e-13));
@@ -112,7 +113,7 @@ TEST_CASE("the mean over the frames of a duct is the solid fraction of the slab"
 
 TEST_CASE("the frames of a duct hold the slices of spheres at one wall, and corners once") {
   const SphereBed one = make_bed({6, 4, walls, walls}, {{3, 0.5, 4, 0.5}});
-  const Profile middle = profile_from_walls(one, {}, {0, 8}, {0.25, 0, 1e-4});
+  const Profile middle = profile_along(ProfileAxis::from_walls, one, {}, {0, 8}, {0.25, 0, 1e-4});
   REQUIRE(middle.bins.size() == 8);
   for (std::size_t k = 0; k < 8; ++k) {
     const double low = 0.25 * static_cast<double>(k), high = low + 0.25;
@@ -122,7 +123,7 @@ TEST_CASE("the frames of a duct hold the slices of spheres at one wall, and corn
     CHECK(middle.bins[k].large_grains == (k == 2 ? 1 : 0));  // its centre is 0.5 d from the wall
   }
   const SphereBed corner = make_bed({6, 4, walls, walls}, {{5.5, 3.5, 4, 0.5}});
-  const Profile both = profile_from_walls(corner, {}, {0, 8}, {0.5, 0, 1e-4});
+  const Profile both = profile_along(ProfileAxis::from_walls, corner, {}, {0, 8}, {0.5, 0, 1e-4});
   const double quarter = sphere_volume(0.5) / 4;  // more than 0.5 d from both walls
   CHECK(both.bins[0].large * (6 * 4 - 5 * 3) * 8 == Approx(3 * quarter).epsilon(1e-14));
   CHECK(both.bins[1].large * (5 * 3 - 4 * 2) * 8 == Approx(quarter).epsilon(1e-14));
@@ -159,8 +160,8 @@ TEST_CASE("the mean over the rings of a tube, each by its area, is its solid fra
     const Slab slab{2.3, 7.1};
     for (const double bin : {0.02, 0.11, 0.6}) {
       INFO("D = " << diameter << ", bins of " << bin);
-      const Profile profile =
-          profile_from_walls(bed, {}, slab, {std::min(bin * diameter, diameter / 2), 0.3, 1e-4});
+      const Profile profile = profile_along(ProfileAxis::from_walls, bed, {}, slab,
+                                            {std::min(bin * diameter, diameter / 2), 0.3, 1e-4});
       CHECK(profile.bin_width * static_cast<double>(profile.bins.size()) == Approx(diameter / 2));
       // 60 spheres, each exact to 1e-13 of its volume, which is up to the whole of what is there.
       CHECK(ring_mean_of(profile, diameter) == Approx(solid_fraction(bed, slab)).epsilon(1e-12));
@@ -180,8 +181,8 @@ TEST_CASE("a bed turned about the axis of its tube has the same profile") {
   }
   const Slab slab{2, 8};
   const ProfileSettings settings{0.2, 0.3, 1e-4};
-  const Profile one = profile_from_walls(bed, {}, slab, settings);
-  const Profile other = profile_from_walls(turned, {}, slab, settings);
+  const Profile one = profile_along(ProfileAxis::from_walls, bed, {}, slab, settings);
+  const Profile other = profile_along(ProfileAxis::from_walls, turned, {}, slab, settings);
   CHECK(solid_fraction(turned, slab) == Approx(solid_fraction(bed, slab)).epsilon(1e-14));
   REQUIRE(one.bins.size() == other.bins.size());
   for (std::size_t k = 0; k < one.bins.size(); ++k) {
@@ -197,8 +198,8 @@ TEST_CASE("the wall of a wide tube shows a sphere as a flat wall does") {
   const SphereBed flat =
       make_bed({diameter, diameter, walls, walls}, {{0.7, diameter / 2, 4, 0.5}});
   const ProfileSettings settings{0.1, 0.3, 1e-4};
-  const Profile round = profile_from_walls(tube, {}, {0, 8}, settings);
-  const Profile square = profile_across(flat, {}, {0, 8}, settings, 0);
+  const Profile round = profile_along(ProfileAxis::from_walls, tube, {}, {0, 8}, settings);
+  const Profile square = profile_along(ProfileAxis::x, flat, {}, {0, 8}, settings);
   for (std::size_t k = 0; k < 13; ++k) {
     const double low = 0.1 * static_cast<double>(k), area = pi * 0.1 * (diameter - 2 * low - 0.1);
     CHECK(round.bins[k].large * area * 8 ==
@@ -208,7 +209,7 @@ TEST_CASE("the wall of a wide tube shows a sphere as a flat wall does") {
 
 TEST_CASE("a sphere across a periodic border fills the bins of both sides") {
   const SphereBed bed = make_bed({5, 4, periodic, periodic}, {{2, 3.9, 4, 0.5}});
-  const Profile profile = profile_across(bed, {}, {0, 8}, {0.5, 0, 1e-4}, 1);
+  const Profile profile = profile_along(ProfileAxis::y, bed, {}, {0, 8}, {0.5, 0, 1e-4});
   REQUIRE(profile.bins.size() == 8);
   const double bin = 5 * 8 * 0.5;
   CHECK(profile.bins[6].large * bin == Approx(between(0.5, -0.9, -0.4)).epsilon(1e-12));
@@ -223,7 +224,7 @@ TEST_CASE("one sphere anywhere fills the bins along z with its slices") {
     const double r = draw.uniform(0.05, 1.0), z = r + draw.uniform(0.0, 4.0);
     const SphereBed bed = make_bed({5, 4, periodic, walls}, {{2, 2, z, r}});
     const double width = draw.uniform(0.01, 4.0);
-    const Profile profile = profile_along_z(bed, {}, {width, 0, 1e-4});
+    const Profile profile = profile_along(ProfileAxis::z, bed, {}, {}, {width, 0, 1e-4});
     REQUIRE(static_cast<double>(profile.bins.size()) * width >= (z + r) * (1 - 1e-15));
     for (std::size_t n = 0; n < profile.bins.size(); ++n) {
       const double low = static_cast<double>(n) * width - z;
@@ -238,7 +239,7 @@ TEST_CASE("one sphere anywhere fills the bins along z with its slices") {
 TEST_CASE("the profile of a cubic block is that of one of its cells") {
   const SphereBed bed = testing::simple_cubic_bed(4, 5, 9);
   for (const double width : {1.0, 0.5, 0.25, 0.1, 0.02}) {
-    const Profile profile = profile_across(bed, {}, {1.3, 6.3}, {width, 0, 1e-4}, 1);
+    const Profile profile = profile_along(ProfileAxis::y, bed, {}, {1.3, 6.3}, {width, 0, 1e-4});
     for (std::size_t k = 0; k < profile.bins.size(); ++k) {
       const double low = std::remainder(static_cast<double>(k) * width, 1.0);
       const auto filled = [](double t) { return pi * (t / 4 - t * t * t / 3); };
@@ -254,10 +255,11 @@ TEST_CASE("the profile of a cubic block is that of one of its cells") {
 TEST_CASE("whole cells of a face-centred block fill pi / sqrt 18 in every direction") {
   const SphereBed bed = testing::fcc_bed(3, 4, 6);
   const double edge = std::sqrt(2.0), filled = pi / std::sqrt(18.0);
-  const Profile across = profile_across(bed, {}, {1.1, 1.1 + 3 * edge}, {edge, 0, 1e-4}, 1);
+  const Profile across =
+      profile_along(ProfileAxis::y, bed, {}, {1.1, 1.1 + 3 * edge}, {edge, 0, 1e-4});
   REQUIRE(across.bins.size() == 4);
   for (const ProfileBin& bin : across.bins) CHECK(bin.large == Approx(filled).epsilon(1e-12));
-  const Profile up = profile_along_z(bed, {}, {edge, 0, 1e-4});
+  const Profile up = profile_along(ProfileAxis::z, bed, {}, {}, {edge, 0, 1e-4});
   for (std::size_t k = 1; k < 5; ++k) CHECK(up.bins[k].large == Approx(filled).epsilon(1e-12));
 }
 
@@ -269,7 +271,7 @@ TEST_CASE("the mean of the profile is the solid fraction of the slab, both class
       const Slab slab{1.7, 6.9};
       const double phi = solid_fraction(bed, slab);
       for (const double width : {0.07, 0.1, 1.3, 4.0}) {
-        const Profile profile = profile_across(bed, {}, slab, {width, 0.3, 1e-4}, 1);
+        const Profile profile = profile_along(ProfileAxis::y, bed, {}, slab, {width, 0.3, 1e-4});
         REQUIRE(mean_of(profile) == Approx(phi).epsilon(1e-12));
       }
     }
@@ -278,7 +280,7 @@ TEST_CASE("the mean of the profile is the solid fraction of the slab, both class
 
 TEST_CASE("along z the bins of a slab have its solid fraction as their mean") {
   const SphereBed bed = testing::random_bed({{6, 4, periodic, walls}, 300, 0.1, 0.5, 9, 4});
-  const Profile profile = profile_along_z(bed, {}, {0.25, 0.3, 1e-4});
+  const Profile profile = profile_along(ProfileAxis::z, bed, {}, {}, {0.25, 0.3, 1e-4});
   double sum = 0;
   for (std::size_t k = 8; k < 24; ++k) sum += profile.bins[k].large + profile.bins[k].small;
   CHECK(sum / 16 == Approx(solid_fraction(bed, {2, 6})).epsilon(1e-12));
@@ -297,9 +299,11 @@ TEST_CASE("each class has the profile it has alone") {
   }
   const Slab slab{2, 7};
   const ProfileSettings settings{0.1, 1.0 / 3.0, 1e-4};
-  const Profile mixed = profile_across(make_bed(box, both), {}, slab, settings, 1);
-  const Profile alone_large = profile_across(make_bed(box, large), {}, slab, settings, 1);
-  const Profile alone_small = profile_across(make_bed(box, small), {}, slab, settings, 1);
+  const Profile mixed = profile_along(ProfileAxis::y, make_bed(box, both), {}, slab, settings);
+  const Profile alone_large =
+      profile_along(ProfileAxis::y, make_bed(box, large), {}, slab, settings);
+  const Profile alone_small =
+      profile_along(ProfileAxis::y, make_bed(box, small), {}, slab, settings);
   for (std::size_t k = 0; k < mixed.bins.size(); ++k) {
     CHECK(mixed.bins[k].large == alone_large.bins[k].large);
     CHECK(mixed.bins[k].small == alone_small.bins[k].small);
@@ -312,7 +316,7 @@ TEST_CASE("each class has the profile it has alone") {
 TEST_CASE("a cubic block's grains have their neighbours in the bin of their centre") {
   SphereBed bed = testing::simple_cubic_bed(4, 5, 6);
   const Touching touching = touching_in(bed);
-  const Profile up = profile_along_z(bed, touching, {1.0, 0, 1e-4});
+  const Profile up = profile_along(ProfileAxis::z, bed, touching, {}, {1.0, 0, 1e-4});
   REQUIRE(up.bins.size() == 6);
   for (std::size_t k = 0; k < 6; ++k) {
     const bool at_end = k == 0 || k == 5;
@@ -326,7 +330,7 @@ TEST_CASE("the bins along y hold the grains and the neighbours of the slab's coo
   SphereBed bed = testing::random_bed({{6, 4, periodic, walls}, 400, 0.2, 0.5, 6, 8});
   const Touching touching = touching_in(bed);
   const Slab slab{1.5, 4.5};
-  const Profile profile = profile_across(bed, touching, slab, {0.1, 0.3, 1e-4}, 1);
+  const Profile profile = profile_along(ProfileAxis::y, bed, touching, slab, {0.1, 0.3, 1e-4});
   std::int64_t grains = 0, neighbours = 0, with_walls = 0;
   for (const ProfileBin& bin : profile.bins) {
     grains += bin.large_grains + bin.small_grains;
@@ -342,8 +346,8 @@ TEST_CASE("the bins along y hold the grains and the neighbours of the slab's coo
 TEST_CASE("touching is judged at the tolerance of the settings") {
   SphereBed bed = make_bed({5, 4, periodic, walls}, {{1, 1, 2, 0.5}, {2.0005, 1, 2, 0.5}});
   const Touching touching = touching_in(bed);
-  CHECK(profile_along_z(bed, touching, {1, 0, 1e-3}).bins[2].neighbours == 2);
-  CHECK(profile_along_z(bed, touching, {1, 0, 1e-4}).bins[2].neighbours == 0);
+  CHECK(profile_along(ProfileAxis::z, bed, touching, {}, {1, 0, 1e-3}).bins[2].neighbours == 2);
+  CHECK(profile_along(ProfileAxis::z, bed, touching, {}, {1, 0, 1e-4}).bins[2].neighbours == 0);
 }
 
 /// Cubes, flat bricks and spheres at random, in a bed of which some touch.
@@ -369,17 +373,17 @@ struct BothProfiles {
 };
 std::vector<BothProfiles> profiles_of(const PolyhedronBed& bed, const Touching& touching,
                                       const Slab& slab, const ProfileSettings& s) {
-  std::vector<BothProfiles> all = {
-      {profile_along_z(bed, touching, s), component_profiles_along_z(bed, touching, s)}};
+  std::vector<BothProfiles> all = {{profile_along(ProfileAxis::z, bed, touching, {}, s),
+                                    component_profiles(ProfileAxis::z, bed, touching, {}, s)}};
   if (!bed.box.is_tube) {
-    for (const int axis : {0, 1}) {
-      all.push_back({profile_across(bed, touching, slab, s, axis),
-                     component_profiles_across(bed, touching, slab, s, axis)});
+    for (const ProfileAxis axis : {ProfileAxis::x, ProfileAxis::y}) {
+      all.push_back({profile_along(axis, bed, touching, slab, s),
+                     component_profiles(axis, bed, touching, slab, s)});
     }
   }
   if (bed.box.x == walls) {
-    all.push_back({profile_from_walls(bed, touching, slab, s),
-                   component_profiles_from_walls(bed, touching, slab, s)});
+    all.push_back({profile_along(ProfileAxis::from_walls, bed, touching, slab, s),
+                   component_profiles(ProfileAxis::from_walls, bed, touching, slab, s)});
   }
   return all;
 }
@@ -443,7 +447,7 @@ TEST_CASE("neighbours in the profiles of components are those of a count over al
   PolyhedronBed bed = mixture_bed({5, 4, periodic, walls}, 8);
   const Touching touching = find_touching(bed, 0.05, kernels_for(best_isa()));
   const Slab slab{1, 4};
-  const auto parts = component_profiles_across(bed, touching, slab, {0.5, 0, 0.02}, 1);
+  const auto parts = component_profiles(ProfileAxis::y, bed, touching, slab, {0.5, 0, 0.02});
   for (std::size_t k = 0; k < 3; ++k) {
     for (std::size_t number = 0; number < 8; ++number) {
       const auto is_in = [&](std::int32_t index) {
@@ -483,9 +487,9 @@ TEST_CASE("a component's profile is that of its grains alone, and says how they 
   const Box box{4, 4, periodic, walls};
   const Slab slab{0.5, 4};
   const PolyhedronBed bed = make_bed(box, shapes, {0, 0, 0, 1}, both);
-  const auto parts = component_profiles_across(bed, {}, slab, {2, 0, 1e-4}, 1);
+  const auto parts = component_profiles(ProfileAxis::y, bed, {}, slab, {2, 0, 1e-4});
   const Profile alone =
-      profile_across(make_bed(box, shapes.front(), bricks), {}, slab, {2, 0, 1e-4}, 1);
+      profile_along(ProfileAxis::y, make_bed(box, shapes.front(), bricks), {}, slab, {2, 0, 1e-4});
   REQUIRE(parts.size() == 2);
   for (std::size_t k : {0, 1}) {
     CHECK(parts[0].bins[k].solid_fraction == alone.bins[k].large);
@@ -503,8 +507,8 @@ TEST_CASE("a component's profile is that of its grains alone, and says how they 
 
 TEST_CASE("an empty bed has empty bins") {
   const SphereBed bed = make_bed({6, 4, periodic, walls}, {});
-  CHECK(mean_of(profile_across(bed, {}, {0, 1}, {0.1, 0, 1e-4}, 1)) == 0);
-  CHECK(mean_of(profile_along_z(bed, {}, {0.1, 0, 1e-4})) == 0);
+  CHECK(mean_of(profile_along(ProfileAxis::y, bed, {}, {0, 1}, {0.1, 0, 1e-4})) == 0);
+  CHECK(mean_of(profile_along(ProfileAxis::z, bed, {}, {}, {0.1, 0, 1e-4})) == 0);
 }
 
 }  // namespace

@@ -54,7 +54,8 @@ TEST_CASE("nematic order is that of the axes of the frame in which a shape is wr
   for (const ComponentMeasure& one : measure_components(bed, {}, {}, slab, 1e-4)) {
     check_upright(one.nematic);
   }
-  for (const ComponentProfile& one : component_profiles_along_z(bed, {}, {2, 0, 1e-4})) {
+  for (const ComponentProfile& one :
+       component_profiles(ProfileAxis::z, bed, {}, {}, {2, 0, 1e-4})) {
     check_upright(one.bins[0].nematic);
   }
 }
