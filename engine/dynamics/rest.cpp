@@ -79,21 +79,16 @@ bool can_turn(const PolyhedronBed& bed, std::int32_t grain) {
   return bed.turns(static_cast<std::size_t>(grain));
 }
 
-/// Of the grains of a contact the one that its turning normal holds.
-std::size_t turning_grain(const SphereBed& /*bed*/, const ForceContact& contact) {
-  return static_cast<std::size_t>(contact.a);
-}
-std::size_t turning_grain(const PolyhedronBed& bed, const ForceContact& contact) {
+/// Of the grains of a contact the one that its turning normal, if it turns, holds.
+template <class Kind>
+std::size_t turning_grain(const Bed<Kind>& bed, const ForceContact& contact) {
   const bool is_b = bed.is_grain(contact.b) && !can_turn(bed, contact.a);
   return static_cast<std::size_t>(is_b ? contact.b : contact.a);
 }
 
 /// WallForce::wall of a contact with a wall.
-std::int32_t wall_of(const SphereBed& bed, const ForceContact& contact) {
-  const auto last_wall = static_cast<std::int32_t>(bed.walls.size()) - 1;
-  return std::min(contact.b - bed.wall_name(0), last_wall);
-}
-std::int32_t wall_of(const PolyhedronBed& bed, const ForceContact& contact) {
+template <class Kind>
+std::int32_t wall_of(const Bed<Kind>& bed, const ForceContact& contact) {
   const std::int32_t wall = contact.b - bed.wall_name(0);
   const bool is_vertex = bed.box.is_tube && wall >= tube_wall && can_turn(bed, contact.a);
   return is_vertex ? wall_of_vertex(wall - tube_wall) : wall;
