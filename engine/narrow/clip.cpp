@@ -168,14 +168,6 @@ void clip(const Reference& reference, const Incident& other, double margin, Clip
 
 }  // namespace
 
-PlacedShape placed_a(const ShapePair& pair) {
-  return {pair.a, Vector::Zero(), Matrix::Identity(), pair.pose.scale_a};
-}
-
-PlacedShape placed_b(const ShapePair& pair) {
-  return {pair.b, pair.pose.centre, pair.pose.turn, pair.pose.scale_b};
-}
-
 void clip_on_face(const ShapePair& pair, Of reference, std::int32_t face, double margin,
                   ClipColumns& columns, std::vector<ContactPoint>& points) {
   const PairPose& pose = pair.pose;
@@ -193,12 +185,14 @@ void clip_on_face(const ShapePair& pair, Of reference, std::int32_t face, double
   }
 }
 
-Segment farthest_edge(const PlacedShape& shape, std::int32_t direction, const Vector& n) {
+Segment farthest_edge(const ShapePair& pair, Of which, std::int32_t direction, const Vector& n) {
+  const bool is_a = which == Of::a;
   Segment best{Vector::Zero(), Vector::Zero()};
   double reach = -std::numeric_limits<double>::infinity();
-  for (const Edge& edge : shape.shape.edges) {
+  for (const Edge& edge : (is_a ? pair.a : pair.b).edges) {
     if (edge.direction != direction) continue;
-    const Segment segment{shape.place(edge.from), shape.place(edge.to)};
+    const Segment segment = is_a ? Segment{pair.vertex_a(edge.from), pair.vertex_a(edge.to)}
+                                 : Segment{pair.vertex_b(edge.from), pair.vertex_b(edge.to)};
     const double along = n.dot(segment.from + segment.to);
     if (along > reach) {
       reach = along;

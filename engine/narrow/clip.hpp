@@ -5,20 +5,6 @@
 
 namespace grainsweep {
 
-/// A shape in the frame of grain a: its point x lies at centre + scale * turn x.
-struct PlacedShape {
-  const ConvexShape& shape;
-  Vector centre;
-  Matrix turn;
-  double scale;
-
-  Vector place(std::int32_t vertex) const {
-    return centre + scale * (turn * shape.vertices[static_cast<std::size_t>(vertex)]);
-  }
-};
-PlacedShape placed_a(const ShapePair& pair);
-PlacedShape placed_b(const ShapePair& pair);
-
 /// Which of a pair's shapes.
 enum class Of { a, b };
 
@@ -33,9 +19,9 @@ struct Segment {
   Vector from, to;
 };
 
-/// The edge of a direction (index of edge_directions) that reaches farthest along n.
-Segment farthest_edge(const PlacedShape& shape, std::int32_t direction, const Vector& n);
-
+/// The edge of a direction (index of edge_directions) of one shape that reaches farthest along n,
+/// all in the frame of a.
+Segment farthest_edge(const ShapePair& pair, Of which, std::int32_t direction, const Vector& n);
 /// The shortest line between two segments.
 struct Closeness {
   Vector midway;

@@ -63,9 +63,8 @@ void touch_faces(const ShapePair& pair, const ContactAxis& axis, double margin,
 
 void touch_edges(const ShapePair& pair, const ContactAxis& axis, double margin,
                  PairContact& contact, std::vector<ContactPoint>& points) {
-  const PlacedShape a = placed_a(pair), b = placed_b(pair);
-  const Segment edge_a = farthest_edge(a, axis.a, axis.normal);
-  const Segment edge_b = farthest_edge(b, axis.b, -axis.normal);
+  const Segment edge_a = farthest_edge(pair, Of::a, axis.a, axis.normal);
+  const Segment edge_b = farthest_edge(pair, Of::b, axis.b, -axis.normal);
   const double between = axis.normal.dot(edge_b.from - edge_a.from);
   if (std::abs(between - axis.separation) > on_plane * pair.size()) return;
   const Closeness closest = closest_of(edge_a, edge_b);

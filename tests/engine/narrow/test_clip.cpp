@@ -130,7 +130,7 @@ TEST_CASE("the edge that reaches farthest is the one towards the direction asked
   for (std::size_t k = 0; k < cube.edge_directions.size(); ++k) {
     if (std::abs(cube.edge_directions[k].x()) > 0.999) along_x = static_cast<std::int32_t>(k);
   }
-  const Segment edge = farthest_edge(placed_a(pair), along_x, Vector(0, 1, 1).normalized());
+  const Segment edge = farthest_edge(pair, Of::a, along_x, Vector(0, 1, 1).normalized());
   const double half = height_of(cube) / 2;
   CHECK((edge.from + edge.to - 2 * Vector(0, half, half)).norm() < 1e-15);
   CHECK((edge.to - edge.from).norm() == Approx(2 * half));
