@@ -177,12 +177,19 @@ class Settling {
     return has_steps_to_go_on() && (has_settled || is_far_from_rest());
   }
 
+  /// Whether more steps of a look will not find a bed at rest that was tested and is not.
+  bool is_seen() const {
+    constexpr std::int64_t looks = 4;
+    return is_far_from_rest() || steps_in_stage_ >= looks * steps_of(accuracy_, rule());
+  }
+
   /// Whether the stage has done its work. Looks at the bed after at least one step.
   bool is_over() {
     const bool has_steps = steps_in_stage_ >= steps_of(accuracy_, rule());
     switch (rule().end) {
       case StageEnd::look:
-        return has_steps || (steps_in_stage_ > 0 && !is_bed());
+        if (steps_in_stage_ > 0 && !is_bed()) return true;
+        return has_steps && (is_at_rest() || is_seen());
       case StageEnd::fallen:
         return has_steps && has_fallen();
       case StageEnd::halted:

@@ -11,7 +11,7 @@ namespace {
 // ---- spheres ----
 
 /// A bed that rests as it is given stays as it is: some steps of the quench tell, as many as its
-/// forces take to be found from none.
+/// forces take to be found from none, or up to four times as many if they leave little too much.
 constexpr StageRule look = {.name = "look",
                             .end = StageEnd::look,
                             .step = 0.5,

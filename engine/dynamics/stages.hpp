@@ -15,7 +15,7 @@ namespace grainsweep {
 /// What ends a stage once it has taken its steps.
 enum class StageEnd {
   steps,   ///< nothing else
-  look,    ///< nothing else, or that the floor does not carry the bed
+  look,    ///< every test of rest holds or is far from it, or the floor does not carry the bed
   fallen,  ///< the floor carries the bed, which has lost its speed
   halted,  ///< the same, and the bed's kinetic energy is below its tolerance
   rest,    ///< every test of rest holds; a bed that fails goes on to the next stage, if any
