@@ -23,7 +23,7 @@ namespace grainsweep {
 namespace {
 
 constexpr double carried_share = 0.9;      // of its weight, where the floor carries a bed
-constexpr std::int64_t most_rounds = 32;   // a bed that needs more does not come to rest
+constexpr std::int64_t most_rounds = 128;  // a bed that needs more does not come to rest
 constexpr std::int64_t most_unsolved = 9;  // of them in a row that leave forces unsolved
 constexpr double unlimited = std::numeric_limits<double>::infinity();
 constexpr double rounding_of_places = 1e-9;  // d; far from the origin coordinates have fewer digits
