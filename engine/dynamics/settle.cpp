@@ -159,13 +159,16 @@ class Settling {
   /// Whether the forces of the last test of rest were found.
   bool is_solved() const { return report_.rest.step_residual <= accuracy_.residual_tolerance; }
 
-  /// Whether the forces were found, and more steps at rest will not balance them: the bed moves,
-  /// has too few contacts, or what they leave is several times what is allowed.
-  bool is_far_from_rest() const {
+  /// Whether all that a bed misses at its last test of rest is balance, and of that little.
+  bool is_nearly_balanced() const {
     constexpr double far = 3.0;
     const double imbalance = report_.rest.imbalance.mean;  // 0 where another test failed
-    return is_solved() && (imbalance == 0.0 || imbalance > far * accuracy_.imbalance_tolerance);
+    return imbalance > 0.0 && imbalance <= far * accuracy_.imbalance_tolerance;
   }
+
+  /// Whether the forces were found, and more steps at rest will not balance them: the bed moves,
+  /// has too few contacts, or what they leave is several times what is allowed.
+  bool is_far_from_rest() const { return is_solved() && !is_nearly_balanced(); }
 
   /// Whether a bed that does not rest slides on, to be tested once more, and there are steps for
   /// it. The higher it is, the more steps its forces take to settle before.
@@ -180,7 +183,7 @@ class Settling {
   /// Whether more steps of a look will not find a bed at rest that was tested and is not.
   bool is_seen() const {
     constexpr std::int64_t looks = 4;
-    return is_far_from_rest() || steps_in_stage_ >= looks * steps_of(accuracy_, rule());
+    return !is_nearly_balanced() || steps_in_stage_ >= looks * steps_of(accuracy_, rule());
   }
 
   /// Whether the stage has done its work. Looks at the bed after at least one step.
