@@ -61,7 +61,7 @@ const std::vector<Preset>& presets() {
       {"exact",
        "spheres: forces balance to 1e-10 m g, with as many contacts as hold the bed",
        exact(),
-       {}}};
+       {ProtocolBias{0.0016, 0.010}, ProtocolBias{0.0018, 0.029}, std::nullopt}}};
   return all;
 }
 

@@ -42,8 +42,8 @@ std::optional<Accuracy> preset(std::string_view name);
 
 /// Bound of the bias of that preset: the measured distance from the limit, or of spheres from exact
 /// rest where that is larger, and two of its standard errors, of the worst scene of the kind
-/// (bench/README.md, "The protocol's own error"). None for
-/// other names: what was not measured has no bound.
+/// (bench/README.md, "The protocol's own error"); of exact rest from what half its path, half its
+/// step and both come to. None for other names: what was not measured has no bound.
 std::optional<ProtocolBias> bias_bound(std::string_view preset_name, BedKind kind);
 
 /// The preset that an accuracy settles as, which has its bounds: it is one but for `precision`,

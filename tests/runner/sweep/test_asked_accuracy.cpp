@@ -39,6 +39,8 @@ TEST_CASE("the cheapest preset whose bounds are small enough is taken, with its 
   CHECK(solid_fraction(accurate.solid_fraction) == ids_with(R"("accurate")"));
   CHECK(ids_with(R"({"solid_fraction": 1, "coordination": )" + number(balanced.coordination) +
                  "}") == ids_with(R"("balanced")"));
+  CHECK(ids_with(R"({"coordination": )" + number(0.999 * accurate.coordination) + "}") ==
+        ids_with(R"("exact")"));
 }
 
 TEST_CASE("each bed has the preset that its own kind takes") {
@@ -82,16 +84,15 @@ TEST_CASE("a job knows what was asked for, one that names its preset nothing") {
 }
 
 TEST_CASE("what no preset keeps is refused with the smallest bound that can be had") {
-  const std::string smallest =
-      " the smallest bound that was measured of spheres of one size, by \"accurate\"; is ";
-  const std::string accuracy = R"({"solid_fraction": 0.001, "coordination": 0.01})";
+  const std::string smallest = " the smallest bound that was measured of spheres of one size, by ";
+  const std::string accuracy = R"({"solid_fraction": 0.001, "coordination": 0.005})";
   CHECK(errors_of(R"({"name": "a", "base": {"accuracy": )" + accuracy + "}}") ==
         std::vector<std::string>{"s.json:1:55 /base/accuracy/solid_fraction: must be at least "
                                  "0.0013," +
-                                     smallest + "0.001",
+                                     smallest + "\"accurate\"; is 0.001",
                                  "s.json:1:78 /base/accuracy/coordination: must be at least "
-                                 "0.018," +
-                                     smallest + "0.01"});
+                                 "0.01," +
+                                     smallest + "\"exact\"; is 0.005"});
 }
 
 }  // namespace
