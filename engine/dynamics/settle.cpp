@@ -206,9 +206,8 @@ class Settling {
   }
 
   std::size_t next_stage() {
-    const bool rests_as_given = rule().end == StageEnd::look && is_carried() && is_at_rest();
-    const bool rests = rule().end == StageEnd::rest && report_.failure.empty();
-    if (rests_as_given || rests) return stages_.size();
+    const bool rests = is_tested_ && report_.failure.empty();  // those that end in tests have them
+    if (rests) return stages_.size();
     return rule().back > 0 ? stage_ - rule().back : stage_ + 1;
   }
 

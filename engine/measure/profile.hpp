@@ -31,9 +31,8 @@ enum class ProfileAxis {
   y,
   /// In a tube, or a duct, a box between walls along x and y: over the distance from the nearest of
   /// the four walls, from 0 to half the smaller extent of the box, which whole bins divide. A bin
-  /// is
-  /// a square frame, in a tube a ring, as high as the slab. Each bin weighted by its area, the mean
-  /// is the solid fraction of the slab.
+  /// is a square frame, in a tube a ring, as high as the slab. Each bin weighted by its area, the
+  /// mean is the solid fraction of the slab.
   from_walls,
   /// Over the whole floor, from the floor to the highest point of the bed, in bins of the wanted
   /// width, whatever the slab is.
