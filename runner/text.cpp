@@ -5,13 +5,13 @@
 #include <cctype>
 #include <cmath>
 #include <cstdio>
-#include <string_view>
+
+#include "runner/sweep/text_lines.hpp"
 
 namespace grainsweep {
 
 std::string pad_left(const std::string& text, std::size_t width) {
-  const auto is_start = [](char c) { return (static_cast<unsigned char>(c) & 0xC0u) != 0x80u; };
-  const auto length = static_cast<std::size_t>(std::count_if(text.begin(), text.end(), is_start));
+  const std::size_t length = characters(text);
   return std::string(width > length ? width - length : 0, ' ') + text;
 }
 

@@ -6,6 +6,7 @@
 #include <unordered_set>
 
 #include "runner/store/files.hpp"
+#include "runner/sweep/text_lines.hpp"
 #include "runner/tables/csv.hpp"
 #include "runner/tables/groups.hpp"
 
@@ -16,10 +17,8 @@ namespace {
 std::string as_file_name(const std::string& label) {
   std::string name;
   for (const char letter : label) {
-    const auto byte = static_cast<unsigned char>(letter);
-    const bool goes_on = (byte & 0xC0U) == 0x80U;
-    const bool stays = std::isalnum(byte) != 0 || letter == '.';
-    if (!goes_on) name += stays ? letter : '_';
+    const bool stays = std::isalnum(static_cast<unsigned char>(letter)) != 0 || letter == '.';
+    if (begins_character(letter)) name += stays ? letter : '_';
   }
   if (name.starts_with('.')) name.front() = '_';
   return name;

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "runner/sweep/parameters.hpp"
+#include "runner/sweep/text_lines.hpp"
 
 namespace grainsweep {
 namespace {
@@ -187,13 +188,11 @@ std::string title_of(const Group& group, std::size_t longest_label) {
 }
 
 std::string shortened(const std::string& text, std::size_t longest) {
-  std::size_t characters = 0;
+  std::size_t begun = 0;
   for (std::size_t at = 0; at < text.size(); ++at) {
-    const bool is_start = (static_cast<unsigned char>(text[at]) & 0xC0u) != 0x80u;
-    if (is_start && ++characters == longest) {
-      const bool is_last =
-          std::all_of(text.begin() + static_cast<std::ptrdiff_t>(at) + 1, text.end(),
-                      [](char c) { return (static_cast<unsigned char>(c) & 0xC0u) == 0x80u; });
+    if (begins_character(text[at]) && ++begun == longest) {
+      const bool is_last = std::none_of(text.begin() + static_cast<std::ptrdiff_t>(at) + 1,
+                                        text.end(), begins_character);
       return is_last ? text : text.substr(0, at) + "…";
     }
   }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "runner/sweep/text_lines.hpp"
+
 namespace grainsweep {
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
@@ -39,7 +41,7 @@ std::string shortened(std::string_view text) {
   constexpr std::size_t longest_shown = 60;
   if (text.size() <= longest_shown) return std::string(text);
   std::size_t end = longest_shown;
-  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;
+  while (end > 0 && !begins_character(text[end])) --end;
   return std::string(text.substr(0, end)) + "...";
 }
 

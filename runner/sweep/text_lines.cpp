@@ -74,9 +74,10 @@ std::string without_controls(std::string_view text) {
   return plain;
 }
 
+bool begins_character(char byte) { return (static_cast<unsigned char>(byte) & 0xC0U) != 0x80U; }
+
 std::size_t characters(std::string_view text) {
-  const auto is_start = [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; };
-  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), is_start));
+  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), begins_character));
 }
 
 bool begins_a_formula(std::string_view text) {
@@ -126,9 +127,8 @@ LineCells cells_of(std::string_view line) {
 LineIndex::LineIndex(const std::string& text) : size_(text.size()), starts_{0} {
   if (text.starts_with(byte_order_mark)) starts_.front() = byte_order_mark.size();
   for (std::size_t at = starts_.front(); at < text.size(); ++at) {
-    const bool continues = (static_cast<unsigned char>(text[at]) & 0xC0U) == 0x80U;
     if (text[at] == '\n') starts_.push_back(at + 1);
-    if (continues) continuations_.push_back(at);
+    if (!begins_character(text[at])) continuations_.push_back(at);
   }
 }
 

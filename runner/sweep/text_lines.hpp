@@ -44,6 +44,9 @@ Diagnostic wrong_line(const std::string& file, std::size_t line, std::string mes
 /// characters, other ends of lines, and those that turn the direction of writing.
 std::string without_controls(std::string_view text);
 
+/// Whether a character begins with this byte of a text in UTF-8: others go on with one.
+bool begins_character(char byte);
+
 /// How many characters a text has in UTF-8.
 std::size_t characters(std::string_view text);
 
