@@ -9,6 +9,7 @@
 #include "engine/packing.hpp"
 #include "engine/units.hpp"
 #include "tests/support/keep_going.hpp"
+#include "tests/support/placed.hpp"
 
 namespace grainsweep {
 namespace {
@@ -147,11 +148,7 @@ TEST_CASE("a settled bed placed again stays as it is") {
   PackingSpec spec = small_spec();
   spec.accuracy = *preset("accurate");  // what coarser presets call rest still yields to a shake
   const Packing first = pack(spec);
-  PlacedGrains placed;
-  for (const SettledGrain& grain : first.grains) {
-    placed.grains.push_back({grain.x, grain.y, grain.z, grain.radius});
-  }
-  spec.fill = placed;
+  spec.fill = testing::placed_as_in(first);
   const Packing again = pack(spec);
   REQUIRE(again.result.status == PackingStatus::settled);
   CHECK(again.result.solid_fraction == Approx(first.result.solid_fraction).margin(1e-3));
@@ -170,11 +167,7 @@ TEST_CASE("a settled bed placed again is looked at for some steps more before it
   spec.accuracy = *preset("balanced");
   const Packing first = pack(spec);
   REQUIRE(first.result.status == PackingStatus::settled);
-  PlacedGrains placed;
-  for (const SettledGrain& grain : first.grains) {
-    placed.grains.push_back({grain.x, grain.y, grain.z, grain.radius});
-  }
-  spec.fill = placed;
+  spec.fill = testing::placed_as_in(first);
   const PackingResult again = pack(spec).result;
   CHECK(again.status == PackingStatus::settled);
   CHECK(again.steps <= 160);

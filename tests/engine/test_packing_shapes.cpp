@@ -13,6 +13,7 @@
 #include "tests/support/instruction_sets.hpp"
 #include "tests/support/keep_going.hpp"
 #include "tests/support/part_loops.hpp"
+#include "tests/support/placed.hpp"
 #include "tests/support/shapes.hpp"
 #include "tests/support/tries.hpp"
 
@@ -82,17 +83,6 @@ TEST_CASE("spheres have neither a mesh nor orientations nor an order of shapes")
   CHECK_FALSE(packing.result.shape_order);
 }
 
-/// The grains of a packing as it gives them back.
-PlacedGrains placed_as_in(const Packing& packing) {
-  PlacedGrains placed;
-  for (const SettledGrain& grain : packing.grains) {
-    placed.grains.push_back({grain.x, grain.y, grain.z, grain.radius});
-  }
-  placed.orientations = packing.turned->orientations;
-  placed.components = packing.turned->components;
-  return placed;
-}
-
 TEST_CASE("a bed of hulls placed again as it was given back stays as it is") {
   // Not centred, not along its principal axes: given back in the frame in which it is written.
   PackingSpec spec = small_spec(testing::asked_for(
@@ -100,7 +90,7 @@ TEST_CASE("a bed of hulls placed again as it was given back stays as it is") {
   const Packing first = pack(spec);
   INFO(first.result.reason);
   REQUIRE(first.result.status == PackingStatus::settled);
-  spec.fill = placed_as_in(first);
+  spec.fill = testing::placed_as_in(first);
   spec.accuracy.max_steps = 1;  // a look at it, no more
   const Packing again = pack(spec);
   double farthest = 0;
@@ -123,7 +113,7 @@ TEST_CASE("a bed of a mixture placed again as it was given back stays as it is")
   const Packing first = pack(spec);
   INFO(first.result.reason);
   REQUIRE(first.result.status == PackingStatus::settled);
-  spec.fill = placed_as_in(first);
+  spec.fill = testing::placed_as_in(first);
   REQUIRE(check(spec).empty());
   spec.accuracy.max_steps = 1;  // a look at it, no more
   const Packing again = pack(spec);

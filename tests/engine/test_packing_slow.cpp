@@ -11,6 +11,7 @@
 #include "tests/support/instruction_sets.hpp"
 #include "tests/support/keep_going.hpp"
 #include "tests/support/part_loops.hpp"
+#include "tests/support/placed.hpp"
 #include "tests/support/solvers.hpp"
 
 namespace grainsweep {
@@ -53,11 +54,7 @@ TEST_CASE("a high settled bed placed again stays as it is", "[slow]") {
   spec.fill = SolidHeight{40};
   const Packing first = make_packing(spec, kernels_for(best_isa()), always);
   REQUIRE(first.result.status == PackingStatus::settled);
-  PlacedGrains placed;
-  for (const SettledGrain& grain : first.grains) {
-    placed.grains.push_back({grain.x, grain.y, grain.z, grain.radius});
-  }
-  spec.fill = placed;
+  spec.fill = testing::placed_as_in(first);
   const Packing again = make_packing(spec, kernels_for(best_isa()), always);
   CHECK(again.result.status == PackingStatus::settled);
   CHECK(again.result.steps <= 40);  // no more than a look

@@ -16,6 +16,7 @@
 #include "tests/support/instruction_sets.hpp"
 #include "tests/support/keep_going.hpp"
 #include "tests/support/part_loops.hpp"
+#include "tests/support/placed.hpp"
 
 namespace grainsweep {
 namespace {
@@ -180,10 +181,7 @@ TEST_CASE("a settled bed of a tube placed again stays as it is") {
   PackingSpec spec = tube_spec(3.4, 120, "accurate");
   const Packing first = packed(spec);
   REQUIRE(first.result.status == PackingStatus::settled);
-  PlacedGrains placed;
-  for (const SettledGrain& grain : first.grains) {
-    placed.grains.push_back({grain.x, grain.y, grain.z, grain.radius});
-  }
+  PlacedGrains placed = testing::placed_as_in(first);
   spec.fill = placed;
   const Packing again = packed(spec);
   REQUIRE(again.result.status == PackingStatus::settled);
