@@ -304,14 +304,19 @@ std::string rest_failure(const RestReport& rest, const Accuracy& accuracy, bool 
               "imbalance_tolerance or accuracy.imbalance_gap", why)};
   for (const RestTest& test : tests) {
     if (test.is_passed) continue;
-    if (accuracy.step > longest_settling_step) {
-      return test.failure + ": make accuracy.step smaller, " + number_text(longest_settling_step) +
-             " sqrt(d/g) at most, for gravity outruns the motion of longer ones";
+    if (!may_go_on || accuracy.step > longest_settling_step) {
+      return test.failure + ": " + remedy_of_steps(accuracy);
     }
-    if (may_go_on && !test.advice.empty()) return test.failure + ": " + test.advice;
-    return test.failure + ": make accuracy." + (may_go_on ? test.remedy : "max_steps") + " larger";
+    return test.failure + ": " +
+           (test.advice.empty() ? "make accuracy." + test.remedy + " larger" : test.advice);
   }
   return {};
+}
+
+std::string remedy_of_steps(const Accuracy& accuracy) {
+  if (accuracy.step <= longest_settling_step) return "make accuracy.max_steps larger";
+  return "make accuracy.step smaller, " + number_text(longest_settling_step) +
+         " sqrt(d/g) at most, for gravity outruns the motion of longer ones";
 }
 
 std::string remedy_of_rounding(const RestReport& rest, const Accuracy& accuracy, double height) {

@@ -85,6 +85,9 @@ inline constexpr double longest_settling_step = 0.4;
 /// `may_go_on`: accuracy.max_steps left steps to come to rest in.
 std::string rest_failure(const RestReport& rest, const Accuracy& accuracy, bool may_go_on = true);
 
+/// How to change the steps of a bed that ran out of them, in words.
+std::string remedy_of_steps(const Accuracy& accuracy);
+
 /// What to do about the residual of a bed not at rest whose highest grain lies at `height`, d, if
 /// it is f32 that keeps it from being smaller; "" if not.
 std::string remedy_of_rounding(const RestReport& rest, const Accuracy& accuracy, double height);

@@ -348,7 +348,7 @@ class Settling {
     if (!is_tested_) test_rest();
     if (report_.failure.empty() && !has_arrived()) {
       report_.failure = "its steps ended in the stage " + std::string(rule().name) +
-                        ", on its way to rest: make accuracy.max_steps larger";
+                        ", on its way to rest: " + remedy_of_steps(accuracy_);
     }
     look_closer();
     if (!report_.failure.empty() && !is_high(bed_)) {

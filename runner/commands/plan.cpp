@@ -1,5 +1,6 @@
 // The command `plan`: what a sweep stands for and will cost, without running it.
 #include <algorithm>
+#include <filesystem>
 #include <iostream>
 #include <map>
 #include <set>
@@ -74,6 +75,9 @@ std::vector<Cost> costs_with(const Outcomes& outcomes, const std::vector<Job>& j
 /// How estimates were corrected by what is made in a folder.
 std::string learned_text(const std::string& folder, const Outcomes& outcomes,
                          const std::vector<Job>& jobs, const std::vector<Cost>& costs) {
+  if (!std::filesystem::exists(folder)) {
+    return "No packing is made in " + folder + ": there is no such folder\n";
+  }
   const auto made = std::count_if(jobs.begin(), jobs.end(),
                                   [&](const Job& job) { return outcomes.contains(job.id); });
   return counted(static_cast<std::size_t>(made), "packing") + " made in " + folder +

@@ -338,15 +338,14 @@ std::string packings_section(const std::vector<Row>& rows, const std::vector<Gro
 }
 
 std::string remedy_of(const Row& row) {
-  if (!row.outcome) return "run the sweep again: it makes what is missing";
+  if (!row.outcome) return "run the sweep again, unless it runs now: it makes what is missing";
   if (is_settled(row)) return "";
   if (row.outcome->exception) return "run the sweep again: packings that broke off are made anew";
   if (row.outcome->result.status == PackingStatus::failed) {
     return "mend what the reason names in the sweep file, and run it again";
   }
-  return "give it more steps (accuracy.max_steps), or more accurate ones "
-         "(accuracy.path_tolerance); "
-         "where few of many do not settle, the others stand for the parameters";
+  return "as the reason says, or take more accurate steps (accuracy.path_tolerance); where few of "
+         "many do not settle, the others stand for the parameters";
 }
 
 std::string provenance_section(const Provenance& provenance) {

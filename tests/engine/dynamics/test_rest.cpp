@@ -275,6 +275,8 @@ TEST_CASE("the test of rest that failed is named with value and tolerance") {
   CHECK(rest_failure(overlap, too_long, false) ==
         "mean overlap 0.002 d exceeds 1e-05: make accuracy.step smaller, 0.4 sqrt(d/g) at most, "
         "for gravity outruns the motion of longer ones");
+  CHECK(remedy_of_steps(accuracy) == "make accuracy.max_steps larger");
+  CHECK(remedy_of_steps(too_long).starts_with("make accuracy.step smaller, 0.4 sqrt(d/g) at most"));
 }
 
 TEST_CASE("a bed out of balance is told what would call it balanced") {

@@ -55,6 +55,11 @@ expect_code 0 env PATH="$here/no-programs" "$program" report out/small
 cmp out.txt report.txt || fail "report prints another table than run"
 [ "$(grep -c gnuplot error.txt)" -eq 1 ] || fail "not told once: $(cat error.txt)"
 expect_text out/small/report.html "for want of gnuplot" "</html>"
+rm out/small/report.html && mkdir -p out/small/report.html/in-the-way
+expect_code 4 "$program" report out/small
+expect_text error.txt "error: there is no new page: "
+cmp out.txt <(grep -v "^Page to look at" report.txt) || fail "without a page report prints another table"
+rm -r out/small/report.html
 expect_code 2 "$program" compare out/small
 expect_text error.txt "small.reference.json" "--with"
 printf '{"source": "A paper", "families": [{"where": {}, "values": [{"quantity": "Z", "width": 99, "value": 6}]}]}' \
@@ -70,6 +75,8 @@ expect_text out.txt "10 of 10 packings done" "No runner at work"
 expect_code 0 "$program" plan small.json --out out/small --shards 3
 expect_text error.txt "packings made in out/small: estimates times "
 expect_text out.txt "No cluster is needed." "In 3 shards: about "
+expect_code 0 "$program" plan small.json --out out/smal
+expect_text error.txt "No packing is made in out/smal: there is no such folder"
 expect_code 0 "$program" status out/small --json
 expect_text out.txt '"packings": 10' '"pending": 0' '"runners": []' '"sweep_file": "small.json"'
 
