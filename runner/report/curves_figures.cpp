@@ -53,6 +53,12 @@ std::multimap<double, const Family*> by_small_share(const std::vector<Family>& f
   return sorted;
 }
 
+/// Where its error bar ends.
+void add_ends(const Estimate& estimate, std::vector<double>& ends) {
+  const double error = std::isfinite(estimate.error) ? estimate.error : 0.0;
+  ends.insert(ends.end(), {estimate.value - error, estimate.value + error});
+}
+
 struct EstimateCells {
   std::string value, error;
 };
@@ -65,6 +71,7 @@ EstimateCells estimate_cells(const Estimate& estimate, const std::string& not_de
 /// What the walls do to a family.
 struct WallReach {
   double small_share = 0.0;
+  std::size_t mark = 0;  ///< how many families of this share come before it
   const Family* family = nullptr;
   WallFit phi, z;
   DecayFit large, small;  ///< at its widest gap
@@ -75,7 +82,9 @@ std::vector<WallReach> reaches_of(const std::multimap<double, const Family*>& fa
   std::vector<WallReach> reaches;
   for (const auto& [share, family] : families) {
     const GroupWithCurves widest(family->walled.back(), folder);
-    reaches.push_back({share, family, fit_walls(*family, Quantity::solid_fraction),
+    const bool is_another = !reaches.empty() && reaches.back().small_share == share;
+    const std::size_t mark = is_another ? reaches.back().mark + 1 : 0;
+    reaches.push_back({share, mark, family, fit_walls(*family, Quantity::solid_fraction),
                        fit_walls(*family, Quantity::coordination),
                        decay_of(*widest, GrainClass::large), decay_of(*widest, GrainClass::small)});
   }
@@ -84,10 +93,10 @@ std::vector<WallReach> reaches_of(const std::multimap<double, const Family*>& fa
 
 std::string small_share_csv(const std::vector<WallReach>& reaches) {
   std::string text =
-      csv_line({"all", "small_share", "C", "C_error", "C_Z", "C_Z_error", "reach_large",
+      csv_line({"mark", "small_share", "C", "C_error", "C_Z", "C_Z_error", "reach_large",
                 "reach_large_error", "reach_small", "reach_small_error", "family"});
-  for (const auto& [share, family, phi, z, large, small] : reaches) {
-    std::vector<std::string> cells = {"1", cell(share)};
+  for (const auto& [share, mark, family, phi, z, large, small] : reaches) {
+    std::vector<std::string> cells = {cell(mark + 1), cell(share)};
     for (const auto& [value, error] :
          {estimate_cells(phi.slope, phi.not_determined), estimate_cells(z.slope, z.not_determined),
           estimate_cells(large.reach, large.not_determined),
@@ -190,11 +199,16 @@ Figure small_share_figure(const std::vector<Family>& families, const std::string
   const std::vector<WallReach> reaches = reaches_of(sorted, folder);
   figure.tables = {{table, small_share_csv(reaches)}};
   std::vector<double> slopes = {0.0}, lengths = {0.0};
+  std::size_t marks = 1;
   for (const WallReach& reach : reaches) {
-    if (reach.phi.not_determined.empty()) slopes.push_back(reach.phi.slope.value);
+    marks = std::max(marks, reach.mark + 1);
+    if (reach.phi.not_determined.empty()) add_ends(reach.phi.slope, slopes);
     for (const DecayFit* fit : {&reach.large, &reach.small}) {
-      if (fit->not_determined.empty()) lengths.push_back(fit->reach.value);
+      if (fit->not_determined.empty()) add_ends(fit->reach, lengths);
     }
+  }
+  if (marks > 1) {
+    figure.caption += " Families of one share have different marks, in the order of " + table + ".";
   }
   if (slopes.size() + lengths.size() == 2) {
     figure.not_drawn =
@@ -206,19 +220,26 @@ Figure small_share_figure(const std::vector<Family>& families, const std::string
                        {"points ls 1", "reach of large grains"},
                        {"points ls 2", "reach of small grains"}},
                       {.right = 24.0});
-  const auto part = [&](const std::string& column, int line) {
-    return plot_part(
-        {table, "all", 1, "small_share", column, column + "_error", "points ls " + cell(line)});
+  const auto add_parts = [&](const std::string& column, int line, std::vector<std::string>& parts) {
+    for (std::size_t k = 0; k < marks; ++k) {
+      const std::string style = "points ls " + cell(line);
+      parts.push_back(
+          plot_part({table, "mark", k + 1, "small_share", column, column + "_error",
+                     k == 0 ? style : style + " pt " + cell(mark_of(most_series - k))}));
+    }
   };
+  std::vector<std::string> slope_parts, reach_parts;
+  add_parts("C", 3, slope_parts);
+  add_parts("reach_large", 1, reach_parts);
+  add_parts("reach_small", 2, reach_parts);
   const std::string x =
       range_command("x", range_of({sorted.begin()->first, sorted.rbegin()->first}, 0.08)) +
       label_command("x", "share of small grains in the solid volume");
-  figure.commands = "set multiplot\n" + panels.key() + panels.place(0, 0) + x +
-                    label_command("y", "C / d") + range_command("y", range_of(slopes, 0.2)) +
-                    plot_command({part("C", 3)}) + panels.place(1, 0) + x +
-                    label_command("y", "reach / d") +
-                    range_command("y", {0.0, range_of(lengths, 0.2).high}) +
-                    plot_command({part("reach_large", 1), part("reach_small", 2)});
+  figure.commands =
+      "set multiplot\n" + panels.key() + panels.place(0, 0) + x + label_command("y", "C / d") +
+      range_command("y", range_of(slopes, 0.2)) + plot_command(slope_parts) + panels.place(1, 0) +
+      x + label_command("y", "reach / d") + range_command("y", {0.0, range_of(lengths, 0.2).high}) +
+      plot_command(reach_parts);
   return figure;
 }
 

@@ -1,27 +1,29 @@
 #include "runner/report/figure.hpp"
 
 #include <algorithm>
+#include <array>
 #include <numeric>
 #include <utility>
 
 #include "runner/report/axes.hpp"
+#include "runner/sweep/text_lines.hpp"
 #include "runner/tables/csv.hpp"
 
 namespace grainsweep {
 namespace {
 
 constexpr double left_margin = 96.0, bottom_margin = 66.0;  // px
-constexpr std::size_t longest_title = 44;                   // characters
+constexpr std::size_t longest_title = 42;                   // characters, of two side by side
 const std::string frame =
     "set border 3 lw 1 lc rgb '#444444'\nset tics nomirror out scale 0.6 textcolor rgb '#222222'\n"
     "set xtics nomirror\nset ytics nomirror\nset grid lc rgb '#dddddd' lw 0.6 dt solid\n";
 constexpr double key_line = 22.0;  // px
 
-/// Entries of the key that stand side by side.
+/// Entries of the key that stand side by side: as many as gnuplot finds room for in 960 px.
 std::size_t columns_of(const std::vector<KeyEntry>& key) {
   constexpr std::size_t longest_of_three = 24;
   const bool are_short = std::all_of(key.begin(), key.end(), [](const KeyEntry& entry) {
-    return entry.title.size() <= longest_of_three;
+    return characters(entry.title) <= longest_of_three;
   });
   return are_short ? 3 : 2;
 }
@@ -79,9 +81,19 @@ std::string Panels::key() const {
          cell(1.0 - 6.0 / height_) + "\nset bmargin at screen " +
          cell(1.0 - (top_ - gaps_.above) / height_) +
          "\nset border 0\nunset tics\nunset grid\nset xrange [0:1]\nset yrange [0:1]\n" +
-         "set key center top horizontal Left reverse noenhanced samplen 2 width 2 maxcols "
-         "3\nplot " +
-         plots + "\nset autoscale\nunset key\n" + frame;
+         "set key center top horizontal Left reverse noenhanced samplen 2 width 2 maxcols " +
+         cell(key_columns_) + "\nplot " + plots + "\nset autoscale\nunset key\n" + frame;
+}
+
+std::size_t Panels::title_length() const {
+  constexpr double character = 6.6;  // px, at most, of titles of 11 px
+  const double room = width_ / static_cast<double>(columns_) - left_margin + gaps_.right;
+  return static_cast<std::size_t>(room / character);
+}
+
+int mark_of(std::size_t k) {
+  constexpr std::array<int, most_series> marks = {7, 5, 9, 13, 11, 6, 4, 8, 12, 10, 1, 2};
+  return marks[k % marks.size()];
 }
 
 std::string figure_style() {
@@ -91,10 +103,9 @@ std::string figure_style() {
       "set errorbars lw 1.2\n";
   constexpr const char* colours[] = {"#0072B2", "#D55E00", "#009E73", "#CC79A7",
                                      "#E69F00", "#56B4E9", "#000000"};
-  constexpr int shapes[] = {7, 5, 9, 13, 11, 6, 4, 8, 12, 10, 1, 2};
   for (std::size_t k = 0; k < most_series; ++k) {
     text += "set style line " + cell(k + 1) + " lc rgb '" + colours[k % 7] + "' pt " +
-            cell(shapes[k]) + " ps 0.75 lw 1.6\n";
+            cell(mark_of(k)) + " ps 0.75 lw 1.6\n";
   }
   return text + frame + "set style line 20 lc rgb '#777777' pt 7 ps 0.35 lw 1\n";
 }

@@ -26,6 +26,9 @@ struct Figure {
 /// So many series are told apart in one figure.
 inline constexpr std::size_t most_series = 12;
 
+/// What gnuplot calls the mark (`pt`) of series k; after the last the first comes again.
+int mark_of(std::size_t k);
+
 /// A string as gnuplot takes it, without line breaks.
 std::string quoted(const std::string& text);
 
@@ -54,6 +57,9 @@ class Panels {
 
   /// The key, above all panels: a plot of its own. Panels have none then.
   std::string key() const;
+
+  /// Characters that a title above a panel has room for.
+  std::size_t title_length() const;
 
  private:
   double width_, height_;  ///< px

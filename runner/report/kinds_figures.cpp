@@ -12,7 +12,7 @@ namespace {
 constexpr std::array kind_names = {"simple", "double", "triple"};
 
 std::string kinds_csv(const Axes& axes) {
-  std::vector<std::string> header = {"all", "group", "x"};
+  std::vector<std::string> header = {"series", "group", "x"};
   for (const char* of : {"contacts_", "force_"}) {
     for (const char* kind : kind_names) {
       header.push_back(std::string(of) + kind);
@@ -21,9 +21,12 @@ std::string kinds_csv(const Axes& axes) {
   }
   header.emplace_back("name");
   std::string text = csv_line(header);
+  std::size_t number = 0;
   for (const Series& series : axes.series) {
+    ++number;
     for (const Group* group : series.groups) {
-      std::vector<std::string> cells = {"1", cell(group->number), cell(abscissa(axes, *group))};
+      std::vector<std::string> cells = {cell(number), cell(group->number),
+                                        cell(abscissa(axes, *group))};
       for (std::size_t column = 3; column + 1 < header.size(); column += 2) {
         const Spread& mean = mean_of(*group, header[column]);
         cells.insert(cells.end(), {cell(mean.mean), cell(mean.error)});
@@ -35,14 +38,30 @@ std::string kinds_csv(const Axes& axes) {
   return text;
 }
 
-std::string kinds_panel(const std::string& of) {
+std::string kinds_panel(const std::string& of, std::size_t series) {
   std::vector<std::string> parts;
-  for (std::size_t k = 0; k < kind_names.size(); ++k) {
-    const std::string column = of + kind_names[k];
-    parts.push_back(plot_part(
-        {"contacts.csv", "all", 1, "x", column, column + "_error", "points ls " + cell(k + 1)}));
+  for (std::size_t s = 0; s < series; ++s) {
+    for (std::size_t k = 0; k < kind_names.size(); ++k) {
+      const std::string column = of + kind_names[k], style = "points ls " + cell(k + 1);
+      parts.push_back(plot_part({"contacts.csv", "series", s + 1, "x", column, column + "_error",
+                                 series == 1 ? style : style + " pt " + cell(mark_of(s))}));
+    }
   }
   return plot_command(parts);
+}
+
+/// Colours tell the kinds, and of several series marks tell those.
+std::vector<KeyEntry> kinds_key(const Axes& axes) {
+  const bool is_one = axes.series.size() == 1;
+  std::vector<KeyEntry> key;
+  for (const char* kind : {"at a point", "along a line", "over an area"}) {
+    const std::string line = " ls " + cell(key.size() + 1);
+    key.push_back({is_one ? "points" + line : "lines" + line + " lw 5", kind});
+  }
+  for (std::size_t s = 0; !is_one && s < std::min(axes.series.size(), most_series); ++s) {
+    key.push_back({"points lc rgb '#444444' pt " + cell(mark_of(s)), axes.series[s].name});
+  }
+  return key;
 }
 
 std::vector<double> places_of(const Axes& axes) {
@@ -112,17 +131,14 @@ Figure contacts_figure(const Axes& axes) {
     figure.not_drawn = "no grains press on each other";
     return figure;
   }
-  const Panels panels(figure, 2, {1.0},
-                      {{"points ls 1", "at a point"},
-                       {"points ls 2", "along a line"},
-                       {"points ls 3", "over an area"}},
-                      {.right = 24.0});
+  const Panels panels(figure, 2, {1.0}, kinds_key(axes), {.right = 24.0});
+  const std::size_t series = axes.series.size();
   const std::string x = range_command("x", range_of(places_of(axes), 0.06)) +
                         label_command("x", abscissa_title(axes)) + "set yrange [0:*]\n";
   figure.commands = "set multiplot\n" + panels.key() + panels.place(0, 0) + x +
-                    label_command("y", "share of contacts") + kinds_panel("contacts_") +
+                    label_command("y", "share of contacts") + kinds_panel("contacts_", series) +
                     panels.place(1, 0) + x + label_command("y", "share of force") +
-                    kinds_panel("force_");
+                    kinds_panel("force_", series);
   return figure;
 }
 

@@ -106,13 +106,14 @@ std::string abscissa_commands(const Axes& axes, bool is_lowest, bool is_highest)
   text += "unset x2tics\nunset x2label\n";
   if (!is_over_width(axes) || !is_highest) return text;
   std::string tics;
-  double last = -1.0;
-  const double room = 0.05 * *std::max_element(at.begin(), at.end());
+  double free_from = -1.0;  // where the last one ends
+  const double character = 0.026 * *std::max_element(at.begin(), at.end());
   for (const double width : widths) {
-    if (1.0 / width - last < room) continue;
-    last = 1.0 / width;
     const std::string told = axes.units ? length_in(*axes.units, width) : cell(width);
-    tics += (tics.empty() ? "" : ", ") + quoted(told) + " " + cell(last);
+    const double half = character * (static_cast<double>(told.size()) + 1.0) / 2.0;
+    if (1.0 / width - half < free_from) continue;
+    free_from = 1.0 / width + half;
+    tics += (tics.empty() ? "" : ", ") + quoted(told) + " " + cell(1.0 / width);
   }
   text += "set link x2\nset x2tics (" + tics + ") scale 0.6 out\n";
   const std::string unit = axes.units ? printed_unit(*axes.units) : "d";

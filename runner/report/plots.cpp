@@ -108,8 +108,9 @@ std::string panels_across(const Panels& panels, std::size_t k, const Group& grou
   return panels.place(k, 0) + range_command("x", {0.0, box.is_tube ? box.width / 2.0 : box.width}) +
          "set format x ''\n" + label_command("x", "") +
          label_command("y", k == 0 ? "solid fraction φ" : "") + "set title " +
-         quoted(title_of(group, figure_label)) + " offset 0,-0.7 font ',11' noenhanced\n" + solid +
-         "unset title\n" + panels.place(k, 1) + "set format x\n" +
+         quoted(shortened(title_of(group, figure_label), panels.title_length())) +
+         " offset 0,-0.7 font ',11' noenhanced\n" + solid + "unset title\n" + panels.place(k, 1) +
+         "set format x\n" +
          label_command("x",
                        box.is_tube ? "distance from the wall / d" : "y / d, from wall to wall") +
          label_command("y", k == 0 ? "coordination number Z" : "") + touching;

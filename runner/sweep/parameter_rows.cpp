@@ -166,14 +166,15 @@ Rows accuracy_rows() {
                                              "most solver iterations per step of fall and creep"),
       row<&S::accuracy, &A::path_tolerance>(
           "accuracy.path_tolerance", positive,
-          "how far contacts may stray in a full step of the fall, d, root mean square; a creep "
-          "shares out to its steps what 160 such steps may"),
+          "how far contacts may stray, d, root mean square: in a full step of the fall of "
+          "polyhedra "
+          "so far, of spheres twice, in all steps of a creep 160 times"),
       row<&S::accuracy, &A::creep_steps>("accuracy.creep_steps", Interval{0, 1000000},
                                          "steps after the fall, while the bed creeps to rest: of "
                                          "0.2 sqrt(d/g), of shorter steps as many more"),
       row<&S::accuracy, &A::rest_iterations>("accuracy.rest_iterations", Interval{1, 1000000},
-                                             "most solver iterations per step at the end of the "
-                                             "creep; 1.5 for each d of height, if that "
+                                             "most solver iterations per step at rest, of spheres "
+                                             "twice as many; 1.5 for each d of height, if that "
                                              "is more"),
       row<&S::accuracy, &A::residual_tolerance>("accuracy.residual_tolerance", positive,
                                                 "worst residual of the last step at rest, m g"),
@@ -206,7 +207,7 @@ Rows measure_rows() {
                                             "zone below the surface left out, d"),
       row<&S::measure, &M::gap_tolerances>(
           "measure.gap_tolerances", Interval{0, 0.1, true, true},
-          "grains touch below these gaps, d; the first is the headline"),
+          "grains touch below these gaps, d, 1 to 8 of them; the first is the headline"),
       row<&S::measure, &M::bin_width>("measure.bin_width", Interval{0.01, 10000},
                                       "width of the bins of profiles, d"),
   };

@@ -85,7 +85,7 @@ void add_limits(std::vector<Scene>& scenes) {
   const Precision f32 = Precision::f32;
   const Outcome right = Outcome::right;
   scenes.push_back(changed("momentum 0", f32, right, [](Accuracy& a) { a.momentum = 0.0; }));
-  scenes.push_back(changed("momentum .999", f32, right, [](Accuracy& a) { a.momentum = 0.999; }));
+  scenes.push_back(changed("momentum 0.999", f32, right, [](Accuracy& a) { a.momentum = 0.999; }));
   scenes.push_back(changed("no creep", f32, right, [](Accuracy& a) { a.creep_steps = 0; }));
   scenes.push_back(
       changed("one step", f32, Outcome::not_settled, [](Accuracy& a) { a.max_steps = 1; }));

@@ -103,12 +103,12 @@ void add_sizes(std::vector<Scene>& scenes) {
         packing("a trace of small grains", "x_S = 1e-3", name, Outcome::right,
                 [](PackingSpec& s) { s.sizes.small_share = 1e-3, s.fill = SolidHeight{4}; }));
     scenes.push_back(
-        packing("a trace of large grains", "x_S = .999", name, Outcome::right,
+        packing("a trace of large grains", "x_S = 0.999", name, Outcome::right,
                 [](PackingSpec& s) { s.sizes.small_share = 0.999, s.fill = GrainCount{300}; }));
     scenes.push_back(
         packing("small grains only", "x_S = 1", name, Outcome::right,
                 [](PackingSpec& s) { s.sizes.small_share = 1, s.fill = GrainCount{300}; }));
-    scenes.push_back(packing("all sizes at once", "spread .2, cut at .2 and 1.8 d", name,
+    scenes.push_back(packing("all sizes at once", "spread 0.2, cut at 0.2 and 1.8 d", name,
                              Outcome::right, [](PackingSpec& s) { s.sizes.spread = 0.2; }));
   }
   scenes.push_back(packing("the size ratio at its limit", "1 to 50", "balanced", Outcome::refused,

@@ -51,7 +51,7 @@ std::vector<Scene> sweep_files() {
   for (const char* file : {"sizes.json", "heights.json", "layers.json", "accuracies.json"}) {
     add_jobs(file, scenes);
   }
-  scenes.push_back(refused_file("refused/too-narrow.json", "W = .99 d"));
+  scenes.push_back(refused_file("refused/too-narrow.json", "W = 0.99 d"));
   scenes.push_back(refused_file("refused/own-images.json", "L_x = 2 d"));
   scenes.push_back(refused_file("refused/no-grains.json", "n = 0"));
   scenes.push_back(refused_file("refused/too-small.json", "sizes 1 to 50"));

@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "runner/report/figure.hpp"
 #include "runner/report/figures.hpp"
 #include "tests/runner/sample_rows.hpp"
 
@@ -34,6 +35,34 @@ const Figure& figure_called(const std::vector<Figure>& figures, const std::strin
 
 TEST_CASE("text in a figure's commands cannot end its quotes or the line", "[report]") {
   CHECK(quoted("a'b`c`\n\"$(d)") == "'a''b`c` \"$(d)'");
+}
+
+TEST_CASE("keys have the columns that gnuplot finds room for, whatever the characters",
+          "[report]") {
+  const auto key_of = [](const std::string& title) {
+    return Panels(Figure{}, 1, {1.0}, {{"points ls 1", title}, {"points ls 2", "b"}}).key();
+  };
+  const auto has = [](const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+  };
+  CHECK(has(key_of(std::string(24, 'a')), "maxcols 3\n"));
+  CHECK(has(key_of("φφφφφφφφφφφφφφφφφφφφφφφφ"), "maxcols 3\n"));  // two bytes each
+  CHECK(has(key_of(std::string(25, 'a')), "maxcols 2\n"));
+  CHECK(has(key_of(std::string(42, 'a')), std::string(42, 'a') + "'"));
+  CHECK(has(key_of(std::string(43, 'a')), std::string(41, 'a') + "…'"));  // two of 43 have no room
+}
+
+TEST_CASE("series of kinds of contact have marks of their own", "[report]") {
+  const std::vector<Row> rows = {mixture_row("a", 4), polyhedra_row("b", 5)};
+  const Analysis analysis = analyse(rows);
+  const std::vector<Figure> figures = figures_of(rows, analysis, {});
+  const Figure& contacts = figure_called(figures, "contacts");
+  CHECK(cell_in(contacts.tables[0].second, 1, "series") == "1");
+  CHECK(cell_in(contacts.tables[0].second, 2, "series") == "2");
+  for (std::size_t k = 0; k < 2; ++k) {
+    CHECK(contacts.commands.find("pt " + std::to_string(mark_of(k)) + " title '") !=
+          std::string::npos);
+  }
 }
 
 TEST_CASE("the means over the width have the line of fits.csv and its residuals", "[report]") {
