@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <ctime>
 #include <fstream>
+#include <random>
 #include <sstream>
 #include <string>
 #include <system_error>
@@ -87,7 +88,10 @@ std::string host_name() {
   return text;
 }
 
-std::string process_name() { return host_name() + "-" + std::to_string(getpid()); }
+std::string process_name() {
+  static const std::string token = std::to_string(std::random_device{}());
+  return host_name() + "-" + token + "-" + std::to_string(getpid());
+}
 
 std::string processor_name() {
   std::ifstream file("/proc/cpuinfo");

@@ -31,7 +31,8 @@ std::string called_as();
 /// The machine's name, with only the characters that are safe in a file name.
 std::string host_name();
 
-/// "<host>-<pid>", the name this process writes under.
+/// "<host>-<random number>-<pid>", the name this process writes under. Containers may share the
+/// name of their host and have equal numbers of processes.
 std::string process_name();
 
 /// What the processor calls itself; empty if the system does not tell.

@@ -15,6 +15,7 @@
 #include "runner/commands/results.hpp"
 #include "runner/commands/shared_options.hpp"
 #include "runner/exit_codes.hpp"
+#include "runner/hash.hpp"
 #include "runner/jobs/progress.hpp"
 #include "runner/machine.hpp"
 #include "runner/store/files.hpp"
@@ -39,9 +40,12 @@ struct Collection {
   std::map<std::string, std::size_t> row_of;  ///< by job
   /// The first row of each set of parameters, by their text, which the rows keep.
   std::map<std::string_view, std::size_t> row_with;
+  /// What the files hold that parameters were read from, by parameter and name of the file.
+  std::map<std::pair<std::string, std::string>, std::string> content_of;
   /// What is stored of earlier forms of the sweeps, which no table has.
   Outcomes others;
   std::size_t added = 0;
+  bool is_short = false;  ///< something stored could not be read
 };
 
 /// Of this process; it makes no packing, and is not among the runs.
@@ -61,7 +65,7 @@ void warn(const std::string& text, Collection& to) {
 }
 
 void warn_of(const std::vector<std::string>& damage, Collection& to) {
-  for (const std::string& line : damage) warn(line, to);
+  for (const std::string& line : damage) warn(line, to), to.is_short = true;
 }
 
 /// Packings of equal parameters are one group: they get the label of the first. Adds one that is
@@ -75,11 +79,30 @@ void add_row(Row&& row, Collection& to, std::map<std::string, std::string>& rena
   to.rows.push_back(std::move(row));
 }
 
+/// Files of one name that hold different things, of different folders, are told apart by a hash.
+void tell_files_apart(JobFacts& job, Collection& to) {
+  if (job.files.empty()) return;
+  const auto contents = identifying_parameters(job);
+  for (auto& [path, file] : job.files) {
+    const auto content = contents.find(path);
+    const bool is_of_all = content != contents.end() && path != "fill.files";  // each has its own
+    if (!is_of_all) continue;
+    const auto [known, is_new] = to.content_of.try_emplace({path, file}, content->second);
+    if (is_new || known->second == content->second) continue;
+    file += " " + hex16(fnv1a(content->second)).substr(0, 8);
+    to.content_of[{path, file}] = content->second;
+  }
+}
+
 /// The row of a job; a new, pending one if there is none yet.
 Row& row_of(const JobEntry& job, const JobList& list, Collection& to,
             std::map<std::string, std::string>& renamed) {
   const auto [known, is_new] = to.row_of.try_emplace(job.id, to.rows.size());
-  if (is_new) add_row({facts_of(job, list), std::nullopt}, to, renamed);
+  if (is_new) {
+    Row row{facts_of(job, list), std::nullopt};
+    tell_files_apart(row.job, to);
+    add_row(std::move(row), to, renamed);
+  }
   return to.rows[known->second];
 }
 
@@ -109,7 +132,7 @@ void add_sweep(const Provenance& from, Provenance& to) {
 
 /// Units stand for all packings of a folder.
 void add_units(const std::string& folder, const GivenUnits& from, Collection& to) {
-  if (!to.provenance.units || from == to.provenance.units) return;
+  if (from == to.provenance.units) return;
   warn(folder + ": has other units than the sweeps before it; the tables have none", to);
   to.provenance.units.reset();
 }
@@ -125,6 +148,7 @@ bool copy_bed(const std::string& folder, Outcome& outcome, Collection& to) {
     return true;
   } catch (const FileError& error) {
     warn(std::string(error.what()) + "; left out", to);
+    to.is_short = true;
     return false;
   }
 }
@@ -182,7 +206,7 @@ void add_others(const std::string& folder, Outcomes&& outcomes, Collection& to) 
 /// What the folder holds already; a new one takes name and file from the first source.
 Collection begin_collection(const std::string& folder, ShardFiles& files, ProgressDisplay& display,
                             const RunRecord& own, const Provenance& first) {
-  Collection collection{folder, files, display, first, {}, {}, {}, {}, 0};
+  Collection collection{folder, files, display, first, {}, {}, {}, {}, {}};
   collection.provenance.runs.clear();
   if (file_exists(provenance_path(folder))) {
     StoredSweep stored = read_stored_sweep(folder);
@@ -203,6 +227,7 @@ Collection begin_collection(const std::string& folder, ShardFiles& files, Progre
                   [&](const RunRecord& run) { return is_same_run(run, own); });
   }
   for (std::size_t i = 0; i < collection.rows.size(); ++i) {
+    tell_files_apart(collection.rows[i].job, collection);
     collection.row_of[collection.rows[i].job.id] = i;
     collection.row_with.try_emplace(collection.rows[i].job.parameters.text(), i);
   }
@@ -322,7 +347,7 @@ int perform(const CollectOptions& options) {
             << ", which now holds " << rows.size() - pending << " of " << rows.size() << "\n"
             << std::flush;
   std::cout << write_page(options.out, collection.provenance, rows, analysis);
-  return exit_done;
+  return collection.is_short ? exit_file_system : exit_done;
 }
 
 }  // namespace grainsweep

@@ -1,6 +1,7 @@
 // The command `export`: the beds of stored packings, a file each.
 #include <algorithm>
 #include <iostream>
+#include <map>
 #include <optional>
 #include <set>
 #include <stdexcept>
@@ -203,6 +204,9 @@ int perform(const ExportOptions& options) {
   refuse_shapes_without_room(format, options.folder, rows, chosen);
   make_folder(to);
   const std::vector<std::string> stems = file_stems(rows);
+  std::map<std::string, std::string> taken;
+  for (const std::size_t k : chosen) taken[stems[k] + ending] = rows[k].job.id;
+  if (const auto index = index_without(to, taken)) replace_file(to + "/index.csv", *index);
   std::set<std::string> written;
   std::size_t unsettled = 0, damaged = 0, without_grains = 0;
   std::vector<std::string> refused;

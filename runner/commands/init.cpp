@@ -66,6 +66,7 @@ int perform(const InitOptions& options) {
         options.name + "\"");
   }
   const std::string file = name + std::string(sweep_ending);
+  if (file == schema_file) throw BadInput(file + " is the name of the schema; take another one");
   if (file_exists(file)) throw BadInput(file + " is there already; take another name");
   replace_file(schema_file, sweep_schema());
   replace_file(file, first_sweep(name));

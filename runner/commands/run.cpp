@@ -382,11 +382,13 @@ CLI::App& add_command(CLI::App& app, RunOptions& options) {
                "store curves but no grains: beds cannot be shown or exported");
   run.add_option("--shard", options.shard,
                  "make one part of N in a shared folder: I/N, auto, or auto/N")
+      ->check(not_empty())
       ->type_name("I/N");
   run.add_flag("--alone", options.alone,
                "end with the shard, without taking over what others have not begun");
   run.add_option("--time-limit", options.time_limit,
                  "end in time; [H:]MM:SS or seconds (default: the end of the Slurm job)")
+      ->check(not_empty())
       ->type_name("T");
   add_tolerance(run, options.tolerate_unsettled,
                 "exit with 0 although packings did not settle; =SHARE: up to that share");
@@ -400,9 +402,9 @@ int perform(const RunOptions& options) {
   const Isa isa = choose_isa(options.isa);
   const Shard shard = shard_from_option(options.shard, std::getenv);
   const std::string folder = options.out.empty() ? "out/" + whole.name : options.out;
+  const TimeLimit time_limit = time_limit_of(options);
   confirm_fresh(options, folder, shard);
   make_folder(folder);
-  const TimeLimit time_limit = time_limit_of(options);
   const double start = wall_seconds();
   RunRecord run = begun_run(options, isa);
   ShardFiles files(folder, shard, run);

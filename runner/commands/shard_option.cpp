@@ -1,5 +1,6 @@
 #include "runner/commands/shard_option.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <optional>
@@ -63,7 +64,7 @@ std::optional<Task> task_of(const TaskVariables& names, const Environment& envir
   const auto number = number_of(names.number, environment);
   const auto first = number_of(names.first, environment);
   if (!number || !first) return std::nullopt;
-  const int step = number_of(names.step, environment).value_or(1);
+  const int step = std::max(1, number_of(names.step, environment).value_or(1));
   Task task{(*number - *first) / step, number_of(names.count, environment)};
   if (const auto last = number_of(names.last, environment))
     task.count = (*last - *first) / step + 1;
@@ -102,7 +103,7 @@ Shard shard_of_task(const Environment& environment, std::optional<int> given) {
         "--shard auto: this engine tells the number of a task, not how many there are; "
         "add that, --shard auto/64");
   }
-  const int ranks_each = rank ? *rank->count : 1;
+  const int ranks_each = rank ? std::max(1, *rank->count) : 1;
   int told = 1;
   if (element) told = element->count ? *element->count : *given / ranks_each;
   const Shard shard{(element ? element->index : 0) * ranks_each + (rank ? rank->index : 0) + 1,

@@ -34,7 +34,7 @@ CLI::Validator number_within(double least, double most) {
 
 CLI::Validator not_empty() {
   const auto mistake = [](const std::string& word) {
-    return word.empty() ? std::string("is empty; name a folder or leave it out") : std::string();
+    return word.empty() ? std::string("is empty; give it a value or leave it out") : std::string();
   };
   return {mistake, ""};
 }

@@ -48,7 +48,8 @@ void cut_caps(const ExportedBed& exported, std::vector<Surface>& surfaces) {
                                 clear_offset(surfaces[grain], outward, offset, clearance * radius));
       if (surfaces[grain].faces.empty()) {
         throw BadInput("--contacts: caps of that share leave nothing of grain " +
-                       std::to_string(grain) + " of packing " + bed.job + "; take a smaller share");
+                       std::to_string(id_of(grain)) + " of packing " + bed.job +
+                       "; take a smaller share");
       }
     };
     const Vector point = contact.place.point - centre_in_box(bed, contact.a);

@@ -38,6 +38,12 @@ std::vector<bool> have_seeds(const std::vector<Row>& rows,
   return several;
 }
 
+constexpr const char* index_heading = "file,job,label,group,replicate,seed,status\n";
+
+bool is_line_of(const std::string& line, const std::string& file, const std::string& job) {
+  return line.starts_with(file + "," + job + ",");
+}
+
 /// The lines of the index that stands in a folder, by their files.
 std::map<std::string, std::string> index_lines(const std::string& folder) {
   std::map<std::string, std::string> lines;
@@ -64,6 +70,19 @@ std::vector<std::string> file_stems(const std::vector<Row>& rows) {
   return stems;
 }
 
+std::optional<std::string> index_without(const std::string& folder,
+                                         const std::map<std::string, std::string>& taken) {
+  std::string text = index_heading;
+  bool is_changed = false;
+  for (const auto& [file, line] : index_lines(folder)) {
+    const auto by = taken.find(file);
+    const bool is_of_another = by != taken.end() && !is_line_of(line, file, by->second);
+    is_changed = is_changed || is_of_another;
+    if (!is_of_another) text += line + "\n";
+  }
+  return is_changed ? std::optional(text) : std::nullopt;
+}
+
 std::string index_csv(const std::string& folder, const std::vector<Row>& rows,
                       const std::vector<std::string>& endings,
                       const std::set<std::string>& written) {
@@ -72,14 +91,14 @@ std::string index_csv(const std::string& folder, const std::vector<Row>& rows,
   const std::vector<std::string> names = files_in(folder, "", "");
   const std::unordered_set<std::string> there(names.begin(), names.end());
   std::map<std::string, std::string> listed = index_lines(folder);
-  std::string text = "file,job,label,group,replicate,seed,status\n";
+  std::string text = index_heading;
   for (std::size_t k = 0; k < rows.size(); ++k) {
     for (const std::string& ending : endings) {
       const std::string file = stems[k] + ending;
       if (!there.contains(file)) continue;
       const JobFacts& job = rows[k].job;
       const auto line = listed.find(file);
-      const bool is_its = line != listed.end() && line->second.starts_with(file + "," + job.id);
+      const bool is_its = line != listed.end() && is_line_of(line->second, file, job.id);
       if (!written.contains(file) && !is_its) continue;
       if (line != listed.end()) listed.erase(line);
       text += csv_line({cell(file), job.id, cell(job.label), cell(numbers[k]), cell(job.replicate),

@@ -1,6 +1,8 @@
 // What exported files are called, and the list of them.
 #pragma once
 
+#include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -14,6 +16,11 @@ namespace grainsweep {
 /// "two_sizes-3-1-seed5". What is no letter, digit, point, or underscore of a label is an
 /// underscore, and so is a point that would hide the file. No two rows have the same.
 std::vector<std::string> file_stems(const std::vector<Row>& rows);
+
+/// index.csv of `folder` without the lines of files that other packings are about to replace:
+/// `taken`, file -> job. Nothing if there is none of them.
+std::optional<std::string> index_without(const std::string& folder,
+                                         const std::map<std::string, std::string>& taken);
 
 /// index.csv: file, job, label, group, replicate, seed and status of the files in `folder`: of
 /// those `written` now, and of others with one of the endings that its index has listed. What that

@@ -299,16 +299,19 @@ Assignments read_layer(const Json& object, const std::string& pointer, Diagnosti
 }
 
 void overlay(const std::vector<const Assignments*>& layer, InEffect& in_effect) {
-  bool fills = false;
+  bool fills = false, is_in_files = false;
   std::string_view shape;
   for (const Assignments* part : layer) {
     for (const Assignment& assignment : *part) {
       fills = fills || is_fill(assignment.parameter);
+      is_in_files = is_in_files || is_fill_in_files(assignment.parameter);
       unset_alternatives(assignment, in_effect);
       shape = more_exact(shape, shape_named_by(assignment));
     }
   }
-  if (fills) unset(Choice::fill, in_effect);
+  const std::size_t unit = parameter_with(Role::fill_diameter);  // of any file
+  const Assignment* const diameter = is_in_files ? in_effect[unit] : nullptr;
+  if (fills) unset(Choice::fill, in_effect), in_effect[unit] = diameter;
   if (exclude_each_other(shape, shape_of(in_effect))) unset(Choice::shape, in_effect);
   for (const Assignments* part : layer) {
     for (const Assignment& assignment : *part) {

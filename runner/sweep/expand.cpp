@@ -7,6 +7,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "runner/hash.hpp"
 #include "runner/sweep/asked_accuracy.hpp"
 #include "runner/sweep/grains_csv.hpp"
 #include "runner/sweep/identity.hpp"
@@ -87,6 +88,13 @@ struct Start {
   std::string pointer = {};  ///< its place in a list
 };
 
+/// Of what is in the files of a list, whatever they are called.
+std::string hash_of(const std::vector<Start>& starts) {
+  std::string contents;
+  for (const Start& start : starts) contents += start.content;
+  return hex16(fnv1a(contents));
+}
+
 /// Multiplies out the blocks; holds the jobs made so far and what has been said about them.
 class Expansion {
  public:
@@ -150,7 +158,12 @@ class Expansion {
     }
     note_use(in_effect, resolved.spec);
     if (!diagnostics_.empty()) return;
+    const bool is_listed = !resolved.fill_files.empty();
     const std::string scene = canonical_scene(resolved);
+    // Of a list what is in its file belongs to each start by itself, so that lists may grow.
+    if (is_listed) resolved.fill_content = "one per replicate";
+    const std::string identity = canonical_parameters(resolved);
+    if (is_listed) resolved.fill_content = hash_of(starts);
     Job job{"", block.label,   canonical_parameters(resolved),
             1,  resolved.seed, std::move(resolved.spec)};
     if (!resolved.hull_file.empty())
@@ -164,7 +177,6 @@ class Expansion {
     if (!resolved.size_file.empty()) {
       job.files["sizes.distribution.table.file"] = name_in_tables(resolved.size_file);
     }
-    const bool is_listed = !resolved.fill_files.empty();
     const int replicates =
         is_listed ? static_cast<int>(starts.size()) : most_replicates_of(block, job.spec);
     for (; job.replicate <= replicates; ++job.replicate) {
@@ -172,10 +184,24 @@ class Expansion {
       job.spec.fill = start.fill;
       job.spec.random_key = random_key_of(scene, job.seed, job.replicate);
       if (is_listed) job.files["fill.files"] = name_in_tables(start.file);
+      if (!start.content.empty()) refuse_other_seed(identity + start.content, resolved, in_effect);
       add(index, job,
-          is_listed ? job_hash(job.parameters + start.content, job.seed, 1)
-                    : job_hash(job.parameters, job.seed, job.replicate));
+          is_listed ? job_hash(identity + start.content, job.seed, 1)
+                    : job_hash(identity, job.seed, job.replicate));
     }
+  }
+
+  /// A start that is given comes out as one bed, whatever the seed: two would be no replicates.
+  void refuse_other_seed(const std::string& start, const ResolvedSpec& resolved,
+                         const InEffect& in_effect) {
+    const auto [known, is_new] = seed_of_start_.try_emplace(start, resolved.seed);
+    if (is_new || known->second == resolved.seed) return;
+    const Assignment* const seed = in_effect[seed_];
+    const Assignment* const file =
+        in_effect[file_] != nullptr ? in_effect[file_] : in_effect[files_];
+    note(seed != nullptr ? *seed : *file,
+         "packs a start that is given with another seed, too: it comes out as the same bed; list "
+         "other starts in fill.files");
   }
 
   /// How many packings of a point there may be. Without walls nothing is on the line of a fit that
@@ -286,6 +312,7 @@ class Expansion {
       if (size == nullptr) return;
       return note(*size, "belongs to shape.hull.vertices or shape.hull.file; neither is set");
     }
+    if (!std::holds_alternative<HullVertices>(resolved.spec.shape)) return;  // told already
     auto& hull = std::get<HullVertices>(resolved.spec.shape);
     bool is_sound = true;
     if (file != nullptr) {
@@ -436,6 +463,22 @@ class Expansion {
       for (const Axis& axis : block.axes) {
         for (const Assignments& entry : axis.entries) note_unused(entry, "", &block);
       }
+      for (const RandomPath& path : block.random) note_choices_out_of_range(path);
+    }
+  }
+
+  /// Of choices also those that no point has drawn.
+  void note_choices_out_of_range(const RandomPath& path) {
+    const auto is_told = [&](const std::string& pointer) {
+      return std::any_of(diagnostics_.begin(), diagnostics_.end(),
+                         [&](const Diagnostic& told) { return told.pointer == pointer; });
+    };
+    for (const Assignments& choice : path.choices) {
+      for (const Assignment& assignment : choice) {
+        const std::string error = range_error(parameters()[assignment.parameter], assignment.value);
+        if (error.empty() || is_told(assignment.pointer)) continue;
+        diagnostics_.push_back({assignment.pointer, error});
+      }
     }
   }
 
@@ -518,6 +561,7 @@ class Expansion {
   const SweepDefinition& definition_;
   const std::string folder_;
   Diagnostics& diagnostics_;
+  std::map<std::string, std::uint64_t> seed_of_start_;  // by parameters and content of the file
   const std::size_t seed_ = parameter_with(Role::seed);
   const std::size_t file_ = parameter_with(Role::fill_file);
   const std::size_t files_ = parameter_with(Role::fill_files);

@@ -207,6 +207,12 @@ JsonReading parse_strictly(const std::string& text, const std::string& file) {
     reading.errors = {{"", message, Anchor::value, file + ":1:1"}};
     return reading;
   }
+  if (const std::size_t zero = text.find('\0'); zero != std::string::npos) {  // ends it for parsers
+    JsonReading reading;
+    reading.errors = {{"", "a byte is zero: this is no text, or the file is damaged", Anchor::value,
+                       file + LineIndex(text).place(zero)}};
+    return reading;
+  }
   return Builder(text, file).read();
 }
 

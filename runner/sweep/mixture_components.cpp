@@ -114,12 +114,10 @@ class ComponentReader {
     InEffect in_effect(parameters().size(), nullptr);
     for (const Assignment& assignment : assignments) in_effect[assignment.parameter] = &assignment;
     const ResolvedSpec resolved = resolve(in_effect);
-    const bool is_hull = std::holds_alternative<HullVertices>(resolved.spec.shape);
-    const Json source = {resolved.hull_file, resolved.hull_size};
     return {share,
             resolved.spec.shape,
             resolved.pinacoid_angle,
-            canonical_component(share, resolved) + (is_hull ? source.dump() : ""),
+            canonical_component(share, resolved),
             resolved.hull_file,
             resolved.hull_size};
   }

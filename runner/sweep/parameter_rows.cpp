@@ -76,9 +76,8 @@ void set_files(ResolvedSpec& resolved, const Value& value) {
   resolved.spec.fill = PlacedGrains{};
   resolved.fill_files = std::get<std::vector<std::string>>(value);
 }
-/// The same for all replicates: what is in its file belongs to each by itself.
 std::optional<Value> get_files(const ResolvedSpec& resolved) {
-  return resolved.fill_files.empty() ? std::nullopt : present(std::string("one per replicate"));
+  return resolved.fill_files.empty() ? std::nullopt : present(resolved.fill_content);
 }
 std::optional<Value> get_diameter(const ResolvedSpec& resolved) {
   const bool is_placed = !resolved.fill_file.empty() || !resolved.fill_files.empty();

@@ -183,8 +183,12 @@ std::string idle_reason(const Parameter& parameter, const PackingSpec& spec) {
 }
 
 bool is_fill(std::size_t parameter) {
+  return parameters()[parameter].role == Role::fill || is_fill_in_files(parameter);
+}
+
+bool is_fill_in_files(std::size_t parameter) {
   const Role role = parameters()[parameter].role;
-  return role == Role::fill || role == Role::fill_file || role == Role::fill_files;
+  return role == Role::fill_file || role == Role::fill_files;
 }
 
 }  // namespace grainsweep

@@ -125,4 +125,7 @@ std::vector<std::string> known_keys(std::string_view path);
 /// Whether a parameter, by its index, is one of the ways to fill the box.
 bool is_fill(std::size_t parameter);
 
+/// Whether it is one of those that read files.
+bool is_fill_in_files(std::size_t parameter);
+
 }  // namespace grainsweep

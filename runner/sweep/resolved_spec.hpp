@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "engine/scene/spec.hpp"
@@ -16,14 +17,14 @@ struct WrittenComponent {
   double share = 0.0;
   ShapeSpec shape;
   double pinacoid_angle = 60.0;  ///< degrees, as ResolvedSpec::pinacoid_angle
-  /// Share and shape as they identify a job, canonical JSON; of a hull, until it is placed, with
-  /// its file and size behind it.
-  std::string text;
-  std::string hull_file = {};  ///< as ResolvedSpec::hull_file
-  double hull_size = 1.0;      ///< as ResolvedSpec::hull_size
+  std::string text;              ///< share and shape as they identify a job, canonical JSON
+  std::string hull_file = {};    ///< as ResolvedSpec::hull_file
+  double hull_size = 1.0;        ///< as ResolvedSpec::hull_size
 
-  bool operator==(const WrittenComponent& other) const { return text == other.text; }
-  bool operator<(const WrittenComponent& other) const { return text < other.text; }
+  /// File and size tell hulls apart until they are placed.
+  auto identity() const { return std::tie(text, hull_file, hull_size); }
+  bool operator==(const WrittenComponent& other) const { return identity() == other.identity(); }
+  bool operator<(const WrittenComponent& other) const { return identity() < other.identity(); }
 };
 using Components = std::vector<WrittenComponent>;
 
@@ -39,8 +40,8 @@ struct ResolvedSpec {
   ErrorWish asked_accuracy;             ///< in place of a preset: the largest bias of settling
   std::string fill_file;                ///< as written; "" unless the fill is a file
   std::vector<std::string> fill_files;  ///< as written; empty unless each replicate has its own
-  std::string fill_content;             ///< hash of that file's bytes, 16 hex digits
-  double fill_diameter = 1.0;           ///< length in that file that is d here
+  std::string fill_content;      ///< hash of the file's bytes, or of those of all, 16 hex digits
+  double fill_diameter = 1.0;    ///< length in that file that is d here
   double pinacoid_angle = 60.0;  ///< degrees, as written; the specification holds it in radians
   Components mixture;            ///< of the shape, where that is a mixture
   ShareBy mixture_by = ShareBy::volume;

@@ -12,9 +12,25 @@ namespace {
 
 Json not_both(const Json& one, const Json& other) { return not_all({one, other}); }
 
+/// That an object has a key that matches.
+Json has_key(const std::string& pattern) {
+  return {{"type", "object"}, {"not", {{"propertyNames", no({{"pattern", pattern}})}}}};
+}
+
+/// That a layer says what formula its distribution of sizes has, or a part of one, in any spelling.
+Json has_size_formula() {
+  const std::string formula = "(lognormal|uniform|weibull|table)(\\.|$)";
+  const Json inside = has_key("^" + formula);
+  const Json in_sizes = {
+      {"anyOf", {has_key("^distribution\\." + formula), with("distribution", inside)}}};
+  return {{"anyOf",
+           {has_key("^sizes\\.distribution\\." + formula), with("sizes.distribution", inside),
+            with("sizes", in_sizes)}}};
+}
+
 /// That a block says anything that matches.
 Json with_block_about(const std::string& pattern) {
-  const Json about = no({{"propertyNames", no({{"pattern", pattern}})}});
+  const Json about = has_key(pattern);
   std::vector<Json> ways;
   for (const char* member : {"set", "grid", "zip", "random"}) ways.push_back(with(member, about));
   return with("sweep", {{"contains", {{"anyOf", ways}}}});
@@ -168,10 +184,7 @@ Json rules_of_the_whole() {
        not_all({with_base("fill.file"), several, no(blocks_fill), no(blocks_count)}),
        not_all({with_base("shape.mixture_by"), no(with_base("shape.mixture")),
                 no(with_block_about("^shape(\\.|$)"))}),
-       not_all({with_base("sizes.distribution"), no(with_base("sizes.distribution.lognormal")),
-                no(with_base("sizes.distribution.uniform")),
-                no(with_base("sizes.distribution.weibull")),
-                no(with_base("sizes.distribution.table")),
+       not_all({with_base("sizes.distribution"), no(with("base", has_size_formula())),
                 no(with_block_about("^sizes(\\.|$)"))})});
 }
 

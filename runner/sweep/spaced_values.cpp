@@ -24,8 +24,7 @@ std::optional<double> end_of(const Parameter& parameter, const Json& range, cons
 
 std::optional<std::int64_t> count_of(const Json& count, const std::string& pointer,
                                      Diagnostics& diagnostics) {
-  const bool is_whole = count.is_number_integer();
-  if (is_whole && count >= 2 && count <= most_spaced_values) return count.get<std::int64_t>();
+  if (const auto whole = whole_number_in(count, 2, most_spaced_values)) return whole;
   diagnostics.push_back({child_pointer(pointer, "count"),
                          "must be a whole number in [2, 1000000], is " + describe(count)});
   return std::nullopt;
@@ -53,7 +52,9 @@ Json spaced_values(const std::string& path, const Json& range, const std::string
   Json values = Json::array();
   for (std::int64_t k = 0; k < *count; ++k) {
     const double share = static_cast<double>(k) / static_cast<double>(*count - 1);
-    const double value = nine_digits(*from + share * (*to - *from));
+    const double value = k == 0            ? *from
+                         : k == *count - 1 ? *to
+                                           : nine_digits(*from + share * (*to - *from));
     if (parameter.kind == ValueKind::whole) {
       values.push_back(static_cast<std::int64_t>(std::round(value)));
     } else {

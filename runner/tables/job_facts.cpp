@@ -97,9 +97,14 @@ Columns<JobFacts> job_columns(const std::vector<std::string>& names) {
   return chosen;
 }
 
-std::map<std::string, std::string> flat_parameters(const JobFacts& job) {
+std::map<std::string, std::string> identifying_parameters(const JobFacts& job) {
   std::map<std::string, std::string> flat;
   add_parameters(json::parse(job.parameters.text()), "", flat);
+  return flat;
+}
+
+std::map<std::string, std::string> flat_parameters(const JobFacts& job) {
+  std::map<std::string, std::string> flat = identifying_parameters(job);
   for (const auto& [path, file] : job.files) {
     if (flat.contains(path) && path != "fill.files") flat[path] = cell(file);
   }

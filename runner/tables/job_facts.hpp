@@ -88,6 +88,9 @@ Columns<JobFacts> job_columns(const std::vector<std::string>& names);
 /// Dotted name -> cell of every parameter of a job; a file stands under its name as written.
 std::map<std::string, std::string> flat_parameters(const JobFacts& job);
 
+/// The same, but with what a file holds, or a hash of it, in the place of its name.
+std::map<std::string, std::string> identifying_parameters(const JobFacts& job);
+
 /// Radius below which its grains count as small, d, as in engine/scene/sizes.hpp: 0 where none do,
 /// infinite where all do.
 double small_class_limit(const JobFacts& job);

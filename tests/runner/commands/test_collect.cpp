@@ -103,6 +103,43 @@ TEST_CASE("a sound bed that is collected in the place of a damaged one of later 
   }
 }
 
+TEST_CASE("a bed that cannot be read is left out, and the exit code tells") {
+  const TemporaryFolder parent;
+  Outcome outcome = sample_outcome("a1", 0.6, 6);
+  const std::string source = folder_of_a_run(parent, "source", "1", outcome);
+  store_with_bed(source, outcome);
+  damage_bed(source, outcome, 30);
+  const Printed printed = printed_by([&] {
+    CHECK(perform(CollectOptions{{source}, parent.path() + "/all"}) == exit_file_system);
+  });
+  CHECK_THAT(printed.error, Contains("left out"));
+}
+
+TEST_CASE("files of one name that hold different things are told apart") {
+  const TemporaryFolder parent;
+  const auto folder_with = [&](const std::string& name, const std::string& content) {
+    Outcome outcome = sample_outcome(name, 0.6, 6);
+    std::string folder = folder_of_a_run(parent, name, name, outcome);
+    std::vector<Row> rows = {{sample_job(name, 5), outcome}};
+    rows[0].job.parameters = R"({"shape":{"hull":{"vertices":")" + content + R"("}}})";
+    rows[0].job.files["shape.hull.vertices"] = "rock.obj";
+    Provenance provenance;
+    provenance.sweep_name = "a";
+    write_provenance(folder, provenance, rows);
+    return folder;
+  };
+  const CollectOptions options{
+      {folder_with("a1", "one"), folder_with("a2", "other"), folder_with("a3", "one")},
+      parent.path() + "/all"};
+  printed_by([&] { perform(options); });
+  const std::vector<Row> rows = read_results(options.out).rows;
+  REQUIRE(rows.size() == 3);
+  const auto file_of = [](const Row& row) { return row.job.files.at("shape.hull.vertices"); };
+  CHECK(file_of(rows[0]) == "rock.obj");
+  CHECK_THAT(file_of(rows[1]), Catch::Matches("rock.obj [0-9a-f]{8}"));
+  CHECK(file_of(rows[2]) == "rock.obj");
+}
+
 TEST_CASE("of two copies of a bed the one with grains is kept, in either order") {
   for (const bool grains_come_first : {true, false}) {
     const TemporaryFolder parent;
@@ -155,6 +192,11 @@ TEST_CASE("units are collected where the folders agree in them") {
              }).error,
              Contains("none: has other units than the sweeps before it; the tables have none"));
   CHECK_FALSE(read_results(out).provenance.units);
+  const std::string turned = parent.path() + "/turned";
+  CHECK_THAT(printed_by([&] {
+               perform(CollectOptions{{none, first}, turned});
+             }).error,
+             Contains("first: has other units than the sweeps before it; the tables have none"));
 }
 
 TEST_CASE("packings of equal parameters are collected under one label, and so are one group") {

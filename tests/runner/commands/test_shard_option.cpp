@@ -46,6 +46,17 @@ TEST_CASE("every engine's tasks are shards from 1 on") {
                    {"SGE_TASK_STEPSIZE", "4"}}) == Shard{3, 4});
 }
 
+TEST_CASE("steps and counts that no engine gives do no harm") {
+  CHECK(automatic({{"SLURM_ARRAY_TASK_ID", "2"},
+                   {"SLURM_ARRAY_TASK_MIN", "1"},
+                   {"SLURM_ARRAY_TASK_STEP", "0"},
+                   {"SLURM_ARRAY_TASK_COUNT", "5"}}) == Shard{2, 5});
+  CHECK(
+      automatic(
+          {{"PBS_ARRAY_INDEX", "2"}, {"OMPI_COMM_WORLD_RANK", "0"}, {"OMPI_COMM_WORLD_SIZE", "0"}},
+          "auto/4") == Shard{2, 4});
+}
+
 TEST_CASE("where an engine tells no count it is given, and agrees where it is told") {
   for (const char* name : {"PBS_ARRAY_INDEX", "PBS_ARRAYID", "HQ_TASK_ID"}) {
     CHECK(automatic({{name, "7"}}, "auto/12") == Shard{7, 12});

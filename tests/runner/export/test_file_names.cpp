@@ -74,5 +74,15 @@ TEST_CASE("a file that another packing would be called now stays that of its own
         index_head + "x_y__z-3-1.csv,d,\"x/y, z\",3,1,0,pending\n");
 }
 
+TEST_CASE("before files are replaced the index forgets those that were another packing's") {
+  const TemporaryFolder folder;
+  const std::string same = "a-1-1.csv,a,a,1,1,0,settled\n", other = "a-2-1.csv,b,a,2,1,0,settled\n";
+  CHECK_FALSE(index_without(folder.path(), {{"a-1-1.csv", "a"}}));
+  std::ofstream(folder.path() + "/index.csv") << index_head + same + other;
+  CHECK_FALSE(index_without(folder.path(), {{"a-1-1.csv", "a"}}));
+  CHECK(index_without(folder.path(), {{"a-1-1.csv", "a"}, {"a-2-1.csv", "c"}}) ==
+        index_head + same);
+}
+
 }  // namespace
 }  // namespace grainsweep

@@ -223,6 +223,55 @@ TEST_CASE("one start is no start for several replicates, a list of starts is one
   CHECK(turned[0].id != read(R"({"file": "b.csv"})", 1).sweep.jobs.at(0).id);
 }
 
+TEST_CASE("each list of starts is a point, and a longer one keeps the packings of the shorter") {
+  const ScratchFolder folder;
+  for (const char* name : {"a", "b", "c"}) {
+    folder.write(std::string(name) + ".csv",
+                 "x,y,z,r\n" + std::to_string(name[0] - 'a' + 1) + ",2,2,0.5\n");
+  }
+  const auto jobs_of = [&](const std::string& lists) {
+    return read_sweep(folder.write("s.json", R"({"name": "t", "sweep": [{"grid": {"fill.files": )" +
+                                                 lists + "}}]}"))
+        .sweep.jobs;
+  };
+  const std::vector<Job> two = jobs_of(R"([["a.csv", "b.csv"], ["c.csv"]])");
+  REQUIRE(two.size() == 3);
+  CHECK(two[0].parameters == two[1].parameters);
+  CHECK(two[0].parameters != two[2].parameters);
+  CHECK(jobs_of(R"([["a.csv", "b.csv", "c.csv"]])").at(1).id == two[1].id);
+}
+
+TEST_CASE("the same start with another seed is no other packing") {
+  const ScratchFolder folder;
+  folder.write("a.csv", "x,y,z,r\n2,2,2,0.5\n");
+  for (const char* fill : {R"("fill.file": "a.csv")", R"("fill.files": ["a.csv"])"}) {
+    const SweepReading reading =
+        read_sweep(folder.write("s.json", std::string(R"({"name": "t", "base": {)") + fill +
+                                              R"(}, "sweep": [{"grid": {"seed": [1, 2, 3]}}]})"));
+    REQUIRE(!reading.errors.empty());
+    CHECK(reading.errors[0].pointer == "/sweep/0/grid/seed/1");
+    CHECK_THAT(reading.errors[0].message, Catch::Contains("it comes out as the same bed"));
+  }
+}
+
+TEST_CASE("the diameter in a file of starts holds for every file that blocks name") {
+  const ScratchFolder folder;
+  folder.write("a.csv", "x,y,z,r\n2,2,2,0.5\n");
+  const auto parameters_of = [&](const std::string& block) {
+    const SweepReading reading = read_sweep(folder.write(
+        "s.json", R"({"name": "t", "base": {"fill.diameter": 1.25}, "sweep": [)" + block + "]}"));
+    REQUIRE(reading.errors.empty());
+    return reading.sweep.jobs.at(0).parameters;
+  };
+  const std::string kept = R"("fill":{"diameter":1.25,)";
+  CHECK_THAT(parameters_of(R"({"set": {"fill.file": "a.csv"}})"), Catch::Contains(kept));
+  CHECK_THAT(parameters_of(R"({"grid": {"fill.file": ["a.csv"]}})"), Catch::Contains(kept));
+  CHECK_THAT(parameters_of(R"({"set": {"fill.diameter": 1.5}, "grid": {"fill.file": ["a.csv"]}})"),
+             Catch::Contains(R"("fill":{"diameter":1.5,)"));
+  CHECK_THAT(parameters_of(R"({"set": {"fill.grains": 9000}}, {"set": {"fill.file": "a.csv"}})"),
+             !Catch::Contains("diameter"));
+}
+
 TEST_CASE(
     "names of files in tables are no formulas of a spreadsheet and nothing a terminal obeys") {
   const ScratchFolder folder;

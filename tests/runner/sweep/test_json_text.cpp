@@ -35,6 +35,11 @@ TEST_CASE("a byte order mark is skipped") {
   CHECK(reading.value.at("a") == 1);
 }
 
+TEST_CASE("a zero byte is refused where it stands: parsers take it for the end") {
+  using namespace std::string_literals;
+  CHECK(error_in("{}\n\0 }}"s) == "f:2:1: a byte is zero: this is no text, or the file is damaged");
+}
+
 TEST_CASE("the deepest allowed nesting is read and one level more is refused at its bracket") {
   const std::string open(deepest_json, '['), close(deepest_json, ']');
   CHECK(parse_strictly(open + close, "f").errors.empty());

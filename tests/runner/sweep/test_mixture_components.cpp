@@ -97,6 +97,11 @@ TEST_CASE("shares that do not add up are refused at their place") {
   {"share": 0.5, "cube": {}}, {"share": 0.4, "pinacoid": {"height": 0.5}}]}}})") ==
         std::vector<std::string>{
             "s.json:1:45 /base/shape/mixture: shares must add up to 1, add up to 0.9"});
+  CHECK(errors_of(R"({"name": "m", "sweep": [{"grid": {"shape.mixture": [
+  [{"share": 0.5, "hull": {"vertices": [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]}},
+   {"share": 0.4, "sphere": {}}], [{"share": 1, "sphere": {}}]]}}]})") ==
+        std::vector<std::string>{
+            "s.json:2:3 /sweep/0/grid/shape.mixture/0: shares must add up to 1, add up to 0.9"});
 }
 
 /// The vertices of a mixture's component.
