@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/dynamics/columns.hpp"
 #include "engine/dynamics/settle.hpp"
 #include "engine/measure/bond_order.hpp"
 #include "engine/measure/components.hpp"
@@ -224,7 +225,9 @@ void measure(const PackingSpec& spec, const SettleReport& settled, const Kernels
   if (slab) {
     result.solid_fraction = solid_fraction(bed, *slab);
     measure_neighbours(spec, near, settled, *slab, bed, result);
-    result.small_share = small_share(bed, *slab, small_class_limit(spec.sizes));
+    const double limit = small_class_limit(spec.sizes);
+    result.small_share = small_share(bed, *slab, limit);
+    result.small_share_of_bed = small_share(bed, Slab{-1.0, top_of(bed) + 1.0}, limit);
     for (const ProfilePlace& place : profile_places) {
       if (!has_profile(bed.box, place.axis)) continue;
       result.*place.whole = profile_along(place.axis, bed, near, *slab, bins_of(spec));

@@ -214,16 +214,17 @@ struct PackingResult {
   double slab_top = 0.0;
   double solid_fraction = 0.0;  ///< exact solid volume in the slab over the slab's volume
   double small_share = 0.0;     ///< share of the small class in the slab's solid volume
-  std::vector<Coordination> coordination;  ///< one entry per gap tolerance of the spec
-  double mean_diameter = 0.0;              ///< of all grains, d
-  double mean_diameter_by_volume = 0.0;    ///< the same, each grain weighted by its volume, d
-  std::vector<SizeRow> sizes;              ///< from fine to coarse; empty without a distribution
-  Profile profile_x;                       ///< from wall to wall, in the slab; empty without walls
-  Profile profile_y;                       ///< the same along y, from wall to wall or around
-  Profile profile_from_walls;              ///< from the nearest wall inwards; empty but in ducts
-  Profile profile_z;                       ///< from the floor up
-  Order order;                             ///< of the slab
-  std::optional<ShapeOrder> shape_order;   ///< of non-spherical grains
+  std::optional<double> small_share_of_bed;  ///< the same of the whole bed, told by size alike
+  std::vector<Coordination> coordination;    ///< one entry per gap tolerance of the spec
+  double mean_diameter = 0.0;                ///< of all grains, d
+  double mean_diameter_by_volume = 0.0;      ///< the same, each grain weighted by its volume, d
+  std::vector<SizeRow> sizes;                ///< from fine to coarse; empty without a distribution
+  Profile profile_x;                      ///< from wall to wall, in the slab; empty without walls
+  Profile profile_y;                      ///< the same along y, from wall to wall or around
+  Profile profile_from_walls;             ///< from the nearest wall inwards; empty but in ducts
+  Profile profile_z;                      ///< from the floor up
+  Order order;                            ///< of the slab
+  std::optional<ShapeOrder> shape_order;  ///< of non-spherical grains
   std::vector<ComponentMeasure> components;  ///< of a mixture, in its order; else empty
   std::int64_t steps = 0;
   std::int64_t iterations = 0;

@@ -79,6 +79,23 @@ bool can_turn(const PolyhedronBed& bed, std::int32_t grain) {
   return bed.turns(static_cast<std::size_t>(grain));
 }
 
+/// Whether a cluster turns about the axis of a tube, which keeps all gaps, in another way than its
+/// slides and spins make up for, to first order: those of grains one above the other do.
+bool turns_in_tube(const SphereBed& bed, const Hold& hold) {
+  constexpr double rounding = 1e-9;  // of places, d
+  if (!bed.box.is_tube) return false;
+  const auto place = [&](std::int32_t grain) {
+    return bed.position[static_cast<std::size_t>(grain)];
+  };
+  const Record<double> first = place(hold.grains.front());
+  return std::any_of(hold.grains.begin(), hold.grains.end(), [&](std::int32_t grain) {
+    return std::hypot(place(grain).x - first.x, place(grain).y - first.y) > rounding;
+  });
+}
+bool turns_in_tube(const PolyhedronBed& bed, const Hold& hold) {
+  return bed.box.is_tube && !(hold.is_grain && hold.walls.count() == 1);
+}
+
 /// Of the grains of a contact the one that its turning normal, if it turns, holds.
 template <class Kind>
 std::size_t turning_grain(const Bed<Kind>& bed, const ForceContact& contact) {
@@ -204,15 +221,16 @@ std::int64_t zero_modes(const Bed<Kind>& bed, const std::vector<ForceContact>& c
     modes += 3 - static_cast<std::int64_t>(hold.walls.count());
     const bool spins = hold.is_grain && can_turn(bed, hold.grains.front());
     modes += spins && hold.walls.count() == 1 ? 1 : 0;
+    modes += turns_in_tube(bed, hold) ? 1 : 0;
   }
   return modes;
 }
 
-std::vector<std::vector<std::int32_t>> standing_clusters(
+std::vector<std::vector<std::int32_t>> clusters_that_turn(
     const SphereBed& bed, const std::vector<ForceContact>& contacts) {
   std::vector<std::vector<std::int32_t>> clusters;
   for (Hold& hold : holds_of(bed, contacts)) {
-    if (hold.stands) clusters.push_back(std::move(hold.grains));
+    if (hold.stands && turns_in_tube(bed, hold)) clusters.push_back(std::move(hold.grains));
   }
   return clusters;
 }

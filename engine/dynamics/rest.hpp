@@ -32,13 +32,15 @@ RestReport measure_rest(Bed<Kind>& bed, const ExecutionContext& context, double 
 
 /// Degrees of freedom that no contact can take up: every cluster of grains that stands on a wall
 /// slides freely in each direction in which no wall pushes it; a polyhedron that stands alone also
-/// turns about the wall's normal.
+/// turns about the wall's normal, and in a tube every cluster about its axis, where that is no
+/// slide.
 template <class Kind>
 std::int64_t zero_modes(const Bed<Kind>& bed, const std::vector<ForceContact>& contacts);
 
-/// Grains that push each other, of each cluster that a floor pushes up.
-std::vector<std::vector<std::int32_t>> standing_clusters(const SphereBed& bed,
-                                                         const std::vector<ForceContact>& contacts);
+/// Grains that push each other, of each cluster that a floor pushes up and that turns about the
+/// axis of a tube.
+std::vector<std::vector<std::int32_t>> clusters_that_turn(
+    const SphereBed& bed, const std::vector<ForceContact>& contacts);
 
 /// Grains that push each other but no wall across `direction`: moved along it, all of them alike,
 /// no contact opens or closes.

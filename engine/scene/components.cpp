@@ -8,18 +8,6 @@
 
 namespace grainsweep {
 
-namespace {
-
-/// Puts the entries into random order (Fisher and Yates).
-void shuffle(std::uint64_t key, std::vector<std::uint8_t>& entries) {
-  for (std::size_t i = entries.size(); i-- > 1;) {
-    const double place = unit_interval(random_words(key, Purpose::component, i, 0)[0]);
-    std::swap(entries[i], entries[static_cast<std::size_t>(place * static_cast<double>(i + 1))]);
-  }
-}
-
-}  // namespace
-
 std::vector<std::uint8_t> draw_components(const ShapeSpec& shape, std::size_t grains,
                                           std::uint64_t key) {
   std::vector<std::uint8_t> components;
@@ -30,7 +18,7 @@ std::vector<std::uint8_t> draw_components(const ShapeSpec& shape, std::size_t gr
     components.insert(components.end(), static_cast<std::size_t>(counts[k]),
                       static_cast<std::uint8_t>(k));
   }
-  shuffle(key, components);
+  shuffle(key, Purpose::component, components);
   return components;
 }
 

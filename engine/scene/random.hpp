@@ -3,7 +3,10 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <utility>
+#include <vector>
 
 #include <Random123/philox.h>
 
@@ -12,7 +15,13 @@
 namespace grainsweep {
 
 /// What a random number is for.
-enum class Purpose : std::uint32_t { size = 1, place = 2, orientation = 3, component = 4 };
+enum class Purpose : std::uint32_t {
+  size = 1,
+  place = 2,
+  orientation = 3,
+  component = 4,
+  order = 5
+};
 
 /// Four independent 32-bit words.
 inline r123::Philox4x32::ctr_type random_words(std::uint64_t key, Purpose purpose,
@@ -28,6 +37,15 @@ inline r123::Philox4x32::ctr_type random_words(std::uint64_t key, Purpose purpos
 /// A 32-bit word as a number in (0, 1).
 inline double unit_interval(std::uint32_t word) {
   return (static_cast<double>(word) + 0.5) * 0x1p-32;
+}
+
+/// Puts the entries into random order (Fisher and Yates).
+template <class Entry>
+void shuffle(std::uint64_t key, Purpose purpose, std::vector<Entry>& entries) {
+  for (std::size_t i = entries.size(); i-- > 1;) {
+    const double place = unit_interval(random_words(key, purpose, i, 0)[0]);
+    std::swap(entries[i], entries[static_cast<std::size_t>(place * static_cast<double>(i + 1))]);
+  }
 }
 
 /// A standard normal number from two words (Box and Muller 1958).

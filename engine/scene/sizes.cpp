@@ -61,6 +61,16 @@ void add_small_volume(const PackingSpec& spec, double wanted, std::vector<double
   }
 }
 
+/// The volume of small grains that is as near to `wanted`, which keeps their share exact, as the
+/// height allows that is to be filled: where large grains are few, one more or less is much of it.
+double small_volume(const PackingSpec& spec, double wanted, double large_volume) {
+  constexpr double allowed = 0.02;
+  const double whole = std::get<SolidHeight>(spec.fill).height * spec.box.floor_area() *
+                       sphere_volume(0.5) / extent_of(spec.shape).volume;
+  return std::clamp(wanted, (1.0 - allowed) * whole - large_volume,
+                    (1.0 + allowed) * whole - large_volume);
+}
+
 std::vector<double> drawn_radii(const SizeCurve& curve, std::int64_t count, std::uint64_t key) {
   std::vector<double> radii = draw_diameters(curve, count, key);
   for (double& radius : radii) radius /= 2.0;
@@ -105,7 +115,8 @@ std::vector<double> draw_radii(const PackingSpec& spec) {
   }
   const double share = spec.sizes.small_share;
   if (std::holds_alternative<SolidHeight>(spec.fill) && counts.large > 0 && share > 0.0) {
-    add_small_volume(spec, share / (1.0 - share) * large_volume, radii);
+    add_small_volume(spec, small_volume(spec, share / (1.0 - share) * large_volume, large_volume),
+                     radii);
     return radii;
   }
   for (std::int64_t i = 0; i < counts.small; ++i) {

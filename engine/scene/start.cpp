@@ -366,12 +366,13 @@ std::optional<SphereBed> start(const PackingSpec& spec) {
   if (const auto* placed = std::get_if<PlacedGrains>(&spec.fill)) {
     return make_bed(spec.box, placed->grains);
   }
-  const std::vector<double> radii = draw_radii(spec);
+  std::vector<double> radii = draw_radii(spec);
   if (radii.empty()) return make_bed(spec.box, {});
   const double volume = solid_volume(radii);
   const double floor = spec.box.floor_area();
   const double height = volume / (sphere_start_solid_fraction * floor);
   if (is_single_file(spec.box, radii)) {
+    shuffle(spec.random_key, Purpose::order, radii);  // grains in a file cannot pass each other
     return make_bed(spec.box, place_in_file(spec.box, radii, height, spec.random_key));
   }
   auto spheres = place_at_random(spec.box, radii, height, spec.random_key);

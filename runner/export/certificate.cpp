@@ -62,11 +62,10 @@ Json found_json(const StoredBed& bed, const std::vector<Contact>& all,
           {"degrees_of_freedom", 3 * bed.grains.size() - free_motions}};
 }
 
-/// Each cluster of spheres once, in a tube.
+/// Of clusters in a tube.
 Json turns_json(const SphereBed& bed, const std::vector<ForceContact>& pushing) {
   Json list = Json::array();
-  if (!bed.box.is_tube) return list;
-  for (const std::vector<std::int32_t>& spheres : standing_clusters(bed, pushing)) {
+  for (const std::vector<std::int32_t>& spheres : clusters_that_turn(bed, pushing)) {
     list.push_back({{"turn", "axis"}, {"spheres", spheres}});
   }
   return list;

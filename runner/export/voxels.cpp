@@ -8,6 +8,8 @@
 #include <Eigen/Geometry>
 
 #include "engine/shape/hull.hpp"
+#include "runner/exit_codes.hpp"
+#include "runner/machine.hpp"
 #include "runner/tables/csv.hpp"
 
 namespace grainsweep {
@@ -107,6 +109,32 @@ void fill(const StoredBed& bed, const VoxelGrid& grid, std::size_t grain, const 
   }
 }
 
+constexpr char outside_tube = '\xff';
+
+/// What lies outside a tube is no void.
+void mark_outside(const Box& box, const VoxelGrid& grid, std::string& voxels) {
+  const auto& [nx, ny, nz] = grid.count;
+  const double radius = box.width / 2.0;
+  for (std::size_t j = 0; j < ny; ++j) {
+    for (std::size_t i = 0; i < nx; ++i) {
+      const double x = (static_cast<double>(i) + 0.5) * grid.size[0] - radius;
+      const double y = (static_cast<double>(j) + 0.5) * grid.size[1] - radius;
+      if (std::hypot(x, y) <= radius) continue;
+      for (std::size_t k = 0; k < nz; ++k) voxels[(k * ny + j) * nx + i] = outside_tube;
+    }
+  }
+}
+
+/// Throws BadInput where there is no memory for so many.
+void expect_room(const ExportedBed& exported, const VoxelGrid& grid) {
+  double voxels = 1.0;
+  for (const std::size_t count : grid.count) voxels *= static_cast<double>(count);
+  if (voxels <= memory_for_packings() / 2.0) return;
+  throw BadInput("--voxels " + cell(exported.settings.voxels) + ": packing " + exported.bed.job +
+                 " takes " + cell(std::round(voxels / 1e6)) +
+                 " million voxels, a byte each, more than there is memory for; take fewer a d");
+}
+
 }  // namespace
 
 VoxelGrid voxel_grid(const StoredBed& bed, double per_d) {
@@ -126,7 +154,9 @@ std::string voxels_nrrd(const ExportedBed& exported) {
   const VoxelGrid grid = voxel_grid(bed, exported.settings.voxels);
   const auto& [nx, ny, nz] = grid.count;
   const auto& [dx, dy, dz] = grid.size;
+  expect_room(exported, grid);
   std::string voxels(nx * ny * nz, '\0');
+  if (bed.box.is_tube) mark_outside(bed.box, grid, voxels);
   const bool is_mixture = has_components(bed);
   std::vector<std::vector<Face>> faces;  // of each mesh
   if (bed.turned) {
@@ -140,6 +170,7 @@ std::string voxels_nrrd(const ExportedBed& exported) {
   }
   return "NRRD0004\n# lengths in d; 0 void, " +
          std::string(is_mixture ? "else the component" : "1 large grains, 2 small ones") +
+         (bed.box.is_tube ? "; 255 outside the tube" : "") +
          "\ntype: uint8\ndimension: 3\nsizes: " + cell(nx) + " " + cell(ny) + " " + cell(nz) +
          "\nspacings: " + cell(dx) + " " + cell(dy) + " " + cell(dz) +
          "\naxis mins: 0 0 0\ncenters: cell cell cell\nencoding: raw\n\n" + voxels;

@@ -39,15 +39,26 @@ auto walk(Part& part) {
   }
 }
 
+/// Nothing at an optional number that the outcome does not have, as of an earlier version.
 template <auto... path>
 FieldValue value_at(const Outcome& outcome) {
   const auto* const value = walk<path...>(outcome);
-  return value == nullptr ? FieldValue() : FieldValue(*value);
+  if (value == nullptr) return FieldValue();
+  if constexpr (IsOptional<std::remove_cvref_t<decltype(*value)>>::value) {
+    return *value ? FieldValue(**value) : FieldValue();
+  } else {
+    return FieldValue(*value);
+  }
 }
 
 template <auto... path>
 FieldPlace place_at(Outcome& outcome) {
-  return walk<path...>(outcome);
+  auto* const value = walk<path...>(outcome);
+  if constexpr (IsOptional<std::remove_cvref_t<decltype(*value)>>::value) {
+    return &value->emplace();
+  } else {
+    return value;
+  }
 }
 
 /// A value that is stored at `path` of an outcome.
@@ -178,6 +189,10 @@ std::vector<Field> further_fields() {
                                       "share of the slab's solid volume in small grains; where "
                                       "they sink, other than small_share",
                                       with_mean),
+      in_result<&Result::small_share_of_bed>("bed_small_share", "",
+                                             "the same of the whole bed; other than small_share "
+                                             "where sizes of both classes overlap",
+                                             with_mean),
       in_result<&Result::mean_diameter>("mean_diameter", "d", "of all grains"),
       in_result<&Result::mean_diameter_by_volume>("mean_diameter_by_volume", "d",
                                                   "the same, each grain weighted by its volume"),

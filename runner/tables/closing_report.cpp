@@ -275,11 +275,12 @@ std::string percolation_text(const std::vector<Family>& families) {
   std::string text;
   int count = 0;
   const auto add = [&](const Group& group) {
-    const double asked = group.job.small_share, slab = mean_of(group, "slab_small_share").mean;
-    if (!(std::abs(slab - asked) > allowed * asked) || ++count > groups_shown) return;
+    const double all = mean_of(group, "bed_small_share").mean;
+    const double slab = mean_of(group, "slab_small_share").mean;
+    if (!(std::abs(slab - all) > allowed * all) || ++count > groups_shown) return;
     text += "  " + group.family_name + (group.job.box.is_tube ? ", D = " : ", W = ") +
             width_text(cell(group.job.box.width), group.job.box.y) + ": " + fixed(slab, 3) +
-            " of the solid volume, in the whole bed " + fixed(asked, 3) + "\n";
+            " of the solid volume, in the whole bed " + fixed(all, 3) + "\n";
   };
   for (const Family& family : families) {
     for (const Group& group : family.walled) add(group);

@@ -16,8 +16,7 @@ template <class Value>
 Spread spread_of_numbers(const ComponentBins& bins, Value value) {
   std::vector<double> values;
   for (const ComponentBin* bin : bins) {
-    const double one = value(*bin);
-    if (!std::isnan(one)) values.push_back(one);
+    values.push_back(value(*bin));
   }
   return spread_of(values);
 }

@@ -156,7 +156,8 @@ GroupWithCurves::GroupWithCurves(Group group, const std::string& folder)
   }
 }
 
-Spread spread_of(const std::vector<double>& values) {
+Spread spread_of(std::vector<double> values) {
+  std::erase_if(values, [](double value) { return std::isnan(value); });
   Spread spread{no_number, no_number, static_cast<int>(values.size()), no_number, 0};
   if (values.empty()) return spread;
   double sum = 0.0, squares = 0.0;

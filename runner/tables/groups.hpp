@@ -14,8 +14,8 @@
 
 namespace grainsweep {
 
-/// Mean, sample standard deviation (divisor n - 1) and standard error of the mean; NaN where there
-/// are too few values.
+/// Mean, sample standard deviation (divisor n - 1) and standard error of the mean of what is known,
+/// which NaN is not; NaN where that are too few values.
 struct Spread {
   double mean = 0.0;
   double sd = 0.0;
@@ -24,7 +24,7 @@ struct Spread {
   int degrees_of_freedom = 0;  ///< of the variance behind the error
 };
 
-Spread spread_of(const std::vector<double>& values);
+Spread spread_of(std::vector<double> values);
 
 /// Why a mean has no error that could be trusted: no replicates, or replicates that are copies and
 /// scatter by no more than rounding. Empty if it has one.

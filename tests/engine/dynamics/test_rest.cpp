@@ -93,7 +93,22 @@ TEST_CASE("zero modes are listed by the grains that go and the direction across 
     CHECK(motion.direction.norm() == 1.0);
     if (motion.grains.size() == 2) CHECK(std::abs(motion.direction.x()) == 1.0);
   }
-  CHECK(standing_clusters(pushed.bed, pushed.forces()).size() == 2);
+  CHECK(clusters_that_turn(pushed.bed, pushed.forces()).empty());
+}
+
+TEST_CASE("clusters in a tube turn about its axis, where that is another motion than to slide") {
+  const Box tube = tube_of(4);
+  Pushed lone(tube, {{1, 2, 0.5, 0.5}});
+  lone.with_wall(0, 0, 1);
+  CHECK(lone.modes() == 2);  // a turn moves it as a slide does
+  Pushed column(tube, {{1, 2, 0.5, 0.5}, {1, 2, 1.5, 0.5}});
+  column.with_wall(0, 0, 2).with_pair(0, 1, 1);
+  CHECK(column.modes() == 2);
+  Pushed pair(tube, {{1, 2, 0.5, 0.5}, {1.6, 2, 1.3, 0.5}});
+  pair.with_wall(0, 0, 2).with_pair(0, 1, 1);
+  CHECK(pair.modes() == 3);
+  CHECK(clusters_that_turn(pair.bed, pair.forces()).size() == 1);
+  CHECK(clusters_that_turn(lone.bed, lone.forces()).empty());
 }
 
 TEST_CASE("grains in mid-air have no free directions on the floor, nor has an empty bed") {
@@ -124,7 +139,7 @@ TEST_CASE("a round wall holds a grain along it, too, and on the axis if the grai
   const RestReport held = chain.rest();
   CHECK(held.contacts == 4);
   CHECK(held.held_by_turning == 2);
-  CHECK(held.isostatic_contacts == 6 - 1);  // together they move along the wall
+  CHECK(held.isostatic_contacts == 6 - 2);  // together they move along the wall, or about the axis
   Pushed column(tube_of(1), {{0.5, 0.5, 0.5, 0.5}, {0.5, 0.5, 1.5, 0.5}});
   column.with_wall(0, 0, 2).with_pair(0, 1, 1);
   CHECK(column.rest().contacts == 2);

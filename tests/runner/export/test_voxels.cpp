@@ -55,6 +55,24 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("what lies outside a tube is neither void nor grain") {
+  ExportedBed exported = empty_box(4, 4, 1);
+  exported.bed.box = tube_of(4);
+  exported.settings.voxels = 50;
+  const double inside = volume_of(exported, '\0'), outside = volume_of(exported, '\xff');
+  const double height = (inside + outside) / 16;
+  // Voxels that the wall cuts, one in the round or out of it: a hundredth of a voxel on average.
+  CHECK(inside == Approx(pi * 4 * height).epsilon(1e-3));
+  CHECK(voxels_nrrd(exported).find("255 outside the tube") != std::string::npos);
+}
+
+TEST_CASE("no more voxels are asked for than there is memory for") {
+  ExportedBed exported = empty_box(1000, 1000, 1000);
+  exported.settings.voxels = 1000;
+  CHECK_THROWS_WITH(voxels_nrrd(exported),
+                    Catch::Contains("--voxels 1000") && Catch::Contains("take fewer a d"));
+}
+
 TEST_CASE("x runs fastest, then y") {
   ExportedBed exported = empty_box(3, 2, 1);
   exported.bed.grains = {{2.5, 0.5, 0.5, 0.1, 0, 0}, {0.5, 1.5, 0.5, 0.5, 0, 0}};

@@ -49,7 +49,7 @@ cmp <(beds_in whole) <(beds_in all) || fail "other grains after collect"
 merge whole --out copy
 job=$(sed -n 2p whole/packings.csv | cut -d, -f1)
 damage_bed whole "$(packing_lines whole | grep "$job")" 50
-merge whole --out mended
+expect_code 4 env PATH=none "$program" collect whole --out mended
 expect_text error.txt "whole/shards/1-of-1.beds: packing $job: damaged"
 expect_text out.txt "now holds 9 of 10"
 run_all sweep.json mended

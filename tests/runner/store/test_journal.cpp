@@ -127,6 +127,18 @@ TEST_CASE("a whole line with other members than ours is of another version, and 
   CHECK_FALSE(read_journal_line(line_of("{\"job\":")));
 }
 
+TEST_CASE("a number that earlier versions did not measure is missing, and the rest is read") {
+  Outcome outcome = sample_outcome("a", 0.6, 6);
+  const std::string before = outcome_text(outcome);
+  outcome.result.small_share_of_bed = 0.25;
+  const std::string now = outcome_text(outcome);
+  CHECK(now.find("\"bed_small_share\":0.25") != std::string::npos);
+  const auto old = outcome_from_text(before, Detail::whole);
+  REQUIRE(old);
+  CHECK_FALSE(old->result.small_share_of_bed);
+  CHECK(outcome_from_text(now, Detail::whole)->result.small_share_of_bed == 0.25);
+}
+
 TEST_CASE("of two outcomes of a job the one that was finished later counts, in whatever journal") {
   const TemporaryFolder folder;
   Outcome earlier = sample_outcome("a", 0.60, 6.0), later = sample_outcome("a", 0.62, 6.0);

@@ -290,8 +290,9 @@ TEST_CASE("small grains that sank out of the slab are warned of, a few in a hund
   const auto text_of = [](double slab_share) {
     std::vector<Row> rows = {settled_row("a", 5, 0.6, 6), settled_row("b", 5, 0.6, 6)};
     for (Row& row : rows) {
-      row.job.small_share = 0.2;
+      row.job.small_share = 0.25;  // told by size the bed has less
       row.outcome->result.small_share = slab_share;
+      row.outcome->result.small_share_of_bed = 0.2;
     }
     return report_of(reported_provenance(), rows, "out/a");
   };

@@ -23,6 +23,13 @@ TEST_CASE("one value has a mean but no scatter, none has neither") {
   CHECK(std::isnan(spread_of(std::vector<double>{5}).error));
 }
 
+TEST_CASE("packings that do not know a value leave its mean to the others") {
+  const Spread spread = spread_of({1, std::nan(""), 3});
+  CHECK(spread.mean == 2.0);
+  CHECK(spread.n == 2);
+  CHECK(spread.error == Approx(1.0));
+}
+
 TEST_CASE("replicates form a group, only the settled ones enter its means") {
   Row pending = settled_row("d", 5, 0.9, 9);
   pending.outcome.reset();
