@@ -34,8 +34,7 @@ int perform(const ReportOptions& options) {
   try {
     std::cout << write_page(options.folder, results.provenance, results.rows, analysis);
   } catch (const FileError& error) {
-    std::cerr << "error: there is no new page: " << error.what() << "\n";
-    return exit_file_system;
+    std::cerr << "warning: there is no new page: " << error.what() << "\n";
   }
   return exit_done;
 }

@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 #include <sstream>
+#include <unordered_set>
 
 #include "runner/jobs/estimates.hpp"
 #include "runner/jobs/growing_fits.hpp"
@@ -305,9 +306,11 @@ GrowingSweep::GrowingSweep(const Sweep& whole, const Outcomes& made)
 
 bool GrowingSweep::grow(const Outcomes& made) {
   if (!grows_) return false;
-  const std::size_t before = called_.jobs.size();
+  std::unordered_set<std::string> before;
+  for (const Job& job : called_.jobs) before.insert(job.id);
   called_ = called_for(whole_, made);
-  return called_.jobs.size() > before;
+  return std::any_of(called_.jobs.begin(), called_.jobs.end(),
+                     [&](const Job& job) { return !before.contains(job.id); });
 }
 
 Diagnostics unreachable_wishes(const Sweep& whole) {

@@ -38,7 +38,7 @@ class GrowingSweep {
 
   const Sweep& now() const { return grows_ ? called_ : whole_; }
 
-  /// Looks at all that is made by now; whether more is called for than before.
+  /// Looks at all that is made by now; whether anything is called for that was not before.
   bool grow(const Outcomes& made);
 
   /// Which errors are as asked for, by all that is made: `wishes_text` of the whole sweep.

@@ -105,11 +105,13 @@ for file, job in zip(index["file"], index["job"]):
     fields = dict(line.split(": ") for line in header.decode().splitlines() if ": " in line)
     sizes = [int(size) for size in fields["sizes"].split()]
     spacing = [float(size) for size in fields["spacings"].split()]
-    solid = numpy.frombuffer(voxels, numpy.uint8).reshape(sizes[::-1]) > 0
+    filled = numpy.frombuffer(voxels, numpy.uint8).reshape(sizes[::-1])
+    inside = filled < 255  # of a tube
+    assert inside.all() == (stem[:4] != "tube"), stem
+    solid = inside & (filled > 0)
     edges = numpy.arange(sizes[2] + 1) * spacing[2]
     of_slab = numpy.diff(edges.clip(packing["slab_bottom"], packing["slab_top"]))  # of each layer
-    share = (solid.mean(axis=(1, 2)) * of_slab).sum() / of_slab.sum()
-    share *= 4 / numpy.pi if stem[:4] == "tube" else 1
+    share = (solid.sum(axis=(1, 2)) / inside.sum(axis=(1, 2)) * of_slab).sum() / of_slab.sum()
     assert abs(share - packing["solid_fraction"]) < 1e-3, (stem, share, packing["solid_fraction"])
 
     # Every solid is closed: each side of a triangle is that of another one, the other way round.

@@ -146,6 +146,27 @@ TEST_CASE("a sweep has the packings that its groups call for, and all of groups 
   CHECK(GrowingSweep(whole, outcomes).now().jobs.size() == 9);
 }
 
+TEST_CASE("one group that shrinks hides no other that grows") {
+  Sweep whole{"s", 7, 1, growing_group("a", 5.0, 20, {0.0034, 0.0})};
+  for (const Job& job : growing_group("b", 6.0, 20, {0.0034, 0.0})) whole.jobs.push_back(job);
+  const auto made_with = [](const std::string& scattered) {
+    Outcomes outcomes;
+    for (const std::string& group : {std::string("a"), std::string("b")}) {
+      for (int i = 1; i <= 6; ++i) {
+        const std::string id = group + std::to_string(i);
+        const double phi = group == scattered && i % 2 == 0 ? 0.5 : 0.7;
+        outcomes[id] = sample_outcome(id, phi, 5.5);
+      }
+    }
+    return outcomes;
+  };
+  GrowingSweep growing(whole, made_with("a"));
+  CHECK(growing.now().jobs.size() == 18);
+  CHECK(growing.grow(made_with("b")));  // as after failed packings are made again
+  CHECK(growing.now().jobs.size() == 18);
+  CHECK_FALSE(growing.grow(made_with("b")));
+}
+
 TEST_CASE("each seed of a point grows by itself, and the called packings keep the sweep's order") {
   Sweep whole{"s", 1, 1, growing_group("a", 5.0, 8, {0.01, 0.0})};
   for (Job& job : whole.jobs) job.seed = 1;
