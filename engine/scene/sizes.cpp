@@ -61,12 +61,17 @@ void add_small_volume(const PackingSpec& spec, double wanted, std::vector<double
   }
 }
 
+/// How many grains of size 1 fill the solid height of `spec`.
+double grains_of_size_one(const PackingSpec& spec) {
+  const double height = std::get<SolidHeight>(spec.fill).height;
+  return height * spec.box.floor_area() / extent_of(spec.shape).volume;
+}
+
 /// The volume of small grains that is as near to `wanted`, which keeps their share exact, as the
 /// height allows that is to be filled: where large grains are few, one more or less is much of it.
 double small_volume(const PackingSpec& spec, double wanted, double large_volume) {
   constexpr double allowed = 0.02;
-  const double whole = std::get<SolidHeight>(spec.fill).height * spec.box.floor_area() *
-                       sphere_volume(0.5) / extent_of(spec.shape).volume;
+  const double whole = grains_of_size_one(spec) * sphere_volume(0.5);
   return std::clamp(wanted, (1.0 - allowed) * whole - large_volume,
                     (1.0 + allowed) * whole - large_volume);
 }
@@ -81,8 +86,8 @@ std::vector<double> drawn_radii(const SizeCurve& curve, std::int64_t count, std:
 
 ClassCounts class_counts(const PackingSpec& spec) {
   const auto& distribution = spec.sizes.distribution;
-  if (const auto* fill = std::get_if<SolidHeight>(&spec.fill)) {
-    const double volume = fill->height * spec.box.floor_area() / extent_of(spec.shape).volume;
+  if (std::holds_alternative<SolidHeight>(spec.fill)) {
+    const double volume = grains_of_size_one(spec);
     if (distribution) return {rounded(volume / mean_cube(curve_of(*distribution))), 0};
     return counts_for_volume(volume, spec.sizes);
   }

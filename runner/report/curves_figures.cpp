@@ -53,12 +53,6 @@ std::multimap<double, const Family*> by_small_share(const std::vector<Family>& f
   return sorted;
 }
 
-/// Where its error bar ends.
-void add_ends(const Estimate& estimate, std::vector<double>& ends) {
-  const double error = std::isfinite(estimate.error) ? estimate.error : 0.0;
-  ends.insert(ends.end(), {estimate.value - error, estimate.value + error});
-}
-
 struct EstimateCells {
   std::string value, error;
 };
@@ -202,9 +196,10 @@ Figure small_share_figure(const std::vector<Family>& families, const std::string
   std::size_t marks = 1;
   for (const WallReach& reach : reaches) {
     marks = std::max(marks, reach.mark + 1);
-    if (reach.phi.not_determined.empty()) add_ends(reach.phi.slope, slopes);
+    const Estimate& slope = reach.phi.slope;
+    if (reach.phi.not_determined.empty()) add_ends(slope.value, slope.error, slopes);
     for (const DecayFit* fit : {&reach.large, &reach.small}) {
-      if (fit->not_determined.empty()) add_ends(fit->reach, lengths);
+      if (fit->not_determined.empty()) add_ends(fit->reach.value, fit->reach.error, lengths);
     }
   }
   if (marks > 1) {

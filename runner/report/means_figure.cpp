@@ -128,8 +128,7 @@ std::vector<double> heights_of(const std::vector<FittedSeries>& all, Quantity qu
     if (is_determined(fit)) heights.push_back(fit->bulk.value);
     for (const Group* group : one.series->groups) {
       const Spread& spread = spread_of(*group, quantity);
-      const double error = std::isfinite(spread.error) ? spread.error : 0.0;
-      heights.insert(heights.end(), {spread.mean - error, spread.mean + error});
+      add_ends(spread.mean, spread.error, heights);
     }
   }
   return heights;

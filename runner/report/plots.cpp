@@ -138,6 +138,11 @@ std::string decade_tics_command(const std::string& axis, double low, double high
   return tics.empty() ? "" : "set " + axis + "tics (" + tics + ")\n";
 }
 
+void add_ends(double value, double error, std::vector<double>& ends) {
+  const double reach = std::isfinite(error) ? error : 0.0;
+  ends.insert(ends.end(), {value - reach, value + reach});
+}
+
 Range range_of(std::vector<double> values, double room) {
   std::erase_if(values, [](double value) { return !std::isfinite(value); });
   if (values.empty()) return {};

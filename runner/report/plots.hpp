@@ -62,6 +62,9 @@ struct Range {
   double low = 0.0, high = 1.0;
 };
 
+/// Adds both ends of an error bar; of a value without an error that alone.
+void add_ends(double value, double error, std::vector<double>& ends);
+
 /// The range of these values with some room at both ends, a share of it.
 Range range_of(std::vector<double> values, double room);
 

@@ -163,9 +163,12 @@ class Expansion {
     // Of a list what is in its file belongs to each start by itself, so that lists may grow.
     if (is_listed) resolved.fill_content = "one per replicate";
     const std::string identity = canonical_parameters(resolved);
-    if (is_listed) resolved.fill_content = hash_of(starts);
-    Job job{"", block.label,   canonical_parameters(resolved),
-            1,  resolved.seed, std::move(resolved.spec)};
+    std::string parameters = identity;
+    if (is_listed) {
+      resolved.fill_content = hash_of(starts);
+      parameters = canonical_parameters(resolved);
+    }
+    Job job{"", block.label, std::move(parameters), 1, resolved.seed, std::move(resolved.spec)};
     if (!resolved.hull_file.empty())
       job.files["shape.hull.vertices"] = name_in_tables(resolved.hull_file);
     note_hull_files(resolved.mixture, job);

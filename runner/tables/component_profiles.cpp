@@ -1,6 +1,5 @@
 #include "runner/tables/component_profiles.hpp"
 
-#include <cmath>
 #include <string>
 
 #include "runner/tables/components.hpp"
@@ -10,16 +9,6 @@ namespace grainsweep {
 namespace {
 
 using ComponentBins = std::vector<const ComponentBin*>;
-
-/// The spread of `value(bin)` over the bins where that is a number.
-template <class Value>
-Spread spread_of_numbers(const ComponentBins& bins, Value value) {
-  std::vector<double> values;
-  for (const ComponentBin* bin : bins) {
-    values.push_back(value(*bin));
-  }
-  return spread_of(values);
-}
 
 /// NaN without grains.
 double per_component_grain(std::int64_t count, const ComponentBin& bin) {
@@ -38,15 +27,15 @@ MeanComponentBin mean_component_bin(const ComponentBins& bins, std::size_t other
   MeanComponentBin mean;
   mean.low = low;
   mean.high = high;
-  mean.solid_fraction = spread_of_numbers(bins, [](Bin bin) { return bin.solid_fraction; });
-  mean.neighbours = spread_of_numbers(
+  mean.solid_fraction = spread_of_each(bins, [](Bin bin) { return bin.solid_fraction; });
+  mean.neighbours = spread_of_each(
       bins, [=](Bin bin) { return per_component_grain(bin.neighbours.at(other), bin); });
-  mean.coordination = spread_of_numbers(
-      bins, [](Bin bin) { return per_component_grain(all_neighbours(bin), bin); });
-  mean.coordination_with_walls = spread_of_numbers(
+  mean.coordination =
+      spread_of_each(bins, [](Bin bin) { return per_component_grain(all_neighbours(bin), bin); });
+  mean.coordination_with_walls = spread_of_each(
       bins, [](Bin bin) { return per_component_grain(all_neighbours(bin) + bin.walls, bin); });
   for (std::size_t axis = 0; axis < mean.nematic.size(); ++axis) {
-    mean.nematic[axis] = spread_of_numbers(bins, [=](Bin bin) { return bin.nematic[axis]; });
+    mean.nematic[axis] = spread_of_each(bins, [=](Bin bin) { return bin.nematic[axis]; });
   }
   return mean;
 }

@@ -41,8 +41,8 @@ void set_contacts(const Group& group, std::size_t k, std::size_t other, Componen
     if (k >= all.size() || other >= all[k].contacts.size()) continue;
     const std::array<std::int64_t, 3>& some = all[k].contacts[other];
     const double whole = contacts_of(all), joining = static_cast<double>(sum_of(some));
-    if (whole > 0.0) shares.push_back(joining / whole);
-    for (std::size_t kind = 0; joining > 0.0 && kind < kinds.size(); ++kind) {
+    shares.push_back(joining / whole);  // 0 / 0 is NaN
+    for (std::size_t kind = 0; kind < kinds.size(); ++kind) {
       kinds[kind].push_back(static_cast<double>(some[kind]) / joining);
     }
   }

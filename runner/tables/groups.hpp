@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "runner/tables/columns.hpp"
@@ -25,6 +26,15 @@ struct Spread {
 };
 
 Spread spread_of(std::vector<double> values);
+
+/// Of what `value` gives of each of `items`, a list of pointers.
+template <class Items, class Value>
+Spread spread_of_each(const Items& items, Value value) {
+  std::vector<double> values;
+  values.reserve(items.size());
+  for (const auto* item : items) values.push_back(value(*item));
+  return spread_of(std::move(values));
+}
 
 /// Why a mean has no error that could be trusted: no replicates, or replicates that are copies and
 /// scatter by no more than rounding. Empty if it has one.

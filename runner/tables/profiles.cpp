@@ -12,19 +12,9 @@ double grains_in(const ProfileBin& bin) {
 /// The spread of `value(bin)` over the bins that hold grains.
 template <class Value>
 Spread spread_per_grain(const Bins& bins, Value value) {
-  std::vector<double> values;
-  for (const ProfileBin* bin : bins) {
-    if (grains_in(*bin) > 0) values.push_back(static_cast<double>(value(*bin)) / grains_in(*bin));
-  }
-  return spread_of(values);
-}
-
-template <class Value>
-Spread spread_over(const Bins& bins, Value value) {
-  std::vector<double> values;
-  values.reserve(bins.size());
-  for (const ProfileBin* bin : bins) values.push_back(value(*bin));
-  return spread_of(values);
+  return spread_of_each(bins, [=](const ProfileBin& bin) {
+    return static_cast<double>(value(bin)) / grains_in(bin);  // 0 / 0 is NaN
+  });
 }
 
 MeanBin mean_bin(const Bins& bins, double low, double high) {
@@ -32,9 +22,9 @@ MeanBin mean_bin(const Bins& bins, double low, double high) {
   mean.low = low;
   mean.high = high;
   mean.solid_fraction =
-      spread_over(bins, [](const ProfileBin& bin) { return bin.large + bin.small; });
-  mean.large = spread_over(bins, [](const ProfileBin& bin) { return bin.large; });
-  mean.small = spread_over(bins, [](const ProfileBin& bin) { return bin.small; });
+      spread_of_each(bins, [](const ProfileBin& bin) { return bin.large + bin.small; });
+  mean.large = spread_of_each(bins, [](const ProfileBin& bin) { return bin.large; });
+  mean.small = spread_of_each(bins, [](const ProfileBin& bin) { return bin.small; });
   mean.coordination = spread_per_grain(bins, [](const ProfileBin& bin) { return bin.neighbours; });
   mean.coordination_with_walls =
       spread_per_grain(bins, [](const ProfileBin& bin) { return bin.neighbours + bin.walls; });
