@@ -89,7 +89,7 @@ for round in $(seq "$(times 2 20)"); do
     start "$program" run sweep.json --no-report --threads 1 --out out --shard "$number/7" \
       --checkpoint-seconds 0
     pause "$(between 10 400)"
-    ! kill -0 "$runner" 2>/dev/null || kills=$((kills + 1))
+    ! is_running "$runner" || kills=$((kills + 1))
     end_runner KILL
   done
   expect_code 0 "$program" status out

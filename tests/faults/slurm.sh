@@ -29,7 +29,7 @@ stop_daemon() { # SIGNAL FILE
   local process
   process=$(cat "$2" 2>/dev/null) || return 0
   kill -"$1" "$process" 2>/dev/null || true
-  while kill -0 "$process" 2>/dev/null; do pause 20; done
+  while is_running "$process"; do pause 20; done
   rm -f "$2"
 }
 
@@ -160,7 +160,7 @@ halt_one_of() {
   return 1
 }
 
-has_ended() { ! kill -0 "$1" 2>/dev/null; }
+has_ended() { ! is_running "$1"; }
 
 start_cluster
 run_to_the_end "$configs/quick.json" reference --threads 2

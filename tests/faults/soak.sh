@@ -20,7 +20,7 @@ descriptors() { { ls "/proc/$1/fd" 2>/dev/null || true; } | wc -l; }
 "$program" run sweep.json --no-report --threads 2 --out "$folder/out" >said.txt 2>&1 &
 runner=$!
 first_memory=0 last_memory=0 most_descriptors=0 least_descriptors=1000 seen=0
-while kill -0 $runner 2>/dev/null && [ "$seen" -lt $((packings * 98 / 100)) ]; do
+while is_running $runner && [ "$seen" -lt $((packings * 98 / 100)) ]; do
   seen=$(grep -c '^[0-9]*/' said.txt || true)
   memory=$(resident $runner)
   open=$(descriptors $runner)

@@ -55,7 +55,7 @@ cat >shared.json <<'JSON'
 JSON
 start "$program" run shared.json --out shared --threads 8 --checkpoint-seconds 1
 busy_threads=0
-while kill -0 "$runner" 2>/dev/null; do
+while is_running "$runner"; do
   now=$({ cat /proc/"$runner"/task/*/stat 2>/dev/null || true; } | awk '$14 > 20 { ++n } END { print n + 0 }')
   ((now <= busy_threads)) || busy_threads=$now # a thread that ends meanwhile cannot be read
   sleep 0.1

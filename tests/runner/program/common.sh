@@ -82,10 +82,18 @@ start() {
   wait_until [ "/proc/$runner/exe" -ef "$1" ] || true
 }
 
+# is_running PROCESS: it has not ended. One that nobody has waited for yet is there all the same, and may
+# stay: `read -t` of bash 5.2 sometimes leaves the signal that tells of ended children blocked for good.
+is_running() {
+  local status
+  read -r status 2>/dev/null <"/proc/$1/stat" || return 1
+  [[ ${status##*) } != Z* ]]
+}
+
 # wait_until CONDITION...: looks every 2 ms; false if the runner ended before the condition held.
 wait_until() {
   until "$@"; do
-    kill -0 "$runner" 2>/dev/null || return 1
+    is_running "$runner" || return 1
     read -rt 0.002 -u "$never" || true
   done
 }
@@ -117,7 +125,7 @@ end_in_time() {
   time_of queue "$runner"
   queued_before=$time queued=$time
   kill -"$1" "$runner" 2>/dev/null || true
-  while kill -0 "$runner" 2>/dev/null; do
+  while is_running "$runner"; do
     time_of queue "$runner"
     ((time <= queued)) || queued=$time
     read -rt 0.002 -u "$never" || true

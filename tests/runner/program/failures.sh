@@ -45,7 +45,7 @@ for ((try = 1; ; ++try)); do
   rm -rf robbed
   "$program" run sweep.json --no-report --threads 1 --out robbed >out.txt 2>error.txt &
   runner=$!
-  until has_packings robbed 2 || ! kill -0 $runner 2>/dev/null; do :; done
+  until has_packings robbed 2 || ! is_running $runner; do :; done
   mv robbed/shards/1-of-1.beds "stolen-$try" 2>/dev/null || true
   code=0
   wait $runner || code=$?
