@@ -198,9 +198,10 @@ void measure_kind(const PolyhedronBed& bed, const Touching& near, const ProfileS
                   const std::optional<Slab>& slab, Packing& packing) {
   packing.turned = orientations_of(bed);
   if (!slab) return;
-  packing.result.shape_order = measure_shape_order(bed, packing.forces, *slab);
+  packing.result.shape_order = measure_shape_order(bed, packing.forces, packing.lines, *slab);
   std::vector<ComponentMeasure>& components = packing.result.components;
-  components = measure_components(bed, near, packing.forces, *slab, settings.gap_tolerance);
+  components =
+      measure_components(bed, near, packing.forces, packing.lines, *slab, settings.gap_tolerance);
   if (!components.empty()) measure_profiles(bed, near, *slab, settings, components);
 }
 
@@ -215,6 +216,8 @@ void measure(const PackingSpec& spec, const SettleReport& settled, const Kernels
   packing.grains = grains_of(bed, near, tolerances.front(), settled.force);
   packing.forces = settled.pair_forces;
   packing.wall_forces = settled.wall_forces;
+  packing.lines = settled.pair_lines;
+  packing.wall_lines = settled.wall_lines;
   result.surface_height = surface_height(bed);
   const std::optional<Slab> slab = slab_of(spec.measure, result);
   const bool are_drawn =

@@ -69,7 +69,6 @@ struct PairForce {
   std::int32_t a = 0, b = 0;
   double height = 0.0;     ///< mean z of the two centres, d
   double magnitude = 0.0;  ///< m g
-  int constraints = 1;     ///< 1 at a point, as of spheres, 2 along a line, 3 over an area
 };
 
 /// A force that a wall exerts on a grain; of a tube each vertex of a polyhedron has its own.
@@ -78,6 +77,14 @@ struct WallForce {
   /// own, as of wall_of_vertex.
   std::int32_t grain = 0, wall = 0;
   double magnitude = 0.0;  ///< m g
+};
+
+/// How a force acts, as it was solved: of spheres their centres tell it, of polyhedra nothing else.
+struct ForceLine {
+  std::array<float, 3> normal{};  ///< unit, from a to b, or from the grain to the wall; box frame
+  std::array<float, 3> lever{};   ///< from the centre of a to the mean of its points by their
+                                  ///< forces, box frame, d
+  std::int32_t constraints = 1;   ///< 1 at a point, 2 along a line, 3 over an area
 };
 
 /// WallForce::wall of a sphere at a tube.
@@ -267,6 +274,8 @@ struct Packing {
   std::optional<Turned> turned;      ///< unless they are spheres
   std::vector<PairForce> forces;     ///< between the grains
   std::vector<WallForce> wall_forces;
+  std::vector<ForceLine> lines;       ///< of each of `forces`, empty if they are spheres
+  std::vector<ForceLine> wall_lines;  ///< of each of `wall_forces`, in the same way
 };
 
 /// Where a packing stands; `share_done` is an estimate in [0, 1] that never falls.

@@ -254,7 +254,7 @@ std::vector<PairForce> pair_forces(const Grains& bed, const std::vector<ForceCon
     const double height = (bed.position[static_cast<std::size_t>(c.a)].z +
                            bed.position[static_cast<std::size_t>(c.b)].z) /
                           2.0;
-    forces.push_back({c.a, c.b, height, c.force, c.constraints});
+    forces.push_back({c.a, c.b, height, c.force});
   }
   return forces;
 }
@@ -270,6 +270,29 @@ std::vector<WallForce> wall_forces(const Bed<Kind>& bed,
   forces.reserve(sums.size());
   for (const auto& [where, force] : sums) forces.push_back({where.first, where.second, force});
   return forces;
+}
+
+std::vector<ForceLine> pair_lines(const Grains& bed, const std::vector<ForceContact>& contacts,
+                                  const std::vector<ForceLine>& lines) {
+  std::vector<ForceLine> of_pairs;
+  for (std::size_t k = 0; k < contacts.size(); ++k) {
+    if (bed.is_grain(contacts[k].b)) of_pairs.push_back(lines[k]);
+  }
+  return of_pairs;
+}
+
+std::vector<ForceLine> wall_lines(const PolyhedronBed& bed,
+                                  const std::vector<ForceContact>& contacts,
+                                  const std::vector<ForceLine>& lines) {
+  std::map<std::pair<std::int32_t, std::int32_t>, ForceLine> sorted;
+  for (std::size_t k = 0; k < contacts.size(); ++k) {
+    const ForceContact& c = contacts[k];
+    if (!bed.is_grain(c.b)) sorted[{c.a, wall_of(bed, c)}] = lines[k];
+  }
+  std::vector<ForceLine> of_walls;
+  of_walls.reserve(sorted.size());
+  for (const auto& [where, line] : sorted) of_walls.push_back(line);
+  return of_walls;
 }
 
 std::vector<double> force_sums(const Grains& bed, const std::vector<ForceContact>& contacts) {

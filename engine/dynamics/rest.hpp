@@ -62,6 +62,15 @@ std::vector<PairForce> pair_forces(const Grains& bed, const std::vector<ForceCon
 template <class Kind>
 std::vector<WallForce> wall_forces(const Bed<Kind>& bed, const std::vector<ForceContact>& contacts);
 
+/// The lines of the forces of pair_forces, out of `lines`, those of `contacts`.
+std::vector<ForceLine> pair_lines(const Grains& bed, const std::vector<ForceContact>& contacts,
+                                  const std::vector<ForceLine>& lines);
+
+/// The same of wall_forces.
+std::vector<ForceLine> wall_lines(const PolyhedronBed& bed,
+                                  const std::vector<ForceContact>& contacts,
+                                  const std::vector<ForceLine>& lines);
+
 /// Sum of the magnitudes of the contact forces on each grain, m g.
 std::vector<double> force_sums(const Grains& bed, const std::vector<ForceContact>& contacts);
 

@@ -354,7 +354,13 @@ class Settling {
     if (!report_.failure.empty() && !is_high(bed_)) {
       report_.failure += remedy_of_rounding(report_.rest, accuracy_, top_of(bed_));
     }
-    report_forces(contacts_of_last_step());
+    const std::vector<ForceContact> contacts = contacts_of_last_step();
+    report_forces(contacts);
+    if constexpr (std::is_same_v<Kind, Polyhedron>) {
+      const auto lines = force_lines(bed_, state_.contacts, settings_.dt);
+      report_.pair_lines = pair_lines(bed_, contacts, lines);
+      report_.wall_lines = wall_lines(bed_, contacts, lines);
+    }
   }
 
   // ---- exact rest ----

@@ -37,6 +37,7 @@ struct SettleReport {
   std::vector<double> force;           ///< sum of contact force magnitudes on each grain, m g
   std::vector<PairForce> pair_forces;  ///< of the last step
   std::vector<WallForce> wall_forces;  ///< of the last step
+  std::vector<ForceLine> pair_lines, wall_lines;  ///< of these forces, unless they are spheres
 };
 
 /// Settles `bed`, whose numbers must be finite; a state that becomes otherwise ends it at once and

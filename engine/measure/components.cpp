@@ -64,13 +64,14 @@ void count_neighbours(const PolyhedronBed& bed, const Touching& touching, const 
 }
 
 void count_contacts(const PolyhedronBed& bed, const std::vector<PairForce>& pair_forces,
-                    const Slab& slab, Components& components) {
+                    const std::vector<ForceLine>& lines, const Slab& slab, Components& components) {
   for (ComponentMeasure& one : components) one.contacts.resize(components.size());
-  for (const PairForce& force : pair_forces) {
+  for (std::size_t k = 0; k < pair_forces.size(); ++k) {
+    const PairForce& force = pair_forces[k];
     if (!slab.contains(force.height)) continue;
     const std::size_t a = bed.component(static_cast<std::size_t>(force.a));
     const std::size_t b = bed.component(static_cast<std::size_t>(force.b));
-    const auto kind = static_cast<std::size_t>(force.constraints - 1);
+    const auto kind = static_cast<std::size_t>(lines[k].constraints - 1);
     ++components[a].contacts[b][kind];
     if (a != b) ++components[b].contacts[a][kind];
   }
@@ -90,13 +91,14 @@ std::vector<std::vector<std::size_t>> grains_of_components(const PolyhedronBed& 
 
 std::vector<ComponentMeasure> measure_components(const PolyhedronBed& bed, const Touching& touching,
                                                  const std::vector<PairForce>& pair_forces,
+                                                 const std::vector<ForceLine>& lines,
                                                  const Slab& slab, double gap_tolerance) {
   Components components(bed.components.empty() ? 0 : bed.shapes.size());
   if (components.empty()) return components;
   add_volumes(bed, slab, components);
   divide_volumes(bed.box.floor_area() * slab.height(), components);
   count_neighbours(bed, touching, slab, gap_tolerance, components);
-  count_contacts(bed, pair_forces, slab, components);
+  count_contacts(bed, pair_forces, lines, slab, components);
   const auto grains = grains_of_components(bed, slab);
   for (std::size_t k = 0; k < components.size(); ++k) {
     components[k].nematic = nematic_orders(bed, grains[k]);

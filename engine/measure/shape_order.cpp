@@ -17,12 +17,13 @@ std::vector<std::size_t> grains_in(const PolyhedronBed& bed, const Slab& slab) {
 }  // namespace
 
 ShapeOrder measure_shape_order(const PolyhedronBed& bed, const std::vector<PairForce>& pair_forces,
-                               const Slab& slab) {
+                               const std::vector<ForceLine>& lines, const Slab& slab) {
   ShapeOrder order;
   double contacts = 0.0, forces = 0.0;
-  for (const PairForce& force : pair_forces) {
+  for (std::size_t k = 0; k < pair_forces.size(); ++k) {
+    const PairForce& force = pair_forces[k];
     if (!slab.contains(force.height)) continue;
-    const auto kind = static_cast<std::size_t>(force.constraints - 1);
+    const auto kind = static_cast<std::size_t>(lines[k].constraints - 1);
     order.contact_share[kind] += 1.0;
     order.force_share[kind] += force.magnitude;
     contacts += 1.0;

@@ -45,11 +45,9 @@ void collect(std::size_t grains, const VisitAll& visit_all, ByGrain<Entry>& sort
 
 /// A contact that bore a force in the last step.
 struct ForceContact {
-  std::int32_t a = 0;   ///< grain
-  std::int32_t b = 0;   ///< grain, or Grains::wall_name of a wall
-  double force = 0.0;   ///< sum over its points, m g
-  int constraints = 1;  ///< in the last step: 1 at a point, as of spheres, 2 along a line, 3 over
-                        ///< an area
+  std::int32_t a = 0;  ///< grain
+  std::int32_t b = 0;  ///< grain, or Grains::wall_name of a wall
+  double force = 0.0;  ///< sum over its points, m g
 };
 
 /// Forces below this do not make a contact force-bearing, m g.
@@ -65,7 +63,7 @@ inline constexpr double open_gap = 1e6;
 /// How a contact is closed where the grains are now.
 struct Closure {
   double gap = 0.0;     ///< least of its points, d; infinite if it is open by more than closed_gap
-  int constraints = 0;  ///< 1, 2 or 3 as of ForceContact; 0 if it is open
+  int constraints = 0;  ///< 1 at a point, 2 along a line, 3 over an area; 0 if it is open
   /// Directions in which it holds besides, as its normal turns: 1 of a sphere at a round wall,
   /// which goes back to where the wall is farthest; of a polyhedron that a sphere pushes 2 on a
   /// face and 1 on an edge, as turning it would bring the sphere nearer.

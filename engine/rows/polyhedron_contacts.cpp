@@ -174,6 +174,22 @@ void visit_contacts(const PolyhedronContacts<Real>& contacts, Visit visit) {
   }
 }
 
+/// Calls visit(part, k, force) for those that bore a force in a step of length `dt`.
+template <class Real, class Visit>
+void visit_bearing(const PolyhedronContacts<Real>& contacts, double dt, Visit visit) {
+  visit_contacts(contacts, [&](const ContactPart<Real>& part, std::size_t k) {
+    double force = 0.0;
+    for (std::size_t j = 0; j < part.found.contacts[k].count; ++j) {
+      force += impulse_of(contacts, part, k, j) / (dt * dt);
+    }
+    if (force > least_force) visit(part, k, force);
+  });
+}
+
+std::array<float, 3> floats_of(const Vector& v) {
+  return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
+}
+
 /// Impulses of contacts times `factor`. Parts that are not neighbours name no grain in common.
 template <class Real>
 void collect_impulses(const PolyhedronBed& bed, const ParallelFor& loop, double factor,
@@ -438,13 +454,28 @@ template <class Real>
 std::vector<ForceContact> force_contacts(const PolyhedronBed& /*bed*/, double dt,
                                          const PolyhedronContacts<Real>& contacts) {
   std::vector<ForceContact> all;
-  visit_contacts(contacts, [&](const ContactPart<Real>& part, std::size_t k) {
+  visit_bearing(contacts, dt, [&](const ContactPart<Real>& part, std::size_t k, double force) {
     const PolyhedronContact& c = part.found.contacts[k];
-    double force = 0.0;
-    for (std::size_t j = 0; j < c.count; ++j) force += impulse_of(contacts, part, k, j) / (dt * dt);
-    if (!(force > least_force)) return;
-    const int constraints = constraints_of(part.found.points.data() + c.first, c.count, closed_gap);
-    all.push_back({c.a, c.b, force, std::max(constraints, 1)});
+    all.push_back({c.a, c.b, force});
+  });
+  return all;
+}
+
+template <class Real>
+std::vector<ForceLine> force_lines(const PolyhedronBed& bed,
+                                   const PolyhedronContacts<Real>& contacts, double dt) {
+  std::vector<ForceLine> all;
+  visit_bearing(contacts, dt, [&](const ContactPart<Real>& part, std::size_t k, double force) {
+    const PolyhedronContact& c = part.found.contacts[k];
+    const ContactPoint* points = part.found.points.data() + c.first;
+    Vector lever = Vector::Zero();
+    for (std::size_t j = 0; j < c.count; ++j) {
+      lever += impulse_of(contacts, part, k, j) / (dt * dt * force) * points[j].position;
+    }
+    const Quaternion turned = bed.pose(static_cast<std::size_t>(c.a)).orientation;
+    const int constraints = constraints_of(points, c.count, closed_gap);
+    all.push_back(
+        {floats_of(turned * c.normal), floats_of(turned * lever), std::max(constraints, 1)});
   });
   return all;
 }
@@ -516,6 +547,10 @@ template std::vector<ForceContact> force_contacts(const PolyhedronBed&, double,
                                                   const PolyhedronContacts<float>&);
 template std::vector<ForceContact> force_contacts(const PolyhedronBed&, double,
                                                   const PolyhedronContacts<double>&);
+template std::vector<ForceLine> force_lines(const PolyhedronBed&, const PolyhedronContacts<float>&,
+                                            double);
+template std::vector<ForceLine> force_lines(const PolyhedronBed&, const PolyhedronContacts<double>&,
+                                            double);
 template std::vector<Closure> closures(PolyhedronBed&, const ExecutionContext&, double, Candidates&,
                                        PolyhedronContacts<float>&);
 template std::vector<Closure> closures(PolyhedronBed&, const ExecutionContext&, double, Candidates&,

@@ -12,6 +12,7 @@
 #include "engine/broad/candidates.hpp"
 #include "engine/context.hpp"
 #include "engine/narrow/polyhedra.hpp"
+#include "engine/results.hpp"
 #include "engine/rows/contacts.hpp"
 #include "engine/rows/pair_memories.hpp"
 #include "engine/rows/partition.hpp"
@@ -145,6 +146,11 @@ double impulse_of(const PolyhedronContacts<Real>& contacts, const ContactPart<Re
 template <class Real>
 std::vector<ForceContact> force_contacts(const PolyhedronBed& bed, double dt,
                                          const PolyhedronContacts<Real>& contacts);
+
+/// How the force of each contact of force_contacts acts, with its grains turned as they are now.
+template <class Real>
+std::vector<ForceLine> force_lines(const PolyhedronBed& bed,
+                                   const PolyhedronContacts<Real>& contacts, double dt);
 
 /// The contacts of force_contacts that are closed now, as they are now.
 template <class Real>

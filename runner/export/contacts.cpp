@@ -18,20 +18,35 @@ namespace grainsweep {
 namespace {
 
 using Sides = std::pair<std::int32_t, std::int32_t>;  // two grains, or a grain and WallForce::wall
-using Forces = std::map<Sides, double>;
+
+/// The force between them, m g, and how it acts, where that is stored.
+struct Borne {
+  double force = 0.0;
+  const ForceLine* line = nullptr;
+};
+using Forces = std::map<Sides, Borne>;
+
+void add(const Sides& sides, double magnitude, const std::vector<ForceLine>& lines, std::size_t k,
+         Forces& forces) {
+  Borne& borne = forces[sides];
+  borne.force += magnitude;
+  if (!lines.empty()) borne.line = &lines.at(k);
+}
 
 Forces forces_of_grains(const StoredBed& bed) {
   Forces forces;
-  for (const StoredForce& force : bed.forces) {
-    forces[std::minmax(force.a, force.b)] += force.magnitude;
+  for (std::size_t k = 0; k < bed.forces.size(); ++k) {
+    const StoredForce& force = bed.forces[k];
+    add(std::minmax(force.a, force.b), force.magnitude, bed.lines, k, forces);
   }
   return forces;
 }
 
 Forces forces_of_walls(const StoredBed& bed) {
   Forces forces;
-  for (const WallForce& force : bed.wall_forces) {
-    forces[{force.grain, force.wall}] += force.magnitude;
+  for (std::size_t k = 0; k < bed.wall_forces.size(); ++k) {
+    const WallForce& force = bed.wall_forces[k];
+    add({force.grain, force.wall}, force.magnitude, bed.wall_lines, k, forces);
   }
   return forces;
 }
@@ -67,14 +82,36 @@ PolyhedronBed polyhedra_of(const StoredBed& bed) {
   return make_bed(bed.box, std::move(shapes), turned.components, poses);
 }
 
-/// What bears `sides`, m g; nothing if they bear no force.
-std::optional<double> force_of(const Forces& forces, const Sides& sides) {
+/// What `sides` bear; nothing if they bear no force.
+std::optional<Borne> borne_by(const Forces& forces, const Sides& sides) {
   const auto found = forces.find(sides);
   return found == forces.end() ? std::nullopt : std::optional(found->second);
 }
 
-bool counts(const ExportedBed& exported, double gap, const std::optional<double>& force) {
-  return force || gap < exported.gap_tolerance;
+bool counts(const ExportedBed& exported, double gap, const std::optional<Borne>& borne) {
+  return borne || gap < exported.gap_tolerance;
+}
+
+Vector vector_of(const std::array<float, 3>& v) { return {v[0], v[1], v[2]}; }
+
+/// Where a force acts on grain a.
+ContactPlace place_of(const ForceLine& line, const StoredBed& bed, std::size_t a) {
+  return {vector_of(line.normal).normalized(), centre_in_box(bed, a) + vector_of(line.lever),
+          line.constraints};
+}
+
+/// A contact that counts; `found` is where its grains touch if it is not told by a force.
+template <class Found>
+Contact contact_of(const ExportedBed& exported, const Sides& sides, bool is_wall, double gap,
+                   const std::optional<Borne>& borne, const Found& found) {
+  const auto a = static_cast<std::size_t>(sides.first), b = static_cast<std::size_t>(sides.second);
+  const bool is_told = borne && borne->line != nullptr;
+  return {a,
+          b,
+          is_wall,
+          gap,
+          borne ? borne->force : 0.0,
+          is_told ? place_of(*borne->line, exported.bed, a) : found()};
 }
 
 /// Appends `touching` if it counts, with its force. Where there is one, points of a line or an area
@@ -82,12 +119,11 @@ bool counts(const ExportedBed& exported, double gap, const std::optional<double>
 template <class Bed, class Pair>
 void append(const ExportedBed& exported, const Bed& bed, const Forces& forces, const Sides& sides,
             const Pair& touching, std::vector<Contact>& contacts) {
-  const std::optional<double> force = force_of(forces, sides);
-  if (!counts(exported, touching.gap, force)) return;
-  const double of_points = force ? closed_gap : exported.gap_tolerance;
-  contacts.push_back({static_cast<std::size_t>(sides.first), static_cast<std::size_t>(sides.second),
-                      std::is_same_v<Pair, TouchingWall>, touching.gap, force.value_or(0.0),
-                      contact_place(bed, touching, of_points)});
+  const std::optional<Borne> borne = borne_by(forces, sides);
+  if (!counts(exported, touching.gap, borne)) return;
+  const double of_points = borne ? closed_gap : exported.gap_tolerance;
+  contacts.push_back(contact_of(exported, sides, std::is_same_v<Pair, TouchingWall>, touching.gap,
+                                borne, [&] { return contact_place(bed, touching, of_points); }));
 }
 
 void append_wall(const ExportedBed& exported, const SphereBed& bed, const Forces& forces,
@@ -99,16 +135,16 @@ void append_wall(const ExportedBed& exported, const SphereBed& bed, const Forces
 void append_wall(const ExportedBed& exported, const PolyhedronBed& bed, const Forces& forces,
                  const TouchingWall& wall, std::vector<Contact>& contacts) {
   const bool is_tube = bed.walls[static_cast<std::size_t>(wall.wall)].is_round();
-  const bool has_sum = force_of(forces, {wall.grain, wall.wall}).has_value();
+  const bool has_sum = borne_by(forces, {wall.grain, wall.wall}).has_value();
   if (!is_tube || has_sum || !bed.turns(static_cast<std::size_t>(wall.grain))) {
     append(exported, bed, forces, {wall.grain, wall.wall}, wall, contacts);
     return;
   }
   for (const VertexPlace& at : vertex_places(bed, wall)) {
-    const auto force = force_of(forces, {wall.grain, wall_of_vertex(at.vertex)});
-    if (!counts(exported, at.gap, force)) continue;
-    contacts.push_back({static_cast<std::size_t>(wall.grain), static_cast<std::size_t>(wall.wall),
-                        true, at.gap, force.value_or(0.0), at.place});
+    const auto borne = borne_by(forces, {wall.grain, wall_of_vertex(at.vertex)});
+    if (!counts(exported, at.gap, borne)) continue;
+    contacts.push_back(contact_of(exported, {wall.grain, wall.wall}, true, at.gap, borne,
+                                  [&] { return at.place; }));
   }
 }
 

@@ -20,9 +20,9 @@ struct Contact {
 };
 
 /// Every contact with a gap below the tolerance, and every other one that bears a force: grains
-/// first, a < b, then walls. A contact that bears a force is at a point, along a line or over an
-/// area by what of it is closed to closed_gap, as in the tables; others by what is to the
-/// tolerance.
+/// first, a < b, then walls. Contacts of polyhedra that bear a force are where and as it acts, as
+/// the bed stores it; in beds of older versions by what of them is closed to closed_gap, as are all
+/// others by what is to the tolerance.
 std::vector<Contact> contacts_of(const ExportedBed& exported);
 
 /// "floor", "tube", "x_low", "x_high", "y_low" or "y_high".

@@ -49,6 +49,8 @@ StoredBed bed_of(const Job& job, const PackingResult& result, Packing&& packing,
   bed.turned = std::move(packing.turned);
   bed.forces = stored_forces(packing.forces);
   bed.wall_forces = std::move(packing.wall_forces);
+  bed.lines = std::move(packing.lines);
+  bed.wall_lines = std::move(packing.wall_lines);
   return bed;
 }
 

@@ -63,15 +63,26 @@ constexpr auto members_of(const StoredForce* /*type*/) {
 constexpr auto members_of(const WallForce* /*type*/) {
   return std::tuple(&WallForce::grain, &WallForce::wall, &WallForce::magnitude);
 }
-constexpr auto members_of(const StoredBed* /*type*/) {
+constexpr auto members_of(const ForceLine* /*type*/) {
+  return std::tuple(&ForceLine::normal, &ForceLine::lever, &ForceLine::constraints);
+}
+
+/// As the version before stored it.
+struct BedWithoutLines : StoredBed {};
+constexpr auto members_of(const BedWithoutLines* /*type*/) {
   using Bed = StoredBed;
   return std::tuple(&Bed::job, &Bed::state_hash, &Bed::box, &Bed::curves, &Bed::grains,
                     &Bed::turned, &Bed::forces, &Bed::wall_forces);
 }
+constexpr auto members_of(const StoredBed* /*type*/) {
+  return std::tuple_cat(members_of(static_cast<const BedWithoutLines*>(nullptr)),
+                        std::tuple(&StoredBed::lines, &StoredBed::wall_lines));
+}
 
 namespace {
 
-constexpr std::string_view bed_mark = "GRAINS12\n";
+constexpr std::string_view bed_mark = "GRAINS13\n";
+constexpr std::string_view mark_without_lines = "GRAINS12\n";
 
 /// Throws FileError: the bed is not what was stored.
 [[noreturn]] void refuse(const std::string& folder, const Outcome& outcome,
@@ -116,6 +127,9 @@ std::vector<StoredForce> stored_forces(const std::vector<PairForce>& forces) {
 std::string bed_bytes(const StoredBed& bed) { return file_bytes(bed_mark, bed); }
 
 std::optional<StoredBed> bed_from_bytes(std::string_view bytes) {
+  if (auto older = value_in_file<BedWithoutLines>(mark_without_lines, bytes)) {
+    return static_cast<StoredBed&&>(*older);
+  }
   return value_in_file<StoredBed>(bed_mark, bytes);
 }
 

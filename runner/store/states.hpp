@@ -2,9 +2,10 @@
 // again.
 //
 // They stand one behind the other in shards/<shard>.beds, where each outcome tells its own. A bed
-// is "GRAINS12\n", a StoredBed as of runner/store/archive.hpp, in the order of its members and of
-// those of the engine's structs in states.cpp, and a CRC-32 of all before. Units as in SettledGrain
-// and PackingResult. What a kill has left between them is never read.
+// is "GRAINS13\n", a StoredBed as of runner/store/archive.hpp, in the order of its members and of
+// those of the engine's structs in states.cpp, and a CRC-32 of all before; "GRAINS12\n", of earlier
+// versions, lacks the lines. Units as in SettledGrain and PackingResult. What a kill has left
+// between them is never read.
 #pragma once
 
 #include <cstdint>
@@ -54,6 +55,8 @@ struct StoredBed {
   std::vector<StoredForce> forces;
   /// Beds of older versions have one sum for all vertices of a grain in a tube, as of tube_wall.
   std::vector<WallForce> wall_forces;
+  /// Of each of `forces` and of `wall_forces`; empty of spheres and in beds of older versions.
+  std::vector<ForceLine> lines = {}, wall_lines = {};
 };
 
 /// The whole bed, checked. Throws FileError if there is none, if it is damaged or of another

@@ -61,7 +61,7 @@ std::int64_t modes_of_a_row(const Box& box, std::int32_t cubes,
   for (std::int32_t i = 0; i < cubes; ++i) poses.push_back(pose_at(0.5 + i, 0.5, 0.5));
   const PolyhedronBed bed = make_bed(box, testing::cube(), poses);
   for (ForceContact& wall : contacts) wall.b = bed.wall_name(static_cast<std::size_t>(wall.b));
-  for (std::int32_t i = 0; i + 1 < cubes; ++i) contacts.push_back({i, i + 1, 1.0, 3});
+  for (std::int32_t i = 0; i + 1 < cubes; ++i) contacts.push_back({i, i + 1, 1.0});
   return zero_modes(bed, contacts);
 }
 
@@ -69,7 +69,7 @@ std::int64_t modes_of_a_row(const Box& box, std::int32_t cubes,
 // them at once: along each axis without walls. Only a grain by itself may also turn where it lies.
 TEST_CASE(
     "a cluster of turning grains slides along every axis that no wall bounds, but never turns") {
-  const ForceContact floor{0, 0, 1.0, 3}, side{0, 1, 1.0, 3};
+  const ForceContact floor{0, 0, 1.0}, side{0, 1, 1.0};
   CHECK(modes_of_a_row({6, 6, periodic, periodic}, 3, {floor}) == 2);
   CHECK(modes_of_a_row({6, 6, periodic, walls}, 3, {floor, side}) == 1);
   CHECK(modes_of_a_row({6, 6, periodic, periodic}, 1, {floor}) == 3);

@@ -30,7 +30,7 @@ TEST_CASE("grains, volumes and neighbours of components are what a small bed has
   PolyhedronBed bed = stacks();
   const Slab slab{0, 2};  // without the centre, and half of the volume, of the highest cube
   const Touching touching = find_touching(bed, 0.01, testing::kernels());
-  const auto components = measure_components(bed, touching, {}, slab, 0.01);
+  const auto components = measure_components(bed, touching, {}, {}, slab, 0.01);
   REQUIRE(components.size() == 2);
   const auto &cubes = components[0], &bricks = components[1];
   CHECK((cubes.grains == 3 && cubes.slab_grains == 2));
@@ -48,14 +48,18 @@ TEST_CASE("grains, volumes and neighbours of components are what a small bed has
   CHECK(cubes.nematic[2] == Approx(1));  // all upright
 }
 
+std::vector<ForceLine> lines_over(const std::vector<int>& constraints) {
+  std::vector<ForceLine> lines;
+  for (const int kind : constraints) lines.push_back({{0, 0, 1}, {0, 0, 0}, kind});
+  return lines;
+}
+
 TEST_CASE("contacts of two components stand with both, by their kind, if they are in the slab") {
   const PolyhedronBed bed = stacks();
-  const std::vector<PairForce> forces = {{0, 2, 1.0, 1, 3},
-                                         {3, 1, 1.0, 1, 3},
-                                         {3, 1, 1.2, 1, 1},
-                                         {0, 4, 1.9, 1, 2},
-                                         {3, 4, 2.1, 1, 3}};
-  const auto components = measure_components(bed, {}, forces, {0, 2}, 0.01);
+  const std::vector<PairForce> forces = {
+      {0, 2, 1.0, 1}, {3, 1, 1.0, 1}, {3, 1, 1.2, 1}, {0, 4, 1.9, 1}, {3, 4, 2.1, 1}};
+  const auto lines = lines_over({3, 3, 1, 2, 3});
+  const auto components = measure_components(bed, {}, forces, lines, {0, 2}, 0.01);
   using Kinds = std::vector<std::array<std::int64_t, 3>>;
   CHECK(components[0].contacts == Kinds{{0, 1, 0}, {1, 0, 2}});
   CHECK(components[1].contacts == Kinds{{1, 0, 2}, {0, 0, 0}});
@@ -75,23 +79,26 @@ TEST_CASE("the kinds of contact of each two components are those of a count over
       {testing::cube(), testing::box_shape(1, 1, 0.5), testing::tetrahedron()}, components, poses);
   const Slab slab{1.5, 3};
   std::vector<PairForce> forces;
+  std::vector<int> kinds;
   for (int k = 0; k < 500; ++k) {
     const auto any_grain = [&] { return static_cast<std::int32_t>(draw.uniform(0, grains)); };
-    forces.push_back({any_grain(), any_grain(), draw.uniform(1, 4), draw.uniform(0, 9),
-                      1 + static_cast<int>(draw.uniform(0, 3))});
+    forces.push_back({any_grain(), any_grain(), draw.uniform(1, 4), draw.uniform(0, 9)});
+    kinds.push_back(1 + static_cast<int>(draw.uniform(0, 3)));
   }
-  const auto measured = measure_components(bed, {}, forces, slab, 0.01);
+  const auto measured = measure_components(bed, {}, forces, lines_over(kinds), slab, 0.01);
   std::int64_t all = 0;
   for (std::size_t k = 0; k < 3; ++k) {
     for (std::size_t other = 0; other < 3; ++other) {
       for (int kind = 0; kind < 3; ++kind) {
-        const auto is_one = [&](const PairForce& force) {
+        std::int64_t count = 0;
+        for (std::size_t f = 0; f < forces.size(); ++f) {
+          const PairForce& force = forces[f];
           const std::size_t a = components[static_cast<std::size_t>(force.a)];
           const std::size_t b = components[static_cast<std::size_t>(force.b)];
-          return slab.contains(force.height) && force.constraints == kind + 1 &&
-                 ((a == k && b == other) || (a == other && b == k));
-        };
-        const auto count = std::count_if(forces.begin(), forces.end(), is_one);
+          const bool is_one = slab.contains(force.height) && kinds[f] == kind + 1 &&
+                              ((a == k && b == other) || (a == other && b == k));
+          count += is_one ? 1 : 0;
+        }
         CHECK(measured[k].contacts[other][static_cast<std::size_t>(kind)] == count);
         all += k <= other ? count : 0;
       }
@@ -103,7 +110,7 @@ TEST_CASE("the kinds of contact of each two components are those of a count over
 
 TEST_CASE("a component without grains in the slab has no means, a bed of one shape no components") {
   PolyhedronBed bed = stacks();
-  const auto components = measure_components(bed, {}, {}, {1.1, 1.4}, 0.01);
+  const auto components = measure_components(bed, {}, {}, {}, {1.1, 1.4}, 0.01);
   CHECK(components[0].slab_grains == 0);
   CHECK(std::isnan(components[0].coordination));
   CHECK(std::isnan(components[0].nematic[0]));
@@ -111,7 +118,7 @@ TEST_CASE("a component without grains in the slab has no means, a bed of one sha
   CHECK(components[1].slab_share == 1);
   const PolyhedronBed alone =
       make_bed({4, 4, periodic, periodic}, testing::cube(), {pose_at(1, 1, 0.5)});
-  CHECK(measure_components(alone, {}, {}, {0, 2}, 0.01).empty());
+  CHECK(measure_components(alone, {}, {}, {}, {0, 2}, 0.01).empty());
 }
 
 }  // namespace

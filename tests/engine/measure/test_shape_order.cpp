@@ -50,8 +50,8 @@ TEST_CASE("nematic order is that of the axes of the frame in which a shape is wr
   REQUIRE_FALSE(askew_bar().given.rotation.isIdentity(0.1));
   const PolyhedronBed bed = upright_bars();
   const Slab slab{0.5, 1.5};
-  check_upright(measure_shape_order(bed, {}, slab).nematic);
-  for (const ComponentMeasure& one : measure_components(bed, {}, {}, slab, 1e-4)) {
+  check_upright(measure_shape_order(bed, {}, {}, slab).nematic);
+  for (const ComponentMeasure& one : measure_components(bed, {}, {}, {}, slab, 1e-4)) {
     check_upright(one.nematic);
   }
   for (const ComponentProfile& one :
@@ -61,7 +61,7 @@ TEST_CASE("nematic order is that of the axes of the frame in which a shape is wr
 }
 
 TEST_CASE("grains outside the slab have no part in the order of its shapes") {
-  CHECK(std::isnan(measure_shape_order(upright_bars(), {}, {2, 3}).nematic[2]));
+  CHECK(std::isnan(measure_shape_order(upright_bars(), {}, {}, {2, 3}).nematic[2]));
 }
 
 }  // namespace

@@ -8,12 +8,13 @@
 
 namespace grainsweep {
 
-inline ExportedBed packed_bed(const ShapeSpec& shape, const Box& box, std::int64_t grains) {
+inline ExportedBed packed_bed(const ShapeSpec& shape, const Box& box, std::int64_t grains,
+                              const char* accuracy = "fast") {
   PackingSpec spec;
   spec.shape = shape;
   spec.box = box;
   spec.fill = GrainCount{grains};
-  spec.accuracy = *preset("fast");
+  spec.accuracy = *preset(accuracy);
   spec.measure.exclude_floor = 1.0;
   spec.measure.exclude_surface = 1.0;
   Packing packing =
@@ -24,6 +25,8 @@ inline ExportedBed packed_bed(const ShapeSpec& shape, const Box& box, std::int64
   exported.bed.turned = packing.turned;
   exported.bed.forces = stored_forces(packing.forces);
   exported.bed.wall_forces = packing.wall_forces;
+  exported.bed.lines = packing.lines;
+  exported.bed.wall_lines = packing.wall_lines;
   exported.gap_tolerance = spec.measure.gap_tolerances.front();
   return exported;
 }

@@ -4,6 +4,8 @@
 
 #include <catch2/catch.hpp>
 
+#include "runner/hash.hpp"
+#include "runner/store/archive.hpp"
 #include "runner/store/files.hpp"
 #include "runner/store/states.hpp"
 #include "tests/runner/sample_rows.hpp"
@@ -28,7 +30,7 @@ StoredBed sample_bed() {
   bed.grains = {{0.1, 1.0 / 3.0, 5e-324, 0.5, 2.75, 6},
                 {-0.0, 5.0, 1e300, 0.25, std::numeric_limits<double>::infinity(), -1}};
   bed.curves = sample_curves();
-  bed.forces = stored_forces({{0, 1, 0.5, 2.75, 1}});
+  bed.forces = stored_forces({{0, 1, 0.5, 2.75}});
   bed.wall_forces = {{1, 2, 1.0 / 3.0}};
   return bed;
 }
@@ -107,7 +109,27 @@ TEST_CASE("curves are put back where they were taken from") {
 
 TEST_CASE("a bed begins as its header states") {
   const std::string bytes = bed_bytes(sample_bed());
-  CHECK(bytes.substr(0, 20) == std::string("GRAINS12\n\3\0\0\0\0\0\0\0job", 20));
+  CHECK(bytes.substr(0, 20) == std::string("GRAINS13\n\3\0\0\0\0\0\0\0job", 20));
+}
+
+TEST_CASE("the lines of forces read back, and beds of the version that had none are read") {
+  StoredBed bed = bed_of_polyhedra();
+  bed.lines = {{{0.6F, 0, 0.8F}, {0.25F, 0, -0.5F}, 3}};
+  bed.wall_lines = {{{0, 0, -1}, {0, 0.125F, -0.5F}, 2}};
+  const StoredBed back = bed_from_bytes(bed_bytes(bed)).value();
+  CHECK(back.lines.at(0).normal == bed.lines[0].normal);
+  CHECK(back.lines.at(0).lever == bed.lines[0].lever);
+  CHECK(back.lines.at(0).constraints == 3);
+  CHECK(back.wall_lines.at(0).lever[1] == 0.125F);
+  const std::string now = bed_bytes(bed_of_polyhedra());
+  const std::size_t of_no_lines = 2 * sizeof(std::uint64_t);  // two lengths of 0
+  std::string older = "GRAINS12" + now.substr(8, now.size() - 8 - of_no_lines - 4);
+  ByteWriter checksum;
+  checksum.put(crc32(older));
+  older += checksum.bytes();
+  const StoredBed read = bed_from_bytes(older).value();
+  CHECK(read.lines.empty());
+  CHECK(bed_bytes(read) == now);
 }
 
 TEST_CASE("a bed without grains can be stored") {
