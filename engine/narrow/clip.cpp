@@ -23,6 +23,7 @@ struct Reference {
   const ConvexShape& shape;
   double scale;
   const Face& face;
+  double same = same_point;  ///< share of the size below which two points are one
 
   double size() const { return scale * shape.circumradius; }
   double gap(const Vector& x) const { return face.normal.dot(x) - scale * face.offset; }
@@ -109,7 +110,7 @@ void cut_by_sides(const Reference& reference, ClipColumns& columns) {
 
 /// Among the faces at the lowest vertex of `other`, the one that faces `normal` most. Finds out how
 /// far all vertices reach.
-const Face& touching_face(const Incident& other, const Vector& normal, ClipColumns& columns) {
+std::int32_t touching_face(const Incident& other, const Vector& normal, ClipColumns& columns) {
   const ConvexShape& shape = other.shape;
   const Vector down = -(other.turn.transpose() * normal);
   columns.reach.resize(shape.corner_columns.padded());
@@ -117,10 +118,9 @@ const Face& touching_face(const Incident& other, const Vector& normal, ClipColum
       columns.kernels->farthest(shape.corner_columns.columns(), down.data(), columns.reach.data());
   const auto first = shape.vertex_faces.begin() + shape.vertex_faces_begin[lowest];
   const auto last = shape.vertex_faces.begin() + shape.vertex_faces_begin[lowest + 1];
-  const std::int32_t best = *std::max_element(first, last, [&](std::int32_t f, std::int32_t g) {
+  return *std::max_element(first, last, [&](std::int32_t f, std::int32_t g) {
     return face_of(shape, f).normal.dot(down) < face_of(shape, g).normal.dot(down);
   });
-  return face_of(shape, best);
 }
 
 void add_point(const Reference& reference, const Vector& x, double margin, std::size_t first,
@@ -128,7 +128,7 @@ void add_point(const Reference& reference, const Vector& x, double margin, std::
   const double gap = reference.gap(x);
   if (!(gap <= margin)) return;
   const Vector position = x - gap / 2.0 * reference.face.normal;
-  const double same = same_point * reference.size();
+  const double same = reference.same * reference.size();
   const bool there = std::any_of(points.begin() + static_cast<std::ptrdiff_t>(first), points.end(),
                                  [&](const ContactPoint& point) {
                                    return (point.position - position).squaredNorm() <= same * same;
@@ -153,17 +153,38 @@ void add_other_vertices(const Reference& reference, const Incident& other, const
   }
 }
 
-/// Appends the contact points in the frame of the reference.
-void clip(const Reference& reference, const Incident& other, double margin, ClipColumns& columns,
-          std::vector<ContactPoint>& points) {
-  const std::size_t first = points.size();
-  const Face& touching = touching_face(other, reference.face.normal, columns);
-  place_face(other, touching, columns.polygon);
+/// Appends the corners of a face of `other` cut by the sides of the reference.
+void add_polygon(const Reference& reference, const Incident& other, const Face& face, double margin,
+                 std::size_t first, ClipColumns& columns, std::vector<ContactPoint>& points) {
+  place_face(other, face, columns.polygon);
   cut_by_sides(reference, columns);
-  for (const Vector& x : columns.polygon) {
-    add_point(reference, x, margin, first, points);
+  for (const Vector& x : columns.polygon) add_point(reference, x, margin, first, points);
+}
+
+/// Appends the points on one face, those from `first` on being of the same contact.
+void clip_on(const Reference& reference, const Incident& other, double margin, std::size_t first,
+             ClipColumns& columns, std::vector<ContactPoint>& points) {
+  const std::int32_t touching = touching_face(other, reference.face.normal, columns);
+  const Face& face = face_of(other.shape, touching);
+  add_polygon(reference, other, face, margin, first, columns, points);
+  for (const std::int32_t beside : flat_with(other.shape, static_cast<std::size_t>(touching))) {
+    add_polygon(reference, other, face_of(other.shape, beside), margin, first, columns, points);
   }
-  add_other_vertices(reference, other, touching, margin, first, columns.reach, points);
+  add_other_vertices(reference, other, face, margin, first, columns.reach, points);
+}
+
+/// Appends the contact points on a face and on those nearly flat with it, in their frame.
+void clip(const ConvexShape& shape, double scale, std::int32_t face, const Incident& other,
+          double margin, ClipColumns& columns, std::vector<ContactPoint>& points) {
+  // On an edge between such faces both know a point, each along its own normal.
+  constexpr double same_on_both = 1e-3;
+  const std::size_t first = points.size();
+  const auto beside = flat_with(shape, static_cast<std::size_t>(face));
+  const double same = beside.empty() ? same_point : same_on_both;
+  clip_on({shape, scale, face_of(shape, face), same}, other, margin, first, columns, points);
+  for (const std::int32_t one : beside) {
+    clip_on({shape, scale, face_of(shape, one), same}, other, margin, first, columns, points);
+  }
 }
 
 }  // namespace
@@ -172,14 +193,14 @@ void clip_on_face(const ShapePair& pair, Of reference, std::int32_t face, double
                   ClipColumns& columns, std::vector<ContactPoint>& points) {
   const PairPose& pose = pair.pose;
   if (reference == Of::a) {
-    clip({pair.a, pose.scale_a, face_of(pair.a, face)},
-         {pair.b, pose.centre, pose.scale_b * pose.turn}, margin, columns, points);
+    clip(pair.a, pose.scale_a, face, {pair.b, pose.centre, pose.scale_b * pose.turn}, margin,
+         columns, points);
     return;
   }
   const Matrix back = pose.turn.transpose();
   const std::size_t first = points.size();
-  clip({pair.b, pose.scale_b, face_of(pair.b, face)},
-       {pair.a, -(back * pose.centre), pose.scale_a * back}, margin, columns, points);
+  clip(pair.b, pose.scale_b, face, {pair.a, -(back * pose.centre), pose.scale_a * back}, margin,
+       columns, points);
   for (std::size_t k = first; k < points.size(); ++k) {
     points[k].position = pose.centre + pose.turn * points[k].position;
   }

@@ -18,16 +18,6 @@ const Vector& at(const std::vector<Vector>& vertices, std::int32_t k) {
   return vertices[static_cast<std::size_t>(k)];
 }
 
-/// Area vector of a polygon (Newell): exact for flat ones, a best fit for others.
-Vector area_vector(const std::vector<Vector>& vertices, const std::vector<std::int32_t>& loop) {
-  Vector sum = Vector::Zero();
-  const Vector& origin = at(vertices, loop.front());
-  for (std::size_t k = 1; k + 1 < loop.size(); ++k) {
-    sum += (at(vertices, loop[k]) - origin).cross(at(vertices, loop[k + 1]) - origin);
-  }
-  return sum / 2.0;
-}
-
 void add_face(const std::vector<std::int32_t>& loop, ConvexShape& shape) {
   Face face;
   face.normal = area_vector(shape.vertices, loop).normalized();
@@ -88,6 +78,18 @@ void add_vertex_faces(const Loops& loops, ConvexShape& shape) {
   shape.vertex_faces_begin.push_back(static_cast<std::int32_t>(shape.vertex_faces.size()));
 }
 
+void add_flat_with(ConvexShape& shape) {
+  for (const Face& face : shape.faces) {
+    shape.flat_with_begin.push_back(static_cast<std::int32_t>(shape.flat_with.size()));
+    for (std::size_t f = 0; f < shape.faces.size(); ++f) {
+      const Face& other = shape.faces[f];
+      const bool is_nearly = (other.normal - face.normal).norm() < nearly_flat;
+      if (&other != &face && is_nearly) shape.flat_with.push_back(static_cast<std::int32_t>(f));
+    }
+  }
+  shape.flat_with_begin.push_back(static_cast<std::int32_t>(shape.flat_with.size()));
+}
+
 void add_radii(ConvexShape& shape) {
   for (const Vector& vertex : shape.vertices) {
     shape.circumradius = std::max(shape.circumradius, vertex.norm());
@@ -109,6 +111,15 @@ void add_columns(ConvexShape& shape) {
 }
 
 }  // namespace
+
+Vector area_vector(const std::vector<Vector>& vertices, const std::vector<std::int32_t>& loop) {
+  Vector sum = Vector::Zero();
+  const Vector& origin = at(vertices, loop.front());
+  for (std::size_t k = 1; k + 1 < loop.size(); ++k) {
+    sum += (at(vertices, loop[k]) - origin).cross(at(vertices, loop[k + 1]) - origin);
+  }
+  return sum / 2.0;
+}
 
 /// Tetrahedra from the origin to the triangles of each face. With corners p, q, r and S = p + q + r
 /// one of them has 6 V = p . (q x r), 24 V mean(x) = 6 V S, 120 times the integral of x x^T =
@@ -143,6 +154,7 @@ ConvexShape build_shape(std::vector<Vector> vertices, const Loops& loops) {
   }
   add_edges(loops, shape);
   add_vertex_faces(loops, shape);
+  add_flat_with(shape);
   shape.volume = moments.volume;
   shape.inertia = inertia_of(moments.second).diagonal();
   add_radii(shape);

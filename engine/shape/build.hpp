@@ -22,6 +22,9 @@ MassMoments mass_moments(const std::vector<Vector>& vertices, const Loops& loops
 /// origin and the principal axes along those of the frame.
 ConvexShape build_shape(std::vector<Vector> vertices, const Loops& loops);
 
+/// Area vector of a polygon (Newell): exact for flat ones, a best fit for others, d^2.
+Vector area_vector(const std::vector<Vector>& vertices, const std::vector<std::int32_t>& loop);
+
 /// Moments of inertia over mass from the mean of x x^T about the centroid: trace - second.
 Matrix inertia_of(const Matrix& second);
 

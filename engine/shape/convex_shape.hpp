@@ -21,6 +21,9 @@ namespace grainsweep {
 using Vector = Eigen::Vector3d;
 using Matrix = Eigen::Matrix3d;
 
+/// Faces whose normals differ by less touch as if they were one, radians.
+inline constexpr double nearly_flat = 0.03;
+
 /// A flat face; the shape lies where normal . x <= offset.
 struct Face {
   Vector normal = Vector::Zero();  ///< unit, outward
@@ -64,13 +67,17 @@ struct ConvexShape {
   std::vector<Vector> edge_directions;           ///< unit, distinct up to sign
   std::vector<std::int32_t> vertex_faces;        ///< faces at each vertex, vertex after vertex
   std::vector<std::int32_t> vertex_faces_begin;  ///< where each vertex's begin; one more at the end
-  double volume = 0.0;                           ///< d^3
-  Vector inertia = Vector::Zero();               ///< principal moments over mass, d^2
-  double circumradius = 0.0;                     ///< of the smallest ball around the centroid, d
-  double inradius = 0.0;                   ///< of the largest ball around the centroid within, d
-  std::optional<PinacoidHalves> pinacoid;  ///< if the shape is one
-  bool is_ball = false;                    ///< a sphere; both radii are its own
-  InputFrame given;                        ///< that in which its vertices were written
+  /// The other faces whose normals differ from each face's by less than nearly_flat, face after
+  /// face: it touches together with them.
+  std::vector<std::int32_t> flat_with;
+  std::vector<std::int32_t> flat_with_begin;  ///< where each face's begin; one more at the end
+  double volume = 0.0;                        ///< d^3
+  Vector inertia = Vector::Zero();            ///< principal moments over mass, d^2
+  double circumradius = 0.0;                  ///< of the smallest ball around the centroid, d
+  double inradius = 0.0;                      ///< of the largest ball around the centroid within, d
+  std::optional<PinacoidHalves> pinacoid;     ///< if the shape is one
+  bool is_ball = false;                       ///< a sphere; both radii are its own
+  InputFrame given;                           ///< that in which its vertices were written
 
   /// Of a grain of that scale, d^3.
   double volume_at(double scale) const { return scale * scale * scale * volume; }
@@ -79,6 +86,13 @@ struct ConvexShape {
 /// Vertices of a face, counter-clockwise seen from outside.
 inline std::span<const std::int32_t> corners_of(const ConvexShape& shape, const Face& face) {
   return {shape.loops.data() + face.first, static_cast<std::size_t>(face.corners)};
+}
+
+/// See ConvexShape::flat_with.
+inline std::span<const std::int32_t> flat_with(const ConvexShape& shape, std::size_t face) {
+  const auto begin = static_cast<std::size_t>(shape.flat_with_begin[face]);
+  return {shape.flat_with.data() + begin,
+          static_cast<std::size_t>(shape.flat_with_begin[face + 1]) - begin};
 }
 
 /// Half width of a pinacoid along n: largest n . x over its points.

@@ -38,7 +38,7 @@ Hull shape_from(const HullVertices& hull) {
   std::vector<Vector> points;
   points.reserve(hull.points.size());
   for (const auto& [x, y, z] : hull.points) points.emplace_back(x, y, z);
-  return convex_hull(points);
+  return convex_hull(points, flat_as_written);
 }
 
 template <class Size>

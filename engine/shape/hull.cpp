@@ -24,6 +24,10 @@ namespace {
 // that f64 resolves well. Deeper inside is a dent; less is a point on a face or an edge.
 constexpr double flat_share = 1e-9;
 constexpr double dent = 1e-6;
+// What corners of flat faces miss their planes by, as rounding does.
+constexpr double in_plane = 1e-13;
+// Places this many extents from the origin lose digits that products of them need.
+constexpr double far_off = 1e3;
 // Products of inertia below this share of the trace are rounding: the frame is principal already.
 constexpr double principal = 1e-13;
 
@@ -159,17 +163,19 @@ struct QhullRun {
   }
 };
 
-/// The faces of the hull as loops of points; what Qhull says if it finds none.
-Loops hull_loops(const std::vector<Vector>& points, std::string& error) {
+/// The faces of the hull as loops of points, those that lie within `merged`, d, of one plane as
+/// one; what Qhull says if it finds none.
+Loops hull_loops(const std::vector<Vector>& points, double merged, std::string& error) {
   std::vector<double> coordinates;
   coordinates.reserve(3 * points.size());
   for (const Vector& p : points) {
     coordinates.insert(coordinates.end(), p.data(), p.data() + 3);
   }
   QhullRun run;
-  char options[] = "qhull";
-  const int failure = qh_new_qhull(&run.state, 3, static_cast<int>(points.size()),
-                                   coordinates.data(), False, options, nullptr, run.messages);
+  std::string options = merged > 0.0 ? joined("qhull C", merged) : "qhull";
+  const int failure =
+      qh_new_qhull(&run.state, 3, static_cast<int>(points.size()), coordinates.data(), False,
+                   options.data(), nullptr, run.messages);
   if (failure != 0) {
     error = "Qhull finds no hull: " + run.first_line();
     return {};
@@ -196,22 +202,37 @@ bool is_closed(const Loops& loops) {
          });
 }
 
-/// Depth of a point below the nearest face of the hull.
-double depth_of(const Vector& point, const std::vector<Vector>& points, const Loops& loops) {
-  double depth = std::numeric_limits<double>::infinity();
-  for (const auto& loop : loops) {
-    const auto corner = [&](std::size_t k) { return points[static_cast<std::size_t>(loop[k])]; };
-    const Vector normal =
-        (corner(1) - corner(0)).cross(corner(loop.size() - 1) - corner(0)).normalized();
-    depth = std::min(depth, normal.dot(corner(0) - point));
+/// A plane: normal . x = offset.
+struct Plane {
+  Vector normal;
+  double offset;
+};
+
+/// The planes that fit the faces best.
+std::vector<Plane> planes_of(const std::vector<Vector>& corners, const Loops& loops) {
+  std::vector<Plane> planes(loops.size());
+  for (std::size_t f = 0; f < loops.size(); ++f) {
+    const Vector normal = area_vector(corners, loops[f]).normalized();
+    double sum = 0.0;
+    for (const std::int32_t k : loops[f]) sum += normal.dot(corners[static_cast<std::size_t>(k)]);
+    planes[f] = {normal, sum / static_cast<double>(loops[f].size())};
   }
+  return planes;
+}
+
+/// Depth of a point below the nearest face of the hull.
+double depth_of(const Vector& point, const std::vector<Plane>& faces) {
+  double depth = std::numeric_limits<double>::infinity();
+  for (const Plane& face : faces) depth = std::min(depth, face.offset - face.normal.dot(point));
   return depth;
 }
 
-std::string problem_with_dents(const std::vector<Vector>& points, const Loops& loops) {
-  const double allowed = dent * extents_of(points).length;
+std::string problem_with_dents(const std::vector<Vector>& points, const Loops& loops,
+                               double merged) {
+  const double allowed = std::max(dent * extents_of(points).length, 2.0 * merged);
+  const std::vector<Plane> faces = planes_of(points, loops);
   for (std::size_t k = 0; k < points.size(); ++k) {
-    const double depth = depth_of(points[k], points, loops);
+    const double depth = depth_of(points[k], faces);
     if (depth > allowed) {
       return joined(named(points, k), " lies ", depth,
                     " inside the hull of the others: the shape is not convex; remove the vertex if "
@@ -238,6 +259,64 @@ std::vector<Vector> keep_corners(const std::vector<Vector>& points, Loops& loops
     for (std::int32_t& k : loop) k = number[static_cast<std::size_t>(k)];
   }
   return corners;
+}
+
+/// By how much corners lie off the planes of their faces, d.
+double unevenness_of(const std::vector<Vector>& corners, const Loops& loops) {
+  const std::vector<Plane> planes = planes_of(corners, loops);
+  double most = 0.0;
+  for (std::size_t f = 0; f < loops.size(); ++f) {
+    for (const std::int32_t k : loops[f]) {
+      const double height = planes[f].normal.dot(corners[static_cast<std::size_t>(k)]);
+      most = std::max(most, std::abs(height - planes[f].offset));
+    }
+  }
+  return most;
+}
+
+/// Faces of more than three corners at each corner.
+std::vector<std::vector<std::size_t>> polygons_at(std::size_t corners, const Loops& loops) {
+  std::vector<std::vector<std::size_t>> faces(corners);
+  for (std::size_t f = 0; f < loops.size(); ++f) {
+    if (loops[f].size() == 3) continue;
+    for (const std::int32_t k : loops[f]) faces[static_cast<std::size_t>(k)].push_back(f);
+  }
+  return faces;
+}
+
+/// Moves corners as little as brings them onto the planes of their faces, again and again, since
+/// that moves the planes, too. Faces that are flat but for rounding stay as they are.
+void flatten(const Loops& loops, std::vector<Vector>& corners) {
+  constexpr int most_rounds = 1000;
+  const double rounding = in_plane * extents_of(corners).length;
+  const auto faces = polygons_at(corners.size(), loops);
+  for (int round = 0; round < most_rounds; ++round) {
+    if (unevenness_of(corners, loops) <= rounding) return;
+    const std::vector<Plane> planes = planes_of(corners, loops);
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      const auto count = static_cast<Eigen::Index>(faces[k].size());
+      if (count == 0) continue;
+      Eigen::MatrixX3d normals(count, 3);
+      Eigen::VectorXd missing(count);
+      for (Eigen::Index f = 0; f < count; ++f) {
+        const Plane& plane = planes[faces[k][static_cast<std::size_t>(f)]];
+        normals.row(f) = plane.normal.transpose();
+        missing[f] = plane.offset - plane.normal.dot(corners[k]);
+      }
+      corners[k] += normals.completeOrthogonalDecomposition().solve(missing);
+    }
+  }
+}
+
+/// Whether no corner lies above a face by more than rounding.
+bool is_convex(const std::vector<Vector>& corners, const Loops& loops) {
+  const double rounding = 10.0 * in_plane * extents_of(corners).length;
+  const std::vector<Plane> planes = planes_of(corners, loops);
+  return std::all_of(planes.begin(), planes.end(), [&](const Plane& plane) {
+    return std::all_of(corners.begin(), corners.end(), [&](const Vector& corner) {
+      return plane.normal.dot(corner) <= plane.offset + rounding;
+    });
+  });
 }
 
 /// Axes of the shape's frame in the given one: right-handed, moments ascending.
@@ -268,41 +347,61 @@ InputFrame centre(std::vector<Vector>& corners, const Loops& loops) {
 
 Hull refused(std::string error) { return {std::nullopt, std::move(error)}; }
 
-Hull whole_hull(const std::vector<Vector>& points) {
+/// The corners of a hull and its faces, or what forbids it.
+struct Surface {
+  std::vector<Vector> corners;
+  Loops loops;
   std::string error;
-  Loops loops = hull_loops(points, error);
-  if (!error.empty()) {
-    return refused(error);
-  }
-  if (!is_closed(loops)) {
-    return refused(
-        "some vertices lie so nearly on one plane that rounding decides which are corners; move or "
-        "remove them");
-  }
-  const std::string problem = problem_with_dents(points, loops);
-  if (!problem.empty()) {
-    return refused(problem);
-  }
-  std::vector<Vector> corners = keep_corners(points, loops);
-  const InputFrame given = centre(corners, loops);
-  Hull hull{build_shape(std::move(corners), loops), ""};
+};
+
+Surface surface_of(const std::vector<Vector>& points, double flat) {
+  const char* const undecided =
+      "some vertices lie so nearly on one plane that rounding decides which are corners; move or "
+      "remove them";
+  const double merged = flat * extents_of(points).height;
+  Surface surface;
+  surface.loops = hull_loops(points, merged, surface.error);
+  if (!surface.error.empty()) return surface;
+  surface.error =
+      is_closed(surface.loops) ? problem_with_dents(points, surface.loops, merged) : undecided;
+  if (!surface.error.empty()) return surface;
+  surface.corners = keep_corners(points, surface.loops);
+  if (flat > 0.0) flatten(surface.loops, surface.corners);
+  if (flat > 0.0 && !is_convex(surface.corners, surface.loops)) surface.error = undecided;
+  return surface;
+}
+
+/// Faces of which some triangles are nearly flat and others are not stay as bent as they are.
+Hull whole_hull(const std::vector<Vector>& points, double flat) {
+  Surface surface = surface_of(points, flat);
+  if (!surface.error.empty() && flat > 0.0) surface = surface_of(points, 0.0);
+  if (!surface.error.empty()) return refused(surface.error);
+  const InputFrame given = centre(surface.corners, surface.loops);
+  Hull hull{build_shape(std::move(surface.corners), surface.loops), ""};
   hull.shape->given = given;
   return hull;
 }
 
 }  // namespace
 
-Hull convex_hull(const std::vector<Vector>& points) {
+Hull convex_hull(const std::vector<Vector>& points, double flat) {
   const std::string problem = problem_with_points(points);
   if (!problem.empty()) {
     return refused(problem);
   }
-  return whole_hull(points);
+  const double extent = extents_of(points).length;
+  const bool is_far = points.front().cwiseAbs().maxCoeff() > far_off * extent;
+  if (!is_far) return whole_hull(points, flat);
+  std::vector<Vector> near = points;
+  for (Vector& point : near) point -= points.front();
+  Hull hull = whole_hull(near, flat);
+  if (hull.shape) hull.shape->given.centroid += points.front();
+  return hull;
 }
 
 Loops hull_faces(const std::vector<Vector>& points) {
   std::string error;
-  Loops loops = hull_loops(points, error);
+  Loops loops = hull_loops(points, 0.0, error);
   if (loops.empty()) throw std::invalid_argument(error);
   return loops;
 }

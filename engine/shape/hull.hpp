@@ -1,4 +1,6 @@
-// The convex hull of points as a shape, by Qhull; coplanar triangles are merged into polygons.
+// The convex hull of points as a shape, by Qhull; triangles that lie nearly on one plane are merged
+// into polygons, and these made flat: files of meshes round their numbers, and faces that are bent
+// by no more than that would touch each other triangle by triangle.
 #pragma once
 
 #include <optional>
@@ -10,6 +12,10 @@
 
 namespace grainsweep {
 
+/// What faces may be uneven by and be meant as flat, as a share of the hull's least extent, where
+/// people or programs wrote the points down, and where they are those of a flattened hull.
+inline constexpr double flat_as_written = 1e-4, flat_as_stored = 1e-11;
+
 struct Hull {
   /// In its own frame: that of the points, moved, where it is principal already; otherwise turned
   /// to ascending moments.
@@ -17,10 +23,12 @@ struct Hull {
   std::string error;  ///< what forbids a hull, with what to change; "" with a shape
 };
 
-/// The hull of `points` (d). Refuses fewer than 4 points, NaN and infinite coordinates, points
-/// given twice, and points that lie on a plane or a line. Points inside the hull are refused too: a
-/// shape that is not convex would silently become another.
-Hull convex_hull(const std::vector<Vector>& points);
+/// The hull of `points` (d). Faces that lie within the share `flat` of one plane are made one flat
+/// face, their corners moved by about as much; 0 takes as one what rounding alone bends. Refuses
+/// fewer than 4 points, NaN and infinite coordinates, points given twice, and points that lie on a
+/// plane or a line. Points inside the hull are refused too: a shape that is not convex would
+/// silently become another.
+Hull convex_hull(const std::vector<Vector>& points, double flat = 0.0);
 
 /// The faces of the hull of `points`, which keep their numbers; those within it are on no face.
 /// Throws std::invalid_argument where there is no hull.

@@ -64,7 +64,7 @@ ConvexShape shape_of(const Mesh& mesh) {
   if (mesh.is_ball()) return shape_of(ShapeSpec(SphereShape{})).shape.value();
   std::vector<Vector> vertices;
   for (const auto& [x, y, z] : mesh.vertices) vertices.emplace_back(x, y, z);
-  return convex_hull(vertices).shape.value();
+  return convex_hull(vertices, flat_as_stored).shape.value();
 }
 
 PolyhedronBed polyhedra_of(const StoredBed& bed) {

@@ -49,6 +49,34 @@ TEST_CASE("a cube flat on another one touches it at four corners, the gap apart"
   }
 }
 
+// Each square of a bent cube is two triangles; a point for each corner keeps it from tilting.
+TEST_CASE("bent cubes touch all over their faces, not triangle by triangle") {
+  Draw draw(3);
+  for (int run = 0; run < 50; ++run) {
+    const double bent = run % 2 == 0 ? 1e-7 : 3e-3;
+    const auto bent_cube = [&] {
+      std::vector<Vector> points = testing::cube().vertices;
+      for (Vector& p : points) {
+        p += bent * Vector(draw.uniform(-1, 1), draw.uniform(-1, 1), draw.uniform(-1, 1));
+      }
+      return testing::hull_of(points);
+    };
+    const ConvexShape lower = bent_cube(), upper = bent_cube();
+    const Matrix given = lower.given.rotation.transpose();
+    const Vector up = given.col(2);  // in the frame of the lower cube
+    ClipColumns columns;
+    std::vector<ContactPoint> points;
+    clip_on_face({lower, upper, {up, given * upper.given.rotation, 1.0, 1.0}}, Of::a,
+                 face_towards(lower, up), 0.1, columns, points);
+    for (const Vector& corner : lower.vertices) {
+      if (corner.dot(up) < 0) continue;
+      CHECK(std::any_of(points.begin(), points.end(), [&](const ContactPoint& point) {
+        return (point.position - corner).norm() < 10 * bent + 1e-9;
+      }));
+    }
+  }
+}
+
 TEST_CASE("a cube moved along another one is cut at its side") {
   const ConvexShape cube = testing::cube();
   const double side = height_of(cube);

@@ -186,6 +186,93 @@ TEST_CASE("points on the faces and edges of a hull add nothing to it") {
   CHECK(shape.edges.size() == 12);
 }
 
+/// A rhombic dodecahedron: four of its faces meet at six of its corners.
+std::vector<Vector> rhombic_dodecahedron() {
+  std::vector<Vector> points = testing::cube().vertices;
+  for (int axis = 0; axis < 3; ++axis) {
+    points.emplace_back(Vector::Unit(axis));
+    points.emplace_back(-Vector::Unit(axis));
+  }
+  return points;
+}
+
+std::vector<Vector> prism_corners(int sides) {
+  std::vector<Vector> points;
+  for (int k = 0; k < 2 * sides; ++k) {
+    const double angle = 2 * pi * (k / 2) / sides;
+    points.emplace_back(std::cos(angle), std::sin(angle), k % 2);
+  }
+  return points;
+}
+
+TEST_CASE("faces of points that were rounded are flat, however the points were turned and moved") {
+  Draw draw(16);
+  struct Solid {
+    std::vector<Vector> points;
+    std::size_t faces;
+  };
+  const Solid solid = GENERATE(Solid{testing::cube().vertices, 6}, Solid{prism_corners(6), 8},
+                               Solid{prism_corners(32), 34}, Solid{rhombic_dodecahedron(), 12});
+  const double rounding = GENERATE(1e-12, 1e-8, 1e-6, 2e-5);
+  const Quaternion turn = testing::random_rotation(draw);
+  std::vector<Vector> points;
+  for (const Vector& p : solid.points) {
+    const Vector noise(draw.uniform(-1, 1), draw.uniform(-1, 1), draw.uniform(-1, 1));
+    points.push_back(turn * p + Vector(3, -1, 2) + rounding * noise);
+  }
+  const ConvexShape exact = convex_hull(solid.points).shape.value();
+  const ConvexShape flat = convex_hull(points, flat_as_written).shape.value();
+  CHECK(flat.faces.size() == solid.faces);
+  CHECK(flat.vertices.size() == solid.points.size());
+  CHECK(flat.volume == Approx(exact.volume).epsilon(10 * rounding));
+  for (const Face& face : flat.faces) {
+    for (const std::int32_t k : corners_of(flat, face)) {
+      CHECK(face.normal.dot(flat.vertices[static_cast<std::size_t>(k)]) ==
+            Approx(face.offset).margin(1e-12));
+    }
+  }
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const Vector back = flat.given.rotation * flat.vertices[k] + flat.given.centroid;
+    CHECK((back - points[k]).norm() < 30 * rounding);
+  }
+}
+
+TEST_CASE("a flattened hull is what it was when it is made anew of its corners") {
+  Draw draw(17);
+  std::vector<Vector> points = rhombic_dodecahedron();
+  for (Vector& p : points) p += 1e-5 * Vector(draw.unit(), draw.unit(), draw.unit());
+  const ConvexShape once = convex_hull(points, flat_as_written).shape.value();
+  const ConvexShape again = convex_hull(once.vertices, flat_as_stored).shape.value();
+  CHECK(again.faces.size() == once.faces.size());
+  for (std::size_t k = 0; k < once.vertices.size(); ++k) {
+    CHECK((again.given.rotation * again.vertices[k] + again.given.centroid - once.vertices[k])
+              .norm() < 1e-14);
+  }
+}
+
+TEST_CASE("faces that are bent more, chamfers and thin plates keep their shape") {
+  std::vector<Vector> roof = testing::cube().vertices;
+  roof.emplace_back(0, 0, 0.501);
+  CHECK(convex_hull(roof, flat_as_written).shape->faces.size() == 9);
+  const double thin = 1e-5;
+  std::vector<Vector> plate;
+  for (const Vector& p : testing::cube().vertices) plate.emplace_back(p.x(), p.y(), thin * p.z());
+  const ConvexShape shape = convex_hull(plate, flat_as_written).shape.value();
+  CHECK(shape.faces.size() == 6);
+  CHECK(shape.volume == Approx(thin));
+}
+
+TEST_CASE("a hull far from the origin has the shape and the mass of one there") {
+  const Vector far_off(3e6, -5e6, 1e5);
+  std::vector<Vector> points;
+  for (const Vector& p : testing::box_shape(1, 2, 3).vertices) points.push_back(p + far_off);
+  const ConvexShape shape = convex_hull(points, flat_as_written).shape.value();
+  const double rounding = 1e-8;  // of coordinates of 5e6
+  CHECK(shape.volume == Approx(6).epsilon(rounding));
+  CHECK((shape.given.centroid - far_off).norm() < rounding);
+  CHECK(shape.circumradius == Approx(std::sqrt(14.0) / 2).epsilon(rounding));
+}
+
 TEST_CASE("points that span no hull are refused with the reason") {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double far_off = std::numeric_limits<double>::infinity();
