@@ -1,12 +1,20 @@
 #include "bench/trade/paired.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 #include "runner/tables/csv.hpp"
 #include "runner/tables/groups.hpp"
 
 namespace grainsweep::bench {
+
+namespace {
+
+/// As many starts as there are tell it by themselves: not widened as the error of a few is.
+double standard_error(const Spread& spread) { return spread.sd / std::sqrt(spread.n); }
+
+}  // namespace
 
 double mean(const ByStart& values) {
   std::vector<double> all;
@@ -21,7 +29,7 @@ MeanError paired_difference(const ByStart& changed, const ByStart& reference) {
     if (other != reference.end()) differences.push_back(value - other->second);
   }
   const Spread spread = spread_of(differences);
-  return {spread.mean, spread.error, spread.n};
+  return {spread.mean, standard_error(spread), spread.n};
 }
 
 double median(std::vector<double> values) {
@@ -42,7 +50,8 @@ MeanError jackknife(const std::vector<int>& starts, int groups,
   }
   const Spread spread = spread_of(without);
   const double times_standard_error = spread.n - 1.0;
-  return {estimate(starts), times_standard_error * spread.error, static_cast<int>(starts.size())};
+  return {estimate(starts), times_standard_error * standard_error(spread),
+          static_cast<int>(starts.size())};
 }
 
 }  // namespace grainsweep::bench

@@ -48,13 +48,15 @@ int perform(const CompareOptions& options) {
   Results results = results_with_warnings(options.folder);
   const Reference reference = read_reference(reference_file(options, results.provenance));
   std::cerr << damage_warnings(check_beds(options.folder, results.rows));
-  std::cout << reference.source + "\nbeside " + results.provenance.sweep_name +
-                   ". Lengths in d. Errors of means come from the variance of replicates pooled\n"
-                   "over the groups of a family. Values agree within " +
-                   fixed(agreement_limit, 0) +
-                   " standard errors of both sides together; where\nthe source has no error, ours "
-                   "alone counts.\n" +
-                   comparison_text(reference, analyse(results.rows, options.folder));
+  std::cout
+      << reference.source + "\nbeside " + results.provenance.sweep_name +
+             ". Lengths in d. Errors of means come from the variance of replicates pooled\n"
+             "over the groups of a family, those of profiles from their group alone, and are\n"
+             "wider where few packings tell them. Values agree within " +
+             fixed(agreement_limit, 0) +
+             " standard errors of both sides together; where\nthe source has no error, ours "
+             "alone counts.\n" +
+             comparison_text(reference, analyse(results.rows, options.folder));
   return exit_done;
 }
 

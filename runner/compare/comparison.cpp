@@ -86,13 +86,15 @@ std::optional<double> difference_in_errors(const Comparison& comparison) {
 }
 
 std::string verdict(const Comparison& comparison) {
+  std::string text;
   if (comparison.chi2_per_dof && comparison.measured.not_determined.empty()) {
-    return *comparison.chi2_per_dof > largest_chi2 ? "not one value for all" : "one value for all";
+    text = *comparison.chi2_per_dof > largest_chi2 ? "not one value for all" : "one value for all";
   }
   const auto miss = difference(comparison), errors = difference_in_errors(comparison);
-  if (!miss || !std::isfinite(*errors)) return "-";
+  if (!miss || !std::isfinite(*errors)) return text.empty() ? "-" : text;
   const std::string sign = *miss > 0.0 ? "+" : "";
-  return std::string(std::abs(*errors) > agreement_limit ? "differs: " : "agrees: ") + sign +
+  return text + (text.empty() ? "" : "; ") +
+         (std::abs(*errors) > agreement_limit ? "differs: " : "agrees: ") + sign +
          fixed(*miss, decimals_for(comparison.measured.estimate.error)) + ", " +
          fixed(std::abs(*errors), 1) + " errors";
 }

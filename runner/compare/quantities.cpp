@@ -90,7 +90,7 @@ Measured reach(const Family& /*family*/, const Group& group) {
   const DecayFit fit = decay_of(group, GrainClass::large);
   return {fit.reach, fit.not_determined,
           "where that oscillation has fallen to " + cell(100.0 * decay_reach_share) +
-              " % of the bulk solid fraction"};
+              " % of the bulk solid fraction of large grains"};
 }
 
 Measured decay_over_slope(const Family& family, const Group& group) {
@@ -209,11 +209,11 @@ Shared share_quantity(const std::string& quantity, double width,
         "needs it of 3 or more families, has " + std::to_string(values.size());
     return shared;
   }
-  shared.measured.estimate = {sum / weight, std::sqrt(1.0 / weight)};
   for (const Estimate& one : values) {
     shared.chi2_per_dof += std::pow((one.value - sum / weight) / one.error, 2) /
                            static_cast<double>(values.size() - 1);
   }
+  shared.measured.estimate = {sum / weight, std::sqrt(std::max(1.0, shared.chi2_per_dof) / weight)};
   shared.measured.definition = "weighted mean of " + std::to_string(values.size()) +
                                " families, χ²/dof " + fixed(shared.chi2_per_dof, 1) +
                                " (about 1 if one value holds for all)";

@@ -83,14 +83,15 @@ class Round {
   }
 
   double chi2_per_dof(bool is_coordination) const {
+    if (!has_line_) return 0.0;
     std::vector<LinePoint> points;
     for (std::size_t k = 0; k < groups_.size(); ++k) {
       const Spread& mean = is_coordination ? means_[k].coordination : means_[k].solid_fraction;
       if (!groups_[k].is_walled || mean.n == 0) continue;
-      points.push_back(
-          {1.0 / groups_[k].width, mean.mean, std::sqrt(variance(is_coordination) / mean.n)});
+      points.push_back({1.0 / groups_[k].width, mean.mean,
+                        error_of_mean(variance(is_coordination), mean.n, degrees_of_freedom_)});
     }
-    const auto line = has_line_ ? fit_line(points) : std::nullopt;
+    const auto line = fit_line(points);
     return line ? line->chi2 / line->degrees_of_freedom : 0.0;
   }
 

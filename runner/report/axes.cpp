@@ -46,6 +46,13 @@ bool lies_by_diameter(const Group& group, const std::string& parameter) {
   return parameter == width_parameter && group.job.box.is_tube;
 }
 
+bool is_periodic_along_y(const Group& group) { return group.job.box.y == Boundary::periodic; }
+
+bool has_walls(const Series& series) {
+  return !std::all_of(series.groups.begin(), series.groups.end(),
+                      [](const Group* group) { return is_periodic_along_y(*group); });
+}
+
 /// What a group does not share with all others, but for `left_out`.
 Values distinctions(const Group& group, const std::string& left_out) {
   Values values;
@@ -154,6 +161,10 @@ Axes axes_of(const std::vector<Group>& groups) {
   Axes axes;
   axes.parameter = axis_parameter(groups);
   axes.title = axis_title(axes.parameter);
+  if (std::all_of(groups.begin(), groups.end(), is_periodic_along_y) &&
+      axes.parameter == width_parameter) {
+    axes.title = "width of the box, W / d";
+  }
   if (std::any_of(groups.begin(), groups.end(),
                   [&](const Group& group) { return lies_by_diameter(group, axes.parameter); })) {
     axes.title += ", and diameter of tubes, D / d";
@@ -179,12 +190,87 @@ double place_on(const Axes& axes, const Group& group) {
   return number_of_cell(group.varied.at(axes.parameter));
 }
 
-bool is_over_width(const Axes& axes) { return axes.parameter == width_parameter; }
+bool is_over_width(const Axes& axes) {
+  return axes.parameter == width_parameter &&
+         std::any_of(axes.series.begin(), axes.series.end(), has_walls);
+}
 
 std::string title_of(const Group& group, std::size_t longest_label) {
   const std::string distinction = words(distinctions(group, ""));
   const std::string label = shortened(group.job.label, longest_label);
   return distinction.empty() ? label : label + ", " + distinction;
+}
+
+namespace {
+
+std::string joined_title(const std::string& label, const std::string& distinction) {
+  return label.empty() || distinction.empty() ? label + distinction : label + ", " + distinction;
+}
+
+/// Their distinctions without those that they share.
+std::vector<Values> not_shared(const std::vector<const Group*>& groups) {
+  std::vector<Values> all;
+  std::map<std::pair<std::string, std::string>, std::size_t> uses;
+  for (const Group* group : groups) {
+    for (const auto& one : all.emplace_back(distinctions(*group, ""))) ++uses[one];
+  }
+  for (Values& values : all) {
+    std::erase_if(values, [&](const auto& one) { return uses[one] == groups.size(); });
+  }
+  return all;
+}
+
+bool have_room(const std::vector<std::string>& texts, std::size_t longest) {
+  return std::all_of(texts.begin(), texts.end(),
+                     [&](const std::string& text) { return characters(text) <= longest; });
+}
+
+/// The last `longest` characters, the first of them "…".
+std::string end_of(const std::string& text, std::size_t longest) {
+  std::size_t left_out = characters(text) + 1 - longest;
+  std::size_t at = 0;
+  while (at < text.size() && (!begins_character(text[at]) || left_out-- > 0)) ++at;
+  return "…" + text.substr(at);
+}
+
+bool are_different(const std::vector<std::string>& texts) {
+  return std::set<std::string>(texts.begin(), texts.end()).size() == texts.size();
+}
+
+}  // namespace
+
+std::vector<std::string> titles_of(const std::vector<const Group*>& groups, std::size_t longest) {
+  constexpr std::size_t shortest_label = 6;
+  std::vector<std::string> titles;
+  for (const Group* group : groups) titles.push_back(title_of(*group));
+  if (have_room(titles, longest)) return titles;
+  const std::vector<Values> values = not_shared(groups);
+  std::size_t room = longest;  // for labels
+  for (const Values& one : values) {
+    const std::size_t taken = characters(joined_title(" ", words(one))) - 1;
+    room = std::min(room, longest - std::min(longest, taken));
+  }
+  titles.clear();
+  for (std::size_t k = 0; k < groups.size(); ++k) {
+    const std::string label = shortened(groups[k]->job.label, std::max(room, shortest_label));
+    titles.push_back(joined_title(label, words(values[k])));
+  }
+  return told_apart(titles, longest);
+}
+
+std::vector<std::string> told_apart(const std::vector<std::string>& texts, std::size_t longest) {
+  std::vector<std::string> told;
+  for (const std::string& text : texts) told.push_back(shortened(text, longest));
+  const std::vector<std::string> beginnings = told;
+  for (std::size_t k = 0; k < texts.size(); ++k) {
+    const bool is_alike = std::count(beginnings.begin(), beginnings.end(), beginnings[k]) > 1;
+    if (is_alike && characters(texts[k]) > longest) told[k] = end_of(texts[k], longest);
+  }
+  if (are_different(told) || !are_different(texts)) return told;
+  for (std::size_t k = 0; k < texts.size(); ++k) {
+    told[k] = shortened(std::to_string(k + 1) + ": " + texts[k], longest);
+  }
+  return told;
 }
 
 std::string shortened(const std::string& text, std::size_t longest) {

@@ -31,7 +31,8 @@ Axes axes_of(const std::vector<Group>& groups);
 /// Where a group lies on the axis.
 double place_on(const Axes& axes, const Group& group);
 
-/// Whether straight lines in 1 / W are fitted along this axis.
+/// Whether straight lines in 1 / W are fitted along this axis: that of a gap between walls, or of a
+/// diameter.
 bool is_over_width(const Axes& axes);
 
 /// "walls, W = 5": what tells a group from all others of its sweep. A label that is longer is
@@ -40,6 +41,14 @@ std::string title_of(const Group& group, std::size_t longest_label = 1000);
 
 /// Characters of a label that a figure has room for beside other words.
 inline constexpr std::size_t figure_label = 16;
+
+/// What tells these groups from each other, each in at most so many characters. Where there is no
+/// room for all, what they share is left out.
+std::vector<std::string> titles_of(const std::vector<const Group*>& groups, std::size_t longest);
+
+/// Texts shortened to so many characters; those that would then be alike lose their beginnings
+/// instead, and if that does not tell them apart either they begin with their number in the list.
+std::vector<std::string> told_apart(const std::vector<std::string>& texts, std::size_t longest);
 
 /// `text` shortened to so many characters, the last one "…" where any were left out.
 std::string shortened(const std::string& text, std::size_t longest);

@@ -86,9 +86,11 @@ std::string component_commands_of(const Figure& figure, const Mixtures& groups) 
   const std::string touching = range_command(
       "y", range_of(component_values_in(groups, &MeanComponentBin::coordination), 0.06));
   std::string text = "set multiplot\n" + panels.key();
+  const auto titles = titles_of(groups, panels.title_length());
   for (std::size_t k = 0; k < groups.size(); ++k) {
     const Group& group = *groups[k];
-    text += panels_across(panels, k, group, solid + component_panel(k, group, "solid_fraction"),
+    text += panels_across(panels, k, titles[k], group,
+                          solid + component_panel(k, group, "solid_fraction"),
                           touching + component_panel(k, group, "coordination"));
   }
   return text;

@@ -44,6 +44,22 @@ std::vector<double> curve_values(const std::vector<GroupWithCurves>& groups, Cur
   return values;
 }
 
+/// Of both axes of the densities of forces: to the largest force, and all densities but 0.
+std::string force_ranges(const std::vector<GroupWithCurves>& groups) {
+  constexpr double room = 1.5;  // a factor, for the scale is logarithmic
+  double largest = 0.0, least = 1.0, most = 1.0;
+  for (const GroupWithCurves& group : groups) {
+    for (const CurvePoint& point : mean_curve(*group, &Order::force_density)) {
+      if (!(point.value.mean > 0.0)) continue;
+      largest = std::max(largest, point.high);
+      least = std::min(least, point.value.mean);
+      most = std::max(most, point.value.mean);
+    }
+  }
+  if (largest == 0.0) return "set xrange [0:1]\nset yrange [0.1:1]\n";
+  return range_command("x", {0.0, largest}) + range_command("y", {least / room, room * most});
+}
+
 /// The families with different shares of small grains, by share.
 std::multimap<double, const Family*> by_small_share(const std::vector<Family>& families) {
   std::multimap<double, const Family*> sorted;
@@ -126,6 +142,9 @@ std::vector<std::reference_wrapper<const Row>> points_of(const std::vector<Row>&
   return chosen;
 }
 
+// Numbers of what is drawn beside the series of the key.
+constexpr std::size_t not_settled = most_series + 1, other_series = most_series + 2;
+
 std::string effort_csv(const Axes& axes,
                        const std::vector<std::reference_wrapper<const Row>>& points) {
   std::string text =
@@ -133,8 +152,8 @@ std::string effort_csv(const Axes& axes,
   const auto numbers = series_numbers(axes);
   for (const Row& row : points) {
     const auto number = numbers.find({row.job.label, row.job.parameters.text()});
-    const std::size_t series = number == numbers.end() ? 0 : number->second;
-    text += csv_line({cell(is_settled(row) ? series : most_series + 1), cell(row.job.id),
+    const std::size_t series = number == numbers.end() ? other_series : number->second;
+    text += csv_line({cell(is_settled(row) ? series : not_settled), cell(row.job.id),
                       cell(row.outcome->result.grains), cell(row.outcome->cpu_seconds),
                       cell(number_of(field_named("contact_ratio"), *row.outcome)),
                       cell(status_of(row))});
@@ -157,11 +176,13 @@ Figure distributions_figure(const Axes& axes) {
   }
   const std::string table = "distributions.csv";
   figure.tables = {{table, curves_csv(groups)}};
+  figure.caption += few_of_all_text(groups.size(), axes);
   std::vector<std::string> pairs, forces;
   std::vector<KeyEntry> key;
+  const auto titles = titles_of(groups, longest_entry);
   for (std::size_t k = 0; k < groups.size(); ++k) {
     const std::string style = "lines ls " + cell(k + 1) + " lw 1.3";
-    key.push_back({"linespoints ls " + cell(k + 1), title_of(*groups[k], figure_label)});
+    key.push_back({"linespoints ls " + cell(k + 1), titles[k]});
     pairs.push_back(plot_part({table, "curve", k + 1, "x", "value", "", style}));
     forces.push_back(plot_part({table, "curve", k + 1 + groups.size(), "x", "value", "",
                                 "linespoints ls " + cell(k + 1) + " lw 1 ps 0.5"}));
@@ -172,8 +193,8 @@ Figure distributions_figure(const Axes& axes) {
       label_command("x", "distance of centres, r / d") +
       label_command("y", "pair correlation g(r)") +
       range_command("y", range_of(curve_values(groups, &Order::pair_correlation), 0.04)) +
-      plot_command(pairs) + panels.place(1, 0) + "set xrange [0:6]\n" +
-      "set yrange [2e-4:2]\nset logscale y\nset format y '10^{%T}'\n" +
+      plot_command(pairs) + panels.place(1, 0) + force_ranges(groups) +
+      "set logscale y\nset format y '10^{%T}'\n" +
       label_command("x", "force over the mean, f / <f>") +
       label_command("y", "probability density P(f)") + plot_command(forces);
   return figure;
@@ -262,6 +283,12 @@ Figure effort_figure(const Axes& axes, const std::vector<Row>& rows) {
   }
   std::vector<double> seconds, ratios = {1.0};
   bool all_settled = true;
+  if (shown_series(axes).size() < axes.series.size()) {
+    const std::string style = "points lc rgb '#bbbbbb' pt 7 ps 0.5";
+    key.push_back({style, "other series"});
+    parts.insert(parts.begin(), plot_part({table, "series", other_series, "cpu_seconds",
+                                           "contact_ratio", "", style}));
+  }
   for (const Row& row : points) {
     all_settled = all_settled && is_settled(row);
     seconds.push_back(std::log10(row.outcome->cpu_seconds));
@@ -269,7 +296,7 @@ Figure effort_figure(const Axes& axes, const std::vector<Row>& rows) {
   }
   if (!all_settled) {
     key.push_back({"points lc rgb '#777777' pt 2", "did not settle"});
-    parts.push_back(plot_part({table, "series", most_series + 1, "cpu_seconds", "contact_ratio", "",
+    parts.push_back(plot_part({table, "series", not_settled, "cpu_seconds", "contact_ratio", "",
                                "points lc rgb '#777777' pt 2"}));
   }
   const auto [fastest, slowest] = std::minmax_element(seconds.begin(), seconds.end());

@@ -13,7 +13,6 @@ namespace grainsweep {
 namespace {
 
 constexpr double left_margin = 96.0, bottom_margin = 66.0;  // px
-constexpr std::size_t longest_title = 42;                   // characters, of two side by side
 const std::string frame =
     "set border 3 lw 1 lc rgb '#444444'\nset tics nomirror out scale 0.6 textcolor rgb '#222222'\n"
     "set xtics nomirror\nset ytics nomirror\nset grid lc rgb '#dddddd' lw 0.6 dt solid\n";
@@ -73,9 +72,11 @@ std::string Panels::place(std::size_t column, std::size_t row) const {
 
 std::string Panels::key() const {
   std::string plots;
-  for (const KeyEntry& entry : key_) {
-    plots += (plots.empty() ? "" : ", ") + ("NaN with " + entry.style + " title ") +
-             quoted(shortened(entry.title, longest_title));
+  std::vector<std::string> titles;
+  for (const KeyEntry& entry : key_) titles.push_back(entry.title);
+  titles = told_apart(titles, longest_entry);
+  for (std::size_t k = 0; k < key_.size(); ++k) {
+    plots += (k == 0 ? "" : ", ") + ("NaN with " + key_[k].style + " title ") + quoted(titles[k]);
   }
   return "set lmargin at screen 0.02\nset rmargin at screen 0.98\nset tmargin at screen " +
          cell(1.0 - 6.0 / height_) + "\nset bmargin at screen " +

@@ -39,6 +39,9 @@ struct PanelGaps {
   double above = 8.0;   ///< between the key and the first row
 };
 
+/// Characters that a key has room for in an entry, with two side by side.
+inline constexpr std::size_t longest_entry = 42;
+
 /// What a style stands for.
 struct KeyEntry {
   std::string style;  ///< "points ls 1"

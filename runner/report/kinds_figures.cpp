@@ -5,6 +5,7 @@
 
 #include "runner/report/figures.hpp"
 #include "runner/report/plots.hpp"
+#include "runner/sweep/text_lines.hpp"
 
 namespace grainsweep {
 namespace {
@@ -21,12 +22,10 @@ std::string kinds_csv(const Axes& axes) {
   }
   header.emplace_back("name");
   std::string text = csv_line(header);
-  std::size_t number = 0;
   for (const Series& series : axes.series) {
-    ++number;
+    const std::string number = series_cell(axes, series);
     for (const Group* group : series.groups) {
-      std::vector<std::string> cells = {cell(number), cell(group->number),
-                                        cell(abscissa(axes, *group))};
+      std::vector<std::string> cells = {number, cell(group->number), cell(abscissa(axes, *group))};
       for (std::size_t column = 3; column + 1 < header.size(); column += 2) {
         const Spread& mean = mean_of(*group, header[column]);
         cells.insert(cells.end(), {cell(mean.mean), cell(mean.error)});
@@ -52,14 +51,15 @@ std::string kinds_panel(const std::string& of, std::size_t series) {
 
 /// Colours tell the kinds, and of several series marks tell those.
 std::vector<KeyEntry> kinds_key(const Axes& axes) {
-  const bool is_one = axes.series.size() == 1;
+  const std::vector<const Series*> shown = shown_series(axes);
+  const bool is_one = shown.size() == 1;
   std::vector<KeyEntry> key;
   for (const char* kind : {"at a point", "along a line", "over an area"}) {
     const std::string line = " ls " + cell(key.size() + 1);
     key.push_back({is_one ? "points" + line : "lines" + line + " lw 5", kind});
   }
-  for (std::size_t s = 0; !is_one && s < std::min(axes.series.size(), most_series); ++s) {
-    key.push_back({"points lc rgb '#444444' pt " + cell(mark_of(s)), axes.series[s].name});
+  for (std::size_t s = 0; !is_one && s < shown.size(); ++s) {
+    key.push_back({"points lc rgb '#444444' pt " + cell(mark_of(s)), shown[s]->name});
   }
   return key;
 }
@@ -85,7 +85,7 @@ std::vector<const Comparison*> measured_of(const std::vector<Comparison>& compar
   std::vector<const Comparison*> measured;
   for (const Comparison& one : comparisons) {
     const auto errors = difference_in_errors(one);
-    if (!one.chi2_per_dof && errors && std::isfinite(*errors)) measured.push_back(&one);
+    if (errors && std::isfinite(*errors)) measured.push_back(&one);
   }
   return measured;
 }
@@ -122,6 +122,7 @@ Figure contacts_figure(const Axes& axes) {
                 .caption =
                     "Shares of the force-bearing contacts between polyhedra, and of the "
                     "force that they carry; bars are standard errors."};
+  figure.caption += left_out_text(axes, figure.name);
   figure.tables = {{"contacts.csv", kinds_csv(axes)}};
   if (shown_series(axes).empty()) {
     figure.not_drawn = "no packing has settled";
@@ -132,7 +133,7 @@ Figure contacts_figure(const Axes& axes) {
     return figure;
   }
   const Panels panels(figure, 2, {1.0}, kinds_key(axes), {.right = 24.0});
-  const std::size_t series = axes.series.size();
+  const std::size_t series = shown_series(axes).size();
   const std::string x = range_command("x", range_of(places_of(axes), 0.06)) +
                         label_command("x", abscissa_title(axes)) + "set yrange [0:*]\n";
   figure.commands = "set multiplot\n" + panels.key() + panels.place(0, 0) + x +
@@ -143,6 +144,8 @@ Figure contacts_figure(const Axes& axes) {
 }
 
 Figure published_figure(const std::vector<Comparison>& comparisons) {
+  constexpr std::size_t most_characters = 64;
+  constexpr double character = 7.2;  // px, of tics of 13 px, on the mean
   Figure figure{.name = "published",
                 .title = "Beside published values",
                 .caption =
@@ -155,20 +158,26 @@ Figure published_figure(const std::vector<Comparison>& comparisons) {
     return figure;
   }
   std::string csv = csv_line({"all", "row", "errors", "quantity", "family"}), tics;
+  std::vector<std::string> entries;
+  for (const Comparison* one : measured) entries.push_back(one->family + ": " + one->title);
+  entries = told_apart(entries, most_characters);
+  std::size_t longest = 0;
+  for (const std::string& entry : entries) longest = std::max(longest, characters(entry));
   for (std::size_t k = 0; k < measured.size(); ++k) {
     const Comparison& one = *measured[k];
     csv += csv_line(
         {"1", cell(k + 1), cell(*difference_in_errors(one)), cell(one.title), cell(one.family)});
-    tics += (k == 0 ? "" : ", ") +
-            quoted(shortened(one.family, 22) + ": " + shortened(one.title, 45)) + " " + cell(k + 1);
+    tics += (k == 0 ? "" : ", ") + quoted(entries[k]) + " " + cell(k + 1);
   }
   const auto rows = static_cast<int>(measured.size());
   const Range shown = shown_errors(measured);
   const std::string limit = cell(agreement_limit);
   figure.tables = {{"published.csv", csv}};
   figure.height = 120 + 24 * rows;
+  const double left = 24.0 + character * static_cast<double>(longest);  // px
   figure.commands =
-      "set multiplot\nset lmargin at screen 0.42\nset rmargin at screen 0.96\n"
+      "set multiplot\nset lmargin at screen " + cell(left / figure.width) +
+      "\nset rmargin at screen 0.96\n"
       "unset key\nset yrange [" +
       cell(rows) + ".6:0.4]\nset ytics noenhanced (" + tics + ")\nset object 1 rectangle from -" +
       limit + ", graph 0 to " + limit +

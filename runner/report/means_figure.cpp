@@ -58,16 +58,13 @@ std::string points_csv(const Axes& axes) {
   std::string text =
       csv_line({"series", "group", "x", "value", "solid_fraction", "solid_fraction_error",
                 "coordination", "coordination_error", "name"});
-  std::size_t number = 0;
-  const auto shown = shown_series(axes);
   for (const Series& series : axes.series) {
-    const bool is_shown = std::find(shown.begin(), shown.end(), &series) != shown.end();
-    if (is_shown) ++number;
+    const std::string number = series_cell(axes, series);
     for (const Group* group : series.groups) {
       const Spread &phi = mean_of(*group, "solid_fraction"), &z = mean_of(*group, "coordination");
-      text += csv_line({is_shown ? cell(number) : "", cell(group->number),
-                        cell(abscissa(axes, *group)), cell(place_on(axes, *group)), cell(phi.mean),
-                        cell(phi.error), cell(z.mean), cell(z.error), cell(series.name)});
+      text += csv_line({number, cell(group->number), cell(abscissa(axes, *group)),
+                        cell(place_on(axes, *group)), cell(phi.mean), cell(phi.error), cell(z.mean),
+                        cell(z.error), cell(series.name)});
     }
   }
   return text;

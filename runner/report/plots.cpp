@@ -72,6 +72,24 @@ std::vector<GroupWithCurves> chosen_mixtures(const Axes& axes, std::size_t most)
   return spread_over(mixtures, most, axes.folder);
 }
 
+std::vector<std::string> titles_of(const std::vector<GroupWithCurves>& groups,
+                                   std::size_t longest) {
+  std::vector<const Group*> plain;
+  for (const GroupWithCurves& group : groups) plain.push_back(&*group);
+  return titles_of(plain, longest);
+}
+
+std::string few_of_all_text(std::size_t shown, const Axes& axes) {
+  const std::size_t all = settled_groups(axes).size();
+  return shown == all ? "" : " " + cell(shown) + " of " + cell(all) + " groups are shown.";
+}
+
+std::string series_cell(const Axes& axes, const Series& series) {
+  const auto shown = shown_series(axes);
+  const auto at = std::find(shown.begin(), shown.end(), &series);
+  return at == shown.end() ? "" : cell(at - shown.begin() + 1);
+}
+
 std::vector<KeyEntry> series_key(const Axes& axes, const std::string& style) {
   std::vector<KeyEntry> entries;
   for (const Series* series : shown_series(axes)) {
@@ -82,9 +100,10 @@ std::vector<KeyEntry> series_key(const Axes& axes, const std::string& style) {
 
 std::string plot_part(const Curve2d& curve) {
   const auto column = [](const std::string& name) { return "(column(" + quoted(name) + "))"; };
-  const std::string points = quoted(curve.table) + " using (" + column(curve.selector) +
-                             "==" + cell(curve.number) + " ? " + column(curve.x) +
-                             " : NaN):" + column(curve.y);
+  const std::string points =
+      quoted(curve.table) + " using (" + column(curve.selector) + "==" + cell(curve.number) +
+      " ? " + column(curve.x) + " : NaN):(strcol(" + quoted(curve.y) +
+      ") eq '' ? NaN : " + column(curve.y) + ")";  // a line ends where there is no value
   std::string plain = points + " with " + curve.style + " notitle";
   if (curve.error.empty()) return plain;
   return points + ":" + column(curve.error) + " with yerrorbars " +
@@ -102,17 +121,18 @@ std::string label_command(const std::string& axis, const std::string& text) {
                       : "set " + axis + "label " + quoted(text) + " noenhanced\n";
 }
 
-std::string panels_across(const Panels& panels, std::size_t k, const Group& group,
-                          const std::string& solid, const std::string& touching) {
+std::string panels_across(const Panels& panels, std::size_t k, const std::string& title,
+                          const Group& group, const std::string& solid,
+                          const std::string& touching) {
   const Box& box = group.job.box;
   return panels.place(k, 0) + range_command("x", {0.0, box.is_tube ? box.width / 2.0 : box.width}) +
          "set format x ''\n" + label_command("x", "") +
-         label_command("y", k == 0 ? "solid fraction φ" : "") + "set title " +
-         quoted(shortened(title_of(group, figure_label), panels.title_length())) +
+         label_command("y", k == 0 ? "solid fraction φ" : "") + "set title " + quoted(title) +
          " offset 0,-0.7 font ',11' noenhanced\n" + solid + "unset title\n" + panels.place(k, 1) +
          "set format x\n" +
-         label_command("x",
-                       box.is_tube ? "distance from the wall / d" : "y / d, from wall to wall") +
+         label_command("x", box.is_tube                   ? "distance from the wall / d"
+                            : box.y == Boundary::periodic ? "y / d"
+                                                          : "y / d, from wall to wall") +
          label_command("y", k == 0 ? "coordination number Z" : "") + touching;
 }
 

@@ -29,6 +29,15 @@ std::vector<GroupWithCurves> chosen_walled_groups(const Axes& axes, std::size_t 
 /// The same of mixtures.
 std::vector<GroupWithCurves> chosen_mixtures(const Axes& axes, std::size_t most);
 
+/// titles_of these groups.
+std::vector<std::string> titles_of(const std::vector<GroupWithCurves>& groups, std::size_t longest);
+
+/// " 6 of 120 groups are shown."; empty if all are.
+std::string few_of_all_text(std::size_t shown, const Axes& axes);
+
+/// The number of a series of the axes among those shown, from 1; empty if it is not.
+std::string series_cell(const Axes& axes, const Series& series);
+
 /// A key entry for each of the shown series.
 std::vector<KeyEntry> series_key(const Axes& axes, const std::string& style);
 
@@ -48,9 +57,10 @@ std::string plot_command(const std::vector<std::string>& parts);
 std::string label_command(const std::string& axis, const std::string& text);
 
 /// Two panels of column k, one above the other, of what the group does from wall to wall: `solid`
-/// plots the solid fraction, `touching` the coordination number.
-std::string panels_across(const Panels& panels, std::size_t k, const Group& group,
-                          const std::string& solid, const std::string& touching);
+/// plots the solid fraction, `touching` the coordination number, `title` stands above.
+std::string panels_across(const Panels& panels, std::size_t k, const std::string& title,
+                          const Group& group, const std::string& solid,
+                          const std::string& touching);
 
 /// Tics at 0 and one to each side, for values that lie around 0, and their range.
 std::string few_tics_command(const std::string& axis, double extreme);

@@ -1,4 +1,5 @@
 // Solid fraction and coordination number from wall to wall.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -82,8 +83,9 @@ std::string commands_of(const Figure& figure, const std::vector<GroupWithCurves>
   const std::string touching = range_command(
       "y", range_of(values_in(groups, {&MeanBin::coordination, &MeanBin::coordination_with_walls}),
                     0.06));
+  const auto titles = titles_of(groups, panels.title_length());
   for (std::size_t k = 0; k < groups.size(); ++k) {
-    text += panels_across(panels, k, *groups[k],
+    text += panels_across(panels, k, titles[k], *groups[k],
                           solid + solid_panel(k, fits[k], groups[k]->job.box.width),
                           touching + coordination_panel(k));
   }
@@ -93,9 +95,10 @@ std::string commands_of(const Figure& figure, const std::vector<GroupWithCurves>
 std::string decays_text(const std::vector<GroupWithCurves>& groups,
                         const std::vector<DecayFit>& fits, const GivenUnits& units) {
   std::string text;
+  const auto titles = titles_of(groups, longest_entry);
   for (std::size_t k = 0; k < groups.size(); ++k) {
     const DecayFit& fit = fits[k];
-    text += " " + title_of(*groups[k], figure_label) + ": ";
+    text += " " + titles[k] + ": ";
     text += fit.not_determined.empty()
                 ? "λ = " + length_text(fit.length.value, fit.length.error, 2, units) + ", reach " +
                       length_text(fit.reach.value, fit.reach.error, 1, units) + "."
@@ -111,10 +114,17 @@ Figure profiles_figure(const Axes& axes) {
                 .title = "Layers beside the walls",
                 .caption =
                     "Solid fraction and coordination number of slices parallel to the "
-                    "walls; bars are standard errors. φ = bulk + A exp(-y / λ) cos(2π y / T + δ) "
-                    "is fitted from "
-                    "both walls."};
+                    "walls; bars at φ of large grains are standard errors. φ = bulk + "
+                    "A exp(-y / λ) cos(2π y / T + δ) is fitted from both walls."};
   const std::vector<GroupWithCurves> groups = chosen_walled_groups(axes, most_profiles);
+  if (std::all_of(groups.begin(), groups.end(), [](const GroupWithCurves& group) {
+        return group->job.box.y == Boundary::periodic;
+      })) {
+    figure.title = "Slices across the box";
+    figure.caption =
+        "Solid fraction and coordination number of slices across y, where there is no wall; "
+        "bars at φ of large grains are standard errors.";
+  }
   if (groups.empty()) {
     figure.not_drawn = "no packing has settled";
     return figure;

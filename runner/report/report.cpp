@@ -76,7 +76,8 @@ std::string beds_of(const std::string& folder, const GivenUnits& units,
       ++left_out;
       continue;
     }
-    BedFacts facts = facts_of(row->job, title_of(*group));
+    BedFacts facts =
+        facts_of(row->job, title_of(*group) + (is_settled(*row) ? "" : " (not settled)"));
     facts.units = units;
     if (view.beds.empty()) {
       view.title = facts.title;

@@ -92,7 +92,8 @@ Columns<DecayLine> decay_line_columns(const Varied& varied, const GivenUnits& un
   add("amplitude", "", "of the oscillation, extrapolated to the wall", &DecayFit::amplitude);
   add("period", "d", "of the oscillation", &DecayFit::period);
   add("phase", "rad", "of the oscillation at the wall", &DecayFit::phase);
-  add("reach", "d", "where the amplitude has fallen to 5 % of bulk", &DecayFit::reach);
+  add("reach", "d", "where the amplitude has fallen to 5 % of bulk, of these grains alone",
+      &DecayFit::reach);
   columns.push_back({"r_squared", "",
                      "share of the mean profile's variance that the curve explains",
                      decay_cell([](const DecayFit& fit) { return fit.r_squared; })});

@@ -143,7 +143,8 @@ Columns<FitLine> fit_line_columns(const GivenUnits& units) {
               "measured",
               fit_cell([](Fit fit) { return fit.bias_bound.value_or(no_number); })},
              {"chi2_per_dof", "",
-              "about 1 if the line holds; where it exceeds 1, all errors are widened by its root",
+              "about 1 or less if the line holds; where it exceeds 1, all errors are widened by "
+              "its root",
               fit_cell([](Fit fit) { return fit.chi2_per_dof; })},
              {"degrees_of_freedom", "", "points less 2",
               fit_cell([](Fit fit) { return fit.degrees_of_freedom; })},
@@ -181,7 +182,8 @@ Columns<FitPointLine> fit_point_columns(const Varied& varied, const GivenUnits& 
       Columns<FitPointLine>{
           {"quantity", "", "solid_fraction or coordination",
            [](Line line) { return cell(name_of(line.quantity)); }},
-          {"width", "d", "of the box along y", [](Line line) { return cell(line.point.width); }},
+          {"width", "d", "gap between the walls, of a tube its diameter",
+           [](Line line) { return cell(line.point.width); }},
           {"n", "", "settled packings behind the mean",
            [](Line line) { return cell(line.point.n); }},
           {"mean", "", "the quantity there", [](Line line) { return cell(line.point.mean); }},

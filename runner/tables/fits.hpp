@@ -48,7 +48,8 @@ struct WallFit {
   Estimate zeta;   ///< slope / bulk, d
   /// How far `bulk` lies at most from that of beds settled ever better; none if not measured.
   std::optional<double> bias_bound;
-  double chi2_per_dof = 0.0;  ///< about 1 if the line holds
+  double chi2_per_dof =
+      0.0;  ///< about 1 if the line holds, less where few packings tell the errors
   int degrees_of_freedom = 0;
   double r_squared = 0.0;
 };

@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "runner/analysis/student.hpp"
 #include "runner/store/fields.hpp"
 #include "runner/store/states.hpp"
 #include "runner/sweep/parameters.hpp"
@@ -96,7 +97,7 @@ void pool_errors(const std::vector<Group*>& family, std::size_t k) {
   for (Group* group : family) {
     Spread& spread = group->means[k];
     if (spread.n == 0 || degrees_of_freedom == 0) continue;
-    spread.error = std::sqrt(squares / degrees_of_freedom / spread.n);
+    spread.error = error_of_mean(squares / degrees_of_freedom, spread.n, degrees_of_freedom);
     spread.degrees_of_freedom = degrees_of_freedom;
   }
 }
@@ -156,6 +157,10 @@ GroupWithCurves::GroupWithCurves(Group group, const std::string& folder)
   }
 }
 
+double error_of_mean(double variance, int n, int degrees_of_freedom) {
+  return student_quantile(degrees_of_freedom) / normal_quantile * std::sqrt(variance / n);
+}
+
 Spread spread_of(std::vector<double> values) {
   std::erase_if(values, [](double value) { return std::isnan(value); });
   Spread spread{no_number, no_number, static_cast<int>(values.size()), no_number, 0};
@@ -166,8 +171,9 @@ Spread spread_of(std::vector<double> values) {
   for (const double value : values) squares += (value - spread.mean) * (value - spread.mean);
   if (spread.n < 2) return spread;
   spread.degrees_of_freedom = spread.n - 1;
-  spread.sd = std::sqrt(squares / spread.degrees_of_freedom);
-  spread.error = spread.sd / std::sqrt(spread.n);
+  const double variance = squares / spread.degrees_of_freedom;
+  spread.sd = std::sqrt(variance);
+  spread.error = error_of_mean(variance, spread.n, spread.degrees_of_freedom);
   return spread;
 }
 

@@ -21,9 +21,15 @@ struct Spread {
   double mean = 0.0;
   double sd = 0.0;
   int n = 0;
-  double error = 0.0;          ///< sd / sqrt(n), or as pooled by `groups_of`
+  /// sd / sqrt(n), or as pooled by `groups_of`, as much wider as Student's distribution of so many
+  /// degrees of freedom is than the normal one: 1.96 of it hold the truth in 95 %.
+  double error = 0.0;
   int degrees_of_freedom = 0;  ///< of the variance behind the error
 };
+
+/// The error of a mean of n values whose variance is known from so many degrees of freedom; see
+/// Spread.
+double error_of_mean(double variance, int n, int degrees_of_freedom);
 
 Spread spread_of(std::vector<double> values);
 

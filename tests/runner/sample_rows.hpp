@@ -6,10 +6,16 @@
 #include <string>
 #include <vector>
 
+#include "runner/analysis/student.hpp"
 #include "runner/store/states.hpp"
 #include "runner/tables/job_facts.hpp"
 
 namespace grainsweep {
+
+/// An error known from so many degrees of freedom, as tables have it.
+inline double widened(double error, int degrees_of_freedom) {
+  return error * student_quantile(degrees_of_freedom) / normal_quantile;
+}
 
 inline std::string sample_parameters(double width, Boundary y, double small_share) {
   return R"({"accuracy":"balanced","box":{"length":20.0,"width":)" + std::to_string(width) +

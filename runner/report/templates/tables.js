@@ -13,11 +13,11 @@
     return text !== "" && !Number.isNaN(number) ? number : text;
   };
 
-  // Numbers before text, and what has no value last.
-  const compare = (a, b) => {
-    const kinds = [typeof a === "number" ? 0 : 1, typeof b === "number" ? 0 : 1];
-    if (kinds[0] !== kinds[1]) return kinds[0] - kinds[1];
-    return kinds[0] === 0 ? a - b : a.localeCompare(b);
+  // Numbers before text, and what has no value last, upwards and downwards.
+  const kindOf = (value) => (typeof value === "number" ? 0 : value === "" || value === "-" ? 2 : 1);
+  const compare = (a, b, sign) => {
+    if (kindOf(a) !== kindOf(b)) return kindOf(a) - kindOf(b);
+    return sign * (kindOf(a) === 0 ? a - b : a.localeCompare(b));
   };
 
   const sortBy = (heading, column) => {
@@ -25,7 +25,7 @@
     for (const other of table.tHead.rows[0].cells) other.removeAttribute("aria-sort");
     heading.setAttribute("aria-sort", descending ? "descending" : "ascending");
     const sign = descending ? -1 : 1;
-    rows.sort((a, b) => sign * compare(valueIn(a, column), valueIn(b, column)));
+    rows.sort((a, b) => compare(valueIn(a, column), valueIn(b, column), sign));
     body.append(...rows);
   };
 

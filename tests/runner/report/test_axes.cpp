@@ -126,3 +126,39 @@ TEST_CASE("text is shortened by characters, not bytes", "[report]") {
   CHECK(shortened("φφφφ", 3) == "φφ…");
   CHECK(shortened("", 3).empty());
 }
+
+TEST_CASE("over the width of a box without walls groups stand at that width", "[report]") {
+  const std::vector<Row> rows = {row_at("a", 5, 0.0, Boundary::periodic),
+                                 row_at("b", 10, 0.0, Boundary::periodic)};
+  const std::vector<Group> groups = groups_of(rows);
+  const Axes axes = axes_of(groups);
+  CHECK_FALSE(is_over_width(axes));
+  CHECK(axes.title == "width of the box, W / d");
+  CHECK(place_on(axes, groups[1]) == 10.0);
+}
+
+TEST_CASE("titles in a figure leave out what all share before they lose what tells them apart",
+          "[report]") {
+  std::vector<Row> rows = {row_at("a", 4.25, 0.1), row_at("b", 4.25, 0.2), row_at("c", 6, 0.3)};
+  for (Row& row : rows) row.job.label = "two sizes of glass beads";
+  const std::vector<Group> groups = groups_of(rows);
+  const std::vector<const Group*> shown = {&groups[0], &groups[1]};
+  CHECK(titles_of(shown, 60) ==
+        std::vector<std::string>{"two sizes of glass beads, W = 4.25, small_share = 0.1",
+                                 "two sizes of glass beads, W = 4.25, small_share = 0.2"});
+  CHECK(titles_of(shown, 43) ==
+        std::vector<std::string>{"two sizes of glass beads, small_share = 0.1",
+                                 "two sizes of glass beads, small_share = 0.2"});
+  CHECK(titles_of(shown, 30) == std::vector<std::string>{"two sizes …, small_share = 0.1",
+                                                         "two sizes …, small_share = 0.2"});
+}
+
+TEST_CASE("shortened texts that would be alike are told by their ends, or else by number",
+          "[report]") {
+  using Texts = std::vector<std::string>;
+  CHECK(told_apart({"abcdef", "x"}, 4) == Texts{"abc…", "x"});
+  CHECK(told_apart({"abcdef1", "abcdef2"}, 4) == Texts{"…ef1", "…ef2"});
+  CHECK(told_apart({"φφφφφφ1", "φφφφφφ2"}, 4) == Texts{"…φφ1", "…φφ2"});
+  CHECK(told_apart({"abc1defg", "abc2defg"}, 4) == Texts{"1: …", "2: …"});
+  CHECK(told_apart({"same", "same"}, 4) == Texts{"same", "same"});
+}

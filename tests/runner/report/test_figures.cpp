@@ -5,6 +5,7 @@
 
 #include "runner/report/figure.hpp"
 #include "runner/report/figures.hpp"
+#include "runner/report/plots.hpp"
 #include "tests/runner/sample_rows.hpp"
 
 using namespace grainsweep;
@@ -63,6 +64,39 @@ TEST_CASE("series of kinds of contact have marks of their own", "[report]") {
     CHECK(contacts.commands.find("pt " + std::to_string(mark_of(k)) + " title '") !=
           std::string::npos);
   }
+}
+
+TEST_CASE("of more series than a figure shows the others have no mark in it", "[report]") {
+  std::vector<Row> rows;
+  for (int k = 0; k < 14; ++k) {
+    rows.push_back(polyhedra_row(std::to_string(k), 5));
+    rows.back().job.label = "label " + std::to_string(k);
+    rows.back().job.parameters = R"({"box":{"width":5},"kind":"of )" + std::to_string(k) + "\"}";
+  }
+  const Analysis analysis = analyse(rows);
+  const std::vector<Figure> figures = figures_of(rows, analysis, {});
+  const Figure& contacts = figure_called(figures, "contacts");
+  CHECK(cell_in(contacts.tables[0].second, 12, "series") == "12");
+  CHECK(cell_in(contacts.tables[0].second, 13, "series").empty());
+  CHECK_THAT(contacts.caption, Catch::Contains("12 of 14 series are shown"));
+  CHECK_THAT(figure_called(figures, "effort").commands, Catch::Contains("other series"));
+  CHECK_THAT(figure_called(figures, "distributions").caption,
+             Catch::Contains("6 of 14 groups are shown."));
+}
+
+TEST_CASE("densities of forces are drawn from the least to the largest that there is", "[report]") {
+  std::vector<Row> rows = wall_rows();
+  for (Row& row : rows) row.outcome->result.order.force_density = {0.5, {2.5, 0.25, 0, 0.125, 0}};
+  const Analysis analysis = analyse(rows);
+  const std::vector<Figure> figures = figures_of(rows, analysis, {});
+  const std::string& commands = figure_called(figures, "distributions").commands;
+  CHECK_THAT(commands,
+             Catch::Contains("set xrange [0:2]\nset yrange [0.08333333333333333:3.75]\n"));
+}
+
+TEST_CASE("a curve ends where a table has no value", "[report]") {
+  CHECK_THAT(plot_part({"a.csv", "n", 1, "x", "y", "", "lines"}),
+             Catch::Contains("(strcol('y') eq '' ? NaN : (column('y')))"));
 }
 
 TEST_CASE("the means over the width have the line of fits.csv and its residuals", "[report]") {

@@ -48,8 +48,8 @@ TEST_CASE("a sweep with units says all again in them") {
   const std::string report = report_of(provenance, sample_rows(), "out/a");
   CHECK_THAT(report,
              Catch::Contains("\n"
-                             "      C = 0.200 ± 0.009 d = 0.640 ± 0.030 mm,  ζ = C/φ_bulk = "
-                             "0.313 ± 0.014 d = 1.000 ± 0.044 mm\n"
+                             "      C = 0.200 ± 0.015 d = 0.640 ± 0.048 mm,  ζ = C/φ_bulk = "
+                             "0.313 ± 0.022 d = 1.000 ± 0.071 mm\n"
                              "      (χ²/dof 0.00, R² 1.000, 3 widths)\n"));
   CHECK_THAT(report, Catch::Contains("\n"
                                      "d = 3.2 mm, grains of 2500 kg/m³\n"
@@ -71,11 +71,11 @@ TEST_CASE("the closing report as a whole") {
       "  5             0.6000 ± 0.0014  5.500 ± 0.014        0.9998   8.0e-05          2\n"
       "  10            0.6200 ± 0.0014  5.800 ± 0.014        0.9998   8.0e-05     2 of 3\n"
       "  20 periodic            0.6390          6.050        0.9998   8.0e-05          1\n"
-      "  φ = φ_bulk - C/W:  φ_bulk = 0.6400 ± 0.0018 ± 0.0020 protocol; periodic 0.6390 ± 0.0014\n"
-      "      C = 0.200 ± 0.009 d,  ζ = C/φ_bulk = 0.313 ± 0.014 d  (χ²/dof 0.00, R² 1.000, 3 "
+      "  φ = φ_bulk - C/W:  φ_bulk = 0.6400 ± 0.0029 ± 0.0020 protocol; periodic 0.6390 ± 0.0023\n"
+      "      C = 0.200 ± 0.015 d,  ζ = C/φ_bulk = 0.313 ± 0.022 d  (χ²/dof 0.00, R² 1.000, 3 "
       "widths)\n"
-      "  Z = Z_bulk - C_Z/W:  Z_bulk = 6.100 ± 0.018 ± 0.063 protocol; periodic 6.050 ± 0.014\n"
-      "      C_Z = 3.00 ± 0.09 d,  ζ = C_Z/Z_bulk = 0.492 ± 0.014 d  (χ²/dof 0.00, R² 1.000, 3 "
+      "  Z = Z_bulk - C_Z/W:  Z_bulk = 6.100 ± 0.029 ± 0.063 protocol; periodic 6.050 ± 0.023\n"
+      "      C_Z = 3.00 ± 0.15 d,  ζ = C_Z/Z_bulk = 0.492 ± 0.022 d  (χ²/dof 0.00, R² 1.000, 3 "
       "widths)\n"
       "\n"
       "Lengths in d, the mean diameter of the large grains. φ: exact solid volume between 3 d "

@@ -40,7 +40,7 @@ TEST_CASE("a component's mean profile has mean and scatter of the replicates bin
   REQUIRE(bins.size() == 2);
   CHECK((bins[1].low == 0.5 && bins[1].high == 1));
   CHECK(bins[1].solid_fraction.mean == 0.5);
-  CHECK(bins[1].solid_fraction.error == Approx(0.25));
+  CHECK(bins[1].solid_fraction.error == Approx(widened(0.25, 1)));
   CHECK(bins[1].neighbours.mean == 3);
   CHECK(mean_component_profile(groups[0], along_y, 0, 0)[1].neighbours.mean == 2);
   CHECK(bins[1].coordination.mean == 5);

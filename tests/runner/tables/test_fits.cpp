@@ -34,8 +34,8 @@ TEST_CASE("the planted wall effect is recovered with the errors of its replicate
   CHECK(fit.packings == 8);
   CHECK(fit.weights == "variance of the replicates pooled over the family (4 degrees of freedom)");
   // Each mean has sd sqrt(2) .001 and error .001; x = .25, .2, .1, .05: S_xx = .025, x_m = .15.
-  CHECK(fit.slope.error == Approx(0.001 / std::sqrt(0.025)));
-  CHECK(fit.bulk.error == Approx(0.001 * std::sqrt(0.25 + 0.0225 / 0.025)));
+  CHECK(fit.slope.error == Approx(widened(0.001, 4) / std::sqrt(0.025)));
+  CHECK(fit.bulk.error == Approx(widened(0.001, 4) * std::sqrt(0.25 + 0.0225 / 0.025)));
   CHECK(fit.chi2_per_dof == Approx(0.0).margin(1e-20));
   const WallFit z = fit_walls(family_of(rows), Quantity::coordination);
   CHECK(z.bulk.value == Approx(6.1));
@@ -49,7 +49,8 @@ TEST_CASE("the error of zeta takes the correlation of slope and bulk into accoun
   std::vector<Row> rows;
   for (const double width : {4.0, 5.0, 10.0, 20.0}) add_width(rows, width, 0.001);
   const WallFit fit = fit_walls(family_of(rows), Quantity::solid_fraction);
-  const double covariance = -0.15 / 0.025 * 1e-6;  // of slope and intercept
+  const double covariance =
+      -0.15 / 0.025 * std::pow(widened(0.001, 4), 2);  // of slope and intercept
   const double variance = std::pow(fit.slope.error / 0.64, 2) +
                           std::pow(0.2 * fit.bulk.error / (0.64 * 0.64), 2) +
                           2 * 0.2 / std::pow(0.64, 3) * covariance;
@@ -66,8 +67,8 @@ TEST_CASE("a width with one packing takes its error from the others' replicates"
   REQUIRE(fit.not_determined.empty());
   CHECK(fit.weights == "variance of the replicates pooled over the family (3 degrees of freedom)");
   REQUIRE(fit.points.size() == 4);
-  CHECK(fit.points[0].error == Approx(0.001));  // sd sqrt(2) .001 of two
-  CHECK(fit.points[3].error == Approx(0.001 * std::sqrt(2.0)));
+  CHECK(fit.points[0].error == Approx(widened(0.001, 3)));  // sd sqrt(2) .001 of two
+  CHECK(fit.points[3].error == Approx(widened(0.001 * std::sqrt(2.0), 3)));
   CHECK(fit.points[3].n == 1);
 }
 
@@ -78,8 +79,8 @@ TEST_CASE("the variance is pooled by degrees of freedom, not by widths") {
   add_width(rows, 10, 0.001);
   const WallFit fit = fit_walls(family_of(rows), Quantity::solid_fraction);
   const double variance = (1 * 2e-6 + 3 * 12e-6 + 1 * 2e-6) / 5;
-  CHECK(fit.points[0].error == Approx(std::sqrt(variance / 2)));
-  CHECK(fit.points[1].error == Approx(std::sqrt(variance / 4)));
+  CHECK(fit.points[0].error == Approx(widened(std::sqrt(variance / 2), 5)));
+  CHECK(fit.points[1].error == Approx(widened(std::sqrt(variance / 4), 5)));
 }
 
 TEST_CASE("copies of one packing are no replicates: they determine nothing") {

@@ -8,12 +8,13 @@
 namespace grainsweep {
 namespace {
 
-TEST_CASE("mean and standard deviation of known values") {
+// Student's quantiles 0.975 of 2 degrees of freedom and of 1: 4.30265, 12.7062.
+TEST_CASE("mean, standard deviation and error of known values") {
   const Spread spread = spread_of(std::vector<double>{1, 2, 4});
   CHECK(spread.mean == Approx(7.0 / 3.0));
   CHECK(spread.sd == Approx(std::sqrt(7.0 / 3.0)));
   CHECK(spread.n == 3);
-  CHECK(spread.error == Approx(std::sqrt(7.0) / 3.0));
+  CHECK(spread.error == Approx(std::sqrt(7.0) / 3.0 * 4.30265 / 1.959964));
 }
 
 TEST_CASE("one value has a mean but no scatter, none has neither") {
@@ -27,7 +28,7 @@ TEST_CASE("packings that do not know a value leave its mean to the others") {
   const Spread spread = spread_of({1, std::nan(""), 3});
   CHECK(spread.mean == 2.0);
   CHECK(spread.n == 2);
-  CHECK(spread.error == Approx(1.0));
+  CHECK(spread.error == Approx(12.7062 / 1.959964));
 }
 
 TEST_CASE("replicates form a group, only the settled ones enter its means") {
@@ -88,7 +89,7 @@ TEST_CASE("the groups table as a whole") {
                                "boundary_y,small_share,accuracy,n,not_settled,failed,pending,"
                                "solid_fraction,solid_fraction_sd,solid_fraction_error,") &&
                  Catch::Contains("\n1,MSP a=5,a,MSP,sphere,20,5,periodic,walls,0,balanced,2,0,"
-                                 "0,0,0.625,0.1767766952966369,0.125,6,") &&
+                                 "0,0,0.625,0.1767766952966369,0.810359580354513,6,") &&
                  Catch::Contains("\n2,MSP a=6 b=1,c,MSP,sphere,20,6,periodic,walls,0,balanced,"
                                  "0,1,0,0,,,,"));
   CHECK(cells_of_table(text).size() == 3);
