@@ -108,7 +108,9 @@ bool renew_candidates(double near, double margin, const ExecutionContext& contex
 /// Completes the list of a bed of spheres as far as pairs and walls with a gap below `near` go, and
 /// says how. Strays are wrapped and looked up singly while they are few; else the whole bed is
 /// wrapped and listed anew as far as near + margin, with a smaller margin of small grains.
-/// A pair that is no longer near stays in the list until it is made anew.
+/// A pair that is no longer near stays in the list until it is made anew. While a list stands
+/// `near` must not rise: pairs of small grains are looked up as far as it went when the list was
+/// made.
 ListChange complete_candidates(double near, double margin, const ExecutionContext& context,
                                SphereBed& bed, Candidates& candidates);
 

@@ -12,7 +12,7 @@
 //
 // It is the problem of a step (engine/dynamics/step.hpp) of grains without motion whose gaps are
 // all closed, and the same sweeps solve it, in f64. Forces that are not yet the best ones push all
-// the same: what they leave is a bound from above.
+// the same: what they leave on the whole, as a sum of squares, is a bound from above.
 #pragma once
 
 #include "engine/context.hpp"

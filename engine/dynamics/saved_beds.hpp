@@ -1,4 +1,4 @@
-// What a settling bed has to save to go on with the same bits; see engine/dynamics/saved_state.hpp.
+// What a settling bed has to save to go on with the same bits; see engine/saved_state.hpp.
 #pragma once
 
 #include "engine/dynamics/step.hpp"

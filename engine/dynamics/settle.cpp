@@ -12,11 +12,11 @@
 #include "engine/dynamics/rank.hpp"
 #include "engine/dynamics/rest.hpp"
 #include "engine/dynamics/saved_beds.hpp"
-#include "engine/dynamics/saved_state.hpp"
 #include "engine/dynamics/sleep.hpp"
 #include "engine/dynamics/stages.hpp"
 #include "engine/dynamics/workspace.hpp"
 #include "engine/exact/exact_rest.hpp"
+#include "engine/saved_state.hpp"
 
 namespace grainsweep {
 
@@ -258,9 +258,12 @@ class Settling {
     return bed_.grains() * 32 + (turns ? 16 : 0) + sizeof(Real);
   }
 
+  /// A search for exact rest that is under way with it: that begins from this state.
   std::string saved() {
     StateWriter writer;
     transfer(writer);
+    const std::string search = save_search_ ? save_search_() : search_;
+    writer.column(std::vector<char>(search.begin(), search.end()));
     return sealed(kind_of(), writer.bytes());
   }
 
@@ -268,6 +271,9 @@ class Settling {
     if (const auto payload = unsealed(kind_of(), bytes)) {
       StateReader reader(*payload);
       transfer(reader);
+      std::vector<char> search;
+      reader.column(search);
+      search_.assign(search.begin(), search.end());
     }
   }
 
@@ -368,13 +374,16 @@ class Settling {
   /// Brings the bed to exact rest; empty if that was found, else why not, and the bed stays as it
   /// is.
   std::string find_exact_rest(double operations) {
-    const auto goes_on_trying = [&] {
+    const auto goes_on_trying = [&](const SaveSearch& save) {
+      save_search_ = save;
       report_.cancelled = !may_go_on();
+      save_search_ = {};
       return !report_.cancelled;
     };
     SphereBed bed = bed_;
+    const std::string saved = std::exchange(search_, {});
     const ExactRest exact =
-        rest_exactly(context_, contacts_of_last_step(), bed, {goes_on_trying, operations});
+        rest_exactly(context_, contacts_of_last_step(), bed, {goes_on_trying, operations, saved});
     report_.iterations += exact.rounds;
     if (!exact.failure.empty()) return exact.failure;
     const RestReport rest = report_of(exact, bed);
@@ -460,8 +469,10 @@ class Settling {
   std::int64_t unsolved_ = 0;   ///< so many of the last rounds ended with too large a residual
   std::int64_t iterations_before_ = 0;  ///< those until the bed was first tested for rest
   std::int64_t searches_failed_ = 0;    ///< of those for exact rest from a bed at rest in steps
-  bool is_tested_ = false;              ///< whether the report tells how the bed rests as it is
-  bool is_exact_ = false;               ///< whether the report is that of exact rest
+  std::string search_;      ///< for exact rest, as it was saved; the next one goes on from it
+  SaveSearch save_search_;  ///< saves the one that is under way
+  bool is_tested_ = false;  ///< whether the report tells how the bed rests as it is
+  bool is_exact_ = false;   ///< whether the report is that of exact rest
   SettleReport report_;
 };
 

@@ -6,6 +6,7 @@
 
 #include "engine/exact/stiffness.hpp"
 #include "engine/measure/touching.hpp"
+#include "engine/saved_state.hpp"
 
 namespace grainsweep {
 
@@ -74,25 +75,16 @@ class InteriorPoint {
   }
 
   ExactRest run(const ExactRestLimits& limits) {
-    ExactRest rest;
     const double of_a_round =
         factors_.operations() + of_a_grain_and_round * static_cast<double>(grains());
-    const double most = std::min(most_factorisations, limits.operations / of_a_round);
+    most_rounds_ = std::min(most_factorisations, limits.operations / of_a_round);
     const double usual = std::max(30.0, std::sqrt(static_cast<double>(grains())));  // rounds
-    if (most < usual) return failed("it would take too long", rest);
-    double height = mean_height();
-    while (!is_found()) {
-      if (!limits.keep_going()) return failed("cancelled", rest);
-      if (rest.rounds >= most || (is_time_to_look(rest.rounds) && !still_sinks(height))) {
-        return failed("no state without motion was found in time", rest);
-      }
-      if (has_diverged()) return failed("forces grow without bound", rest);
-      ++rest.rounds;
-      if (!factor_with_drag()) return failed("the contacts do not hold the bed", rest);
-      find_step();
-      take_step();
-      adapt();
-    }
+    if (most_rounds_ < usual) return failed("it would take too long", {});
+    height_ = mean_height();
+    restore(limits.saved);
+    ExactRest rest = search([&] { return limits.keep_going([this] { return saved(); }); });
+    rest.rounds = rounds_;
+    if (!rest.failure.empty()) return rest;
     keep_contacts();
     return certified(rest);
   }
@@ -213,7 +205,64 @@ class InteriorPoint {
     }
   }
 
+  // ---- saving and going on ----
+
+  /// Lists what the next round needs.
+  template <class Archive>
+  void transfer(Archive& archive) {
+    archive.column(links_);
+    archive.column(listed_at_);
+    archive.column(bed_.position);
+    archive.column(drag_before_);
+    archive.value(product_);
+    archive.value(drag_of_all_);
+    archive.value(reached_);
+    archive.value(full_steps_);
+    archive.value(stuck_);
+    archive.value(rounds_);
+    archive.value(most_rounds_);
+    archive.value(height_);
+  }
+  std::string saved() {
+    StateWriter writer;
+    transfer(writer);
+    return sealed(grains(), writer.bytes());
+  }
+  /// The factors are laid out as they were, for where the grains were when the links were listed.
+  void restore(std::string_view bytes) {
+    const auto payload = unsealed(grains(), bytes);
+    if (!payload) return;
+    StateReader reader(*payload);
+    transfer(reader);
+    drag_ = drag_before_;
+    const std::vector<Record<double>> position = bed_.position;
+    std::copy(listed_at_.begin(), listed_at_.end(), bed_.position.begin());
+    lay_out_springs();
+    bed_.position = position;
+    measure();
+  }
+
   // ---- a round ----
+
+  /// Round after round, until the bed is found or cannot be.
+  ExactRest search(const std::function<bool()>& keep_going) {
+    while (!is_found()) {
+      drag_before_ = drag_;
+      if (!keep_going()) return failed("cancelled", {});
+      if (rounds_ >= most_rounds_ || (is_time_to_look(rounds_) && !still_sinks(height_))) {
+        return failed("no state without motion was found in time", {});
+      }
+      if (has_diverged()) return failed("forces grow without bound", {});
+      const bool is_held = factor_with_drag(keep_going);
+      if (is_cancelled_) return failed("cancelled", {});
+      ++rounds_;
+      if (!is_held) return failed("the contacts do not hold the bed", {});
+      find_step();
+      take_step();
+      adapt();
+    }
+    return {};
+  }
 
   bool is_found() const {
     double scale = 1.0;
@@ -249,14 +298,21 @@ class InteriorPoint {
   }
 
   /// Drag keeps a grain from moving far in a round: a force per way, in weights per d.
-  bool factor_with_drag() {
+  bool factor_with_drag(const std::function<bool()>& keep_going) {
+    const auto goes_on = [&] {
+      is_cancelled_ = !keep_going();
+      return !is_cancelled_;
+    };
     for (std::size_t k = 0; k < links_.size(); ++k) springs_[k].stiffness = links_[k].stiffness();
     stiffen_across();
     for (int tries = 0; tries < 12; ++tries) {
       ground_.resize(grains());
       for (std::size_t i = 0; i < grains(); ++i) ground_[i] = drag_of_all_ * drag_[i] * mass(i);
-      is_coarse_ = product_ >= least_coarse_product && factors_.factor<float>(springs_, ground_);
-      if (is_coarse_ || factors_.factor<double>(springs_, ground_)) return true;
+      is_coarse_ =
+          product_ >= least_coarse_product && factors_.factor<float>(springs_, ground_, goes_on);
+      if (is_coarse_) return true;
+      if (!is_cancelled_ && factors_.factor<double>(springs_, ground_, goes_on)) return true;
+      if (is_cancelled_) return false;
       if (tries == 0) {
         leave_out_rolling();
       } else {
@@ -547,15 +603,20 @@ class InteriorPoint {
   std::vector<Link> links_;      ///< by their ends
   std::vector<Spring> springs_;  ///< of each link; then those across round walls
   std::vector<Record<double>> listed_at_;
-  std::vector<double> drag_;    ///< of each grain, over that of all
-  std::vector<double> ground_;  ///< memory of factor_with_drag
-  std::vector<Vector> way_;     ///< that grains want to go in this round, d
+  std::vector<double> drag_;         ///< of each grain, over that of all
+  std::vector<double> drag_before_;  ///< the same when the round began
+  std::vector<double> ground_;       ///< memory of factor_with_drag
+  std::vector<Vector> way_;          ///< that grains want to go in this round, d
   double product_ = first_product;
   double drag_of_all_ = 1e-2;
   double reached_ = 0.0;     ///< share of a round's step that no link is in the way of
   double taken_ = 0.0;       ///< share that was taken
   std::size_t blocked_ = 0;  ///< links that can go less than most of the step
   int full_steps_ = 0, stuck_ = 0;
+  int rounds_ = 0;            ///< that were made
+  double most_rounds_ = 0.0;  ///< that may be
+  double height_ = 0.0;       ///< of the grains' mean place when it was last looked at, d
+  bool is_cancelled_ = false;
   bool is_coarse_ = false;  ///< whether the factors of this round are in f32
   bool must_list_ = false;
 };

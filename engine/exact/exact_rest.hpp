@@ -16,6 +16,7 @@
 #include <functional>
 #include <limits>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/context.hpp"
@@ -39,12 +40,17 @@ struct ExactRest {
   double overlap_mean = 0.0;           ///< over the contacts, d
 };
 
+/// Gives a search as bytes, only during the call that it is given in.
+using SaveSearch = std::function<std::string()>;
+
 struct ExactRestLimits {
-  /// Asked before every round; where it says no the failure is "cancelled".
-  std::function<bool()> keep_going = [] { return true; };
+  /// Asked before every round and within long ones; where it says no the failure is "cancelled".
+  std::function<bool(const SaveSearch&)> keep_going = [](const SaveSearch&) { return true; };
   /// Most multiplications of all factorisations; no round is begun if they are too few for a usual
   /// search.
   double operations = std::numeric_limits<double>::infinity();
+  /// Bytes of a search of the same bed, to go on from with the same bits; none begins anew.
+  std::string_view saved = {};
 };
 
 /// Moves a settled bed, whose contacts are `from`, to exact rest. The bed is wrapped; if the search

@@ -85,23 +85,31 @@ void StiffnessFactors::place_border(std::size_t node, const std::vector<std::int
 
 double StiffnessFactors::operations() const {
   double sum = 0.0;
-  for (const Front& front : fronts_) {
-    const auto rows = static_cast<double>(front.rows),
-               left = rows - static_cast<double>(front.columns);
-    sum += (rows * rows * rows - left * left * left) / 6.0;  // a lower triangle, column by column
-  }
+  for (const Front& front : fronts_) sum += operations_of(front);
   return sum;
 }
 
+/// A lower triangle, column by column.
+double StiffnessFactors::operations_of(const Front& front) {
+  const auto rows = static_cast<double>(front.rows),
+             left = rows - static_cast<double>(front.columns);
+  return (rows * rows * rows - left * left * left) / 6.0;
+}
+
 template <class Real>
-bool StiffnessFactors::factor(const std::vector<Spring>& springs,
-                              const std::vector<double>& ground) {
+bool StiffnessFactors::factor(const std::vector<Spring>& springs, const std::vector<double>& ground,
+                              const std::function<bool()>& keep_going) {
+  constexpr double between = 1e9;  // multiplications, some tenths of a second
   const FrontKernels<Real>& kernels = kernels_of<Real>(*kernels_).fronts;
   Numbers<Real> own = std::move(numbers<Real>());
   numbers_ = {};  // factors of the other type would take as much memory again
   allocate(own);
+  double since = 0.0;
   for (std::size_t node = 0; node < fronts_.size(); ++node) {
     const Front& front = fronts_[node];
+    since += operations_of(front);
+    if (since > between && !keep_going()) return false;
+    since = since > between ? 0.0 : since;
     gather(node, springs, ground, own);
     if (!kernels.factor(own.matrix_of(front), front.rows, front.columns, front.stride))
       return false;
@@ -205,9 +213,11 @@ void StiffnessFactors::solve_front(std::size_t node, Solve solve_columns, std::v
 }
 
 template bool StiffnessFactors::factor<float>(const std::vector<Spring>&,
-                                              const std::vector<double>&);
+                                              const std::vector<double>&,
+                                              const std::function<bool()>&);
 template bool StiffnessFactors::factor<double>(const std::vector<Spring>&,
-                                               const std::vector<double>&);
+                                               const std::vector<double>&,
+                                               const std::function<bool()>&);
 template void StiffnessFactors::solve<float>(std::vector<Vector>&);
 template void StiffnessFactors::solve<double>(std::vector<Vector>&);
 

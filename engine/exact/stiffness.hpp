@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <tuple>
 #include <vector>
@@ -42,9 +43,11 @@ class StiffnessFactors {
 
   /// Factors the matrix of all springs, and of springs of stiffness ground[i] in all directions
   /// between grain i and the ground, in numbers of type Real. False if rounding leaves it not
-  /// positive definite.
+  /// positive definite, or if `keep_going`, asked every now and then, says no.
   template <class Real>
-  bool factor(const std::vector<Spring>& springs, const std::vector<double>& ground);
+  bool factor(
+      const std::vector<Spring>& springs, const std::vector<double>& ground,
+      const std::function<bool()>& keep_going = [] { return true; });
 
   /// Replaces forces on the grains, m g, by the displacements that they cause, d, with the factors
   /// that were made last, of this type.
@@ -78,6 +81,7 @@ class StiffnessFactors {
     Real* matrix_of(const Front& front) { return factors.data() + front.factor; }
   };
 
+  static double operations_of(const Front& front);
   template <class Real>
   void allocate(Numbers<Real>& numbers);
   std::vector<std::int32_t> grains_of(std::size_t node) const;

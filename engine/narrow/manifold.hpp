@@ -34,7 +34,9 @@ struct PairMemory {
 struct ContactPoint {
   Vector position =
       Vector::Zero();  ///< midway between the surfaces, frame of a, about its centre, d
-  double gap = 0.0;    ///< along the normal, d; negative = overlap; at most the true distance
+  /// Along the normal, d; negative = overlap. Points beside a face are none of its contact, so that
+  /// within the margin the least gap may exceed the distance of the shapes by up to 0.04 d.
+  double gap = 0.0;
 };
 
 /// Least gap of one point or more, d.

@@ -229,10 +229,19 @@ void check_fill(const PackingSpec& spec, const std::optional<ShapeExtent>& shape
   }
 }
 
+/// Of wide beds. Long and flat grains lie the looser the longer and flatter they are: needles
+/// 1:0.05:0.05 come down to 0.20.
+double loosest_of_shape(const ShapeSpec& shape) {
+  constexpr double stout = 6.0;  // outer over inner radius
+  if (is_sphere(shape)) return 0.5;
+  const ShapeExtent extent = extent_of(shape);
+  return 0.4 * std::min(1.0, std::pow(stout * extent.inradius / extent.circumradius, 0.8));
+}
+
 /// Solid fraction that beds never stay below. Between walls nearer than two grains layers do not
 /// interlock: spheres come down to 0.45 between walls, to 0.33 in a shaft and to 0.32 in a tube.
 double loosest_solid_fraction(const PackingSpec& spec, double across) {
-  double fraction = is_sphere(spec.shape) ? 0.5 : 0.4;
+  double fraction = loosest_of_shape(spec.shape);
   const Box& box = spec.box;
   if (box.is_tube) return box.length < 2.5 * across ? 0.6 * fraction : fraction;
   if (box.x == Boundary::walls && box.length < 2.0 * across) fraction *= 0.65;
@@ -366,9 +375,28 @@ void check_measure(const MeasureSpec& measure, Errors& errors) {
   check_gap_tolerances(measure.gap_tolerances, errors);
 }
 
-/// Grains of two sizes; of distributions it depends on what is drawn.
-void check_masses(const PackingSpec& spec, Errors& errors) {
+/// Largest volume of a mixture's components over the least.
+double volume_ratio(const Mixture& mixture) {
+  std::vector<double> volumes;
+  for (const MixtureComponent& component : mixture.components) {
+    if (component.share > 0.0) volumes.push_back(extent_of(component.shape).volume);
+  }
+  const auto [least, most] = std::minmax_element(volumes.begin(), volumes.end());
+  return volumes.empty() ? 1.0 : *most / *least;
+}
+
+/// Of what is certain to be drawn: sizes of two classes, components of a mixture; of distributions
+/// and the spread of sizes it depends on what is drawn.
+void check_masses(const PackingSpec& spec, bool is_mixture_right, Errors& errors) {
   const SizesSpec& sizes = spec.sizes;
+  const auto* mixture = std::get_if<Mixture>(&spec.shape);
+  const bool is_f32 = spec.accuracy.precision == Precision::f32;
+  if (is_mixture_right && mixture != nullptr && is_f32 && volume_ratio(*mixture) > f32_mass_ratio) {
+    errors.push_back({"shape.mixture", "has components of " + number_text(volume_ratio(*mixture)) +
+                                           " times each other's volume, and in f32 masses may "
+                                           "differ by 1e5 to 1; take accuracy.precision f64"});
+    return;
+  }
   const bool has_both = !sizes.distribution && sizes.small_share > 0.0 && sizes.small_share < 1.0;
   const double least = std::cbrt(1.0 / f32_mass_ratio);
   if (!has_both || spec.accuracy.precision == Precision::f64 || sizes.size_ratio >= least) return;
@@ -420,7 +448,7 @@ std::vector<SpecError> check(const PackingSpec& spec) {
   }
   check_fill(spec, shape, shape && sizes && box, errors);
   check_accuracy(spec.accuracy, errors);
-  if (sizes) check_masses(spec, errors);
+  if (sizes) check_masses(spec, shape && errors.empty(), errors);
   if (spec.accuracy.rest == Rest::exact) check_exact_rest(spec, largest, errors);
   check_measure(spec.measure, errors);
   if (box) check_bin_width(spec.measure.bin_width, spec.box, errors);

@@ -60,7 +60,7 @@ std::string problem_with_angle(const PinacoidSize& size) {
   if (steepness >= size.height * (1.0 - no_ridge)) return "";
   return joined("the ends would cross: tan(angle) must be at least height / length = ",
                 size.height / size.length, ", is ", std::tan(size.angle), "; the least angle is ",
-                std::atan(size.height / size.length) / degree, " degrees");
+                std::ceil(std::atan(size.height / size.length) / degree * 1e4) / 1e4, " degrees");
 }
 
 }  // namespace

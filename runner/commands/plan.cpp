@@ -143,8 +143,8 @@ std::string memory_text(double bytes) { return fixed(bytes / 1e6, 1) + " MB"; }
 std::string cells_text(const std::string& extent, const std::string& packings,
                        const std::string& grains, const std::string& cpu,
                        const std::string& memory) {
-  return pad_right(extent, 14) + pad_left(packings, 9) + pad_left(grains, 10) + pad_left(cpu, 14) +
-         pad_left(memory, 13);
+  return pad_right(extent, 14) + pad_left(packings, 9) + pad_left(" " + grains, 10) +
+         pad_left(" " + cpu, 14) + pad_left(" " + memory, 13);
 }
 
 std::string cells_of(const PlannedGroup& group) {

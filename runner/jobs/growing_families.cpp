@@ -77,10 +77,14 @@ bool is_walled(const Job& job) { return job.spec.box.y == Boundary::walls; }
 
 std::optional<ProtocolBias> bound_of(const Job& job) {
   auto bound = bias_bound(facts_of(job));
-  if (!bound || !std::isnan(bound->coordination)) return bound;
-  if (job.wish.coordination > 0.0 || job.fit_wish.z_bulk > 0.0) return std::nullopt;
-  bound->coordination = 0.0;  // is not asked for
+  if (bound && std::isnan(bound->coordination)) bound->coordination = 0.0;
   return bound;
+}
+
+bool is_bounded(const Job& job) {
+  const auto bound = bias_bound(facts_of(job));
+  const bool asks_of_z = job.wish.coordination > 0.0 || job.fit_wish.z_bulk > 0.0;
+  return bound && !(asks_of_z && std::isnan(bound->coordination));
 }
 
 }  // namespace grainsweep

@@ -35,8 +35,11 @@ std::vector<GrowingFamily> growing_families(const Sweep& whole, const std::vecto
 /// Whether a job is on the line that is fitted to its family.
 bool is_walled(const Job& job);
 
-/// What the way of settling may do to the means of a job's group; nothing if it was not measured of
-/// all that is asked for.
+/// What the way of settling may do to the means of a job's group, 0 to those of which that was not
+/// measured; nothing if it was of none.
 std::optional<ProtocolBias> bound_of(const Job& job);
+
+/// Whether it was measured of all that is asked for.
+bool is_bounded(const Job& job);
 
 }  // namespace grainsweep

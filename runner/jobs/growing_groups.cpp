@@ -228,7 +228,7 @@ void add_grown(const Sweep& whole, const Places& group, const Outcomes& outcomes
   const int count = replicates_called_for(made, first.wish, bound);
   ++grown.groups;
   grown.packings += static_cast<std::size_t>(count);
-  grown.unbounded += bound ? 0 : 1;
+  grown.unbounded += is_bounded(first) ? 0 : 1;
   if (!are_made(made, count)) return grown.larger.push_back(&first);
   const Means means = means_of(made, count);
   const bool is_met = over_wishes(means, first.wish, bound) <= 1.0;
@@ -262,7 +262,7 @@ std::string fits_text(const Sweep& whole, const std::vector<Places>& groups,
   for (const GrowingFamily& family : families) {
     const CalledFit called = called_for(whole, groups, family, outcomes);
     for (const int count : called.replicates) packings += static_cast<std::size_t>(count);
-    unbounded += bound_of(whole.jobs[groups[family.groups.front()].front()]) ? 0 : 1;
+    unbounded += is_bounded(whole.jobs[groups[family.groups.front()].front()]) ? 0 : 1;
     if (!called.is_made) continue;
     const bool is_bent = called.is_met && called.chi2_per_dof > largest_chi2;
     ++(is_bent                     ? bent

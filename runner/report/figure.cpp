@@ -12,7 +12,7 @@
 namespace grainsweep {
 namespace {
 
-constexpr double left_margin = 96.0, bottom_margin = 66.0;  // px
+constexpr double left_margin = 106.0, bottom_margin = 66.0;  // px
 const std::string frame =
     "set border 3 lw 1 lc rgb '#444444'\nset tics nomirror out scale 0.6 textcolor rgb '#222222'\n"
     "set xtics nomirror\nset ytics nomirror\nset grid lc rgb '#dddddd' lw 0.6 dt solid\n";

@@ -176,14 +176,14 @@ std::string height_commands(const std::vector<double>& heights, Quantity quantit
   }
   return text + label_command("y", "solid fraction φ") +
          range_command("y2", {1.0 - range.low, 1.0 - range.high}) + "set y2tics nomirror\n" +
-         "set y2label 'porosity 1 - φ' offset -2.5,0 noenhanced\n";
+         "set y2label 'porosity 1 - φ' offset -1,0 noenhanced\n";
 }
 
 std::string means_commands(const Axes& axes, const Figure& figure,
                            const std::vector<FittedSeries>& all, bool has_fits) {
   const Panels panels(figure, 2, has_fits ? std::vector{0.74, 0.26} : std::vector{1.0},
                       series_key(axes, "points"),
-                      {.right = 86.0, .above = is_over_width(axes) ? 58.0 : 8.0});
+                      {.right = 104.0, .above = is_over_width(axes) ? 58.0 : 8.0});
   std::string text = "set multiplot\n" + panels.key();
   for (const Quantity quantity : {Quantity::solid_fraction, Quantity::coordination}) {
     const std::size_t column = quantity == Quantity::solid_fraction ? 0 : 1;

@@ -144,9 +144,9 @@ std::vector<Field> main_fields() {
       in_result<of::rest, &Rest::overlap_max>("overlap_max", "d", "deepest overlap"),
       in_result<of::rest, &Rest::imbalance, &Imbalance::mean>(
           "static_imbalance_mean", "",
-          "net force on a grain in its own weight under the best forces on all contacts closed to "
-          "accuracy.imbalance_gap, none of which pulls; of polyhedra or net torque over its "
-          "circumradius",
+          "net force on a grain in its own weight under forces on all contacts closed to "
+          "accuracy.imbalance_gap, none of which pulls, that are the best ones to some 0.005; of "
+          "polyhedra or net torque over its circumradius",
           with_mean),
       in_result<of::rest, &Rest::imbalance, &Imbalance::max>("static_imbalance_max", "",
                                                              "the largest of them"),
@@ -175,9 +175,9 @@ std::vector<Field> further_fields() {
       in_result<&Result::slab_top>("slab_top", "d", "z where it ends"),
       in_result<of::rest, &Rest::independent_contacts>(
           "independent_contacts", "",
-          "contacts that do not depend on others; counted where there are more than needed, but "
-          "not "
-          "more than 30,000"),
+          "contacts that do not depend on others: all of them, unless they exceed "
+          "isostatic_contacts by more than accuracy.contact_tolerance; then they are counted, or "
+          "empty if more than 30,000"),
       in_result<of::rest, &Rest::largest_motion>(
           "largest_motion", "d", "largest displacement of a grain in the last step"),
       in_result<&Result::spurious_path>("spurious_path", "d",
@@ -221,14 +221,15 @@ std::vector<Field> shape_fields() {
   return {
       in_result<of::shape, &Shape::contact_share, 0>(
           "contacts_simple", "",
-          "share of the force-bearing contacts at a point; like the following only of polyhedra",
+          "share of the slab's force-bearing contacts between grains that are at a point; like the "
+          "following only of polyhedra",
           with_mean),
       in_result<of::shape, &Shape::contact_share, 1>("contacts_double", "", "of those along a line",
                                                      with_mean),
       in_result<of::shape, &Shape::contact_share, 2>("contacts_triple", "", "of those over an area",
                                                      with_mean),
       in_result<of::shape, &Shape::force_share, 0>(
-          "force_simple", "", "share of the sum of contact forces that simple contacts carry",
+          "force_simple", "", "share of the sum of those contacts' forces that simple ones carry",
           with_mean),
       in_result<of::shape, &Shape::force_share, 1>("force_double", "", "that double ones carry",
                                                    with_mean),

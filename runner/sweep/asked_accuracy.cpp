@@ -39,8 +39,9 @@ struct Asked {
 double value_of(const Asked& asked) { return std::get<double>(asked.assignment->value); }
 
 /// Leaves those of the presets that keep the bound. Where none does, says so, and leaves them all.
-void keep_reaching(const Asked& asked, BedKind kind, MeasuredPresets& measured,
-                   std::vector<AccuracyProblem>& problems) {
+/// Of two numbers that are asked for, those that keep the other one as well are told.
+void keep_reaching(const Asked& asked, BedKind kind, const MeasuredPresets& all,
+                   MeasuredPresets& measured, std::vector<AccuracyProblem>& problems) {
   if (asked.assignment == nullptr) return;
   const Parameter& parameter = parameters()[asked.assignment->parameter];
   if (std::string error = range_error(parameter, asked.assignment->value); !error.empty()) {
@@ -58,10 +59,12 @@ void keep_reaching(const Asked& asked, BedKind kind, MeasuredPresets& measured,
   const Measured& best = *std::min_element(measured.begin(), measured.end(), [&](auto& a, auto& b) {
     return a.bound.*asked.bound < b.bound.*asked.bound;
   });
-  problems.push_back({asked.assignment,
-                      joined("must be at least ", bound_text(best.bound.*asked.bound),
-                             ", the smallest bound that was measured of ", name_of(kind), ", by \"",
-                             best.preset->name, "\"; is ", bound_text(value_of(asked)))});
+  problems.push_back(
+      {asked.assignment,
+       joined("must be at least ", bound_text(best.bound.*asked.bound),
+              ", the smallest bound that was measured of ", name_of(kind),
+              measured.size() < all.size() ? " by presets that keep the other one" : "", ", by \"",
+              best.preset->name, "\"; is ", bound_text(value_of(asked)))});
 }
 
 bool is_part_of_accuracy(const Assignment* assignment) {
@@ -120,9 +123,10 @@ std::vector<AccuracyProblem> take_asked_accuracy(const InEffect& in_effect,
   }
   const auto kind = bed_kind_of(resolved);
   if (kind) {
-    MeasuredPresets measured = measured_for(*kind);
-    keep_reaching(solid_fraction, *kind, measured, problems);
-    keep_reaching(coordination, *kind, measured, problems);
+    const MeasuredPresets all = measured_for(*kind);
+    MeasuredPresets measured = all;
+    keep_reaching(solid_fraction, *kind, all, measured, problems);
+    keep_reaching(coordination, *kind, all, measured, problems);
     resolved.spec.accuracy = measured.front().preset->accuracy;
   } else {
     problems.push_back({first.assignment,

@@ -188,9 +188,42 @@ TEST_CASE("the search for exact rest stops when it is asked to") {
   SphereBed bed = settled_bed(small_spec({4, 4, periodic, walls}, 60, 7), contacts);
   int rounds = 0;
   const ExactRest rest =
-      rest_exactly(testing::kernels(), contacts, bed, {.keep_going = [&] { return ++rounds < 5; }});
+      rest_exactly(testing::kernels(), contacts, bed,
+                   {.keep_going = [&](const SaveSearch&) { return ++rounds < 5; }});
   CHECK(rest.failure == "cancelled");
   CHECK(rest.rounds == 4);
+}
+
+TEST_CASE("a search for exact rest that was stopped goes on with the same bits") {
+  const Box box = GENERATE(Box{4, 4, periodic, walls}, tube_of(2.5));
+  std::vector<ForceContact> contacts;
+  const SphereBed settled = settled_bed(small_spec(box, 90, 7), contacts);
+  SphereBed at_once = settled;
+  const ExactRest whole = rest_exactly(testing::kernels(), contacts, at_once);
+  REQUIRE(whole.failure == "");
+  for (const int stop : {1, 7, whole.rounds}) {
+    std::string saved;
+    int asked = 0;
+    SphereBed stopped = settled;
+    const ExactRest part =
+        rest_exactly(testing::kernels(), contacts, stopped, {[&](const SaveSearch& save) {
+                       saved = save();
+                       return ++asked < stop;
+                     }});
+    CHECK(part.failure == "cancelled");
+    SphereBed bed = settled;
+    const ExactRest rest = rest_exactly(testing::kernels(), contacts, bed, {.saved = saved});
+    CHECK(rest.failure == "");
+    CHECK(rest.rounds == whole.rounds);
+    for (std::size_t i = 0; i < bed.grains(); ++i) {
+      CHECK(bed.position[i].x == at_once.position[i].x);
+      CHECK(bed.position[i].z == at_once.position[i].z);
+    }
+    REQUIRE(rest.contacts.size() == whole.contacts.size());
+    for (std::size_t k = 0; k < rest.contacts.size(); ++k) {
+      CHECK(rest.contacts[k].force == whole.contacts[k].force);
+    }
+  }
 }
 
 TEST_CASE("the accuracy exact settles beds with isostatic contacts, near where they were settled") {

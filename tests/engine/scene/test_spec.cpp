@@ -313,6 +313,30 @@ TEST_CASE("two sizes whose masses differ by more than 1e5 to 1 take f64") {
   CHECK(check(spec).empty());
 }
 
+TEST_CASE("components whose masses differ by more than 1e5 to 1 take f64") {
+  PackingSpec spec;
+  spec.shape = Mixture{{{0.999, CubeSize{}}, {0.001, CubeSize{0.02}}}, ShareBy::volume};
+  spec.fill = GrainCount{200'000};  // of which nearly all are small
+  const auto errors = check(spec);
+  REQUIRE(errors.size() == 1);
+  CHECK(errors[0].path == "shape.mixture");
+  CHECK(errors[0].message.starts_with("has components of 1.25e+05 times each other's volume"));
+  spec.accuracy.precision = Precision::f64;
+  CHECK(check(spec).empty());
+}
+
+TEST_CASE("beds of needles may come out looser than those of stout grains") {
+  const auto bed = [](const CuboidSize& size) {
+    return broken_by([=](PackingSpec& spec) {
+      spec.shape = size;
+      spec.box.width = 10;
+      spec.fill = SolidHeight{2};
+    });
+  };
+  CHECK(bed({1, 1, 1}).size() == 1);  // at most 2 / 0.4 and an extent high, of 7 d
+  CHECK(bed({1, 0.05, 0.05}).empty());
+}
+
 TEST_CASE("exact rest is for spheres of any sizes") {
   const auto exact = [](const ShapeSpec& shape) {
     return broken_by([&](PackingSpec& spec) {

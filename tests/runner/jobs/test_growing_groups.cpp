@@ -288,6 +288,21 @@ TEST_CASE("wishes below the bias of settling are refused, with what it is") {
   CHECK(unreachable_wishes({"s", 7, 1, growing_group("a", 5.0, 20, {0.01, 0.0})}).empty());
 }
 
+TEST_CASE("a bound of phi holds where Z has none, as by another gap") {
+  const auto with_gap = [](ErrorWish wish) {
+    std::vector<Job> jobs = growing_group("a", 5.0, 20, wish);
+    for (Job& job : jobs) job.spec.measure.gap_tolerances = {0.001};
+    return jobs;
+  };
+  CHECK(unreachable_wishes({"s", 7, 1, with_gap({0.0015, 0.0})}).size() == 1);
+  CHECK(unreachable_wishes({"s", 7, 1, with_gap({0.0015, 0.5})}).size() == 1);
+  CHECK(unreachable_wishes({"s", 7, 1, with_gap({0.01, 0.5})}).empty());
+  const std::vector<Job> both = with_gap({0.01, 0.5}), phi = with_gap({0.01, 0.0});
+  CHECK(bound_of(both[0])->solid_fraction == bound_of(phi[0])->solid_fraction);
+  CHECK_FALSE(is_bounded(both[0]));
+  CHECK(is_bounded(phi[0]));
+}
+
 TEST_CASE("the end of a run says which wishes were met") {
   const Sweep whole{"s", 7, 1, growing_group("a", 5.0, 8, {0.01, 0.0})};
   Outcomes outcomes;

@@ -1,11 +1,11 @@
-#include "engine/dynamics/saved_state.hpp"
+#include "engine/saved_state.hpp"
 
 namespace grainsweep {
 
 namespace {
 
 // Rises whenever what is saved changes.
-constexpr std::uint64_t format = 0x6772'6169'6e73'000e;
+constexpr std::uint64_t format = 0x6772'6169'6e73'000f;
 
 struct Header {
   std::uint64_t format, kind, size, check;

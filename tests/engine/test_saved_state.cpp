@@ -3,7 +3,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "engine/dynamics/saved_state.hpp"
+#include "engine/saved_state.hpp"
 
 namespace grainsweep {
 namespace {
