@@ -21,7 +21,7 @@ const Face& face_of(const ConvexShape& shape, std::int32_t number) {
 /// A face to touch on, in the frame of its shape.
 struct Reference {
   const ConvexShape& shape;
-  double scale;
+  double scale = 1.0;
   const Face& face;
   double same = same_point;  ///< share of the size below which two points are one
 

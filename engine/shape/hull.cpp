@@ -204,8 +204,8 @@ bool is_closed(const Loops& loops) {
 
 /// A plane: normal . x = offset.
 struct Plane {
-  Vector normal;
-  double offset;
+  Vector normal = Vector::Zero();
+  double offset = 0.0;
 };
 
 /// The planes that fit the faces best.

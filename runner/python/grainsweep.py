@@ -140,7 +140,7 @@ class _Bytes:
         return values
 
 
-_mark = b"GRAINS12\n"
+_marks = b"GRAINS13\n", b"GRAINS12\n"  # those differ in what comes after the grains
 _grain = [("position", "<f8", 3), ("radius", "<f8"), ("force", "<f8"), ("coordination", "<i4")]
 
 
@@ -156,10 +156,10 @@ class Bed:
     """
 
     def __init__(self, folder, job, stored):
-        if not stored.startswith(_mark) or zlib.crc32(stored[:-4]) != _Bytes(stored[-4:]).one("I"):
+        if not stored.startswith(_marks) or zlib.crc32(stored[:-4]) != _Bytes(stored[-4:]).one("I"):
             raise ValueError(f"{folder}: the bed of {job} is damaged, or of another version")
         self._folder, self.job = folder, job
-        data = _Bytes(stored[len(_mark) : -4])
+        data = _Bytes(stored[len(_marks[0]) : -4])
         data.column("S1"), data.one("Q")  # the job again, and the hash of the state
         length, width, x, y, tube = (data.one(kind) for kind in "ddii?")
         self.box = {"length": length, "width": width, "periodic": (x == 0, y == 0), "tube": tube}

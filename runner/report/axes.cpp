@@ -242,6 +242,7 @@ bool are_different(const std::vector<std::string>& texts) {
 std::vector<std::string> titles_of(const std::vector<const Group*>& groups, std::size_t longest) {
   constexpr std::size_t shortest_label = 6;
   std::vector<std::string> titles;
+  titles.reserve(groups.size());
   for (const Group* group : groups) titles.push_back(title_of(*group));
   if (have_room(titles, longest)) return titles;
   const std::vector<Values> values = not_shared(groups);
@@ -260,6 +261,7 @@ std::vector<std::string> titles_of(const std::vector<const Group*>& groups, std:
 
 std::vector<std::string> told_apart(const std::vector<std::string>& texts, std::size_t longest) {
   std::vector<std::string> told;
+  told.reserve(texts.size());
   for (const std::string& text : texts) told.push_back(shortened(text, longest));
   const std::vector<std::string> beginnings = told;
   for (std::size_t k = 0; k < texts.size(); ++k) {

@@ -159,6 +159,7 @@ Figure published_figure(const std::vector<Comparison>& comparisons) {
   }
   std::string csv = csv_line({"all", "row", "errors", "quantity", "family"}), tics;
   std::vector<std::string> entries;
+  entries.reserve(measured.size());
   for (const Comparison* one : measured) entries.push_back(one->family + ": " + one->title);
   entries = told_apart(entries, most_characters);
   std::size_t longest = 0;

@@ -75,6 +75,7 @@ std::vector<GroupWithCurves> chosen_mixtures(const Axes& axes, std::size_t most)
 std::vector<std::string> titles_of(const std::vector<GroupWithCurves>& groups,
                                    std::size_t longest) {
   std::vector<const Group*> plain;
+  plain.reserve(groups.size());
   for (const GroupWithCurves& group : groups) plain.push_back(&*group);
   return titles_of(plain, longest);
 }
