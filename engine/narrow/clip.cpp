@@ -129,11 +129,15 @@ void add_point(const Reference& reference, const Vector& x, double margin, std::
   if (!(gap <= margin)) return;
   const Vector position = x - gap / 2.0 * reference.face.normal;
   const double same = reference.same * reference.size();
-  const bool there = std::any_of(points.begin() + static_cast<std::ptrdiff_t>(first), points.end(),
-                                 [&](const ContactPoint& point) {
-                                   return (point.position - position).squaredNorm() <= same * same;
-                                 });
-  if (!there) points.push_back({position, gap});
+  const auto known = std::find_if(points.begin() + static_cast<std::ptrdiff_t>(first), points.end(),
+                                  [&](const ContactPoint& point) {
+                                    return (point.position - position).squaredNorm() <= same * same;
+                                  });
+  if (known == points.end()) {
+    points.push_back({position, gap});
+  } else if (reference.same > same_point && gap < known->gap) {
+    *known = {position, gap};
+  }
 }
 
 /// Vertices within the margin that are no corners of the touching face: where an edge lies on the
