@@ -256,7 +256,12 @@ std::vector<std::string> titles_of(const std::vector<const Group*>& groups, std:
     const std::string label = shortened(groups[k]->job.label, std::max(room, shortest_label));
     titles.push_back(joined_title(label, words(values[k])));
   }
-  return told_apart(titles, longest);
+  if (have_room(titles, longest)) return told_apart(titles, longest);
+  std::vector<std::string> without_labels;
+  without_labels.reserve(groups.size());
+  for (const Values& one : values) without_labels.push_back(words(one));
+  const bool suffice = have_room(without_labels, longest) && are_different(without_labels);
+  return suffice ? without_labels : told_apart(titles, longest);
 }
 
 std::vector<std::string> told_apart(const std::vector<std::string>& texts, std::size_t longest) {

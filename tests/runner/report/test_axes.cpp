@@ -151,6 +151,7 @@ TEST_CASE("titles in a figure leave out what all share before they lose what tel
                                  "two sizes of glass beads, small_share = 0.2"});
   CHECK(titles_of(shown, 30) == std::vector<std::string>{"two sizes …, small_share = 0.1",
                                                          "two sizes …, small_share = 0.2"});
+  CHECK(titles_of(shown, 20) == std::vector<std::string>{"small_share = 0.1", "small_share = 0.2"});
 }
 
 TEST_CASE("shortened texts that would be alike are told by their ends, or else by number",
