@@ -23,8 +23,10 @@ class StateWriter {
     static_assert(std::is_trivially_copyable_v<T>);
     bytes_.append(reinterpret_cast<const char*>(&value), sizeof(T));
   }
-  template <class T>
-  void column(const std::vector<T>& column) {
+  /// A vector, or a string.
+  template <class Column>
+  void column(const Column& column) {
+    using T = typename Column::value_type;
     static_assert(std::is_trivially_copyable_v<T>);
     value(static_cast<std::uint64_t>(column.size()));
     bytes_.append(reinterpret_cast<const char*>(column.data()), column.size() * sizeof(T));
@@ -51,12 +53,12 @@ class StateReader {
   void value(T& value) {
     take(&value, sizeof(T));
   }
-  template <class T>
-  void column(std::vector<T>& column) {
+  template <class Column>
+  void column(Column& column) {
     std::uint64_t size = 0;
     value(size);
     column.resize(size);
-    take(column.data(), size * sizeof(T));
+    take(column.data(), size * sizeof(typename Column::value_type));
   }
   template <class T, class Each>
   void list(std::vector<T>& elements, Each each) {

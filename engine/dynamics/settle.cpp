@@ -262,8 +262,7 @@ class Settling {
   std::string saved() {
     StateWriter writer;
     transfer(writer);
-    const std::string search = save_search_ ? save_search_() : search_;
-    writer.column(std::vector<char>(search.begin(), search.end()));
+    writer.column(save_search_ ? save_search_() : search_);
     return sealed(kind_of(), writer.bytes());
   }
 
@@ -271,9 +270,7 @@ class Settling {
     if (const auto payload = unsealed(kind_of(), bytes)) {
       StateReader reader(*payload);
       transfer(reader);
-      std::vector<char> search;
-      reader.column(search);
-      search_.assign(search.begin(), search.end());
+      reader.column(search_);
     }
   }
 

@@ -262,8 +262,8 @@ std::vector<Vector> keep_corners(const std::vector<Vector>& points, Loops& loops
 }
 
 /// By how much corners lie off the planes of their faces, d.
-double unevenness_of(const std::vector<Vector>& corners, const Loops& loops) {
-  const std::vector<Plane> planes = planes_of(corners, loops);
+double unevenness_of(const std::vector<Plane>& planes, const std::vector<Vector>& corners,
+                     const Loops& loops) {
   double most = 0.0;
   for (std::size_t f = 0; f < loops.size(); ++f) {
     for (const std::int32_t k : loops[f]) {
@@ -291,8 +291,8 @@ void flatten(const Loops& loops, std::vector<Vector>& corners) {
   const double rounding = in_plane * extents_of(corners).length;
   const auto faces = polygons_at(corners.size(), loops);
   for (int round = 0; round < most_rounds; ++round) {
-    if (unevenness_of(corners, loops) <= rounding) return;
     const std::vector<Plane> planes = planes_of(corners, loops);
+    if (unevenness_of(planes, corners, loops) <= rounding) return;
     for (std::size_t k = 0; k < corners.size(); ++k) {
       const auto count = static_cast<Eigen::Index>(faces[k].size());
       if (count == 0) continue;
