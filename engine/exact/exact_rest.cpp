@@ -100,12 +100,14 @@ class InteriorPoint {
   bool is_curved(const Link& link) const {
     return !bed_.is_grain(link.b) && wall_of(link).is_round();
   }
-  /// Whether a pair's curvature counts: grains of narrow tubes may rest where contacts alone,
-  /// without the curvature of both wall and pairs, would not hold them.
-  bool rolls(const Link& link) const {
+  /// Grains of narrow tubes may rest where contacts alone, without the curvature of both wall and
+  /// pairs, would not hold them.
+  bool is_narrow() const {
     constexpr double narrow = 3.5;  // d
-    return bed_.box.is_tube && bed_.box.length < narrow && bed_.is_grain(link.b);
+    return bed_.box.is_tube && bed_.box.length < narrow;
   }
+  /// Whether a pair's curvature counts.
+  bool rolls(const Link& link) const { return is_narrow() && bed_.is_grain(link.b); }
 
   /// All pairs and walls within reach of where the grains are now; those listed before stay as they
   /// are.
@@ -265,10 +267,13 @@ class InteriorPoint {
   }
 
   bool is_found() const {
+    return product_ <= last_product && reached_ > 0.9 && is_balanced_to(nearly_balanced);
+  }
+  /// Of the largest force or weight.
+  bool is_balanced_to(double share) const {
     double scale = 1.0;
     for (const Link& link : links_) scale = std::max(scale, link.force);
-    return product_ <= last_product && reached_ > 0.9 &&
-           largest(net_forces()) < nearly_balanced * scale;
+    return largest(net_forces()) < share * scale;
   }
 
   static bool is_time_to_look(std::int64_t rounds) {
@@ -469,9 +474,13 @@ class InteriorPoint {
     drag_of_all_ *= reached_ > 0.8 ? 0.5 : reached_ < 0.3 ? 1.5 : 1.0;
     drag_of_all_ = std::clamp(drag_of_all_, 1e-6, most_drag);
     full_steps_ = reached_ > centred ? full_steps_ + 1 : 0;
+    // Where curvature holds grains they slide far for a slight force, and once products are small
+    // rounding of stiff contacts drowns it: it has to balance while they are not.
+    constexpr double balanced = 0.01;
+    const bool may_tighten = !is_narrow() || is_balanced_to(balanced);
     const bool few = static_cast<double>(blocked_) < few_blocked * static_cast<double>(grains());
     const bool gets_on = few && taken_ > 0.5;
-    if (reached_ > centred || gets_on) {
+    if (may_tighten && (reached_ > centred || gets_on)) {
       const double kept = full_steps_ < 2 ? 0.5 : reached_ > well_centred ? 0.05 : 0.2;
       product_ = std::max(last_product, kept * product_);
     }
