@@ -76,6 +76,24 @@ double small_volume(const PackingSpec& spec, double wanted, double large_volume)
                     (1.0 + allowed) * whole - large_volume);
 }
 
+/// Volumes of the grains of a file, d^3.
+double placed_volume(const PlacedGrains& placed, const ShapeSpec& shape) {
+  std::vector<double> of_shape = {extent_of(shape).volume};
+  const auto* mixture = std::get_if<Mixture>(&shape);
+  if (mixture != nullptr) {
+    of_shape.clear();
+    for (const MixtureComponent& one : mixture->components) {
+      of_shape.push_back(extent_of(one.shape).volume);
+    }
+  }
+  double sum = 0.0;
+  for (std::size_t i = 0; i < placed.grains.size(); ++i) {
+    const double size = 2.0 * placed.grains[i].radius;
+    sum += size * size * size * of_shape[mixture != nullptr ? placed.components[i] : 0];
+  }
+  return sum;
+}
+
 std::vector<double> drawn_radii(const SizeCurve& curve, std::int64_t count, std::uint64_t key) {
   std::vector<double> radii = draw_diameters(curve, count, key);
   for (double& radius : radii) radius /= 2.0;
@@ -97,6 +115,9 @@ ClassCounts class_counts(const PackingSpec& spec) {
 
 double solid_height(const PackingSpec& spec) {
   if (const auto* fill = std::get_if<SolidHeight>(&spec.fill)) return fill->height;
+  if (const auto* placed = std::get_if<PlacedGrains>(&spec.fill)) {
+    return placed_volume(*placed, spec.shape) / spec.box.floor_area();
+  }
   const ClassCounts counts = class_counts(spec);
   const SizesSpec& sizes = spec.sizes;
   const double large = sizes.distribution ? mean_cube(curve_of(*sizes.distribution))

@@ -34,7 +34,7 @@ std::vector<double> draw_radii(const PackingSpec& spec);
 /// standard deviations apart overlap there. A distribution has no small class.
 double small_class_limit(const SizesSpec& sizes);
 
-/// Solid volume per floor area that `spec` asks for, d; not of placed grains.
+/// Solid volume per floor area that `spec` asks for, d.
 double solid_height(const PackingSpec& spec);
 
 }  // namespace grainsweep

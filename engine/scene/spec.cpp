@@ -26,6 +26,11 @@ constexpr const char* missing_diameter =
     "; radii reach more than 1 d: fill.diameter, the length in the file that is d, is missing or "
     "wrong";
 
+constexpr double tiny_in_file = 0.2;  // d
+constexpr const char* wrong_diameter =
+    "; the largest grain of the file is less than 0.2 d across: fill.diameter, the length in the "
+    "file that is d, is wrong";
+
 bool require_in(const Interval& interval, double value, const char* path, Errors& errors) {
   if (interval.holds(value)) return true;
   errors.push_back({path, "must lie in " + interval.text() + ", is " + bound_text(value)});
@@ -249,8 +254,16 @@ double loosest_solid_fraction(const PackingSpec& spec, double across) {
   return fraction;
 }
 
+/// The larger first: that is the one to make smaller.
+std::string left_out_text(const MeasureSpec& measure) {
+  return measure.exclude_surface > measure.exclude_floor
+             ? "measure.exclude_surface, measure.exclude_floor"
+             : "measure.exclude_floor, measure.exclude_surface";
+}
+
 /// A bed that must come out too low to be measured. Its highest grains stand out by one diameter.
 void check_height(const PackingSpec& spec, double across, Errors& errors) {
+  const auto* placed = std::get_if<PlacedGrains>(&spec.fill);
   const double highest = solid_height(spec) / loosest_solid_fraction(spec, across) + across;
   const double left_out = spec.measure.exclude_floor + spec.measure.exclude_surface;
   if (highest >= left_out + least_slab_height) return;
@@ -259,12 +272,13 @@ void check_height(const PackingSpec& spec, double across, Errors& errors) {
   const bool is_counted = std::holds_alternative<GrainCount>(spec.fill);
   errors.push_back({!is_usual    ? "measure"
                     : is_counted ? "fill.grains"
+                    : placed     ? "fill.file"
                                  : "fill.solid_height",
                     "gives a bed too low to be measured: at most " + number_text(highest) +
-                        " d high, and measure.exclude_floor, measure.exclude_surface and a slab "
-                        "of " +
+                        " d high, and " + left_out_text(spec.measure) + " and a slab of " +
                         bound_text(least_slab_height) + " d between them take " +
-                        number_text(left_out + least_slab_height) + " d"});
+                        number_text(left_out + least_slab_height) + " d" +
+                        (placed ? wrong_diameter : "")});
 }
 
 /// What the highest grain falls at least, in d, where a start may be as dense as the loosest beds.
@@ -288,11 +302,16 @@ void check_fall(const PackingSpec& spec, double across, Errors& errors) {
                                     ", max_steps is " + std::to_string(a.max_steps)});
 }
 
-/// What grows out of the parts together, once each of them is right.
+/// What grows out of the parts together, once each of them is right. `across`: of a grain of size
+/// 1, d. A few grains of a file may be packed to be exported alone.
 void check_outcome(const PackingSpec& spec, double across, Errors& errors) {
-  if (std::holds_alternative<PlacedGrains>(spec.fill)) return;
-  check_height(spec, across, errors);
-  check_fall(spec, across, errors);
+  if (std::holds_alternative<PlacedGrains>(spec.fill)) {
+    const double largest = across * largest_size(spec);
+    if (largest < tiny_in_file) check_height(spec, largest, errors);
+    return;
+  }
+  check_height(spec, across * outcome_size(spec), errors);
+  check_fall(spec, across * outcome_size(spec), errors);
 }
 
 bool has_hull(const ShapeSpec& shape) {
@@ -452,7 +471,7 @@ std::vector<SpecError> check(const PackingSpec& spec) {
   if (spec.accuracy.rest == Rest::exact) check_exact_rest(spec, largest, errors);
   check_measure(spec.measure, errors);
   if (box) check_bin_width(spec.measure.bin_width, spec.box, errors);
-  if (errors.empty()) check_outcome(spec, across * outcome_size(spec), errors);
+  if (errors.empty()) check_outcome(spec, across, errors);
   hint_at_size(spec.shape, across, errors);
   return errors;
 }

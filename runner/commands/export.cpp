@@ -242,7 +242,7 @@ int perform(const ExportOptions& options) {
               << printed_unit(*units) << "\n";
   }
   if (unsettled > 0) {
-    std::cout << unsettled << " of them did not come to rest: see the column status there\n";
+    std::cout << unsettled << " of them did not settle or failed: see the column status there\n";
   }
   if (!refused.empty()) {
     std::cout << counted(refused.size(), "packing") << " left out: " << refused.front()

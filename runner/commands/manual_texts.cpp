@@ -29,6 +29,20 @@ std::vector<std::string> names_of(const CLI::Option& option) {
 
 bool takes_a_value(const CLI::Option& option) { return option.get_items_expected_max() > 0; }
 
+/// What stands for its value, "N"; CLI11 writes what it may be behind a colon.
+std::string operand_of(const CLI::Option& option) {
+  const std::string type = option.get_type_name();
+  return type.substr(0, type.find(':'));
+}
+
+/// What its value may be: the names of a set without its braces; "" if it is no set.
+std::string names_in_set(const CLI::Option& option) {
+  const std::string type = option.get_type_name();
+  const std::size_t begin = type.find(":{"), end = type.rfind('}');
+  if (begin == std::string::npos || end == std::string::npos) return "";
+  return type.substr(begin + 2, end - begin - 2);
+}
+
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
   for (std::size_t at = text.find(from); at != std::string::npos;
        at = text.find(from, at + to.size())) {
@@ -71,7 +85,7 @@ std::string option_entry(const CLI::Option& option) {
   std::string names;
   for (const std::string& name : names_of(option))
     names += (names.empty() ? "" : ", ") + bold(name);
-  if (takes_a_value(option)) names += " " + italic(option.get_type_name());
+  if (takes_a_value(option)) names += " " + italic(operand_of(option));
   return ".TP\n" + names + "\n" + roff(option.get_description()) + "\n";
 }
 
@@ -130,12 +144,22 @@ std::string in_quotes(const std::string& text) {
   return "'" + replaced(on_one_line(text), "'", "’") + "'";
 }
 
+/// The value of an option and how it is completed: from its set, or as the name of a file.
+std::string zsh_value(const CLI::Option& option) {
+  const std::string names = names_in_set(option);
+  const bool is_number = option.get_type_name().find(" in [") != std::string::npos;
+  const std::string action = !names.empty() ? "(" + replaced(names, ",", " ") + ")"
+                             : is_number    ? " "
+                                            : "_files";
+  return ":" + operand_of(option) + ":" + action;
+}
+
 std::string zsh_words(const CLI::Option& option) {
   std::string text = replaced(replaced(option.get_description(), "[", "("), "]", ")");
   text = replaced(text, ":", "\\:");
   std::string words;
   for (const std::string& name : names_of(option)) {
-    const std::string value = takes_a_value(option) ? ":" + option.get_type_name() + ":_files" : "";
+    const std::string value = takes_a_value(option) ? zsh_value(option) : "";
     words += " \\\n        " + in_quotes(name + "[" + text + "]" + value);
   }
   return words;

@@ -8,6 +8,7 @@
 #include <sstream>
 #include <unordered_set>
 
+#include "engine/dynamics/presets.hpp"
 #include "runner/jobs/estimates.hpp"
 #include "runner/jobs/growing_fits.hpp"
 #include "runner/jobs/replicate_means.hpp"
@@ -129,8 +130,8 @@ void refuse_wish(const std::string& key, double wish, double ProtocolBias::*boun
   const double bias = bound_of(job).value_or(ProtocolBias()).*bound;
   if (wish > bias) return;
   std::ostringstream message;
-  message << "cannot be met in \"" << job.label << "\": settled as \"" << facts_of(job).accuracy
-          << "\" such packings may be off by " << bias
+  message << "cannot be met in \"" << job.label << "\": settled as \""
+          << settles_as(job.spec.accuracy) << "\" such packings may be off by " << bias
           << " however many there are; ask for more than that" << finer_text(job, wish, bound);
   diagnostics.push_back({place_of(key, whole, job), message.str()});
 }

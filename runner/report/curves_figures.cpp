@@ -145,15 +145,22 @@ std::vector<std::reference_wrapper<const Row>> points_of(const std::vector<Row>&
 // Numbers of what is drawn beside the series of the key.
 constexpr std::size_t not_settled = most_series + 1, other_series = most_series + 2;
 
+using SeriesNumbers = decltype(series_numbers(std::declval<const Axes&>()));
+
+/// What a packing is drawn as.
+std::size_t drawn_as(const Row& row, const SeriesNumbers& numbers) {
+  if (!is_settled(row)) return not_settled;
+  const auto number = numbers.find({row.job.label, row.job.parameters.text()});
+  return number == numbers.end() ? other_series : number->second;
+}
+
 std::string effort_csv(const Axes& axes,
                        const std::vector<std::reference_wrapper<const Row>>& points) {
   std::string text =
       csv_line({"series", "job", "grains", "cpu_seconds", "contact_ratio", "status"});
   const auto numbers = series_numbers(axes);
   for (const Row& row : points) {
-    const auto number = numbers.find({row.job.label, row.job.parameters.text()});
-    const std::size_t series = number == numbers.end() ? other_series : number->second;
-    text += csv_line({cell(is_settled(row) ? series : not_settled), cell(row.job.id),
+    text += csv_line({cell(drawn_as(row, numbers)), cell(row.job.id),
                       cell(row.outcome->result.grains), cell(row.outcome->cpu_seconds),
                       cell(number_of(field_named("contact_ratio"), *row.outcome)),
                       cell(status_of(row))});
@@ -283,7 +290,10 @@ Figure effort_figure(const Axes& axes, const std::vector<Row>& rows) {
   }
   std::vector<double> seconds, ratios = {1.0};
   bool all_settled = true;
-  if (shown_series(axes).size() < axes.series.size()) {
+  const auto is_of_others = [&, numbers = series_numbers(axes)](const Row& row) {
+    return drawn_as(row, numbers) == other_series;
+  };
+  if (std::any_of(points.begin(), points.end(), is_of_others)) {
     const std::string style = "points lc rgb '#bbbbbb' pt 7 ps 0.5";
     key.push_back({style, "other series"});
     parts.insert(parts.begin(), plot_part({table, "series", other_series, "cpu_seconds",

@@ -278,9 +278,9 @@ void refuse_double_assignments(const Assignments& assignments, Diagnostics& diag
     if (first != nullptr) {
       diagnostics.push_back({assignment.pointer, path + " is already set at " + first->pointer});
     } else if (is_fill(assignment.parameter) && fill != nullptr) {
-      diagnostics.push_back({assignment.pointer, "the box is already filled by " +
-                                                     parameters()[fill->parameter].path +
-                                                     "; keep one of solid_height, grains, file"});
+      diagnostics.push_back({assignment.pointer,
+                             "the box is already filled by " + parameters()[fill->parameter].path +
+                                 "; keep one of solid_height, grains, file, files"});
     }
     if (first == nullptr) first = &assignment;
     if (fill == nullptr && is_fill(assignment.parameter)) fill = &assignment;

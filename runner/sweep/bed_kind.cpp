@@ -21,7 +21,7 @@ bool is_at(const json& parameters, const std::string& place, double value) {
 
 std::optional<BedKind> bed_kind(std::string_view shape, const Box& box, double small_share,
                                 const json& parameters) {
-  for (const char* place : {"/sizes/distribution", "/fill/file"}) {
+  for (const char* place : {"/sizes/distribution", "/fill/file", "/fill/files"}) {
     if (parameters.contains(json::json_pointer(place))) return std::nullopt;
   }
   if (shape == "sphere" && small_share == 0.0) return BedKind::spheres;

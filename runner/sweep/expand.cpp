@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 #include <set>
+#include <string_view>
 #include <unordered_map>
 #include <utility>
 
@@ -93,6 +94,16 @@ std::string hash_of(const std::vector<Start>& starts) {
   std::string contents;
   for (const Start& start : starts) contents += start.content;
   return hex16(fnv1a(contents));
+}
+
+/// Of the grains themselves, however a file writes them.
+std::uint64_t hash_of(const PlacedGrains& placed) {
+  const auto bytes_of = [](const auto& list) {
+    return std::string_view(reinterpret_cast<const char*>(list.data()),
+                            list.size() * sizeof list.front());
+  };
+  return mixed(fnv1a(bytes_of(placed.grains)) + mixed(fnv1a(bytes_of(placed.orientations)))) ^
+         fnv1a(bytes_of(placed.components));
 }
 
 /// Multiplies out the blocks; holds the jobs made so far and what has been said about them.
@@ -244,7 +255,8 @@ class Expansion {
     const Assignment *diameter = in_effect[diameter_], *file = in_effect[file_];
     const Assignment* const files = in_effect[files_];
     if (file == nullptr && files == nullptr) {
-      if (diameter != nullptr) note(*diameter, "belongs to fill.file, and that is not set");
+      if (diameter != nullptr)
+        note(*diameter, "belongs to fill.file or fill.files; neither is set");
       return {{resolved.spec.fill}};
     }
     if (!(resolved.fill_diameter > 0.0)) {
@@ -265,14 +277,16 @@ class Expansion {
   std::vector<Start> starts_in_list(const Block& block, const Assignment& files,
                                     const ResolvedSpec& resolved) {
     std::vector<Start> starts;
-    std::map<std::string, std::string> file_of;  // by content
+    std::map<std::uint64_t, std::string> file_of;  // by what it says, however it is written
     for (const std::string& file : resolved.fill_files) {
       const Assignment entry{files.parameter, file,
                              files.pointer + "/" + std::to_string(starts.size())};
       starts.push_back(start_in(file, entry, resolved.fill_diameter));
       starts.back().pointer = entry.pointer;
-      const auto [same, is_new] = file_of.try_emplace(starts.back().content, file);
-      if (!is_new && !same->first.empty()) {
+      const auto* placed = std::get_if<PlacedGrains>(&starts.back().fill);
+      if (placed == nullptr) continue;
+      const auto [same, is_new] = file_of.try_emplace(hash_of(*placed), file);
+      if (!is_new) {
         note(entry, "is the same start as " + same->second + "; replicates must differ");
       }
     }
@@ -547,15 +561,16 @@ class Expansion {
     }
   }
 
-  /// Points of a block that are drawn again: equal ones are one point.
+  /// Points of a block that are drawn or written again: equal ones are one point.
   void note_repeated_points() {
     for (const auto& [index, count] : repeated_) {
       const Block& block = definition_.blocks[index];
-      if (block.random.empty()) continue;
-      diagnostics_.push_back({block.pointer + "/random/count",
+      const bool are_drawn = !block.random.empty();
+      diagnostics_.push_back({block.pointer + (are_drawn ? "/random/count" : ""),
                               in_thousands(count) + " of " + in_thousands(point_count(block)) +
-                                  (count == 1 ? " points is" : " points are") +
-                                  " drawn again and packed once; for more packings of a point "
+                                  (count == 1 ? " points is " : " points are ") +
+                                  (are_drawn ? "drawn" : "there") +
+                                  " again and packed once; for more packings of a point "
                                   "raise replicates",
                               Anchor::value, "", true});
     }

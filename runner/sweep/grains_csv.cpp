@@ -74,10 +74,7 @@ std::uint8_t component_in(std::string_view cell) {
 /// What is wrong with a line; otherwise the grain in it is added.
 std::string read_grain(const LineCells& cells, const Columns& columns, std::size_t width,
                        GrainsReading& reading) {
-  if (cells.size() != width) {
-    return "must hold " + std::to_string(width) + " values like the first line, holds " +
-           std::to_string(cells.size());
-  }
+  if (cells.size() != width) return wrong_width(cells.size(), width);
   std::array<double, column_names.size()> v{};
   for (std::size_t i = 0; i < columns.numbers.size(); ++i) {
     const std::string_view cell = cells[columns.numbers[i]];
@@ -95,14 +92,6 @@ std::string read_grain(const LineCells& cells, const Columns& columns, std::size
   return "";
 }
 
-/// Notes an error of `line`; false once there are enough.
-bool note(GrainsReading& reading, const std::string& file, std::size_t line, std::string message) {
-  const bool last = reading.errors.size() + 1 == most_wrong_lines;
-  if (last) message += " (further lines are not listed)";
-  reading.errors.push_back(wrong_line(file, line, std::move(message)));
-  return !last;
-}
-
 }  // namespace
 
 GrainsReading parse_grains(const std::string& text, const std::string& file) {
@@ -113,13 +102,15 @@ GrainsReading parse_grains(const std::string& text, const std::string& file) {
   std::string error;
   const auto columns = columns_of(header, error);
   if (!columns) {
-    note(reading, file, 1, error);
+    reading.errors.push_back(wrong_line(file, 1, error));
     return reading;
   }
-  if (lines.size() == 1) note(reading, file, 1, "no grain follows the first line");
-  for (std::size_t i = 1; i < lines.size(); ++i) {
+  if (lines.size() == 1) {
+    reading.errors.push_back(wrong_line(file, 1, "no grain follows the first line"));
+  }
+  for (std::size_t i = 1; i < lines.size() && reading.errors.size() < most_wrong_lines; ++i) {
     error = read_grain(cells_of(lines[i]), *columns, header.size(), reading);
-    if (!error.empty() && !note(reading, file, i + 1, error)) break;
+    if (!error.empty()) note_wrong_line(reading.errors, file, i + 1, error);
   }
   return reading;
 }

@@ -52,7 +52,7 @@ class ComponentReader {
     read_assignments("shape", shape, pointer_, assignments, diagnostics_);
     refuse_double_assignments(assignments, diagnostics_);
     if (diagnostics_.size() > before || !has_vertices(assignments)) return;
-    components.push_back(component_of(value.at(share_key).get<double>(), assignments));
+    components.push_back(component_of(value.at(share_key).get<double>() + 0.0, assignments));
   }
 
  private:

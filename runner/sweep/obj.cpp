@@ -46,7 +46,7 @@ VerticesReading parse_obj(const std::string& text, const std::string& file) {
     if (error.empty()) {
       reading.vertices.push_back(vertex);
     } else {
-      reading.errors.push_back(wrong_line(file, k + 1, error));
+      note_wrong_line(reading.errors, file, k + 1, error);
     }
   }
   if (reading.vertices.empty() && reading.errors.empty()) {

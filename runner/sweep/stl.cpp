@@ -80,7 +80,7 @@ VerticesReading parse_text(const std::string& text, const std::string& file) {
     Vector vertex = Vector::Zero();
     const std::string error = read_vertex(line.substr(keyword.size()), vertex);
     if (error.empty()) vertices.take(vertex);
-    if (!error.empty()) reading.errors.push_back(wrong_line(file, k + 1, error));
+    if (!error.empty()) note_wrong_line(reading.errors, file, k + 1, error);
   }
   reading.vertices = std::move(vertices).all();
   return reading;

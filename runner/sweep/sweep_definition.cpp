@@ -156,6 +156,7 @@ std::vector<std::pair<std::size_t, Value>> said_by(const Assignments& entry) {
   std::vector<std::pair<std::size_t, Value>> said;
   for (const Assignment& assignment : entry)
     said.emplace_back(assignment.parameter, assignment.value);
+  std::sort(said.begin(), said.end());  // in whatever order it is written
   return said;
 }
 
@@ -281,7 +282,7 @@ Block read_block(const Json& json, std::size_t index, const SweepDefinition& def
   Block block;
   block.pointer = "/sweep/" + std::to_string(index);
   block.label = "block " + std::to_string(index + 1);
-  if (!is_object(json, block.pointer, "an object with label, set, grid, zip, random",
+  if (!is_object(json, block.pointer, "an object with label, set, grid, zip, random, replicates",
                  diagnostics)) {
     return block;
   }
@@ -332,7 +333,8 @@ bool is_sweep_name(const std::string& name) {
 
 SweepDefinition read_definition(const Json& file, Diagnostics& diagnostics) {
   SweepDefinition definition;
-  if (!is_object(file, "", "an object with name, seed, replicates, base, sweep", diagnostics)) {
+  if (!is_object(file, "", "an object with name, seed, replicates, units, base, sweep",
+                 diagnostics)) {
     return definition;
   }
   refuse_unknown_keys(file, "", {"name", "seed", "replicates", "units", "base", "sweep", "$schema"},

@@ -64,6 +64,13 @@ Diagnostic wrong_line(const std::string& file, std::size_t line, std::string mes
   return {"", std::move(message), Anchor::value, file + ":" + std::to_string(line)};
 }
 
+void note_wrong_line(Diagnostics& errors, const std::string& file, std::size_t line,
+                     std::string message) {
+  const bool is_last = errors.size() + 1 == most_wrong_lines;
+  if (is_last) message += " (further lines are not listed)";
+  errors.push_back(wrong_line(file, line, std::move(message)));
+}
+
 std::string without_controls(std::string_view text) {
   std::string plain;
   while (!text.empty()) {
@@ -90,7 +97,13 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
 }
 
+std::string wrong_width(std::size_t cells, std::size_t width) {
+  return "must hold " + std::to_string(width) + " values like the first line, holds " +
+         std::to_string(cells);
+}
+
 std::optional<double> finite_number(std::string_view text) {
+  if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
   double value = 0.0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;

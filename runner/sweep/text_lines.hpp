@@ -40,6 +40,10 @@ inline constexpr std::size_t most_wrong_lines = 20;
 /// What is wrong with a line of `file`; lines count from 1.
 Diagnostic wrong_line(const std::string& file, std::size_t line, std::string message);
 
+/// Notes that, and with the last line that is listed that no more are.
+void note_wrong_line(Diagnostics& errors, const std::string& file, std::size_t line,
+                     std::string message);
+
 /// UTF-8 text with a question mark for each character that a terminal would obey: control
 /// characters, other ends of lines, and those that turn the direction of writing.
 std::string without_controls(std::string_view text);
@@ -64,8 +68,12 @@ std::vector<std::string_view> lines_of(std::string_view text);
 using LineCells = std::vector<std::string_view>;
 LineCells cells_of(std::string_view line);
 
-/// The number that all of `text` spells, with a decimal point; nothing for other text, NaN and
-/// infinity.
+/// What is wrong with a line of so many cells where the first one has `width`. A decimal comma
+/// makes one more.
+std::string wrong_width(std::size_t cells, std::size_t width);
+
+/// The number that all of `text` spells, with a decimal point and any sign; nothing for other text,
+/// NaN and infinity.
 std::optional<double> finite_number(std::string_view text);
 
 /// Line and column of byte offsets in a text. Lines and columns count from 1, columns in characters

@@ -83,10 +83,14 @@ ValueReading read_texts(const Parameter& parameter, const Json& value) {
 
 ValueReading read_numbers(const Parameter& parameter, const Json& value) {
   const auto is_number = [](const Json& entry) { return entry.is_number(); };
-  if (!value.is_array() || !std::all_of(value.begin(), value.end(), is_number)) {
-    return mismatch(parameter, value);
+  if (!value.is_array()) return mismatch(parameter, value);
+  const auto other = std::find_if_not(value.begin(), value.end(), is_number);
+  if (other != value.end()) {
+    return {{}, "must be " + wanted_value(parameter) + ", holds " + describe(*other)};
   }
-  return fits(value.get<std::vector<double>>());
+  auto numbers = value.get<std::vector<double>>();
+  for (double& number : numbers) number += 0.0;  // -0 and 0 are one value
+  return fits(std::move(numbers));
 }
 
 bool is_point(const Json& value) {
@@ -182,7 +186,9 @@ std::string range_error(const Parameter& parameter, const Value& value) {
   if (const auto* list = std::get_if<std::vector<double>>(&value)) numbers = *list;
   for (const double number : numbers) {
     if (parameter.range->holds(number)) continue;
-    return "must lie in " + parameter.range->text() + ", is " + bound_text(number);
+    const bool is_bounded = !std::isinf(parameter.range->high);
+    return (is_bounded ? "must lie in " : "must be ") + parameter.range->text() + ", is " +
+           bound_text(number);
   }
   return "";
 }
@@ -216,7 +222,7 @@ std::string wanted_value(const Parameter& parameter) {
     case ValueKind::whole:
       return "a whole number" + up_to(parameter);
     case ValueKind::natural:
-      return "a whole number from 0 to 18446744073709551615";
+      return "a whole number in digits from 0 to 18446744073709551615";
     case ValueKind::text:
       return "the name of a file in double quotes";
     case ValueKind::texts:

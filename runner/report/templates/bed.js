@@ -301,7 +301,8 @@
   const cut = () => {
     const axis = Number(pick("bed-axis").value);
     const keep = [1e9, 1e9, 1e9];
-    keep[axis] = bed.box[axis] * Number(pick("bed-slice").value) / 100;
+    const kept = Number(pick("bed-slice").value) / 100;
+    if (kept < 1) keep[axis] = bed.box[axis] * kept; // lines through a periodic side reach beyond
     for (const shown of [grains, network]) shown.material.uniforms.keep.value.set(...keep);
     redraw();
   };

@@ -9,6 +9,7 @@
 
   const valueIn = (row, column) => {
     const text = row.cells[column].textContent.trim();
+    if (column === 0) return text; // some identities read as numbers
     const number = Number(text);
     return text !== "" && !Number.isNaN(number) ? number : text;
   };

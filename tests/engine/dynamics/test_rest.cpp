@@ -375,6 +375,9 @@ TEST_CASE("a high bed is advised to take f64 where f32 keeps its residual large"
         "known "
         "better");
   CHECK(remedy_of_rounding(rest, accuracy, 20.0).empty());
+  rest.kinetic_energy = 2.0 * accuracy.kinetic_tolerance;  // it has not come to rest yet
+  CHECK(remedy_of_rounding(rest, accuracy, 240.0).empty());
+  rest.kinetic_energy = 0.0;
   accuracy.precision = Precision::f64;
   CHECK(remedy_of_rounding(rest, accuracy, 240.0).empty());
   accuracy.precision = Precision::f32;

@@ -157,6 +157,18 @@ TEST_CASE("placed grains must lie in the box, have a radius and be finite") {
   CHECK(placed({{5, 3, 1, nan}}).size() == 1);
 }
 
+TEST_CASE("grains of a file that are far smaller than d have the wrong unit") {
+  PackingSpec spec;
+  PlacedGrains placed;
+  for (int k = 0; k < 9; ++k) placed.grains.push_back({0.01 + 0.02 * k, 0.01, 0.01, 0.01});
+  spec.fill = placed;
+  const auto errors = check(spec);
+  REQUIRE(errors.size() == 1);
+  CHECK(errors[0].path == "fill.file");
+  CHECK(errors[0].message.starts_with("gives a bed too low to be measured: at most 0.02"));
+  CHECK(errors[0].message.ends_with("fill.diameter, the length in the file that is d, is wrong"));
+}
+
 TEST_CASE("a bed that must come out too low to be measured is refused where it is filled") {
   const auto bed = [](double width, const Fill& fill, double exclude_floor) {
     return broken_by([=](PackingSpec& spec) {

@@ -116,7 +116,7 @@ TEST_CASE("a layer that fills the box replaces the fill below it") {
 TEST_CASE("two ways to fill the box in one object are refused") {
   CHECK(errors_in_base(R"({"fill": {"solid_height": 9, "grains": 10000}})") ==
         Messages{"s.json:2:40 /base/fill/grains: the box is already filled by fill.solid_height; "
-                 "keep one of solid_height, grains, file"});
+                 "keep one of solid_height, grains, file, files"});
 }
 
 TEST_CASE("a parameter that is set twice in one object is refused") {
@@ -305,7 +305,8 @@ TEST_CASE("a shape that is not said, or misspelt, is refused with what is known"
 
 TEST_CASE("a diameter without a fill file is refused, one that is not positive too") {
   CHECK(errors_in_base(R"({"fill": {"grains": 5000, "diameter": 2}})") ==
-        Messages{"s.json:2:39 /base/fill/diameter: belongs to fill.file, and that is not set"});
+        Messages{
+            "s.json:2:39 /base/fill/diameter: belongs to fill.file or fill.files; neither is set"});
   CHECK(errors_in_base(R"({"fill": {"file": "a.csv", "diameter": 0}})") ==
         Messages{"s.json:2:40 /base/fill/diameter: must be positive"});
 }

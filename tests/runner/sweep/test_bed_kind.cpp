@@ -38,5 +38,18 @@ TEST_CASE("beds of which nothing alike was measured are of no kind") {
   CHECK(kind_of(R"({"sizes.distribution.lognormal.sigma": 0.2})").empty());
 }
 
+TEST_CASE("beds that start from files are of no kind, however they are listed") {
+  const ScratchFolder folder;
+  folder.write("a.csv", "x,y,z,r\n2,2,2,0.5\n");
+  for (const std::string fill : {R"("file": "a.csv")", R"("files": ["a.csv"])"}) {
+    const auto reading =
+        read_sweep(folder.write("s.json", R"({"name": "k", "base": {"fill": {)" + fill + "}}}"));
+    REQUIRE(reading.errors.empty());
+    const Job& job = reading.sweep.jobs.at(0);
+    CHECK_FALSE(
+        bed_kind("sphere", job.spec.box, 0.0, nlohmann::json::parse(job.parameters)).has_value());
+  }
+}
+
 }  // namespace
 }  // namespace grainsweep

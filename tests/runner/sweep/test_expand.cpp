@@ -290,6 +290,27 @@ TEST_CASE("a list that holds a value twice, and a zip with two equal rows, are r
                  "packings of a point raise replicates"});
   CHECK(
       errors_of(sweep_of(R"({"zip": {"box.width": [5, 6, 5], "box.length": [9, 9, 8]}})")).empty());
+  CHECK(errors_of(sweep_of(
+            R"({"grid": {"box": [{"length": 9, "width": 5}, {"width": 5, "length": 9}]}})")) ==
+        Messages{"s.json:1:92 /sweep/0/grid/box/1/width: repeats value 1 of /sweep/0/grid/box; for "
+                 "more packings of a point raise replicates"});
+}
+
+TEST_CASE("points that are there twice, said otherwise, are packed once, and that is noted") {
+  CHECK(notes_of(sweep_of(R"({"grid": {"shape": ["cube", {"cube": {"edge": 1}}]}})")) ==
+        Messages{"s.json:1:37 /sweep/0: 1 of 2 points is there again and packed once; for more "
+                 "packings of a point raise replicates"});
+}
+
+TEST_CASE("minus zero in a list is zero") {
+  const auto id_of = [](const std::string& passing) {
+    return jobs_of(sweep_of("{}", R"({"sizes.distribution.table": {"diameters": [1, 2, 3], )"
+                                  R"("passing": )" +
+                                      passing + "}}"))
+        .at(0)
+        .id;
+  };
+  CHECK(id_of("[-0.0, 0.5, 1]") == id_of("[0, 0.5, 1]"));
 }
 
 TEST_CASE("100,000 jobs are expanded in less than two seconds of processor time", "[slow]") {

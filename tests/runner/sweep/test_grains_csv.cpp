@@ -191,6 +191,7 @@ TEST_CASE("one start is no start for several replicates, a list of starts is one
   folder.write("a.csv", "x,y,z,r\n2,2,2,0.5\n");
   folder.write("b.csv", "x,y,z,r\n3,2,2,0.5\n");
   folder.write("copy.csv", "x,y,z,r\n2,2,2,0.5\n");
+  folder.write("lines.csv", "x, y, z, r\r\n2.0,2,2,+0.5\r\n");
   folder.write("out.csv", "x,y,z,r\n99,2,2,0.5\n");
   const auto read = [&](const std::string& fill, int replicates) {
     return read_sweep(folder.write("s.json", R"({"name": "t", "replicates": )" +
@@ -207,6 +208,8 @@ TEST_CASE("one start is no start for several replicates, a list of starts is one
   CHECK(error(R"({"files": ["a.csv", "b.csv"]})", 3) ==
         "/base/fill/files lists 2 starts for 3 replicates; write \"replicates\": 2");
   CHECK(error(R"({"files": ["a.csv", "b.csv", "copy.csv"]})", 1) ==
+        "/base/fill/files/2 is the same start as a.csv; replicates must differ");
+  CHECK(error(R"({"files": ["a.csv", "b.csv", "lines.csv"]})", 1) ==
         "/base/fill/files/2 is the same start as a.csv; replicates must differ");
   CHECK_THAT(error(R"({"files": ["a.csv", "out.csv"]})", 2),
              Catch::StartsWith("/base/fill/files/1 grain 1 lies outside the box"));

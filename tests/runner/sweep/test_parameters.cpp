@@ -224,7 +224,7 @@ TEST_CASE("a value of the wrong type is refused with what was wanted and what wa
         "must be a list of names of files in double quotes, is a list");
   CHECK(error_of("measure.gap_tolerances", 1e-4) == "must be a list of numbers, is 0.0001");
   CHECK(error_of("measure.gap_tolerances", Json::array({"a"})) ==
-        "must be a list of numbers, is a list");
+        "must be a list of numbers, holds the text \"a\"");
   CHECK(error_of("fill.grains", 10.5) == "must be a whole number in [1, 10000000], is 10.5");
   CHECK(error_of("fill.grains", 1e300) == "must be a whole number in [1, 10000000], is 1e+300");
   CHECK(error_of("fill.grains", 18446744073709551615U) ==
@@ -232,9 +232,11 @@ TEST_CASE("a value of the wrong type is refused with what was wanted and what wa
   CHECK(error_of("accuracy.max_steps", 3'000'000'000) ==
         "must be a whole number in [1, 2147483647], is 3000000000");
   CHECK(error_of("shape.prism.sides", 6.5) == "must be a whole number in [3, 200], is 6.5");
-  CHECK(error_of("seed", -1) == "must be a whole number from 0 to 18446744073709551615, is -1");
-  CHECK(error_of("seed", 1.8446744073709552e19) ==
-        "must be a whole number from 0 to 18446744073709551615, is 1.8446744073709552e+19");
+  CHECK(error_of("seed", -1) ==
+        "must be a whole number in digits from 0 to 18446744073709551615, is -1");
+  CHECK(
+      error_of("seed", 1.8446744073709552e19) ==
+      "must be a whole number in digits from 0 to 18446744073709551615, is 1.8446744073709552e+19");
 }
 
 TEST_CASE("a solver of earlier versions is refused with the one that took its place") {

@@ -35,14 +35,18 @@ TEST_CASE("shares of single diameters are read as such") {
 TEST_CASE("what a table of sizes lacks is told with its line") {
   const std::string wanted =
       "sieves.csv:1: the first line must name the columns diameter and passing, or diameter and "
-      "share; is ";
+      "share, each once; is ";
   CHECK(errors_of_table("d,passing\n1,0\n") == Messages{wanted + "\"d,passing\""});
   CHECK(errors_of_table("diameter,passing,share\n") ==
         Messages{wanted + "\"diameter,passing,share\""});
+  CHECK(errors_of_table("diameter,passing,passing\n1,0,0\n") ==
+        Messages{wanted + "\"diameter,passing,passing\""});
+  CHECK(errors_of_table("diameter,passing\n2,0\n4,0,3\n8,1\n") ==  // a decimal comma
+        Messages{"sieves.csv:3: must hold 2 values like the first line, holds 3"});
   CHECK(errors_of_table("diameter,share\n") ==
         Messages{"sieves.csv:1: no row follows the first line"});
   CHECK(errors_of_table("diameter,share\n1\n2,x\nnan,1\n3,1\n") ==
-        Messages{"sieves.csv:2: holds fewer values than the first line names",
+        Messages{"sieves.csv:2: must hold 2 values like the first line, holds 1",
                  "sieves.csv:3: must hold finite numbers, holds \"x\"",
                  "sieves.csv:4: must hold finite numbers, holds \"nan\""});
   std::string wrong = "diameter,share\n";

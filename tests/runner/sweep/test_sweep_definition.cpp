@@ -40,7 +40,8 @@ TEST_CASE("names that are no folder names are refused") {
 
 TEST_CASE("the top level must be an object with known keys") {
   CHECK(errors_of("5") ==
-        Messages{"s.json:1:1: must be an object with name, seed, replicates, base, sweep, is 5"});
+        Messages{
+            "s.json:1:1: must be an object with name, seed, replicates, units, base, sweep, is 5"});
   CHECK(errors_of(R"({"name": "t", "sweeps": []})") ==
         Messages{"s.json:1:15 /sweeps: unknown key \"sweeps\"; did you mean \"sweep\"?"});
   CHECK(errors_of(R"({"name": "t", "sweep": {}})") ==
@@ -51,7 +52,8 @@ TEST_CASE("the top level must be an object with known keys") {
 
 TEST_CASE("seeds take all of 64 bits and nothing else") {
   CHECK(reading_of(R"({"name": "t", "seed": 18446744073709551615})").sweep.seed == UINT64_MAX);
-  const std::string message = " /seed: must be a whole number from 0 to 18446744073709551615, is ";
+  const std::string message =
+      " /seed: must be a whole number in digits from 0 to 18446744073709551615, is ";
   CHECK(errors_of(R"({"name": "t", "seed": -1})") == Messages{"s.json:1:23" + message + "-1"});
   CHECK(errors_of(R"({"name": "t", "seed": "1"})") ==
         Messages{"s.json:1:23" + message + "the text \"1\""});
@@ -75,9 +77,8 @@ TEST_CASE("replicates lie between 1 and 10000, in the file and in a block") {
 }
 
 TEST_CASE("a block must be an object with known keys and a label on one line") {
-  CHECK(
-      errors_in_block("5") ==
-      Messages{"s.json:2:1 /sweep/0: must be an object with label, set, grid, zip, random, is 5"});
+  CHECK(errors_in_block("5") == Messages{"s.json:2:1 /sweep/0: must be an object with label, set, "
+                                         "grid, zip, random, replicates, is 5"});
   CHECK(errors_in_block(R"({"gird": {}})") ==
         Messages{"s.json:2:2 /sweep/0/gird: unknown key \"gird\"; did you mean \"grid\"?"});
   CHECK(errors_in_block(R"({"label": "a\nb"})").size() == 1);

@@ -39,7 +39,8 @@ TEST_CASE("blanks around words are dropped") {
 TEST_CASE("only whole finite numbers with a decimal point are numbers") {
   CHECK(finite_number("-1.5e3") == -1500.0);
   CHECK(finite_number(".5") == 0.5);
-  for (const char* text : {"", "1,5", "1.5x", "nan", "inf", "1e999", " 1"}) {
+  CHECK(finite_number("+.5") == 0.5);
+  for (const char* text : {"", "+", "+-1", "++1", "1,5", "1.5x", "nan", "inf", "1e999", " 1"}) {
     INFO(text);
     CHECK_FALSE(finite_number(text));
   }
