@@ -122,7 +122,8 @@ constexpr double most_layers_awake = 1.5 * sleep_depth;
 /// further; the creep of spheres grows with the layers that forces have to find their way through.
 double usual_iterations(const PackingSpec& spec, double layers) {
   const Accuracy& a = spec.accuracy;
-  const double falling = std::min(layers, most_layers_awake);
+  const double falling =
+      std::min(layers, most_layers_awake) * std::max(1.0, Accuracy{}.step / a.step);  // in steps
   const double solved = std::pow(Accuracy{}.path_tolerance / a.path_tolerance, 0.6);
   const double creep =
       std::pow(static_cast<double>(a.creep_steps) / Accuracy{}.creep_steps, 1.4);  // of the usual

@@ -16,6 +16,13 @@ std::string clock_time(double seconds) {
   return text.data();
 }
 
+/// For a file name that Slurm reads, which takes % as its own.
+std::string without_patterns(const std::string& name) {
+  std::string text;
+  for (const char c : name) text += c == '%' ? std::string("%%") : std::string(1, c);
+  return text;
+}
+
 std::string directive(const std::string& text) { return "#SBATCH --" + text + "\n"; }
 
 /// What both jobs ask for. `log` is the name of the file that takes what a job says.
@@ -30,7 +37,8 @@ std::string directives(const ClusterRun& run, const std::string& log) {
   }
   return text + directive("time=" + clock_time(division.seconds)) + directive("requeue") +
          directive("open-mode=append") +
-         directive("output=" + shell_word(scripts_folder(run.folder) + "/" + log));
+         directive("output=" +
+                   shell_word(without_patterns(scripts_folder(run.folder)) + "/" + log));
 }
 
 std::string command(const ClusterRun& run) {
@@ -58,8 +66,9 @@ std::string rest_script(const ClusterRun& run) {
   const std::string tolerance =
       run.tolerate_unsettled.empty() ? "" : " --tolerate-unsettled=" + run.tolerate_unsettled;
   return "#!/bin/bash\n# Makes what shards have left of " + run.name +
-         ", and writes tables and page.\n" + directives(run, "rest.log") + command(run) +
-         tolerance +
+         ", and writes tables and page. Its run has to know the time that the job has.\n" +
+         directives(run, "rest.log") + command(run) + " --time-limit " +
+         clock_time(run.division.seconds) + tolerance +
          "\ncode=$?\n# Out of time, with what is under way saved: once more.\n"
          "if [ $code -eq 6 ]; then exec scontrol requeue \"$SLURM_JOB_ID\"; fi\n"
          "exit $code\n";

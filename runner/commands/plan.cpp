@@ -3,7 +3,6 @@
 #include <filesystem>
 #include <iostream>
 #include <map>
-#include <set>
 
 #include <CLI/App.hpp>
 #include <nlohmann/json.hpp>
@@ -85,21 +84,28 @@ std::string learned_text(const std::string& folder, const Outcomes& outcomes,
          fixed(total_cpu_seconds(costs) / total_cpu_seconds(costs_of(jobs)), 2) + "\n";
 }
 
-/// How evenly so many shards, which the uncorrected estimates divide, have the work.
-std::string shards_text(const Sweep& sweep, const std::vector<Cost>& costs, int shards) {
+/// CPU time of each of so many shards, which the uncorrected estimates divide, s; 0 of those with
+/// nothing to make.
+std::vector<double> seconds_of_shards(const Sweep& sweep, const std::vector<Cost>& costs,
+                                      int shards) {
   std::vector<double> seconds(static_cast<std::size_t>(shards));
   const std::vector<int> shard_of = shards_of(sweep, shards);
-  std::set<int> at_work;
   for (std::size_t i = 0; i < costs.size(); ++i) {
     seconds[static_cast<std::size_t>(shard_of[i] - 1)] += costs[i].cpu_seconds;
-    at_work.insert(shard_of[i]);
   }
+  return seconds;
+}
+
+/// How evenly so many shards have the work.
+std::string shards_text(const Sweep& sweep, const std::vector<Cost>& costs, int shards) {
+  const std::vector<double> seconds = seconds_of_shards(sweep, costs, shards);
+  const auto idle = static_cast<std::size_t>(std::count(seconds.begin(), seconds.end(), 0.0));
   const double longest = *std::max_element(seconds.begin(), seconds.end());
   const double mean = total_cpu_seconds(costs) / shards;
   std::string text = "In " + counted(seconds.size(), "shard") + ": about " + duration_text(mean) +
                      " CPU each, the longest " + duration_text(longest);
-  if (at_work.size() < seconds.size()) {
-    text += "; " + std::to_string(seconds.size() - at_work.size()) + " have nothing to make";
+  if (idle > 0) {
+    text += "; " + std::to_string(idle) + " have nothing to make";
     if (grows(sweep)) text += ", since growing groups and families remain whole";
   }
   return text + "\n";
@@ -222,17 +228,25 @@ std::string job_json(const Job& job, const Cost& cost) {
   return text + ",\"parameters\":" + job.parameters + "}";
 }
 
-/// Written job by job: as one value a large sweep would take ten times the memory.
+/// Written job by job: as one value a large sweep would take ten times the memory. `most`: of all
+/// that a sweep may grow to; empty if it does not.
 void print_json(const Sweep& sweep, const std::vector<Cost>& costs, const Needs& needs,
-                int threads) {
-  const nlohmann::ordered_json plan = {{"name", sweep.name},
-                                       {"packings", costs.size()},
-                                       {"threads", threads},
-                                       {"packings_at_once", needs.live},
-                                       {"estimated_cpu_seconds", needs.cpu_seconds},
-                                       {"estimated_wall_seconds", needs.wall_seconds},
-                                       {"estimated_bytes", needs.bytes},
-                                       {"available_bytes", needs.memory}};
+                const std::vector<Cost>& most, int threads, int shards) {
+  nlohmann::ordered_json plan = {{"name", sweep.name},
+                                 {"packings", costs.size()},
+                                 {"threads", threads},
+                                 {"packings_at_once", needs.live},
+                                 {"estimated_cpu_seconds", needs.cpu_seconds},
+                                 {"estimated_wall_seconds", needs.wall_seconds},
+                                 {"estimated_bytes", needs.bytes},
+                                 {"available_bytes", needs.memory}};
+  if (!most.empty()) {
+    plan["most_packings"] = most.size();
+    plan["most_estimated_cpu_seconds"] = total_cpu_seconds(most);
+  }
+  if (shards > 0) {
+    plan["estimated_cpu_seconds_of_shards"] = seconds_of_shards(sweep, costs, shards);
+  }
   std::string text = plan.dump(2);
   text.resize(text.rfind('\n'));
   std::cout << text << ",\n  \"jobs\": [";
@@ -270,11 +284,12 @@ int perform(const PlanOptions& options) {
   if (!options.out.empty()) std::cerr << learned_text(options.out, made, sweep.jobs, costs);
   const Needs needs = needs_of(costs, threads);
   std::cerr << memory_warning(costs, needs.memory);
+  const std::vector<Cost> grown = grows(whole) ? costs_with(made, whole.jobs) : std::vector<Cost>();
   if (options.json) {
-    print_json(sweep, costs, needs, threads);
+    print_json(sweep, costs, needs, grown, threads, options.shards);
   } else {
     const PackingNames names = names_in(sweep);
-    const std::vector<Cost> most = grows(whole) ? costs_with(made, whole.jobs) : costs;
+    const std::vector<Cost>& most = grows(whole) ? grown : costs;
     print_text(sweep, costs, needs, needs_of(most, threads).wall_seconds, threads, names);
     if (grows(whole)) {
       std::cout << next_text(sweep, made, names) << growth_text(most)

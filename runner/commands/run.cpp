@@ -195,9 +195,9 @@ Packed pack(RunningSweep& running, PackingNamesOnce& names, const RunOptions& op
   expect_threads(limits.threads);
   const ProgressStyle style = options.quiet ? ProgressStyle::quiet : progress_style();
   const bool tells_packings = style == ProgressStyle::plain || options.fail_fast;
-  return pack_pending(
-      running, {limits, isa, style, options.checkpoint_seconds, options.fail_fast, time_limit,
-                options.no_grains, tells_packings ? names.get() : PackingNames()});
+  return pack_pending(running, {limits, isa, style, options.checkpoint_seconds, options.fail_fast,
+                                time_limit.from_now(), options.no_grains,
+                                tells_packings ? names.get() : PackingNames()});
 }
 
 struct Made {
@@ -246,8 +246,16 @@ Made help(const Sweep& sweep, const Shard& shard, const std::string& folder, Sha
   }
 }
 
-/// The options to go on with: those of this run, but for what is done once.
-std::string repeated(const RunOptions& options, const std::string& folder) {
+/// Of a run that made failed packings again: those that it had no time for are kept as they were.
+bool lacks_only_time(const Packed& packed) {
+  if (was_stopped(packed)) return false;
+  std::cerr << "note: no time was left to make all failed packings again\n";
+  return true;
+}
+
+/// The options to go on with: those of this run, but for what is done once. `retries`: whether
+/// failed packings are still to be made again.
+std::string repeated(const RunOptions& options, const std::string& folder, bool retries) {
   std::ostringstream text;
   text << shell_word(options.file) << " --out " << shell_word(folder);
   if (options.threads > 0) text << " --threads " << options.threads;
@@ -255,7 +263,7 @@ std::string repeated(const RunOptions& options, const std::string& folder) {
   if (options.checkpoint_seconds != RunOptions{}.checkpoint_seconds) {
     text << " --checkpoint-seconds " << options.checkpoint_seconds;
   }
-  if (options.retry_failed) text << " --retry-failed";
+  if (retries) text << " --retry-failed";
   if (options.fail_fast) text << " --fail-fast";
   if (options.quiet) text << " --quiet";
   if (options.no_report) text << " --no-report";
@@ -288,7 +296,10 @@ int stopped(const Packed& packed, const RunOptions& options, const std::string& 
             << (packings == 1 ? " is" : " are") << " kept in " << folder;
   const std::size_t saved = saved_packings(folder);
   if (saved > 0) std::cerr << ", " << saved << " under way in its checkpoints";
-  std::cerr << ".\nGo on with: " << called_as() << " run " << repeated(options, folder) << "\n";
+  // Where all are kept --fail-fast stopped at one that was made again.
+  const bool retries = options.retry_failed && (by_signal || counts.pending > 0);
+  std::cerr << ".\nGo on with: " << called_as() << " run " << repeated(options, folder, retries)
+            << "\n";
   if (by_signal) return exit_stopped + stop_signal();
   return by_failure ? exit_left_out : exit_out_of_time;
 }
@@ -373,7 +384,7 @@ CLI::App& add_command(CLI::App& app, RunOptions& options) {
   run.add_flag("--fresh", options.fresh, "delete what is stored in the folder and start anew");
   run.add_flag("--yes", options.yes, "do not ask before --fresh deletes");
   run.add_flag("--retry-failed", options.retry_failed,
-               "make failed packings again, for instance with a newer version");
+               "make failed packings again, after the others, as with a new version");
   run.add_flag("--fail-fast", options.fail_fast,
                "stop at the first packing that fails; without it the others go on");
   run.add_flag("--quiet", options.quiet, "print warnings and errors only");
@@ -387,7 +398,7 @@ CLI::App& add_command(CLI::App& app, RunOptions& options) {
   run.add_flag("--alone", options.alone,
                "end with the shard, without taking over what others have not begun");
   run.add_option("--time-limit", options.time_limit,
-                 "end in time; [H:]MM:SS or seconds (default: the end of the Slurm job)")
+                 "end in time; [H:]MM:SS or seconds (default: that of the Slurm job)")
       ->check(not_empty())
       ->type_name("T");
   add_tolerance(run, options.tolerate_unsettled,
@@ -417,19 +428,25 @@ int perform(const RunOptions& options) {
   const std::set<std::string> jobs = jobs_of(shard, whole);
   const auto made = [&] { return made_for_growth(folder, whole); };
   GrowingSweep growing(whole, made());
-  bool retries = options.retry_failed;  // once
+  bool retries = false;
   PackingNamesOnce names(whole);
   const auto make = [&](RunningSweep& running) {
     return pack(running, names, options, isa, run, time_limit);
   };
-  Made own = make_all(growing, made, [&](const Sweep& sweep) {
+  const auto make_pending = [&](const Sweep& sweep) {
     record_sweep(folder, provenance, rows_of(sweep));
     RunningSweep running =
         resume(sweep, places_of(jobs, sweep), shard, folder, files, std::exchange(retries, false));
     const Packed now = make(running);
     const int seen_to = now.packings + now.left_to_others;
     return Made{now, static_cast<std::size_t>(seen_to) == running.pending.size()};
-  });
+  };
+  Made own = make_all(growing, made, make_pending);
+  if (own.is_whole && options.retry_failed) {
+    retries = true;  // once, and after what was never made: a short time is for that
+    const Made again = make_all(growing, made, make_pending);
+    own = {joined(own.packed, again.packed), again.is_whole || lacks_only_time(again.packed)};
+  }
   if (own.is_whole && shard.count > 1 && !options.alone && !grows(whole)) {
     const Made more = help(whole, shard, folder, files, options.quiet, make);
     own = {joined(own.packed, more.packed), more.is_whole};

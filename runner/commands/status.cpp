@@ -73,6 +73,10 @@ Standing standing_of(const std::string& folder, bool check) {
     if (runner.is_lost && is_done) continue;
     (runner.is_lost ? standing.lost : standing.working).push_back(std::move(runner));
   }
+  const auto makes_all = [](const Runner& runner) { return runner.shard == "1-of-1"; };
+  if (std::any_of(standing.working.begin(), standing.working.end(), makes_all)) {
+    standing.lost.clear();  // what they had is made by that one
+  }
   standing.queue = queue_of(folder);
   standing.seconds_left = cpu_seconds_left(rows);
   return standing;

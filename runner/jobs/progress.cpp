@@ -37,8 +37,8 @@ int columns_of(std::FILE* out) {
 }  // namespace
 
 double time_left(const RunState& state) {
-  if (state.share_done <= 0.0) return -1.0;
-  return state.elapsed * (1.0 - state.share_done) / state.share_done;
+  const double now = state.share_done - state.share_before;
+  return now > 0.0 ? state.elapsed * (1.0 - state.share_done) / now : -1.0;
 }
 
 std::string clock_text(double seconds) {
@@ -84,6 +84,7 @@ ProgressDisplay::ProgressDisplay(std::vector<double> costs, ProgressStyle style,
                                  std::size_t before)
     : costs_(std::move(costs)),
       shares_(costs_.size(), 0.0),
+      is_under_way_(costs_.size(), false),
       style_(style),
       out_(out),
       started_at_(wall_seconds()),
@@ -99,6 +100,8 @@ void ProgressDisplay::start(std::size_t /*task*/) {
 void ProgressDisplay::advance(std::size_t task, double share_done) {
   const std::scoped_lock lock(mutex_);
   reach(task, std::clamp(share_done, shares_[task], 1.0));
+  if (!is_under_way_[task]) done_before_ += costs_[task] * shares_[task];
+  is_under_way_[task] = true;
   draw(wall_seconds() - drawn_at_ > seconds_between_drawings);
 }
 
@@ -148,6 +151,7 @@ RunState ProgressDisplay::state_now() const {
   state.running = running_;
   state.unsettled = unsettled_;
   state.share_done = all_ > 0 ? std::min(done_ / all_, 1.0) : 0.0;
+  state.share_before = all_ > 0 ? std::min(done_before_ / all_, state.share_done) : 0.0;
   state.elapsed = wall_seconds() - started_at_;
   return state;
 }

@@ -17,6 +17,7 @@ struct RunState {
   std::size_t running = 0;    ///< packings
   std::size_t unsettled = 0;  ///< of the finished ones: not settled or failed
   double share_done = 0.0;    ///< of this run's estimated work, 0..1
+  double share_before = 0.0;  ///< of the work that earlier runs did, part of share_done
   double elapsed = 0.0;       ///< wall time, s
 };
 
@@ -65,10 +66,12 @@ class ProgressDisplay {
   mutable std::mutex mutex_;
   std::vector<double> costs_;
   std::vector<double> shares_;
+  std::vector<bool> is_under_way_;  ///< whether its share is known: what it had then, it had before
   ProgressStyle style_;
   std::FILE* out_;
   double started_at_;
-  double all_, done_ = 0.0;  ///< cost of all tasks, and of what is done of them, s
+  double all_, done_ = 0.0;   ///< cost of all tasks, and of what is done of them, s
+  double done_before_ = 0.0;  ///< by earlier runs
   double drawn_at_ = 0.0;
   int drawn_length_ = 0;  ///< of the line on the terminal, characters
   std::size_t before_, finished_ = 0, running_ = 0, unsettled_ = 0;

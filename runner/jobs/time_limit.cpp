@@ -25,6 +25,12 @@ std::optional<double> seconds_in(std::string_view text) {
 TimeLimit::TimeLimit(double seconds)
     : begun_at_(wall_seconds()), usable_(seconds - std::min(30.0, 0.1 * seconds)) {}
 
+TimeLimit TimeLimit::from_now() const {
+  TimeLimit rest = *this;
+  if (begun_at_) rest.begun_at_ = wall_seconds(), rest.usable_ = left();
+  return rest;
+}
+
 double TimeLimit::left() const { return usable_ - (wall_seconds() - *begun_at_); }
 
 bool TimeLimit::is_over() const { return begun_at_ && left() <= 0.0; }

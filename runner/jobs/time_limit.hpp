@@ -15,6 +15,9 @@ class TimeLimit {
   TimeLimit() = default;
   explicit TimeLimit(double seconds);
 
+  /// The same end, of a run whose packings begin now: what came before took some of its time.
+  TimeLimit from_now() const;
+
   /// Time to save what is under way and to write the tables: half a minute before the end, or a
   /// tenth of the limit if that is less.
   bool is_over() const;

@@ -32,9 +32,18 @@ TEST_CASE("an array has an element for each shard, told before its time is up") 
 
 TEST_CASE("the job behind the array tolerates what it is told to, and goes on when out of time") {
   const std::string script = rest_script(small_run());
-  CHECK_THAT(script, Contains("--threads 16 --quiet --tolerate-unsettled=0.01\n"));
+  CHECK_THAT(script,
+             Contains("--threads 16 --quiet --time-limit 0:52:00 --tolerate-unsettled=0.01\n"));
+  CHECK_THAT(script, Contains("\n#SBATCH --time=0:52:00\n"));
   CHECK_THAT(script, Contains("if [ $code -eq 6 ]; then exec scontrol requeue"));
   CHECK_THAT(script, !Contains("--array") && !Contains("--shard"));
+}
+
+TEST_CASE("a folder may have a name that Slurm would take for a pattern") {
+  ClusterRun run = small_run();
+  run.folder = "/out/5%a";
+  CHECK_THAT(shards_script(run), Contains("\n#SBATCH --output=/out/5%%a/slurm/%a.log\n"));
+  CHECK_THAT(rest_script(run), Contains("\n#SBATCH --output=/out/5%%a/slurm/rest.log\n"));
 }
 
 TEST_CASE("nodes whose memory is not told are asked for none") {

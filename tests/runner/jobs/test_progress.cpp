@@ -97,6 +97,25 @@ TEST_CASE("a resumed run counts from what earlier runs made") {
   CHECK(progress_line(display.state()).find(" 5/6   50 %") != std::string::npos);
 }
 
+TEST_CASE("the time left counts what this run did, not what earlier runs did of a packing") {
+  RunState resumed;
+  resumed.share_done = 0.9;
+  resumed.share_before = 0.8;
+  resumed.elapsed = 10.0;
+  CHECK(time_left(resumed) == Approx(10.0));
+  resumed.share_before = 0.9;
+  CHECK(time_left(resumed) < 0.0);
+  Capture out;
+  ProgressDisplay display({30.0, 10.0}, ProgressStyle::quiet, out.file());
+  display.start(0);
+  display.advance(0, 0.5);
+  display.advance(0, 0.7);
+  display.start(1);
+  display.finish(1, true, "");
+  CHECK(display.state().share_before == Approx(15.0 / 40.0));
+  CHECK(display.state().share_done == Approx(31.0 / 40.0));
+}
+
 TEST_CASE("the share done weighs tasks by their cost and never falls") {
   Capture out;
   ProgressDisplay display({30.0, 10.0}, ProgressStyle::quiet, out.file());

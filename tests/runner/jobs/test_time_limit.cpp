@@ -29,6 +29,19 @@ TEST_CASE("what ends in time may begin, and what no such limit would hold") {
   CHECK(hour.may_begin(7200));
 }
 
+TEST_CASE("what took time before the first packing is no reason to begin none") {
+  const TimeLimit limit(0.5);
+  std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  CHECK_FALSE(limit.may_begin(0.44));
+  const TimeLimit rest = limit.from_now();
+  CHECK(rest.may_begin(0.44));
+  CHECK_FALSE(rest.is_over());
+  std::this_thread::sleep_for(std::chrono::milliseconds(400));
+  CHECK(rest.is_over());
+  CHECK_FALSE(rest.may_begin(0.44));
+  CHECK(TimeLimit().from_now().may_begin(1e9));
+}
+
 TEST_CASE("what would end in a limit from its beginning on is not begun late, a tenth is kept") {
   const TimeLimit short_one(0.5);
   std::this_thread::sleep_for(std::chrono::milliseconds(100));

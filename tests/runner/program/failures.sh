@@ -31,6 +31,21 @@ expect_text error.txt "6/6  " "$failed"
 [ "$(grep -c '^[0-9]/6  ' error.txt)" -eq 2 ] || fail "--retry-failed made more than the failed ones"
 [ "$(values_of fast)" = "$(values_of all)" ] || fail "other values after --retry-failed"
 
+# Where nothing else is to be made, --fail-fast would stop at the same one for ever.
+expect_code 1 "$program" run sweep.json --no-report --threads 1 --out fast --retry-failed --fail-fast
+expect_text error.txt "Stopped by --fail-fast after " "6 of 6 packings are kept" "Go on with: "
+! grep -q 'Go on with: .*--retry-failed' error.txt || fail "retrying is proposed without end"
+
+# What there is no time to make again stays as it is.
+cat >long.json <<'JSON'
+{ "name": "long", "base": { "box": { "length": 20, "width": 20 }, "fill": { "solid_height": 8 },
+                            "measure": { "exclude_floor": 12 } } }
+JSON
+expect_code 1 "$program" run long.json --no-report --threads 2 --out long
+expect_code 1 "$program" run long.json --no-report --threads 1 --out long --retry-failed --time-limit 1
+expect_text error.txt "note: no time was left to make all failed packings again"
+[ "$(grep -c ',failed,' long/packings.csv)" -eq 1 ] || fail "a packing is lost that was to be made again"
+
 # Steps that do not suffice: the bed is kept, and neither the table nor the exit code calls it settled.
 sed -e 's/"fast" }/{ "preset": "fast", "max_steps": 24 } }/' -e '/"too low"/d' -e 's/4\] } },/4] } } ] }/' \
   sweep.json >short.json
