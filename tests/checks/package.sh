@@ -33,7 +33,10 @@ source root/usr/share/bash-completion/completions/grainsweep
 COMP_WORDS=(grainsweep run --thr) COMP_CWORD=2
 _grainsweep
 [ "${COMPREPLY[*]}" = --threads ] || fail "bash completes --thr to ${COMPREPLY[*]}"
-! command -v zsh >/dev/null || zsh -n root/usr/share/zsh/vendor-completions/_grainsweep
+zsh_words=root/usr/share/zsh/vendor-completions/_grainsweep
+grep -qF ']:NAME:(csv xyz ' $zsh_words || fail "zsh does not complete formats"
+! grep -E ':[^:]* in \[|\{[a-z]+,' $zsh_words || fail "zsh would run what an option's value may be"
+! command -v zsh >/dev/null || zsh -n $zsh_words
 ! command -v fish >/dev/null || fish -n root/usr/share/fish/vendor_completions.d/grainsweep.fish
 
 # All that the package depends on, directly or not.

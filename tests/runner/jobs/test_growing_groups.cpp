@@ -288,6 +288,14 @@ TEST_CASE("wishes below the bias of settling are refused, with what it is") {
   CHECK(unreachable_wishes({"s", 7, 1, growing_group("a", 5.0, 20, {0.01, 0.0})}).empty());
 }
 
+TEST_CASE("a refused wish names the preset that has the bound, also of a changed precision") {
+  std::vector<Job> jobs = growing_group("a", 5.0, 20, {0.001, 0.5});
+  for (Job& job : jobs) job.spec.accuracy.precision = Precision::f64;
+  const Diagnostics said = unreachable_wishes({"s", 7, 1, jobs});
+  REQUIRE(said.size() == 1);
+  CHECK_THAT(said[0].message, Catch::Contains("settled as \"balanced\" such packings"));
+}
+
 TEST_CASE("a bound of phi holds where Z has none, as by another gap") {
   const auto with_gap = [](ErrorWish wish) {
     std::vector<Job> jobs = growing_group("a", 5.0, 20, wish);

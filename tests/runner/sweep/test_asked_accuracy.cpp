@@ -45,7 +45,7 @@ TEST_CASE("the cheapest preset whose bounds are small enough is taken, with its 
 
 TEST_CASE("each bed has the preset that its own kind takes") {
   // 0.0055: of spheres fast, 0.0030, of pinacoids balanced, 0.0052. Two sizes keep 0.0018 at
-  // balanced, 0.0016, but not at accurate, which was measured less well.
+  // balanced, 0.0012, but not at fast, 0.0021.
   const std::string asked = R"({"solid_fraction": 0.0055})";
   CHECK(ids_with(asked) == ids_with(R"("fast")"));
   CHECK(ids_with(asked, R"(, "shape": "pinacoid")") ==
