@@ -22,6 +22,16 @@ TEST_CASE("durations read as people say them") {
   CHECK(fixed(std::nan(""), 2) == "-");
 }
 
+TEST_CASE("an error is printed to the decimals asked for, or as many more as show it") {
+  CHECK(with_error(0.639, 0.0012, 4) == "0.6390 ± 0.0012");
+  CHECK(with_error(0.92, 0.0046, 2) == "0.920 ± 0.005");
+  CHECK(with_error(0.92, 0.005, 2) == "0.92 ± 0.01");
+  CHECK(with_error(0.92, 0.0, 2) == "0.92 ± 0.00");
+  CHECK(with_error(0.5, 1e-12, 2) == "0.500000 ± 0.000000");
+  CHECK(with_error(0.5, std::nan(""), 2) == "0.50");
+  CHECK(with_error(std::nan(""), 0.1, 2).starts_with("-"));
+}
+
 TEST_CASE("words of printed commands are quoted where a shell needs it") {
   CHECK(shell_word("configs/quick.json") == "configs/quick.json");
   CHECK(shell_word("a b") == "'a b'");
