@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <utility>
 
 #include "engine/dynamics/balance.hpp"
@@ -47,18 +48,27 @@ bool is_fit(const Accuracy& accuracy, const Grains& bed) {
 /// twice as many take longer than a bed of so many takes to settle.
 constexpr std::int64_t most_counted = 30'000;
 
+/// Equal spheres may jam, or come to rest on more contacts than hold them.
+bool are_of_one_size(const SphereBed& bed) {
+  const auto by_radius = [](const Record<double>& p, const Record<double>& q) { return p.w < q.w; };
+  const std::span<const Record<double>> grains = bed.centres();
+  const auto [least, most] = std::minmax_element(grains.begin(), grains.end(), by_radius);
+  return most->w < (1.0 + 1e-6) * least->w;
+}
+
 RestReport report_of(const ExactRest& exact, const SphereBed& bed) {
   RestReport rest;
   rest.overlap_mean = exact.overlap_mean;
   rest.overlap_max = exact.overlap_max;
   rest.contacts = static_cast<std::int64_t>(exact.contacts.size());
-  rest.independent_contacts = static_cast<double>(rest.contacts);
   rest.held_by_turning =
       std::count_if(exact.contacts.begin(), exact.contacts.end(), [&](const ForceContact& contact) {
         return !bed.is_grain(contact.b) &&
                bed.walls[static_cast<std::size_t>(contact.b - bed.wall_name(0))].is_round();
       });
   rest.isostatic_contacts = degrees_of_freedom(bed) - zero_modes(bed, exact.contacts);
+  // Those that hold it: more of them depend on these.
+  rest.independent_contacts = static_cast<double>(std::min(rest.contacts, rest.isostatic_contacts));
   rest.imbalance = exact.of_weight;
   return rest;
 }
@@ -316,7 +326,7 @@ class Settling {
     RestReport& rest = report_.rest;
     const Contacts<Kind, Real>& contacts = state_.contacts;
     const double dt = settings_.dt;
-    if (is_hyperstatic(rest, accuracy_)) {
+    if (!is_exact_ && is_hyperstatic(rest, accuracy_)) {
       rest.independent_contacts =
           rest.contacts > most_counted
               ? std::numeric_limits<double>::quiet_NaN()
@@ -387,6 +397,9 @@ class Settling {
     if (rest.contacts + rest.held_by_turning < rest.isostatic_contacts) {
       return "it stands on fewer contacts than hold it";  // by symmetry alone
     }
+    if (accuracy_.rest == Rest::exact && rest.contacts > rest.isostatic_contacts) {
+      return "more contacts bear it than hold it, so that its forces are not unique";
+    }
     bed_ = std::move(bed);
     report_.failure.clear();
     report_.rest = rest;
@@ -442,8 +455,10 @@ class Settling {
         enter(stages_.size() - 1);
         return true;
       }
-      report_.failure = "at rest in steps, but exact rest was not found: " + failure +
-                        "; take another seed, or accuracy.rest in_steps";
+      report_.failure =
+          "at rest in steps, but exact rest was not found: " + failure + "; " +
+          (are_of_one_size(bed_) ? "give sizes a spread, as of 1e-6" : "take another seed") +
+          ", or accuracy.rest in_steps";
     }
     return false;
   }

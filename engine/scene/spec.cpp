@@ -431,6 +431,15 @@ void check_masses(const PackingSpec& spec, bool is_mixture_right, Errors& errors
 /// all at 1.02.
 constexpr double narrowest_exact = 1.005;
 
+/// Whether all large grains are of one size, as far as rounding tells.
+bool has_equal_grains(const PackingSpec& spec) {
+  constexpr double equal = 1e-6;
+  if (std::holds_alternative<PlacedGrains>(spec.fill)) return false;
+  if (!spec.sizes.distribution) return spec.sizes.spread < equal;
+  const std::vector<double> diameters = curve_of(*spec.sizes.distribution).diameters;
+  return diameters.back() < (1.0 + equal) * diameters.front();
+}
+
 void check_exact_rest(const PackingSpec& spec, double largest, Errors& errors) {
   if (!is_sphere(spec.shape)) {
     errors.push_back(
@@ -441,9 +450,7 @@ void check_exact_rest(const PackingSpec& spec, double largest, Errors& errors) {
   const Box& box = spec.box;
   const double x = box.x == Boundary::walls ? box.length : infinity;
   const double between = std::min(x, box.y == Boundary::walls ? box.width : infinity);
-  const bool is_of_one_size = !spec.sizes.distribution && spec.sizes.spread == 0.0 &&
-                              !std::holds_alternative<PlacedGrains>(spec.fill);
-  if (!is_of_one_size || between >= narrowest_exact * largest) return;
+  if (!has_equal_grains(spec) || between >= narrowest_exact * largest) return;
   errors.push_back({"accuracy.rest", "must be in_steps where walls are nearer than " +
                                          bound_text(narrowest_exact * largest) +
                                          " d and hold every large grain on both sides, is exact"});

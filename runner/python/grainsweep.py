@@ -74,7 +74,9 @@ class Sweep:
         return [*super().__dir__(), *self.tables]
 
     def __getattr__(self, name):
-        if name.startswith("_") or name not in self.tables:
+        if name.startswith("_"):  # also of a sweep that is being copied, which has no members yet
+            raise AttributeError(name)
+        if name not in self.tables:
             raise AttributeError(f"{self.folder} has no table {name}, but {', '.join(self.tables)}")
         table = _table(self.folder / f"{name}.csv")
         table.attrs = {"units": self.units(name), "meanings": self.meanings(name)}

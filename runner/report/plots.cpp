@@ -122,11 +122,22 @@ std::string label_command(const std::string& axis, const std::string& text) {
                       : "set " + axis + "label " + quoted(text) + " noenhanced\n";
 }
 
+/// Few enough for a narrow panel from 0 to `end`.
+std::string step_tics_command(const std::string& axis, double end) {
+  const double least = end / 4.0, power = std::pow(10.0, std::floor(std::log10(least)));
+  const double step = least <= power         ? power
+                      : least <= 2.0 * power ? 2.0 * power
+                      : least <= 5.0 * power ? 5.0 * power
+                                             : 10.0 * power;
+  return "set " + axis + "tics " + cell(step) + "\n";
+}
+
 std::string panels_across(const Panels& panels, std::size_t k, const std::string& title,
                           const Group& group, const std::string& solid,
                           const std::string& touching) {
   const Box& box = group.job.box;
-  return panels.place(k, 0) + range_command("x", {0.0, box.is_tube ? box.width / 2.0 : box.width}) +
+  const double end = box.is_tube ? box.width / 2.0 : box.width;
+  return panels.place(k, 0) + range_command("x", {0.0, end}) + step_tics_command("x", end) +
          "set format x ''\n" + label_command("x", "") +
          label_command("y", k == 0 ? "solid fraction φ" : "") + "set title " + quoted(title) +
          " offset 0,-0.7 font ',11' noenhanced\n" + solid + "unset title\n" + panels.place(k, 1) +
@@ -134,7 +145,8 @@ std::string panels_across(const Panels& panels, std::size_t k, const std::string
          label_command("x", box.is_tube                   ? "distance from the wall / d"
                             : box.y == Boundary::periodic ? "y / d"
                                                           : "y / d, from wall to wall") +
-         label_command("y", k == 0 ? "coordination number Z" : "") + touching;
+         label_command("y", k == 0 ? "coordination number Z" : "") + touching +
+         "set xtics autofreq\n";
 }
 
 std::string few_tics_command(const std::string& axis, double extreme) {

@@ -8,6 +8,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "engine/text.hpp"
 #include "runner/hash.hpp"
 #include "runner/sweep/asked_accuracy.hpp"
 #include "runner/sweep/grains_csv.hpp"
@@ -401,10 +402,23 @@ class Expansion {
       const SizesReading& reading = reading_of(resolved.size_file, *file, read_sizes, sizes_);
       if (!reading.errors.empty()) return distribution.reset();
       distribution->formula = reading.table;
+      if (size == nullptr) note_unit_of(*file);
     }
     if (resolved.size_unit > 0.0) return to_units_of(resolved.size_unit, *distribution);
     note(*size, "must be positive");
     distribution.reset();
+  }
+
+  /// Tables of sieves are in the unit that a laboratory takes.
+  void note_unit_of(const Assignment& file) {
+    const GivenUnits& units = definition_.units;
+    if (!units || !said_.insert(file.pointer).second) return;
+    const std::string d = bound_text(units->d);
+    diagnostics_.push_back({file.pointer,
+                            "its diameters count as d, which is " + d + " " + units->unit +
+                                "; if they are in " + units->unit +
+                                ", set sizes.distribution.size to " + d,
+                            Anchor::value, "", true});
   }
 
   /// Whether the hulls do not hold too many vertices; otherwise a problem is noted.

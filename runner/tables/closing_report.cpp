@@ -219,12 +219,17 @@ std::string distinct(const std::vector<Row>& rows, Value value) {
   return text;
 }
 
-/// What d is: a length of the user's choice where sizes are a distribution.
+constexpr std::string_view own_units[] = {"\"distribution\":", "\"file\":", "\"files\":"};
+
+/// What d is: a length of the user's choice where sizes are a distribution or those of a file.
 std::string unit_meaning(const std::vector<Row>& rows) {
-  const auto has_distribution = [](const Row& row) {
-    return row.job.parameters.text().find("\"distribution\":") != std::string::npos;
+  const auto has_own_unit = [](const Row& row) {
+    const std::string& parameters = row.job.parameters.text();
+    return std::any_of(std::begin(own_units), std::end(own_units), [&](std::string_view key) {
+      return parameters.find(key) != std::string::npos;
+    });
   };
-  return std::any_of(rows.begin(), rows.end(), has_distribution)
+  return std::any_of(rows.begin(), rows.end(), has_own_unit)
              ? ", the unit that sizes are given in"
              : ", the mean diameter of the large grains";
 }

@@ -33,7 +33,9 @@ JSON
 "$GRAINSWEEP" run sweep.json --quiet --no-report --out out/quick || [ $? -eq 1 ]
 
 /usr/bin/python3 - <<'PYTHON'
+import copy
 import csv
+import pickle
 import numpy
 import grainsweep
 
@@ -48,6 +50,14 @@ for name in s.tables:
             assert row[column] == "" and read != read or float(row[column]) == read, (name, column)
 assert set(s.tables) >= {"packings", "groups", "fits", "profiles"} and "groups" in dir(s)
 assert s.units("packings")["width"] == "d" and "solid" in s.meanings("groups")["solid_fraction"]
+
+copied = pickle.loads(pickle.dumps(copy.deepcopy(s)))  # as a pool of processes does
+assert copied.packings.equals(s.packings) and copied.tables == s.tables
+try:
+    s.no_table
+    raise SystemExit("a table that is not there was read")
+except AttributeError as error:
+    assert "has no table no_table, but " in str(error)
 
 def below(height, z, radius):
     """Volume of a sphere below a height."""

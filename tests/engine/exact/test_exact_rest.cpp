@@ -278,6 +278,30 @@ TEST_CASE("a small bed of spheres that steps do not bring to rest is brought to 
   CHECK(report.rest.imbalance.max < exact_imbalance);
   CHECK(report.rest.overlap_max < exact_overlap);
   CHECK(report.rest.contacts + report.rest.held_by_turning >= report.rest.isostatic_contacts);
+  CHECK(report.rest.independent_contacts <= static_cast<double>(report.rest.isostatic_contacts));
+}
+
+TEST_CASE("equal spheres on more contacts than hold them are not at exact rest, unlike ones are") {
+  PackingSpec spec = small_spec({4, 1.5, periodic, walls}, 100, 1);
+  spec.accuracy.rest = Rest::exact;
+  int too_many = 0;
+  for (spec.random_key = 1; spec.random_key <= 4; ++spec.random_key) {
+    spec.sizes.spread = 0.0;
+    SphereBed equal = start<Sphere>(spec).value();
+    const SettleReport report = settle(spec.accuracy, testing::kernels(), equal, always);
+    CHECK((report.failure != "" || report.rest.contacts == report.rest.isostatic_contacts));
+    if (report.failure.find("more contacts bear it than hold it") != std::string::npos) {
+      ++too_many;
+      CHECK_THAT(report.failure, Catch::EndsWith("; give sizes a spread, as of 1e-6, or "
+                                                 "accuracy.rest in_steps"));
+    }
+    spec.sizes.spread = 1e-6;
+    SphereBed unlike = start<Sphere>(spec).value();
+    const SettleReport exact = settle(spec.accuracy, testing::kernels(), unlike, always);
+    CHECK(exact.failure == "");
+    CHECK(exact.rest.contacts == exact.rest.isostatic_contacts);
+  }
+  CHECK(too_many > 0);
 }
 
 /// A bed that is stopped when its observer is asked for the `last` time, and another one that goes

@@ -374,6 +374,13 @@ TEST_CASE("exact rest takes some room between walls that hold all grains of one 
         Messages{"accuracy.rest: must be in_steps where walls are nearer than 1.005 d and hold "
                  "every large grain on both sides, is exact"});
   CHECK(exact(1.01, 0.0).empty());
+  CHECK(exact(1.0000001, 1e-12).size() == 1);
+  CHECK(broken_by([](PackingSpec& spec) {  // the same grains as a distribution
+          spec.box.width = 1.0;
+          spec.sizes.distribution = SizeDistribution{.formula = SizeTable{{1.0}, {}, {1.0}}};
+          spec.accuracy.rest = Rest::exact;
+        })
+            .size() == 1);
   CHECK(exact(1.1333334, 0.0333333).empty());
 }
 

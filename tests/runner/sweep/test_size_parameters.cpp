@@ -134,5 +134,25 @@ TEST_CASE("what is wrong with a distribution is told where it is written") {
   CHECK(errors_in(R"({"distribution": {"table": {"file": "none.csv"}}})").size() == 1);
 }
 
+TEST_CASE("a table of a laboratory beside units, without its unit, is worth a note") {
+  const ScratchFolder folder;
+  folder.write("sieves.csv", "diameter,passing\n0.9,0\n2,0.2\n4,1\n");
+  const auto notes = [&](const std::string& distribution, const std::string& units) {
+    return read_sweep(folder.write("s.json", R"({"name": "t", )" + units +
+                                                 R"("base": {"sizes.distribution": )" +
+                                                 distribution + "}}"))
+        .notes;
+  };
+  const std::string units = R"("units": {"d": 3.2, "unit": "mm"}, )";
+  const Diagnostics said = notes(R"({"table": {"file": "sieves.csv"}})", units);
+  REQUIRE(said.size() == 1);
+  CHECK(said[0].pointer == "/base/sizes.distribution/table/file");
+  CHECK(said[0].message ==
+        "its diameters count as d, which is 3.2 mm; if they are in mm, set "
+        "sizes.distribution.size to 3.2");
+  CHECK(notes(R"({"table": {"file": "sieves.csv"}, "size": 3.2})", units).empty());
+  CHECK(notes(R"({"table": {"file": "sieves.csv"}})", "").empty());
+}
+
 }  // namespace
 }  // namespace grainsweep
