@@ -78,10 +78,11 @@ double small_volume(const PackingSpec& spec, double wanted, double large_volume)
 
 /// Volumes of the grains of a file, d^3.
 double placed_volume(const PlacedGrains& placed, const ShapeSpec& shape) {
-  std::vector<double> of_shape = {extent_of(shape).volume};
+  std::vector<double> of_shape;
   const auto* mixture = std::get_if<Mixture>(&shape);
-  if (mixture != nullptr) {
-    of_shape.clear();
+  if (mixture == nullptr) {
+    of_shape = {extent_of(shape).volume};
+  } else {
     for (const MixtureComponent& one : mixture->components) {
       of_shape.push_back(extent_of(one.shape).volume);
     }

@@ -246,13 +246,6 @@ Made help(const Sweep& sweep, const Shard& shard, const std::string& folder, Sha
   }
 }
 
-/// Of a run that made failed packings again: those that it had no time for are kept as they were.
-bool lacks_only_time(const Packed& packed) {
-  if (was_stopped(packed)) return false;
-  std::cerr << "note: no time was left to make all failed packings again\n";
-  return true;
-}
-
 /// The options to go on with: those of this run, but for what is done once. `retries`: whether
 /// failed packings are still to be made again.
 std::string repeated(const RunOptions& options, const std::string& folder, bool retries) {
@@ -445,7 +438,9 @@ int perform(const RunOptions& options) {
   if (own.is_whole && options.retry_failed) {
     retries = true;  // once, and after what was never made: a short time is for that
     const Made again = make_all(growing, made, make_pending);
-    own = {joined(own.packed, again.packed), again.is_whole || lacks_only_time(again.packed)};
+    const bool lacks_time = !again.is_whole && !was_stopped(again.packed);
+    if (lacks_time) std::cerr << "note: no time was left to make all failed packings again\n";
+    own = {joined(own.packed, again.packed), again.is_whole || lacks_time};
   }
   if (own.is_whole && shard.count > 1 && !options.alone && !grows(whole)) {
     const Made more = help(whole, shard, folder, files, options.quiet, make);

@@ -412,7 +412,7 @@ class Expansion {
   /// Tables of sieves are in the unit that a laboratory takes.
   void note_unit_of(const Assignment& file) {
     const GivenUnits& units = definition_.units;
-    if (!units || !said_.insert(file.pointer).second) return;
+    if (!units || !said_.insert(file.pointer + " unit").second) return;  // hides no error there
     const std::string d = bound_text(units->d);
     diagnostics_.push_back({file.pointer,
                             "its diameters count as d, which is " + d + " " + units->unit +
