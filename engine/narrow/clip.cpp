@@ -140,20 +140,61 @@ void add_point(const Reference& reference, const Vector& x, double margin, std::
   }
 }
 
+/// What may touch beside the touching face, by how far the vertices of `other` reach.
+struct Low {
+  const Incident& other;
+  std::span<const double> reach;  ///< of its vertices against the normal, d
+  double least;                   ///< of those within the margin, d
+
+  bool has(std::int32_t vertex) const { return reach[static_cast<std::size_t>(vertex)] >= least; }
+  bool has(const Edge& edge) const { return has(edge.from) && has(edge.to); }
+  double rise(const Edge& edge) const {
+    return std::abs(reach[static_cast<std::size_t>(edge.to)] -
+                    reach[static_cast<std::size_t>(edge.from)]);
+  }
+};
+
 /// Vertices within the margin that are no corners of the touching face: where an edge lies on the
 /// reference, a face at one of its ends may be the touching one, and would leave out the other end.
-/// Forgets how far those corners reach.
-void add_other_vertices(const Reference& reference, const Incident& other, const Face& touching,
-                        double margin, std::size_t first, std::vector<double>& reach,
-                        std::vector<ContactPoint>& points) {
-  const double least = reference.gap(other.centre) - margin;
-  for (const std::int32_t corner : corners_of(other.shape, touching)) {
-    reach[static_cast<std::size_t>(corner)] = -std::numeric_limits<double>::infinity();
-  }
-  for (std::size_t v = 0; v < other.shape.vertices.size(); ++v) {
-    if (reach[v] < least) continue;
-    const Vector x = other.place(v);
+void add_other_vertices(const Reference& reference, const Low& low, const Face& touching,
+                        double margin, std::size_t first, std::vector<ContactPoint>& points) {
+  const std::span<const std::int32_t> known = corners_of(low.other.shape, touching);
+  const auto count = static_cast<std::int32_t>(low.other.shape.vertices.size());
+  for (std::int32_t v = 0; v < count; ++v) {
+    if (!low.has(v) || std::find(known.begin(), known.end(), v) != known.end()) continue;
+    const Vector x = low.other.place(static_cast<std::size_t>(v));
     if (reference.is_below(x)) add_point(reference, x, margin, first, points);
+  }
+}
+
+/// Leaves of a segment what lies above the reference; false if nothing does.
+bool cut_by_sides(const Reference& reference, Vector& from, Vector& to) {
+  const double tolerance = on_side * reference.size();
+  for (const Side& side : reference.sides()) {
+    const double at_from = reference.beyond(side, from), at_to = reference.beyond(side, to);
+    const bool is_from_in = at_from <= tolerance, is_to_in = at_to <= tolerance;
+    if (is_from_in && is_to_in) continue;
+    if (!is_from_in && !is_to_in) return false;
+    const Vector cut = from + at_from / (at_from - at_to) * (to - from);
+    (is_from_in ? to : from) = cut;
+  }
+  return true;
+}
+
+/// Where edges that lie on the reference leave it, as such an edge and the touching face may share
+/// no more than a corner, about which the grain would turn into the other. Steep edges matter only
+/// once they lie.
+void add_lying_edges(const Reference& reference, const Low& low, double margin, std::size_t first,
+                     std::vector<ContactPoint>& points) {
+  constexpr double lying = 0.02;  // rise by length: more than a grain turns in a step near rest
+  for (const Edge& edge : low.other.shape.edges) {
+    if (!low.has(edge)) continue;
+    Vector from = low.other.place(static_cast<std::size_t>(edge.from));
+    Vector to = low.other.place(static_cast<std::size_t>(edge.to));
+    if (low.rise(edge) > lying * (to - from).norm()) continue;
+    if (!cut_by_sides(reference, from, to)) continue;
+    add_point(reference, from, margin, first, points);
+    add_point(reference, to, margin, first, points);
   }
 }
 
@@ -174,7 +215,9 @@ void clip_on(const Reference& reference, const Incident& other, double margin, s
   for (const std::int32_t beside : flat_with(other.shape, static_cast<std::size_t>(touching))) {
     add_polygon(reference, other, face_of(other.shape, beside), margin, first, columns, points);
   }
-  add_other_vertices(reference, other, face, margin, first, columns.reach, points);
+  const Low low{other, columns.reach, reference.gap(other.centre) - margin};
+  add_other_vertices(reference, low, face, margin, first, points);
+  add_lying_edges(reference, low, margin, first, points);
 }
 
 /// Appends the contact points on a face and on those nearly flat with it, in their frame.

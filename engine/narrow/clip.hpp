@@ -10,9 +10,10 @@ enum class Of { a, b };
 
 /// Appends the contact points on face `face` of the shape `reference` of a pair, gaps along the
 /// face's normal: the polygon of the other shape's touching face cut by the sides of the face, and
-/// its other vertices above the face; all up to `margin`. Of the faces at its lowest vertex the
-/// touching one is that which faces `face` most. Faces that are nearly flat with either count as
-/// parts of it. Appends nothing if all lie beside each other.
+/// its other vertices above the face, and where its other edges that lie on the face leave it; all
+/// up to `margin`. Of the faces at its lowest vertex the touching one is that which faces `face`
+/// most. Faces that are nearly flat with either count as parts of it. Appends nothing if all lie
+/// beside each other.
 void clip_on_face(const ShapePair& pair, Of reference, std::int32_t face, double margin,
                   ClipColumns& columns, std::vector<ContactPoint>& points);
 

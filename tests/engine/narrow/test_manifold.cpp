@@ -43,7 +43,7 @@ Found contact_of(const ShapePair& pair, const TouchSettings& settings) {
 }
 
 Found contact_of(const ShapePair& pair, double margin = 0.05, double preference = 0.0) {
-  return contact_of(pair, TouchSettings{margin, preference, 0.0});
+  return contact_of(pair, TouchSettings{margin, preference});
 }
 
 Matrix turn(double angle, const Vector& axis) {
@@ -122,21 +122,60 @@ TEST_CASE("crossed edges touch in the point where they cross") {
   CHECK(found.points[0].gap == Approx(0.01).margin(1e-15));
 }
 
-// The knife's ends rise less than its sides, so that a face at an end faces the base most.
-TEST_CASE("a knife lying on its edge touches with both ends of the edge") {
-  const ConvexShape cube = testing::cube();
-  const ConvexShape knife = testing::hull_of({{0.2, 0, -0.3},
-                                              {-0.2, 0, -0.3},
-                                              {1.2, 0.2, 0.2},
-                                              {1.2, -0.2, 0.2},
-                                              {-1.2, 0.2, 0.2},
-                                              {-1.2, -0.2, 0.2}});
+/// Its ends rise less than its sides, so that a face at an end faces the base most. Its frame is
+/// upright: all vertices of the edge, 0.4 d long and along x, have the least z.
+const ConvexShape& knife() {
+  static const ConvexShape shape = testing::hull_of({{0.2, 0, -0.3},
+                                                     {-0.2, 0, -0.3},
+                                                     {1.2, 0.2, 0.2},
+                                                     {1.2, -0.2, 0.2},
+                                                     {-1.2, 0.2, 0.2},
+                                                     {-1.2, -0.2, 0.2}});
+  return shape;
+}
+
+/// The knife upon a cube of side 1, so many times as large, its edge's middle there and turned.
+Found knife_on_cube(double x, double y, double angle, double gap, double size = 1.0) {
+  static const ConvexShape cube = testing::cube();
   double lowest = 0;
-  for (const Vector& v : knife.vertices) lowest = std::min(lowest, v.z());
-  // Its frame is upright: all vertices of the edge have the least z whichever way x and y lie.
-  const Found found = contact_of({cube, knife, at({0, 0, 0.5 - lowest})}, 0.01);
+  for (const Vector& v : knife().vertices) lowest = std::min(lowest, v.z());
+  const Vector centre(x, y, 0.5 - size * lowest + gap);
+  return contact_of({cube, knife(), {centre, turn(angle, Vector::UnitZ()), 1.0, size}}, 0.01);
+}
+
+TEST_CASE("a knife lying on its edge touches with both ends of the edge") {
+  const Found found = knife_on_cube(0, 0, 0, 0);
   REQUIRE(found.points.size() == 2);
   CHECK(found.constraints() == 2);
+}
+
+/// Checks for two points, from left to right there.
+void check_edge(const Found& found, const Vector& left, const Vector& right, double gap) {
+  REQUIRE(found.points.size() == 2);
+  const bool in_order = found.points[0].position.x() < found.points[1].position.x();
+  const ContactPoint& first = found.points[in_order ? 0 : 1];
+  const ContactPoint& last = found.points[in_order ? 1 : 0];
+  CHECK((first.position - left).norm() < 1e-14);
+  CHECK((last.position - right).norm() < 1e-14);
+  CHECK(first.gap == Approx(gap).margin(1e-14));
+  CHECK(last.gap == Approx(gap).margin(1e-14));
+}
+
+// Where the edge leaves the face, the face at the knife's end that touches it there shares one
+// corner with the edge: a single point would let the knife turn into the cube.
+TEST_CASE("a knife whose edge leaves a face touches where it leaves it") {
+  for (const double gap : {0.005, 0.0, -0.005}) {
+    const double z = 0.5 + gap / 2;
+    for (const double angle : {0.0, 0.1, 3.0}) {
+      const double across = std::sin(angle), along = std::cos(angle), sign = along > 0 ? 1 : -1;
+      const Vector end(0.4 - 0.2 * sign * along, 0.1 - 0.2 * sign * across, z);
+      check_edge(knife_on_cube(0.4, 0.1, angle, gap), end, {0.5, 0.1 + 0.1 * across / along, z},
+                 gap);
+      // Both ends lie beside the face.
+      check_edge(knife_on_cube(0, 0.1, angle, gap, 4.0), {-0.5, 0.1 - 0.5 * across / along, z},
+                 {0.5, 0.1 + 0.5 * across / along, z}, gap);
+    }
+  }
 }
 
 /// Largest distance of a point of `p` from its nearest in `q`, positions and gaps.
@@ -273,30 +312,6 @@ TEST_CASE(
   CHECK(on_faces > 100);
 }
 
-TEST_CASE(
-    "the deeper edges overlap the more a face is preferred, where it sees the overlap whole") {
-  const ConvexShape shape = pinacoid({});
-  Draw draw(26);
-  int faces = 0, edges = 0;
-  for (int k = 0; k < 20000; ++k) {
-    const ShapePair pair{shape, shape, testing::random_pose(draw, 0.5, 0.9)};
-    const ContactAxes axes = separating_axes(pair);
-    const double depth = -axes.edges.separation;
-    const double ahead = axes.edges.separation - axes.face.separation;
-    if (axes.edges.kind == AxisKind::none || depth < 1e-3 || ahead < 1e-6) continue;
-    const double share = ahead / depth;
-    CHECK(contact_of(pair, {0.05, 0.0, 0.999 * share}).contact.kind == AxisKind::edges);
-    const Found found = contact_of(pair, {0.05, 0.0, 1.001 * share});
-    const AxisKind kind = found.contact.kind;
-    CHECK((kind == axes.face.kind || kind == AxisKind::edges));
-    CHECK(contact_of(pair, {0.05, 0.5 * ahead, 0.501 * share}).contact.kind == kind);
-    CHECK(found.deepest() <= axes.edges.separation);
-    (kind == AxisKind::edges ? edges : faces) += 1;
-  }
-  CHECK(faces > 1000);
-  CHECK(edges > 10);
-}
-
 // The sides of such a prism are narrow: what touches often lies beside the one that parts a pair
 // best, and not above it.
 TEST_CASE("a face is touched on only where what touches lies above it") {
@@ -321,22 +336,6 @@ TEST_CASE("a face is touched on only where what touches lies above it") {
   }
   CHECK(touched > 500);
   CHECK(on_faces > touched / 4);
-}
-
-TEST_CASE("edges that are apart give the normal whatever is preferred by their depth") {
-  const ConvexShape shape = pinacoid({});
-  Draw draw(27);
-  int apart = 0;
-  for (int k = 0; k < 2000; ++k) {
-    const ShapePair pair{shape, shape, testing::random_pose(draw, 0.7, 1.0)};
-    const ContactAxes axes = separating_axes(pair);
-    if (axes.edges.kind == AxisKind::none || axes.separation() > 0.05) continue;
-    if (axes.edges.separation < 1e-6 || axes.edges.separation < axes.face.separation + 1e-6)
-      continue;
-    ++apart;
-    CHECK(contact_of(pair, {0.05, 0.0, 1.0}).contact.kind == AxisKind::edges);
-  }
-  CHECK(apart > 20);
 }
 
 TEST_CASE("shapes beyond the margin have no contact") {
