@@ -140,14 +140,25 @@ void add_point(const Reference& reference, const Vector& x, double margin, std::
   }
 }
 
-/// What may touch beside the touching face, by how far the vertices of `other` reach.
-struct Low {
+/// What of `other` may touch beside its touching face, by how far its vertices reach.
+struct Beside {
   const Incident& other;
-  std::span<const double> reach;  ///< of its vertices against the normal, d
+  std::int32_t touching;
+  std::span<const double> reach;  ///< of each vertex against the normal, d
   double least;                   ///< of those within the margin, d
 
-  bool has(std::int32_t vertex) const { return reach[static_cast<std::size_t>(vertex)] >= least; }
-  bool has(const Edge& edge) const { return has(edge.from) && has(edge.to); }
+  bool is_low(std::int32_t vertex) const {
+    return reach[static_cast<std::size_t>(vertex)] >= least;
+  }
+  bool has(std::size_t vertex) const {
+    const ConvexShape& shape = other.shape;
+    const auto first = shape.vertex_faces.begin() + shape.vertex_faces_begin[vertex];
+    const auto last = shape.vertex_faces.begin() + shape.vertex_faces_begin[vertex + 1];
+    return reach[vertex] >= least && std::find(first, last, touching) == last;
+  }
+  bool has(const Edge& edge) const {
+    return is_low(edge.from) && is_low(edge.to) && edge.left != touching && edge.right != touching;
+  }
   double rise(const Edge& edge) const {
     return std::abs(reach[static_cast<std::size_t>(edge.to)] -
                     reach[static_cast<std::size_t>(edge.from)]);
@@ -156,13 +167,11 @@ struct Low {
 
 /// Vertices within the margin that are no corners of the touching face: where an edge lies on the
 /// reference, a face at one of its ends may be the touching one, and would leave out the other end.
-void add_other_vertices(const Reference& reference, const Low& low, const Face& touching,
-                        double margin, std::size_t first, std::vector<ContactPoint>& points) {
-  const std::span<const std::int32_t> known = corners_of(low.other.shape, touching);
-  const auto count = static_cast<std::int32_t>(low.other.shape.vertices.size());
-  for (std::int32_t v = 0; v < count; ++v) {
-    if (!low.has(v) || std::find(known.begin(), known.end(), v) != known.end()) continue;
-    const Vector x = low.other.place(static_cast<std::size_t>(v));
+void add_other_vertices(const Reference& reference, const Beside& beside, double margin,
+                        std::size_t first, std::vector<ContactPoint>& points) {
+  for (std::size_t v = 0; v < beside.other.shape.vertices.size(); ++v) {
+    if (!beside.has(v)) continue;
+    const Vector x = beside.other.place(v);
     if (reference.is_below(x)) add_point(reference, x, margin, first, points);
   }
 }
@@ -184,14 +193,14 @@ bool cut_by_sides(const Reference& reference, Vector& from, Vector& to) {
 /// Where edges that lie on the reference leave it, as such an edge and the touching face may share
 /// no more than a corner, about which the grain would turn into the other. Steep edges matter only
 /// once they lie.
-void add_lying_edges(const Reference& reference, const Low& low, double margin, std::size_t first,
-                     std::vector<ContactPoint>& points) {
+void add_lying_edges(const Reference& reference, const Beside& beside, double margin,
+                     std::size_t first, std::vector<ContactPoint>& points) {
   constexpr double lying = 0.02;  // rise by length: more than a grain turns in a step near rest
-  for (const Edge& edge : low.other.shape.edges) {
-    if (!low.has(edge)) continue;
-    Vector from = low.other.place(static_cast<std::size_t>(edge.from));
-    Vector to = low.other.place(static_cast<std::size_t>(edge.to));
-    if (low.rise(edge) > lying * (to - from).norm()) continue;
+  for (const Edge& edge : beside.other.shape.edges) {
+    if (!beside.has(edge)) continue;
+    Vector from = beside.other.place(static_cast<std::size_t>(edge.from));
+    Vector to = beside.other.place(static_cast<std::size_t>(edge.to));
+    if (beside.rise(edge) > lying * (to - from).norm()) continue;
     if (!cut_by_sides(reference, from, to)) continue;
     add_point(reference, from, margin, first, points);
     add_point(reference, to, margin, first, points);
@@ -210,14 +219,13 @@ void add_polygon(const Reference& reference, const Incident& other, const Face& 
 void clip_on(const Reference& reference, const Incident& other, double margin, std::size_t first,
              ClipColumns& columns, std::vector<ContactPoint>& points) {
   const std::int32_t touching = touching_face(other, reference.face.normal, columns);
-  const Face& face = face_of(other.shape, touching);
-  add_polygon(reference, other, face, margin, first, columns, points);
+  add_polygon(reference, other, face_of(other.shape, touching), margin, first, columns, points);
   for (const std::int32_t beside : flat_with(other.shape, static_cast<std::size_t>(touching))) {
     add_polygon(reference, other, face_of(other.shape, beside), margin, first, columns, points);
   }
-  const Low low{other, columns.reach, reference.gap(other.centre) - margin};
-  add_other_vertices(reference, low, face, margin, first, points);
-  add_lying_edges(reference, low, margin, first, points);
+  const Beside others{other, touching, columns.reach, reference.gap(other.centre) - margin};
+  add_other_vertices(reference, others, margin, first, points);
+  add_lying_edges(reference, others, margin, first, points);
 }
 
 /// Appends the contact points on a face and on those nearly flat with it, in their frame.
