@@ -81,7 +81,7 @@ ContactPlace contact_place(const PolyhedronBed& bed, const TouchingPair& pair, d
   PairMemory memory;
   std::vector<ContactPoint> points;
   const PairContact contact =
-      touch(shape_pair(bed, a, b), {reach, preference_of_faces}, memory, columns, points);
+      touch(shape_pair(bed, a, b), {reach, preference_of_faces, 0.0}, memory, columns, points);
   const Pose pose = bed.pose(a);
   return {pose.orientation * contact.normal,
           pose.centre + pose.orientation * middle_of(points, reach), counted(points, tolerance)};

@@ -116,9 +116,12 @@ double min_gap(const ContactPoint* points, std::size_t count) {
 PairContact touch(const ShapePair& pair, const TouchSettings& settings, const ContactAxes& axes,
                   ClipColumns& columns, std::vector<ContactPoint>& points) {
   if (!(axes.separation() <= settings.margin)) return apart_by(axes.separation());
-  if (!edges_part_better(axes, settings.preference)) {
+  const bool edges = edges_part_better(axes, settings.preference);
+  const double overlap = edges ? std::max(0.0, -axes.edges.separation) : 0.0;
+  if (!edges_part_better(axes, settings.preference + settings.of_depth * overlap)) {
     PairContact contact = touch_along(pair, axes.face, settings.margin, columns, points);
-    if (is_above_face(axes, contact, points, settings.preference)) return contact;
+    const double beyond = edges ? 0.0 : settings.preference;
+    if (is_above_face(axes, contact, points, beyond)) return contact;
     points.resize(contact.first);
   }
   return touch_along(pair, axes.edges, settings.margin, columns, points);

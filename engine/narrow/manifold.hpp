@@ -20,6 +20,7 @@ namespace grainsweep {
 struct TouchSettings {
   double margin = 0.0;      ///< points with a gap up to it are contacts, d
   double preference = 0.0;  ///< of faces over edges, d
+  double of_depth = 0.0;    ///< so many times the overlap along the edges is preferred on top of it
 };
 
 /// What a pair remembers from step to step; a default one is always allowed.

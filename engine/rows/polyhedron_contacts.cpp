@@ -19,6 +19,7 @@ namespace {
 // where less is preferred edges replace whole faces and the bed collapses.
 constexpr double preferred_share = 0.5;
 constexpr double min_preference = 1e-4;
+constexpr double preferred_of_depth = 1.0;  // beyond its overlap
 
 /// Lists the contacts by falling number of points, else in their order.
 void sort_by_points(const ContactList& found, std::vector<std::size_t>& order) {
@@ -377,10 +378,18 @@ NamedPlaces::const_iterator place_of(const PolyhedronContact& c, const NamedPlac
   return at != places.end() && (*at)[0] == c.a && (*at)[1] == c.b ? at : places.end();
 }
 
+/// Contacts with a gap below `near`, d, with no preference of faces that would hide the depth of an
+/// overlap.
+TouchSettings as_deep_as_they_are(double near, double dt) {
+  TouchSettings settings = touch_settings(near, dt);
+  settings.of_depth = 0.0;
+  return settings;
+}
+
 }  // namespace
 
 TouchSettings touch_settings(double near, double dt) {
-  return {near, std::max(min_preference, preferred_share * dt * dt)};
+  return {near, std::max(min_preference, preferred_share * dt * dt), preferred_of_depth};
 }
 
 template <class Real>
@@ -432,7 +441,7 @@ void lay_out_closed(double tolerance, const ExecutionContext& context, const Pol
   collect_impulses(bed, context.loop, 1.0 / (dt * dt), from, closed.carried);
   forget_pairs(closed);  // they would depend on when the bed was balanced last
   take_candidates(bed, candidates, closed, context.loop);
-  touch_candidates(touch_settings(tolerance, dt), bed, context, closed);
+  touch_candidates(as_deep_as_they_are(tolerance, dt), bed, context, closed);
   for (std::size_t p = 0; p < closed.found_parts; ++p) {
     for (ContactPoint& point : closed.parts[p].found.points) {
       point.gap = point.gap < tolerance ? 0.0 : open_gap;
@@ -483,7 +492,7 @@ std::vector<ContactList> closed_contacts(PolyhedronBed& bed, const ExecutionCont
   std::vector<ContactList> lists(now.subdomains.count);
   parallel_for(context.loop, lists.size(), [&](std::size_t s) {
     NarrowColumns columns;
-    touch_subdomain(touch_settings(closed_gap, dt), context.kernels, bed, s, now, columns,
+    touch_subdomain(as_deep_as_they_are(closed_gap, dt), context.kernels, bed, s, now, columns,
                     lists[s]);
     std::erase_if(lists[s].contacts,
                   [&](const PolyhedronContact& c) { return place_of(c, places) == places.end(); });
@@ -505,7 +514,7 @@ std::vector<Closure> closures(PolyhedronBed& bed, const ExecutionContext& contex
   parallel_for(context.loop, contacts.subdomains.count, [&](std::size_t s) {
     NarrowColumns columns;
     ContactList now;
-    touch_subdomain(touch_settings(closed_gap, dt), context.kernels, bed, s, contacts, columns,
+    touch_subdomain(as_deep_as_they_are(closed_gap, dt), context.kernels, bed, s, contacts, columns,
                     now);
     for (const PolyhedronContact& c : now.contacts) {
       const auto at = place_of(c, places);

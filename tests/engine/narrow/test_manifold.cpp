@@ -43,7 +43,7 @@ Found contact_of(const ShapePair& pair, const TouchSettings& settings) {
 }
 
 Found contact_of(const ShapePair& pair, double margin = 0.05, double preference = 0.0) {
-  return contact_of(pair, TouchSettings{margin, preference});
+  return contact_of(pair, TouchSettings{margin, preference, 0.0});
 }
 
 Matrix turn(double angle, const Vector& axis) {
@@ -312,6 +312,30 @@ TEST_CASE(
   CHECK(on_faces > 100);
 }
 
+TEST_CASE(
+    "the deeper edges overlap the more a face is preferred, where it sees the overlap whole") {
+  const ConvexShape shape = pinacoid({});
+  Draw draw(26);
+  int faces = 0, edges = 0;
+  for (int k = 0; k < 20000; ++k) {
+    const ShapePair pair{shape, shape, testing::random_pose(draw, 0.5, 0.9)};
+    const ContactAxes axes = separating_axes(pair);
+    const double depth = -axes.edges.separation;
+    const double ahead = axes.edges.separation - axes.face.separation;
+    if (axes.edges.kind == AxisKind::none || depth < 1e-3 || ahead < 1e-6) continue;
+    const double share = ahead / depth;
+    CHECK(contact_of(pair, {0.05, 0.0, 0.999 * share}).contact.kind == AxisKind::edges);
+    const Found found = contact_of(pair, {0.05, 0.0, 1.001 * share});
+    const AxisKind kind = found.contact.kind;
+    CHECK((kind == axes.face.kind || kind == AxisKind::edges));
+    CHECK(contact_of(pair, {0.05, 0.5 * ahead, 0.501 * share}).contact.kind == kind);
+    CHECK(found.deepest() <= axes.edges.separation);
+    (kind == AxisKind::edges ? edges : faces) += 1;
+  }
+  CHECK(faces > 1000);
+  CHECK(edges > 10);
+}
+
 // The sides of such a prism are narrow: what touches often lies beside the one that parts a pair
 // best, and not above it.
 TEST_CASE("a face is touched on only where what touches lies above it") {
@@ -336,6 +360,22 @@ TEST_CASE("a face is touched on only where what touches lies above it") {
   }
   CHECK(touched > 500);
   CHECK(on_faces > touched / 4);
+}
+
+TEST_CASE("edges that are apart give the normal whatever is preferred by their depth") {
+  const ConvexShape shape = pinacoid({});
+  Draw draw(27);
+  int apart = 0;
+  for (int k = 0; k < 2000; ++k) {
+    const ShapePair pair{shape, shape, testing::random_pose(draw, 0.7, 1.0)};
+    const ContactAxes axes = separating_axes(pair);
+    if (axes.edges.kind == AxisKind::none || axes.separation() > 0.05) continue;
+    if (axes.edges.separation < 1e-6 || axes.edges.separation < axes.face.separation + 1e-6)
+      continue;
+    ++apart;
+    CHECK(contact_of(pair, {0.05, 0.0, 1.0}).contact.kind == AxisKind::edges);
+  }
+  CHECK(apart > 20);
 }
 
 TEST_CASE("shapes beyond the margin have no contact") {
