@@ -17,6 +17,7 @@
 #include "engine/measure/touching.hpp"
 #include "engine/scene/sizes.hpp"
 #include "engine/scene/start.hpp"
+#include "engine/shape/build.hpp"
 #include "engine/shape/given_shape.hpp"
 #include "engine/units.hpp"
 
@@ -96,6 +97,18 @@ ProfileSettings bins_of(const PackingSpec& packing) {
 double unit_mass(const SphereBed& /*bed*/, std::size_t /*grain*/) { return 1.0; }
 double unit_mass(const PolyhedronBed& bed, std::size_t grain) {
   return bed.shape(grain).volume / bed.shapes.front().volume;
+}
+
+/// What each grain would weigh in shares of this kind if its size were 1; none if all weigh alike.
+std::vector<double> unit_weights(const SphereBed& /*bed*/, SizeWeight /*by*/) { return {}; }
+std::vector<double> unit_weights(const PolyhedronBed& bed, SizeWeight by) {
+  if (bed.shapes.size() == 1 || by == SizeWeight::number) return {};
+  std::vector<double> of_shape, of_grain;
+  for (const ConvexShape& shape : bed.shapes) {
+    of_shape.push_back(by == SizeWeight::area ? surface_area(shape) : shape.volume);
+  }
+  for (std::size_t i = 0; i < bed.grains(); ++i) of_grain.push_back(of_shape[bed.component(i)]);
+  return of_grain;
 }
 
 template <class Kind>
@@ -223,7 +236,8 @@ void measure(const PackingSpec& spec, const SettleReport& settled, const Kernels
   const bool are_drawn =
       spec.sizes.distribution && !std::holds_alternative<PlacedGrains>(spec.fill);
   if (slab && are_drawn) {
-    result.sizes = size_rows(bed, curve_of(*spec.sizes.distribution), *slab);
+    const SizeCurve curve = curve_of(*spec.sizes.distribution);
+    result.sizes = size_rows(bed, curve, *slab, unit_weights(bed, curve.by));
   }
   if (slab) {
     result.solid_fraction = solid_fraction(bed, *slab);

@@ -27,14 +27,16 @@ std::vector<double> diameters_of(const SizeCurve& curve) {
 
 /// Weight of the grains up to each diameter, over that of all. `diameters` are sorted.
 std::vector<double> shares_of(const Grains& bed, const std::vector<double>& diameters,
-                              SizeWeight by, const Slab& slab) {
+                              SizeWeight by, const Slab& slab,
+                              std::span<const double> unit_weights) {
   constexpr double rounding = 1e-12;  // of what a diameter goes through from its drawing on
   std::vector<double> up_to(diameters.size() + 1, 0.0);
-  for (const Record<double>& grain : bed.centres()) {
+  for (std::size_t i = 0; i < bed.grains(); ++i) {
+    const Record<double>& grain = bed.position[i];
     if (!slab.contains(grain.z)) continue;
-    const double diameter = 2.0 * grain.w;
+    const double diameter = 2.0 * grain.w, unit = unit_weights.empty() ? 1.0 : unit_weights[i];
     const auto row = std::lower_bound(diameters.begin(), diameters.end(), diameter - rounding);
-    up_to[static_cast<std::size_t>(row - diameters.begin())] += weight_of(by, diameter);
+    up_to[static_cast<std::size_t>(row - diameters.begin())] += unit * weight_of(by, diameter);
   }
   for (std::size_t k = 1; k < up_to.size(); ++k) up_to[k] += up_to[k - 1];
   const double all = up_to.back();
@@ -44,11 +46,12 @@ std::vector<double> shares_of(const Grains& bed, const std::vector<double>& diam
 
 }  // namespace
 
-std::vector<SizeRow> size_rows(const Grains& bed, const SizeCurve& curve, const Slab& slab) {
+std::vector<SizeRow> size_rows(const Grains& bed, const SizeCurve& curve, const Slab& slab,
+                               std::span<const double> unit_weights) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   const std::vector<double> diameters = diameters_of(curve);
-  const auto packed = shares_of(bed, diameters, curve.by, {-infinity, infinity});
-  const auto in_slab = shares_of(bed, diameters, curve.by, slab);
+  const auto packed = shares_of(bed, diameters, curve.by, {-infinity, infinity}, unit_weights);
+  const auto in_slab = shares_of(bed, diameters, curve.by, slab, unit_weights);
   std::vector<SizeRow> rows;
   for (std::size_t k = 0; k < diameters.size(); ++k) {
     rows.push_back({diameters[k], passing_at(curve, diameters[k]), packed[k], in_slab[k]});

@@ -1,6 +1,7 @@
 // The sizes of a bed's grains beside the distribution that was asked for.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "engine/measure/slab.hpp"
@@ -12,7 +13,9 @@ namespace grainsweep {
 
 /// A row for each diameter of a table, or for 25 diameters of another curve, evenly spaced in their
 /// logarithm. A diameter counts the grains that are as large, too. Shares of a slab without grains
-/// are NaN.
-std::vector<SizeRow> size_rows(const Grains& bed, const SizeCurve& curve, const Slab& slab);
+/// are NaN. `unit_weights`: what each grain would weigh in these shares if its size were 1, in any
+/// unit; empty if all are of one shape.
+std::vector<SizeRow> size_rows(const Grains& bed, const SizeCurve& curve, const Slab& slab,
+                               std::span<const double> unit_weights = {});
 
 }  // namespace grainsweep

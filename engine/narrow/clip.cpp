@@ -14,6 +14,10 @@ namespace {
 constexpr double on_side = 1e-12;
 constexpr double same_point = 1e-10;
 
+// Square of the sine of an angle between edges below which rounding decides where they are closest:
+// then that is the middle of the stretch they share.
+constexpr double nearly_parallel = 1e-12;
+
 const Face& face_of(const ConvexShape& shape, std::int32_t number) {
   return shape.faces[static_cast<std::size_t>(number)];
 }
@@ -281,7 +285,11 @@ Segment farthest_edge(const ShapePair& pair, Of which, std::int32_t direction, c
 Closeness closest_of(const Segment& p, const Segment& q) {
   const Vector u = p.to - p.from, v = q.to - q.from, w = p.from - q.from;
   const double uu = u.dot(u), uv = u.dot(v), vv = v.dot(v), uw = u.dot(w), vw = v.dot(w);
-  const double on_p = std::clamp((uv * vw - vv * uw) / (uu * vv - uv * uv), 0.0, 1.0);
+  const auto within = [](double share) { return std::clamp(share, 0.0, 1.0); };
+  const double crossed = uu * vv - uv * uv;  // by f64, nothing but rounding if nearly parallel
+  const double on_p = crossed > nearly_parallel * uu * vv
+                          ? within((uv * vw - vv * uw) / crossed)
+                          : (within(-uw / uu) + within((uv - uw) / uu)) / 2.0;
   const double on_q = std::clamp((uv * on_p + vw) / vv, 0.0, 1.0);
   const double again = std::clamp((uv * on_q - uw) / uu, 0.0, 1.0);
   return {(p.from + again * u + q.from + on_q * v) / 2.0, (w + again * u - on_q * v).norm()};

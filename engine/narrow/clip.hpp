@@ -30,7 +30,6 @@ struct Closeness {
   double distance;  ///< d
 };
 
-/// Of segments that are not parallel.
 Closeness closest_of(const Segment& p, const Segment& q);
 
 }  // namespace grainsweep

@@ -95,6 +95,21 @@ bool is_above_face(const ContactAxes& axes, const PairContact& contact,
   return !contact.is_beside && nearest <= axes.edges.separation + beyond;
 }
 
+/// Along the axis that is preferred.
+PairContact touch_preferred(const ShapePair& pair, const TouchSettings& settings,
+                            const ContactAxes& axes, ClipColumns& columns,
+                            std::vector<ContactPoint>& points) {
+  const bool edges = edges_part_better(axes, settings.preference);
+  const double overlap = edges ? std::max(0.0, -axes.edges.separation) : 0.0;
+  if (!edges_part_better(axes, settings.preference + settings.of_depth * overlap)) {
+    PairContact contact = touch_along(pair, axes.face, settings.margin, columns, points);
+    const double beyond = edges ? 0.0 : settings.preference;
+    if (is_above_face(axes, contact, points, beyond)) return contact;
+    points.resize(contact.first);
+  }
+  return touch_along(pair, axes.edges, settings.margin, columns, points);
+}
+
 /// Of a pair with a sphere.
 PairContact touch_ball(const ShapePair& pair, double margin, PairMemory& memory,
                        std::vector<ContactPoint>& points) {
@@ -116,15 +131,9 @@ double min_gap(const ContactPoint* points, std::size_t count) {
 PairContact touch(const ShapePair& pair, const TouchSettings& settings, const ContactAxes& axes,
                   ClipColumns& columns, std::vector<ContactPoint>& points) {
   if (!(axes.separation() <= settings.margin)) return apart_by(axes.separation());
-  const bool edges = edges_part_better(axes, settings.preference);
-  const double overlap = edges ? std::max(0.0, -axes.edges.separation) : 0.0;
-  if (!edges_part_better(axes, settings.preference + settings.of_depth * overlap)) {
-    PairContact contact = touch_along(pair, axes.face, settings.margin, columns, points);
-    const double beyond = edges ? 0.0 : settings.preference;
-    if (is_above_face(axes, contact, points, beyond)) return contact;
-    points.resize(contact.first);
-  }
-  return touch_along(pair, axes.edges, settings.margin, columns, points);
+  PairContact contact = touch_preferred(pair, settings, axes, columns, points);
+  contact.parted = axes.separation();
+  return contact;
 }
 
 PairContact touch(const ShapePair& pair, const TouchSettings& settings, PairMemory& memory,

@@ -9,6 +9,7 @@
 // other.
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "engine/narrow/gjk.hpp"
@@ -58,6 +59,9 @@ struct PairContact {
   /// beside each other.
   bool is_beside = false;
   CrossedEdges edges = {};
+  /// Along the best of all axes, which one that is preferred need not be, d: as far as the shapes
+  /// overlap at all. Lowest where the axis is the only one.
+  double parted = std::numeric_limits<double>::lowest();
 };
 
 /// Working memory, kept from call to call.

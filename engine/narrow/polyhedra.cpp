@@ -44,7 +44,7 @@ void note_apart(const PolyhedronBed& bed, std::size_t k, GrainPair pair, double 
 
 void append(GrainPair pair, const PairPose& pose, const PairContact& contact, ContactList& found) {
   found.contacts.push_back({pair.a, pair.b, contact.kind, contact.normal, contact.first,
-                            contact.count, pose, contact.edges});
+                            contact.count, pose, contact.edges, contact.parted});
 }
 
 /// Any convex shape: pair by pair.

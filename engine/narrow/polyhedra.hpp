@@ -9,6 +9,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -31,6 +32,7 @@ struct PolyhedronContact {
   std::size_t first = 0, count = 0;
   PairPose pose;  ///< grain b as a sees it; not set for a wall
   CrossedEdges edges = {};
+  double parted = std::numeric_limits<double>::lowest();  ///< of a pair; see PairContact
 };
 
 struct ContactList {

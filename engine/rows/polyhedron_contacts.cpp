@@ -520,8 +520,9 @@ std::vector<Closure> closures(PolyhedronBed& bed, const ExecutionContext& contex
       const auto at = place_of(c, places);
       if (at == places.end()) continue;
       const ContactPoint* points = now.points.data() + c.first;
-      all[static_cast<std::size_t>((*at)[2])] = {
-          min_gap(points, c.count), constraints_of(points, c.count, closed_gap), by_turning(c)};
+      all[static_cast<std::size_t>((*at)[2])] = {std::max(min_gap(points, c.count), c.parted),
+                                                 constraints_of(points, c.count, closed_gap),
+                                                 by_turning(c)};
     }
   });
   return all;

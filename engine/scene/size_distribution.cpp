@@ -6,6 +6,7 @@
 
 #include "engine/interval.hpp"
 #include "engine/scene/random.hpp"
+#include "engine/text.hpp"
 
 namespace grainsweep {
 
@@ -300,7 +301,11 @@ std::string fault_of(const SizeDistribution& distribution) {
                 number_fault("smallest", distribution.smallest.value_or(1.0), any_length),
                 number_fault("largest", distribution.largest.value_or(1.0), any_length)});
   if (!fault.empty()) return fault;
-  if (!leaves_grains(distribution)) return "smallest and largest leave nothing of the curve";
+  if (!leaves_grains(distribution)) {
+    const SizeCurve whole = curve_of({distribution.formula, distribution.by, {}, {}});
+    return joined("smallest and largest leave nothing of the curve, which runs from ",
+                  whole.diameters.front(), " to ", whole.diameters.back(), " d");
+  }
   return ends_fault(curve_of(distribution));
 }
 

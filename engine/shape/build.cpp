@@ -6,6 +6,8 @@
 
 #include <Eigen/Geometry>
 
+#include "engine/units.hpp"
+
 namespace grainsweep {
 
 namespace {
@@ -119,6 +121,16 @@ Vector area_vector(const std::vector<Vector>& vertices, const std::vector<std::i
     sum += (at(vertices, loop[k]) - origin).cross(at(vertices, loop[k + 1]) - origin);
   }
   return sum / 2.0;
+}
+
+double surface_area(const ConvexShape& shape) {
+  if (shape.is_ball) return 4.0 * pi * shape.inradius * shape.inradius;
+  double area = 0.0;
+  for (const Face& face : shape.faces) {
+    const std::span<const std::int32_t> corners = corners_of(shape, face);
+    area += area_vector(shape.vertices, {corners.begin(), corners.end()}).norm();
+  }
+  return area;
 }
 
 /// Tetrahedra from the origin to the triangles of each face. With corners p, q, r and S = p + q + r

@@ -25,6 +25,9 @@ ConvexShape build_shape(std::vector<Vector> vertices, const Loops& loops);
 /// Area vector of a polygon (Newell): exact for flat ones, a best fit for others, d^2.
 Vector area_vector(const std::vector<Vector>& vertices, const std::vector<std::int32_t>& loop);
 
+/// Area of its surface, d^2.
+double surface_area(const ConvexShape& shape);
+
 /// Moments of inertia over mass from the mean of x x^T about the centroid: trace - second.
 Matrix inertia_of(const Matrix& second);
 

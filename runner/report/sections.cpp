@@ -176,7 +176,7 @@ std::string build_list(const Build& build) {
 std::vector<std::string> run_cells(const RunRecord& run) {
   return {html_text(run.started),
           run.ended.empty() ? "not ended" : html_text(duration_text(run.wall_seconds)),
-          std::to_string(run.packings),
+          run.ended.empty() ? "not known" : std::to_string(run.packings),
           html_text(run.host),
           html_text(run.processor),
           std::to_string(run.threads) + " of " + std::to_string(run.cores),

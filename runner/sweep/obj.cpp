@@ -50,8 +50,9 @@ VerticesReading parse_obj(const std::string& text, const std::string& file) {
     }
   }
   if (reading.vertices.empty() && reading.errors.empty()) {
-    reading.errors.push_back(wrong_line(
-        file, 1, "no vertex in it; only Wavefront OBJ is read, at least 4 lines \"v x y z\""));
+    reading.errors.push_back(wrong_line(file, 1,
+                                        "no vertex in it; it is read as Wavefront OBJ, at least 4 "
+                                        "lines \"v x y z\"; a file of STL must be called .stl"));
   }
   return reading;
 }

@@ -180,13 +180,14 @@ std::vector<Parameter> size_parameters() {
            of_table<&SizeTable::shares>("sizes.distribution.table.shares", Interval{0, 1},
                                         "instead: share of the grains of just each diameter"),
            table_file(), weight(),
-           cut_at<&SizeDistribution::smallest>(
-               "sizes.distribution.smallest",
-               "where the curve is cut below, d; if left out, of lognormal and weibull where 0.1 % "
-               "are finer"),
+           cut_at<&SizeDistribution::smallest>("sizes.distribution.smallest",
+                                               "where the curve is cut below, in the unit of its "
+                                               "diameters; if left out, of lognormal "
+                                               "and weibull where 0.1 % are finer"),
            cut_at<&SizeDistribution::largest>(
                "sizes.distribution.largest",
-               "where it is cut above, d; if left out, of those two where 0.1 % are coarser"),
+               "where it is cut above, in the same unit; if left out, of those two where 0.1 % are "
+               "coarser"),
            own("sizes.distribution.size", positive,
                "the length in the diameters of the distribution that is d; 1 if left out",
                ValueKind::number, Role::distribution, set_member<&ResolvedSpec::size_unit>,

@@ -44,6 +44,16 @@ TEST_CASE("shares of sizes are by number or area where the distribution is") {
   CHECK(by(SizeWeight::area).packed == Approx(2.0 / 3.0));
 }
 
+TEST_CASE("in a mixture shares go by what grains of each shape weigh") {
+  std::vector<double> unit_weights(9, 2.0);  // the small ones are of a shape twice as bulky
+  unit_weights[0] = 1.0;
+  const auto rows =
+      size_rows(mixed_bed(), curve_by(SizeWeight::volume, two_grades), {2.0, 4.0}, unit_weights);
+  CHECK(rows[0].packed == Approx(2.0 / 3.0));
+  CHECK(rows[0].slab == Approx(0.5));
+  CHECK(rows[1].packed == 1.0);
+}
+
 TEST_CASE("a formula is told at diameters evenly spaced in their logarithm, from end to end") {
   const SizeCurve curve = curve_by(SizeWeight::number, UniformSizes{0.25, 4.0});
   const auto rows = size_rows(mixed_bed(), curve, {2.0, 4.0});

@@ -151,6 +151,18 @@ TEST_CASE("the middle of the shortest line between two crossing edges lies midwa
   CHECK((closest_of(along_x, along_y).midway - Vector(0.25, 0, 0.5)).norm() < 1e-15);
 }
 
+TEST_CASE("edges that are parallel, nearly or to rounding, are closest in the middle they share") {
+  const Segment below{{-1, 0, 0}, {1, 0, 0}};
+  for (const double angle : {0.0, 1e-16, 1e-14, 1e-10, 1e-8}) {
+    for (const double sense : {1.0, -1.0}) {
+      const Vector middle(1, 0.1, 0.5), half(sense * std::cos(angle), sense * std::sin(angle), 0);
+      const Closeness closest = closest_of(below, {middle - half, middle + half});
+      CHECK((closest.midway - Vector(0.5, 0.05, 0.25)).norm() < 2e-8);
+      CHECK(closest.distance == Approx(std::hypot(0.1, 0.5)).epsilon(1e-7));
+    }
+  }
+}
+
 TEST_CASE("the edge that reaches farthest is the one towards the direction asked for") {
   const ConvexShape cube = testing::cube();
   const ShapePair pair{cube, cube, above(0, height_of(cube))};

@@ -39,7 +39,8 @@ TEST_CASE("coordinates that are missing or no numbers are refused with their lin
 
 TEST_CASE("an OBJ file without a vertex says so") {
   const Messages none{
-      "rock.obj:1: no vertex in it; only Wavefront OBJ is read, at least 4 lines \"v x y z\""};
+      "rock.obj:1: no vertex in it; it is read as Wavefront OBJ, at least 4 lines \"v x y z\"; "
+      "a file of STL must be called .stl"};
   CHECK(errors_of_obj("") == none);
   CHECK(errors_of_obj("f 1 2 3\nvn 0 0 1\n") == none);
 }
