@@ -93,22 +93,23 @@ ProfileSettings bins_of(const PackingSpec& packing) {
   return {spec.bin_width, small_class_limit(packing.sizes), spec.gap_tolerances.front()};
 }
 
-/// Of a grain of size 1, in that of the first component, or a sphere.
-double unit_mass(const SphereBed& /*bed*/, std::size_t /*grain*/) { return 1.0; }
-double unit_mass(const PolyhedronBed& bed, std::size_t grain) {
-  return bed.shape(grain).volume / bed.shapes.front().volume;
+/// What a grain would weigh in shares of this kind if its size were 1, over one of the first
+/// component, or a sphere.
+double unit_weight(const SphereBed& /*bed*/, std::size_t /*grain*/, SizeWeight /*by*/) {
+  return 1.0;
+}
+double unit_weight(const PolyhedronBed& bed, std::size_t grain, SizeWeight by) {
+  const ConvexShape &shape = bed.shape(grain), &first = bed.shapes.front();
+  return by == SizeWeight::number ? 1.0
+         : by == SizeWeight::area ? surface_area(shape) / surface_area(first)
+                                  : shape.volume / first.volume;
 }
 
-/// What each grain would weigh in shares of this kind if its size were 1; none if all weigh alike.
-std::vector<double> unit_weights(const SphereBed& /*bed*/, SizeWeight /*by*/) { return {}; }
-std::vector<double> unit_weights(const PolyhedronBed& bed, SizeWeight by) {
-  if (bed.shapes.size() == 1 || by == SizeWeight::number) return {};
-  std::vector<double> of_shape, of_grain;
-  for (const ConvexShape& shape : bed.shapes) {
-    of_shape.push_back(by == SizeWeight::area ? surface_area(shape) : shape.volume);
-  }
-  for (std::size_t i = 0; i < bed.grains(); ++i) of_grain.push_back(of_shape[bed.component(i)]);
-  return of_grain;
+template <class Kind>
+std::vector<double> unit_weights(const Bed<Kind>& bed, SizeWeight by) {
+  std::vector<double> weights(bed.grains());
+  for (std::size_t i = 0; i < weights.size(); ++i) weights[i] = unit_weight(bed, i, by);
+  return weights;
 }
 
 template <class Kind>
@@ -116,7 +117,7 @@ void measure_sizes(const Bed<Kind>& bed, PackingResult& result) {
   double volume = 0.0, by_volume = 0.0, diameters = 0.0;
   for (std::size_t i = 0; i < bed.grains(); ++i) {
     const double diameter = 2.0 * bed.position[i].w;
-    const double mass = unit_mass(bed, i) * sphere_mass(bed.position[i].w);
+    const double mass = unit_weight(bed, i, SizeWeight::volume) * sphere_mass(bed.position[i].w);
     diameters += diameter;
     volume += mass;
     by_volume += mass * diameter;

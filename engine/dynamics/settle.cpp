@@ -18,6 +18,7 @@
 #include "engine/dynamics/workspace.hpp"
 #include "engine/exact/exact_rest.hpp"
 #include "engine/saved_state.hpp"
+#include "engine/scene/sizes.hpp"
 
 namespace grainsweep {
 
@@ -48,12 +49,11 @@ bool is_fit(const Accuracy& accuracy, const Grains& bed) {
 /// twice as many take longer than a bed of so many takes to settle.
 constexpr std::int64_t most_counted = 30'000;
 
-/// Equal spheres may jam, or come to rest on more contacts than hold them.
 bool are_of_one_size(const SphereBed& bed) {
   const auto by_radius = [](const Record<double>& p, const Record<double>& q) { return p.w < q.w; };
   const std::span<const Record<double>> grains = bed.centres();
   const auto [least, most] = std::minmax_element(grains.begin(), grains.end(), by_radius);
-  return most->w < (1.0 + 1e-6) * least->w;
+  return most->w < (1.0 + equal_sizes) * least->w;
 }
 
 RestReport report_of(const ExactRest& exact, const SphereBed& bed) {

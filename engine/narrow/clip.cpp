@@ -151,9 +151,7 @@ struct Beside {
   std::span<const double> reach;  ///< of each vertex against the normal, d
   double least;                   ///< of those within the margin, d
 
-  bool is_low(std::int32_t vertex) const {
-    return reach[static_cast<std::size_t>(vertex)] >= least;
-  }
+  double reach_of(std::int32_t vertex) const { return reach[static_cast<std::size_t>(vertex)]; }
   bool has(std::size_t vertex) const {
     const ConvexShape& shape = other.shape;
     const auto first = shape.vertex_faces.begin() + shape.vertex_faces_begin[vertex];
@@ -161,12 +159,10 @@ struct Beside {
     return reach[vertex] >= least && std::find(first, last, touching) == last;
   }
   bool has(const Edge& edge) const {
-    return is_low(edge.from) && is_low(edge.to) && edge.left != touching && edge.right != touching;
+    return std::min(reach_of(edge.from), reach_of(edge.to)) >= least && edge.left != touching &&
+           edge.right != touching;
   }
-  double rise(const Edge& edge) const {
-    return std::abs(reach[static_cast<std::size_t>(edge.to)] -
-                    reach[static_cast<std::size_t>(edge.from)]);
-  }
+  double rise(const Edge& edge) const { return std::abs(reach_of(edge.to) - reach_of(edge.from)); }
 };
 
 /// Vertices within the margin that are no corners of the touching face: where an edge lies on the
@@ -290,8 +286,8 @@ Closeness closest_of(const Segment& p, const Segment& q) {
   const double on_p = crossed > nearly_parallel * uu * vv
                           ? within((uv * vw - vv * uw) / crossed)
                           : (within(-uw / uu) + within((uv - uw) / uu)) / 2.0;
-  const double on_q = std::clamp((uv * on_p + vw) / vv, 0.0, 1.0);
-  const double again = std::clamp((uv * on_q - uw) / uu, 0.0, 1.0);
+  const double on_q = within((uv * on_p + vw) / vv);
+  const double again = within((uv * on_q - uw) / uu);
   return {(p.from + again * u + q.from + on_q * v) / 2.0, (w + again * u - on_q * v).norm()};
 }
 
