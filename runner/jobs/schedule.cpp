@@ -46,10 +46,13 @@ Finished pack_one(std::size_t index, const Pack& pack, const KeepGoing& go_on) {
 class Run {
  public:
   Run(const std::vector<Cost>& costs, const Pack& pack, const TaskEvents& events)
-      : pack_(pack), events_(events), order_(longest_first(costs)) {}
+      : pack_(pack), events_(events), order_(longest_first(costs)) {
+    visits_.fetch_add(1);
+  }
 
   /// The next task, or stops the pipeline. Called by one thread at a time.
   std::size_t take_next(tbb::flow_control& control) {
+    visits_.load();
     std::size_t place = next_.fetch_add(1);
     while (place < order_.size() && !events_.may_start(order_[place])) place = next_.fetch_add(1);
     const bool goes_on = place < order_.size() && !must_stop();
@@ -60,12 +63,11 @@ class Run {
   }
 
   void run(std::size_t index) {
+    visits_.load();
     if (!must_stop()) make(index);
     visits_.fetch_add(1);
   }
 
-  /// Orders all visits of threads before what follows. So does oneTBB, but inside a library that
-  /// the thread sanitizer cannot see into: it would take every result for a race.
   void join() { visits_.load(); }
 
  private:
@@ -96,7 +98,11 @@ class Run {
   const TaskEvents& events_;
   const std::vector<std::size_t> order_;
   std::atomic<std::size_t> next_{0};
-  std::atomic<std::size_t> visits_{0};  ///< that have ended
+  /// Visits of threads that have ended. Counting orders what was before it, the making of this
+  /// object too, before every visit and join() that begins later. So does oneTBB, but inside a
+  /// library that the thread sanitizer cannot see into: it would take every task and result for a
+  /// race.
+  std::atomic<std::size_t> visits_{0};
   std::mutex reporting_;
   std::atomic<bool> broken_{false};
 };
@@ -110,14 +116,18 @@ void run_tasks(const std::vector<Cost>& costs, const Limits& limits, const Pack&
   const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
                                     static_cast<std::size_t>(limits.threads));
   tbb::task_arena arena(limits.threads);
+  // What a stage carries goes from thread to thread inside oneTBB, unseen by the thread sanitizer.
+  const auto take_next = [&](tbb::flow_control & control) __attribute__((no_sanitize("thread"))) {
+    return run.take_next(control);
+  };
+  const auto make = [&](std::size_t index) __attribute__((no_sanitize("thread"))) {
+    run.run(index);
+  };
   arena.execute([&] {
     tbb::parallel_pipeline(
         static_cast<std::size_t>(live),
-        tbb::make_filter<void, std::size_t>(
-            tbb::filter_mode::serial_in_order,
-            [&](tbb::flow_control& control) { return run.take_next(control); }) &
-            tbb::make_filter<std::size_t, void>(tbb::filter_mode::parallel,
-                                                [&](std::size_t index) { run.run(index); }));
+        tbb::make_filter<void, std::size_t>(tbb::filter_mode::serial_in_order, take_next) &
+            tbb::make_filter<std::size_t, void>(tbb::filter_mode::parallel, make));
   });
   run.join();
 }
