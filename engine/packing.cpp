@@ -270,8 +270,10 @@ Packing pack(const PackingSpec& spec, const ExecutionContext& context, const Kee
   const SettleReport settled = settle(spec.accuracy, context, *bed, keep_going, saved);
   if (settled.precision_insufficient) return failed(settled.failure);
   if (!is_finite(*bed)) {
+    const bool is_f32 = spec.accuracy.precision == Precision::f32;
     return failed("the bed blew up in step " + std::to_string(settled.steps) +
-                  ": a grain's place is no longer a finite number; take accuracy.precision f64, or "
+                  ": a grain's place is no longer a finite number; " +
+                  (is_f32 ? "take accuracy.precision f64, or " : "") +
                   "leave out grains far smaller than d");
   }
   Packing packing;

@@ -31,9 +31,9 @@ constexpr double far_off = 1e3;
 // Products of inertia below this share of the trace are rounding: the frame is principal already.
 constexpr double principal = 1e-13;
 
+/// By number: the places are in d here, perhaps not where they were written.
 std::string named(const std::vector<Vector>& points, std::size_t k) {
-  const Vector& p = points[k];
-  return joined("vertex ", k + 1, " (", p.x(), ", ", p.y(), ", ", p.z(), ")");
+  return joined("vertex ", k + 1, " of ", points.size());
 }
 
 std::string problem_with_numbers(const std::vector<Vector>& points) {
@@ -234,9 +234,11 @@ std::string problem_with_dents(const std::vector<Vector>& points, const Loops& l
   for (std::size_t k = 0; k < points.size(); ++k) {
     const double depth = depth_of(points[k], faces);
     if (depth > allowed) {
-      return joined(named(points, k), " lies ", depth,
-                    " inside the hull of the others: the shape is not convex; remove the vertex if "
-                    "its hull is meant");
+      return joined(
+          named(points, k), " lies inside the hull of the others, ",
+          100.0 * depth / extents_of(points).length,
+          " % of the shape's extent deep: the shape is not convex; remove the vertex if its "
+          "hull is meant");
     }
   }
   return "";

@@ -224,10 +224,17 @@ void unset_alternatives(const Assignment& assignment, InEffect& in_effect) {
   }
 }
 
-/// Where the first word of a part's name is in a message: "angle" for "shape.pinacoid.angle_deg".
-std::size_t mention_of(const std::string& path, const std::string& message) {
-  const std::string name = path.substr(path.rfind('.') + 1);
-  return message.find(name.substr(0, name.find('_')));
+/// Where `message` on a group speaks of a part of it: a number, the smaller the more it is meant.
+/// First of all a message that begins with the part, then one that begins with what the part
+/// belongs to ("table.passing must ..." means the file of a table, too), then where the first word
+/// of the part's name is: "angle" for "angle_deg".
+std::size_t mention_of(const std::string& part, const std::string& message) {
+  if (message.starts_with(part + " ")) return 0;
+  const std::size_t dot = part.rfind('.');
+  if (dot != std::string::npos && message.starts_with(part.substr(0, dot + 1))) return 1;
+  const std::string name = part.substr(dot + 1);  // all of it, if there is no dot
+  const std::size_t mention = message.find(name.substr(0, name.find('_')));
+  return mention == std::string::npos ? mention : mention + 2;
 }
 
 }  // namespace
@@ -340,7 +347,7 @@ const Assignment* assignment_of(const SpecError& error, const InEffect& in_effec
     if (assignment == nullptr) continue;
     const std::string& path = parameters()[assignment->parameter].path;
     if (!path.starts_with(error.path + ".")) continue;
-    const std::size_t mention = mention_of(path, error.message);
+    const std::size_t mention = mention_of(path.substr(error.path.size() + 1), error.message);
     if (found != nullptr && mention >= first) continue;
     found = assignment;
     first = mention;

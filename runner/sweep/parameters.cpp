@@ -28,6 +28,19 @@ std::optional<SizeFormula> usual_formula(Role role) {
   }
 }
 
+/// Why a cut of a curve that has ends of its own takes nothing away; "" if it does.
+std::string cut_reason(bool is_smallest, const std::optional<SizeDistribution>& distribution) {
+  const bool has_ends =
+      distribution && (std::holds_alternative<SizeTable>(distribution->formula) ||
+                       std::holds_alternative<UniformSizes>(distribution->formula));
+  if (!has_ends || !fault_of(*distribution).empty()) return "";
+  const std::vector<double> whole =
+      curve_of({distribution->formula, distribution->by, {}, {}}).diameters;
+  if (is_smallest && distribution->smallest < whole.front()) return "no grain is smaller";
+  if (!is_smallest && distribution->largest > whole.back()) return "no grain is larger";
+  return "";
+}
+
 }  // namespace
 
 const std::vector<Parameter>& parameters() {
@@ -175,6 +188,9 @@ std::string idle_reason(const Parameter& parameter, const PackingSpec& spec) {
   const bool is_drawn_from = path == "sizes.spread" || path.starts_with("sizes.distribution.");
   if (is_drawn_from && std::holds_alternative<PlacedGrains>(spec.fill)) {
     return "the sizes stand in fill.file";
+  }
+  if (path == "sizes.distribution.smallest" || path == "sizes.distribution.largest") {
+    return cut_reason(path.ends_with("smallest"), spec.sizes.distribution);
   }
   if (path == "shape.mixture_by" && std::holds_alternative<PlacedGrains>(spec.fill)) {
     return "the component of each grain stands in fill.file";

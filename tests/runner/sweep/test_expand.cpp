@@ -279,6 +279,17 @@ TEST_CASE("a value that has no effect on any packing is noted with the reason") 
   CHECK(notes_of(sweep_of(R"({"grid": {"sizes.small_share": [0, 0.4]}})",
                           R"({"sizes.size_ratio": 0.3})"))
             .empty());
+  const auto cut = [](const std::string& ends) {
+    return notes_of(sweep_of(
+        "{}", R"({"sizes.distribution": {"uniform": {"from": 0.5, "to": 2}, )" + ends + "}}"));
+  };
+  CHECK(cut(R"("smallest": 0.5, "largest": 2)").empty());
+  CHECK(cut(R"("smallest": 0.4)") ==
+        Messages{
+            "s.json:1:94 /base/sizes.distribution/smallest: has no effect: no grain is smaller"});
+  CHECK(
+      cut(R"("largest": 2.5)") ==
+      Messages{"s.json:1:93 /base/sizes.distribution/largest: has no effect: no grain is larger"});
 }
 
 TEST_CASE("a list that holds a value twice, and a zip with two equal rows, are refused") {

@@ -134,6 +134,18 @@ TEST_CASE("what is wrong with a distribution is told where it is written") {
   CHECK(errors_in(R"({"distribution": {"table": {"file": "none.csv"}}})").size() == 1);
 }
 
+TEST_CASE("what is wrong with a table from a file is told at the file") {
+  const ScratchFolder folder;
+  folder.write("sieves.csv", "diameter,passing\n0.9,0\n2,20\n4,100\n");
+  const Diagnostics errors =
+      read_sweep(folder.write("s.json", R"({"name": "t", "base": {"sizes.distribution":
+                                        {"size": 2, "table": {"file": "sieves.csv"}, "by": "area"}}})"))
+          .errors;
+  REQUIRE(errors.size() == 1);
+  CHECK(errors[0].pointer == "/base/sizes.distribution/table/file");
+  CHECK_THAT(errors[0].message, Catch::Contains("divide percentages by 100"));
+}
+
 TEST_CASE("a table of a laboratory beside units, without its unit, is worth a note") {
   const ScratchFolder folder;
   folder.write("sieves.csv", "diameter,passing\n0.9,0\n2,0.2\n4,1\n");
