@@ -31,6 +31,11 @@ bool has_fit_wish(const Sweep& whole) {
                      [](const Job& job) { return job.fit_wish.is_given(); });
 }
 
+bool is_bounded(const Job& job, bool asks_of_z) {
+  const auto bound = bias_bound(facts_of(job));
+  return bound && !(asks_of_z && std::isnan(bound->coordination));
+}
+
 void take_smaller(double FitWish::*part, const FitWish& other, FitWish& wish) {
   const double asked = other.*part;
   if (asked > 0.0 && (wish.*part == 0.0 || asked < wish.*part)) wish.*part = asked;
@@ -81,10 +86,9 @@ std::optional<ProtocolBias> bound_of(const Job& job) {
   return bound;
 }
 
-bool is_bounded(const Job& job) {
-  const auto bound = bias_bound(facts_of(job));
-  const bool asks_of_z = job.wish.coordination > 0.0 || job.fit_wish.z_bulk > 0.0;
-  return bound && !(asks_of_z && std::isnan(bound->coordination));
+bool is_bounded(const Job& job, const ErrorWish& wish) {
+  return is_bounded(job, wish.coordination > 0.0);
 }
+bool is_bounded(const Job& job, const FitWish& wish) { return is_bounded(job, wish.z_bulk > 0.0); }
 
 }  // namespace grainsweep

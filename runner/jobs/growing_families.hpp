@@ -39,7 +39,9 @@ bool is_walled(const Job& job);
 /// measured; nothing if it was of none.
 std::optional<ProtocolBias> bound_of(const Job& job);
 
-/// Whether it was measured of all that is asked for.
-bool is_bounded(const Job& job);
+/// Whether it was measured of all that a job's wish for means asks for, or a wish for a fit to its
+/// family.
+bool is_bounded(const Job& job, const ErrorWish& wish);
+bool is_bounded(const Job& job, const FitWish& wish);
 
 }  // namespace grainsweep

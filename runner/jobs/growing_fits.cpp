@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <map>
 #include <set>
 
 #include "runner/analysis/fit.hpp"
@@ -62,15 +63,21 @@ class Round {
  public:
   Round(const std::vector<FitGroup>& groups, const std::vector<int>& replicates)
       : groups_(groups), replicates_(replicates) {
-    std::set<double> widths;
+    std::map<std::size_t, std::vector<const Outcome*>> made;  // of each mean
     for (std::size_t k = 0; k < groups.size(); ++k) {
-      const Means means = means_of(groups[k].made, replicates[k]);
-      means_.push_back(means);
-      pool(means);
-      if (!groups[k].is_walled || means.solid_fraction.n == 0) continue;
-      widths.insert(groups[k].width);
-      design_.add(means.solid_fraction.n, 1.0 / groups[k].width);
+      settled_.push_back(means_of(groups[k].made, replicates[k]).solid_fraction.n);
+      std::vector<const Outcome*>& of_mean = made[groups[k].mean];
+      of_mean.insert(of_mean.end(), groups[k].made.begin(), groups[k].made.begin() + replicates[k]);
+      if (!groups[k].is_walled || settled_[k] == 0) continue;
+      widths_[groups[k].mean] = groups[k].width;
+      design_.add(settled_[k], 1.0 / groups[k].width);
     }
+    for (const auto& [mean, outcomes] : made) {
+      means_[mean] = means_of(outcomes, static_cast<int>(outcomes.size()));
+      pool(means_[mean]);
+    }
+    std::set<double> widths;
+    for (const auto& [mean, width] : widths_) widths.insert(width);
     has_widths_ = widths.size() >= 3;
     has_line_ = has_widths_ && degrees_of_freedom_ > 0;
   }
@@ -85,14 +92,27 @@ class Round {
   double chi2_per_dof(bool is_coordination) const {
     if (!has_line_) return 0.0;
     std::vector<LinePoint> points;
-    for (std::size_t k = 0; k < groups_.size(); ++k) {
-      const Spread& mean = is_coordination ? means_[k].coordination : means_[k].solid_fraction;
-      if (!groups_[k].is_walled || mean.n == 0) continue;
-      points.push_back({1.0 / groups_[k].width, mean.mean,
-                        error_of_mean(variance(is_coordination), mean.n, degrees_of_freedom_)});
+    for (const auto& [mean, width] : widths_) {
+      const Spread& spread = spread_of(mean, is_coordination);
+      points.push_back({1.0 / width, spread.mean,
+                        error_of_mean(variance(is_coordination), spread.n, degrees_of_freedom_)});
     }
     const auto line = fit_line(points);
     return line ? line->chi2 / line->degrees_of_freedom : 0.0;
+  }
+
+  /// Whether the packings scatter, so that what is asked for has an error; see why_no_error.
+  bool tells_errors(const std::vector<Target>& targets) const {
+    if (!has_line_) return true;
+    return std::all_of(targets.begin(), targets.end(), [&](const Target& target) {
+      return std::all_of(widths_.begin(), widths_.end(), [&](const auto& point) {
+        Spread pooled = spread_of(point.first, target.is_coordination);
+        pooled.degrees_of_freedom = degrees_of_freedom_;
+        pooled.error =
+            error_of_mean(variance(target.is_coordination), pooled.n, degrees_of_freedom_);
+        return why_no_error(pooled).empty();
+      });
+    });
   }
 
   /// Whether no packings would help, however many might be made: too few of them settle.
@@ -139,6 +159,11 @@ class Round {
     z_squares_ += degrees * means.coordination.sd * means.coordination.sd;
   }
 
+  const Spread& spread_of(std::size_t mean, bool is_coordination) const {
+    const Means& means = means_.at(mean);
+    return is_coordination ? means.coordination : means.solid_fraction;
+  }
+
   /// Of a single packing.
   double variance(bool is_coordination) const {
     return (is_coordination ? z_squares_ : phi_squares_) / degrees_of_freedom_;
@@ -152,7 +177,7 @@ class Round {
 
   /// Whether packings may be added to a group.
   bool goes_on(std::size_t k) const {
-    return groups_[k].may_grow && !settle_too_seldom(means_[k].solid_fraction.n, replicates_[k]);
+    return groups_[k].may_grow && !settle_too_seldom(settled_[k], replicates_[k]);
   }
 
   int most(std::size_t k) const {
@@ -176,7 +201,9 @@ class Round {
 
   const std::vector<FitGroup>& groups_;
   const std::vector<int>& replicates_;
-  std::vector<Means> means_;
+  std::vector<int> settled_;              ///< of each group
+  std::map<std::size_t, Means> means_;    ///< of groups.csv
+  std::map<std::size_t, double> widths_;  ///< of those on the line, d
   Design design_;
   bool has_widths_ = false;  ///< so many that there may be a line
   bool has_line_ = false;
@@ -213,11 +240,13 @@ CalledFit called_for_fit(const std::vector<FitGroup>& groups, const FitWish& wis
   while (are_made(groups, called.replicates)) {
     const Round round(groups, called.replicates);
     std::vector<int> next = called.replicates;
-    called.is_met = round.over(targets) <= 1.0;
-    if (!called.is_met) next = round.next(targets);
+    called.tells_errors = round.tells_errors(targets);
+    called.is_met = called.tells_errors && round.over(targets) <= 1.0;
+    if (called.tells_errors && !called.is_met) next = round.next(targets);
     if (next == called.replicates) {
       called.is_made = true;
-      called.settles_too_seldom = !called.is_met && round.settles_too_seldom();
+      called.settles_too_seldom =
+          called.tells_errors && !called.is_met && round.settles_too_seldom();
       called.chi2_per_dof = worst_chi2(round, targets);
       return called;
     }

@@ -15,6 +15,7 @@
 // before they are widened: a line that misses its points is not mended by more packings.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -26,6 +27,7 @@ namespace grainsweep {
 
 /// A group of a family.
 struct FitGroup {
+  std::size_t mean = 0;    ///< which mean of groups.csv its packings enter: seeds share one
   double width = 0.0;      ///< d
   bool is_walled = false;  ///< whether it is on the line; others only tell how packings scatter
   bool may_grow = false;   ///< otherwise all its packings are made
@@ -39,6 +41,7 @@ struct CalledFit {
   bool is_made = false;             ///< whether all of them are
   bool is_met = false;              ///< whether the errors are as asked for, if they are made
   bool settles_too_seldom = false;  ///< whether that is why they are not, if they are made
+  bool tells_errors = true;         ///< whether they scatter; if not, more of them tell no error
   double chi2_per_dof = 0.0;  ///< the larger one of the fits that are asked for; 0 without a line
 };
 

@@ -6,7 +6,9 @@
 #include <map>
 #include <set>
 #include <sstream>
+#include <string_view>
 #include <unordered_set>
+#include <utility>
 
 #include "engine/dynamics/presets.hpp"
 #include "runner/jobs/estimates.hpp"
@@ -53,10 +55,11 @@ int count_called_for(const Sweep& whole, const Places& group, const Outcomes& ou
 }
 
 /// A group of a fit. Those without walls only tell how packings scatter.
-FitGroup fit_group_of(const Sweep& whole, const Places& group, const Outcomes& outcomes) {
+FitGroup fit_group_of(const Sweep& whole, const Places& group, std::size_t mean,
+                      const Outcomes& outcomes) {
   const Job& job = whole.jobs[group.front()];
   const bool walled = is_walled(job);
-  return {job.spec.box.width, walled, walled && job.fit_wish.is_given(),
+  return {mean, job.spec.box.width, walled, walled && job.fit_wish.is_given(),
           made_of(whole, group, outcomes)};
 }
 
@@ -64,8 +67,12 @@ CalledFit called_for(const Sweep& whole, const std::vector<Places>& groups,
                      const GrowingFamily& family, const Outcomes& outcomes) {
   std::vector<FitGroup> of_fit;
   of_fit.reserve(family.groups.size());
+  std::map<std::pair<std::string_view, std::string_view>, std::size_t> means;  // as in groups.csv
   for (const std::size_t k : family.groups) {
-    of_fit.push_back(fit_group_of(whole, groups[k], outcomes));
+    const Job& job = whole.jobs[groups[k].front()];
+    const std::size_t mean =
+        means.try_emplace({job.label, job.parameters}, means.size()).first->second;
+    of_fit.push_back(fit_group_of(whole, groups[k], mean, outcomes));
   }
   const Job& first = whole.jobs[groups[family.groups.front()].front()];
   return called_for_fit(of_fit, family.wish, bound_of(first));
@@ -162,10 +169,15 @@ void refuse_fit(const Sweep& whole, const std::vector<Places>& groups, const Gro
                                       "\", of the same family, asks for errors of means; ask for "
                                       "one of them"});
   }
-  refuse_wish("fit/phi_bulk", family.wish.phi_bulk, &ProtocolBias::solid_fraction, whole, *asking,
-              diagnostics);
-  refuse_wish("fit/Z_bulk", family.wish.z_bulk, &ProtocolBias::coordination, whole, *asking,
-              diagnostics);
+  std::set<std::string> told;  // groups of one block
+  for (const std::size_t k : family.groups) {
+    const Job& job = whole.jobs[groups[k].front()];
+    if (!told.insert(place_of("fit", whole, job)).second) continue;
+    refuse_wish("fit/phi_bulk", job.fit_wish.phi_bulk, &ProtocolBias::solid_fraction, whole, job,
+                diagnostics);
+    refuse_wish("fit/Z_bulk", job.fit_wish.z_bulk, &ProtocolBias::coordination, whole, job,
+                diagnostics);
+  }
 }
 
 std::string unmeasured_text(std::size_t count, const char* noun) {
@@ -174,23 +186,15 @@ std::string unmeasured_text(std::size_t count, const char* noun) {
          " was not measured and is left out";
 }
 
-/// What became of the wishes of groups, or of fits.
-struct Tally {
-  std::size_t met = 0;
-  std::size_t seldom_settled = 0;  ///< these grow no more
-  std::size_t at_most = 0;         ///< these would, but for replicates.most
-};
+using Firsts = std::vector<const Job*>;  // of groups, or of families
 
-/// What the others take whose wishes are not met. Those that were not made say so themselves.
-std::string others_text(const Tally& tally) {
-  std::string text;
-  if (tally.seldom_settled > 0) {
-    text += "; " + std::to_string(tally.seldom_settled) +
-            " stopped growing, since fewer than one packing in six settles";
-  }
-  if (tally.at_most > 0) text += "; raise replicates.most for the others";
-  return text + "\n";
-}
+/// What became of the wishes of groups, or of fits. Those that are not made say so themselves.
+struct Grown {
+  std::size_t all = 0, packings = 0, unbounded = 0;
+  std::size_t met = 0;
+  std::size_t at_most = 0;  ///< of `larger`: these would grow, but for replicates.most
+  Firsts larger, seldom_settled, bent, without_errors;
+};
 
 /// Whether seeds tell groups apart.
 bool has_seeds(const Sweep& whole) {
@@ -198,88 +202,95 @@ bool has_seeds(const Sweep& whole) {
                      [&](const Job& job) { return job.seed != whole.jobs.front().seed; });
 }
 
-/// Names some groups by their first jobs.
-std::string named_text(const std::string& title, const std::vector<const Job*>& firsts,
+/// What tells a group, or a family, from the others.
+using NameOf = std::string (PackingNames::*)(const JobFacts&) const;
+
+/// Names some of them.
+std::string named_text(const std::string& title, const Firsts& firsts, NameOf name,
                        const Sweep& whole, const PackingNames& names) {
   constexpr std::size_t most_named = 5;
   if (firsts.empty()) return "";
+  const bool tells_seed = name == &PackingNames::set_of && has_seeds(whole);
   std::string text;
   for (std::size_t k = 0; k < std::min(firsts.size(), most_named); ++k) {
-    text += (k == 0 ? title + ": " : "; ") + names.set_of(facts_of(*firsts[k]));
-    if (has_seeds(whole)) text += ", seed " + std::to_string(firsts[k]->seed);
+    text += (k == 0 ? title + ": " : "; ") + (names.*name)(facts_of(*firsts[k]));
+    if (tells_seed) text += ", seed " + std::to_string(firsts[k]->seed);
   }
   if (firsts.size() > most_named) {
-    text += "; and " + counted(firsts.size() - most_named, "other group");
+    text += "; and " + std::to_string(firsts.size() - most_named) + " more";
   }
   return text + "\n";
 }
 
-/// The groups that grow for their means, as far as they are made, and what came of them.
-struct GrownMeans {
-  std::size_t groups = 0, packings = 0, unbounded = 0;
-  Tally tally;
-  std::vector<const Job*> larger, seldom_settled;  ///< their first jobs
-};
+std::string counts_text(const Grown& grown, const char* noun) {
+  const auto in = [](const Firsts& firsts) { return "; in " + std::to_string(firsts.size()); };
+  std::string text = "Errors as asked for (95 %) in " + std::to_string(grown.met) + " of " +
+                     counted(grown.all, noun) + ", by " + counted(grown.packings, "packing") +
+                     unmeasured_text(grown.unbounded, noun);
+  if (!grown.bent.empty()) {
+    text += in(grown.bent) +
+            " more the packings scatter as little, but the straight line does not hold: its errors "
+            "in fits.csv are wider, and no packings mend it";
+  }
+  if (!grown.without_errors.empty()) {
+    text += in(grown.without_errors) + " the packings do not scatter, and tell no error";
+  }
+  if (!grown.seldom_settled.empty()) {
+    text += "; " + std::to_string(grown.seldom_settled.size()) +
+            " stopped growing, since fewer than one packing in six settles";
+  }
+  if (grown.at_most > 0) text += "; raise replicates.most for the others";
+  return text + "\n";
+}
 
-void add_grown(const Sweep& whole, const Places& group, const Outcomes& outcomes,
-               GrownMeans& grown) {
+std::string text_of(const Grown& grown, const char* noun, NameOf name, const Sweep& whole) {
+  if (grown.all == 0) return "";
+  const PackingNames names = grown.met == grown.all ? PackingNames() : names_in(whole);
+  return counts_text(grown, noun) + named_text("Larger", grown.larger, name, whole, names) +
+         named_text("Seldom settle", grown.seldom_settled, name, whole, names) +
+         named_text("No straight line", grown.bent, name, whole, names) +
+         named_text("No scatter", grown.without_errors, name, whole, names);
+}
+
+void add_group(const Sweep& whole, const Places& group, const Outcomes& outcomes, Grown& grown) {
   const Job& first = whole.jobs[group.front()];
   const std::vector<const Outcome*> made = made_of(whole, group, outcomes);
   const auto bound = bound_of(first);
   const int count = replicates_called_for(made, first.wish, bound);
-  ++grown.groups;
+  ++grown.all;
   grown.packings += static_cast<std::size_t>(count);
-  grown.unbounded += is_bounded(first) ? 0 : 1;
+  grown.unbounded += is_bounded(first, first.wish) ? 0 : 1;
   if (!are_made(made, count)) return grown.larger.push_back(&first);
   const Means means = means_of(made, count);
-  const bool is_met = over_wishes(means, first.wish, bound) <= 1.0;
-  const bool is_seldom = !is_met && settle_too_seldom(means.solid_fraction.n, count);
-  ++(is_met ? grown.tally.met : is_seldom ? grown.tally.seldom_settled : grown.tally.at_most);
-  if (!is_met) (is_seldom ? grown.seldom_settled : grown.larger).push_back(&first);
+  if (over_wishes(means, first.wish, bound) <= 1.0) {
+    ++grown.met;
+  } else if (settle_too_seldom(means.solid_fraction.n, count)) {
+    grown.seldom_settled.push_back(&first);
+  } else {
+    ++grown.at_most;
+    grown.larger.push_back(&first);
+  }
 }
 
-std::string means_text(const Sweep& whole, const std::vector<Places>& all,
-                       const Outcomes& outcomes) {
-  GrownMeans grown;
-  for (const Places& group : all) {
-    if (whole.jobs[group.front()].wish.is_given()) add_grown(whole, group, outcomes, grown);
+void add_fit(const Sweep& whole, const std::vector<Places>& groups, const GrowingFamily& family,
+             const Outcomes& outcomes, Grown& grown) {
+  const Job& first = whole.jobs[groups[family.groups.front()].front()];
+  const CalledFit called = called_for(whole, groups, family, outcomes);
+  ++grown.all;
+  for (const int count : called.replicates) grown.packings += static_cast<std::size_t>(count);
+  grown.unbounded += is_bounded(first, family.wish) ? 0 : 1;
+  if (!called.is_made) return grown.larger.push_back(&first);
+  if (!called.tells_errors) {
+    grown.without_errors.push_back(&first);
+  } else if (called.is_met) {
+    if (called.chi2_per_dof > largest_chi2) return grown.bent.push_back(&first);
+    ++grown.met;
+  } else if (called.settles_too_seldom) {
+    grown.seldom_settled.push_back(&first);
+  } else {
+    ++grown.at_most;
+    grown.larger.push_back(&first);
   }
-  if (grown.groups == 0) return "";
-  const bool are_all_met = grown.tally.met == grown.groups;
-  const PackingNames names = are_all_met ? PackingNames() : names_in(whole);
-  return "Errors as asked for (95 %) in " + std::to_string(grown.tally.met) + " of " +
-         counted(grown.groups, "group") + ", by " + counted(grown.packings, "packing") +
-         unmeasured_text(grown.unbounded, "group") + others_text(grown.tally) +
-         named_text("Larger", grown.larger, whole, names) +
-         named_text("Seldom settle", grown.seldom_settled, whole, names);
-}
-
-std::string fits_text(const Sweep& whole, const std::vector<Places>& groups,
-                      const Outcomes& outcomes) {
-  std::size_t packings = 0, unbounded = 0, bent = 0;
-  Tally tally;
-  const std::vector<GrowingFamily> families = growing_families(whole, groups);
-  if (families.empty()) return "";
-  for (const GrowingFamily& family : families) {
-    const CalledFit called = called_for(whole, groups, family, outcomes);
-    for (const int count : called.replicates) packings += static_cast<std::size_t>(count);
-    unbounded += is_bounded(whole.jobs[groups[family.groups.front()].front()]) ? 0 : 1;
-    if (!called.is_made) continue;
-    const bool is_bent = called.is_met && called.chi2_per_dof > largest_chi2;
-    ++(is_bent                     ? bent
-       : called.is_met             ? tally.met
-       : called.settles_too_seldom ? tally.seldom_settled
-                                   : tally.at_most);
-  }
-  std::string text = "Errors as asked for (95 %) in " + std::to_string(tally.met) + " of " +
-                     counted(families.size(), "fit") + ", by " + counted(packings, "packing") +
-                     unmeasured_text(unbounded, "fit");
-  if (bent > 0) {
-    text += "; in " + std::to_string(bent) +
-            " more the packings scatter as little, but the straight line does not hold: its errors "
-            "in fits.csv are wider, and no packings mend it";
-  }
-  return text + others_text(tally);
 }
 
 }  // namespace
@@ -340,7 +351,15 @@ std::string growth_text(const std::vector<Cost>& most) {
 std::string wishes_text(const Sweep& whole, const Outcomes& outcomes) {
   if (!grows(whole)) return "";
   const std::vector<Places> groups = groups_in(whole);
-  return means_text(whole, groups, outcomes) + fits_text(whole, groups, outcomes);
+  Grown means, fits;
+  for (const Places& group : groups) {
+    if (whole.jobs[group.front()].wish.is_given()) add_group(whole, group, outcomes, means);
+  }
+  for (const GrowingFamily& family : growing_families(whole, groups)) {
+    add_fit(whole, groups, family, outcomes, fits);
+  }
+  return text_of(means, "group", &PackingNames::set_of, whole) +
+         text_of(fits, "fit", &PackingNames::family_of, whole);
 }
 
 }  // namespace grainsweep

@@ -162,7 +162,7 @@ class Expansion {
     place_sizes(in_effect, resolved);
     for (const auto& problem : take_asked_accuracy(in_effect, resolved)) {
       const std::string& pointer = problem.assignment->pointer;
-      problems_.note(pointer, pointer, problem.message, problem.assignment);
+      problems_.note(pointer + " " + problem.message, pointer, problem.message, problem.assignment);
     }
     for (const Start& start : starts) {
       resolved.spec.fill = start.fill;

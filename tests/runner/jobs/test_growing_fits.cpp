@@ -20,7 +20,7 @@ class SampleFamily {
  public:
   SampleFamily(const std::vector<double>& widths, std::size_t most) {
     for (const double width : widths) {
-      groups_.push_back({width, true, true, {}});
+      groups_.push_back({groups_.size(), width, true, true, {}});
       groups_.back().made.assign(most, nullptr);
       outcomes_.emplace_back();
       outcomes_.back().reserve(most);
@@ -195,6 +195,34 @@ TEST_CASE("a line that misses its points is told") {
     return (group == 1 ? 0.02 : 0.0) + (packing % 2 == 0 ? 1e-3 : -1e-3);
   };
   CHECK(grown(family, {0.01, 0, 0, 0}, {}, bent).chi2_per_dof > largest_chi2);
+}
+
+TEST_CASE("seeds of one width are one point of the line, as in fits.csv") {
+  const auto bent = [](std::size_t group, std::size_t packing) {
+    return (group / 4 == 1 ? 0.005 : 0.0) + (packing % 2 == 0 ? 1e-2 : -1e-2);
+  };
+  SampleFamily seeds({4, 4, 4, 4, 5, 5, 5, 5, 8, 8, 8, 8}, 6);
+  SampleFamily widths({4, 5, 8}, 24);
+  for (std::size_t k = 0; k < 12; ++k) seeds[k].mean = k / 4;
+  seeds.make(std::vector<int>(12, 6), bent);
+  widths.make({24, 24, 24},
+              [&](std::size_t group, std::size_t packing) { return bent(4 * group, packing); });
+  const CalledFit of_seeds = called_for_fit(seeds.groups(), {0, 0.1, 0, 0}, {});
+  for (std::size_t k = 0; k < 3; ++k) widths[k].may_grow = false;
+  const CalledFit of_widths = called_for_fit(widths.groups(), {0, 0.1, 0, 0}, {});
+  REQUIRE(of_seeds.is_made);
+  CHECK(of_widths.chi2_per_dof > 2.0);
+  CHECK_THAT(of_seeds.chi2_per_dof, Catch::WithinRel(of_widths.chi2_per_dof, 1e-9));  // rounding
+}
+
+TEST_CASE("packings that do not scatter tell no error, and none are added") {
+  SampleFamily family({4, 5, 8}, 50);
+  const CalledFit called =
+      grown(family, {0, 0.1, 0, 0}, {}, [](std::size_t, std::size_t) { return 0.0; });
+  CHECK_FALSE(called.is_met);
+  CHECK_FALSE(called.tells_errors);
+  CHECK_FALSE(called.settles_too_seldom);
+  CHECK(called.replicates == std::vector<int>(3, first_replicates));
 }
 
 /// The fewest packings by which the wish is met if the scatter is known: the best share between

@@ -232,7 +232,24 @@ TEST_CASE("a fit whose line does not hold is told apart, and grows no more") {
       wishes_text(whole, outcomes) ==
       "Errors as asked for (95 %) in 0 of 1 fit, by 24 packings; in 1 more the packings scatter as "
       "little, but the straight line does not hold: its errors in fits.csv are wider, and no "
-      "packings mend it\n");
+      "packings mend it\nNo straight line: MSP\n");
+}
+
+TEST_CASE("the end of a run names the fits whose errors are larger, and those that tell none") {
+  Sweep whole = fit_sweep(6, {0.05, 0, 0, 0}, "f");
+  const Sweep other = fit_sweep(6, {0.003, 0, 0, 0}, "g");
+  whole.jobs.insert(whole.jobs.end(), other.jobs.begin(), other.jobs.end());
+  for (std::size_t k = 0; k < whole.jobs.size(); ++k) {
+    whole.jobs[k].label = k < other.jobs.size() ? "coarse" : "fine";
+  }
+  Outcomes outcomes = made_for(whole);
+  CHECK(wishes_text(whole, outcomes) ==
+        "Errors as asked for (95 %) in 1 of 2 fits, by 48 packings; raise replicates.most for the "
+        "others\nLarger: fine\n");
+  for (auto& [id, outcome] : outcomes) outcome->result.solid_fraction = 0.6;
+  CHECK(wishes_text(whole, outcomes) ==
+        "Errors as asked for (95 %) in 0 of 2 fits, by 48 packings; in 2 the packings do not "
+        "scatter, and tell no error\nNo scatter: coarse; fine\n");
 }
 
 TEST_CASE("a fit waits for all of its round, whatever else is made") {
@@ -251,6 +268,14 @@ TEST_CASE("a fit waits for all of its round, whatever else is made") {
 TEST_CASE(
     "fits that cannot be had are refused: too few widths, too fine, or beside wishes of means") {
   CHECK(unreachable_wishes(fit_sweep(10, {0.005, 0, 0, 0})).empty());
+  Sweep one_too_fine = fit_sweep(10, {0.01, 0, 0, 0});
+  for (std::size_t k = 10; k < 20; ++k) {
+    one_too_fine.jobs[k].block = 1;
+    one_too_fine.jobs[k].fit_wish = {0.001, 0, 0, 0};
+  }
+  one_too_fine.wish_pointers = {"/sweep/0/replicates/until", "/sweep/1/replicates/until"};
+  REQUIRE(unreachable_wishes(one_too_fine).size() == 1);
+  CHECK(unreachable_wishes(one_too_fine)[0].pointer == "/sweep/1/replicates/until/fit/phi_bulk");
   Sweep too_fine = fit_sweep(10, {0.0015, 1e-6, 0.5, 0});
   too_fine.wish_pointers = {"/replicates/until"};
   const Diagnostics fine = unreachable_wishes(too_fine);
@@ -307,8 +332,10 @@ TEST_CASE("a bound of phi holds where Z has none, as by another gap") {
   CHECK(unreachable_wishes({"s", 7, 1, with_gap({0.01, 0.5})}).empty());
   const std::vector<Job> both = with_gap({0.01, 0.5}), phi = with_gap({0.01, 0.0});
   CHECK(bound_of(both[0])->solid_fraction == bound_of(phi[0])->solid_fraction);
-  CHECK_FALSE(is_bounded(both[0]));
-  CHECK(is_bounded(phi[0]));
+  CHECK_FALSE(is_bounded(both[0], both[0].wish));
+  CHECK(is_bounded(phi[0], phi[0].wish));
+  CHECK(is_bounded(phi[0], FitWish{0.01, 0.1, 0, 0.5}));
+  CHECK_FALSE(is_bounded(phi[0], FitWish{0, 0, 0.5, 0}));
 }
 
 TEST_CASE("the end of a run says which wishes were met") {

@@ -101,5 +101,14 @@ TEST_CASE("what no preset keeps is refused with the smallest bound that can be h
             "\"accurate\"; is 0.01"});
 }
 
+TEST_CASE("an accuracy that several blocks cannot keep is refused for each reason") {
+  const auto errors = errors_of(R"({"name": "a", "base": {"accuracy": {"coordination": 0.005}},
+      "sweep": [{"label": "one size"}, {"label": "again", "set": {"box.width": 6}},
+                {"label": "cubes", "set": {"shape": {"cube": {}}}}]})");
+  REQUIRE(errors.size() == 2);
+  CHECK_THAT(errors[0], Catch::Contains("of spheres of one size"));
+  CHECK_THAT(errors[1], Catch::Contains("in block \"cubes\""));
+}
+
 }  // namespace
 }  // namespace grainsweep

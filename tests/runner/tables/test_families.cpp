@@ -40,6 +40,20 @@ TEST_CASE("a family of two labels carries both") {
   CHECK(families[0].name == "narrow + MSP");
 }
 
+TEST_CASE("families that share only some labels are told apart, others are left alone") {
+  Row more = settled_row("a", 6, 0.6, 6, Boundary::walls, 0.25);
+  more.job.label = "more";
+  Row alone = settled_row("b", 6, 0.6, 6, Boundary::walls, 0.5);
+  alone.job.label = "alone";
+  const std::vector<Row> rows = {settled_row("c", 5, 0.6, 6), alone, more,
+                                 settled_row("d", 5, 0.6, 6, Boundary::walls, 0.25)};
+  const auto families = families_of(groups_of(rows));
+  REQUIRE(families.size() == 3);
+  CHECK(families[0].name == "MSP small_share=0");
+  CHECK(families[1].name == "alone");
+  CHECK(families[2].name == "MSP + more small_share=0.25");
+}
+
 TEST_CASE("a preset stands as one word in a family's name") {
   Row fast = settled_row("a", 5, 0.6, 6), balanced = settled_row("b", 5, 0.6, 6);
   fast.job.accuracy = "fast";
