@@ -172,6 +172,8 @@ struct RestTest {
   std::string failure;      ///< what is wrong if it is not
   std::string remedy;       ///< part of the accuracy that lets it pass if it is larger
   std::string advice = {};  ///< what to do if no accuracy does
+
+  RestTest advised(const std::string& text) const { return {is_passed, failure, remedy, text}; }
 };
 
 RestTest at_most(const char* what, const char* unit, double value, double tolerance,
@@ -321,9 +323,16 @@ std::string rest_failure(const RestReport& rest, const Accuracy& accuracy, bool 
                               ? ""
                               : ", half of the tolerance since contacts / isostatic count is " +
                                     number_text(held / isostatic);
+  constexpr double far = 10.0;  // from what more iterations would solve
+  const std::string advice_where_stuck =
+      rest.step_residual > far * accuracy.residual_tolerance
+          ? "give sizes a spread, as of 1e-2, if equal grains just fit between walls; else make "
+            "accuracy.rest_iterations larger"
+          : "";
   const RestTest tests[] = {
       at_most("residual of the last step", "m g", rest.step_residual, accuracy.residual_tolerance,
-              "residual_tolerance or accuracy.rest_iterations"),
+              "residual_tolerance or accuracy.rest_iterations")
+          .advised(advice_where_stuck),
       at_most("kinetic energy", "m g d per grain", rest.kinetic_energy, accuracy.kinetic_tolerance,
               "kinetic_tolerance"),
       at_most("mean overlap", "d", rest.overlap_mean, accuracy.overlap_tolerance,

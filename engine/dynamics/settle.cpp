@@ -25,6 +25,7 @@ namespace grainsweep {
 namespace {
 
 constexpr double carried_share = 0.9;      // of its weight, where the floor carries a bed
+constexpr std::int64_t steps_down = 4;     // that forces take to get down to the floor
 constexpr std::int64_t most_rounds = 128;  // a bed that needs more does not come to rest
 constexpr std::int64_t most_unsolved = 9;  // of them in a row that leave forces unsolved
 constexpr double unlimited = std::numeric_limits<double>::infinity();
@@ -136,8 +137,15 @@ class Settling {
   /// of most; the forces of a high bed take some steps to get down to the floor.
   bool is_bed() const {
     constexpr double enough_at_first = 0.3;
-    constexpr std::int64_t steps_down = 4;
     return last_.carried > (steps_in_stage_ < steps_down ? enough_at_first : carried_share);
+  }
+
+  /// Those of the stage, with more iterations for what is taken for a bed by its first steps.
+  StepSettings settings_of_step() const {
+    StepSettings settings = settings_;
+    const bool looks_closer = rule().end == StageEnd::look && steps_in_stage_ >= steps_down;
+    if (looks_closer) settings.limits.iterations *= rule().closer;
+    return settings;
   }
 
   /// Whether there are steps for going on: of beds that slide on before they are tested once more,
@@ -194,10 +202,11 @@ class Settling {
     return has_steps_to_go_on() && (has_settled || is_far_from_rest());
   }
 
-  /// Whether more steps of a look will not find a bed at rest that was tested and is not.
+  /// Whether more steps of a look will not find a bed at rest that was tested and is not. Forces
+  /// that are not found yet say nothing of it.
   bool is_seen() const {
     constexpr std::int64_t looks = 4;
-    return !is_nearly_balanced() || steps_in_stage_ >= looks * steps_of(accuracy_, rule());
+    return is_far_from_rest() || steps_in_stage_ >= looks * steps_of(accuracy_, rule());
   }
 
   /// Whether the stage has done its work. Looks at the bed after at least one step.
@@ -298,7 +307,7 @@ class Settling {
   /// One step; false if the observer does not want another one.
   bool take_step() {
     let_sleep();
-    last_ = step(settings_, context_, bed_, state_);
+    last_ = step(settings_of_step(), context_, bed_, state_);
     is_tested_ = false;
     report_.spurious_path += last_.spurious_path;
     if (report_.steps == 0) sunk_at_start_ = last_.sunk;

@@ -132,7 +132,8 @@ constexpr auto dynamic = with_fall(dynamic_fall, heavy_ball);
 // ---- polyhedra ----
 
 constexpr StageRule turning[] = {
-    // As that of spheres.
+    // As that of spheres. Grains whose forces are not found sink, and open contacts, in a few
+    // steps.
     {.name = "look",
      .end = StageEnd::look,
      .step = 0.25,
@@ -140,6 +141,7 @@ constexpr StageRule turning[] = {
      .near = 0.03,
      .margin = 0.05,
      .rest_iterations = 1.0,
+     .closer = 8,
      .steps = 8,
      .usual_steps = 8},
     // As that of spheres. Polyhedra go on rattling at a few 1e-3 m g d.

@@ -43,6 +43,7 @@ struct StageRule {
   // Most iterations a step: the sum of
   double fall_iterations = 0.0;  ///< so many times Accuracy::fall_iterations and
   double rest_iterations = 0.0;  ///< so many times Accuracy::rest_iterations
+  int closer = 1;  ///< times as many for a bed that is carried, if the stage looks at one
   // Steps, if it ends on a condition the least:
   std::int64_t steps = 0;  ///< these, and
   double creep = 0.0;      ///< of Accuracy::creep_steps this share

@@ -73,6 +73,11 @@ double mean_over(const Group& group, double PackingResult::*member) {
   return sum / static_cast<double>(group.settled.size());
 }
 
+/// "both walls", but in a tube.
+std::string walls_of(const Group& group) {
+  return group.job.box.is_tube ? "the wall" : "both walls";
+}
+
 /// lambda_L over one of the two mean diameters.
 template <double PackingResult::*mean_diameter>
 Measured decay_length(const Family& /*family*/, const Group& group) {
@@ -81,9 +86,9 @@ Measured decay_length(const Family& /*family*/, const Group& group) {
   return {{fit.length.value / diameter, fit.length.error / diameter},
           fit.not_determined,
           "damped cosine through the large grains' φ(y), y = " + cell(decay_window_start) +
-              " d to " + cell(fit.window_end) +
-              " d from both walls; d_avg = " + fixed(diameter, 3) + " d, R² " +
-              fixed(fit.r_squared, 3) + ", misfit " + fixed(fit.misfit, 1)};
+              " d to " + cell(fit.window_end) + " d from " + walls_of(group) +
+              "; d_avg = " + fixed(diameter, 3) + " d, R² " + fixed(fit.r_squared, 3) +
+              ", misfit " + fixed(fit.misfit, 1)};
 }
 
 Measured reach(const Family& /*family*/, const Group& group) {
@@ -108,10 +113,8 @@ Measured zone_drop(const Family& /*family*/, const Group& group) {
   const WallZone zone = wall_zone(group);
   return {{zone.drop.mean, zone.drop.error},
           zone.not_determined,
-          "grains farther than " + cell(core_distance) +
-              " d from both walls less those nearer "
-              "than " +
-              cell(first_layer) + " d, walls not counted, gap < " +
+          "grains farther than " + cell(core_distance) + " d from " + walls_of(group) +
+              " less those nearer than " + cell(first_layer) + " d, walls not counted, gap < " +
               cell(group.job.measure.gap_tolerances.front()) + " d"};
 }
 
@@ -186,8 +189,9 @@ Measured measure_quantity(const std::string& quantity, double width, const Famil
     }
   }
   return {{},
-          "the sweep has no packings between walls at " + extent_symbol(family.walled) + " = " +
-              cell(width) + " d",
+          std::string("the sweep has no packings ") +
+              (first_group(family).job.box.is_tube ? "in tubes at " : "between walls at ") +
+              extent_symbol(family.walled) + " = " + cell(width) + " d",
           ""};
 }
 

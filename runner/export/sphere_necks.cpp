@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 
 #include "engine/shape/hull.hpp"
+#include "engine/units.hpp"
 #include "runner/export/caps.hpp"
 #include "runner/export/open_surfaces.hpp"
 
@@ -22,10 +23,11 @@ void fit_to_spheres(const StoredBed& bed, Neck& neck) {
                   : neck.between.norm() - circle_height(bed.grains[neck.b].radius, neck.radius);
 }
 
-std::vector<Neck> asked_necks(const ExportedBed& exported) {
+std::vector<Neck> asked_necks(const ExportedBed& exported, const std::vector<Contact>& treated) {
   const StoredBed& bed = exported.bed;
   std::vector<Neck> necks;
-  for (const Contact& contact : treated_contacts(exported)) {
+  for (const Contact& contact : treated) {
+    if (is_at_tube(bed.box, contact)) continue;
     Neck& neck = necks.emplace_back();
     neck.a = contact.a;
     neck.b = contact.b;
@@ -58,17 +60,48 @@ struct Rim {
   }
 };
 
-/// The corners of a ball that lie outside the rims, by at least half an edge.
+/// Points on a sphere about its centre at the circle that it ends at beside the wall of a tube.
+std::vector<Vector> edge_of(const TubeEnd& end, double radius) {
+  const double from_axis = end.centre.norm(),
+               both = end.radius * end.radius + from_axis * from_axis;
+  const double widest = (both - radius * radius) / (2.0 * end.radius * from_axis);  // a cosine
+  if (widest >= 1.0) return {};
+  const bool goes_round = !(widest > -1.0);  // the axis lies within the grain
+  const double half = goes_round ? pi : std::acos(widest);
+  const int steps = std::max(3, static_cast<int>(std::ceil(half * end.sides / pi)));
+  const double towards = std::atan2(end.centre.y(), end.centre.x());
+  std::vector<Vector> edge;
+  for (int step = goes_round ? 1 - steps : -steps; step <= steps; ++step) {
+    const double angle = towards + half * step / steps;
+    const Vector level = end.radius * Vector(std::cos(angle), std::sin(angle), 0.0) - end.centre;
+    const bool is_end = !goes_round && std::abs(step) == steps;
+    const double squared = is_end ? 0.0 : radius * radius - level.squaredNorm();
+    edge.emplace_back(level + std::sqrt(std::max(squared, 0.0)) * Vector::UnitZ());
+    if (squared > 0.0) edge.emplace_back(level - std::sqrt(squared) * Vector::UnitZ());
+  }
+  return edge;
+}
+
+/// The corners of a ball that lie outside the rims, by at least half an edge, and those of its end
+/// beside the wall of a tube, if it has one, in place of those beyond it.
 std::vector<Vector> corners_outside(const Surface& ball, double radius,
-                                    const std::vector<Rim>& rims) {
+                                    const std::vector<Rim>& rims, const TubeEnd* end) {
   constexpr double half_edge = 0.06;  // as an angle
-  std::vector<Vector> left;
-  for (const Vector& corner : ball.vertices) {
-    const bool is_free = std::all_of(rims.begin(), rims.end(), [&](const Rim& rim) {
-      const double angle = std::acos(std::clamp(rim.outward().dot(corner), -1.0, 1.0));
+  const auto is_free = [&](const Vector& corner) {
+    return std::all_of(rims.begin(), rims.end(), [&](const Rim& rim) {
+      const double angle = std::acos(std::clamp(rim.outward().dot(corner) / radius, -1.0, 1.0));
       return angle > std::asin(rim.neck->radius / radius) + half_edge;
     });
-    if (is_free) left.emplace_back(radius * corner);
+  };
+  std::vector<Vector> left;
+  for (const Vector& corner : ball.vertices) {
+    const Vector point = radius * corner;
+    const bool is_within = end == nullptr || end->from_axis(point) < end->radius;
+    if (is_within && is_free(point)) left.push_back(point);
+  }
+  if (end == nullptr) return left;
+  for (const Vector& point : edge_of(*end, radius)) {
+    if (is_free(point)) left.push_back(point);
   }
   return left;
 }
@@ -85,14 +118,15 @@ Hole hole_of(const Rim& rim, std::size_t r) {
 }
 
 /// The hull of the rims and what is left of the ball, without the flat faces within the rims.
-OpenSurface open_sphere(const Surface& ball, double radius, const std::vector<Rim>& rims) {
+OpenSurface open_sphere(const Surface& ball, double radius, const std::vector<Rim>& rims,
+                        const TubeEnd* end) {
   OpenSurface open;
   for (std::size_t r = 0; r < rims.size(); ++r) {
     for (int k = 0; k < neck_sides; ++k) open.surface.vertices.push_back(rims[r].corner(k));
     open.holes.push_back(hole_of(rims[r], r));
   }
   const auto of_rims = static_cast<std::int32_t>(open.surface.vertices.size());
-  const std::vector<Vector> others = corners_outside(ball, radius, rims);
+  const std::vector<Vector> others = corners_outside(ball, radius, rims, end);
   open.surface.vertices.insert(open.surface.vertices.end(), others.begin(), others.end());
   open.surface.faces = hull_faces(open.surface.vertices);
   std::erase_if(open.surface.faces, [&](const Loop& face) {
@@ -120,7 +154,9 @@ OpenSurfaces open_spheres(const ExportedBed& exported) {
     bodies.points.push_back({Vector::Zero()});
     bodies.radii.push_back(grain.radius);
   }
-  std::vector<Neck> necks = asked_necks(exported);
+  const std::vector<Contact> treated = treated_contacts(exported);
+  const std::map<std::size_t, TubeEnd> ends = tube_ends(exported, treated);
+  std::vector<Neck> necks = asked_necks(exported, treated);
   narrow(
       exported, bodies, [&](Neck& neck) { fit_to_spheres(bed, neck); }, necks);
   std::vector<std::vector<Rim>> rims(bed.grains.size());
@@ -131,7 +167,9 @@ OpenSurfaces open_spheres(const ExportedBed& exported) {
   OpenSurfaces all;
   const Surface ball = unit_ball(3);
   for (std::size_t k = 0; k < rims.size(); ++k) {
-    all.grains.push_back(open_sphere(ball, bed.grains[k].radius, rims[k]));
+    const auto end = ends.find(k);
+    all.grains.push_back(open_sphere(ball, bed.grains[k].radius, rims[k],
+                                     end == ends.end() ? nullptr : &end->second));
     close_walls(necks, all.grains.back());
   }
   all.necks = std::move(necks);

@@ -248,7 +248,8 @@ std::string definitions_text(const std::vector<Row>& rows) {
          " d, walls not\ncounted. ± in a row: standard deviation of the replicates; below the "
          "rows: standard error.\ncontacts/iso: force-bearing contacts over the isostatic "
          "count, 1 at perfect rest.\n" +
-         (has_tubes ? "In narrow tubes it is less: a round wall holds grains along it, too.\n"
+         (has_tubes ? "In narrow tubes it is less, as a round wall holds grains along it, too, or "
+                      "more, where equal\ngrains order.\n"
                     : "") +
          "Only settled packings enter means and fits.\n";
 }

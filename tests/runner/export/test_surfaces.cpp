@@ -4,9 +4,12 @@
 #include <catch2/catch.hpp>
 
 #include "engine/units.hpp"
+#include "runner/export/bridges.hpp"
+#include "runner/export/caps.hpp"
 #include "runner/export/contacts.hpp"
 #include "runner/export/surfaces.hpp"
 #include "tests/runner/export/closed_surfaces.hpp"
+#include "tests/runner/export/packed_bed.hpp"
 #include "tests/runner/export/touching_beds.hpp"
 
 namespace grainsweep {
@@ -85,6 +88,60 @@ TEST_CASE("caps leave grains apart by two of their depths, and from walls by one
     for (const GrainSurface& grain : grain_surfaces(exported)) CHECK(is_closed(grain.surface));
     exported.settings.treatment = *contact_treatment("shrink:0.99");
     CHECK(least_way_apart(exported) > 0.004);
+  }
+}
+
+std::vector<GrainSurface> treated_surfaces(const ExportedBed& exported) {
+  const bool joins = exported.settings.treatment.kind == ContactTreatment::Kind::bridge;
+  return joins ? bridged_surfaces(exported) : grain_surfaces(exported);
+}
+
+/// How near to the wall of a tube the corners of the treated grains come.
+double gap_of_tube(const ExportedBed& exported, const std::vector<GrainSurface>& surfaces) {
+  const double radius = exported.bed.box.width / 2.0;
+  double least = radius;
+  for (const GrainSurface& grain : surfaces) {
+    for (const Vector& corner : grain.surface.vertices) {
+      least = std::min(least, radius - std::hypot(corner.x() - radius, corner.y() - radius));
+    }
+  }
+  return least;
+}
+
+double smallest_cap_depth(const ExportedBed& exported) {
+  double radius = 1.0;
+  for (const SettledGrain& grain : exported.bed.grains) radius = std::min(radius, grain.radius);
+  return cap_depth(0.2) * radius;
+}
+
+TEST_CASE("caps and necks leave the depth of a cap at the wall of a tube, however narrow") {
+  for (const double diameter : {1.0, 1.05, 1.5, 2.5}) {
+    ExportedBed exported = packed_bed(SphereShape{}, tube_of(diameter), 12);
+    const double depth = smallest_cap_depth(exported);
+    CHECK(gap_of_tube(exported, grain_surfaces(exported)) < 0.3 * depth);  // balls have corners
+    for (const char* treatment : {"cap:0.2", "bridge:0.2"}) {
+      exported.settings.treatment = *contact_treatment(treatment);
+      const auto surfaces = treated_surfaces(exported);
+      const double gap = gap_of_tube(exported, surfaces);
+      // Sides of a prism lie within the circle by an eighth of the depth at most, overlaps are 1e-4
+      // d.
+      CAPTURE(diameter, treatment, gap, depth);
+      CHECK((gap > 0.98 * depth && gap < 1.2 * depth));
+      for (const GrainSurface& grain : surfaces) CHECK(is_closed(grain.surface));
+      CHECK(crossings(surfaces) == 0);
+    }
+  }
+}
+
+TEST_CASE("polyhedra keep the depth of a cap before the wall of a tube") {
+  ExportedBed exported = packed_bed(CubeSize{}, tube_of(3), 20);
+  CHECK(gap_of_tube(exported, grain_surfaces(exported)) < 1e-3);
+  for (const char* treatment : {"cap:0.2", "bridge:0.2"}) {
+    exported.settings.treatment = *contact_treatment(treatment);
+    const auto surfaces = treated_surfaces(exported);
+    CHECK(gap_of_tube(exported, surfaces) > 0.98 * smallest_cap_depth(exported));
+    for (const GrainSurface& grain : surfaces) CHECK(is_closed(grain.surface));
+    CHECK(crossings(surfaces) == 0);
   }
 }
 
