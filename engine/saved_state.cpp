@@ -5,7 +5,7 @@ namespace grainsweep {
 namespace {
 
 // Rises whenever what is saved changes.
-constexpr std::uint64_t format = 0x6772'6169'6e73'000f;
+constexpr std::uint64_t format = 0x6772'6169'6e73'0010;
 
 struct Header {
   std::uint64_t format, kind, size, check;

@@ -76,6 +76,10 @@ struct BodyKernels {
   /// As RowKernels::residual, with A_kk for 1/m_a + 1/m_b.
   Missed<Real> (*residual)(BodyRows<Real> rows, std::size_t blocks, const Record<Real>* u,
                            const Real* p);
+  /// Gives the points of the rows, which are `moved`, their gaps after the motion u. Of an overlap
+  /// a gap holds the share `correction`, before and after.
+  void (*move_gaps)(BodyRows<Real> rows, std::size_t blocks, const Record<Real>* u, Real correction,
+                    BodyPoints<Real>* moved);
 };
 
 }  // namespace grainsweep

@@ -242,8 +242,23 @@ Missed<Real> residual(BodyRows<Real> rows, std::size_t blocks, const Record<Real
 }
 
 template <class Real>
+void move_gaps(BodyRows<Real> rows, std::size_t blocks, const Record<Real>* u, Real correction,
+               BodyPoints<Real>* moved) {
+  const Batch<Real> zero(Real(0)), share(correction);
+  visit_contacts(rows, blocks, [&](const auto& c, const auto& block, auto lane, auto) {
+    const Motion<Real> m = motion_of(c.normal, load_both(u, c.a), load_both(u, c.b));
+    for (std::size_t i = block.first; i < block.first + block.points; ++i) {
+      Points<Real> r = load_points(rows.points[i], lane);
+      r.gap = xsimd::select(r.gap < zero, r.gap / share, r.gap);
+      const Batch<Real> gap = gap_after(r, m);
+      xsimd::select(gap < zero, share * gap, gap).store_unaligned(moved[i].gap + lane);
+    }
+  });
+}
+
+template <class Real>
 constexpr grainsweep::BodyKernels<Real> table() {
-  return {gauss_seidel_sweep<Real>, accumulate_impulses<Real>, residual<Real>};
+  return {gauss_seidel_sweep<Real>, accumulate_impulses<Real>, residual<Real>, move_gaps<Real>};
 }
 
 }  // namespace

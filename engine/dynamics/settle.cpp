@@ -140,9 +140,16 @@ class Settling {
     return last_.carried > (steps_in_stage_ < steps_down ? enough_at_first : carried_share);
   }
 
-  /// Those of the stage, with more iterations for what is taken for a bed by its first steps.
+  /// Steps until the stage has as many as it takes at least.
+  std::int64_t steps_left() const { return steps_of(accuracy_, rule()) - steps_in_stage_; }
+
+  /// Those of the stage, with more iterations for what is taken for a bed by its first steps. What
+  /// tests of rest look at are contacts of the very last step.
   StepSettings settings_of_step() const {
     StepSettings settings = settings_;
+    const std::int64_t untested = steps_left() - (rule().end == StageEnd::rest ? 1 : 0);
+    const std::int64_t most = std::min(untested, accuracy_.max_steps - report_.steps);
+    settings.steps = static_cast<int>(std::clamp<std::int64_t>(most, 1, settings.steps));
     const bool looks_closer = rule().end == StageEnd::look && steps_in_stage_ >= steps_down;
     if (looks_closer) settings.limits.iterations *= rule().closer;
     return settings;
@@ -312,8 +319,8 @@ class Settling {
     report_.spurious_path += last_.spurious_path;
     if (report_.steps == 0) sunk_at_start_ = last_.sunk;
     report_.sank = report_.sank || last_.sunk > sunk_at_start_ + rounding_of_places;
-    ++report_.steps;
-    ++steps_in_stage_;
+    report_.steps += last_.steps;
+    steps_in_stage_ += last_.steps;
     report_.iterations += last_.solve.iterations;
     share_done_ = std::max(share_done_, share_done(accuracy_, rule(), steps_in_stage_ - 1));
     return may_go_on();

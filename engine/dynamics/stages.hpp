@@ -40,6 +40,7 @@ struct StageRule {
   double correction = 0.0;     ///< share of an overlap that a step repairs
   double near = 0.0;           ///< pairs with a smaller gap are rows, d
   double margin = 0.0;         ///< candidates reach this much further, d
+  int steps_on_contacts = 1;   ///< so many steps are taken on contacts found once
   // Most iterations a step: the sum of
   double fall_iterations = 0.0;  ///< so many times Accuracy::fall_iterations and
   double rest_iterations = 0.0;  ///< so many times Accuracy::rest_iterations

@@ -214,28 +214,53 @@ void advance(double dt, const ParallelFor& loop, Bed<Kind>& bed, StepState<Kind,
   report.carried = all.mass > 0.0 ? all.lift / (dt * dt * all.mass) : 1.0;
 }
 
+/// Solves the rows as they are and moves all grains.
+template <class Kind, class Real>
+void move_on_contacts(const StepSettings& settings, const ExecutionContext& context, Bed<Kind>& bed,
+                      StepState<Kind, Real>& state, StepReport& report) {
+  const double force_unit = settings.dt * settings.dt;  // impulse of 1 m g over the step
+  SolveLimits limits = settings.limits;
+  limits.tolerance *= force_unit;
+  limits.rms_tolerance *= force_unit;
+  const int iterations = report.solve.iterations;
+  set_free_motion(settings, context.loop, bed, state.motion);
+  report.solve = settings.carries && is_tall(bed)
+                     ? solve_tall(settings.dt, limits, context, bed, state)
+                     : solve(limits, context, state.contacts, state.motion);
+  report.solve.iterations += iterations;
+  report.spurious_path += report.solve.rms * report.solve.loaded /
+                          static_cast<double>(std::max<std::int64_t>(degrees_of_freedom(bed), 1));
+  report.solve.residual /= force_unit;
+  report.solve.rms /= force_unit;
+  advance(settings.dt, context.loop, bed, state, report);
+  ++report.steps;
+}
+
+/// Gaps of the contacts as they are after the last motion.
+template <class Real>
+void move_gaps(double correction, const ExecutionContext& context,
+               StepState<Polyhedron, Real>& state) {
+  visit_ranges(state.contacts.shares, context.loop, [&](BlockRange range) {
+    state.contacts.move_gaps(context.kernels, range, state.motion.u.data(), correction);
+  });
+}
+
 }  // namespace
 
 template <class Kind, class Real>
 StepReport step(const StepSettings& settings, const ExecutionContext& context, Bed<Kind>& bed,
                 StepState<Kind, Real>& state) {
   StepReport report;
-  const double force_unit = settings.dt * settings.dt;  // impulse of 1 m g over the step
-  SolveLimits limits = settings.limits;
-  limits.tolerance *= force_unit;
-  limits.rms_tolerance *= force_unit;
   hold_turning(state.contacts, context.loop, bed);
-  set_free_motion(settings, context.loop, bed, state.motion);
   find_near(settings, context, bed, state);
   report.sunk = update_contacts(settings, context, bed, state.contacts);
-  report.solve = settings.carries && is_tall(bed)
-                     ? solve_tall(settings.dt, limits, context, bed, state)
-                     : solve(limits, context, state.contacts, state.motion);
-  report.spurious_path = report.solve.rms * report.solve.loaded /
-                         static_cast<double>(std::max<std::int64_t>(degrees_of_freedom(bed), 1));
-  report.solve.residual /= force_unit;
-  report.solve.rms /= force_unit;
-  advance(settings.dt, context.loop, bed, state, report);
+  move_on_contacts(settings, context, bed, state, report);
+  if constexpr (std::is_same_v<Kind, Polyhedron>) {
+    while (report.steps < settings.steps && report.largest_motion < longest_on_same_contacts) {
+      move_gaps(settings.correction, context, state);
+      move_on_contacts(settings, context, bed, state, report);
+    }
+  }
   release_turning(context.loop, bed);
   return report;
 }

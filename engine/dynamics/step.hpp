@@ -20,6 +20,9 @@ namespace grainsweep {
 /// weight of the heavy one; it must not be thrown through its neighbours.
 inline constexpr double longest_motion = 0.3;
 
+/// Longest motion of a grain in a step after which another one is taken on the same contacts, d.
+inline constexpr double longest_on_same_contacts = 0.1;
+
 struct StepSettings {
   double dt = 0.2;          ///< sqrt(d/g)
   double momentum = 0.9;    ///< alpha
@@ -31,17 +34,22 @@ struct StepSettings {
   /// Longest free motion, d: far below a grain, so that none passes another.
   double longest_free = 0.15;
   bool carries = false;  ///< impulses begin such that they carry a tall bed (columns.hpp)
+  /// Of polyhedra, whose contacts take longer to find than to solve: how many steps are taken on
+  /// the contacts that the first one finds. What the steps after it know of their gaps is right to
+  /// first order in the motion, as what every step knows of its end.
+  int steps = 1;
 };
 
-/// What a step did.
+/// What a step did, or all that were taken on its contacts.
 struct StepReport {
-  SolveReport solve;            ///< residuals in m g
+  int steps = 0;
+  SolveReport solve;            ///< of the last one, but for iterations; residuals in m g
   double kinetic_energy = 0.0;  ///< mean per grain of 1/2 m (u/dt)^2, m g d
   double largest_motion = 0.0;  ///< d
   /// Share of the weight of the grains awake that walls and grains asleep carry.
   double carried = 0.0;
   /// Way that contacts strayed for want of a better solve, d: the root mean square of the residuals
-  /// of the rows that push, times their number over that of all degrees of freedom.
+  /// of the rows that push, times their number over that of all degrees of freedom. The sum of all.
   double spurious_path = 0.0;
   /// Most by which centres were nearer than sunk_share of the distance at which their grains touch,
   /// of polyhedra the balls within them, before the step, d.
@@ -67,8 +75,9 @@ struct StepState {
   std::vector<Moved> moved;  ///< of each part of the grains
 };
 
-/// One step. Of polyhedra the largest motion counts the way that a turn takes a point at the
-/// circumradius, and the kinetic energy counts turning.
+/// One step, or settings.steps of them, fewer where grains move far. Of polyhedra the largest
+/// motion counts the way that a turn takes a point at the circumradius, and the kinetic energy
+/// counts turning.
 template <class Kind, class Real>
 StepReport step(const StepSettings& settings, const ExecutionContext& context, Bed<Kind>& bed,
                 StepState<Kind, Real>& state);

@@ -79,6 +79,12 @@ struct Contacts<Polyhedron, Real> {
     kernels_of<Real>(all).bodies.accumulate_impulses(rows_of(range), range.blocks, impulse.data(),
                                                      accumulated);
   }
+  /// Gaps after the motion u of all grains, to first order in it: what else the contacts are stays.
+  /// `correction` as in find_contacts.
+  void move_gaps(const Kernels& all, BlockRange range, const Record<Real>* u, double correction) {
+    kernels_of<Real>(all).bodies.move_gaps(rows_of(range), range.blocks, u,
+                                           static_cast<Real>(correction), points.data());
+  }
 
  private:
   BodyRows<Real> rows_of(BlockRange range) const {

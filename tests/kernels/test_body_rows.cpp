@@ -166,6 +166,27 @@ TEMPLATE_TEST_CASE("the residual over body rows has the bits of its plain-loop t
   });
 }
 
+TEMPLATE_TEST_CASE("the gaps of body rows after a motion have the bits of their plain-loop twin",
+                   "", float, double) {
+  on_random_body_problems<TestType>([](const auto& kernels, auto& problem, auto& twin) {
+    const TestType correction = TestType(0.1);
+    for (auto* one : {&problem, &twin}) {
+      for (auto& points : one->points) {
+        for (std::size_t lane = 0; lane < block_width; lane += 3) points.gap[lane] *= -1;
+      }
+    }
+    kernels.move_gaps(problem.rows(), problem.blocks.size(), problem.u.data(), correction,
+                      problem.points.data());
+    testing::body_move_gaps_twin(twin.rows(), twin.blocks.size(), twin.u.data(), correction,
+                                 twin.points.data());
+    for (std::size_t i = 0; i < problem.points.size(); ++i) {
+      for (std::size_t lane = 0; lane < block_width; ++lane) {
+        REQUIRE(same_bits(problem.points[i].gap[lane], twin.points[i].gap[lane]));
+      }
+    }
+  });
+}
+
 /// Two grains of mass 1 and a point of contact between them, in lane 5.
 template <class Real>
 BodyProblem<Real> one_contact(Real lever_a, Real lever_b) {

@@ -134,4 +134,17 @@ Missed<Real> body_residual_twin(BodyRows<Real> rows, std::size_t blocks, const R
   return missed.sums();
 }
 
+template <class Real>
+void body_move_gaps_twin(BodyRows<Real> rows, std::size_t blocks, const Record<Real>* u,
+                         Real correction, BodyPoints<Real>* moved) {
+  visit_lanes(rows, blocks, [&](const auto& c, std::size_t block, std::size_t lane) {
+    for (std::size_t i = 0; i < c.points; ++i) {
+      Real& gap = moved[c.first + i].gap[lane];
+      gap = gap < 0 ? gap / correction : gap;
+      const Real after = point_twin(rows, block, lane, i).gap_after(u);
+      gap = after < 0 ? correction * after : after;
+    }
+  });
+}
+
 }  // namespace grainsweep::testing

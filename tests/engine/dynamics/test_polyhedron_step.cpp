@@ -317,12 +317,53 @@ TEST_CASE("a settled bed of pinacoids balances its weight and is isostatic", "[s
   CHECK(static_cast<double>(constraints) / (6 * grains) == Approx(1).margin(0.05));
 }
 
+/// A cube above the floor, tilted by 0.1 about an edge of its own.
+PolyhedronBed tilted_cube() {
+  const Quaternion tilt(Eigen::AngleAxisd(0.1, Vector::UnitY()));
+  return make_bed({6, 6, periodic, walls}, testing::cube(), {pose_at(3, 3, 0.56, tilt)});
+}
+
+TEST_CASE("a second step on the same contacts ends where one on new ones does, to second order") {
+  StepSettings settings = tight_steps(0.9);
+  settings.dt = 0.02;  // so that the cube comes nearer to the floor, and tips on it, by 1e-3 d
+  PolyhedronBed twice = tilted_cube(), anew = tilted_cube();
+  StepState<Polyhedron, double> state_of_twice, state_of_anew;
+  take_steps(12, settings, twice, state_of_twice);
+  take_steps(12, settings, anew, state_of_anew);
+  REQUIRE(state_hash(twice) == state_hash(anew));
+  settings.steps = 2;
+  const StepReport both = take_steps(1, settings, twice, state_of_twice);
+  settings.steps = 1;
+  const StepReport last = take_steps(2, settings, anew, state_of_anew);
+  CHECK(both.steps == 2);
+  CHECK(last.steps == 1);
+  const double moved = last.largest_motion;
+  CHECK(moved > 1e-4);
+  CHECK(std::abs(twice.position[0].z - anew.position[0].z) < 2.0 * moved * moved);
+  const Record<double>&p = twice.orientation[0], &q = anew.orientation[0];
+  const double half_angle = std::hypot(p.x - q.x, p.y - q.y, p.z - q.z);
+  CHECK(half_angle < 2.0 * moved * moved);
+  CHECK(both.largest_motion == Approx(moved).epsilon(0.05));
+}
+
+TEST_CASE("after a long way contacts are found anew") {
+  StepSettings settings;
+  settings.steps = 2;
+  PolyhedronBed bed = make_bed({6, 6, periodic, walls}, testing::cube(), {pose_at(3, 3, 3)});
+  bed.motion[0].z = -2.0 * longest_on_same_contacts;
+  StepState<Polyhedron, float> state;
+  CHECK(step(settings, kernels(), bed, state).steps == 1);
+  bed.motion[0].z = 0.0;
+  CHECK(step(settings, kernels(), bed, state).steps == 2);
+}
+
 TEST_CASE("grains of one sweep are the same on every instruction set") {
   std::vector<std::uint64_t> hashes;
   for (const Isa isa : testing::testable_isas()) {
     PolyhedronBed bed = testing::random_shape_bed({6, 6, periodic, walls}, pinacoid({}), 80, 5, 2);
     StepState<Polyhedron, float> state;
     StepSettings settings;
+    settings.steps = 2;
     for (int k = 0; k < 30; ++k) step(settings, kernels_for(isa), bed, state);
     hashes.push_back(state_hash(bed));
     CHECK(hashes.back() == hashes.front());
