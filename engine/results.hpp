@@ -41,8 +41,9 @@ struct RestReport {
   double largest_motion = 0.0;  ///< largest displacement of a grain in the last step, d
   double overlap_mean = 0.0;    ///< mean over force-bearing contacts of max(0, -gap), d
   double overlap_max = 0.0;     ///< deepest overlap, d
-  /// Force-bearing contacts closed to 1e-4 d, walls and floor included; of polyhedra a contact
-  /// along a line counts 2, one over an area 3.
+  /// Force-bearing contacts closed to 1e-4 d, walls and floor included, but not those with two
+  /// walls that a sphere fills the space between; of polyhedra a contact along a line counts 2, one
+  /// over an area 3.
   std::int64_t contacts = 0;
   /// Degrees of freedom that contacts hold besides, as their normals turn: a round wall holds a
   /// grain along the wall, too, and spheres that push its faces keep a polyhedron from turning.
@@ -50,7 +51,7 @@ struct RestReport {
   /// Contacts that do not depend on others: all but where they are more than needed. NaN if those
   /// are too many to be counted (engine/dynamics/settle.cpp).
   double independent_contacts = 0.0;
-  std::int64_t isostatic_contacts = 0;  ///< 3 a sphere, 6 a polyhedron, less zero modes
+  std::int64_t isostatic_contacts = 0;  ///< see isostatic_count
   /// Whether a bed may rest on fewer: polyhedra may, as the faces that hold them turn.
   bool may_rest_on_fewer = false;
   /// Static, on all contacts closed to Accuracy::imbalance_gap; see engine/dynamics/balance.hpp.

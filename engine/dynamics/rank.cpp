@@ -7,6 +7,7 @@
 #include <Eigen/SparseCholesky>
 
 #include "engine/dynamics/dissection.hpp"
+#include "engine/dynamics/rest.hpp"
 #include "engine/narrow/constraints.hpp"
 
 namespace grainsweep {
@@ -41,18 +42,19 @@ std::vector<ForceColumn> force_columns(const SphereBed& bed, const ExecutionCont
                                        double dt, const SphereContacts<Real>& contacts) {
   std::vector<ForceColumn> columns;
   for (const ForceContact& c : force_contacts(bed, dt, contacts)) {
+    if (is_held_by(bed, c)) continue;
     const auto a = static_cast<std::size_t>(c.a), b = static_cast<std::size_t>(c.b);
     const Record<double>& p = bed.position[a];
     ForceColumn column{c.a, c.b};
     Vector normal;
     if (bed.is_grain(c.b)) {
       normal = nearest_difference(bed, a, b).normalized();
-      set_force(bed.motion[b].w, normal, column.on_b);
+      set_force(bed.motion[b].w, free_part(bed, b, normal), column.on_b);
     } else {
       const UnitVector n = bed.walls[b - bed.grains()].normal(p.x, p.y, p.z);
       normal = -Vector(n.x, n.y, n.z);
     }
-    set_force(bed.motion[a].w, -normal, column.on_a);
+    set_force(bed.motion[a].w, free_part(bed, a, -normal), column.on_a);
     columns.push_back(column);
   }
   return columns;

@@ -114,15 +114,44 @@ std::int32_t wall_of(const Bed<Kind>& bed, const ForceContact& contact) {
 /// Directions that turning normals can hold a grain in: a polyhedron's three turns.
 constexpr std::int64_t most_by_turning = 3;
 
+/// Whether a grain of this radius fills a container from one wall to the other.
+bool fills(Boundary boundary, double extent, double radius) {
+  return boundary == Boundary::walls && extent / 2.0 - radius < closed_gap;
+}
+/// Whether a sphere fills the space between the walls along x, or y.
+struct Filled {
+  bool along_x = false, along_y = false;
+  std::int64_t count() const { return (along_x ? 1 : 0) + (along_y ? 1 : 0); }
+};
+Filled filled_by(const SphereBed& bed, std::size_t grain) {
+  const double radius = bed.position[grain].w;
+  return {fills(bed.box.x, bed.box.length, radius), fills(bed.box.y, bed.box.width, radius)};
+}
+Filled filled_by(const PolyhedronBed& /*bed*/, std::size_t /*grain*/) { return {}; }
+
+/// Degrees of freedom of spheres that fill a box or a tube: walls hold them in a plane or on the
+/// axis, without a force.
+template <class Kind>
+std::int64_t held_in_place(const Bed<Kind>& bed) {
+  std::int64_t held = 0;
+  for (std::size_t i = 0; i < bed.grains(); ++i) held += filled_by(bed, i).count();
+  return held;
+}
+
 /// What holds the clusters of grains that push each other; at the root of each.
-std::vector<Hold> holds_of(const Grains& bed, const std::vector<ForceContact>& contacts) {
+template <class Kind>
+std::vector<Hold> holds_of(const Bed<Kind>& bed, const std::vector<ForceContact>& contacts) {
   Clusters clusters(bed.grains());
   for (const ForceContact& c : contacts) {
     if (bed.is_grain(c.b)) clusters.join(c.a, c.b);
   }
   std::vector<Hold> holds(bed.grains());
   for (std::size_t i = 0; i < bed.grains(); ++i) {
-    holds[clusters.root(i)].grains.push_back(static_cast<std::int32_t>(i));
+    Hold& hold = holds[clusters.root(i)];
+    hold.grains.push_back(static_cast<std::int32_t>(i));
+    const Filled filled = bed.box.is_tube ? Filled() : filled_by(bed, i);
+    if (filled.along_x) hold.walls.add({1, 0, 0});
+    if (filled.along_y) hold.walls.add({0, 1, 0});
   }
   for (const ForceContact& c : contacts) {
     Hold& hold = holds[clusters.root(static_cast<std::size_t>(c.a))];
@@ -137,34 +166,6 @@ std::vector<Hold> holds_of(const Grains& bed, const std::vector<ForceContact>& c
   return holds;
 }
 
-/// Whether a grain of this radius fills a container from one wall to the other.
-bool fills(Boundary boundary, double extent, double radius) {
-  return boundary == Boundary::walls && extent / 2.0 - radius < closed_gap;
-}
-
-/// Degrees of freedom of spheres that fill a tube or the space between two walls: those hold them
-/// on the axis or in a plane, without a force.
-std::int64_t held_in_place(const SphereBed& bed) {
-  const Box& box = bed.box;
-  std::int64_t held = 0;
-  for (const Record<double>& grain : bed.centres()) {
-    held += fills(box.x, box.length, grain.w) ? 1 : 0;
-    held += fills(box.y, box.width, grain.w) ? 1 : 0;
-  }
-  return held;
-}
-std::int64_t held_in_place(const PolyhedronBed& /*bed*/) { return 0; }
-
-/// Whether it is with a flat wall that holds the grain in place together with the one across, with
-/// forces that are any.
-bool is_held_by(const SphereBed& bed, const ForceContact& contact) {
-  if (bed.box.is_tube || bed.is_grain(contact.b)) return false;
-  const double radius = bed.position[static_cast<std::size_t>(contact.a)].w;
-  const UnitVector normal = normal_at(bed, contact);
-  const bool along_x = normal.x != 0.0, along_y = normal.y != 0.0;
-  return (along_x && fills(bed.box.x, bed.box.length, radius)) ||
-         (along_y && fills(bed.box.y, bed.box.width, radius));
-}
 bool is_held_by(const PolyhedronBed& /*bed*/, const ForceContact& /*contact*/) { return false; }
 
 struct RestTest {
@@ -185,6 +186,25 @@ RestTest at_most(const char* what, const char* unit, double value, double tolera
 }
 
 }  // namespace
+
+bool is_held_by(const SphereBed& bed, const ForceContact& contact) {
+  if (bed.box.is_tube || bed.is_grain(contact.b)) return false;
+  const Filled filled = filled_by(bed, static_cast<std::size_t>(contact.a));
+  const UnitVector normal = normal_at(bed, contact);
+  return (filled.along_x && normal.x != 0.0) || (filled.along_y && normal.y != 0.0);
+}
+
+Vector free_part(const SphereBed& bed, std::size_t grain, const Vector& force) {
+  if (bed.box.is_tube) return force;
+  const Filled filled = filled_by(bed, grain);
+  return {filled.along_x ? 0.0 : force.x(), filled.along_y ? 0.0 : force.y(), force.z()};
+}
+
+template <class Kind>
+std::int64_t isostatic_count(const Bed<Kind>& bed, const std::vector<ForceContact>& contacts) {
+  const std::int64_t in_place = bed.box.is_tube ? 0 : held_in_place(bed);
+  return degrees_of_freedom(bed) - in_place - zero_modes(bed, contacts);
+}
 
 template <class Kind, class Real>
 RestReport measure_rest(Bed<Kind>& bed, const ExecutionContext& context, double dt,
@@ -207,10 +227,10 @@ RestReport measure_rest(Bed<Kind>& bed, const ExecutionContext& context, double 
   }
   for (const std::int64_t held : by_turning)
     rest.held_by_turning += std::min(held, most_by_turning);
-  rest.held_by_turning += held_in_place(bed);
+  if (bed.box.is_tube) rest.held_by_turning += held_in_place(bed);
   rest.independent_contacts = static_cast<double>(rest.contacts);
   rest.overlap_mean = overlap / std::max(closed, 1.0);
-  rest.isostatic_contacts = degrees_of_freedom(bed) - zero_modes(bed, contacts);
+  rest.isostatic_contacts = isostatic_count(bed, contacts);
   rest.may_rest_on_fewer = std::is_same_v<Kind, Polyhedron>;
   return rest;
 }
@@ -390,6 +410,8 @@ template RestReport measure_rest(PolyhedronBed&, const ExecutionContext&, double
                                  StepState<Polyhedron, float>&);
 template RestReport measure_rest(PolyhedronBed&, const ExecutionContext&, double,
                                  StepState<Polyhedron, double>&);
+template std::int64_t isostatic_count(const SphereBed&, const std::vector<ForceContact>&);
+template std::int64_t isostatic_count(const PolyhedronBed&, const std::vector<ForceContact>&);
 template std::int64_t zero_modes(const SphereBed&, const std::vector<ForceContact>&);
 template std::int64_t zero_modes(const PolyhedronBed&, const std::vector<ForceContact>&);
 template std::vector<WallForce> wall_forces(const SphereBed&, const std::vector<ForceContact>&);

@@ -31,11 +31,25 @@ RestReport measure_rest(Bed<Kind>& bed, const ExecutionContext& context, double 
                         StepState<Kind, Real>& state);
 
 /// Degrees of freedom that no contact can take up: every cluster of grains that stands on a wall
-/// slides freely in each direction in which no wall pushes it; a polyhedron that stands alone also
+/// slides freely in each direction in which no wall pushes it, nor holds one of its spheres between
+/// itself and the one across; a polyhedron that stands alone also
 /// turns about the wall's normal, and in a tube every cluster about its axis, where that is no
 /// slide.
 template <class Kind>
 std::int64_t zero_modes(const Bed<Kind>& bed, const std::vector<ForceContact>& contacts);
+
+/// Whether a contact is with a flat wall that holds the grain in place together with the one
+/// across, with forces that are any: no constraint is counted for it, and no degree of freedom.
+bool is_held_by(const SphereBed& bed, const ForceContact& contact);
+
+/// The part of a force on a sphere that it is not held against by walls that it fills the space
+/// between.
+Vector free_part(const SphereBed& bed, std::size_t grain, const Vector& force);
+
+/// Contacts that hold a bed without one too many: its degrees of freedom, less zero modes and those
+/// of spheres that fill the space between two walls.
+template <class Kind>
+std::int64_t isostatic_count(const Bed<Kind>& bed, const std::vector<ForceContact>& contacts);
 
 /// Grains that push each other, of each cluster that a floor pushes up and that turns about the
 /// axis of a tube.

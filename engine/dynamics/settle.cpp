@@ -65,13 +65,15 @@ RestReport report_of(const ExactRest& exact, const SphereBed& bed) {
   RestReport rest;
   rest.overlap_mean = exact.overlap_mean;
   rest.overlap_max = exact.overlap_max;
-  rest.contacts = static_cast<std::int64_t>(exact.contacts.size());
+  rest.contacts =
+      std::count_if(exact.contacts.begin(), exact.contacts.end(),
+                    [&](const ForceContact& contact) { return !is_held_by(bed, contact); });
   rest.held_by_turning =
       std::count_if(exact.contacts.begin(), exact.contacts.end(), [&](const ForceContact& contact) {
         return !bed.is_grain(contact.b) &&
                bed.walls[static_cast<std::size_t>(contact.b - bed.wall_name(0))].is_round();
       });
-  rest.isostatic_contacts = degrees_of_freedom(bed) - zero_modes(bed, exact.contacts);
+  rest.isostatic_contacts = isostatic_count(bed, exact.contacts);
   // Those that hold it: more of them depend on these.
   rest.independent_contacts = static_cast<double>(std::min(rest.contacts, rest.isostatic_contacts));
   rest.imbalance = exact.of_weight;

@@ -69,11 +69,14 @@ double grains_of_size_one(const PackingSpec& spec) {
 
 /// The volume of small grains that is as near to `wanted`, which keeps their share exact, as the
 /// height allows that is to be filled: where large grains are few, one more or less is much of it.
+/// Where small grains are the lesser part, their share goes before the height, but for a tenth.
 double small_volume(const PackingSpec& spec, double wanted, double large_volume) {
-  constexpr double allowed = 0.02;
+  constexpr double of_height = 0.02, of_wanted = 0.1;
   const double whole = grains_of_size_one(spec) * sphere_volume(0.5);
-  return std::clamp(wanted, (1.0 - allowed) * whole - large_volume,
-                    (1.0 + allowed) * whole - large_volume);
+  const double near_height = std::clamp(wanted, (1.0 - of_height) * whole - large_volume,
+                                        (1.0 + of_height) * whole - large_volume);
+  if (wanted >= large_volume) return near_height;
+  return std::clamp(near_height, (1.0 - of_wanted) * wanted, (1.0 + of_wanted) * wanted);
 }
 
 /// Volumes of the grains of a file, d^3.

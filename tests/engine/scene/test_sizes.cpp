@@ -100,6 +100,24 @@ TEST_CASE("the drawn grains have the share of small volume asked for within half
   }
 }
 
+TEST_CASE("a small share of small grains is kept within a tenth, whatever sizes are drawn") {
+  for (std::uint64_t key = 1; key <= 40; ++key) {
+    for (const double share : {0.01, 0.05, 0.3}) {
+      INFO("key " << key << ", share " << share);
+      PackingSpec spec = spec_of(SolidHeight{5}, {0.1, share, 0.3});
+      spec.box = {5, 4, Boundary::periodic, Boundary::walls};
+      spec.random_key = key;
+      double small = 0, large = 0;
+      for (const double radius : draw_radii(spec)) {
+        (radius < small_class_limit(spec.sizes) ? small : large) += sphere_volume(radius);
+      }
+      const double wanted = share / (1 - share) * large;
+      const double half_grain = sphere_volume(0.15 * 1.4) / 2;  // the last one, of 4 deviations
+      CHECK(std::abs(small - wanted) <= 0.1 * wanted + half_grain);
+    }
+  }
+}
+
 TEST_CASE("where large grains are few the height is kept, and shares are as near as that allows") {
   for (const double share : {0.97, 0.98, 0.99, 0.993, 0.9935}) {
     INFO("share " << share);
