@@ -44,7 +44,7 @@ struct Collection {
   std::map<std::pair<std::string, std::string>, std::string> content_of;
   /// What is stored of earlier forms of the sweeps, which no table has.
   Outcomes others;
-  std::size_t added = 0;
+  std::size_t added = 0, stored = 0;
   bool is_short = false;  ///< something stored could not be read
 };
 
@@ -181,7 +181,8 @@ void add_outcome(const std::string& folder, Boxed<Outcome> outcome, Row& row, Co
     return;
   }
   if (!store(folder, std::move(outcome), row.outcome, to)) return;
-  if (++to.added % added_at_once == 0) to.files.flush();
+  to.added += is_known ? 0 : 1;  // others only get their grains
+  if (++to.stored % added_at_once == 0) to.files.flush();
 }
 
 /// Keeps what a folder holds beside its sweep: that of an earlier form, which may come again.

@@ -92,20 +92,25 @@ std::string fault_of(const ExportFormat& format, const std::string& folder, cons
   }
 }
 
-/// Looks at the first bed of each shape, before anything is written. Throws BadInput.
+/// Looks at the first bed of each shape, before anything is written. Throws BadInput if the format
+/// can hold none of them; otherwise those that it cannot are left out.
 void refuse_shapes_without_room(const ExportFormat* format, const std::string& folder,
                                 const std::vector<Row>& rows,
                                 const std::vector<std::size_t>& chosen) {
   if (format == nullptr || format->fault == nullptr) return;
   std::set<std::string> seen;
+  std::string first_fault;
   for (const std::size_t k : chosen) {
     const JobFacts& job = rows[k].job;
     if (!seen.insert(shape_of(job)).second) continue;
     const std::string fault = fault_of(*format, folder, rows[k]);
-    if (fault.empty()) continue;
-    throw BadInput("--format " + std::string(format->name) + ": packing " + job.id + ", shape " +
-                   job.shape + ": " + fault);
+    if (fault.empty()) return;
+    if (first_fault.empty()) {
+      first_fault = "packing " + job.id + ", shape " + job.shape + ": " + fault;
+    }
   }
+  if (first_fault.empty()) return;
+  throw BadInput("--format " + std::string(format->name) + ": " + first_fault);
 }
 
 /// What other formats would leave out in silence. Throws BadInput.
@@ -218,6 +223,9 @@ int perform(const ExportOptions& options) {
     if (bed->grains.empty()) continue;
     std::string text;
     try {
+      const std::string fault =
+          format != nullptr && format->fault != nullptr ? format->fault(*bed) : "";
+      if (!fault.empty()) throw BadInput("packing " + rows[k].job.id + ": " + fault);
       text = format != nullptr ? format->text(exported(std::move(*bed), rows[k].job, settings))
                                : page_of(*bed, rows[k], results.provenance.units);
     } catch (const BadInput& error) {  // no bed for this format; others may be

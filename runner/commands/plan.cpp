@@ -111,14 +111,14 @@ std::string shards_text(const Sweep& sweep, const std::vector<Cost>& costs, int 
   return text + "\n";
 }
 
-/// Which packings of growing groups come next, after those that are made.
+/// Which packings come next, of growing groups and others, after those that are made.
 std::string next_text(const Sweep& sweep, const Outcomes& made, const PackingNames& names) {
   constexpr std::size_t most_shown = 8;
   std::vector<std::pair<const Job*, std::size_t>> next;  // of each group, how many
   std::map<std::pair<std::string, std::string>, std::size_t> index_of;
   std::size_t all = 0;
   for (const Job& job : sweep.jobs) {
-    if (!may_grow(job) || made.contains(job.id)) continue;
+    if (made.contains(job.id)) continue;
     const auto [known, is_new] = index_of.try_emplace({job.label, job.parameters}, next.size());
     if (is_new) next.emplace_back(&job, 0);
     ++next[known->second].second;

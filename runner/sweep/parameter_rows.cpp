@@ -131,8 +131,8 @@ Rows accuracy_rows() {
   using A = Accuracy;
   return {
       own("accuracy.preset", preset_names(),
-          "named accuracy; parts written beside it override its own", ValueKind::choice,
-          Role::preset, set_preset, no_identity),
+          "named accuracy; parts written beside it, or in base, override its own",
+          ValueKind::choice, Role::preset, set_preset, no_identity),
       own("accuracy.solid_fraction", Interval{0, 1, true},
           "in place of a preset: the cheapest one is taken that moves no mean solid fraction by "
           "more than this, by its measured bound",

@@ -66,11 +66,11 @@ TEST_CASE("the closing report as a whole") {
       "a: 8 packings, 7 settled; left out of means and fits: 1 did not settle\n"
       "\n"
       "MSP\n"
-      "  W/d                    φ ± sd         Z ± sd  contacts/iso overlap/d   packings\n"
-      "  4             0.5900 ± 0.0014  5.350 ± 0.014        0.9998   8.0e-05          2\n"
-      "  5             0.6000 ± 0.0014  5.500 ± 0.014        0.9998   8.0e-05          2\n"
-      "  10            0.6200 ± 0.0014  5.800 ± 0.014        0.9998   8.0e-05     2 of 3\n"
-      "  20 periodic            0.6390          6.050        0.9998   8.0e-05          1\n"
+      "  W/d                   φ ± sd          Z ± sd  contacts/iso overlap/d   packings\n"
+      "  4            0.5900 ± 0.0014   5.350 ± 0.014        0.9998   8.0e-05          2\n"
+      "  5            0.6000 ± 0.0014   5.500 ± 0.014        0.9998   8.0e-05          2\n"
+      "  10           0.6200 ± 0.0014   5.800 ± 0.014        0.9998   8.0e-05     2 of 3\n"
+      "  20 periodic           0.6390           6.050        0.9998   8.0e-05          1\n"
       "  φ = φ_bulk - C/W:  φ_bulk = 0.6400 ± 0.0029 ± 0.0020 protocol; periodic 0.6390 ± 0.0023\n"
       "      C = 0.200 ± 0.015 d,  ζ = C/φ_bulk = 0.313 ± 0.022 d  (χ²/dof 0.00, R² 1.000, 3 "
       "widths)\n"
@@ -256,7 +256,7 @@ const std::vector<ReportedSweep> reported_sweeps = {
      {"  and 40 more, see groups.csv", "      C = "}},
     {"everything unsettled",
      R"({ "grid": { "box.width": [5, 8, 12] } })",
-     {"  5                           -              -             -         -     0 of 2",
+     {"  5                          -               -             -         -     0 of 2",
       "  φ = φ_bulk - C/W:  not determined:",
       "      needs settled packings at 3 or more widths with otherwise equal parameters, has 0",
       "Not in the means:", "  and 1 more, see packings.csv"},
