@@ -88,8 +88,9 @@ void advance(const std::vector<Record<Real>>& u, std::size_t i, PolyhedronBed& b
   move_grain(bed, i, displacement, angles);
   moved.energy +=
       displacement.squaredNorm() / bed.motion[i].w + root.cwiseProduct(angles).squaredNorm();
-  moved.longest =
-      std::max({moved.longest, displacement.norm(), angles.norm() * bed.circumradius(i)});
+  const double longest = std::max(displacement.norm(), angles.norm() * bed.circumradius(i));
+  moved.longest = std::max(moved.longest, longest);
+  moved.of_inradius = std::max(moved.of_inradius, longest / bed.inradius(i));
 }
 
 /// Pairs that are near become rows, or candidates of contacts.
@@ -206,11 +207,13 @@ void advance(double dt, const ParallelFor& loop, Bed<Kind>& bed, StepState<Kind,
   });
   Moved all;
   for (const Moved& some : state.moved) {
-    all = {all.energy + some.energy, std::max(all.longest, some.longest), all.lift + some.lift,
-           all.mass + some.mass, all.awake + some.awake};
+    all = {all.energy + some.energy, std::max(all.longest, some.longest),
+           all.lift + some.lift,     all.mass + some.mass,
+           all.awake + some.awake,   std::max(all.of_inradius, some.of_inradius)};
   }
   report.kinetic_energy = all.energy / (2.0 * dt * dt * std::max(all.awake, 1.0));
   report.largest_motion = all.longest;
+  report.motion_of_inradius = all.of_inradius;
   report.carried = all.mass > 0.0 ? all.lift / (dt * dt * all.mass) : 1.0;
 }
 
@@ -256,7 +259,7 @@ StepReport step(const StepSettings& settings, const ExecutionContext& context, B
   report.sunk = update_contacts(settings, context, bed, state.contacts);
   move_on_contacts(settings, context, bed, state, report);
   if constexpr (std::is_same_v<Kind, Polyhedron>) {
-    while (report.steps < settings.steps && report.largest_motion < longest_on_same_contacts) {
+    while (report.steps < settings.steps && report.motion_of_inradius < longest_on_same_contacts) {
       move_gaps(settings.correction, context, state);
       move_on_contacts(settings, context, bed, state, report);
     }

@@ -20,8 +20,10 @@ namespace grainsweep {
 /// weight of the heavy one; it must not be thrown through its neighbours.
 inline constexpr double longest_motion = 0.3;
 
-/// Longest motion of a grain in a step after which another one is taken on the same contacts, d.
-inline constexpr double longest_on_same_contacts = 0.1;
+/// Longest motion of a grain in a step after which another one is taken on the same contacts, in
+/// radii of the largest ball within the grain: plates and needles lie on each other along lines and
+/// faces that turn by more for the same way.
+inline constexpr double longest_on_same_contacts = 0.2;
 
 struct StepSettings {
   double dt = 0.2;          ///< sqrt(d/g)
@@ -43,9 +45,10 @@ struct StepSettings {
 /// What a step did, or all that were taken on its contacts.
 struct StepReport {
   int steps = 0;
-  SolveReport solve;            ///< of the last one, but for iterations; residuals in m g
-  double kinetic_energy = 0.0;  ///< mean per grain of 1/2 m (u/dt)^2, m g d
-  double largest_motion = 0.0;  ///< d
+  SolveReport solve;                ///< of the last one, but for iterations; residuals in m g
+  double kinetic_energy = 0.0;      ///< mean per grain of 1/2 m (u/dt)^2, m g d
+  double largest_motion = 0.0;      ///< d
+  double motion_of_inradius = 0.0;  ///< of polyhedra the largest, in radii of the ball within each
   /// Share of the weight of the grains awake that walls and grains asleep carry.
   double carried = 0.0;
   /// Way that contacts strayed for want of a better solve, d: the root mean square of the residuals
@@ -58,11 +61,12 @@ struct StepReport {
 
 /// How some grains moved in a step.
 struct Moved {
-  double energy = 0.0;   ///< sum of m u^2, m d^2
-  double longest = 0.0;  ///< longest way, d
-  double lift = 0.0;     ///< sum of m times what contacts add to the motion upwards, m d
-  double mass = 0.0;     ///< of those awake, m
-  double awake = 0.0;    ///< number of them
+  double energy = 0.0;       ///< sum of m u^2, m d^2
+  double longest = 0.0;      ///< longest way, d
+  double lift = 0.0;         ///< sum of m times what contacts add to the motion upwards, m d
+  double mass = 0.0;         ///< of those awake, m
+  double awake = 0.0;        ///< number of them
+  double of_inradius = 0.0;  ///< longest way of a polyhedron, in radii of its largest ball
 };
 
 /// Everything that steps need besides the bed. After a step the contacts are those it found, before

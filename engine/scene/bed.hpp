@@ -122,6 +122,7 @@ struct Bed<Polyhedron> : Grains {
   }
   const ConvexShape& shape(std::size_t grain) const { return shapes[component(grain)]; }
   double circumradius(std::size_t grain) const { return scale(grain) * shape(grain).circumradius; }
+  double inradius(std::size_t grain) const { return scale(grain) * shape(grain).inradius; }
   /// Whether forces can turn it: without friction nothing turns the spheres of a mixture.
   bool turns(std::size_t grain) const { return !shape(grain).is_ball; }
 };
