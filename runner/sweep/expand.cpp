@@ -321,7 +321,12 @@ class Expansion {
   void place_vertices(const Block& block, const InEffect& in_effect, ResolvedSpec& resolved) {
     const Assignment* size = in_effect[hull_size_];
     const Assignment* file = in_effect[hull_file_];
-    const Assignment* source = file != nullptr ? file : in_effect[hull_vertices_];
+    const Assignment* vertices = in_effect[hull_vertices_];
+    const Assignment* source = file != nullptr ? file : vertices;
+    if (file != nullptr && vertices != nullptr) {  // told already
+      for (const Assignment* one : {file, vertices}) problems_.skip(one->pointer + " shape.hull");
+      return;
+    }
     const Assignment* by = in_effect[mixture_by_];
     if (by != nullptr && in_effect[mixture_] == nullptr) {
       note(*by, "belongs to shape.mixture, and that is not set");

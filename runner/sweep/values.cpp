@@ -210,7 +210,7 @@ nlohmann::json written_value(const Parameter& parameter, const Value& value) {
 
 std::string describe(const Json& value) {
   if (value.is_object()) return "an object";
-  if (value.is_array()) return "a list";
+  if (value.is_array()) return value.empty() ? "an empty list" : "a list";
   if (value.is_string()) return "the text \"" + shortened(value.get<std::string>()) + "\"";
   return value.dump();
 }

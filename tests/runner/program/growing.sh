@@ -51,7 +51,7 @@ same killed
 # Each seed of a point grows by itself, whichever key of the grid comes first.
 sed 's/"box.width": \[3, 4\]/"box.width": [3, 4], "seed": [1, 2]/' sweep.json >seeds.json
 expect_code 0 "$program" plan seeds.json
-expect_text out.txt 'Next: 24 packings: 12 of grows, W = 3; 12 of grows, W = 4' 'at most 122 packings'
+expect_text out.txt 'Next: 26 packings: 12 of grows, W = 3; 12 of grows, W = 4; 2 of does not, W = 5' 'at most 122 packings'
 
 # On a cluster a growing group remains whole, and has time to grow.
 mkdir bin
@@ -76,7 +76,7 @@ expect_text error.txt 'settled as "fast" such packings may be off by 0.003'
 # A fit whose packings go where they gain most: the same wherever and however often it is run.
 sed 's/"solid_fraction": 0.009/"fit": { "phi_bulk": 0.012 }/; s/\[3, 4\]/[1.8, 2.5, 3, 4]/' sweep.json >fit.json
 expect_code 0 "$program" plan fit.json
-expect_text out.txt 'Next: 24 packings: 6 of grows, W = 1.8; 6 of grows, W = 2.5; 6 of grows, W = 3; 6 of '
+expect_text out.txt 'Next: 26 packings: 6 of grows, W = 1.8; 6 of grows, W = 2.5; 6 of grows, W = 3; 6 of '
 expect_code 0 "$program" run fit.json --out fit-one --threads 1 --no-report
 # At such narrow gaps the solid fraction is no straight line.
 expect_text out.txt "Errors as asked for (95 %) in 0 of 1 fit" "in 1 more the packings scatter as little"
