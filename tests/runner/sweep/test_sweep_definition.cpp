@@ -113,8 +113,10 @@ TEST_CASE("blocks without a label are numbered from one") {
 }
 
 TEST_CASE("grids must be lists of at least one value for known paths") {
-  CHECK(errors_in_block(R"({"grid": []})") ==
-        Messages{"s.json:2:10 /sweep/0/grid: must be an object of lists, one per path, is an empty list"});
+  CHECK(
+      errors_in_block(R"({"grid": []})") ==
+      Messages{
+          "s.json:2:10 /sweep/0/grid: must be an object of lists, one per path, is an empty list"});
   CHECK(errors_in_block(R"({"grid": {"box.width": 5}})") ==
         Messages{"s.json:2:24 /sweep/0/grid/box.width: must be a list of values, is 5; a single "
                  "value belongs into \"set\""});
