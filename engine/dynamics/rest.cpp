@@ -4,36 +4,15 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <type_traits>
 #include <utility>
 
+#include "engine/clusters.hpp"
 #include "engine/text.hpp"
 
 namespace grainsweep {
 
 namespace {
-
-/// Grains joined by contacts (union by halving paths).
-class Clusters {
- public:
-  explicit Clusters(std::size_t grains) : parent_(grains) {
-    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
-  }
-  std::size_t root(std::size_t i) {
-    while (parent_[i] != i) {
-      parent_[i] = parent_[parent_[i]];
-      i = parent_[i];
-    }
-    return i;
-  }
-  void join(std::int32_t a, std::int32_t b) {
-    parent_[root(static_cast<std::size_t>(a))] = root(static_cast<std::size_t>(b));
-  }
-
- private:
-  std::vector<std::size_t> parent_;
-};
 
 /// Independent directions, at most three.
 class Directions {
@@ -143,7 +122,8 @@ template <class Kind>
 std::vector<Hold> holds_of(const Bed<Kind>& bed, const std::vector<ForceContact>& contacts) {
   Clusters clusters(bed.grains());
   for (const ForceContact& c : contacts) {
-    if (bed.is_grain(c.b)) clusters.join(c.a, c.b);
+    if (!bed.is_grain(c.b)) continue;
+    clusters.join(static_cast<std::size_t>(c.a), static_cast<std::size_t>(c.b));
   }
   std::vector<Hold> holds(bed.grains());
   for (std::size_t i = 0; i < bed.grains(); ++i) {

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <tuple>
 
 #include <Eigen/Geometry>
 
+#include "engine/clusters.hpp"
 #include "runner/export/open_surfaces.hpp"
 
 namespace grainsweep {
@@ -130,17 +130,13 @@ std::vector<Bridge> bridges_of(const StoredBed& bed, const OpenSurfaces& open,
 
 /// Of each copy the first one that bridges join it to.
 std::vector<std::size_t> first_joined(std::size_t copies, const std::vector<Bridge>& bridges) {
-  std::vector<std::size_t> first(copies);
-  std::iota(first.begin(), first.end(), 0u);
-  const auto root = [&](std::size_t k) {
-    while (first[k] != k) k = first[k] = first[first[k]];
-    return k;
-  };
+  Clusters clusters(copies);
   for (const Bridge& bridge : bridges) {
-    const std::size_t a = root(bridge.a), b = root(bridge.b);
-    first[std::max(a, b)] = std::min(a, b);
+    const auto [first, last] = std::minmax({clusters.root(bridge.a), clusters.root(bridge.b)});
+    clusters.join(last, first);
   }
-  for (std::size_t k = 0; k < copies; ++k) first[k] = root(k);
+  std::vector<std::size_t> first(copies);
+  for (std::size_t k = 0; k < copies; ++k) first[k] = clusters.root(k);
   return first;
 }
 

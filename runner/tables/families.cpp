@@ -5,6 +5,7 @@
 #include <set>
 #include <string_view>
 
+#include "engine/clusters.hpp"
 #include "engine/dynamics/presets.hpp"
 #include "runner/sweep/identity.hpp"
 
@@ -145,28 +146,20 @@ std::set<std::string> differing_paths(const std::vector<Family*>& families) {
   return paths;
 }
 
-/// The first of the families that labels join this one to.
-std::size_t root_of(std::size_t family, std::vector<std::size_t>& joined_to) {
-  while (joined_to[family] != family) family = joined_to[family] = joined_to[joined_to[family]];
-  return family;
-}
-
 /// Families that labels do not tell apart: those that share one, with each other or with a third.
 std::map<std::size_t, std::vector<Family*>> alike_by_labels(std::vector<Family>& families) {
-  std::vector<std::size_t> joined_to(families.size());
+  Clusters clusters(families.size());
   std::map<std::string_view, std::size_t> first_with;  // a label
   for (std::size_t k = 0; k < families.size(); ++k) {
-    joined_to[k] = k;
     for (const auto* groups : {&families[k].walled, &families[k].periodic}) {
       for (const Group& group : *groups) {
-        const std::size_t other = first_with.try_emplace(group.job.label, k).first->second;
-        joined_to[root_of(k, joined_to)] = root_of(other, joined_to);
+        clusters.join(k, first_with.try_emplace(group.job.label, k).first->second);
       }
     }
   }
   std::map<std::size_t, std::vector<Family*>> alike;
   for (std::size_t k = 0; k < families.size(); ++k) {
-    alike[root_of(k, joined_to)].push_back(&families[k]);
+    alike[clusters.root(k)].push_back(&families[k]);
   }
   return alike;
 }
