@@ -75,7 +75,11 @@ double unevenness_factor(const PackingSpec& spec, double grains) {
   return 1.0;
 }
 
-constexpr double usual_corners = 20.0;  // of a shape; more of them cost more
+/// What more corners than usual cost.
+double corner_factor(const ShapeSpec& shape) {
+  constexpr double usual = 20.0;
+  return std::pow(std::max(1.0, static_cast<double>(corner_count(shape)) / usual), 0.6);
+}
 
 /// Polyhedra, and spheres among them, over spheres of the same number. Flat and long grains have
 /// more neighbours in reach, and take more rounds to come to rest.
@@ -87,9 +91,7 @@ double shape_factor(const ShapeSpec& shape, Creep creep) {
     const double stout = creep == Creep::loose ? 2.2 : creep == Creep::usual ? 1.85 : 1.3;
     return stout * std::pow(std::max(1.0, slender / 2.0), creep == Creep::strict ? 0.3 : 0.6);
   }
-  const auto corners = static_cast<double>(corner_count(shape));
-  return (creep == Creep::loose ? 3.6 : 2.6) *
-         std::pow(std::max(1.0, corners / usual_corners), 0.6) * std::max(1.0, slender / 5.0);
+  return (creep == Creep::loose ? 3.6 : 2.6) * corner_factor(shape) * std::max(1.0, slender / 5.0);
 }
 
 /// The mean over the grains.
@@ -106,8 +108,7 @@ double shape_factor(const Mixture& mixture, Creep creep) {
 double tube_factor(const PackingSpec& spec) {
   if (!spec.box.is_tube) return 1.0;
   const bool is_mixture = std::holds_alternative<Mixture>(spec.shape);
-  const double corners = is_mixture ? 0.0 : static_cast<double>(corner_count(spec.shape));
-  return 1.4 * std::pow(std::max(1.0, corners / usual_corners), 0.6);
+  return 1.4 * (is_mixture ? 1.0 : corner_factor(spec.shape));
 }
 
 /// The same of all grains, and large beds over small ones.

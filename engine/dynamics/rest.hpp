@@ -32,9 +32,8 @@ RestReport measure_rest(Bed<Kind>& bed, const ExecutionContext& context, double 
 
 /// Degrees of freedom that no contact can take up: every cluster of grains that stands on a wall
 /// slides freely in each direction in which no wall pushes it, nor holds one of its spheres between
-/// itself and the one across; a polyhedron that stands alone also
-/// turns about the wall's normal, and in a tube every cluster about its axis, where that is no
-/// slide.
+/// itself and the one across; a polyhedron that stands alone also turns about the wall's normal,
+/// and in a tube every cluster about its axis, where that is no slide.
 template <class Kind>
 std::int64_t zero_modes(const Bed<Kind>& bed, const std::vector<ForceContact>& contacts);
 

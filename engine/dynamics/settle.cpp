@@ -18,7 +18,6 @@
 #include "engine/dynamics/workspace.hpp"
 #include "engine/exact/exact_rest.hpp"
 #include "engine/saved_state.hpp"
-#include "engine/scene/sizes.hpp"
 
 namespace grainsweep {
 
@@ -220,7 +219,7 @@ class Settling {
 
   /// Whether the stage has done its work. Looks at the bed after at least one step.
   bool is_over() {
-    const bool has_steps = steps_in_stage_ >= steps_of(accuracy_, rule());
+    const bool has_steps = steps_left() <= 0;
     switch (rule().end) {
       case StageEnd::look:
         if (steps_in_stage_ > 0 && !is_bed()) return true;
@@ -373,7 +372,7 @@ class Settling {
   /// its steps ran out.
   bool has_arrived() const {
     return stage_ == stages_.size() || rule().end == StageEnd::look ||
-           (rule().end == StageEnd::rest && steps_in_stage_ >= steps_of(accuracy_, rule()));
+           (rule().end == StageEnd::rest && steps_left() <= 0);
   }
 
   /// Of a bed that has come to rest, or has no steps left. What slept until then has contacts

@@ -12,10 +12,6 @@ namespace grainsweep {
 /// 16,000 beyond it is drawn again.
 inline constexpr double largest_deviation = 4.0;
 
-/// Sizes that differ by a smaller share are equal: such spheres may jam, or rest on more contacts
-/// than hold them.
-inline constexpr double equal_sizes = 1e-6;
-
 /// Grains of each class.
 struct ClassCounts {
   std::int64_t large = 0;

@@ -433,10 +433,11 @@ constexpr double narrowest_exact = 1.005;
 
 /// Whether all large grains are of one size, as far as rounding tells.
 bool has_equal_grains(const PackingSpec& spec) {
+  constexpr double equal = 1e-6;
   if (std::holds_alternative<PlacedGrains>(spec.fill)) return false;
-  if (!spec.sizes.distribution) return spec.sizes.spread < equal_sizes;
+  if (!spec.sizes.distribution) return spec.sizes.spread < equal;
   const std::vector<double> diameters = curve_of(*spec.sizes.distribution).diameters;
-  return diameters.back() < (1.0 + equal_sizes) * diameters.front();
+  return diameters.back() < (1.0 + equal) * diameters.front();
 }
 
 void check_exact_rest(const PackingSpec& spec, double largest, Errors& errors) {

@@ -223,9 +223,6 @@ int perform(const ExportOptions& options) {
     if (bed->grains.empty()) continue;
     std::string text;
     try {
-      const std::string fault =
-          format != nullptr && format->fault != nullptr ? format->fault(*bed) : "";
-      if (!fault.empty()) throw BadInput("packing " + rows[k].job.id + ": " + fault);
       text = format != nullptr ? format->text(exported(std::move(*bed), rows[k].job, settings))
                                : page_of(*bed, rows[k], results.provenance.units);
     } catch (const BadInput& error) {  // no bed for this format; others may be

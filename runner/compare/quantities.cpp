@@ -74,7 +74,7 @@ double mean_over(const Group& group, double PackingResult::*member) {
 }
 
 /// "both walls", but in a tube.
-std::string walls_of(const Group& group) {
+std::string walls_text(const Group& group) {
   return group.job.box.is_tube ? "the wall" : "both walls";
 }
 
@@ -86,7 +86,7 @@ Measured decay_length(const Family& /*family*/, const Group& group) {
   return {{fit.length.value / diameter, fit.length.error / diameter},
           fit.not_determined,
           "damped cosine through the large grains' φ(y), y = " + cell(decay_window_start) +
-              " d to " + cell(fit.window_end) + " d from " + walls_of(group) +
+              " d to " + cell(fit.window_end) + " d from " + walls_text(group) +
               "; d_avg = " + fixed(diameter, 3) + " d, R² " + fixed(fit.r_squared, 3) +
               ", misfit " + fixed(fit.misfit, 1)};
 }
@@ -113,7 +113,7 @@ Measured zone_drop(const Family& /*family*/, const Group& group) {
   const WallZone zone = wall_zone(group);
   return {{zone.drop.mean, zone.drop.error},
           zone.not_determined,
-          "grains farther than " + cell(core_distance) + " d from " + walls_of(group) +
+          "grains farther than " + cell(core_distance) + " d from " + walls_text(group) +
               " less those nearer than " + cell(first_layer) + " d, walls not counted, gap < " +
               cell(group.job.measure.gap_tolerances.front()) + " d"};
 }

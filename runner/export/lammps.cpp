@@ -10,6 +10,7 @@
 #include "engine/shape/build.hpp"
 #include "engine/shape/convex_shape.hpp"
 #include "engine/units.hpp"
+#include "runner/exit_codes.hpp"
 #include "runner/tables/csv.hpp"
 
 namespace grainsweep {
@@ -233,6 +234,8 @@ std::string fault_for_lammps(const StoredBed& bed) {
 }
 
 std::string lammps_data(const ExportedBed& exported) {
+  const std::string fault = fault_for_lammps(exported.bed);
+  if (!fault.empty()) throw BadInput("packing " + exported.bed.job + ": " + fault);
   return header(exported) + (exported.bed.turned ? bodies(exported) : spheres(exported));
 }
 

@@ -124,15 +124,13 @@ Figure profiles_figure(const Axes& axes) {
     figure.caption =
         "Solid fraction and coordination number of slices across y, where there is no wall; "
         "bars at φ of large grains are standard errors.";
-  }
-  if (std::all_of(groups.begin(), groups.end(),
-                  [](const GroupWithCurves& group) { return group->job.box.is_tube; })) {
+  } else if (std::all_of(groups.begin(), groups.end(),
+                         [](const GroupWithCurves& group) { return group->job.box.is_tube; })) {
     figure.title = "Layers beside the wall";
     figure.caption =
         "Solid fraction and coordination number of rings about the axis; bars at φ of large grains "
         "are standard errors. φ = bulk + A exp(-y / λ) cos(2π y / T + δ), y from the wall, is "
-        "fitted "
-        "up to the axis.";
+        "fitted up to the axis.";
   }
   if (groups.empty()) {
     figure.not_drawn = "no packing has settled";

@@ -146,8 +146,7 @@ std::vector<Field> main_fields() {
           "static_imbalance_mean", "",
           "net force on a grain in its own weight under forces on all contacts closed to "
           "accuracy.imbalance_gap, none of which pulls, that are the best ones to some 0.005, in "
-          "narrow tubes 0.03; of "
-          "polyhedra or net torque over its circumradius",
+          "narrow tubes 0.03; of polyhedra or net torque over its circumradius",
           with_mean),
       in_result<of::rest, &Rest::imbalance, &Imbalance::max>("static_imbalance_max", "",
                                                              "the largest of them"),
@@ -223,8 +222,7 @@ std::vector<Field> shape_fields() {
       in_result<of::shape, &Shape::contact_share, 0>(
           "contacts_simple", "",
           "share of the force-bearing contacts of the slab, as of force_mean, that are at a point; "
-          "like the "
-          "following only of polyhedra",
+          "like the following only of polyhedra",
           with_mean),
       in_result<of::shape, &Shape::contact_share, 1>("contacts_double", "", "of those along a line",
                                                      with_mean),

@@ -211,8 +211,7 @@ Rows mixture_rows() {
 std::vector<Parameter> shape_parameters() {
   Rows all = {own("shape", usual_shapes(),
                   "what the grains are; a name alone stands for the shape with the parts that base "
-                  "gives it, else "
-                  "its defaults",
+                  "gives it, else its defaults",
                   ValueKind::choice, Role::shape, set_shape, get_shape)};
   for (Rows rows : {pinacoid_rows(), solid_rows(), hull_rows(), mixture_rows()}) {
     for (Parameter& parameter : rows) all.push_back(std::move(parameter));
