@@ -182,31 +182,33 @@ expect_code 0 "$program" slurm "$configs/quick.json" --out "out dir" --shards 4
 array=$(sed -n 's/^Submitted job \([0-9]*\), an array of 4 shards/\1/p' out.txt)
 rest=$(sed -n 's/^Submitted job \([0-9]*\), which follows.*/\1/p' out.txt)
 
-# One element is told to run again, one is cancelled, one loses its node.
+# One element is told to run again, one is cancelled, one loses its node. Each is halted as it comes
+# to work, two at a time as the cluster has cores, before any can end.
 await "an element is at work" halt_one_of 1 2 3 4
-again=$element
-expect_code 0 "$program" status "out dir"
-expect_text out.txt "Running: host $(hostname), process " "Slurm: " " running, " "Left: about "
-scontrol requeue "${array}_$again"
-await "the element that is to run again has ended" has_ended "$runner"
-runs_again() { [ "$(told "${array}_$element" Restarts)" = 1 ]; }
-await "it is to run again" runs_again
-
+again=$element again_runner=$runner
 mapfile -t others < <(seq 4 | grep -vx "$again")
 await "another element is at work" halt_one_of "${others[@]}"
-cancelled=$element
-scancel "${array}_$cancelled"
-await "the cancelled element has ended" has_ended "$runner"
+cancelled=$element cancelled_runner=$runner
+expect_code 0 "$program" status "out dir"
+expect_text out.txt "Running: host $(hostname), process " "Slurm: " " running, " "Left: about "
 
+scontrol requeue "${array}_$again"
+await "the element that is to run again has ended" has_ended "$again_runner"
 mapfile -t others < <(seq 4 | grep -vx -e "$again" -e "$cancelled")
 await "a third element is at work" halt_one_of "${others[@]}"
+# runs_again ELEMENT
+runs_again() { [ "$(told "${array}_$1" Restarts)" = 1 ]; }
+await "the first is to run again" runs_again "$again"
+scancel "${array}_$cancelled"
+await "the cancelled element has ended" has_ended "$cancelled_runner"
+
 node=$(told "${array}_$element" NodeList)
 stop_daemon KILL "$node.pid"
 for process in $(processes "$node"); do kill -KILL "$process" 2>/dev/null || true; done
 await "the node's runner has ended" has_ended "$runner"
 expect_code 0 "$program" status "out dir" --json
 expect_text out.txt '"lost_runners": [' "process $runner ($element-of-4, silent for " '"slurm": {'
-await "Slurm begins anew what the node had" runs_again
+await "Slurm begins anew what the node had" runs_again "$element"
 
 await "the array has ended" is_over "$array"
 await "the rest is made" is_over "$rest"

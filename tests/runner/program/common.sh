@@ -87,7 +87,12 @@ start() {
 is_running() {
   local status
   read -r status 2>/dev/null <"/proc/$1/stat" || return 1
-  [[ ${status##*) } != Z* ]]
+  [[ ${status##*) } != Z* ]] || has_threads "$1"
+}
+# A process that was killed keeps its locks while threads beside its first one end.
+has_threads() {
+  local tasks=("/proc/$1/task/"*)
+  ((${#tasks[@]} > 1))
 }
 
 # wait_until CONDITION...: looks every 2 ms; false if the runner ended before the condition held.
