@@ -2,15 +2,19 @@
 # Measures the trade of speed for accuracy: settles the sweeps of bench/trade, 64 or more starts with
 # each of about 30 accuracies, and compares every accuracy with exact rest, start by start. Writes
 # SCENE.md, SCENE.csv and, with gnuplot, SCENE.svg; --readme puts them into bench/trade/README.md, in which other
-# scenes stay as they were measured. A scene takes a third of an hour to three hours of one core;
-# stopped, it goes on where it was.
-# usage: bench/trade.sh [--readme] [FOLDER [SCENE...]]
+# scenes stay as they were measured. A scene takes a third of an hour to three hours of one core, pinacoids
+# nine; stopped, it goes on where it was.
+# --seed N makes other starts, those of seed N: tables then tell the means of all seeds whose rows stand in
+# bench/trade/SCENE.seeds.json, to which those of N are added. Remove that file where beds pack otherwise
+# than when it was made.
+# usage: bench/trade.sh [--readme] [--seed N] [FOLDER [SCENE...]]
 # Scenes are walls, tube, two-sizes, tall, no-walls and pinacoids: all of them, if none is named.
 set -euo pipefail
 root=$(dirname "$(dirname "$(readlink -f "$0")")")
-readme=
+readme= seed=
 [ "${1:-}" != --readme ] || { readme=yes && shift; }
-readonly root readme folder=${1:-out/trade}
+[ "${1:-}" != --seed ] || { seed=$2 && shift 2; }
+readonly root readme seed folder=${1:-out/trade}
 shift || true
 (($#)) || set -- walls tube two-sizes tall no-walls pinacoids
 
@@ -18,9 +22,18 @@ cmake -S "$root" --preset release >/dev/null
 cmake --build "$root/build/release" --target grainsweep bench_trade >/dev/null
 mkdir -p "$folder"
 for scene in "$@"; do
-  "$root/build/release/runner/grainsweep" run "$root/bench/trade/$scene.json" --out "$folder/$scene" \
+  sweep=$root/bench/trade/$scene.json beds=$folder/$scene pool=()
+  if [ -n "$seed" ]; then
+    sweep=$folder/$scene-$seed.json beds=$folder/$scene-$seed pool=("$root/bench/trade/$scene.seeds.json")
+    python3 -c 'import json, sys
+sweep = json.load(open(sys.argv[1]))
+del sweep["$schema"]
+sweep["seed"] = int(sys.argv[2])
+json.dump(sweep, open(sys.argv[3], "w"), indent=1)' "$root/bench/trade/$scene.json" "$seed" "$sweep"
+  fi
+  "$root/build/release/runner/grainsweep" run "$sweep" --out "$beds" \
     --threads 1 --no-grains --no-report --quiet --tolerate-unsettled
-  "$root/build/release/bench/trade/bench_trade" "$folder/$scene" "$folder/$scene.md" "$folder/$scene.csv"
+  "$root/build/release/bench/trade/bench_trade" "$beds" "$folder/$scene.md" "$folder/$scene.csv" "${pool[@]}"
   printf '%s\n' "$folder/$scene.md" "$folder/$scene.csv"
   if command -v gnuplot >/dev/null; then
     gnuplot -c "$root/bench/trade.gnuplot" "$folder/$scene.csv" "$folder/$scene.svg"

@@ -37,6 +37,8 @@ MeanError lambda_difference(const Setting& setting, const Setting& reference) {
 Compared compared(const Setting& setting, const Setting& reference, double balanced_cost) {
   Compared row;
   row.setting = &setting;
+  row.made = setting.made;
+  row.settled = setting.settled;
   row.cpu_seconds = median(setting.cpu_seconds);
   row.relative_cost = row.cpu_seconds / balanced_cost;
   row.solid_fraction = paired_difference(setting.solid_fraction, reference.solid_fraction);
@@ -44,6 +46,9 @@ Compared compared(const Setting& setting, const Setting& reference, double balan
   row.force_square = paired_difference(setting.force_square, reference.force_square);
   row.lambda = lambda_difference(setting, reference);
   row.contact_ratio = mean(setting.contact_ratio);
+  row.own_solid_fraction = mean(setting.solid_fraction);
+  row.own_coordination = mean(setting.coordination);
+  row.own_force_square = mean(setting.force_square);
   return row;
 }
 
@@ -57,8 +62,7 @@ double nearer(const MeanError& a, const MeanError& b) {
 bool beats(const Compared& a, const Compared& b) {
   const double solid_fraction = nearer(a.solid_fraction, b.solid_fraction);
   const double coordination = nearer(a.coordination, b.coordination);
-  return a.cpu_seconds < b.cpu_seconds &&
-         a.setting->settled * b.setting->made >= b.setting->settled * a.setting->made &&
+  return a.cpu_seconds < b.cpu_seconds && a.settled * b.made >= b.settled * a.made &&
          std::min(solid_fraction, coordination) >= -1.0 &&
          std::max(solid_fraction, coordination) > 2.0;
 }
@@ -72,11 +76,15 @@ std::vector<Compared> compare_settings(const Scene& scene) {
   for (const Setting& setting : scene.settings) {
     if (setting.made > 0) all.push_back(compared(setting, scene.settings.front(), balanced_cost));
   }
-  for (Compared& row : all) {
-    row.on_front = std::none_of(all.begin(), all.end(),
+  mark_front(all);
+  return all;
+}
+
+void mark_front(std::vector<Compared>& rows) {
+  for (Compared& row : rows) {
+    row.on_front = std::none_of(rows.begin(), rows.end(),
                                 [&](const Compared& other) { return beats(other, row); });
   }
-  return all;
 }
 
 std::vector<ExactChange> exact_changes(const Scene& scene) {

@@ -11,12 +11,15 @@ namespace grainsweep::bench {
 /// Differences of a setting from the reference, from starts that settle with both.
 struct Compared {
   const Setting* setting = nullptr;
+  int made = 0, settled = 0;   ///< beds
   double cpu_seconds = 0.0;    ///< median
   double relative_cost = 0.0;  ///< that over the median of `balanced`; NaN if the scene has none
   MeanError solid_fraction, coordination, force_square;
   MeanError lambda;            ///< decay length of the layers beside a wall, d; NaN without walls
   double contact_ratio = 0.0;  ///< mean
-  bool on_front = false;       ///< no other setting beats it
+  /// Means of the setting's own beds.
+  double own_solid_fraction = 0.0, own_coordination = 0.0, own_force_square = 0.0;
+  bool on_front = false;  ///< no other setting beats it
 };
 
 /// Whether no more of `a` are left unsettled, and it costs less and, in solid fraction and
@@ -26,6 +29,9 @@ bool beats(const Compared& a, const Compared& b);
 
 /// In the order of the settings; refers to them.
 std::vector<Compared> compare_settings(const Scene& scene);
+
+/// Marks the rows that no other beats.
+void mark_front(std::vector<Compared>& rows);
 
 /// What the search for exact rest does to the beds that rest in steps: one for each exact setting
 /// whose beginning is in the scene as well.

@@ -110,8 +110,11 @@ Scene read_scene(const std::string& folder) {
   const Results results = read_results(folder);
   const std::vector<Group> groups = groups_of(results.rows);
   std::map<std::string, int> start_of;
-  for (const Row& row : results.rows) start_of[row.job.id] = row.job.replicate;
   Scene scene;
+  for (const Row& row : results.rows) {
+    start_of[row.job.id] = row.job.replicate;
+    scene.seed = row.job.seed;
+  }
   for (const Group& group : groups) {
     scene.name = group.job.label;
     scene.settings.push_back(setting_of(group, folder, start_of));

@@ -2,6 +2,7 @@
 // left them in its output folder.
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
@@ -37,6 +38,7 @@ struct Setting {
 struct Scene {
   std::string name;
   std::vector<Setting> settings;  ///< in the order of the sweep; the first is the reference
+  std::uint64_t seed = 0;         ///< of the sweep: other seeds make other starts
 };
 
 /// The setting with these parts; null if there is none.

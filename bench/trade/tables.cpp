@@ -28,8 +28,9 @@ std::string short_number(double value) {
   return std::isnan(value) ? "-" : fixed(value, value < 10.0 ? 2 : value < 100.0 ? 1 : 0);
 }
 
-std::string settled_text(const Setting& setting) {
-  return std::to_string(setting.settled) + " of " + std::to_string(setting.made);
+template <class Beds>
+std::string settled_text(const Beds& beds) {
+  return std::to_string(beds.settled) + " of " + std::to_string(beds.made);
 }
 
 /// Packings of a scene that are made, and all that are planned.
@@ -50,17 +51,17 @@ double largest_error(const std::vector<Compared>& rows, MeanError Compared::*qua
 
 std::string scene_heading(const SceneRows& compared) {
   const Setting& reference = compared.scene->settings.front();
+  const Compared& own = compared.rows.front();
   const auto [made, planned] = progress_of(*compared.scene);
   std::string text = "**" + compared.scene->name + "**";
   if (made < planned) {
     text += ", not finished: " + std::to_string(made) + " of " + std::to_string(planned) +
             " packings are made";
   }
-  text += ". Reference: `" + reference.name +
-          "`, phi = " + fixed(mean(reference.solid_fraction), 4) +
-          ", Z = " + fixed(mean(reference.coordination), 3) +
-          ", <f^2> = " + fixed(mean(reference.force_square), 3) + "; ";
-  if (reference.is_exact()) text += settled_text(reference) + " beds are certified. ";
+  text += ". Reference: `" + reference.name + "`, phi = " + fixed(own.own_solid_fraction, 4) +
+          ", Z = " + fixed(own.own_coordination, 3) +
+          ", <f^2> = " + fixed(own.own_force_square, 3) + "; ";
+  if (reference.is_exact()) text += settled_text(own) + " beds are certified. ";
   return text + "Largest standard errors of a row: " +
          fixed(largest_error(compared.rows, &Compared::solid_fraction), 5) + " in phi, " +
          fixed(largest_error(compared.rows, &Compared::coordination), 4) + " in Z.\n\n";
@@ -69,7 +70,7 @@ std::string scene_heading(const SceneRows& compared) {
 std::string setting_line(const Compared& row) {
   const Setting& setting = *row.setting;
   return table_row({(setting.preset.empty() ? setting.name : "**" + setting.name + "**"),
-                    std::to_string(row.solid_fraction.n), settled_text(setting),
+                    std::to_string(row.solid_fraction.n), settled_text(row),
                     short_number(row.cpu_seconds), short_number(row.relative_cost),
                     difference_text(row.solid_fraction, solid_fraction_decimals),
                     difference_text(row.coordination, coordination_decimals),
@@ -131,7 +132,7 @@ std::string csv_row(const std::string& scene, const Compared& row) {
   const Setting& setting = *row.setting;
   const auto two = [](const MeanError& of) { return cell(of.mean) + "," + cell(of.error); };
   return cell(scene) + "," + cell(setting.name) + "," + cell(setting.preset) + "," +
-         cell(row.solid_fraction.n) + "," + cell(setting.made) + "," + cell(setting.settled) + "," +
+         cell(row.solid_fraction.n) + "," + cell(row.made) + "," + cell(row.settled) + "," +
          cell(row.cpu_seconds) + "," + cell(row.relative_cost) + "," + two(row.solid_fraction) +
          "," + two(row.coordination) + "," + two(row.lambda) + "," + two(row.force_square) + "," +
          cell(row.contact_ratio) + "," + cell(row.on_front ? 1 : 0) + "\n";

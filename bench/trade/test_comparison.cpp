@@ -43,6 +43,8 @@ Compared row_of(const Setting& setting, double cpu_seconds, double solid_fractio
                 double coordination) {
   Compared row;
   row.setting = &setting;
+  row.made = setting.made;
+  row.settled = setting.settled;
   row.cpu_seconds = cpu_seconds;
   row.solid_fraction = {solid_fraction, 0.0002, 64};
   row.coordination = {coordination, 0.003, 64};

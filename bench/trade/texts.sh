@@ -20,6 +20,12 @@ grep -qF '| `exact, rest in_steps` |' trade.md || fail "no row of what exact res
 [ "$(wc -l <trade.csv)" -eq 6 ] || fail "trade.csv has not five rows"
 if grep -qF 'not finished' trade.md; then fail "a whole scene is said not to be"; fi
 
+sed 's/"name": "small"/"name": "small", "seed": 2/' small.json >other.json
+"$grainsweep" run other.json --out other --threads 1 --no-grains --no-report --quiet --tolerate-unsettled
+"$trade" small trade.md trade.csv pool.json
+"$trade" other trade.md trade.csv pool.json
+grep -qF '| **balanced** | 4 | 4 of 4 |' trade.md || fail "starts of two seeds are not told as four pairs"
+
 sed 's/"replicates": 2/"replicates": 3/' small.json >more.json
 "$grainsweep" run more.json --out small --shard 1/2 --no-grains --no-report --quiet --tolerate-unsettled
 "$trade" small trade.md trade.csv

@@ -1,0 +1,102 @@
+#include "bench/trade/pool.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include <nlohmann/json.hpp>
+
+#include "runner/store/files.hpp"
+#include "runner/tables/csv.hpp"
+
+namespace grainsweep::bench {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json json_of(const MeanError& of) {
+  return std::isnan(of.mean) ? Json() : Json::array({of.mean, of.error, of.n});
+}
+
+MeanError mean_error_of(const Json& of) {
+  if (of.is_null()) return {no_number, no_number, 0};
+  return {of.at(0), of.at(1), of.at(2)};
+}
+
+Json json_of(const Compared& row) {
+  return {{"accuracy", row.setting->name},
+          {"made", row.made},
+          {"settled", row.settled},
+          {"cpu_seconds", row.cpu_seconds},
+          {"relative_cost", row.relative_cost},
+          {"solid_fraction", json_of(row.solid_fraction)},
+          {"coordination", json_of(row.coordination)},
+          {"force_square", json_of(row.force_square)},
+          {"lambda", json_of(row.lambda)},
+          {"contact_ratio", row.contact_ratio},
+          {"own", {row.own_solid_fraction, row.own_coordination, row.own_force_square}}};
+}
+
+/// `row` of one seed more: what of both is a mean over beds weighs by the beds.
+void add(const Json& more, Compared& row) {
+  const auto mean = [&](double& value, const Json& other, double of_row, double of_other) {
+    value = (of_row * value + of_other * other.get<double>()) / (of_row + of_other);
+  };
+  const int made = more.at("made"), settled = more.at("settled");
+  mean(row.cpu_seconds, more.at("cpu_seconds"), row.made, made);
+  mean(row.relative_cost, more.at("relative_cost"), row.made, made);
+  mean(row.contact_ratio, more.at("contact_ratio"), row.settled, settled);
+  mean(row.own_solid_fraction, more.at("own").at(0), row.settled, settled);
+  mean(row.own_coordination, more.at("own").at(1), row.settled, settled);
+  mean(row.own_force_square, more.at("own").at(2), row.settled, settled);
+  row.solid_fraction = pooled(row.solid_fraction, mean_error_of(more.at("solid_fraction")));
+  row.coordination = pooled(row.coordination, mean_error_of(more.at("coordination")));
+  row.force_square = pooled(row.force_square, mean_error_of(more.at("force_square")));
+  row.lambda = pooled(row.lambda, mean_error_of(more.at("lambda")));
+  row.made += made;
+  row.settled += settled;
+}
+
+Json read_pool(const std::string& path, const Scene& scene) {
+  if (!file_exists(path)) return {{"scene", scene.name}, {"seeds", Json::object()}};
+  Json pool = Json::parse(read_file(path), nullptr, false);
+  if (!pool.is_object() || !pool.contains("seeds")) {
+    throw std::runtime_error(path + ": is no file of rows by seed");
+  }
+  if (pool.at("scene") != scene.name) {
+    throw std::runtime_error(path + ": is of " + pool.at("scene").dump() + ", not of \"" +
+                             scene.name + "\"");
+  }
+  return pool;
+}
+
+}  // namespace
+
+MeanError pooled(const MeanError& a, const MeanError& b) {
+  if (b.n == 0) return a;
+  if (a.n == 0) return b;
+  const double n = a.n + b.n;
+  return {(a.n * a.mean + b.n * b.mean) / n, std::hypot(a.n * a.error, b.n * b.error) / n,
+          a.n + b.n};
+}
+
+void pool_with(const std::string& path, const Scene& scene, std::vector<Compared>& rows) {
+  Json pool = read_pool(path, scene);
+  Json own = Json::array();
+  for (const Compared& row : rows) own.push_back(json_of(row));
+  const std::string seed = std::to_string(scene.seed);
+  pool["seeds"][seed] = own;
+  replace_file(path, pool.dump(1) + "\n");
+  for (const auto& [other, of_other] : pool["seeds"].items()) {
+    if (other == seed) continue;
+    for (Compared& row : rows) {
+      const auto same = std::find_if(of_other.begin(), of_other.end(), [&](const Json& one) {
+        return one.at("accuracy") == row.setting->name;
+      });
+      if (same != of_other.end()) add(*same, row);
+    }
+  }
+  mark_front(rows);
+}
+
+}  // namespace grainsweep::bench
