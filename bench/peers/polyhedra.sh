@@ -6,7 +6,7 @@ usage() {
   cat <<'TEXT'
 usage: bench/peers/polyhedra.sh [GRAINS] [STEPS]
 
-Settles GRAINS pinacoids (600 if not given) in a walled box in grainsweep at balanced, hands the bed
+Settles GRAINS pinacoids (600 if not given, at least 200) in a walled box in grainsweep at balanced, hands the bed
 to YADE's Polyhedra (Debian package yade) and times STEPS (100) of its steps, all on one core.
 Writes what each code said and polyhedra.md to out/peers-polyhedra-GRAINS, and prints polyhedra.md.
 
@@ -18,7 +18,7 @@ TEXT
 
 [[ ${1:-} != -h && ${1:-} != --help ]] || { usage && exit 0; }
 readonly grains=${1:-600} steps=${2:-100}
-[[ $# -le 2 && $grains =~ ^[0-9]{2,5}$ && $steps =~ ^[1-9][0-9]{0,5}$ ]] || { usage >&2 && exit 2; }
+[[ $# -le 2 && $grains =~ ^[0-9]{3,5}$ && $grains -ge 200 && $steps =~ ^[1-9][0-9]{0,5}$ ]] || { usage >&2 && exit 2; }
 here=$(dirname "$(readlink -f "$0")")
 root=$(dirname "$(dirname "$here")")
 length=$(awk -v n="$grains" 'BEGIN { print n / 100 }')
@@ -65,7 +65,7 @@ JSON
 
 step_in_yade() {
   local bed
-  bed=$(echo "$out"/bed/export/*.csv)
+  bed=$out/bed/export/$(awk -F, 'NR == 2 { print $1 }' "$out/bed/export/index.csv")
   GRAINS=$bed LENGTH=$length WIDTH=$width STEP=$yade_step STIFFNESS=1e5 STEPS=$steps \
     taskset -c "$core" yade -n -x -j1 "$here/yade_pinacoids.py" >"$out/yade.txt" 2>"$out/yade.log" ||
     stop "YADE failed; see $out/yade.log"

@@ -5,7 +5,7 @@ set -euo pipefail
 
 usage() {
   cat <<'TEXT'
-usage: bench/peers/run.sh [GRAINS] [SEED]
+usage: bench/peers/run.sh [--alone] [GRAINS] [SEED]
 
 Makes GRAINS loose random spheres (2000 if not given, at least 300) between walls 5 d apart; SEED
 (1) chooses their sizes and places. Settles exactly these in
@@ -14,7 +14,8 @@ Makes GRAINS loose random spheres (2000 if not given, at least 300) between wall
   LIGGGHTS    liggghts, Debian package liggghts.
 All run on one core, in turn; every final bed is measured by the same program from its positions.
 Writes peers.csv, peers.md and what each code said to out/peers-GRAINS-SEED, and prints peers.md.
-A code that is not installed is left out. 2000 grains take some minutes.
+A code that is not installed is left out, and with --alone both others. 2000 grains take some minutes.
+BUILD, from the environment, is a build of these sources to use as it is; else build/release is made.
 
 The peers model grains as linear springs without friction. A row is named by the stiffness kn
 (m g/d), the restitution e of a collision and the mean kinetic energy (m g d) that ends the run:
@@ -31,7 +32,9 @@ stop() {
 say() { printf 'run.sh: %s\n' "$*" >&2; }
 
 [[ ${1:-} != -h && ${1:-} != --help ]] || { usage && exit 0; }
-readonly grains=${1:-2000} seed=${2:-1}
+alone=
+[[ ${1:-} != --alone ]] || { alone=yes && shift; }
+readonly alone grains=${1:-2000} seed=${2:-1}
 [[ $# -le 2 && $grains =~ ^[0-9]{3,7}$ && $grains -ge 300 && $seed =~ ^[0-9]{1,9}$ ]] ||
   { usage >&2 && exit 2; }
 
@@ -40,10 +43,11 @@ root=$(dirname "$(dirname "$here")")
 length=$(awk -v n="$grains" 'BEGIN { print n / 100 }') # as bench/peers/peer_bed.hpp has it
 out=$PWD/out/peers-$grains-$seed
 core=$(taskset -cp $$ | sed 's/.*[ ,-]//') # the last one that this shell may use
-readonly here root length out core width=5 build=$root/build/release
+readonly here root length out core width=5 build=${BUILD:-$root/build/release}
 export OMP_NUM_THREADS=1
 
 build_programs() {
+  [[ -z ${BUILD:-} ]] || return 0
   mkdir -p "$build"
   (
     cd "$root" &&
@@ -103,7 +107,7 @@ JSON
   "$build/runner/grainsweep" export "$results" --format csv >/dev/null
   local table=$results/packings.csv
   add_row grainsweep "$accuracy" "$(cell_of status "$table")" "$(cell_of kinetic_energy "$table")" \
-    "$(cell_of contacts "$table")" "$results/export/$(cell_of job "$table").csv"
+    "$(cell_of contacts "$table")" "$results/export/$(cell_of file "$results/export/index.csv")"
 }
 
 # Stiffness, step and damping of the springs.
@@ -153,6 +157,7 @@ run_peers() {
 run_all() {
   local accuracy
   for accuracy in fast balanced accurate; do run_grainsweep $accuracy; done
+  [[ -z $alone ]] || return 0
   run_peers LAMMPS lmp lammps
   run_peers LIGGGHTS liggghts liggghts
 }

@@ -56,4 +56,8 @@ code=0
 bash "$sources/run.sh" 20 >/dev/null 2>error.txt || code=$?
 expect "the exit code for too few grains" 2 $code
 grep -q "at least 300" error.txt || fail "the usage does not say how many grains: $(cat error.txt)"
+
+BUILD=$(dirname "$(dirname "$programs")") bash "$sources/run.sh" --alone 300 >peers.md 2>log.txt ||
+  fail "the comparison fails: $(cat log.txt)"
+expect "rows of one's own" 3 "$(grep -cE '^\| grainsweep \| (fast|balanced|accurate) \|' peers.md)"
 echo "the comparison's programs and scripts work"

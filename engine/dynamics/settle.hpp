@@ -2,8 +2,9 @@
 //
 // Spheres and polyhedra go through the same kinds of stages: a look at the bed, which stays as it
 // is if it rests as it is given; the fall, until the floor carries the bed; a creep, in which
-// grains slide into their places; a halt; and the quench, in which contacts close until every test
-// of rest holds. With the protocol `dynamic` grains fall as in plain contact dynamics, undamped and
+// grains slide into their places; of polyhedra a halt, and steps in which contacts close; and the
+// quench, until every test of rest holds. A bed that fails it eases on and is quenched again. With
+// the protocol `dynamic` grains fall as in plain contact dynamics, undamped and
 // in steps of a quarter, until they have lost their kinetic energy by impacts alone; the other
 // stages follow. What a step is like in each stage, and why, stands in engine/dynamics/stages.cpp.
 //

@@ -46,8 +46,8 @@ using SaveSearch = std::function<std::string()>;
 struct ExactRestLimits {
   /// Asked before every round and within long ones; where it says no the failure is "cancelled".
   std::function<bool(const SaveSearch&)> keep_going = [](const SaveSearch&) { return true; };
-  /// Most multiplications of all factorisations; no round is begun if they are too few for a usual
-  /// search.
+  /// Most multiplications of all rounds, what they do beside factorisations counted in; no round is
+  /// begun if they are too few for a usual search.
   double operations = std::numeric_limits<double>::infinity();
   /// Bytes of a search of the same bed, to go on from with the same bits; none begins anew.
   std::string_view saved = {};

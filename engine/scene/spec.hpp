@@ -87,14 +87,14 @@ struct Accuracy {
   double momentum = 0.9;      ///< alpha: share of a displacement that damped steps carry on, 0..1
   int fall_iterations = 400;  ///< most solver iterations per step of fall and creep
   /// How far contacts may stray in a step of the fall for want of a better solve, d: root mean
-  /// square, of a step of 0.2 sqrt(d/g), of others in proportion. A creep shares out to its steps
-  /// what 160 such steps may. Looser solves tap the bed denser.
+  /// square, of a step of 0.2 sqrt(d/g), of others in proportion; those of spheres twice as far. A
+  /// creep shares out to its steps what 160 such steps may. Looser solves tap the bed denser.
   double path_tolerance = 2e-4;
   /// Steps after the fall, while the bed creeps to rest: of 0.2 sqrt(d/g), of shorter steps as many
   /// more.
   int creep_steps = 320;
-  /// Most solver iterations per step at the end of the creep; 1.5 for each d of height, if that is
-  /// more.
+  /// Most solver iterations per step at rest, of spheres twice as many; 1.5 for each d of height,
+  /// if that is more.
   int rest_iterations = 100;
   double residual_tolerance = 1e-2;   ///< worst residual of the last step at rest, m g
   double kinetic_tolerance = 1e-4;    ///< kinetic energy per grain at rest, m g d

@@ -24,10 +24,11 @@ inline constexpr double start_ball = 0.7;
 /// As many grains as `spec` asks for, placed one after the other at random where they (polyhedra:
 /// their balls) overlap no other (random sequential addition), in a column above the floor; the
 /// orientations of polyhedra are uniform over all rotations, and their scales are drawn as
-/// diameters of spheres are; which grain of a mixture is of which component is drawn as well. Or
-/// the user's own placed grains, where and as they are placed. Grains are numbered from the floor
-/// up, those of large flat beds along x or y first. Empty if a grain is larger than the gap between
-/// walls.
+/// diameters of spheres are; which grain of a mixture is of which component is drawn as well. In a
+/// tube that holds them in single file only spheres lie in one plane, on either side in turn. Or
+/// the user's own placed grains, where and as they are placed. Grains that were drawn are numbered
+/// from the floor up, those of large flat beds along x or y first. Empty if a grain is larger than
+/// the gap between walls.
 template <class Kind>
 std::optional<Bed<Kind>> start(const PackingSpec& spec);
 

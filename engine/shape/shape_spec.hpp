@@ -2,9 +2,9 @@
 // by engine/shape/pinacoid.hpp, engine/shape/named_shapes.hpp and engine/shape/hull.hpp. Spheres
 // need no more than their name.
 //
-// Every length is that of a grain of size 1, in d. With its defaults each shape but the
-// tetrahedron, the octahedron and round ones is as long, wide and high as d; each stands d high on
-// a face.
+// Every length is that of a grain of size 1, in d. With its defaults each shape is d
+// high, a pinacoid from ridge to ridge and others on a face; pinacoid, cube and cuboid are d long
+// and wide as well.
 #pragma once
 
 #include <array>

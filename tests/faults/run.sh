@@ -7,8 +7,8 @@ usage() {
 usage: tests/faults/run.sh [--full] [FAULT...]
 
 Runs the faults on build/release, which has to be built (./test.sh does it), and ends with a table.
-FAULTs: kills signals injected flushed full_disk surroundings corruption damage runners shards one_hash
-soak large overhead, and, each in a build of its own that takes minutes, threads (thread sanitizer)
+FAULTs: kills signals injected flushed full_disk surroundings corruption damage runners shards slurm
+one_hash soak large overhead, and, each in a build of its own that takes minutes, threads (thread sanitizer)
 and fuzz (libFuzzer, clang).
 
   --full   all tries: a thousand kills, every system call failing, two million fuzzed sweep files,
@@ -29,8 +29,8 @@ while (($#)); do
   shift
 done
 ((${#faults[@]})) ||
-  faults=(kills signals injected flushed full_disk surroundings corruption damage runners shards one_hash
-    soak large overhead threads fuzz)
+  faults=(kills signals injected flushed full_disk surroundings corruption damage runners shards slurm
+    one_hash soak large overhead threads fuzz)
 
 summary=()
 failures=0
