@@ -191,8 +191,12 @@ double place_on(const Axes& axes, const Group& group) {
 }
 
 bool is_over_width(const Axes& axes) {
-  return axes.parameter == width_parameter &&
-         std::any_of(axes.series.begin(), axes.series.end(), has_walls);
+  const bool is_width = axes.parameter == width_parameter || axes.parameter == diameter_parameter;
+  return is_width && std::any_of(axes.series.begin(), axes.series.end(), has_walls);
+}
+
+std::string width_symbol(const Axes& axes) {
+  return axes.parameter == diameter_parameter ? "D" : "W";
 }
 
 std::string title_of(const Group& group, std::size_t longest_label) {

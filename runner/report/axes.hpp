@@ -35,6 +35,9 @@ double place_on(const Axes& axes, const Group& group);
 /// diameter.
 bool is_over_width(const Axes& axes);
 
+/// What is along such an axis: W, or D where all are tubes.
+std::string width_symbol(const Axes& axes);
+
 /// "walls, W = 5": what tells a group from all others of its sweep. A label that is longer is
 /// shortened to so many characters.
 std::string title_of(const Group& group, std::size_t longest_label = 1000);

@@ -43,6 +43,12 @@ std::string quoted(const std::string& text) {
   return "'" + inside + "'";
 }
 
+std::string quoted_tic(const std::string& text) {
+  std::string format;
+  for (const char c : text) format += c == '%' ? "%%" : std::string(1, c);
+  return quoted(format);
+}
+
 Panels::Panels(const Figure& figure, std::size_t columns, std::vector<double> heights,
                std::vector<KeyEntry> key, PanelGaps gaps)
     : width_(figure.width),

@@ -32,6 +32,9 @@ int mark_of(std::size_t k);
 /// A string as gnuplot takes it, without line breaks.
 std::string quoted(const std::string& text);
 
+/// The same of the label of a tic, which gnuplot takes for a format: "20 %" would lose its sign.
+std::string quoted_tic(const std::string& text);
+
 /// Room beside and between panels, px.
 struct PanelGaps {
   double right = 62.0;  ///< of each panel

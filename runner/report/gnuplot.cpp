@@ -122,14 +122,14 @@ Drawing draw(const std::vector<Figure>& figures, const std::string& folder) {
   make_folder_inside(folder);
   remove_figures(folder);
   std::vector<const Figure*> to_draw;
-  std::vector<Drawer> drawers;
   for (const Figure& figure : figures) {
     for (const auto& [name, table] : figure.tables) replace_file(folder + "/" + name, table);
     if (!figure.not_drawn.empty()) continue;
     replace_file(folder + "/" + figure.name + ".gnuplot", drawing_commands(figure));
     to_draw.push_back(&figure);
-    drawers.push_back(start_gnuplot(figure, folder));
   }
+  std::vector<Drawer> drawers;  // once no file can fail: each has to be waited for
+  for (const Figure* figure : to_draw) drawers.push_back(start_gnuplot(*figure, folder));
   Drawing drawing{std::vector<std::string>(figures.size()), ""};
   std::string failed;
   for (std::size_t k = 0; k < to_draw.size(); ++k) {

@@ -72,12 +72,16 @@ std::vector<double> places_of(const Axes& axes) {
   return places;
 }
 
-bool has_contacts(const Axes& axes) {
-  return std::any_of(axes.series.begin(), axes.series.end(), [](const Series& series) {
-    return std::any_of(series.groups.begin(), series.groups.end(), [](const Group* group) {
-      return std::isfinite(mean_of(*group, "contacts_simple").mean);
+/// The groups whose contacts are of kinds, those of polyhedra that press on each other; series
+/// without any are left out.
+Axes of_kinds(Axes axes) {
+  for (Series& series : axes.series) {
+    std::erase_if(series.groups, [](const Group* group) {
+      return !std::isfinite(mean_of(*group, "contacts_simple").mean);
     });
-  });
+  }
+  std::erase_if(axes.series, [](const Series& series) { return series.groups.empty(); });
+  return axes;
 }
 
 /// Those with a difference that is known in errors.
@@ -116,7 +120,8 @@ std::string tics_of_errors(const Range& shown) {
 
 }  // namespace
 
-Figure contacts_figure(const Axes& axes) {
+Figure contacts_figure(const Axes& all) {
+  const Axes axes = of_kinds(all);
   Figure figure{.name = "contacts",
                 .title = "Kinds of contact",
                 .caption =
@@ -124,11 +129,11 @@ Figure contacts_figure(const Axes& axes) {
                     "force that they carry; bars are standard errors."};
   figure.caption += left_out_text(axes, figure.name);
   figure.tables = {{"contacts.csv", kinds_csv(axes)}};
-  if (shown_series(axes).empty()) {
+  if (shown_series(all).empty()) {
     figure.not_drawn = "no packing has settled";
     return figure;
   }
-  if (!has_contacts(axes)) {
+  if (axes.series.empty()) {
     figure.not_drawn = "no grains press on each other";
     return figure;
   }
@@ -152,10 +157,16 @@ Figure published_figure(const std::vector<Comparison>& comparisons) {
                     "Measured less published value, in standard errors of both, far from 0 on a "
                     "logarithmic scale. Within the shaded band both agree. The table below has "
                     "values and definitions."};
-  const std::vector<const Comparison*> measured = measured_of(comparisons);
+  std::vector<const Comparison*> measured = measured_of(comparisons);
   if (measured.empty()) {
     figure.not_drawn = "no published value can be set beside a measured one with an error";
     return figure;
+  }
+  constexpr std::size_t most_rows = 200;  // a picture of more than 32,000 px cannot be drawn
+  if (measured.size() > most_rows) {
+    figure.caption += " The first " + cell(most_rows) + " of " + cell(measured.size()) +
+                      " are drawn; all are in the table.";
+    measured.resize(most_rows);
   }
   std::string csv = csv_line({"all", "row", "errors", "quantity", "family"}), tics;
   std::vector<std::string> entries;
@@ -168,7 +179,7 @@ Figure published_figure(const std::vector<Comparison>& comparisons) {
     const Comparison& one = *measured[k];
     csv += csv_line(
         {"1", cell(k + 1), cell(*difference_in_errors(one)), cell(one.title), cell(one.family)});
-    tics += (k == 0 ? "" : ", ") + quoted(entries[k]) + " " + cell(k + 1);
+    tics += (k == 0 ? "" : ", ") + quoted_tic(entries[k]) + " " + cell(k + 1);
   }
   const auto rows = static_cast<int>(measured.size());
   const Range shown = shown_errors(measured);

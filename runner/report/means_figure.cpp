@@ -49,9 +49,13 @@ std::vector<FittedSeries> fitted(const Axes& axes, const std::vector<Family>& fa
   return all;
 }
 
-bool has_tubes(const Axes& axes) {
-  return std::any_of(axes.series.begin(), axes.series.end(),
-                     [](const Series& series) { return series.groups.front()->job.box.is_tube; });
+/// Where packings stand on the axis that have no gap between walls.
+std::string places_text(const Axes& axes) {
+  const auto is_tube = [](const Series& series) { return series.groups.front()->job.box.is_tube; };
+  const auto tubes = std::count_if(axes.series.begin(), axes.series.end(), is_tube);
+  if (static_cast<std::size_t>(tubes) == axes.series.size()) return "";
+  return std::string(" Packings without walls stand at d / W = 0") +
+         (tubes > 0 ? ", tubes at d / D." : ".");
 }
 
 std::string points_csv(const Axes& axes) {
@@ -86,7 +90,7 @@ std::string residuals_csv(const std::vector<FittedSeries>& all) {
   return text;
 }
 
-/// The axis below, and above it the widths themselves where it is d / W.
+/// The axis below, and above it the widths themselves where it is d / W or d / D.
 std::string abscissa_commands(const Axes& axes, bool is_lowest, bool is_highest) {
   std::vector<double> at;
   std::set<double, std::greater<>> widths;
@@ -114,7 +118,8 @@ std::string abscissa_commands(const Axes& axes, bool is_lowest, bool is_highest)
   }
   text += "set link x2\nset x2tics (" + tics + ") scale 0.6 out\n";
   const std::string unit = axes.units ? printed_unit(*axes.units) : "d";
-  return text + "set x2label " + quoted("W / " + unit) + " offset 0,-0.6 noenhanced\n";
+  return text + "set x2label " + quoted(width_symbol(axes) + " / " + unit) +
+         " offset 0,-0.6 noenhanced\n";
 }
 
 /// Everything that the panel of a quantity shows, with its errors.
@@ -236,13 +241,13 @@ Figure means_figure(const Axes& axes, const std::vector<Family>& families) {
   if (has_fits) {
     const std::string extent = extent_symbol(families);
     figure.caption += " Lines: φ = φ_bulk - C / " + extent + " and Z = Z_bulk - C_Z / " + extent +
-                      ", fitted to the packings between walls; below, what the points differ from "
+                      ", fitted to the packings " + (extent == "D" ? "in tubes" : "between walls") +
+                      "; below, what the points differ from "
                       "their line.";
     figure.height = 560;
     figure.tables.emplace_back(residuals_table, residuals_csv(all));
   }
-  if (is_over_width(axes)) figure.caption += " Packings without walls stand at d / W = 0";
-  if (is_over_width(axes)) figure.caption += has_tubes(axes) ? ", tubes at d / D." : ".";
+  if (is_over_width(axes)) figure.caption += places_text(axes);
   figure.caption += fits_text(all) + left_out_text(axes, figure.name);
   figure.tables.insert(figure.tables.begin(), {points_table, points_csv(axes)});
   figure.commands = means_commands(axes, figure, all, has_fits);

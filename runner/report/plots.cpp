@@ -36,7 +36,9 @@ double abscissa(const Axes& axes, const Group& group) {
   return group.job.box.y == Boundary::periodic ? 0.0 : 1.0 / group.job.box.width;
 }
 
-std::string abscissa_title(const Axes& axes) { return is_over_width(axes) ? "d / W" : axes.title; }
+std::string abscissa_title(const Axes& axes) {
+  return is_over_width(axes) ? "d / " + width_symbol(axes) : axes.title;
+}
 
 std::vector<const Series*> shown_series(const Axes& axes) {
   std::vector<const Series*> shown;

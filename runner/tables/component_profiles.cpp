@@ -77,7 +77,7 @@ Columns<ComponentProfileLine> component_profile_columns(const Varied& varied,
               [](In line) {
                 return cell(from_axis(line.group, line.axis, line.bin.low, line.bin.high));
               }},
-             {"n", "", "packings that have the bin",
+             {"n", "", "packings, those among them that end below the bin",
               [](In line) { return cell(line.bin.solid_fraction.n); }},
              {"coordination_n", "",
               "those of them with grains of the component whose centre is in the bin",
@@ -126,7 +126,10 @@ void append_component_bins(const Group& group, const char* axis,
 std::vector<MeanComponentBin> mean_component_profile(const Group& group,
                                                      ComponentProfile ComponentMeasure::*profile,
                                                      std::size_t k, std::size_t other) {
-  return mean_bins(component_profiles_of(group, profile, k),
+  ComponentBin beyond;
+  beyond.neighbours.resize(components_of(group));
+  beyond.nematic.fill(no_number);
+  return mean_bins(component_profiles_of(group, profile, k), beyond,
                    [other](const ComponentBins& bins, double low, double high) {
                      return mean_component_bin(bins, other, low, high);
                    });

@@ -49,7 +49,7 @@ Columns<ProfileLine> profile_bin_columns() {
        [](Line line) {
          return cell(from_axis(line.group, line.axis, line.bin.low, line.bin.high));
        }},
-      {"n", "", "packings that have the bin",
+      {"n", "", "packings, those among them that end below the bin",
        [](Line line) { return cell(line.bin.solid_fraction.n); }},
       {"coordination_n", "", "those of them with grains whose centre is in the bin",
        [](Line line) { return cell(line.bin.coordination.n); }},
@@ -93,7 +93,7 @@ double from_axis(const Group& group, std::string_view axis, double low, double h
 std::vector<MeanBin> mean_profile(const Group& group, Profile PackingResult::*profile) {
   std::vector<const Profile*> profiles;
   for (const Outcome& outcome : group.settled) profiles.push_back(&(outcome.result.*profile));
-  return mean_bins(profiles, mean_bin);
+  return mean_bins(profiles, ProfileBin(), mean_bin);
 }
 
 std::vector<ColumnText> profiles_columns(const Varied& varied, const GivenUnits& units) {

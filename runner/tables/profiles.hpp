@@ -2,6 +2,7 @@
 // gap and from the floor up, mean and scatter over the replicates of each group.
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -34,25 +35,29 @@ inline constexpr const char* profile_axis_meaning =
 double from_axis(const Group& group, std::string_view axis, double low, double high);
 
 /// What `mean(bins, low, high)` makes of the bins of each number, which lie from `low` to `high`,
-/// d, in those of the profiles that have it.
-template <class AnyProfile, class Mean>
-auto mean_bins(const std::vector<const AnyProfile*>& profiles, Mean mean) {
-  using Bin = typename decltype(AnyProfile::bins)::value_type;
+/// d. Profiles end at the highest grain: where another one goes on their bins are `beyond`, a bin
+/// without grains; one without any bins, of a bed that was not measured so, has none.
+template <class AnyProfile, class Bin, class Mean>
+auto mean_bins(const std::vector<const AnyProfile*>& profiles, const Bin& beyond, Mean mean) {
   using Bins = std::vector<const Bin*>;
+  std::size_t count = 0;
+  for (const AnyProfile* one : profiles) count = std::max(count, one->bins.size());
   std::vector<std::invoke_result_t<Mean, const Bins&, double, double>> means;
-  for (std::size_t k = 0;; ++k) {
+  for (std::size_t k = 0; k < count; ++k) {
     Bins bins;
     double width = 0.0;
     for (const AnyProfile* one : profiles) {
-      if (k < one->bins.size()) bins.push_back(&one->bins[k]), width = one->bin_width;
+      if (one->bins.empty()) continue;
+      bins.push_back(k < one->bins.size() ? &one->bins[k] : &beyond);
+      width = one->bin_width;
     }
-    if (bins.empty()) return means;
     means.push_back(mean(bins, static_cast<double>(k) * width, static_cast<double>(k + 1) * width));
   }
+  return means;
 }
 
-/// The mean of `profile` (profile_y or profile_z) over the settled packings of a group. Where the
-/// profiles differ in length, the bins of those that have them.
+/// The mean of `profile` (profile_y or profile_z) over the settled packings of a group; above the
+/// highest grain of one nothing is solid.
 std::vector<MeanBin> mean_profile(const Group& group, Profile PackingResult::*profile);
 
 /// The file: along x and y, from the walls and along z of each group.

@@ -351,8 +351,9 @@
     const before = pointers.size === 2 ? apart() : 0;
     const now = { x: event.clientX, y: event.clientY };
     pointers.set(event.pointerId, now);
-    if (pointers.size === 2) zoom(apart() / before);
-    else turn((now.x - last.x) / 200, (now.y - last.y) / 200);
+    if (pointers.size === 2) {
+      if (before > 0) zoom(apart() / before);
+    } else turn((now.x - last.x) / 200, (now.y - last.y) / 200);
   });
   for (const end of ["pointerup", "pointercancel"]) {
     canvas.addEventListener(end, (event) => pointers.delete(event.pointerId));

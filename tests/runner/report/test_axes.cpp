@@ -64,6 +64,21 @@ TEST_CASE("tubes lie along the width of others by their diameter, in a series of
   CHECK(place_on(axes, *axes.series[1].groups[1]) == 7.0);
 }
 
+TEST_CASE("lines are fitted over the diameter where all are tubes", "[report]") {
+  std::vector<Row> rows = {row_at("a", 4, 0.0), row_at("b", 7, 0.0)};
+  for (Row& row : rows) {
+    const double diameter = row.job.box.width;
+    row.job.box = tube_of(diameter);
+    row.job.parameters =
+        R"({"shape":"sphere","tube":{"diameter":)" + std::to_string(diameter) + "}}";
+  }
+  const std::vector<Group> groups = groups_of(rows);
+  const Axes axes = axes_of(groups);
+  CHECK(axes.parameter == "tube.diameter");
+  CHECK(is_over_width(axes));
+  CHECK(width_symbol(axes) == "D");
+}
+
 TEST_CASE("a sweep over something else has that along the axis", "[report]") {
   const std::vector<Row> rows = {row_at("a", 6, 0.4), row_at("b", 6, 0.0), row_at("c", 6, 0.2)};
   const std::vector<Group> groups = groups_of(rows);

@@ -205,6 +205,22 @@ TEST_CASE("kinds of contact are drawn for polyhedra", "[report]") {
   CHECK(cell_in(table, 1, "force_triple") == "0.5");
 }
 
+TEST_CASE("series of spheres take no place among the kinds of contact", "[report]") {
+  std::vector<Row> rows;
+  for (int k = 0; k < 14; ++k) {
+    rows.push_back(settled_row("s" + std::to_string(k), 5, 0.6, 6.0));
+    rows.back().job.label = "spheres " + std::to_string(k);
+    rows.back().job.parameters = R"({"box":{"width":5},"kind":"of )" + std::to_string(k) + "\"}";
+  }
+  rows.push_back(polyhedra_row("p", 5));
+  rows.back().job.label = "polyhedra";
+  const std::vector<Figure> figures = figures_of(rows, analyse(rows), {});
+  const Figure& figure = figure_called(figures, "contacts");
+  REQUIRE(cells_of_table(figure.tables.at(0).second).size() == 2);
+  CHECK(cell_in(figure.tables.at(0).second, 1, "series") == "1");
+  CHECK_THAT(figure.caption, !Catch::Contains("are drawn"));
+}
+
 TEST_CASE("each component of a mixture has its curve from wall to wall", "[report]") {
   const std::vector<Row> rows = {mixture_row("a", 4), polyhedra_row("b", 5)};
   const std::vector<Figure> figures = figures_of(rows, analyse(rows), {});

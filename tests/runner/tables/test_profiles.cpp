@@ -47,7 +47,7 @@ TEST_CASE("a bin without grains has a solid fraction but no coordination") {
   CHECK(bins[1].coordination.n == 1);
 }
 
-TEST_CASE("profiles of different length are averaged over those that reach so far") {
+TEST_CASE("nothing is solid above the highest grain of a bed that others are higher than") {
   Row low = settled_row("a", 5, 0.6, 6), high = settled_row("b", 5, 0.6, 6);
   low.outcome->result.profile_z = {1.0, {{0.5, 0, 1, 0, 0, 0}}};
   high.outcome->result.profile_z = {1.0, {{0.75, 0, 1, 0, 0, 0}, {0.25, 0, 1, 0, 0, 0}}};
@@ -57,8 +57,21 @@ TEST_CASE("profiles of different length are averaged over those that reach so fa
   REQUIRE(bins.size() == 2);
   CHECK(bins[0].large.mean == 0.625);
   CHECK(bins[0].large.n == 2);
-  CHECK(bins[1].large.mean == 0.25);
-  CHECK(bins[1].large.n == 1);
+  CHECK(bins[1].large.mean == 0.125);
+  CHECK(bins[1].large.n == 2);
+  CHECK(bins[1].coordination.n == 1);
+}
+
+TEST_CASE("a bed without a profile along an axis takes no part in its mean") {
+  Row without = settled_row("a", 5, 0.6, 6), with = settled_row("b", 5, 0.6, 6);
+  without.outcome->result.profile_z = {};
+  with.outcome->result.profile_z = {1.0, {{0.5, 0, 1, 0, 0, 0}}};
+  const std::vector<Row> rows = {without, with};
+  const auto groups = groups_of(rows);
+  const auto bins = mean_profile(groups.at(0), &PackingResult::profile_z);
+  REQUIRE(bins.size() == 1);
+  CHECK(bins[0].large.mean == 0.5);
+  CHECK(bins[0].large.n == 1);
 }
 
 TEST_CASE("the table has a row per bin, axis and group, and unsettled packings leave no row") {
