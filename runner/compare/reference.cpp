@@ -4,9 +4,11 @@
 
 #include <nlohmann/json.hpp>
 
+#include "engine/dynamics/presets.hpp"
 #include "runner/compare/quantities.hpp"
 #include "runner/exit_codes.hpp"
 #include "runner/store/files.hpp"
+#include "runner/sweep/parameters.hpp"
 #include "runner/sweep/suggest.hpp"
 #include "runner/tables/csv.hpp"
 
@@ -85,13 +87,66 @@ std::string plain(const json& value) {
   return value.is_number() ? json(value.get<double>()).dump() : value.dump();
 }
 
+/// The parameter that `path` is or lies in: a number of a list is written "gap_tolerances.0".
+const Parameter* parameter_at(std::string path) {
+  while (true) {
+    if (const auto index = find_parameter(path)) return &parameters()[*index];
+    const std::size_t dot = path.rfind('.');
+    if (dot == std::string::npos) return nullptr;
+    path.resize(dot);
+  }
+}
+
+void expect_one_of(std::vector<std::string> names, const json& value) {
+  const bool is_known = value.is_string() && std::find(names.begin(), names.end(),
+                                                       value.get<std::string>()) != names.end();
+  if (is_known) return;
+  const std::string near = value.is_string() ? nearest(value.get<std::string>(), names) : "";
+  throw BadInput(
+      "is " + value.dump() +
+      (near.empty() ? ", not one of: " + comma_list(names) : "; did you mean \"" + near + "\"?"));
+}
+
+/// Throws BadInput unless packings can have this value of this parameter.
+void check_distinction(const std::string& path, const json& value) {
+  if (path == "accuracy" || path == "accuracy.preset") {
+    std::vector<std::string> names = {"custom"};
+    for (const Preset& preset : presets()) names.emplace_back(preset.name);
+    return expect_one_of(names, value);
+  }
+  if (path == "seed") throw BadInput("families are not told apart by their seed; leave it out");
+  if (value.is_object()) {
+    throw BadInput("give each part by its dotted name, as \"sizes.small_share\"");
+  }
+  const Parameter* const parameter = parameter_at(path);
+  if (parameter == nullptr) {
+    std::vector<std::string> known = {"accuracy"};
+    for (const Parameter& one : parameters()) known.push_back(one.path);
+    throw BadInput(unknown_key(path, known));
+  }
+  std::vector<std::string> names = parameter->choices;
+  if (path == "shape") names.emplace_back("mixture");
+  if (!names.empty()) return expect_one_of(names, value);
+  const bool is_number = parameter->kind == ValueKind::number ||
+                         parameter->kind == ValueKind::whole ||
+                         parameter->kind == ValueKind::natural;
+  if (is_number && !value.is_number()) throw BadInput("must be a number, is " + value.dump());
+}
+
 PublishedFamily read_family(const json& from) {
   expect_keys(from, {"where", "values"});
   if (!from.contains("where") || !from["where"].is_object()) {
     throw BadInput("needs \"where\", an object with what the parameters of the family are");
   }
   PublishedFamily family{.where = {}, .values = read_list(from, "values", read_published)};
-  for (const auto& [path, value] : from.at("where").items()) family.where[path] = plain(value);
+  for (const auto& [path, value] : from.at("where").items()) {
+    try {
+      check_distinction(path, value);
+    } catch (const BadInput& error) {
+      throw BadInput("/where/" + path + ": " + error.what());
+    }
+    family.where[path] = plain(value);
+  }
   return family;
 }
 

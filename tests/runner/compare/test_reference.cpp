@@ -41,6 +41,29 @@ TEST_CASE("values, ranges, errors and words are read and printed as they were pu
   CHECK(value_of(R"("quantity": "C")").text == "-");
 }
 
+TEST_CASE("what no packing can be is refused where families are told apart") {
+  const auto told = [](const std::string& where) -> std::string {
+    try {
+      reference_of(R"({"source": "S", "families": [{"where": {)" + where + R"(}, "values": []}]})");
+    } catch (const BadInput& error) {
+      return error.what();
+    }
+    return "";
+  };
+  CHECK_THAT(told(R"("shpe": "sphere")"),
+             Catch::Contains("/families/0: /where/shpe: ") && Catch::Contains("mean \"shape\""));
+  CHECK_THAT(told(R"("shape": "spher")"), Catch::Contains("did you mean \"sphere\"?"));
+  CHECK_THAT(told(R"("sizes.small_shar": 0)"), Catch::Contains("mean \"sizes.small_share\""));
+  CHECK_THAT(told(R"("sizes": {"small_share": 0})"), Catch::Contains("by its dotted name"));
+  CHECK_THAT(told(R"("box.length": "4")"), Catch::Contains("must be a number, is \"4\""));
+  CHECK_THAT(told(R"("box.y": "wals")"), Catch::Contains("did you mean \"walls\"?"));
+  CHECK_THAT(told(R"("accuracy": "medium")"), Catch::Contains("not one of: custom, fast"));
+  CHECK_THAT(told(R"("seed": 8)"), Catch::Contains("not told apart by their seed"));
+  CHECK(told(R"("shape": "mixture", "accuracy.preset": "fast", "measure.gap_tolerances.0": 1e-4,
+                "shape.pinacoid.height": 1, "box.y": "walls")")
+            .empty());
+}
+
 TEST_CASE("what is wrong in a file of published values is told with its place") {
   const auto told = [](const std::string& text) -> std::string {
     try {
