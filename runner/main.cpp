@@ -13,8 +13,10 @@
 namespace grainsweep {
 namespace {
 
-int perform_and_print(const Command& command) {
-  const int code = std::visit([](const auto& options) { return perform(options); }, command);
+int perform_and_print(const CommandLine& line) {
+  const int code =
+      line.command ? std::visit([](const auto& options) { return perform(options); }, *line.command)
+                   : line.exit_code;
   if (!std::cout.flush()) throw FileError("standard output", "not everything could be written");
   return code;
 }
@@ -32,8 +34,7 @@ int main(int argc, char** argv) {
   try {
     ensure_std_descriptors();
     ignore_file_size_signal();
-    const CommandLine line = read_command_line(argc, argv);
-    return line.command ? perform_and_print(*line.command) : line.exit_code;
+    return perform_and_print(read_command_line(argc, argv));
   } catch (const BadInput& error) {
     return refuse(error, exit_bad_input);
   } catch (const FolderBusy& error) {

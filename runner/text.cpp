@@ -58,6 +58,10 @@ std::string shell_word(const std::string& word) {
   return quoted + "'";
 }
 
+std::string shell_path(const std::string& path) {
+  return shell_word((path.starts_with('-') ? "./" : "") + path);
+}
+
 std::string duration_text(double seconds) {
   const long whole = std::lround(std::max(0.0, seconds));
   if (seconds < 9.95) return fixed(seconds, 2) + " s";

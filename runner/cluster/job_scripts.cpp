@@ -42,8 +42,8 @@ std::string directives(const ClusterRun& run, const std::string& log) {
 }
 
 std::string command(const ClusterRun& run) {
-  return shell_word(run.program) + " run " + shell_word(run.file) + " --out " +
-         shell_word(run.folder) + " --threads " + std::to_string(run.division.threads) + " --quiet";
+  return shell_word(run.program) + " run " + shell_path(run.file) + " --out " +
+         shell_path(run.folder) + " --threads " + std::to_string(run.division.threads) + " --quiet";
 }
 
 }  // namespace

@@ -71,7 +71,7 @@ int perform(const InitOptions& options) {
   replace_file(schema_file, sweep_schema());
   replace_file(file, first_sweep(name));
   std::cout << "Written: " << file << ", and " << schema_file << " for completion in editors.\n"
-            << "Next: " << called_as() << " plan " << shell_word(file) << "\n";
+            << "Next: " << called_as() << " plan " << shell_path(file) << "\n";
   return exit_done;
 }
 

@@ -9,6 +9,7 @@
 
 #include "runner/commands/commands.hpp"
 #include "runner/commands/inputs.hpp"
+#include "runner/commands/results.hpp"
 #include "runner/commands/shared_options.hpp"
 #include "runner/exit_codes.hpp"
 #include "runner/jobs/estimates.hpp"
@@ -17,6 +18,7 @@
 #include "runner/jobs/sweep_parts.hpp"
 #include "runner/machine.hpp"
 #include "runner/store/journal.hpp"
+#include "runner/store/shard.hpp"
 #include "runner/sweep/costs.hpp"
 #include "runner/tables/chosen_presets.hpp"
 #include "runner/tables/csv.hpp"
@@ -49,10 +51,14 @@ std::vector<PlannedGroup> planned_groups(const Sweep& sweep, const std::vector<C
   return groups;
 }
 
-/// What is stored in a folder, if one is given, in as much detail as the sweep needs.
+/// What is stored in a folder, if one is given, in as much detail as the sweep needs. Warns of what
+/// is damaged, which a run makes anew.
 Outcomes made_in(const std::string& folder, const Sweep& whole) {
   if (folder.empty()) return {};
-  return read_journals(folder, grows(whole) ? Detail::whole : Detail::summary).outcomes;
+  JournalReading stored = read_journals(folder, grows(whole) ? Detail::whole : Detail::summary);
+  std::cerr << damage_warnings(stored.damage)
+            << damage_warnings(expect_beds(folder, stored.outcomes));
+  return std::move(stored.outcomes);
 }
 
 /// Estimates, corrected by what packings that are made took.
@@ -267,7 +273,7 @@ CLI::App& add_command(CLI::App& app, PlanOptions& options) {
       ->type_name("DIR");
   add_threads(plan, options.threads);
   plan.add_option("--shards", options.shards, "how evenly so many shards divide it")
-      ->check(CLI::Range(1, 1000000))
+      ->check(CLI::Range(1, most_shards))
       ->type_name("N");
   plan.add_flag("--json", options.json, "every packing, as JSON");
   plan.footer("Example: grainsweep plan configs/confined-spheres.json --threads 8");

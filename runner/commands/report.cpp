@@ -1,4 +1,4 @@
-// The command `report`: closing table and page again.
+// The command `report`: closing table, tables and page again.
 #include <iostream>
 
 #include <CLI/App.hpp>
@@ -13,10 +13,23 @@
 #include "runner/tables/closing_report.hpp"
 
 namespace grainsweep {
+namespace {
+
+/// A run at work writes them itself.
+void write_new_tables(const std::string& folder, const Results& results, const Analysis& analysis) {
+  try {
+    write_tables(folder, results.provenance, results.rows, analysis);
+  } catch (const FileError& error) {
+    std::cerr << "warning: there are no new tables: " << error.what() << "\n";
+  }
+}
+
+}  // namespace
 
 CLI::App& add_command(CLI::App& app, ReportOptions& options) {
   CLI::App& report = *app.add_subcommand(
-      "report", "Print the closing table of a run again, and write its page, report.html");
+      "report",
+      "Print the closing table of a run again, and write its tables and page, report.html");
   add_folder(report, options.folder);
   report.footer("Example: grainsweep report out/quick");
   return report;
@@ -26,10 +39,11 @@ int perform(const ReportOptions& options) {
   Results results = results_with_warnings(options.folder);
   std::cerr << damage_warnings(check_beds(options.folder, results.rows));
   const Analysis analysis = analyse(results.rows, options.folder);
-  std::cout << closing_report(
-                   results.provenance, results.rows, analysis.families,
-                   {called_as(), options.folder, has_grains(options.folder, results.rows),
-                    is_worked_on(options.folder, results.last_runs)})
+  const bool is_at_work = is_worked_on(options.folder, results.last_runs);
+  if (!is_at_work) write_new_tables(options.folder, results, analysis);
+  std::cout << closing_report(results.provenance, results.rows, analysis.families,
+                              {called_as(), options.folder,
+                               has_grains(options.folder, results.rows), is_at_work})
             << std::flush;
   try {
     std::cout << write_page(options.folder, results.provenance, results.rows, analysis);

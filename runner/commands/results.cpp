@@ -84,6 +84,22 @@ std::vector<std::string> use_beds(std::vector<Row>& rows, Use use) {
   return damage;
 }
 
+/// Throws FileError where a stored bed is not there with the size that it had. Asks for the size of
+/// each file once.
+class ExpectBed {
+ public:
+  explicit ExpectBed(std::string folder) : folder_(std::move(folder)) {}
+  void operator()(const Outcome& outcome) {
+    const auto [size, is_new] = sizes_.try_emplace(outcome.shard);
+    if (is_new) size->second = file_size(beds_path(folder_, outcome.shard));
+    expect_bed(folder_, outcome, size->second);
+  }
+
+ private:
+  std::string folder_;
+  std::map<std::string, std::optional<std::int64_t>> sizes_;  // by shard
+};
+
 void write_packings(const std::string& folder, const std::vector<Row>& rows,
                     const std::vector<Group>& groups, const GivenUnits& units) {
   Replacement file(folder + "/packings.csv");
@@ -178,12 +194,26 @@ std::vector<std::string> check_beds(const std::string& folder, std::vector<Row>&
 }
 
 std::vector<std::string> expect_beds(const std::string& folder, std::vector<Row>& rows) {
-  std::map<std::string, std::optional<std::int64_t>> sizes;  // by shard
-  return use_beds(rows, [&](const Outcome& outcome) {
-    const auto [size, is_new] = sizes.try_emplace(outcome.shard);
-    if (is_new) size->second = file_size(beds_path(folder, outcome.shard));
-    expect_bed(folder, outcome, size->second);
+  ExpectBed expect(folder);
+  return use_beds(rows, [&](const Outcome& outcome) { expect(outcome); });
+}
+
+std::vector<std::string> expect_beds(const std::string& folder, Outcomes& outcomes) {
+  ExpectBed expect(folder);
+  std::vector<std::string> damage;
+  std::erase_if(outcomes, [&](const auto& of_job) {
+    const Outcome& outcome = *of_job.second;
+    if (outcome.stored_bytes == 0) return false;
+    try {
+      expect(outcome);
+      return false;
+    } catch (const FileError& error) {
+      damage.emplace_back(error.what());
+      return true;
+    }
   });
+  std::sort(damage.begin(), damage.end());  // outcomes have no order
+  return damage;
 }
 
 void write_tables(const std::string& folder, const Provenance& provenance,

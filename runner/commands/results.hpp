@@ -67,6 +67,9 @@ std::vector<std::string> check_beds(const std::string& folder, std::vector<Row>&
 /// second. A flipped bit is not seen.
 std::vector<std::string> expect_beds(const std::string& folder, std::vector<Row>& rows);
 
+/// The same of outcomes, of which those without a sound bed are removed.
+std::vector<std::string> expect_beds(const std::string& folder, Outcomes& outcomes);
+
 /// Replaces report.html and its figures, made of rows whose beds were checked; prints as notes what
 /// is missing from it. Returns a line that says where it is. Throws FileError.
 std::string write_page(const std::string& folder, const Provenance& provenance,

@@ -250,7 +250,7 @@ Made help(const Sweep& sweep, const Shard& shard, const std::string& folder, Sha
 /// failed packings are still to be made again.
 std::string repeated(const RunOptions& options, const std::string& folder, bool retries) {
   std::ostringstream text;
-  text << shell_word(options.file) << " --out " << shell_word(folder);
+  text << shell_path(options.file) << " --out " << shell_path(folder);
   if (options.threads > 0) text << " --threads " << options.threads;
   if (!options.isa.empty()) text << " --isa " << options.isa;
   if (options.checkpoint_seconds != RunOptions{}.checkpoint_seconds) {
@@ -334,7 +334,7 @@ void write_results(Results& results, const RunOptions& options, const std::strin
 void tell_of_old_page(const std::string& folder) {
   if (!file_exists(folder + "/report.html")) return;
   std::cerr << "note: " << folder << "/report.html is of an earlier run; " << called_as()
-            << " report " << shell_word(folder) << " writes it anew\n";
+            << " report " << shell_path(folder) << " writes it anew\n";
 }
 
 /// Where other shards are not ready.
@@ -345,7 +345,7 @@ void tell_of_others(const std::vector<Row>& rows, const Shard& shard, const std:
             << rows.size() - pending << " of " << counted(rows.size(), "packing")
             << (rows.size() == 1 ? " is in " : " are in ") << folder
             << ". The last shard writes the tables, or: " << called_as() << " run "
-            << shell_word(options.file) << " --out " << shell_word(folder) << "\n";
+            << shell_path(options.file) << " --out " << shell_path(folder) << "\n";
 }
 
 std::string presets_text() {
@@ -368,6 +368,7 @@ CLI::App& add_command(CLI::App& app, RunOptions& options) {
   add_threads(run, options.threads);
   run.add_option("--isa", options.isa,
                  "sse2, avx2 or avx512 (default: GRAINSWEEP_ISA, else the widest)")
+      ->check(not_empty())
       ->type_name("NAME");
   run.add_option("--checkpoint-seconds", options.checkpoint_seconds,
                  "save packings under way this often; stopping always saves them")

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <optional>
 #include <string_view>
@@ -85,6 +86,8 @@ std::string listed(const Rows& rows) {
   std::string text;
   for (const TaskVariables& names : rows) {
     text += std::string("\n  ") + names.engine + ": " + names.number;
+    const bool is_variable = names.first != nullptr && std::isalpha(names.first[0]) != 0;
+    if (is_variable) text += std::string(", ") + names.first;
     if (names.count != nullptr) text += std::string(" and ") + names.count;
     if (names.last != nullptr) text += std::string(" and ") + names.last;
   }
@@ -95,7 +98,7 @@ std::string listed(const Rows& rows) {
 Shard shard_of_task(const Environment& environment, std::optional<int> given) {
   const auto element = first_task(arrays, environment), rank = first_task(ranks, environment);
   if (!element && !rank) {
-    throw BadInput("--shard auto: no variable tells which task this is; looked for" +
+    throw BadInput("--shard auto: no numbers in variables tell which task this is; looked for" +
                    listed(arrays) + listed(ranks) + "\ngive the shard itself, --shard 3/64");
   }
   if (element && !element->count && !given) {
@@ -126,9 +129,13 @@ Shard shard_from_option(const std::string& text, const Environment& environment)
   const std::string_view automatic = "auto/";
   if (text.starts_with(automatic)) {
     const auto count = integer_in(std::string_view(text).substr(automatic.size()));
-    if (count && *count >= 1) return shard_of_task(environment, count);
+    if (count && *count >= 1 && *count <= most_shards) return shard_of_task(environment, count);
   }
   const auto shard = shard_from_text(text);
+  if (shard && shard->count > most_shards) {
+    throw BadInput("--shard " + text + ": a sweep has " + std::to_string(most_shards) +
+                   " shards at most");
+  }
   if (!shard) {
     throw BadInput("--shard " + text +
                    ": give its number and how many there are, --shard 3/64, or --shard auto");

@@ -77,8 +77,8 @@ std::string small_note(const std::vector<Cost>& most, const SlurmOptions& option
   const double seconds = estimate_wall(most, usable_cores());
   if (seconds > 3600.0) return "";
   return "note: this machine makes it in about " + duration_text(seconds) +
-         ", no cluster is needed: " + called_as() + " run " + shell_word(options.file) + " --out " +
-         shell_word(folder) + "\n";
+         ", no cluster is needed: " + called_as() + " run " + shell_path(options.file) + " --out " +
+         shell_path(folder) + "\n";
 }
 
 /// Submits the shards. Scripts that are refused do not stay: they would look as if they wait.
@@ -114,7 +114,7 @@ void submit_scripts(const ClusterRun& run, const std::string& folder) {
   const std::string rest = submit_rest(scripts, array);
   std::cout << "Submitted job " << rest << ", which follows: the rest, tables and page\n"
             << "Scripts and logs are in " << scripts_folder(folder)
-            << ". How far it is: " << called_as() << " status " << shell_word(folder)
+            << ". How far it is: " << called_as() << " status " << shell_path(folder)
             << "; to end it: scancel " << array << " " << rest << "\n";
 }
 
@@ -133,7 +133,7 @@ CLI::App& add_command(CLI::App& app, SlurmOptions& options) {
   slurm.add_option("--partition", options.partition, "of the cluster (default: its default)")
       ->type_name("NAME");
   slurm.add_option("--shards", options.shards, "how many (default: of 10 to 60 min a node)")
-      ->check(CLI::Range(1, 1000000))
+      ->check(CLI::Range(1, most_shards))
       ->type_name("N");
   slurm.add_option("--threads", options.threads, "cores of a shard (default: all of a node)")
       ->check(CLI::Range(1, 1024))

@@ -149,8 +149,8 @@ void print_status(const Standing& standing) {
               << " to an earlier form of the sweep\n";
   }
   if (is_idle(standing) && !is_done && !sweep_file.empty()) {
-    std::cout << "Go on with: " << called_as() << " run " << shell_word(sweep_file) << " --out "
-              << shell_word(standing.folder) << "\n";
+    std::cout << "Go on with: " << called_as() << " run " << shell_path(sweep_file) << " --out "
+              << shell_path(standing.folder) << "\n";
   }
 }
 

@@ -13,6 +13,9 @@
 
 namespace grainsweep {
 
+/// What is made for every shard stays small beside the packings.
+inline constexpr int most_shards = 1'000'000;
+
 struct Shard {
   int number = 1;  ///< 1 .. count
   int count = 1;

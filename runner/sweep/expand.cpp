@@ -256,7 +256,7 @@ class Expansion {
     const Assignment *diameter = in_effect[diameter_], *file = in_effect[file_];
     const Assignment* const files = in_effect[files_];
     if (file == nullptr && files == nullptr) {
-      if (diameter != nullptr)
+      if (diameter != nullptr && !is_told_of("/fill/file"))
         note(*diameter, "belongs to fill.file or fill.files; neither is set");
       return {{resolved.spec.fill}};
     }
@@ -457,6 +457,14 @@ class Expansion {
                               Anchor::value, has_no_line ? "" : error.place});
     }
     return reading;
+  }
+
+  /// Whether something is told of a value whose place begins like this in its block: one that could
+  /// not be read is not in effect.
+  bool is_told_of(std::string_view place) const {
+    return std::any_of(diagnostics_.begin(), diagnostics_.end(), [&](const Diagnostic& told) {
+      return told.pointer.find(place) != std::string::npos;
+    });
   }
 
   void note(const Assignment& assignment, const std::string& message) {

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 #include <optional>
 #include <string_view>
+#include <tuple>
 
 #include "runner/sweep/identity.hpp"
 #include "runner/sweep/suggest.hpp"
@@ -92,6 +94,29 @@ std::string read_grain(const LineCells& cells, const Columns& columns, std::size
   return "";
 }
 
+/// Lines of grains that begin where another does, and would stay there: no direction parts them.
+void note_shared_places(const std::string& file, GrainsReading& reading) {
+  std::vector<std::size_t> order(reading.grains.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto place = [&](std::size_t grain) {
+    const PlacedSphere& at = reading.grains[grain];
+    return std::tuple(at.x, at.y, at.z, grain);
+  };
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return place(a) < place(b); });
+  const auto shares = [&](std::size_t a, std::size_t b) {
+    const PlacedSphere &at = reading.grains[a], &other = reading.grains[b];
+    return at.x == other.x && at.y == other.y && at.z == other.z;
+  };
+  for (std::size_t k = 1; k < order.size() && reading.errors.size() < most_wrong_lines; ++k) {
+    if (!shares(order[k - 1], order[k])) continue;
+    constexpr std::size_t first_line = 2;  // below the names of the columns
+    note_wrong_line(reading.errors, file, order[k] + first_line,
+                    "has the place of line " + std::to_string(order[k - 1] + first_line) +
+                        "; two grains cannot begin in one");
+  }
+}
+
 }  // namespace
 
 GrainsReading parse_grains(const std::string& text, const std::string& file) {
@@ -112,6 +137,7 @@ GrainsReading parse_grains(const std::string& text, const std::string& file) {
     error = read_grain(cells_of(lines[i]), *columns, header.size(), reading);
     if (!error.empty()) note_wrong_line(reading.errors, file, i + 1, error);
   }
+  if (reading.errors.empty()) note_shared_places(file, reading);
   return reading;
 }
 

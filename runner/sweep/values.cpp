@@ -74,9 +74,10 @@ ValueReading read_text(const Parameter& parameter, const Json& value) {
 }
 
 ValueReading read_texts(const Parameter& parameter, const Json& value) {
-  if (!value.is_array() || value.empty() ||
-      !std::all_of(value.begin(), value.end(), is_written_text)) {
-    return mismatch(parameter, value);
+  if (!value.is_array() || value.empty()) return mismatch(parameter, value);
+  const auto other = std::find_if_not(value.begin(), value.end(), is_written_text);
+  if (other != value.end()) {
+    return {{}, "must be " + wanted_value(parameter) + ", holds " + describe(*other)};
   }
   return fits(value.get<std::vector<std::string>>());
 }

@@ -42,6 +42,10 @@ code=0; "${run[@]}" closed >&- 2>said.txt || code=$?
 [ "$code" -eq 4 ] || fail "closed standard output: ended with $code"
 expect_text said.txt "standard output: not everything could be written"
 same_as_reference closed "closed standard output"
+for said in --help "run --help" help --version; do
+  code=0; "$program" $said >/dev/full 2>said.txt || code=$?
+  [ $code -eq 4 ] || fail "$said on a full disk ended with $code"
+done
 code=0; "${run[@]}" full >/dev/full 2>said.txt || code=$?
 [ "$code" -eq 4 ] || fail "full standard output: ended with $code"
 same_as_reference full "full standard output"

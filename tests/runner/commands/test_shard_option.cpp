@@ -31,6 +31,14 @@ TEST_CASE("a shard is given by number and count; without the option it is the wh
   }
 }
 
+TEST_CASE("a sweep has a million shards at most") {
+  CHECK(shard_from_option("7/1000000", environment_of({})) == Shard{7, 1000000});
+  for (const char* text : {"1/1000001", "auto/1000001"}) {
+    CHECK_THROWS_WITH(shard_from_option(text, environment_of({})),
+                      Contains(std::string("--shard ") + text));
+  }
+}
+
 TEST_CASE("every engine's tasks are shards from 1 on") {
   CHECK(automatic({{"SLURM_ARRAY_TASK_ID", "14"},
                    {"SLURM_ARRAY_TASK_MIN", "10"},
@@ -89,11 +97,12 @@ TEST_CASE("mpirun counts, not the allocation it runs in; a script of a batch job
 }
 
 TEST_CASE("without any such variable the error lists what was looked for") {
-  CHECK_THROWS_WITH(automatic({{"SGE_TASK_ID", "undefined"}, {"SGE_TASK_FIRST", "undefined"}}),
-                    Contains("SLURM_ARRAY_TASK_ID") && Contains("SGE_TASK_ID") &&
-                        Contains("PBS_ARRAY_INDEX") && Contains("HQ_TASK_ID") &&
-                        Contains("OMPI_COMM_WORLD_RANK") && Contains("PMI_RANK") &&
-                        Contains("FLUX_TASK_RANK") && Contains("--shard 3/64"));
+  CHECK_THROWS_WITH(
+      automatic({{"SGE_TASK_ID", "undefined"}, {"SGE_TASK_FIRST", "undefined"}}),
+      Contains("SLURM_ARRAY_TASK_ID, SLURM_ARRAY_TASK_MIN and SLURM_ARRAY_TASK_COUNT") &&
+          Contains("SGE_TASK_ID") && Contains("PBS_ARRAY_INDEX") && Contains("HQ_TASK_ID") &&
+          Contains("OMPI_COMM_WORLD_RANK") && Contains("PMI_RANK") && Contains("FLUX_TASK_RANK") &&
+          Contains("--shard 3/64"));
 }
 
 TEST_CASE("an array with gaps is refused") {

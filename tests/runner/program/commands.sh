@@ -51,8 +51,14 @@ expect_text out/small/provenance.json "run small.json" '"processor": "' '"commit
 [ "$(wc -l <out/small/fits.csv)" -eq 3 ] || fail "fits.csv has not 2 rows"
 [ -z "$(find out -name '*.tmp.*')" ] || fail "temporary files are left"
 
+cp -r out/small before
+rm out/small/*.csv # as after a hard kill
 expect_code 0 env PATH="$here/no-programs" "$program" report out/small
 cmp out.txt report.txt || fail "report prints another table than run"
+for table in before/*.csv; do
+  cmp "$table" "out/small/${table##*/}" || fail "report writes another table than run"
+done
+rm -r before
 [ "$(grep -c gnuplot error.txt)" -eq 1 ] || fail "not told once: $(cat error.txt)"
 expect_text out/small/report.html "for want of gnuplot" "</html>"
 rm out/small/report.html && mkdir -p out/small/report.html/in-the-way

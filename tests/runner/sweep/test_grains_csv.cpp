@@ -31,6 +31,13 @@ TEST_CASE("grains are read by column name, in any order, past other columns") {
   CHECK(reading.grains[1].radius == 0.25);
 }
 
+TEST_CASE("grains that begin in one place are refused with their lines") {
+  CHECK(errors_of_grains("x,y,z,r\n1,2,3,0.5\n4,5,6,0.5\n1,2,3,0.4\n1.0,2,3,0.5\n") ==
+        Messages{"b.csv:4: has the place of line 2; two grains cannot begin in one",
+                 "b.csv:5: has the place of line 4; two grains cannot begin in one"});
+  CHECK(errors_of_grains("x,y,z,r\n1,2,3,0.5\n1,2,3.0001,0.5\n").empty());
+}
+
 TEST_CASE("an exported bed, whose radii are called radius, can be read") {
   const GrainsReading reading =
       parse_grains("x,y,z,radius,force,coordination\n1,2,3,0.5,7,6\n", "f");
@@ -59,7 +66,7 @@ TEST_CASE("columns of an orientation are there all or not at all, and hold numbe
 
 TEST_CASE("components are read from 1 where the first line names their column") {
   const GrainsReading reading =
-      parse_grains("component,x,y,z,r\n1,1,2,3,1\n16,1,2,3,1\n17,1,2,3,1\nsand,1,2,3,1\n", "f");
+      parse_grains("component,x,y,z,r\n1,1,2,3,1\n16,1,2,4,1\n17,1,2,5,1\nsand,1,2,6,1\n", "f");
   REQUIRE(reading.errors.empty());
   CHECK(reading.components == std::vector<std::uint8_t>{0, 15, no_component, no_component});
   CHECK(parse_grains("x,y,z,r\n1,2,3,4\n", "f").components.empty());

@@ -221,7 +221,7 @@ TEST_CASE("a value of the wrong type is refused with what was wanted and what wa
   CHECK(error_of("fill.file", "") ==
         "must be the name of a file in double quotes, is the text \"\"");
   CHECK(error_of("fill.files", Json::array({"a", ""})) ==
-        "must be a list of names of files in double quotes, is a list");
+        "must be a list of names of files in double quotes, holds the text \"\"");
   CHECK(error_of("measure.gap_tolerances", 1e-4) == "must be a list of numbers, is 0.0001");
   CHECK(error_of("measure.gap_tolerances", Json::array({"a"})) ==
         "must be a list of numbers, holds the text \"a\"");
