@@ -273,20 +273,18 @@ std::string bias_text(const std::vector<Family>& families) {
   return "Protocol: means of beds settled ever better lie within " + *bounds.begin() + ".\n";
 }
 
-/// Groups whose measured slab holds a tenth more or less of small grains than their beds: small
-/// grains that fit through the gaps of large ones sink to the floor.
-std::string percolation_text(const std::vector<Family>& families) {
-  constexpr double allowed = 0.1;
+/// "  walls, W = 5: 0.050": a line for each group of which `tell` has something to say, the first
+/// few of them.
+template <class Tell>
+std::string lines_of_groups(const std::vector<Family>& families, Tell tell) {
   constexpr int groups_shown = 5;
   std::string text;
   int count = 0;
   const auto add = [&](const Group& group) {
-    const double all = mean_of(group, "bed_small_share").mean;
-    const double slab = mean_of(group, "slab_small_share").mean;
-    if (!(std::abs(slab - all) > allowed * all) || ++count > groups_shown) return;
+    const std::string told = tell(group);
+    if (told.empty() || ++count > groups_shown) return;
     text += "  " + group.family_name + (group.job.box.is_tube ? ", D = " : ", W = ") +
-            width_text(cell(group.job.box.width), group.job.box.y) + ": " + fixed(slab, 3) +
-            " of the solid volume, in the whole bed " + fixed(all, 3) + "\n";
+            width_text(cell(group.job.box.width), group.job.box.y) + ": " + told + "\n";
   };
   for (const Family& family : families) {
     for (const Group& group : family.walled) add(group);
@@ -295,6 +293,37 @@ std::string percolation_text(const std::vector<Family>& families) {
   if (count > groups_shown) {
     text += "  and " + std::to_string(count - groups_shown) + " more, see groups.csv\n";
   }
+  return text;
+}
+
+/// Whether a share of small grains is a tenth more or less than another.
+bool differs(double share, double from) { return std::abs(share - from) > 0.1 * from; }
+
+/// Groups whose beds have another share of small grains than was asked for: none, where a whole
+/// grain is more than the share.
+std::string small_share_text(const std::vector<Family>& families) {
+  const std::string text = lines_of_groups(families, [](const Group& group) -> std::string {
+    const double all = mean_of(group, "bed_small_share").mean, asked = group.job.small_share;
+    return differs(all, asked) ? fixed(all, 4) + " of the solid volume, asked for " + cell(asked)
+                               : "";
+  });
+  return text.empty() ? ""
+                      : "\nWarning: beds hold another share of small grains, told apart by size, "
+                        "than was asked for. More\ngrains come nearer to a small share; sizes "
+                        "that nearly agree cannot be told apart:\n" +
+                            text;
+}
+
+/// Groups whose measured slab holds a tenth more or less of small grains than their beds: small
+/// grains that fit through the gaps of large ones sink to the floor.
+std::string percolation_text(const std::vector<Family>& families) {
+  const std::string text = lines_of_groups(families, [](const Group& group) -> std::string {
+    const double all = mean_of(group, "bed_small_share").mean;
+    const double slab = mean_of(group, "slab_small_share").mean;
+    return differs(slab, all)
+               ? fixed(slab, 3) + " of the solid volume, in the whole bed " + fixed(all, 3)
+               : "";
+  });
   return text.empty() ? ""
                       : "\nWarning: small grains are not where they were asked for; φ and Z are of "
                         "the slab, which holds\n" +
@@ -353,8 +382,8 @@ std::string effort_text(const Provenance& provenance, double cpu_seconds) {
 
 std::string next_text(const std::string& sweep_file, const StatusCounts& counts,
                       const ReportPlace& place) {
-  const std::string folder = shell_word(place.folder);
-  const std::string file = sweep_file.empty() ? "FILE" : shell_word(sweep_file);
+  const std::string folder = shell_path(place.folder);
+  const std::string file = sweep_file.empty() ? "FILE" : shell_path(sweep_file);
   if (counts.pending > 0 && place.is_worked_on) {
     return "A runner makes what is missing: " + place.program + " status " + folder +
            " tells how far it is\n";
@@ -388,9 +417,9 @@ std::string closing_report(const Provenance& provenance, const std::vector<Row>&
   std::string text = headline(provenance.sweep_name, rows.size(), totals.counts);
   return text + tables_text(families, provenance.units) +
          laboratory_text(families, provenance.units) + definitions_text(rows) +
-         bias_text(families) + percolation_text(families) +
+         bias_text(families) + small_share_text(families) + percolation_text(families) +
          reasons_text(rows, PackingNames(families)) + effort_text(provenance, totals.cpu_seconds) +
-         "Tables in " + place.folder +
+         (place.is_worked_on ? "Tables come when the run ends, in " : "Tables in ") + place.folder +
          ": packings.csv, groups.csv, fits.csv, profiles.csv, decays.csv and more;\n"
          "provenance.json says how they were made\n" +
          next_text(sweep_file_of(provenance), totals.counts, place);

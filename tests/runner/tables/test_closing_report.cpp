@@ -290,7 +290,7 @@ TEST_CASE("small grains that sank out of the slab are warned of, a few in a hund
   const auto text_of = [](double slab_share) {
     std::vector<Row> rows = {settled_row("a", 5, 0.6, 6), settled_row("b", 5, 0.6, 6)};
     for (Row& row : rows) {
-      row.job.small_share = 0.25;  // told by size the bed has less
+      row.job.small_share = 0.21;  // told by size the bed has less
       row.outcome->result.small_share = slab_share;
       row.outcome->result.small_share_of_bed = 0.2;
     }
@@ -301,6 +301,23 @@ TEST_CASE("small grains that sank out of the slab are warned of, a few in a hund
                                                 "bed 0.200\n"));
   CHECK_THAT(text_of(0.23), Catch::Contains("0.230 of the solid volume"));
   CHECK_THAT(text_of(0.19), !Catch::Contains("Warning"));
+}
+
+TEST_CASE("beds that do not hold the share of small grains that was asked for are warned of") {
+  const auto text_of = [](double share_of_bed) {
+    std::vector<Row> rows = {settled_row("a", 5, 0.6, 6), settled_row("b", 5, 0.6, 6)};
+    for (Row& row : rows) {
+      row.job.small_share = 0.01;
+      row.outcome->result.small_share = share_of_bed;
+      row.outcome->result.small_share_of_bed = share_of_bed;
+    }
+    return report_of(reported_provenance(), rows, "out/a");
+  };
+  CHECK_THAT(text_of(0.0),
+             Catch::Contains("Warning: beds hold another share of small grains") &&
+                 Catch::Contains(", W = 5: 0.0000 of the solid volume, asked for 0.01\n"));
+  CHECK_THAT(text_of(0.0112), Catch::Contains("0.0112 of the solid volume"));
+  CHECK_THAT(text_of(0.0095), !Catch::Contains("Warning"));
 }
 
 TEST_CASE("the closing table of any sweep has a line per group, told apart, on 100 columns") {
