@@ -14,7 +14,7 @@ readonly build_packages=(
 readonly check_packages=(
   clang-format clang-tidy clang libclang-rt-14-dev strace python3 python3-jsonschema
   python3-pandas python3-matplotlib python3-ase lammps gmsh chromium lintian dpkg-dev parallel snakemake
-  slurmctld slurmd slurm-client munge
+  slurmctld slurmd slurm-client munge locales
 )
 # Where tests/checks/page.sh looks for axe-core, which finds what keeps people from reading a page.
 readonly axe_version=4.14.1

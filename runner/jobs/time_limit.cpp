@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <charconv>
 
-#include "runner/machine.hpp"
-
 namespace grainsweep {
 
 std::optional<double> seconds_in(std::string_view text) {
@@ -22,16 +20,16 @@ std::optional<double> seconds_in(std::string_view text) {
   return std::nullopt;
 }
 
-TimeLimit::TimeLimit(double seconds)
-    : begun_at_(wall_seconds()), usable_(seconds - std::min(30.0, 0.1 * seconds)) {}
+TimeLimit::TimeLimit(double seconds, double (*clock)())
+    : clock_(clock), begun_at_(clock()), usable_(seconds - std::min(30.0, 0.1 * seconds)) {}
 
 TimeLimit TimeLimit::from_now() const {
   TimeLimit rest = *this;
-  if (begun_at_) rest.begun_at_ = wall_seconds(), rest.usable_ = left();
+  if (begun_at_) rest.begun_at_ = clock_(), rest.usable_ = left();
   return rest;
 }
 
-double TimeLimit::left() const { return usable_ - (wall_seconds() - *begun_at_); }
+double TimeLimit::left() const { return usable_ - (clock_() - *begun_at_); }
 
 bool TimeLimit::is_over() const { return begun_at_ && left() <= 0.0; }
 

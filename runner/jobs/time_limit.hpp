@@ -4,6 +4,8 @@
 #include <optional>
 #include <string_view>
 
+#include "runner/machine.hpp"
+
 namespace grainsweep {
 
 /// The seconds in "90", "45:00" or "10:30:00"; nothing if the text is no such time above 0.
@@ -13,7 +15,8 @@ std::optional<double> seconds_in(std::string_view text);
 class TimeLimit {
  public:
   TimeLimit() = default;
-  explicit TimeLimit(double seconds);
+  /// `clock` tells the time, s from any beginning.
+  explicit TimeLimit(double seconds, double (*clock)() = wall_seconds);
 
   /// The same end, of a run whose packings begin now: what came before took some of its time.
   TimeLimit from_now() const;
@@ -29,6 +32,7 @@ class TimeLimit {
  private:
   double left() const;
 
+  double (*clock_)() = wall_seconds;
   std::optional<double> begun_at_;
   double usable_ = 0.0;  ///< from the beginning on, s
 };

@@ -43,8 +43,15 @@ JSON
 "$grainsweep" export exact --format certificate --to certificates >/dev/null
 (($(/usr/bin/python3 "$check" certificates/*.json | grep -c ' holds ') == 5))
 sed '/^"wall_forces"/,$s/\(,[0-9]\.[0-9]\)[0-9]*/\1/' certificates/walls-1-1.certificate.json >rounded.json
-! cmp --quiet rounded.json certificates/walls-1-1.certificate.json
-! /usr/bin/python3 "$check" rounded.json >said.txt && grep -q 'DOES NOT HOLD' said.txt
+if cmp --quiet rounded.json certificates/walls-1-1.certificate.json; then
+  echo 'no force was rounded' >&2
+  exit 1
+fi
+if /usr/bin/python3 "$check" rounded.json >said.txt; then
+  echo 'a certificate holds whose forces do not balance' >&2
+  exit 1
+fi
+grep -q 'DOES NOT HOLD' said.txt
 for format in csv xyz lammps; do "$grainsweep" export out --format $format --to . >/dev/null; done
 "$grainsweep" export out --format voxels --voxels 60 --to . >/dev/null
 "$grainsweep" export out --format stl --contacts shrink:0.99 --periodic-images --to . >/dev/null
@@ -57,8 +64,12 @@ cat >round.json <<'JSON'
              { "label": "round", "set": { "shape": { "prism": { "sides": 42 } } } } ] }
 JSON
 "$grainsweep" run round.json --quiet --no-report --out round || [ $? -eq 1 ]
-! "$grainsweep" export round --format lammps --to refused 2>said.txt
-grep -q 'shape prism: a grain has 84 corners' said.txt && [ ! -e refused ]
+if "$grainsweep" export round --format lammps --to refused 2>said.txt; then
+  echo 'shapes are written that LAMMPS cannot read' >&2
+  exit 1
+fi
+grep -q 'shape prism: a grain has 84 corners' said.txt
+[ ! -e refused ]
 
 for data in *.data; do
   style=$(sed -n '1s/.*atom_style \([^;]*\);.*/\1/p' "$data")

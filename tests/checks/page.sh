@@ -60,7 +60,8 @@ for name in widths sizes pinacoids mixture failed empty; do
   "$grainsweep" run "$name.json" --quiet --out "$name" || [ $? -eq 1 ]
   pages+=("$name/report.html")
 done
-[ ! -e x ] && [ ! -e widths/figures/x ]
+[ ! -e x ]
+[ ! -e widths/figures/x ]
 has_figures widths means profiles distributions effort published
 has_figures sizes means profiles small_grains distributions effort
 has_figures pinacoids means profiles contacts distributions effort
@@ -79,7 +80,8 @@ EOF
 rm empty/shards/*
 "$grainsweep" report empty >/dev/null
 "$grainsweep" run widths.json --quiet --no-report --out without
-[ ! -e without/report.html ] && [ ! -e without/figures ]
+[ ! -e without/report.html ]
+[ ! -e without/figures ]
 
 "$grainsweep" export pinacoids --format html --to views >/dev/null
 views=(views/*.html)

@@ -45,6 +45,7 @@ expect_points wall-effect.svg gpPt6 8   # in two plots three widths and the key
 expect_points wall-effect.svg gpPt4 4   # and the value without walls
 expect_points porosity.svg gpPt6 3      # two tubes and the key
 expect_points gap-tolerance.svg gpPt6 9 # two packings at four gaps
-grep -q "$(awk -F, '$2 == "coordination" && $3 == "determined" { printf "%.3f - %.2f d / W", $8, $10 }' out/fits.csv)" \
-  wall-effect.svg || fail "the line of wall-effect.svg is not that of fits.csv"
+line=$(awk -F, '$2 == "coordination" && $3 == "determined" { printf "%.3f - %.2f d / W", $8, $10 }' out/fits.csv)
+[ -n "$line" ] || fail "fits.csv has no line of Z"
+grep -qF -- "$line" wall-effect.svg || fail "the line of wall-effect.svg is not that of fits.csv"
 printf 'pictures: all scripts of configs/ draw what the tables hold\n'

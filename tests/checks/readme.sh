@@ -69,7 +69,7 @@ check_presets() {
   local page=$1 preset column part value
   grep -q '^| part ' "$page" || return 0
   column=2
-  for preset in $(sed -nE '/^\| part /s/`//gp' "$page" | cut -d'|' -f3-5 | tr -d '|'); do
+  for preset in $(sed -nE '/^\| part /s/`//gp' "$page" | cut -d'|' -f3-6 | tr -d '|'); do
     column=$((column + 1))
     printf '{"name": "p", "base": {"accuracy": "%s"}, "sweep": [{}]}' "$preset" >"$work/preset.json"
     "$grainsweep" plan "$work/preset.json" --json >"$work/plan"

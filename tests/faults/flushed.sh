@@ -50,7 +50,7 @@ awk -v out="$out" '
   /^unlink\(/ && first ~ /\/checkpoints\// { expect_flushed("a checkpoint is removed"); ++removed }
   /^exit_group\(/ { expect_flushed("the program ends"); ++ended }
   END {
-    print lines " journal lines, " beds " beds, " told " times told, " removed " checkpoints removed, " ended " end"
+    print lines + 0 " journal lines, " beds + 0 " beds, " told + 0 " times told, " removed + 0 " checkpoints removed, " ended + 0 " end"
     for (name in replaced) print replaced[name] " times " name
     exit breaches
   }' trace.txt >found.txt || fail "$(grep BREACH found.txt | head -n 5)"

@@ -36,8 +36,12 @@ for number in $(seq 0 $((wanted - 1))); do
   what="$call $k with $fault"
   code=0
   { run_traced out -e "inject=$call:$fault:when=$k" || code=$?; } 2>killed.txt # says "Killed"
+  [[ $fault == signal=* ]] || grep -q INJECTED trace.txt || fail "$what: the call was not made"
   case $code in
-    0 | 1) ended=$((ended + 1)) ;;
+    0 | 1) # what goes on all the same has lost nothing
+      ended=$((ended + 1))
+      cmp <(values_of out) <(values_of reference) || fail "$what: survived with other values"
+      ;;
     4)
       told=$((told + 1))
       grep -q '^grainsweep: \(out\|standard output\).*: ' said.txt || fail "$what: no path: $(cat said.txt)"
@@ -75,4 +79,5 @@ for error in ENOLCK ENOSYS; do
   rm -r unlocked
 done
 
+[ $told -gt 0 ] && [ $killed -gt 0 ] || fail "$told faults told, $killed killed: they do not reach the program"
 echo "$wanted of ${#cases[@]} faults: $told told and stopped, $ended survived, $killed killed; the same bytes"

@@ -23,12 +23,16 @@ shard() {
 
 # all_shards COUNT: four at a time.
 all_shards() {
-  local number
+  local number process processes=()
   for number in $(seq "$1"); do
     shard "$number" "$1" &
-    [ $((number % 4)) -ne 0 ] || wait
+    processes+=($!)
+    if [ $((number % 4)) -ne 0 ] && [ "$number" -lt "$1" ]; then continue; fi
+    for process in "${processes[@]}"; do
+      wait "$process" || fail "not every shard of $1 ended well"
+    done
+    processes=()
   done
-  wait
 }
 
 for count in 1 2 7 64; do

@@ -67,6 +67,12 @@ ends_with "0 1" "no terminal" setsid "${run[@]}" session </dev/null
 same_as_reference session "no terminal"
 ends_with "0 1" "no environment" env -i "${run[@]}" bare
 same_as_reference bare "no environment"
+# Of a locale that a machine does not have a program gets C: these are made here.
+command -v localedef >/dev/null && [ -d /usr/share/i18n/locales ] || skip "there are no sources of locales (setup.sh --checks)"
+mkdir locales
+for locale in de_DE tr_TR; do localedef -i $locale -f UTF-8 "$PWD/locales/$locale.UTF-8" 2>/dev/null || true; done
+export LOCPATH=$PWD/locales
+[ "$(LC_ALL=de_DE.UTF-8 /usr/bin/printf %.1f 1,5)" = 1,5 ] || fail "the German locale is not there"
 for locale in C de_DE.UTF-8 tr_TR.UTF-8 xx_YY.none; do
   ends_with "0 1" "locale $locale" env LC_ALL=$locale LANG=$locale TERM=dumb "${run[@]}" "locale-$locale"
   same_as_reference "locale-$locale" "locale $locale"

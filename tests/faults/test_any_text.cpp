@@ -2,13 +2,13 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <chrono>
 #include <cstddef>
 #include <string>
 #include <vector>
 
 #include <catch2/catch.hpp>
 
+#include "runner/machine.hpp"
 #include "runner/store/files.hpp"
 #include "tests/faults/any_text.hpp"
 #include "tests/support/draw.hpp"
@@ -156,14 +156,13 @@ std::string damaged(const std::vector<std::string>& sweeps, Draw& draw) {
 
 struct Tally {
   int unsound = 0, json = 0, sweeps = 0;
-  double slowest = 0.0;  ///< s
+  double slowest = 0.0;  ///< s of CPU
   std::string example;   ///< of an unsound one
 
   void add(const std::string& text) {
-    using Clock = std::chrono::steady_clock;
-    const auto began = Clock::now();
+    const double began = thread_cpu_seconds();
     const testing::Reading reading = testing::read_any_text(text);
-    slowest = std::max(slowest, std::chrono::duration<double>(Clock::now() - began).count());
+    slowest = std::max(slowest, thread_cpu_seconds() - began);
     json += reading.is_json ? 1 : 0;
     sweeps += reading.is_sweep ? 1 : 0;
     unsound += reading.is_sound ? 0 : 1;

@@ -148,7 +148,7 @@ TEST_CASE("tables of curves are made of what is stored with the grains") {
              Catch::Contains("\n" + start + "pair_correlation,0.05,0.1,2,0.1,0,0\n"));
   CHECK_THAT(read_file(folder.path() + "/decays.csv"), Catch::Contains("\n" + start + "large,"));
   CHECK_THAT(read_file(folder.path() + "/columns.csv"),
-             Catch::Contains("\npackings.csv,coordination_at_1e-05,,") ||
+             Catch::Contains("\npackings.csv,coordination_at_1e-05,,") &&
                  Catch::Contains("\ndecays.csv,lambda,d,"));
 }
 

@@ -1,4 +1,5 @@
 #include <chrono>
+#include <filesystem>
 #include <thread>
 
 #include <catch2/catch.hpp>
@@ -84,6 +85,27 @@ TEST_CASE("no packing begins that would outlive the limit by what others like it
   };
   CHECK(packed_where_others_took(8.97) == 0);
   CHECK(packed_where_others_took(1.0) == 1);
+}
+
+double ticks = 0.0;
+double ticking() { return ticks += 1.0; }
+
+// Others take a runner for lost whose journal nothing has touched for long: here it lies untouched
+// for an hour when a packing begins, and that is stopped before anything of it is stored.
+TEST_CASE("a runner gives signs of life while a packing is under way") {
+  const Sweep sweep = sweep_of_a_small_bed();
+  const TemporaryFolder folder;
+  ShardFiles files(folder.path(), {}, sample_run());
+  const std::string journal = journal_path(folder.path(), "1-of-1");
+  const auto long_ago = std::filesystem::last_write_time(journal) - std::chrono::hours(1);
+  RunningSweep running{folder.path(), files, 0, {&sweep.jobs[0]}, {}};
+  PackOptions options;
+  options.isa = Isa::sse2;
+  options.time_limit = TimeLimit(20.0, ticking);
+  std::filesystem::last_write_time(journal, long_ago);
+  CHECK(pack_pending(running, options).packings == 0);
+  CHECK(saved_packings(folder.path()) == 1);
+  CHECK(std::filesystem::last_write_time(journal) > long_ago);
 }
 
 TEST_CASE("without grains the same curves are stored") {

@@ -98,6 +98,9 @@ JSON
 expect_code 6 "$program" run long.json --out late --no-report --time-limit 1 --shard 1/1
 expect_text error.txt "Stopped by the limit of time." "1 under way in its checkpoints" \
   "--shard 1/1 --time-limit 1"
+# A job that Slurm ends is told when by a variable.
+SLURM_JOB_END_TIME=$(($(date +%s) + 2)) expect_code 6 "$program" run long.json --out late --no-report
+expect_text error.txt "Stopped by the limit of time."
 expect_code 2 "$program" run long.json --out late --time-limit soon
 expect_text error.txt "--time-limit soon: give seconds, minutes:seconds"
 

@@ -86,6 +86,13 @@ expect_text error.txt "No packing is made in out/smal: there is no such folder"
 expect_code 0 "$program" status out/small --json
 expect_text out.txt '"packings": 10' '"pending": 0' '"runners": []' '"sweep_file": "small.json"'
 
+"$program" run small.json --out bare --no-grains --no-report --quiet
+for table in profiles decays distributions; do
+  cmp "out/small/$table.csv" "bare/$table.csv" || fail "without grains there are other $table"
+done
+expect_code 2 "$program" export bare
+expect_text error.txt "bare: its packings were stored without grains"
+
 for format in csv xyz vtp contacts contacts-vtp; do
   expect_code 0 "$program" export out/small --format $format
 done

@@ -22,12 +22,6 @@ Messages errors_in_base(const std::string& base) {
   return errors_of("{\"name\": \"t\", \"base\":\n" + base + "}");
 }
 
-bool equal(const Accuracy& a, const Accuracy& b) {
-  return a.solver == b.solver && a.precision == b.precision && a.step == b.step &&
-         a.fall_iterations == b.fall_iterations && a.rest_iterations == b.rest_iterations &&
-         a.residual_tolerance == b.residual_tolerance && a.max_steps == b.max_steps;
-}
-
 }  // namespace
 
 TEST_CASE("nested and dotted keys set the same parameters") {
@@ -83,24 +77,23 @@ TEST_CASE("what a preset breaks is told where the preset is named") {
 }
 
 TEST_CASE("a sweep that names no accuracy is balanced") {
-  CHECK(equal(spec_of("{}").accuracy, *preset("balanced")));
+  CHECK(spec_of("{}").accuracy == *preset("balanced"));
 }
 
 TEST_CASE("presets are named alone, in an object or by their path") {
-  CHECK(equal(spec_of(R"({"accuracy": "fast"})").accuracy, *preset("fast")));
-  CHECK(equal(spec_of(R"({"accuracy": {"preset": "fast"}})").accuracy, *preset("fast")));
-  CHECK(equal(spec_of(R"({"accuracy.preset": "fast"})").accuracy, *preset("fast")));
+  CHECK(spec_of(R"({"accuracy": "fast"})").accuracy == *preset("fast"));
+  CHECK(spec_of(R"({"accuracy": {"preset": "fast"}})").accuracy == *preset("fast"));
+  CHECK(spec_of(R"({"accuracy.preset": "fast"})").accuracy == *preset("fast"));
 }
 
 TEST_CASE("a part of the accuracy holds over any preset, in whatever order and layer") {
   Accuracy wanted = *preset("fast");
   wanted.step = 0.125;
-  CHECK(equal(spec_of(R"({"accuracy": {"step": 0.125, "preset": "fast"}})").accuracy, wanted));
-  CHECK(equal(spec_of(R"({"accuracy": "fast", "accuracy.step": 0.125})").accuracy, wanted));
-  CHECK(equal(spec_of(R"({"accuracy": "accurate"})",
-                      R"({"set": {"accuracy.step": 0.125}, "grid": {"accuracy": ["fast"]}})")
-                  .accuracy,
-              wanted));
+  CHECK(spec_of(R"({"accuracy": {"step": 0.125, "preset": "fast"}})").accuracy == wanted);
+  CHECK(spec_of(R"({"accuracy": "fast", "accuracy.step": 0.125})").accuracy == wanted);
+  CHECK(spec_of(R"({"accuracy": "accurate"})",
+                R"({"set": {"accuracy.step": 0.125}, "grid": {"accuracy": ["fast"]}})")
+            .accuracy == wanted);
 }
 
 TEST_CASE("a layer that fills the box replaces the fill below it") {
