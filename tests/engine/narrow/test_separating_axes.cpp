@@ -105,8 +105,9 @@ TEST_CASE("the batch test finds the separation of the f64 test within its roundi
     }
     REQUIRE(worst_chosen < pinacoid_rounding);
     INFO(testing::name_of(family) << ": batch within " << worst_batch << " d, chosen axes within "
-                                  << worst_chosen << " d, " << parallel << " of " << batch.pairs()
-                                  << " pairs have parallel edges");
+                                  << worst_chosen << " d");
+    CAPTURE(parallel, batch.pairs());
+    if (family == PairFamily::random) CHECK(parallel < batch.pairs() / 12);  // 131 of 3200 have
   }
 }
 
