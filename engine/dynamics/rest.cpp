@@ -370,7 +370,6 @@ std::string remedy_of_steps(const Accuracy& accuracy) {
 }
 
 std::string remedy_of_rounding(const RestReport& rest, const Accuracy& accuracy, double height) {
-  constexpr double error_of_a_layer = 1e-4;  // of forces in f32 for every d of height, m g
   RestReport balanced = rest;
   balanced.step_residual = 0.0;
   if (!rest_failure(balanced, accuracy).empty()) return "";  // it is on its way

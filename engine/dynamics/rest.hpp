@@ -67,6 +67,9 @@ struct FreeMotion {
 std::vector<FreeMotion> free_motions(const SphereBed& bed,
                                      const std::vector<ForceContact>& contacts);
 
+/// Of forces in f32, m g for every d of height.
+inline constexpr double error_of_a_layer = 1e-4;
+
 /// The forces between grains.
 std::vector<PairForce> pair_forces(const Grains& bed, const std::vector<ForceContact>& contacts);
 

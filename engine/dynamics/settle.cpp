@@ -189,6 +189,13 @@ class Settling {
   /// Whether the forces of the last test of rest were found.
   bool is_solved() const { return report_.rest.step_residual <= accuracy_.residual_tolerance; }
 
+  /// Whether forces were not found for more than rounding: those of polyhedra that rock from an
+  /// edge to a face of a neighbour and back are, once they have come to lie otherwise.
+  bool rocks() const {
+    return std::is_same_v<Kind, Polyhedron> &&
+           report_.rest.step_residual > error_of_a_layer * height_;
+  }
+
   /// Whether all that a bed misses at its last test of rest is balance, and of that little.
   bool is_nearly_balanced() const {
     constexpr double far = 3.0;
@@ -245,7 +252,7 @@ class Settling {
   void enter(std::size_t stage) {
     if (stage < stage_) {
       ++rounds_;
-      unsolved_ = is_solved() ? 0 : unsolved_ + 1;
+      unsolved_ = is_solved() || rocks() ? 0 : unsolved_ + 1;
     }
     if (rounds_ == 0) iterations_before_ = report_.iterations;
     stage_ = stage;
