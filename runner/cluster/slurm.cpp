@@ -124,8 +124,15 @@ int array_limit_in(std::string_view configuration) {
   for (const std::string_view line : parts_of(configuration, '\n')) {
     if (!line.starts_with("MaxArraySize")) continue;
     const std::size_t number = line.find_first_of("0123456789");
+    if (number == std::string_view::npos) return 0;
     // The limit is one above the greatest number of an element, and ours count from 1.
-    return number == std::string_view::npos ? 0 : leading_number(line.substr(number)) - 1;
+    const int limit = leading_number(line.substr(number)) - 1;
+    if (limit < 1) {
+      throw BadInput(
+          "this cluster takes no arrays of jobs (MaxArraySize is " + std::to_string(limit + 1) +
+          "); run the sweep in one job, or its shards as tasks of one: configs/cluster/srun.sh");
+    }
+    return limit;
   }
   return 0;
 }

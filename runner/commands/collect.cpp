@@ -44,7 +44,7 @@ struct Collection {
   std::map<std::pair<std::string, std::string>, std::string> content_of;
   /// What is stored of earlier forms of the sweeps, which no table has.
   Outcomes others;
-  std::size_t added = 0, stored = 0;
+  std::size_t added = 0, given_grains = 0, stored = 0;
   bool is_short = false;  ///< something stored could not be read
 };
 
@@ -169,6 +169,13 @@ bool store(const std::string& folder, Boxed<Outcome>&& outcome, Boxed<Outcome>& 
   return true;
 }
 
+/// "3 packings added", and grains of those that had been stored without.
+std::string added_text(std::size_t added, std::size_t given_grains) {
+  const std::string text = counted(added, "packing");
+  return (given_grains > 0 ? text + " and the grains of " + std::to_string(given_grains) : text) +
+         " added";
+}
+
 void add_outcome(const std::string& folder, Boxed<Outcome> outcome, Row& row, Collection& to) {
   const bool is_known = row.outcome && !row.outcome->exception;
   if (is_known && !brings_grains(*outcome, *row.outcome)) {
@@ -181,7 +188,7 @@ void add_outcome(const std::string& folder, Boxed<Outcome> outcome, Row& row, Co
     return;
   }
   if (!store(folder, std::move(outcome), row.outcome, to)) return;
-  to.added += is_known ? 0 : 1;  // others only get their grains
+  ++(is_known ? to.given_grains : to.added);
   if (++to.stored % added_at_once == 0) to.files.flush();
 }
 
@@ -298,14 +305,16 @@ Collection collected(const CollectOptions& options, ShardFiles& files, ProgressD
       collection.emplace(begin_collection(options.out, files, display, own, stored.provenance));
     }
     warn_of(stored.damage, *collection);
-    const std::size_t before = collection->added;
+    const std::size_t before = collection->added, given_before = collection->given_grains;
     add_results(folder, std::move(stored), *collection,
                 [&](double share) { display.advance(i, share); });
     // A collection that is killed later goes on from here.
     files.flush();
     record_sweep(options.out, collection->provenance, collection->rows);
-    display.finish(i, true,
-                   folder + ": " + counted(collection->added - before, "packing") + " added");
+    display.finish(
+        i, true,
+        folder + ": " +
+            added_text(collection->added - before, collection->given_grains - given_before));
   }
   display.clear();
   return std::move(*collection);
@@ -344,7 +353,7 @@ int perform(const CollectOptions& options) {
   const Analysis analysis = analyse(rows, options.out);
   write_tables(options.out, collection.provenance, rows, analysis);
   const auto pending = static_cast<std::size_t>(totals_of(rows).counts.pending);
-  std::cout << counted(collection.added, "packing") << " added to " << options.out
+  std::cout << added_text(collection.added, collection.given_grains) << " to " << options.out
             << ", which now holds " << rows.size() - pending << " of " << rows.size() << "\n"
             << std::flush;
   std::cout << write_page(options.out, collection.provenance, rows, analysis);

@@ -210,9 +210,10 @@ Surface cut_off(const Surface& surface, const Vector& normal, double offset) {
 
 std::vector<Surface> whole_surfaces(const ExportedBed& exported) {
   const StoredBed& bed = exported.bed;
-  // 320 triangles; the flat ends of caps take smaller ones.
-  const bool has_caps = exported.settings.treatment.kind == ContactTreatment::Kind::cap;
-  const Surface ball = unit_ball(has_caps ? 3 : 2);
+  // 320 triangles; the flat ends of caps, and necks, take smaller ones.
+  using Kind = ContactTreatment::Kind;
+  const Kind kind = exported.settings.treatment.kind;
+  const Surface ball = unit_ball(kind == Kind::cap || kind == Kind::bridge ? 3 : 2);
   std::vector<Surface> surfaces;
   for (std::size_t k = 0; k < bed.grains.size(); ++k) {
     if (is_sphere(bed, k)) {

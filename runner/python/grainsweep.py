@@ -12,6 +12,7 @@ Beds are read from the folder itself; contacts are found by the program, which m
 named by the environment variable GRAINSWEEP.
 """
 
+import csv
 import functools
 import io
 import json
@@ -32,12 +33,14 @@ def open(folder):
 
 
 # Columns that are texts even where all their cells look like numbers: 23e2135835385298 is an id.
-_texts = ["job", "label", "family", "state_hash", "start", "fill.file"]
+_texts = ["job", "label", "family", "state_hash", "start"]
 
 
-def _table(source):
-    """Only an empty cell holds nothing: "NA" and "None" are labels."""
-    return pandas.read_csv(source, float_precision="round_trip", dtype=dict.fromkeys(_texts, str),
+def _table(text):
+    """Only an empty cell holds nothing: "NA" and "None" are labels, and names of files are no numbers."""
+    columns = next(csv.reader(io.StringIO(text)))
+    texts = _texts + [column for column in columns if column.endswith(".file")]
+    return pandas.read_csv(io.StringIO(text), float_precision="round_trip", dtype=dict.fromkeys(texts, str),
                            keep_default_na=False, na_values=[""])
 
 
@@ -62,7 +65,7 @@ class Sweep:
 
     def __init__(self, folder):
         self.folder = pathlib.Path(folder)
-        self._columns = _table(self.folder / "columns.csv").fillna("")
+        self._columns = _table((self.folder / "columns.csv").read_text(encoding="utf-8")).fillna("")
 
     @property
     def tables(self):
@@ -78,7 +81,7 @@ class Sweep:
             raise AttributeError(name)
         if name not in self.tables:
             raise AttributeError(f"{self.folder} has no table {name}, but {', '.join(self.tables)}")
-        table = _table(self.folder / f"{name}.csv")
+        table = _table((self.folder / f"{name}.csv").read_text(encoding="utf-8"))
         table.attrs = {"units": self.units(name), "meanings": self.meanings(name)}
         setattr(self, name, table)
         return table
@@ -162,7 +165,10 @@ class Bed:
             raise ValueError(f"{folder}: the bed of {job} is damaged, or of another version")
         self._folder, self.job = folder, job
         data = _Bytes(stored[len(_marks[0]) : -4])
-        data.column("S1"), data.one("Q")  # the job again, and the hash of the state
+        own = data.column("S1").tobytes().decode()
+        if own != job:
+            raise ValueError(f"{folder}: in the place of the bed of {job} stands that of {own}")
+        data.one("Q")  # the hash of the state
         length, width, x, y, tube = (data.one(kind) for kind in "ddii?")
         self.box = {"length": length, "width": width, "periodic": (x == 0, y == 0), "tube": tube}
         for kind in ["V48"] * 4 + ["<f8"] * 2:  # curves, which the tables have
@@ -200,7 +206,7 @@ class Bed:
                 [program, "export", self._folder, "--job", self.job, "--format", "contacts", "--to", to],
                 check=True, stdout=subprocess.DEVNULL)
             (file,) = pathlib.Path(to).glob("*.contacts.csv")
-            contacts = _table(io.StringIO(file.read_text()))
+            contacts = _table(file.read_text(encoding="utf-8"))
         contacts["b"] = contacts["b"].fillna(0).astype(int) - 1  # ids begin with 1
         contacts["a"] -= 1
         return contacts.fillna({"wall": "", "size_class_b": ""})

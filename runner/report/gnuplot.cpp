@@ -129,6 +129,7 @@ Drawing draw(const std::vector<Figure>& figures, const std::string& folder) {
     to_draw.push_back(&figure);
   }
   std::vector<Drawer> drawers;  // once no file can fail: each has to be waited for
+  drawers.reserve(to_draw.size());
   for (const Figure* figure : to_draw) drawers.push_back(start_gnuplot(*figure, folder));
   Drawing drawing{std::vector<std::string>(figures.size()), ""};
   std::string failed;

@@ -120,27 +120,27 @@ std::string tics_of_errors(const Range& shown) {
 
 }  // namespace
 
-Figure contacts_figure(const Axes& all) {
-  const Axes axes = of_kinds(all);
+Figure contacts_figure(const Axes& axes) {
+  const Axes drawn = of_kinds(axes);
   Figure figure{.name = "contacts",
                 .title = "Kinds of contact",
                 .caption =
                     "Shares of the force-bearing contacts between polyhedra, and of the "
                     "force that they carry; bars are standard errors."};
-  figure.caption += left_out_text(axes, figure.name);
-  figure.tables = {{"contacts.csv", kinds_csv(axes)}};
-  if (shown_series(all).empty()) {
+  figure.caption += left_out_text(drawn, figure.name);
+  figure.tables = {{"contacts.csv", kinds_csv(drawn)}};
+  if (shown_series(axes).empty()) {
     figure.not_drawn = "no packing has settled";
     return figure;
   }
-  if (axes.series.empty()) {
+  if (drawn.series.empty()) {
     figure.not_drawn = "no grains press on each other";
     return figure;
   }
-  const Panels panels(figure, 2, {1.0}, kinds_key(axes), {.right = 24.0});
-  const std::size_t series = shown_series(axes).size();
-  const std::string x = range_command("x", range_of(places_of(axes), 0.06)) +
-                        label_command("x", abscissa_title(axes)) + "set yrange [0:*]\n";
+  const Panels panels(figure, 2, {1.0}, kinds_key(drawn), {.right = 24.0});
+  const std::size_t series = shown_series(drawn).size();
+  const std::string x = range_command("x", range_of(places_of(drawn), 0.06)) +
+                        label_command("x", abscissa_title(drawn)) + "set yrange [0:*]\n";
   figure.commands = "set multiplot\n" + panels.key() + panels.place(0, 0) + x +
                     label_command("y", "share of contacts") + kinds_panel("contacts_", series) +
                     panels.place(1, 0) + x + label_command("y", "share of force") +

@@ -51,6 +51,18 @@ for name in s.tables:
 assert set(s.tables) >= {"packings", "groups", "fits", "profiles"} and "groups" in dir(s)
 assert s.units("packings")["width"] == "d" and "solid" in s.meanings("groups")["solid_fraction"]
 
+names = "sizes.distribution.table.file"
+assert list(grainsweep._table(f"{names},x\n01,1\n1,2\n")[names]) == ["01", "1"]
+
+first, second = list(s._places)[:2]
+mixed_up = grainsweep.open("out/quick")
+mixed_up.__dict__["_places"] = {**s._places, first: s._places[second]}
+try:
+    mixed_up.bed(first)
+    raise SystemExit("the bed of another packing was read")
+except ValueError as error:
+    assert f"the bed of {first} stands that of {second}" in str(error)
+
 copied = pickle.loads(pickle.dumps(copy.deepcopy(s)))  # as a pool of processes does
 assert copied.packings.equals(s.packings) and copied.tables == s.tables
 try:

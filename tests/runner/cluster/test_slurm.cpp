@@ -43,6 +43,9 @@ TEST_CASE("a partition that is not there or has no nodes is refused with those t
 TEST_CASE("an array has one element less than its greatest index, from 1 on") {
   CHECK(array_limit_in("LaunchType = x\nMaxArraySize            = 1001\nMaxDBDMsgs = 5") == 1000);
   CHECK(array_limit_in("nothing of it") == 0);
+  for (const char* none : {"MaxArraySize = 0", "MaxArraySize = 1"}) {
+    CHECK_THROWS_WITH(array_limit_in(none), Catch::Contains("takes no arrays of jobs"));
+  }
 }
 
 TEST_CASE("of the queue those jobs count whose scripts lie in the folder") {

@@ -34,6 +34,17 @@ TEST_CASE("a ball is closed, its corners lie on it, and finer ones are fuller") 
   CHECK(before / sphere_volume(1) == Approx(1).margin(0.01));
 }
 
+TEST_CASE("spheres with flat ends or necks are of 1280 triangles, others of 320") {
+  ExportedBed bed = packed_bed(SphereShape{}, {3, 3, Boundary::walls, Boundary::walls}, 3);
+  const std::pair<const char*, std::size_t> expected[] = {
+      {"shrink:0.9", 320}, {"cap:0.2", 1280}, {"bridge:0.2", 1280}};
+  for (const auto& [treatment, faces] : expected) {
+    INFO(treatment);
+    bed.settings.treatment = *contact_treatment(treatment);
+    for (const Surface& surface : whole_surfaces(bed)) CHECK(surface.faces.size() == faces);
+  }
+}
+
 TEST_CASE("a cut leaves a closed surface of what lies below the plane") {
   const Surface cube = container_surface(empty_box(2, 2, 2).bed.box, 2);
   CHECK(volume_of(cube) == 8);

@@ -75,6 +75,10 @@ if command -v snakemake >/dev/null; then
   snakemake -s "$recipes/Snakefile" -j 2 --config "sweep=$sweep" "out=$out" >said.txt 2>&1 ||
     fail "Snakefile: $(tail said.txt)"
   made_by Snakefile
+  sed 's/"name": "[^"]*"/"name": "second"/' "$sweep" >second.json # in the same place
+  snakemake -s "$recipes/Snakefile" -j 2 --config sweep=second.json out=second >said.txt 2>&1 ||
+    fail "Snakefile: $(tail said.txt)"
+  [ -e second/shards/16-of-16.jsonl ] || fail "a second sweep of a Snakefile has no shards"
   run+=(Snakemake)
 fi
 
