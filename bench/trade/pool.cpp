@@ -18,9 +18,10 @@ Json json_of(const MeanError& of) {
   return std::isnan(of.mean) ? Json() : Json::array({of.mean, of.error, of.n});
 }
 
+/// The error of a single pair, which has none, is null.
 MeanError mean_error_of(const Json& of) {
   if (of.is_null()) return {no_number, no_number, 0};
-  return {of.at(0), of.at(1), of.at(2)};
+  return {of.at(0), of.at(1).is_null() ? no_number : of.at(1).get<double>(), of.at(2)};
 }
 
 Json json_of(const Compared& row) {

@@ -93,6 +93,15 @@ TEST_CASE("an accuracy that the file does not have stands by itself") {
   CHECK(pooled_rows(path, scene_of(2, 0.53, 2))[1].solid_fraction.n == 2);
 }
 
+TEST_CASE("rows of one start each are pooled, though a single one has no error") {
+  const TemporaryFolder folder;
+  const std::string path = folder.path() + "/pool.json";
+  pooled_rows(path, scene_of(1, 0.5, 1));
+  const std::vector<Compared> rows = pooled_rows(path, scene_of(2, 0.53, 1));
+  CHECK(rows[1].solid_fraction.n == 2);
+  CHECK(std::isnan(rows[1].solid_fraction.error));
+}
+
 TEST_CASE("a file of another scene, or of another kind, is refused and stays") {
   const TemporaryFolder folder;
   const std::string path = folder.path() + "/pool.json";

@@ -304,8 +304,9 @@ bool differs(double share, double from) { return std::abs(share - from) > 0.1 * 
 std::string small_share_text(const std::vector<Family>& families) {
   const std::string text = lines_of_groups(families, [](const Group& group) -> std::string {
     const double all = mean_of(group, "bed_small_share").mean, asked = group.job.small_share;
-    return differs(all, asked) ? fixed(all, 4) + " of the solid volume, asked for " + cell(asked)
-                               : "";
+    return asked > 0.0 && differs(all, asked)
+               ? fixed(all, 4) + " of the solid volume, asked for " + cell(asked)
+               : "";
   });
   return text.empty() ? ""
                       : "\nWarning: beds hold another share of small grains, told apart by size, "
