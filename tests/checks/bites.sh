@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Each check finds what it is for: violations planted in a temporary copy, one at a time, and
 # nothing in the copy without them. usage: bites.sh CHECK...
-# CHECK: folder_order links kernel_objects one_definition meshes format tidy tidy_config
+# CHECK: folder_order links assertions kernel_objects one_definition meshes format tidy tidy_config
 set -euo pipefail
 root=$(cd "$(dirname "$0")/../.." && pwd)
 copy=$(mktemp -d "${TMPDIR:-/tmp}/grainsweep-bites.XXXXXX")
@@ -87,6 +87,16 @@ bite_links() {
   finds_planted bench/README.md 'Run `bench/gone.sh`.' 'quotes bench/gone.sh' "${check[@]}"
   yes '' | head -n 200 >>"$copy/README.md" || true
   finds 'README.md has 205 lines' "${check[@]}"
+}
+
+bite_assertions() {
+  local check=("$root/tests/checks/assertions.sh" "$copy")
+  mkdir -p "$copy/bench"
+  plant tests/good.sh <<<$'! grep x y || fail\nwhile\n  ! grep x y; do\n  true\ndone\n[[ ! -e x && ! -e y ]]\n[ -e x ] && continue'
+  passes "${check[@]}"
+  finds_planted tests/not.sh '! cmp a b' 'tests/not.sh: cannot fail, about line 1' "${check[@]}"
+  finds_planted bench/both.sh '[ ! -e a ] && [ ! -e b ]' 'bench/both.sh: cannot fail' "${check[@]}"
+  finds_planted tests/long.sh $'! python3 a \\\n  b' 'tests/long.sh: cannot fail' "${check[@]}"
 }
 
 bite_format() {
