@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # Measures the trade of speed for accuracy: settles the sweeps of bench/trade, 64 or more starts with
-# each of about 30 accuracies, and compares every accuracy with exact rest, start by start. Writes
+# each of 24 to 30 accuracies, and compares every accuracy with exact rest, start by start. Writes
 # SCENE.md, SCENE.csv and, with gnuplot, SCENE.svg; --readme puts them into bench/trade/README.md, in which other
-# scenes stay as they were measured. A scene takes a third of an hour to three hours of one core, pinacoids
-# nine; stopped, it goes on where it was.
+# scenes stay as they were measured. A scene takes a third of an hour to three hours of one core;
+# stopped, it goes on where it was.
 # --seed N makes other starts, those of seed N: tables then tell the means of all seeds whose rows stand in
 # bench/trade/SCENE.seeds.json, to which those of N are added. Remove that file where beds pack otherwise
 # than when it was made.

@@ -23,6 +23,7 @@ struct Partition {
 std::vector<Partition> partitions_in(std::string_view lines);
 
 /// How many elements an array may have, by what `scontrol show config` says; 0 if it does not.
+/// Throws BadInput if there may be no arrays.
 int array_limit_in(std::string_view configuration);
 
 /// The partition of that name, or the default one if the name is empty. Throws BadInput with those

@@ -67,19 +67,26 @@ bool is_recorded(const std::string& folder, const Provenance& provenance,
   }
 }
 
-/// Calls `use` with each outcome that has a stored bed; a row without a sound one becomes a pending
-/// one.
+/// Calls `use` with an outcome that has a stored bed; false, and what is wrong in `damage`, if that
+/// throws FileError, as it is not sound.
+template <class Use>
+bool uses_bed(const Outcome& outcome, Use& use, std::vector<std::string>& damage) {
+  if (outcome.stored_bytes == 0) return true;
+  try {
+    use(outcome);
+    return true;
+  } catch (const FileError& error) {
+    damage.emplace_back(error.what());
+    return false;
+  }
+}
+
+/// The same of each row's outcome; a row without a sound bed becomes a pending one.
 template <class Use>
 std::vector<std::string> use_beds(std::vector<Row>& rows, Use use) {
   std::vector<std::string> damage;
   for (Row& row : rows) {
-    if (!row.outcome || row.outcome->stored_bytes == 0) continue;
-    try {
-      use(*row.outcome);
-    } catch (const FileError& error) {
-      damage.emplace_back(error.what());
-      row.outcome.reset();
-    }
+    if (row.outcome && !uses_bed(*row.outcome, use, damage)) row.outcome.reset();
   }
   return damage;
 }
@@ -179,14 +186,8 @@ void record_sweep(const std::string& folder, const Provenance& provenance,
 
 bool has_sound_bed(const std::string& folder, const Outcome& outcome,
                    std::vector<std::string>& damage) {
-  if (outcome.stored_bytes == 0) return true;
-  try {
-    read_bed(folder, outcome);
-    return true;
-  } catch (const FileError& error) {
-    damage.emplace_back(error.what());
-    return false;
-  }
+  const auto read = [&](const Outcome& of) { read_bed(folder, of); };
+  return uses_bed(outcome, read, damage);
 }
 
 std::vector<std::string> check_beds(const std::string& folder, std::vector<Row>& rows) {
@@ -194,24 +195,14 @@ std::vector<std::string> check_beds(const std::string& folder, std::vector<Row>&
 }
 
 std::vector<std::string> expect_beds(const std::string& folder, std::vector<Row>& rows) {
-  ExpectBed expect(folder);
-  return use_beds(rows, [&](const Outcome& outcome) { expect(outcome); });
+  return use_beds(rows, ExpectBed(folder));
 }
 
 std::vector<std::string> expect_beds(const std::string& folder, Outcomes& outcomes) {
   ExpectBed expect(folder);
   std::vector<std::string> damage;
-  std::erase_if(outcomes, [&](const auto& of_job) {
-    const Outcome& outcome = *of_job.second;
-    if (outcome.stored_bytes == 0) return false;
-    try {
-      expect(outcome);
-      return false;
-    } catch (const FileError& error) {
-      damage.emplace_back(error.what());
-      return true;
-    }
-  });
+  std::erase_if(outcomes,
+                [&](const auto& of_job) { return !uses_bed(*of_job.second, expect, damage); });
   std::sort(damage.begin(), damage.end());  // outcomes have no order
   return damage;
 }

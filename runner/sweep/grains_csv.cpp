@@ -100,16 +100,12 @@ void note_shared_places(const std::string& file, GrainsReading& reading) {
   std::iota(order.begin(), order.end(), std::size_t{0});
   const auto place = [&](std::size_t grain) {
     const PlacedSphere& at = reading.grains[grain];
-    return std::tuple(at.x, at.y, at.z, grain);
+    return std::tuple(at.x, at.y, at.z);
   };
-  std::sort(order.begin(), order.end(),
-            [&](std::size_t a, std::size_t b) { return place(a) < place(b); });
-  const auto shares = [&](std::size_t a, std::size_t b) {
-    const PlacedSphere &at = reading.grains[a], &other = reading.grains[b];
-    return at.x == other.x && at.y == other.y && at.z == other.z;
-  };
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return place(a) < place(b); });
   for (std::size_t k = 1; k < order.size() && reading.errors.size() < most_wrong_lines; ++k) {
-    if (!shares(order[k - 1], order[k])) continue;
+    if (place(order[k - 1]) != place(order[k])) continue;
     constexpr std::size_t first_line = 2;  // below the names of the columns
     note_wrong_line(reading.errors, file, order[k] + first_line,
                     "has the place of line " + std::to_string(order[k - 1] + first_line) +

@@ -73,12 +73,15 @@ ValueReading read_text(const Parameter& parameter, const Json& value) {
   return fits(value.get<std::string>());
 }
 
+/// Of a list that holds this.
+ValueReading wrong_entry(const Parameter& parameter, const Json& entry) {
+  return {{}, "must be " + wanted_value(parameter) + ", holds " + describe(entry)};
+}
+
 ValueReading read_texts(const Parameter& parameter, const Json& value) {
   if (!value.is_array() || value.empty()) return mismatch(parameter, value);
   const auto other = std::find_if_not(value.begin(), value.end(), is_written_text);
-  if (other != value.end()) {
-    return {{}, "must be " + wanted_value(parameter) + ", holds " + describe(*other)};
-  }
+  if (other != value.end()) return wrong_entry(parameter, *other);
   return fits(value.get<std::vector<std::string>>());
 }
 
@@ -86,9 +89,7 @@ ValueReading read_numbers(const Parameter& parameter, const Json& value) {
   const auto is_number = [](const Json& entry) { return entry.is_number(); };
   if (!value.is_array()) return mismatch(parameter, value);
   const auto other = std::find_if_not(value.begin(), value.end(), is_number);
-  if (other != value.end()) {
-    return {{}, "must be " + wanted_value(parameter) + ", holds " + describe(*other)};
-  }
+  if (other != value.end()) return wrong_entry(parameter, *other);
   auto numbers = value.get<std::vector<double>>();
   for (double& number : numbers) number += 0.0;  // -0 and 0 are one value
   return fits(std::move(numbers));
