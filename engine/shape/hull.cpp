@@ -227,9 +227,12 @@ double depth_of(const Vector& point, const std::vector<Plane>& faces) {
   return depth;
 }
 
+/// What a hull of such an extent, in which faces within `merged` of a plane are one, hides.
+double allowed_dent(double extent, double merged) { return std::max(dent * extent, 2.0 * merged); }
+
 std::string problem_with_dents(const std::vector<Vector>& points, const Loops& loops,
                                double merged) {
-  const double allowed = std::max(dent * extents_of(points).length, 2.0 * merged);
+  const double allowed = allowed_dent(extents_of(points).length, merged);
   const std::vector<Plane> faces = planes_of(points, loops);
   for (std::size_t k = 0; k < points.size(); ++k) {
     const double depth = depth_of(points[k], faces);
@@ -242,6 +245,22 @@ std::string problem_with_dents(const std::vector<Vector>& points, const Loops& l
     }
   }
   return "";
+}
+
+/// How deep the middle of an edge of `face` lies, or that of the face if it is a triangle: that of
+/// others may lie outside of them.
+double depth_of(const std::vector<std::int32_t>& face, const std::vector<Vector>& points,
+                const std::vector<Plane>& planes) {
+  const auto point = [&](std::size_t k) -> const Vector& {
+    return points[static_cast<std::size_t>(face[k % face.size()])];
+  };
+  const bool is_triangle = face.size() == 3;
+  double deepest =
+      is_triangle ? depth_of(Vector((point(0) + point(1) + point(2)) / 3.0), planes) : 0.0;
+  for (std::size_t k = 0; k < face.size(); ++k) {
+    deepest = std::max(deepest, depth_of(Vector((point(k) + point(k + 1)) / 2.0), planes));
+  }
+  return deepest;
 }
 
 /// Keeps the points that are corners, in their order, and numbers the loops anew.
@@ -399,6 +418,23 @@ Hull convex_hull(const std::vector<Vector>& points, double flat) {
   Hull hull = whole_hull(near, flat);
   if (hull.shape) hull.shape->given.centroid += points.front();
   return hull;
+}
+
+std::optional<Dent> deepest_dent(const std::vector<Vector>& points, const Loops& faces) {
+  if (!problem_with_points(points).empty()) return std::nullopt;
+  std::vector<Vector> near = points;  // places far from the origin lose digits
+  for (Vector& point : near) point -= points.front();
+  const Extents extents = extents_of(near);
+  const double merged = flat_as_written * extents.height;
+  std::string error;
+  const std::vector<Plane> planes = planes_of(near, hull_loops(near, merged, error));
+  Dent deepest{0, allowed_dent(extents.length, merged), extents.length};
+  const double allowed = deepest.depth;
+  for (std::size_t f = 0; f < faces.size() && !planes.empty(); ++f) {
+    const double depth = depth_of(faces[f], near, planes);
+    if (depth > deepest.depth) deepest.face = f, deepest.depth = depth;
+  }
+  return deepest.depth > allowed ? std::optional(deepest) : std::nullopt;
 }
 
 Loops hull_faces(const std::vector<Vector>& points) {

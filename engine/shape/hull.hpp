@@ -3,6 +3,7 @@
 // by no more than that would touch each other triangle by triangle.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -29,6 +30,18 @@ struct Hull {
 /// plane or a line. Points inside the hull are refused too: a shape that is not convex would
 /// silently become another.
 Hull convex_hull(const std::vector<Vector>& points, double flat = 0.0);
+
+/// Where a body is not convex.
+struct Dent {
+  std::size_t face;  ///< the one that lies deepest inside the hull, of those of the body
+  double depth;      ///< of the middle of the edge or face that is deepest, d
+  double extent;     ///< of the points, d
+};
+
+/// The deepest dent of the body that `faces` of `points` enclose, as of a notch, of a hole or
+/// between lobes, whose corners may all lie on the hull; none if all faces lie on the hull to what
+/// convex_hull allows as written, or if there is no hull. Faces may have corners in either order.
+std::optional<Dent> deepest_dent(const std::vector<Vector>& points, const Loops& faces);
 
 /// The faces of the hull of `points`, which keep their numbers; those within it are on no face.
 /// Throws std::invalid_argument where there is no hull.

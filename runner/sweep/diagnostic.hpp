@@ -24,6 +24,9 @@ struct Diagnostic {
 };
 using Diagnostics = std::vector<Diagnostic>;
 
+/// Whether there is more among them than notes.
+bool has_errors(const Diagnostics& diagnostics);
+
 /// "spheres.json:12:20 /base/sizes/small_share: must lie in [0, 1], is 1.4"; control characters
 /// become question marks.
 std::string to_string(const Diagnostic& diagnostic);

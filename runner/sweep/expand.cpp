@@ -117,7 +117,8 @@ class Expansion {
         problems_(definition, diagnostics) {}
 
   std::vector<Job> run() {
-    const bool is_whole = diagnostics_.empty();  // no value was left out that could not be read
+    const bool is_whole =
+        !has_errors(diagnostics_);  // no value was left out that could not be read
     for (std::size_t i = 0; i < definition_.blocks.size(); ++i) expand_block(i);
     problems_.name_points();
     note_shared_jobs();
@@ -169,7 +170,7 @@ class Expansion {
       note_broken_rules(block, in_effect, check(resolved.spec), start);
     }
     note_use(in_effect, resolved.spec);
-    if (!diagnostics_.empty()) return;
+    if (has_errors(diagnostics_)) return;
     const bool is_listed = !resolved.fill_files.empty();
     const std::string scene = canonical_scene(resolved);
     // Of a list what is in its file belongs to each start by itself, so that lists may grow.
@@ -342,6 +343,7 @@ class Expansion {
       const VerticesReading& reading = reading_of(resolved.hull_file, *file, read_vertices, hulls_);
       is_sound = reading.errors.empty();
       hull.points = points_of(reading);
+      note_hull(*file, reading);
     }
     if (!(resolved.hull_size > 0.0)) {
       note(*size, "must be positive");
@@ -383,6 +385,7 @@ class Expansion {
           reading_of(component.hull_file, source, read_vertices, hulls_);
       is_sound = reading.errors.empty();
       points = points_of(reading);
+      note_hull(source, reading);
     }
     is_sound = has_room(points.size(), block, source) && is_sound;
     place_hull(is_sound ? scaled_points(std::move(points), component.hull_size) : Points{},
@@ -412,6 +415,11 @@ class Expansion {
     if (resolved.size_unit > 0.0) return to_units_of(resolved.size_unit, *distribution);
     note(*size, "must be positive");
     distribution.reset();
+  }
+
+  void note_hull(const Assignment& file, const VerticesReading& reading) {
+    if (reading.note.empty() || !said_.insert(file.pointer + " hull").second) return;
+    diagnostics_.push_back({file.pointer, reading.note, Anchor::value, "", true});
   }
 
   /// Tables of sieves are in the unit that a laboratory takes.

@@ -1,13 +1,15 @@
 // Vertices from a Wavefront OBJ file: where the shape of a hull comes from.
 //
-// Only the lines "v x y z" matter; faces are worked out anew from the vertices, all others are left
-// alone. Decimal points; a fourth number (weight) and colours after it are ignored.
+// Of the lines "v x y z" the hull is taken; those of faces, "f 1 2 3", tell whether that is the
+// body meant. All others are left alone. Decimal points; a fourth number (weight) and colours after
+// it are ignored.
 #pragma once
 
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "engine/shape/build.hpp"
 #include "engine/shape/convex_shape.hpp"
 #include "runner/sweep/diagnostic.hpp"
 
@@ -15,8 +17,11 @@ namespace grainsweep {
 
 /// What is read from a file of a shape.
 struct VerticesReading {
-  std::vector<Vector> vertices;    ///< in the file's own unit of length
-  std::vector<Diagnostic> errors;  ///< with places "rock.obj:12"; at most 20 of a file
+  std::vector<Vector> vertices;  ///< in the file's own unit of length
+  Loops faces = {};              ///< by number of vertex, from 0; empty where a file has none
+  std::vector<std::string> face_places = {};  ///< "rock.obj:30", "rock.stl: triangle 7"
+  std::string note = {};                      ///< worth knowing of a file without faces, or ""
+  std::vector<Diagnostic> errors;             ///< with places "rock.obj:12"; at most 20 of a file
 };
 
 /// The coordinates of a vertex, words separated by blanks; what is wrong with them, or "". Words
@@ -24,7 +29,7 @@ struct VerticesReading {
 std::string read_vertex(std::string_view coordinates, Vector& vertex);
 
 /// Reads vertices from the file at `path`. Refuses coordinates that are missing or no finite
-/// numbers, and files without a vertex.
+/// numbers, faces of vertices that are not there, and files without a vertex.
 VerticesReading read_obj(const std::string& path);
 
 /// The same from `text`, the content of `file`.

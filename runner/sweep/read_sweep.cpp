@@ -1,6 +1,5 @@
 #include "runner/sweep/read_sweep.hpp"
 
-#include <algorithm>
 #include <filesystem>
 #include <utility>
 
@@ -10,15 +9,6 @@
 #include "runner/sweep/text_lines.hpp"
 
 namespace grainsweep {
-
-namespace {
-
-bool has_errors(const Diagnostics& diagnostics) {
-  return !std::all_of(diagnostics.begin(), diagnostics.end(),
-                      [](const Diagnostic& diagnostic) { return diagnostic.is_note; });
-}
-
-}  // namespace
 
 SweepReading read_sweep(const std::string& path, const SweepCheck& check) {
   FileText file = read_text(path);

@@ -4,10 +4,13 @@
 #include <array>
 #include <cstdint>
 #include <cstring>
-#include <set>
+#include <map>
 #include <tuple>
 #include <utility>
 
+#include "engine/shape/hull.hpp"
+#include "engine/text.hpp"
+#include "runner/sweep/resolved_spec.hpp"
 #include "runner/sweep/text_lines.hpp"
 
 namespace grainsweep {
@@ -34,56 +37,90 @@ std::uint64_t size_with(std::uint64_t triangles) {
   return heading + sizeof(std::uint32_t) + triangle * triangles;
 }
 
-/// Takes vertices, each once, in the order in which they come.
-class Vertices {
+/// Takes the corners of triangles, three after three; each is a vertex once, in the order in which
+/// they come.
+class Triangles {
  public:
-  void take(const Vector& vertex) {
-    if (known_.insert({vertex.x(), vertex.y(), vertex.z()}).second) all_.push_back(vertex);
+  explicit Triangles(std::string file) : file_(std::move(file)) {}
+  void take(const Vector& point) {
+    const auto next = static_cast<std::int32_t>(number_.size());
+    const auto [known, is_new] = number_.try_emplace({point.x(), point.y(), point.z()}, next);
+    if (is_new) reading_.vertices.push_back(point);
+    face_.push_back(known->second);
+    if (face_.size() < 3) return;
+    reading_.faces.push_back(std::exchange(face_, {}));
+    reading_.face_places.push_back(file_ + ": triangle " + std::to_string(reading_.faces.size()));
   }
-  std::vector<Vector> all() && { return std::move(all_); }
+  VerticesReading reading() && { return std::move(reading_); }
 
  private:
-  std::vector<Vector> all_;
-  std::set<std::tuple<double, double, double>> known_;
+  std::string file_;
+  VerticesReading reading_;
+  std::vector<std::int32_t> face_;
+  std::map<std::tuple<double, double, double>, std::int32_t> number_;
 };
 
 VerticesReading parse_bytes(const std::string& bytes, const std::string& file) {
-  VerticesReading reading;
-  Vertices vertices;
+  Triangles triangles(file);
   for (std::uint64_t k = 0; k < triangles_of(bytes); ++k) {
     const std::size_t first = size_with(k) + corner;  // past the normal
     for (std::size_t at = first; at < first + 3 * corner; at += corner) {
       const Vector vertex(number_at<float>(bytes, at), number_at<float>(bytes, at + 4),
                           number_at<float>(bytes, at + 8));
       if (!vertex.allFinite()) {
-        reading.errors.push_back({"",
-                                  "triangle " + std::to_string(k + 1) +
-                                      " has a corner whose coordinates are no finite numbers",
-                                  Anchor::value, file});
-        return reading;
+        VerticesReading wrong;
+        wrong.errors.push_back({"",
+                                "triangle " + std::to_string(k + 1) +
+                                    " has a corner whose coordinates are no finite numbers",
+                                Anchor::value, file});
+        return wrong;
       }
-      vertices.take(vertex);
+      triangles.take(vertex);
     }
   }
-  reading.vertices = std::move(vertices).all();
-  return reading;
+  return std::move(triangles).reading();
 }
 
 VerticesReading parse_text(const std::string& text, const std::string& file) {
   constexpr std::string_view keyword = "vertex";
-  VerticesReading reading;
-  Vertices vertices;
+  Diagnostics errors;
+  Triangles triangles(file);
   const auto lines = lines_of(text);
-  for (std::size_t k = 0; k < lines.size() && reading.errors.size() < most_wrong_lines; ++k) {
+  for (std::size_t k = 0; k < lines.size() && errors.size() < most_wrong_lines; ++k) {
     const std::string_view line = trimmed(lines[k]);
     if (!line.starts_with(keyword)) continue;
     Vector vertex = Vector::Zero();
     const std::string error = read_vertex(line.substr(keyword.size()), vertex);
-    if (error.empty()) vertices.take(vertex);
-    if (!error.empty()) note_wrong_line(reading.errors, file, k + 1, error);
+    if (error.empty()) triangles.take(vertex);
+    if (!error.empty()) note_wrong_line(errors, file, k + 1, error);
   }
-  reading.vertices = std::move(vertices).all();
+  VerticesReading reading = std::move(triangles).reading();
+  reading.errors = std::move(errors);
   return reading;
+}
+
+/// A body that is not convex would become its hull, and that is another one: a ring a cylinder.
+void note_dent(VerticesReading& reading) {
+  const auto dent = deepest_dent(reading.vertices, reading.faces);
+  if (!dent) return;
+  reading.errors.push_back(
+      {"",
+       joined("this face lies inside the hull of the vertices, ",
+              number_text(100.0 * dent->depth / dent->extent),
+              " % of the shape's extent deep: the shape is not convex, and only convex ones are "
+              "packed; give a file of its hull if that is meant"),
+       Anchor::value, reading.face_places[dent->face]});
+}
+
+/// Without faces nothing tells a ring from a cylinder with superfluous vertices.
+void note_hidden_vertices(VerticesReading& reading) {
+  const Hull hull = convex_hull(reading.vertices, flat_as_written);
+  const std::size_t vertices = reading.vertices.size();
+  const std::size_t corners = hull.shape ? hull.shape->vertices.size() : vertices;
+  if (corners == vertices) return;
+  reading.note = joined(vertices - corners, " of its ", vertices,
+                        " vertices lie on edges or faces of their hull, which is packed; if they "
+                        "are of a hole or a notch, the shape is not convex, and the hull another");
 }
 
 }  // namespace
@@ -112,7 +149,12 @@ VerticesReading parse_stl(const std::string& bytes, const std::string& file) {
 VerticesReading read_stl(const std::string& path) { return read_parsed(path, parse_stl); }
 
 VerticesReading read_vertices(const std::string& path) {
-  return is_stl(path) ? read_stl(path) : read_obj(path);
+  VerticesReading reading = is_stl(path) ? read_stl(path) : read_obj(path);
+  const bool is_looked_at =
+      reading.errors.empty() && reading.vertices.size() <= most_vertices_of_a_grain;
+  if (is_looked_at && reading.faces.empty()) note_hidden_vertices(reading);
+  if (is_looked_at) note_dent(reading);
+  return reading;
 }
 
 }  // namespace grainsweep

@@ -1,6 +1,7 @@
 // Vertices from an STL file, of text or of bytes: where the shape of a hull comes from.
 //
-// Corners of triangles are what matters, each taken once; the hull's faces are worked out anew.
+// Corners of triangles are taken once each, and of these the hull; the triangles tell whether that
+// is the body meant.
 #pragma once
 
 #include <string>
@@ -19,7 +20,8 @@ VerticesReading read_stl(const std::string& path);
 /// The same from `bytes`, the content of `file`.
 VerticesReading parse_stl(const std::string& bytes, const std::string& file);
 
-/// Vertices from a file of either kind, by its name: STL, or else OBJ.
+/// Vertices from a file of either kind, by its name: STL, or else OBJ. Refuses bodies that are not
+/// convex, as far as faces tell.
 VerticesReading read_vertices(const std::string& path);
 
 }  // namespace grainsweep

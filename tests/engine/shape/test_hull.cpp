@@ -318,5 +318,27 @@ TEST_CASE("faces of a hull leave out points within it, and points without a hull
   CHECK_THROWS_AS(hull_faces({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}), std::invalid_argument);
 }
 
+TEST_CASE(
+    "a dent is as deep as its deepest face, wherever the body lies and however it is turned") {
+  // A cube with a wedge cut out of its top, 0.5 deep along x = 0.5: the wedge's sides are the last.
+  const std::vector<Vector> points = {
+      Vector(0, 0, 0), Vector(1, 0, 0), Vector(1, 1, 0), Vector(0, 1, 0),     Vector(0, 0, 1),
+      Vector(1, 0, 1), Vector(1, 1, 1), Vector(0, 1, 1), Vector(0.5, 0, 0.5), Vector(0.5, 1, 0.5)};
+  Loops faces = {{3, 2, 1, 0}, {0, 1, 5, 8, 4}, {2, 3, 7, 9, 6}, {1, 2, 6, 5},
+                 {3, 0, 4, 7}, {4, 8, 9, 7},    {8, 5, 6, 9}};
+  for (const double far : {0.0, 1e5}) {
+    std::vector<Vector> moved = points;
+    for (Vector& point : moved) point += Vector(far, -far, 0.0);
+    const auto found = deepest_dent(moved, faces);
+    REQUIRE(found);
+    CHECK((found->face == 5 || found->face == 6));  // both have the edge at the bottom
+    CHECK(found->depth == Approx(0.5).epsilon(1e-9));
+    CHECK(found->extent == Approx(std::sqrt(3.0)).epsilon(1e-9));
+  }
+  faces = {{0, 3, 2, 1}, {4, 5, 6, 7}};  // those of the hull are none
+  CHECK_FALSE(deepest_dent(points, faces));
+  CHECK_FALSE(deepest_dent({Vector(0, 0, 0), Vector(1, 0, 0)}, {{0, 1, 0}}));
+}
+
 }  // namespace
 }  // namespace grainsweep

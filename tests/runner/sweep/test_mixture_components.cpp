@@ -185,6 +185,23 @@ TEST_CASE("errors of the file of a component name its lines, or the component wi
   CHECK_THAT(large[0], Catch::Contains("shape.hull.size"));
 }
 
+TEST_CASE("files of hulls without faces that may not be convex are noted once and packed") {
+  const ScratchFolder folder;
+  folder.write("hole.obj",
+               "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 0 0 1\nv 1 0 1\nv 0 1 1\nv 1 1 1\n"
+               "v 0.5 0.5 0\nv 0.5 0.5 1\n");
+  const SweepReading reading = read_sweep(folder.write("s.json", R"({"name": "t", "sweep": [
+    {"set": {"shape": {"hull": {"file": "hole.obj"}}}, "grid": {"box.width": [6, 7]}},
+    {"set": {"shape": {"mixture": [{"share": 0.5, "cube": {}},
+                                   {"share": 0.5, "hull": {"file": "hole.obj"}}]}}}]})"));
+  CHECK(reading.errors.empty());
+  REQUIRE(reading.notes.size() == 2);
+  CHECK(reading.notes[0].pointer == "/sweep/0/set/shape/hull/file");
+  CHECK(reading.notes[1].pointer == "/sweep/1/set/shape/mixture/1/hull/file");
+  CHECK_THAT(reading.notes[1].message, Catch::StartsWith("2 of its 10 vertices lie on edges"));
+  CHECK(reading.sweep.jobs.size() == 3);
+}
+
 TEST_CASE("grains of a mixture that a file places are of the components that it names") {
   const ScratchFolder folder;
   const std::string turned = ",0.5,0,0,0,1";

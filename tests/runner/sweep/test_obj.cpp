@@ -45,6 +45,29 @@ TEST_CASE("an OBJ file without a vertex says so") {
   CHECK(errors_of_obj("f 1 2 3\nvn 0 0 1\n") == none);
 }
 
+TEST_CASE("faces of an OBJ file are read, in all ways in which their vertices are named") {
+  const VerticesReading reading = parse_obj(
+      "f 1 2 3\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1/1 2/2/2 3//3\nf -3 -2 -1\nv 0 0 1\nf 2\t3 4 1\n",
+      "rock.obj");
+  REQUIRE(reading.errors.empty());
+  CHECK(reading.faces == Loops{{0, 1, 2}, {0, 1, 2}, {0, 1, 2}, {1, 2, 3, 0}});
+  CHECK(reading.face_places ==
+        std::vector<std::string>{"rock.obj:1", "rock.obj:5", "rock.obj:6", "rock.obj:8"});
+}
+
+TEST_CASE("faces of an OBJ file that cannot be are refused with their line") {
+  const std::string corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+  CHECK(errors_of_obj(corners + "f 1 2 x\nf 0 1 2\nf 1 2\nf 1.5 2 3\n") ==
+        Messages{"rock.obj:4: a face needs numbers of vertices, from 1, has \"x\"",
+                 "rock.obj:5: a face needs numbers of vertices, from 1, has \"0\"",
+                 "rock.obj:6: a face needs three vertices or more, has 2",
+                 "rock.obj:7: a face needs numbers of vertices, from 1, has \"1.5\""});
+  CHECK(errors_of_obj(corners + "f 1 2 3\nf 1 2 4\n") ==
+        Messages{"rock.obj:5: the face has a vertex 4, and the file has those from 1 to 3"});
+  CHECK(errors_of_obj(corners + "f -4 1 2\n") ==
+        Messages{"rock.obj:4: the face has a vertex 0, and the file has those from 1 to 3"});
+}
+
 TEST_CASE("no more than twenty errors of an OBJ file are listed") {
   std::string text;
   for (int k = 0; k < 50; ++k) text += "v 0 0\n";

@@ -150,10 +150,11 @@ TEST_CASE("a table of a laboratory beside units, without its unit, is worth a no
   const ScratchFolder folder;
   folder.write("sieves.csv", "diameter,passing\n0.9,0\n2,0.2\n4,1\n");
   const auto notes = [&](const std::string& distribution, const std::string& units) {
-    return read_sweep(folder.write("s.json", R"({"name": "t", )" + units +
-                                                 R"("base": {"sizes.distribution": )" +
-                                                 distribution + "}}"))
-        .notes;
+    const SweepReading reading = read_sweep(folder.write(
+        "s.json",
+        R"({"name": "t", )" + units + R"("base": {"sizes.distribution": )" + distribution + "}}"));
+    CHECK(reading.sweep.jobs.size() == 1);  // with a note or without
+    return reading.notes;
   };
   const std::string units = R"("units": {"d": 3.2, "unit": "mm"}, )";
   const Diagnostics said = notes(R"({"table": {"file": "sieves.csv"}})", units);

@@ -71,6 +71,8 @@ TEST_CASE("the corners of an STL file are taken once each, from text and from by
     const VerticesReading reading = parse_stl(file, "rock.stl");
     REQUIRE(reading.errors.empty());
     CHECK(reading.vertices == corners);
+    CHECK(reading.faces == Loops{{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {2, 1, 3}});
+    CHECK(reading.face_places.back() == "rock.stl: triangle 4");
   }
 }
 
@@ -107,6 +109,73 @@ TEST_CASE("a file is STL by its name, in capitals or not, and else OBJ") {
   CHECK(read_vertices(folder.path("a.Stl")).vertices.size() == 4);
   CHECK(read_vertices(folder.path("a.obj")).vertices.size() == 1);
   CHECK(read_vertices("/nowhere/rock.stl").errors.size() == 1);
+}
+
+/// A bar along z, of the outline that corners in the plane z = 0 have, counter-clockwise.
+std::string obj_of_bar(const std::vector<Vector>& outline) {
+  std::string vertices, sides, ends[2] = {"f", "f"};
+  const std::size_t n = outline.size();
+  for (std::size_t k = 0; k < n; ++k) {
+    for (std::size_t top = 0; top < 2; ++top) {
+      vertices += "v " + std::to_string(outline[k].x()) + " " + std::to_string(outline[k].y()) +
+                  " " + std::to_string(top) + "\n";
+      ends[top] += " " + std::to_string(2 * k + top + 1);
+    }
+    const std::size_t next = (k + 1) % n;
+    sides += "f " + std::to_string(2 * k + 1) + " " + std::to_string(2 * next + 1) + " " +
+             std::to_string(2 * next + 2) + " " + std::to_string(2 * k + 2) + "\n";
+  }
+  return vertices + sides + ends[0] + "\n" + ends[1] + "\n";
+}
+
+std::vector<std::string> errors_of_body(const std::string& name, const std::string& content) {
+  const ScratchFolder folder;
+  folder.write(name, content);
+  std::vector<std::string> errors;
+  for (Diagnostic diagnostic : read_vertices(folder.path(name)).errors) {
+    diagnostic.place.erase(0, folder.path("").size());
+    errors.push_back(to_string(diagnostic));
+  }
+  return errors;
+}
+
+TEST_CASE("a body that is not convex is refused, though all its vertices lie on the hull") {
+  const std::vector<Vector> angle = {Vector(0, 0, 0),     Vector(1, 0, 0),   Vector(1, 0.2, 0),
+                                     Vector(0.2, 0.2, 0), Vector(0.2, 1, 0), Vector(0, 1, 0)};
+  // The corner of the notch lies 0.2 below two sides; the first vertex is sqrt(2.04) from the last.
+  CHECK(errors_of_body("angle.obj", obj_of_bar(angle)) ==
+        Messages{"angle.obj:15: this face lies inside the hull of the vertices, 14 % of the "
+                 "shape's extent deep: the shape is not convex, and only convex ones are packed; "
+                 "give a file of its hull if that is meant"});
+}
+
+TEST_CASE("without faces a file is noted that has more vertices than corners") {
+  const std::string cube =
+      "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 0 0 1\nv 1 0 1\nv 0 1 1\nv 1 1 1\n";
+  const ScratchFolder folder;
+  folder.write("cube.obj", cube);
+  folder.write("hole.obj", cube + "v 0.5 0.5 0\nv 0.5 0.5 1\n");
+  CHECK(read_vertices(folder.path("cube.obj")).note.empty());
+  const VerticesReading reading = read_vertices(folder.path("hole.obj"));
+  CHECK(reading.errors.empty());
+  CHECK(
+      reading.note ==
+      "2 of its 10 vertices lie on edges or faces of their hull, which is packed; if they are of a "
+      "hole or a notch, the shape is not convex, and the hull another");
+}
+
+TEST_CASE("convex bodies pass however their faces are cut, turned and rounded") {
+  const std::vector<Vector> hexagon = {
+      Vector(1, 0, 0),  Vector(0.5, 0.866025, 0),   Vector(-0.5, 0.866025, 0),
+      Vector(-1, 0, 0), Vector(-0.5, -0.866025, 0), Vector(0.5, -0.866025, 0)};
+  CHECK(errors_of_body("bar.obj", obj_of_bar(hexagon)).empty());
+  CHECK(errors_of_body("turned.obj", obj_of_bar({hexagon.rbegin(), hexagon.rend()})).empty());
+  CHECK(errors_of_body("corner.stl", bytes_of(corner_of_a_cube)).empty());
+  // A square whose corners rounding has bent by 1e-6, cut along the diagonal that lies deeper.
+  CHECK(errors_of_body("bent.obj",
+                       "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0.000001\nv 0.5 0.5 -1\n"
+                       "f 1 2 3\nf 1 3 4\nf 2 1 5\nf 3 2 5\nf 4 3 5\nf 1 4 5\n")
+            .empty());
 }
 
 }  // namespace
