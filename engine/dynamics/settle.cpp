@@ -30,19 +30,8 @@ constexpr std::int64_t most_unsolved = 9;  // of them in a row that leave forces
 constexpr double unlimited = std::numeric_limits<double>::infinity();
 constexpr double rounding_of_places = 1e-9;  // d; far from the origin coordinates have fewer digits
 
-/// Heaviest over lightest grain.
-double mass_ratio(const Grains& bed) {
-  double least = bed.motion.front().w, most = least;
-  for (std::size_t i = 0; i < bed.grains(); ++i) {
-    least = std::min(least, bed.motion[i].w);
-    most = std::max(most, bed.motion[i].w);
-  }
-  return most / least;
-}
-
 bool is_fit(const Accuracy& accuracy, const Grains& bed) {
-  return accuracy.precision == Precision::f64 || bed.grains() == 0 ||
-         mass_ratio(bed) <= f32_mass_ratio;
+  return accuracy.precision == Precision::f64 || mass_ratio(bed) <= f32_mass_ratio;
 }
 
 /// Contacts of a bed whose independent ones are counted: the time grows with their square, and
@@ -59,6 +48,15 @@ bool are_nearly_of_one_size(const SphereBed& bed) {
   const auto [least, most] = std::minmax_element(grains.begin(), grains.end(), by_radius);
   return most->w < (1.0 + alike) * least->w;
 }
+
+/// No sphere moves so far in a step that it gets past a smaller one unseen: pairs that are further
+/// apart than `near` before it are no rows. Polyhedra fall more slowly.
+void limit_free_motion(const SphereBed& bed, StepSettings& settings) {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const Record<double>& p : bed.centres()) smallest = std::min(smallest, p.w);
+  settings.longest_free = std::min(settings.longest_free, settings.near + smallest);
+}
+void limit_free_motion(const PolyhedronBed& /*bed*/, StepSettings& /*settings*/) {}
 
 RestReport report_of(const ExactRest& exact, const SphereBed& bed) {
   RestReport rest;
@@ -94,6 +92,7 @@ class Settling {
         stages_(stages_of<Kind>(accuracy.protocol)),
         height_(top_of(bed)),
         settings_(settings_of(accuracy, stages_.front(), height_)) {
+    limit_free_motion(bed, settings_);
     forget(state);
   }
 
@@ -212,8 +211,9 @@ class Settling {
   bool slides_on() const {
     constexpr double layers_of_a_step = 8.0;
     if (stage_ + 1 == stages_.size() || rounds_ == most_rounds) return false;
+    const double most = static_cast<double>(rule().most_steps - 1);
     const bool has_settled =
-        static_cast<double>(steps_in_stage_) >= top_of(bed_) / layers_of_a_step;
+        static_cast<double>(steps_in_stage_) >= std::min(most, top_of(bed_) / layers_of_a_step);
     return has_steps_to_go_on() && (has_settled || is_far_from_rest());
   }
 
@@ -261,7 +261,8 @@ class Settling {
     if (stage == stages_.size()) return;
     is_tested_ = false;
     height_ = top_of(bed_);
-    const StepSettings settings = settings_of(accuracy_, rule(), height_);
+    StepSettings settings = settings_of(accuracy_, rule(), height_);
+    limit_free_motion(bed_, settings);
     change_step(settings.dt / settings_.dt, bed_, state_);
     settings_ = settings;
   }
@@ -290,10 +291,13 @@ class Settling {
     transfer_bed(archive, bed_, state_);
   }
 
-  /// States of other number types, of other kinds of grains and of other beds are of another kind.
+  /// States of other number types, of other kinds of grains, of other beds and of programs in which
+  /// a report has other members are of another kind.
   std::uint64_t kind_of() const {
     constexpr bool turns = std::is_same_v<Kind, Polyhedron>;
-    return bed_.grains() * 32 + (turns ? 16 : 0) + sizeof(Real);
+    constexpr std::uint64_t layout =
+        sizeof(StepSettings) + 1024 * sizeof(StepReport) + 1024 * 1024 * sizeof(RestReport);
+    return (layout << 32U) + bed_.grains() * 32 + (turns ? 16 : 0) + sizeof(Real);
   }
 
   /// A search for exact rest that is under way with it: that begins from this state.

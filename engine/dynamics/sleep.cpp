@@ -44,13 +44,19 @@ double front_of(double dt, const Grains& bed) {
 
 }  // namespace
 
-bool may_sleep(const Grains& bed) {
+double mass_ratio(const Grains& bed) {
   double least = std::numeric_limits<double>::infinity(), most = 0.0;
-  for (const Record<double>& p : bed.centres()) {
-    least = std::min(least, p.w);
-    most = std::max(most, p.w);
+  for (std::size_t i = 0; i < bed.grains(); ++i) {
+    least = std::min(least, bed.motion[i].w);
+    most = std::max(most, bed.motion[i].w);
   }
-  return least >= least_size_ratio * most;
+  return bed.grains() == 0 ? 1.0 : most / least;
+}
+
+/// By their masses: grains of one scale may be of several shapes, and those of several sizes.
+bool may_sleep(const Grains& bed) {
+  constexpr double rounding = 1e-9;
+  return std::cbrt(1.0 / mass_ratio(bed)) >= least_size_ratio * (1.0 - rounding);
 }
 
 bool put_to_sleep(double dt, Grains& bed) {

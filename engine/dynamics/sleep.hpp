@@ -31,6 +31,9 @@ inline constexpr std::int64_t steps_between_looks = 5;
 /// must not find it frozen.
 bool may_sleep(const Grains& bed);
 
+/// Heaviest over lightest grain; 1 if there are none.
+double mass_ratio(const Grains& bed);
+
 /// Puts the grains to sleep whose centres lie further than sleep_depth below the filling front,
 /// after a step of length `dt`. Returns whether any fell asleep.
 bool put_to_sleep(double dt, Grains& bed);

@@ -267,11 +267,13 @@ double path_tolerance(const Accuracy& accuracy) {
 }
 
 /// How far contacts may stray in a step of a stage that has such a bound, d. The steps of a creep
-/// share one bound, so that a longer one does not tap the bed denser.
+/// share one bound, so that a longer one does not tap the bed denser; where few are asked for, so
+/// do those that a creep of polyhedra has at least.
 double path_of(const Accuracy& accuracy, const StageRule& rule) {
-  const double share = rule.creep > 0.0 ? static_cast<double>(Accuracy{}.creep_steps) /
-                                              std::max(1, accuracy.creep_steps)
-                                        : 1.0;
+  if (rule.creep == 0.0) return rule.path * path_tolerance(accuracy);
+  const double at_least = std::max(1.0, static_cast<double>(rule.steps) / rule.creep);
+  const double share =
+      Accuracy{}.creep_steps / std::max(at_least, static_cast<double>(accuracy.creep_steps));
   return share * rule.path * path_tolerance(accuracy);
 }
 

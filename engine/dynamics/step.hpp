@@ -33,7 +33,7 @@ struct StepSettings {
   double margin = 0.05;     ///< a layout of rows reaches this much further, of polyhedra the list
                             ///< of candidates, d
   SolveLimits limits;       ///< tolerance in m g here; `step` turns it into a mass times d
-  /// Longest free motion, d: far below a grain, so that none passes another.
+  /// Longest free motion, d: so short that no grain passes another.
   double longest_free = 0.15;
   bool carries = false;  ///< impulses begin such that they carry a tall bed (columns.hpp)
   /// Of polyhedra, whose contacts take longer to find than to solve: how many steps are taken on

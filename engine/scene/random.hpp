@@ -10,6 +10,7 @@
 
 #include <Random123/philox.h>
 
+#include "engine/portable.hpp"
 #include "engine/units.hpp"
 
 namespace grainsweep {
@@ -50,7 +51,8 @@ void shuffle(std::uint64_t key, Purpose purpose, std::vector<Entry>& entries) {
 
 /// A standard normal number from two words (Box and Muller 1958).
 inline double standard_normal(std::uint32_t a, std::uint32_t b) {
-  return std::sqrt(-2.0 * std::log(unit_interval(a))) * std::cos(2.0 * pi * unit_interval(b));
+  return std::sqrt(-2.0 * portable::log(unit_interval(a))) *
+         portable::cos(2.0 * pi * unit_interval(b));
 }
 
 }  // namespace grainsweep

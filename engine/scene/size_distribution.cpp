@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "engine/interval.hpp"
+#include "engine/portable.hpp"
 #include "engine/scene/random.hpp"
 #include "engine/text.hpp"
 
@@ -27,21 +28,21 @@ Ends ends_of(const SizeDistribution& chosen, double smallest, double largest) {
 
 /// Where a lognormal or Weibull curve begins and ends, d, if nothing else is asked for.
 Ends usual_ends(const LognormalSizes& sizes) {
-  const double factor = std::exp(cut_deviation * sizes.sigma);
+  const double factor = portable::exp(cut_deviation * sizes.sigma);
   return {sizes.median / factor, sizes.median * factor};
 }
 Ends usual_ends(const WeibullSizes& sizes) {
   const double power = 1.0 / sizes.shape;
-  return {sizes.scale * std::pow(-std::log1p(-beyond_cut), power),
-          sizes.scale * std::pow(-std::log(beyond_cut), power)};
+  return {sizes.scale * portable::pow(-portable::log1p(-beyond_cut), power),
+          sizes.scale * portable::pow(-portable::log(beyond_cut), power)};
 }
 
 double formula_at(const LognormalSizes& sizes, double diameter) {
-  const double deviation = std::log(diameter / sizes.median) / sizes.sigma;
-  return 0.5 * std::erfc(-deviation / std::sqrt(2.0));
+  const double deviation = portable::log(diameter / sizes.median) / sizes.sigma;
+  return 0.5 * portable::erfc(-deviation / std::sqrt(2.0));
 }
 double formula_at(const WeibullSizes& sizes, double diameter) {
-  return -std::expm1(-std::pow(diameter / sizes.scale, sizes.shape));
+  return -portable::expm1(-portable::pow(diameter / sizes.scale, sizes.shape));
 }
 
 SizeCurve one_size(double diameter) { return {{diameter, diameter}, {0.0, 1.0}}; }
@@ -54,9 +55,9 @@ SizeCurve rows_between(const Formula& formula, const Ends& ends) {
   const double whole = formula_at(formula, ends.largest) - low;
   for (int k = 0; k <= formula_steps; ++k) {
     const double share = static_cast<double>(k) / formula_steps;
-    const double diameter = k == formula_steps
-                                ? ends.largest
-                                : ends.smallest * std::pow(ends.largest / ends.smallest, share);
+    const double diameter =
+        k == formula_steps ? ends.largest
+                           : ends.smallest * portable::pow(ends.largest / ends.smallest, share);
     curve.diameters.push_back(diameter);
     curve.passing.push_back((formula_at(formula, diameter) - low) / whole);
   }
@@ -310,10 +311,14 @@ std::string fault_of(const SizeDistribution& distribution) {
 }
 
 SizeCurve curve_of(const SizeDistribution& distribution) {
-  SizeCurve curve = without_empty_ends(std::visit(MakeCurve{distribution}, distribution.formula));
-  curve.by = distribution.by;
-  curve.is_table = std::holds_alternative<SizeTable>(distribution.formula);
-  return curve;
+  thread_local std::optional<std::pair<SizeDistribution, SizeCurve>> last;
+  if (!last || last->first != distribution) {
+    SizeCurve curve = without_empty_ends(std::visit(MakeCurve{distribution}, distribution.formula));
+    curve.by = distribution.by;
+    curve.is_table = std::holds_alternative<SizeTable>(distribution.formula);
+    last.emplace(distribution, std::move(curve));
+  }
+  return last->second;
 }
 
 double passing_at(const SizeCurve& curve, double diameter) {

@@ -24,21 +24,25 @@ enum class SizeWeight {
 struct LognormalSizes {
   double median = 1.0;  ///< d
   double sigma = 0.3;   ///< standard deviation of the logarithm
+  bool operator==(const LognormalSizes&) const = default;
 };
 /// As likely everywhere between two diameters, d.
 struct UniformSizes {
   double from = 0.5, to = 1.5;
+  bool operator==(const UniformSizes&) const = default;
 };
 /// The share 1 - exp(-(D / scale)^shape) is finer than D; by volume also known as Rosin-Rammler's.
 struct WeibullSizes {
   double scale = 1.0;  ///< d
   double shape = 3.0;
+  bool operator==(const WeibullSizes&) const = default;
 };
 /// Diameters, d, ascending, and of each either `passing`, the share that is finer, from 0 to 1,
 /// linear between two diameters; or `shares`, the share that has just this diameter. The other list
 /// is empty.
 struct SizeTable {
   std::vector<double> diameters, passing, shares;
+  bool operator==(const SizeTable&) const = default;
 };
 using SizeFormula = std::variant<LognormalSizes, UniformSizes, WeibullSizes, SizeTable>;
 
@@ -48,6 +52,7 @@ struct SizeDistribution {
   /// Where the curve is cut, d, what is left being the whole. Without them lognormal and Weibull
   /// curves, which have no ends, are cut where 0.1 % lie beyond.
   std::optional<double> smallest = {}, largest = {};
+  bool operator==(const SizeDistribution&) const = default;
 };
 
 /// Share of the grains, by weight, that are finer than each diameter, from 0 to 1, linear in the
@@ -69,7 +74,7 @@ inline constexpr std::size_t most_size_rows = 1000;
 std::string fault_of(const SizeDistribution& distribution);
 
 /// The curve of a distribution without fault. Lognormal and Weibull curves lie within 1e-5
-/// of their formula.
+/// of their formula, and take 4 ms but for the one that the thread asked for last.
 SizeCurve curve_of(const SizeDistribution& distribution);
 
 /// Share of the grains of `curve`, by its own weight, that are no larger than `diameter`.

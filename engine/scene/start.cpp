@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "engine/portable.hpp"
 #include "engine/scene/components.hpp"
 #include "engine/scene/random.hpp"
 #include "engine/scene/sizes.hpp"
@@ -68,7 +69,7 @@ class ColumnCells {
 /// are not many more cells than spheres.
 double side_for(std::size_t spheres, double diameter, const Box& box, double height) {
   const double most_cells = 4.0 * static_cast<double>(spheres) + 64.0;
-  return std::max(diameter, std::cbrt(box.length * box.width * height / most_cells));
+  return std::max(diameter, portable::cbrt(box.length * box.width * height / most_cells));
 }
 
 /// Spheres placed so far, of which there will be `spheres` of up to this diameter.
@@ -200,7 +201,7 @@ struct DrawnGrains {
   }
   /// Radius of the ball that keeps a grain from others, at size 1, d.
   double ball(std::size_t i) const {
-    return start_ball * std::cbrt(shape(i).volume / sphere_volume(1.0));
+    return start_ball * portable::cbrt(shape(i).volume / sphere_volume(1.0));
   }
 };
 
@@ -341,8 +342,8 @@ std::vector<PlacedSphere> place_in_file(const Box& box, const std::vector<double
   double side = 1.0, z = apart;
   for (std::size_t i = 0; i < radii.size(); ++i) {
     const double from_axis = side * (middle - radii[i]);
-    spheres.push_back(
-        {middle + from_axis * std::cos(angle), middle + from_axis * std::sin(angle), z, radii[i]});
+    spheres.push_back({middle + from_axis * portable::cos(angle),
+                       middle + from_axis * portable::sin(angle), z, radii[i]});
     z += apart * (1.0 + jitter * share_of(i));
     side = -side;
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/portable.hpp"
 #include "engine/shape/lengths.hpp"
 #include "engine/text.hpp"
 #include "engine/units.hpp"
@@ -38,7 +39,7 @@ void add_three_rectangles(double y, double z, std::vector<Vector>& corners) {
 
 int sides_of(const CylinderSize& size) {
   const double cosine = 1.0 - 2.0 * size.chord_error / size.diameter;
-  const double sides = std::ceil(pi / std::acos(std::max(cosine, -1.0)));
+  const double sides = std::ceil(pi / portable::acos(std::max(cosine, -1.0)));
   return static_cast<int>(std::clamp(sides, 3.0, most_sides + 1.0));
 }
 
@@ -61,7 +62,7 @@ std::string problem_with(const CylinderSize& size) {
       {{"height", size.height}, {"diameter", size.diameter}, {"chord_error", size.chord_error}});
   if (!problem.empty() || sides_of(size) <= most_sides) return problem;
   return joined("chord_error must be at least ",
-                size.diameter / 2.0 * (1.0 - std::cos(pi / most_sides)),
+                size.diameter / 2.0 * (1.0 - portable::cos(pi / most_sides)),
                 ", for which the diameter of ", size.diameter, " d takes ", most_sides,
                 " sides, is ", size.chord_error);
 }
@@ -108,7 +109,7 @@ std::vector<Vector> corners_of(const PrismSize& size) {
   for (int k = 0; k < size.sides; ++k) {
     const double angle = 2.0 * pi * k / size.sides, radius = size.diameter / 2.0;
     for (const double z : {-size.height / 2.0, size.height / 2.0}) {
-      corners.emplace_back(radius * std::cos(angle), radius * std::sin(angle), z);
+      corners.emplace_back(radius * portable::cos(angle), radius * portable::sin(angle), z);
     }
   }
   return corners;

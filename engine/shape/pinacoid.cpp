@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "engine/portable.hpp"
 #include "engine/shape/build.hpp"
 #include "engine/shape/lengths.hpp"
 #include "engine/text.hpp"
@@ -18,7 +19,7 @@ constexpr double no_ridge = 1e-12;
 
 PinacoidHalves halves_of(const PinacoidSize& size) {
   const double a = size.length / 2.0, e = size.height / 2.0;
-  const double c = a - e / std::tan(size.angle);
+  const double c = a - e / portable::tan(size.angle);
   return {a, size.width / 2.0, c > no_ridge * a ? c : 0.0, e};
 }
 
@@ -56,11 +57,12 @@ std::string problem_with_angle(const PinacoidSize& size) {
                   "; upright ends are the shape of a hull");
   }
   // The same rounding as the width: a ridge of no length is allowed.
-  const double steepness = std::tan(size.angle) * size.length;
+  const double steepness = portable::tan(size.angle) * size.length;
   if (steepness >= size.height * (1.0 - no_ridge)) return "";
-  return joined("the ends would cross: tan(angle) must be at least height / length = ",
-                size.height / size.length, ", is ", std::tan(size.angle), "; the least angle is ",
-                std::ceil(std::atan(size.height / size.length) / degree * 1e4) / 1e4, " degrees");
+  return joined(
+      "the ends would cross: tan(angle) must be at least height / length = ",
+      size.height / size.length, ", is ", portable::tan(size.angle), "; the least angle is ",
+      std::ceil(portable::atan(size.height / size.length) / degree * 1e4) / 1e4, " degrees");
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include <Random123/philox.h>
 
+#include "engine/portable.hpp"
 #include "runner/sweep/identity.hpp"
 #include "runner/sweep/values.hpp"
 
@@ -16,7 +17,7 @@ constexpr std::uint64_t sweep_purpose = 0x7377656570647277;  // apart from the e
 double number_between(const RandomPath& random, double u) {
   double value = random.low + u * (random.high - random.low);
   if (random.distribution == Distribution::log_uniform) {
-    value = random.low * std::exp(u * std::log(random.high / random.low));
+    value = random.low * portable::exp(u * portable::log(random.high / random.low));
   }
   return std::clamp(nine_digits(value), random.low, random.high);
 }

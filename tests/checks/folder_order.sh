@@ -20,7 +20,7 @@ report() {
 
 readonly ground_floor=(
   kernels/kernels.hpp
-  engine/clusters.hpp engine/context.hpp engine/interval.hpp engine/results.hpp
+  engine/clusters.hpp engine/context.hpp engine/interval.hpp engine/portable.hpp engine/results.hpp
   engine/saved_state.hpp engine/text.hpp engine/units.hpp
   runner/exit_codes.hpp runner/hash.hpp runner/instruction_set.hpp runner/machine.hpp runner/text.hpp
   runner/versions.hpp

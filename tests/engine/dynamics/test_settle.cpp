@@ -265,6 +265,21 @@ TEST_CASE("grains placed on the same spot part and settle") {
   CHECK(testing::gap_of(bed, 0, 1) > -1e-3);
 }
 
+TEST_CASE("a grain that falls on another one, however small both are, comes to lie on it") {
+  // In the corner of a shaft of their width, beside a large one that takes most of the weight.
+  for (const double small : {0.02, 0.05, 0.09}) {
+    for (int k = 0; k < 20; ++k) {
+      const double above = 3.0 + 0.013 * k;
+      SphereBed bed = make_bed(
+          {4, 3, walls, walls},
+          {{small, small, small, small}, {small, small, above, small}, {2.5, 1.5, 1.5, 1.5}});
+      settle_bed(bed);
+      CAPTURE(small, above);
+      CHECK(bed.position[1].z > bed.position[0].z + small);
+    }
+  }
+}
+
 /// Two layers of 25 grains in a shaft that a grain of 125 times their mass fills on top of them.
 SphereBed heavy_on_light() {
   constexpr double small = 0.1, large = 0.5, width = 1.02;

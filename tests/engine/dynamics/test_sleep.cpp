@@ -5,6 +5,7 @@
 #include "tests/support/brute_force.hpp"
 #include "tests/support/instruction_sets.hpp"
 #include "tests/support/scenes.hpp"
+#include "tests/support/shape_beds.hpp"
 
 namespace grainsweep {
 namespace {
@@ -45,6 +46,14 @@ TEST_CASE("a bed whose small grains may slip through the large ones does not sle
   const Box box{6, 6, periodic, walls};
   CHECK(may_sleep(make_bed(box, {{1, 1, 1, 0.5}, {3, 3, 1, 0.25}})));
   CHECK_FALSE(may_sleep(make_bed(box, {{1, 1, 1, 0.5}, {3, 3, 1, 0.15}})));
+  CHECK(may_sleep(make_bed(box, {{1, 1, 1, 0.5}, {3, 3, 1, 0.2}})));  // just the size
+  CHECK(may_sleep(make_bed(box, {})));
+  const auto mixture = [&](double edge) {  // of cubes of one scale
+    return make_bed(box, {testing::cube(), testing::box_shape(edge, edge, edge)}, {0, 1},
+                    {testing::pose_at(1, 1, 1), testing::pose_at(3, 3, 1)});
+  };
+  CHECK(may_sleep(mixture(0.5)));
+  CHECK_FALSE(may_sleep(mixture(0.3)));
 }
 
 TEST_CASE("what sleeps is neither searched among itself nor with walls") {
