@@ -18,6 +18,7 @@ namespace {
 
 constexpr std::size_t most_curves = 6;
 constexpr double farthest = 4.0;  ///< d, to which g is drawn
+constexpr int bins_to_mark = 4;   ///< from mark to mark along g, whose bins are many
 
 std::string curves_csv(const std::vector<GroupWithCurves>& groups) {
   std::string text = csv_line({"curve", "group", "x", "value", "error", "name"});
@@ -188,9 +189,10 @@ Figure distributions_figure(const Axes& axes) {
   std::vector<KeyEntry> key;
   const auto titles = titles_of(groups, longest_entry);
   for (std::size_t k = 0; k < groups.size(); ++k) {
-    const std::string style = "lines ls " + cell(k + 1) + " lw 1.3";
-    key.push_back({"linespoints ls " + cell(k + 1), titles[k]});
-    pairs.push_back(plot_part({table, "curve", k + 1, "x", "value", "", style}));
+    const std::string style = "linespoints ls " + cell(k + 1);
+    key.push_back({style, titles[k]});
+    pairs.push_back(plot_part({table, "curve", k + 1, "x", "value", "",
+                               style + " lw 1.3 ps 0.5 pi " + cell(bins_to_mark)}));
     forces.push_back(plot_part({table, "curve", k + 1 + groups.size(), "x", "value", "",
                                 "linespoints ls " + cell(k + 1) + " lw 1 ps 0.5"}));
   }

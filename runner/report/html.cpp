@@ -104,6 +104,14 @@ std::string filled(std::string_view page, const std::map<std::string, std::strin
   }
 }
 
+std::string with_signs(std::string text) {
+  constexpr std::string_view plain = " +- ", sign = " ± ";
+  for (std::size_t at = text.find(plain); at != std::string::npos; at = text.find(plain, at)) {
+    text.replace(at, plain.size(), sign);
+  }
+  return text;
+}
+
 std::string html_table(const HtmlTable& table) {
   std::string text = "<div class=\"wide\" tabindex=\"0\" role=\"region\" aria-label=\"" +
                      html_text(table.caption) + "\">\n<table id=\"" + html_text(table.id) +

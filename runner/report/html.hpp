@@ -37,6 +37,9 @@ struct HtmlTable {
   std::vector<std::vector<std::string>> rows;  ///< cells, finished HTML
 };
 
+/// Plain text with the sign ± where reasons in tables, which are plain ASCII, have "+-".
+std::string with_signs(std::string text);
+
 /// A table that scrolls sideways where it does not fit, each row headed by its first cell.
 std::string html_table(const HtmlTable& table);
 

@@ -72,6 +72,20 @@ std::vector<double> places_of(const Axes& axes) {
   return places;
 }
 
+/// From 0 to the end of the highest error bar of these shares, with some room above.
+Range shares_shown(const Axes& axes, const std::string& of) {
+  std::vector<double> ends = {0.0};
+  for (const Series& series : axes.series) {
+    for (const Group* group : series.groups) {
+      for (const char* kind : kind_names) {
+        const Spread& share = mean_of(*group, of + kind);
+        add_ends(share.mean, share.error, ends);
+      }
+    }
+  }
+  return {0.0, range_of({0.0, *std::max_element(ends.begin(), ends.end())}, 0.05).high};
+}
+
 /// The groups whose contacts are of kinds, those of polyhedra that press on each other; series
 /// without any are left out.
 Axes of_kinds(Axes axes) {
@@ -140,11 +154,12 @@ Figure contacts_figure(const Axes& axes) {
   const Panels panels(figure, 2, {1.0}, kinds_key(drawn), {.right = 24.0});
   const std::size_t series = shown_series(drawn).size();
   const std::string x = range_command("x", range_of(places_of(drawn), 0.06)) +
-                        label_command("x", abscissa_title(drawn)) + "set yrange [0:*]\n";
+                        label_command("x", abscissa_title(drawn));
   figure.commands = "set multiplot\n" + panels.key() + panels.place(0, 0) + x +
+                    range_command("y", shares_shown(drawn, "contacts_")) +
                     label_command("y", "share of contacts") + kinds_panel("contacts_", series) +
-                    panels.place(1, 0) + x + label_command("y", "share of force") +
-                    kinds_panel("force_", series);
+                    panels.place(1, 0) + x + range_command("y", shares_shown(drawn, "force_")) +
+                    label_command("y", "share of force") + kinds_panel("force_", series);
   return figure;
 }
 

@@ -36,9 +36,10 @@ std::string figure_section(const DrawnFigure& drawn) {
     return text + note_paragraph("Not determined: " + figure.not_drawn + ".") + "</figure>\n";
   }
   if (!drawn.svg.empty()) {
-    text += "<img width=\"" + std::to_string(figure.width) + "\" height=\"" +
-            std::to_string(figure.height) + "\" alt=\"" + alternative(figure) + "\" src=\"" +
-            data_uri("image/svg+xml", drawn.svg) + "\">\n";
+    text += "<div class=\"wide\" tabindex=\"0\" role=\"region\" aria-label=\"" +
+            html_text(figure.title) + "\">\n<img width=\"" + std::to_string(figure.width) +
+            "\" height=\"" + std::to_string(figure.height) + "\" alt=\"" + alternative(figure) +
+            "\" src=\"" + data_uri("image/svg+xml", drawn.svg) + "\">\n</div>\n";
   }
   return text + "<figcaption>" + html_text(figure.caption) + " " + links_of(drawn) +
          "</figcaption>\n</figure>\n";

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "runner/report/figures.hpp"
+#include "runner/report/html.hpp"
 #include "runner/report/plots.hpp"
 #include "runner/tables/decays.hpp"
 #include "runner/tables/profiles.hpp"
@@ -102,7 +103,7 @@ std::string decays_text(const std::vector<GroupWithCurves>& groups,
     text += fit.not_determined.empty()
                 ? "λ = " + length_text(fit.length.value, fit.length.error, 2, units) + ", reach " +
                       length_text(fit.reach.value, fit.reach.error, 1, units) + "."
-                : "no curve, " + fit.not_determined + ".";
+                : "no curve, " + with_signs(fit.not_determined) + ".";
   }
   return text;
 }

@@ -154,7 +154,9 @@ std::string published_value(const Published& published) {
 }
 
 std::string measured_value(const Measured& measured) {
-  if (!measured.not_determined.empty()) return "not determined: " + measured.not_determined;
+  if (!measured.not_determined.empty()) {
+    return "not determined: " + with_signs(measured.not_determined);
+  }
   return with_error(measured.estimate.value, measured.estimate.error, 4) +
          (measured.definition.empty() ? "" : " (" + measured.definition + ")");
 }

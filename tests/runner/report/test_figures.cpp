@@ -177,6 +177,28 @@ TEST_CASE("of very many packings the figure of what they cost draws some, and sa
   CHECK_THAT(effort.caption, Catch::Contains(" 5000 packings are drawn; all are in packings.csv."));
 }
 
+TEST_CASE("the panels of kinds of contact reach to the end of the highest error bar", "[report]") {
+  std::vector<Row> rows = {polyhedra_row("a", 4), polyhedra_row("b", 4)};
+  rows[0].job.replicate = 1, rows[1].job.replicate = 2;
+  rows[0].outcome->result.shape_order->contact_share = {0.25, 0.0, 0.0};
+  rows[1].outcome->result.shape_order->contact_share = {0.75, 0.0, 0.0};
+  const Analysis analysis = analyse(rows);
+  const std::vector<Figure> figures = figures_of(rows, analysis, {});
+  const Spread& share = mean_of(analysis.groups[0], "contacts_simple");
+  REQUIRE(share.error > 0.25);
+  const std::string& commands = figure_called(figures, "contacts").commands;
+  const std::size_t range = commands.rfind("set yrange [0:", commands.find("share of contacts"));
+  CHECK(std::stod(commands.substr(range + 14)) == Approx(1.05 * (share.mean + share.error)));
+}
+
+TEST_CASE("curves of distances have the marks that the key shows", "[report]") {
+  const std::vector<Row> rows = wall_rows();
+  const std::vector<Figure> figures = figures_of(rows, analyse(rows), {});
+  const std::string& commands = figure_called(figures, "distributions").commands;
+  CHECK_THAT(commands, Catch::Contains("NaN with linespoints ls 1 title") &&
+                           Catch::Contains("with linespoints ls 1 lw 1.3 ps 0.5 pi 4 notitle"));
+}
+
 TEST_CASE("where no grains press on each other the kinds of contact say so", "[report]") {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   std::vector<Row> rows = {polyhedra_row("a", 4), polyhedra_row("b", 5)};

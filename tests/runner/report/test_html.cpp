@@ -20,6 +20,12 @@ TEST_CASE("base64 is that of RFC 4648, section 10", "[report]") {
   CHECK(base64(std::string("\xFF\x00\xFE", 3)) == "/wD+");
 }
 
+TEST_CASE("reasons have the sign ± on the page", "[report]") {
+  CHECK(with_signs("0.33 +- 0.173 d or 1 +- 2") == "0.33 ± 0.173 d or 1 ± 2");
+  CHECK(with_signs("a+-b") == "a+-b");
+  CHECK(with_signs("").empty());
+}
+
 TEST_CASE("a part of a page is not searched for names of parts", "[report]") {
   CHECK(filled("<{{a}}|{{b}}>", {{"a", "{{b}}"}, {"b", "2"}}) == "<{{b}}|2>");
   CHECK_THROWS_AS(filled("{{missing}}", {}), std::out_of_range);

@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "runner/report/page.hpp"
 #include "runner/report/report.hpp"
 #include "runner/report/sections.hpp"
 #include "runner/store/files.hpp"
@@ -108,6 +109,16 @@ TEST_CASE("without gnuplot the page says so and has all the rest", "[report]") {
   CHECK(page.find("gnuplot-nox") != std::string::npos);
   CHECK(page.find("<table id=\"packings\">") != std::string::npos);
   CHECK(file_exists(folder.path() + "/figures/means.csv"));
+}
+
+TEST_CASE("a figure scrolls sideways where it is too wide, as tables do", "[report]") {
+  PageParts parts;
+  parts.figures = {{Figure{.name = "means", .title = "M < N", .caption = ""}, "<svg/>"}};
+  const std::string page = page_text(parts);
+  CHECK_THAT(page, Catch::Contains("<div class=\"wide\" tabindex=\"0\" role=\"region\" "
+                                   "aria-label=\"M &lt; N\">\n<img width=\"960\"") &&
+                       Catch::Contains("\">\n</div>\n<figcaption>") &&
+                       Catch::Contains("min-width: 48rem"));
 }
 
 TEST_CASE("a report that is removed leaves nothing", "[report]") {
