@@ -117,19 +117,20 @@ std::string figure_style() {
   return text + frame + "set style line 20 lc rgb '#777777' pt 7 ps 0.35 lw 1\n";
 }
 
-std::string drawing_commands(const Figure& figure) {
+std::string drawing_commands(const Figure& figure, const Characters& in_png) {
   const std::string size = cell(figure.width) + "," + cell(figure.height);
   const std::string twice = cell(2 * figure.width) + "," + cell(2 * figure.height);
-  const auto draw = [&](const std::string& terminal, const std::string& ending) {
+  const auto draw = [&](const std::string& terminal, const std::string& ending,
+                        const std::string& commands) {
     return "reset session\n" + terminal + "\nset output " + quoted(figure.name + ending) + "\n" +
-           figure_style() + figure.commands + "unset multiplot\nunset output\n";
+           figure_style() + commands + "unset multiplot\nunset output\n";
   };
   return draw("set terminal svg size " + size + " font 'sans-serif,13' background 'white' name " +
                   quoted(figure.name),
-              ".svg") +
+              ".svg", figure.commands) +
          draw("set terminal pngcairo size " + twice +
                   " font 'sans-serif,13' fontscale 1.5 linewidth 2 pointscale 2 background 'white'",
-              ".png");
+              ".png", drawable(figure.commands, in_png));
 }
 
 }  // namespace grainsweep

@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "runner/report/fonts.hpp"
+
 namespace grainsweep {
 
 struct Figure {
@@ -80,7 +82,8 @@ class Panels {
 /// What stands before all figures: colours, shapes, frame, how tables are read.
 std::string figure_style();
 
-/// The commands that draw the figure into NAME.svg and NAME.png.
-std::string drawing_commands(const Figure& figure);
+/// The commands that draw the figure into NAME.svg, and into NAME.png as far as `in_png` has the
+/// characters.
+std::string drawing_commands(const Figure& figure, const Characters& in_png);
 
 }  // namespace grainsweep

@@ -14,6 +14,7 @@
 #include <sys/wait.h>
 
 #include "runner/report/figures.hpp"
+#include "runner/report/fonts.hpp"
 #include "runner/store/files.hpp"
 
 namespace grainsweep {
@@ -121,11 +122,12 @@ void remove_figures(const std::string& folder) {
 Drawing draw(const std::vector<Figure>& figures, const std::string& folder) {
   make_folder_inside(folder);
   remove_figures(folder);
+  const Characters in_png = installed_characters();
   std::vector<const Figure*> to_draw;
   for (const Figure& figure : figures) {
     for (const auto& [name, table] : figure.tables) replace_file(folder + "/" + name, table);
     if (!figure.not_drawn.empty()) continue;
-    replace_file(folder + "/" + figure.name + ".gnuplot", drawing_commands(figure));
+    replace_file(folder + "/" + figure.name + ".gnuplot", drawing_commands(figure, in_png));
     to_draw.push_back(&figure);
   }
   std::vector<Drawer> drawers;  // once no file can fail: each has to be waited for
