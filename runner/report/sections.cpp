@@ -111,6 +111,20 @@ std::vector<std::string> fit_cells(const Family& family, Quantity quantity,
   return cells;
 }
 
+/// Whether all its packings between walls have one width, with which no line can be.
+bool has_one_width(const Family& family) {
+  return family.walled.front().job.box.width == family.walled.back().job.box.width;
+}
+
+/// Those have no row each: a random design has a family for each point.
+std::string one_width_note(std::size_t families, const std::string& extent) {
+  if (families == 0) return "";
+  return note_paragraph(
+      "No line for " +
+      (families == 1 ? "1 family, whose" : cell(families) + " families, each of whose") +
+      " packings have one " + extent + ": a line needs 3 or more.");
+}
+
 /// Those that did not settle come first.
 int order_of(const Row& row) {
   if (!row.outcome) return 2;
@@ -279,13 +293,18 @@ std::string fits_section(const std::vector<Family>& families, const GivenUnits& 
   if (units) table.headings.push_back({"ζ / " + printed_unit(*units), "slope over bulk value"});
   table.headings.push_back({"χ²/dof", "about 1 if the line holds"});
   table.headings.push_back({"remark"});
+  std::size_t of_one_width = 0;
   for (const Family& family : families) {
     if (family.walled.empty()) continue;
+    if (has_one_width(family)) {
+      ++of_one_width;
+      continue;
+    }
     for (const Quantity quantity : {Quantity::solid_fraction, Quantity::coordination}) {
       table.rows.push_back(fit_cells(family, quantity, units));
     }
   }
-  return table.rows.empty() ? "" : html_table(table);
+  return one_width_note(of_one_width, extent) + (table.rows.empty() ? "" : html_table(table));
 }
 
 std::string published_section(const std::string& source,

@@ -27,7 +27,8 @@ inline constexpr std::size_t most_mixtures_of_page = 50;
 /// are read from `folder`, as of GroupWithCurves. Throws FileError.
 std::string components_section(const std::vector<Group>& groups, const std::string& folder);
 
-/// The wall effect of every family, or why it is not determined; empty without walls.
+/// The wall effect of every family, or why it is not determined; those of one width are counted
+/// only. Empty without walls.
 std::string fits_section(const std::vector<Family>& families, const GivenUnits& units = {});
 
 /// Published values beside the measured ones, with both definitions; empty without any.

@@ -85,6 +85,25 @@ TEST_CASE("the page tells how the components of mixtures touch each other", "[re
   CHECK(components_section(groups_of(others), "").empty());
 }
 
+TEST_CASE("families with one width have one line together, not rows without a fit", "[report]") {
+  std::vector<Row> rows;
+  for (const double share : {0.1, 0.2, 0.3}) {
+    rows.push_back(settled_row(std::to_string(rows.size()), 4, 0.6, 5.0, Boundary::walls, share));
+  }
+  const std::string alone = fits_section(analyse(rows).families);
+  CHECK(alone ==
+        "<p class=\"note\">No line for 3 families, each of whose packings have one W: a line "
+        "needs 3 or more.</p>\n");
+  rows.push_back(settled_row("b", 5, 0.6, 5.0, Boundary::walls, 0.3));
+  const std::string html = fits_section(analyse(rows).families);
+  CHECK_THAT(html, Catch::Contains("No line for 2 families"));
+  CHECK(count_of(html, "<tr>") == 1 + 2);  // and the headings
+  CHECK_THAT(html, Catch::Contains("has 2"));
+  rows.erase(rows.begin());
+  CHECK_THAT(fits_section(analyse(rows).families),
+             Catch::Contains("No line for 1 family, whose packings have one W:"));
+}
+
 TEST_CASE("of many packings the page shows 2,000 and leads to all", "[report]") {
   std::vector<Row> rows;
   for (std::size_t k = 0; k < most_packings + 5; ++k) {
