@@ -9,6 +9,8 @@
 
 #include "runner/sweep/parameters.hpp"
 #include "runner/sweep/text_lines.hpp"
+#include "runner/tables/csv.hpp"
+#include "runner/text.hpp"
 
 namespace grainsweep {
 namespace {
@@ -95,22 +97,29 @@ std::string words(const Values& values) {
   return text;
 }
 
+std::vector<const Group*> pointers_to(const std::vector<Group>& groups) {
+  std::vector<const Group*> all;
+  all.reserve(groups.size());
+  for (const Group& group : groups) all.push_back(&group);
+  return all;
+}
+
 /// The values that a parameter takes; none if any of them is no number.
-std::set<double> values_of(const std::vector<Group>& groups, const std::string& path) {
+std::set<double> values_of(const std::vector<const Group*>& groups, const std::string& path) {
   std::set<double> values;
-  for (const Group& group : groups) {
-    if (lies_by_diameter(group, path)) continue;
-    const double value = number_of_cell(group.varied.at(path));
-    if (std::isnan(value) || is_part_of_preset(group, path)) return {};
+  for (const Group* group : groups) {
+    if (lies_by_diameter(*group, path)) continue;
+    const double value = number_of_cell(group->varied.at(path));
+    if (std::isnan(value) || is_part_of_preset(*group, path)) return {};
     values.insert(value);
   }
   return values;
 }
 
-std::string axis_parameter(const std::vector<Group>& groups) {
+std::string axis_parameter(const std::vector<const Group*>& groups) {
   std::string chosen;
   std::size_t most = 1;
-  for (const std::string& path : varied_of(groups)) {
+  for (const std::string& path : varied_of(*groups.front())) {
     const std::size_t count = values_of(groups, path).size();
     if (path == width_parameter && count > 1) return path;
     if (count > most) {
@@ -121,13 +130,46 @@ std::string axis_parameter(const std::vector<Group>& groups) {
   return chosen;
 }
 
-std::string axis_title(const std::string& parameter) {
-  if (parameter.empty()) return "parameter set";
-  if (parameter == width_parameter) return "gap between the walls, W / d";
-  if (parameter == diameter_parameter) return "diameter of the tube, D / d";
-  if (parameter == "sizes.small_share") return "share of small grains in the solid volume";
-  const auto known = find_parameter(parameter);
-  return known ? parameters()[*known].path : parameter;
+/// The numbers that these groups vary, if they are as points of a random design: many, and of one
+/// number at least most have a value of their own.
+std::vector<std::string> scattered_numbers(const std::vector<const Group*>& groups) {
+  constexpr std::size_t few = 8;
+  if (groups.size() < few) return {};
+  std::vector<std::string> numbers;
+  std::size_t most = 0;
+  for (const std::string& path : varied_of(*groups.front())) {
+    const std::size_t count = values_of(groups, path).size();
+    if (count > 1) numbers.push_back(path);
+    most = std::max(most, count);
+  }
+  return numbers.size() > 1 && 2 * most > groups.size() ? numbers : std::vector<std::string>();
+}
+
+/// What a point of a random design does not share with all other groups, but for its numbers.
+Values distinctions_but(const Group& group, const std::vector<std::string>& numbers) {
+  Values values = distinctions(group, "");
+  for (const std::string& number : numbers) values.erase(number);
+  if (group.job.box.is_tube) values.erase(diameter_parameter);
+  return values;
+}
+
+/// Makes series of the groups that are alone on the axis where these are a random design: each
+/// would have a mark of its own, and of two hundred only the first would be seen.
+void join_scattered(Axes& axes) {
+  std::vector<const Group*> alone;
+  for (const Series& series : axes.series) {
+    if (series.groups.size() == 1) alone.push_back(series.groups.front());
+  }
+  axes.scattered = scattered_numbers(alone);
+  if (axes.scattered.empty()) return;
+  std::erase_if(axes.series, [](const Series& series) { return series.groups.size() == 1; });
+  std::map<std::pair<std::string, Values>, std::size_t> index_of;
+  for (const Group* group : alone) {
+    const auto [at, is_new] = index_of.try_emplace(
+        {group->job.label, distinctions_but(*group, axes.scattered)}, axes.series.size());
+    if (is_new) axes.series.push_back({.name = "", .groups = {}, .is_scattered = true});
+    axes.series[at->second].groups.push_back(group);
+  }
 }
 
 /// The label that all groups of a series have; nothing if they have several.
@@ -145,7 +187,9 @@ void name_series(Axes& axes) {
   for (Series& series : axes.series) {
     const Group& first = *series.groups.front();
     const auto label = common_label(series);
-    const std::string distinction = words(distinctions(first, axes.parameter));
+    const std::string distinction =
+        words(series.is_scattered ? distinctions_but(first, axes.scattered)
+                                  : distinctions(first, axes.parameter));
     if (label && (uses[*label] == 1 || distinction.empty()))
       series.name = *label;
     else
@@ -159,7 +203,8 @@ void name_series(Axes& axes) {
 
 Axes axes_of(const std::vector<Group>& groups) {
   Axes axes;
-  axes.parameter = axis_parameter(groups);
+  if (groups.empty()) return axes;
+  axes.parameter = axis_parameter(pointers_to(groups));
   axes.title = axis_title(axes.parameter);
   if (std::all_of(groups.begin(), groups.end(), is_periodic_along_y) &&
       axes.parameter == width_parameter) {
@@ -176,6 +221,7 @@ Axes axes_of(const std::vector<Group>& groups) {
     if (is_new) axes.series.emplace_back();
     axes.series[at->second].groups.push_back(&group);
   }
+  join_scattered(axes);
   for (Series& series : axes.series) {
     std::stable_sort(series.groups.begin(), series.groups.end(),
                      [&](auto* a, auto* b) { return place_on(axes, *a) < place_on(axes, *b); });
@@ -186,8 +232,21 @@ Axes axes_of(const std::vector<Group>& groups) {
 
 double place_on(const Axes& axes, const Group& group) {
   if (axes.parameter.empty()) return static_cast<double>(group.number);
-  if (lies_by_diameter(group, axes.parameter)) return group.job.box.width;
-  return number_of_cell(group.varied.at(axes.parameter));
+  return value_of(group, axes.parameter);
+}
+
+double value_of(const Group& group, const std::string& parameter) {
+  if (lies_by_diameter(group, parameter)) return group.job.box.width;
+  return number_of_cell(group.varied.at(parameter));
+}
+
+std::string axis_title(const std::string& parameter) {
+  if (parameter.empty()) return "parameter set";
+  if (parameter == width_parameter) return "gap between the walls, W / d";
+  if (parameter == diameter_parameter) return "diameter of the tube, D / d";
+  if (parameter == "sizes.small_share") return "share of small grains in the solid volume";
+  const auto known = find_parameter(parameter);
+  return known ? parameters()[*known].path : parameter;
 }
 
 bool is_over_width(const Axes& axes) {
@@ -197,6 +256,17 @@ bool is_over_width(const Axes& axes) {
 
 std::string width_symbol(const Axes& axes) {
   return axes.parameter == diameter_parameter ? "D" : "W";
+}
+
+std::string short_number(double value) {
+  constexpr int digits = 4;
+  if (value == 0.0 || !std::isfinite(value)) return cell(value);
+  const int before_point = static_cast<int>(std::floor(std::log10(std::abs(value)))) + 1;
+  std::string text = fixed(value, std::max(digits - before_point, 0));
+  if (text.find('.') == std::string::npos) return text;
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.ends_with('.')) text.pop_back();
+  return text;
 }
 
 std::string title_of(const Group& group, std::size_t longest_label) {
@@ -224,6 +294,21 @@ std::vector<Values> not_shared(const std::vector<const Group*>& groups) {
   return all;
 }
 
+/// The same with short numbers, unless some would then be alike.
+std::vector<Values> with_short_numbers(const std::vector<Values>& all) {
+  std::vector<Values> rounded = all;
+  for (Values& values : rounded) {
+    for (auto& [path, value] : values) {
+      const double number = number_of_cell(value);
+      if (!std::isnan(number) && value.size() > short_number(number).size()) {
+        value = short_number(number);
+      }
+    }
+  }
+  const std::set<Values> before(all.begin(), all.end()), after(rounded.begin(), rounded.end());
+  return after.size() == before.size() ? rounded : all;
+}
+
 bool have_room(const std::vector<std::string>& texts, std::size_t longest) {
   return std::all_of(texts.begin(), texts.end(),
                      [&](const std::string& text) { return characters(text) <= longest; });
@@ -249,7 +334,7 @@ std::vector<std::string> titles_of(const std::vector<const Group*>& groups, std:
   titles.reserve(groups.size());
   for (const Group* group : groups) titles.push_back(title_of(*group));
   if (have_room(titles, longest)) return titles;
-  const std::vector<Values> values = not_shared(groups);
+  const std::vector<Values> values = with_short_numbers(not_shared(groups));
   std::size_t room = longest;  // for labels
   for (const Values& one : values) {
     const std::size_t taken = characters(joined_title(" ", words(one))) - 1;

@@ -13,23 +13,34 @@ namespace grainsweep {
 struct Series {
   std::string name;  ///< its label, or what tells it from the others
   std::vector<const Group*> groups;
+  /// Points of a random design instead: they share a label and differ in several numbers.
+  bool is_scattered = false;
 };
 
 struct Axes {
   std::string parameter;  ///< dotted name of what is along the axis: box.width if it is varied
   std::string title;      ///< of the axis, with the unit
   std::vector<Series> series;
-  GivenUnits units = {};    ///< of the sweep
-  std::string folder = {};  ///< as of GroupWithCurves
+  std::vector<std::string> scattered = {};  ///< numbers that a random design varies; else none
+  GivenUnits units = {};                    ///< of the sweep
+  std::string folder = {};                  ///< as of GroupWithCurves
 };
 
 /// box.width goes along the axis wherever it is varied, with tubes at their diameter, else the
-/// number that takes most values; of a sweep that varies no number, the number of the group. Refers
-/// to the groups.
+/// number that takes most values; of a sweep that varies no number, the number of the group. Where
+/// many groups are alone on the axis, as points of a random design are, those of one label are a
+/// series. Refers to the groups.
 Axes axes_of(const std::vector<Group>& groups);
 
 /// Where a group lies on the axis.
 double place_on(const Axes& axes, const Group& group);
+
+/// The number that a varied parameter has in a group, of tubes their diameter for box.width; NaN if
+/// it has none.
+double value_of(const Group& group, const std::string& parameter);
+
+/// What stands at an axis of this parameter.
+std::string axis_title(const std::string& parameter);
 
 /// Whether straight lines in 1 / W are fitted along this axis: that of a gap between walls, or of a
 /// diameter.
@@ -37,6 +48,9 @@ bool is_over_width(const Axes& axes);
 
 /// What is along such an axis: W, or D where all are tubes.
 std::string width_symbol(const Axes& axes);
+
+/// A number as figures have room for: at most four significant digits, all before the point.
+std::string short_number(double value);
 
 /// "walls, W = 5": what tells a group from all others of its sweep. A label that is longer is
 /// shortened to so many characters.
@@ -46,7 +60,7 @@ std::string title_of(const Group& group, std::size_t longest_label = 1000);
 inline constexpr std::size_t figure_label = 16;
 
 /// What tells these groups from each other, each in at most so many characters. Where there is no
-/// room for all, what they share is left out.
+/// room for all, what they share is left out, and numbers are short.
 std::vector<std::string> titles_of(const std::vector<const Group*>& groups, std::size_t longest);
 
 /// Texts shortened to so many characters; those that would then be alike lose their beginnings

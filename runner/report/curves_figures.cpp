@@ -296,7 +296,7 @@ Figure effort_figure(const Axes& axes, const std::vector<Row>& rows) {
     return drawn_as(row, numbers) == other_series;
   };
   if (std::any_of(points.begin(), points.end(), is_of_others)) {
-    const std::string style = "points lc rgb '#bbbbbb' pt 7 ps 0.5";
+    const std::string style = other_series_style;
     key.push_back({style, "other series"});
     parts.insert(parts.begin(), plot_part({table, "series", other_series, "cpu_seconds",
                                            "contact_ratio", "", style}));
@@ -334,7 +334,10 @@ std::vector<Figure> figures_of(const std::vector<Row>& rows, const Analysis& ana
   Axes axes = axes_of(analysis.groups);
   axes.units = units;
   axes.folder = analysis.folder;
-  std::vector<Figure> figures = {means_figure(axes, analysis.families), profiles_figure(axes)};
+  std::vector<Figure> figures;
+  if (!axes.scattered.empty()) figures.push_back(parameters_figure(axes));
+  figures.push_back(means_figure(axes, analysis.families));
+  figures.push_back(profiles_figure(axes));
   const auto shares = by_small_share(analysis.families);
   if (!shares.empty() && shares.begin()->first < shares.rbegin()->first) {
     figures.push_back(small_share_figure(analysis.families, analysis.folder));

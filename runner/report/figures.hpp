@@ -12,12 +12,15 @@
 namespace grainsweep {
 
 /// What the files of figures begin with.
-inline constexpr std::array figure_names = {"means",         "means-residuals", "profiles",
-                                            "small_grains",  "components",      "contacts",
-                                            "distributions", "effort",          "published"};
+inline constexpr std::array figure_names = {
+    "parameters", "means",    "means-residuals", "profiles", "small_grains",
+    "components", "contacts", "distributions",   "effort",   "published"};
 
 /// Solid fraction, porosity and coordination number along the axis, with fits and their residuals.
 Figure means_figure(const Axes& axes, const std::vector<Family>& families);
+
+/// Solid fraction and coordination number over each number that a random design varies.
+Figure parameters_figure(const Axes& axes);
 
 /// Solid fraction and coordination number across the gap, beside each other, with the damped
 /// cosine that was fitted.

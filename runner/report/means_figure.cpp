@@ -39,7 +39,8 @@ std::vector<FittedSeries> fitted(const Axes& axes, const std::vector<Family>& fa
   std::vector<FittedSeries> all;
   for (const Series* series : shown_series(axes)) {
     FittedSeries one{series, std::nullopt, std::nullopt};
-    const Family* family = is_over_width(axes) ? family_of(*series, families) : nullptr;
+    const bool may_have_fit = is_over_width(axes) && !series->is_scattered;
+    const Family* family = may_have_fit ? family_of(*series, families) : nullptr;
     if (family != nullptr) {
       one.phi = fit_walls(*family, Quantity::solid_fraction);
       one.z = fit_walls(*family, Quantity::coordination);
@@ -108,9 +109,9 @@ std::string abscissa_commands(const Axes& axes, bool is_lowest, bool is_highest)
   if (!is_over_width(axes) || !is_highest) return text;
   std::string tics;
   double free_from = -1.0;  // where the last one ends
-  const double character = 0.026 * *std::max_element(at.begin(), at.end());
+  const double character = 0.036 * *std::max_element(at.begin(), at.end());
   for (const double width : widths) {
-    const std::string told = axes.units ? length_in(*axes.units, width) : cell(width);
+    const std::string told = short_number(axes.units ? axes.units->d * width : width);
     const double half = character * (static_cast<double>(told.size()) + 1.0) / 2.0;
     if (1.0 / width - half < free_from) continue;
     free_from = 1.0 / width + half;
@@ -123,12 +124,15 @@ std::string abscissa_commands(const Axes& axes, bool is_lowest, bool is_highest)
 }
 
 /// Everything that the panel of a quantity shows, with its errors.
-std::vector<double> heights_of(const std::vector<FittedSeries>& all, Quantity quantity) {
+std::vector<double> heights_of(const Axes& axes, const std::vector<FittedSeries>& all,
+                               Quantity quantity) {
   std::vector<double> heights;
   for (const FittedSeries& one : all) {
     const auto& fit = quantity == Quantity::solid_fraction ? one.phi : one.z;
     if (is_determined(fit)) heights.push_back(fit->bulk.value);
-    for (const Group* group : one.series->groups) {
+  }
+  for (const Series& series : axes.series) {
+    for (const Group* group : series.groups) {
       const Spread& spread = spread_of(*group, quantity);
       add_ends(spread.mean, spread.error, heights);
     }
@@ -136,17 +140,20 @@ std::vector<double> heights_of(const std::vector<FittedSeries>& all, Quantity qu
   return heights;
 }
 
-std::string mean_panel(const std::vector<FittedSeries>& all, Quantity quantity) {
+std::string mean_panel(const Axes& axes, const std::vector<FittedSeries>& all, Quantity quantity) {
   const bool is_phi = quantity == Quantity::solid_fraction;
   const std::string column = is_phi ? "solid_fraction" : "coordination";
   std::vector<std::string> parts;
+  if (has_other_series(axes)) {
+    parts.push_back(plot_part({points_table, "series", 0, "x", column, "", other_series_style}));
+  }
   for (std::size_t k = 0; k < all.size(); ++k) {
     const std::string style = " ls " + cell(k + 1);
     const auto& fit = is_phi ? all[k].phi : all[k].z;
     if (is_determined(fit)) {
       parts.push_back(cell(fit->bulk.value) + " - (" + cell(fit->slope.value) +
                       ") * (x >= 0 ? x : NaN) with lines" + style + " lw 1.4 notitle");
-    } else {
+    } else if (!all[k].series->is_scattered) {
       parts.push_back(plot_part(
           {points_table, "series", k + 1, "x", column, "", "lines" + style + " lw 0.8 dt 3"}));
     }
@@ -187,14 +194,14 @@ std::string height_commands(const std::vector<double>& heights, Quantity quantit
 std::string means_commands(const Axes& axes, const Figure& figure,
                            const std::vector<FittedSeries>& all, bool has_fits) {
   const Panels panels(figure, 2, has_fits ? std::vector{0.74, 0.26} : std::vector{1.0},
-                      series_key(axes, "points"),
+                      key_with_others(axes),
                       {.right = 104.0, .above = is_over_width(axes) ? 58.0 : 8.0});
   std::string text = "set multiplot\n" + panels.key();
   for (const Quantity quantity : {Quantity::solid_fraction, Quantity::coordination}) {
     const std::size_t column = quantity == Quantity::solid_fraction ? 0 : 1;
     text += panels.place(column, 0) + abscissa_commands(axes, !has_fits, true) +
-            height_commands(heights_of(all, quantity), quantity) + mean_panel(all, quantity) +
-            "unset y2tics\nunset y2label\n";
+            height_commands(heights_of(axes, all, quantity), quantity) +
+            mean_panel(axes, all, quantity) + "unset y2tics\nunset y2label\n";
     if (!has_fits) continue;
     text += panels.place(column, 1) + "unset link x2\n" + abscissa_commands(axes, true, false) +
             label_command("y", "residual") + residual_panel(all, quantity);
@@ -248,7 +255,7 @@ Figure means_figure(const Axes& axes, const std::vector<Family>& families) {
     figure.tables.emplace_back(residuals_table, residuals_csv(all));
   }
   if (is_over_width(axes)) figure.caption += places_text(axes);
-  figure.caption += fits_text(all) + left_out_text(axes, figure.name);
+  figure.caption += fits_text(all) + grey_series_text(axes);
   figure.tables.insert(figure.tables.begin(), {points_table, points_csv(axes)});
   figure.commands = means_commands(axes, figure, all, has_fits);
   return figure;

@@ -10,6 +10,10 @@ namespace {
 
 bool has_settled(const Group* group) { return !group->settled.empty(); }
 
+bool is_there(const Series& series) {
+  return std::any_of(series.groups.begin(), series.groups.end(), has_settled);
+}
+
 std::vector<const Group*> settled_groups(const Axes& axes) {
   std::vector<const Group*> all;
   for (const Series& series : axes.series) {
@@ -43,10 +47,20 @@ std::string abscissa_title(const Axes& axes) {
 std::vector<const Series*> shown_series(const Axes& axes) {
   std::vector<const Series*> shown;
   for (const Series& series : axes.series) {
-    const bool is_there = std::any_of(series.groups.begin(), series.groups.end(), has_settled);
-    if (is_there && shown.size() < most_series) shown.push_back(&series);
+    if (is_there(series) && shown.size() < most_series) shown.push_back(&series);
   }
   return shown;
+}
+
+bool has_other_series(const Axes& axes) {
+  const auto all = std::count_if(axes.series.begin(), axes.series.end(), is_there);
+  return static_cast<std::size_t>(all) > most_series;
+}
+
+std::string grey_series_text(const Axes& axes) {
+  if (!has_other_series(axes)) return "";
+  return " " + cell(most_series) + " of " + cell(axes.series.size()) +
+         " series have marks of their own, the others are grey.";
 }
 
 std::string left_out_text(const Axes& axes, const std::string& name) {
@@ -101,12 +115,21 @@ std::vector<KeyEntry> series_key(const Axes& axes, const std::string& style) {
   return entries;
 }
 
+std::vector<KeyEntry> key_with_others(const Axes& axes) {
+  std::vector<KeyEntry> entries = series_key(axes, "points");
+  if (has_other_series(axes)) entries.push_back({other_series_style, "other series"});
+  return entries;
+}
+
 std::string plot_part(const Curve2d& curve) {
   const auto column = [](const std::string& name) { return "(column(" + quoted(name) + "))"; };
-  const std::string points =
-      quoted(curve.table) + " using (" + column(curve.selector) + "==" + cell(curve.number) +
-      " ? " + column(curve.x) + " : NaN):(strcol(" + quoted(curve.y) +
-      ") eq '' ? NaN : " + column(curve.y) + ")";  // a line ends where there is no value
+  const std::string selected = curve.number == 0
+                                   ? "strcol(" + quoted(curve.selector) + ") eq ''"
+                                   : column(curve.selector) + "==" + cell(curve.number);
+  const std::string points = quoted(curve.table) + " using (" + selected + " ? " + column(curve.x) +
+                             " : NaN):(strcol(" + quoted(curve.y) +
+                             ") eq '' ? NaN : " + column(curve.y) +
+                             ")";  // a line ends where there is no value
   std::string plain = points + " with " + curve.style + " notitle";
   if (curve.error.empty()) return plain;
   return points + ":" + column(curve.error) + " with yerrorbars " +

@@ -20,6 +20,13 @@ std::vector<const Series*> shown_series(const Axes& axes);
 /// "12 of 40 series are shown, all are in NAME.csv"; empty if all are shown.
 std::string left_out_text(const Axes& axes, const std::string& name);
 
+/// Whether there are more, with a settled packing: they are grey and have no mark of their own.
+bool has_other_series(const Axes& axes);
+inline constexpr const char* other_series_style = "points lc rgb '#bbbbbb' pt 7 ps 0.5";
+
+/// "12 of 40 series have marks of their own, the others are grey"; empty if all have.
+std::string grey_series_text(const Axes& axes);
+
 /// Groups with a settled packing, at most `most` of them, evenly spread over all. Throws FileError.
 std::vector<GroupWithCurves> chosen_groups(const Axes& axes, std::size_t most);
 
@@ -41,10 +48,13 @@ std::string series_cell(const Axes& axes, const Series& series);
 /// A key entry for each of the shown series.
 std::vector<KeyEntry> series_key(const Axes& axes, const std::string& style);
 
+/// The same of points, with an entry for the others if there are any.
+std::vector<KeyEntry> key_with_others(const Axes& axes);
+
 /// One curve of a plot: `using` of the lines of a table whose column `selector` is `number`.
 struct Curve2d {
   std::string table, selector;
-  std::size_t number = 1;
+  std::size_t number = 1;        ///< 0: those with no number there
   std::string x, y, error = {};  ///< columns; bars stand where there is an error
   std::string style;             ///< "points ls 1"
 };

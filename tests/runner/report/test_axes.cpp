@@ -136,6 +136,87 @@ TEST_CASE("parameters whose paths end alike have as much of them as tells them",
         std::vector<std::string>{"MSP, lognormal.sigma = 0.1", "MSP, normal.sigma = 0.1"});
 }
 
+TEST_CASE("points of a random design are a series for each label", "[report]") {
+  std::vector<Row> rows;
+  for (int k = 0; k < 20; ++k) {
+    rows.push_back(row_at("r" + std::to_string(k), 3.0 + 0.21 * k, 0.015625 * ((7 * k) % 20 + 1)));
+    rows.back().job.label = k < 12 ? "first" : "second";
+  }
+  for (const double width : {4.0, 5.0, 6.0}) {
+    rows.push_back(row_at("w" + std::to_string(width), width, 0.0));
+  }
+  const std::vector<Group> groups = groups_of(rows);
+  const Axes axes = axes_of(groups);
+  CHECK(axes.scattered == std::vector<std::string>{"box.width", "sizes.small_share"});
+  CHECK(names_of(axes) == std::vector<std::string>{"MSP", "first", "second"});
+  REQUIRE(axes.series.size() == 3);
+  CHECK_FALSE(axes.series[0].is_scattered);
+  CHECK(axes.series[0].groups.size() == 3);
+  CHECK(axes.series[1].is_scattered);
+  CHECK(axes.series[1].groups.size() == 12);
+  CHECK(axes.series[2].groups.size() == 8);
+  CHECK(place_on(axes, *axes.series[2].groups[0]) == Approx(3.0 + 0.21 * 12));
+  CHECK(value_of(*axes.series[1].groups[1], "sizes.small_share") == Approx(0.015625 * 8));
+}
+
+TEST_CASE("points of a random design with one label and two shapes are two series", "[report]") {
+  std::vector<Row> rows;
+  for (int k = 0; k < 10; ++k) {
+    const std::string shape = k % 2 == 0 ? "sphere" : "cube";
+    rows.push_back(row_at(std::to_string(k), 3.0 + 0.25 * k, 0.0));
+    rows.back().job.shape = shape;
+    rows.back().job.parameters = R"({"box":{"width":)" + std::to_string(3.0 + 0.25 * k) +
+                                 R"(},"fill":{"solid_height":)" + std::to_string(9 - k % 7) +
+                                 R"(},"shape":")" + shape + "\"}";
+  }
+  const std::vector<Group> groups = groups_of(rows);
+  CHECK(names_of(axes_of(groups)) ==
+        std::vector<std::string>{"MSP, shape = sphere", "MSP, shape = cube"});
+}
+
+TEST_CASE("a grid is no random design, whatever it varies", "[report]") {
+  std::vector<Row> rows;
+  for (const double width : {3.0, 4.0, 5.0, 6.0}) {
+    for (const double share : {0.1, 0.2, 0.3}) {
+      rows.push_back(row_at(std::to_string(rows.size()), width, share));
+    }
+  }
+  const std::vector<Group> groups = groups_of(rows);
+  CHECK(axes_of(groups).scattered.empty());
+  CHECK(axes_of(groups).series.size() == 3);
+  rows.clear();  // and few points neither
+  for (int k = 0; k < 7; ++k) rows.push_back(row_at(std::to_string(k), 3.0 + k, 0.1 * k));
+  const std::vector<Group> few = groups_of(rows);
+  CHECK(axes_of(few).scattered.empty());
+  CHECK(axes_of(few).series.size() == 7);
+}
+
+TEST_CASE("short numbers have at most four significant digits, and all before the point",
+          "[report]") {
+  CHECK(short_number(7.98409342) == "7.984");
+  CHECK(short_number(0.0137288945) == "0.01373");
+  CHECK(short_number(5.0) == "5");
+  CHECK(short_number(0.5) == "0.5");
+  CHECK(short_number(9.99999) == "10");
+  CHECK(short_number(-20000.4) == "-20000");
+  CHECK(short_number(120.0) == "120");
+  CHECK(short_number(0.0) == "0");
+}
+
+TEST_CASE("numbers in titles are short where there is no room, unless they would be alike",
+          "[report]") {
+  std::vector<Row> rows = {row_at("a", 6, 0.160044), row_at("b", 6, 0.168433)};
+  std::vector<Group> groups = groups_of(rows);
+  CHECK(titles_of({&groups[0], &groups[1]}, 27) ==
+        std::vector<std::string>{"MSP, small_share = 0.160044", "MSP, small_share = 0.168433"});
+  CHECK(titles_of({&groups[0], &groups[1]}, 25) ==
+        std::vector<std::string>{"MSP, small_share = 0.16", "MSP, small_share = 0.1684"});
+  rows = {row_at("a", 6, 0.160041), row_at("b", 6, 0.160042)};
+  groups = groups_of(rows);
+  CHECK(titles_of({&groups[0], &groups[1]}, 22) ==
+        std::vector<std::string>{"small_share = 0.160041", "small_share = 0.160042"});
+}
+
 TEST_CASE("text is shortened by characters, not bytes", "[report]") {
   CHECK(shortened("φφφ", 3) == "φφφ");
   CHECK(shortened("φφφφ", 3) == "φφ…");

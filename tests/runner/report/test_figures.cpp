@@ -27,6 +27,16 @@ std::vector<Row> wall_rows() {
   return rows;
 }
 
+/// Points of two parameters at random, each with a value of its own.
+std::vector<Row> random_rows() {
+  std::vector<Row> rows;
+  for (int k = 0; k < 20; ++k) {
+    rows.push_back(settled_row(std::to_string(k), 3.00001 + 0.25 * k, 0.5 + 0.01 * k, 5.0,
+                               Boundary::walls, 0.015625 * ((7 * k) % 20 + 1)));
+  }
+  return rows;
+}
+
 const Figure& figure_called(const std::vector<Figure>& figures, const std::string& name) {
   return *std::find_if(figures.begin(), figures.end(),
                        [&](const Figure& figure) { return figure.name == name; });
@@ -82,6 +92,57 @@ TEST_CASE("of more series than a figure shows the others have no mark in it", "[
   CHECK_THAT(figure_called(figures, "effort").commands, Catch::Contains("other series"));
   CHECK_THAT(figure_called(figures, "distributions").caption,
              Catch::Contains("6 of 14 groups are shown."));
+}
+
+TEST_CASE("of more series than marks the means draw the others in grey", "[report]") {
+  std::vector<Row> rows;
+  for (int k = 0; k < 14; ++k) {
+    rows.push_back(settled_row(std::to_string(k), 5, k == 13 ? 0.9 : 0.6, 5.0));
+    rows.back().job.label = "label " + std::to_string(k);
+    rows.back().job.parameters = R"({"box":{"width":5},"kind":"of )" + std::to_string(k) + "\"}";
+  }
+  const std::vector<Figure> figures = figures_of(rows, analyse(rows), {});
+  const Figure& means = figure_called(figures, "means");
+  CHECK(cell_in(means.tables[0].second, 14, "series").empty());
+  CHECK_THAT(
+      means.commands,
+      Catch::Contains("(strcol('series') eq '' ? (column('x')) : NaN)") &&
+          Catch::Contains("NaN with points lc rgb '#bbbbbb' pt 7 ps 0.5 title 'other series'") &&
+          Catch::Contains("set yrange [0.579:0.921]"));
+  CHECK_THAT(means.caption,
+             Catch::Contains("12 of 14 series have marks of their own, the others are grey."));
+}
+
+TEST_CASE("of a random design all points are drawn, over each of its numbers", "[report]") {
+  const std::vector<Row> rows = random_rows();
+  const std::vector<Figure> figures = figures_of(rows, analyse(rows), {});
+  const Figure& figure = figure_called(figures, "parameters");
+  const std::string& table = figure.tables.at(0).second;
+  REQUIRE(cells_of_table(table).size() == 1 + 20);
+  CHECK(cell_in(table, 2, "series") == "1");
+  CHECK(cell_in(table, 2, "box.width") == "3.25001");
+  CHECK(cell_in(table, 2, "sizes.small_share") == "0.125");
+  CHECK(cell_in(table, 2, "solid_fraction") == "0.51");
+  CHECK_THAT(figure.commands,
+             Catch::Contains("set xlabel 'gap between the walls, W / d'") &&
+                 Catch::Contains("set xlabel 'share of small grains in the solid volume'") &&
+                 Catch::Contains("(column('sizes.small_share'))"));
+  const Figure& means = figure_called(figures, "means");
+  CHECK(cell_in(means.tables.at(0).second, 20, "series") == "1");
+  CHECK_THAT(means.commands, !Catch::Contains("lw 0.8 dt 3"));  // what joins points of a series
+  CHECK_THAT(means.caption, !Catch::Contains("No line"));
+}
+
+TEST_CASE("widths above the means are short and do not overlap", "[report]") {
+  const std::vector<Row> rows = random_rows();
+  const std::vector<Figure> figures = figures_of(rows, analyse(rows), {});
+  const std::string& commands = figure_called(figures, "means").commands;
+  // a character takes 0.036 of 1 / 3.00001, so tics of five are at least 0.072 apart
+  CHECK_THAT(commands, Catch::Contains("set x2tics ('7.75' 0.12903"));
+  const std::size_t begin = commands.find("set x2tics ("), end = commands.find(')', begin);
+  const std::string tics = commands.substr(begin, end - begin);
+  CHECK(std::count(tics.begin(), tics.end(), ',') == 3);
+  CHECK_THAT(tics, !Catch::Contains("0001'"));
 }
 
 TEST_CASE("densities of forces are drawn from the least to the largest that there is", "[report]") {
