@@ -62,8 +62,10 @@ std::size_t shown_components(const Mixtures& groups) {
   return std::min(most, most_series);
 }
 
+/// Dashes tell the lines apart where colours do not.
 std::string component_style(std::size_t component) {
-  return "lines ls " + cell(component + 1) + " lw 1.4";
+  constexpr std::size_t dash_types = 5;  // of gnuplot, the first of them solid
+  return "lines ls " + cell(component + 1) + " lw 1.4 dt " + cell(component % dash_types + 1);
 }
 
 std::string component_panel(std::size_t number, const Group& group, const std::string& column) {

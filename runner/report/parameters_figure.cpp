@@ -78,8 +78,8 @@ std::string parameters_commands(const Axes& axes, const Figure& figure,
   for (std::size_t row = 0; row < parameters.size(); ++row) {
     const std::string& parameter = parameters[row];
     text += range_command("x", range_of_parameter(axes, parameter)) +
-            label_command("x", axis_title(parameter)) + panels.place(0, row) + solid +
-            label_command("y", "solid fraction φ") +
+            label_command("x", parameter == axes.parameter ? axes.title : axis_title(parameter)) +
+            panels.place(0, row) + solid + label_command("y", "solid fraction φ") +
             parameter_panel(axes, parameter, "solid_fraction") + panels.place(1, row) + touching +
             label_command("y", "coordination number Z") +
             parameter_panel(axes, parameter, "coordination");

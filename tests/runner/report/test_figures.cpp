@@ -133,6 +133,20 @@ TEST_CASE("of a random design all points are drawn, over each of its numbers", "
   CHECK_THAT(means.caption, !Catch::Contains("No line"));
 }
 
+TEST_CASE("beside tubes the panel over the width says where those stand", "[report]") {
+  std::vector<Row> rows = random_rows();
+  rows.push_back(settled_row("t", 4, 0.55, 4.5));
+  rows.back().job.box = tube_of(4.0);
+  rows.back().job.parameters =
+      R"({"accuracy":"balanced","shape":"sphere","sizes":{"small_share":0.0},"tube":{"diameter":4}})";
+  const std::vector<Figure> figures = figures_of(rows, analyse(rows), {});
+  const Figure& figure = figure_called(figures, "parameters");
+  CHECK(cell_in(figure.tables.at(0).second, 21, "box.width") == "4");
+  CHECK_THAT(
+      figure.commands,
+      Catch::Contains("set xlabel 'gap between the walls, W / d, and diameter of tubes, D / d'"));
+}
+
 TEST_CASE("widths above the means are short and do not overlap", "[report]") {
   const std::vector<Row> rows = random_rows();
   const std::vector<Figure> figures = figures_of(rows, analyse(rows), {});
@@ -315,7 +329,9 @@ TEST_CASE("each component of a mixture has its curve from wall to wall", "[repor
   CHECK(cell_in(table, 2, "coordination") == "5");
   CHECK(cell_in(table, 3, "component") == "2");
   CHECK(cell_in(table, 4, "coordination").empty());
-  CHECK_THAT(figure.commands, Catch::Contains("component 1") && Catch::Contains("component 2"));
+  CHECK_THAT(figure.commands,
+             Catch::Contains("NaN with lines ls 1 lw 1.4 dt 1 title 'component 1'") &&
+                 Catch::Contains("NaN with lines ls 2 lw 1.4 dt 2 title 'component 2'"));
   const std::vector<Row> others = {polyhedra_row("b", 5)};
   for (const Figure& other : figures_of(others, analyse(others), {})) {
     CHECK(other.name != "components");
