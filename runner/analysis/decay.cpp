@@ -301,17 +301,20 @@ void take_values(const VectorXd& values, const VectorXd& errors, DecayFit& fit) 
   fit.reach = {values[5], errors[5]};
 }
 
-/// Fits without each profile in turn, as they are fitted and as they are read; empty if one fails.
+/// Fits without each profile in turn, as they are fitted and as they are read; empty if one fails,
+/// or runs away to a wave so long that nothing is left of it in the window.
 struct PartialFits {
   std::vector<VectorXd> fitted, read;
 };
+constexpr double longest_wave = 10.0;  // windows
 PartialFits fits_of(const std::vector<Window>& windows, const VectorXd& whole) {
   PartialFits parts;
   const double phase = readable(whole)[2];
   for (const Window& window : windows) {
     const auto curve =
         minimum_near(best_curve(window, whole[log_length], whole[log_period]), window);
-    if (!curve) return {};
+    const double span = window.distance[window.distance.size() - 1];
+    if (!curve || std::exp(curve->p[log_period]) > longest_wave * span) return {};
     parts.fitted.push_back(curve->p);
     VectorXd values = readable(curve->p);
     values[2] = phase + std::remainder(values[2] - phase, 2.0 * pi);
@@ -374,8 +377,12 @@ DecayFit fit_decay(const std::vector<std::vector<double>>& profiles, double bin_
   for (std::size_t i = 0; i < profiles.size(); ++i) {
     without_each.push_back(mean_window(profiles, bin_width, window_end, i));
   }
-  const PartialFits parts = minima.empty() ? PartialFits{} : fits_of(without_each, minima[0].p);
-  if (parts.read.empty()) return not_determined(fit, "the fit does not converge");
+  if (minima.empty()) return not_determined(fit, "the fit does not converge");
+  const PartialFits parts = fits_of(without_each, minima[0].p);
+  if (parts.read.empty()) {
+    return not_determined(fit,
+                          "the fit without one of the packings does not converge; add replicates");
+  }
   const FittedCurve& whole = minima[0];
   take_values(readable(whole.p), widened_errors(parts.read), fit);
   const double squares = whole.residual.squaredNorm();

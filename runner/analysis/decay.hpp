@@ -6,8 +6,8 @@
 // lengths and periods. The other three follow linearly from these two, so that damped Gauss-Newton
 // steps in length and period find the minimum (variable projection). Solid fractions of
 // neighbouring bins come from the same grains, so their noise is correlated and the residuals do
-// not tell the errors. These are jackknife errors instead: with the n profiles left out one at a
-// time,
+// not tell the errors. These are jackknife errors instead: with the n profiles, of one packing
+// each, left out one at a time,
 //   error^2 = (n - 1) / n  sum (p_k - mean p)^2     (Efron and Stein 1981),
 // times Student's t with n - 1 degrees of freedom over 1.96, at 97.5 %, so that two errors to both
 // sides hold the truth in 95 % of all sweeps however few profiles there are.

@@ -9,20 +9,20 @@ double ProfileBin::*volume_of(GrainClass grains) {
   return grains == GrainClass::large ? &ProfileBin::large : &ProfileBin::small;
 }
 
-/// Both halves of every settled profile, from the wall inwards; that of a tube is one half.
-std::vector<std::vector<double>> halves_of(const Group& group, GrainClass grains) {
-  std::vector<std::vector<double>> halves;
+/// Every settled profile from a wall inwards: between two walls the mean of its halves, which share
+/// grains in the middle and so are no two profiles; across a tube as it is.
+std::vector<std::vector<double>> profiles_from_wall(const Group& group, GrainClass grains) {
+  std::vector<std::vector<double>> profiles;
   for (const Outcome& outcome : group.settled) {
-    std::vector<double> values;
-    for (const ProfileBin& bin : (outcome.result.*profile_across(group)).bins) {
-      values.push_back(bin.*volume_of(grains));
+    const std::vector<ProfileBin>& bins = (outcome.result.*profile_across(group)).bins;
+    std::vector<double>& values = profiles.emplace_back();
+    for (std::size_t k = 0; k < bins.size(); ++k) {
+      const double here = bins[k].*volume_of(grains);
+      const double mirrored = bins[bins.size() - 1 - k].*volume_of(grains);
+      values.push_back(group.job.box.is_tube ? here : 0.5 * (here + mirrored));
     }
-    halves.push_back(values);
-    if (group.job.box.is_tube) continue;
-    std::reverse(values.begin(), values.end());
-    halves.push_back(values);
   }
-  return halves;
+  return profiles;
 }
 
 bool has_grains(const Group& group, GrainClass grains) {
@@ -116,7 +116,7 @@ DecayFit decay_of(const Group& group, GrainClass grains) {
   fit.not_determined = why_no_fit(group, grains);
   if (!fit.not_determined.empty()) return fit;
   const double bin_width = (group.settled.front().get().result.*profile_across(group)).bin_width;
-  return fit_decay(halves_of(group, grains), bin_width, fit.window_end);
+  return fit_decay(profiles_from_wall(group, grains), bin_width, fit.window_end);
 }
 
 std::vector<ColumnText> decays_columns(const Varied& varied, const GivenUnits& units) {

@@ -190,6 +190,20 @@ TEST_CASE("the error of a phase near pi knows that pi and -pi are one") {
 }
 
 // In bins of 0.1 d a wave of 0.1125 d takes the same values as one of 0.9 d.
+TEST_CASE("a fit that runs away without one of the packings determines nothing, and says so") {
+  // Layers that one of the profiles alone has.
+  std::vector<std::vector<double>> profiles = {profile_of(layers, 5.0)};
+  for (int k = 1; k <= 3; ++k) {
+    profiles.emplace_back(profiles.front().size());
+    for (std::size_t i = 0; i < profiles.back().size(); ++i) {
+      profiles.back()[i] = 0.62 + 0.01 * k * static_cast<double>(i) / 50.0;
+    }
+  }
+  const DecayFit fit = fit_decay(profiles, bin_width, 5.0);
+  CHECK(fit.not_determined ==
+        "the fit without one of the packings does not converge; add replicates");
+}
+
 TEST_CASE("a wave shorter than two bins is never meant") {
   std::mt19937_64 generator(5);
   int determined = 0;
