@@ -1,5 +1,6 @@
 // How the rows of the table of parameters are made: parameters that are members of a specification,
-// and parameters that are set and read by functions of their own.
+// and parameters that are set and read by functions of their own; and the
+// rows that stand in files of their own, those of shapes and of sizes.
 #pragma once
 
 #include <limits>
@@ -99,5 +100,18 @@ Parameter row(const char* path, const WrittenValues& limits, const char* meaning
              set_member<&ResolvedSpec::spec, members...>,
              get_member<&ResolvedSpec::spec, members...>);
 }
+
+/// The rows that say what the grains are. The shape's name comes before the parts that name a shape
+/// too.
+std::vector<Parameter> shape_parameters();
+
+/// The shape, with its defaults, that the parameter `path` is a part of: "shape.prism.sides".
+ShapeSpec shape_with_part(const std::string& path);
+
+/// The rows about the sizes of grains: two classes, and the distributions in their place.
+std::vector<Parameter> size_parameters();
+
+/// Writes all diameters of a distribution in units of `size`, a length in theirs.
+void to_units_of(double size, SizeDistribution& distribution);
 
 }  // namespace grainsweep

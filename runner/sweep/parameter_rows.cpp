@@ -1,13 +1,10 @@
-#include "runner/sweep/parameter_rows.hpp"
-
 #include <limits>
 #include <type_traits>
 #include <utility>
 
 #include "engine/dynamics/presets.hpp"
 #include "runner/sweep/parameter_row.hpp"
-#include "runner/sweep/shape_parameters.hpp"
-#include "runner/sweep/size_parameters.hpp"
+#include "runner/sweep/parameters.hpp"
 
 namespace grainsweep {
 namespace {
@@ -212,9 +209,7 @@ Rows measure_rows() {
   };
 }
 
-}  // namespace
-
-std::vector<Parameter> parameter_rows() {
+Rows all_rows() {
   Rows all;
   for (Rows rows : {shape_parameters(), container_rows(), fill_rows(), size_parameters(),
                     accuracy_rows(), measure_rows()}) {
@@ -223,6 +218,13 @@ std::vector<Parameter> parameter_rows() {
   all.push_back(own("seed", WrittenValues{}, "master seed of the random numbers; in blocks only",
                     ValueKind::natural, Role::seed, set_member<&ResolvedSpec::seed>, no_identity));
   return all;
+}
+
+}  // namespace
+
+const std::vector<Parameter>& parameters() {
+  static const Rows table = all_rows();
+  return table;
 }
 
 }  // namespace grainsweep

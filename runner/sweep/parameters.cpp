@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <map>
 
-#include "runner/sweep/parameter_rows.hpp"
-#include "runner/sweep/shape_parameters.hpp"
+#include "runner/sweep/parameter_row.hpp"
 
 namespace grainsweep {
 namespace {
@@ -42,11 +41,6 @@ std::string cut_reason(bool is_smallest, const std::optional<SizeDistribution>& 
 }
 
 }  // namespace
-
-const std::vector<Parameter>& parameters() {
-  static const std::vector<Parameter> table = parameter_rows();
-  return table;
-}
 
 std::optional<std::size_t> find_parameter(std::string_view path) {
   for (std::size_t i = 0; i < parameters().size(); ++i) {

@@ -1,5 +1,3 @@
-#include "runner/sweep/shape_parameters.hpp"
-
 #include <algorithm>
 #include <array>
 #include <type_traits>

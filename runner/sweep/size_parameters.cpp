@@ -1,5 +1,3 @@
-#include "runner/sweep/size_parameters.hpp"
-
 #include <string>
 
 #include "runner/sweep/identity.hpp"
@@ -16,6 +14,12 @@ Parameter of_classes(const char* path, const Interval& range, const char* meanin
                if (resolved.spec.sizes.distribution) return std::optional<Value>();
                return get_member<&ResolvedSpec::spec, &PackingSpec::sizes, member>(resolved);
              });
+}
+
+/// The distribution that is being written; a new one if there is none yet.
+SizeDistribution& distribution_of(ResolvedSpec& resolved) {
+  auto& distribution = resolved.spec.sizes.distribution;
+  return distribution ? *distribution : distribution.emplace();
 }
 
 /// The formula of the distribution that is being written, which becomes one of this kind.
@@ -136,11 +140,6 @@ std::vector<Parameter> formula_parameters() {
 }
 
 }  // namespace
-
-SizeDistribution& distribution_of(ResolvedSpec& resolved) {
-  auto& distribution = resolved.spec.sizes.distribution;
-  return distribution ? *distribution : distribution.emplace();
-}
 
 void to_units_of(double size, SizeDistribution& distribution) {
   std::vector<double*> lengths;

@@ -1,6 +1,5 @@
 #include <catch2/catch.hpp>
 
-#include "runner/sweep/size_parameters.hpp"
 #include "tests/runner/sweep/sweep_files.hpp"
 
 namespace grainsweep {
