@@ -322,7 +322,7 @@ Collection collected(const CollectOptions& options, ShardFiles& files, ProgressD
 
 }  // namespace
 
-CLI::App& add_command(CLI::App& app, CollectOptions& options) {
+void add_command(CLI::App& app, CollectOptions& options) {
   CLI::App& collect =
       *app.add_subcommand("collect", "Merge the results of several output folders into one");
   collect.add_option("DIR", options.folders, "output folders")->required()->type_name("");
@@ -331,7 +331,6 @@ CLI::App& add_command(CLI::App& app, CollectOptions& options) {
       ->check(not_empty())
       ->type_name("DIR");
   collect.footer("Example: grainsweep collect out/node1 out/node2 --out out/all");
-  return collect;
 }
 
 int perform(const CollectOptions& options) {

@@ -9,11 +9,10 @@
 
 namespace grainsweep {
 
-CLI::App& add_command(CLI::App& app, ColumnsOptions& options) {
+void add_command(CLI::App& app, ColumnsOptions& options) {
   CLI::App& columns = *app.add_subcommand("columns", "Say what the columns of the tables mean");
   columns.add_flag("--markdown", options.markdown, "as tables in Markdown, not CSV");
   columns.footer("Example: grainsweep columns");
-  return columns;
 }
 
 int perform(const ColumnsOptions& options) {

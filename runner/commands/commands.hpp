@@ -34,21 +34,21 @@ struct RunOptions {
 };
 /// Makes what is missing of a sweep and writes the tables.
 int perform(const RunOptions& options);
-CLI::App& add_command(CLI::App& app, RunOptions& options);
+void add_command(CLI::App& app, RunOptions& options);
 
 struct InitOptions {
   std::string name = "my-sweep";
 };
 /// Writes a sweep file to start from, and the schema of sweep files beside it. Replaces no sweep.
 int perform(const InitOptions& options);
-CLI::App& add_command(CLI::App& app, InitOptions& options);
+void add_command(CLI::App& app, InitOptions& options);
 
 struct ValidateOptions {
   std::string file;
 };
 /// Says whether a sweep file is right, and how many packings it stands for.
 int perform(const ValidateOptions& options);
-CLI::App& add_command(CLI::App& app, ValidateOptions& options);
+void add_command(CLI::App& app, ValidateOptions& options);
 
 struct PlanOptions {
   std::string file;
@@ -59,7 +59,7 @@ struct PlanOptions {
 };
 /// Prints the packings of a sweep with estimated time and memory.
 int perform(const PlanOptions& options);
-CLI::App& add_command(CLI::App& app, PlanOptions& options);
+void add_command(CLI::App& app, PlanOptions& options);
 
 struct SlurmOptions {
   std::string file;
@@ -72,14 +72,14 @@ struct SlurmOptions {
 };
 /// Submits a sweep to Slurm: an array of shards, and a job that makes the rest and the tables.
 int perform(const SlurmOptions& options);
-CLI::App& add_command(CLI::App& app, SlurmOptions& options);
+void add_command(CLI::App& app, SlurmOptions& options);
 
 struct ReportOptions {
   std::string folder;
 };
 /// Prints the closing table from stored results and writes report.html.
 int perform(const ReportOptions& options);
-CLI::App& add_command(CLI::App& app, ReportOptions& options);
+void add_command(CLI::App& app, ReportOptions& options);
 
 struct CompareOptions {
   std::string folder;
@@ -87,7 +87,7 @@ struct CompareOptions {
 };
 /// Prints stored results beside published values.
 int perform(const CompareOptions& options);
-CLI::App& add_command(CLI::App& app, CompareOptions& options);
+void add_command(CLI::App& app, CompareOptions& options);
 
 struct ExportOptions {
   std::string folder;
@@ -100,7 +100,7 @@ struct ExportOptions {
 };
 /// Writes the grains of stored packings, a file each.
 int perform(const ExportOptions& options);
-CLI::App& add_command(CLI::App& app, ExportOptions& options);
+void add_command(CLI::App& app, ExportOptions& options);
 
 struct StatusOptions {
   std::vector<std::string> folders;
@@ -109,7 +109,7 @@ struct StatusOptions {
 };
 /// Prints how much of a sweep is done, and whether a runner is at work.
 int perform(const StatusOptions& options);
-CLI::App& add_command(CLI::App& app, StatusOptions& options);
+void add_command(CLI::App& app, StatusOptions& options);
 
 struct CollectOptions {
   std::vector<std::string> folders;
@@ -117,32 +117,32 @@ struct CollectOptions {
 };
 /// Merges the results of several output folders, a packing once, and writes the tables.
 int perform(const CollectOptions& options);
-CLI::App& add_command(CLI::App& app, CollectOptions& options);
+void add_command(CLI::App& app, CollectOptions& options);
 
 struct ColumnsOptions {
   bool markdown = false;  ///< a table in GitHub's Markdown for each file, not CSV
 };
 /// Prints file, name, unit and meaning of the columns of all tables.
 int perform(const ColumnsOptions& options);
-CLI::App& add_command(CLI::App& app, ColumnsOptions& options);
+void add_command(CLI::App& app, ColumnsOptions& options);
 
 struct SchemaOptions {
   bool markdown = false;  ///< the table of parameters for a manual instead
 };
 /// Prints the JSON Schema of sweep files.
 int perform(const SchemaOptions& options);
-CLI::App& add_command(CLI::App& app, SchemaOptions& options);
+void add_command(CLI::App& app, SchemaOptions& options);
 
 struct ManualOptions {
   std::string folder;
 };
 /// Writes manual pages and completions of shells into a folder.
 int perform(const ManualOptions& options);
-CLI::App& add_command(CLI::App& app, ManualOptions& options);
+void add_command(CLI::App& app, ManualOptions& options);
 
 struct DoctorOptions {};
 /// Prints what the machine offers and tries to write a file here.
 int perform(const DoctorOptions& options);
-CLI::App& add_command(CLI::App& app, DoctorOptions& options);
+void add_command(CLI::App& app, DoctorOptions& options);
 
 }  // namespace grainsweep

@@ -28,7 +28,7 @@ std::string reference_file(const CompareOptions& options, const Provenance& prov
 
 }  // namespace
 
-CLI::App& add_command(CLI::App& app, CompareOptions& options) {
+void add_command(CLI::App& app, CompareOptions& options) {
   CLI::App& compare = *app.add_subcommand(
       "compare", "Print results beside published values, and whether they agree");
   add_folder(compare, options.folder);
@@ -41,7 +41,6 @@ CLI::App& add_command(CLI::App& app, CompareOptions& options) {
       "and how many standard errors that is; \"not determined\" and why where the sweep does not\n"
       "tell.\n\nExample: grainsweep compare out/paper-spheres\n"
       "Example: grainsweep compare out/quick --with configs/paper-spheres.reference.json");
-  return compare;
 }
 
 int perform(const CompareOptions& options) {

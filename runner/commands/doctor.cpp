@@ -42,11 +42,10 @@ std::string versions_text() {
 
 }  // namespace
 
-CLI::App& add_command(CLI::App& app, DoctorOptions& /*options*/) {
+void add_command(CLI::App& app, DoctorOptions& /*options*/) {
   CLI::App& doctor = *app.add_subcommand(
       "doctor", "Say what this machine offers and whether results can be written");
   doctor.footer("Example: grainsweep doctor");
-  return doctor;
 }
 
 int perform(const DoctorOptions& /*options*/) {

@@ -161,7 +161,7 @@ ExportedBed exported(StoredBed&& bed, const JobFacts& job, const ExportSettings&
 
 }  // namespace
 
-CLI::App& add_command(CLI::App& app, ExportOptions& options) {
+void add_command(CLI::App& app, ExportOptions& options) {
   CLI::App& grains = *app.add_subcommand("export", "Write the beds of finished packings");
   add_folder(grains, options.folder);
   grains.add_option("--format", options.format, formats_text("\nor "))
@@ -190,7 +190,6 @@ CLI::App& add_command(CLI::App& app, ExportOptions& options) {
       ->check(not_empty())
       ->type_name("DIR");
   grains.footer("Example: grainsweep export out/quick --format vtp --to /tmp/beds");
-  return grains;
 }
 
 int perform(const ExportOptions& options) {

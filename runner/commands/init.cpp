@@ -45,7 +45,7 @@ std::string first_sweep(const std::string& name) {
 
 }  // namespace
 
-CLI::App& add_command(CLI::App& app, InitOptions& options) {
+void add_command(CLI::App& app, InitOptions& options) {
   CLI::App& init = *app.add_subcommand(
       "init",
       "Write a sweep file to start from, and beside it the schema that editors complete it by");
@@ -53,7 +53,6 @@ CLI::App& add_command(CLI::App& app, InitOptions& options) {
       ->capture_default_str()
       ->type_name("");
   init.footer("Example: grainsweep init my-sweep");
-  return init;
 }
 
 int perform(const InitOptions& options) {

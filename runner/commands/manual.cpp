@@ -11,14 +11,13 @@
 
 namespace grainsweep {
 
-CLI::App& add_command(CLI::App& app, ManualOptions& options) {
+void add_command(CLI::App& app, ManualOptions& options) {
   CLI::App& manual = *app.add_subcommand(
       "manual", "Write manual pages of all commands and completions for bash, zsh and fish");
   manual.add_option("DIR", options.folder, "folder to write them into")->required()->type_name("");
   manual.footer(
       "Writes man1/*.1, grainsweep.bash, _grainsweep (zsh) and grainsweep.fish.\n\n"
       "Example: grainsweep manual manual");
-  return manual;
 }
 
 int perform(const ManualOptions& options) {

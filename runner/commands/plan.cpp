@@ -264,7 +264,7 @@ void print_json(const Sweep& sweep, const std::vector<Cost>& costs, const Needs&
 
 }  // namespace
 
-CLI::App& add_command(CLI::App& app, PlanOptions& options) {
+void add_command(CLI::App& app, PlanOptions& options) {
   CLI::App& plan =
       *app.add_subcommand("plan", "List the packings of a sweep with estimated time and memory");
   add_file(plan, options.file);
@@ -277,7 +277,6 @@ CLI::App& add_command(CLI::App& app, PlanOptions& options) {
       ->type_name("N");
   plan.add_flag("--json", options.json, "every packing, as JSON");
   plan.footer("Example: grainsweep plan configs/confined-spheres.json --threads 8");
-  return plan;
 }
 
 int perform(const PlanOptions& options) {

@@ -26,13 +26,12 @@ void write_new_tables(const std::string& folder, const Results& results, const A
 
 }  // namespace
 
-CLI::App& add_command(CLI::App& app, ReportOptions& options) {
+void add_command(CLI::App& app, ReportOptions& options) {
   CLI::App& report = *app.add_subcommand(
       "report",
       "Print the closing table of a run again, and write its tables and page, report.html");
   add_folder(report, options.folder);
   report.footer("Example: grainsweep report out/quick");
-  return report;
 }
 
 int perform(const ReportOptions& options) {

@@ -358,7 +358,7 @@ std::string presets_text() {
 
 }  // namespace
 
-CLI::App& add_command(CLI::App& app, RunOptions& options) {
+void add_command(CLI::App& app, RunOptions& options) {
   CLI::App& run = *app.add_subcommand(
       "run", "Make the packings of a sweep, or what is missing of them, and the tables");
   add_file(run, options.file);
@@ -399,7 +399,6 @@ CLI::App& add_command(CLI::App& app, RunOptions& options) {
                 "exit with 0 although packings did not settle; =SHARE: up to that share");
   run.footer("Example: grainsweep run configs/quick.json --out out/quick --threads 2\n\n" +
              presets_text() + "\n\n" + exit_codes_text);
-  return run;
 }
 
 int perform(const RunOptions& options) {

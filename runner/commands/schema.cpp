@@ -11,13 +11,12 @@
 
 namespace grainsweep {
 
-CLI::App& add_command(CLI::App& app, SchemaOptions& options) {
+void add_command(CLI::App& app, SchemaOptions& options) {
   CLI::App& schema =
       *app.add_subcommand("schema", "Print the JSON Schema of sweep files, for editors");
   schema.add_flag("--markdown", options.markdown,
                   "the table of parameters instead: type, range, default, meaning");
   schema.footer("Example: grainsweep schema >sweep.schema.json");
-  return schema;
 }
 
 int perform(const SchemaOptions& options) {

@@ -120,7 +120,7 @@ void submit_scripts(const ClusterRun& run, const std::string& folder) {
 
 }  // namespace
 
-CLI::App& add_command(CLI::App& app, SlurmOptions& options) {
+void add_command(CLI::App& app, SlurmOptions& options) {
   CLI::App& slurm = *app.add_subcommand(
       "slurm", "Submit a sweep to Slurm as an array of shards, and a job that ends it");
   add_file(slurm, options.file);
@@ -143,7 +143,6 @@ CLI::App& add_command(CLI::App& app, SlurmOptions& options) {
   slurm.footer(
       "Example: grainsweep slurm sweep.json --out out/sweep --print\n\n"
       "The environment of sbatch counts: SBATCH_ACCOUNT, SBATCH_QOS and the others of its manual.");
-  return slurm;
 }
 
 int perform(const SlurmOptions& options) {

@@ -214,7 +214,7 @@ void tell(const std::string& folder, const StatusOptions& options, nlohmann::ord
 
 }  // namespace
 
-CLI::App& add_command(CLI::App& app, StatusOptions& options) {
+void add_command(CLI::App& app, StatusOptions& options) {
   CLI::App& status =
       *app.add_subcommand("status", "Say how much of a sweep is done and who is at work");
   status.add_option("DIR", options.folders, "output folders")->required()->type_name("");
@@ -222,7 +222,6 @@ CLI::App& add_command(CLI::App& app, StatusOptions& options) {
   status.add_flag("--check", options.check,
                   "read every file of grains whole; otherwise only their names and sizes");
   status.footer("Example: grainsweep status out/quick");
-  return status;
 }
 
 int perform(const StatusOptions& options) {

@@ -26,12 +26,11 @@ std::size_t count_parameter_sets(const Sweep& sweep) {
 
 }  // namespace
 
-CLI::App& add_command(CLI::App& app, ValidateOptions& options) {
+void add_command(CLI::App& app, ValidateOptions& options) {
   CLI::App& validate =
       *app.add_subcommand("validate", "Check a sweep file and say everything wrong with it");
   add_file(validate, options.file);
   validate.footer("Example: grainsweep validate configs/quick.json");
-  return validate;
 }
 
 int perform(const ValidateOptions& options) {
