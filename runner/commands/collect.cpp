@@ -299,7 +299,7 @@ Collection collected(const CollectOptions& options, ShardFiles& files, ProgressD
   std::optional<Collection> collection;
   for (std::size_t i = 0; i < options.folders.size(); ++i) {
     const std::string& folder = options.folders[i];
-    display.start(i);
+    display.start();
     StoredSweep stored = read_stored_sweep(folder);
     if (!collection) {
       collection.emplace(begin_collection(options.out, files, display, own, stored.provenance));

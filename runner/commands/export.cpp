@@ -33,13 +33,13 @@ std::vector<std::string> format_names() {
   return names;
 }
 
-/// "csv, xyz, ... or html"; `last` stands before the last.
-std::string formats_text(const char* last = " or ") {
+/// "csv, xyz, ...", and beneath them "or html".
+std::string formats_text() {
   std::string text;
   for (const ExportFormat& format : export_formats()) {
     text += (text.empty() ? "" : ", ") + std::string(format.name);
   }
-  return text + last + page_format;
+  return text + "\nor " + page_format;
 }
 
 std::vector<std::string> endings() {
@@ -164,7 +164,7 @@ ExportedBed exported(StoredBed&& bed, const JobFacts& job, const ExportSettings&
 void add_command(CLI::App& app, ExportOptions& options) {
   CLI::App& grains = *app.add_subcommand("export", "Write the beds of finished packings");
   add_folder(grains, options.folder);
-  grains.add_option("--format", options.format, formats_text("\nor "))
+  grains.add_option("--format", options.format, formats_text())
       ->check(CLI::IsMember(format_names()))
       ->capture_default_str()
       ->type_name("NAME");
@@ -193,10 +193,7 @@ void add_command(CLI::App& app, ExportOptions& options) {
 }
 
 int perform(const ExportOptions& options) {
-  const ExportFormat* format = export_format(options.format);
-  if (format == nullptr && options.format != page_format) {
-    throw BadInput("--format " + options.format + ": use " + formats_text());
-  }
+  const ExportFormat* format = export_format(options.format);  // null: a page
   const std::string ending =
       format != nullptr ? std::string(format->ending) : std::string(".") + page_format;
   const ExportSettings settings = settings_of(options);

@@ -132,17 +132,6 @@ Surface prism(const std::vector<Eigen::Vector2d>& polygon, double height) {
 
 }  // namespace
 
-double volume_of(const Surface& surface) {
-  double six = 0.0;
-  for (const auto& face : surface.faces) {
-    for (std::size_t k = 2; k < face.size(); ++k) {
-      six += corner(surface, face[0])
-                 .dot(corner(surface, face[k - 1]).cross(corner(surface, face[k])));
-    }
-  }
-  return six / 6.0;
-}
-
 Surface unit_ball(int divisions) {
   Surface ball = icosahedron();
   for (int k = 0; k < divisions; ++k) ball = divided(ball);

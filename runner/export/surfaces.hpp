@@ -21,9 +21,6 @@ inline const Eigen::Vector3d& corner(const Surface& surface, std::int32_t k) {
   return surface.vertices[static_cast<std::size_t>(k)];
 }
 
-/// Volume within, d^3.
-double volume_of(const Surface& surface);
-
 /// A sphere of radius 1 about the origin: an icosahedron with each triangle divided in four so many
 /// times; all corners lie on the sphere.
 Surface unit_ball(int divisions);

@@ -151,7 +151,7 @@ class Packer {
 
   TaskEvents events() {
     TaskEvents events;
-    events.started = [this](std::size_t task) { display_.start(task); };
+    events.started = [this](std::size_t /*task*/) { display_.start(); };
     events.progressed = [this](std::size_t task, const Progress& progress) {
       beat();
       display_.advance(task, progress.share_done);

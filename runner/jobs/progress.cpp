@@ -91,7 +91,7 @@ ProgressDisplay::ProgressDisplay(std::vector<double> costs, ProgressStyle style,
       all_(std::accumulate(costs_.begin(), costs_.end(), 0.0)),
       before_(before) {}
 
-void ProgressDisplay::start(std::size_t /*task*/) {
+void ProgressDisplay::start() {
   const std::scoped_lock lock(mutex_);
   ++running_;
   draw(true);

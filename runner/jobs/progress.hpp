@@ -43,7 +43,7 @@ class ProgressDisplay {
   ProgressDisplay(std::vector<double> costs, ProgressStyle style, std::FILE* out,
                   std::size_t before = 0);
 
-  void start(std::size_t task);
+  void start();
   /// `share_done` of this task, 0..1. Draws five times a second at most.
   void advance(std::size_t task, double share_done);
   /// `line` describes the finished packing; plain style prints it.

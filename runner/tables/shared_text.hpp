@@ -22,8 +22,6 @@ class SharedText {
   bool operator==(const SharedText& other) const {
     return text_ == other.text_ || text() == other.text();
   }
-  /// Whether both are one text in memory.
-  bool shares_with(const SharedText& other) const { return text_ == other.text_; }
 
  private:
   std::shared_ptr<const std::string> text_;

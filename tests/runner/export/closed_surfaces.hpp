@@ -34,6 +34,18 @@ inline bool is_closed(const Surface& surface) {
   });
 }
 
+/// Volume within, d^3.
+inline double volume_of(const Surface& surface) {
+  double six = 0.0;
+  for (const auto& face : surface.faces) {
+    for (std::size_t k = 2; k < face.size(); ++k) {
+      six += corner(surface, face[0])
+                 .dot(corner(surface, face[k - 1]).cross(corner(surface, face[k])));
+    }
+  }
+  return six / 6.0;
+}
+
 /// Corners less edges plus faces.
 inline int euler_characteristic(const Surface& surface) {
   return static_cast<int>(surface.vertices.size()) -

@@ -91,7 +91,7 @@ TEST_CASE("the progress line fits every window and tells first how many packings
 TEST_CASE("a resumed run counts from what earlier runs made") {
   Capture out;
   ProgressDisplay display({1.0, 1.0}, ProgressStyle::plain, out.file(), 4);
-  display.start(0);
+  display.start();
   display.finish(0, true, "settled");
   CHECK(out.text() == "5/6  settled\n");
   CHECK(progress_line(display.state()).find(" 5/6   50 %") != std::string::npos);
@@ -107,10 +107,10 @@ TEST_CASE("the time left counts what this run did, not what earlier runs did of 
   CHECK(time_left(resumed) < 0.0);
   Capture out;
   ProgressDisplay display({30.0, 10.0}, ProgressStyle::quiet, out.file());
-  display.start(0);
+  display.start();
   display.advance(0, 0.5);
   display.advance(0, 0.7);
-  display.start(1);
+  display.start();
   display.finish(1, true, "");
   CHECK(display.state().share_before == Approx(15.0 / 40.0));
   CHECK(display.state().share_done == Approx(31.0 / 40.0));
@@ -120,8 +120,8 @@ TEST_CASE("the share done weighs tasks by their cost and never falls") {
   Capture out;
   ProgressDisplay display({30.0, 10.0}, ProgressStyle::quiet, out.file());
   CHECK(display.state().share_done == 0.0);
-  display.start(0);
-  display.start(1);
+  display.start();
+  display.start();
   display.advance(0, 0.5);
   CHECK(display.state().share_done == Approx(15.0 / 40.0));
   display.advance(0, 0.4);
@@ -137,10 +137,10 @@ TEST_CASE("the share done weighs tasks by their cost and never falls") {
 TEST_CASE("plain style writes one line per finished packing") {
   Capture out;
   ProgressDisplay display({1.0, 1.0}, ProgressStyle::plain, out.file());
-  display.start(1);
+  display.start();
   display.advance(1, 0.5);
   display.finish(1, true, "MSP W=5 #1  settled");
-  display.start(0);
+  display.start();
   display.finish(0, true, "MSP W=6 #1  settled");
   CHECK(out.text() == "1/2  MSP W=5 #1  settled\n2/2  MSP W=6 #1  settled\n");
 }
@@ -148,7 +148,7 @@ TEST_CASE("plain style writes one line per finished packing") {
 TEST_CASE("live style redraws one line and takes it away at the end") {
   Capture out;
   ProgressDisplay display({1.0}, ProgressStyle::live, out.file());
-  display.start(0);
+  display.start();
   display.finish(0, true, "not shown");
   display.clear();
   const std::string text = out.text();
@@ -197,7 +197,7 @@ TEST_CASE(
   ProgressDisplay display({1.0, 1.0}, ProgressStyle::live, terminal.file());
   const auto drawn_in = [&](int columns) {
     terminal.resize(columns);
-    display.start(0);
+    display.start();
     return terminal.text();
   };
   const auto line_of = [](const std::string& text) {
@@ -214,7 +214,7 @@ TEST_CASE(
 TEST_CASE("live style draws no more than a few times a second") {
   Capture out;
   ProgressDisplay display({1.0}, ProgressStyle::live, out.file());
-  display.start(0);
+  display.start();
   for (int step = 0; step < 1000; ++step) display.advance(0, step / 1000.0);
   const std::string text = out.text();
   CHECK(std::count(text.begin(), text.end(), '\r') <= 4);
