@@ -1,12 +1,12 @@
 // The command `run`: sweep, what is missing of it, packings, tables, report, exit code.
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <functional>
 #include <iostream>
 #include <optional>
 #include <set>
 #include <sstream>
-#include <string_view>
 #include <unistd.h>
 #include <utility>
 
@@ -167,24 +167,8 @@ TimeLimit time_limit_of(const RunOptions& options) {
   return left > 0.0 ? TimeLimit(left) : TimeLimit();
 }
 
-/// The names of a sweep's packings, found when they are first needed.
-class PackingNamesOnce {
- public:
-  explicit PackingNamesOnce(const Sweep& sweep) : sweep_(sweep) {}
-  explicit PackingNamesOnce(Sweep&& sweep) = delete;
-
-  const PackingNames& get() {
-    if (!names_) names_ = names_in(sweep_);
-    return *names_;
-  }
-
- private:
-  const Sweep& sweep_;
-  std::optional<PackingNames> names_;
-};
-
-Packed pack(RunningSweep& running, PackingNamesOnce& names, const RunOptions& options, Isa isa,
-            const RunRecord& run, const TimeLimit& time_limit) {
+Packed pack(RunningSweep& running, const std::function<PackingNames()>& names,
+            const RunOptions& options, Isa isa, const RunRecord& run, const TimeLimit& time_limit) {
   if (running.pending.empty()) return {};
   if (running.done > 0 && !options.quiet) {
     std::cerr << running.done << " of " << running.done + running.pending.size()
@@ -197,7 +181,7 @@ Packed pack(RunningSweep& running, PackingNamesOnce& names, const RunOptions& op
   const bool tells_packings = style == ProgressStyle::plain || options.fail_fast;
   return pack_pending(running, {limits, isa, style, options.checkpoint_seconds, options.fail_fast,
                                 time_limit.from_now(), options.no_grains,
-                                tells_packings ? names.get() : PackingNames()});
+                                tells_packings ? names() : PackingNames()});
 }
 
 struct Made {
@@ -422,7 +406,11 @@ int perform(const RunOptions& options) {
   const auto made = [&] { return made_for_growth(folder, whole); };
   GrowingSweep growing(whole, made());
   bool retries = false;
-  PackingNamesOnce names(whole);
+  std::optional<PackingNames> known_names;
+  const auto names = [&] {
+    if (!known_names) known_names = names_in(whole);
+    return *known_names;
+  };
   const auto make = [&](RunningSweep& running) {
     return pack(running, names, options, isa, run, time_limit);
   };
