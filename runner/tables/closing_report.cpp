@@ -65,16 +65,13 @@ void append_lines(const Family& family, std::vector<TableLine>& lines) {
   for (const Group& group : family.periodic) lines.push_back({family.distinction, &group});
 }
 
-std::string extent_symbol(const std::vector<TableLine>& lines) {
-  std::vector<const Group*> groups;
-  groups.reserve(lines.size());
-  for (const TableLine& line : lines) groups.push_back(line.group);
-  return extent_symbol(groups);
+std::string extent_in(const std::vector<TableLine>& lines) {
+  return extent_symbol(lines, [](const TableLine& line) -> const Group& { return *line.group; });
 }
 
 /// What is measured.
 TableColumns measured_columns(const std::vector<TableLine>& lines) {
-  return {cells_text(extent_symbol(lines) + "/d",
+  return {cells_text(extent_in(lines) + "/d",
                      {"φ ± sd", "Z ± sd", "contacts/iso", "overlap/d", "packings"}),
           measured_cells};
 }
@@ -85,7 +82,7 @@ TableColumns laboratory_columns(const std::vector<TableLine>& lines, const Units
                         const std::string& density) {
     return pad_right(width, 14) + pad_left(porosity, 19) + pad_left(density, 17);
   };
-  return {cells(extent_symbol(lines) + "/" + printed_unit(units), "porosity ± sd",
+  return {cells(extent_in(lines) + "/" + printed_unit(units), "porosity ± sd",
                 units.density ? "kg/m³ ± sd" : ""),
           [=](const Group& group) {
             const Spread& phi = mean_of(group, "solid_fraction");
@@ -171,7 +168,7 @@ std::string families_text(const std::vector<const Family*>& families) {
   }
   std::string text = "\n" + families.front()->labels + "\n" + table_text(lines);
   if (is_walled) {
-    const std::string extent = extent_symbol(lines);
+    const std::string extent = extent_in(lines);
     text += "  φ = φ_bulk - C/" + extent + " and Z = Z_bulk - C_Z/" + extent +
             ":  not determined: needs packings at 3 or more\n"
             "      widths with otherwise equal parameters\n";

@@ -1,6 +1,7 @@
 #include "runner/tables/families.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <set>
 #include <string_view>
@@ -188,23 +189,11 @@ const Group& first_group(const Family& family) {
   return family.walled.empty() ? family.periodic.front() : family.walled.front();
 }
 
-std::string extent_symbol(const std::vector<const Group*>& groups) {
-  const auto tubes = std::count_if(groups.begin(), groups.end(),
-                                   [](const Group* group) { return group->job.box.is_tube; });
-  if (tubes == 0) return "W";
-  return static_cast<std::size_t>(tubes) == groups.size() ? "D" : "W or D";
-}
 std::string extent_symbol(const std::vector<Group>& groups) {
-  std::vector<const Group*> all;
-  all.reserve(groups.size());
-  for (const Group& group : groups) all.push_back(&group);
-  return extent_symbol(all);
+  return extent_symbol(groups, std::identity());
 }
 std::string extent_symbol(const std::vector<Family>& families) {
-  std::vector<const Group*> all;
-  all.reserve(families.size());
-  for (const Family& family : families) all.push_back(&first_group(family));
-  return extent_symbol(all);
+  return extent_symbol(families, first_group);
 }
 
 std::vector<Family> families_of(const std::vector<Group>& groups) {

@@ -1,6 +1,8 @@
 // Which packings belong to one wall-effect line, and what to call them.
 #pragma once
 
+#include <algorithm>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -21,9 +23,15 @@ struct Family {
 /// Its first group between walls, or without.
 const Group& first_group(const Family& family);
 
-/// What the extents of their containers are called: W, the gap between walls, D, the diameter of a
-/// tube, or "W or D".
-std::string extent_symbol(const std::vector<const Group*>& groups);
+/// What the extents of the containers are called of the groups that `group_of` gives for each of
+/// `items`: W, the gap between walls, D, the diameter of a tube, or "W or D".
+template <class Items, class GroupOf>
+std::string extent_symbol(const Items& items, GroupOf group_of) {
+  const auto tubes = std::count_if(
+      items.begin(), items.end(), [&](const auto& item) { return group_of(item).job.box.is_tube; });
+  if (tubes == 0) return "W";
+  return tubes == std::ssize(items) ? "D" : "W or D";
+}
 std::string extent_symbol(const std::vector<Group>& groups);
 std::string extent_symbol(const std::vector<Family>& families);
 

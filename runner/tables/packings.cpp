@@ -1,9 +1,8 @@
 #include "runner/tables/packings.hpp"
 
 #include <algorithm>
-#include <map>
+#include <cstddef>
 #include <string_view>
-#include <utility>
 
 #include "runner/hash.hpp"
 #include "runner/store/fields.hpp"
@@ -102,13 +101,10 @@ void write_packings_csv(const std::vector<Row>& rows, const std::vector<Group>& 
                         const std::function<void(const std::string&)>& write) {
   const Columns<PackingLine> columns =
       packings_columns(further_tolerances(rows), varied_of(groups), units);
-  std::map<std::pair<std::string_view, std::string_view>, const Group*> group_of;
-  for (const Group& group : groups)
-    group_of[{group.job.label, group.job.parameters.text()}] = &group;
+  const std::vector<std::size_t> numbers = group_numbers(rows);
   write(header_line(columns));
-  for (const Row& row : rows) {
-    write(row_line(columns,
-                   PackingLine{row, *group_of.at({row.job.label, row.job.parameters.text()})}));
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    write(row_line(columns, PackingLine{rows[k], groups[numbers[k] - 1]}));
   }
 }
 
