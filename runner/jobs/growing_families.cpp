@@ -31,11 +31,6 @@ bool has_fit_wish(const Sweep& whole) {
                      [](const Job& job) { return job.fit_wish.is_given(); });
 }
 
-bool is_bounded(const Job& job, bool asks_of_z) {
-  const auto bound = bias_bound(facts_of(job));
-  return bound && !(asks_of_z && std::isnan(bound->coordination));
-}
-
 void take_smaller(double FitWish::*part, const FitWish& other, FitWish& wish) {
   const double asked = other.*part;
   if (asked > 0.0 && (wish.*part == 0.0 || asked < wish.*part)) wish.*part = asked;
@@ -87,8 +82,11 @@ std::optional<ProtocolBias> bound_of(const Job& job) {
 }
 
 bool is_bounded(const Job& job, const ErrorWish& wish) {
-  return is_bounded(job, wish.coordination > 0.0);
+  const auto bound = bias_bound(facts_of(job));
+  return bound && !(wish.coordination > 0.0 && std::isnan(bound->coordination));
 }
-bool is_bounded(const Job& job, const FitWish& wish) { return is_bounded(job, wish.z_bulk > 0.0); }
+bool is_bounded(const Job& job, const FitWish& wish) {
+  return is_bounded(job, ErrorWish{wish.phi_bulk, wish.z_bulk});
+}
 
 }  // namespace grainsweep

@@ -28,9 +28,13 @@ Member member_of(const Parameter& parameter) {
   return member;
 }
 
-std::vector<Member> sorted_members() {
+/// Those that are `wanted`, by their paths.
+template <class Wanted>
+std::vector<Member> members_where(Wanted wanted) {
   std::vector<Member> members;
-  for (const Parameter& parameter : parameters()) members.push_back(member_of(parameter));
+  for (const Parameter& parameter : parameters()) {
+    if (wanted(parameter)) members.push_back(member_of(parameter));
+  }
   std::sort(members.begin(), members.end(),
             [](const Member& a, const Member& b) { return a.parameter->path < b.parameter->path; });
   return members;
@@ -79,23 +83,11 @@ void change_groups(const GroupNames& open, const GroupNames& groups, std::string
   }
 }
 
-/// Those that say what is packed.
-std::vector<Member> scene_members() {
-  std::vector<Member> members = sorted_members();
-  std::erase_if(members, [](const Member& member) {
-    const std::string_view path = member.parameter->path;
-    return path.starts_with("accuracy.") || path.starts_with("measure.");
-  });
-  return members;
+bool is_of_scene(const Parameter& parameter) {
+  return !parameter.path.starts_with("accuracy.") && !parameter.path.starts_with("measure.");
 }
 
-/// Those that say what the grains are.
-std::vector<Member> shape_members() {
-  std::vector<Member> members = sorted_members();
-  std::erase_if(members,
-                [](const Member& member) { return choice_of(*member.parameter) != Choice::shape; });
-  return members;
-}
+bool is_of_shape(const Parameter& parameter) { return choice_of(parameter) == Choice::shape; }
 
 std::string canonical(const std::vector<Member>& members, const ResolvedSpec& resolved) {
   const GroupNames none;
@@ -138,7 +130,7 @@ std::string hash_of(const SizeTable& table) {
 }
 
 std::string canonical_component(double share, const ResolvedSpec& shape) {
-  static const std::vector<Member> members = shape_members();
+  static const std::vector<Member> members = members_where(is_of_shape);
   constexpr std::string_view before = R"({"shape":)", after = "}}";
   const std::string all =
       is_sphere(shape.spec.shape) ? R"({"shape":{"sphere":{}}})" : canonical(members, shape);
@@ -149,12 +141,12 @@ std::string canonical_component(double share, const ResolvedSpec& shape) {
 }
 
 std::string canonical_parameters(const ResolvedSpec& resolved) {
-  static const std::vector<Member> members = sorted_members();
+  static const std::vector<Member> members = members_where([](const Parameter&) { return true; });
   return canonical(members, resolved);
 }
 
 std::string canonical_scene(const ResolvedSpec& resolved) {
-  static const std::vector<Member> members = scene_members();
+  static const std::vector<Member> members = members_where(is_of_scene);
   return canonical(members, resolved);
 }
 

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <string_view>
 
+#include "engine/text.hpp"
 #include "runner/tables/csv.hpp"
 #include "runner/text.hpp"
 
@@ -39,9 +39,7 @@ std::string units_text(const Units& units) {
 }
 
 std::string length_in(const Units& units, double length) {
-  std::ostringstream text;
-  text << units.d * length;  // six digits: the product of two short numbers is short
-  return text.str();
+  return number_text(units.d * length, 6);  // the product of two short numbers is short
 }
 
 std::string length_text(double length, double error, int decimals, const GivenUnits& units) {
