@@ -42,7 +42,7 @@ ProvenanceReading read_provenance(const std::string& folder) {
   if (!file_exists(path)) {
     throw BadInput(folder +
                    ": no output folder of grainsweep (it has no provenance.json); make one with " +
-                   called_as() + " run FILE --out " + shell_word(folder));
+                   called_as() + " run FILE --out " + shell_path(folder));
   }
   try {
     return provenance_from_text(read_file(path));
@@ -275,9 +275,9 @@ std::string stored_packings(const std::string& folder) {
   std::string text;
   if (!stored.outcomes.empty()) text = counted(stored.outcomes.size(), "stored packing");
   if (stored.damage.empty()) return text;
-  return text + (text.empty() ? "" : " and ") +
-         counted(stored.damage.size(), "line or file of results") +
-         " that cannot be read (damaged, or of another version)";
+  return text + (text.empty() ? "" : " and ") + std::to_string(stored.damage.size()) +
+         (stored.damage.size() == 1 ? " line or file" : " lines or files") +
+         " of results that cannot be read (damaged, or of another version)";
 }
 
 void clean_up(const std::string& folder) {

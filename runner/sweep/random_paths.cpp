@@ -121,8 +121,9 @@ std::uint64_t read_random_count(const Json& random, const std::string& pointer,
   if (const auto count = whole_number_in(*found, 1, most_random_points)) {
     return static_cast<std::uint64_t>(*count);
   }
+  const std::string range = "[1, " + std::to_string(most_random_points) + "]";
   diagnostics.push_back({child_pointer(pointer, "count"),
-                         "must be a whole number in [1, 1000000], is " + describe(*found)});
+                         "must be a whole number in " + range + ", is " + describe(*found)});
   return 0;
 }
 

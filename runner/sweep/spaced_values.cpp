@@ -25,8 +25,9 @@ std::optional<double> end_of(const Parameter& parameter, const Json& range, cons
 std::optional<std::int64_t> count_of(const Json& count, const std::string& pointer,
                                      Diagnostics& diagnostics) {
   if (const auto whole = whole_number_in(count, 2, most_spaced_values)) return whole;
+  const std::string range = "[2, " + std::to_string(most_spaced_values) + "]";
   diagnostics.push_back({child_pointer(pointer, "count"),
-                         "must be a whole number in [2, 1000000], is " + describe(count)});
+                         "must be a whole number in " + range + ", is " + describe(count)});
   return std::nullopt;
 }
 

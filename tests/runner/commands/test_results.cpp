@@ -53,6 +53,17 @@ TEST_CASE("tables and journals are enough to know a folder's results") {
   CHECK(results.provenance.runs[0].process == sample_run().process);
 }
 
+TEST_CASE("what cannot be read is counted beside the stored packings") {
+  const TemporaryFolder folder;
+  add_outcomes(folder.path(), {sample_outcome("a1", 0.6, 6)});
+  const std::string path = journal_path(folder.path(), "1-of-1"), whole = read_file(path);
+  const std::string unread = " of results that cannot be read (damaged, or of another version)";
+  replace_file(path, whole + "torn\n");
+  CHECK(stored_packings(folder.path()) == "1 stored packing and 1 line or file" + unread);
+  replace_file(path, "torn\ntorn\n");
+  CHECK(stored_packings(folder.path()) == "2 lines or files" + unread);
+}
+
 TEST_CASE("what is called for and what is made of it are of one reading") {
   const TemporaryFolder folder;
   const Sweep whole{"s", 7, 1, growing_group("a", 5.0, 200, {0.01, 0.0})};
@@ -103,6 +114,7 @@ TEST_CASE("a summary counts what the whole results hold") {
 TEST_CASE("a folder without results is refused, and so is a broken provenance") {
   const TemporaryFolder folder;
   CHECK_THROWS_AS(read_results(folder.path()), BadInput);
+  CHECK_THROWS_WITH(read_results("-q"), Catch::EndsWith(" run FILE --out ./-q"));
   replace_file(folder.path() + "/provenance.json", "{");
   CHECK_THROWS_WITH(read_results(folder.path()), Catch::Contains("run the sweep again"));
   CHECK_THROWS_WITH(read_results(folder.path(), Detail::summary),
