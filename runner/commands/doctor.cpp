@@ -9,7 +9,6 @@
 #include "runner/machine.hpp"
 #include "runner/report/gnuplot.hpp"
 #include "runner/store/files.hpp"
-#include "runner/store/lock.hpp"
 #include "runner/text.hpp"
 #include "runner/versions.hpp"
 

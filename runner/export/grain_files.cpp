@@ -1,7 +1,5 @@
 #include "runner/export/grain_files.hpp"
 
-#include <functional>
-
 #include "runner/export/surfaces.hpp"
 #include "runner/export/vtp.hpp"
 #include "runner/tables/csv.hpp"

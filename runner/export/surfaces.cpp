@@ -1,7 +1,6 @@
 #include "runner/export/surfaces.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <utility>

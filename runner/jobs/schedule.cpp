@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <exception>
 #include <functional>
 #include <mutex>
 #include <new>
 #include <numeric>
 #include <queue>
-#include <stdexcept>
 
 #include <tbb/global_control.h>
 #include <tbb/parallel_pipeline.h>

@@ -5,7 +5,6 @@
 #include <set>
 
 #include "runner/jobs/growing_families.hpp"
-#include "runner/jobs/replicate_means.hpp"
 #include "runner/jobs/split.hpp"
 #include "runner/sweep/costs.hpp"
 

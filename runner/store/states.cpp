@@ -1,6 +1,5 @@
 #include "runner/store/states.hpp"
 
-#include <algorithm>
 #include <tuple>
 #include <utility>
 

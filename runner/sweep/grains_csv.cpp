@@ -7,7 +7,7 @@
 #include <string_view>
 #include <tuple>
 
-#include "runner/sweep/identity.hpp"
+#include "runner/hash.hpp"
 #include "runner/sweep/suggest.hpp"
 #include "runner/sweep/text_lines.hpp"
 

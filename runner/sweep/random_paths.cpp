@@ -1,6 +1,5 @@
 #include "runner/sweep/random_paths.hpp"
 
-#include <cmath>
 #include <optional>
 
 #include "runner/sweep/suggest.hpp"

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "runner/sweep/parameters.hpp"
 #include "runner/sweep/random_paths.hpp"

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
-#include <utility>
 
 #include "engine/dynamics/presets.hpp"
 #include "engine/scene/spec.hpp"

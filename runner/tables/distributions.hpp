@@ -1,7 +1,6 @@
 // distributions.csv: curves of each group, a row per point, mean and scatter over the replicates.
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "runner/tables/groups.hpp"

@@ -1,6 +1,5 @@
 #include "runner/tables/sizes.hpp"
 
-#include <algorithm>
 #include <cstddef>
 
 namespace grainsweep {
