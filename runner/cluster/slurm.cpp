@@ -9,6 +9,7 @@
 
 #include "runner/exit_codes.hpp"
 #include "runner/jobs/time_limit.hpp"
+#include "runner/sweep/text_lines.hpp"
 #include "runner/text.hpp"
 
 namespace grainsweep {
@@ -47,16 +48,6 @@ std::string answer_to(const std::string& name, const std::string& options) {
   }
   if (said.code != 0) throw BadInput(name + ": " + said.text);
   return std::move(said.text);
-}
-
-std::vector<std::string_view> parts_of(std::string_view text, char between) {
-  std::vector<std::string_view> parts;
-  while (true) {
-    const std::size_t end = text.find(between);
-    parts.push_back(text.substr(0, end));
-    if (end == std::string_view::npos) return parts;
-    text.remove_prefix(end + 1);
-  }
 }
 
 /// The number at the front; 0 if there is none. "2+" is what Slurm calls two or more.
@@ -104,8 +95,8 @@ std::string names_of(const std::vector<Partition>& partitions) {
 
 std::vector<Partition> partitions_in(std::string_view lines) {
   std::vector<Partition> partitions;
-  for (const std::string_view line : parts_of(lines, '\n')) {
-    const auto fields = parts_of(line, '|');
+  for (const std::string_view line : pieces_of(lines, '\n')) {
+    const auto fields = pieces_of(line, '|');
     if (fields.size() != 5) continue;  // a warning of sinfo
     Partition partition;
     partition.name = fields[0];
@@ -121,7 +112,7 @@ std::vector<Partition> partitions_in(std::string_view lines) {
 }
 
 int array_limit_in(std::string_view configuration) {
-  for (const std::string_view line : parts_of(configuration, '\n')) {
+  for (const std::string_view line : pieces_of(configuration, '\n')) {
     if (!line.starts_with("MaxArraySize")) continue;
     const std::size_t number = line.find_first_of("0123456789");
     if (number == std::string_view::npos) return 0;
@@ -162,14 +153,14 @@ Partition ask_for_partition(const std::string& name) {
 std::string submit(const std::string& script, const std::string& after) {
   const std::string dependency = after.empty() ? "" : "--dependency=afterany:" + after + " ";
   const std::string answer = answer_to("sbatch", "--parsable " + dependency + shell_word(script));
-  const std::string last = std::string(parts_of(answer, '\n').back());  // behind any warning
-  return last.substr(0, last.find(';'));                                // a cluster's name follows
+  const std::string last = std::string(pieces_of(answer, '\n').back());  // behind any warning
+  return last.substr(0, last.find(';'));                                 // a cluster's name follows
 }
 
 Queue queue_in(std::string_view lines, const std::string& scripts) {
   Queue queue;
-  for (const std::string_view line : parts_of(lines, '\n')) {
-    const auto fields = parts_of(line, '|');
+  for (const std::string_view line : pieces_of(lines, '\n')) {
+    const auto fields = pieces_of(line, '|');
     if (fields.size() != 3 || !fields[2].starts_with(scripts + "/")) continue;
     const std::string_view state = fields[0], reason = fields[1];
     const bool runs = state == "RUNNING" || state == "COMPLETING" || state == "CONFIGURING";

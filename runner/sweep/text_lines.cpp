@@ -110,31 +110,31 @@ std::optional<double> finite_number(std::string_view text) {
   return std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
-std::vector<std::string_view> lines_of(std::string_view text) {
-  if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
-  const std::size_t end = text.find_last_not_of(" \t\r\n");
-  text = text.substr(0, end == std::string_view::npos ? 0 : end + 1);
-  std::vector<std::string_view> lines;
+std::vector<std::string_view> pieces_of(std::string_view text, char separator) {
+  std::vector<std::string_view> pieces;
   for (;;) {
-    const std::size_t stop = text.find('\n');
-    lines.push_back(text.substr(0, stop));
-    if (stop == std::string_view::npos) return lines;
-    text.remove_prefix(stop + 1);
+    const std::size_t end = text.find(separator);
+    pieces.push_back(text.substr(0, end));
+    if (end == std::string_view::npos) return pieces;
+    text.remove_prefix(end + 1);
   }
 }
 
+std::vector<std::string_view> lines_of(std::string_view text) {
+  if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
+  const std::size_t end = text.find_last_not_of(" \t\r\n");
+  return pieces_of(text.substr(0, end == std::string_view::npos ? 0 : end + 1), '\n');
+}
+
 LineCells cells_of(std::string_view line) {
-  LineCells cells;
-  for (;;) {
-    const std::size_t comma = line.find(',');
-    std::string_view cell = trimmed(line.substr(0, comma));
+  LineCells cells = pieces_of(line, ',');
+  for (std::string_view& cell : cells) {
+    cell = trimmed(cell);
     if (cell.size() > 1 && cell.front() == '"' && cell.back() == '"') {
       cell = cell.substr(1, cell.size() - 2);
     }
-    cells.push_back(cell);
-    if (comma == std::string_view::npos) return cells;
-    line.remove_prefix(comma + 1);
   }
+  return cells;
 }
 
 LineIndex::LineIndex(const std::string& text) : size_(text.size()), starts_{0} {

@@ -60,6 +60,9 @@ bool begins_a_formula(std::string_view text);
 /// `text` without blanks at its ends.
 std::string_view trimmed(std::string_view text);
 
+/// What stands before, between and behind the separators of a text; at least one piece.
+std::vector<std::string_view> pieces_of(std::string_view text, char separator);
+
 /// The lines of a text, without a byte order mark at its start and blank lines at its end; at least
 /// one.
 std::vector<std::string_view> lines_of(std::string_view text);
