@@ -92,6 +92,22 @@ void append_estimate(Columns<Item>& columns, const std::string& name, const std:
   columns.push_back({name + "_error", unit, "standard error of it", number(&Type::error)});
 }
 
+/// The cell of what `value` gives of the `fit` of a line; empty if that is not determined.
+template <class Value>
+auto fit_cell(Value value) {
+  return [=](const auto& line) {
+    return line.fit.not_determined.empty() ? cell(std::invoke(value, line.fit)) : std::string();
+  };
+}
+
+/// Whether the `fit` of a line is determined.
+template <class Line>
+Column<Line> fit_status_column() {
+  return {"status", "", "determined or not determined", [](const Line& line) {
+            return cell(line.fit.not_determined.empty() ? "determined" : "not determined");
+          }};
+}
+
 /// columns.csv: file, column, unit and meaning.
 std::string columns_csv(const std::vector<ColumnText>& texts);
 

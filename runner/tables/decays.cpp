@@ -49,23 +49,12 @@ struct DecayLine {
   DecayFit fit;
 };
 
-/// The value of a fit; empty if it is not determined.
-template <class Value>
-auto decay_cell(Value value) {
-  return [=](const DecayLine& line) {
-    return line.fit.not_determined.empty() ? cell(value(line.fit)) : std::string();
-  };
-}
-
 Columns<DecayLine> decay_status_columns() {
   using Line = const DecayLine&;
   return {
       {"class", "", "large or small grains",
        [](Line line) { return cell(line.grains == GrainClass::large ? "large" : "small"); }},
-      {"status", "", "determined or not determined",
-       [](Line line) {
-         return cell(line.fit.not_determined.empty() ? "determined" : "not determined");
-       }},
+      fit_status_column<DecayLine>(),
       {"reason", "", "why it is not determined",
        [](Line line) { return cell(line.fit.not_determined); }},
       {"packings", "", "settled ones", [](Line line) { return cell(line.group.settled.size()); }},
@@ -96,10 +85,10 @@ Columns<DecayLine> decay_line_columns(const Varied& varied, const GivenUnits& un
       &DecayFit::reach);
   columns.push_back({"r_squared", "",
                      "share of the mean profile's variance that the curve explains",
-                     decay_cell([](const DecayFit& fit) { return fit.r_squared; })});
+                     fit_cell(&DecayFit::r_squared)});
   columns.push_back({"misfit", "",
                      "root mean square of the residuals over that of the mean's errors",
-                     decay_cell([](const DecayFit& fit) { return fit.misfit; })});
+                     fit_cell(&DecayFit::misfit)});
   append_in_units(columns, units);
   return columns;
 }

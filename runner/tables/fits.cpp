@@ -82,14 +82,6 @@ struct FitLine {
   WallFit fit;
 };
 
-/// A value of a fit; empty if it is not determined.
-template <class Value>
-auto fit_cell(Value value) {
-  return [=](const FitLine& line) {
-    return line.fit.not_determined.empty() ? cell(value(line.fit)) : std::string();
-  };
-}
-
 /// A value of the unconfined reference; empty if there is none.
 template <class Value>
 auto reference_cell(Value value) {
@@ -107,10 +99,7 @@ Columns<FitLine> fit_status_columns() {
        [](Line line) { return cell(line.family.name); }},
       {"quantity", "", "solid_fraction or coordination",
        [](Line line) { return cell(name_of(line.quantity)); }},
-      {"status", "", "determined or not determined",
-       [](Line line) {
-         return cell(line.fit.not_determined.empty() ? "determined" : "not determined");
-       }},
+      fit_status_column<FitLine>(),
       {"reason", "", "why it is not determined, or not to be trusted",
        [](Line line) { return cell(line.fit.not_determined + line.fit.doubt); }},
       {"widths", "", "different widths with a settled packing",
@@ -133,7 +122,6 @@ Columns<FitLine> fit_line_columns(const GivenUnits& units) {
   add("bulk", "", "the quantity without walls, in quantity = bulk - C / W", &WallFit::bulk);
   add("C", "d", "slope of the line", &WallFit::slope);
   add("zeta", "d", "C over bulk", &WallFit::zeta);
-  using Fit = const WallFit&;
   using Reference = const Group&;
   using Value = const Spread&;
   append(columns,
@@ -141,15 +129,14 @@ Columns<FitLine> fit_line_columns(const GivenUnits& units) {
              {"bulk_bias_bound", "",
               "how far bulk lies at most from that of beds settled ever better; empty if not "
               "measured",
-              fit_cell([](Fit fit) { return fit.bias_bound.value_or(no_number); })},
+              fit_cell([](const WallFit& fit) { return fit.bias_bound.value_or(no_number); })},
              {"chi2_per_dof", "",
               "about 1 or less if the line holds; where it exceeds 1, all errors are widened by "
               "its root",
-              fit_cell([](Fit fit) { return fit.chi2_per_dof; })},
-             {"degrees_of_freedom", "", "points less 2",
-              fit_cell([](Fit fit) { return fit.degrees_of_freedom; })},
+              fit_cell(&WallFit::chi2_per_dof)},
+             {"degrees_of_freedom", "", "points less 2", fit_cell(&WallFit::degrees_of_freedom)},
              {"r_squared", "", "share of the variance of the means that the line explains",
-              fit_cell([](Fit fit) { return fit.r_squared; })},
+              fit_cell(&WallFit::r_squared)},
              {"biperiodic_width", "d", "of the widest box with periodic y, the reference",
               reference_cell([](Reference group, Value /*at*/) { return group.job.box.width; })},
              {"biperiodic_mean", "", "the quantity there",
