@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <iostream>
+#include <list>
 #include <map>
 #include <optional>
 #include <utility>
@@ -114,10 +115,17 @@ void write_packings(const std::string& folder, const std::vector<Row>& rows,
   file.commit();
 }
 
+/// All that need curves.
+std::vector<CurveTable> curve_tables(const Varied& varied, const GivenUnits& units) {
+  return {profiles_table(varied, units),      decays_table(varied, units),
+          distributions_table(varied, units), sizes_table(varied, units),
+          components_table(varied, units),    component_profiles_table(varied, units)};
+}
+
 /// A table, and the file that it is written to.
 struct CurveFile {
-  CurveFile(const std::string& path, CurveTable its_table)
-      : file(path), table(std::move(its_table)) {
+  CurveFile(const std::string& folder, CurveTable its_table)
+      : file(folder + "/" + its_table.file), table(std::move(its_table)) {
     file.write(table.header);
   }
 
@@ -125,24 +133,18 @@ struct CurveFile {
   CurveTable table;
 };
 
-/// All that need curves, so that each bed is read once, and those of one group are in memory.
+/// All of them at once, so that each bed is read once, and those of one group are in memory.
 void write_curve_tables(const std::string& folder, const Analysis& analysis,
                         const GivenUnits& units) {
-  const Varied varied = varied_of(analysis.groups);
-  CurveFile profiles(folder + "/profiles.csv", profiles_table(varied, units)),
-      decays(folder + "/decays.csv", decays_table(varied, units)),
-      distributions(folder + "/distributions.csv", distributions_table(varied, units)),
-      sizes(folder + "/sizes.csv", sizes_table(varied, units)),
-      components(folder + "/components.csv", components_table(varied, units)),
-      component_profiles(folder + "/component_profiles.csv",
-                         component_profiles_table(varied, units));
-  const std::array all = {&profiles, &decays,     &distributions,
-                          &sizes,    &components, &component_profiles};
+  std::list<CurveFile> files;
+  for (CurveTable& table : curve_tables(varied_of(analysis.groups), units)) {
+    files.emplace_back(folder, std::move(table));
+  }
   for (const Group& group : analysis.groups) {
     const GroupWithCurves with_curves(group, analysis.folder);
-    for (CurveFile* one : all) one->file.write(one->table.lines(*with_curves));
+    for (CurveFile& one : files) one.file.write(one.table.lines(*with_curves));
   }
-  for (CurveFile* one : all) one->file.commit();
+  for (CurveFile& one : files) one.file.commit();
 }
 
 }  // namespace
@@ -241,15 +243,14 @@ Build this_build() {
 std::vector<ColumnText> all_columns(const std::vector<double>& tolerances, const Varied& varied,
                                     const GivenUnits& units) {
   std::vector<ColumnText> all;
-  for (const auto& some :
-       {described("packings.csv", packings_columns(tolerances, varied, units)),
-        described("groups.csv", groups_columns(varied, units)), profiles_columns(varied, units),
-        decays_columns(varied, units), distributions_columns(varied, units),
-        sizes_columns(varied, units), components_columns(varied, units),
-        component_profiles_columns(varied, units), fits_columns(units),
-        fit_points_columns(varied, units)}) {
+  const auto add = [&](const std::vector<ColumnText>& some) {
     all.insert(all.end(), some.begin(), some.end());
-  }
+  };
+  add(described("packings.csv", packings_columns(tolerances, varied, units)));
+  add(described("groups.csv", groups_columns(varied, units)));
+  for (const CurveTable& table : curve_tables(varied, units)) add(table.columns);
+  add(fits_columns(units));
+  add(fit_points_columns(varied, units));
   return all;
 }
 

@@ -61,9 +61,7 @@ struct ComponentProfileLine {
 Columns<ComponentProfileLine> component_profile_columns(const Varied& varied,
                                                         const GivenUnits& units) {
   using In = const ComponentProfileLine&;
-  Columns<ComponentProfileLine> columns;
-  append(columns, group_line_columns(varied),
-         [](const ComponentProfileLine& line) -> const Group& { return line.group; });
+  Columns<ComponentProfileLine> columns = columns_of_group<ComponentProfileLine>(varied);
   append(columns,
          Columns<ComponentProfileLine>{
              {"axis", "", profile_axis_meaning, [](In line) { return cell(line.axis); }},
@@ -135,12 +133,9 @@ std::vector<MeanComponentBin> mean_component_profile(const Group& group,
                    });
 }
 
-std::vector<ColumnText> component_profiles_columns(const Varied& varied, const GivenUnits& units) {
-  return described("component_profiles.csv", component_profile_columns(varied, units));
-}
-
 CurveTable component_profiles_table(const Varied& varied, const GivenUnits& units) {
-  return curve_table(component_profile_columns(varied, units), [](const Group& group) {
+  const auto columns = component_profile_columns(varied, units);
+  return curve_table("component_profiles.csv", columns, [](const Group& group) {
     using Measure = ComponentMeasure;
     std::vector<ComponentProfileLine> lines;
     append_component_bins(group, "x", &Measure::profile_x, lines);

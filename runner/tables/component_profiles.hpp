@@ -32,7 +32,4 @@ std::vector<MeanComponentBin> mean_component_profile(const Group& group,
 /// The file: along x and y, from the walls and along z of each group, for each pair of components.
 CurveTable component_profiles_table(const Varied& varied, const GivenUnits& units = {});
 
-std::vector<ColumnText> component_profiles_columns(const Varied& varied,
-                                                   const GivenUnits& units = {});
-
 }  // namespace grainsweep

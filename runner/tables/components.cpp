@@ -9,17 +9,6 @@ std::int64_t sum_of(const std::array<std::int64_t, 3>& numbers) {
   return numbers[0] + numbers[1] + numbers[2];
 }
 
-/// What `value` gives of component `k`, over all replicates.
-template <class Value>
-Spread spread_of_component(const Group& group, std::size_t k, Value value) {
-  std::vector<double> values;
-  for (const Outcome& outcome : group.settled) {
-    const std::vector<ComponentMeasure>& all = outcome.result.components;
-    if (k < all.size()) values.push_back(value(all[k]));
-  }
-  return spread_of(values);
-}
-
 /// Force-bearing contacts of a packing's slab, each once.
 double contacts_of(const std::vector<ComponentMeasure>& components) {
   std::int64_t sum = 0;
@@ -54,25 +43,22 @@ void set_contacts(const Group& group, std::size_t k, std::size_t other, Componen
 
 ComponentLine line_of(const Group& group, std::size_t k, std::size_t other) {
   using Measure = ComponentMeasure;
-  const auto mean = [&](double Measure::*value) {
-    return spread_of_component(group, k, [=](const Measure& one) { return one.*value; });
+  const auto mean = [&](auto value) {
+    return spread_of_entry(group, k, &PackingResult::components, value);
   };
   ComponentLine line;
   line.component = k + 1;
   line.other = other + 1;
-  line.grains = spread_of_component(
-      group, k, [](const Measure& one) { return static_cast<double>(one.grains); });
+  line.grains = mean(&Measure::grains);
   line.packed = mean(&Measure::packed);
   line.slab_share = mean(&Measure::slab_share);
   line.solid_fraction = mean(&Measure::solid_fraction);
   line.coordination = mean(&Measure::coordination);
   line.coordination_with_walls = mean(&Measure::coordination_with_walls);
   for (std::size_t axis = 0; axis < line.nematic.size(); ++axis) {
-    line.nematic[axis] =
-        spread_of_component(group, k, [=](const Measure& one) { return one.nematic[axis]; });
+    line.nematic[axis] = mean([=](const Measure& one) { return one.nematic[axis]; });
   }
-  line.neighbours =
-      spread_of_component(group, k, [=](const Measure& one) { return one.neighbours.at(other); });
+  line.neighbours = mean([=](const Measure& one) { return one.neighbours.at(other); });
   set_contacts(group, k, other, line);
   return line;
 }
@@ -84,43 +70,38 @@ struct GroupComponentLine {
 
 Columns<GroupComponentLine> component_line_columns(const Varied& varied, const GivenUnits& units) {
   using Line = GroupComponentLine;
-  Columns<Line> columns;
-  append(columns, group_line_columns(varied),
-         [](const Line& line) -> const Group& { return line.group; });
+  Columns<Line> columns = columns_of_group<Line>(varied);
   append(columns, Columns<Line>{{"component", "", "its number in shape.mixture, from 1",
                                  [](const Line& line) { return cell(line.line.component); }},
                                 {"other", "", "the number of a component, its own among them",
                                  [](const Line& line) { return cell(line.line.other); }},
                                 {"n", "", "packings that enter the means",
                                  [](const Line& line) { return cell(line.line.grains.n); }}});
-  append_spread(columns, "neighbours", "",
-                "grains of the other component that one of the component touches, with its centre "
-                "in the slab, at gap_tolerance",
-                [](const Line& line) { return line.line.neighbours; });
-  append_spread(columns, "contacts", "",
-                "share of the slab's force-bearing contacts between grains that join the two",
-                [](const Line& line) { return line.line.contacts; });
+  const auto add = [&](const char* name, const char* meaning, Spread ComponentLine::*spread) {
+    append_spread(columns, name, "", meaning, [=](const Line& line) { return line.line.*spread; });
+  };
+  add("neighbours",
+      "grains of the other component that one of the component touches, with its centre "
+      "in the slab, at gap_tolerance",
+      &ComponentLine::neighbours);
+  add("contacts", "share of the slab's force-bearing contacts between grains that join the two",
+      &ComponentLine::contacts);
   const std::array kinds = {"contacts_simple", "contacts_double", "contacts_triple"};
   const std::array places = {"share of those at a point", "along a line", "over an area"};
   for (std::size_t kind = 0; kind < kinds.size(); ++kind) {
     append_spread(columns, kinds[kind], "", places[kind],
                   [=](const Line& line) { return line.line.contact_kinds[kind]; });
   }
-  append_spread(columns, "grains", "",
-                "of the component in the whole bed; all that follows is of the component alone",
-                [](const Line& line) { return line.line.grains; });
-  append_spread(columns, "packed", "", "its share of the solid volume of the whole bed",
-                [](const Line& line) { return line.line.packed; });
-  append_spread(columns, "slab", "", "its share of the solid volume in the slab",
-                [](const Line& line) { return line.line.slab_share; });
-  append_spread(columns, "solid_fraction", "",
-                "its exact solid volume in the slab over the slab's volume",
-                [](const Line& line) { return line.line.solid_fraction; });
-  append_spread(columns, "coordination", "",
-                "touching grains of any component per grain of its own",
-                [](const Line& line) { return line.line.coordination; });
-  append_spread(columns, "coordination_with_walls", "", "the same, walls and floor counted",
-                [](const Line& line) { return line.line.coordination_with_walls; });
+  add("grains", "of the component in the whole bed; all that follows is of the component alone",
+      &ComponentLine::grains);
+  add("packed", "its share of the solid volume of the whole bed", &ComponentLine::packed);
+  add("slab", "its share of the solid volume in the slab", &ComponentLine::slab_share);
+  add("solid_fraction", "its exact solid volume in the slab over the slab's volume",
+      &ComponentLine::solid_fraction);
+  add("coordination", "touching grains of any component per grain of its own",
+      &ComponentLine::coordination);
+  add("coordination_with_walls", "the same, walls and floor counted",
+      &ComponentLine::coordination_with_walls);
   const std::array names = {"nematic_x", "nematic_y", "nematic_z"};
   for (std::size_t axis = 0; axis < names.size(); ++axis) {
     append_spread(columns, names[axis], "",
@@ -148,12 +129,9 @@ std::vector<ComponentLine> mean_components(const Group& group) {
   return lines;
 }
 
-std::vector<ColumnText> components_columns(const Varied& varied, const GivenUnits& units) {
-  return described("components.csv", component_line_columns(varied, units));
-}
-
 CurveTable components_table(const Varied& varied, const GivenUnits& units) {
-  return curve_table(component_line_columns(varied, units), [](const Group& group) {
+  const auto columns = component_line_columns(varied, units);
+  return curve_table("components.csv", columns, [](const Group& group) {
     std::vector<GroupComponentLine> lines;
     for (const ComponentLine& line : mean_components(group)) lines.push_back({group, line});
     return lines;

@@ -29,6 +29,4 @@ std::vector<ComponentLine> mean_components(const Group& group);
 
 CurveTable components_table(const Varied& varied, const GivenUnits& units = {});
 
-std::vector<ColumnText> components_columns(const Varied& varied, const GivenUnits& units = {});
-
 }  // namespace grainsweep

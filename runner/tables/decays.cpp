@@ -66,9 +66,7 @@ Columns<DecayLine> decay_status_columns() {
 }
 
 Columns<DecayLine> decay_line_columns(const Varied& varied, const GivenUnits& units) {
-  Columns<DecayLine> columns;
-  append(columns, group_line_columns(varied),
-         [](const DecayLine& line) -> const Group& { return line.group; });
+  Columns<DecayLine> columns = columns_of_group<DecayLine>(varied);
   append(columns, decay_status_columns());
   const auto add = [&](const char* name, const char* unit, const char* meaning,
                        Estimate DecayFit::*estimate) {
@@ -108,12 +106,8 @@ DecayFit decay_of(const Group& group, GrainClass grains) {
   return fit_decay(profiles_from_wall(group, grains), bin_width, fit.window_end);
 }
 
-std::vector<ColumnText> decays_columns(const Varied& varied, const GivenUnits& units) {
-  return described("decays.csv", decay_line_columns(varied, units));
-}
-
 CurveTable decays_table(const Varied& varied, const GivenUnits& units) {
-  return curve_table(decay_line_columns(varied, units), [](const Group& group) {
+  return curve_table("decays.csv", decay_line_columns(varied, units), [](const Group& group) {
     std::vector<DecayLine> lines;
     for (const GrainClass grains : {GrainClass::large, GrainClass::small}) {
       lines.push_back({group, grains, decay_of(group, grains)});

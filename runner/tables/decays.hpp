@@ -5,9 +5,6 @@
 // runner/analysis/decay.hpp.
 #pragma once
 
-#include <string>
-#include <vector>
-
 #include "runner/analysis/decay.hpp"
 #include "runner/tables/groups.hpp"
 #include "runner/tables/units.hpp"
@@ -26,7 +23,5 @@ DecayFit decay_of(const Group& group, GrainClass grains);
 
 /// Two rows per group.
 CurveTable decays_table(const Varied& varied, const GivenUnits& units = {});
-
-std::vector<ColumnText> decays_columns(const Varied& varied, const GivenUnits& units = {});
 
 }  // namespace grainsweep

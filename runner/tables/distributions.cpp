@@ -2,20 +2,11 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
 #include <string_view>
 
 namespace grainsweep {
 namespace {
-
-/// The values of all replicates that have bin `k` of a curve.
-Spread spread_at(const Group& group, Curve Order::*curve, std::size_t k) {
-  std::vector<double> values;
-  for (const Outcome& outcome : group.settled) {
-    const Curve& one = outcome.result.order.*curve;
-    if (k < one.values.size()) values.push_back(one.values[k]);
-  }
-  return spread_of(values);
-}
 
 constexpr std::string_view pair_correlation = "pair_correlation";
 
@@ -41,9 +32,7 @@ void append_distances(Columns<PointLine>& columns, const GivenUnits& units) {
 }
 
 Columns<PointLine> curve_line_columns(const Varied& varied, const GivenUnits& units) {
-  Columns<PointLine> columns;
-  append(columns, group_line_columns(varied),
-         [](const PointLine& line) -> const Group& { return line.group; });
+  Columns<PointLine> columns = columns_of_group<PointLine>(varied);
   append(columns,
          Columns<PointLine>{
              {"curve", "",
@@ -78,20 +67,20 @@ std::vector<CurvePoint> mean_curve(const Group& group, Curve Order::*curve) {
     longest = std::max(longest, one.values.size());
     width = one.bin_width;
   }
+  const auto values_of = [&](const PackingResult& result) -> const std::vector<double>& {
+    return (result.order.*curve).values;
+  };
   std::vector<CurvePoint> points;
   for (std::size_t k = 0; k < longest; ++k) {
     points.push_back({static_cast<double>(k) * width, static_cast<double>(k + 1) * width,
-                      spread_at(group, curve, k)});
+                      spread_of_entry(group, k, values_of, std::identity())});
   }
   return points;
 }
 
-std::vector<ColumnText> distributions_columns(const Varied& varied, const GivenUnits& units) {
-  return described("distributions.csv", curve_line_columns(varied, units));
-}
-
 CurveTable distributions_table(const Varied& varied, const GivenUnits& units) {
-  return curve_table(curve_line_columns(varied, units), [](const Group& group) {
+  const auto columns = curve_line_columns(varied, units);
+  return curve_table("distributions.csv", columns, [](const Group& group) {
     std::vector<PointLine> lines;
     append_points(group, pair_correlation, &Order::pair_correlation, lines);
     append_points(group, "force_density", &Order::force_density, lines);

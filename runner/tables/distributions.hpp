@@ -20,6 +20,4 @@ std::vector<CurvePoint> mean_curve(const Group& group, Curve Order::*curve);
 
 CurveTable distributions_table(const Varied& varied, const GivenUnits& units = {});
 
-std::vector<ColumnText> distributions_columns(const Varied& varied, const GivenUnits& units = {});
-
 }  // namespace grainsweep

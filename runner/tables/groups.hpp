@@ -1,6 +1,7 @@
 // groups.csv: mean and scatter over the replicates of each parameter set.
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <map>
 #include <optional>
@@ -69,6 +70,18 @@ struct Group {
 /// and what bounds it along y.
 std::string parameters_of_family(const JobFacts& job);
 
+/// Of what `value` gives of entry `k` of `list_of(result)`, over the settled packings of a group
+/// that have so many entries.
+template <class ListOf, class Value>
+Spread spread_of_entry(const Group& group, std::size_t k, ListOf list_of, Value value) {
+  std::vector<double> values;
+  for (const Outcome& outcome : group.settled) {
+    const auto& list = std::invoke(list_of, outcome.result);
+    if (k < list.size()) values.push_back(static_cast<double>(std::invoke(value, list[k])));
+  }
+  return spread_of(std::move(values));
+}
+
 /// The number of each row's group, in the order in which the groups first appear, from 1.
 std::vector<std::size_t> group_numbers(const std::vector<Row>& rows);
 
@@ -93,14 +106,16 @@ class GroupWithCurves {
 
 /// A table whose lines are made of one group after the other, each with its curves.
 struct CurveTable {
+  std::string file;  ///< its name
+  std::vector<ColumnText> columns;
   std::string header;
   std::function<std::string(const Group&)> lines;
 };
 
 /// The table whose lines are those that `lines_of` lists of a group, which may refer to it.
 template <class Line, class LinesOf>
-CurveTable curve_table(const Columns<Line>& columns, LinesOf lines_of) {
-  return {header_line(columns), [=](const Group& group) {
+CurveTable curve_table(const std::string& file, const Columns<Line>& columns, LinesOf lines_of) {
+  return {file, described(file, columns), header_line(columns), [=](const Group& group) {
             std::string text;
             for (const Line& line : lines_of(group)) text += row_line(columns, line);
             return text;
@@ -131,6 +146,15 @@ Columns<Group> varied_columns(const Varied& varied);
 /// What tables with several lines per group begin with: number, id and a few facts of the group,
 /// and what is varied.
 Columns<Group> group_line_columns(const Varied& varied);
+
+/// The same of lines that have a `group`.
+template <class Line>
+Columns<Line> columns_of_group(const Varied& varied) {
+  Columns<Line> columns;
+  append(columns, group_line_columns(varied),
+         [](const Line& line) -> const Group& { return line.group; });
+  return columns;
+}
 
 /// Appends three columns to a table: mean, standard deviation and standard error of what `spread`
 /// gives of an item.

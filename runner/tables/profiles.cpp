@@ -57,9 +57,7 @@ Columns<ProfileLine> profile_bin_columns() {
 }
 
 Columns<ProfileLine> profile_line_columns(const Varied& varied, const GivenUnits& units) {
-  Columns<ProfileLine> columns;
-  append(columns, group_line_columns(varied),
-         [](const ProfileLine& line) -> const Group& { return line.group; });
+  Columns<ProfileLine> columns = columns_of_group<ProfileLine>(varied);
   append(columns, profile_bin_columns());
   const auto add = [&](const char* name, const char* meaning, Spread MeanBin::*spread) {
     append_spread(columns, name, "", meaning,
@@ -96,12 +94,8 @@ std::vector<MeanBin> mean_profile(const Group& group, Profile PackingResult::*pr
   return mean_bins(profiles, ProfileBin(), mean_bin);
 }
 
-std::vector<ColumnText> profiles_columns(const Varied& varied, const GivenUnits& units) {
-  return described("profiles.csv", profile_line_columns(varied, units));
-}
-
 CurveTable profiles_table(const Varied& varied, const GivenUnits& units) {
-  return curve_table(profile_line_columns(varied, units), [](const Group& group) {
+  return curve_table("profiles.csv", profile_line_columns(varied, units), [](const Group& group) {
     std::vector<ProfileLine> lines;
     append_bins(group, "x", &PackingResult::profile_x, lines);
     append_bins(group, "y", &PackingResult::profile_y, lines);

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <algorithm>
-#include <string>
 #include <string_view>
 #include <type_traits>
 #include <vector>
@@ -62,7 +61,5 @@ std::vector<MeanBin> mean_profile(const Group& group, Profile PackingResult::*pr
 
 /// The file: along x and y, from the walls and along z of each group.
 CurveTable profiles_table(const Varied& varied, const GivenUnits& units = {});
-
-std::vector<ColumnText> profiles_columns(const Varied& varied, const GivenUnits& units = {});
 
 }  // namespace grainsweep

@@ -5,16 +5,6 @@
 namespace grainsweep {
 namespace {
 
-/// The values of all replicates in row `k`.
-Spread spread_in(const Group& group, std::size_t k, double SizeRow::*share) {
-  std::vector<double> values;
-  for (const Outcome& outcome : group.settled) {
-    const std::vector<SizeRow>& rows = outcome.result.sizes;
-    if (k < rows.size()) values.push_back(rows[k].*share);
-  }
-  return spread_of(values);
-}
-
 struct GroupSizeLine {
   const Group& group;
   SizeLine line;
@@ -22,9 +12,7 @@ struct GroupSizeLine {
 
 Columns<GroupSizeLine> size_line_columns(const Varied& varied, const GivenUnits& units) {
   using Line = GroupSizeLine;
-  Columns<Line> columns;
-  append(columns, group_line_columns(varied),
-         [](const Line& line) -> const Group& { return line.group; });
+  Columns<Line> columns = columns_of_group<Line>(varied);
   append(columns, Columns<Line>{
                       {"diameter", "d", "shares are of the grains that are no larger",
                        [](const Line& line) { return cell(line.line.diameter); }},
@@ -49,18 +37,17 @@ std::vector<SizeLine> mean_sizes(const Group& group) {
   if (group.settled.empty()) return lines;
   const std::vector<SizeRow>& rows = group.settled.front().get().result.sizes;
   for (std::size_t k = 0; k < rows.size(); ++k) {
-    lines.push_back({rows[k].diameter, rows[k].asked, spread_in(group, k, &SizeRow::packed),
-                     spread_in(group, k, &SizeRow::slab)});
+    const auto spread = [&](double SizeRow::*share) {
+      return spread_of_entry(group, k, &PackingResult::sizes, share);
+    };
+    lines.push_back(
+        {rows[k].diameter, rows[k].asked, spread(&SizeRow::packed), spread(&SizeRow::slab)});
   }
   return lines;
 }
 
-std::vector<ColumnText> sizes_columns(const Varied& varied, const GivenUnits& units) {
-  return described("sizes.csv", size_line_columns(varied, units));
-}
-
 CurveTable sizes_table(const Varied& varied, const GivenUnits& units) {
-  return curve_table(size_line_columns(varied, units), [](const Group& group) {
+  return curve_table("sizes.csv", size_line_columns(varied, units), [](const Group& group) {
     std::vector<GroupSizeLine> lines;
     for (const SizeLine& line : mean_sizes(group)) lines.push_back({group, line});
     return lines;

@@ -21,6 +21,4 @@ std::vector<SizeLine> mean_sizes(const Group& group);
 
 CurveTable sizes_table(const Varied& varied, const GivenUnits& units = {});
 
-std::vector<ColumnText> sizes_columns(const Varied& varied, const GivenUnits& units = {});
-
 }  // namespace grainsweep
