@@ -62,37 +62,12 @@ std::size_t parameter_with(Role role) {
 }
 
 Choice choice_of(const Parameter& parameter) {
-  switch (parameter.role) {
-    case Role::shape:
-    case Role::shape_part:
-    case Role::hull_vertices:
-    case Role::hull_file:
-    case Role::hull_size:
-    case Role::mixture:
-    case Role::mixture_by:
-      return Choice::shape;
-    case Role::box:
-    case Role::tube:
-      return Choice::container;
-    case Role::fill:
-    case Role::fill_file:
-    case Role::fill_files:
-    case Role::fill_diameter:
-      return Choice::fill;
-    case Role::size_class:
-    case Role::lognormal:
-    case Role::uniform:
-    case Role::weibull:
-    case Role::size_table:
-    case Role::size_file:
-    case Role::distribution:
-      return Choice::sizes;
-    case Role::preset:
-    case Role::asked_accuracy:
-      return Choice::accuracy;
-    default:
-      return Choice::none;
-  }
+  const Role role = parameter.role;
+  if (role < Role::preset) return Choice::none;
+  if (role < Role::shape) return Choice::accuracy;
+  if (role < Role::box) return Choice::shape;
+  if (role < Role::fill) return Choice::container;
+  return role < Role::size_class ? Choice::fill : Choice::sizes;
 }
 
 bool are_alternatives(const Parameter& a, const Parameter& b) {

@@ -34,7 +34,8 @@ enum class ValueKind {
   components,  ///< of a mixture
 };
 
-/// What a parameter decides beside its own value.
+/// What a parameter decides beside its own value. Those of one choice stand together, in the order
+/// that `choice_of` goes by.
 enum class Role {
   plain,
   seed,            ///< master seed: set by blocks, not by "base"
