@@ -148,6 +148,10 @@ struct SpecError {
 /// Every rule that `spec` breaks; empty when it can be packed.
 std::vector<SpecError> check(const PackingSpec& spec);
 
+/// Height to which a bed of `spec`, which must be right, probably settles, d: to a tenth in wide
+/// boxes; narrow beds and those of plates come out lower.
+double probable_height(const PackingSpec& spec);
+
 /// Number of grains that `spec` asks for (before any of them is placed).
 std::int64_t grain_count(const PackingSpec& spec);
 

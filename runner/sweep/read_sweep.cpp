@@ -5,6 +5,7 @@
 
 #include "runner/sweep/expand.hpp"
 #include "runner/sweep/json_text.hpp"
+#include "runner/sweep/low_beds.hpp"
 #include "runner/sweep/sweep_definition.hpp"
 #include "runner/sweep/text_lines.hpp"
 
@@ -26,6 +27,11 @@ SweepReading read_sweep(const std::string& path, const SweepCheck& check) {
   }
   if (check && !has_errors(diagnostics)) {
     for (Diagnostic& broken : check(sweep)) diagnostics.push_back(std::move(broken));
+  }
+  if (!has_errors(diagnostics)) {
+    for (Diagnostic& note : notes_on_low_beds(definition, sweep.jobs)) {
+      diagnostics.push_back(std::move(note));
+    }
   }
 
   const bool is_refused = has_errors(diagnostics);

@@ -13,7 +13,8 @@ namespace grainsweep {
 struct SweepReading {
   Sweep sweep;                     ///< meaningful only if `errors` is empty
   std::vector<Diagnostic> errors;  ///< all of them, in the order of the file
-  std::vector<Diagnostic> notes;   ///< of a sweep without errors: what is written and never used
+  std::vector<Diagnostic> notes;   ///< of a sweep without errors: what is written and never used,
+                                   ///< beds that will probably be too low
 };
 
 /// What is wrong with a sweep that is right by its file.

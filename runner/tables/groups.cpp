@@ -1,5 +1,6 @@
 #include "runner/tables/groups.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
@@ -254,9 +255,12 @@ Columns<Group> varied_columns(const Varied& varied) {
 
 Columns<Group> group_line_columns(const Varied& varied) {
   Columns<Group> columns = group_key_columns();
-  append(columns, job_columns({"job", "label", "width", "boundary_y", "small_share"}),
-         job_of_group);
+  std::vector<std::string> names = {"job", "label", "width", "boundary_y", "small_share"};
+  // Where it varies, the name of every shape: as a parameter only spheres have one.
+  if (std::find(varied.begin(), varied.end(), "shape") != varied.end()) names.push_back("shape");
+  append(columns, job_columns(names), job_of_group);
   append(columns, varied_columns(varied));
+  remove_repeated(columns);
   return columns;
 }
 

@@ -21,6 +21,13 @@ code=0
   fail "other shapes: $(cut -d, -f5 out/shapes/packings.csv)"
 ! grep -q ',failed,\|,pending,' out/shapes/packings.csv || fail "$(cat out/shapes/packings.csv)"
 
+# Other tables name every shape, too.
+for table in profiles distributions; do
+  shapes=$(awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) if ($i == "shape") at = i } NR > 1 { print $at }' \
+    out/shapes/$table.csv | sort -u | paste -sd' ')
+  [[ $shapes == *pinacoid* && $shapes != " "* ]] || fail "shapes in $table.csv: $shapes"
+done
+
 # Shares of contacts and forces add up to one, axes are neither parallel nor anywhere else.
 column() { # NAME ROW
   awk -F, -v name="$1" -v row="$2" 'NR == 1 { for (i = 1; i <= NF; ++i) if ($i == name) at = i }
