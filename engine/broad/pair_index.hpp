@@ -1,4 +1,5 @@
-// Tells whether a pair is in a list, in a few steps: of each grain its partners of higher number.
+// Tells whether and where a pair is in a list, in a few steps: of each grain its partners of higher
+// number.
 #pragma once
 
 #include <cstdint>
@@ -21,14 +22,16 @@ class PairIndex {
     entries_.push_back({pair.b, last});
     last = static_cast<std::int32_t>(entries_.size()) - 1;
   }
-  bool holds(GrainPair pair) const {
+  bool holds(GrainPair pair) const { return number_of(pair) != none; }
+  /// Which of the pairs it is, in the order in which they were added; `none` of others.
+  std::int32_t number_of(GrainPair pair) const {
     std::int32_t k = last_[static_cast<std::size_t>(pair.a)];
     while (k != none && at(k).partner != pair.b) k = at(k).before;
-    return k != none;
+    return k;
   }
+  static constexpr std::int32_t none = -1;
 
  private:
-  static constexpr std::int32_t none = -1;
   struct Entry {
     std::int32_t partner;
     std::int32_t before;  ///< the entry before it of the same grain

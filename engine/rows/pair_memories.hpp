@@ -5,28 +5,31 @@
 #include <utility>
 #include <vector>
 
+#include "engine/broad/pair_index.hpp"
 #include "engine/context.hpp"
-#include "engine/rows/contacts.hpp"
 #include "kernels/kernels.hpp"
 
 namespace grainsweep {
 
 /// Kept from call to call.
 struct PairMemoryColumns {
-  struct Partner {
-    std::int32_t second;  ///< grain of a pair
-    std::size_t number;   ///< of the pair
-  };
-
-  std::vector<GrainPair> pairs;     ///< those of the list before
-  std::vector<std::size_t> before;  ///< see match_pairs
-  ByGrain<Partner> partners;        ///< of each first grain, by the second ascending
-  ByGrain<std::size_t> by_second;   ///< memory: the pairs, by their second grains
+  std::vector<GrainPair> pairs;      ///< those of the list before
+  std::vector<std::int32_t> before;  ///< see match_pairs
+  PairIndex index;                   ///< memory: of `pairs`
 };
+
 /// Finds each pair of a new list in the list before, columns.pairs: columns.before becomes its
-/// number in it, or the number of its pairs if it was not listed.
-void match_pairs(std::size_t grains, const std::vector<GrainPair>& pairs, const ParallelFor& loop,
-                 PairMemoryColumns& columns);
+/// number in it, or PairIndex::none.
+inline void match_pairs(std::size_t grains, const std::vector<GrainPair>& pairs,
+                        const ParallelFor& loop, PairMemoryColumns& columns) {
+  columns.index.assign(grains, columns.pairs);
+  columns.before.resize(pairs.size());
+  parallel_items(loop, pairs.size(), [&](std::size_t first, std::size_t count) {
+    for (std::size_t k = first; k < first + count; ++k) {
+      columns.before[k] = columns.index.number_of(pairs[k]);
+    }
+  });
+}
 
 /// Gives the pairs of the new list what those of the list before remembered in `memory`, which is
 /// then of the new ones. Pairs that were not listed remember `nothing`. `spare`: memory.
@@ -37,8 +40,8 @@ void keep_memories(const PairMemoryColumns& columns, const ParallelFor& loop, co
   memory.resize(columns.before.size());
   parallel_items(loop, memory.size(), [&](std::size_t first, std::size_t count) {
     for (std::size_t k = first; k < first + count; ++k) {
-      const std::size_t before = columns.before[k];
-      memory[k] = before < columns.pairs.size() ? spare[before] : nothing;
+      const std::int32_t before = columns.before[k];
+      memory[k] = before != PairIndex::none ? spare[static_cast<std::size_t>(before)] : nothing;
     }
   });
 }

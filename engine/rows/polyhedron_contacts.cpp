@@ -357,7 +357,6 @@ void lay_out_found(double correction, const PolyhedronBed& bed, const ExecutionC
   share_out(contacts.subdomains, contacts.shares, [&](std::size_t s, auto& ranges) {
     ranges.push_back({first_block[s], first_block[s + 1] - first_block[s]});
   });
-  contacts.extrapolated.assign(contacts.impulse.size(), Real(0));
 }
 
 /// Grains `a` and `b` of each contact, and where it stands in its list; sorted.

@@ -263,7 +263,6 @@ void lay_out_carried(const SphereBed& bed, const Candidates& candidates,
   lay_out_walls(bed, candidates, round, contacts);
   join(loop, contacts);
   set_parts(contacts);
-  contacts.extrapolated.assign(contacts.impulse.size(), Real(0));
 }
 
 /// Rows of the candidates with a gap below `reach` and of all with walls; the others are spares.

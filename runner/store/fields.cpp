@@ -168,9 +168,10 @@ std::vector<Field> main_fields() {
 
 std::vector<Field> further_fields() {
   return {
-      in_result<&Result::surface_height>(
-          "surface_height", "d",
-          "z of the bed's free surface: median of the highest points over columns of the floor"),
+      in_result<&Result::surface_height>("surface_height", "d",
+                                         "z of the bed's free surface: median of the highest "
+                                         "points over columns of the floor, of an "
+                                         "even number of them the higher of the two in the middle"),
       in_result<&Result::slab_bottom>("slab_bottom", "d", "z where the measured slab begins"),
       in_result<&Result::slab_top>("slab_top", "d", "z where it ends"),
       in_result<of::rest, &Rest::independent_contacts>(
