@@ -37,7 +37,8 @@ struct RestReport {
   /// How well the last step was solved, motion of the bed included: worst residual of a row, in m
   /// g, or in weights of its lighter grain where that is lighter.
   double step_residual = 0.0;
-  double kinetic_energy = 0.0;  ///< mean per grain of 1/2 m (dx/dt)^2, m g d
+  double kinetic_energy = 0.0;  ///< mean per grain of 1/2 m (dx/dt)^2, m g d, and of
+                                ///< turning, with what holds that within a step
   double largest_motion = 0.0;  ///< largest displacement of a grain in the last step, d
   double overlap_mean = 0.0;    ///< mean over force-bearing contacts of max(0, -gap), d
   double overlap_max = 0.0;     ///< deepest overlap, d
