@@ -114,11 +114,11 @@ class Expansion {
       : definition_(definition),
         folder_(std::move(folder)),
         diagnostics_(diagnostics),
-        problems_(definition, diagnostics) {}
+        problems_(definition, diagnostics),
+        is_whole_(!has_errors(diagnostics)) {}
 
   std::vector<Job> run() {
-    const bool is_whole =
-        !has_errors(diagnostics_);  // no value was left out that could not be read
+    const bool is_whole = is_whole_;
     for (std::size_t i = 0; i < definition_.blocks.size(); ++i) expand_block(i);
     problems_.name_points();
     note_shared_jobs();
@@ -162,6 +162,7 @@ class Expansion {
     place_components(block, in_effect, resolved);
     place_sizes(in_effect, resolved);
     for (const auto& problem : take_asked_accuracy(in_effect, resolved)) {
+      if (!is_whole_) break;
       const std::string& pointer = problem.assignment->pointer;
       problems_.note(pointer + " " + problem.message, pointer, problem.message, problem.assignment);
     }
@@ -257,7 +258,7 @@ class Expansion {
     const Assignment *diameter = in_effect[diameter_], *file = in_effect[file_];
     const Assignment* const files = in_effect[files_];
     if (file == nullptr && files == nullptr) {
-      if (diameter != nullptr && !is_told_of("/fill/file"))
+      if (diameter != nullptr && is_whole_)
         note(*diameter, "belongs to fill.file or fill.files; neither is set");
       return {{resolved.spec.fill}};
     }
@@ -329,11 +330,11 @@ class Expansion {
       return;
     }
     const Assignment* by = in_effect[mixture_by_];
-    if (by != nullptr && in_effect[mixture_] == nullptr) {
+    if (by != nullptr && in_effect[mixture_] == nullptr && is_whole_) {
       note(*by, "belongs to shape.mixture, and that is not set");
     }
     if (source == nullptr) {
-      if (size == nullptr) return;
+      if (size == nullptr || !is_whole_) return;
       return note(*size, "belongs to shape.hull.vertices or shape.hull.file; neither is set");
     }
     if (!std::holds_alternative<HullVertices>(resolved.spec.shape)) return;  // told already
@@ -402,7 +403,7 @@ class Expansion {
       for (const Assignment* assignment : in_effect) {
         const bool is_part =
             assignment != nullptr && parameters()[assignment->parameter].role == Role::distribution;
-        if (is_part) note(*assignment, no_size_formula);
+        if (is_part && is_whole_) note(*assignment, no_size_formula);
       }
       return distribution.reset();
     }
@@ -458,6 +459,7 @@ class Expansion {
     const auto known = files.find(path);
     if (known != files.end()) return known->second;
     const Reading& reading = files.emplace(path, read(path)).first->second;
+    if (!reading.errors.empty()) is_whole_ = false;
     for (const Diagnostic& error : reading.errors) {
       const bool has_no_line = error.place == path;  // then the name in the sweep is the place
       diagnostics_.push_back({assignment.pointer,
@@ -467,23 +469,24 @@ class Expansion {
     return reading;
   }
 
-  /// Whether something is told of a value whose place begins like this in its block: one that could
-  /// not be read is not in effect.
-  bool is_told_of(std::string_view place) const {
-    return std::any_of(diagnostics_.begin(), diagnostics_.end(), [&](const Diagnostic& told) {
-      return told.pointer.find(place) != std::string::npos;
-    });
-  }
-
   void note(const Assignment& assignment, const std::string& message) {
     if (said_.insert(assignment.pointer).second)
       diagnostics_.push_back({assignment.pointer, message});
   }
 
-  /// Notes what one point breaks.
+  /// Whether one value is wrong, whatever the others are.
+  static bool is_of_one_value(const SpecError& error, const InEffect& in_effect) {
+    const auto parameter = find_parameter(error.path);
+    const Assignment* const written = parameter ? in_effect[*parameter] : nullptr;
+    return written != nullptr && !range_error(parameters()[*parameter], written->value).empty();
+  }
+
+  /// Notes what one point breaks. Where something could not be read, what holds in its place says
+  /// nothing of the rules that several values keep together.
   void note_broken_rules(const Block& block, const InEffect& in_effect,
                          const std::vector<SpecError>& errors, const Start& start) {
     for (const SpecError& error : errors) {
+      if (!is_whole_ && !is_of_one_value(error, in_effect)) continue;
       const bool is_in_list = error.path == "fill.file" && !start.pointer.empty();
       const Assignment* assignment =
           is_in_list ? in_effect[files_] : assignment_of(error, in_effect);
@@ -638,6 +641,7 @@ class Expansion {
   /// Of every value that was in effect: why no packing depended on it so far; "" if one did.
   std::unordered_map<const Assignment*, std::string> idle_;
   std::uint64_t placed_ = 0, vertices_ = 0;
+  bool is_whole_;  ///< no value was left out, and no file, that could not be read
 };
 
 }  // namespace
