@@ -292,21 +292,34 @@ void check_height(const PackingSpec& spec, double across, Errors& errors) {
 constexpr double least_drop = 0.1;
 
 /// Steps in which the highest grain cannot even reach the bed: none falls faster than freely, or,
-/// damped, faster than its momentum lets it.
+/// damped, faster than its momentum lets it. Where they would be too few at the usual accuracy,
+/// too, the fill is to blame.
 void check_fall(const PackingSpec& spec, double across, Errors& errors) {
-  const Accuracy& a = spec.accuracy;
   const double start =
       is_sphere(spec.shape) ? sphere_start_solid_fraction : polyhedron_start_solid_fraction;
   const double loosest = loosest_solid_fraction(spec, across);
-  const double drop = std::max(least_drop, solid_height(spec) * (1.0 / start - 1.0 / loosest));
-  const bool is_damped = a.protocol == Protocol::heavy_ball;
-  const double free_fall = std::sqrt(2.0 * drop) / a.step;
-  const double damped = is_damped ? drop * (1.0 - a.momentum) / (a.step * a.step) : 0.0;
-  const double steps = std::ceil(std::max(free_fall, damped));
-  if (steps <= a.max_steps) return;
-  errors.push_back({"accuracy", "cannot come to rest: in steps of " + number_text(a.step) +
-                                    " the fall alone takes " + number_text(steps) + " of them" +
-                                    ", max_steps is " + std::to_string(a.max_steps)});
+  const double solid = solid_height(spec);
+  const double drop = std::max(least_drop, solid * (1.0 / start - 1.0 / loosest));
+  const auto steps_of = [&](const Accuracy& a) {
+    const bool is_damped = a.protocol == Protocol::heavy_ball;
+    const double free_fall = std::sqrt(2.0 * drop) / a.step;
+    const double damped = is_damped ? drop * (1.0 - a.momentum) / (a.step * a.step) : 0.0;
+    return std::ceil(std::max(free_fall, damped));
+  };
+  const Accuracy& a = spec.accuracy;
+  const Accuracy usual;
+  if (steps_of(a) <= a.max_steps) return;
+  const std::string fall = "in steps of " + number_text(a.step) + " the fall alone takes " +
+                           number_text(steps_of(a)) + " of them, max_steps is " +
+                           std::to_string(a.max_steps);
+  if (steps_of(usual) <= usual.max_steps) {
+    errors.push_back({"accuracy", "cannot come to rest: " + fall});
+    return;
+  }
+  const bool is_counted = std::holds_alternative<GrainCount>(spec.fill);
+  errors.push_back({is_counted ? "fill.grains" : "fill.solid_height",
+                    "gives a bed too high to come to rest, " + number_text(solid) +
+                        " d of solid: " + fall + "; fill in less, or widen the box"});
 }
 
 /// What grows out of the parts together, once each of them is right. `across`: of a grain of size

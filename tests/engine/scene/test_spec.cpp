@@ -214,6 +214,20 @@ TEST_CASE("steps in which a bed cannot even fall are refused") {
   CHECK(steps(0.126, 0.0, Protocol::heavy_ball).size() == 1);
 }
 
+TEST_CASE("a bed that is too high to fall at any usual accuracy is the fault of its fill") {
+  // 10 million spheres of volume pi/6 over 16 d^2.
+  const Messages said = broken_by([](PackingSpec& spec) {
+    spec.sizes.spread = 0.0;
+    spec.box.length = spec.box.width = 4.0;
+    spec.fill = GrainCount{10'000'000};
+  });
+  CHECK(
+      said ==
+      Messages{"fill.grains: gives a bed too high to come to rest, 3.27e+05 d of solid: in steps "
+               "of 0.2 the fall alone takes 1.64e+06 of them, max_steps is 20000; fill in less, or "
+               "widen the box"});
+}
+
 TEST_CASE("a hull far from d in size is told to have the wrong unit") {
   const auto hull = [](double size) {
     return broken_by([=](PackingSpec& spec) {
