@@ -42,7 +42,7 @@ struct Collection {
   std::map<std::string_view, std::size_t> row_with;
   /// What the files hold that parameters were read from, by parameter and name of the file.
   std::map<std::pair<std::string, std::string>, std::string> content_of;
-  /// What is stored of earlier forms of the sweeps, which no table has.
+  /// What is stored of other forms of the sweeps, which no table has.
   Outcomes others;
   std::size_t added = 0, given_grains = 0, stored = 0;
   bool is_short = false;  ///< something stored could not be read
@@ -192,7 +192,7 @@ void add_outcome(const std::string& folder, Boxed<Outcome> outcome, Row& row, Co
   if (++to.stored % added_at_once == 0) to.files.flush();
 }
 
-/// Keeps what a folder holds beside its sweep: that of an earlier form, which may come again.
+/// Keeps what a folder holds beside its sweep: that of another form, which may come again.
 void add_others(const std::string& folder, Outcomes&& outcomes, Collection& to) {
   std::size_t kept = 0;
   for (auto& [job, outcome] : outcomes) {
@@ -207,7 +207,7 @@ void add_others(const std::string& folder, Outcomes&& outcomes, Collection& to) 
   }
   if (kept == 0) return;
   warn(folder + ": " + counted(kept, "packing") +
-           " of an earlier form of its sweep: kept for a run of that, but in no table",
+           " of another form of its sweep: kept for a run of that, but in no table",
        to);
 }
 

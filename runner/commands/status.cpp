@@ -146,7 +146,7 @@ void print_status(const Standing& standing) {
   if (results.orphaned > 0) {
     std::cout << counted(results.orphaned, "stored packing")
               << (results.orphaned == 1 ? " belongs" : " belong")
-              << " to an earlier form of the sweep\n";
+              << " to another form of the sweep\n";
   }
   if (is_idle(standing) && !is_done && !sweep_file.empty()) {
     std::cout << "Go on with: " << called_as() << " run " << shell_path(sweep_file) << " --out "

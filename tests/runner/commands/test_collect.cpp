@@ -157,7 +157,7 @@ TEST_CASE("of two copies of a bed the one with grains is kept, in either order")
   }
 }
 
-TEST_CASE("what a folder holds of an earlier form of its sweep is kept, once") {
+TEST_CASE("what a folder holds of another form of its sweep is kept, once") {
   const TemporaryFolder parent;
   Outcome earlier = sample_outcome("b2", 0.6, 6);
   const std::string source = folder_of_a_run(parent, "source", "1", sample_outcome("a1", 0.6, 6));
@@ -166,8 +166,8 @@ TEST_CASE("what a folder holds of an earlier form of its sweep is kept, once") {
   const auto collect = [&] {
     return printed_by([&] { perform(CollectOptions{{source}, out}); }).error;
   };
-  CHECK_THAT(collect(), Contains("source: 1 packing of an earlier form of its sweep: kept"));
-  CHECK_THAT(collect(), !Contains("earlier form"));
+  CHECK_THAT(collect(), Contains("source: 1 packing of another form of its sweep: kept"));
+  CHECK_THAT(collect(), !Contains("another form"));
   const Results all = read_results(out);
   CHECK(all.rows.size() == 1);
   CHECK(all.orphaned == 1);
