@@ -17,8 +17,8 @@ struct SizesReading {
   Diagnostics errors;  ///< with places "sieves.csv:12"; at most 20 of a file
 };
 
-/// Reads a table from the file at `path`. Refuses missing columns and values that are no finite
-/// numbers.
+/// Reads a table from the file at `path`. Refuses missing columns, values that are no finite
+/// numbers, and what is no table of sizes, each at its line.
 SizesReading read_sizes(const std::string& path);
 
 /// The same from `text`, the content of `file`.

@@ -151,6 +151,14 @@ std::vector<Assignments> read_list(const std::string& path, const Json& list,
   return entries;
 }
 
+/// An empty object of lists: the block has the points that it has without it.
+void note_if_empty(const Json& lists, const std::string& pointer, Diagnostics& diagnostics) {
+  if (!lists.empty()) return;
+  diagnostics.push_back({pointer,
+                         "varies nothing; name paths with lists of values, or leave it out",
+                         Anchor::key, "", true});
+}
+
 /// What an entry of a list says, for finding another that says the same.
 std::vector<std::pair<std::size_t, Value>> said_by(const Assignments& entry) {
   std::vector<std::pair<std::size_t, Value>> said;
@@ -212,6 +220,7 @@ class BlockReader {
   void read_grid(const Json& grid) {
     const std::string pointer = child_pointer(block_.pointer, "grid");
     if (!is_object(grid, pointer, "an object of lists, one per path", diagnostics_)) return;
+    note_if_empty(grid, pointer, diagnostics_);
     for (const auto& [path, list] : grid.items()) {
       auto entries = list.is_object() ? read_spaced(path, list, child_pointer(pointer, path))
                                       : read_varied(path, list, child_pointer(pointer, path));
@@ -235,6 +244,7 @@ class BlockReader {
   void read_zip(const Json& zip) {
     const std::string pointer = child_pointer(block_.pointer, "zip");
     if (!is_object(zip, pointer, "an object of equally long lists", diagnostics_)) return;
+    note_if_empty(zip, pointer, diagnostics_);
     Axis axis{"zip", {}};
     std::string lengths;
     std::set<std::size_t> sizes;

@@ -47,12 +47,25 @@ ValueReading read_natural(const Parameter& parameter, const Json& value) {
   return fits(value.get<std::uint64_t>());
 }
 
+/// What a shape needs that has no defaults; "" of other names.
+std::string needed_by(const std::string& shape) {
+  if (shape == "hull") {
+    return R"(a hull needs its vertices: write {"hull": {"file": "stone.stl"}})";
+  }
+  if (shape == "mixture") {
+    return "a mixture needs its components: write "
+           R"({"mixture": [{"share": 0.5, "sphere": {}}, {"share": 0.5, "cube": {}}]})";
+  }
+  return "";
+}
+
 ValueReading read_choice(const Parameter& parameter, const Json& value) {
   const auto& names = parameter.choices;
   if (!value.is_string()) return mismatch(parameter, value);
   const auto& name = value.get_ref<const std::string&>();
   const auto found = std::find(names.begin(), names.end(), name);
   if (found != names.end()) return fits(static_cast<std::int64_t>(found - names.begin()));
+  if (parameter.role == Role::shape && !needed_by(name).empty()) return {{}, needed_by(name)};
   ValueReading reading = mismatch(parameter, value);
   const auto& former = parameter.former_choices;
   if (std::find(former.begin(), former.end(), name) != former.end()) {

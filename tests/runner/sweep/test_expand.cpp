@@ -237,6 +237,19 @@ TEST_CASE("a value out of range is named where it is written, once for all jobs"
                  "s.json:6:56 /sweep/2/zip/accuracy.step/0: must lie in [0.0001, 2], is 3"});
 }
 
+TEST_CASE("a bed too high to fall is told at its fill, or at what shortens its steps") {
+  const std::string box = R"("box": {"length": 4, "width": 4}, )";
+  CHECK(
+      errors_of(R"({"name": "t", "base": {)" + box +
+                R"("fill": {"grains": 10000000}, "accuracy": "fast"}})") ==
+      Messages{"s.json:1:77 /base/fill/grains: gives a bed too high to come to rest, 3.28e+05 d of "
+               "solid: in steps of 0.2 the fall alone takes 1.64e+06 of them, max_steps is 20000; "
+               "fill in less, or widen the box"});
+  CHECK(errors_of(R"({"name": "t", "base": {"accuracy": {"preset": "fast", "max_steps": 10}}})") ==
+        Messages{"s.json:1:68 /base/accuracy/max_steps: cannot come to rest: in steps of 0.2 the "
+                 "fall alone takes 50 of them, max_steps is 10"});
+}
+
 TEST_CASE("a default that breaks a rule is named at the block that makes it break") {
   const ScratchFolder folder;
   folder.write("bed.csv", "x,y,z,r\n15,5,15,12\n");

@@ -254,7 +254,8 @@ TEST_CASE("what is no shape is refused with the shapes there are") {
       "with pinacoid, cube, cuboid, tetrahedron, octahedron, dodecahedron, icosahedron, "
       "prism, cylinder, hull, mixture, mixture_by, is ";
   CHECK(error_of("shape", "rock") == wanted + "the text \"rock\"");
-  CHECK(error_of("shape", "hull") == wanted + "the text \"hull\"");
+  CHECK(error_of("shape", "hull") ==
+        R"(a hull needs its vertices: write {"hull": {"file": "stone.stl"}})");
   CHECK(error_of("shape", "pinacoit") ==
         wanted + "the text \"pinacoit\"; did you mean \"pinacoid\"?");
   CHECK(error_of("shape", 3) == wanted + "3");

@@ -133,7 +133,7 @@ TEST_CASE("what is wrong with a distribution is told where it is written") {
   CHECK(errors_in(R"({"distribution": {"table": {"file": "none.csv"}}})").size() == 1);
 }
 
-TEST_CASE("what is wrong with a table from a file is told at the file") {
+TEST_CASE("what is wrong with a table from a file is told at its line, or at the file") {
   const ScratchFolder folder;
   folder.write("sieves.csv", "diameter,passing\n0.9,0\n2,20\n4,100\n");
   const Diagnostics errors =
@@ -141,8 +141,13 @@ TEST_CASE("what is wrong with a table from a file is told at the file") {
                                         {"size": 2, "table": {"file": "sieves.csv"}, "by": "area"}}})"))
           .errors;
   REQUIRE(errors.size() == 1);
-  CHECK(errors[0].pointer == "/base/sizes.distribution/table/file");
+  CHECK(errors[0].place == folder.path("sieves.csv") + ":4");
   CHECK_THAT(errors[0].message, Catch::Contains("divide percentages by 100"));
+  folder.write("sieves.csv", "diameter,share\n0.9,0.5\n2,0.7\n");  // no line of its own
+  const Diagnostics of_all = read_sweep(folder.path("s.json")).errors;
+  REQUIRE(of_all.size() == 1);
+  CHECK(of_all[0].pointer == "/base/sizes.distribution/table/file");
+  CHECK(of_all[0].message == "table.shares must add up to 1, add up to 1.2");
 }
 
 TEST_CASE("a table of a laboratory beside units, without its unit, is worth a note") {

@@ -55,5 +55,28 @@ TEST_CASE("what a table of sizes lacks is told with its line") {
   CHECK(read_sizes("/nowhere/sieves.csv").errors.size() == 1);
 }
 
+TEST_CASE("what is no curve of sizes is told with the line that makes it none") {
+  CHECK(errors_of_table("diameter,passing\n-1,0\n0,-0.5\n4,-1\n8,1\n") ==
+        Messages{"sieves.csv:2: the diameter must be positive, is -1",
+                 "sieves.csv:3: the diameter must be positive, is 0",
+                 "sieves.csv:4: passing must not be negative, is -1"});
+  CHECK(errors_of_table("diameter,share\n1,-0.5\n") ==
+        Messages{"sieves.csv:2: the share must not be negative, is -0.5"});
+  CHECK(errors_of_table("diameter,passing\n2,0\n4,1\n2,0\n4,1\n") ==
+        Messages{"sieves.csv:4: repeats the diameter 2 of line 2",
+                 "sieves.csv:5: repeats the diameter 4 of line 3"});
+  const std::string rule = " passing must rise from 0 to 1, the share finer than each diameter; ";
+  CHECK(errors_of_table("diameter,passing\n8,100\n4,30\n2,0\n") ==
+        Messages{"sieves.csv:2:" + rule + "ends at 100: divide percentages by 100"});
+  CHECK(errors_of_table("diameter,passing\n2,1\n4,0.3\n8,0\n") ==
+        Messages{"sieves.csv:3:" + rule + "falls to 0.3 from 1 in line 2"});
+  CHECK(errors_of_table("diameter,passing\n8,1\n4,0.3\n") ==
+        Messages{"sieves.csv:3:" + rule +
+                 "begins at 0.3: add the largest diameter that nothing is finer than"});
+  CHECK(errors_of_table("diameter,passing\n2,0\n4,0.3\n") ==
+        Messages{"sieves.csv:3:" + rule + "ends at 0.3: add a diameter that all is finer than"});
+  CHECK(errors_of_table("diameter,passing\n2,0\n4,0.5\n6,0.5\n8,1\n").empty());
+}
+
 }  // namespace
 }  // namespace grainsweep
