@@ -58,6 +58,15 @@ Measured slope_of_fit(const Family& family) {
   return fitted(family, fit, fit.slope);
 }
 
+/// Of a solid fraction.
+template <auto measure, class... Of>
+Measured porosity(const Of&... of) {
+  Measured measured = measure(of...);
+  measured.estimate.value = 1.0 - measured.estimate.value;
+  measured.definition = "1 - φ; " + measured.definition;
+  return measured;
+}
+
 Measured zeta_difference(const Family& family) {
   const WallFit phi = fit_walls(family, Quantity::solid_fraction);
   const WallFit z = fit_walls(family, Quantity::coordination);
@@ -132,15 +141,19 @@ struct NamedQuantity {
 };
 
 constexpr auto of_phi = Quantity::solid_fraction, of_z = Quantity::coordination;
-constexpr std::array<NamedQuantity, 15> quantities = {{
+constexpr std::array<NamedQuantity, 18> quantities = {{
     {"phi_unconfined", "φ without walls (bi-periodic)", unconfined<of_phi>, nullptr},
+    {"porosity_unconfined", "porosity without walls (bi-periodic)", porosity<unconfined<of_phi>>,
+     nullptr},
     {"Z_unconfined", "Z without walls (bi-periodic)", unconfined<of_z>, nullptr},
     {"phi_bulk", "φ_bulk of the fit", bulk_of_fit<of_phi>, nullptr},
+    {"porosity_bulk", "1 - φ_bulk of the fit", porosity<bulk_of_fit<of_phi>>, nullptr},
     {"C", "C / d", slope_of_fit<of_phi>, nullptr},
     {"Z_bulk", "Z_bulk of the fit", bulk_of_fit<of_z>, nullptr},
     {"C_Z", "C_Z / d", slope_of_fit<of_z>, nullptr},
     {"zeta_difference", "ζ_Z - ζ_φ, d", zeta_difference, nullptr},
     {"phi", "φ", nullptr, mean_of<of_phi>},
+    {"porosity", "porosity", nullptr, porosity<mean_of<of_phi>>},
     {"Z", "Z", nullptr, mean_of<of_z>},
     {"lambda_by_number", "λ_L / d_avg by number", nullptr,
      decay_length<&PackingResult::mean_diameter>},
@@ -166,7 +179,9 @@ std::string fault_of_quantity(const std::string& quantity, double width) {
     std::vector<std::string> names;
     names.reserve(std::size(quantities));
     for (const NamedQuantity& one : quantities) names.emplace_back(one.name);
-    return "unknown quantity \"" + quantity + "\"; known are " + comma_list(names);
+    const std::string near = nearest(quantity, names);
+    return "unknown quantity \"" + shortened(quantity) + "\"; " +
+           (near.empty() ? "known are " + comma_list(names) : "did you mean \"" + near + "\"?");
   }
   if (found->of_group != nullptr && !(width > 0.0)) return quantity + " needs a \"width\"";
   if (found->of_family != nullptr && width > 0.0) return quantity + " belongs to no \"width\"";

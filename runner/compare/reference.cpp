@@ -1,15 +1,18 @@
 #include "runner/compare/reference.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
-#include "engine/dynamics/presets.hpp"
 #include "runner/compare/quantities.hpp"
 #include "runner/exit_codes.hpp"
 #include "runner/store/files.hpp"
+#include "runner/sweep/diagnostic.hpp"
+#include "runner/sweep/json_text.hpp"
 #include "runner/sweep/parameters.hpp"
 #include "runner/sweep/suggest.hpp"
+#include "runner/sweep/values.hpp"
 #include "runner/tables/csv.hpp"
 
 namespace grainsweep {
@@ -17,31 +20,51 @@ namespace {
 
 using nlohmann::json;
 
-/// What an exception says, without the name that the JSON library gives it.
-std::string fault_of(const std::exception& error) {
-  const std::string text = error.what();
-  const bool is_named = text.starts_with("[json.exception.");
-  return is_named ? text.substr(text.find("] ") + 2) : text;
+/// Whether `value` is an object; otherwise a problem is noted.
+bool is_object(const Json& value, const std::string& pointer, Diagnostics& diagnostics) {
+  if (value.is_object()) return true;
+  diagnostics.push_back({pointer, "must be an object, is " + describe(value)});
+  return false;
 }
 
-void expect_keys(const json& object, const std::vector<std::string>& known) {
-  if (!object.is_object()) throw BadInput("must be an object, is " + object.dump());
-  for (const auto& [key, value] : object.items()) {
-    const bool is_known = std::find(known.begin(), known.end(), key) != known.end();
-    if (!is_known) throw BadInput(unknown_key(key, known));
-  }
+/// A member of `object`, a number no less than 0; nothing, and a problem noted, if it is another
+/// value.
+std::optional<double> read_number(const Json& object, const char* key, const std::string& pointer,
+                                  Diagnostics& diagnostics) {
+  const auto found = object.find(key);
+  if (found == object.end()) return std::nullopt;
+  const bool is_number = found->is_number();
+  if (is_number && found->get<double>() >= 0.0) return found->get<double>();
+  diagnostics.push_back(
+      {child_pointer(pointer, key),
+       (is_number ? "must not be negative, is " : "must be a number, is ") + describe(*found)});
+  return std::nullopt;
 }
 
-Published::Range published_range(const json& value, double error) {
-  const bool is_range = value.is_array();
-  if (is_range ? value.size() != 2 : !value.is_number()) {
-    throw BadInput("value must be a number or a range [low, high], is " + value.dump());
+/// A member of `object`, a text; `otherwise` if there is none.
+std::string read_text(const Json& object, const char* key, const std::string& pointer,
+                      const std::string& otherwise, Diagnostics& diagnostics) {
+  const auto found = object.find(key);
+  if (found == object.end()) return otherwise;
+  if (found->is_string()) return *found;
+  diagnostics.push_back({child_pointer(pointer, key), "must be a text, is " + describe(*found)});
+  return otherwise;
+}
+
+std::optional<Published::Range> read_range(const Json& value, double error,
+                                           const std::string& pointer, Diagnostics& diagnostics) {
+  const auto is_number = [](const Json& one) { return one.is_number(); };
+  const bool is_range = value.is_array() && value.size() == 2;
+  if (!(is_range ? std::all_of(value.begin(), value.end(), is_number) : value.is_number())) {
+    diagnostics.push_back(
+        {pointer, "must be a number or a range [low, high], is " +
+                      (value.is_array() ? shortened(value.dump()) : describe(value))});
+    return std::nullopt;
   }
-  if (!(error >= 0.0)) throw BadInput("error must not be negative, is " + cell(error));
-  const Published::Range range{is_range ? value.at(0) : value, is_range ? value.at(1) : value,
-                               error};
-  if (range.low > range.high) throw BadInput("a range must be [low, high]");
-  return range;
+  const Published::Range range{is_range ? value[0] : value, is_range ? value[1] : value, error};
+  if (range.low <= range.high) return range;
+  diagnostics.push_back({pointer, "a range must be [low, high], is " + value.dump()});
+  return std::nullopt;
 }
 
 std::string text_of(const std::optional<Published::Range>& range) {
@@ -50,34 +73,45 @@ std::string text_of(const std::optional<Published::Range>& range) {
   return cell(range->low) + (range->error > 0.0 ? " ± " + cell(range->error) : "");
 }
 
-Published read_published(const json& from) {
-  expect_keys(from, {"quantity", "width", "value", "error", "text", "definition"});
-  if (!from.contains("quantity")) throw BadInput("needs \"quantity\", its name");
-  Published published{.quantity = from.at("quantity"),
-                      .width = from.value("width", 0.0),
-                      .text = {},
-                      .range = {},
-                      .definition = from.value("definition", "")};
-  const std::string fault = fault_of_quantity(published.quantity, published.width);
-  if (!fault.empty()) throw BadInput(fault);
-  if (from.contains("value"))
-    published.range = published_range(from["value"], from.value("error", 0.0));
-  published.text = from.value("text", text_of(published.range));
+Published read_published(const Json& from, const std::string& pointer, Diagnostics& diagnostics) {
+  Published published;
+  if (!is_object(from, pointer, diagnostics)) return published;
+  refuse_unknown_keys(from, pointer, {"quantity", "width", "value", "error", "text", "definition"},
+                      diagnostics);
+  published.quantity = read_text(from, "quantity", pointer, "", diagnostics);
+  published.definition = read_text(from, "definition", pointer, "", diagnostics);
+  const auto width = read_number(from, "width", pointer, diagnostics);
+  const auto error = read_number(from, "error", pointer, diagnostics);
+  published.width = width.value_or(0.0);
+  if (!from.contains("quantity")) {
+    diagnostics.push_back({pointer, "needs \"quantity\", its name"});
+  } else if (from["quantity"].is_string() && from.contains("width") == width.has_value()) {
+    const std::string fault = fault_of_quantity(published.quantity, published.width);
+    if (!fault.empty()) diagnostics.push_back({child_pointer(pointer, "quantity"), fault});
+  }
+  if (from.contains("value")) {
+    published.range = read_range(from["value"], error.value_or(0.0),
+                                 child_pointer(pointer, "value"), diagnostics);
+  }
+  published.text = read_text(from, "text", pointer, text_of(published.range), diagnostics);
   return published;
 }
 
-/// `read` of each element of the list under `key`; what it throws gets the place before it.
+/// `read` of each element of the list under `key`.
 template <typename Read>
-auto read_list(const json& object, const std::string& key, const Read& read) {
-  std::vector<decltype(read(object))> elements;
-  const json list = object.value(key, json::array());
-  if (!list.is_array()) throw BadInput(key + " must be a list, is " + list.dump());
-  for (const json& element : list) {
-    try {
-      elements.push_back(read(element));
-    } catch (const std::exception& error) {
-      throw BadInput("/" + key + "/" + std::to_string(elements.size()) + ": " + fault_of(error));
-    }
+auto read_list(const Json& object, const char* key, const std::string& pointer,
+               Diagnostics& diagnostics, const Read& read) {
+  std::vector<decltype(read(object, pointer, diagnostics))> elements;
+  const auto found = object.find(key);
+  if (found == object.end()) return elements;
+  const std::string place = child_pointer(pointer, key);
+  if (!found->is_array()) {
+    diagnostics.push_back({place, "must be a list, is " + describe(*found)});
+    return elements;
+  }
+  for (const Json& element : *found) {
+    elements.push_back(
+        read(element, child_pointer(place, std::to_string(elements.size())), diagnostics));
   }
   return elements;
 }
@@ -87,89 +121,131 @@ std::string plain(const json& value) {
   return value.is_number() ? json(value.get<double>()).dump() : value.dump();
 }
 
-/// The parameter that `path` is or lies in: a number of a list is written "gap_tolerances.0".
-const Parameter* parameter_at(std::string path) {
-  while (true) {
-    if (const auto index = find_parameter(path)) return &parameters()[*index];
-    const std::size_t dot = path.rfind('.');
-    if (dot == std::string::npos) return nullptr;
-    path.resize(dot);
-  }
+bool is_of_accuracy(const std::string& path) {
+  return path == "accuracy" || path == "accuracy.preset";
 }
 
-void expect_one_of(std::vector<std::string> names, const json& value) {
-  const bool is_known = value.is_string() && std::find(names.begin(), names.end(),
-                                                       value.get<std::string>()) != names.end();
-  if (is_known) return;
-  const std::string near = value.is_string() ? nearest(value.get<std::string>(), names) : "";
-  throw BadInput(
-      "is " + value.dump() +
-      (near.empty() ? ", not one of: " + comma_list(names) : "; did you mean \"" + near + "\"?"));
+/// Names that families are told apart by, as a parameter.
+Parameter named(std::vector<std::string> names) {
+  return {.path = "name", .meaning = "", .kind = ValueKind::choice, .choices = std::move(names)};
 }
 
-/// Throws BadInput unless packings can have this value of this parameter.
-void check_distinction(const std::string& path, const json& value) {
-  if (path == "accuracy" || path == "accuracy.preset") {
-    std::vector<std::string> names = {"custom"};
-    for (const Preset& preset : presets()) names.emplace_back(preset.name);
-    return expect_one_of(names, value);
+/// What families may be told apart by at `path`: a shape and an accuracy by their names, a number
+/// of a list by its place, "gap_tolerances.0". Nothing if no packing has such a parameter.
+std::optional<Parameter> distinction_at(const std::string& path) {
+  if (is_of_accuracy(path)) {
+    auto names = parameters()[parameter_with(Role::preset)].choices;
+    names.emplace_back("custom");
+    return named(std::move(names));
   }
-  if (path == "seed") throw BadInput("families are not told apart by their seed; leave it out");
-  if (value.is_object()) {
-    throw BadInput("give each part by its dotted name, as \"sizes.small_share\"");
+  const std::size_t shape = parameter_with(Role::shape);
+  const auto index = find_parameter(path);
+  if (index == shape) {
+    auto names = parameters()[shape].choices;
+    names.insert(names.end(), {"hull", "mixture"});
+    return named(std::move(names));
   }
-  const Parameter* const parameter = parameter_at(path);
-  if (parameter == nullptr) {
+  if (index) return parameters()[*index];
+  for (std::size_t dot = path.find('.'); dot != std::string::npos; dot = path.find('.', dot + 1)) {
+    const auto list = find_parameter(path.substr(0, dot));
+    if (!list) continue;
+    Parameter part = parameters()[*list];
+    if (part.kind == ValueKind::components) return part;
+    if (part.kind != ValueKind::numbers) continue;
+    part.kind = ValueKind::number;
+    return part;
+  }
+  return std::nullopt;
+}
+
+/// Whether its values are read as a sweep's are. Packings have others as hashes, or in parts.
+bool is_read_as_written(const Parameter& parameter) {
+  return parameter.kind == ValueKind::number || parameter.kind == ValueKind::whole ||
+         parameter.kind == ValueKind::natural || parameter.kind == ValueKind::choice;
+}
+
+/// Notes what no packing can have.
+void check_distinction(const std::string& path, const Json& value, const std::string& pointer,
+                       Diagnostics& diagnostics) {
+  const auto note = [&](const std::string& message, Anchor anchor = Anchor::value) {
+    diagnostics.push_back({pointer, message, anchor});
+  };
+  if (path == "seed") {
+    return note("families are not told apart by their seed; leave it out", Anchor::key);
+  }
+  const auto distinction = distinction_at(path);
+  const bool is_known = distinction || is_group(path);
+  if (!is_known || path.empty()) {
     std::vector<std::string> known = {"accuracy"};
     for (const Parameter& one : parameters()) known.push_back(one.path);
-    throw BadInput(unknown_key(path, known));
+    std::erase(known, "seed");
+    return note(unknown_key(path, known), Anchor::key);
   }
-  std::vector<std::string> names = parameter->choices;
-  if (path == "shape") names.emplace_back("mixture");
-  if (!names.empty()) return expect_one_of(names, value);
-  const bool is_number = parameter->kind == ValueKind::number ||
-                         parameter->kind == ValueKind::whole ||
-                         parameter->kind == ValueKind::natural;
-  if (is_number && !value.is_number()) throw BadInput("must be a number, is " + value.dump());
+  if (!distinction || value.is_object()) {
+    return note("give each part by its dotted name, as \"sizes.small_share\"");
+  }
+  if (value.is_array()) {
+    return note("give each number by its place in the list, as \"measure.gap_tolerances.0\"");
+  }
+  if (!is_read_as_written(*distinction)) return;
+  const ValueReading reading = read_value(*distinction, value);
+  const std::string error =
+      reading.value ? range_error(*distinction, *reading.value) : reading.error;
+  if (!error.empty()) note(error);
 }
 
-PublishedFamily read_family(const json& from) {
-  expect_keys(from, {"where", "values"});
+PublishedFamily read_family(const Json& from, const std::string& pointer,
+                            Diagnostics& diagnostics) {
+  PublishedFamily family;
+  if (!is_object(from, pointer, diagnostics)) return family;
+  refuse_unknown_keys(from, pointer, {"where", "values"}, diagnostics);
+  family.values = read_list(from, "values", pointer, diagnostics, read_published);
   if (!from.contains("where") || !from["where"].is_object()) {
-    throw BadInput("needs \"where\", an object with what the parameters of the family are");
+    diagnostics.push_back(
+        {pointer, "needs \"where\", an object with what the parameters of the family are"});
+    return family;
   }
-  PublishedFamily family{.where = {}, .values = read_list(from, "values", read_published)};
-  for (const auto& [path, value] : from.at("where").items()) {
-    try {
-      check_distinction(path, value);
-    } catch (const BadInput& error) {
-      throw BadInput("/where/" + path + ": " + error.what());
-    }
+  const std::string place = child_pointer(pointer, "where");
+  for (const auto& [path, value] : from["where"].items()) {
+    check_distinction(path, value, child_pointer(place, path), diagnostics);
     family.where[path] = plain(value);
   }
   return family;
 }
 
-Reference reference_of(const json& from) {
-  expect_keys(from, {"source", "families", "common"});
-  if (!from.contains("source")) throw BadInput("needs \"source\", where the values are from");
-  if (!from.contains("families") && !from.contains("common")) {
-    throw BadInput("needs \"families\" or \"common\", lists of published values");
+Reference reference_of(const Json& from, Diagnostics& diagnostics) {
+  Reference reference;
+  if (!is_object(from, "", diagnostics)) return reference;
+  refuse_unknown_keys(from, "", {"source", "families", "common"}, diagnostics);
+  if (!from.contains("source")) {
+    diagnostics.push_back({"", "needs \"source\", where the values are from"});
   }
-  return {.source = from.at("source"),
-          .families = read_list(from, "families", read_family),
-          .common = read_list(from, "common", read_published)};
+  if (!from.contains("families") && !from.contains("common")) {
+    diagnostics.push_back({"", "needs \"families\" or \"common\", lists of published values"});
+  }
+  reference.source = read_text(from, "source", "", "", diagnostics);
+  reference.families = read_list(from, "families", "", diagnostics, read_family);
+  reference.common = read_list(from, "common", "", diagnostics, read_published);
+  return reference;
 }
 
 }  // namespace
 
 Reference read_reference(const std::string& path) {
   const std::string text = read_file(path);
-  try {
-    return reference_of(json::parse(text));
-  } catch (const std::exception& error) {
-    throw BadInput(path + ": " + fault_of(error));
+  JsonReading json = parse_strictly(text, path);
+  Diagnostics diagnostics = std::move(json.errors);
+  Reference reference;
+  if (diagnostics.empty()) {
+    reference = reference_of(json.value, diagnostics);
+    locate(json, text, path, diagnostics);
   }
+  if (diagnostics.empty()) return reference;
+  std::string told;
+  for (const Diagnostic& diagnostic : diagnostics) {
+    told += (told.empty() ? "" : "\n") + to_string(diagnostic);
+  }
+  throw BadInput(told);
 }
 
 std::string reference_beside(const std::string& sweep_file) {
@@ -185,7 +261,7 @@ bool describes(const PublishedFamily& published, const Family& family) {
   return std::all_of(published.where.begin(), published.where.end(), [&](const auto& entry) {
     const auto& [path, value] = entry;
     if (path == "shape") return value == plain(job.shape);
-    if (path == "accuracy" || path == "accuracy.preset") {
+    if (is_of_accuracy(path)) {
       return value == plain(job.accuracy) || value == plain(job.settles_as);
     }
     std::string pointer = "/" + path;

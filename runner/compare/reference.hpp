@@ -36,8 +36,8 @@ struct Reference {
   std::vector<Published> common;  ///< values that the source says to be the same in all families
 };
 
-/// Throws BadInput with file and place if the file is not of this form, FileError if it cannot be
-/// read.
+/// Throws BadInput with all that is wrong with the file, line by line, each with its place, and
+/// FileError if it cannot be read.
 Reference read_reference(const std::string& path);
 
 /// Where the published values of a sweep are: "configs/paper.reference.json" for

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <tuple>
 
 #include <catch2/catch.hpp>
 
@@ -44,6 +45,24 @@ TEST_CASE("every quantity of a whole sweep has the value that was planted") {
   CHECK(value("reach", 10) == Approx(1.4 * std::log(0.3 / (0.05 * 0.6))).epsilon(0.05));
   CHECK(value("Z_drop", 10) == Approx(1.4));
   CHECK(value("Z_drop_width", 10) == Approx(1.0));
+}
+
+TEST_CASE("a porosity is what its solid fraction leaves, with the same error") {
+  const std::vector<Row> rows = wall_sweep();
+  const Family family = families_in(rows).at(0);
+  for (const auto& [of_pores, of_solid, width] :
+       {std::tuple{"porosity_unconfined", "phi_unconfined", 0.0},
+        std::tuple{"porosity_bulk", "phi_bulk", 0.0}, std::tuple{"porosity", "phi", 5.0}}) {
+    INFO(of_pores);
+    const Measured porosity = measure_quantity(of_pores, width, family);
+    const Measured phi = measure_quantity(of_solid, width, family);
+    CHECK(porosity.estimate.value == 1.0 - phi.estimate.value);
+    CHECK(porosity.estimate.error == phi.estimate.error);
+    CHECK(porosity.definition == "1 - φ; " + phi.definition);
+  }
+  CHECK(measure_quantity("porosity", 99, family).not_determined ==
+        measure_quantity("phi", 99, family).not_determined);
+  CHECK(title_of_quantity("porosity", 5, "D") == "porosity at D = 5 d");
 }
 
 TEST_CASE("the error of a mean is that of the variance pooled over the family") {
@@ -122,6 +141,7 @@ TEST_CASE("unknown quantities and widths that do not belong are told") {
   CHECK(fault_of_quantity("Z", 10).empty());
   CHECK_THAT(fault_of_quantity("zeta", 0),
              Catch::Contains("unknown quantity \"zeta\"") && Catch::Contains("zeta_difference"));
+  CHECK(fault_of_quantity("Phi", 5) == "unknown quantity \"Phi\"; did you mean \"phi\"?");
   CHECK(fault_of_quantity("Z", 0) == "Z needs a \"width\"");
   CHECK(fault_of_quantity("C", 5) == "C belongs to no \"width\"");
   CHECK(title_of_quantity("Z", 10, "W") == "Z at W = 10 d");
