@@ -18,6 +18,7 @@ import io
 import json
 import os
 import pathlib
+import shlex
 import struct
 import subprocess
 import tempfile
@@ -28,8 +29,21 @@ import pandas
 
 
 def open(folder):
-    """The output folder of a run. Raises FileNotFoundError if it has no tables."""
+    """The output folder of a run. Raises FileNotFoundError, saying what to do, if it has no tables."""
+    if not pathlib.Path(folder, "columns.csv").is_file():
+        raise FileNotFoundError(_why_no_tables(pathlib.Path(folder)))
     return Sweep(folder)
+
+
+def _why_no_tables(folder):
+    if not folder.is_dir():
+        return f"{folder}: there is no such folder"
+    if (folder / "shards").is_dir():  # of a run that is at work, or was killed
+        report = f"grainsweep report {shlex.quote(str(folder))}"
+        return f"{folder} has packings but no tables yet: write them with `{report}`"
+    inside = sorted(f"{tables.parent}" for tables in folder.glob("*/columns.csv"))
+    return (f"{folder} is no output folder of grainsweep: it has no columns.csv"
+            + (f"; such folders in it: {', '.join(inside)}" if inside else ""))
 
 
 # Columns that are texts even where all their cells look like numbers: 23e2135835385298 is an id.
@@ -118,6 +132,8 @@ class Sweep:
 
     def bed(self, job):
         """The bed of a packing, by its id: column job of packings. Raises KeyError if it has none."""
+        if job not in self._places:
+            raise KeyError(self._why_no_bed(job))
         file, at, size = self._places[job]
         with file.open("rb") as beds:
             beds.seek(at)
@@ -125,6 +141,12 @@ class Sweep:
         if len(bed.positions) == 0:
             raise KeyError(f"{job}: stored without grains, by run --no-grains")
         return bed
+
+
+    def _why_no_bed(self, job):
+        if job in set(self.packings["job"]):
+            return f"{job}: no bed is stored in {self.folder}; see its status and reason in packings"
+        return f"{job}: no packing of {self.folder} has this id; ids are in column job of packings"
 
 
 class _Bytes:

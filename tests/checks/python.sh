@@ -176,6 +176,38 @@ assert list(packings.state_hash) == ["00e1", "1234567890123456"]
 assert list(packings.isna().sum()) == [0, 0, 0, 0, 1, 1] and packings.grains[0] == 7
 PYTHON
 
+# What is no output folder, and ids without a bed, are told with what to do.
+mkdir nothing "of a killed run"
+cp -r out/quick/shards "of a killed run"
+cp -r out/quick pending
+sed -i '2s/.*/0123456789abcdef/' pending/packings.csv
+/usr/bin/python3 - <<'PYTHON'
+import grainsweep
+
+def told(error, action):
+    try:
+        action()
+    except error as raised:
+        return raised.args[0]
+
+def opened(folder):
+    return told(FileNotFoundError, lambda: grainsweep.open(folder))
+
+assert opened("nowhere") == "nowhere: there is no such folder"
+assert opened("nothing") == "nothing is no output folder of grainsweep: it has no columns.csv"
+assert opened("out") == ("out is no output folder of grainsweep: it has no columns.csv; "
+                         "such folders in it: out/quick"), opened("out")
+assert opened("of a killed run") == ("of a killed run has packings but no tables yet: write them with "
+                                     "`grainsweep report 'of a killed run'`")
+assert opened("sweep.json") == "sweep.json: there is no such folder"
+
+s = grainsweep.open("pending")
+assert told(KeyError, lambda: s.bed("xx")) == (
+    "xx: no packing of pending has this id; ids are in column job of packings")
+assert told(KeyError, lambda: s.bed("0123456789abcdef")) == (
+    "0123456789abcdef: no bed is stored in pending; see its status and reason in packings")
+PYTHON
+
 sed -n '/^```python/,/^```/{//!p}' "$root/runner/python/README.md" >example.py
 (($(grep -c . example.py) <= 15)) || { printf 'the example has more than 15 lines\n' && exit 1; }
 MPLBACKEND=Agg /usr/bin/python3 example.py
