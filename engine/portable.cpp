@@ -24,7 +24,7 @@ class Number {
   double value() { return mpfr_get_d(number_, MPFR_RNDN); }
 
  private:
-  mpfr_t number_;
+  mpfr_t number_ = {};
 };
 
 /// Made once for each thread; at its end the constants go that MPFR keeps for it.

@@ -296,7 +296,7 @@ class Settling {
   std::uint64_t kind_of() const {
     constexpr bool turns = std::is_same_v<Kind, Polyhedron>;
     constexpr std::uint64_t layout =
-        sizeof(StepSettings) + 1024 * sizeof(StepReport) + 1024 * 1024 * sizeof(RestReport);
+        sizeof(StepSettings) + (sizeof(StepReport) << 10U) + (sizeof(RestReport) << 20U);
     return (layout << 32U) + bed_.grains() * 32 + (turns ? 16 : 0) + sizeof(Real);
   }
 

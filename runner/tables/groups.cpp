@@ -257,7 +257,7 @@ Columns<Group> group_line_columns(const Varied& varied) {
   Columns<Group> columns = group_key_columns();
   std::vector<std::string> names = {"job", "label", "width", "boundary_y", "small_share"};
   // Where it varies, the name of every shape: as a parameter only spheres have one.
-  if (std::find(varied.begin(), varied.end(), "shape") != varied.end()) names.push_back("shape");
+  if (std::find(varied.begin(), varied.end(), "shape") != varied.end()) names.emplace_back("shape");
   append(columns, job_columns(names), job_of_group);
   append(columns, varied_columns(varied));
   remove_repeated(columns);
