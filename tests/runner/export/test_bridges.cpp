@@ -113,25 +113,30 @@ TEST_CASE("beds of polyhedra are joined at points, along lines and over areas") 
   }
 }
 
-// Single beds of cubes have necks at 0.90 to 0.99 of their contacts, twelve of them at 0.955 +-
-// 0.009; of pinacoids at 0.98 to 1. Of contacts with gaps up to 0.2 d many leave less than a tenth
-// of a neck of 0.3 d.
+// Single beds of cubes have necks at 0.90 to 0.99 of their contacts, sets of twelve at 0.947 +-
+// 0.008. Of contacts with gaps up to 0.2 d many leave less than a tenth of a neck of 0.3 d: where
+// such are asked for it is 0.641 +- 0.019. Of pinacoids it is 0.992 +- 0.002 and 0.833 +- 0.004
+// (means and standard deviations of four sets). The bounds lie three of these below, or more.
 TEST_CASE("nearly all contacts of polyhedra have a neck, and most of those that ask for a wide one",
           "[slow]") {
   const Box walls{4, 3, Boundary::walls, Boundary::walls};
-  for (const ShapeSpec& shape : {ShapeSpec(CubeSize{}), ShapeSpec(PinacoidSize{})}) {
+  struct Least {
+    ShapeSpec shape;
+    double usual, wide;
+  };
+  for (const Least& least : {Least{CubeSize{}, 0.92, 0.58}, Least{PinacoidSize{}, 0.98, 0.81}}) {
     Necks usual, wide;
     const auto add = [](const ExportedBed& bed, Necks& sum) {
       const Necks own = necks_of(bed, open_polyhedra(bed));
       sum = {sum.made + own.made, sum.asked + own.asked};
     };
     for (std::int64_t grains = 36; grains < 60; grains += 2) {
-      const ExportedBed bed = bridged(packed_bed(shape, walls, grains));
+      const ExportedBed bed = bridged(packed_bed(least.shape, walls, grains));
       add(bed, usual);
       add(bridged(bed, "bridge:0.6"), wide);
     }
-    CHECK(usual.made >= 0.95 * usual.asked);
-    CHECK(wide.made >= 0.6 * wide.asked);
+    CHECK(usual.made >= least.usual * usual.asked);
+    CHECK(wide.made >= least.wide * wide.asked);
   }
 }
 
