@@ -6,6 +6,7 @@
 
 #include "runner/exit_codes.hpp"
 #include "runner/jobs/growing_groups.hpp"
+#include "runner/sweep/low_beds.hpp"
 #include "runner/sweep/read_sweep.hpp"
 #include "runner/text.hpp"
 #include "runner/versions.hpp"
@@ -14,8 +15,8 @@ namespace grainsweep {
 
 namespace {
 
-SweepReading reading_or_refusal(const std::string& file) {
-  SweepReading reading = read_sweep(file, unreachable_wishes);
+SweepReading reading_or_refusal(const std::string& file, const SweepCheck& check) {
+  SweepReading reading = read_sweep(file, check);
   if (reading.errors.empty()) return reading;
   std::string text;
   for (const Diagnostic& diagnostic : reading.errors) text += to_string(diagnostic) + "\n";
@@ -25,11 +26,16 @@ SweepReading reading_or_refusal(const std::string& file) {
 }  // namespace
 
 Sweep sweep_or_refusal(const std::string& file) {
-  return std::move(reading_or_refusal(file).sweep);
+  return std::move(reading_or_refusal(file, unreachable_wishes).sweep);
 }
 
 Sweep sweep_with_notes(const std::string& file) {
-  SweepReading reading = reading_or_refusal(file);
+  const auto check = [](const Sweep& sweep) {
+    Diagnostics told = unreachable_wishes(sweep);
+    for (Diagnostic& note : notes_on_low_beds(sweep)) told.push_back(std::move(note));
+    return told;
+  };
+  SweepReading reading = reading_or_refusal(file, check);
   for (const Diagnostic& note : reading.notes) std::cerr << "note: " << to_string(note) << "\n";
   return std::move(reading.sweep);
 }

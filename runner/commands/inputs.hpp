@@ -11,7 +11,7 @@ namespace grainsweep {
 /// The sweep in `file`. Throws BadInput with every error in it.
 Sweep sweep_or_refusal(const std::string& file);
 
-/// The same; prints what in it is never used, as notes.
+/// The same; prints what in it is never used, and beds that will probably be too low, as notes.
 Sweep sweep_with_notes(const std::string& file);
 
 /// What is stored in the output folder; prints warnings of what is damaged or of another version.

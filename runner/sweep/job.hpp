@@ -39,7 +39,8 @@ struct Sweep {
   int replicates = 1;
   std::vector<Job> jobs;  ///< in the order of the file: block, point, replicate; no id twice
   GivenUnits units = {};  ///< what people want lengths in; no part of any job
-  std::vector<std::string> wish_pointers = {};  ///< where each block's wishes are written
+  std::vector<std::string> block_pointers = {};  ///< where each block is written
+  std::vector<std::string> wish_pointers = {};   ///< where its wishes are
 };
 
 }  // namespace grainsweep

@@ -1,7 +1,9 @@
 #include "runner/sweep/low_beds.hpp"
 
-#include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <variant>
+#include <vector>
 
 #include "engine/text.hpp"
 
@@ -13,53 +15,58 @@ double least_height(const MeasureSpec& measure) {
   return measure.exclude_floor + measure.exclude_surface + least_slab_height;
 }
 
+/// Those of a block that are too low.
+struct LowBeds {
+  std::size_t sets = 0, low = 0;  ///< parameter sets, and of them too low ones
+  const PackingSpec* lowest = nullptr;
+  double height = 0.0;  ///< of the lowest, d
+};
+
 /// Of a file's grains a few may be packed to be exported alone.
-bool is_probably_too_low(const PackingSpec& spec) {
-  return !std::holds_alternative<PlacedGrains>(spec.fill) &&
-         probable_height(spec) < least_height(spec.measure);
+void count(const PackingSpec& spec, LowBeds& beds) {
+  ++beds.sets;
+  if (std::holds_alternative<PlacedGrains>(spec.fill)) return;
+  const double height = probable_height(spec);
+  if (height >= least_height(spec.measure)) return;
+  ++beds.low;
+  if (beds.lowest == nullptr || height < beds.height) beds.lowest = &spec, beds.height = height;
 }
 
-/// What to fill in, with a tenth to spare.
-std::string remedy_of(const PackingSpec& spec) {
-  const double times = 1.1 * least_height(spec.measure) / probable_height(spec);
+/// What to fill in for the lowest, with a tenth to spare.
+std::string remedy_of(const LowBeds& beds) {
+  const PackingSpec& spec = *beds.lowest;
+  const double times = 1.1 * least_height(spec.measure) / beds.height;
   const auto* grains = std::get_if<GrainCount>(&spec.fill);
-  const double asked = grains != nullptr ? static_cast<double>(grains->count)
-                                         : std::get<SolidHeight>(spec.fill).height;
-  return grains != nullptr ? joined("fill.grains ", static_cast<std::int64_t>(asked * times))
-                           : "fill.solid_height " + number_text(asked * times);
+  if (grains != nullptr) {
+    return joined("fill.grains ",
+                  static_cast<std::int64_t>(static_cast<double>(grains->count) * times));
+  }
+  return "fill.solid_height " + number_text(std::get<SolidHeight>(spec.fill).height * times);
 }
 
-std::string note_on(const Job& lowest, std::size_t low, std::size_t sets) {
-  const PackingSpec& spec = lowest.spec;
+std::string note_on(const LowBeds& beds) {
+  const PackingSpec& spec = *beds.lowest;
   const char* const across = spec.box.is_tube ? "tube.diameter " : "box.width ";
-  return joined(low, " of ", sets,
+  return joined(beds.low, " of ", beds.sets,
                 " parameter sets will probably come out too low to be measured: with ", across,
                 bound_text(spec.box.is_tube ? spec.box.length : spec.box.width), " about ",
-                number_text(probable_height(spec), 2), " d high, where measure.exclude_floor, ",
+                number_text(beds.height, 2), " d high, where measure.exclude_floor, ",
                 "measure.exclude_surface and a slab of ", bound_text(least_slab_height),
                 " d between them take ", number_text(least_height(spec.measure)),
-                " d; give that one ", remedy_of(spec), " or more, or leave less out");
+                " d; give that one ", remedy_of(beds), " or more, or leave less out");
 }
 
 }  // namespace
 
-Diagnostics notes_on_low_beds(const SweepDefinition& definition, const std::vector<Job>& jobs) {
+Diagnostics notes_on_low_beds(const Sweep& sweep) {
+  std::vector<LowBeds> blocks(sweep.block_pointers.size());
+  for (const Job& job : sweep.jobs) {
+    if (job.replicate == 1) count(job.spec, blocks[job.block]);
+  }
   Diagnostics notes;
-  for (std::size_t block = 0; block < definition.blocks.size(); ++block) {
-    const Job* lowest = nullptr;
-    std::size_t low = 0, sets = 0;
-    for (const Job& job : jobs) {
-      if (job.block != block || job.replicate != 1) continue;
-      ++sets;
-      if (!is_probably_too_low(job.spec)) continue;
-      ++low;
-      const bool is_lowest =
-          lowest == nullptr || probable_height(job.spec) < probable_height(lowest->spec);
-      if (is_lowest) lowest = &job;
-    }
-    if (lowest == nullptr) continue;
-    notes.push_back(
-        {definition.blocks[block].pointer, note_on(*lowest, low, sets), Anchor::value, "", true});
+  for (std::size_t k = 0; k < blocks.size(); ++k) {
+    if (blocks[k].low == 0) continue;
+    notes.push_back({sweep.block_pointers[k], note_on(blocks[k]), Anchor::value, "", true});
   }
   return notes;
 }

@@ -5,7 +5,6 @@
 
 #include "runner/sweep/expand.hpp"
 #include "runner/sweep/json_text.hpp"
-#include "runner/sweep/low_beds.hpp"
 #include "runner/sweep/sweep_definition.hpp"
 #include "runner/sweep/text_lines.hpp"
 
@@ -23,15 +22,11 @@ SweepReading read_sweep(const std::string& path, const SweepCheck& check) {
   Sweep sweep{definition.name, definition.seed, definition.replicates.most,
               expand(definition, folder, diagnostics), definition.units};
   for (const Block& block : definition.blocks) {
+    sweep.block_pointers.push_back(block.pointer);
     sweep.wish_pointers.push_back(block.replicates.wish_pointer);
   }
   if (check && !has_errors(diagnostics)) {
-    for (Diagnostic& broken : check(sweep)) diagnostics.push_back(std::move(broken));
-  }
-  if (!has_errors(diagnostics)) {
-    for (Diagnostic& note : notes_on_low_beds(definition, sweep.jobs)) {
-      diagnostics.push_back(std::move(note));
-    }
+    for (Diagnostic& told : check(sweep)) diagnostics.push_back(std::move(told));
   }
 
   const bool is_refused = has_errors(diagnostics);

@@ -13,11 +13,10 @@ namespace grainsweep {
 struct SweepReading {
   Sweep sweep;                     ///< meaningful only if `errors` is empty
   std::vector<Diagnostic> errors;  ///< all of them, in the order of the file
-  std::vector<Diagnostic> notes;   ///< of a sweep without errors: what is written and never used,
-                                   ///< beds that will probably be too low
+  std::vector<Diagnostic> notes;   ///< of a sweep without errors: what is written and never used
 };
 
-/// What is wrong with a sweep that is right by its file.
+/// What is wrong with a sweep that is right by its file, or worth a note.
 using SweepCheck = std::function<Diagnostics(const Sweep&)>;
 
 /// Reads and expands a sweep file, and looks at what `check` says of it. Never throws for bad

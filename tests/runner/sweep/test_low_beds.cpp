@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 
+#include "runner/sweep/low_beds.hpp"
 #include "tests/runner/sweep/sweep_files.hpp"
 
 namespace grainsweep {
@@ -7,7 +8,7 @@ namespace {
 
 std::vector<Diagnostic> notes_of(const std::string& sweep) {
   const ScratchFolder folder;
-  const SweepReading reading = read_sweep(folder.write("s.json", sweep));
+  const SweepReading reading = read_sweep(folder.write("s.json", sweep), notes_on_low_beds);
   CHECK(reading.errors.empty());
   CHECK_FALSE(reading.sweep.jobs.empty());
   return reading.notes;
@@ -32,8 +33,10 @@ TEST_CASE("beds high enough are not noted, nor few grains of a file") {
   CHECK(notes_of(R"({"name": "high", "sweep": [{"grid": {"box.width": [4, 20]}}]})").empty());
   const ScratchFolder folder;
   folder.write("few.csv", "x,y,z,radius\n5,5,0.5,0.5\n7,5,0.5,0.5\n");
-  const SweepReading reading = read_sweep(folder.write(
-      "s.json", R"({"name": "few", "replicates": 1, "base": {"fill.file": "few.csv"}})"));
+  const SweepReading reading = read_sweep(
+      folder.write("s.json",
+                   R"({"name": "few", "replicates": 1, "base": {"fill.file": "few.csv"}})"),
+      notes_on_low_beds);
   CHECK(reading.errors.empty());
   CHECK(reading.notes.empty());
 }
