@@ -91,8 +91,7 @@ class Settling {
         closed_(closed),
         stages_(stages_of<Kind>(accuracy.protocol)),
         height_(top_of(bed)),
-        settings_(settings_of(accuracy, stages_.front(), height_)) {
-    limit_free_motion(bed, settings_);
+        settings_(settings_of_stage()) {
     forget(state);
   }
 
@@ -120,6 +119,12 @@ class Settling {
 
  private:
   const StageRule& rule() const { return stages_[stage_]; }
+
+  StepSettings settings_of_stage() const {
+    StepSettings settings = settings_of(accuracy_, rule(), height_);
+    limit_free_motion(bed_, settings);
+    return settings;
+  }
 
   /// See static_imbalance.
   Imbalance imbalance_of(double of_interest) {
@@ -261,8 +266,7 @@ class Settling {
     if (stage == stages_.size()) return;
     is_tested_ = false;
     height_ = top_of(bed_);
-    StepSettings settings = settings_of(accuracy_, rule(), height_);
-    limit_free_motion(bed_, settings);
+    const StepSettings settings = settings_of_stage();
     change_step(settings.dt / settings_.dt, bed_, state_);
     settings_ = settings;
   }

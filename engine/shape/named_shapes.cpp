@@ -108,9 +108,8 @@ std::vector<Vector> corners_of(const PrismSize& size) {
   std::vector<Vector> corners;
   for (int k = 0; k < size.sides; ++k) {
     const double angle = 2.0 * pi * k / size.sides, radius = size.diameter / 2.0;
-    for (const double z : {-size.height / 2.0, size.height / 2.0}) {
-      corners.emplace_back(radius * portable::cos(angle), radius * portable::sin(angle), z);
-    }
+    const double x = radius * portable::cos(angle), y = radius * portable::sin(angle);
+    for (const double z : {-size.height / 2.0, size.height / 2.0}) corners.emplace_back(x, y, z);
   }
   return corners;
 }

@@ -131,12 +131,7 @@ std::vector<double> heights_of(const Axes& axes, const std::vector<FittedSeries>
     const auto& fit = quantity == Quantity::solid_fraction ? one.phi : one.z;
     if (is_determined(fit)) heights.push_back(fit->bulk.value);
   }
-  for (const Series& series : axes.series) {
-    for (const Group* group : series.groups) {
-      const Spread& spread = spread_of(*group, quantity);
-      add_ends(spread.mean, spread.error, heights);
-    }
-  }
+  add_ends_of_all(axes, quantity, heights);
   return heights;
 }
 

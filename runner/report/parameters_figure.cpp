@@ -50,12 +50,7 @@ std::string parameter_panel(const Axes& axes, const std::string& parameter,
 /// What all groups reach, with their errors.
 Range range_of_all(const Axes& axes, Quantity quantity) {
   std::vector<double> ends;
-  for (const Series& series : axes.series) {
-    for (const Group* group : series.groups) {
-      const Spread& spread = spread_of(*group, quantity);
-      add_ends(spread.mean, spread.error, ends);
-    }
-  }
+  add_ends_of_all(axes, quantity, ends);
   return range_of(ends, 0.07);
 }
 

@@ -201,6 +201,15 @@ void add_ends(double value, double error, std::vector<double>& ends) {
   ends.insert(ends.end(), {value - reach, value + reach});
 }
 
+void add_ends_of_all(const Axes& axes, Quantity quantity, std::vector<double>& ends) {
+  for (const Series& series : axes.series) {
+    for (const Group* group : series.groups) {
+      const Spread& spread = spread_of(*group, quantity);
+      add_ends(spread.mean, spread.error, ends);
+    }
+  }
+}
+
 Range range_of(std::vector<double> values, double room) {
   std::erase_if(values, [](double value) { return !std::isfinite(value); });
   if (values.empty()) return {};

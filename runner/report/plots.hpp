@@ -6,6 +6,7 @@
 
 #include "runner/report/axes.hpp"
 #include "runner/report/figure.hpp"
+#include "runner/tables/fits.hpp"
 
 namespace grainsweep {
 
@@ -84,6 +85,9 @@ struct Range {
 
 /// Adds both ends of an error bar; of a value without an error that alone.
 void add_ends(double value, double error, std::vector<double>& ends);
+
+/// The same of the means of all groups.
+void add_ends_of_all(const Axes& axes, Quantity quantity, std::vector<double>& ends);
 
 /// The range of these values with some room at both ends, a share of it.
 Range range_of(std::vector<double> values, double room);
