@@ -42,9 +42,11 @@ Sweep sweep_with_notes(const std::string& file) {
 
 Results results_with_warnings(const std::string& folder, Detail detail) {
   Results results = read_results(folder, detail);
-  const bool is_whole = std::all_of(results.rows.begin(), results.rows.end(),
-                                    [](const Row& row) { return static_cast<bool>(row.outcome); });
-  if (!is_whole) std::cerr << damage_warnings(results.damage);
+  const bool is_made = std::all_of(results.rows.begin(), results.rows.end(),
+                                   [](const Row& row) { return static_cast<bool>(row.outcome); });
+  const std::vector<RunRecord>& runs = results.provenance.runs;
+  const bool is_ended = !runs.empty() && !runs.back().ended.empty();
+  if (!is_made || !is_ended) std::cerr << damage_warnings(results.damage);
   std::cerr << other_versions_warning(results.rows, program_version());
   return results;
 }

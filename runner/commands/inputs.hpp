@@ -14,7 +14,8 @@ Sweep sweep_or_refusal(const std::string& file);
 /// The same; prints what in it is never used, and beds that will probably be too low, as notes.
 Sweep sweep_with_notes(const std::string& file);
 
-/// What is stored in the output folder; prints warnings of what is damaged or of another version.
+/// What is stored in the output folder; prints warnings of what is of another version, and of what
+/// is damaged unless all packings are there and the end of the last run.
 Results results_with_warnings(const std::string& folder, Detail detail = Detail::whole);
 
 }  // namespace grainsweep

@@ -7,9 +7,16 @@ times() {
   if [ "${GRAINSWEEP_FAULTS:-}" = full ]; then echo "$2"; else echo "$1"; fi
 }
 
-# between LOW HIGH: a random whole number.
+# draw NAME LOW HIGH: a random whole number in the variable NAME; the same ones after the same RANDOM=SEED.
+draw() {
+  printf -v "$1" %d $(($2 + (RANDOM * 32768 + RANDOM) % ($3 - $2 + 1)))
+}
+
+# between LOW HIGH: another one each time, as $(...) is a shell with random numbers of its own.
 between() {
-  echo $(($1 + (RANDOM * 32768 + RANDOM) % ($2 - $1 + 1)))
+  local drawn
+  draw drawn "$1" "$2"
+  echo "$drawn"
 }
 
 # pause MILLISECONDS

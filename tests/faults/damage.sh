@@ -39,22 +39,24 @@ done
 
 # damage FILE: flips a bit, cuts, empties or removes it, adds to it, or puts another file in its place.
 damage() {
-  local size byte at others
+  local size byte bit at place others
   size=$(stat -c %s "$1")
-  at=$(between 0 $((size > 0 ? size - 1 : 0)))
-  kind=$(between 0 7)
+  draw at 0 $((size > 0 ? size - 1 : 0))
+  draw kind 0 7
+  draw bit 0 7
   case $kind in
     0) truncate -s "$at" "$1" ;;
     1) rm "$1" ;;
     2) printf 'x' >>"$1" ;;
     3)
       others=("$(dirname "$1")"/*)
-      byte=${others[$(between 0 $((${#others[@]} - 1)))]}
+      draw place 0 $((${#others[@]} - 1))
+      byte=${others[place]}
       [ ! -f "$byte" ] || [ "$byte" = "$1" ] || cp "$byte" "$1"
       ;;
     *)
       byte=$(od -An -tu1 -j "$at" -N 1 "$1")
-      printf "\\x$(printf %x $((${byte:-0} ^ (1 << (RANDOM % 8)))))" |
+      printf "\\x$(printf %x $((${byte:-0} ^ (1 << bit))))" |
         dd of="$1" bs=1 seek="$at" conv=notrunc status=none
       ;;
   esac
@@ -67,7 +69,8 @@ for number in $(seq "$tries"); do
   state=$([ $((number % 2)) -eq 0 ] && echo reference || echo half)
   rm -rf out && cp -r $state out
   mapfile -t files < <(cd out && find . -type f | sort)
-  file=${files[$(between 0 $((${#files[@]} - 1)))]}
+  draw place 0 $((${#files[@]} - 1))
+  file=${files[place]}
   damage "out/$file"
   what="try $number, $state/$file, damage $kind"
 

@@ -123,6 +123,13 @@ expect_code 4 "$program" export damaged --format xyz --job "$job" --to none
 expect_text error.txt "packing $job: damaged"
 [ -z "$(ls none)" ] || fail "a damaged bed was written: $(ls none)"
 
+# All packings are there, and the end of the run that the report tells of is damaged: not in silence.
+rm -rf damaged && cp -r out/small damaged
+sed -i '$ s/"ended"/"ender"/' damaged/shards/1-of-1.jsonl
+expect_code 0 "$program" report damaged
+expect_text out.txt "the last run has not ended"
+expect_text error.txt "warning: damaged/shards/1-of-1.jsonl:12: torn or damaged line"
+
 # Units that are added later change no packing, and all that is printed.
 sed 's/"seed": 3/"units": { "d": 3.2, "unit": "mm", "density": 2500 }, "seed": 3/' small.json >mm.json
 expect_code 0 "$program" validate mm.json
