@@ -13,12 +13,14 @@ mkdir -p "$folder"
 readonly program=$root/build/release/runner/grainsweep made=$folder/made
 
 make_by_shards() {  # SWEEP [--alone]
+  local runners=() runner
   rm -rf "$made"
   for number in $(seq "$shards"); do
     "$program" run "$1" --out "$made" --shard "$number/$shards" --threads 1 --quiet --no-report \
       --no-grains ${2:-} &
+    runners+=($!)
   done
-  wait
+  for runner in "${runners[@]}"; do wait "$runner"; done # fails with the runner
 }
 
 # CPU time of each runner's packings, s, in a line.

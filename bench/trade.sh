@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
 # Measures the trade of speed for accuracy: settles the sweeps of bench/trade, 64 or more starts with
-# each of 24 to 30 accuracies, and compares every accuracy with exact rest, start by start. Writes
+# each of 24 to 28 accuracies, and compares every accuracy with exact rest, start by start. Writes
 # SCENE.md, SCENE.csv and, with gnuplot, SCENE.svg; --readme puts them into bench/trade/README.md, in which other
 # scenes stay as they were measured. A scene takes a third of an hour to three hours of one core;
 # stopped, it goes on where it was.
 # --seed N makes other starts, those of seed N: tables then tell the means of all seeds whose rows stand in
-# bench/trade/SCENE.seeds.json, to which those of N are added. Remove that file where beds pack otherwise
+# bench/trade/SCENE.seeds.json, to which those of N are added; what the search for exact rest changes is told of
+# N alone. Remove that file where beds pack otherwise
 # than when it was made.
 # usage: bench/trade.sh [--readme] [--seed N] [FOLDER [SCENE...]]
 # Scenes are walls, tube, two-sizes, tall, no-walls and pinacoids: all of them, if none is named.
@@ -35,6 +36,7 @@ json.dump(sweep, open(sys.argv[3], "w"), indent=1)' "$root/bench/trade/$scene.js
     --threads 1 --no-grains --no-report --quiet --tolerate-unsettled
   "$root/build/release/bench/trade/bench_trade" "$beds" "$folder/$scene.md" "$folder/$scene.csv" "${pool[@]}"
   printf '%s\n' "$folder/$scene.md" "$folder/$scene.csv"
+  rm -f "$folder/$scene.svg" # an earlier one would stand beside other tables
   if command -v gnuplot >/dev/null; then
     gnuplot -c "$root/bench/trade.gnuplot" "$folder/$scene.csv" "$folder/$scene.svg"
     echo "$folder/$scene.svg"

@@ -159,10 +159,12 @@ double rounds_factor(const PackingSpec& spec, double grains, double layers) {
 }
 
 /// Spheres one above the other in a tube lean on its wall from side to side; where each comes near
-/// the next but one, D = 1.67 to 1.9 d, high beds slide on for many rounds before they rest.
+/// the next but one, D = 1.67 to 1.9 d, high beds of unequal spheres slide on for many rounds
+/// before they rest.
 double leaning_factor(const PackingSpec& spec, double grains) {
   const double diameter = spec.box.width;
   if (!spec.box.is_tube || diameter <= 1.67 || diameter >= 1.9) return 1.0;
+  if (moments_of(spec).unevenness() <= 1.0) return 1.0;
   constexpr double few = 150.0;
   switch (creep_of(spec.accuracy)) {
     case Creep::loose:

@@ -39,9 +39,11 @@ word_of() {
 
 # add_row CODE STEP SAID: what the code said, in lines of a name and a word.
 add_row() {
+  local seconds energy
+  seconds=$(word_of seconds_per_step "$3") || stop "no seconds_per_step in $3"
+  energy=$(word_of kinetic_energy "$3") || stop "no kinetic_energy in $3"
   printf '| %s | %s | %.3g | %.1e |\n' "$1" "$2" \
-    "$(awk -v s="$(word_of seconds_per_step "$3")" 'BEGIN { print 1000 * s }')" \
-    "$(word_of kinetic_energy "$3")" >>"$out/polyhedra.md"
+    "$(awk -v s="$seconds" 'BEGIN { print 1000 * s }')" "$energy" >>"$out/polyhedra.md"
 }
 
 settle_in_grainsweep() {

@@ -18,10 +18,12 @@ Json json_of(const MeanError& of) {
   return std::isnan(of.mean) ? Json() : Json::array({of.mean, of.error, of.n});
 }
 
+double number_of(const Json& of) { return of.is_null() ? no_number : of.get<double>(); }
+
 /// The error of a single pair, which has none, is null.
 MeanError mean_error_of(const Json& of) {
   if (of.is_null()) return {no_number, no_number, 0};
-  return {of.at(0), of.at(1).is_null() ? no_number : of.at(1).get<double>(), of.at(2)};
+  return {of.at(0), number_of(of.at(1)), of.at(2)};
 }
 
 Json json_of(const Compared& row) {
@@ -41,7 +43,9 @@ Json json_of(const Compared& row) {
 /// `row` of one seed more: what of both is a mean over beds weighs by the beds.
 void add(const Json& more, Compared& row) {
   const auto mean = [&](double& value, const Json& other, double of_row, double of_other) {
-    value = (of_row * value + of_other * other.get<double>()) / (of_row + of_other);
+    if (of_other == 0.0) return;
+    const double before = of_row == 0.0 ? 0.0 : of_row * value;
+    value = (before + of_other * number_of(other)) / (of_row + of_other);
   };
   const int made = more.at("made"), settled = more.at("settled");
   mean(row.cpu_seconds, more.at("cpu_seconds"), row.made, made);

@@ -102,6 +102,29 @@ TEST_CASE("rows of one start each are pooled, though a single one has no error")
   CHECK(std::isnan(rows[1].solid_fraction.error));
 }
 
+TEST_CASE(
+    "seeds of which no bed settles or is made with an accuracy are pooled with those of others") {
+  const TemporaryFolder folder;
+  const std::string path = folder.path() + "/pool.json";
+  const auto none_settled = [](std::uint64_t seed) {
+    Scene scene = scene_of(seed, 0.5, 2);
+    Setting& balanced = scene.settings[1];
+    for (auto* values : {&balanced.solid_fraction, &balanced.coordination, &balanced.contact_ratio,
+                         &balanced.force_square})
+      values->clear();
+    balanced.settled = 0;
+    return scene;
+  };
+  pooled_rows(path, none_settled(1));
+  const std::vector<Compared> rows = pooled_rows(path, scene_of(2, 0.53, 2));
+  CHECK(rows[1].made == 4);
+  CHECK(rows[1].settled == 2);
+  CHECK(rows[1].contact_ratio == Approx(1.0));
+  CHECK(rows[1].own_solid_fraction == Approx(0.53));
+  CHECK(rows[1].solid_fraction.n == 2);
+  CHECK(pooled_rows(path, none_settled(3))[1].own_solid_fraction == Approx(0.53));
+}
+
 TEST_CASE("a file of another scene, or of another kind, is refused and stays") {
   const TemporaryFolder folder;
   const std::string path = folder.path() + "/pool.json";

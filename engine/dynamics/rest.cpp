@@ -190,7 +190,7 @@ template <class Kind, class Real>
 RestReport measure_rest(Bed<Kind>& bed, const ExecutionContext& context, double dt,
                         StepState<Kind, Real>& state) {
   RestReport rest;
-  double overlap = 0.0, closed = 0.0;
+  double overlap = 0.0;
   const std::vector<ForceContact> contacts = force_contacts(bed, dt, state.contacts);
   std::vector<std::int64_t> by_turning(bed.grains(), 0);
   auto contact = contacts.begin();
@@ -199,7 +199,6 @@ RestReport measure_rest(Bed<Kind>& bed, const ExecutionContext& context, double 
     if (!std::isfinite(closure.gap)) continue;
     const double depth = std::max(0.0, -closure.gap);
     overlap += depth;
-    closed += 1.0;
     rest.overlap_max = std::max(rest.overlap_max, depth);
     if (is_held_by(bed, of)) continue;
     rest.contacts += closure.constraints;
@@ -209,7 +208,7 @@ RestReport measure_rest(Bed<Kind>& bed, const ExecutionContext& context, double 
     rest.held_by_turning += std::min(held, most_by_turning);
   if (bed.box.is_tube) rest.held_by_turning += held_in_place(bed);
   rest.independent_contacts = static_cast<double>(rest.contacts);
-  rest.overlap_mean = overlap / std::max(closed, 1.0);
+  rest.overlap_mean = overlap / std::max(static_cast<double>(contacts.size()), 1.0);
   rest.isostatic_contacts = isostatic_count(bed, contacts);
   rest.may_rest_on_fewer = std::is_same_v<Kind, Polyhedron>;
   return rest;

@@ -62,7 +62,7 @@ inline constexpr double open_gap = 1e6;
 
 /// How a contact is closed where the grains are now.
 struct Closure {
-  double gap = 0.0;     ///< least of its points, d; infinite if it is open by more than closed_gap
+  double gap = 0.0;     ///< least of its points, d; of polyhedra infinite if above closed_gap
   int constraints = 0;  ///< 1 at a point, 2 along a line, 3 over an area; 0 if it is open
   /// Directions in which it holds besides, as its normal turns: 1 of a sphere at a round wall,
   /// which goes back to where the wall is farthest; of a polyhedron that a sphere pushes 2 on a
