@@ -110,9 +110,12 @@ void cut_caps(const ExportedBed& exported, std::vector<Surface>& surfaces) {
   for (const Contact& contact : treated) {
     if (is_at_tube(bed.box, contact)) continue;
     const Vector& normal = contact.place.normal;
+    // From midway to where a cap begins: the grain's surface, but where it overlaps the wall, or
+    // midway.
+    const double before = contact.is_wall ? std::abs(contact.gap) : std::max(contact.gap, 0.0);
     const auto cut = [&](std::size_t grain, const Vector& outward, const Vector& point) {
       cutter.cut(grain, outward,
-                 outward.dot(point) - contact.gap / 2.0 - depth * bed.grains[grain].radius);
+                 outward.dot(point) - before / 2.0 - depth * bed.grains[grain].radius);
     };
     const Vector point = contact.place.point - centre_in_box(bed, contact.a);
     cut(contact.a, normal, point);

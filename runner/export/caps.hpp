@@ -34,9 +34,10 @@ std::map<std::size_t, TubeEnd> tube_ends(const ExportedBed& exported,
                                          const std::vector<Contact>& treated);
 
 /// Cuts the caps of all treated contacts off the surfaces about the centres of the grains, with
-/// walls, too: each as deep as a cap of the grain's radius, and a little deeper where a corner
-/// would lie nearer to the cut than a thousandth of it, on spheres a ten-thousandth. At the wall of
-/// a tube grains get a flat place for each side of their TubeEnd.
+/// walls, too: each as deep as a cap of the grain's radius, of grains that overlap from midway or
+/// from the wall on, and a little deeper where a corner would lie nearer to the cut than a
+/// thousandth of it, on spheres a ten-thousandth. At the wall of a tube grains get a flat place for
+/// each side of their TubeEnd.
 void cut_caps(const ExportedBed& exported, std::vector<Surface>& surfaces);
 
 }  // namespace grainsweep

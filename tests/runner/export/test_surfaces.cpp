@@ -83,7 +83,7 @@ double least_way_apart(const ExportedBed& exported) {
   double least = 1e9;
   for (const Contact& contact : contacts_of(exported)) {
     const Vector& n = contact.place.normal;
-    const double end = contact.is_wall ? -n.dot(contact.place.point)
+    const double end = contact.is_wall ? -n.dot(contact.place.point) - contact.gap / 2.0
                                        : reach_along(surfaces[contact.b].surface, -n);
     least = std::min(least, -end - reach_along(surfaces[contact.a].surface, n));
   }
@@ -99,6 +99,17 @@ TEST_CASE("caps leave grains apart by two of their depths, and from walls by one
     for (const GrainSurface& grain : grain_surfaces(exported)) CHECK(is_closed(grain.surface));
     exported.settings.treatment = *contact_treatment("shrink:0.99");
     CHECK(least_way_apart(exported) > 0.004);
+  }
+}
+
+TEST_CASE("caps leave grains apart that overlap by more than them, and those in a wall") {
+  for (ExportedBed exported : {stacked_spheres(), stacked_cubes()}) {
+    exported.settings.treatment = *contact_treatment("cap:0.2");
+    const double depth = (1 - std::sqrt(1 - 0.2 * 0.2)) * exported.bed.grains[0].radius;
+    double sunk = 0.0;
+    for (SettledGrain& grain : exported.bed.grains) grain.z -= sunk += 3.0 * depth;
+    CHECK(least_way_apart(exported) == Approx(depth).epsilon(0.01));
+    for (const GrainSurface& grain : grain_surfaces(exported)) CHECK(is_closed(grain.surface));
   }
 }
 
