@@ -54,7 +54,7 @@ double crossing_volume(double radius, double distance, double tube, double low, 
   };
   using boost::math::quadrature::gauss, boost::math::quadrature::gauss_kronrod;
   constexpr unsigned most_halvings = 8;
-  return std::abs(tube - distance) > 0.1 * radius
+  return std::abs(tube - distance) > 0.2 * radius
              ? gauss<double, 30>::integrate(shared, 0.0, pi)
              : gauss_kronrod<double, 31>::integrate(shared, 0.0, pi, most_halvings, 1e-13);
 }
@@ -138,7 +138,7 @@ double volume_up_to(double height, double radius, double distance, double tube) 
 // ---- polyhedra ----
 
 /// Of an integral between two heights, in volumes of the grain.
-constexpr double allowed_error = 2e-8;
+constexpr double allowed_error = 1e-10;
 
 /// Integral of an area over the height. Where the rim of the disc passes a corner or a side of the
 /// section the area has a kink: pieces are halved until halves of them add up to the whole.

@@ -8,6 +8,7 @@
 #include "engine/measure/touching.hpp"
 #include "engine/packing.hpp"
 #include "engine/units.hpp"
+#include "tests/support/about.hpp"
 #include "tests/support/keep_going.hpp"
 #include "tests/support/placed.hpp"
 
@@ -75,7 +76,7 @@ TEST_CASE("profiles and order of a packing belong to its solid fraction and coor
     neighbours += bin.neighbours;
   }
   CHECK(solid == Approx(result.solid_fraction).epsilon(1e-12));
-  CHECK(small_solid / solid == Approx(0.25).margin(0.08));  // a slab of a bed of 400 grains
+  CHECK(small_solid / solid == about(0.25, 0.08));  // a slab of a bed of 400 grains
   CHECK((small > grains / 2 && small < grains));
   CHECK(static_cast<double>(neighbours) / static_cast<double>(grains) ==
         Approx(result.coordination[0].between_grains).epsilon(1e-12));
@@ -99,7 +100,7 @@ TEST_CASE("the grains of a packing lie in the box with their forces and neighbou
     CHECK(grain.force > 0.9 * sphere_mass(grain.radius));
     neighbours += grain.touching;
   }
-  CHECK(neighbours / 160 == Approx(4.5).margin(1));
+  CHECK(neighbours / 160 == about(4.5, 1));
 }
 
 TEST_CASE("the forces between grains and of walls are all that bears on each grain") {
@@ -162,7 +163,7 @@ TEST_CASE("a settled bed placed again stays as it is") {
   PackingSpec spec = small_spec();
   spec.accuracy = *preset("accurate");  // what coarser presets call rest still yields to a shake
   const auto [first, again] = pack_again(spec);
-  CHECK(again.result.solid_fraction == Approx(first.result.solid_fraction).margin(1e-3));
+  CHECK(again.result.solid_fraction == about(first.result.solid_fraction, 1e-3));
   double moved = 0;
   for (std::size_t i = 0; i < first.grains.size(); ++i) {
     moved += std::abs(again.grains[i].z - first.grains[i].z) / 160;
@@ -178,7 +179,7 @@ TEST_CASE("a settled bed placed again is looked at for some steps more before it
   spec.accuracy = *preset("balanced");
   const auto [first, again] = pack_again(spec);
   CHECK(again.result.steps <= 160);
-  CHECK(again.result.solid_fraction == Approx(first.result.solid_fraction).margin(1e-4));
+  CHECK(again.result.solid_fraction == about(first.result.solid_fraction, 1e-4));
 }
 
 // Of these the forces are not found in eight steps that are solved as those at rest are.
@@ -191,7 +192,7 @@ TEST_CASE("a bed of cubes that rests is read again as it is, its forces looked f
     spec.accuracy = *preset("fast");
     const auto [first, again] = pack_again(spec);
     CHECK(again.result.steps <= 32);
-    CHECK(again.result.solid_fraction == Approx(first.result.solid_fraction).margin(2e-4));
+    CHECK(again.result.solid_fraction == about(first.result.solid_fraction, 2e-4));
   }
 }
 

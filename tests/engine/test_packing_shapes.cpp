@@ -10,6 +10,7 @@
 #include "engine/shape/given_shape.hpp"
 #include "engine/shape/mixture.hpp"
 #include "engine/shape/named_shapes.hpp"
+#include "tests/support/about.hpp"
 #include "tests/support/instruction_sets.hpp"
 #include "tests/support/keep_going.hpp"
 #include "tests/support/part_loops.hpp"
@@ -98,7 +99,7 @@ TEST_CASE("a bed of hulls placed again as it was given back stays as it is") {
     farthest = std::max(farthest, std::abs(again.grains[i].z - first.grains[i].z));
     const auto &p = first.turned->orientations[i], &q = again.turned->orientations[i];
     const double same = p[0] * q[0] + p[1] * q[1] + p[2] * q[2] + p[3] * q[3];
-    REQUIRE(std::abs(same) == Approx(1).margin(1e-3));
+    REQUIRE(std::abs(same) == about(1, 1e-3));
   }
   CHECK(farthest < 0.01);
   CHECK(again.result.rest.overlap_max < 0.01);
@@ -236,7 +237,7 @@ TEST_CASE("the components of a mixture add up to the whole bed") {
   const auto &isometric = r.components[0], &flat = r.components[1];
   CHECK(isometric.grains + flat.grains == r.grains);
   CHECK(isometric.packed + flat.packed == Approx(1));
-  CHECK(flat.packed == Approx(0.5).margin(0.02));  // sizes scatter: a tenth over the root of 100
+  CHECK(flat.packed == about(0.5, 0.02));  // sizes scatter: a tenth over the root of 100
   CHECK(isometric.slab_share + flat.slab_share == Approx(1));
   CHECK(isometric.solid_fraction + flat.solid_fraction == Approx(r.solid_fraction));
   double ends = 0, grains = 0;
@@ -319,7 +320,7 @@ TEST_CASE("spheres mix with polyhedra: 20 of 20 beds settle, and are measured as
     REQUIRE(r.status == PackingStatus::settled);
     const ComponentMeasure &spheres = r.components.at(0), &pinacoids = r.components.at(1);
     CHECK(spheres.grains + pinacoids.grains == r.grains);
-    CHECK(spheres.packed == Approx(0.5).margin(0.02));  // sizes scatter by a tenth
+    CHECK(spheres.packed == about(0.5, 0.02));  // sizes scatter by a tenth
     CHECK(spheres.solid_fraction + pinacoids.solid_fraction == Approx(r.solid_fraction));
     CHECK(std::isnan(spheres.nematic[0]));
     CHECK((pinacoids.nematic[2] >= 0 && pinacoids.nematic[2] <= 1));
@@ -352,7 +353,7 @@ TEST_CASE("spheres of a mixture of spheres pack as densely as spheres do") {
     alone += pack(spheres).result.solid_fraction / beds;
   }
   // Such beds scatter by .008: three standard errors of the difference of two means.
-  CHECK(mixed == Approx(alone).margin(3 * 0.008 * std::sqrt(2.0 / beds)));
+  CHECK(mixed == about(alone, 3 * 0.008 * std::sqrt(2.0 / beds)));
 }
 
 TEST_CASE("spheres among polyhedra have the same bits on any instruction set") {

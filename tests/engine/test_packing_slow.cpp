@@ -8,6 +8,7 @@
 #include "engine/dynamics/presets.hpp"
 #include "engine/packing.hpp"
 #include "engine/rows/subdomains.hpp"
+#include "tests/support/about.hpp"
 #include "tests/support/instruction_sets.hpp"
 #include "tests/support/keep_going.hpp"
 #include "tests/support/part_loops.hpp"
@@ -41,8 +42,8 @@ PackingResult pack(const PackingSpec& spec) {
 TEST_CASE("a bed five diameters wide has the known solid fraction and coordination", "[slow]") {
   const PackingResult result = pack(bed_spec(20, 5, Boundary::walls, "accurate"));
   CHECK(result.grains == 1894);
-  CHECK(result.solid_fraction == Approx(0.606).margin(0.008));
-  CHECK(result.coordination[0].between_grains == Approx(5.42).margin(0.1));
+  CHECK(result.solid_fraction == about(0.606, 0.008));
+  CHECK(result.coordination[0].between_grains == about(5.42, 0.1));
   CHECK(static_cast<double>(result.rest.contacts) ==
         Approx(result.rest.isostatic_contacts).epsilon(0.006));
   CHECK(result.rest.overlap_mean < 5e-6);
@@ -58,15 +59,15 @@ TEST_CASE("a high settled bed placed again stays as it is", "[slow]") {
   const Packing again = make_packing(spec, kernels_for(best_isa()), always);
   CHECK(again.result.status == PackingStatus::settled);
   CHECK(again.result.steps <= 40);  // no more than a look
-  CHECK(again.result.solid_fraction == Approx(first.result.solid_fraction).margin(1e-4));
+  CHECK(again.result.solid_fraction == about(first.result.solid_fraction, 1e-4));
 }
 
 // In the bulk every force between grains belongs to two of them: Z = 6, and rattlers there are
 // none.
 TEST_CASE("a bi-periodic bed has six neighbours a grain", "[slow]") {
   const PackingResult result = pack(bed_spec(10, 10, Boundary::periodic, "accurate"));
-  CHECK(result.solid_fraction == Approx(0.637).margin(0.008));
-  CHECK(result.coordination[0].between_grains == Approx(6.0).margin(0.1));
+  CHECK(result.solid_fraction == about(0.637, 0.008));
+  CHECK(result.coordination[0].between_grains == about(6.0, 0.1));
   CHECK(result.coordination[0].with_walls == result.coordination[0].between_grains);
 }
 
@@ -147,9 +148,8 @@ TEST_CASE("both number types settle beds of the same solid fraction", "[slow]") 
   const PackingResult narrow = pack(spec);
   spec.accuracy.precision = Precision::f64;
   const PackingResult wide = pack(spec);
-  CHECK(narrow.solid_fraction == Approx(wide.solid_fraction).margin(0.008));
-  CHECK(narrow.coordination[0].between_grains ==
-        Approx(wide.coordination[0].between_grains).margin(0.15));
+  CHECK(narrow.solid_fraction == about(wide.solid_fraction, 0.008));
+  CHECK(narrow.coordination[0].between_grains == about(wide.coordination[0].between_grains, 0.15));
 }
 
 // Its bottom falls asleep when it has filled up to 40 d, after some 180 steps.
@@ -172,7 +172,7 @@ TEST_CASE("polyhedra under 90 d of others do not swing themselves denser", "[slo
   PackingSpec spec = bed_spec(4, 4, Boundary::periodic, "fast");
   spec.shape = PinacoidSize{};
   spec.fill = SolidHeight{60.0};
-  CHECK(pack(spec).solid_fraction == Approx(0.6645).margin(0.004));
+  CHECK(pack(spec).solid_fraction == about(0.6645, 0.004));
 }
 
 }  // namespace

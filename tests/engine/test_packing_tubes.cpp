@@ -12,6 +12,7 @@
 #include "engine/measure/solid_fraction.hpp"
 #include "engine/packing.hpp"
 #include "engine/scene/start.hpp"
+#include "tests/support/about.hpp"
 #include "tests/support/draw.hpp"
 #include "tests/support/instruction_sets.hpp"
 #include "tests/support/keep_going.hpp"
@@ -77,27 +78,28 @@ void check_places(const Chain& chain, const Packing& packing) {
     const SettledGrain& grain = packing.grains[static_cast<std::size_t>(i)];
     INFO("grain " << i);
     const double side = i % 2 == 0 ? 1.0 : -1.0;
-    CHECK(grain.z == Approx(chain.height(i)).margin(1e-9));
-    CHECK(std::hypot(grain.x - middle, grain.y - middle) ==
-          Approx(chain.apart() / 2.0).margin(1e-9));
-    CHECK(grain.x - middle == Approx(side * (first.x - middle)).margin(1e-8));
-    CHECK(grain.y - middle == Approx(side * (first.y - middle)).margin(1e-8));
+    CHECK(grain.z == about(chain.height(i), 1e-9));
+    CHECK(std::hypot(grain.x - middle, grain.y - middle) == about(chain.apart() / 2.0, 1e-9));
+    CHECK(grain.x - middle == about(side * (first.x - middle), 1e-8));
+    CHECK(grain.y - middle == about(side * (first.y - middle), 1e-8));
   }
 }
 
 void check_forces(const Chain& chain, const Packing& packing) {
+  // What each grain's forces lack of balance, 1e-9 m g along either axis, adds up along the chain.
+  const double margin = 2e-9 * static_cast<double>(chain.grains);
   std::vector<double> of_walls;
   for (const SettledGrain& grain : packing.grains) of_walls.push_back(grain.force);
   of_walls[0] -= static_cast<double>(chain.grains);  // the floor bears all
   for (const PairForce& pair : packing.forces) {
     CHECK(pair.b == pair.a + 1);
-    CHECK(pair.magnitude == Approx(chain.force_above(pair.a)).margin(1e-8));
+    CHECK(pair.magnitude == about(chain.force_above(pair.a), margin));
     for (const std::int32_t grain : {pair.a, pair.b}) {
       of_walls[static_cast<std::size_t>(grain)] -= pair.magnitude;
     }
   }
   for (std::int64_t i = 0; i < chain.grains; ++i) {
-    CHECK(of_walls[static_cast<std::size_t>(i)] == Approx(chain.wall_force(i)).margin(1e-8));
+    CHECK(of_walls[static_cast<std::size_t>(i)] == about(chain.wall_force(i), margin));
   }
 }
 
@@ -120,7 +122,7 @@ TEST_CASE("the chain in a narrow tube is the exact one, place by place and force
       solid += sphere_slab_volume(0.5, slab.bottom - z, slab.top - z);
     }
     CHECK(packing.result.solid_fraction ==
-          Approx(solid / (spec.box.floor_area() * slab.height())).margin(1e-9));
+          about(solid / (spec.box.floor_area() * slab.height()), 1e-9));
   }
 }
 
@@ -187,7 +189,7 @@ TEST_CASE("a settled bed of a tube placed again stays as it is") {
   REQUIRE(again.result.status == PackingStatus::settled);
   for (std::size_t i = 0; i < first.grains.size(); ++i) {
     // What is left of its forces moves it no further than its gaps.
-    CHECK(again.grains[i].z == Approx(first.grains[i].z).margin(1e-3));
+    CHECK(again.grains[i].z == about(first.grains[i].z, 1e-3));
   }
   placed.grains[7].x = 3.4;
   spec.fill = placed;
@@ -327,7 +329,7 @@ TEST_CASE("a wide tube holds spheres as densely as a box between walls", "[slow]
   REQUIRE(round.status == PackingStatus::settled);
   REQUIRE(square.status == PackingStatus::settled);
   // Beds of 4500 differ by 0.001; corners of the box and the curvature of the tube by about 0.002.
-  CHECK(round.solid_fraction == Approx(square.solid_fraction).margin(0.008));
+  CHECK(round.solid_fraction == about(square.solid_fraction, 0.008));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 
 #include "kernels/kernels.hpp"
+#include "tests/support/about.hpp"
 #include "tests/support/draw.hpp"
 #include "tests/support/instruction_sets.hpp"
 
@@ -199,7 +200,7 @@ TEST_CASE("edges cross as one by one, with the same bits on all instruction sets
             CHECK(parted[k] == 0.0);
           } else {
             // A few roundings of lengths of 1, divided by the sine.
-            CHECK(parted[k] == Approx(dot(n, minus(q.from, p.from)) / sine).margin(1e-14 / sine));
+            CHECK(parted[k] == about(dot(n, minus(q.from, p.from)) / sine, 1e-14 / sine));
           }
         }
         if (first.empty()) first = of_crossed;

@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include "kernels/kernels.hpp"
+#include "tests/support/about.hpp"
 #include "tests/support/bits.hpp"
 #include "tests/support/draw.hpp"
 #include "tests/support/instruction_sets.hpp"
@@ -133,14 +134,14 @@ TEMPLATE_TEST_CASE("sweeps over changes at round walls do what sweeps over the i
     RoundProblem<TestType>& p = swept.emplace_back(changes);
     const auto other = kernels.round_sweep(p.rows.data(), p.rows.size(), from.data(), p.u.data(),
                                            p.p.data(), p.y.data(), rule);
-    CHECK(other.missed.largest == Approx(sums.missed.largest).margin(rounding));
+    CHECK(other.missed.largest == about(sums.missed.largest, rounding));
     CHECK(other.missed.loaded == sums.missed.loaded);
-    CHECK(other.restart_test == Approx(sums.restart_test).margin(rounding));
+    CHECK(other.restart_test == about(sums.restart_test, rounding));
     CHECK(kernels.round_residual(p.rows.data(), p.rows.size(), from.data(), p.u.data(), p.p.data())
-              .largest == Approx(left.largest).margin(rounding));
+              .largest == about(left.largest, rounding));
     for (std::size_t k = 0; k < from.size(); ++k) {
-      CHECK(from[k] + p.p[k] == Approx(whole.p[k]).margin(rounding));
-      CHECK(from[k] + p.y[k] == Approx(whole.y[k]).margin(rounding));
+      CHECK(from[k] + p.p[k] == about(whole.p[k], rounding));
+      CHECK(from[k] + p.y[k] == about(whole.y[k], rounding));
     }
     CHECK(same_bits(p.p, swept.front().p));
     CHECK(same_bits(p.y, swept.front().y));
@@ -173,11 +174,11 @@ TEMPLATE_TEST_CASE("a grain that leaves a round wall's circle is put back on its
     const double y = cy + start.u[i].y - w * start.p[at + block_width];
     const double far = std::hypot(x, y), keep = far > radius ? radius / far : 1.0;
     outside += far > radius ? 1 : 0;
-    CHECK(cx + problem.u[i].x == Approx(keep * x).margin(rounding));
-    CHECK(cy + problem.u[i].y == Approx(keep * y).margin(rounding));
+    CHECK(cx + problem.u[i].x == about(keep * x, rounding));
+    CHECK(cy + problem.u[i].y == about(keep * y, rounding));
     CHECK(problem.u[i].z == start.u[i].z);
-    CHECK(w * problem.p[at] == Approx((keep - 1) * x).margin(rounding));
-    CHECK(w * problem.p[at + block_width] == Approx((keep - 1) * y).margin(rounding));
+    CHECK(w * problem.p[at] == about((keep - 1) * x, rounding));
+    CHECK(w * problem.p[at + block_width] == about((keep - 1) * y, rounding));
   }
   CHECK((outside > 20 && outside < 70));
   const auto left = kernels.round_residual(problem.rows.data(), problem.rows.size(), nullptr,

@@ -5,6 +5,7 @@
 
 #include "engine/dynamics/balance.hpp"
 #include "engine/dynamics/settle.hpp"
+#include "tests/support/about.hpp"
 #include "tests/support/dense_solver.hpp"
 #include "tests/support/instruction_sets.hpp"
 #include "tests/support/scenes.hpp"
@@ -44,7 +45,7 @@ TEST_CASE("a sphere that no contact holds misses balance by its own weight") {
   const Imbalance left =
       imbalance_of(make_bed({6, 4, periodic, walls}, {{2, 0.5, 3.0, 0.4}, {4, 0.5, 0.5, 0.5}}));
   CHECK(left.max == Approx(1.0));
-  CHECK(left.mean == Approx(0.5).margin(solved_to));
+  CHECK(left.mean == about(0.5, solved_to));
 }
 
 TEST_CASE("a bed of which much stands on nothing is known to miss balance by that much at least") {
@@ -56,8 +57,8 @@ TEST_CASE("a bed of which much stands on nothing is known to miss balance by tha
   for (const double of_interest : {0.4, 0.6, whatever_it_is}) {
     const Imbalance left = static_imbalance(touching, of_interest, kernels(), bed, 1.0,
                                             SphereContacts<float>{}, closed);
-    CHECK(left.mean == Approx(0.5).margin(solved_to));
-    CHECK(left.max == Approx(of_interest < 0.5 ? 0.5 : 1.0).margin(solved_to));
+    CHECK(left.mean == about(0.5, solved_to));
+    CHECK(left.max == about(of_interest < 0.5 ? 0.5 : 1.0, solved_to));
   }
 }
 
@@ -82,8 +83,8 @@ TEST_CASE("a sphere on the shoulder of another slides off: what is missing is re
   const double rise = std::sqrt(3.0) / 2.0;
   const Imbalance left = imbalance_of(
       make_bed({6, 4, walls, walls}, {{0.5, 0.5, 0.5, 0.5}, {1.0, 0.5, 0.5 + rise, 0.5}}));
-  CHECK(left.max == Approx(0.5).margin(solved_to));
-  CHECK(left.mean == Approx(0.25).margin(solved_to));
+  CHECK(left.max == about(0.5, solved_to));
+  CHECK(left.mean == about(0.25, solved_to));
 }
 
 TEST_CASE("a contact that would have to pull holds nothing") {
@@ -93,13 +94,13 @@ TEST_CASE("a contact that would have to pull holds nothing") {
       make_bed({6, 4, walls, walls},
                {{0.5, 0.5, 1.5, 0.5}, {0.5 + aside, 0.5, 1.5 - below, 0.2}, {0.5, 0.5, 0.5, 0.5}}));
   CHECK(left.max == Approx(1.0));
-  CHECK(left.mean == Approx(1.0 / 3.0).margin(solved_to));
+  CHECK(left.mean == about(1.0 / 3.0, solved_to));
 }
 
 TEST_CASE("contacts count below the tolerance alone, whether they bore a force or not") {
   for (const double gap : {0.9 * touching, 1.1 * touching}) {
     const SphereBed bed = make_bed({6, 4, periodic, walls}, {{2, 2, 0.5 + gap, 0.5}});
-    CHECK(imbalance_of(bed).max == Approx(gap < touching ? 0.0 : 1.0).margin(solved_to));
+    CHECK(imbalance_of(bed).max == about(gap < touching ? 0.0 : 1.0, solved_to));
   }
 }
 
@@ -180,7 +181,7 @@ TEST_CASE("a cube whose centre lies beyond the edge it stands on tips over") {
   const double force = 1.0 / (1.0 + 0.1 * 0.1 * 6.0), circumradius = std::sqrt(3.0) / 2.0;
   const Imbalance left =
       imbalance_of(bed_of_cubes({testing::pose_at(3, 3, 0.5), testing::pose_at(3.6, 3, 1.5)}));
-  CHECK(left.max == Approx(0.1 * force / circumradius).margin(solved_to));
+  CHECK(left.max == about(0.1 * force / circumradius, solved_to));
 }
 
 TEST_CASE("a cube in the air misses balance by its own weight, whatever its size") {
@@ -188,7 +189,7 @@ TEST_CASE("a cube in the air misses balance by its own weight, whatever its size
       imbalance_of(bed_of_cubes({testing::pose_at(3, 3, 0.25, Quaternion::Identity(), 0.5),
                                  testing::pose_at(1, 3, 4.0, Quaternion::Identity(), 0.5)}));
   CHECK(left.max == Approx(1.0));
-  CHECK(left.mean == Approx(0.5).margin(solved_to));
+  CHECK(left.mean == about(0.5, solved_to));
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include "engine/dynamics/changes.hpp"
 #include "engine/dynamics/step.hpp"
+#include "tests/support/about.hpp"
 #include "tests/support/bits.hpp"
 #include "tests/support/part_loops.hpp"
 #include "tests/support/step_problems.hpp"
@@ -38,9 +39,9 @@ TEST_CASE("changes of impulses add up to what is found from the impulses themsel
       CHECK(report.loaded == expected.loaded);
       for (std::size_t i = 0; i < whole.motion.u.size(); ++i) {
         const Record<double>&u = changes.motion.u[i], &right = whole.motion.u[i];
-        REQUIRE(u.x == Approx(right.x).margin(margin));
-        REQUIRE(u.y == Approx(right.y).margin(margin));
-        REQUIRE(u.z == Approx(right.z).margin(margin));
+        REQUIRE(u.x == about(right.x, margin));
+        REQUIRE(u.y == about(right.y, margin));
+        REQUIRE(u.z == about(right.z, margin));
         REQUIRE(u.w == right.w);
       }
       CHECK(testing::same_bits(changes.motion.free, whole.motion.free));

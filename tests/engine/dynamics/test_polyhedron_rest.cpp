@@ -2,6 +2,7 @@
 
 #include "engine/dynamics/rest.hpp"
 #include "engine/shape/mixture.hpp"
+#include "tests/support/about.hpp"
 #include "tests/support/instruction_sets.hpp"
 #include "tests/support/shape_beds.hpp"
 
@@ -50,8 +51,8 @@ TEST_CASE("spheres of a mixture have three freedoms, and hold a polyhedron they 
 TEST_CASE("overlaps are measured where the grains are, at the deepest point") {
   PolyhedronBed bed = make_bed({6, 6, periodic, walls}, testing::cube(), {pose_at(3, 3, 0.5)});
   const RestReport rest = rest_after_step(bed, 0.01);
-  CHECK(rest.overlap_max == Approx(0.01).margin(1e-6));
-  CHECK(rest.overlap_mean == Approx(0.01).margin(1e-6));
+  CHECK(rest.overlap_max == about(0.01, 1e-6));
+  CHECK(rest.overlap_mean == about(0.01, 1e-6));
 }
 
 /// Modes that move no contact, of cubes in a row along x that push each other.

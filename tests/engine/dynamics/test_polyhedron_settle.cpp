@@ -3,6 +3,7 @@
 #include "engine/dynamics/settle.hpp"
 #include "engine/scene/start.hpp"
 #include "engine/shape/pinacoid.hpp"
+#include "tests/support/about.hpp"
 #include "tests/support/instruction_sets.hpp"
 #include "tests/support/keep_going.hpp"
 #include "tests/support/shape_beds.hpp"
@@ -60,10 +61,10 @@ TEST_CASE("forces of a settled stack are those on its grains and between them") 
   REQUIRE(report.pair_forces.size() == 1);
   // Forces are true to the residual asked for, for each of the four points of a face.
   const double margin = 4 * accuracy.residual_tolerance;
-  CHECK(report.pair_forces[0].magnitude == Approx(1).margin(margin));
-  CHECK(report.pair_forces[0].height == Approx(1).margin(1e-3));
-  CHECK(report.force[0] == Approx(3).margin(2 * margin));
-  CHECK(report.force[1] == Approx(1).margin(margin));
+  CHECK(report.pair_forces[0].magnitude == about(1, margin));
+  CHECK(report.pair_forces[0].height == about(1, 1e-3));
+  CHECK(report.force[0] == about(3, 2 * margin));
+  CHECK(report.force[1] == about(1, margin));
 }
 
 TEST_CASE(
@@ -225,7 +226,8 @@ TEST_CASE("a stack that rests as it is given stays as it is") {
   const SettleReport report = settle(accuracy, kernels(), bed, always);
   CHECK(report.failure == "");
   CHECK(report.steps == 8);
-  CHECK(bed.position[1].z == Approx(1.5).margin(1e-6));
+  CHECK(bed.position[1].z ==
+        about(1.5, 2.0 * accuracy.overlap_tolerance));  // at each of two contacts
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include "engine/dynamics/rest.hpp"
 #include "engine/dynamics/step.hpp"
+#include "tests/support/about.hpp"
 #include "tests/support/instruction_sets.hpp"
 #include "tests/support/named_contacts.hpp"
 #include "tests/support/scenes.hpp"
@@ -217,7 +218,7 @@ TEST_CASE("each contact of a column carries the weight of the grains above it") 
   for (const PairForce& force : forces) {
     CHECK(force.b == force.a + 1);
     CHECK(force.height == Approx(force.a + 1.0));
-    CHECK(force.magnitude == Approx(5.0 - force.a).margin(1e-6));
+    CHECK(force.magnitude == about(5.0 - force.a, 1e-6));
   }
 }
 
@@ -235,7 +236,7 @@ TEST_CASE("a grain on two others shares its weight between them") {
       {{3, 0.5, 0.5, 0.5}, {3, 0.5 + 2 * half, 0.5, 0.5}, {3, 0.5 + half, 0.5 + rise, 0.5}});
   const auto forces = forces_at_rest(bed);
   REQUIRE(forces.size() == 2);
-  for (const PairForce& force : forces) CHECK(force.magnitude == Approx(0.5 / 0.6).margin(1e-6));
+  for (const PairForce& force : forces) CHECK(force.magnitude == about(0.5 / 0.6, 1e-6));
 }
 
 TEST_CASE("a bed within every tolerance is at rest") {

@@ -7,6 +7,7 @@
 #include "engine/dynamics/settle.hpp"
 #include "engine/scene/start.hpp"
 #include "engine/units.hpp"
+#include "tests/support/about.hpp"
 #include "tests/support/brute_force.hpp"
 #include "tests/support/keep_going.hpp"
 #include "tests/support/scenes.hpp"
@@ -52,10 +53,10 @@ TEST_CASE("a single grain comes to rest on the floor and carries its weight") {
       CHECK(report.rest.contacts == 1);
       CHECK(report.rest.isostatic_contacts == 1);
       REQUIRE(report.force.size() == 1);
-      CHECK(report.force[0] == Approx(sphere_mass(radius)).margin(accuracy.residual_tolerance));
+      CHECK(report.force[0] == about(sphere_mass(radius), accuracy.residual_tolerance));
       // A residual of r m g leaves a gap of r dt^2 / m in the last steps, of dt = .1.
       const double gap = accuracy.residual_tolerance * 0.01 / sphere_mass(radius);
-      CHECK(bed.position[0].z == Approx(radius).margin(gap));
+      CHECK(bed.position[0].z == about(radius, gap));
       CHECK(bed.position[0].x == 1);
       CHECK(bed.position[0].y == 3);
     }
@@ -70,8 +71,8 @@ TEST_CASE("two grains far apart rest on the floor, one above the other rolls off
   CHECK(report.rest.isostatic_contacts == 2);
   SphereBed above = make_bed({6, 6, periodic, walls}, {{2, 3, 0.5, 0.5}, {2.1, 3, 1.6, 0.5}});
   settle_bed(above);
-  CHECK(above.position[0].z == Approx(0.5).margin(1e-4));
-  CHECK(above.position[1].z == Approx(0.5).margin(1e-4));
+  CHECK(above.position[0].z == about(0.5, 1e-4));
+  CHECK(above.position[1].z == about(0.5, 1e-4));
   CHECK(testing::gap_of(above, 0, 1) > -1e-4);
 }
 

@@ -2,6 +2,7 @@
 
 #include "engine/dynamics/sleep.hpp"
 #include "engine/dynamics/step.hpp"
+#include "tests/support/about.hpp"
 #include "tests/support/brute_force.hpp"
 #include "tests/support/instruction_sets.hpp"
 #include "tests/support/scenes.hpp"
@@ -99,7 +100,7 @@ TEMPLATE_TEST_CASE("grains that sleep stand still and carry those above", "", fl
   const StepReport report = step(settings, kernels(), bed, state);
   CHECK(report.carried == Approx(1.0).epsilon(1e-4));  // of three grains, by a residual of 1e-5
   for (std::size_t i = 0; i < 6; ++i) {
-    CHECK(bed.position[i].z == Approx(before.position[i].z).margin(1e-5));
+    CHECK(bed.position[i].z == about(before.position[i].z, 1e-5));
     if (i < 3) CHECK(bed.position[i].z == before.position[i].z);
   }
   for (const ForceContact& contact : force_contacts(bed, step_length, state.contacts)) {

@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "engine/dynamics/solve.hpp"
+#include "tests/support/about.hpp"
 #include "tests/support/bits.hpp"
 #include "tests/support/dense_solver.hpp"
 #include "tests/support/draw.hpp"
@@ -43,9 +44,9 @@ template <class Real>
 void expect_motion(const std::vector<Record<Real>>& u, const std::vector<testing::Number>& expected,
                    double margin) {
   for (std::size_t i = 0; i < u.size(); ++i) {
-    REQUIRE(u[i].x == Approx(static_cast<double>(expected[3 * i])).margin(margin));
-    REQUIRE(u[i].y == Approx(static_cast<double>(expected[3 * i + 1])).margin(margin));
-    REQUIRE(u[i].z == Approx(static_cast<double>(expected[3 * i + 2])).margin(margin));
+    REQUIRE(u[i].x == about(static_cast<double>(expected[3 * i]), margin));
+    REQUIRE(u[i].y == about(static_cast<double>(expected[3 * i + 1]), margin));
+    REQUIRE(u[i].z == about(static_cast<double>(expected[3 * i + 2]), margin));
   }
 }
 
@@ -97,7 +98,7 @@ TEMPLATE_TEST_CASE("the residual reported is that of the impulses left behind", 
           solve({solver, iterations, 0.0}, kernels(), problem.contacts, problem.motion);
       CHECK(report.iterations == iterations);
       const DenseSolution left = state_left(problem);
-      CHECK(report.residual == Approx(static_cast<double>(left.violation)).margin(rounding));
+      CHECK(report.residual == about(static_cast<double>(left.violation), rounding));
       expect_motion(problem.motion.u, left.u, rounding);
     }
   }
@@ -147,7 +148,7 @@ TEST_CASE("the grains' change of momentum is what the walls give, converged or n
         solve({solver, iterations, 0.0}, kernels(), problem.contacts, problem.motion);
         const Balance balance = balance_of(problem);
         for (int k = 0; k < 3; ++k) {
-          CHECK(balance.change[k] == Approx(balance.pushes[k]).margin(1e-13));
+          CHECK(balance.change[k] == about(balance.pushes[k], 1e-13));
         }
         CHECK(balance.pushes[2] > 0.01);
       }

@@ -6,6 +6,7 @@
 #include "engine/dynamics/rest.hpp"
 #include "engine/dynamics/step.hpp"
 #include "engine/units.hpp"
+#include "tests/support/about.hpp"
 #include "tests/support/bits.hpp"
 #include "tests/support/brute_force.hpp"
 #include "tests/support/instruction_sets.hpp"
@@ -58,9 +59,9 @@ TEST_CASE("a grain in the air falls as the heavy ball says, up to the longest mo
     const StepReport report = step(settings, kernels(), bed, state);
     motion = std::min(0.9 * motion + 0.04, 0.15);
     z -= motion;
-    REQUIRE(bed.position[0].z == Approx(z).margin(1e-12));
-    REQUIRE(report.largest_motion == Approx(motion).margin(1e-14));
-    REQUIRE(report.kinetic_energy == Approx(motion * motion / 0.08).margin(1e-12));
+    REQUIRE(bed.position[0].z == about(z, 1e-12));
+    REQUIRE(report.largest_motion == about(motion, 1e-14));
+    REQUIRE(report.kinetic_energy == about(motion * motion / 0.08, 1e-12));
   }
   CHECK(motion == 0.15);
   CHECK(bed.position[0].x == 2);
@@ -86,10 +87,10 @@ TEMPLATE_TEST_CASE("a sphere resting on the floor carries its weight", "", float
     const StepReport report = take_steps(200, settings, bed, state);
     const auto impulses = testing::impulses_of(bed, state.contacts);
     const auto force = static_cast<double>(impulses.at({0, testing::wall_name(bed, 0)})) / 0.04;
-    CHECK(force == Approx(sphere_mass(radius)).margin(margin));
-    CHECK(bed.position[0].z == Approx(radius).margin(margin));
+    CHECK(force == about(sphere_mass(radius), margin));
+    CHECK(bed.position[0].z == about(radius, margin));
     CHECK(report.kinetic_energy < 1e-9);
-    CHECK(report.carried == Approx(1).margin(10 * margin));
+    CHECK(report.carried == about(1, 10 * margin));
   }
 }
 
@@ -103,10 +104,10 @@ TEST_CASE("in a column of 50 the contact under grain k from the top carries k we
   const StepSettings settings = tight_steps(0.5);
   take_steps(150, settings, bed, state);
   const auto forces = forces_of(bed, state, settings.dt);
-  CHECK(forces.at({0, testing::wall_name(bed, 0)}) == Approx(grains).margin(2e-6));
+  CHECK(forces.at({0, testing::wall_name(bed, 0)}) == about(grains, 2e-6));
   for (std::int32_t k = 1; k < grains; ++k) {
-    CHECK(forces.at({k - 1, k}) == Approx(grains - k).margin(2e-6));
-    CHECK(bed.position[static_cast<std::size_t>(k)].z == Approx(k + 0.5).margin(1e-7));
+    CHECK(forces.at({k - 1, k}) == about(grains - k, 2e-6));
+    CHECK(bed.position[static_cast<std::size_t>(k)].z == about(k + 0.5, 1e-7));
     CHECK(bed.position[static_cast<std::size_t>(k)].x == 2);
     CHECK(bed.position[static_cast<std::size_t>(k)].y == 2);
   }
@@ -118,14 +119,14 @@ TEST_CASE("two spheres wedged between walls push them as a wedge does") {
   StepState<Sphere, double> state;
   const StepSettings settings = tight_steps(0.5);
   take_steps(300, settings, bed, state);
-  CHECK(bed.position[0].y == Approx(0.5).margin(1e-6));
-  CHECK(bed.position[1].y == Approx(1.3).margin(1e-6));
-  CHECK(bed.position[1].z == Approx(1.1).margin(1e-6));
+  CHECK(bed.position[0].y == about(0.5, 1e-6));
+  CHECK(bed.position[1].y == about(1.3, 1e-6));
+  CHECK(bed.position[1].z == about(1.1, 1e-6));
   const auto forces = forces_of(bed, state, settings.dt);
-  CHECK(forces.at({0, 1}) == Approx(5.0 / 3).margin(1e-6));
-  CHECK(forces.at({0, testing::wall_name(bed, 0)}) == Approx(2).margin(1e-6));
-  CHECK(forces.at({0, testing::wall_name(bed, 1)}) == Approx(4.0 / 3).margin(1e-6));
-  CHECK(forces.at({1, testing::wall_name(bed, 2)}) == Approx(4.0 / 3).margin(1e-6));
+  CHECK(forces.at({0, 1}) == about(5.0 / 3, 1e-6));
+  CHECK(forces.at({0, testing::wall_name(bed, 0)}) == about(2, 1e-6));
+  CHECK(forces.at({0, testing::wall_name(bed, 1)}) == about(4.0 / 3, 1e-6));
+  CHECK(forces.at({1, testing::wall_name(bed, 2)}) == about(4.0 / 3, 1e-6));
 }
 
 // Centres (.6, .6, h) apart with h^2 = 1 - .72: N = 1 / h, and .6 N on each of four walls.
@@ -135,15 +136,15 @@ TEST_CASE("a sphere in a corner holds another one in the opposite corner") {
   const StepSettings settings = tight_steps(0.5);
   take_steps(300, settings, bed, state);
   const double rise = std::sqrt(1 - 0.72);
-  CHECK(bed.position[1].z == Approx(0.5 + rise).margin(1e-6));
+  CHECK(bed.position[1].z == about(0.5 + rise, 1e-6));
   const auto forces = forces_of(bed, state, settings.dt);
-  CHECK(forces.at({0, 1}) == Approx(1 / rise).margin(1e-6));
-  CHECK(forces.at({0, testing::wall_name(bed, 0)}) == Approx(2).margin(1e-6));
+  CHECK(forces.at({0, 1}) == about(1 / rise, 1e-6));
+  CHECK(forces.at({0, testing::wall_name(bed, 0)}) == about(2, 1e-6));
   for (const ContactName& wall : {ContactName{0, testing::wall_name(bed, 1)},
                                   {1, testing::wall_name(bed, 2)},
                                   {0, testing::wall_name(bed, 3)},
                                   {1, testing::wall_name(bed, 4)}}) {
-    CHECK(forces.at(wall) == Approx(0.6 / rise).margin(1e-6));
+    CHECK(forces.at(wall) == about(0.6 / rise, 1e-6));
   }
 }
 
@@ -153,7 +154,7 @@ TEST_CASE("a sphere alone in a corner leans on no wall") {
   take_steps(20, tight_steps(0.5), bed, state);
   const auto forces = forces_of(bed, state, 0.2);
   REQUIRE(forces.size() == 3);
-  CHECK(forces.at({0, testing::wall_name(bed, 0)}) == Approx(1).margin(1e-8));
+  CHECK(forces.at({0, testing::wall_name(bed, 0)}) == about(1, 1e-8));
   CHECK(forces.at({0, testing::wall_name(bed, 1)}) == 0);
   CHECK(forces.at({0, testing::wall_name(bed, 3)}) == 0);
 }
@@ -195,7 +196,7 @@ TEST_CASE("a grain that falls on another one does not pass through it") {
     step(tight_steps(0.9), kernels(), bed, state);
     REQUIRE(testing::gap_of(bed, 0, 1) > -0.15);  // one step's longest free motion
   }
-  CHECK(bed.position[1].z == Approx(1.5).margin(1e-6));
+  CHECK(bed.position[1].z == about(1.5, 1e-6));
 }
 
 // Forty grains on one spot are more than the solver's bound of eigenvalues allows for: its impulses
@@ -223,7 +224,7 @@ TEST_CASE("grains that touch across a periodic border push each other apart") {
   StepState<Sphere, double> state;
   take_steps(3, tight_steps(0.0), bed, state);
   CHECK(testing::gap_of(bed, 0, 1) == Approx(0).margin(1e-8));
-  CHECK(bed.position[0].x + bed.position[1].x == Approx(3.6).margin(1e-8));
+  CHECK(bed.position[0].x + bed.position[1].x == about(3.6, 1e-8));
 }
 
 TEST_CASE("an overlap is repaired by a step's share, without giving the grains speed to keep") {
@@ -232,9 +233,9 @@ TEST_CASE("an overlap is repaired by a step's share, without giving the grains s
   StepSettings settings = tight_steps(0.0);
   settings.correction = 0.1;
   step(settings, kernels(), bed, state);
-  CHECK(testing::gap_of(bed, 0, 1) == Approx(-0.18).margin(1e-8));
+  CHECK(testing::gap_of(bed, 0, 1) == about(-0.18, 1e-8));
   step(settings, kernels(), bed, state);
-  CHECK(testing::gap_of(bed, 0, 1) == Approx(-0.162).margin(1e-8));
+  CHECK(testing::gap_of(bed, 0, 1) == about(-0.162, 1e-8));
 }
 
 TEST_CASE("candidates are searched in the first step and kept while they hold") {

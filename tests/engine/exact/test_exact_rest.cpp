@@ -11,6 +11,7 @@
 #include "engine/dynamics/settle.hpp"
 #include "engine/exact/exact_rest.hpp"
 #include "engine/scene/start.hpp"
+#include "tests/support/about.hpp"
 #include "tests/support/brute_force.hpp"
 #include "tests/support/instruction_sets.hpp"
 #include "tests/support/keep_going.hpp"
@@ -151,7 +152,7 @@ TEST_CASE("a grain that leans on another in a shaft pushes as its place says") {
   const ExactRest rest = rest_exactly(testing::kernels(), {}, bed);
   REQUIRE(rest.failure == "");
   check_certificate(bed, rest);
-  CHECK(bed.position[1].z == Approx(upper).margin(1e-11));
+  CHECK(bed.position[1].z == about(upper, 1e-11));
   REQUIRE(rest.contacts.size() == 6);
   double floor = 0.0, sides = 0.0, pair = 0.0;
   for (const ForceContact& contact : rest.contacts) {

@@ -5,6 +5,7 @@
 
 #include "engine/measure/bond_order.hpp"
 #include "engine/units.hpp"
+#include "tests/support/about.hpp"
 #include "tests/support/draw.hpp"
 #include "tests/support/scenes.hpp"
 
@@ -54,15 +55,15 @@ TEST_CASE("bonds of a simple cubic lattice and of an icosahedron have their know
   const double g = (1 + std::sqrt(5.0)) / 2, r = std::sqrt(1 + g * g), a = 1 / r, b = g / r;
   CHECK(bond_order(std::vector<Direction>{
             {0, a, b}, {0, a, -b}, {a, b, 0}, {a, -b, 0}, {b, 0, a}, {b, 0, -a}}) ==
-        Approx(0.66332).margin(1e-5));
+        about(0.66332, 1e-5));
 }
 
 TEST_CASE("a face-centred block has the order of its lattice, globally and locally") {
   SphereBed bed = testing::fcc_bed(3, 3, 4);
   const Touching near = find_touching(bed, longest_bond_gap, kernels_for(best_isa()));
   const BondOrder order = bond_order(bed, near, {1.2, 4.2});
-  CHECK(order.global == Approx(0.574524).margin(1e-6));
-  CHECK(order.local == Approx(0.574524).margin(1e-6));
+  CHECK(order.global == about(0.574524, 1e-6));
+  CHECK(order.local == about(0.574524, 1e-6));
 }
 
 TEST_CASE("order of single grains without common direction is local only") {

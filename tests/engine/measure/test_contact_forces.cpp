@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "engine/measure/contact_forces.hpp"
+#include "tests/support/about.hpp"
 
 namespace grainsweep {
 namespace {
@@ -19,17 +20,17 @@ TEST_CASE("forces are taken relative to their layer, whose mean grows with depth
   }
   const ForceStatistics statistics = force_statistics(forces, {3, 13}, 0.1, 8);
   CHECK(statistics.mean == Approx(12).epsilon(0.02));
-  CHECK(statistics.square == Approx(2).margin(0.09));
+  CHECK(statistics.square == about(2, 0.09));
   REQUIRE(statistics.density.values.size() == 80);
   double sum = 0;
   for (std::size_t k = 0; k < 80; ++k) {
     const double low = 0.1 * double(k);
     const double exact = (std::exp(-low) - std::exp(-low - 0.1)) / 0.1;
     const double noise = std::sqrt(exact / 0.1 / 40000);
-    CHECK(statistics.density.values[k] == Approx(exact).margin(4.5 * noise + 2e-4));
+    CHECK(statistics.density.values[k] == about(exact, 4.5 * noise + 2e-4));
     sum += statistics.density.values[k] * 0.1;
   }
-  CHECK(sum == Approx(1 - std::exp(-8.0)).margin(2e-4));
+  CHECK(sum == about(1 - std::exp(-8.0), 2e-4));
 }
 
 TEST_CASE("forces outside the slab do not count, and none at all give no mean") {

@@ -4,6 +4,7 @@
 
 #include "engine/measure/bond_order.hpp"
 #include "engine/measure/order.hpp"
+#include "tests/support/about.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace grainsweep {
@@ -39,7 +40,7 @@ TEST_CASE("a crystal at rest has its order, its forces and its distances") {
   const Touching touching = find_touching(bed, longest_bond_gap, kernels_for(best_isa()));
   const std::vector<PairForce> forces = {{0, 1, 2.0, 1.0}, {1, 2, 3.0, 3.0}};
   const Order order = measure_order(bed, touching, forces, {1.2, 5.2}, {0, 1e-4});
-  CHECK(order.q6_global == Approx(0.574524).margin(1e-6));
+  CHECK(order.q6_global == about(0.574524, 1e-6));
   CHECK(order.three_contact_share == 0);
   CHECK(std::isnan(order.segregation));
   CHECK(order.pair_correlation.bin_width == 0.05);

@@ -4,6 +4,7 @@
 
 #include "engine/measure/pair_correlation.hpp"
 #include "engine/units.hpp"
+#include "tests/support/about.hpp"
 #include "tests/support/draw.hpp"
 #include "tests/support/scenes.hpp"
 
@@ -34,7 +35,7 @@ TEST_CASE("points at random have no correlation, whatever bounds the region") {
       const double n = 800 * 5.0 / 6.0;
       const double pairs = beds * n * n / 2 * 4 * pi * middle * middle * 0.5 / volume / 2;
       INFO(box.length << " x " << box.width << ", bin " << bin);
-      CHECK(sum[bin] == Approx(1).margin(4 / std::sqrt(pairs) + 0.004));
+      CHECK(sum[bin] == about(1, 4 / std::sqrt(pairs) + 0.004));
     }
   }
 }
@@ -62,7 +63,7 @@ TEST_CASE("points at random in a tube have no correlation, however narrow it is"
       // wide.
       const double pairs = beds * 0.5 * points * points * (diameter > 4 ? 0.0012 : 0.01);
       INFO("D = " << diameter << ", bin " << bin);
-      CHECK(sum[bin] == Approx(1).margin(4 / std::sqrt(pairs) + 0.006));
+      CHECK(sum[bin] == about(1, 4 / std::sqrt(pairs) + 0.006));
     }
   }
 }

@@ -7,6 +7,7 @@
 #include "engine/measure/profile.hpp"
 #include "engine/shape/mixture.hpp"
 #include "engine/units.hpp"
+#include "tests/support/about.hpp"
 #include "tests/support/draw.hpp"
 #include "tests/support/scenes.hpp"
 #include "tests/support/shape_beds.hpp"
@@ -49,7 +50,7 @@ TEST_CASE("one sphere anywhere fills the bins along y with its slices, at any bi
       const double low = n == 0 ? -9 : static_cast<double>(n) * profile.bin_width - y;
       const double high = n + 1 == bins ? 9 : static_cast<double>(n + 1) * profile.bin_width - y;
       const double slice = between(r, low, high) / (5 * 8 * profile.bin_width);
-      REQUIRE(profile.bins[n].large == Approx(slice).margin(1e-12 * slice + 1e-15));
+      REQUIRE(profile.bins[n].large == about(slice, 1e-12 * slice + 1e-15));
       REQUIRE(profile.bins[n].small == 0);
     }
   }
@@ -118,8 +119,7 @@ TEST_CASE("the frames of a duct hold the slices of spheres at one wall, and corn
   for (std::size_t k = 0; k < 8; ++k) {
     const double low = 0.25 * static_cast<double>(k), high = low + 0.25;
     const double frame = (6 - 2 * low) * (4 - 2 * low) - (6 - 2 * high) * (4 - 2 * high);
-    CHECK(middle.bins[k].large * frame * 8 ==
-          Approx(between(0.5, low - 0.5, high - 0.5)).margin(1e-14));
+    CHECK(middle.bins[k].large * frame * 8 == about(between(0.5, low - 0.5, high - 0.5), 1e-14));
     CHECK(middle.bins[k].large_grains == (k == 2 ? 1 : 0));  // its centre is 0.5 d from the wall
   }
   const SphereBed corner = make_bed({6, 4, walls, walls}, {{5.5, 3.5, 4, 0.5}});
@@ -186,8 +186,8 @@ TEST_CASE("a bed turned about the axis of its tube has the same profile") {
   CHECK(solid_fraction(turned, slab) == Approx(solid_fraction(bed, slab)).epsilon(1e-14));
   REQUIRE(one.bins.size() == other.bins.size());
   for (std::size_t k = 0; k < one.bins.size(); ++k) {
-    CHECK(other.bins[k].large == Approx(one.bins[k].large).margin(1e-12));
-    CHECK(other.bins[k].small == Approx(one.bins[k].small).margin(1e-12));
+    CHECK(other.bins[k].large == about(one.bins[k].large, 1e-12));
+    CHECK(other.bins[k].small == about(one.bins[k].small, 1e-12));
   }
 }
 
@@ -203,7 +203,7 @@ TEST_CASE("the wall of a wide tube shows a sphere as a flat wall does") {
   for (std::size_t k = 0; k < 13; ++k) {
     const double low = 0.1 * static_cast<double>(k), area = pi * 0.1 * (diameter - 2 * low - 0.1);
     CHECK(round.bins[k].large * area * 8 ==
-          Approx(square.bins[k].large * 0.1 * diameter * 8).margin(3e-5 * sphere_volume(0.5)));
+          about(square.bins[k].large * 0.1 * diameter * 8, 3e-5 * sphere_volume(0.5)));
   }
 }
 
@@ -229,7 +229,7 @@ TEST_CASE("one sphere anywhere fills the bins along z with its slices") {
     for (std::size_t n = 0; n < profile.bins.size(); ++n) {
       const double low = static_cast<double>(n) * width - z;
       const double slice = between(r, low, low + width) / (5 * 4 * width);
-      REQUIRE(profile.bins[n].large == Approx(slice).margin(1e-12 * slice + 1e-15));
+      REQUIRE(profile.bins[n].large == about(slice, 1e-12 * slice + 1e-15));
     }
   }
 }
@@ -434,7 +434,7 @@ TEST_CASE("the profiles of the components of a mixture add up to that of the bed
         }
         const ProfileBin& bin = whole.bins[k];
         // Hundreds of volumes are added up in two orders, each rounded; a full bin is 1.
-        CHECK(filled == Approx(bin.large + bin.small).margin(1e-13));
+        CHECK(filled == about(bin.large + bin.small, 1e-13));
         CHECK(grains == bin.large_grains + bin.small_grains);
         CHECK(neighbours == bin.neighbours);
         CHECK(touched_walls == bin.walls);

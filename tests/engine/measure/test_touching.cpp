@@ -7,6 +7,7 @@
 
 #include "engine/broad/candidates.hpp"
 #include "engine/measure/touching.hpp"
+#include "tests/support/about.hpp"
 #include "tests/support/brute_force.hpp"
 #include "tests/support/instruction_sets.hpp"
 #include "tests/support/scenes.hpp"
@@ -28,7 +29,7 @@ TEST_CASE("the touching pairs are those a search over all pairs finds, with thei
     for (const TouchingPair& pair : touching.pairs) {
       REQUIRE(pair.a < pair.b);
       REQUIRE(found.insert({pair.a, pair.b}).second);
-      CHECK(pair.gap == Approx(testing::gap_of(bed, pair.a, pair.b)).margin(1e-13));
+      CHECK(pair.gap == about(testing::gap_of(bed, pair.a, pair.b), 1e-13));
     }
     CHECK(found == testing::pairs_closer_than(bed, reach));
     CHECK(found.size() > 100);
@@ -104,10 +105,10 @@ TEST_CASE("grains with corners touch by the distance of their surfaces") {
     return std::numeric_limits<double>::quiet_NaN();
   };
   REQUIRE(touching.pairs.size() == 4);
-  CHECK(gap(0, 1) == Approx(0.001).margin(1e-12));
-  CHECK(gap(0, 2) == Approx(0.02).margin(1e-12));
-  CHECK(gap(1, 2) == Approx(std::hypot(0.001, 0.02)).margin(1e-12));  // the end of the edge
-  CHECK(gap(3, 4) == Approx(-0.1).margin(1e-12));
+  CHECK(gap(0, 1) == about(0.001, 1e-12));
+  CHECK(gap(0, 2) == about(0.02, 1e-12));
+  CHECK(gap(1, 2) == about(std::hypot(0.001, 0.02), 1e-12));  // the end of the edge
+  CHECK(gap(3, 4) == about(-0.1, 1e-12));
   REQUIRE(touching.walls.size() == 2);
   for (const TouchingWall& wall : touching.walls) CHECK(wall.gap == Approx(0).margin(1e-15));
 }
@@ -126,7 +127,7 @@ TEST_CASE("a cube has the same gap from each wall and the floor when its face is
   for (const TouchingWall& wall : touching.walls) {
     grains.insert(wall.grain);
     found.insert(wall.wall);
-    CHECK(wall.gap == Approx(gap).margin(1e-14));
+    CHECK(wall.gap == about(gap, 1e-14));
   }
   CHECK(touching.walls.size() == 5);
   CHECK(grains.size() == 5);

@@ -8,6 +8,7 @@
 #include "engine/narrow/gjk.hpp"
 #include "engine/narrow/manifold.hpp"
 #include "engine/shape/given_shape.hpp"
+#include "tests/support/about.hpp"
 #include "tests/support/draw.hpp"
 
 namespace grainsweep {
@@ -48,7 +49,7 @@ TEST_CASE("a sphere touches a cube on a face, an edge or a corner at its true di
     const Vector between = at.centre - at.on_cube;
     const double gap = between.norm() - 0.5;
     CHECK(contact.kind == at.kind);
-    CHECK(contact.gap == Approx(gap).margin(1e-15));
+    CHECK(contact.gap == about(gap, 1e-15));
     CHECK((contact.normal - between.normalized()).norm() < 1e-15);
     CHECK((contact.position - (at.on_cube + gap / 2 * between.normalized())).norm() < 1e-15);
   }
@@ -84,7 +85,7 @@ TEST_CASE("the nearest point of a hull is that of GJK, from any side and scale")
         closest_points({hull, corner_alone, pose(centre, Matrix::Identity(), scale)});
     const NearestPoint nearest = nearest_point(hull, scale, centre);
     if (nearest.distance < 1e-3) continue;  // GJK tells no depth
-    REQUIRE(nearest.distance == Approx(twin.distance).margin(1e-12));
+    REQUIRE(nearest.distance == about(twin.distance, 1e-12));
     REQUIRE((nearest.point - twin.on_a).norm() < 1e-9);
     REQUIRE((nearest.point + nearest.distance * nearest.outward - centre).norm() < 1e-13);
   }
@@ -103,7 +104,7 @@ TEST_CASE("which of a pair is the sphere does not matter") {
         {a_ball, hull,
          pose(-(turn.conjugate() * centre), turn.conjugate().toRotationMatrix(), size, 1)});
     REQUIRE(mirrored.kind == straight.kind);
-    REQUIRE(mirrored.gap == Approx(straight.gap).margin(1e-14));
+    REQUIRE(mirrored.gap == about(straight.gap, 1e-14));
     REQUIRE((turn * mirrored.normal + straight.normal).norm() < 1e-13);
     REQUIRE((centre + turn * mirrored.position - straight.position).norm() < 1e-13);
   }

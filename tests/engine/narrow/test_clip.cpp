@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "engine/narrow/clip.hpp"
+#include "tests/support/about.hpp"
 #include "tests/support/draw.hpp"
 #include "tests/support/shapes.hpp"
 
@@ -41,7 +42,7 @@ TEST_CASE("a cube flat on another one touches it at four corners, the gap apart"
     const std::vector<ContactPoint> points = on_upper_face({cube, cube, above(0, side + gap)});
     REQUIRE(points.size() == 4);
     for (const ContactPoint& point : points) {
-      CHECK(point.gap == Approx(gap).margin(1e-15));
+      CHECK(point.gap == about(gap, 1e-15));
       CHECK(std::abs(point.position.x()) == Approx(side / 2));
       CHECK(std::abs(point.position.y()) == Approx(side / 2));
       CHECK(point.position.z() == Approx(side / 2 + gap / 2));  // midway
@@ -126,7 +127,7 @@ TEST_CASE(
       corners += static_cast<int>(expected);
       std::size_t crossed = 0;
       for (const ContactPoint& point : points) {
-        CHECK(point.gap == Approx(gap).margin(1e-12));
+        CHECK(point.gap == about(gap, 1e-12));
         CHECK(is_within(shape, Matrix::Identity(), {0, 0, 0}, point.position));
         CHECK(is_within(shape, turn, centre, point.position));
         const bool is_corner =

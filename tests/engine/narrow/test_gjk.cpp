@@ -10,6 +10,7 @@
 
 #include "engine/narrow/gjk.hpp"
 #include "engine/narrow/separating_axes.hpp"
+#include "tests/support/about.hpp"
 #include "tests/support/shape_pairs.hpp"
 
 namespace grainsweep {
@@ -44,7 +45,7 @@ void check_gjk(const ShapePair& pair, const PairTruth& truth, Errors& errors) {
   errors.iterations += closest.iterations;
   REQUIRE(error <= gjk_bound);
   if (!closest.overlap) {
-    REQUIRE((closest.on_b - closest.on_a).norm() == Approx(closest.distance).margin(1e-14));
+    REQUIRE((closest.on_b - closest.on_a).norm() == about(closest.distance, 1e-14));
   }
   if (truth.overlap != closest.overlap) {
     REQUIRE(std::abs(static_cast<double>(truth.gap())) <= gjk_bound);
@@ -149,7 +150,7 @@ TEST_CASE("cubes nearly face in face that overlap by 6.5e-7 d are not taken for 
       -0x1.0abb215bcb02p-17, -0x1.f03a8343ae78ep-1, -0x1.f86667430f9bcp-3, 0x1.e849081489388p-18,
       0x1.f86667412da1p-3, -0x1.f03a8343d8b82p-1;
   const ShapePair pair{cube, cube, pose};
-  CHECK(separating_axes(pair).separation() == Approx(-6.51032e-7).margin(1e-12));
+  CHECK(separating_axes(pair).separation() == about(-6.51032e-7, 1e-12));
   const Closest closest = closest_points(pair);
   CHECK(closest.overlap);
   CHECK(closest.distance == 0.0);

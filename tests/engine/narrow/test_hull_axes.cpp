@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 
 #include "engine/narrow/manifold.hpp"
+#include "tests/support/about.hpp"
 #include "tests/support/shape_pairs.hpp"
 
 namespace grainsweep {
@@ -69,10 +70,10 @@ TEST_CASE("hulls that move have the axes of a search that remembers nothing") {
             const ContactAxes found = separating_axes(pair, guess, candidates, columns);
             const ContactAxes wanted = separating_axes(pair);
             // Rounding decides among axes that are equally good.
-            REQUIRE(found.face.separation == Approx(wanted.face.separation).margin(1e-14));
-            REQUIRE(found.separation() == Approx(wanted.separation()).margin(1e-13));
+            REQUIRE(found.face.separation == about(wanted.face.separation, 1e-14));
+            REQUIRE(found.separation() == about(wanted.separation(), 1e-13));
             REQUIRE(separation_along(pair, found.best().normal) ==
-                    Approx(found.separation()).margin(1e-13));
+                    about(found.separation(), 1e-13));
             guess = found.best().normal;
             move(draw, length, pose);
           }
@@ -114,7 +115,7 @@ TEST_CASE("more candidates than have room are searched for each time") {
   for (int k = 0; k < 3; ++k) {
     const ContactAxes found =
         separating_axes({prism, prism, pose}, Vector::Zero(), candidates, columns);
-    CHECK(found.separation() == Approx(-0.01).margin(1e-14));
+    CHECK(found.separation() == about(-0.01, 1e-14));
   }
   CHECK(candidates.are_too_many);
   CHECK_FALSE(candidates.is_listed);

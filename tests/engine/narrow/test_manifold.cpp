@@ -6,6 +6,7 @@
 
 #include "engine/narrow/constraints.hpp"
 #include "engine/shape/named_shapes.hpp"
+#include "tests/support/about.hpp"
 #include "tests/support/shape_pairs.hpp"
 
 namespace grainsweep {
@@ -59,7 +60,7 @@ TEST_CASE("a cube upon a cube touches with four corners") {
   for (const double gap : {0.01, 0.0, -0.02}) {
     const Found found = contact_of({cube, cube, at({0, 0, 1 + gap})});
     CHECK((found.contact.normal - Vector(0, 0, 1)).norm() < 1e-15);
-    CHECK(found.contact.separation == Approx(gap).margin(1e-15));
+    CHECK(found.contact.separation == about(gap, 1e-15));
     REQUIRE(found.points.size() == 4);
     for (const double x : {-0.5, 0.5}) {
       for (const double y : {-0.5, 0.5}) CHECK(found.has({x, y, 0.5 + gap / 2}, gap));
@@ -119,7 +120,7 @@ TEST_CASE("crossed edges touch in the point where they cross") {
   CHECK((a_up * found.contact.normal - Vector(0, 0, 1)).norm() < 1e-15);
   REQUIRE(found.points.size() == 1);
   CHECK((a_up * found.points[0].position - Vector(0.1, 0, reach + 0.005)).norm() < 1e-14);
-  CHECK(found.points[0].gap == Approx(0.01).margin(1e-15));
+  CHECK(found.points[0].gap == about(0.01, 1e-15));
 }
 
 /// Its ends rise less than its sides, so that a face at an end faces the base most. Its frame is
@@ -157,8 +158,8 @@ void check_edge(const Found& found, const Vector& left, const Vector& right, dou
   const ContactPoint& last = found.points[in_order ? 1 : 0];
   CHECK((first.position - left).norm() < 1e-14);
   CHECK((last.position - right).norm() < 1e-14);
-  CHECK(first.gap == Approx(gap).margin(1e-14));
-  CHECK(last.gap == Approx(gap).margin(1e-14));
+  CHECK(first.gap == about(gap, 1e-14));
+  CHECK(last.gap == about(gap, 1e-14));
 }
 
 // Where the edge leaves the face, the face at the knife's end that touches it there shares one
@@ -251,14 +252,14 @@ TEST_CASE("gaps never exceed the true distance, and the deepest is the true dept
       if (truth <= 0.05) REQUIRE_FALSE(found.points.empty());
       if (found.points.empty()) continue;
       REQUIRE(found.contact.separation <= truth + 1e-12);
-      if (truth < 0) REQUIRE(found.contact.separation == Approx(truth).margin(1e-12));
+      if (truth < 0) REQUIRE(found.contact.separation == about(truth, 1e-12));
       double least = 1;
       for (const ContactPoint& point : found.points) {
         REQUIRE(point.gap <= 0.05);
         REQUIRE(point.gap >= found.contact.separation - 1e-12);
         least = std::min(least, point.gap);
       }
-      if (truth < 0) REQUIRE(least == Approx(truth).margin(1e-9));
+      if (truth < 0) REQUIRE(least == about(truth, 1e-9));
     }
   }
 }

@@ -11,6 +11,7 @@
 #include <catch2/catch.hpp>
 
 #include "engine/narrow/manifold.hpp"
+#include "tests/support/about.hpp"
 #include "tests/support/all_axes.hpp"
 #include "tests/support/bits.hpp"
 #include "tests/support/instruction_sets.hpp"
@@ -163,9 +164,9 @@ TEST_CASE("the batch test sees the nearest image and offsets of a million d") {
                         &image = moved.blocks[k / block_width];
     const std::size_t lane = k % block_width;
     // Adding 16 or 2^20 and taking it away again rounds a coordinate by 4e-15 or 2e-10.
-    CHECK(image.face_separation[lane] == Approx(here.face_separation[lane]).margin(1e-6));
+    CHECK(image.face_separation[lane] == about(here.face_separation[lane], 1e-6));
     CHECK(far.blocks[k / block_width].face_separation[lane] ==
-          Approx(here.face_separation[lane]).margin(1e-6));
+          about(here.face_separation[lane], 1e-6));
   }
 }
 
@@ -180,7 +181,7 @@ TEST_CASE("upright pinacoids side by side are parted by exact numbers") {
   }
   test(shape, best_isa(), batch);
   // Ridge on ridge: .25 along z, which no face axis shows, but crossed edges x and y do.
-  CHECK(batch.blocks[0].edge_separation[0] == Approx(0.25).margin(1e-6));
+  CHECK(batch.blocks[0].edge_separation[0] == about(0.25, 1e-6));
   CHECK(batch.blocks[0].edge_separation[15] == Approx(0.0).margin(1e-6));
   CHECK((batch.blocks[0].edge_axis[0] == 8 + 5 || batch.blocks[0].edge_axis[0] == 8 + 30));
   CHECK(batch.blocks[0].edges_parallel[0] == 1);
@@ -195,7 +196,7 @@ TEST_CASE("the axes of a pinacoid in closed form are those of its hull") {
       const PairPose pose = testing::pose_of_family(family, draw, closed, closed);
       const double first = separating_axes({closed, closed, pose}).separation();
       const double second = separating_axes({hull, hull, pose}).separation();
-      if (first <= 0) REQUIRE(first == Approx(second).margin(1e-12));
+      if (first <= 0) REQUIRE(first == about(second, 1e-12));
       if (first > 1e-12) REQUIRE((second > 0 && second <= first + 1e-12));
     }
   }
@@ -211,7 +212,7 @@ TEST_CASE("the axis of a pair points from a to b and gives its separation") {
       if (axis.kind == AxisKind::none) continue;
       CHECK(axis.normal.norm() == Approx(1).epsilon(1e-15));
       CHECK(axis.normal.dot(pair.pose.centre) > 0);
-      CHECK(separation_along(pair, axis.normal) == Approx(axis.separation).margin(1e-15));
+      CHECK(separation_along(pair, axis.normal) == about(axis.separation, 1e-15));
     }
     const bool of_a = axes.face.kind == AxisKind::face_of_a;
     const Vector outward = of_a ? shape.faces[axes.face.a].normal
@@ -267,10 +268,10 @@ PairPose aligned_pose(Draw& draw, const ConvexShape& a, const ConvexShape& b) {
 // axes.
 void check_axes(const ShapePair& pair) {
   const ContactAxes exact = testing::all_axes(pair), found = separating_axes(pair);
-  REQUIRE(found.face.separation == Approx(exact.face.separation).margin(1e-14));
+  REQUIRE(found.face.separation == about(exact.face.separation, 1e-14));
   for (const ContactAxis& axis : {found.face, found.edges}) {
     if (axis.kind == AxisKind::none) continue;
-    REQUIRE(separation_along(pair, axis.normal) == Approx(axis.separation).margin(1e-14));
+    REQUIRE(separation_along(pair, axis.normal) == about(axis.separation, 1e-14));
   }
   if (exact.separation() <= 0) REQUIRE(found.separation() >= exact.separation() - 1e-12);
   if (exact.separation() > 1e-12) REQUIRE(found.separation() > 0);
@@ -313,9 +314,8 @@ TEST_CASE("the edges that part two hulls are the outermost of both along their a
     ++parted;
     const Vector from_b = -(pair.pose.turn.transpose() * axis.normal);
     // 1e-9 d: edges that nearly lie along each other cross where rounding says.
-    CHECK(reach_of_edges(a, axis.a, axis.normal) ==
-          Approx(reach_along(a, axis.normal)).margin(1e-9));
-    CHECK(reach_of_edges(b, axis.b, from_b) == Approx(reach_along(b, from_b)).margin(1e-9));
+    CHECK(reach_of_edges(a, axis.a, axis.normal) == about(reach_along(a, axis.normal), 1e-9));
+    CHECK(reach_of_edges(b, axis.b, from_b) == about(reach_along(b, from_b), 1e-9));
   }
   CHECK(parted > 200);
 }

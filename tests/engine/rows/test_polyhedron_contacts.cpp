@@ -7,6 +7,7 @@
 #include "engine/rows/polyhedron_contacts.hpp"
 #include "engine/shape/mixture.hpp"
 #include "engine/units.hpp"
+#include "tests/support/about.hpp"
 #include "tests/support/instruction_sets.hpp"
 #include "tests/support/shape_beds.hpp"
 
@@ -199,7 +200,7 @@ TEST_CASE("rows say how gaps change when grains move and turn") {
         if (of_wall) continue;
         change += points.lever_b[x][lane] * scene.bed.root_inertia[b][x] * angles[b][x];
       }
-      REQUIRE(change == Approx(n.dot(way_b - way_a)).margin(4 * size * size));  // second order
+      REQUIRE(change == about(n.dot(way_b - way_a), 4 * size * size));  // second order
     }
   }
 }

@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 
 #include "engine/rows/sphere_contacts.hpp"
+#include "tests/support/about.hpp"
 #include "tests/support/brute_force.hpp"
 #include "tests/support/draw.hpp"
 #include "tests/support/instruction_sets.hpp"
@@ -176,11 +177,11 @@ TEMPLATE_TEST_CASE("rows have the gap and the unit normal of their contact", "",
     const double x = static_cast<double>(r.normal_x[lane]);
     const double y = static_cast<double>(r.normal_y[lane]);
     const double z = static_cast<double>(r.normal_z[lane]);
-    CHECK(std::hypot(x, y, z) == Approx(1).margin(rounding));
+    CHECK(std::hypot(x, y, z) == about(1, rounding));
     const bool is_pair = name.second < bed.wall();
     const double gap = is_pair ? testing::gap_of(bed, name.first, name.second)
                                : bed.walls[b - bed.grains()].gap(bed.position[a]);
-    CHECK(static_cast<double>(r.gap[lane]) == Approx(gap).margin(rounding));
+    CHECK(static_cast<double>(r.gap[lane]) == about(gap, rounding));
     // Moving a by h along the normal, towards b, closes the gap by h.
     const double h = 1e-3;
     SphereBed moved = bed;
@@ -189,7 +190,7 @@ TEMPLATE_TEST_CASE("rows have the gap and the unit normal of their contact", "",
     moved.position[a].z += h * z;
     const double closed = is_pair ? testing::gap_of(moved, name.first, name.second)
                                   : bed.walls[b - bed.grains()].gap(moved.position[a]);
-    CHECK(closed == Approx(gap - h).margin(rounding));
+    CHECK(closed == about(gap - h, rounding));
   });
 }
 

@@ -7,6 +7,7 @@
 #include "engine/scene/start.hpp"
 #include "engine/shape/given_shape.hpp"
 #include "engine/units.hpp"
+#include "tests/support/about.hpp"
 
 namespace grainsweep {
 namespace {
@@ -30,7 +31,7 @@ TEST_CASE("components are as likely anywhere among the grains") {
   // Of 10,000 grains a fifth are cubes: in each tenth 200, which scatter by 12.
   const auto drawn = draw_components(bricks(0.5), 10000, 3);
   for (auto tenth = drawn.begin(); tenth != drawn.end(); tenth += 1000) {
-    CHECK(std::count(tenth, tenth + 1000, 0) == Approx(200).margin(50));
+    CHECK(std::count(tenth, tenth + 1000, 0) == about(200, 50));
   }
 }
 

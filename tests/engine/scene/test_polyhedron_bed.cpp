@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "tests/support/about.hpp"
 #include "tests/support/shape_beds.hpp"
 
 namespace grainsweep {
@@ -35,7 +36,7 @@ TEST_CASE("a grain is turned by exactly its angle vector, whatever its length") 
 TEST_CASE("orientations stay unit quaternions through a million turns") {
   PolyhedronBed bed = one_grain();
   for (int k = 0; k < 1'000'000; ++k) move_grain(bed, 0, Vector::Zero(), Vector(0.1, -0.2, 0.15));
-  CHECK(bed.pose(0).orientation.norm() == Approx(1).margin(1e-15));
+  CHECK(bed.pose(0).orientation.norm() == about(1, 1e-15));
 }
 
 TEST_CASE("a turn about a principal axis goes on as it is") {

@@ -6,6 +6,7 @@
 #include "engine/scene/sizes.hpp"
 #include "engine/scene/start.hpp"
 #include "engine/units.hpp"
+#include "tests/support/about.hpp"
 #include "tests/support/shape_beds.hpp"
 
 namespace grainsweep {
@@ -74,7 +75,7 @@ TEST_CASE("orientations are uniform over all rotations") {
   Matrix mean = Matrix::Zero(), square = Matrix::Zero();
   for (std::size_t i = 0; i < bed->grains(); ++i) {
     const Matrix turn = bed->pose(i).orientation.toRotationMatrix();
-    REQUIRE(bed->pose(i).orientation.norm() == Approx(1).margin(1e-15));
+    REQUIRE(bed->pose(i).orientation.norm() == about(1, 1e-15));
     mean += turn / 4000;
     square += turn.cwiseAbs2() / 4000;
   }

@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "engine/scene/random.hpp"
+#include "tests/support/about.hpp"
 
 namespace grainsweep {
 namespace {
@@ -43,8 +44,8 @@ TEST_CASE("normal numbers have mean 0, variance 1 and fourth moment 3") {
     sum += z, squares += z * z, fourths += z * z * z * z;
   }
   CHECK(sum / draws == Approx(0).margin(0.013));
-  CHECK(squares / draws == Approx(1).margin(0.018));
-  CHECK(fourths / draws == Approx(3).margin(0.124));
+  CHECK(squares / draws == about(1, 0.018));
+  CHECK(fourths / draws == about(3, 0.124));
 }
 
 }  // namespace

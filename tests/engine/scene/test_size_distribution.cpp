@@ -8,6 +8,7 @@
 #include "engine/scene/sizes.hpp"
 #include "engine/scene/spec.hpp"
 #include "engine/units.hpp"
+#include "tests/support/about.hpp"
 
 namespace grainsweep {
 namespace {
@@ -110,8 +111,7 @@ TEST_CASE("a curve by volume is drawn by number as its grains are, each counted 
         const auto finer =
             std::count_if(drawn.begin(), drawn.end(), [&](double d) { return d <= diameter; });
         INFO("formula " << formula.index() << ", by " << static_cast<int>(by));
-        CHECK(static_cast<double>(finer) / 8000 ==
-              Approx(number_share(curve, diameter)).margin(4e-4));
+        CHECK(static_cast<double>(finer) / 8000 == about(number_share(curve, diameter), 4e-4));
       }
     }
   }

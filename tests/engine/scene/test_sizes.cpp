@@ -5,6 +5,7 @@
 
 #include "engine/scene/sizes.hpp"
 #include "engine/units.hpp"
+#include "tests/support/about.hpp"
 
 namespace grainsweep {
 namespace {
@@ -33,8 +34,8 @@ TEST_CASE("the small class has its share of the expected volume within half a gr
     const double large = static_cast<double>(counts.large) * pi / 6 * growth;
     const double small = static_cast<double>(counts.small) * pi / 6 * growth * 0.4 * 0.4 * 0.4;
     const double volume = 5.0 * 20.0 * 10.0;
-    CHECK(large == Approx((1 - share) * volume).margin(0.51 * pi / 6 * growth));
-    CHECK(small == Approx(share * volume).margin(0.51 * pi / 6 * growth * 0.064));
+    CHECK(large == about((1 - share) * volume, 0.51 * pi / 6 * growth));
+    CHECK(small == about(share * volume, 0.51 * pi / 6 * growth * 0.064));
   }
 }
 
@@ -61,8 +62,8 @@ TEST_CASE("radii have the mean and the spread asked for, and none lies beyond fo
     squares += (2 * radius - 1) * (2 * radius - 1);
   }
   const double n = 20'000;
-  CHECK(sum / n == Approx(1).margin(4 * spread / std::sqrt(n)));
-  CHECK(std::sqrt(squares / n) == Approx(spread).margin(4 * spread / std::sqrt(2 * n)));
+  CHECK(sum / n == about(1, 4 * spread / std::sqrt(n)));
+  CHECK(std::sqrt(squares / n) == about(spread, 4 * spread / std::sqrt(2 * n)));
   const auto [least, most] = std::minmax_element(radii.begin(), radii.end());
   CHECK(*least >= 0.5 * (1 - 4 * spread));
   CHECK(*most <= 0.5 * (1 + 4 * spread));

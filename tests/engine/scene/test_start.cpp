@@ -6,6 +6,7 @@
 
 #include "engine/scene/start.hpp"
 #include "engine/units.hpp"
+#include "tests/support/about.hpp"
 #include "tests/support/bits.hpp"
 #include "tests/support/brute_force.hpp"
 #include "tests/support/scenes.hpp"
@@ -100,8 +101,8 @@ TEST_CASE("grains in single file start in one plane, turned by the key") {
     for (std::size_t i = 0; i < bed->grains(); ++i) {
       const Record<double>& p = bed->position[i];
       const double side = i % 2 == 0 ? 1 : -1;
-      CHECK(p.x - 0.8 == Approx(side * x).margin(1e-15));
-      CHECK(p.y - 0.8 == Approx(side * y).margin(1e-15));
+      CHECK(p.x - 0.8 == about(side * x, 1e-15));
+      CHECK(p.y - 0.8 == about(side * y, 1e-15));
     }
   }
   CHECK(std::abs(angles[0] - angles[1]) > 0.1);
@@ -118,7 +119,7 @@ TEST_CASE("sizes are mixed in single file, in which grains cannot pass each othe
     if (found.back() == 0.5) heights += static_cast<double>(i), large += 1.0;
   }
   // 200 of 400 numbers, drawn without return: a mean of 199.5 +- 5.8, four deviations here.
-  CHECK(heights / large == Approx(199.5).margin(4 * 400 / std::sqrt(12.0 * large)));
+  CHECK(heights / large == about(199.5, 4 * 400 / std::sqrt(12.0 * large)));
   std::sort(drawn.begin(), drawn.end());
   std::sort(found.begin(), found.end());
   CHECK(found == drawn);

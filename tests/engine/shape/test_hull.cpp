@@ -7,6 +7,7 @@
 #include <catch2/catch.hpp>
 
 #include "engine/units.hpp"
+#include "tests/support/about.hpp"
 #include "tests/support/shapes.hpp"
 
 namespace grainsweep {
@@ -113,7 +114,7 @@ TEST_CASE("vertices lie on the planes of their faces and behind all others, edge
       for (const Vector& v : shape.vertices) REQUIRE(face.normal.dot(v) <= face.offset);
       for (int k = 0; k < face.corners; ++k) {
         const Vector& v = shape.vertices[shape.loops[face.first + k]];
-        REQUIRE(face.normal.dot(v) == Approx(face.offset).margin(1e-14));
+        REQUIRE(face.normal.dot(v) == about(face.offset, 1e-14));
       }
     }
     for (const Edge& edge : shape.edges) {
@@ -127,7 +128,7 @@ TEST_CASE("vertices lie on the planes of their faces and behind all others, edge
       REQUIRE(faces >= 3);
       for (int k = 0; k < faces; ++k) {
         const Face& face = shape.faces[shape.vertex_faces[shape.vertex_faces_begin[v] + k]];
-        REQUIRE(face.normal.dot(shape.vertices[v]) == Approx(face.offset).margin(1e-14));
+        REQUIRE(face.normal.dot(shape.vertices[v]) == about(face.offset, 1e-14));
       }
     }
   }
@@ -151,7 +152,7 @@ TEST_CASE("volume and inertia of random hulls are those of random points inside"
     }
     const double share = static_cast<double>(inside) / samples, cube = 8 * r * r * r;
     const double error = std::sqrt(share * (1 - share) / samples);
-    CHECK(share * cube == Approx(shape.volume).margin(4.5 * error * cube).epsilon(0));
+    CHECK(share * cube == about(shape.volume, 4.5 * error * cube));
     const Vector inertia = Vector::Constant((squares / inside).sum()) - squares / inside;
     CHECK((inertia - shape.inertia).norm() < 4.5 * 2 * r * r / std::sqrt(inside));
   }
@@ -228,7 +229,7 @@ TEST_CASE("faces of points that were rounded are flat, however the points were t
   for (const Face& face : flat.faces) {
     for (const std::int32_t k : corners_of(flat, face)) {
       CHECK(face.normal.dot(flat.vertices[static_cast<std::size_t>(k)]) ==
-            Approx(face.offset).margin(1e-12));
+            about(face.offset, 1e-12));
     }
   }
   for (std::size_t k = 0; k < points.size(); ++k) {

@@ -5,6 +5,7 @@
 #include "engine/shape/given_shape.hpp"
 #include "engine/shape/mixture.hpp"
 #include "engine/units.hpp"
+#include "tests/support/about.hpp"
 #include "tests/support/draw.hpp"
 
 namespace grainsweep {
@@ -36,7 +37,7 @@ TEST_CASE("the numbers of grains are exact to the grain and add up") {
     const auto counts = component_counts(shares, 997);
     REQUIRE(std::accumulate(counts.begin(), counts.end(), std::int64_t{0}) == 997);
     for (std::size_t i = 0; i < shares.size(); ++i) {
-      REQUIRE(static_cast<double>(counts[i]) == Approx(997 * shares[i]).margin(1));
+      REQUIRE(static_cast<double>(counts[i]) == about(997 * shares[i], 1));
     }
   }
 }

@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "engine/units.hpp"
+#include "tests/support/about.hpp"
 #include "tests/support/shapes.hpp"
 
 namespace grainsweep {
@@ -34,14 +35,14 @@ TEST_CASE("the pinacoid of the reference study has its volume, surface, radii an
   CHECK(shape.edges.size() == 14);
   CHECK(shape.edge_directions.size() == 6);
   CHECK(testing::is_symmetric(shape));
-  CHECK(2 * shape.pinacoid->c == Approx(0.422650).margin(5e-7));
-  CHECK(shape.volume == Approx(0.403775).margin(5e-7));
-  CHECK(surface_of(shape) == Approx(3.16663).margin(5e-6));
-  CHECK(shape.circumradius == Approx(0.70711).margin(5e-6));
-  CHECK(shape.inradius == Approx(0.35355).margin(5e-6));
-  CHECK(shape.inertia.x() == Approx(0.07936).margin(5e-6));
-  CHECK(shape.inertia.y() == Approx(0.09255).margin(5e-6));
-  CHECK(shape.inertia.z() == Approx(0.10447).margin(5e-6));
+  CHECK(2 * shape.pinacoid->c == about(0.422650, 5e-7));
+  CHECK(shape.volume == about(0.403775, 5e-7));
+  CHECK(surface_of(shape) == about(3.16663, 5e-6));
+  CHECK(shape.circumradius == about(0.70711, 5e-6));
+  CHECK(shape.inradius == about(0.35355, 5e-6));
+  CHECK(shape.inertia.x() == about(0.07936, 5e-6));
+  CHECK(shape.inertia.y() == about(0.09255, 5e-6));
+  CHECK(shape.inertia.z() == about(0.10447, 5e-6));
 }
 
 TEST_CASE("a pinacoid in closed form is the hull of its vertices") {

@@ -7,6 +7,7 @@
 
 #include "engine/units.hpp"
 #include "runner/analysis/decay.hpp"
+#include "tests/support/about.hpp"
 
 namespace grainsweep {
 namespace {
@@ -94,7 +95,7 @@ TEST_CASE("a planted decay lies within two printed errors as often as it must", 
     }
     for (const auto& [name, count] : hits) {
       INFO(name << " of " << profiles << " profiles");
-      CHECK(count / sets == Approx(0.95).margin(0.03));
+      CHECK(count / sets == about(0.95, 0.03));
     }
     CHECK(std::abs(bias) < 0.2 * claimed);
   }

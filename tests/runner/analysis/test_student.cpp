@@ -4,6 +4,7 @@
 
 #include "engine/units.hpp"
 #include "runner/analysis/student.hpp"
+#include "tests/support/about.hpp"
 
 namespace grainsweep {
 namespace {
@@ -26,11 +27,11 @@ TEST_CASE("95 % lie within Student's quantile, however few degrees of freedom th
   for (int degrees = 1; degrees <= 200; ++degrees) {
     INFO(degrees << " degrees of freedom");
     // An error of 1e-5 in the quantile is one of 2e-6 in the probability at most.
-    CHECK(probability_within(student_quantile(degrees), degrees) == Approx(0.95).margin(2e-6));
+    CHECK(probability_within(student_quantile(degrees), degrees) == about(0.95, 2e-6));
   }
-  CHECK(student_quantile(1) == Approx(12.7062).margin(1e-4));  // of printed tables
-  CHECK(student_quantile(2) == Approx(4.30265).margin(1e-5));
-  CHECK(student_quantile(1000000000) == Approx(normal_quantile).margin(1e-8));
+  CHECK(student_quantile(1) == about(12.7062, 1e-4));  // of printed tables
+  CHECK(student_quantile(2) == about(4.30265, 1e-5));
+  CHECK(student_quantile(1000000000) == about(normal_quantile, 1e-8));
 }
 
 }  // namespace

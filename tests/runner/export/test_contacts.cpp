@@ -10,6 +10,7 @@
 #include "runner/export/contacts.hpp"
 #include "tests/runner/export/packed_bed.hpp"
 #include "tests/runner/export/touching_beds.hpp"
+#include "tests/support/about.hpp"
 
 namespace grainsweep {
 namespace {
@@ -58,7 +59,7 @@ TEST_CASE("a contact that bears a force is of the kind of what is closed, as in 
   exported.bed.forces = {{0, 1, 1.0}};
   const Contact bearing = contacts_of(exported).at(0);
   CHECK(bearing.place.constraints == 2);
-  CHECK(bearing.place.point.x() == Approx(1.75).margin(tilt));  // at the edge
+  CHECK(bearing.place.point.x() == about(1.75, tilt));  // at the edge
 }
 
 TEST_CASE("walls are called by their side, or tube") {
@@ -86,7 +87,7 @@ void check_sums(const ExportedBed& exported) {
   }
   for (std::size_t k = 0; k < grains.size(); ++k) {
     CHECK(touching[k] == grains[k].touching);
-    CHECK(force[k] == Approx(grains[k].force).margin(1e-12));
+    CHECK(force[k] == about(grains[k].force, 1e-12));
   }
 }
 

@@ -8,6 +8,7 @@
 
 #include "runner/export/grain_files.hpp"
 #include "runner/sweep/grains_csv.hpp"
+#include "tests/support/about.hpp"
 
 namespace grainsweep {
 namespace {
@@ -93,7 +94,7 @@ TEST_CASE("VTP holds the faces of grains that are turned, where they are") {
   REQUIRE(points.size() == 24);
   const std::vector<double> first = {5, 2, 1, 5, 4, 1, 3, 2, 1, 5, 2, 3};
   for (std::size_t i = 0; i < first.size(); ++i) {
-    CHECK(points[i] == Approx(first[i]).margin(1e-15));  // the root of a half is rounded
+    CHECK(points[i] == about(first[i], 1e-15));  // the root of a half is rounded
   }
   const auto corners = array_of(text, "connectivity");
   REQUIRE(corners.size() == 24);

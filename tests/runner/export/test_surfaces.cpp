@@ -11,6 +11,7 @@
 #include "tests/runner/export/closed_surfaces.hpp"
 #include "tests/runner/export/packed_bed.hpp"
 #include "tests/runner/export/touching_beds.hpp"
+#include "tests/support/about.hpp"
 
 namespace grainsweep {
 namespace {
@@ -31,7 +32,7 @@ TEST_CASE("a ball is closed, its corners lie on it, and finer ones are fuller") 
     CHECK(volume_of(ball) > before);
     before = volume_of(ball);
   }
-  CHECK(before / sphere_volume(1) == Approx(1).margin(0.01));
+  CHECK(before / sphere_volume(1) == about(1, 0.01));
 }
 
 TEST_CASE("spheres with flat ends or necks are of 1280 triangles, others of 320") {

@@ -4,6 +4,7 @@
 
 #include "runner/jobs/replicate_means.hpp"
 #include "tests/runner/sample_rows.hpp"
+#include "tests/support/about.hpp"
 
 namespace grainsweep {
 namespace {
@@ -12,12 +13,12 @@ TEST_CASE("half of a 95 % interval is that of Student's distribution") {
   const auto quantile = [](int degrees) {  // printed tables have three decimals
     return half_interval(std::sqrt(degrees + 1.0), degrees + 1);
   };
-  CHECK(quantile(1) == Approx(12.706).margin(1e-3));  // of two that settled
-  CHECK(quantile(2) == Approx(4.303).margin(1e-3));
-  CHECK(quantile(5) == Approx(2.571).margin(1e-3));
-  CHECK(quantile(10) == Approx(2.228).margin(1e-3));
-  CHECK(quantile(30) == Approx(2.042).margin(1e-3));
-  CHECK(quantile(100000) == Approx(1.960).margin(1e-3));
+  CHECK(quantile(1) == about(12.706, 1e-3));  // of two that settled
+  CHECK(quantile(2) == about(4.303, 1e-3));
+  CHECK(quantile(5) == about(2.571, 1e-3));
+  CHECK(quantile(10) == about(2.228, 1e-3));
+  CHECK(quantile(30) == about(2.042, 1e-3));
+  CHECK(quantile(100000) == about(1.960, 1e-3));
   CHECK(std::isinf(half_interval(0.0, 1)));
 }
 

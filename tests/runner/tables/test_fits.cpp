@@ -8,6 +8,7 @@
 
 #include "runner/tables/fits.hpp"
 #include "tests/runner/sample_rows.hpp"
+#include "tests/support/about.hpp"
 
 namespace grainsweep {
 namespace {
@@ -157,7 +158,7 @@ TEST_CASE("planted walls and means lie within two printed errors as often as the
   }
   for (const auto& [name, count] : hits) {
     INFO(name);
-    CHECK(count / double(sweeps) == Approx(0.95).margin(0.03));
+    CHECK(count / double(sweeps) == about(0.95, 0.03));
   }
 }
 
