@@ -26,7 +26,7 @@ TEST_CASE("each preset that was chosen is told with its bounds and what was aske
       "0.094 in coordination\n"
       "Accuracy of 1 parameter set of pinacoids 1 by 1 by 1: \"balanced\", the cheapest preset "
       "that moves means by no more than 0.0055 in solid fraction, 0.1 in coordination; its bounds: "
-      "0.0052 in solid fraction, 0.095 in coordination\n");
+      "0.003 in solid fraction, 0.082 in coordination\n");
 }
 
 TEST_CASE("of presets that are named nothing is told") {
