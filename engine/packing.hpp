@@ -1,7 +1,8 @@
 // One packing from its specification to its measured values: the whole story of a job.
 //
 // `make_packing` is a pure function of the specification: same spec, same bits, whatever thread or
-// instruction set runs it. It reads no file and no clock, prints nothing and starts no thread.
+// instruction set runs it; of what is measured last digits may differ between C libraries
+// (engine/README.md). It reads no file and no clock, prints nothing and starts no thread.
 #pragma once
 
 #include <string_view>

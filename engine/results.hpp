@@ -216,8 +216,9 @@ struct PackingResult {
   std::int64_t grains = 0;
   RestReport rest;
   /// Way that contacts strayed while the bed settled, for want of better solves, d: sum over all
-  /// steps of the root mean square of their residuals times the square of the step, taken over all
-  /// degrees of freedom. The solid fraction errs by it: engine/dynamics/sleep.hpp.
+  /// steps of the root mean square of the residuals of the rows that push, times the square of the
+  /// step and the number of these rows over that of all degrees of freedom. The solid fraction errs
+  /// by it: engine/dynamics/sleep.hpp.
   double spurious_path = 0.0;
   double surface_height = 0.0;  ///< z of the bed's free surface, d
   double slab_bottom = 0.0;     ///< measured slab, d
@@ -229,16 +230,16 @@ struct PackingResult {
   double mean_diameter = 0.0;                ///< of all grains, d
   double mean_diameter_by_volume = 0.0;      ///< the same, each grain weighted by its volume, d
   std::vector<SizeRow> sizes;                ///< from fine to coarse; empty without a distribution
-  Profile profile_x;                      ///< from wall to wall, in the slab; empty without walls
-  Profile profile_y;                      ///< the same along y, from wall to wall or around
-  Profile profile_from_walls;             ///< from the nearest wall inwards; empty but in ducts
-  Profile profile_z;                      ///< from the floor up
-  Order order;                            ///< of the slab
-  std::optional<ShapeOrder> shape_order;  ///< of non-spherical grains
+  Profile profile_x;           ///< from wall to wall, in the slab; empty without walls and in tubes
+  Profile profile_y;           ///< the same along y, from wall to wall or around; empty in tubes
+  Profile profile_from_walls;  ///< from the nearest wall inwards; empty but in ducts and tubes
+  Profile profile_z;           ///< from the floor up
+  Order order;                 ///< of the slab
+  std::optional<ShapeOrder> shape_order;     ///< of non-spherical grains
   std::vector<ComponentMeasure> components;  ///< of a mixture, in its order; else empty
   std::int64_t steps = 0;
   std::int64_t iterations = 0;
-  std::uint64_t state_hash = 0;  ///< of the final positions and radii
+  std::uint64_t state_hash = 0;  ///< of the final positions, orientations and radii
 };
 
 /// A grain of the finished bed, as `export` writes it.
@@ -289,7 +290,7 @@ struct Progress {
       {};  ///< the packing as bytes; only during the call that gave it
 };
 
-/// Called after every step; false stops the packing, whose status is then `cancelled`.
+/// Called after every step or two; false stops the packing, whose status is then `cancelled`.
 using KeepGoing = std::function<bool(const Progress&)>;
 
 }  // namespace grainsweep

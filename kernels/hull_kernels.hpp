@@ -49,8 +49,9 @@ struct HullKernels {
   void (*below)(const double* heights, std::size_t stride, std::size_t rows, double limit,
                 std::uint64_t* below);
   /// How another edge crosses each, and by how much it is beyond that along the unit vector of the
-  /// product of their directions, d; 0 where they are parallel. Cosines above -`in_doubt` count as
-  /// positive, those below it as negative, edges of a smaller sine than `parallel` as parallel.
+  /// product of their directions, d, of those that cross; 0 where they are parallel. Cosines above
+  /// -`in_doubt` count as positive, those below it as negative, edges of a smaller sine than
+  /// `parallel` as parallel.
   void (*crossings)(const EdgeColumns& edges, const HullEdge& other, double in_doubt,
                     double parallel, double* parted, std::uint8_t* crossings);
 };

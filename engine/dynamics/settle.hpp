@@ -42,8 +42,9 @@ struct SettleReport {
 };
 
 /// Settles `bed`, whose numbers must be finite; a state that becomes otherwise ends it at once and
-/// is never called settled. `keep_going` is asked after every step. `saved`: bytes that
-/// Progress::save gave for the same bed and accuracy, from which to go on; others are not taken.
+/// is never called settled. `keep_going` is asked after every step or two.
+/// `saved`: bytes that Progress::save gave for the same bed and accuracy, from which to go on;
+/// those of another number or kind of grains or another precision are not taken.
 template <class Kind>
 SettleReport settle(const Accuracy& accuracy, const ExecutionContext& context, Bed<Kind>& bed,
                     const KeepGoing& keep_going, std::string_view saved = {});

@@ -24,8 +24,9 @@ struct SolveLimits {
   int iterations = 100;        ///< most sweeps, unless they leave more than `residual_cap`
   double tolerance = 1e-3;     ///< residual at which to stop, as a mass times d (m g dt^2)
   double rms_tolerance = 0.0;  ///< or, of the rows that push, its root mean square, a mass times d
-  /// While the residual is larger, a mass times d, iterations are doubled, up to `iteration_cap`
-  /// and until that did not bring it down twice: where rounding stops it, more do not help.
+  /// While the residual is larger, a mass times d, iterations are doubled until they reach
+  /// `iteration_cap` and until that did not bring it down twice: where rounding stops it, more do
+  /// not help.
   double residual_cap = std::numeric_limits<double>::infinity();
   int iteration_cap = 0;
 };

@@ -125,7 +125,7 @@ void StiffnessFactors::gather(std::size_t node, const std::vector<Spring>& sprin
   const Front& front = fronts_[node];
   Real* matrix = numbers.matrix_of(front);
   for (std::size_t j = 0; j < front.rows; ++j) {
-    const std::size_t first = j / block_width * block_width;  // no kernel reads above this block
+    const std::size_t first = j / block_width * block_width;
     std::fill_n(matrix + j * front.stride + first, front.stride - first, Real(0));
   }
   std::size_t diagonal = 0;

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double beyond_cut = 1e-3;  // share that is cut off each end of a curve without ends
 constexpr double cut_deviation = 3.0902323061678132;  // of a Gaussian: 0.1 % lie beyond it
-constexpr int formula_steps = 500;  // keep rows within 1e-5 of a formula, whatever its width
+constexpr int formula_steps = 500;  // keep rows within 2e-5 of a formula between its usual ends
 
 struct Ends {
   double smallest, largest;

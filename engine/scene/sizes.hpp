@@ -25,7 +25,8 @@ ClassCounts class_counts(const PackingSpec& spec);
 /// Radius of every grain, d, the large class first, or of a distribution the largest grain. Same
 /// key, same radii. A fill by solid height with both classes gets as many small grains as bring
 /// their share of the drawn volume nearest to what is asked for, half a small grain at most from
-/// it; they may be a few more or less than class_counts expects.
+/// it unless that would take the bed more than 2 % off its height; they may be a few more or less
+/// than class_counts expects.
 std::vector<double> draw_radii(const PackingSpec& spec);
 
 /// Radius below which a grain counts as small, d: as many standard deviations from the mean of one

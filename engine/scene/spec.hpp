@@ -88,7 +88,8 @@ struct Accuracy {
   int fall_iterations = 400;  ///< most solver iterations per step of fall and creep
   /// How far contacts may stray in a step of the fall for want of a better solve, d: root mean
   /// square, of a step of 0.2 sqrt(d/g), of others in proportion; those of spheres twice as far. A
-  /// creep shares out to its steps what 160 such steps may. Looser solves tap the bed denser.
+  /// creep shares out to its steps what 160 such steps of spheres may. Looser solves tap the bed
+  /// denser.
   double path_tolerance = 2e-4;
   /// Steps after the fall, while the bed creeps to rest: of 0.2 sqrt(d/g), of shorter steps as many
   /// more.
