@@ -6,8 +6,7 @@
 # stopped, it goes on where it was.
 # --seed N makes other starts, those of seed N: tables then tell the means of all seeds whose rows stand in
 # bench/trade/SCENE.seeds.json, to which those of N are added; what the search for exact rest changes is told of
-# N alone. Remove that file where beds pack otherwise
-# than when it was made.
+# N alone. Remove that file where beds pack otherwise than when it was made.
 # usage: bench/trade.sh [--readme] [--seed N] [FOLDER [SCENE...]]
 # Scenes are walls, tube, two-sizes, tall, no-walls and pinacoids: all of them, if none is named.
 set -euo pipefail

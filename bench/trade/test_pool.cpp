@@ -102,8 +102,7 @@ TEST_CASE("rows of one start each are pooled, though a single one has no error")
   CHECK(std::isnan(rows[1].solid_fraction.error));
 }
 
-TEST_CASE(
-    "seeds of which no bed settles or is made with an accuracy are pooled with those of others") {
+TEST_CASE("seeds of which no bed settles with an accuracy are pooled with others") {
   const TemporaryFolder folder;
   const std::string path = folder.path() + "/pool.json";
   const auto none_settled = [](std::uint64_t seed) {

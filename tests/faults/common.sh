@@ -19,6 +19,14 @@ between() {
   echo "$drawn"
 }
 
+# flip_bit FILE AT BIT: of the byte there.
+flip_bit() {
+  local byte
+  byte=$(od -An -tu1 -j "$2" -N 1 "$1")
+  printf "\\x$(printf %x $((${byte:-0} ^ (1 << $3))))" |
+    dd of="$1" bs=1 seek="$2" conv=notrunc status=none
+}
+
 # pause MILLISECONDS
 pause() {
   local seconds

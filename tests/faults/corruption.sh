@@ -8,15 +8,13 @@ make_reference long.json
 
 # damage FILE: flips a bit of a random byte, or cuts the file at it.
 damage() {
-  local size byte at
+  local size at
   size=$(stat -c %s "$1")
-  at=$(between 0 $((size - 1)))
+  draw at 0 $((size - 1))
   if [ $((RANDOM % 2)) -eq 0 ]; then
     truncate -s "$at" "$1"
   else
-    byte=$(od -An -tu1 -j "$at" -N 1 "$1")
-    printf "\\x$(printf %x $((byte ^ (1 << (RANDOM % 8)))))" |
-      dd of="$1" bs=1 seek="$at" conv=notrunc status=none
+    flip_bit "$1" "$at" $((RANDOM % 8))
   fi
 }
 

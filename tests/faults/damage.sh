@@ -39,7 +39,7 @@ done
 
 # damage FILE: flips a bit, cuts, empties or removes it, adds to it, or puts another file in its place.
 damage() {
-  local size byte bit at place others
+  local size bit at place other others
   size=$(stat -c %s "$1")
   draw at 0 $((size > 0 ? size - 1 : 0))
   draw kind 0 7
@@ -51,14 +51,10 @@ damage() {
     3)
       others=("$(dirname "$1")"/*)
       draw place 0 $((${#others[@]} - 1))
-      byte=${others[place]}
-      [ ! -f "$byte" ] || [ "$byte" = "$1" ] || cp "$byte" "$1"
+      other=${others[place]}
+      [ ! -f "$other" ] || [ "$other" = "$1" ] || cp "$other" "$1"
       ;;
-    *)
-      byte=$(od -An -tu1 -j "$at" -N 1 "$1")
-      printf "\\x$(printf %x $((${byte:-0} ^ (1 << bit))))" |
-        dd of="$1" bs=1 seek="$at" conv=notrunc status=none
-      ;;
+    *) flip_bit "$1" "$at" "$bit" ;;
   esac
 }
 

@@ -157,7 +157,14 @@ TEST_CASE("no grain is thrown out of a start whose solve diverges at first") {
   step(look, kernels(), bed, state);
   change_step(fall.dt / look.dt, bed, state);
   // Motions are limited, whatever the solve: its residual tells, in masses times d.
-  CHECK(step(fall, kernels(), bed, state).solve.residual < 0.1);
+  const StepReport report = step(fall, kernels(), bed, state);
+  CHECK(report.solve.residual < 0.1);
+  CHECK(report.largest_motion < 1.0);
+  for (const Record<double>& c : bed.centres()) {
+    CHECK(c.x == about(3, 3));
+    CHECK(c.y == about(2.5, 2.5));
+    CHECK(c.z == about(12, 12));
+  }
 }
 
 // As of spheres: forty on one spot, whose impulses grow.

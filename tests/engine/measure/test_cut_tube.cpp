@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -14,6 +13,7 @@
 #include "engine/units.hpp"
 #include "tests/support/about.hpp"
 #include "tests/support/draw.hpp"
+#include "tests/support/shapes.hpp"
 #include "tests/support/tries.hpp"
 
 namespace grainsweep {
@@ -191,24 +191,17 @@ TEST_CASE("a tube cuts from a polyhedron what thin slices of it add up to") {
   }
 }
 
-ConvexShape unit_cube() {
-  const std::vector<std::array<double, 3>> corners = {
-      {-.5, -.5, -.5}, {.5, -.5, -.5}, {-.5, .5, -.5}, {.5, .5, -.5},
-      {-.5, -.5, .5},  {.5, -.5, .5},  {-.5, .5, .5},  {.5, .5, .5}};
-  return *shape_of(ShapeSpec{HullVertices{corners}}).shape;
-}
-
 // The volume by a midpoint rule of 4000 heights, good to 1e-9.
 TEST_CASE("a tube cuts a turned cube where kinks of its sections hide between a rule's heights") {
   const Quaternion turn(-0.48861020013473994, -0.1697201361989293, -0.11103048396091748,
                         0.848603193091041);
   const Pose pose{{2.04357262979903925, 2, 1}, 1.0, turn.normalized()};
-  CHECK(polyhedron_tube_volume(unit_cube(), pose, 2, 0.43691919976484883, -1, 3) ==
+  CHECK(polyhedron_tube_volume(testing::cube(), pose, 2, 0.43691919976484883, -1, 3) ==
         about(0.6184401880, 1e-7));
 }
 
 TEST_CASE("a tube cuts from an upright cube what is known") {
-  const ConvexShape cube = unit_cube();
+  const ConvexShape cube = testing::cube();
   const Pose pose{{2, 2, 1}, 1.0, Quaternion::Identity()};
   const auto cut = [&](double tube) { return polyhedron_tube_volume(cube, pose, 2, tube, 0, 3); };
   CHECK(cut(0.4) == about(0.16 * pi, 1e-7));

@@ -106,9 +106,12 @@ TEST_CASE("caps leave grains apart by two of their depths, and from walls by one
 TEST_CASE("caps leave grains apart that overlap by more than them, and those in a wall") {
   for (ExportedBed exported : {stacked_spheres(), stacked_cubes()}) {
     exported.settings.treatment = *contact_treatment("cap:0.2");
-    const double depth = (1 - std::sqrt(1 - 0.2 * 0.2)) * exported.bed.grains[0].radius;
+    const double depth = cap_depth(0.2) * exported.bed.grains[0].radius;
     double sunk = 0.0;
-    for (SettledGrain& grain : exported.bed.grains) grain.z -= sunk += 3.0 * depth;
+    for (SettledGrain& grain : exported.bed.grains) {
+      sunk += 3.0 * depth;
+      grain.z -= sunk;
+    }
     CHECK(least_way_apart(exported) == Approx(depth).epsilon(0.01));
     for (const GrainSurface& grain : grain_surfaces(exported)) CHECK(is_closed(grain.surface));
   }
