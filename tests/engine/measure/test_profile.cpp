@@ -11,6 +11,7 @@
 #include "tests/support/draw.hpp"
 #include "tests/support/scenes.hpp"
 #include "tests/support/shape_beds.hpp"
+#include "tests/support/tries.hpp"
 
 namespace grainsweep {
 namespace {
@@ -391,7 +392,7 @@ std::vector<BothProfiles> profiles_of(const PolyhedronBed& bed, const Touching& 
 // Bins are differences of volumes, each of which is known to rounding.
 TEST_CASE("no bin of a profile holds less than nothing") {
   Draw draw(37);
-  for (int k = 0; k < 20; ++k) {
+  for (int k = 0; k < testing::tries(20); ++k) {
     const double length = draw.uniform(2, 6), width = draw.uniform(2, 6);
     const Slab slab{draw.uniform(0, 2), draw.uniform(3, 7)};
     const ProfileSettings settings{draw.uniform(0.01, 0.3), 0.7, 1e-4};

@@ -12,6 +12,7 @@
 #include "tests/runner/export/packed_bed.hpp"
 #include "tests/runner/export/touching_beds.hpp"
 #include "tests/support/about.hpp"
+#include "tests/support/tries.hpp"
 
 namespace grainsweep {
 namespace {
@@ -141,7 +142,9 @@ double smallest_cap_depth(const ExportedBed& exported) {
 }
 
 TEST_CASE("caps and necks leave the depth of a cap at the wall of a tube, however narrow") {
-  for (const double diameter : {1.0, 1.05, 1.5, 2.5}) {
+  const double diameters[] = {1.05, 1.0, 1.5, 2.5};
+  for (int k = 0; k < testing::tries(4); ++k) {
+    const double diameter = diameters[k];
     ExportedBed exported = packed_bed(SphereShape{}, tube_of(diameter), 12);
     const double depth = smallest_cap_depth(exported);
     CHECK(gap_of_tube(exported, grain_surfaces(exported)) < 0.3 * depth);  // balls have corners
