@@ -58,9 +58,9 @@ struct PinacoidHalves {
 /// Edges whose angle has a smaller square of its sine are parallel to f32.
 inline constexpr float parallel_edges_sine2 = 2.5e-3F;
 
-/// Separations of the f32 test are true to this, per unit of scale of the larger grain, d: centres
-/// closer than 4 d, as of grains up to 4 d long, lose some 20 roundings of 6e-8, which the least
-/// sine of edges divides by .05.
+/// Separations of the f32 test are true to this, per unit of scale of the larger grain, d, if
+/// neither reaches further than 1 d from its centre, else per unit of the larger reach: centres
+/// closer than 4 d lose some 20 roundings of 6e-8, which the least sine of edges divides by 0.05.
 inline constexpr float pinacoid_rounding = 2e-5F;
 
 /// `block_width` pairs of pinacoids, all grains a of one shape and all grains b of one: which, and

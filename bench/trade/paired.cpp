@@ -49,8 +49,9 @@ MeanError jackknife(const std::vector<int>& starts, int groups,
     if (kept.size() < starts.size()) without.push_back(estimate(kept));
   }
   const Spread spread = spread_of(without);
+  const bool is_whole = static_cast<std::size_t>(spread.n) == without.size();
   const double times_standard_error = spread.n - 1.0;
-  return {estimate(starts), times_standard_error * standard_error(spread),
+  return {estimate(starts), is_whole ? times_standard_error * standard_error(spread) : no_number,
           static_cast<int>(starts.size())};
 }
 

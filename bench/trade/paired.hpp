@@ -29,7 +29,8 @@ double median(std::vector<double> values);
 
 /// `estimate` of all starts and its error by the jackknife, with a group of starts left out at a
 /// time: error^2 = (g - 1) / g sum (estimate_k - mean)^2 over g groups, of which start s is in the
-/// one with number s modulo g. For what is no mean over starts.
+/// one with number s modulo g; NaN if there is no estimate without one of them. For what is no mean
+/// over starts.
 MeanError jackknife(const std::vector<int>& starts, int groups,
                     const std::function<double(const std::vector<int>&)>& estimate);
 

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -68,6 +69,16 @@ TEST_CASE("of fewer starts than groups the jackknife leaves each out once") {
   CHECK(two.mean == 3.0);
   CHECK(two.error == Approx(std::sqrt(0.5 * 0.5)).epsilon(1e-14));  // of 2 and 1
   CHECK(std::isnan(jackknife({5}, 1, sum_over).error));
+}
+
+TEST_CASE("where there is no estimate without a group the jackknife has no error") {
+  const auto needs_third = [](const std::vector<int>& kept) {
+    return std::find(kept.begin(), kept.end(), 3) == kept.end() ? std::nan("")
+                                                                : static_cast<double>(kept.size());
+  };
+  const MeanError found = jackknife({1, 2, 3, 4}, 4, needs_third);
+  CHECK(found.mean == 4.0);
+  CHECK(std::isnan(found.error));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include "engine/exact/vertex_cover.hpp"
 #include "engine/rows/contacts.hpp"
+
 namespace grainsweep {
 
 namespace {

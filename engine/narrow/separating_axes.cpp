@@ -129,11 +129,11 @@ ContactAxes separating_axes(const ShapePair& pair) {
   return separating_axes(pair, Vector::Zero(), none, columns);
 }
 
-double parted_by(const PinacoidBlock& block, std::size_t lane, double scale) {
+double parted_by(const PinacoidBlock& block, std::size_t lane, double reach) {
   const float separation = block.face_separation[lane] > block.edge_separation[lane]
                                ? block.face_separation[lane]
                                : block.edge_separation[lane];
-  return static_cast<double>(separation) - scale * static_cast<double>(pinacoid_rounding);
+  return static_cast<double>(separation) - reach * static_cast<double>(pinacoid_rounding);
 }
 
 ContactAxes separating_axes(const ShapePair& pair, const PinacoidBlock& block, std::size_t lane) {

@@ -101,9 +101,9 @@ ContactAxes separating_axes(const ShapePair& pair, const Vector& guess, AxisCand
 /// The same with no guess and with memory of its own.
 ContactAxes separating_axes(const ShapePair& pair);
 
-/// How far the pair of a lane is apart at least by the batch kernel, d. `scale` is that of the
-/// larger grain.
-double parted_by(const PinacoidBlock& block, std::size_t lane, double scale);
+/// How far the pair of a lane is apart at least by the batch kernel, d. `reach`: the larger of both
+/// grains' scales and circumradii, d, in which pinacoid_rounding is told.
+double parted_by(const PinacoidBlock& block, std::size_t lane, double reach);
 
 /// The axes of two pinacoids that the batch kernel chose for a lane, measured anew in f64, with
 /// the parallel edges that it left out. What it chose among nearly equal axes may be the second

@@ -61,8 +61,9 @@ std::string problem_with(const CylinderSize& size) {
   std::string problem = problem_with_lengths(
       {{"height", size.height}, {"diameter", size.diameter}, {"chord_error", size.chord_error}});
   if (!problem.empty() || sides_of(size) <= most_sides) return problem;
+  constexpr double printed_up = 1.00001;  // six digits of the least may lie below it
   return joined("chord_error must be at least ",
-                size.diameter / 2.0 * (1.0 - portable::cos(pi / most_sides)),
+                printed_up * size.diameter / 2.0 * (1.0 - portable::cos(pi / most_sides)),
                 ", for which the diameter of ", size.diameter, " d takes ", most_sides,
                 " sides, is ", size.chord_error);
 }

@@ -113,22 +113,25 @@ TEST_CASE("the batch test finds the separation of the f64 test within its roundi
 }
 
 TEST_CASE("a pair that the batch parts is apart, one that it does not part is near") {
-  const ConvexShape shape = pinacoid({});
+  const PinacoidSize size = GENERATE(PinacoidSize{}, PinacoidSize{12, 1, 0.1});
+  const ConvexShape shape = pinacoid(size);
+  const double reach = std::max(1.1, 1.1 * shape.circumradius);  // no grain is larger than 1.1
+  CAPTURE(size.length);
   Draw draw(41);
   Batch batch = batch_of(PairFamily::random, shape, 200, draw, {0, 0, 0});
   test(shape, best_isa(), batch);
   int parted = 0;
   for (std::size_t k = 0; k < batch.pairs(); ++k) {
     const ShapePair pair = batch.pair(shape, k);
-    const bool apart = parted_by(batch.blocks[k / block_width], k % block_width, 1.1) > 0.05;
+    const bool apart = parted_by(batch.blocks[k / block_width], k % block_width, reach) > 0.05;
     const double separation = separating_axes(pair).separation();
     parted += apart ? 1 : 0;
     if (apart) REQUIRE(separation > 0.05);
     if (!apart && batch.blocks[k / block_width].edges_parallel[k % block_width] == 0) {
-      REQUIRE(separation < 0.05 + 1e-4);
+      REQUIRE(separation < 0.05 + 1e-4 * reach);
     }
   }
-  CHECK(parted > 1000);
+  CHECK(parted > 900);  // of 3200; 946 of the long ones
 }
 
 TEST_CASE("all instruction sets give the same bits for pairs of pinacoids") {
