@@ -201,9 +201,15 @@ class GaussSeidel {
              one.missed.squares + other.missed.squares, one.missed.loaded + other.missed.loaded},
             one.restart_test + other.restart_test};
   }
+  /// Infinite if impulses or motions have grown beyond all numbers: a maximum passes over what is
+  /// NaN, a sum does not.
   static Residual residual_of(const Missed<Real>& missed) {
     const auto squares = static_cast<double>(missed.squares);
     const auto loaded = static_cast<double>(missed.loaded);
+    if (!std::isfinite(squares)) {
+      constexpr double infinity = std::numeric_limits<double>::infinity();
+      return {infinity, infinity, loaded};
+    }
     return {static_cast<double>(missed.largest), std::sqrt(squares / std::max(loaded, 1.0)),
             loaded};
   }

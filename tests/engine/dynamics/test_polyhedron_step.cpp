@@ -140,10 +140,9 @@ TEST_CASE("a pinacoid tipped by 20 degrees comes to lie flat on its largest face
   }
 }
 
-// Corners of a random start overlap deeply, and a grain may have so many contacts that a descent in
-// steps which suit settled beds diverges: after a short step that looks less far than a settling
-// bed does, this start is one.
-TEST_CASE("no grain is thrown out of a start whose solve diverges at first") {
+// Corners of a random start overlap deeply, and the first whole step follows a short one that looked
+// less far than it does: this start once made its solve diverge.
+TEST_CASE("no grain is thrown out of a start whose grains overlap deeply") {
   PackingSpec spec;
   spec.box = {6, 5, walls, walls};
   spec.fill = GrainCount{600};
