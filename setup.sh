@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Installs what grainsweep is built with, three.js for its pages, and gnuplot, by which it draws, from
-# Debian 12 packages, and for checks axe-core from npm. Does nothing when all of it is present. See
-# usage below.
+# Installs from Debian 12 packages what grainsweep is built with, three.js for its pages and
+# gnuplot, which draws its figures, and for checks axe-core from npm. Does nothing when all of it is
+# present. See usage below.
 set -euo pipefail
 
 readonly build_packages=(

@@ -1,4 +1,4 @@
-// What computes a packing: the kernels of an instruction set, for large beds several cores, and the
+// What computes a packing: the kernels of an instruction set, several cores for large beds, and the
 // memory that the last packing has left.
 //
 // The engine starts no thread. It names parts of its work that may be done at the same time;
@@ -62,7 +62,7 @@ void parallel_items(const ParallelFor& loop, std::size_t size, const Work& work)
 struct Workspace;  // engine/dynamics/workspace.hpp
 
 struct ExecutionContext {
-  // Kernels alone are a processor of one core and without memory of earlier packings.
+  // With kernels alone: one core, and no memory of earlier packings.
   ExecutionContext(const Kernels& table, ParallelFor parts = serial_for, Workspace* used = nullptr)
       : kernels(table), loop(std::move(parts)), workspace(used) {}
 

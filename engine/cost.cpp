@@ -18,8 +18,8 @@ struct SizeMoments {
   double mean_cube = 1.0;            ///< of the diameter, each grain counted once, d^3
   double mean_cube_by_volume = 1.0;  ///< each weighted with its volume, d^3
 
-  /// How much heavier the grain is that a part of the solids belongs to than one of all grains; 1
-  /// if all are alike.
+  /// Mean mass of the grain that a random part of the solids belongs to, over the mean mass of a
+  /// grain; 1 if all are alike.
   double unevenness() const { return mean_cube_by_volume / mean_cube; }
 };
 
@@ -47,7 +47,7 @@ SizeMoments moments_of(const PackingSpec& spec) {
   return placed != nullptr ? moments_of(*placed) : moments_of(spec.sizes);
 }
 
-/// Whether the creep is shorter than the usual one, of its length, or longer.
+/// Whether the creep is shorter than the usual one, as long, or longer.
 enum class Creep { loose, usual, strict };
 Creep creep_of(const Accuracy& a) {
   const int usual = Accuracy{}.creep_steps;
@@ -56,10 +56,9 @@ Creep creep_of(const Accuracy& a) {
                                   : Creep::strict;
 }
 
-/// Spheres that differ in size take more rounds to come to rest: in a loose one as many times more
-/// as a part of the solids is heavier than a grain, but many more where small ones fit into the
-/// holes between the large; else in proportion to that, up to five times. The worst grain of many
-/// is worse than that of few.
+/// Spheres that differ in size take more rounds to come to rest: in a loose creep `unevenness`
+/// times as many, but many more where small ones fit into the holes between the large; else in
+/// proportion to that, up to five times. The worst grain of many is worse than that of few.
 double unevenness_factor(const PackingSpec& spec, double grains) {
   constexpr double of_fillers = 5.0;  // large and small grains a third as large have 6
   const double uneven = moments_of(spec).unevenness(), more = std::max(0.0, uneven - 1.0);
@@ -81,8 +80,8 @@ double corner_factor(const ShapeSpec& shape) {
   return std::pow(std::max(1.0, static_cast<double>(corner_count(shape)) / usual), 0.6);
 }
 
-/// Polyhedra, and spheres among them, over spheres of the same number. Flat and long grains have
-/// more neighbours in reach, and take more rounds to come to rest.
+/// Cost of polyhedra, and spheres among them, over that of as many spheres. Flat and long grains
+/// have more neighbours in reach, and take more rounds to come to rest.
 double shape_factor(const ShapeSpec& shape, Creep creep) {
   if (is_sphere(shape)) return creep == Creep::loose ? 1.4 : 0.5;
   const ShapeExtent extent = extent_of(shape);
@@ -111,7 +110,7 @@ double tube_factor(const PackingSpec& spec) {
   return 1.4 * (is_mixture ? 1.0 : corner_factor(spec.shape));
 }
 
-/// The same of all grains, and large beds over small ones.
+/// The same for all grains of a bed, and for large beds over small ones.
 double polyhedron_factor(const PackingSpec& spec, double grains) {
   const double many = std::pow(std::max(1.0, grains / 1000.0), 0.6);
   const Creep creep = creep_of(spec.accuracy);
@@ -128,8 +127,8 @@ double memory_factor(double grains) { return std::clamp(std::sqrt(grains / 15000
 constexpr double most_layers_awake = 1.5 * sleep_depth;
 
 /// Solver iterations over all rows that the stages of engine/dynamics/settle.hpp usually need.
-/// While a bed fills up its deep part sleeps, so that from some height on the fall counts no
-/// further; the creep of spheres grows with the layers that forces have to find their way through.
+/// While a bed fills up its deep part sleeps, so that beyond some height the fall needs no more;
+/// the creep of spheres grows with the layers that forces have to find their way through.
 double usual_iterations(const PackingSpec& spec, double layers) {
   const Accuracy& a = spec.accuracy;
   const double falling =
@@ -184,8 +183,8 @@ double smallest_section(const Box& box, double grains, double solid_volume) {
   return section / std::pow(volume / grains, 2.0 / 3.0);
 }
 
-/// Of the search for exact rest: rounds, more of them in larger beds, that each factor the bed's
-/// stiffness, which takes the longer the larger the sections are that cut it.
+/// Seconds of the search for exact rest: rounds, more of them in larger beds, each of which factors
+/// the bed's stiffness; this takes longer the larger the sections are that cut the bed.
 double exact_seconds(const PackingSpec& spec, double grains, double solid_volume) {
   if (spec.accuracy.rest != Rest::exact) return 0.0;
   constexpr double section_of_bed = 85.0;  // of 2000 grains at W = 5 d
@@ -193,14 +192,14 @@ double exact_seconds(const PackingSpec& spec, double grains, double solid_volume
   return 1.1e-8 * std::pow(grains, 2.6) * std::pow(section / section_of_bed, 1.5);
 }
 
-/// Of the factors of a bed's stiffness: 0.4 to 1.2 times that of beds of 2000 to 4000 grains.
+/// Bytes of the factors of a bed's stiffness: 0.4 to 1.2 times that of beds of 2000 to 4000 grains.
 double exact_bytes(const PackingSpec& spec, double grains, double solid_volume) {
   if (spec.accuracy.rest != Rest::exact) return 0.0;
   const double section = smallest_section(spec.box, grains, solid_volume);
   return 1300.0 * grains * std::cbrt(grains * section);
 }
 
-/// Pairs of a sphere's that are listed in a fall, by what engine/dynamics/stages.cpp calls near and
+/// Pairs listed in a fall for each sphere, by what engine/dynamics/stages.cpp calls near and
 /// engine/rows/sphere_contacts.cpp adds: those within reach in a bed of solid fraction 0.6.
 double listed_pairs(double diameter) {
   const double reach = 0.1 + 0.09 * std::min(1.0, 4.0 * diameter);

@@ -5,8 +5,8 @@
 
 namespace grainsweep {
 
-/// Estimates: for sorting and planning, not promises. bench/README.md sets them beside what was
-/// measured.
+/// Estimates: for sorting and planning, not promises. bench/README.md compares them with
+/// measurements.
 struct Cost {
   double cpu_seconds = 0.0;  ///< on one core of a present-day machine
   double bytes = 0.0;        ///< peak memory

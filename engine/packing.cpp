@@ -31,8 +31,8 @@ Packing failed(std::string reason) {
   return packing;
 }
 
-/// Why a bed is not called settled; empty if it is. One that was given its arrangement must have
-/// kept it, too.
+/// Why a bed is not called settled; empty if it is. A bed that was given must also have kept its
+/// arrangement.
 std::string why_not_settled(const Fill& fill, const SettleReport& settled) {
   const bool lost = settled.sank && std::holds_alternative<PlacedGrains>(fill);
   return settled.failure.empty() && lost
@@ -76,7 +76,7 @@ std::optional<Slab> slab_of(const MeasureSpec& spec, PackingResult& result) {
   return std::nullopt;
 }
 
-/// `near` holds all pairs and walls within reach of a tolerance or a bond.
+/// `near` holds all pairs and walls with a gap below a tolerance or within that of a bond.
 void measure_neighbours(const PackingSpec& packing, const Touching& near,
                         const SettleReport& settled, const Slab& slab, const Grains& bed,
                         PackingResult& result) {
@@ -93,8 +93,8 @@ ProfileSettings bins_of(const PackingSpec& packing) {
   return {spec.bin_width, small_class_limit(packing.sizes), spec.gap_tolerances.front()};
 }
 
-/// What a grain would weigh in shares of this kind if its size were 1, over one of the first
-/// component, or a sphere.
+/// What a grain would weigh in shares of this kind if its size were 1, over what one of the first
+/// component, or a sphere, would.
 double unit_weight(const SphereBed& /*bed*/, std::size_t /*grain*/, SizeWeight /*by*/) {
   return 1.0;
 }
@@ -194,7 +194,7 @@ bool has_profile(const Box& box, ProfileAxis axis) {
                                            : true;
 }
 
-/// Of the components of a mixture.
+/// Profiles of the components of a mixture.
 void measure_profiles(const PolyhedronBed& bed, const Touching& near, const Slab& slab,
                       const ProfileSettings& settings, std::vector<ComponentMeasure>& components) {
   for (const ProfilePlace& place : profile_places) {
@@ -205,7 +205,7 @@ void measure_profiles(const PolyhedronBed& bed, const Touching& near, const Slab
     }
   }
 }
-// What is known of one kind of grains only.
+// What can be measured of one kind of grains only.
 void measure_kind(const SphereBed&, const Touching&, const ProfileSettings&,
                   const std::optional<Slab>&, Packing&) {}
 void measure_kind(const PolyhedronBed& bed, const Touching& near, const ProfileSettings& settings,

@@ -1,7 +1,7 @@
 // One packing from its specification to its measured values: the whole story of a job.
 //
 // `make_packing` is a pure function of the specification: same spec, same bits, whatever thread or
-// instruction set runs it; of what is measured last digits may differ between C libraries
+// instruction set runs it; last digits of measured values may differ between C libraries
 // (engine/README.md). It reads no file and no clock, prints nothing and starts no thread.
 #pragma once
 
@@ -15,8 +15,8 @@ namespace grainsweep {
 
 /// Places, settles, certifies and measures one bed. Requires check(spec).empty().
 /// `saved`: bytes that Progress::save gave for the same spec; the packing goes on from there and
-/// ends with the same bits. Bytes that are torn or of another version are not taken: it then begins
-/// anew, to the same end.
+/// ends with the same bits. Damaged bytes and those of another version are ignored: the packing
+/// then begins anew, with the same result.
 Packing make_packing(const PackingSpec& spec, const ExecutionContext& context,
                      const KeepGoing& keep_going, std::string_view saved = {});
 

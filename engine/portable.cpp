@@ -27,7 +27,7 @@ class Number {
   mpfr_t number_ = {};
 };
 
-/// Made once for each thread; at its end the constants go that MPFR keeps for it.
+/// Made once for each thread; when the thread ends, it frees the constants that MPFR keeps for it.
 struct Memory {
   Memory() = default;
   ~Memory() { mpfr_free_cache2(MPFR_FREE_LOCAL_CACHE); }

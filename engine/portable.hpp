@@ -1,8 +1,8 @@
 // Functions of <cmath>, correctly rounded (by MPFR): the same bits on every processor and with
-// every C library, of which glibc takes others where the processor has fused multiply-adds. A bed
-// is chaotic: a start that differs by one last digit comes out as another bed. So all that grains
-// and shapes are made of takes these. A call takes 1 to 3 us; what is measured of a bed takes those
-// of <cmath>.
+// every C library. (glibc's own functions give other bits where the processor has fused
+// multiply-adds.) A bed is chaotic: a start that differs by one last digit comes out as another
+// bed. So everything that makes grains and shapes uses these. A call takes 1 to 3 us; measurements
+// of a bed use those of <cmath>.
 #pragma once
 
 namespace grainsweep::portable {

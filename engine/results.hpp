@@ -17,8 +17,8 @@ namespace grainsweep {
 
 enum class PackingStatus {
   settled,      ///< at rest within every tolerance of its accuracy
-  not_settled,  ///< has not come to rest, in all its steps or as far as there was hope; `reason`
-                ///< says why
+  not_settled,  ///< has not come to rest in all its steps, or was given up before; `reason` says
+                ///< why
   cancelled,    ///< the observer asked to stop; nothing was measured
   failed,       ///< could not be made; `reason` says why (e.g. no room to place the grains)
 };
@@ -26,7 +26,7 @@ enum class PackingStatus {
 /// "settled", "not_settled", "cancelled", "failed".
 const char* name_of(PackingStatus status);
 
-/// What forces leave on the grains, each in its own weight.
+/// Net force that is left on the grains, each in the grain's own weight.
 struct Imbalance {
   double mean = 0.0;
   double max = 0.0;
@@ -35,27 +35,29 @@ struct Imbalance {
 /// How far from rest a bed is. Forces in m g, lengths in d, energies in m g d.
 struct RestReport {
   /// How well the last step was solved, motion of the bed included: worst residual of a row, in m
-  /// g, or in weights of its lighter grain where that is lighter.
+  /// g, or in weights of its lighter grain where that is lighter than m.
   double step_residual = 0.0;
-  double kinetic_energy = 0.0;  ///< mean per grain of 1/2 m (dx/dt)^2, m g d, and of
-                                ///< turning, with what holds that within a step
+  double kinetic_energy = 0.0;  ///< mean per grain of 1/2 m (dx/dt)^2, m g d, and of turning, with
+                                ///< the inertia of hold_turning
   double largest_motion = 0.0;  ///< largest displacement of a grain in the last step, d
   double overlap_mean = 0.0;    ///< mean over force-bearing contacts of max(0, -gap), d
   double overlap_max = 0.0;     ///< deepest overlap, d
-  /// Force-bearing contacts closed to 1e-4 d, walls and floor included, but not those with two
-  /// walls that a sphere fills the space between; of polyhedra a contact along a line counts 2, one
+  /// Force-bearing contacts closed to 1e-4 d, walls and floor included, but not those of a sphere
+  /// with two walls between which it just fits; of polyhedra a contact along a line counts 2, one
   /// over an area 3.
   std::int64_t contacts = 0;
-  /// Degrees of freedom that contacts hold besides, as their normals turn: a round wall holds a
-  /// grain along the wall, too, and spheres that push its faces keep a polyhedron from turning.
+  /// Further degrees of freedom that contacts hold because their normals turn: a round wall also
+  /// holds a grain along the wall, and spheres that push its faces keep a polyhedron from turning.
   std::int64_t held_by_turning = 0;
-  /// Contacts that do not depend on others: all but where they are more than needed. NaN if those
-  /// are too many to be counted (engine/dynamics/settle.cpp).
+  /// Contacts that do not depend on others: all of them, unless there are more than needed. NaN if
+  /// there are too many to be counted (engine/dynamics/settle.cpp).
   double independent_contacts = 0.0;
   std::int64_t isostatic_contacts = 0;  ///< see isostatic_count
-  /// Whether a bed may rest on fewer: polyhedra may, as the faces that hold them turn.
+  /// Whether a bed may rest on fewer than the isostatic contacts: polyhedra may, as the faces that
+  /// hold them turn.
   bool may_rest_on_fewer = false;
-  /// Static, on all contacts closed to Accuracy::imbalance_gap; see engine/dynamics/balance.hpp.
+  /// Static imbalance, with all contacts closed to Accuracy::imbalance_gap; see
+  /// engine/dynamics/balance.hpp.
   Imbalance imbalance;
 };
 
@@ -73,15 +75,15 @@ struct PairForce {
   double magnitude = 0.0;  ///< m g
 };
 
-/// A force that a wall exerts on a grain; of a tube each vertex of a polyhedron has its own.
+/// A force that a wall exerts on a grain; in a tube each vertex of a polyhedron has its own.
 struct WallForce {
-  /// The walls are those of walls_of(Box): 0 is the floor. Vertices at a tube have names of their
-  /// own, as of wall_of_vertex.
+  /// The walls are those of walls_of(Box): 0 is the floor. Vertices at a tube have numbers of their
+  /// own: see wall_of_vertex.
   std::int32_t grain = 0, wall = 0;
   double magnitude = 0.0;  ///< m g
 };
 
-/// How a force acts, as it was solved: of spheres their centres tell it, of polyhedra nothing else.
+/// How a force acts, as it was solved. Of spheres the centres give it; of polyhedra only this does.
 struct ForceLine {
   std::array<float, 3> normal{};  ///< unit, from a to b, or from the grain to the wall; box frame
   std::array<float, 3> lever{};   ///< from the centre of a to the mean of its points by their
@@ -92,7 +94,8 @@ struct ForceLine {
 /// WallForce::wall of a sphere at a tube.
 inline constexpr std::int32_t tube_wall = 1;
 
-/// The same of vertex `v` of a polyhedron, as of ConvexShape::vertices and Mesh::vertices.
+/// The same for vertex `v` of a polyhedron, numbered as in ConvexShape::vertices and
+/// Mesh::vertices.
 constexpr std::int32_t wall_of_vertex(std::int32_t v) { return tube_wall + 1 + v; }
 
 /// One bin of a profile: a slice of the measured part of the bed.
@@ -114,14 +117,14 @@ struct Profile {
 /// A component's part of a bin of a profile.
 struct ComponentBin {
   double solid_fraction = 0.0;  ///< solid volume of its grains over the bin's volume
-  std::int64_t grains = 0;      ///< of its own whose centre is in the bin
-  /// Touching grains of those, added up, by the component of what is touched.
+  std::int64_t grains = 0;      ///< grains of its own whose centre is in the bin
+  /// Grains that touch those, added up, by their component.
   std::vector<std::int64_t> neighbours;
-  std::int64_t walls = 0;           ///< touching walls and floor of those, added up
-  std::array<double, 3> nematic{};  ///< of those, as of ShapeOrder; NaN without any that turn
+  std::int64_t walls = 0;           ///< walls and floor that touch those, added up
+  std::array<double, 3> nematic{};  ///< of those, as in ShapeOrder; NaN if none can turn
 };
 
-/// As a Profile: a component's part of the profile of the bed, which has the same bins.
+/// A component's part of a Profile of the bed, in the same bins.
 struct ComponentProfile {
   double bin_width = 0.0;  ///< d
   std::vector<ComponentBin> bins;
@@ -133,8 +136,8 @@ struct Curve {
   std::vector<double> values;
 };
 
-/// Shares of the grains that are no larger than a diameter, by what the distribution of their sizes
-/// counts.
+/// Shares of the grains that are no larger than a diameter, by number, area or volume as in the
+/// distribution of their sizes.
 struct SizeRow {
   double diameter = 0.0;  ///< d
   double asked = 0.0;     ///< of the distribution
@@ -155,7 +158,8 @@ struct Order {
   Curve force_density;     ///< probability density of a force over the mean of its layer
 };
 
-/// A number of a part of a result, as tables and the manual call and explain it.
+/// A number of a part of a result, with the name and explanation that tables and the manual give
+/// it.
 template <class Part>
 struct NamedNumber {
   const char* name;
@@ -185,7 +189,7 @@ struct ShapeOrder {
   std::array<double, 3> contact_share{};  ///< of the force-bearing contacts, simple, double, triple
   std::array<double, 3> force_share{};    ///< of the sum of their forces
   /// Nematic order of the axes x, y, z of the frame in which the shape is written; spheres, which
-  /// have none, left out.
+  /// have no axes, are left out.
   std::array<double, 3> nematic{};
 };
 
@@ -198,12 +202,13 @@ struct ComponentMeasure {
   double solid_fraction = 0.0;           ///< its exact solid volume in the slab over the slab's
   double coordination = 0.0;             ///< touching grains of one of its grains, mean
   double coordination_with_walls = 0.0;  ///< the same, walls and floor counted as neighbours
-  std::vector<double> neighbours;        ///< those of `coordination` by their component
-  std::array<double, 3> nematic{};       ///< as of ShapeOrder; of spheres NaN
+  std::vector<double> neighbours;        ///< `coordination` split by their component
+  std::array<double, 3> nematic{};       ///< as in ShapeOrder; NaN for spheres
   /// Force-bearing contacts in the slab of its grains with those of each component: numbers of
-  /// simple, double and triple ones as of ShapeOrder. A contact of two components stands with both.
+  /// simple, double and triple ones as in ShapeOrder. A contact between two components counts for
+  /// both.
   std::vector<std::array<std::int64_t, 3>> contacts = {};
-  // Where the packing has such a profile.
+  // Filled where the packing has such a profile.
   ComponentProfile profile_x = {};
   ComponentProfile profile_y = {};
   ComponentProfile profile_from_walls = {};
@@ -215,24 +220,24 @@ struct PackingResult {
   std::string reason;  ///< empty when settled
   std::int64_t grains = 0;
   RestReport rest;
-  /// Way that contacts strayed while the bed settled, for want of better solves, d: sum over all
-  /// steps of the root mean square of the residuals of the rows that push, times the square of the
-  /// step and the number of these rows over that of all degrees of freedom. The solid fraction errs
-  /// by it: engine/dynamics/sleep.hpp.
+  /// How far contacts strayed while the bed settled because steps were not solved better, d: sum
+  /// over all steps of the root mean square of the residuals of the rows that push, times the
+  /// square of the step and the number of these rows over that of all degrees of freedom. It is an
+  /// error of the solid fraction: engine/dynamics/sleep.hpp.
   double spurious_path = 0.0;
   double surface_height = 0.0;  ///< z of the bed's free surface, d
   double slab_bottom = 0.0;     ///< measured slab, d
   double slab_top = 0.0;
   double solid_fraction = 0.0;  ///< exact solid volume in the slab over the slab's volume
   double small_share = 0.0;     ///< share of the small class in the slab's solid volume
-  std::optional<double> small_share_of_bed;  ///< the same of the whole bed, told by size alike
+  std::optional<double> small_share_of_bed;  ///< the same of the whole bed, also split by size
   std::vector<Coordination> coordination;    ///< one entry per gap tolerance of the spec
   double mean_diameter = 0.0;                ///< of all grains, d
   double mean_diameter_by_volume = 0.0;      ///< the same, each grain weighted by its volume, d
   std::vector<SizeRow> sizes;                ///< from fine to coarse; empty without a distribution
   Profile profile_x;           ///< from wall to wall, in the slab; empty without walls and in tubes
   Profile profile_y;           ///< the same along y, from wall to wall or around; empty in tubes
-  Profile profile_from_walls;  ///< from the nearest wall inwards; empty but in ducts and tubes
+  Profile profile_from_walls;  ///< from the nearest wall inwards; only in ducts and tubes
   Profile profile_z;           ///< from the floor up
   Order order;                 ///< of the slab
   std::optional<ShapeOrder> shape_order;     ///< of non-spherical grains
@@ -258,7 +263,7 @@ struct Mesh {
   bool is_ball() const { return vertices.empty(); }
 };
 
-/// What non-spherical grains have besides.
+/// What only non-spherical grains have.
 struct Turned {
   std::vector<Mesh> meshes;              ///< one for each component of a mixture, else one
   std::vector<std::uint8_t> components;  ///< of each grain, from 0; empty if there is one mesh
@@ -287,7 +292,7 @@ struct Progress {
   std::int64_t step = 0;
   double share_done = 0.0;
   std::function<std::string()> save =
-      {};  ///< the packing as bytes; only during the call that gave it
+      {};  ///< the packing as bytes; only during the call that passed it
 };
 
 /// Called after every step or two; false stops the packing, whose status is then `cancelled`.

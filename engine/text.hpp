@@ -9,7 +9,7 @@
 
 namespace grainsweep {
 
-/// `value` to so many significant digits, without zeros at its end.
+/// `value` to `digits` significant digits, without trailing zeros.
 inline std::string number_text(double value, int digits = 3) {
   char text[32];
   const auto end =
@@ -17,7 +17,7 @@ inline std::string number_text(double value, int digits = 3) {
   return {text, end.ptr};
 }
 
-/// The same to six digits; all digits of a whole number.
+/// The same to six digits; a whole number with all its digits.
 inline std::string bound_text(double value) {
   if (std::isfinite(value) && value == std::floor(value) && std::abs(value) < 1e15) {
     return std::to_string(static_cast<std::int64_t>(value));

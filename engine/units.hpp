@@ -7,8 +7,8 @@
 //   force   m g            weight of a grain of mass 1
 // clang-format on
 //
-// So g = 1, and no result depends on density or gravity: a frictionless packing of rigid grains
-// knows no other scale. Lengths of a bed that comes from elsewhere are divided by its d on reading.
+// So g = 1, and no result depends on density or gravity: a frictionless packing of rigid grains has
+// no other scale. Lengths of a bed that comes from elsewhere are divided by its d on reading.
 #pragma once
 
 namespace grainsweep {

@@ -23,7 +23,8 @@ struct alignas(64) BodyBlock {
   Real normal_y[block_width] = {};
   Real normal_z[block_width] = {};
   std::uint32_t first = 0;   ///< its points are points[first] .. points[first + points - 1]
-  std::uint32_t points = 0;  ///< of the contact with most; others are filled up with void points
+  std::uint32_t points = 0;  ///< as many as the contact with most has; others are filled up with
+                             ///< void points
 
   std::int32_t a(std::size_t lane) const { return grain_at(offset_a[lane]); }
   std::int32_t b(std::size_t lane) const { return grain_at(offset_b[lane]); }
@@ -45,7 +46,7 @@ struct alignas(64) BodyPoints {
   Real lever_a[3][block_width];    ///< x, y, z in the frame of a
   Real lever_b[3][block_width];    ///< in the frame of b
   Real gap[block_width];           ///< right-hand side, d; negative where grains overlap
-  Real reduced_mass[block_width];  ///< 1 / A_kk, m: what one impulse on this row alone divides by
+  Real reduced_mass[block_width];  ///< 1 / A_kk, m: what an impulse on this row alone is divided by
 };
 
 /// Rows as sweeps read them.
@@ -55,19 +56,19 @@ struct BodyRows {
   const BodyPoints<Real>* points;
 };
 
-/// A sweep solves the points of a contact one after the other, those of a block with more of them
-/// than this forth and back. Of the forces of a face on a face three are independent, whatever the
-/// number of its corners: the more there are, the less one order of them is like the other, and
-/// momentum makes sweeps in one order diverge. There and back is a symmetric matrix, as that of a
-/// gradient step is.
+/// A sweep solves the points of a contact one after the other, in blocks with more of them than
+/// this forth and back. Of the forces of a face on a face three are independent, whatever the
+/// number of its corners: the more there are, the more one order of them differs from another, and
+/// momentum makes sweeps in one order diverge. A sweep forth and back has a symmetric matrix, as a
+/// gradient step has.
 inline constexpr std::size_t most_points_swept_once = 3;
 
 /// Solver sweeps for one number type. `u` and `accumulated` hold two records per grain. The impulse
 /// of lane k of points[i] is p[i * block_width + k].
 template <class Real>
 struct BodyKernels {
-  /// As RowKernels::gauss_seidel_sweep, with A_kk for 1/m_a + 1/m_b. Of points swept forth and back
-  /// the residuals are those on the way forth; the restart test adds up both ways.
+  /// As RowKernels::gauss_seidel_sweep, with A_kk for 1/m_a + 1/m_b. For points swept forth and
+  /// back the residuals are those on the way forth; the restart test adds up both ways.
   SweepSums<Real> (*gauss_seidel_sweep)(BodyRows<Real> rows, std::size_t blocks, Record<Real>* u,
                                         Real* p, Real* y, SweepRule<Real> rule);
   /// Adds H p to the accumulated impulses.
@@ -76,8 +77,8 @@ struct BodyKernels {
   /// As RowKernels::residual, with A_kk for 1/m_a + 1/m_b.
   Missed<Real> (*residual)(BodyRows<Real> rows, std::size_t blocks, const Record<Real>* u,
                            const Real* p);
-  /// Gives the points of the rows, which are `moved`, their gaps after the motion u. Of an overlap
-  /// a gap holds the share `correction`, before and after.
+  /// Sets the gaps of the points of the rows, which are `moved`, to those after the motion u. Where
+  /// grains overlap a gap holds the share `correction` of the overlap, before and after.
   void (*move_gaps)(BodyRows<Real> rows, std::size_t blocks, const Record<Real>* u, Real correction,
                     BodyPoints<Real>* moved);
 };

@@ -63,7 +63,7 @@ inline Points<Real> load_points(const BodyPoints<Real>& points, std::size_t lane
 }
 
 /// Both records of the grains on one side of a batch of contacts: displacements, then turns. Number
-/// types for which the instruction set can do better have functions of these names of their own.
+/// types for which the instruction set can do better have their own functions of these names.
 template <class Real>
 using Side = TwoRecords<Components<Real>>;
 
@@ -77,7 +77,7 @@ inline void add_both(Record<Real>* base, const std::uint32_t* offset, const Side
   add_records(base + 1, offset, side.second);
 }
 
-/// What the points of a contact share of their grains' motion.
+/// The part of their grains' motion that the points of a contact share.
 template <class Real>
 struct Motion {
   Batch<Real> approach;  ///< n . (v_b - v_a)
@@ -150,7 +150,7 @@ inline void push_side(const Batch<Real>& p, const Vec<Real>& normal, const Vec<R
   side.second.z += side.second.w * (p * lever.z);
 }
 
-/// What the row of a point misses before it is solved, in impulses, and its impulse after.
+/// The residual of a point's row before it is solved, as an impulse, and its impulse after.
 template <class Real>
 struct Solved {
   Batch<Real> missed, impulse;

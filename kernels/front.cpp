@@ -13,7 +13,7 @@ namespace {
 // Columns are eliminated from each other in panels, and from all that follow by wide ones: what
 // follows, larger than any cache, is read and written a quarter as often.
 constexpr std::size_t panel_columns = 16, wide_columns = 64;
-// Two batches of rows of so many columns and what is taken from them are held in registers.
+// Two batches of rows of so many columns, and what is subtracted from them, are held in registers.
 template <class Real>
 constexpr std::size_t tile_columns = batch_width<Real> * sizeof(Real) >= 64 ? 8 : 4;
 
@@ -101,7 +101,8 @@ inline void eliminate_columns(const Columns<Real>& m, std::size_t first, std::si
   for (; j < end; ++j) eliminate_from<1>(m, first, last, j);
 }
 
-/// Numbers lose the columns before theirs in the order of those, whatever the widths above.
+/// From each number the columns before its own are subtracted in their order, whatever the widths
+/// above.
 template <class Real>
 bool eliminate(Real* front, std::size_t rows, std::size_t columns, std::size_t stride) {
   const Columns<Real> m{front, stride};

@@ -1,7 +1,7 @@
 // Corners and faces of a convex hull, many at a time; see engine/narrow/separating_axes.hpp.
 //
 // Columns hold one number of each item and must be readable up to a multiple of block_width. Beyond
-// their items points are 0, which lies within a hull, and offsets of planes infinite.
+// the items, points are 0, which lies within a hull, and offsets of planes are infinite.
 #pragma once
 
 #include <cstddef>
@@ -30,28 +30,28 @@ struct HullEdge {
   double from[3], along[3], left[3], right[3];
 };
 
-/// Of the axis along the cross product of two edges' directions, and of the one against it: whether
-/// it lies between the normals of the faces at both edges.
+/// Whether the axis along the cross product of two edges' directions, or the opposite one, lies
+/// between the normals of the faces at both edges.
 enum Crossing : std::uint8_t { no_crossing = 0, along_product = 1, against_product = 2 };
 
 struct HullKernels {
-  /// The point of a hull that is farthest along n, the first of equals. `reach` becomes how far
-  /// each of them reaches, and needs as much room as the columns.
+  /// The point of a hull that is farthest along n, the first of equals. `reach` is set to how far
+  /// each point reaches, and needs as much room as the columns.
   std::size_t (*farthest)(const PointColumns& points, const double* n, double* reach);
-  /// The largest of `count` numbers, the first of equals; beyond them none is larger, up to a
-  /// multiple of block_width.
+  /// The largest of `count` numbers, the first of equals; numbers beyond them, up to a multiple of
+  /// block_width, must not be larger.
   std::size_t (*largest)(const double* numbers, std::size_t count);
-  /// Heights of x over planes whose offsets are multiplied by `scale`; of each plane `least`
-  /// becomes the least that was seen.
+  /// Heights of x over planes whose offsets are multiplied by `scale`; `least` of each plane
+  /// becomes the least height seen so far.
   void (*heights)(const PlaneColumns& planes, double scale, const double* x, double* heights,
                   double* least);
   /// Sets bit k of below[f] where heights[k stride + f] <= limit, for the first 64 of k < rows.
   void (*below)(const double* heights, std::size_t stride, std::size_t rows, double limit,
                 std::uint64_t* below);
-  /// How another edge crosses each, and by how much it is beyond that along the unit vector of the
-  /// product of their directions, d, of those that cross; 0 where they are parallel. Cosines above
-  /// -`in_doubt` count as positive, those below it as negative, edges of a smaller sine than
-  /// `parallel` as parallel.
+  /// How another edge crosses each, and, for those that cross, by how much it is beyond that along
+  /// the unit vector of the product of their directions, d; 0 where they are parallel. Cosines
+  /// above -`in_doubt` count as positive, those below `in_doubt` as negative, edges of a smaller
+  /// sine than `parallel` as parallel.
   void (*crossings)(const EdgeColumns& edges, const HullEdge& other, double in_doubt,
                     double parallel, double* parted, std::uint8_t* crossings);
 };

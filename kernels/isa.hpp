@@ -14,7 +14,7 @@ bool is_supported(Isa isa);
 /// The widest supported instruction set.
 Isa best_isa();
 
-/// Reads a name as `name_of` prints it into `isa`; false if there is no such name.
+/// Sets `isa` from its name, as `name_of` prints it; false if there is no such name.
 bool isa_from_name(const char* name, Isa& isa);
 
 }  // namespace grainsweep

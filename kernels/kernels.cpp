@@ -33,8 +33,8 @@ const char* name_of(Isa isa) {
   return "unknown";
 }
 
-// All that the kernels are compiled with. The compiler's test reads the processor and also asks
-// whether the operating system saves the registers.
+// All instruction sets that the kernels are compiled with. The compiler's test reads the processor
+// and also asks whether the operating system saves the registers.
 bool is_supported(Isa isa) {
   switch (isa) {
     case Isa::sse2:

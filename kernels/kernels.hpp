@@ -55,16 +55,16 @@ struct PinacoidHalves {
   bool operator==(const PinacoidHalves&) const = default;
 };
 
-/// Edges whose angle has a smaller square of its sine are parallel to f32.
+/// Edges count as parallel in f32 if the squared sine of their angle is smaller than this.
 inline constexpr float parallel_edges_sine2 = 2.5e-3F;
 
-/// Separations of the f32 test are true to this, per unit of scale of the larger grain, d, if
+/// Separations of the f32 test are accurate to this, d, per unit of scale of the larger grain if
 /// neither reaches further than 1 d from its centre, else per unit of the larger reach: centres
 /// closer than 4 d lose some 20 roundings of 6e-8, which the least sine of edges divides by 0.05.
 inline constexpr float pinacoid_rounding = 2e-5F;
 
-/// `block_width` pairs of pinacoids, all grains a of one shape and all grains b of one: which, and
-/// what parts them.
+/// `block_width` pairs of pinacoids, all grains a of one shape and all grains b of one shape: which
+/// pairs they are, and what parts them.
 /// An axis has the number 0 .. 3 for face normal k of grain a, 4 .. 7 for face normal k - 4 of
 /// grain b, 8 + 6 i + j for the cross product of edge direction i of a and j of b. Unused lanes
 /// name grain 0 twice.
@@ -76,7 +76,7 @@ struct alignas(64) PinacoidBlock {
   std::int32_t face_axis[block_width];
   std::int32_t edge_axis[block_width];
   /// 1 if some edges of the two are parallel within parallel_edges_sine2: their axes, which f32
-  /// cannot tell, were left out, and a pair that is not apart has to be tested in f64.
+  /// cannot resolve, were left out, and a pair that is not apart has to be tested in f64.
   std::int32_t edges_parallel[block_width];
 
   void set_grains(std::size_t lane, std::int32_t a, std::int32_t b) {
@@ -85,7 +85,7 @@ struct alignas(64) PinacoidBlock {
   }
 };
 
-/// The kernels that there are of each number type.
+/// The kernels that exist for each number type.
 template <class Real>
 struct NumberKernels {
   const RowKernels<Real>& rows;
@@ -107,9 +107,8 @@ struct Kernels {
                                      GrainPair* pairs, std::size_t capacity);
   /// Best axes of pairs of pinacoids by the separating-axis test, f32; see `PinacoidBlock`.
   /// `centres`: x, y, z and size; `orientations`: x, y, z, w of the unit quaternion from the
-  /// shape's frame to the box's. period_x, period_y: d, 0 where the axis is walled. A pair
-  /// whose larger separation exceeds a margin by pinacoid_rounding is further apart than the
-  /// margin.
+  /// shape's frame to the box's. period_x, period_y: d, 0 where the axis is walled. A pair whose
+  /// larger separation exceeds a margin by pinacoid_rounding is further apart than that margin.
   void (*pinacoid_axes)(const PinacoidHalves& shape_a, const PinacoidHalves& shape_b,
                         PinacoidBlock* pairs, std::size_t blocks, const Record<double>* centres,
                         const Record<double>* orientations, double period_x, double period_y);
@@ -118,7 +117,7 @@ struct Kernels {
 /// The kernels compiled for `isa`. Requires is_supported(isa).
 const Kernels& kernels_for(Isa isa);
 
-/// Those of `kernels` for a number type.
+/// The kernels of `kernels` for a number type.
 template <class Real>
 const NumberKernels<Real>& kernels_of(const Kernels& kernels) {
   if constexpr (sizeof(Real) == sizeof(float)) {

@@ -30,8 +30,8 @@ inline Batch<Real> load(const Real* from) {
   return Batch<Real>::load_unaligned(from);
 }
 
-/// Nearest image of a difference of coordinates of a period, whose inverse is given; 0 and 0: as it
-/// is.
+/// Nearest image of a difference of coordinates along an axis of a period, whose inverse is given;
+/// unchanged if both are 0.
 inline Batch<double> nearest_image(const Batch<double>& difference, double period, double inverse) {
   return difference - Batch<double>(period) * xsimd::nearbyint(difference * Batch<double>(inverse));
 }
@@ -45,7 +45,7 @@ inline void store_rounded(const Batch<double>& from, Real* to) {
   for (std::size_t k = 0; k < batch_width<double>; ++k) to[k] = static_cast<Real>(lane[k]);
 }
 
-/// What is left of min(p, w) = 0: by how much impulses p and scaled gaps w miss to be
+/// The residual of min(p, w) = 0: by how much impulses p and scaled gaps w fail to be
 /// complementary.
 template <class Real>
 inline Batch<Real> natural_residual(const Batch<Real>& p, const Batch<Real>& w) {
@@ -85,7 +85,7 @@ struct LaneSums {
   }
 };
 
-/// What rows miss, lane by lane.
+/// Residuals of rows, lane by lane.
 template <class Real>
 struct LaneMissed {
   LaneSums<Real> largest{Real(0)}, squares{Real(0)}, loaded{Real(0)};

@@ -45,19 +45,19 @@ struct alignas(64) RowBlock {
 };
 
 // A round wall keeps a grain's centre within a circle about its axis: a row's normal would turn
-// while the grain moves along the wall, and one that is left behind pushes it along the wall. So a
-// contact with a round wall is a pair of rows, in the same lane of two blocks that follow one
-// another: their normals are -x and -y, so that their impulses are the two components of that on
-// the grain, of any sign, and they are solved together: with c the centre from the axis and R the
-// circle's radius
+// while the grain moves along the wall, and a normal that stays behind pushes it along the wall. So
+// a contact with a round wall is a pair of rows, in the same lane of two blocks that follow one
+// another: their normals are -x and -y, so that their impulses are the two components, of any sign,
+// of the impulse on the grain, and they are solved together: with c the centre from the axis and R
+// the circle's radius
 //
 //   |c + u| <= R, and the impulse is along -(c + u) and not 0 only where |c + u| = R
 //
-// Of such a pair the first block holds c_x as its gap and the grain's mass as its reduced mass; the
+// In such a pair the first block holds c_x as its gap and the grain's mass as its reduced mass; the
 // second one c_y, and |c|^2 - R^2, which loses no digits to rounding, as its reduced mass.
 
-/// By how much rows miss min(p, w / A) = 0, where A is 1/m_a + 1/m_b, d m; of a row with a grain
-/// lighter than 1 in masses of that grain.
+/// By how much rows miss min(p, w / A) = 0, where A is 1/m_a + 1/m_b, d m; for a row with a grain
+/// lighter than 1, in masses of that grain.
 template <class Real>
 struct Missed {
   Real largest = 0;  ///< d m
@@ -81,7 +81,7 @@ inline constexpr double sunk_share = 0.5;
 template <class Real>
 struct SweepRule {
   Real relaxation = 1;  ///< share of a row's own correction that is taken, 0..1
-  Real momentum = 0;    ///< share of an impulse's change that is looked ahead
+  Real momentum = 0;    ///< share of an impulse's change that is extrapolated
 };
 
 /// Solver sweeps for one number type. `u` are motion records indexed by RowBlock::a and b.
@@ -96,7 +96,7 @@ struct RowKernels {
   /// p = max(0, y - relaxation w / A), moves its grains by p - y at once, and then writes
   /// y = p + momentum (p - p_old). Leaves u = u(p). Without momentum y and p may be the same
   /// column. Unless `from` is null, impulses p and y are changes of those in it, and u and the gaps
-  /// count from the motion of these: what is small is not rounded with what is large.
+  /// count from the motion of these: small changes are then not rounded with large impulses.
   SweepSums<Real> (*gauss_seidel_sweep)(const RowBlock<Real>* rows, std::size_t blocks,
                                         const Real* from, Record<Real>* u, Real* p, Real* y,
                                         SweepRule<Real> rule);
@@ -107,13 +107,14 @@ struct RowKernels {
   /// The motion of extrapolated impulses: u = u + momentum (u - before) for `count` records; leaves
   /// what u was in `before`.
   void (*extrapolate)(Real momentum, std::size_t count, Record<Real>* before, Record<Real>* u);
-  /// The same for `count` grains of so many records each, grain g's from record g * records on.
+  /// The same for `count` grains of `records` records each, those of grain g begin at record g *
+  /// records.
   void (*extrapolate_grains)(Real momentum, const std::int32_t* grains, std::size_t count,
                              std::size_t records, Record<Real>* before, Record<Real>* u);
   /// Adds H p, the impulses of the rows, to the accumulated impulses of their grains.
   void (*accumulate_impulses)(const RowBlock<Real>* rows, std::size_t blocks, const Real* p,
                               Record<Real>* accumulated);
-  /// What all rows miss, `from` as in a sweep; of round walls with |p - the impulse that the row
+  /// Residuals of all rows, `from` as in a sweep; for round walls |p - the impulse that the row
   /// would give|.
   Missed<Real> (*residual)(const RowBlock<Real>* rows, std::size_t blocks, const Real* from,
                            const Record<Real>* u, const Real* p);

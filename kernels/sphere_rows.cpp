@@ -80,7 +80,7 @@ template <class Real>
 inline Batch<Real> whole(const Batch<Real>& impulse, Nothing, std::size_t) {
   return impulse;
 }
-/// As much as the impulse that is counted from may be lost, no more.
+/// A change may take away the whole impulse that it is counted from, no more.
 template <class Real>
 inline Batch<Real> least(const Real* from, std::size_t at) {
   return Batch<Real>(Real(0)) - load(from + at);

@@ -1,4 +1,4 @@
-// Hashes of bytes: what a job is known by, and what tells a damaged record from a whole one.
+// Hashes of bytes, which identify jobs and tell damaged records from whole ones.
 #pragma once
 
 #include <cstddef>

@@ -24,21 +24,21 @@ std::string utc_now();
 /// The command line of this process, as a shell takes it.
 std::string command_line();
 
-/// What this program is called by, as a shell takes it: GRAINSWEEP_COMMAND, which run.sh sets, or
-/// the first word of its command line. Commands that it prints begin with it.
+/// How this program was called, as a shell takes it: GRAINSWEEP_COMMAND, which run.sh sets, or the
+/// first word of its command line. Commands that it prints begin with it.
 std::string called_as();
 
 /// The machine's name, with only the characters that are safe in a file name.
 std::string host_name();
 
 /// "<host>-<random number>-<pid>", the name this process writes under. Containers may share the
-/// name of their host and have equal numbers of processes.
+/// name of their host and have equal process numbers.
 std::string process_name();
 
 /// What the processor calls itself; empty if the system does not tell.
 std::string processor_name();
 
-/// Throws NoResources unless the system gives this process so many threads more.
+/// Throws NoResources unless the system gives this process `count` more threads.
 void expect_threads(int count);
 
 /// Cores this process may use.

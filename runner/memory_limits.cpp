@@ -13,7 +13,7 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-/// Names of the files of a group, which the versions call differently.
+/// Names of the files of a group, which differ between the versions.
 struct GroupFiles {
   const char* limit;
   const char* used;
@@ -46,8 +46,8 @@ double left_in(const std::string& folder, const GroupFiles& files) {
   return limit - std::max(0.0, used - statistic_in(folder + "/memory.stat", files.cached));
 }
 
-/// Of a group and all above it. A container may see its own group in the place of the root: what
-/// is not there sets no limit.
+/// For a group and all above it. A container may see its own group in the place of the root: files
+/// that are not there set no limit.
 double least_left(const std::string& root, std::string group, const GroupFiles& files) {
   double left = infinite;
   while (!group.empty()) {

@@ -34,7 +34,7 @@ std::string with_error(double value, double error, int decimals) {
   constexpr int most_more = 4;
   for (int more = 0; more < most_more && error > 0.0 && error < 0.5 * std::pow(10.0, -decimals);
        ++more) {
-    ++decimals;  // no error is printed as none
+    ++decimals;  // so that no error is printed as zero
   }
   const std::string text = fixed(value, decimals);
   return std::isfinite(error) ? text + " ± " + fixed(error, decimals) : text;

@@ -27,7 +27,7 @@ std::string power_text(double value);
 /// pasted.
 std::string shell_word(const std::string& word);
 
-/// The same of a path, which is no option where it begins like one: "./-x.json".
+/// The same for a path; one that begins like an option gets "./" in front: "./-x.json".
 std::string shell_path(const std::string& path);
 
 /// "41.2 s", "12 min 5 s", "3 h 20 min".

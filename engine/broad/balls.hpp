@@ -16,7 +16,7 @@ struct Balls {
 inline Balls balls_of(const SphereBed& bed, std::vector<Record<double>>& /*column*/) {
   return {bed, bed.position};
 }
-/// Of polyhedra the smallest balls about the centroids.
+/// For polyhedra, the smallest balls about the centroids.
 inline Balls balls_of(const PolyhedronBed& bed, std::vector<Record<double>>& column) {
   column.resize(bed.grains());
   for (std::size_t i = 0; i < bed.grains(); ++i) {

@@ -14,7 +14,7 @@ void include(const Record<double>& ball, Heights& heights) {
   heights.top = std::max(heights.top, ball.z);
 }
 
-/// Of the grains that are awake.
+/// Heights of the grains that are awake.
 Heights heights_of(const Balls& balls) {
   Heights heights;
   for (std::size_t i = balls.bed.first_awake; i < balls.bed.grains(); ++i) {
@@ -23,7 +23,7 @@ Heights heights_of(const Balls& balls) {
   return heights;
 }
 
-/// All grains awake, and of those that sleep the ones that one awake may touch, at heights from
+/// All grains awake, and the sleeping ones that a grain awake may touch: those at heights from
 /// `lowest` on.
 void choose_members(const Balls& balls, double reach, double lowest, Candidates& candidates) {
   const double largest = largest_radius(balls, std::numeric_limits<double>::infinity());
@@ -222,7 +222,7 @@ void remember_positions(const Balls& balls, const ParallelFor& loop, Candidates&
 // ---- strays ----
 
 /// Whether a grain has moved from where it was looked up by more than half of what its pairs are
-/// listed beyond `near`; if that is nothing it has even where it stays.
+/// listed beyond `near`; if they are listed no further, it is a stray even where it stays.
 bool is_stray(const Record<double>& now, const Record<double>& then, double near,
               const Candidates& candidates) {
   const double less = candidates.levels[level_of(now.w, candidates.levels)].less;
@@ -241,7 +241,7 @@ void find_strays(const Balls& balls, double near, Candidates& candidates) {
 }
 
 /// Whether to look strays up singly: if they are so few that it costs less than a search, if the
-/// list has not grown much by it, and if the grids reach as far as they have got.
+/// list has not grown much by it, and if the grids reach as far as strays have moved.
 bool may_look_up(const SphereBed& bed, const Candidates& candidates) {
   const Cells& cells = candidates.levels.front().cells;
   const double members = static_cast<double>(candidates.members.size());
@@ -267,7 +267,7 @@ bool is_far(const SphereBed& bed, GrainPair pair, const Candidates& candidates) 
   return std::sqrt(x * x + y * y + z * z) - p.w - q.w >= candidates.reach - less;
 }
 
-/// Leaves of the pairs met, in their order, those that are not in the list.
+/// Keeps, in their order, those of the pairs met that are not in the list.
 void keep_unlisted(Candidates& candidates) {
   std::vector<GrainPair>& met = candidates.met;
   if (!candidates.is_indexed) candidates.index.assign(candidates.built_at.size(), candidates.pairs);
@@ -294,7 +294,7 @@ void add_walls(const SphereBed& bed, Candidates& candidates) {
   }
 }
 
-/// Lists what strays have come near.
+/// Lists the pairs that strays have come near in.
 void look_up(const ExecutionContext& context, SphereBed& bed, Candidates& candidates) {
   for (const std::int32_t grain : candidates.strays) {
     const auto i = static_cast<std::size_t>(grain);
@@ -333,7 +333,7 @@ void look_up(const ExecutionContext& context, SphereBed& bed, Candidates& candid
 }
 
 /// Lists all pairs with a gap below `reach_of` their levels, and walls with one below `reach`.
-/// Small grains have less of `margin`.
+/// Small grains get less of `margin`.
 void list_candidates(const Balls& balls, double reach, double margin, const LevelReach& reach_of,
                      const ExecutionContext& context, Candidates& candidates) {
   constexpr double lookup_slack = 0.5;  // d

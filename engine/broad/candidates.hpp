@@ -1,11 +1,12 @@
 // Broad phase: which grains may touch soon.
 //
 // A list of candidates stays good while no grain has moved, since it was looked up, by more than
-// half of what the list reaches beyond near. Grains that have are strays: while they are few they
-// are looked up singly, and what they have come near is added to the list.
+// half of what the list reaches beyond near. Grains that have moved further are strays: while they
+// are few they are looked up singly, and the grains that they have come near to are added to the
+// list.
 //
-// Around grains a hundredth as large as the reach beyond near there would be a hundred times more
-// pairs than they touch: those of small grains are listed less far, and they stray sooner.
+// Grains a hundredth as large as the reach beyond near would have a hundred times more pairs than
+// they touch: pairs of small grains are listed less far, and these grains stray sooner.
 //
 // Grains are searched for by level of size, each level in a grid of cells that just hold its own
 // grains; then every level's grains are looked up in the grids of the larger ones. With one grid of
@@ -43,17 +44,17 @@ struct QueryColumns {
   std::vector<std::int32_t> cell;
 };
 
-/// Whether a list is as it was, has been added to, or is another one.
+/// Whether a list is unchanged, has been added to, or is a new one.
 enum class ListChange { none, added, whole };
 
 struct Candidates {
   bool is_listed = false;    ///< whether what follows is of this bed
-  double reach = 0.0;        ///< every pair with a gap below it is listed, but for what the levels
-                             ///< of its grains are listed less far, and every wall, d
+  double reach = 0.0;        ///< every pair with a gap below it (less what the levels of its grains
+                             ///< are listed less far), and every wall, is listed, d
   double slack = 0.0;        ///< what rounding may add to a distance in a search, d
   Heights lookup;            ///< heights between which a grain may be looked up, d
   std::size_t searched = 0;  ///< pairs that the search found
-  std::vector<GrainPair> pairs;  ///< each once, a < b: those in the order of the search grids, then
+  std::vector<GrainPair> pairs;  ///< each once, a < b: first in the order of the search grids, then
                                  ///< those that strays have added
   std::vector<WallCandidates> walls;
   std::vector<Record<double>> built_at;  ///< where each grain was looked up
@@ -64,20 +65,20 @@ struct Candidates {
   std::vector<std::vector<GrainPair>> found;  ///< memory of the parts of a search
   std::vector<std::size_t> found_begin;       ///< where each part's pairs go
   std::vector<std::int32_t> strays;           ///< memory of complete_candidates
-  std::vector<GrainPair> met;                 ///< what they come near
+  std::vector<GrainPair> met;                 ///< pairs that they come near in
   GridColumns around;                         ///< all members where they were looked up
   PairIndex index;                            ///< of the pairs
   bool is_indexed = false;                    ///< whether it knows them
 };
 
-/// How near two balls of these radii have to be to count, d; no less for larger ones.
+/// Gap below which two balls of these radii count as near, d; no smaller for larger balls.
 using PairReach = std::function<double(double, double)>;
 
-/// Lists all pairs whose balls have a gap below what `reach_of` says of them, and some with one
-/// below what it says of larger ones, and walls as near as infinite balls, but for those of grains
-/// that sleep among each other and with walls. The bed must be wrapped; a periodic axis must be at
-/// least two largest diameters and reaches long. Where the reach depends on the size of the balls
-/// the list is for use at once.
+/// Lists all pairs whose balls have a gap below what `reach_of` says of them, some with a gap below
+/// what it says of larger ones, and walls, which count as infinite balls; but no pairs of two
+/// sleeping grains, nor of a sleeping grain and a wall. The bed must be wrapped; a periodic axis
+/// must be at least two largest diameters and reaches long. Where the reach depends on the size of
+/// the balls the list is for use at once.
 void find_candidates(const Balls& balls, const PairReach& reach_of, const ExecutionContext& context,
                      Candidates& candidates);
 
@@ -91,8 +92,8 @@ inline void find_candidates(const Balls& balls, double reach, const ExecutionCon
 /// moved since it was looked up by more than half of what its pairs are listed further.
 bool still_complete(const Balls& balls, double near, const Candidates& candidates);
 
-/// Lists the candidates with a gap below near + margin anew, and wraps the bed, if the list may
-/// lack one with a gap below `near`. Returns whether it did.
+/// If the list may be missing a candidate with a gap below `near`, lists those with a gap below
+/// near + margin anew and wraps the bed. Returns whether it did.
 template <class Kind>
 bool renew_candidates(double near, double margin, const ExecutionContext& context, Bed<Kind>& bed,
                       Candidates& candidates) {
@@ -105,12 +106,11 @@ bool renew_candidates(double near, double margin, const ExecutionContext& contex
   return true;
 }
 
-/// Completes the list of a bed of spheres as far as pairs and walls with a gap below `near` go, and
-/// says how. Strays are wrapped and looked up singly while they are few; else the whole bed is
-/// wrapped and listed anew as far as near + margin, with a smaller margin of small grains.
-/// A pair that is no longer near stays in the list until it is made anew. While a list stands
-/// `near` must not rise: pairs of small grains are looked up as far as it went when the list was
-/// made.
+/// Completes the list of a bed of spheres for all pairs and walls with a gap below `near`, and says
+/// how. Strays are wrapped and looked up singly while they are few; else the whole bed is wrapped
+/// and listed anew as far as near + margin, with a smaller margin for small grains. A pair that is
+/// no longer near stays in the list until it is made anew. While a list stands `near` must not
+/// rise: pairs of small grains are looked up only as far as `near` was when the list was made.
 ListChange complete_candidates(double near, double margin, const ExecutionContext& context,
                                SphereBed& bed, Candidates& candidates);
 

@@ -10,7 +10,7 @@
 
 namespace grainsweep {
 
-/// Cells of a grid, without the border: `origin_z` is the bottom of the lowest inner cells, along x
+/// Cells of a grid, without the border: `origin_z` is the bottom of the lowest inner cells; along x
 /// and y they begin at 0.
 struct Cells {
   double origin_z = 0.0;                            ///< d
@@ -25,12 +25,12 @@ struct Cells {
   /// Inner coordinate along an axis; what lies outside belongs to the nearest cell.
   std::int32_t place_along(int axis, const Record<double>& sphere) const;
   std::int32_t inner(int axis) const { return axis == 0 ? inner_x : axis == 1 ? inner_y : inner_z; }
-  /// Number of the inner cell.
+  /// Number of the inner cell that it lies in or is nearest to.
   std::int32_t cell_of(const Record<double>& sphere) const;
 };
 
 /// Cells over the box and the heights bottom .. top, no smaller than `least`, d. Their number grows
-/// with `grains` at most, which bounds the memory of sparse beds.
+/// no faster than `grains`, which bounds the memory of sparse beds.
 Cells make_cells(const Box& box, double bottom, double top, double least, std::size_t grains);
 
 /// A grain in a cell: itself or, in a border cell, a copy shifted by periods.

@@ -1,5 +1,5 @@
-// Tells whether and where a pair is in a list, in a few steps: of each grain its partners of higher
-// number.
+// Finds whether and where a pair is in a list, in a few steps: it holds the partners of higher
+// number of each grain.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@ namespace grainsweep {
 
 class PairIndex {
  public:
-  /// Of the pairs a < b of so many grains; what it knew is forgotten.
+  /// Indexes the pairs a < b of so many grains; earlier pairs are forgotten.
   void assign(std::size_t grains, const std::vector<GrainPair>& pairs) {
     last_.assign(grains, none);
     entries_.clear();
@@ -23,7 +23,7 @@ class PairIndex {
     last = static_cast<std::int32_t>(entries_.size()) - 1;
   }
   bool holds(GrainPair pair) const { return number_of(pair) != none; }
-  /// Which of the pairs it is, in the order in which they were added; `none` of others.
+  /// The pair's number in the order in which pairs were added; `none` if it is not among them.
   std::int32_t number_of(GrainPair pair) const {
     std::int32_t k = last_[static_cast<std::size_t>(pair.a)];
     while (k != none && at(k).partner != pair.b) k = at(k).before;
@@ -34,7 +34,7 @@ class PairIndex {
  private:
   struct Entry {
     std::int32_t partner;
-    std::int32_t before;  ///< the entry before it of the same grain
+    std::int32_t before;  ///< the previous entry of the same grain
   };
   const Entry& at(std::int32_t k) const { return entries_[static_cast<std::size_t>(k)]; }
 

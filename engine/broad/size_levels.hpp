@@ -24,8 +24,8 @@ double largest_radius(const Balls& balls, double below);
 
 /// Sorts the members into levels. A level holds radii from its largest down to half of that, so
 /// that a bed of one size has one level; the eighth one holds all that is left. Pairs may be listed
-/// by `margin` further than they have to be, half of it for each grain: for those of a quarter of
-/// the largest size and above. Around smaller ones it is as much less as they are smaller.
+/// by `margin` further than they have to be, half of it for each grain: this holds for grains of at
+/// least a quarter of the largest size. For smaller grains it shrinks in proportion to their size.
 void choose_levels(const Balls& balls, const std::vector<std::int32_t>& members, double margin,
                    std::vector<SizeLevel>& levels);
 

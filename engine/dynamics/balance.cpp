@@ -10,7 +10,7 @@ namespace grainsweep {
 namespace {
 
 /// Rows miss balance by no more than this, in weights of the lighter grain: beds of one size whose
-/// best forces leave nothing are then said to be out of balance by up to 0.003 on the mean.
+/// best forces leave nothing are then reported to be out of balance by up to 0.003 on average.
 constexpr double solved_to = 2e-4;
 constexpr int most_sweeps = 4000;
 
@@ -19,7 +19,7 @@ struct Lift {
   std::size_t from, to;
 };
 
-/// Marks the grains that the floor lifts, and lists by what grains lift others.
+/// Marks the grains that the floor lifts, and lists the contacts by which grains lift others.
 std::vector<Lift> find_lifts(const SphereBed& bed, const SphereContacts<double>& closed,
                              std::vector<char>& is_held) {
   const auto height = [&](std::size_t grain) { return bed.position[grain].z; };
@@ -43,7 +43,7 @@ std::vector<Lift> find_lifts(const SphereBed& bed, const SphereContacts<double>&
   return lifts;
 }
 
-/// What the mean imbalance is at least, for the sake of the grains that stand on nothing.
+/// Lower bound of the mean imbalance, due to the grains that stand on nothing.
 double least_imbalance(const SphereBed& bed, const SphereContacts<double>& closed) {
   std::vector<char> is_held(bed.grains(), 0);
   for (const Lift& lift : find_lifts(bed, closed, is_held)) {
@@ -57,7 +57,7 @@ double least_imbalance(const SphereBed& bed, const SphereContacts<double>& close
   }
   return bed.grains() == 0 ? 0.0 : falls / (heaviest * static_cast<double>(bed.grains()));
 }
-/// Of polyhedra it is not looked for.
+/// For polyhedra it is not looked for.
 double least_imbalance(const PolyhedronBed&, const PolyhedronContacts<double>&) { return 0.0; }
 
 /// The accelerations of free fall.

@@ -35,7 +35,7 @@ void set_motion_before(const ParallelFor& loop, SphereContacts<Real>& contacts,
   });
 }
 
-/// What that motion leaves of the gaps; of a round wall where it takes the centre.
+/// What that motion leaves of the gaps; for a round wall, where it takes the centre.
 template <class Real>
 void move_gaps(const ParallelFor& loop, const std::vector<Vector>& by,
                SphereContacts<Real>& contacts) {

@@ -21,8 +21,9 @@ std::vector<double> masses_above(const Grains& bed, std::size_t planes) {
   return above;
 }
 
-/// Calls visit(impulse, lift, low, high) for each row that pushes: its vertical part, and the
-/// heights between which it passes it on. What the floor pushes comes from below z = 0.
+/// Calls visit(impulse, lift, low, high) for each row that pushes: the vertical part of its
+/// impulse, and the heights between which it passes that on. The push of the floor comes from below
+/// z = 0.
 template <class Real, class Visit>
 void visit_lifts(const SphereBed& bed, SphereContacts<Real>& contacts, const Visit& visit) {
   const auto height = [&](std::int32_t grain) {
@@ -41,7 +42,7 @@ void visit_lifts(const SphereBed& bed, SphereContacts<Real>& contacts, const Vis
   }
 }
 
-/// By what the impulses would have to be multiplied at each plane.
+/// The factors by which impulses would have to be multiplied at each plane.
 template <class Real>
 std::vector<double> factors_of(double dt, const SphereBed& bed, SphereContacts<Real>& contacts) {
   const std::size_t planes = static_cast<std::size_t>(top_of(bed)) + 2;

@@ -1,10 +1,11 @@
 // A tall bed of grains carries its weight.
 //
-// Sweeps pass forces on from contact to contact: an error as long as the bed is high takes as many
-// sweeps to go as the bed has layers. But one thing is known without any: through each horizontal
-// plane of a bed that hardly moves the contacts pass the weight of all grains above it, since walls
-// without friction carry none. All impulses are scaled, by factors linear in height between planes
-// 1 d apart, so that they do; sweeps then have to right short errors only.
+// Sweeps pass forces on from contact to contact: an error that extends over the height of the bed
+// takes as many sweeps to vanish as the bed has layers. But one thing is known without any sweep:
+// through each horizontal plane of a bed that hardly moves the contacts pass the weight of all
+// grains above it, since walls without friction carry none. All impulses are scaled so that they
+// do, by factors linear in height between planes 1 d apart; sweeps then only have to correct
+// short-range errors.
 #pragma once
 
 #include "engine/rows/polyhedron_contacts.hpp"
@@ -13,7 +14,7 @@
 
 namespace grainsweep {
 
-/// Beds lower than this are solved as fast without, d.
+/// Beds lower than this, d, are solved as fast without it.
 inline constexpr double tall_from = 40.0;
 
 /// Height of the highest centre of a grain above the floor, d; 0 if none is above it.

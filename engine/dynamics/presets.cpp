@@ -6,7 +6,7 @@ namespace grainsweep {
 
 namespace {
 
-// What each changes of `balanced`, which is Accuracy by itself.
+// What each changes of `balanced`, which is a default Accuracy.
 
 Accuracy fast() {
   Accuracy a;
@@ -67,7 +67,7 @@ const std::vector<Preset>& presets() {
 
 namespace {
 
-/// Null if none is called so.
+/// Null if there is no preset of that name.
 const Preset* find_preset(std::string_view name) {
   const auto found = std::find_if(presets().begin(), presets().end(),
                                   [&](const Preset& known) { return known.name == name; });

@@ -10,21 +10,22 @@
 
 namespace grainsweep {
 
-/// Kinds of beds whose protocol's error was measured.
+/// Kinds of beds for which the protocol's error was measured.
 enum class BedKind {
   spheres,    ///< of one size, with and without walls, and in tubes
   two_sizes,  ///< spheres in boxes, the small ones half as large
   pinacoids,  ///< 1 by 1 by 1, in boxes
 };
 
-/// How far means over many beds lie at most from those of beds settled ever better.
+/// Largest distance of means over many beds from their limit as beds are settled ever better.
 struct ProtocolBias {
   double solid_fraction = 0.0;
   double coordination = 0.0;  ///< counted at measured_gap
 };
 
-/// Below which grains were neighbours where biases were measured, d. Beds that are not solved to
-/// the end have contacts that are open by less, which others than this do not count alike.
+/// Gap below which grains counted as neighbours where biases were measured, d. Beds that are not
+/// solved to the end have contacts that are open by less; other gap tolerances count these
+/// differently.
 inline constexpr double measured_gap = 1e-4;
 
 struct Preset {
@@ -34,21 +35,22 @@ struct Preset {
   std::array<std::optional<ProtocolBias>, 3> bias_bounds;  ///< by BedKind; none if not measured
 };
 
-/// fast, balanced, accurate, exact: the cheaper ones first, of those at rest in steps.
+/// fast, balanced, accurate, exact: of those at rest in steps, the cheaper ones first.
 const std::vector<Preset>& presets();
 
 /// The preset called `name`, if there is one.
 std::optional<Accuracy> preset(std::string_view name);
 
-/// Bound of the bias of that preset: the measured distance from the limit, or of spheres from exact
-/// rest where that is larger, and two of its standard errors, of the worst scene of the kind
-/// (bench/README.md, "The protocol's own error"); of exact rest from what half its path, half its
-/// step and both come to. None for other names: what was not measured has no bound.
+/// Bound of the bias of that preset: the measured distance from the limit (for spheres from exact
+/// rest where that is larger) and two of its standard errors, for the worst scene of the kind
+/// (bench/README.md, "The protocol's own error"). For exact rest the distance is that from the
+/// results of half its path, half its step and both. None for other names: what was not measured
+/// has no bound.
 std::optional<ProtocolBias> bias_bound(std::string_view preset_name, BedKind kind);
 
-/// The preset that an accuracy settles as, which has its bounds: it is one but for `precision`,
-/// which changes no mean by more than its error (the same place), and for `max_steps`, which
-/// changes no bed that settles. Empty if there is none.
+/// The preset whose bounds hold for an accuracy: the one that it equals except for `precision`,
+/// which changes no mean by more than its error (the same place), and `max_steps`, which changes no
+/// bed that settles. Empty if there is none.
 std::string_view settles_as(const Accuracy& accuracy);
 
 }  // namespace grainsweep

@@ -19,8 +19,8 @@ using SparseMatrix = Eigen::SparseMatrix<double>;
 // Eigenvalues of the scaled matrix are near 1, those of dependent constraints 0 but for rounding.
 constexpr double least_eigenvalue = 1e-10;
 
-/// A force of 1 between two sides, along its normal: the force that it is on each of them and, on
-/// polyhedra, the torque, times M^-1/2.
+/// A force of 1 between two sides, along its normal: the force on each of them and, on polyhedra,
+/// the torque, times M^-1/2.
 struct ForceColumn {
   std::int32_t a = 0, b = 0;  ///< as of ForceContact
   std::array<double, 6> on_a{}, on_b{};
@@ -77,8 +77,8 @@ ForceColumn column_of(const PolyhedronBed& bed, const PolyhedronContact& c,
   return column;
 }
 
-/// Of contacts along a line or over an area two or three points: more would carry the same forces
-/// in many ways.
+/// For contacts along a line two points, over an area three: more would carry the same forces in
+/// many ways.
 template <class Real>
 std::vector<ForceColumn> force_columns(PolyhedronBed& bed, const ExecutionContext& context,
                                        double dt, const PolyhedronContacts<Real>& contacts) {

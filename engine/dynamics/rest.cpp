@@ -25,7 +25,7 @@ class Directions {
     for (std::size_t k = 0; k < count_; ++k) rest -= rest.dot(basis_[k]) * basis_[k];
     if (count_ < basis_.size() && rest.norm() > dependent) basis_[count_++] = rest.normalized();
   }
-  /// As many unit vectors as three less these, across them and each other.
+  /// Unit vectors at right angles to these and to each other: three less their number.
   std::vector<Vector> across() const {
     Directions all = *this;
     for (const UnitVector& axis : {UnitVector{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}) all.add(axis);
@@ -39,8 +39,8 @@ class Directions {
 
 /// What holds one cluster.
 struct Hold {
-  std::vector<std::int32_t> grains;  ///< that push each other
-  Directions walls;                  ///< in which walls push it
+  std::vector<std::int32_t> grains;  ///< grains that push each other
+  Directions walls;                  ///< directions in which walls push it
   bool stands = false;               ///< a wall pushes it up
   bool is_grain = true;              ///< it is a single grain
 };
@@ -58,8 +58,8 @@ bool can_turn(const PolyhedronBed& bed, std::int32_t grain) {
   return bed.turns(static_cast<std::size_t>(grain));
 }
 
-/// Whether a cluster turns about the axis of a tube, which keeps all gaps, in another way than its
-/// slides and spins make up for, to first order: those of grains one above the other do.
+/// Whether a cluster turns about the axis of a tube, which keeps all gaps, in a way that its slides
+/// and spins do not amount to, to first order: for grains one above the other they do.
 bool turns_in_tube(const SphereBed& bed, const Hold& hold) {
   constexpr double rounding = 1e-9;  // of places, d
   if (!bed.box.is_tube) return false;
@@ -75,7 +75,7 @@ bool turns_in_tube(const PolyhedronBed& bed, const Hold& hold) {
   return bed.box.is_tube && !(hold.is_grain && hold.walls.count() == 1);
 }
 
-/// Of the grains of a contact the one that its turning normal, if it turns, holds.
+/// The grain of a contact that its normal, if it turns, holds.
 template <class Kind>
 std::size_t turning_grain(const Bed<Kind>& bed, const ForceContact& contact) {
   const bool is_b = bed.is_grain(contact.b) && !can_turn(bed, contact.a);
@@ -90,7 +90,7 @@ std::int32_t wall_of(const Bed<Kind>& bed, const ForceContact& contact) {
   return is_vertex ? wall_of_vertex(wall - tube_wall) : wall;
 }
 
-/// Directions that turning normals can hold a grain in: a polyhedron's three turns.
+/// Most directions in which turning normals can hold a grain: a polyhedron's three turns.
 constexpr std::int64_t most_by_turning = 3;
 
 /// Whether a grain of this radius fills a container from one wall to the other.
@@ -150,8 +150,8 @@ bool is_held_by(const PolyhedronBed& /*bed*/, const ForceContact& /*contact*/) {
 
 struct RestTest {
   bool is_passed = false;
-  std::string failure;      ///< what is wrong if it is not
-  std::string remedy;       ///< part of the accuracy that lets it pass if it is larger
+  std::string failure;      ///< what is wrong if it is not passed
+  std::string remedy;       ///< member of the accuracy that makes the test pass if it is larger
   std::string advice = {};  ///< what to do if no accuracy does
 
   RestTest advised(const std::string& text) const { return {is_passed, failure, remedy, text}; }

@@ -1,4 +1,4 @@
-// Whether a bed is at rest, and by how much it misses.
+// Whether a bed is at rest, and how far it is from rest.
 //
 // Without friction a bed of generic grains at rest carries exactly as many force-bearing contacts
 // as it has degrees of freedom that are not free: 3 per sphere, 6 per polyhedron, less the zero
@@ -6,11 +6,11 @@
 // faces that lie flat on each other bring more than are needed (hyperstatic), and beds that rest on
 // each other too deeply fail by their overlaps.
 //
-// Of polyhedra that number is no law from below, either: a face that turns about a corner pushing
-// it comes nearer to the corner's grain, so that forces hold soft motions which no contact blocks.
-// Beds of icosahedra stay where they are, balanced to 0.2 % of their weights, on 0.977 of it. A bed
-// of polyhedra that lacks contacts may therefore be at rest, but may as well slide softly on: its
-// balance must then be twice as good.
+// For polyhedra that number is no lower bound, either: a face that turns about a corner pushing it
+// comes nearer to the corner's grain, so that forces hold soft motions which no contact blocks.
+// Beds of icosahedra stay where they are, balanced to 0.2 % of their weights, on 0.977 of that
+// number. A bed of polyhedra with too few contacts may therefore be at rest, but may also still
+// slide softly: its balance must then be twice as good.
 #pragma once
 
 #include <cstdint>
@@ -31,58 +31,60 @@ RestReport measure_rest(Bed<Kind>& bed, const ExecutionContext& context, double 
                         StepState<Kind, Real>& state);
 
 /// Degrees of freedom that no contact can take up: every cluster of grains that stands on a wall
-/// slides freely in each direction in which no wall pushes it, nor holds one of its spheres between
-/// itself and the one across; a polyhedron that stands alone also turns about the wall's normal,
-/// and in a tube every cluster about its axis, where that is no slide.
+/// slides freely in each direction in which no wall pushes it and no two walls hold one of its
+/// spheres between them; a polyhedron that stands alone also turns about the wall's normal, and
+/// every cluster in a tube turns about the tube's axis, unless slides or turns already include
+/// that.
 template <class Kind>
 std::int64_t zero_modes(const Bed<Kind>& bed, const std::vector<ForceContact>& contacts);
 
-/// Whether a contact is with a flat wall that holds the grain in place together with the one
-/// across, with forces that are any: no constraint is counted for it, and no degree of freedom.
+/// Whether a contact is with a flat wall that, with the wall across, holds the grain in place
+/// whatever their forces are: no constraint is counted for it, and no degree of freedom.
 bool is_held_by(const SphereBed& bed, const ForceContact& contact);
 
-/// The part of a force on a sphere that it is not held against by walls that it fills the space
-/// between.
+/// The part of a force on a sphere along directions in which it does not fill the space between two
+/// flat walls.
 Vector free_part(const SphereBed& bed, std::size_t grain, const Vector& force);
 
-/// Contacts that hold a bed without one too many: its degrees of freedom, less zero modes and those
-/// of spheres that fill the space between two walls.
+/// Number of contacts that hold a bed without one too many: its degrees of freedom, less zero modes
+/// and those in which spheres fill the space between two walls.
 template <class Kind>
 std::int64_t isostatic_count(const Bed<Kind>& bed, const std::vector<ForceContact>& contacts);
 
-/// Grains that push each other, of each cluster that a floor pushes up and that turns about the
-/// axis of a tube.
+/// The grains of each cluster, which push each other, that the floor pushes up and that can turn
+/// about the axis of a tube.
 std::vector<std::vector<std::int32_t>> clusters_that_turn(
     const SphereBed& bed, const std::vector<ForceContact>& contacts);
 
-/// Grains that push each other but no wall across `direction`: moved along it, all of them alike,
-/// no contact opens or closes.
+/// Grains that push each other but no wall across `direction`: when all move along it alike, no
+/// contact opens or closes.
 struct FreeMotion {
   std::vector<std::int32_t> grains;
   Vector direction;  ///< unit, box frame
 };
 
-/// The zero modes of spheres, one by one. Those of a tube are of its wall as it is, which holds
-/// grains along it, too, but for turning them all about the axis.
+/// The zero modes of spheres, one by one. In a tube they take the wall as it is, round: it also
+/// holds grains along it, except against turning all of them about the axis.
 std::vector<FreeMotion> free_motions(const SphereBed& bed,
                                      const std::vector<ForceContact>& contacts);
 
-/// Of forces in f32, m g for every d of height.
+/// Error of forces in f32, m g for every d of height.
 inline constexpr double error_of_a_layer = 1e-4;
 
 /// The forces between grains.
 std::vector<PairForce> pair_forces(const Grains& bed, const std::vector<ForceContact>& contacts);
 
-/// The forces of walls, one for each grain and wall, and of a round wall for each vertex of a
-/// polyhedron: their normals differ.
+/// The forces of walls, one for each grain and wall; at a round wall one for each vertex of a
+/// polyhedron, since their normals differ.
 template <class Kind>
 std::vector<WallForce> wall_forces(const Bed<Kind>& bed, const std::vector<ForceContact>& contacts);
 
-/// The lines of the forces of pair_forces, out of `lines`, those of `contacts`.
+/// The lines of the forces of pair_forces, taken from `lines`, which has one for each of
+/// `contacts`.
 std::vector<ForceLine> pair_lines(const Grains& bed, const std::vector<ForceContact>& contacts,
                                   const std::vector<ForceLine>& lines);
 
-/// The same of wall_forces.
+/// The same for wall_forces.
 std::vector<ForceLine> wall_lines(const PolyhedronBed& bed,
                                   const std::vector<ForceContact>& contacts,
                                   const std::vector<ForceLine>& lines);
@@ -97,15 +99,15 @@ inline constexpr double deepest_overlap = 100.0;
 /// No single grain may miss balance by more than so many times what is allowed for the mean.
 inline constexpr double largest_imbalance = 15.0;
 
-/// Of a bed that rests on fewer contacts than degrees of freedom, by more than the tolerance, this
-/// share of the tolerance of its imbalance.
+/// A bed that rests on fewer contacts than degrees of freedom, by more than the tolerance, is
+/// allowed this share of the imbalance tolerance.
 inline constexpr double imbalance_share_of_few = 0.5;
 
 /// Whether a bed has more contacts than degrees of freedom by more than the tolerance.
 bool is_hyperstatic(const RestReport& rest, const Accuracy& accuracy);
 
-/// In longer steps gravity outruns the longest motion of a step, and beds may not come to rest,
-/// sqrt(d/g).
+/// Longest step in which beds settle, sqrt(d/g): in longer ones gravity outruns the longest motion
+/// of a step, and beds may not come to rest.
 inline constexpr double longest_settling_step = 0.4;
 
 /// The first test of rest that `rest` fails and what to change, in words; empty if it passes all.

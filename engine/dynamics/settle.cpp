@@ -24,9 +24,9 @@ namespace grainsweep {
 namespace {
 
 constexpr double carried_share = 0.9;      // of its weight, where the floor carries a bed
-constexpr std::int64_t steps_down = 4;     // that forces take to get down to the floor
+constexpr std::int64_t steps_down = 4;     // in which forces get down to the floor
 constexpr std::int64_t most_rounds = 128;  // a bed that needs more does not come to rest
-constexpr std::int64_t most_unsolved = 9;  // of them in a row that leave forces unsolved
+constexpr std::int64_t most_unsolved = 9;  // rounds in a row that leave forces unsolved
 constexpr double unlimited = std::numeric_limits<double>::infinity();
 constexpr double rounding_of_places = 1e-9;  // d; far from the origin coordinates have fewer digits
 
@@ -34,13 +34,13 @@ bool is_fit(const Accuracy& accuracy, const Grains& bed) {
   return accuracy.precision == Precision::f64 || mass_ratio(bed) <= f32_mass_ratio;
 }
 
-/// Contacts of a bed whose independent ones are counted: the time grows with their square, and
-/// twice as many take longer than a bed of so many takes to settle.
+/// Most contacts of a bed whose independent contacts are counted: the time grows with their square,
+/// and for twice as many it is longer than such a bed takes to settle.
 constexpr std::int64_t most_counted = 30'000;
 
 /// Whether sizes are so alike that grains may stand regularly, on contacts that depend on each
-/// other or nearly do: in tubes and ducts that just hold layers a spread of 1e-4 does not keep all
-/// apart.
+/// other or nearly do: in tubes and ducts that just hold layers a spread of 1e-4 does not prevent
+/// that everywhere.
 bool are_nearly_of_one_size(const SphereBed& bed) {
   constexpr double alike = 1e-3;
   const auto by_radius = [](const Record<double>& p, const Record<double>& q) { return p.w < q.w; };
@@ -50,7 +50,7 @@ bool are_nearly_of_one_size(const SphereBed& bed) {
 }
 
 /// No sphere moves so far in a step that it gets past a smaller one unseen: pairs that are further
-/// apart than `near` before it are no rows. Polyhedra fall more slowly.
+/// apart than `near` before the step are not rows. Polyhedra fall more slowly.
 void limit_free_motion(const SphereBed& bed, StepSettings& settings) {
   double smallest = std::numeric_limits<double>::infinity();
   for (const Record<double>& p : bed.centres()) smallest = std::min(smallest, p.w);
@@ -71,7 +71,7 @@ RestReport report_of(const ExactRest& exact, const SphereBed& bed) {
                bed.walls[static_cast<std::size_t>(contact.b - bed.wall_name(0))].is_round();
       });
   rest.isostatic_contacts = isostatic_count(bed, exact.contacts);
-  // Those that hold it: more of them depend on these.
+  // As many as hold the bed: any more depend on these.
   rest.independent_contacts = static_cast<double>(std::min(rest.contacts, rest.isostatic_contacts));
   rest.imbalance = exact.of_weight;
   return rest;
@@ -95,7 +95,7 @@ class Settling {
     forget(state);
   }
 
-  /// From where the bytes were saved, if they are of this bed.
+  /// Starts from where the bytes were saved, if they are of this bed.
   SettleReport run(std::string_view bytes) {
     if (!is_fit(accuracy_, bed_)) {
       report_.precision_insufficient = true;
@@ -138,18 +138,18 @@ class Settling {
 
   bool has_fallen() const { return last_.kinetic_energy < rule().energy && is_carried(); }
 
-  /// Whether what is looked at may be a bed at rest, which the floor carries. The first step tells
-  /// of most; the forces of a high bed take some steps to get down to the floor.
+  /// Whether what is looked at may be a bed at rest, which the floor carries. For most beds the
+  /// first step shows it; the forces of a high bed take some steps to get down to the floor.
   bool is_bed() const {
     constexpr double enough_at_first = 0.3;
     return last_.carried > (steps_in_stage_ < steps_down ? enough_at_first : carried_share);
   }
 
-  /// Steps until the stage has as many as it takes at least.
+  /// Steps left until the stage has taken its least number.
   std::int64_t steps_left() const { return steps_of(accuracy_, rule()) - steps_in_stage_; }
 
-  /// Those of the stage, with more iterations for what is taken for a bed by its first steps. What
-  /// tests of rest look at are contacts of the very last step.
+  /// Settings of the stage, with more iterations if its first steps look like those of a bed. Tests
+  /// of rest look at the contacts of the very last step.
   StepSettings settings_of_step() const {
     StepSettings settings = settings_;
     const std::int64_t untested = steps_left() - (rule().end == StageEnd::rest ? 1 : 0);
@@ -160,8 +160,8 @@ class Settling {
     return settings;
   }
 
-  /// Whether there are steps for going on: of beds that slide on before they are tested once more,
-  /// for both.
+  /// Whether there are steps left for going on; for beds that slide on before they are tested once
+  /// more, for both stages.
   bool has_steps_to_go_on() const {
     const StageRule& last = stages_.back();
     const std::int64_t round =
@@ -169,8 +169,8 @@ class Settling {
     return report_.steps + round <= accuracy_.max_steps;
   }
 
-  /// All tests of rest; that of the static balance, as dear as some steps, only of beds that pass
-  /// the others.
+  /// All tests of rest; that of the static balance, which costs as much as some steps, only for
+  /// beds that pass the others.
   void test_rest() {
     is_tested_ = true;
     RestReport& rest = report_.rest;
@@ -193,14 +193,14 @@ class Settling {
   /// Whether the forces of the last test of rest were found.
   bool is_solved() const { return report_.rest.step_residual <= accuracy_.residual_tolerance; }
 
-  /// Whether forces were not found for more than rounding: those of polyhedra that rock from an
-  /// edge to a face of a neighbour and back are, once they have come to lie otherwise.
+  /// Whether more than rounding kept forces from being found: those of polyhedra that rock from an
+  /// edge to a face of a neighbour and back are found once these lie differently.
   bool rocks() const {
     return std::is_same_v<Kind, Polyhedron> &&
            report_.rest.step_residual > error_of_a_layer * height_;
   }
 
-  /// Whether all that a bed misses at its last test of rest is balance, and of that little.
+  /// Whether a bed failed its last test of rest by its balance alone, and by little.
   bool is_nearly_balanced() const {
     constexpr double far = 3.0;
     const double imbalance = report_.rest.imbalance.mean;  // 0 where another test failed
@@ -212,7 +212,7 @@ class Settling {
   bool is_far_from_rest() const { return is_solved() && !is_nearly_balanced(); }
 
   /// Whether a bed that does not rest slides on, to be tested once more, and there are steps for
-  /// it. The higher it is, the more steps its forces take to settle before.
+  /// it. The higher the bed, the more steps its forces take to settle before that.
   bool slides_on() const {
     constexpr double layers_of_a_step = 8.0;
     if (stage_ + 1 == stages_.size() || rounds_ == most_rounds) return false;
@@ -223,7 +223,7 @@ class Settling {
   }
 
   /// Whether more steps of a look will not find a bed at rest that was tested and is not. Forces
-  /// that are not found yet say nothing of it.
+  /// that are not found yet do not show that.
   bool is_seen() const {
     constexpr std::int64_t looks = 4;
     return is_far_from_rest() || steps_in_stage_ >= looks * steps_of(accuracy_, rule());
@@ -249,7 +249,7 @@ class Settling {
   }
 
   std::size_t next_stage() {
-    const bool rests = is_tested_ && report_.failure.empty();  // those that end in tests have them
+    const bool rests = is_tested_ && report_.failure.empty();  // stages that end in tests have them
     if (rests) return stages_.size();
     return rule().back > 0 ? stage_ - rule().back : stage_ + 1;
   }
@@ -304,7 +304,7 @@ class Settling {
     return (layout << 32U) + bed_.grains() * 32 + (turns ? 16 : 0) + sizeof(Real);
   }
 
-  /// A search for exact rest that is under way with it: that begins from this state.
+  /// Includes a search for exact rest that is under way, which began from this state.
   std::string saved() {
     StateWriter writer;
     transfer(writer);
@@ -327,7 +327,7 @@ class Settling {
     if (looks && put_to_sleep(settings_.dt, bed_)) state_.candidates.is_listed = false;
   }
 
-  /// One step; false if the observer does not want another one.
+  /// Takes one step; false if the observer does not want another one.
   bool take_step() {
     let_sleep();
     last_ = step(settings_of_step(), context_, bed_, state_);
@@ -347,9 +347,9 @@ class Settling {
     return keep_going_({report_.steps, share_done_, [this] { return saved(); }});
   }
 
-  /// Whether there is another step to take. Sliding on brings a bed to other contacts; it is of no
-  /// use where rounding keeps the forces of those that it has from being found. A state that is not
-  /// finite must not be searched: it lies in no cell.
+  /// Whether there is another step to take. Sliding on brings a bed to other contacts; that is no
+  /// help where rounding keeps the forces of its present contacts from being found. A state that is
+  /// not finite must not be searched: it lies in no cell.
   bool goes_on() const {
     return stage_ < stages_.size() && report_.steps < accuracy_.max_steps &&
            steps_in_stage_ < rule().most_steps && unsolved_ < most_unsolved && !report_.cancelled &&
@@ -383,15 +383,15 @@ class Settling {
     return force_contacts(bed_, settings_.dt, state_.contacts);
   }
 
-  /// Whether a bed that passes the tests of rest rests: not if it was still on its way there when
-  /// its steps ran out.
+  /// Whether a bed that passes the tests of rest is at rest: not if it was still on its way there
+  /// when its steps ran out.
   bool has_arrived() const {
     return stage_ == stages_.size() || rule().end == StageEnd::look ||
            (rule().end == StageEnd::rest && steps_left() <= 0);
   }
 
-  /// Of a bed that has come to rest, or has no steps left. What slept until then has contacts
-  /// again, though no forces: those are of the last step.
+  /// Reports on a bed that has come to rest, or has no steps left. Grains that slept until then
+  /// have contacts again, though no forces: those are of the last step.
   void tell_rest() {
     if (wake(bed_)) state_.candidates.is_listed = false, is_tested_ = false;
     if (!is_tested_) test_rest();
@@ -414,8 +414,8 @@ class Settling {
 
   // ---- exact rest ----
 
-  /// Brings the bed to exact rest; empty if that was found, else why not, and the bed stays as it
-  /// is.
+  /// Brings the bed to exact rest. Returns "" if that was found, else why not; the bed then stays
+  /// as it is.
   std::string find_exact_rest(double operations) {
     const auto goes_on_trying = [&](const SaveSearch& save) {
       save_search_ = save;
@@ -444,9 +444,9 @@ class Settling {
     return "";
   }
 
-  /// Multiplications of a factorisation that a search may take: so many as last as long as sliding
-  /// on has; without limit after eight rounds where steps leave forces unsolved, as rounding does
-  /// in high beds, which sliding on does not mend.
+  /// Multiplications of factorisations that a search may take: as many as last as long as sliding
+  /// on has lasted; without limit after eight rounds in which steps leave forces unsolved, as
+  /// rounding does in high beds, which sliding on does not help.
   double work_of_search() const {
     constexpr double of_a_grain_and_sweep = 50.0;
     constexpr std::int64_t rounds_in_vain = 8;
@@ -457,7 +457,7 @@ class Settling {
 
   /// Beds that have slid on in vain, as narrow towers do, are tried for exact rest after a round,
   /// 2, 4, 8 and so on: so it costs about as much again, and beds that need a round or two, as most
-  /// do, are spared it where it is dear.
+  /// do, are spared it where it is expensive.
   bool is_brought_to_rest() {
     if constexpr (std::is_same_v<Kind, Sphere>) {
       return rule().end == StageEnd::rest && !report_.failure.empty() &&
@@ -478,8 +478,8 @@ class Settling {
     }
   }
 
-  /// From a bed at rest in steps to exact rest, if that is asked for. One from which it is not
-  /// found slides on, to be tried again: then there is more to do.
+  /// Goes from a bed at rest in steps to exact rest, if that is asked for. A bed from which it is
+  /// not found slides on, to be tried again; returns whether it does.
   bool slides_on_to_exact_rest() {
     if constexpr (std::is_same_v<Kind, Sphere>) {
       constexpr std::int64_t most_failed = 3;
@@ -512,14 +512,14 @@ class Settling {
   StepSettings settings_;
   StepReport last_;
   double sunk_at_start_ = 0.0;  ///< StepReport::sunk of the first step
-  double share_done_ = 0.0;     ///< the most that was told
+  double share_done_ = 0.0;     ///< the largest that was reported
   std::int64_t rounds_ = 0;     ///< how often the last stages came again
   std::int64_t unsolved_ = 0;   ///< so many of the last rounds ended with too large a residual
-  std::int64_t iterations_before_ = 0;  ///< those until the bed was first tested for rest
-  std::int64_t searches_failed_ = 0;    ///< of those for exact rest from a bed at rest in steps
-  std::string search_;      ///< for exact rest, as it was saved; the next one goes on from it
-  SaveSearch save_search_;  ///< saves the one that is under way
-  bool is_tested_ = false;  ///< whether the report tells how the bed rests as it is
+  std::int64_t iterations_before_ = 0;  ///< iterations until the bed was first tested for rest
+  std::int64_t searches_failed_ = 0;    ///< searches for exact rest from a bed at rest in steps
+  std::string search_;      ///< for exact rest, as saved; the next search goes on from it
+  SaveSearch save_search_;  ///< saves the search that is under way
+  bool is_tested_ = false;  ///< whether the report describes the rest of the bed as it is now
   bool is_exact_ = false;   ///< whether the report is that of exact rest
   SettleReport report_;
 };

@@ -1,15 +1,15 @@
 // From loose grains in the air to a bed at rest, stage after stage.
 //
-// Spheres and polyhedra go through the same kinds of stages: a look at the bed, which stays as it
-// is if it rests as it is given; the fall, until the floor carries the bed; a creep, in which
-// grains slide into their places; of polyhedra a halt, and steps in which contacts close; and the
-// quench, until every test of rest holds. A bed that fails it eases on and is quenched again. With
-// the protocol `dynamic` grains fall as in plain contact dynamics, undamped and
-// in steps of a quarter, until they have lost their kinetic energy by impacts alone; the other
-// stages follow. What a step is like in each stage, and why, stands in engine/dynamics/stages.cpp.
+// Spheres and polyhedra go through the same kinds of stages: a look at the bed, which is left as it
+// is if it is already at rest; the fall, until the floor carries the bed; a creep, in which grains
+// slide into their places; for polyhedra a halt, and steps in which contacts close; and the quench,
+// until every test of rest holds. A bed that fails these tests slides on in the stage `ease` and is
+// quenched again. With the protocol `dynamic` grains fall as in plain contact dynamics, undamped
+// and in steps a quarter as long, until they have lost their kinetic energy by impacts alone; the
+// other stages follow. engine/dynamics/stages.cpp says what a step is like in each stage, and why.
 //
-// How loosely the fall is solved is part of how a bed was packed, for the errors of loose solves
-// act like tapping: see engine/dynamics/presets.hpp.
+// How loosely the fall is solved is part of how a bed was packed, because the errors of loose
+// solves act like tapping: see engine/dynamics/presets.hpp.
 #pragma once
 
 #include <string>
@@ -29,8 +29,8 @@ struct SettleReport {
       false;  ///< no solve of this accuracy is exact enough for the bed: none was made
   bool cancelled = false;
   /// Whether the centres of two grains came nearer on the way than sunk_share of the distance at
-  /// which they, or the balls within polyhedra, touch: they may have passed through one another. A
-  /// random start has nothing to lose by it, a bed that was given its arrangement.
+  /// which they, or the balls within polyhedra, touch: they may have passed through one another.
+  /// That does no harm to a random start; a bed that was given may lose its arrangement.
   bool sank = false;
   double spurious_path = 0.0;  ///< sum of StepReport::spurious_path over all steps, d
   std::int64_t steps = 0;
@@ -41,10 +41,10 @@ struct SettleReport {
   std::vector<ForceLine> pair_lines, wall_lines;  ///< of these forces, unless they are spheres
 };
 
-/// Settles `bed`, whose numbers must be finite; a state that becomes otherwise ends it at once and
-/// is never called settled. `keep_going` is asked after every step or two.
+/// Settles `bed`, whose numbers must be finite; if they cease to be, it ends at once and the bed is
+/// never called settled. `keep_going` is asked after every step or two.
 /// `saved`: bytes that Progress::save gave for the same bed and accuracy, from which to go on;
-/// those of another number or kind of grains or another precision are not taken.
+/// bytes of another number or kind of grains or another precision are ignored.
 template <class Kind>
 SettleReport settle(const Accuracy& accuracy, const ExecutionContext& context, Bed<Kind>& bed,
                     const KeepGoing& keep_going, std::string_view saved = {});

@@ -30,7 +30,7 @@ class Momentum {
     return momentum;
   }
   void restart() { theta_ = 1.0; }
-  /// With impulses that are carried over from the last step. Begun at 1, a descent needs about a
+  /// For impulses that are carried over from the last step. Begun at 1, a descent needs about a
   /// tenth more sweeps; below 0.15 it needs more, too.
   void begin() { theta_ = 0.25; }
 
@@ -38,9 +38,9 @@ class Momentum {
   double theta_ = 1.0;
 };
 
-// Of a small bed a sweep goes through all rows, and then the motion of all grains is extrapolated.
+// In a small bed a sweep goes through all rows, and then the motion of all grains is extrapolated.
 //
-// Of a large bed the rows lie in subdomains (engine/rows/subdomains.hpp) of two phases, A and B.
+// In a large bed the rows lie in subdomains (engine/rows/subdomains.hpp) of two phases, A and B.
 // The rows of a subdomain push its grains and the next one's: those of a phase are swept at the
 // same time. Each turn is in one phase; numbers are sweeps:
 //
@@ -174,8 +174,8 @@ class GaussSeidel {
                                      motion_.accumulated.data() + first, u.data() + first);
     });
   }
-  /// Frees the motion of the impulses from what rounding has added, and the extrapolated one from
-  /// the same: what lies between them is small, and is known better than either.
+  /// Frees the motion of the impulses, and likewise the extrapolated motion, from what rounding has
+  /// added: the difference between them is small, and is known better than either.
   void recompute_motion() {
     set_motion(motion_.summed);
     visit_moving([&](std::size_t first, std::size_t count) {
@@ -274,8 +274,8 @@ class GaussSeidel {
 
 }  // namespace
 
-// The residual that sweeps see only says when to look at the true one: the next time when it has
-// fallen by as much as the true one was found to miss.
+// The residual that sweeps see only says when to look at the true one: next when it has fallen by
+// the factor by which the true one was found too large.
 template <class Rows, class Real>
 SolveReport solve(const SolveLimits& limits, const ExecutionContext& context, Rows& contacts,
                   MotionColumns<Real>& motion) {
@@ -284,7 +284,7 @@ SolveReport solve(const SolveLimits& limits, const ExecutionContext& context, Ro
   SolveReport report;
   SolveLimits worth_a_look = limits;
   std::int64_t most = limits.iterations;
-  constexpr int most_in_vain = 2;  // one alone may come before others that bring it on
+  constexpr int most_in_vain = 2;  // one alone may come before others that help
   int in_vain = 0;                 // doublings that did not bring the residual down
   double left_before = std::numeric_limits<double>::infinity();  // when iterations were doubled
   for (bool is_done = false; !is_done;) {

@@ -4,8 +4,8 @@
 //
 // Its dual is A p + w_free >= 0, p >= 0, p . (A p + w_free) = 0 with A = H^T M^-1 H. The residual
 // of a row is |min(p, w / A_kk)| / dt^2, in m g: the force by which it misses balance, in weights
-// of the lighter grain where that is lighter than m. Of spheres, A_kk = 1/m_a + 1/m_b; bodies
-// add the squares of their levers (kernels/body_kernels.hpp).
+// of the lighter grain where that is lighter than m. For spheres, A_kk = 1/m_a + 1/m_b; bodies add
+// the squares of their levers (kernels/body_kernels.hpp).
 #pragma once
 
 #include <limits>
@@ -23,10 +23,10 @@ struct SolveLimits {
   Solver solver = Solver::accelerated_gauss_seidel;
   int iterations = 100;        ///< most sweeps, unless they leave more than `residual_cap`
   double tolerance = 1e-3;     ///< residual at which to stop, as a mass times d (m g dt^2)
-  double rms_tolerance = 0.0;  ///< or, of the rows that push, its root mean square, a mass times d
-  /// While the residual is larger, a mass times d, iterations are doubled until they reach
-  /// `iteration_cap` and until that did not bring it down twice: where rounding stops it, more do
-  /// not help.
+  double rms_tolerance = 0.0;  ///< or its root mean square over the rows that push, a mass times d
+  /// While the residual is larger, a mass times d, iterations are doubled, until they reach
+  /// `iteration_cap` or doubling has twice failed to bring it down: where rounding limits it, more
+  /// do not help.
   double residual_cap = std::numeric_limits<double>::infinity();
   int iteration_cap = 0;
 };
@@ -54,7 +54,7 @@ struct MotionColumns {
 };
 
 /// Improves `contacts.impulse`, starting from what it holds, until the residual is below the
-/// tolerance or the iterations are used up. Of contacts of any kind.
+/// tolerance or the iterations are used up. Works for contacts of any kind.
 template <class Rows, class Real>
 SolveReport solve(const SolveLimits& limits, const ExecutionContext& context, Rows& contacts,
                   MotionColumns<Real>& motion);

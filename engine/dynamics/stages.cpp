@@ -10,8 +10,9 @@ namespace {
 
 // ---- spheres ----
 
-/// A bed that rests as it is given stays as it is: some steps of the quench tell, as many as its
-/// forces take to be found from none, or up to four times as many if they leave little too much.
+/// A bed that is already at rest stays as it is: some steps of the quench show that, as many as it
+/// takes to find its forces from none, or up to four times as many if what they leave is only a
+/// little too much.
 constexpr StageRule look = {.name = "look",
                             .end = StageEnd::look,
                             .step = 0.5,
@@ -55,9 +56,9 @@ constexpr StageRule dynamic_fall = {.name = "fall",
                                     .usual_steps = 1200,
                                     .done_after = 0.25};
 
-/// Steps with momentum, solved to a path: grains slide into their places. What a bed still sinks
-/// goes with the number of its steps, hardly with their length or momentum, and what it is tapped
-/// by with the path of all of them: a hundredth of it.
+/// Steps with momentum, solved to a path: grains slide into their places. How far a bed still sinks
+/// depends on the number of its steps, hardly on their length or momentum; how much it is tapped
+/// depends on the path of all of them: a hundredth of that.
 constexpr StageRule creep = {.name = "creep",
                              .inertia = Inertia::damped,
                              .path = 0.5,
@@ -70,7 +71,7 @@ constexpr StageRule creep = {.name = "creep",
                              .done_before = 0.25,
                              .done_after = 0.5};
 
-/// Half steps, that stray half as far as whole ones would: contacts close.
+/// Half steps that stray half as far as whole ones would: contacts close.
 constexpr StageRule slow = {.name = "slow",
                             .step = 0.5,
                             .inertia = Inertia::damped,
@@ -118,7 +119,7 @@ constexpr StageRule ease = {.name = "ease",
 
 constexpr StageRule heavy_ball[] = {look, fall, creep, slow, quench, ease};
 
-/// The same stages, but for the fall, which comes second.
+/// The same stages with another fall, which comes second.
 template <std::size_t stages>
 constexpr std::array<StageRule, stages> with_fall(const StageRule& other,
                                                   const StageRule (&rules)[stages]) {
@@ -132,8 +133,7 @@ constexpr auto dynamic = with_fall(dynamic_fall, heavy_ball);
 // ---- polyhedra ----
 
 constexpr StageRule turning[] = {
-    // As that of spheres. Grains whose forces are not found sink, and open contacts, in a few
-    // steps.
+    // As for spheres. Grains whose forces are not found sink, and open contacts, in a few steps.
     {.name = "look",
      .end = StageEnd::look,
      .step = 0.25,
@@ -144,7 +144,7 @@ constexpr StageRule turning[] = {
      .closer = 8,
      .steps = 8,
      .usual_steps = 8},
-    // As that of spheres. Polyhedra go on rattling at a few 1e-3 m g d.
+    // As for spheres. Polyhedra go on rattling at a few 1e-3 m g d.
     {.name = "fall",
      .end = StageEnd::fallen,
      .inertia = Inertia::damped,
@@ -198,8 +198,8 @@ constexpr StageRule turning[] = {
      .steps = 15,
      .done_before = 0.78,
      .done_after = 0.84},
-    // Half steps without momentum: contacts close. Quarter steps take seven times as many for it,
-    // full ones do not end.
+    // Half steps without momentum: contacts close. Quarter steps would take seven times as many,
+    // full ones would not end.
     {.name = "close",
      .step = 0.5,
      .correction = 0.5,
@@ -224,7 +224,7 @@ constexpr StageRule turning[] = {
      .usual_steps = 40,
      .done_before = 0.92,
      .done_after = 0.96},
-    // As that of spheres: what is not balanced slides on until it meets new contacts.
+    // As for spheres: what is not balanced slides on until it meets new contacts.
     {.name = "ease",
      .step = 0.25,
      .inertia = Inertia::damped,
@@ -251,24 +251,25 @@ constexpr StageRule dynamic_turning_fall = [] {
 
 constexpr auto dynamic_turning = with_fall(dynamic_turning_fall, turning);
 
-/// While a step leaves more, its iterations are doubled. A heavy grain on a light one needs more
-/// sweeps than a bed, or the light one is pressed out from under it; grains of one size leave a
-/// tenth of this in the middle of their fall. A mass times d.
+/// While a step leaves a larger residual, its iterations are doubled. A heavy grain on a light one
+/// needs more sweeps than a usual bed, or the light one is pressed out from under it; grains of one
+/// size leave a tenth of this in the middle of their fall. A mass times d.
 constexpr double residual_cap = 0.01;
 constexpr int iteration_cap = 20'000;  // enough for masses 1e6 to 1
 
-/// At rest no more may be left than the rest test lets pass. Where f32 stops short of it, more
-/// iterations seldom help: rounding has been reached, or will be in the next step.
+/// At rest the residual may be no larger than the test of rest allows. Where f32 does not get
+/// there, more iterations seldom help: rounding has been reached, or will be in the next step.
 int doublings_at_rest(Precision precision) { return precision == Precision::f64 ? 4 : 1; }
 
-/// How far contacts may stray in a full step, d. A bed of half the step takes twice as many.
+/// How far contacts may stray in a full step, d. With half the step a bed takes twice as many
+/// steps.
 double path_tolerance(const Accuracy& accuracy) {
   return accuracy.path_tolerance * accuracy.step / Accuracy{}.step;
 }
 
 /// How far contacts may stray in a step of a stage that has such a bound, d. The steps of a creep
-/// share one bound, so that a longer one does not tap the bed denser; where few are asked for, so
-/// do those that a creep of polyhedra has at least.
+/// share one bound, so that a longer creep does not tap the bed denser; where few steps are asked
+/// for, so do the least steps that a creep of polyhedra has.
 double path_of(const Accuracy& accuracy, const StageRule& rule) {
   if (rule.creep == 0.0) return rule.path * path_tolerance(accuracy);
   const double at_least = std::max(1.0, static_cast<double>(rule.steps) / rule.creep);
@@ -278,7 +279,7 @@ double path_of(const Accuracy& accuracy, const StageRule& rule) {
 }
 
 /// At rest forces are passed on from the surface to the floor: a bed higher than 27 d needs more
-/// sweeps than the 40 of `fast`. With them such a bed of 65 d does not rest and slides on, five to
+/// sweeps than the 40 of `fast`. With those 40 a bed of 65 d does not rest and slides on, five to
 /// ten times as long as it takes with 100.
 constexpr double sweeps_of_a_diameter = 1.5;
 
@@ -293,7 +294,8 @@ double momentum_of(const Accuracy& accuracy, Inertia inertia) {
   return inertia == Inertia::none ? 0.0 : inertia == Inertia::damped ? accuracy.momentum : 1.0;
 }
 
-/// Steps of a share of the creep. Shorter steps are more, so that the creep takes as long.
+/// Steps of a share of the creep. Shorter steps are more in number, so that the creep takes as
+/// long.
 std::int64_t creep_steps(const Accuracy& accuracy, double share) {
   constexpr double rounding = 1e-9;
   const double steps = accuracy.creep_steps * (Accuracy{}.step / accuracy.step);

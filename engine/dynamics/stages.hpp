@@ -24,8 +24,8 @@ enum class StageEnd {
 /// What a step takes over from the motion of the last one.
 enum class Inertia { none, damped, full };
 
-/// What a stage changes in a step. Motions and overlaps go with the square of a step, so that
-/// shorter steps need to look less far.
+/// What a stage changes in a step. Motions and overlaps are proportional to the square of a step,
+/// so that shorter steps need to look less far.
 struct StageRule {
   const char* name = "";
   StageEnd end = StageEnd::steps;
@@ -45,13 +45,13 @@ struct StageRule {
   double fall_iterations = 0.0;  ///< so many times Accuracy::fall_iterations and
   double rest_iterations = 0.0;  ///< so many times Accuracy::rest_iterations
   int closer = 1;  ///< times as many for a bed that is carried, if the stage looks at one
-  // Steps, if it ends on a condition the least:
+  // Number of steps (if the stage ends on a condition, the least): the sum of
   std::int64_t steps = 0;  ///< these, and
-  double creep = 0.0;      ///< of Accuracy::creep_steps this share
+  double creep = 0.0;      ///< this share of Accuracy::creep_steps
   std::int64_t most_steps = std::numeric_limits<std::int64_t>::max();  ///< it gives up after these
-  std::size_t back = 0;  ///< after it the stage so many before it comes again
+  std::size_t back = 0;  ///< after this stage, the stage so many before it comes again
   double energy = 0.0;   ///< m g d per grain; a bed with less of it has lost its speed
-  // What progress bars go by:
+  // For progress bars:
   std::int64_t usual_steps = 0;  ///< of stages that end on a condition
   double done_before = 0.0;      ///< share of all work that is usually done before it
   double done_after = 0.0;       ///< and after it
@@ -62,7 +62,7 @@ using Stages = std::span<const StageRule>;
 template <class Kind>
 Stages stages_of(Protocol protocol);
 
-/// A step of a stage of a bed so high, d.
+/// The settings of a step of a stage, for a bed of that height, d.
 StepSettings settings_of(const Accuracy& accuracy, const StageRule& rule, double height = 0.0);
 
 /// Steps that a stage takes; for the stages that end on a condition, the least.

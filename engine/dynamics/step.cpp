@@ -133,7 +133,7 @@ void scale_motion(double ratio, PolyhedronBed& bed) {
   for (Vector& spin : bed.spin) spin *= ratio;
 }
 
-/// Impulses begin such that they carry the bed; of a high one their changes are solved for.
+/// Impulses begin such that they carry the bed; in a high bed their changes are solved for.
 template <class Real>
 SolveReport solve_tall(double dt, const SolveLimits& limits, const ExecutionContext& context,
                        const SphereBed& bed, StepState<Sphere, Real>& state) {
@@ -155,7 +155,7 @@ void forget_list(const PolyhedronBed&, Candidates&) {}
 
 // ---- the same for all ----
 
-/// Free motion of all grains; nothing moves the entries that are none.
+/// Free motion of all grains; nothing moves the entries that are not grains.
 template <class Kind, class Real>
 void set_free_motion(const StepSettings& settings, const ParallelFor& loop, const Bed<Kind>& bed,
                      MotionColumns<Real>& motion) {

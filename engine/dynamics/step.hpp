@@ -2,9 +2,9 @@
 //
 // Without contacts a grain would move by u_free = alpha u_last + g dt^2, and a polyhedron turn by
 // alpha times what keeps its angular momentum, each clamped; the contacts change that as little as
-// keeps all gaps open (to first order in the angles), and the grains move by the result. With
-// alpha = 1 and a small dt this is Moreau's contact dynamics; below 1 it is a damped descent to
-// rest.
+// is needed to keep all gaps open (to first order in the angles), and the grains move by the
+// result. With alpha = 1 and a small dt this is Moreau's contact dynamics; below 1 it is a damped
+// descent to rest.
 #pragma once
 
 #include "engine/broad/candidates.hpp"
@@ -16,13 +16,13 @@
 namespace grainsweep {
 
 /// Longest motion of a grain in one step whatever pushes it, d; its turn moves no corner further. A
-/// solve that is cut short between grains of very different mass may push the light one with the
-/// weight of the heavy one; it must not be thrown through its neighbours.
+/// solve that is cut short between grains of very different mass may push the light grain with the
+/// weight of the heavy one; that must not throw it through its neighbours.
 inline constexpr double longest_motion = 0.3;
 
 /// Longest motion of a grain in a step after which another one is taken on the same contacts, in
 /// radii of the largest ball within the grain: plates and needles lie on each other along lines and
-/// faces that turn by more for the same way.
+/// faces that turn by more for the same distance.
 inline constexpr double longest_on_same_contacts = 0.2;
 
 struct StepSettings {
@@ -30,32 +30,33 @@ struct StepSettings {
   double momentum = 0.9;    ///< alpha
   double correction = 0.1;  ///< share of an overlap that the step repairs
   double near = 0.08;       ///< pairs with a smaller gap are rows, d
-  double margin = 0.05;     ///< a layout of rows reaches this much further, of polyhedra the list
-                            ///< of candidates, d
+  double margin = 0.05;     ///< a layout of rows (of polyhedra: the list of candidates) reaches
+                            ///< this much further, d
   SolveLimits limits;       ///< tolerance in m g here; `step` turns it into a mass times d
   /// Longest free motion, d: so short that no grain passes another.
   double longest_free = 0.15;
   bool carries = false;  ///< impulses begin such that they carry a tall bed (columns.hpp)
-  /// Of polyhedra, whose contacts take longer to find than to solve: how many steps are taken on
-  /// the contacts that the first one finds. What the steps after it know of their gaps is right to
-  /// first order in the motion, as what every step knows of its end.
+  /// For polyhedra, whose contacts take longer to find than to solve: how many steps are taken on
+  /// the contacts that the first one finds. The gaps of the steps after it are right to first order
+  /// in the motion, as are those at the end of every step.
   int steps = 1;
 };
 
-/// What a step did, or all that were taken on its contacts.
+/// What a step did, or all steps that were taken on its contacts.
 struct StepReport {
   int steps = 0;
-  SolveReport solve;                ///< of the last one, but for iterations; residuals in m g
+  SolveReport solve;                ///< of the last step, except iterations; residuals in m g
   double kinetic_energy = 0.0;      ///< mean per grain of 1/2 m (u/dt)^2, m g d
   double largest_motion = 0.0;      ///< d
-  double motion_of_inradius = 0.0;  ///< of polyhedra the largest, in radii of the ball within each
+  double motion_of_inradius = 0.0;  ///< the same for polyhedra, in radii of the ball within each
   /// Share of the weight of the grains awake that walls and grains asleep carry.
   double carried = 0.0;
-  /// Way that contacts strayed for want of a better solve, d: the root mean square of the residuals
-  /// of the rows that push, times their number over that of all degrees of freedom. The sum of all.
+  /// How far contacts strayed because a step was not solved better, d: the root mean square of the
+  /// residuals of the rows that push, times their number over that of all degrees of freedom.
+  /// Summed over the steps.
   double spurious_path = 0.0;
-  /// Most by which centres were nearer than sunk_share of the distance at which their grains touch,
-  /// of polyhedra the balls within them, before the step, d.
+  /// Most by which, before the step, centres were nearer than sunk_share of the distance at which
+  /// their grains (of polyhedra: the balls within them) touch, d.
   double sunk = 0.0;
 };
 
@@ -79,15 +80,15 @@ struct StepState {
   std::vector<Moved> moved;  ///< of each part of the grains
 };
 
-/// One step, or settings.steps of them, fewer where grains move far. Of polyhedra the largest
-/// motion counts the way that a turn takes a point at the circumradius, and the kinetic energy
-/// counts turning.
+/// One step, or settings.steps of them, fewer where grains move far. For polyhedra the largest
+/// motion includes how far a turn moves a point at the circumradius, and the kinetic energy
+/// includes turning.
 template <class Kind, class Real>
 StepReport step(const StepSettings& settings, const ExecutionContext& context, Bed<Kind>& bed,
                 StepState<Kind, Real>& state);
 
-/// Velocities stay as they are when the next step is `ratio` times as long as the last one: motions
-/// scale with it, impulses with its square.
+/// Keeps velocities as they are when the next step is `ratio` times as long as the last one:
+/// motions scale with `ratio`, impulses with its square.
 template <class Kind, class Real>
 void change_step(double ratio, Bed<Kind>& bed, StepState<Kind, Real>& state);
 

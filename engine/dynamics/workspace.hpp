@@ -1,7 +1,7 @@
 // Memory of settling, kept from one packing to the next.
 //
 // Small beds are made in milliseconds, thousands on each core. What a packing leaves in here is
-// room, no value: a packing has the same bits with a fresh workspace and with a used one.
+// memory, not values: a packing has the same bits with a fresh workspace and with a used one.
 #pragma once
 
 #include <tuple>

@@ -73,7 +73,7 @@ class Dissection {
   }
 
   /// Sorts grains by their coordinate along an axis, those with the same by their number. Returns
-  /// where the second half begins, which has one more of an odd number.
+  /// where the second half begins, which is larger by one if the number is odd.
   At halve_along(int axis, At first, At last) const {
     std::sort(first, last, [&](std::int32_t p, std::int32_t q) {
       return std::pair(coordinate(p, axis), p) < std::pair(coordinate(q, axis), q);

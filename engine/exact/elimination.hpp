@@ -1,11 +1,11 @@
 // The order in which the grains of a bed are eliminated, so that the factors of its stiffness
 // matrix stay sparse: nested dissection.
 //
-// Two grains are neighbours if they are a pair. A plane halves the bed; as few grains as part the
-// halves, one of every two neighbours on different sides of the plane
+// Two grains are neighbours if they are a pair. A plane halves the bed; the fewest grains that part
+// the halves, one of every two neighbours on different sides of the plane
 // (engine/exact/vertex_cover.hpp), come last; what is left of each half is parted in the same way
-// (George 1973). Of the planes across the three axes the one is taken whose halves the fewest
-// grains part: where neighbours meet around a periodic box, they are parted at two places. The
+// (George 1973). Of the planes across the three axes, the one whose halves are parted by the fewest
+// grains is taken: where neighbours meet around a periodic box, they are parted at two places. The
 // parting grains of all halvings are the nodes of a binary tree, and the factors of a node depend
 // on those of its children alone.
 #pragma once
@@ -37,7 +37,7 @@ struct EliminationTree {
   std::vector<std::int32_t> node_of;  ///< of each grain
 };
 
-/// Of so many grains, which `centres` holds, and the pairs between them.
+/// The tree of the grains with these centres and the pairs between them.
 EliminationTree dissect(std::span<const Record<double>> centres,
                         const std::vector<GrainPair>& pairs);
 

@@ -12,14 +12,14 @@ namespace grainsweep {
 
 namespace {
 
-// A bed that still sinks gets nearer: it is given up once it has hardly sunk for so many rounds,
-// mean of the grains, d, and at the latest after six times as many.
+// A bed that still sinks comes nearer to rest: it is given up once the mean of its grains has
+// hardly sunk, d, for so many rounds, and at the latest after six times as many.
 constexpr int rounds_to_sink = 600;
 constexpr double has_sunk = 1e-4;
 constexpr double most_factorisations = 6.0 * rounds_to_sink;
 
-/// What a round takes besides its factorisation, in multiplications of one for each grain: it goes
-/// through all links up to seven times.
+/// What a round takes besides its factorisation, in multiplications for each grain: it goes through
+/// all links up to seven times.
 constexpr double of_a_grain_and_round = 4000.0;
 
 // Products f s, m g d: slacks of loaded contacts are 1e-5 d at first, 1e-4 d where a bed that
@@ -32,7 +32,8 @@ constexpr double nearly_balanced = 1e-8;       // of the largest force or weight
 constexpr double least_slack = 1e-9;
 constexpr double stiff = 1e8;  // of contacts whose gaps are closed, m g / d
 
-// Lengths, d. Pairs are listed as far as two grains may come near each other before the next list.
+// Lengths, d. Pairs are listed if the two grains may come near each other before the next list is
+// made.
 constexpr double leash = 0.03;
 constexpr double listed_gap = 2.0 * leash;
 constexpr double long_way = 0.06, short_way = 0.006;
@@ -40,7 +41,7 @@ constexpr double long_way = 0.06, short_way = 0.006;
 /// A pair or wall within reach.
 struct Link {
   std::int32_t a = 0, b = 0;  ///< as of ForceContact
-  double mass = 1.0;          ///< of its lighter grain: the scale of its force, m
+  double mass = 1.0;          ///< of its lighter grain, which sets the scale of its force, m
   double gap = 0.0;           ///< d
   double slack = 0.0;         ///< what the gap should be, positive, d
   double force = 0.0;         ///< positive, m g
@@ -56,7 +57,7 @@ double length_of(double value, double step, double loss) {
   return step < 0.0 ? std::min(1.0, -loss * value / step) : 1.0;
 }
 
-/// The length that all links can go but for the first `cut_short`. `lengths` is reordered.
+/// The length that all links but the first `cut_short` can go. `lengths` is reordered.
 double length_of_all(std::vector<double>& lengths, std::size_t cut_short) {
   if (lengths.empty()) return 1.0;
   const auto at =
@@ -145,8 +146,8 @@ class InteriorPoint {
     links_.push_back(link);
   }
 
-  /// A spring of each link; then those across: one of a round wall, which turns as a grain slides
-  /// along it, two of a pair that rolls.
+  /// A spring for each link; then those across it: one for a round wall, whose normal turns as a
+  /// grain slides along it, two for a pair that rolls.
   void lay_out_springs() {
     springs_.clear();
     for (const Link& link : links_) {
@@ -269,7 +270,7 @@ class InteriorPoint {
   bool is_found() const {
     return product_ <= last_product && reached_ > 0.9 && is_balanced_to(nearly_balanced);
   }
-  /// Of the largest force or weight.
+  /// Whether all grains are balanced to a share of the largest force or weight.
   bool is_balanced_to(double share) const {
     double scale = 1.0;
     for (const Link& link : links_) scale = std::max(scale, link.force);
@@ -279,7 +280,7 @@ class InteriorPoint {
   static bool is_time_to_look(std::int64_t rounds) {
     return rounds > 0 && rounds % rounds_to_sink == 0;
   }
-  /// Whether the bed has sunk since its grains were at `height`, which becomes that of now.
+  /// Whether the bed has sunk since its grains were at `height`, which is set to the present one.
   bool still_sinks(double& height) const {
     const double before = std::exchange(height, mean_height());
     return before - height > has_sunk;
@@ -350,8 +351,9 @@ class InteriorPoint {
     for (Spring& spring : springs_) spring.stiffness = std::max(spring.stiffness, 0.0);
   }
 
-  /// What a round wants. Targets are changed, with the same factors, until the step is long: those
-  /// products that a longer step would bring far from the others are held back (Gondzio 1996).
+  /// The step that a round aims at. Targets are changed, with the same factors, until the step is
+  /// long: products that a longer step would bring far from the others are held back (Gondzio
+  /// 1996).
   void find_step() {
     constexpr int corrections = 6;
     constexpr double longer = 0.3, far_off = 10.0, gain = 1.02;
@@ -400,7 +402,7 @@ class InteriorPoint {
     factors_.solve<float>(left);
     for (std::size_t i = 0; i < grains(); ++i) way_[i] += left[i];
   }
-  /// Those of springs and ground, m g.
+  /// Subtracts the forces of springs and ground, m g.
   void take_forces_of_way(std::vector<Vector>& from) const {
     for (std::size_t i = 0; i < grains(); ++i) from[i] -= ground_[i] * way_[i];
     for (std::size_t k = 0; k < springs_.size(); ++k) {
@@ -421,7 +423,8 @@ class InteriorPoint {
     return {slack, force};
   }
 
-  /// One link must not stop a bed: some are cut short, and what they miss is left to later rounds.
+  /// One link must not stop a bed: some are cut short, and the rest of their step is left to later
+  /// rounds.
   void take_step() {
     constexpr double cut_share = 0.05;
     const auto cut_short = static_cast<std::size_t>(cut_share * static_cast<double>(grains()));
@@ -444,7 +447,7 @@ class InteriorPoint {
     }
     taken_ = of_slack;
   }
-  /// By a share of the way that they want, no further than their leash.
+  /// Moves grains by a share of the way that they want to go, no further than their leash.
   void move_grains(double share) {
     double furthest = 0.0;
     for (std::size_t i = 0; i < grains(); ++i) {
@@ -462,7 +465,8 @@ class InteriorPoint {
 
   void adapt() {
     constexpr double centred = 0.85, well_centred = 0.95, few_blocked = 0.004;
-    // Of all grains: with a tenth of it large beds slide past where they would rest.
+    // Largest drag of all grains alike: with a tenth of it large beds slide past where they would
+    // rest.
     constexpr double most_drag = 1.0;
     for (std::size_t i = 0; i < grains(); ++i) {
       const double way = way_[i].norm();
@@ -475,7 +479,7 @@ class InteriorPoint {
     drag_of_all_ = std::clamp(drag_of_all_, 1e-6, most_drag);
     full_steps_ = reached_ > centred ? full_steps_ + 1 : 0;
     // Where curvature holds grains they slide far for a slight force, and once products are small
-    // rounding of stiff contacts drowns it: it has to balance while they are not.
+    // rounding of stiff contacts drowns it: the bed has to balance while they are not small.
     constexpr double balanced = 0.01;
     const bool may_tighten = !is_narrow() || is_balanced_to(balanced);
     const bool few = static_cast<double>(blocked_) < few_blocked * static_cast<double>(grains());
@@ -497,7 +501,7 @@ class InteriorPoint {
     to[static_cast<std::size_t>(spring.a)] -= force * spring.along;
     if (spring.b != Spring::fixed) to[static_cast<std::size_t>(spring.b)] += force * spring.along;
   }
-  /// On every grain, its weight included, m g.
+  /// Net force on every grain, its weight included, m g.
   std::vector<Vector> net_forces() const {
     std::vector<Vector> net(grains());
     for (std::size_t i = 0; i < grains(); ++i) net[i] = {0.0, 0.0, -mass(i)};
@@ -519,7 +523,7 @@ class InteriorPoint {
 
   // ---- the end ----
 
-  /// Only links that push are left: their gaps are closed, and their forces solved for where the
+  /// Keeps only links that push: their gaps are closed, and their forces solved for where the
   /// grains then are.
   void keep_contacts() {
     constexpr double pushes = 1e4;  // m g / d; gaps and contacts lie 1e8 and more apart
@@ -565,7 +569,7 @@ class InteriorPoint {
       if (grains_move) move_grains(1.0);
     }
   }
-  /// Or the deepest overlap, d.
+  /// Widest gap or deepest overlap, d.
   double widest_gap() const {
     double widest = 0.0;
     for (const Link& link : links_) widest = std::max(widest, std::abs(link.gap));
@@ -615,7 +619,7 @@ class InteriorPoint {
   std::vector<double> drag_;         ///< of each grain, over that of all
   std::vector<double> drag_before_;  ///< the same when the round began
   std::vector<double> ground_;       ///< memory of factor_with_drag
-  std::vector<Vector> way_;          ///< that grains want to go in this round, d
+  std::vector<Vector> way_;          ///< way that grains want to go in this round, d
   double product_ = first_product;
   double drag_of_all_ = 1e-2;
   double reached_ = 0.0;     ///< share of a round's step that no link is in the way of

@@ -1,7 +1,7 @@
 // The stiffness matrix of a bed whose contacts are springs, and its Cholesky factors.
 //
-// Multifrontal (Duff and Reid 1983): each node of the elimination tree gathers its own springs and
-// what its children leave to it in a dense matrix over its grains and their border, its front;
+// Multifrontal (Duff and Reid 1983): each node of the elimination tree gathers its own springs, and
+// what its children hand on to it, in its front, a dense matrix over its grains and their border;
 // it eliminates its grains and hands on what is left. Nearly all work is dense, in
 // kernels/front_kernels.hpp, with the same bits on every instruction set.
 #pragma once
@@ -34,8 +34,8 @@ class StiffnessFactors {
   explicit StiffnessFactors(const Kernels& kernels) : kernels_(&kernels) {}
 
   /// Prepares for springs between these ends of grains with these centres. Their order must stay;
-  /// their directions and stiffnesses may change. The factors, which may take gigabytes, have no
-  /// memory before the first factorisation.
+  /// their directions and stiffnesses may change. The factors, which may take gigabytes, are only
+  /// allocated at the first factorisation.
   void analyse(std::span<const Record<double>> centres, const std::vector<Spring>& springs);
 
   /// Multiplications that a factorisation takes.
@@ -43,7 +43,7 @@ class StiffnessFactors {
 
   /// Factors the matrix of all springs, and of springs of stiffness ground[i] in all directions
   /// between grain i and the ground, in numbers of type Real. False if rounding leaves it not
-  /// positive definite, or if `keep_going`, asked every now and then, says no.
+  /// positive definite, or if `keep_going`, called every now and then, returns false.
   template <class Real>
   bool factor(
       const std::vector<Spring>& springs, const std::vector<double>& ground,
@@ -55,7 +55,7 @@ class StiffnessFactors {
   void solve(std::vector<Vector>& x);
 
  private:
-  /// The springs of a node are those whose first end it eliminates: where their ends are in its
+  /// A spring of a node, which eliminates the spring's first end: where its ends are in the node's
   /// front.
   struct PlacedSpring {
     std::size_t spring;
@@ -63,8 +63,8 @@ class StiffnessFactors {
     std::int32_t b;  ///< or Spring::fixed
   };
   struct Front {
-    std::size_t columns = 0;  ///< of the grains that it eliminates, three of each
-    std::size_t rows = 0;     ///< of its border, too
+    std::size_t columns = 0;  ///< of the grains that it eliminates, three for each
+    std::size_t rows = 0;     ///< including those of its border
     std::size_t stride = 0;
     std::size_t factor = 0;               ///< where its columns begin in `factors`
     std::vector<std::int32_t> at_parent;  ///< place of each grain of the border there
@@ -77,7 +77,7 @@ class StiffnessFactors {
     std::vector<std::vector<Real>> left;
     std::vector<Real> at_front;  ///< memory of solve
 
-    /// Its columns, and behind them those of its border, where later fronts will be.
+    /// Its columns and, behind them, those of its border, where later fronts will be.
     Real* matrix_of(const Front& front) { return factors.data() + front.factor; }
   };
 

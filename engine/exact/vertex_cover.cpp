@@ -51,7 +51,7 @@ class Matching {
     taken[index(left)] = 0;
     for (const std::int32_t right : partners_[index(left)]) {
       if (std::exchange(seen_[index(right)], 1) != 0) continue;
-      reach(of_right_[index(right)], taken);  // were it none, the matching could be extended
+      reach(of_right_[index(right)], taken);  // if there were none, the matching could be extended
     }
   }
 

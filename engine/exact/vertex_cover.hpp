@@ -1,4 +1,4 @@
-// The fewest vertices of a bipartite graph that have an end of each of its edges.
+// The fewest vertices of a bipartite graph that include an end of each of its edges.
 #pragma once
 
 #include <cstddef>
@@ -16,8 +16,8 @@ struct VertexCover {
   std::vector<std::uint8_t> left, right;
 };
 
-/// As many vertices as edges of which no two meet (Koenig 1931); the same of several such covers
-/// every time. `right`: number of right vertices.
+/// It has as many vertices as the largest set of edges of which no two meet (Koenig 1931). If there
+/// are several such covers, it is the same one every time. `right`: number of right vertices.
 VertexCover smallest_cover(const Partners& partners, std::size_t right);
 
 }  // namespace grainsweep

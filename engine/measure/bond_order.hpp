@@ -1,9 +1,9 @@
 // Bond order: do the directions from grain to grain repeat, as in a crystal?
 //
 //   Q6^2 = 4 pi / 13  sum over m of |mean over bonds of Y6m|^2
-// (Steinhardt, Nelson, Ronchetti 1983), which no rotation changes: .57452 in a face-centred cubic
-// crystal, .35355 in a simple cubic one, 0 for bonds in all directions alike. Two grains are bonded
-// if their gap is below .2 times the mean of their diameters, and below .2 d.
+// (Steinhardt, Nelson, Ronchetti 1983), which no rotation changes: 0.57452 in a face-centred cubic
+// crystal, 0.35355 in a simple cubic one, 0 for bonds in all directions alike. Two grains are
+// bonded if their gap is below 0.2 times the mean of their diameters, and below 0.2 d.
 #pragma once
 
 #include <vector>
@@ -29,8 +29,8 @@ struct BondOrder {
   double local = 0.0;   ///< of each grain's bonds, mean over the slab's grains that have any
 };
 
-/// Bonds among `near`, pairs that hold all with a gap below longest_bond_gap, of the grains whose
-/// centre lies in the slab. NaN without bonds.
+/// Of the grains whose centre lies in the slab; `near` must hold all pairs with a gap below
+/// longest_bond_gap. NaN without bonds.
 BondOrder bond_order(const Grains& bed, const Touching& near, const Slab& slab);
 
 }  // namespace grainsweep

@@ -10,9 +10,9 @@
 
 namespace grainsweep {
 
-/// An entry for each component; none of a bed whose grains have none. Neighbours are counted as in
+/// An entry for each component; empty if the grains have none. Neighbours are counted as in
 /// engine/measure/coordination.hpp, contacts as in engine/measure/shape_order.hpp; solid fractions
-/// add up to that of the slab. `lines`: of each of the forces. Profiles are left empty.
+/// add up to that of the slab. `lines`: one for each of the forces. Profiles are left empty.
 std::vector<ComponentMeasure> measure_components(const PolyhedronBed& bed, const Touching& touching,
                                                  const std::vector<PairForce>& pair_forces,
                                                  const std::vector<ForceLine>& lines,

@@ -16,7 +16,7 @@ struct ForceStatistics {
 
 /// Forces whose height lies in the slab. Each is taken relative to the mean of its layer, 1 d thick
 /// from the slab's bottom up, because the weight to be carried grows with depth. `bin_width` and
-/// `largest` are relative forces; what lies beyond has its share of the probability.
+/// `largest` are relative forces; forces beyond `largest` have their share of the probability.
 ForceStatistics force_statistics(const std::vector<PairForce>& forces, const Slab& slab,
                                  double bin_width, double largest);
 

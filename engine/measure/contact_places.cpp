@@ -38,7 +38,7 @@ int counted(const std::vector<ContactPoint>& points, double tolerance) {
   return std::max(1, constraints_of(points.data(), points.size(), tolerance));
 }
 
-/// A gap of `gap` is below it, and everything else that touches.
+/// A reach that includes a gap of `gap` and everything else that touches.
 double reach_of(double gap, double tolerance) {
   constexpr double rounding = 1e-9;
   return std::max(tolerance, gap + rounding);
@@ -56,7 +56,7 @@ std::vector<ContactPoint> points_of(const PolyhedronBed& bed, const TouchingWall
   return points;
 }
 
-/// Of a sphere at a wall.
+/// The contact place of a sphere at a wall.
 ContactPlace place_of_sphere(const Grains& bed, const TouchingWall& touching) {
   const Vector centre = centre_of(bed, touching.grain);
   const Vector normal = towards(bed.walls[static_cast<std::size_t>(touching.wall)], centre);

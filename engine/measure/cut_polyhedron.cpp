@@ -71,7 +71,7 @@ double cut_volume(const Tetrahedron& t, const Planes& planes, std::size_t next) 
   }
 }
 
-/// The planes that cut through the grain; nothing is left of it if one leaves it all outside.
+/// The planes that cut through the grain; no value if all of it lies outside one of them.
 bool planes_through(const ConvexShape& shape, const Pose& pose, const Vector& low,
                     const Vector& high, Planes& planes) {
   for (int axis = 0; axis < 3; ++axis) {
@@ -83,7 +83,7 @@ bool planes_through(const ConvexShape& shape, const Pose& pose, const Vector& lo
   return true;
 }
 
-/// Of a sphere among polyhedra.
+/// The same volume for a sphere among polyhedra.
 double ball_volume(double radius, const Vector& centre, const Vector& low, const Vector& high) {
   const auto from_centre = [&](int axis) {
     return Span{low[axis] - centre[axis], high[axis] - centre[axis]};

@@ -41,9 +41,9 @@ double layer_volume(double radius, double low, double high) {
   return pi * (high - low) * (squared - (low * low + low * high + high * high) / 3.0);
 }
 
-/// Integral of what the discs of a ball and of a cylinder share, from one height to another,
-/// between which no disc holds the other. Where their rims nearly touch all the way round, Gauss's
-/// rule alone would lose half the digits.
+/// Integral of the area that the discs of a ball and of a cylinder share, between two heights
+/// between which neither disc holds the other. Where their rims nearly touch all the way round,
+/// Gauss's rule alone would lose half the digits.
 double crossing_volume(double radius, double distance, double tube, double low, double high) {
   if (high <= low) return 0.0;
   const double middle = 0.5 * (low + high), half = 0.5 * (high - low);
@@ -64,8 +64,8 @@ double crossing_volume(double radius, double distance, double tube, double low, 
 using InDouble = boost::math::policies::policy<boost::math::policies::promote_double<false>>;
 
 /// Integral of s^2 c^2 / sqrt(1 - k^2 s^2), s = sin t and c = cos t, from 0 to pi/2, for a small
-/// k^2: there the combination of complete integrals that it is would lose digits. The integrand is
-/// periodic, so that the midpoint rule converges like (k^2 / 16)^2n.
+/// k^2, where the combination of complete integrals that it equals would lose digits. The integrand
+/// is periodic, so that the midpoint rule converges like (k^2 / 16)^2n.
 double midpoint_integral(double k_squared) {
   constexpr std::size_t points = 6;
   static const std::array<double, points> sine_squared = [] {
@@ -81,7 +81,7 @@ double midpoint_integral(double k_squared) {
   return sum * pi / (2.0 * points);
 }
 
-/// Volume that a ball and an endless cylinder share.
+/// Volume shared by a ball and an endless cylinder.
 ///
 /// By parts it is 4 pi/3 a^3, if the cylinder's axis meets the ball's middle height within its rim,
 /// less 4/3 of the integral of (a^2 - u)^(3/2) over the half angle of the arc that lies in the
@@ -124,7 +124,7 @@ double whole_volume(double radius, double distance, double tube) {
 
 /// The part of it between the middle of the ball and a height above it.
 double volume_up_to(double height, double radius, double distance, double tube) {
-  // The height at which the ball's disc has a radius; 0 if none is so large.
+  // The height at which the ball's disc has the radius `disc`; 0 if none is so large.
   const auto height_of = [&](double disc) {
     return disc < radius ? std::sqrt((radius - disc) * (radius + disc)) : 0.0;
   };
@@ -137,11 +137,11 @@ double volume_up_to(double height, double radius, double distance, double tube) 
 
 // ---- polyhedra ----
 
-/// Of an integral between two heights, in volumes of the grain.
+/// Error allowed of an integral between two heights, in volumes of the grain.
 constexpr double allowed_error = 1e-10;
 
 /// Integral of an area over the height. Where the rim of the disc passes a corner or a side of the
-/// section the area has a kink: pieces are halved until halves of them add up to the whole.
+/// section the area has a kink: pieces are halved until their halves add up to the whole.
 template <class Area>
 double integral(const Area& area, double low, double high, double error, int halvings = 10) {
   using boost::math::quadrature::gauss;
@@ -161,8 +161,8 @@ struct Point {
 double cross(const Point& a, const Point& b) { return a.x * b.y - a.y * b.x; }
 double dot(const Point& a, const Point& b) { return a.x * b.x + a.y * b.y; }
 
-/// Area that a disc about the origin shares with the triangle of the origin, p and q; negative if
-/// the way from p to q is clockwise.
+/// Area shared by a disc about the origin and the triangle of the origin, p and q; negative if the
+/// way from p to q is clockwise.
 double triangle_area(const Point& p, const Point& q, double radius) {
   const auto sector = [&](const Point& a, const Point& b) {
     return 0.5 * radius * radius * std::atan2(cross(a, b), dot(a, b));

@@ -4,8 +4,8 @@
 // either shares with the disc of the cylinder is known in closed form; it is integrated over z
 // between the heights where its form changes. There it behaves like a power 3/2 of the distance,
 // which the substitution z = middle - half cos(t) turns into a smooth function of t, so that
-// Gauss's rule converges fast (spheres: rounding; polyhedra: see below). Of a sphere's whole height
-// the integral is known, in complete elliptic integrals.
+// Gauss's rule converges fast (spheres: rounding; polyhedra: see below). Over a sphere's whole
+// height the integral is known, in complete elliptic integrals.
 #pragma once
 
 #include "engine/measure/slab.hpp"
@@ -13,7 +13,7 @@
 
 namespace grainsweep {
 
-/// Area that two discs share whose centres are `distance` apart, d^2.
+/// Area shared by two discs whose centres are `distance` apart, d^2.
 double shared_area(double radius, double other_radius, double distance);
 
 /// Volume of the part of a sphere whose centre lies at `distance` from the axis of a cylinder of

@@ -14,8 +14,8 @@ namespace grainsweep {
 /// frame; NaN without any.
 double nematic_order(const std::vector<Vector>& axes);
 
-/// The order of each axis of the frames in which the shapes of `grains` are written, of those of
-/// them that turn.
+/// The order of each axis of the frames in which the shapes of `grains` are written, over those
+/// grains that can turn.
 std::array<double, 3> nematic_orders(const PolyhedronBed& bed,
                                      const std::vector<std::size_t>& grains);
 

@@ -47,7 +47,7 @@ BinOfGrain bins_of_grains(const Grains& bed, BinOf bin_of) {
   return bins;
 }
 
-/// Gathers the profile of all grains, by their class of size.
+/// Gathers the profile of all grains, by size class.
 template <class Kind>
 class OfClasses {
  public:
@@ -131,7 +131,7 @@ class OfComponents {
   ComponentBin& at(std::size_t grain, std::size_t bin) {
     return profiles_[bed_.component(grain)].bins[bin];
   }
-  /// In each bin of each component.
+  /// Sets the nematic order in each bin of each component.
   void set_nematic(const BinOfGrain& bins) {
     const std::size_t count = profiles_.front().bins.size();
     std::vector<std::vector<std::size_t>> grains(profiles_.size() * count);
@@ -149,8 +149,8 @@ class OfComponents {
 };
 
 /// Adds the volume of one grain to the bins it reaches; `below(t)` is its volume below the plane at
-/// t, all of it for t infinite. Differences of one function, which rounding does not let fall:
-/// nothing is lost between bins, and none has less than nothing.
+/// t, all of it for t infinite. The volumes are differences of one function, kept from falling by
+/// rounding: nothing is lost between bins, and no volume is negative.
 template <class Below, class Gather>
 void add_volume(std::size_t grain, const Span& span, const Bins& bins, Below below,
                 Gather& gather) {
@@ -173,7 +173,7 @@ void divide_volumes(const Bins& bins, double bin_volume, Gather& gather) {
   }
 }
 
-/// Volume of a sphere below a plane across x or y, as far as it lies in the slab.
+/// Volume of the part of a sphere below a plane across x or y and within the slab.
 double volume_in_slab(const Record<double>& sphere, const Slab& slab, double top) {
   const double low = slab.bottom - sphere.z, high = slab.top - sphere.z;
   if (low <= -sphere.w && high >= sphere.w) {
@@ -286,8 +286,7 @@ double distance_from_walls(const Box& box, double x, double y) {
 double ball_radius(const SphereBed& bed, std::size_t i) { return bed.position[i].w; }
 double ball_radius(const PolyhedronBed& bed, std::size_t i) { return bed.circumradius(i); }
 
-/// How far a grain reaches towards the nearest upright wall, and away from it, d; no shorter than
-/// it does.
+/// How far a grain reaches towards the nearest upright wall, and away from it, d; upper bounds.
 template <class Kind>
 Span reach_from_walls(const Bed<Kind>& bed, std::size_t i) {
   const Box& box = bed.box;

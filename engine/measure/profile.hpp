@@ -24,15 +24,15 @@ struct ProfileSettings {
 
 /// Along what a profile is taken.
 enum class ProfileAxis {
-  /// Across the slab, along x or y, from wall to wall, which whole bins divide: their width is the
-  /// nearest possible to the wanted one. Grains of the slab are those whose centre is in it. What a
-  /// grain overlaps a wall belongs to the bin at the wall.
+  /// Across the slab, along x or y, from wall to wall, divided into whole bins whose width is as
+  /// near as possible to the wanted one. Grains of the slab are those whose centre is in it. The
+  /// part of a grain that overlaps a wall belongs to the bin at the wall.
   x,
   y,
   /// In a tube, or a duct, a box between walls along x and y: over the distance from the nearest of
-  /// the four walls, from 0 to half the smaller extent of the box, which whole bins divide. A bin
-  /// is a square frame, in a tube a ring, as high as the slab. Each bin weighted by its area, the
-  /// mean is the solid fraction of the slab.
+  /// the four walls, from 0 to half the smaller extent of the box, divided into whole bins. A bin
+  /// is a square frame, in a tube a ring, as high as the slab. The mean over bins, each weighted by
+  /// its area, is the solid fraction of the slab.
   from_walls,
   /// Over the whole floor, from the floor to the highest point of the bed, in bins of the wanted
   /// width, whatever the slab is.
@@ -44,7 +44,7 @@ Profile profile_along(ProfileAxis axis, const Bed<Kind>& bed, const Touching& to
                       const Slab& slab, const ProfileSettings& settings);
 
 /// The parts of the components of a mixture, one each, in the same bins: solid fractions and counts
-/// of all of them add up to those of the profile. Nothing depends on the classes of size.
+/// of all of them add up to those of the profile. Nothing depends on the size classes.
 std::vector<ComponentProfile> component_profiles(ProfileAxis axis, const PolyhedronBed& bed,
                                                  const Touching& touching, const Slab& slab,
                                                  const ProfileSettings& settings);

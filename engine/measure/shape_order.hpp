@@ -9,8 +9,8 @@
 
 namespace grainsweep {
 
-/// Of the forces whose height lies in the slab, and of the grains whose centre does. `lines`: of
-/// each of the forces.
+/// Of the forces whose height lies in the slab, and of the grains whose centre does. `lines`: one
+/// for each of the forces.
 ShapeOrder measure_shape_order(const PolyhedronBed& bed, const std::vector<PairForce>& pair_forces,
                                const std::vector<ForceLine>& lines, const Slab& slab);
 

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int formula_rows = 25;
 
-/// Where shares are told.
+/// The diameters at which shares are given.
 std::vector<double> diameters_of(const SizeCurve& curve) {
   std::vector<double> diameters = curve.diameters;
   diameters.erase(std::unique(diameters.begin(), diameters.end()), diameters.end());

@@ -8,7 +8,8 @@ struct Slab {
   double bottom = 0.0;
   double top = 0.0;
   double height() const { return top - bottom; }
-  /// Whether a point at height z, d, lies in the slab; of two slabs on each other in one.
+  /// Whether a point at height z, d, lies in the slab; at the plane between two adjoining slabs, in
+  /// one only.
   bool contains(double z) const { return bottom <= z && z < top; }
 };
 

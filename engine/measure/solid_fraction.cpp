@@ -11,10 +11,10 @@ namespace grainsweep {
 namespace {
 
 /// Least width of a floor column, d: that of the grains that fill most of the bed, if it is larger
-/// than d, or most columns would be those that no grain's centre stands above.
+/// than d, since else most columns would have no grain's centre above them.
 template <class Kind>
 double least_column(const Bed<Kind>& bed) {
-  constexpr double larger = 1.25;  // what spread of sizes leaves below
+  constexpr double larger = 1.25;  // a usual spread of sizes stays below this
   double volume = 0.0, weighted = 0.0;
   for (std::size_t i = 0; i < bed.grains(); ++i) {
     const double own = volume_of(bed, i);

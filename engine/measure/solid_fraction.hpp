@@ -1,4 +1,4 @@
-// Solid fraction of horizontal slabs, from exact volumes of their parts of each grain.
+// Solid fraction of horizontal slabs, from the exact volumes of the parts of grains in them.
 #pragma once
 
 #include "engine/measure/slab.hpp"
@@ -28,9 +28,9 @@ template <class Kind>
 double small_share(const Bed<Kind>& bed, const Slab& slab, double small_below);
 
 /// Height of the free surface, d: the median, over floor columns about d wide, or as wide as the
-/// grains if they are larger (mean diameter of spheres of their volumes, weighted by it), of the
-/// highest point of the grains whose centres stand above the column. Of an even number of columns
-/// the higher of the two in the middle counts. 0 if most columns have no grain.
+/// grains if they are larger (mean diameter of spheres of the same volumes, weighted by volume), of
+/// the highest point of the grains whose centres stand above the column. Of an even number of
+/// columns the higher of the two in the middle counts. 0 if most columns have no grain.
 template <class Kind>
 double surface_height(const Bed<Kind>& bed);
 

@@ -29,7 +29,7 @@ double pair_gap(const PolyhedronBed& bed, std::size_t a, std::size_t b) {
 double wall_gap(const SphereBed& bed, const Wall& wall, std::size_t grain) {
   return wall.gap(bed.position[grain]);
 }
-/// Of the vertex that is nearest to the wall, none of which is convex; or of a sphere.
+/// Gap of the vertex that is nearest to the wall (no wall is convex), or of a sphere.
 double wall_gap(const PolyhedronBed& bed, const Wall& wall, std::size_t grain) {
   if (bed.shape(grain).is_ball) return wall.gap(bed.position[grain]);
   const Pose pose = bed.pose(grain);

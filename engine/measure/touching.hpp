@@ -26,7 +26,7 @@ struct Touching {
 };
 
 /// Calls pair(grain, other) for each of two grains with a gap below `gap_tolerance`, d, and
-/// wall(grain) for each wall as near.
+/// wall(grain) for each wall within the same gap of a grain.
 template <class Pair, class Wall>
 void visit_touching(const Touching& touching, double gap_tolerance, const Pair& pair,
                     const Wall& wall) {
@@ -41,9 +41,9 @@ void visit_touching(const Touching& touching, double gap_tolerance, const Pair& 
 }
 
 /// All pairs and walls with a gap below a tolerance, d. Gaps of polyhedra are the distances of
-/// their surfaces, and minus the least way that parts them where they overlap. Wraps the bed. The
-/// tolerance of spheres may depend on the radii of the two, infinite ones for walls: lists of small
-/// grains are shorter by far.
+/// their surfaces or, where they overlap, minus the shortest translation that parts them. Wraps the
+/// bed. The tolerance of spheres may depend on the radii of the two, infinite ones for walls: this
+/// makes lists of small grains far shorter.
 template <class Kind>
 Touching find_touching(Bed<Kind>& bed, const PairReach& tolerance_of, const Kernels& kernels);
 

@@ -12,8 +12,9 @@ inline const Vector& face_normal(const ConvexShape& shape, std::int32_t k) {
   return shape.faces[static_cast<std::size_t>(k)].normal;
 }
 
-/// Axis along two edges' cross product, to rounding at right angles to both however small their
-/// angle is: only the part of `v` at right angles to `u` is crossed. Zero if they are parallel.
+/// Axis along the cross product of two edges, at right angles to both up to rounding however small
+/// their angle is: only the part of `v` at right angles to `u` is crossed. Zero if they are
+/// parallel.
 inline Vector across(const Vector& u, const Vector& v) {
   const Vector n = u.cross(v - u.dot(v) * u);
   const double length = n.norm();

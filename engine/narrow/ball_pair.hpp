@@ -1,5 +1,5 @@
-// Pairs of which one grain or both are spheres: the point of a polyhedron that is nearest to a
-// centre.
+// Pairs in which one grain or both are spheres: the point of a polyhedron that is nearest to a
+// sphere's centre.
 //
 // A sphere touches at one point, whose normal passes through its centre. The nearest point is
 // looked for on every face that the centre lies above and on every edge, in closed form: there is
@@ -14,12 +14,13 @@ namespace grainsweep {
 /// The point of a polyhedron's surface that is nearest to a given one.
 struct NearestPoint {
   Vector point = Vector::Zero();    ///< in the frame of the shape, scaled, d
-  Vector outward = Vector::Zero();  ///< unit, from it to the given one, or the other way within
+  Vector outward = Vector::Zero();  ///< unit, from it to the given one, the other way if that lies
+                                    ///< within
   double distance = 0.0;            ///< d; negative = the given one lies within
   AxisKind kind = AxisKind::ball_on_face;  ///< what it lies on
 };
 
-/// Of a polyhedron of this scale. Of a point within it the nearest one on a face's plane.
+/// For a polyhedron of this scale. For a point within it, the nearest point on a face's plane.
 NearestPoint nearest_point(const ConvexShape& shape, double scale, const Vector& of);
 
 /// The only point of contact of a pair.

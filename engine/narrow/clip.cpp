@@ -15,7 +15,7 @@ constexpr double on_side = 1e-12;
 constexpr double same_point = 1e-10;
 
 // Square of the sine of an angle between edges below which rounding decides where they are closest:
-// then that is the middle of the stretch they share.
+// then the middle of the stretch that they share is taken.
 constexpr double nearly_parallel = 1e-12;
 
 const Face& face_of(const ConvexShape& shape, std::int32_t number) {
@@ -61,8 +61,8 @@ void place_face(const Incident& other, const Face& face, std::vector<Vector>& co
   }
 }
 
-/// Cuts a polygon by the plane through a side, beyond which its corners lie by so much (Sutherland
-/// and Hodgman 1974).
+/// Cuts a polygon by the plane through a side; how far each corner lies beyond it is given
+/// (Sutherland and Hodgman 1974).
 void cut(const std::vector<Vector>& polygon, const std::vector<double>& beyond, double tolerance,
          std::vector<Vector>& result) {
   result.clear();
@@ -93,7 +93,7 @@ Around around(const std::vector<Vector>& polygon) {
   return ball;
 }
 
-/// Cuts columns.polygon by all sides; most of them leave it as it is, many of them by far.
+/// Cuts columns.polygon by all sides; most sides leave it as it is, many being far from it.
 void cut_by_sides(const Reference& reference, ClipColumns& columns) {
   const double tolerance = on_side * reference.size();
   const Around ball = around(columns.polygon);
@@ -165,7 +165,7 @@ struct Beside {
   double rise(const Edge& edge) const { return std::abs(reach_of(edge.to) - reach_of(edge.from)); }
 };
 
-/// Vertices within the margin that are no corners of the touching face: where an edge lies on the
+/// Vertices within the margin that are not corners of the touching face: where an edge lies on the
 /// reference, a face at one of its ends may be the touching one, and would leave out the other end.
 void add_other_vertices(const Reference& reference, const Beside& beside, double margin,
                         std::size_t first, std::vector<ContactPoint>& points) {
@@ -176,7 +176,7 @@ void add_other_vertices(const Reference& reference, const Beside& beside, double
   }
 }
 
-/// Leaves of a segment what lies above the reference; false if nothing does.
+/// Cuts a segment down to the part above the reference; false if there is none.
 bool cut_by_sides(const Reference& reference, Vector& from, Vector& to) {
   const double tolerance = on_side * reference.size();
   for (const Side& side : reference.sides()) {
@@ -192,7 +192,7 @@ bool cut_by_sides(const Reference& reference, Vector& from, Vector& to) {
 
 /// Where edges that lie on the reference leave it, as such an edge and the touching face may share
 /// no more than a corner, about which the grain would turn into the other. Steep edges matter only
-/// once they lie.
+/// once they lie on it.
 void add_lying_edges(const Reference& reference, const Beside& beside, double margin,
                      std::size_t first, std::vector<ContactPoint>& points) {
   constexpr double lying = 0.02;  // rise by length: more than a grain turns in a step near rest
@@ -231,7 +231,7 @@ void clip_on(const Reference& reference, const Incident& other, double margin, s
 /// Appends the contact points on a face and on those nearly flat with it, in their frame.
 void clip(const ConvexShape& shape, double scale, std::int32_t face, const Incident& other,
           double margin, ClipColumns& columns, std::vector<ContactPoint>& points) {
-  // On an edge between such faces both know a point, each along its own normal.
+  // On an edge between such faces both give the same point, each along its own normal.
   constexpr double same_on_both = 1e-3;
   const std::size_t first = points.size();
   const auto beside = flat_with(shape, static_cast<std::size_t>(face));

@@ -4,7 +4,7 @@ namespace grainsweep {
 
 namespace {
 
-// Points closer than this, d, are one; and so close to a line are on it.
+// Points closer than this, d, are one; points this close to a line are on it.
 constexpr double one_place = 1e-6;
 
 /// The touching point for which `measure` is largest, if that is beyond `one_place`.

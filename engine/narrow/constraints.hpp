@@ -7,8 +7,8 @@
 
 namespace grainsweep {
 
-/// The points that say where a contact is: one of a point (a vertex, or crossing edges), two of a
-/// line (an edge on a face), three of an area (face on face); none if no gap is below `tolerance`.
+/// The points that say where a contact is: one for a point (a vertex, or crossing edges), two for a
+/// line (an edge on a face), three for an area (face on face); none if no gap is below `tolerance`.
 /// They are the first, the farthest from it, and the farthest from both.
 struct ConstraintPoints {
   std::array<const ContactPoint*, 3> point{};

@@ -202,8 +202,9 @@ Closest closest_points(const ShapePair& pair) {
     const Vector moved = next.nearest();
     const bool is_inside = advanced.is_nearer && next.count == 4;
     if (!is_inside && !(moved.squaredNorm() < nearest.squaredNorm())) {
-      // No further, at last by rounding. Of shapes that lie face on face or edge on edge the
-      // corners can be a sliver, whose nearest point lies in a direction that parts nothing.
+      // No further progress, at last because of rounding. For shapes that lie face on face or edge
+      // on edge the corners can be a sliver, whose nearest point lies in a direction that does not
+      // part the shapes.
       result.overlap = !advanced.parts && !(separating_axes(pair).separation() > 0.0);
       break;
     }

@@ -13,12 +13,12 @@ struct Closest {
   double distance = 0.0;         ///< d; 0 if the shapes overlap
   Vector on_a = Vector::Zero();  ///< closest points, frame of a; any common point if overlapping
   Vector on_b = Vector::Zero();
-  bool overlap = false;    ///< the shapes share a point, or are closer than rounding tells
+  bool overlap = false;    ///< the shapes share a point, or are closer than rounding can resolve
   bool converged = false;  ///< false never happened; then distance is an upper bound
   int iterations = 0;
 };
 
-/// From the corners that lie towards each other's centre on.
+/// Starts from the corners that lie towards each other's centre.
 Closest closest_points(const ShapePair& pair);
 
 }  // namespace grainsweep

@@ -181,7 +181,7 @@ void try_edges(const ShapePair& pair, const HullKernels& kernels, PlacedEdges& o
   }
 }
 
-/// The same of one edge each.
+/// The same for one edge of each.
 void try_crossing(const ShapePair& pair, const Edge& p, const Edge& q, ContactAxis& best) {
   const Matrix& turn = pair.pose.turn;
   const Vector along = turn * q.along;
@@ -215,10 +215,11 @@ ContactAxis better_edges(const ShapePair& pair, View& a, View& b, double face, P
 
 // ---- candidates ----
 
-// Of the pair's size, and as a cosine: how much worse than the best axis those are that are left
-// out.
+// Axes worse than the best one by this much are left out, as a share of the pair's size and as a
+// cosine.
 constexpr double slack_of_size = 0.02, slack_of_cosine = 0.02;
-// They are listed where the pair has moved so little since its last search: for several steps more.
+// Candidates are listed where the pair has moved by this share or less since its last search: they
+// then hold for several steps.
 constexpr double slow_share = 1.0 / 16.0;
 
 /// Share of the slack that a pair has used since the pose of its candidates; they hold below a

@@ -31,7 +31,7 @@ std::optional<double> parted_by_distance(const ShapePair& pair, double margin, P
   const Closest closest = closest_points(pair);
   if (closest.distance <= margin) return {};
   const Vector axis = (closest.on_b - closest.on_a).normalized();
-  // What parts them must do so by itself: where rounding leaves a doubt they touch.
+  // The axis itself must part them: where rounding leaves a doubt they touch.
   const double separation = separation_along(pair, axis);
   if (!(separation > margin)) return {};
   memory.axis = axis;
@@ -86,8 +86,8 @@ PairContact touch_along(const ShapePair& pair, const ContactAxis& axis, double m
   return contact;
 }
 
-/// Whether what touches lies above the face: if edges part the pair better than any face, one point
-/// at least must be no further from the face than the edges are from each other, but for `beyond`.
+/// Whether what touches lies above the face: if edges part the pair better than any face, at least
+/// one point must be no further from the face than the edges are from each other, plus `beyond`.
 bool is_above_face(const ContactAxes& axes, const PairContact& contact,
                    const std::vector<ContactPoint>& points, double beyond) {
   if (!edges_part_better(axes, 0.0)) return true;
@@ -95,7 +95,7 @@ bool is_above_face(const ContactAxes& axes, const PairContact& contact,
   return !contact.is_beside && nearest <= axes.edges.separation + beyond;
 }
 
-/// Along the axis that is preferred.
+/// The contact along the preferred axis.
 PairContact touch_preferred(const ShapePair& pair, const TouchSettings& settings,
                             const ContactAxes& axes, ClipColumns& columns,
                             std::vector<ContactPoint>& points) {
@@ -110,7 +110,7 @@ PairContact touch_preferred(const ShapePair& pair, const TouchSettings& settings
   return touch_along(pair, axes.edges, settings.margin, columns, points);
 }
 
-/// Of a pair with a sphere.
+/// The contact of a pair with a sphere.
 PairContact touch_ball(const ShapePair& pair, double margin, PairMemory& memory,
                        std::vector<ContactPoint>& points) {
   const BallContact contact = ball_contact(pair);

@@ -19,15 +19,17 @@
 namespace grainsweep {
 
 struct TouchSettings {
-  double margin = 0.0;      ///< points with a gap up to it are contacts, d
+  double margin = 0.0;      ///< points with a gap up to this are contacts, d
   double preference = 0.0;  ///< of faces over edges, d
-  double of_depth = 0.0;    ///< so many times the overlap along the edges is preferred on top of it
+  double of_depth = 0.0;    ///< added to the preference: this times the overlap along the edges
 };
 
 /// What a pair remembers from step to step; a default one is always allowed.
 struct PairMemory {
-  Vector axis = Vector::Zero();  ///< that parted it best, or along which it touched; zero at first
-  bool touched = false;          ///< whether it did; then no time is lost on parting it along axis
+  Vector axis = Vector::Zero();  ///< the axis that parted it best, or along which it touched; zero
+                                 ///< at first
+  bool touched = false;          ///< whether it touched; then no time is lost on parting it along
+                                 ///< `axis`
   AxisCandidates candidates;
 };
 
@@ -35,15 +37,15 @@ struct PairMemory {
 struct ContactPoint {
   Vector position =
       Vector::Zero();  ///< midway between the surfaces, frame of a, about its centre, d
-  /// Along the normal, d; negative = overlap. Points beside a face are none of its contact, so that
-  /// within the margin the least gap may exceed the distance of the shapes by up to 0.04 d.
+  /// Along the normal, d; negative = overlap. Points beside a face are not part of its contact, so
+  /// that within the margin the least gap may exceed the distance of the shapes by up to 0.04 d.
   double gap = 0.0;
 };
 
 /// Least gap of one point or more, d.
 double min_gap(const ContactPoint* points, std::size_t count);
 
-/// Of a contact of edges, their directions in ConvexShape::edge_directions; else -1.
+/// For a contact of edges, their directions in ConvexShape::edge_directions; else -1.
 struct CrossedEdges {
   std::int32_t of_a = -1, of_b = -1;
 };
@@ -51,16 +53,17 @@ struct CrossedEdges {
 /// Contact of two grains; its points are `points[first]` .. `points[first + count - 1]`.
 struct PairContact {
   Vector normal = Vector::Zero();  ///< unit, from a to b, frame of a; the same for all points
-  /// Along the normal, d; no more than the least gap. Of no contact one that parts the shapes.
+  /// Along the normal, d; no more than the least gap. If there is no contact, a separation that
+  /// parts the shapes.
   double separation = 0.0;
   AxisKind kind = AxisKind::none;  ///< what gave the normal; none = no contact within the margin
   std::size_t first = 0, count = 0;
-  /// Its one point does not tell that the shapes are within the margin: the touching features lie
+  /// Its one point does not show that the shapes are within the margin: the touching features lie
   /// beside each other.
   bool is_beside = false;
   CrossedEdges edges = {};
-  /// Along the best of all axes, which one that is preferred need not be, d: as far as the shapes
-  /// overlap at all. Lowest where the axis is the only one.
+  /// Separation along the best of all axes, which a preferred one need not be, d: as far as the
+  /// shapes overlap at all. Lowest where the axis is the only one.
   double parted = std::numeric_limits<double>::lowest();
 };
 

@@ -24,7 +24,7 @@ double sunk_by(const PolyhedronBed& bed, Ends at, double squared) {
   return squared < nearest * nearest ? nearest - std::sqrt(squared) : 0.0;
 }
 
-// What rounding may add to a separation or to what grains have come, d.
+// How much rounding may add to a separation or to how far grains have moved, d.
 constexpr double rounding = 1e-9;
 
 /// Whether a pair cannot have come within the margin since it was found apart.
@@ -33,7 +33,7 @@ bool is_far(const FarPairs& far, std::size_t k, GrainPair pair, double margin) {
 }
 
 /// Notes that a pair whose nearest images, at this distance, were parted by `separation` is apart:
-/// by that, or by as much as its next images are at least, which lie beyond a period.
+/// by that, or by the least separation of its next images, a period away, if that is less.
 void note_apart(const PolyhedronBed& bed, std::size_t k, GrainPair pair, double distance,
                 double separation, const FarPairs& far) {
   const Ends at = ends_of(pair);
@@ -71,7 +71,8 @@ double touch_each(const TouchSettings& settings, const Kernels& kernels, const P
 /// The pinacoids of different proportions among the shapes of a bed.
 struct PinacoidKinds {
   std::vector<PinacoidHalves> kinds;
-  std::vector<std::size_t> of_shape;  ///< the kind of each shape; their number if it is another
+  std::vector<std::size_t> of_shape;  ///< the kind of each shape; the number of kinds if it is not
+                                      ///< a pinacoid
 };
 
 PinacoidKinds pinacoid_kinds(const std::vector<ConvexShape>& shapes) {
@@ -88,7 +89,8 @@ PinacoidKinds pinacoid_kinds(const std::vector<ConvexShape>& shapes) {
   return all;
 }
 
-/// Lists the pairs whose balls are no further apart than the margin; returns what touch_pairs does.
+/// Lists the pairs whose balls are no further apart than the margin; returns what touch_pairs
+/// returns.
 double list_close(double margin, const PolyhedronBed& bed, std::span<const GrainPair> pairs,
                   const FarPairs& far, std::vector<ClosePair>& close) {
   double sunk = 0.0;
@@ -109,8 +111,8 @@ double list_close(double margin, const PolyhedronBed& bed, std::span<const Grain
   return sunk;
 }
 
-/// Which kinds the grains of a pair are of: a number below that of all pairs of kinds, which it is
-/// if one of them is no pinacoid.
+/// The kinds of the grains of a pair, as one number below the number of all pairs of kinds; equal
+/// to that number if one of them is not a pinacoid.
 std::size_t kinds_of(const PolyhedronBed& bed, const PinacoidKinds& all, GrainPair pair) {
   const Ends at = ends_of(pair);
   const std::size_t kinds = all.kinds.size();

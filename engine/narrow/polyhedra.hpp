@@ -1,9 +1,9 @@
 // Which polyhedra of a list of pairs touch, and where.
 //
-// The chain of a pair: how far its grains have come since it was found apart; balls; then for
-// pinacoids, of the same proportions or not, the batch test of separating axes and its best axes
-// measured anew in f64, for other shapes the pair's last axis and separating axes; at last the
-// contact polygon, every point of it, and GJK where no point tells that the pair is near
+// The chain of tests of a pair: how far its grains have moved since it was found apart; balls; then
+// for pinacoids, of the same proportions or not, the batch test of separating axes and its best
+// axes measured anew in f64, for other shapes the pair's last axis and separating axes; at last the
+// contact polygon, every point of it, and GJK where no point shows that the pair is near
 // (engine/narrow/manifold.hpp). Spheres touch at one point (engine/narrow/ball_pair.hpp). Walls
 // touch with all vertices near them.
 #pragma once
@@ -18,7 +18,7 @@
 
 namespace grainsweep {
 
-/// Grains a and b of a bed, which must outlive it, b of its nearest image.
+/// Grains a and b of a bed, which must outlive it, b at its nearest image.
 inline ShapePair shape_pair(const PolyhedronBed& bed, std::size_t a, std::size_t b) {
   return {bed.shape(a), bed.shape(b), pair_pose(bed, a, b)};
 }
@@ -53,12 +53,12 @@ struct ClosePair {
   static constexpr std::uint32_t no_lane = 0xFFFFFFFF;
 };
 
-/// Which pairs need not be looked at: those that were found apart, and whose grains have come less
-/// far since then than would bring them together.
+/// Which pairs need not be looked at: those that were found apart, and whose grains have since
+/// moved less than would bring them together.
 struct FarPairs {
   std::span<const double> travel;  ///< of each grain, d; see engine/rows/travel.hpp
-  /// Of each pair, the travel of its two grains together with which they may touch, d; less than
-  /// that of any if they have not been looked at.
+  /// For each pair, the summed travel of its two grains from which on they may touch, d; less than
+  /// any travel if they have not been looked at.
   std::span<double> until;
 
   double travel_of(GrainPair pair) const {
@@ -76,16 +76,16 @@ struct NarrowColumns {
 /// Whether pairs of the bed have a PairMemory: those of pinacoids have none.
 bool needs_memory(const PolyhedronBed& bed);
 
-/// Appends the contacts of `pairs`; `far` tells which are none, and learns it of others; `memory`
-/// is what each of them remembers, if any does. Both save time and change nothing. Returns the most
-/// by which centres are nearer than sunk_share of the distance at which the balls within their
-/// grains touch, d; 0 if none are.
+/// Appends the contacts of `pairs`; `far` says which are none, and is told of others; `memory` is
+/// what each of them remembers, if any does. Both save time and change nothing. Returns the most by
+/// which centres are nearer than sunk_share of the distance at which the balls within their grains
+/// touch, d; 0 if none are.
 double touch_pairs(const TouchSettings& settings, const Kernels& kernels, const PolyhedronBed& bed,
                    std::span<const GrainPair> pairs, FarPairs far, std::span<PairMemory> memory,
                    NarrowColumns& columns, ContactList& found);
 
 /// Appends the contacts of grains with wall k of the bed. A round wall is concave, so that only
-/// vertices touch it: vertex v of a grain in a contact of its own, of the name wall_name(k) + v.
+/// vertices touch it: vertex v of a grain has a contact of its own, with the name wall_name(k) + v.
 void touch_wall(std::size_t k, const std::vector<std::int32_t>& grains, double margin,
                 const PolyhedronBed& bed, ContactList& found);
 

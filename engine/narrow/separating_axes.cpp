@@ -8,7 +8,7 @@ namespace grainsweep {
 
 namespace {
 
-// Square of the sine above which a cross product is true to 1e-13, so that its bound can be
+// Square of the sine above which a cross product is accurate to 1e-13, so that its bound can be
 // trusted.
 constexpr double well_crossed = 1e-6;
 
@@ -69,8 +69,8 @@ ContactAxis pinacoid_edges_axis(const ShapePair& pair, std::int32_t i, std::int3
   return axis;
 }
 
-/// Edges that part the shapes better than the best face, of all those that `wanted` allows: it is
-/// given their cross product.
+/// Edges that part the shapes better than the best face, of all those that `wanted`, given their
+/// cross product, allows.
 template <class Wanted>
 ContactAxis pinacoid_better_edges(const ShapePair& pair, ContactAxis best, Wanted wanted) {
   for (std::int32_t j = 0; j < pinacoid_edges; ++j) {

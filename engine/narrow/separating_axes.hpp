@@ -5,11 +5,11 @@
 // an overlap (the shortest translation that parts the shapes), exactly; of shapes apart it is
 // positive and at most their distance, which it reaches where a corner faces a face or edges cross.
 //
-// Few of a hull's edges can give the best axis. That of two edges counts only if it lies between
-// the normals of the faces at both edges (their arcs on the Gauss map cross; Gregorius, GDC 2013).
-// And where a corner of the other shape lies as deep below both faces at an edge as the best axis
-// so far says, no normal between those two parts the shapes better: most pairs leave no edge at
-// all.
+// Few of a hull's edges can give the best axis. The axis of two edges counts only if it lies
+// between the normals of the faces at both edges (their arcs on the Gauss map cross; Gregorius, GDC
+// 2013). And where a corner of the other shape lies as deep below both faces at an edge as the best
+// axis so far says, no normal between those of the two faces parts the shapes better: for most
+// pairs no edge is left at all.
 #pragma once
 
 #include <vector>
@@ -48,10 +48,10 @@ struct ContactAxes {
   double separation() const { return best().separation; }
 };
 
-/// Corners of one shape over the faces of the other.
+/// Heights of corners of one shape over the faces of the other.
 struct CornerHeights {
-  std::vector<std::int32_t> corners;  ///< vertices of the one
-  /// Of each of them over every face, corner after corner, with room as VectorColumns have it, d.
+  std::vector<std::int32_t> corners;  ///< vertices of the first shape
+  /// Height of each corner over every face, corner after corner, padded as VectorColumns are, d.
   std::vector<double> heights;
   std::vector<double> least;         ///< bound of how far each face parts the shapes, d
   std::vector<std::uint64_t> below;  ///< which corners lie low over each face, as bits
@@ -63,20 +63,20 @@ struct PlacedEdges {
   VectorColumns from;                ///< d
   VectorColumns along, left, right;  ///< unit vectors
   std::vector<const Edge*> edges;
-  std::vector<double> parted;           ///< of each, as of kernels/hull_kernels.hpp, d
+  std::vector<double> parted;           ///< of each, as in kernels/hull_kernels.hpp, d
   std::vector<std::uint8_t> crossings;  ///< of each
 };
 
 /// The faces and edges that the best axis can come from while two hulls move little: all others
-/// part them by less. Found where the two had hardly moved since the last call, and of the pose
-/// then. A default one is always allowed.
+/// part them by less. Found when the two had hardly moved since the last call, for the pose then. A
+/// default one is always allowed.
 struct AxisCandidates {
   static constexpr std::size_t most_faces = 6, most_edges = 12;
 
   double centre[3] = {}, turn[9] = {};  ///< of grain b as a sees it, d
-  bool is_set = false;                  ///< whether that is a pose
-  bool is_listed = false;               ///< whether the candidates are those of it
-  bool are_too_many = false;            ///< of it there are more than have room here
+  bool is_set = false;                  ///< whether these are a pose
+  bool is_listed = false;               ///< whether the candidates are those of this pose
+  bool are_too_many = false;            ///< this pose has more than have room here
   std::uint8_t faces = 0, edges = 0;
   std::int16_t face[most_faces] = {};  ///< k of a, or -1 - k of b
   std::int16_t edge_of_a[most_edges] = {}, edge_of_b[most_edges] = {};
@@ -102,7 +102,7 @@ ContactAxes separating_axes(const ShapePair& pair, const Vector& guess, AxisCand
 ContactAxes separating_axes(const ShapePair& pair);
 
 /// How far the pair of a lane is apart at least by the batch kernel, d. `reach`: the larger of both
-/// grains' scales and circumradii, d, in which pinacoid_rounding is told.
+/// grains' scales and circumradii, d, which pinacoid_rounding refers to.
 double parted_by(const PinacoidBlock& block, std::size_t lane, double reach);
 
 /// The axes of two pinacoids that the batch kernel chose for a lane, measured anew in f64, with

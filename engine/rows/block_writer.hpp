@@ -50,8 +50,8 @@ class BlockWriter {
            impulse_of(grains[k]));
     }
   }
-  /// The same of a round wall: pairs of rows (kernels/row_kernels.hpp). `impulse_of(grain, axis)`:
-  /// along x, 0, or y, 1.
+  /// The same for a round wall: pairs of rows (kernels/row_kernels.hpp). `impulse_of(grain, axis)`:
+  /// the impulse along x (0) or y (1).
   template <class ImpulseOf>
   void add_round_wall(const std::vector<std::int32_t>& grains, ImpulseOf impulse_of) {
     for (std::size_t k = 0; k < grains.size(); ++k) {

@@ -17,7 +17,7 @@ namespace grainsweep {
 template <class Kind, class Real>
 struct Contacts;
 
-/// Entries of grains, those of each together.
+/// Entries of grains, sorted by grain.
 template <class Entry>
 struct ByGrain {
   std::vector<std::size_t> begin;  ///< where each grain's entries begin; one more at the end
@@ -29,8 +29,8 @@ struct ByGrain {
   }
 };
 
-/// Sorts entries by grain, of each in their order. `visit_all(put)` calls put(grain, entry) for all
-/// entries, those of a grain never at the same time, and does so twice.
+/// Sorts entries by grain, those of each grain in their order. `visit_all(put)` calls put(grain,
+/// entry) for all entries, those of a grain never at the same time, and does so twice.
 template <class Entry, class VisitAll>
 void collect(std::size_t grains, const VisitAll& visit_all, ByGrain<Entry>& sorted) {
   std::vector<std::size_t>& begin = sorted.begin;
@@ -53,19 +53,19 @@ struct ForceContact {
 /// Forces below this do not make a contact force-bearing, m g.
 inline constexpr double least_force = 1e-6;
 
-/// A contact counts only once it is closed to this, d: what grains are said to touch at. Forces on
-/// light grains can be small against every tolerance while their gaps are still open.
+/// A contact counts only once it is closed to this gap, d, at which grains are said to touch.
+/// Forces on light grains can be small against every tolerance while their gaps are still open.
 inline constexpr double closed_gap = 1e-4;
 
 /// The gap of a row that nothing closes, d.
 inline constexpr double open_gap = 1e6;
 
-/// How a contact is closed where the grains are now.
+/// How a contact is closed with the grains where they are now.
 struct Closure {
   double gap = 0.0;     ///< least of its points, d; of polyhedra infinite if above closed_gap
   int constraints = 0;  ///< 1 at a point, 2 along a line, 3 over an area; 0 if it is open
-  /// Directions in which it holds besides, as its normal turns: 1 of a sphere at a round wall,
-  /// which goes back to where the wall is farthest; of a polyhedron that a sphere pushes 2 on a
+  /// Further directions in which it holds because its normal turns: 1 for a sphere at a round wall,
+  /// which goes back to where the wall is farthest; for a polyhedron that a sphere pushes, 2 on a
   /// face and 1 on an edge, as turning it would bring the sphere nearer.
   int by_turning = 0;
 };

@@ -19,11 +19,11 @@ struct BlockLane {
 
 class OpenBlocks {
  public:
-  /// Side of a contact that is no grain, and may be in a block as often as it likes.
+  /// Side of a contact that is not a grain, and may be in a block any number of times.
   static constexpr std::int32_t no_grain = -1;
 
-  /// `words`: one per grain, 0 for those that are going to be in contacts; they are 0 again after
-  /// `close_all`.
+  /// `words`: one per grain, 0 for grains that are going to be in contacts; these words are 0 again
+  /// after `close_all`.
   explicit OpenBlocks(std::vector<std::uint64_t>& words) : words_(words) {}
 
   /// A lane for the contact of a with b. `append` appends a void block and returns its number.

@@ -9,7 +9,7 @@ namespace grainsweep {
 
 namespace {
 
-/// What rounding a gap to f32 may add to it, d.
+/// How much rounding to f32 may add to a gap, d.
 constexpr double gap_rounding = 1e-7;
 
 template <class Real>

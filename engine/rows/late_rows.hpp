@@ -1,4 +1,4 @@
-// Spares and late rows: candidates that are no rows, and what becomes of them when they come near.
+// Spares and late rows: candidates that are not rows, and what becomes of them when they come near.
 #pragma once
 
 #include "engine/rows/sphere_contacts.hpp"
@@ -17,7 +17,7 @@ void part_spares(double reach, const ExecutionContext& context, const SphereBed&
                  const Candidates& candidates, SphereContacts<Real>& contacts);
 
 /// After candidates were added, and grains have moved: makes rows of those with walls and of spares
-/// with a gap below `near`. Returns false if there is no room for all: then some are no rows yet,
+/// with a gap below `near`. Returns false if there is no room for all: then some are not rows yet,
 /// and all have to be laid out anew.
 template <class Real>
 bool add_near(double near, const ExecutionContext& context, const SphereBed& bed,

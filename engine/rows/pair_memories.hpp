@@ -18,8 +18,8 @@ struct PairMemoryColumns {
   PairIndex index;                   ///< memory: of `pairs`
 };
 
-/// Finds each pair of a new list in the list before, columns.pairs: columns.before becomes its
-/// number in it, or PairIndex::none.
+/// Finds each pair of a new list in the list before, columns.pairs: sets columns.before to its
+/// number there, or to PairIndex::none.
 inline void match_pairs(std::size_t grains, const std::vector<GrainPair>& pairs,
                         const ParallelFor& loop, PairMemoryColumns& columns) {
   columns.index.assign(grains, columns.pairs);
@@ -31,8 +31,8 @@ inline void match_pairs(std::size_t grains, const std::vector<GrainPair>& pairs,
   });
 }
 
-/// Gives the pairs of the new list what those of the list before remembered in `memory`, which is
-/// then of the new ones. Pairs that were not listed remember `nothing`. `spare`: memory.
+/// Gives the pairs of the new list what those of the list before remembered in `memory`, which then
+/// belongs to the new pairs. Pairs that were not listed before remember `nothing`. `spare`: memory.
 template <class Memory>
 void keep_memories(const PairMemoryColumns& columns, const ParallelFor& loop, const Memory& nothing,
                    std::vector<Memory>& memory, std::vector<Memory>& spare) {

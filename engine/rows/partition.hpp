@@ -1,7 +1,7 @@
 // How rows are shared out among cores.
 //
-// Parts of a phase push no grain that another part of it pushes; phases follow one another. Small
-// beds are one part. Large beds have two phases, of every second subdomain each (subdomains.hpp).
+// No two parts of a phase push the same grain; phases follow one another. Small beds are one part.
+// Large beds have two phases, of every second subdomain each (subdomains.hpp).
 #pragma once
 
 #include <algorithm>
@@ -19,8 +19,8 @@ struct BlockRange {
   std::size_t blocks = 0;
 };
 
-/// Rows that one core works on. Where there are two phases, the parts of each name all grains: a
-/// part those whose rows are its own or of the other phase.
+/// Rows that one core works on. Where there are two phases, the parts of each phase together name
+/// all grains: a part names those whose rows are its own or of the other phase.
 struct RowPart {
   std::size_t phase = 0;
   std::size_t first_range = 0, ranges = 0;  ///< in RowShares::ranges
@@ -30,8 +30,8 @@ struct RowPart {
 struct RowShares {
   std::vector<BlockRange> ranges;    ///< all blocks, by part
   std::vector<RowPart> parts;        ///< by phase
-  std::vector<std::int32_t> grains;  ///< by subdomain, of a ring the first one's at both
-                                     ///< ends; empty if there is one phase
+  std::vector<std::int32_t> grains;  ///< by subdomain, in a ring the first one's at both ends;
+                                     ///< empty if there is one phase
 
   std::size_t phases() const { return parts.empty() ? 0 : parts.back().phase + 1; }
   void clear() {

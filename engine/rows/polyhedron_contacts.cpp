@@ -16,12 +16,12 @@ namespace grainsweep {
 namespace {
 
 // A face is preferred to edges that part a pair by no more than this share of g dt^2 beyond it, d;
-// where less is preferred edges replace whole faces and the bed collapses.
+// with a smaller preference edges replace whole faces and the bed collapses.
 constexpr double preferred_share = 0.5;
 constexpr double min_preference = 1e-4;
 constexpr double preferred_of_depth = 1.0;  // beyond its overlap
 
-/// Lists the contacts by falling number of points, else in their order.
+/// Lists the contacts by falling number of points, those with equally many in their order.
 void sort_by_points(const ContactList& found, std::vector<std::size_t>& order) {
   std::size_t most = 0;
   for (const PolyhedronContact& contact : found.contacts) most = std::max(most, contact.count);
@@ -80,7 +80,7 @@ class BodyBlocks {
   OpenBlocks open_;
 };
 
-/// The row of a point; an overlap counts as much as a step repairs of it.
+/// The row of a point; of an overlap, the share that a step repairs counts.
 template <class Real>
 void store_row(const PolyhedronBed& bed, const PolyhedronContact& contact,
                const ContactPoint& point, double correction, std::size_t lane,
@@ -174,7 +174,7 @@ void visit_contacts(const PolyhedronContacts<Real>& contacts, Visit visit) {
   }
 }
 
-/// Calls visit(part, k, force) for those that bore a force in a step of length `dt`.
+/// Calls visit(part, k, force) for the contacts that bore a force in a step of length `dt`.
 template <class Real, class Visit>
 void visit_bearing(const PolyhedronContacts<Real>& contacts, double dt, Visit visit) {
   visit_contacts(contacts, [&](const ContactPart<Real>& part, std::size_t k) {
@@ -217,15 +217,16 @@ int by_turning(const PolyhedronContact& contact) {
                                                   : 0;
 }
 
-/// What a contact holds the turns of its grains with, in their principal moments.
+/// By how much a contact holds the turns of its grains, about their principal axes, as moments of
+/// inertia.
 struct Hold {
   Vector of_a = Vector::Zero(), of_b = Vector::Zero();
 };
 
 Vector about_axes_across(const Vector& normal) { return Vector::Ones() - normal.cwiseAbs2(); }
 
-/// By the forces on its points, each times how far the point, or the centre of a sphere, lies from
-/// the grain's centre along the normal.
+/// From the forces on its points, each times how far the point, or the centre of a sphere, lies
+/// from the grain's centre along the normal.
 template <class Real>
 Hold hold_of(const PolyhedronContacts<Real>& contacts, const ContactPart<Real>& part, std::size_t k,
              const PolyhedronBed& bed) {
@@ -260,7 +261,7 @@ Hold hold_of(const PolyhedronContacts<Real>& contacts, const ContactPart<Real>& 
   }
 }
 
-/// Adds it to the squares of root_inertia of grains that turn.
+/// Adds a hold to the squares of root_inertia of grains that turn.
 template <class Real>
 void add_hold(const PolyhedronContacts<Real>& contacts, const ContactPart<Real>& part,
               std::size_t k, PolyhedronBed& bed) {
@@ -377,8 +378,8 @@ NamedPlaces::const_iterator place_of(const PolyhedronContact& c, const NamedPlac
   return at != places.end() && (*at)[0] == c.a && (*at)[1] == c.b ? at : places.end();
 }
 
-/// Contacts with a gap below `near`, d, with no preference of faces that would hide the depth of an
-/// overlap.
+/// Settings for contacts with a gap below `near`, d, with no preference of faces that would hide
+/// the depth of an overlap.
 TouchSettings as_deep_as_they_are(double near, double dt) {
   TouchSettings settings = touch_settings(near, dt);
   settings.of_depth = 0.0;

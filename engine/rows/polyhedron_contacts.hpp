@@ -48,7 +48,7 @@ struct ContactPart {
 template <class Real>
 struct Contacts<Polyhedron, Real> {
   Subdomains subdomains;
-  std::vector<PairMemory> memory;  ///< of each of subdomains.pairs, if any remembers
+  std::vector<PairMemory> memory;  ///< of each of subdomains.pairs, if they have any
   Travel travel;
   std::vector<double> far_until, spare_until;  ///< of each of subdomains.pairs; see FarPairs
   PairMemoryColumns listed_before;
@@ -63,7 +63,7 @@ struct Contacts<Polyhedron, Real> {
   ByGrain<CarriedPoint> carried;   ///< from the last step, by the first grain of each contact
   std::vector<std::uint64_t> open_blocks;  ///< per grain: one bit for each open block it is in
 
-  // As of spheres; a block says itself where its impulses are.
+  // As for spheres; a block itself says where its impulses are.
   static constexpr std::size_t records_of_grain = 2;
   SweepSums<Real> sweep(const Kernels& all, BlockRange range, const SweepRule<Real>& rule,
                         Record<Real>* u) {
@@ -79,7 +79,7 @@ struct Contacts<Polyhedron, Real> {
     kernels_of<Real>(all).bodies.accumulate_impulses(rows_of(range), range.blocks, impulse.data(),
                                                      accumulated);
   }
-  /// Gaps after the motion u of all grains, to first order in it: what else the contacts are stays.
+  /// Gaps after the motion u of all grains, to first order in it; all else of the contacts stays.
   /// `correction` as in find_contacts.
   void move_gaps(const Kernels& all, BlockRange range, const Record<Real>* u, double correction) {
     kernels_of<Real>(all).bodies.move_gaps(rows_of(range), range.blocks, u,
@@ -112,23 +112,24 @@ template <class Real>
 void take_candidates(const PolyhedronBed& bed, const Candidates& candidates,
                      PolyhedronContacts<Real>& contacts, const ParallelFor& loop = serial_for);
 
-/// Adds to the moments of inertia, for a step, what forces of the last step hold polyhedra with:
-/// turned by t about an axis across its normal, a face comes t^2 / 2 times the distance from the
-/// grain's centre along the normal nearer to what touches it; to a sphere that of its centre. Rows
-/// tell that of a step only after it, so that grains under many others, or light ones under a large
-/// force, would swing; with dt^2 times that stiffness in their inertia they do not, and rest where
-/// they would rest without. Of edges that cross each is held as a face is, about the other.
+/// Adds to the moments of inertia, for a step, the stiffness with which forces of the last step
+/// hold polyhedra: turned by t about an axis across its normal, a face comes nearer to what touches
+/// it by t^2 / 2 times the distance from the grain's centre along the normal (if a sphere touches
+/// it, the distance of the sphere's centre). Rows see this only after the step, so that grains
+/// under many others, or light ones under a large force, would swing; with dt^2 times that
+/// stiffness in their inertia they do not, and rest where they would rest without it. Of edges that
+/// cross, each is held as a face is, about the other.
 template <class Real>
 void hold_turning(const PolyhedronContacts<Real>& contacts, const ParallelFor& loop,
                   PolyhedronBed& bed);
 
-/// Ends that: between steps moments of inertia are those of the grains alone.
+/// Undoes hold_turning: between steps moments of inertia are those of the grains alone.
 void release_turning(const ParallelFor& loop, PolyhedronBed& bed);
 
 /// Finds the contacts between the candidates taken last, lays out their rows, and gives the
-/// impulses of the contacts before to the nearest point of the contact between the same two,
-/// whatever its normal is now; those of contacts that are no more are dropped. `correction`: share
-/// of an overlap that a step repairs. Returns what touch_pairs does, d.
+/// impulses of the previous contacts to the nearest point of the contact between the same two,
+/// whatever its normal is now; impulses of contacts that no longer exist are dropped. `correction`:
+/// share of an overlap that a step repairs. Returns what touch_pairs returns, d.
 template <class Real>
 double find_contacts(const TouchSettings& settings, double correction, const PolyhedronBed& bed,
                      const ExecutionContext& context, PolyhedronContacts<Real>& contacts);

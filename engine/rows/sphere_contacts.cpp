@@ -11,7 +11,7 @@ namespace grainsweep {
 
 namespace {
 
-/// The first block of a round wall where there is none.
+/// Stands for the first block of a round wall where there is none.
 constexpr std::size_t open_ended = std::numeric_limits<std::size_t>::max();
 
 /// Name of the wall that owns `block` in carried impulses; its second row has the next one.
@@ -34,7 +34,7 @@ std::int32_t other_side(const SphereBed& bed, const SphereContacts<Real>& contac
                                       : wall_name(bed, contacts, block);
 }
 
-/// Calls visit(block, lane, impulse) for each contact that bore a force; of a round wall with the
+/// Calls visit(block, lane, impulse) for each contact that bore a force; for a round wall with the
 /// first of its two blocks.
 template <class Real, class Visit>
 void visit_force_bearing(const SphereContacts<Real>& contacts, double dt, Visit visit) {
@@ -75,8 +75,8 @@ Real carried_impulse(const LayoutColumns<Real>& layout, std::int32_t a, std::int
   return Real(0);
 }
 
-/// Rows of one subdomain, and void blocks for late ones, a share of the others. Those that push
-/// come first, so that whole blocks of the others need no pushing.
+/// Rows of one subdomain, and void blocks for late rows, in proportion. Rows that push come first,
+/// so that whole blocks of the others need no pushing.
 template <class Real>
 void lay_out_subdomain(const SphereBed& bed, std::size_t subdomain, double late_share,
                        SphereContacts<Real>& contacts) {
@@ -202,11 +202,10 @@ void join(const ParallelFor& loop, SphereContacts<Real>& contacts) {
   });
 }
 
-/// What of a gap a step is told, if it repairs a share `correction` of an overlap.
+/// The gap that a step is given, if it repairs a share `correction` of an overlap.
 double corrected(double gap, double correction) { return gap < 0.0 ? correction * gap : gap; }
 
-/// Normal from the grain to the wall, and gap; of a round wall those of the flat one that touches
-/// it.
+/// Normal from the grain to the wall, and gap; for a round wall those of its tangent plane.
 template <class Real>
 void update_flat_wall(const SphereBed& bed, const WallRows& rows, double correction,
                       std::vector<RowBlock<Real>>& blocks) {
@@ -265,7 +264,8 @@ void lay_out_carried(const SphereBed& bed, const Candidates& candidates,
   set_parts(contacts);
 }
 
-/// Rows of the candidates with a gap below `reach` and of all with walls; the others are spares.
+/// Rows of the pairs with a gap below `reach` and of all candidates at walls; the other pairs are
+/// spares.
 template <class Real>
 void lay_out_near(double reach, const ExecutionContext& context, const SphereBed& bed,
                   const Candidates& candidates, SphereContacts<Real>& contacts) {

@@ -41,7 +41,7 @@ struct LateBlocks {
   std::size_t end = 0;
 };
 
-/// Candidates that are no rows, as many lanes of the blocks; others are void.
+/// Candidates that are not rows: the first `count` lanes of the blocks; other lanes are void.
 template <class Real>
 struct Spares {
   std::vector<RowBlock<Real>> blocks;
@@ -81,21 +81,22 @@ struct Contacts<Sphere, Real> {
   std::vector<RowBlock<Real>> rows;
   std::size_t pair_blocks = 0;
   std::vector<WallRows> walls;
-  std::size_t first_round = 0;  ///< block of a round wall; blocks if there is none
+  std::size_t first_round = 0;  ///< first block of a round wall; number of blocks if there is none
   RowShares shares;
   std::vector<Real> impulse;
   std::vector<Real> extrapolated;  ///< the solver's look-ahead impulses
-  std::vector<Real> changed_from;  ///< while impulses are changes of others: those; else empty
+  std::vector<Real> changed_from;  ///< while impulses are changes of other impulses: these; else
+                                   ///< empty
   std::vector<double> sunk;        ///< of each part of a detection: see `update_gaps`
   Spares<Real> spares;
   std::vector<LateBlocks> late;             ///< of each subdomain
   std::size_t taken_pairs = 0;              ///< so many of the candidates are rows or spares
-  std::vector<std::size_t> taken_at_walls;  ///< and so many of each wall's rows
+  std::vector<std::size_t> taken_at_walls;  ///< so many of each wall's candidates are rows
   LayoutColumns<Real> layout;
 
   std::size_t blocks_of_row(const WallRows& wall) const { return wall.first < first_round ? 1 : 2; }
 
-  // What the solver asks of contacts of any kind: how many records of motion a grain has, and what
+  // What the solver needs of contacts of any kind: how many records of motion a grain has, and what
   // its kernels do to the rows of a range.
   static constexpr std::size_t records_of_grain = 1;
   SweepSums<Real> sweep(const Kernels& all, BlockRange range, const SweepRule<Real>& rule,
@@ -124,7 +125,7 @@ struct Contacts<Sphere, Real> {
   }
 
  private:
-  /// Of what the impulses from place `at` on are changes; null where they are whole.
+  /// The impulses of which those from place `at` on are changes; null where they are whole.
   const Real* from(std::size_t at) const {
     return changed_from.empty() ? nullptr : changed_from.data() + at;
   }
@@ -137,15 +138,15 @@ template <class Real>
 void lay_out(const SphereBed& bed, const Candidates& candidates, SphereContacts<Real>& contacts,
              const ParallelFor& loop = serial_for);
 
-/// Before a step: completes the candidates, and makes rows of all with a gap below `near`. Where
-/// rows have to be laid out anew they are those with a gap below `reach`. Rows that were there
-/// before keep their impulse. Returns whether the bed was searched for candidates anew.
+/// Before a step: completes the candidates, and makes rows of all with a gap below `near`. If rows
+/// have to be laid out anew, all candidates with a gap below `reach` become rows. Rows that were
+/// there before keep their impulse. Returns whether the bed was searched for candidates anew.
 template <class Real>
 bool renew_rows(double near, double reach, const ExecutionContext& context, SphereBed& bed,
                 Candidates& candidates, SphereContacts<Real>& contacts);
 
 /// Lays out the candidates with a gap below `tolerance`, d, as rows without a gap, for a step of
-/// length 1; of a round wall the flat ones that touch it. Contacts keep the forces that they have
+/// length 1; for a round wall, rows of its tangent planes. Contacts keep the forces that they have
 /// in `from` after a step of length `dt`.
 template <class Real>
 void lay_out_closed(double tolerance, const ExecutionContext& context, const SphereBed& bed,

@@ -27,8 +27,8 @@ void count_slabs(const Grains& bed, const Candidates& candidates, const Parallel
   }
 }
 
-/// A subdomain ends with the slab that fills it, unless that is the last one. Of a ring's odd
-/// number the last two are joined.
+/// A subdomain ends with the slab that fills it, unless that is the last one. If a ring has an odd
+/// number of them, the last two are joined.
 void cut(std::size_t min_grains, Subdomains& subdomains) {
   const std::vector<std::size_t>& slab_size = subdomains.slab_size;
   subdomains.of_slab.assign(slab_size.size(), 0);

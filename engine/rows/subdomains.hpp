@@ -15,7 +15,7 @@
 
 namespace grainsweep {
 
-/// Memory of a division, kept from one to the next.
+/// Memory of a division, kept from one division to the next.
 struct Subdomains {
   std::size_t count = 1;
   bool is_ring = false;
@@ -45,9 +45,9 @@ struct Subdomains {
   bool may_hold(GrainPair pair) const;
 };
 
-/// Divides the bed of `candidates` into subdomains of at least so many grains and sorts `pairs`,
-/// its grains and those near walls by subdomain. No pair may reach further than the candidates did
-/// when they were searched for.
+/// Divides the bed of `candidates` into subdomains of at least `min_grains` grains (the last one
+/// may have fewer) and sorts `pairs`, its grains and those near walls by subdomain. No pair may
+/// reach further than the candidates did when they were searched for.
 void divide(const Grains& bed, std::size_t min_grains, const Candidates& candidates,
             const std::vector<GrainPair>& pairs, const ParallelFor& loop, Subdomains& subdomains);
 

@@ -9,8 +9,8 @@ namespace {
 
 double square(double x) { return x * x; }
 
-/// No less than how far a point at a distance of 1 from the axis of a turn has come: twice the sine
-/// of half its angle, where two quaternions are twice the sine of a quarter of it apart.
+/// Upper bound of how far a turn moves a point at a distance of 1 from its axis: twice the sine of
+/// half its angle, where the two quaternions are twice the sine of a quarter of the angle apart.
 double turned(const Record<double>& from, const Record<double>& to) {
   const double same =
       square(to.x - from.x) + square(to.y - from.y) + square(to.z - from.z) + square(to.w - from.w);

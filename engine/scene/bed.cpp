@@ -14,7 +14,7 @@ namespace {
 /// Far enough that no grain ever meets the void, near enough that squares stay finite.
 constexpr double void_distance = 1e9;
 
-/// Appends the entries that are no grains: the walls, then two voids for each subdomain.
+/// Appends the entries that are not grains: the walls, then two voids for each subdomain.
 void append_padding(Grains& bed) {
   bed.position.insert(bed.position.end(), bed.subdomains, {0.0, 0.0, -void_distance, 0.0});
   bed.motion.insert(bed.motion.end(), bed.subdomains, {0.0, 0.0, 0.0, 0.0});
@@ -25,7 +25,7 @@ void append_padding(Grains& bed) {
   }
 }
 
-/// The container of so many grains, still without them.
+/// The container of so many grains, still without the grains.
 template <class Kind>
 Bed<Kind> empty_bed(const Box& box, std::size_t grains, double solid_volume) {
   Bed<Kind> bed;
@@ -88,7 +88,7 @@ double usual_height(const Box& box, double solid_volume) {
 }
 
 int subdomain_axis(const Box& box, double solid_volume) {
-  constexpr double flat = 1.5;  // times as long as high: worth other subdomains
+  constexpr double flat = 1.5;  // so many times as long as high: subdomains along x or y
   const double height = usual_height(box, solid_volume);
   const int longer = box.length >= box.width ? 0 : 1;
   return std::max(box.length, box.width) > flat * height ? longer : 2;

@@ -1,8 +1,8 @@
 // A bed: the state that a packing carries from step to step, by the kind of its grains.
 //
-// All grains have a position, a size, a mass and a displacement. Polyhedra have an orientation, an
-// angle vector and moments of inertia besides. Spheres have none of them: without friction nothing
-// can turn them, so nothing here could say that they do.
+// All grains have a position, a size, a mass and a displacement. Polyhedra also have an
+// orientation, an angle vector and moments of inertia. Spheres have none of these: without friction
+// nothing can turn them, so a bed has no place to say that they do.
 #pragma once
 
 #include <cstddef>
@@ -21,35 +21,35 @@ namespace grainsweep {
 /// The kinds of grains. A bed holds one kind.
 struct Sphere {
   static constexpr int degrees_of_freedom = 3;
-  /// Grains that a subdomain of a large bed holds or more; see engine/rows/subdomains.hpp.
+  /// Least grains of a subdomain of a large bed, but for the last; see engine/rows/subdomains.hpp.
   static constexpr std::size_t subdomain_grains = 4000;
 };
 struct Polyhedron {
   static constexpr int degrees_of_freedom = 6;  ///< at most: spheres among polyhedra do not turn
-  static constexpr std::size_t subdomain_grains = 1000;  ///< their steps are dearer
+  static constexpr std::size_t subdomain_grains = 1000;  ///< their steps cost more
 };
 
 /// Beds of fewer grains are one subdomain.
 template <class Kind>
 inline constexpr std::size_t large_bed_grains = 4 * Kind::subdomain_grains;
 
-/// Most subdomains that a bed of so many grains is divided into.
+/// Largest number of subdomains that a bed of `grains` grains is divided into.
 template <class Kind>
 constexpr std::size_t max_subdomains(std::size_t grains) {
   return grains < large_bed_grains<Kind> ? 1 : grains / Kind::subdomain_grains + 1;
 }
 
-/// Height to which grains of that volume, d^3, usually settle, d.
+/// Height to which grains of that total volume, d^3, usually settle, d.
 double usual_height(const Box& box, double solid_volume);
 
-/// Axis along which a large bed is cut into subdomains: of a flat bed the longer one of x and y, 0
-/// or 1; of others upwards, 2. `solid_volume`: of all grains, d^3.
+/// Axis along which a large bed is cut into subdomains: the longer of x and y, 0 or 1, if the bed
+/// is flat, else z, 2. `solid_volume`: of all grains, d^3.
 int subdomain_axis(const Box& box, double solid_volume);
 
 /// What grains of all kinds have: columns with an entry per grain. The columns end with entries
-/// that are no grains, for each subdomain three: the wall, which nothing moves, and two void grains
-/// far from everything, which fill unused lanes of kernel blocks. Subdomains share none, so that
-/// cores may sweep them at the same time.
+/// that are not grains, three for each subdomain: the wall, which nothing moves, and two void
+/// grains far from everything, which fill unused lanes of kernel blocks. Subdomains share none of
+/// these, so that cores may sweep them at the same time.
 struct Grains {
   Box box;
   std::vector<Wall> walls;               ///< of the box, the floor first
@@ -77,13 +77,13 @@ struct Grains {
   }
   std::int32_t void_b(std::size_t subdomain = 0) const { return void_a(subdomain) + 1; }
   bool is_asleep(std::size_t grain) const { return !asleep.empty() && asleep[grain] != 0; }
-  /// Of an entry, as what pushes it sees it: 0 of a grain that sleeps, 1/m.
+  /// Inverse mass of an entry as contacts see it, 1/m: 0 for a grain that sleeps.
   double inverse_mass(std::int32_t entry) const {
     const auto i = static_cast<std::size_t>(entry);
     return is_grain(entry) && is_asleep(i) ? 0.0 : motion[i].w;
   }
   bool is_void(std::int32_t entry) const { return entry >= void_a(); }
-  /// What contacts with walls[k] call their second side.
+  /// The number that stands for walls[k] as the second side of a contact.
   std::int32_t wall_name(std::size_t k) const { return static_cast<std::int32_t>(grains() + k); }
 };
 
@@ -96,18 +96,18 @@ using SphereBed = Bed<Sphere>;
 
 /// Grains of one convex shape, or of several: the components of a mixture, spheres among them. The
 /// mass of a grain of scale s is s^3 times its component's volume over that of the first (so that a
-/// grain of scale 1 of the first has the unit of mass), its principal moments are s^2 times that
-/// mass times the component's `inertia`.
+/// grain of scale 1 of the first has mass 1); its principal moments are s^2 times that mass times
+/// the component's `inertia`.
 template <>
 struct Bed<Polyhedron> : Grains {
   std::vector<ConvexShape> shapes;  ///< one for each component
-  /// Of each grain, as of `shapes`; empty if there is one.
+  /// Place of each grain's shape in `shapes`; empty if there is only one.
   std::vector<std::uint8_t> components;
   /// Unit quaternion x, y, z, w: shape frame to box frame.
   std::vector<Record<double>> orientation;
   /// Angle vector of the next step if nothing acts, grain frame, radians.
   std::vector<Vector> spin;
-  /// Square roots of the principal moments, sqrt(m) d; within a step of more than those
+  /// Square roots of the principal moments, sqrt(m) d; within a step, of moments that are increased
   /// (hold_turning in engine/rows/polyhedron_contacts.hpp).
   std::vector<Vector> root_inertia;
 
@@ -128,17 +128,17 @@ struct Bed<Polyhedron> : Grains {
 };
 using PolyhedronBed = Bed<Polyhedron>;
 
-/// Ways in which the grains can move: 3 of a sphere, 6 of a polyhedron.
+/// Ways in which the grains can move: 3 for a sphere, 6 for a polyhedron.
 std::int64_t degrees_of_freedom(const SphereBed& bed);
 std::int64_t degrees_of_freedom(const PolyhedronBed& bed);
 
-/// A bed at rest in mid-air: the given spheres, and the entries that are no grains.
+/// A bed at rest in mid-air: the given spheres, and the entries that are not grains.
 SphereBed make_bed(const Box& box, const std::vector<PlacedSphere>& spheres);
 
-/// The same of grains of `shape`. Requires unit quaternions and positive scales.
+/// The same with grains of `shape`. Requires unit quaternions and positive scales.
 PolyhedronBed make_bed(const Box& box, ConvexShape shape, const std::vector<Pose>& poses);
 
-/// The same of grains of several shapes, `components` telling which of each grain.
+/// The same with grains of several shapes; `components` says which shape each grain has.
 PolyhedronBed make_bed(const Box& box, std::vector<ConvexShape> shapes,
                        std::vector<std::uint8_t> components, const std::vector<Pose>& poses);
 
@@ -161,13 +161,13 @@ bool is_finite(const PolyhedronBed& bed);
 /// Brings x and y of every centre back into the box along periodic axes.
 void wrap(Grains& bed, const ParallelFor& loop = serial_for);
 
-/// Place q minus place p, of the nearest image, box frame, d.
+/// Place q minus place p, for their nearest images, box frame, d.
 Vector nearest_difference(const Box& box, const Record<double>& p, const Record<double>& q);
 
-/// Centre of grain b minus that of grain a, the same.
+/// Centre of grain b minus that of grain a, in the same way.
 Vector nearest_difference(const Grains& bed, std::size_t a, std::size_t b);
 
-/// Grain b, of its nearest image, as grain a sees it.
+/// Grain b, at its nearest image, as grain a sees it.
 PairPose pair_pose(const PolyhedronBed& bed, std::size_t a, std::size_t b);
 
 /// Moves a grain by `displacement` (d, box frame) and turns it by the angle vector `angles`

@@ -1,7 +1,7 @@
 // The container: what bounds it, where its walls are, and its periodic images.
 //
-// A wall is known by the gap and the normal that it has at a point, whatever its form; nothing else
-// of it is asked for anywhere.
+// A wall is known by the gap and the normal that it has at a point, whatever its form; only code
+// for round walls alone asks for more.
 #pragma once
 
 #include <algorithm>
@@ -45,8 +45,8 @@ inline double shortest_period(const Box& box) {
   return std::min(of(box.period_x()), of(box.period_y()));
 }
 
-/// The difference between two coordinates, of their nearest images along an axis of that period, d;
-/// period 0: as it is. Requires a difference of less than one and a half periods.
+/// The difference between two coordinates, for their nearest images along an axis of that period,
+/// d; unchanged if the period is 0. Requires a difference of less than one and a half periods.
 inline double nearest_image(double difference, double period) {
   const double half = 0.5 * period;
   if (!(period > 0.0)) return difference;
@@ -70,7 +70,7 @@ struct UnitVector {
 /// positive distance.
 struct Wall {
   UnitVector inward;    ///< of a flat wall, into the free space
-  double offset = 0.0;  ///< of a flat wall: distance of the box's origin, d
+  double offset = 0.0;  ///< of a flat wall: distance of the box's origin from it, d
   double radius = 0.0;  ///< of a round wall, d; 0: flat. Its axis stands at x = y = radius
 
   bool is_round() const { return radius > 0.0; }
@@ -84,7 +84,7 @@ struct Wall {
   double gap(const Record<double>& sphere) const {
     return distance(sphere.x, sphere.y, sphere.z) - sphere.w;
   }
-  /// From the wall into the free space, at the point of the wall that is nearest to x, y, z; of a
+  /// From the wall into the free space, at the point of the wall that is nearest to x, y, z; for a
   /// point on the axis of a round wall, which has no nearest one, towards x.
   UnitVector normal(double x, double y, double z) const;
 };

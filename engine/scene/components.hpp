@@ -1,4 +1,4 @@
-// Which grain of a bed is of which component of a mixture.
+// Which component of a mixture each grain of a bed belongs to.
 #pragma once
 
 #include <cstdint>
@@ -8,10 +8,10 @@
 
 namespace grainsweep {
 
-/// Of each of `grains`, in the order in which their sizes are drawn (engine/scene/sizes.hpp), the
-/// number of its component, from 0; empty if the shape is no mixture. The number of grains of each
-/// is exact (engine/shape/mixture.hpp), who they are is drawn whatever their sizes. Same key, same
-/// components.
+/// The number of the component, from 0, of each of `grains` grains, in the order in which their
+/// sizes are drawn (engine/scene/sizes.hpp); empty if the shape is not a mixture. The number of
+/// grains of each component is exact (engine/shape/mixture.hpp); which grains they are is drawn
+/// regardless of size. Same key, same components.
 std::vector<std::uint8_t> draw_components(const ShapeSpec& shape, std::size_t grains,
                                           std::uint64_t key);
 

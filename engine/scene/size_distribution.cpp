@@ -13,7 +13,7 @@ namespace grainsweep {
 
 namespace {
 
-constexpr double beyond_cut = 1e-3;  // share that is cut off each end of a curve without ends
+constexpr double beyond_cut = 1e-3;  // share cut off at each end of a curve without ends
 constexpr double cut_deviation = 3.0902323061678132;  // of a Gaussian: 0.1 % lie beyond it
 constexpr int formula_steps = 500;  // keep rows within 2e-5 of a formula between its usual ends
 
@@ -21,7 +21,7 @@ struct Ends {
   double smallest, largest;
 };
 
-/// `chosen` where it is given.
+/// The ends of `chosen` where it gives them.
 Ends ends_of(const SizeDistribution& chosen, double smallest, double largest) {
   return {chosen.smallest.value_or(smallest), chosen.largest.value_or(largest)};
 }
@@ -76,7 +76,7 @@ SizeCurve curve_of(const Formula& formula, const SizeDistribution& distribution)
 SizeCurve cut(const SizeCurve& curve, const SizeDistribution& distribution) {
   const auto [smallest, largest] =
       ends_of(distribution, curve.diameters.front(), curve.diameters.back());
-  // A step at an end belongs to what is left.
+  // A step at an end belongs to the part that is left.
   const double low = passing_at(curve, std::nextafter(smallest, 0.0));
   const double whole = passing_at(curve, largest) - low;
   SizeCurve left{{smallest}, {0.0}};
@@ -128,7 +128,7 @@ struct MakeCurve {
   SizeCurve operator()(const SizeTable& table) const { return cut(rows_of(table), distribution); }
 };
 
-/// Power of the diameter that a grain's weight grows with.
+/// Power of the diameter to which a grain's weight is proportional.
 int power_of(SizeWeight by) {
   return by == SizeWeight::number ? 0 : by == SizeWeight::area ? 2 : 3;
 }
@@ -178,8 +178,8 @@ std::vector<double> finer_by_number(const SizeCurve& curve) {
   return finer;
 }
 
-/// The diameter in a segment that a share `t` of its grains, by number, is finer than. Between two
-/// rows grains by weight are spread evenly, by number as D^-power.
+/// The diameter in a segment below which a share `t` of its grains, by number, lies. Between two
+/// rows grains are spread evenly by weight, and as D^-power by number.
 double diameter_within(double a, double b, int power, double t) {
   if (power == 0) return a + t * (b - a);
   if (power == 2) return a * b / (b - t * (b - a));
@@ -281,7 +281,8 @@ bool leaves_grains(const SizeDistribution& distribution) {
          passing_at(curve, largest) > passing_at(curve, std::nextafter(smallest, 0.0));
 }
 
-/// Of the ends of a curve: what a bed can hold, and that d is one of its lengths.
+/// What is wrong with the ends of a curve: a bed must be able to hold them, and d must lie between
+/// them.
 std::string ends_fault(const SizeCurve& curve) {
   const double smallest = curve.diameters.front(), largest = curve.diameters.back();
   const std::string reach = number_text(smallest) + " to " + number_text(largest) + " d";

@@ -26,18 +26,19 @@ struct LognormalSizes {
   double sigma = 0.3;   ///< standard deviation of the logarithm
   bool operator==(const LognormalSizes&) const = default;
 };
-/// As likely everywhere between two diameters, d.
+/// All diameters between two, d, are equally likely.
 struct UniformSizes {
   double from = 0.5, to = 1.5;
   bool operator==(const UniformSizes&) const = default;
 };
-/// The share 1 - exp(-(D / scale)^shape) is finer than D; by volume also known as Rosin-Rammler's.
+/// The share 1 - exp(-(D / scale)^shape) is finer than D; by volume also known as the Rosin-Rammler
+/// distribution.
 struct WeibullSizes {
   double scale = 1.0;  ///< d
   double shape = 3.0;
   bool operator==(const WeibullSizes&) const = default;
 };
-/// Diameters, d, ascending, and of each either `passing`, the share that is finer, from 0 to 1,
+/// Diameters, d, ascending, and for each either `passing`, the share that is finer, from 0 to 1,
 /// linear between two diameters; or `shares`, the share that has just this diameter. The other list
 /// is empty.
 struct SizeTable {
@@ -49,8 +50,8 @@ using SizeFormula = std::variant<LognormalSizes, UniformSizes, WeibullSizes, Siz
 struct SizeDistribution {
   SizeFormula formula;
   SizeWeight by = SizeWeight::volume;
-  /// Where the curve is cut, d, what is left being the whole. Without them lognormal and Weibull
-  /// curves, which have no ends, are cut where 0.1 % lie beyond.
+  /// Where the curve is cut, d; what is left counts as the whole. Without these bounds lognormal
+  /// and Weibull curves, which have no ends, are cut where 0.1 % lie beyond.
   std::optional<double> smallest = {}, largest = {};
   bool operator==(const SizeDistribution&) const = default;
 };
@@ -74,8 +75,8 @@ inline constexpr std::size_t most_size_rows = 1000;
 std::string fault_of(const SizeDistribution& distribution);
 
 /// The curve of a distribution without fault. Lognormal curves lie within 1e-5 of their formula and
-/// Weibull curves within 2e-5 where their ends are the usual ones, wide ones of given ends within
-/// 5e-3; they take 4 ms but for the one that the thread asked for last.
+/// Weibull curves within 2e-5 with the default ends, wide ones with given ends within 5e-3. A curve
+/// takes 4 ms, unless it is the one that the thread asked for last.
 SizeCurve curve_of(const SizeDistribution& distribution);
 
 /// Share of the grains of `curve`, by its own weight, that are no larger than `diameter`.
@@ -86,10 +87,10 @@ double mean_cube(const SizeCurve& curve);
 /// The same, each grain weighted with its volume.
 double mean_cube_by_volume(const SizeCurve& curve);
 
-/// Diameters of `count` grains, d, the largest first: one from each of as many equal parts of the
-/// grains by number. So the share of those finer than any diameter is that of the curve within
-/// 1 / count by number, and by volume within the share of the largest grain. Same key, same
-/// diameters.
+/// Diameters of `count` grains, d, the largest first: one from each of `count` parts of the curve
+/// that hold equally many grains. So the share of those finer than any diameter is that of the
+/// curve within 1 / count by number, and by volume within the share of the largest grain. Same key,
+/// same diameters.
 std::vector<double> draw_diameters(const SizeCurve& curve, std::int64_t count, std::uint64_t key);
 
 /// The weight of a grain in shares of this kind: 1, D^2 or D^3.

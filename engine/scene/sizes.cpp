@@ -18,7 +18,7 @@ double expected_volume(double diameter, double spread) {
   return diameter * diameter * diameter * (1.0 + 3.0 * spread * spread);
 }
 
-/// To the nearest; of numbers that are far too large a large one.
+/// Rounded to the nearest; numbers that are far too large become a large one.
 std::int64_t rounded(double count) { return std::llround(std::min(count, 1e17)); }
 
 /// `volume` in grains of diameter 1.
@@ -67,9 +67,9 @@ double grains_of_size_one(const PackingSpec& spec) {
   return height * spec.box.floor_area() / extent_of(spec.shape).volume;
 }
 
-/// The volume of small grains that is as near to `wanted`, which keeps their share exact, as the
-/// height allows that is to be filled: where large grains are few, one more or less is much of it.
-/// Where small grains are the lesser part, their share goes before the height, but for a tenth.
+/// The volume of small grains nearest to `wanted`, which keeps their share exact, that the height
+/// to be filled allows: where large grains are few, one more or less is much of it. Where small
+/// grains are the lesser part, their share goes before the height, but for a tenth.
 double small_volume(const PackingSpec& spec, double wanted, double large_volume) {
   constexpr double of_height = 0.02, of_wanted = 0.1;
   const double whole = grains_of_size_one(spec) * sphere_volume(0.5);
@@ -79,7 +79,7 @@ double small_volume(const PackingSpec& spec, double wanted, double large_volume)
   return std::clamp(near_height, (1.0 - of_wanted) * wanted, (1.0 + of_wanted) * wanted);
 }
 
-/// Volumes of the grains of a file, d^3.
+/// Volume of all grains of a file, d^3.
 double placed_volume(const PlacedGrains& placed, const ShapeSpec& shape) {
   std::vector<double> of_shape;
   const auto* mixture = std::get_if<Mixture>(&shape);

@@ -22,10 +22,10 @@ struct ClassCounts {
 /// distribution are all of the large class. Not for placed grains, which bring their own sizes.
 ClassCounts class_counts(const PackingSpec& spec);
 
-/// Radius of every grain, d, the large class first, or of a distribution the largest grain. Same
-/// key, same radii. A fill by solid height with both classes gets as many small grains as bring
-/// their share of the drawn volume nearest to what is asked for, half a small grain at most from
-/// it unless that would take the bed more than 2 % off its height; they may be a few more or less
+/// Radius of every grain, d, the large class first; of a distribution, the largest grain first.
+/// Same key, same radii. A fill by solid height with both classes gets the number of small grains
+/// that brings their share of the drawn volume nearest to the requested one, within half a small
+/// grain unless that would put the bed more than 2 % off its height; it may be a few more or less
 /// than class_counts expects.
 std::vector<double> draw_radii(const PackingSpec& spec);
 

@@ -53,12 +53,12 @@ double largest_size(const PackingSpec& spec) {
   return mean * (1.0 + largest_deviation * spec.sizes.spread);
 }
 
-/// Size of the grains that a bed is as high and as loose for, d.
+/// Size of the grains that decides how high and how loose a bed is, d.
 double outcome_size(const PackingSpec& spec) {
   return spec.sizes.distribution ? largest_size(spec) : 1.0;
 }
 
-/// The shape's extent; nothing if something forbids it.
+/// The shape's extent; nothing if the shape is forbidden.
 std::optional<ShapeExtent> check_shape(const ShapeSpec& spec, Errors& errors) {
   if (is_sphere(spec)) return extent_of(spec);
   if (const auto* mixture = std::get_if<Mixture>(&spec)) {
@@ -234,8 +234,8 @@ void check_fill(const PackingSpec& spec, const std::optional<ShapeExtent>& shape
   }
 }
 
-/// Of wide beds. Long and flat grains lie the looser the longer and flatter they are: needles
-/// 1:0.05:0.05 come down to 0.20.
+/// For wide beds. The longer or flatter grains are, the looser they lie: needles 1:0.05:0.05 come
+/// down to 0.20.
 double loosest_of_shape(const ShapeSpec& shape) {
   constexpr double stout = 6.0;  // outer over inner radius
   if (is_sphere(shape)) return 0.5;
@@ -254,21 +254,22 @@ double loosest_solid_fraction(const PackingSpec& spec, double across) {
   return fraction;
 }
 
-/// That of most beds, over the loosest: spheres come to 0.6 beside walls, stout polyhedra to 0.62,
-/// needles 1:0.1:0.1 to 0.41.
+/// Solid fraction of most beds, over the loosest: spheres come to 0.6 beside walls, stout polyhedra
+/// to 0.62, needles 1:0.1:0.1 to 0.41.
 double usual_solid_fraction(const PackingSpec& spec, double across) {
   const double denser = is_sphere(spec.shape) ? 1.2 : 1.55;
   return denser * loosest_solid_fraction(spec, across);
 }
 
-/// The larger first: that is the one to make smaller.
+/// The larger zone first: that is the one to make smaller.
 std::string left_out_text(const MeasureSpec& measure) {
   return measure.exclude_surface > measure.exclude_floor
              ? "measure.exclude_surface, measure.exclude_floor"
              : "measure.exclude_floor, measure.exclude_surface";
 }
 
-/// A bed that must come out too low to be measured. Its highest grains stand out by one diameter.
+/// Refuses a bed that must come out too low to be measured. Its highest grains stand out by one
+/// diameter.
 void check_height(const PackingSpec& spec, double across, Errors& errors) {
   const auto* placed = std::get_if<PlacedGrains>(&spec.fill);
   const double highest = solid_height(spec) / loosest_solid_fraction(spec, across) + across;
@@ -288,12 +289,12 @@ void check_height(const PackingSpec& spec, double across, Errors& errors) {
                         (placed ? wrong_diameter : "")});
 }
 
-/// What the highest grain falls at least, in d, where a start may be as dense as the loosest beds.
+/// How far the highest grain falls at least, d, where a start may be as dense as the loosest beds.
 constexpr double least_drop = 0.1;
 
 /// Steps in which the highest grain cannot even reach the bed: none falls faster than freely, or,
-/// damped, faster than its momentum lets it. Where they would be too few at the usual accuracy,
-/// too, the fill is to blame.
+/// damped, faster than its momentum lets it. If they would be too few at the usual accuracy as
+/// well, the fill is to blame.
 void check_fall(const PackingSpec& spec, double across, Errors& errors) {
   const double start =
       is_sphere(spec.shape) ? sphere_start_solid_fraction : polyhedron_start_solid_fraction;
@@ -322,8 +323,8 @@ void check_fall(const PackingSpec& spec, double across, Errors& errors) {
                         " d of solid: " + fall + "; fill in less, or widen the box"});
 }
 
-/// What grows out of the parts together, once each of them is right. `across`: of a grain of size
-/// 1, d. A few grains of a file may be packed to be exported alone.
+/// Checks what follows from the parts together, once each of them is valid. `across`: of a grain of
+/// size 1, d. A few grains of a file may be packed to be exported alone.
 void check_outcome(const PackingSpec& spec, double across, Errors& errors) {
   if (std::holds_alternative<PlacedGrains>(spec.fill)) {
     const double largest = across * largest_size(spec);
@@ -342,7 +343,7 @@ bool has_hull(const ShapeSpec& shape) {
   return std::holds_alternative<HullVertices>(shape);
 }
 
-/// A hull far larger or smaller than d has the wrong unit, whatever else is wrong for it.
+/// A hull far larger or smaller than d has the wrong unit, whatever other errors follow from that.
 void hint_at_size(const ShapeSpec& shape, double across, Errors& errors) {
   if (!has_hull(shape) || (across > 0.2 && across < 5.0)) return;
   for (SpecError& error : errors) {
@@ -359,7 +360,7 @@ void check_accuracy(const Accuracy& accuracy, Errors& errors) {
     if (value > 0.0 && value <= most) return;
     errors.push_back({path, "must be positive, is " + bound_text(value)});
   };
-  // In shorter steps a grain at rest gains less way than f32 tells from its place.
+  // In shorter steps a grain at rest moves by less than f32 resolves of its place.
   require_in({1e-4, 2.0}, accuracy.step, "accuracy.step", errors);
   require_in({0.0, 1.0, false, true}, accuracy.momentum, "accuracy.momentum", errors);
   require_in({1.0, 1e6}, accuracy.fall_iterations, "accuracy.fall_iterations", errors);
@@ -404,8 +405,8 @@ void check_bin_width(double bin_width, const Box& box, Errors& errors) {
                                              "), is " + bound_text(bin_width)});
 }
 
-/// In times the extent of a grain. A step takes a round wall for the plane that touches it at a
-/// corner of a polyhedron: the narrower the tube, the further a corner slides off it.
+/// In extents of a grain. A step takes a round wall for its tangent plane at a corner of a
+/// polyhedron: the narrower the tube, the further a corner slides off it.
 constexpr double narrowest_tube = 2.5;
 
 void check_measure(const MeasureSpec& measure, Errors& errors) {
@@ -424,8 +425,8 @@ double volume_ratio(const Mixture& mixture) {
   return volumes.empty() ? 1.0 : *most / *least;
 }
 
-/// Of what is certain to be drawn: sizes of two classes, components of a mixture; of distributions
-/// and the spread of sizes it depends on what is drawn.
+/// Checks what is certain to be drawn: sizes of two classes, components of a mixture; for
+/// distributions and the spread of sizes it depends on what is drawn.
 void check_masses(const PackingSpec& spec, bool is_mixture_right, Errors& errors) {
   const SizesSpec& sizes = spec.sizes;
   const auto* mixture = std::get_if<Mixture>(&spec.shape);
@@ -445,13 +446,13 @@ void check_masses(const PackingSpec& spec, bool is_mixture_right, Errors& errors
                                             "; take accuracy.precision f64"});
 }
 
-/// In diameters. Nearer walls press on grains of one size by more than a hundred times what the
-/// grains press on each other, without bound where they leave no room, and hold them in many ways:
-/// of four to eight beds none was found at exact rest within 1.001 d, some at 1.005 d to 1.01 d,
-/// all at 1.02.
+/// In diameters. Nearer walls press on grains of one size more than a hundred times as hard as the
+/// grains on each other, without bound where they leave no room, and hold them in many ways: of
+/// four to eight beds none was found at exact rest within 1.001 d, some at 1.005 d to 1.01 d, all
+/// at 1.02.
 constexpr double narrowest_exact = 1.005;
 
-/// Whether all large grains are of one size, as far as rounding tells.
+/// Whether all large grains are of one size, up to rounding.
 bool has_equal_grains(const PackingSpec& spec) {
   constexpr double equal = 1e-6;
   if (std::holds_alternative<PlacedGrains>(spec.fill)) return false;

@@ -21,8 +21,8 @@
 
 namespace grainsweep {
 
-/// A grain of a bed that comes from elsewhere: centre and radius, d. Of a grain that is not a
-/// sphere the radius is half its size: the shape as it is given has the radius 1/2.
+/// A grain of a bed that comes from elsewhere: centre and radius, d. For a grain that is not a
+/// sphere the radius is half its size: the shape as given has radius 1/2.
 struct PlacedSphere {
   double x = 0.0, y = 0.0, z = 0.0, radius = 0.5;
 };
@@ -41,7 +41,7 @@ struct PlacedGrains {
   /// How each is turned: unit quaternions x, y, z, w from the shape's frame to the box's. Empty for
   /// spheres.
   std::vector<std::array<double, 4>> orientations = {};
-  /// Which component of a mixture each is, from 0; of no meaning without one.
+  /// Which component of a mixture each is, from 0; meaningless without one.
   std::vector<std::uint8_t> components = {};
 };
 using Fill = std::variant<SolidHeight, GrainCount, PlacedGrains>;
@@ -52,7 +52,7 @@ struct SizesSpec {
   double spread = 1.0 / 30.0;  ///< standard deviation of the diameter over its mean, each class
   double small_share = 0.0;    ///< share of the small class in the solid volume, 0..1
   double size_ratio = 0.5;     ///< mean diameter of the small class, d
-  std::optional<SizeDistribution> distribution = {};  ///< in the place of the classes
+  std::optional<SizeDistribution> distribution = {};  ///< replaces the classes
 };
 
 /// The projected iterations that solve one step. See engine/dynamics/solve.hpp.
@@ -61,10 +61,11 @@ enum class Solver {
   accelerated_gauss_seidel,  ///< "apgs": the same sweeps with Nesterov's momentum
 };
 
-/// What a bed is when it counts as settled. See engine/dynamics/settle.hpp.
+/// When a bed counts as settled. See engine/dynamics/settle.hpp.
 enum class Rest {
   in_steps,  ///< "in_steps": steps pass every test of rest
-  exact,     ///< "exact": then all forces balance; spheres only (engine/exact/exact_rest.hpp)
+  exact,     ///< "exact": after that, all forces balance; spheres only
+             ///< (engine/exact/exact_rest.hpp)
 };
 
 /// Number type of the solver's rows and velocities; positions are always f64.
@@ -73,11 +74,12 @@ enum class Precision { f32, f64 };
 /// How grains come down. See engine/dynamics/settle.hpp.
 enum class Protocol {
   heavy_ball,  ///< "heavy_ball": damped, in long steps; a descent to rest
-  dynamic,     ///< "dynamic": plain contact dynamics, undamped, in a quarter of the steps' length
+  dynamic,     ///< "dynamic": plain contact dynamics, undamped, in steps a quarter as long
 };
 
 /// How well a packing is settled: the trade of speed for accuracy, part by part.
-/// By itself it is the preset `balanced`; engine/dynamics/presets.hpp says what each promises.
+/// Its defaults are the preset `balanced`; engine/dynamics/presets.hpp says what each preset
+/// promises.
 struct Accuracy {
   Protocol protocol = Protocol::heavy_ball;
   Solver solver = Solver::accelerated_gauss_seidel;
@@ -86,20 +88,20 @@ struct Accuracy {
   double step = 0.2;          ///< dt, sqrt(d/g)
   double momentum = 0.9;      ///< alpha: share of a displacement that damped steps carry on, 0..1
   int fall_iterations = 400;  ///< most solver iterations per step of fall and creep
-  /// How far contacts may stray in a step of the fall for want of a better solve, d: root mean
-  /// square, of a step of 0.2 sqrt(d/g), of others in proportion; those of spheres twice as far. A
-  /// creep shares out to its steps what 160 such steps of spheres may. Looser solves tap the bed
-  /// denser.
+  /// How far contacts may stray in a step of the fall because it is not solved better, d: root mean
+  /// square, for a step of 0.2 sqrt(d/g), for others in proportion; twice as far for spheres. All
+  /// steps of a creep of spheres together may stray 160 times as far as this. Looser solves tap the
+  /// bed denser.
   double path_tolerance = 2e-4;
-  /// Steps after the fall, while the bed creeps to rest: of 0.2 sqrt(d/g), of shorter steps as many
-  /// more.
+  /// Steps after the fall, while the bed creeps to rest: their number if they are 0.2 sqrt(d/g)
+  /// long; shorter steps are more in proportion.
   int creep_steps = 320;
-  /// Most solver iterations per step at rest, of spheres twice as many; 1.5 for each d of height,
-  /// if that is more.
+  /// Most solver iterations per step at rest; 1.5 for each d of height, if that is more; twice as
+  /// many for spheres.
   int rest_iterations = 100;
   double residual_tolerance = 1e-2;   ///< worst residual of the last step at rest, m g
   double kinetic_tolerance = 1e-4;    ///< kinetic energy per grain at rest, m g d
-  double contact_tolerance = 0.02;    ///< share of the isostatic contacts that may lack at rest
+  double contact_tolerance = 0.02;    ///< share of isostatic contacts that may be missing at rest
   double overlap_tolerance = 1e-5;    ///< mean overlap of touching pairs at rest, d
   double imbalance_tolerance = 0.02;  ///< mean static imbalance at rest, in own weights
   double imbalance_gap = 1e-4;        ///< contacts with a smaller gap carry the bed statically, d
@@ -108,11 +110,11 @@ struct Accuracy {
   bool operator==(const Accuracy&) const = default;
 };
 
-/// Gap tolerances of one packing.
+/// Most gap tolerances of one packing.
 inline constexpr std::size_t most_gap_tolerances = 8;
 
-/// Most that the masses of a bed may differ by in f32: beyond it the rounding of what pushes a
-/// heavy grain, 6e-8 of its weight, nears the weight of a light one.
+/// Largest ratio of two masses of a bed in f32: beyond it the rounding of the forces on a heavy
+/// grain, 6e-8 of its weight, comes near the weight of a light one.
 inline constexpr double f32_mass_ratio = 1e5;
 
 /// What is measured, and how. Definitions: engine/measure.
@@ -149,8 +151,8 @@ struct SpecError {
 /// Every rule that `spec` breaks; empty when it can be packed.
 std::vector<SpecError> check(const PackingSpec& spec);
 
-/// Height to which a bed of `spec`, which must be right, probably settles, d: to a tenth in wide
-/// boxes; narrow beds and those of plates come out lower.
+/// Height to which a bed of `spec`, which must be valid, probably settles, d: within a tenth in
+/// wide boxes; narrow beds and those of plates come out lower.
 double probable_height(const PackingSpec& spec);
 
 /// Number of grains that `spec` asks for (before any of them is placed).

@@ -42,7 +42,7 @@ class ColumnCells {
     return std::clamp(static_cast<int>(coordinate / extent_[axis] * count_[axis]), 0,
                       count_[axis] - 1);
   }
-  /// How many cells away what lies this far away may be.
+  /// How many cells away a place at this distance may be.
   int cells_to(std::size_t axis, double reach) const {
     return std::min(count_[axis],
                     static_cast<int>(std::ceil(reach * count_[axis] / extent_[axis])));
@@ -65,8 +65,8 @@ class ColumnCells {
   int count_[3];
 };
 
-/// Side of the cells for so many spheres of up to this diameter: where few lie in a wide box there
-/// are not many more cells than spheres.
+/// Side of the cells for so many spheres of up to this diameter: for few spheres in a wide box
+/// there are not many more cells than spheres.
 double side_for(std::size_t spheres, double diameter, const Box& box, double height) {
   const double most_cells = 4.0 * static_cast<double>(spheres) + 64.0;
   return std::max(diameter, portable::cbrt(box.length * box.width * height / most_cells));
@@ -134,14 +134,14 @@ Range centres(double extent, Boundary boundary, double radius) {
   return boundary == Boundary::walls ? Range{radius, extent - radius} : Range{0.0, extent};
 }
 
-/// Whether a centre, at random in the box that the tube touches, is one in the tube.
+/// Whether a sphere whose centre is random in the box around the tube lies in the tube.
 bool is_in_tube(const Box& box, double radius, const PlacedSphere& sphere) {
   const double x = sphere.x - box.length / 2.0, y = sphere.y - box.width / 2.0;
   const double reach = box.length / 2.0 - radius;
   return x * x + y * y <= reach * reach;
 }
 
-/// Where a grain overlaps nothing in any column; nothing if no room was found.
+/// A place where a grain overlaps nothing in any column; none if no room was found.
 std::optional<NumberedSphere> place(const std::vector<Column>& columns, const Box& box,
                                     double height, double radius, std::uint64_t key,
                                     std::uint64_t grain) {
@@ -161,8 +161,8 @@ std::optional<NumberedSphere> place(const std::vector<Column>& columns, const Bo
   return std::nullopt;
 }
 
-/// Largest diameter of the grains, of those less than half as large, and so on: grains of each of
-/// these sizes have a column of their own, so that no cell holds hundreds of small ones.
+/// Largest diameter of all grains, then of those less than half as large, and so on: grains of each
+/// of these sizes have a column of their own, so that no cell holds hundreds of small ones.
 std::vector<double> column_diameters(const std::vector<double>& radii) {
   std::vector<double> diameters;
   double below = std::numeric_limits<double>::infinity();
@@ -177,7 +177,7 @@ std::vector<double> column_diameters(const std::vector<double>& radii) {
   }
 }
 
-/// The column, of those that `column_diameters` tells, of a grain of this diameter.
+/// The column, of those of `column_diameters`, for a grain of this diameter.
 std::size_t column_for(double diameter, const std::vector<double>& diameters) {
   std::size_t column = diameters.size() - 1;
   while (diameter > diameters[column]) --column;
@@ -227,8 +227,8 @@ std::vector<double> ball_radii(const DrawnGrains& grains) {
   return radii;
 }
 
-/// Numbers the grains of a large bed along the axis of its subdomains, slice by slice, and in each
-/// as they were: what a subdomain is made of lies together in memory.
+/// Numbers the grains of a large bed along the axis of its subdomains, slice by slice, and within
+/// each in their previous order: the grains of a subdomain lie together in memory.
 template <class Kind>
 void sort_along_subdomains(const Box& box, double solid_volume, double largest_radius,
                            std::vector<NumberedSphere>& spheres) {
@@ -248,8 +248,8 @@ bool has_width_for(double radius, const Box& box) {
   return x.low <= x.high && y.low <= y.high;
 }
 
-/// Cell by cell from the floor up, in one as they were: neighbours in space get neighbouring
-/// numbers.
+/// Cell by cell from the floor up, within each in their previous order: neighbours in space get
+/// neighbouring numbers.
 void sort_by_place(const ColumnCells& cells, std::vector<NumberedSphere>& spheres) {
   std::stable_sort(spheres.begin(), spheres.end(),
                    [&](const PlacedSphere& a, const PlacedSphere& b) {
@@ -304,7 +304,7 @@ Quaternion random_orientation(std::uint64_t key, std::uint64_t grain) {
   }
 }
 
-/// Placed grains, whose orientations are those of the shapes as they are written.
+/// Placed grains, whose orientations are given for the shapes as they are written.
 PolyhedronBed placed_bed(const PackingSpec& spec, const PlacedGrains& placed) {
   std::vector<ConvexShape> shapes = shapes_of(spec.shape);
   const bool are_mixed = std::holds_alternative<Mixture>(spec.shape);
@@ -321,8 +321,8 @@ PolyhedronBed placed_bed(const PackingSpec& spec, const PlacedGrains& placed) {
                   are_mixed ? placed.components : std::vector<std::uint8_t>(), poses);
 }
 
-/// Whether a tube is so narrow that its grains come to rest in single file, each touching the wall
-/// and two others alone.
+/// Whether a tube is so narrow that its grains come to rest in single file, each touching only the
+/// wall and two others.
 bool is_single_file(const Box& box, const std::vector<double>& radii) {
   const double smallest = *std::min_element(radii.begin(), radii.end());
   return box.is_tube && box.length <= (2.0 + std::sqrt(3.0)) * smallest;

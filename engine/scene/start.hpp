@@ -11,24 +11,24 @@
 namespace grainsweep {
 
 /// Solid fraction of the column in which grains are placed at random. Where they cannot stand so
-/// densely without order, as between walls less than two diameters apart, the column is made half
-/// as high again until they have room.
+/// densely without order, as between walls less than two diameters apart, the column is made 1.5
+/// times as high until they have room.
 inline constexpr double sphere_start_solid_fraction = 0.25;
 inline constexpr double polyhedron_start_solid_fraction = 0.4;
 
 /// Radius of the balls that keep the centres of polyhedra apart at the start, in radii of the
-/// sphere of the grain's volume. Corners of neighbours overlap; the fall parts them by a share of
-/// the overlap a step.
+/// sphere that has the grain's volume. Corners of neighbours overlap; the fall parts them by a
+/// share of the overlap a step.
 inline constexpr double start_ball = 0.7;
 
 /// As many grains as `spec` asks for, placed one after the other at random where they (polyhedra:
 /// their balls) overlap no other (random sequential addition), in a column above the floor; the
 /// orientations of polyhedra are uniform over all rotations, and their scales are drawn as
 /// diameters of spheres are; which grain of a mixture is of which component is drawn as well. In a
-/// tube that holds them in single file only spheres lie in one plane, on either side in turn. Or
-/// the user's own placed grains, where and as they are placed. Grains that were drawn are numbered
-/// from the floor up, those of large flat beds along x or y first. Empty if a grain is larger than
-/// the gap between walls.
+/// tube that holds spheres in single file only, they lie in one plane, on either side in turn.
+/// Grains placed by the user are taken where and as they are placed. Grains that were drawn are
+/// numbered from the floor up, in large flat beds first along x or y. Empty if a grain is larger
+/// than the gap between walls.
 template <class Kind>
 std::optional<Bed<Kind>> start(const PackingSpec& spec);
 

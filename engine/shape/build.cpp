@@ -13,7 +13,7 @@ namespace grainsweep {
 namespace {
 
 // Directions closer than this are one: far above the rounding of a cross product, and far below
-// what the depth of an overlap could tell.
+// what could change the depth of an overlap.
 constexpr double same_direction = 1e-14;
 
 const Vector& at(const std::vector<Vector>& vertices, std::int32_t k) {

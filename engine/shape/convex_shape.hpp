@@ -21,7 +21,7 @@ namespace grainsweep {
 using Vector = Eigen::Vector3d;
 using Matrix = Eigen::Matrix3d;
 
-/// Faces whose normals differ by less touch as if they were one, radians.
+/// Faces whose normals differ by less than this angle, radians, touch as if they were one.
 inline constexpr double nearly_flat = 0.03;
 
 /// A flat face; the shape lies where normal . x <= offset.
@@ -53,33 +53,37 @@ struct InputFrame {
   Matrix rotation = Matrix::Identity();
 };
 
-/// A grain of scale w has volume w^3 volume, moments w^2 inertia over its mass, and w times the
-/// radii. A sphere among polyhedra is one, too: it has one vertex, its centre, and no faces.
+/// A grain of scale w has the volume w^3 volume, moments over its mass of w^2 inertia, and w times
+/// the radii. A sphere among polyhedra is a ConvexShape, too: it has one vertex, its centre, and no
+/// faces.
 struct ConvexShape {
   std::vector<Vector> vertices;
   std::vector<Face> faces;
   VectorColumns corner_columns;        ///< the vertices
   VectorColumns normal_columns;        ///< those of the faces
-  std::vector<double> offset_columns;  ///< of the faces, with as much room
+  std::vector<double> offset_columns;  ///< of the faces, padded alike
   std::vector<std::int32_t> loops;     ///< vertices of the faces, face after face
-  std::vector<Side> sides;  ///< of the faces, each from the corner of its place in `loops`
+  std::vector<Side> sides;  ///< of the faces: a side begins at the corner in the same place of
+                            ///< `loops`
   std::vector<Edge> edges;
   std::vector<Vector> edge_directions;           ///< unit, distinct up to sign
   std::vector<std::int32_t> vertex_faces;        ///< faces at each vertex, vertex after vertex
-  std::vector<std::int32_t> vertex_faces_begin;  ///< where each vertex's begin; one more at the end
+  std::vector<std::int32_t> vertex_faces_begin;  ///< where those of each vertex begin; one more at
+                                                 ///< the end
   /// The other faces whose normals differ from each face's by less than nearly_flat, face after
   /// face: it touches together with them.
   std::vector<std::int32_t> flat_with;
-  std::vector<std::int32_t> flat_with_begin;  ///< where each face's begin; one more at the end
+  std::vector<std::int32_t> flat_with_begin;  ///< where those of each face begin; one more at the
+                                              ///< end
   double volume = 0.0;                        ///< d^3
   Vector inertia = Vector::Zero();            ///< principal moments over mass, d^2
   double circumradius = 0.0;                  ///< of the smallest ball around the centroid, d
   double inradius = 0.0;                      ///< of the largest ball around the centroid within, d
   std::optional<PinacoidHalves> pinacoid;     ///< if the shape is one
   bool is_ball = false;                       ///< a sphere; both radii are its own
-  InputFrame given;                           ///< that in which its vertices were written
+  InputFrame given;                           ///< the frame in which its vertices were written
 
-  /// Of a grain of that scale, d^3.
+  /// Volume of a grain of that scale, d^3.
   double volume_at(double scale) const { return scale * scale * scale * volume; }
 };
 
@@ -115,7 +119,7 @@ inline std::int32_t farthest_vertex(const ConvexShape& shape, const Vector& n) {
   return static_cast<std::int32_t>(best);
 }
 
-/// Largest n . x over the shape, d. Requires a unit vector n of a sphere.
+/// Largest n . x over the shape, d. For a sphere n must be a unit vector.
 inline double reach_along(const ConvexShape& shape, const Vector& n) {
   if (shape.is_ball) return shape.inradius;
   double reach = n.dot(shape.vertices[0]);

@@ -10,11 +10,12 @@ namespace grainsweep {
 
 inline bool is_sphere(const ShapeSpec& spec) { return std::holds_alternative<SphereShape>(spec); }
 
-/// The convex shape of a spec that is no mixture, or what forbids it; of a sphere that of one among
-/// polyhedra.
+/// The convex shape of a spec that is not a mixture, or what forbids it; a sphere gets the shape of
+/// a sphere among polyhedra.
 Hull shape_of(const ShapeSpec& spec);
 
-/// Corners of a shape that nothing forbids; 0 of a sphere, of a mixture the mean over the grains.
+/// Number of corners of a shape that nothing forbids; 0 for a sphere, for a mixture the mean over
+/// the grains.
 std::size_t corner_count(const ShapeSpec& spec);
 
 /// What a check of sizes has to know of a shape, at size 1.
@@ -25,7 +26,7 @@ struct ShapeExtent {
 };
 ShapeExtent extent_of(const ConvexShape& shape);
 
-/// Of any shape, spheres too. Requires a shape that nothing forbids.
+/// The same for any shape, spheres too. Requires a shape that nothing forbids.
 ShapeExtent extent_of(const ShapeSpec& spec);
 
 }  // namespace grainsweep

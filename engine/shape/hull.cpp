@@ -24,7 +24,7 @@ namespace {
 // that f64 resolves well. Deeper inside is a dent; less is a point on a face or an edge.
 constexpr double flat_share = 1e-9;
 constexpr double dent = 1e-6;
-// What corners of flat faces miss their planes by, as rounding does.
+// How far corners of flat faces may lie off their planes by rounding.
 constexpr double in_plane = 1e-13;
 // Places this many extents from the origin lose digits that products of them need.
 constexpr double far_off = 1e3;
@@ -126,7 +126,7 @@ std::vector<std::int32_t> ordered_corners(qhT* qhull, const facetT& facet,
   return corners;
 }
 
-/// Vertices of fewer than three faces lie within an edge or a face and are no corners.
+/// Vertices of fewer than three faces lie within an edge or a face and are not corners.
 void drop_straight_corners(std::size_t points, Loops& loops) {
   std::vector<int> faces_at(points, 0);
   for (const auto& loop : loops) {
@@ -227,7 +227,8 @@ double depth_of(const Vector& point, const std::vector<Plane>& faces) {
   return depth;
 }
 
-/// What a hull of such an extent, in which faces within `merged` of a plane are one, hides.
+/// Depth of a dent that a hull of such an extent hides, if faces within `merged` of a plane are
+/// one.
 double allowed_dent(double extent, double merged) { return std::max(dent * extent, 2.0 * merged); }
 
 std::string problem_with_dents(const std::vector<Vector>& points, const Loops& loops,
@@ -247,8 +248,8 @@ std::string problem_with_dents(const std::vector<Vector>& points, const Loops& l
   return "";
 }
 
-/// How deep the middle of an edge of `face` lies, or that of the face if it is a triangle: that of
-/// others may lie outside of them.
+/// How deep the middle of an edge of `face` lies, or the middle of the face if it is a triangle:
+/// the middle of other faces may lie outside them.
 double depth_of(const std::vector<std::int32_t>& face, const std::vector<Vector>& points,
                 const std::vector<Plane>& planes) {
   const auto point = [&](std::size_t k) -> const Vector& {
@@ -368,7 +369,7 @@ InputFrame centre(std::vector<Vector>& corners, const Loops& loops) {
 
 Hull refused(std::string error) { return {std::nullopt, std::move(error)}; }
 
-/// The corners of a hull and its faces, or what forbids it.
+/// The corners and faces of a hull, or what forbids it.
 struct Surface {
   std::vector<Vector> corners;
   Loops loops;
@@ -392,7 +393,7 @@ Surface surface_of(const std::vector<Vector>& points, double flat) {
   return surface;
 }
 
-/// Faces of which some triangles are nearly flat and others are not stay as bent as they are.
+/// Faces in which only some triangles are nearly flat stay as bent as they are.
 Hull whole_hull(const std::vector<Vector>& points, double flat) {
   Surface surface = surface_of(points, flat);
   if (!surface.error.empty() && flat > 0.0) surface = surface_of(points, 0.0);

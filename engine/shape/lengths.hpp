@@ -16,7 +16,7 @@ inline std::string problem_with_length(const char* name, double value) {
   return joined(name, " must be a positive finite number, is ", value);
 }
 
-/// Of the first length that is wrong.
+/// The same for the first length that is wrong.
 inline std::string problem_with_lengths(
     std::initializer_list<std::pair<const char*, double>> lengths) {
   for (const auto& [name, value] : lengths) {

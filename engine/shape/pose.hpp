@@ -33,7 +33,7 @@ struct PairPose {
   double scale_a = 1.0, scale_b = 1.0;
 };
 
-/// `difference`: centre of b minus centre of a in the box's frame, of the nearest image, d.
+/// `difference`: centre of b minus centre of a in the box's frame, for their nearest images, d.
 PairPose seen_from_a(const Pose& a, const Pose& b, const Vector& difference);
 
 }  // namespace grainsweep

@@ -41,13 +41,13 @@ template <int faces>
 struct RegularSolid {
   double height = 1.0;  ///< from a face to what is opposite, d
 };
-/// sqrt(2/3) times its edge from a face to the corner opposite.
+/// Its height, from a face to the corner opposite, is sqrt(2/3) times its edge.
 using TetrahedronSize = RegularSolid<4>;
-/// sqrt(2/3) times its edge from a face to that opposite.
+/// Its height, from a face to that opposite, is sqrt(2/3) times its edge.
 using OctahedronSize = RegularSolid<8>;
-/// 2.2270 times its edge from a face to that opposite.
+/// Its height, from a face to that opposite, is 2.2270 times its edge.
 using DodecahedronSize = RegularSolid<12>;
-/// 1.5115 times its edge from a face to that opposite.
+/// Its height, from a face to that opposite, is 1.5115 times its edge.
 using IcosahedronSize = RegularSolid<20>;
 /// An upright prism over a regular polygon.
 struct PrismSize {
@@ -56,7 +56,7 @@ struct PrismSize {
   double diameter = 1.0;  ///< of the circle that the polygon's corners lie on, d
 };
 
-/// A cylinder, packed as the prism within it of the fewest sides that stray nowhere further from it
+/// A cylinder, packed as the prism within it with the fewest sides that are nowhere further from it
 /// than `chord_error`.
 struct CylinderSize {
   double height = 1.0;        ///< d
@@ -83,7 +83,7 @@ struct Mixture {
   ShareBy by = ShareBy::volume;
 };
 
-/// Hull and mixture are the last: the others need no part that is written.
+/// Hull and mixture come last: the others have no part that must be written.
 using ShapeSpec =
     std::variant<SphereShape, PinacoidSize, CubeSize, CuboidSize, TetrahedronSize, OctahedronSize,
                  DodecahedronSize, IcosahedronSize, PrismSize, CylinderSize, HullVertices, Mixture>;

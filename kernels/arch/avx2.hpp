@@ -197,7 +197,7 @@ inline std::uint32_t bits_of(const xsimd::batch_bool<double, Arch>& mask) {
   return static_cast<std::uint32_t>(_mm256_movemask_pd(mask));
 }
 
-/// For each mask of eight lanes the lanes that are set, in order.
+/// For each mask of eight lanes, the lanes that are set, in order.
 struct SetLanes {
   std::uint8_t of_mask[256][8] = {};
 

@@ -54,7 +54,7 @@ LinearColumns columns_of(const Window& window, double log_length, double log_per
   return {VectorXd::Ones(window.value.size()), w.cosine.matrix(), -w.sine.matrix()};
 }
 
-/// The share of `values` that columns describe, in their coefficients: linear least squares.
+/// The coefficients of the columns that describe `values` best: linear least squares.
 Eigen::Vector3d coefficients_of(const LinearColumns& columns, const VectorXd& values) {
   Eigen::Matrix3d normal;
   Eigen::Vector3d right;
@@ -68,7 +68,7 @@ Eigen::Vector3d coefficients_of(const LinearColumns& columns, const VectorXd& va
   return normal.ldlt().solve(right);
 }
 
-/// What is left of `values` without the combination of columns with these coefficients.
+/// What is left of `values` after the combination of columns with these coefficients.
 VectorXd remainder_of(VectorXd values, const LinearColumns& columns, const Eigen::Vector3d& by) {
   for (std::size_t i = 0; i < 3; ++i) values -= by[static_cast<Index>(i)] * columns[i];
   return values;
@@ -116,8 +116,8 @@ Eigen::Vector2d step_of(const FittedCurve& curve, const Window& window, double d
   return step.cwiseMax(-1.0).cwiseMin(1.0);
 }
 
-/// The minimum next to `curve` in length and period, by Gauss-Newton steps that are damped as
-/// Levenberg and Marquardt do where they lead uphill; nothing if they do not arrive.
+/// The minimum next to `curve` in length and period, by Gauss-Newton steps, damped after Levenberg
+/// and Marquardt where they lead uphill; nothing if they do not converge.
 std::optional<FittedCurve> minimum_near(FittedCurve curve, const Window& window) {
   constexpr int most_steps = 1000;
   constexpr double least_step = 1e-9;    // in the logarithms of length and period
@@ -148,7 +148,7 @@ std::vector<double> powers(double first, double last, double ratio) {
 }
 
 /// The minima next to those points of a grid that are lower than all around them, the lowest first.
-/// A wave shorter than two bins looks in them like a longer one, and is never meant.
+/// A wave shorter than two bins looks like a longer one there, and is never meant.
 std::vector<FittedCurve> minima_of(const Window& window) {
   const double shortest = 2.0 * (window.distance[1] - window.distance[0]);
   const std::vector<double> lengths = powers(0.2, 8.0, 1.5),
@@ -240,7 +240,7 @@ VectorXd jackknife_errors(const std::vector<VectorXd>& values) {
   return ((n - 1.0) / n * squares).cwiseSqrt();
 }
 
-/// The same, widened so that two of them to both sides hold the truth in 95 %.
+/// The same, widened so that two of them on either side contain the truth in 95 %.
 VectorXd widened_errors(const std::vector<VectorXd>& values) {
   const double widening = student_quantile(static_cast<int>(values.size()) - 1) / normal_quantile;
   return widening * jackknife_errors(values);
@@ -301,8 +301,8 @@ void take_values(const VectorXd& values, const VectorXd& errors, DecayFit& fit) 
   fit.reach = {values[5], errors[5]};
 }
 
-/// Fits without each profile in turn, as they are fitted and as they are read; empty if one fails,
-/// or runs away to a wave so long that nothing is left of it in the window.
+/// Fits without each profile in turn, as they are fitted and as they are read; empty if one fails
+/// or runs away to a wave so long that nothing of it is left in the window.
 struct PartialFits {
   std::vector<VectorXd> fitted, read;
 };
@@ -337,8 +337,8 @@ double excess_of(const VectorXd& other, const VectorXd& best, const Window& wind
   return squares(other) - squares(best);
 }
 
-/// What a reader must know of another curve that describes the layers as well, of a length beyond
-/// the error of the best and not below a bin; empty if there is none.
+/// What a reader must know about another curve that describes the layers equally well, with a
+/// length beyond the error of the best and not below a bin; empty if there is none.
 std::string rival_of(const DecayFit& fit, const std::vector<FittedCurve>& minima,
                      const Window& window, const std::vector<Window>& without_each) {
   constexpr double least_excess = 2.0;  // in errors

@@ -9,11 +9,11 @@
 // not tell the errors. These are jackknife errors instead: with the n profiles, of one packing
 // each, left out one at a time,
 //   error^2 = (n - 1) / n  sum (p_k - mean p)^2     (Efron and Stein 1981),
-// times Student's t with n - 1 degrees of freedom over 1.96, at 97.5 %, so that two errors to both
-// sides hold the truth in 95 % of all sweeps however few profiles there are.
+// times Student's t with n - 1 degrees of freedom over 1.96, at 97.5 %, so that two errors on
+// either side contain the truth in 95 % of all sweeps however few profiles there are.
 //
-// The squares have several minima. Where another one, of a length beyond those two errors, exceeds
-// the least by less than two such errors of that excess, the layers have no one length.
+// The sum of squares has several minima. Where another one, at a length beyond those two errors,
+// exceeds the least by less than two such errors of that excess, the layers have no single length.
 #pragma once
 
 #include <string>
@@ -52,7 +52,7 @@ struct DecayFit {
 /// centres lie between decay_window_start and `window_end`. There must be two profiles or more,
 /// each with all bins of the window. Not determined if the window holds too few bins or no whole
 /// period, if the method does not converge, if the curve is lost in the noise or if curves of two
-/// lengths describe the layers alike.
+/// lengths describe the layers equally well.
 DecayFit fit_decay(const std::vector<std::vector<double>>& profiles, double bin_width,
                    double window_end);
 

@@ -6,12 +6,12 @@
 namespace grainsweep {
 namespace {
 
-/// Of 1, 2, ... degrees of freedom, where the series falls short: of 1 by 1.4.
+/// For 1, 2, ... degrees of freedom, where the series falls short: for 1 by 1.4.
 constexpr std::array few = {12.7062047361747, 4.30265272974946, 3.18244630528371,
                             2.77644510519779, 2.57058183563631, 2.44691185114498,
                             2.36462425159278, 2.30600413520417, 2.26215716279820};
 
-/// By that of the normal distribution (Abramowitz and Stegun 26.7.5).
+/// From the quantile of the normal distribution (Abramowitz and Stegun 26.7.5).
 double series(double degrees_of_freedom) {
   constexpr double x = normal_quantile, x2 = x * x;
   constexpr std::array terms = {

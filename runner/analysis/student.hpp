@@ -1,4 +1,4 @@
-// Student's distribution: what an interval takes whose width comes from few values.
+// Student's distribution, for intervals whose width comes from few values.
 #pragma once
 
 namespace grainsweep {

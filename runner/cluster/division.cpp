@@ -12,21 +12,21 @@ namespace {
 
 constexpr double brief_shard = 600.0, long_shard = 3600.0;  // s of a shard
 
-/// A runner takes so much of what it finds free for packings.
+/// The share of the free memory that a runner takes for packings.
 constexpr double share_for_packings = 0.8;
 
-/// Of a process that holds the list of the packings of a sweep, bytes.
+/// Memory of a process that holds the list of the packings of a sweep, bytes.
 double bytes_of_runner(std::size_t packings) {
   return 1.5e8 + 3000.0 * static_cast<double>(packings);
 }
 
-/// For what live packings take together; 0 if memory sets no limit.
+/// Memory for what live packings take together; 0 if memory sets no limit.
 double memory_for_live(const ClusterLimits& limits, std::size_t packings) {
   if (limits.memory <= 0.0) return 0.0;
   return std::max(1.0, share_for_packings * (limits.memory - bytes_of_runner(packings)));
 }
 
-/// Of `wanted` ones, so many as there is memory for packings.
+/// The `wanted` number, or as many as there is memory for packings.
 int threads_within(const ClusterLimits& limits, const std::vector<Cost>& costs, int wanted) {
   const int live = live_limit(costs, {wanted, memory_for_live(limits, costs.size())});
   return static_cast<std::size_t>(live) == costs.size() ? wanted : live;
@@ -53,7 +53,7 @@ Decision by_count(const std::vector<Part>& parts) {
                      : "a shard has one packing at least, and growing groups and families whole"};
 }
 
-/// By time alone: `node_seconds` is what the sweep takes one node.
+/// By time only: `node_seconds` is what the sweep takes on one node.
 Decision by_time(double node_seconds, const ClusterLimits& limits, const std::vector<Part>& parts) {
   const bool is_short = limits.seconds > 0.0 && limits.seconds / 3.0 < long_shard;
   const double most = is_short ? limits.seconds / 3.0 : long_shard;
@@ -103,13 +103,13 @@ double longest_shard(const std::vector<Part>& parts, const std::vector<Cost>& co
   return seconds;
 }
 
-/// With time to begin and end, in whole ten minutes.
+/// Includes time to begin and end, in whole ten minutes.
 double time_to_ask_for(double needed, double limit) {
   const double seconds = 600.0 * std::ceil((needed + 120.0) / 600.0);
   return limit > 0.0 ? std::min(seconds, limit) : seconds;
 }
 
-/// Of a node with so many threads, for the packings that are made at first.
+/// Time of a node with so many threads, for the packings that are made at first.
 double node_seconds_of(const std::vector<Part>& parts, int threads) {
   double seconds = 0.0;
   for (const Part& part : parts) seconds += part.cost.cpu_seconds;

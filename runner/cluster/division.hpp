@@ -9,7 +9,7 @@
 
 namespace grainsweep {
 
-/// What a part of a cluster offers. 0 means that it sets no limit, or does not tell.
+/// What a part of a cluster offers. 0 means that there is no limit, or that it is not known.
 struct ClusterLimits {
   int nodes = 1;
   int cores = 1;         ///< of a node
@@ -25,17 +25,17 @@ struct Division {
   double bytes = 0.0;      ///< to ask for, for each shard
   double estimated = 0.0;  ///< wall time of the longest shard for what is made at first, s
   double grown = 0.0;      ///< the same if all that may grow has its most packings, s
-  /// To ask for, for each shard, if allowed: twice the time estimated, or that of what has grown.
+  /// To ask for, for each shard, if allowed: `grown`, or twice `estimated` if that is more.
   double seconds = 0.0;
   std::string reason;  ///< what decided their number: "the 12 nodes of the partition"
 };
 
 /// As many shards as there are nodes, if each then takes a node 10 to 60 minutes, and at most a
-/// third of the time that a job may take, since estimates may be too low by two; otherwise as many
-/// as come nearest, and never more than parts. What groups may grow by does not count in this: how
-/// many packings they take is known when the first ones are made. A shard has a thread for each
-/// core of a node, or as many as there is memory for. `costs` are those of all jobs. `shards` and
-/// `threads` other than 0 are taken as they are, but for parts and memory.
+/// third of the time that a job may take, since estimates may be too low by a factor of two;
+/// otherwise the nearest number, and never more than parts. Growth of groups does not count here:
+/// how many packings they take is known only when the first ones are made. A shard has a thread for
+/// each core of a node, or as many as there is memory for. `costs` are those of all jobs. `shards`
+/// and `threads` other than 0 are taken as they are, limited only by parts and memory.
 Division divide(const std::vector<Part>& parts, const std::vector<Cost>& costs,
                 const ClusterLimits& limits, int shards = 0, int threads = 0);
 

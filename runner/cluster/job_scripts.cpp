@@ -16,7 +16,7 @@ std::string clock_time(double seconds) {
   return text.data();
 }
 
-/// For a file name that Slurm reads, which takes % as its own.
+/// For a file name that Slurm reads, to which % is special.
 std::string without_patterns(const std::string& name) {
   std::string text;
   for (const char c : name) text += c == '%' ? std::string("%%") : std::string(1, c);
@@ -25,7 +25,7 @@ std::string without_patterns(const std::string& name) {
 
 std::string directive(const std::string& text) { return "#SBATCH --" + text + "\n"; }
 
-/// What both jobs ask for. `log` is the name of the file that takes what a job says.
+/// What both jobs ask for. `log` is the name of the file for a job's output.
 std::string directives(const ClusterRun& run, const std::string& log) {
   const Division& division = run.division;
   std::string text = directive("job-name=" + shell_word(run.name)) +

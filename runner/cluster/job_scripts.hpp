@@ -12,7 +12,7 @@ struct ClusterRun {
   std::string program, file, folder;
   std::string name;                ///< of the sweep
   std::string partition;           ///< of the cluster
-  std::string tolerate_unsettled;  ///< as in RunOptions, of the last job
+  std::string tolerate_unsettled;  ///< as in RunOptions, for the last job
   Division division;
 };
 

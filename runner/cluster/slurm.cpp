@@ -17,7 +17,7 @@ namespace {
 
 constexpr int not_found = 127;  // what a shell ends with
 
-/// What a command printed and ended with.
+/// What a command printed, and its exit status.
 struct Said {
   int code = 0;
   std::string text;
@@ -57,7 +57,7 @@ int leading_number(std::string_view text) {
   return number;
 }
 
-/// Of "1-12:00:00" or "30:00"; 0 if there is no limit.
+/// Seconds in "1-12:00:00" or "30:00"; 0 if there is no limit.
 double limit_in(std::string_view text) {
   const std::size_t dash = text.find('-');
   if (dash == std::string_view::npos) return seconds_in(text).value_or(0.0);

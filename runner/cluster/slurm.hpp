@@ -1,5 +1,5 @@
-// Slurm, asked and told by its commands. Every function throws BadInput if they are missing or
-// refuse, with what they say.
+// Slurm, through its commands. Every function throws BadInput if they are missing or refuse, with
+// what they say.
 #pragma once
 
 #include <optional>
@@ -18,16 +18,16 @@ struct Partition {
 };
 
 /// What `sinfo` says of each partition, from lines "main*|1-00:00:00|2|1000|4": name, with a star
-/// if it is the default, time limit, cores and MB of a node, nodes. Of different nodes of a
-/// partition the smallest count.
+/// if it is the default, time limit, cores and MB of a node, nodes. Where the nodes of a partition
+/// differ, the smallest values count.
 std::vector<Partition> partitions_in(std::string_view lines);
 
-/// How many elements an array may have, by what `scontrol show config` says; 0 if it does not.
-/// Throws BadInput if there may be no arrays.
+/// How many elements an array may have, from what `scontrol show config` says; 0 if it does not
+/// say. Throws BadInput if there may be no arrays.
 int array_limit_in(std::string_view configuration);
 
-/// The partition of that name, or the default one if the name is empty. Throws BadInput with those
-/// that there are.
+/// The partition of that name, or the default one if the name is empty. Throws BadInput, which
+/// lists the partitions that there are.
 const Partition& chosen(const std::vector<Partition>& partitions, const std::string& name);
 
 /// Asks the cluster.
@@ -44,7 +44,7 @@ struct Queue {
   std::string blocking;  ///< why the first pending one will not begin by itself; usually empty
 };
 
-/// Of lines "RUNNING|None|/scripts/shards.sh", those whose script lies in the folder.
+/// Counts those of the lines "RUNNING|None|/scripts/shards.sh" whose script lies in the folder.
 Queue queue_in(std::string_view lines, const std::string& scripts);
 
 /// The jobs of this user whose scripts lie in the folder; nothing where there is no Slurm.

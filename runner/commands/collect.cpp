@@ -27,7 +27,7 @@
 namespace grainsweep {
 namespace {
 
-/// Packings that are added before they are brought to the disk together.
+/// Packings that are added before they are written to the disk together.
 constexpr std::size_t added_at_once = 1000;
 
 /// The merged folder while it grows.
@@ -40,15 +40,15 @@ struct Collection {
   std::map<std::string, std::size_t> row_of;  ///< by job
   /// The first row of each set of parameters, by their text, which the rows keep.
   std::map<std::string_view, std::size_t> row_with;
-  /// What the files hold that parameters were read from, by parameter and name of the file.
+  /// Content of the files that parameters were read from, by parameter and name of the file.
   std::map<std::pair<std::string, std::string>, std::string> content_of;
-  /// What is stored of other forms of the sweeps, which no table has.
+  /// What is stored of other forms of the sweeps, which is in no table.
   Outcomes others;
   std::size_t added = 0, given_grains = 0, stored = 0;
   bool is_short = false;  ///< something stored could not be read
 };
 
-/// Of this process; it makes no packing, and is not among the runs.
+/// The record of this process; it makes no packing, and is not listed among the runs.
 RunRecord begun_collection() {
   RunRecord run;
   run.started = utc_now();
@@ -68,8 +68,8 @@ void warn_of(const std::vector<std::string>& damage, Collection& to) {
   for (const std::string& line : damage) warn(line, to), to.is_short = true;
 }
 
-/// Packings of equal parameters are one group: they get the label of the first. Adds one that is
-/// renamed so to `renamed`, "its label" -> "the first one's".
+/// Packings of equal parameters are one group: they get the label of the first. Adds one that is so
+/// renamed to `renamed`, "its label" -> "the first one's".
 void add_row(Row&& row, Collection& to, std::map<std::string, std::string>& renamed) {
   const auto [first, is_new] = to.row_with.try_emplace(row.job.parameters.text(), to.rows.size());
   if (!is_new && to.rows[first->second].job.label != row.job.label) {
@@ -79,7 +79,7 @@ void add_row(Row&& row, Collection& to, std::map<std::string, std::string>& rena
   to.rows.push_back(std::move(row));
 }
 
-/// Files of one name that hold different things, of different folders, are told apart by a hash.
+/// Files of one name but different content, from different folders, are told apart by a hash.
 void tell_files_apart(JobFacts& job, Collection& to) {
   if (job.files.empty()) return;
   const auto contents = identifying_parameters(job);
@@ -130,7 +130,7 @@ void add_sweep(const Provenance& from, Provenance& to) {
   }
 }
 
-/// Units stand for all packings of a folder.
+/// Units hold for all packings of a folder.
 void add_units(const std::string& folder, const GivenUnits& from, Collection& to) {
   if (from == to.provenance.units) return;
   warn(folder + ": has other units than the sweeps before it; the tables have none", to);
@@ -158,7 +158,7 @@ bool brings_grains(const Outcome& outcome, const Outcome& known) {
   return is_same_result(outcome, known) && outcome.stored_bytes > known.stored_bytes;
 }
 
-/// Stores an outcome and its bed, so that it counts more than what was `known`, which it becomes;
+/// Stores an outcome and its bed, so that it counts more than the `known` one, which it replaces;
 /// false, and a warning, if the bed is missing or damaged.
 bool store(const std::string& folder, Boxed<Outcome>&& outcome, Boxed<Outcome>& known,
            Collection& to) {
@@ -192,7 +192,8 @@ void add_outcome(const std::string& folder, Boxed<Outcome> outcome, Row& row, Co
   if (++to.stored % added_at_once == 0) to.files.flush();
 }
 
-/// Keeps what a folder holds beside its sweep: that of another form, which may come again.
+/// Keeps what a folder holds besides its sweep: packings of other forms of it, which may come
+/// again.
 void add_others(const std::string& folder, Outcomes&& outcomes, Collection& to) {
   std::size_t kept = 0;
   for (auto& [job, outcome] : outcomes) {
@@ -243,7 +244,7 @@ Collection begin_collection(const std::string& folder, ShardFiles& files, Progre
   return collection;
 }
 
-/// Adds what the folder holds, a packing at a time; `tell` is told how much of it is done, 0..1.
+/// Adds what the folder holds, a packing at a time; `tell` gets how much of it is done, 0..1.
 void add_results(const std::string& folder, StoredSweep&& stored, Collection& to,
                  const std::function<void(double)>& tell) {
   add_sweep(stored.provenance, to.provenance);
@@ -281,7 +282,7 @@ void expect_sources(const CollectOptions& options) {
   }
 }
 
-/// Bytes of the journals of each folder: what it costs.
+/// Bytes of the journals of each folder: the cost of reading it.
 std::vector<double> sizes_of(const std::vector<std::string>& folders) {
   std::vector<double> sizes;
   for (const std::string& folder : folders) {
@@ -293,7 +294,7 @@ std::vector<double> sizes_of(const std::vector<std::string>& folders) {
   return sizes;
 }
 
-/// One folder after the other, so that of no two the packings are in memory.
+/// One folder after the other, so that the packings of no two are in memory at once.
 Collection collected(const CollectOptions& options, ShardFiles& files, ProgressDisplay& display,
                      const RunRecord& own) {
   std::optional<Collection> collection;

@@ -35,7 +35,7 @@ std::string misspelling(const std::string& what, const std::string& word, const 
          (near.empty() ? "; known: " + comma_list(known) : "; did you mean " + near + "?");
 }
 
-/// What is wrong with the command line, `words` behind the program's name.
+/// What is wrong with the command line, `words` after the program's name.
 std::string mistake(const CLI::App& app, const Words& words, const CLI::Error& error) {
   Words commands = {"help", "version"}, options;
   for (const CLI::App* command : app.get_subcommands(nullptr)) {
@@ -61,7 +61,7 @@ Words with_options(const CLI::App& app, const Words& words) {
   return {words[1], "--help"};
 }
 
-/// Makes the examples of its help begin with what the program was called by.
+/// Makes the examples in its help begin with the name that the program was called by.
 void call_examples(CLI::App& command) {
   const std::string written = ": grainsweep ", called = ": " + called_as() + " ";
   std::string text = command.get_footer();

@@ -27,10 +27,10 @@ using Command = OneOf<AllOptions>::Type;
 
 struct CommandLine {
   std::optional<Command> command;  ///< nothing after --help, --version or a mistake
-  int exit_code = 0;               ///< then to be returned; everything has been printed
+  int exit_code = 0;               ///< to return without a command; everything has been printed
 };
 
-/// Tells `app` of the program and of all its commands; what is given to them goes into `all`.
+/// Describes the program and all its commands to `app`; their options are stored in `all`.
 void describe(CLI::App& app, AllOptions& all);
 
 CommandLine read_command_line(int argc, const char* const* argv);

@@ -1,6 +1,6 @@
 // The commands of the program, a file each.
 //
-// Of every command there are: its options; `add_command`, which tells the command line of it and
+// Every command has: its options; `add_command`, which describes it to the command line and says
 // where its options go; and `perform`, which does it. That returns the program's exit code and
 // throws BadInput, FolderBusy or FileError where it cannot go on.
 #pragma once
@@ -27,12 +27,12 @@ struct RunOptions {
   bool quiet = false;                ///< print errors and warnings only
   bool no_report = false;            ///< leave out report.html and its figures
   bool no_grains = false;            ///< store curves but no grains
-  std::string shard;                 ///< as of shard_from_option
+  std::string shard;                 ///< as shard_from_option takes it
   bool alone = false;                ///< take over nothing from other shards
   std::string time_limit;            ///< "1:30:00"; empty: that of the Slurm job, if any
-  double tolerate_unsettled = 0.0;   ///< share, 0..1, that does not count in the exit code
+  double tolerate_unsettled = 0.0;   ///< unsettled share, 0..1, that does not affect the exit code
 };
-/// Makes what is missing of a sweep and writes the tables.
+/// Makes the missing packings of a sweep and writes the tables.
 int perform(const RunOptions& options);
 void add_command(CLI::App& app, RunOptions& options);
 
@@ -52,9 +52,9 @@ void add_command(CLI::App& app, ValidateOptions& options);
 
 struct PlanOptions {
   std::string file;
-  std::string out;  ///< output folder whose packings teach the estimates; empty: none
+  std::string out;  ///< output folder whose packings improve the estimates; empty: none
   int threads = 0;  ///< as in RunOptions
-  int shards = 0;   ///< parts whose cost is to be told; 0: none
+  int shards = 0;   ///< number of parts whose costs to print; 0: none
   bool json = false;
 };
 /// Prints the packings of a sweep with estimated time and memory.
@@ -67,8 +67,8 @@ struct SlurmOptions {
   std::string partition;            ///< empty: the cluster's default
   int shards = 0;                   ///< 0: as many as divide() says
   int threads = 0;                  ///< of a shard; 0: all cores of a node
-  double tolerate_unsettled = 0.0;  ///< as in RunOptions, of the last job
-  bool print = false;               ///< the scripts, in place of submitting them
+  double tolerate_unsettled = 0.0;  ///< as in RunOptions, for the last job
+  bool print = false;               ///< print the scripts instead of submitting them
 };
 /// Submits a sweep to Slurm: an array of shards, and a job that makes the rest and the tables.
 int perform(const SlurmOptions& options);
@@ -91,12 +91,12 @@ void add_command(CLI::App& app, CompareOptions& options);
 
 struct ExportOptions {
   std::string folder;
-  std::string format = "csv";      ///< of export_formats, or html
+  std::string format = "csv";      ///< one of export_formats, or html
   std::vector<std::string> jobs;   ///< ids; empty: all that are stored
   std::string to;                  ///< folder for the files; empty: <folder>/export
-  std::string contacts = "touch";  ///< of surfaces: touch, shrink:SHARE, cap:SHARE or bridge:SHARE
-  bool periodic_images = false;    ///< of surfaces: of grains that cross a periodic side
-  double voxels = 20.0;            ///< a d
+  std::string contacts = "touch";  ///< for surfaces: touch, shrink:SHARE, cap:SHARE or bridge:SHARE
+  bool periodic_images = false;    ///< for surfaces: images of grains that cross a periodic side
+  double voxels = 20.0;            ///< per d
 };
 /// Writes the grains of stored packings, a file each.
 int perform(const ExportOptions& options);
@@ -115,7 +115,7 @@ struct CollectOptions {
   std::vector<std::string> folders;
   std::string out;  ///< folder they are merged into; may hold results, which stay
 };
-/// Merges the results of several output folders, a packing once, and writes the tables.
+/// Merges the results of several output folders, each packing once, and writes the tables.
 int perform(const CollectOptions& options);
 void add_command(CLI::App& app, CollectOptions& options);
 

@@ -24,7 +24,7 @@ double write_test() {
   return wall_seconds() - start;
 }
 
-/// What draws the figures of pages, or what is missing without it.
+/// The program that draws the figures of pages, or what is missing without it.
 std::string drawing_text() {
   const std::string version = gnuplot_version();
   return version.empty() ? "no gnuplot: pages have no figures (Debian: apt-get install gnuplot-nox)"

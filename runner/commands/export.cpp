@@ -83,7 +83,7 @@ std::string shape_of(const JobFacts& job) {
 }
 
 /// Why the format cannot hold the grains of a packing; "" if it can, or if its bed cannot be read,
-/// which is told when it is to be written.
+/// which is reported when it is to be written.
 std::string fault_of(const ExportFormat& format, const std::string& folder, const Row& row) {
   try {
     return format.fault(read_bed(folder, *row.outcome));
@@ -93,7 +93,7 @@ std::string fault_of(const ExportFormat& format, const std::string& folder, cons
 }
 
 /// Looks at the first bed of each shape, before anything is written. Throws BadInput if the format
-/// can hold none of them; otherwise those that it cannot are left out.
+/// can hold none of them; otherwise those that it cannot hold are left out.
 void refuse_shapes_without_room(const ExportFormat* format, const std::string& folder,
                                 const std::vector<Row>& rows,
                                 const std::vector<std::size_t>& chosen) {
@@ -113,7 +113,7 @@ void refuse_shapes_without_room(const ExportFormat* format, const std::string& f
   throw BadInput("--format " + std::string(format->name) + ": " + first_fault);
 }
 
-/// What other formats would leave out in silence. Throws BadInput.
+/// Refuses options that other formats would silently ignore. Throws BadInput.
 void refuse_what_does_not_apply(const ExportOptions& options) {
   const auto expect = [&](bool is_given, const char* option, bool applies, const char* formats) {
     if (is_given && !applies) {
@@ -221,7 +221,7 @@ int perform(const ExportOptions& options) {
     try {
       text = format != nullptr ? format->text(exported(std::move(*bed), rows[k].job, settings))
                                : page_of(*bed, rows[k], results.provenance.units);
-    } catch (const BadInput& error) {  // no bed for this format; others may be
+    } catch (const BadInput& error) {  // this bed cannot have the format; others may
       refused.emplace_back(error.what());
       continue;
     } catch (const std::logic_error& error) {  // a surface that could not be cut or joined

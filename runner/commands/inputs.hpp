@@ -11,11 +11,11 @@ namespace grainsweep {
 /// The sweep in `file`. Throws BadInput with every error in it.
 Sweep sweep_or_refusal(const std::string& file);
 
-/// The same; prints what in it is never used, and beds that will probably be too low, as notes.
+/// The same; prints notes on what is never used in it and on beds that will probably be too low.
 Sweep sweep_with_notes(const std::string& file);
 
-/// What is stored in the output folder; prints warnings of what is of another version, and of what
-/// is damaged unless all packings are there and the end of the last run.
+/// What is stored in the output folder; prints warnings about packings of another version, and
+/// about damage unless all packings and the end of the last run are there.
 Results results_with_warnings(const std::string& folder, Detail detail = Detail::whole);
 
 }  // namespace grainsweep

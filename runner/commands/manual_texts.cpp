@@ -29,13 +29,13 @@ std::vector<std::string> names_of(const CLI::Option& option) {
 
 bool takes_a_value(const CLI::Option& option) { return option.get_items_expected_max() > 0; }
 
-/// What stands for its value, "N"; CLI11 writes what it may be behind a colon.
+/// What stands for its value, "N"; CLI11 writes the allowed values after a colon.
 std::string operand_of(const CLI::Option& option) {
   const std::string type = option.get_type_name();
   return type.substr(0, type.find(':'));
 }
 
-/// What its value may be: the names of a set without its braces; "" if it is no set.
+/// The allowed values: the names of a set without its braces; "" if it is no set.
 std::string names_in_set(const CLI::Option& option) {
   const std::string type = option.get_type_name();
   const std::size_t begin = type.find(":{"), end = type.rfind('}');
@@ -53,7 +53,7 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 
 std::string on_one_line(const std::string& text) { return replaced(text, "\n", " "); }
 
-/// For roff, which takes a backslash, a hyphen, and a dot or quote that begins a line, as its own.
+/// For roff, to which a backslash, a hyphen, and a dot or quote that begins a line are special.
 std::string roff(const std::string& text) {
   std::string escaped;
   bool begins_line = true;
@@ -139,7 +139,7 @@ std::string command_words(const CLI::App& app) {
   return words;
 }
 
-/// In single quotes for zsh and fish; brackets and colons mean something to zsh.
+/// In single quotes for zsh and fish; brackets and colons are special to zsh.
 std::string in_quotes(const std::string& text) {
   return "'" + replaced(on_one_line(text), "'", "’") + "'";
 }

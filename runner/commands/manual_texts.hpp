@@ -8,7 +8,7 @@
 
 namespace grainsweep {
 
-/// Name of the file -> its text: grainsweep.1 and, of each command, grainsweep-<command>.1, in the
+/// Name of the file -> its text: grainsweep.1 and, for each command, grainsweep-<command>.1, in the
 /// macros of man(7).
 std::map<std::string, std::string> manual_pages(const CLI::App& app);
 

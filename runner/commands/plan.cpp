@@ -29,7 +29,7 @@
 namespace grainsweep {
 namespace {
 
-/// Lines of the plan a person wants to see; --json lists everything.
+/// Lines of the plan that a person wants to see; --json lists everything.
 constexpr std::size_t groups_shown = 40;
 
 /// Jobs with one label and one parameter set.
@@ -51,8 +51,8 @@ std::vector<PlannedGroup> planned_groups(const Sweep& sweep, const std::vector<C
   return groups;
 }
 
-/// What is stored in a folder, if one is given, in as much detail as the sweep needs. Warns of what
-/// is damaged, which a run makes anew.
+/// What is stored in a folder, if one is given, in as much detail as the sweep needs. Warns of
+/// damaged packings, which a run makes anew.
 Outcomes made_in(const std::string& folder, const Sweep& whole) {
   if (folder.empty()) return {};
   JournalReading stored = read_journals(folder, grows(whole) ? Detail::whole : Detail::summary);
@@ -61,7 +61,7 @@ Outcomes made_in(const std::string& folder, const Sweep& whole) {
   return std::move(stored.outcomes);
 }
 
-/// Estimates, corrected by what packings that are made took.
+/// Estimates, corrected by what finished packings took.
 std::vector<Cost> costs_with(const Outcomes& outcomes, const std::vector<Job>& jobs) {
   std::vector<Cost> costs = costs_of(jobs);
   if (outcomes.empty()) return costs;
@@ -77,7 +77,7 @@ std::vector<Cost> costs_with(const Outcomes& outcomes, const std::vector<Job>& j
   return costs;
 }
 
-/// How estimates were corrected by what is made in a folder.
+/// How estimates were corrected by the packings made in a folder.
 std::string learned_text(const std::string& folder, const Outcomes& outcomes,
                          const std::vector<Job>& jobs, const std::vector<Cost>& costs) {
   if (!std::filesystem::exists(folder)) {
@@ -90,8 +90,8 @@ std::string learned_text(const std::string& folder, const Outcomes& outcomes,
          fixed(total_cpu_seconds(costs) / total_cpu_seconds(costs_of(jobs)), 2) + "\n";
 }
 
-/// CPU time of each of so many shards, which the uncorrected estimates divide, s; 0 of those with
-/// nothing to make.
+/// CPU time of each of so many shards, as the uncorrected estimates divide them, s; 0 for those
+/// with nothing to make.
 std::vector<double> seconds_of_shards(const Sweep& sweep, const std::vector<Cost>& costs,
                                       int shards) {
   std::vector<double> seconds(static_cast<std::size_t>(shards));
@@ -102,7 +102,7 @@ std::vector<double> seconds_of_shards(const Sweep& sweep, const std::vector<Cost
   return seconds;
 }
 
-/// How evenly so many shards have the work.
+/// How evenly the work is divided among so many shards.
 std::string shards_text(const Sweep& sweep, const std::vector<Cost>& costs, int shards) {
   const std::vector<double> seconds = seconds_of_shards(sweep, costs, shards);
   const auto idle = static_cast<std::size_t>(std::count(seconds.begin(), seconds.end(), 0.0));
@@ -234,8 +234,8 @@ std::string job_json(const Job& job, const Cost& cost) {
   return text + ",\"parameters\":" + job.parameters + "}";
 }
 
-/// Written job by job: as one value a large sweep would take ten times the memory. `most`: of all
-/// that a sweep may grow to; empty if it does not.
+/// Written job by job: as one value a large sweep would take ten times the memory. `most`: the
+/// costs of all that a sweep may grow to; empty if it does not grow.
 void print_json(const Sweep& sweep, const std::vector<Cost>& costs, const Needs& needs,
                 const std::vector<Cost>& most, int threads, int shards) {
   nlohmann::ordered_json plan = {{"name", sweep.name},

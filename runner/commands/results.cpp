@@ -37,7 +37,7 @@ constexpr std::array tables = {"packings.csv",           "groups.csv",   "fits.c
                                "distributions.csv",      "sizes.csv",    "components.csv",
                                "component_profiles.csv", "columns.csv",  "provenance.json"};
 
-/// provenance.json. Throws BadInput.
+/// Reads provenance.json. Throws BadInput.
 ProvenanceReading read_provenance(const std::string& folder) {
   const std::string path = provenance_path(folder);
   if (!file_exists(path)) {
@@ -68,8 +68,8 @@ bool is_recorded(const std::string& folder, const Provenance& provenance,
   }
 }
 
-/// Calls `use` with an outcome that has a stored bed; false, and what is wrong in `damage`, if that
-/// throws FileError, as it is not sound.
+/// Calls `use` with an outcome that has a stored bed; if that throws FileError because the bed is
+/// not sound, returns false and appends what is wrong to `damage`.
 template <class Use>
 bool uses_bed(const Outcome& outcome, Use& use, std::vector<std::string>& damage) {
   if (outcome.stored_bytes == 0) return true;
@@ -82,7 +82,7 @@ bool uses_bed(const Outcome& outcome, Use& use, std::vector<std::string>& damage
   }
 }
 
-/// The same of each row's outcome; a row without a sound bed becomes a pending one.
+/// The same for each row's outcome; a row without a sound bed becomes pending.
 template <class Use>
 std::vector<std::string> use_beds(std::vector<Row>& rows, Use use) {
   std::vector<std::string> damage;
@@ -115,7 +115,7 @@ void write_packings(const std::string& folder, const std::vector<Row>& rows,
   file.commit();
 }
 
-/// All that need curves.
+/// All tables that need curves.
 std::vector<CurveTable> curve_tables(const Varied& varied, const GivenUnits& units) {
   return {profiles_table(varied, units),      decays_table(varied, units),
           distributions_table(varied, units), sizes_table(varied, units),
@@ -133,7 +133,8 @@ struct CurveFile {
   CurveTable table;
 };
 
-/// All of them at once, so that each bed is read once, and those of one group are in memory.
+/// Writes all of them at once, so that each bed is read once, and only those of one group are in
+/// memory.
 void write_curve_tables(const std::string& folder, const Analysis& analysis,
                         const GivenUnits& units) {
   std::list<CurveFile> files;

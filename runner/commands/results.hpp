@@ -17,9 +17,9 @@ struct Results {
   Provenance provenance;
   std::vector<Row> rows;
   std::vector<std::string> damage;                  ///< what was left out, where and why
-  std::map<std::string, RunRecord> last_runs = {};  ///< as of JournalReading
-  std::size_t orphaned = 0;  ///< stored packings that are not of the present sweep
-  std::string wishes = {};   ///< of what a growing sweep calls for: wishes_text
+  std::map<std::string, RunRecord> last_runs = {};  ///< as in JournalReading
+  std::size_t orphaned = 0;  ///< stored packings that do not belong to the present sweep
+  std::string wishes = {};   ///< which requested accuracies a growing sweep reached: wishes_text
 };
 
 /// The record of a sweep, which every output folder has.
@@ -33,50 +33,50 @@ struct StoredSweep {
   Provenance provenance;
   JobList jobs;
   Outcomes outcomes;
-  std::map<std::string, RunRecord> last_runs;  ///< as of JournalReading
-  std::vector<std::string> damage;             ///< as of Results
+  std::map<std::string, RunRecord> last_runs;  ///< as in JournalReading
+  std::vector<std::string> damage;             ///< as in Results
 };
 
 /// Throws BadInput if `folder` is no output folder, FileError if a file cannot be read.
 StoredSweep read_stored_sweep(const std::string& folder, Detail detail = Detail::whole);
 
-/// Everything from provenance.json and the journals: all but the curves. Of a summary there is what
-/// `status` needs, in a tenth of the time. Throws BadInput if `folder` is no output folder,
+/// Everything from provenance.json and the journals: all but the curves. A summary has only what
+/// `status` needs and takes a tenth of the time. Throws BadInput if `folder` is no output folder,
 /// FileError if a file cannot be read.
 Results read_results(const std::string& folder, Detail detail = Detail::whole);
 
-/// What is stored by now of the packings that a sweep calls for by now: both of one reading, so
-/// that where none is pending nothing more is called for, whatever other runners made meanwhile.
-/// Those of a growing sweep take Detail::whole.
+/// The packings that a sweep calls for by now, and what is stored of them. Both come from one
+/// reading: where none is pending, nothing more is called for, whatever other runners made
+/// meanwhile. A growing sweep needs Detail::whole.
 Results read_called_for(GrowingSweep& growing, Provenance provenance, const std::string& folder,
                         Detail detail);
 
-/// Writes provenance.json, from which others know the sweep, unless it stands there already.
+/// Writes provenance.json, from which others know the sweep, unless it is already there.
 void record_sweep(const std::string& folder, const Provenance& provenance,
                   const std::vector<Row>& rows);
 
-/// Whether its bed, if it has one, is stored whole; appends to `damage` why not.
+/// Whether the outcome's bed, if it has one, is stored whole; appends to `damage` why not.
 bool has_sound_bed(const std::string& folder, const Outcome& outcome,
                    std::vector<std::string>& damage);
 
-/// Reads the whole of each stored bed. A row whose bed is missing, damaged or another's becomes a
-/// pending one; returns what was left out, as in Results::damage.
+/// Reads the whole of each stored bed. A row whose bed is missing, damaged or that of another
+/// outcome becomes pending; returns what was left out, as in Results::damage.
 std::vector<std::string> check_beds(const std::string& folder, std::vector<Row>& rows);
 
-/// Looks whether the stored beds are there with the sizes they had, and opens none: 100,000 in a
-/// second. A flipped bit is not seen.
+/// Checks that the stored beds are there with the sizes they had, without opening any: 100,000 in a
+/// second. A flipped bit is not noticed.
 std::vector<std::string> expect_beds(const std::string& folder, std::vector<Row>& rows);
 
-/// The same of outcomes, of which those without a sound bed are removed.
+/// The same for outcomes; those without a sound bed are removed.
 std::vector<std::string> expect_beds(const std::string& folder, Outcomes& outcomes);
 
-/// Replaces report.html and its figures, made of rows whose beds were checked; prints as notes what
-/// is missing from it. Returns a line that says where it is. Throws FileError.
+/// Replaces report.html and its figures, made from rows whose beds were checked; prints notes on
+/// what is missing from it. Returns a line that says where it is. Throws FileError.
 std::string write_page(const std::string& folder, const Provenance& provenance,
                        const std::vector<Row>& rows, const Analysis& analysis,
                        PageExtent extent = PageExtent::whole);
 
-/// Replaces the CSV tables, made of rows whose beds were checked and of their analysis,
+/// Replaces the CSV tables, made from rows whose beds were checked and from their analysis,
 /// columns.csv, which explains them, and provenance.json. Throws FileError.
 void write_tables(const std::string& folder, const Provenance& provenance,
                   const std::vector<Row>& rows, const Analysis& analysis);
@@ -88,16 +88,16 @@ void write_provenance(const std::string& folder, const Provenance& provenance,
 /// What this program was built from, for provenance.json.
 Build this_build();
 
-/// The columns of every table of a sweep with these further gap tolerances that varies these
+/// The columns of every table of a sweep that has these further gap tolerances, varies these
 /// parameters and gives these units.
 std::vector<ColumnText> all_columns(const std::vector<double>& tolerances, const Varied& varied,
                                     const GivenUnits& units = {});
 
-/// A line of warning for each of `damage`, as of Results.
+/// A line of warning for each entry of `damage`, as in Results.
 std::string damage_warnings(const std::vector<std::string>& damage);
 
 /// A line that says how many rows another version of the program made, whose results may not belong
-/// into one table with this one's; empty if there are none.
+/// in one table with this one's; empty if there are none.
 std::string other_versions_warning(const std::vector<Row>& rows, const std::string& version);
 
 /// "12 stored packings", and what cannot be read beside them; empty if there is neither.

@@ -1,4 +1,4 @@
-// The command `run`: sweep, what is missing of it, packings, tables, report, exit code.
+// The command `run`: sweep, its missing packings, making them, tables, report, exit code.
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -41,7 +41,7 @@
 namespace grainsweep {
 namespace {
 
-/// Asks before stored packings are forgotten. Throws BadInput unless that is wanted.
+/// Asks before stored packings are forgotten. Throws BadInput unless the user wants that.
 void confirm_fresh(const RunOptions& options, const std::string& folder, const Shard& shard) {
   if (!options.fresh) return;
   if (shard.count > 1) {
@@ -70,7 +70,7 @@ std::set<std::string> jobs_of(const Shard& shard, const Sweep& whole) {
   return jobs;
 }
 
-/// Those of `jobs` that a sweep has, by their places in it.
+/// Those of `jobs` that belong to a sweep, by their places in it.
 std::vector<std::size_t> places_of(const std::set<std::string>& jobs, const Sweep& sweep) {
   std::vector<std::size_t> places;
   for (std::size_t i = 0; i < sweep.jobs.size(); ++i) {
@@ -79,7 +79,7 @@ std::vector<std::size_t> places_of(const std::set<std::string>& jobs, const Swee
   return places;
 }
 
-/// What a growing sweep has to look at; of others nothing.
+/// What a growing sweep has to look at; nothing for other sweeps.
 Outcomes made_for_growth(const std::string& folder, const Sweep& whole) {
   return grows(whole) ? read_journals(folder, Detail::whole).outcomes : Outcomes();
 }
@@ -95,13 +95,13 @@ void keep_own(std::vector<std::string>& damage, const Shard& shard, const std::s
   std::erase_if(damage, [&](const std::string& line) { return !line.starts_with(path + ":"); });
 }
 
-/// What of a shard is still to be made. A kill may come between the end of a packing and the end of
-/// its checkpoints: they are removed. Warns of what is damaged.
+/// What is still to be made of a shard. A kill may come between the end of a packing and the end of
+/// its checkpoints: they are then removed. Warns of damage.
 RunningSweep resume(const Sweep& sweep, const std::vector<std::size_t>& places, const Shard& shard,
                     const std::string& folder, ShardFiles& files, bool retry_failed) {
   RunningSweep running{folder, files, 0, {}, {}};
   if (shard.count > 1) running.claims = claims_in(folder);
-  // Whole, as the tables will read them: a line that they could not read is made again.
+  // Read whole, as the tables will: a packing whose line they could not read is made again.
   JournalReading stored = read_journals(folder, Detail::whole);
   keep_own(stored.damage, shard, journal_path(folder, files.name()));
   const std::vector<Cost> costs = costs_of(sweep.jobs);
@@ -154,7 +154,8 @@ RunRecord begun_run(const RunOptions& options, Isa isa) {
           source_commit()};
 }
 
-/// What the command line gives, or the end of the Slurm job that this is part of. Throws BadInput.
+/// The limit given on the command line, or the end of the Slurm job that this is part of. Throws
+/// BadInput.
 TimeLimit time_limit_of(const RunOptions& options) {
   if (!options.time_limit.empty()) {
     const auto seconds = seconds_in(options.time_limit);
@@ -194,7 +195,7 @@ Packed joined(const Packed& before, const Packed& now) {
           now.first_failure};
 }
 
-/// Makes what is called for, and what the results of that, `made`, call for, and so on.
+/// Makes what is called for, then what its results, `made`, call for, and so on.
 Made make_all(GrowingSweep& growing, const std::function<Outcomes()>& made,
               const std::function<Made(const Sweep&)>& make) {
   Made all = make(growing.now());
@@ -205,12 +206,12 @@ Made make_all(GrowingSweep& growing, const std::function<Outcomes()>& made,
   return all;
 }
 
-/// Whether nothing but the packings themselves was in the way.
+/// Whether a signal or, with --fail-fast, a failed packing stopped it.
 bool was_stopped(const Packed& packed) {
   return stop_signal() != 0 || !packed.first_failure.empty();
 }
 
-/// Of a runner whose shard is made: takes over from others until nobody needs help.
+/// For a runner whose shard is made: takes over from others until nobody needs help.
 Made help(const Sweep& sweep, const Shard& shard, const std::string& folder, ShardFiles& files,
           bool is_quiet, const std::function<Packed(RunningSweep&)>& make) {
   const Helping helping(sweep, shard, folder);
@@ -230,7 +231,7 @@ Made help(const Sweep& sweep, const Shard& shard, const std::string& folder, Sha
   }
 }
 
-/// The options to go on with: those of this run, but for what is done once. `retries`: whether
+/// The options to go on with: those of this run, without what is done only once. `retries`: whether
 /// failed packings are still to be made again.
 std::string repeated(const RunOptions& options, const std::string& folder, bool retries) {
   std::ostringstream text;
@@ -254,7 +255,7 @@ std::string repeated(const RunOptions& options, const std::string& folder, bool 
   return text.str();
 }
 
-/// Of the packings of this runner.
+/// Counts of the packings of this runner.
 StatusCounts counts_of(const std::vector<Row>& rows, const std::vector<std::size_t>& places) {
   StatusCounts counts;
   for (const std::size_t place : places) count(rows[place], counts);
@@ -273,7 +274,7 @@ int stopped(const Packed& packed, const RunOptions& options, const std::string& 
             << (packings == 1 ? " is" : " are") << " kept in " << folder;
   const std::size_t saved = saved_packings(folder);
   if (saved > 0) std::cerr << ", " << saved << " under way in its checkpoints";
-  // Where all are kept --fail-fast stopped at one that was made again.
+  // With all packings kept, --fail-fast stopped at one that was made again.
   const bool retries = options.retry_failed && (by_signal || counts.pending > 0);
   std::cerr << ".\nGo on with: " << called_as() << " run " << repeated(options, folder, retries)
             << "\n";
@@ -281,8 +282,8 @@ int stopped(const Packed& packed, const RunOptions& options, const std::string& 
   return by_failure ? exit_left_out : exit_out_of_time;
 }
 
-/// Of a run that made all it had to. What is not there at its end others are still making, or it
-/// was taken away meanwhile.
+/// For a run that made all it had to. Packings missing at its end are still being made by others,
+/// or were removed meanwhile.
 int exit_code_for(const StatusCounts& counts, int left_to_others, const RunOptions& options,
                   const std::string& folder) {
   if (counts.pending > left_to_others) {
@@ -296,7 +297,7 @@ int exit_code_for(const StatusCounts& counts, int left_to_others, const RunOptio
   return counts.pending <= left_to_others && is_tolerated ? exit_done : exit_left_out;
 }
 
-/// Tables and page of all packings; with the closing table if the run made all it had to.
+/// Writes tables and page of all packings; prints the closing table if the run made all it had to.
 void write_results(Results& results, const RunOptions& options, const std::string& folder,
                    bool is_whole) {
   std::cerr << damage_warnings(check_beds(folder, results.rows));
@@ -314,14 +315,14 @@ void write_results(Results& results, const RunOptions& options, const std::strin
   if (is_whole && !options.quiet) std::cout << where;
 }
 
-/// Where a run left an older page as it was.
+/// Says so where a run left an older page as it was.
 void tell_of_old_page(const std::string& folder) {
   if (!file_exists(folder + "/report.html")) return;
   std::cerr << "note: " << folder << "/report.html is of an earlier run; " << called_as()
             << " report " << shell_path(folder) << " writes it anew\n";
 }
 
-/// Where other shards are not ready.
+/// Says so where other shards are not ready.
 void tell_of_others(const std::vector<Row>& rows, const Shard& shard, const std::string& folder,
                     const RunOptions& options) {
   const auto pending = static_cast<std::size_t>(totals_of(rows).counts.pending);
@@ -449,8 +450,8 @@ int perform(const RunOptions& options) {
   const bool has_all = is_alone || totals_of(results.rows).counts.pending == 0;
   if (has_all && !is_alone) results = stored(Detail::whole);
   if (has_all) {
-    // Of several shards that find everything made at once, which is the same for all, the first
-    // one.
+    // If several shards find everything made at once, which looks the same to all, the first one
+    // writes.
     std::optional<FileLock> place;
     if (shard.count > 1) place.emplace(tables_lock(folder));
     if (!place || !place->is_taken()) write_results(results, options, folder, is_whole);

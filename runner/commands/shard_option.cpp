@@ -12,8 +12,9 @@
 namespace grainsweep {
 namespace {
 
-/// What an engine tells its tasks. Tasks count from `first`, which is a variable or a number, in
-/// steps of the variable `step`; the engine gives their count, the number of the last, or neither.
+/// The variables that an engine gives its tasks. Tasks count from `first`, which is a variable or a
+/// number, in steps of the variable `step`; the engine gives their count, the number of the last,
+/// or neither.
 struct TaskVariables {
   const char* engine = nullptr;
   const char* number = nullptr;
@@ -33,7 +34,7 @@ constexpr std::array arrays = {
     TaskVariables{"HyperQueue", "HQ_TASK_ID", "1"},
 };
 
-/// Slurm comes last: what mpirun starts inherits its variables, too.
+/// Slurm comes last: programs that mpirun starts inherit its variables, too.
 constexpr std::array ranks = {
     TaskVariables{"Open MPI", "OMPI_COMM_WORLD_RANK", "0", nullptr, "OMPI_COMM_WORLD_SIZE"},
     TaskVariables{"PMI", "PMI_RANK", "0", nullptr, "PMI_SIZE"},
@@ -55,7 +56,7 @@ std::optional<int> number_of(const char* variable, const Environment& environmen
   return integer_in(value != nullptr ? value : variable);
 }
 
-/// What one engine says: the number of a task from 0, and of how many if it tells.
+/// What one engine says: the number of a task from 0, and of how many if it says so.
 struct Task {
   int index = 0;
   std::optional<int> count;

@@ -1,4 +1,4 @@
-// Which part of a sweep a runner is to make, as told on the command line or by a cluster.
+// Which part of a sweep a runner is to make, as given on the command line or by a cluster.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace grainsweep {
 
-/// "3/64"; "auto", by the variables of arrays and tasks; or "auto/64" where the cluster tells the
-/// number of a task but not how many there are. Empty: the whole sweep. Throws BadInput, which
+/// "3/64"; "auto", from the variables of job arrays and tasks; or "auto/64" where the cluster gives
+/// the number of a task but not how many there are. Empty: the whole sweep. Throws BadInput, which
 /// lists the variables that were looked for.
 Shard shard_from_option(const std::string& text, const Environment& environment);
 

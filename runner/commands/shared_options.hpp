@@ -24,17 +24,17 @@ void add_file(CLI::App& command, std::string& file);
 /// The output folder of a run.
 void add_folder(CLI::App& command, std::string& folder);
 
-/// For the name of a folder that may be left out, but not be empty, as that of an unset variable.
+/// For the name of a folder, which may be left out but not be empty, as an unset variable makes it.
 CLI::Validator not_empty();
 
 /// How many packings are made at once; stays 0 if it is not given.
 void add_threads(CLI::App& command, int& threads);
 
-/// What share of packings, 0..1, may be unsettled without counting in the exit code; stays as it is
-/// if it is not asked for, and is 1 if no share is given.
+/// What share of packings, 0..1, may be unsettled without counting in the exit code; `share` is
+/// unchanged if the option is not given, and 1 if it is given without a share.
 void add_tolerance(CLI::App& command, double& share, const std::string& meaning);
 
-/// Takes numbers in [least, most] alone; CLI::Range lets nan pass, which lies in no range.
+/// Accepts only numbers in [least, most]; CLI::Range lets nan pass, which lies in no range.
 CLI::Validator number_within(double least, double most);
 
 }  // namespace grainsweep

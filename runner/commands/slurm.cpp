@@ -48,7 +48,7 @@ std::string limits_text(const Partition& partition) {
   return text + "\n";
 }
 
-/// What will be done, and what decided it. `costs`: of what is made at first.
+/// What will be done, and what decided it. `costs`: of the packings made at first.
 std::string division_text(const Sweep& sweep, const std::vector<Cost>& costs,
                           const Division& division, const ClusterLimits& limits) {
   std::string text = sweep.name + ": " + counted(costs.size(), "packing") +
@@ -71,7 +71,7 @@ std::string growth_of_shards_text(const std::vector<Cost>& most, const Division&
          ", and what it leaves is made by the job that follows\n";
 }
 
-/// Says so where one machine is enough, whatever grows. `most`: costs of all that there may be.
+/// Says so if one machine is enough, whatever grows. `most`: costs of all that there may be.
 std::string small_note(const std::vector<Cost>& most, const SlurmOptions& options,
                        const std::string& folder) {
   const double seconds = estimate_wall(most, usable_cores());
@@ -81,18 +81,18 @@ std::string small_note(const std::vector<Cost>& most, const SlurmOptions& option
          shell_path(folder) + "\n";
 }
 
-/// Submits the shards. Scripts that are refused do not stay: they would look as if they wait.
+/// Submits the shards. Scripts that are refused are removed: they would look as if they wait.
 std::string submit_shards(const std::string& scripts) try {
   return submit(scripts + "/shards.sh");
 } catch (...) {
-  std::error_code stays;  // logs of jobs before
+  std::error_code stays;  // the folder stays if it has logs of earlier jobs
   for (const char* name : {"/shards.sh", "/rest.sh", ""}) {
     std::filesystem::remove(scripts + name, stays);
   }
   throw;
 }
 
-/// Submits what follows the shards, which go on if it is refused.
+/// Submits the job after the shards, which go on if it is refused.
 std::string submit_rest(const std::string& scripts, const std::string& array) try {
   return submit(scripts + "/rest.sh", array);
 } catch (const BadInput& refused) {
@@ -102,7 +102,7 @@ std::string submit_rest(const std::string& scripts, const std::string& array) tr
                  shell_word(scripts + "/rest.sh") + "; to end them: scancel " + array);
 }
 
-/// Writes the scripts and submits them, the second to follow the first.
+/// Writes the scripts and submits them, the second to run after the first.
 void submit_scripts(const ClusterRun& run, const std::string& folder) {
   const std::string scripts = scripts_folder(run.folder);
   make_folder(scripts);

@@ -22,7 +22,7 @@
 namespace grainsweep {
 namespace {
 
-/// Runners that are named one by one; of more their number is told.
+/// Runners that are named one by one; of more only the number is given.
 constexpr std::size_t runners_named = 4;
 
 /// All that is known of an output folder.
@@ -32,8 +32,8 @@ struct Standing {
   Totals totals;
   std::vector<Runner> working, lost;  ///< none is lost where nothing is left to be made
   std::optional<Queue> queue;         ///< of jobs that the command `slurm` submitted
-  double seconds_left = 0.0;          ///< of CPU, as what is made teaches
-  int threads = 0;                    ///< of all that work
+  double seconds_left = 0.0;          ///< of CPU, learned from finished packings
+  int threads = 0;                    ///< of all runners at work
 };
 
 double cpu_seconds_left(const std::vector<Row>& rows) {
@@ -61,7 +61,7 @@ std::optional<Queue> queue_of(const std::string& folder) {
       scripts_folder(std::filesystem::absolute(folder).lexically_normal().string()));
 }
 
-/// Prints warnings of what is damaged.
+/// Prints warnings about damage.
 Standing standing_of(const std::string& folder, bool check) {
   Standing standing{folder, results_with_warnings(folder, Detail::summary), {}, {}, {}, {}};
   std::vector<Row>& rows = standing.results.rows;
@@ -184,7 +184,7 @@ nlohmann::ordered_json status_json(const Standing& standing) {
   return status;
 }
 
-/// Of a folder whose shards are submitted, but none has begun.
+/// For a folder whose shards are submitted, but none has begun.
 nlohmann::ordered_json waiting_json(const std::string& folder) {
   nlohmann::ordered_json status = {{"folder", folder}, {"packings", nullptr}};
   if (const auto queue = queue_of(folder)) {
@@ -232,7 +232,7 @@ int perform(const StatusOptions& options) {
       tell(folder, options, all);
     } catch (const BadInput& error) {
       if (options.folders.size() == 1) throw;
-      std::cerr << error.what() << "\n";  // the others are told
+      std::cerr << error.what() << "\n";  // the others are still reported
       end = exit_bad_input;
     }
   }

@@ -15,7 +15,7 @@ int decimals_for(double error) {
   return std::clamp(1 - static_cast<int>(std::floor(std::log10(error))), 0, 6);
 }
 
-/// The values that the source has of `family`, of all its entries that describe it.
+/// The values that the source has for `family`, from all its entries that describe it.
 std::vector<Published> published_of(const Reference& reference, const Family& family) {
   std::vector<Published> values;
   for (const PublishedFamily& entry : reference.families) {

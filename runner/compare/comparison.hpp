@@ -18,7 +18,7 @@ struct Comparison {
   std::string title;  ///< "Z at W = 10 d"
   Published published;
   Measured measured;
-  /// Of a value that is said to hold for all families: chi2 per degree of freedom of theirs.
+  /// For a value that is said to hold for all families: chi2 per degree of freedom of theirs.
   std::optional<double> chi2_per_dof;
 };
 
@@ -26,14 +26,14 @@ struct Comparison {
 /// either is missing.
 std::optional<double> difference(const Comparison& comparison);
 
-/// The same over the standard errors of both, added in quadrature.
+/// The same divided by the standard errors of both, added in quadrature.
 std::optional<double> difference_in_errors(const Comparison& comparison);
 
 /// "agrees: -0.013, 0.8 errors"; "differs: ..."; "-" if there is nothing to compare.
 std::string verdict(const Comparison& comparison);
 
-/// What the source has of each family, then what it says of all. Families of which it has nothing,
-/// and published families that are not in the sweep, are named by comparison_text.
+/// What the source has for each family, then what it says of all. Families for which it has
+/// nothing, and published families that are not in the sweep, are named by comparison_text.
 std::vector<Comparison> compare_with(const Reference& reference, const Analysis& analysis);
 
 /// A table for people: UTF-8, the definitions of both values below each row. Names the families

@@ -58,7 +58,7 @@ Measured slope_of_fit(const Family& family) {
   return fitted(family, fit, fit.slope);
 }
 
-/// Of a solid fraction.
+/// A quantity of a group from `measure`, for a solid fraction.
 template <auto measure, class... Of>
 Measured porosity(const Of&... of) {
   Measured measured = measure(of...);
@@ -82,7 +82,7 @@ double mean_over(const Group& group, double PackingResult::*member) {
   return sum / static_cast<double>(group.settled.size());
 }
 
-/// "both walls", but in a tube.
+/// "both walls", except in a tube.
 std::string walls_text(const Group& group) {
   return group.job.box.is_tube ? "the wall" : "both walls";
 }

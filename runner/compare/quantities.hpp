@@ -15,15 +15,15 @@ struct Measured {
   std::string definition;      ///< of the value
 };
 
-/// Why there can be no such value: an unknown name, or a width that is missing or means nothing to
-/// it; empty if there can be one.
+/// Why there can be no such value: an unknown name, or a width that is missing or has no meaning
+/// for the quantity; empty if there can be one.
 std::string fault_of_quantity(const std::string& quantity, double width);
 
-/// "Z at W = 10 d", `symbol` as of extent_symbol. The quantity and width must be without fault,
+/// "Z at W = 10 d", with `symbol` from extent_symbol. The quantity and width must be without fault,
 /// here and below.
 std::string title_of_quantity(const std::string& quantity, double width, const std::string& symbol);
 
-/// `folder` holds the beds, as of GroupWithCurves.
+/// `folder` holds the beds, as for GroupWithCurves.
 Measured measure_quantity(const std::string& quantity, double width, const Family& family,
                           const std::string& folder = "");
 

@@ -27,8 +27,8 @@ bool is_object(const Json& value, const std::string& pointer, Diagnostics& diagn
   return false;
 }
 
-/// A member of `object`, a number no less than 0; nothing, and a problem noted, if it is another
-/// value.
+/// A member of `object`, a number no less than 0; nothing, and a problem noted, if it is anything
+/// else.
 std::optional<double> read_number(const Json& object, const char* key, const std::string& pointer,
                                   Diagnostics& diagnostics) {
   const auto found = object.find(key);
@@ -131,7 +131,7 @@ Parameter named(std::vector<std::string> names) {
 }
 
 /// What families may be told apart by at `path`: a shape and an accuracy by their names, a number
-/// of a list by its place, "gap_tolerances.0". Nothing if no packing has such a parameter.
+/// in a list by its place, "gap_tolerances.0". Nothing if no packing has such a parameter.
 std::optional<Parameter> distinction_at(const std::string& path) {
   if (is_of_accuracy(path)) {
     auto names = parameters()[parameter_with(Role::preset)].choices;
@@ -158,7 +158,7 @@ std::optional<Parameter> distinction_at(const std::string& path) {
   return std::nullopt;
 }
 
-/// Whether its values are read as a sweep's are. Packings have others as hashes, or in parts.
+/// Whether its values are read as in a sweep. Packings hold others as hashes, or in parts.
 bool is_read_as_written(const Parameter& parameter) {
   return parameter.kind == ValueKind::number || parameter.kind == ValueKind::whole ||
          parameter.kind == ValueKind::natural || parameter.kind == ValueKind::choice;

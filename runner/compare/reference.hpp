@@ -10,7 +10,7 @@
 
 namespace grainsweep {
 
-/// One published value, in d where it is a length; for some quantities a source has words alone.
+/// One published value, in d where it is a length; for some quantities a source has only words.
 struct Published {
   std::string quantity;  ///< a name that measure_quantity knows
   double width = 0.0;    ///< gap between the walls at which it holds, d; 0 if it belongs to none
@@ -49,7 +49,7 @@ std::string reference_beside(const std::string& sweep_file);
 bool describes(const PublishedFamily& published, const Family& family);
 
 /// What to write in `where` in place of a parameter that families do not have, since their packings
-/// differ in it; "" of any other path.
+/// differ in it; "" for any other path.
 std::string advice_on(const std::string& path);
 
 }  // namespace grainsweep

@@ -17,8 +17,8 @@ inline constexpr double core_distance = 4.0;  ///< d: as far as walls are said t
 struct WallZone {
   std::string not_determined;  ///< why there are no numbers; empty if there are
   Spread drop;                 ///< core less wall coordination, over the settled replicates
-  /// Width of a layer of wall coordination beside each wall that, with core coordination
-  /// elsewhere, has the packing's mean: (W / 2) (core - mean) / (core - wall), d.
+  /// Width of a layer of wall coordination beside each wall that, with core coordination elsewhere,
+  /// gives the packing's mean: (W / 2) (core - mean) / (core - wall), d.
   Spread width;
 };
 

@@ -34,13 +34,13 @@ int periods_in(double way, double period) {
   return period == 0.0 ? 0 : static_cast<int>(std::lround(way / period));
 }
 
-/// Of grain b from its place in the box to the image at the neck.
+/// The shift of grain b from its place in the box to the image at the neck.
 Shift shift_of(const StoredBed& bed, const Neck& neck) {
   const Vector way = neck.between - (centre_in_box(bed, neck.b) - centre_in_box(bed, neck.a));
   return {periods_in(way.x(), bed.box.period_x()), periods_in(way.y(), bed.box.period_y())};
 }
 
-/// Whether any of a convex body may lie within the periodic sides of the box.
+/// Whether any part of a convex body may lie within the periodic sides of the box.
 bool reaches_into(const Box& box, const std::vector<Vector>& points, const Vector& way) {
   for (const auto& [axis, period] : {std::pair(0, box.period_x()), std::pair(1, box.period_y())}) {
     if (period == 0.0) continue;
@@ -128,7 +128,7 @@ std::vector<Bridge> bridges_of(const StoredBed& bed, const OpenSurfaces& open,
   return bridges;
 }
 
-/// Of each copy the first one that bridges join it to.
+/// For each copy the first one that bridges join it to.
 std::vector<std::size_t> first_joined(std::size_t copies, const std::vector<Bridge>& bridges) {
   Clusters clusters(copies);
   for (const Bridge& bridge : bridges) {
@@ -150,7 +150,7 @@ const Hole& hole_at(const OpenSurface& open, std::size_t neck) {
                        [&](const Hole& hole) { return hole.neck == neck; });
 }
 
-/// One body, as it grows, and where in its vertices those of the copies begin.
+/// One body, as it grows, and where in its vertices those of each copy begin.
 struct Body {
   GrainSurface joined;
   std::map<std::size_t, std::int32_t> first_vertex;

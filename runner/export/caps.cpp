@@ -11,8 +11,8 @@
 namespace grainsweep {
 namespace {
 
-/// An offset not above the given one to which no corner is nearer than `clearance`: slivers that
-/// rounding would turn inside out are not left.
+/// The largest offset not above the given one to which no corner is nearer than `clearance`, so
+/// that no slivers are left that rounding would turn inside out.
 double clear_offset(const Surface& surface, const Vector& normal, double offset, double clearance) {
   std::vector<double> heights;
   for (const Vector& vertex : surface.vertices) heights.push_back(normal.dot(vertex));
@@ -32,7 +32,7 @@ std::vector<Contact> treated_contacts(const ExportedBed& exported) {
   near.gap_tolerance =
       std::max(exported.gap_tolerance, cap_depth(exported.settings.treatment.share));
   near.bed.forces
-      .clear();  // a place is the middle of all that is near, whatever of it bears a force
+      .clear();  // a place is the middle of all that is near, whichever part bears a force
   near.bed.wall_forces.clear();
   return contacts_of(near);
 }
@@ -62,7 +62,7 @@ std::map<std::size_t, TubeEnd> tube_ends(const ExportedBed& exported,
 
 namespace {
 
-/// Cuts grains, and tells those of which nothing is left.
+/// Cuts grains, and reports those of which nothing is left.
 class Cutter {
  public:
   Cutter(const StoredBed& bed, std::vector<Surface>& surfaces) : bed_(bed), surfaces_(surfaces) {}
@@ -110,8 +110,8 @@ void cut_caps(const ExportedBed& exported, std::vector<Surface>& surfaces) {
   for (const Contact& contact : treated) {
     if (is_at_tube(bed.box, contact)) continue;
     const Vector& normal = contact.place.normal;
-    // From midway to where a cap begins: the grain's surface, but where it overlaps the wall, or
-    // midway.
+    // From midway to where a cap begins: the grain's surface, or, for a grain that overlaps, the
+    // wall or midway.
     const double before = contact.is_wall ? std::abs(contact.gap) : std::max(contact.gap, 0.0);
     const auto cut = [&](std::size_t grain, const Vector& outward, const Vector& point) {
       cutter.cut(grain, outward,

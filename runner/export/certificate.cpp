@@ -81,7 +81,7 @@ Json motions_json(const std::vector<FreeMotion>& motions) {
   return list;
 }
 
-/// A member and its value; of a list each entry on its line.
+/// A member and its value; for a list, each entry on its line.
 std::string member_text(const std::string& name, const Json& value) {
   std::string text = Json(name).dump() + ": ";
   if (!value.is_array()) return text + value.dump();

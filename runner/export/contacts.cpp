@@ -100,7 +100,7 @@ ContactPlace place_of(const ForceLine& line, const StoredBed& bed, std::size_t a
           line.constraints};
 }
 
-/// A contact that counts; `found` is where its grains touch if it is not told by a force.
+/// A contact that counts; `found` gives where its grains touch if no force does.
 template <class Found>
 Contact contact_of(const ExportedBed& exported, const Sides& sides, bool is_wall, double gap,
                    const std::optional<Borne>& borne, const Found& found) {
@@ -114,7 +114,7 @@ Contact contact_of(const ExportedBed& exported, const Sides& sides, bool is_wall
           is_told ? place_of(*borne->line, exported.bed, a) : found()};
 }
 
-/// Appends `touching` if it counts, with its force. Where there is one, points of a line or an area
+/// Appends `touching` if it counts, with its force. If it has one, points of a line or an area
 /// count as in the tables.
 template <class Bed, class Pair>
 void append(const ExportedBed& exported, const Bed& bed, const Forces& forces, const Sides& sides,
@@ -130,8 +130,8 @@ void append_wall(const ExportedBed& exported, const SphereBed& bed, const Forces
                  const TouchingWall& wall, std::vector<Contact>& contacts) {
   append(exported, bed, forces, {wall.grain, wall.wall}, wall, contacts);
 }
-/// A polyhedron touches a tube with its vertices, each of them in a contact of its own; where their
-/// forces were stored as one sum, as they used to be, in one contact.
+/// A polyhedron touches a tube with its vertices, each in a contact of its own, or in one contact
+/// where their forces were stored as one sum, as in older versions.
 void append_wall(const ExportedBed& exported, const PolyhedronBed& bed, const Forces& forces,
                  const TouchingWall& wall, std::vector<Contact>& contacts) {
   const bool is_tube = bed.walls[static_cast<std::size_t>(wall.wall)].is_round();

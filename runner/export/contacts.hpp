@@ -20,9 +20,9 @@ struct Contact {
 };
 
 /// Every contact with a gap below the tolerance, and every other one that bears a force: grains
-/// first, a < b, then walls. Contacts of polyhedra that bear a force are where and as it acts, as
-/// the bed stores it; in beds of older versions by what of them is closed to closed_gap, as are all
-/// others by what is to the tolerance.
+/// first, a < b, then walls. Contacts of polyhedra that bear a force have the place and kind of the
+/// force, as the bed stores it; in beds of older versions, those of what is closed to closed_gap.
+/// All others have those of what is closed to the tolerance.
 std::vector<Contact> contacts_of(const ExportedBed& exported);
 
 /// "floor", "tube", "x_low", "x_high", "y_low" or "y_high".
@@ -33,8 +33,8 @@ std::string wall_name(const Box& box, std::size_t wall);
 /// a point of the contact beside a; force.
 std::string contacts_csv(const ExportedBed& exported);
 
-/// Lines from centre to centre, or to a wall, with the arrays a, b (0 of a wall), size_class_a,
-/// size_class_b (0 of a wall), kind (1, 2, 3), gap, force and normal. Lines across a periodic side
+/// Lines from centre to centre, or to a wall, with the arrays a, b (0 for a wall), size_class_a,
+/// size_class_b (0 for a wall), kind (1, 2, 3), gap, force and normal. Lines across a periodic side
 /// leave the box.
 std::string contacts_vtp(const ExportedBed& exported);
 

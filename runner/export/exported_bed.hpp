@@ -1,4 +1,4 @@
-// A stored bed with what else files tell of it.
+// A stored bed with what else exported files say about it.
 #pragma once
 
 #include <optional>
@@ -12,8 +12,8 @@
 
 namespace grainsweep {
 
-/// What becomes of grains in surfaces, so that they do not touch the container, and each other not
-/// or all over a neck.
+/// What is done to grains in surfaces, so that they do not touch the container, and touch each
+/// other either not at all or over a whole neck.
 struct ContactTreatment {
   enum class Kind {
     none,
@@ -30,9 +30,9 @@ struct ContactTreatment {
 std::optional<ContactTreatment> contact_treatment(std::string_view text);
 
 struct ExportSettings {
-  ContactTreatment treatment;    ///< of surfaces
-  bool periodic_images = false;  ///< of surfaces: of grains that cross a periodic side
-  double voxels = 20.0;          ///< a d
+  ContactTreatment treatment;    ///< for surfaces
+  bool periodic_images = false;  ///< for surfaces: of grains that cross a periodic side
+  double voxels = 20.0;          ///< per d
 };
 
 struct ExportedBed {
@@ -46,19 +46,19 @@ struct ExportedBed {
 /// What files call a grain: its number from 1.
 inline std::size_t id_of(std::size_t grain) { return grain + 1; }
 
-/// 1 of a large grain, 2 of a small one.
+/// 1 for a large grain, 2 for a small one.
 int size_class(const ExportedBed& exported, std::size_t grain);
 
-/// Whether its grains are of several components of a mixture.
+/// Whether its grains belong to several components of a mixture.
 bool has_components(const StoredBed& bed);
 
-/// The component of a grain of a mixture, from 1, behind a separator; else "".
+/// The component of a grain of a mixture, from 1, after a separator; else "".
 std::string component_text(const StoredBed& bed, std::size_t grain, char separator);
 
 /// "large" or "small".
 const char* class_name(const ExportedBed& exported, std::size_t grain);
 
-/// Whether a grain is a sphere; others of its bed may be none.
+/// Whether a grain is a sphere; others of its bed may not be.
 bool is_sphere(const StoredBed& bed, std::size_t grain);
 
 /// The vertices of a grain that is no sphere, as they lie in the box, from its centre, d.
@@ -73,7 +73,7 @@ Eigen::Vector3d centre_in_box(const StoredBed& bed, std::size_t grain);
 /// From the centre of grain a to that of b, or of its image nearest to a, box frame, d.
 Eigen::Vector3d between_centres(const StoredBed& bed, std::size_t a, std::size_t b);
 
-/// z of the highest point of a grain, d; 0 of no grains.
+/// z of the highest point of a grain, d; 0 without grains.
 double height_of(const StoredBed& bed);
 
 }  // namespace grainsweep

@@ -44,7 +44,7 @@ bool is_line_of(const std::string& line, const std::string& file, const std::str
   return line.starts_with(file + "," + job + ",");
 }
 
-/// The lines of the index that stands in a folder, by their files.
+/// The lines of the existing index of a folder, by their files.
 std::map<std::string, std::string> index_lines(const std::string& folder) {
   std::map<std::string, std::string> lines;
   const std::string path = folder + "/index.csv";

@@ -11,20 +11,22 @@
 
 namespace grainsweep {
 
-/// Of each row the name of its files without their ending: label, number of the group in groups.csv
-/// and replicate, as "two_sizes-3-1"; in groups of several seeds the seed, too:
-/// "two_sizes-3-1-seed5". What is no letter, digit, point, or underscore of a label is an
-/// underscore, and so is a point that would hide the file. No two rows have the same.
+/// For each row the name of its files without their ending: label, number of the group in
+/// groups.csv and replicate, as "two_sizes-3-1"; in groups with several seeds also the seed:
+/// "two_sizes-3-1-seed5". Every character of a label other than a letter, digit, point or
+/// underscore becomes an underscore, and so does a point that would hide the file. No two rows have
+/// the same.
 std::vector<std::string> file_stems(const std::vector<Row>& rows);
 
 /// index.csv of `folder` without the lines of files that other packings are about to replace:
-/// `taken`, file -> job. Nothing if there is none of them.
+/// `taken`, file -> job. Nothing if there are no such lines.
 std::optional<std::string> index_without(const std::string& folder,
                                          const std::map<std::string, std::string>& taken);
 
 /// index.csv: file, job, label, group, replicate, seed and status of the files in `folder`: of
-/// those `written` now, and of others with one of the endings that its index has listed. What that
-/// says of a packing which the rows call otherwise, as after a sweep has changed, stays as it is.
+/// those `written` now, and of others with one of the endings that the present index lists. What
+/// that says of a packing which the rows name differently, as after a change of the sweep, stays as
+/// it is.
 std::string index_csv(const std::string& folder, const std::vector<Row>& rows,
                       const std::vector<std::string>& endings,
                       const std::set<std::string>& written);

@@ -10,7 +10,7 @@
 namespace grainsweep {
 
 struct ExportFormat {
-  std::string_view name;    ///< as of --format
+  std::string_view name;    ///< as in --format
   std::string_view ending;  ///< of its files
   std::string (*text)(const ExportedBed&);
   /// Why the format cannot hold grains of these shapes; "" if it can. Null where it holds all.

@@ -19,7 +19,7 @@ std::string position(const SettledGrain& grain) {
   return cell(grain.x) + " " + cell(grain.y) + " " + cell(grain.z);
 }
 
-/// The numbers of a grain's orientation, each behind a separator; "" for spheres.
+/// The numbers of a grain's orientation, each after a separator; "" for spheres.
 std::string orientation(const StoredBed& bed, std::size_t grain, char separator) {
   std::string text;
   if (!bed.turned) return text;
@@ -27,7 +27,7 @@ std::string orientation(const StoredBed& bed, std::size_t grain, char separator)
   return text;
 }
 
-/// Whose each point or face is: numbers of grains.
+/// The grains that points or faces belong to, by their numbers.
 using Owners = std::vector<std::size_t>;
 
 /// The arrays that points and faces have.

@@ -7,7 +7,7 @@
 
 namespace grainsweep {
 
-/// id, size_class, x, y, z, radius, force, coordination: a grain per line. Of grains that are no
+/// id, size_class, x, y, z, radius, force, coordination: a grain per line. For grains that are no
 /// spheres also qx, qy, qz, qw, the unit quaternion from the shape's frame to the box's.
 std::string grains_csv(const ExportedBed& exported);
 

@@ -22,7 +22,8 @@ std::string joined(const std::vector<double>& numbers) {
   return text;
 }
 
-/// Classes of sizes; of a mixture those of the first component, then those of the second, ...
+/// Number of size classes; for a mixture those of the first component, then those of the second,
+/// ...
 std::size_t type_count(const StoredBed& bed) {
   return 2 * (bed.turned ? bed.turned->meshes.size() : 1);
 }
@@ -80,7 +81,7 @@ Words words_of(const std::vector<double>& numbers) {
   return words;
 }
 
-/// As many words to a line as LAMMPS reads.
+/// As many words per line as LAMMPS reads.
 std::string in_lines(const Words& words) {
   std::string text;
   std::size_t length = 0;
@@ -118,7 +119,7 @@ Words body_words(const Parts& parts, const Words& moments, const Words& corners)
   return words;
 }
 
-/// To 15 decimals, which rounding leaves of lengths near d, so that no coordinate is longer than
+/// To 15 decimals, which rounding leaves for lengths near d, so that no coordinate is longer than
 /// longest_coordinate.
 double rounded(double coordinate) {
   constexpr double decimals = 1e15;
@@ -127,7 +128,7 @@ double rounded(double coordinate) {
 constexpr std::string_view longest_coordinate = "-12.345678901234567";
 constexpr std::string_view longest_number = "-1.2345678901234567e-100";
 
-/// Whether a body of these parts has room in the lines that LAMMPS reads, however it is turned.
+/// Whether a body with these parts fits into the lines that LAMMPS reads, however it is turned.
 bool has_room(const Parts& parts) {
   const Words moments(6, std::string(longest_number));
   const Words corners(3 * parts.corners, std::string(longest_coordinate));
@@ -135,8 +136,8 @@ bool has_room(const Parts& parts) {
   return static_cast<std::size_t>(std::count(lines.begin(), lines.end(), '\n')) <= most_lines;
 }
 
-/// Fewest and most corners that a body may have: LAMMPS makes room by them, for as many edges and
-/// faces as corners, two and four numbers of each. A sphere among polyhedra has one corner.
+/// Fewest and most corners that a body may have: LAMMPS reserves room by them, for as many edges
+/// and faces as corners, two and four numbers each. A sphere among polyhedra has one corner.
 std::string corners_to_ask_for(const StoredBed& bed) {
   constexpr std::size_t per_corner = 9, usual = 64;
   std::size_t fewest = 3, most = usual;
@@ -163,7 +164,7 @@ std::string header(const ExportedBed& exported) {
          cell(height_of(bed)) + " zlo zhi\n\n";
 }
 
-/// Of a grain of size 1.
+/// Volume of a grain of size 1.
 double volume_of(const Mesh& mesh) {
   if (mesh.is_ball()) return sphere_volume(0.5);
   std::vector<Vector> corners;
@@ -171,7 +172,7 @@ double volume_of(const Mesh& mesh) {
   return mass_moments(corners, mesh.faces).volume;
 }
 
-/// In that of a grain of size 1, of the first component of a mixture.
+/// In units of the mass of a grain of size 1, of the first component of a mixture.
 double mass_of(const StoredBed& bed, std::size_t grain) {
   const double by_size = sphere_mass(bed.grains[grain].radius);
   if (bed.turned->component(grain) == 0) return by_size;

@@ -12,10 +12,10 @@ namespace grainsweep {
 namespace {
 
 constexpr double narrower = 0.8;
-constexpr double narrowest = 0.1, narrowest_of_spheres = 1e-3;  // of what was asked for
+constexpr double narrowest = 0.1, narrowest_of_spheres = 1e-3;  // of the requested radius
 constexpr double neck_clearance = 0.1;                          // of a radius, that necks keep
 
-/// What lies about a neck.
+/// What is around a neck.
 struct Surroundings {
   const ExportedBed& exported;
   const GrainBodies& grains;
@@ -28,7 +28,7 @@ void sort_out(std::vector<std::size_t>& numbers) {
   numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
 }
 
-/// Grains near enough for one to reach a neck of the other.
+/// For each grain, those near enough for one to reach a neck of the other.
 std::vector<std::vector<std::size_t>> neighbours_of(const ExportedBed& exported,
                                                     const std::vector<Neck>& necks) {
   double reach = exported.gap_tolerance;
@@ -48,7 +48,7 @@ std::vector<std::vector<std::size_t>> neighbours_of(const ExportedBed& exported,
   return neighbours;
 }
 
-/// Grains near a neck, those that it joins among them.
+/// Grains near a neck, including those that it joins.
 std::vector<std::size_t> grains_about(const Neck& neck, const Surroundings& around) {
   std::vector<std::size_t> grains = around.neighbours[neck.a];
   if (!neck.is_wall) {
@@ -117,7 +117,7 @@ std::vector<std::size_t> necks_about(const std::vector<std::size_t>& grains,
   return found;
 }
 
-/// Which necks have to be narrower.
+/// Which necks must become narrower.
 std::vector<bool> crowded(const std::vector<Neck>& necks, const Surroundings& around) {
   std::vector<bool> is_crowded(necks.size(), false);
   for (std::size_t k = 0; k < necks.size(); ++k) {

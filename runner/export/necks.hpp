@@ -1,7 +1,7 @@
 // Necks that join grains where they nearly touch. Lengths in d.
 //
-// A neck is a prism about the normal of a contact. Where a neck as wide as was asked for would meet
-// another one or a third grain, both necks, or it, are made narrower in steps of a fifth.
+// A neck is a prism about the normal of a contact. Where a neck of the requested width would meet
+// another one or a third grain, both necks, or the one, are made narrower in steps of a fifth.
 #pragma once
 
 #include <functional>
@@ -20,8 +20,8 @@ struct Neck {
   bool is_wall = false;
   Vector between = Vector::Zero();  ///< from the centre of a to that of b, or of its image
   Vector normal = Vector::UnitZ();  ///< unit, from a to b
-  Vector across = Vector::UnitX();  ///< unit, upright on the normal: towards corner 0
-  Vector middle = Vector::Zero();   ///< of the axis, from the centre of a, upright on the normal
+  Vector across = Vector::UnitX();  ///< unit, perpendicular to the normal: towards corner 0
+  Vector middle = Vector::Zero();   ///< of the axis, from the centre of a, perpendicular to normal
   double asked = 0.0;               ///< radius that was asked for
   double radius = 0.0;              ///< of the circle through its corners
   double low = 0.0, high = 0.0;     ///< ends along the normal from the centre of a
@@ -34,21 +34,21 @@ Vector neck_corner(const Neck& neck, int k, double height);
 /// All corners of a neck whose grain a lies at `centre`.
 std::vector<Vector> neck_corners(const Neck& neck, const Vector& centre);
 
-/// Whether two convex hulls are further apart than `distance`; near it the answer may be no where
-/// it should be yes.
+/// Whether two convex hulls are further apart than `distance`; near that distance the answer may be
+/// no where it should be yes.
 bool are_apart(const std::vector<Vector>& points, const std::vector<Vector>& others,
                double distance);
 
-/// Grains as convex hulls of points about their centres, with all that is nearer to them than their
-/// radius: a sphere is a point with its own.
+/// Grains as convex hulls of points about their centres, with all that is nearer to the hull than
+/// their radius: a sphere is one point with its own radius.
 struct GrainBodies {
   std::vector<std::vector<Vector>> points;
-  std::vector<double> radii;  ///< 0 of polyhedra
+  std::vector<double> radii;  ///< 0 for polyhedra
 };
 
 /// Makes necks narrower until none meets another one, or a grain that it does not join; `fit` sets
-/// the ends of a neck after its radius. Takes away those that would be narrower than a tenth of
-/// what was asked for, of spheres than a thousandth, which only grains that overlap call for.
+/// the ends of a neck after its radius. Removes those that would be narrower than a tenth of the
+/// requested radius, or for spheres than a thousandth, which happens only where grains overlap.
 void narrow(const ExportedBed& exported, const GrainBodies& grains,
             const std::function<void(Neck&)>& fit, std::vector<Neck>& necks);
 

@@ -21,27 +21,27 @@ struct OpenSurface {
   std::vector<Hole> holes;
 };
 
-/// All necks of a bed, and the surfaces of its grains about their centres with the holes of them.
+/// All necks of a bed, and the surfaces of its grains about their centres with holes for them.
 struct OpenSurfaces {
   std::vector<Neck> necks;  ///< between grains
   std::vector<OpenSurface> grains;
 };
 
-/// Of spheres: necks end in circles of their radius on both, and flat places remain at walls.
+/// For spheres: necks end in circles of their radius on both, and flat places remain at walls.
 OpenSurfaces open_spheres(const ExportedBed& exported);
 
-/// Of polyhedra: caps are cut off at every contact first, as by cut_caps; a neck is a column
-/// about the normal that ends where it meets what is left of the two.
+/// For polyhedra: caps are cut off at every contact first, as by cut_caps; a neck is a column about
+/// the normal that ends where it meets what is left of the two.
 OpenSurfaces open_polyhedra(const ExportedBed& exported);
 
-/// A neck whose ends a column has on a convex polyhedron about its centre.
+/// A neck as a column that ends on a convex polyhedron about its centre.
 struct NeckColumn {
   const Neck* neck = nullptr;
   std::size_t number = 0;  ///< of the neck
   bool is_of_b = false;    ///< whether the polyhedron is grain b
 };
 
-/// The polyhedron with the holes of columns that lie apart and within its outline.
+/// The polyhedron with holes for columns that lie apart and within its outline.
 OpenSurface with_holes(const Surface& convex, const std::vector<NeckColumn>& columns);
 
 }  // namespace grainsweep

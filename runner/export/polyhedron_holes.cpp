@@ -36,7 +36,7 @@ struct Trace {
   std::vector<std::int32_t> column_over;                ///< of vertices, or outside_all
 };
 
-/// A column in the frame in which it is upright, seen from outside the polyhedron.
+/// A column in the frame in which it is vertical, seen from outside the polyhedron.
 struct Upright {
   Vector outward, x, y;
   std::vector<Eigen::Vector2d> corners;  ///< counter-clockwise
@@ -202,7 +202,7 @@ std::vector<Loop> loops_of(Steps steps) {
   return loops;
 }
 
-/// Sides in the order of the neck, of which the polyhedron at its other end sees the back.
+/// Sides in the order of the neck, which the polyhedron at its other end sees from the back.
 std::vector<Loop> turned_round(const std::vector<Loop>& sides) {
   std::vector<Loop> turned;
   for (std::size_t k = 0; k < sides.size(); ++k) {

@@ -12,7 +12,7 @@
 namespace grainsweep {
 namespace {
 
-using Flat = Eigen::Vector2d;  // upright on the normal of a neck, from the centre of its grain a
+using Flat = Eigen::Vector2d;  // perpendicular to a neck's normal, from the centre of grain a
 
 /// The polyhedron lies where normal . x <= offset, from its centre.
 struct HalfSpace {
@@ -121,8 +121,8 @@ Flat nearest_within(const std::vector<Flat>& polygon, const Flat& p) {
   return is_inside ? p : nearest;
 }
 
-/// The circle of the radius asked for, or the widest one, within the sections of both ends, as near
-/// as may be to the contact; nothing if there is none.
+/// The circle of the requested radius, or the widest one, within the sections of both ends, as near
+/// as possible to the contact; nothing if there is none.
 bool place(const Polyhedra& bed, const Vector& contact, Neck& neck) {
   constexpr int halvings = 20;
   constexpr double margin = 0.95;  // of a radius that sections bound
@@ -184,7 +184,8 @@ double distance_to_line(const Flat& p, const Flat& from, const Flat& to) {
   return (from + share * way - p).norm();
 }
 
-/// How near corners of the neck come to edges of the end, and corners of that to the neck's sides.
+/// How near corners of the neck come to edges of the end, and corners of the end to the neck's
+/// sides.
 double clearance_at(const End& end, const Neck& neck) {
   const Vector up = neck.normal.cross(neck.across);
   const auto flat = [&](const Vector& v) { return Flat(v.dot(neck.across), v.dot(up)); };
@@ -264,8 +265,7 @@ OpenSurfaces open_polyhedra(const ExportedBed& exported) {
   }
   OpenSurfaces all;
   all.necks = placed_necks(exported, bed);
-  // Turned before it is tested what they meet: where a neck runs along a face a turn shifts its
-  // ends.
+  // Turned before testing what they meet: where a neck runs along a face a turn shifts its ends.
   for (Neck& neck : all.necks) turn_clear(bed, neck);
   narrow(
       exported, bodies, [&](Neck& neck) { turn_clear(bed, neck); }, all.necks);

@@ -11,7 +11,7 @@
 namespace grainsweep {
 namespace {
 
-/// Height of the circle of a neck's radius on a sphere above its centre.
+/// Height of the circle of a neck's radius on a sphere above the sphere's centre.
 double circle_height(double radius, double of_circle) {
   return std::sqrt(radius * radius - of_circle * of_circle);
 }
@@ -60,7 +60,7 @@ struct Rim {
   }
 };
 
-/// Points on a sphere about its centre at the circle that it ends at beside the wall of a tube.
+/// Points on a sphere about its centre on the circle at which it ends beside the wall of a tube.
 std::vector<Vector> edge_of(const TubeEnd& end, double radius) {
   const double from_axis = end.centre.norm(),
                both = end.radius * end.radius + from_axis * from_axis;

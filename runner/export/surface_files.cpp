@@ -9,7 +9,7 @@
 namespace grainsweep {
 namespace {
 
-/// Of the container's top above the highest grain, which would touch it otherwise, d.
+/// Of the container's top above the highest grain, which it would touch otherwise, d.
 constexpr double headroom = 0.1;
 
 /// Nine digits: what a single-precision reader can use.

@@ -21,17 +21,17 @@ inline const Eigen::Vector3d& corner(const Surface& surface, std::int32_t k) {
   return surface.vertices[static_cast<std::size_t>(k)];
 }
 
-/// A sphere of radius 1 about the origin: an icosahedron with each triangle divided in four so many
-/// times; all corners lie on the sphere.
+/// A sphere of radius 1 about the origin: an icosahedron with each triangle divided in four
+/// `divisions` times; all corners lie on the sphere.
 Surface unit_ball(int divisions);
 
-/// A mesh as it is drawn: as it is, or of a sphere with triangles, as of unit_ball.
+/// A mesh as it is drawn: unchanged, or for a sphere the triangles of unit_ball.
 Mesh drawn_mesh(const Mesh& mesh, int divisions);
 
 /// The part of a convex surface where normal . x <= offset; empty if there is none.
 Surface cut_off(const Surface& surface, const Eigen::Vector3d& normal, double offset);
 
-/// The same without the corners that no face has.
+/// The same without the corners that belong to no face.
 Surface compact(const Surface& surface);
 
 /// A grain, or an image of it, or several that necks join.

@@ -55,7 +55,7 @@ bool is_around(const FlatLoop& loop, const Place& place) {
   return inside;
 }
 
-/// Whether the line from p to q meets that from a to b elsewhere than at a common end.
+/// Whether the line from p to q meets that from a to b anywhere but at a common end.
 bool lines_meet(const FlatCorner& p, const FlatCorner& q, const FlatCorner& a,
                 const FlatCorner& b) {
   for (const FlatCorner* end : {&a, &b}) {
@@ -74,8 +74,8 @@ bool is_free(const FlatCorner& p, const FlatCorner& q, const std::vector<FlatLoo
   });
 }
 
-/// Whether a place lies within the angle at corner k of a loop: a corner at which a slit ends is in
-/// the loop twice, with the region in another direction each time.
+/// Whether a place lies within the angle at corner k of a loop: a corner where a slit ends is in
+/// the loop twice, each time with the region in another direction.
 bool is_ahead(const FlatLoop& loop, std::size_t k, const Place& place) {
   const Place& before = loop[(k + loop.size() - 1) % loop.size()].place;
   const Place &at = loop[k].place, &after = loop[(k + 1) % loop.size()].place;
@@ -157,8 +157,8 @@ double ear_quality(const FlatLoop& loop, std::size_t k) {
   return is_clear ? quality : 0.0;
 }
 
-/// Cuts off the best ear of those left until a triangle is: all turn counter-clockwise, and
-/// therefore fill the loop without overlap.
+/// Cuts off the best ear of those left until only a triangle is left: all turn counter-clockwise,
+/// and therefore fill the loop without overlap.
 std::vector<Loop> ears_of(FlatLoop loop) {
   std::vector<Loop> triangles;
   while (loop.size() >= 3) {

@@ -13,8 +13,8 @@ using Loop = std::vector<std::int32_t>;
 
 /// The region of a plane that lies left of all its loops, seen against `normal`: outer ones turn
 /// counter-clockwise, holes clockwise. Loops neither cross nor touch. Adds no corner and leaves out
-/// none, so that regions that share an edge still do. Throws std::logic_error where loops are not
-/// such.
+/// none, so that regions that share an edge still do. Throws std::logic_error if the loops are not
+/// like that.
 std::vector<Loop> triangles_of(const std::vector<Eigen::Vector3d>& corners,
                                const Eigen::Vector3d& normal, const std::vector<Loop>& loops);
 

@@ -49,10 +49,10 @@ std::vector<Face> faces_of(const Mesh& mesh) {
   return faces;
 }
 
-/// Of points about a grain's centre whether they lie in it; and how far the grain reaches from it.
+/// Tells whether points about a grain's centre lie in it, and how far the grain reaches from it.
 struct Inside {
   double reach = 0.0;
-  std::vector<Face> faces;  ///< turned and scaled; empty of a sphere
+  std::vector<Face> faces;  ///< turned and scaled; empty for a sphere
 
   bool operator()(const Vector& x) const {
     if (faces.empty()) return x.squaredNorm() <= reach * reach;
@@ -110,7 +110,7 @@ void fill(const StoredBed& bed, const VoxelGrid& grid, std::size_t grain, const 
 
 constexpr char outside_tube = '\xff';
 
-/// What lies outside a tube is no void.
+/// Marks what lies outside a tube, which is no void.
 void mark_outside(const Box& box, const VoxelGrid& grid, std::string& voxels) {
   const auto& [nx, ny, nz] = grid.count;
   const double radius = box.width / 2.0;
@@ -124,7 +124,7 @@ void mark_outside(const Box& box, const VoxelGrid& grid, std::string& voxels) {
   }
 }
 
-/// Throws BadInput where there is no memory for so many.
+/// Throws BadInput if there is no memory for so many voxels.
 void expect_room(const ExportedBed& exported, const VoxelGrid& grid) {
   double voxels = 1.0;
   for (const std::size_t count : grid.count) voxels *= static_cast<double>(count);

@@ -14,8 +14,8 @@ struct VoxelGrid {
   std::array<double, 3> size{};  ///< d
 };
 
-/// About `per_d` voxels a d; along x and y so that a whole number of them fills the box, and up to
-/// the highest grain or just above it.
+/// About `per_d` voxels per d; along x and y so that a whole number of them fills the box, and up
+/// to the highest grain or just above it.
 VoxelGrid voxel_grid(const StoredBed& bed, double per_d);
 
 /// NRRD with its header attached: 0 where the middle of a voxel lies in no grain, otherwise the

@@ -1,4 +1,4 @@
-// What packings will take together, and what those that are made teach of it.
+// What packings will cost together, and how finished packings improve the estimates.
 #pragma once
 
 #include <optional>
@@ -12,7 +12,7 @@ namespace grainsweep {
 /// CPU time of all, s.
 double total_cpu_seconds(const std::vector<Cost>& costs);
 
-/// What so many of the costs take that live at once, the largest, bytes.
+/// Memory that the `live` largest of the costs take together, bytes.
 double bytes_of_largest(const std::vector<Cost>& costs, int live);
 
 /// The estimated CPU time of a packing and, if it is made, what it took, s.
@@ -21,17 +21,17 @@ struct Known {
   std::optional<double> measured;
 };
 
-/// Better estimates: packings that are made teach. What those of the same estimate took in the
-/// mean, or else the estimate times the ratio over all that are made.
+/// Better estimates, learned from finished packings: the mean measured time of those with the same
+/// estimate, or else the estimate times the ratio of measured to estimated time over all of them.
 class LearnedEstimates {
  public:
-  /// A packing that was estimated so, and took so long, s.
+  /// Adds a finished packing by its estimated and measured CPU time, s.
   void add(double estimated, double measured);
-  /// What a packing that is estimated so will take, s.
+  /// What a packing with this estimate will take, s.
   double of(double estimated) const;
 
  private:
-  /// What packings that are made took together, and what was estimated.
+  /// What finished packings took together, and what was estimated for them.
   struct Sums {
     double measured = 0.0, estimated = 0.0;
     double ratio() const { return estimated > 0.0 ? measured / estimated : 1.0; }
@@ -40,7 +40,7 @@ class LearnedEstimates {
   std::unordered_map<double, Sums> of_estimate_;
 };
 
-/// Those of all, s, as all that are made teach them.
+/// The better estimate of each packing, s, learned from all that are made.
 std::vector<double> learned(const std::vector<Known>& packings);
 
 }  // namespace grainsweep

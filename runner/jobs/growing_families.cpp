@@ -14,7 +14,7 @@
 namespace grainsweep {
 namespace {
 
-/// What the jobs of a group have in common, with their wishes. Refers to the job.
+/// What the jobs of a group have in common, with their requested accuracies. Refers to the job.
 using GroupKey = std::tuple<std::uint64_t, std::string_view, std::string_view, double, double,
                             double, double, double, double>;
 

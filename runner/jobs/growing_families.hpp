@@ -17,7 +17,7 @@ bool may_grow(const Job& job);
 bool grows(const Sweep& sweep);
 
 /// The jobs of a group, by their places in the sweep: those with one label, one parameter set, one
-/// seed and one wish, wherever they stand.
+/// seed and one requested accuracy, wherever they stand.
 using Places = std::vector<std::size_t>;
 
 /// In the order of their first jobs.
@@ -26,7 +26,7 @@ std::vector<Places> groups_in(const Sweep& sweep);
 /// The groups that one wall effect is fitted to, by their places in the list of groups.
 struct GrowingFamily {
   std::vector<std::size_t> groups;
-  FitWish wish;  ///< of several for one fit the smallest
+  FitWish wish;  ///< the smallest of several for one fit
 };
 
 /// Families whose fit is to have small errors.
@@ -35,12 +35,12 @@ std::vector<GrowingFamily> growing_families(const Sweep& whole, const std::vecto
 /// Whether a job is on the line that is fitted to its family.
 bool is_walled(const Job& job);
 
-/// What the way of settling may do to the means of a job's group, 0 to those of which that was not
-/// measured; nothing if it was of none.
+/// The bias that the way of settling may give the means of a job's group, 0 for a mean for which it
+/// was not measured; nothing if it was measured for neither.
 std::optional<ProtocolBias> bound_of(const Job& job);
 
-/// Whether it was measured of all that a job's wish for means asks for, or a wish for a fit to its
-/// family.
+/// Whether that bias was measured for all means whose accuracy a job requests, for its group or for
+/// a fit to its family.
 bool is_bounded(const Job& job, const ErrorWish& wish);
 bool is_bounded(const Job& job, const FitWish& wish);
 

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// A coefficient that is asked for.
+/// A coefficient whose error is requested.
 struct Target {
   bool is_coordination = false;
   bool is_slope = false;
@@ -47,10 +47,10 @@ struct Design {
   }
   double determinant() const { return n * xx - x * x; }
 
-  /// Variance of a coefficient, in that of a single packing.
+  /// Variance of a coefficient, in units of that of a single packing.
   double variance(bool is_slope) const { return (is_slope ? n : xx) / determinant(); }
 
-  /// What one more packing takes from it.
+  /// What one more packing takes from that variance.
   double gain(bool is_slope, double at) const {
     const double to_both = (is_slope ? n * at - x : xx - x * at) / determinant();
     const double leverage = (xx - 2.0 * x * at + n * at * at) / determinant();
@@ -82,7 +82,7 @@ class Round {
     has_line_ = has_widths_ && degrees_of_freedom_ > 0;
   }
 
-  /// The worst half of a 95 % interval over what is asked for; at most 1 if all are met.
+  /// The worst half of a 95 % interval over what is requested; at most 1 if all requests are met.
   double over(const std::vector<Target>& targets) const {
     double worst = 0.0;
     for (const Target& target : targets) worst = std::max(worst, over(target, design_));
@@ -101,7 +101,7 @@ class Round {
     return line ? line->chi2 / line->degrees_of_freedom : 0.0;
   }
 
-  /// Whether the packings scatter, so that what is asked for has an error; see why_no_error.
+  /// Whether the packings scatter, so that the requested errors can be known; see why_no_error.
   bool tells_errors(const std::vector<Target>& targets) const {
     if (!has_line_) return true;
     return std::all_of(targets.begin(), targets.end(), [&](const Target& target) {
@@ -164,7 +164,7 @@ class Round {
     return is_coordination ? means.coordination : means.solid_fraction;
   }
 
-  /// Of a single packing.
+  /// Variance of a single packing.
   double variance(bool is_coordination) const {
     return (is_coordination ? z_squares_ : phi_squares_) / degrees_of_freedom_;
   }

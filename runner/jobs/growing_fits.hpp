@@ -2,17 +2,17 @@
 //
 //   phi = phi_bulk - C / W,     Z = Z_bulk - C_Z / W,
 //
-// are as small as wished. Each next packing goes where it makes the variance of what is furthest
-// from its wish smallest: with f = (1, 1 / W), M = sum n f f^T over the widths, and e the
-// coefficient, one more packing at f takes (e^T M^-1 f)^2 / (1 + f^T M^-1 f) from e^T M^-1 e
-// (Sherman and Morrison). So packings end up at the narrowest and the widest gap; those between
-// have what they began with.
+// are as small as requested. Each next packing goes where it most reduces the variance of the
+// coefficient that is furthest from its request: with f = (1, 1 / W), M = sum n f f^T over the
+// widths, and e the coefficient, one more packing at f takes (e^T M^-1 f)^2 / (1 + f^T M^-1 f) from
+// e^T M^-1 e (Sherman and Morrison). So packings end up at the narrowest and the widest gap; those
+// between keep the number they began with.
 //
-// A width of which fewer than one in six packings settle has no more of them, and a family that has
-// fewer than three widths of which any settle does not grow.
+// A width at which fewer than one in six packings settle gets no more of them, and a family with
+// fewer than three widths at which any settle does not grow.
 //
-// The errors are those of fits.csv, of the variance of single packings pooled over the family,
-// before they are widened: a line that misses its points is not mended by more packings.
+// The errors are those of fits.csv, from the variance of single packings pooled over the family,
+// before they are widened: more packings do not mend a line that misses its points.
 #pragma once
 
 #include <cstddef>
@@ -29,25 +29,25 @@ namespace grainsweep {
 struct FitGroup {
   std::size_t mean = 0;    ///< which mean of groups.csv its packings enter: seeds share one
   double width = 0.0;      ///< d
-  bool is_walled = false;  ///< whether it is on the line; others only tell how packings scatter
+  bool is_walled = false;  ///< whether it is on the line; others only show how packings scatter
   bool may_grow = false;   ///< otherwise all its packings are made
   /// What came of its packings, in their order; nullptr stands for one that is not made yet.
   std::vector<const Outcome*> made;
 };
 
-/// What is called for of a family, and what came of it.
+/// What a family calls for, and what came of it.
 struct CalledFit {
   std::vector<int> replicates;      ///< of each group
   bool is_made = false;             ///< whether all of them are
   bool is_met = false;              ///< whether the errors are as asked for, if they are made
   bool settles_too_seldom = false;  ///< whether that is why they are not, if they are made
-  bool tells_errors = true;         ///< whether they scatter; if not, more of them tell no error
+  bool tells_errors = true;         ///< whether they scatter; if not, more of them give no error
   double chi2_per_dof = 0.0;  ///< the larger one of the fits that are asked for; 0 without a line
 };
 
-/// How many replicates each group has to have: it follows from whole rounds, of which the first one
-/// is `first_replicates` of every group, and each at most doubles the family. `bound` is the bias
-/// of settling that wishes for bulk values include; what it does to slopes was not measured.
+/// How many replicates each group needs. They come in whole rounds: the first is `first_replicates`
+/// of every group, and each further one at most doubles the family. `bound` is the bias of settling
+/// that requested errors of bulk values include; what it does to slopes was not measured.
 CalledFit called_for_fit(const std::vector<FitGroup>& groups, const FitWish& wish,
                          const std::optional<ProtocolBias>& bound);
 

@@ -22,7 +22,7 @@
 namespace grainsweep {
 namespace {
 
-/// The interval over what the wish leaves for it; at most 1 if the wish is met.
+/// The interval over what the request leaves for it; at most 1 if the request is met.
 double over_wish(const Spread& spread, double wish, double bias) {
   return wish > 0.0 ? half_interval(spread.sd, spread.n) / (wish - bias) : 0.0;
 }
@@ -48,13 +48,13 @@ bool are_made(const std::vector<const Outcome*>& made, int count) {
   return std::find(made.begin(), made.begin() + count, nullptr) == made.begin() + count;
 }
 
-/// How many packings are called for of a growing group.
+/// How many packings a growing group calls for.
 int count_called_for(const Sweep& whole, const Places& group, const Outcomes& outcomes) {
   const Job& first = whole.jobs[group.front()];
   return replicates_called_for(made_of(whole, group, outcomes), first.wish, bound_of(first));
 }
 
-/// A group of a fit. Those without walls only tell how packings scatter.
+/// A group of a fit. Those without walls only show how packings scatter.
 FitGroup fit_group_of(const Sweep& whole, const Places& group, std::size_t mean,
                       const Outcomes& outcomes) {
   const Job& job = whole.jobs[group.front()];
@@ -113,13 +113,13 @@ Sweep called_for(const Sweep& whole, const Outcomes& outcomes) {
   return called;
 }
 
-/// Where a wish of the job's block is written.
+/// Where a requested accuracy of the job's block is written.
 std::string place_of(const std::string& wish, const Sweep& whole, const Job& job) {
   const auto& pointers = whole.wish_pointers;
   return (job.block < pointers.size() ? pointers[job.block] : "") + "/" + wish;
 }
 
-/// The presets whose beds may be off by less than `wish`, as what else to take; "" if none is.
+/// The presets whose beds may be off by less than `wish`, as an alternative; "" if there is none.
 std::string finer_text(const Job& job, double wish, double ProtocolBias::*bound) {
   JobFacts facts = facts_of(job);
   for (const Preset& preset : presets()) {
@@ -130,7 +130,7 @@ std::string finer_text(const Job& job, double wish, double ProtocolBias::*bound)
   return "";
 }
 
-/// Notes a wish, called `key` in the file, that is no larger than what settling may do.
+/// Notes a requested error, called `key` in the file, that is no larger than the bias of settling.
 void refuse_wish(const std::string& key, double wish, double ProtocolBias::*bound,
                  const Sweep& whole, const Job& job, Diagnostics& diagnostics) {
   if (wish == 0.0) return;
@@ -143,7 +143,7 @@ void refuse_wish(const std::string& key, double wish, double ProtocolBias::*boun
   diagnostics.push_back({place_of(key, whole, job), message.str()});
 }
 
-/// Notes what keeps the wishes of a fit from being met.
+/// Notes why the requested errors of a fit cannot be reached.
 void refuse_fit(const Sweep& whole, const std::vector<Places>& groups, const GrowingFamily& family,
                 Diagnostics& diagnostics) {
   const Job* asking = nullptr;
@@ -188,11 +188,11 @@ std::string unmeasured_text(std::size_t count, const char* noun) {
 
 using Firsts = std::vector<const Job*>;  // of groups, or of families
 
-/// What became of the wishes of groups, or of fits. Those that are not made say so themselves.
+/// What became of the requests of groups, or of fits. Those not made say so themselves.
 struct Grown {
   std::size_t all = 0, packings = 0, unbounded = 0;
   std::size_t met = 0;
-  std::size_t at_most = 0;  ///< of `larger`: these would grow, but for replicates.most
+  std::size_t at_most = 0;  ///< of `larger`: these would grow but for replicates.most
   Firsts larger, seldom_settled, bent, without_errors;
 };
 

@@ -1,11 +1,11 @@
-// Groups that grow: packings are added until the error of a group's means is as small as wished, or
-// that of a fit to the groups of a family (growing_fits.hpp).
+// Groups that grow: packings are added until the error of a group's means is as small as requested,
+// or that of a fit to the groups of a family (growing_fits.hpp).
 //
-// A group of which fewer than one in six packings settle, or none of the first six, grows no more:
-// packings that do not settle take longest, and say nothing of its means.
+// A group grows no more if fewer than one in six of its packings settle, or none of the first six:
+// packings that do not settle take longest, and say nothing about its means.
 //
-// How many replicates a group has follows from the results of the first so many alone, its own or
-// those of its family: it is the same for any number of threads and shards, and after a kill.
+// How many replicates a group needs follows only from the results of its first ones, or of those of
+// its family: it is the same for any number of threads and shards, and after a kill.
 #pragma once
 
 #include <optional>
@@ -21,16 +21,16 @@
 
 namespace grainsweep {
 
-/// How many replicates a group has to have, by what came of those made, in their order; nullptr
-/// stands for one that is not made yet. `bound` is the bias of settling that its wish includes.
+/// How many replicates a group needs, given what came of those made, in their order; nullptr stands
+/// for one that is not made yet. `bound` is the bias of settling that the requested error includes.
 int replicates_called_for(const std::vector<const Outcome*>& made, const ErrorWish& wish,
                           const std::optional<ProtocolBias>& bound);
 
-/// Which of the wishes were met, for the end of a run; empty if there are none.
+/// Which of the requested accuracies were reached, for the end of a run; empty if there are none.
 std::string wishes_text(const Sweep& whole, const Outcomes& outcomes);
 
-/// A sweep as far as the packings that are made call for its jobs. Refers to the whole sweep, which
-/// has the most replicates of every group, and is that if none may grow.
+/// The part of a sweep that the packings made so far call for. Refers to the whole sweep, which has
+/// the most replicates of every group; the part is the whole if no group may grow.
 class GrowingSweep {
  public:
   GrowingSweep(const Sweep& whole, const Outcomes& made);
@@ -38,10 +38,10 @@ class GrowingSweep {
 
   const Sweep& now() const { return grows_ ? called_ : whole_; }
 
-  /// Looks at all that is made by now; whether anything is called for that was not before.
+  /// Looks at all that is made by now; returns whether anything is newly called for.
   bool grow(const Outcomes& made);
 
-  /// Which errors are as asked for, by all that is made: `wishes_text` of the whole sweep.
+  /// Which errors are as requested, from all that is made: `wishes_text` of the whole sweep.
   std::string wishes(const Outcomes& made) const { return wishes_text(whole_, made); }
 
  private:
@@ -50,12 +50,12 @@ class GrowingSweep {
   Sweep called_;  ///< empty if it does not grow
 };
 
-/// Each wish that no number of packings can meet, where it is written: the way of settling may do
-/// more to the means, or a fit has fewer than three widths, or groups whose own wishes it would
-/// have to follow.
+/// Each requested accuracy that no number of packings can reach, at the place where it is written:
+/// the way of settling may bias the means by more, or a fit has fewer than three widths, or
+/// includes groups with requests of their own, which it would have to follow.
 Diagnostics unreachable_wishes(const Sweep& whole);
 
-/// What a sweep takes at most whose groups grow, by the costs of all its jobs.
+/// What a sweep whose groups grow takes at most, from the costs of all its jobs.
 std::string growth_text(const std::vector<Cost>& most);
 
 }  // namespace grainsweep

@@ -21,7 +21,7 @@ double seconds_of(const std::vector<std::size_t>& jobs, const std::vector<Cost>&
   return seconds;
 }
 
-/// What its runner has not begun.
+/// The jobs of the shard that its runner has not begun.
 std::vector<std::size_t> free_of(const LeftToDo& shard) {
   const auto begun =
       std::min(static_cast<std::size_t>(std::max(0, shard.under_way)), shard.jobs.size());
@@ -76,7 +76,7 @@ Helping::Helping(const Sweep& sweep, const Shard& own, std::string folder)
 }
 
 TakenOver Helping::next() const {
-  open_claims(folder_);  // before journals are read: what they do not show as begun, is claimed
+  open_claims(folder_);  // before journals are read: what they do not show as begun is claimed
   for (;;) {
     Claims claims = claims_in(folder_);
     std::vector<std::string> chosen;

@@ -1,9 +1,9 @@
 // A runner whose own shard is made helps the others.
 //
 // Estimates divide a sweep well on average, but a packing may take twice as long as its estimate,
-// and a shard of few packings with it. So a runner that has ended takes over half of what the shard
-// that has most left to do has not begun yet, from its end, and so on until nothing is left. What
-// it makes goes into its own files.
+// and a shard of few packings with it. So a runner that has finished finds the shard that has most
+// left to do and takes over half of what that has not begun yet, from its end, and so on until
+// nothing is left. What it makes goes into its own files.
 #pragma once
 
 #include <string>
@@ -16,22 +16,22 @@
 
 namespace grainsweep {
 
-/// What is left to do of a shard that a runner works on: jobs that are neither made nor claimed, by
+/// What is left to do in a shard that a runner works on: jobs that are neither made nor claimed, by
 /// their places in the sweep, in the order in which the runner takes them.
 struct LeftToDo {
   int under_way = 1;  ///< so many of the first ones may have been begun
   std::vector<std::size_t> jobs;
 };
 
-/// Those to take over next, in the same order; none if nobody needs help.
+/// The jobs to take over next, in the same order; none if nobody needs help.
 std::vector<std::size_t> jobs_to_take_over(const std::vector<LeftToDo>& shards,
                                            const std::vector<Cost>& costs);
 
-/// Of this process. What runners that are not at work have claimed is void; what they have made of
-/// it is in the journals, if these are read later.
+/// The claims of this process. Claims of runners that are not at work are void; what such runners
+/// have made is in the journals, provided these are read later.
 Claims claims_in(const std::string& folder);
 
-/// Jobs that are now this runner's, and by what others see that.
+/// Jobs that are now this runner's, and the claims by which others see that.
 struct TakenOver {
   Claims claims;
   std::vector<const Job*> jobs;
@@ -44,9 +44,9 @@ class Helping {
   Helping(const Sweep& sweep, const Shard& own, std::string folder);
   Helping(Sweep&&, const Shard&, std::string) = delete;
 
-  /// Claims what is to be made next: what runners that ended had claimed and not made, or what is
-  /// taken over from one at work; no job if nobody needs help. From now on all runners claim what
-  /// they begin.
+  /// Claims the next jobs to make: those that ended runners had claimed and not made, or those
+  /// taken over from a runner at work; no job if nobody needs help. From now on all runners claim
+  /// what they begin.
   TakenOver next() const;
 
  private:

@@ -41,7 +41,7 @@ std::string went_on_text(std::int64_t step) {
   return step == 0 ? "" : ", went on from step " + std::to_string(step);
 }
 
-/// What is stored of a bed.
+/// What is to be stored of a bed.
 StoredBed bed_of(const Job& job, const PackingResult& result, Packing&& packing, bool no_grains) {
   StoredBed bed{job.id, result.state_hash, job.spec.box, curves_of(result), {}, {}, {}, {}};
   if (no_grains) return bed;

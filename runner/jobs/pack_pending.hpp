@@ -1,4 +1,4 @@
-// The middle of a run: what is missing of a sweep is packed and stored.
+// The middle of a run: the missing packings of a sweep are made and stored.
 #pragma once
 
 #include <cstddef>
@@ -24,7 +24,7 @@ struct RunningSweep {
   ShardFiles& files;
   std::size_t done = 0;  ///< packings of its shard that were made before
   std::vector<const Job*> pending;
-  LearnedEstimates estimates = {};    ///< taught by the packings that were made before
+  LearnedEstimates estimates = {};    ///< learned from the packings that were made before
   std::optional<Claims> claims = {};  ///< where runners help each other
 };
 
@@ -35,20 +35,20 @@ struct PackOptions {
   double checkpoint_seconds = 60.0;  ///< wall time between two checkpoints of a packing
   bool fail_fast = false;            ///< the first packing that fails stops the others
   TimeLimit time_limit;
-  bool no_grains = false;  ///< of a bed only its curves are stored
+  bool no_grains = false;  ///< store only the curves of a bed
   PackingNames names = {};
 };
 
 /// What came of it.
 struct Packed {
   int packings = 0;           ///< finished now
-  int left_to_others = 0;     ///< that other runners have taken over
+  int left_to_others = 0;     ///< taken over by other runners
   std::string first_failure;  ///< with fail_fast: the line of the packing that failed
 };
 
-/// Makes the pending packings, as far as no signal, no failure and no end of its time stops it;
-/// each is on the disk when it counts as finished, and then its grains no longer in memory. A long
-/// one is saved from time to time and when it is stopped, and goes on from there. Throws FileError.
+/// Makes the pending packings until a signal, a failure or the time limit stops it. Each is on the
+/// disk when it counts as finished, and its grains are then no longer in memory. A long one is
+/// saved from time to time and when it is stopped, and goes on from there. Throws FileError.
 Packed pack_pending(RunningSweep& running, const PackOptions& options);
 
 }  // namespace grainsweep

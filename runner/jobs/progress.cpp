@@ -27,7 +27,7 @@ std::string bar(double share, int width) {
   return "[" + text + "]";
 }
 
-/// Of the terminal's window now; as usual if there is none.
+/// Columns of the terminal's window now; the usual number if there is none.
 int columns_of(std::FILE* out) {
   winsize window{};
   const bool is_known = ioctl(fileno(out), TIOCGWINSZ, &window) == 0 && window.ws_col > 0;

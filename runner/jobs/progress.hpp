@@ -50,7 +50,7 @@ class ProgressDisplay {
   void finish(std::size_t task, bool is_settled, const std::string& line);
   /// Prints a line of its own, whatever the style.
   void say(const std::string& line);
-  /// Takes the live line away.
+  /// Removes the live line.
   void clear();
 
   RunState state() const;
@@ -60,13 +60,13 @@ class ProgressDisplay {
   void reach(std::size_t task, double share_done);
   RunState state_now() const;
   void draw(bool is_due);
-  /// Takes the live line away; after a window has become narrower it lies on several rows.
+  /// Removes the live line, which lies on several rows after a window has become narrower.
   void wipe();
 
   mutable std::mutex mutex_;
   std::vector<double> costs_;
   std::vector<double> shares_;
-  std::vector<bool> is_under_way_;  ///< whether its share is known: what it had then, it had before
+  std::vector<bool> is_under_way_;  ///< whether a share was given: the first is from earlier runs
   ProgressStyle style_;
   std::FILE* out_;
   double started_at_;

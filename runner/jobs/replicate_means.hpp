@@ -1,4 +1,4 @@
-// What the first packings of a group say of its means, by which groups and fits grow.
+// What the first packings of a group say about its means, which decides how groups and fits grow.
 #pragma once
 
 #include <vector>
@@ -8,8 +8,8 @@
 
 namespace grainsweep {
 
-/// Whether fewer than one in six of so many packings settle. What settles so seldom grows no more:
-/// every value of a mean would cost six beds that take all their steps.
+/// Whether fewer than one in six packings settle. What settles so seldom grows no more: every value
+/// of a mean would cost six beds that take all their steps.
 constexpr bool settle_too_seldom(int settled, int packings) { return 6 * settled < packings; }
 
 /// Half of the 95 % interval (Student) of the mean of n values with this standard deviation;
@@ -21,7 +21,7 @@ struct Means {
   Spread solid_fraction, coordination;
 };
 
-/// Of the settled ones of the first `count` packings, all of which are made.
+/// Those of the settled packings among the first `count`, all of which are made.
 Means means_of(const std::vector<const Outcome*>& made, int count);
 
 }  // namespace grainsweep

@@ -98,8 +98,8 @@ class Run {
   const TaskEvents& events_;
   const std::vector<std::size_t> order_;
   std::atomic<std::size_t> next_{0};
-  /// Visits of threads that have ended. Counting orders what was before it, the making of this
-  /// object too, before every visit and join() that begins later. So does oneTBB, but inside a
+  /// Visits of threads that have ended. Counting orders whatever came before it, also the making of
+  /// this object, before every visit and join() that begins later. oneTBB does so too, but inside a
   /// library that the thread sanitizer cannot see into: it would take every task and result for a
   /// race.
   std::atomic<std::size_t> visits_{0};

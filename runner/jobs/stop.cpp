@@ -25,7 +25,7 @@ void watch_stop_signals() {
   sigemptyset(&action.sa_mask);
   for (const int signal : {SIGINT, SIGTERM, SIGUSR1, SIGXCPU}) sigaction(signal, &action, nullptr);
   struct sigaction before {};
-  sigaction(SIGHUP, nullptr, &before);  // nohup has it ignored: so it stays
+  sigaction(SIGHUP, nullptr, &before);  // ignored under nohup: leave it so
   if (before.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, nullptr);
   action.sa_handler = SIG_IGN;
   sigaction(SIGPIPE, &action, nullptr);

@@ -11,7 +11,7 @@ namespace grainsweep {
 /// its batch system both send theirs. A closed pipe that output goes to ends nothing from now on.
 void watch_stop_signals();
 
-/// A file larger than its limit is an error of writing from now on, not the end of the program.
+/// From now on, a file larger than its limit is a write error, not the end of the program.
 void ignore_file_size_signal();
 
 /// Signal that asked to stop, 0 if none did.

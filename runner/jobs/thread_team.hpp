@@ -1,7 +1,7 @@
-// The threads that work on one packing: its own, and those that have none of their own left.
+// The threads that work on one packing: its own, and those that have no packing of their own left.
 //
-// oneTBB's own loop does it. A team of threads that waited for the next loop awake was faster by
-// less than 1 % at loops of 0.1 to 1.3 ms on two cores (medians of 25 rounds in turn).
+// oneTBB's own loop does it. A team of threads that stayed awake between loops was faster by less
+// than 1 % at loops of 0.1 to 1.3 ms on two cores (medians of 25 alternating rounds).
 #pragma once
 
 #include <atomic>
@@ -25,8 +25,8 @@ class ThreadTeam {
   ThreadTeam& operator=(ThreadTeam&&) = delete;
   ~ThreadTeam() = default;
 
-  /// Hands out parts of work; valid while the team lives. What a part throws reaches the caller,
-  /// when no part runs any more; some may then never have begun.
+  /// Hands out parts of work; valid while the team lives. What a part throws reaches the caller
+  /// once no part runs any more; some parts may then never have begun.
   ParallelFor loop();
 
   /// CPU time of its own thread since it was formed, and of other threads in parts of its loops, s.

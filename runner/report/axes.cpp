@@ -55,7 +55,7 @@ bool has_walls(const Series& series) {
                       [](const Group* group) { return is_periodic_along_y(*group); });
 }
 
-/// What a group does not share with all others, but for `left_out`.
+/// What a group does not share with all others, except `left_out`.
 Values distinctions(const Group& group, const std::string& left_out) {
   Values values;
   for (const auto& [path, cell] : group.told) {
@@ -69,7 +69,7 @@ Values distinctions(const Group& group, const std::string& left_out) {
   return values;
 }
 
-/// The last parts of a path, as many as no other of the values ends with: "sigma".
+/// The shortest end of a path, in whole parts, that no other of the values has: "sigma".
 std::string symbol_of(const std::string& path, const Values& values) {
   if (path == width_parameter) return "W";
   if (path == diameter_parameter) return "D";
@@ -130,8 +130,8 @@ std::string axis_parameter(const std::vector<const Group*>& groups) {
   return chosen;
 }
 
-/// The numbers that these groups vary, if they are as points of a random design: many, and of one
-/// number at least most have a value of their own.
+/// The numbers that these groups vary, if they look like points of a random design: many, and for
+/// at least one number most have a value of their own.
 std::vector<std::string> scattered_numbers(const std::vector<const Group*>& groups) {
   constexpr std::size_t few = 8;
   if (groups.size() < few) return {};
@@ -145,7 +145,7 @@ std::vector<std::string> scattered_numbers(const std::vector<const Group*>& grou
   return numbers.size() > 1 && 2 * most > groups.size() ? numbers : std::vector<std::string>();
 }
 
-/// What a point of a random design does not share with all other groups, but for its numbers.
+/// What a point of a random design does not share with all other groups, except its numbers.
 Values distinctions_but(const Group& group, const std::vector<std::string>& numbers) {
   Values values = distinctions(group, "");
   for (const std::string& number : numbers) values.erase(number);
@@ -153,8 +153,8 @@ Values distinctions_but(const Group& group, const std::vector<std::string>& numb
   return values;
 }
 
-/// Makes series of the groups that are alone on the axis where these are a random design: each
-/// would have a mark of its own, and of two hundred only the first would be seen.
+/// Makes series of the groups that are alone on the axis if these are a random design: each would
+/// otherwise have a mark of its own, and of two hundred only the first would be seen.
 void join_scattered(Axes& axes) {
   std::vector<const Group*> alone;
   for (const Series& series : axes.series) {
@@ -180,7 +180,7 @@ std::optional<std::string> common_label(const Series& series) {
   return is_common ? std::optional(label) : std::nullopt;
 }
 
-/// Their common label where it tells a series from the others, else what does.
+/// Names series by their common label where it tells a series from the others, else by what does.
 void name_series(Axes& axes) {
   std::map<std::string, int> uses;
   for (const Series& series : axes.series) ++uses[common_label(series).value_or("")];

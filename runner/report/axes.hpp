@@ -23,19 +23,19 @@ struct Axes {
   std::vector<Series> series;
   std::vector<std::string> scattered = {};  ///< numbers that a random design varies; else none
   GivenUnits units = {};                    ///< of the sweep
-  std::string folder = {};                  ///< as of GroupWithCurves
+  std::string folder = {};                  ///< as for GroupWithCurves
 };
 
 /// box.width goes along the axis wherever it is varied, with tubes at their diameter, else the
-/// number that takes most values; of a sweep that varies no number, the number of the group. Where
-/// many groups are alone on the axis, as points of a random design are, those of one label are a
-/// series. Refers to the groups.
+/// number that takes most values; if the sweep varies no number, the number of the group. Where
+/// many groups would each be alone on the axis, like points of a random design, those of one label
+/// form a series. Refers to the groups.
 Axes axes_of(const std::vector<Group>& groups);
 
 /// Where a group lies on the axis.
 double place_on(const Axes& axes, const Group& group);
 
-/// The number that a varied parameter has in a group, of tubes their diameter for box.width; NaN if
+/// The number that a varied parameter has in a group, for tubes their diameter as box.width; NaN if
 /// it has none.
 double value_of(const Group& group, const std::string& parameter);
 
@@ -49,11 +49,11 @@ bool is_over_width(const Axes& axes);
 /// What is along such an axis: W, or D where all are tubes.
 std::string width_symbol(const Axes& axes);
 
-/// A number as figures have room for: at most four significant digits, all before the point.
+/// A number short enough for figures: at most four significant digits, all before the point.
 std::string short_number(double value);
 
-/// "walls, W = 5": what tells a group from all others of its sweep. A label that is longer is
-/// shortened to so many characters.
+/// "walls, W = 5": what tells a group from all others of its sweep. A longer label is shortened to
+/// `longest_label` characters.
 std::string title_of(const Group& group, std::size_t longest_label = 1000);
 
 /// Characters of a label that a figure has room for beside other words.

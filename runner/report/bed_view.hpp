@@ -10,14 +10,14 @@
 
 namespace grainsweep {
 
-/// What is told of a bed beside its grains.
+/// What is said of a bed besides its grains.
 struct BedFacts {
   std::string title;
   double small_limit = 0.0;  ///< grains of a smaller radius are small, d; 0 if all are of one kind
-  GivenUnits units = {};     ///< that lengths are told in; in d where there are none
+  GivenUnits units = {};     ///< of the lengths shown; d where there are none
 };
 
-/// The facts of a packing's bed, titled so.
+/// The facts of a packing's bed, with this title.
 BedFacts facts_of(const JobFacts& job, const std::string& title);
 
 /// A script element that holds the bed as JSON, its grains in base64. Places are rounded to a
@@ -34,7 +34,7 @@ inline constexpr int picture_width = 1200, picture_height = 790;
 struct BedView {
   std::string title;              ///< of the first bed
   std::string picture;            ///< PNG of it
-  std::vector<std::string> beds;  ///< as of bed_element
+  std::vector<std::string> beds;  ///< as from bed_element
 };
 
 /// The picture, the controls and the beds.

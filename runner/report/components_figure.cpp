@@ -43,7 +43,7 @@ std::string component_bins_csv(const Mixtures& groups) {
   return text;
 }
 
-/// What all panels of a row show, so that they have one range.
+/// All that the panels of a row show, so that they have one range.
 std::vector<double> component_values_in(const Mixtures& groups, Spread MeanComponentBin::*spread) {
   std::vector<double> values;
   for (const GroupWithCurves& group : groups) {

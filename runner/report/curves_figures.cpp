@@ -36,7 +36,7 @@ std::string curves_csv(const std::vector<GroupWithCurves>& groups) {
   return text;
 }
 
-/// All that the curves of these groups reach, and 0.
+/// All values that the curves of these groups reach, and 0.
 std::vector<double> curve_values(const std::vector<GroupWithCurves>& groups, Curve Order::*curve) {
   std::vector<double> values = {0.0};
   for (const GroupWithCurves& group : groups) {
@@ -45,7 +45,7 @@ std::vector<double> curve_values(const std::vector<GroupWithCurves>& groups, Cur
   return values;
 }
 
-/// Of both axes of the densities of forces: to the largest force, and all densities but 0.
+/// Ranges of both axes of the densities of forces: to the largest force, and all densities but 0.
 std::string force_ranges(const std::vector<GroupWithCurves>& groups) {
   constexpr double room = 1.5;  // a factor, for the scale is logarithmic
   double largest = 0.0, least = 1.0, most = 1.0;
@@ -119,7 +119,7 @@ std::string small_share_csv(const std::vector<WallReach>& reaches) {
   return text;
 }
 
-/// Of each group, by its parameters and label, the number of its series if that is shown.
+/// For each group, by its parameters and label, the number of its series if that is shown.
 std::map<std::pair<std::string, std::string>, std::size_t> series_numbers(const Axes& axes) {
   std::map<std::pair<std::string, std::string>, std::size_t> numbers;
   std::size_t number = 0;
@@ -148,7 +148,7 @@ constexpr std::size_t not_settled = most_series + 1, other_series = most_series 
 
 using SeriesNumbers = decltype(series_numbers(std::declval<const Axes&>()));
 
-/// What a packing is drawn as.
+/// The number that a packing is drawn with.
 std::size_t drawn_as(const Row& row, const SeriesNumbers& numbers) {
   if (!is_settled(row)) return not_settled;
   const auto number = numbers.find({row.job.label, row.job.parameters.text()});

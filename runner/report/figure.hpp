@@ -34,7 +34,7 @@ int mark_of(std::size_t k);
 /// A string as gnuplot takes it, without line breaks.
 std::string quoted(const std::string& text);
 
-/// The same of the label of a tic, which gnuplot takes for a format: "20 %" would lose its sign.
+/// The same for the label of a tic, which gnuplot takes for a format: "20 %" would lose its sign.
 std::string quoted_tic(const std::string& text);
 
 /// Room beside and between panels, px.
@@ -44,7 +44,7 @@ struct PanelGaps {
   double above = 8.0;   ///< between the key and the first row
 };
 
-/// Characters that a key has room for in an entry, with two side by side.
+/// Characters that an entry of a key has room for, with two entries side by side.
 inline constexpr std::size_t longest_entry = 42;
 
 /// What a style stands for.

@@ -44,7 +44,7 @@ Figure effort_figure(const Axes& axes, const std::vector<Row>& rows);
 /// Measured less published values, in standard errors.
 Figure published_figure(const std::vector<Comparison>& comparisons);
 
-/// Those that have a meaning for this sweep.
+/// The figures that have a meaning for this sweep.
 std::vector<Figure> figures_of(const std::vector<Row>& rows, const Analysis& analysis,
                                const std::vector<Comparison>& comparisons,
                                const GivenUnits& units = {});

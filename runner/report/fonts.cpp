@@ -29,7 +29,7 @@ void add_range(std::string_view text, Characters& ranges) {
   if (error == std::errc()) ranges.emplace_back(first, last);
 }
 
-/// Sorted, those that overlap or follow each other joined.
+/// Sorts the ranges and joins those that overlap or follow each other.
 Characters joined_ranges(Characters ranges) {
   std::sort(ranges.begin(), ranges.end());
   Characters all;

@@ -13,12 +13,12 @@ namespace grainsweep {
 /// Ranges of code points, first and last of each, ascending and apart.
 using Characters = std::vector<std::pair<char32_t, char32_t>>;
 
-/// Those of any font in a list with a line for each, its format and its characters in hexadecimal
-/// digits: "TrueType 20-7e 3c6". Fonts that are no outlines are not drawn with.
+/// The characters of any font in a list with a line per font, its format and its characters in
+/// hexadecimal digits: "TrueType 20-7e 3c6". Fonts without outlines are not used for drawing.
 Characters characters_of_fonts(std::string_view list);
 
-/// Those of the fonts that fontconfig finds; where it cannot be asked, the letters of European
-/// languages, which about any font has.
+/// The characters of the fonts that fontconfig finds; where it cannot be asked, the letters of
+/// European languages, which almost every font has.
 Characters installed_characters();
 
 /// UTF-8 text with a question mark for each character beyond ASCII that is not among `known`.

@@ -48,7 +48,7 @@ struct ChildSetup {
   }
 };
 
-/// What the child ended with; -1 if it did not end by itself.
+/// The exit status of the child; -1 if it did not end by itself.
 int wait_for(pid_t child) {
   int status = 0;
   while (waitpid(child, &status, 0) < 0) {
@@ -83,7 +83,7 @@ std::optional<std::string> picture_of(const Figure& figure, const Drawer& drawer
   return read_file(start + ".svg");
 }
 
-/// One that is not drawn needs no log where gnuplot was not even there.
+/// A figure that is not drawn needs no log where gnuplot was not even there.
 std::string why_none(const std::vector<Drawer>& drawers, const std::string& failed,
                      const std::string& folder) {
   for (const Drawer& drawer : drawers) {

@@ -1,4 +1,4 @@
-// Draws figures by gnuplot, a program of its own.
+// Draws figures with gnuplot, a program of its own.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@ namespace grainsweep {
 
 struct Drawing {
   std::vector<std::string> svgs;  ///< of each figure; empty where there is nothing to see
-  std::string missing;            ///< which pictures there are none of and why; empty if none is
+  std::string missing;            ///< which pictures are missing and why; empty if none is
 };
 
 /// Writes tables and commands into `folder`, from which `gnuplot NAME.gnuplot` draws NAME.svg and

@@ -49,7 +49,7 @@ std::string kinds_panel(const std::string& of, std::size_t series) {
   return plot_command(parts);
 }
 
-/// Colours tell the kinds, and of several series marks tell those.
+/// Colours tell the kinds apart, and marks tell the series apart if there are several.
 std::vector<KeyEntry> kinds_key(const Axes& axes) {
   const std::vector<const Series*> shown = shown_series(axes);
   const bool is_one = shown.size() == 1;
@@ -86,7 +86,7 @@ Range shares_shown(const Axes& axes, const std::string& of) {
   return {0.0, range_of({0.0, *std::max_element(ends.begin(), ends.end())}, 0.05).high};
 }
 
-/// The groups whose contacts are of kinds, those of polyhedra that press on each other; series
+/// The groups whose contacts have kinds, those of polyhedra that press on each other; series
 /// without any are left out.
 Axes of_kinds(Axes axes) {
   for (Series& series : axes.series) {
@@ -98,7 +98,7 @@ Axes of_kinds(Axes axes) {
   return axes;
 }
 
-/// Those with a difference that is known in errors.
+/// Those with a difference that is known in standard errors.
 std::vector<const Comparison*> measured_of(const std::vector<Comparison>& comparisons) {
   std::vector<const Comparison*> measured;
   for (const Comparison& one : comparisons) {
@@ -108,7 +108,7 @@ std::vector<const Comparison*> measured_of(const std::vector<Comparison>& compar
   return measured;
 }
 
-/// Wide enough for all of them and for the band in which both agree.
+/// Wide enough for all of them and for the band in which both sides agree.
 Range shown_errors(const std::vector<const Comparison*>& measured) {
   constexpr double room = 1.3;  // a factor, for far from 0 the scale is logarithmic
   Range shown{-1.5 * agreement_limit, 1.5 * agreement_limit};

@@ -50,7 +50,7 @@ std::vector<FittedSeries> fitted(const Axes& axes, const std::vector<Family>& fa
   return all;
 }
 
-/// Where packings stand on the axis that have no gap between walls.
+/// Where packings without a gap between walls stand on the axis.
 std::string places_text(const Axes& axes) {
   const auto is_tube = [](const Series& series) { return series.groups.front()->job.box.is_tube; };
   const auto tubes = std::count_if(axes.series.begin(), axes.series.end(), is_tube);

@@ -47,7 +47,7 @@ std::string parameter_panel(const Axes& axes, const std::string& parameter,
   return plot_command(parts);
 }
 
-/// What all groups reach, with their errors.
+/// All values that the groups reach, with their errors.
 Range range_of_all(const Axes& axes, Quantity quantity) {
   std::vector<double> ends;
   add_ends_of_all(axes, quantity, ends);

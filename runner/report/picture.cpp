@@ -17,7 +17,7 @@ namespace {
 
 using Vector = Eigen::Vector3d;
 
-/// To the right, upwards and towards the eye, in the frame of the box.
+/// Directions to the right, upwards and towards the eye, in the frame of the box.
 struct View {
   Vector right, up, towards;
 };
@@ -30,7 +30,7 @@ View view_of_an_edge() {
   return {right, towards.cross(right), towards};
 }
 
-/// Pixels and how near to the eye what they show is.
+/// Pixels, and how near to the eye what they show is.
 struct Canvas {
   int width, height;
   std::string pixels;
@@ -97,7 +97,7 @@ std::array<double, 3> colour_of(double radius, double smallest, double largest) 
   return colour;
 }
 
-/// Of a component of a mixture, as in bed.js; there are eight, then the first again.
+/// Colours for the components of a mixture, as in bed.js; there are eight, then the first again.
 std::array<double, 3> colour_of(std::size_t component) {
   constexpr std::array<std::array<int, 3>, 8> all = {{{0, 114, 178},
                                                       {230, 159, 0},

@@ -147,7 +147,7 @@ std::string label_command(const std::string& axis, const std::string& text) {
                       : "set " + axis + "label " + quoted(text) + " noenhanced\n";
 }
 
-/// Few enough for a narrow panel from 0 to `end`.
+/// Tics, few enough for a narrow panel from 0 to `end`.
 std::string step_tics_command(const std::string& axis, double end) {
   const double least = end / 4.0, power = std::pow(10.0, std::floor(std::log10(least)));
   const double step = least <= power         ? power

@@ -21,7 +21,8 @@ std::vector<const Series*> shown_series(const Axes& axes);
 /// "12 of 40 series are shown, all are in NAME.csv"; empty if all are shown.
 std::string left_out_text(const Axes& axes, const std::string& name);
 
-/// Whether there are more, with a settled packing: they are grey and have no mark of their own.
+/// Whether there are more series with a settled packing: they are grey and have no mark of their
+/// own.
 bool has_other_series(const Axes& axes);
 inline constexpr const char* other_series_style = "points lc rgb '#bbbbbb' pt 7 ps 0.5";
 
@@ -31,10 +32,10 @@ std::string grey_series_text(const Axes& axes);
 /// Groups with a settled packing, at most `most` of them, evenly spread over all. Throws FileError.
 std::vector<GroupWithCurves> chosen_groups(const Axes& axes, std::size_t most);
 
-/// The same of groups between walls, if there are any.
+/// The same for groups between walls, if there are any.
 std::vector<GroupWithCurves> chosen_walled_groups(const Axes& axes, std::size_t most);
 
-/// The same of mixtures.
+/// The same for mixtures.
 std::vector<GroupWithCurves> chosen_mixtures(const Axes& axes, std::size_t most);
 
 /// titles_of these groups.
@@ -49,7 +50,7 @@ std::string series_cell(const Axes& axes, const Series& series);
 /// A key entry for each of the shown series.
 std::vector<KeyEntry> series_key(const Axes& axes, const std::string& style);
 
-/// The same of points, with an entry for the others if there are any.
+/// The same for points, with an entry for the others if there are any.
 std::vector<KeyEntry> key_with_others(const Axes& axes);
 
 /// One curve of a plot: `using` of the lines of a table whose column `selector` is `number`.
@@ -83,10 +84,10 @@ struct Range {
   double low = 0.0, high = 1.0;
 };
 
-/// Adds both ends of an error bar; of a value without an error that alone.
+/// Adds both ends of an error bar, or the value alone if it has no error.
 void add_ends(double value, double error, std::vector<double>& ends);
 
-/// The same of the means of all groups.
+/// The same for the means of all groups.
 void add_ends_of_all(const Axes& axes, Quantity quantity, std::vector<double>& ends);
 
 /// The range of these values with some room at both ends, a share of it.

@@ -31,7 +31,7 @@ std::string bins_csv(const std::vector<GroupWithCurves>& groups) {
   return text;
 }
 
-/// What all panels of a row show, so that they have one range.
+/// All that the panels of a row show, so that they have one range.
 std::vector<double> values_in(const std::vector<GroupWithCurves>& groups,
                               std::initializer_list<Spread MeanBin::*> spreads) {
   std::vector<double> values;

@@ -39,8 +39,8 @@ std::optional<Reference> reference_of(const Provenance& provenance,
 
 constexpr std::size_t most_beds = 12, most_view_bytes = 4'000'000;
 
-/// Of groups with a stored bed the first packing, settled if any is; at most most_beds, evenly
-/// spread over all.
+/// The first packing of each group with a stored bed, a settled one if there is any; at most
+/// most_beds, evenly spread over all.
 std::vector<std::pair<const Group*, const Row*>> beds_to_show(const std::vector<Row>& rows,
                                                               const std::vector<Group>& groups) {
   std::map<std::pair<std::string_view, std::string_view>, const Row*> first_of;
@@ -100,7 +100,7 @@ void remove_drawn(const std::string& folder) {
   std::filesystem::remove(figures_folder(folder), holds_other_files);
 }
 
-/// Figures and beds, all that takes time. Appends to `missing`.
+/// Adds figures and beds, which take all the time. Appends to `missing`.
 void add_drawn_parts(const std::string& folder, const GivenUnits& units,
                      const std::vector<Row>& rows, const Analysis& analysis,
                      const std::vector<Comparison>& comparisons, PageParts& parts,

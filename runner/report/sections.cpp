@@ -46,7 +46,7 @@ std::string settled_of(const StatusCounts& counts) {
   return std::to_string(counts.settled) + " of " + std::to_string(all);
 }
 
-/// Where columns that only a sweep with units has stand among those of a group.
+/// Where columns that only a sweep with units has are placed among those of a group.
 constexpr std::ptrdiff_t before_units = 4;
 
 std::vector<std::string> unit_cells(const Group& group, const Units& units) {
@@ -111,12 +111,12 @@ std::vector<std::string> fit_cells(const Family& family, Quantity quantity,
   return cells;
 }
 
-/// Whether all its packings between walls have one width, with which no line can be.
+/// Whether all its packings between walls have one width, which gives no line.
 bool has_one_width(const Family& family) {
   return family.walled.front().job.box.width == family.walled.back().job.box.width;
 }
 
-/// Those have no row each: a random design has a family for each point.
+/// Families of one width have no row each: a random design has a family for each point.
 std::string one_width_note(std::size_t families, const std::string& extent) {
   if (families == 0) return "";
   return note_paragraph(

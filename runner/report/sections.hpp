@@ -11,7 +11,7 @@
 
 namespace grainsweep {
 
-/// So many packings stand in the page; packings.csv has all.
+/// At most so many packings stand in the page; packings.csv has all.
 inline constexpr std::size_t most_packings = 2000;
 
 /// How many packings there are and what became of them, in a sentence.
@@ -20,11 +20,11 @@ std::string summary_section(const std::vector<Row>& rows, const GivenUnits& unit
 /// Means and standard errors of every parameter set.
 std::string groups_section(const std::vector<Group>& groups, const GivenUnits& units = {});
 
-/// So many mixtures stand in the page; components.csv has all.
+/// At most so many mixtures stand in the page; components.csv has all.
 inline constexpr std::size_t most_mixtures_of_page = 50;
 
 /// Means of the components of mixtures, and how they touch each other; empty without any. Curves
-/// are read from `folder`, as of GroupWithCurves. Throws FileError.
+/// are read from `folder`, as for GroupWithCurves. Throws FileError.
 std::string components_section(const std::vector<Group>& groups, const std::string& folder);
 
 /// The wall effect of every family, or why it is not determined; those of one width are counted

@@ -8,7 +8,7 @@
 
 namespace grainsweep {
 
-/// Copied with its value. As a std::optional is used.
+/// Copied with its value. Used like a std::optional.
 template <class Value>
 class Boxed {
  public:

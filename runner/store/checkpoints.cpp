@@ -22,7 +22,7 @@ constexpr std::string_view checkpoint_mark = "GRAINCP2";
 
 std::string checkpoint_folder(const std::string& folder) { return folder + "/checkpoints"; }
 
-/// Where the file cannot be removed, `failures` tells why.
+/// Where the file cannot be removed, appends the reason to `failures`.
 void try_to_remove(const std::string& path, std::vector<std::string>& failures) {
   try {
     remove_file(path);

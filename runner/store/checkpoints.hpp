@@ -1,7 +1,7 @@
 // A packing under way, on the disk, so that a long one goes on where it was stopped.
 //
 // Each running packing has two files, checkpoints/<job>.0 and .1, written in turn, so that one is
-// whole whatever happens to the other. A file is "GRAINCP2", a NumberedCheckpoint as of
+// whole whatever happens to the other. A file is "GRAINCP2", a NumberedCheckpoint in the form of
 // runner/store/archive.hpp, and a CRC-32 of all before. Files that are torn, changed, of another
 // job or made by another build of the program are never used.
 #pragma once
@@ -18,7 +18,7 @@ namespace grainsweep {
 
 struct Checkpoint {
   std::int64_t step = 0;     ///< steps the packing has taken
-  double cpu_seconds = 0.0;  ///< it has cost so far, in all runs
+  double cpu_seconds = 0.0;  ///< spent on it so far, in all runs
   std::string state;         ///< bytes of Progress::save
 };
 
@@ -58,8 +58,8 @@ std::optional<NumberedCheckpoint> checkpoint_from_bytes(std::string_view bytes);
 /// How many packings have checkpoints in an output folder.
 std::size_t saved_packings(const std::string& folder);
 
-/// Removes the checkpoints of these jobs, or of all. Returns which it could not, as above. Throws
-/// FileError if the folder cannot be listed.
+/// Removes the checkpoints of these jobs, or of all. Returns which it could not remove, as above.
+/// Throws FileError if the folder cannot be listed.
 std::vector<std::string> remove_checkpoints_of(const std::string& folder,
                                                const std::set<std::string>& jobs);
 std::vector<std::string> remove_all_checkpoints(const std::string& folder);

@@ -11,7 +11,8 @@ namespace {
 
 std::string claims_path(const std::string& folder) { return shards_folder(folder) + "/claims"; }
 
-/// What a file has from there on; nothing if it is gone, as when the sweep was made meanwhile.
+/// What a file holds from byte `from` on; nothing if it is gone, as when the sweep was made
+/// meanwhile.
 std::string rest_of(const std::string& path, std::int64_t from) {
   const std::int64_t size = file_size(path).value_or(0);
   if (size <= from) return "";

@@ -19,7 +19,7 @@ namespace grainsweep {
 /// Every function throws FileError.
 class Claims {
  public:
-  /// Of `runner`, a process. All claims count.
+  /// The claims of `runner`, a process. All claims in the file count.
   Claims(const std::string& folder, std::string runner);
 
   /// Claims that are in the file now are void if their runner is not among those `at_work`.
@@ -34,11 +34,11 @@ class Claims {
   /// The runner at work that has claimed the job, as far as the file was read; empty if none has.
   std::string owner_of(const std::string& job) const;
 
-  /// Jobs whose claim is void, and no other one followed.
+  /// Jobs whose claim is void and that nobody has claimed since.
   const std::set<std::string>& abandoned() const { return abandoned_; }
 
  private:
-  /// What was appended since. `at_work`: none if all claims count.
+  /// Reads what was appended since. `at_work`: null if all claims count.
   void read(const std::set<std::string>* at_work = nullptr);
   void read_line(std::string_view line, const std::set<std::string>* at_work);
 
@@ -55,7 +55,7 @@ bool has_claims(const std::string& folder);
 /// From now on every runner claims what it begins.
 void open_claims(const std::string& folder);
 
-/// When the whole sweep is made.
+/// For when the whole sweep is made.
 void forget_claims(const std::string& folder);
 
 }  // namespace grainsweep

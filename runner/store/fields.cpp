@@ -18,7 +18,7 @@ template <class Part>
 struct IsOptional<std::optional<Part>> : std::true_type {};
 
 /// Follows members and places in arrays from `part` on; null at an optional part without a value,
-/// which is made where it may be changed.
+/// which is created if the part may be changed.
 template <auto key, auto... further, class Part>
 auto walk(Part& part) {
   if constexpr (IsOptional<std::remove_const_t<Part>>::value) {
@@ -39,7 +39,7 @@ auto walk(Part& part) {
   }
 }
 
-/// Nothing at an optional number that the outcome does not have, as of an earlier version.
+/// Nothing at an optional number that the outcome does not have, as in one of an earlier version.
 template <auto... path>
 FieldValue value_at(const Outcome& outcome) {
   const auto* const value = walk<path...>(outcome);

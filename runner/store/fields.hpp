@@ -1,7 +1,8 @@
 // The one table of what is known of a finished packing: each value stands in it once, with name,
-// unit and meaning. From it come the journal line and its reading, the columns of packings.csv and
-// groups.csv, columns.csv and the manual. A new number needs a member in the engine's result and a
-// line here; one of the measured slab's order a line beside it (engine/results.hpp, order_numbers).
+// unit and meaning. The journal line and its reading, the columns of packings.csv and groups.csv,
+// columns.csv and the manual all come from it. A new number needs a member in the engine's result
+// and a line here; a number of the measured slab's Order needs a line beside its member instead
+// (engine/results.hpp, order_numbers).
 #pragma once
 
 #include <cstdint>
@@ -43,7 +44,7 @@ struct Field {
 /// All of them, in the order of the columns.
 const std::vector<Field>& fields();
 
-/// The one called so, which must be there.
+/// The field of that name, which must exist.
 const Field& field_named(std::string_view name);
 
 /// The value as a number; NaN if there is none.

@@ -34,7 +34,7 @@ std::string folder_of(const std::string& path) {
   return folder.empty() ? "." : folder;
 }
 
-/// Appends what comes next in the file, `most` bytes or fewer; false at its end.
+/// Appends the next bytes of the file, at most `most`; false at its end.
 bool read_more(const OpenFile& file, std::string& text,
                std::size_t most = std::numeric_limits<std::size_t>::max()) {
   std::array<char, 1 << 16> block{};
@@ -45,7 +45,7 @@ bool read_more(const OpenFile& file, std::string& text,
   return count > 0;
 }
 
-/// Of the folder `path` that was to be made, with what came of it.
+/// Throws unless the folder `path`, which was to be made with this result, exists.
 void expect_folder(const std::string& path, const std::error_code& error) {
   if (error) throw FileError(path, "make the folder", error.value());
   if (!std::filesystem::is_directory(path)) throw FileError(path, "make the folder", ENOTDIR);

@@ -60,7 +60,7 @@ std::string read_file(const std::string& path);
 /// `size` bytes of a file from its byte `at` on, counted from 0, or what of them it has.
 std::string read_part(const std::string& path, std::int64_t at, std::size_t size);
 
-/// Calls `use` with each line of a file, without its line feed; the last one may lack it.
+/// Calls `use` with each line of a file, without its line feed; the last one may have none.
 void for_each_line(const std::string& path, const std::function<void(std::string_view)>& use);
 
 /// Replaces `path` by a file holding `bytes`: a reader or a crash sees the old file or the new one,
@@ -91,8 +91,8 @@ class Replacement {
 /// Makes the folder and those above it; nothing happens if it is there.
 void make_folder(const std::string& path);
 
-/// The same, but the folder above must be there: one that was taken away is not made anew. It is on
-/// the disk then.
+/// The same, but the folder above must exist: one that was removed is not made anew. On return the
+/// folder is on the disk.
 void make_folder_inside(const std::string& path);
 
 /// Removes the file; nothing happens if there is none.
@@ -103,12 +103,13 @@ bool file_exists(const std::string& path);
 /// In bytes; nothing if there is no such file.
 std::optional<std::int64_t> file_size(const std::string& path);
 
-/// Removes what a replace_file that was killed has left in `folder`: the temporary files of those
-/// whose name ends so, of this machine or another. No other process may be writing such files
-/// there.
+/// Removes what killed calls of replace_file have left in `folder`: the temporary files, of this
+/// machine or another, for files whose names end in `ending`. No other process may be writing such
+/// files there.
 void remove_leftovers(const std::string& folder, std::string_view ending);
 
-/// Names of the files in `folder` that start and end so, sorted; none if there is no folder.
+/// Names of the files in `folder` that start and end with these, sorted; none if there is no
+/// folder.
 std::vector<std::string> files_in(const std::string& folder, std::string_view start,
                                   std::string_view end);
 

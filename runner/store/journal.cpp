@@ -36,7 +36,7 @@ std::optional<std::string_view> checked_text(std::string_view kind, std::string_
   return line.substr(0, begin) == line_start(kind, text) ? std::optional(text) : std::nullopt;
 }
 
-/// A later run of the same process and start tells more of it.
+/// A later record of the same run, by process and start, replaces the earlier one.
 void keep(RunRecord&& run, std::vector<RunRecord>& runs) {
   const auto known = std::find_if(runs.begin(), runs.end(),
                                   [&](const RunRecord& other) { return is_same_run(run, other); });
@@ -58,7 +58,7 @@ bool counts_more(const Outcome& one, const Outcome& other) {
          std::tuple(!other.exception, other.finished_at);
 }
 
-/// Adds what counts in one journal to what counts in those before it.
+/// Adds the outcomes that count in one journal to those that count in the journals before it.
 void add(Outcomes&& own, Outcomes& all) {
   all.merge(own);
   for (auto& [job, outcome] : own) {  // what is left of it is known from another journal

@@ -1,11 +1,11 @@
-// What was finished, a line each: the record that all tables are made of.
+// The finished packings, a line each: the record that all tables are made from.
 //
 // A line is {"length":<bytes>,"crc32":"<8 hex digits>","outcome":{...}}: valid JSON by itself, with
-// length and checksum of the bytes of {...}, whose members are those fields
-// (runner/store/fields.hpp) of the journal that the outcome has. Not-a-number and infinities are
-// texts. It is written by one write(2) and flushed to the disk before the packing counts as done,
-// so that a crash can only tear the last line. A torn or damaged line is dropped, and what is then
-// missing made again. Lines with "run" instead of "outcome" tell who wrote the journal, at the
+// length and checksum of the bytes of {...}, whose members are those journal fields
+// (runner/store/fields.hpp) that the outcome has. Not-a-number and infinities are texts. It is
+// written by one write(2) and flushed to the disk before the packing counts as done, so that a
+// crash can only tear the last line. A torn or damaged line is dropped, and the packing then
+// missing is made again. Lines with "run" instead of "outcome" say who wrote the journal, at the
 // beginning of a run and again at its end.
 #pragma once
 
@@ -36,9 +36,9 @@ struct JournalReading {
   std::vector<std::string> damage;             ///< "out/shards/1-of-1.jsonl:3: torn or damaged ..."
 };
 
-/// The journals of all shards in `folder`. Of two outcomes of a job the later line of a journal
-/// counts, and of two journals the one that finished later; but a result is never replaced by an
-/// exception. A line that a runner is just writing is left out. Throws FileError.
+/// The journals of all shards in `folder`. If a job has two outcomes, the later line counts within
+/// a journal, and between two journals the one that finished later; but a result is never replaced
+/// by an exception. A line that a runner is just writing is left out. Throws FileError.
 JournalReading read_journals(const std::string& folder, Detail detail = Detail::whole);
 
 /// The last run in a journal, at work or ended.

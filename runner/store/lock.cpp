@@ -9,7 +9,7 @@
 namespace grainsweep {
 namespace {
 
-/// Takes the lock; returns 0 or what hindered it.
+/// Takes the lock; returns 0 or the error that prevented it.
 int take_lock(int descriptor) {
   constexpr int tries = 20;
   constexpr timespec pause{0, 10'000'000};

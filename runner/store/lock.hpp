@@ -20,12 +20,13 @@ struct FolderBusy : std::runtime_error {
 /// Held while it lives.
 class FileLock {
  public:
-  /// Makes the file if missing. Tries for a fifth of a second, since a look at the lock holds it
-  /// for a moment. Throws FileError if it cannot be opened.
+  /// Makes the file if missing. Tries for a fifth of a second, since checking the lock takes it for
+  /// a moment. Throws FileError if it cannot be opened.
   explicit FileLock(const std::string& path);
 
   bool is_held() const { return error_ == 0; }
-  /// Another process holds it. If neither, the file system offers no locks.
+  /// Whether another process holds it. If it is neither held nor taken, the file system has no
+  /// locks.
   bool is_taken() const;
 
  private:

@@ -18,7 +18,7 @@ struct Outcome {
   /// next run.
   bool exception = false;
   double finished_at = 0.0;  ///< s since 1970
-  std::string shard;         ///< name of the files that hold it, as of runner/store/shard.hpp
+  std::string shard;         ///< name of the files that hold it, see runner/store/shard.hpp
   /// Where in shards/<shard>.beds its bed is, and its size; 0 if there is none, and then there are
   /// no curves.
   std::int64_t stored_at = 0, stored_bytes = 0;

@@ -16,7 +16,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// What is not a finite number becomes a text.
+/// A value that is no finite number becomes a text.
 ordered_json number_json(double value) {
   if (std::isfinite(value)) return value;
   if (std::isnan(value)) return "nan";

@@ -11,8 +11,8 @@ namespace grainsweep {
 /// Every double reads back with the same bits.
 std::string outcome_text(const Outcome& outcome);
 
-/// Nothing if `text` is no such JSON, or has not just the members that outcome_text would give what
-/// was read.
+/// Nothing if `text` is no such JSON, or its members are not exactly those that outcome_text would
+/// write for what was read.
 Boxed<Outcome> outcome_from_text(std::string_view text, Detail detail = Detail::whole);
 
 }  // namespace grainsweep

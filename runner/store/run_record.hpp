@@ -27,7 +27,7 @@ void to_json(nlohmann::json& to, const RunRecord& run);
 /// Throws nlohmann::json::exception if `from` is not what to_json gives.
 void from_json(const nlohmann::json& from, RunRecord& run);
 
-/// Whether they are of the same run: a process begins but one at a time.
+/// Whether they are of the same run: a process begins only one at a time.
 bool is_same_run(const RunRecord& a, const RunRecord& b);
 
 /// By start, then by process.

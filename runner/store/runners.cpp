@@ -12,7 +12,7 @@
 namespace grainsweep {
 namespace {
 
-/// Since a file was changed, s; 0 if it is gone.
+/// Time since a file was changed, s; 0 if it is gone.
 double seconds_since_change(const std::string& path) {
   struct stat facts {};
   if (stat(path.c_str(), &facts) != 0) return 0.0;

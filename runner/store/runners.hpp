@@ -1,7 +1,7 @@
 // Who works in an output folder, and who was lost on the way.
 //
-// A runner that began a run and noted no end of it is at work or lost. Its lock tells, but not
-// everywhere to other machines: from time to time a runner touches its journal, too.
+// A runner that began a run and noted no end of it is at work or lost. Its lock shows which, but
+// not everywhere to other machines, so a runner also touches its journal from time to time.
 #pragma once
 
 #include <map>
@@ -13,8 +13,8 @@
 
 namespace grainsweep {
 
-/// Between two touches, and without one for so long a runner of another machine is lost, s. File
-/// systems of clusters tell others of a touch up to a minute later.
+/// Time between two touches, and the time without one after which a runner of another machine
+/// counts as lost, s. On file systems of clusters others may see a touch up to a minute later.
 constexpr double heartbeat_seconds = 20.0, lost_after_seconds = 180.0;
 
 struct Runner {
@@ -24,7 +24,7 @@ struct Runner {
   double silent = 0.0;  ///< since its journal was touched or written, s
 };
 
-/// Those that have not ended, by shard. `last_runs`: of each shard, as JournalReading has them.
+/// The runners that have not ended, by shard. `last_runs`: of each shard, as in JournalReading.
 std::vector<Runner> runners_in(const std::string& folder,
                                const std::map<std::string, RunRecord>& last_runs);
 

@@ -9,8 +9,8 @@ namespace {
 
 constexpr std::string_view journal_ending = ".jsonl", beds_ending = ".beds";
 
-/// Takes a positive number off the front of `text`; nothing, and `text` as it was, if it begins
-/// with none.
+/// Takes a positive number off the front of `text`; if there is none, returns nothing and leaves
+/// `text` as it was.
 std::optional<int> take_number(std::string_view& text) {
   int number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);

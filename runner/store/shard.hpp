@@ -1,9 +1,9 @@
-// The parts of a sweep that are made apart, and the files of an output folder that hold them.
+// The parts of a sweep that are made separately, and the files of an output folder that hold them.
 //
-// shards/3-of-64.jsonl is the journal of one, shards/3-of-64.beds holds its beds one behind the
-// other. A run of the whole sweep is the only shard of one, 1-of-1. Where the file system offers no
-// locks, names end in that of the process, 3-of-64-<host>-<pid>, so that no two write into one
-// file.
+// shards/3-of-64.jsonl is the journal of one, shards/3-of-64.beds holds its beds one after the
+// other. A run of the whole sweep is a single shard, 1-of-1. Where the file system offers no locks,
+// names end in the name of the process, 3-of-64-<host>-<pid>, so that no two processes write into
+// one file.
 #pragma once
 
 #include <optional>
@@ -25,7 +25,7 @@ struct Shard {
 /// "3-of-64"
 std::string name_of(const Shard& shard);
 
-/// The shard whose files have that name or one that goes on behind it; nothing if none has.
+/// The shard with that name, or whose name it continues (3-of-64-<host>-<pid>); nothing if none.
 std::optional<Shard> shard_from_name(std::string_view name);
 
 /// The shard in "3/64"; nothing if it is none.

@@ -31,7 +31,7 @@ bool ends_inside_a_line(const std::string& path) {
   return size && *size > 0 && read_part(path, *size - 1, 1) != "\n";
 }
 
-/// Appends to a file; one that was not there and may not be made is an error.
+/// Appends to a file; it is an error if the file is missing and may not be made.
 void append_to(const std::string& path, std::string_view bytes, int further_flags) {
   const bool is_new = !file_exists(path);
   const OpenFile file(path, O_WRONLY | O_APPEND | further_flags);
@@ -86,7 +86,7 @@ void ShardFiles::add(const RunRecord& run) { lines_ += journal_line(run); }
 void ShardFiles::flush() {
   if (!beds_.empty()) append_to(beds_path(folder_, name_), beds_, O_CREAT);
   beds_.clear();
-  // A journal that is gone was taken away with its folder: it is not made anew without its lock.
+  // A journal that is gone was removed with its folder: it is not made anew without its lock.
   if (!lines_.empty()) append_to(journal_path(folder_, name_), lines_, 0);
   lines_.clear();
 }

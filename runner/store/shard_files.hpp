@@ -21,8 +21,8 @@ class ShardFiles {
   /// sweep, which overlaps with it.
   ShardFiles(const std::string& folder, const Shard& shard, const RunRecord& run);
 
-  /// What is added for its job from now on counts more than this outcome, of whatever journal: it
-  /// was finished later, even where a clock was set back.
+  /// Whatever is added for this outcome's job from now on counts more than this outcome, in
+  /// whichever journal it is: it was finished later, even where a clock was set back.
   void count_after(const Outcome& known) { known_at_[known.job] = known.finished_at; }
 
   /// Sets where the bed is stored. To be followed by add(outcome).
@@ -31,23 +31,23 @@ class ShardFiles {
   void add(const RunRecord& run);
   void flush();
 
-  /// Says that the runner is alive, as of runner/store/runners.hpp.
+  /// Says that the runner is alive, see runner/store/runners.hpp.
   void beat() const;
 
   /// False where the file system offers no locks: the shard is worked on without one.
   bool is_locked() const { return lock_.is_held(); }
   const std::string& name() const { return name_; }
 
-  /// Forgets all that is stored in the folder, of all shards, and notes `run` again. For the only
-  /// shard of one.
+  /// Forgets all that is stored in the folder, of all shards, and notes `run` again. For the shard
+  /// 1-of-1 only.
   void remove_all(const RunRecord& run);
 
  private:
   std::string folder_;
   FileLock lock_;
   std::string name_;
-  std::string beds_, lines_;   ///< added and not yet in the files
-  std::int64_t beds_end_ = 0;  ///< where in the file the next bed comes to stand
+  std::string beds_, lines_;                          ///< added and not yet in the files
+  std::int64_t beds_end_ = 0;                         ///< where the next bed begins in the file
   std::unordered_map<std::string, double> known_at_;  ///< Outcome::finished_at, by job
 };
 

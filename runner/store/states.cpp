@@ -66,7 +66,7 @@ constexpr auto members_of(const ForceLine* /*type*/) {
   return std::tuple(&ForceLine::normal, &ForceLine::lever, &ForceLine::constraints);
 }
 
-/// As the version before stored it.
+/// A bed as the version before stored it.
 struct BedWithoutLines : StoredBed {};
 constexpr auto members_of(const BedWithoutLines* /*type*/) {
   using Bed = StoredBed;

@@ -1,11 +1,11 @@
-// The curves, grains and forces of each finished bed, so that neither tables nor exporting pack
-// again.
+// The curves, grains and forces of each finished bed, so that neither tables nor exports need to
+// pack again.
 //
-// They stand one behind the other in shards/<shard>.beds, where each outcome tells its own. A bed
-// is "GRAINS13\n", a StoredBed as of runner/store/archive.hpp, in the order of its members and of
-// those of the engine's structs in states.cpp, and a CRC-32 of all before; "GRAINS12\n", of earlier
-// versions, lacks the lines. Units as in SettledGrain and PackingResult. What a kill has left
-// between them is never read.
+// They stand one after the other in shards/<shard>.beds; each outcome says where its own is. A bed
+// is "GRAINS13\n", a StoredBed in the form of runner/store/archive.hpp, in the order of its members
+// and of those of the engine's structs in states.cpp, and a CRC-32 of all before; "GRAINS12\n", of
+// earlier versions, has no lines. Units as in SettledGrain and PackingResult. What a killed run has
+// left between beds is never read.
 #pragma once
 
 #include <cstdint>
@@ -20,8 +20,8 @@
 
 namespace grainsweep {
 
-/// The curves and lists of a packing, by far the most of what is measured of it: kept with its
-/// grains, not in the journal. Members as of PackingResult and its Order; empty if nothing was
+/// The curves and lists of a packing, by far the largest part of what is measured: kept with its
+/// grains, not in the journal. Members as in PackingResult and its Order; empty if nothing was
 /// measured.
 struct Curves {
   Profile profile_x;
@@ -51,11 +51,11 @@ struct StoredBed {
   Box box;
   Curves curves;
   std::vector<SettledGrain> grains;
-  std::optional<Turned> turned;  ///< of non-spherical grains; an orientation per grain
+  std::optional<Turned> turned;  ///< for non-spherical grains; an orientation per grain
   std::vector<StoredForce> forces;
-  /// Beds of older versions have one sum for all vertices of a grain in a tube, as of tube_wall.
+  /// Beds of older versions have one sum for all vertices of a grain in a tube, see tube_wall.
   std::vector<WallForce> wall_forces;
-  /// Of each of `forces` and of `wall_forces`; empty of spheres and in beds of older versions.
+  /// One for each of `forces` and `wall_forces`; empty for spheres and in beds of older versions.
   std::vector<ForceLine> lines = {}, wall_lines = {};
 };
 
@@ -63,8 +63,8 @@ struct StoredBed {
 /// version, or if it is not the bed of this outcome.
 StoredBed read_bed(const std::string& folder, const Outcome& outcome);
 
-/// Tells by the size of the file that holds the bed alone. Throws FileError if there is no file, or
-/// if it ends before the bed does.
+/// Checks only the size of the file that holds the bed. Throws FileError if there is no file, or if
+/// it ends before the bed does.
 void expect_bed(const std::string& folder, const Outcome& outcome,
                 const std::optional<std::int64_t>& file_size);
 

@@ -30,7 +30,7 @@ MeasuredPresets measured_for(BedKind kind) {
   return measured;
 }
 
-/// One of the two that may be asked for; `assignment` is null where it is not.
+/// One of the two bounds that may be requested; `assignment` is null where it is not.
 struct Asked {
   const Assignment* assignment;
   double ProtocolBias::*bound;
@@ -38,8 +38,8 @@ struct Asked {
 
 double value_of(const Asked& asked) { return std::get<double>(asked.assignment->value); }
 
-/// Leaves those of the presets that keep the bound. Where none does, says so, and leaves them all.
-/// Of two numbers that are asked for, those that keep the other one as well are told.
+/// Keeps those of the presets that keep the bound. Where none does, says so, and keeps them all. If
+/// two bounds are requested, the message names presets that keep the other one as well.
 void keep_reaching(const Asked& asked, BedKind kind, const MeasuredPresets& all,
                    MeasuredPresets& measured, std::vector<AccuracyProblem>& problems) {
   if (asked.assignment == nullptr) return;
@@ -73,7 +73,7 @@ bool is_part_of_accuracy(const Assignment* assignment) {
   return parameter.path.starts_with("accuracy.") && choice_of(parameter) != Choice::accuracy;
 }
 
-/// Writes the parts beside what is asked for over those of the preset.
+/// Writes the parts beside the request over those of the preset.
 void take_parts(const InEffect& in_effect, ResolvedSpec& resolved,
                 std::vector<AccuracyProblem>& problems) {
   for (const Assignment* assignment : in_effect) {

@@ -31,9 +31,9 @@ void read_parameter(std::size_t index, const Json& value, const std::string& poi
   }
 }
 
-/// The shortest full path that ends in a key misplaced into `group`; "" if none does. The parts of
-/// a shape or a distribution are looked for in the groups that it is in, as others have other
-/// parts.
+/// The shortest full path that ends in a key misplaced into `group`; "" if there is none. The parts
+/// of a shape or a distribution are looked for only in the groups that it is in, as others have
+/// other parts.
 std::string path_that_ends_in(const std::string& key, const std::string& group) {
   std::string found;
   for (const std::string& path : known_keys("")) {
@@ -48,7 +48,7 @@ std::string path_that_ends_in(const std::string& key, const std::string& group) 
 }
 
 /// Why there is no parameter for what people of the field look for at `path`; "" for other paths.
-/// "*.mu" stands for "mu" in whatever group.
+/// "*.mu" stands for "mu" in any group.
 std::string absence_of(const std::string& path) {
   using Reason = std::pair<const char*, std::vector<std::string_view>>;
   static const std::vector<Reason> reasons = {
@@ -93,8 +93,8 @@ std::string absence_of(const std::string& path) {
   return "";
 }
 
-/// What is wrong with a key of `group` that nothing has: why there is none, a word near it, the
-/// full path of what is only misplaced, or the keys that `pointer` leads to.
+/// What is wrong with a key of `group` that does not exist: why there is none, a word near it, the
+/// full path of a key that is only misplaced, or the keys that `pointer` leads to.
 std::string unknown_path(const std::string& group, const std::string& key,
                          const std::string& pointer) {
   const std::string start = "unknown key \"" + shortened(key) + "\"; ";
@@ -158,8 +158,8 @@ void read_empty_group(const std::string& group, const std::string& pointer,
   }
 }
 
-/// Reads what an object says of the parts of a group. An empty box takes the place of a tube here;
-/// in a list, where others of its rows may be of tubes, it says nothing.
+/// Reads what an object says about the parts of a group. An empty box takes the place of a tube
+/// here; in a list, where other rows may be tubes, it says nothing.
 void read_group(const std::string& group, const Json& object, const std::string& pointer,
                 Assignments& assignments, Diagnostics& diagnostics) {
   for (const auto& [key, value] : object.items()) {
@@ -183,7 +183,7 @@ std::string wanted_group(const std::string& path) {
   return "must be " + preset + "an object with " + short_list(known_keys(path)) + ", is ";
 }
 
-/// Notes the first assignment of a shape that excludes what was set before it.
+/// Notes the first assignment of a shape that excludes one set before it.
 void refuse_second_shape(const Assignments& assignments, Diagnostics& diagnostics) {
   const Assignment* first = nullptr;
   std::string_view kind;
@@ -215,7 +215,7 @@ void refuse_alternatives(const Assignments& assignments, Diagnostics& diagnostic
   }
 }
 
-/// Unsets what is described in another way by a new assignment.
+/// Unsets whatever a new assignment describes in another way.
 void unset_alternatives(const Assignment& assignment, InEffect& in_effect) {
   const Parameter& parameter = parameters()[assignment.parameter];
   if (choice_of(parameter) == Choice::none) return;
@@ -224,10 +224,10 @@ void unset_alternatives(const Assignment& assignment, InEffect& in_effect) {
   }
 }
 
-/// Where `message` on a group speaks of a part of it: a number, the smaller the more it is meant.
-/// First of all a message that begins with the part, then one that begins with what the part
-/// belongs to ("table.passing must ..." means the file of a table, too), then where the first word
-/// of the part's name is: "angle" for "angle_deg".
+/// Where `message` about a group speaks of a part of it: a number, smaller the more likely the part
+/// is meant. First comes a message that begins with the part, then one that begins with what the
+/// part belongs to ("table.passing must ..." means the file of a table, too), then by where the
+/// first word of the part's name is: "angle" for "angle_deg".
 std::size_t mention_of(const std::string& part, const std::string& message) {
   if (message.starts_with(part + " ")) return 0;
   const std::size_t dot = part.rfind('.');

@@ -1,4 +1,4 @@
-// Which of the kinds of beds whose protocol's error was measured a bed is of.
+// Which kind a bed is, among those whose protocol error was measured.
 #pragma once
 
 #include <optional>
@@ -12,9 +12,9 @@
 namespace grainsweep {
 
 /// By the name of its grains' shape, its container, the share of small grains, and its canonical
-/// parameters; none for beds of which nothing alike was measured: distributions of sizes, starts
-/// from files, small grains that are not half as large, other shapes and other proportions, and
-/// tubes of other grains than spheres of one size.
+/// parameters; none for beds unlike any that was measured: distributions of sizes, starts from
+/// files, small grains that are not half as large, other shapes and other proportions, and tubes of
+/// other grains than spheres of one size.
 std::optional<BedKind> bed_kind(std::string_view shape, const Box& box, double small_share,
                                 const nlohmann::json& parameters);
 

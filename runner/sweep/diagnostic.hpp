@@ -24,7 +24,7 @@ struct Diagnostic {
 };
 using Diagnostics = std::vector<Diagnostic>;
 
-/// Whether there is more among them than notes.
+/// Whether any of them is more than a note.
 bool has_errors(const Diagnostics& diagnostics);
 
 /// "spheres.json:12:20 /base/sizes/small_share: must lie in [0, 1], is 1.4"; control characters

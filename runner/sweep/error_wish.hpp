@@ -1,4 +1,4 @@
-// What people ask for of the means of a group, and of what is fitted to them.
+// The accuracy that people request of the means of a group, and of what is fitted to them.
 #pragma once
 
 namespace grainsweep {
@@ -6,7 +6,7 @@ namespace grainsweep {
 /// Every group that grows has so many packings before its scatter counts.
 inline constexpr int first_replicates = 6;
 
-/// Largest error of the means that is asked for; 0: none is.
+/// Largest error of the means that is requested; 0: none is.
 struct ErrorWish {
   double solid_fraction = 0.0;
   double coordination = 0.0;
@@ -15,7 +15,7 @@ struct ErrorWish {
 };
 
 /// Largest error of what is fitted to a family, phi = phi_bulk - C / W and Z = Z_bulk - C_Z / W,
-/// that is asked for; 0: none is.
+/// that is requested; 0: none is.
 struct FitWish {
   double phi_bulk = 0.0;
   double c = 0.0;  ///< d

@@ -40,7 +40,7 @@ Points points_of(const VerticesReading& reading) {
   return points;
 }
 
-/// The points in units of `size`, a length in theirs.
+/// The points in units of `size`, a length in their present unit.
 Points scaled_points(Points points, double size) {
   for (auto& point : points) {
     for (double& coordinate : point) coordinate = coordinate / size + 0.0;  // -0 and 0 are one
@@ -73,7 +73,7 @@ std::vector<const Assignments*> entries_of(const std::vector<const Axis*>& axes,
   return entries;
 }
 
-/// A file's name as tables show it.
+/// The name of a file as tables show it.
 std::string name_in_tables(const std::string& file) {
   return without_controls(begins_a_formula(file) ? "./" + file : file);
 }
@@ -90,14 +90,14 @@ struct Start {
   std::string pointer = {};  ///< its place in a list
 };
 
-/// Of what is in the files of a list, whatever they are called.
+/// Hash of what is in the files of a list, whatever they are called.
 std::string hash_of(const std::vector<Start>& starts) {
   std::string contents;
   for (const Start& start : starts) contents += start.content;
   return hex16(fnv1a(contents));
 }
 
-/// Of the grains themselves, however a file writes them.
+/// Hash of the grains themselves, however a file writes them.
 std::uint64_t hash_of(const PlacedGrains& placed) {
   const auto bytes_of = [](const auto& list) {
     return std::string_view(reinterpret_cast<const char*>(list.data()),
@@ -148,7 +148,7 @@ class Expansion {
     }
   }
 
-  /// For one large block at once; many small ones let the list grow by itself.
+  /// For one large block at once; with many small ones the list grows by itself.
   void make_room(std::uint64_t jobs) {
     if (jobs > jobs_.size()) jobs_.reserve(jobs_.size() + static_cast<std::size_t>(jobs));
   }
@@ -174,7 +174,7 @@ class Expansion {
     if (has_errors(diagnostics_)) return;
     const bool is_listed = !resolved.fill_files.empty();
     const std::string scene = canonical_scene(resolved);
-    // Of a list what is in its file belongs to each start by itself, so that lists may grow.
+    // In a list, the content of its file belongs to each start by itself, so that lists may grow.
     if (is_listed) resolved.fill_content = "one per replicate";
     const std::string identity = canonical_parameters(resolved);
     std::string parameters = identity;
@@ -208,7 +208,7 @@ class Expansion {
     }
   }
 
-  /// A start that is given comes out as one bed, whatever the seed: two would be no replicates.
+  /// A given start comes out as one bed, whatever the seed: two would be no replicates.
   void refuse_other_seed(const std::string& start, const ResolvedSpec& resolved,
                          const InEffect& in_effect) {
     const auto [known, is_new] = seed_of_start_.try_emplace(start, resolved.seed);
@@ -221,8 +221,9 @@ class Expansion {
          "other starts in fill.files");
   }
 
-  /// How many packings of a point there may be. Without walls nothing is on the line of a fit that
-  /// is asked for: such packings tell how they scatter, and stay at those that all have at first.
+  /// How many packings of a point there may be. Packings without walls are not on the line of a
+  /// requested fit: they only show how packings scatter, and keep the number that all have at
+  /// first.
   static int most_replicates_of(const Block& block, const PackingSpec& spec) {
     const int most = block.replicates.most;
     const bool is_walled = spec.box.y == Boundary::walls;
@@ -230,7 +231,7 @@ class Expansion {
     return is_beside_fit ? std::min(first_replicates, most) : most;
   }
 
-  /// What files the components of a mixture come from.
+  /// Notes which files the components of a mixture come from.
   static void note_hull_files(const Components& mixture, Job& job) {
     for (std::size_t k = 0; k < mixture.size(); ++k) {
       if (mixture[k].hull_file.empty()) continue;
@@ -251,8 +252,9 @@ class Expansion {
     jobs_.push_back(job);
   }
 
-  /// Where the grains of a point start: in one way for all replicates, or in a file for each. What
-  /// cannot be read is told and left at the default fill, so that the other rules can be checked.
+  /// Where the grains of a point start: in one way for all replicates, or in a file for each. A
+  /// file that cannot be read is reported and the default fill kept, so that the other rules can be
+  /// checked.
   std::vector<Start> starts_of(const Block& block, const InEffect& in_effect,
                                ResolvedSpec& resolved) {
     const Assignment *diameter = in_effect[diameter_], *file = in_effect[file_];
@@ -319,13 +321,13 @@ class Expansion {
   }
 
   /// Fills in what a shape needs besides its own parts: the vertices of a hull. If they cannot be
-  /// read, says so; what `check` would say of a hull without vertices is then said already.
+  /// read, says so; what `check` would say of a hull without vertices counts as said then.
   void place_vertices(const Block& block, const InEffect& in_effect, ResolvedSpec& resolved) {
     const Assignment* size = in_effect[hull_size_];
     const Assignment* file = in_effect[hull_file_];
     const Assignment* vertices = in_effect[hull_vertices_];
     const Assignment* source = file != nullptr ? file : vertices;
-    if (file != nullptr && vertices != nullptr) {  // told already
+    if (file != nullptr && vertices != nullptr) {  // reported already
       for (const Assignment* one : {file, vertices}) problems_.skip(one->pointer + " shape.hull");
       return;
     }
@@ -337,7 +339,7 @@ class Expansion {
       if (size == nullptr || !is_whole_) return;
       return note(*size, "belongs to shape.hull.vertices or shape.hull.file; neither is set");
     }
-    if (!std::holds_alternative<HullVertices>(resolved.spec.shape)) return;  // told already
+    if (!std::holds_alternative<HullVertices>(resolved.spec.shape)) return;  // reported already
     auto& hull = std::get<HullVertices>(resolved.spec.shape);
     bool is_sound = true;
     if (file != nullptr) {
@@ -355,7 +357,7 @@ class Expansion {
     if (!is_sound) problems_.skip(source->pointer + " shape.hull");
   }
 
-  /// The same of the hulls among the components of a mixture.
+  /// The same for the hulls among the components of a mixture.
   void place_components(const Block& block, const InEffect& in_effect, ResolvedSpec& resolved) {
     const Assignment* mixture = in_effect[mixture_];
     if (mixture == nullptr) return;
@@ -377,7 +379,7 @@ class Expansion {
     problems_.skip(block.pointer + " shape.hull");
   }
 
-  /// Of one of them, written at `source`; false if it cannot be used.
+  /// The same for one of them, written at `source`; false if it cannot be used.
   bool place_component(const Block& block, const Assignment& source, WrittenComponent& component) {
     Points points = std::get<HullVertices>(component.shape).points;
     bool is_sound = true;
@@ -394,8 +396,8 @@ class Expansion {
     return is_sound;
   }
 
-  /// Reads a table of sizes and brings the distribution to units of d. One that cannot be used is
-  /// told and taken out, so that the other rules can be checked.
+  /// Reads a table of sizes and converts the distribution to units of d. One that cannot be used is
+  /// reported and removed, so that the other rules can be checked.
   void place_sizes(const InEffect& in_effect, ResolvedSpec& resolved) {
     auto& distribution = resolved.spec.sizes.distribution;
     const Assignment *file = in_effect[size_file_], *size = in_effect[size_unit_];
@@ -423,7 +425,7 @@ class Expansion {
     diagnostics_.push_back({file.pointer, reading.note, Anchor::value, "", true});
   }
 
-  /// Tables of sieves are in the unit that a laboratory takes.
+  /// Notes the unit: tables of sieves are in the unit that a laboratory uses.
   void note_unit_of(const Assignment& file) {
     const GivenUnits& units = definition_.units;
     if (!units || !said_.insert(file.pointer + " unit").second) return;  // hides no error there
@@ -474,15 +476,15 @@ class Expansion {
       diagnostics_.push_back({assignment.pointer, message});
   }
 
-  /// Whether one value is wrong, whatever the others are.
+  /// Whether one value is wrong by itself, whatever the others are.
   static bool is_of_one_value(const SpecError& error, const InEffect& in_effect) {
     const auto parameter = find_parameter(error.path);
     const Assignment* const written = parameter ? in_effect[*parameter] : nullptr;
     return written != nullptr && !range_error(parameters()[*parameter], written->value).empty();
   }
 
-  /// Notes what one point breaks. Where something could not be read, what holds in its place says
-  /// nothing of the rules that several values keep together.
+  /// Notes what one point breaks. Where something could not be read, rules between several values
+  /// are not judged: what stands in its place says nothing about them.
   void note_broken_rules(const Block& block, const InEffect& in_effect,
                          const std::vector<SpecError>& errors, const Start& start) {
     for (const SpecError& error : errors) {
@@ -522,7 +524,7 @@ class Expansion {
     }
   }
 
-  /// Of choices also those that no point has drawn.
+  /// Checks also the choices that no point has drawn.
   void note_choices_out_of_range(const RandomPath& path) {
     const auto is_told = [&](const std::string& pointer) {
       return std::any_of(diagnostics_.begin(), diagnostics_.end(),
@@ -537,7 +539,7 @@ class Expansion {
     }
   }
 
-  /// What a block varies in the place of a value that it sets.
+  /// What a block varies instead of a value that it sets.
   static std::string varied_instead(const Assignment& value, const Block& block) {
     std::vector<std::size_t> varied;
     for (const Axis& axis : block.axes) {
@@ -559,8 +561,8 @@ class Expansion {
     return other != varied.end() ? parameters()[*other].path : set.path;
   }
 
-  /// Says which of `assignments` no packing depends on. Where `overridden` is no excuse for a value
-  /// that never holds, or the value could never be right, that is an error.
+  /// Says which of `assignments` no packing depends on. That is an error where `overridden` is no
+  /// excuse for a value that never holds, or where the value could never be right.
   void note_unused(const Assignments& assignments, const std::string& overridden,
                    const Block* block) {
     for (const Assignment& assignment : assignments) {
@@ -599,7 +601,7 @@ class Expansion {
     }
   }
 
-  /// Points of a block that are drawn or written again: equal ones are one point.
+  /// Notes points of a block that are drawn or written again: equal ones are one point.
   void note_repeated_points() {
     for (const auto& [index, count] : repeated_) {
       const Block& block = definition_.blocks[index];
@@ -638,10 +640,10 @@ class Expansion {
   std::map<std::string, SizesReading> sizes_;      // by file
   PointProblems problems_;
   std::set<std::string> said_;
-  /// Of every value that was in effect: why no packing depended on it so far; "" if one did.
+  /// For every value that was in effect: why no packing depended on it so far; "" if one did.
   std::unordered_map<const Assignment*, std::string> idle_;
   std::uint64_t placed_ = 0, vertices_ = 0;
-  bool is_whole_;  ///< no value was left out, and no file, that could not be read
+  bool is_whole_;  ///< whether no value or file was left out as unreadable
 };
 
 }  // namespace

@@ -22,7 +22,7 @@ constexpr std::string_view component_name = "component";
 
 /// Where the columns are.
 struct Columns {
-  std::vector<std::size_t> numbers;      ///< of column_names, or of the needed ones alone
+  std::vector<std::size_t> numbers;      ///< of column_names, or of the needed ones only
   std::optional<std::size_t> component;  ///< if there is one
 };
 
@@ -63,8 +63,8 @@ std::optional<Columns> columns_of(const LineCells& header, std::string& error) {
   return columns;
 }
 
-/// The component that a cell tells, from 1 there and from 0 here. What tells none is left to those
-/// that need it: the file of grains that are no mixture may hold anything there.
+/// The component in a cell, from 1 there and from 0 here. A cell without one is left to those that
+/// need it: the file of grains that are no mixture may hold anything there.
 std::uint8_t component_in(std::string_view cell) {
   const auto number = finite_number(cell);
   for (std::uint8_t k = 0; number && k < most_components; ++k) {
@@ -94,7 +94,7 @@ std::string read_grain(const LineCells& cells, const Columns& columns, std::size
   return "";
 }
 
-/// Lines of grains that begin where another does, and would stay there: no direction parts them.
+/// Notes grains that start at the place of another, and would stay there: no direction parts them.
 void note_shared_places(const std::string& file, GrainsReading& reading) {
   std::vector<std::size_t> order(reading.grains.size());
   std::iota(order.begin(), order.end(), std::size_t{0});

@@ -1,8 +1,8 @@
-// Grains from a CSV file: where a bed starts that comes from elsewhere.
+// Grains from a CSV file, from which a bed can start.
 //
-// The first line names the columns; x, y, z and r (or radius) must be among them, and for
-// non-spherical grains qx, qy, qz and qw, for those of a mixture component; others are left alone:
-// a bed written by `export` can be packed again. One grain per line, decimal points.
+// The first line names the columns; x, y, z and r (or radius) must be among them, for non-spherical
+// grains also qx, qy, qz and qw, and for those of a mixture the column component. Others are
+// ignored: a bed written by `export` can be packed again. One grain per line, decimal points.
 #pragma once
 
 #include <array>
@@ -20,10 +20,10 @@ inline constexpr std::uint8_t no_component = 255;
 
 struct GrainsReading {
   std::vector<PlacedSphere> grains;  ///< in the file's own unit of length
-  /// Quaternions as of PlacedGrains; empty if the file has no columns for them.
+  /// Quaternions as in PlacedGrains; empty if the file has no columns for them.
   std::vector<std::array<double, 4>> orientations;
-  /// Components as of PlacedGrains, where a cell holds no number of one no_component; empty if the
-  /// file has no column for them.
+  /// Components as in PlacedGrains, no_component where a cell holds no component's number; empty if
+  /// the file has no column for them.
   std::vector<std::uint8_t> components;
   std::string content;             ///< hash of the file's bytes, 16 hex digits
   std::vector<Diagnostic> errors;  ///< with places "bed.csv:12"; at most 20 of a file

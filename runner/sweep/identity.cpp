@@ -28,7 +28,7 @@ Member member_of(const Parameter& parameter) {
   return member;
 }
 
-/// Those that are `wanted`, by their paths.
+/// Those parameters that are `wanted`, by their paths.
 template <class Wanted>
 std::vector<Member> members_where(Wanted wanted) {
   std::vector<Member> members;

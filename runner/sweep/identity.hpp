@@ -21,22 +21,22 @@ namespace grainsweep {
 /// 16 hex digits: hash of the coordinates, in their order.
 std::string hash_of(const HullVertices& hull);
 
-/// The same of a table of sizes.
+/// The same for a table of sizes.
 std::string hash_of(const SizeTable& table);
 
 /// Share and shape of a component of a mixture: {"cube":{"edge":1},"share":0.7}.
 std::string canonical_component(double share, const ResolvedSpec& shape);
 
-/// Every parameter of the packing as JSON without spaces, keys sorted, numbers as short as they
-/// read back exactly (20, not 20.0). Presets appear as their parts, a fill file as the hash of its
-/// content, a hull as that of its vertices, a file of sizes as that of its numbers, a mixture as
-/// its components by their numbers, from 1.
+/// Every parameter of the packing as JSON without spaces, keys sorted, numbers in the shortest form
+/// that reads back exactly (20, not 20.0). Presets appear as their parts, a fill file as the hash
+/// of its content, a hull as that of its vertices, a file of sizes as that of its numbers, a
+/// mixture as its components by their numbers, from 1.
 std::string canonical_parameters(const ResolvedSpec& resolved);
 
 /// The id of a job, as a number.
 std::uint64_t job_hash(std::string_view parameters, std::uint64_t seed, int replicate);
 
-/// What of those is packed: without "accuracy" and "measure".
+/// Those parameters that say what is packed: all but "accuracy" and "measure".
 std::string canonical_scene(const ResolvedSpec& resolved);
 
 /// The key of a job's random numbers. Jobs that differ in nothing but how accurately they are made

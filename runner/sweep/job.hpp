@@ -23,14 +23,15 @@ struct Job {
   PackingSpec spec;        ///< random_key: of scene, master seed and replicate
   /// Files it was read from, as written, by the parameter that each gave: "fill.file".
   std::map<std::string, std::string> files = {};
-  /// Of its group, which grows until half of the 95 % interval of its means, with the bound of the
-  /// bias of settling where one was measured, is no larger; not part of its identity.
+  /// Requested of its group, which grows until half of the 95 % interval of its means, including
+  /// the bound of the bias of settling where one was measured, is no larger; not part of its
+  /// identity.
   ErrorWish wish = {};
-  /// Of its family: the groups between walls grow until half of the 95 % intervals are no larger,
-  /// that of a bulk value with the same bound. Not beside a wish of its group.
+  /// Requested of its family: the groups between walls grow until half of the 95 % intervals are no
+  /// larger, that of a bulk value including the same bound. Not together with `wish`.
   FitWish fit_wish = {};
-  ErrorWish asked_accuracy = {};  ///< what chose the preset it settles as; none if that was named
-  std::size_t block = 0;          ///< of the sweep, that it comes from
+  ErrorWish asked_accuracy = {};  ///< what chose the preset it settles as; none if a name did
+  std::size_t block = 0;          ///< number of the sweep's block that it comes from
 };
 
 struct Sweep {
@@ -40,7 +41,7 @@ struct Sweep {
   std::vector<Job> jobs;  ///< in the order of the file: block, point, replicate; no id twice
   GivenUnits units = {};  ///< what people want lengths in; no part of any job
   std::vector<std::string> block_pointers = {};  ///< where each block is written
-  std::vector<std::string> wish_pointers = {};   ///< where its wishes are
+  std::vector<std::string> wish_pointers = {};   ///< where its requested accuracies are
 };
 
 }  // namespace grainsweep

@@ -45,7 +45,7 @@ bool has(std::string_view text, std::string_view part) {
   return text.find(part) != std::string_view::npos;
 }
 
-/// The parser's own words behind "syntax error while parsing ...".
+/// The parser's own words after "syntax error while parsing ...".
 std::string plain(const std::string& complaint) {
   const std::size_t dash = complaint.find(" - ");
   std::string words = dash == std::string::npos ? complaint : complaint.substr(dash + 3);
@@ -129,7 +129,7 @@ bool lacks_comma(std::string_view text, std::size_t at, const std::string& compl
 
 SyntaxError syntax_error(const std::string& text, const SyntaxStop& stop,
                          const std::string& complaint) {
-  // A number that breaks off is noticed at the character behind it.
+  // A number that breaks off is noticed at the character after it.
   const bool breaks_off = has(complaint, "invalid number") && stop.at > 0;
   const std::size_t last = breaks_off && !ends_number(text, stop.at + 1) ? stop.at - 1 : stop.at;
   const std::size_t at = word_start(text, last);

@@ -34,9 +34,9 @@ struct Cursor {
 
 /// Builds the values as the parser finds them, and notes the place of each.
 ///
-/// An event comes when the parser has read a token and no more, save that a number is known to end
-/// only by the character behind it. Between two tokens stand nothing but blanks, commas and colons:
-/// what follows them is the start of the next.
+/// An event comes when the parser has read a token and no more, except that the end of a number is
+/// known only from the character after it. Between two tokens there are only blanks, commas and
+/// colons: what follows them is the start of the next.
 class Builder final : public nlohmann::json_sax<Json> {
  public:
   Builder(const std::string& text, std::string file)
@@ -178,8 +178,8 @@ Wanted wanted_pointers(const Diagnostics& diagnostics) {
   return wanted;
 }
 
-/// Finds what is wanted of `value`, written at `pointer`. `place` is its place at first, and the
-/// one behind it and all its parts at last.
+/// Finds what is wanted of `value`, written at `pointer`. `place` is its place at first, and at
+/// last the place after it and all its parts.
 void look_up(const Json& value, const std::string& pointer, const JsonPlace*& place,
              Wanted& wanted) {
   const auto entry = wanted.find(pointer);

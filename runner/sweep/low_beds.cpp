@@ -15,14 +15,14 @@ double least_height(const MeasureSpec& measure) {
   return measure.exclude_floor + measure.exclude_surface + least_slab_height;
 }
 
-/// Those of a block that are too low.
+/// The beds of a block that are too low.
 struct LowBeds {
-  std::size_t sets = 0, low = 0;  ///< parameter sets, and of them too low ones
+  std::size_t sets = 0, low = 0;  ///< parameter sets, and how many of them are too low
   const PackingSpec* lowest = nullptr;
   double height = 0.0;  ///< of the lowest, d
 };
 
-/// Of a file's grains a few may be packed to be exported alone.
+/// A few of a file's grains may be packed only to be exported.
 void count(const PackingSpec& spec, LowBeds& beds) {
   ++beds.sets;
   if (std::holds_alternative<PlacedGrains>(spec.fill)) return;

@@ -7,8 +7,8 @@
 
 namespace grainsweep {
 
-/// A note for each block that has such beds: how many, and what of them. Takes a third of the time
-/// that reading the sweep took.
+/// A note for each block that has such beds: how many, and how to mend them. Takes a third of the
+/// time that reading the sweep took.
 Diagnostics notes_on_low_beds(const Sweep& sweep);
 
 }  // namespace grainsweep

@@ -93,7 +93,8 @@ class ComponentReader {
     return false;
   }
 
-  /// That a hull, if it is one, has vertices, and a size.
+  /// Whether the component, if it is a hull, has vertices and a positive size; notes what is
+  /// missing.
   bool has_vertices(const Assignments& assignments) {
     const auto has_role = [](Role role) {
       return [role](const Assignment& one) { return parameters()[one.parameter].role == role; };

@@ -20,8 +20,8 @@ std::string_view next_word(std::string_view& line) {
   return word;
 }
 
-/// The vertices of a face, "1/2/3 4//5 -1", as numbers from 0, a negative one back from the last of
-/// `known`; what is wrong with them, or "".
+/// Reads the vertices of a face, "1/2/3 4//5 -1", as numbers from 0, a negative one counted back
+/// from the last of `known`; returns what is wrong with them, or "".
 std::string read_face(std::string_view words, std::size_t known, std::vector<std::int32_t>& face) {
   for (std::string_view word = next_word(words); !word.empty(); word = next_word(words)) {
     const std::string_view number = word.substr(0, word.find('/'));
@@ -36,7 +36,7 @@ std::string read_face(std::string_view words, std::size_t known, std::vector<std
                          : "";
 }
 
-/// Faces may come before their vertices.
+/// Notes vertices of faces that are missing; faces may come before their vertices.
 void note_missing_vertices(VerticesReading& reading) {
   const auto count = static_cast<std::int32_t>(reading.vertices.size());
   for (std::size_t f = 0; f < reading.faces.size(); ++f) {

@@ -1,8 +1,8 @@
 // Vertices from a Wavefront OBJ file: where the shape of a hull comes from.
 //
-// Of the lines "v x y z" the hull is taken; those of faces, "f 1 2 3", tell whether that is the
-// body meant. All others are left alone. Decimal points; a fourth number (weight) and colours after
-// it are ignored.
+// The hull is made from the lines "v x y z"; the lines of faces, "f 1 2 3", tell whether that is
+// the intended body. All other lines are ignored. Decimal points; a fourth number (weight) and
+// colours after it are ignored.
 #pragma once
 
 #include <string>
@@ -24,8 +24,8 @@ struct VerticesReading {
   std::vector<Diagnostic> errors;             ///< with places "rock.obj:12"; at most 20 of a file
 };
 
-/// The coordinates of a vertex, words separated by blanks; what is wrong with them, or "". Words
-/// behind the third are left alone.
+/// Reads the coordinates of a vertex, words separated by blanks; returns what is wrong with them,
+/// or "". Words after the third are ignored.
 std::string read_vertex(std::string_view coordinates, Vector& vertex);
 
 /// Reads vertices from the file at `path`. Refuses coordinates that are missing or no finite

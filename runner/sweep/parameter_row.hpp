@@ -55,13 +55,13 @@ std::optional<Value> get_member(const ResolvedSpec& resolved) {
   }
 }
 
-/// Of what does not belong to a job's identity.
+/// For what does not belong to a job's identity.
 inline std::optional<Value> no_identity(const ResolvedSpec&) { return std::nullopt; }
 
 /// Names, each with what it means.
 using Names = std::vector<std::pair<std::string, std::string>>;
 
-/// What may be written: numbers of a range, names, or whatever is of the parameter's kind.
+/// What may be written: numbers in a range, names, or whatever fits the parameter's kind.
 struct WrittenValues {
   WrittenValues() = default;
   WrittenValues(Interval numbers) : range(numbers) {}
@@ -111,7 +111,7 @@ ShapeSpec shape_with_part(const std::string& path);
 /// The rows about the sizes of grains: two classes, and the distributions in their place.
 std::vector<Parameter> size_parameters();
 
-/// Writes all diameters of a distribution in units of `size`, a length in theirs.
+/// Converts all diameters of a distribution to units of `size`, a length in their present unit.
 void to_units_of(double size, SizeDistribution& distribution);
 
 }  // namespace grainsweep

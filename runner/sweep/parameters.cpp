@@ -27,7 +27,7 @@ std::optional<SizeFormula> usual_formula(Role role) {
   }
 }
 
-/// Why a cut of a curve that has ends of its own takes nothing away; "" if it does.
+/// Why cutting a curve that has ends of its own removes nothing; "" if it does.
 std::string cut_reason(bool is_smallest, const std::optional<SizeDistribution>& distribution) {
   const bool has_ends =
       distribution && (std::holds_alternative<SizeTable>(distribution->formula) ||

@@ -94,7 +94,7 @@ const std::vector<Parameter>& parameters();
 /// Index of the parameter called `path`.
 std::optional<std::size_t> find_parameter(std::string_view path);
 
-/// Whether a path names a number that any value of an interval may have.
+/// Whether a path names a number that may have any value of an interval.
 bool is_interval(const std::string& path);
 
 /// Index of the first parameter with this role, which one must have.
@@ -103,8 +103,8 @@ std::size_t parameter_with(Role role);
 /// Which choice a parameter belongs to.
 Choice choice_of(const Parameter& parameter);
 
-/// Whether two parameters describe a box and a tube, or sizes or the accuracy in two ways: of these
-/// there is one.
+/// Whether two parameters describe a box and a tube, or the sizes or the accuracy in two ways: only
+/// one of them may hold.
 bool are_alternatives(const Parameter& a, const Parameter& b);
 
 /// The preset whose name may be written in the place of the group `path`; nothing if none may.

@@ -19,7 +19,7 @@ std::string text_of(const Assignment& assignment) {
                             : shortened(written_value(parameter, assignment.value).dump()));
 }
 
-/// `block "plates"`; those without a label are numbered by one.
+/// `block "plates"`; blocks without a label are numbered from one.
 std::string name_of(const Block& block) {
   return block.label.starts_with("block ") ? block.label : "block \"" + block.label + "\"";
 }

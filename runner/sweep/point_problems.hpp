@@ -1,6 +1,6 @@
-// What the points of a sweep break. Each value is named once, for the first point that breaks a
-// rule with it. Where other points have the value and do not, or break it otherwise, the message
-// says which point it is about.
+// Which rules the points of a sweep break. Each value is named once, for the first point that
+// breaks a rule with it. If other points with that value break no rule, or break it in another way,
+// the message says which point it is about.
 #pragma once
 
 #include <cstddef>
@@ -22,17 +22,17 @@ class PointProblems {
   PointProblems(const SweepDefinition& definition, Diagnostics& diagnostics)
       : definition_(definition), diagnostics_(diagnostics) {}
 
-  /// What is noted from here on is of this point of `block`, where its lists give the values
+  /// Problems noted from here on are of this point of `block`, where its lists give the values
   /// `entries`, which must live until the next point begins.
   void begin_point(const Block& block, const std::vector<const Assignments*>& entries,
                    const InEffect& in_effect);
 
-  /// Notes at `pointer` what the point breaks with `value`, or with a default if that is null. What
-  /// has the same `key` is noted of the first point only.
+  /// Notes at `pointer` what the point breaks with `value`, or with a default if that is null. A
+  /// problem with the same `key` is noted for the first point only.
   void note(const std::string& key, const std::string& pointer, const std::string& message,
             const Assignment* value);
 
-  /// Takes what has this key for said already.
+  /// Treats a problem with this key as noted already.
   void skip(const std::string& key) { said_.try_emplace(key); }
 
   /// Adds to the messages which points they are about, once all points are through.

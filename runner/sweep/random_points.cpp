@@ -22,7 +22,7 @@ double number_between(const RandomPath& random, double u) {
   return std::clamp(nine_digits(value), random.low, random.high);
 }
 
-/// Every whole number of a uniform range is equally likely, the bounds too.
+/// Every whole number of a uniform range is equally likely, also the bounds.
 std::int64_t whole_between(const RandomPath& random, double u) {
   if (random.distribution == Distribution::log_uniform) {
     return static_cast<std::int64_t>(std::round(number_between(random, u)));

@@ -7,7 +7,7 @@
 namespace grainsweep {
 namespace {
 
-/// `key` of the wishes, 0 if it is not there.
+/// `key` of the requested errors, 0 if it is not there.
 double read_wish(const Json& until, const char* key, const std::string& pointer,
                  Diagnostics& diagnostics) {
   constexpr Interval errors{0.0, 1.0, true};
@@ -20,7 +20,7 @@ double read_wish(const Json& until, const char* key, const std::string& pointer,
   return errors.high;
 }
 
-/// The wishes of a fit: of its bulk values and slopes.
+/// The requested errors of a fit: of its bulk values and slopes.
 FitWish read_fit_wish(const Json& fit, const std::string& pointer, Diagnostics& diagnostics) {
   if (!fit.is_object() || fit.empty()) {
     diagnostics.push_back(
@@ -32,7 +32,7 @@ FitWish read_fit_wish(const Json& fit, const std::string& pointer, Diagnostics& 
   return {wish("phi_bulk"), wish("C"), wish("Z_bulk"), wish("C_Z")};
 }
 
-/// Reads what errors are small enough: of means, or of a fit.
+/// Reads which errors are small enough: of means, or of a fit.
 void read_until(const Json& until, const std::string& pointer, Replicates& replicates,
                 Diagnostics& diagnostics) {
   refuse_unknown_keys(until, pointer, {"solid_fraction", "coordination", "fit"}, diagnostics);

@@ -1,4 +1,4 @@
-// "replicates" of a sweep or of a block: so many, or as many as an error takes.
+// "replicates" of a sweep or of a block: a number, or as many as a requested error takes.
 #pragma once
 
 #include <string>
@@ -17,11 +17,11 @@ struct Replicates {
   int most = 1;
   ErrorWish wish = {};
   FitWish fit_wish = {};
-  std::string wish_pointer = {};  ///< where the wishes are written
+  std::string wish_pointer = {};  ///< where the requested errors are written
 };
 
-/// What `object`, which `pointer` leads to, says of them; `otherwise` if it says nothing, or
-/// nothing right, which is noted.
+/// Reads them from `object`, which `pointer` leads to; returns `otherwise` if it says nothing about
+/// them, or something wrong, which is noted.
 Replicates read_replicates(const Json& object, const std::string& pointer,
                            const Replicates& otherwise, Diagnostics& diagnostics);
 

@@ -16,7 +16,7 @@ struct SweepReading {
   std::vector<Diagnostic> notes;   ///< of a sweep without errors: what is written and never used
 };
 
-/// What is wrong with a sweep that is right by its file, or worth a note.
+/// Finds what else is wrong with a sweep whose file is right, or worth a note.
 using SweepCheck = std::function<Diagnostics(const Sweep&)>;
 
 /// Reads and expands a sweep file, and looks at what `check` says of it. Never throws for bad

@@ -12,7 +12,7 @@ namespace {
 constexpr Interval allowed_lengths{0.0, largest_length, true};
 constexpr Interval densities{least_density, largest_density};
 
-/// The number at `key`; none if it is wrong, and that is noted.
+/// The number at `key`; none if it is wrong, which is noted.
 std::optional<double> number_at(const std::string& key, const Json& value, const Interval& range,
                                 const char* of, Diagnostics& diagnostics) {
   if (value.is_number() && range.holds(value.get<double>())) return value.get<double>();

@@ -39,7 +39,7 @@ Json point() {
   return {{"type", "array"}, {"minItems", 3}, {"maxItems", 3}, {"items", {{"type", "number"}}}};
 }
 
-/// Of points: that they do not all have x = 0, nor y = 0, nor z = 0.
+/// For points: they do not all have x = 0, nor y = 0, nor z = 0.
 Json off_each_coordinate_plane() {
   Json rules = Json::array(), items = Json::array();
   for (int axis = 0; axis < 3; ++axis) {
@@ -128,7 +128,7 @@ Json kind_schema(const Parameter& parameter) {
   return names_of(parameter);
 }
 
-/// An object of any parameters, of which each is said once.
+/// An object of any parameters, in which each is said once.
 Json layer(const Json& members) {
   Json schema = closed_object(members);
   schema["allOf"] = Json::array({reference("each once")});  // {…} of one Json: compilers differ
@@ -136,7 +136,7 @@ Json layer(const Json& members) {
 }
 
 /// A parameter or a group in "base" or "set". A tube needs its diameter there; in a list, where
-/// others of its rows may be of boxes, an empty one says nothing.
+/// other rows may be boxes, an empty tube says nothing.
 Json held(const std::string& path) {
   if (path != "tube") return reference(path);
   return described(meaning_of_group(path),
@@ -203,7 +203,7 @@ Json lists(const std::string& what) {
   }));
 }
 
-/// Of a grid: a value that is there twice would be packed twice. Numbers may be spaced evenly.
+/// For a grid: a value that is there twice would be packed twice. Numbers may be spaced evenly.
 Json distinct_lists() {
   return closed_object(members_by_path([&](const auto& path) {
     Json list = list_of(reference(path));
@@ -329,7 +329,7 @@ Json units_schema() {
   return units;
 }
 
-/// Members for people, line by line; of rules, which nobody reads, one a line.
+/// Writes members for people, line by line; rules, which nobody reads, one per line.
 std::string written(const Json& schema) {
   std::string text;
   for (const auto& [key, value] : schema.items()) {

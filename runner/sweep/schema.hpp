@@ -1,5 +1,5 @@
-// The JSON Schema of sweep files, made from the table of parameters: editors complete and underline
-// with it what `validate` would say.
+// The JSON Schema of sweep files, made from the table of parameters: with it, editors complete keys
+// and underline what `validate` would complain about.
 #pragma once
 
 #include <string>

@@ -24,8 +24,9 @@ Json named(const char* name) { return {{"const", name}}; }
 Json at_least(double value) { return number_with({{"minimum", value}}); }
 Json at_most(double value) { return number_with({{"maximum", value}}); }
 
-/// The value nearest to `right` that is refused, of those between `refused` and it: a packing is
-/// usual in all but what `set` makes of the value. Nothing where it is not as the names say.
+/// The value nearest to `right` that is refused, among those between `refused` and it: a packing is
+/// usual in all but what `set` makes of the value. Nothing where `refused` or `right` is not as its
+/// name says.
 template <class Set>
 std::optional<double> last_refused(double refused, double right, Set set) {
   const auto is_refused = [&](double value) {
@@ -41,9 +42,9 @@ std::optional<double> last_refused(double refused, double right, Set set) {
   return refused;
 }
 
-/// What is refused: `anywhere` may be said wherever one likes and changes nothing as long as it
-/// fits; of the `steps` one is said in the base, or true of what is usual and not denied by the
-/// base. Nothing else of the groups is said.
+/// What is refused. `anywhere`: may be said in any place and changes nothing as long as it fits.
+/// `steps`: one of them is said in the base, or holds by default and is not denied by the base.
+/// Nothing else about the groups is said.
 struct EdgeRule {
   std::string groups;
   std::vector<Mention> anywhere;
@@ -58,7 +59,7 @@ Json said(const std::string& path, const Json& value) {
   return with("base", in_any_way(path, value));
 }
 
-/// That it is said, or, where the usual value is such a one, that no other is.
+/// That it is said, or, where the usual value is such a one, that no other is said.
 Json said_or_usual(const std::string& path, const Json& value, bool is_usual) {
   return is_usual ? no(said(path, no(value))) : said(path, value);
 }
@@ -67,7 +68,7 @@ Json forbidden(const EdgeRule& edge) {
   return not_all({says_only(edge.groups, edge.anywhere, edge.in_base), {{"anyOf", edge.steps}}});
 }
 
-/// That a period holds no two spheres of the usual sizes.
+/// Periods that hold no two spheres of the usual sizes.
 EdgeRule short_periods() {
   const auto most = last_refused(1.0, 15.0, [](auto& spec, double d) { spec.box.length = d; });
   return {all_groups,
@@ -226,7 +227,7 @@ EdgeRule narrow_tubes() {
           {{"shape"}, {"tube.diameter"}}};
 }
 
-/// The longest steps that are too short for grains of the usual bed to come down in time.
+/// The longest of the steps that are too short for grains of the usual bed to come down in time.
 double too_short_step(const ShapeSpec& shape) {
   return *last_refused(1e-4, 0.2, [&](auto& spec, double step) {
     spec.shape = shape;
@@ -235,7 +236,7 @@ double too_short_step(const ShapeSpec& shape) {
   });
 }
 
-/// Such steps, or shorter ones, of that bed or a higher one.
+/// Such steps, or shorter ones, for that bed or a higher one.
 EdgeRule short_steps() {
   const auto with_shape = [](const ShapeSpec& shape, const Json& name) -> Json {
     return {{"allOf",
@@ -253,7 +254,7 @@ EdgeRule short_steps() {
       {{"shape"}, {"accuracy.step"}}};
 }
 
-/// Accuracies that no preset keeps of spheres of one size, or of the usual pinacoids.
+/// Accuracies that no preset keeps for spheres of one size, or for the usual pinacoids.
 EdgeRule unkept_accuracies() {
   std::vector<Json> steps;
   const auto add = [&](BedKind kind, const char* path, double ProtocolBias::*bound) {
@@ -276,7 +277,7 @@ EdgeRule unkept_accuracies() {
           {{"shape"}, {"accuracy.solid_fraction"}, {"accuracy.coordination"}}};
 }
 
-/// Accuracies that are asked for of shapes of which no bound was measured, or of tubes of others
+/// Accuracies requested for shapes for which no bound was measured, or for tubes of other grains
 /// than spheres.
 EdgeRule unmeasured_accuracies() {
   const Json asks = {{"anyOf",
@@ -294,7 +295,7 @@ EdgeRule unmeasured_accuracies() {
           {{"shape"}, {"tube.diameter"}, {"accuracy.solid_fraction"}, {"accuracy.coordination"}}};
 }
 
-/// Neighbours by another gap than that at which bounds of their number were measured.
+/// Neighbours counted by another gap than that at which bounds of their number were measured.
 EdgeRule unmeasured_gaps() {
   const Json other = {{"not", {{"const", measured_gap}}}};
   const Json gaps = {{"type", "array"}, {"minItems", 1}, {"items", Json::array({other})}};

@@ -7,8 +7,8 @@
 
 namespace grainsweep {
 
-/// Of a whole sweep: rules that all hold. A sweep that breaks one is refused by check() for every
-/// packing it makes; of those that check() refuses some lie between two steps.
+/// Rules for a whole sweep, all of which hold. If a sweep breaks one, check() refuses every packing
+/// that it makes; some packings that check() refuses lie between two steps.
 Json edge_rules();
 
 }  // namespace grainsweep

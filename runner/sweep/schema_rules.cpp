@@ -17,7 +17,7 @@ Json has_key(const std::string& pattern) {
   return {{"type", "object"}, {"not", {{"propertyNames", no({{"pattern", pattern}})}}}};
 }
 
-/// That a layer says what formula its distribution of sizes has, or a part of one, in any spelling.
+/// That a layer gives the formula of its distribution of sizes, or a part of one, in any spelling.
 Json has_size_formula() {
   const std::string formula = "(lognormal|uniform|weibull|table)(\\.|$)";
   const Json inside = has_key("^" + formula);
@@ -36,7 +36,7 @@ Json with_block_about(const std::string& pattern) {
   return with("sweep", {{"contains", {{"anyOf", ways}}}});
 }
 
-/// Groups and parameters of sizes of which only one may be said.
+/// Groups and parameters of sizes of which only one may be given.
 std::vector<std::pair<std::string, std::string>> alternative_sizes() {
   const std::string all = "sizes.distribution", table = all + ".table.";
   std::vector<std::pair<std::string, std::string>> pairs;
@@ -57,7 +57,7 @@ std::vector<std::pair<std::string, std::string>> alternative_sizes() {
 /// Keys that begin with this name: "cube", "cube.edge".
 Json begins_with(const std::string& name) { return {{"pattern", "^" + name + "(\\.|$)"}}; }
 
-/// Matches the keys that a shape has: those of a mixture begin alike.
+/// Matches the keys of a shape; those of a mixture begin with the same letters.
 std::string keys_of(std::string_view name) {
   return std::string(name) + (name == "mixture" ? "(_by)?" : "");
 }
@@ -71,7 +71,7 @@ Json one_shape_inside() {
   return {{"anyOf", ways}};
 }
 
-/// That an object of parameters says one shape, by name, by its parts, or not at all.
+/// That an object of parameters gives one shape, by name, by its parts, or none.
 Json one_shape() {
   const Json about_others = no(begins_with("shape\\.[a-z_]+"));
   std::vector<Json> ways;
@@ -85,8 +85,8 @@ Json one_shape() {
   return {{"anyOf", ways}};
 }
 
-/// Of a layer, or of the group: beside an accuracy that is asked for stands no preset, nor a part
-/// that changes how beds settle.
+/// For a layer, or the group: beside a requested accuracy there is no preset, nor a part that
+/// changes how beds settle.
 Json asked_for_alone(const std::string& group) {
   const std::string all = "accuracy.";
   const std::size_t inside = group.empty() ? 0 : all.size();

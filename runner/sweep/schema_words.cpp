@@ -37,7 +37,7 @@ Json members_of(const std::string& prefix, const std::vector<Mention>& mentions)
   return members;
 }
 
-/// An object of parameters that says of the groups nothing but these members.
+/// An object of parameters that says nothing about the groups but these members.
 Json layer_with(const Json& members, const std::string& groups) {
   std::vector<Json> names = {no(is_about(groups))};
   for (const auto& [key, value] : members.items()) names.push_back({{"const", key}});

@@ -14,20 +14,20 @@ std::vector<double> round_numbers(double least, double most);
 /// That a value does not fit `schema`.
 Json no(const Json& schema);
 
-/// That a value fits not all of them together.
+/// That a value does not fit all of them at once.
 Json not_all(const std::vector<Json>& schemas);
 
 /// That an object has the member, and it fits.
 Json with(const std::string& member, const Json& schema);
 
-/// That an object holds the member `path`, in each way to write it, "a.b": 1 and "a": {"b": 1},
-/// and that it fits.
+/// That an object holds the member `path`, in each way to write it, "a.b": 1 and "a": {"b": 1}, and
+/// that the member fits.
 std::vector<Json> spellings(const std::string& path, const Json& value = Json::object());
 
-/// That it does in any of these ways.
+/// That it does so in any of these ways.
 Json in_any_way(const std::string& path, const Json& value = Json::object());
 
-/// A number of these bounds, {"minimum": 3}.
+/// A number with these bounds, {"minimum": 3}.
 Json number_with(const Json& bounds);
 
 /// A list of such entries.
@@ -39,8 +39,8 @@ struct Mention {
   Json value = Json::object();
 };
 
-/// That a sweep says of these groups ("box|fill") nothing but what is listed: `anywhere` in its
-/// base and its blocks, and in its base alone.
+/// That a sweep says nothing about these groups ("box|fill") but what is listed: `anywhere` in its
+/// base and its blocks, `in_base` in its base only.
 Json says_only(const std::string& groups, const std::vector<Mention>& anywhere,
                const std::vector<Mention>& in_base);
 

@@ -19,7 +19,7 @@ ShapeSpec usual_shape(std::size_t index, std::index_sequence<indices...> /*all*/
   return shapes[index];
 }
 
-/// The shape of this place among shape_names, with its defaults.
+/// The shape at this place among shape_names, with its defaults.
 ShapeSpec usual_shape(std::size_t index) {
   return usual_shape(index, std::make_index_sequence<shape_names.size()>());
 }

@@ -1,8 +1,8 @@
 // A table of grain sizes from a CSV file: a sieve curve.
 //
 // The first line names the columns: diameter, and passing (the share finer than it) or share (of
-// the grains of just this diameter); others are left alone. A row per line, in any order, with
-// decimal points.
+// the grains of just this diameter); others are ignored. A row per line, in any order, with decimal
+// points.
 #pragma once
 
 #include <string>

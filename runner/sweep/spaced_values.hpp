@@ -11,7 +11,8 @@ namespace grainsweep {
 inline constexpr std::int64_t most_spaced_values = 1'000'000;
 
 /// The list of values that such an object stands for, both ends included, each rounded to nine
-/// digits, of whole numbers to the nearest one; notes what is wrong with it and returns null.
+/// digits, or to the nearest whole number if they are whole; notes what is wrong with it and
+/// returns null.
 Json spaced_values(const std::string& path, const Json& range, const std::string& pointer,
                    Diagnostics& diagnostics);
 

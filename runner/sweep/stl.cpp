@@ -16,7 +16,7 @@
 namespace grainsweep {
 namespace {
 
-// A file of bytes: a heading, the number of triangles, and of each a normal, three corners, all
+// A file of bytes: a heading, the number of triangles, and for each a normal and three corners, all
 // little-endian f32, and a number that nothing uses.
 constexpr std::size_t heading = 80, triangle = 50, corner = 12;
 
@@ -32,12 +32,12 @@ std::uint64_t triangles_of(const std::string& bytes) {
   return has_count ? number_at<std::uint32_t>(bytes, heading) : 0;
 }
 
-/// The bytes that a file of so many triangles has.
+/// The size in bytes of a file of so many triangles.
 std::uint64_t size_with(std::uint64_t triangles) {
   return heading + sizeof(std::uint32_t) + triangle * triangles;
 }
 
-/// Takes the corners of triangles, three after three; each is a vertex once, in the order in which
+/// Takes the corners of triangles, three at a time; each is a vertex once, in the order in which
 /// they come.
 class Triangles {
  public:
@@ -99,7 +99,7 @@ VerticesReading parse_text(const std::string& text, const std::string& file) {
   return reading;
 }
 
-/// A body that is not convex would become its hull, and that is another one: a ring a cylinder.
+/// A body that is not convex would become its hull, which is another body: a ring a cylinder.
 void note_dent(VerticesReading& reading) {
   const auto dent = deepest_dent(reading.vertices, reading.faces);
   if (!dent) return;
@@ -131,7 +131,8 @@ bool is_stl(const std::string& path) {
   return ending == ".stl";
 }
 
-/// Files of bytes may begin with the word that files of text begin with, "solid": their size tells.
+/// Files of bytes may begin with the word that files of text begin with, "solid": their size
+/// decides.
 VerticesReading parse_stl(const std::string& bytes, const std::string& file) {
   const std::uint64_t triangles = triangles_of(bytes);
   if (triangles > 0 && bytes.size() == size_with(triangles)) return parse_bytes(bytes, file);

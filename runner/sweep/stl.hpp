@@ -1,7 +1,7 @@
 // Vertices from an STL file, of text or of bytes: where the shape of a hull comes from.
 //
-// Corners of triangles are taken once each, and of these the hull; the triangles tell whether that
-// is the body meant.
+// Each corner of a triangle is taken once, and the hull is made from these; the triangles tell
+// whether that is the intended body.
 #pragma once
 
 #include <string>

@@ -41,7 +41,7 @@ bool is_name_character(char c) {
   return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '_' || c == '.';
 }
 
-/// The schema is the business of editors; here it only has to be a text.
+/// The schema matters only to editors; here it only has to be a text.
 void expect_schema_name(const Json& file, Diagnostics& diagnostics) {
   const auto found = file.find("$schema");
   if (found == file.end() || found->is_string()) return;

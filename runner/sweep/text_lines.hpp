@@ -34,13 +34,13 @@ auto read_parsed(const std::string& path, Parse parse) {
   return reading;
 }
 
-/// So many lines of one file are listed as wrong.
+/// At most so many lines of one file are listed as wrong.
 inline constexpr std::size_t most_wrong_lines = 20;
 
 /// What is wrong with a line of `file`; lines count from 1.
 Diagnostic wrong_line(const std::string& file, std::size_t line, std::string message);
 
-/// Notes that, and with the last line that is listed that no more are.
+/// Notes a wrong line, and with the last line that is listed that no more are.
 void note_wrong_line(Diagnostics& errors, const std::string& file, std::size_t line,
                      std::string message);
 
@@ -48,7 +48,7 @@ void note_wrong_line(Diagnostics& errors, const std::string& file, std::size_t l
 /// characters, other ends of lines, and those that turn the direction of writing.
 std::string without_controls(std::string_view text);
 
-/// Whether a character begins with this byte of a text in UTF-8: others go on with one.
+/// Whether a character begins with this byte of a text in UTF-8: other bytes continue one.
 bool begins_character(char byte);
 
 /// How many characters a text has in UTF-8.

@@ -1,5 +1,5 @@
-// What a length of 1 and a density mean in a laboratory: for people alone. The engine works without
-// units, and what a sweep says of them makes no packing another one.
+// What a length of 1 and a density mean in a laboratory: for people only. The engine works without
+// units, and no packing depends on what a sweep says about them.
 #pragma once
 
 #include <array>

@@ -47,7 +47,7 @@ ValueReading read_natural(const Parameter& parameter, const Json& value) {
   return fits(value.get<std::uint64_t>());
 }
 
-/// What a shape needs that has no defaults; "" of other names.
+/// What a shape without defaults needs; "" for other names.
 std::string needed_by(const std::string& shape) {
   if (shape == "hull") {
     return R"(a hull needs its vertices: write {"hull": {"file": "stone.stl"}})";
@@ -86,7 +86,7 @@ ValueReading read_text(const Parameter& parameter, const Json& value) {
   return fits(value.get<std::string>());
 }
 
-/// Of a list that holds this.
+/// The error of a list that holds this entry.
 ValueReading wrong_entry(const Parameter& parameter, const Json& entry) {
   return {{}, "must be " + wanted_value(parameter) + ", holds " + describe(entry)};
 }

@@ -24,7 +24,7 @@ std::string both_text(double solid_fraction, double coordination) {
   return text;
 }
 
-/// Of a job whose preset was chosen, which it therefore has bounds of.
+/// For a job whose preset was chosen, and which therefore has bounds.
 std::string reason_text(const Job& job) {
   const JobFacts facts = facts_of(job);
   const auto kind = bed_kind(facts.shape, facts.box, facts.small_share,

@@ -7,8 +7,8 @@
 
 namespace grainsweep {
 
-/// A line for each preset, kind of bed and accuracy that was asked for, in the sweep's order; empty
-/// if the sweep asks for none.
+/// A line for each preset, kind of bed and requested accuracy, in the sweep's order; empty if the
+/// sweep requests none.
 std::string chosen_presets_text(const Sweep& sweep);
 
 }  // namespace grainsweep

@@ -93,7 +93,7 @@ TableColumns laboratory_columns(const std::vector<TableLine>& lines, const Units
           }};
 }
 
-/// The first of the lines beneath what their columns are.
+/// The first of the lines below the heads of their columns.
 std::string table_text(const std::vector<TableLine>& lines, const TableColumns& columns) {
   constexpr std::size_t most_lines = 60;
   std::vector<NamedLine> first;
@@ -120,7 +120,7 @@ std::string protocol_text(const WallFit& fit, int decimals) {
   return fit.bias_bound ? " ± " + fixed(*fit.bias_bound, decimals) + " protocol" : "";
 }
 
-/// What the line's quality is, in brackets.
+/// How good the line is, in brackets.
 std::string quality_text(const WallFit& fit) {
   return "(χ²/dof " + fixed(fit.chi2_per_dof, 2) + ", R² " + fixed(fit.r_squared, 3) + ", " +
          std::to_string(fit.widths) + " widths)";
@@ -158,7 +158,7 @@ std::string family_text(const Family& family, const GivenUnits& units) {
          fit_text(family, Quantity::coordination, coordination_decimals, units);
 }
 
-/// Families of the same labels, all of them at too few widths to tell what walls do.
+/// Families of the same labels, all with too few widths to show what walls do.
 std::string families_text(const std::vector<const Family*>& families) {
   std::vector<TableLine> lines;
   bool is_walled = false;
@@ -218,7 +218,7 @@ std::string distinct(const std::vector<Row>& rows, Value value) {
 
 constexpr std::string_view own_units[] = {"\"distribution\":", "\"file\":", "\"files\":"};
 
-/// What d is: a length of the user's choice where sizes are a distribution or those of a file.
+/// What d is: a length of the user's choice where sizes are a distribution or come from a file.
 std::string unit_meaning(const std::vector<Row>& rows) {
   const auto has_own_unit = [](const Row& row) {
     const std::string& parameters = row.job.parameters.text();
@@ -270,8 +270,8 @@ std::string bias_text(const std::vector<Family>& families) {
   return "Protocol: means of beds settled ever better lie within " + *bounds.begin() + ".\n";
 }
 
-/// "  walls, W = 5: 0.050": a line for each group of which `tell` has something to say, the first
-/// few of them.
+/// "  walls, W = 5: 0.050": a line for each group about which `tell` has something to say, only the
+/// first few.
 template <class Tell>
 std::string lines_of_groups(const std::vector<Family>& families, Tell tell) {
   constexpr int groups_shown = 5;
@@ -296,8 +296,8 @@ std::string lines_of_groups(const std::vector<Family>& families, Tell tell) {
 /// Whether a share of small grains is a tenth more or less than another.
 bool differs(double share, double from) { return std::abs(share - from) > 0.1 * from; }
 
-/// Groups whose beds have another share of small grains than was asked for: none, where a whole
-/// grain is more than the share.
+/// Groups whose beds have another share of small grains than was requested, for example none where
+/// a whole grain is more than the share.
 std::string small_share_text(const std::vector<Family>& families) {
   const std::string text = lines_of_groups(families, [](const Group& group) -> std::string {
     const double all = mean_of(group, "bed_small_share").mean, asked = group.job.small_share;
@@ -313,7 +313,7 @@ std::string small_share_text(const std::vector<Family>& families) {
 }
 
 /// Groups whose measured slab holds a tenth more or less of small grains than their beds: small
-/// grains that fit through the gaps of large ones sink to the floor.
+/// grains that fit through the gaps between large ones sink to the floor.
 std::string percolation_text(const std::vector<Family>& families) {
   const std::string text = lines_of_groups(families, [](const Group& group) -> std::string {
     const double all = mean_of(group, "bed_small_share").mean;
@@ -403,7 +403,7 @@ bool has_grains(const std::string& folder, const std::vector<Row>& rows) {
     try {
       return !read_bed(folder, *row.outcome).grains.empty();
     } catch (const FileError&) {
-      continue;  // whoever reads results is warned of damaged beds
+      continue;  // whoever reads results is warned about damaged beds
     }
   }
   return false;

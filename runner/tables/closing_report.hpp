@@ -11,14 +11,14 @@ namespace grainsweep {
 
 /// Whose tables they are.
 struct ReportPlace {
-  std::string program;        ///< what the program was called by, as a shell takes it
+  std::string program;        ///< how the program was called, as a shell takes it
   std::string folder;         ///< output folder
-  bool has_grains = true;     ///< whether its beds can be exported, as of has_grains
+  bool has_grains = true;     ///< whether its beds can be exported, see has_grains
   bool is_worked_on = false;  ///< a runner makes what is missing
 };
 
-/// Whether the first bed that is stored in the folder has its grains, which those of a run with
-/// --no-grains have not; false without any.
+/// Whether the first bed that is stored in the folder has its grains; beds of a run with
+/// --no-grains have none. False if no bed is stored.
 bool has_grains(const std::string& folder, const std::vector<Row>& rows);
 
 /// Means and scatter of the groups, the fitted wall effect of each family with 3 or more widths,

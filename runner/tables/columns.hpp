@@ -1,5 +1,5 @@
-// The columns of a table: what each is called and means, and how its cell comes of an item (a
-// packing, a group, a bin ...). Tables, columns.csv and the manual are made of them.
+// The columns of a table: what each is called and means, and how its cell is made from an item (a
+// packing, a group, a bin ...). Tables, columns.csv and the manual are made from them.
 #pragma once
 
 #include <functional>
@@ -92,7 +92,7 @@ void append_estimate(Columns<Item>& columns, const std::string& name, const std:
   columns.push_back({name + "_error", unit, "standard error of it", number(&Type::error)});
 }
 
-/// The cell of what `value` gives of the `fit` of a line; empty if that is not determined.
+/// The cell of what `value` gives for the `fit` of a line; empty if the fit is not determined.
 template <class Value>
 auto fit_cell(Value value) {
   return [=](const auto& line) {

@@ -20,8 +20,8 @@ double contacts_of(const std::vector<ComponentMeasure>& components) {
   return static_cast<double>(sum);
 }
 
-/// Their share that joins two components, and of those the share of each kind. A packing without
-/// any enters none of the means.
+/// The share of those contacts that joins two components, and the share of each kind among these. A
+/// packing without any is left out of the means.
 void set_contacts(const Group& group, std::size_t k, std::size_t other, ComponentLine& line) {
   std::vector<double> shares;
   std::array<std::vector<double>, 3> kinds;

@@ -16,15 +16,15 @@ struct ComponentLine {
   Spread grains, packed, slab_share, solid_fraction, coordination, coordination_with_walls;
   std::array<Spread, 3> nematic;
   Spread neighbours;
-  Spread contacts;                      ///< share of all of the slab that join the two
+  Spread contacts;                      ///< those that join the two, as a share of all in the slab
   std::array<Spread, 3> contact_kinds;  ///< of those, the shares at a point, along a line, over an
                                         ///< area
 };
 
-/// Components of the grains of a group; 0 of grains that are no mixture, and if none has settled.
+/// Components of the grains of a group; 0 if they are no mixture or no packing has settled.
 std::size_t components_of(const Group& group);
 
-/// Over the settled packings of a group; none of grains that are no mixture.
+/// Over the settled packings of a group; empty if its grains are no mixture.
 std::vector<ComponentLine> mean_components(const Group& group);
 
 CurveTable components_table(const Varied& varied, const GivenUnits& units = {});

@@ -10,7 +10,7 @@ double ProfileBin::*volume_of(GrainClass grains) {
 }
 
 /// Every settled profile from a wall inwards: between two walls the mean of its halves, which share
-/// grains in the middle and so are no two profiles; across a tube as it is.
+/// grains in the middle and so are not two profiles; across a tube the profile itself.
 std::vector<std::vector<double>> profiles_from_wall(const Group& group, GrainClass grains) {
   std::vector<std::vector<double>> profiles;
   for (const Outcome& outcome : group.settled) {

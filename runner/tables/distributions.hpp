@@ -14,8 +14,8 @@ struct CurvePoint {
   Spread value;
 };
 
-/// The mean of `curve` over the settled packings of a group; of the bins that some of them lack,
-/// over those that have them.
+/// The mean of `curve` over the settled packings of a group; bins that some of them do not have are
+/// averaged over those that do.
 std::vector<CurvePoint> mean_curve(const Group& group, Curve Order::*curve);
 
 CurveTable distributions_table(const Varied& varied, const GivenUnits& units = {});

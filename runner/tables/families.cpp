@@ -47,13 +47,13 @@ const std::map<std::string_view, Flat>& flat_presets() {
   return all;
 }
 
-/// Whether a part of an accuracy is as in that preset.
+/// Whether a part of an accuracy is the same as in that preset.
 bool is_as_in(const Flat& preset, const Flat::value_type& part) {
   const auto found = preset.find(part.first);
   return found != preset.end() && found->second == part.second;
 }
 
-/// The preset that most of the parameters are as in.
+/// The preset that has most of the parameters.
 std::string_view nearest_preset(const Flat& parameters) {
   std::string_view nearest;
   std::ptrdiff_t most = -1;
@@ -67,7 +67,7 @@ std::string_view nearest_preset(const Flat& parameters) {
 }
 
 /// The parameters of a family; "shape", what its grains are; and "accuracy", its preset or the one
-/// next to its own.
+/// nearest to its own.
 Flat parameters_of(const Family& family) {
   Flat flat = flat_parameters(first_group(family).job);
   flat.erase("box.width");
@@ -79,7 +79,7 @@ Flat parameters_of(const Family& family) {
   return flat;
 }
 
-/// The same without what that preset stands for.
+/// The same without the parts that the preset stands for.
 Flat told_by(const Family& family) {
   Flat flat = parameters_of(family);
   const bool is_custom = first_group(family).job.accuracy == "custom";
@@ -90,7 +90,7 @@ Flat told_by(const Family& family) {
   return flat;
 }
 
-/// The last part of a path; of a component's share its number, too: "2.share".
+/// The last part of a path; for a component's share also its number: "2.share".
 std::string_view short_name(std::string_view path) {
   constexpr std::string_view mixture = "shape.mixture.";
   return path.substr(path.starts_with(mixture) ? mixture.size() : path.rfind('.') + 1);
@@ -103,7 +103,7 @@ std::string told(std::string cell) {
 }
 
 /// "small_share=0.25 size_ratio=0.5": the parameters among `paths`, by the last part of their path.
-/// Of several parts of accuracies those are left out that are as in the preset.
+/// Parts of accuracies that are the same as in the preset are left out.
 std::string distinction_of(const Family& family, const std::set<std::string>& paths) {
   std::string text;
   const bool tells_presets = std::count_if(paths.begin(), paths.end(), is_of_accuracy) > 1;
@@ -119,7 +119,7 @@ std::string distinction_of(const Family& family, const std::set<std::string>& pa
 using Counts =
     std::map<std::string, std::map<std::string, std::size_t>>;  // path, value -> families
 
-/// How many families have the shape that a parameter is of; all if it is of none.
+/// How many families have the shape that a parameter belongs to; all if it belongs to none.
 std::size_t families_with(const std::string& path, const Counts& counts, std::size_t all) {
   constexpr std::string_view of_shape = "shape.";
   if (!path.starts_with(of_shape)) return all;
@@ -130,7 +130,7 @@ std::size_t families_with(const std::string& path, const Counts& counts, std::si
 }
 
 /// Paths whose value is not the same in all of `families`, or in all of one shape. Where several
-/// parts of accuracies differ, their presets are told.
+/// parts of accuracies differ, their presets are given.
 std::set<std::string> differing_paths(const std::vector<Family*>& families) {
   Counts counts;
   for (const Family* family : families) {

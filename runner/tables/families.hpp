@@ -23,7 +23,7 @@ struct Family {
 /// Its first group between walls, or without.
 const Group& first_group(const Family& family);
 
-/// What the extents of the containers are called of the groups that `group_of` gives for each of
+/// The symbol for the extents of the containers of the groups that `group_of` gives for each of
 /// `items`: W, the gap between walls, D, the diameter of a tube, or "W or D".
 template <class Items, class GroupOf>
 std::string extent_symbol(const Items& items, GroupOf group_of) {
@@ -42,7 +42,7 @@ std::vector<Family> families_of(const std::vector<Group>& groups);
 struct Analysis {
   std::vector<Group> groups;
   std::vector<Family> families;
-  std::string folder;  ///< as of GroupWithCurves
+  std::string folder;  ///< as for GroupWithCurves
 };
 
 /// Refers to the rows, whose beds are stored in `folder`.

@@ -63,7 +63,7 @@ void take_line(const LineFit& line, WallFit& fit) {
   for (FitPoint& point : fit.points) point.fitted = line.intercept + line.slope / point.width;
 }
 
-/// Groups of a family differ in their width alone, and share what their way of settling does.
+/// Groups of a family differ only in their width, and share the bias of their way of settling.
 std::optional<double> bias_bound(const Group& group, Quantity quantity) {
   if (!group.bias_bound) return std::nullopt;
   const double bound = quantity == Quantity::solid_fraction ? group.bias_bound->solid_fraction

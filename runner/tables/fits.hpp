@@ -2,11 +2,11 @@
 //
 //   phi = phi_bulk - C / W,     Z = Z_bulk - C_Z / W,     zeta = C / phi_bulk or C_Z / Z_bulk
 //
-// least squares over the widths, each mean with the error that groups.csv has of it: errors of each
-// width alone would let chance decide which widths count. The errors of a fit follow from those,
-// times sqrt(chi2 per degree of freedom) where that exceeds 1: a line that misses its points by
-// more than their errors is known no better than it misses them. A fit that the packings do not
-// support is "not determined", with the reason, and has no numbers.
+// least squares over the widths, each mean with its error from groups.csv: errors from each width
+// alone would let chance decide which widths count. The errors of a fit follow from those, times
+// sqrt(chi2 per degree of freedom) where that exceeds 1: a line that misses its points by more than
+// their errors is known no better than it misses them. A fit that the packings do not support is
+// "not determined", with the reason, and has no numbers.
 #pragma once
 
 #include <optional>
@@ -18,7 +18,7 @@
 
 namespace grainsweep {
 
-/// Of a line, or one value for all, that holds chi2 per degree of freedom is seldom larger.
+/// For a line, or one value for all, that holds, chi2 per degree of freedom is seldom larger.
 inline constexpr double largest_chi2 = 3.0;
 
 enum class Quantity { solid_fraction, coordination };
@@ -49,7 +49,7 @@ struct WallFit {
   /// How far `bulk` lies at most from that of beds settled ever better; none if not measured.
   std::optional<double> bias_bound;
   double chi2_per_dof =
-      0.0;  ///< about 1 if the line holds, less where few packings tell the errors
+      0.0;  ///< about 1 if the line holds, less where errors come from few packings
   int degrees_of_freedom = 0;
   double r_squared = 0.0;
 };

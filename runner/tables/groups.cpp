@@ -70,7 +70,7 @@ void note_varied(std::vector<Group>& groups) {
 
 bool is_of_shape(const std::string& path) { return path == "shape" || path.starts_with("shape."); }
 
-/// Finds what groups are told apart by, of what is varied.
+/// Finds, among what is varied, what tells groups apart.
 void note_told(std::vector<Group>& groups) {
   std::map<std::string, std::map<std::string, std::set<std::string>>> values;  // by shape and path
   for (const Group& group : groups) {
@@ -85,7 +85,7 @@ void note_told(std::vector<Group>& groups) {
   }
 }
 
-/// Gives the mean number `k` of the groups of one family the error of their pooled variance.
+/// Gives mean number `k` of the groups of one family the error from their pooled variance.
 void pool_errors(const std::vector<Group*>& family, std::size_t k) {
   double squares = 0.0;
   int degrees_of_freedom = 0;

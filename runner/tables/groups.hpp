@@ -16,14 +16,14 @@
 
 namespace grainsweep {
 
-/// Mean, sample standard deviation (divisor n - 1) and standard error of the mean of what is known,
-/// which NaN is not; NaN where that are too few values.
+/// Mean, sample standard deviation (divisor n - 1) and standard error of the mean of the known
+/// values, which NaN is not; NaN where there are too few.
 struct Spread {
   double mean = 0.0;
   double sd = 0.0;
   int n = 0;
-  /// sd / sqrt(n), or as pooled by `groups_of`, as much wider as Student's distribution of so many
-  /// degrees of freedom is than the normal one: 1.96 of it hold the truth in 95 %.
+  /// sd / sqrt(n), or as pooled by `groups_of`, widened as much as Student's distribution with
+  /// `degrees_of_freedom` is wider than the normal one: 1.96 of it contain the truth in 95 %.
   double error = 0.0;
   int degrees_of_freedom = 0;  ///< of the variance behind the error
 };
@@ -34,7 +34,7 @@ double error_of_mean(double variance, int n, int degrees_of_freedom);
 
 Spread spread_of(std::vector<double> values);
 
-/// Of what `value` gives of each of `items`, a list of pointers.
+/// The spread of what `value` gives for each of `items`, a list of pointers.
 template <class Items, class Value>
 Spread spread_of_each(const Items& items, Value value) {
   std::vector<double> values;
@@ -57,7 +57,8 @@ struct Group {
   /// Dotted name -> cell of the parameters that are not the same in all groups.
   std::map<std::string, std::string> varied;
   /// The same as people tell groups apart: where their shapes differ, the name of the shape stands
-  /// under "shape", and of the parameters of shapes those that also differ among groups of its own.
+  /// under "shape", and parameters of shapes are left out unless they also differ among groups of
+  /// the same shape.
   std::map<std::string, std::string> told;
   std::optional<ProtocolBias> bias_bound;  ///< of phi and Z, by the way of settling
   std::vector<Spread> means;  ///< of the fields that have one, in the order of the field table
@@ -70,8 +71,8 @@ struct Group {
 /// and what bounds it along y.
 std::string parameters_of_family(const JobFacts& job);
 
-/// Of what `value` gives of entry `k` of `list_of(result)`, over the settled packings of a group
-/// that have so many entries.
+/// The spread of what `value` gives for entry `k` of `list_of(result)`, over the settled packings
+/// of a group that have so many entries.
 template <class ListOf, class Value>
 Spread spread_of_entry(const Group& group, std::size_t k, ListOf list_of, Value value) {
   std::vector<double> values;
@@ -112,7 +113,7 @@ struct CurveTable {
   std::function<std::string(const Group&)> lines;
 };
 
-/// The table whose lines are those that `lines_of` lists of a group, which may refer to it.
+/// The table whose lines are those that `lines_of` lists for a group, which may refer to it.
 template <class Line, class LinesOf>
 CurveTable curve_table(const std::string& file, const Columns<Line>& columns, LinesOf lines_of) {
   return {file, described(file, columns), header_line(columns), [=](const Group& group) {
@@ -129,7 +130,7 @@ CurveTable curve_table(const std::string& file, const Columns<Line>& columns, Li
 std::vector<Group> groups_of(const std::vector<Row>& rows);
 std::vector<Group> groups_of(std::vector<Row>&& rows) = delete;
 
-/// The mean of the field called so, which must be one with a mean in groups.csv: "solid_fraction".
+/// The mean of the field of that name, which must have a mean in groups.csv: "solid_fraction".
 const Spread& mean_of(const Group& group, std::string_view field);
 
 /// The parameters that are not the same in all groups, by their dotted names.
@@ -143,11 +144,11 @@ Columns<Group> group_key_columns();
 /// A column for each of the varied parameters.
 Columns<Group> varied_columns(const Varied& varied);
 
-/// What tables with several lines per group begin with: number, id and a few facts of the group,
-/// and what is varied.
+/// The first columns of tables with several lines per group: number, id and a few facts of the
+/// group, and what is varied.
 Columns<Group> group_line_columns(const Varied& varied);
 
-/// The same of lines that have a `group`.
+/// The same for lines that have a `group`.
 template <class Line>
 Columns<Line> columns_of_group(const Varied& varied) {
   Columns<Line> columns;
@@ -157,7 +158,7 @@ Columns<Line> columns_of_group(const Varied& varied) {
 }
 
 /// Appends three columns to a table: mean, standard deviation and standard error of what `spread`
-/// gives of an item.
+/// gives for an item.
 template <class Item, class SpreadOf>
 void append_spread(Columns<Item>& columns, const std::string& name, const std::string& unit,
                    const std::string& meaning, SpreadOf spread) {

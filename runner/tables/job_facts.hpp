@@ -27,7 +27,7 @@ struct JobFacts {
   std::uint64_t seed = 0;
   std::string shape;       ///< its name: "sphere", "cube", "hull"
   std::string accuracy;    ///< name of a preset, or "custom"
-  std::string settles_as;  ///< of a custom one: the preset that has its bounds; "" if none has
+  std::string settles_as;  ///< for a custom one: the preset that has its bounds; "" if none has
   Box box;
   double small_share = 0.0;
   MeasureSpec measure;
@@ -75,7 +75,7 @@ JobList job_list(const std::vector<Row>& rows);
 /// What is known of a job of the list.
 JobFacts facts_of(const JobEntry& job, const JobList& list);
 
-/// Pending rows; of a summary without parameters.
+/// Pending rows; for a summary without parameters.
 std::vector<Row> rows_of(const JobList& list, Detail detail = Detail::whole);
 
 /// A set of parameters, and back. Throws nlohmann::json::exception.
@@ -85,7 +85,7 @@ JobFacts set_from_json(const nlohmann::json& set);
 /// Columns of jobs, those with these names in this order: "label", "width" ...
 Columns<JobFacts> job_columns(const std::vector<std::string>& names);
 
-/// Dotted name -> cell of every parameter of a job; a file stands under its name as written.
+/// Dotted name -> cell of every parameter of a job; for a file, its name as written.
 std::map<std::string, std::string> flat_parameters(const JobFacts& job);
 
 /// The same, but with what a file holds, or a hash of it, in the place of its name.
@@ -96,7 +96,7 @@ std::map<std::string, std::string> identifying_parameters(const JobFacts& job);
 double small_class_limit(const JobFacts& job);
 
 /// Bound of the bias that the way of settling gives the means of such packings; none where it was
-/// not measured: accuracies that settle as no preset, hulls, pinacoids of other proportions, and
+/// not measured: accuracies that settle like no preset, hulls, pinacoids of other proportions, and
 /// small grains that are not half as large.
 std::optional<ProtocolBias> bias_bound(const JobFacts& job);
 

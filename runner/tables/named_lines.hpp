@@ -12,8 +12,8 @@ struct NamedLine {
   std::string cells;
 };
 
-/// The lines beneath the heads of their columns, `name_head` that of their names. Names stand in a
-/// column of their own, or where they are long above the lines that they belong to.
+/// The lines below the heads of their columns; `name_head` heads the names. Names stand in a column
+/// of their own or, where they are long, above the lines that they belong to.
 std::string named_lines(const std::string& name_head, const std::string& heads,
                         const std::vector<NamedLine>& lines);
 

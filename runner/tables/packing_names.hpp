@@ -1,4 +1,4 @@
-// What to call single packings and parameter sets, where they are told one by one.
+// What to call single packings and parameter sets where they are listed one by one.
 #pragma once
 
 #include <map>
@@ -11,9 +11,9 @@ namespace grainsweep {
 
 class PackingNames {
  public:
-  /// Packings are told by their labels and the widths of their containers alone.
+  /// Names packings by their labels and the widths of their containers only.
   PackingNames() = default;
-  /// And by what tells their families from others of the same labels.
+  /// Names them also by what tells their families from others of the same labels.
   explicit PackingNames(const std::vector<Family>& families);
 
   /// "lognormal sigma=0.1": of a family; empty if nothing tells it from others.

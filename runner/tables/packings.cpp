@@ -45,7 +45,7 @@ Column<Row> column_at(double tolerance, const std::string& name,
           }};
 }
 
-/// What stands before the column of a field: facts of the job, in places that readers rely on.
+/// What comes before the column of a field: facts of the job, in places that readers rely on.
 void append_before(std::string_view field, const std::vector<double>& tolerances,
                    Columns<Row>& columns) {
   const auto append_facts = [&](const std::vector<std::string>& names) {

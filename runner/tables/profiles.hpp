@@ -29,13 +29,14 @@ inline constexpr const char* profile_axis_meaning =
     "x and y from wall to wall, x between walls only; walls, in ducts and tubes, "
     "from the nearest one inwards; z from the floor up";
 
-/// Distance of the middle of a bin from the axis of a tube, d, of a profile from the walls, which
-/// is called "walls"; not a number elsewhere.
+/// Distance of the middle of a bin from the axis of a tube, d, for the profile from the walls,
+/// which is called "walls"; NaN for others.
 double from_axis(const Group& group, std::string_view axis, double low, double high);
 
-/// What `mean(bins, low, high)` makes of the bins of each number, which lie from `low` to `high`,
-/// d. Profiles end at the highest grain: where another one goes on their bins are `beyond`, a bin
-/// without grains; one without any bins, of a bed that was not measured so, has none.
+/// What `mean(bins, low, high)` gives for the bins of each number, which lie from `low` to `high`,
+/// d. Profiles end at the highest grain: where another one continues, the bins of a shorter one are
+/// `beyond`, a bin without grains. A profile without any bins, of a bed that was not measured so,
+/// takes no part.
 template <class AnyProfile, class Bin, class Mean>
 auto mean_bins(const std::vector<const AnyProfile*>& profiles, const Bin& beyond, Mean mean) {
   using Bins = std::vector<const Bin*>;
@@ -56,7 +57,7 @@ auto mean_bins(const std::vector<const AnyProfile*>& profiles, const Bin& beyond
 }
 
 /// The mean of `profile` (profile_y or profile_z) over the settled packings of a group; above the
-/// highest grain of one nothing is solid.
+/// highest grain of a packing nothing is solid.
 std::vector<MeanBin> mean_profile(const Group& group, Profile PackingResult::*profile);
 
 /// The file: along x and y, from the walls and along z of each group.

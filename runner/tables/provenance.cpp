@@ -20,7 +20,7 @@ void from_json(const nlohmann::json& json, SweepFile& sweep) {
 
 namespace {
 
-/// The file as it is called in the present folder, which may have been moved with it.
+/// The path of the file from the present folder, which may have been moved with it.
 std::string name_from_here(const SweepFile& sweep) {
   namespace fs = std::filesystem;
   std::error_code unknown;
@@ -70,10 +70,10 @@ std::string entry_text(const JobEntry& job) {
   return json(job).dump(-1, ' ', false, json::error_handler_t::replace);
 }
 
-/// Puts the entries of the jobs where the text has none.
+/// Puts the entries of the jobs where the text has an empty list.
 std::string with_jobs(const std::string& text, const std::vector<JobEntry>& jobs) {
   constexpr std::string_view none =
-      "\"jobs\": []";  // stands in no string, where quotes are escaped
+      "\"jobs\": []";  // cannot be in a string, where quotes are escaped
   const std::size_t place = text.find(none) + none.size() - 1;
   constexpr std::size_t usual_entry = 100;  // bytes
   std::string whole;

@@ -34,7 +34,7 @@ struct SweepFile {
 
 struct Provenance {
   Build build;
-  std::vector<SweepFile> sweeps;  ///< one, or those of all collected folders, a text once
+  std::vector<SweepFile> sweeps;  ///< one, or those of all collected folders, equal texts once
   std::string sweep_name;
   GivenUnits units = {};        ///< of the sweep; of collected ones if they agree
   std::vector<RunRecord> runs;  ///< in the order they started
@@ -47,7 +47,7 @@ std::string sweep_file_of(const Provenance& provenance);
 /// before at its end.
 std::string provenance_text(const Provenance& provenance, const std::vector<Row>& rows);
 
-/// What provenance_text made a text of.
+/// What provenance_text made a text from.
 struct ProvenanceReading {
   Provenance provenance;
   JobList jobs;
@@ -57,7 +57,7 @@ struct ProvenanceReading {
 /// of it.
 ProvenanceReading provenance_from_text(const std::string& text);
 
-/// Whether its checksum is right, which is known at once.
+/// Whether its checksum is right, which is quick to find out.
 bool has_checksum(std::string_view text);
 
 struct Totals {

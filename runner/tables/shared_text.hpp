@@ -1,5 +1,5 @@
 // A text that copies share: the parameters of a packing, 1 kB each, are those of all its
-// replicates, and 100,000 rows of a sweep held 90 MB of them.
+// replicates, and unshared they took 90 MB for a sweep of 100,000 rows.
 #pragma once
 
 #include <memory>

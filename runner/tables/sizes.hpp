@@ -15,7 +15,7 @@ struct SizeLine {
   Spread packed, slab;    ///< of all grains, and of those in the measured slab
 };
 
-/// Over the settled packings of a group, from fine to coarse; none of grains without a
+/// Over the settled packings of a group, from fine to coarse; empty for grains without a
 /// distribution.
 std::vector<SizeLine> mean_sizes(const Group& group);
 

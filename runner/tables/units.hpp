@@ -16,8 +16,8 @@ struct Conversion {
   double offset = 0.0, factor = 1.0;
 };
 
-/// What a column called so, in this unit, is converted to: a length to the unit of the sweep, a
-/// solid fraction to porosity and, where the density of the grains is known, to bulk density, their
+/// What a column of this name and unit is converted to: a length to the unit of the sweep, a solid
+/// fraction to porosity and, where the density of the grains is known, to bulk density, their
 /// scatter and errors likewise; nothing else is.
 std::vector<Conversion> conversions_of(const std::string& name, const std::string& unit,
                                        const Units& units);
@@ -37,7 +37,7 @@ std::string length_in(const Units& units, double length);
 /// "0.42 ± 0.03 d", and with units " = 1.34 ± 0.10 mm"; without an error the value alone.
 std::string length_text(double length, double error, int decimals, const GivenUnits& units);
 
-/// Decimals that are as fine in `units` as so many of a length in d.
+/// Decimals that are as fine in `units` as `decimals` of a length in d.
 int decimals_in(const Units& units, int decimals);
 
 /// "1523 ± 3" kg/m³ of a solid fraction and its scatter or error; "-" where no density is given.

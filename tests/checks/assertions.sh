@@ -5,7 +5,7 @@ set -euo pipefail
 cd "${1:-$(dirname "$0")/../..}"
 
 mapfile -t scripts < <(find tests bench -name '*.sh' | sort)
-# Lines that go on are one; what is behind `||`, `if` or `while` is no such line.
+# Continued lines are one; what comes after `||`, `if` or `while` is no such line.
 found=$(
   for script in "${scripts[@]}"; do
     sed -E ':more; /\\$/ { N; s/\\\n *//; b more }' "$script" |

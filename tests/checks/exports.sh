@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Exported beds are read by the programs that they are for, and are there what they are in the tables:
+# Exported beds can be read by the programs that they are for, and agree there with the tables:
 # extended XYZ by ASE, LAMMPS data by lmp, voxels, surfaces and certificates by numpy.
 # usage: exports.sh GRAINSWEEP
 set -euo pipefail
@@ -56,7 +56,8 @@ for format in csv xyz lammps; do "$grainsweep" export out --format $format --to 
 "$grainsweep" export out --format voxels --voxels 60 --to . >/dev/null
 "$grainsweep" export out --format stl --contacts shrink:0.99 --periodic-images --to . >/dev/null
 
-# Shapes that LAMMPS cannot read are left out, and refused before anything is written where no other is left.
+# Shapes that LAMMPS cannot read are left out, and refused before anything is written if there is no
+# other.
 cat >round.json <<'JSON'
 { "name": "round", "base": { "accuracy": "fast", "box": { "length": 5, "width": 4 }, "fill": { "solid_height": 2 },
             "measure": { "exclude_floor": 0.3, "exclude_surface": 0.3 } },

@@ -8,7 +8,7 @@
 # - what lies beside each other at any depth, folders and files, includes each other in one direction
 #   only, without a cycle;
 # - each layer does without what is not its business (JSON in the engine, Eigen in a kernel, ...);
-# - an instruction set is asked for by `#if` in kernels/ alone.
+# - an instruction set is asked for by `#if` only in kernels/.
 set -euo pipefail
 cd "${1:-$(dirname "$0")/../..}"
 

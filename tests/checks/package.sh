@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# The Debian package: lintian finds no error in it, and what it holds runs configs/quick.json in a root
-# of its own, in which there is nothing but the package and those that it depends on, as they are
-# installed here, and /proc. That is not an installation of Debian: there is no dpkg in it and nothing is
-# configured.
+# The Debian package: lintian finds no error in it, and its program runs configs/quick.json in a
+# root of its own, in which there is nothing but the package, those that it depends on, as they are
+# installed here, and /proc. That is not an installation of Debian: there is no dpkg in it and
+# nothing is configured.
 # usage: package.sh BUILD_FOLDER
 build=$(realpath "$1")
 source "$(dirname "$0")/../runner/program/common.sh" "$build/runner/grainsweep"

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# report.html as people see it: browser.py opens the pages of small sweeps in Chromium - spheres with
-# the labels that would do most harm, sizes instead of widths, polyhedra, one that all failed, one of
-# which nothing was made - and the view of one bed. usage: page.sh GRAINSWEEP
+# report.html as people see it: browser.py opens the pages of small sweeps in Chromium - spheres
+# with the labels that would do most harm, sizes instead of widths, polyhedra, one in which all
+# packings failed, one in which none was made - and the view of one bed. usage: page.sh GRAINSWEEP
 set -euo pipefail
 grainsweep=$(realpath "${1:?usage: page.sh GRAINSWEEP}")
 checks=$(realpath "$(dirname "$0")")
@@ -87,7 +87,7 @@ rm empty/shards/*
 views=(views/*.html)
 pages+=("${views[0]}")
 
-# Without axe-core the rest is checked all the same.
+# Without axe-core the rest is still checked.
 axe=${XDG_CACHE_HOME:-$HOME/.cache}/grainsweep-checks/node_modules/axe-core/axe.min.js
 with_axe=()
 [ ! -s "$axe" ] || with_axe=(--axe "$axe")

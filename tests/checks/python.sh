@@ -118,8 +118,9 @@ for row in s.packings.itertuples():
 print(f"python: {len(s.packings)} beds counted anew, {len(s.tables)} tables")
 PYTHON
 
-# Torn and damaged lines of journals count for nothing, nor do exceptions after a result; of whole lines
-# the later one counts, though the clock said otherwise, and of two journals the packing finished later.
+# Torn and damaged lines of journals count for nothing, nor do exceptions after a result; of whole
+# lines the later one counts, whatever the clock said, and of two journals the packing finished
+# later.
 cp -r out/quick torn
 /usr/bin/python3 - <<'PYTHON'
 import json
@@ -176,7 +177,7 @@ assert list(packings.state_hash) == ["00e1", "1234567890123456"]
 assert list(packings.isna().sum()) == [0, 0, 0, 0, 1, 1] and packings.grains[0] == 7
 PYTHON
 
-# What is no output folder, and ids without a bed, are told with what to do.
+# What is no output folder, and ids without a bed, are reported with what to do.
 mkdir nothing "of a killed run"
 cp -r out/quick/shards "of a killed run"
 cp -r out/quick pending

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# What the manual tells people to write and type is understood, and what it prints of the program is
-# what the program prints. usage: readme.sh GRAINSWEEP [--mend]
+# What the manual tells people to write and type is understood, and the output that it shows is what
+# the program prints. usage: readme.sh GRAINSWEEP [--mend]
 #
 # In every README.md: sweeps are valid; commands and options in tables, and commands quoted, are
 # known; the values of the presets are right; the text between lines

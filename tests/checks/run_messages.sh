@@ -14,7 +14,8 @@ stand_in() {
   chmod +x "$copy/$1"
 }
 
-# expect STATUS TEXT: run.sh ends so and prints that and nothing else, "" for nothing at all.
+# expect STATUS TEXT: run.sh ends with STATUS and prints TEXT and nothing else, "" for nothing at
+# all.
 expect() {
   local status=0 said
   said=$(PATH=$copy/bin:$PATH "$copy/run.sh" plan a.json 2>&1) || status=$?

@@ -51,8 +51,9 @@ for change in (misspelt, misspelt_inside, no_number, no_choice, no_preset, no_li
                no_count, no_name):
     refuses(change)
 
-# Each sweep of faulty_sweeps.txt, whose head says how it is written: what the schema refuses, what no
-# schema can refuse, what is right. Of those whose fault is in the sweep itself it refuses 95 %. Python takes NaN and equal keys for JSON, editors do not.
+# Each sweep of faulty_sweeps.txt, whose head says how it is written: what the schema refuses, what
+# no schema can refuse, what is right. Of those whose fault is in the sweep itself it refuses 95 %.
+# Python takes NaN and equal keys for JSON, editors do not.
 def only_json(text):
     def no_number(word): raise ValueError(word)
     def once(pairs):

@@ -35,7 +35,7 @@ said_or_called() {
   fi
 }
 
-# expect STATUS TEXT [OPTION...]: setup.sh ends so and says (or calls apt-get with) TEXT.
+# expect STATUS TEXT [OPTION...]: setup.sh ends with STATUS and says (or calls apt-get with) TEXT.
 expect() {
   local status=0
   env PATH="$stand_ins/bin" TMPDIR="$stand_ins" "$BASH" "$root/setup.sh" "${@:3}" \

@@ -7,7 +7,8 @@ times() {
   if [ "${GRAINSWEEP_FAULTS:-}" = full ]; then echo "$2"; else echo "$1"; fi
 }
 
-# draw NAME LOW HIGH: a random whole number in the variable NAME; the same ones after the same RANDOM=SEED.
+# draw NAME LOW HIGH: a random whole number in the variable NAME; the same ones after the same
+# RANDOM=SEED.
 draw() {
   printf -v "$1" %d $(($2 + (RANDOM * 32768 + RANDOM) % ($3 - $2 + 1)))
 }
@@ -19,7 +20,7 @@ between() {
   echo "$drawn"
 }
 
-# flip_bit FILE AT BIT: of the byte there.
+# flip_bit FILE AT BIT: flips that bit of the byte there.
 flip_bit() {
   local byte
   byte=$(od -An -tu1 -j "$2" -N 1 "$1")
@@ -34,13 +35,14 @@ pause() {
   read -rt "$seconds" -u "$never" || true
 }
 
-# has_checkpoint FOLDER: a packing was saved on its way.
+# has_checkpoint FOLDER: whether a packing was saved on its way.
 has_checkpoint() {
   local files=("$1"/checkpoints/*.[01])
   [ -e "${files[0]}" ]
 }
 
-# write_small_sweep FILE [POINT]: six beds of 60 to 130 grains, and those of another point of the sweep.
+# write_small_sweep FILE [POINT]: six beds of 60 to 130 grains, and those of another point of the
+# sweep.
 write_small_sweep() {
   cat >"$1" <<JSON
 { "name": "small", "seed": 5, "replicates": 2,
@@ -67,7 +69,7 @@ needs_strace() {
   strace -f -o trace.txt true 2>said.txt || skip "ptrace is forbidden here: $(tail -n 1 said.txt)"
 }
 
-# run_to_the_end FILE FOLDER OPTION...: made whole, with what is said in said.txt.
+# run_to_the_end FILE FOLDER OPTION...: makes the whole sweep, with its output in said.txt.
 run_to_the_end() {
   local file=$1 folder=$2 code=0
   shift 2
@@ -96,7 +98,7 @@ same_as_reference() {
   nothing_is_left "$folder" "$what"
 }
 
-# nothing_is_left FOLDER WHAT: of what a run needs on its way only.
+# nothing_is_left FOLDER WHAT: nothing that a run needs only on its way is left.
 nothing_is_left() {
   [ -z "$(find "$1" -name '*.tmp.*')" ] || fail "$2: half written files are left"
   [ -z "$(find "$1/checkpoints" -type f 2>/dev/null)" ] || fail "$2: checkpoints are left"

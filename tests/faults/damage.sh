@@ -18,8 +18,8 @@ for kill in $(seq 50); do
 done
 is_half || fail "no kill in 50 left packings and checkpoints"
 
-# look FOLDER NAME: what commands print of the folder, and what they warn of. Figures, which take ten
-# times as long as all the rest, are left out.
+# look FOLDER NAME: what commands print about the folder, and what they warn about. Figures, which
+# take ten times as long as all the rest, are left out.
 look() {
   code=0
   {
@@ -37,7 +37,8 @@ for state in reference half; do
   [ "$code" -eq 0 ] && [ ! -s warned.txt ] || fail "$state is not sound: $(cat warned.txt)"
 done
 
-# damage FILE: flips a bit, cuts, empties or removes it, adds to it, or puts another file in its place.
+# damage FILE: flips a bit, cuts, empties or removes it, adds to it, or puts another file in its
+# place.
 damage() {
   local size bit at place other others
   size=$(stat -c %s "$1")
@@ -91,7 +92,8 @@ for number in $(seq "$tries"); do
   mended=$((mended + 1))
 done
 
-# A bed damaged after the clock was set back by a day: what is made anew counts, in whatever journal.
+# A bed damaged after the clock was set back by a day: what is made anew counts, in whichever
+# journal.
 make_of_tomorrow() { # JOURNAL
   perl -MCompress::Zlib=crc32 -i -pe 'next unless /"outcome":(.*)\}$/;
     my $text = $1 =~ s/"finished_at":\K[\d.]+/$& + 86400/er;
@@ -113,7 +115,8 @@ for shards in 1/1 "1/2 2/2"; do
   [ ! -s error.txt ] || fail "shards $shards of tomorrow: not mended: $(cat error.txt)"
 done
 
-# A folder in the place of a checkpoint, of a packing that is made and of one that is not: told, no more.
+# A folder in the place of a checkpoint, for a packing that is made and for one that is not: it is
+# reported, no more.
 for option in "" "--fresh --yes"; do
   rm -rf out && cp -r half out
   for job in $(tail -n +2 reference/packings.csv | cut -d, -f1); do

@@ -1,7 +1,7 @@
-# What counts as done is on the disk first, as the traced calls of a run show: a file's bytes before it
-# takes the place of the old one and its folder after; the grains of a packing before its journal line,
-# and that line before the packing is told and its checkpoints are removed. Figures, which gnuplot draws
-# of the tables and may draw again, are no part of it.
+# What counts as done is on the disk first, as the traced calls of a run show: a file's bytes before
+# it takes the place of the old one and its folder after; the grains of a packing before its journal
+# line, and that line before the packing is reported and its checkpoints are removed. Figures, which
+# gnuplot draws from the tables and may draw again, are no part of it.
 source "$(dirname "$0")/common.sh" "$1"
 needs_strace
 write_tiny_sweep 3 sweep.json
@@ -55,7 +55,7 @@ awk -v out="$out" '
     exit breaches
   }' trace.txt >found.txt || fail "$(grep BREACH found.txt | head -n 5)"
 
-# None of that went by unseen.
+# Each of these was seen.
 expect_text found.txt "5 journal lines, 3 beds" "times checkpoints/*.0" \
   "times packings.csv" "times provenance.json"
 ! grep -q " 0 times told\|, 0 checkpoints removed\|, 0 end" found.txt || fail "$(cat found.txt)"

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Fuzzes the sweep reader with libFuzzer under the address and undefined-behaviour sanitizers, from a
-# fixed corpus and seed. GRAINSWEEP_FAULTS=full: two million inputs instead of a hundred thousand.
-# Its build takes minutes, so that ctest runs test_any_text.cpp instead.
+# Fuzzes the sweep reader with libFuzzer under the address and undefined-behaviour sanitizers, from
+# a fixed corpus and seed. GRAINSWEEP_FAULTS=full: two million inputs instead of a hundred thousand.
+# Its build takes minutes, so ctest runs test_any_text.cpp instead.
 # usage: fuzz.sh
 set -euo pipefail
 cd "$(dirname "$0")/../.."

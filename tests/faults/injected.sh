@@ -5,8 +5,8 @@ needs_strace
 write_tiny_sweep 2 sweep.json
 make_reference sweep.json
 
-# Of one thread, with a checkpoint after each of its few steps, so that the k-th call is the same one
-# in every run.
+# With one thread, and a checkpoint after each of its few steps, so that the k-th call is the same
+# one in every run.
 run_traced() { # FOLDER STRACE-OPTION...
   local folder=$1
   shift
@@ -26,7 +26,7 @@ for call in write fsync rename; do
   done
 done
 
-# All of them, or as many as there is time for, spread evenly and begun anywhere.
+# All of them, or as many as there is time for, spread evenly from a random start.
 wanted=$(times 40 ${#cases[@]})
 first=$(between 0 $((${#cases[@]} - 1)))
 told=0 ended=0 killed=0
@@ -58,7 +58,7 @@ for number in $(seq 0 $((wanted - 1))); do
   same_as_reference out "$what"
   rm -r out
 done
-# Threads that the system does not give are missed before any packing begins.
+# Threads that the system does not give are noticed before any packing begins.
 code=0
 strace -f -qq -o trace.txt -e trace=clone,clone3 -e inject=clone,clone3:error=EAGAIN \
   "$program" run sweep.json --no-report --threads 4 --out threadless >said.txt 2>&1 || code=$?

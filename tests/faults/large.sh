@@ -1,7 +1,7 @@
-# A sweep of 100,000 packings: plan and status in 2 s, collect in 60 s, each in 300 MB, whether nothing
-# of it is done or all, by 64 shards into one folder, in 200 files at most. Few have the time to make
-# them: journals and beds are made from one tiny packing. status looks whether every bed is there;
-# collect reads each of them, and writes tables and page.
+# A sweep of 100,000 packings: plan and status in 2 s, collect in 60 s, each in 300 MB, whether none
+# or all of it is done, by 64 shards into one folder, in 200 files at most. Making them would take
+# too long: journals and beds are made from one tiny packing. status looks whether every bed is
+# there; collect reads each of them, and writes tables and page.
 source "$(dirname "$0")/common.sh" "$1"
 command -v python3 >/dev/null || skip "python3 is not installed"
 cat >large.json <<'JSON'
@@ -11,8 +11,9 @@ cat >large.json <<'JSON'
   "sweep": [ { "random": { "count": 1000, "box.width": { "uniform": [3, 4] } } } ] }
 JSON
 
-# measured SECONDS COMMAND...: CPU time and peak memory lie below; shows both. The seconds are those of
-# an idle core, and what else a machine does only adds to them: the least of up to three tries counts.
+# measured SECONDS COMMAND...: CPU time and peak memory stay below the limits; shows both. The
+# seconds are those of an idle core, and other work of the machine only adds to them: the least of
+# up to three tries counts.
 measured() {
   local limit=$1
   shift

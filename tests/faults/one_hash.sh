@@ -31,7 +31,7 @@ hash_of() {
 
 find_isas
 
-# kill_times COUNT: kills a run so often before it ends; false if it came to its end.
+# kill_times COUNT: kills a run COUNT times before it ends; false if it came to its end.
 kill_times() {
   local number
   rm -rf out

@@ -1,5 +1,5 @@
 # Journal, scheduling, tables and start-up together take less than a hundredth of a run's CPU time.
-# How long the thread of a packing waits until the disk has it is the disk's affair: it is shown.
+# How long the thread of a packing waits for the disk depends on the disk: it is only shown.
 root=$(realpath "$(dirname "$0")/../..")
 source "$(dirname "$0")/common.sh" "$1"
 

@@ -8,7 +8,7 @@ JSON
 make_reference sweep.json
 
 busy=0
-# start_all COUNT: so many at once; counts those that were refused.
+# start_all COUNT: starts COUNT at once; counts those that were refused.
 start_all() {
   local count=$1 number code worked=0 pids=()
   for number in $(seq "$count"); do
@@ -33,7 +33,8 @@ start_all() {
   [ "$worked" -eq 1 ] || fail "$worked of $count runners worked"
 }
 
-# A runner waits a fifth of a second for the lock; one that waited until the work was done met nobody.
+# A runner waits a fifth of a second for the lock; one that waited until the work was done met
+# nobody.
 rounds=$(times 6 100)
 for count in 2 8; do
   goal=$((busy + rounds * count / 2))

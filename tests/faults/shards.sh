@@ -12,7 +12,8 @@ cat >sweep.json <<'JSON'
 JSON
 make_reference sweep.json
 
-# shard NUMBER COUNT OPTION...: makes it as one of few runners would on a machine of its own.
+# shard NUMBER COUNT OPTION...: makes that shard as one of few runners would on a machine of its
+# own.
 shard() {
   local number=$1 count=$2 code=0
   shift 2
@@ -46,8 +47,8 @@ for count in 1 2 7 64; do
   rm -r out
 done
 
-# A runner that has ended takes over what another one, held in its first packing, has not begun. Going on,
-# that leaves out what was taken, and finds the sweep made.
+# A runner that has finished takes over what another one, held in its first packing, has not begun.
+# When that one goes on, it leaves out what was taken, and finds the sweep made.
 start "$program" run sweep.json --no-report --threads 1 --out out --shard 1/2
 wait_until has_packings out 1 || fail "ended too soon: $(cat said.txt)"
 kill -STOP "$runner"

@@ -1,4 +1,5 @@
-# SIGTERM, SIGINT, SIGHUP and SIGUSR1 at any moment: exit code 143, 130, 129 or 138 within 2 s, the same bytes afterwards.
+# SIGTERM, SIGINT, SIGHUP and SIGUSR1 at any moment: exit code 143, 130, 129 or 138 within 2 s, the
+# same bytes afterwards.
 source "$(dirname "$0")/common.sh" "$1"
 # Six beds of 10 to 20 ms beside one of a quarter of a second, which begins first: however late a
 # signal comes after any of the six, the runner is at work.
@@ -7,7 +8,7 @@ write_small_sweep sweep.json \
      "fill.solid_height": 10, "accuracy": "balanced" } }'
 make_reference sweep.json
 
-# stop_with SIGNAL CODE: the runner ends so within 2 s; false if it had ended before.
+# stop_with SIGNAL CODE: the runner ends with CODE within 2 s; false if it had ended before.
 stop_with() {
   end_in_time "$1"
   [ "$code" -gt 1 ] || return 1
@@ -15,7 +16,7 @@ stop_with() {
   stopped=$((stopped + 1))
 }
 
-# As many of each as are wanted, those not counted that came after the end.
+# The wanted number of each, without those that came after the end.
 stopped=0
 wanted=$(times 10 200)
 tries=0
@@ -48,7 +49,7 @@ has_worked() {
   [ "$time" -ge $(($1 * 1000000)) ]
 }
 
-# Sooner where it came to its end, for CPU time differs from run to run.
+# Sooner if it came to its end, since CPU time differs from run to run.
 cpu=$(awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) if ($i == "cpu_seconds") column = i; next }
   { printf "%d", 1000 * $column }' reference/packings.csv)
 for share in 5 8 12 20; do
@@ -64,7 +65,7 @@ done
 [ "$inside" -eq 3 ] || fail "the bed of $cpu ms was never stopped three times before its end"
 has_checkpoint out || fail "no checkpoint after SIGTERM"
 
-# A second SIGTERM, as of a launcher beside the batch system, does not end it before all is saved.
+# A second SIGTERM, as from a launcher beside the batch system, does not end it before all is saved.
 rm -r out
 start "$program" run long.json --no-report --threads 2 --out out
 wait_until has_worked $((cpu / 8)) || fail "ended too soon: $(cat said.txt)"

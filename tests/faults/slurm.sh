@@ -1,6 +1,6 @@
-# A cluster of two nodes on this machine, of Slurm's own daemons: configs/quick.json is made by the
-# command `slurm`, with an element that is made to run again, one that is cancelled and a node that
-# dies, and by srun; each ends with the tables and beds of one run here.
+# A cluster of two nodes on this machine, run by Slurm's own daemons: configs/quick.json is made by
+# the command `slurm`, with an element that is made to run again, one that is cancelled and a node
+# that dies, and by srun; each ends with the tables and beds of one run here.
 configs=$(realpath "$(dirname "$0")/../../configs")
 source "$(dirname "$0")/common.sh" "$1"
 PATH=$PATH:/usr/sbin
@@ -10,8 +10,8 @@ done
 unset "${!SLURM_@}" "${!SBATCH_@}"
 export SLURM_CONF=$here/slurm.conf
 
-# processes NODE: of Slurm's jobs on that node and of what watches over them. Its daemons and their
-# children alone know the configuration of this test.
+# processes NODE: those of Slurm's jobs on that node and of what watches over them. Only its daemons
+# and their children know the configuration of this test.
 processes() {
   local folder
   for folder in /proc/[1-9]*; do
@@ -130,7 +130,7 @@ told() {
   scontrol show job "$1" 2>/dev/null | grep -o "\b$2=[^ ]*" | head -n 1 | cut -d= -f2
 }
 
-# Waits until a process that was sent SIGSTOP has stopped, which a loaded machine does a little later;
+# Waits until a process that was sent SIGSTOP has stopped, which on a loaded machine takes a little;
 # false if it has ended before.
 is_halted() {
   local state

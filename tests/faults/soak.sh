@@ -1,5 +1,5 @@
-# Twenty thousand tiny packings in one process: after the first of them neither memory nor descriptors
-# grow.
+# Twenty thousand tiny packings in one process: after the first of them neither memory nor
+# descriptors grow.
 source "$(dirname "$0")/common.sh" "$1"
 packings=20000
 warm=1000

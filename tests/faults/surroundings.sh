@@ -67,7 +67,7 @@ ends_with "0 1" "no terminal" setsid "${run[@]}" session </dev/null
 same_as_reference session "no terminal"
 ends_with "0 1" "no environment" env -i "${run[@]}" bare
 same_as_reference bare "no environment"
-# Of a locale that a machine does not have a program gets C: these are made here.
+# For a locale that a machine does not have, a program gets C: so these locales are made here.
 command -v localedef >/dev/null && [ -d /usr/share/i18n/locales ] || skip "there are no sources of locales (setup.sh --checks)"
 mkdir locales
 for locale in de_DE tr_TR; do localedef -i $locale -f UTF-8 "$PWD/locales/$locale.UTF-8" 2>/dev/null || true; done
@@ -108,7 +108,7 @@ cat >many.json <<'JSON'
   "fill": { "solid_height": 7 }, "accuracy": "fast" } }
 JSON
 
-# Its folder removed or renamed while it runs: told, and not made anew without its lock.
+# Its folder removed or renamed while it runs: reported, and not made anew without its lock.
 for away in "rm -r gone" "mv gone elsewhere"; do
   start "$program" run many.json --threads 1 --out gone
   wait_until has_packings gone 2 || fail "nothing was stored"

@@ -6,8 +6,8 @@
 namespace grainsweep::testing {
 
 /// The best face, and the best pair of distinct edge directions if it parts the shapes better than
-/// that, f64. Of shapes apart these include edges whose axis is no normal of the difference of the
-/// shapes; of overlapping ones such an axis is never the best.
+/// that, f64. For separate shapes these include edges whose axis is no normal of the difference of
+/// the shapes; for overlapping ones such an axis is never the best.
 ContactAxes all_axes(const ShapePair& pair);
 
 }  // namespace grainsweep::testing

@@ -25,7 +25,7 @@ inline std::vector<Isa> testable_isas() {
   return testable;
 }
 
-/// Those of the widest instruction set that runs here.
+/// The kernels of the widest instruction set that runs here.
 inline const Kernels& kernels() { return kernels_for(best_isa()); }
 
 }  // namespace grainsweep::testing

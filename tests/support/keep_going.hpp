@@ -1,4 +1,4 @@
-// What a packing asks after every step, answered.
+// The answer to what a packing asks after every step.
 #pragma once
 
 #include "engine/results.hpp"

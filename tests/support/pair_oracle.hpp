@@ -9,7 +9,7 @@ namespace grainsweep::testing {
 struct PairTruth {
   bool overlap = false;
   long double distance = 0;  ///< between shapes apart, from closest features, d
-  long double depth = 0;     ///< of overlapping ones: the shortest translation that parts them, d
+  long double depth = 0;     ///< for overlapping ones: the shortest translation that parts them, d
   /// Largest separation over the faces, and the edges at an angle of more than 1e-3, d.
   long double separation = 0;
 

@@ -66,7 +66,7 @@ Real tree_sum(Real (&lane)[block_width]) {
   return lane[0];
 }
 
-/// What rows miss, lane by lane.
+/// Sums of the residuals of rows, lane by lane.
 template <class Real>
 struct MissedTwin {
   Real largest = 0, squares[block_width] = {}, loaded[block_width] = {};
@@ -81,7 +81,7 @@ struct MissedTwin {
   Missed<Real> sums() { return {largest, tree_sum(squares), tree_sum(loaded)}; }
 };
 
-/// Of impulses p and y that are changes of those in `from`; of whole ones where that is none.
+/// If `from` is given, p and y are changes of the impulses in it; otherwise whole impulses.
 template <class Real>
 SweepSums<Real> gauss_seidel_twin(const RowBlock<Real>* rows, std::size_t blocks, const Real* from,
                                   Record<Real>* u, Real* p, Real* y, SweepRule<Real> rule) {

@@ -24,7 +24,7 @@ struct RandomScene {
 SphereBed random_bed(const RandomScene& scene);
 
 /// Spheres of diameter 1 at the points of a simple cubic lattice of spacing 1 on the floor, in a
-/// bi- periodic box of nx by ny, nz layers.
+/// bi-periodic box of nx by ny, nz layers.
 SphereBed simple_cubic_bed(int nx, int ny, int nz);
 
 /// The same for the face-centred cubic lattice (edge sqrt 2, four spheres a cell).

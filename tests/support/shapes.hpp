@@ -30,7 +30,7 @@ ConvexShape prism(int sides, double height);
 
 Vector random_direction(Draw& draw);
 
-/// Points on an ellipsoid with half axes of .3 to .5 d: all of them are corners.
+/// Points on an ellipsoid with half axes of 0.3 to 0.5 d: all of them are corners.
 std::vector<Vector> random_corners(Draw& draw, int count);
 
 /// Uniform over all rotations (Shoemake).
