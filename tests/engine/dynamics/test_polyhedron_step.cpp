@@ -140,8 +140,8 @@ TEST_CASE("a pinacoid tipped by 20 degrees comes to lie flat on its largest face
   }
 }
 
-// Corners of a random start overlap deeply, and the first whole step follows a short one that looked
-// less far than it does: this start once made its solve diverge.
+// Corners of a random start overlap deeply, and the first whole step follows a short one that
+// looked less far than it does: this start once made its solve diverge.
 TEST_CASE("no grain is thrown out of a start whose grains overlap deeply") {
   PackingSpec spec;
   spec.box = {6, 5, walls, walls};
