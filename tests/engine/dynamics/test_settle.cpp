@@ -286,7 +286,7 @@ TEST_CASE("grains placed on the same spot part and settle") {
 TEST_CASE("a grain that falls on another one, however small both are, comes to lie on it") {
   // In the corner of a shaft of their width, beside a large one that takes most of the weight.
   for (const double small : {0.02, 0.05, 0.09}) {
-    for (int k = 0; k < 20; ++k) {
+    for (int k = 0; k < testing::tries(20); ++k) {
       const double above = 3.0 + 0.013 * k;
       SphereBed bed = make_bed(
           {4, 3, walls, walls},
