@@ -172,12 +172,12 @@ double touch_pinacoids(const TouchSettings& settings, const Kernels& kernels,
     const bool is_tested = close.lane != ClosePair::no_lane;
     const PinacoidBlock* block = is_tested ? &columns.axes[close.lane / block_width] : nullptr;
     const std::size_t lane = close.lane % block_width;
-    const double reach = std::max(
-        {bed.scale(at.a), bed.scale(at.b), bed.circumradius(at.a), bed.circumradius(at.b)});
     const auto note = [&](double separation) {
       note_apart(bed, close.number, pair, std::sqrt(close.squared), separation, far);
     };
     if (is_tested) {
+      const double reach = std::max(
+          {bed.scale(at.a), bed.scale(at.b), bed.circumradius(at.a), bed.circumradius(at.b)});
       const double separation = parted_by(*block, lane, reach);
       if (separation > settings.margin) {
         note(separation);
