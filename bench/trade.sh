@@ -6,15 +6,20 @@
 # stopped, it goes on where it was.
 # --seed N makes other starts, those of seed N: tables then tell the means of all seeds whose rows stand in
 # bench/trade/SCENE.seeds.json, to which those of N are added; what the search for exact rest changes is told of
-# N alone. Remove that file where beds pack otherwise than when it was made.
-# usage: bench/trade.sh [--readme] [--seed N] [FOLDER [SCENE...]]
+# N alone. Remove that file where beds pack otherwise than when it was made. --first K settles them with the
+# first K accuracies alone, the reference being the first: it can have more starts than the others, which helps
+# where pairs do not (see bench/trade/README.md). The tables are then of these accuracies.
+# usage: bench/trade.sh [--readme] [--seed N [--first K]] [FOLDER [SCENE...]]
 # Scenes are walls, tube, two-sizes, tall, no-walls and pinacoids: all of them, if none is named.
 set -euo pipefail
 root=$(dirname "$(dirname "$(readlink -f "$0")")")
-readme= seed=
+readme= seed= first=
 [ "${1:-}" != --readme ] || { readme=yes && shift; }
 [ "${1:-}" != --seed ] || { seed=$2 && shift 2; }
-readonly root readme seed folder=${1:-out/trade}
+[ "${1:-}" != --first ] || { first=$2 && shift 2; }
+[ -z "$first" ] || { [ -n "$seed" ] && [ -z "$readme" ]; } ||
+  { echo "trade.sh: --first needs --seed, and leaves the README alone" >&2 && exit 2; }
+readonly root readme seed first folder=${1:-out/trade}
 shift || true
 (($#)) || set -- walls tube two-sizes tall no-walls pinacoids
 
@@ -29,7 +34,9 @@ for scene in "$@"; do
 sweep = json.load(open(sys.argv[1]))
 del sweep["$schema"]
 sweep["seed"] = int(sys.argv[2])
-json.dump(sweep, open(sys.argv[3], "w"), indent=1)' "$root/bench/trade/$scene.json" "$seed" "$sweep"
+grid = sweep["sweep"][0]["grid"]
+grid["accuracy"] = grid["accuracy"][:int(sys.argv[4]) if sys.argv[4] else None]
+json.dump(sweep, open(sys.argv[3], "w"), indent=1)' "$root/bench/trade/$scene.json" "$seed" "$sweep" "$first"
   fi
   "$root/build/release/runner/grainsweep" run "$sweep" --out "$beds" \
     --threads 1 --no-grains --no-report --quiet --tolerate-unsettled

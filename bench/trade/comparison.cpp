@@ -46,9 +46,9 @@ Compared compared(const Setting& setting, const Setting& reference, double balan
   row.force_square = paired_difference(setting.force_square, reference.force_square);
   row.lambda = lambda_difference(setting, reference);
   row.contact_ratio = mean(setting.contact_ratio);
-  row.own_solid_fraction = mean(setting.solid_fraction);
-  row.own_coordination = mean(setting.coordination);
-  row.own_force_square = mean(setting.force_square);
+  row.own_solid_fraction = mean_error(setting.solid_fraction);
+  row.own_coordination = mean_error(setting.coordination);
+  row.own_force_square = mean_error(setting.force_square);
   return row;
 }
 

@@ -8,7 +8,9 @@
 
 namespace grainsweep::bench {
 
-/// Differences of a setting from the reference, from starts that settle with both.
+/// Differences of a setting from the reference: over starts that settle with both, or, where the
+/// reference has been given more starts than the setting, of the means of all beds of each (there
+/// is none of lambda).
 struct Compared {
   const Setting* setting = nullptr;
   int made = 0, settled = 0;   ///< beds
@@ -18,7 +20,8 @@ struct Compared {
   MeanError lambda;            ///< decay length of the layers beside a wall, d; NaN without walls
   double contact_ratio = 0.0;  ///< mean
   /// Means of the setting's own beds.
-  double own_solid_fraction = 0.0, own_coordination = 0.0, own_force_square = 0.0;
+  MeanError own_solid_fraction, own_coordination, own_force_square;
+  bool are_paired = true;
   bool on_front = false;  ///< no other setting beats it
 };
 

@@ -16,10 +16,17 @@ double standard_error(const Spread& spread) { return spread.sd / std::sqrt(sprea
 
 }  // namespace
 
-double mean(const ByStart& values) {
+MeanError mean_error(const ByStart& values) {
   std::vector<double> all;
   for (const auto& [start, value] : values) all.push_back(value);
-  return spread_of(all).mean;
+  const Spread spread = spread_of(all);
+  return {spread.mean, standard_error(spread), spread.n};
+}
+
+double mean(const ByStart& values) { return mean_error(values).mean; }
+
+MeanError difference_of_means(const MeanError& changed, const MeanError& reference) {
+  return {changed.mean - reference.mean, std::hypot(changed.error, reference.error), changed.n};
 }
 
 MeanError paired_difference(const ByStart& changed, const ByStart& reference) {

@@ -19,6 +19,10 @@ using ByStart = std::map<int, double>;
 
 /// NaN of none.
 double mean(const ByStart& values);
+MeanError mean_error(const ByStart& values);
+
+/// Mean of one ensemble of beds less that of another, which has no start of it.
+MeanError difference_of_means(const MeanError& changed, const MeanError& reference);
 
 /// Mean of `changed` less `reference` over the starts that both have: what differs from start to
 /// start falls out.

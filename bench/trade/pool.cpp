@@ -37,7 +37,9 @@ Json json_of(const Compared& row) {
           {"force_square", json_of(row.force_square)},
           {"lambda", json_of(row.lambda)},
           {"contact_ratio", row.contact_ratio},
-          {"own", {row.own_solid_fraction, row.own_coordination, row.own_force_square}}};
+          {"own",
+           {json_of(row.own_solid_fraction), json_of(row.own_coordination),
+            json_of(row.own_force_square)}}};
 }
 
 /// `row` of one seed more: what of both is a mean over beds weighs by the beds.
@@ -51,15 +53,31 @@ void add(const Json& more, Compared& row) {
   mean(row.cpu_seconds, more.at("cpu_seconds"), row.made, made);
   mean(row.relative_cost, more.at("relative_cost"), row.made, made);
   mean(row.contact_ratio, more.at("contact_ratio"), row.settled, settled);
-  mean(row.own_solid_fraction, more.at("own").at(0), row.settled, settled);
-  mean(row.own_coordination, more.at("own").at(1), row.settled, settled);
-  mean(row.own_force_square, more.at("own").at(2), row.settled, settled);
+  const Json& own = more.at("own");
+  row.own_solid_fraction = pooled(row.own_solid_fraction, mean_error_of(own.at(0)));
+  row.own_coordination = pooled(row.own_coordination, mean_error_of(own.at(1)));
+  row.own_force_square = pooled(row.own_force_square, mean_error_of(own.at(2)));
   row.solid_fraction = pooled(row.solid_fraction, mean_error_of(more.at("solid_fraction")));
   row.coordination = pooled(row.coordination, mean_error_of(more.at("coordination")));
   row.force_square = pooled(row.force_square, mean_error_of(more.at("force_square")));
   row.lambda = pooled(row.lambda, mean_error_of(more.at("lambda")));
   row.made += made;
   row.settled += settled;
+}
+
+/// Null if `rows`, those of a seed, have none of that accuracy.
+const Json* find_row(const Json& rows, const std::string& accuracy) {
+  const auto same = std::find_if(rows.begin(), rows.end(),
+                                 [&](const Json& one) { return one.at("accuracy") == accuracy; });
+  return same == rows.end() ? nullptr : &*same;
+}
+
+/// The pairs of a row do not know of the starts that the reference has in addition.
+void compare_means(const Compared& reference, Compared& row) {
+  row.solid_fraction = difference_of_means(row.own_solid_fraction, reference.own_solid_fraction);
+  row.coordination = difference_of_means(row.own_coordination, reference.own_coordination);
+  row.force_square = difference_of_means(row.own_force_square, reference.own_force_square);
+  row.lambda = {no_number, no_number, 0};
 }
 
 Json read_pool(const std::string& path, const Scene& scene) {
@@ -92,14 +110,18 @@ void pool_with(const std::string& path, const Scene& scene, std::vector<Compared
   const std::string seed = std::to_string(scene.seed);
   pool["seeds"][seed] = own;
   replace_file(path, pool.dump(1) + "\n");
+  const std::string reference = rows.front().setting->name;
   for (const auto& [other, of_other] : pool["seeds"].items()) {
     if (other == seed) continue;
+    const bool has_reference = find_row(of_other, reference) != nullptr;
     for (Compared& row : rows) {
-      const auto same = std::find_if(of_other.begin(), of_other.end(), [&](const Json& one) {
-        return one.at("accuracy") == row.setting->name;
-      });
-      if (same != of_other.end()) add(*same, row);
+      const Json* same = find_row(of_other, row.setting->name);
+      if (same != nullptr) add(*same, row);
+      if (same == nullptr && has_reference) row.are_paired = false;
     }
+  }
+  for (Compared& row : rows) {
+    if (!row.are_paired) compare_means(rows.front(), row);
   }
   mark_front(rows);
 }

@@ -4,7 +4,10 @@
 #include <string_view>
 #include <utility>
 
+#include "engine/dynamics/presets.hpp"
 #include "runner/commands/results.hpp"
+#include "runner/sweep/identity.hpp"
+#include "runner/sweep/resolved_spec.hpp"
 #include "runner/tables/decays.hpp"
 
 namespace grainsweep::bench {
@@ -20,6 +23,24 @@ Parts parts_of(const JobFacts& job) {
   return parts;
 }
 
+struct NamedParts {
+  std::string_view name;
+  Parts parts;
+};
+
+/// Parts of all presets, as jobs have them; the cheapest first.
+std::vector<NamedParts> parts_of_presets() {
+  std::vector<NamedParts> all;
+  for (const Preset& preset : presets()) {
+    ResolvedSpec resolved;
+    resolved.spec.accuracy = preset.accuracy;
+    JobFacts job;
+    job.parameters = canonical_parameters(resolved);
+    all.push_back({preset.name, parts_of(job)});
+  }
+  return all;
+}
+
 /// ", step 0.28": what differs from `preset`.
 std::vector<std::string> changes(const Parts& parts, const Parts& preset) {
   std::vector<std::string> texts;
@@ -29,28 +50,17 @@ std::vector<std::string> changes(const Parts& parts, const Parts& preset) {
   return texts;
 }
 
-std::string name_beside(const Setting& setting, const std::vector<const Setting*>& presets) {
+std::string name_beside(const Parts& parts, const std::vector<NamedParts>& presets) {
   std::string name = "custom";
-  std::size_t fewest = setting.parts.size();
-  for (const Setting* preset : presets) {
-    const std::vector<std::string> texts = changes(setting.parts, preset->parts);
+  std::size_t fewest = parts.size();
+  for (const NamedParts& preset : presets) {
+    const std::vector<std::string> texts = changes(parts, preset.parts);
     if (texts.size() >= fewest) continue;
     fewest = texts.size();
-    name = preset->preset;
+    name = preset.name;
     for (const std::string& text : texts) name += text;
   }
   return name;
-}
-
-/// The cheapest first.
-std::vector<const Setting*> presets_of(const Scene& scene) {
-  std::vector<const Setting*> found;
-  for (const Preset& known : presets()) {
-    for (const Setting& setting : scene.settings) {
-      if (setting.preset == known.name) found.push_back(&setting);
-    }
-  }
-  return found;
 }
 
 void add_layers(const Group& group, const PackingResult& result, int start, Setting& setting) {
@@ -102,8 +112,8 @@ const Setting* find_setting(const Scene& scene, const Parts& parts) {
 }
 
 void name_settings(Scene& scene) {
-  const std::vector<const Setting*> presets = presets_of(scene);
-  for (Setting& setting : scene.settings) setting.name = name_beside(setting, presets);
+  const std::vector<NamedParts> presets = parts_of_presets();
+  for (Setting& setting : scene.settings) setting.name = name_beside(setting.parts, presets);
 }
 
 Scene read_scene(const std::string& folder) {

@@ -44,7 +44,8 @@ struct Scene {
 /// The setting with these parts; null if there is none.
 const Setting* find_setting(const Scene& scene, const Parts& parts);
 
-/// Names every setting by the preset of the scene from which it differs in the fewest parts.
+/// Names every setting by the preset, of the scene or not, from which it differs in the fewest
+/// parts.
 void name_settings(Scene& scene);
 
 /// Throws BadInput if `folder` is no output folder, FileError if a file cannot be read.

@@ -58,9 +58,15 @@ std::string scene_heading(const SceneRows& compared) {
     text += ", not finished: " + std::to_string(made) + " of " + std::to_string(planned) +
             " packings are made";
   }
-  text += ". Reference: `" + reference.name + "`, phi = " + fixed(own.own_solid_fraction, 4) +
-          ", Z = " + fixed(own.own_coordination, 3) +
-          ", <f^2> = " + fixed(own.own_force_square, 3) + "; ";
+  text += ". Reference: `" + reference.name + "`, phi = " + fixed(own.own_solid_fraction.mean, 4) +
+          ", Z = " + fixed(own.own_coordination.mean, 3) +
+          ", <f^2> = " + fixed(own.own_force_square.mean, 3) + "; ";
+  const bool are_paired = std::all_of(compared.rows.begin(), compared.rows.end(),
+                                      [](const Compared& row) { return row.are_paired; });
+  if (!are_paired) {
+    text += "these are of " + std::to_string(own.own_solid_fraction.n) +
+            " starts, and rows of fewer differ from them in their means, not start by start. ";
+  }
   if (reference.is_exact()) text += settled_text(own) + " beds are certified. ";
   return text + "Largest standard errors of a row: " +
          fixed(largest_error(compared.rows, &Compared::solid_fraction), 5) + " in phi, " +
@@ -85,7 +91,7 @@ std::string scene_table(const SceneRows& compared) {
     return a.cpu_seconds < b.cpu_seconds;
   });
   std::string text = scene_heading(compared);
-  text += table_head({"accuracy", "pairs", "settled", "CPU s", "/ `balanced`", "phi", "Z",
+  text += table_head({"accuracy", "starts", "settled", "CPU s", "/ `balanced`", "phi", "Z",
                       "lambda / d", "<f^2>", "contacts / isostatic", ""});
   for (const Compared& row : rows) text += setting_line(row);
   return text + "\n";
@@ -125,7 +131,7 @@ std::string exact_table(const SceneRows& compared) {
   }
   if (lines.empty()) return "";
   return "What the search for exact rest changes, against the same starts without it:\n\n" +
-         table_head({"beds of", "certified", "pairs", "phi", "Z"}) + lines + "\n";
+         table_head({"beds of", "certified", "starts", "phi", "Z"}) + lines + "\n";
 }
 
 std::string csv_row(const std::string& scene, const Compared& row) {
@@ -152,7 +158,7 @@ std::string trade_markdown(const SceneRows& compared) {
 
 std::string trade_csv(const SceneRows& compared) {
   std::string text =
-      "scene,accuracy,preset,pairs,made,settled,cpu_seconds,relative_cost,solid_fraction,"
+      "scene,accuracy,preset,starts,made,settled,cpu_seconds,relative_cost,solid_fraction,"
       "solid_fraction_error,coordination,coordination_error,lambda,lambda_error,force_square,"
       "force_square_error,contact_ratio,on_front\n";
   for (const Compared& row : compared.rows) text += csv_row(compared.scene->name, row);

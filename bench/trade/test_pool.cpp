@@ -66,10 +66,10 @@ TEST_CASE("rows of another seed join those of the file") {
   CHECK(rows[1].solid_fraction.mean == Approx((4 * -0.1 + 2 * -0.07) / 6).epsilon(1e-12));
   CHECK(rows[1].settled == 6);
   CHECK(rows[1].made == 6);
-  CHECK(rows[1].own_solid_fraction == Approx((4 * 0.5 + 2 * 0.53) / 6).epsilon(1e-12));
+  CHECK(rows[1].own_solid_fraction.mean == Approx((4 * 0.5 + 2 * 0.53) / 6).epsilon(1e-12));
   CHECK(rows[1].cpu_seconds == Approx((4 * 0.5 + 2 * 0.53) / 6).epsilon(1e-12));
   CHECK(rows[0].solid_fraction.mean == 0.0);
-  CHECK(rows[0].own_solid_fraction == Approx(0.6).epsilon(1e-12));
+  CHECK(rows[0].own_solid_fraction.mean == Approx(0.6).epsilon(1e-12));
   CHECK(std::isnan(rows[1].lambda.mean));  // there are no walls
   CHECK_THAT(trade_markdown({&second, rows}), Contains("| **balanced** | 6 | 6 of 6 |"));
 }
@@ -82,6 +82,28 @@ TEST_CASE("a seed that is stored again takes the place of its earlier rows") {
   const std::vector<Compared> rows = pooled_rows(path, scene_of(1, 0.5, 4));
   CHECK(rows[1].solid_fraction.n == 6);
   CHECK(rows[1].solid_fraction.mean == Approx((4 * -0.1 + 2 * -0.07) / 6).epsilon(1e-12));
+}
+
+TEST_CASE("where the reference has more starts than a row, means of all beds are compared") {
+  const TemporaryFolder folder;
+  const std::string path = folder.path() + "/pool.json";
+  Scene more{"a scene", {setting_with("accurate", 0.63, 8)}, 3};
+  for (auto& [start, value] : more.settings[0].solid_fraction) value += start > 4 ? 0.02 : -0.02;
+  pooled_rows(path, more);
+  const Scene paired = scene_of(1, 0.5, 4);
+  pooled_rows(path, paired);
+  const std::vector<Compared> rows = pooled_rows(path, scene_of(2, 0.5, 4));
+  CHECK(rows[0].own_solid_fraction.n == 16);
+  CHECK(rows[0].own_solid_fraction.mean == Approx(0.615).epsilon(1e-12));
+  CHECK(rows[0].solid_fraction.mean == 0.0);
+  CHECK(rows[1].solid_fraction.n == 8);
+  CHECK(rows[1].solid_fraction.mean == Approx(0.5 - 0.615).epsilon(1e-12));
+  // Of 8 beds 0.02 from their mean the error is sqrt(0.02^2 / 7), weighed by half of all; that of
+  // two times 4 beds 0.01 from theirs is sqrt(0.01^2 / 3) in each, and weighed by half.
+  const double reference = 0.5 * std::sqrt(0.0004 / 7.0), own = std::sqrt(0.0001 / 3.0 / 2.0);
+  CHECK(rows[1].solid_fraction.error == Approx(std::hypot(reference, own)).epsilon(1e-12));
+  CHECK_THAT(trade_markdown({&paired, rows}),
+             Contains("these are of 16 starts, and rows of fewer"));
 }
 
 TEST_CASE("an accuracy that the file does not have stands by itself") {
@@ -119,9 +141,9 @@ TEST_CASE("seeds of which no bed settles with an accuracy are pooled with others
   CHECK(rows[1].made == 4);
   CHECK(rows[1].settled == 2);
   CHECK(rows[1].contact_ratio == Approx(1.0));
-  CHECK(rows[1].own_solid_fraction == Approx(0.53));
+  CHECK(rows[1].own_solid_fraction.mean == Approx(0.53));
   CHECK(rows[1].solid_fraction.n == 2);
-  CHECK(pooled_rows(path, none_settled(3))[1].own_solid_fraction == Approx(0.53));
+  CHECK(pooled_rows(path, none_settled(3))[1].own_solid_fraction.mean == Approx(0.53));
 }
 
 TEST_CASE("a file of another scene, or of another kind, is refused and stays") {

@@ -84,7 +84,7 @@ TEST_CASE("the table of the picture has a line for each setting, under its colum
   scene.settings[0].solid_fraction = {{1, 0.75}, {2, 0.75}};
   scene.settings[1].solid_fraction = {{1, 0.5}, {2, 0.5}};
   const std::string text = trade_csv({&scene, compare_settings(scene)});
-  CHECK_THAT(text, Contains("scene,accuracy,preset,pairs,made,settled,cpu_seconds,"));
+  CHECK_THAT(text, Contains("scene,accuracy,preset,starts,made,settled,cpu_seconds,"));
   CHECK_THAT(text, Contains("\na scene,balanced,balanced,2,2,2,3,1,-0.25,0,-0."));
   CHECK(std::count(text.begin(), text.end(), '\n') == 3);
 }

@@ -24,7 +24,14 @@ sed 's/"name": "small"/"name": "small", "seed": 2/' small.json >other.json
 "$grainsweep" run other.json --out other --threads 1 --no-grains --no-report --quiet --tolerate-unsettled
 "$trade" small trade.md trade.csv pool.json
 "$trade" other trade.md trade.csv pool.json
-grep -qF '| **balanced** | 4 | 4 of 4 |' trade.md || fail "starts of two seeds are not told as four pairs"
+grep -qF '| **balanced** | 4 | 4 of 4 |' trade.md || fail "starts of two seeds are not told as four"
+
+sed 's/"name": "small"/"name": "small", "seed": 3/; s/"exact", "fast".*/"exact" ] } } ] }/' small.json >reference.json
+"$grainsweep" run reference.json --out reference --threads 1 --no-grains --no-report --quiet --tolerate-unsettled
+"$trade" reference trade.md trade.csv pool.json
+"$trade" small trade.md trade.csv pool.json
+grep -qF 'these are of 6 starts' trade.md || fail "the starts that the reference has in addition are not told"
+grep -qF '| fast, step 0.28 | 4 | 4 of 4 |' trade.md || fail "rows without these starts are not told of four"
 
 sed 's/"replicates": 2/"replicates": 3/' small.json >more.json
 "$grainsweep" run more.json --out small --shard 1/2 --no-grains --no-report --quiet --tolerate-unsettled
