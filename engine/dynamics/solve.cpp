@@ -89,6 +89,8 @@ class GaussSeidel {
     copy(motion_.u, motion_.before);
     begun_.reset();
     momentum_.begin();
+    least_seen_ = std::numeric_limits<double>::infinity();
+    since_least_ = 0;
   }
   /// A sweep, or a turn of a large bed. Returns the residuals that it saw on the way.
   Residual iterate() {
@@ -101,6 +103,7 @@ class GaussSeidel {
     }
     if (sums.restart_test > 0) momentum_.restart();
     const Residual seen = residual_of(sums.missed);
+    if constexpr (Rows::may_circle) leave_circle(seen.largest);
     first_seen_ = first_seen_ < 0.0 ? seen.largest : first_seen_;
     if (has_momentum_ && seen.largest > diverged * first_seen_) give_momentum_up();
     return seen;
@@ -124,6 +127,26 @@ class GaussSeidel {
   /// A descent has diverged when its residual is so many times the first; others rise less than
   /// tenfold. Sweeps without momentum always go down.
   static constexpr double diverged = 100.0;
+  /// After so many sweeps without a new least residual, while it is so many times the least, sweeps
+  /// go round in circles. With 40 sweeps, or with 8 times, some circles go on; a descent that does
+  /// get on passes such a wave only now and then.
+  static constexpr int sweeps_in_vain = 20;
+  static constexpr double risen = 2.0;
+
+  /// Where rows hold a grain more often than it can move, as the corners of several faces do,
+  /// momentum may drive them round in circles while all others converge. The restart test, a sum
+  /// over all rows, does not see these few. With no momentum they converge, and have done so by the
+  /// time it has grown again.
+  void leave_circle(double largest) {
+    if (largest < least_seen_) {
+      least_seen_ = largest;
+      since_least_ = 0;
+    } else if (++since_least_ >= sweeps_in_vain && largest > risen * least_seen_) {
+      momentum_.restart();
+      least_seen_ = largest;
+      since_least_ = 0;
+    }
+  }
 
   Sums sweep(BlockRange range, const SweepRule<Real>& rule) {
     return rows_.sweep(kernels_, range, rule, motion_.u.data());
@@ -266,6 +289,8 @@ class GaussSeidel {
   const bool is_accelerated_;
   bool has_momentum_;  ///< until it is given up
   Momentum momentum_;
+  double least_seen_ = std::numeric_limits<double>::infinity();  ///< residual since a restart
+  int since_least_ = 0;                                          ///< sweeps
   double first_seen_ = -1.0;  ///< residual at the begin of the descent; none yet if negative
   int swept_ = 0;
   std::size_t phase_ = 0;                 ///< of the next turn

@@ -65,6 +65,7 @@ struct Contacts<Polyhedron, Real> {
 
   // As for spheres; a block itself says where its impulses are.
   static constexpr std::size_t records_of_grain = 2;
+  static constexpr bool may_circle = true;
   SweepSums<Real> sweep(const Kernels& all, BlockRange range, const SweepRule<Real>& rule,
                         Record<Real>* u) {
     return kernels_of<Real>(all).bodies.gauss_seidel_sweep(

@@ -96,9 +96,11 @@ struct Contacts<Sphere, Real> {
 
   std::size_t blocks_of_row(const WallRows& wall) const { return wall.first < first_round ? 1 : 2; }
 
-  // What the solver needs of contacts of any kind: how many records of motion a grain has, and what
-  // its kernels do to the rows of a range.
+  // What the solver needs of contacts of any kind: how many records of motion a grain has, whether
+  // its rows may hold it more often than it can move, and what its kernels do to the rows of a
+  // range.
   static constexpr std::size_t records_of_grain = 1;
+  static constexpr bool may_circle = false;  ///< see GaussSeidel::leave_circle
   SweepSums<Real> sweep(const Kernels& all, BlockRange range, const SweepRule<Real>& rule,
                         Record<Real>* u) {
     const RowKernels<Real>& kernels = kernels_of<Real>(all).rows;
