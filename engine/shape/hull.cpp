@@ -248,20 +248,35 @@ std::string problem_with_dents(const std::vector<Vector>& points, const Loops& l
   return "";
 }
 
-/// How deep the middle of an edge of `face` lies, or the middle of the face if it is a triangle:
-/// the middle of other faces may lie outside them.
+/// Whether the corners of a face lie within `allowed` of a plane.
+bool is_flat(const std::vector<std::int32_t>& face, const std::vector<Vector>& points,
+             double allowed) {
+  const Vector normal = area_vector(points, face).normalized();
+  double least = std::numeric_limits<double>::infinity(), most = -least;
+  for (const std::int32_t k : face) {
+    const double height = normal.dot(points[static_cast<std::size_t>(k)]);
+    least = std::min(least, height);
+    most = std::max(most, height);
+  }
+  return most - least <= allowed;
+}
+
+/// How deep the middle of an edge of `face` lies, or the mean of its corners if it is flat: of a
+/// face of a convex shape that is a point of it, or of its plane within another one; a face that is
+/// bent along a diagonal may be on the hull, and the mean of its corners in it.
 double depth_of(const std::vector<std::int32_t>& face, const std::vector<Vector>& points,
-                const std::vector<Plane>& planes) {
+                const std::vector<Plane>& planes, double allowed) {
   const auto point = [&](std::size_t k) -> const Vector& {
     return points[static_cast<std::size_t>(face[k % face.size()])];
   };
-  const bool is_triangle = face.size() == 3;
-  double deepest =
-      is_triangle ? depth_of(Vector((point(0) + point(1) + point(2)) / 3.0), planes) : 0.0;
+  double deepest = 0.0;
+  Vector sum = Vector::Zero();
   for (std::size_t k = 0; k < face.size(); ++k) {
     deepest = std::max(deepest, depth_of(Vector((point(k) + point(k + 1)) / 2.0), planes));
+    sum += point(k);
   }
-  return deepest;
+  if (!is_flat(face, points, allowed)) return deepest;
+  return std::max(deepest, depth_of(Vector(sum / static_cast<double>(face.size())), planes));
 }
 
 /// Keeps the points that are corners, in their order, and numbers the loops anew.
@@ -432,7 +447,7 @@ std::optional<Dent> deepest_dent(const std::vector<Vector>& points, const Loops&
   Dent deepest{0, allowed_dent(extents.length, merged), extents.length};
   const double allowed = deepest.depth;
   for (std::size_t f = 0; f < faces.size() && !planes.empty(); ++f) {
-    const double depth = depth_of(faces[f], near, planes);
+    const double depth = depth_of(faces[f], near, planes, allowed);
     if (depth > deepest.depth) deepest.face = f, deepest.depth = depth;
   }
   return deepest.depth > allowed ? std::optional(deepest) : std::nullopt;

@@ -15,12 +15,15 @@
 namespace grainsweep {
 namespace {
 
-/// A run at work writes them itself.
-void write_new_tables(const std::string& folder, const Results& results, const Analysis& analysis) {
+/// Whether write() wrote `what`; if not, says why.
+template <class Write>
+bool is_written(const char* what, const Write& write) {
   try {
-    write_tables(folder, results.provenance, results.rows, analysis);
+    write();
+    return true;
   } catch (const FileError& error) {
-    std::cerr << "warning: there are no new tables: " << error.what() << "\n";
+    std::cerr << called_as() << ": there " << what << ": " << error.what() << "\n";
+    return false;
   }
 }
 
@@ -39,17 +42,19 @@ int perform(const ReportOptions& options) {
   std::cerr << damage_warnings(check_beds(options.folder, results.rows));
   const Analysis analysis = analyse(results.rows, options.folder);
   const bool is_at_work = is_worked_on(options.folder, results.last_runs);
-  if (!is_at_work) write_new_tables(options.folder, results, analysis);
+  // A run at work writes them itself.
+  const bool has_tables =
+      is_at_work || is_written("are no new tables", [&] {
+        write_tables(options.folder, results.provenance, results.rows, analysis);
+      });
   std::cout << closing_report(results.provenance, results.rows, analysis.families,
                               {called_as(), options.folder,
-                               has_grains(options.folder, results.rows), is_at_work})
+                               has_grains(options.folder, results.rows), is_at_work, has_tables})
             << std::flush;
-  try {
+  const bool has_page = is_written("is no new page", [&] {
     std::cout << write_page(options.folder, results.provenance, results.rows, analysis);
-  } catch (const FileError& error) {
-    std::cerr << "warning: there is no new page: " << error.what() << "\n";
-  }
-  return exit_done;
+  });
+  return has_tables && has_page ? exit_done : exit_file_system;
 }
 
 }  // namespace grainsweep

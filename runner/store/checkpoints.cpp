@@ -59,14 +59,17 @@ CheckpointFiles::CheckpointFiles(const std::string& folder, std::string job, std
 
 std::optional<Checkpoint> CheckpointFiles::newest() {
   std::optional<Checkpoint> newest;
+  std::string damaged;
   for (const std::uint64_t slot : {0u, 1u}) {
     if (!file_exists(path(slot))) continue;
     auto read = checkpoint_from_bytes(read_file(path(slot)));
+    if (!read) damaged = path(slot);
     const bool is_ours = read && read->job == job_ && read->build == build_;
     if (!is_ours || (newest && read->number < next_)) continue;
     newest = std::move(read->checkpoint);
     next_ = read->number + 1;
   }
+  if (!newest && !damaged.empty()) throw FileError(damaged, "is damaged, or of another version");
   return newest;
 }
 

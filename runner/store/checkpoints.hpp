@@ -28,7 +28,8 @@ class CheckpointFiles {
   /// `build` names the program that may go on from them: a saved state is no exchange format.
   CheckpointFiles(const std::string& folder, std::string job, std::string build);
 
-  /// The newest whole one; nothing if there is none. Throws FileError if one cannot be read.
+  /// The newest whole one; nothing if there is none. Throws FileError if one cannot be read, or if
+  /// none is whole.
   std::optional<Checkpoint> newest();
 
   /// Returns once it is on the disk. Makes the folder checkpoints if missing. Throws FileError.

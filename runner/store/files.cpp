@@ -60,10 +60,28 @@ FileError::FileError(const std::string& path, const std::string& action, int err
 FileError::FileError(const std::string& path, const std::string& what)
     : std::runtime_error(path + ": " + what) {}
 
+namespace {
+
+/// To open a pipe for reading would wait for somebody who writes.
+int opened_as(int flags) {
+  return flags | O_CLOEXEC | ((flags & O_ACCMODE) == O_RDONLY ? O_NONBLOCK : 0);
+}
+
+bool is_endless(int descriptor) {
+  struct stat known {};
+  return fstat(descriptor, &known) == 0 &&
+         (S_ISFIFO(known.st_mode) || S_ISCHR(known.st_mode) || S_ISSOCK(known.st_mode));
+}
+
+}  // namespace
+
 OpenFile::OpenFile(std::string path, int flags, unsigned mode)
     : path_(std::move(path)),
-      descriptor_(uninterrupted([&] { return open(path_.c_str(), flags | O_CLOEXEC, mode); })) {
+      descriptor_(uninterrupted([&] { return open(path_.c_str(), opened_as(flags), mode); })) {
   if (descriptor_ < 0) throw FileError(path_, "open", errno);
+  if ((flags & O_ACCMODE) != O_RDONLY || !is_endless(descriptor_)) return;
+  close(std::exchange(descriptor_, -1));
+  throw FileError(path_, "is a pipe or a device, not a file");
 }
 
 OpenFile::~OpenFile() {

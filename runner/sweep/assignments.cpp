@@ -93,12 +93,27 @@ std::string absence_of(const std::string& path) {
   return "";
 }
 
+/// What is wrong with a key "box.gap", if there is such a group, as with "gap" in it; else "".
+std::string unknown_in_its_group(const std::string& path) {
+  const std::size_t dot = path.rfind('.');
+  if (dot == std::string::npos) return "";
+  const std::string home = path.substr(0, dot), key = path.substr(dot + 1);
+  const std::vector<std::string> known = known_keys(home);
+  if (known.empty()) return "";
+  const std::string near = nearest(key, known);
+  const std::string meant = near.empty() ? path_that_ends_in(key, home) : dotted(home, near);
+  return meant.empty() ? "known in " + home + ": " + short_list(known)
+                       : "did you mean \"" + meant + "\"?";
+}
+
 /// What is wrong with a key of `group` that does not exist: why there is none, a word near it, the
 /// full path of a key that is only misplaced, or the keys that `pointer` leads to.
 std::string unknown_path(const std::string& group, const std::string& key,
                          const std::string& pointer) {
   const std::string start = "unknown key \"" + shortened(key) + "\"; ";
   if (auto reason = absence_of(dotted(group, key)); !reason.empty()) return start + reason;
+  const std::string in_its_group = group.empty() ? unknown_in_its_group(key) : "";
+  if (!in_its_group.empty()) return start + in_its_group;
   std::vector<std::string> known = known_keys(group);
   if (pointer.starts_with("/base/")) std::erase(known, "seed");  // belongs beside it
   const bool is_misspelt = !group.empty() && !nearest(key, known).empty();

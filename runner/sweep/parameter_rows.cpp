@@ -179,7 +179,7 @@ Rows accuracy_rows() {
                                                "kinetic energy per grain at rest, m g d"),
       row<&S::accuracy, &A::contact_tolerance>(
           "accuracy.contact_tolerance", positive,
-          "share of the isostatic contacts that may lack at rest"),
+          "share of the isostatic contacts that may be missing at rest"),
       row<&S::accuracy, &A::overlap_tolerance>(
           "accuracy.overlap_tolerance", positive,
           "mean overlap of touching pairs at rest, d; no pair more than a hundred times it"),

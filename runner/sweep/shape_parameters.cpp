@@ -159,7 +159,7 @@ Rows solid_rows() {
       part<&CuboidSize::height>("shape.cuboid.height", "third edge of a brick, d"),
       part<&TetrahedronSize::height>(
           "shape.tetrahedron.height",
-          "from a face to the corner opposite, d: 0.8165 times the edge"),
+          "from a face to the opposite corner, d: 0.8165 times the edge"),
       part<&OctahedronSize::height>("shape.octahedron.height",
                                     "from a face to that opposite, d: 0.8165 times the edge"),
       part<&DodecahedronSize::height>("shape.dodecahedron.height",

@@ -16,6 +16,8 @@
 namespace grainsweep {
 namespace {
 
+constexpr std::string_view end_of_solid = "endsolid";  // of a file of text
+
 // A file of bytes: a heading, the number of triangles, and for each a normal and three corners, all
 // little-endian f32, and a number that nothing uses.
 constexpr std::size_t heading = 80, triangle = 50, corner = 12;
@@ -51,6 +53,8 @@ class Triangles {
     reading_.faces.push_back(std::exchange(face_, {}));
     reading_.face_places.push_back(file_ + ": triangle " + std::to_string(reading_.faces.size()));
   }
+  /// Ends a triangle. Returns how many corners it has if they are too few, else 0.
+  std::size_t end() { return std::exchange(face_, {}).size(); }
   VerticesReading reading() && { return std::move(reading_); }
 
  private:
@@ -81,20 +85,36 @@ VerticesReading parse_bytes(const std::string& bytes, const std::string& file) {
   return std::move(triangles).reading();
 }
 
-VerticesReading parse_text(const std::string& text, const std::string& file) {
+/// What is wrong with a line, or "".
+std::string take_line(std::string_view line, Triangles& triangles) {
   constexpr std::string_view keyword = "vertex";
-  Diagnostics errors;
-  Triangles triangles(file);
-  const auto lines = lines_of(text);
-  for (std::size_t k = 0; k < lines.size() && errors.size() < most_wrong_lines; ++k) {
-    const std::string_view line = trimmed(lines[k]);
-    if (!line.starts_with(keyword)) continue;
+  if (line.starts_with(keyword)) {
     Vector vertex = Vector::Zero();
     const std::string error = read_vertex(line.substr(keyword.size()), vertex);
     if (error.empty()) triangles.take(vertex);
+    return error;
+  }
+  const bool ends_facet = line.starts_with("endfacet") || line.starts_with(end_of_solid);
+  const std::size_t corners = ends_facet ? triangles.end() : 0;
+  return corners == 0 ? "" : "a facet needs three corners, has " + std::to_string(corners);
+}
+
+VerticesReading parse_text(const std::string& text, const std::string& file) {
+  Diagnostics errors;
+  Triangles triangles(file);
+  bool is_whole = false;
+  const auto lines = lines_of(text);
+  for (std::size_t k = 0; k < lines.size() && errors.size() < most_wrong_lines; ++k) {
+    const std::string_view line = trimmed(lines[k]);
+    const std::string error = take_line(line, triangles);
     if (!error.empty()) note_wrong_line(errors, file, k + 1, error);
+    is_whole = line.starts_with(end_of_solid) || (is_whole && line.empty());
   }
   VerticesReading reading = std::move(triangles).reading();
+  if (!is_whole && errors.empty() && !reading.vertices.empty()) {
+    note_wrong_line(errors, file, lines.size(),
+                    "the file ends without \"endsolid\": it is cut off");
+  }
   reading.errors = std::move(errors);
   return reading;
 }

@@ -409,6 +409,13 @@ bool has_grains(const std::string& folder, const std::vector<Row>& rows) {
   return false;
 }
 
+std::string where_text(const ReportPlace& place) {
+  if (!place.has_tables) return "";
+  return (place.is_worked_on ? "Tables come when the run ends, in " : "Tables in ") + place.folder +
+         ": packings.csv, groups.csv, fits.csv, profiles.csv, decays.csv and more;\n"
+         "provenance.json says how they were made\n";
+}
+
 std::string closing_report(const Provenance& provenance, const std::vector<Row>& rows,
                            const std::vector<Family>& families, const ReportPlace& place) {
   const Totals totals = totals_of(rows);
@@ -417,10 +424,7 @@ std::string closing_report(const Provenance& provenance, const std::vector<Row>&
          laboratory_text(families, provenance.units) + definitions_text(rows) +
          bias_text(families) + small_share_text(families) + percolation_text(families) +
          reasons_text(rows, PackingNames(families)) + effort_text(provenance, totals.cpu_seconds) +
-         (place.is_worked_on ? "Tables come when the run ends, in " : "Tables in ") + place.folder +
-         ": packings.csv, groups.csv, fits.csv, profiles.csv, decays.csv and more;\n"
-         "provenance.json says how they were made\n" +
-         next_text(sweep_file_of(provenance), totals.counts, place);
+         where_text(place) + next_text(sweep_file_of(provenance), totals.counts, place);
 }
 
 }  // namespace grainsweep

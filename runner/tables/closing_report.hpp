@@ -15,6 +15,7 @@ struct ReportPlace {
   std::string folder;         ///< output folder
   bool has_grains = true;     ///< whether its beds can be exported, see has_grains
   bool is_worked_on = false;  ///< a runner makes what is missing
+  bool has_tables = true;     ///< false if they could not be written
 };
 
 /// Whether the first bed that is stored in the folder has its grains; beds of a run with

@@ -341,5 +341,17 @@ TEST_CASE(
   CHECK_FALSE(deepest_dent({Vector(0, 0, 0), Vector(1, 0, 0)}, {{0, 1, 0}}));
 }
 
+TEST_CASE(
+    "a flat face whose edges lie on the hull is a dent if it goes through it, a bent one not") {
+  std::vector<Vector> points = {Vector(0, 0, 0), Vector(1, 0, 0), Vector(1, 1, 0), Vector(0, 1, 0),
+                                Vector(0, 0, 1), Vector(1, 0, 1), Vector(1, 1, 1), Vector(0, 1, 1)};
+  const auto across = deepest_dent(points, {{0, 3, 2, 1}, {0, 2, 6, 4}});
+  REQUIRE(across);
+  CHECK(across->face == 1);
+  CHECK(across->depth == Approx(0.5).epsilon(1e-9));
+  for (const std::size_t k : {5, 7}) points[k].z() = 1.2;  // a ridge across the top
+  CHECK_FALSE(deepest_dent(points, {{4, 5, 6, 7}}));
+}
+
 }  // namespace
 }  // namespace grainsweep

@@ -62,10 +62,15 @@ rm -r before
 [ "$(grep -c gnuplot error.txt)" -eq 1 ] || fail "not told once: $(cat error.txt)"
 expect_text out/small/report.html "for want of gnuplot" "</html>"
 rm out/small/report.html && mkdir -p out/small/report.html/in-the-way
-expect_code 0 "$program" report out/small
-expect_text error.txt "warning: there is no new page: "
+expect_code 4 "$program" report out/small
+expect_text error.txt "there is no new page: "
 cmp out.txt <(grep -v "^Page to look at" report.txt) || fail "without a page report prints another table"
 rm -r out/small/report.html
+mv out/small/fits.csv fits.csv && mkdir -p out/small/fits.csv/in-the-way
+expect_code 4 "$program" report out/small
+expect_text error.txt "there are no new tables: "
+if grep -q "^Tables in" out.txt; then fail "tables are said to be there that are not"; fi
+rm -r out/small/fits.csv && mv fits.csv out/small/fits.csv
 expect_code 2 "$program" compare out/small
 expect_text error.txt "small.reference.json" "--with"
 printf '{"source": "A paper", "families": [{"where": {}, "values": [{"quantity": "Z", "width": 99, "value": 6}]}]}' \

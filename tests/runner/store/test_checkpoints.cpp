@@ -78,7 +78,8 @@ TEST_CASE("where the newest is damaged the one before it is used, and replaced l
   damage(path_of(folder, 1));
   CHECK(files_in_folder(folder).newest().value().state == "first");
   damage(path_of(folder, 0));
-  CHECK_FALSE(files_in_folder(folder).newest());
+  CHECK_THROWS_WITH(files_in_folder(folder).newest(),
+                    Catch::EndsWith("is damaged, or of another version"));
 }
 
 TEST_CASE("a checkpoint of another job or another build is not used") {

@@ -5,6 +5,7 @@
 
 #include <catch2/catch.hpp>
 #include <sys/resource.h>
+#include <sys/stat.h>
 
 #include "runner/store/files.hpp"
 #include "tests/runner/temporary_folder.hpp"
@@ -14,6 +15,13 @@ namespace {
 
 using Catch::Matchers::Contains;
 using Catch::Matchers::StartsWith;
+
+TEST_CASE("a pipe in the place of a file is refused, and nothing waits for it") {
+  const TemporaryFolder folder;
+  const std::string path = folder.path() + "/pipe";
+  REQUIRE(mkfifo(path.c_str(), 0600) == 0);
+  CHECK_THROWS_WITH(read_file(path), path + ": is a pipe or a device, not a file");
+}
 
 TEST_CASE("a replaced file reads back byte by byte and leaves no neighbour behind") {
   const TemporaryFolder folder;

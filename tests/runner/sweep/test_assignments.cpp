@@ -123,6 +123,12 @@ TEST_CASE("an unknown key is refused at the key, with the nearest known one") {
   CHECK(errors_in_base(R"({"sizes.spred": 0.1})") ==
         Messages{"s.json:2:2 /base/sizes.spred: unknown key \"sizes.spred\"; did you mean "
                  "\"sizes.spread\"?"});
+  CHECK(errors_in_base(R"({"box.gap": 5})") ==
+        Messages{"s.json:2:2 /base/box.gap: unknown key \"box.gap\"; known in box: length, width, "
+                 "x, y"});
+  CHECK(errors_in_base(R"({"shape.pinacoid.angle": 60})") ==
+        Messages{"s.json:2:2 /base/shape.pinacoid.angle: unknown key \"shape.pinacoid.angle\"; "
+                 "known in shape.pinacoid: length, width, height, angle_deg"});
   CHECK(errors_in_base(R"({"bx": {}})") ==
         Messages{"s.json:2:2 /base/bx: unknown key \"bx\"; did you mean \"box\"?"});
   CHECK(errors_in_base(R"({"colour": 0.3})") ==

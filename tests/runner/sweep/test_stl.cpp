@@ -94,6 +94,15 @@ TEST_CASE("an STL file that is cut short, or none, says so") {
       "of "
       "80, the number of triangles and 50 for each, ";
   CHECK(errors_of_stl(cut) == Messages{start + "284 in all, not 283"});
+  std::string text = text_of(corner_of_a_cube);
+  text.erase(text.rfind("endsolid"));
+  CHECK(errors_of_stl(text) ==
+        Messages{"rock.stl:29: the file ends without \"endsolid\": it is cut off"});
+  text.erase(text.rfind("      vertex"));
+  CHECK(errors_of_stl(text) ==
+        Messages{"rock.stl:26: the file ends without \"endsolid\": it is cut off"});
+  CHECK(errors_of_stl(text + "    endloop\n  endfacet\nendsolid\n") ==
+        Messages{"rock.stl:28: a facet needs three corners, has 2"});
   CHECK(errors_of_stl("solid nothing\nendsolid\n") == Messages{start + "84 in all, not 23"});
 }
 
