@@ -204,7 +204,7 @@ Measured measure_quantity(const std::string& quantity, double width, const Famil
     }
   }
   return {{},
-          std::string("the sweep has no packings ") +
+          std::string("this family has no packings ") +
               (first_group(family).job.box.is_tube ? "in tubes at " : "between walls at ") +
               extent_symbol(family.walled) + " = " + cell(width) + " d",
           ""};

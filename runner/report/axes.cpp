@@ -281,15 +281,25 @@ std::string joined_title(const std::string& label, const std::string& distinctio
   return label.empty() || distinction.empty() ? label + distinction : label + ", " + distinction;
 }
 
-/// Their distinctions without those that they share.
-std::vector<Values> not_shared(const std::vector<const Group*>& groups) {
+enum class Among { all, label };
+
+/// Their distinctions without those that all of them share, or all with the same label.
+std::vector<Values> not_shared(const std::vector<const Group*>& groups, Among among) {
+  const auto set_of = [&](const Group& group) {
+    return among == Among::label ? group.job.label : std::string();
+  };
   std::vector<Values> all;
-  std::map<std::pair<std::string, std::string>, std::size_t> uses;
+  std::map<std::string, std::size_t> sizes;
+  std::map<std::pair<std::string, Values::value_type>, std::size_t> uses;
   for (const Group* group : groups) {
-    for (const auto& one : all.emplace_back(distinctions(*group, ""))) ++uses[one];
+    ++sizes[set_of(*group)];
+    for (const auto& one : all.emplace_back(distinctions(*group, ""))) {
+      ++uses[{set_of(*group), one}];
+    }
   }
-  for (Values& values : all) {
-    std::erase_if(values, [&](const auto& one) { return uses[one] == groups.size(); });
+  for (std::size_t k = 0; k < groups.size(); ++k) {
+    const std::string set = set_of(*groups[k]);
+    std::erase_if(all[k], [&](const auto& one) { return uses[{set, one}] == sizes[set]; });
   }
   return all;
 }
@@ -326,26 +336,37 @@ bool are_different(const std::vector<std::string>& texts) {
   return std::set<std::string>(texts.begin(), texts.end()).size() == texts.size();
 }
 
-}  // namespace
-
-std::vector<std::string> titles_of(const std::vector<const Group*>& groups, std::size_t longest) {
+/// Labels and values; labels are shortened where that makes room.
+std::vector<std::string> titles_with(const std::vector<Values>& values,
+                                     const std::vector<const Group*>& groups, std::size_t longest) {
   constexpr std::size_t shortest_label = 6;
-  std::vector<std::string> titles;
-  titles.reserve(groups.size());
-  for (const Group* group : groups) titles.push_back(title_of(*group));
-  if (have_room(titles, longest)) return titles;
-  const std::vector<Values> values = with_short_numbers(not_shared(groups));
   std::size_t room = longest;  // for labels
   for (const Values& one : values) {
     const std::size_t taken = characters(joined_title(" ", words(one))) - 1;
     room = std::min(room, longest - std::min(longest, taken));
   }
-  titles.clear();
+  std::vector<std::string> titles;
+  titles.reserve(groups.size());
   for (std::size_t k = 0; k < groups.size(); ++k) {
     const std::string label = shortened(groups[k]->job.label, std::max(room, shortest_label));
     titles.push_back(joined_title(label, words(values[k])));
   }
+  return titles;
+}
+
+}  // namespace
+
+std::vector<std::string> titles_of(const std::vector<const Group*>& groups, std::size_t longest) {
+  std::vector<std::string> titles;
+  titles.reserve(groups.size());
+  for (const Group* group : groups) titles.push_back(title_of(*group));
+  if (have_room(titles, longest)) return titles;
+  const std::vector<Values> values = with_short_numbers(not_shared(groups, Among::all));
+  titles = titles_with(values, groups, longest);
   if (have_room(titles, longest)) return told_apart(titles, longest);
+  const std::vector<std::string> by_label =
+      titles_with(with_short_numbers(not_shared(groups, Among::label)), groups, longest);
+  if (have_room(by_label, longest) && are_different(by_label)) return by_label;
   std::vector<std::string> without_labels;
   without_labels.reserve(groups.size());
   for (const Values& one : values) without_labels.push_back(words(one));

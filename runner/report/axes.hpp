@@ -60,7 +60,8 @@ std::string title_of(const Group& group, std::size_t longest_label = 1000);
 inline constexpr std::size_t figure_label = 16;
 
 /// What tells these groups from each other, each in at most so many characters. Where there is no
-/// room for all, what they share is left out, and numbers are short.
+/// room for all, what they share is left out, and numbers are short; then what all of a label
+/// share.
 std::vector<std::string> titles_of(const std::vector<const Group*>& groups, std::size_t longest);
 
 /// Texts shortened to so many characters; those that would then be alike lose their beginnings

@@ -134,7 +134,8 @@ std::vector<Field> main_fields() {
       in_result<of::rest, &Rest::contacts>(
           "contacts", "",
           "force-bearing contacts closed to 1e-4 d, walls and floor included; of polyhedra a "
-          "contact along a line counts 2, one over an area 3"),
+          "contact along a line counts 2, one over an area 3, as grains lie at the end (a few lie "
+          "otherwise than in the last step, whose kinds contacts_simple and an export tell)"),
       in_result<of::rest, &Rest::isostatic_contacts>(
           "isostatic_contacts", "", "degrees of freedom less those that nothing holds"),
       {"contact_ratio", "", "contacts over isostatic_contacts, 1 at perfect rest", derived,
@@ -168,10 +169,13 @@ std::vector<Field> main_fields() {
 
 std::vector<Field> further_fields() {
   return {
-      in_result<&Result::surface_height>("surface_height", "d",
-                                         "z of the bed's free surface: median of the highest "
-                                         "points over columns of the floor, of an "
-                                         "even number of them the higher of the two in the middle"),
+      in_result<&Result::surface_height>(
+          "surface_height", "d",
+          "z of the bed's free surface: median, over columns of the "
+          "floor about d wide (as wide as the grains, if these are "
+          "larger), of the highest point of the grains whose centres "
+          "stand above each; of an even number of columns the higher "
+          "of the two in the middle"),
       in_result<&Result::slab_bottom>("slab_bottom", "d", "z where the measured slab begins"),
       in_result<&Result::slab_top>("slab_top", "d", "z where it ends"),
       in_result<of::rest, &Rest::independent_contacts>(

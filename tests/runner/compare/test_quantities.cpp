@@ -129,7 +129,7 @@ TEST_CASE("what a sweep lacks is not determined, with the reason") {
     return measure_quantity(quantity, width, family).not_determined;
   };
   CHECK(reason("phi", 5) == "needs 2 or more settled replicates to know the error");
-  CHECK(reason("phi", 10) == "the sweep has no packings between walls at W = 10 d");
+  CHECK(reason("phi", 10) == "this family has no packings between walls at W = 10 d");
   CHECK(reason("Z_unconfined") == "the sweep has no settled packing with periodic y");
   CHECK_THAT(reason("C"), Catch::Contains("3 or more widths"));
   CHECK_THAT(reason("zeta_difference"), Catch::Contains("3 or more widths"));

@@ -76,7 +76,7 @@ expect_text error.txt "small.reference.json" "--with"
 printf '{"source": "A paper", "families": [{"where": {}, "values": [{"quantity": "Z", "width": 99, "value": 6}]}]}' \
   >small.reference.json
 expect_code 0 "$program" compare out/small
-expect_text out.txt "A paper" "not determined: the sweep has no packings between walls at W = 99 d"
+expect_text out.txt "A paper" "not determined: this family has no packings between walls at W = 99 d"
 for reference in "$configs"/*.reference.json; do
   expect_code 0 "$program" compare out/small --with "$reference"
   expect_text out.txt "Camenen"

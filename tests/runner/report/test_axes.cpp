@@ -250,6 +250,19 @@ TEST_CASE("titles in a figure leave out what all share before they lose what tel
   CHECK(titles_of(shown, 20) == std::vector<std::string>{"small_share = 0.1", "small_share = 0.2"});
 }
 
+TEST_CASE("titles leave out what all of a label share before they lose the label", "[report]") {
+  std::vector<Row> rows = {row_at("a", 4, 0.0), row_at("b", 4, 0.1), row_at("c", 6, 0.1)};
+  rows[0].job.label = "mono";
+  rows[1].job.label = rows[2].job.label = "two sizes";
+  const std::vector<Group> groups = groups_of(rows);
+  const std::vector<const Group*> shown = {&groups[0], &groups[1], &groups[2]};
+  CHECK(titles_of(shown, 40) == std::vector<std::string>{"mono, W = 4, small_share = 0",
+                                                         "two sizes, W = 4, small_share = 0.1",
+                                                         "two sizes, W = 6, small_share = 0.1"});
+  CHECK(titles_of(shown, 16) ==
+        std::vector<std::string>{"mono", "two sizes, W = 4", "two sizes, W = 6"});
+}
+
 TEST_CASE("shortened texts that would be alike are told by their ends, or else by number",
           "[report]") {
   using Texts = std::vector<std::string>;
