@@ -23,9 +23,11 @@ namespace grainsweep {
 
 namespace {
 
-constexpr double carried_share = 0.9;      // of its weight, where the floor carries a bed
-constexpr std::int64_t steps_down = 4;     // in which forces get down to the floor
-constexpr std::int64_t most_rounds = 128;  // a bed that needs more does not come to rest
+constexpr double carried_share = 0.9;        // of its weight, where the floor carries a bed
+constexpr std::int64_t steps_down = 4;       // in which forces get down to the floor
+constexpr std::int64_t most_rounds = 128;    // a bed that needs more does not come to rest
+constexpr double longest_in_a_round = 0.02;  // d; see longest_of_round
+constexpr std::int64_t rounds_of_a_turn = 4;
 constexpr std::int64_t most_unsolved = 9;  // rounds in a row that leave forces unsolved
 constexpr double unlimited = std::numeric_limits<double>::infinity();
 constexpr double rounding_of_places = 1e-9;  // d; far from the origin coordinates have fewer digits
@@ -148,6 +150,15 @@ class Settling {
   /// Steps left until the stage has taken its least number.
   std::int64_t steps_left() const { return steps_of(accuracy_, rule()) - steps_in_stage_; }
 
+  /// Longest motion of polyhedra that slide on, d: one that is pressed out of an overlap by a turn
+  /// which undoes that to second order would turn back in the next step, and so on for ever. Three
+  /// rounds in four move in ever smaller steps; in the fourth jammed grains may get free.
+  double longest_of_round() const {
+    const std::int64_t part = rounds_ % rounds_of_a_turn;
+    const bool is_short = std::is_same_v<Kind, Polyhedron> && part > 0;
+    return is_short ? longest_in_a_round / static_cast<double>(part) : longest_motion;
+  }
+
   /// Settings of the stage, with more iterations if its first steps look like those of a bed. Tests
   /// of rest look at the contacts of the very last step.
   StepSettings settings_of_step() const {
@@ -157,6 +168,7 @@ class Settling {
     settings.steps = static_cast<int>(std::clamp<std::int64_t>(most, 1, settings.steps));
     const bool looks_closer = rule().end == StageEnd::look && steps_in_stage_ >= steps_down;
     if (looks_closer) settings.limits.iterations *= rule().closer;
+    settings.longest = longest_of_round();
     return settings;
   }
 

@@ -59,16 +59,17 @@ void stand_still(PolyhedronBed& bed, std::size_t grain) {
   bed.spin[grain] = Vector::Zero();
 }
 
-/// Moves a grain by `u`, cut at longest_motion.
+/// Moves a grain by `u`, cut at `most`.
 template <class Real>
-void advance(const std::vector<Record<Real>>& u, std::size_t i, SphereBed& bed, Moved& moved) {
+void advance(const std::vector<Record<Real>>& u, double most, std::size_t i, SphereBed& bed,
+             Moved& moved) {
   double x = static_cast<double>(u[i].x), y = static_cast<double>(u[i].y);
   double z = static_cast<double>(u[i].z);
   double squared = x * x + y * y + z * z;
-  if (squared > longest_motion * longest_motion) {
-    const double keep = longest_motion / std::sqrt(squared);
+  if (squared > most * most) {
+    const double keep = most / std::sqrt(squared);
     x *= keep, y *= keep, z *= keep;
-    squared = longest_motion * longest_motion;
+    squared = most * most;
   }
   bed.position[i].x += x;
   bed.position[i].y += y;
@@ -80,11 +81,12 @@ void advance(const std::vector<Record<Real>>& u, std::size_t i, SphereBed& bed, 
   moved.longest = std::max(moved.longest, std::sqrt(squared));
 }
 template <class Real>
-void advance(const std::vector<Record<Real>>& u, std::size_t i, PolyhedronBed& bed, Moved& moved) {
+void advance(const std::vector<Record<Real>>& u, double most, std::size_t i, PolyhedronBed& bed,
+             Moved& moved) {
   const Vector& root = bed.root_inertia[i];
-  const Vector displacement = clamped(vector(u[2 * i]), longest_motion);
+  const Vector displacement = clamped(vector(u[2 * i]), most);
   const Vector angles =
-      clamped(vector(u[2 * i + 1]).cwiseQuotient(root), longest_motion / bed.circumradius(i));
+      clamped(vector(u[2 * i + 1]).cwiseQuotient(root), most / bed.circumradius(i));
   move_grain(bed, i, displacement, angles);
   moved.energy +=
       displacement.squaredNorm() / bed.motion[i].w + root.cwiseProduct(angles).squaredNorm();
@@ -178,9 +180,9 @@ void set_free_motion(const StepSettings& settings, const ParallelFor& loop, cons
   }
 }
 
-/// Moves some grains.
+/// Moves some grains, none by more than `most`.
 template <class Kind, class Real>
-Moved advance(const MotionColumns<Real>& motion, IndexRange grains, Bed<Kind>& bed) {
+Moved advance(const MotionColumns<Real>& motion, double most, IndexRange grains, Bed<Kind>& bed) {
   constexpr std::size_t records = Contacts<Kind, Real>::records_of_grain;
   Moved moved;
   for (std::size_t i = grains.first; i < grains.last; ++i) {
@@ -188,7 +190,7 @@ Moved advance(const MotionColumns<Real>& motion, IndexRange grains, Bed<Kind>& b
       stand_still(bed, i);
       continue;
     }
-    advance(motion.u, i, bed, moved);
+    advance(motion.u, most, i, bed, moved);
     const Real lift = motion.u[records * i].z - motion.free[records * i].z;
     moved.lift += static_cast<double>(lift) / bed.motion[i].w;
     moved.mass += 1.0 / bed.motion[i].w;
@@ -199,11 +201,11 @@ Moved advance(const MotionColumns<Real>& motion, IndexRange grains, Bed<Kind>& b
 
 /// Moves all grains and reports how they moved.
 template <class Kind, class Real>
-void advance(double dt, const ParallelFor& loop, Bed<Kind>& bed, StepState<Kind, Real>& state,
-             StepReport& report) {
+void advance(const StepSettings& settings, const ParallelFor& loop, Bed<Kind>& bed,
+             StepState<Kind, Real>& state, StepReport& report) {
   state.moved.resize(bed.subdomains);
   parallel_chunks(loop, bed.grains(), bed.subdomains, [&](std::size_t part, IndexRange some) {
-    state.moved[part] = advance(state.motion, some, bed);
+    state.moved[part] = advance(state.motion, settings.longest, some, bed);
   });
   Moved all;
   for (const Moved& some : state.moved) {
@@ -211,6 +213,7 @@ void advance(double dt, const ParallelFor& loop, Bed<Kind>& bed, StepState<Kind,
            all.lift + some.lift,     all.mass + some.mass,
            all.awake + some.awake,   std::max(all.of_inradius, some.of_inradius)};
   }
+  const double dt = settings.dt;
   report.kinetic_energy = all.energy / (2.0 * dt * dt * std::max(all.awake, 1.0));
   report.largest_motion = all.longest;
   report.motion_of_inradius = all.of_inradius;
@@ -235,7 +238,7 @@ void move_on_contacts(const StepSettings& settings, const ExecutionContext& cont
                           static_cast<double>(std::max<std::int64_t>(degrees_of_freedom(bed), 1));
   report.solve.residual /= force_unit;
   report.solve.rms /= force_unit;
-  advance(settings.dt, context.loop, bed, state, report);
+  advance(settings, context.loop, bed, state, report);
   ++report.steps;
 }
 

@@ -35,6 +35,7 @@ struct StepSettings {
   SolveLimits limits;       ///< tolerance in m g here; `step` turns it into a mass times d
   /// Longest free motion, d: so short that no grain passes another.
   double longest_free = 0.15;
+  double longest = longest_motion;  ///< longest motion of a grain, d
   bool carries = false;  ///< impulses begin such that they carry a tall bed (columns.hpp)
   /// For polyhedra, whose contacts take longer to find than to solve: how many steps are taken on
   /// the contacts that the first one finds. The gaps of the steps after it are right to first order

@@ -155,6 +155,22 @@ TEST_CASE("plates come to rest whose corners hold them more often than they can 
   }
 }
 
+// Pressed out of an overlap by a turn of 0.013 d, a grain of this bed turned back in the next step,
+// and so on for 16,800 steps.
+TEST_CASE("a bed comes to rest in which a grain is pressed to and fro between others", "[slow]") {
+  PackingSpec spec;
+  spec.box = {6, 6, walls, walls};
+  spec.fill = GrainCount{140};
+  spec.shape = CylinderSize{2};
+  spec.sizes.spread = 0.2;
+  spec.random_key = 3534355180068443278U;
+  auto bed = start<Polyhedron>(spec);
+  REQUIRE(bed);
+  const SettleReport report = settle(spec.accuracy, kernels(), *bed, always);
+  CHECK(report.failure == "");
+  CHECK(report.steps < 4000);
+}
+
 // Whether forces were found, the last test of rest has told, up to 80 steps before.
 TEST_CASE("rounds that leave forces unsolved are counted alike by a bed that is stopped between") {
   Accuracy accuracy;
