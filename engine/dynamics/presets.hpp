@@ -12,9 +12,11 @@ namespace grainsweep {
 
 /// Kinds of beds for which the protocol's error was measured.
 enum class BedKind {
-  spheres,    ///< of one size, with and without walls, and in tubes
-  two_sizes,  ///< spheres in boxes, the small ones half as large
-  pinacoids,  ///< 1 by 1 by 1, in boxes
+  spheres,         ///< of one size, with and without walls, and in tubes
+  narrow_spheres,  ///< the same between walls less than 4 d apart, in ducts and tubes of less than
+                   ///< 5 d
+  two_sizes,       ///< spheres in boxes, the small ones half as large
+  pinacoids,       ///< 1 by 1 by 1, in boxes
 };
 
 /// Largest distance of means over many beds from their limit as beds are settled ever better.
@@ -32,7 +34,7 @@ struct Preset {
   std::string_view name;
   std::string_view promise;  ///< one sentence with numbers, for --help and the README
   Accuracy accuracy;
-  std::array<std::optional<ProtocolBias>, 3> bias_bounds;  ///< by BedKind; none if not measured
+  std::array<std::optional<ProtocolBias>, 4> bias_bounds;  ///< by BedKind; none if not measured
 };
 
 /// fast, balanced, accurate, exact: of those at rest in steps, the cheaper ones first.

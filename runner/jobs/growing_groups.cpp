@@ -63,6 +63,19 @@ FitGroup fit_group_of(const Sweep& whole, const Places& group, std::size_t mean,
           made_of(whole, group, outcomes)};
 }
 
+/// The largest bounds of the bias of settling among the groups of a fit; nothing if one has none.
+std::optional<ProtocolBias> bound_of_fit(const Sweep& whole, const std::vector<Places>& groups,
+                                         const GrowingFamily& family) {
+  ProtocolBias largest;
+  for (const std::size_t k : family.groups) {
+    const auto bound = bound_of(whole.jobs[groups[k].front()]);
+    if (!bound) return std::nullopt;
+    largest.solid_fraction = std::max(largest.solid_fraction, bound->solid_fraction);
+    largest.coordination = std::max(largest.coordination, bound->coordination);
+  }
+  return largest;
+}
+
 CalledFit called_for(const Sweep& whole, const std::vector<Places>& groups,
                      const GrowingFamily& family, const Outcomes& outcomes) {
   std::vector<FitGroup> of_fit;
@@ -74,8 +87,7 @@ CalledFit called_for(const Sweep& whole, const std::vector<Places>& groups,
         means.try_emplace({job.label, job.parameters}, means.size()).first->second;
     of_fit.push_back(fit_group_of(whole, groups[k], mean, outcomes));
   }
-  const Job& first = whole.jobs[groups[family.groups.front()].front()];
-  return called_for_fit(of_fit, family.wish, bound_of(first));
+  return called_for_fit(of_fit, family.wish, bound_of_fit(whole, groups, family));
 }
 
 /// How many packings of each group are called for.
@@ -143,6 +155,27 @@ void refuse_wish(const std::string& key, double wish, double ProtocolBias::*boun
   diagnostics.push_back({place_of(key, whole, job), message.str()});
 }
 
+/// Of each block that has groups in the family, the one with the largest bound of phi.
+std::vector<const Job*> worst_of_blocks(const Sweep& whole, const std::vector<Places>& groups,
+                                        const GrowingFamily& family) {
+  const auto bound = [](const Job& job) {
+    return bound_of(job).value_or(ProtocolBias()).solid_fraction;
+  };
+  std::vector<const Job*> worst;
+  for (const std::size_t k : family.groups) {
+    const Job& job = whole.jobs[groups[k].front()];
+    const auto same = std::find_if(worst.begin(), worst.end(), [&](const Job* other) {
+      return place_of("fit", whole, *other) == place_of("fit", whole, job);
+    });
+    if (same == worst.end()) {
+      worst.push_back(&job);
+    } else if (bound(job) > bound(**same)) {
+      *same = &job;
+    }
+  }
+  return worst;
+}
+
 /// Notes why the requested errors of a fit cannot be reached.
 void refuse_fit(const Sweep& whole, const std::vector<Places>& groups, const GrowingFamily& family,
                 Diagnostics& diagnostics) {
@@ -169,13 +202,10 @@ void refuse_fit(const Sweep& whole, const std::vector<Places>& groups, const Gro
                                       "\", of the same family, asks for errors of means; ask for "
                                       "one of them"});
   }
-  std::set<std::string> told;  // groups of one block
-  for (const std::size_t k : family.groups) {
-    const Job& job = whole.jobs[groups[k].front()];
-    if (!told.insert(place_of("fit", whole, job)).second) continue;
-    refuse_wish("fit/phi_bulk", job.fit_wish.phi_bulk, &ProtocolBias::solid_fraction, whole, job,
+  for (const Job* job : worst_of_blocks(whole, groups, family)) {
+    refuse_wish("fit/phi_bulk", job->fit_wish.phi_bulk, &ProtocolBias::solid_fraction, whole, *job,
                 diagnostics);
-    refuse_wish("fit/Z_bulk", job.fit_wish.z_bulk, &ProtocolBias::coordination, whole, job,
+    refuse_wish("fit/Z_bulk", job->fit_wish.z_bulk, &ProtocolBias::coordination, whole, *job,
                 diagnostics);
   }
 }
@@ -278,7 +308,10 @@ void add_fit(const Sweep& whole, const std::vector<Places>& groups, const Growin
   const CalledFit called = called_for(whole, groups, family, outcomes);
   ++grown.all;
   for (const int count : called.replicates) grown.packings += static_cast<std::size_t>(count);
-  grown.unbounded += is_bounded(first, family.wish) ? 0 : 1;
+  const bool are_bounded = std::all_of(
+      family.groups.begin(), family.groups.end(),
+      [&](std::size_t k) { return is_bounded(whole.jobs[groups[k].front()], family.wish); });
+  grown.unbounded += are_bounded ? 0 : 1;
   if (!called.is_made) return grown.larger.push_back(&first);
   if (!called.tells_errors) {
     grown.without_errors.push_back(&first);

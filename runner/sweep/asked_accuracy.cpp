@@ -95,8 +95,8 @@ std::optional<BedKind> bed_kind_of(const ResolvedSpec& resolved) {
 }
 
 std::string measured_kinds() {
-  return joined(name_of(BedKind::spheres), ", and in boxes of ", name_of(BedKind::pinacoids),
-                " and of ", name_of(BedKind::two_sizes));
+  return joined(name_of(BedKind::spheres), ", and of ", name_of(BedKind::pinacoids), " and ",
+                name_of(BedKind::two_sizes), ", in boxes that are not narrow");
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include "runner/sweep/bed_kind.hpp"
 
+#include <algorithm>
+#include <limits>
 #include <string>
 
 #include <nlohmann/json.hpp>
@@ -17,6 +19,16 @@ bool is_at(const json& parameters, const std::string& place, double value) {
   return parameters.contains(pointer) && parameters.at(pointer) == value;
 }
 
+/// Whether its walls stand so near to each other that loose solves tap spheres into order.
+bool is_narrow(const Box& box) {
+  constexpr double narrow_gap = 4.0, narrow_duct = 5.0;  // d
+  constexpr double open = std::numeric_limits<double>::infinity();
+  if (box.is_tube) return box.width < narrow_duct;
+  const double x = box.x == Boundary::walls ? box.length : open;
+  const double y = box.y == Boundary::walls ? box.width : open;
+  return std::min(x, y) < (std::max(x, y) < open ? narrow_duct : narrow_gap);
+}
+
 }  // namespace
 
 std::optional<BedKind> bed_kind(std::string_view shape, const Box& box, double small_share,
@@ -24,8 +36,10 @@ std::optional<BedKind> bed_kind(std::string_view shape, const Box& box, double s
   for (const char* place : {"/sizes/distribution", "/fill/file", "/fill/files"}) {
     if (parameters.contains(json::json_pointer(place))) return std::nullopt;
   }
-  if (shape == "sphere" && small_share == 0.0) return BedKind::spheres;
-  if (box.is_tube) return std::nullopt;
+  if (shape == "sphere" && small_share == 0.0) {
+    return is_narrow(box) ? BedKind::narrow_spheres : BedKind::spheres;
+  }
+  if (box.is_tube || is_narrow(box)) return std::nullopt;
   if (shape == "sphere" && is_at(parameters, "/sizes/size_ratio", SizesSpec{}.size_ratio)) {
     return BedKind::two_sizes;
   }
@@ -44,6 +58,8 @@ const char* name_of(BedKind kind) {
   switch (kind) {
     case BedKind::spheres:
       return "spheres of one size";
+    case BedKind::narrow_spheres:
+      return "spheres of one size in narrow gaps, ducts or tubes";
     case BedKind::two_sizes:
       return "spheres of two sizes, 1 to 2";
     case BedKind::pinacoids:

@@ -63,12 +63,22 @@ void take_line(const LineFit& line, WallFit& fit) {
   for (FitPoint& point : fit.points) point.fitted = line.intercept + line.slope / point.width;
 }
 
-/// Groups of a family differ only in their width, and share the bias of their way of settling.
 std::optional<double> bias_bound(const Group& group, Quantity quantity) {
   if (!group.bias_bound) return std::nullopt;
   const double bound = quantity == Quantity::solid_fraction ? group.bias_bound->solid_fraction
                                                             : group.bias_bound->coordination;
   return std::isnan(bound) ? std::nullopt : std::optional(bound);
+}
+
+/// Groups of a family differ only in their width: narrow ones may have a larger bound than others.
+/// That of the worst holds for a straight line through their means; none if one has none.
+std::optional<double> bias_bound(const std::vector<const Group*>& groups, Quantity quantity) {
+  std::optional<double> largest = 0.0;
+  for (const Group* group : groups) {
+    const auto bound = bias_bound(*group, quantity);
+    largest = largest && bound ? std::optional(std::max(*largest, *bound)) : std::nullopt;
+  }
+  return largest;
 }
 
 const char* name_of(Quantity quantity) {
@@ -209,7 +219,7 @@ WallFit fit_walls(const Family& family, Quantity quantity) {
   fit.not_determined = why_not_determined(groups, quantity, fit.widths);
   if (!fit.not_determined.empty()) return fit;
   fit.weights = weights_text(spread_of(*groups.front(), quantity));
-  fit.bias_bound = bias_bound(*groups.front(), quantity);
+  fit.bias_bound = bias_bound(groups, quantity);
   const auto line = fit_line(points);
   if (line) {
     take_line(*line, fit);

@@ -103,9 +103,26 @@ TEST_CASE("the bias of packings is bounded where the like of them was measured, 
   tube.accuracy = "fast";
   CHECK(bias_bound(tube));
   tube.box = tube_of(5);
-  CHECK(bias_bound(tube));
+  CHECK(bias_bound(tube)->solid_fraction == bias_bound("fast", BedKind::spheres)->solid_fraction);
+  const auto is_narrow = [&](const Box& box) {
+    tube.box = box;
+    return bias_bound(tube)->solid_fraction ==
+           bias_bound("fast", BedKind::narrow_spheres)->solid_fraction;
+  };
+  CHECK(is_narrow(tube_of(4.99)));
+  CHECK_FALSE(is_narrow({5, 4, Boundary::periodic, Boundary::walls}));
+  CHECK(is_narrow({5, 3.99, Boundary::periodic, Boundary::walls}));
+  CHECK_FALSE(is_narrow({5, 3.99, Boundary::periodic, Boundary::periodic}));
+  CHECK_FALSE(is_narrow({5, 5, Boundary::walls, Boundary::walls}));
+  CHECK(is_narrow({4.99, 8, Boundary::walls, Boundary::walls}));
+  CHECK(is_narrow({3.99, 8, Boundary::walls, Boundary::periodic}));
+  tube.box = tube_of(5);
   tube.small_share = 0.2;
   tube.parameters = R"({"sizes":{"size_ratio":0.5}})";
+  CHECK_FALSE(bias_bound(tube));
+  tube.box = {5, 4, Boundary::periodic, Boundary::walls};
+  CHECK(bias_bound(tube));
+  tube.box.width = 3.99;
   CHECK_FALSE(bias_bound(tube));
 }
 
