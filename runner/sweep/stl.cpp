@@ -90,7 +90,7 @@ std::string take_line(std::string_view line, Triangles& triangles) {
   constexpr std::string_view keyword = "vertex";
   if (line.starts_with(keyword)) {
     Vector vertex = Vector::Zero();
-    const std::string error = read_vertex(line.substr(keyword.size()), vertex);
+    std::string error = read_vertex(line.substr(keyword.size()), vertex);
     if (error.empty()) triangles.take(vertex);
     return error;
   }

@@ -76,7 +76,8 @@ std::string read_label(const Json& block, const std::string& pointer, std::size_
   diagnostics.push_back(
       {child_pointer(pointer, "label"),
        is_text ? "must not begin with =, +, - or @, which spreadsheets take for a formula"
-               : "must be a text of 1 to 100 characters on one line, is " + describe(*found)});
+               : "must be a text of 1 to 100 characters on one line, none of them a control, is " +
+                     describe(*found)});
   return "block " + std::to_string(number);
 }
 
