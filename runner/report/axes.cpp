@@ -364,7 +364,7 @@ std::vector<std::string> titles_of(const std::vector<const Group*>& groups, std:
   const std::vector<Values> values = with_short_numbers(not_shared(groups, Among::all));
   titles = titles_with(values, groups, longest);
   if (have_room(titles, longest)) return told_apart(titles, longest);
-  const std::vector<std::string> by_label =
+  std::vector<std::string> by_label =
       titles_with(with_short_numbers(not_shared(groups, Among::label)), groups, longest);
   if (have_room(by_label, longest) && are_different(by_label)) return by_label;
   std::vector<std::string> without_labels;
