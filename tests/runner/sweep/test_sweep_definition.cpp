@@ -84,7 +84,8 @@ TEST_CASE("a block must be an object with known keys and a label on one line") {
   CHECK(errors_in_block(R"({"label": "a\nb"})").size() == 1);
   CHECK(errors_in_block(R"({"label": "a\u009b2J"})").size() == 1);
   CHECK(errors_in_block(R"({"label": ""})") ==
-        Messages{"s.json:2:11 /sweep/0/label: must be a text of 1 to 100 characters on one line, none of them a control, "
+        Messages{"s.json:2:11 /sweep/0/label: must be a text of 1 to 100 characters on one line, "
+                 "none of them a control, "
                  "is the text \"\""});
 }
 
