@@ -155,22 +155,20 @@ void refuse_wish(const std::string& key, double wish, double ProtocolBias::*boun
   diagnostics.push_back({place_of(key, whole, job), message.str()});
 }
 
-/// Of each block that has groups in the family, the one with the largest bound of phi.
-std::vector<const Job*> worst_of_blocks(const Sweep& whole, const std::vector<Places>& groups,
-                                        const GrowingFamily& family) {
+/// Of the jobs of each block the one with the largest bound of phi.
+std::vector<const Job*> worst_of_blocks(const Sweep& whole, const std::vector<const Job*>& jobs) {
   const auto bound = [](const Job& job) {
     return bound_of(job).value_or(ProtocolBias()).solid_fraction;
   };
   std::vector<const Job*> worst;
-  for (const std::size_t k : family.groups) {
-    const Job& job = whole.jobs[groups[k].front()];
+  for (const Job* job : jobs) {
     const auto same = std::find_if(worst.begin(), worst.end(), [&](const Job* other) {
-      return place_of("fit", whole, *other) == place_of("fit", whole, job);
+      return place_of("", whole, *other) == place_of("", whole, *job);
     });
     if (same == worst.end()) {
-      worst.push_back(&job);
-    } else if (bound(job) > bound(**same)) {
-      *same = &job;
+      worst.push_back(job);
+    } else if (bound(*job) > bound(**same)) {
+      *same = job;
     }
   }
   return worst;
@@ -202,7 +200,9 @@ void refuse_fit(const Sweep& whole, const std::vector<Places>& groups, const Gro
                                       "\", of the same family, asks for errors of means; ask for "
                                       "one of them"});
   }
-  for (const Job* job : worst_of_blocks(whole, groups, family)) {
+  std::vector<const Job*> jobs;
+  for (const std::size_t k : family.groups) jobs.push_back(&whole.jobs[groups[k].front()]);
+  for (const Job* job : worst_of_blocks(whole, jobs)) {
     refuse_wish("fit/phi_bulk", job->fit_wish.phi_bulk, &ProtocolBias::solid_fraction, whole, *job,
                 diagnostics);
     refuse_wish("fit/Z_bulk", job->fit_wish.z_bulk, &ProtocolBias::coordination, whole, *job,
@@ -362,12 +362,15 @@ Diagnostics unreachable_wishes(const Sweep& whole) {
   Diagnostics diagnostics;
   if (!grows(whole)) return diagnostics;
   const std::vector<Places> groups = groups_in(whole);
+  std::vector<const Job*> asking;
   for (const Places& group : groups) {
     const Job& job = whole.jobs[group.front()];
-    if (!job.wish.is_given()) continue;
-    refuse_wish("solid_fraction", job.wish.solid_fraction, &ProtocolBias::solid_fraction, whole,
-                job, diagnostics);
-    refuse_wish("coordination", job.wish.coordination, &ProtocolBias::coordination, whole, job,
+    if (job.wish.is_given()) asking.push_back(&job);
+  }
+  for (const Job* job : worst_of_blocks(whole, asking)) {
+    refuse_wish("solid_fraction", job->wish.solid_fraction, &ProtocolBias::solid_fraction, whole,
+                *job, diagnostics);
+    refuse_wish("coordination", job->wish.coordination, &ProtocolBias::coordination, whole, *job,
                 diagnostics);
   }
   for (const GrowingFamily& family : growing_families(whole, groups)) {

@@ -254,14 +254,18 @@ std::string definitions_text(const std::vector<Row>& rows) {
 /// How far the means lie at most from those of beds settled ever better.
 std::string bias_text(const std::vector<Family>& families) {
   std::set<std::string> bounds;
-  for (const Family& family : families) {
-    const auto& bound = first_group(family).bias_bound;
+  const auto note = [&](const Group& group) {
+    const auto& bound = group.bias_bound;
     const auto of_z = [&] {
       return std::isnan(bound->coordination)
                  ? " (φ); of Z at that gap it was not measured"
                  : " (φ) and " + fixed(bound->coordination, coordination_decimals) + " (Z)";
     };
     bounds.insert(bound ? fixed(bound->solid_fraction, solid_fraction_decimals) + of_z() : "");
+  };
+  for (const Family& family : families) {
+    for (const Group& group : family.walled) note(group);
+    for (const Group& group : family.periodic) note(group);
   }
   if (bounds.size() > 1) return "Bounds of what the protocol does to means: groups.csv.\n";
   if (bounds.empty() || bounds.begin()->empty()) {
@@ -409,12 +413,17 @@ bool has_grains(const std::string& folder, const std::vector<Row>& rows) {
   return false;
 }
 
+namespace {
+
+/// Where the tables are.
 std::string where_text(const ReportPlace& place) {
   if (!place.has_tables) return "";
   return (place.is_worked_on ? "Tables come when the run ends, in " : "Tables in ") + place.folder +
          ": packings.csv, groups.csv, fits.csv, profiles.csv, decays.csv and more;\n"
          "provenance.json says how they were made\n";
 }
+
+}  // namespace
 
 std::string closing_report(const Provenance& provenance, const std::vector<Row>& rows,
                            const std::vector<Family>& families, const ReportPlace& place) {
