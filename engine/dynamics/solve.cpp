@@ -138,14 +138,12 @@ class GaussSeidel {
   /// over all rows, does not see these few. With no momentum they converge, and have done so by the
   /// time it has grown again.
   void leave_circle(double largest) {
-    if (largest < least_seen_) {
-      least_seen_ = largest;
-      since_least_ = 0;
-    } else if (++since_least_ >= sweeps_in_vain && largest > risen * least_seen_) {
+    if (!(largest < least_seen_)) {
+      if (++since_least_ < sweeps_in_vain || largest <= risen * least_seen_) return;
       momentum_.restart();
-      least_seen_ = largest;
-      since_least_ = 0;
     }
+    least_seen_ = largest;
+    since_least_ = 0;
   }
 
   Sums sweep(BlockRange range, const SweepRule<Real>& rule) {

@@ -248,17 +248,17 @@ std::string problem_with_dents(const std::vector<Vector>& points, const Loops& l
   return "";
 }
 
-/// Whether the corners of a face lie within `allowed` of a plane.
-bool is_flat(const std::vector<std::int32_t>& face, const std::vector<Vector>& points,
-             double allowed) {
-  const Vector normal = area_vector(points, face).normalized();
-  double least = std::numeric_limits<double>::infinity(), most = -least;
-  for (const std::int32_t k : face) {
-    const double height = normal.dot(points[static_cast<std::size_t>(k)]);
-    least = std::min(least, height);
-    most = std::max(most, height);
+/// By how much corners lie off the planes of their faces, d.
+double unevenness_of(const std::vector<Plane>& planes, const std::vector<Vector>& corners,
+                     const Loops& loops) {
+  double most = 0.0;
+  for (std::size_t f = 0; f < loops.size(); ++f) {
+    for (const std::int32_t k : loops[f]) {
+      const double height = planes[f].normal.dot(corners[static_cast<std::size_t>(k)]);
+      most = std::max(most, std::abs(height - planes[f].offset));
+    }
   }
-  return most - least <= allowed;
+  return most;
 }
 
 /// How deep the middle of an edge of `face` lies, or the mean of its corners if it is flat: of a
@@ -275,7 +275,7 @@ double depth_of(const std::vector<std::int32_t>& face, const std::vector<Vector>
     deepest = std::max(deepest, depth_of(Vector((point(k) + point(k + 1)) / 2.0), planes));
     sum += point(k);
   }
-  if (!is_flat(face, points, allowed)) return deepest;
+  if (unevenness_of(planes_of(points, {face}), points, {face}) > allowed) return deepest;
   return std::max(deepest, depth_of(Vector(sum / static_cast<double>(face.size())), planes));
 }
 
@@ -296,19 +296,6 @@ std::vector<Vector> keep_corners(const std::vector<Vector>& points, Loops& loops
     for (std::int32_t& k : loop) k = number[static_cast<std::size_t>(k)];
   }
   return corners;
-}
-
-/// By how much corners lie off the planes of their faces, d.
-double unevenness_of(const std::vector<Plane>& planes, const std::vector<Vector>& corners,
-                     const Loops& loops) {
-  double most = 0.0;
-  for (std::size_t f = 0; f < loops.size(); ++f) {
-    for (const std::int32_t k : loops[f]) {
-      const double height = planes[f].normal.dot(corners[static_cast<std::size_t>(k)]);
-      most = std::max(most, std::abs(height - planes[f].offset));
-    }
-  }
-  return most;
 }
 
 /// Faces of more than three corners at each corner.

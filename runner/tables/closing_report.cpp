@@ -382,6 +382,14 @@ std::string effort_text(const Provenance& provenance, double cpu_seconds) {
   return text + "\n";
 }
 
+/// Where the tables are.
+std::string where_text(const ReportPlace& place) {
+  if (!place.has_tables) return "";
+  return (place.is_worked_on ? "Tables come when the run ends, in " : "Tables in ") + place.folder +
+         ": packings.csv, groups.csv, fits.csv, profiles.csv, decays.csv and more;\n"
+         "provenance.json says how they were made\n";
+}
+
 std::string next_text(const std::string& sweep_file, const StatusCounts& counts,
                       const ReportPlace& place) {
   const std::string folder = shell_path(place.folder);
@@ -412,18 +420,6 @@ bool has_grains(const std::string& folder, const std::vector<Row>& rows) {
   }
   return false;
 }
-
-namespace {
-
-/// Where the tables are.
-std::string where_text(const ReportPlace& place) {
-  if (!place.has_tables) return "";
-  return (place.is_worked_on ? "Tables come when the run ends, in " : "Tables in ") + place.folder +
-         ": packings.csv, groups.csv, fits.csv, profiles.csv, decays.csv and more;\n"
-         "provenance.json says how they were made\n";
-}
-
-}  // namespace
 
 std::string closing_report(const Provenance& provenance, const std::vector<Row>& rows,
                            const std::vector<Family>& families, const ReportPlace& place) {

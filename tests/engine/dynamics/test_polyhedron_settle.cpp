@@ -123,6 +123,12 @@ TEST_CASE("a bed whose forces rounding keeps from being found is given up after 
   CHECK(report.steps < 2 * 9 * 120);
 }
 
+SettleReport settle_start(const PackingSpec& spec) {
+  auto bed = start<Polyhedron>(spec);
+  REQUIRE(bed);
+  return settle(spec.accuracy, kernels(), *bed, always);
+}
+
 // Some cubes of this bed rock for some thirty rounds, which leave 0.03 m g and more.
 TEST_CASE("a bed whose grains rock for more than nine rounds comes to rest", "[slow]") {
   PackingSpec spec;
@@ -130,9 +136,7 @@ TEST_CASE("a bed whose grains rock for more than nine rounds comes to rest", "[s
   spec.fill = GrainCount{60};
   spec.shape = CubeSize{};
   spec.random_key = 6;
-  auto bed = start<Polyhedron>(spec);
-  REQUIRE(bed);
-  const SettleReport report = settle(spec.accuracy, kernels(), *bed, always);
+  const SettleReport report = settle_start(spec);
   CHECK(report.failure == "");
   CHECK(report.steps > 2 * 9 * 120);
 }
@@ -147,9 +151,7 @@ TEST_CASE("plates come to rest whose corners hold them more often than they can 
     spec.fill = GrainCount{150};
     spec.shape = CuboidSize{1, 1, 0.1};
     spec.random_key = key;
-    auto bed = start<Polyhedron>(spec);
-    REQUIRE(bed);
-    const SettleReport report = settle(spec.accuracy, kernels(), *bed, always);
+    const SettleReport report = settle_start(spec);
     CHECK(report.failure == "");
     CHECK(report.steps < 4000);
   }
@@ -164,9 +166,7 @@ TEST_CASE("a bed comes to rest in which a grain is pressed to and fro between ot
   spec.shape = CylinderSize{2};
   spec.sizes.spread = 0.2;
   spec.random_key = 3534355180068443278U;
-  auto bed = start<Polyhedron>(spec);
-  REQUIRE(bed);
-  const SettleReport report = settle(spec.accuracy, kernels(), *bed, always);
+  const SettleReport report = settle_start(spec);
   CHECK(report.failure == "");
   CHECK(report.steps < 4000);
 }
