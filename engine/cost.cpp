@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/dynamics/sleep.hpp"
+#include "engine/dynamics/stages.hpp"
 #include "engine/scene/bed.hpp"
 #include "engine/scene/size_distribution.hpp"
 #include "engine/shape/given_shape.hpp"
@@ -126,6 +127,14 @@ double memory_factor(double grains) { return std::clamp(std::sqrt(grains / 15000
 /// front.
 constexpr double most_layers_awake = 1.5 * sleep_depth;
 
+/// Solver iterations that a path takes, over those of the usual one. Where walls are near, a path
+/// that is closer for that costs less.
+double iterations_of_path(const PackingSpec& spec) {
+  const double usual = Accuracy{}.path_tolerance, asked = spec.accuracy.path_tolerance;
+  const double closer = closer_between(spec.accuracy, spec.box).path_tolerance;
+  return std::pow(usual / asked, 0.6) * std::pow(asked / closer, 0.2);
+}
+
 /// Solver iterations over all rows that the stages of engine/dynamics/settle.hpp usually need.
 /// While a bed fills up its deep part sleeps, so that beyond some height the fall needs no more;
 /// the creep of spheres grows with the layers that forces have to find their way through.
@@ -133,7 +142,7 @@ double usual_iterations(const PackingSpec& spec, double layers) {
   const Accuracy& a = spec.accuracy;
   const double falling =
       std::min(layers, most_layers_awake) * std::max(1.0, Accuracy{}.step / a.step);  // in steps
-  const double solved = std::pow(Accuracy{}.path_tolerance / a.path_tolerance, 0.6);
+  const double solved = iterations_of_path(spec);
   const double creep =
       std::pow(static_cast<double>(a.creep_steps) / Accuracy{}.creep_steps, 1.4);  // of the usual
   if (!is_sphere(spec.shape)) {
@@ -167,9 +176,9 @@ double leaning_factor(const PackingSpec& spec, double grains) {
   constexpr double few = 150.0;
   switch (creep_of(spec.accuracy)) {
     case Creep::loose:
-      return std::max(1.0, 2.2 * std::pow(grains / few, 1.6));
+      return std::max(1.0, 1.3 * std::pow(grains / few, 1.6));
     case Creep::usual:
-      return std::max(1.0, 2.4 * grains / few);
+      return std::max(1.0, 1.4 * grains / few);
     case Creep::strict:
       return 1.0;
   }

@@ -543,9 +543,10 @@ SettleReport settle(const Accuracy& accuracy, const ExecutionContext& context, B
                     const KeepGoing& keep_going, std::string_view saved) {
   Workspace own;
   Workspace& memory = context.workspace != nullptr ? *context.workspace : own;
+  const Accuracy closer = closer_between(accuracy, bed.box);
   const auto settle_as = [&](auto& state) {
-    return Settling(accuracy, context, keep_going, state,
-                    std::get<ClosedState<Kind>>(memory.closed), bed)
+    return Settling(closer, context, keep_going, state, std::get<ClosedState<Kind>>(memory.closed),
+                    bed)
         .run(saved);
   };
   return accuracy.precision == Precision::f32

@@ -302,6 +302,9 @@ std::int64_t creep_steps(const Accuracy& accuracy, double share) {
   return static_cast<std::int64_t>(std::floor(share * steps + rounding));
 }
 
+// In d: walls further apart than this order grains no more than far ones do.
+constexpr double far_walls = 5.0, far_all_around = 7.0;
+
 }  // namespace
 
 template <>
@@ -312,6 +315,14 @@ Stages stages_of<Sphere>(Protocol protocol) {
 template <>
 Stages stages_of<Polyhedron>(Protocol protocol) {
   return protocol == Protocol::dynamic ? Stages(dynamic_turning) : Stages(turning);
+}
+
+Accuracy closer_between(const Accuracy& accuracy, const Box& box) {
+  const double far = is_walled_around(box) ? far_all_around : far_walls;
+  const double apart = std::min(1.0, nearest_walls(box) / far);
+  Accuracy closer = accuracy;
+  closer.path_tolerance *= apart * apart;
+  return closer;
 }
 
 StepSettings settings_of(const Accuracy& accuracy, const StageRule& rule, double height) {

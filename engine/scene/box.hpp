@@ -45,6 +45,19 @@ inline double shortest_period(const Box& box) {
   return std::min(of(box.period_x()), of(box.period_y()));
 }
 
+/// Least distance between walls that face each other, d; infinite where none do.
+inline double nearest_walls(const Box& box) {
+  const auto of = [](Boundary boundary, double extent) {
+    return boundary == Boundary::walls ? extent : std::numeric_limits<double>::infinity();
+  };
+  return std::min(of(box.x, box.length), of(box.y, box.width));
+}
+
+/// Whether walls stand on all sides, as those of a duct and a tube do.
+inline bool is_walled_around(const Box& box) {
+  return box.x == Boundary::walls && box.y == Boundary::walls;
+}
+
 /// The difference between two coordinates, for their nearest images along an axis of that period,
 /// d; unchanged if the period is 0. Requires a difference of less than one and a half periods.
 inline double nearest_image(double difference, double period) {

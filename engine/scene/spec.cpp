@@ -138,7 +138,8 @@ bool is_outside(const PlacedSphere& grain, double radius, const Box& box) {
 std::string fault_of(const PlacedSphere& grain, double inner, const Box& box) {
   const double within = 2.0 * inner * grain.radius;
   if (!(grain.radius > 0.0 && grain.radius <= longest_side)) {
-    return "the radius must be positive, is " + bound_text(grain.radius);
+    return "the radius must be positive and at most " + bound_text(longest_side) + ", is " +
+           bound_text(grain.radius);
   }
   if (box.is_tube && is_outside(grain, within, box)) {
     return "lies outside the tube, whose axis stands at x = y = " + bound_text(box.length / 2.0) +
@@ -467,11 +468,8 @@ void check_exact_rest(const PackingSpec& spec, double largest, Errors& errors) {
         {"accuracy.rest", "must be in_steps for grains that are not spheres, is exact"});
     return;
   }
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  const Box& box = spec.box;
-  const double x = box.x == Boundary::walls ? box.length : infinity;
-  const double between = std::min(x, box.y == Boundary::walls ? box.width : infinity);
-  if (!has_equal_grains(spec) || between >= narrowest_exact * largest) return;
+  const bool have_room = nearest_walls(spec.box) >= narrowest_exact * largest;
+  if (have_room || !has_equal_grains(spec)) return;
   errors.push_back({"accuracy.rest", "must be in_steps where walls are nearer than " +
                                          bound_text(narrowest_exact * largest) +
                                          " d and hold every large grain on both sides, is exact"});

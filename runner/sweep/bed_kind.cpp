@@ -1,7 +1,5 @@
 #include "runner/sweep/bed_kind.hpp"
 
-#include <algorithm>
-#include <limits>
 #include <string>
 
 #include <nlohmann/json.hpp>
@@ -19,14 +17,10 @@ bool is_at(const json& parameters, const std::string& place, double value) {
   return parameters.contains(pointer) && parameters.at(pointer) == value;
 }
 
-/// Whether its walls stand so near to each other that loose solves tap spheres into order.
+/// Whether its walls stand so near to each other that they order the grains.
 bool is_narrow(const Box& box) {
   constexpr double narrow_gap = 4.0, narrow_duct = 5.0;  // d
-  constexpr double open = std::numeric_limits<double>::infinity();
-  if (box.is_tube) return box.width < narrow_duct;
-  const double x = box.x == Boundary::walls ? box.length : open;
-  const double y = box.y == Boundary::walls ? box.width : open;
-  return std::min(x, y) < (std::max(x, y) < open ? narrow_duct : narrow_gap);
+  return nearest_walls(box) < (is_walled_around(box) ? narrow_duct : narrow_gap);
 }
 
 }  // namespace
@@ -36,6 +30,10 @@ std::optional<BedKind> bed_kind(std::string_view shape, const Box& box, double s
   for (const char* place : {"/sizes/distribution", "/fill/file", "/fill/files"}) {
     if (parameters.contains(json::json_pointer(place))) return std::nullopt;
   }
+  const json::json_pointer spread("/sizes/spread");
+  const bool is_spread_more =
+      parameters.contains(spread) && parameters.at(spread) > SizesSpec{}.spread;
+  if (is_spread_more || small_share == 1.0) return std::nullopt;
   if (shape == "sphere" && small_share == 0.0) {
     return is_narrow(box) ? BedKind::narrow_spheres : BedKind::spheres;
   }
@@ -44,11 +42,13 @@ std::optional<BedKind> bed_kind(std::string_view shape, const Box& box, double s
     return BedKind::two_sizes;
   }
   const PinacoidSize isometric;
+  constexpr double usual_angle = 60.0;  // degrees
   const std::string pinacoid = "/shape/pinacoid/";
   if (shape == "pinacoid" && small_share == 0.0 &&
       is_at(parameters, pinacoid + "length", isometric.length) &&
       is_at(parameters, pinacoid + "width", isometric.width) &&
-      is_at(parameters, pinacoid + "height", isometric.height)) {
+      is_at(parameters, pinacoid + "height", isometric.height) &&
+      is_at(parameters, pinacoid + "angle_deg", usual_angle)) {
     return BedKind::pinacoids;
   }
   return std::nullopt;

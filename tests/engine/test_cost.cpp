@@ -51,7 +51,7 @@ TEST_CASE("spheres that lean from side to side of a tube take longer where they 
   CHECK(in_tube(1.75) > 0.7);
   CHECK(in_tube(1.75) < 2.8);
   spec.sizes.spread = 0.0;
-  CHECK(in_tube(1.75) == Approx(in_tube(1.6)).epsilon(0.1));
+  CHECK(in_tube(1.75) == Approx(in_tube(1.6)).epsilon(0.15));  // the bed is lower, too
 }
 
 // Measured: 333 spheres at `fast` take 4.6 times as long in steps of 0.02 as in those of 0.2.

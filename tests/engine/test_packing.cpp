@@ -177,7 +177,9 @@ TEST_CASE("a settled bed placed again is looked at for some steps more before it
   spec.box = tube_of(3);
   spec.fill = GrainCount{120};
   spec.accuracy = *preset("balanced");
+  spec.accuracy.path_tolerance *= std::pow(7.0 / 3.0, 2);  // strays as far as beds of 7 d do
   const auto [first, again] = pack_again(spec);
+  CHECK(again.result.steps > 40);
   CHECK(again.result.steps <= 160);
   CHECK(again.result.solid_fraction == about(first.result.solid_fraction, 1e-4));
 }

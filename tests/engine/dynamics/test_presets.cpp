@@ -41,7 +41,7 @@ TEST_CASE("the bias of a preset is bounded for each kind of bed that was measure
       const auto bound = bias_bound(known.name, kind);
       REQUIRE(bound);
       CHECK(bound->solid_fraction > 0.0);
-      CHECK(bound->solid_fraction < 0.02);
+      CHECK(bound->solid_fraction < 0.01);
       CHECK(bound->coordination > 0.0);
       CHECK(bound->coordination < 0.2);
     }

@@ -150,7 +150,8 @@ TEST_CASE("placed grains must lie in the box, have a radius and be finite") {
   CHECK(placed({{5, 3, 0.2, 0.5}, {5, 3, -1, 0.5}}) ==
         Messages{"fill.file: grain 1 lies below the floor or too high: z = 0.2, radius 0.5; 2 "
                  "grains are wrong in all"});
-  CHECK(placed({{5, 3, 1, 0}}) == Messages{"fill.file: grain 1 the radius must be positive, is 0"});
+  CHECK(placed({{5, 3, 1, 0}}) ==
+        Messages{"fill.file: grain 1 the radius must be positive and at most 10000, is 0"});
   CHECK(placed({{nan, 3, 1, 0.5}}).size() == 1);
   CHECK(placed({{5, nan, 1, 0.5}}).size() == 1);
   CHECK(placed({{5, 3, nan, 0.5}}).size() == 1);

@@ -3,8 +3,8 @@
 source "$(dirname "$0")/common.sh" "$1"
 
 cat >sweep.json <<'JSON'
-{ "name": "growing", "seed": 5, "replicates": { "until": { "solid_fraction": 0.014 }, "most": 30 },
-  "base": { "box": { "length": 5 }, "fill": { "grains": 90 }, "accuracy": "accurate",
+{ "name": "growing", "seed": 5, "replicates": { "until": { "solid_fraction": 0.009 }, "most": 30 },
+  "base": { "box": { "length": 5 }, "fill": { "grains": 90 }, "accuracy": "fast",
             "measure": { "exclude_floor": 1, "exclude_surface": 1 } },
   "sweep": [ { "label": "grows", "grid": { "box.width": [3, 4] } },
              { "label": "does not", "replicates": 2, "set": { "box.width": 5 } } ] }
@@ -15,7 +15,7 @@ expect_code 0 "$program" plan sweep.json
 expect_text out.txt 'at most 62 packings'
 
 # What no number of packings can meet is told where it is written.
-sed 's/0.014/0.001/; s/"replicates": 2/"replicates": { "until": { "fit": { "C": 0.1 } } }/' \
+sed 's/0.009/0.001/; s/"replicates": 2/"replicates": { "until": { "fit": { "C": 0.1 } } }/' \
   sweep.json >wishes.json
 expect_code 2 "$program" validate wishes.json
 expect_text error.txt 'wishes.json:1:78 /replicates/until/solid_fraction: cannot be met in "grows"' \
@@ -69,12 +69,12 @@ expect_code 0 "$program" plan long.json --shards 9
 expect_text out.txt '5 have nothing to make, since growing groups and families remain whole'
 
 # What no number of packings can meet.
-sed 's/0.014/0.001/' sweep.json >vain.json
+sed 's/0.009/0.001/' sweep.json >vain.json
 expect_code 2 "$program" run vain.json --out vain
-expect_text error.txt 'settled as "accurate" such packings may be off by 0.0066'
+expect_text error.txt 'settled as "fast" such packings may be off by 0.003'
 
 # A fit whose packings go where they gain most: the same wherever and however often it is run.
-sed 's/"solid_fraction": 0.014/"fit": { "phi_bulk": 0.016 }/; s/\[3, 4\]/[1.8, 2.5, 3, 4]/' sweep.json >fit.json
+sed 's/"solid_fraction": 0.009/"fit": { "phi_bulk": 0.012 }/; s/\[3, 4\]/[1.8, 2.5, 3, 4]/' sweep.json >fit.json
 expect_code 0 "$program" plan fit.json
 expect_text out.txt 'Next: 26 packings: 6 of grows, W = 1.8; 6 of grows, W = 2.5; 6 of grows, W = 3; 6 of '
 expect_code 0 "$program" run fit.json --out fit-one --threads 1 --no-report

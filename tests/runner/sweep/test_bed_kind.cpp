@@ -21,16 +21,19 @@ std::string kind_of(const std::string& base) {
 
 TEST_CASE("beds are of the kind of those that were measured") {
   CHECK(kind_of("{}") == "spheres of one size");
-  CHECK(kind_of(R"({"box.y": "periodic", "sizes.spread": 0.1})") == "spheres of one size");
+  CHECK(kind_of(R"({"box.y": "periodic", "sizes.spread": 0.01})") == "spheres of one size");
   CHECK(kind_of(R"({"tube.diameter": 5})") == "spheres of one size");
   CHECK(kind_of(R"({"sizes.small_share": 0.3})") == "spheres of two sizes, 1 to 2");
   CHECK(kind_of(R"({"shape": "pinacoid"})") == "pinacoids 1 by 1 by 1");
-  CHECK(kind_of(R"({"shape.pinacoid.angle_deg": 55})") == "pinacoids 1 by 1 by 1");
+  CHECK(kind_of(R"({"shape.pinacoid.angle_deg": 60})") == "pinacoids 1 by 1 by 1");
 }
 
 TEST_CASE("beds of which nothing alike was measured are of no kind") {
   CHECK(kind_of(R"({"sizes": {"small_share": 0.3, "size_ratio": 0.4}})").empty());
+  CHECK(kind_of(R"({"sizes.small_share": 1})").empty());
+  CHECK(kind_of(R"({"sizes.spread": 0.1})").empty());
   CHECK(kind_of(R"({"shape.pinacoid.height": 0.9})").empty());
+  CHECK(kind_of(R"({"shape.pinacoid.angle_deg": 55})").empty());
   CHECK(kind_of(R"({"shape": "pinacoid", "sizes.small_share": 0.2})").empty());
   CHECK(kind_of(R"({"shape": "cube"})").empty());
   CHECK(kind_of(R"({"tube.diameter": 5, "sizes.small_share": 0.3})").empty());

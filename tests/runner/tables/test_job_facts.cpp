@@ -85,14 +85,21 @@ TEST_CASE("the bias of packings is bounded where the like of them was measured, 
     return bound ? bound->coordination : 0.0;
   };
   const auto of = [](BedKind kind) { return bias_bound("fast", kind)->coordination; };
-  const char* const isometric = R"({"shape":{"pinacoid":{"length":1.0,"width":1.0,"height":1.0}}})";
+  const char* const isometric =
+      R"({"shape":{"pinacoid":{"length":1.0,"width":1.0,"height":1.0,"angle_deg":60.0}}})";
   CHECK(bound_of("sphere", 0.0, "{}") == of(BedKind::spheres));
   CHECK(bound_of("sphere", 0.2, R"({"sizes":{"size_ratio":0.5}})") == of(BedKind::two_sizes));
   CHECK(bound_of("sphere", 0.2, R"({"sizes":{"size_ratio":0.3}})") == 0.0);
   CHECK(bound_of("pinacoid", 0.0, isometric) == of(BedKind::pinacoids));
   CHECK(bound_of("pinacoid", 0.1, isometric) == 0.0);
-  CHECK(bound_of("pinacoid", 0.0,
-                 R"({"shape":{"pinacoid":{"length":1.0,"width":1.0,"height":0.3}}})") == 0.0);
+  for (const char* other : {R"("length":1.0,"width":1.0,"height":0.3,"angle_deg":60.0)",
+                            R"("length":1.0,"width":1.0,"height":1.0,"angle_deg":75.0)"}) {
+    const std::string parameters = std::string(R"({"shape":{"pinacoid":{)") + other + "}}}";
+    CHECK(bound_of("pinacoid", 0.0, parameters.c_str()) == 0.0);
+  }
+  CHECK(bound_of("sphere", 0.0, R"({"sizes":{"spread":0.01}})") == of(BedKind::spheres));
+  CHECK(bound_of("sphere", 0.0, R"({"sizes":{"spread":0.1}})") == 0.0);
+  CHECK(bound_of("sphere", 1.0, R"({"sizes":{"size_ratio":0.5}})") == 0.0);
   CHECK(bound_of("hull", 0.0, "{}") == 0.0);
   CHECK(bound_of("sphere", 0.0, "{}", "custom") == 0.0);
   CHECK(bound_of("sphere", 0.0, R"({"sizes":{"distribution":{"kind":"uniform"}}})") == 0.0);
