@@ -115,8 +115,11 @@ void expect_threads(int count) {
   may_end.notify_all();
   for (std::thread& thread : threads) thread.join();
   if (is_given) return;
-  throw NoResources("the system gives no more than " + std::to_string(threads.size()) + " of " +
-                    std::to_string(count) + " threads; take fewer --threads");
+  throw NoResources(threads.empty()
+                        ? "the system gives not even one thread: raise the limits of processes "
+                          "(ulimit -u) and of memory (ulimit -v)"
+                        : "the system gives no more than " + std::to_string(threads.size()) +
+                              " of " + std::to_string(count) + " threads; take fewer --threads");
 }
 
 int usable_cores() { return std::max(1, tbb::info::default_concurrency()); }

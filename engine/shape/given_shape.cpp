@@ -67,9 +67,13 @@ struct CountCorners {
 
 ShapeExtent mean_extent(const Mixture& mixture) {
   const std::vector<double> shares = number_shares(mixture);
-  ShapeExtent all = extent_of(mixture.components.front().shape);
+  const auto present = static_cast<std::size_t>(
+      std::find_if(shares.begin(), shares.end(), [](double share) { return share > 0.0; }) -
+      shares.begin());
+  ShapeExtent all = extent_of(mixture.components[present].shape);
   const double first = all.volume;  // so that equal components have its bits
-  for (std::size_t k = 1; k < shares.size(); ++k) {
+  for (std::size_t k = present + 1; k < shares.size(); ++k) {
+    if (shares[k] == 0.0) continue;
     const ShapeExtent one = extent_of(mixture.components[k].shape);
     all.volume += shares[k] * (one.volume - first);
     all.circumradius = std::max(all.circumradius, one.circumradius);

@@ -204,6 +204,7 @@ int perform(const ExportOptions& options) {
   if (chosen.empty()) throw BadInput(options.folder + ": holds no finished packing to export");
   refuse_shapes_without_room(format, options.folder, rows, chosen);
   make_folder(to);
+  remove_leftovers_of_ended(to);
   const std::vector<std::string> stems = file_stems(rows);
   std::map<std::string, std::string> taken;
   for (const std::size_t k : chosen) taken[stems[k] + ending] = rows[k].job.id;

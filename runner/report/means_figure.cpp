@@ -55,7 +55,7 @@ std::string places_text(const Axes& axes) {
   const auto is_tube = [](const Series& series) { return series.groups.front()->job.box.is_tube; };
   const auto tubes = std::count_if(axes.series.begin(), axes.series.end(), is_tube);
   if (static_cast<std::size_t>(tubes) == axes.series.size()) return "";
-  return std::string(" Packings without walls stand at d / W = 0") +
+  return std::string(" Packings without walls along y stand at d / W = 0") +
          (tubes > 0 ? ", tubes at d / D." : ".");
 }
 

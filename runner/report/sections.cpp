@@ -285,7 +285,7 @@ std::string fits_section(const std::vector<Family>& families, const GivenUnits& 
   table.headings = {{"family"},
                     {"of"},
                     {"widths"},
-                    {"bulk", "the value without walls, from the line"},
+                    {"bulk", "the value without walls along y, from the line"},
                     {"periodic", "measured without walls"},
                     {"C / d", "slope of the line"}};
   if (units) table.headings.push_back({"C / " + printed_unit(*units), "slope of the line"});

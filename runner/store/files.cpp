@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <fcntl.h>
 #include <filesystem>
 #include <limits>
+#include <string>
 #include <system_error>
 #include <unistd.h>
 #include <utility>
@@ -62,15 +64,14 @@ FileError::FileError(const std::string& path, const std::string& what)
 
 namespace {
 
-/// To open a pipe for reading would wait for somebody who writes.
-int opened_as(int flags) {
-  return flags | O_CLOEXEC | ((flags & O_ACCMODE) == O_RDONLY ? O_NONBLOCK : 0);
-}
+/// To open a pipe would wait for somebody at its other end.
+int opened_as(int flags) { return flags | O_CLOEXEC | O_NONBLOCK; }
 
-bool is_endless(int descriptor) {
+/// Whether there is no end to what can be read from it, or nothing written to it is kept.
+bool is_endless(int descriptor, bool is_read) {
   struct stat known {};
-  return fstat(descriptor, &known) == 0 &&
-         (S_ISFIFO(known.st_mode) || S_ISCHR(known.st_mode) || S_ISSOCK(known.st_mode));
+  return fstat(descriptor, &known) == 0 && (S_ISFIFO(known.st_mode) || S_ISSOCK(known.st_mode) ||
+                                            (is_read && S_ISCHR(known.st_mode)));
 }
 
 }  // namespace
@@ -78,9 +79,11 @@ bool is_endless(int descriptor) {
 OpenFile::OpenFile(std::string path, int flags, unsigned mode)
     : path_(std::move(path)),
       descriptor_(uninterrupted([&] { return open(path_.c_str(), opened_as(flags), mode); })) {
-  if (descriptor_ < 0) throw FileError(path_, "open", errno);
-  if ((flags & O_ACCMODE) != O_RDONLY || !is_endless(descriptor_)) return;
-  close(std::exchange(descriptor_, -1));
+  const bool is_pipe_without_reader = descriptor_ < 0 && errno == ENXIO;
+  if (descriptor_ < 0 && !is_pipe_without_reader) throw FileError(path_, "open", errno);
+  const bool is_read = (flags & O_ACCMODE) == O_RDONLY;
+  if (!is_pipe_without_reader && !is_endless(descriptor_, is_read)) return;
+  if (descriptor_ >= 0) close(std::exchange(descriptor_, -1));
   throw FileError(path_, "is a pipe or a device, not a file");
 }
 
@@ -144,15 +147,40 @@ void for_each_line(const std::string& path, const std::function<void(std::string
   if (!text.empty()) use(text);
 }
 
-void remove_leftovers(const std::string& folder, std::string_view ending) {
+namespace {
+
+/// The process that writes a temporary file of this name for a file whose name ends in `ending`;
+/// empty if it is none.
+std::string writer_of(const std::string& name, std::string_view ending) {
   const std::string mark = std::string(ending) + std::string(temporary_mark);
+  const std::size_t at = name.rfind(mark);
+  if (at == std::string::npos) return "";
+  const std::string process = name.substr(at + mark.size());
+  const std::string number = process.substr(process.rfind('-') + 1);
+  return number.find_first_not_of("0123456789") == std::string::npos && !number.empty() ? process
+                                                                                        : "";
+}
+
+/// Whether a process of this machine has ended; false for those of others, which cannot be asked.
+bool has_ended(const std::string& process) {
+  if (!process.starts_with(host_name() + "-")) return false;
+  const std::string number = process.substr(process.rfind('-') + 1);
+  constexpr std::size_t most_digits = 9;
+  return number.size() <= most_digits && kill(std::stoi(number), 0) != 0 && errno == ESRCH;
+}
+
+}  // namespace
+
+void remove_leftovers(const std::string& folder, std::string_view ending) {
   for (const std::string& name : files_in(folder, "", "")) {
-    const std::size_t at = name.rfind(mark);
-    if (at == std::string::npos) continue;
-    const std::string process = name.substr(at + mark.size());
-    const std::string number = process.substr(process.rfind('-') + 1);
-    const bool is_number = number.find_first_not_of("0123456789") == std::string::npos;
-    if (is_number && !number.empty()) remove_file(folder + "/" + name);
+    if (!writer_of(name, ending).empty()) remove_file(folder + "/" + name);
+  }
+}
+
+void remove_leftovers_of_ended(const std::string& folder) {
+  for (const std::string& name : files_in(folder, "", "")) {
+    const std::string process = writer_of(name, "");
+    if (!process.empty() && has_ended(process)) remove_file(folder + "/" + name);
   }
 }
 

@@ -108,6 +108,9 @@ std::optional<std::int64_t> file_size(const std::string& path);
 /// files there.
 void remove_leftovers(const std::string& folder, std::string_view ending);
 
+/// The same of any files, left by processes of this machine that have ended: others may be at work.
+void remove_leftovers_of_ended(const std::string& folder);
+
 /// Names of the files in `folder` that start and end with these, sorted; none if there is no
 /// folder.
 std::vector<std::string> files_in(const std::string& folder, std::string_view start,

@@ -56,10 +56,14 @@ Json spaced_values(const std::string& path, const Json& range, const std::string
     const double value = k == 0            ? *from
                          : k == *count - 1 ? *to
                                            : nine_digits(*from + share * (*to - *from));
-    if (parameter.kind == ValueKind::whole) {
-      values.push_back(static_cast<std::int64_t>(std::round(value)));
-    } else {
+    if (parameter.kind != ValueKind::whole) {
       values.push_back(value);
+    } else if (value == std::round(value)) {
+      values.push_back(static_cast<std::int64_t>(value));
+    } else {
+      diagnostics.push_back({pointer, "must give whole numbers, gives " + Json(value).dump() +
+                                          ": take another count, or a list of values"});
+      return nullptr;
     }
   }
   return values;

@@ -219,6 +219,7 @@ std::string distinct(const std::vector<Row>& rows, Value value) {
 constexpr std::string_view own_units[] = {"\"distribution\":", "\"file\":", "\"files\":"};
 
 /// What d is: a length of the user's choice where sizes are a distribution or come from a file.
+/// Other packings of the sweep have diameters.
 std::string unit_meaning(const std::vector<Row>& rows) {
   const auto has_own_unit = [](const Row& row) {
     const std::string& parameters = row.job.parameters.text();
@@ -226,9 +227,12 @@ std::string unit_meaning(const std::vector<Row>& rows) {
       return parameters.find(key) != std::string::npos;
     });
   };
-  return std::any_of(rows.begin(), rows.end(), has_own_unit)
-             ? ", the unit that sizes are given in"
-             : ", the mean diameter of the large grains";
+  const auto with_own = std::count_if(rows.begin(), rows.end(), has_own_unit);
+  std::string diameter = ", the mean diameter of the large grains",
+              own = ", the length chosen as 1";
+  if (with_own == 0) return diameter;
+  if (static_cast<std::size_t>(with_own) == rows.size()) return own + " for sizes";
+  return diameter + ", or" + own.substr(1) + " for sizes of a distribution or a start file";
 }
 
 std::string definitions_text(const std::vector<Row>& rows) {

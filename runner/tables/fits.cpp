@@ -129,7 +129,7 @@ Columns<FitLine> fit_line_columns(const GivenUnits& units) {
       return line.fit.not_determined.empty() ? &(line.fit.*estimate) : nullptr;
     });
   };
-  add("bulk", "", "the quantity without walls, in quantity = bulk - C / W", &WallFit::bulk);
+  add("bulk", "", "the quantity without walls along y, in quantity = bulk - C / W", &WallFit::bulk);
   add("C", "d", "slope of the line", &WallFit::slope);
   add("zeta", "d", "C over bulk", &WallFit::zeta);
   using Reference = const Group&;
@@ -147,7 +147,7 @@ Columns<FitLine> fit_line_columns(const GivenUnits& units) {
              {"degrees_of_freedom", "", "points less 2", fit_cell(&WallFit::degrees_of_freedom)},
              {"r_squared", "", "share of the variance of the means that the line explains",
               fit_cell(&WallFit::r_squared)},
-             {"biperiodic_width", "d", "of the widest box with periodic y, the reference",
+             {"biperiodic_width", "d", "of the widest box without walls, the reference",
               reference_cell([](Reference group, Value /*at*/) { return group.job.box.width; })},
              {"biperiodic_mean", "", "the quantity there",
               reference_cell([](Reference /*group*/, Value at) { return at.mean; })},
@@ -232,7 +232,8 @@ WallFit fit_walls(const Family& family, Quantity quantity) {
 const Group* unconfined_reference(const Family& family) {
   const Group* widest = nullptr;
   for (const Group& group : family.periodic) {
-    if (group.counts.settled > 0) widest = &group;
+    const bool is_unconfined = group.job.box.x == Boundary::periodic;
+    if (is_unconfined && group.counts.settled > 0) widest = &group;
   }
   return widest;
 }

@@ -56,7 +56,7 @@ struct WallFit {
 
 WallFit fit_walls(const Family& family, Quantity quantity);
 
-/// The widest periodic group with a settled packing: the value to compare `bulk` with.
+/// The widest group without any walls that has a settled packing: the value to compare `bulk` with.
 const Group* unconfined_reference(const Family& family);
 
 /// The whole file: two rows per family with walls.

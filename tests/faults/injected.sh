@@ -63,7 +63,7 @@ code=0
 strace -f -qq -o trace.txt -e trace=clone,clone3 -e inject=clone,clone3:error=EAGAIN \
   "$program" run sweep.json --no-report --threads 4 --out threadless >said.txt 2>&1 || code=$?
 [ $code -eq 5 ] || fail "no threads: ended with $code: $(cat said.txt)"
-expect_text said.txt "grainsweep: the system gives no more than 0 of " "take fewer --threads"
+expect_text said.txt "grainsweep: the system gives not even one thread: raise the limits "
 
 # Where the file system has no locks, a run says so, works on a shard of its own, and keeps out
 # nobody; asking for the lock is the one call that fails, each time.

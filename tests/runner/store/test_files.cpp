@@ -2,11 +2,13 @@
 #include <fcntl.h>
 #include <filesystem>
 #include <string>
+#include <unistd.h>
 
 #include <catch2/catch.hpp>
 #include <sys/resource.h>
 #include <sys/stat.h>
 
+#include "runner/machine.hpp"
 #include "runner/store/files.hpp"
 #include "tests/runner/temporary_folder.hpp"
 
@@ -16,11 +18,14 @@ namespace {
 using Catch::Matchers::Contains;
 using Catch::Matchers::StartsWith;
 
-TEST_CASE("a pipe in the place of a file is refused, and nothing waits for it") {
+TEST_CASE("a pipe is neither read nor written, and nobody waits at it") {
   const TemporaryFolder folder;
   const std::string path = folder.path() + "/pipe";
   REQUIRE(mkfifo(path.c_str(), 0600) == 0);
-  CHECK_THROWS_WITH(read_file(path), path + ": is a pipe or a device, not a file");
+  for (const int flags : {O_RDONLY, O_WRONLY, O_WRONLY | O_APPEND | O_CREAT, O_RDWR}) {
+    CHECK_THROWS_WITH(OpenFile(path, flags),
+                      Catch::Equals(path + ": is a pipe or a device, not a file"));
+  }
 }
 
 TEST_CASE("a replaced file reads back byte by byte and leaves no neighbour behind") {
@@ -52,6 +57,20 @@ TEST_CASE("a file error names the path and the cause") {
                     StartsWith(missing) && Contains("No such file or directory"));
   CHECK_THROWS_WITH(replace_file(missing, "x"),
                     StartsWith(missing) && Contains("No such file or directory"));
+}
+
+TEST_CASE("what ended processes of this machine left is removed, and that of others kept") {
+  const TemporaryFolder folder;
+  const std::string other = "b.csv.tmp.another-machine-7-" + std::to_string(getpid());
+  const std::string at_work = "a.csv.tmp." + process_name();
+  // Numbers of processes are smaller.
+  const std::string ended = "a.csv.tmp." + host_name() + "-7-999999999";
+  for (const std::string& name : {other, at_work, ended}) {
+    replace_file(folder.path() + "/" + name, "x");
+  }
+  remove_leftovers_of_ended(folder.path());
+  CHECK(files_in(folder.path(), "", "") == std::vector<std::string>{at_work, other});
+  remove_leftovers_of_ended(folder.path() + "/none");
 }
 
 TEST_CASE("a full disk is reported with path and cause") {

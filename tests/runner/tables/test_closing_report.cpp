@@ -170,7 +170,10 @@ TEST_CASE("where sizes are a distribution d is not called a diameter") {
   row.job.parameters =
       R"({"box":{"width":5},"sizes":{"distribution":{"lognormal":{"sigma":0.1}}}})";
   CHECK_THAT(report_of(reported_provenance(), {row}, "out"),
-             Catch::Contains("Lengths in d, the unit that sizes are given in. φ"));
+             Catch::Contains("Lengths in d, the length chosen as 1 for sizes. φ"));
+  CHECK_THAT(report_of(reported_provenance(), {row, settled_row("b", 6, 0.6, 6)}, "out"),
+             Catch::Contains("Lengths in d, the mean diameter of the large grains, or the length "
+                             "chosen as 1 for sizes of a distribution or a start file. φ"));
 }
 
 TEST_CASE("a report of too few widths says why there is no fit") {

@@ -233,5 +233,15 @@ TEST_CASE("the table of a fit has the periodic value beside it") {
   CHECK(cell_in(text, 2, "bulk_bias_bound") == cell(bias_bound(rows[0].job)->coordination));
 }
 
+TEST_CASE("what has walls along x only is no value without walls") {
+  std::vector<Row> rows;
+  for (const double width : {4.0, 5.0, 10.0, 20.0}) add_width(rows, width, 0.001);
+  rows.push_back(settled_row("p", 20, 0.5890, 5.31, Boundary::periodic));
+  for (Row& row : rows) row.job.box.x = Boundary::walls;
+  const std::string text = fits_csv(families_of(groups_of(rows)));
+  CHECK_THAT(cell_in(text, 1, "bulk"), Catch::StartsWith("0.64"));
+  CHECK(cell_in(text, 1, "biperiodic_mean").empty());
+}
+
 }  // namespace
 }  // namespace grainsweep
