@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -104,11 +105,23 @@ std::vector<const Group*> pointers_to(const std::vector<Group>& groups) {
   return all;
 }
 
-/// The values that a parameter takes; none if any of them is no number.
+/// Whether a group has the parameter; cubes have none of prisms.
+bool has_parameter(const Group& group, const std::string& path) {
+  return lies_by_diameter(group, path) || !group.varied.at(path).empty();
+}
+
+/// Whether most groups have the parameter, so that the others may be left out along it.
+bool is_usual(const std::vector<const Group*>& groups, const std::string& path) {
+  const auto with = std::count_if(groups.begin(), groups.end(),
+                                  [&](const Group* group) { return has_parameter(*group, path); });
+  return 3 * static_cast<std::size_t>(with) >= 2 * groups.size();
+}
+
+/// The values that a parameter takes in the groups that have it; none if any of them is no number.
 std::set<double> values_of(const std::vector<const Group*>& groups, const std::string& path) {
   std::set<double> values;
   for (const Group* group : groups) {
-    if (lies_by_diameter(*group, path)) continue;
+    if (lies_by_diameter(*group, path) || !has_parameter(*group, path)) continue;
     const double value = number_of_cell(group->varied.at(path));
     if (std::isnan(value) || is_part_of_preset(*group, path)) return {};
     values.insert(value);
@@ -122,7 +135,7 @@ std::string axis_parameter(const std::vector<const Group*>& groups) {
   for (const std::string& path : varied_of(*groups.front())) {
     const std::size_t count = values_of(groups, path).size();
     if (path == width_parameter && count > 1) return path;
-    if (count > most) {
+    if (count > most && is_usual(groups, path)) {
       most = count;
       chosen = path;
     }
@@ -223,8 +236,12 @@ Axes axes_of(const std::vector<Group>& groups) {
   }
   join_scattered(axes);
   for (Series& series : axes.series) {
+    const auto place = [&](const Group* group) {  // those without one are the last
+      const double on_axis = place_on(axes, *group);
+      return std::isnan(on_axis) ? std::numeric_limits<double>::infinity() : on_axis;
+    };
     std::stable_sort(series.groups.begin(), series.groups.end(),
-                     [&](auto* a, auto* b) { return place_on(axes, *a) < place_on(axes, *b); });
+                     [&](auto* a, auto* b) { return place(a) < place(b); });
   }
   name_series(axes);
   return axes;

@@ -27,12 +27,13 @@ struct Axes {
 };
 
 /// box.width goes along the axis wherever it is varied, with tubes at their diameter, else the
-/// number that takes most values; if the sweep varies no number, the number of the group. Where
+/// number that takes most values, of those that most groups have; if there is none, the number of
+/// the group. Where
 /// many groups would each be alone on the axis, like points of a random design, those of one label
 /// form a series. Refers to the groups.
 Axes axes_of(const std::vector<Group>& groups);
 
-/// Where a group lies on the axis.
+/// Where a group lies on the axis; NaN if it lacks what is along it.
 double place_on(const Axes& axes, const Group& group);
 
 /// The number that a varied parameter has in a group, for tubes their diameter as box.width; NaN if

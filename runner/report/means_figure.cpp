@@ -59,6 +59,17 @@ std::string places_text(const Axes& axes) {
          (tubes > 0 ? ", tubes at d / D." : ".");
 }
 
+/// Which series have no point, since their packings lack what is along the axis.
+std::string lacking_text(const Axes& axes) {
+  std::string names;
+  for (const Series& series : axes.series) {
+    if (std::isnan(place_on(axes, *series.groups.front()))) {
+      names += (names.empty() ? "" : "; ") + series.name;
+    }
+  }
+  return names.empty() ? "" : " No point for " + names + ": without " + axes.title + ".";
+}
+
 std::string points_csv(const Axes& axes) {
   std::string text =
       csv_line({"series", "group", "x", "value", "solid_fraction", "solid_fraction_error",
@@ -250,7 +261,7 @@ Figure means_figure(const Axes& axes, const std::vector<Family>& families) {
     figure.tables.emplace_back(residuals_table, residuals_csv(all));
   }
   if (is_over_width(axes)) figure.caption += places_text(axes);
-  figure.caption += fits_text(all) + grey_series_text(axes);
+  figure.caption += lacking_text(axes) + fits_text(all) + grey_series_text(axes);
   figure.tables.insert(figure.tables.begin(), {points_table, points_csv(axes)});
   figure.commands = means_commands(axes, figure, all, has_fits);
   return figure;

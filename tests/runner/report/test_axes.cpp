@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include <catch2/catch.hpp>
 
 #include "runner/report/axes.hpp"
@@ -125,6 +127,45 @@ TEST_CASE("shapes are series of their own, told by their names where these tell 
     CHECK(series.groups.front()->family == series.groups.back()->family);
   }
   CHECK(title_of(groups[1]) == "MSP, W = 5, shape = icosahedron");
+}
+
+TEST_CASE("a parameter that most groups have goes along the axis, without those that lack it",
+          "[report]") {
+  std::vector<Row> rows;
+  for (const int sides : {3, 5, 8}) {
+    rows.push_back(shaped_row("p" + std::to_string(sides), 5, "prism",
+                              R"({"prism":{"sides":)" + std::to_string(sides) + "}}"));
+    rows.back().job.label = "prisms";
+  }
+  rows.push_back(shaped_row("c", 5, "cube", R"({"cube":{"edge":1.0}})"));
+  rows.back().job.label = "cubes";
+  const std::vector<Group> groups = groups_of(rows);
+  const Axes axes = axes_of(groups);
+  CHECK(axes.parameter == "shape.prism.sides");
+  CHECK(names_of(axes) == std::vector<std::string>{"prisms", "cubes"});
+  CHECK(place_on(axes, *axes.series[0].groups[2]) == 8.0);
+  CHECK(std::isnan(place_on(axes, *axes.series[1].groups[0])));
+  rows.push_back(shaped_row("o", 5, "octahedron", R"({"octahedron":{"edge":1.0}})"));
+  rows.push_back(shaped_row("i", 5, "icosahedron", R"({"icosahedron":{"edge":1.0}})"));
+  const std::vector<Group> many_shapes = groups_of(rows);
+  CHECK(axes_of(many_shapes).parameter.empty());
+}
+
+TEST_CASE("points of a random design are joined where some lack what others vary", "[report]") {
+  std::vector<Row> rows;
+  for (int k = 0; k < 12; ++k) {
+    const double width = 3.0 + 0.25 * k;
+    rows.push_back(row_at(std::to_string(k), width, 0.0));
+    rows.back().job.label = k % 3 == 0 ? "ratio" : "spread";
+    rows.back().job.parameters = R"({"box":{"width":)" + std::to_string(width) + R"(},"sizes":{")" +
+                                 (k % 3 == 0 ? "size_ratio" : "spread") +
+                                 "\":" + std::to_string(0.01 * (k + 1)) + "}}";
+  }
+  const std::vector<Group> groups = groups_of(rows);
+  const Axes axes = axes_of(groups);
+  CHECK(axes.scattered ==
+        std::vector<std::string>{"box.width", "sizes.size_ratio", "sizes.spread"});
+  CHECK(names_of(axes) == std::vector<std::string>{"ratio", "spread"});
 }
 
 TEST_CASE("parameters whose paths end alike have as much of them as tells them", "[report]") {
