@@ -21,6 +21,7 @@ struct Surroundings {
   const GrainBodies& grains;
   std::vector<std::vector<std::size_t>> neighbours = {};  ///< of each grain, with itself
   std::vector<std::vector<std::size_t>> necks = {};       ///< of each grain
+  std::vector<double> extents = {};  ///< of each grain: the radius of a ball that holds it, d
 };
 
 void sort_out(std::vector<std::size_t>& numbers) {
@@ -48,6 +49,16 @@ std::vector<std::vector<std::size_t>> neighbours_of(const ExportedBed& exported,
   return neighbours;
 }
 
+std::vector<double> extents_of(const GrainBodies& grains) {
+  std::vector<double> extents = grains.radii;
+  for (std::size_t k = 0; k < extents.size(); ++k) {
+    double furthest = 0.0;
+    for (const Vector& point : grains.points[k]) furthest = std::max(furthest, point.norm());
+    extents[k] += furthest;
+  }
+  return extents;
+}
+
 /// Grains near a neck, including those that it joins.
 std::vector<std::size_t> grains_about(const Neck& neck, const Surroundings& around) {
   std::vector<std::size_t> grains = around.neighbours[neck.a];
@@ -59,15 +70,32 @@ std::vector<std::size_t> grains_about(const Neck& neck, const Surroundings& arou
   return grains;
 }
 
+/// A ball that holds a neck, about the centre of its grain a.
+struct Ball {
+  Vector centre;
+  double radius = 0.0;
+
+  bool is_apart(const Ball& other, double distance) const {
+    return (centre - other.centre).norm() > radius + other.radius + distance;
+  }
+};
+
+Ball ball_of(const Neck& neck) {
+  return {neck.middle + 0.5 * (neck.low + neck.high) * neck.normal,
+          std::hypot(0.5 * (neck.high - neck.low), neck.radius)};
+}
+
 bool meets_third_grain(const Neck& neck, const std::vector<std::size_t>& grains,
                        const Surroundings& around) {
   if (neck.is_wall) return false;
   const std::vector<Vector> body = neck_corners(neck, Vector::Zero());
+  const Ball about = ball_of(neck);
   const double margin = neck_clearance * neck.radius;
   return std::any_of(grains.begin(), grains.end(), [&](std::size_t grain) {
     if (grain == neck.a || grain == neck.b) return false;
-    std::vector<Vector> points = around.grains.points[grain];
     const Vector offset = between_centres(around.exported.bed, neck.a, grain);
+    if (about.is_apart({offset, around.extents[grain]}, margin)) return false;
+    std::vector<Vector> points = around.grains.points[grain];
     for (Vector& point : points) point += offset;
     return !are_apart(body, points, around.grains.radii[grain] + margin);
   });
@@ -103,8 +131,11 @@ bool necks_meet(const Neck& neck, const Neck& other, const Surroundings& around)
   }
   if (neck.is_wall || other.is_wall) return false;
   const Vector offset = between_necks(neck, other, around.exported.bed);
-  return !are_apart(neck_corners(neck, Vector::Zero()), neck_corners(other, offset),
-                    neck_clearance * std::min(neck.radius, other.radius));
+  const double clearance = neck_clearance * std::min(neck.radius, other.radius);
+  Ball about = ball_of(other);
+  about.centre += offset;
+  return !ball_of(neck).is_apart(about, clearance) &&
+         !are_apart(neck_corners(neck, Vector::Zero()), neck_corners(other, offset), clearance);
 }
 
 std::vector<std::size_t> necks_about(const std::vector<std::size_t>& grains,
@@ -185,6 +216,7 @@ void narrow(const ExportedBed& exported, const GrainBodies& grains,
             const std::function<void(Neck&)>& fit, std::vector<Neck>& necks) {
   Surroundings around{exported, grains};
   around.neighbours = neighbours_of(exported, necks);
+  around.extents = extents_of(grains);
   for (bool is_done = false; !is_done;) {
     around.necks = necks_by_grain(necks, exported.bed.grains.size());
     const std::vector<bool> is_crowded = crowded(necks, around);
