@@ -135,7 +135,7 @@ TEST_CASE("a bed whose grains rock for more than nine rounds comes to rest", "[s
   spec.box = {3, 3, walls, walls};
   spec.fill = GrainCount{60};
   spec.shape = CubeSize{};
-  spec.random_key = 6;
+  spec.random_key = 143;
   const SettleReport report = settle_start(spec);
   CHECK(report.failure == "");
   CHECK(report.steps > 2 * 9 * 120);
