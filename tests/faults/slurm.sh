@@ -61,11 +61,18 @@ await() {
   done
 }
 
+# A port that can be bound on all addresses: others may hold one without listening on this one.
 free_port() {
-  local port
-  port=$(between 20000 30000)
-  while (exec 3<>"/dev/tcp/127.0.0.1/$port") 2>/dev/null; do port=$(between 20000 30000); done
-  echo "$port"
+  /usr/bin/python3 - "$(between 20000 29000)" <<'PYTHON'
+import socket, sys
+for port in range(int(sys.argv[1]), 30000):
+    try:
+        socket.socket().bind(("", port))
+    except OSError:
+        continue
+    print(port)
+    break
+PYTHON
 }
 
 configure() {
