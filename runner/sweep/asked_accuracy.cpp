@@ -96,7 +96,9 @@ std::optional<BedKind> bed_kind_of(const ResolvedSpec& resolved) {
 
 std::string measured_kinds() {
   return joined(name_of(BedKind::spheres), ", and of ", name_of(BedKind::pinacoids), " and ",
-                name_of(BedKind::two_sizes), ", in boxes that are not narrow");
+                name_of(BedKind::two_sizes),
+                ", in boxes that are not narrow, all with a spread of at most 0.0333 and angles of "
+                "60 degrees");
 }
 
 }  // namespace

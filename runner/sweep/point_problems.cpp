@@ -39,25 +39,37 @@ void PointProblems::begin_point(const Block& block, const std::vector<const Assi
 
 void PointProblems::note(const std::string& key, const std::string& pointer,
                          const std::string& message, const Assignment* value) {
-  const auto [entry, is_new] = said_.try_emplace(key);
+  const auto [entry, is_new] = said_.try_emplace(key_in_block(key, message));
   Said& said = entry->second;
   if (is_new) {
+    said.block = block_;
     said.holder = value != nullptr ? static_cast<const void*>(value) : block_;
     said.first_point = point_;
     said.where = name_of_point();
   }
   if (said.last_point != point_) ++said.points;
   said.last_point = point_;
-  const bool is_said =
-      std::any_of(said.diagnostics.begin(), said.diagnostics.end(),
-                  [&](std::size_t index) { return diagnostics_[index].message == message; });
-  if (is_said) return;
+  if (has_said(said, message)) return;
   if (said.first_point != point_) {
     said.differs = true;
     return;
   }
   said.diagnostics.push_back(diagnostics_.size());
   diagnostics_.push_back({pointer, message});
+}
+
+bool PointProblems::has_said(const Said& said, const std::string& message) const {
+  return std::any_of(said.diagnostics.begin(), said.diagnostics.end(),
+                     [&](std::size_t index) { return diagnostics_[index].message == message; });
+}
+
+std::string PointProblems::key_in_block(const std::string& key, const std::string& message) const {
+  const auto known = said_.find(key);
+  if (known == said_.end() || known->second.block == nullptr || known->second.block == block_ ||
+      has_said(known->second, message)) {
+    return key;
+  }
+  return key + " of block " + std::to_string(block_ - definition_.blocks.data());
 }
 
 void PointProblems::name_points() {

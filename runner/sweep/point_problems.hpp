@@ -28,7 +28,8 @@ class PointProblems {
                    const InEffect& in_effect);
 
   /// Notes at `pointer` what the point breaks with `value`, or with a default if that is null. A
-  /// problem with the same `key` is noted for the first point only.
+  /// problem with the same `key` is noted for the first point only, and for the first one of each
+  /// block that has another message.
   void note(const std::string& key, const std::string& pointer, const std::string& message,
             const Assignment* value);
 
@@ -41,6 +42,7 @@ class PointProblems {
  private:
   struct Said {
     std::vector<std::size_t> diagnostics = {};  ///< of the first point, by index
+    const Block* block = nullptr;               ///< of the first point
     const void* holder = nullptr;               ///< the value, or its block: an address alone
     std::uint64_t first_point = 0, last_point = 0, points = 0;  ///< that break the rule
     bool differs = false;                                       ///< at a later point
@@ -48,6 +50,9 @@ class PointProblems {
   };
 
   std::string name_of_point() const;
+  bool has_said(const Said& said, const std::string& message) const;
+  /// The key under which a message is noted: another one in a block where it differs.
+  std::string key_in_block(const std::string& key, const std::string& message) const;
 
   const SweepDefinition& definition_;
   Diagnostics& diagnostics_;
