@@ -93,6 +93,8 @@ std::string process_name() {
   return host_name() + "-" + token + "-" + std::to_string(getpid());
 }
 
+std::string number_of_process(const std::string& name) { return name.substr(name.rfind('-') + 1); }
+
 std::string processor_name() {
   std::ifstream file("/proc/cpuinfo");
   std::string line;

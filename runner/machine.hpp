@@ -35,6 +35,9 @@ std::string host_name();
 /// name of their host and have equal process numbers.
 std::string process_name();
 
+/// "<pid>" of such a name.
+std::string number_of_process(const std::string& name);
+
 /// What the processor calls itself; empty if the system does not tell.
 std::string processor_name();
 

@@ -42,10 +42,10 @@ int perform(const ReportOptions& options) {
   std::cerr << damage_warnings(check_beds(options.folder, results.rows));
   const Analysis analysis = analyse(results.rows, options.folder);
   const bool is_at_work = is_worked_on(options.folder, results.last_runs);
-  for (const char* part : {"", "/figures"}) remove_leftovers_of_ended(options.folder + part);
   // A run at work writes them itself.
   const bool has_tables =
       is_at_work || is_written("are no new tables", [&] {
+        for (const char* part : {"", "/figures"}) remove_leftovers_of_ended(options.folder + part);
         write_tables(options.folder, results.provenance, results.rows, analysis);
       });
   std::cout << closing_report(results.provenance, results.rows, analysis.families,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <fcntl.h>
@@ -156,7 +157,7 @@ std::string writer_of(const std::string& name, std::string_view ending) {
   const std::size_t at = name.rfind(mark);
   if (at == std::string::npos) return "";
   const std::string process = name.substr(at + mark.size());
-  const std::string number = process.substr(process.rfind('-') + 1);
+  const std::string number = number_of_process(process);
   return number.find_first_not_of("0123456789") == std::string::npos && !number.empty() ? process
                                                                                         : "";
 }
@@ -164,9 +165,18 @@ std::string writer_of(const std::string& name, std::string_view ending) {
 /// Whether a process of this machine has ended; false for those of others, which cannot be asked.
 bool has_ended(const std::string& process) {
   if (!process.starts_with(host_name() + "-")) return false;
-  const std::string number = process.substr(process.rfind('-') + 1);
+  const std::string number = number_of_process(process);
   constexpr std::size_t most_digits = 9;
   return number.size() <= most_digits && kill(std::stoi(number), 0) != 0 && errno == ESRCH;
+}
+
+/// Whether nothing was written to it for so long that nobody is writing it: a container of the same
+/// host name may have processes that cannot be seen.
+bool is_abandoned(const std::string& path) {
+  constexpr std::chrono::minutes longest_pause(10);
+  std::error_code error;
+  const auto written = std::filesystem::last_write_time(path, error);
+  return !error && std::filesystem::file_time_type::clock::now() - written > longest_pause;
 }
 
 }  // namespace
@@ -179,8 +189,8 @@ void remove_leftovers(const std::string& folder, std::string_view ending) {
 
 void remove_leftovers_of_ended(const std::string& folder) {
   for (const std::string& name : files_in(folder, "", "")) {
-    const std::string process = writer_of(name, "");
-    if (!process.empty() && has_ended(process)) remove_file(folder + "/" + name);
+    const std::string process = writer_of(name, ""), path = folder + "/" + name;
+    if (!process.empty() && has_ended(process) && is_abandoned(path)) remove_file(path);
   }
 }
 

@@ -108,7 +108,8 @@ std::optional<std::int64_t> file_size(const std::string& path);
 /// files there.
 void remove_leftovers(const std::string& folder, std::string_view ending);
 
-/// The same of any files, left by processes of this machine that have ended: others may be at work.
+/// The same of any files, left ten minutes ago or earlier by processes of this machine that have
+/// ended: others may be at work.
 void remove_leftovers_of_ended(const std::string& folder);
 
 /// Names of the files in `folder` that start and end with these, sorted; none if there is no

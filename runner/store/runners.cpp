@@ -47,7 +47,7 @@ bool is_worked_on(const std::string& folder, const std::map<std::string, RunReco
 
 std::string owner_text(const std::optional<RunRecord>& run) {
   if (!run || run->process.empty()) return "another process";
-  return "host " + run->host + ", process " + run->process.substr(run->process.rfind('-') + 1);
+  return "host " + run->host + ", process " + number_of_process(run->process);
 }
 
 void touch_journal(const std::string& path) { utimensat(AT_FDCWD, path.c_str(), nullptr, 0); }

@@ -228,11 +228,11 @@ std::string unit_meaning(const std::vector<Row>& rows) {
     });
   };
   const auto with_own = std::count_if(rows.begin(), rows.end(), has_own_unit);
-  std::string diameter = ", the mean diameter of the large grains",
-              own = ", the length chosen as 1";
-  if (with_own == 0) return diameter;
-  if (static_cast<std::size_t>(with_own) == rows.size()) return own + " for sizes";
-  return diameter + ", or" + own.substr(1) + " for sizes of a distribution or a start file";
+  if (with_own == 0) return ", the mean diameter of the large grains";
+  if (static_cast<std::size_t>(with_own) == rows.size())
+    return ", the length chosen as 1 for sizes";
+  return ", the mean diameter of the large grains, or the length chosen as 1 for sizes of a "
+         "distribution or a start file";
 }
 
 std::string definitions_text(const std::vector<Row>& rows) {

@@ -1,3 +1,4 @@
+#include <chrono>
 #include <csignal>
 #include <fcntl.h>
 #include <filesystem>
@@ -65,11 +66,15 @@ TEST_CASE("what ended processes of this machine left is removed, and that of oth
   const std::string at_work = "a.csv.tmp." + process_name();
   // Numbers of processes are smaller.
   const std::string ended = "a.csv.tmp." + host_name() + "-7-999999999";
-  for (const std::string& name : {other, at_work, ended}) {
-    replace_file(folder.path() + "/" + name, "x");
+  const std::string just_written = "c.csv.tmp." + host_name() + "-7-999999999";
+  for (const std::string& name : {other, at_work, ended, just_written}) {
+    const std::string path = folder.path() + "/" + name;
+    replace_file(path, "x");
+    const auto now = std::filesystem::last_write_time(path);
+    std::filesystem::last_write_time(path, now - std::chrono::hours(name == just_written ? 0 : 1));
   }
   remove_leftovers_of_ended(folder.path());
-  CHECK(files_in(folder.path(), "", "") == std::vector<std::string>{at_work, other});
+  CHECK(files_in(folder.path(), "", "") == std::vector<std::string>{at_work, other, just_written});
   remove_leftovers_of_ended(folder.path() + "/none");
 }
 
