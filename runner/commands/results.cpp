@@ -45,11 +45,14 @@ ProvenanceReading read_provenance(const std::string& folder) {
                    ": no output folder of grainsweep (it has no provenance.json); make one with " +
                    called_as() + " run FILE --out " + shell_path(folder));
   }
+  const std::string text = read_file(path);
   try {
-    return provenance_from_text(read_file(path));
-  } catch (const nlohmann::json::exception& error) {
-    throw BadInput(path + ": not what grainsweep wrote (" + error.what() +
-                   "); run the sweep again to write it anew, stored packings are kept");
+    return provenance_from_text(text);
+  } catch (const nlohmann::json::exception&) {
+    const std::string what = has_checksum(text) ? "of another version of grainsweep"
+                                                : "cut off, or changed since it was written";
+    throw BadInput(path + ": " + what +
+                   "; run the sweep again to write it anew, stored packings are kept");
   }
 }
 

@@ -370,12 +370,13 @@ void add_command(CLI::App& app, RunOptions& options) {
   run.add_flag("--no-report", options.no_report, "leave out the page report.html and its figures");
   run.add_flag("--no-grains", options.no_grains,
                "store curves but no grains: beds cannot be shown or exported");
-  run.add_option("--shard", options.shard,
-                 "make one part of N in a shared folder: I/N, auto, or auto/N")
-      ->check(not_empty())
-      ->type_name("I/N");
+  auto* shard = run.add_option("--shard", options.shard,
+                               "make one part of N in a shared folder: I/N, auto, or auto/N")
+                    ->check(not_empty())
+                    ->type_name("I/N");
   run.add_flag("--alone", options.alone,
-               "end with the shard, without taking over what others have not begun");
+               "end with the shard, without taking over what others have not begun")
+      ->needs(shard);
   run.add_option("--time-limit", options.time_limit,
                  "end in time; [H:]MM:SS or seconds (default: that of the Slurm job)")
       ->check(not_empty())

@@ -157,13 +157,21 @@ VerticesReading parse_stl(const std::string& bytes, const std::string& file) {
   const std::uint64_t triangles = triangles_of(bytes);
   if (triangles > 0 && bytes.size() == size_with(triangles)) return parse_bytes(bytes, file);
   VerticesReading reading = parse_text(bytes, file);
-  if (reading.vertices.empty() && reading.errors.empty()) {
-    reading.errors.push_back(wrong_line(
-        file, 1,
-        "no vertex in it; STL is text with lines \"vertex x y z\", or bytes: a heading of 80, the "
-        "number of triangles and 50 for each, " +
-            std::to_string(size_with(triangles)) + " in all, not " + std::to_string(bytes.size())));
+  if (!reading.vertices.empty() || !reading.errors.empty()) return reading;
+  if (triangles > 0 && bytes.find('\0') != std::string::npos) {
+    reading.errors.push_back({"",
+                              joined("is cut off, or its number of triangles is wrong: ", triangles,
+                                     " take ", size_with(triangles),
+                                     " bytes (a heading of 80, the "
+                                     "number, and 50 for each), and it has ",
+                                     bytes.size()),
+                              Anchor::value, file});
+    return reading;
   }
+  reading.errors.push_back(
+      wrong_line(file, 1,
+                 "no vertex in it; STL is text with lines \"vertex x y z\", or bytes: a heading of "
+                 "80, the number of triangles and 50 for each"));
   return reading;
 }
 

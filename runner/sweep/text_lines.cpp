@@ -20,6 +20,14 @@ FileText refuse(const std::string& path, const std::string& message) {
   return {"", {{"", message, Anchor::value, path}}};
 }
 
+/// Whether the bytes are text of two bytes a character, as spreadsheets save "Unicode text": a mark
+/// of the order of bytes, then a character whose other byte is zero.
+bool is_utf_16(std::string_view bytes) {
+  if (bytes.size() < 4) return false;
+  const bool is_little = bytes.starts_with("\xFF\xFE") && bytes[3] == '\0';
+  return is_little || (bytes.starts_with("\xFE\xFF") && bytes[2] == '\0');
+}
+
 /// Bytes of the character that `text` begins with if a terminal would obey it, else 0.
 std::size_t bytes_of_control(std::string_view text) {
   const auto byte = [&](std::size_t at) {
@@ -57,6 +65,7 @@ FileText read_text(const std::string& path) {
     if (text.size() > largest_file) return refuse(path, "is larger than 256 MiB");
   }
   if (text.find_first_not_of(" \t\r\n") == std::string::npos) return refuse(path, "is empty");
+  if (is_utf_16(text)) return refuse(path, "is text in UTF-16; save it as UTF-8");
   return {std::move(text), {}};
 }
 
@@ -123,7 +132,9 @@ std::vector<std::string_view> pieces_of(std::string_view text, char separator) {
 std::vector<std::string_view> lines_of(std::string_view text) {
   if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
   const std::size_t end = text.find_last_not_of(" \t\r\n");
-  return pieces_of(text.substr(0, end == std::string_view::npos ? 0 : end + 1), '\n');
+  text = text.substr(0, end == std::string_view::npos ? 0 : end + 1);
+  const bool has_returns_alone = text.find('\n') == std::string_view::npos;
+  return pieces_of(text, has_returns_alone ? '\r' : '\n');
 }
 
 LineCells cells_of(std::string_view line) {

@@ -20,7 +20,8 @@ struct FileText {
   Diagnostics errors;  ///< at most one
 };
 
-/// Reads a whole file of at most 256 MiB. Refuses what is missing, unreadable, a folder or empty.
+/// Reads a whole file of at most 256 MiB. Refuses what is missing, unreadable, a folder, empty or
+/// text in UTF-16.
 FileText read_text(const std::string& path);
 
 /// What `parse(text, path)` makes of the file at `path`; if that cannot be read, its `errors`
@@ -64,7 +65,7 @@ std::string_view trimmed(std::string_view text);
 std::vector<std::string_view> pieces_of(std::string_view text, char separator);
 
 /// The lines of a text, without a byte order mark at its start and blank lines at its end; at least
-/// one.
+/// one. They end with a line feed, or all with a carriage return.
 std::vector<std::string_view> lines_of(std::string_view text);
 
 /// The cells of a line of a CSV file, without blanks and quotation marks at their ends.

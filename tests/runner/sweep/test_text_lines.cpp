@@ -13,6 +13,8 @@ TEST_CASE("a text has the lines between its line feeds, without blank ones at th
   CHECK(lines_of("a\nb\n\nc\n\n \n") == Lines{"a", "b", "", "c"});
   CHECK(lines_of("\xEF\xBB\xBFx,y") == Lines{"x,y"});
   CHECK(lines_of("") == Lines{""});
+  CHECK(lines_of("a\rb\r\rc\r") == Lines{"a", "b", "", "c"});
+  CHECK(lines_of("a\r\nb\r\n") == Lines{"a\r", "b"});
 }
 
 TEST_CASE("what a terminal would obey becomes a question mark, other characters stay") {
@@ -75,6 +77,11 @@ TEST_CASE("files that hold no text are refused by name") {
   CHECK(error(folder.path("none.json")) == "none.json: cannot be read: No such file or directory");
   CHECK(error(folder.write("empty.json", "")) == "empty.json: is empty");
   CHECK(error(folder.write("blank.json", " \n\t\r\n")) == "blank.json: is empty");
+  CHECK(error(folder.write("wide.csv", {"\xFF\xFE"
+                                        "x\0,\0",
+                                        6})) == "wide.csv: is text in UTF-16; save it as UTF-8");
+  CHECK(error(folder.write("wide.csv", {"\xFE\xFF\0x\0,", 6})) ==
+        "wide.csv: is text in UTF-16; save it as UTF-8");
   std::filesystem::create_directory(folder.path("sub"));
   CHECK(error(folder.path("sub")) == "sub: is a folder, not a file");
 }
