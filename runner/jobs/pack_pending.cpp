@@ -3,6 +3,7 @@
 #include <atomic>
 #include <cstdio>
 #include <mutex>
+#include <new>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -120,7 +121,7 @@ class Packer {
     const KeepGoing saving = [&](const Progress& progress) {
       const bool goes_on = keep_going(progress);
       if (goes_on && wall_seconds() < due_at) return true;
-      save(files, {progress.step, before_[task].cpu_seconds + team.cpu_seconds(), progress.save()});
+      save(files, progress, before_[task].cpu_seconds + team.cpu_seconds());
       due_at = wall_seconds() + options_.checkpoint_seconds;
       return goes_on;
     };
@@ -138,15 +139,20 @@ class Packer {
     }
   }
 
-  /// Where none can be written the packing goes on without.
-  void save(CheckpointFiles& files, const Checkpoint& checkpoint) {
+  /// Where none can be made or written the packing goes on without.
+  void save(CheckpointFiles& files, const Progress& progress, double cpu_seconds) {
     try {
-      files.write(checkpoint);
+      files.write({progress.step, cpu_seconds, progress.save()});
     } catch (const FileError& error) {
-      if (warned_.exchange(true)) return;
-      display_.say(std::string("warning: ") + error.what() +
-                   "; packings under way begin anew if this run is stopped");
+      warn_of_no_checkpoint(error.what());
+    } catch (const std::bad_alloc&) {
+      warn_of_no_checkpoint("there is no memory for a checkpoint");
     }
+  }
+
+  void warn_of_no_checkpoint(const std::string& why) {
+    if (warned_.exchange(true)) return;
+    display_.say("warning: " + why + "; packings under way begin anew if this run is stopped");
   }
 
   TaskEvents events() {
@@ -192,13 +198,7 @@ class Packer {
     const Job& job = *running_.pending[task];
     finished.cpu_seconds += before_[task].cpu_seconds;
     const Outcome outcome = store(job, running_.files, std::move(finished), options_.no_grains);
-    {
-      const std::scoped_lock lock(learning_);
-      running_.estimates.add(costs_[task].cpu_seconds, outcome.cpu_seconds);
-    }
-    for (const std::string& line : checkpoints_of(job).remove()) {
-      display_.say("warning: " + line);
-    }
+    if (!outcome.exception) end_for_good(job, costs_[task].cpu_seconds, outcome.cpu_seconds);
     ++packed_.packings;
     const std::string line =
         packing_line(options_.names.set_of(facts_of(job)), job.replicate, outcome) +
@@ -206,6 +206,17 @@ class Packer {
     display_.finish(task, outcome.result.status == PackingStatus::settled, line);
     if (!options_.fail_fast || outcome.result.status != PackingStatus::failed) return;
     if (!has_failed_.exchange(true)) packed_.first_failure = line;
+  }
+
+  /// A packing that ended in an exception is none of these: it is tried again, from its checkpoint.
+  void end_for_good(const Job& job, double estimated_seconds, double seconds) {
+    {
+      const std::scoped_lock lock(learning_);
+      running_.estimates.add(estimated_seconds, seconds);
+    }
+    for (const std::string& line : checkpoints_of(job).remove()) {
+      display_.say("warning: " + line);
+    }
   }
 
   RunningSweep& running_;

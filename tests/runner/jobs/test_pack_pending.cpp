@@ -57,6 +57,22 @@ TEST_CASE("the CPU time of a packing is that of all runs that worked on it") {
   CHECK(saved_packings(folder.path()) == 0);
 }
 
+TEST_CASE("a packing that ends in an exception keeps its checkpoint, since it is tried again") {
+  const TemporaryFolder folder;
+  Sweep sweep = sweep_of_a_small_bed();
+  const Checkpoint checkpoint = stopped_early(sweep.jobs[0], 1.0);
+  CheckpointFiles(folder.path(), sweep.jobs[0].id, build_name()).write(checkpoint);
+  const Mixture inner{{{1.0, CubeSize{}}}};
+  sweep.jobs[0].spec.shape = Mixture{{{1.0, inner}}};  // no sweep can ask for one within another
+  ShardFiles files(folder.path(), {}, sample_run());
+  RunningSweep running{folder.path(), files, 0, {&sweep.jobs[0]}, {}};
+  PackOptions options;
+  options.isa = Isa::sse2;
+  CHECK(pack_pending(running, options).packings == 1);
+  CHECK(read_journals(folder.path()).outcomes.at(sweep.jobs[0].id)->exception);
+  CHECK(saved_packings(folder.path()) == 1);
+}
+
 TEST_CASE("a folder in the place of a checkpoint is no reason to stop a run") {
   const TemporaryFolder folder;
   const Sweep sweep = sweep_of_a_small_bed();
