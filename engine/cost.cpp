@@ -127,11 +127,11 @@ double memory_factor(double grains) { return std::clamp(std::sqrt(grains / 15000
 /// front.
 constexpr double most_layers_awake = 1.5 * sleep_depth;
 
-/// Solver iterations that a path takes, over those of the usual one. Where walls are near, a path
-/// that is closer for that costs less.
+/// Solver iterations that a path takes, over those of the usual one. In narrow containers
+/// a path that is closer for that costs less.
 double iterations_of_path(const PackingSpec& spec) {
   const double usual = Accuracy{}.path_tolerance, asked = spec.accuracy.path_tolerance;
-  const double closer = closer_between(spec.accuracy, spec.box).path_tolerance;
+  const double closer = closer_where_narrow(spec.accuracy, spec.box).path_tolerance;
   return std::pow(usual / asked, 0.6) * std::pow(asked / closer, 0.2);
 }
 

@@ -243,21 +243,21 @@ class Settling {
 
   /// Whether the stage has done its work. Looks at the bed after at least one step.
   bool is_over() {
-    const bool has_steps = steps_left() <= 0;
+    const bool has_its_steps = steps_left() <= 0;
     switch (rule().end) {
       case StageEnd::look:
         if (steps_in_stage_ > 0 && !is_bed()) return true;
-        return has_steps && (is_at_rest() || is_seen());
+        return has_its_steps && (is_at_rest() || is_seen());
       case StageEnd::fallen:
-        return has_steps && has_fallen();
+        return has_its_steps && has_fallen();
       case StageEnd::halted:
-        return has_steps && has_fallen() && last_.kinetic_energy < accuracy_.kinetic_tolerance;
+        return has_its_steps && has_fallen() && last_.kinetic_energy < accuracy_.kinetic_tolerance;
       case StageEnd::rest:
-        return has_steps && (is_at_rest() || slides_on());
+        return has_its_steps && (is_at_rest() || slides_on());
       case StageEnd::steps:
         break;
     }
-    return has_steps;
+    return has_its_steps;
   }
 
   std::size_t next_stage() {
@@ -307,7 +307,7 @@ class Settling {
     transfer_bed(archive, bed_, state_);
   }
 
-  /// States of other number types, of other kinds of grains, of other beds and of programs in which
+  /// States of other number types, of other kinds or numbers of grains and of programs in which
   /// a report has other members are of another kind.
   std::uint64_t kind_of() const {
     constexpr bool turns = std::is_same_v<Kind, Polyhedron>;
@@ -543,7 +543,7 @@ SettleReport settle(const Accuracy& accuracy, const ExecutionContext& context, B
                     const KeepGoing& keep_going, std::string_view saved) {
   Workspace own;
   Workspace& memory = context.workspace != nullptr ? *context.workspace : own;
-  const Accuracy closer = closer_between(accuracy, bed.box);
+  const Accuracy closer = closer_where_narrow(accuracy, bed.box);
   const auto settle_as = [&](auto& state) {
     return Settling(closer, context, keep_going, state, std::get<ClosedState<Kind>>(memory.closed),
                     bed)

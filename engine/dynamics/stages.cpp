@@ -302,8 +302,9 @@ std::int64_t creep_steps(const Accuracy& accuracy, double share) {
   return static_cast<std::int64_t>(std::floor(share * steps + rounding));
 }
 
-// In d: walls further apart than this order grains no more than far ones do.
-constexpr double far_walls = 5.0, far_all_around = 7.0;
+// In d: walls further apart than this order grains no more than far ones do, nor do images of a
+// grain in a periodic box.
+constexpr double far_walls = 5.0, far_all_around = 7.0, far_images = 5.0;
 
 }  // namespace
 
@@ -317,9 +318,9 @@ Stages stages_of<Polyhedron>(Protocol protocol) {
   return protocol == Protocol::dynamic ? Stages(dynamic_turning) : Stages(turning);
 }
 
-Accuracy closer_between(const Accuracy& accuracy, const Box& box) {
+Accuracy closer_where_narrow(const Accuracy& accuracy, const Box& box) {
   const double far = is_walled_around(box) ? far_all_around : far_walls;
-  const double apart = std::min(1.0, nearest_walls(box) / far);
+  const double apart = std::min({1.0, nearest_walls(box) / far, shortest_period(box) / far_images});
   Accuracy closer = accuracy;
   closer.path_tolerance *= apart * apart;
   return closer;

@@ -62,9 +62,9 @@ using Stages = std::span<const StageRule>;
 template <class Kind>
 Stages stages_of(Protocol protocol);
 
-/// How well a bed is settled between walls that are near: beside them loose solves tap grains into
-/// order, so that contacts may stray less far.
-Accuracy closer_between(const Accuracy& accuracy, const Box& box);
+/// How well a bed is settled between walls that are near, or in a short periodic box: there loose
+/// solves tap grains into order, so that contacts may stray less far.
+Accuracy closer_where_narrow(const Accuracy& accuracy, const Box& box);
 
 /// The settings of a step of a stage, for a bed of that height, d.
 StepSettings settings_of(const Accuracy& accuracy, const StageRule& rule, double height = 0.0);

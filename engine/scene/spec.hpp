@@ -91,8 +91,8 @@ struct Accuracy {
   /// How far contacts may stray in a step of the fall because it is not solved better, d: root mean
   /// square, for a step of 0.2 sqrt(d/g), for others in proportion; twice as far for spheres. All
   /// steps of a creep of spheres together may stray 160 times as far as this. Looser solves tap the
-  /// bed denser, most between near walls, where they may stray less far
-  /// (engine/dynamics/stages.hpp, closer_between).
+  /// bed denser, most in narrow containers, where they may stray less far
+  /// (engine/dynamics/stages.hpp, closer_where_narrow).
   double path_tolerance = 2e-4;
   /// Steps after the fall, while the bed creeps to rest: their number if they are 0.2 sqrt(d/g)
   /// long; shorter steps are more in proportion.

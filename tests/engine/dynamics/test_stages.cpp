@@ -120,13 +120,15 @@ TEST_CASE(
   CHECK(path(heavy_ball("ease")) == Approx(1e-6));
 }
 
-TEST_CASE("between near walls steps may stray less far, as the square of how near they are") {
+TEST_CASE("in narrow containers steps may stray less far, as the square of how narrow they are") {
   const auto path = [](const Box& box) {
-    return closer_between(*preset("accurate"), box).path_tolerance;
+    return closer_where_narrow(*preset("accurate"), box).path_tolerance;
   };
   const double usual = preset("accurate")->path_tolerance;
-  CHECK(path({2, 2, periodic, periodic}) == usual);
-  CHECK(path({2, 5, periodic, walls}) == usual);
+  CHECK(path({5, 5, periodic, periodic}) == usual);
+  CHECK(path({5, 2.5, periodic, periodic}) == Approx(usual / 4));
+  CHECK(path({2.5, 9, periodic, walls}) == Approx(usual / 4));
+  CHECK(path({5, 5, periodic, walls}) == usual);
   CHECK(path(tube_of(7)) == usual);
   CHECK(path({7, 9, walls, walls}) == usual);
   CHECK(path({9, 2.5, periodic, walls}) == Approx(usual / 4));
@@ -134,7 +136,7 @@ TEST_CASE("between near walls steps may stray less far, as the square of how nea
   CHECK(path({9, 3.5, walls, walls}) == Approx(usual / 4));
   CHECK(path({1.75, 9, walls, walls}) == Approx(usual / 16));
   CHECK(path(tube_of(1.75)) == Approx(usual / 16));
-  Accuracy closer = closer_between(*preset("accurate"), tube_of(2));
+  Accuracy closer = closer_where_narrow(*preset("accurate"), tube_of(2));
   closer.path_tolerance = usual;
   CHECK(closer == *preset("accurate"));
 }
