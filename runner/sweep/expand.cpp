@@ -97,8 +97,14 @@ std::string hash_of(const std::vector<Start>& starts) {
   return hex16(fnv1a(contents));
 }
 
-/// Hash of the grains themselves, however a file writes them.
-std::uint64_t hash_of(const PlacedGrains& placed) {
+/// Hash of the grains themselves, however a file writes them: of q and -q, which are one
+/// orientation, it takes that whose first number that is not zero is positive.
+std::uint64_t hash_of(PlacedGrains placed) {
+  for (auto& q : placed.orientations) {
+    const auto first = std::find_if(q.begin(), q.end(), [](double part) { return part != 0.0; });
+    if (first == q.end() || *first > 0.0) continue;
+    for (double& part : q) part = 0.0 - part;
+  }
   const auto bytes_of = [](const auto& list) {
     return std::string_view(reinterpret_cast<const char*>(list.data()),
                             list.size() * sizeof list.front());

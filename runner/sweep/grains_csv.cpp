@@ -85,7 +85,7 @@ std::string read_grain(const LineCells& cells, const Columns& columns, std::size
       return std::string(column_names[i]) + " must be a finite number, is \"" + shortened(cell) +
              "\"";
     }
-    v[i] = *value;
+    v[i] = *value + 0.0;  // -0 is 0
   }
   if (!(v[3] > 0.0)) return "r must be positive, is " + std::string(cells[columns.numbers[3]]);
   reading.grains.push_back({v[0], v[1], v[2], v[3]});
