@@ -4,13 +4,16 @@
 #include <array>
 #include <atomic>
 #include <cctype>
+#include <cerrno>
+#include <csignal>
 #include <cstdlib>
 #include <ctime>
+#include <exception>
 #include <fstream>
+#include <limits>
 #include <random>
 #include <sstream>
 #include <string>
-#include <system_error>
 #include <thread>
 #include <unistd.h>
 #include <vector>
@@ -30,6 +33,7 @@ double seconds_of(clockid_t clock) {
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
+/// Infinite where the system does not tell.
 double memory_left_on_the_machine() {
   std::ifstream file("/proc/meminfo");
   std::string name, rest;
@@ -37,7 +41,7 @@ double memory_left_on_the_machine() {
   while (file >> name >> kilobytes && std::getline(file, rest)) {
     if (name == "MemAvailable:") return 1024.0 * kilobytes;
   }
-  return 0.0;
+  return std::numeric_limits<double>::infinity();
 }
 
 double memory_left_in_the_control_groups() {
@@ -95,6 +99,13 @@ std::string process_name() {
 
 std::string number_of_process(const std::string& name) { return name.substr(name.rfind('-') + 1); }
 
+bool has_ended(const std::string& process_name) {
+  if (!process_name.starts_with(host_name() + "-")) return false;
+  const std::string number = number_of_process(process_name);
+  constexpr std::size_t most_digits = 9;
+  return number.size() <= most_digits && kill(std::stoi(number), 0) != 0 && errno == ESRCH;
+}
+
 std::string processor_name() {
   std::ifstream file("/proc/cpuinfo");
   std::string line;
@@ -110,7 +121,7 @@ void expect_threads(int count) {
   bool is_given = true;
   try {
     for (int i = 0; i < count; ++i) threads.emplace_back([&] { may_end.wait(false); });
-  } catch (const std::system_error&) {
+  } catch (const std::exception&) {  // also where there is no memory for one
     is_given = false;
   }
   may_end = true;
@@ -131,9 +142,6 @@ double available_memory() {
       {memory_left_on_the_machine(), memory_left_in_the_control_groups(), addresses_left()});
 }
 
-double memory_for_packings() {
-  constexpr double share = 0.8;
-  return std::max(1.0, share * available_memory());  // 0 would mean that there is no limit
-}
+double memory_for_packings() { return share_for_packings * available_memory(); }
 
 }  // namespace grainsweep

@@ -38,6 +38,9 @@ std::string process_name();
 /// "<pid>" of such a name.
 std::string number_of_process(const std::string& name);
 
+/// Whether a process of this machine has ended; false for those of others, which cannot be asked.
+bool has_ended(const std::string& process_name);
+
 /// What the processor calls itself; empty if the system does not tell.
 std::string processor_name();
 
@@ -48,10 +51,13 @@ void expect_threads(int count);
 int usable_cores();
 
 /// Memory that can be taken without swapping: what the kernel calls available, and not more than
-/// limits leave (runner/memory_limits.hpp). Bytes; 0 if the system does not tell.
+/// limits leave (runner/memory_limits.hpp). Bytes; infinite if the system does not tell.
 double available_memory();
 
-/// What live packings may take together: four fifths of what is available, bytes.
+/// The share of the memory that is available which live packings may take.
+inline constexpr double share_for_packings = 0.8;
+
+/// What live packings may take together, bytes; infinite if nothing limits them.
 double memory_for_packings();
 
 }  // namespace grainsweep

@@ -5,6 +5,7 @@
 
 #include "runner/jobs/estimates.hpp"
 #include "runner/jobs/schedule.hpp"
+#include "runner/machine.hpp"
 #include "runner/text.hpp"
 
 namespace grainsweep {
@@ -12,18 +13,14 @@ namespace {
 
 constexpr double brief_shard = 600.0, long_shard = 3600.0;  // s of a shard
 
-/// The share of the free memory that a runner takes for packings.
-constexpr double share_for_packings = 0.8;
-
 /// Memory of a process that holds the list of the packings of a sweep, bytes.
 double bytes_of_runner(std::size_t packings) {
   return 1.5e8 + 3000.0 * static_cast<double>(packings);
 }
 
-/// Memory for what live packings take together; 0 if memory sets no limit.
+/// Memory for what live packings take together; infinite if memory sets no limit.
 double memory_for_live(const ClusterLimits& limits, std::size_t packings) {
-  if (limits.memory <= 0.0) return 0.0;
-  return std::max(1.0, share_for_packings * (limits.memory - bytes_of_runner(packings)));
+  return share_for_packings * (limits.memory - bytes_of_runner(packings));
 }
 
 /// The `wanted` number, or as many as there is memory for packings.
@@ -117,6 +114,7 @@ double node_seconds_of(const std::vector<Part>& parts, int threads) {
 }
 
 double memory_to_ask_for(const std::vector<Cost>& costs, int threads, double limit) {
+  if (!std::isfinite(limit)) return 0.0;
   const double needed =
       bytes_of_runner(costs.size()) + bytes_of_largest(costs, threads) / share_for_packings;
   const double whole = 1e8 * std::ceil(needed / 1e8);

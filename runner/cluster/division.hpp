@@ -1,6 +1,7 @@
 // How a sweep is divided among the nodes of a cluster.
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -9,20 +10,20 @@
 
 namespace grainsweep {
 
-/// What a part of a cluster offers. 0 means that there is no limit, or that it is not known.
+/// What a part of a cluster offers.
 struct ClusterLimits {
   int nodes = 1;
-  int cores = 1;         ///< of a node
-  double memory = 0.0;   ///< of a node, bytes
-  double seconds = 0.0;  ///< that a job may take
-  int elements = 0;      ///< that an array of jobs may have
+  int cores = 1;                                            ///< of a node
+  double memory = std::numeric_limits<double>::infinity();  ///< of a node, bytes; if known
+  double seconds = 0.0;  ///< that a job may take; 0 if there is no limit, or none known
+  int elements = 0;      ///< that an array of jobs may have; 0 as above
 };
 
 /// Shards, each a job on one node.
 struct Division {
   int shards = 1;
   int threads = 1;         ///< of a shard
-  double bytes = 0.0;      ///< to ask for, for each shard
+  double bytes = 0.0;      ///< to ask for, for each shard; 0 where what a node has is not known
   double estimated = 0.0;  ///< wall time of the longest shard for what is made at first, s
   double grown = 0.0;      ///< the same if all that may grow has its most packings, s
   /// To ask for, for each shard, if allowed: `grown`, or twice `estimated` if that is more.

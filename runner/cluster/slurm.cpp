@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <cstdio>
+#include <limits>
 
 #include <sys/wait.h>
 
@@ -64,10 +65,10 @@ double limit_in(std::string_view text) {
   return 86400.0 * leading_number(text) + seconds_in(text.substr(dash + 1)).value_or(0.0);
 }
 
-/// Nodes whose memory was not configured say 1 MB.
+/// In bytes; infinite for nodes whose memory was not configured, which say 1 MB.
 double memory_in(std::string_view megabytes) {
   const int number = leading_number(megabytes);
-  return number > 1 ? 1048576.0 * number : 0.0;
+  return number > 1 ? 1048576.0 * number : std::numeric_limits<double>::infinity();
 }
 
 void add(const Partition& some, std::vector<Partition>& partitions) {

@@ -1,5 +1,6 @@
 // The command `plan`: what a sweep stands for and will cost, without running it.
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <map>
@@ -205,6 +206,10 @@ Needs needs_of(const std::vector<Cost>& costs, int threads) {
   return needs;
 }
 
+std::string limit_text(double memory) {
+  return std::isfinite(memory) ? " of the " + memory_text(memory) + " that can be had" : "";
+}
+
 void print_text(const Sweep& sweep, const std::vector<Cost>& costs, const Needs& needs,
                 double grown_wall_seconds, int threads, const PackingNames& names) {
   const std::vector<PlannedGroup> groups = planned_groups(sweep, costs);
@@ -215,8 +220,7 @@ void print_text(const Sweep& sweep, const std::vector<Cost>& costs, const Needs&
             << duration_text(needs.wall_seconds) << " on "
             << counted(static_cast<std::size_t>(threads), "thread") << " ("
             << counted(static_cast<std::size_t>(needs.live), "packing") << " at once), up to "
-            << memory_text(needs.bytes) << " of the " << memory_text(needs.memory)
-            << " that can be had\n"
+            << memory_text(needs.bytes) << limit_text(needs.memory) << "\n"
             << cluster_text(needs.wall_seconds, grown_wall_seconds);
 }
 

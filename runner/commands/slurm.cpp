@@ -1,4 +1,5 @@
 // The command `slurm`: a sweep as jobs of a cluster.
+#include <cmath>
 #include <filesystem>
 #include <iostream>
 
@@ -42,7 +43,7 @@ std::string limits_text(const Partition& partition) {
   std::string text = "Partition " + partition.name + ": " +
                      counted(static_cast<std::size_t>(limits.nodes), "node") + " of " +
                      counted(static_cast<std::size_t>(limits.cores), "core");
-  if (limits.memory > 0.0) text += " and " + fixed(limits.memory / 1e9, 1) + " GB";
+  if (std::isfinite(limits.memory)) text += " and " + fixed(limits.memory / 1e9, 1) + " GB";
   if (limits.seconds > 0.0) text += ", " + duration_text(limits.seconds) + " a job";
   if (limits.elements > 0) text += ", " + std::to_string(limits.elements) + " elements an array";
   return text + "\n";

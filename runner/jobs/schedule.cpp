@@ -53,9 +53,10 @@ class Run {
   /// The next task, or stops the pipeline. Called by one thread at a time.
   std::size_t take_next(tbb::flow_control& control) {
     visits_.load();
-    std::size_t place = next_.fetch_add(1);
+    std::size_t place = order_.size();
+    if (!must_stop()) place = next_.fetch_add(1);  // may_start() may claim a task for this runner
     while (place < order_.size() && !events_.may_start(order_[place])) place = next_.fetch_add(1);
-    const bool goes_on = place < order_.size() && !must_stop();
+    const bool goes_on = place < order_.size();
     const std::size_t index = goes_on ? order_[place] : 0;
     if (!goes_on) control.stop();
     visits_.fetch_add(1);
@@ -142,7 +143,6 @@ std::vector<std::size_t> longest_first(const std::vector<Cost>& costs) {
 }
 
 int live_limit(const std::vector<Cost>& costs, const Limits& limits) {
-  if (limits.memory <= 0) return std::max(1, limits.threads);
   std::vector<double> bytes;
   bytes.reserve(costs.size());
   for (const Cost& cost : costs) bytes.push_back(cost.bytes);
@@ -160,7 +160,7 @@ int live_limit(const std::vector<Cost>& costs, const Limits& limits) {
 std::string memory_warning(const std::vector<Cost>& costs, double memory) {
   double largest = 0.0;
   for (const Cost& cost : costs) largest = std::max(largest, cost.bytes);
-  if (memory <= 0 || largest <= memory) return "";
+  if (largest <= memory) return "";
   const auto megabytes = [](double bytes) { return std::to_string(std::llround(bytes / 1e6)); };
   return "warning: the largest packing needs about " + megabytes(largest) + " MB, and " +
          megabytes(memory) + " MB can be had here; end other programs or make the bed smaller\n";

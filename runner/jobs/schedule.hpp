@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -20,7 +21,8 @@ namespace grainsweep {
 
 struct Limits {
   int threads = 1;
-  double memory = 0.0;  ///< bytes for all live packings together; 0 = unbounded
+  /// Bytes for all live packings together; infinite if nothing limits them.
+  double memory = std::numeric_limits<double>::infinity();
 };
 
 /// Makes the packing of a task, by its index, with the team's help. May throw.

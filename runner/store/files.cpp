@@ -4,7 +4,6 @@
 #include <array>
 #include <cerrno>
 #include <chrono>
-#include <csignal>
 #include <cstdio>
 #include <fcntl.h>
 #include <filesystem>
@@ -160,14 +159,6 @@ std::string writer_of(const std::string& name, std::string_view ending) {
   const std::string number = number_of_process(process);
   return number.find_first_not_of("0123456789") == std::string::npos && !number.empty() ? process
                                                                                         : "";
-}
-
-/// Whether a process of this machine has ended; false for those of others, which cannot be asked.
-bool has_ended(const std::string& process) {
-  if (!process.starts_with(host_name() + "-")) return false;
-  const std::string number = number_of_process(process);
-  constexpr std::size_t most_digits = 9;
-  return number.size() <= most_digits && kill(std::stoi(number), 0) != 0 && errno == ESRCH;
 }
 
 /// Whether nothing was written to it for so long that nobody is writing it: a container of the same

@@ -12,7 +12,7 @@ struct RunRecord {
   std::string started;        ///< UTC, ISO 8601
   std::string ended;          ///< the same; empty while it runs, or if it was killed
   double wall_seconds = 0.0;  ///< s
-  std::string process;        ///< "<host>-<pid>"
+  std::string process;        ///< "<host>-<random number>-<pid>"
   int threads = 1;
   std::string isa;        ///< "avx2"
   int packings = 0;       ///< finished by this run

@@ -32,8 +32,8 @@ std::vector<Runner> runners_in(const std::string& folder,
     const bool has_run = last != last_runs.end(), has_lock = is_locked(path);
     if (!has_lock && (!has_run || !last->second.ended.empty())) continue;
     Runner runner{shard, has_run ? last->second : RunRecord{}, false, seconds_since_change(path)};
-    const bool is_elsewhere = runner.run.host != host_name();
-    runner.is_lost = !has_lock && !(is_elsewhere && runner.silent < lost_after_seconds);
+    const bool has_died = has_ended(runner.run.process) || runner.silent >= lost_after_seconds;
+    runner.is_lost = !has_lock && has_died;
     runners.push_back(std::move(runner));
   }
   return runners;

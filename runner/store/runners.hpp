@@ -13,8 +13,9 @@
 
 namespace grainsweep {
 
-/// Time between two touches, and the time without one after which a runner of another machine
-/// counts as lost, s. On file systems of clusters others may see a touch up to a minute later.
+/// Time between two touches, and the time without one after which a runner counts as lost that
+/// cannot be seen to have ended (on another machine), s. On file systems of clusters others may see
+/// a touch up to a minute later.
 constexpr double heartbeat_seconds = 20.0, lost_after_seconds = 180.0;
 
 struct Runner {

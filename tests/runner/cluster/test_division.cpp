@@ -102,7 +102,7 @@ TEST_CASE("a shard has no more threads than there is memory for") {
   CHECK(division.bytes <= 64e9);
   CHECK(division.bytes >= 5 * 10e9 / 0.8);
   ClusterLimits untold = twelve_nodes;
-  untold.memory = 0.0;
+  untold.memory = ClusterLimits{}.memory;
   CHECK(divide(large, untold).threads == 10);
   CHECK(divide(large, untold).bytes == 0.0);
 }

@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include <catch2/catch.hpp>
 
 #include "runner/cluster/slurm.hpp"
@@ -20,7 +22,7 @@ TEST_CASE("what sinfo says of partitions is read, of different nodes the least")
   const ClusterLimits& long_limits = two_partitions[0].limits;
   CHECK(long_limits.seconds == 0.0);
   CHECK(long_limits.cores == 128);
-  CHECK(long_limits.memory == 0.0);  // 1 MB: not configured
+  CHECK(std::isinf(long_limits.memory));  // 1 MB: not configured
   const Partition& main = chosen(two_partitions, "");
   CHECK(main.name == "main");
   CHECK(main.limits.nodes == 22);
@@ -28,6 +30,9 @@ TEST_CASE("what sinfo says of partitions is read, of different nodes the least")
   CHECK(main.limits.memory == 256000.0 * 1048576.0);
   CHECK(main.limits.seconds == 36 * 3600.0);
   CHECK(two_partitions[2].limits.seconds == 1800.0);
+  const auto mixed = partitions_in("mixed|infinite|8|64000|4\nmixed|infinite|8|1|2\n");
+  CHECK(chosen(mixed, "mixed").limits.memory ==
+        64000.0 * 1048576.0);  // that of those which tell it
 }
 
 TEST_CASE("a partition that is not there or has no nodes is refused with those there are") {

@@ -73,7 +73,7 @@ class TwoShards {
     files_->flush();
   }
   void end_other() { files_.reset(); }
-  static std::string process() { return "other-1"; }
+  static std::string process() { return host_name() + "-1-999999999"; }  // has ended
 
   std::vector<std::string> next() const {
     std::vector<std::string> ids;

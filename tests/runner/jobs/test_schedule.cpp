@@ -52,7 +52,7 @@ TEST_CASE("tasks start the longest first, equal ones in their order") {
   const Bench bench({1, 5, 3, 5, 2});
   Log log;
   run_tasks(
-      bench.costs, {1, 0}, [](std::size_t, ThreadTeam&, const KeepGoing&) { return settled(); },
+      bench.costs, Limits{1}, [](std::size_t, ThreadTeam&, const KeepGoing&) { return settled(); },
       log.events());
   CHECK(log.started == std::vector<std::size_t>{1, 3, 2, 4, 0});
   CHECK(log.finished.size() == 5);
@@ -64,7 +64,7 @@ TEST_CASE("tasks that may not start are left out, shorter ones behind them are n
   TaskEvents events = log.events();
   events.may_start = [&](std::size_t task) { return bench.costs[task].cpu_seconds < 3; };
   run_tasks(
-      bench.costs, {1, 0}, [](std::size_t, ThreadTeam&, const KeepGoing&) { return settled(); },
+      bench.costs, Limits{1}, [](std::size_t, ThreadTeam&, const KeepGoing&) { return settled(); },
       events);
   CHECK(log.started == std::vector<std::size_t>{4, 0});
 }
@@ -106,9 +106,10 @@ int most_alive(int threads, double memory, double bytes, int expected) {
 }
 
 TEST_CASE("as many packings live at once as there are threads, also beyond the cores") {
-  CHECK(most_alive(1, 0, 0, 1) == 1);
-  CHECK(most_alive(3, 0, 0, 3) == 3);
-  CHECK(most_alive(8, 0, 0, 8) == 8);
+  const double unlimited = Limits{}.memory;
+  CHECK(most_alive(1, unlimited, 0, 1) == 1);
+  CHECK(most_alive(3, unlimited, 0, 3) == 3);
+  CHECK(most_alive(8, unlimited, 0, 8) == 8);
 }
 
 TEST_CASE("memory bounds the packings that live at once") {
@@ -123,7 +124,7 @@ TEST_CASE("the live limit makes room for the largest packings together") {
   costs[1].bytes = 100;
   costs[2].bytes = 60;
   costs[3].bytes = 5;
-  CHECK(live_limit(costs, {4, 0}) == 4);
+  CHECK(live_limit(costs, Limits{4}) == 4);
   CHECK(live_limit(costs, {4, 175}) == 4);
   CHECK(live_limit(costs, {4, 174}) == 3);
   CHECK(live_limit(costs, {4, 160}) == 2);
@@ -134,7 +135,7 @@ TEST_CASE("the live limit makes room for the largest packings together") {
 TEST_CASE("a packing larger than the memory is announced, one that fits is not") {
   const Bench bench({1, 2}, 3e9);
   CHECK(memory_warning(bench.costs, 3e9).empty());
-  CHECK(memory_warning(bench.costs, 0).empty());
+  CHECK(memory_warning(bench.costs, Limits{}.memory).empty());
   CHECK_THAT(memory_warning(bench.costs, 2e9),
              Catch::Contains("needs about 3000 MB, and 2000 MB can be had"));
 }
@@ -149,7 +150,7 @@ TEST_CASE("a packing that throws or fails does not end the others") {
     if (task == 2) packing.result.status = PackingStatus::failed;
     return packing;
   };
-  run_tasks(bench.costs, {1, 0}, pack, log.events());
+  run_tasks(bench.costs, Limits{1}, pack, log.events());
   REQUIRE(log.finished.size() == 4);
   CHECK(log.finished[0].threw);
   CHECK(log.finished[0].packing.result.status == PackingStatus::failed);
@@ -170,7 +171,7 @@ TEST_CASE("stopping keeps what is finished, cancels what runs and starts nothing
         keep_going({1, 0.1}) ? PackingStatus::settled : PackingStatus::cancelled;
     return packing;
   };
-  run_tasks(bench.costs, {1, 0}, pack, log.events());
+  run_tasks(bench.costs, Limits{1}, pack, log.events());
   REQUIRE(log.finished.size() == 1);
   CHECK(log.finished[0].task == 0);
   CHECK(log.started == std::vector<std::size_t>{0, 1});
@@ -182,7 +183,7 @@ TEST_CASE("an error while storing stops the run and reaches the caller") {
   TaskEvents events = log.events();
   events.finished = [](Finished&&) { throw std::runtime_error("disk full"); };
   const Pack pack = [](std::size_t, ThreadTeam&, const KeepGoing&) { return settled(); };
-  CHECK_THROWS_WITH(run_tasks(bench.costs, {2, 0}, pack, events), "disk full");
+  CHECK_THROWS_WITH(run_tasks(bench.costs, Limits{2}, pack, events), "disk full");
   CHECK(log.started.size() <= 4);
 }
 
@@ -196,7 +197,7 @@ TEST_CASE("CPU time is that of the packing's own thread, not time asleep") {
     while (task == 1 && std::chrono::steady_clock::now() < end) spin = spin + 1;
     return settled();
   };
-  run_tasks(bench.costs, {1, 0}, pack, log.events());
+  run_tasks(bench.costs, Limits{1}, pack, log.events());
   REQUIRE(log.finished.size() == 2);
   CHECK(log.finished[0].cpu_seconds < 0.03);
   CHECK(log.finished[1].cpu_seconds > log.finished[0].cpu_seconds);
@@ -216,14 +217,14 @@ TEST_CASE("progress of a packing reaches the caller") {
     CHECK(keep_going({2, 0.5}));
     return settled();
   };
-  run_tasks(bench.costs, {1, 0}, pack, events);
+  run_tasks(bench.costs, Limits{1}, pack, events);
   CHECK(shares == std::vector<double>{0.25, 0.5});
 }
 
 TEST_CASE("no tasks end at once") {
   Log log;
   run_tasks(
-      {}, {4, 0}, [](std::size_t, ThreadTeam&, const KeepGoing&) { return settled(); },
+      {}, Limits{4}, [](std::size_t, ThreadTeam&, const KeepGoing&) { return settled(); },
       log.events());
   CHECK(log.finished.empty());
 }
