@@ -293,7 +293,9 @@ int exit_code_for(const StatusCounts& counts, int left_to_others, const RunOptio
               << ", though stored there; run the sweep again to make what is missing anew\n";
   }
   const int unsettled = counts.failed + counts.not_settled;
-  const bool is_tolerated = unsettled <= options.tolerate_unsettled * (unsettled + counts.settled);
+  // Shares are compared: both are then the number nearest to what was meant.
+  const double share = unsettled / std::max(1.0, 1.0 * unsettled + counts.settled);
+  const bool is_tolerated = share <= options.tolerate_unsettled;
   return counts.pending <= left_to_others && is_tolerated ? exit_done : exit_left_out;
 }
 

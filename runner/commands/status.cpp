@@ -234,6 +234,10 @@ int perform(const StatusOptions& options) {
       if (options.folders.size() == 1) throw;
       std::cerr << error.what() << "\n";  // the others are still reported
       end = exit_bad_input;
+    } catch (const FileError& error) {
+      if (options.folders.size() == 1) throw;
+      std::cerr << error.what() << "\n";
+      end = exit_file_system;
     }
   }
   if (options.json) {
