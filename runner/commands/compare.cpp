@@ -50,8 +50,9 @@ int perform(const CompareOptions& options) {
   std::cout
       << reference.source + "\nbeside " + results.provenance.sweep_name +
              ". Lengths in d. Errors of means come from the variance of replicates pooled\n"
-             "over the groups of a family, those of profiles from their group alone, and are\n"
-             "wider where few packings tell them. Values agree within " +
+             "over the groups of a family, for one volume of the slab; those of profiles from\n"
+             "their group alone. They are wider where few packings tell them. Values agree "
+             "within " +
              fixed(agreement_limit, 0) +
              " standard errors of both sides together; where\nthe source has no error, ours "
              "alone counts.\n" +

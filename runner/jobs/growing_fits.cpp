@@ -36,25 +36,25 @@ std::vector<Target> targets_of(const FitWish& wish, const std::optional<Protocol
   return targets;
 }
 
-/// Sums over the packings of a line, of 1, x and x^2 with x = 1 / W.
+/// Sums over the packings of a line, of 1, x and x^2 with x = 1 / W, each with its weight.
 struct Design {
   double n = 0.0, x = 0.0, xx = 0.0;
 
-  void add(double count, double at) {
-    n += count;
-    x += count * at;
-    xx += count * at * at;
+  void add(double weight, double at) {
+    n += weight;
+    x += weight * at;
+    xx += weight * at * at;
   }
   double determinant() const { return n * xx - x * x; }
 
-  /// Variance of a coefficient, in units of that of a single packing.
+  /// Variance of a coefficient, in units of that of a packing of weight 1.
   double variance(bool is_slope) const { return (is_slope ? n : xx) / determinant(); }
 
-  /// What one more packing takes from that variance.
-  double gain(bool is_slope, double at) const {
+  /// What one more packing takes from that variance, over its weight.
+  double gain(bool is_slope, double weight, double at) const {
     const double to_both = (is_slope ? n * at - x : xx - x * at) / determinant();
     const double leverage = (xx - 2.0 * x * at + n * at * at) / determinant();
-    return to_both * to_both / (1.0 + leverage);
+    return to_both * to_both / (1.0 + weight * leverage);
   }
 };
 
@@ -68,18 +68,21 @@ class Round {
       settled_.push_back(means_of(groups[k].made, replicates[k]).solid_fraction.n);
       std::vector<const Outcome*>& of_mean = made[groups[k].mean];
       of_mean.insert(of_mean.end(), groups[k].made.begin(), groups[k].made.begin() + replicates[k]);
-      if (!groups[k].is_walled || settled_[k] == 0) continue;
-      widths_[groups[k].mean] = groups[k].width;
-      design_.add(settled_[k], 1.0 / groups[k].width);
     }
     for (const auto& [mean, outcomes] : made) {
       means_[mean] = means_of(outcomes, static_cast<int>(outcomes.size()));
-      pool(means_[mean]);
+    }
+    for (std::size_t k = 0; k < groups.size(); ++k) {
+      const std::size_t mean = groups[k].mean;
+      if (volumes_.try_emplace(mean, volume_of(k)).second) pool(mean);
+      if (!groups[k].is_walled || settled_[k] == 0) continue;
+      widths_[mean] = groups[k].width;
+      design_.add(settled_[k] * volumes_[mean], 1.0 / groups[k].width);
     }
     std::set<double> widths;
     for (const auto& [mean, width] : widths_) widths.insert(width);
     has_widths_ = widths.size() >= 3;
-    has_line_ = has_widths_ && degrees_of_freedom_ > 0;
+    has_line_ = has_widths_ && degrees_of_freedom() > 0;
   }
 
   /// The worst half of a 95 % interval over what is requested; at most 1 if all requests are met.
@@ -94,8 +97,7 @@ class Round {
     std::vector<LinePoint> points;
     for (const auto& [mean, width] : widths_) {
       const Spread& spread = spread_of(mean, is_coordination);
-      points.push_back({1.0 / width, spread.mean,
-                        error_of_mean(variance(is_coordination), spread.n, degrees_of_freedom_)});
+      points.push_back({1.0 / width, spread.mean, error_of(mean, is_coordination)});
     }
     const auto line = fit_line(points);
     return line ? line->chi2 / line->degrees_of_freedom : 0.0;
@@ -107,9 +109,8 @@ class Round {
     return std::all_of(targets.begin(), targets.end(), [&](const Target& target) {
       return std::all_of(widths_.begin(), widths_.end(), [&](const auto& point) {
         Spread pooled = spread_of(point.first, target.is_coordination);
-        pooled.degrees_of_freedom = degrees_of_freedom_;
-        pooled.error =
-            error_of_mean(variance(target.is_coordination), pooled.n, degrees_of_freedom_);
+        pooled.degrees_of_freedom = degrees_of_freedom();
+        pooled.error = error_of(point.first, target.is_coordination);
         return why_no_error(pooled).empty();
       });
     });
@@ -145,34 +146,43 @@ class Round {
       const auto best = is_enough ? std::nullopt : best_group(target, design, more);
       if (!best) break;
       ++more[*best];
-      design.add(1.0, 1.0 / groups_[*best].width);
+      design.add(volumes_.at(groups_[*best].mean), 1.0 / groups_[*best].width);
     }
     return more;
   }
 
  private:
-  void pool(const Means& means) {
-    const int degrees = std::max(0, means.solid_fraction.n - 1);
-    if (degrees == 0) return;
-    degrees_of_freedom_ += degrees;
-    phi_squares_ += degrees * means.solid_fraction.sd * means.solid_fraction.sd;
-    z_squares_ += degrees * means.coordination.sd * means.coordination.sd;
+  /// Of the slab of a group's packings, d^3; NaN if none has settled.
+  double volume_of(std::size_t k) const {
+    return groups_[k].floor_area * means_.at(groups_[k].mean).slab_height.mean;
   }
+
+  void pool(std::size_t mean) {
+    phi_variance_.add(means_[mean].solid_fraction, volumes_[mean]);
+    z_variance_.add(means_[mean].coordination, volumes_[mean]);
+  }
+
+  int degrees_of_freedom() const { return phi_variance_.degrees_of_freedom(); }
 
   const Spread& spread_of(std::size_t mean, bool is_coordination) const {
     const Means& means = means_.at(mean);
     return is_coordination ? means.coordination : means.solid_fraction;
   }
 
-  /// Variance of a single packing.
-  double variance(bool is_coordination) const {
-    return (is_coordination ? z_squares_ : phi_squares_) / degrees_of_freedom_;
+  const PooledVariance& variance(bool is_coordination) const {
+    return is_coordination ? z_variance_ : phi_variance_;
+  }
+
+  double error_of(std::size_t mean, bool is_coordination) const {
+    return error_of_mean(variance(is_coordination).of(volumes_.at(mean)),
+                         spread_of(mean, is_coordination).n, degrees_of_freedom());
   }
 
   double over(const Target& target, const Design& design) const {
     if (!has_line_) return infinity;
-    const double squared = variance(target.is_coordination) * design.variance(target.is_slope);
-    return student_quantile(degrees_of_freedom_) * std::sqrt(squared) / target.half_interval;
+    const double squared =
+        variance(target.is_coordination).of(1.0) * design.variance(target.is_slope);
+    return student_quantile(degrees_of_freedom()) * std::sqrt(squared) / target.half_interval;
   }
 
   /// Whether packings may be added to a group.
@@ -191,7 +201,8 @@ class Round {
     double most_gained = -1.0;
     for (std::size_t k = 0; k < groups_.size(); ++k) {
       if (replicates[k] >= most(k)) continue;
-      const double gained = design.gain(target.is_slope, 1.0 / groups_[k].width);
+      const double gained =
+          design.gain(target.is_slope, volumes_.at(groups_[k].mean), 1.0 / groups_[k].width);
       if (gained <= most_gained) continue;
       most_gained = gained;
       best = k;
@@ -201,14 +212,14 @@ class Round {
 
   const std::vector<FitGroup>& groups_;
   const std::vector<int>& replicates_;
-  std::vector<int> settled_;              ///< of each group
-  std::map<std::size_t, Means> means_;    ///< of groups.csv
-  std::map<std::size_t, double> widths_;  ///< of those on the line, d
+  std::vector<int> settled_;               ///< of each group
+  std::map<std::size_t, Means> means_;     ///< of groups.csv
+  std::map<std::size_t, double> volumes_;  ///< of their slabs, d^3
+  std::map<std::size_t, double> widths_;   ///< of those on the line, d
   Design design_;
   bool has_widths_ = false;  ///< so many that there may be a line
   bool has_line_ = false;
-  int degrees_of_freedom_ = 0;
-  double phi_squares_ = 0.0, z_squares_ = 0.0;
+  PooledVariance phi_variance_, z_variance_;
 };
 
 bool are_made(const std::vector<FitGroup>& groups, const std::vector<int>& replicates) {

@@ -2,11 +2,12 @@
 //
 //   phi = phi_bulk - C / W,     Z = Z_bulk - C_Z / W,
 //
-// are as small as requested. Each next packing goes where it most reduces the variance of the
-// coefficient that is furthest from its request: with f = (1, 1 / W), M = sum n f f^T over the
-// widths, and e the coefficient, one more packing at f takes (e^T M^-1 f)^2 / (1 + f^T M^-1 f) from
-// e^T M^-1 e (Sherman and Morrison). So packings end up at the narrowest and the widest gap; those
-// between keep the number they began with.
+// are as small as requested. A packing is known as well as its slab is large, so that it has the
+// weight of its slab's volume V, and each next packing goes where, for the volume that it takes, it
+// most reduces the variance of the coefficient that is furthest from its request: with f = (1, 1 /
+// W), M = sum n V f f^T over the widths, and e the coefficient, one more packing at f takes V (e^T
+// M^-1 f)^2 / (1 + V f^T M^-1 f) from e^T M^-1 e (Sherman and Morrison). So packings end up at the
+// narrowest and the widest gap; those between keep the number they began with.
 //
 // A width at which fewer than one in six packings settle gets no more of them, and a family with
 // fewer than three widths at which any settle does not grow.
@@ -27,10 +28,11 @@ namespace grainsweep {
 
 /// A group of a family.
 struct FitGroup {
-  std::size_t mean = 0;    ///< which mean of groups.csv its packings enter: seeds share one
-  double width = 0.0;      ///< d
-  bool is_walled = false;  ///< whether it is on the line; others only show how packings scatter
-  bool may_grow = false;   ///< otherwise all its packings are made
+  std::size_t mean = 0;     ///< which mean of groups.csv its packings enter: seeds share one
+  double width = 0.0;       ///< d
+  double floor_area = 0.0;  ///< of its container, d^2
+  bool is_walled = false;   ///< whether it is on the line; others only show how packings scatter
+  bool may_grow = false;    ///< otherwise all its packings are made
   /// What came of its packings, in their order; nullptr stands for one that is not made yet.
   std::vector<const Outcome*> made;
 };

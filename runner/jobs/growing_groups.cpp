@@ -59,7 +59,11 @@ FitGroup fit_group_of(const Sweep& whole, const Places& group, std::size_t mean,
                       const Outcomes& outcomes) {
   const Job& job = whole.jobs[group.front()];
   const bool walled = is_walled(job);
-  return {mean, job.spec.box.width, walled, walled && job.fit_wish.is_given(),
+  return {mean,
+          job.spec.box.width,
+          job.spec.box.floor_area(),
+          walled,
+          walled && job.fit_wish.is_given(),
           made_of(whole, group, outcomes)};
 }
 

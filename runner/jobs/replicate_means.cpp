@@ -14,14 +14,15 @@ double half_interval(double sd, int n) {
 }
 
 Means means_of(const std::vector<const Outcome*>& made, int count) {
-  std::vector<double> fractions, numbers;
+  std::vector<double> fractions, numbers, heights;
   for (int i = 0; i < count; ++i) {
     const PackingResult& result = made[static_cast<std::size_t>(i)]->result;
     if (result.status != PackingStatus::settled || result.coordination.empty()) continue;
     fractions.push_back(result.solid_fraction);
     numbers.push_back(result.coordination.front().between_grains);
+    heights.push_back(slab_height(result));
   }
-  return {spread_of(fractions), spread_of(numbers)};
+  return {spread_of(fractions), spread_of(numbers), spread_of(heights)};
 }
 
 }  // namespace grainsweep

@@ -16,9 +16,10 @@ constexpr bool settle_too_seldom(int settled, int packings) { return 6 * settled
 /// infinite for less than two values.
 double half_interval(double sd, int n);
 
-/// Solid fractions and coordination numbers.
+/// Solid fractions and coordination numbers, and the height of the slab that they are means over,
+/// d.
 struct Means {
-  Spread solid_fraction, coordination;
+  Spread solid_fraction, coordination, slab_height;
 };
 
 /// Those of the settled packings among the first `count`, all of which are made.

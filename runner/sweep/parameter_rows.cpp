@@ -165,7 +165,7 @@ Rows accuracy_rows() {
           "how far contacts may stray, d, root mean square: in a full step of the fall of "
           "polyhedra so far, of spheres twice, in all steps of a creep 160 times, of "
           "polyhedra 80 to 110 times; less, by the square of their distance, between walls "
-          "nearer than 5 d and in ducts and tubes of less than 7 d"),
+          "nearer than 5 d, in ducts and tubes of less than 7 d and in shorter periods than 5 d"),
       row<&S::accuracy, &A::creep_steps>("accuracy.creep_steps", Interval{0, 1000000},
                                          "steps after the fall, while the bed creeps to rest: of "
                                          "0.2 sqrt(d/g), of shorter steps as many more"),

@@ -37,7 +37,7 @@ std::vector<FitPoint> points_of(const std::vector<const Group*>& groups, Quantit
 }
 
 std::string weights_text(const Spread& of) {
-  return "variance of the replicates pooled over the family (" +
+  return "variance of the replicates times the volume of the slab pooled over the family (" +
          std::to_string(of.degrees_of_freedom) + " degrees of freedom)";
 }
 

@@ -46,10 +46,14 @@ Group group_of(const Members& members) {
   group.family = parameters_of_family(group.job);
   group.bias_bound = bias_bound(group.job);
   for (const Field& field : mean_fields()) group.means.push_back(spread_over(members, field));
+  std::vector<double> heights;
   for (const Row* row : members) {
     count(*row, group.counts);
-    if (is_settled(*row)) group.settled.emplace_back(*row->outcome);
+    if (!is_settled(*row)) continue;
+    group.settled.emplace_back(*row->outcome);
+    heights.push_back(slab_height(row->outcome->result));
   }
+  group.slab_volume = group.job.box.floor_area() * spread_of(heights).mean;
   return group;
 }
 
@@ -87,19 +91,14 @@ void note_told(std::vector<Group>& groups) {
 
 /// Gives mean number `k` of the groups of one family the error from their pooled variance.
 void pool_errors(const std::vector<Group*>& family, std::size_t k) {
-  double squares = 0.0;
-  int degrees_of_freedom = 0;
-  for (const Group* group : family) {
-    const Spread& spread = group->means[k];
-    if (!std::isfinite(spread.sd)) continue;
-    squares += (spread.n - 1) * spread.sd * spread.sd;
-    degrees_of_freedom += spread.n - 1;
-  }
+  PooledVariance variance;
+  for (const Group* group : family) variance.add(group->means[k], group->slab_volume);
   for (Group* group : family) {
     Spread& spread = group->means[k];
-    if (spread.n == 0 || degrees_of_freedom == 0) continue;
-    spread.error = error_of_mean(squares / degrees_of_freedom, spread.n, degrees_of_freedom);
-    spread.degrees_of_freedom = degrees_of_freedom;
+    if (spread.n == 0 || variance.degrees_of_freedom() == 0) continue;
+    spread.degrees_of_freedom = variance.degrees_of_freedom();
+    spread.error =
+        error_of_mean(variance.of(group->slab_volume), spread.n, spread.degrees_of_freedom);
   }
 }
 
@@ -161,6 +160,14 @@ GroupWithCurves::GroupWithCurves(Group group, const std::string& folder)
 double error_of_mean(double variance, int n, int degrees_of_freedom) {
   return student_quantile(degrees_of_freedom) / normal_quantile * std::sqrt(variance / n);
 }
+
+void PooledVariance::add(const Spread& spread, double volume) {
+  if (spread.n < 2) return;
+  squares_ += (spread.n - 1) * spread.sd * spread.sd * volume;
+  degrees_of_freedom_ += spread.n - 1;
+}
+
+double slab_height(const PackingResult& result) { return result.slab_top - result.slab_bottom; }
 
 Spread spread_of(std::vector<double> values) {
   std::erase_if(values, [](double value) { return std::isnan(value); });

@@ -32,6 +32,26 @@ struct Spread {
 /// Spread.
 double error_of_mean(double variance, int n, int degrees_of_freedom);
 
+/// Height of the measured slab, d.
+double slab_height(const PackingResult& result);
+
+/// The variance of single packings, of whole groups together: sum (n_i - 1) s_i^2 V_i over
+/// sum (n_i - 1), for a slab of 1 d^3. What is a mean over a slab scatters as the root of one over
+/// its volume V_i: s sqrt(V) of 100 beds each was the same to 15 % for W = 4 to 20 d, where s
+/// differs by 2.4 (runner/README.md).
+class PooledVariance {
+ public:
+  /// Adds the replicates of a group, whose slab has that volume, d^3; nothing for fewer than two.
+  void add(const Spread& spread, double volume);
+  /// That of a packing whose slab has that volume, d^3.
+  double of(double volume) const { return squares_ / degrees_of_freedom_ / volume; }
+  int degrees_of_freedom() const { return degrees_of_freedom_; }
+
+ private:
+  double squares_ = 0.0;
+  int degrees_of_freedom_ = 0;
+};
+
 Spread spread_of(std::vector<double> values);
 
 /// The spread of what `value` gives for each of `items`, a list of pointers.
@@ -61,6 +81,7 @@ struct Group {
   /// the same shape.
   std::map<std::string, std::string> told;
   std::optional<ProtocolBias> bias_bound;  ///< of phi and Z, by the way of settling
+  double slab_volume = 0.0;   ///< mean of the settled packings, d^3; NaN if there are none
   std::vector<Spread> means;  ///< of the fields that have one, in the order of the field table
   /// In the order of the rows, with curves as far as they had.
   std::vector<std::reference_wrapper<const Outcome>> settled;
@@ -123,10 +144,10 @@ CurveTable curve_table(const std::string& file, const Columns<Line>& columns, Li
           }};
 }
 
-/// In the order of their numbers. The errors of their means come from the variance
-/// of single packings pooled over the groups of a family, sum (n_i - 1) s_i^2 / sum (n_i - 1): the
-/// standard deviation of three replicates alone is uncertain by half its value. A single packing
-/// has an error, too, if others of its family have replicates.
+/// In the order of their numbers. The errors of their means come from the variance of single
+/// packings pooled over the groups of a family (PooledVariance): the standard deviation of three
+/// replicates alone is uncertain by half its value. A single packing has an error, too, if others
+/// of its family have replicates.
 std::vector<Group> groups_of(const std::vector<Row>& rows);
 std::vector<Group> groups_of(std::vector<Row>&& rows) = delete;
 

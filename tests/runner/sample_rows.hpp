@@ -92,11 +92,15 @@ inline Turned sample_turned() {
   return turned;
 }
 
+/// Its slab has the same volume whatever the width is.
 inline Row settled_row(const std::string& id, double width, double solid_fraction,
                        double coordination, Boundary y = Boundary::walls,
                        double small_share = 0.0) {
-  return {sample_job(id, width, 1, y, small_share),
+  Row row{sample_job(id, width, 1, y, small_share),
           sample_outcome(id, solid_fraction, coordination)};
+  PackingResult& result = row.outcome->result;
+  result.slab_top = result.slab_bottom + 47.5 / width;
+  return row;
 }
 
 /// The row of a packing of pinacoids.

@@ -15,12 +15,14 @@
 namespace grainsweep {
 namespace {
 
+constexpr double family_area = 10.0;  // of the floors, d^2
+
 /// A family whose packings scatter about phi = 0.64 - 0.15 / W and Z = 6.1 - 3 / W.
 class SampleFamily {
  public:
   SampleFamily(const std::vector<double>& widths, std::size_t most) {
     for (const double width : widths) {
-      groups_.push_back({groups_.size(), width, true, true, {}});
+      groups_.push_back({groups_.size(), width, family_area, true, true, {}});
       groups_.back().made.assign(most, nullptr);
       outcomes_.emplace_back();
       outcomes_.back().reserve(most);
@@ -117,7 +119,10 @@ TEST_CASE("what is judged is the error of fits.csv, with Student's quantile and 
   std::vector<Row> rows;
   for (const FitGroup& group : family.groups()) {
     for (const Outcome* outcome : group.made) {
-      if (outcome != nullptr) rows.push_back({sample_job("a", group.width), *outcome});
+      if (outcome == nullptr) continue;
+      rows.push_back({sample_job("a", group.width), *outcome});
+      PackingResult& result = rows.back().outcome->result;  // of equal volume, as in the family
+      result.slab_top = result.slab_bottom + family_area / rows.back().job.box.floor_area();
     }
   }
   const Analysis analysis = analyse(rows);
@@ -130,6 +135,22 @@ TEST_CASE("what is judged is the error of fits.csv, with Student's quantile and 
   SampleFamily stricter({4, 5, 8}, 400);
   grown(stricter, {half - 1e-9, 0, 0, 0}, bound, deviation);
   CHECK(stricter.packings() > family.packings());
+}
+
+TEST_CASE("packings of four times the volume are four at once, and are called for as such") {
+  // Those at W = 12 scatter half as much: a quarter of them tells as much, for as much volume.
+  const auto replicates_with = [](double area) {
+    SampleFamily family({4, 6, 12}, 10000);
+    family[2].floor_area = area;
+    const auto deviation = [area](std::size_t group, std::size_t packing) {
+      return alternating(group, packing) / (group == 2 ? std::sqrt(area / family_area) : 1.0);
+    };
+    return grown(family, {0.0005, 0, 0, 0}, {}, deviation).replicates;
+  };
+  const auto equal = replicates_with(family_area), larger = replicates_with(4.0 * family_area);
+  CHECK(larger[1] == 6);
+  CHECK(larger[0] == Approx(equal[0]).epsilon(0.05));
+  CHECK(4 * larger[2] == Approx(equal[2]).epsilon(0.05));
 }
 
 TEST_CASE("a family at most doubles at once, and no width has more than the most") {

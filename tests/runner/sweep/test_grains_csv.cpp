@@ -218,6 +218,10 @@ TEST_CASE("one start is no start for several replicates, a list of starts is one
         "/base/fill/files/2 is the same start as a.csv; replicates must differ");
   CHECK(error(R"({"files": ["a.csv", "b.csv", "lines.csv"]})", 1) ==
         "/base/fill/files/2 is the same start as a.csv; replicates must differ");
+  folder.write("zero.csv", "x,y,z,r,qw,qx,qy,qz\n0,2,2,0.5,0,0.6,0.8,0\n");
+  folder.write("minus.csv", "x,y,z,r,qw,qx,qy,qz\n-0.0,2,2,0.5,0,-0.6,-0.8,-0\n");
+  CHECK(error(R"({"files": ["zero.csv", "minus.csv"]}, "shape": {"cube": {}})", 1) ==
+        "/base/fill/files/1 is the same start as zero.csv; replicates must differ");
   CHECK_THAT(error(R"({"files": ["a.csv", "out.csv"]})", 2),
              Catch::StartsWith("/base/fill/files/1 grain 1 lies outside the box"));
   const std::vector<Job> jobs = read(R"({"files": ["a.csv", "b.csv"]})", 1).sweep.jobs;

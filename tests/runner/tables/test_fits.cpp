@@ -33,7 +33,9 @@ TEST_CASE("the planted wall effect is recovered with the errors of its replicate
   CHECK(fit.zeta.value == Approx(0.2 / 0.64));
   CHECK(fit.widths == 4);
   CHECK(fit.packings == 8);
-  CHECK(fit.weights == "variance of the replicates pooled over the family (4 degrees of freedom)");
+  CHECK(fit.weights ==
+        "variance of the replicates times the volume of the slab pooled over the family (4 degrees "
+        "of freedom)");
   // Each mean has sd sqrt(2) .001 and error .001; x = .25, .2, .1, .05: S_xx = .025, x_m = .15.
   CHECK(fit.slope.error == Approx(widened(0.001, 4) / std::sqrt(0.025)));
   CHECK(fit.bulk.error == Approx(widened(0.001, 4) * std::sqrt(0.25 + 0.0225 / 0.025)));
@@ -66,7 +68,9 @@ TEST_CASE("a width with one packing takes its error from the others' replicates"
   rows.push_back(settled_row("single", 20, 0.630, 5.95));
   const WallFit fit = fit_walls(family_of(rows), Quantity::solid_fraction);
   REQUIRE(fit.not_determined.empty());
-  CHECK(fit.weights == "variance of the replicates pooled over the family (3 degrees of freedom)");
+  CHECK(fit.weights ==
+        "variance of the replicates times the volume of the slab pooled over the family (3 degrees "
+        "of freedom)");
   REQUIRE(fit.points.size() == 4);
   CHECK(fit.points[0].error == Approx(widened(0.001, 3)));  // sd sqrt(2) .001 of two
   CHECK(fit.points[3].error == Approx(widened(0.001 * std::sqrt(2.0), 3)));
@@ -82,6 +86,30 @@ TEST_CASE("the variance is pooled by degrees of freedom, not by widths") {
   const double variance = (1 * 2e-6 + 3 * 12e-6 + 1 * 2e-6) / 5;
   CHECK(fit.points[0].error == Approx(widened(std::sqrt(variance / 2), 5)));
   CHECK(fit.points[1].error == Approx(widened(std::sqrt(variance / 4), 5)));
+}
+
+TEST_CASE("packings scatter as the root of one over the volume of their slabs") {
+  std::vector<Row> rows;
+  add_width(rows, 4, 0.002);  // two packings, variance 8e-6
+  add_width(rows, 5, 0.001);
+  add_width(rows, 10, 0.001);
+  add_width(rows, 10, 0.001);                                    // four, variance 4 * 1e-6 / 3
+  const double usual = rows[0].job.box.floor_area() * 47.5 / 4;  // d^3
+  const auto stretch = [](Row& row, double times) {
+    PackingResult& result = row.outcome->result;
+    result.slab_top = result.slab_bottom + times * (result.slab_top - result.slab_bottom);
+  };
+  for (Row& row : rows) {
+    if (row.job.box.width == 4) stretch(row, 0.25);
+  }
+  stretch(rows[2], 0.5), stretch(rows[3], 1.5);  // the mean counts
+  const WallFit fit = fit_walls(family_of(rows), Quantity::solid_fraction);
+  const double variance = (1 * 8e-6 * 0.25 + 1 * 2e-6 + 3 * 4e-6 / 3) / 5;  // times usual
+  CHECK(fit.points[0].error == Approx(widened(std::sqrt(variance / 0.25 / 2), 5)));
+  CHECK(fit.points[1].error == Approx(widened(std::sqrt(variance / 2), 5)));
+  CHECK(fit.points[2].error == Approx(widened(std::sqrt(variance / 4), 5)));
+  CHECK(groups_of(rows).at(0).slab_volume == Approx(usual / 4));
+  CHECK(groups_of(rows).at(1).slab_volume == Approx(usual));
 }
 
 TEST_CASE("copies of one packing are no replicates: they determine nothing") {
@@ -225,8 +253,10 @@ TEST_CASE("the table of a fit has the periodic value beside it") {
   for (const double width : {4.0, 5.0, 10.0, 20.0}) add_width(rows, width, 0.001);
   rows.push_back(settled_row("p", 20, 0.6390, 6.05, Boundary::periodic));
   const std::string text = fits_csv(families_of(groups_of(rows)));
-  CHECK_THAT(text, Catch::Contains("MSP,solid_fraction,determined,,4,8,variance of the replicates "
-                                   "pooled over the family (4 degrees of freedom),0.64"));
+  CHECK_THAT(
+      text, Catch::Contains(
+                "MSP,solid_fraction,determined,,4,8,variance of the replicates "
+                "times the volume of the slab pooled over the family (4 degrees of freedom),0.64"));
   CHECK_THAT(text, Catch::Contains(",20,0.639,,1,"));
   CHECK_THAT(text, Catch::Contains(",20,6.05,,1,"));
   CHECK(cell_in(text, 1, "bulk_bias_bound") == cell(bias_bound(rows[0].job)->solid_fraction));
