@@ -76,6 +76,7 @@ TEST_CASE("order of single grains without common direction is local only") {
     spheres.push_back({x, y, 4, 0.5});
     spheres.push_back({x + u.x, y + u.y, 4 + u.z, 0.5});
   }
+  spheres.push_back({2, 2, 8, 0.5});  // no bond, no order
   SphereBed bed = make_bed({80, 80, periodic, walls}, spheres);
   const Touching near = find_touching(bed, longest_bond_gap, kernels_for(best_isa()));
   const BondOrder order = bond_order(bed, near, {0, 9});

@@ -6,6 +6,7 @@
 
 #include "engine/measure/components.hpp"
 #include "engine/measure/solid_fraction.hpp"
+#include "engine/shape/mixture.hpp"
 #include "tests/support/draw.hpp"
 #include "tests/support/instruction_sets.hpp"
 #include "tests/support/shape_beds.hpp"
@@ -46,6 +47,20 @@ TEST_CASE("grains, volumes and neighbours of components are what a small bed has
   CHECK(cubes.coordination_with_walls == 2);  // and the floor
   CHECK(bricks.coordination_with_walls == 1.5);
   CHECK(cubes.nematic[2] == Approx(1));  // all upright
+  // Of cubes on the floor that are not in the slab no wall counts.
+  const auto above = measure_components(bed, touching, {}, {}, {1, 3}, 0.01);
+  CHECK(above[0].slab_grains == 1);
+  CHECK(above[0].coordination == 1);
+  CHECK(above[0].coordination_with_walls == 1);
+}
+
+TEST_CASE("spheres of a mixture have no axes, and so no order") {
+  const auto shapes = shapes_of(Mixture{{{0.5, CubeSize{}}, {0.5, SphereShape{}}}});
+  const PolyhedronBed bed = make_bed({4, 4, periodic, periodic}, shapes, {0, 1},
+                                     {pose_at(1, 1, 0.5), pose_at(3, 3, 0.5)});
+  const auto components = measure_components(bed, {}, {}, {}, {0, 2}, 0.01);
+  CHECK(components[0].nematic[2] == Approx(1));
+  CHECK(std::isnan(components[1].nematic[2]));
 }
 
 std::vector<ForceLine> lines_over(const std::vector<int>& constraints) {

@@ -34,6 +34,18 @@ TEST_CASE("spheres touch on the line of their centres, across a periodic side, t
   check_place(contact_place(bed, touching.walls[0], 0.01), {0, -1, 0}, {3, 0, 2}, 1);
 }
 
+TEST_CASE("what touches a wall with a gap does so midway") {
+  SphereBed spheres = make_bed({6, 4, periodic, walls}, {{3, 0.55, 2, 0.5}});
+  const Touching of_sphere = find_touching(spheres, 0.1, kernels());
+  REQUIRE(of_sphere.walls.size() == 1);
+  check_place(contact_place(spheres, of_sphere.walls[0], 0.1), {0, -1, 0}, {3, 0.025, 2}, 1);
+  PolyhedronBed cube = make_bed({6, 6, periodic, walls}, testing::cube(),
+                                {{{3, 3, 0.55}, 1, Quaternion::Identity()}});
+  const Touching of_cube = find_touching(cube, 0.1, kernels());
+  REQUIRE(of_cube.walls.size() == 1);
+  check_place(contact_place(cube, of_cube.walls[0], 0.1), {0, 0, -1}, {3, 3, 0.025}, 3);
+}
+
 TEST_CASE("a sphere touches the wall of a tube straight outward") {
   SphereBed bed = make_bed(tube_of(3), {{1.5 + 0.6, 1.5 + 0.8, 2, 0.5}});
   const Touching touching = find_touching(bed, 1e-6, kernels());

@@ -168,6 +168,23 @@ TEST_CASE("the curve ends where half a period or the region does") {
   CHECK(pair_correlation(narrow, {0, 1}, 0.25, 5).values.size() == 4);
   const SphereBed lone = make_bed({4, 9, periodic, walls}, {{1, 1, 1, 0.5}});
   CHECK(pair_correlation(lone, {0, 9}, 0.25, 5).values.empty());
+  CHECK(pair_correlation(narrow, {0, 9}, 0.1, 0.3).values.size() == 3);  // 0.3 / 0.1 is below 3
+}
+
+// As while they move, before they are wrapped.
+TEST_CASE("grains a little beyond a periodic side are in the curve where their images are") {
+  SphereBed bed = testing::random_bed({{8, 8, periodic, periodic}, 200, 0.5, 0.5, 6, 4});
+  const Curve within = pair_correlation(bed, {1, 5}, 0.25, 2);
+  for (std::size_t i = 0; i < bed.grains(); i += 2) {
+    Record<double>& p = bed.position[i];
+    p.x += p.x < 1 ? 8 : 0;
+    p.y += p.y < 1 ? 8 : 0;
+  }
+  const Curve beyond = pair_correlation(bed, {1, 5}, 0.25, 2);
+  REQUIRE(within.values.size() == beyond.values.size());
+  for (std::size_t k = 0; k < within.values.size(); ++k) {
+    CHECK(beyond.values[k] == Approx(within.values[k]).epsilon(1e-12));
+  }
 }
 
 }  // namespace

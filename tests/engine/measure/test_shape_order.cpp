@@ -64,5 +64,19 @@ TEST_CASE("grains outside the slab have no part in the order of its shapes") {
   CHECK(std::isnan(measure_shape_order(upright_bars(), {}, {}, {2, 3}).nematic[2]));
 }
 
+TEST_CASE("contacts and forces have the shares of their kinds, those outside the slab none") {
+  const std::vector<PairForce> forces = {
+      {0, 1, 1.0, 1.0}, {1, 2, 1.2, 2.0}, {0, 2, 0.8, 5.0}, {3, 4, 2.5, 7.0}};
+  std::vector<ForceLine> lines;
+  for (const int kind : {1, 3, 1, 2}) lines.push_back({{0, 0, 1}, {0, 0, 0}, kind});
+  const ShapeOrder order = measure_shape_order(upright_bars(), forces, lines, {0.5, 1.5});
+  CHECK(order.contact_share[0] == Approx(2.0 / 3.0));
+  CHECK(order.contact_share[1] == 0.0);
+  CHECK(order.contact_share[2] == Approx(1.0 / 3.0));
+  CHECK(order.force_share[0] == Approx(0.75));
+  CHECK(order.force_share[1] == 0.0);
+  CHECK(order.force_share[2] == Approx(0.25));
+}
+
 }  // namespace
 }  // namespace grainsweep

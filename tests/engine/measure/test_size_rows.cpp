@@ -35,6 +35,14 @@ TEST_CASE(
   CHECK(rows[1].slab == 1.0);
 }
 
+TEST_CASE("a grain belongs to the diameter that it was drawn with, to rounding") {
+  SphereBed bed = mixed_bed();
+  for (Record<double>& grain : bed.position) grain.w = std::nextafter(grain.w, 1.0);
+  const auto rows = size_rows(bed, curve_by(SizeWeight::volume, two_grades), {2.0, 4.0});
+  CHECK(rows[0].packed == Approx(0.5));
+  CHECK(rows[1].packed == Approx(1.0));
+}
+
 TEST_CASE("shares of sizes are by number or area where the distribution is") {
   const auto by = [](SizeWeight weight) {
     return size_rows(mixed_bed(), curve_by(weight, two_grades), {2.0, 4.0}).front();

@@ -133,6 +133,25 @@ TEST_CASE("of two columns the higher one is the surface") {
   CHECK(surface_height(make_bed(box, {{0.5, 0.5, 0.5, 0.5}, {1.5, 0.5, 2.5, 0.5}})) == 3);
 }
 
+TEST_CASE("small grains leave columns as wide as d") {
+  const Box box{2, 1, periodic, periodic};
+  CHECK(surface_height(make_bed(box, {{0.5, 0.5, 0.25, 0.25}, {1.5, 0.5, 2.25, 0.25}})) == 2.5);
+}
+
+// Of 5 x 5 columns the corners stand outside: 21 are left, most of which have a grain.
+TEST_CASE("columns outside a tube do not count") {
+  std::vector<PlacedSphere> spheres;
+  for (int i = 0; i < 5 && spheres.size() < 11; ++i) {
+    for (int j = 0; j < 5 && spheres.size() < 11; ++j) {
+      const bool is_corner = (i == 0 || i == 4) && (j == 0 || j == 4);
+      if (!is_corner) spheres.push_back({i + 0.5, j + 0.5, 3, 0.5});
+    }
+  }
+  CHECK(surface_height(make_bed(tube_of(5), spheres)) == 3.5);
+  spheres.pop_back();
+  CHECK(surface_height(make_bed(tube_of(5), spheres)) == 0);
+}
+
 TEST_CASE("grains beyond a periodic border stand above the columns of their images") {
   SphereBed bed = testing::random_bed({{6, 4, periodic, periodic}, 120, 0.5, 0.5, 6, 5});
   const double height = surface_height(bed);

@@ -63,6 +63,52 @@ TEST_CASE("a centre within a polyhedron is as deep as its nearest face") {
   CHECK(ball_contact({a_cube, a_ball, pose({0, 0, 0})}).gap == Approx(-1));
 }
 
+// On an edge rounding decides whether the centre lies between the sides of a face.
+TEST_CASE("a centre on a corner or an edge of a polyhedron lies on a face, with a normal") {
+  Draw draw(7);
+  for (const ConvexShape& hull : {a_cube, shape(PrismSize{7, 1.3, 0.8}), shape(IcosahedronSize{}),
+                                  shape(PinacoidSize{2, 1, 1, 0.5})}) {
+    for (const Edge& edge : hull.edges) {
+      const Vector from = hull.vertices[static_cast<std::size_t>(edge.from)];
+      const Vector to = hull.vertices[static_cast<std::size_t>(edge.to)];
+      const double scale = draw.uniform(0.2, 3);
+      for (const double share : {0.0, draw.unit(), 1.0}) {
+        const Vector centre = scale * (from + share * (to - from));
+        const NearestPoint nearest = nearest_point(hull, scale, centre);
+        REQUIRE(nearest.outward.norm() == about(1, 1e-12));
+        REQUIRE(nearest.distance == about(0, 1e-14));
+        REQUIRE((nearest.point - centre).norm() < 1e-14);
+      }
+    }
+  }
+}
+
+const Vector& normal_of(const ConvexShape& hull, std::int32_t face) {
+  return hull.faces[static_cast<std::size_t>(face)].normal;
+}
+
+TEST_CASE("at every corner and every edge of a hull a sphere is told which of them it touches") {
+  for (const ConvexShape& hull : {a_cube, shape(PrismSize{7, 1.3, 0.8}), shape(IcosahedronSize{}),
+                                  shape(PinacoidSize{2, 1, 1, 0.5})}) {
+    for (const Edge& edge : hull.edges) {
+      const Vector middle = (hull.vertices[static_cast<std::size_t>(edge.from)] +
+                             hull.vertices[static_cast<std::size_t>(edge.to)]) /
+                            2;
+      const Vector out = normal_of(hull, edge.left) + normal_of(hull, edge.right);
+      REQUIRE(nearest_point(hull, 1, middle + out).kind == AxisKind::ball_on_edge);
+    }
+    for (std::size_t v = 0; v < hull.vertices.size(); ++v) {
+      Vector out = Vector::Zero();  // between the normals of the faces there
+      for (auto k = hull.vertex_faces_begin[v]; k < hull.vertex_faces_begin[v + 1]; ++k) {
+        out += normal_of(hull, hull.vertex_faces[static_cast<std::size_t>(k)]);
+      }
+      const NearestPoint nearest = nearest_point(hull, 1, hull.vertices[v] + out);
+      REQUIRE(nearest.kind == AxisKind::round);
+      REQUIRE((nearest.point - hull.vertices[v]).norm() < 1e-14);
+    }
+  }
+}
+
 TEST_CASE("two spheres touch between their centres, and never divide by nothing") {
   const BallContact contact =
       ball_contact({a_ball, a_ball, pose({0, 3, 4}, Matrix::Identity(), 2, 6)});

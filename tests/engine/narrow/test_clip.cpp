@@ -164,6 +164,72 @@ TEST_CASE("edges that are parallel, nearly or to rounding, are closest in the mi
   }
 }
 
+TEST_CASE("no points of two edges are nearer to each other than those found, wherever they lie") {
+  Draw draw(13);
+  const auto point = [&] {
+    return Vector(draw.uniform(-1, 1), draw.uniform(-1, 1), draw.uniform(-1, 1));
+  };
+  constexpr int steps = 20;
+  for (int k = 0; k < 500; ++k) {
+    const Segment p{point(), point()}, q{point(), point()};
+    const Closeness closest = closest_of(p, q);
+    for (int i = 0; i <= steps; ++i) {
+      const Vector on_p = p.from + i * (p.to - p.from) / steps;
+      for (int j = 0; j <= steps; ++j) {
+        const Vector on_q = q.from + j * (q.to - q.from) / steps;
+        REQUIRE((on_p - on_q).norm() > closest.distance - 1e-14);
+      }
+    }
+  }
+}
+
+/// A cube of side 1 with a corner of its upper face, bent along a diagonal, so far down.
+ConvexShape cube_bent_by(double way) {
+  std::vector<Vector> points;
+  for (const double x : {-0.5, 0.5}) {
+    for (const double y : {-0.5, 0.5}) {
+      points.emplace_back(x, y, -0.5);
+      points.emplace_back(x, y, x + y > 0.5 ? 0.5 - way : 0.5);
+    }
+  }
+  return testing::hull_of(points);
+}
+
+// At the ends of the bend, the lower half of the face sees a gap of height / cos.
+TEST_CASE("where a bent face touches twice at a place the smaller gap counts") {
+  const double height = 0.05;
+  const ConvexShape lower = cube_bent_by(0.004), upper = testing::box_shape(2, 2, 1);
+  const Matrix given = lower.given.rotation.transpose();
+  const Vector up = given.col(2);
+  // The hull's frame has its origin at its own centre.
+  double top = -1;
+  for (const Vector& v : lower.vertices) top = std::max(top, v.dot(up));
+  std::vector<Vector> ends;
+  for (const Vector& v : lower.vertices) {
+    if (v.dot(up) > top - 1e-6) ends.push_back(v);
+  }
+  REQUIRE(ends.size() == 3);  // one of them is not an end of the bend
+  int faces = 0;
+  for (std::size_t f = 0; f < lower.faces.size(); ++f) {
+    if (lower.faces[f].normal.dot(up) < 0.99) continue;
+    ++faces;
+    ClipColumns columns;
+    std::vector<ContactPoint> points;
+    clip_on_face({lower, upper, {(top + 0.5 + height) * up, given * upper.given.rotation, 1, 1}},
+                 Of::a, static_cast<std::int32_t>(f), 0.1, columns, points);
+    REQUIRE(points.size() == 4);
+    for (const Vector& end : ends) {
+      const Vector midway = end + height / 2 * up;
+      const auto near = std::find_if(points.begin(), points.end(), [&](const ContactPoint& point) {
+        return (point.position - midway).norm() < 1e-3;
+      });
+      REQUIRE(near != points.end());
+      CHECK(near->gap == about(height, 1e-12));
+    }
+  }
+  CHECK(faces == 2);
+}
+
 TEST_CASE("the edge that reaches farthest is the one towards the direction asked for") {
   const ConvexShape cube = testing::cube();
   const ShapePair pair{cube, cube, above(0, height_of(cube))};

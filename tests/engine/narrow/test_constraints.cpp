@@ -29,6 +29,7 @@ TEST_CASE("only points below the tolerance constrain") {
   CHECK(constraints(points, 1e-4) == 2);
   CHECK(constraints(points, 0) == 1);
   CHECK(constraints(points, -1) == 0);
+  CHECK(constraints(points, 1e-5) == 1);  // one at the tolerance does not
 }
 
 }  // namespace

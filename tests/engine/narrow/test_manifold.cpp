@@ -4,6 +4,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "engine/narrow/clip.hpp"
 #include "engine/narrow/constraints.hpp"
 #include "engine/shape/named_shapes.hpp"
 #include "tests/support/about.hpp"
@@ -176,6 +177,36 @@ TEST_CASE("a knife whose edge leaves a face touches where it leaves it") {
       check_edge(knife_on_cube(0, 0.1, angle, gap, 4.0), {-0.5, 0.1 - 0.5 * across / along, z},
                  {0.5, 0.1 + 0.5 * across / along, z}, gap);
     }
+  }
+}
+
+// The end inside the face is the lower one, and touches; the edge crosses the face's side above.
+TEST_CASE("a knife whose edge rises touches where it leaves a face only while it nearly lies") {
+  const ConvexShape cube = testing::cube();
+  std::int32_t up = 0;
+  for (std::size_t f = 0; f < cube.faces.size(); ++f) {
+    if (cube.faces[f].normal.z() > 0.99) up = static_cast<std::int32_t>(f);
+  }
+  double lowest = 0;
+  for (const Vector& v : knife().vertices) lowest = std::min(lowest, v.z());
+  Vector inner(9, 0, 0);  // end of the edge
+  for (const Vector& v : knife().vertices) {
+    if (v.z() < lowest + 1e-9 && v.x() < inner.x()) inner = v;
+  }
+  for (const double rise : {0.01, 0.019, 0.021, 0.05}) {
+    const Matrix tilt = turn(-std::asin(rise), Vector::UnitY());
+    const PairPose pose = at(Vector(0.3, 0, 0.5) - tilt * inner, tilt);
+    ClipColumns columns;
+    std::vector<ContactPoint> points;
+    clip_on_face({cube, knife(), pose}, Of::a, up, 0.05, columns, points);
+    const auto at_x = [&](double x) {
+      return std::count_if(points.begin(), points.end(), [&](const ContactPoint& point) {
+        return std::abs(point.position.x() - x) < 1e-9 && std::abs(point.position.y()) < 1e-9;
+      });
+    };
+    INFO(rise);
+    CHECK(at_x(0.3) == 1);
+    CHECK(at_x(0.5) == (rise < 0.02 ? 1 : 0));
   }
 }
 

@@ -176,6 +176,21 @@ TEST_CASE("two grains that part on one side may meet on the other of a narrow bo
   CHECK(met > 10);
 }
 
+TEST_CASE("grains that sank into each other tell how far, each by its own shape and size") {
+  const std::vector<ConvexShape> shapes = {testing::cube(), testing::tetrahedron()};
+  for (const bool is_cube_large : {false, true}) {
+    const double of_cube = is_cube_large ? 2.0 : 1.0, of_other = is_cube_large ? 1.0 : 2.0;
+    PolyhedronBed bed = make_bed({9, 9, periodic, walls}, shapes, {0, 1},
+                                 {testing::pose_at(4, 4, 4, Quaternion::Identity(), of_cube),
+                                  testing::pose_at(4.1, 4, 4, Quaternion::Identity(), of_other)});
+    Search search;
+    search.find(bed);
+    const double sunk = find_contacts(usual, 1.0, bed, kernels(), search.contacts);
+    const double inner = of_cube * shapes[0].inradius + of_other * shapes[1].inradius;
+    CHECK(sunk == Approx(sunk_share * inner - 0.1).epsilon(1e-12));
+  }
+}
+
 TEST_CASE("a pinacoid and the hull of its corners touch at the same points") {
   const ConvexShape shape = pinacoid({}), hull = testing::hull_of(shape.vertices);
   // At random no two axes are equally good, so that both choose the same.

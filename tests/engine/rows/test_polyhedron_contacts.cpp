@@ -1,9 +1,11 @@
+#include <array>
 #include <cmath>
 #include <set>
 
 #include <catch2/catch.hpp>
 
 #include "engine/dynamics/step.hpp"
+#include "engine/narrow/constraints.hpp"
 #include "engine/rows/polyhedron_contacts.hpp"
 #include "engine/shape/mixture.hpp"
 #include "engine/units.hpp"
@@ -166,6 +168,135 @@ Vector moved(const PolyhedronBed& bed, std::size_t grain, const Vector& from_cen
   const Vector body = q.conjugate() * from_centre;
   const double angle = angles.norm();
   return v + q * (Eigen::AngleAxisd(angle, angles / angle) * body) - from_centre;
+}
+
+/// What hold_turning adds to the moments of two grains after a step, over dt^2.
+std::array<Vector, 2> held_by_a_step(PolyhedronBed bed) {
+  StepState<Polyhedron, double> state;
+  const StepSettings settings = solved_step();
+  step(settings, kernels_for(best_isa()), bed, state);
+  hold_turning(state.contacts, serial_for, bed);
+  const auto added = [&](std::size_t k) {
+    return Vector((bed.root_inertia[k].cwiseAbs2() - principal_moments(bed, k)) /
+                  (settings.dt * settings.dt));
+  };
+  return {added(0), added(1)};
+}
+
+TEST_CASE("each grain is held by the height of its own side of the contact, whichever is listed") {
+  const Box box{9, 9, periodic, walls};
+  const Quaternion on_corner =
+      Quaternion::FromTwoVectors(Vector(1, 1, 1).normalized(), Vector::UnitZ());
+  const auto [corner, face] = held_by_a_step(make_bed(
+      box, testing::cube(),
+      {testing::pose_at(3, 3, 1.0 + std::sqrt(0.75), on_corner), testing::pose_at(3, 3, 0.5)}));
+  CHECK(face.isApprox(Vector(0.5, 0.5, 0.0), 1e-6));
+  CHECK(corner.norm() < 1e-6);
+  // The upper cube is twice as large, and weighs 8.
+  const Quaternion edge_along_x(Eigen::AngleAxisd(0.25 * pi, Vector::UnitX()));
+  const Quaternion edge_along_y(Eigen::AngleAxisd(0.25 * pi, Vector::UnitY()));
+  const double height = std::sqrt(0.5);
+  const auto [lower, upper] =
+      held_by_a_step(make_bed(box, testing::cube(),
+                              {testing::pose_at(4, 4, height, edge_along_x),
+                               testing::pose_at(4, 4, 4.0 * height, edge_along_y, 2.0)}));
+  CHECK(lower.isApprox(8.0 * height * Vector(0.0, 0.5, 0.5), 1e-6));
+  CHECK(upper.isApprox(16.0 * height * Vector(0.5, 0.0, 0.5), 1e-6));
+}
+
+TEST_CASE("a sphere on a face, an edge or a corner says how many turns of the grain it holds") {
+  const auto shapes = shapes_of(Mixture{{{0.5, CubeSize{}}, {0.5, SphereShape{}}}});
+  const Quaternion on_edge(Eigen::AngleAxisd(0.25 * pi, Vector::UnitX()));
+  const Quaternion on_corner =
+      Quaternion::FromTwoVectors(Vector(1, 1, 1).normalized(), Vector::UnitZ());
+  struct Place {
+    Quaternion turn;
+    double height;  // of the cube's centre above the floor
+    int by_turning;
+  };
+  for (const Place& place :
+       {Place{Quaternion::Identity(), 0.5, 2}, Place{on_edge, std::sqrt(0.5), 1},
+        Place{on_corner, std::sqrt(0.75), 0}}) {
+    PolyhedronBed bed = make_bed({6, 6, periodic, walls}, shapes, {0, 1},
+                                 {testing::pose_at(3, 3, place.height, place.turn),
+                                  testing::pose_at(3, 3, 2 * place.height + 0.5)});
+    StepState<Polyhedron, double> state;
+    const StepSettings settings = solved_step();
+    const ExecutionContext context = kernels_for(best_isa());
+    step(settings, context, bed, state);
+    const auto bearing = force_contacts(bed, settings.dt, state.contacts);
+    const auto all = closures(bed, context, settings.dt, state.candidates, state.contacts);
+    REQUIRE(all.size() == bearing.size());
+    int pairs = 0;
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      if (!bed.is_grain(bearing[k].b)) continue;
+      ++pairs;
+      CHECK(all[k].by_turning == place.by_turning);
+      CHECK(all[k].constraints == 1);
+    }
+    CHECK(pairs == 1);
+  }
+}
+
+// With a step so long that faces are preferred far beyond the best axis.
+TEST_CASE(
+    "a closed contact is as deep as its grains overlap, and of the kind that it has as such") {
+  Scene scene;
+  scene.rows.impulse.assign(scene.rows.impulse.size(), 0.0);
+  for (std::size_t k = 0; k < scene.found().contacts.size(); ++k) {
+    scene.rows.impulse[scene.first(k)] = 1.0;
+  }
+  const double dt = 0.2;
+  const TouchSettings shallow{closed_gap, touch_settings(closed_gap, dt).preference, 0.0};
+  const auto bearing = force_contacts(scene.bed, dt, scene.rows);
+  const auto all = closures(scene.bed, kernels_for(best_isa()), dt, scene.candidates, scene.rows);
+  REQUIRE(all.size() == bearing.size());
+  int closed = 0, on_faces = 0;
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    if (!scene.bed.is_grain(bearing[k].b)) continue;
+    const ShapePair pair = shape_pair(scene.bed, static_cast<std::size_t>(bearing[k].a),
+                                      static_cast<std::size_t>(bearing[k].b));
+    const ContactAxes axes = separating_axes(pair);
+    ClipColumns columns;
+    std::vector<ContactPoint> points;
+    const PairContact contact = touch(pair, shallow, axes, columns, points);
+    if (contact.count == 0) continue;
+    ++closed;
+    on_faces += contact.separation < axes.separation() - 1e-9 ? 1 : 0;
+    CHECK(all[k].gap >= axes.separation() - 1e-12);
+    CHECK(all[k].constraints == constraints_of(points.data(), points.size(), closed_gap));
+  }
+  CHECK(closed > 50);
+  CHECK(on_faces > 5);
+}
+
+TEST_CASE("the steps of a scene prefer faces by a ten-thousandth at least, more in long ones") {
+  CHECK(touch_settings(0.05, 1e-3).preference == 1e-4);
+  CHECK(touch_settings(0.05, 0.1).preference == Approx(0.5 * 0.1 * 0.1));
+}
+
+TEST_CASE("a grain that sleeps is neither moved nor turned by its rows") {
+  Scene scene;
+  const std::size_t sleeper = static_cast<std::size_t>(scene.found().contacts[3].a);
+  scene.bed.asleep.assign(scene.bed.grains(), 0);
+  scene.bed.asleep[sleeper] = 1;
+  scene.find(0.05, 1.0);
+  int rows = 0;
+  for (std::size_t k = 0; k < scene.found().contacts.size(); ++k) {
+    const PolyhedronContact& c = scene.found().contacts[k];
+    const bool is_a = static_cast<std::size_t>(c.a) == sleeper;
+    const bool is_b = static_cast<std::size_t>(c.b) == sleeper;
+    if (!is_a && !is_b) continue;
+    for (std::size_t j = 0; j < c.count; ++j) {
+      const BodyPoints<double>& points = scene.rows.points[scene.point(k, j)];
+      for (int x = 0; x < 3; ++x) {
+        const auto& lever = is_a ? points.lever_a : points.lever_b;
+        CHECK(lever[x][scene.lane(k)] == 0.0);
+      }
+      ++rows;
+    }
+  }
+  CHECK(rows > 0);
 }
 
 TEST_CASE("rows say how gaps change when grains move and turn") {

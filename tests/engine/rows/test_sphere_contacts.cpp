@@ -164,6 +164,20 @@ TEMPLATE_TEST_CASE("a grain in a corner keeps the impulse of each of its walls",
   CHECK(impulses_of(bed, contacts) == expected);
 }
 
+// A round wall has two rows, of the parts of its push along x and y, and closed one, across it.
+TEST_CASE("a closed contact with a round wall takes over what both of its rows push") {
+  SphereBed bed = make_bed(tube_of(3), {{1.5 + 0.6, 1.5 + 0.8, 2, 0.5}});
+  const Candidates candidates = candidates_within(0.1, bed);
+  SphereContacts<double> contacts, closed;
+  lay_out(bed, candidates, contacts);
+  visit_named(bed, contacts, [&](const Name&, std::size_t block, std::size_t lane) {
+    contacts.impulse[block * block_width + lane] = block == contacts.first_round ? 3.0 : 4.0;
+  });
+  lay_out_closed(0.01, kernels(), bed, candidates, 0.5, contacts, closed);
+  const std::map<Name, double> expected = {{{0, testing::wall_name(bed, 1)}, 5.0 / (0.5 * 0.5)}};
+  CHECK(impulses_of(bed, closed) == expected);
+}
+
 TEMPLATE_TEST_CASE("rows have the gap and the unit normal of their contact", "", float, double) {
   const double rounding = std::is_same_v<TestType, float> ? 1e-6 : 1e-14;
   SphereBed bed = testing::random_bed({{4, 3, periodic, walls}, 100, 0.2, 0.5, 4, 9});

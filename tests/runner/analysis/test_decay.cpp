@@ -224,6 +224,14 @@ TEST_CASE("a decay longer than the window is not determined") {
              Catch::Contains("do not decay within the window of 4.75 d"));
 }
 
+TEST_CASE("layers that are weak at the wall reach nowhere") {
+  const auto weak = profile_of({0.62, 0.02, 1.2, 0.9, 0.4}, 5);
+  const DecayFit fit = fit_decay({weak, weak}, bin_width, 5);
+  REQUIRE(fit.not_determined.empty());
+  CHECK(fit.amplitude.value < 0.05 * fit.bulk.value);
+  CHECK(fit.reach.value == 0.0);
+}
+
 TEST_CASE("a period longer than the window is not determined") {
   std::mt19937_64 generator(31);
   const auto profiles = noisy_profiles({0.6, 0.2, 2, 3, 0}, 6, 0.0005, generator);

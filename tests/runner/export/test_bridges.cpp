@@ -199,6 +199,62 @@ TEST_CASE("across a periodic side grains have flat ends, or images that are join
   CHECK(joined >= 1);
 }
 
+TEST_CASE("grains are joined across each side of a box that is longer than wide") {
+  for (const bool is_along_x : {true, false}) {
+    ExportedBed exported = bridged(empty_box(9, 4, 0));
+    exported.settings.periodic_images = true;
+    exported.bed.grains = {{0.3, 0.3, 0.5, 0.5, 0, 1}, {0.3, 0.3, 0.5, 0.5, 0, 1}};
+    (is_along_x ? exported.bed.grains[1].x : exported.bed.grains[1].y) += is_along_x ? 8 : 3;
+    const auto images = bridged_surfaces(exported);
+    int joined = 0;
+    for (const GrainSurface& body : images) joined += body.grains >= 2;
+    CHECK(joined >= 1);
+    CHECK(crossings(images) == 0);
+  }
+}
+
+TEST_CASE("a body is called by the first of its grains, and bodies follow one another so") {
+  ExportedBed exported = bridged(empty_box(6, 6, 0));
+  exported.bed.grains = {
+      {1, 1, 2, 0.5, 0, 0}, {4, 4, 2, 0.5, 0, 0}, {4, 4, 3, 0.5, 0, 0}, {1, 1, 3, 0.5, 0, 0}};
+  const auto bodies = bridged_surfaces(exported);
+  REQUIRE(bodies.size() == 2);
+  CHECK((bodies[0].grain == 0 && bodies[1].grain == 1));
+  CHECK((bodies[0].grains == 2 && bodies[1].grains == 2));
+}
+
+// Three spheres that touch each other have contacts 60 degrees apart. Necks of a share s take
+// 2 asin(s) between them, and keep a tenth of that free: 53.5 degrees leave it, 55.6 do not.
+TEST_CASE("necks on a sphere keep a tenth of their width between each other") {
+  ExportedBed exported = empty_box(6, 6, 0);
+  exported.bed.grains = {
+      {2, 2, 2, 0.5, 0, 0}, {3, 2, 2, 0.5, 0, 0}, {2.5, 2 + std::sqrt(0.75), 2, 0.5, 0, 0}};
+  for (const bool is_narrow : {true, false}) {
+    const auto open = open_spheres(bridged(exported, is_narrow ? "bridge:0.45" : "bridge:0.466"));
+    REQUIRE(open.necks.size() == 3);
+    for (const Neck& neck : open.necks) CHECK((neck.radius == neck.asked) == is_narrow);
+  }
+}
+
+// The circle where it ends, so far from the wall, lies within it: its axis does.
+TEST_CASE("a sphere that fills a tube has an end all around") {
+  ExportedBed exported;
+  exported.bed.box = tube_of(1.02);
+  exported.bed.grains = {{0.5, 0.51, 2, 0.5, 0, 0}};
+  const auto bodies = bridged_surfaces(bridged(exported, "bridge:0.6"));
+  REQUIRE(bodies.size() == 1);
+  CHECK(is_closed(bodies[0].surface));
+  CHECK(euler_characteristic(bodies[0].surface) == 2);
+  double widest = 0.0, lowest = 9.0;
+  for (const Vector& v : bodies[0].surface.vertices) {
+    REQUIRE(v.allFinite());
+    widest = std::max(widest, std::hypot(v.x() - 0.51, v.y() - 0.51));
+    lowest = std::min(lowest, v.z());
+  }
+  CHECK(widest == Approx(0.51 - cap_depth(0.6) * 0.5).epsilon(1e-9));
+  CHECK(lowest < 1.51);
+}
+
 TEST_CASE("periodic beds of cubes with images are closed and cross nowhere") {
   ExportedBed bed = bridged(packed_bed(CubeSize{}, {4, 4, Boundary::periodic, Boundary::periodic},
                                        testing::is_sanitized ? 25 : 40));

@@ -43,6 +43,16 @@ TEST_CASE("a certificate tells what holds a bed, and what the program finds of i
   CHECK(certificate["free_motions"][0]["direction"][0] == 1.0);
 }
 
+TEST_CASE("grains that touch without a force are no contact of a certificate") {
+  ExportedBed exported = leaning_spheres();
+  const auto before = nlohmann::json::parse(certificate_json(exported));
+  exported.gap_tolerance = 1e-4;
+  exported.bed.grains.push_back({3, 0.5, 0.5, 0.5, 0, 2});  // beside the first, and at the walls
+  const auto found = nlohmann::json::parse(certificate_json(exported))["found"];
+  CHECK(found["contacts"] == 4);
+  CHECK(found["least_force"] == before["found"]["least_force"]);
+}
+
 TEST_CASE("a certificate tells of a net force, of an overlap, and of turns about a tube's axis") {
   ExportedBed exported;
   exported.bed.box = tube_of(4);

@@ -2,7 +2,9 @@
 #include <numbers>
 #include <sstream>
 #include <string>
+#include <utility>
 
+#include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 
 #include "runner/export/lammps.hpp"
@@ -33,6 +35,31 @@ TEST_CASE("LAMMPS data of polyhedra: bodies with moments of inertia, corners, ed
                                  "8 12 6\n0.16666666666666") &&
                  Catch::Contains(" -0.5 -0.5 -0.5 0.5 -0.5 -0.5 -0.5 0.5 -0.5 0.5 0.5 -0.5 ") &&
                  Catch::EndsWith(" 0 2 3 1 4 5 7 6 0 1 5 4 2 6 7 3\n0 4 6 2 1 3 7 5 1e-09\n"));
+}
+
+TEST_CASE("LAMMPS data of a turned cuboid: its moments of inertia in the box's frame") {
+  ExportedBed exported = stacked_cubes();
+  exported.bed.grains.resize(1);
+  const Eigen::Vector3d sides(1, 0.5, 0.25);
+  for (auto& [x, y, z] : exported.bed.turned->meshes.front().vertices) {
+    x *= sides.x(), y *= sides.y(), z *= sides.z();
+  }
+  const Eigen::Quaterniond turn(0.5, 0.1, 0.3, std::sqrt(0.65));
+  exported.bed.turned->orientations = {{turn.x(), turn.y(), turn.z(), turn.w()}};
+  // Of a mass of 1.
+  const Eigen::Vector3d squares = sides.cwiseAbs2();
+  const Eigen::Vector3d principal = (Eigen::Vector3d::Constant(squares.sum()) - squares) / 12;
+  const Eigen::Matrix3d rotation = turn.toRotationMatrix();
+  const Eigen::Matrix3d inertia = rotation * principal.asDiagonal() * rotation.transpose();
+  const std::string text = lammps_data(exported);
+  const std::string counts = "\n8 12 6\n";
+  std::istringstream words(text.substr(text.find(counts) + counts.size()));
+  for (const auto& [row, column] : {std::pair(0, 0), std::pair(1, 1), std::pair(2, 2),
+                                    std::pair(0, 1), std::pair(0, 2), std::pair(1, 2)}) {
+    double moment = 0;
+    words >> moment;
+    CHECK(moment == Approx(inertia(row, column)).margin(1e-15));
+  }
 }
 
 /// A prism of that many sides, turned so that its coordinates have all their digits.

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <catch2/catch.hpp>
 
@@ -141,6 +142,43 @@ double smallest_cap_depth(const ExportedBed& exported) {
   return cap_depth(0.2) * radius;
 }
 
+/// Two boxes, one on the other, whose top and bottom end in slopes so low.
+ExportedBed sloped_boxes(double slope) {
+  ExportedBed exported = stacked_cubes();
+  exported.bed.grains[1].x = exported.bed.grains[0].x;
+  Mesh& mesh = exported.bed.turned->meshes.front();
+  mesh = {};
+  for (const auto& [half, z] : {std::pair(0.3, 0.5), std::pair(0.5, 0.5 - slope),
+                                std::pair(0.5, slope - 0.5), std::pair(0.3, -0.5)}) {
+    for (const int corner : {0, 1, 3, 2}) {  // counter-clockwise
+      mesh.vertices.push_back({corner & 1 ? half : -half, corner & 2 ? half : -half, z});
+    }
+  }
+  mesh.faces = {{0, 1, 2, 3}, {15, 14, 13, 12}};
+  for (std::int32_t upper = 0; upper < 12; upper += 4) {
+    for (std::int32_t k = 0; k < 4; ++k) {
+      const std::int32_t next = (k + 1) % 4;
+      mesh.faces.push_back({upper + 4 + k, upper + 4 + next, upper + next, upper + k});
+    }
+  }
+  return exported;
+}
+
+// A cap that ended within 1e-3 of a radius from corners would leave slivers: it ends below them.
+TEST_CASE("caps keep clear of the corners of a grain") {
+  const double depth = cap_depth(0.2) * 0.5, clearance = 1e-3 * 0.5;
+  for (const double beyond : {-2e-3, -1e-5, 1e-5, 2e-3}) {
+    ExportedBed exported = sloped_boxes(depth + beyond);
+    exported.settings.treatment = *contact_treatment("cap:0.2");
+    const auto surfaces = grain_surfaces(exported);
+    double top = 0;
+    for (const Vector& v : surfaces.at(0).surface.vertices) top = std::max(top, v.z());
+    const bool is_near = std::abs(beyond) < clearance;
+    CHECK(top == Approx(1.0 - (is_near ? depth + beyond + clearance : depth)).epsilon(1e-12));
+    CHECK(is_closed(surfaces[0].surface));
+  }
+}
+
 TEST_CASE("caps and necks leave the depth of a cap at the wall of a tube, however narrow") {
   const double diameters[] = {1.5, 1.0, 1.05, 2.5};
   for (int k = 0; k < testing::tries(4); ++k) {
@@ -182,6 +220,8 @@ TEST_CASE("grains that cross a periodic side have an image beyond the other one"
   REQUIRE(surfaces.size() == 5);
   CHECK(std::count_if(surfaces.begin(), surfaces.end(),
                       [](const GrainSurface& grain) { return grain.grain == 0; }) == 4);
+  for (SettledGrain& grain : exported.bed.grains) grain.x = 4 - grain.x, grain.y = 4 - grain.y;
+  CHECK(grain_surfaces(exported).size() == 5);  // the other corner
 }
 
 TEST_CASE("a tube's surface holds the tube and hardly more") {

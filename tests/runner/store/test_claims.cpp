@@ -68,6 +68,24 @@ TEST_CASE("claims of runners that are gone are void, those of later ones are not
   CHECK(claims.abandoned().empty());
 }
 
+TEST_CASE("a runner's own claims of before are not void, whoever it is told to be at work") {
+  const SharedFolder folder;
+  folder.append("\np a-1\n");
+  Claims claims = folder.claims_of("a-1", {"b-2"});
+  CHECK(claims.owner_of("p") == "a-1");
+  CHECK(claims.abandoned().empty());
+}
+
+TEST_CASE("a claim that is being written counts once it is whole") {
+  const SharedFolder folder;
+  folder.append("\np b-");
+  Claims claims = folder.claims_of("a-1", {"b-2"});
+  CHECK(claims.owner_of("p").empty());
+  folder.append("2\n");
+  CHECK_FALSE(claims.may_begin("p"));
+  CHECK(claims.owner_of("p") == "b-2");
+}
+
 TEST_CASE("a torn claim is none, and does not spoil the next one") {
   const SharedFolder folder;
   folder.append("\np b-");

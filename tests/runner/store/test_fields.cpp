@@ -63,6 +63,8 @@ TEST_CASE(
   CHECK(number_of(field_called("contact_ratio"), outcome) == 5990.0 / 5991.0);
   CHECK(std::isnan(number_of(field_called("coordination"), Outcome())));
   CHECK(std::isnan(number_of(field_called("contact_ratio"), Outcome())));
+  outcome.result.rest.isostatic_contacts = 0;  // as of a grain that nothing holds
+  CHECK(std::isnan(number_of(field_called("contact_ratio"), outcome)));
 }
 
 }  // namespace

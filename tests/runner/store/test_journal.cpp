@@ -123,6 +123,9 @@ TEST_CASE("a whole line with other members than ours is of another version, and 
   std::string of_another_kind = text;
   of_another_kind.replace(text.find("2000"), 4, R"("2k")");
   CHECK_FALSE(read_journal_line(line_of(of_another_kind)));
+  std::string with_half_a_coordination = text;
+  with_half_a_coordination.replace(text.find("\"coordinations\":[") + 17, 0, "0.5,");
+  CHECK_FALSE(read_journal_line(line_of(with_half_a_coordination)));
   CHECK_FALSE(read_journal_line(line_of("[1,2]")));
   CHECK_FALSE(read_journal_line(line_of("{\"job\":")));
 }

@@ -181,6 +181,17 @@ TEST_CASE("a report of too few widths says why there is no fit") {
   CHECK_THAT(text, Catch::Contains("Z_bulk - C_Z/W:  not determined: needs packings at 3 or more"));
 }
 
+TEST_CASE("a table with any walls says that there is no fit, wherever they stand in it") {
+  const Row walled = settled_row("a", 5, 0.6, 5.5);
+  const Row periodic = settled_row("b", 5, 0.62, 5.7, Boundary::periodic, 0.25);
+  for (const std::vector<Row>& rows : {std::vector<Row>{walled, periodic}, {periodic, walled}}) {
+    CHECK_THAT(report_of(reported_provenance(), rows, "out/a"),
+               Catch::Contains("not determined: needs packings at 3 or more"));
+  }
+  CHECK_THAT(report_of(reported_provenance(), {periodic}, "out/a"),
+             !Catch::Contains("not determined"));
+}
+
 TEST_CASE("a report of collected sweeps names no file to go on with") {
   Provenance collected = reported_provenance();
   collected.sweeps.push_back({"b.json", ""});

@@ -60,6 +60,18 @@ TEST_CASE("replicates without grains of a component in a bin enter its solid fra
   CHECK(std::isnan(mean_component_profile(groups[0], along_y, 1, 0)[0].nematic[0].mean));
 }
 
+TEST_CASE("a bed that ends below a bin has no component there, but no order either") {
+  Row low = row_of_mixture("a", 0.25, 4);
+  for (ComponentMeasure& one : low.outcome->result.components) one.profile_y.bins.pop_back();
+  const std::vector<Row> rows = {low, row_of_mixture("b", 0.75, 8)};
+  const std::vector<Group> groups = analyse(rows).groups;
+  const auto bins = mean_component_profile(groups[0], along_y, 0, 1);
+  REQUIRE(bins.size() == 2);
+  CHECK((bins[1].solid_fraction.n == 2 && bins[1].solid_fraction.mean == 0.375));
+  CHECK((bins[1].neighbours.n == 1 && bins[1].coordination.n == 1));
+  CHECK((bins[1].nematic[1].n == 1 && bins[1].nematic[1].mean == 0.5));
+}
+
 TEST_CASE("the table has a row for each bin of each pair of components") {
   const std::vector<Row> rows = {row_of_mixture("a", 0.25, 4)};
   const std::vector<Group> groups = analyse(rows).groups;

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <utility>
 
 #include <catch2/catch.hpp>
 
@@ -62,6 +63,33 @@ TEST_CASE("halves of a packing, which share grains, are one profile of its own")
   CHECK(fit.misfit == Approx(expected.misfit));
 }
 
+/// The same layers in a tube, from its wall to its axis.
+Row layered_tube(const std::string& id, std::uint64_t seed) {
+  Row row = layered_row(id, seed);
+  row.job.box = tube_of(10);
+  PackingResult& result = row.outcome->result;
+  result.profile_from_walls = std::exchange(result.profile_y, {});
+  result.profile_from_walls.bins.resize(50);
+  return row;
+}
+
+// No bin is mirrored: what lies near the axis is not near a wall.
+TEST_CASE("in a tube the profile from its wall is fitted as it is") {
+  const std::vector<Row> rows = {layered_tube("a", 1), layered_tube("b", 2), layered_tube("c", 3)};
+  std::vector<std::vector<double>> profiles;
+  for (const Row& row : rows) {
+    profiles.emplace_back();
+    for (const ProfileBin& bin : row.outcome->result.profile_from_walls.bins) {
+      profiles.back().push_back(bin.large);
+    }
+  }
+  const DecayFit fit = decay_of(groups_of(rows).at(0), GrainClass::large);
+  const DecayFit expected = fit_decay(profiles, 0.1, 5.0);
+  REQUIRE(fit.not_determined.empty());
+  CHECK(fit.length.value == expected.length.value);
+  CHECK(fit.amplitude.value == expected.amplitude.value);
+}
+
 TEST_CASE("what the packings cannot tell is not determined, with the reason") {
   const auto reason = [](const std::vector<Row>& rows, GrainClass grains) {
     return decay_of(groups_of(rows).at(0), grains).not_determined;
@@ -70,6 +98,11 @@ TEST_CASE("what the packings cannot tell is not determined, with the reason") {
   CHECK(reason({a}, GrainClass::large) ==
         "needs 2 or more settled replicates to know the errors, has 1");
   CHECK(reason({a, b}, GrainClass::small) == "there are no small grains");
+  for (const bool is_first : {true, false}) {  // nor where one of the packings has none
+    std::vector<Row> rows = {a, b};
+    rows[is_first ? 0 : 1].outcome->result.profile_y.bins[7].small = 0.1;
+    CHECK(reason(rows, GrainClass::small) == "there are no small grains");
+  }
   const auto periodic = Boundary::periodic;
   CHECK(reason({layered_row("a", 1, periodic), layered_row("b", 2, periodic)}, GrainClass::large) ==
         "there is no wall along y");

@@ -28,6 +28,16 @@ TEST_CASE("curves have mean and scatter of the replicates that reach so far") {
         "1,MSP,a,MSP,5,walls,0,force_density,0,0.25,2,1.5,0.7071067811865476,3.241438321418052\n");
 }
 
+TEST_CASE("a mean curve is as long as the longest, in whatever order the replicates come") {
+  const auto points = [](const std::vector<Row>& rows) {
+    return mean_curve(groups_of(rows).at(0), &Order::pair_correlation).size();
+  };
+  const Row shorter = row_with_curves("a", {0, 2}, {1}),
+            longer = row_with_curves("b", {0, 4, 5}, {2});
+  CHECK(points({shorter, longer}) == 3);
+  CHECK(points({longer, shorter}) == 3);
+}
+
 TEST_CASE("distances of the pair correlation are told in the unit of the sweep, too") {
   const std::vector<Row> rows = {row_with_curves("a", {0, 2}, {1})};
   const auto groups = analyse(rows).groups;

@@ -20,6 +20,18 @@ TEST_CASE("groups that differ in width alone are a family, with the periodic one
   CHECK(mean_of(*unconfined_reference(families[0]), "solid_fraction").mean == 0.64);
 }
 
+TEST_CASE(
+    "of several boxes without walls the widest is the reference, in whatever order they come") {
+  const std::vector<Row> rows = {settled_row("a", 20, 0.64, 6, Boundary::periodic),
+                                 settled_row("b", 10, 0.63, 6, Boundary::periodic),
+                                 settled_row("c", 5, 0.6, 6)};
+  const auto families = families_of(groups_of(rows));
+  REQUIRE(families.size() == 1);
+  REQUIRE(families[0].periodic.size() == 2);
+  CHECK(families[0].periodic[0].job.box.width == 10);
+  CHECK(unconfined_reference(families[0])->job.box.width == 20);
+}
+
 TEST_CASE("families of one label are told apart by the parameter that differs") {
   const std::vector<Row> rows = {settled_row("a", 5, 0.6, 6),
                                  settled_row("b", 5, 0.6, 6, Boundary::walls, 0.25),

@@ -136,6 +136,12 @@ TEST_CASE("a line that misses its points says so and is known no better than it 
   CHECK(fit.doubt == "the straight line does not hold");
   CHECK(fit.bulk.error == Approx(before.bulk.error * std::sqrt(fit.chi2_per_dof)));
   CHECK(fit.slope.error == Approx(before.slope.error * std::sqrt(fit.chi2_per_dof)));
+  // That of zeta follows from theirs, whose covariance is x_m / S_xx of the points' variance.
+  const double bulk = fit.bulk.value, slope = fit.slope.value;
+  const double covariance = -0.15 * fit.slope.error * fit.slope.error;
+  CHECK(fit.zeta.error == Approx(std::sqrt(std::pow(fit.slope.error / bulk, 2) +
+                                           std::pow(slope * fit.bulk.error / (bulk * bulk), 2) +
+                                           2 * slope / std::pow(bulk, 3) * covariance)));
   CHECK_THAT(fits_csv(families_of(groups_of(rows))),
              Catch::Contains("MSP,solid_fraction,determined,the straight line does not hold,4,8,"));
 }

@@ -54,6 +54,16 @@ TEST_CASE("replicates form a group, only the settled ones enter its means") {
   CHECK(groups[0].counts.pending == 1);
 }
 
+TEST_CASE("a group without a settled packing takes no error from the others of its family") {
+  const std::vector<Row> rows = {settled_row("a", 5, 0.60, 5.8), settled_row("b", 5, 0.62, 6.0),
+                                 row_with_status("c", 6, PackingStatus::not_settled, "moves")};
+  const auto groups = groups_of(rows);
+  REQUIRE(groups.size() == 2);
+  CHECK(mean_of(groups[0], "solid_fraction").degrees_of_freedom == 1);
+  CHECK(std::isnan(mean_of(groups[1], "solid_fraction").error));
+  CHECK(mean_of(groups[1], "solid_fraction").degrees_of_freedom == 0);
+}
+
 TEST_CASE("how shapes touch and point is averaged over the replicates, spheres have nothing") {
   Row first = polyhedra_row("a", 5), second = polyhedra_row("b", 5);
   second.outcome->result.shape_order->nematic[2] = 0.25;

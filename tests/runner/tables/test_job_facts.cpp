@@ -170,6 +170,17 @@ TEST_CASE("parameters read back letter by letter: they are the identity of a job
   CHECK(rows_of(read_back(job_list({{job, {}}}))).at(0).job.parameters == job.parameters);
 }
 
+TEST_CASE("the file of a start stands among the parameters, a list of files as it is") {
+  JobFacts job = sample_job("a", 5);
+  job.parameters = R"({"fill":{"file":"of its content"}})";
+  job.files = {{"fill.file", "b.csv"}};
+  CHECK(identifying_parameters(job).at("fill.file") == "of its content");
+  CHECK(flat_parameters(job).at("fill.file") == "b.csv");
+  job.parameters = R"({"fill":{"files":["one","two"]}})";
+  job.files = {{"fill.files", "b.csv"}};  // that of this replicate
+  CHECK(flat_parameters(job) == identifying_parameters(job));
+}
+
 TEST_CASE("rows take the outcomes of their jobs, others are orphaned") {
   std::vector<Row> rows = {
       {sample_job("b", 5), {}}, {sample_job("a", 5), {}}, {sample_job("c", 5), {}}};

@@ -114,6 +114,11 @@ TEST_CASE("the profile of a tube says how far its bins are from the axis") {
   CHECK(std::stod(cell_in(text, 1, "low")) == 0.0);
   const double high = std::stod(cell_in(text, 1, "high"));
   CHECK(std::stod(cell_in(text, 1, "from_axis")) == Approx(3 - high / 2));
+  row.outcome->result.profile_z = row.outcome->result.profile_from_walls;
+  const std::vector<Row> with_z = {row};
+  const std::string upright = profiles_csv(groups_of(with_z));
+  CHECK(cell_in(upright, 3, "axis") == "z");
+  CHECK(cell_in(upright, 3, "from_axis").empty());  // a height has no distance from it
 }
 
 }  // namespace
