@@ -173,6 +173,10 @@ const NamedQuantity* find_quantity(const std::string& name) {
 
 }  // namespace
 
+bool is_share(std::string_view quantity) {
+  return quantity.starts_with("phi") || quantity.starts_with("porosity");
+}
+
 std::string fault_of_quantity(const std::string& quantity, double width) {
   const NamedQuantity* found = find_quantity(quantity);
   if (found == nullptr) {

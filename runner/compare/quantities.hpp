@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "runner/analysis/decay.hpp"
@@ -18,6 +19,9 @@ struct Measured {
 /// Why there can be no such value: an unknown name, or a width that is missing or has no meaning
 /// for the quantity; empty if there can be one.
 std::string fault_of_quantity(const std::string& quantity, double width);
+
+/// Whether its values are shares of a volume, 0 to 1.
+bool is_share(std::string_view quantity);
 
 /// "Z at W = 10 d", with `symbol` from extent_symbol. The quantity and width must be without fault,
 /// here and below.

@@ -93,6 +93,12 @@ Published read_published(const Json& from, const std::string& pointer, Diagnosti
     published.range = read_range(from["value"], error.value_or(0.0),
                                  child_pointer(pointer, "value"), diagnostics);
   }
+  const auto& range = published.range;
+  if (range && is_share(published.quantity) && !(range->low >= 0.0 && range->high <= 1.0)) {
+    diagnostics.push_back(
+        {child_pointer(pointer, "value"),
+         "a share of the volume lies in [0, 1]; divide percentages by 100, is " + text_of(range)});
+  }
   published.text = read_text(from, "text", pointer, text_of(published.range), diagnostics);
   return published;
 }

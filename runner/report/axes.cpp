@@ -84,16 +84,26 @@ std::string symbol_of(const std::string& path, const Values& values) {
   return whole.substr(dot + 1);
 }
 
-/// "small_share = 0.25, no walls"
+bool is_extent(const std::string& path) {
+  return path == width_parameter || path == diameter_parameter;
+}
+
+/// "W = 5, small_share = 0.25, y periodic": the extent first, as titles may be cut at their end.
 std::string words(const Values& values) {
   std::string text;
-  for (const auto& [path, value] : values) {
-    if (value.empty() || value == "walls") continue;
+  const auto add = [&](const std::string& path, const std::string& value) {
+    if (value.empty() || value == "walls") return;
     text += text.empty() ? "" : ", ";
     if (path == "box.y" || path == "box.x")
       text += path.substr(4) + " " + value;
     else
       text += symbol_of(path, values) + " = " + value;
+  };
+  for (const auto& [path, value] : values) {
+    if (is_extent(path)) add(path, value);
+  }
+  for (const auto& [path, value] : values) {
+    if (!is_extent(path)) add(path, value);
   }
   return text;
 }
@@ -300,23 +310,27 @@ std::string joined_title(const std::string& label, const std::string& distinctio
 
 enum class Among { all, label };
 
-/// Their distinctions without those that all of them share, or all with the same label.
+/// Their distinctions without those that all of them share, or all with the same label. An extent
+/// is left out only where all have it: labels do not tell it.
 std::vector<Values> not_shared(const std::vector<const Group*>& groups, Among among) {
-  const auto set_of = [&](const Group& group) {
-    return among == Among::label ? group.job.label : std::string();
+  const auto set_of = [&](const Group& group, const std::string& path) {
+    return among == Among::label && !is_extent(path) ? group.job.label : std::string();
   };
   std::vector<Values> all;
   std::map<std::string, std::size_t> sizes;
   std::map<std::pair<std::string, Values::value_type>, std::size_t> uses;
   for (const Group* group : groups) {
-    ++sizes[set_of(*group)];
+    ++sizes[group->job.label];
     for (const auto& one : all.emplace_back(distinctions(*group, ""))) {
-      ++uses[{set_of(*group), one}];
+      ++uses[{set_of(*group, one.first), one}];
     }
   }
+  sizes[""] = groups.size();
   for (std::size_t k = 0; k < groups.size(); ++k) {
-    const std::string set = set_of(*groups[k]);
-    std::erase_if(all[k], [&](const auto& one) { return uses[{set, one}] == sizes[set]; });
+    std::erase_if(all[k], [&](const auto& one) {
+      const std::string set = set_of(*groups[k], one.first);
+      return uses[{set, one}] == sizes[set];
+    });
   }
   return all;
 }

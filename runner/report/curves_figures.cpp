@@ -235,7 +235,8 @@ Figure small_share_figure(const std::vector<Family>& families, const std::string
   if (marks > 1) {
     figure.caption += " Families of one share have different marks, in the order of " + table + ".";
   }
-  if (slopes.size() + lengths.size() == 2) {
+  const bool has_slopes = slopes.size() > 1, has_lengths = lengths.size() > 1;
+  if (!has_slopes && !has_lengths) {
     figure.not_drawn =
         "neither C nor the reach is determined in any family; fits.csv and "
         "decays.csv say why";
@@ -260,11 +261,14 @@ Figure small_share_figure(const std::vector<Family>& families, const std::string
   const std::string x =
       range_command("x", range_of({sorted.begin()->first, sorted.rbegin()->first}, 0.08)) +
       label_command("x", "share of small grains in the solid volume");
-  figure.commands =
-      "set multiplot\n" + panels.key() + panels.place(0, 0) + x + label_command("y", "C / d") +
-      range_command("y", range_of(slopes, 0.2)) + plot_command(slope_parts) + panels.place(1, 0) +
-      x + label_command("y", "reach / d") + range_command("y", {0.0, range_of(lengths, 0.2).high}) +
-      plot_command(reach_parts);
+  figure.commands = "set multiplot\n" + panels.key() + panels.place(0, 0) + x +
+                    label_command("y", "C / d") + range_command("y", range_of(slopes, 0.2)) +
+                    written_in_panel(has_slopes ? "" : "C is determined in no family") +
+                    plot_command(slope_parts) + panels.place(1, 0) + x +
+                    label_command("y", "reach / d") +
+                    range_command("y", {0.0, range_of(lengths, 0.2).high}) +
+                    written_in_panel(has_lengths ? "" : "the reach is determined in no family") +
+                    plot_command(reach_parts);
   return figure;
 }
 

@@ -147,6 +147,12 @@ std::string label_command(const std::string& axis, const std::string& text) {
                       : "set " + axis + "label " + quoted(text) + " noenhanced\n";
 }
 
+std::string written_in_panel(const std::string& text) {
+  const std::string label = "label 1";
+  if (text.empty()) return "unset " + label + "\n";
+  return "set " + label + " " + quoted(text) + " at graph 0.5,0.5 center noenhanced\n";
+}
+
 /// Tics, few enough for a narrow panel from 0 to `end`.
 std::string step_tics_command(const std::string& axis, double end) {
   const double least = end / 4.0, power = std::pow(10.0, std::floor(std::log10(least)));

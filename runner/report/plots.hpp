@@ -68,6 +68,9 @@ std::string plot_command(const std::vector<std::string>& parts);
 /// "set xlabel '...'", or without a label.
 std::string label_command(const std::string& axis, const std::string& text);
 
+/// A text in the middle of the next panel, as of one that has nothing to show; none if it is "".
+std::string written_in_panel(const std::string& text);
+
 /// Two panels of column k, one above the other, of what the group does from wall to wall: `solid`
 /// plots the solid fraction, `touching` the coordination number, `title` stands above.
 std::string panels_across(const Panels& panels, std::size_t k, const std::string& title,

@@ -1,6 +1,7 @@
 #include "runner/sweep/expand.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <map>
 #include <set>
@@ -8,7 +9,9 @@
 #include <unordered_map>
 #include <utility>
 
+#include "engine/shape/named_shapes.hpp"
 #include "engine/text.hpp"
+#include "engine/units.hpp"
 #include "runner/hash.hpp"
 #include "runner/sweep/asked_accuracy.hpp"
 #include "runner/sweep/grains_csv.hpp"
@@ -167,6 +170,7 @@ class Expansion {
     place_vertices(block, in_effect, resolved);
     place_components(block, in_effect, resolved);
     place_sizes(in_effect, resolved);
+    note_few_sides(block, in_effect, resolved.spec);
     for (const auto& problem : take_asked_accuracy(in_effect, resolved)) {
       if (!is_whole_) break;
       const std::string& pointer = problem.assignment->pointer;
@@ -176,7 +180,7 @@ class Expansion {
       resolved.spec.fill = start.fill;
       note_broken_rules(block, in_effect, check(resolved.spec), start);
     }
-    note_use(in_effect, resolved.spec);
+    note_use(block, in_effect, resolved.spec);
     if (has_errors(diagnostics_)) return;
     const bool is_listed = !resolved.fill_files.empty();
     const std::string scene = canonical_scene(resolved);
@@ -421,6 +425,7 @@ class Expansion {
       distribution->formula = reading.table;
       if (size == nullptr) note_unit_of(*file);
     }
+    if (size != nullptr) note_other_d(*size, resolved.size_unit);
     if (resolved.size_unit > 0.0) return to_units_of(resolved.size_unit, *distribution);
     note(*size, "must be positive");
     distribution.reset();
@@ -441,6 +446,39 @@ class Expansion {
                                 "; if they are in " + units->unit +
                                 ", set sizes.distribution.size to " + d,
                             Anchor::value, "", true});
+  }
+
+  /// Notes a length of d that is not the one of the units.
+  void note_other_d(const Assignment& size, double d) {
+    const GivenUnits& units = definition_.units;
+    constexpr double rounding = 1e-6;
+    if (!units || std::abs(d - units->d) <= rounding * units->d) return;
+    if (!said_.insert(size.pointer + " unit").second) return;  // hides no error there
+    const std::string given = bound_text(units->d) + " " + units->unit;
+    diagnostics_.push_back({size.pointer,
+                            "is not the d of units, " + given + ": if the diameters are in " +
+                                units->unit + ", tables will give others in " + units->unit +
+                                "; set both to one length",
+                            Anchor::value, "", true});
+  }
+
+  /// Notes a cylinder whose sides are so few that it lacks much of its volume.
+  void note_few_sides(const Block& block, const InEffect& in_effect, const PackingSpec& spec) {
+    const auto* cylinder = std::get_if<CylinderSize>(&spec.shape);
+    if (cylinder == nullptr || !(cylinder->chord_error > 0.0)) return;
+    const int sides = sides_of(*cylinder);
+    const double share = sides / (2.0 * pi) * std::sin(2.0 * pi / sides);
+    constexpr double enough = 0.9;
+    if (share >= enough) return;
+    const Assignment* given = in_effect[chord_error_];
+    const std::string& pointer = given != nullptr ? given->pointer : block.pointer;
+    if (!said_.insert(pointer + " sides").second) return;
+    diagnostics_.push_back(
+        {pointer,
+         joined("packs a prism of ", sides, " sides with ", number_text(std::round(100.0 * share)),
+                " % of the cylinder's volume; a smaller chord_error takes more "
+                "sides"),
+         Anchor::value, "", true});
   }
 
   /// Whether the hulls do not hold too many vertices; otherwise a problem is noted.
@@ -510,12 +548,19 @@ class Expansion {
   }
 
   /// Remembers what the values in effect at one point are good for.
-  void note_use(const InEffect& in_effect, const PackingSpec& spec) {
+  void note_use(const Block& block, const InEffect& in_effect, const PackingSpec& spec) {
+    const auto note_in = [&](auto& uses, const auto& key, std::size_t parameter) {
+      const auto [use, is_new] = uses.try_emplace(key);
+      if (is_new || !use->second.empty()) use->second = idle_reason(parameters()[parameter], spec);
+    };
+    const std::string drawn = block.random.empty() ? "" : block.pointer + "/random/";
     for (const Assignment* assignment : in_effect) {
       if (assignment == nullptr) continue;
-      const auto [use, is_new] = idle_.try_emplace(assignment);
-      if (!is_new && use->second.empty()) continue;
-      use->second = idle_reason(parameters()[assignment->parameter], spec);
+      if (!drawn.empty() && assignment->pointer.starts_with(drawn)) {
+        note_in(idle_drawn_, assignment->pointer, assignment->parameter);
+      } else {
+        note_in(idle_, assignment, assignment->parameter);
+      }
     }
   }
 
@@ -526,8 +571,16 @@ class Expansion {
       for (const Axis& axis : block.axes) {
         for (const Assignments& entry : axis.entries) note_unused(entry, "", &block);
       }
-      for (const RandomPath& path : block.random) note_choices_out_of_range(path);
+      for (const RandomPath& path : block.random) {
+        note_choices_out_of_range(path);
+        note_idle(path.pointer, idle_drawn_[path.pointer]);
+      }
     }
+  }
+
+  void note_idle(const std::string& pointer, const std::string& reason) {
+    if (reason.empty()) return;
+    diagnostics_.push_back({pointer, "has no effect: " + reason, Anchor::value, "", true});
   }
 
   /// Checks also the choices that no point has drawn.
@@ -576,9 +629,7 @@ class Expansion {
       const auto use = idle_.find(&assignment);
       const Parameter& parameter = parameters()[assignment.parameter];
       if (use != idle_.end()) {
-        if (use->second.empty()) continue;
-        diagnostics_.push_back(
-            {assignment.pointer, "has no effect: " + use->second, Anchor::value, "", true});
+        note_idle(assignment.pointer, use->second);
         continue;
       }
       const std::string error = range_error(parameter, assignment.value);
@@ -637,6 +688,7 @@ class Expansion {
   const std::size_t hull_size_ = parameter_with(Role::hull_size);
   const std::size_t size_file_ = parameter_with(Role::size_file);
   const std::size_t size_unit_ = *find_parameter("sizes.distribution.size");
+  const std::size_t chord_error_ = *find_parameter("shape.cylinder.chord_error");
   std::vector<Job> jobs_;
   std::unordered_map<std::uint64_t, std::size_t> first_block_;  // of every job, by its hash
   std::map<std::pair<std::size_t, std::size_t>, std::uint64_t> shared_;  // jobs, by two blocks
@@ -648,6 +700,7 @@ class Expansion {
   std::set<std::string> said_;
   /// For every value that was in effect: why no packing depended on it so far; "" if one did.
   std::unordered_map<const Assignment*, std::string> idle_;
+  std::map<std::string, std::string> idle_drawn_;  ///< by pointer
   std::uint64_t placed_ = 0, vertices_ = 0;
   bool is_whole_;  ///< whether no value or file was left out as unreadable
 };

@@ -33,7 +33,8 @@ std::string header_error(std::string_view name, const LineCells& header) {
   for (const std::string_view cell : header) found.append(found.empty() ? "" : ",").append(cell);
   return "the first line must name the columns x,y,z,r" +
          std::string(is_orientation(name) ? " and all of qx,qy,qz,qw" : "") + "; \"" +
-         std::string(name) + "\" is missing or there twice in \"" + shortened(found) + "\"";
+         std::string(name) + "\" is missing or there twice in \"" + shortened(found) + "\"" +
+         separator_hint(found);
 }
 
 bool holds(const LineCells& header, std::string_view name) {

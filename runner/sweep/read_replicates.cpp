@@ -35,6 +35,12 @@ FitWish read_fit_wish(const Json& fit, const std::string& pointer, Diagnostics& 
 /// Reads which errors are small enough: of means, or of a fit.
 void read_until(const Json& until, const std::string& pointer, Replicates& replicates,
                 Diagnostics& diagnostics) {
+  if (until.contains("porosity")) {
+    diagnostics.push_back(
+        {child_pointer(pointer, "porosity"),
+         "porosity is 1 - solid_fraction and has its error: ask for solid_fraction", Anchor::key});
+    return;
+  }
   refuse_unknown_keys(until, pointer, {"solid_fraction", "coordination", "fit"}, diagnostics);
   replicates.wish = {read_wish(until, "solid_fraction", pointer, diagnostics),
                      read_wish(until, "coordination", pointer, diagnostics)};

@@ -118,7 +118,7 @@ SizesReading parse_sizes(const std::string& text, const std::string& file) {
          "the first line must name the columns diameter and passing, or diameter and share, each "
          "once; is "
          "\"" +
-             shortened(std::string(lines.front())) + "\"");
+             shortened(std::string(lines.front())) + "\"" + separator_hint(lines.front()));
     return reading;
   }
   std::vector<SizeRowRead> rows;

@@ -106,6 +106,12 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
 }
 
+std::string separator_hint(std::string_view first_line) {
+  const bool has_commas = first_line.find(',') != std::string_view::npos;
+  if (has_commas || first_line.find_first_of(";\t") == std::string_view::npos) return "";
+  return "; cells are separated by commas, and numbers have a decimal point";
+}
+
 std::string wrong_width(std::size_t cells, std::size_t width) {
   return "must hold " + std::to_string(width) + " values like the first line, holds " +
          std::to_string(cells);

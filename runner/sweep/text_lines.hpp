@@ -72,6 +72,10 @@ std::vector<std::string_view> lines_of(std::string_view text);
 using LineCells = std::vector<std::string_view>;
 LineCells cells_of(std::string_view line);
 
+/// "", or a hint that a first line is not of cells with commas between them, as of a table that was
+/// saved with a decimal comma: "; cells are separated by commas, and numbers have a decimal point".
+std::string separator_hint(std::string_view first_line);
+
 /// What is wrong with a line of so many cells where the first one has `width`. A decimal comma
 /// makes one more.
 std::string wrong_width(std::size_t cells, std::size_t width);

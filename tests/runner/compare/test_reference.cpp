@@ -140,6 +140,9 @@ TEST_CASE("all that is wrong in a file of published values is told, each with it
   CHECK(told_of_value(R"("quantity": "C", "value": [1], "error": -1)") ==
         Lines{"r.json:1:55 /common/0/value: must be a number or a range [low, high], is [1]",
               "r.json:1:69 /common/0/error: must not be negative, is -1"});
+  CHECK(told_of_value(R"("quantity": "porosity_bulk", "value": [36, 38])") ==
+        Lines{"r.json:1:67 /common/0/value: a share of the volume lies in [0, 1]; divide "
+              "percentages by 100, is 36 to 38"});
   CHECK(told_of_value(R"("quantity": "C", "value": [2, 1], "definition": [])") ==
         Lines{"r.json:1:55 /common/0/value: a range must be [low, high], is [2,1]",
               "r.json:1:77 /common/0/definition: must be a text, is an empty list"});

@@ -301,7 +301,7 @@ TEST_CASE("titles leave out what all of a label share before they lose the label
                                                          "two sizes, W = 4, small_share = 0.1",
                                                          "two sizes, W = 6, small_share = 0.1"});
   CHECK(titles_of(shown, 16) ==
-        std::vector<std::string>{"mono", "two sizes, W = 4", "two sizes, W = 6"});
+        std::vector<std::string>{"mono, W = 4", "two sizes, W = 4", "two sizes, W = 6"});
 }
 
 TEST_CASE("shortened texts that would be alike are told by their ends, or else by number",
