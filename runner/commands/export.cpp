@@ -1,5 +1,6 @@
 // The command `export`: the beds of stored packings, a file each.
 #include <algorithm>
+#include <cmath>
 #include <iostream>
 #include <map>
 #include <optional>
@@ -125,13 +126,19 @@ void refuse_what_does_not_apply(const ExportOptions& options) {
   const bool has_surfaces = options.format == "stl" || options.format == "obj";
   expect(options.contacts != usual.contacts, "--contacts", has_surfaces, "stl and obj");
   expect(options.periodic_images, "--periodic-images", has_surfaces, "stl and obj");
+  expect(options.in_units, "--in-units", has_surfaces, "stl and obj");
   expect(options.voxels != usual.voxels, "--voxels", options.format == "voxels", "voxels");
 }
 
 /// Throws BadInput.
-ExportSettings settings_of(const ExportOptions& options) {
-  refuse_what_does_not_apply(options);
+ExportSettings settings_of(const ExportOptions& options, const GivenUnits& units) {
   ExportSettings settings{{}, options.periodic_images, options.voxels};
+  if (options.in_units && !units) {
+    throw BadInput(
+        "--in-units: the sweep has no units; give it \"units\": {\"d\": 3.2, \"unit\": "
+        "\"mm\"} and run it again, which makes no packing anew");
+  }
+  if (options.in_units) settings.lengths = *units;
   if (options.contacts == "touch") return settings;
   const auto treatment = contact_treatment(options.contacts);
   if (!treatment) {
@@ -182,6 +189,8 @@ void add_command(CLI::App& app, ExportOptions& options) {
       ->type_name("HOW");
   grains.add_flag("--periodic-images", options.periodic_images,
                   "of stl and obj: also what comes in through periodic sides");
+  grains.add_flag("--in-units", options.in_units,
+                  "of stl and obj: lengths in the unit of the sweep, not in d");
   grains.add_option("--voxels", options.voxels, "of voxels: so many a d")
       ->check(number_within(1.0, 1000.0))
       ->capture_default_str()
@@ -196,12 +205,19 @@ int perform(const ExportOptions& options) {
   const ExportFormat* format = export_format(options.format);  // null: a page
   const std::string ending =
       format != nullptr ? std::string(format->ending) : std::string(".") + page_format;
-  const ExportSettings settings = settings_of(options);
+  refuse_what_does_not_apply(options);
   const Results results = results_with_warnings(options.folder);
+  const ExportSettings settings = settings_of(options, results.provenance.units);
   const std::vector<Row>& rows = results.rows;
   const std::vector<std::size_t> chosen = rows_to_export(rows, options);
   const std::string to = options.to.empty() ? options.folder + "/export" : options.to;
   if (chosen.empty()) throw BadInput(options.folder + ": holds no finished packing to export");
+  const auto is_periodic = [&](std::size_t k) {
+    return std::isfinite(shortest_period(rows[k].job.box));
+  };
+  if (options.periodic_images && std::none_of(chosen.begin(), chosen.end(), is_periodic)) {
+    throw BadInput("--periodic-images: no packing has a periodic side");
+  }
   refuse_shapes_without_room(format, options.folder, rows, chosen);
   make_folder(to);
   remove_leftovers_of_ended(to);
@@ -240,8 +256,9 @@ int perform(const ExportOptions& options) {
   std::cout << counted(written.size(), "packing") << " written to " << to
             << "/<label>-<group>-<replicate>" << ending << ", listed in index.csv\n";
   if (const GivenUnits& units = results.provenance.units; units && format != nullptr) {
-    std::cout << "Lengths in them are in d, which is " << length_in(*units, 1.0) << " "
-              << printed_unit(*units) << "\n";
+    const std::string d = "d, which is " + length_in(*units, 1.0) + " ";
+    std::cout << "Lengths in them are in " << (options.in_units ? "" : d) << printed_unit(*units)
+              << "\n";
   }
   if (unsettled > 0) {
     std::cout << unsettled << " of them did not settle or failed: see the column status there\n";

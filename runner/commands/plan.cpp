@@ -84,11 +84,15 @@ std::string learned_text(const std::string& folder, const Outcomes& outcomes,
   if (!std::filesystem::exists(folder)) {
     return "No packing is made in " + folder + ": there is no such folder\n";
   }
-  const auto made = std::count_if(jobs.begin(), jobs.end(),
-                                  [&](const Job& job) { return outcomes.contains(job.id); });
-  return counted(static_cast<std::size_t>(made), "packing") + " made in " + folder +
+  std::vector<Cost> left;
+  for (std::size_t k = 0; k < jobs.size(); ++k) {
+    if (!outcomes.contains(jobs[k].id)) left.push_back(costs[k]);
+  }
+  return counted(jobs.size() - left.size(), "packing") + " made in " + folder +
          ": estimates times " +
-         fixed(total_cpu_seconds(costs) / total_cpu_seconds(costs_of(jobs)), 2) + "\n";
+         fixed(total_cpu_seconds(costs) / total_cpu_seconds(costs_of(jobs)), 2) + "; " +
+         counted(left.size(), "packing") + " left, about " +
+         duration_text(total_cpu_seconds(left)) + " CPU\n";
 }
 
 /// CPU time of each of so many shards, as the uncorrected estimates divide them, s; 0 for those

@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 
 #include "runner/store/states.hpp"
+#include "runner/sweep/units.hpp"
 
 namespace grainsweep {
 
@@ -30,9 +31,10 @@ struct ContactTreatment {
 std::optional<ContactTreatment> contact_treatment(std::string_view text);
 
 struct ExportSettings {
-  ContactTreatment treatment;    ///< for surfaces
-  bool periodic_images = false;  ///< for surfaces: of grains that cross a periodic side
-  double voxels = 20.0;          ///< per d
+  ContactTreatment treatment;      ///< for surfaces
+  bool periodic_images = false;    ///< for surfaces: of grains that cross a periodic side
+  double voxels = 20.0;            ///< per d
+  Units lengths = {1.0, "d", {}};  ///< of surfaces
 };
 
 struct ExportedBed {

@@ -1,6 +1,7 @@
 #include "runner/export/surface_files.hpp"
 
 #include <cstdio>
+#include <utility>
 
 #include "engine/shape/convex_shape.hpp"
 #include "runner/export/surfaces.hpp"
@@ -25,13 +26,18 @@ std::string name_of(const ExportedBed& exported, const GrainSurface& surface) {
   return "grain_" + cell(id_of(grain)) + "_" + class_name(exported, grain);
 }
 
-/// name and surface of every grain, and of the container.
+/// name and surface of every grain, and of the container, in the lengths of the settings.
 template <class Write>
 void for_each_surface(const ExportedBed& exported, Write write) {
-  for (const GrainSurface& grain : grain_surfaces(exported)) {
-    write(name_of(exported, grain), grain.surface);
+  const auto write_scaled = [&](const std::string& name, Surface surface) {
+    for (Vector& vertex : surface.vertices) vertex *= exported.settings.lengths.d;
+    write(name, surface);
+  };
+  for (GrainSurface& grain : grain_surfaces(exported)) {
+    write_scaled(name_of(exported, grain), std::move(grain.surface));
   }
-  write("container", container_surface(exported.bed.box, height_of(exported.bed) + headroom));
+  write_scaled("container",
+               container_surface(exported.bed.box, height_of(exported.bed) + headroom));
 }
 
 std::string facet(const Vector& a, const Vector& b, const Vector& c) {
@@ -58,7 +64,7 @@ std::string surfaces_stl(const ExportedBed& exported) {
 }
 
 std::string surfaces_obj(const ExportedBed& exported) {
-  std::string text = "# grainsweep, lengths in d\n";
+  std::string text = "# grainsweep, lengths in " + exported.settings.lengths.unit + "\n";
   std::size_t first = 1;
   for_each_surface(exported, [&](const std::string& name, const Surface& surface) {
     text += "o " + name + "\n";

@@ -40,6 +40,17 @@ TEST_CASE("OBJ has the same surfaces as objects, with their polygons") {
                        Catch::Contains("o container\nv 0 0 0\n"));
 }
 
+TEST_CASE("lengths are in the unit that is asked for, those of cuts and necks, too") {
+  ExportedBed exported = stacked_cubes();
+  exported.settings.lengths = {2.0, "mm", {}};
+  CHECK_THAT(surfaces_obj(exported), Catch::StartsWith("# grainsweep, lengths in mm\n") &&
+                                         Catch::Contains("o grain_2_large\nv 3.5 3 2\n") &&
+                                         Catch::Contains("o container\nv 0 0 0\n"));
+  CHECK_THAT(surfaces_stl(exported), Catch::Contains("normal 0 0 -1\nouter loop\nvertex 3 3 0\n"));
+  exported.settings.treatment = *contact_treatment("bridge:0.2");
+  CHECK_THAT(surfaces_stl(exported), Catch::Contains("vertex 8 8 4.2\n"));
+}
+
 TEST_CASE("joined grains are one solid, called by the first, below the container's top") {
   ExportedBed exported = stacked_cubes();
   exported.settings.treatment = *contact_treatment("bridge:0.2");

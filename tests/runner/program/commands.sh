@@ -84,7 +84,7 @@ done
 expect_code 0 "$program" status out/small
 expect_text out.txt "10 of 10 packings done" "No runner at work"
 expect_code 0 "$program" plan small.json --out out/small --shards 3
-expect_text error.txt "packings made in out/small: estimates times "
+expect_text error.txt "10 packings made in out/small: estimates times " "; 0 packings left, about 0.00 s CPU"
 expect_text out.txt "No cluster is needed." "In 3 shards: about "
 expect_code 0 "$program" plan small.json --out out/smal
 expect_text error.txt "No packing is made in out/smal: there is no such folder"
@@ -150,6 +150,11 @@ expect_text out/small/report.html "bulk density / kg/m³" "d = 3.2 mm" "W / mm"
 cp out.txt report.txt
 expect_code 0 env PATH="$here/no-programs" "$program" report out/small
 cmp out.txt report.txt || fail "report prints other units than run"
+expect_code 0 "$program" export out/small --format obj --in-units --job "$job" --to in_mm
+expect_text out.txt "Lengths in them are in mm"
+grep -q "lengths in mm" in_mm/*.obj || fail "surfaces are not in mm"
+expect_code 2 "$program" export out/small --in-units
+expect_text error.txt "--in-units is of --format stl and obj, not of csv"
 expect_code 0 "$program" export out/small --job "$job" --to one
 expect_text out.txt "Lengths in them are in d, which is 3.2 mm"
 
