@@ -112,18 +112,28 @@ std::vector<double> unit_weights(const Bed<Kind>& bed, SizeWeight by) {
   return weights;
 }
 
+/// Volume and surface of a grain of size 1, d^3 and d^2.
+double unit_volume(const SphereBed& /*bed*/, std::size_t /*grain*/) { return sphere_volume(0.5); }
+double unit_volume(const PolyhedronBed& bed, std::size_t grain) { return bed.shape(grain).volume; }
+double unit_surface(const SphereBed& /*bed*/, std::size_t /*grain*/) { return pi; }
+double unit_surface(const PolyhedronBed& bed, std::size_t grain) {
+  return surface_area(bed.shape(grain));
+}
+
 template <class Kind>
 void measure_sizes(const Bed<Kind>& bed, PackingResult& result) {
-  double volume = 0.0, by_volume = 0.0, diameters = 0.0;
+  double volumes = 0.0, surfaces = 0.0, by_volume = 0.0, diameters = 0.0;
   for (std::size_t i = 0; i < bed.grains(); ++i) {
     const double diameter = 2.0 * bed.position[i].w;
-    const double mass = unit_weight(bed, i, SizeWeight::volume) * sphere_mass(bed.position[i].w);
+    const double volume = unit_volume(bed, i) * diameter * diameter * diameter;
     diameters += diameter;
-    volume += mass;
-    by_volume += mass * diameter;
+    volumes += volume;
+    surfaces += unit_surface(bed, i) * diameter * diameter;
+    by_volume += volume * diameter;
   }
   result.mean_diameter = diameters / static_cast<double>(bed.grains());
-  result.mean_diameter_by_volume = by_volume / volume;
+  result.mean_diameter_by_volume = by_volume / volumes;
+  result.sauter_diameter = 6.0 * volumes / surfaces;
 }
 
 std::vector<SettledGrain> grains_of(const Grains& bed, const Touching& near, double gap_tolerance,

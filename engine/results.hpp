@@ -234,7 +234,10 @@ struct PackingResult {
   std::vector<Coordination> coordination;    ///< one entry per gap tolerance of the spec
   double mean_diameter = 0.0;                ///< of all grains, d
   double mean_diameter_by_volume = 0.0;      ///< the same, each grain weighted by its volume, d
-  std::vector<SizeRow> sizes;                ///< from fine to coarse; empty without a distribution
+  /// 6 times the volume of all grains over their surface, d: of equal spheres their diameter. A bed
+  /// holds 6 solid_fraction / sauter_diameter of surface in its volume.
+  std::optional<double> sauter_diameter;
+  std::vector<SizeRow> sizes;  ///< from fine to coarse; empty without a distribution
   Profile profile_x;           ///< from wall to wall, in the slab; empty without walls and in tubes
   Profile profile_y;           ///< the same along y, from wall to wall or around; empty in tubes
   Profile profile_from_walls;  ///< from the nearest wall inwards; only in ducts and tubes

@@ -201,6 +201,11 @@ std::vector<Field> further_fields() {
       in_result<&Result::mean_diameter>("mean_diameter", "d", "of all grains"),
       in_result<&Result::mean_diameter_by_volume>("mean_diameter_by_volume", "d",
                                                   "the same, each grain weighted by its volume"),
+      in_result<&Result::sauter_diameter>(
+          "sauter_diameter", "d",
+          "6 times the volume of all grains over their surface; a volume of the bed holds 6 times "
+          "solid_fraction over it of their surface",
+          with_mean),
   };
 }
 

@@ -64,7 +64,8 @@ TEST_CASE("profiles and order of a packing belong to its solid fraction and coor
   spec.fill = GrainCount{400};
   spec.sizes = {1.0 / 30.0, 0.25, 0.5};
   spec.measure.bin_width = 0.25;
-  const PackingResult result = pack(spec).result;
+  const Packing packing = pack(spec);
+  const PackingResult& result = packing.result;
   REQUIRE(result.profile_y.bins.size() == 16);
   double solid = 0, small_solid = 0;
   std::int64_t grains = 0, small = 0, neighbours = 0;
@@ -85,6 +86,12 @@ TEST_CASE("profiles and order of a packing belong to its solid fraction and coor
   CHECK(std::isfinite(result.order.segregation));
   CHECK(result.order.force_mean > 1);
   CHECK((result.mean_diameter > 0.5 && result.mean_diameter < result.mean_diameter_by_volume));
+  double cubes = 0.0, squares = 0.0;
+  for (const SettledGrain& grain : packing.grains) {
+    squares += grain.radius * grain.radius;
+    cubes += grain.radius * grain.radius * grain.radius;
+  }
+  CHECK(result.sauter_diameter.value() == Approx(2.0 * cubes / squares).epsilon(1e-12));
 }
 
 TEST_CASE("the grains of a packing lie in the box with their forces and neighbours") {

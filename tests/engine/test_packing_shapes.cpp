@@ -289,6 +289,21 @@ TEST_CASE("components have the profiles that the bed has, which hold their solid
   }
 }
 
+TEST_CASE("the Sauter diameter is that of spheres with as much surface for their volume") {
+  const auto sauter_diameter = [](const ShapeSpec& shape) {
+    PackingSpec spec = small_spec(shape);
+    spec.sizes.spread = 0.0;
+    return pack(spec).result.sauter_diameter.value();
+  };
+  CHECK(sauter_diameter(CubeSize{}) == Approx(1.0).epsilon(1e-12));
+  // A brick a by b by c: 6 a b c / (2 (a b + b c + c a)).
+  CHECK(sauter_diameter(CuboidSize{1, 0.8, 0.5}) == Approx(2.4 / 3.4).epsilon(1e-12));
+  // As many cubes as balls of size 1: volumes 1 and pi / 6, surfaces 6 and pi.
+  const double halves = 6.0 * (1.0 + pi / 6.0) / (6.0 + pi);
+  const Mixture both{{{0.5, CubeSize{}}, {0.5, SphereShape{}}}, ShareBy::number};
+  CHECK(sauter_diameter(both) == Approx(halves).epsilon(0.02));  // one grain more or less
+}
+
 TEST_CASE("a mixture of equal components packs as their shape alone does, bit by bit") {
   const PinacoidSize pinacoid{1.2, 1, 0.8};
   const PrismSize prism{5, 0.8, 1.1};

@@ -54,6 +54,7 @@ inline Outcome sample_outcome(const std::string& job, double solid_fraction, dou
                          {1e-5, coordination - 0.125, coordination}};
   result.mean_diameter = 0.98;
   result.mean_diameter_by_volume = 0.99;
+  result.sauter_diameter = 0.985;
   result.order.q6_global = 0.03;
   result.order.q6_local = 0.4;
   result.order.three_contact_share = 0.1;
