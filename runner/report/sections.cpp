@@ -63,10 +63,11 @@ std::vector<Heading> unit_headings(const std::vector<Group>& groups, const Units
 }
 
 std::vector<std::string> group_cells(const Group& group, const GivenUnits& units) {
+  const Spread& phi = mean_of(group, "solid_fraction");
   std::vector<std::string> cells = {html_text(title_of(group)),
                                     html_text(settled_of(group.counts)),
-                                    mean_text(mean_of(group, "solid_fraction"), 4),
-                                    fixed(1.0 - mean_of(group, "solid_fraction").mean, 4),
+                                    mean_text(phi, 4),
+                                    with_error(1.0 - phi.mean, phi.error, 4),
                                     mean_text(mean_of(group, "coordination"), 3),
                                     mean_text(mean_of(group, "coordination_with_walls"), 3),
                                     fixed(mean_of(group, "contact_ratio").mean, 4),
