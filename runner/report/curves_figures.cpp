@@ -12,6 +12,7 @@
 #include "runner/tables/decays.hpp"
 #include "runner/tables/distributions.hpp"
 #include "runner/tables/fits.hpp"
+#include "runner/tables/profiles.hpp"
 
 namespace grainsweep {
 namespace {
@@ -19,6 +20,43 @@ namespace {
 constexpr std::size_t most_curves = 6;
 constexpr double farthest = 4.0;  ///< d, to which g is drawn
 constexpr int bins_to_mark = 4;   ///< from mark to mark along g, whose bins are many
+
+constexpr std::size_t most_heights = 3;
+constexpr std::size_t most_bars = 100;  // of a curve over the height
+
+/// The mean profiles along z: bins are too few grains each for a coordination number.
+std::vector<std::vector<MeanBin>> slices_of(const std::vector<GroupWithCurves>& groups) {
+  std::vector<std::vector<MeanBin>> all;
+  for (const GroupWithCurves& group : groups) {
+    all.push_back(mean_layers(*group, &PackingResult::profile_z, 1.0));
+  }
+  return all;
+}
+
+std::string heights_csv(const std::vector<GroupWithCurves>& groups,
+                        const std::vector<std::vector<MeanBin>>& slices) {
+  std::string text = csv_line({"curve", "group", "z", "solid_fraction", "solid_fraction_error",
+                               "coordination", "coordination_error", "name"});
+  for (std::size_t k = 0; k < groups.size(); ++k) {
+    for (const MeanBin& bin : slices[k]) {
+      text += csv_line({cell(k + 1), cell(groups[k]->number), cell((bin.low + bin.high) / 2.0),
+                        cell(bin.solid_fraction.mean), cell(bin.solid_fraction.error),
+                        cell(bin.coordination.mean), cell(bin.coordination.error),
+                        cell(title_of(*groups[k]))});
+    }
+  }
+  return text;
+}
+
+/// All means of these bins, and 0.
+std::vector<double> means_in(const std::vector<std::vector<MeanBin>>& slices,
+                             Spread MeanBin::*spread) {
+  std::vector<double> values = {0.0};
+  for (const auto& bins : slices) {
+    for (const MeanBin& bin : bins) values.push_back((bin.*spread).mean);
+  }
+  return values;
+}
 
 std::string curves_csv(const std::vector<GroupWithCurves>& groups) {
   std::string text = csv_line({"curve", "group", "x", "value", "error", "name"});
@@ -209,6 +247,53 @@ Figure distributions_figure(const Axes& axes) {
   return figure;
 }
 
+Figure heights_figure(const Axes& axes) {
+  Figure figure{
+      .name = "heights",
+      .title = "From the floor to the surface",
+      .caption =
+          "Solid fraction and coordination number (walls not counted) of slices 1 d thick; "
+          "bars, where there is room for them, are standard errors. What is measured as "
+          "a bed's is the part between, away from floor and surface. Thinner slices are "
+          "in the folder's profiles.csv."};
+  const std::vector<GroupWithCurves> groups = chosen_groups(axes, most_heights);
+  if (groups.empty()) {
+    figure.not_drawn = "no packing has settled";
+    return figure;
+  }
+  const std::string table = "heights.csv";
+  const auto slices = slices_of(groups);
+  double highest = 0.0;
+  for (const auto& bins : slices)
+    highest = std::max(highest, bins.empty() ? 0.0 : bins.back().high);
+  figure.tables = {{table, heights_csv(groups, slices)}};
+  figure.caption += few_of_all_text(groups.size(), axes);
+  std::vector<std::string> solid, touching;
+  std::vector<KeyEntry> key;
+  const auto titles = titles_of(groups, longest_entry);
+  for (std::size_t k = 0; k < groups.size(); ++k) {
+    const std::string style = "lines ls " + cell(k + 1);
+    key.push_back({style, titles[k]});
+    const bool has_bars = slices[k].size() <= most_bars;
+    const auto curve_of = [&](const std::string& column) {
+      return plot_part(
+          {table, "curve", k + 1, "z", column, has_bars ? column + "_error" : "", style});
+    };
+    solid.push_back(curve_of("solid_fraction"));
+    touching.push_back(curve_of("coordination"));
+  }
+  const Panels panels(figure, 2, {1.0}, key, {.right = 24.0});
+  const std::string z = range_command("x", {0.0, highest}) + label_command("x", "height, z / d");
+  figure.commands = "set multiplot\n" + panels.key() + panels.place(0, 0) + z +
+                    label_command("y", "solid fraction φ") +
+                    range_command("y", range_of(means_in(slices, &MeanBin::solid_fraction), 0.04)) +
+                    plot_command(solid) + panels.place(1, 0) + z +
+                    label_command("y", "coordination number Z") +
+                    range_command("y", range_of(means_in(slices, &MeanBin::coordination), 0.04)) +
+                    plot_command(touching);
+  return figure;
+}
+
 Figure small_share_figure(const std::vector<Family>& families, const std::string& folder) {
   Figure figure{.name = "small_grains",
                 .title = "Small grains",
@@ -353,6 +438,7 @@ std::vector<Figure> figures_of(const std::vector<Row>& rows, const Analysis& ana
     return row.outcome && row.outcome->result.shape_order;
   });
   if (has_kinds) figures.push_back(contacts_figure(axes));
+  figures.push_back(heights_figure(axes));
   figures.push_back(distributions_figure(axes));
   figures.push_back(effort_figure(axes, rows));
   if (!comparisons.empty()) figures.push_back(published_figure(comparisons));

@@ -13,7 +13,7 @@ namespace grainsweep {
 
 /// What the files of figures begin with.
 inline constexpr std::array figure_names = {
-    "parameters", "means",    "means-residuals", "profiles", "small_grains",
+    "parameters", "means",    "means-residuals", "profiles", "heights",  "small_grains",
     "components", "contacts", "distributions",   "effort",   "published"};
 
 /// Solid fraction, porosity and coordination number along the axis, with fits and their residuals.
@@ -25,6 +25,9 @@ Figure parameters_figure(const Axes& axes);
 /// Solid fraction and coordination number across the gap, beside each other, with the damped
 /// cosine that was fitted.
 Figure profiles_figure(const Axes& axes);
+
+/// Solid fraction and coordination number from the floor to the surface.
+Figure heights_figure(const Axes& axes);
 
 /// How far the walls reach and what they cost, against the share of small grains.
 Figure small_share_figure(const std::vector<Family>& families, const std::string& folder);

@@ -1,5 +1,8 @@
 #include "runner/tables/profiles.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace grainsweep {
 namespace {
 
@@ -81,6 +84,23 @@ void append_bins(const Group& group, const char* axis, Profile PackingResult::*p
   for (const MeanBin& bin : mean_profile(group, profile)) lines.push_back({group, axis, bin});
 }
 
+Profile in_layers(const Profile& fine, double thickness) {
+  const double bins = std::max(1.0, std::round(thickness / fine.bin_width));
+  Profile coarse{bins * fine.bin_width, {}};
+  for (std::size_t k = 0; k < fine.bins.size(); ++k) {
+    if (k % static_cast<std::size_t>(bins) == 0) coarse.bins.emplace_back();
+    const ProfileBin& from = fine.bins[k];
+    ProfileBin& to = coarse.bins.back();
+    to.large += from.large / bins;
+    to.small += from.small / bins;
+    to.large_grains += from.large_grains;
+    to.small_grains += from.small_grains;
+    to.neighbours += from.neighbours;
+    to.walls += from.walls;
+  }
+  return coarse;
+}
+
 }  // namespace
 
 double from_axis(const Group& group, std::string_view axis, double low, double high) {
@@ -91,6 +111,17 @@ double from_axis(const Group& group, std::string_view axis, double low, double h
 std::vector<MeanBin> mean_profile(const Group& group, Profile PackingResult::*profile) {
   std::vector<const Profile*> profiles;
   for (const Outcome& outcome : group.settled) profiles.push_back(&(outcome.result.*profile));
+  return mean_bins(profiles, ProfileBin(), mean_bin);
+}
+
+std::vector<MeanBin> mean_layers(const Group& group, Profile PackingResult::*profile,
+                                 double thickness) {
+  std::vector<Profile> layers;
+  for (const Outcome& outcome : group.settled) {
+    layers.push_back(in_layers(outcome.result.*profile, thickness));
+  }
+  std::vector<const Profile*> profiles;
+  for (const Profile& one : layers) profiles.push_back(&one);
   return mean_bins(profiles, ProfileBin(), mean_bin);
 }
 

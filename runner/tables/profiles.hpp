@@ -60,6 +60,10 @@ auto mean_bins(const std::vector<const AnyProfile*>& profiles, const Bin& beyond
 /// highest grain of a packing nothing is solid.
 std::vector<MeanBin> mean_profile(const Group& group, Profile PackingResult::*profile);
 
+/// The same in layers of as many bins as come nearest to `thickness`, d.
+std::vector<MeanBin> mean_layers(const Group& group, Profile PackingResult::*profile,
+                                 double thickness);
+
 /// The file: along x and y, from the walls and along z of each group.
 CurveTable profiles_table(const Varied& varied, const GivenUnits& units = {});
 

@@ -62,10 +62,10 @@ for name in widths sizes pinacoids mixture failed empty; do
 done
 [ ! -e x ]
 [ ! -e widths/figures/x ]
-has_figures widths means profiles distributions effort published
-has_figures sizes means profiles small_grains distributions effort
-has_figures pinacoids means profiles contacts distributions effort
-has_figures mixture means profiles components contacts distributions effort
+has_figures widths means profiles heights distributions effort published
+has_figures sizes means profiles small_grains heights distributions effort
+has_figures pinacoids means profiles contacts heights distributions effort
+has_figures mixture means profiles components contacts heights distributions effort
 has_figures failed effort
 [ -s widths/figures/means-residuals.csv ]
 /usr/bin/python3 - widths <<'EOF'

@@ -213,6 +213,7 @@ TEST_CASE("figures without a meaning for the sweep are left out", "[report]") {
                        [&](const Figure& figure) { return figure.name == name; });
   };
   CHECK(has("profiles"));
+  CHECK(has("heights"));
   CHECK(has("distributions"));
   CHECK(has("effort"));
   CHECK_FALSE(has("contacts"));

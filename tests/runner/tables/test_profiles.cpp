@@ -62,6 +62,27 @@ TEST_CASE("nothing is solid above the highest grain of a bed that others are hig
   CHECK(bins[1].coordination.n == 1);
 }
 
+TEST_CASE("layers are whole numbers of bins, with the solid and the neighbours of all of them") {
+  Row low = settled_row("a", 5, 0.6, 6), high = settled_row("b", 5, 0.6, 6);
+  low.outcome->result.profile_z = {0.5, {{0.5, 0.25, 1, 2, 12, 3}, {0.25, 0, 1, 0, 6, 0}}};
+  high.outcome->result.profile_z = {
+      0.5, {{0.5, 0.25, 4, 0, 12, 0}, {0.5, 0, 0, 0, 0, 0}, {0.5, 0, 2, 0, 10, 1}}};
+  const std::vector<Row> rows = {low, high};
+  const auto groups = groups_of(rows);
+  const auto layers = mean_layers(groups.at(0), &PackingResult::profile_z, 0.9);
+  REQUIRE(layers.size() == 2);
+  CHECK((layers[0].low == 0.0 && layers[0].high == 1.0 && layers[1].high == 2.0));
+  CHECK(layers[0].solid_fraction.mean == (0.5 + 0.625) / 2);
+  CHECK(layers[0].large.mean == (0.375 + 0.5) / 2);
+  CHECK(layers[0].coordination.mean == (18.0 / 4 + 12.0 / 4) / 2);
+  CHECK(layers[0].coordination_with_walls.mean == (21.0 / 4 + 12.0 / 4) / 2);
+  CHECK(layers[1].solid_fraction.mean == (0.0 + 0.25) / 2);  // the half without a bin is empty
+  CHECK(layers[1].coordination.mean == 5);
+  const auto bins = mean_layers(groups.at(0), &PackingResult::profile_z, 0.1);
+  CHECK(bins.size() == 3);
+  CHECK(bins[1].solid_fraction.mean == 0.375);
+}
+
 TEST_CASE("a bed without a profile along an axis takes no part in its mean") {
   Row without = settled_row("a", 5, 0.6, 6), with = settled_row("b", 5, 0.6, 6);
   without.outcome->result.profile_z = {};
