@@ -263,7 +263,7 @@ Figure heights_figure(const Axes& axes) {
   }
   const std::string table = "heights.csv";
   const auto slices = slices_of(groups);
-  double highest = 0.0;
+  double highest = 1.0;
   for (const auto& bins : slices)
     highest = std::max(highest, bins.empty() ? 0.0 : bins.back().high);
   figure.tables = {{table, heights_csv(groups, slices)}};
