@@ -10,6 +10,7 @@
 #include <ctime>
 #include <exception>
 #include <fstream>
+#include <iterator>
 #include <limits>
 #include <random>
 #include <sstream>
@@ -103,7 +104,13 @@ bool has_ended(const std::string& process_name) {
   if (!process_name.starts_with(host_name() + "-")) return false;
   const std::string number = number_of_process(process_name);
   constexpr std::size_t most_digits = 9;
-  return number.size() <= most_digits && kill(std::stoi(number), 0) != 0 && errno == ESRCH;
+  if (number.size() > most_digits) return false;
+  if (kill(std::stoi(number), 0) != 0 && errno == ESRCH) return true;
+  // One that was killed has its number until its parent has looked: "4711 (its name) Z ...".
+  std::ifstream file("/proc/" + number + "/stat");
+  const std::string stat{std::istreambuf_iterator<char>(file), {}};
+  const std::size_t name_end = stat.rfind(") ");
+  return name_end != std::string::npos && (stat[name_end + 2] == 'Z' || stat[name_end + 2] == 'X');
 }
 
 std::string processor_name() {

@@ -19,7 +19,7 @@ fi
 spheres='{ "label": "spheres", "set": { "fill.grains": '${grains[0]}' } }'
 others='{ "label": "cubes", "set": { "shape": "cube", "fill.grains": '${grains[1]}' } },
         { "label": "periodic", "set": { "fill.grains": 20, "box.length": 3, "box.width": 3, "box.x": "periodic" } }'
-[ "$which" = caps ] && blocks=$spheres || blocks="$spheres, $others"
+[ "$which" = caps ] && blocks=$spheres images= || blocks="$spheres, $others" images=--periodic-images
 cat >sweep.json <<JSON
 { "name": "sweep", "seed": 5,
   "base": { "accuracy": "fast", "box": { "length": $side, "width": $side, "x": "walls", "y": "walls" },
@@ -28,7 +28,7 @@ cat >sweep.json <<JSON
 JSON
 "$grainsweep" run sweep.json --quiet --no-report --out out || [ $? -eq 1 ]
 for contacts in shrink:0.98 cap:0.2 bridge:0.2; do
-  "$grainsweep" export out --format stl --contacts $contacts --periodic-images --to "${contacts%:*}" >/dev/null
+  "$grainsweep" export out --format stl --contacts $contacts $images --to "${contacts%:*}" >/dev/null
 done
 
 if [ "$which" = caps ]; then

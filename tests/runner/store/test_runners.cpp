@@ -1,7 +1,9 @@
 #include <fcntl.h>
+#include <unistd.h>
 
 #include <catch2/catch.hpp>
 #include <sys/stat.h>
+#include <sys/wait.h>
 
 #include "runner/machine.hpp"
 #include "runner/store/runners.hpp"
@@ -51,6 +53,20 @@ TEST_CASE("a runner of this machine without its lock is lost once its process ha
   { const ShardFiles files(folder.path(), {}, run); }
   REQUIRE(runners_now(folder).size() == 1);
   CHECK(runners_now(folder)[0].is_lost);
+}
+
+TEST_CASE("a process that nobody has waited for has ended all the same") {
+  const pid_t child = fork();
+  if (child == 0) _exit(0);
+  REQUIRE(child > 0);
+  siginfo_t facts{};
+  REQUIRE(waitid(P_PID, static_cast<id_t>(child), &facts, WEXITED | WNOWAIT) == 0);
+  const std::string name = host_name() + "-1-" + std::to_string(child);
+  CHECK(has_ended(name));
+  REQUIRE(waitpid(child, nullptr, 0) == child);
+  CHECK(has_ended(name));
+  CHECK_FALSE(has_ended(process_name()));
+  CHECK_FALSE(has_ended("another-machine-1-999999999"));
 }
 
 TEST_CASE("a runner of this machine is at work where the file system knows no locks") {
