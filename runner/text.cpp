@@ -32,7 +32,9 @@ std::string fixed(double value, int decimals) {
 
 std::string with_error(double value, double error, int decimals) {
   constexpr int most_more = 4;
-  for (int more = 0; more < most_more && error > 0.0 && error < 0.5 * std::pow(10.0, -decimals);
+  constexpr double rounding = 1e-12;  // of values that are all the same
+  const bool is_error = error > rounding * std::abs(value);
+  for (int more = 0; more < most_more && is_error && error < 0.5 * std::pow(10.0, -decimals);
        ++more) {
     ++decimals;  // so that no error is printed as zero
   }

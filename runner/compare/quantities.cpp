@@ -36,7 +36,7 @@ template <Quantity quantity>
 Measured unconfined(const Family& family) {
   const Group* group = unconfined_reference(family);
   if (group != nullptr) return mean_of<quantity>(family, *group);
-  return {{}, "the sweep has no settled packing with periodic y", ""};
+  return {{}, "the family has no settled packing with periodic y", ""};
 }
 
 Measured fitted(const Family& family, const WallFit& fit, const Estimate& estimate) {

@@ -95,7 +95,12 @@ class Sweep:
             raise AttributeError(name)
         if name not in self.tables:
             raise AttributeError(f"{self.folder} has no table {name}, but {', '.join(self.tables)}")
-        table = _table((self.folder / f"{name}.csv").read_text(encoding="utf-8"))
+        path = self.folder / f"{name}.csv"
+        text = path.read_text(encoding="utf-8")
+        if not text.endswith("\n"):
+            report = f"grainsweep report {shlex.quote(str(self.folder))}"
+            raise ValueError(f"{path} is cut off: write it anew with `{report}`")
+        table = _table(text)
         table.attrs = {"units": self.units(name), "meanings": self.meanings(name)}
         setattr(self, name, table)
         return table
@@ -145,7 +150,8 @@ class Sweep:
 
     def _why_no_bed(self, job):
         if job in set(self.packings["job"]):
-            return f"{job}: no bed is stored in {self.folder}; see its status and reason in packings"
+            return (f"{job}: no bed is stored in {self.folder}, or its line in a journal is damaged; see its "
+                    "status and reason in packings, and what `grainsweep status` says of the folder")
         return f"{job}: no packing of {self.folder} has this id; ids are in column job of packings"
 
 

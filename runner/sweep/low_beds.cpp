@@ -1,5 +1,6 @@
 #include "runner/sweep/low_beds.hpp"
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <variant>
@@ -39,7 +40,7 @@ std::string remedy_of(const LowBeds& beds) {
   const auto* grains = std::get_if<GrainCount>(&spec.fill);
   if (grains != nullptr) {
     return joined("fill.grains ",
-                  static_cast<std::int64_t>(static_cast<double>(grains->count) * times));
+                  static_cast<std::int64_t>(std::ceil(static_cast<double>(grains->count) * times)));
   }
   return "fill.solid_height " + number_text(std::get<SolidHeight>(spec.fill).height * times);
 }

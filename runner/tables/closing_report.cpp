@@ -33,8 +33,8 @@ std::string packings_text(const Group& group) {
 }
 
 std::string cells_text(const std::string& width, const std::array<std::string, 5>& cells) {
-  return pad_right(width, 12) + pad_left(cells[0], 16) + pad_left(cells[1], 16) +
-         pad_left(cells[2], 14) + pad_left(cells[3], 10) + pad_left(cells[4], 11);
+  return pad_right(width, 12) + pad_left(cells[0], 16) + pad_left(" " + cells[1], 16) +
+         pad_left(" " + cells[2], 14) + pad_left(" " + cells[3], 10) + pad_left(" " + cells[4], 11);
 }
 
 /// The columns of a table: their heads, and the cells of a group.

@@ -206,7 +206,8 @@ s = grainsweep.open("pending")
 assert told(KeyError, lambda: s.bed("xx")) == (
     "xx: no packing of pending has this id; ids are in column job of packings")
 assert told(KeyError, lambda: s.bed("0123456789abcdef")) == (
-    "0123456789abcdef: no bed is stored in pending; see its status and reason in packings")
+    "0123456789abcdef: no bed is stored in pending, or its line in a journal is damaged; see its status and "
+    "reason in packings, and what `grainsweep status` says of the folder")
 PYTHON
 
 sed -n '/^```python/,/^```/{//!p}' "$root/runner/python/README.md" >example.py

@@ -28,6 +28,7 @@ TEST_CASE("an error is printed to the decimals asked for, or as many more as sho
   CHECK(with_error(0.92, 0.005, 2) == "0.92 ± 0.01");
   CHECK(with_error(0.92, 0.0, 2) == "0.92 ± 0.00");
   CHECK(with_error(0.5, 1e-12, 2) == "0.500000 ± 0.000000");
+  CHECK(with_error(0.5, 1e-13, 2) == "0.50 ± 0.00");  // of values that are the same to rounding
   CHECK(with_error(0.5, std::nan(""), 2) == "0.50");
   CHECK(with_error(std::nan(""), 0.1, 2).starts_with("-"));
 }

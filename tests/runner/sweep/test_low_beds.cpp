@@ -24,7 +24,7 @@ TEST_CASE("beds that will probably be too low to be measured are noted, block by
   CHECK(notes[0].message ==
         "1 of 3 parameter sets will probably come out too low to be measured: with tube.diameter 8 "
         "about 5.2 d high, where measure.exclude_floor, measure.exclude_surface and a slab of 1 d "
-        "between them take 7 d; give that one fill.grains 442 or more, or leave less out");
+        "between them take 7 d; give that one fill.grains 443 or more, or leave less out");
   CHECK(notes[1].pointer == "/sweep/2");
   CHECK_THAT(notes[1].message, Catch::StartsWith("1 of 1 parameter sets"));
 }
