@@ -18,11 +18,13 @@ std::optional<Distribution> distribution_named(const std::string& name) {
   return std::nullopt;
 }
 
-/// What is wrong with the bounds of a number; "" if nothing is.
-std::string bounds_error(const RandomPath& random, const Json& bounds) {
-  const bool pair =
+/// Reads the bounds of a number; what is wrong with them, "" if nothing is.
+std::string read_pair(const Json& bounds, RandomPath& random) {
+  const bool is_pair =
       bounds.is_array() && bounds.size() == 2 && bounds[0].is_number() && bounds[1].is_number();
-  if (!pair) return "must be a list of two numbers, is " + describe(bounds);
+  if (!is_pair) return "must be a list of two numbers, is " + describe(bounds);
+  random.low = bounds[0].get<double>();
+  random.high = bounds[1].get<double>();
   if (random.low > random.high) return "the first bound must not exceed the second";
   if (random.distribution == Distribution::log_uniform && !(random.low > 0.0)) {
     return "the bounds of log_uniform must be positive, the first is " + describe(bounds[0]);
@@ -44,11 +46,7 @@ bool read_bounds(const Json& bounds, const std::string& pointer, RandomPath& ran
     return false;
   }
   random.parameter = *find_parameter(random.path);
-  if (bounds.is_array() && bounds.size() == 2 && bounds[0].is_number() && bounds[1].is_number()) {
-    random.low = bounds[0].get<double>();
-    random.high = bounds[1].get<double>();
-  }
-  const std::string error = bounds_error(random, bounds);
+  const std::string error = read_pair(bounds, random);
   if (!error.empty()) diagnostics.push_back({pointer, error});
   return error.empty();
 }
@@ -117,13 +115,9 @@ std::uint64_t read_random_count(const Json& random, const std::string& pointer,
     diagnostics.push_back({pointer, "\"count\", the number of points to draw, is missing"});
     return 0;
   }
-  if (const auto count = whole_number_in(*found, 1, most_random_points)) {
-    return static_cast<std::uint64_t>(*count);
-  }
-  const std::string range = "[1, " + std::to_string(most_random_points) + "]";
-  diagnostics.push_back({child_pointer(pointer, "count"),
-                         "must be a whole number in " + range + ", is " + describe(*found)});
-  return 0;
+  const auto count =
+      whole_number_in(*found, 1, most_random_points, child_pointer(pointer, "count"), diagnostics);
+  return static_cast<std::uint64_t>(count.value_or(0));
 }
 
 }  // namespace grainsweep

@@ -67,13 +67,9 @@ Replicates read_growing(const Json& value, const std::string& pointer, Diagnosti
   }
   const auto most = value.find("most");
   if (most == value.end()) return replicates;
-  if (const auto count = whole_number_in(*most, 2, most_replicates)) {
-    replicates.most = static_cast<int>(*count);
-  } else {
-    diagnostics.push_back({child_pointer(pointer, "most"), "must be a whole number in [2, " +
-                                                               std::to_string(most_replicates) +
-                                                               "], is " + describe(*most)});
-  }
+  const auto count =
+      whole_number_in(*most, 2, most_replicates, child_pointer(pointer, "most"), diagnostics);
+  replicates.most = static_cast<int>(count.value_or(replicates.most));
   return replicates;
 }
 
@@ -85,12 +81,8 @@ Replicates read_replicates(const Json& object, const std::string& pointer,
   if (found == object.end()) return otherwise;
   const std::string place = child_pointer(pointer, "replicates");
   if (found->is_object()) return read_growing(*found, place, diagnostics);
-  if (const auto count = whole_number_in(*found, 1, most_replicates)) {
-    return {static_cast<int>(*count)};
-  }
-  diagnostics.push_back({place, "must be a whole number in [1, " + std::to_string(most_replicates) +
-                                    "], is " + describe(*found)});
-  return otherwise;
+  const auto count = whole_number_in(*found, 1, most_replicates, place, diagnostics);
+  return count ? Replicates{static_cast<int>(*count)} : otherwise;
 }
 
 }  // namespace grainsweep

@@ -22,15 +22,6 @@ std::optional<double> end_of(const Parameter& parameter, const Json& range, cons
   return std::nullopt;
 }
 
-std::optional<std::int64_t> count_of(const Json& count, const std::string& pointer,
-                                     Diagnostics& diagnostics) {
-  if (const auto whole = whole_number_in(count, 2, most_spaced_values)) return whole;
-  const std::string range = "[2, " + std::to_string(most_spaced_values) + "]";
-  diagnostics.push_back({child_pointer(pointer, "count"),
-                         "must be a whole number in " + range + ", is " + describe(count)});
-  return std::nullopt;
-}
-
 bool has_members(const Json& range) {
   return range.is_object() && range.size() == 3 && range.contains("from") && range.contains("to") &&
          range.contains("count");
@@ -48,7 +39,8 @@ Json spaced_values(const std::string& path, const Json& range, const std::string
   const Parameter& parameter = parameters()[*find_parameter(path)];
   const auto from = end_of(parameter, range, "from", pointer, diagnostics);
   const auto to = end_of(parameter, range, "to", pointer, diagnostics);
-  const auto count = count_of(range.at("count"), pointer, diagnostics);
+  const auto count = whole_number_in(range.at("count"), 2, most_spaced_values,
+                                     child_pointer(pointer, "count"), diagnostics);
   if (!from || !to || !count) return nullptr;
   Json values = Json::array();
   for (std::int64_t k = 0; k < *count; ++k) {

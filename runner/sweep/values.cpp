@@ -208,12 +208,16 @@ std::string range_error(const Parameter& parameter, const Value& value) {
   return "";
 }
 
-std::optional<std::int64_t> whole_number_in(const Json& value, std::int64_t low,
-                                            std::int64_t high) {
-  if (!is_whole(value)) return std::nullopt;
-  const auto number = value.get<double>();  // bounds are far below those of exact numbers
-  if (number < static_cast<double>(low) || number > static_cast<double>(high)) return std::nullopt;
-  return value.get<std::int64_t>();
+std::optional<std::int64_t> whole_number_in(const Json& value, std::int64_t low, std::int64_t high,
+                                            const std::string& pointer, Diagnostics& diagnostics) {
+  // As doubles, for the bounds are far below those of exact numbers.
+  if (is_whole(value) && value.get<double>() >= static_cast<double>(low) &&
+      value.get<double>() <= static_cast<double>(high)) {
+    return value.get<std::int64_t>();
+  }
+  diagnostics.push_back({pointer, "must be a whole number in [" + std::to_string(low) + ", " +
+                                      std::to_string(high) + "], is " + describe(value)});
+  return std::nullopt;
 }
 
 nlohmann::json written_value(const Parameter& parameter, const Value& value) {

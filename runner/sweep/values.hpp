@@ -24,9 +24,10 @@ std::string range_error(const Parameter& parameter, const Value& value);
 /// A value of `parameter` as the sweep file writes it.
 nlohmann::json written_value(const Parameter& parameter, const Value& value);
 
-/// The whole number in [`low`, `high`] that `value` is, 3.0 being 3; nothing if it is another
-/// value.
-std::optional<std::int64_t> whole_number_in(const Json& value, std::int64_t low, std::int64_t high);
+/// The whole number in [`low`, `high`] that `value`, written at `pointer`, is, 3.0 being 3; for
+/// another value nothing, and a diagnostic.
+std::optional<std::int64_t> whole_number_in(const Json& value, std::int64_t low, std::int64_t high,
+                                            const std::string& pointer, Diagnostics& diagnostics);
 
 /// What a value is, for messages: `the text "abc"`, "4.5", "a list", "an object".
 std::string describe(const Json& value);
