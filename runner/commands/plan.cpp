@@ -3,7 +3,6 @@
 #include <cmath>
 #include <filesystem>
 #include <iostream>
-#include <map>
 
 #include <CLI/App.hpp>
 #include <nlohmann/json.hpp>
@@ -36,18 +35,14 @@ constexpr std::size_t groups_shown = 40;
 /// Jobs with one label and one parameter set.
 struct PlannedGroup {
   const Job* first = nullptr;
-  int packings = 0;
+  std::size_t packings = 0;
   Cost cost;  ///< of one packing
 };
 
 std::vector<PlannedGroup> planned_groups(const Sweep& sweep, const std::vector<Cost>& costs) {
   std::vector<PlannedGroup> groups;
-  std::map<std::pair<std::string, std::string>, std::size_t> index_of;
-  for (std::size_t i = 0; i < costs.size(); ++i) {
-    const Job& job = sweep.jobs[i];
-    const auto [known, is_new] = index_of.try_emplace({job.label, job.parameters}, groups.size());
-    if (is_new) groups.push_back({&job, 0, costs[i]});
-    ++groups[known->second].packings;
+  for (const Places& set : parameter_sets(sweep.jobs)) {
+    groups.push_back({&sweep.jobs[set.front()], set.size(), costs[set.front()]});
   }
   return groups;
 }
@@ -125,22 +120,20 @@ std::string shards_text(const Sweep& sweep, const std::vector<Cost>& costs, int 
 /// Which packings come next, of growing groups and others, after those that are made.
 std::string next_text(const Sweep& sweep, const Outcomes& made, const PackingNames& names) {
   constexpr std::size_t most_shown = 8;
-  std::vector<std::pair<const Job*, std::size_t>> next;  // of each group, how many
-  std::map<std::pair<std::string, std::string>, std::size_t> index_of;
+  std::vector<Places> next = parameter_sets(sweep.jobs);
   std::size_t all = 0;
-  for (const Job& job : sweep.jobs) {
-    if (made.contains(job.id)) continue;
-    const auto [known, is_new] = index_of.try_emplace({job.label, job.parameters}, next.size());
-    if (is_new) next.emplace_back(&job, 0);
-    ++next[known->second].second;
-    ++all;
+  for (Places& set : next) {
+    std::erase_if(set, [&](std::size_t i) { return made.contains(sweep.jobs[i].id); });
+    all += set.size();
   }
+  std::erase_if(next, [](const Places& set) { return set.empty(); });
+  std::sort(next.begin(), next.end());  // by the first packing of each
   if (all == 0)
     return "Nothing comes next: what was asked for is met, the most is made, or too few settle\n";
   std::string text = "Next: " + counted(all, "packing") + ": ";
   for (std::size_t i = 0; i < std::min(next.size(), most_shown); ++i) {
-    const auto& [job, count] = next[i];
-    text += (i == 0 ? "" : "; ") + std::to_string(count) + " of " + names.set_of(facts_of(*job));
+    text += (i == 0 ? "" : "; ") + std::to_string(next[i].size()) + " of " +
+            names.set_of(facts_of(sweep.jobs[next[i].front()]));
   }
   if (next.size() > most_shown) {
     text += "; and of " + counted(next.size() - most_shown, "other group");

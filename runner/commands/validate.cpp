@@ -1,8 +1,5 @@
 // The command `validate`: whether a sweep file is right.
 #include <iostream>
-#include <set>
-#include <string>
-#include <utility>
 
 #include <CLI/App.hpp>
 
@@ -16,15 +13,6 @@
 #include "runner/text.hpp"
 
 namespace grainsweep {
-namespace {
-
-std::size_t count_parameter_sets(const Sweep& sweep) {
-  std::set<std::pair<std::string, std::string>> sets;
-  for (const Job& job : sweep.jobs) sets.emplace(job.label, job.parameters);
-  return sets.size();
-}
-
-}  // namespace
 
 void add_command(CLI::App& app, ValidateOptions& options) {
   CLI::App& validate =
@@ -39,7 +27,7 @@ int perform(const ValidateOptions& options) {
   const Sweep& sweep = growing.now();
   std::cout << options.file << ": right: " << (grows(whole) ? "at least " : "")
             << counted(sweep.jobs.size(), "packing") << ", "
-            << counted(count_parameter_sets(sweep), "parameter set")
+            << counted(parameter_sets(sweep.jobs).size(), "parameter set")
             << (sweep.units ? ", " + units_text(*sweep.units) : "") << "\n"
             << chosen_presets_text(sweep);
   return exit_done;

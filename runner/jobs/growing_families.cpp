@@ -7,12 +7,31 @@
 #include <string>
 #include <string_view>
 #include <tuple>
+#include <utility>
 
 #include "runner/tables/fits.hpp"
 #include "runner/tables/job_facts.hpp"
 
 namespace grainsweep {
 namespace {
+
+/// The jobs with one key, by their places, in the order of their first jobs.
+template <class Key>
+std::vector<Places> gathered(const std::vector<Job>& jobs, Key (*key_of)(const Job&)) {
+  std::vector<Places> groups;
+  std::map<Key, std::size_t> index_of;
+  for (std::size_t i = 0; i < jobs.size(); ++i) {
+    const auto [known, is_new] = index_of.try_emplace(key_of(jobs[i]), groups.size());
+    if (is_new) groups.emplace_back();
+    groups[known->second].push_back(i);
+  }
+  return groups;
+}
+
+/// What the jobs of a parameter set have in common. Refers to the job.
+std::pair<std::string_view, std::string_view> set_of(const Job& job) {
+  return {job.label, job.parameters};
+}
 
 /// What the jobs of a group have in common, with their requested accuracies. Refers to the job.
 using GroupKey = std::tuple<std::uint64_t, std::string_view, std::string_view, double, double,
@@ -44,16 +63,9 @@ bool grows(const Sweep& sweep) {
   return std::any_of(sweep.jobs.begin(), sweep.jobs.end(), may_grow);
 }
 
-std::vector<Places> groups_in(const Sweep& sweep) {
-  std::vector<Places> groups;
-  std::map<GroupKey, std::size_t> index_of;
-  for (std::size_t i = 0; i < sweep.jobs.size(); ++i) {
-    const auto [known, is_new] = index_of.try_emplace(key_of(sweep.jobs[i]), groups.size());
-    if (is_new) groups.emplace_back();
-    groups[known->second].push_back(i);
-  }
-  return groups;
-}
+std::vector<Places> groups_in(const Sweep& sweep) { return gathered(sweep.jobs, key_of); }
+
+std::vector<Places> parameter_sets(const std::vector<Job>& jobs) { return gathered(jobs, set_of); }
 
 std::vector<GrowingFamily> growing_families(const Sweep& whole, const std::vector<Places>& groups) {
   std::vector<GrowingFamily> families;

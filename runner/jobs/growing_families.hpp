@@ -23,6 +23,9 @@ using Places = std::vector<std::size_t>;
 /// In the order of their first jobs.
 std::vector<Places> groups_in(const Sweep& sweep);
 
+/// The jobs with one label and one parameter set, by their places in the list; in the same order.
+std::vector<Places> parameter_sets(const std::vector<Job>& jobs);
+
 /// The groups that one wall effect is fitted to, by their places in the list of groups.
 struct GrowingFamily {
   std::vector<std::size_t> groups;

@@ -1,4 +1,5 @@
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <catch2/catch.hpp>
@@ -39,6 +40,16 @@ TEST_CASE("a group is found together, wherever its jobs stand") {
   const std::vector<Job> a = of_seed(1, 3.0, {0.01, 0.0}), b = of_seed(1, 4.0, {0.01, 0.0});
   for (std::size_t i = 0; i < a.size(); ++i) append({a[i], b[i]}, sweep);
   CHECK(groups_in(sweep) == std::vector<Places>{{0, 2, 4, 6}, {1, 3, 5, 7}});
+}
+
+TEST_CASE("a parameter set is found together, whatever seed and request its jobs have") {
+  std::vector<Job> jobs = of_seed(1, 3.0, {0.01, 0.0}, 2);
+  for (const Job& job : of_seed(2, 3.0, {}, 1)) jobs.push_back(job);
+  jobs.push_back(jobs.front());
+  jobs.back().label = "other";
+  CHECK(parameter_sets(jobs) == std::vector<Places>{{0, 1, 2}, {3}});
+  std::swap(jobs[0], jobs[3]);
+  CHECK(parameter_sets(jobs) == std::vector<Places>{{0}, {1, 2, 3}});
 }
 
 TEST_CASE("packings of a point that are there anyway are no part of what grows") {
