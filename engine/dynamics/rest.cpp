@@ -248,51 +248,38 @@ std::vector<FreeMotion> free_motions(const SphereBed& bed,
   return motions;
 }
 
-std::vector<PairForce> pair_forces(const Grains& bed, const std::vector<ForceContact>& contacts) {
-  std::vector<PairForce> forces;
-  for (const ForceContact& c : contacts) {
+WithLines<PairForce> pair_forces(const Grains& bed, const std::vector<ForceContact>& contacts,
+                                 const std::vector<ForceLine>& lines) {
+  WithLines<PairForce> of_pairs;
+  for (std::size_t k = 0; k < contacts.size(); ++k) {
+    const ForceContact& c = contacts[k];
     if (!bed.is_grain(c.b)) continue;
     const double height = (bed.position[static_cast<std::size_t>(c.a)].z +
                            bed.position[static_cast<std::size_t>(c.b)].z) /
                           2.0;
-    forces.push_back({c.a, c.b, height, c.force});
-  }
-  return forces;
-}
-
-template <class Kind>
-std::vector<WallForce> wall_forces(const Bed<Kind>& bed,
-                                   const std::vector<ForceContact>& contacts) {
-  std::map<std::pair<std::int32_t, std::int32_t>, double> sums;
-  for (const ForceContact& c : contacts) {
-    if (!bed.is_grain(c.b)) sums[{c.a, wall_of(bed, c)}] += c.force;
-  }
-  std::vector<WallForce> forces;
-  forces.reserve(sums.size());
-  for (const auto& [where, force] : sums) forces.push_back({where.first, where.second, force});
-  return forces;
-}
-
-std::vector<ForceLine> pair_lines(const Grains& bed, const std::vector<ForceContact>& contacts,
-                                  const std::vector<ForceLine>& lines) {
-  std::vector<ForceLine> of_pairs;
-  for (std::size_t k = 0; k < contacts.size(); ++k) {
-    if (bed.is_grain(contacts[k].b)) of_pairs.push_back(lines[k]);
+    of_pairs.first.push_back({c.a, c.b, height, c.force});
+    if (!lines.empty()) of_pairs.second.push_back(lines[k]);
   }
   return of_pairs;
 }
 
-std::vector<ForceLine> wall_lines(const PolyhedronBed& bed,
-                                  const std::vector<ForceContact>& contacts,
-                                  const std::vector<ForceLine>& lines) {
-  std::map<std::pair<std::int32_t, std::int32_t>, ForceLine> sorted;
+template <class Kind>
+WithLines<WallForce> wall_forces(const Bed<Kind>& bed, const std::vector<ForceContact>& contacts,
+                                 const std::vector<ForceLine>& lines) {
+  std::map<std::pair<std::int32_t, std::int32_t>, std::pair<double, ForceLine>> sorted;
   for (std::size_t k = 0; k < contacts.size(); ++k) {
     const ForceContact& c = contacts[k];
-    if (!bed.is_grain(c.b)) sorted[{c.a, wall_of(bed, c)}] = lines[k];
+    if (bed.is_grain(c.b)) continue;
+    auto& [force, line] = sorted[{c.a, wall_of(bed, c)}];
+    force += c.force;
+    if (!lines.empty()) line = lines[k];
   }
-  std::vector<ForceLine> of_walls;
-  of_walls.reserve(sorted.size());
-  for (const auto& [where, line] : sorted) of_walls.push_back(line);
+  WithLines<WallForce> of_walls;
+  of_walls.first.reserve(sorted.size());
+  for (const auto& [where, what] : sorted) {
+    of_walls.first.push_back({where.first, where.second, what.first});
+    if (!lines.empty()) of_walls.second.push_back(what.second);
+  }
   return of_walls;
 }
 
@@ -392,7 +379,9 @@ template std::int64_t isostatic_count(const SphereBed&, const std::vector<ForceC
 template std::int64_t isostatic_count(const PolyhedronBed&, const std::vector<ForceContact>&);
 template std::int64_t zero_modes(const SphereBed&, const std::vector<ForceContact>&);
 template std::int64_t zero_modes(const PolyhedronBed&, const std::vector<ForceContact>&);
-template std::vector<WallForce> wall_forces(const SphereBed&, const std::vector<ForceContact>&);
-template std::vector<WallForce> wall_forces(const PolyhedronBed&, const std::vector<ForceContact>&);
+template WithLines<WallForce> wall_forces(const SphereBed&, const std::vector<ForceContact>&,
+                                          const std::vector<ForceLine>&);
+template WithLines<WallForce> wall_forces(const PolyhedronBed&, const std::vector<ForceContact>&,
+                                          const std::vector<ForceLine>&);
 
 }  // namespace grainsweep

@@ -15,6 +15,7 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/dynamics/step.hpp"
@@ -71,23 +72,20 @@ std::vector<FreeMotion> free_motions(const SphereBed& bed,
 /// Error of forces in f32, m g for every d of height.
 inline constexpr double error_of_a_layer = 1e-4;
 
-/// The forces between grains.
-std::vector<PairForce> pair_forces(const Grains& bed, const std::vector<ForceContact>& contacts);
+/// Forces, and the line of each.
+template <class Force>
+using WithLines = std::pair<std::vector<Force>, std::vector<ForceLine>>;
 
-/// The forces of walls, one for each grain and wall; at a round wall one for each vertex of a
+/// The forces between grains. `lines` has one for each of `contacts`, or none, as of spheres; then
+/// the forces have none.
+WithLines<PairForce> pair_forces(const Grains& bed, const std::vector<ForceContact>& contacts,
+                                 const std::vector<ForceLine>& lines);
+
+/// The same of walls, one for each grain and wall; at a round wall one for each vertex of a
 /// polyhedron, since their normals differ.
 template <class Kind>
-std::vector<WallForce> wall_forces(const Bed<Kind>& bed, const std::vector<ForceContact>& contacts);
-
-/// The lines of the forces of pair_forces, taken from `lines`, which has one for each of
-/// `contacts`.
-std::vector<ForceLine> pair_lines(const Grains& bed, const std::vector<ForceContact>& contacts,
-                                  const std::vector<ForceLine>& lines);
-
-/// The same for wall_forces.
-std::vector<ForceLine> wall_lines(const PolyhedronBed& bed,
-                                  const std::vector<ForceContact>& contacts,
-                                  const std::vector<ForceLine>& lines);
+WithLines<WallForce> wall_forces(const Bed<Kind>& bed, const std::vector<ForceContact>& contacts,
+                                 const std::vector<ForceLine>& lines);
 
 /// Sum of the magnitudes of the contact forces on each grain, m g.
 std::vector<double> force_sums(const Grains& bed, const std::vector<ForceContact>& contacts);

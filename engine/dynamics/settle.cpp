@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <span>
+#include <tuple>
 #include <utility>
 
 #include "engine/dynamics/balance.hpp"
@@ -385,10 +386,12 @@ class Settling {
     }
   }
 
-  void report_forces(const std::vector<ForceContact>& contacts) {
+  /// `lines`: of each contact; none of spheres.
+  void report_forces(const std::vector<ForceContact>& contacts,
+                     const std::vector<ForceLine>& lines = {}) {
     report_.force = force_sums(bed_, contacts);
-    report_.pair_forces = pair_forces(bed_, contacts);
-    report_.wall_forces = wall_forces(bed_, contacts);
+    std::tie(report_.pair_forces, report_.pair_lines) = pair_forces(bed_, contacts, lines);
+    std::tie(report_.wall_forces, report_.wall_lines) = wall_forces(bed_, contacts, lines);
   }
 
   std::vector<ForceContact> contacts_of_last_step() const {
@@ -416,11 +419,10 @@ class Settling {
       report_.failure += remedy_of_rounding(report_.rest, accuracy_, top_of(bed_));
     }
     const std::vector<ForceContact> contacts = contacts_of_last_step();
-    report_forces(contacts);
     if constexpr (std::is_same_v<Kind, Polyhedron>) {
-      const auto lines = force_lines(bed_, state_.contacts, settings_.dt);
-      report_.pair_lines = pair_lines(bed_, contacts, lines);
-      report_.wall_lines = wall_lines(bed_, contacts, lines);
+      report_forces(contacts, force_lines(bed_, state_.contacts, settings_.dt));
+    } else {
+      report_forces(contacts);
     }
   }
 
