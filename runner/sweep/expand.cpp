@@ -81,10 +81,6 @@ std::string name_in_tables(const std::string& file) {
   return without_controls(begins_a_formula(file) ? "./" + file : file);
 }
 
-constexpr const char* no_size_formula =
-    "belongs to a distribution of sizes, and none is set: write lognormal, uniform, weibull or "
-    "table";
-
 /// Where the grains of a packing start.
 struct Start {
   Fill fill;
@@ -270,8 +266,7 @@ class Expansion {
     const Assignment *diameter = in_effect[diameter_], *file = in_effect[file_];
     const Assignment* const files = in_effect[files_];
     if (file == nullptr && files == nullptr) {
-      if (diameter != nullptr && is_whole_)
-        note(*diameter, "belongs to fill.file or fill.files; neither is set");
+      note_stray(diameter, "belongs to fill.file or fill.files; neither is set");
       return {{resolved.spec.fill}};
     }
     if (!(resolved.fill_diameter > 0.0)) {
@@ -341,13 +336,8 @@ class Expansion {
       for (const Assignment* one : {file, vertices}) problems_.skip(one->pointer + " shape.hull");
       return;
     }
-    const Assignment* by = in_effect[mixture_by_];
-    if (by != nullptr && in_effect[mixture_] == nullptr && is_whole_) {
-      note(*by, "belongs to shape.mixture, and that is not set");
-    }
     if (source == nullptr) {
-      if (size == nullptr || !is_whole_) return;
-      return note(*size, "belongs to shape.hull.vertices or shape.hull.file; neither is set");
+      return note_stray(size, "belongs to shape.hull.vertices or shape.hull.file; neither is set");
     }
     if (!std::holds_alternative<HullVertices>(resolved.spec.shape)) return;  // reported already
     auto& hull = std::get<HullVertices>(resolved.spec.shape);
@@ -370,7 +360,9 @@ class Expansion {
   /// The same for the hulls among the components of a mixture.
   void place_components(const Block& block, const InEffect& in_effect, ResolvedSpec& resolved) {
     const Assignment* mixture = in_effect[mixture_];
-    if (mixture == nullptr) return;
+    if (mixture == nullptr) {
+      return note_stray(in_effect[mixture_by_], "belongs to shape.mixture, and that is not set");
+    }
     auto components = std::get<Components>(mixture->value);
     bool is_sound = true, has_hulls = false;
     for (std::size_t k = 0; k < components.size(); ++k) {
@@ -412,10 +404,11 @@ class Expansion {
     auto& distribution = resolved.spec.sizes.distribution;
     const Assignment *file = in_effect[size_file_], *size = in_effect[size_unit_];
     if (!resolved.has_size_formula) {
-      for (const Assignment* assignment : in_effect) {
-        const bool is_part =
-            assignment != nullptr && parameters()[assignment->parameter].role == Role::distribution;
-        if (is_part && is_whole_) note(*assignment, no_size_formula);
+      for (const Assignment* part : in_effect) {
+        if (part == nullptr || parameters()[part->parameter].role != Role::distribution) continue;
+        note_stray(part,
+                   "belongs to a distribution of sizes, and none is set: write lognormal, uniform, "
+                   "weibull or table");
       }
       return distribution.reset();
     }
@@ -518,6 +511,11 @@ class Expansion {
   void note(const Assignment& assignment, const std::string& message) {
     if (said_.insert(assignment.pointer).second)
       diagnostics_.push_back({assignment.pointer, message});
+  }
+
+  /// Notes a part, if it is set, of something that is not.
+  void note_stray(const Assignment* part, const char* message) {
+    if (part != nullptr && is_whole_) note(*part, message);
   }
 
   /// Whether one value is wrong by itself, whatever the others are.
