@@ -31,6 +31,7 @@ struct RunOptions {
   bool alone = false;                ///< take over nothing from other shards
   std::string time_limit;            ///< "1:30:00"; empty: that of the Slurm job, if any
   double tolerate_unsettled = 0.0;   ///< unsettled share, 0..1, that does not affect the exit code
+  std::string repeated;              ///< options with which a stopped run goes on, for a shell
 };
 /// Makes the missing packings of a sweep and writes the tables.
 int perform(const RunOptions& options);

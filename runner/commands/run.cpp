@@ -6,7 +6,6 @@
 #include <iostream>
 #include <optional>
 #include <set>
-#include <sstream>
 #include <unistd.h>
 #include <utility>
 
@@ -33,7 +32,6 @@
 #include "runner/store/shard_files.hpp"
 #include "runner/sweep/costs.hpp"
 #include "runner/tables/closing_report.hpp"
-#include "runner/tables/csv.hpp"
 #include "runner/tables/packing_names.hpp"
 #include "runner/text.hpp"
 #include "runner/versions.hpp"
@@ -231,30 +229,6 @@ Made help(const Sweep& sweep, const Shard& shard, const std::string& folder, Sha
   }
 }
 
-/// The options to go on with: those of this run, without what is done only once. `retries`: whether
-/// failed packings are still to be made again.
-std::string repeated(const RunOptions& options, const std::string& folder, bool retries) {
-  std::ostringstream text;
-  text << shell_path(options.file) << " --out " << shell_path(folder);
-  if (options.threads > 0) text << " --threads " << options.threads;
-  if (!options.isa.empty()) text << " --isa " << options.isa;
-  if (options.checkpoint_seconds != RunOptions{}.checkpoint_seconds) {
-    text << " --checkpoint-seconds " << options.checkpoint_seconds;
-  }
-  if (retries) text << " --retry-failed";
-  if (options.fail_fast) text << " --fail-fast";
-  if (options.quiet) text << " --quiet";
-  if (options.no_report) text << " --no-report";
-  if (options.no_grains) text << " --no-grains";
-  if (!options.shard.empty()) text << " --shard " << options.shard;
-  if (options.alone) text << " --alone";
-  if (!options.time_limit.empty()) text << " --time-limit " << options.time_limit;
-  if (options.tolerate_unsettled > 0.0) {
-    text << " --tolerate-unsettled=" << cell(options.tolerate_unsettled);
-  }
-  return text.str();
-}
-
 /// Counts of the packings of this runner.
 StatusCounts counts_of(const std::vector<Row>& rows, const std::vector<std::size_t>& places) {
   StatusCounts counts;
@@ -276,8 +250,8 @@ int stopped(const Packed& packed, const RunOptions& options, const std::string& 
   if (saved > 0) std::cerr << ", " << saved << " under way in its checkpoints";
   // With all packings kept, --fail-fast stopped at one that was made again.
   const bool retries = options.retry_failed && (by_signal || counts.pending > 0);
-  std::cerr << ".\nGo on with: " << called_as() << " run " << repeated(options, folder, retries)
-            << "\n";
+  std::cerr << ".\nGo on with: " << called_as() << " run " << shell_path(options.file) << " --out "
+            << shell_path(folder) << (retries ? " --retry-failed" : "") << options.repeated << "\n";
   if (by_signal) return exit_stopped + stop_signal();
   return by_failure ? exit_left_out : exit_out_of_time;
 }
@@ -335,6 +309,21 @@ void tell_of_others(const std::vector<Row>& rows, const Shard& shard, const std:
             << shell_path(options.file) << " --out " << shell_path(folder) << "\n";
 }
 
+/// Remembers the options to go on with as they are given: not what is done once, and neither the
+/// folder nor --retry-failed, which the end of the run tells.
+void remember_options(CLI::App& run, std::string& repeated) {
+  const std::set<std::string> others = {"--help",  "FILE",  "--out",
+                                        "--fresh", "--yes", "--retry-failed"};
+  for (CLI::Option* option : run.get_options()) {
+    if (others.contains(option->get_name())) continue;
+    const bool is_flag = option->get_expected_max() == 0;
+    option->each([=, name = option->get_name(), &repeated](const std::string& word) {
+      const std::string value = is_flag ? "=" + word : " " + shell_word(word);
+      repeated += " " + name + (value == "=true" ? "" : value);
+    });
+  }
+}
+
 std::string presets_text() {
   std::string text = "Accuracy, a member of the sweep file:";
   for (const Preset& preset : presets()) {
@@ -387,6 +376,7 @@ void add_command(CLI::App& app, RunOptions& options) {
                 "exit with 0 although packings did not settle; =SHARE: up to that share");
   run.footer("Example: grainsweep run configs/quick.json --out out/quick --threads 2\n\n" +
              presets_text() + "\n\n" + exit_codes_text);
+  remember_options(run, options.repeated);
 }
 
 int perform(const RunOptions& options) {

@@ -47,6 +47,18 @@ TEST_CASE("run takes its options in any order") {
   CHECK(options.checkpoint_seconds == 2.5);
 }
 
+TEST_CASE("a stopped run goes on with its options, but for those that count once") {
+  const auto repeated = [](std::vector<const char*> words) {
+    return options_of<RunOptions>(read(std::move(words))).repeated;
+  };
+  CHECK(repeated({"run", "--out=o", "a.json", "--fresh", "--yes", "--retry-failed"}) == "");
+  CHECK(repeated({"run", "--time-limit=1:30:00", "--threads=2", "a.json", "--quiet", "--shard",
+                  "1/2", "--alone", "--tolerate-unsettled=0.25"}) ==
+        " --threads 2 --quiet --shard 1/2 --alone --time-limit 1:30:00 --tolerate-unsettled=0.25");
+  CHECK(repeated({"run", "a.json", "--tolerate-unsettled", "--time-limit", "an hour"}) ==
+        " --time-limit 'an hour' --tolerate-unsettled=1");
+}
+
 TEST_CASE("options not given have their defaults") {
   const auto options = options_of<RunOptions>(read({"run", "a.json"}));
   CHECK(options.out.empty());
