@@ -238,7 +238,7 @@ std::string job_json(const Job& job, const Cost& cost) {
 /// Written job by job: as one value a large sweep would take ten times the memory. `most`: the
 /// costs of all that a sweep may grow to; empty if it does not grow.
 void print_json(const Sweep& sweep, const std::vector<Cost>& costs, const Needs& needs,
-                const std::vector<Cost>& most, int threads, int shards) {
+                const std::vector<Cost>& most, int shards, int threads) {
   nlohmann::ordered_json plan = {{"name", sweep.name},
                                  {"packings", costs.size()},
                                  {"threads", threads},
@@ -292,7 +292,7 @@ int perform(const PlanOptions& options) {
   std::cerr << memory_warning(costs, needs.memory);
   const std::vector<Cost> grown = grows(whole) ? costs_with(made, whole.jobs) : std::vector<Cost>();
   if (options.json) {
-    print_json(sweep, costs, needs, grown, threads, options.shards);
+    print_json(sweep, costs, needs, grown, options.shards, threads);
   } else {
     const PackingNames names = names_in(sweep);
     const std::vector<Cost>& most = grows(whole) ? grown : costs;
