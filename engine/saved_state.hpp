@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <cstring>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -45,7 +46,8 @@ class StateWriter {
   std::string bytes_;
 };
 
-/// Reads values in the order in which they were written. Requires bytes that were checked.
+/// Reads values in the order in which they were written. Throws std::length_error if the bytes end
+/// too early, as those of another state do.
 class StateReader {
  public:
   explicit StateReader(std::string_view bytes) : bytes_(bytes) {}
@@ -55,16 +57,13 @@ class StateReader {
   }
   template <class Column>
   void column(Column& column) {
-    std::uint64_t size = 0;
-    value(size);
-    column.resize(size);
-    take(column.data(), size * sizeof(typename Column::value_type));
+    constexpr std::size_t bytes_each = sizeof(typename Column::value_type);
+    column.resize(take_size(bytes_each));
+    take(column.data(), column.size() * bytes_each);
   }
   template <class T, class Each>
   void list(std::vector<T>& elements, Each each) {
-    std::uint64_t size = 0;
-    value(size);
-    elements.resize(size);
+    elements.resize(take_size(1));
     for (T& element : elements) {
       each(element);
     }
@@ -72,10 +71,23 @@ class StateReader {
 
  private:
   void take(void* to, std::size_t size) {
+    expect(size, 1);
     if (size > 0) {
       std::memcpy(to, bytes_.data(), size);
     }
     bytes_.remove_prefix(size);
+  }
+  /// The size of a list whose elements have so many bytes each, or more.
+  std::uint64_t take_size(std::size_t bytes_each) {
+    std::uint64_t size = 0;
+    value(size);
+    expect(size, bytes_each);
+    return size;
+  }
+  void expect(std::uint64_t count, std::size_t bytes_each) const {
+    if (count > bytes_.size() / bytes_each) {
+      throw std::length_error("the saved state of the packing ends too early");
+    }
   }
 
   std::string_view bytes_;

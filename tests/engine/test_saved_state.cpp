@@ -1,3 +1,4 @@
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,29 @@ TEST_CASE("values, columns and lists read back as they were written") {
   CHECK(value == 2.5);
   CHECK(column == std::vector<float>{1, 2, 3});
   CHECK(read == lists);
+}
+
+TEST_CASE("bytes that end too early are refused, however many elements they promise") {
+  StateWriter writer;
+  writer.value(2.5);
+  writer.column(std::vector<float>{1, 2, 3});
+  const auto read = [](const std::string& bytes) {
+    StateReader reader(bytes);
+    double value = 0;
+    std::vector<float> column;
+    reader.value(value);
+    reader.column(column);
+  };
+  CHECK_NOTHROW(read(writer.bytes()));
+  for (std::size_t kept = 0; kept < writer.bytes().size(); ++kept) {
+    INFO("cut to " << kept);
+    CHECK_THROWS_AS(read(writer.bytes().substr(0, kept)), std::length_error);
+  }
+  const std::string endless(16, '\xff');
+  CHECK_THROWS_AS(read(endless), std::length_error);
+  std::vector<std::vector<int>> lists;
+  const auto each = [](auto&) {};
+  CHECK_THROWS_AS(StateReader(endless).list(lists, each), std::length_error);
 }
 
 TEST_CASE("sealed bytes open to their payload") {
