@@ -81,7 +81,8 @@ std::string learned_text(const std::string& folder, const Outcomes& outcomes,
   }
   std::vector<Cost> left;
   for (std::size_t k = 0; k < jobs.size(); ++k) {
-    if (!outcomes.contains(jobs[k].id)) left.push_back(costs[k]);
+    const auto made = outcomes.find(jobs[k].id);
+    if (made == outcomes.end() || made->second->exception) left.push_back(costs[k]);
   }
   return counted(jobs.size() - left.size(), "packing") + " made in " + folder +
          ": estimates times " +
@@ -218,7 +219,8 @@ void print_text(const Sweep& sweep, const std::vector<Cost>& costs, const Needs&
             << counted(static_cast<std::size_t>(threads), "thread") << " ("
             << counted(static_cast<std::size_t>(needs.live), "packing") << " at once), up to "
             << memory_text(needs.bytes) << limit_text(needs.memory) << "\n"
-            << cluster_text(needs.wall_seconds, grown_wall_seconds);
+            << (needs.bytes > needs.memory ? "A machine with more memory is needed.\n"
+                                           : cluster_text(needs.wall_seconds, grown_wall_seconds));
 }
 
 /// One line; the parameters are JSON already.

@@ -260,6 +260,13 @@ int stopped(const Packed& packed, const RunOptions& options, const std::string& 
 /// or were removed meanwhile.
 int exit_code_for(const StatusCounts& counts, int left_to_others, const RunOptions& options,
                   const std::string& folder) {
+  if (counts.broken_off > 0) {
+    const auto broken_off = static_cast<std::size_t>(counts.broken_off);
+    std::cerr << "warning: " << counted(broken_off, "packing")
+              << " broke off, mostly for lack of memory: see "
+              << "the column reason of packings.csv; the same command makes what is missing\n";
+    return exit_no_resources;
+  }
   if (counts.pending > left_to_others) {
     const auto lost = static_cast<std::size_t>(counts.pending - left_to_others);
     std::cerr << "warning: " << counted(lost, "packing") << (lost == 1 ? " is" : " are")
@@ -440,7 +447,8 @@ int perform(const RunOptions& options) {
   };
   const bool is_alone = shard.count == 1;
   Results results = stored(is_alone || grows(whole) ? Detail::whole : Detail::summary);
-  const bool has_all = is_alone || totals_of(results.rows).counts.pending == 0;
+  const StatusCounts all = totals_of(results.rows).counts;
+  const bool has_all = is_alone || all.pending == all.broken_off;
   if (has_all && !is_alone) results = stored(Detail::whole);
   if (has_all) {
     // If several shards find everything made at once, which looks the same to all, the first one

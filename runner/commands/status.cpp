@@ -36,16 +36,19 @@ struct Standing {
   int threads = 0;                    ///< of all runners at work
 };
 
+/// A packing that broke off is made by the next run.
+bool is_made(const Row& row) { return row.outcome && !row.outcome->exception; }
+
 double cpu_seconds_left(const std::vector<Row>& rows) {
   std::vector<Known> packings;
   packings.reserve(rows.size());
   for (const Row& row : rows) {
     packings.push_back({row.job.estimated, std::nullopt});
-    if (row.outcome) packings.back().measured = row.outcome->cpu_seconds;
+    if (is_made(row)) packings.back().measured = row.outcome->cpu_seconds;
   }
   const std::vector<double> seconds = learned(packings);
   double left = 0.0;
-  for (std::size_t i = 0; i < rows.size(); ++i) left += rows[i].outcome ? 0.0 : seconds[i];
+  for (std::size_t i = 0; i < rows.size(); ++i) left += is_made(rows[i]) ? 0.0 : seconds[i];
   return left;
 }
 
@@ -87,7 +90,8 @@ std::string progress_text(const StatusCounts& counts, std::size_t packings) {
   return std::to_string(done) + " of " + counted(packings, "packing") +
          " done: " + std::to_string(counts.settled) + " settled, " +
          std::to_string(counts.not_settled) + " not settled, " + std::to_string(counts.failed) +
-         " failed";
+         " failed" +
+         (counts.broken_off > 0 ? "; " + std::to_string(counts.broken_off) + " broke off" : "");
 }
 
 std::string name_of(const Runner& runner) {
@@ -172,6 +176,7 @@ nlohmann::ordered_json status_json(const Standing& standing) {
                                    {"not_settled", counts.not_settled},
                                    {"failed", counts.failed},
                                    {"pending", counts.pending},
+                                   {"broken_off", counts.broken_off},
                                    {"of_an_earlier_sweep", results.orphaned},
                                    {"cpu_seconds", standing.totals.cpu_seconds},
                                    {"cpu_seconds_left", standing.seconds_left},

@@ -263,7 +263,7 @@ std::string counts_text(const Grown& grown, const char* noun) {
                      unmeasured_text(grown.unbounded, noun);
   if (!grown.bent.empty()) {
     text += in(grown.bent) +
-            " more the packings scatter as little, but the straight line does not hold: its errors "
+            " the packings scatter as little, but the straight line does not hold: its errors "
             "in fits.csv are wider, and no packings mend it";
   }
   if (!grown.without_errors.empty()) {

@@ -197,8 +197,13 @@ class Packer {
     const std::size_t task = finished.task;
     const Job& job = *running_.pending[task];
     finished.cpu_seconds += before_[task].cpu_seconds;
+    const bool lacked_memory = finished.lacked_memory;
     const Outcome outcome = store(job, running_.files, std::move(finished), options_.no_grains);
-    if (!outcome.exception) end_for_good(job, costs_[task].cpu_seconds, outcome.cpu_seconds);
+    if (!outcome.exception) {
+      const std::scoped_lock lock(learning_);
+      running_.estimates.add(costs_[task].cpu_seconds, outcome.cpu_seconds);
+    }
+    if (!lacked_memory) remove_checkpoints(job);  // with more memory it goes on from there
     ++packed_.packings;
     const std::string line =
         packing_line(options_.names.set_of(facts_of(job)), job.replicate, outcome) +
@@ -208,12 +213,7 @@ class Packer {
     if (!has_failed_.exchange(true)) packed_.first_failure = line;
   }
 
-  /// A packing that ended in an exception is none of these: it is tried again, from its checkpoint.
-  void end_for_good(const Job& job, double estimated_seconds, double seconds) {
-    {
-      const std::scoped_lock lock(learning_);
-      running_.estimates.add(estimated_seconds, seconds);
-    }
+  void remove_checkpoints(const Job& job) {
     for (const std::string& line : checkpoints_of(job).remove()) {
       display_.say("warning: " + line);
     }

@@ -33,7 +33,7 @@ Finished pack_one(std::size_t index, const Pack& pack, const KeepGoing& go_on) {
     finished.packing = pack(index, team, go_on);
   } catch (const std::bad_alloc&) {
     finished.packing = failed_packing("out of memory; use fewer --threads or a smaller bed");
-    finished.threw = true;
+    finished.threw = finished.lacked_memory = true;
   } catch (const std::exception& error) {
     finished.packing = failed_packing(error.what());
     finished.threw = true;

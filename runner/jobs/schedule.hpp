@@ -32,8 +32,9 @@ using Pack = std::function<Packing(std::size_t task, ThreadTeam& team, const Kee
 struct Finished {
   std::size_t task = 0;  ///< index into the costs
   Packing packing;
-  bool threw = false;        ///< `pack` threw; the packing's reason says what
-  double cpu_seconds = 0.0;  ///< of all threads that made it
+  bool threw = false;          ///< `pack` threw; the packing's reason says what
+  bool lacked_memory = false;  ///< std::bad_alloc
+  double cpu_seconds = 0.0;    ///< of all threads that made it
 };
 
 /// Called back while tasks run, from whichever thread runs them. `finished` is never called by two

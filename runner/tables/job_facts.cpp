@@ -283,7 +283,9 @@ std::string status_of(const Row& row) {
 }
 
 void count(const Row& row, StatusCounts& counts) {
-  if (!row.outcome)
+  const bool is_broken_off = row.outcome && row.outcome->exception;
+  counts.broken_off += is_broken_off ? 1 : 0;
+  if (!row.outcome || is_broken_off)
     ++counts.pending;
   else if (is_settled(row))
     ++counts.settled;

@@ -117,7 +117,9 @@ std::string status_of(const Row& row);
 
 /// Packings by status.
 struct StatusCounts {
-  int settled = 0, not_settled = 0, failed = 0, pending = 0;
+  int settled = 0, not_settled = 0, failed = 0;
+  int pending = 0;     ///< not made yet, or broken off
+  int broken_off = 0;  ///< of these: by an exception, as where there is no memory
 };
 
 /// Counts one more.

@@ -102,6 +102,23 @@ ends_with "0 1" "no limit of file sizes" "${run[@]}" limited
 same_as_reference limited "after a limit of file sizes"
 (ulimit -v 20000 && ends_with 5 "too little memory" "${run[@]}" starved)
 
+# A bed for which there is no memory breaks off, the others are made: it is still to be made.
+cat >large.json <<'JSON'
+{ "name": "large", "replicates": 1, "base": { "accuracy": "fast" },
+  "sweep": [ { "label": "large", "set": { "box": { "length": 100, "width": 100 }, "fill.grains": 1000000 } },
+             { "label": "small", "set": { "box": { "length": 5, "width": 5 }, "fill.grains": 250 } } ] }
+JSON
+limit=40000 # kB, of which a small bed takes more or less from system to system
+while code=0 && { (ulimit -v $limit && "$program" run large.json --threads 1 --out short >said.txt 2>&1) || code=$?; }; do
+  ! grep -q "1 packing broke off" said.txt || break
+  limit=$((limit + 10000))
+  [ $limit -lt 400000 ] || fail "no limit lets a small bed pass and a large one not: $(cat said.txt)"
+done
+[ $code = 5 ] || fail "a bed without memory ends with $code: $(cat said.txt)"
+expect_text said.txt "1 packing broke off, mostly for lack of memory"
+"$program" status short >said.txt
+expect_text said.txt "1 of 2 packings done: 1 settled" "; 1 broke off" "Left: about "
+
 # Many beds of one thread, so that there is time while it runs.
 cat >many.json <<'JSON'
 { "name": "many", "replicates": 40, "base": { "box": { "length": 5, "width": 5 },

@@ -79,7 +79,7 @@ expect_code 0 "$program" plan fit.json
 expect_text out.txt 'Next: 26 packings: 6 of grows, W = 1.8; 6 of grows, W = 2.5; 6 of grows, W = 3; 6 of '
 expect_code 0 "$program" run fit.json --out fit-one --threads 1 --no-report
 # At such narrow gaps the solid fraction is no straight line.
-expect_text out.txt "Errors as asked for (95 %) in 0 of 1 fit" "in 1 more the packings scatter as little"
+expect_text out.txt "Errors as asked for (95 %) in 0 of 1 fit" "in 1 the packings scatter as little"
 packings=$(($(wc -l <fit-one/packings.csv) - 1))
 ((packings > 26 && packings < 122)) || fail "$packings packings: the fit grows, not to the most"
 expect_code 0 "$program" plan fit.json --out fit-one
