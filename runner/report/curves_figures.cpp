@@ -27,6 +27,7 @@ constexpr std::size_t most_bars = 100;  // of a curve over the height
 /// The mean profiles along z: bins are too few grains each for a coordination number.
 std::vector<std::vector<MeanBin>> slices_of(const std::vector<GroupWithCurves>& groups) {
   std::vector<std::vector<MeanBin>> all;
+  all.reserve(groups.size());
   for (const GroupWithCurves& group : groups) {
     all.push_back(mean_layers(*group, &PackingResult::profile_z, 1.0));
   }

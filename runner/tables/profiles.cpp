@@ -117,10 +117,12 @@ std::vector<MeanBin> mean_profile(const Group& group, Profile PackingResult::*pr
 std::vector<MeanBin> mean_layers(const Group& group, Profile PackingResult::*profile,
                                  double thickness) {
   std::vector<Profile> layers;
+  layers.reserve(group.settled.size());
   for (const Outcome& outcome : group.settled) {
     layers.push_back(in_layers(outcome.result.*profile, thickness));
   }
   std::vector<const Profile*> profiles;
+  profiles.reserve(layers.size());
   for (const Profile& one : layers) profiles.push_back(&one);
   return mean_bins(profiles, ProfileBin(), mean_bin);
 }
