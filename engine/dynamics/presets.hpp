@@ -16,6 +16,7 @@ enum class BedKind {
   narrow_spheres,  ///< the same between walls less than 4 d apart, in ducts and tubes of less than
                    ///< 5 d
   two_sizes,       ///< spheres in boxes, the small ones half as large
+  many_sizes,      ///< spheres of other sizes, in boxes and tubes that are not narrow
   pinacoids,       ///< 1 by 1 by 1, in boxes
 };
 
@@ -34,7 +35,7 @@ struct Preset {
   std::string_view name;
   std::string_view promise;  ///< one sentence with numbers, for --help and the README
   Accuracy accuracy;
-  std::array<std::optional<ProtocolBias>, 4> bias_bounds;  ///< by BedKind; none if not measured
+  std::array<std::optional<ProtocolBias>, 5> bias_bounds;  ///< by BedKind; none if not measured
 };
 
 /// fast, balanced, accurate, exact: of those at rest in steps, the cheaper ones first.

@@ -4,12 +4,9 @@
 #include <optional>
 #include <utility>
 
-#include <nlohmann/json.hpp>
-
 #include "engine/dynamics/presets.hpp"
 #include "engine/text.hpp"
 #include "runner/sweep/bed_kind.hpp"
-#include "runner/sweep/identity.hpp"
 #include "runner/sweep/values.hpp"
 
 namespace grainsweep {
@@ -88,17 +85,14 @@ void take_parts(const InEffect& in_effect, ResolvedSpec& resolved,
   }
 }
 
-std::optional<BedKind> bed_kind_of(const ResolvedSpec& resolved) {
-  const PackingSpec& spec = resolved.spec;
-  return bed_kind(name_of(spec.shape), spec.box, spec.sizes.small_share,
-                  nlohmann::json::parse(canonical_parameters(resolved)));
-}
-
 std::string measured_kinds() {
-  return joined(name_of(BedKind::spheres), ", and of ", name_of(BedKind::pinacoids), " and ",
-                name_of(BedKind::two_sizes),
-                ", in boxes that are not narrow, all with a spread of at most 0.0333 and angles of "
-                "60 degrees");
+  return joined(
+      name_of(BedKind::spheres), ", and, in containers that are not narrow, of ",
+      name_of(BedKind::many_sizes),
+      " (two, one at least half as large as the other, distributions whose largest is at most 3 "
+      "times the smallest, and lognormal ones with a sigma of at most 0.5) and, in boxes, ",
+      name_of(BedKind::pinacoids),
+      ", all with a spread of at most 0.0333 and angles of 60 degrees");
 }
 
 }  // namespace
@@ -123,7 +117,7 @@ std::vector<AccuracyProblem> take_asked_accuracy(const InEffect& in_effect,
                                " d, as bounds were measured at ", measured_gap,
                                " d; put that first in measure.gap_tolerances")});
   }
-  const auto kind = bed_kind_of(resolved);
+  const auto kind = bed_kind(resolved.spec);
   if (kind) {
     const MeasuredPresets all = measured_for(*kind);
     MeasuredPresets measured = all;

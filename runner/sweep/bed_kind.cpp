@@ -1,21 +1,14 @@
 #include "runner/sweep/bed_kind.hpp"
 
-#include <string>
-
-#include <nlohmann/json.hpp>
-
-#include "engine/scene/spec.hpp"
+#include <array>
+#include <cmath>
+#include <variant>
 
 namespace grainsweep {
 namespace {
 
-using nlohmann::json;
-
-/// Whether the parameters hold this number at this place, "/sizes/size_ratio".
-bool is_at(const json& parameters, const std::string& place, double value) {
-  const json::json_pointer pointer(place);
-  return parameters.contains(pointer) && parameters.at(pointer) == value;
-}
+constexpr std::array kinds = {BedKind::spheres, BedKind::narrow_spheres, BedKind::two_sizes,
+                              BedKind::many_sizes, BedKind::pinacoids};
 
 /// Whether its walls stand so near to each other that they order the grains.
 bool is_narrow(const Box& box) {
@@ -23,35 +16,58 @@ bool is_narrow(const Box& box) {
   return nearest_walls(box) < (is_walled_around(box) ? narrow_duct : narrow_gap);
 }
 
+/// Of the beds of uniform sizes that were measured, the largest grain over the smallest, and the
+/// widest lognormal sizes.
+constexpr double widest = 3.0, widest_sigma = 0.5;
+
+bool is_within_widest(double smallest, double largest) {
+  constexpr double rounding = 1e-9;
+  return largest <= widest * smallest * (1.0 + rounding);
+}
+
+/// Whether the diameters of a curve differ no more than those that were measured.
+struct IsMeasured {
+  bool operator()(const LognormalSizes& sizes) const { return sizes.sigma <= widest_sigma; }
+  bool operator()(const UniformSizes& sizes) const {
+    return is_within_widest(sizes.from, sizes.to);
+  }
+  bool operator()(const WeibullSizes& /*sizes*/) const { return false; }
+  bool operator()(const SizeTable& table) const {
+    return !table.diameters.empty() &&
+           is_within_widest(table.diameters.front(), table.diameters.back());
+  }
+};
+
+std::optional<BedKind> kind_of_spheres(const SizesSpec& sizes, const Box& box) {
+  if (sizes.distribution) {
+    const bool is_measured = std::visit(IsMeasured{}, sizes.distribution->formula);
+    return is_measured && !is_narrow(box) ? std::optional(BedKind::many_sizes) : std::nullopt;
+  }
+  if (sizes.small_share == 0.0) return is_narrow(box) ? BedKind::narrow_spheres : BedKind::spheres;
+  if (sizes.small_share == 1.0 || is_narrow(box)) return std::nullopt;
+  if (sizes.size_ratio == SizesSpec{}.size_ratio && !box.is_tube) return BedKind::two_sizes;
+  const double least_ratio = SizesSpec{}.size_ratio;  // of two classes that were measured
+  return sizes.size_ratio >= least_ratio ? std::optional(BedKind::many_sizes) : std::nullopt;
+}
+
+bool is_usual(const PinacoidSize& size) {
+  const PinacoidSize usual;
+  constexpr double rounding = 1e-12;  // of degrees as radians
+  return size.length == usual.length && size.width == usual.width && size.height == usual.height &&
+         std::abs(size.angle - usual.angle) < rounding;
+}
+
 }  // namespace
 
-std::optional<BedKind> bed_kind(std::string_view shape, const Box& box, double small_share,
-                                const json& parameters) {
-  for (const char* place : {"/sizes/distribution", "/fill/file", "/fill/files"}) {
-    if (parameters.contains(json::json_pointer(place))) return std::nullopt;
-  }
-  const json::json_pointer spread("/sizes/spread");
-  const bool is_spread_more =
-      parameters.contains(spread) && parameters.at(spread) > SizesSpec{}.spread;
-  if (is_spread_more || small_share == 1.0) return std::nullopt;
-  if (shape == "sphere" && small_share == 0.0) {
-    return is_narrow(box) ? BedKind::narrow_spheres : BedKind::spheres;
-  }
-  if (box.is_tube || is_narrow(box)) return std::nullopt;
-  if (shape == "sphere" && is_at(parameters, "/sizes/size_ratio", SizesSpec{}.size_ratio)) {
-    return BedKind::two_sizes;
-  }
-  const PinacoidSize isometric;
-  constexpr double usual_angle = 60.0;  // degrees
-  const std::string pinacoid = "/shape/pinacoid/";
-  if (shape == "pinacoid" && small_share == 0.0 &&
-      is_at(parameters, pinacoid + "length", isometric.length) &&
-      is_at(parameters, pinacoid + "width", isometric.width) &&
-      is_at(parameters, pinacoid + "height", isometric.height) &&
-      is_at(parameters, pinacoid + "angle_deg", usual_angle)) {
-    return BedKind::pinacoids;
-  }
-  return std::nullopt;
+std::optional<BedKind> bed_kind(const PackingSpec& spec) {
+  const SizesSpec& sizes = spec.sizes;
+  if (std::holds_alternative<PlacedGrains>(spec.fill)) return std::nullopt;
+  if (!sizes.distribution && sizes.spread > SizesSpec{}.spread) return std::nullopt;
+  if (std::holds_alternative<SphereShape>(spec.shape)) return kind_of_spheres(sizes, spec.box);
+  const auto* pinacoid = std::get_if<PinacoidSize>(&spec.shape);
+  const bool is_measured = pinacoid != nullptr && is_usual(*pinacoid) && !sizes.distribution &&
+                           sizes.small_share == 0.0 && !spec.box.is_tube && !is_narrow(spec.box);
+  return is_measured ? std::optional(BedKind::pinacoids) : std::nullopt;
 }
 
 const char* name_of(BedKind kind) {
@@ -62,10 +78,19 @@ const char* name_of(BedKind kind) {
       return "spheres of one size in narrow gaps, ducts or tubes";
     case BedKind::two_sizes:
       return "spheres of two sizes, 1 to 2";
+    case BedKind::many_sizes:
+      return "spheres of several sizes";
     case BedKind::pinacoids:
       return "pinacoids 1 by 1 by 1";
   }
   return "";
+}
+
+std::optional<BedKind> bed_kind_called(std::string_view name) {
+  for (const BedKind kind : kinds) {
+    if (name_of(kind) == name) return kind;
+  }
+  return std::nullopt;
 }
 
 }  // namespace grainsweep

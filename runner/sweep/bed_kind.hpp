@@ -4,22 +4,24 @@
 #include <optional>
 #include <string_view>
 
-#include <nlohmann/json_fwd.hpp>
-
 #include "engine/dynamics/presets.hpp"
-#include "engine/scene/box.hpp"
+#include "engine/scene/spec.hpp"
 
 namespace grainsweep {
 
-/// By the name of its grains' shape, its container, the share of small grains, and its canonical
-/// parameters; none for beds unlike any that was measured: distributions of sizes, starts from
-/// files, small grains that are not half as large or have no large ones beside them, sizes that
-/// spread more than they usually do, other shapes, proportions and angles, and, for other grains
-/// than spheres of one size, tubes, gaps between walls of less than 4 d and ducts of less than 5 d.
-std::optional<BedKind> bed_kind(std::string_view shape, const Box& box, double small_share,
-                                const nlohmann::json& parameters);
+/// None for beds unlike any that was measured: starts from files; classes that spread more than
+/// they usually do; small grains less than half as large as the others; distributions whose largest
+/// grain is more than 3 times the smallest, but for lognormal ones with a sigma of up to 0.5; small
+/// grains alone; other shapes, proportions and angles than
+/// those of the usual pinacoid; and, for other grains than spheres of one size, narrow containers:
+/// gaps between walls of less than 4 d, ducts and tubes of less than 5 d, and for pinacoids and two
+/// sizes all tubes.
+std::optional<BedKind> bed_kind(const PackingSpec& spec);
 
 /// "spheres of one size".
 const char* name_of(BedKind kind);
+
+/// The kind of that name, if there is one.
+std::optional<BedKind> bed_kind_called(std::string_view name);
 
 }  // namespace grainsweep

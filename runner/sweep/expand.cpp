@@ -167,6 +167,7 @@ class Expansion {
     place_components(block, in_effect, resolved);
     place_sizes(in_effect, resolved);
     note_few_sides(block, in_effect, resolved.spec);
+    resolved.spec.fill = starts.front().fill;  // a bed from a file has no known accuracy
     for (const auto& problem : take_asked_accuracy(in_effect, resolved)) {
       if (!is_whole_) break;
       const std::string& pointer = problem.assignment->pointer;

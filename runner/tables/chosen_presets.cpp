@@ -4,8 +4,6 @@
 #include <utility>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
 #include "engine/text.hpp"
 #include "runner/sweep/bed_kind.hpp"
 #include "runner/tables/job_facts.hpp"
@@ -27,12 +25,10 @@ std::string both_text(double solid_fraction, double coordination) {
 /// For a job whose preset was chosen, and which therefore has bounds.
 std::string reason_text(const Job& job) {
   const JobFacts facts = facts_of(job);
-  const auto kind = bed_kind(facts.shape, facts.box, facts.small_share,
-                             nlohmann::json::parse(facts.parameters.text()));
   const auto bound = bias_bound(facts);
-  if (!kind || !bound) return "";
+  if (!bound) return "";
   const ErrorWish& asked = job.asked_accuracy;
-  return joined(" of ", name_of(*kind), ": \"", settles_as(job.spec.accuracy),
+  return joined(" of ", name_of(*facts.kind), ": \"", settles_as(job.spec.accuracy),
                 "\", the cheapest preset that moves means by no more than ",
                 both_text(asked.solid_fraction, asked.coordination),
                 "; its bounds: ", both_text(bound->solid_fraction, bound->coordination));

@@ -121,10 +121,8 @@ double small_class_limit(const JobFacts& job) {
 }
 
 std::optional<ProtocolBias> bias_bound(const JobFacts& job) {
-  const auto kind =
-      bed_kind(job.shape, job.box, job.small_share, json::parse(job.parameters.text()));
   const std::string& preset = job.settles_as.empty() ? job.accuracy : job.settles_as;
-  auto bound = kind ? bias_bound(preset, *kind) : std::nullopt;
+  auto bound = job.kind ? bias_bound(preset, *job.kind) : std::nullopt;
   if (bound && job.measure.gap_tolerances.front() != measured_gap) bound->coordination = no_number;
   return bound;
 }
@@ -149,6 +147,7 @@ JobFacts facts_of(const Job& job) {
   if (facts.accuracy == custom) facts.settles_as = settles_as(job.spec.accuracy);
   facts.box = job.spec.box;
   facts.small_share = job.spec.sizes.small_share;
+  facts.kind = bed_kind(job.spec);
   facts.measure = job.spec.measure;
   facts.files = job.files;
   return facts;
@@ -245,6 +244,7 @@ json set_json(const JobFacts& job) {
           {"y", name_of(job.box.y)},
           {"tube", job.box.is_tube},
           {"small_share", job.small_share},
+          {"kind", job.kind ? name_of(*job.kind) : ""},
           {"exclude_floor", job.measure.exclude_floor},
           {"exclude_surface", job.measure.exclude_surface},
           {"gap_tolerances", job.measure.gap_tolerances}};
@@ -263,6 +263,7 @@ JobFacts set_from_json(const json& set) {
   facts.box.y = boundary_from(set.at("y"));
   set.at("tube").get_to(facts.box.is_tube);
   set.at("small_share").get_to(facts.small_share);
+  facts.kind = bed_kind_called(set.value("kind", std::string()));  // likewise
   set.at("exclude_floor").get_to(facts.measure.exclude_floor);
   set.at("exclude_surface").get_to(facts.measure.exclude_surface);
   set.at("gap_tolerances").get_to(facts.measure.gap_tolerances);

@@ -30,6 +30,7 @@ struct JobFacts {
   std::string settles_as;  ///< for a custom one: the preset that has its bounds; "" if none has
   Box box;
   double small_share = 0.0;
+  std::optional<BedKind> kind;  ///< among those whose protocol error was measured
   MeasureSpec measure;
   std::map<std::string, std::string> files;  ///< as Job::files
   double estimated = 0.0;                    ///< CPU time by estimate, s

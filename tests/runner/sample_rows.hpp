@@ -8,6 +8,7 @@
 
 #include "runner/analysis/student.hpp"
 #include "runner/store/states.hpp"
+#include "runner/sweep/bed_kind.hpp"
 #include "runner/tables/job_facts.hpp"
 
 namespace grainsweep {
@@ -36,6 +37,10 @@ inline JobFacts sample_job(const std::string& id, double width, int replicate = 
   job.box.width = width;
   job.box.y = y;
   job.small_share = small_share;
+  PackingSpec spec;
+  spec.box = job.box;
+  spec.sizes.small_share = small_share;
+  job.kind = bed_kind(spec);
   return job;
 }
 
@@ -108,6 +113,7 @@ inline Row settled_row(const std::string& id, double width, double solid_fractio
 inline Row polyhedra_row(const std::string& id, double width) {
   Row row = settled_row(id, width, 0.65, 7.5);
   row.job.shape = "pinacoid";
+  row.job.kind.reset();
   row.outcome->result.shape_order =
       ShapeOrder{{0.5, 0.25, 0.25}, {0.25, 0.25, 0.5}, {0.125, 0.0625, 0.75}};
   return row;

@@ -63,8 +63,7 @@ TEST_CASE("another precision leaves a packing the bounds of its preset, another 
 
 TEST_CASE("the bias of Z is bounded at the gap at which it was measured, and only there") {
   JobFacts job;
-  job.parameters = "{}";
-  job.shape = "sphere";
+  job.kind = BedKind::spheres;
   job.accuracy = "fast";
   CHECK(bias_bound(job)->coordination == bias_bound("fast", BedKind::spheres)->coordination);
   job.measure.gap_tolerances = {1e-6, 1e-4};
@@ -73,64 +72,21 @@ TEST_CASE("the bias of Z is bounded at the gap at which it was measured, and onl
   CHECK(bias_bound(job)->solid_fraction == bias_bound("fast", BedKind::spheres)->solid_fraction);
 }
 
-TEST_CASE("the bias of packings is bounded where the like of them was measured, and only there") {
-  const auto bound_of = [](const std::string& shape, double small_share, const char* parameters,
-                           const char* accuracy = "fast") {
-    JobFacts job;
-    job.shape = shape;
-    job.small_share = small_share;
-    job.parameters = parameters;
-    job.accuracy = accuracy;
-    const auto bound = bias_bound(job);
-    return bound ? bound->coordination : 0.0;
-  };
-  const auto of = [](BedKind kind) { return bias_bound("fast", kind)->coordination; };
-  const char* const isometric =
-      R"({"shape":{"pinacoid":{"length":1.0,"width":1.0,"height":1.0,"angle_deg":60.0}}})";
-  CHECK(bound_of("sphere", 0.0, "{}") == of(BedKind::spheres));
-  CHECK(bound_of("sphere", 0.2, R"({"sizes":{"size_ratio":0.5}})") == of(BedKind::two_sizes));
-  CHECK(bound_of("sphere", 0.2, R"({"sizes":{"size_ratio":0.3}})") == 0.0);
-  CHECK(bound_of("pinacoid", 0.0, isometric) == of(BedKind::pinacoids));
-  CHECK(bound_of("pinacoid", 0.1, isometric) == 0.0);
-  for (const char* other : {R"("length":1.0,"width":1.0,"height":0.3,"angle_deg":60.0)",
-                            R"("length":1.0,"width":1.0,"height":1.0,"angle_deg":75.0)"}) {
-    const std::string parameters = std::string(R"({"shape":{"pinacoid":{)") + other + "}}}";
-    CHECK(bound_of("pinacoid", 0.0, parameters.c_str()) == 0.0);
-  }
-  CHECK(bound_of("sphere", 0.0, R"({"sizes":{"spread":0.01}})") == of(BedKind::spheres));
-  CHECK(bound_of("sphere", 0.0, R"({"sizes":{"spread":0.1}})") == 0.0);
-  CHECK(bound_of("sphere", 1.0, R"({"sizes":{"size_ratio":0.5}})") == 0.0);
-  CHECK(bound_of("hull", 0.0, "{}") == 0.0);
-  CHECK(bound_of("sphere", 0.0, "{}", "custom") == 0.0);
-  CHECK(bound_of("sphere", 0.0, R"({"sizes":{"distribution":{"kind":"uniform"}}})") == 0.0);
-  CHECK(bound_of("sphere", 0.0, R"({"fill":{"file":"00c0ffee00c0ffee"}})") == 0.0);
-  JobFacts tube;
-  tube.parameters = "{}";
-  tube.shape = "sphere";
-  tube.accuracy = "fast";
-  CHECK(bias_bound(tube));
-  tube.box = tube_of(5);
-  CHECK(bias_bound(tube)->solid_fraction == bias_bound("fast", BedKind::spheres)->solid_fraction);
-  const auto is_narrow = [&](const Box& box) {
-    tube.box = box;
-    return bias_bound(tube)->solid_fraction ==
-           bias_bound("fast", BedKind::narrow_spheres)->solid_fraction;
-  };
-  CHECK(is_narrow(tube_of(4.99)));
-  CHECK_FALSE(is_narrow({5, 4, Boundary::periodic, Boundary::walls}));
-  CHECK(is_narrow({5, 3.99, Boundary::periodic, Boundary::walls}));
-  CHECK_FALSE(is_narrow({5, 3.99, Boundary::periodic, Boundary::periodic}));
-  CHECK_FALSE(is_narrow({5, 5, Boundary::walls, Boundary::walls}));
-  CHECK(is_narrow({4.99, 8, Boundary::walls, Boundary::walls}));
-  CHECK(is_narrow({3.99, 8, Boundary::walls, Boundary::periodic}));
-  tube.box = tube_of(5);
-  tube.small_share = 0.2;
-  tube.parameters = R"({"sizes":{"size_ratio":0.5}})";
-  CHECK_FALSE(bias_bound(tube));
-  tube.box = {5, 4, Boundary::periodic, Boundary::walls};
-  CHECK(bias_bound(tube));
-  tube.box.width = 3.99;
-  CHECK_FALSE(bias_bound(tube));
+TEST_CASE("the bias of packings is bounded by their kind and the preset they settle as") {
+  JobFacts job;
+  job.kind = BedKind::two_sizes;
+  job.accuracy = "custom";
+  CHECK_FALSE(bias_bound(job));
+  job.settles_as = "balanced";
+  CHECK(bias_bound(job)->solid_fraction ==
+        bias_bound("balanced", BedKind::two_sizes)->solid_fraction);
+  CHECK(set_from_json(set_json(job)).kind == BedKind::two_sizes);
+  job.kind.reset();
+  CHECK_FALSE(bias_bound(job));
+  CHECK_FALSE(set_from_json(set_json(job)).kind);
+  auto earlier = set_json(job);
+  earlier.erase("kind");
+  CHECK_FALSE(set_from_json(earlier).kind);
 }
 
 /// What the JSON of a list says.
