@@ -45,9 +45,10 @@ std::optional<BedKind> kind_of_spheres(const SizesSpec& sizes, const Box& box) {
   }
   if (sizes.small_share == 0.0) return is_narrow(box) ? BedKind::narrow_spheres : BedKind::spheres;
   if (sizes.small_share == 1.0 || is_narrow(box)) return std::nullopt;
-  if (sizes.size_ratio == SizesSpec{}.size_ratio && !box.is_tube) return BedKind::two_sizes;
-  const double least_ratio = SizesSpec{}.size_ratio;  // of two classes that were measured
-  return sizes.size_ratio >= least_ratio ? std::optional(BedKind::many_sizes) : std::nullopt;
+  constexpr double least_ratio = 0.5;  // of two classes that were measured
+  if (sizes.size_ratio < least_ratio) return std::nullopt;
+  const bool is_half = sizes.size_ratio == least_ratio;
+  return is_half && !box.is_tube ? BedKind::two_sizes : BedKind::many_sizes;
 }
 
 bool is_usual(const PinacoidSize& size) {

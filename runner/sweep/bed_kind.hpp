@@ -10,12 +10,11 @@
 namespace grainsweep {
 
 /// None for beds unlike any that was measured: starts from files; classes that spread more than
-/// they usually do; small grains less than half as large as the others; distributions whose largest
-/// grain is more than 3 times the smallest, but for lognormal ones with a sigma of up to 0.5; small
-/// grains alone; other shapes, proportions and angles than
-/// those of the usual pinacoid; and, for other grains than spheres of one size, narrow containers:
-/// gaps between walls of less than 4 d, ducts and tubes of less than 5 d, and for pinacoids and two
-/// sizes all tubes.
+/// they usually do; small grains less than half as large as the others, or without others;
+/// distributions whose largest grain is more than 3 times the smallest, but for lognormal ones with
+/// a sigma of up to 0.5, and Weibull curves; other shapes, proportions and angles than those of the
+/// usual pinacoid; for other grains than spheres of one size, gaps between walls of less than 4 d,
+/// and ducts and tubes of less than 5 d; and for pinacoids all tubes.
 std::optional<BedKind> bed_kind(const PackingSpec& spec);
 
 /// "spheres of one size".
