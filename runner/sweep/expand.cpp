@@ -419,10 +419,12 @@ class Expansion {
       distribution->formula = reading.table;
       if (size == nullptr) note_unit_of(*file);
     }
+    if (!(resolved.size_unit > 0.0)) {
+      note(*size, "must be positive");
+      return distribution.reset();
+    }
     if (size != nullptr) note_other_d(*size, resolved.size_unit);
-    if (resolved.size_unit > 0.0) return to_units_of(resolved.size_unit, *distribution);
-    note(*size, "must be positive");
-    distribution.reset();
+    to_units_of(resolved.size_unit, *distribution);
   }
 
   void note_hull(const Assignment& file, const VerticesReading& reading) {
