@@ -177,7 +177,7 @@ std::string added_text(std::size_t added, std::size_t given_grains) {
 }
 
 void add_outcome(const std::string& folder, Boxed<Outcome> outcome, Row& row, Collection& to) {
-  const bool is_known = row.outcome && !row.outcome->exception;
+  const bool is_known = is_made(row);
   if (is_known && !brings_grains(*outcome, *row.outcome)) {
     if (!outcome->exception && !is_same_result(*outcome, *row.outcome)) {
       warn(folder + ": its packing " + outcome->job + " (version " + outcome->version +

@@ -47,13 +47,14 @@ std::vector<PlannedGroup> planned_groups(const Sweep& sweep, const std::vector<C
   return groups;
 }
 
-/// What is stored in a folder, if one is given, in as much detail as the sweep needs. Warns of
-/// damaged packings, which a run makes anew.
+/// What is made in a folder, if one is given, in as much detail as the sweep needs. Warns of
+/// damaged packings, which a run makes anew, as it does those that broke off.
 Outcomes made_in(const std::string& folder, const Sweep& whole) {
   if (folder.empty()) return {};
   JournalReading stored = read_journals(folder, grows(whole) ? Detail::whole : Detail::summary);
   std::cerr << damage_warnings(stored.damage)
             << damage_warnings(expect_beds(folder, stored.outcomes));
+  std::erase_if(stored.outcomes, [](const auto& one) { return one.second->exception; });
   return std::move(stored.outcomes);
 }
 
@@ -81,8 +82,7 @@ std::string learned_text(const std::string& folder, const Outcomes& outcomes,
   }
   std::vector<Cost> left;
   for (std::size_t k = 0; k < jobs.size(); ++k) {
-    const auto made = outcomes.find(jobs[k].id);
-    if (made == outcomes.end() || made->second->exception) left.push_back(costs[k]);
+    if (!outcomes.contains(jobs[k].id)) left.push_back(costs[k]);
   }
   return counted(jobs.size() - left.size(), "packing") + " made in " + folder +
          ": estimates times " +

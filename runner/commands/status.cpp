@@ -36,9 +36,6 @@ struct Standing {
   int threads = 0;                    ///< of all runners at work
 };
 
-/// A packing that broke off is made by the next run.
-bool is_made(const Row& row) { return row.outcome && !row.outcome->exception; }
-
 double cpu_seconds_left(const std::vector<Row>& rows) {
   std::vector<Known> packings;
   packings.reserve(rows.size());

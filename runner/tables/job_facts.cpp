@@ -283,10 +283,11 @@ std::string status_of(const Row& row) {
   return row.outcome ? name_of(row.outcome->result.status) : "pending";
 }
 
+bool is_made(const Row& row) { return row.outcome && !row.outcome->exception; }
+
 void count(const Row& row, StatusCounts& counts) {
-  const bool is_broken_off = row.outcome && row.outcome->exception;
-  counts.broken_off += is_broken_off ? 1 : 0;
-  if (!row.outcome || is_broken_off)
+  counts.broken_off += row.outcome && !is_made(row) ? 1 : 0;
+  if (!is_made(row))
     ++counts.pending;
   else if (is_settled(row))
     ++counts.settled;

@@ -116,6 +116,9 @@ bool is_measured(const Row& row);
 /// "settled", "not_settled", "failed" or "pending".
 std::string status_of(const Row& row);
 
+/// Whether it was made. One that broke off, by an exception, is made by the next run.
+bool is_made(const Row& row);
+
 /// Packings by status.
 struct StatusCounts {
   int settled = 0, not_settled = 0, failed = 0;
