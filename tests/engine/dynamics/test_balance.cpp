@@ -73,6 +73,14 @@ TEST_CASE("light grains that stand on nothing count by their mass") {
   CHECK(left.mean == Approx(1.0 / 24.0).epsilon(1e-12));
 }
 
+TEST_CASE("heavy grains that stand on nothing miss balance by their own weight, however heavy") {
+  const SphereBed bed = make_bed({8, 4, periodic, walls}, {{2, 2, 3, 1}, {6, 2, 0.5, 0.5}});
+  StepState<Sphere, double> closed;
+  const Imbalance left =
+      static_imbalance(touching, 0.04, kernels(), bed, 1.0, SphereContacts<float>{}, closed);
+  CHECK(left.mean == Approx(0.5).epsilon(1e-12));
+}
+
 TEST_CASE("a bed without grains has no imbalance") {
   CHECK(imbalance_of(make_bed({6, 4, periodic, walls}, std::vector<PlacedSphere>{})).max == 0);
 }

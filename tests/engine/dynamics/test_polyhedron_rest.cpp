@@ -77,5 +77,22 @@ TEST_CASE(
   CHECK(modes_of_a_row({6, 6, periodic, walls}, 1, {floor, side}) == 1);
 }
 
+TEST_CASE("each vertex at the wall of a tube has a force of its own, the floor one in all") {
+  const PolyhedronBed bed = make_bed(tube_of(4), testing::cube(), {pose_at(2, 2, 0.5)});
+  const std::int32_t floor = bed.wall_name(0), round = floor + tube_wall;
+  const auto forces =
+      wall_forces(bed, {{0, round, 1.0}, {0, floor, 2.0}, {0, round + 3, 4.0}, {0, floor, 8.0}}, {})
+          .first;
+  REQUIRE(forces.size() == 3);
+  CHECK((forces[0].wall == 0 && forces[0].magnitude == 10.0));
+  CHECK((forces[1].wall == wall_of_vertex(0) && forces[1].magnitude == 1.0));
+  CHECK((forces[2].wall == wall_of_vertex(3) && forces[2].magnitude == 4.0));
+}
+
+TEST_CASE("a grain alone in a tube slides and spins, which a turn about the axis amounts to") {
+  const PolyhedronBed bed = make_bed(tube_of(4), testing::cube(), {pose_at(2.5, 2, 0.5)});
+  CHECK(zero_modes(bed, {{0, bed.wall_name(0), 1.0}}) == 3);
+}
+
 }  // namespace
 }  // namespace grainsweep

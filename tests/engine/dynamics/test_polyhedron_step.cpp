@@ -173,7 +173,7 @@ TEST_CASE("no grain moves or turns further in a step than the longest motion") {
   for (int k = 0; k < 40; ++k) {
     const Quaternion turn =
         Quaternion::FromTwoVectors(Vector::UnitZ(), testing::random_direction(draw));
-    poses.push_back(pose_at(2, 2, 0.5, turn, k < 20 ? 0.2 : 1.0));
+    poses.push_back(pose_at(2, 2, 0.5, turn, k < 20 ? 0.2 : 3.0));
   }
   PolyhedronBed bed = make_bed({4, 4, periodic, walls}, testing::cube(), poses);
   StepState<Polyhedron, double> state;
@@ -225,6 +225,27 @@ TEST_CASE("a free grain keeps its angular momentum while it tumbles") {
   take_steps(50, tight_steps(1), bed, state);
   CHECK((momentum() - before).norm() < 1e-14);
   CHECK(bed.pose(0).orientation.angularDistance(Quaternion::Identity()) > 0.5);
+}
+
+TEST_CASE("a grain that spins moves its corners no further than it may move in the air") {
+  PolyhedronBed bed = make_bed({9, 9, periodic, walls}, testing::cube(),
+                               {pose_at(4, 4, 50, Quaternion::Identity(), 3.0)});
+  bed.spin[0] = Vector(0.0, 0.0, 0.1);
+  StepState<Polyhedron, double> state;
+  StepSettings settings = tight_steps(1.0);
+  settings.longest_free = 0.15;
+  step(settings, kernels(), bed, state);
+  CHECK(bed.spin[0].norm() * bed.circumradius(0) == Approx(0.15));
+}
+
+TEST_CASE("velocities and spins stay as they are when steps become shorter or longer") {
+  PolyhedronBed bed = make_bed({6, 6, periodic, walls}, testing::cube(), {pose_at(3, 3, 50)});
+  bed.motion[0].x = 0.04;
+  bed.spin[0] = Vector(0.02, -0.1, 0.05);
+  StepState<Polyhedron, double> state;
+  change_step(0.25, bed, state);
+  CHECK(bed.motion[0].x == 0.01);
+  CHECK(bed.spin[0] == Vector(0.005, -0.025, 0.0125));
 }
 
 TEST_CASE("grains are said to have sunk where the balls within them overlap by half") {
@@ -353,6 +374,17 @@ TEST_CASE("a second step on the same contacts ends where one on new ones does, t
   const double half_angle = std::hypot(p.x - q.x, p.y - q.y, p.z - q.z);
   CHECK(half_angle < 2.0 * moved * moved);
   CHECK(both.largest_motion == Approx(moved).epsilon(0.05));
+}
+
+TEST_CASE("the iterations of all steps on the same contacts are told") {
+  PolyhedronBed bed = cube_stack(5);
+  StepState<Polyhedron, double> state;
+  StepSettings settings = tight_steps(0);
+  settings.limits = {Solver::accelerated_gauss_seidel, 7, 0.0};
+  settings.steps = 2;
+  const StepReport report = step(settings, kernels(), bed, state);
+  CHECK(report.steps == 2);
+  CHECK(report.solve.iterations == 14);
 }
 
 TEST_CASE("after a long way contacts are found anew") {

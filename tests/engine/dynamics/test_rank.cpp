@@ -40,6 +40,16 @@ TEST_CASE("walls that hold a sphere between them are no constraints") {
         1);
 }
 
+// The small one between floor, wall and large one: what it pushes the large one with along y is the
+// walls' to bear, and the floor bears the rest of it.
+TEST_CASE("a sphere that fills the space between walls takes no push across it") {
+  const double small = 0.5 * (std::sqrt(2.0) - 1.0) / (std::sqrt(2.0) + 1.0);
+  const SphereBed bed =
+      make_bed({6, 1, periodic, walls}, {{2, small, small, small}, {2, 0.5, 0.5, 0.5}});
+  const auto floor = wall_name(bed, 0), wall = wall_name(bed, 1);
+  CHECK(rank_of(bed, {{0, floor}, {0, wall}, {0, 1}, {1, floor}}) == 3);
+}
+
 TEST_CASE("a bed in which nothing pushes has no constraints") {
   CHECK(rank_of(make_bed({6, 4, periodic, walls}, {{2, 0.5, 3.0, 0.4}}), {}) == 0);
 }

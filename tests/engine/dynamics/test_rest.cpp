@@ -110,10 +110,14 @@ TEST_CASE("clusters in a tube turn about its axis, where that is another motion 
   CHECK(pair.modes() == 3);
   CHECK(clusters_that_turn(pair.bed, pair.forces()).size() == 1);
   CHECK(clusters_that_turn(lone.bed, lone.forces()).empty());
+  Pushed along_y(tube, {{2, 1, 0.5, 0.5}, {2, 1.6, 1.3, 0.5}});
+  along_y.with_wall(0, 0, 2).with_pair(0, 1, 1);
+  CHECK(along_y.modes() == 3);
 }
 
 TEST_CASE("grains in mid-air have no free directions on the floor, nor has an empty bed") {
   CHECK(Pushed(x_periodic, {{2, 2, 3, 0.5}}).modes() == 0);
+  CHECK(Pushed(x_periodic, {{2, 0.5, 3, 0.5}}).with_wall(0, 1, 1).modes() == 0);
   CHECK(Pushed(x_periodic, {}).modes() == 0);
 }
 

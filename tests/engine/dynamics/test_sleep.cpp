@@ -35,6 +35,7 @@ TEST_CASE("grains sleep that lie deeper below the filling front than the depth o
   CHECK(wake(bed));
   CHECK_FALSE(wake(bed));
   CHECK_FALSE(bed.is_asleep(0));
+  CHECK(bed.first_awake == 0);
 }
 
 TEST_CASE("nothing sleeps in a bed that does not fill up") {
@@ -92,12 +93,17 @@ TEMPLATE_TEST_CASE("grains that sleep stand still and carry those above", "", fl
   SphereBed bed = testing::column_bed(6, 0.0);
   bed.asleep = {1, 1, 1, 0, 0, 0};
   bed.first_awake = 3;
+  bed.motion[1].x = bed.motion[4].x = 0.1;  // of one that just fell asleep, and of one awake
   const SphereBed before = bed;
   StepState<Sphere, TestType> state;
   StepSettings settings;
   settings.dt = step_length;
+  settings.momentum = 1.0;
   settings.limits = {Solver::accelerated_gauss_seidel, 10'000, 1e-5};
   const StepReport report = step(settings, kernels(), bed, state);
+  CHECK(bed.motion[1].x == 0.0);
+  // Of one in three that are awake.
+  CHECK(report.kinetic_energy == Approx(0.1 * 0.1 / (2 * step_length * step_length) / 3));
   CHECK(report.carried == Approx(1.0).epsilon(1e-4));  // of three grains, by a residual of 1e-5
   for (std::size_t i = 0; i < 6; ++i) {
     CHECK(bed.position[i].z == about(before.position[i].z, 1e-5));

@@ -99,6 +99,7 @@ TEMPLATE_TEST_CASE("the residual reported is that of the impulses left behind", 
       CHECK(report.iterations == iterations);
       const DenseSolution left = state_left(problem);
       CHECK(report.residual == about(static_cast<double>(left.violation), rounding));
+      CHECK(report.rms <= report.residual);
       expect_motion(problem.motion.u, left.u, rounding);
     }
   }

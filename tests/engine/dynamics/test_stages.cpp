@@ -74,6 +74,40 @@ TEST_CASE("the creep takes the steps that it is given") {
     accuracy.creep_steps = steps;
     CHECK(steps_of(accuracy, heavy_ball("creep")) == steps);
   }
+  // 0.35 * 180 is 63 less one rounding.
+  Accuracy accuracy;
+  accuracy.creep_steps = 180;
+  const Stages turning = stages_of<Polyhedron>(Protocol::heavy_ball);
+  CHECK(steps_of(accuracy, stage_called("creep", turning)) == 20 + 63);
+}
+
+TEST_CASE("half of a stage's share is done after its usual steps") {
+  const Accuracy accuracy;
+  for (const char* name : {"look", "fall", "quench"}) {
+    const StageRule& stage = heavy_ball(name);
+    const double half = (stage.done_before + stage.done_after) / 2;
+    CHECK(share_done(accuracy, stage, stage.usual_steps) == Approx(half));
+  }
+}
+
+TEST_CASE(
+    "a solve at rest goes on until the test of rest allows what it leaves, or sixteen times") {
+  Accuracy accuracy;
+  accuracy.residual_tolerance = 2e-3;
+  accuracy.rest_iterations = 100;
+  const auto limits = [&](const char* stage) {
+    return settings_of(accuracy, heavy_ball(stage)).limits;
+  };
+  const double dt = settings_of(accuracy, heavy_ball("quench")).dt;
+  CHECK(limits("quench").residual_cap == Approx(2e-3 * dt * dt));
+  CHECK(limits("fall").residual_cap == 0.01);
+  accuracy.precision = Precision::f64;
+  CHECK(limits("quench").iteration_cap == 16 * 200);
+  accuracy.precision = Precision::f32;
+  CHECK(limits("quench").iteration_cap == 2 * 200);
+  CHECK(limits("fall").iteration_cap == 20'000);
+  accuracy.rest_iterations = 9000;
+  CHECK(limits("quench").iteration_cap == 20'000);
 }
 
 TEST_CASE("iterations of fall and creep are bounded apart from those at rest") {

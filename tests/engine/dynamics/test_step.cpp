@@ -171,6 +171,18 @@ TEST_CASE("the residual of a step is a force in weights, whatever the length of 
   }
 }
 
+TEST_CASE("the path that a solve leaves is told over the degrees of freedom") {
+  SphereBed bed = testing::column_bed(5, 0.0);
+  StepState<Sphere, double> state;
+  StepSettings settings = tight_steps(0.0);
+  settings.limits.iterations = 3;
+  const StepReport report = step(settings, kernels(), bed, state);
+  CHECK(report.solve.loaded == 5.0);
+  CHECK((report.solve.rms > 0.0 && report.solve.rms <= report.solve.residual));
+  const double path = report.solve.rms * settings.dt * settings.dt;
+  CHECK(report.spurious_path == Approx(path * 5.0 / 15.0));
+}
+
 TEST_CASE("forces and velocities stay as they are when steps become shorter or longer") {
   for (const double ratio : {0.25, 2.0}) {
     SphereBed bed = testing::column_bed(5, 0.0);

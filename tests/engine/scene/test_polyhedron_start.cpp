@@ -93,5 +93,30 @@ TEST_CASE("the same key gives the same bed of shapes, another key another") {
   CHECK(state_hash(*a) != state_hash(*c));
 }
 
+TEST_CASE("grains of a mixture start in balls of the volumes of their own components") {
+  PackingSpec spec = spec_of(4);
+  spec.shape = Mixture{{{0.5, CubeSize{}}, {0.5, CuboidSize{1, 0.3, 0.3}}}, ShareBy::number};
+  const auto bed = start<Polyhedron>(spec);
+  REQUIRE(bed);
+  const auto ball = [&](std::size_t i) {
+    return start_ball * bed->scale(i) * std::cbrt(bed->shape(i).volume / sphere_volume(1.0));
+  };
+  for (std::size_t i = 0; i < bed->grains(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      REQUIRE(nearest_difference(*bed, i, j).norm() >= ball(i) + ball(j) - 1e-12);  // rounding
+    }
+  }
+}
+
+TEST_CASE("a start in a tube is as high as its floor makes it") {
+  PackingSpec spec = spec_of(6);
+  spec.box = tube_of(6);
+  const auto bed = start<Polyhedron>(spec);
+  REQUIRE(bed);
+  double highest = 0.0;
+  for (const Record<double>& centre : bed->centres()) highest = std::max(highest, centre.z);
+  CHECK(highest > 0.9 * 6 / polyhedron_start_solid_fraction);
+}
+
 }  // namespace
 }  // namespace grainsweep

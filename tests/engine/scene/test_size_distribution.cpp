@@ -260,5 +260,25 @@ TEST_CASE("what is wrong with a distribution is said") {
   CHECK(fault(SizeTable{{0.5, 1.0}, {}, {0.5, 0.4}}).starts_with("table.shares must add up to 1"));
 }
 
+TEST_CASE("the grains of one size at an end asked for are left") {
+  const SizeTable table{{0.3, 1.0, 2.0}, {}, {0.2, 0.3, 0.5}};
+  const SizeCurve curve = curve_of(distribution_of(table, SizeWeight::number, 1.0, 2.0));
+  CHECK(mean_cube(curve) == Approx((0.3 * 1 + 0.5 * 8) / 0.8));
+}
+
+TEST_CASE("a lognormal curve of no width is one size, whatever ends are given") {
+  const SizeCurve curve =
+      curve_of(distribution_of(LognormalSizes{1.0, 0.0}, SizeWeight::volume, 0.5, 3.0));
+  CHECK(curve.diameters.front() == 1.0);
+  CHECK(curve.diameters.back() == 1.0);
+}
+
+TEST_CASE(
+    "a size may have no share, and the largest may be as many times the smallest as is said") {
+  const SizeTable gap{{0.5, 1.0, 2.0}, {}, {0.5, 0.0, 0.5}};
+  CHECK(fault_of(distribution_of(gap, SizeWeight::number)) == "");
+  CHECK(fault_of(distribution_of(UniformSizes{1.0, most_size_ratio}, SizeWeight::number)) == "");
+}
+
 }  // namespace
 }  // namespace grainsweep

@@ -166,5 +166,18 @@ TEST_CASE("the limit between two classes is equally many deviations from both me
   CHECK(std::isinf(small_class_limit(sizes)));
 }
 
+TEST_CASE("the solid height of counted and of placed grains is their volume over the floor") {
+  PackingSpec spec = spec_of(GrainCount{100}, {});
+  spec.box = {10, 5};
+  spec.sizes.distribution = {SizeTable{{1.0, 2.0}, {}, {0.5, 0.5}}, SizeWeight::number};
+  CHECK(solid_height(spec) == Approx(100 * (1 + 8) / 2.0 * pi / 6 / 50));
+  spec.sizes.distribution.reset();
+  spec.shape = Mixture{{{0.5, CubeSize{}}, {0.5, CuboidSize{1, 0.5, 0.5}}}};
+  PlacedGrains placed{{{1, 1, 1, 0.5}, {3, 3, 1, 0.5}, {5, 3, 1, 1.0}}, {}};
+  placed.components = {0, 1, 1};
+  spec.fill = placed;
+  CHECK(solid_height(spec) == Approx((1 + 0.25 + 8 * 0.25) / 50));
+}
+
 }  // namespace
 }  // namespace grainsweep

@@ -158,6 +158,48 @@ TEST_CASE("placed grains must lie in the box, have a radius and be finite") {
   CHECK(placed({{5, 3, 1, nan}}).size() == 1);
 }
 
+TEST_CASE("placed grains lie in the tube, and no higher than a bed may be long") {
+  const auto placed = [](const Box& box, const PlacedSphere& grain) {
+    return broken_by([=](PackingSpec& spec) {
+             spec.box = box;
+             spec.fill = PlacedGrains{{grain}};
+           })
+        .size();
+  };
+  CHECK(placed(tube_of(4), {0.5, 2, 1, 0.5}) == 0);
+  CHECK(placed(tube_of(4), {0.495, 2, 1, 0.5}) == 0);  // overlaps the wall as a settled bed may
+  CHECK(placed(tube_of(4), {0.48, 2, 1, 0.5}) == 1);
+  CHECK(placed({10, 6}, {5, 3, 10'000, 0.5}) == 0);
+  CHECK(placed({10, 6}, {5, 3, 10'001, 0.5}) == 1);
+}
+
+TEST_CASE("placed polyhedra may lie on their faces, turned as unit quaternions say") {
+  const auto placed = [](const std::array<double, 4>& last) {
+    return broken_by([=](PackingSpec& spec) {
+      spec.box = {10, 6};
+      spec.shape = CuboidSize{1, 0.2, 0.2};
+      spec.fill = PlacedGrains{{{5, 0.1, 0.1, 0.5}, {2, 3, 1, 0.5}}, {{0, 0, 0, 1}, last}};
+    });
+  };
+  CHECK(placed({0, 0, 1, 0}).empty());
+  const Messages errors = placed({0, 0, 1, 1});
+  REQUIRE(errors.size() == 1);
+  CHECK(errors[0].starts_with("fill.file: grain 2 qx, qy, qz, qw must be a unit quaternion"));
+}
+
+TEST_CASE("a placed grain of a mixture is of one of its components") {
+  const auto placed = [](std::uint8_t component) {
+    return broken_by([=](PackingSpec& spec) {
+      spec.shape = Mixture{{{0.5, CubeSize{}}, {0.5, SphereShape{}}}};
+      PlacedGrains grains{{{5, 3, 1, 0.5}}, {{0, 0, 0, 1}}};
+      grains.components = {component};
+      spec.fill = grains;
+    });
+  };
+  CHECK(placed(1).empty());
+  CHECK(placed(2).size() == 1);
+}
+
 TEST_CASE("grains of a file that are far smaller than d have the wrong unit") {
   PackingSpec spec;
   PlacedGrains placed;
@@ -192,6 +234,46 @@ TEST_CASE("a bed that must come out too low to be measured is refused where it i
   CHECK(bed(10, GrainCount{3}, 3)[0].starts_with("fill.grains: gives a bed too low"));
 }
 
+TEST_CASE("layers do not interlock in narrow tubes nor between end walls: beds may be higher") {
+  const auto bed = [](const Box& box, const ShapeSpec& shape) {
+    return broken_by([=](PackingSpec& spec) {
+             spec.box = box;
+             spec.shape = shape;
+             spec.fill = SolidHeight{2};
+             spec.measure.exclude_floor = 3;
+           })
+        .size();
+  };
+  CHECK(bed(tube_of(2.45), {}) == 0);  // 2 / 0.3 and a grain high, of 7 d
+  CHECK(bed(tube_of(2.55), {}) == 1);
+  CHECK(bed({3.4, 10, Boundary::walls, Boundary::walls}, CubeSize{}) == 0);  // of 1.73 d
+  CHECK(bed({3.5, 10, Boundary::walls, Boundary::walls}, CubeSize{}) == 1);
+}
+
+TEST_CASE("beds come out as high as most do") {
+  PackingSpec spec;
+  spec.sizes.spread = 0.0;
+  spec.box = {10, 10, Boundary::periodic, Boundary::periodic};
+  spec.fill = SolidHeight{6};
+  CHECK(probable_height(spec) == Approx(6 / 0.6));
+  spec.shape = CubeSize{};
+  CHECK(probable_height(spec) == Approx(6 / 0.62));
+}
+
+TEST_CASE("tubes hold polyhedra of any size that may occur") {
+  const auto tube = [](double largest) {
+    return broken_by([=](PackingSpec& spec) {
+      spec.box = tube_of(6);
+      spec.shape = CubeSize{};
+      spec.sizes.distribution = SizeDistribution{.formula = UniformSizes{0.9, largest}};
+    });
+  };
+  CHECK(tube(1.3).empty());  // 2.5 times 1.73 times 1.3: 5.63 d
+  const Messages errors = tube(1.5);
+  REQUIRE(errors.size() == 1);
+  CHECK(errors[0].starts_with("tube.diameter: must be at least 6.49"));
+}
+
 TEST_CASE("steps in which a bed cannot even fall are refused") {
   const auto steps = [](double step, double momentum, Protocol protocol) {
     return broken_by([=](PackingSpec& spec) {
@@ -212,6 +294,17 @@ TEST_CASE("steps in which a bed cannot even fall are refused") {
   CHECK(steps(0.0057, 0.9, Protocol::dynamic).empty());
   CHECK(steps(0.0056, 0.9, Protocol::dynamic).size() == 1);
   CHECK(steps(0.127, 0.0, Protocol::heavy_ball).empty());
+  const auto most = [](int max_steps) {
+    return broken_by([=](PackingSpec& spec) {
+      spec.sizes.spread = 0.0;
+      spec.fill = SolidHeight{8};
+      spec.accuracy.step = 0.127;
+      spec.accuracy.momentum = 0.0;
+      spec.accuracy.max_steps = max_steps;
+    });
+  };
+  CHECK(most(993).empty());  // 16 / 0.127^2 is 992.002
+  CHECK(most(992).size() == 1);
   CHECK(steps(0.126, 0.0, Protocol::heavy_ball).size() == 1);
 }
 
@@ -325,6 +418,15 @@ TEST_CASE("the bins of a profile are no wider than the box") {
   CHECK(bins(5.5) == Messages{rule + "is 5.5"});
   CHECK(bins(0) == Messages{rule + "is 0"});
   CHECK(bins(nan) == Messages{rule + "is nan"});
+  const auto rings = [](double width) {
+    return broken_by([&](PackingSpec& spec) {
+      spec.box = tube_of(5);
+      spec.measure.bin_width = width;
+    });
+  };
+  CHECK(rings(2.5).empty());
+  CHECK(rings(2.6) == Messages{"measure.bin_width: must lie in [0.01, 2.5] (no wider than half of "
+                               "tube.diameter), is 2.6"});
 }
 
 TEST_CASE("two sizes whose masses differ by more than 1e5 to 1 take f64") {
@@ -350,6 +452,10 @@ TEST_CASE("components whose masses differ by more than 1e5 to 1 take f64") {
   CHECK(errors[0].message.starts_with("has components of 1.25e+05 times each other's volume"));
   spec.accuracy.precision = Precision::f64;
   CHECK(check(spec).empty());
+  spec.accuracy.precision = Precision::f32;
+  spec.shape = Mixture{{{1.0, CubeSize{}}, {0.0, CubeSize{0.02}}}, ShareBy::volume};
+  spec.fill = GrainCount{2000};
+  CHECK(check(spec).empty());  // none of the small ones is drawn
 }
 
 TEST_CASE("beds of needles may come out looser than those of stout grains") {

@@ -4,6 +4,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "engine/results.hpp"
 #include "engine/scene/start.hpp"
 #include "engine/units.hpp"
 #include "tests/support/about.hpp"
@@ -38,9 +39,10 @@ double top_of(const SphereBed& bed) {
 
 TEST_CASE("grains start apart from each other and from all walls") {
   const SizesSpec two_sizes{0.1, 0.3, 0.3};
-  for (const Box& box : {Box{6, 4, periodic, walls}, Box{6, 4, periodic, periodic},
-                         Box{6, 4, walls, walls}, Box{3, 3, periodic, periodic},
-                         Box{2.9, 1.45, walls, walls}, Box{9, 1.45, periodic, walls}}) {
+  for (const Box& box :
+       {Box{6, 4, periodic, walls}, Box{6, 4, periodic, periodic}, Box{6, 4, walls, periodic},
+        Box{6, 4, walls, walls}, Box{3, 3, periodic, periodic}, Box{2.9, 1.45, walls, walls},
+        Box{9, 1.45, periodic, walls}}) {
     for (const std::int64_t grains : {1, 2, 60, 400}) {
       INFO(box.length << " x " << box.width << ", " << grains << " grains");
       const auto bed = start<Sphere>(spec_of(box, grains, two_sizes));
@@ -108,6 +110,34 @@ TEST_CASE("grains in single file start in one plane, turned by the key") {
   CHECK(std::abs(angles[0] - angles[1]) > 0.1);
 }
 
+// Each touches the next but one where D = 1 + sqrt(3) / 2 times its diameter: 1.866.
+TEST_CASE("only tubes in which no grain lies beside the next but one are filled in single file") {
+  const auto is_in_file = [](double diameter, const SizesSpec& sizes) {
+    const auto bed = start<Sphere>(spec_of(tube_of(diameter), 50, sizes));
+    REQUIRE(bed);
+    double lowest = 0.0;
+    for (std::size_t i = 0; i < bed->grains(); ++i) {
+      // Those of a file lie at the wall, higher than the one before.
+      const Record<double>& p = bed->position[i];
+      if (std::abs(bed->walls[tube_wall].gap(p)) > 1e-12 || p.z < lowest + 1.0) return false;
+      lowest = p.z;
+    }
+    return true;
+  };
+  CHECK(is_in_file(1.866, {0, 0, 0.5}));
+  CHECK_FALSE(is_in_file(1.867, {0, 0, 0.5}));
+  // Of small grains the tube holds more side by side.
+  CHECK(is_in_file(1.49, {0, 0.1, 0.8}));
+  CHECK_FALSE(is_in_file(1.5, {0, 0.1, 0.8}));
+}
+
+TEST_CASE("grains in single file do not stand evenly") {
+  const auto bed = start<Sphere>(spec_of(tube_of(1.6), 3, {0, 0, 0.5}));
+  REQUIRE(bed);
+  const auto apart = [&](std::size_t i) { return bed->position[i + 1].z - bed->position[i].z; };
+  CHECK(std::abs(apart(0) - apart(1)) > 1e-4);
+}
+
 TEST_CASE("sizes are mixed in single file, in which grains cannot pass each other") {
   PackingSpec spec = spec_of(tube_of(1.4), 400, {0, 0.4, 0.9}, 3);
   std::vector<double> drawn = draw_radii(spec), found;
@@ -158,7 +188,9 @@ TEST_CASE("grains fill a column of the start's solid fraction") {
     solid += sphere_volume(bed->position[i].w);
   }
   // The highest of 800 grains comes within a few percent of the top.
-  CHECK(solid / (64 * top_of(*bed)) == Approx(sphere_start_solid_fraction).epsilon(0.02));
+  const double fraction = solid / (64 * top_of(*bed));
+  CHECK(fraction == Approx(sphere_start_solid_fraction).epsilon(0.02));
+  CHECK(fraction >= sphere_start_solid_fraction - 1e-12);
 }
 
 TEST_CASE("grains are numbered from the floor up, layer by layer of at most two diameters") {

@@ -39,6 +39,7 @@ TEST_CASE("little work has fewer shards than there are nodes, and much work more
   CHECK(much.shards == 120);
   CHECK(much.estimated == Approx(3600));
   CHECK_THAT(much.reason, Contains("1 h 0 min at most"));
+  CHECK(divide(minutes_of_work(12 * 10 * 600 + 300), twelve_nodes).shards == 121);
 }
 
 TEST_CASE("a short time limit and an array of few elements decide") {
@@ -101,6 +102,10 @@ TEST_CASE("a shard has no more threads than there is memory for") {
   CHECK(division.threads == 5);  // of four fifths of 64 GB
   CHECK(division.bytes <= 64e9);
   CHECK(division.bytes >= 5 * 10e9 / 0.8);
+  ClusterLimits tight = twelve_nodes;
+  tight.memory = 62.66e9;  // of which 62.653 GB are needed: 62.7 in whole 100 MB
+  CHECK(divide(large, tight).threads == 5);
+  CHECK(divide(large, tight).bytes == 62.66e9);
   ClusterLimits untold = twelve_nodes;
   untold.memory = ClusterLimits{}.memory;
   CHECK(divide(large, untold).threads == 10);

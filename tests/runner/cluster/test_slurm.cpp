@@ -30,7 +30,9 @@ TEST_CASE("what sinfo says of partitions is read, of different nodes the least")
   CHECK(main.limits.memory == 256000.0 * 1048576.0);
   CHECK(main.limits.seconds == 36 * 3600.0);
   CHECK(two_partitions[2].limits.seconds == 1800.0);
-  const auto mixed = partitions_in("mixed|infinite|8|64000|4\nmixed|infinite|8|1|2\n");
+  const auto mixed = partitions_in("mixed|infinite|8|64000|4\nmixed|infinite|16|1|2\n");
+  CHECK(chosen(mixed, "mixed").limits.cores == 8);
+  CHECK(partitions_in("odd|infinite|?|1|1").at(0).limits.cores == 1);
   CHECK(chosen(mixed, "mixed").limits.memory ==
         64000.0 * 1048576.0);  // that of those which tell it
 }
@@ -47,6 +49,7 @@ TEST_CASE("a partition that is not there or has no nodes is refused with those t
 
 TEST_CASE("an array has one element less than its greatest index, from 1 on") {
   CHECK(array_limit_in("LaunchType = x\nMaxArraySize            = 1001\nMaxDBDMsgs = 5") == 1000);
+  CHECK(array_limit_in("MaxArraySize = 2") == 1);
   CHECK(array_limit_in("nothing of it") == 0);
   for (const char* none : {"MaxArraySize = 0", "MaxArraySize = 1"}) {
     CHECK_THROWS_WITH(array_limit_in(none), Catch::Contains("takes no arrays of jobs"));
@@ -58,10 +61,11 @@ TEST_CASE("of the queue those jobs count whose scripts lie in the folder") {
       "RUNNING|None|/out/slurm/shards.sh\nCOMPLETING|None|/out/slurm/shards.sh\n"
       "PENDING|Resources|/out/slurm/shards.sh\nPREEMPTED|None|/out/slurm/shards.sh\n"
       "PENDING|JobHeldUser|/out/slurm/shards.sh\nPENDING|Dependency|/out/slurm/rest.sh\n"
+      "PENDING|QOSMaxJobsPerUserLimit|/out/slurm/shards.sh\n"
       "RUNNING|None|/out/slurm2/shards.sh\nRUNNING|None|/other.sh",
       "/out/slurm");
   CHECK(queue.running == 2);
-  CHECK(queue.pending == 4);
+  CHECK(queue.pending == 5);
   CHECK(queue.blocking == "JobHeldUser");
   CHECK(queue_in("", "/out/slurm").pending == 0);
 }

@@ -117,6 +117,16 @@ TEST_CASE("families that share one value show it, and others that they do not") 
   REQUIRE(shared.measured.not_determined.empty());
   CHECK(std::abs(shared.measured.estimate.value - 7) < 3 * shared.measured.estimate.error);
   CHECK(shared.chi2_per_dof < 3);
+  double chi2 = 0.0;
+  for (const Family& family : families_in(rows)) {
+    const Estimate ratio = measure_quantity("lambda_over_C", 10, family).estimate;
+    chi2 += std::pow((ratio.value - shared.measured.estimate.value) / ratio.error, 2);
+    const Estimate lambda = measure_quantity("lambda_by_number", 10, family).estimate;
+    const Estimate c = measure_quantity("C", 0, family).estimate;
+    CHECK(ratio.error / ratio.value ==
+          Approx(std::hypot(lambda.error / lambda.value, c.error / c.value)));
+  }
+  CHECK(shared.chi2_per_dof == Approx(chi2 / 2));
   CHECK(share_quantity("C", 0, families_in(rows)).chi2_per_dof > 3);
   CHECK(share_quantity("C", 0, families_in(wall_sweep())).measured.not_determined ==
         "needs it of 3 or more families, has 1");
@@ -130,6 +140,7 @@ TEST_CASE("what a sweep lacks is not determined, with the reason") {
   };
   CHECK(reason("phi", 5) == "needs 2 or more settled replicates to know the error");
   CHECK(reason("phi", 10) == "this family has no packings between walls at W = 10 d");
+  CHECK(reason("phi", 5.5) == "this family has no packings between walls at W = 5.5 d");
   CHECK(reason("Z_unconfined") == "the family has no settled packing with periodic y");
   CHECK_THAT(reason("C"), Catch::Contains("3 or more widths"));
   CHECK_THAT(reason("zeta_difference"), Catch::Contains("3 or more widths"));

@@ -8,7 +8,8 @@
 namespace grainsweep {
 namespace {
 
-/// Ten grains a bin: `wall` neighbours each within `zone` of a wall, six elsewhere.
+/// Six large and four small grains a bin: `wall` neighbours each within `zone` of a wall, six
+/// elsewhere.
 Row zoned_row(const std::string& id, double width, double zone, std::int64_t wall,
               double bin_width = 0.1) {
   Row row = settled_row(id, width, 0.6, 6);
@@ -17,7 +18,7 @@ Row zoned_row(const std::string& id, double width, double zone, std::int64_t wal
   const auto bins = static_cast<int>(std::lround(width / bin_width));
   for (int k = 0; k < bins; ++k) {
     const double distance = std::min(k + 0.5, bins - k - 0.5) * bin_width;
-    profile.bins.push_back({0.6, 0, 10, 0, 10 * (distance < zone ? wall : 6), 3});
+    profile.bins.push_back({0.6, 0, 6, 4, 10 * (distance < zone ? wall : 6), 3});
   }
   return row;
 }
@@ -56,12 +57,15 @@ TEST_CASE("narrow gaps, periodic sides and single packings have no zone, and say
   };
   CHECK(reason({zoned_row("a", 5, 1, 4), zoned_row("b", 5, 1, 4)}) ==
         "needs a gap of 9 d or more between the walls, has 5");
+  CHECK(reason({zoned_row("a", 9, 1, 4), zoned_row("b", 9, 1, 4)}) == "");
   CHECK(reason({zoned_row("a", 10, 1, 4)}) ==
         "needs 2 or more settled replicates to know the errors, has 1");
   Row periodic = settled_row("p", 10, 0.6, 6, Boundary::periodic);
   CHECK(reason({periodic, periodic}) == "there is no wall along y");
   Row empty = zoned_row("a", 10, 1, 4);
-  for (ProfileBin& bin : empty.outcome->result.profile_y.bins) bin.large_grains = 0;
+  for (ProfileBin& bin : empty.outcome->result.profile_y.bins) {
+    bin.large_grains = bin.small_grains = 0;
+  }
   CHECK(reason({empty, empty}) == "no grain lies at the wall or far off");
 }
 

@@ -59,5 +59,18 @@ TEST_CASE("packings of a point that are there anyway are no part of what grows")
   CHECK(grows(sweep));
 }
 
+TEST_CASE("a family is to be as precise as the strictest of its requests") {
+  for (const bool strict_first : {false, true}) {
+    Sweep sweep = fit_sweep(10, {0.005, 0.1, 0, 0});
+    for (std::size_t i = 0; i < sweep.jobs.size(); ++i) {
+      if ((i < 10) == strict_first) sweep.jobs[i].fit_wish = {0.003, 0, 0, 0.2};
+    }
+    const auto families = growing_families(sweep, groups_in(sweep));
+    REQUIRE(families.size() == 1);
+    const FitWish& wish = families[0].wish;
+    CHECK((wish.phi_bulk == 0.003 && wish.c == 0.1 && wish.z_bulk == 0.0 && wish.c_z == 0.2));
+  }
+}
+
 }  // namespace
 }  // namespace grainsweep

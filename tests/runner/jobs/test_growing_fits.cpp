@@ -179,6 +179,51 @@ TEST_CASE("groups that may not grow are waited for, and count on the line") {
   CHECK(called[0] + called[2] > 12);
 }
 
+TEST_CASE("packings that did not settle tell nothing, nor do packings without walls of the line") {
+  const Outcome unsettled = *row_with_status("a", 8, PackingStatus::not_settled, "creeps").outcome;
+  const FitWish wish{0.004, 0, 0, 0};
+  SampleFamily settled({4, 5, 8}, 2000), half({4, 5, 8}, 2000);
+  settled[2].may_grow = half[2].may_grow = false;
+  settled[2].made.resize(6);
+  half[2].made.resize(12);
+  settled.make({6, 6, 6}, alternating);
+  half.make({6, 6, 6}, alternating);
+  std::fill(half[2].made.begin() + 6, half[2].made.end(), &unsettled);
+  const auto with = grown(settled, wish, {}, alternating).replicates;
+  for (int round = 0; round < 20; ++round) {
+    const CalledFit called = called_for_fit(half.groups(), wish, {});
+    if (called.is_made) break;
+    half.make({called.replicates[0], called.replicates[1], 6}, alternating);
+  }
+  const auto of_half = called_for_fit(half.groups(), wish, {}).replicates;
+  CHECK(of_half[0] == with[0]);
+  CHECK(of_half[1] == with[1]);
+  SampleFamily open({4, 5, 8}, 50);
+  open[2].is_walled = open[2].may_grow = false;
+  open[2].made.resize(6);
+  open.make({6, 6, 6}, alternating);
+  const CalledFit two_widths = called_for_fit(open.groups(), {0.5, 0, 0, 0}, {});
+  CHECK_FALSE(two_widths.is_met);
+  CHECK(two_widths.replicates == std::vector<int>{6, 6, 6});
+}
+
+TEST_CASE("what the bias of Z leaves of a wish for it is left for the scatter") {
+  const FitWish wish{0, 0, 0.4, 0};
+  SampleFamily unbiased({4, 5, 8}, 5000), biased({4, 5, 8}, 5000);
+  grown(unbiased, wish, {}, alternating);
+  grown(biased, wish, ProtocolBias{0.0, 0.2}, alternating);
+  CHECK(biased.packings() > 2 * unbiased.packings());
+}
+
+TEST_CASE("a family at most doubles what may grow in it") {
+  SampleFamily family({4, 5, 8}, 200);
+  family[1].may_grow = false;
+  family[1].made.resize(60);
+  family.make({6, 60, 6}, alternating);
+  const auto called = called_for_fit(family.groups(), {1e-6, 0, 0, 0}, {}).replicates;
+  CHECK(called[0] + called[2] == 24);
+}
+
 TEST_CASE("where nothing settles at a width, nothing is added to it") {
   const Outcome unsettled = *row_with_status("a", 8, PackingStatus::not_settled, "creeps").outcome;
   const FitWish wish{0.01, 0, 0, 0};

@@ -37,6 +37,7 @@ TEST_CASE("a family whose fit grows belongs to one shard") {
     const Sweep one = fit_sweep(10, {0.005, 0, 0, 0}, name);
     whole.jobs.insert(whole.jobs.end(), one.jobs.begin(), one.jobs.end());
   }
+  CHECK(parts_of(whole, std::vector<Cost>(whole.jobs.size(), Cost{60.0, 1e7})).size() == 3);
   const std::vector<int> shard_of = shards_of(whole, 3);
   const std::size_t of_family = 3 * 10 + first_replicates;
   REQUIRE(shard_of.size() == 3 * of_family);

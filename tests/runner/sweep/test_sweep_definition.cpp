@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 
+#include "runner/sweep/job_limit.hpp"
 #include "runner/sweep/sweep_definition.hpp"
 #include "tests/runner/sweep/sweep_files.hpp"
 
@@ -229,6 +230,19 @@ TEST_CASE("points are counted without overflow") {
   CHECK(point_count(block) == UINT64_MAX);
   block.axes.resize(6);
   CHECK(point_count(block) == 1'000'000'000'000'000'000);
+}
+
+TEST_CASE("a sweep may have a million jobs, in one block or in several") {
+  const auto fit = [](const std::vector<int>& replicates) {
+    SweepDefinition definition;
+    for (const int most : replicates) definition.blocks.emplace_back().replicates.most = most;
+    Diagnostics diagnostics;
+    return fits(definition, diagnostics);
+  };
+  CHECK(fit({1'000'000}));
+  CHECK_FALSE(fit({1'000'001}));
+  CHECK(fit({600'000, 400'000}));
+  CHECK_FALSE(fit({600'000, 400'001}));
 }
 
 }  // namespace grainsweep

@@ -134,6 +134,14 @@ TEST_CASE("a line that misses its points says so and is known no better than it 
   CHECK(before.doubt.empty());
   CHECK(fit.chi2_per_dof > 3.0);
   CHECK(fit.doubt == "the straight line does not hold");
+  std::vector<Row> near = straight;  // chi^2 goes as the square of the miss
+  for (Row& row : near) {
+    const double miss = 0.01 * std::sqrt(2.0 / fit.chi2_per_dof);
+    row.outcome->result.solid_fraction += row.job.box.width == 10.0 ? miss : 0.0;
+  }
+  const WallFit hardly = fit_walls(family_of(near), Quantity::solid_fraction);
+  CHECK(hardly.chi2_per_dof == Approx(2.0));
+  CHECK(hardly.doubt.empty());
   CHECK(fit.bulk.error == Approx(before.bulk.error * std::sqrt(fit.chi2_per_dof)));
   CHECK(fit.slope.error == Approx(before.slope.error * std::sqrt(fit.chi2_per_dof)));
   // That of zeta follows from theirs, whose covariance is x_m / S_xx of the points' variance.
@@ -267,6 +275,9 @@ TEST_CASE("the table of a fit has the periodic value beside it") {
   CHECK_THAT(text, Catch::Contains(",20,6.05,,1,"));
   CHECK(cell_in(text, 1, "bulk_bias_bound") == cell(bias_bound(rows[0].job)->solid_fraction));
   CHECK(cell_in(text, 2, "bulk_bias_bound") == cell(bias_bound(rows[0].job)->coordination));
+  for (std::size_t k = 0; k < 2; ++k) rows[k].job.settles_as = "custom";  // those of one width
+  const std::string unbounded = fits_csv(families_of(groups_of(rows)));
+  CHECK(cell_in(unbounded, 1, "bulk_bias_bound").empty());
 }
 
 TEST_CASE("what has walls along x only is no value without walls") {
