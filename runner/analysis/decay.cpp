@@ -186,9 +186,10 @@ std::vector<FittedCurve> minima_of(const Window& window) {
 Window mean_window(const std::vector<std::vector<double>>& profiles, double bin_width,
                    double window_end, std::size_t left_out) {
   std::vector<double> distances, values;
+  const double rounding = 1e-9 * bin_width;  // of widths over their number of bins
   for (std::size_t k = 0; k < profiles.front().size(); ++k) {
     const double y = (static_cast<double>(k) + 0.5) * bin_width;
-    if (y < decay_window_start || y > window_end) continue;
+    if (y < decay_window_start - rounding || y > window_end + rounding) continue;
     double sum = 0.0, count = 0.0;
     for (std::size_t i = 0; i < profiles.size(); ++i) {
       sum += i == left_out ? 0.0 : profiles[i][k];

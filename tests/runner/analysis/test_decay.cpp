@@ -68,6 +68,22 @@ TEST_CASE("a damped oscillation without noise gives back what was planted") {
   }
 }
 
+// Of these widths the first bin's centre lies at 0.25 d, or the middle one's at half the width, but
+// for rounding.
+TEST_CASE("rounding does not decide whether a bin belongs to the window") {
+  struct Case {
+    double width;
+    int bins, in_window;
+  };
+  for (const auto& [width, bins, in_window] :
+       {Case{6.0, 60, 28}, Case{9.6, 96, 46}, Case{2.4, 24, 10}, Case{4.1, 41, 19},
+        Case{3.89, 39, 17}, Case{7.06, 71, 33}}) {
+    const double bin = width / bins;
+    const auto profile = profile_of(layers, width, bin);
+    CHECK(fit_decay({profile, profile}, bin, width / 2).bins == in_window);
+  }
+}
+
 // Two replicates between two walls are four profiles, three are six. Shares of 1000 sets are known
 // to 0.7 %.
 TEST_CASE("a planted decay lies within two printed errors as often as it must", "[slow]") {
