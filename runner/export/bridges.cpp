@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 
 #include "engine/clusters.hpp"
+#include "engine/shape/build.hpp"
 #include "runner/export/open_surfaces.hpp"
 
 namespace grainsweep {
@@ -179,7 +180,7 @@ void append_sides(const Hole& a, std::int32_t first_a, const Hole& b, std::int32
       continue;
     }
     for (const Loop& triangle :
-         triangles_of(surface.vertices, area_of(surface.vertices, loop), {loop})) {
+         triangles_of(surface.vertices, area_vector(surface.vertices, loop), {loop})) {
       surface.faces.push_back(triangle);
     }
   }

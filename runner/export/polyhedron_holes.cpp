@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 
+#include "engine/shape/build.hpp"
 #include "runner/export/open_surfaces.hpp"
 
 namespace grainsweep {
@@ -218,7 +219,7 @@ Trace untraced(const Surface& convex) {
   Trace trace{{convex, {}}, {}, {}, {}, {}, {}};
   for (std::size_t f = 0; f < convex.faces.size(); ++f) {
     const Loop& loop = convex.faces[f];
-    trace.normals.push_back(area_of(convex.vertices, loop).normalized());
+    trace.normals.push_back(area_vector(convex.vertices, loop).normalized());
     for (std::size_t k = 0; k < loop.size(); ++k) {
       const std::int32_t from = loop[k], to = loop[(k + 1) % loop.size()];
       trace.faces_at[std::minmax(from, to)].at(from < to ? 0 : 1) = f;

@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 
+#include "engine/shape/build.hpp"
 #include "engine/units.hpp"
 #include "runner/export/caps.hpp"
 #include "runner/export/open_surfaces.hpp"
@@ -23,7 +24,7 @@ struct HalfSpace {
 std::vector<HalfSpace> half_spaces_of(const Surface& surface) {
   std::vector<HalfSpace> spaces;
   for (const auto& face : surface.faces) {
-    const Vector normal = area_of(surface.vertices, face).normalized();
+    const Vector normal = area_vector(surface.vertices, face).normalized();
     spaces.push_back({normal, normal.dot(corner(surface, face[0]))});
   }
   return spaces;

@@ -247,15 +247,6 @@ std::vector<Loop> evened(const FlatLoop& corners, const std::vector<Loop>& trian
 
 }  // namespace
 
-Eigen::Vector3d area_of(const std::vector<Eigen::Vector3d>& corners, const Loop& loop) {
-  const auto at = [&](std::size_t k) { return corners[static_cast<std::size_t>(loop[k])]; };
-  Eigen::Vector3d doubled = Eigen::Vector3d::Zero();
-  for (std::size_t k = 2; k < loop.size(); ++k) {
-    doubled += (at(k - 1) - at(0)).cross(at(k) - at(0));
-  }
-  return doubled / 2.0;
-}
-
 std::vector<Loop> triangles_of(const std::vector<Eigen::Vector3d>& corners,
                                const Eigen::Vector3d& normal, const std::vector<Loop>& loops) {
   std::vector<FlatLoop> outer, holes;

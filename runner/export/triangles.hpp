@@ -18,7 +18,4 @@ using Loop = std::vector<std::int32_t>;
 std::vector<Loop> triangles_of(const std::vector<Eigen::Vector3d>& corners,
                                const Eigen::Vector3d& normal, const std::vector<Loop>& loops);
 
-/// The area of a flat polygon, d^2, times its unit normal, about which it turns counter-clockwise.
-Eigen::Vector3d area_of(const std::vector<Eigen::Vector3d>& corners, const Loop& loop);
-
 }  // namespace grainsweep

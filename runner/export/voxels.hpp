@@ -20,7 +20,7 @@ VoxelGrid voxel_grid(const StoredBed& bed, double per_d);
 
 /// NRRD with its header attached: 0 where the middle of a voxel lies in no grain, otherwise the
 /// size class of the grain, a byte each, x fastest. Grains reach through periodic sides; what lies
-/// outside a tube is 0, too.
+/// outside a tube is 255.
 std::string voxels_nrrd(const ExportedBed& exported);
 
 }  // namespace grainsweep

@@ -26,17 +26,6 @@ double number_of_cell(const std::string& cell) {
   return error == std::errc() && end == cell.data() + cell.size() ? value : no_number;
 }
 
-/// A cell as it reads, without the quotes of a table.
-std::string unquoted(const std::string& cell) {
-  if (cell.size() < 2 || cell.front() != '"') return cell;
-  std::string text;
-  for (std::size_t k = 1; k + 1 < cell.size(); ++k) {
-    text += cell[k];
-    if (cell[k] == '"') ++k;
-  }
-  return text;
-}
-
 /// Parts of a preset count as one value: its name.
 bool is_part_of_preset(const Group& group, const std::string& path) {
   return path.starts_with("accuracy.") && group.job.accuracy != "custom";

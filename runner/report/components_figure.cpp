@@ -109,10 +109,7 @@ Figure components_figure(const Axes& axes) {
                     "components are numbered as in the sweep file; the errors, the other mixtures "
                     "and the order of each component are in the folder's component_profiles.csv."};
   const Mixtures groups = chosen_mixtures(axes, most_mixtures);
-  if (groups.empty()) {
-    figure.not_drawn = "no packing has settled";
-    return figure;
-  }
+  if (groups.empty()) return undrawn(std::move(figure), "no packing has settled");
   figure.height = 520;
   figure.tables = {{components_table_name, component_bins_csv(groups)}};
   figure.commands = component_commands_of(figure, groups);

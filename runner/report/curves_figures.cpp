@@ -217,10 +217,7 @@ Figure distributions_figure(const Axes& axes) {
                     "Left: pair correlation. Right: probability density of a contact force "
                     "over the mean of its layer. Means over the settled replicates."};
   const std::vector<GroupWithCurves> groups = chosen_groups(axes, most_curves);
-  if (groups.empty()) {
-    figure.not_drawn = "no packing has settled";
-    return figure;
-  }
+  if (groups.empty()) return undrawn(std::move(figure), "no packing has settled");
   const std::string table = "distributions.csv";
   figure.tables = {{table, curves_csv(groups)}};
   figure.caption += few_of_all_text(groups.size(), axes);
@@ -253,15 +250,12 @@ Figure heights_figure(const Axes& axes) {
       .name = "heights",
       .title = "From the floor to the surface",
       .caption =
-          "Solid fraction and coordination number (walls not counted) of slices 1 d thick; "
+          "Solid fraction and coordination number (walls not counted) of slices about 1 d thick; "
           "bars, where there is room for them, are standard errors. What is measured as "
           "a bed's is the part between, away from floor and surface. Thinner slices are "
           "in the folder's profiles.csv."};
   const std::vector<GroupWithCurves> groups = chosen_groups(axes, most_heights);
-  if (groups.empty()) {
-    figure.not_drawn = "no packing has settled";
-    return figure;
-  }
+  if (groups.empty()) return undrawn(std::move(figure), "no packing has settled");
   const std::string table = "heights.csv";
   const auto slices = slices_of(groups);
   double highest = 1.0;
@@ -365,10 +359,7 @@ Figure effort_figure(const Axes& axes, const std::vector<Row>& rows) {
                     "Each packing: processor time, and how near it came to exactly as many "
                     "contacts as a bed at rest needs (1)."};
   const auto points = points_of(rows);
-  if (points.empty()) {
-    figure.not_drawn = "no packing was measured";
-    return figure;
-  }
+  if (points.empty()) return undrawn(std::move(figure), "no packing was measured");
   const std::string table = "effort.csv";
   figure.tables = {{table, effort_csv(axes, points)}};
   if (points.size() == most_points) {

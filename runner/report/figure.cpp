@@ -98,6 +98,11 @@ std::size_t Panels::title_length() const {
   return static_cast<std::size_t>(room / character);
 }
 
+Figure undrawn(Figure figure, std::string reason) {
+  figure.not_drawn = std::move(reason);
+  return figure;
+}
+
 int mark_of(std::size_t k) {
   constexpr std::array<int, most_series> marks = {7, 5, 9, 13, 11, 6, 4, 8, 12, 10, 1, 2};
   return marks[k % marks.size()];

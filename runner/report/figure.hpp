@@ -25,6 +25,9 @@ struct Figure {
   std::string not_drawn = {};  ///< why there is nothing to see; empty if there is
 };
 
+/// The figure with the reason why it is not drawn.
+Figure undrawn(Figure figure, std::string reason);
+
 /// So many series are told apart in one figure.
 inline constexpr std::size_t most_series = 12;
 

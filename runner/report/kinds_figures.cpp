@@ -143,14 +143,8 @@ Figure contacts_figure(const Axes& axes) {
                     "force that they carry; bars are standard errors."};
   figure.caption += left_out_text(drawn, figure.name);
   figure.tables = {{"contacts.csv", kinds_csv(drawn)}};
-  if (shown_series(axes).empty()) {
-    figure.not_drawn = "no packing has settled";
-    return figure;
-  }
-  if (drawn.series.empty()) {
-    figure.not_drawn = "no grains press on each other";
-    return figure;
-  }
+  if (shown_series(axes).empty()) return undrawn(std::move(figure), "no packing has settled");
+  if (drawn.series.empty()) return undrawn(std::move(figure), "no grains press on each other");
   const Panels panels(figure, 2, {1.0}, kinds_key(drawn), {.right = 24.0});
   const std::size_t series = shown_series(drawn).size();
   const std::string x = range_command("x", range_of(places_of(drawn), 0.06)) +
@@ -173,10 +167,9 @@ Figure published_figure(const std::vector<Comparison>& comparisons) {
                     "logarithmic scale. Within the shaded band both agree. The table below has "
                     "values and definitions."};
   std::vector<const Comparison*> measured = measured_of(comparisons);
-  if (measured.empty()) {
-    figure.not_drawn = "no published value can be set beside a measured one with an error";
-    return figure;
-  }
+  if (measured.empty())
+    return undrawn(std::move(figure),
+                   "no published value can be set beside a measured one with an error");
   constexpr std::size_t most_rows = 200;  // a picture of more than 32,000 px cannot be drawn
   if (measured.size() > most_rows) {
     figure.caption += " The first " + cell(most_rows) + " of " + cell(measured.size()) +

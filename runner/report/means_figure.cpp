@@ -244,10 +244,7 @@ Figure means_figure(const Axes& axes, const std::vector<Family>& families) {
                                              : "Solid fraction and coordination number",
                 .caption = "Means over the settled replicates; bars are their standard errors."};
   const std::vector<FittedSeries> all = fitted(axes, families);
-  if (all.empty()) {
-    figure.not_drawn = "no packing has settled";
-    return figure;
-  }
+  if (all.empty()) return undrawn(std::move(figure), "no packing has settled");
   const bool has_fits = std::any_of(all.begin(), all.end(), [](const FittedSeries& one) {
     return is_determined(one.phi) || is_determined(one.z);
   });

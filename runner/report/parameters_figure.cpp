@@ -90,10 +90,7 @@ Figure parameters_figure(const Axes& axes) {
                 .caption =
                     "Solid fraction and coordination number of all groups over each number that "
                     "is varied, whatever the others are; bars are standard errors."};
-  if (shown_series(axes).empty()) {
-    figure.not_drawn = "no packing has settled";
-    return figure;
-  }
+  if (shown_series(axes).empty()) return undrawn(std::move(figure), "no packing has settled");
   std::vector<std::string> parameters = axes.scattered;
   if (parameters.size() > most_parameters) {
     figure.caption += " The first " + cell(most_parameters) + " of " + cell(parameters.size()) +

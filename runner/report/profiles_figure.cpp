@@ -118,6 +118,7 @@ Figure profiles_figure(const Axes& axes) {
                     "walls; bars at φ of large grains are standard errors. φ = bulk + "
                     "A exp(-y / λ) cos(2π y / T + δ) is fitted from both walls."};
   const std::vector<GroupWithCurves> groups = chosen_walled_groups(axes, most_profiles);
+  if (groups.empty()) return undrawn(std::move(figure), "no packing has settled");
   if (std::all_of(groups.begin(), groups.end(), [](const GroupWithCurves& group) {
         return group->job.box.y == Boundary::periodic;
       })) {
@@ -132,10 +133,6 @@ Figure profiles_figure(const Axes& axes) {
         "Solid fraction and coordination number of rings about the axis; bars at φ of large grains "
         "are standard errors. φ = bulk + A exp(-y / λ) cos(2π y / T + δ), y from the wall, is "
         "fitted up to the axis.";
-  }
-  if (groups.empty()) {
-    figure.not_drawn = "no packing has settled";
-    return figure;
   }
   std::vector<DecayFit> fits;
   fits.reserve(groups.size());

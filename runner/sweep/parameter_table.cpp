@@ -7,29 +7,6 @@ namespace {
 
 std::string code(const std::string& text) { return "`" + text + "`"; }
 
-const char* type_of(const Parameter& parameter) {
-  switch (parameter.kind) {
-    case ValueKind::number:
-      return "number";
-    case ValueKind::whole:
-    case ValueKind::natural:
-      return "whole number";
-    case ValueKind::choice:
-      return "name";
-    case ValueKind::text:
-      return "text";
-    case ValueKind::texts:
-      return "list of texts";
-    case ValueKind::numbers:
-      return "list of numbers";
-    case ValueKind::points:
-      return "list of points";
-    case ValueKind::components:
-      return "list of components";
-  }
-  return "";
-}
-
 /// Where a number may lie, or the names to choose from.
 std::string range_of(const Parameter& parameter) {
   if (parameter.kind == ValueKind::natural) return "[0, 18446744073709551615]";
@@ -54,7 +31,7 @@ std::string parameter_table() {
       "| parameter | type | range | default | meaning |\n"
       "|---|---|---|---|---|\n";
   for (const Parameter& parameter : parameters()) {
-    table += "| " + code(parameter.path) + " | " + type_of(parameter) + " | " +
+    table += "| " + code(parameter.path) + " | " + name_of(parameter.kind) + " | " +
              range_of(parameter) + " | " + default_text(parameter) + " | " + parameter.meaning +
              " |\n";
   }

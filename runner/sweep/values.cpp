@@ -1,6 +1,7 @@
 #include "runner/sweep/values.hpp"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -138,7 +139,7 @@ ValueReading read_points(const Parameter& parameter, const Json& value) {
 }
 
 /// The first problem stands for all.
-ValueReading read_mixture(const Json& value) {
+ValueReading read_mixture(const Parameter& /*parameter*/, const Json& value) {
   Diagnostics diagnostics;
   auto components = read_components(value, "", diagnostics);
   if (!components) return {{}, diagnostics.front().message};
@@ -157,6 +158,28 @@ struct WrittenJson {
   }
 };
 
+/// How values of a kind are called, asked for and read.
+struct KindFacts {
+  const char* name;
+  const char* wanted;  ///< empty: the names to choose from
+  ValueReading (*read)(const Parameter&, const Json&);
+};
+
+const KindFacts& facts_of(ValueKind kind) {
+  static constexpr std::array<KindFacts, 9> facts = {{
+      {"number", "a number", read_number},
+      {"whole number", "a whole number", read_whole},
+      {"whole number", "a whole number in digits from 0 to 18446744073709551615", read_natural},
+      {"name", "", read_choice},
+      {"text", "the name of a file in double quotes", read_text},
+      {"list of texts", "a list of names of files in double quotes", read_texts},
+      {"list of numbers", "a list of numbers", read_numbers},
+      {"list of points", "a list of points [x, y, z]", read_points},
+      {"list of components", "a list of components", read_mixture},
+  }};
+  return facts[static_cast<std::size_t>(kind)];
+}
+
 std::string up_to(const Parameter& parameter) {
   if (parameter.range && !std::isinf(parameter.range->high)) {
     return " in " + parameter.range->text();
@@ -168,27 +191,7 @@ std::string up_to(const Parameter& parameter) {
 }  // namespace
 
 ValueReading read_value(const Parameter& parameter, const Json& value) {
-  switch (parameter.kind) {
-    case ValueKind::number:
-      return read_number(parameter, value);
-    case ValueKind::whole:
-      return read_whole(parameter, value);
-    case ValueKind::natural:
-      return read_natural(parameter, value);
-    case ValueKind::choice:
-      return read_choice(parameter, value);
-    case ValueKind::text:
-      return read_text(parameter, value);
-    case ValueKind::texts:
-      return read_texts(parameter, value);
-    case ValueKind::points:
-      return read_points(parameter, value);
-    case ValueKind::components:
-      return read_mixture(value);
-    case ValueKind::numbers:
-      break;
-  }
-  return read_numbers(parameter, value);
+  return facts_of(parameter.kind).read(parameter, value);
 }
 
 std::string range_error(const Parameter& parameter, const Value& value) {
@@ -234,26 +237,12 @@ std::string describe(const Json& value) {
   return value.dump();
 }
 
+const char* name_of(ValueKind kind) { return facts_of(kind).name; }
+
 std::string wanted_value(const Parameter& parameter) {
-  switch (parameter.kind) {
-    case ValueKind::number:
-      return "a number";
-    case ValueKind::whole:
-      return "a whole number" + up_to(parameter);
-    case ValueKind::natural:
-      return "a whole number in digits from 0 to 18446744073709551615";
-    case ValueKind::text:
-      return "the name of a file in double quotes";
-    case ValueKind::texts:
-      return "a list of names of files in double quotes";
-    case ValueKind::numbers:
-      return "a list of numbers";
-    case ValueKind::points:
-      return "a list of points [x, y, z]";
-    case ValueKind::components:
-      return "a list of components";
-    case ValueKind::choice:
-      break;
+  if (parameter.kind != ValueKind::choice) {
+    const char* const wanted = facts_of(parameter.kind).wanted;
+    return wanted + (parameter.kind == ValueKind::whole ? up_to(parameter) : "");
   }
   const bool is_more = is_group(parameter.path);
   std::string names;

@@ -32,6 +32,9 @@ std::optional<std::int64_t> whole_number_in(const Json& value, std::int64_t low,
 /// What a value is, for messages: `the text "abc"`, "4.5", "a list", "an object".
 std::string describe(const Json& value);
 
+/// How values of a kind are called in documentation: "list of numbers".
+const char* name_of(ValueKind kind);
+
 /// What a parameter wants, for messages and documentation: "a number", `"periodic" or "walls"`.
 std::string wanted_value(const Parameter& parameter);
 

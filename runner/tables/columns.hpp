@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "runner/analysis/decay.hpp"
 #include "runner/tables/csv.hpp"
 
 namespace grainsweep {
@@ -76,28 +77,22 @@ std::vector<ColumnText> described(const std::string& file, const Columns<Item>& 
   return texts;
 }
 
-/// Appends two columns: a value that is fitted and its standard error; empty where
-/// `estimate(item)`, a pointer to an Estimate, is null.
-template <class Item, class EstimateOf>
-void append_estimate(Columns<Item>& columns, const std::string& name, const std::string& unit,
-                     const std::string& meaning, EstimateOf estimate) {
-  const auto number = [estimate](auto member) {
-    return [=](const Item& item) {
-      const auto* const of = estimate(item);
-      return of == nullptr ? std::string() : cell(of->*member);
-    };
-  };
-  using Type = std::remove_cvref_t<decltype(*estimate(std::declval<const Item&>()))>;
-  columns.push_back({name, unit, meaning, number(&Type::value)});
-  columns.push_back({name + "_error", unit, "standard error of it", number(&Type::error)});
-}
-
 /// The cell of what `value` gives for the `fit` of a line; empty if the fit is not determined.
 template <class Value>
 auto fit_cell(Value value) {
   return [=](const auto& line) {
     return line.fit.not_determined.empty() ? cell(std::invoke(value, line.fit)) : std::string();
   };
+}
+
+/// Appends two columns: a value that is fitted and its standard error.
+template <class Item, class Fit>
+void append_estimate(Columns<Item>& columns, const std::string& name, const std::string& unit,
+                     const std::string& meaning, Estimate Fit::*estimate) {
+  const auto value = [=](const Fit& fit) { return (fit.*estimate).value; };
+  const auto error = [=](const Fit& fit) { return (fit.*estimate).error; };
+  columns.push_back({name, unit, meaning, fit_cell(value)});
+  columns.push_back({name + "_error", unit, "standard error of it", fit_cell(error)});
 }
 
 /// Whether the `fit` of a line is determined.

@@ -23,6 +23,16 @@ std::string cell(std::string_view text) {
   return quoted + '"';
 }
 
+std::string unquoted(const std::string& cell) {
+  if (cell.size() < 2 || cell.front() != '"') return cell;
+  std::string text;
+  for (std::size_t k = 1; k + 1 < cell.size(); ++k) {
+    text += cell[k];
+    if (cell[k] == '"') ++k;
+  }
+  return text;
+}
+
 std::string csv_line(const std::vector<std::string>& cells) {
   std::string line;
   for (const std::string& text : cells) {

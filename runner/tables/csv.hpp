@@ -23,6 +23,9 @@ std::string cell(std::integral auto value) { return std::to_string(value); }
 std::string cell(std::string_view text);
 inline std::string cell(const char* text) { return cell(std::string_view(text)); }
 
+/// A cell as people read it, without its quotes.
+std::string unquoted(const std::string& cell);
+
 /// Finished cells joined by commas and ended by a line feed.
 std::string csv_line(const std::vector<std::string>& cells);
 

@@ -70,9 +70,7 @@ Columns<DecayLine> decay_line_columns(const Varied& varied, const GivenUnits& un
   append(columns, decay_status_columns());
   const auto add = [&](const char* name, const char* unit, const char* meaning,
                        Estimate DecayFit::*estimate) {
-    append_estimate(columns, name, unit, meaning, [=](const DecayLine& line) {
-      return line.fit.not_determined.empty() ? &(line.fit.*estimate) : nullptr;
-    });
+    append_estimate(columns, name, unit, meaning, estimate);
   };
   add("lambda", "d", "length over which the oscillation decays", &DecayFit::length);
   add("bulk", "", "solid fraction far from the wall", &DecayFit::bulk);

@@ -36,9 +36,9 @@ Columns<PointLine> curve_line_columns(const Varied& varied, const GivenUnits& un
   append(columns,
          Columns<PointLine>{
              {"curve", "",
-              "pair_correlation: g at a distance in d, 1 for points at random where centres in "
-              "the slab can lie; force_density: probability density of a "
-              "contact force over the mean of its layer",
+              "pair_correlation: g at a distance in d, 1 for points at random between the "
+              "outermost centres of the slab; force_density: probability density of a contact "
+              "force over the mean of its layer, 1 d thick",
               [](const PointLine& line) { return cell(line.curve); }},
              {"low", "d or 1", "where the bin begins",
               [](const PointLine& line) { return cell(line.point.low); }},

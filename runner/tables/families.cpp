@@ -96,12 +96,6 @@ std::string_view short_name(std::string_view path) {
   return path.substr(path.starts_with(mixture) ? mixture.size() : path.rfind('.') + 1);
 }
 
-/// A cell of a table as people read it, without its quotes.
-std::string told(std::string cell) {
-  if (cell.starts_with('"')) std::erase(cell, '"');
-  return cell;
-}
-
 /// "small_share=0.25 size_ratio=0.5": the parameters among `paths`, by the last part of their path.
 /// Parts of accuracies that are the same as in the preset are left out.
 std::string distinction_of(const Family& family, const std::set<std::string>& paths) {
@@ -111,7 +105,10 @@ std::string distinction_of(const Family& family, const std::set<std::string>& pa
   for (const auto& [path, value] : parameters_of(family)) {
     const bool is_implied = tells_presets && is_of_accuracy(path) && !own.contains(path);
     if (!paths.contains(path) || is_implied) continue;
-    text.append(text.empty() ? "" : " ").append(short_name(path)).append("=").append(told(value));
+    text.append(text.empty() ? "" : " ")
+        .append(short_name(path))
+        .append("=")
+        .append(unquoted(value));
   }
   return text;
 }

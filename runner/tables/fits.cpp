@@ -125,9 +125,7 @@ Columns<FitLine> fit_line_columns(const GivenUnits& units) {
   Columns<FitLine> columns = fit_status_columns();
   const auto add = [&](const char* name, const char* unit, const char* meaning,
                        Estimate WallFit::*estimate) {
-    append_estimate(columns, name, unit, meaning, [=](const FitLine& line) {
-      return line.fit.not_determined.empty() ? &(line.fit.*estimate) : nullptr;
-    });
+    append_estimate(columns, name, unit, meaning, estimate);
   };
   add("bulk", "", "the quantity without walls along y, in quantity = bulk - C / W", &WallFit::bulk);
   add("C", "d", "slope of the line", &WallFit::slope);

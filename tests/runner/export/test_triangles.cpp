@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "engine/shape/build.hpp"
 #include "engine/units.hpp"
 #include "runner/export/triangles.hpp"
 
@@ -24,7 +25,7 @@ Loop ring(std::vector<Vector3d>& corners, const Vector3d& centre, double radius,
 
 double area(const std::vector<Vector3d>& corners, const std::vector<Loop>& loops) {
   double sum = 0.0;
-  for (const Loop& loop : loops) sum += area_of(corners, loop).z();
+  for (const Loop& loop : loops) sum += area_vector(corners, loop).z();
   return sum;
 }
 
@@ -35,7 +36,7 @@ TEST_CASE("a polygon with holes in a row is filled by triangles that all face it
   loops.push_back(ring(corners, {0, 1.6, 0}, -0.7, 12));
   const auto triangles = triangles_of(corners, Vector3d::UnitZ(), loops);
   CHECK(triangles.size() == 5 + 4 * 12 + 2 * 4 - 2);
-  for (const Loop& triangle : triangles) CHECK(area_of(corners, triangle).z() > 0);
+  for (const Loop& triangle : triangles) CHECK(area_vector(corners, triangle).z() > 0);
   CHECK(area(corners, triangles) == Approx(area(corners, loops)).epsilon(1e-12));
 }
 
@@ -45,7 +46,7 @@ TEST_CASE("corners in line make no flat triangle, and two regions are filled at 
   const auto triangles = triangles_of(corners, Vector3d::UnitZ(), {{0, 1, 2, 3, 4, 5}, {6, 7, 8}});
   CHECK(triangles.size() == 5);
   for (const Loop& triangle : triangles) {
-    CHECK(area_of(corners, triangle).z() == Approx(0.5).epsilon(1e-14));
+    CHECK(area_vector(corners, triangle).z() == Approx(0.5).epsilon(1e-14));
   }
 }
 
