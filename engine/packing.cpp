@@ -78,14 +78,14 @@ std::optional<Slab> slab_of(const MeasureSpec& spec, PackingResult& result) {
 
 /// `near` holds all pairs and walls with a gap below a tolerance or within that of a bond.
 void measure_neighbours(const PackingSpec& packing, const Touching& near,
-                        const SettleReport& settled, const Slab& slab, const Grains& bed,
+                        const std::vector<PairForce>& forces, const Slab& slab, const Grains& bed,
                         PackingResult& result) {
   const MeasureSpec& spec = packing.measure;
   for (const double tolerance : spec.gap_tolerances) {
     result.coordination.push_back(coordination(bed, near, slab, tolerance));
   }
   const OrderSettings settings{small_class_limit(packing.sizes), spec.gap_tolerances.front()};
-  result.order = measure_order(bed, near, settled.pair_forces, slab, settings);
+  result.order = measure_order(bed, near, forces, slab, settings);
 }
 
 ProfileSettings bins_of(const PackingSpec& packing) {
@@ -162,6 +162,15 @@ Mesh mesh_of(const ConvexShape& shape) {
   return mesh;
 }
 
+std::vector<std::array<double, 4>> axes_of(const PolyhedronBed& bed) {
+  std::vector<std::array<double, 4>> axes;
+  for (std::size_t i = 0; i < bed.grains(); ++i) {
+    const Record<double>& q = bed.orientation[i];
+    axes.push_back({q.x, q.y, q.z, q.w});
+  }
+  return axes;
+}
+
 Turned orientations_of(const PolyhedronBed& bed) {
   Turned turned;
   for (const ConvexShape& shape : bed.shapes) turned.meshes.push_back(mesh_of(shape));
@@ -221,6 +230,7 @@ void measure_kind(const SphereBed&, const Touching&, const ProfileSettings&,
 void measure_kind(const PolyhedronBed& bed, const Touching& near, const ProfileSettings& settings,
                   const std::optional<Slab>& slab, Packing& packing) {
   packing.turned = orientations_of(bed);
+  packing.axes = axes_of(bed);
   if (!slab) return;
   packing.result.shape_order = measure_shape_order(bed, packing.forces, packing.lines, *slab);
   std::vector<ComponentMeasure>& components = packing.result.components;
@@ -229,19 +239,16 @@ void measure_kind(const PolyhedronBed& bed, const Touching& near, const ProfileS
   if (!components.empty()) measure_profiles(bed, near, *slab, settings, components);
 }
 
-/// Measures what `spec` asks for.
+/// Measures what `spec` asks for of a packing whose forces are known. `force`: the sum of those on
+/// each grain.
 template <class Kind>
-void measure(const PackingSpec& spec, const SettleReport& settled, const Kernels& kernels,
+void measure(const PackingSpec& spec, const std::vector<double>& force, const Kernels& kernels,
              Bed<Kind>& bed, Packing& packing) {
   PackingResult& result = packing.result;
   measure_sizes(bed, result);
   const std::vector<double>& tolerances = spec.measure.gap_tolerances;
   const Touching near = touching_or_bonded(spec.measure, kernels, bed);
-  packing.grains = grains_of(bed, near, tolerances.front(), settled.force);
-  packing.forces = settled.pair_forces;
-  packing.wall_forces = settled.wall_forces;
-  packing.lines = settled.pair_lines;
-  packing.wall_lines = settled.wall_lines;
+  packing.grains = grains_of(bed, near, tolerances.front(), force);
   result.surface_height = surface_height(bed);
   const std::optional<Slab> slab = slab_of(spec.measure, result);
   const bool are_drawn =
@@ -252,7 +259,7 @@ void measure(const PackingSpec& spec, const SettleReport& settled, const Kernels
   }
   if (slab) {
     result.solid_fraction = solid_fraction(bed, *slab);
-    measure_neighbours(spec, near, settled, *slab, bed, result);
+    measure_neighbours(spec, near, packing.forces, *slab, bed, result);
     const double limit = small_class_limit(spec.sizes);
     result.small_share = small_share(bed, *slab, limit);
     result.small_share_of_bed = small_share(bed, Slab{-1.0, top_of(bed) + 1.0}, limit);
@@ -277,7 +284,7 @@ Packing pack(const PackingSpec& spec, const ExecutionContext& context, const Kee
         "a grain's place, radius or inverse mass is not a finite number at the start: correct "
         "fill.file, whose radii are perhaps not in d");
   }
-  const SettleReport settled = settle(spec.accuracy, context, *bed, keep_going, saved);
+  SettleReport settled = settle(spec.accuracy, context, *bed, keep_going, saved);
   if (settled.precision_insufficient) return failed(settled.failure);
   if (!is_finite(*bed)) {
     const bool is_f32 = spec.accuracy.precision == Precision::f32;
@@ -288,7 +295,66 @@ Packing pack(const PackingSpec& spec, const ExecutionContext& context, const Kee
   }
   Packing packing;
   packing.result = result_of(spec.fill, *bed, settled);
-  if (!settled.cancelled) measure(spec, settled, context.kernels, *bed, packing);
+  if (settled.cancelled) return packing;
+  packing.forces = std::move(settled.pair_forces);
+  packing.wall_forces = std::move(settled.wall_forces);
+  packing.lines = std::move(settled.pair_lines);
+  packing.wall_lines = std::move(settled.wall_lines);
+  measure(spec, settled.force, context.kernels, *bed, packing);
+  return packing;
+}
+
+/// Turns the grains as those of `made` are; false if these are not as many.
+bool turn_as(const Packing& /*made*/, SphereBed& /*bed*/) { return true; }
+bool turn_as(const Packing& made, PolyhedronBed& bed) {
+  if (made.axes.size() != bed.grains()) return false;
+  for (std::size_t i = 0; i < bed.grains(); ++i) {
+    const auto& [x, y, z, w] = made.axes[i];
+    bed.orientation[i] = {x, y, z, w};
+  }
+  return true;
+}
+
+/// Lays the grains where those of `made` lie; false if these are not the same.
+bool lay_as(const Packing& made, Grains& bed) {
+  if (made.grains.size() != bed.grains()) return false;
+  for (std::size_t i = 0; i < bed.grains(); ++i) {
+    const SettledGrain& grain = made.grains[i];
+    if (bed.position[i].w != grain.radius) return false;
+    bed.position[i] = {grain.x, grain.y, grain.z, grain.radius};
+  }
+  return true;
+}
+
+/// What settling alone decides.
+PackingResult settled_part(const PackingResult& made) {
+  PackingResult result;
+  result.status = made.status;
+  result.reason = made.reason;
+  result.grains = made.grains;
+  result.rest = made.rest;
+  result.spurious_path = made.spurious_path;
+  result.steps = made.steps;
+  result.iterations = made.iterations;
+  result.state_hash = made.state_hash;
+  return result;
+}
+
+template <class Kind>
+std::optional<Packing> measured_again(const PackingSpec& spec, const Kernels& kernels,
+                                      const Packing& made) {
+  std::optional<Bed<Kind>> bed = start<Kind>(spec);
+  if (!bed || !lay_as(made, *bed) || !turn_as(made, *bed)) return std::nullopt;
+  Packing packing;
+  packing.result = settled_part(made.result);
+  packing.forces = made.forces;
+  packing.wall_forces = made.wall_forces;
+  packing.lines = made.lines;
+  packing.wall_lines = made.wall_lines;
+  std::vector<double> force;
+  force.reserve(made.grains.size());
+  for (const SettledGrain& grain : made.grains) force.push_back(grain.force);
+  measure(spec, force, kernels, *bed, packing);
   return packing;
 }
 
@@ -298,6 +364,15 @@ Packing make_packing(const PackingSpec& spec, const ExecutionContext& context,
                      const KeepGoing& keep_going, std::string_view saved) {
   return is_sphere(spec.shape) ? pack<Sphere>(spec, context, keep_going, saved)
                                : pack<Polyhedron>(spec, context, keep_going, saved);
+}
+
+std::optional<Packing> measure_again(const PackingSpec& spec, const Kernels& kernels,
+                                     const Packing& made) {
+  const bool is_at_its_end = made.result.status == PackingStatus::settled ||
+                             made.result.status == PackingStatus::not_settled;
+  if (!is_at_its_end) return std::nullopt;
+  return is_sphere(spec.shape) ? measured_again<Sphere>(spec, kernels, made)
+                               : measured_again<Polyhedron>(spec, kernels, made);
 }
 
 }  // namespace grainsweep

@@ -5,6 +5,7 @@
 // (engine/README.md). It reads no file and no clock, prints nothing and starts no thread.
 #pragma once
 
+#include <optional>
 #include <string_view>
 
 #include "engine/context.hpp"
@@ -19,5 +20,11 @@ namespace grainsweep {
 /// then begins anew, with the same result.
 Packing make_packing(const PackingSpec& spec, const ExecutionContext& context,
                      const KeepGoing& keep_going, std::string_view saved = {});
+
+/// What make_packing(spec) would give, bit for bit, without settling: measures the bed of `made`, a
+/// packing, settled or not, of a spec that differs in `measure` alone. Nothing if the grains of
+/// `made` are missing or are others than those of `spec`.
+std::optional<Packing> measure_again(const PackingSpec& spec, const Kernels& kernels,
+                                     const Packing& made);
 
 }  // namespace grainsweep

@@ -169,17 +169,23 @@ struct NamedNumber {
 };
 
 inline constexpr NamedNumber<Order> order_numbers[] = {
-    {"q6_global", "", "bond order of all bonds in the slab together, 0 if they point anywhere",
+    {"q6_global", "",
+     "bond order of the bonds of all grains in the slab together, one between two of them twice; 0 "
+     "if they point anywhere",
      &Order::q6_global},
     {"q6_local", "", "bond order of a grain's own bonds, mean over grains", &Order::q6_local},
     {"three_contact_share", "", "grains that touch exactly three others, walls included",
      &Order::three_contact_share},
-    {"segregation", "", "mean height of small less that of large grains, in heights of the slab",
+    {"segregation", "",
+     "mean height of small less that of large grains in the slab, in its heights",
      &Order::segregation},
     {"force_mean", "m g",
      "of the force-bearing contacts between grains midway between whose centres the slab is",
      &Order::force_mean},
-    {"force_square", "", "mean square of a contact force over the mean of its layer",
+    {"force_square", "",
+     "mean square of a contact force over the mean of its layer, 1 d thick, counted from the "
+     "slab's "
+     "bottom by the middle of both centres",
      &Order::force_square},
 };
 
@@ -284,7 +290,10 @@ struct Packing {
   PackingResult result;
   std::vector<SettledGrain> grains;  ///< in the order of the start, empty unless a bed exists
   std::optional<Turned> turned;      ///< unless they are spheres
-  std::vector<PairForce> forces;     ///< between the grains
+  /// The same orientations of polyhedra from the principal axes of their shapes, as their bed has
+  /// them: what it is rebuilt from.
+  std::vector<std::array<double, 4>> axes;
+  std::vector<PairForce> forces;  ///< between the grains
   std::vector<WallForce> wall_forces;
   std::vector<ForceLine> lines;       ///< of each of `forces`, empty if they are spheres
   std::vector<ForceLine> wall_lines;  ///< of each of `wall_forces`, in the same way

@@ -14,6 +14,7 @@
 #include "runner/exit_codes.hpp"
 #include "runner/jobs/estimates.hpp"
 #include "runner/jobs/growing_groups.hpp"
+#include "runner/jobs/known_beds.hpp"
 #include "runner/jobs/schedule.hpp"
 #include "runner/jobs/sweep_parts.hpp"
 #include "runner/machine.hpp"
@@ -80,15 +81,26 @@ std::string learned_text(const std::string& folder, const Outcomes& outcomes,
   if (!std::filesystem::exists(folder)) {
     return "No packing is made in " + folder + ": there is no such folder\n";
   }
+  std::vector<const Job*> pending;
   std::vector<Cost> left;
   for (std::size_t k = 0; k < jobs.size(); ++k) {
-    if (!outcomes.contains(jobs[k].id)) left.push_back(costs[k]);
+    if (outcomes.contains(jobs[k].id)) continue;
+    pending.push_back(&jobs[k]);
+    left.push_back(costs[k]);
+  }
+  const KnownBeds beds = known_beds(outcomes, pending);
+  std::size_t known = 0;
+  for (std::size_t k = 0; k < pending.size(); ++k) {
+    if (!beds.contains(pending[k]->bed)) continue;
+    left[k].cpu_seconds *= share_of_measuring;
+    ++known;
   }
   return counted(jobs.size() - left.size(), "packing") + " made in " + folder +
          ": estimates times " +
          fixed(total_cpu_seconds(costs) / total_cpu_seconds(costs_of(jobs)), 2) + "; " +
-         counted(left.size(), "packing") + " left, about " +
-         duration_text(total_cpu_seconds(left)) + " CPU\n";
+         counted(left.size(), "packing") + " left" +
+         (known > 0 ? ", " + std::to_string(known) + " of stored beds, to be measured again" : "") +
+         ", about " + duration_text(total_cpu_seconds(left)) + " CPU\n";
 }
 
 /// CPU time of each of so many shards, as the uncorrected estimates divide them, s; 0 for those

@@ -1,4 +1,5 @@
 // The command `run`: sweep, its missing packings, making them, tables, report, exit code.
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -119,6 +120,7 @@ RunningSweep resume(const Sweep& sweep, const std::vector<std::size_t>& places, 
     }
   }
   running.done = done.size();
+  running.beds = known_beds(stored.outcomes, running.pending);
   std::cerr << damage_warnings(remove_checkpoints_of(folder, done));
   if (!running.pending.empty()) std::cerr << damage_warnings(stored.damage);
   return running;
@@ -172,6 +174,13 @@ Packed pack(RunningSweep& running, const std::function<PackingNames()>& names,
   if (running.done > 0 && !options.quiet) {
     std::cerr << running.done << " of " << running.done + running.pending.size()
               << " packings are done, going on\n";
+  }
+  const auto known = std::count_if(running.pending.begin(), running.pending.end(),
+                                   [&](auto* job) { return running.beds.contains(job->bed); });
+  if (known > 0 && !options.quiet) {
+    std::cerr << counted(static_cast<std::size_t>(known), "packing")
+              << " differ from stored ones in what is measured alone: their beds are measured "
+                 "again\n";
   }
   const Limits limits{run.threads, memory_for_packings()};
   std::cerr << memory_warning(costs_of(running.pending), limits.memory);
@@ -277,6 +286,11 @@ int exit_code_for(const StatusCounts& counts, int left_to_others, const RunOptio
   // Shares are compared: both are then the number nearest to what was meant.
   const double share = unsettled / std::max(1.0, 1.0 * unsettled + counts.settled);
   const bool is_tolerated = share <= options.tolerate_unsettled;
+  if (!is_tolerated && options.quiet) {  // otherwise the closing table tells
+    std::cerr << "warning: " << unsettled << " of "
+              << counted(static_cast<std::size_t>(unsettled + counts.settled), "packing")
+              << " failed or did not settle: see the columns status and reason of packings.csv\n";
+  }
   return counts.pending <= left_to_others && is_tolerated ? exit_done : exit_left_out;
 }
 
@@ -285,6 +299,11 @@ void write_results(Results& results, const RunOptions& options, const std::strin
                    bool is_whole) {
   std::cerr << damage_warnings(check_beds(folder, results.rows));
   std::cerr << other_versions_warning(results.rows, program_version());
+  if (results.orphaned > 0 && !options.quiet) {
+    std::cerr << "note: " << counted(results.orphaned, "stored packing")
+              << (results.orphaned == 1 ? " is" : " are")
+              << " of another sweep or of another form of this one: kept, but in no table\n";
+  }
   const Analysis analysis = analyse(results.rows, folder);
   write_tables(folder, results.provenance, results.rows, analysis);
   if (is_whole && !options.quiet) {

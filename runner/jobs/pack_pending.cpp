@@ -52,6 +52,7 @@ StoredBed bed_of(const Job& job, const PackingResult& result, Packing&& packing,
   bed.wall_forces = std::move(packing.wall_forces);
   bed.lines = std::move(packing.lines);
   bed.wall_lines = std::move(packing.wall_lines);
+  bed.axes = std::move(packing.axes);
   return bed;
 }
 
@@ -65,6 +66,7 @@ Outcome store(const Job& job, ShardFiles& files, Finished&& finished, bool no_gr
   outcome.cpu_seconds = finished.cpu_seconds;
   outcome.finished_at = calendar_seconds();
   if (!finished.packing.grains.empty()) {
+    if (!no_grains) outcome.bed = job.bed;
     files.add_bed(bed_of(job, outcome.result, std::move(finished.packing), no_grains), outcome);
   }
   files.add(outcome);
@@ -103,20 +105,26 @@ class Packer {
   }
 
  private:
-  /// Steps and time that a packing took in earlier runs.
+  /// What a packing took in earlier runs.
   struct Before {
     std::int64_t step = 0;
     double cpu_seconds = 0.0;
+    bool was_packed = false;  ///< its bed was known: it was measured again
   };
 
   CheckpointFiles checkpoints_of(const Job& job) const { return {running_.folder, job.id, build_}; }
 
-  /// Goes on from the packing's checkpoint, if it has one.
+  /// Measures its bed if that is known; otherwise goes on from the packing's checkpoint, if it has
+  /// one.
   Packing make_one(std::size_t task, ThreadTeam& team, const KeepGoing& keep_going) {
     const Job& job = *running_.pending[task];
+    if (auto measured = measured_from(running_.beds, running_.folder, job, kernels_)) {
+      before_[task] = {0, running_.beds.at(job.bed).cpu_seconds, true};
+      return std::move(*measured);
+    }
     CheckpointFiles files = checkpoints_of(job);
     const std::optional<Checkpoint> saved = newest_of(files);
-    if (saved) before_[task] = {saved->step, saved->cpu_seconds};
+    if (saved) before_[task] = {saved->step, saved->cpu_seconds, false};
     double due_at = wall_seconds() + options_.checkpoint_seconds;
     const KeepGoing saving = [&](const Progress& progress) {
       const bool goes_on = keep_going(progress);
@@ -199,7 +207,7 @@ class Packer {
     finished.cpu_seconds += before_[task].cpu_seconds;
     const bool lacked_memory = finished.lacked_memory;
     const Outcome outcome = store(job, running_.files, std::move(finished), options_.no_grains);
-    if (!outcome.exception) {
+    if (!outcome.exception && !before_[task].was_packed) {
       const std::scoped_lock lock(learning_);
       running_.estimates.add(costs_[task].cpu_seconds, outcome.cpu_seconds);
     }
@@ -207,7 +215,7 @@ class Packer {
     ++packed_.packings;
     const std::string line =
         packing_line(options_.names.set_of(facts_of(job)), job.replicate, outcome) +
-        went_on_text(before_[task].step);
+        (before_[task].was_packed ? ", measured again" : went_on_text(before_[task].step));
     display_.finish(task, outcome.result.status == PackingStatus::settled, line);
     if (!options_.fail_fast || outcome.result.status != PackingStatus::failed) return;
     if (!has_failed_.exchange(true)) packed_.first_failure = line;
@@ -237,7 +245,7 @@ class Packer {
 }  // namespace
 
 Packed pack_pending(RunningSweep& running, const PackOptions& options) {
-  const std::vector<Cost> costs = costs_of(running.pending);
+  const std::vector<Cost> costs = costs_with(running.beds, running.pending);
   return Packer(running, options, costs).pack();
 }
 

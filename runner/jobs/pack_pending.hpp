@@ -8,6 +8,7 @@
 
 #include "kernels/isa.hpp"
 #include "runner/jobs/estimates.hpp"
+#include "runner/jobs/known_beds.hpp"
 #include "runner/jobs/progress.hpp"
 #include "runner/jobs/schedule.hpp"
 #include "runner/jobs/time_limit.hpp"
@@ -26,6 +27,7 @@ struct RunningSweep {
   std::vector<const Job*> pending;
   LearnedEstimates estimates = {};    ///< learned from the packings that were made before
   std::optional<Claims> claims = {};  ///< where runners help each other
+  KnownBeds beds = {};                ///< of pending packings: measured again, not packed
 };
 
 struct PackOptions {

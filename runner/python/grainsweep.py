@@ -173,7 +173,7 @@ class _Bytes:
         return values
 
 
-_marks = b"GRAINS13\n", b"GRAINS12\n"  # those differ in what comes after the grains
+_marks = b"GRAINS14\n", b"GRAINS13\n", b"GRAINS12\n"  # those differ in what comes after the grains
 _grain = [("position", "<f8", 3), ("radius", "<f8"), ("force", "<f8"), ("coordination", "<i4")]
 
 

@@ -107,6 +107,9 @@ std::vector<Field> outcome_fields() {
   return {
       stored<&Outcome::job>("job", "", "id of the packing", summary_only),
       stored<&Outcome::version>("version", "", "of the program that made it", summary_only),
+      stored<&Outcome::bed>(
+          "bed", "", "hash of its parameters without what is measured, if its grains are stored",
+          summary_only),
       stored<&Outcome::exception>("exception", "", "it ended in an exception", summary_only),
       in_result<&Result::status>("status", "", "settled, not_settled or failed", summary_only),
       stored<&Outcome::finished_at>("finished_at", "s", "time since 1970 when it was finished",
@@ -150,7 +153,7 @@ std::vector<Field> main_fields() {
           "narrow tubes 0.03; of polyhedra or net torque over its circumradius",
           with_mean),
       in_result<of::rest, &Rest::imbalance, &Imbalance::max>("static_imbalance_max", "",
-                                                             "the largest of them"),
+                                                             "the largest of them; the best forces may leave 0.05 less"),
       in_result<of::rest, &Rest::step_residual>(
           "step_residual", "m g",
           "how well the last step was solved: worst residual of a contact, in weights of its "

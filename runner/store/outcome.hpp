@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "engine/results.hpp"
@@ -11,9 +12,11 @@ namespace grainsweep {
 /// Its members are listed, named and explained in runner/store/fields.cpp; the curves are kept with
 /// the grains, in shards/<shard>.beds.
 struct Outcome {
-  std::string job;       ///< Job::id
-  PackingResult result;  ///< without curves, unless they were read
-  std::string version;   ///< of the program that made it
+  std::string job;                   ///< Job::id
+  PackingResult result;              ///< without curves, unless they were read
+  std::string version;               ///< of the program that made it
+  std::optional<std::uint64_t> bed;  ///< Job::bed of one whose grains are stored; older ones have
+                                     ///< none
   /// The packing ended in an exception (no memory, say), not in a result: it is tried again by the
   /// next run.
   bool exception = false;

@@ -66,22 +66,27 @@ constexpr auto members_of(const ForceLine* /*type*/) {
   return std::tuple(&ForceLine::normal, &ForceLine::lever, &ForceLine::constraints);
 }
 
-/// A bed as the version before stored it.
+/// Beds as earlier versions stored them.
 struct BedWithoutLines : StoredBed {};
+struct BedWithoutAxes : StoredBed {};
 constexpr auto members_of(const BedWithoutLines* /*type*/) {
   using Bed = StoredBed;
   return std::tuple(&Bed::job, &Bed::state_hash, &Bed::box, &Bed::curves, &Bed::grains,
                     &Bed::turned, &Bed::forces, &Bed::wall_forces);
 }
-constexpr auto members_of(const StoredBed* /*type*/) {
+constexpr auto members_of(const BedWithoutAxes* /*type*/) {
   return std::tuple_cat(members_of(static_cast<const BedWithoutLines*>(nullptr)),
                         std::tuple(&StoredBed::lines, &StoredBed::wall_lines));
+}
+constexpr auto members_of(const StoredBed* /*type*/) {
+  return std::tuple_cat(members_of(static_cast<const BedWithoutAxes*>(nullptr)),
+                        std::tuple(&StoredBed::axes));
 }
 
 namespace {
 
-constexpr std::string_view bed_mark = "GRAINS13\n";
-constexpr std::string_view mark_without_lines = "GRAINS12\n";
+constexpr std::string_view bed_mark = "GRAINS14\n";
+constexpr std::string_view mark_without_axes = "GRAINS13\n", mark_without_lines = "GRAINS12\n";
 
 /// Throws FileError: the bed is not what was stored.
 [[noreturn]] void refuse(const std::string& folder, const Outcome& outcome,
@@ -123,10 +128,32 @@ std::vector<StoredForce> stored_forces(const std::vector<PairForce>& forces) {
   return stored;
 }
 
+Packing packing_of(StoredBed&& bed, const PackingResult& result) {
+  Packing packing;
+  packing.result = result;
+  for (const StoredForce& force : bed.forces) {
+    const double height = (bed.grains[static_cast<std::size_t>(force.a)].z +
+                           bed.grains[static_cast<std::size_t>(force.b)].z) /
+                          2.0;
+    packing.forces.push_back({force.a, force.b, height, force.magnitude});
+  }
+  set_curves(std::move(bed.curves), packing.result);
+  packing.grains = std::move(bed.grains);
+  packing.turned = std::move(bed.turned);
+  packing.axes = std::move(bed.axes);
+  packing.wall_forces = std::move(bed.wall_forces);
+  packing.lines = std::move(bed.lines);
+  packing.wall_lines = std::move(bed.wall_lines);
+  return packing;
+}
+
 std::string bed_bytes(const StoredBed& bed) { return file_bytes(bed_mark, bed); }
 
 std::optional<StoredBed> bed_from_bytes(std::string_view bytes) {
   if (auto older = value_in_file<BedWithoutLines>(mark_without_lines, bytes)) {
+    return static_cast<StoredBed&&>(*older);
+  }
+  if (auto older = value_in_file<BedWithoutAxes>(mark_without_axes, bytes)) {
     return static_cast<StoredBed&&>(*older);
   }
   return value_in_file<StoredBed>(bed_mark, bytes);

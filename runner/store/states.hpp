@@ -2,12 +2,13 @@
 // pack again.
 //
 // They stand one after the other in shards/<shard>.beds; each outcome says where its own is. A bed
-// is "GRAINS13\n", a StoredBed in the form of runner/store/archive.hpp, in the order of its members
-// and of those of the engine's structs in states.cpp, and a CRC-32 of all before; "GRAINS12\n", of
-// earlier versions, has no lines. Units as in SettledGrain and PackingResult. What a killed run has
-// left between beds is never read.
+// is "GRAINS14\n", a StoredBed in the form of runner/store/archive.hpp, in the order of its members
+// and of those of the engine's structs in states.cpp, and a CRC-32 of all before; "GRAINS13\n" and
+// "GRAINS12\n", of earlier versions, have no axes, and the latter no lines. Units as in
+// SettledGrain and PackingResult. What a killed run has left between beds is never read.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -57,7 +58,11 @@ struct StoredBed {
   std::vector<WallForce> wall_forces;
   /// One for each of `forces` and `wall_forces`; empty for spheres and in beds of older versions.
   std::vector<ForceLine> lines = {}, wall_lines = {};
+  std::vector<std::array<double, 4>> axes = {};  ///< as in Packing; empty in beds of older versions
 };
+
+/// The packing that such a bed was stored of.
+Packing packing_of(StoredBed&& bed, const PackingResult& result);
 
 /// The whole bed, checked. Throws FileError if there is none, if it is damaged or of another
 /// version, or if it is not the bed of this outcome.

@@ -183,7 +183,7 @@ class Expansion {
     const std::string scene = canonical_scene(resolved);
     // In a list, the content of its file belongs to each start by itself, so that lists may grow.
     if (is_listed) resolved.fill_content = "one per replicate";
-    const std::string identity = canonical_parameters(resolved);
+    const std::string identity = canonical_parameters(resolved), bed = canonical_bed(resolved);
     std::string parameters = identity;
     if (is_listed) {
       resolved.fill_content = hash_of(starts);
@@ -209,9 +209,12 @@ class Expansion {
       job.spec.random_key = random_key_of(scene, job.seed, job.replicate);
       if (is_listed) job.files["fill.files"] = name_in_tables(start.file);
       if (!start.content.empty()) refuse_other_seed(identity + start.content, resolved, in_effect);
-      add(index, job,
-          is_listed ? job_hash(identity + start.content, job.seed, 1)
-                    : job_hash(identity, job.seed, job.replicate));
+      const auto hash_with = [&](const std::string& of_parameters) {
+        return is_listed ? job_hash(of_parameters + start.content, job.seed, 1)
+                         : job_hash(of_parameters, job.seed, job.replicate);
+      };
+      job.bed = hash_with(bed);
+      add(index, job, hash_with(identity));
     }
   }
 

@@ -83,8 +83,10 @@ void change_groups(const GroupNames& open, const GroupNames& groups, std::string
   }
 }
 
+bool is_of_bed(const Parameter& parameter) { return !parameter.path.starts_with("measure."); }
+
 bool is_of_scene(const Parameter& parameter) {
-  return !parameter.path.starts_with("accuracy.") && !parameter.path.starts_with("measure.");
+  return is_of_bed(parameter) && !parameter.path.starts_with("accuracy.");
 }
 
 bool is_of_shape(const Parameter& parameter) { return choice_of(parameter) == Choice::shape; }
@@ -142,6 +144,11 @@ std::string canonical_component(double share, const ResolvedSpec& shape) {
 
 std::string canonical_parameters(const ResolvedSpec& resolved) {
   static const std::vector<Member> members = members_where([](const Parameter&) { return true; });
+  return canonical(members, resolved);
+}
+
+std::string canonical_bed(const ResolvedSpec& resolved) {
+  static const std::vector<Member> members = members_where(is_of_bed);
   return canonical(members, resolved);
 }
 

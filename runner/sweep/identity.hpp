@@ -39,6 +39,9 @@ std::uint64_t job_hash(std::string_view parameters, std::uint64_t seed, int repl
 /// Those parameters that say what is packed: all but "accuracy" and "measure".
 std::string canonical_scene(const ResolvedSpec& resolved);
 
+/// Those that say what bed comes to rest: all but "measure".
+std::string canonical_bed(const ResolvedSpec& resolved);
+
 /// The key of a job's random numbers. Jobs that differ in nothing but how accurately they are made
 /// and what is measured of them start from the same grains at the same places.
 std::uint64_t random_key_of(std::string_view scene, std::uint64_t seed, int replicate);

@@ -21,6 +21,9 @@ struct Job {
   int replicate = 1;       ///< 1 .. replicates
   std::uint64_t seed = 0;  ///< master seed it was made with
   PackingSpec spec;        ///< random_key: of scene, master seed and replicate
+  /// The same as `id` without what is measured: jobs that have it in common come to rest as one
+  /// bed.
+  std::uint64_t bed = 0;
   /// Files it was read from, as written, by the parameter that each gave: "fill.file".
   std::map<std::string, std::string> files = {};
   /// Requested of its group, which grows until half of the 95 % interval of its means, including

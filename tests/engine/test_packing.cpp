@@ -346,5 +346,61 @@ TEST_CASE("every status has a name") {
   CHECK(std::string(name_of(PackingStatus::failed)) == "failed");
 }
 
+/// A packing of another spec in `measure` alone.
+PackingSpec measured_otherwise(PackingSpec spec) {
+  spec.measure.exclude_floor = 1.25;
+  spec.measure.exclude_surface = 1.0;
+  spec.measure.gap_tolerances = {1e-3, 1e-5};
+  spec.measure.bin_width = 0.25;
+  return spec;
+}
+
+// The stories of the program compare every table: tests/runner/program/measured_again.sh.
+TEST_CASE("a bed is measured again as if it had been packed so") {
+  PackingSpec turned = small_spec();
+  turned.fill = GrainCount{160};
+  turned.box.length = 4.5;  // of an image beside a grain
+  turned.shape = PinacoidSize{};
+  for (const PackingSpec& spec : {small_spec(), turned}) {
+    const Packing made = pack(spec);
+    const PackingSpec other = measured_otherwise(spec);
+    const auto again = measure_again(other, kernels_for(best_isa()), made);
+    REQUIRE(again);
+    const Packing expected = pack(other);
+    const PackingResult &result = again->result, &wanted = expected.result;
+    CHECK(result.solid_fraction == wanted.solid_fraction);
+    CHECK(result.solid_fraction != made.result.solid_fraction);
+    CHECK(result.coordination.back().with_walls == wanted.coordination.back().with_walls);
+    CHECK(result.order.force_density.values == wanted.order.force_density.values);
+    CHECK(result.profile_y.bins.size() == 16);
+    CHECK(result.rest.contacts == wanted.rest.contacts);
+    CHECK(result.steps == wanted.steps);
+    CHECK(result.iterations == wanted.iterations);
+    CHECK(result.spurious_path == wanted.spurious_path);
+    CHECK(result.state_hash == wanted.state_hash);
+    REQUIRE(again->grains.size() == expected.grains.size());
+    CHECK(again->grains.front().force == expected.grains.front().force);
+    CHECK(again->wall_forces.size() == expected.wall_forces.size());
+    CHECK(again->axes == expected.axes);
+  }
+}
+
+TEST_CASE("only a bed at its end with the grains of the spec is measured again") {
+  const PackingSpec spec = small_spec();
+  const Kernels& kernels = kernels_for(best_isa());
+  const Packing made = pack(spec);
+  CHECK(measure_again(spec, kernels, made));
+  Packing failed = made;
+  failed.result.status = PackingStatus::failed;
+  CHECK_FALSE(measure_again(spec, kernels, failed));
+  Packing fewer = made;
+  fewer.grains.pop_back();
+  CHECK_FALSE(measure_again(spec, kernels, fewer));
+  CHECK_FALSE(measure_again(small_spec(2), kernels, made));
+  PackingSpec turned = spec;
+  turned.shape = PinacoidSize{};
+  CHECK_FALSE(measure_again(turned, kernels, made));
+}
+
 }  // namespace
 }  // namespace grainsweep

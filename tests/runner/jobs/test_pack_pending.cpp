@@ -146,5 +146,31 @@ TEST_CASE("without grains the same curves are stored") {
   CHECK(curves[0] == curves[1]);
 }
 
+TEST_CASE("a bed that is known is measured again, and its packing is told what it took") {
+  const TemporaryFolder folder;
+  ShardFiles files(folder.path(), {}, sample_run());
+  Sweep sweep = sweep_of_a_small_bed();
+  Job& job = sweep.jobs[0];
+  job.bed = 7;
+  PackOptions options;
+  options.isa = Isa::sse2;
+  RunningSweep first{folder.path(), files, 0, {&job}, {}};
+  pack_pending(first, options);
+  Outcomes stored = read_journals(folder.path()).outcomes;
+  Outcome& made = *stored.at(job.id);
+  CHECK(made.bed == 7U);
+  made.cpu_seconds = 3600;
+  job.id = "0ff1ce000ff1ce00";
+  job.spec.measure.bin_width = 0.5;
+  RunningSweep again{folder.path(), files, 0, {&job}, {}};
+  again.beds = known_beds(stored, again.pending);
+  CHECK(again.beds.size() == 1);
+  CHECK(pack_pending(again, options).packings == 1);
+  const Outcome outcome = *read_journals(folder.path()).outcomes.at(job.id);
+  CHECK(outcome.cpu_seconds > 3600);
+  CHECK(outcome.result.state_hash == made.result.state_hash);
+  CHECK(read_bed(folder.path(), outcome).curves.profile_z.bin_width == 0.5);
+}
+
 }  // namespace
 }  // namespace grainsweep

@@ -111,7 +111,10 @@ expect_text error.txt "--time-limit soon: give seconds, minutes:seconds"
 # Beds without steps to settle end with 1 unless they are tolerated, in any number or up to a share.
 sed 's/"fast" }/{ "preset": "fast", "max_steps": 24 } }/' "$sweep" >short.json
 expect_code 1 "$program" run short.json --out short --no-report
-expect_code 0 "$program" run short.json --out short --no-report --tolerate-unsettled
+expect_code 1 "$program" run short.json --out short --no-report --quiet
+expect_text error.txt "packings failed or did not settle: see the columns status and reason"
+expect_code 0 "$program" run short.json --out short --no-report --quiet --tolerate-unsettled
+[ ! -s error.txt ] || fail "what is tolerated is told of: $(cat error.txt)"
 expect_code 1 "$program" run short.json --out short --no-report --tolerate-unsettled=0.5
 expect_code 2 "$program" run short.json --out short --no-report --tolerate-unsettled=2
 echo "recipes of five engines, and ${run[*]:-neither GNU parallel nor Snakemake, which are not installed}"

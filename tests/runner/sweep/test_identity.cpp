@@ -48,6 +48,25 @@ TEST_CASE("packings of one scene, seed and replicate start alike at every accura
   CHECK(ids.size() == 4);
 }
 
+TEST_CASE("packings have a bed in common if they differ in what is measured alone") {
+  const std::vector<Job> jobs = jobs_of(sweep_of(R"({}, {"set": {"measure": {"bin_width": 0.3,
+    "exclude_floor": 2, "exclude_surface": 1, "gap_tolerances": [1e-3]}}})"));
+  REQUIRE(jobs.size() == 2);
+  CHECK(jobs[0].id != jobs[1].id);
+  CHECK(jobs[0].bed == jobs[1].bed);
+  const auto bed = [](const std::string& text) { return jobs_of(text).back().bed; };
+  const std::set<std::uint64_t> beds = {
+      bed(R"({"name": "t"})"),
+      bed(R"({"name": "t", "seed": 1})"),
+      bed(R"({"name": "t", "replicates": 2})"),
+      bed(R"({"name": "t", "base": {"shape": "pinacoid"}})"),
+      bed(R"({"name": "t", "base": {"box.width": 10.5}})"),
+      bed(R"({"name": "t", "base": {"accuracy": "fast"}})"),
+      bed(R"({"name": "t", "base": {"accuracy.precision": "f64"}})"),
+  };
+  CHECK(beds.size() == 7);
+}
+
 TEST_CASE("every parameter of the scene, seed and replicate change where a packing starts") {
   const auto key = [](const std::string& text) { return jobs_of(text).back().spec.random_key; };
   const std::set<std::uint64_t> keys = {

@@ -1,0 +1,36 @@
+// Beds that are stored already, under the id of another packing: of one that differs in what is
+// measured alone. They are measured again, not packed.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "engine/cost.hpp"
+#include "kernels/kernels.hpp"
+#include "runner/store/journal.hpp"
+#include "runner/sweep/job.hpp"
+
+namespace grainsweep {
+
+/// The packing that each bed was stored with, by Job::bed.
+using KnownBeds = std::unordered_map<std::uint64_t, Outcome>;
+
+/// Those that pending packings have in common with stored ones of this version of the program, if
+/// these were measured and stored with their grains.
+KnownBeds known_beds(const Outcomes& stored, const std::vector<const Job*>& pending);
+
+/// What measuring takes of the CPU time of packing: a fiftieth to a tenth.
+inline constexpr double share_of_measuring = 0.05;
+
+/// The costs of jobs, of those whose bed is known that of measuring.
+std::vector<Cost> costs_with(const KnownBeds& beds, const std::vector<const Job*>& jobs);
+
+/// The packing of a job from its bed in `folder`, as packing it would give. Nothing if there is
+/// none, or no sound one.
+std::optional<Packing> measured_from(const KnownBeds& beds, const std::string& folder,
+                                     const Job& job, const Kernels& kernels);
+
+}  // namespace grainsweep

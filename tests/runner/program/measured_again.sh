@@ -1,0 +1,60 @@
+# What is measured of a sweep changes: beds are measured again, not packed, and every table is that of
+# a run that packs them so from the start.
+source "$(dirname "$0")/common.sh" "$1"
+
+# write_measured FILE MEMBERS_OF_MEASURE
+write_measured() {
+  cat >"$1" <<JSON
+{ "name": "measured", "replicates": 2,
+  "base": { "box": { "length": 4.5, "width": 4 }, "fill": { "solid_height": 4 }, "accuracy": "fast",
+            "measure": { $2 } },
+  "sweep": [ { "label": "one size" },
+             { "label": "two sizes", "set": { "sizes": { "size_ratio": 0.5, "small_share": 0.3 } } },
+             { "label": "tube", "set": { "tube": { "diameter": 4 },
+                 "sizes": { "distribution": { "by": "number", "uniform": { "from": 0.7, "to": 1.2 } } } } },
+             { "label": "turned", "set": { "shape": { "pinacoid": { "height": 0.7 } } } },
+             { "label": "prisms in a tube", "set": { "shape": { "prism": { "sides": 6 } }, "tube.diameter": 4 } },
+             { "label": "mixed", "set": { "shape": { "mixture": [ { "sphere": {}, "share": 0.5 },
+                 { "cuboid": { "height": 0.8 }, "share": 0.5 } ] } } } ] }
+JSON
+}
+
+# All that a run writes but what it took.
+tables_of() {
+  local table
+  for table in "$1"/*.csv; do
+    echo "== $(basename "$table")"
+    cat "$table"
+  done | /usr/bin/python3 -c '
+import csv, sys
+left_out = set()
+for row in csv.reader(sys.stdin):
+    if "cpu_seconds" in row: left_out = {k for k, name in enumerate(row) if name.startswith("cpu_seconds")}
+    if row and row[0].startswith("=="): left_out = set()
+    print([value for k, value in enumerate(row) if k not in left_out])'
+}
+
+write_measured before.json '"exclude_floor": 1, "exclude_surface": 1'
+write_measured after.json \
+  '"exclude_floor": 0.7, "exclude_surface": 1.2, "bin_width": 0.25, "gap_tolerances": [1e-3, 1e-5]'
+expect_code 0 "$program" run before.json --out both --no-report --tolerate-unsettled
+expect_code 0 "$program" run after.json --out fresh --no-report --tolerate-unsettled
+expect_code 0 "$program" plan after.json --out both
+expect_text error.txt "12 packings left, 12 of stored beds, to be measured again"
+expect_code 0 "$program" run after.json --out both --no-report --tolerate-unsettled
+expect_text error.txt "12 packings differ from stored ones in what is measured alone" \
+  "12 stored packings are of another sweep or of another form of this one: kept, but in no table"
+[ "$(grep -c ', measured again$' error.txt)" -eq 12 ] || fail "not all were measured again: $(cat error.txt)"
+tables_of fresh >fresh.txt
+diff fresh.txt <(tables_of both) >&2 || fail "beds measured again have other values"
+[ "$(wc -l <fresh.txt)" -gt 100 ] || fail "there are hardly any tables to compare"
+beds_in fresh >beds.txt
+cmp beds.txt <(beds_in both | grep -F -f <(cut -d " " -f 1 beds.txt)) || fail "other beds are stored"
+
+# Back again: all are there. Grains that were not stored are packed anew.
+expect_code 0 "$program" run before.json --out both --no-report --tolerate-unsettled
+[ "$(packing_lines both | wc -l)" -eq 24 ] || fail "something was made twice"
+expect_code 0 "$program" run before.json --out bare --no-grains --no-report --tolerate-unsettled
+expect_code 0 "$program" run after.json --out bare --no-report --tolerate-unsettled
+if grep -q "measured again" error.txt; then fail "beds without grains were measured again"; fi
+diff fresh.txt <(tables_of bare) >&2 || fail "packings made anew have other values"
