@@ -224,8 +224,9 @@ int perform(const ExportOptions& options) {
   const std::vector<std::string> stems = file_stems(rows);
   std::map<std::string, std::string> taken;
   for (const std::size_t k : chosen) taken[stems[k] + ending] = rows[k].job.id;
-  if (const auto index = index_without(to, taken)) replace_file(to + "/index.csv", *index);
-  std::set<std::string> written;
+  const auto index = index_without(to, taken);
+  if (index) replace_file(to + "/index.csv", *index);
+  std::map<std::string, std::string> written;  // job, by file
   std::size_t unsettled = 0, damaged = 0, without_grains = 0;
   std::vector<std::string> refused;
   for (const std::size_t k : chosen) {
@@ -246,13 +247,19 @@ int perform(const ExportOptions& options) {
       continue;
     }
     replace_file(to + "/" + stems[k] + ending, text);
-    written.insert(stems[k] + ending);
+    written[stems[k] + ending] = rows[k].job.id;
     unsettled += is_settled(rows[k]) ? 0 : 1;
   }
   if (written.empty() && damaged > 0) return exit_file_system;
   if (written.empty() && !refused.empty()) throw BadInput(refused.front());
   if (written.empty()) throw BadInput(options.folder + ": its packings were stored without grains");
+  const std::vector<std::string> former = former_files(to, written);
+  for (const std::string& file : former) remove_file(to + "/" + file);
   replace_file(to + "/index.csv", index_csv(to, rows, endings(), written));
+  if (index || !former.empty()) {
+    std::cerr << "note: groups have other numbers than at the last export: files of one name hold "
+                 "other packings now, see index.csv\n";
+  }
   std::cout << counted(written.size(), "packing") << " written to " << to
             << "/<label>-<group>-<replicate>" << ending << ", listed in index.csv\n";
   if (const GivenUnits& units = results.provenance.units; units && format != nullptr) {

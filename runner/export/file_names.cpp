@@ -1,5 +1,6 @@
 #include "runner/export/file_names.hpp"
 
+#include <algorithm>
 #include <cctype>
 #include <map>
 #include <string_view>
@@ -39,6 +40,12 @@ std::vector<bool> have_seeds(const std::vector<Row>& rows,
 }
 
 constexpr const char* index_heading = "file,job,label,group,replicate,seed,status\n";
+
+/// From the first point after the number of the replicate on: ".contacts.csv". Labels may have
+/// points, too, but no hyphen behind them.
+std::string ending_of(const std::string& file) {
+  return file.substr(std::min(file.size(), file.find('.', file.rfind('-') + 1)));
+}
 
 bool is_line_of(const std::string& line, const std::string& file, const std::string& job) {
   return line.starts_with(file + "," + job + ",");
@@ -83,9 +90,24 @@ std::optional<std::string> index_without(const std::string& folder,
   return is_changed ? std::optional(text) : std::nullopt;
 }
 
+std::vector<std::string> former_files(const std::string& folder,
+                                      const std::map<std::string, std::string>& written) {
+  std::set<std::pair<std::string, std::string>> have_others;  // job and ending
+  for (const auto& [file, job] : written) have_others.emplace(job, ending_of(file));
+  std::vector<std::string> former;
+  for (const auto& [file, line] : index_lines(folder)) {
+    const std::size_t job = file.size() + 1;
+    const std::string of = line.substr(job, line.find(',', job) - job);
+    if (!written.contains(file) && have_others.contains({of, ending_of(file)})) {
+      former.push_back(file);
+    }
+  }
+  return former;
+}
+
 std::string index_csv(const std::string& folder, const std::vector<Row>& rows,
                       const std::vector<std::string>& endings,
-                      const std::set<std::string>& written) {
+                      const std::map<std::string, std::string>& written) {
   const std::vector<std::string> stems = file_stems(rows);
   const std::vector<std::size_t> numbers = group_numbers(rows);
   const std::vector<std::string> names = files_in(folder, "", "");

@@ -56,7 +56,7 @@ TEST_CASE("the index lists the files that are written, and those there that it h
     std::ofstream(folder.path() + "/" + file) << "0";
   }
   const auto index = [&] {
-    return index_csv(folder.path(), four_rows(), {".csv", ".xyz"}, {"x_y__z-1-2.xyz"});
+    return index_csv(folder.path(), four_rows(), {".csv", ".xyz"}, {{"x_y__z-1-2.xyz", ""}});
   };
   CHECK(index() == index_head + written);
   std::ofstream(folder.path() + "/index.csv") << index_head + listed;
@@ -70,7 +70,7 @@ TEST_CASE("a file that another packing would be called now stays that of its own
   std::ofstream(folder.path() + "/x_y__z-3-1.csv") << "0";
   std::ofstream(folder.path() + "/index.csv") << index_head + gone + before;
   CHECK(index_csv(folder.path(), four_rows(), {".csv"}, {}) == index_head + before);
-  CHECK(index_csv(folder.path(), four_rows(), {".csv"}, {"x_y__z-3-1.csv"}) ==
+  CHECK(index_csv(folder.path(), four_rows(), {".csv"}, {{"x_y__z-3-1.csv", ""}}) ==
         index_head + "x_y__z-3-1.csv,d,\"x/y, z\",3,1,0,pending\n");
 }
 
@@ -82,6 +82,23 @@ TEST_CASE("before files are replaced the index forgets those that were another p
   CHECK_FALSE(index_without(folder.path(), {{"a-1-1.csv", "a"}}));
   CHECK(index_without(folder.path(), {{"a-1-1.csv", "a"}, {"a-2-1.csv", "c"}}) ==
         index_head + same);
+}
+
+TEST_CASE("files that groups with other numbers leave are found by packing and ending") {
+  const TemporaryFolder folder;
+  CHECK(former_files(folder.path(), {{"a-1-1.csv", "a"}}).empty());
+  std::ofstream(folder.path() + "/index.csv")
+      << index_head +
+             "a.b-2-1.csv,a,a.b,2,1,0,settled\na.b-2-1.contacts.csv,a,a.b,2,1,0,settled\n" +
+             "a.b-3-1.csv,b,a.b,3,1,0,settled\n";
+  const auto former = [&](const std::map<std::string, std::string>& written) {
+    return former_files(folder.path(), written);
+  };
+  CHECK(former({{"a.b-1-1.csv", "a"}}) == std::vector<std::string>{"a.b-2-1.csv"});
+  CHECK(former({{"a.b-1-1.contacts.csv", "a"}}) ==
+        std::vector<std::string>{"a.b-2-1.contacts.csv"});
+  CHECK(former({{"a.b-2-1.csv", "a"}}).empty());
+  CHECK(former({{"a.b-1-1.csv", "c"}}).empty());
 }
 
 }  // namespace
