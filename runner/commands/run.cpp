@@ -282,13 +282,13 @@ int exit_code_for(const StatusCounts& counts, int left_to_others, const RunOptio
               << " no longer in " << folder
               << ", though stored there; run the sweep again to make what is missing anew\n";
   }
-  const int unsettled = counts.failed + counts.not_settled;
+  const int unsettled = counts.failed + counts.not_settled, ended = unsettled + counts.settled;
   // Shares are compared: both are then the number nearest to what was meant.
-  const double share = unsettled / std::max(1.0, 1.0 * unsettled + counts.settled);
+  const double share = unsettled / std::max(1.0, 1.0 * ended);
   const bool is_tolerated = share <= options.tolerate_unsettled;
   if (!is_tolerated && options.quiet) {  // otherwise the closing table tells
     std::cerr << "warning: " << unsettled << " of "
-              << counted(static_cast<std::size_t>(unsettled + counts.settled), "packing")
+              << counted(static_cast<std::size_t>(ended), "packing")
               << " failed or did not settle: see the columns status and reason of packings.csv\n";
   }
   return counts.pending <= left_to_others && is_tolerated ? exit_done : exit_left_out;

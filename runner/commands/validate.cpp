@@ -1,5 +1,7 @@
 // The command `validate`: whether a sweep file is right.
+#include <algorithm>
 #include <iostream>
+#include <string>
 
 #include <CLI/App.hpp>
 
@@ -13,6 +15,21 @@
 #include "runner/text.hpp"
 
 namespace grainsweep {
+namespace {
+
+/// ", widths of 16 to 64 mm": lengths that were written in mm where those in d are meant show here.
+std::string widths_text(const Sweep& sweep) {
+  if (sweep.jobs.empty()) return "";
+  const auto [least, most] = std::minmax_element(
+      sweep.jobs.begin(), sweep.jobs.end(),
+      [](const Job& a, const Job& b) { return a.spec.box.width < b.spec.box.width; });
+  const auto length = [&](const Job& job) { return length_in(*sweep.units, job.spec.box.width); };
+  const bool is_one = length(*least) == length(*most);
+  return std::string(is_one ? ", width " : ", widths of ") +
+         (is_one ? "" : length(*least) + " to ") + length(*most) + " " + printed_unit(*sweep.units);
+}
+
+}  // namespace
 
 void add_command(CLI::App& app, ValidateOptions& options) {
   CLI::App& validate =
@@ -28,7 +45,7 @@ int perform(const ValidateOptions& options) {
   std::cout << options.file << ": right: " << (grows(whole) ? "at least " : "")
             << counted(sweep.jobs.size(), "packing") << ", "
             << counted(parameter_sets(sweep.jobs).size(), "parameter set")
-            << (sweep.units ? ", " + units_text(*sweep.units) : "") << "\n"
+            << (sweep.units ? ", " + units_text(*sweep.units) + widths_text(sweep) : "") << "\n"
             << chosen_presets_text(sweep);
   return exit_done;
 }

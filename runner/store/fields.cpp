@@ -152,8 +152,8 @@ std::vector<Field> main_fields() {
           "accuracy.imbalance_gap, none of which pulls, that are the best ones to some 0.005, in "
           "narrow tubes 0.03; of polyhedra or net torque over its circumradius",
           with_mean),
-      in_result<of::rest, &Rest::imbalance, &Imbalance::max>("static_imbalance_max", "",
-                                                             "the largest of them; the best forces may leave 0.05 less"),
+      in_result<of::rest, &Rest::imbalance, &Imbalance::max>(
+          "static_imbalance_max", "", "the largest of them; the best forces may leave 0.05 less"),
       in_result<of::rest, &Rest::step_residual>(
           "step_residual", "m g",
           "how well the last step was solved: worst residual of a contact, in weights of its "

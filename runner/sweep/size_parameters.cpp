@@ -72,7 +72,7 @@ Parameter of_table(const char* path, const Interval& range, const char* meaning)
 Parameter table_file() {
   return own(
       "sizes.distribution.table.file", WrittenValues{},
-      "CSV file of diameter and passing, or diameter and share, instead; relative to the sweep "
+      "CSV file of diameter and passing, retained or share, instead; relative to the sweep "
       "file",
       ValueKind::text, Role::size_file,
       [](ResolvedSpec& resolved, const Value& value) {

@@ -1,6 +1,7 @@
 #include "runner/sweep/sizes_csv.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <string_view>
@@ -13,10 +14,13 @@
 namespace grainsweep {
 namespace {
 
-/// The columns of a file, and what the second one holds.
+/// What stands beside the diameters, by the names of these columns.
+constexpr std::array<std::string_view, 3> kinds = {"passing", "retained", "share"};
+
+/// The columns of a file, and what the second one holds: one of `kinds`.
 struct SizeColumns {
   std::size_t diameter = 0, share = 0;
-  bool is_passing = false;
+  std::string_view kind;
 };
 
 std::optional<std::size_t> index_of(const LineCells& header, std::string_view name) {
@@ -26,13 +30,16 @@ std::optional<std::size_t> index_of(const LineCells& header, std::string_view na
 }
 
 std::optional<SizeColumns> size_columns(const LineCells& header) {
-  for (const std::string_view name : {"diameter", "passing", "share"}) {
-    if (std::count(header.begin(), header.end(), name) > 1) return std::nullopt;
-  }
   const auto diameter = index_of(header, "diameter");
-  const auto passing = index_of(header, "passing"), share = index_of(header, "share");
-  if (!diameter || passing.has_value() == share.has_value()) return std::nullopt;
-  return SizeColumns{*diameter, passing ? *passing : *share, passing.has_value()};
+  if (!diameter || std::count(header.begin(), header.end(), "diameter") > 1) return std::nullopt;
+  std::optional<SizeColumns> columns;
+  for (const std::string_view kind : kinds) {
+    const auto many = std::count(header.begin(), header.end(), kind);
+    if (many == 0) continue;
+    if (many > 1 || columns) return std::nullopt;
+    columns = SizeColumns{*diameter, *index_of(header, kind), kind};
+  }
+  return columns;
 }
 
 struct SizeRowRead {
@@ -52,7 +59,7 @@ std::string read_row(const LineCells& cells, const SizeColumns& columns, std::si
   }
   if (!(*diameter > 0.0)) return "the diameter must be positive, is " + bound_text(*diameter);
   if (!(*share >= 0.0)) {
-    return std::string(columns.is_passing ? "passing" : "the share") +
+    return std::string(columns.kind == "share" ? "the share" : columns.kind) +
            " must not be negative, is " + bound_text(*share);
   }
   rows.push_back({*diameter, *share + 0.0, line});  // -0 and 0 are one value
@@ -94,11 +101,37 @@ std::optional<Diagnostic> passing_fault(const std::vector<SizeRowRead>& rows,
   return std::nullopt;
 }
 
-SizeTable table_of(const std::vector<SizeRowRead>& rows, bool is_passing) {
+/// What is wrong with ascending sieves and what they retain.
+std::optional<Diagnostic> retained_fault(const std::vector<SizeRowRead>& rows,
+                                         const std::string& file) {
+  const SizeRowRead& last = rows.back();
+  if (last.share > 0.0) {
+    return wrong_line(file, last.line,
+                      "the largest sieve must retain 0, retains " + bound_text(last.share) +
+                          ": add the next larger one, which no grain stays on");
+  }
+  const bool is_empty = std::all_of(rows.begin(), rows.end(),
+                                    [](const SizeRowRead& row) { return row.share == 0.0; });
+  if (!is_empty) return std::nullopt;
+  return wrong_line(file, last.line, "no sieve retains anything");
+}
+
+/// Makes of what each sieve retains what is finer than it.
+void turn_into_passing(std::vector<SizeRowRead>& rows) {
+  double all = 0.0, finer = 0.0;
+  for (const SizeRowRead& row : rows) all += row.share;
+  for (SizeRowRead& row : rows) {
+    const double retained = row.share;
+    row.share = finer < all ? finer / all : 1.0;  // the sum of all, added up in the same order
+    finer += retained;
+  }
+}
+
+SizeTable table_of(const std::vector<SizeRowRead>& rows, std::string_view kind) {
   SizeTable table;
   for (const SizeRowRead& row : rows) {
     table.diameters.push_back(row.diameter);
-    (is_passing ? table.passing : table.shares).push_back(row.share);
+    (kind == "share" ? table.shares : table.passing).push_back(row.share);
   }
   return table;
 }
@@ -115,8 +148,8 @@ SizesReading parse_sizes(const std::string& text, const std::string& file) {
   const auto columns = size_columns(header);
   if (!columns) {
     note(1,
-         "the first line must name the columns diameter and passing, or diameter and share, each "
-         "once; is "
+         "the first line must name the columns diameter and one of passing, retained and share, "
+         "each once; is "
          "\"" +
              shortened(std::string(lines.front())) + "\"" + separator_hint(lines.front()));
     return reading;
@@ -132,10 +165,13 @@ SizesReading parse_sizes(const std::string& text, const std::string& file) {
   std::sort(rows.begin(), rows.end(),
             [&](const SizeRowRead& a, const SizeRowRead& b) { return order(a) < order(b); });
   refuse_repeats(rows, file, reading.errors);
-  if (reading.errors.empty() && columns->is_passing) {
-    if (auto fault = passing_fault(rows, file)) reading.errors.push_back(std::move(*fault));
-  }
-  reading.table = table_of(rows, columns->is_passing);
+  if (!reading.errors.empty()) return reading;
+  auto fault = columns->kind == "passing"    ? passing_fault(rows, file)
+               : columns->kind == "retained" ? retained_fault(rows, file)
+                                             : std::nullopt;
+  if (fault) reading.errors.push_back(std::move(*fault));
+  if (columns->kind == "retained") turn_into_passing(rows);
+  reading.table = table_of(rows, columns->kind);
   return reading;
 }
 

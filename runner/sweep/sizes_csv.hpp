@@ -1,8 +1,9 @@
 // A table of grain sizes from a CSV file: a sieve curve.
 //
-// The first line names the columns: diameter, and passing (the share finer than it) or share (of
-// the grains of just this diameter); others are ignored. A row per line, in any order, with decimal
-// points.
+// The first line names the columns: diameter, and passing (the share finer than it), retained (on a
+// sieve of this opening: of grains from there to the next larger one; in grams, percent or shares
+// of all) or share (of the grains of just this diameter); others are ignored. A row per line, in
+// any order, with decimal points.
 #pragma once
 
 #include <string>

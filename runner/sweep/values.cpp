@@ -241,8 +241,8 @@ const char* name_of(ValueKind kind) { return facts_of(kind).name; }
 
 std::string wanted_value(const Parameter& parameter) {
   if (parameter.kind != ValueKind::choice) {
-    const char* const wanted = facts_of(parameter.kind).wanted;
-    return wanted + (parameter.kind == ValueKind::whole ? up_to(parameter) : "");
+    return facts_of(parameter.kind).wanted +
+           (parameter.kind == ValueKind::whole ? up_to(parameter) : "");
   }
   const bool is_more = is_group(parameter.path);
   std::string names;

@@ -138,7 +138,7 @@ expect_text error.txt "warning: damaged/shards/1-of-1.jsonl:12: torn or damaged 
 # Units that are added later change no packing, and all that is printed.
 sed 's/"seed": 3/"units": { "d": 3.2, "unit": "mm", "density": 2500 }, "seed": 3/' small.json >mm.json
 expect_code 0 "$program" validate mm.json
-expect_text out.txt "right: 10 packings, 5 parameter sets, d = 3.2 mm, grains of 2500 kg/m³"
+expect_text out.txt "right: 10 packings, 5 parameter sets, d = 3.2 mm, grains of 2500 kg/m³, widths of 9.6 to 19.2 mm"
 packed=$(packing_lines out/small)
 "$program" run mm.json --out out/small >out.txt 2>error.txt || [ $? -eq 1 ]
 [ "$packed" = "$(packing_lines out/small)" ] || fail "units made packings anew"

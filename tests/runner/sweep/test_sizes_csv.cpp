@@ -32,10 +32,31 @@ TEST_CASE("shares of single diameters are read as such") {
   CHECK(reading.table.passing.empty());
 }
 
+TEST_CASE("what sieves retain, in any unit, is what passes the next ones") {
+  for (const char* text : {"diameter,retained\n8,0\n4,30\n2,50\n1,20\n",
+                           "diameter,retained\n1,0.1\n2,0.25\n4,0.15\n8,0\n"}) {
+    const SizesReading reading = parse_sizes(text, "sieves.csv");
+    REQUIRE(reading.errors.empty());
+    CHECK(reading.table.diameters == std::vector<double>{1, 2, 4, 8});
+    CHECK(reading.table.passing == std::vector<double>{0, 0.2, 0.7, 1});
+    CHECK(reading.table.shares.empty());
+  }
+  const auto odd = parse_sizes("diameter,retained\n1,0.1\n2,0.2\n3,0.3\n4,0\n5,0\n", "sieves.csv");
+  CHECK(odd.table.passing.at(3) == 1.0);
+  CHECK(odd.table.passing.at(4) == 1.0);
+  CHECK(errors_of_table("diameter,retained\n1,60\n2,40\n") ==
+        Messages{"sieves.csv:3: the largest sieve must retain 0, retains 40: add the next larger "
+                 "one, which no grain stays on"});
+  CHECK(errors_of_table("diameter,retained\n1,0\n2,0\n") ==
+        Messages{"sieves.csv:3: no sieve retains anything"});
+  CHECK(errors_of_table("diameter,retained\n1,-3\n2,0\n") ==
+        Messages{"sieves.csv:2: retained must not be negative, is -3"});
+}
+
 TEST_CASE("what a table of sizes lacks is told with its line") {
   const std::string wanted =
-      "sieves.csv:1: the first line must name the columns diameter and passing, or diameter and "
-      "share, each once; is ";
+      "sieves.csv:1: the first line must name the columns diameter and one of passing, retained "
+      "and share, each once; is ";
   CHECK(errors_of_table("d,passing\n1,0\n") == Messages{wanted + "\"d,passing\""});
   CHECK(errors_of_table("diameter,passing,share\n") ==
         Messages{wanted + "\"diameter,passing,share\""});
