@@ -8,6 +8,7 @@
 #include <optional>
 #include <set>
 #include <unistd.h>
+#include <unordered_set>
 #include <utility>
 
 #include <CLI/App.hpp>
@@ -124,6 +125,15 @@ RunningSweep resume(const Sweep& sweep, const std::vector<std::size_t>& places, 
   std::cerr << damage_warnings(remove_checkpoints_of(folder, done));
   if (!running.pending.empty()) std::cerr << damage_warnings(stored.damage);
   return running;
+}
+
+/// Leaves out packings whose bed is that of one before them: it is packed once, and then known.
+/// Returns whether there are any.
+bool put_off_others_of_a_bed(RunningSweep& running) {
+  std::unordered_set<std::uint64_t> beds;
+  return std::erase_if(running.pending, [&](const Job* job) {
+           return !running.beds.contains(job->bed) && !beds.insert(job->bed).second;
+         }) > 0;
 }
 
 Provenance provenance_of(const RunOptions& options, const Sweep& sweep) {
@@ -436,11 +446,17 @@ int perform(const RunOptions& options) {
   };
   const auto make_pending = [&](const Sweep& sweep) {
     record_sweep(folder, provenance, rows_of(sweep));
-    RunningSweep running =
-        resume(sweep, places_of(jobs, sweep), shard, folder, files, std::exchange(retries, false));
-    const Packed now = make(running);
-    const int seen_to = now.packings + now.left_to_others;
-    return Made{now, static_cast<std::size_t>(seen_to) == running.pending.size()};
+    Made all;
+    for (bool has_others = true; has_others;) {
+      RunningSweep running = resume(sweep, places_of(jobs, sweep), shard, folder, files,
+                                    std::exchange(retries, false));
+      has_others = shard.count == 1 && !options.no_grains && put_off_others_of_a_bed(running);
+      const Packed now = make(running);
+      const int seen_to = now.packings + now.left_to_others;
+      all = {joined(all.packed, now), static_cast<std::size_t>(seen_to) == running.pending.size()};
+      if (!all.is_whole) break;
+    }
+    return all;
   };
   Made own = make_all(growing, made, make_pending);
   if (own.is_whole && options.retry_failed) {

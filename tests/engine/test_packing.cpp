@@ -402,5 +402,17 @@ TEST_CASE("only a bed at its end with the grains of the spec is measured again")
   CHECK_FALSE(measure_again(turned, kernels, made));
 }
 
+// Their path is (2 / 7)^2 of that of wide beds: engine/dynamics/stages.cpp.
+TEST_CASE("grains of a narrow duct stray less than those of a wide box") {
+  PackingSpec wide = small_spec(), duct = small_spec();
+  wide.box = {6, 6, Boundary::periodic, Boundary::walls};
+  wide.fill = SolidHeight{6};
+  duct.box = {2, 2, Boundary::walls, Boundary::walls};
+  duct.fill = SolidHeight{6};
+  const double share = pack(duct).result.spurious_path / pack(wide).result.spurious_path;
+  CAPTURE(share);
+  CHECK(share < 0.4);
+}
+
 }  // namespace
 }  // namespace grainsweep

@@ -31,6 +31,7 @@ TEST_CASE("values, ranges, errors and words are read and printed as they were pu
   CHECK(z.range->high == 6.027);
   CHECK(z.range->error == 0.012);
   CHECK(z.text == "6.027 ± 0.012");
+  CHECK(value_of(R"("quantity": "Z_unconfined", "value": 6, "error": 0)").text == "6");
   const Published reach =
       value_of(R"("quantity": "reach", "width": 10, "value": [3, 4], "definition": "by eye")");
   CHECK(reach.range->low == 3);

@@ -58,13 +58,13 @@ class TwoShards {
   /// Those of the other shard, in the order in which its runner takes them.
   const std::vector<std::string>& others() const { return others_; }
 
-  void begin_other(const std::string& host, int threads) {
+  void begin_other(const std::string& host, int threads, const Shard& shard = {2, 2}) {
     RunRecord run = sample_run();
     run.ended.clear();
     run.host = host;
     run.process = process();
     run.threads = threads;
-    files_.emplace(folder_.path(), Shard{2, 2}, run);
+    files_.emplace(folder_.path(), shard, run);
   }
   void finish(const std::string& job) {
     Outcome outcome;
@@ -115,6 +115,12 @@ TEST_CASE("nothing is taken over from shards where nobody works") {
   TwoShards folder;
   folder.begin_other(host_name(), 1);
   folder.end_other();
+  CHECK(folder.next().empty());
+}
+
+TEST_CASE("nothing is taken over from a runner that divides the sweep otherwise") {
+  TwoShards folder;
+  folder.begin_other(host_name(), 1, {1, 3});
   CHECK(folder.next().empty());
 }
 

@@ -51,6 +51,18 @@ diff fresh.txt <(tables_of both) >&2 || fail "beds measured again have other val
 beds_in fresh >beds.txt
 cmp beds.txt <(beds_in both | grep -F -f <(cut -d " " -f 1 beds.txt)) || fail "other beds are stored"
 
+# Within one sweep a bed is packed once, whatever is measured of it.
+cat >several.json <<JSON
+{ "name": "several", "base": { "box": { "length": 4, "width": 4 }, "fill": { "solid_height": 4 },
+  "accuracy": "fast", "measure": { "exclude_floor": 1 } },
+  "sweep": [ { "replicates": 2, "grid": { "measure.exclude_surface": [0.5, 1, 1.5] } } ] }
+JSON
+expect_code 0 "$program" run several.json --out once --no-report --tolerate-unsettled
+[ "$(grep -c ', measured again$' error.txt)" -eq 4 ] || fail "not packed once: $(cat error.txt)"
+expect_code 0 "$program" run several.json --out each --no-grains --no-report --tolerate-unsettled
+if grep -q "measured again" error.txt; then fail "beds without grains were measured again"; fi
+diff <(tables_of each) <(tables_of once) >&2 || fail "beds packed once have other values"
+
 # Back again: all are there. Grains that were not stored are packed anew.
 expect_code 0 "$program" run before.json --out both --no-report --tolerate-unsettled
 [ "$(packing_lines both | wc -l)" -eq 24 ] || fail "something was made twice"
