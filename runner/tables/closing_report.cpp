@@ -48,8 +48,8 @@ std::string measured_cells(const Group& group) {
   const Spread& phi = mean_of(group, "solid_fraction");
   const Spread& z = mean_of(group, "coordination");
   return cells_text(width_text(cell(box.width), box.y),
-                    {with_error(phi.mean, phi.sd, solid_fraction_decimals),
-                     with_error(z.mean, z.sd, coordination_decimals),
+                    {with_error(phi.mean, phi.error, solid_fraction_decimals),
+                     with_error(z.mean, z.error, coordination_decimals),
                      fixed(mean_of(group, "contact_ratio").mean, 4),
                      power_text(mean_of(group, "overlap_mean").mean), packings_text(group)});
 }
@@ -72,7 +72,7 @@ std::string extent_in(const std::vector<TableLine>& lines) {
 /// What is measured.
 TableColumns measured_columns(const std::vector<TableLine>& lines) {
   return {cells_text(extent_in(lines) + "/d",
-                     {"φ ± sd", "Z ± sd", "contacts/iso", "overlap/d", "packings"}),
+                     {"φ ± error", "Z ± error", "contacts/iso", "overlap/d", "packings"}),
           measured_cells};
 }
 
@@ -82,14 +82,14 @@ TableColumns laboratory_columns(const std::vector<TableLine>& lines, const Units
                         const std::string& density) {
     return pad_right(width, 14) + pad_left(porosity, 19) + pad_left(density, 17);
   };
-  return {cells(extent_in(lines) + "/" + printed_unit(units), "porosity ± sd",
-                units.density ? "kg/m³ ± sd" : ""),
+  return {cells(extent_in(lines) + "/" + printed_unit(units), "porosity ± error",
+                units.density ? "kg/m³ ± error" : ""),
           [=](const Group& group) {
             const Spread& phi = mean_of(group, "solid_fraction");
             const Box& box = group.job.box;
             return cells(width_text(length_in(units, box.width), box.y),
-                         with_error(1.0 - phi.mean, phi.sd, solid_fraction_decimals),
-                         units.density ? bulk_density_text(units, phi.mean, phi.sd) : "");
+                         with_error(1.0 - phi.mean, phi.error, solid_fraction_decimals),
+                         units.density ? bulk_density_text(units, phi.mean, phi.error) : "");
           }};
 }
 
@@ -246,8 +246,8 @@ std::string definitions_text(const std::vector<Row>& rows) {
          " d above\nthe floor and " +
          distinct(rows, [](const MeasureSpec& m) { return m.exclude_surface; }) +
          " d below the surface. Z: neighbours per grain there with gap < " + distinct(rows, gap) +
-         " d, walls not\ncounted. ± in a row: standard deviation of the replicates; below the "
-         "rows: standard error.\ncontacts/iso: force-bearing contacts over the isostatic "
+         " d, walls not\ncounted. ±: standard error; what single packings scatter by is in "
+         "groups.csv.\ncontacts/iso: force-bearing contacts over the isostatic "
          "count, 1 at perfect rest.\n" +
          (has_tubes ? "In narrow tubes it is less, as a round wall holds grains along it, too, or "
                       "more, where equal\ngrains order.\n"

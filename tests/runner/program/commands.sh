@@ -142,7 +142,7 @@ expect_text out.txt "right: 10 packings, 5 parameter sets, d = 3.2 mm, grains of
 packed=$(packing_lines out/small)
 "$program" run mm.json --out out/small >out.txt 2>error.txt || [ $? -eq 1 ]
 [ "$packed" = "$(packing_lines out/small)" ] || fail "units made packings anew"
-expect_text out.txt "W/mm" "kg/m³ ± sd"
+expect_text out.txt "W/mm" "kg/m³ ± error"
 expect_text out/small/groups.csv "width_mm" "bulk_density_error" "overlap_mean_mm"
 expect_text out/small/fits.csv "zeta_error_mm"
 expect_text out/small/columns.csv "decays.csv,lambda_mm,mm,"

@@ -53,11 +53,11 @@ TEST_CASE("a sweep with units says all again in them") {
                              "      (χ²/dof 0.00, R² 1.000, 3 widths)\n"));
   CHECK_THAT(report, Catch::Contains("\n"
                                      "d = 3.2 mm, grains of 2500 kg/m³\n"
-                                     "  W/mm                porosity ± sd       kg/m³ ± sd\n"
-                                     "  12.8              0.4100 ± 0.0014         1475 ± 4\n"
-                                     "  16                0.4000 ± 0.0014         1500 ± 4\n"
-                                     "  32                0.3800 ± 0.0014         1550 ± 4\n"
-                                     "  64 periodic                0.3610             1598\n"));
+                                     "  W/mm             porosity ± error    kg/m³ ± error\n"
+                                     "  12.8              0.4100 ± 0.0016         1475 ± 4\n"
+                                     "  16                0.4000 ± 0.0016         1500 ± 4\n"
+                                     "  32                0.3800 ± 0.0016         1550 ± 4\n"
+                                     "  64 periodic       0.3610 ± 0.0023         1598 ± 6\n"));
 }
 
 TEST_CASE("the closing report as a whole") {
@@ -66,11 +66,11 @@ TEST_CASE("the closing report as a whole") {
       "a: 8 packings, 7 settled; left out of means and fits: 1 did not settle\n"
       "\n"
       "MSP\n"
-      "  W/d                   φ ± sd          Z ± sd  contacts/iso overlap/d   packings\n"
-      "  4            0.5900 ± 0.0014   5.350 ± 0.014        0.9998   8.0e-05          2\n"
-      "  5            0.6000 ± 0.0014   5.500 ± 0.014        0.9998   8.0e-05          2\n"
-      "  10           0.6200 ± 0.0014   5.800 ± 0.014        0.9998   8.0e-05     2 of 3\n"
-      "  20 periodic           0.6390           6.050        0.9998   8.0e-05          1\n"
+      "  W/d                φ ± error       Z ± error  contacts/iso overlap/d   packings\n"
+      "  4            0.5900 ± 0.0016   5.350 ± 0.016        0.9998   8.0e-05          2\n"
+      "  5            0.6000 ± 0.0016   5.500 ± 0.016        0.9998   8.0e-05          2\n"
+      "  10           0.6200 ± 0.0016   5.800 ± 0.016        0.9998   8.0e-05     2 of 3\n"
+      "  20 periodic  0.6390 ± 0.0023   6.050 ± 0.023        0.9998   8.0e-05          1\n"
       "  φ = φ_bulk - C/W:  φ_bulk = 0.6400 ± 0.0029 ± 0.0020 protocol; periodic 0.6390 ± 0.0023\n"
       "      C = 0.200 ± 0.015 d,  ζ = C/φ_bulk = 0.313 ± 0.022 d  (χ²/dof 0.00, R² 1.000, 3 "
       "widths)\n"
@@ -82,8 +82,7 @@ TEST_CASE("the closing report as a whole") {
       "above\n"
       "the floor and 3 d below the surface. Z: neighbours per grain there with gap < 1e-04 d, "
       "walls not\n"
-      "counted. ± in a row: standard deviation of the replicates; below the rows: standard "
-      "error.\n"
+      "counted. ±: standard error; what single packings scatter by is in groups.csv.\n"
       "contacts/iso: force-bearing contacts over the isostatic count, 1 at perfect rest.\n"
       "Only settled packings enter means and fits.\n"
       "Protocol: means of beds settled ever better lie within 0.0020 (φ) and 0.063 (Z).\n"
