@@ -76,6 +76,37 @@ std::string decimal_comma_message(std::string_view text, std::size_t at) {
          word_at(text, word_start(text, at - 2)) + "." + word_at(text, at);
 }
 
+constexpr const char* unit_message =
+    "a number has no unit here: see \"units\" in the manual of sweeps";
+
+bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; }
+
+/// Whether the byte at `at` is the line of a fraction, as in 1/2.
+bool is_fraction(std::string_view text, std::size_t at) {
+  return text[at] == '/' && at > 0 && is_digit(text[at - 1]) && at + 1 < text.size() &&
+         is_digit(text[at + 1]);
+}
+
+/// Signs and words that people and word processors write, and what JSON wants; "" for others.
+std::string habit_message(std::string_view text, std::size_t at, const std::string& complaint) {
+  const std::string_view rest = text.substr(at);
+  for (const char* const curly :
+       {"\u201c", "\u201d", "\u201e", "\u2018", "\u2019", "\u00ab", "\u00bb"}) {
+    if (rest.starts_with(curly)) return "a text needs straight double quotes: \"";
+  }
+  if (has(complaint, "forbidden character after backslash")) {
+    return "a backslash is written as two; names of files may have / in its place";
+  }
+  if (rest.starts_with('%')) return "JSON has no %: write 5 % as 0.05";
+  if (rest.starts_with(';')) return "write a comma in place of ;";
+  if (is_fraction(text, at)) return "JSON has no fractions: write 1/2 as 0.5";
+  if (is_digit(text[at]) && is_letter(word_at(text, at).back())) return unit_message;
+  if (is_letter(text[at])) {
+    return "names and texts need double quotes: \"" + shortened(word_at(text, at)) + "\"";
+  }
+  return "";
+}
+
 /// Whether every bracket before `at` is closed, and one is there.
 bool is_behind_the_end(std::string_view text, std::size_t at) {
   if (last_before(text, at) != '}') return false;
@@ -109,13 +140,14 @@ std::string message_at(const std::string& text, std::size_t at, const std::strin
     return "JSON has no NaN and no Infinity; write a finite number";
   }
   if (c == '\'') return "a string needs double quotes";
-  if (c == '/' || c == '#') return "JSON has no comments; remove it";
+  if (c == '#' || (c == '/' && !is_fraction(text, at))) return "JSON has no comments; remove it";
   if (is_behind_the_end(text, at)) return "the sweep has ended before this; remove it";
   if ((c == '}' || c == ']') && last_before(text, at) == ',') {
     return std::string("remove the comma before this '") + c + "'";
   }
   if (std::string message = decimal_comma_message(text, at); !message.empty()) return message;
   if (std::string message = number_message(text, at); !message.empty()) return message;
+  if (std::string message = habit_message(text, at, complaint); !message.empty()) return message;
   return "malformed JSON: " + plain(complaint);
 }
 
@@ -135,6 +167,7 @@ SyntaxError syntax_error(const std::string& text, const SyntaxStop& stop,
   const std::size_t at = word_start(text, last);
   const bool is_understood = at < text.size() && at >= stop.token_end;
   if (is_understood && stop.token_end > 0 && lacks_comma(text, at, complaint)) {
+    if (is_digit(text[stop.token_end - 1]) && is_letter(text[at])) return {at, unit_message};
     return {stop.token_end, "a comma is missing after " + token_before(text, stop.token_end)};
   }
   return {at, message_at(text, at, complaint)};

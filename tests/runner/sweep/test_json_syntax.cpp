@@ -22,9 +22,26 @@ TEST_CASE("NaN and Infinity are refused with a hint, at their first letter") {
   CHECK(message_about(R"([inf])") == "f:1:2" + hint);
 }
 
-TEST_CASE("words that only begin like NaN or Infinity get the plain message") {
-  CHECK(message_about(R"({"a": information})") == "f:1:7: malformed JSON: invalid literal");
-  CHECK(message_about(R"({"a": name})") == "f:1:7: malformed JSON: invalid literal");
+TEST_CASE("words without quotes are told to need them, also those that begin like NaN") {
+  const std::string need = "names and texts need double quotes: ";
+  CHECK(message_about(R"({"a": information})") == "f:1:7: " + need + "\"information\"");
+  CHECK(message_about(R"({"a": name})") == "f:1:7: " + need + "\"name\"");
+  CHECK(message_about(R"({"a": True})") == "f:1:7: " + need + "\"True\"");
+  CHECK(message_about(R"({"base": {box.width: 5}})") == "f:1:11: " + need + "\"box.width\"");
+}
+
+TEST_CASE("what people and word processors write is told with what JSON wants") {
+  const std::string quotes = "a text needs straight double quotes: \"";
+  CHECK(message_about("{\u201cname\u201d: 1}") == "f:1:2: " + quotes);
+  CHECK(message_about("{\"a\": \u00abb\u00bb}") == "f:1:7: " + quotes);
+  const std::string unit = "a number has no unit here: see \"units\" in the manual of sweeps";
+  CHECK(message_about(R"({"a": 5 mm})") == "f:1:9: " + unit);
+  CHECK(message_about(R"({"a": 5mm})") == "f:1:7: " + unit);
+  CHECK(message_about(R"({"a": 1/2})") == "f:1:8: JSON has no fractions: write 1/2 as 0.5");
+  CHECK(message_about(R"({"a": 5%})") == "f:1:8: JSON has no %: write 5 % as 0.05");
+  CHECK(message_about(R"({"a": 5; "b": 1})") == "f:1:8: write a comma in place of ;");
+  CHECK(message_about(R"({"a": "C:\data"})") ==
+        "f:1:11: a backslash is written as two; names of files may have / in its place");
 }
 
 TEST_CASE("malformed JSON is refused with line, column and what to change") {
