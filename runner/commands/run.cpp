@@ -382,8 +382,9 @@ void add_command(CLI::App& app, RunOptions& options) {
                  "sse2, avx2 or avx512 (default: GRAINSWEEP_ISA, else the widest)")
       ->check(not_empty())
       ->type_name("NAME");
-  run.add_option("--checkpoint-seconds", options.checkpoint_seconds,
-                 "save packings under way this often; stopping always saves them")
+  run.add_option(
+         "--checkpoint-seconds", options.checkpoint_seconds,
+         "save packings under way this often, 0: in every step; stopping\nalways saves them")
       ->check(number_within(0.0, 86400.0))
       ->capture_default_str()
       ->type_name("S");
