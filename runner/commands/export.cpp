@@ -253,12 +253,10 @@ int perform(const ExportOptions& options) {
   if (written.empty() && damaged > 0) return exit_file_system;
   if (written.empty() && !refused.empty()) throw BadInput(refused.front());
   if (written.empty()) throw BadInput(options.folder + ": its packings were stored without grains");
-  const std::vector<std::string> former = former_files(to, written);
-  for (const std::string& file : former) remove_file(to + "/" + file);
   replace_file(to + "/index.csv", index_csv(to, rows, endings(), written));
-  if (index || !former.empty()) {
-    std::cerr << "note: groups have other numbers than at the last export: files of one name hold "
-                 "other packings now, see index.csv\n";
+  if (index) {
+    std::cerr << "note: files of an earlier export were replaced by those of other packings, whose "
+                 "groups have their numbers now: see index.csv\n";
   }
   std::cout << counted(written.size(), "packing") << " written to " << to
             << "/<label>-<group>-<replicate>" << ending << ", listed in index.csv\n";

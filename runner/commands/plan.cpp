@@ -88,7 +88,7 @@ std::string learned_text(const std::string& folder, const Outcomes& outcomes,
     pending.push_back(&jobs[k]);
     left.push_back(costs[k]);
   }
-  const KnownBeds beds = known_beds(outcomes, pending);
+  const KnownBeds beds = known_beds(folder, outcomes, pending);
   std::size_t known = 0;
   for (std::size_t k = 0; k < pending.size(); ++k) {
     if (!beds.contains(pending[k]->bed)) continue;

@@ -121,7 +121,7 @@ RunningSweep resume(const Sweep& sweep, const std::vector<std::size_t>& places, 
     }
   }
   running.done = done.size();
-  running.beds = known_beds(stored.outcomes, running.pending);
+  running.beds = known_beds(folder, stored.outcomes, running.pending);
   std::cerr << damage_warnings(remove_checkpoints_of(folder, done));
   if (!running.pending.empty()) std::cerr << damage_warnings(stored.damage);
   return running;
@@ -189,8 +189,9 @@ Packed pack(RunningSweep& running, const std::function<PackingNames()>& names,
                                    [&](auto* job) { return running.beds.contains(job->bed); });
   if (known > 0 && !options.quiet) {
     std::cerr << counted(static_cast<std::size_t>(known), "packing")
-              << " differ from stored ones in what is measured alone: their beds are measured "
-                 "again\n";
+              << (known == 1 ? " differs from a stored one in what is measured alone: its bed is"
+                             : " differ from stored ones in what is measured alone: their beds are")
+              << " measured again\n";
   }
   const Limits limits{run.threads, memory_for_packings()};
   std::cerr << memory_warning(costs_of(running.pending), limits.memory);
@@ -240,6 +241,8 @@ Made help(const Sweep& sweep, const Shard& shard, const std::string& folder, Sha
       std::cerr << counted(taken.jobs.size(), "packing") << " of other shards taken over\n";
     }
     RunningSweep running{folder, files, 0, std::move(taken.jobs), {}, std::move(taken.claims)};
+    const Outcomes stored = read_journals(folder, Detail::whole).outcomes;
+    running.beds = known_beds(folder, stored, running.pending);
     const Packed now = make(running);
     all.packed = joined(all.packed, now);
     all.is_whole = !was_stopped(now);

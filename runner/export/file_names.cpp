@@ -47,6 +47,12 @@ std::string ending_of(const std::string& file) {
   return file.substr(std::min(file.size(), file.find('.', file.rfind('-') + 1)));
 }
 
+/// The second cell of a line of a file.
+std::string job_in(const std::string& file, const std::string& line) {
+  const std::size_t job = file.size() + 1;
+  return line.substr(job, line.find(',', job) - job);
+}
+
 bool is_line_of(const std::string& line, const std::string& file, const std::string& job) {
   return line.starts_with(file + "," + job + ",");
 }
@@ -90,21 +96,6 @@ std::optional<std::string> index_without(const std::string& folder,
   return is_changed ? std::optional(text) : std::nullopt;
 }
 
-std::vector<std::string> former_files(const std::string& folder,
-                                      const std::map<std::string, std::string>& written) {
-  std::set<std::pair<std::string, std::string>> have_others;  // job and ending
-  for (const auto& [file, job] : written) have_others.emplace(job, ending_of(file));
-  std::vector<std::string> former;
-  for (const auto& [file, line] : index_lines(folder)) {
-    const std::size_t job = file.size() + 1;
-    const std::string of = line.substr(job, line.find(',', job) - job);
-    if (!written.contains(file) && have_others.contains({of, ending_of(file)})) {
-      former.push_back(file);
-    }
-  }
-  return former;
-}
-
 std::string index_csv(const std::string& folder, const std::vector<Row>& rows,
                       const std::vector<std::string>& endings,
                       const std::map<std::string, std::string>& written) {
@@ -127,8 +118,11 @@ std::string index_csv(const std::string& folder, const std::vector<Row>& rows,
                         cell(job.seed), status_of(rows[k])});
     }
   }
+  std::set<std::pair<std::string, std::string>> have_others;  // job and ending
+  for (const auto& [file, job] : written) have_others.emplace(job, ending_of(file));
   for (const auto& [file, line] : listed) {
-    if (there.contains(file)) text += line + "\n";
+    const bool is_twice = have_others.contains({job_in(file, line), ending_of(file)});
+    if (there.contains(file) && !is_twice) text += line + "\n";
   }
   return text;
 }

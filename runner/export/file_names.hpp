@@ -23,15 +23,10 @@ std::vector<std::string> file_stems(const std::vector<Row>& rows);
 std::optional<std::string> index_without(const std::string& folder,
                                          const std::map<std::string, std::string>& taken);
 
-/// Files that the index of `folder` lists for packings which have another one of the same ending
-/// now: `written`, file -> job. Groups that have changed their numbers leave them.
-std::vector<std::string> former_files(const std::string& folder,
-                                      const std::map<std::string, std::string>& written);
-
 /// index.csv: file, job, label, group, replicate, seed and status of the files in `folder`: of
 /// those `written` now, file -> job, and of others with one of the endings that the present index
 /// lists. What that says of a packing which the rows name differently, as after a change of the
-/// sweep, stays as it is.
+/// sweep, stays as it is, unless it is written now: it is listed once for each ending.
 std::string index_csv(const std::string& folder, const std::vector<Row>& rows,
                       const std::vector<std::string>& endings,
                       const std::map<std::string, std::string>& written);

@@ -1,6 +1,7 @@
 #include "runner/jobs/known_beds.hpp"
 
 #include <unordered_set>
+#include <utility>
 
 #include "engine/packing.hpp"
 #include "runner/store/files.hpp"
@@ -10,15 +11,36 @@
 
 namespace grainsweep {
 
-KnownBeds known_beds(const Outcomes& stored, const std::vector<const Job*>& pending) {
+namespace {
+
+/// Whether a bed can be measured again if it is sound.
+bool may_be_measured(const Outcome& outcome) {
+  const PackingStatus status = outcome.result.status;
+  const bool is_at_its_end =
+      status == PackingStatus::settled || status == PackingStatus::not_settled;
+  return is_at_its_end && outcome.bed && outcome.version == program_version();
+}
+
+std::optional<StoredBed> sound_bed(const std::string& folder, const Outcome& outcome) {
+  try {
+    return read_bed(folder, outcome);
+  } catch (const FileError&) {
+    return std::nullopt;
+  }
+}
+
+}  // namespace
+
+KnownBeds known_beds(const std::string& folder, const Outcomes& stored,
+                     const std::vector<const Job*>& pending) {
   std::unordered_set<std::uint64_t> wanted;
   for (const Job* job : pending) wanted.insert(job->bed);
   KnownBeds beds;
   for (const auto& [job, outcome] : stored) {
-    const PackingStatus status = outcome->result.status;
-    const bool is_rest = status == PackingStatus::settled || status == PackingStatus::not_settled;
-    const bool is_known = is_rest && outcome->bed && outcome->version == program_version();
-    if (is_known && wanted.contains(*outcome->bed)) beds.emplace(*outcome->bed, *outcome);
+    if (!may_be_measured(*outcome) || !wanted.contains(*outcome->bed)) continue;
+    if (!beds.contains(*outcome->bed) && sound_bed(folder, *outcome)) {
+      beds.emplace(*outcome->bed, *outcome);
+    }
   }
   return beds;
 }
@@ -35,12 +57,10 @@ std::optional<Packing> measured_from(const KnownBeds& beds, const std::string& f
                                      const Job& job, const Kernels& kernels) {
   const auto known = beds.find(job.bed);
   if (known == beds.end()) return std::nullopt;
-  try {
-    const Outcome& outcome = known->second;
-    return measure_again(job.spec, kernels, packing_of(read_bed(folder, outcome), outcome.result));
-  } catch (const FileError&) {
-    return std::nullopt;
-  }
+  const Outcome& outcome = known->second;
+  auto bed = sound_bed(folder, outcome);
+  if (!bed) return std::nullopt;
+  return measure_again(job.spec, kernels, packing_of(std::move(*bed), outcome.result));
 }
 
 }  // namespace grainsweep

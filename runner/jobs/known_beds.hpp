@@ -19,8 +19,9 @@ namespace grainsweep {
 using KnownBeds = std::unordered_map<std::uint64_t, Outcome>;
 
 /// Those that pending packings have in common with stored ones of this version of the program, if
-/// these were measured and stored with their grains.
-KnownBeds known_beds(const Outcomes& stored, const std::vector<const Job*>& pending);
+/// these were measured and have a sound bed with grains in `folder`.
+KnownBeds known_beds(const std::string& folder, const Outcomes& stored,
+                     const std::vector<const Job*>& pending);
 
 /// What measuring takes of the CPU time of packing: a fiftieth to a tenth.
 inline constexpr double share_of_measuring = 0.05;

@@ -207,7 +207,7 @@ class Packer {
     finished.cpu_seconds += before_[task].cpu_seconds;
     const bool lacked_memory = finished.lacked_memory;
     const Outcome outcome = store(job, running_.files, std::move(finished), options_.no_grains);
-    if (!outcome.exception && !before_[task].was_packed) {
+    if (!outcome.exception && !running_.beds.contains(job.bed)) {
       const std::scoped_lock lock(learning_);
       running_.estimates.add(costs_[task].cpu_seconds, outcome.cpu_seconds);
     }

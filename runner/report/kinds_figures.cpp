@@ -167,9 +167,10 @@ Figure published_figure(const std::vector<Comparison>& comparisons) {
                     "logarithmic scale. Within the shaded band both agree. The table below has "
                     "values and definitions."};
   std::vector<const Comparison*> measured = measured_of(comparisons);
-  if (measured.empty())
+  if (measured.empty()) {
     return undrawn(std::move(figure),
                    "no published value can be set beside a measured one with an error");
+  }
   constexpr std::size_t most_rows = 200;  // a picture of more than 32,000 px cannot be drawn
   if (measured.size() > most_rows) {
     figure.caption += " The first " + cell(most_rows) + " of " + cell(measured.size()) +

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <string_view>
@@ -57,7 +58,10 @@ std::string read_row(const LineCells& cells, const SizeColumns& columns, std::si
     const std::string_view wrong = cells[diameter ? columns.share : columns.diameter];
     return "must hold finite numbers, holds \"" + shortened(wrong) + "\"";
   }
-  if (!(*diameter > 0.0)) return "the diameter must be positive, is " + bound_text(*diameter);
+  if (!(*diameter > 0.0)) {
+    return "the diameter must be positive, is " + bound_text(*diameter) +
+           (columns.kind == "retained" ? "; give the pan the smallest size of its grains" : "");
+  }
   if (!(*share >= 0.0)) {
     return std::string(columns.kind == "share" ? "the share" : columns.kind) +
            " must not be negative, is " + bound_text(*share);
@@ -110,10 +114,12 @@ std::optional<Diagnostic> retained_fault(const std::vector<SizeRowRead>& rows,
                       "the largest sieve must retain 0, retains " + bound_text(last.share) +
                           ": add the next larger one, which no grain stays on");
   }
-  const bool is_empty = std::all_of(rows.begin(), rows.end(),
-                                    [](const SizeRowRead& row) { return row.share == 0.0; });
-  if (!is_empty) return std::nullopt;
-  return wrong_line(file, last.line, "no sieve retains anything");
+  double all = 0.0;
+  for (const SizeRowRead& row : rows) all += row.share;
+  if (all > 0.0 && std::isfinite(all)) return std::nullopt;
+  const char* const what =
+      all > 0.0 ? "what the sieves retain adds up to too much" : "no sieve retains anything";
+  return wrong_line(file, last.line, what);
 }
 
 /// Makes of what each sieve retains what is finer than it.

@@ -177,6 +177,7 @@ const KindFacts& facts_of(ValueKind kind) {
       {"list of points", "a list of points [x, y, z]", read_points},
       {"list of components", "a list of components", read_mixture},
   }};
+  static_assert(static_cast<std::size_t>(ValueKind::components) + 1 == facts.size());
   return facts[static_cast<std::size_t>(kind)];
 }
 

@@ -84,21 +84,21 @@ TEST_CASE("before files are replaced the index forgets those that were another p
         index_head + same);
 }
 
-TEST_CASE("files that groups with other numbers leave are found by packing and ending") {
+TEST_CASE("a packing whose group has another number is listed once for an ending") {
   const TemporaryFolder folder;
-  CHECK(former_files(folder.path(), {{"a-1-1.csv", "a"}}).empty());
-  std::ofstream(folder.path() + "/index.csv")
-      << index_head +
-             "a.b-2-1.csv,a,a.b,2,1,0,settled\na.b-2-1.contacts.csv,a,a.b,2,1,0,settled\n" +
-             "a.b-3-1.csv,b,a.b,3,1,0,settled\n";
-  const auto former = [&](const std::map<std::string, std::string>& written) {
-    return former_files(folder.path(), written);
-  };
-  CHECK(former({{"a.b-1-1.csv", "a"}}) == std::vector<std::string>{"a.b-2-1.csv"});
-  CHECK(former({{"a.b-1-1.contacts.csv", "a"}}) ==
-        std::vector<std::string>{"a.b-2-1.contacts.csv"});
-  CHECK(former({{"a.b-2-1.csv", "a"}}).empty());
-  CHECK(former({{"a.b-1-1.csv", "c"}}).empty());
+  const std::string as_table = "x.y-7-1.csv,d,x.y,7,1,0,settled\n",
+                    as_contacts = "x.y-7-1.contacts.csv,d,x.y,7,1,0,settled\n",
+                    other = "x.y-8-1.csv,other,x.y,8,1,0,settled\n",
+                    now = "x_y__z-3-1.csv,d,\"x/y, z\",3,1,0,pending\n";
+  for (const char* file :
+       {"x_y__z-3-1.csv", "x.y-7-1.csv", "x.y-7-1.contacts.csv", "x.y-8-1.csv"}) {
+    std::ofstream(folder.path() + "/" + file) << "0";
+  }
+  std::ofstream(folder.path() + "/index.csv") << index_head + as_table + as_contacts + other;
+  CHECK(index_csv(folder.path(), four_rows(), {".csv"}, {{"x_y__z-3-1.csv", "d"}}) ==
+        index_head + now + as_contacts + other);
+  CHECK(index_csv(folder.path(), four_rows(), {".csv"}, {}) ==
+        index_head + as_contacts + as_table + other);
 }
 
 }  // namespace

@@ -163,7 +163,7 @@ TEST_CASE("a bed that is known is measured again, and its packing is told what i
   job.id = "0ff1ce000ff1ce00";
   job.spec.measure.bin_width = 0.5;
   RunningSweep again{folder.path(), files, 0, {&job}, {}};
-  again.beds = known_beds(stored, again.pending);
+  again.beds = known_beds(folder.path(), stored, again.pending);
   CHECK(again.beds.size() == 1);
   CHECK(pack_pending(again, options).packings == 1);
   const Outcome outcome = *read_journals(folder.path()).outcomes.at(job.id);

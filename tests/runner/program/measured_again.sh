@@ -70,3 +70,12 @@ expect_code 0 "$program" run before.json --out bare --no-grains --no-report --to
 expect_code 0 "$program" run after.json --out bare --no-report --tolerate-unsettled
 if grep -q "measured again" error.txt; then fail "beds without grains were measured again"; fi
 diff fresh.txt <(tables_of bare) >&2 || fail "packings made anew have other values"
+
+# A bed that is not sound is packed anew, and not said to be measured.
+cp -r once cut && truncate -s 100 cut/shards/1-of-1.beds
+sed 's/\[0.5, 1, 1.5\]/[0.7]/' several.json >another.json
+expect_code 0 "$program" run another.json --out once --no-report --tolerate-unsettled
+expect_text error.txt "2 packings differ from stored ones"
+expect_code 0 "$program" run another.json --out cut --no-report --tolerate-unsettled
+if grep -q "differ from stored ones\|measured again" error.txt; then fail "cut beds were measured: $(cat error.txt)"; fi
+diff <(tables_of once) <(tables_of cut) >&2 || fail "beds packed anew have other values"

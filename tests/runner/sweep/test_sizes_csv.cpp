@@ -51,6 +51,11 @@ TEST_CASE("what sieves retain, in any unit, is what passes the next ones") {
         Messages{"sieves.csv:3: no sieve retains anything"});
   CHECK(errors_of_table("diameter,retained\n1,-3\n2,0\n") ==
         Messages{"sieves.csv:2: retained must not be negative, is -3"});
+  CHECK(errors_of_table("diameter,retained\n0,3\n2,0\n") ==
+        Messages{"sieves.csv:2: the diameter must be positive, is 0; give the pan the smallest "
+                 "size of its grains"});
+  CHECK(errors_of_table("diameter,retained\n1,1e308\n2,1e308\n3,0\n") ==
+        Messages{"sieves.csv:4: what the sieves retain adds up to too much"});
 }
 
 TEST_CASE("what a table of sizes lacks is told with its line") {
