@@ -213,6 +213,22 @@ Packed joined(const Packed& before, const Packed& now) {
           now.first_failure};
 }
 
+/// Makes what is `left`; with `each_bed_once` one packing of each bed first, then the others, whose
+/// bed is known by then.
+Made make_left(const std::function<RunningSweep()>& left, bool each_bed_once,
+               const std::function<Packed(RunningSweep&)>& make) {
+  Made all;
+  for (bool has_others = true; has_others;) {
+    RunningSweep running = left();
+    has_others = each_bed_once && put_off_others_of_a_bed(running);
+    const Packed now = make(running);
+    const int seen_to = now.packings + now.left_to_others;
+    all = {joined(all.packed, now), static_cast<std::size_t>(seen_to) == running.pending.size()};
+    if (!all.is_whole) break;
+  }
+  return all;
+}
+
 /// Makes what is called for, then what its results, `made`, call for, and so on.
 Made make_all(GrowingSweep& growing, const std::function<Outcomes()>& made,
               const std::function<Made(const Sweep&)>& make) {
@@ -450,17 +466,11 @@ int perform(const RunOptions& options) {
   };
   const auto make_pending = [&](const Sweep& sweep) {
     record_sweep(folder, provenance, rows_of(sweep));
-    Made all;
-    for (bool has_others = true; has_others;) {
-      RunningSweep running = resume(sweep, places_of(jobs, sweep), shard, folder, files,
-                                    std::exchange(retries, false));
-      has_others = shard.count == 1 && !options.no_grains && put_off_others_of_a_bed(running);
-      const Packed now = make(running);
-      const int seen_to = now.packings + now.left_to_others;
-      all = {joined(all.packed, now), static_cast<std::size_t>(seen_to) == running.pending.size()};
-      if (!all.is_whole) break;
-    }
-    return all;
+    const auto left = [&] {
+      return resume(sweep, places_of(jobs, sweep), shard, folder, files,
+                    std::exchange(retries, false));
+    };
+    return make_left(left, shard.count == 1 && !options.no_grains, make);
   };
   Made own = make_all(growing, made, make_pending);
   if (own.is_whole && options.retry_failed) {
