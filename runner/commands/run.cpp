@@ -213,20 +213,24 @@ Packed joined(const Packed& before, const Packed& now) {
           now.first_failure};
 }
 
+/// Makes what is pending.
+Made made_of(RunningSweep& running, const std::function<Packed(RunningSweep&)>& make) {
+  const Packed packed = make(running);
+  const int seen_to = packed.packings + packed.left_to_others;
+  return {packed, static_cast<std::size_t>(seen_to) == running.pending.size()};
+}
+
 /// Makes what is `left`; with `each_bed_once` one packing of each bed first, then the others, whose
-/// bed is known by then.
+/// bed is known by then unless that one failed.
 Made make_left(const std::function<RunningSweep()>& left, bool each_bed_once,
                const std::function<Packed(RunningSweep&)>& make) {
-  Made all;
-  for (bool has_others = true; has_others;) {
-    RunningSweep running = left();
-    has_others = each_bed_once && put_off_others_of_a_bed(running);
-    const Packed now = make(running);
-    const int seen_to = now.packings + now.left_to_others;
-    all = {joined(all.packed, now), static_cast<std::size_t>(seen_to) == running.pending.size()};
-    if (!all.is_whole) break;
-  }
-  return all;
+  RunningSweep running = left();
+  const bool has_others = each_bed_once && put_off_others_of_a_bed(running);
+  const Made first = made_of(running, make);
+  if (!has_others || !first.is_whole) return first;
+  RunningSweep others = left();
+  const Made rest = made_of(others, make);
+  return {joined(first.packed, rest.packed), rest.is_whole};
 }
 
 /// Makes what is called for, then what its results, `made`, call for, and so on.
@@ -466,11 +470,11 @@ int perform(const RunOptions& options) {
   };
   const auto make_pending = [&](const Sweep& sweep) {
     record_sweep(folder, provenance, rows_of(sweep));
+    const bool retry = std::exchange(retries, false);
     const auto left = [&] {
-      return resume(sweep, places_of(jobs, sweep), shard, folder, files,
-                    std::exchange(retries, false));
+      return resume(sweep, places_of(jobs, sweep), shard, folder, files, retry);
     };
-    return make_left(left, shard.count == 1 && !options.no_grains, make);
+    return make_left(left, shard.count == 1 && !options.no_grains && !retry, make);
   };
   Made own = make_all(growing, made, make_pending);
   if (own.is_whole && options.retry_failed) {

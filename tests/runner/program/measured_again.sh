@@ -79,3 +79,11 @@ expect_text error.txt "2 packings differ from stored ones"
 expect_code 0 "$program" run another.json --out cut --no-report --tolerate-unsettled
 if grep -q "differ from stored ones\|measured again" error.txt; then fail "cut beds were measured: $(cat error.txt)"; fi
 diff <(tables_of once) <(tables_of cut) >&2 || fail "beds packed anew have other values"
+
+# Where the first packing of a bed is too low to be measured, the others are packed.
+sed 's/\[0.5, 1, 1.5\]/[5.5, 1, 0.5]/' several.json >low.json
+expect_code 1 "$program" run low.json --out low --no-report
+[ "$(grep -c ',failed,.*the bed is too low' low/packings.csv)" -eq 2 ] || fail "not two are too low"
+[ "$(grep -c ',settled,' low/packings.csv)" -eq 4 ] || fail "the others were not packed"
+expect_code 1 "$program" run low.json --out low --no-report --retry-failed
+[ "$(grep -c '^[0-9]/6  ' error.txt)" -eq 2 ] || fail "other packings than those that failed were made"
