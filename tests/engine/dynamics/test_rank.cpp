@@ -100,5 +100,26 @@ TEST_CASE("four cubes that bear a fifth together cannot all bear it on their own
   CHECK(rank_of_cubes({6, 6, periodic, walls}, poses) == 4 * 3 + 3);
 }
 
+/// Rank of a cube flat on a wall and one between it and the opposite wall, which both push at
+/// opposite corners, their diagonal turned by `tilt` about z from the normal of the walls.
+std::int64_t rank_of_wedged_cubes(double tilt) {
+  const Quaternion upright = Quaternion::FromTwoVectors(Vector(1, 1, 1), Vector::UnitX());
+  const Quaternion turn = Quaternion(Eigen::AngleAxisd(tilt, Vector::UnitZ())) * upright;
+  const double half = std::sqrt(0.75) * std::cos(tilt), overlap = 1e-6;
+  const Box box{1.0 + 2.0 * half - 3.0 * overlap, 6, walls, periodic};
+  return rank_of_cubes(box, {testing::pose_at(0.5 - overlap, 2, 3),
+                             testing::pose_at(1.0 + half - 2.0 * overlap, 2.2, 2.9, turn)});
+}
+
+// The face on the wall is three constraints; what the corners of the other cube bear goes through
+// its centre on one line, so that the second corner adds nothing.
+TEST_CASE("opposite pushes on one line are one constraint, wherever other centres lie") {
+  CHECK(rank_of_wedged_cubes(0.0) == 3 + 1);
+}
+
+TEST_CASE("opposite pushes beside each other turn a grain: both are independent") {
+  CHECK(rank_of_wedged_cubes(0.05) == 3 + 2);
+}
+
 }  // namespace
 }  // namespace grainsweep
