@@ -226,7 +226,7 @@ Made make_left(const std::function<RunningSweep()>& left, bool each_bed_once,
                const std::function<Packed(RunningSweep&)>& make) {
   RunningSweep running = left();
   const bool has_others = each_bed_once && put_off_others_of_a_bed(running);
-  const Made first = made_of(running, make);
+  Made first = made_of(running, make);
   if (!has_others || !first.is_whole) return first;
   RunningSweep others = left();
   const Made rest = made_of(others, make);
