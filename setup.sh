@@ -7,7 +7,7 @@ set -euo pipefail
 readonly build_packages=(
   g++ cmake ninja-build
   libtbb-dev libeigen3-dev libxsimd-dev nlohmann-json3-dev libcli11-dev librandom123-dev
-  libqhull-dev libboost-dev libmpfr-dev zlib1g-dev
+  libqhull-dev libmuparser-dev libboost-dev libmpfr-dev zlib1g-dev
   catch2 libbenchmark-dev
   gnuplot-nox libjs-three
 )

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/text.hpp"
+#include "runner/compare/formula.hpp"
 #include "runner/tables/fits.hpp"
 #include "runner/text.hpp"
 
@@ -25,6 +27,12 @@ std::vector<Published> published_of(const Reference& reference, const Family& fa
   return values;
 }
 
+std::string signed_text(double difference) {
+  constexpr double unit = 1e-4;
+  const double rounded = std::round(difference / unit) * unit + 0.0;  // no -0
+  return (rounded > 0.0 ? "+" : "") + fixed(rounded, 4);
+}
+
 std::string row_text(const Comparison& row) {
   const int decimals = decimals_for(row.measured.estimate.error);
   const auto number = [&](double value) { return fixed(value, decimals); };
@@ -40,6 +48,36 @@ std::string row_text(const Comparison& row) {
                   19) +
          "  " + verdict(row) + "\n" + source_definition + "      here: " + row.measured.definition +
          "\n";
+}
+
+std::string difference_text(const AtWidth& at, const std::string& symbol) {
+  return signed_text(at.difference) + " at " + symbol + " = " + cell(at.width) + " d";
+}
+
+/// How many widths agree with a formula, and how far they lie from it.
+std::string along_text(const Comparison& row) {
+  const std::vector<AtWidth>& along = row.along;
+  const auto agrees = [](const AtWidth& at) { return !(std::abs(at.errors) > agreement_limit); };
+  const auto is_less = [](const AtWidth& a, const AtWidth& b) {
+    return a.difference < b.difference;
+  };
+  const auto [least, most] = std::minmax_element(along.begin(), along.end(), is_less);
+  double mean = 0.0;
+  for (const AtWidth& at : along) mean += at.difference / static_cast<double>(along.size());
+  const std::string symbol = symbol_of_formula(row.published.formula->text);
+  return joined("agrees at ", std::count_if(along.begin(), along.end(), agrees), " of ",
+                counted(along.size(), "width"), "; here less published: ",
+                along.size() == 1 ? "" : signed_text(mean) + " in the mean, ",
+                difference_text(*least, symbol),
+                along.size() == 1 ? "" : " to " + difference_text(*most, symbol));
+}
+
+std::string formula_text(const Comparison& row) {
+  const std::string& source = row.published.definition;
+  return "  " + pad_right(row.title, 38) + row.published.text + "\n      " +
+         (row.along.empty() ? "not determined: " + row.measured.not_determined : along_text(row)) +
+         "\n" + (source.empty() ? "" : "      published: " + source + "\n") +
+         (row.along.empty() ? "" : "      here: " + row.measured.definition + "\n");
 }
 
 std::string head_of(const std::string& family) {
@@ -99,21 +137,56 @@ std::string verdict(const Comparison& comparison) {
          fixed(std::abs(*errors), 1) + " errors";
 }
 
+namespace {
+
+Comparison compare_with(const Published& value, const Family& family, const std::string& folder) {
+  const std::string symbol = extent_symbol(family.walled);
+  return {family.name,  title_of_quantity(value.quantity, value.width, symbol),
+          value,        measure_quantity(value.quantity, value.width, family, folder),
+          std::nullopt, {}};
+}
+
+/// The measured values of a family beside a formula, at every width where it holds.
+Comparison compare_with_formula(const Published& value, const Family& family,
+                                const std::string& folder) {
+  const PublishedFormula& formula = *value.formula;
+  const std::string symbol = symbol_of_formula(formula.text);
+  Comparison row{family.name, title_of_quantity(value.quantity, 0.0, ""), value, {}, {}, {}};
+  row.measured.not_determined = "this family has no packings at a " + symbol + " where it holds";
+  if (extent_symbol(family.walled) != symbol) return row;
+  for (const Group& group : family.walled) {
+    const double width = group.job.box.width;
+    const double published = value_of_formula(formula.text, width);
+    if (!(width >= formula.from && width <= formula.to && std::isfinite(published))) continue;
+    Comparison at;
+    at.measured = measure_quantity(value.quantity, width, family, folder);
+    at.published.range = {published, published, formula.error};
+    const auto miss = difference(at);
+    if (miss || row.along.empty()) row.measured = at.measured;
+    if (miss) row.along.push_back({width, *miss, *miss == 0.0 ? 0.0 : *difference_in_errors(at)});
+  }
+  return row;
+}
+
+}  // namespace
+
 std::vector<Comparison> compare_with(const Reference& reference, const Analysis& analysis) {
   const auto& [groups, families, folder] = analysis;
   std::vector<Comparison> rows;
   for (const Family& family : families) {
     for (const Published& value : published_of(reference, family)) {
-      const std::string symbol = extent_symbol(family.walled);
-      rows.push_back({family.name, title_of_quantity(value.quantity, value.width, symbol), value,
-                      measure_quantity(value.quantity, value.width, family, folder), std::nullopt});
+      rows.push_back(value.formula ? compare_with_formula(value, family, folder)
+                                   : compare_with(value, family, folder));
     }
   }
   for (const Published& value : reference.common) {
     const Shared shared = share_quantity(value.quantity, value.width, families, folder);
     rows.push_back({"all families",
-                    title_of_quantity(value.quantity, value.width, extent_symbol(families)), value,
-                    shared.measured, shared.chi2_per_dof});
+                    title_of_quantity(value.quantity, value.width, extent_symbol(families)),
+                    value,
+                    shared.measured,
+                    shared.chi2_per_dof,
+                    {}});
   }
   return rows;
 }
@@ -123,7 +196,7 @@ std::string comparison_text(const Reference& reference, const Analysis& analysis
   for (const Comparison& row : compare_with(reference, analysis)) {
     if (row.family != family) text += head_of(row.family);
     family = row.family;
-    text += row_text(row);
+    text += row.published.formula ? formula_text(row) : row_text(row);
   }
   return text + left_out_text(reference, analysis.families);
 }

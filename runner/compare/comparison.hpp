@@ -13,6 +13,13 @@ namespace grainsweep {
 /// So many standard errors, of both sides in quadrature, may lie between values that agree.
 inline constexpr double agreement_limit = 3.0;
 
+/// A measured value beside that of a published formula.
+struct AtWidth {
+  double width = 0.0;       ///< d
+  double difference = 0.0;  ///< measured less published
+  double errors = 0.0;      ///< the same in standard errors of both; 0 where the difference is 0
+};
+
 struct Comparison {
   std::string family;
   std::string title;  ///< "Z at W = 10 d"
@@ -20,6 +27,8 @@ struct Comparison {
   Measured measured;
   /// For a value that is said to hold for all families: chi2 per degree of freedom of theirs.
   std::optional<double> chi2_per_dof;
+  /// Of a formula: at the widths of the family where it holds and both values are known.
+  std::vector<AtWidth> along;
 };
 
 /// Measured less published value, from the nearer end of a range and 0 inside it; nothing if

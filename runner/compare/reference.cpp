@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "runner/compare/formula.hpp"
 #include "runner/compare/quantities.hpp"
 #include "runner/exit_codes.hpp"
 #include "runner/store/files.hpp"
@@ -67,26 +68,72 @@ std::optional<Published::Range> read_range(const Json& value, double error,
   return std::nullopt;
 }
 
-std::string text_of(const std::optional<Published::Range>& range) {
+std::string text_of(const Published& published) {
+  if (published.formula) return published.formula->text;
+  const auto& range = published.range;
   if (!range) return "-";
   if (range->low < range->high) return cell(range->low) + " to " + cell(range->high);
   return cell(range->low) + (range->error > 0.0 ? " ± " + cell(range->error) : "");
 }
 
+/// Where it holds, and what else cannot be said of it.
+void read_extents(const Json& from, const std::string& pointer, PublishedFormula& formula,
+                  Diagnostics& diagnostics) {
+  for (const char* other : {"value", "width"}) {
+    if (!from.contains(other)) continue;
+    diagnostics.push_back({child_pointer(pointer, other),
+                           "a formula gives the value at every width; leave this out, or the "
+                           "formula",
+                           Anchor::key});
+  }
+  formula.from = read_number(from, "from", pointer, diagnostics).value_or(formula.from);
+  formula.to = read_number(from, "to", pointer, diagnostics).value_or(formula.to);
+  if (formula.from <= formula.to) return;
+  diagnostics.push_back(
+      {child_pointer(pointer, "from"), "must not be above \"to\", is " + describe(from["from"])});
+}
+
+/// Nothing if there is none, or a wrong one.
+std::optional<PublishedFormula> read_formula(const Json& from, const std::string& pointer,
+                                             Diagnostics& diagnostics) {
+  if (!from.contains("formula")) {
+    for (const char* end : {"from", "to"}) {
+      if (!from.contains(end)) continue;
+      diagnostics.push_back({child_pointer(pointer, end),
+                             "belongs to a \"formula\", and there is none", Anchor::key});
+    }
+    return std::nullopt;
+  }
+  PublishedFormula formula;
+  formula.text = read_text(from, "formula", pointer, "", diagnostics);
+  read_extents(from, pointer, formula, diagnostics);
+  if (!from["formula"].is_string()) return std::nullopt;
+  const std::string fault = fault_of_formula(formula.text);
+  if (fault.empty()) return formula;
+  diagnostics.push_back({child_pointer(pointer, "formula"), fault});
+  return std::nullopt;
+}
+
 Published read_published(const Json& from, const std::string& pointer, Diagnostics& diagnostics) {
   Published published;
   if (!is_object(from, pointer, diagnostics)) return published;
-  refuse_unknown_keys(from, pointer, {"quantity", "width", "value", "error", "text", "definition"},
-                      diagnostics);
+  refuse_unknown_keys(
+      from, pointer,
+      {"quantity", "width", "value", "formula", "from", "to", "error", "text", "definition"},
+      diagnostics);
   published.quantity = read_text(from, "quantity", pointer, "", diagnostics);
   published.definition = read_text(from, "definition", pointer, "", diagnostics);
+  published.formula = read_formula(from, pointer, diagnostics);
+  const bool is_formula = from.contains("formula");
   const auto width = read_number(from, "width", pointer, diagnostics);
   const auto error = read_number(from, "error", pointer, diagnostics);
   published.width = width.value_or(0.0);
   if (!from.contains("quantity")) {
     diagnostics.push_back({pointer, "needs \"quantity\", its name"});
   } else if (from["quantity"].is_string() && from.contains("width") == width.has_value()) {
-    const std::string fault = fault_of_quantity(published.quantity, published.width);
+    constexpr double any_width = 1.0;
+    const std::string fault =
+        fault_of_quantity(published.quantity, is_formula ? any_width : published.width);
     if (!fault.empty()) diagnostics.push_back({child_pointer(pointer, "quantity"), fault});
   }
   if (from.contains("value")) {
@@ -95,11 +142,12 @@ Published read_published(const Json& from, const std::string& pointer, Diagnosti
   }
   const auto& range = published.range;
   if (range && is_share(published.quantity) && !(range->low >= 0.0 && range->high <= 1.0)) {
-    diagnostics.push_back(
-        {child_pointer(pointer, "value"),
-         "a share of the volume lies in [0, 1]; divide percentages by 100, is " + text_of(range)});
+    diagnostics.push_back({child_pointer(pointer, "value"),
+                           "a share of the volume lies in [0, 1]; divide percentages by 100, is " +
+                               text_of(published)});
   }
-  published.text = read_text(from, "text", pointer, text_of(published.range), diagnostics);
+  if (published.formula) published.formula->error = error.value_or(0.0);
+  published.text = read_text(from, "text", pointer, text_of(published), diagnostics);
   return published;
 }
 
@@ -232,6 +280,12 @@ Reference reference_of(const Json& from, Diagnostics& diagnostics) {
   reference.source = read_text(from, "source", "", "", diagnostics);
   reference.families = read_list(from, "families", "", diagnostics, read_family);
   reference.common = read_list(from, "common", "", diagnostics, read_published);
+  for (std::size_t k = 0; k < reference.common.size(); ++k) {
+    if (!reference.common[k].formula) continue;
+    diagnostics.push_back({"/common/" + std::to_string(k) + "/formula",
+                           "formulas belong to \"families\"; { } as \"where\" means all of them",
+                           Anchor::key});
+  }
   return reference;
 }
 

@@ -1,6 +1,7 @@
 // Published values to compare a sweep with, as a JSON file gives them (see configs/README.md).
 #pragma once
 
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -9,6 +10,13 @@
 #include "runner/tables/families.hpp"
 
 namespace grainsweep {
+
+/// A quantity over the gap between walls or the diameter of a tube.
+struct PublishedFormula {
+  std::string text;  ///< without fault (runner/compare/formula.hpp)
+  double from = 0.0, to = std::numeric_limits<double>::infinity();  ///< where it holds, d
+  double error = 0.0;  ///< standard error of its values, 0 if there is none
+};
 
 /// One published value, in d where it is a length; for some quantities a source has only words.
 struct Published {
@@ -21,7 +29,8 @@ struct Published {
     double error = 0.0;  ///< printed error, 0 if there is none
   };
   std::optional<Range> range;
-  std::string definition;  ///< what the source says of it; may be empty
+  std::string definition;                   ///< what the source says of it; may be empty
+  std::optional<PublishedFormula> formula;  ///< in place of a value at one width
 };
 
 /// Values of the families that `where` describes: dotted path -> value, as JSON.

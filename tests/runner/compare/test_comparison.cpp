@@ -21,11 +21,11 @@ Reference reference() {
   reference.source = "Source";
   reference.families = {
       {{{"shape", "\"sphere\""}, {"sizes.small_share", "0.0"}},
-       {{"Z_unconfined", 0, "6.027 ± 0.012", Published::Range{6.027, 6.027, 0.012}, ""},
-        {"C", 0, "falls with x_S", std::nullopt, "in words"},
-        {"Z", 10, "3 to 4", Published::Range{3, 4, 0}, ""}}},
+       {{"Z_unconfined", 0, "6.027 ± 0.012", Published::Range{6.027, 6.027, 0.012}, "", {}},
+        {"C", 0, "falls with x_S", std::nullopt, "in words", {}},
+        {"Z", 10, "3 to 4", Published::Range{3, 4, 0}, "", {}}}},
       {{{"shape", "\"pinacoid\""}}, {}}};
-  reference.common = {{"lambda_over_C", 10, "one line through 0", std::nullopt, ""}};
+  reference.common = {{"lambda_over_C", 10, "one line through 0", std::nullopt, "", {}}};
   return reference;
 }
 
@@ -118,6 +118,64 @@ TEST_CASE("what tubes have at a width is told to be at a D") {
   const std::string text = comparison_text(reference(), analyse(rows));
   CHECK_THAT(text, Catch::Contains("  Z at D = 10 d ") && Catch::Contains("line in 1/D over 3"));
   CHECK_THAT(text, !Catch::Contains("W = ") && !Catch::Contains("1/W"));
+}
+
+Reference with_formula(PublishedFormula formula) {
+  Reference reference;
+  reference.source = "Source";
+  Published value{"phi", 0, formula.text, std::nullopt, "by hand", formula};
+  reference.families = {{{}, {value}}};
+  return reference;
+}
+
+TEST_CASE("a formula is set beside every width where it holds") {
+  const std::vector<Row> sweep = wall_sweep();  // on the line 0.64 - 0.2 / W
+  const auto rows = compare_with(with_formula({"0.63 - 0.2/W", 4, 10, 0.0}), analyse(sweep));
+  REQUIRE(rows.size() == 1);
+  CHECK(rows[0].title == "φ");
+  REQUIRE(rows[0].along.size() == 2);
+  CHECK(rows[0].along[0].width == 5);
+  CHECK(rows[0].along[1].width == 10);
+  for (const AtWidth& at : rows[0].along) {
+    CHECK(at.difference == Approx(0.01));
+    CHECK(at.errors == Approx(0.01 / rows[0].measured.estimate.error));
+  }
+}
+
+TEST_CASE("the table says at how many widths a formula agrees, and how far it is off") {
+  const std::vector<Row> sweep = wall_sweep();
+  const auto text_of = [&](const PublishedFormula& formula) {
+    return comparison_text(with_formula(formula), analyse(sweep));
+  };
+  CHECK_THAT(
+      text_of({"0.64 - 0.2/W"}),
+      Catch::Contains("  0.64 - 0.2/W\n      agrees at 3 of 3 widths; here less published: "
+                      "0.0000 in the mean, ") &&
+          Catch::Contains("\n      published: by hand\n      here: exact solid volume from "));
+  CHECK_THAT(text_of({"0.64 - 0.3/W"}),
+             Catch::Contains("agrees at 0 of 3 widths; here less published: +0.0117 in the mean, "
+                             "+0.0050 at W = 20 d to +0.0200 at W = 5 d\n"));
+  CHECK_THAT(text_of({"0.64 - 0.3/W", 0, 1e9, 0.02}), Catch::Contains("agrees at 3 of 3 widths"));
+  CHECK_THAT(text_of({"0.64 - 0.3/W", 18, 20}),
+             Catch::Contains("agrees at 0 of 1 width; here less published: +0.0050 at W = 20 d\n"));
+  CHECK_THAT(
+      text_of({"sqrt(W - 10)", 0, 9}),
+      Catch::Contains("not determined: this family has no packings at a W where it holds\n"));
+  CHECK_THAT(
+      text_of({"0.4 + d/D"}),
+      Catch::Contains("not determined: this family has no packings at a D where it holds\n"));
+}
+
+TEST_CASE("a width without a measured value is left out of a formula's row") {
+  std::vector<Row> sweep = wall_sweep();
+  sweep.push_back(settled_row("alone", 7, 0.6, 5));
+  sweep.back().outcome->result.status = PackingStatus::not_settled;
+  const auto rows = compare_with(with_formula({"0.64 - 0.2/W"}), analyse(sweep));
+  CHECK(rows[0].along.size() == 3);
+  CHECK(rows[0].measured.not_determined.empty());
+  const auto none = compare_with(with_formula({"0.64 - 0.2/W", 6, 8}), analyse(sweep));
+  CHECK(none[0].along.empty());
+  CHECK_FALSE(none[0].measured.not_determined.empty());
 }
 
 }  // namespace

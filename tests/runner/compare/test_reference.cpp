@@ -157,6 +157,52 @@ TEST_CASE("all that is wrong in a file of published values is told, each with it
         Lines{"r.json:1:41 /common/0/quantity: phi needs a \"width\""});
 }
 
+TEST_CASE("a formula stands in place of the values at single widths") {
+  const auto read = [](const std::string& members) {
+    return reference_of(
+               R"({"source": "S", "families": [{"where": {}, "values": [{"quantity": "phi", )" +
+               members + "}]}]}")
+        .families.at(0)
+        .values.at(0);
+  };
+  const Published whole = read(R"("formula": "0.64 - 0.2/W", "from": 4, "to": 20, "error": 0.01)");
+  CHECK(whole.text == "0.64 - 0.2/W");
+  CHECK(whole.formula->text == "0.64 - 0.2/W");
+  CHECK(whole.formula->from == 4.0);
+  CHECK(whole.formula->to == 20.0);
+  CHECK(whole.formula->error == 0.01);
+  CHECK_FALSE(whole.range);
+  const Published open = read(R"("formula": "0.64 - 0.2/W", "text": "a line")");
+  CHECK(open.text == "a line");
+  CHECK(open.formula->from == 0.0);
+  CHECK(open.formula->to > 1e300);
+  CHECK(open.formula->error == 0.0);
+}
+
+TEST_CASE("what cannot be said of a formula is told with its place") {
+  const auto told = [](const std::string& members) {
+    return told_of(R"({"source": "S", "families": [{"where": {}, "values": [{)" + members +
+                   "}]}]}");
+  };
+  const std::string at = "r.json:1:", value = " /families/0/values/0";
+  CHECK(told(R"("quantity": "phi", "formula": 0.6)") ==
+        Lines{at + "86" + value + "/formula: must be a text, is 0.6"});
+  CHECK(told(R"("quantity": "phi", "formula": "W/0+")").size() == 1);
+  const std::string every =
+      ": a formula gives the value at every width; leave this out, or the formula";
+  CHECK(told(R"("quantity": "phi", "width": 5, "value": 0.6, "formula": "W")") ==
+        Lines{at + "75" + value + "/width" + every, at + "87" + value + "/value" + every});
+  CHECK(told(R"("quantity": "phi", "width": 5, "from": 3)") ==
+        Lines{at + "87" + value + "/from: belongs to a \"formula\", and there is none"});
+  CHECK(told(R"("quantity": "phi", "formula": "W", "from": 5, "to": 4)") ==
+        Lines{at + "99" + value + "/from: must not be above \"to\", is 5"});
+  CHECK(told(R"("quantity": "C", "formula": "W")") ==
+        Lines{at + "68" + value + "/quantity: C belongs to no \"width\""});
+  CHECK(told_of(R"({"source": "S", "common": [{"quantity": "phi", "formula": "W"}]})") ==
+        Lines{"r.json:1:48 /common/0/formula: formulas belong to \"families\"; { } as \"where\" "
+              "means all of them"});
+}
+
 /// The family of a packing with these parameters.
 Family family_of(const std::string& parameters, const std::string& shape) {
   Family family;
