@@ -34,6 +34,12 @@ std::int32_t other_side(const SphereBed& bed, const SphereContacts<Real>& contac
                                       : wall_name(bed, contacts, block);
 }
 
+/// std::hypot is rounded in other ways by other libraries.
+template <class Real>
+Real length_of(Real x, Real y) {
+  return std::sqrt(x * x + y * y);
+}
+
 /// Calls visit(block, lane, impulse) for each contact that bore a force; for a round wall with the
 /// first of its two blocks.
 template <class Real, class Visit>
@@ -46,8 +52,8 @@ void visit_force_bearing(const SphereContacts<Real>& contacts, double dt, Visit 
   }
   for (std::size_t at = round; at < contacts.impulse.size(); ++at) {
     if (at / block_width % 2 != contacts.first_round % 2) continue;
-    const double impulse = std::hypot(static_cast<double>(contacts.impulse[at]),
-                                      static_cast<double>(contacts.impulse[at + block_width]));
+    const double impulse = length_of(static_cast<double>(contacts.impulse[at]),
+                                     static_cast<double>(contacts.impulse[at + block_width]));
     if (impulse > least) visit(at / block_width, at % block_width, impulse);
   }
 }
@@ -130,7 +136,7 @@ void add_wall(const SphereBed& bed, std::size_t k, std::size_t subdomain, RoundW
     writer.add_round_wall(grains, impulse);
   } else {
     writer.add_flat_wall(grains, [&](std::int32_t grain) {
-      return std::hypot(impulse(grain, 0), impulse(grain, 1));
+      return length_of(impulse(grain, 0), impulse(grain, 1));
     });
   }
 }

@@ -11,14 +11,15 @@ bool is_periodic(const Box& box, int axis) {
   return (axis == 0 && box.x == Boundary::periodic) || (axis == 1 && box.y == Boundary::periodic);
 }
 
-/// The slab of each grain and the size of each slab.
+/// The slab of each grain and the size of each slab: where the grain was looked up, which is where
+/// its pairs are within reach. It may since have moved out of the box.
 void count_slabs(const Grains& bed, const Candidates& candidates, const ParallelFor& loop,
                  Subdomains& subdomains) {
   const Cells& cells = candidates.levels.front().cells;
   subdomains.slab.resize(bed.grains());
   parallel_chunks(loop, bed.grains(), bed.subdomains, [&](std::size_t, IndexRange share) {
     for (std::size_t i = share.first; i < share.last; ++i) {
-      subdomains.slab[i] = cells.place_along(bed.subdomain_axis, bed.position[i]);
+      subdomains.slab[i] = cells.place_along(bed.subdomain_axis, candidates.built_at[i]);
     }
   });
   subdomains.slab_size.assign(static_cast<std::size_t>(cells.inner(bed.subdomain_axis)), 0);

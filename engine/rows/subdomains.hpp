@@ -29,7 +29,7 @@ struct Subdomains {
   std::vector<std::size_t> place;        ///< next place in each subdomain of each part of a sort
   std::vector<std::vector<std::int32_t>> near_walls;  ///< see near_wall
 
-  /// Grains of a subdomain that come near wall k, ascending.
+  /// Grains of a subdomain that come near wall k: ascending, then those that strays have added.
   const std::vector<std::int32_t>& near_wall(std::size_t k, std::size_t subdomain) const {
     return near_walls[k * count + subdomain];
   }

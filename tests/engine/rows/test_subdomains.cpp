@@ -55,6 +55,18 @@ std::vector<std::pair<std::int32_t, std::int32_t>> sorted(const std::vector<Grai
   return names;
 }
 
+TEST_CASE("a grain belongs where it was looked up, wherever it has gone since") {
+  SphereBed bed = flat_bed(Boundary::periodic);
+  const Candidates candidates = candidates_of(bed);
+  Subdomains before, after;
+  divide(bed, Sphere::subdomain_grains, candidates, candidates.pairs, serial_for, before);
+  REQUIRE(before.count > 1);
+  for (std::size_t i = 0; i < bed.grains(); ++i) bed.position[i].x -= 0.04;  // some leave the box
+  divide(bed, Sphere::subdomain_grains, candidates, candidates.pairs, serial_for, after);
+  CHECK(before.slab == after.slab);
+  CHECK(before.begin == after.begin);
+}
+
 TEST_CASE("a small bed is one subdomain, with its pairs as they are") {
   SphereBed bed = tall_bed(2000, Boundary::walls);
   const Candidates candidates = candidates_of(bed);
