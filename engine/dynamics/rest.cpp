@@ -47,10 +47,20 @@ struct Hold {
 
 /// The wall's normal where a grain touches it. A round wall is the last one, and has a name for
 /// each vertex.
-UnitVector normal_at(const Grains& bed, const ForceContact& contact) {
+UnitVector normal_at(const SphereBed& bed, const ForceContact& contact) {
   const Record<double>& p = bed.position[static_cast<std::size_t>(contact.a)];
-  const auto wall = static_cast<std::size_t>(contact.b - bed.wall_name(0));
-  return bed.walls[std::min(wall, bed.walls.size() - 1)].normal(p.x, p.y, p.z);
+  return bed.walls[static_cast<std::size_t>(contact.b - bed.wall_name(0))].normal(p.x, p.y, p.z);
+}
+UnitVector normal_at(const PolyhedronBed& bed, const ForceContact& contact) {
+  const auto grain = static_cast<std::size_t>(contact.a);
+  const auto name = static_cast<std::size_t>(contact.b - bed.wall_name(0));
+  const Wall& wall = bed.walls[std::min(name, bed.walls.size() - 1)];
+  Vector place = bed.pose(grain).centre;
+  if (wall.is_round() && bed.turns(grain)) {
+    const std::size_t vertex = name - (bed.walls.size() - 1);
+    place += bed.pose(grain).orientation * (bed.scale(grain) * bed.shape(grain).vertices[vertex]);
+  }
+  return wall.normal(place.x(), place.y(), place.z());
 }
 
 bool can_turn(const SphereBed& /*bed*/, std::int32_t /*grain*/) { return false; }

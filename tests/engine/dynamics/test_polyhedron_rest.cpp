@@ -94,5 +94,27 @@ TEST_CASE("a grain alone in a tube slides and spins, which a turn about the axis
   CHECK(zero_modes(bed, {{0, bed.wall_name(0), 1.0}}) == 3);
 }
 
+// Three ways to move on the floor, less one for each direction in which the wall pushes it.
+TEST_CASE("the wall of a tube pushes each vertex towards the axis from where that is") {
+  const PolyhedronBed bed = make_bed(tube_of(4), testing::cube(), {pose_at(3.4, 2, 0.5)});
+  const std::vector<Vector>& vertices = bed.shapes.front().vertices;
+  std::vector<std::int32_t> left, right;  // of the side towards the wall
+  for (std::size_t v = 0; v < vertices.size(); ++v) {
+    if (vertices[v].x() < 0.0) continue;
+    (vertices[v].y() < 0.0 ? left : right).push_back(static_cast<std::int32_t>(v));
+  }
+  REQUIRE(left.size() == 2);
+  REQUIRE(right.size() == 2);
+  const auto modes_with = [&](const std::vector<std::int32_t>& touching) {
+    std::vector<ForceContact> contacts = {{0, bed.wall_name(0), 1.0}};
+    for (const std::int32_t v : touching) contacts.push_back({0, bed.wall_name(1) + v, 1.0});
+    return zero_modes(bed, contacts);
+  };
+  CHECK(modes_with({left[0]}) == 2);
+  CHECK(modes_with({left[0], left[1]}) == 2);  // one above the other
+  CHECK(modes_with({left[0], right[0]}) == 1);
+  CHECK(modes_with({left[0], left[1], right[0], right[1]}) == 1);
+}
+
 }  // namespace
 }  // namespace grainsweep
