@@ -277,6 +277,9 @@ bool leaves_grains(const SizeDistribution& distribution) {
   const SizeCurve curve = curve_of(whole);
   const auto [smallest, largest] =
       ends_of(distribution, curve.diameters.front(), curve.diameters.back());
+  if (smallest == largest && !curve.is_table) {  // one size of all that a formula has
+    return curve.diameters.front() <= smallest && largest <= curve.diameters.back();
+  }
   return smallest <= largest &&
          passing_at(curve, largest) > passing_at(curve, std::nextafter(smallest, 0.0));
 }
