@@ -68,6 +68,12 @@ std::optional<ShapeExtent> check_shape(const ShapeSpec& spec, Errors& errors) {
     return std::nullopt;
   }
   const Hull hull = shape_of(spec);
+  if (hull.shape && hull.shape->vertices.size() > most_vertices_of_a_grain) {
+    errors.push_back({"shape." + std::string(name_of(spec)),
+                      "must have at most " + std::to_string(most_vertices_of_a_grain) +
+                          " vertices, has " + std::to_string(hull.shape->vertices.size())});
+    return std::nullopt;
+  }
   if (hull.shape) return extent_of(*hull.shape);
   errors.push_back({"shape." + std::string(name_of(spec)), hull.error});
   return std::nullopt;
@@ -108,6 +114,12 @@ bool check_side(const char* path, double side, Boundary boundary, double shortes
 
 bool check_box(const Box& box, double largest, Errors& errors) {
   if (box.is_tube) {
+    if (box.width != box.length || !is_walled_around(box)) {
+      errors.push_back({"tube.diameter",
+                        "must be both the length and the width of the tube's box, "
+                        "which has walls on all sides"});
+      return false;
+    }
     return check_side("tube.diameter", box.length, Boundary::walls, 1.0, largest, true, errors);
   }
   const bool length = check_side("box.length", box.length, box.x, 2.0, largest, false, errors);
@@ -426,21 +438,48 @@ double volume_ratio(const Mixture& mixture) {
   return volumes.empty() ? 1.0 : *most / *least;
 }
 
-/// Checks what is certain to be drawn: sizes of two classes, components of a mixture; for
-/// distributions and the spread of sizes it depends on what is drawn.
-void check_masses(const PackingSpec& spec, bool is_mixture_right, Errors& errors) {
+/// The heaviest of placed grains over the lightest.
+double mass_ratio(const PlacedGrains& placed, const ShapeSpec& shape) {
+  std::vector<double> volumes;  // of components of size 1; of grains of one shape they cancel
+  if (const auto* mixture = std::get_if<Mixture>(&shape)) {
+    for (const MixtureComponent& one : mixture->components) {
+      volumes.push_back(extent_of(one.shape).volume);
+    }
+  }
+  double least = std::numeric_limits<double>::infinity(), most = 0.0;
+  for (std::size_t i = 0; i < placed.grains.size(); ++i) {
+    const double radius = placed.grains[i].radius;
+    const double mass =
+        radius * radius * radius * (volumes.empty() ? 1.0 : volumes[placed.components[i]]);
+    least = std::min(least, mass);
+    most = std::max(most, mass);
+  }
+  return most / least;
+}
+
+/// Checks what is certain to be packed: placed grains, sizes of two classes, components of a
+/// mixture; for distributions and the spread of sizes it depends on what is drawn.
+void check_masses(const PackingSpec& spec, bool is_right, Errors& errors) {
   const SizesSpec& sizes = spec.sizes;
   const auto* mixture = std::get_if<Mixture>(&spec.shape);
   const bool is_f32 = spec.accuracy.precision == Precision::f32;
-  if (is_mixture_right && mixture != nullptr && is_f32 && volume_ratio(*mixture) > f32_mass_ratio) {
+  if (is_right && mixture != nullptr && is_f32 && volume_ratio(*mixture) > f32_mass_ratio) {
     errors.push_back({"shape.mixture", "has components of " + number_text(volume_ratio(*mixture)) +
                                            " times each other's volume, and in f32 masses may "
                                            "differ by 1e5 to 1; take accuracy.precision f64"});
     return;
   }
+  const auto* placed = std::get_if<PlacedGrains>(&spec.fill);
+  if (placed != nullptr) {
+    if (!is_right || !is_f32 || mass_ratio(*placed, spec.shape) <= f32_mass_ratio) return;
+    errors.push_back({"fill.file", "has grains of " + number_text(mass_ratio(*placed, spec.shape)) +
+                                       " times each other's mass, and in f32 masses may differ by "
+                                       "1e5 to 1; take accuracy.precision f64"});
+    return;
+  }
   const bool has_both = !sizes.distribution && sizes.small_share > 0.0 && sizes.small_share < 1.0;
   const double least = std::cbrt(1.0 / f32_mass_ratio);
-  if (!has_both || spec.accuracy.precision == Precision::f64 || sizes.size_ratio >= least) return;
+  if (!has_both || !is_f32 || sizes.size_ratio >= least) return;
   errors.push_back({"sizes.size_ratio", "must be at least " + bound_text(least) +
                                             " in f32, in which masses may differ by 1e5 to 1, is " +
                                             bound_text(sizes.size_ratio) +

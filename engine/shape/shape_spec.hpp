@@ -69,6 +69,9 @@ struct HullVertices {
   std::vector<std::array<double, 3>> points;  ///< of a grain of size 1, d
 };
 
+/// Most vertices of a hull: the time of a check grows with their square.
+inline constexpr std::size_t most_vertices_of_a_grain = 1'000;
+
 /// What the shares of a mixture are shares of.
 enum class ShareBy {
   volume,  ///< "volume": of the solid volume, and so of the mass

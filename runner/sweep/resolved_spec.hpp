@@ -28,9 +28,6 @@ struct WrittenComponent {
 };
 using Components = std::vector<WrittenComponent>;
 
-/// Most vertices of a hull: the time of a check grows with their square.
-inline constexpr std::size_t most_vertices_of_a_grain = 1'000;
-
 /// A packing's specification, and what a sweep file says that the engine does not know.
 struct ResolvedSpec {
   ResolvedSpec();

@@ -442,6 +442,68 @@ TEST_CASE("two sizes whose masses differ by more than 1e5 to 1 take f64") {
   CHECK(check(spec).empty());
 }
 
+TEST_CASE("placed grains whose masses differ by more than 1e5 to 1 take f64") {
+  PackingSpec spec;
+  spec.fill = PlacedGrains{{{1, 1, 0.5, 0.5}, {3, 3, 0.01, 0.01}}};
+  const auto errors = check(spec);
+  REQUIRE(errors.size() == 1);
+  CHECK(errors[0].path == "fill.file");
+  CHECK(errors[0].message.starts_with("has grains of 1.25e+05 times each other's mass"));
+  spec.accuracy.precision = Precision::f64;
+  CHECK(check(spec).empty());
+  spec.accuracy.precision = Precision::f32;
+  std::get<PlacedGrains>(spec.fill).grains[1].radius = 0.011;
+  CHECK(check(spec).empty());
+}
+
+TEST_CASE("the masses of a mixture's placed grains are those of their components") {
+  PackingSpec spec;
+  spec.shape = Mixture{{{0.5, CubeSize{}}, {0.5, CubeSize{0.1}}}, ShareBy::number};
+  PlacedGrains placed{{{2, 2, 1, 0.5}, {4, 4, 1, 0.1}}, {{0, 0, 0, 1}, {0, 0, 0, 1}}, {0, 1}};
+  spec.fill = placed;  // 1000 times the volume, and 5 times the size
+  const auto errors = check(spec);
+  REQUIRE(errors.size() == 1);
+  CHECK(errors[0].message.starts_with("has grains of 1.25e+05 times each other's mass"));
+  placed.components = {1, 0};  // 1000 over 125
+  spec.fill = placed;
+  CHECK(check(spec).empty());
+}
+
+TEST_CASE("a hull has at most a thousand vertices") {
+  const auto ball_of = [](std::size_t vertices) {
+    HullVertices hull;
+    for (std::size_t k = 0; k < vertices; ++k) {  // on a spiral from pole to pole
+      const double z = 1.0 - (2.0 * static_cast<double>(k) + 1.0) / static_cast<double>(vertices);
+      const double turn = 2.4 * static_cast<double>(k), across = std::sqrt(1.0 - z * z);
+      hull.points.push_back(
+          {0.5 * across * std::cos(turn), 0.5 * across * std::sin(turn), 0.5 * z});
+    }
+    PackingSpec spec;
+    spec.shape = hull;
+    return check(spec);
+  };
+  CHECK(ball_of(most_vertices_of_a_grain).empty());
+  const auto errors = ball_of(most_vertices_of_a_grain + 1);
+  REQUIRE(errors.size() == 1);
+  CHECK(errors[0].path == "shape.hull");
+  CHECK(errors[0].message == "must have at most 1000 vertices, has 1001");
+}
+
+TEST_CASE("the box of a tube is as wide as long and has walls all around") {
+  const auto broken = [](const Box& box) {
+    return broken_by([&](PackingSpec& spec) { spec.box = box; });
+  };
+  CHECK(broken(tube_of(5)).empty());
+  const Messages wrong{
+      "tube.diameter: must be both the length and the width of the tube's box, "
+      "which has walls on all sides"};
+  Box oval = tube_of(5), open = tube_of(5);
+  oval.width = 6;
+  CHECK(broken(oval) == wrong);
+  open.x = Boundary::periodic;
+  CHECK(broken(open) == wrong);
+}
+
 TEST_CASE("components whose masses differ by more than 1e5 to 1 take f64") {
   PackingSpec spec;
   spec.shape = Mixture{{{0.999, CubeSize{}}, {0.001, CubeSize{0.02}}}, ShareBy::volume};
