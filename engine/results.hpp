@@ -23,8 +23,12 @@ enum class PackingStatus {
   failed,       ///< could not be made; `reason` says why (e.g. no room to place the grains)
 };
 
-/// "settled", "not_settled", "cancelled", "failed".
-const char* name_of(PackingStatus status);
+/// Names of the statuses, as tables write them, in that order.
+inline constexpr std::array<const char*, 4> status_names = {"settled", "not_settled", "cancelled",
+                                                            "failed"};
+inline const char* name_of(PackingStatus status) {
+  return status_names.at(static_cast<std::size_t>(status));
+}
 
 /// Net force that is left on the grains, each in the grain's own weight.
 struct Imbalance {

@@ -46,14 +46,19 @@ void StiffnessFactors::analyse(std::span<const Record<double>> centres,
     front.factor = size;
     size += front.columns * front.stride;
     std::int32_t next = 0;
-    for (const std::int32_t grain : grains_of(node))
-      place[static_cast<std::size_t>(grain)] = next++;
+    for (const auto* grains : {&tree_.nodes[node].grains, &tree_.nodes[node].border}) {
+      for (const std::int32_t grain : *grains) place[static_cast<std::size_t>(grain)] = next++;
+    }
     for (PlacedSpring& spring : front.springs) {
       spring.a = place[static_cast<std::size_t>(spring.a)];
       if (spring.b != Spring::fixed) spring.b = place[static_cast<std::size_t>(spring.b)];
     }
     for (const std::int32_t child : tree_.nodes[node].children) {
-      if (child != EliminationNode::none) place_border(static_cast<std::size_t>(child), place);
+      if (child == EliminationNode::none) continue;
+      const auto of = static_cast<std::size_t>(child);
+      for (const std::int32_t grain : tree_.nodes[of].border) {
+        fronts_[of].at_parent.push_back(place[static_cast<std::size_t>(grain)]);
+      }
     }
   }
 }
@@ -66,21 +71,6 @@ void StiffnessFactors::allocate(Numbers<Real>& numbers) {
   }
   numbers.factors.resize(size);
   numbers.left.resize(fronts_.size());
-}
-
-/// Those that a node eliminates, then its border.
-std::vector<std::int32_t> StiffnessFactors::grains_of(std::size_t node) const {
-  std::vector<std::int32_t> grains = tree_.nodes[node].grains;
-  const std::vector<std::int32_t>& border = tree_.nodes[node].border;
-  grains.insert(grains.end(), border.begin(), border.end());
-  return grains;
-}
-
-/// `place`: of each grain in the front of the node's parent.
-void StiffnessFactors::place_border(std::size_t node, const std::vector<std::int32_t>& place) {
-  for (const std::int32_t grain : tree_.nodes[node].border) {
-    fronts_[node].at_parent.push_back(place[static_cast<std::size_t>(grain)]);
-  }
 }
 
 double StiffnessFactors::operations() const {

@@ -84,8 +84,6 @@ class StiffnessFactors {
   static double operations_of(const Front& front);
   template <class Real>
   void allocate(Numbers<Real>& numbers);
-  std::vector<std::int32_t> grains_of(std::size_t node) const;
-  void place_border(std::size_t node, const std::vector<std::int32_t>& place);
   template <class Real>
   void gather(std::size_t node, const std::vector<Spring>& springs,
               const std::vector<double>& ground, Numbers<Real>& numbers);

@@ -128,31 +128,26 @@ struct Columns {
 };
 
 /// Columns along an axis: one where three would not fit, so that no column is its neighbour twice.
-std::size_t columns_along(double length, double reach) {
+std::size_t columns_across(double length, double reach) {
   const double most = std::min(std::floor(length / reach), 256.0);
   return most >= 3.0 ? static_cast<std::size_t>(most) : 1;
 }
 
 /// Column of coordinate `x`, which begins at `low` or is periodic.
 std::size_t column_of(double x, double low, const Side& side, std::size_t count) {
+  if (count == 1) return 0;  // of no length, too
   const double turns = (x - low) / side.length;
   const double place = side.is_periodic ? turns - std::floor(turns) : turns;
   return std::min(count - 1, static_cast<std::size_t>(place * static_cast<double>(count)));
 }
 
-double least(const std::vector<Record<double>>& centres, double Record<double>::*axis) {
-  double low = std::numeric_limits<double>::max();
-  for (const Record<double>& p : centres) low = std::min(low, p.*axis);
-  return low;
-}
-
 Columns columns_of(const Region& region, double reach) {
   Columns columns;
   const Side &x = region.sides[0], &y = region.sides[1];
-  columns.count = {columns_along(x.length, reach), columns_along(y.length, reach)};
+  columns.count = {columns_across(x.length, reach), columns_across(y.length, reach)};
   columns.centres.resize(columns.count[0] * columns.count[1]);
-  const double low_x = least(region.centres, &Record<double>::x);
-  const double low_y = least(region.centres, &Record<double>::y);
+  const double low_x = std::ranges::min(region.centres, {}, &Record<double>::x).x;
+  const double low_y = std::ranges::min(region.centres, {}, &Record<double>::y).y;
   for (const Record<double>& p : region.centres) {
     const std::size_t i = column_of(p.x, low_x, x, columns.count[0]);
     const std::size_t j = column_of(p.y, low_y, y, columns.count[1]);

@@ -87,7 +87,9 @@ struct TouchColumns {
 PairContact touch(const ShapePair& pair, const TouchSettings& settings, PairMemory& memory,
                   TouchColumns& columns, std::vector<ContactPoint>& points);
 
-/// The same with the axes known, as from the batch kernel.
+/// The same with the axes known, as from the batch kernel. Apart along them by less than the margin
+/// counts as near: corners beside each other may be further apart than that, and give a contact
+/// with PairContact::is_beside.
 PairContact touch(const ShapePair& pair, const TouchSettings& settings, const ContactAxes& axes,
                   ClipColumns& columns, std::vector<ContactPoint>& points);
 

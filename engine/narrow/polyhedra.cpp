@@ -47,27 +47,6 @@ void append(GrainPair pair, const PairPose& pose, const PairContact& contact, Co
                             contact.count, pose, contact.edges, contact.parted});
 }
 
-/// Any convex shape: pair by pair.
-double touch_each(const TouchSettings& settings, const Kernels& kernels, const PolyhedronBed& bed,
-                  std::span<const GrainPair> pairs, const FarPairs& far,
-                  std::span<PairMemory> memory, TouchColumns& columns, ContactList& found) {
-  columns.use(kernels);
-  double sunk = 0.0;
-  for (std::size_t k = 0; k < pairs.size(); ++k) {
-    if (is_far(far, k, pairs[k], settings.margin)) continue;
-    const Ends at = ends_of(pairs[k]);
-    const ShapePair shapes = shape_pair(bed, at.a, at.b);
-    sunk = std::max(sunk, sunk_by(bed, at, shapes.pose.centre.squaredNorm()));
-    const PairContact contact = touch(shapes, settings, memory[k], columns, found.points);
-    if (contact.count == 0) {
-      note_apart(bed, k, pairs[k], shapes.pose.centre.norm(), contact.separation, far);
-    } else {
-      append(pairs[k], shapes.pose, contact, found);
-    }
-  }
-  return sunk;
-}
-
 /// The pinacoids of different proportions among the shapes of a bed.
 struct PinacoidKinds {
   std::vector<PinacoidHalves> kinds;
@@ -98,7 +77,8 @@ double list_close(double margin, const PolyhedronBed& bed, std::span<const Grain
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     if (is_far(far, k, pairs[k], margin)) continue;
     const Ends at = ends_of(pairs[k]);
-    const double size = bed.circumradius(at.a) + bed.circumradius(at.b), reach = size + margin;
+    const double size = bed.circumradius(at.a) + bed.circumradius(at.b);
+    const double reach = size + margin + rounding;
     const double squared = nearest_difference(bed, at.a, at.b).squaredNorm();
     if (squared > reach * reach) {
       const double distance = std::sqrt(squared);
@@ -158,46 +138,6 @@ void batch_axes(const Kernels& kernels, const PolyhedronBed& bed, const Pinacoid
   }
 }
 
-/// Beds with pinacoids: all axes of 16 pairs of them at a time; other pairs one by one.
-double touch_pinacoids(const TouchSettings& settings, const Kernels& kernels,
-                       const PolyhedronBed& bed, const PinacoidKinds& all,
-                       std::span<const GrainPair> pairs, const FarPairs& far,
-                       std::span<PairMemory> memory, NarrowColumns& columns, ContactList& found) {
-  const double sunk = list_close(settings.margin, bed, pairs, far, columns.close);
-  batch_axes(kernels, bed, all, pairs, columns);
-  columns.touch.use(kernels);
-  for (const ClosePair& close : columns.close) {
-    const GrainPair pair = pairs[close.number];
-    const Ends at = ends_of(pair);
-    const bool is_tested = close.lane != ClosePair::no_lane;
-    const PinacoidBlock* block = is_tested ? &columns.axes[close.lane / block_width] : nullptr;
-    const std::size_t lane = close.lane % block_width;
-    const auto note = [&](double separation) {
-      note_apart(bed, close.number, pair, std::sqrt(close.squared), separation, far);
-    };
-    if (is_tested) {
-      const double reach = std::max(
-          {bed.scale(at.a), bed.scale(at.b), bed.circumradius(at.a), bed.circumradius(at.b)});
-      const double separation = parted_by(*block, lane, reach);
-      if (separation > settings.margin) {
-        note(separation);
-        continue;
-      }
-    }
-    const ShapePair shapes = shape_pair(bed, at.a, at.b);
-    const PairContact contact =
-        is_tested ? touch(shapes, settings, separating_axes(shapes, *block, lane),
-                          columns.touch.clip, found.points)
-                  : touch(shapes, settings, memory[close.number], columns.touch, found.points);
-    if (contact.count == 0) {
-      note(contact.separation);
-    } else {
-      append(pair, shapes.pose, contact, found);
-    }
-  }
-  return sunk;
-}
-
 /// A wall's normal at the point nearest to a place of the box.
 Vector normal_of(const Wall& wall, const Vector& place) {
   const UnitVector n = wall.normal(place.x(), place.y(), place.z());
@@ -237,10 +177,39 @@ bool needs_memory(const PolyhedronBed& bed) {
 double touch_pairs(const TouchSettings& settings, const Kernels& kernels, const PolyhedronBed& bed,
                    std::span<const GrainPair> pairs, FarPairs far, std::span<PairMemory> memory,
                    NarrowColumns& columns, ContactList& found) {
-  const PinacoidKinds kinds = pinacoid_kinds(bed.shapes);
-  return kinds.kinds.empty()
-             ? touch_each(settings, kernels, bed, pairs, far, memory, columns.touch, found)
-             : touch_pinacoids(settings, kernels, bed, kinds, pairs, far, memory, columns, found);
+  const double sunk = list_close(settings.margin, bed, pairs, far, columns.close);
+  batch_axes(kernels, bed, pinacoid_kinds(bed.shapes), pairs, columns);
+  columns.touch.use(kernels);
+  for (const ClosePair& close : columns.close) {
+    const GrainPair pair = pairs[close.number];
+    const Ends at = ends_of(pair);
+    const bool is_tested = close.lane != ClosePair::no_lane;
+    const PinacoidBlock* block = is_tested ? &columns.axes[close.lane / block_width] : nullptr;
+    const std::size_t lane = close.lane % block_width;
+    const auto note = [&](double separation) {
+      note_apart(bed, close.number, pair, std::sqrt(close.squared), separation, far);
+    };
+    if (is_tested) {
+      const double reach = std::max(
+          {bed.scale(at.a), bed.scale(at.b), bed.circumradius(at.a), bed.circumradius(at.b)});
+      const double separation = parted_by(*block, lane, reach);
+      if (separation > settings.margin) {
+        note(separation);
+        continue;
+      }
+    }
+    const ShapePair shapes = shape_pair(bed, at.a, at.b);
+    const PairContact contact =
+        is_tested ? touch(shapes, settings, separating_axes(shapes, *block, lane),
+                          columns.touch.clip, found.points)
+                  : touch(shapes, settings, memory[close.number], columns.touch, found.points);
+    if (contact.count == 0) {
+      note(contact.separation);
+    } else {
+      append(pair, shapes.pose, contact, found);
+    }
+  }
+  return sunk;
 }
 
 void touch_wall(std::size_t k, const std::vector<std::int32_t>& grains, double margin,

@@ -68,7 +68,7 @@ struct FarPairs {
 
 /// Working memory, kept from call to call.
 struct NarrowColumns {
-  std::vector<ClosePair> close;     ///< if any of the grains are pinacoids
+  std::vector<ClosePair> close;     ///< pairs whose balls are near each other
   std::vector<PinacoidBlock> axes;  ///< what the batch test says of them
   TouchColumns touch;
 };

@@ -165,25 +165,20 @@ void carry_impulses(const ByGrain<CarriedPoint>& carried, ContactPart<Real>& par
   }
 }
 
-/// Calls visit(part, k) for every contact of the last step, part by part.
-template <class Real, class Visit>
-void visit_contacts(const PolyhedronContacts<Real>& contacts, Visit visit) {
-  for (std::size_t p = 0; p < contacts.found_parts; ++p) {
-    const ContactPart<Real>& part = contacts.parts[p];
-    for (std::size_t k = 0; k < part.found.contacts.size(); ++k) visit(part, k);
-  }
-}
-
-/// Calls visit(part, k, force) for the contacts that bore a force in a step of length `dt`.
+/// Calls visit(part, k, force) for the contacts that bore a force in a step of length `dt`, part by
+/// part.
 template <class Real, class Visit>
 void visit_bearing(const PolyhedronContacts<Real>& contacts, double dt, Visit visit) {
-  visit_contacts(contacts, [&](const ContactPart<Real>& part, std::size_t k) {
-    double force = 0.0;
-    for (std::size_t j = 0; j < part.found.contacts[k].count; ++j) {
-      force += impulse_of(contacts, part, k, j) / (dt * dt);
+  for (std::size_t p = 0; p < contacts.found_parts; ++p) {
+    const ContactPart<Real>& part = contacts.parts[p];
+    for (std::size_t k = 0; k < part.found.contacts.size(); ++k) {
+      double force = 0.0;
+      for (std::size_t j = 0; j < part.found.contacts[k].count; ++j) {
+        force += impulse_of(contacts, part, k, j) / (dt * dt);
+      }
+      if (force > least_force) visit(part, k, force);
     }
-    if (force > least_force) visit(part, k, force);
-  });
+  }
 }
 
 std::array<float, 3> floats_of(const Vector& v) {

@@ -34,6 +34,10 @@ struct PairPose {
 };
 
 /// `difference`: centre of b minus centre of a in the box's frame, for their nearest images, d.
-PairPose seen_from_a(const Pose& a, const Pose& b, const Vector& difference);
+inline PairPose seen_from_a(const Pose& a, const Pose& b, const Vector& difference) {
+  const Quaternion back = a.orientation.conjugate();
+  return {back.toRotationMatrix() * difference, (back * b.orientation).toRotationMatrix(), a.scale,
+          b.scale};
+}
 
 }  // namespace grainsweep
