@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "engine/dynamics/columns.hpp"
 #include "engine/dynamics/settle.hpp"
 #include "engine/measure/bond_order.hpp"
 #include "engine/measure/components.hpp"
@@ -24,6 +23,8 @@
 namespace grainsweep {
 
 namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 Packing failed(std::string reason) {
   Packing packing;
@@ -76,6 +77,11 @@ std::optional<Slab> slab_of(const MeasureSpec& spec, PackingResult& result) {
   return std::nullopt;
 }
 
+ProfileSettings bins_of(const PackingSpec& packing) {
+  const MeasureSpec& spec = packing.measure;
+  return {spec.bin_width, small_class_limit(packing.sizes), spec.gap_tolerances.front()};
+}
+
 /// `near` holds all pairs and walls with a gap below a tolerance or within that of a bond.
 void measure_neighbours(const PackingSpec& packing, const Touching& near,
                         const std::vector<PairForce>& forces, const Slab& slab, const Grains& bed,
@@ -84,51 +90,50 @@ void measure_neighbours(const PackingSpec& packing, const Touching& near,
   for (const double tolerance : spec.gap_tolerances) {
     result.coordination.push_back(coordination(bed, near, slab, tolerance));
   }
-  const OrderSettings settings{small_class_limit(packing.sizes), spec.gap_tolerances.front()};
-  result.order = measure_order(bed, near, forces, slab, settings);
+  result.order = measure_order(bed, near, forces, slab, bins_of(packing));
 }
 
-ProfileSettings bins_of(const PackingSpec& packing) {
-  const MeasureSpec& spec = packing.measure;
-  return {spec.bin_width, small_class_limit(packing.sizes), spec.gap_tolerances.front()};
+/// A grain of size 1 of one component.
+struct UnitGrain {
+  double volume = 0.0;   ///< d^3
+  double surface = 0.0;  ///< d^2
+};
+std::vector<UnitGrain> unit_grains(const SphereBed& /*bed*/) { return {{sphere_volume(0.5), pi}}; }
+std::vector<UnitGrain> unit_grains(const PolyhedronBed& bed) {
+  std::vector<UnitGrain> units;
+  for (const ConvexShape& shape : bed.shapes) units.push_back({shape.volume, surface_area(shape)});
+  return units;
+}
+std::size_t component_of(const SphereBed& /*bed*/, std::size_t /*grain*/) { return 0; }
+std::size_t component_of(const PolyhedronBed& bed, std::size_t grain) {
+  return bed.component(grain);
 }
 
-/// What a grain would weigh in shares of this kind if its size were 1, over what one of the first
-/// component, or a sphere, would.
-double unit_weight(const SphereBed& /*bed*/, std::size_t /*grain*/, SizeWeight /*by*/) {
-  return 1.0;
-}
-double unit_weight(const PolyhedronBed& bed, std::size_t grain, SizeWeight by) {
-  const ConvexShape &shape = bed.shape(grain), &first = bed.shapes.front();
-  return by == SizeWeight::number ? 1.0
-         : by == SizeWeight::area ? surface_area(shape) / surface_area(first)
-                                  : shape.volume / first.volume;
-}
-
+/// What each grain would weigh in shares of this kind if its size were 1, over what one of the
+/// first component, or a sphere, would.
 template <class Kind>
 std::vector<double> unit_weights(const Bed<Kind>& bed, SizeWeight by) {
-  std::vector<double> weights(bed.grains());
-  for (std::size_t i = 0; i < weights.size(); ++i) weights[i] = unit_weight(bed, i, by);
+  std::vector<double> weights(bed.grains(), 1.0);
+  if (by == SizeWeight::number) return weights;
+  const auto part = by == SizeWeight::area ? &UnitGrain::surface : &UnitGrain::volume;
+  const std::vector<UnitGrain> units = unit_grains(bed);
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    weights[i] = units[component_of(bed, i)].*part / (units.front().*part);
+  }
   return weights;
-}
-
-/// Volume and surface of a grain of size 1, d^3 and d^2.
-double unit_volume(const SphereBed& /*bed*/, std::size_t /*grain*/) { return sphere_volume(0.5); }
-double unit_volume(const PolyhedronBed& bed, std::size_t grain) { return bed.shape(grain).volume; }
-double unit_surface(const SphereBed& /*bed*/, std::size_t /*grain*/) { return pi; }
-double unit_surface(const PolyhedronBed& bed, std::size_t grain) {
-  return surface_area(bed.shape(grain));
 }
 
 template <class Kind>
 void measure_sizes(const Bed<Kind>& bed, PackingResult& result) {
+  const std::vector<UnitGrain> units = unit_grains(bed);
   double volumes = 0.0, surfaces = 0.0, by_volume = 0.0, diameters = 0.0;
   for (std::size_t i = 0; i < bed.grains(); ++i) {
     const double diameter = 2.0 * bed.position[i].w;
-    const double volume = unit_volume(bed, i) * diameter * diameter * diameter;
+    const UnitGrain& unit = units[component_of(bed, i)];
+    const double volume = unit.volume * diameter * diameter * diameter;
     diameters += diameter;
     volumes += volume;
-    surfaces += unit_surface(bed, i) * diameter * diameter;
+    surfaces += unit.surface * diameter * diameter;
     by_volume += volume * diameter;
   }
   result.mean_diameter = diameters / static_cast<double>(bed.grains());
@@ -262,7 +267,7 @@ void measure(const PackingSpec& spec, const std::vector<double>& force, const Ke
     measure_neighbours(spec, near, packing.forces, *slab, bed, result);
     const double limit = small_class_limit(spec.sizes);
     result.small_share = small_share(bed, *slab, limit);
-    result.small_share_of_bed = small_share(bed, Slab{-1.0, top_of(bed) + 1.0}, limit);
+    result.small_share_of_bed = small_share(bed, Slab{-infinity, infinity}, limit);
     for (const ProfilePlace& place : profile_places) {
       if (!has_profile(bed.box, place.axis)) continue;
       result.*place.whole = profile_along(place.axis, bed, near, *slab, bins_of(spec));

@@ -46,7 +46,7 @@ double segregation(const Grains& bed, const Slab& slab, double small_below) {
 
 Order measure_order(const Grains& bed, const Touching& near,
                     const std::vector<PairForce>& pair_forces, const Slab& slab,
-                    const OrderSettings& settings) {
+                    const ProfileSettings& settings) {
   const BondOrder bonds = bond_order(bed, near, slab);
   ForceStatistics forces = force_statistics(pair_forces, slab, force_bin, largest_force);
   Order order;

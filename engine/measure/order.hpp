@@ -3,16 +3,12 @@
 
 #include <vector>
 
+#include "engine/measure/profile.hpp"
 #include "engine/measure/slab.hpp"
 #include "engine/measure/touching.hpp"
 #include "engine/results.hpp"
 
 namespace grainsweep {
-
-struct OrderSettings {
-  double small_below = 0.0;     ///< grains of a smaller radius are the small class, d
-  double gap_tolerance = 1e-4;  ///< grains and walls touch below this gap, d
-};
 
 /// Share of the slab's grains that touch exactly `contacts` grains and walls. NaN without
 /// grains.
@@ -27,6 +23,6 @@ double segregation(const Grains& bed, const Slab& slab, double small_below);
 /// tolerance, and all pairs with one below longest_bond_gap.
 Order measure_order(const Grains& bed, const Touching& near,
                     const std::vector<PairForce>& pair_forces, const Slab& slab,
-                    const OrderSettings& settings);
+                    const ProfileSettings& settings);
 
 }  // namespace grainsweep

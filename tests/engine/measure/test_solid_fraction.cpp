@@ -1,8 +1,10 @@
 #include <cmath>
+#include <limits>
 
 #include <catch2/catch.hpp>
 
 #include "engine/measure/solid_fraction.hpp"
+#include "engine/shape/given_shape.hpp"
 #include "engine/units.hpp"
 #include "tests/support/scenes.hpp"
 #include "tests/support/shape_beds.hpp"
@@ -34,6 +36,24 @@ TEST_CASE("half a sphere has half its volume, a cap pi h^2 (3 r - h) / 3") {
       CHECK(sphere_slab_volume(radius, -9, h - radius) == Approx(cap).epsilon(1e-12));
     }
   }
+}
+
+TEST_CASE("a share of small grains is that of their volume in the slab, however far grains reach") {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const auto upright = [](double x, double scale) {
+    return testing::pose_at(x, 2, 3, Quaternion::Identity(), scale);
+  };
+  const ConvexShape pillar = *shape_of(CuboidSize{1, 1, 4}).shape;  // its longest edge lies along z
+  const PolyhedronBed pillars =
+      make_bed({8, 4, periodic, walls}, pillar, {upright(2, 1.0), upright(5, 0.5)});
+  REQUIRE(pillars.shape(0).volume == Approx(4));
+  CHECK(small_share(pillars, {-infinity, infinity}, 0.3) == Approx(0.5 / 4.5).epsilon(1e-14));
+  const SphereBed spheres =
+      make_bed({8, 4, periodic, walls}, {{2, 2, 2, 0.5}, {5, 2, 2, 0.25}, {6, 2, 3, 0.25}});
+  CHECK(small_share(spheres, {-infinity, infinity}, 0.3) == Approx(0.2).epsilon(1e-14));
+  CHECK(small_share(spheres, {0, 2}, 0.3) == Approx(1.0 / 9.0).epsilon(1e-14));  // half of two
+  CHECK(small_share(spheres, {2.6, 4}, 0.3) == 1);
+  CHECK(std::isnan(small_share(spheres, {5, 6}, 0.3)));
 }
 
 TEST_CASE("slabs that fill a sphere have its volume together") {
