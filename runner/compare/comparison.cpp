@@ -33,23 +33,6 @@ std::string signed_text(double difference) {
   return (rounded > 0.0 ? "+" : "") + fixed(rounded, 4);
 }
 
-std::string row_text(const Comparison& row) {
-  const int decimals = decimals_for(row.measured.estimate.error);
-  const auto number = [&](double value) { return fixed(value, decimals); };
-  const std::string start =
-      "  " + pad_right(row.title, 38) + pad_left(row.published.text, 19) + "  ";
-  const std::string source_definition =
-      row.published.definition.empty() ? "" : "      published: " + row.published.definition + "\n";
-  if (!row.measured.not_determined.empty()) {
-    return start + "not determined: " + row.measured.not_determined + "\n" + source_definition;
-  }
-  return start +
-         pad_left(number(row.measured.estimate.value) + " ± " + number(row.measured.estimate.error),
-                  19) +
-         "  " + verdict(row) + "\n" + source_definition + "      here: " + row.measured.definition +
-         "\n";
-}
-
 std::string difference_text(const AtWidth& at, const std::string& symbol) {
   return signed_text(at.difference) + " at " + symbol + " = " + cell(at.width) + " d";
 }
@@ -72,10 +55,27 @@ std::string along_text(const Comparison& row) {
                 along.size() == 1 ? "" : " to " + difference_text(*most, symbol));
 }
 
+std::string row_text(const Comparison& row) {
+  const int decimals = decimals_for(row.measured.estimate.error);
+  const auto number = [&](double value) { return fixed(value, decimals); };
+  const std::string start =
+      "  " + pad_right(row.title, 38) + pad_left(row.published.text, 19) + "  ";
+  const std::string source_definition =
+      row.published.definition.empty() ? "" : "      published: " + row.published.definition + "\n";
+  if (!row.measured.not_determined.empty()) {
+    return start + "not determined: " + row.measured.not_determined + "\n" + source_definition;
+  }
+  return start +
+         pad_left(number(row.measured.estimate.value) + " ± " + number(row.measured.estimate.error),
+                  19) +
+         "  " + verdict(row) + "\n" + source_definition + "      here: " + row.measured.definition +
+         "\n";
+}
+
 std::string formula_text(const Comparison& row) {
   const std::string& source = row.published.definition;
   return "  " + pad_right(row.title, 38) + row.published.text + "\n      " +
-         (row.along.empty() ? "not determined: " + row.measured.not_determined : along_text(row)) +
+         (row.along.empty() ? "not determined: " + row.measured.not_determined : verdict(row)) +
          "\n" + (source.empty() ? "" : "      published: " + source + "\n") +
          (row.along.empty() ? "" : "      here: " + row.measured.definition + "\n");
 }
@@ -124,6 +124,7 @@ std::optional<double> difference_in_errors(const Comparison& comparison) {
 }
 
 std::string verdict(const Comparison& comparison) {
+  if (!comparison.along.empty()) return along_text(comparison);
   std::string text;
   if (comparison.chi2_per_dof && comparison.measured.not_determined.empty()) {
     text = *comparison.chi2_per_dof > largest_chi2 ? "not one value for all" : "one value for all";

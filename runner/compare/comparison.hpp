@@ -38,7 +38,8 @@ std::optional<double> difference(const Comparison& comparison);
 /// The same divided by the standard errors of both, added in quadrature.
 std::optional<double> difference_in_errors(const Comparison& comparison);
 
-/// "agrees: -0.013, 0.8 errors"; "differs: ..."; "-" if there is nothing to compare.
+/// "agrees: -0.013, 0.8 errors"; "differs: ..."; of a formula "agrees at 3 of 9 widths; ..."; "-"
+/// if there is nothing to compare.
 std::string verdict(const Comparison& comparison);
 
 /// What the source has for each family, then what it says of all. Families for which it has

@@ -417,7 +417,7 @@ std::vector<Figure> figures_of(const std::vector<Row>& rows, const Analysis& ana
   axes.folder = analysis.folder;
   std::vector<Figure> figures;
   if (!axes.scattered.empty()) figures.push_back(parameters_figure(axes));
-  figures.push_back(means_figure(axes, analysis.families));
+  figures.push_back(means_figure(axes, analysis.families, comparisons));
   figures.push_back(profiles_figure(axes));
   const auto shares = by_small_share(analysis.families);
   if (!shares.empty() && shares.begin()->first < shares.rbegin()->first) {
@@ -433,7 +433,10 @@ std::vector<Figure> figures_of(const std::vector<Row>& rows, const Analysis& ana
   figures.push_back(heights_figure(axes));
   figures.push_back(distributions_figure(axes));
   figures.push_back(effort_figure(axes, rows));
-  if (!comparisons.empty()) figures.push_back(published_figure(comparisons));
+  const auto is_value = [](const Comparison& one) { return !one.published.formula; };
+  if (std::any_of(comparisons.begin(), comparisons.end(), is_value)) {
+    figures.push_back(published_figure(comparisons));
+  }
   return figures;
 }
 

@@ -13,11 +13,13 @@ namespace grainsweep {
 
 /// What the files of figures begin with.
 inline constexpr std::array figure_names = {
-    "parameters", "means",    "means-residuals", "profiles", "heights",  "small_grains",
-    "components", "contacts", "distributions",   "effort",   "published"};
+    "parameters",   "means",      "means-residuals", "means-published", "profiles", "heights",
+    "small_grains", "components", "contacts",        "distributions",   "effort",   "published"};
 
-/// Solid fraction, porosity and coordination number along the axis, with fits and their residuals.
-Figure means_figure(const Axes& axes, const std::vector<Family>& families);
+/// Solid fraction, porosity and coordination number along the axis, with fits and their residuals,
+/// and published formulas of them.
+Figure means_figure(const Axes& axes, const std::vector<Family>& families,
+                    const std::vector<Comparison>& comparisons);
 
 /// Solid fraction and coordination number over each number that a random design varies.
 Figure parameters_figure(const Axes& axes);

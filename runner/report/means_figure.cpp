@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "runner/compare/formula.hpp"
 #include "runner/report/figures.hpp"
 #include "runner/report/plots.hpp"
 #include "runner/tables/fits.hpp"
@@ -14,7 +15,64 @@
 namespace grainsweep {
 namespace {
 
-const std::string points_table = "means.csv", residuals_table = "means-residuals.csv";
+const std::string points_table = "means.csv", residuals_table = "means-residuals.csv",
+                  published_table = "means-published.csv";
+
+/// A published formula of what a panel shows, where it holds and the sweep has packings.
+struct PublishedCurve {
+  std::string name;
+  std::string formula;
+  Quantity quantity = Quantity::solid_fraction;
+  std::vector<std::pair<double, double>> points;  ///< 1 / W or 1 / D, and the value
+};
+
+std::optional<PublishedCurve> curve_of(const Comparison& comparison) {
+  constexpr int steps = 200;
+  const Published& published = comparison.published;
+  const bool is_porosity = published.quantity == "porosity", is_z = published.quantity == "Z";
+  if (comparison.along.empty() || !(is_porosity || is_z || published.quantity == "phi")) {
+    return std::nullopt;
+  }
+  PublishedCurve curve{published.definition.empty() ? published.text : published.definition,
+                       published.formula->text,
+                       is_z ? Quantity::coordination : Quantity::solid_fraction,
+                       {}};
+  const auto is_narrower = [](const AtWidth& a, const AtWidth& b) { return a.width < b.width; };
+  const auto [least, most] =
+      std::minmax_element(comparison.along.begin(), comparison.along.end(), is_narrower);
+  for (int k = 0; k <= steps; ++k) {
+    const double x = 1.0 / most->width + (1.0 / least->width - 1.0 / most->width) * k / steps;
+    const double value = value_of_formula(published.formula->text, 1.0 / x);
+    if (std::isfinite(value)) curve.points.emplace_back(x, is_porosity ? 1.0 - value : value);
+  }
+  return curve;
+}
+
+/// Each formula once, whatever families it is set beside.
+std::vector<PublishedCurve> curves_of(const Axes& axes,
+                                      const std::vector<Comparison>& comparisons) {
+  std::vector<PublishedCurve> curves;
+  for (const Comparison& one : comparisons) {
+    auto curve = is_over_width(axes) ? curve_of(one) : std::nullopt;
+    const bool is_known =
+        curve && std::any_of(curves.begin(), curves.end(), [&](const auto& known) {
+          return known.name == curve->name && known.formula == curve->formula &&
+                 known.quantity == curve->quantity;
+        });
+    if (curve && !is_known) curves.push_back(std::move(*curve));
+  }
+  return curves;
+}
+
+std::string curves_csv(const std::vector<PublishedCurve>& curves) {
+  std::string text = csv_line({"curve", "x", "value", "name"});
+  for (std::size_t k = 0; k < curves.size(); ++k) {
+    for (const auto& [x, value] : curves[k].points) {
+      text += csv_line({cell(k + 1), cell(x), cell(value), cell(curves[k].name)});
+    }
+  }
+  return text;
+}
 
 /// A series with the fits of its family.
 struct FittedSeries {
@@ -136,8 +194,12 @@ std::string abscissa_commands(const Axes& axes, bool is_lowest, bool is_highest)
 
 /// Everything that the panel of a quantity shows, with its errors.
 std::vector<double> heights_of(const Axes& axes, const std::vector<FittedSeries>& all,
-                               Quantity quantity) {
+                               const std::vector<PublishedCurve>& curves, Quantity quantity) {
   std::vector<double> heights;
+  for (const PublishedCurve& curve : curves) {
+    if (curve.quantity != quantity) continue;
+    for (const auto& [x, value] : curve.points) heights.push_back(value);
+  }
   for (const FittedSeries& one : all) {
     const auto& fit = quantity == Quantity::solid_fraction ? one.phi : one.z;
     if (is_determined(fit)) heights.push_back(fit->bulk.value);
@@ -146,10 +208,16 @@ std::vector<double> heights_of(const Axes& axes, const std::vector<FittedSeries>
   return heights;
 }
 
-std::string mean_panel(const Axes& axes, const std::vector<FittedSeries>& all, Quantity quantity) {
+std::string mean_panel(const Axes& axes, const std::vector<FittedSeries>& all,
+                       const std::vector<PublishedCurve>& curves, Quantity quantity) {
   const bool is_phi = quantity == Quantity::solid_fraction;
   const std::string column = is_phi ? "solid_fraction" : "coordination";
   std::vector<std::string> parts;
+  for (std::size_t k = 0; k < curves.size(); ++k) {
+    if (curves[k].quantity != quantity) continue;
+    parts.push_back(plot_part({published_table, "curve", k + 1, "x", "value", "",
+                               "lines lc rgb '#7a7a7a' lw 1.4 dt " + cell(k % 4 + 2)}));
+  }
   if (has_other_series(axes)) {
     parts.push_back(plot_part({points_table, "series", 0, "x", column, "", other_series_style}));
   }
@@ -198,7 +266,8 @@ std::string height_commands(const std::vector<double>& heights, Quantity quantit
 }
 
 std::string means_commands(const Axes& axes, const Figure& figure,
-                           const std::vector<FittedSeries>& all, bool has_fits) {
+                           const std::vector<FittedSeries>& all,
+                           const std::vector<PublishedCurve>& curves, bool has_fits) {
   const Panels panels(figure, 2, has_fits ? std::vector{0.74, 0.26} : std::vector{1.0},
                       key_with_others(axes),
                       {.right = 104.0, .above = is_over_width(axes) ? 58.0 : 8.0});
@@ -206,12 +275,18 @@ std::string means_commands(const Axes& axes, const Figure& figure,
   for (const Quantity quantity : {Quantity::solid_fraction, Quantity::coordination}) {
     const std::size_t column = quantity == Quantity::solid_fraction ? 0 : 1;
     text += panels.place(column, 0) + abscissa_commands(axes, !has_fits, true) +
-            height_commands(heights_of(axes, all, quantity), quantity) +
-            mean_panel(axes, all, quantity) + "unset y2tics\nunset y2label\n";
+            height_commands(heights_of(axes, all, curves, quantity), quantity) +
+            mean_panel(axes, all, curves, quantity) + "unset y2tics\nunset y2label\n";
     if (!has_fits) continue;
     text += panels.place(column, 1) + "unset link x2\n" + abscissa_commands(axes, true, false) +
             label_command("y", "residual") + residual_panel(all, quantity);
   }
+  return text;
+}
+
+std::string names_text(const std::vector<PublishedCurve>& curves) {
+  std::string text;
+  for (const PublishedCurve& curve : curves) text += (text.empty() ? "" : "; ") + curve.name;
   return text;
 }
 
@@ -238,7 +313,8 @@ std::string fits_text(const std::vector<FittedSeries>& all) {
 
 }  // namespace
 
-Figure means_figure(const Axes& axes, const std::vector<Family>& families) {
+Figure means_figure(const Axes& axes, const std::vector<Family>& families,
+                    const std::vector<Comparison>& comparisons) {
   Figure figure{.name = "means",
                 .title = is_over_width(axes) ? "What the walls cost"
                                              : "Solid fraction and coordination number",
@@ -257,10 +333,15 @@ Figure means_figure(const Axes& axes, const std::vector<Family>& families) {
     figure.height = 560;
     figure.tables.emplace_back(residuals_table, residuals_csv(all));
   }
+  const std::vector<PublishedCurve> curves = curves_of(axes, comparisons);
+  if (!curves.empty()) {
+    figure.caption += " Dashed, grey: " + names_text(curves) + ".";
+    figure.tables.emplace_back(published_table, curves_csv(curves));
+  }
   if (is_over_width(axes)) figure.caption += places_text(axes);
   figure.caption += lacking_text(axes) + fits_text(all) + grey_series_text(axes);
   figure.tables.insert(figure.tables.begin(), {points_table, points_csv(axes)});
-  figure.commands = means_commands(axes, figure, all, has_fits);
+  figure.commands = means_commands(axes, figure, all, curves, has_fits);
   return figure;
 }
 

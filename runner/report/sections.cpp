@@ -316,7 +316,9 @@ std::string published_section(const std::string& source,
   for (const Comparison& one : comparisons) {
     table.rows.push_back({html_text(one.family), html_text(one.title),
                           html_text(published_value(one.published)),
-                          html_text(measured_value(one.measured)), html_text(verdict(one))});
+                          html_text(one.along.empty() ? measured_value(one.measured)
+                                                      : counted(one.along.size(), "width")),
+                          html_text(verdict(one))});
   }
   return html_table(table);
 }

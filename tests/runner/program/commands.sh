@@ -79,7 +79,7 @@ expect_code 0 "$program" compare out/small
 expect_text out.txt "A paper" "not determined: this family has no packings between walls at W = 99 d"
 for reference in "$configs"/*.reference.json; do
   expect_code 0 "$program" compare out/small --with "$reference"
-  expect_text out.txt "Camenen"
+  expect_text out.txt "beside small. Lengths in d."
 done
 expect_code 0 "$program" status out/small
 expect_text out.txt "10 of 10 packings done" "No runner at work"

@@ -221,6 +221,32 @@ TEST_CASE("figures without a meaning for the sweep are left out", "[report]") {
   CHECK_FALSE(has("published"));
 }
 
+TEST_CASE("published formulas are drawn beside the means, each once, where they hold", "[report]") {
+  const std::vector<Row> rows = wall_rows();
+  const Analysis analysis = analyse(rows);
+  Reference reference;
+  const auto formula = [](const std::string& quantity, const std::string& text) {
+    return Published{quantity, 0, text, std::nullopt, "", PublishedFormula{text, 4, 8, 0}};
+  };
+  reference.families = {{{}, {formula("porosity", "0.36 + 0.2/W"), formula("phi", "0.5 + 0/W")}},
+                        {{}, {formula("porosity", "0.36 + 0.2/W"), formula("phi", "0.64 + 0*D")}}};
+  const auto comparisons = compare_with(reference, analysis);
+  REQUIRE(comparisons.size() == 4);
+  const std::vector<Figure> figures = figures_of(rows, analysis, comparisons);
+  const Figure& means = figure_called(figures, "means");
+  CHECK_THAT(means.caption, Catch::Contains(" Dashed, grey: 0.36 + 0.2/W; 0.5 + 0/W."));
+  const auto table = std::find_if(means.tables.begin(), means.tables.end(), [](const auto& named) {
+    return named.first == "means-published.csv";
+  });
+  REQUIRE(table != means.tables.end());
+  const std::string& csv = table->second;
+  CHECK(csv.starts_with("curve,x,value,name\n1,0.125,0.615,0.36 + 0.2/W\n"));  // phi at W = 8
+  CHECK_THAT(csv, Catch::Contains("\n1,0.25,0.59") && Catch::Contains("\n2,0.125,0.5,0.5 + 0/W\n"));
+  CHECK_THAT(csv, !Catch::Contains("\n3,"));
+  CHECK(std::none_of(figures.begin(), figures.end(),
+                     [](const Figure& figure) { return figure.name == "published"; }));
+}
+
 TEST_CASE("a published value is drawn at its distance in errors of both", "[report]") {
   Comparison comparison;
   comparison.family = "walls", comparison.title = "Z at W = 10 d";
