@@ -1,7 +1,8 @@
 // The container: what bounds it, where its walls are, and its periodic images.
 //
 // A wall is known by the gap and the normal that it has at a point, whatever its form; only code
-// for round walls alone asks for more.
+// for round walls alone asks for more. Volumes, profiles and starts know that a box is a block or a
+// cylinder.
 #pragma once
 
 #include <algorithm>

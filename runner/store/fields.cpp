@@ -216,7 +216,7 @@ std::vector<Field> further_fields() {
 std::vector<Field> order_fields() {
   const auto each = []<std::size_t... k>(std::index_sequence<k...>) {
     return std::vector<Field>{in_result<of::order, order_numbers[k].value>(
-        order_numbers[k].name, order_numbers[k].unit, order_numbers[k].meaning)...};
+        order_numbers[k].name, order_numbers[k].unit, order_numbers[k].meaning, with_mean)...};
   };
   return each(std::make_index_sequence<std::size(order_numbers)>());
 }

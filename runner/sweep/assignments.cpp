@@ -149,7 +149,7 @@ std::string usual_shape_of(const std::string& group) {
 void read_usual_part(const std::string& group, const std::string& pointer,
                      Assignments& assignments) {
   const std::size_t part = *find_parameter(dotted(group, known_keys(group).front()));
-  assignments.push_back({part, *default_of(parameters()[part]), pointer, true});
+  assignments.push_back({part, default_of(parameters()[part]).value(), pointer, true});
 }
 
 /// An empty group says nothing, except that a shape or a curve of sizes with its defaults takes the

@@ -34,8 +34,8 @@ enum class ValueKind {
   components,  ///< of a mixture
 };
 
-/// What a parameter decides beside its own value. Those of one choice stand together, in the order
-/// that `choice_of` goes by.
+/// What a parameter decides beside its own value. Those of one choice stand together, and their
+/// order counts: `choice_of` goes by where they begin and end.
 enum class Role {
   plain,
   seed,            ///< master seed: set by blocks, not by "base"

@@ -139,21 +139,22 @@ std::vector<Parameter> formula_parameters() {
   };
 }
 
+/// The lengths of a formula.
+struct Lengths {
+  std::vector<double*> operator()(LognormalSizes& sizes) const { return {&sizes.median}; }
+  std::vector<double*> operator()(UniformSizes& sizes) const { return {&sizes.from, &sizes.to}; }
+  std::vector<double*> operator()(WeibullSizes& sizes) const { return {&sizes.scale}; }
+  std::vector<double*> operator()(SizeTable& table) const {
+    std::vector<double*> diameters;
+    for (double& diameter : table.diameters) diameters.push_back(&diameter);
+    return diameters;
+  }
+};
+
 }  // namespace
 
 void to_units_of(double size, SizeDistribution& distribution) {
-  std::vector<double*> lengths;
-  if (auto* lognormal = std::get_if<LognormalSizes>(&distribution.formula)) {
-    lengths = {&lognormal->median};
-  } else if (auto* uniform = std::get_if<UniformSizes>(&distribution.formula)) {
-    lengths = {&uniform->from, &uniform->to};
-  } else if (auto* weibull = std::get_if<WeibullSizes>(&distribution.formula)) {
-    lengths = {&weibull->scale};
-  } else {
-    for (double& diameter : std::get<SizeTable>(distribution.formula).diameters) {
-      lengths.push_back(&diameter);
-    }
-  }
+  std::vector<double*> lengths = std::visit(Lengths(), distribution.formula);
   for (auto* end : {&distribution.smallest, &distribution.largest}) {
     if (*end) lengths.push_back(&**end);
   }

@@ -3,7 +3,7 @@
 # the program prints. usage: readme.sh GRAINSWEEP [--mend]
 #
 # In every README.md: sweeps are valid; commands and options in tables, and commands quoted, are
-# known; the values of the presets are right; the text between lines
+# known; the values of the presets and the formats of beds are right; the text between lines
 #   <!-- begin: grainsweep WORDS --> and <!-- end -->
 # is what that command prints. --mend writes it there.
 # shellcheck disable=SC2016  # backquotes here are those of the pages
@@ -83,6 +83,19 @@ check_presets() {
   done
 }
 
+# Formats: the table headed `--format` has those that can be exported, and no other.
+check_formats() {
+  local page=$1
+  grep -q '^| `--format` ' "$page" || return 0
+  formats=$((formats + 1))
+  "$grainsweep" export --help | sed -nE 's/.*--format NAME:\{([^}]*)\}.*/\1/p' | tr ',' '\n' |
+    sort >"$work/known"
+  sed -nE '/^\| `--format`/,/^$/p' "$page" | tail -n +3 | cut -d'|' -f2 | grep -oE '[a-z-]+' |
+    sort >"$work/told"
+  cmp -s "$work/known" "$work/told" ||
+    report "$page: the formats are $(tr '\n' ' ' <"$work/known")"
+}
+
 # Text that a command prints: between the lines that name it.
 check_generated() {
   local page=$1 words
@@ -102,17 +115,18 @@ check_generated() {
   done < <(sed -nE 's/^<!-- begin: grainsweep (.*) -->$/\1/p' "$page")
 }
 
-sweeps=0 commands=0 parts=0 generated=0
+sweeps=0 commands=0 parts=0 formats=0 generated=0
 mapfile -t pages < <(find . -name README.md -not -path './build*' | sed 's|^\./||' | sort)
 for page in "${pages[@]}"; do
   check_sweeps "$page"
   check_commands "$page"
   check_options "$page"
   check_presets "$page"
+  check_formats "$page"
   check_generated "$page"
 done
-((sweeps > 1 && commands > 9 && parts > 9 && generated > 0)) ||
-  report "the manual has only $sweeps sweeps, $commands commands, $parts parts of presets and $generated tables"
+((sweeps > 1 && commands > 9 && parts > 9 && formats > 0 && generated > 0)) ||
+  report "the manual has only $sweeps sweeps, $commands commands, $parts parts of presets, $formats lists of formats and $generated tables"
 ((findings == 0)) || exit 1
 printf 'manual: %d sweeps, %d commands, %d parts of presets and %d printed tables are right\n' \
   "$sweeps" "$commands" "$parts" "$generated"
