@@ -89,6 +89,12 @@ void note_told(std::vector<Group>& groups) {
   }
 }
 
+/// Whether the variance of a number goes as one over the volume of the slab: that of means over its
+/// grains does. Forces grow with the height of a bed, order comes with near walls.
+bool is_pooled(const Field& field) {
+  return field.name == "solid_fraction" || field.name.starts_with("coordination");
+}
+
 /// Gives mean number `k` of the groups of one family the error from their pooled variance.
 void pool_errors(const std::vector<Group*>& family, std::size_t k) {
   PooledVariance variance;
@@ -106,7 +112,9 @@ void pool_errors(std::vector<Group>& groups) {
   std::map<std::string, std::vector<Group*>> families;
   for (Group& group : groups) families[group.family].push_back(&group);
   for (const auto& [name, family] : families) {
-    for (std::size_t k = 0; k < mean_fields().size(); ++k) pool_errors(family, k);
+    for (std::size_t k = 0; k < mean_fields().size(); ++k) {
+      if (is_pooled(mean_fields()[k])) pool_errors(family, k);
+    }
   }
 }
 
@@ -282,6 +290,10 @@ Columns<Group> groups_columns(const Varied& varied, const GivenUnits& units) {
     const Field& field = mean_fields()[k];
     append_spread(columns, std::string(field.name), std::string(field.unit),
                   std::string(field.meaning), [k](const Group& group) { return group.means[k]; });
+    if (!is_pooled(field)) continue;
+    columns.back().meaning =
+        "standard error of the mean, from the variance of replicates pooled over "
+        "the family";
   }
   append(columns, bias_columns());
   append(columns, varied_columns(varied));
