@@ -54,8 +54,9 @@ int perform(const CompareOptions& options) {
              "their group alone. They are wider where few packings tell them. Values agree "
              "within " +
              fixed(agreement_limit, 0) +
-             " standard errors of both sides together; where\nthe source has no error, ours "
-             "alone counts.\n" +
+             " standard errors of both sides together (ours alone where\nthe source has none) and "
+             "the "
+             "bound of settling, where that was measured.\n" +
              comparison_text(reference, analyse(results.rows, options.folder));
   return exit_done;
 }

@@ -40,7 +40,10 @@ std::string difference_text(const AtWidth& at, const std::string& symbol) {
 /// How many widths agree with a formula, and how far they lie from it.
 std::string along_text(const Comparison& row) {
   const std::vector<AtWidth>& along = row.along;
-  const auto agrees = [](const AtWidth& at) { return !(std::abs(at.errors) > agreement_limit); };
+  const auto known = std::count_if(along.begin(), along.end(),
+                                   [](const AtWidth& at) { return at.agrees.has_value(); });
+  const auto agreeing = std::count_if(along.begin(), along.end(),
+                                      [](const AtWidth& at) { return at.agrees.value_or(false); });
   const auto is_less = [](const AtWidth& a, const AtWidth& b) {
     return a.difference < b.difference;
   };
@@ -48,11 +51,16 @@ std::string along_text(const Comparison& row) {
   double mean = 0.0;
   for (const AtWidth& at : along) mean += at.difference / static_cast<double>(along.size());
   const std::string symbol = symbol_of_formula(row.published.formula->text);
-  return joined("agrees at ", std::count_if(along.begin(), along.end(), agrees), " of ",
-                counted(along.size(), "width"), "; here less published: ",
-                along.size() == 1 ? "" : signed_text(mean) + " in the mean, ",
-                difference_text(*least, symbol),
-                along.size() == 1 ? "" : " to " + difference_text(*most, symbol));
+  const auto unknown = along.size() - static_cast<std::size_t>(known);
+  std::string text = known == 0 ? "single packings tell no error"
+                                : joined("agrees at ", agreeing, " of ",
+                                         counted(static_cast<std::size_t>(known), "width"));
+  if (known > 0 && unknown > 0) text += joined(", without an error at ", unknown, " more");
+  if (row.without_value > 0) text += joined(", no value at ", row.without_value, " more");
+  text += "; here less published: ";
+  if (along.size() == 1) return text + difference_text(*least, symbol);
+  return text + signed_text(mean) + " in the mean, " + difference_text(*least, symbol) + " to " +
+         difference_text(*most, symbol);
 }
 
 std::string row_text(const Comparison& row) {
@@ -89,7 +97,8 @@ std::string head_of(const std::string& family) {
 std::string left_out_text(const Reference& reference, const std::vector<Family>& families) {
   std::string text;
   for (const Family& family : families) {
-    if (published_of(reference, family).empty()) text += "  " + family.name + "\n";
+    const bool has_some = !published_of(reference, family).empty() || !reference.common.empty();
+    if (!has_some) text += "  " + family.name + "\n";
   }
   if (!text.empty()) text = "\nNothing is published there of\n" + text;
   for (const PublishedFamily& entry : reference.families) {
@@ -123,6 +132,15 @@ std::optional<double> difference_in_errors(const Comparison& comparison) {
   return *miss / std::hypot(comparison.measured.estimate.error, comparison.published.range->error);
 }
 
+std::optional<bool> agrees(const Comparison& comparison) {
+  const auto miss = difference(comparison);
+  if (!miss) return std::nullopt;
+  const double error =
+      std::hypot(comparison.measured.estimate.error, comparison.published.range->error);
+  if (!std::isfinite(error)) return std::nullopt;
+  return std::abs(*miss) <= agreement_limit * error + comparison.measured.bias_bound;
+}
+
 std::string verdict(const Comparison& comparison) {
   if (!comparison.along.empty()) return along_text(comparison);
   std::string text;
@@ -130,11 +148,14 @@ std::string verdict(const Comparison& comparison) {
     text = *comparison.chi2_per_dof > largest_chi2 ? "not one value for all" : "one value for all";
   }
   const auto miss = difference(comparison), errors = difference_in_errors(comparison);
-  if (!miss || !std::isfinite(*errors)) return text.empty() ? "-" : text;
+  const auto agreed = agrees(comparison);
+  if (!agreed || !std::isfinite(*errors)) return text.empty() ? "-" : text;
   const std::string sign = *miss > 0.0 ? "+" : "";
-  return text + (text.empty() ? "" : "; ") +
-         (std::abs(*errors) > agreement_limit ? "differs: " : "agrees: ") + sign +
-         fixed(*miss, decimals_for(comparison.measured.estimate.error)) + ", " +
+  const bool is_by_bound = std::abs(*errors) > agreement_limit && *agreed;
+  return text + (text.empty() ? "" : "; ") + (*agreed ? "agrees" : "differs") +
+         (is_by_bound ? " within the bound of settling, " + cell(comparison.measured.bias_bound)
+                      : "") +
+         ": " + sign + fixed(*miss, decimals_for(comparison.measured.estimate.error)) + ", " +
          fixed(std::abs(*errors), 1) + " errors";
 }
 
@@ -147,24 +168,43 @@ Comparison compare_with(const Published& value, const Family& family, const std:
           std::nullopt, {}};
 }
 
+/// Sets a measured value beside that of a formula, which is nothing where it is no number, or no
+/// share of a volume although it ought to be one.
+void add_width(const Measured& measured, double width, Comparison& row) {
+  const PublishedFormula& formula = *row.published.formula;
+  const double published = value_of_formula(formula.text, width);
+  const bool is_possible = std::isfinite(published) && (!is_share(row.published.quantity) ||
+                                                        (published >= 0.0 && published <= 1.0));
+  const bool is_mean = measured.not_determined.empty() || is_mean_of_width(row.published.quantity);
+  const double difference = measured.estimate.value - published;
+  if (!is_possible || !is_mean || !std::isfinite(difference)) {
+    ++row.without_value;
+    return;
+  }
+  Comparison at;
+  at.measured = measured;
+  at.published.range = {published, published, formula.error};
+  row.along.push_back({width, difference, agrees(at)});
+  row.measured = measured;
+}
+
 /// The measured values of a family beside a formula, at every width where it holds.
 Comparison compare_with_formula(const Published& value, const Family& family,
                                 const std::string& folder) {
   const PublishedFormula& formula = *value.formula;
   const std::string symbol = symbol_of_formula(formula.text);
-  Comparison row{family.name, title_of_quantity(value.quantity, 0.0, ""), value, {}, {}, {}};
+  Comparison row{family.name, title_of_quantity(value.quantity, 0.0, ""), value, {}, {}, {}, 0};
   row.measured.not_determined = "this family has no packings at a " + symbol + " where it holds";
   if (extent_symbol(family.walled) != symbol) return row;
   for (const Group& group : family.walled) {
     const double width = group.job.box.width;
-    const double published = value_of_formula(formula.text, width);
-    if (!(width >= formula.from && width <= formula.to && std::isfinite(published))) continue;
-    Comparison at;
-    at.measured = measure_quantity(value.quantity, width, family, folder);
-    at.published.range = {published, published, formula.error};
-    const auto miss = difference(at);
-    if (miss || row.along.empty()) row.measured = at.measured;
-    if (miss) row.along.push_back({width, *miss, *miss == 0.0 ? 0.0 : *difference_in_errors(at)});
+    if (!(width >= formula.from && width <= formula.to)) continue;
+    add_width(measure_quantity(value.quantity, width, family, folder), width, row);
+  }
+  if (row.along.empty() && row.without_value > 0) {
+    row.measured.not_determined =
+        "at no " + symbol +
+        " where it holds are both the formula's value and the measured one known";
   }
   return row;
 }

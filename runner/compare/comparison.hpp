@@ -10,14 +10,15 @@
 
 namespace grainsweep {
 
-/// So many standard errors, of both sides in quadrature, may lie between values that agree.
+/// So many standard errors, of both sides in quadrature, may lie between values that agree, besides
+/// the bound of the bias of settling.
 inline constexpr double agreement_limit = 3.0;
 
 /// A measured value beside that of a published formula.
 struct AtWidth {
-  double width = 0.0;       ///< d
-  double difference = 0.0;  ///< measured less published
-  double errors = 0.0;      ///< the same in standard errors of both; 0 where the difference is 0
+  double width = 0.0;          ///< d
+  double difference = 0.0;     ///< measured less published
+  std::optional<bool> agrees;  ///< nothing where the measured value has no error
 };
 
 struct Comparison {
@@ -29,6 +30,7 @@ struct Comparison {
   std::optional<double> chi2_per_dof;
   /// Of a formula: at the widths of the family where it holds and both values are known.
   std::vector<AtWidth> along;
+  std::size_t without_value = 0;  ///< how many more there are where one of them is not
 };
 
 /// Measured less published value, from the nearer end of a range and 0 inside it; nothing if
@@ -37,6 +39,9 @@ std::optional<double> difference(const Comparison& comparison);
 
 /// The same divided by the standard errors of both, added in quadrature.
 std::optional<double> difference_in_errors(const Comparison& comparison);
+
+/// Whether both sides agree; nothing where one is missing or has no error.
+std::optional<bool> agrees(const Comparison& comparison);
 
 /// "agrees: -0.013, 0.8 errors"; "differs: ..."; of a formula "agrees at 3 of 9 widths; ..."; "-"
 /// if there is nothing to compare.

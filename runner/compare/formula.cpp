@@ -24,22 +24,41 @@ mu::Parser parser_of(const std::string& formula, double& extent) {
 }  // namespace
 
 std::string fault_of_formula(const std::string& formula) {
+  const char* const known =
+      "known are W, the gap between walls, or D, the diameter of a tube; d, pi; and functions in "
+      "small letters with brackets, as exp(-D)";
+  if (formula.find_first_not_of(" \t") == std::string::npos) return "is empty";
+  if (std::any_of(formula.begin(), formula.end(), [](char c) { return c < ' ' || c > '~'; })) {
+    return "has characters that are no plain ones, as texts copied from a page do; write - * ^2";
+  }
+  if (formula.find("log(") != std::string::npos || formula.find("log (") != std::string::npos) {
+    return "log is the natural logarithm to some, to others that of base 10; write ln or log10";
+  }
   double extent = 1.0;
   try {
     const mu::Parser parser = parser_of(formula, extent);
     const mu::varmap_type& names = parser.GetUsedVar();
     for (const auto& [name, place] : names) {
-      if (name != "W" && name != "D") return "unknown name \"" + name + "\" in the formula";
+      if (name != "W" && name != "D") return "unknown name \"" + name + "\"; " + known;
     }
     if (names.size() != 1) {
-      return "a formula has either W, the gap between walls, or D, the diameter of a tube";
+      return "a formula has either W, the gap between walls, or D, the diameter of a tube; what "
+             "does "
+             "not depend on them is a \"value\" at a \"width\"";
     }
     parser.Eval();
+    if (extent != 1.0) return "a formula is what stands to the right of =; leave the rest out";
     if (parser.GetNumResults() == 1) return "";
     return "a formula has one value; write decimals with a point, not a comma";
   } catch (const mu::ParserError& error) {
-    return joined("no formula, at character ", std::max(error.GetPos(), 0) + 1,
-                  "; write products with *, powers with ^: 0.4 + 0.05*d/D + 0.412*(d/D)^2");
+    const auto size = static_cast<int>(formula.size());
+    if (error.GetPos() >= size)
+      return "ends too early: a bracket is not closed, or a number missing";
+    return joined(
+        "not understood at character ", std::max(error.GetPos(), 0) + 1,
+        "; write products with *, powers with ^, decimals with a point, and lengths in d: "
+        "0.4 + 0.05*d/D + 0.412*(d/D)^2; ",
+        known);
   }
 }
 

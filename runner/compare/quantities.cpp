@@ -25,11 +25,21 @@ std::string definition_of(const Group& group, Quantity quantity) {
          fixed(mean_of(group, "contact_ratio").mean, 3);
 }
 
+double bias_bound_of(const Group& group, Quantity quantity) {
+  if (!group.bias_bound) return 0.0;
+  const double bound = quantity == Quantity::solid_fraction ? group.bias_bound->solid_fraction
+                                                            : group.bias_bound->coordination;
+  return std::isnan(bound) ? 0.0 : bound;
+}
+
 /// The mean of replicates.
 template <Quantity quantity>
 Measured mean_of(const Family& /*family*/, const Group& group) {
   const Spread& spread = spread_of(group, quantity);
-  return {{spread.mean, spread.error}, why_no_error(spread), definition_of(group, quantity)};
+  return {{spread.mean, spread.error},
+          why_no_error(spread),
+          definition_of(group, quantity),
+          bias_bound_of(group, quantity)};
 }
 
 template <Quantity quantity>
@@ -49,7 +59,9 @@ Measured fitted(const Family& family, const WallFit& fit, const Estimate& estima
 template <Quantity quantity>
 Measured bulk_of_fit(const Family& family) {
   const WallFit fit = fit_walls(family, quantity);
-  return fitted(family, fit, fit.bulk);
+  Measured bulk = fitted(family, fit, fit.bulk);
+  bulk.bias_bound = fit.bias_bound.value_or(0.0);
+  return bulk;
 }
 
 template <Quantity quantity>
@@ -175,6 +187,10 @@ const NamedQuantity* find_quantity(const std::string& name) {
 
 bool is_share(std::string_view quantity) {
   return quantity.starts_with("phi") || quantity.starts_with("porosity");
+}
+
+bool is_mean_of_width(std::string_view quantity) {
+  return quantity == "phi" || quantity == "porosity" || quantity == "Z";
 }
 
 std::string fault_of_quantity(const std::string& quantity, double width) {

@@ -14,6 +14,8 @@ struct Measured {
   Estimate estimate;           ///< value and standard error, in d where it is a length
   std::string not_determined;  ///< why there is no value; empty if there is one
   std::string definition;      ///< of the value
+  /// How far it lies at most from that of beds settled ever better; 0 if that was not measured.
+  double bias_bound = 0.0;
 };
 
 /// Why there can be no such value: an unknown name, or a width that is missing or has no meaning
@@ -22,6 +24,10 @@ std::string fault_of_quantity(const std::string& quantity, double width);
 
 /// Whether its values are shares of a volume, 0 to 1.
 bool is_share(std::string_view quantity);
+
+/// Whether it is a mean over the packings of a width, which single packings have, too, without an
+/// error.
+bool is_mean_of_width(std::string_view quantity);
 
 /// "Z at W = 10 d", with `symbol` from extent_symbol. The quantity and width must be without fault,
 /// here and below.

@@ -69,7 +69,11 @@ std::optional<Published::Range> read_range(const Json& value, double error,
 }
 
 std::string text_of(const Published& published) {
-  if (published.formula) return published.formula->text;
+  if (published.formula) {
+    const PublishedFormula& formula = *published.formula;
+    return (formula.name == formula.text ? "" : formula.name + ": ") + formula.text +
+           (formula.error > 0.0 ? " ± " + cell(formula.error) : "");
+  }
   const auto& range = published.range;
   if (!range) return "-";
   if (range->low < range->high) return cell(range->low) + " to " + cell(range->high);
@@ -147,7 +151,13 @@ Published read_published(const Json& from, const std::string& pointer, Diagnosti
                                text_of(published)});
   }
   if (published.formula) published.formula->error = error.value_or(0.0);
-  published.text = read_text(from, "text", pointer, text_of(published), diagnostics);
+  if (published.formula) {
+    published.formula->name =
+        read_text(from, "text", pointer, published.formula->text, diagnostics);
+    published.text = text_of(published);
+  } else {
+    published.text = read_text(from, "text", pointer, text_of(published), diagnostics);
+  }
   return published;
 }
 
@@ -233,7 +243,13 @@ void check_distinction(const std::string& path, const Json& value, const std::st
     std::vector<std::string> known = {"accuracy"};
     for (const Parameter& one : parameters()) known.push_back(one.path);
     std::erase(known, "seed");
-    return note(unknown_key(path, known), Anchor::key);
+    for (const std::string& whole : known) {
+      if (path.empty() || !whole.ends_with("." + path)) continue;
+      return note("unknown key \"" + path + "\"; did you mean \"" + whole + "\"?", Anchor::key);
+    }
+    const std::string how =
+        nearest(path, known).empty() ? ", and all other parameters by their dotted names" : "";
+    return note(unknown_key(path, known) + how, Anchor::key);
   }
   if (!distinction || value.is_object()) {
     return note("give each part by its dotted name, as \"sizes.small_share\"");

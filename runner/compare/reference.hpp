@@ -14,6 +14,7 @@ namespace grainsweep {
 /// A quantity over the gap between walls or the diameter of a tube.
 struct PublishedFormula {
   std::string text;  ///< without fault (runner/compare/formula.hpp)
+  std::string name;  ///< for keys of figures: what the file has as its text, or the formula
   double from = 0.0, to = std::numeric_limits<double>::infinity();  ///< where it holds, d
   double error = 0.0;  ///< standard error of its values, 0 if there is none
 };

@@ -1,5 +1,6 @@
 // Solid fraction and coordination number along the axis of a sweep.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <optional>
@@ -33,7 +34,7 @@ std::optional<PublishedCurve> curve_of(const Comparison& comparison) {
   if (comparison.along.empty() || !(is_porosity || is_z || published.quantity == "phi")) {
     return std::nullopt;
   }
-  PublishedCurve curve{published.definition.empty() ? published.text : published.definition,
+  PublishedCurve curve{published.formula->name,
                        published.formula->text,
                        is_z ? Quantity::coordination : Quantity::solid_fraction,
                        {}};
@@ -62,6 +63,13 @@ std::vector<PublishedCurve> curves_of(const Axes& axes,
     if (curve && !is_known) curves.push_back(std::move(*curve));
   }
   return curves;
+}
+
+/// Greys and browns, apart from the colours of series; twelve of them.
+std::string style_of_curve(std::size_t k) {
+  constexpr std::array colours = {"#7a7a7a", "#8a6d3b", "#303030"};
+  return std::string("lines lc rgb '") + colours.at(k / 4 % colours.size()) + "' lw 1.4 dt " +
+         cell(k % 4 + 2);
 }
 
 std::string curves_csv(const std::vector<PublishedCurve>& curves) {
@@ -196,15 +204,19 @@ std::string abscissa_commands(const Axes& axes, bool is_lowest, bool is_highest)
 std::vector<double> heights_of(const Axes& axes, const std::vector<FittedSeries>& all,
                                const std::vector<PublishedCurve>& curves, Quantity quantity) {
   std::vector<double> heights;
-  for (const PublishedCurve& curve : curves) {
-    if (curve.quantity != quantity) continue;
-    for (const auto& [x, value] : curve.points) heights.push_back(value);
-  }
   for (const FittedSeries& one : all) {
     const auto& fit = quantity == Quantity::solid_fraction ? one.phi : one.z;
     if (is_determined(fit)) heights.push_back(fit->bulk.value);
   }
   add_ends_of_all(axes, quantity, heights);
+  // Of curves what is near the points: a formula may go anywhere where it does not hold.
+  const Range near = range_of(heights, 0.5);
+  for (const PublishedCurve& curve : curves) {
+    if (curve.quantity != quantity) continue;
+    for (const auto& [x, value] : curve.points) {
+      if (value >= near.low && value <= near.high) heights.push_back(value);
+    }
+  }
   return heights;
 }
 
@@ -215,8 +227,8 @@ std::string mean_panel(const Axes& axes, const std::vector<FittedSeries>& all,
   std::vector<std::string> parts;
   for (std::size_t k = 0; k < curves.size(); ++k) {
     if (curves[k].quantity != quantity) continue;
-    parts.push_back(plot_part({published_table, "curve", k + 1, "x", "value", "",
-                               "lines lc rgb '#7a7a7a' lw 1.4 dt " + cell(k % 4 + 2)}));
+    parts.push_back(
+        plot_part({published_table, "curve", k + 1, "x", "value", "", style_of_curve(k)}));
   }
   if (has_other_series(axes)) {
     parts.push_back(plot_part({points_table, "series", 0, "x", column, "", other_series_style}));
@@ -265,11 +277,19 @@ std::string height_commands(const std::vector<double>& heights, Quantity quantit
          "set y2label 'porosity 1 - φ' offset -1,0 noenhanced\n";
 }
 
+std::vector<KeyEntry> with_curves(std::vector<KeyEntry> entries,
+                                  const std::vector<PublishedCurve>& curves) {
+  for (std::size_t k = 0; k < curves.size(); ++k) {
+    entries.push_back({style_of_curve(k), curves[k].name});
+  }
+  return entries;
+}
+
 std::string means_commands(const Axes& axes, const Figure& figure,
                            const std::vector<FittedSeries>& all,
                            const std::vector<PublishedCurve>& curves, bool has_fits) {
   const Panels panels(figure, 2, has_fits ? std::vector{0.74, 0.26} : std::vector{1.0},
-                      key_with_others(axes),
+                      with_curves(key_with_others(axes), curves),
                       {.right = 104.0, .above = is_over_width(axes) ? 58.0 : 8.0});
   std::string text = "set multiplot\n" + panels.key();
   for (const Quantity quantity : {Quantity::solid_fraction, Quantity::coordination}) {
@@ -281,12 +301,6 @@ std::string means_commands(const Axes& axes, const Figure& figure,
     text += panels.place(column, 1) + "unset link x2\n" + abscissa_commands(axes, true, false) +
             label_command("y", "residual") + residual_panel(all, quantity);
   }
-  return text;
-}
-
-std::string names_text(const std::vector<PublishedCurve>& curves) {
-  std::string text;
-  for (const PublishedCurve& curve : curves) text += (text.empty() ? "" : "; ") + curve.name;
   return text;
 }
 
@@ -335,7 +349,7 @@ Figure means_figure(const Axes& axes, const std::vector<Family>& families,
   }
   const std::vector<PublishedCurve> curves = curves_of(axes, comparisons);
   if (!curves.empty()) {
-    figure.caption += " Dashed, grey: " + names_text(curves) + ".";
+    figure.caption += " Dashed: published formulas.";
     figure.tables.emplace_back(published_table, curves_csv(curves));
   }
   if (is_over_width(axes)) figure.caption += places_text(axes);

@@ -28,21 +28,36 @@ TEST_CASE("a formula may have no number somewhere") {
   CHECK_FALSE(std::isfinite(value_of_formula(file, 3.0)));
 }
 
-TEST_CASE("of a formula that cannot be read the place is told, and how to write one") {
-  const std::string how = "; write products with *, powers with ^: 0.4 + 0.05*d/D + 0.412*(d/D)^2";
-  CHECK(fault_of_formula("0.4 + 0.05 d/D") == "no formula, at character 12" + how);
-  CHECK(fault_of_formula("W**2") == "no formula, at character 3" + how);
-  CHECK(fault_of_formula("") == "no formula, at character 1" + how);
-  CHECK(fault_of_formula("(W").starts_with("no formula, at character "));
-  CHECK(fault_of_formula("W > 2 ? 1 :").starts_with("no formula, at character "));
-  CHECK(fault_of_formula("e*W") == "unknown name \"e\" in the formula");
+TEST_CASE("of a formula that cannot be read it is told where, and how to write one") {
+  const auto at = [](int character) {
+    return "not understood at character " + std::to_string(character) + "; write products with *";
+  };
+  CHECK(fault_of_formula("0.4 + 0.05 d/D").starts_with(at(12)));
+  CHECK(fault_of_formula("W**2").starts_with(at(3)));
+  CHECK(fault_of_formula("37.5% - W").starts_with(at(5)));
+  CHECK(fault_of_formula("EXP(-W)").starts_with(at(4)));
+  CHECK(fault_of_formula("W = 3 + 1 = 2").starts_with("not understood"));
+  CHECK(fault_of_formula("") == "is empty");
+  CHECK(fault_of_formula(" ") == "is empty");
+  for (const char* cut : {"(W", "0.4 + W *", "exp(-W"}) {
+    INFO(cut);
+    CHECK(fault_of_formula(cut) == "ends too early: a bracket is not closed, or a number missing");
+  }
+  CHECK_THAT(fault_of_formula("e*W"),
+             Catch::StartsWith("unknown name \"e\"; known are W, the gap"));
+  CHECK_THAT(fault_of_formula("0.4 + x"), Catch::StartsWith("unknown name \"x\"; known are W"));
   CHECK(fault_of_formula("1,5*W") ==
         "a formula has one value; write decimals with a point, not a comma");
-  const std::string one =
-      "a formula has either W, the gap between walls, or D, the diameter of a "
-      "tube";
-  CHECK(fault_of_formula("0.4") == one);
-  CHECK(fault_of_formula("W + D") == one);
+  for (const char* neither : {"0.4", "W + D", "1 - pi/6"}) {
+    CHECK_THAT(fault_of_formula(neither), Catch::StartsWith("a formula has either W, the gap"));
+  }
+  CHECK(fault_of_formula("D=3") ==
+        "a formula is what stands to the right of =; leave the rest out");
+  CHECK_THAT(fault_of_formula("0.1*log(D)"), Catch::EndsWith("write ln or log10"));
+  CHECK(fault_of_formula("0.1*log10(D)").empty());
+  CHECK_THAT(fault_of_formula("W\u00b2"),
+             Catch::StartsWith("has characters that are no plain ones"));
+  CHECK_THAT(fault_of_formula("W\n+1"), Catch::StartsWith("has characters that are no plain ones"));
 }
 
 }  // namespace

@@ -75,6 +75,12 @@ TEST_CASE("what no packing can be is refused where families are told apart") {
   CHECK(told(R"("shape.cylinder.heigth": 2)") ==
         Lines{place + "shape.cylinder.heigth: unknown key \"shape.cylinder.heigth\"; did you mean "
                       "\"shape.cylinder.height\"?"});
+  CHECK(told(R"("small_share": 0)") ==
+        Lines{place +
+              R"(small_share: unknown key "small_share"; did you mean "sizes.small_share"?)"});
+  CHECK(told(R"("label": "tubes")") ==
+        Lines{place + "label: unknown key \"label\"; known here: accuracy, shape, and all other "
+                      "parameters by their dotted names"});
   CHECK(told(R"("seed": 8)") ==
         Lines{place + "seed: families are not told apart by their seed; leave it out"});
   const auto value_of = [&](const std::string& path, const std::string& value) {
@@ -166,14 +172,16 @@ TEST_CASE("a formula stands in place of the values at single widths") {
         .values.at(0);
   };
   const Published whole = read(R"("formula": "0.64 - 0.2/W", "from": 4, "to": 20, "error": 0.01)");
-  CHECK(whole.text == "0.64 - 0.2/W");
+  CHECK(whole.text == "0.64 - 0.2/W ± 0.01");
   CHECK(whole.formula->text == "0.64 - 0.2/W");
   CHECK(whole.formula->from == 4.0);
   CHECK(whole.formula->to == 20.0);
   CHECK(whole.formula->error == 0.01);
+  CHECK(whole.formula->name == "0.64 - 0.2/W");
   CHECK_FALSE(whole.range);
   const Published open = read(R"("formula": "0.64 - 0.2/W", "text": "a line")");
-  CHECK(open.text == "a line");
+  CHECK(open.text == "a line: 0.64 - 0.2/W");
+  CHECK(open.formula->name == "a line");
   CHECK(open.formula->from == 0.0);
   CHECK(open.formula->to > 1e300);
   CHECK(open.formula->error == 0.0);

@@ -226,7 +226,7 @@ TEST_CASE("published formulas are drawn beside the means, each once, where they 
   const Analysis analysis = analyse(rows);
   Reference reference;
   const auto formula = [](const std::string& quantity, const std::string& text) {
-    return Published{quantity, 0, text, std::nullopt, "", PublishedFormula{text, 4, 8, 0}};
+    return Published{quantity, 0, text, std::nullopt, "", PublishedFormula{text, text, 4, 8, 0}};
   };
   reference.families = {{{}, {formula("porosity", "0.36 + 0.2/W"), formula("phi", "0.5 + 0/W")}},
                         {{}, {formula("porosity", "0.36 + 0.2/W"), formula("phi", "0.64 + 0*D")}}};
@@ -234,7 +234,8 @@ TEST_CASE("published formulas are drawn beside the means, each once, where they 
   REQUIRE(comparisons.size() == 4);
   const std::vector<Figure> figures = figures_of(rows, analysis, comparisons);
   const Figure& means = figure_called(figures, "means");
-  CHECK_THAT(means.caption, Catch::Contains(" Dashed, grey: 0.36 + 0.2/W; 0.5 + 0/W."));
+  CHECK_THAT(means.caption, Catch::Contains(" Dashed: published formulas."));
+  CHECK_THAT(means.commands, Catch::Contains("0.36 + 0.2/W") && Catch::Contains("0.5 + 0/W"));
   const auto table = std::find_if(means.tables.begin(), means.tables.end(), [](const auto& named) {
     return named.first == "means-published.csv";
   });
