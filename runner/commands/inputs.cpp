@@ -4,8 +4,10 @@
 #include <iostream>
 #include <utility>
 
+#include "runner/compare/reference.hpp"
 #include "runner/exit_codes.hpp"
 #include "runner/jobs/growing_groups.hpp"
+#include "runner/store/files.hpp"
 #include "runner/sweep/low_beds.hpp"
 #include "runner/sweep/read_sweep.hpp"
 #include "runner/text.hpp"
@@ -29,6 +31,22 @@ Sweep sweep_or_refusal(const std::string& file) {
   return std::move(reading_or_refusal(file, unreachable_wishes).sweep);
 }
 
+namespace {
+
+/// Published values beside a sweep are read once its packings are made, which may take a night.
+void note_on_reference(const std::string& file) {
+  if (!file_exists(file)) return;
+  try {
+    read_reference(file);
+  } catch (const BadInput& error) {
+    std::cerr << "note: the page will have no published values: " << error.what() << "\n";
+  } catch (const FileError& error) {
+    std::cerr << "note: the page will have no published values: " << error.what() << "\n";
+  }
+}
+
+}  // namespace
+
 Sweep sweep_with_notes(const std::string& file) {
   const auto check = [](const Sweep& sweep) {
     Diagnostics told = unreachable_wishes(sweep);
@@ -37,6 +55,7 @@ Sweep sweep_with_notes(const std::string& file) {
   };
   SweepReading reading = reading_or_refusal(file, check);
   for (const Diagnostic& note : reading.notes) std::cerr << "note: " << to_string(note) << "\n";
+  note_on_reference(reference_beside(file));
   return std::move(reading.sweep);
 }
 

@@ -1,4 +1,5 @@
 // The command `report`: closing table, tables and page again.
+#include <algorithm>
 #include <iostream>
 
 #include <CLI/App.hpp>
@@ -27,6 +28,11 @@ bool is_written(const char* what, const Write& write) {
   }
 }
 
+/// Whether packings are stored, and not one of them can be read.
+bool is_unreadable(const Results& results) {
+  return !results.damage.empty() && std::none_of(results.rows.begin(), results.rows.end(), is_made);
+}
+
 }  // namespace
 
 void add_command(CLI::App& app, ReportOptions& options) {
@@ -39,6 +45,13 @@ void add_command(CLI::App& app, ReportOptions& options) {
 
 int perform(const ReportOptions& options) {
   Results results = results_with_warnings(options.folder);
+  if (is_unreadable(results)) {
+    std::cerr
+        << called_as() << ": " << options.folder
+        << ": none of its packings can be read, since they are damaged or of another version; "
+           "tables and page are left as they were\n";
+    return exit_file_system;
+  }
   std::cerr << damage_warnings(check_beds(options.folder, results.rows));
   const Analysis analysis = analyse(results.rows, options.folder);
   const bool is_at_work = is_worked_on(options.folder, results.last_runs);

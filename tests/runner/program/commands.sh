@@ -135,6 +135,13 @@ expect_code 0 "$program" report damaged
 expect_text out.txt "the last run has not ended"
 expect_text error.txt "warning: damaged/shards/1-of-1.jsonl:12: torn or damaged line"
 
+# Where no packing can be read, as after a change of version, what was written before stays.
+rm -rf damaged && cp -r out/small damaged
+sed -i 's/"solid_fraction":/"solid_friction":/' damaged/shards/1-of-1.jsonl
+expect_code 4 "$program" report damaged
+expect_text error.txt "damaged: none of its packings can be read, since they are damaged or of another"
+cmp damaged/packings.csv out/small/packings.csv || fail "tables that could not be made again are gone"
+
 # Units that are added later change no packing, and all that is printed.
 sed 's/"seed": 3/"units": { "d": 3.2, "unit": "mm", "density": 2500 }, "seed": 3/' small.json >mm.json
 expect_code 0 "$program" validate mm.json
