@@ -16,9 +16,13 @@ enum class BedKind {
   narrow_spheres,  ///< the same between walls less than 4 d apart, in ducts and tubes of less than
                    ///< 5 d
   two_sizes,       ///< spheres in boxes, the small ones half as large
-  many_sizes,      ///< spheres of other sizes, in boxes and tubes that are not narrow
-  pinacoids,       ///< 1 by 1 by 1, in boxes
+  narrow_two_sizes,  ///< the same between walls 2 to 4 d apart, in ducts of 2 to 5 d and in tubes
+                     ///< of 3 to 5 d
+  many_sizes,        ///< spheres of other sizes, in boxes and tubes that are not narrow
+  pinacoids,         ///< 1 by 1 by 1, in boxes
+  narrow_pinacoids,  ///< the same between walls 2 to 4 d apart, and in ducts of 2.5 to 5 d
 };
+inline constexpr std::size_t bed_kinds = 7;
 
 /// Largest distance of means over many beds from their limit as beds are settled ever better.
 struct ProtocolBias {
@@ -35,7 +39,8 @@ struct Preset {
   std::string_view name;
   std::string_view promise;  ///< one sentence with numbers, for --help and the README
   Accuracy accuracy;
-  std::array<std::optional<ProtocolBias>, 5> bias_bounds;  ///< by BedKind; none if not measured
+  std::array<std::optional<ProtocolBias>, bed_kinds>
+      bias_bounds;  ///< by BedKind; none if not measured
 };
 
 /// fast, balanced, accurate, exact: of those at rest in steps, the cheaper ones first.

@@ -41,13 +41,11 @@ TEST_CASE("beds are of the kind of those that were measured") {
 
 TEST_CASE("beds of which nothing alike was measured are of no kind") {
   CHECK(kind_of(R"({"box.width": 3.9, "sizes.distribution.uniform": {"to": 1.2}})").empty());
-  CHECK(kind_of(R"({"box.width": 3.9, "sizes.small_share": 0.3})").empty());
   CHECK(kind_of(R"({"sizes": {"small_share": 0.3, "size_ratio": 0.49}})").empty());
   CHECK(kind_of(R"({"sizes.distribution.lognormal.sigma": 0.51})").empty());
   CHECK(kind_of(R"({"sizes.distribution.uniform": {"from": 0.5, "to": 1.6}})").empty());
   CHECK(kind_of(R"({"sizes.distribution.weibull": {}})").empty());
   CHECK(kind_of(R"({"shape": "pinacoid", "sizes.distribution.lognormal.sigma": 0.2})").empty());
-  CHECK(kind_of(R"({"box.width": 3, "shape": "pinacoid"})").empty());
   CHECK(kind_of(R"({"sizes.small_share": 1})").empty());
   CHECK(kind_of(R"({"sizes.spread": 0.1})").empty());
   CHECK(kind_of(R"({"shape.pinacoid.height": 0.9})").empty());
@@ -55,6 +53,32 @@ TEST_CASE("beds of which nothing alike was measured are of no kind") {
   CHECK(kind_of(R"({"shape": "pinacoid", "sizes.small_share": 0.2})").empty());
   CHECK(kind_of(R"({"shape": "cube"})").empty());
   CHECK(kind_of(R"({"tube.diameter": 5, "shape": "pinacoid"})").empty());
+}
+
+TEST_CASE("narrow beds of two sizes and of pinacoids have bounds as far as they were measured") {
+  const std::string two = "spheres of two sizes, 1 to 2, in narrow gaps, ducts or tubes";
+  const auto of_two = [](const std::string& box) {
+    return kind_of("{" + box + R"(, "sizes.small_share": 0.3})");
+  };
+  CHECK(of_two(R"("box.width": 3.9)") == two);
+  CHECK(of_two(R"("box.width": 2)") == two);
+  CHECK(of_two(R"("box.width": 1.99)").empty());
+  CHECK(of_two(R"("box": {"x": "walls", "length": 2, "width": 2})") == two);
+  CHECK(of_two(R"("box": {"x": "walls", "length": 9, "width": 4.9})") == two);
+  CHECK(of_two(R"("tube.diameter": 4.9)") == two);
+  CHECK(of_two(R"("tube.diameter": 3)") == two);
+  CHECK(of_two(R"("tube.diameter": 2.99)").empty());
+  CHECK(kind_of(R"({"box.width": 3, "sizes": {"small_share": 0.3, "size_ratio": 0.6}})").empty());
+  const std::string pinacoids = "pinacoids 1 by 1 by 1 in narrow gaps or ducts";
+  const auto of_pinacoids = [](const std::string& box) {
+    return kind_of("{" + box + R"(, "shape": "pinacoid"})");
+  };
+  CHECK(of_pinacoids(R"("box.width": 4)") == "pinacoids 1 by 1 by 1");
+  CHECK(of_pinacoids(R"("box.width": 3.9)") == pinacoids);
+  CHECK(of_pinacoids(R"("box.width": 2)") == pinacoids);
+  CHECK(of_pinacoids(R"("box.width": 1.99)").empty());
+  CHECK(of_pinacoids(R"("box": {"x": "walls", "length": 2.5, "width": 3})") == pinacoids);
+  CHECK(of_pinacoids(R"("box": {"x": "walls", "length": 2.4, "width": 3})").empty());
 }
 
 TEST_CASE("walls nearer than 4 d, and ducts and tubes of less than 5 d, are narrow") {
