@@ -68,8 +68,8 @@ PinacoidKinds pinacoid_kinds(const std::vector<ConvexShape>& shapes) {
   return all;
 }
 
-/// Lists the pairs whose balls are no further apart than the margin; returns what touch_pairs
-/// returns.
+/// Lists the pairs whose balls are no further apart than the margin, but for rounding; returns what
+/// touch_pairs returns.
 double list_close(double margin, const PolyhedronBed& bed, std::span<const GrainPair> pairs,
                   const FarPairs& far, std::vector<ClosePair>& close) {
   double sunk = 0.0;

@@ -68,12 +68,6 @@ std::optional<ShapeExtent> check_shape(const ShapeSpec& spec, Errors& errors) {
     return std::nullopt;
   }
   const Hull hull = shape_of(spec);
-  if (hull.shape && hull.shape->vertices.size() > most_vertices_of_a_grain) {
-    errors.push_back({"shape." + std::string(name_of(spec)),
-                      "must have at most " + std::to_string(most_vertices_of_a_grain) +
-                          " vertices, has " + std::to_string(hull.shape->vertices.size())});
-    return std::nullopt;
-  }
   if (hull.shape) return extent_of(*hull.shape);
   errors.push_back({"shape." + std::string(name_of(spec)), hull.error});
   return std::nullopt;
@@ -461,20 +455,19 @@ double mass_ratio(const PlacedGrains& placed, const ShapeSpec& shape) {
 /// mixture; for distributions and the spread of sizes it depends on what is drawn.
 void check_masses(const PackingSpec& spec, bool is_right, Errors& errors) {
   const SizesSpec& sizes = spec.sizes;
-  const auto* mixture = std::get_if<Mixture>(&spec.shape);
   const bool is_f32 = spec.accuracy.precision == Precision::f32;
-  if (is_right && mixture != nullptr && is_f32 && volume_ratio(*mixture) > f32_mass_ratio) {
-    errors.push_back({"shape.mixture", "has components of " + number_text(volume_ratio(*mixture)) +
-                                           " times each other's volume, and in f32 masses may "
-                                           "differ by 1e5 to 1; take accuracy.precision f64"});
-    return;
-  }
-  const auto* placed = std::get_if<PlacedGrains>(&spec.fill);
-  if (placed != nullptr) {
+  if (const auto* placed = std::get_if<PlacedGrains>(&spec.fill)) {
     if (!is_right || !is_f32 || mass_ratio(*placed, spec.shape) <= f32_mass_ratio) return;
     errors.push_back({"fill.file", "has grains of " + number_text(mass_ratio(*placed, spec.shape)) +
                                        " times each other's mass, and in f32 masses may differ by "
                                        "1e5 to 1; take accuracy.precision f64"});
+    return;
+  }
+  const auto* mixture = std::get_if<Mixture>(&spec.shape);
+  if (is_right && mixture != nullptr && is_f32 && volume_ratio(*mixture) > f32_mass_ratio) {
+    errors.push_back({"shape.mixture", "has components of " + number_text(volume_ratio(*mixture)) +
+                                           " times each other's volume, and in f32 masses may "
+                                           "differ by 1e5 to 1; take accuracy.precision f64"});
     return;
   }
   const bool has_both = !sizes.distribution && sizes.small_share > 0.0 && sizes.small_share < 1.0;

@@ -38,7 +38,11 @@ Hull shape_from(const HullVertices& hull) {
   std::vector<Vector> points;
   points.reserve(hull.points.size());
   for (const auto& [x, y, z] : hull.points) points.emplace_back(x, y, z);
-  return convex_hull(points, flat_as_written);
+  Hull made = convex_hull(points, flat_as_written);
+  const std::size_t vertices = made.shape ? made.shape->vertices.size() : 0;
+  if (vertices <= most_vertices_of_a_grain) return made;
+  return {std::nullopt,
+          joined("must have at most ", most_vertices_of_a_grain, " vertices, has ", vertices)};
 }
 
 template <class Size>
