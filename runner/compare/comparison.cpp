@@ -40,24 +40,26 @@ std::string difference_text(const AtWidth& at, const std::string& symbol) {
 /// How many widths agree with a formula, and how far they lie from it.
 std::string along_text(const Comparison& row) {
   const std::vector<AtWidth>& along = row.along;
-  const auto known = std::count_if(along.begin(), along.end(),
-                                   [](const AtWidth& at) { return at.agrees.has_value(); });
-  const auto agreeing = std::count_if(along.begin(), along.end(),
-                                      [](const AtWidth& at) { return at.agrees.value_or(false); });
+  const auto with = [&](Agreement agreement) {
+    return static_cast<std::size_t>(std::count_if(
+        along.begin(), along.end(), [&](const AtWidth& at) { return at.agreement == agreement; }));
+  };
+  const std::size_t unknown = with(Agreement::unknown), by_bound = with(Agreement::within_bound);
+  const std::size_t known = along.size() - unknown;
   const auto is_less = [](const AtWidth& a, const AtWidth& b) {
     return a.difference < b.difference;
   };
   const auto [least, most] = std::minmax_element(along.begin(), along.end(), is_less);
   double mean = 0.0;
   for (const AtWidth& at : along) mean += at.difference / static_cast<double>(along.size());
-  const std::string symbol = symbol_of_formula(row.published.formula->text);
-  const auto unknown = along.size() - static_cast<std::size_t>(known);
-  std::string text = known == 0 ? "single packings tell no error"
-                                : joined("agrees at ", agreeing, " of ",
-                                         counted(static_cast<std::size_t>(known), "width"));
-  if (known > 0 && unknown > 0) text += joined(", without an error at ", unknown, " more");
+  std::string text = known == 0 ? "no error is known at any width"
+                                : joined("agrees at ", with(Agreement::agrees) + by_bound, " of ",
+                                         counted(known, "width"));
+  if (by_bound > 0) text += joined(", at ", by_bound, " of them within the bound of settling");
+  if (known > 0 && unknown > 0) text += joined(", no error at ", unknown, " more");
   if (row.without_value > 0) text += joined(", no value at ", row.without_value, " more");
   text += "; here less published: ";
+  const std::string symbol = symbol_of_formula(row.published.formula->text);
   if (along.size() == 1) return text + difference_text(*least, symbol);
   return text + signed_text(mean) + " in the mean, " + difference_text(*least, symbol) + " to " +
          difference_text(*most, symbol);
@@ -85,7 +87,7 @@ std::string formula_text(const Comparison& row) {
   return "  " + pad_right(row.title, 38) + row.published.text + "\n      " +
          (row.along.empty() ? "not determined: " + row.measured.not_determined : verdict(row)) +
          "\n" + (source.empty() ? "" : "      published: " + source + "\n") +
-         (row.along.empty() ? "" : "      here: " + row.measured.definition + "\n");
+         (row.along.empty() ? "" : "      here, at the last: " + row.measured.definition + "\n");
 }
 
 std::string head_of(const std::string& family) {
@@ -132,13 +134,16 @@ std::optional<double> difference_in_errors(const Comparison& comparison) {
   return *miss / std::hypot(comparison.measured.estimate.error, comparison.published.range->error);
 }
 
-std::optional<bool> agrees(const Comparison& comparison) {
+Agreement agreement_of(const Comparison& comparison) {
   const auto miss = difference(comparison);
-  if (!miss) return std::nullopt;
+  if (!miss) return Agreement::unknown;
   const double error =
       std::hypot(comparison.measured.estimate.error, comparison.published.range->error);
-  if (!std::isfinite(error)) return std::nullopt;
-  return std::abs(*miss) <= agreement_limit * error + comparison.measured.bias_bound;
+  if (!std::isfinite(error)) return Agreement::unknown;
+  const double beyond = std::abs(*miss) - agreement_limit * error;
+  return beyond <= 0.0                              ? Agreement::agrees
+         : beyond <= comparison.measured.bias_bound ? Agreement::within_bound
+                                                    : Agreement::differs;
 }
 
 std::string verdict(const Comparison& comparison) {
@@ -148,11 +153,12 @@ std::string verdict(const Comparison& comparison) {
     text = *comparison.chi2_per_dof > largest_chi2 ? "not one value for all" : "one value for all";
   }
   const auto miss = difference(comparison), errors = difference_in_errors(comparison);
-  const auto agreed = agrees(comparison);
-  if (!agreed || !std::isfinite(*errors)) return text.empty() ? "-" : text;
+  const Agreement agreement = agreement_of(comparison);
+  if (agreement == Agreement::unknown || !std::isfinite(*errors)) return text.empty() ? "-" : text;
   const std::string sign = *miss > 0.0 ? "+" : "";
-  const bool is_by_bound = std::abs(*errors) > agreement_limit && *agreed;
-  return text + (text.empty() ? "" : "; ") + (*agreed ? "agrees" : "differs") +
+  const bool is_by_bound = agreement == Agreement::within_bound;
+  return text + (text.empty() ? "" : "; ") +
+         (agreement == Agreement::differs ? "differs" : "agrees") +
          (is_by_bound ? " within the bound of settling, " + cell(comparison.measured.bias_bound)
                       : "") +
          ": " + sign + fixed(*miss, decimals_for(comparison.measured.estimate.error)) + ", " +
@@ -184,7 +190,7 @@ void add_width(const Measured& measured, double width, Comparison& row) {
   Comparison at;
   at.measured = measured;
   at.published.range = {published, published, formula.error};
-  row.along.push_back({width, difference, agrees(at)});
+  row.along.push_back({width, difference, agreement_of(at)});
   row.measured = measured;
 }
 
@@ -199,7 +205,7 @@ Comparison compare_with_formula(const Published& value, const Family& family,
   for (const Group& group : family.walled) {
     const double width = group.job.box.width;
     if (!(width >= formula.from && width <= formula.to)) continue;
-    add_width(measure_quantity(value.quantity, width, family, folder), width, row);
+    add_width(measure_quantity(value.quantity, family, group, folder), width, row);
   }
   if (row.along.empty() && row.without_value > 0) {
     row.measured.not_determined =

@@ -14,11 +14,15 @@ namespace grainsweep {
 /// the bound of the bias of settling.
 inline constexpr double agreement_limit = 3.0;
 
+/// Whether a measured and a published value agree: within the errors of both, or, besides, within
+/// the bound of what settling does to the measured one.
+enum class Agreement { unknown, agrees, within_bound, differs };
+
 /// A measured value beside that of a published formula.
 struct AtWidth {
-  double width = 0.0;          ///< d
-  double difference = 0.0;     ///< measured less published
-  std::optional<bool> agrees;  ///< nothing where the measured value has no error
+  double width = 0.0;       ///< d
+  double difference = 0.0;  ///< measured less published
+  Agreement agreement = Agreement::unknown;
 };
 
 struct Comparison {
@@ -40,8 +44,8 @@ std::optional<double> difference(const Comparison& comparison);
 /// The same divided by the standard errors of both, added in quadrature.
 std::optional<double> difference_in_errors(const Comparison& comparison);
 
-/// Whether both sides agree; nothing where one is missing or has no error.
-std::optional<bool> agrees(const Comparison& comparison);
+/// Unknown where one side is missing or has no error.
+Agreement agreement_of(const Comparison& comparison);
 
 /// "agrees: -0.013, 0.8 errors"; "differs: ..."; of a formula "agrees at 3 of 9 widths; ..."; "-"
 /// if there is nothing to compare.

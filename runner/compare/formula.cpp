@@ -21,6 +21,19 @@ mu::Parser parser_of(const std::string& formula, double& extent) {
   return parser;
 }
 
+/// Whether a = stands in it that is no part of a comparison.
+bool has_assignment(const std::string& formula) {
+  for (std::size_t k = 0; k < formula.size(); ++k) {
+    if (formula[k] != '=') continue;
+    const char before = k > 0 ? formula[k - 1] : ' ';
+    const bool is_double = k + 1 < formula.size() && formula[k + 1] == '=';
+    const bool is_comparison =
+        is_double || before == '=' || before == '<' || before == '>' || before == '!';
+    if (!is_comparison) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 std::string fault_of_formula(const std::string& formula) {
@@ -33,6 +46,9 @@ std::string fault_of_formula(const std::string& formula) {
   }
   if (formula.find("log(") != std::string::npos || formula.find("log (") != std::string::npos) {
     return "log is the natural logarithm to some, to others that of base 10; write ln or log10";
+  }
+  if (has_assignment(formula)) {
+    return "a formula is what stands to the right of =; leave the rest out";
   }
   double extent = 1.0;
   try {
@@ -47,7 +63,6 @@ std::string fault_of_formula(const std::string& formula) {
              "not depend on them is a \"value\" at a \"width\"";
     }
     parser.Eval();
-    if (extent != 1.0) return "a formula is what stands to the right of =; leave the rest out";
     if (parser.GetNumResults() == 1) return "";
     return "a formula has one value; write decimals with a point, not a comma";
   } catch (const mu::ParserError& error) {

@@ -189,6 +189,11 @@ bool is_share(std::string_view quantity) {
   return quantity.starts_with("phi") || quantity.starts_with("porosity");
 }
 
+bool is_of_family(const std::string& quantity) {
+  const NamedQuantity* found = find_quantity(quantity);
+  return found != nullptr && found->of_family != nullptr;
+}
+
 bool is_mean_of_width(std::string_view quantity) {
   return quantity == "phi" || quantity == "porosity" || quantity == "Z";
 }
@@ -214,14 +219,19 @@ std::string title_of_quantity(const std::string& quantity, double width,
   return width > 0.0 ? title + " at " + symbol + " = " + cell(width) + " d" : title;
 }
 
+Measured measure_quantity(const std::string& quantity, const Family& family, const Group& group,
+                          const std::string& folder) {
+  const auto of_group = find_quantity(quantity)->of_group;
+  return is_mean_of_width(quantity) ? of_group(family, group)
+                                    : of_group(family, *GroupWithCurves(group, folder));
+}
+
 Measured measure_quantity(const std::string& quantity, double width, const Family& family,
                           const std::string& folder) {
   const NamedQuantity& named = *find_quantity(quantity);
   if (named.of_family != nullptr) return named.of_family(family);
   for (const Group& group : family.walled) {
-    if (group.job.box.width == width) {
-      return named.of_group(family, *GroupWithCurves(group, folder));
-    }
+    if (group.job.box.width == width) return measure_quantity(quantity, family, group, folder);
   }
   return {{},
           std::string("this family has no packings ") +
@@ -234,11 +244,12 @@ Shared share_quantity(const std::string& quantity, double width,
                       const std::vector<Family>& families, const std::string& folder) {
   constexpr std::size_t least_families = 3;
   std::vector<Estimate> values;
-  double weight = 0.0, sum = 0.0;
+  double weight = 0.0, sum = 0.0, bias_bound = 0.0;
   for (const Family& family : families) {
     const Measured one = measure_quantity(quantity, width, family, folder);
     if (!one.not_determined.empty()) continue;
     values.push_back(one.estimate);
+    bias_bound = std::max(bias_bound, one.bias_bound);
     weight += std::pow(one.estimate.error, -2);
     sum += one.estimate.value * std::pow(one.estimate.error, -2);
   }
@@ -253,6 +264,7 @@ Shared share_quantity(const std::string& quantity, double width,
                            static_cast<double>(values.size() - 1);
   }
   shared.measured.estimate = {sum / weight, std::sqrt(std::max(1.0, shared.chi2_per_dof) / weight)};
+  shared.measured.bias_bound = bias_bound;
   shared.measured.definition = "weighted mean of " + std::to_string(values.size()) +
                                " families, χ²/dof " + fixed(shared.chi2_per_dof, 1) +
                                " (about 1 if one value holds for all)";

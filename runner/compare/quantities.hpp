@@ -25,6 +25,9 @@ std::string fault_of_quantity(const std::string& quantity, double width);
 /// Whether its values are shares of a volume, 0 to 1.
 bool is_share(std::string_view quantity);
 
+/// Whether it is one value of a family, which belongs to no width.
+bool is_of_family(const std::string& quantity);
+
 /// Whether it is a mean over the packings of a width, which single packings have, too, without an
 /// error.
 bool is_mean_of_width(std::string_view quantity);
@@ -35,6 +38,10 @@ std::string title_of_quantity(const std::string& quantity, double width, const s
 
 /// `folder` holds the beds, as for GroupWithCurves.
 Measured measure_quantity(const std::string& quantity, double width, const Family& family,
+                          const std::string& folder = "");
+
+/// A quantity of a width, of a group of the family.
+Measured measure_quantity(const std::string& quantity, const Family& family, const Group& group,
                           const std::string& folder = "");
 
 /// The mean of a quantity over all families, weighted by their errors, with its error and, in the

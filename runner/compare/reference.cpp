@@ -68,6 +68,13 @@ std::optional<Published::Range> read_range(const Json& value, double error,
   return std::nullopt;
 }
 
+/// Without breaks of lines, which tables of figures cannot hold.
+std::string on_one_line(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c >= 0 && c < ' '; }, ' ');
+  return text;
+}
+
 std::string text_of(const Published& published) {
   if (published.formula) {
     const PublishedFormula& formula = *published.formula;
@@ -136,8 +143,11 @@ Published read_published(const Json& from, const std::string& pointer, Diagnosti
     diagnostics.push_back({pointer, "needs \"quantity\", its name"});
   } else if (from["quantity"].is_string() && from.contains("width") == width.has_value()) {
     constexpr double any_width = 1.0;
-    const std::string fault =
+    std::string fault =
         fault_of_quantity(published.quantity, is_formula ? any_width : published.width);
+    if (is_formula && is_of_family(published.quantity)) {
+      fault = published.quantity + " is one value of a family, not one of each width: give a value";
+    }
     if (!fault.empty()) diagnostics.push_back({child_pointer(pointer, "quantity"), fault});
   }
   if (from.contains("value")) {
@@ -152,8 +162,9 @@ Published read_published(const Json& from, const std::string& pointer, Diagnosti
   }
   if (published.formula) published.formula->error = error.value_or(0.0);
   if (published.formula) {
-    published.formula->name =
-        read_text(from, "text", pointer, published.formula->text, diagnostics);
+    PublishedFormula& formula = *published.formula;
+    formula.name = on_one_line(read_text(from, "text", pointer, formula.text, diagnostics));
+    if (formula.name.empty()) formula.name = formula.text;
     published.text = text_of(published);
   } else {
     published.text = read_text(from, "text", pointer, text_of(published), diagnostics);

@@ -164,7 +164,8 @@ Figure published_figure(const std::vector<Comparison>& comparisons) {
                 .title = "Beside published values",
                 .caption =
                     "Measured less published value, in standard errors of both, far from 0 on a "
-                    "logarithmic scale. Within the shaded band both agree. The table below has "
+                    "logarithmic scale. Within the shaded band both agree, beyond it also where "
+                    "they differ by no more than the bound of settling. The table below has "
                     "values and definitions."};
   std::vector<const Comparison*> measured = measured_of(comparisons);
   if (measured.empty()) {

@@ -19,50 +19,53 @@ namespace {
 const std::string points_table = "means.csv", residuals_table = "means-residuals.csv",
                   published_table = "means-published.csv";
 
-/// A published formula of what a panel shows, where it holds and the sweep has packings.
+/// A published formula of what a panel shows.
 struct PublishedCurve {
-  std::string name;
-  std::string formula;
-  Quantity quantity = Quantity::solid_fraction;
-  std::vector<std::pair<double, double>> points;  ///< 1 / W or 1 / D, and the value
+  std::string quantity;
+  PublishedFormula formula;
+  std::vector<double> widths;  ///< where it holds and packings are, d
 };
 
-std::optional<PublishedCurve> curve_of(const Comparison& comparison) {
-  constexpr int steps = 200;
-  const Published& published = comparison.published;
-  const bool is_porosity = published.quantity == "porosity", is_z = published.quantity == "Z";
-  if (comparison.along.empty() || !(is_porosity || is_z || published.quantity == "phi")) {
-    return std::nullopt;
-  }
-  PublishedCurve curve{published.formula->name,
-                       published.formula->text,
-                       is_z ? Quantity::coordination : Quantity::solid_fraction,
-                       {}};
-  const auto is_narrower = [](const AtWidth& a, const AtWidth& b) { return a.width < b.width; };
-  const auto [least, most] =
-      std::minmax_element(comparison.along.begin(), comparison.along.end(), is_narrower);
-  for (int k = 0; k <= steps; ++k) {
-    const double x = 1.0 / most->width + (1.0 / least->width - 1.0 / most->width) * k / steps;
-    const double value = value_of_formula(published.formula->text, 1.0 / x);
-    if (std::isfinite(value)) curve.points.emplace_back(x, is_porosity ? 1.0 - value : value);
-  }
-  return curve;
+bool is_drawn(const std::string& quantity) {
+  return quantity == "phi" || quantity == "porosity" || quantity == "Z";
 }
 
-/// Each formula once, whatever families it is set beside.
+/// Each formula once, over the widths of all families that it is set beside.
 std::vector<PublishedCurve> curves_of(const Axes& axes,
                                       const std::vector<Comparison>& comparisons) {
   std::vector<PublishedCurve> curves;
   for (const Comparison& one : comparisons) {
-    auto curve = is_over_width(axes) ? curve_of(one) : std::nullopt;
-    const bool is_known =
-        curve && std::any_of(curves.begin(), curves.end(), [&](const auto& known) {
-          return known.name == curve->name && known.formula == curve->formula &&
-                 known.quantity == curve->quantity;
-        });
-    if (curve && !is_known) curves.push_back(std::move(*curve));
+    if (!is_over_width(axes) || one.along.empty() || !is_drawn(one.published.quantity)) continue;
+    const PublishedFormula& formula = *one.published.formula;
+    auto curve = std::find_if(curves.begin(), curves.end(), [&](const PublishedCurve& known) {
+      return known.quantity == one.published.quantity && known.formula.text == formula.text &&
+             known.formula.name == formula.name;
+    });
+    if (curve == curves.end()) {
+      curve = curves.insert(curve, {one.published.quantity, formula, {}});
+    }
+    for (const AtWidth& at : one.along) curve->widths.push_back(at.width);
   }
   return curves;
+}
+
+Quantity panel_of(const PublishedCurve& curve) {
+  return curve.quantity == "Z" ? Quantity::coordination : Quantity::solid_fraction;
+}
+
+/// Places 1 / W or 1 / D, from the widest to the narrowest of its widths, and values there.
+std::vector<std::pair<double, double>> points_of(const PublishedCurve& curve) {
+  constexpr int steps = 200;
+  const auto [least, most] = std::minmax_element(curve.widths.begin(), curve.widths.end());
+  const double first = 1.0 / *most, last = 1.0 / *least;
+  std::vector<std::pair<double, double>> points;
+  for (int k = 0; k <= steps; ++k) {
+    const double x = first + (last - first) * k / steps;
+    const double value = value_of_formula(curve.formula.text, 1.0 / x);
+    if (std::isfinite(value))
+      points.emplace_back(x, curve.quantity == "porosity" ? 1.0 - value : value);
+  }
+  return points;
 }
 
 /// Greys and browns, apart from the colours of series; twelve of them.
@@ -75,8 +78,8 @@ std::string style_of_curve(std::size_t k) {
 std::string curves_csv(const std::vector<PublishedCurve>& curves) {
   std::string text = csv_line({"curve", "x", "value", "name"});
   for (std::size_t k = 0; k < curves.size(); ++k) {
-    for (const auto& [x, value] : curves[k].points) {
-      text += csv_line({cell(k + 1), cell(x), cell(value), cell(curves[k].name)});
+    for (const auto& [x, value] : points_of(curves[k])) {
+      text += csv_line({cell(k + 1), cell(x), cell(value), cell(curves[k].formula.name)});
     }
   }
   return text;
@@ -212,8 +215,8 @@ std::vector<double> heights_of(const Axes& axes, const std::vector<FittedSeries>
   // Of curves what is near the points: a formula may go anywhere where it does not hold.
   const Range near = range_of(heights, 0.5);
   for (const PublishedCurve& curve : curves) {
-    if (curve.quantity != quantity) continue;
-    for (const auto& [x, value] : curve.points) {
+    if (panel_of(curve) != quantity) continue;
+    for (const auto& [x, value] : points_of(curve)) {
       if (value >= near.low && value <= near.high) heights.push_back(value);
     }
   }
@@ -226,7 +229,7 @@ std::string mean_panel(const Axes& axes, const std::vector<FittedSeries>& all,
   const std::string column = is_phi ? "solid_fraction" : "coordination";
   std::vector<std::string> parts;
   for (std::size_t k = 0; k < curves.size(); ++k) {
-    if (curves[k].quantity != quantity) continue;
+    if (panel_of(curves[k]) != quantity) continue;
     parts.push_back(
         plot_part({published_table, "curve", k + 1, "x", "value", "", style_of_curve(k)}));
   }
@@ -280,7 +283,7 @@ std::string height_commands(const std::vector<double>& heights, Quantity quantit
 std::vector<KeyEntry> with_curves(std::vector<KeyEntry> entries,
                                   const std::vector<PublishedCurve>& curves) {
   for (std::size_t k = 0; k < curves.size(); ++k) {
-    entries.push_back({style_of_curve(k), curves[k].name});
+    entries.push_back({style_of_curve(k), curves[k].formula.name});
   }
   return entries;
 }

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <stdexcept>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -31,7 +32,7 @@ std::optional<Reference> reference_of(const Provenance& provenance,
   if (sweep_file.empty() || !file_exists(beside)) return std::nullopt;
   try {
     return read_reference(beside);
-  } catch (const BadInput& error) {
+  } catch (const std::runtime_error& error) {  // of what is in it, or of the file
     missing.push_back("report.html has no published values: " + std::string(error.what()));
     return std::nullopt;
   }

@@ -92,7 +92,7 @@ std::string measured_kinds() {
       " (two, one at least half as large as the other, distributions whose largest is at most 3 "
       "times the smallest, and lognormal ones with a sigma of at most 0.5) and, in boxes, of ",
       name_of(BedKind::pinacoids), "; in narrow ones, of ", name_of(BedKind::two_sizes),
-      ", (walls and ducts of at least 2 d, tubes of 3) and of such pinacoids (walls of at least 2 "
+      " (walls and ducts of at least 2 d, tubes of 3) and of such pinacoids (walls of at least 2 "
       "d, ducts of 2.5); all with a spread of at most 0.0333 and angles of 60 degrees");
 }
 

@@ -89,8 +89,8 @@ void note_told(std::vector<Group>& groups) {
   }
 }
 
-/// Whether the variance of a number goes as one over the volume of the slab: that of means over its
-/// grains does. Forces grow with the height of a bed, order comes with near walls.
+/// Whether variances are pooled. That of phi and Z goes as one over the volume of the slab; that of
+/// forces grows with the height of a bed, of order with the nearness of walls.
 bool is_pooled(const Field& field) {
   return field.name == "solid_fraction" || field.name.starts_with("coordination");
 }

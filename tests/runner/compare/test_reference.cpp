@@ -185,6 +185,8 @@ TEST_CASE("a formula stands in place of the values at single widths") {
   CHECK(open.formula->from == 0.0);
   CHECK(open.formula->to > 1e300);
   CHECK(open.formula->error == 0.0);
+  CHECK(read(R"("formula": "W", "text": "two\nlines")").formula->name == "two lines");
+  CHECK(read(R"("formula": "W", "text": "")").text == "W");
 }
 
 TEST_CASE("what cannot be said of a formula is told with its place") {
@@ -205,7 +207,9 @@ TEST_CASE("what cannot be said of a formula is told with its place") {
   CHECK(told(R"("quantity": "phi", "formula": "W", "from": 5, "to": 4)") ==
         Lines{at + "99" + value + "/from: must not be above \"to\", is 5"});
   CHECK(told(R"("quantity": "C", "formula": "W")") ==
-        Lines{at + "68" + value + "/quantity: C belongs to no \"width\""});
+        Lines{at + "68" + value +
+              "/quantity: C is one value of a family, not one of each width: give "
+              "a value"});
   CHECK(told_of(R"({"source": "S", "common": [{"quantity": "phi", "formula": "W"}]})") ==
         Lines{"r.json:1:48 /common/0/formula: formulas belong to \"families\"; { } as \"where\" "
               "means all of them"});
