@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iostream>
+#include <stdexcept>
 #include <utility>
 
 #include "runner/compare/reference.hpp"
@@ -25,27 +26,23 @@ SweepReading reading_or_refusal(const std::string& file, const SweepCheck& check
   throw BadInput(text + counted(reading.errors.size(), "error") + "; nothing was run");
 }
 
-}  // namespace
-
-Sweep sweep_or_refusal(const std::string& file) {
-  return std::move(reading_or_refusal(file, unreachable_wishes).sweep);
-}
-
-namespace {
-
 /// Published values beside a sweep are read once its packings are made, which may take a night.
 void note_on_reference(const std::string& file) {
   if (!file_exists(file)) return;
   try {
     read_reference(file);
-  } catch (const BadInput& error) {
-    std::cerr << "note: the page will have no published values: " << error.what() << "\n";
-  } catch (const FileError& error) {
+  } catch (const std::runtime_error& error) {  // of what is in it, or of the file
     std::cerr << "note: the page will have no published values: " << error.what() << "\n";
   }
 }
 
 }  // namespace
+
+Sweep sweep_or_refusal(const std::string& file) {
+  Sweep sweep = std::move(reading_or_refusal(file, unreachable_wishes).sweep);
+  note_on_reference(reference_beside(file));
+  return sweep;
+}
 
 Sweep sweep_with_notes(const std::string& file) {
   const auto check = [](const Sweep& sweep) {

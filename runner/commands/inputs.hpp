@@ -8,10 +8,12 @@
 
 namespace grainsweep {
 
-/// The sweep in `file`. Throws BadInput with every error in it.
+/// The sweep in `file`; prints a note on published values beside it that cannot be read. Throws
+/// BadInput with every error in it.
 Sweep sweep_or_refusal(const std::string& file);
 
-/// The same; prints notes on what is never used in it and on beds that will probably be too low.
+/// The same; also prints notes on what is never used in it and on beds that will probably be too
+/// low.
 Sweep sweep_with_notes(const std::string& file);
 
 /// What is stored in the output folder; prints warnings about packings of another version, and

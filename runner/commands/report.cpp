@@ -46,10 +46,9 @@ void add_command(CLI::App& app, ReportOptions& options) {
 int perform(const ReportOptions& options) {
   Results results = results_with_warnings(options.folder);
   if (is_unreadable(results)) {
-    std::cerr
-        << called_as() << ": " << options.folder
-        << ": none of its packings can be read, since they are damaged or of another version; "
-           "tables and page are left as they were\n";
+    std::cerr << called_as() << ": " << options.folder
+              << ": nothing stored there can be read, since it is damaged or of another version; "
+                 "tables and page are left as they were\n";
     return exit_file_system;
   }
   std::cerr << damage_warnings(check_beds(options.folder, results.rows));

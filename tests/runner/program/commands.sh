@@ -77,6 +77,13 @@ printf '{"source": "A paper", "families": [{"where": {}, "values": [{"quantity":
   >small.reference.json
 expect_code 0 "$program" compare out/small
 expect_text out.txt "A paper" "not determined: this family has no packings between walls at W = 99 d"
+printf '{"source": 1}' >small.reference.json
+for command in validate plan "run --out again --no-report"; do
+  # shellcheck disable=SC2086  # a command and its options
+  "$program" $command small.json >out.txt 2>error.txt || [ $? -eq 1 ]
+  expect_text error.txt "note: the page will have no published values: small.reference.json:1:1: needs"
+done
+rm -r small.reference.json again
 for reference in "$configs"/*.reference.json; do
   expect_code 0 "$program" compare out/small --with "$reference"
   expect_text out.txt "beside small. Lengths in d."
@@ -139,7 +146,7 @@ expect_text error.txt "warning: damaged/shards/1-of-1.jsonl:12: torn or damaged 
 rm -rf damaged && cp -r out/small damaged
 sed -i 's/"solid_fraction":/"solid_friction":/' damaged/shards/1-of-1.jsonl
 expect_code 4 "$program" report damaged
-expect_text error.txt "damaged: none of its packings can be read, since they are damaged or of another"
+expect_text error.txt "damaged: nothing stored there can be read, since it is damaged or of another"
 cmp damaged/packings.csv out/small/packings.csv || fail "tables that could not be made again are gone"
 
 # Units that are added later change no packing, and all that is printed.
