@@ -25,13 +25,6 @@ std::string definition_of(const Group& group, Quantity quantity) {
          fixed(mean_of(group, "contact_ratio").mean, 3);
 }
 
-double bias_bound_of(const Group& group, Quantity quantity) {
-  if (!group.bias_bound) return 0.0;
-  const double bound = quantity == Quantity::solid_fraction ? group.bias_bound->solid_fraction
-                                                            : group.bias_bound->coordination;
-  return std::isnan(bound) ? 0.0 : bound;
-}
-
 /// The mean of replicates.
 template <Quantity quantity>
 Measured mean_of(const Family& /*family*/, const Group& group) {
@@ -39,7 +32,7 @@ Measured mean_of(const Family& /*family*/, const Group& group) {
   return {{spread.mean, spread.error},
           why_no_error(spread),
           definition_of(group, quantity),
-          bias_bound_of(group, quantity)};
+          bias_bound(group, quantity).value_or(0.0)};
 }
 
 template <Quantity quantity>

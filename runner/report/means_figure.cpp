@@ -26,16 +26,13 @@ struct PublishedCurve {
   std::vector<double> widths;  ///< where it holds and packings are, d
 };
 
-bool is_drawn(const std::string& quantity) {
-  return quantity == "phi" || quantity == "porosity" || quantity == "Z";
-}
-
 /// Each formula once, over the widths of all families that it is set beside.
 std::vector<PublishedCurve> curves_of(const Axes& axes,
                                       const std::vector<Comparison>& comparisons) {
   std::vector<PublishedCurve> curves;
   for (const Comparison& one : comparisons) {
-    if (!is_over_width(axes) || one.along.empty() || !is_drawn(one.published.quantity)) continue;
+    if (!is_over_width(axes) || one.along.empty() || !is_mean_of_width(one.published.quantity))
+      continue;
     const PublishedFormula& formula = *one.published.formula;
     auto curve = std::find_if(curves.begin(), curves.end(), [&](const PublishedCurve& known) {
       return known.quantity == one.published.quantity && known.formula.text == formula.text &&

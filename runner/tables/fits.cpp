@@ -63,13 +63,6 @@ void take_line(const LineFit& line, WallFit& fit) {
   for (FitPoint& point : fit.points) point.fitted = line.intercept + line.slope / point.width;
 }
 
-std::optional<double> bias_bound(const Group& group, Quantity quantity) {
-  if (!group.bias_bound) return std::nullopt;
-  const double bound = quantity == Quantity::solid_fraction ? group.bias_bound->solid_fraction
-                                                            : group.bias_bound->coordination;
-  return std::isnan(bound) ? std::nullopt : std::optional(bound);
-}
-
 /// Groups of a family differ only in their width: narrow ones may have a larger bound than others.
 /// That of the worst holds for a straight line through their means; none if one has none.
 std::optional<double> bias_bound(const std::vector<const Group*>& groups, Quantity quantity) {
@@ -197,6 +190,13 @@ Columns<FitPointLine> fit_point_columns(const Varied& varied, const GivenUnits& 
 constexpr std::array fitted_quantities = {Quantity::solid_fraction, Quantity::coordination};
 
 }  // namespace
+
+std::optional<double> bias_bound(const Group& group, Quantity quantity) {
+  if (!group.bias_bound) return std::nullopt;
+  const double bound = quantity == Quantity::solid_fraction ? group.bias_bound->solid_fraction
+                                                            : group.bias_bound->coordination;
+  return std::isnan(bound) ? std::nullopt : std::optional(bound);
+}
 
 const Spread& spread_of(const Group& group, Quantity quantity) {
   return mean_of(group, name_of(quantity));

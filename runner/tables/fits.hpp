@@ -26,6 +26,9 @@ enum class Quantity { solid_fraction, coordination };
 /// The spread of `quantity` in a group.
 const Spread& spread_of(const Group& group, Quantity quantity);
 
+/// How far that mean lies at most from that of beds settled ever better; nothing if not measured.
+std::optional<double> bias_bound(const Group& group, Quantity quantity);
+
 /// A width of a fit: what was measured there and what the line says.
 struct FitPoint {
   const Group* group = nullptr;
