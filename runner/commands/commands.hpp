@@ -84,7 +84,8 @@ void add_command(CLI::App& app, ReportOptions& options);
 
 struct CompareOptions {
   std::string folder;
-  std::string with;  ///< file of published values; empty: the one beside the sweep file
+  std::string with;     ///< file of published values; empty: the one beside the sweep file
+  bool as_csv = false;  ///< as comparison.csv, not as a table for people
 };
 /// Prints stored results beside published values.
 int perform(const CompareOptions& options);

@@ -7,6 +7,7 @@
 #include "runner/commands/inputs.hpp"
 #include "runner/commands/shared_options.hpp"
 #include "runner/compare/comparison.hpp"
+#include "runner/compare/comparison_table.hpp"
 #include "runner/exit_codes.hpp"
 #include "runner/store/files.hpp"
 #include "runner/tables/families.hpp"
@@ -36,10 +37,14 @@ void add_command(CLI::App& app, CompareOptions& options) {
       .add_option("--with", options.with,
                   "published values, JSON (default: SWEEP.reference.json beside SWEEP.json)")
       ->type_name("FILE");
+  compare.add_flag("--csv", options.as_csv,
+                   "as CSV, a row for each value and each width of a formula; run and report write "
+                   "the same to comparison.csv");
   compare.footer(
       "Each row says what was measured and how, by how much it differs from the published value,\n"
       "and how many standard errors that is; \"not determined\" and why where the sweep does not\n"
       "tell.\n\nExample: grainsweep compare out/paper-spheres\n"
+      "Example: grainsweep compare out/paper-spheres --csv > comparison.csv\n"
       "Example: grainsweep compare out/quick --with configs/paper-spheres.reference.json");
 }
 
@@ -47,6 +52,11 @@ int perform(const CompareOptions& options) {
   Results results = results_with_warnings(options.folder);
   const Reference reference = read_reference(reference_file(options, results.provenance));
   std::cerr << damage_warnings(check_beds(options.folder, results.rows));
+  const Analysis analysis = analyse(results.rows, options.folder);
+  if (options.as_csv) {
+    std::cout << comparison_csv(compare_with(reference, analysis), results.provenance.units);
+    return exit_done;
+  }
   std::cout
       << reference.source + "\nbeside " + results.provenance.sweep_name +
              ". Lengths in d. Errors of means come from the variance of replicates pooled\n"
@@ -57,7 +67,7 @@ int perform(const CompareOptions& options) {
              " standard errors of both sides together (ours alone where\nthe source has none) and "
              "the "
              "bound of settling, where that was measured.\n" +
-             comparison_text(reference, analyse(results.rows, options.folder));
+             comparison_text(reference, analysis);
   return exit_done;
 }
 

@@ -10,6 +10,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "runner/compare/comparison_table.hpp"
 #include "runner/exit_codes.hpp"
 #include "runner/machine.hpp"
 #include "runner/store/checkpoints.hpp"
@@ -255,6 +256,7 @@ std::vector<ColumnText> all_columns(const std::vector<double>& tolerances, const
   for (const CurveTable& table : curve_tables(varied, units)) add(table.columns);
   add(fits_columns(units));
   add(fit_points_columns(varied, units));
+  add(comparison_columns(units));
   return all;
 }
 
@@ -288,7 +290,7 @@ std::string stored_packings(const std::string& folder) {
 void clean_up(const std::string& folder) {
   forget_claims(folder);
   for (const char* name : tables) remove_leftovers(folder, name);
-  remove_leftovers(folder, "report.html");
+  for (const char* name : {"report.html", "comparison.csv"}) remove_leftovers(folder, name);
   for (const char* ending : {".csv", ".gnuplot"}) remove_leftovers(folder + "/figures", ending);
   for (const char* slot : {".0", ".1"}) remove_leftovers(folder + "/checkpoints", slot);
 }

@@ -33,25 +33,26 @@ std::string signed_text(double difference) {
   return (rounded > 0.0 ? "+" : "") + fixed(rounded, 4);
 }
 
-std::string difference_text(const AtWidth& at, const std::string& symbol) {
-  return signed_text(at.difference) + " at " + symbol + " = " + cell(at.width) + " d";
+std::string difference_text(const Comparison& at, const std::string& symbol) {
+  return signed_text(*difference(at)) + " at " + symbol + " = " + cell(at.published.width) + " d";
 }
 
 /// How many widths agree with a formula, and how far they lie from it.
 std::string along_text(const Comparison& row) {
-  const std::vector<AtWidth>& along = row.along;
+  const std::vector<Comparison>& along = row.along;
   const auto with = [&](Agreement agreement) {
-    return static_cast<std::size_t>(std::count_if(
-        along.begin(), along.end(), [&](const AtWidth& at) { return at.agreement == agreement; }));
+    return static_cast<std::size_t>(
+        std::count_if(along.begin(), along.end(),
+                      [&](const Comparison& at) { return agreement_of(at) == agreement; }));
   };
   const std::size_t unknown = with(Agreement::unknown), by_bound = with(Agreement::within_bound);
   const std::size_t known = along.size() - unknown;
-  const auto is_less = [](const AtWidth& a, const AtWidth& b) {
-    return a.difference < b.difference;
+  const auto is_less = [](const Comparison& a, const Comparison& b) {
+    return *difference(a) < *difference(b);
   };
   const auto [least, most] = std::minmax_element(along.begin(), along.end(), is_less);
   double mean = 0.0;
-  for (const AtWidth& at : along) mean += at.difference / static_cast<double>(along.size());
+  for (const Comparison& at : along) mean += *difference(at) / static_cast<double>(along.size());
   std::string text = known == 0 ? "no error is known at any width"
                                 : joined("agrees at ", with(Agreement::agrees) + by_bound, " of ",
                                          counted(known, "width"));
@@ -134,6 +135,14 @@ std::optional<double> difference_in_errors(const Comparison& comparison) {
   return *miss / std::hypot(comparison.measured.estimate.error, comparison.published.range->error);
 }
 
+std::optional<double> relative_difference(const Comparison& comparison) {
+  const auto miss = difference(comparison);
+  if (!miss) return std::nullopt;
+  const Published::Range& range = *comparison.published.range;
+  return range.low == range.high && range.low != 0.0 ? std::optional(*miss / range.low)
+                                                     : std::nullopt;
+}
+
 Agreement agreement_of(const Comparison& comparison) {
   const auto miss = difference(comparison);
   if (!miss) return Agreement::unknown;
@@ -176,22 +185,23 @@ Comparison compare_with(const Published& value, const Family& family, const std:
 
 /// Sets a measured value beside that of a formula, which is nothing where it is no number, or no
 /// share of a volume although it ought to be one.
-void add_width(const Measured& measured, double width, Comparison& row) {
+void add_width(Measured measured, double width, Comparison& row) {
   const PublishedFormula& formula = *row.published.formula;
   const double published = value_of_formula(formula.text, width);
   const bool is_possible = std::isfinite(published) && (!is_share(row.published.quantity) ||
                                                         (published >= 0.0 && published <= 1.0));
   const bool is_mean = measured.not_determined.empty() || is_mean_of_width(row.published.quantity);
-  const double difference = measured.estimate.value - published;
-  if (!is_possible || !is_mean || !std::isfinite(difference)) {
+  if (!is_possible || !is_mean || !std::isfinite(measured.estimate.value)) {
     ++row.without_value;
     return;
   }
-  Comparison at;
-  at.measured = measured;
-  at.published.range = {published, published, formula.error};
-  row.along.push_back({width, difference, agreement_of(at)});
   row.measured = measured;
+  measured.not_determined.clear();  // of a single packing, which has a value without an error
+  Comparison at{row.family, row.title, row.published, std::move(measured), {}, {}, 0};
+  at.published.width = width;
+  at.published.range = {published, published,
+                        std::max(formula.error, formula.relative_error * std::abs(published))};
+  row.along.push_back(std::move(at));
 }
 
 /// The measured values of a family beside a formula, at every width where it holds.

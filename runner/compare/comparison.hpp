@@ -18,13 +18,6 @@ inline constexpr double agreement_limit = 3.0;
 /// the bound of what settling does to the measured one.
 enum class Agreement { unknown, agrees, within_bound, differs };
 
-/// A measured value beside that of a published formula.
-struct AtWidth {
-  double width = 0.0;       ///< d
-  double difference = 0.0;  ///< measured less published
-  Agreement agreement = Agreement::unknown;
-};
-
 struct Comparison {
   std::string family;
   std::string title;  ///< "Z at W = 10 d"
@@ -32,8 +25,9 @@ struct Comparison {
   Measured measured;
   /// For a value that is said to hold for all families: chi2 per degree of freedom of theirs.
   std::optional<double> chi2_per_dof;
-  /// Of a formula: at the widths of the family where it holds and both values are known.
-  std::vector<AtWidth> along;
+  /// Of a formula: each width of the family where it holds and both values are known, with the
+  /// formula's value there.
+  std::vector<Comparison> along;
   std::size_t without_value = 0;  ///< how many more there are where one of them is not
 };
 
@@ -43,6 +37,9 @@ std::optional<double> difference(const Comparison& comparison);
 
 /// The same divided by the standard errors of both, added in quadrature.
 std::optional<double> difference_in_errors(const Comparison& comparison);
+
+/// The same divided by the published value; nothing for a range, and for 0.
+std::optional<double> relative_difference(const Comparison& comparison);
 
 /// Unknown where one side is missing or has no error.
 Agreement agreement_of(const Comparison& comparison);

@@ -1,6 +1,7 @@
 #include "runner/compare/reference.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include <nlohmann/json.hpp>
@@ -52,7 +53,27 @@ std::string read_text(const Json& object, const char* key, const std::string& po
   return otherwise;
 }
 
-std::optional<Published::Range> read_range(const Json& value, double error,
+/// The standard error of a published value, or that over the value; both 0 if there is none.
+struct PublishedError {
+  double own = 0.0, relative = 0.0;
+};
+
+PublishedError read_error(const Json& from, const std::string& pointer, Diagnostics& diagnostics) {
+  const auto own = read_number(from, "error", pointer, diagnostics);
+  const auto relative = read_number(from, "relative_error", pointer, diagnostics);
+  if (own && relative) {
+    diagnostics.push_back({child_pointer(pointer, "relative_error"),
+                           "\"error\" is given, too; keep one of them", Anchor::key});
+  }
+  if (relative && *relative >= 1.0) {
+    diagnostics.push_back({child_pointer(pointer, "relative_error"),
+                           "must be a share of the value, below 1 (0.05 for 5 %), is " +
+                               describe(from["relative_error"])});
+  }
+  return {own.value_or(0.0), relative.value_or(0.0)};
+}
+
+std::optional<Published::Range> read_range(const Json& value, const PublishedError& error,
                                            const std::string& pointer, Diagnostics& diagnostics) {
   const auto is_number = [](const Json& one) { return one.is_number(); };
   const bool is_range = value.is_array() && value.size() == 2;
@@ -62,7 +83,8 @@ std::optional<Published::Range> read_range(const Json& value, double error,
                       (value.is_array() ? shortened(value.dump()) : describe(value))});
     return std::nullopt;
   }
-  const Published::Range range{is_range ? value[0] : value, is_range ? value[1] : value, error};
+  Published::Range range{is_range ? value[0] : value, is_range ? value[1] : value, error.own};
+  if (error.relative > 0.0) range.error = error.relative * std::abs(range.low + range.high) / 2.0;
   if (range.low <= range.high) return range;
   diagnostics.push_back({pointer, "a range must be [low, high], is " + value.dump()});
   return std::nullopt;
@@ -78,8 +100,12 @@ std::string on_one_line(std::string text) {
 std::string text_of(const Published& published) {
   if (published.formula) {
     const PublishedFormula& formula = *published.formula;
-    return (formula.name == formula.text ? "" : formula.name + ": ") + formula.text +
-           (formula.error > 0.0 ? " ± " + cell(formula.error) : "");
+    const std::string text =
+        (formula.name == formula.text ? "" : formula.name + ": ") + formula.text;
+    if (formula.error > 0.0) return text + " ± " + cell(formula.error);
+    return text + (formula.relative_error > 0.0
+                       ? " ± " + cell(100.0 * formula.relative_error) + " %"
+                       : "");
   }
   const auto& range = published.range;
   if (!range) return "-";
@@ -128,16 +154,16 @@ std::optional<PublishedFormula> read_formula(const Json& from, const std::string
 Published read_published(const Json& from, const std::string& pointer, Diagnostics& diagnostics) {
   Published published;
   if (!is_object(from, pointer, diagnostics)) return published;
-  refuse_unknown_keys(
-      from, pointer,
-      {"quantity", "width", "value", "formula", "from", "to", "error", "text", "definition"},
-      diagnostics);
+  refuse_unknown_keys(from, pointer,
+                      {"quantity", "width", "value", "formula", "from", "to", "error",
+                       "relative_error", "text", "definition"},
+                      diagnostics);
   published.quantity = read_text(from, "quantity", pointer, "", diagnostics);
   published.definition = read_text(from, "definition", pointer, "", diagnostics);
   published.formula = read_formula(from, pointer, diagnostics);
   const bool is_formula = from.contains("formula");
   const auto width = read_number(from, "width", pointer, diagnostics);
-  const auto error = read_number(from, "error", pointer, diagnostics);
+  const PublishedError error = read_error(from, pointer, diagnostics);
   published.width = width.value_or(0.0);
   if (!from.contains("quantity")) {
     diagnostics.push_back({pointer, "needs \"quantity\", its name"});
@@ -151,8 +177,8 @@ Published read_published(const Json& from, const std::string& pointer, Diagnosti
     if (!fault.empty()) diagnostics.push_back({child_pointer(pointer, "quantity"), fault});
   }
   if (from.contains("value")) {
-    published.range = read_range(from["value"], error.value_or(0.0),
-                                 child_pointer(pointer, "value"), diagnostics);
+    published.range =
+        read_range(from["value"], error, child_pointer(pointer, "value"), diagnostics);
   }
   const auto& range = published.range;
   if (range && is_share(published.quantity) && !(range->low >= 0.0 && range->high <= 1.0)) {
@@ -160,9 +186,10 @@ Published read_published(const Json& from, const std::string& pointer, Diagnosti
                            "a share of the volume lies in [0, 1]; divide percentages by 100, is " +
                                text_of(published)});
   }
-  if (published.formula) published.formula->error = error.value_or(0.0);
   if (published.formula) {
     PublishedFormula& formula = *published.formula;
+    formula.error = error.own;
+    formula.relative_error = error.relative;
     formula.name = on_one_line(read_text(from, "text", pointer, formula.text, diagnostics));
     if (formula.name.empty()) formula.name = formula.text;
     published.text = text_of(published);

@@ -16,7 +16,8 @@ struct PublishedFormula {
   std::string text;  ///< without fault (runner/compare/formula.hpp)
   std::string name;  ///< for keys of figures: what the file has as its text, or the formula
   double from = 0.0, to = std::numeric_limits<double>::infinity();  ///< where it holds, d
-  double error = 0.0;  ///< standard error of its values, 0 if there is none
+  double error = 0.0;           ///< standard error of its values, 0 if there is none
+  double relative_error = 0.0;  ///< or that of each over the value
 };
 
 /// One published value, in d where it is a length; for some quantities a source has only words.

@@ -34,7 +34,7 @@ double lines_of(std::size_t entries, std::size_t columns) {
 
 }  // namespace
 
-std::string quoted(const std::string& text) {
+std::string gnuplot_text(const std::string& text) {
   std::string inside;
   for (const char c : text) {
     inside += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
@@ -46,7 +46,7 @@ std::string quoted(const std::string& text) {
 std::string quoted_tic(const std::string& text) {
   std::string format;
   for (const char c : text) format += c == '%' ? "%%" : std::string(1, c);
-  return quoted(format);
+  return gnuplot_text(format);
 }
 
 Panels::Panels(const Figure& figure, std::size_t columns, std::vector<double> heights,
@@ -82,7 +82,8 @@ std::string Panels::key() const {
   for (const KeyEntry& entry : key_) titles.push_back(entry.title);
   titles = told_apart(titles, longest_entry);
   for (std::size_t k = 0; k < key_.size(); ++k) {
-    plots += (k == 0 ? "" : ", ") + ("NaN with " + key_[k].style + " title ") + quoted(titles[k]);
+    plots +=
+        (k == 0 ? "" : ", ") + ("NaN with " + key_[k].style + " title ") + gnuplot_text(titles[k]);
   }
   return "set lmargin at screen 0.02\nset rmargin at screen 0.98\nset tmargin at screen " +
          cell(1.0 - 6.0 / height_) + "\nset bmargin at screen " +
@@ -127,11 +128,11 @@ std::string drawing_commands(const Figure& figure, const Characters& in_png) {
   const std::string twice = cell(2 * figure.width) + "," + cell(2 * figure.height);
   const auto draw = [&](const std::string& terminal, const std::string& ending,
                         const std::string& commands) {
-    return "reset session\n" + terminal + "\nset output " + quoted(figure.name + ending) + "\n" +
-           figure_style() + commands + "unset multiplot\nunset output\n";
+    return "reset session\n" + terminal + "\nset output " + gnuplot_text(figure.name + ending) +
+           "\n" + figure_style() + commands + "unset multiplot\nunset output\n";
   };
   return draw("set terminal svg size " + size + " font 'sans-serif,13' background 'white' name " +
-                  quoted(figure.name),
+                  gnuplot_text(figure.name),
               ".svg", figure.commands) +
          draw("set terminal pngcairo size " + twice +
                   " font 'sans-serif,13' fontscale 1.5 linewidth 2 pointscale 2 background 'white'",

@@ -35,7 +35,7 @@ inline constexpr std::size_t most_series = 12;
 int mark_of(std::size_t k);
 
 /// A string as gnuplot takes it, without line breaks.
-std::string quoted(const std::string& text);
+std::string gnuplot_text(const std::string& text);
 
 /// The same for the label of a tic, which gnuplot takes for a format: "20 %" would lose its sign.
 std::string quoted_tic(const std::string& text);

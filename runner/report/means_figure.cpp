@@ -41,7 +41,7 @@ std::vector<PublishedCurve> curves_of(const Axes& axes,
     if (curve == curves.end()) {
       curve = curves.insert(curve, {one.published.quantity, formula, {}});
     }
-    for (const AtWidth& at : one.along) curve->widths.push_back(at.width);
+    for (const Comparison& at : one.along) curve->widths.push_back(at.published.width);
   }
   return curves;
 }
@@ -192,11 +192,11 @@ std::string abscissa_commands(const Axes& axes, bool is_lowest, bool is_highest)
     const double half = character * (static_cast<double>(told.size()) + 1.0) / 2.0;
     if (1.0 / width - half < free_from) continue;
     free_from = 1.0 / width + half;
-    tics += (tics.empty() ? "" : ", ") + quoted(told) + " " + cell(1.0 / width);
+    tics += (tics.empty() ? "" : ", ") + gnuplot_text(told) + " " + cell(1.0 / width);
   }
   text += "set link x2\nset x2tics (" + tics + ") scale 0.6 out\n";
   const std::string unit = axes.units ? printed_unit(*axes.units) : "d";
-  return text + "set x2label " + quoted(width_symbol(axes) + " / " + unit) +
+  return text + "set x2label " + gnuplot_text(width_symbol(axes) + " / " + unit) +
          " offset 0,-0.6 noenhanced\n";
 }
 

@@ -122,12 +122,14 @@ std::vector<KeyEntry> key_with_others(const Axes& axes) {
 }
 
 std::string plot_part(const Curve2d& curve) {
-  const auto column = [](const std::string& name) { return "(column(" + quoted(name) + "))"; };
+  const auto column = [](const std::string& name) {
+    return "(column(" + gnuplot_text(name) + "))";
+  };
   const std::string selected = curve.number == 0
-                                   ? "strcol(" + quoted(curve.selector) + ") eq ''"
+                                   ? "strcol(" + gnuplot_text(curve.selector) + ") eq ''"
                                    : column(curve.selector) + "==" + cell(curve.number);
-  const std::string points = quoted(curve.table) + " using (" + selected + " ? " + column(curve.x) +
-                             " : NaN):(strcol(" + quoted(curve.y) +
+  const std::string points = gnuplot_text(curve.table) + " using (" + selected + " ? " +
+                             column(curve.x) + " : NaN):(strcol(" + gnuplot_text(curve.y) +
                              ") eq '' ? NaN : " + column(curve.y) +
                              ")";  // a line ends where there is no value
   std::string plain = points + " with " + curve.style + " notitle";
@@ -144,13 +146,13 @@ std::string plot_command(const std::vector<std::string>& parts) {
 
 std::string label_command(const std::string& axis, const std::string& text) {
   return text.empty() ? "unset " + axis + "label\n"
-                      : "set " + axis + "label " + quoted(text) + " noenhanced\n";
+                      : "set " + axis + "label " + gnuplot_text(text) + " noenhanced\n";
 }
 
 std::string written_in_panel(const std::string& text) {
   const std::string label = "label 1";
   if (text.empty()) return "unset " + label + "\n";
-  return "set " + label + " " + quoted(text) + " at graph 0.5,0.5 center noenhanced\n";
+  return "set " + label + " " + gnuplot_text(text) + " at graph 0.5,0.5 center noenhanced\n";
 }
 
 /// Tics, few enough for a narrow panel from 0 to `end`.
@@ -170,7 +172,7 @@ std::string panels_across(const Panels& panels, std::size_t k, const std::string
   const double end = box.is_tube ? box.width / 2.0 : box.width;
   return panels.place(k, 0) + range_command("x", {0.0, end}) + step_tics_command("x", end) +
          "set format x ''\n" + label_command("x", "") +
-         label_command("y", k == 0 ? "solid fraction φ" : "") + "set title " + quoted(title) +
+         label_command("y", k == 0 ? "solid fraction φ" : "") + "set title " + gnuplot_text(title) +
          " offset 0,-0.7 font ',11' noenhanced\n" + solid + "unset title\n" + panels.place(k, 1) +
          "set format x\n" +
          label_command("x", box.is_tube                   ? "distance from the wall / d"

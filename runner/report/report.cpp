@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "runner/compare/comparison.hpp"
+#include "runner/compare/comparison_table.hpp"
 #include "runner/exit_codes.hpp"
 #include "runner/report/bed_view.hpp"
 #include "runner/report/figures.hpp"
@@ -93,6 +94,8 @@ std::string beds_of(const std::string& folder, const GivenUnits& units,
   return view.beds.empty() ? "" : bed_section(view);
 }
 
+std::string comparison_path(const std::string& folder) { return folder + "/comparison.csv"; }
+
 std::string figures_folder(const std::string& folder) { return folder + "/figures"; }
 
 void remove_drawn(const std::string& folder) {
@@ -125,6 +128,11 @@ std::vector<std::string> write_report(const std::string& folder, const Provenanc
   const auto reference = reference_of(provenance, missing);
   const std::vector<Comparison> comparisons =
       reference ? compare_with(*reference, analysis) : std::vector<Comparison>();
+  if (reference) {
+    replace_file(comparison_path(folder), comparison_csv(comparisons, provenance.units));
+  } else {
+    remove_file(comparison_path(folder));
+  }
   PageParts parts;
   parts.title = provenance.sweep_name;
   if (extent == PageExtent::whole) {
@@ -149,6 +157,7 @@ std::vector<std::string> write_report(const std::string& folder, const Provenanc
 
 void remove_report(const std::string& folder) {
   remove_file(folder + "/report.html");
+  remove_file(comparison_path(folder));
   remove_drawn(folder);
 }
 

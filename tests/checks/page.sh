@@ -68,6 +68,14 @@ has_figures pinacoids means profiles contacts heights distributions effort
 has_figures mixture means profiles components contacts heights distributions effort
 has_figures failed effort
 [ -s widths/figures/means-residuals.csv ]
+cmp widths/comparison.csv <("$grainsweep" compare widths --csv) || fail "compare and report differ"
+[ "$(wc -l <widths/comparison.csv)" -eq 5 ] || fail "comparison.csv has not 4 rows"
+[ ! -e sizes/comparison.csv ] || fail "without published values there is a comparison.csv"
+mv widths.reference.json aside.json
+"$grainsweep" report widths >/dev/null
+[ ! -e widths/comparison.csv ] || fail "comparison.csv outlives the published values"
+mv aside.json widths.reference.json
+"$grainsweep" report widths >/dev/null
 /usr/bin/python3 - widths <<'EOF'
 import csv, json, pathlib, sys
 folder = pathlib.Path(sys.argv[1])

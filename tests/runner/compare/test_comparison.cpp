@@ -42,6 +42,16 @@ TEST_CASE("a difference is counted from the nearer end of the published range") 
   CHECK_FALSE(difference({}));
 }
 
+TEST_CASE("a difference is relative to a single published value other than 0") {
+  Comparison row = comparison_of({4, 4, 0}, {3, 0.25});
+  CHECK(relative_difference(row) == -0.25);
+  row.published.range = Published::Range{3, 4, 0};
+  CHECK_FALSE(relative_difference(row));
+  row.published.range = Published::Range{0, 0, 0};
+  CHECK_FALSE(relative_difference(row));
+  CHECK_FALSE(relative_difference({}));
+}
+
 TEST_CASE("published errors and ours are added in quadrature, for the verdict, too") {
   const Comparison row = comparison_of({6, 6, 0.3}, {6.5, 0.4});
   CHECK(*difference_in_errors(row) == Approx(1.0));
@@ -139,9 +149,9 @@ TEST_CASE("a formula is set beside every width where it holds") {
   REQUIRE(rows.size() == 1);
   CHECK(rows[0].title == "φ");
   REQUIRE(rows[0].along.size() == 2);
-  CHECK(rows[0].along[0].width == 5);
-  CHECK(rows[0].along[1].width == 10);
-  for (const AtWidth& at : rows[0].along) CHECK(at.difference == Approx(0.01));
+  CHECK(rows[0].along[0].published.width == 5);
+  CHECK(rows[0].along[1].published.width == 10);
+  for (const Comparison& at : rows[0].along) CHECK(*difference(at) == Approx(0.01));
 }
 
 /// Of packings whose means have no bound of their bias.

@@ -32,6 +32,9 @@ TEST_CASE("values, ranges, errors and words are read and printed as they were pu
   CHECK(z.range->error == 0.012);
   CHECK(z.text == "6.027 ± 0.012");
   CHECK(value_of(R"("quantity": "Z_unconfined", "value": 6, "error": 0)").text == "6");
+  const Published relative =
+      value_of(R"("quantity": "Z_unconfined", "value": [4, 6], "relative_error": 0.02)");
+  CHECK(relative.range->error == 0.1);
   const Published reach =
       value_of(R"("quantity": "reach", "width": 10, "value": [3, 4], "definition": "by eye")");
   CHECK(reach.range->low == 3);
@@ -185,8 +188,24 @@ TEST_CASE("a formula stands in place of the values at single widths") {
   CHECK(open.formula->from == 0.0);
   CHECK(open.formula->to > 1e300);
   CHECK(open.formula->error == 0.0);
+  const Published relative = read(R"("formula": "1/W", "relative_error": 0.05)");
+  CHECK(relative.text == "1/W ± 5 %");
+  CHECK(relative.formula->relative_error == 0.05);
+  CHECK(relative.formula->error == 0.0);
   CHECK(read(R"("formula": "W", "text": "two\nlines")").formula->name == "two lines");
   CHECK(read(R"("formula": "W", "text": "")").text == "W");
+}
+
+TEST_CASE("an error is given as itself or as a share of the value, not as both") {
+  const std::string at = "r.json:1:", place = " /common/0/relative_error";
+  const auto told = [](const std::string& members) {
+    return told_of(R"({"source": "S", "common": [{"quantity": "C", "value": 1, )" + members +
+                   "}]}");
+  };
+  CHECK(told(R"("error": 0.1, "relative_error": 0.1)") ==
+        Lines{at + "72" + place + ": \"error\" is given, too; keep one of them"});
+  CHECK(told(R"("relative_error": 5)") ==
+        Lines{at + "76" + place + ": must be a share of the value, below 1 (0.05 for 5 %), is 5"});
 }
 
 TEST_CASE("what cannot be said of a formula is told with its place") {

@@ -45,7 +45,7 @@ const Figure& figure_called(const std::vector<Figure>& figures, const std::strin
 }  // namespace
 
 TEST_CASE("text in a figure's commands cannot end its quotes or the line", "[report]") {
-  CHECK(quoted("a'b`c`\n\"$(d)") == "'a''b`c` \"$(d)'");
+  CHECK(gnuplot_text("a'b`c`\n\"$(d)") == "'a''b`c` \"$(d)'");
 }
 
 TEST_CASE("keys have the columns that gnuplot finds room for, whatever the characters",
