@@ -6,6 +6,7 @@
 
 #include "runner/sweep/mixture_components.hpp"
 #include "runner/sweep/shape_kind.hpp"
+#include "runner/sweep/size_formulas.hpp"
 #include "runner/sweep/suggest.hpp"
 #include "runner/sweep/values.hpp"
 
@@ -157,9 +158,8 @@ void read_usual_part(const std::string& group, const std::string& pointer,
 void read_empty_group(const std::string& group, const std::string& pointer,
                       Assignments& assignments, Diagnostics& diagnostics) {
   const std::size_t shape = parameter_with(Role::shape);
-  const bool is_curve =
-      group.starts_with("sizes.distribution.") && group != "sizes.distribution.table";
-  if (is_curve) return read_usual_part(group, pointer, assignments);
+  const SizeFormulaKind* kind = size_formula_kind_of(group);
+  if (kind != nullptr && kind->usual) return read_usual_part(group, pointer, assignments);
   if (const std::string name = usual_shape_of(group); !name.empty()) {
     read_parameter(shape, name, pointer, assignments, diagnostics);
   } else if (group == "shape.hull") {
@@ -284,8 +284,8 @@ std::string described_already(Choice choice, const std::string& pointer) {
            "; keep one: a preset, or what is asked for, solid_fraction and coordination";
   }
   return "the sizes are already described at " + pointer +
-         "; keep one: two classes, or one distribution, lognormal, uniform, weibull, or table by "
-         "lists or file";
+         "; keep one: two classes, or one distribution, " + size_formula_names(", ", ", or ") +
+         " by lists or file";
 }
 
 void refuse_double_assignments(const Assignments& assignments, Diagnostics& diagnostics) {

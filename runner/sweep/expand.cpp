@@ -20,6 +20,7 @@
 #include "runner/sweep/mixture_components.hpp"
 #include "runner/sweep/parameter_row.hpp"
 #include "runner/sweep/point_problems.hpp"
+#include "runner/sweep/size_formulas.hpp"
 #include "runner/sweep/sizes_csv.hpp"
 #include "runner/sweep/stl.hpp"
 #include "runner/sweep/text_lines.hpp"
@@ -410,9 +411,8 @@ class Expansion {
     if (!resolved.has_size_formula) {
       for (const Assignment* part : in_effect) {
         if (part == nullptr || parameters()[part->parameter].role != Role::distribution) continue;
-        note_stray(part,
-                   "belongs to a distribution of sizes, and none is set: write lognormal, uniform, "
-                   "weibull or table");
+        note_stray(part, "belongs to a distribution of sizes, and none is set: write " +
+                             size_formula_names(", ", " or "));
       }
       return distribution.reset();
     }
@@ -520,7 +520,7 @@ class Expansion {
   }
 
   /// Notes a part, if it is set, of something that is not.
-  void note_stray(const Assignment* part, const char* message) {
+  void note_stray(const Assignment* part, const std::string& message) {
     if (part != nullptr && is_whole_) note(*part, message);
   }
 

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "runner/sweep/parameter_row.hpp"
+#include "runner/sweep/size_formulas.hpp"
 
 namespace grainsweep {
 namespace {
@@ -12,26 +13,17 @@ void add_new(const std::string& word, std::vector<std::string>& words) {
   if (std::find(words.begin(), words.end(), word) == words.end()) words.push_back(word);
 }
 
-/// The formula of a distribution that such a parameter is a part of.
-std::optional<SizeFormula> usual_formula(Role role) {
-  switch (role) {
-    case Role::lognormal:
-    case Role::distribution:
-      return LognormalSizes{};
-    case Role::uniform:
-      return UniformSizes{};
-    case Role::weibull:
-      return WeibullSizes{};
-    default:
-      return std::nullopt;
-  }
+/// The formula of a distribution that such a parameter is a part of; of a part of any the first.
+std::optional<SizeFormula> usual_formula(const Parameter& parameter) {
+  const SizeFormulaKind* kind = size_formula_kind_of(parameter.path);
+  if (kind == nullptr && parameter.role == Role::distribution) kind = &size_formula_kinds().front();
+  return kind == nullptr ? std::nullopt : kind->usual;
 }
 
 /// Why cutting a curve that has ends of its own removes nothing; "" if it does.
 std::string cut_reason(bool is_smallest, const std::optional<SizeDistribution>& distribution) {
   const bool has_ends =
-      distribution && (std::holds_alternative<SizeTable>(distribution->formula) ||
-                       std::holds_alternative<UniformSizes>(distribution->formula));
+      distribution && size_formula_kinds()[distribution->formula.index()].has_ends;
   if (!has_ends || !fault_of(*distribution).empty()) return "";
   const std::vector<double> whole =
       curve_of({distribution->formula, distribution->by, {}, {}}).diameters;
@@ -72,7 +64,10 @@ Choice choice_of(const Parameter& parameter) {
 
 bool are_alternatives(const Parameter& a, const Parameter& b) {
   const Choice choice = choice_of(a);
-  if (choice != choice_of(b) || a.role == b.role) return false;
+  if (choice != choice_of(b)) return false;
+  const SizeFormulaKind *of_a = size_formula_kind_of(a.path), *of_b = size_formula_kind_of(b.path);
+  if (of_a != nullptr && of_b != nullptr && of_a != of_b) return true;
+  if (a.role == b.role) return false;
   if (choice == Choice::container || choice == Choice::accuracy) return true;
   const bool is_part = a.role == Role::distribution || b.role == Role::distribution;
   const bool is_class = a.role == Role::size_class || b.role == Role::size_class;
@@ -90,7 +85,7 @@ std::optional<Value> default_of(const Parameter& parameter) {
   if (parameter.role == Role::shape_part) resolved.spec.shape = shape_with_part(parameter.path);
   if (parameter.role == Role::mixture_by) resolved.spec.shape = Mixture{};
   if (parameter.role == Role::tube) return std::nullopt;
-  if (auto formula = usual_formula(parameter.role)) {
+  if (auto formula = usual_formula(parameter)) {
     resolved.spec.sizes.distribution = SizeDistribution{*formula};
   }
   return parameter.get(resolved);
@@ -122,13 +117,10 @@ std::string meaning_of_group(std::string_view path) {
       {"fill", "how many grains, in one of three ways: solid_height, grains or file"},
       {"sizes", "sizes of the grains: one class or two, each Gaussian, or a distribution"},
       {"sizes.distribution", "a curve that the diameters of the grains are drawn from"},
-      {"sizes.distribution.lognormal", "the logarithm of the diameter is Gaussian"},
-      {"sizes.distribution.uniform", "as likely everywhere between two diameters"},
-      {"sizes.distribution.weibull", "by volume Rosin-Rammler's curve of ground matter"},
-      {"sizes.distribution.table", "a sieve curve, or the shares of single diameters"},
       {"accuracy",
        "how exactly a bed is settled: a preset's name, or parts that override it, or asked for"},
       {"measure", "what is measured, and where"}};
+  if (const SizeFormulaKind* kind = size_formula_kind_of(path)) return std::string(kind->meaning);
   return meanings.at(path);
 }
 

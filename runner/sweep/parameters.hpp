@@ -54,12 +54,10 @@ enum class Role {
   fill_file,   ///< another way
   fill_files,  ///< another
   fill_diameter,
-  size_class,  ///< a part of classes of sizes
-  lognormal,   ///< a part of a distribution of this kind, in their place; and so on
-  uniform,
-  weibull,
-  size_table,
-  size_file,
+  size_class,    ///< a part of classes of sizes
+  size_formula,  ///< a part of a kind of distribution (size_formulas.hpp), in their place
+  size_table,    ///< a list of such a part
+  size_file,     ///< the file in its place
   distribution,  ///< a part of any distribution
 };
 

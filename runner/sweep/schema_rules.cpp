@@ -6,6 +6,7 @@
 #include "runner/sweep/asked_accuracy.hpp"
 #include "runner/sweep/parameters.hpp"
 #include "runner/sweep/schema_words.hpp"
+#include "runner/sweep/size_formulas.hpp"
 
 namespace grainsweep {
 namespace {
@@ -19,7 +20,7 @@ Json has_key(const std::string& pattern) {
 
 /// That a layer gives the formula of its distribution of sizes, or a part of one, in any spelling.
 Json has_size_formula() {
-  const std::string formula = "(lognormal|uniform|weibull|table)(\\.|$)";
+  const std::string formula = "(" + size_formula_names("|", "|") + ")(\\.|$)";
   const Json inside = has_key("^" + formula);
   const Json in_sizes = {
       {"anyOf", {has_key("^distribution\\." + formula), with("distribution", inside)}}};
@@ -43,9 +44,11 @@ std::vector<std::pair<std::string, std::string>> alternative_sizes() {
   for (const char* const part : {"sizes.spread", "sizes.small_share", "sizes.size_ratio"}) {
     pairs.emplace_back(all, part);
   }
-  const std::vector<std::string> formulas = {".lognormal", ".uniform", ".weibull", ".table"};
-  for (std::size_t i = 0; i < formulas.size(); ++i) {
-    for (std::size_t j = 0; j < i; ++j) pairs.emplace_back(all + formulas[j], all + formulas[i]);
+  const auto path_of = [&](std::size_t kind) {
+    return all + "." + std::string(size_formula_kinds()[kind].name);
+  };
+  for (std::size_t i = 0; i < size_formula_kinds().size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) pairs.emplace_back(path_of(j), path_of(i));
   }
   for (const char* const part : {"diameters", "passing", "shares"}) {
     pairs.emplace_back(table + "file", table + part);

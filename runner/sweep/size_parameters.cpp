@@ -40,9 +40,9 @@ const Formula* formula_of(const ResolvedSpec& resolved) {
 /// A number of a formula, written in the unit of the distribution and kept in it until all is
 /// known.
 template <class Formula, double Formula::*member>
-Parameter of_formula(const char* path, const Interval& range, const char* meaning, Role role) {
+Parameter of_formula(const char* path, const Interval& range, const char* meaning) {
   return own(
-      path, range, meaning, ValueKind::number, role,
+      path, range, meaning, ValueKind::number, Role::size_formula,
       [](ResolvedSpec& resolved, const Value& value) {
         formula_of<Formula>(resolved).*member = std::get<double>(value);
       },
@@ -121,21 +121,17 @@ std::vector<Parameter> formula_parameters() {
   using L = LognormalSizes;
   using U = UniformSizes;
   using W = WeibullSizes;
-  const Role lognormal = Role::lognormal, uniform = Role::uniform, weibull = Role::weibull;
   return {
       of_formula<L, &L::median>("sizes.distribution.lognormal.median", positive,
-                                "diameter that half of the grains are finer than, d", lognormal),
+                                "diameter that half of the grains are finer than, d"),
       of_formula<L, &L::sigma>("sizes.distribution.lognormal.sigma", Interval{0, 2},
-                               "standard deviation of the logarithm of the diameter", lognormal),
-      of_formula<U, &U::from>("sizes.distribution.uniform.from", positive, "least diameter, d",
-                              uniform),
-      of_formula<U, &U::to>("sizes.distribution.uniform.to", positive, "largest diameter, d",
-                            uniform),
+                               "standard deviation of the logarithm of the diameter"),
+      of_formula<U, &U::from>("sizes.distribution.uniform.from", positive, "least diameter, d"),
+      of_formula<U, &U::to>("sizes.distribution.uniform.to", positive, "largest diameter, d"),
       of_formula<W, &W::scale>("sizes.distribution.weibull.scale", positive,
-                               "diameter that the share 1 - 1/e is finer than, d", weibull),
+                               "diameter that the share 1 - 1/e is finer than, d"),
       of_formula<W, &W::shape>("sizes.distribution.weibull.shape", Interval{0.1, 100},
-                               "exponent k: the share 1 - exp(-(D / scale)^k) is finer than D",
-                               weibull),
+                               "exponent k: the share 1 - exp(-(D / scale)^k) is finer than D"),
   };
 }
 

@@ -46,12 +46,11 @@ TEST_CASE("the documentation names every parameter with its meaning and its defa
 TEST_CASE("what lies outside a documented range is refused") {
   int ranges = 0;
   for (const Parameter& parameter : parameters()) {
-    const bool is_of_the_engine =
-        parameter.role == Role::plain || parameter.role == Role::fill ||
-        parameter.role == Role::shape_part || parameter.role == Role::box ||
-        parameter.role == Role::tube || parameter.role == Role::size_class ||
-        parameter.role == Role::lognormal || parameter.role == Role::uniform ||
-        parameter.role == Role::weibull;
+    const bool is_of_the_engine = parameter.role == Role::plain || parameter.role == Role::fill ||
+                                  parameter.role == Role::shape_part ||
+                                  parameter.role == Role::box || parameter.role == Role::tube ||
+                                  parameter.role == Role::size_class ||
+                                  parameter.role == Role::size_formula;
     if (!parameter.range || !is_of_the_engine) continue;
     const Interval& range = *parameter.range;
     INFO(parameter.path << " " << range.text());
