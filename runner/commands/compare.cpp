@@ -59,9 +59,9 @@ int perform(const CompareOptions& options) {
   }
   std::cout
       << reference.source + "\nbeside " + results.provenance.sweep_name +
-             ". Lengths in d. Errors of means come from the variance of replicates pooled\n"
-             "over the groups of a family, for one volume of the slab; those of profiles from\n"
-             "their group alone. They are wider where few packings tell them. Values agree "
+             ". Lengths in d. Errors of means come from the variance of replicates, moderated\n"
+             "by that of the others of the family; those of profiles from their group alone.\n"
+             " They are wider where few packings tell them. Values agree "
              "within " +
              fixed(agreement_limit, 0) +
              " standard errors of both sides together (ours alone where\nthe source has none) and "

@@ -176,6 +176,27 @@ const NamedQuantity* find_quantity(const std::string& name) {
   return found == quantities.end() ? nullptr : found;
 }
 
+/// Of several groups of one width, which differ in their label: the mean over all packings of those
+/// that have a value; the first one if none has.
+Measured mean_of_groups(const std::vector<Measured>& groups, const std::vector<double>& packings) {
+  Measured mean = groups.front();
+  double sum = 0.0, all = 0.0, squares = 0.0;
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < groups.size(); ++k) {
+    const Measured& one = groups[k];
+    if (!one.not_determined.empty()) continue;
+    if (++count == 1) mean = one;
+    sum += packings[k] * one.estimate.value;
+    squares += std::pow(packings[k] * one.estimate.error, 2);
+    all += packings[k];
+    mean.bias_bound = std::max(mean.bias_bound, one.bias_bound);
+  }
+  if (count < 2) return mean;
+  mean.estimate = {sum / all, std::sqrt(squares) / all};
+  mean.definition += "; mean over the packings of " + std::to_string(count) + " groups";
+  return mean;
+}
+
 }  // namespace
 
 bool is_share(std::string_view quantity) {
@@ -223,9 +244,14 @@ Measured measure_quantity(const std::string& quantity, double width, const Famil
                           const std::string& folder) {
   const NamedQuantity& named = *find_quantity(quantity);
   if (named.of_family != nullptr) return named.of_family(family);
+  std::vector<Measured> of_groups;
+  std::vector<double> packings;
   for (const Group& group : family.walled) {
-    if (group.job.box.width == width) return measure_quantity(quantity, family, group, folder);
+    if (group.job.box.width != width) continue;
+    of_groups.push_back(measure_quantity(quantity, family, group, folder));
+    packings.push_back(static_cast<double>(group.counts.settled));
   }
+  if (!of_groups.empty()) return mean_of_groups(of_groups, packings);
   return {{},
           std::string("this family has no packings ") +
               (first_group(family).job.box.is_tube ? "in tubes at " : "between walls at ") +

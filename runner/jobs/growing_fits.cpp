@@ -36,7 +36,8 @@ std::vector<Target> targets_of(const FitWish& wish, const std::optional<Protocol
   return targets;
 }
 
-/// Sums over the packings of a line, of 1, x and x^2 with x = 1 / W, each with its weight.
+/// Sums over the packings of a line, of 1, x and x^2 with x = 1 / W, each with its weight, one over
+/// its variance.
 struct Design {
   double n = 0.0, x = 0.0, xx = 0.0;
 
@@ -47,7 +48,7 @@ struct Design {
   }
   double determinant() const { return n * xx - x * x; }
 
-  /// Variance of a coefficient, in units of that of a packing of weight 1.
+  /// Variance of a coefficient.
   double variance(bool is_slope) const { return (is_slope ? n : xx) / determinant(); }
 
   /// What one more packing takes from that variance, over its weight.
@@ -56,6 +57,14 @@ struct Design {
     const double leverage = (xx - 2.0 * x * at + n * at * at) / determinant();
     return to_both * to_both / (1.0 + weight * leverage);
   }
+};
+
+/// One for each quantity.
+struct Designs {
+  Design phi, z;
+
+  Design& of(bool is_coordination) { return is_coordination ? z : phi; }
+  const Design& of(bool is_coordination) const { return is_coordination ? z : phi; }
 };
 
 /// The first packings of each group, which are made.
@@ -73,16 +82,20 @@ class Round {
       means_[mean] = means_of(outcomes, static_cast<int>(outcomes.size()));
     }
     for (std::size_t k = 0; k < groups.size(); ++k) {
-      const std::size_t mean = groups[k].mean;
-      if (volumes_.try_emplace(mean, volume_of(k)).second) pool(mean);
-      if (!groups[k].is_walled || settled_[k] == 0) continue;
-      widths_[mean] = groups[k].width;
-      design_.add(settled_[k] * volumes_[mean], 1.0 / groups[k].width);
+      volumes_.try_emplace(groups[k].mean, volume_of(k));
+      if (groups[k].is_walled && settled_[k] > 0) widths_[groups[k].mean] = groups[k].width;
+    }
+    moderate(&Means::solid_fraction);
+    moderate(&Means::coordination);
+    for (std::size_t k = 0; k < groups.size(); ++k) {
+      if (groups[k].is_walled && settled_[k] > 0) add_to(design_, k, settled_[k]);
     }
     std::set<double> widths;
     for (const auto& [mean, width] : widths_) widths.insert(width);
     has_widths_ = widths.size() >= 3;
-    has_line_ = has_widths_ && degrees_of_freedom() > 0;
+    has_line_ = has_widths_ && std::any_of(means_.begin(), means_.end(), [](const auto& one) {
+                  return one.second.solid_fraction.degrees_of_freedom > 0.0;
+                });
   }
 
   /// The worst half of a 95 % interval over what is requested; at most 1 if all requests are met.
@@ -92,15 +105,15 @@ class Round {
     return worst;
   }
 
-  double chi2_per_dof(bool is_coordination) const {
-    if (!has_line_) return 0.0;
-    std::vector<LinePoint> points;
-    for (const auto& [mean, width] : widths_) {
-      const Spread& spread = spread_of(mean, is_coordination);
-      points.push_back({1.0 / width, spread.mean, error_of(mean, is_coordination)});
+  /// The same with errors as fits.csv has them.
+  double over_widened(const std::vector<Target>& targets) const {
+    double worst = 0.0;
+    for (const Target& target : targets) {
+      if (!has_line_) return 0.0;
+      const double widening = std::sqrt(std::max(1.0, chi2_per_dof(target.is_coordination)));
+      worst = std::max(worst, widening * over(target, design_));
     }
-    const auto line = fit_line(points);
-    return line ? line->chi2 / line->degrees_of_freedom : 0.0;
+    return worst;
   }
 
   /// Whether the packings scatter, so that the requested errors can be known; see why_no_error.
@@ -108,10 +121,7 @@ class Round {
     if (!has_line_) return true;
     return std::all_of(targets.begin(), targets.end(), [&](const Target& target) {
       return std::all_of(widths_.begin(), widths_.end(), [&](const auto& point) {
-        Spread pooled = spread_of(point.first, target.is_coordination);
-        pooled.degrees_of_freedom = degrees_of_freedom();
-        pooled.error = error_of(point.first, target.is_coordination);
-        return why_no_error(pooled).empty();
+        return why_no_error(spread_of(point.first, target.is_coordination)).empty();
       });
     });
   }
@@ -137,7 +147,7 @@ class Round {
       }
       return more;
     }
-    Design design = design_;
+    Designs design = design_;
     for (int added = 0; added < before; ++added) {
       const Target& target = *std::max_element(
           targets.begin(), targets.end(),
@@ -146,7 +156,7 @@ class Round {
       const auto best = is_enough ? std::nullopt : best_group(target, design, more);
       if (!best) break;
       ++more[*best];
-      design.add(volumes_.at(groups_[*best].mean), 1.0 / groups_[*best].width);
+      add_to(design, *best, 1);
     }
     return more;
   }
@@ -157,32 +167,48 @@ class Round {
     return groups_[k].floor_area * means_.at(groups_[k].mean).slab_height.mean;
   }
 
-  void pool(std::size_t mean) {
-    phi_variance_.add(means_[mean].solid_fraction, volumes_[mean]);
-    z_variance_.add(means_[mean].coordination, volumes_[mean]);
+  double chi2_per_dof(bool is_coordination) const {
+    if (!has_line_) return 0.0;
+    std::vector<LinePoint> points;
+    for (const auto& [mean, width] : widths_) {
+      const Spread& spread = spread_of(mean, is_coordination);
+      points.push_back({1.0 / width, spread.mean, spread.error});
+    }
+    const auto line = fit_line(points);
+    return line ? line->chi2 / line->degrees_of_freedom : 0.0;
   }
 
-  int degrees_of_freedom() const { return phi_variance_.degrees_of_freedom(); }
+  /// Gives the means of a quantity the errors that they have in groups.csv.
+  void moderate(Spread Means::*quantity) {
+    std::vector<SlabMean> slab_means;
+    for (auto& [mean, means] : means_) {
+      slab_means.push_back({&(means.*quantity), volumes_.at(mean)});
+    }
+    moderate_errors(slab_means);
+  }
+
+  /// One over the variance of a packing of group k.
+  double weight_of(std::size_t k, bool is_coordination) const {
+    const Spread& spread = spread_of(groups_[k].mean, is_coordination);
+    return 1.0 / (spread.error * spread.error * spread.n);
+  }
+
+  void add_to(Designs& designs, std::size_t k, int packings) const {
+    for (const bool is_coordination : {false, true}) {
+      designs.of(is_coordination)
+          .add(packings * weight_of(k, is_coordination), 1.0 / groups_[k].width);
+    }
+  }
 
   const Spread& spread_of(std::size_t mean, bool is_coordination) const {
     const Means& means = means_.at(mean);
     return is_coordination ? means.coordination : means.solid_fraction;
   }
 
-  const PooledVariance& variance(bool is_coordination) const {
-    return is_coordination ? z_variance_ : phi_variance_;
-  }
-
-  double error_of(std::size_t mean, bool is_coordination) const {
-    return error_of_mean(variance(is_coordination).of(volumes_.at(mean)),
-                         spread_of(mean, is_coordination).n, degrees_of_freedom());
-  }
-
-  double over(const Target& target, const Design& design) const {
+  double over(const Target& target, const Designs& designs) const {
     if (!has_line_) return infinity;
-    const double squared =
-        variance(target.is_coordination).of(1.0) * design.variance(target.is_slope);
-    return student_quantile(degrees_of_freedom()) * std::sqrt(squared) / target.half_interval;
+    const double variance = designs.of(target.is_coordination).variance(target.is_slope);
+    return normal_quantile * std::sqrt(variance) / target.half_interval;
   }
 
   /// Whether packings may be added to a group.
@@ -195,14 +221,16 @@ class Round {
   }
 
   /// Where one more packing gains most; nothing if no group may have more.
-  std::optional<std::size_t> best_group(const Target& target, const Design& design,
+  std::optional<std::size_t> best_group(const Target& target, const Designs& designs,
                                         const std::vector<int>& replicates) const {
     std::optional<std::size_t> best;
     double most_gained = -1.0;
     for (std::size_t k = 0; k < groups_.size(); ++k) {
       if (replicates[k] >= most(k)) continue;
+      const double weight = weight_of(k, target.is_coordination);
       const double gained =
-          design.gain(target.is_slope, volumes_.at(groups_[k].mean), 1.0 / groups_[k].width);
+          designs.of(target.is_coordination).gain(target.is_slope, weight, 1.0 / groups_[k].width) *
+          weight / volumes_.at(groups_[k].mean);
       if (gained <= most_gained) continue;
       most_gained = gained;
       best = k;
@@ -216,10 +244,9 @@ class Round {
   std::map<std::size_t, Means> means_;     ///< of groups.csv
   std::map<std::size_t, double> volumes_;  ///< of their slabs, d^3
   std::map<std::size_t, double> widths_;   ///< of those on the line, d
-  Design design_;
+  Designs design_;
   bool has_widths_ = false;  ///< so many that there may be a line
   bool has_line_ = false;
-  PooledVariance phi_variance_, z_variance_;
 };
 
 bool are_made(const std::vector<FitGroup>& groups, const std::vector<int>& replicates) {
@@ -228,14 +255,6 @@ bool are_made(const std::vector<FitGroup>& groups, const std::vector<int>& repli
     if (std::find(groups[k].made.begin(), end, nullptr) != end) return false;
   }
   return true;
-}
-
-double worst_chi2(const Round& round, const std::vector<Target>& targets) {
-  double worst = 0.0;
-  for (const Target& target : targets) {
-    worst = std::max(worst, round.chi2_per_dof(target.is_coordination));
-  }
-  return worst;
 }
 
 }  // namespace
@@ -258,7 +277,7 @@ CalledFit called_for_fit(const std::vector<FitGroup>& groups, const FitWish& wis
       called.is_made = true;
       called.settles_too_seldom =
           called.tells_errors && !called.is_met && round.settles_too_seldom();
-      called.chi2_per_dof = worst_chi2(round, targets);
+      called.over_widened = round.over_widened(targets);
       return called;
     }
     called.replicates = std::move(next);

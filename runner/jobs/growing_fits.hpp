@@ -2,18 +2,18 @@
 //
 //   phi = phi_bulk - C / W,     Z = Z_bulk - C_Z / W,
 //
-// are as small as requested. A packing is known as well as its slab is large, so that it has the
-// weight of its slab's volume V, and each next packing goes where, for the volume that it takes, it
-// most reduces the variance of the coefficient that is furthest from its request: with f = (1, 1 /
-// W), M = sum n V f f^T over the widths, and e the coefficient, one more packing at f takes V (e^T
-// M^-1 f)^2 / (1 + V f^T M^-1 f) from e^T M^-1 e (Sherman and Morrison). So packings end up at the
-// narrowest and the widest gap; those between keep the number they began with.
+// are as small as requested. A packing has the weight w, one over its variance, and each next
+// packing goes where, for the volume of slab that it takes, it most reduces the variance of the
+// coefficient that is furthest from its request: with f = (1, 1 / W), M = sum n w f f^T over the
+// widths, and e the coefficient, one more packing at f takes w (e^T M^-1 f)^2 / (1 + w f^T M^-1 f)
+// from e^T M^-1 e (Sherman and Morrison). So packings end up at the narrowest and the widest gap;
+// those between keep the number they began with.
 //
 // A width at which fewer than one in six packings settle gets no more of them, and a family with
 // fewer than three widths at which any settle does not grow.
 //
-// The errors are those of fits.csv, from the variance of single packings pooled over the family,
-// before they are widened: more packings do not mend a line that misses its points.
+// The errors are those of fits.csv before they are widened: more packings do not mend a line that
+// misses its points.
 #pragma once
 
 #include <cstddef>
@@ -44,7 +44,9 @@ struct CalledFit {
   bool is_met = false;              ///< whether the errors are as asked for, if they are made
   bool settles_too_seldom = false;  ///< whether that is why they are not, if they are made
   bool tells_errors = true;         ///< whether they scatter; if not, more of them give no error
-  double chi2_per_dof = 0.0;  ///< the larger one of the fits that are asked for; 0 without a line
+  /// The worst error as fits.csv has it, widened where the line misses its points, over what is
+  /// asked for; 0 without a line.
+  double over_widened = 0.0;
 };
 
 /// How many replicates each group needs. They come in whole rounds: the first is `first_replicates`

@@ -262,9 +262,10 @@ std::string counts_text(const Grown& grown, const char* noun) {
                      counted(grown.all, noun) + ", by " + counted(grown.packings, "packing") +
                      unmeasured_text(grown.unbounded, noun);
   if (!grown.bent.empty()) {
-    text += in(grown.bent) +
-            " the packings scatter as little, but the straight line does not hold: its errors "
-            "in fits.csv are wider, and no packings mend it";
+    text +=
+        in(grown.bent) +
+        " the packings scatter as little, but their means miss the straight line by more: errors "
+        "in fits.csv are wider, and no packings mend it";
   }
   if (!grown.without_errors.empty()) {
     text += in(grown.without_errors) + " the packings do not scatter, and tell no error";
@@ -282,7 +283,7 @@ std::string text_of(const Grown& grown, const char* noun, NameOf name, const Swe
   const PackingNames names = grown.met == grown.all ? PackingNames() : names_in(whole);
   return counts_text(grown, noun) + named_text("Larger", grown.larger, name, whole, names) +
          named_text("Seldom settle", grown.seldom_settled, name, whole, names) +
-         named_text("No straight line", grown.bent, name, whole, names) +
+         named_text("Off the line", grown.bent, name, whole, names) +
          named_text("No scatter", grown.without_errors, name, whole, names);
 }
 
@@ -320,7 +321,7 @@ void add_fit(const Sweep& whole, const std::vector<Places>& groups, const Growin
   if (!called.tells_errors) {
     grown.without_errors.push_back(&first);
   } else if (called.is_met) {
-    if (called.chi2_per_dof > largest_chi2) return grown.bent.push_back(&first);
+    if (called.over_widened > 1.0) return grown.bent.push_back(&first);
     ++grown.met;
   } else if (called.settles_too_seldom) {
     grown.seldom_settled.push_back(&first);

@@ -73,8 +73,9 @@ std::vector<CurvePoint> mean_curve(const Group& group, Curve Order::*curve) {
   };
   std::vector<CurvePoint> points;
   for (std::size_t k = 0; k < longest; ++k) {
-    points.push_back({static_cast<double>(k) * width, static_cast<double>(k + 1) * width,
-                      spread_of_entry(group, k, values_of, std::identity())});
+    Spread spread = spread_of_entry(group, k, values_of, std::identity());
+    if (spread.mean == 0.0) spread.error = no_number;  // a bin that is empty tells no error
+    points.push_back({static_cast<double>(k) * width, static_cast<double>(k + 1) * width, spread});
   }
   return points;
 }

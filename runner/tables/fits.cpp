@@ -6,6 +6,7 @@
 #include <set>
 
 #include "runner/analysis/fit.hpp"
+#include "runner/text.hpp"
 
 namespace grainsweep {
 namespace {
@@ -36,9 +37,16 @@ std::vector<FitPoint> points_of(const std::vector<const Group*>& groups, Quantit
   return points;
 }
 
-std::string weights_text(const Spread& of) {
-  return "variance of the replicates times the volume of the slab pooled over the family (" +
-         std::to_string(of.degrees_of_freedom) + " degrees of freedom)";
+std::string weights_text(const std::vector<const Group*>& groups, Quantity quantity) {
+  const auto degrees = [&](const Group* group) {
+    return spread_of(*group, quantity).degrees_of_freedom;
+  };
+  const auto [least, most] =
+      std::minmax_element(groups.begin(), groups.end(),
+                          [&](const Group* a, const Group* b) { return degrees(a) < degrees(b); });
+  const std::string low = fixed(degrees(*least), 0), high = fixed(degrees(*most), 0);
+  return "variance times volume of the slab of the replicates and of others of the family (" + low +
+         (low == high ? "" : " to " + high) + " degrees of freedom)";
 }
 
 Estimate zeta_of(const LineFit& line) {
@@ -216,7 +224,7 @@ WallFit fit_walls(const Family& family, Quantity quantity) {
   fit.widths = static_cast<int>(widths.size());
   fit.not_determined = why_not_determined(groups, quantity, fit.widths);
   if (!fit.not_determined.empty()) return fit;
-  fit.weights = weights_text(spread_of(*groups.front(), quantity));
+  fit.weights = weights_text(groups, quantity);
   fit.bias_bound = bias_bound(groups, quantity);
   const auto line = fit_line(points);
   if (line) {

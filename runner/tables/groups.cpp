@@ -9,6 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "runner/analysis/moderated.hpp"
 #include "runner/analysis/student.hpp"
 #include "runner/store/fields.hpp"
 #include "runner/store/states.hpp"
@@ -89,33 +90,29 @@ void note_told(std::vector<Group>& groups) {
   }
 }
 
-/// Whether variances are pooled. That of phi and Z goes as one over the volume of the slab; that of
-/// forces grows with the height of a bed, of order with the nearness of walls.
-bool is_pooled(const Field& field) {
+/// Whether other groups tell of its variance. That of phi and Z goes as one over the volume of the
+/// slab; that of forces grows with the height of a bed, of order with the nearness of walls.
+bool is_moderated(const Field& field) {
   return field.name == "solid_fraction" || field.name.starts_with("coordination");
 }
 
-/// Gives mean number `k` of the groups of one family the error from their pooled variance.
-void pool_errors(const std::vector<Group*>& family, std::size_t k) {
-  PooledVariance variance;
-  for (const Group* group : family) variance.add(group->means[k], group->slab_volume);
-  for (Group* group : family) {
-    Spread& spread = group->means[k];
-    if (spread.n == 0 || variance.degrees_of_freedom() == 0) continue;
-    spread.degrees_of_freedom = variance.degrees_of_freedom();
-    spread.error =
-        error_of_mean(variance.of(group->slab_volume), spread.n, spread.degrees_of_freedom);
-  }
-}
-
-void pool_errors(std::vector<Group>& groups) {
+void moderate_errors(std::vector<Group>& groups) {
   std::map<std::string, std::vector<Group*>> families;
   for (Group& group : groups) families[group.family].push_back(&group);
   for (const auto& [name, family] : families) {
     for (std::size_t k = 0; k < mean_fields().size(); ++k) {
-      if (is_pooled(mean_fields()[k])) pool_errors(family, k);
+      if (!is_moderated(mean_fields()[k])) continue;
+      std::vector<SlabMean> means;
+      for (Group* group : family) means.push_back({&group->means[k], group->slab_volume});
+      moderate_errors(means);
     }
   }
+}
+
+/// Whether replicates that scatter by no more than rounding are copies.
+bool scatters(const Spread& spread, double by) {
+  constexpr double rounding = 1e-12;  // of sums over the grains of a bed
+  return by > rounding * std::abs(spread.mean);
 }
 
 const JobFacts& job_of_group(const Group& group) { return group.job; }
@@ -165,28 +162,38 @@ GroupWithCurves::GroupWithCurves(Group group, const std::string& folder)
   }
 }
 
-double error_of_mean(double variance, int n, int degrees_of_freedom) {
+double error_of_mean(double variance, int n, double degrees_of_freedom) {
   return student_quantile(degrees_of_freedom) / normal_quantile * std::sqrt(variance / n);
 }
 
-void PooledVariance::add(const Spread& spread, double volume) {
-  if (spread.n < 2) return;
-  squares_ += (spread.n - 1) * spread.sd * spread.sd * volume;
-  degrees_of_freedom_ += spread.n - 1;
+void moderate_errors(const std::vector<SlabMean>& means) {
+  std::vector<KnownVariance> own;
+  for (const auto& [spread, volume] : means) {
+    const bool tells = spread->n > 1 && scatters(*spread, spread->sd);
+    own.push_back({tells ? spread->sd * spread->sd * volume : 0.0,
+                   static_cast<double>(std::max(0, spread->n - 1))});
+  }
+  const std::vector<KnownVariance> all = moderated(own);
+  for (std::size_t k = 0; k < means.size(); ++k) {
+    const auto& [spread, volume] = means[k];
+    spread->degrees_of_freedom = spread->n > 0 ? all[k].degrees_of_freedom : 0.0;
+    if (spread->degrees_of_freedom == 0.0) continue;
+    spread->error = error_of_mean(all[k].variance / volume, spread->n, spread->degrees_of_freedom);
+  }
 }
 
 double slab_height(const PackingResult& result) { return result.slab_top - result.slab_bottom; }
 
 Spread spread_of(std::vector<double> values) {
   std::erase_if(values, [](double value) { return std::isnan(value); });
-  Spread spread{no_number, no_number, static_cast<int>(values.size()), no_number, 0};
+  Spread spread{no_number, no_number, static_cast<int>(values.size()), no_number, 0.0};
   if (values.empty()) return spread;
   double sum = 0.0, squares = 0.0;
   for (const double value : values) sum += value;
   spread.mean = sum / spread.n;
   for (const double value : values) squares += (value - spread.mean) * (value - spread.mean);
   if (spread.n < 2) return spread;
-  spread.degrees_of_freedom = spread.n - 1;
+  spread.degrees_of_freedom = static_cast<double>(spread.n) - 1.0;
   const double variance = squares / spread.degrees_of_freedom;
   spread.sd = std::sqrt(variance);
   spread.error = error_of_mean(variance, spread.n, spread.degrees_of_freedom);
@@ -194,10 +201,10 @@ Spread spread_of(std::vector<double> values) {
 }
 
 std::string why_no_error(const Spread& spread) {
-  constexpr double rounding = 1e-12;  // of sums over the grains of a bed
   if (spread.n == 0) return "no packing has settled";
-  if (spread.degrees_of_freedom == 0) return "needs 2 or more settled replicates to know the error";
-  if (spread.error > rounding * std::abs(spread.mean)) return "";
+  if (spread.degrees_of_freedom == 0.0)
+    return "needs 2 or more settled replicates to know the error";
+  if (scatters(spread, spread.error)) return "";
   return "the replicates do not scatter, as copies or packings of one possible state: they tell no "
          "error";
 }
@@ -229,7 +236,7 @@ std::vector<Group> groups_of(const std::vector<Row>& rows) {
   }
   note_varied(groups);
   note_told(groups);
-  pool_errors(groups);
+  moderate_errors(groups);
   return groups;
 }
 
@@ -290,10 +297,10 @@ Columns<Group> groups_columns(const Varied& varied, const GivenUnits& units) {
     const Field& field = mean_fields()[k];
     append_spread(columns, std::string(field.name), std::string(field.unit),
                   std::string(field.meaning), [k](const Group& group) { return group.means[k]; });
-    if (!is_pooled(field)) continue;
+    if (!is_moderated(field)) continue;
     columns.back().meaning =
-        "standard error of the mean, from the variance of replicates pooled over "
-        "the family";
+        "standard error of the mean, from the variance of replicates, moderated by that of the "
+        "others of the family";
   }
   append(columns, bias_columns());
   append(columns, varied_columns(varied));

@@ -22,35 +22,30 @@ struct Spread {
   double mean = 0.0;
   double sd = 0.0;
   int n = 0;
-  /// sd / sqrt(n), or as pooled by `groups_of`, widened as much as Student's distribution with
+  /// sd / sqrt(n), or as moderated by `groups_of`, widened as much as Student's distribution with
   /// `degrees_of_freedom` is wider than the normal one: 1.96 of it contain the truth in 95 %.
   double error = 0.0;
-  int degrees_of_freedom = 0;  ///< of the variance behind the error
+  double degrees_of_freedom = 0.0;  ///< of the variance behind the error
 };
 
 /// The error of a mean of n values whose variance is known from so many degrees of freedom; see
 /// Spread.
-double error_of_mean(double variance, int n, int degrees_of_freedom);
+double error_of_mean(double variance, int n, double degrees_of_freedom);
 
 /// Height of the measured slab, d.
 double slab_height(const PackingResult& result);
 
-/// The variance of single packings, of whole groups together: sum (n_i - 1) s_i^2 V_i over
-/// sum (n_i - 1), for a slab of 1 d^3. What is a mean over a slab scatters as the root of one over
-/// its volume V_i: s sqrt(V) of 100 beds each was the same to 15 % for W = 4 to 20 d, where s
-/// differs by 2.4 (runner/README.md).
-class PooledVariance {
- public:
-  /// Adds the replicates of a group, whose slab has that volume, d^3; nothing for fewer than two.
-  void add(const Spread& spread, double volume);
-  /// That of a packing whose slab has that volume, d^3.
-  double of(double volume) const { return squares_ / degrees_of_freedom_ / volume; }
-  int degrees_of_freedom() const { return degrees_of_freedom_; }
-
- private:
-  double squares_ = 0.0;
-  int degrees_of_freedom_ = 0;
+/// A mean over a slab of that volume, d^3.
+struct SlabMean {
+  Spread* spread;
+  double volume;
 };
+
+/// Gives means of groups that differ in nothing but the width of their container the errors that
+/// follow from their own scatter and that of the others (runner/analysis/moderated.hpp): that of
+/// means over a slab goes as the root of one over its volume. s sqrt(V) of 100 beds each was the
+/// same to 15 % for W = 4 to 20 d, where s differs by 2.4 (runner/README.md).
+void moderate_errors(const std::vector<SlabMean>& means);
 
 Spread spread_of(std::vector<double> values);
 
@@ -145,8 +140,8 @@ CurveTable curve_table(const std::string& file, const Columns<Line>& columns, Li
 }
 
 /// In the order of their numbers. The errors of their phi and Z come from the variance of single
-/// packings pooled over the groups of a family (PooledVariance): the standard deviation of three
-/// replicates alone is uncertain by half its value. A single packing has an error of these, too, if
+/// packings, moderated by that of the other groups of a family (moderate_errors): the standard
+/// deviation of three replicates alone is uncertain by half its value. A single packing has an error of these, too, if
 /// others of its family have replicates.
 std::vector<Group> groups_of(const std::vector<Row>& rows);
 std::vector<Group> groups_of(std::vector<Row>&& rows) = delete;

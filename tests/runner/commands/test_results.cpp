@@ -255,7 +255,7 @@ TEST_CASE("every column of every table has a meaning, and stands in its table on
     CHECK(columns.insert(one.file + "/" + one.name).second);
     CHECK_FALSE(one.meaning.empty());
   }
-  CHECK(files.size() == 10);
+  CHECK(files.size() == 11);
   CHECK(columns.contains("packings.csv/coordination_at_1e-05"));
   CHECK(columns.contains("fits.csv/zeta"));
 }

@@ -94,7 +94,7 @@ TEST_CASE("the table names both values, the verdict, the definitions and what is
   const std::string text = comparison_text(reference(), analyse(sweep));
   CHECK_THAT(text,
              Catch::Contains("  Z without walls (bi-periodic)               6.027 ± 0.012        "
-                             "6.000 ± 0.019  agrees: -0.027, 1.2 errors\n"
+                             "6.000 ± 0.020  agrees: -0.027, 1.2 errors\n"
                              "      here: neighbours per grain from 3 d above the floor"));
   CHECK_THAT(text, Catch::Contains("      published: in words\n"));
   CHECK_THAT(text, !Catch::Contains("Nothing is published"));  // one value is of all families

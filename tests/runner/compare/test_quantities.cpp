@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "runner/analysis/moderated.hpp"
 #include "runner/compare/quantities.hpp"
 #include "runner/tables/closing_report.hpp"
 #include "runner/tables/csv.hpp"
@@ -65,13 +66,34 @@ TEST_CASE("a porosity is what its solid fraction leaves, with the same error") {
   CHECK(title_of_quantity("porosity", 5, "D") == "porosity at D = 5 d");
 }
 
-TEST_CASE("the error of a mean is that of the variance pooled over the family") {
+TEST_CASE("the error of a mean is that of its variance, moderated by the others of the family") {
   const std::vector<Row> rows = wall_sweep();
   const Family family = families_in(rows).at(0);
   const Measured z = measure_quantity("Z_unconfined", 0, family);
-  // Four groups of two, .02 or .04 apart: variances 3 x 2e-4 and 8e-4, pooled 3.5e-4.
-  CHECK(z.estimate.error == Approx(widened(std::sqrt(3.5e-4 / 2), 4)));
+  // Four groups of two, .02 or .04 apart: variances 3 x 2e-4 and its own 8e-4, pooled 3.5e-4.
+  const double variance = (usual_likeness * 3.5e-4 + 8e-4) / (usual_likeness + 1);
+  CHECK(z.estimate.error == Approx(widened(std::sqrt(variance / 2), 4)));
   CHECK_THAT(z.definition, Catch::Contains("walls not counted") && Catch::Contains("1.000"));
+}
+
+TEST_CASE("groups of one width that differ in their label have one mean over all packings") {
+  std::vector<Row> rows = wall_sweep();
+  const double usual = measure_quantity("phi", 5, families_in(rows).at(0)).estimate.value;
+  for (int k = 0; k < 4; ++k) {
+    rows.push_back(settled_row("more" + std::to_string(k), 5, usual + 0.03 + 1e-3 * (k % 2), 5.4));
+    rows.back().job.label = "again";
+  }
+  const Measured phi = measure_quantity("phi", 5, families_in(rows).at(0));
+  CHECK(phi.estimate.value == Approx(usual + 4.0 / 6.0 * 0.0305));  // of two packings and four
+  CHECK_THAT(phi.definition, Catch::EndsWith("; mean over the packings of 2 groups"));
+  const Family family = families_in(rows).at(0);
+  double squares = 0.0;
+  for (const Group& group : family.walled) {
+    if (group.job.box.width != 5) continue;
+    const double error = mean_of(group, "solid_fraction").error;
+    squares += std::pow(static_cast<double>(group.counts.settled) * error, 2);
+  }
+  CHECK(phi.estimate.error == Approx(std::sqrt(squares) / 6.0));
 }
 
 TEST_CASE("a line that misses its points says that it does not hold") {

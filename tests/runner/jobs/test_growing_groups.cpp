@@ -230,8 +230,8 @@ TEST_CASE("a fit whose line does not hold is told apart, and grows no more") {
   CHECK(GrowingSweep(whole, outcomes).now().jobs.size() == 24);
   CHECK(wishes_text(whole, outcomes) ==
         "Errors as asked for (95 %) in 0 of 1 fit, by 24 packings; in 1 the packings scatter as "
-        "little, but the straight line does not hold: its errors in fits.csv are wider, and no "
-        "packings mend it\nNo straight line: MSP\n");
+        "little, but their means miss the straight line by more: errors in fits.csv are wider, and "
+        "no packings mend it\nOff the line: MSP\n");
 }
 
 TEST_CASE("the end of a run names the fits whose errors are larger, and those that tell none") {

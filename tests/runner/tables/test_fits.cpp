@@ -6,6 +6,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "runner/analysis/moderated.hpp"
 #include "runner/tables/fits.hpp"
 #include "tests/runner/sample_rows.hpp"
 #include "tests/support/about.hpp"
@@ -33,9 +34,10 @@ TEST_CASE("the planted wall effect is recovered with the errors of its replicate
   CHECK(fit.zeta.value == Approx(0.2 / 0.64));
   CHECK(fit.widths == 4);
   CHECK(fit.packings == 8);
-  CHECK(fit.weights ==
-        "variance of the replicates times the volume of the slab pooled over the family (4 degrees "
-        "of freedom)");
+  CHECK(
+      fit.weights ==
+      "variance times volume of the slab of the replicates and of others of the family (4 degrees "
+      "of freedom)");
   // Each mean has sd sqrt(2) .001 and error .001; x = .25, .2, .1, .05: S_xx = .025, x_m = .15.
   CHECK(fit.slope.error == Approx(widened(0.001, 4) / std::sqrt(0.025)));
   CHECK(fit.bulk.error == Approx(widened(0.001, 4) * std::sqrt(0.25 + 0.0225 / 0.025)));
@@ -68,24 +70,30 @@ TEST_CASE("a width with one packing takes its error from the others' replicates"
   rows.push_back(settled_row("single", 20, 0.630, 5.95));
   const WallFit fit = fit_walls(family_of(rows), Quantity::solid_fraction);
   REQUIRE(fit.not_determined.empty());
-  CHECK(fit.weights ==
-        "variance of the replicates times the volume of the slab pooled over the family (3 degrees "
-        "of freedom)");
+  CHECK(
+      fit.weights ==
+      "variance times volume of the slab of the replicates and of others of the family (3 degrees "
+      "of freedom)");
   REQUIRE(fit.points.size() == 4);
   CHECK(fit.points[0].error == Approx(widened(0.001, 3)));  // sd sqrt(2) .001 of two
   CHECK(fit.points[3].error == Approx(widened(0.001 * std::sqrt(2.0), 3)));
   CHECK(fit.points[3].n == 1);
 }
 
-TEST_CASE("the variance is pooled by degrees of freedom, not by widths") {
+/// The variance of a width with `degrees` of its own, beside what others say of it.
+double beside(double pooled, double own, int degrees) {
+  return (usual_likeness * pooled + degrees * own) / (usual_likeness + degrees);
+}
+
+TEST_CASE("the variance of a width is its own and that of the others, by degrees of freedom") {
   std::vector<Row> rows;
   add_width(rows, 4, 0.001);                             // two packings, variance 2e-6
   add_width(rows, 5, 0.003), add_width(rows, 5, 0.003);  // four, variance 4 * 9e-6 / 3 = 12e-6
   add_width(rows, 10, 0.001);
   const WallFit fit = fit_walls(family_of(rows), Quantity::solid_fraction);
-  const double variance = (1 * 2e-6 + 3 * 12e-6 + 1 * 2e-6) / 5;
-  CHECK(fit.points[0].error == Approx(widened(std::sqrt(variance / 2), 5)));
-  CHECK(fit.points[1].error == Approx(widened(std::sqrt(variance / 4), 5)));
+  const double pooled = (1 * 2e-6 + 3 * 12e-6 + 1 * 2e-6) / 5;
+  CHECK(fit.points[0].error == Approx(widened(std::sqrt(beside(pooled, 2e-6, 1) / 2), 5)));
+  CHECK(fit.points[1].error == Approx(widened(std::sqrt(beside(pooled, 12e-6, 3) / 4), 5)));
 }
 
 TEST_CASE("packings scatter as the root of one over the volume of their slabs") {
@@ -104,10 +112,11 @@ TEST_CASE("packings scatter as the root of one over the volume of their slabs") 
   }
   stretch(rows[2], 0.5), stretch(rows[3], 1.5);  // the mean counts
   const WallFit fit = fit_walls(family_of(rows), Quantity::solid_fraction);
-  const double variance = (1 * 8e-6 * 0.25 + 1 * 2e-6 + 3 * 4e-6 / 3) / 5;  // times usual
-  CHECK(fit.points[0].error == Approx(widened(std::sqrt(variance / 0.25 / 2), 5)));
-  CHECK(fit.points[1].error == Approx(widened(std::sqrt(variance / 2), 5)));
-  CHECK(fit.points[2].error == Approx(widened(std::sqrt(variance / 4), 5)));
+  const double pooled = (1 * 8e-6 * 0.25 + 1 * 2e-6 + 3 * 4e-6 / 3) / 5;  // times usual
+  const double narrow = beside(pooled, 2e-6, 1), wide = beside(pooled, 4e-6 / 3, 3);
+  CHECK(fit.points[0].error == Approx(widened(std::sqrt(narrow / 0.25 / 2), 5)));
+  CHECK(fit.points[1].error == Approx(widened(std::sqrt(narrow / 2), 5)));
+  CHECK(fit.points[2].error == Approx(widened(std::sqrt(wide / 4), 5)));
   CHECK(groups_of(rows).at(0).slab_volume == Approx(usual / 4));
   CHECK(groups_of(rows).at(1).slab_volume == Approx(usual));
 }
@@ -268,9 +277,9 @@ TEST_CASE("the table of a fit has the periodic value beside it") {
   rows.push_back(settled_row("p", 20, 0.6390, 6.05, Boundary::periodic));
   const std::string text = fits_csv(families_of(groups_of(rows)));
   CHECK_THAT(
-      text, Catch::Contains(
-                "MSP,solid_fraction,determined,,4,8,variance of the replicates "
-                "times the volume of the slab pooled over the family (4 degrees of freedom),0.64"));
+      text,
+      Catch::Contains("MSP,solid_fraction,determined,,4,8,variance times volume of the slab of the "
+                      "replicates and of others of the family (4 degrees of freedom),0.64"));
   CHECK_THAT(text, Catch::Contains(",20,0.639,,1,"));
   CHECK_THAT(text, Catch::Contains(",20,6.05,,1,"));
   CHECK(cell_in(text, 1, "bulk_bias_bound") == cell(bias_bound(rows[0].job)->solid_fraction));

@@ -20,9 +20,9 @@ TEST_CASE("sizes asked and packed stand side by side, with the scatter of the re
   CHECK(sizes_csv(analyse(rows).groups) ==
         "group,family,job,label,width,boundary_y,small_share,diameter,asked,n,packed,packed_sd,"
         "packed_error,slab,slab_sd,slab_error\n"
-        "1,MSP,a,MSP,5,walls,0,0.5,0.25,2,0.5,0.3535533905932738,1.620719160709026,0.25,0."
+        "1,MSP,a,MSP,5,walls,0,0.5,0.25,2,0.5,0.3535533905932738,1.6207191607090254,0.25,0."
         "3535533905932738,"
-        "1.620719160709026\n"
+        "1.6207191607090254\n"
         "1,MSP,a,MSP,5,walls,0,2,1,2,1,0,0,1,0,0\n");
 }
 
