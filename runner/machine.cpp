@@ -6,6 +6,7 @@
 #include <cctype>
 #include <cerrno>
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <ctime>
 #include <exception>
@@ -19,6 +20,7 @@
 #include <unistd.h>
 #include <vector>
 
+#include <sys/wait.h>
 #include <tbb/info.h>
 
 #include "runner/exit_codes.hpp"
@@ -150,5 +152,20 @@ double available_memory() {
 }
 
 double memory_for_packings() { return share_for_packings * available_memory(); }
+
+Said said_by(const std::string& command) {
+  std::FILE* const pipe = popen(command.c_str(), "r");
+  if (pipe == nullptr) return {127, "no process could be started"};
+  Said said;
+  std::array<char, 4096> part{};
+  for (std::size_t size = 1; size > 0;) {
+    size = std::fread(part.data(), 1, part.size(), pipe);
+    said.text.append(part.data(), size);
+  }
+  const int status = pclose(pipe);
+  said.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  while (said.text.ends_with('\n')) said.text.pop_back();
+  return said;
+}
 
 }  // namespace grainsweep

@@ -1,4 +1,4 @@
-// What the program asks the machine for: clocks, cores, memory.
+// What the program asks the machine for: clocks, cores, memory, other programs.
 #pragma once
 
 #include <functional>
@@ -59,5 +59,15 @@ inline constexpr double share_for_packings = 0.8;
 
 /// What live packings may take together, bytes; infinite if nothing limits them.
 double memory_for_packings();
+
+/// What a command printed, and its exit status.
+struct Said {
+  int code = 0;
+  std::string text;  ///< without line feeds at its end
+};
+
+/// Runs a command of the shell. One that could not be started ends with 127, like one that the
+/// shell does not find.
+Said said_by(const std::string& command);
 
 }  // namespace grainsweep

@@ -3,13 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <cstdio>
 #include <limits>
-
-#include <sys/wait.h>
 
 #include "runner/exit_codes.hpp"
 #include "runner/jobs/time_limit.hpp"
+#include "runner/machine.hpp"
 #include "runner/sweep/text_lines.hpp"
 #include "runner/text.hpp"
 
@@ -18,30 +16,9 @@ namespace {
 
 constexpr int not_found = 127;  // what a shell ends with
 
-/// What a command printed, and its exit status.
-struct Said {
-  int code = 0;
-  std::string text;
-};
-
-Said said_by(const std::string& command) {
-  std::FILE* const pipe = popen((command + " 2>&1").c_str(), "r");
-  if (pipe == nullptr) return {not_found, "no process could be started"};
-  Said said;
-  std::array<char, 4096> part{};
-  for (std::size_t size = 1; size > 0;) {
-    size = std::fread(part.data(), 1, part.size(), pipe);
-    said.text.append(part.data(), size);
-  }
-  const int status = pclose(pipe);
-  said.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  while (said.text.ends_with('\n')) said.text.pop_back();
-  return said;
-}
-
 /// What a command of Slurm printed. `name` is its first word.
 std::string answer_to(const std::string& name, const std::string& options) {
-  Said said = said_by(name + " " + options);
+  Said said = said_by(name + " " + options + " 2>&1");
   if (said.code == not_found) {
     throw BadInput(name +
                    ": not found; call this where jobs of Slurm are submitted. Without Slurm: "
@@ -174,7 +151,7 @@ Queue queue_in(std::string_view lines, const std::string& scripts) {
 }
 
 std::optional<Queue> ask_for_queue(const std::string& scripts) {
-  const Said said = said_by("squeue --me --noheader --array --format='%T|%r|%o'");
+  const Said said = said_by("squeue --me --noheader --array --format='%T|%r|%o' 2>&1");
   if (said.code != 0) return std::nullopt;
   return queue_in(said.text, scripts);
 }

@@ -1,16 +1,15 @@
 #include "runner/report/fonts.hpp"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cstdint>
-#include <cstdio>
 #include <iterator>
 #include <string>
 #include <string_view>
 #include <system_error>
 #include <utility>
 
+#include "runner/machine.hpp"
 #include "runner/sweep/text_lines.hpp"
 
 namespace grainsweep {
@@ -58,19 +57,6 @@ char32_t code_point(std::string_view character) {
   return code;
 }
 
-/// What fontconfig says of its fonts; empty if it cannot be asked.
-std::string list_of_fonts() {
-  std::FILE* said = popen("fc-list -f '%{fontformat} %{charset}\\n' 2>/dev/null", "r");
-  if (said == nullptr) return "";
-  std::string list;
-  std::array<char, 65536> part{};
-  while (const std::size_t count = std::fread(part.data(), 1, part.size(), said)) {
-    list.append(part.data(), count);
-  }
-  pclose(said);
-  return list;
-}
-
 }  // namespace
 
 Characters characters_of_fonts(std::string_view list) {
@@ -90,7 +76,8 @@ Characters characters_of_fonts(std::string_view list) {
 }
 
 Characters installed_characters() {
-  const Characters installed = characters_of_fonts(list_of_fonts());
+  const Said list = said_by("fc-list -f '%{fontformat} %{charset}\\n' 2>/dev/null");
+  const Characters installed = characters_of_fonts(list.code == 0 ? list.text : "");
   return installed.empty() ? Characters{{0xA0, 0x52F}, {0x2010, 0x2027}} : installed;
 }
 

@@ -4,7 +4,6 @@
 #include <array>
 #include <cerrno>
 #include <csignal>
-#include <cstdio>
 #include <fcntl.h>
 #include <optional>
 #include <spawn.h>
@@ -13,6 +12,7 @@
 
 #include <sys/wait.h>
 
+#include "runner/machine.hpp"
 #include "runner/report/figures.hpp"
 #include "runner/report/fonts.hpp"
 #include "runner/store/files.hpp"
@@ -101,13 +101,8 @@ std::string why_none(const std::vector<Drawer>& drawers, const std::string& fail
 }  // namespace
 
 std::string gnuplot_version() {
-  std::FILE* said = popen("gnuplot --version 2>/dev/null", "r");
-  if (said == nullptr) return "";
-  std::array<char, 100> line{};
-  const bool is_there = std::fgets(line.data(), line.size(), said) != nullptr;
-  pclose(said);
-  const std::string text = is_there ? line.data() : "";
-  return text.substr(0, text.find('\n'));
+  const Said said = said_by("gnuplot --version 2>/dev/null");
+  return said.code == 0 ? said.text.substr(0, said.text.find('\n')) : "";
 }
 
 void remove_figures(const std::string& folder) {
