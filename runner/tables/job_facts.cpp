@@ -137,11 +137,8 @@ std::string width_text(const std::string& width, Boundary y) {
 
 JobFacts facts_of(const Job& job) {
   JobFacts facts;
-  facts.id = job.id;
-  facts.label = job.label;
+  static_cast<JobName&>(facts) = {job.id, job.label, job.replicate, job.seed, job.files};
   facts.parameters = job.parameters;
-  facts.replicate = job.replicate;
-  facts.seed = job.seed;
   facts.shape = name_of(job.spec.shape);
   facts.accuracy = accuracy_name(job.spec.accuracy);
   if (facts.accuracy == custom) facts.settles_as = settles_as(job.spec.accuracy);
@@ -149,7 +146,6 @@ JobFacts facts_of(const Job& job) {
   facts.small_share = job.spec.sizes.small_share;
   facts.kind = bed_kind(job.spec);
   facts.measure = job.spec.measure;
-  facts.files = job.files;
   return facts;
 }
 
@@ -200,18 +196,14 @@ JobList job_list(const std::vector<Row>& rows) {
   for (const auto& [job, outcome] : rows) {
     const auto [known, is_new] = index_of.try_emplace(job.parameters.text(), list.sets.size());
     if (is_new) list.sets.push_back(job);
-    list.jobs.push_back({job.id, job.label, job.replicate, job.seed, job.files, known->second});
+    list.jobs.push_back({static_cast<const JobName&>(job), known->second});
   }
   return list;
 }
 
 JobFacts facts_of(const JobEntry& job, const JobList& list) {
   JobFacts facts = list.sets[job.set];
-  facts.id = job.id;
-  facts.label = job.label;
-  facts.replicate = job.replicate;
-  facts.seed = job.seed;
-  facts.files = job.files;
+  static_cast<JobName&>(facts) = static_cast<const JobName&>(job);
   return facts;
 }
 

@@ -19,12 +19,16 @@
 
 namespace grainsweep {
 
-struct JobFacts {
-  std::string id;
-  std::string label;
-  SharedText parameters;  ///< canonical JSON, as Job::parameters
+/// What tells a job from the others with its parameters.
+struct JobName {
+  std::string id, label;
   int replicate = 1;
   std::uint64_t seed = 0;
+  std::map<std::string, std::string> files;  ///< as Job::files
+};
+
+struct JobFacts : JobName {
+  SharedText parameters;   ///< canonical JSON, as Job::parameters
   std::string shape;       ///< its name: "sphere", "cube", "hull"
   std::string accuracy;    ///< name of a preset, or "custom"
   std::string settles_as;  ///< for a custom one: the preset that has its bounds; "" if none has
@@ -32,8 +36,7 @@ struct JobFacts {
   double small_share = 0.0;
   std::optional<BedKind> kind;  ///< among those whose protocol error was measured
   MeasureSpec measure;
-  std::map<std::string, std::string> files;  ///< as Job::files
-  double estimated = 0.0;                    ///< CPU time by estimate, s
+  double estimated = 0.0;  ///< CPU time by estimate, s
 };
 
 /// Whether its grains are a mixture of shapes.
@@ -55,12 +58,8 @@ std::vector<Row> rows_of(const Sweep& sweep);
 /// not among the rows.
 std::size_t take_outcomes(Outcomes&& outcomes, std::vector<Row>& rows);
 
-/// What tells a job from the others with its parameters.
-struct JobEntry {
-  std::string id, label;
-  int replicate = 1;
-  std::uint64_t seed = 0;
-  std::map<std::string, std::string> files;
+/// A job of a JobList.
+struct JobEntry : JobName {
   std::size_t set = 0;  ///< its parameters, by their place in JobList::sets
 };
 void to_json(nlohmann::json& to, const JobEntry& job);
@@ -68,7 +67,7 @@ void from_json(const nlohmann::json& from, JobEntry& job);
 
 /// Jobs as kept in provenance.json: equal parameters once, so that 100,000 take 20 MB.
 struct JobList {
-  std::vector<JobFacts> sets;  ///< without what a JobEntry has
+  std::vector<JobFacts> sets;  ///< all but their JobName
   std::vector<JobEntry> jobs;
 };
 JobList job_list(const std::vector<Row>& rows);
