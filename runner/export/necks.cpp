@@ -175,6 +175,15 @@ std::vector<std::vector<std::size_t>> necks_by_grain(const std::vector<Neck>& ne
 
 }  // namespace
 
+std::vector<std::vector<NeckEnd>> neck_ends(const std::vector<Neck>& necks, std::size_t grains) {
+  std::vector<std::vector<NeckEnd>> ends(grains);
+  for (std::size_t k = 0; k < necks.size(); ++k) {
+    ends[necks[k].a].push_back({&necks[k], k, false});
+    if (!necks[k].is_wall) ends[necks[k].b].push_back({&necks[k], k, true});
+  }
+  return ends;
+}
+
 Vector neck_corner(const Neck& neck, int k, double height) {
   const double angle = 2.0 * pi * k / neck_sides;
   const Vector up = neck.normal.cross(neck.across);

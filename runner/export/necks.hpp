@@ -27,6 +27,19 @@ struct Neck {
   double low = 0.0, high = 0.0;     ///< ends along the normal from the centre of a
 };
 
+/// Where a neck begins or ends on a grain.
+struct NeckEnd {
+  const Neck* neck = nullptr;
+  std::size_t number = 0;  ///< of the neck
+  bool is_of_b = false;    ///< whether the grain is its grain b
+
+  /// Unit, along the neck out of the grain.
+  Vector outward() const { return is_of_b ? Vector(-neck->normal) : neck->normal; }
+};
+
+/// For each of so many grains the ends of necks on it, which refer to the necks.
+std::vector<std::vector<NeckEnd>> neck_ends(const std::vector<Neck>& necks, std::size_t grains);
+
 /// Corner k, counter-clockwise seen against the normal, at that height along the normal, from the
 /// centre of a.
 Vector neck_corner(const Neck& neck, int k, double height);

@@ -34,14 +34,8 @@ OpenSurfaces open_spheres(const ExportedBed& exported);
 /// the normal that ends where it meets what is left of the two.
 OpenSurfaces open_polyhedra(const ExportedBed& exported);
 
-/// A neck as a column that ends on a convex polyhedron about its centre.
-struct NeckColumn {
-  const Neck* neck = nullptr;
-  std::size_t number = 0;  ///< of the neck
-  bool is_of_b = false;    ///< whether the polyhedron is grain b
-};
-
-/// The polyhedron with holes for columns that lie apart and within its outline.
-OpenSurface with_holes(const Surface& convex, const std::vector<NeckColumn>& columns);
+/// A convex polyhedron about its centre with holes for the ends of necks, columns that lie apart
+/// and within its outline.
+OpenSurface with_holes(const Surface& convex, const std::vector<NeckEnd>& columns);
 
 }  // namespace grainsweep

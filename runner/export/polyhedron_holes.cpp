@@ -45,14 +45,11 @@ struct Upright {
   Eigen::Vector2d flat(const Vector& v) const { return {x.dot(v), y.dot(v)}; }
 };
 
-Upright upright_of(const NeckColumn& column) {
+Upright upright_of(const NeckEnd& column) {
   const Neck& neck = *column.neck;
-  Upright upright{neck.normal, neck.across, neck.normal.cross(neck.across), {}};
+  const Vector outward = column.outward();
+  Upright upright{outward, neck.across, outward.cross(neck.across), {}};
   const Vector centre = column.is_of_b ? neck.between : Vector(Vector::Zero());
-  if (column.is_of_b) {
-    upright.outward = -upright.outward;
-    upright.y = -upright.y;
-  }
   for (int k = 0; k < neck_sides; ++k) {
     const int in_order = column.is_of_b ? (neck_sides - k) % neck_sides : k;
     upright.corners.push_back(upright.flat(neck_corner(neck, in_order, 0.0) - centre));
@@ -232,7 +229,7 @@ Trace untraced(const Surface& convex) {
 
 }  // namespace
 
-OpenSurface with_holes(const Surface& convex, const std::vector<NeckColumn>& columns) {
+OpenSurface with_holes(const Surface& convex, const std::vector<NeckEnd>& columns) {
   if (columns.empty()) return {convex, {}};
   Trace trace = untraced(convex);
   std::vector<Hole> holes(columns.size());

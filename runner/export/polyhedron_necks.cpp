@@ -270,11 +270,7 @@ OpenSurfaces open_polyhedra(const ExportedBed& exported) {
   for (Neck& neck : all.necks) turn_clear(bed, neck);
   narrow(
       exported, bodies, [&](Neck& neck) { turn_clear(bed, neck); }, all.necks);
-  std::vector<std::vector<NeckColumn>> columns(bed.surfaces.size());
-  for (std::size_t k = 0; k < all.necks.size(); ++k) {
-    columns[all.necks[k].a].push_back({&all.necks[k], k, false});
-    columns[all.necks[k].b].push_back({&all.necks[k], k, true});
-  }
+  const auto columns = neck_ends(all.necks, bed.surfaces.size());
   for (std::size_t k = 0; k < columns.size(); ++k) {
     all.grains.push_back(with_holes(bed.surfaces[k], columns[k]));
   }

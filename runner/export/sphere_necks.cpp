@@ -47,18 +47,12 @@ std::vector<Neck> asked_necks(const ExportedBed& exported, const std::vector<Con
   return necks;
 }
 
-/// A circle on a sphere about its centre, with the corners of a neck in their order.
-struct Rim {
-  const Neck* neck = nullptr;
-  std::size_t number = 0;
-  bool is_of_b = false;
-
-  Vector outward() const { return is_of_b ? Vector(-neck->normal) : neck->normal; }
-  Vector corner(int k) const {
-    return is_of_b ? Vector(neck_corner(*neck, k, neck->high) - neck->between)
-                   : neck_corner(*neck, k, neck->low);
-  }
-};
+/// Corner k of a neck, on the circle in which it ends on a sphere about its centre.
+Vector corner_of(const NeckEnd& rim, int k) {
+  const Neck& neck = *rim.neck;
+  return rim.is_of_b ? Vector(neck_corner(neck, k, neck.high) - neck.between)
+                     : neck_corner(neck, k, neck.low);
+}
 
 /// Points on a sphere about its centre on the circle at which it ends beside the wall of a tube.
 std::vector<Vector> edge_of(const TubeEnd& end, double radius) {
@@ -85,10 +79,10 @@ std::vector<Vector> edge_of(const TubeEnd& end, double radius) {
 /// The corners of a ball that lie outside the rims, by at least half an edge, and those of its end
 /// beside the wall of a tube, if it has one, in place of those beyond it.
 std::vector<Vector> corners_outside(const Surface& ball, double radius,
-                                    const std::vector<Rim>& rims, const TubeEnd* end) {
+                                    const std::vector<NeckEnd>& rims, const TubeEnd* end) {
   constexpr double half_edge = 0.06;  // as an angle
   const auto is_free = [&](const Vector& corner) {
-    return std::all_of(rims.begin(), rims.end(), [&](const Rim& rim) {
+    return std::all_of(rims.begin(), rims.end(), [&](const NeckEnd& rim) {
       const double angle = std::acos(std::clamp(rim.outward().dot(corner) / radius, -1.0, 1.0));
       return angle > std::asin(rim.neck->radius / radius) + half_edge;
     });
@@ -107,7 +101,7 @@ std::vector<Vector> corners_outside(const Surface& ball, double radius,
 }
 
 /// The hole of rim r, whose corners the surface has from number neck_sides * r on.
-Hole hole_of(const Rim& rim, std::size_t r) {
+Hole hole_of(const NeckEnd& rim, std::size_t r) {
   Hole hole{rim.number, {}, {{}}};
   for (int k = 0; k < neck_sides; ++k) {
     hole.sides.push_back({static_cast<std::int32_t>(r) * neck_sides + k});
@@ -118,11 +112,11 @@ Hole hole_of(const Rim& rim, std::size_t r) {
 }
 
 /// The hull of the rims and what is left of the ball, without the flat faces within the rims.
-OpenSurface open_sphere(const Surface& ball, double radius, const std::vector<Rim>& rims,
+OpenSurface open_sphere(const Surface& ball, double radius, const std::vector<NeckEnd>& rims,
                         const TubeEnd* end) {
   OpenSurface open;
   for (std::size_t r = 0; r < rims.size(); ++r) {
-    for (int k = 0; k < neck_sides; ++k) open.surface.vertices.push_back(rims[r].corner(k));
+    for (int k = 0; k < neck_sides; ++k) open.surface.vertices.push_back(corner_of(rims[r], k));
     open.holes.push_back(hole_of(rims[r], r));
   }
   const auto of_rims = static_cast<std::int32_t>(open.surface.vertices.size());
@@ -159,11 +153,7 @@ OpenSurfaces open_spheres(const ExportedBed& exported) {
   std::vector<Neck> necks = asked_necks(exported, treated);
   narrow(
       exported, bodies, [&](Neck& neck) { fit_to_spheres(bed, neck); }, necks);
-  std::vector<std::vector<Rim>> rims(bed.grains.size());
-  for (std::size_t k = 0; k < necks.size(); ++k) {
-    rims[necks[k].a].push_back({&necks[k], k, false});
-    if (!necks[k].is_wall) rims[necks[k].b].push_back({&necks[k], k, true});
-  }
+  const auto rims = neck_ends(necks, bed.grains.size());
   OpenSurfaces all;
   const Surface ball = unit_ball(3);
   for (std::size_t k = 0; k < rims.size(); ++k) {
