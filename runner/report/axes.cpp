@@ -344,12 +344,27 @@ bool have_room(const std::vector<std::string>& texts, std::size_t longest) {
                      [&](const std::string& text) { return characters(text) <= longest; });
 }
 
-/// The last `longest` characters, the first of them "…".
-std::string end_of(const std::string& text, std::size_t longest) {
-  std::size_t left_out = characters(text) + 1 - longest;
+/// Where character number `n` begins, from 0; the end of a text that has no more than `n`.
+std::size_t byte_of(const std::string& text, std::size_t n) {
   std::size_t at = 0;
-  while (at < text.size() && (!begins_character(text[at]) || left_out-- > 0)) ++at;
-  return "…" + text.substr(at);
+  while (at < text.size() && (!begins_character(text[at]) || n-- > 0)) ++at;
+  return at;
+}
+
+/// How many characters two texts begin with alike.
+std::size_t shared_characters(const std::string& a, const std::string& b) {
+  auto differ = std::mismatch(a.begin(), a.end(), b.begin(), b.end()).first;
+  while (differ != a.end() && !begins_character(*differ)) --differ;
+  return characters({a.begin(), differ});
+}
+
+/// `longest` characters: the beginning of a longer text, "…", and what stands about character
+/// number `place`.
+std::string without_middle(const std::string& text, std::size_t place, std::size_t longest) {
+  const std::size_t head = (longest - 1) / 2, tail = longest - 1 - head;
+  const std::size_t from = std::min(place - tail / 2, characters(text) - tail);
+  return text.substr(0, byte_of(text, head)) + "…" +
+         shortened(text.substr(byte_of(text, from)), tail);
 }
 
 bool are_different(const std::vector<std::string>& texts) {
@@ -400,8 +415,14 @@ std::vector<std::string> told_apart(const std::vector<std::string>& texts, std::
   for (const std::string& text : texts) told.push_back(shortened(text, longest));
   const std::vector<std::string> beginnings = told;
   for (std::size_t k = 0; k < texts.size(); ++k) {
-    const bool is_alike = std::count(beginnings.begin(), beginnings.end(), beginnings[k]) > 1;
-    if (is_alike && characters(texts[k]) > longest) told[k] = end_of(texts[k], longest);
+    const std::size_t length = characters(texts[k]);
+    std::size_t alike = 0, place = length;  // of the first difference
+    for (std::size_t j = 0; j < texts.size(); ++j) {
+      if (beginnings[j] != beginnings[k]) continue;
+      ++alike;
+      place = std::min(place, shared_characters(texts[k], texts[j]));
+    }
+    if (alike > 1 && length > longest) told[k] = without_middle(texts[k], place, longest);
   }
   if (are_different(told) || !are_different(texts)) return told;
   for (std::size_t k = 0; k < texts.size(); ++k) {

@@ -65,8 +65,9 @@ inline constexpr std::size_t figure_label = 16;
 /// share.
 std::vector<std::string> titles_of(const std::vector<const Group*>& groups, std::size_t longest);
 
-/// Texts shortened to so many characters; those that would then be alike lose their beginnings
-/// instead, and if that does not tell them apart either they begin with their number in the list.
+/// Texts shortened to so many characters; those that would then be alike are left out in the middle
+/// instead, up to where they first differ, and if that does not tell them apart either they begin
+/// with their number in the list.
 std::vector<std::string> told_apart(const std::vector<std::string>& texts, std::size_t longest);
 
 /// `text` shortened to so many characters, the last one "…" where any were left out.

@@ -304,12 +304,17 @@ TEST_CASE("titles leave out what all of a label share before they lose the label
         std::vector<std::string>{"mono, W = 4", "two sizes, W = 4", "two sizes, W = 6"});
 }
 
-TEST_CASE("shortened texts that would be alike are told by their ends, or else by number",
+TEST_CASE("shortened texts that would be alike are told by where they differ, or else by number",
           "[report]") {
   using Texts = std::vector<std::string>;
   CHECK(told_apart({"abcdef", "x"}, 4) == Texts{"abc…", "x"});
-  CHECK(told_apart({"abcdef1", "abcdef2"}, 4) == Texts{"…ef1", "…ef2"});
-  CHECK(told_apart({"φφφφφφ1", "φφφφφφ2"}, 4) == Texts{"…φφ1", "…φφ2"});
+  CHECK(told_apart({"abcdef1", "abcdef2"}, 4) == Texts{"a…f1", "a…f2"});
+  CHECK(told_apart({"φφφφφφ1", "φφφφφφ2"}, 4) == Texts{"φ…φ1", "φ…φ2"});
+  CHECK(told_apart({"abcdefφ", "abcdefχ"}, 4) == Texts{"a…fφ", "a…fχ"});  // one byte in common
   CHECK(told_apart({"abc1defg", "abc2defg"}, 4) == Texts{"1: …", "2: …"});
+  const std::string begin = "beads of two sizes, ", end = ", started from a file of centres";
+  CHECK(told_apart({begin + "sieved, spread = 0.15" + end, begin + "sieved, spread = 0.3" + end},
+                   30) ==
+        Texts{"beads of two s…ad = 0.15, sta…", "beads of two s…ad = 0.3, star…"});
   CHECK(told_apart({"same", "same"}, 4) == Texts{"same", "same"});
 }

@@ -63,6 +63,14 @@ TEST_CASE("keys have the columns that gnuplot finds room for, whatever the chara
   CHECK(has(key_of(std::string(43, 'a')), std::string(41, 'a') + "…'"));  // two of 43 have no room
 }
 
+TEST_CASE("long entries of a key keep their beginning and what tells them apart", "[report]") {
+  const std::string begin = "glass beads with a coating of the second kind, batch ";
+  const std::vector<KeyEntry> key = {{"points ls 1", begin + "7"}, {"points ls 2", begin + "8"}};
+  CHECK_THAT(Panels(Figure{}, 1, {1.0}, key).key(),
+             Catch::Contains("'glass beads with a c… second kind, batch 7'") &&
+                 Catch::Contains("'glass beads with a c… second kind, batch 8'"));
+}
+
 TEST_CASE("series of kinds of contact have marks of their own", "[report]") {
   const std::vector<Row> rows = {mixture_row("a", 4), polyhedra_row("b", 5)};
   const Analysis analysis = analyse(rows);
