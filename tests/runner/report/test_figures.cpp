@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <limits>
+#include <set>
 
 #include <catch2/catch.hpp>
 
@@ -254,6 +255,29 @@ TEST_CASE("published formulas are drawn beside the means, each once, where they 
   CHECK_THAT(csv, !Catch::Contains("\n3,"));
   CHECK(std::none_of(figures.begin(), figures.end(),
                      [](const Figure& figure) { return figure.name == "published"; }));
+}
+
+TEST_CASE("the files of all figures have the names by which they are removed", "[report]") {
+  std::set<std::string> stems;
+  const auto add = [&](const std::vector<Row>& rows, const Reference& reference) {
+    const Analysis analysis = analyse(rows);
+    for (const Figure& figure : figures_of(rows, analysis, compare_with(reference, analysis))) {
+      stems.insert(figure.name);
+      for (const auto& [file, table] : figure.tables) stems.insert(file.substr(0, file.find('.')));
+    }
+  };
+  Reference reference;
+  reference.families = {
+      {{},
+       {{"phi", 0, "", std::nullopt, "", PublishedFormula{"0.6 + 0/W", "a", 4, 16, 0}},
+        {"phi_bulk", 0, "", Published::Range{0.6, 0.65, 0.0}, "", std::nullopt}}}};
+  add(wall_rows(), reference);
+  add(random_rows(), {});
+  add({mixture_row("a", 4), polyhedra_row("b", 5)}, {});
+  add({settled_row("a", 4, 0.6, 5.0, Boundary::walls, 0.25),
+       settled_row("b", 4, 0.6, 5.0, Boundary::walls, 0.5)},
+      {});
+  CHECK(stems == std::set<std::string>(figure_names.begin(), figure_names.end()));
 }
 
 TEST_CASE("a published value is drawn at its distance in errors of both", "[report]") {
