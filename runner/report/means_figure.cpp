@@ -24,7 +24,23 @@ struct PublishedCurve {
   std::string quantity;
   PublishedFormula formula;
   std::vector<double> widths;  ///< where it holds and packings are, d
+  /// Places 1 / W or 1 / D, from the widest to the narrowest of these, and values there.
+  std::vector<std::pair<double, double>> points = {};
 };
+
+std::vector<std::pair<double, double>> points_of(const PublishedCurve& curve) {
+  constexpr int steps = 200;
+  const auto [least, most] = std::minmax_element(curve.widths.begin(), curve.widths.end());
+  const double first = 1.0 / *most, last = 1.0 / *least;
+  std::vector<std::pair<double, double>> points;
+  for (int k = 0; k <= steps; ++k) {
+    const double x = first + (last - first) * k / steps;
+    const double value = value_of_formula(curve.formula.text, 1.0 / x);
+    if (std::isfinite(value))
+      points.emplace_back(x, curve.quantity == "porosity" ? 1.0 - value : value);
+  }
+  return points;
+}
 
 /// Each formula once, over the widths of all families that it is set beside.
 std::vector<PublishedCurve> curves_of(const Axes& axes,
@@ -43,26 +59,12 @@ std::vector<PublishedCurve> curves_of(const Axes& axes,
     }
     for (const Comparison& at : one.along) curve->widths.push_back(at.published.width);
   }
+  for (PublishedCurve& curve : curves) curve.points = points_of(curve);
   return curves;
 }
 
 Quantity panel_of(const PublishedCurve& curve) {
   return curve.quantity == "Z" ? Quantity::coordination : Quantity::solid_fraction;
-}
-
-/// Places 1 / W or 1 / D, from the widest to the narrowest of its widths, and values there.
-std::vector<std::pair<double, double>> points_of(const PublishedCurve& curve) {
-  constexpr int steps = 200;
-  const auto [least, most] = std::minmax_element(curve.widths.begin(), curve.widths.end());
-  const double first = 1.0 / *most, last = 1.0 / *least;
-  std::vector<std::pair<double, double>> points;
-  for (int k = 0; k <= steps; ++k) {
-    const double x = first + (last - first) * k / steps;
-    const double value = value_of_formula(curve.formula.text, 1.0 / x);
-    if (std::isfinite(value))
-      points.emplace_back(x, curve.quantity == "porosity" ? 1.0 - value : value);
-  }
-  return points;
 }
 
 /// Greys and browns, apart from the colours of series; twelve of them.
@@ -75,7 +77,7 @@ std::string style_of_curve(std::size_t k) {
 std::string curves_csv(const std::vector<PublishedCurve>& curves) {
   std::string text = csv_line({"curve", "x", "value", "name"});
   for (std::size_t k = 0; k < curves.size(); ++k) {
-    for (const auto& [x, value] : points_of(curves[k])) {
+    for (const auto& [x, value] : curves[k].points) {
       text += csv_line({cell(k + 1), cell(x), cell(value), cell(curves[k].formula.name)});
     }
   }
@@ -213,7 +215,7 @@ std::vector<double> heights_of(const Axes& axes, const std::vector<FittedSeries>
   const Range near = range_of(heights, 0.5);
   for (const PublishedCurve& curve : curves) {
     if (panel_of(curve) != quantity) continue;
-    for (const auto& [x, value] : points_of(curve)) {
+    for (const auto& [x, value] : curve.points) {
       if (value >= near.low && value <= near.high) heights.push_back(value);
     }
   }
