@@ -66,21 +66,17 @@ std::vector<KeyEntry> kinds_key(const Axes& axes) {
 
 std::vector<double> places_of(const Axes& axes) {
   std::vector<double> places;
-  for (const Series& series : axes.series) {
-    for (const Group* group : series.groups) places.push_back(abscissa(axes, *group));
-  }
+  for (const Group* group : groups_on(axes)) places.push_back(abscissa(axes, *group));
   return places;
 }
 
 /// From 0 to the end of the highest error bar of these shares, with some room above.
 Range shares_shown(const Axes& axes, const std::string& of) {
   std::vector<double> ends = {0.0};
-  for (const Series& series : axes.series) {
-    for (const Group* group : series.groups) {
-      for (const char* kind : kind_names) {
-        const Spread& share = mean_of(*group, of + kind);
-        add_ends(share.mean, share.error, ends);
-      }
+  for (const Group* group : groups_on(axes)) {
+    for (const char* kind : kind_names) {
+      const Spread& share = mean_of(*group, of + kind);
+      add_ends(share.mean, share.error, ends);
     }
   }
   return {0.0, range_of({0.0, *std::max_element(ends.begin(), ends.end())}, 0.05).high};

@@ -174,11 +174,9 @@ std::string residuals_csv(const std::vector<FittedSeries>& all) {
 std::string abscissa_commands(const Axes& axes, bool is_lowest, bool is_highest) {
   std::vector<double> at;
   std::set<double, std::greater<>> widths;
-  for (const Series& series : axes.series) {
-    for (const Group* group : series.groups) {
-      at.push_back(abscissa(axes, *group));
-      if (group->job.box.y == Boundary::walls) widths.insert(group->job.box.width);
-    }
+  for (const Group* group : groups_on(axes)) {
+    at.push_back(abscissa(axes, *group));
+    if (group->job.box.y == Boundary::walls) widths.insert(group->job.box.width);
   }
   if (is_over_width(axes)) at.push_back(0.0);
   std::string text = range_command("x", range_of(at, 0.06));

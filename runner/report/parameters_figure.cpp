@@ -56,9 +56,7 @@ Range range_of_all(const Axes& axes, Quantity quantity) {
 
 Range range_of_parameter(const Axes& axes, const std::string& parameter) {
   std::vector<double> values;
-  for (const Series& series : axes.series) {
-    for (const Group* group : series.groups) values.push_back(value_of(*group, parameter));
-  }
+  for (const Group* group : groups_on(axes)) values.push_back(value_of(*group, parameter));
   return range_of(values, 0.04);
 }
 

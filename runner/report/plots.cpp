@@ -15,10 +15,8 @@ bool is_there(const Series& series) {
 }
 
 std::vector<const Group*> settled_groups(const Axes& axes) {
-  std::vector<const Group*> all;
-  for (const Series& series : axes.series) {
-    std::copy_if(series.groups.begin(), series.groups.end(), std::back_inserter(all), has_settled);
-  }
+  std::vector<const Group*> all = groups_on(axes);
+  std::erase_if(all, [](const Group* group) { return !has_settled(group); });
   return all;
 }
 
@@ -34,6 +32,14 @@ std::vector<GroupWithCurves> spread_over(const std::vector<const Group*>& all, s
 }
 
 }  // namespace
+
+std::vector<const Group*> groups_on(const Axes& axes) {
+  std::vector<const Group*> all;
+  for (const Series& series : axes.series) {
+    all.insert(all.end(), series.groups.begin(), series.groups.end());
+  }
+  return all;
+}
 
 double abscissa(const Axes& axes, const Group& group) {
   if (!is_over_width(axes)) return place_on(axes, group);
@@ -210,11 +216,9 @@ void add_ends(double value, double error, std::vector<double>& ends) {
 }
 
 void add_ends_of_all(const Axes& axes, Quantity quantity, std::vector<double>& ends) {
-  for (const Series& series : axes.series) {
-    for (const Group* group : series.groups) {
-      const Spread& spread = spread_of(*group, quantity);
-      add_ends(spread.mean, spread.error, ends);
-    }
+  for (const Group* group : groups_on(axes)) {
+    const Spread& spread = spread_of(*group, quantity);
+    add_ends(spread.mean, spread.error, ends);
   }
 }
 

@@ -10,6 +10,9 @@
 
 namespace grainsweep {
 
+/// The groups of all series, one series after the other.
+std::vector<const Group*> groups_on(const Axes& axes);
+
 /// Where a group stands on the axis of a figure: d / W of a gap between walls, 0 without walls;
 /// over anything else its place on the axis.
 double abscissa(const Axes& axes, const Group& group);
