@@ -4,7 +4,6 @@
 #include <functional>
 #include <iterator>
 #include <map>
-#include <set>
 
 #include "runner/report/figures.hpp"
 #include "runner/report/plots.hpp"

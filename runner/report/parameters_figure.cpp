@@ -1,6 +1,4 @@
 // Solid fraction and coordination number over each parameter that a random design varies.
-#include <algorithm>
-#include <cmath>
 
 #include "runner/report/figures.hpp"
 #include "runner/report/plots.hpp"

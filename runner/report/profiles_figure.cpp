@@ -1,6 +1,5 @@
 // Solid fraction and coordination number from wall to wall.
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 
 #include "runner/report/figures.hpp"
