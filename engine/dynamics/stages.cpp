@@ -56,18 +56,22 @@ constexpr StageRule dynamic_fall = {.name = "fall",
                                     .usual_steps = 1200,
                                     .done_after = 0.25};
 
-/// Steps with momentum, solved to a path: grains slide into their places. How far a bed still sinks
-/// depends on the number of its steps, hardly on their length or momentum; how much it is tapped
-/// depends on the path of all of them: a hundredth of that.
+/// Short steps with momentum, solved to a path: grains slide into their places. How far a bed still
+/// sinks depends on the number of its steps, little on their length or momentum; how much it is
+/// tapped depends on the path of all of them: a hundredth of that. In a step 0.6 times as long a
+/// residual force moves a grain 0.36 times as far, so that fewer sweeps keep to the same path: a
+/// quarter more of such steps cost less and sink the bed further.
 constexpr StageRule creep = {.name = "creep",
+                             .step = 0.6,
+                             .shortens = true,
                              .inertia = Inertia::damped,
-                             .path = 0.5,
+                             .path = 0.4,
                              .carries = true,
                              .correction = 0.3,
                              .near = 0.03,
                              .margin = 0.01,
                              .fall_iterations = 1.0,
-                             .creep = 1.0,
+                             .creep = 1.25,
                              .done_before = 0.25,
                              .done_after = 0.5};
 
@@ -105,6 +109,7 @@ constexpr StageRule quench = {.name = "quench",
 /// Then the quench again.
 constexpr StageRule ease = {.name = "ease",
                             .step = 0.25,
+                            .shortens = true,
                             .inertia = Inertia::damped,
                             .path_of_gap = 0.1,
                             .carries = true,
@@ -283,6 +288,15 @@ double path_of(const Accuracy& accuracy, const StageRule& rule) {
 /// ten times as long as it takes with 100.
 constexpr double sweeps_of_a_diameter = 1.5;
 
+/// Height of a bed, d, from which on steps that shorten do so. What presses a grain is the weight
+/// above it, so that it moves as far in a step that is shorter by the root of that.
+constexpr double usual_height = 30.0;
+
+double step_of(const Accuracy& accuracy, const StageRule& rule, double height) {
+  const double share = rule.shortens ? std::sqrt(std::min(1.0, usual_height / height)) : 1.0;
+  return share * rule.step * accuracy.step;
+}
+
 int iterations_of(const Accuracy& accuracy, const StageRule& rule, double height) {
   const double at_rest =
       std::max(static_cast<double>(accuracy.rest_iterations), sweeps_of_a_diameter * height);
@@ -328,7 +342,7 @@ Accuracy closer_where_narrow(const Accuracy& accuracy, const Box& box) {
 
 StepSettings settings_of(const Accuracy& accuracy, const StageRule& rule, double height) {
   StepSettings s;
-  s.dt = rule.step * accuracy.step;
+  s.dt = step_of(accuracy, rule, height);
   s.momentum = momentum_of(accuracy, rule.inertia);
   s.correction = rule.correction;
   s.near = rule.near;

@@ -29,7 +29,8 @@ enum class Inertia { none, damped, full };
 struct StageRule {
   const char* name = "";
   StageEnd end = StageEnd::steps;
-  double step = 1.0;  ///< in Accuracy::step
+  double step = 1.0;      ///< in Accuracy::step
+  bool shortens = false;  ///< with the height of the bed, from a usual one on
   Inertia inertia = Inertia::none;
   // A step that strays by less than one of these is solved:
   double path = 0.0;           ///< so many times Accuracy::path_tolerance

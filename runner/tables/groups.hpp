@@ -141,8 +141,8 @@ CurveTable curve_table(const std::string& file, const Columns<Line>& columns, Li
 
 /// In the order of their numbers. The errors of their phi and Z come from the variance of single
 /// packings, moderated by that of the other groups of a family (moderate_errors): the standard
-/// deviation of three replicates alone is uncertain by half its value. A single packing has an error of these, too, if
-/// others of its family have replicates.
+/// deviation of three replicates alone is uncertain by half its value. A single packing has an
+/// error of these, too, if others of its family have replicates.
 std::vector<Group> groups_of(const std::vector<Row>& rows);
 std::vector<Group> groups_of(std::vector<Row>&& rows) = delete;
 

@@ -68,11 +68,11 @@ TEST_CASE("every bed is looked at first, and goes on until a test of rest holds"
   }
 }
 
-TEST_CASE("the creep takes the steps that it is given") {
+TEST_CASE("the creep takes its share of the steps that it is given") {
   for (const int steps : {0, 1, 2, 3, 80, 301}) {
     Accuracy accuracy;
     accuracy.creep_steps = steps;
-    CHECK(steps_of(accuracy, heavy_ball("creep")) == steps);
+    CHECK(steps_of(accuracy, heavy_ball("creep")) == steps + steps / 4);
   }
   // 0.35 * 180 is 63 less one rounding.
   Accuracy accuracy;
@@ -146,12 +146,32 @@ TEST_CASE(
     return settings.limits.rms_tolerance * settings.dt * settings.dt;
   };
   CHECK(path(heavy_ball("fall")) == Approx(6e-4));
-  CHECK(path(heavy_ball("creep")) == Approx(1.5e-4));
+  CHECK(path(heavy_ball("creep")) == Approx(1.2e-4));
   CHECK(path(heavy_ball("quench")) == 0.0);
   accuracy.step = 0.1;
   CHECK(path(heavy_ball("fall")) == Approx(3e-4));
   accuracy.imbalance_gap = 1e-5;
   CHECK(path(heavy_ball("ease")) == Approx(1e-6));
+}
+
+TEST_CASE(
+    "deep grains, pressed by more weight, creep and slide on in shorter steps that stray as far") {
+  const Accuracy accuracy;
+  for (const char* name : {"creep", "ease"}) {
+    INFO(name);
+    const StageRule& stage = heavy_ball(name);
+    const StepSettings low = settings_of(accuracy, stage, 30.0);
+    const StepSettings high = settings_of(accuracy, stage, 120.0);
+    CHECK(low.dt == stage.step * accuracy.step);
+    CHECK(high.dt == Approx(low.dt / 2));
+    CHECK(high.limits.rms_tolerance == Approx(4 * low.limits.rms_tolerance));
+    CHECK(settings_of(accuracy, stage, 10.0).dt == low.dt);
+  }
+  for (const char* name : {"look", "fall", "slow", "quench"}) {
+    INFO(name);
+    CHECK(settings_of(accuracy, heavy_ball(name), 120.0).dt ==
+          settings_of(accuracy, heavy_ball(name), 30.0).dt);
+  }
 }
 
 TEST_CASE("in narrow containers steps may stray less far, as the square of how narrow they are") {
