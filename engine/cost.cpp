@@ -137,7 +137,8 @@ double iterations_of_path(const PackingSpec& spec) {
 
 /// Solver iterations over all rows that the stages of engine/dynamics/settle.hpp usually need.
 /// While a bed fills up its deep part sleeps, so that beyond some height the fall needs no more;
-/// the creep of spheres grows with the layers that forces have to find their way through.
+/// the creep of spheres grows with the layers that forces have to find their way through, less than
+/// in proportion since its steps shorten, and their rest in proportion.
 double usual_iterations(const PackingSpec& spec, double layers) {
   const Accuracy& a = spec.accuracy;
   const double falling =
@@ -149,7 +150,8 @@ double usual_iterations(const PackingSpec& spec, double layers) {
     return solved * (110.0 * falling + 7400.0 * creep) + 80.0 * a.rest_iterations;
   }
   const double fall = (a.protocol == Protocol::dynamic ? 800.0 : 200.0) * falling;
-  return solved * (fall + 2000.0 * std::pow(layers, 0.75) * creep) + 30.0 * a.rest_iterations;
+  return solved * (fall + 3900.0 * std::pow(layers, 0.35) * creep) +
+         30.0 * a.rest_iterations * std::max(1.0, layers / 10.0);
 }
 
 /// Rounds of creep and rest that high beds of spheres take over those of low ones: few iterations
