@@ -55,10 +55,10 @@ UnitVector normal_at(const PolyhedronBed& bed, const ForceContact& contact) {
   const auto grain = static_cast<std::size_t>(contact.a);
   const auto name = static_cast<std::size_t>(contact.b - bed.wall_name(0));
   const Wall& wall = bed.walls[std::min(name, bed.walls.size() - 1)];
-  Vector place = bed.pose(grain).centre;
+  const Pose pose = bed.pose(grain);
+  Vector place = pose.centre;
   if (wall.is_round() && bed.turns(grain)) {
-    const std::size_t vertex = name - (bed.walls.size() - 1);
-    place += bed.pose(grain).orientation * (bed.scale(grain) * bed.shape(grain).vertices[vertex]);
+    place = pose.place(bed.shape(grain).vertices[name - (bed.walls.size() - 1)]);
   }
   return wall.normal(place.x(), place.y(), place.z());
 }

@@ -50,7 +50,7 @@ std::vector<ContactPoint> points_of(const PolyhedronBed& bed, const TouchingWall
   const Pose pose = bed.pose(static_cast<std::size_t>(touching.grain));
   std::vector<ContactPoint> points;
   for (const Vector& vertex : bed.shape(static_cast<std::size_t>(touching.grain)).vertices) {
-    const Vector place = pose.centre + pose.orientation * (pose.scale * vertex);
+    const Vector place = pose.place(vertex);
     points.push_back({place, wall.distance(place.x(), place.y(), place.z())});
   }
   return points;

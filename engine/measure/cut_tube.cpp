@@ -253,7 +253,7 @@ double polyhedron_tube_volume(const ConvexShape& shape, const Pose& pose, double
   Corners corners;
   Span upright{pose.centre.z(), pose.centre.z()};
   for (const Vector& vertex : shape.vertices) {
-    const Vector corner = pose.centre + pose.orientation * (pose.scale * vertex);
+    const Vector corner = pose.place(vertex);
     corners.push_back(corner - Vector(axis, axis, 0.0));
     upright = {std::min(upright.low, corner.z()), std::max(upright.high, corner.z())};
   }

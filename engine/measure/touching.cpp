@@ -35,7 +35,7 @@ double wall_gap(const PolyhedronBed& bed, const Wall& wall, std::size_t grain) {
   const Pose pose = bed.pose(grain);
   double gap = std::numeric_limits<double>::infinity();
   for (const Vector& vertex : bed.shape(grain).vertices) {
-    const Vector place = pose.centre + pose.orientation * (pose.scale * vertex);
+    const Vector place = pose.place(vertex);
     gap = std::min(gap, wall.distance(place.x(), place.y(), place.z()));
   }
   return gap;

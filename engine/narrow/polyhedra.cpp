@@ -151,8 +151,7 @@ void touch_round_wall(std::size_t k, std::int32_t grain, double margin, const Po
   const Pose pose = bed.pose(static_cast<std::size_t>(grain));
   const std::vector<Vector>& vertices = bed.shape(static_cast<std::size_t>(grain)).vertices;
   for (std::size_t v = 0; v < vertices.size(); ++v) {
-    const Vector position = pose.scale * vertices[v];
-    const Vector place = pose.centre + pose.orientation * position;
+    const Vector place = pose.place(vertices[v]);
     const double gap = wall.distance(place.x(), place.y(), place.z());
     if (gap > margin) continue;
     const Vector normal = pose.orientation.conjugate() * -normal_of(wall, place);
@@ -163,7 +162,7 @@ void touch_round_wall(std::size_t k, std::int32_t grain, double margin, const Po
                               found.points.size(),
                               1,
                               {}});
-    found.points.push_back({position, gap});
+    found.points.push_back({pose.scale * vertices[v], gap});
   }
 }
 

@@ -10,11 +10,13 @@ namespace grainsweep {
 
 using Quaternion = Eigen::Quaterniond;
 
-/// A point x of the shape lies at centre + scale * (orientation x) in the box.
 struct Pose {
   Vector centre = Vector::Zero();  ///< d
   double scale = 1.0;
   Quaternion orientation = Quaternion::Identity();  ///< unit; from the shape's frame to the box's
+
+  /// Where a point of the shape, in its frame, lies in the box, d.
+  Vector place(const Vector& point) const { return centre + orientation * (scale * point); }
 };
 
 /// The pose in two records of a bed's columns: x, y, z, half the scale, and x, y, z, w of the
