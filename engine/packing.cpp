@@ -1,7 +1,6 @@
 #include "engine/packing.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "engine/dynamics/settle.hpp"

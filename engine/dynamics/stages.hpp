@@ -7,7 +7,6 @@
 #include <span>
 
 #include "engine/dynamics/step.hpp"
-#include "engine/scene/bed.hpp"
 #include "engine/scene/spec.hpp"
 
 namespace grainsweep {

@@ -1,6 +1,5 @@
 #include "engine/measure/cut_polyhedron.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>

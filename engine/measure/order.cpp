@@ -1,8 +1,5 @@
 #include "engine/measure/order.hpp"
 
-#include <algorithm>
-#include <limits>
-
 #include "engine/measure/bond_order.hpp"
 #include "engine/measure/contact_forces.hpp"
 #include "engine/measure/pair_correlation.hpp"

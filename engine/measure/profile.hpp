@@ -9,7 +9,7 @@
 
 #include <vector>
 
-#include "engine/measure/solid_fraction.hpp"
+#include "engine/measure/slab.hpp"
 #include "engine/measure/touching.hpp"
 #include "engine/results.hpp"
 

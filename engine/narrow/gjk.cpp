@@ -1,8 +1,6 @@
 #include "engine/narrow/gjk.hpp"
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "engine/narrow/separating_axes.hpp"
 

@@ -1,8 +1,5 @@
 #include "engine/scene/components.hpp"
 
-#include <algorithm>
-#include <utility>
-
 #include "engine/scene/random.hpp"
 #include "engine/shape/mixture.hpp"
 

@@ -1,7 +1,5 @@
 // Whole packings of about 2000 grains: what a user gets, against what mechanics and earlier
 // measurements say.
-#include <algorithm>
-#include <cmath>
 
 #include <catch2/catch.hpp>
 

@@ -1,6 +1,5 @@
 // Packings in tubes: what is known exactly of them, and what every packing promises.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <vector>
 

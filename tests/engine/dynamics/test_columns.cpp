@@ -1,5 +1,4 @@
 #include <cmath>
-#include <vector>
 
 #include <catch2/catch.hpp>
 

@@ -3,7 +3,6 @@
 
 #include <catch2/catch.hpp>
 
-#include "engine/dynamics/rest.hpp"
 #include "engine/dynamics/step.hpp"
 #include "engine/units.hpp"
 #include "tests/support/about.hpp"

@@ -6,7 +6,6 @@
 #include <catch2/catch.hpp>
 
 #include "engine/measure/cut_polyhedron.hpp"
-#include "engine/measure/cut_sphere.hpp"
 #include "engine/measure/cut_tube.hpp"
 #include "engine/measure/solid_fraction.hpp"
 #include "engine/shape/given_shape.hpp"

@@ -5,6 +5,7 @@
 
 #include "engine/measure/coordination.hpp"
 #include "engine/measure/profile.hpp"
+#include "engine/measure/solid_fraction.hpp"
 #include "engine/shape/mixture.hpp"
 #include "engine/units.hpp"
 #include "tests/support/about.hpp"

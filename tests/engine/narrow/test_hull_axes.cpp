@@ -1,6 +1,5 @@
 // Candidates: hulls that move by steps of all lengths, and at each step the axes found with what
 // the pair remembers against those of a search that remembers nothing.
-#include <cmath>
 #include <vector>
 
 #include <catch2/catch.hpp>
