@@ -136,6 +136,15 @@ void fill_queries(const Balls& balls, const std::vector<std::int32_t>& grains, c
   }
 }
 
+/// A share of the grains that these columns were filled with.
+SphereQueries view_of(const QueryColumns& queries, const std::vector<std::int32_t>& grains,
+                      IndexRange share) {
+  return {queries.x.data() + share.first, queries.y.data() + share.first,
+          queries.z.data() + share.first, queries.radius.data() + share.first,
+          grains.data() + share.first,    queries.cell.data() + share.first,
+          share.last - share.first};
+}
+
 /// Pairs of grains of one level.
 void list_pairs_within(const SizeLevel& level, float reach, const ExecutionContext& context,
                        Candidates& candidates) {
@@ -154,19 +163,14 @@ void list_pairs_within(const SizeLevel& level, float reach, const ExecutionConte
 /// Pairs of a level's grains with those of a coarser level.
 void list_pairs_across(const Balls& balls, const SizeLevel& fine, const SizeLevel& coarse,
                        float reach, const ExecutionContext& context, Candidates& candidates) {
-  QueryColumns& q = candidates.queries;
-  fill_queries(balls, fine.members, coarse.cells, q);
+  fill_queries(balls, fine.members, coarse.cells, candidates.queries);
   const SphereGrid grid = view_of(coarse.grid, coarse.cells, reach);
   const std::size_t parts = parts_of(fine);
   append_parts(
       context.loop, parts, 2 * fine.members.size(),
       [&](std::size_t part, GrainPair* pairs, std::size_t capacity) {
-        const IndexRange share = chunk_of(fine.members.size(), part, parts);
-        const SphereQueries queries{
-            q.x.data() + share.first,          q.y.data() + share.first,
-            q.z.data() + share.first,          q.radius.data() + share.first,
-            fine.members.data() + share.first, q.cell.data() + share.first,
-            share.last - share.first};
+        const SphereQueries queries =
+            view_of(candidates.queries, fine.members, chunk_of(fine.members.size(), part, parts));
         return context.kernels.sphere_pairs_across(grid, queries, pairs, capacity);
       },
       candidates);
@@ -304,17 +308,11 @@ void look_up(const ExecutionContext& context, SphereBed& bed, Candidates& candid
   const Balls balls{bed, candidates.built_at};
   const Cells& cells = candidates.levels.front().cells;
   fill_columns(balls, candidates.members, cells, context.loop, candidates.around);
-  QueryColumns& q = candidates.queries;
-  fill_queries(balls, candidates.strays, cells, q);
+  fill_queries(balls, candidates.strays, cells, candidates.queries);
   const SphereGrid grid =
       view_of(candidates.around, cells, static_cast<float>(candidates.reach + candidates.slack));
-  const SphereQueries queries{q.x.data(),
-                              q.y.data(),
-                              q.z.data(),
-                              q.radius.data(),
-                              candidates.strays.data(),
-                              q.cell.data(),
-                              candidates.strays.size()};
+  const SphereQueries queries =
+      view_of(candidates.queries, candidates.strays, {0, candidates.strays.size()});
   candidates.met.clear();
   append_found(
       [&](GrainPair* pairs, std::size_t capacity) {
