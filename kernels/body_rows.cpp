@@ -13,18 +13,9 @@ using grainsweep::Record;
 using grainsweep::SweepRule;
 using grainsweep::SweepSums;
 
-template <class Real>
-struct Vec {
-  Batch<Real> x, y, z;
-};
-
-template <class Real>
-inline Batch<Real> dot(const Vec<Real>& u, const Vec<Real>& v) {
-  return u.x * v.x + u.y * v.y + u.z * v.z;
-}
 /// to += k v.
 template <class Real>
-inline void add(const Batch<Real>& k, const Vec<Real>& v, Vec<Real>& to) {
+inline void add(const Batch<Real>& k, const Vectors<Real>& v, Vectors<Real>& to) {
   to.x += k * v.x;
   to.y += k * v.y;
   to.z += k * v.z;
@@ -35,7 +26,7 @@ template <class Real>
 struct Contacts {
   const std::uint32_t* a;
   const std::uint32_t* b;
-  Vec<Real> normal;
+  Vectors<Real> normal;
 };
 
 template <class Real>
@@ -48,12 +39,12 @@ inline Contacts<Real> load_contacts(const BodyBlock<Real>& block, std::size_t la
 /// One point of each.
 template <class Real>
 struct Points {
-  Vec<Real> lever_a, lever_b;
+  Vectors<Real> lever_a, lever_b;
   Batch<Real> gap;
 };
 
 template <class Real>
-inline Vec<Real> load_vectors(const Real (&from)[3][block_width], std::size_t lane) {
+inline Vectors<Real> load_vectors(const Real (&from)[3][block_width], std::size_t lane) {
   return {load(from[0] + lane), load(from[1] + lane), load(from[2] + lane)};
 }
 template <class Real>
@@ -81,11 +72,12 @@ inline void add_both(Record<Real>* base, const std::uint32_t* offset, const Side
 template <class Real>
 struct Motion {
   Batch<Real> approach;  ///< n . (v_b - v_a)
-  Vec<Real> turn_a, turn_b;
+  Vectors<Real> turn_a, turn_b;
 };
 
 template <class Real>
-inline Motion<Real> motion_of(const Vec<Real>& normal, const Side<Real>& a, const Side<Real>& b) {
+inline Motion<Real> motion_of(const Vectors<Real>& normal, const Side<Real>& a,
+                              const Side<Real>& b) {
   return {dot(normal, {b.first.x - a.first.x, b.first.y - a.first.y, b.first.z - a.first.z}),
           {a.second.x, a.second.y, a.second.z},
           {b.second.x, b.second.y, b.second.z}};
@@ -101,7 +93,7 @@ inline Batch<Real> gap_after(const Points<Real>& r, const Motion<Real>& m) {
 template <class Real>
 struct Push {
   Batch<Real> normal = Batch<Real>(Real(0));
-  Vec<Real> turn_a{normal, normal, normal}, turn_b{normal, normal, normal};
+  Vectors<Real> turn_a{normal, normal, normal}, turn_b{normal, normal, normal};
 
   void add_point(const Points<Real>& r, const Batch<Real>& p) {
     normal += p;
@@ -114,7 +106,7 @@ template <class Real>
 inline void store_push(const Contacts<Real>& c, const Push<Real>& push, Record<Real>* accumulated) {
   const Batch<Real> zero(Real(0)), x = push.normal * c.normal.x, y = push.normal * c.normal.y,
                                    z = push.normal * c.normal.z;
-  const Vec<Real>&a = push.turn_a, &b = push.turn_b;
+  const Vectors<Real>&a = push.turn_a, &b = push.turn_b;
   add_both(
       accumulated, c.a,
       Side<Real>{{zero - x, zero - y, zero - z, zero}, {zero - a.x, zero - a.y, zero - a.z, zero}});
@@ -140,7 +132,7 @@ inline void store_side(Record<Real>* u, const std::uint32_t* offset, const Side<
 }
 /// An impulse p along the normal, of either sign.
 template <class Real>
-inline void push_side(const Batch<Real>& p, const Vec<Real>& normal, const Vec<Real>& lever,
+inline void push_side(const Batch<Real>& p, const Vectors<Real>& normal, const Vectors<Real>& lever,
                       Side<Real>& side) {
   side.first.x += side.first.w * (p * normal.x);
   side.first.y += side.first.w * (p * normal.y);
@@ -159,7 +151,7 @@ struct Solved {
 /// Solves the row of a point that has the impulse `before`: moves both of its grains by the change.
 template <class Real>
 inline Solved<Real> solve_point(const BodyPoints<Real>& points, std::size_t lane,
-                                const Vec<Real>& normal, const Batch<Real>& before,
+                                const Vectors<Real>& normal, const Batch<Real>& before,
                                 const Batch<Real>& relaxation, Side<Real>& a, Side<Real>& b) {
   const Batch<Real> zero(Real(0));
   const Points<Real> r = load_points(points, lane);

@@ -12,18 +12,14 @@ using grainsweep::PlaneColumns;
 using grainsweep::PointColumns;
 
 using Lanes = Batch<double>;
+using Vec = Vectors<double>;
 
 constexpr std::size_t width = batch_width<double>;
-
-struct Vec {
-  Lanes x, y, z;
-};
 
 inline Vec all(const double* v) { return {Lanes(v[0]), Lanes(v[1]), Lanes(v[2])}; }
 inline Vec load(const PointColumns& points, std::size_t k) {
   return {load(points.x + k), load(points.y + k), load(points.z + k)};
 }
-inline Lanes dot(const Vec& u, const Vec& v) { return u.x * v.x + u.y * v.y + u.z * v.z; }
 
 std::size_t largest(const double* numbers, std::size_t count) {
   Lanes batch = load(numbers);

@@ -30,6 +30,16 @@ inline Batch<Real> load(const Real* from) {
   return Batch<Real>::load_unaligned(from);
 }
 
+/// One vector per lane.
+template <class Real>
+struct Vectors {
+  Batch<Real> x, y, z;
+};
+template <class Real>
+inline Batch<Real> dot(const Vectors<Real>& u, const Vectors<Real>& v) {
+  return u.x * v.x + u.y * v.y + u.z * v.z;
+}
+
 /// Nearest image of a difference of coordinates along an axis of a period, whose inverse is given;
 /// unchanged if both are 0.
 inline Batch<double> nearest_image(const Batch<double>& difference, double period, double inverse) {

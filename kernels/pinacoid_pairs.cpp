@@ -14,10 +14,7 @@ using grainsweep::PinacoidBlock;
 using grainsweep::PinacoidHalves;
 
 using Lanes = Batch<float>;
-
-struct Vec {
-  Lanes x, y, z;
-};
+using Vec = Vectors<float>;
 
 inline Vec operator+(const Vec& u, const Vec& v) { return {u.x + v.x, u.y + v.y, u.z + v.z}; }
 inline Vec operator-(const Vec& u, const Vec& v) { return {u.x - v.x, u.y - v.y, u.z - v.z}; }
@@ -25,7 +22,6 @@ inline Vec operator*(float k, const Vec& v) {
   const Lanes all(k);
   return {all * v.x, all * v.y, all * v.z};
 }
-inline Lanes dot(const Vec& u, const Vec& v) { return u.x * v.x + u.y * v.y + u.z * v.z; }
 
 /// The shape, its unit normals (0, +-roof_y, roof_z) and (+-end_x, 0, end_z), and its unit hips
 /// (+-hip_x, +-hip_y, +-hip_z).
