@@ -16,28 +16,13 @@ namespace grainsweep {
 ///   gap_k + n . (v_b - v_a) + lever_b,k . (sqrt(I) w)_b - lever_a,k . (sqrt(I) w)_a >= 0.
 /// The normal is the unit vector from a to b, box frame.
 template <class Real>
-struct alignas(64) BodyBlock {
-  std::uint32_t offset_a[block_width] = {};  ///< bytes from a column of records to grain a's first
-  std::uint32_t offset_b[block_width] = {};
+struct BodyBlock : BlockGrains<2 * sizeof(Record<Real>)> {
   Real normal_x[block_width] = {};
   Real normal_y[block_width] = {};
   Real normal_z[block_width] = {};
   std::uint32_t first = 0;   ///< its points are points[first] .. points[first + points - 1]
   std::uint32_t points = 0;  ///< as many as the contact with most has; others are filled up with
                              ///< void points
-
-  std::int32_t a(std::size_t lane) const { return grain_at(offset_a[lane]); }
-  std::int32_t b(std::size_t lane) const { return grain_at(offset_b[lane]); }
-  void set_grains(std::size_t lane, std::int32_t a, std::int32_t b) {
-    offset_a[lane] = static_cast<std::uint32_t>(a) * grain_bytes;
-    offset_b[lane] = static_cast<std::uint32_t>(b) * grain_bytes;
-  }
-
- private:
-  static constexpr std::uint32_t grain_bytes = 2 * sizeof(Record<Real>);
-  static std::int32_t grain_at(std::uint32_t offset) {
-    return static_cast<std::int32_t>(offset / grain_bytes);
-  }
 };
 
 /// One point of each contact of a block. A void point has levers of 0 and a positive gap.

@@ -68,9 +68,7 @@ inline constexpr float pinacoid_rounding = 2e-5F;
 /// An axis has the number 0 .. 3 for face normal k of grain a, 4 .. 7 for face normal k - 4 of
 /// grain b, 8 + 6 i + j for the cross product of edge direction i of a and j of b. Unused lanes
 /// name grain 0 twice.
-struct alignas(64) PinacoidBlock {
-  std::uint32_t offset_a[block_width];  ///< bytes from a column of Record<double> to grain a's
-  std::uint32_t offset_b[block_width];
+struct PinacoidBlock : BlockGrains<sizeof(Record<double>)> {
   float face_separation[block_width];  ///< largest over the face axes, d; negative = overlap
   float edge_separation[block_width];  ///< largest over the edge axes, d
   std::int32_t face_axis[block_width];
@@ -78,11 +76,6 @@ struct alignas(64) PinacoidBlock {
   /// 1 if some edges of the two are parallel within parallel_edges_sine2: their axes, which f32
   /// cannot resolve, were left out, and a pair that is not apart has to be tested in f64.
   std::int32_t edges_parallel[block_width];
-
-  void set_grains(std::size_t lane, std::int32_t a, std::int32_t b) {
-    offset_a[lane] = static_cast<std::uint32_t>(a) * std::uint32_t{sizeof(Record<double>)};
-    offset_b[lane] = static_cast<std::uint32_t>(b) * std::uint32_t{sizeof(Record<double>)};
-  }
 };
 
 /// The kernels that exist for each number type.

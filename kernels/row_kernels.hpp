@@ -16,32 +16,36 @@ struct alignas(4 * sizeof(Real)) Record {
   Real x, y, z, w;
 };
 
+/// The two grains of each lane of a block, whose records in a column begin `grain_bytes` apart.
+template <std::uint32_t grain_bytes>
+struct alignas(64) BlockGrains {
+  std::uint32_t offset_a[block_width];  ///< bytes from a column of records to grain a's first
+  std::uint32_t offset_b[block_width];
+
+  std::int32_t a(std::size_t lane) const { return grain_at(offset_a[lane]); }
+  std::int32_t b(std::size_t lane) const { return grain_at(offset_b[lane]); }
+  void set_grains(std::size_t lane, std::int32_t a, std::int32_t b) {
+    offset_a[lane] = static_cast<std::uint32_t>(a) * grain_bytes;
+    offset_b[lane] = static_cast<std::uint32_t>(b) * grain_bytes;
+  }
+
+ private:
+  static std::int32_t grain_at(std::uint32_t offset) {
+    return static_cast<std::int32_t>(offset / grain_bytes);
+  }
+};
+
 /// Rows of `block_width` contacts. A row says gap + normal . (u_b - u_a) >= 0, where u are the
 /// displacements of the step: the two grains may close the gap, not more.
 /// The normal is the unit vector from a to b; an impulse p pushes b by +p normal, a by -p normal.
 /// Unused lanes name void grains and have a positive gap.
 template <class Real>
-struct alignas(64) RowBlock {
-  std::uint32_t offset_a[block_width];  ///< bytes from a column of Record<Real> to grain a's
-  std::uint32_t offset_b[block_width];
+struct RowBlock : BlockGrains<sizeof(Record<Real>)> {
   Real normal_x[block_width];
   Real normal_y[block_width];
   Real normal_z[block_width];
   Real gap[block_width];           ///< right-hand side, d; negative where grains overlap
   Real reduced_mass[block_width];  ///< 1 / (1/m_a + 1/m_b), m
-
-  std::int32_t a(std::size_t lane) const { return grain_at(offset_a[lane]); }
-  std::int32_t b(std::size_t lane) const { return grain_at(offset_b[lane]); }
-  void set_grains(std::size_t lane, std::int32_t a, std::int32_t b) {
-    offset_a[lane] = static_cast<std::uint32_t>(a) * record_bytes;
-    offset_b[lane] = static_cast<std::uint32_t>(b) * record_bytes;
-  }
-
- private:
-  static constexpr std::uint32_t record_bytes = sizeof(Record<Real>);
-  static std::int32_t grain_at(std::uint32_t offset) {
-    return static_cast<std::int32_t>(offset / record_bytes);
-  }
 };
 
 // A round wall keeps a grain's centre within a circle about its axis: a row's normal would turn

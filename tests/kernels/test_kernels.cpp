@@ -61,5 +61,25 @@ TEST_CASE("the kernels of a table are found by their number type") {
   CHECK(&kernels_of<double>(kernels) == &kernels.f64);
 }
 
+/// Names grains 3 and 5 in lane 2 of a block and reads them back.
+template <class Block>
+void check_grains(std::uint32_t grain_bytes) {
+  Block block{};
+  block.set_grains(2, 3, 5);
+  CHECK(block.offset_a[2] == 3 * grain_bytes);
+  CHECK(block.offset_b[2] == 5 * grain_bytes);
+  CHECK(block.a(2) == 3);
+  CHECK(block.b(2) == 5);
+  CHECK(block.a(1) == 0);
+}
+
+TEST_CASE("blocks name grains by where their records begin, which bodies have two of") {
+  check_grains<RowBlock<float>>(16);
+  check_grains<RowBlock<double>>(32);
+  check_grains<BodyBlock<float>>(32);
+  check_grains<BodyBlock<double>>(64);
+  check_grains<PinacoidBlock>(32);
+}
+
 }  // namespace
 }  // namespace grainsweep

@@ -159,8 +159,8 @@ inline void pinacoid_axes_twin(const PinacoidHalves& shape_a, const PinacoidHalv
   for (std::size_t row = 0; row < blocks * block_width; ++row) {
     PinacoidBlock& block = pairs[row / block_width];
     const std::size_t lane = row % block_width;
-    const std::size_t a = block.offset_a[lane] / sizeof(Record<double>);
-    const std::size_t b = block.offset_b[lane] / sizeof(Record<double>);
+    const auto a = static_cast<std::size_t>(block.a(lane));
+    const auto b = static_cast<std::size_t>(block.b(lane));
     const PairTwin pair =
         pair_twin(centres[a], centres[b], orientations[a], orientations[b], period_x, period_y);
     face_twin(of_a, of_b, pair, block, lane);
