@@ -44,20 +44,11 @@ struct Reference {
   }
 };
 
-/// The other shape, seen from the frame of the reference: its point x lies at centre + turn x.
-struct Incident {
-  const ConvexShape& shape;
-  Vector centre;
-  Matrix turn;  ///< and scale
-
-  Vector place(std::size_t vertex) const { return centre + turn * shape.vertices[vertex]; }
-};
-
 /// Places the corners of a face.
-void place_face(const Incident& other, const Face& face, std::vector<Vector>& corners) {
+void place_face(const SeenShape& other, const Face& face, std::vector<Vector>& corners) {
   corners.clear();
   for (const std::int32_t vertex : corners_of(other.shape, face)) {
-    corners.push_back(other.place(static_cast<std::size_t>(vertex)));
+    corners.push_back(other.place(vertex));
   }
 }
 
@@ -114,7 +105,7 @@ void cut_by_sides(const Reference& reference, ClipColumns& columns) {
 
 /// Among the faces at the lowest vertex of `other`, the one that faces `normal` most. Finds out how
 /// far all vertices reach.
-std::int32_t touching_face(const Incident& other, const Vector& normal, ClipColumns& columns) {
+std::int32_t touching_face(const SeenShape& other, const Vector& normal, ClipColumns& columns) {
   const ConvexShape& shape = other.shape;
   const Vector down = -(other.turn.transpose() * normal);
   columns.reach.resize(shape.corner_columns.padded());
@@ -146,7 +137,7 @@ void add_point(const Reference& reference, const Vector& x, double margin, std::
 
 /// What of `other` may touch beside its touching face, by how far its vertices reach.
 struct Beside {
-  const Incident& other;
+  const SeenShape& other;
   std::int32_t touching;
   std::span<const double> reach;  ///< of each vertex against the normal, d
   double least;                   ///< of those within the margin, d
@@ -171,7 +162,7 @@ void add_other_vertices(const Reference& reference, const Beside& beside, double
                         std::size_t first, std::vector<ContactPoint>& points) {
   for (std::size_t v = 0; v < beside.other.shape.vertices.size(); ++v) {
     if (!beside.has(v)) continue;
-    const Vector x = beside.other.place(v);
+    const Vector x = beside.other.place(static_cast<std::int32_t>(v));
     if (reference.is_below(x)) add_point(reference, x, margin, first, points);
   }
 }
@@ -198,8 +189,7 @@ void add_lying_edges(const Reference& reference, const Beside& beside, double ma
   constexpr double lying = 0.02;  // rise by length: more than a grain turns in a step near rest
   for (const Edge& edge : beside.other.shape.edges) {
     if (!beside.has(edge)) continue;
-    Vector from = beside.other.place(static_cast<std::size_t>(edge.from));
-    Vector to = beside.other.place(static_cast<std::size_t>(edge.to));
+    Vector from = beside.other.place(edge.from), to = beside.other.place(edge.to);
     if (beside.rise(edge) > lying * (to - from).norm()) continue;
     if (!cut_by_sides(reference, from, to)) continue;
     add_point(reference, from, margin, first, points);
@@ -208,15 +198,16 @@ void add_lying_edges(const Reference& reference, const Beside& beside, double ma
 }
 
 /// Appends the corners of a face of `other` cut by the sides of the reference.
-void add_polygon(const Reference& reference, const Incident& other, const Face& face, double margin,
-                 std::size_t first, ClipColumns& columns, std::vector<ContactPoint>& points) {
+void add_polygon(const Reference& reference, const SeenShape& other, const Face& face,
+                 double margin, std::size_t first, ClipColumns& columns,
+                 std::vector<ContactPoint>& points) {
   place_face(other, face, columns.polygon);
   cut_by_sides(reference, columns);
   for (const Vector& x : columns.polygon) add_point(reference, x, margin, first, points);
 }
 
 /// Appends the points on one face, those from `first` on being of the same contact.
-void clip_on(const Reference& reference, const Incident& other, double margin, std::size_t first,
+void clip_on(const Reference& reference, const SeenShape& other, double margin, std::size_t first,
              ClipColumns& columns, std::vector<ContactPoint>& points) {
   const std::int32_t touching = touching_face(other, reference.face.normal, columns);
   add_polygon(reference, other, face_of(other.shape, touching), margin, first, columns, points);
@@ -229,7 +220,7 @@ void clip_on(const Reference& reference, const Incident& other, double margin, s
 }
 
 /// Appends the contact points on a face and on those nearly flat with it, in their frame.
-void clip(const ConvexShape& shape, double scale, std::int32_t face, const Incident& other,
+void clip(const ConvexShape& shape, double scale, std::int32_t face, const SeenShape& other,
           double margin, ClipColumns& columns, std::vector<ContactPoint>& points) {
   // On an edge between such faces both give the same point, each along its own normal.
   constexpr double same_on_both = 1e-3;
@@ -248,14 +239,11 @@ void clip_on_face(const ShapePair& pair, Of reference, std::int32_t face, double
                   ClipColumns& columns, std::vector<ContactPoint>& points) {
   const PairPose& pose = pair.pose;
   if (reference == Of::a) {
-    clip(pair.a, pose.scale_a, face, {pair.b, pose.centre, pose.scale_b * pose.turn}, margin,
-         columns, points);
+    clip(pair.a, pose.scale_a, face, pair.b_from_a(), margin, columns, points);
     return;
   }
-  const Matrix back = pose.turn.transpose();
   const std::size_t first = points.size();
-  clip(pair.b, pose.scale_b, face, {pair.a, -(back * pose.centre), pose.scale_a * back}, margin,
-       columns, points);
+  clip(pair.b, pose.scale_b, face, pair.a_from_b(), margin, columns, points);
   for (std::size_t k = first; k < points.size(); ++k) {
     points[k].position = pose.centre + pose.turn * points[k].position;
   }

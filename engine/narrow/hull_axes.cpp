@@ -24,10 +24,8 @@ constexpr double no_sign = 1e-12;
 struct View {
   const HullKernels& kernels;
   const ConvexShape& shape;
-  double scale;
-  const ConvexShape& other;  ///< its point x lies at centre + turn x
-  Vector centre;
-  Matrix turn;  ///< and scale
+  double scale = 1.0;
+  SeenShape other;
   CornerHeights& known;
 
   std::size_t stride() const { return shape.normal_columns.padded(); }
@@ -38,18 +36,16 @@ struct View {
   }
   /// The corner that is lowest along n.
   std::int32_t lowest(const Vector& n) {
-    known.reach.resize(other.corner_columns.padded());
-    const Vector down = -(turn.transpose() * n);
+    const VectorColumns& corners = other.shape.corner_columns;
+    known.reach.resize(corners.padded());
+    const Vector down = -(other.turn.transpose() * n);
     return static_cast<std::int32_t>(
-        kernels.farthest(other.corner_columns.columns(), down.data(), known.reach.data()));
-  }
-  Vector place(std::int32_t corner) const {
-    return centre + turn * other.vertices[static_cast<std::size_t>(corner)];
+        kernels.farthest(corners.columns(), down.data(), known.reach.data()));
   }
   /// How far a face parts the shapes.
   double separation(std::int32_t number) {
     const Face& face = shape.faces[static_cast<std::size_t>(number)];
-    return face.normal.dot(place(lowest(face.normal))) - scale * face.offset;
+    return face.normal.dot(other.place(lowest(face.normal))) - scale * face.offset;
   }
   /// Learns the corner that is lowest along n, and returns its heights over the faces.
   const double* add_lowest(const Vector& n) {
@@ -60,7 +56,7 @@ struct View {
     return known.heights.data() + first;
   }
   void add(std::int32_t corner) {
-    const Vector x = place(corner);
+    const Vector x = other.place(corner);
     const std::size_t first = known.heights.size();
     known.corners.push_back(corner);
     known.heights.resize(first + stride());
@@ -320,14 +316,12 @@ ContactAxes axes_among(const ShapePair& pair, View& a, View& b, const AxisCandid
 ContactAxes hull_axes(const ShapePair& pair, const Vector& guess, AxisCandidates& candidates,
                       AxisColumns& columns) {
   const PairPose& pose = pair.pose;
-  const Matrix back = pose.turn.transpose();
   const HullKernels& kernels = *columns.kernels;
-  View a{kernels,       pair.a, pose.scale_a, pair.b, pose.centre, pose.scale_b * pose.turn,
-         columns.over_a};
-  View b{kernels,       pair.b, pose.scale_b, pair.a, -(back * pose.centre), pose.scale_a * back,
-         columns.over_b};
+  View a{kernels, pair.a, pose.scale_a, pair.b_from_a(), columns.over_a};
+  View b{kernels, pair.b, pose.scale_b, pair.a_from_b(), columns.over_b};
   const double used = slack_used(pair, candidates);
   if (candidates.is_listed && used < 0.5) return axes_among(pair, a, b, candidates);
+  const Matrix back = pose.turn.transpose();
   const Vector axis = guess.isZero(0.0) ? pose.centre : guess;
   a.forget();
   b.forget();

@@ -8,6 +8,18 @@
 
 namespace grainsweep {
 
+/// One grain of a pair as the other sees it: in the frame of the other, about its centre, a point x
+/// of the shape lies at centre + turn x.
+struct SeenShape {
+  const ConvexShape& shape;
+  Vector centre;  ///< d
+  Matrix turn;    ///< and scale
+
+  Vector place(std::int32_t vertex) const {
+    return centre + turn * shape.vertices[static_cast<std::size_t>(vertex)];
+  }
+};
+
 struct ShapePair {
   const ConvexShape& a;
   const ConvexShape& b;
@@ -21,6 +33,12 @@ struct ShapePair {
   }
   Vector vertex_b(std::int32_t k) const {
     return pose.centre + pose.scale_b * (pose.turn * b.vertices[static_cast<std::size_t>(k)]);
+  }
+
+  SeenShape b_from_a() const { return {b, pose.centre, pose.scale_b * pose.turn}; }
+  SeenShape a_from_b() const {
+    const Matrix back = pose.turn.transpose();
+    return {a, -(back * pose.centre), pose.scale_a * back};
   }
 };
 
