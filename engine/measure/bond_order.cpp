@@ -21,8 +21,8 @@ struct Harmonics {
 };
 
 /// The spherical harmonics of degree six as polynomials of the unit vector.
-void add(const Direction& u, Harmonics& harmonics) {
-  const double z = u.z, z2 = z * z;
+void add(const Vector& u, Harmonics& harmonics) {
+  const double z = u.z(), z2 = z * z;
   const std::array<double, 7> factor = {
       std::sqrt(13.0 / pi) / 32.0 * (((231.0 * z2 - 315.0) * z2 + 105.0) * z2 - 5.0),
       std::sqrt(273.0 / (2.0 * pi)) / 16.0 * ((33.0 * z2 - 30.0) * z2 + 5.0) * z,
@@ -34,7 +34,7 @@ void add(const Direction& u, Harmonics& harmonics) {
   std::complex<double> power(1.0, 0.0);
   for (std::size_t m = 0; m < factor.size(); ++m) {
     harmonics.sum[m] += factor[m] * power;
-    power *= std::complex<double>(u.x, u.y);
+    power *= std::complex<double>(u.x(), u.y());
   }
   harmonics.bonds += 1.0;
 }
@@ -48,11 +48,9 @@ double invariant(const Harmonics& harmonics) {
   return std::sqrt(4.0 * pi / 13.0 * squares) / harmonics.bonds;
 }
 
-Direction direction(const Grains& bed, const TouchingPair& pair) {
-  const Vector r =
-      nearest_difference(bed, static_cast<std::size_t>(pair.a), static_cast<std::size_t>(pair.b));
-  const double length = std::sqrt(r.x() * r.x() + r.y() * r.y() + r.z() * r.z());
-  return {r.x() / length, r.y() / length, r.z() / length};
+Vector direction(const Grains& bed, std::size_t a, std::size_t b) {
+  const Vector r = nearest_difference(bed, a, b);
+  return r / std::sqrt(r.x() * r.x() + r.y() * r.y() + r.z() * r.z());
 }
 
 /// Sums over the bonds of each grain.
@@ -61,7 +59,7 @@ std::vector<Harmonics> harmonics_of_grains(const Grains& bed, const Touching& ne
   for (const TouchingPair& pair : near.pairs) {
     const auto a = static_cast<std::size_t>(pair.a), b = static_cast<std::size_t>(pair.b);
     if (pair.gap >= bond_gap(bed.position[a].w, bed.position[b].w)) continue;
-    const Direction u = direction(bed, pair);
+    const Vector u = direction(bed, a, b);
     add(u, grains[a]);  // the degree is even: u and -u count alike
     add(u, grains[b]);
   }
@@ -74,9 +72,9 @@ double bond_gap(double radius_a, double radius_b) {
   return std::min(bond_share * (radius_a + radius_b), longest_bond_gap);
 }
 
-double bond_order(const std::vector<Direction>& bonds) {
+double bond_order(const std::vector<Vector>& bonds) {
   Harmonics harmonics;
-  for (const Direction& u : bonds) add(u, harmonics);
+  for (const Vector& u : bonds) add(u, harmonics);
   return invariant(harmonics);
 }
 

@@ -19,10 +19,7 @@ double bond_gap(double radius_a, double radius_b);
 inline constexpr double longest_bond_gap = 0.2;
 
 /// Q6 of unit vectors; NaN if there are none.
-struct Direction {
-  double x, y, z;
-};
-double bond_order(const std::vector<Direction>& bonds);
+double bond_order(const std::vector<Vector>& bonds);
 
 struct BondOrder {
   double global = 0.0;  ///< of all bonds of the slab's grains together

@@ -17,25 +17,25 @@ using testing::periodic;
 using testing::walls;
 
 /// By the definition, with the library's spherical harmonics.
-double q6_by_definition(const std::vector<Direction>& bonds) {
+double q6_by_definition(const std::vector<Vector>& bonds) {
   double squares = 0;
   for (int m = -6; m <= 6; ++m) {
     std::complex<double> mean = 0;
-    for (const Direction& u : bonds) {
+    for (const Vector& u : bonds) {
       const auto order = static_cast<unsigned>(std::abs(m));
-      const double polar = std::sph_legendre(6U, order, std::acos(u.z));
-      mean += polar * std::polar(1.0, m * std::atan2(u.y, u.x)) / double(bonds.size());
+      const double polar = std::sph_legendre(6U, order, std::acos(u.z()));
+      mean += polar * std::polar(1.0, m * std::atan2(u.y(), u.x())) / double(bonds.size());
     }
     squares += std::norm(mean);
   }
   return std::sqrt(4 * pi / 13 * squares);
 }
 
-std::vector<Direction> random_bonds(Draw& draw, int count) {
-  std::vector<Direction> bonds;
+std::vector<Vector> random_bonds(Draw& draw, int count) {
+  std::vector<Vector> bonds;
   for (int k = 0; k < count; ++k) {
     const auto u = draw.direction();
-    bonds.push_back({u.x, u.y, u.z});
+    bonds.emplace_back(u.x, u.y, u.z);
   }
   return bonds;
 }
@@ -50,10 +50,10 @@ TEST_CASE("the bond order is that of the definition") {
 
 // Steinhardt, Nelson, Ronchetti (1983), table I.
 TEST_CASE("bonds of a simple cubic lattice and of an icosahedron have their known order") {
-  CHECK(bond_order(std::vector<Direction>{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}) ==
+  CHECK(bond_order(std::vector<Vector>{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}) ==
         Approx(std::sqrt(1.0 / 8.0)).epsilon(1e-12));
   const double g = (1 + std::sqrt(5.0)) / 2, r = std::sqrt(1 + g * g), a = 1 / r, b = g / r;
-  CHECK(bond_order(std::vector<Direction>{
+  CHECK(bond_order(std::vector<Vector>{
             {0, a, b}, {0, a, -b}, {a, b, 0}, {a, -b, 0}, {b, 0, a}, {b, 0, -a}}) ==
         about(0.66332, 1e-5));
 }
