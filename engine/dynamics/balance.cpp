@@ -81,8 +81,8 @@ double left_on(const SphereBed&, const std::vector<Record<double>>& u, std::size
   return net_force(u[grain]);
 }
 double left_on(const PolyhedronBed& bed, const std::vector<Record<double>>& u, std::size_t grain) {
-  const Record<double>& spin = u[2 * grain + 1];  // in units of the roots of the moments
-  const Vector torque = Vector(spin.x, spin.y, spin.z).cwiseProduct(bed.root_inertia[grain]);
+  const Vector spin = vector_of(u[2 * grain + 1]);  // in units of the roots of the moments
+  const Vector torque = spin.cwiseProduct(bed.root_inertia[grain]);
   return std::max(net_force(u[2 * grain]),
                   torque.norm() * bed.motion[grain].w / bed.circumradius(grain));
 }

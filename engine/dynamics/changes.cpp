@@ -28,9 +28,7 @@ void set_motion_before(const ParallelFor& loop, SphereContacts<Real>& contacts,
   parallel_items(loop, whole.size(), [&](std::size_t first, std::size_t count) {
     for (std::size_t i = first; i < first + count; ++i) {
       const Record<Real>& free = motion.free[i];
-      whole[i] = Vector(static_cast<double>(free.x), static_cast<double>(free.y),
-                        static_cast<double>(free.z)) +
-                 static_cast<double>(free.w) * whole[i];
+      whole[i] = vector_of(free) + static_cast<double>(free.w) * whole[i];
     }
   });
 }

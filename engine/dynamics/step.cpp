@@ -23,10 +23,6 @@ Record<Real> record(const Vector& v, double w) {
   return {static_cast<Real>(v.x()), static_cast<Real>(v.y()), static_cast<Real>(v.z()),
           static_cast<Real>(w)};
 }
-template <class Real>
-Vector vector(const Record<Real>& r) {
-  return {static_cast<double>(r.x), static_cast<double>(r.y), static_cast<double>(r.z)};
-}
 
 /// u_free = alpha u_last + g dt^2, clamped, of a grain.
 template <class Real>
@@ -44,7 +40,7 @@ template <class Real>
 void set_free_motion(const StepSettings& settings, const PolyhedronBed& bed, std::size_t i,
                      std::vector<Record<Real>>& free) {
   const Vector drop(0.0, 0.0, -settings.dt * settings.dt);
-  const Vector v = settings.momentum * vector(bed.motion[i]) + drop;
+  const Vector v = settings.momentum * vector_of(bed.motion[i]) + drop;
   const Vector angles =
       clamped(settings.momentum * bed.spin[i], settings.longest_free / bed.circumradius(i));
   free[2 * i] = record<Real>(clamped(v, settings.longest_free), bed.motion[i].w);
@@ -84,9 +80,9 @@ template <class Real>
 void advance(const std::vector<Record<Real>>& u, double most, std::size_t i, PolyhedronBed& bed,
              Moved& moved) {
   const Vector& root = bed.root_inertia[i];
-  const Vector displacement = clamped(vector(u[2 * i]), most);
+  const Vector displacement = clamped(vector_of(u[2 * i]), most);
   const Vector angles =
-      clamped(vector(u[2 * i + 1]).cwiseQuotient(root), most / bed.circumradius(i));
+      clamped(vector_of(u[2 * i + 1]).cwiseQuotient(root), most / bed.circumradius(i));
   move_grain(bed, i, displacement, angles);
   moved.energy +=
       displacement.squaredNorm() / bed.motion[i].w + root.cwiseProduct(angles).squaredNorm();

@@ -452,8 +452,8 @@ class InteriorPoint {
     double furthest = 0.0;
     for (std::size_t i = 0; i < grains(); ++i) {
       Record<double>& p = bed_.position[i];
-      const Vector listed(listed_at_[i].x, listed_at_[i].y, listed_at_[i].z);
-      Vector from = Vector(p.x, p.y, p.z) + share * way_[i] - listed;
+      const Vector listed = vector_of(listed_at_[i]);
+      Vector from = vector_of(p) + share * way_[i] - listed;
       const double distance = from.norm();
       if (distance > leash) from *= leash / distance;
       furthest = std::max(furthest, distance);

@@ -14,8 +14,7 @@ namespace {
 constexpr double preference_of_faces = 1e-4;
 
 Vector centre_of(const Grains& bed, std::int32_t grain) {
-  const Record<double>& p = bed.position[static_cast<std::size_t>(grain)];
-  return {p.x, p.y, p.z};
+  return vector_of(bed.position[static_cast<std::size_t>(grain)]);
 }
 
 Vector towards(const Wall& wall, const Vector& place) {

@@ -10,6 +10,12 @@ namespace grainsweep {
 
 using Quaternion = Eigen::Quaterniond;
 
+/// The first three numbers of a record: a place or a motion.
+template <class Real>
+Vector vector_of(const Record<Real>& r) {
+  return {static_cast<double>(r.x), static_cast<double>(r.y), static_cast<double>(r.z)};
+}
+
 struct Pose {
   Vector centre = Vector::Zero();  ///< d
   double scale = 1.0;
@@ -22,7 +28,7 @@ struct Pose {
 /// The pose in two records of a bed's columns: x, y, z, half the scale, and x, y, z, w of the
 /// quaternion.
 inline Pose pose_of(const Record<double>& centre, const Record<double>& orientation) {
-  return {{centre.x, centre.y, centre.z},
+  return {vector_of(centre),
           2.0 * centre.w,
           {orientation.w, orientation.x, orientation.y, orientation.z}};
 }
