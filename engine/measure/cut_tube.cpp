@@ -12,6 +12,7 @@
 #include <boost/math/special_functions/ellint_rj.hpp>
 
 #include "engine/measure/cut_polyhedron.hpp"
+#include "engine/measure/solid_fraction.hpp"
 #include "engine/units.hpp"
 
 namespace grainsweep {
@@ -33,12 +34,6 @@ double minus_sine(double x) {
 /// Area of the segment of a disc whose chord is seen under the angle 2 `half_angle`.
 double segment_area(double radius, double half_angle) {
   return 0.5 * radius * radius * minus_sine(2.0 * half_angle);
-}
-
-/// Volume of a ball about the origin between two heights that lie in it, d^3.
-double layer_volume(double radius, double low, double high) {
-  const double squared = radius * radius;
-  return pi * (high - low) * (squared - (low * low + low * high + high * high) / 3.0);
 }
 
 /// Integral of the area that the discs of a ball and of a cylinder share, between two heights
@@ -132,7 +127,7 @@ double volume_up_to(double height, double radius, double distance, double tube) 
   const double crosses = std::min(height, height_of(std::abs(tube - distance)));  // or cross it
   const double below =
       pi * tube * tube * holds + crossing_volume(radius, distance, tube, holds, crosses);
-  return distance >= tube ? below : below + layer_volume(radius, crosses, height);
+  return distance >= tube ? below : below + sphere_slab_volume(radius, crosses, height);
 }
 
 // ---- polyhedra ----
