@@ -71,7 +71,8 @@ std::vector<PairPose> touching_poses(const ConvexShape& shape) {
     const Vector n = pose.centre.normalized();
     pose.centre = 2.0 * shape.circumradius * n;
     for (int k = 0; k < 40; ++k) {
-      pose.centre -= closest_points({shape, shape, pose}).distance * n;
+      pose.centre -=
+          closest_points({shape, shape, pose}, kernels_for(best_isa()).hull).distance * n;
     }
     pose.centre -= random.uniform(0.0, 0.02) * n;
   }
@@ -121,13 +122,13 @@ void over_pairs(benchmark::State& run, const ConvexShape& shape, What what) {
 
 void axes(benchmark::State& run, const ConvexShape& shape) {
   over_pairs(run, shape, [](const ShapePair& pair, std::size_t) {
-    benchmark::DoNotOptimize(separating_axes(pair));
+    benchmark::DoNotOptimize(separating_axes(pair, kernels_for(best_isa()).hull));
   });
 }
 
 void gjk(benchmark::State& run, const ConvexShape& shape) {
   over_pairs(run, shape, [](const ShapePair& pair, std::size_t) {
-    benchmark::DoNotOptimize(closest_points(pair));
+    benchmark::DoNotOptimize(closest_points(pair, kernels_for(best_isa()).hull));
   });
 }
 
@@ -141,7 +142,9 @@ void cached_axis(benchmark::State& run, const ConvexShape& shape) {
 void clip(benchmark::State& run, const ConvexShape& shape) {
   const Bed bed = close_pairs(shape);
   std::vector<ContactAxes> known;
-  for (const PairPose& pose : bed.poses) known.push_back(separating_axes({shape, shape, pose}));
+  for (const PairPose& pose : bed.poses) {
+    known.push_back(separating_axes({shape, shape, pose}, kernels_for(best_isa()).hull));
+  }
   ClipColumns columns;
   std::vector<ContactPoint> points;
   over_pairs(run, shape, [&](const ShapePair& pair, std::size_t k) {

@@ -15,15 +15,16 @@ namespace {
 
 // ---- gaps of the kinds of grains, d ----
 
-double pair_gap(const SphereBed& bed, std::size_t a, std::size_t b) {
+double pair_gap(const SphereBed& bed, std::size_t a, std::size_t b, const Kernels&) {
   const Vector between = nearest_difference(bed, a, b);
   return std::sqrt(between.squaredNorm()) - (bed.position[a].w + bed.position[b].w);
 }
-double pair_gap(const PolyhedronBed& bed, std::size_t a, std::size_t b) {
+double pair_gap(const PolyhedronBed& bed, std::size_t a, std::size_t b, const Kernels& kernels) {
   const ShapePair pair = shape_pair(bed, a, b);
   if (has_ball(pair)) return ball_contact(pair).gap;
-  const Closest closest = closest_points(pair);
-  return closest.distance > 0.0 ? closest.distance : separating_axes(pair).separation();
+  const Closest closest = closest_points(pair, kernels.hull);
+  return closest.distance > 0.0 ? closest.distance
+                                : separating_axes(pair, kernels.hull).separation();
 }
 
 double wall_gap(const SphereBed& bed, const Wall& wall, std::size_t grain) {
@@ -52,7 +53,7 @@ Touching find_touching(Bed<Kind>& bed, const PairReach& tolerance_of, const Kern
   Touching touching;
   for (const GrainPair pair : candidates.pairs) {
     const auto a = static_cast<std::size_t>(pair.a), b = static_cast<std::size_t>(pair.b);
-    const double gap = pair_gap(bed, a, b);
+    const double gap = pair_gap(bed, a, b, kernels);
     if (gap < tolerance_of(bed.position[a].w, bed.position[b].w)) {
       touching.pairs.push_back({pair.a, pair.b, gap});
     }

@@ -186,7 +186,7 @@ void set_witnesses(const ShapePair& pair, const Corners& corners, Closest& resul
 
 }  // namespace
 
-Closest closest_points(const ShapePair& pair) {
+Closest closest_points(const ShapePair& pair, const HullKernels& kernels) {
   const double touch = touching_share * pair.size();
   Corners best = nearest_of(first_corner(pair));
   Vector nearest = best.nearest();
@@ -203,7 +203,7 @@ Closest closest_points(const ShapePair& pair) {
       // No further progress, at last because of rounding. For shapes that lie face on face or edge
       // on edge the corners can be a sliver, whose nearest point lies in a direction that does not
       // part the shapes.
-      result.overlap = !advanced.parts && !(separating_axes(pair).separation() > 0.0);
+      result.overlap = !advanced.parts && !(separating_axes(pair, kernels).separation() > 0.0);
       break;
     }
     best = next;

@@ -18,7 +18,7 @@ struct Closest {
   int iterations = 0;
 };
 
-/// Starts from the corners that lie towards each other's centre.
-Closest closest_points(const ShapePair& pair);
+/// Starts from the corners that lie towards each other's centre. `kernels` serve the axes.
+Closest closest_points(const ShapePair& pair, const HullKernels& kernels);
 
 }  // namespace grainsweep

@@ -27,8 +27,9 @@ PairContact apart_by(double separation) {
 }
 
 /// By how much GJK parts a pair that is further apart than the margin; it then remembers the axis.
-std::optional<double> parted_by_distance(const ShapePair& pair, double margin, PairMemory& memory) {
-  const Closest closest = closest_points(pair);
+std::optional<double> parted_by_distance(const ShapePair& pair, double margin,
+                                         const HullKernels& kernels, PairMemory& memory) {
+  const Closest closest = closest_points(pair, kernels);
   if (closest.distance <= margin) return {};
   const Vector axis = (closest.on_b - closest.on_a).normalized();
   // The axis itself must part them: where rounding leaves a doubt they touch.
@@ -46,8 +47,9 @@ bool edges_part_better(const ContactAxes& axes, double preference) {
 
 /// Where nothing lies above the touching face, or no edges cross: a point between the closest
 /// points.
-void touch_between(const ShapePair& pair, PairContact& contact, std::vector<ContactPoint>& points) {
-  const Closest closest = closest_points(pair);
+void touch_between(const ShapePair& pair, const HullKernels& kernels, PairContact& contact,
+                   std::vector<ContactPoint>& points) {
+  const Closest closest = closest_points(pair, kernels);
   points.push_back({(closest.on_a + closest.on_b) / 2.0, contact.separation});
   contact.is_beside = true;
 }
@@ -81,7 +83,7 @@ PairContact touch_along(const ShapePair& pair, const ContactAxis& axis, double m
   } else {
     touch_faces(pair, axis, margin, columns, points);
   }
-  if (points.size() == contact.first) touch_between(pair, contact, points);
+  if (points.size() == contact.first) touch_between(pair, *columns.kernels, contact, points);
   contact.count = points.size() - contact.first;
   return contact;
 }
@@ -151,7 +153,8 @@ PairContact touch(const ShapePair& pair, const TouchSettings& settings, PairMemo
   PairContact contact = touch(pair, settings, axes, columns.clip, points);
   if (contact.count == 0) return contact;
   if (contact.is_beside) {
-    if (const std::optional<double> separation = parted_by_distance(pair, margin, memory)) {
+    if (const std::optional<double> separation =
+            parted_by_distance(pair, margin, *columns.axes.kernels, memory)) {
       points.resize(contact.first);
       return apart_by(*separation);
     }

@@ -123,8 +123,9 @@ ContactAxes separating_axes(const ShapePair& pair, const Vector& guess, AxisCand
   return closed ? pinacoid_axes(pair) : hull_axes(pair, guess, candidates, columns);
 }
 
-ContactAxes separating_axes(const ShapePair& pair) {
+ContactAxes separating_axes(const ShapePair& pair, const HullKernels& kernels) {
   AxisColumns columns;
+  columns.kernels = &kernels;
   AxisCandidates none;
   return separating_axes(pair, Vector::Zero(), none, columns);
 }

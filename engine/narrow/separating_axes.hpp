@@ -99,7 +99,7 @@ ContactAxes separating_axes(const ShapePair& pair, const Vector& guess, AxisCand
                             AxisColumns& columns);
 
 /// The same with no guess and with memory of its own.
-ContactAxes separating_axes(const ShapePair& pair);
+ContactAxes separating_axes(const ShapePair& pair, const HullKernels& kernels);
 
 /// How far the pair of a lane is apart at least by the batch kernel, d. `reach`: the larger of both
 /// grains' scales and circumradii, d, which pinacoid_rounding refers to.

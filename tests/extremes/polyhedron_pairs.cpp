@@ -24,13 +24,13 @@ struct Errors {
 void look_at(const ShapePair& pair, Errors& errors) {
   const testing::PairTruth truth = testing::true_gap(pair);
   const auto gap = static_cast<double>(truth.gap());
-  const Closest closest = closest_points(pair);
+  const Closest closest = closest_points(pair, kernels_for(best_isa()).hull);
   const double distance = std::abs(closest.distance - static_cast<double>(truth.distance));
   const bool wrong = closest.overlap != truth.overlap;
   errors.distance = std::max(errors.distance, std::isfinite(distance) ? distance : 1.0);
   errors.overlap = std::max(errors.overlap, wrong ? std::abs(gap) : 0.0);
   errors.unconverged += closest.converged ? 0.0 : 1.0;
-  const double separation = separating_axes(pair).separation();
+  const double separation = separating_axes(pair, kernels_for(best_isa()).hull).separation();
   const double above = separation - gap, below = truth.overlap ? gap - separation : 0.0;
   errors.separation = std::max({errors.separation, std::isfinite(above) ? above : 1.0, below});
   PairMemory memory;

@@ -8,6 +8,7 @@
 #include "engine/shape/given_shape.hpp"
 #include "tests/support/about.hpp"
 #include "tests/support/draw.hpp"
+#include "tests/support/instruction_sets.hpp"
 
 namespace grainsweep {
 namespace {
@@ -125,8 +126,8 @@ TEST_CASE("the nearest point of a hull is that of GJK, from any side and scale")
     const ConvexShape& hull = shapes[static_cast<std::size_t>(k) % shapes.size()];
     const double scale = draw.uniform(0.2, 3);
     const Vector centre = scale * draw.uniform(0.9, 2) * hull.circumradius * any_direction(draw);
-    const Closest twin =
-        closest_points({hull, corner_alone, pose(centre, Matrix::Identity(), scale)});
+    const Closest twin = closest_points(
+        {hull, corner_alone, pose(centre, Matrix::Identity(), scale)}, testing::kernels().hull);
     const NearestPoint nearest = nearest_point(hull, scale, centre);
     if (nearest.distance < 1e-3) continue;  // GJK tells no depth
     REQUIRE(nearest.distance == about(twin.distance, 1e-12));

@@ -11,6 +11,7 @@
 #include "engine/narrow/gjk.hpp"
 #include "engine/narrow/separating_axes.hpp"
 #include "tests/support/about.hpp"
+#include "tests/support/instruction_sets.hpp"
 #include "tests/support/shape_pairs.hpp"
 
 namespace grainsweep {
@@ -37,7 +38,7 @@ struct Errors {
 };
 
 void check_gjk(const ShapePair& pair, const PairTruth& truth, Errors& errors) {
-  const Closest closest = closest_points(pair);
+  const Closest closest = closest_points(pair, testing::kernels().hull);
   REQUIRE(closest.converged);
   REQUIRE(std::isfinite(closest.distance));
   const double error = std::abs(closest.distance - static_cast<double>(truth.distance));
@@ -53,7 +54,7 @@ void check_gjk(const ShapePair& pair, const PairTruth& truth, Errors& errors) {
 }
 
 void check_axes(const ShapePair& pair, const PairTruth& truth, Errors& errors) {
-  const ContactAxes axes = separating_axes(pair);
+  const ContactAxes axes = separating_axes(pair, testing::kernels().hull);
   const double found = axes.separation();
   REQUIRE(std::isfinite(found));
   const double apart = found - static_cast<double>(truth.gap());
@@ -128,7 +129,7 @@ TEST_CASE("the plane across the shortest line between shapes of many corners pro
     const ConvexShape a = testing::hull_of(testing::random_corners(draw, 60));
     const ConvexShape b = testing::hull_of(testing::random_corners(draw, 40));
     const ShapePair pair{a, b, testing::pose_of_family(PairFamily::random, draw, a, b)};
-    const Closest closest = closest_points(pair);
+    const Closest closest = closest_points(pair, testing::kernels().hull);
     if (closest.overlap) continue;
     ++apart;
     const Vector between = closest.on_b - closest.on_a;
@@ -150,8 +151,8 @@ TEST_CASE("cubes nearly face in face that overlap by 6.5e-7 d are not taken for 
       -0x1.0abb215bcb02p-17, -0x1.f03a8343ae78ep-1, -0x1.f86667430f9bcp-3, 0x1.e849081489388p-18,
       0x1.f86667412da1p-3, -0x1.f03a8343d8b82p-1;
   const ShapePair pair{cube, cube, pose};
-  CHECK(separating_axes(pair).separation() == about(-6.51032e-7, 1e-12));
-  const Closest closest = closest_points(pair);
+  CHECK(separating_axes(pair, testing::kernels().hull).separation() == about(-6.51032e-7, 1e-12));
+  const Closest closest = closest_points(pair, testing::kernels().hull);
   CHECK(closest.overlap);
   CHECK(closest.distance == 0.0);
 }

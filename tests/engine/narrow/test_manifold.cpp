@@ -8,6 +8,7 @@
 #include "engine/narrow/constraints.hpp"
 #include "engine/shape/named_shapes.hpp"
 #include "tests/support/about.hpp"
+#include "tests/support/instruction_sets.hpp"
 #include "tests/support/shape_pairs.hpp"
 
 namespace grainsweep {
@@ -327,7 +328,7 @@ TEST_CASE(
   int switched = 0, on_faces = 0;
   for (int k = 0; k < 2000; ++k) {
     const ShapePair pair{shape, shape, testing::random_pose(draw, 0.7, 1.0)};
-    const ContactAxes axes = separating_axes(pair);
+    const ContactAxes axes = separating_axes(pair, testing::kernels().hull);
     if (axes.edges.kind == AxisKind::none) continue;
     const double ahead = axes.edges.separation - axes.face.separation;
     if (axes.separation() > 0.05 || ahead < 1e-6) continue;
@@ -351,7 +352,7 @@ TEST_CASE(
   int faces = 0, edges = 0;
   for (int k = 0; k < 20000; ++k) {
     const ShapePair pair{shape, shape, testing::random_pose(draw, 0.5, 0.9)};
-    const ContactAxes axes = separating_axes(pair);
+    const ContactAxes axes = separating_axes(pair, testing::kernels().hull);
     const double depth = -axes.edges.separation;
     const double ahead = axes.edges.separation - axes.face.separation;
     if (axes.edges.kind == AxisKind::none || depth < 1e-3 || ahead < 1e-6) continue;
@@ -380,7 +381,7 @@ TEST_CASE("a face is touched on only where what touches lies above it") {
     const Vector centre = draw.uniform(0.9, 1.2) * Vector(n.x, n.y, n.z);
     const Matrix rotation = testing::random_rotation(draw).toRotationMatrix();
     const ShapePair pair{prism, prism, at(centre, rotation)};
-    const double separation = separating_axes(pair).separation();
+    const double separation = separating_axes(pair, testing::kernels().hull).separation();
     for (const double margin : {0.015, 1e-4}) {  // of steps, and of measuring them
       const Found found = contact_of(pair, margin, preference);
       if (found.points.empty()) continue;
@@ -400,7 +401,7 @@ TEST_CASE("edges that are apart give the normal whatever is preferred by their d
   int apart = 0;
   for (int k = 0; k < 2000; ++k) {
     const ShapePair pair{shape, shape, testing::random_pose(draw, 0.7, 1.0)};
-    const ContactAxes axes = separating_axes(pair);
+    const ContactAxes axes = separating_axes(pair, testing::kernels().hull);
     if (axes.edges.kind == AxisKind::none || axes.separation() > 0.05) continue;
     if (axes.edges.separation < 1e-6 || axes.edges.separation < axes.face.separation + 1e-6)
       continue;

@@ -49,7 +49,7 @@ Found names_of(const ContactList& found) {
 /// Whether hulls are further apart than the margin though no axis parts them so far, as where a
 /// vertex faces a vertex; pinacoids are not asked.
 bool far_by_distance(const ShapePair& pair, double margin) {
-  return !pair.a.pinacoid && closest_points(pair).distance > margin;
+  return !pair.a.pinacoid && closest_points(pair, testing::kernels().hull).distance > margin;
 }
 
 /// Every pair by all axes in f64, every grain and wall.
@@ -61,7 +61,8 @@ Found brute_force(const PolyhedronBed& bed, const TouchSettings& settings) {
     for (std::size_t j = i + 1; j < bed.grains(); ++j) {
       const ShapePair pair = shape_pair(bed, i, j);
       if (far_by_distance(pair, settings.margin)) continue;
-      const PairContact c = touch(pair, settings, separating_axes(pair), clip, points);
+      const PairContact c =
+          touch(pair, settings, separating_axes(pair, testing::kernels().hull), clip, points);
       if (c.count > 0) names[{static_cast<int>(i), static_cast<int>(j)}] = c.count;
     }
     for (std::size_t k = 0; k < bed.walls.size(); ++k) {

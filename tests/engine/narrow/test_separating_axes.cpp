@@ -89,7 +89,8 @@ TEST_CASE("the batch test finds the separation of the f64 test within its roundi
       const ShapePair pair = batch.pair(used, k);
       const PinacoidBlock& block = batch.blocks[k / block_width];
       const std::size_t lane = k % block_width;
-      const ContactAxes exact = separating_axes(pair), chosen = separating_axes(pair, block, lane);
+      const ContactAxes exact = separating_axes(pair, testing::kernels().hull),
+                        chosen = separating_axes(pair, block, lane);
       const double found = std::max(block.face_separation[lane], block.edge_separation[lane]);
       const double over = found - exact.separation();
       REQUIRE(over < pinacoid_rounding);
@@ -125,7 +126,7 @@ TEST_CASE("a pair that the batch parts is apart, one that it does not part is ne
   for (std::size_t k = 0; k < batch.pairs(); ++k) {
     const ShapePair pair = batch.pair(shape, k);
     const bool apart = parted_by(batch.blocks[k / block_width], k % block_width, reach) > 0.05;
-    const double separation = separating_axes(pair).separation();
+    const double separation = separating_axes(pair, testing::kernels().hull).separation();
     parted += apart ? 1 : 0;
     if (apart) REQUIRE(separation > 0.05);
     if (!apart && batch.blocks[k / block_width].edges_parallel[k % block_width] == 0) {
@@ -198,8 +199,10 @@ TEST_CASE("the axes of a pinacoid in closed form are those of its hull") {
   for (const PairFamily family : testing::all_pair_families) {
     for (int k = 0; k < 300; ++k) {
       const PairPose pose = testing::pose_of_family(family, draw, closed, closed);
-      const double first = separating_axes({closed, closed, pose}).separation();
-      const double second = separating_axes({hull, hull, pose}).separation();
+      const double first =
+          separating_axes({closed, closed, pose}, testing::kernels().hull).separation();
+      const double second =
+          separating_axes({hull, hull, pose}, testing::kernels().hull).separation();
       if (first <= 0) REQUIRE(first == about(second, 1e-12));
       if (first > 1e-12) REQUIRE((second > 0 && second <= first + 1e-12));
     }
@@ -211,7 +214,7 @@ TEST_CASE("the axis of a pair points from a to b and gives its separation") {
   Draw draw(7);
   for (int k = 0; k < 500; ++k) {
     const ShapePair pair{shape, shape, testing::random_pose(draw, 0.6, 1.3)};
-    const ContactAxes axes = separating_axes(pair);
+    const ContactAxes axes = separating_axes(pair, testing::kernels().hull);
     for (const ContactAxis& axis : {axes.face, axes.edges}) {
       if (axis.kind == AxisKind::none) continue;
       CHECK(axis.normal.norm() == Approx(1).epsilon(1e-15));
@@ -271,7 +274,8 @@ PairPose aligned_pose(Draw& draw, const ConvexShape& a, const ConvexShape& b) {
 // says, and overlapping ones as far as the exact search does. 1e-12 d is what is promised of the
 // axes.
 void check_axes(const ShapePair& pair) {
-  const ContactAxes exact = testing::all_axes(pair), found = separating_axes(pair);
+  const ContactAxes exact = testing::all_axes(pair),
+                    found = separating_axes(pair, testing::kernels().hull);
   REQUIRE(found.face.separation == about(exact.face.separation, 1e-14));
   for (const ContactAxis& axis : {found.face, found.edges}) {
     if (axis.kind == AxisKind::none) continue;
@@ -288,7 +292,7 @@ bool check_contact(const ShapePair& pair) {
   TouchColumns columns;
   std::vector<ContactPoint> points;
   const bool touches = touch(pair, {margin, 0}, memory, columns, points).count > 0;
-  const bool near = closest_points(pair).distance <= margin;
+  const bool near = closest_points(pair, testing::kernels().hull).distance <= margin;
   REQUIRE(touches == near);
   return touches;
 }
@@ -313,7 +317,7 @@ TEST_CASE("the edges that part two hulls are the outermost of both along their a
   for (int n = 0; n < 2000; ++n) {
     const ConvexShape a = testing::tetrahedron(), b = testing::octahedron();
     const ShapePair pair{a, b, testing::pose_of_family(testing::PairFamily::random, draw, a, b)};
-    const ContactAxis axis = separating_axes(pair).edges;
+    const ContactAxis axis = separating_axes(pair, testing::kernels().hull).edges;
     if (axis.kind == AxisKind::none) continue;
     ++parted;
     const Vector from_b = -(pair.pose.turn.transpose() * axis.normal);
@@ -354,6 +358,20 @@ TEST_CASE("hulls are parted as far as the exact search finds, and none that touc
 TEST_CASE("many more hulls are parted so, and none that touch are missed", "[slow]") {
   const char* factor = std::getenv("GRAINSWEEP_PAIRS");
   check_pairs_of_usual_shapes(50 * (factor != nullptr ? std::atoi(factor) : 1));
+}
+
+int searches = 0;
+
+TEST_CASE("the axes of hulls are found by the kernels that are given") {
+  HullKernels counting = testing::kernels().hull;
+  counting.farthest = [](const PointColumns& points, const double* n, double* reach) {
+    ++searches;
+    return testing::kernels().hull.farthest(points, n, reach);
+  };
+  const ConvexShape cube = testing::cube();
+  const ShapePair pair{cube, cube, {{0, 0, 1.25}, Matrix::Identity(), 1.0, 1.0}};
+  CHECK(separating_axes(pair, counting).separation() == 0.25);
+  CHECK(searches > 0);
 }
 
 }  // namespace

@@ -256,7 +256,7 @@ TEST_CASE(
     if (!scene.bed.is_grain(bearing[k].b)) continue;
     const ShapePair pair = shape_pair(scene.bed, static_cast<std::size_t>(bearing[k].a),
                                       static_cast<std::size_t>(bearing[k].b));
-    const ContactAxes axes = separating_axes(pair);
+    const ContactAxes axes = separating_axes(pair, testing::kernels().hull);
     ClipColumns columns;
     std::vector<ContactPoint> points;
     const PairContact contact = touch(pair, shallow, axes, columns, points);
