@@ -17,6 +17,7 @@ extern const Kernels table;
 
 namespace {
 
+// All instruction sets that the kernels are compiled with.
 constexpr Isa all[] = {Isa::sse2, Isa::avx2, Isa::avx512};
 
 }  // namespace
@@ -33,8 +34,8 @@ const char* name_of(Isa isa) {
   return "unknown";
 }
 
-// All instruction sets that the kernels are compiled with. The compiler's test reads the processor
-// and also asks whether the operating system saves the registers.
+// The compiler's test reads the processor and also asks whether the operating system saves the
+// registers.
 bool is_supported(Isa isa) {
   switch (isa) {
     case Isa::sse2:

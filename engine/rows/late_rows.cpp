@@ -35,7 +35,7 @@ void measure(const SphereBed& bed, const ExecutionContext& context,
   measure_blocks(bed, context, 1.0, blocks.data(), blocks.size(), contacts.sunk);
 }
 
-/// Calls visit(lane, block) for the lanes with a gap below `reach`.
+/// Calls visit(lane) for the lanes with a gap below `reach`.
 template <class Real, class Visit>
 void visit_near(double reach, RowBlock<Real>& block, const Visit& visit) {
   const auto limit = static_cast<Real>(reach + gap_rounding);
