@@ -210,10 +210,9 @@ constexpr ProfilePlace profile_places[] = {
     {ProfileAxis::z, &PackingResult::profile_z, &ComponentMeasure::profile_z}};
 
 bool has_profile(const Box& box, ProfileAxis axis) {
-  const bool is_duct = box.x == Boundary::walls && box.y == Boundary::walls;
   return axis == ProfileAxis::x            ? box.x == Boundary::walls && !box.is_tube
          : axis == ProfileAxis::y          ? !box.is_tube
-         : axis == ProfileAxis::from_walls ? is_duct
+         : axis == ProfileAxis::from_walls ? is_walled_around(box)
                                            : true;
 }
 

@@ -42,6 +42,13 @@ Accuracy exact() {
   return a;
 }
 
+/// Null if there is no preset of that name.
+const Preset* find_preset(std::string_view name) {
+  const auto found = std::find_if(presets().begin(), presets().end(),
+                                  [&](const Preset& known) { return known.name == name; });
+  return found != presets().end() ? &*found : nullptr;
+}
+
 }  // namespace
 
 const std::vector<Preset>& presets() {
@@ -71,17 +78,6 @@ const std::vector<Preset>& presets() {
         ProtocolBias{0.0025, 0.024}, ProtocolBias{0.0023, 0.021}, std::nullopt, std::nullopt}}};
   return all;
 }
-
-namespace {
-
-/// Null if there is no preset of that name.
-const Preset* find_preset(std::string_view name) {
-  const auto found = std::find_if(presets().begin(), presets().end(),
-                                  [&](const Preset& known) { return known.name == name; });
-  return found != presets().end() ? &*found : nullptr;
-}
-
-}  // namespace
 
 std::optional<Accuracy> preset(std::string_view name) {
   const Preset* known = find_preset(name);
