@@ -69,6 +69,9 @@ has_figures mixture means profiles components contacts heights distributions eff
 has_figures failed effort
 [ -s widths/figures/means-residuals.csv ]
 cmp widths/comparison.csv <("$grainsweep" compare widths --csv) || fail "compare and report differ"
+[ "$(head -1 widths/comparison.csv)" = "$("$grainsweep" columns |
+  awk -F, '$1 == "comparison.csv" { printf "%s%s", sep, $2; sep = "," }')" ] ||
+  fail "comparison.csv has other columns than are told"
 [ "$(wc -l <widths/comparison.csv)" -eq 5 ] || fail "comparison.csv has not 4 rows"
 [ ! -e sizes/comparison.csv ] || fail "without published values there is a comparison.csv"
 mv widths.reference.json aside.json
