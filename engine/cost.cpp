@@ -150,7 +150,7 @@ double usual_iterations(const PackingSpec& spec, double layers) {
     return solved * (110.0 * falling + 7400.0 * creep) + 80.0 * a.rest_iterations;
   }
   const double fall = (a.protocol == Protocol::dynamic ? 800.0 : 200.0) * falling;
-  return solved * (fall + 3900.0 * std::pow(layers, 0.35) * creep) +
+  return solved * (fall + 3100.0 * std::pow(layers, 0.5) * creep) +
          30.0 * a.rest_iterations * std::max(1.0, layers / 10.0);
 }
 

@@ -160,8 +160,8 @@ TEST_CASE(
   for (const char* name : {"creep", "ease"}) {
     INFO(name);
     const StageRule& stage = heavy_ball(name);
-    const StepSettings low = settings_of(accuracy, stage, 30.0);
-    const StepSettings high = settings_of(accuracy, stage, 120.0);
+    const StepSettings low = settings_of(accuracy, stage, 70.0);
+    const StepSettings high = settings_of(accuracy, stage, 280.0);
     CHECK(low.dt == stage.step * accuracy.step);
     CHECK(high.dt == Approx(low.dt / 2));
     CHECK(high.limits.rms_tolerance == Approx(4 * low.limits.rms_tolerance));
@@ -169,8 +169,8 @@ TEST_CASE(
   }
   for (const char* name : {"look", "fall", "slow", "quench"}) {
     INFO(name);
-    CHECK(settings_of(accuracy, heavy_ball(name), 120.0).dt ==
-          settings_of(accuracy, heavy_ball(name), 30.0).dt);
+    CHECK(settings_of(accuracy, heavy_ball(name), 280.0).dt ==
+          settings_of(accuracy, heavy_ball(name), 70.0).dt);
   }
 }
 
