@@ -15,9 +15,9 @@ const std::array<SizeFormulaKind, std::variant_size_v<SizeFormula>>& size_formul
 }
 
 const SizeFormulaKind* size_formula_kind_of(std::string_view path) {
-  constexpr std::string_view group = "sizes.distribution.";
-  if (!path.starts_with(group)) return nullptr;
-  path.remove_prefix(group.size());
+  constexpr std::string_view home = "sizes.distribution.";
+  if (!path.starts_with(home)) return nullptr;
+  path.remove_prefix(home.size());
   const std::string_view name = path.substr(0, path.find('.'));
   const auto& kinds = size_formula_kinds();
   const auto* const found = std::find_if(
