@@ -61,8 +61,7 @@ int perform(const CompareOptions& options) {
       << reference.source + "\nbeside " + results.provenance.sweep_name +
              ". Lengths in d. Errors of means come from the variance of replicates, moderated\n"
              "by that of the others of the family; those of profiles from their group alone.\n"
-             " They are wider where few packings tell them. Values agree "
-             "within " +
+             "They are wider where few packings tell them. Values agree within " +
              fixed(agreement_limit, 0) +
              " standard errors of both sides together (ours alone where\nthe source has none) and "
              "the "
