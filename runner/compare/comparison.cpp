@@ -199,8 +199,7 @@ void add_width(Measured measured, double width, Comparison& row) {
   measured.not_determined.clear();  // of a single packing, which has a value without an error
   Comparison at{row.family, row.title, row.published, std::move(measured), {}, {}, 0};
   at.published.width = width;
-  at.published.range = {published, published,
-                        std::max(formula.error, formula.relative_error * std::abs(published))};
+  at.published.range = {published, published, formula.error.of(published)};
   row.along.push_back(std::move(at));
 }
 

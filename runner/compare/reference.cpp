@@ -1,7 +1,6 @@
 #include "runner/compare/reference.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include <nlohmann/json.hpp>
@@ -53,11 +52,6 @@ std::string read_text(const Json& object, const char* key, const std::string& po
   return otherwise;
 }
 
-/// The standard error of a published value, or that over the value; both 0 if there is none.
-struct PublishedError {
-  double own = 0.0, relative = 0.0;
-};
-
 PublishedError read_error(const Json& from, const std::string& pointer, Diagnostics& diagnostics) {
   const auto own = read_number(from, "error", pointer, diagnostics);
   const auto relative = read_number(from, "relative_error", pointer, diagnostics);
@@ -83,8 +77,8 @@ std::optional<Published::Range> read_range(const Json& value, const PublishedErr
                       (value.is_array() ? shortened(value.dump()) : describe(value))});
     return std::nullopt;
   }
-  Published::Range range{is_range ? value[0] : value, is_range ? value[1] : value, error.own};
-  if (error.relative > 0.0) range.error = error.relative * std::abs(range.low + range.high) / 2.0;
+  Published::Range range{is_range ? value[0] : value, is_range ? value[1] : value, 0.0};
+  range.error = error.of((range.low + range.high) / 2.0);
   if (range.low <= range.high) return range;
   diagnostics.push_back({pointer, "a range must be [low, high], is " + value.dump()});
   return std::nullopt;
@@ -102,9 +96,9 @@ std::string text_of(const Published& published) {
     const PublishedFormula& formula = *published.formula;
     const std::string text =
         (formula.name == formula.text ? "" : formula.name + ": ") + formula.text;
-    if (formula.error > 0.0) return text + " ± " + cell(formula.error);
-    return text + (formula.relative_error > 0.0
-                       ? " ± " + cell(100.0 * formula.relative_error) + " %"
+    if (formula.error.own > 0.0) return text + " ± " + cell(formula.error.own);
+    return text + (formula.error.relative > 0.0
+                       ? " ± " + cell(100.0 * formula.error.relative) + " %"
                        : "");
   }
   const auto& range = published.range;
@@ -188,8 +182,7 @@ Published read_published(const Json& from, const std::string& pointer, Diagnosti
   }
   if (published.formula) {
     PublishedFormula& formula = *published.formula;
-    formula.error = error.own;
-    formula.relative_error = error.relative;
+    formula.error = error;
     formula.name = on_one_line(read_text(from, "text", pointer, formula.text, diagnostics));
     if (formula.name.empty()) formula.name = formula.text;
     published.text = text_of(published);

@@ -1,6 +1,8 @@
 // Published values to compare a sweep with, as a JSON file gives them (see configs/README.md).
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <optional>
@@ -11,13 +13,19 @@
 
 namespace grainsweep {
 
+/// The standard error of a published value, as it is or over the value; both 0 if there is none.
+struct PublishedError {
+  double own = 0.0, relative = 0.0;
+
+  double of(double value) const { return std::max(own, relative * std::abs(value)); }
+};
+
 /// A quantity over the gap between walls or the diameter of a tube.
 struct PublishedFormula {
   std::string text;  ///< without fault (runner/compare/formula.hpp)
   std::string name;  ///< for keys of figures: what the file has as its text, or the formula
   double from = 0.0, to = std::numeric_limits<double>::infinity();  ///< where it holds, d
-  double error = 0.0;           ///< standard error of its values, 0 if there is none
-  double relative_error = 0.0;  ///< or that of each over the value
+  PublishedError error;                                             ///< of its values
 };
 
 /// One published value, in d where it is a length; for some quantities a source has only words.

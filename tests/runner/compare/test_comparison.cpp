@@ -138,7 +138,7 @@ Reference with_formula(const std::string& text, double from = 0.0, double to = 1
                        double error = 0.0, const std::string& quantity = "phi") {
   Reference reference;
   reference.source = "Source";
-  const PublishedFormula formula{text, text, from, to, error};
+  const PublishedFormula formula{text, text, from, to, {error}};
   reference.families = {{{}, {{quantity, 0, text, std::nullopt, "by hand", formula}}}};
   return reference;
 }

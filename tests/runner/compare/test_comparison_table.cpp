@@ -105,7 +105,7 @@ TEST_CASE("what is not known is empty, and its reason is given") {
 TEST_CASE("a formula has a row for each width, with its value there") {
   const std::vector<Row> sweep = wall_sweep();  // on the line 0.64 - 0.2 / W
   Reference reference;
-  const PublishedFormula formula{"0.63 - 0.2/W", "line", 4, 10, 0, 0.5};
+  const PublishedFormula formula{"0.63 - 0.2/W", "line", 4, 10, {0, 0.5}};
   reference.families = {{{}, {{"phi", 0, "line: 0.63 - 0.2/W", std::nullopt, "", formula}}}};
   std::vector<Cells> rows =
       rows_of_table(comparison_csv(compare_with(reference, analyse(sweep)), {}));

@@ -179,7 +179,7 @@ TEST_CASE("a formula stands in place of the values at single widths") {
   CHECK(whole.formula->text == "0.64 - 0.2/W");
   CHECK(whole.formula->from == 4.0);
   CHECK(whole.formula->to == 20.0);
-  CHECK(whole.formula->error == 0.01);
+  CHECK(whole.formula->error.own == 0.01);
   CHECK(whole.formula->name == "0.64 - 0.2/W");
   CHECK_FALSE(whole.range);
   const Published open = read(R"("formula": "0.64 - 0.2/W", "text": "a line")");
@@ -187,11 +187,11 @@ TEST_CASE("a formula stands in place of the values at single widths") {
   CHECK(open.formula->name == "a line");
   CHECK(open.formula->from == 0.0);
   CHECK(open.formula->to > 1e300);
-  CHECK(open.formula->error == 0.0);
+  CHECK(open.formula->error.own == 0.0);
   const Published relative = read(R"("formula": "1/W", "relative_error": 0.05)");
   CHECK(relative.text == "1/W ± 5 %");
-  CHECK(relative.formula->relative_error == 0.05);
-  CHECK(relative.formula->error == 0.0);
+  CHECK(relative.formula->error.relative == 0.05);
+  CHECK(relative.formula->error.own == 0.0);
   CHECK(read(R"("formula": "W", "text": "two\nlines")").formula->name == "two lines");
   CHECK(read(R"("formula": "W", "text": "")").text == "W");
 }
