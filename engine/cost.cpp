@@ -137,8 +137,9 @@ double iterations_of_path(const PackingSpec& spec) {
 
 /// Solver iterations over all rows that the stages of engine/dynamics/settle.hpp usually need.
 /// While a bed fills up its deep part sleeps, so that beyond some height the fall needs no more;
-/// the creep of spheres grows with the layers that forces have to find their way through, less than
-/// in proportion since its steps shorten, and their rest in proportion.
+/// the creep of spheres hardly grows with the layers that forces have to find their way through,
+/// since inertia grows with depth, and their quench less than in proportion. How long they ease on
+/// depends on how calm they must be.
 double usual_iterations(const PackingSpec& spec, double layers) {
   const Accuracy& a = spec.accuracy;
   const double falling =
@@ -150,8 +151,10 @@ double usual_iterations(const PackingSpec& spec, double layers) {
     return solved * (110.0 * falling + 7400.0 * creep) + 80.0 * a.rest_iterations;
   }
   const double fall = (a.protocol == Protocol::dynamic ? 800.0 : 200.0) * falling;
-  return solved * (fall + 3100.0 * std::pow(layers, 0.5) * creep) +
-         30.0 * a.rest_iterations * std::max(1.0, layers / 10.0);
+  const double calmer =
+      std::max(1.0, Accuracy{}.imbalance_tolerance / std::max(a.imbalance_tolerance, 1e-6));
+  return solved * (fall + 8700.0 * std::pow(layers, 0.1) * creep) + 1500.0 * calmer * calmer +
+         30.0 * a.rest_iterations * std::pow(std::max(1.0, layers / 10.0), 0.8);
 }
 
 /// Rounds of creep and rest that high beds of spheres take over those of low ones: few iterations

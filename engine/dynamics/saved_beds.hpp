@@ -32,7 +32,9 @@ void transfer_vector(Archive& archive, Three& v) {
 }
 
 template <class Archive>
-void transfer_kind(Archive&, SphereBed&) {}
+void transfer_kind(Archive& archive, SphereBed& bed) {
+  archive.column(bed.lightness);
+}
 template <class Archive>
 void transfer_kind(Archive& archive, PolyhedronBed& bed) {
   archive.column(bed.orientation);

@@ -11,6 +11,7 @@
 #include "engine/dynamics/balance.hpp"
 #include "engine/dynamics/changes.hpp"
 #include "engine/dynamics/columns.hpp"
+#include "engine/dynamics/inertia.hpp"
 #include "engine/dynamics/rank.hpp"
 #include "engine/dynamics/rest.hpp"
 #include "engine/dynamics/saved_beds.hpp"
@@ -60,6 +61,12 @@ void limit_free_motion(const SphereBed& bed, StepSettings& settings) {
   settings.longest_free = std::min(settings.longest_free, settings.near + smallest);
 }
 void limit_free_motion(const PolyhedronBed& /*bed*/, StepSettings& /*settings*/) {}
+
+/// Gives grains the inertia that the stage asks for.
+void set_inertia(const StageRule& rule, double height, SphereBed& bed) {
+  set_inertia_by_depth(rule.by_depth ? height : 0.0, bed);
+}
+void set_inertia(const StageRule& /*rule*/, double /*height*/, PolyhedronBed& /*bed*/) {}
 
 RestReport report_of(const ExactRest& exact, const SphereBed& bed) {
   RestReport rest;
@@ -123,6 +130,9 @@ class Settling {
  private:
   const StageRule& rule() const { return stages_[stage_]; }
 
+  /// The stage from which a bed that fails the last one, its rest, goes on.
+  std::size_t round_begin() const { return stages_.size() - 1 - stages_.back().back; }
+
   StepSettings settings_of_stage() const {
     StepSettings settings = settings_of(accuracy_, rule(), height_);
     limit_free_motion(bed_, settings);
@@ -138,6 +148,9 @@ class Settling {
   // ---- stage after stage ----
 
   bool is_carried() const { return last_.carried > carried_share; }
+
+  /// Whether nothing moves the bed by more than it may be out of balance.
+  bool is_calm() const { return last_.mean_motion < calm_motion(accuracy_, rule()); }
 
   bool has_fallen() const { return last_.kinetic_energy < rule().energy && is_carried(); }
 
@@ -176,9 +189,8 @@ class Settling {
   /// Whether there are steps left for going on; for beds that slide on before they are tested once
   /// more, for both stages.
   bool has_steps_to_go_on() const {
-    const StageRule& last = stages_.back();
     const std::int64_t round =
-        steps_of(accuracy_, last) + steps_of(accuracy_, stages_[stages_.size() - 1 - last.back]);
+        steps_of(accuracy_, stages_[round_begin()]) + steps_of(accuracy_, stages_.back());
     return report_.steps + round <= accuracy_.max_steps;
   }
 
@@ -235,7 +247,7 @@ class Settling {
   /// it. The higher the bed, the more steps its forces take to settle before that.
   bool slides_on() const {
     constexpr double layers_of_a_step = 8.0;
-    if (stage_ + 1 == stages_.size() || rounds_ == most_rounds) return false;
+    if (rounds_ == most_rounds) return false;
     const double most = static_cast<double>(rule().most_steps - 1);
     const bool has_settled =
         static_cast<double>(steps_in_stage_) >= std::min(most, top_of(bed_) / layers_of_a_step);
@@ -260,6 +272,8 @@ class Settling {
         return has_its_steps && has_fallen();
       case StageEnd::halted:
         return has_its_steps && has_fallen() && last_.kinetic_energy < accuracy_.kinetic_tolerance;
+      case StageEnd::calm:
+        return has_its_steps && (is_calm() || steps_in_stage_ >= rule().most_steps);
       case StageEnd::rest:
         return has_its_steps && is_to_be_tested() && (is_at_rest() || slides_on());
       case StageEnd::steps:
@@ -271,7 +285,7 @@ class Settling {
   std::size_t next_stage() {
     const bool rests = is_tested_ && report_.failure.empty();  // stages that end in tests have them
     if (rests) return stages_.size();
-    return rule().back > 0 ? stage_ - rule().back : stage_ + 1;
+    return stage_ + 1 == stages_.size() ? round_begin() : stage_ + 1;
   }
 
   void enter(std::size_t stage) {
@@ -286,6 +300,7 @@ class Settling {
     if (stage == stages_.size()) return;
     is_tested_ = false;
     height_ = top_of(bed_);
+    set_inertia(rule(), height_, bed_);
     const StepSettings settings = settings_of_stage();
     change_step(settings.dt / settings_.dt, bed_, state_);
     settings_ = settings;
@@ -372,8 +387,8 @@ class Settling {
   /// not finite must not be searched: it lies in no cell.
   bool goes_on() const {
     return stage_ < stages_.size() && report_.steps < accuracy_.max_steps &&
-           steps_in_stage_ < rule().most_steps && unsolved_ < most_unsolved && !report_.cancelled &&
-           std::isfinite(last_.kinetic_energy);
+           (rule().end != StageEnd::rest || steps_in_stage_ < rule().most_steps) &&
+           unsolved_ < most_unsolved && !report_.cancelled && std::isfinite(last_.kinetic_energy);
   }
 
   // ---- what is found out once, at the end ----
@@ -416,6 +431,7 @@ class Settling {
   /// have contacts again, though no forces: those are of the last step.
   void tell_rest() {
     if (wake(bed_)) state_.candidates.is_listed = false, is_tested_ = false;
+    set_inertia(StageRule(), height_, bed_);
     if (!is_tested_) test_rest();
     if (report_.failure.empty() && !has_arrived()) {
       report_.failure = "its steps ended in the stage " + std::string(rule().name) +
@@ -509,7 +525,7 @@ class Settling {
       if (failure.empty() || report_.cancelled) return false;
       ++searches_failed_;
       if (searches_failed_ < most_failed && has_steps_to_go_on()) {
-        enter(stages_.size() - 1);
+        enter(round_begin());
         return true;
       }
       report_.failure =

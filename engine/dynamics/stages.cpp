@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "engine/dynamics/inertia.hpp"
+
 namespace grainsweep {
 
 namespace {
@@ -63,7 +65,7 @@ constexpr StageRule dynamic_fall = {.name = "fall",
 /// quarter more of such steps cost less and sink the bed further.
 constexpr StageRule creep = {.name = "creep",
                              .step = 0.6,
-                             .shortens = true,
+                             .by_depth = true,
                              .inertia = Inertia::damped,
                              .path = 0.4,
                              .carries = true,
@@ -78,6 +80,7 @@ constexpr StageRule creep = {.name = "creep",
 /// Half steps that stray half as far as whole ones would: contacts close.
 constexpr StageRule slow = {.name = "slow",
                             .step = 0.5,
+                            .by_depth = true,
                             .inertia = Inertia::damped,
                             .path = 0.125,
                             .carries = true,
@@ -87,9 +90,31 @@ constexpr StageRule slow = {.name = "slow",
                             .fall_iterations = 1.0,
                             .creep = 0.1,
                             .done_before = 0.5,
-                            .done_after = 0.7};
+                            .done_after = 0.6};
+
+/// Quarter steps with momentum that stray by far less than the gaps that count, so that nothing but
+/// the forces that no contact balances moves the bed: it slides on until it meets new contacts, and
+/// is calm. Beds that are quenched while they still slide fail its tests, and few do once they are
+/// calm.
+constexpr StageRule ease = {.name = "ease",
+                            .end = StageEnd::calm,
+                            .step = 0.25,
+                            .by_depth = true,
+                            .inertia = Inertia::damped,
+                            .path_of_gap = 0.1,
+                            .carries = true,
+                            .correction = 0.5,
+                            .near = 0.02,
+                            .margin = 0.01,
+                            .fall_iterations = 1.0,
+                            .steps = 40,
+                            .most_steps = 400,
+                            .usual_steps = 60,
+                            .done_before = 0.6,
+                            .done_after = 0.8};
 
 /// Half steps without momentum: gaps close to far below those that count, and the bed is tested.
+/// One that fails eases on.
 constexpr StageRule quench = {.name = "quench",
                               .end = StageEnd::rest,
                               .step = 0.5,
@@ -100,29 +125,12 @@ constexpr StageRule quench = {.name = "quench",
                               .rest_iterations = 2.0,
                               .steps = 10,
                               .most_steps = 1000,
+                              .back = 1,
                               .usual_steps = 10,
-                              .done_before = 0.7,
-                              .done_after = 0.9};
+                              .done_before = 0.8,
+                              .done_after = 1.0};
 
-/// Quarter steps with momentum that stray by far less than the gaps that count, so that nothing but
-/// the forces that no contact balances moves the bed: it slides on until it meets new contacts.
-/// Then the quench again.
-constexpr StageRule ease = {.name = "ease",
-                            .step = 0.25,
-                            .shortens = true,
-                            .inertia = Inertia::damped,
-                            .path_of_gap = 0.1,
-                            .carries = true,
-                            .correction = 0.5,
-                            .near = 0.02,
-                            .margin = 0.01,
-                            .fall_iterations = 1.0,
-                            .steps = 80,
-                            .back = 1,
-                            .done_before = 0.9,
-                            .done_after = 1.0};
-
-constexpr StageRule heavy_ball[] = {look, fall, creep, slow, quench, ease};
+constexpr StageRule heavy_ball[] = {look, fall, creep, slow, ease, quench};
 
 /// The same stages with another fall, which comes second.
 template <std::size_t stages>
@@ -191,31 +199,23 @@ constexpr StageRule turning[] = {
      .creep = 0.5,
      .done_before = 0.6,
      .done_after = 0.78},
-    // Quarter steps without momentum, solved half as well as the quench: what still moves is slowed
-    // down.
-    {.name = "halt",
+    // As for spheres. Flat and sharp grains may rock for long without being far from rest.
+    {.name = "ease",
+     .end = StageEnd::calm,
      .step = 0.25,
+     .inertia = Inertia::damped,
+     .path_of_gap = 0.1,
      .correction = 0.5,
-     .near = 0.015,
+     .near = 0.02,
      .margin = 0.05,
      .steps_on_contacts = 2,
-     .rest_iterations = 0.5,
-     .steps = 15,
-     .done_before = 0.78,
-     .done_after = 0.84},
-    // Half steps without momentum: contacts close. Quarter steps would take seven times as many,
-    // full ones would not end.
-    {.name = "close",
-     .step = 0.5,
-     .correction = 0.5,
-     .near = 0.015,
-     .margin = 0.05,
-     .steps_on_contacts = 2,
-     .rest_iterations = 1.0,
+     .fall_iterations = 1.0,
      .steps = 40,
-     .done_before = 0.84,
+     .most_steps = 80,
+     .usual_steps = 60,
+     .done_before = 0.78,
      .done_after = 0.92},
-    // Quarter steps without momentum, until every test of rest holds.
+    // Quarter steps without momentum, until every test of rest holds: half steps would not end.
     {.name = "quench",
      .end = StageEnd::rest,
      .step = 0.25,
@@ -226,22 +226,9 @@ constexpr StageRule turning[] = {
      .rest_iterations = 1.0,
      .steps = 40,
      .most_steps = 1000,
+     .back = 1,
      .usual_steps = 40,
      .done_before = 0.92,
-     .done_after = 0.96},
-    // As for spheres: what is not balanced slides on until it meets new contacts.
-    {.name = "ease",
-     .step = 0.25,
-     .inertia = Inertia::damped,
-     .path_of_gap = 0.1,
-     .correction = 0.5,
-     .near = 0.02,
-     .margin = 0.05,
-     .steps_on_contacts = 2,
-     .fall_iterations = 1.0,
-     .steps = 80,
-     .back = 1,
-     .done_before = 0.96,
      .done_after = 1.0},
 };
 
@@ -288,15 +275,8 @@ double path_of(const Accuracy& accuracy, const StageRule& rule) {
 /// ten times as long as it takes with 100.
 constexpr double sweeps_of_a_diameter = 1.5;
 
-/// Height of a bed, d, from which on steps that shorten do so. What presses a grain is the weight
-/// above it, so that it moves as far in a step that is shorter by the root of that. Where they
-/// shorten from 30 d on, grains near the surface creep less: of beds 160 d high the upper 14 d have
-/// a phi lower by 0.002, and rest takes more rounds.
-constexpr double usual_height = 70.0;
-
 double step_of(const Accuracy& accuracy, const StageRule& rule, double height) {
-  const double share = rule.shortens ? std::sqrt(std::min(1.0, usual_height / height)) : 1.0;
-  return share * rule.step * accuracy.step;
+  return (rule.by_depth ? shortened_step(height) : 1.0) * rule.step * accuracy.step;
 }
 
 int iterations_of(const Accuracy& accuracy, const StageRule& rule, double height) {
@@ -340,6 +320,11 @@ Accuracy closer_where_narrow(const Accuracy& accuracy, const Box& box) {
   Accuracy closer = accuracy;
   closer.path_tolerance *= apart * apart;
   return closer;
+}
+
+double calm_motion(const Accuracy& accuracy, const StageRule& rule) {
+  const double dt = rule.step * accuracy.step;
+  return accuracy.imbalance_tolerance * dt * dt / (1.0 - accuracy.momentum);
 }
 
 StepSettings settings_of(const Accuracy& accuracy, const StageRule& rule, double height) {

@@ -17,7 +17,8 @@ enum class StageEnd {
   look,    ///< every test of rest holds or is far from it, or the floor does not carry the bed
   fallen,  ///< the floor carries the bed, which has lost its speed
   halted,  ///< the same, and the bed's kinetic energy is below its tolerance
-  rest,    ///< every test of rest holds; a bed that fails goes on to the next stage, if any
+  calm,    ///< nothing moves the bed but less than it may be out of balance, or its most steps
+  rest,    ///< every test of rest holds; a bed that fails goes back
 };
 
 /// What a step takes over from the motion of the last one.
@@ -29,7 +30,7 @@ struct StageRule {
   const char* name = "";
   StageEnd end = StageEnd::steps;
   double step = 1.0;      ///< in Accuracy::step
-  bool shortens = false;  ///< with the height of the bed, from a usual one on
+  bool by_depth = false;  ///< inertia grows with depth (engine/dynamics/inertia.hpp)
   Inertia inertia = Inertia::none;
   // A step that strays by less than one of these is solved:
   double path = 0.0;           ///< so many times Accuracy::path_tolerance
@@ -48,8 +49,8 @@ struct StageRule {
   // Number of steps (if the stage ends on a condition, the least): the sum of
   std::int64_t steps = 0;  ///< these, and
   double creep = 0.0;      ///< this share of Accuracy::creep_steps
-  std::int64_t most_steps = std::numeric_limits<std::int64_t>::max();  ///< it gives up after these
-  std::size_t back = 0;  ///< after this stage, the stage so many before it comes again
+  std::int64_t most_steps = std::numeric_limits<std::int64_t>::max();  ///< it ends after these
+  std::size_t back = 0;  ///< if the bed does not rest, the stage so many before it comes again
   double energy = 0.0;   ///< m g d per grain; a bed with less of it has lost its speed
   // For progress bars:
   std::int64_t usual_steps = 0;  ///< of stages that end on a condition
@@ -65,6 +66,10 @@ Stages stages_of(Protocol protocol);
 /// How well a bed is settled between walls that are near, or in a short periodic box: there loose
 /// solves tap grains into order, so that contacts may stray less far.
 Accuracy closer_where_narrow(const Accuracy& accuracy, const Box& box);
+
+/// Mean motion in a step (StepReport::mean_motion), d, below which a bed is calm: what a net force
+/// of Accuracy::imbalance_tolerance own weights keeps a grain near the surface moving by.
+double calm_motion(const Accuracy& accuracy, const StageRule& rule);
 
 /// The settings of a step of a stage, for a bed of that height, d.
 StepSettings settings_of(const Accuracy& accuracy, const StageRule& rule, double height = 0.0);

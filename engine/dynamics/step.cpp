@@ -24,17 +24,25 @@ Record<Real> record(const Vector& v, double w) {
           static_cast<Real>(w)};
 }
 
-/// u_free = alpha u_last + g dt^2, clamped, of a grain.
+/// Inverse inertia of a grain, 1/m.
+double inverse_inertia(const SphereBed& bed, std::size_t grain) {
+  return bed.inverse_inertia(static_cast<std::int32_t>(grain));
+}
+double inverse_inertia(const PolyhedronBed& bed, std::size_t grain) { return bed.motion[grain].w; }
+
+/// u_free = alpha u_last + g dt^2, clamped, of a grain; the weight of one that is lighter than its
+/// mass accelerates it by as much more.
 template <class Real>
 void set_free_motion(const StepSettings& settings, const SphereBed& bed, std::size_t i,
                      std::vector<Record<Real>>& free) {
   const Record<double>& last = bed.motion[i];
   const double x = settings.momentum * last.x, y = settings.momentum * last.y;
-  const double z = settings.momentum * last.z - settings.dt * settings.dt;
+  const double of_inertia = inverse_inertia(bed, i);
+  const double z = settings.momentum * last.z - settings.dt * settings.dt * (of_inertia / last.w);
   const double length = std::sqrt(x * x + y * y + z * z);
   const double keep = length > settings.longest_free ? settings.longest_free / length : 1.0;
   free[i] = {static_cast<Real>(keep * x), static_cast<Real>(keep * y), static_cast<Real>(keep * z),
-             static_cast<Real>(last.w)};
+             static_cast<Real>(of_inertia)};
 }
 template <class Real>
 void set_free_motion(const StepSettings& settings, const PolyhedronBed& bed, std::size_t i,
@@ -188,7 +196,7 @@ Moved advance(const MotionColumns<Real>& motion, double most, IndexRange grains,
     }
     advance(motion.u, most, i, bed, moved);
     const Real lift = motion.u[records * i].z - motion.free[records * i].z;
-    moved.lift += static_cast<double>(lift) / bed.motion[i].w;
+    moved.lift += static_cast<double>(lift) / inverse_inertia(bed, i);
     moved.mass += 1.0 / bed.motion[i].w;
     moved.awake += 1.0;
   }
@@ -211,6 +219,7 @@ void advance(const StepSettings& settings, const ParallelFor& loop, Bed<Kind>& b
   }
   const double dt = settings.dt;
   report.kinetic_energy = all.energy / (2.0 * dt * dt * std::max(all.awake, 1.0));
+  report.mean_motion = all.mass > 0.0 ? std::sqrt(all.energy / all.mass) : 0.0;
   report.largest_motion = all.longest;
   report.motion_of_inradius = all.of_inradius;
   report.carried = all.mass > 0.0 ? all.lift / (dt * dt * all.mass) : 1.0;

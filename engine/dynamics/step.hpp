@@ -46,8 +46,11 @@ struct StepSettings {
 /// What a step did, or all steps that were taken on its contacts.
 struct StepReport {
   int steps = 0;
-  SolveReport solve;                ///< of the last step, except iterations; residuals in m g
-  double kinetic_energy = 0.0;      ///< mean per grain of 1/2 m (u/dt)^2, m g d
+  SolveReport solve;            ///< of the last step, except iterations; residuals in m g
+  double kinetic_energy = 0.0;  ///< mean per grain of 1/2 m (u/dt)^2, m g d
+  /// Root mean square motion of the grains awake, weighted by mass, d; turning counts by its
+  /// energy.
+  double mean_motion = 0.0;
   double largest_motion = 0.0;      ///< d
   double motion_of_inradius = 0.0;  ///< the same for polyhedra, in radii of the ball within each
   /// Share of the weight of the grains awake that walls and grains asleep carry.

@@ -10,10 +10,10 @@
 
 namespace grainsweep {
 
-/// 1 / (1/m_a + 1/m_b), m.
+/// 1 / (1/m_a + 1/m_b), m, of the masses that resist motion.
 template <class Real>
 Real reduced_mass(const SphereBed& bed, std::int32_t a, std::int32_t b) {
-  return static_cast<Real>(1.0 / (bed.inverse_mass(a) + bed.inverse_mass(b)));
+  return static_cast<Real>(1.0 / (bed.inverse_inertia(a) + bed.inverse_inertia(b)));
 }
 
 /// Appends blocks of void rows of a subdomain and fills their lanes.

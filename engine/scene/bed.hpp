@@ -91,7 +91,16 @@ template <class Kind>
 struct Bed;
 
 template <>
-struct Bed<Sphere> : Grains {};
+struct Bed<Sphere> : Grains {
+  /// Mass over inertia of each grain while the bed creeps (engine/dynamics/inertia.hpp), at least
+  /// 1; empty if inertia is mass.
+  std::vector<double> lightness;
+
+  double inverse_inertia(std::int32_t entry) const {
+    const bool is_light = !lightness.empty() && is_grain(entry);
+    return (is_light ? lightness[static_cast<std::size_t>(entry)] : 1.0) * inverse_mass(entry);
+  }
+};
 using SphereBed = Bed<Sphere>;
 
 /// Grains of one convex shape, or of several: the components of a mixture, spheres among them. The

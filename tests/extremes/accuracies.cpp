@@ -28,11 +28,11 @@ Outcome right_if(bool expected) { return expected ? Outcome::right : Outcome::no
 void add_steps(std::vector<Scene>& scenes) {
   for (const double step : {1e-4, 1e-3, 1e-2, 0.05, 0.1, 0.3, 0.4, 0.5, 0.8, 1.0, 1.5, 2.0}) {
     // Short steps do not come to rest in as many as are allowed, long ones overlap or keep moving.
-    scenes.push_back(changed("step " + number_text(step, 6), Precision::f64,
-                             right_if(step >= 0.1 && step <= 0.4),
+    const Outcome expected = right_if(step >= 0.1 && step <= 0.4);
+    scenes.push_back(changed("step " + number_text(step, 6), Precision::f64, expected,
                              [=](Accuracy& a) { a.step = step; }));
     scenes.push_back(changed("step " + number_text(step, 6) + ", plain dynamics", Precision::f32,
-                             right_if(step >= 0.05 && step <= 0.4), [=](Accuracy& a) {
+                             expected, [=](Accuracy& a) {
                                a.step = step;
                                a.protocol = Protocol::dynamic;
                                a.max_steps = 3000;

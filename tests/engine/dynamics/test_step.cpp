@@ -72,6 +72,7 @@ TEST_CASE("kinetic energy is the mean over the grains of half the mass times vel
   StepState<Sphere, double> state;
   const StepReport report = step(tight_steps(0.9), kernels(), bed, state);
   CHECK(report.kinetic_energy == Approx((1.0 + 0.125) / 2 * 0.5 * 0.04));  // v = g dt = .2
+  CHECK(report.mean_motion == Approx(0.04));                               // of both
 }
 
 TEMPLATE_TEST_CASE("a sphere resting on the floor carries its weight", "", float, double) {
