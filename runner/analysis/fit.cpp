@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include <boost/math/distributions/chi_squared.hpp>
+
 namespace grainsweep {
 namespace {
 
@@ -69,6 +71,13 @@ std::optional<LineFit> fit_line(const std::vector<LinePoint>& points) {
   fit.covariance = -sum.x_mean / sum.xx;
   fit.r_squared = sum.yy > 0 ? 1.0 - fit.chi2 / sum.yy : std::numeric_limits<double>::quiet_NaN();
   return fit;
+}
+
+bool may_hold(const Misfit& misfit) {
+  constexpr double seldom = 1.0 / 200.0;
+  const boost::math::chi_squared chance(misfit.degrees_of_freedom);
+  const double chi2 = misfit.chi2_per_dof * misfit.degrees_of_freedom;
+  return chi2 <= boost::math::quantile(boost::math::complement(chance, seldom));
 }
 
 }  // namespace grainsweep

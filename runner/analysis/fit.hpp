@@ -31,6 +31,16 @@ struct LineFit {
   double r_squared = 0.0;        ///< share of the weighted variance explained; NaN if y is constant
 };
 
+/// By how much values miss what is said of them all: a line through them, or one value.
+struct Misfit {
+  double chi2_per_dof = 0.0;
+  int degrees_of_freedom = 0;
+};
+
+/// Whether that may be chance: where it holds, a larger chi2 comes up once in 200 times. Per degree
+/// of freedom that is 7.9 for one, 5.3 for two, 2.9 for seven.
+bool may_hold(const Misfit& misfit);
+
 /// Nothing if the points do not determine a line with errors: fewer than three points, fewer than
 /// two different x, or an error that is not positive and finite.
 std::optional<LineFit> fit_line(const std::vector<LinePoint>& points);

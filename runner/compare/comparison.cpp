@@ -158,8 +158,8 @@ Agreement agreement_of(const Comparison& comparison) {
 std::string verdict(const Comparison& comparison) {
   if (!comparison.along.empty()) return along_text(comparison);
   std::string text;
-  if (comparison.chi2_per_dof && comparison.measured.not_determined.empty()) {
-    text = *comparison.chi2_per_dof > largest_chi2 ? "not one value for all" : "one value for all";
+  if (comparison.misfit && comparison.measured.not_determined.empty()) {
+    text = may_hold(*comparison.misfit) ? "one value for all" : "not one value for all";
   }
   const auto miss = difference(comparison), errors = difference_in_errors(comparison);
   const Agreement agreement = agreement_of(comparison);
@@ -241,7 +241,7 @@ std::vector<Comparison> compare_with(const Reference& reference, const Analysis&
                     title_of_quantity(value.quantity, value.width, extent_symbol(families)),
                     value,
                     shared.measured,
-                    shared.chi2_per_dof,
+                    shared.misfit,
                     {}});
   }
   return rows;

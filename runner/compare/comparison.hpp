@@ -23,8 +23,7 @@ struct Comparison {
   std::string title;  ///< "Z at W = 10 d"
   Published published;
   Measured measured;
-  /// For a value that is said to hold for all families: chi2 per degree of freedom of theirs.
-  std::optional<double> chi2_per_dof;
+  std::optional<Misfit> misfit;  ///< of families, for a value that is said to hold for all
   /// Of a formula: each width of the family where it holds and both values are known, with the
   /// formula's value there.
   std::vector<Comparison> along;

@@ -92,7 +92,7 @@ Columns<Comparison> measured_columns() {
       {"chi2_per_dof", "",
        "of a value for all families: about 1 or less if one value holds for "
        "all",
-       [](Line line) { return cell(line.chi2_per_dof.value_or(no_number)); }},
+       [](Line line) { return cell(line.misfit ? line.misfit->chi2_per_dof : no_number); }},
       {"reason", "", "why there is no measured value",
        [](Line line) { return cell(line.measured.not_determined); }},
       {"published_definition", "", "what the source says of its value",

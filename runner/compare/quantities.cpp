@@ -278,14 +278,16 @@ Shared share_quantity(const std::string& quantity, double width,
         "needs it of 3 or more families, has " + std::to_string(values.size());
     return shared;
   }
+  double& chi2_per_dof = shared.misfit.chi2_per_dof;
+  shared.misfit.degrees_of_freedom = static_cast<int>(values.size()) - 1;
   for (const Estimate& one : values) {
-    shared.chi2_per_dof += std::pow((one.value - sum / weight) / one.error, 2) /
-                           static_cast<double>(values.size() - 1);
+    chi2_per_dof +=
+        std::pow((one.value - sum / weight) / one.error, 2) / shared.misfit.degrees_of_freedom;
   }
-  shared.measured.estimate = {sum / weight, std::sqrt(std::max(1.0, shared.chi2_per_dof) / weight)};
+  shared.measured.estimate = {sum / weight, std::sqrt(std::max(1.0, chi2_per_dof) / weight)};
   shared.measured.bias_bound = bias_bound;
   shared.measured.definition = "weighted mean of " + std::to_string(values.size()) +
-                               " families, χ²/dof " + fixed(shared.chi2_per_dof, 1) +
+                               " families, χ²/dof " + fixed(chi2_per_dof, 1) +
                                " (about 1 if one value holds for all)";
   return shared;
 }

@@ -48,7 +48,7 @@ Measured measure_quantity(const std::string& quantity, const Family& family, con
 /// definition, chi2 per degree of freedom: whether one value holds for all.
 struct Shared {
   Measured measured;
-  double chi2_per_dof = 0.0;
+  Misfit misfit;
 };
 Shared share_quantity(const std::string& quantity, double width,
                       const std::vector<Family>& families, const std::string& folder = "");

@@ -66,7 +66,7 @@ void take_line(const LineFit& line, WallFit& fit) {
   fit.zeta.error *= widening;
   fit.degrees_of_freedom = line.degrees_of_freedom;
   fit.chi2_per_dof = chi2;
-  if (chi2 > largest_chi2) fit.doubt = "the straight line does not hold";
+  if (!may_hold({chi2, line.degrees_of_freedom})) fit.doubt = "the straight line does not hold";
   fit.r_squared = line.r_squared;
   for (FitPoint& point : fit.points) point.fitted = line.intercept + line.slope / point.width;
 }

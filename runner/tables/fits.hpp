@@ -18,9 +18,6 @@
 
 namespace grainsweep {
 
-/// For a line, or one value for all, that holds, chi2 per degree of freedom is seldom larger.
-inline constexpr double largest_chi2 = 3.0;
-
 enum class Quantity { solid_fraction, coordination };
 
 /// The spread of `quantity` in a group.

@@ -79,6 +79,18 @@ TEST_CASE("points that do not determine a line give nothing") {
   CHECK_FALSE(fit_line({{1, std::nan(""), 1}, {2, 2, 1}, {3, 3, 1}}));
 }
 
+// Of two degrees of freedom chi2 is larger than x with probability exp(-x / 2), of one with that of
+// a normal deviate beyond its root to either side: 0.005 beyond 2.8070.
+TEST_CASE("a misfit that chance exceeds in one case of 200 is not put down to it") {
+  const double of_two = -2.0 * std::log(0.005) / 2.0, of_one = 2.807033768 * 2.807033768;
+  for (const double share : {0.0, 0.5, 0.9999}) {
+    CHECK(may_hold({share * of_two, 2}));
+    CHECK(may_hold({share * of_one, 1}));
+  }
+  CHECK_FALSE(may_hold({1.0001 * of_two, 2}));
+  CHECK_FALSE(may_hold({1.0001 * of_one, 1}));
+}
+
 TEST_CASE("a constant y has a fit but no share of variance to explain") {
   const auto fit = fit_line({{1, 2, 1}, {2, 2, 1}, {3, 2, 1}});
   REQUIRE(fit);

@@ -64,9 +64,9 @@ TEST_CASE("published errors and ours are added in quadrature, for the verdict, t
 
 TEST_CASE("one value for all families is judged by their scatter") {
   Comparison row;
-  row.chi2_per_dof = 1.0;
+  row.misfit = Misfit{5.2, 2};
   CHECK(verdict(row) == "one value for all");
-  row.chi2_per_dof = 10.5;
+  row.misfit = Misfit{5.4, 2};
   CHECK(verdict(row) == "not one value for all");
   row.measured.estimate = {6.5, 0.4};
   row.published.range = comparison_of({6, 6, 0.3}, {}).published.range;

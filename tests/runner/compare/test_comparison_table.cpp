@@ -78,7 +78,7 @@ TEST_CASE("a row has both values, their difference in three ways and the verdict
 TEST_CASE("what is not known is empty, and its reason is given") {
   Comparison words = z_at_ten();
   words.published = {"C", 0, "falls", std::nullopt, "", {}};
-  words.chi2_per_dof = 1.5;
+  words.misfit = Misfit{1.5, 2};
   Comparison reason = z_at_ten();
   reason.measured.not_determined = "has 2 widths";
   Comparison range = z_at_ten();
