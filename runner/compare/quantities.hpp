@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "runner/analysis/decay.hpp"
+#include "runner/analysis/fit.hpp"
 #include "runner/tables/families.hpp"
 
 namespace grainsweep {
