@@ -96,7 +96,7 @@ TEST_CASE("what no preset keeps is refused with the smallest bound that can be h
   const std::string both = R"({"solid_fraction": 0.0013, "coordination": 0.01})";
   CHECK(errors_of(R"({"name": "a", "base": {"accuracy": )" + both + "}}") ==
         std::vector<std::string>{
-            "s.json:1:79 /base/accuracy/coordination: must be at least 0.018, the smallest bound "
+            "s.json:1:79 /base/accuracy/coordination: must be at least 0.02, the smallest bound "
             "that was measured of spheres of one size by presets that keep the other one, by "
             "\"accurate\"; is 0.01"});
 }
