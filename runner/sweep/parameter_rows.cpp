@@ -185,9 +185,10 @@ Rows accuracy_rows() {
       row<&S::accuracy, &A::overlap_tolerance>(
           "accuracy.overlap_tolerance", positive,
           "mean overlap of touching pairs at rest, d; no pair more than a hundred times it"),
-      row<&S::accuracy, &A::imbalance_tolerance>(
-          "accuracy.imbalance_tolerance", positive,
-          "mean static imbalance at rest, in own weights; no grain more than 15 times it"),
+      row<&S::accuracy, &A::imbalance_tolerance>("accuracy.imbalance_tolerance", positive,
+                                                 "mean static imbalance at rest, in own weights; "
+                                                 "no grain more than 15 times it. A bed slides "
+                                                 "on until its motion tells of no more"),
       row<&S::accuracy, &A::imbalance_gap>(
           "accuracy.imbalance_gap", Interval{0, 0.01, true},
           "contacts with a smaller gap carry the bed statically, d"),
