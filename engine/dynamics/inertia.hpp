@@ -24,7 +24,7 @@ namespace grainsweep {
 /// short that their solid fraction is lower by 0.0004.
 inline constexpr double even_depth = 10.0;
 
-/// By how much shorter steps are in a bed of that height, d; at most 1.
+/// Length of a step in a bed of that height, d, over that in a low one.
 double shortened_step(double height);
 
 /// Gives grains in a bed of that height, d, an inertia that grows with their depth.

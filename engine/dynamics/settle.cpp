@@ -433,7 +433,7 @@ class Settling {
   }
 
   /// Reports on a bed that has come to rest, or has no steps left. Grains that slept until then
-  /// have contacts again, though no forces: those are of the last step.
+  /// have contacts again, though no forces: those are of the last step. Inertia is mass again.
   void tell_rest() {
     if (wake(bed_)) state_.candidates.is_listed = false, is_tested_ = false;
     set_inertia(StageRule(), height_, bed_);
