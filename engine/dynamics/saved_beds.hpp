@@ -32,9 +32,7 @@ void transfer_vector(Archive& archive, Three& v) {
 }
 
 template <class Archive>
-void transfer_kind(Archive& archive, SphereBed& bed) {
-  archive.column(bed.lightness);
-}
+void transfer_kind(Archive&, SphereBed&) {}
 template <class Archive>
 void transfer_kind(Archive& archive, PolyhedronBed& bed) {
   archive.column(bed.orientation);
@@ -116,6 +114,7 @@ void transfer_bed(Archive& archive, Bed<Kind>& bed, StepState<Kind, Real>& state
   archive.column(bed.motion);
   archive.column(bed.asleep);
   archive.value(bed.first_awake);
+  archive.column(bed.lightness);
   transfer_kind(archive, bed);
   transfer_candidates(archive, state.candidates);
   transfer_contacts(archive, state.contacts);

@@ -62,12 +62,6 @@ void limit_free_motion(const SphereBed& bed, StepSettings& settings) {
 }
 void limit_free_motion(const PolyhedronBed& /*bed*/, StepSettings& /*settings*/) {}
 
-/// Gives grains the inertia that the stage asks for.
-void set_inertia(const StageRule& rule, double height, SphereBed& bed) {
-  set_inertia_by_depth(rule.by_depth ? height : 0.0, bed);
-}
-void set_inertia(const StageRule& /*rule*/, double /*height*/, PolyhedronBed& /*bed*/) {}
-
 RestReport report_of(const ExactRest& exact, const SphereBed& bed) {
   RestReport rest;
   rest.overlap_mean = exact.overlap_mean;
@@ -131,7 +125,7 @@ class Settling {
   const StageRule& rule() const { return stages_[stage_]; }
 
   /// The stage from which a bed that fails the last one, its rest, goes on.
-  std::size_t round_begin() const { return stages_.size() - 1 - stages_.back().back; }
+  std::size_t round_begin() const { return stages_.size() - 2; }
 
   StepSettings settings_of_stage() const {
     StepSettings settings = settings_of(accuracy_, rule(), height_);
@@ -305,7 +299,7 @@ class Settling {
     if (stage == stages_.size()) return;
     is_tested_ = false;
     height_ = top_of(bed_);
-    set_inertia(rule(), height_, bed_);
+    set_inertia_by_depth(rule().by_depth ? height_ : 0.0, bed_);
     const StepSettings settings = settings_of_stage();
     change_step(settings.dt / settings_.dt, bed_, state_);
     settings_ = settings;
@@ -436,7 +430,7 @@ class Settling {
   /// have contacts again, though no forces: those are of the last step. Inertia is mass again.
   void tell_rest() {
     if (wake(bed_)) state_.candidates.is_listed = false, is_tested_ = false;
-    set_inertia(StageRule(), height_, bed_);
+    set_inertia_by_depth(0.0, bed_);
     if (!is_tested_) test_rest();
     if (report_.failure.empty() && !has_arrived()) {
       report_.failure = "its steps ended in the stage " + std::string(rule().name) +

@@ -125,7 +125,6 @@ constexpr StageRule quench = {.name = "quench",
                               .rest_iterations = 2.0,
                               .steps = 10,
                               .most_steps = 1000,
-                              .back = 1,
                               .usual_steps = 10,
                               .done_before = 0.8,
                               .done_after = 1.0};
@@ -173,6 +172,7 @@ constexpr StageRule turning[] = {
      .done_after = 0.4},
     // Full steps.
     {.name = "creep",
+     .by_depth = true,
      .inertia = Inertia::damped,
      .path = 0.5,
      .correction = 0.1,
@@ -188,6 +188,7 @@ constexpr StageRule turning[] = {
     // steps to die.
     {.name = "slow",
      .step = 0.5,
+     .by_depth = true,
      .inertia = Inertia::damped,
      .path = 0.125,
      .correction = 0.1,
@@ -199,7 +200,8 @@ constexpr StageRule turning[] = {
      .creep = 0.5,
      .done_before = 0.6,
      .done_after = 0.78},
-    // As for spheres. Flat and sharp grains may rock for long without being far from rest.
+    // As for spheres. Flat and sharp grains may rock for long without being far from rest. Inertia
+    // is mass again: steps shortened by depth would take more rounds to get there.
     {.name = "ease",
      .end = StageEnd::calm,
      .step = 0.25,
@@ -226,7 +228,6 @@ constexpr StageRule turning[] = {
      .rest_iterations = 1.0,
      .steps = 40,
      .most_steps = 1000,
-     .back = 1,
      .usual_steps = 40,
      .done_before = 0.92,
      .done_after = 1.0},

@@ -18,7 +18,7 @@ enum class StageEnd {
   fallen,  ///< the floor carries the bed, which has lost its speed
   halted,  ///< the same, and the bed's kinetic energy is below its tolerance
   calm,    ///< nothing moves the bed but less than it may be out of balance, or its most steps
-  rest,    ///< every test of rest holds; a bed that fails goes back
+  rest,    ///< every test of rest holds; a bed that fails goes back a stage
 };
 
 /// What a step takes over from the motion of the last one.
@@ -49,16 +49,17 @@ struct StageRule {
   // Number of steps (if the stage ends on a condition, the least): the sum of
   std::int64_t steps = 0;  ///< these, and
   double creep = 0.0;      ///< this share of Accuracy::creep_steps
-  std::int64_t most_steps = std::numeric_limits<std::int64_t>::max();  ///< it ends after these
-  std::size_t back = 0;  ///< if the bed does not rest, the stage so many before it comes again
-  double energy = 0.0;   ///< m g d per grain; a bed with less of it has lost its speed
+  std::int64_t most_steps =
+      std::numeric_limits<std::int64_t>::max();  ///< it ends after these; the last gives up
+  double energy = 0.0;  ///< m g d per grain; a bed with less of it has lost its speed
   // For progress bars:
   std::int64_t usual_steps = 0;  ///< of stages that end on a condition
   double done_before = 0.0;      ///< share of all work that is usually done before it
   double done_after = 0.0;       ///< and after it
 };
 
-/// The stages in their order, the first a look at the bed as it is given.
+/// The stages in their order, the first a look at the bed as it is given. The last one and that
+/// before it take turns until the bed rests.
 using Stages = std::span<const StageRule>;
 template <class Kind>
 Stages stages_of(Protocol protocol);

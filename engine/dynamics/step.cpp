@@ -25,10 +25,9 @@ Record<Real> record(const Vector& v, double w) {
 }
 
 /// Inverse inertia of a grain, 1/m.
-double inverse_inertia(const SphereBed& bed, std::size_t grain) {
+double inverse_inertia(const Grains& bed, std::size_t grain) {
   return bed.inverse_inertia(static_cast<std::int32_t>(grain));
 }
-double inverse_inertia(const PolyhedronBed& bed, std::size_t grain) { return bed.motion[grain].w; }
 
 /// u_free = alpha u_last + g dt^2, clamped, of a grain; the weight of one that is lighter than its
 /// mass accelerates it by as much more.
@@ -47,11 +46,12 @@ void set_free_motion(const StepSettings& settings, const SphereBed& bed, std::si
 template <class Real>
 void set_free_motion(const StepSettings& settings, const PolyhedronBed& bed, std::size_t i,
                      std::vector<Record<Real>>& free) {
-  const Vector drop(0.0, 0.0, -settings.dt * settings.dt);
+  const double of_inertia = inverse_inertia(bed, i);
+  const Vector drop(0.0, 0.0, -settings.dt * settings.dt * (of_inertia / bed.motion[i].w));
   const Vector v = settings.momentum * vector_of(bed.motion[i]) + drop;
   const Vector angles =
       clamped(settings.momentum * bed.spin[i], settings.longest_free / bed.circumradius(i));
-  free[2 * i] = record<Real>(clamped(v, settings.longest_free), bed.motion[i].w);
+  free[2 * i] = record<Real>(clamped(v, settings.longest_free), of_inertia);
   free[2 * i + 1] = record<Real>(bed.root_inertia[i].cwiseProduct(angles), 1.0);
 }
 
@@ -92,8 +92,8 @@ void advance(const std::vector<Record<Real>>& u, double most, std::size_t i, Pol
   const Vector angles =
       clamped(vector_of(u[2 * i + 1]).cwiseQuotient(root), most / bed.circumradius(i));
   move_grain(bed, i, displacement, angles);
-  moved.energy +=
-      displacement.squaredNorm() / bed.motion[i].w + root.cwiseProduct(angles).squaredNorm();
+  moved.energy += displacement.squaredNorm() / bed.motion[i].w +
+                  bed.lightness_of(i) * root.cwiseProduct(angles).squaredNorm();
   const double longest = std::max(displacement.norm(), angles.norm() * bed.circumradius(i));
   moved.longest = std::max(moved.longest, longest);
   moved.of_inradius = std::max(moved.of_inradius, longest / bed.inradius(i));
@@ -127,8 +127,8 @@ double update_contacts(const StepSettings& settings, const ExecutionContext& con
 template <class Real>
 double update_contacts(const StepSettings& settings, const ExecutionContext& context,
                        const PolyhedronBed& bed, PolyhedronContacts<Real>& contacts) {
-  return find_contacts(touch_settings(settings.near, settings.dt), settings.correction, bed,
-                       context, contacts);
+  return find_contacts(touch_settings(settings.near, bed.longest_drop(settings.dt)),
+                       settings.correction, bed, context, contacts);
 }
 
 void scale_motion(double ratio, SphereBed& bed) {

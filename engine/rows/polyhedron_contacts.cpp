@@ -14,8 +14,8 @@ namespace grainsweep {
 
 namespace {
 
-// A face is preferred to edges that part a pair by no more than this share of g dt^2 beyond it, d;
-// with a smaller preference edges replace whole faces and the bed collapses.
+// A face is preferred to edges that part a pair by no more than this share of a step's free fall
+// beyond it; with a smaller preference edges replace whole faces and the bed collapses.
 constexpr double preferred_share = 0.5;
 constexpr double min_preference = 1e-4;
 constexpr double preferred_of_depth = 1.0;  // beyond its overlap
@@ -87,12 +87,12 @@ void store_row(const PolyhedronBed& bed, const PolyhedronContact& contact,
   const auto is_turned = [&](std::size_t i) { return bed.turns(i) && !bed.is_asleep(i); };
   const auto a = static_cast<std::size_t>(contact.a), b = static_cast<std::size_t>(contact.b);
   Vector lever_a = Vector::Zero(), lever_b = Vector::Zero();
-  double inverse_masses = bed.inverse_mass(contact.a);
+  double inverse_masses = bed.inverse_inertia(contact.a);
   if (is_turned(a)) {
     lever_a = point.position.cross(contact.normal).cwiseQuotient(bed.root_inertia[a]);
   }
   if (bed.is_grain(contact.b)) {
-    inverse_masses += bed.inverse_mass(contact.b);
+    inverse_masses += bed.inverse_inertia(contact.b);
     const Vector torque = (point.position - contact.pose.centre).cross(contact.normal);
     if (is_turned(b)) {
       lever_b = (contact.pose.turn.transpose() * torque).cwiseQuotient(bed.root_inertia[b]);
@@ -375,15 +375,15 @@ NamedPlaces::const_iterator place_of(const PolyhedronContact& c, const NamedPlac
 /// Settings for contacts with a gap below `near`, d, with no preference of faces that would hide
 /// the depth of an overlap.
 TouchSettings as_deep_as_they_are(double near, double dt) {
-  TouchSettings settings = touch_settings(near, dt);
+  TouchSettings settings = touch_settings(near, dt * dt);
   settings.of_depth = 0.0;
   return settings;
 }
 
 }  // namespace
 
-TouchSettings touch_settings(double near, double dt) {
-  return {near, std::max(min_preference, preferred_share * dt * dt), preferred_of_depth};
+TouchSettings touch_settings(double near, double drop) {
+  return {near, std::max(min_preference, preferred_share * drop), preferred_of_depth};
 }
 
 template <class Real>

@@ -95,8 +95,9 @@ struct Contacts<Polyhedron, Real> {
 template <class Real>
 using PolyhedronContacts = Contacts<Polyhedron, Real>;
 
-/// Contacts of a step of length `dt` are those with a gap below `near`, d.
-TouchSettings touch_settings(double near, double dt);
+/// Contacts of a step in which grains fall freely by up to `drop` are those with a gap below
+/// `near`, d.
+TouchSettings touch_settings(double near, double drop);
 
 /// Forgets the pairs and what they remember.
 template <class Real>

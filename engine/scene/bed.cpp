@@ -149,7 +149,8 @@ PolyhedronBed make_bed(const Box& box, std::vector<ConvexShape> shapes,
 
 Vector principal_moments(const PolyhedronBed& bed, std::size_t grain) {
   const double scale = bed.scale(grain);
-  return scale * scale / bed.motion[grain].w * bed.shape(grain).inertia;
+  const double inverse_inertia = bed.lightness_of(grain) * bed.motion[grain].w;
+  return scale * scale / inverse_inertia * bed.shape(grain).inertia;
 }
 
 bool is_finite(const SphereBed& bed) { return are_finite(bed.position) && are_finite(bed.motion); }

@@ -5,6 +5,7 @@
 // nothing can turn them, so a bed has no place to say that they do.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -61,6 +62,9 @@ struct Grains {
   /// move.
   std::vector<std::uint8_t> asleep;
   std::size_t first_awake = 0;  ///< all grains before it sleep
+  /// Mass over inertia of each grain while the bed creeps (engine/dynamics/inertia.hpp), at least
+  /// 1; empty if inertia is mass.
+  std::vector<double> lightness;
 
   std::size_t subdomains = 1;  ///< max_subdomains of the grains
   int subdomain_axis = 2;      ///< see `subdomain_axis`
@@ -82,6 +86,20 @@ struct Grains {
     const auto i = static_cast<std::size_t>(entry);
     return is_grain(entry) && is_asleep(i) ? 0.0 : motion[i].w;
   }
+  /// Mass over inertia of a grain.
+  double lightness_of(std::size_t grain) const {
+    return lightness.empty() ? 1.0 : lightness[grain];
+  }
+  /// Longest way that a grain falls freely from rest in a step, d.
+  double longest_drop(double dt) const {
+    const auto lightest = std::max_element(lightness.begin(), lightness.end());
+    return (lightest == lightness.end() ? 1.0 : *lightest) * dt * dt;
+  }
+  /// 1 over what resists the motion of an entry, 1/m.
+  double inverse_inertia(std::int32_t entry) const {
+    return (is_grain(entry) ? lightness_of(static_cast<std::size_t>(entry)) : 1.0) *
+           inverse_mass(entry);
+  }
   bool is_void(std::int32_t entry) const { return entry >= void_a(); }
   /// The number that stands for walls[k] as the second side of a contact.
   std::int32_t wall_name(std::size_t k) const { return static_cast<std::int32_t>(grains() + k); }
@@ -91,16 +109,7 @@ template <class Kind>
 struct Bed;
 
 template <>
-struct Bed<Sphere> : Grains {
-  /// Mass over inertia of each grain while the bed creeps (engine/dynamics/inertia.hpp), at least
-  /// 1; empty if inertia is mass.
-  std::vector<double> lightness;
-
-  double inverse_inertia(std::int32_t entry) const {
-    const bool is_light = !lightness.empty() && is_grain(entry);
-    return (is_light ? lightness[static_cast<std::size_t>(entry)] : 1.0) * inverse_mass(entry);
-  }
-};
+struct Bed<Sphere> : Grains {};
 using SphereBed = Bed<Sphere>;
 
 /// Grains of one convex shape, or of several: the components of a mixture, spheres among them. The

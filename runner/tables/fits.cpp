@@ -144,7 +144,9 @@ Columns<FitLine> fit_line_columns(const GivenUnits& units) {
               "its root",
               fit_cell(&WallFit::chi2_per_dof)},
              {"degrees_of_freedom", "", "points less 2", fit_cell(&WallFit::degrees_of_freedom)},
-             {"r_squared", "", "share of the variance of the means that the line explains",
+             {"r_squared", "",
+              "share of the variance of the means that the line explains, both weighted by the "
+              "points' errors",
               fit_cell(&WallFit::r_squared)},
              {"biperiodic_width", "d", "of the widest box without walls, the reference",
               reference_cell([](Reference group, Value /*at*/) { return group.job.box.width; })},

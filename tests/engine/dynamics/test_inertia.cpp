@@ -1,4 +1,6 @@
 #include <cmath>
+#include <type_traits>
+#include <vector>
 
 #include <catch2/catch.hpp>
 
@@ -27,11 +29,20 @@ StepSettings steps_of_length(double dt) {
 }
 
 /// Grains in the air, of which the lowest are soon on the floor.
+template <class Kind>
 PackingSpec falling() {
   PackingSpec spec;
   spec.box = {4, 4, periodic, walls};
   spec.fill = GrainCount{120};
+  if (std::is_same_v<Kind, Polyhedron>) spec.shape = PinacoidSize();
   return spec;
+}
+
+/// Ratio of the moments of inertia of a polyhedron to those of its mass.
+double turning_inertia(const PolyhedronBed& bed, std::size_t grain) {
+  PolyhedronBed usual = bed;
+  usual.lightness.clear();
+  return bed.root_inertia[grain].cwiseAbs2().x() / principal_moments(usual, grain).x();
 }
 
 TEST_CASE("inertia grows with depth from an even depth on, up to the mass at the foot") {
@@ -60,16 +71,32 @@ TEST_CASE("grains asleep stay fixed, however light they are") {
   CHECK(bed.inverse_inertia(39) == 0.0);
 }
 
+TEST_CASE("moments of inertia change like the inertia, and back") {
+  PackingSpec spec = falling<Polyhedron>();
+  PolyhedronBed bed = start<Polyhedron>(spec).value();
+  const std::vector<Vector> of_mass = bed.root_inertia;
+  const double height = 50.0;
+  set_inertia_by_depth(height, bed);
+  for (std::size_t i = 0; i < bed.grains(); ++i) {
+    const double depth = height - bed.position[i].z;
+    CHECK(turning_inertia(bed, i) == Approx(std::max(depth, even_depth) / height));
+  }
+  set_inertia_by_depth(0.0, bed);
+  CHECK(bed.root_inertia == of_mass);
+}
+
 // u = u_free + dt^2 f / inertia: with a quarter of the inertia and half the step all motions are
 // the same, and so are the forces.
-TEST_CASE("grains that are four times lighter move in half a step as others do in a whole one") {
+TEMPLATE_TEST_CASE(
+    "grains that are four times lighter move in half a step as others in a whole one", "", Sphere,
+    Polyhedron) {
   for (const bool is_light : {true, false}) {
     INFO((is_light ? "light" : "heavy"));
-    SphereBed usual = start<Sphere>(falling()).value();
-    SphereBed other = usual;
+    Bed<TestType> usual = start<TestType>(falling<TestType>()).value();
+    Bed<TestType> other = usual;
     const double lightness = is_light ? 4.0 : 0.25;
     other.lightness.assign(other.grains(), lightness);
-    StepState<Sphere, double> as_usual, as_other;
+    StepState<TestType, double> as_usual, as_other;
     for (int k = 0; k < 30; ++k) {
       const StepReport one = step(steps_of_length(0.1), kernels(), usual, as_usual);
       const StepReport two =

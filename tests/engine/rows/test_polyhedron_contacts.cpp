@@ -247,7 +247,7 @@ TEST_CASE(
     scene.rows.impulse[scene.first(k)] = 1.0;
   }
   const double dt = 0.2;
-  const TouchSettings shallow{closed_gap, touch_settings(closed_gap, dt).preference, 0.0};
+  const TouchSettings shallow{closed_gap, touch_settings(closed_gap, dt * dt).preference, 0.0};
   const auto bearing = force_contacts(scene.bed, dt, scene.rows);
   const auto all = closures(scene.bed, kernels_for(best_isa()), dt, scene.candidates, scene.rows);
   REQUIRE(all.size() == bearing.size());
@@ -271,8 +271,8 @@ TEST_CASE(
 }
 
 TEST_CASE("the steps of a scene prefer faces by a ten-thousandth at least, more in long ones") {
-  CHECK(touch_settings(0.05, 1e-3).preference == 1e-4);
-  CHECK(touch_settings(0.05, 0.1).preference == Approx(0.5 * 0.1 * 0.1));
+  CHECK(touch_settings(0.05, 1e-6).preference == 1e-4);
+  CHECK(touch_settings(0.05, 0.01).preference == Approx(0.5 * 0.01));
 }
 
 TEST_CASE("a grain that sleeps is neither moved nor turned by its rows") {
