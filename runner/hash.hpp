@@ -9,9 +9,8 @@
 
 namespace grainsweep {
 
-/// FNV-1a, 64 bits.
-inline std::uint64_t fnv1a(std::string_view bytes) {
-  std::uint64_t hash = 0xcbf29ce484222325;
+/// FNV-1a, 64 bits; `hash` is that of the bytes before these.
+inline std::uint64_t fnv1a(std::string_view bytes, std::uint64_t hash = 0xcbf29ce484222325) {
   for (const char byte : bytes) {
     hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3;
   }

@@ -19,7 +19,7 @@ std::vector<JobFacts> accuracies_of(const Sweep& sweep) {
   std::vector<JobFacts> first;
   std::set<std::string> known;
   for (const Job& job : sweep.jobs) {
-    if (known.insert(job.parameters).second) first.push_back(facts_of(job));
+    if (known.insert(job.parameters.text()).second) first.push_back(facts_of(job));
   }
   return first;
 }

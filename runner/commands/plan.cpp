@@ -246,7 +246,7 @@ std::string job_json(const Job& job, const Cost& cost) {
                                         {"estimated_bytes", cost.bytes}};
   std::string text = facts.dump();
   text.pop_back();
-  return text + ",\"parameters\":" + job.parameters + "}";
+  return text + ",\"parameters\":" + job.parameters.text() + "}";
 }
 
 /// Written job by job: as one value a large sweep would take ten times the memory. `most`: the

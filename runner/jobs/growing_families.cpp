@@ -30,7 +30,7 @@ std::vector<Places> gathered(const std::vector<Job>& jobs, Key (*key_of)(const J
 
 /// What the jobs of a parameter set have in common. Refers to the job.
 std::pair<std::string_view, std::string_view> set_of(const Job& job) {
-  return {job.label, job.parameters};
+  return {job.label, job.parameters.text()};
 }
 
 /// What the jobs of a group have in common, with their requested accuracies. Refers to the job.
@@ -40,9 +40,15 @@ using GroupKey = std::tuple<std::uint64_t, std::string_view, std::string_view, d
 GroupKey key_of(const Job& job) {
   const ErrorWish& means = job.wish;
   const FitWish& fit = job.fit_wish;
-  return {
-      job.seed, job.label,  job.parameters, means.solid_fraction, means.coordination, fit.phi_bulk,
-      fit.c,    fit.z_bulk, fit.c_z};
+  return {job.seed,
+          job.label,
+          job.parameters.text(),
+          means.solid_fraction,
+          means.coordination,
+          fit.phi_bulk,
+          fit.c,
+          fit.z_bulk,
+          fit.c_z};
 }
 
 bool has_fit_wish(const Sweep& whole) {

@@ -88,7 +88,7 @@ CalledFit called_for(const Sweep& whole, const std::vector<Places>& groups,
   for (const std::size_t k : family.groups) {
     const Job& job = whole.jobs[groups[k].front()];
     const std::size_t mean =
-        means.try_emplace({job.label, job.parameters}, means.size()).first->second;
+        means.try_emplace({job.label, job.parameters.text()}, means.size()).first->second;
     of_fit.push_back(fit_group_of(whole, groups[k], mean, outcomes));
   }
   return called_for_fit(of_fit, family.wish, bound_of_fit(whole, groups, family));

@@ -10,7 +10,7 @@ std::vector<Cost> costs_of(const std::vector<const Job*>& jobs) {
   std::unordered_map<std::string_view, Cost> known;  // by parameters
   const auto cost_of = [&](const Job& job) {
     if (std::holds_alternative<PlacedGrains>(job.spec.fill)) return estimate_cost(job.spec);
-    const auto [same, is_new] = known.try_emplace(job.parameters);
+    const auto [same, is_new] = known.try_emplace(job.parameters.text());
     if (is_new) same->second = estimate_cost(job.spec);
     return same->second;
   };

@@ -181,10 +181,11 @@ class Expansion {
     note_use(block, in_effect, resolved.spec);
     if (has_errors(diagnostics_)) return;
     const bool is_listed = !resolved.fill_files.empty();
-    const std::string scene = canonical_scene(resolved);
+    const JobHash random_key(canonical_scene(resolved));
     // In a list, the content of its file belongs to each start by itself, so that lists may grow.
     if (is_listed) resolved.fill_content = "one per replicate";
-    const std::string identity = canonical_parameters(resolved), bed = canonical_bed(resolved);
+    const std::string identity = canonical_parameters(resolved);
+    const JobHash id(identity), bed(canonical_bed(resolved));
     std::string parameters = identity;
     if (is_listed) {
       resolved.fill_content = hash_of(starts);
@@ -207,15 +208,15 @@ class Expansion {
     for (; job.replicate <= replicates; ++job.replicate) {
       const Start& start = starts[is_listed ? static_cast<std::size_t>(job.replicate) - 1 : 0];
       job.spec.fill = start.fill;
-      job.spec.random_key = random_key_of(scene, job.seed, job.replicate);
+      job.spec.random_key = random_key(job.seed, job.replicate);
       if (is_listed) job.files["fill.files"] = name_in_tables(start.file);
       if (!start.content.empty()) refuse_other_seed(identity + start.content, resolved, in_effect);
-      const auto hash_with = [&](const std::string& of_parameters) {
-        return is_listed ? job_hash(of_parameters + start.content, job.seed, 1)
-                         : job_hash(of_parameters, job.seed, job.replicate);
+      const auto hash_with = [&](const JobHash& of_parameters) {
+        return is_listed ? of_parameters.followed_by(start.content)(job.seed, 1)
+                         : of_parameters(job.seed, job.replicate);
       };
       job.bed = hash_with(bed);
-      add(index, job, hash_with(identity));
+      add(index, job, hash_with(id));
     }
   }
 

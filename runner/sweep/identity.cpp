@@ -157,15 +157,15 @@ std::string canonical_scene(const ResolvedSpec& resolved) {
   return canonical(members, resolved);
 }
 
-std::uint64_t job_hash(std::string_view parameters, std::uint64_t seed, int replicate) {
-  std::string identity(parameters);
-  identity.append("\n").append(std::to_string(seed));
-  identity.append("\n").append(std::to_string(replicate));
-  return mixed(fnv1a(identity));
+JobHash JobHash::followed_by(std::string_view more) const {
+  JobHash hash = *this;
+  hash.of_parameters_ = fnv1a(more, of_parameters_);
+  return hash;
 }
 
-std::uint64_t random_key_of(std::string_view scene, std::uint64_t seed, int replicate) {
-  return job_hash(scene, seed, replicate);
+std::uint64_t JobHash::operator()(std::uint64_t seed, int replicate) const {
+  const std::string rest = "\n" + std::to_string(seed) + "\n" + std::to_string(replicate);
+  return mixed(fnv1a(rest, of_parameters_));
 }
 
 }  // namespace grainsweep

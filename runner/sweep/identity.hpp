@@ -33,17 +33,24 @@ std::string canonical_component(double share, const ResolvedSpec& shape);
 /// mixture as its components by their numbers, from 1.
 std::string canonical_parameters(const ResolvedSpec& resolved);
 
-/// The id of a job, as a number.
-std::uint64_t job_hash(std::string_view parameters, std::uint64_t seed, int replicate);
+/// The ids, as numbers, of the jobs with these parameters.
+class JobHash {
+ public:
+  explicit JobHash(std::string_view parameters) : of_parameters_(fnv1a(parameters)) {}
+  /// Those of jobs whose parameters go on with `more`.
+  JobHash followed_by(std::string_view more) const;
+  std::uint64_t operator()(std::uint64_t seed, int replicate) const;
 
-/// Those parameters that say what is packed: all but "accuracy" and "measure".
+ private:
+  std::uint64_t of_parameters_;
+};
+
+/// Those parameters that say what is packed: all but "accuracy" and "measure". The key of a job's
+/// random numbers is their hash: jobs that differ in nothing but how accurately they are made and
+/// what is measured of them start from the same grains at the same places.
 std::string canonical_scene(const ResolvedSpec& resolved);
 
 /// Those that say what bed comes to rest: all but "measure".
 std::string canonical_bed(const ResolvedSpec& resolved);
-
-/// The key of a job's random numbers. Jobs that differ in nothing but how accurately they are made
-/// and what is measured of them start from the same grains at the same places.
-std::uint64_t random_key_of(std::string_view scene, std::uint64_t seed, int replicate);
 
 }  // namespace grainsweep

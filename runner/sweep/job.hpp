@@ -9,6 +9,7 @@
 
 #include "engine/scene/spec.hpp"
 #include "runner/sweep/error_wish.hpp"
+#include "runner/sweep/shared_text.hpp"
 #include "runner/sweep/units.hpp"
 
 namespace grainsweep {
@@ -17,7 +18,7 @@ namespace grainsweep {
 struct Job {
   std::string id;          ///< 16 hex digits: hash of `parameters`, master seed and replicate
   std::string label;       ///< of the sweep block it comes from; not part of its identity
-  std::string parameters;  ///< resolved parameters as canonical JSON (sorted keys), no replicate
+  SharedText parameters;   ///< resolved parameters as canonical JSON (sorted keys), no replicate
   int replicate = 1;       ///< 1 .. replicates
   std::uint64_t seed = 0;  ///< master seed it was made with
   PackingSpec spec;        ///< random_key: of scene, master seed and replicate

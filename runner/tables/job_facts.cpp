@@ -156,8 +156,6 @@ std::vector<Row> rows_of(const Sweep& sweep) {
   for (std::size_t i = 0; i < costs.size(); ++i) {
     JobFacts facts = facts_of(sweep.jobs[i]);
     facts.estimated = costs[i].cpu_seconds;
-    const bool is_replicate = i > 0 && rows.back().job.parameters == facts.parameters;
-    if (is_replicate) facts.parameters = rows.back().job.parameters;
     rows.push_back({std::move(facts), std::nullopt});
   }
   return rows;

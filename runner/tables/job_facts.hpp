@@ -14,8 +14,8 @@
 #include "runner/store/boxed.hpp"
 #include "runner/store/journal.hpp"
 #include "runner/sweep/job.hpp"
+#include "runner/sweep/shared_text.hpp"
 #include "runner/tables/columns.hpp"
-#include "runner/tables/shared_text.hpp"
 
 namespace grainsweep {
 

@@ -24,7 +24,13 @@ std::string PackingNames::set_of(const JobFacts& job) const {
 }
 
 PackingNames names_in(const Sweep& sweep) {
-  const std::vector<Row> rows = rows_of(sweep);
+  std::vector<Row> rows;  // replicates have the names of the first
+  for (const Job& job : sweep.jobs) {
+    JobFacts facts = facts_of(job);
+    const bool is_first = rows.empty() || rows.back().job.parameters != facts.parameters ||
+                          rows.back().job.label != facts.label;
+    if (is_first) rows.push_back({std::move(facts), std::nullopt});
+  }
   return PackingNames(families_of(groups_of(rows)));
 }
 

@@ -37,8 +37,8 @@ inline Sweep fit_sweep(int most, const FitWish& wish, const std::string& name = 
                                   is_walled ? most : first_replicates, {})) {
       job.spec.box.width = width;
       job.spec.box.y = is_walled ? Boundary::walls : Boundary::periodic;
-      job.parameters = sample_parameters(width, job.spec.box.y, 0.0);
-      job.parameters.insert(1, "\"name\":\"" + name + "\",");
+      std::string parameters = sample_parameters(width, job.spec.box.y, 0.0);
+      job.parameters = parameters.insert(1, "\"name\":\"" + name + "\",");
       job.fit_wish = wish;
       whole.jobs.push_back(job);
     }

@@ -275,7 +275,7 @@ TEST_CASE("the diameter in a file of starts holds for every file that blocks nam
     const SweepReading reading = read_sweep(folder.write(
         "s.json", R"({"name": "t", "base": {"fill.diameter": 1.25}, "sweep": [)" + block + "]}"));
     REQUIRE(reading.errors.empty());
-    return reading.sweep.jobs.at(0).parameters;
+    return reading.sweep.jobs.at(0).parameters.text();
   };
   const std::string kept = R"("fill":{"diameter":1.25,)";
   CHECK_THAT(parameters_of(R"({"set": {"fill.file": "a.csv"}})"), Catch::Contains(kept));

@@ -21,8 +21,9 @@ Job job_of(const std::string& shape) {
 }
 
 std::string shape_in(const Job& job) {
-  const std::size_t at = job.parameters.find("\"shape\":");
-  return job.parameters.substr(at, job.parameters.find(",\"sizes\"") - at);
+  const std::string& parameters = job.parameters.text();
+  const std::size_t at = parameters.find("\"shape\":");
+  return parameters.substr(at, parameters.find(",\"sizes\"") - at);
 }
 
 std::string error_of(const std::string& components) {
@@ -66,7 +67,8 @@ TEST_CASE("a mixture of one component is that shape, under its id") {
     CHECK(job_of(R"({"mixture": [)" + component + "]}").id == job_of(shape).id);
   }
   CHECK(job_of(R"({"mixture": [{"share": 1, "pinacoid": {"angle_deg": 50}}]})")
-            .parameters.find(R"("angle_deg":50)") != std::string::npos);
+            .parameters.text()
+            .find(R"("angle_deg":50)") != std::string::npos);
 }
 
 TEST_CASE("shares, parts and the vertices of hulls belong to the id of a mixture") {

@@ -71,7 +71,7 @@ TEST_CASE("a table from a file is the same packing as its numbers, and other num
   CHECK(a.id == job_of(R"({"file": "b.csv"})").id);
   CHECK(a.id != job_of(R"({"file": "c.csv"})").id);
   const Job inline_table = job_of(R"({"diameters": [1, 4], "passing": [0, 1]})");
-  CHECK_THAT(inline_table.parameters,
+  CHECK_THAT(inline_table.parameters.text(),
              Catch::Contains(R"("table":{"diameters":[0.5,2],"passing":[0,1]}})"));
 }
 

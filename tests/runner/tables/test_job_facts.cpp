@@ -166,5 +166,19 @@ TEST_CASE("all grains are small where there is no large class, and none where no
   CHECK(small_class_limit(sample_job("b", 5)) == 0.0);
 }
 
+TEST_CASE("rows of equal parameters share their text") {
+  std::vector<Row> rows;
+  for (const double width : {4.0, 5.0}) {
+    for (const int replicate : {1, 2}) {
+      rows.push_back({sample_job(std::to_string(rows.size()), width, replicate), std::nullopt});
+    }
+  }
+  const std::vector<Row> back = rows_of(job_list(rows));
+  REQUIRE(back.size() == 4);
+  CHECK(&back[0].job.parameters.text() == &back[1].job.parameters.text());
+  CHECK(&back[2].job.parameters.text() == &back[3].job.parameters.text());
+  CHECK_FALSE(back[1].job.parameters == back[2].job.parameters);
+}
+
 }  // namespace
 }  // namespace grainsweep
