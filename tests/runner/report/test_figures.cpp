@@ -235,7 +235,7 @@ TEST_CASE("published formulas are drawn beside the means, each once, where they 
   const Analysis analysis = analyse(rows);
   Reference reference;
   const auto formula = [](const std::string& quantity, const std::string& text) {
-    return Published{quantity, 0, text, std::nullopt, "", PublishedFormula{text, text, 4, 8, 0}};
+    return Published{quantity, 0, text, std::nullopt, "", PublishedFormula{text, text, 4, 8, {}}};
   };
   reference.families = {{{}, {formula("porosity", "0.36 + 0.2/W"), formula("phi", "0.5 + 0/W")}},
                         {{}, {formula("porosity", "0.36 + 0.2/W"), formula("phi", "0.64 + 0*D")}}};
@@ -269,7 +269,7 @@ TEST_CASE("the files of all figures have the names by which they are removed", "
   Reference reference;
   reference.families = {
       {{},
-       {{"phi", 0, "", std::nullopt, "", PublishedFormula{"0.6 + 0/W", "a", 4, 16, 0}},
+       {{"phi", 0, "", std::nullopt, "", PublishedFormula{"0.6 + 0/W", "a", 4, 16, {}}},
         {"phi_bulk", 0, "", Published::Range{0.6, 0.65, 0.0}, "", std::nullopt}}}};
   add(wall_rows(), reference);
   add(random_rows(), {});
