@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/rows/polyhedron_contacts.hpp"
+
 namespace grainsweep {
 
 double shortened_step(double height) {
@@ -24,9 +26,7 @@ void set_lightness(double height, Grains& bed) {
 void set_inertia_by_depth(double height, SphereBed& bed) { set_lightness(height, bed); }
 void set_inertia_by_depth(double height, PolyhedronBed& bed) {
   set_lightness(height, bed);
-  for (std::size_t i = 0; i < bed.grains(); ++i) {
-    bed.root_inertia[i] = principal_moments(bed, i).cwiseSqrt();
-  }
+  release_turning(serial_for, bed);
 }
 
 }  // namespace grainsweep

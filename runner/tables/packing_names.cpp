@@ -25,11 +25,12 @@ std::string PackingNames::set_of(const JobFacts& job) const {
 
 PackingNames names_in(const Sweep& sweep) {
   std::vector<Row> rows;  // replicates have the names of the first
+  const Job* before = nullptr;
   for (const Job& job : sweep.jobs) {
-    JobFacts facts = facts_of(job);
-    const bool is_first = rows.empty() || rows.back().job.parameters != facts.parameters ||
-                          rows.back().job.label != facts.label;
-    if (is_first) rows.push_back({std::move(facts), std::nullopt});
+    const bool is_first =
+        before == nullptr || before->parameters != job.parameters || before->label != job.label;
+    before = &job;
+    if (is_first) rows.push_back({facts_of(job), std::nullopt});
   }
   return PackingNames(families_of(groups_of(rows)));
 }
