@@ -11,8 +11,8 @@ cat >large.json <<'JSON'
   "sweep": [ { "random": { "count": 1000, "box.width": { "uniform": [3, 4] } } } ] }
 JSON
 
-# Work of the same kind (JSON, checksums, many small objects) that an idle core of 3 GHz does in about a
-# second.
+# Work of the same kind (JSON, checksums, many small objects) that an idle core of 3 GHz does in
+# about a second.
 cat >second.py <<'PYTHON'
 import json, zlib
 text = json.dumps([{"id": "%016x" % i, "value": i / 7} for i in range(100000)])
