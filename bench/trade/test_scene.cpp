@@ -19,7 +19,7 @@ Setting with_parts(const std::string& preset, const Parts& parts) {
 JobFacts job_with(const std::string& id, int start, const std::string& accuracy,
                   const std::string& step) {
   JobFacts job = sample_job(id, 5, start);
-  job.parameters = R"({"accuracy":{"creep_steps":320,"rest":"in_steps","step":)" + step +
+  job.parameters = R"({"accuracy":{"creep_steps":480,"rest":"in_steps","step":)" + step +
                    R"(},"box":{"width":5}})";
   job.accuracy = accuracy;
   return job;
@@ -37,10 +37,10 @@ void add_settled(const std::string& folder, const std::string& job, double solid
 TEST_CASE("settings are named by the preset from which they differ least") {
   Scene scene{
       "",
-      {with_parts("balanced", {{"creep_steps", "320"}, {"rest", "in_steps"}, {"step", "0.2"}}),
-       with_parts("fast", {{"creep_steps", "160"}, {"rest", "in_steps"}, {"step", "0.2"}}),
-       with_parts("", {{"creep_steps", "160"}, {"rest", "in_steps"}, {"step", "0.4"}}),
-       with_parts("", {{"creep_steps", "320"}, {"rest", "in_steps"}, {"step", "0.1"}})}};
+      {with_parts("balanced", {{"creep_steps", "480"}, {"rest", "in_steps"}, {"step", "0.2"}}),
+       with_parts("fast", {{"creep_steps", "240"}, {"rest", "in_steps"}, {"step", "0.2"}}),
+       with_parts("", {{"creep_steps", "240"}, {"rest", "in_steps"}, {"step", "0.4"}}),
+       with_parts("", {{"creep_steps", "480"}, {"rest", "in_steps"}, {"step", "0.1"}})}};
   name_settings(scene);
   CHECK(scene.settings[0].name == "balanced");
   CHECK(scene.settings[1].name == "fast");

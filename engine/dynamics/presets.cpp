@@ -10,7 +10,7 @@ namespace {
 
 Accuracy fast() {
   Accuracy a;
-  a.creep_steps = 160;
+  a.creep_steps = 240;
   a.rest_iterations = 40;
   a.residual_tolerance = 2e-2;
   a.kinetic_tolerance = 1e-3;

@@ -95,8 +95,8 @@ struct Accuracy {
   /// (engine/dynamics/stages.hpp, closer_where_narrow).
   double path_tolerance = 2e-4;
   /// Steps after the fall, while the bed creeps to rest, if `step` is 0.2 sqrt(d/g); with shorter
-  /// ones more in proportion. Spheres take 1.35 times as many, polyhedra 0.85 times and 60.
-  int creep_steps = 320;
+  /// ones more in proportion. Spheres take 1.35 times as many, polyhedra 1.25 times and 60.
+  int creep_steps = 480;
   /// Most solver iterations per step at rest; 1.5 for each d of height, if that is more; twice as
   /// many for spheres.
   int rest_iterations = 100;

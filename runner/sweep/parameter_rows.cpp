@@ -164,12 +164,12 @@ Rows accuracy_rows() {
           "accuracy.path_tolerance", positive,
           "how far contacts may stray, d, root mean square: in a full step of the fall of "
           "polyhedra so far, of spheres twice, in all steps of a creep 160 times, of "
-          "polyhedra 80 to 110 times; less, by the square of their distance, between walls "
+          "polyhedra 80 to 100 times; less, by the square of their distance, between walls "
           "nearer than 5 d, in ducts and tubes of less than 7 d and in shorter periods than 5 d"),
       row<&S::accuracy, &A::creep_steps>("accuracy.creep_steps", Interval{0, 1000000},
                                          "steps after the fall, while the bed creeps to rest, "
                                          "where step is 0.2, in proportion where it is shorter; "
-                                         "spheres take 1.35 times as many, polyhedra 0.85 times "
+                                         "spheres take 1.35 times as many, polyhedra 1.25 times "
                                          "as many and 60"),
       row<&S::accuracy, &A::rest_iterations>("accuracy.rest_iterations", Interval{1, 1000000},
                                              "most solver iterations per step at rest, of spheres "

@@ -180,10 +180,11 @@ TEST_CASE("a settled bed placed again stays as it is") {
 
 // The static imbalance of this one is just above what is let pass after the first steps of a look.
 TEST_CASE("a settled bed placed again is looked at for some steps more before it falls") {
-  PackingSpec spec = small_spec(57);
+  PackingSpec spec = small_spec(252);
   spec.box = tube_of(4);
   spec.fill = GrainCount{240};
   spec.accuracy = *preset("balanced");
+  spec.accuracy.creep_steps = 160;  // few beds that have crept for longer look like this
   const auto [first, again] = pack_again(spec);
   CHECK(again.result.steps > 40);
   CHECK(again.result.steps <= 160);

@@ -73,11 +73,13 @@ TEST_CASE("the creep takes its share of the steps that it is given") {
     accuracy.creep_steps = steps;
     CHECK(steps_of(accuracy, heavy_ball("creep")) == steps + steps / 4);
   }
-  // 0.35 * 180 is 63 less one rounding.
   Accuracy accuracy;
   accuracy.creep_steps = 180;
   const Stages turning = stages_of<Polyhedron>(Protocol::heavy_ball);
-  CHECK(steps_of(accuracy, stage_called("creep", turning)) == 20 + 63);
+  CHECK(steps_of(accuracy, stage_called("creep", turning)) == 20 + 90);
+  CHECK(steps_of(accuracy, stage_called("slow", turning)) == 40 + 135);
+  accuracy.step = 0.05;  // four times as many
+  CHECK(steps_of(accuracy, heavy_ball("slow")) == 72);
 }
 
 TEST_CASE("half of a stage's share is done after its usual steps") {
@@ -145,7 +147,7 @@ TEST_CASE(
     return settings.limits.rms_tolerance * settings.dt * settings.dt;
   };
   CHECK(path(heavy_ball("fall")) == Approx(6e-4));
-  CHECK(path(heavy_ball("creep")) == Approx(1.2e-4));
+  CHECK(path(heavy_ball("creep")) == Approx(8e-5));
   CHECK(path(heavy_ball("quench")) == 0.0);
   accuracy.step = 0.1;
   CHECK(path(heavy_ball("fall")) == Approx(3e-4));
@@ -215,7 +217,7 @@ TEST_CASE(
     };
     const double usual = strays(Accuracy{});
     CHECK(usual > 0.0);
-    for (const int steps : {100, 320, 1600}) {
+    for (const int steps : {100, 480, 1600}) {
       for (const double dt : {0.05, 0.1, 0.2}) {
         Accuracy accuracy;
         accuracy.creep_steps = steps;
