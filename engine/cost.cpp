@@ -148,12 +148,12 @@ double usual_iterations(const PackingSpec& spec, double layers) {
   const double creep =
       std::pow(static_cast<double>(a.creep_steps) / Accuracy{}.creep_steps, 1.4);  // of the usual
   if (!is_sphere(spec.shape)) {
-    return solved * (110.0 * falling + 7400.0 * creep) + 80.0 * a.rest_iterations;
+    return solved * (110.0 * falling + 15000.0 * creep) + 80.0 * a.rest_iterations;
   }
   const double fall = (a.protocol == Protocol::dynamic ? 800.0 : 200.0) * falling;
   const double calmer =
       std::max(1.0, Accuracy{}.imbalance_tolerance / std::max(a.imbalance_tolerance, 1e-6));
-  return solved * (fall + 8700.0 * std::pow(layers, 0.1) * creep) + 1500.0 * calmer * calmer +
+  return solved * (fall + 15300.0 * std::pow(layers, 0.1) * creep) + 1500.0 * calmer * calmer +
          30.0 * a.rest_iterations * std::pow(std::max(1.0, layers / 10.0), 0.8);
 }
 

@@ -135,16 +135,16 @@ SettleReport settle_start(const PackingSpec& spec) {
 }
 
 // Some cubes of this bed rock for some twenty rounds, which leave 0.03 m g and more. A round takes
-// at most 120 steps, what comes before them some 400.
+// at most 120 steps, what comes before them some 800.
 TEST_CASE("a bed whose grains rock for more than nine rounds comes to rest", "[slow]") {
   PackingSpec spec;
   spec.box = {3, 3, walls, walls};
   spec.fill = GrainCount{60};
   spec.shape = CubeSize{};
-  spec.random_key = 59;
+  spec.random_key = 38;
   const SettleReport report = settle_start(spec);
   CHECK(report.failure == "");
-  CHECK(report.steps > 9 * 120 + 600);
+  CHECK(report.steps > 9 * 120 + 900);
 }
 
 // The corners of plates hold them more often than they can move. Where momentum drove a few grains
