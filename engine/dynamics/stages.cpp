@@ -67,7 +67,7 @@ constexpr StageRule creep = {.name = "creep",
                              .step = 0.6,
                              .by_depth = true,
                              .inertia = Inertia::damped,
-                             .path = 0.4 / 1.5,
+                             .path_of_creep = 160.0,
                              .carries = true,
                              .correction = 0.3,
                              .near = 0.03,
@@ -82,7 +82,7 @@ constexpr StageRule slow = {.name = "slow",
                             .step = 0.5,
                             .by_depth = true,
                             .inertia = Inertia::damped,
-                            .path = 0.125 / 1.5,
+                            .path_of_creep = 4.0,
                             .carries = true,
                             .correction = 0.5,
                             .near = 0.03,
@@ -174,7 +174,7 @@ constexpr StageRule turning[] = {
     {.name = "creep",
      .by_depth = true,
      .inertia = Inertia::damped,
-     .path = 0.25,
+     .path_of_creep = 60.0,
      .correction = 0.1,
      .near = 0.03,
      .margin = 0.05,
@@ -190,7 +190,7 @@ constexpr StageRule turning[] = {
      .step = 0.5,
      .by_depth = true,
      .inertia = Inertia::damped,
-     .path = 0.0625,
+     .path_of_creep = 22.5,
      .correction = 0.1,
      .near = 0.015,
      .margin = 0.05,
@@ -264,11 +264,11 @@ double path_tolerance(const Accuracy& accuracy) {
 /// share one bound, so that a longer creep does not tap the bed denser; where few steps are asked
 /// for, so do the least steps that a creep of polyhedra has.
 double path_of(const Accuracy& accuracy, const StageRule& rule) {
-  if (rule.creep == 0.0) return rule.path * path_tolerance(accuracy);
-  const double at_least = std::max(1.0, static_cast<double>(rule.steps) / rule.creep);
-  const double share =
-      Accuracy{}.creep_steps / std::max(at_least, static_cast<double>(accuracy.creep_steps));
-  return share * rule.path * path_tolerance(accuracy);
+  const double tolerance = path_tolerance(accuracy);
+  if (rule.creep == 0.0) return rule.path * tolerance;
+  const double steps =
+      std::max({1.0, static_cast<double>(rule.steps), rule.creep * accuracy.creep_steps});
+  return rule.path_of_creep / steps * tolerance;
 }
 
 /// At rest forces are passed on from the surface to the floor: a bed higher than 27 d needs more

@@ -34,6 +34,7 @@ struct StageRule {
   Inertia inertia = Inertia::none;
   // A step that strays by less than one of these is solved:
   double path = 0.0;           ///< so many times Accuracy::path_tolerance
+  double path_of_creep = 0.0;  ///< so many times that in all steps of its share of the creep
   double path_of_gap = 0.0;    ///< so many times Accuracy::imbalance_gap
   bool sleeps = false;         ///< the deep bed sleeps
   double longest_free = 0.15;  ///< longest free motion, d
