@@ -80,6 +80,10 @@ TEST_CASE("the creep takes its share of the steps that it is given") {
   CHECK(steps_of(accuracy, stage_called("slow", turning)) == 40 + 135);
   accuracy.step = 0.05;  // four times as many
   CHECK(steps_of(accuracy, heavy_ball("slow")) == 72);
+  // 17 of 0.2 are 200 of 0.017, less one rounding.
+  accuracy.creep_steps = 17;
+  accuracy.step = 0.017;
+  CHECK(steps_of(accuracy, heavy_ball("creep")) == 250);
 }
 
 TEST_CASE("half of a stage's share is done after its usual steps") {
