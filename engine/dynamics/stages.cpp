@@ -264,11 +264,9 @@ double path_tolerance(const Accuracy& accuracy) {
 /// share one bound, so that a longer creep does not tap the bed denser; where few steps are asked
 /// for, so do the least steps that a creep of polyhedra has.
 double path_of(const Accuracy& accuracy, const StageRule& rule) {
-  const double tolerance = path_tolerance(accuracy);
-  if (rule.creep == 0.0) return rule.path * tolerance;
   const double steps =
       std::max({1.0, static_cast<double>(rule.steps), rule.creep * accuracy.creep_steps});
-  return rule.path_of_creep / steps * tolerance;
+  return (rule.path + rule.path_of_creep / steps) * path_tolerance(accuracy);
 }
 
 /// At rest forces are passed on from the surface to the floor: a bed higher than 27 d needs more
