@@ -57,16 +57,13 @@ Creep creep_of(const Accuracy& a) {
                                   : Creep::strict;
 }
 
-/// Spheres that differ in size take more rounds to come to rest: in a loose creep `unevenness`
-/// times as many, but many more where small ones fit into the holes between the large; else in
-/// proportion to that, up to five times. The worst grain of many is worse than that of few.
+/// Spheres that differ in size take more rounds to come to rest, in proportion to `unevenness`, up
+/// to five times as many. The worst grain of many is worse than that of few.
 double unevenness_factor(const PackingSpec& spec, double grains) {
-  constexpr double of_fillers = 5.0;  // large and small grains a third as large have 6
-  const double uneven = moments_of(spec).unevenness(), more = std::max(0.0, uneven - 1.0);
+  const double more = std::max(0.0, moments_of(spec).unevenness() - 1.0);
   const double many = std::pow(std::max(1.0, grains / 5000.0), std::min(0.6, 0.6 * more));
   switch (creep_of(spec.accuracy)) {
     case Creep::loose:
-      return uneven < of_fillers ? uneven : 19.0;
     case Creep::usual:
       return std::min(5.0, 1.0 + 0.6 * more) * many;
     case Creep::strict:

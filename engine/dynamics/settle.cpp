@@ -42,6 +42,13 @@ bool is_fit(const Accuracy& accuracy, const Grains& bed) {
 /// and for twice as many it is longer than such a bed takes to settle.
 constexpr std::int64_t most_counted = 30'000;
 
+/// Of all grains, d; of polyhedra what scales them.
+double mean_diameter(const Grains& bed) {
+  double sum = 0.0;
+  for (const Record<double>& p : bed.centres()) sum += 2.0 * p.w;
+  return sum / static_cast<double>(bed.grains());
+}
+
 /// Whether sizes are so alike that grains may stand regularly, on contacts that depend on each
 /// other or nearly do: in tubes and ducts that just hold layers a spread of 1e-4 does not prevent
 /// that everywhere.
@@ -94,6 +101,7 @@ class Settling {
         state_(state),
         closed_(closed),
         stages_(stages_of<Kind>(accuracy.protocol)),
+        mean_diameter_(mean_diameter(bed)),
         height_(top_of(bed)),
         settings_(settings_of_stage()) {
     forget(state);
@@ -128,7 +136,7 @@ class Settling {
   std::size_t round_begin() const { return stages_.size() - 2; }
 
   StepSettings settings_of_stage() const {
-    StepSettings settings = settings_of(accuracy_, rule(), height_);
+    StepSettings settings = settings_of(accuracy_, rule(), height_, height_ / mean_diameter_);
     limit_free_motion(bed_, settings);
     return settings;
   }
@@ -481,12 +489,12 @@ class Settling {
   }
 
   /// Multiplications of factorisations that a search may take: as many as last as long as sliding
-  /// on has lasted; without limit after eight rounds in which steps leave forces unsolved, as
-  /// rounding does in high beds, which sliding on does not help.
+  /// on has lasted; without limit after eight rounds in a row in which steps leave forces unsolved,
+  /// as rounding does in high beds, which sliding on does not help.
   double work_of_search() const {
     constexpr double of_a_grain_and_sweep = 50.0;
     constexpr std::int64_t rounds_in_vain = 8;
-    if (!is_solved() && unsolved_ > 0 && rounds_ >= rounds_in_vain) return unlimited;
+    if (!is_solved() && unsolved_ >= rounds_in_vain) return unlimited;
     return of_a_grain_and_sweep * static_cast<double>(report_.iterations - iterations_before_) *
            static_cast<double>(bed_.grains());
   }
@@ -544,6 +552,7 @@ class Settling {
   Stages stages_;
   std::size_t stage_ = 0;  ///< the number of stages when the bed is at rest
   std::int64_t steps_in_stage_ = 0;
+  double mean_diameter_;
   double height_;  ///< of the bed when the stage began, d
   StepSettings settings_;
   StepReport last_;

@@ -73,8 +73,10 @@ Accuracy closer_where_narrow(const Accuracy& accuracy, const Box& box);
 /// of Accuracy::imbalance_tolerance own weights keeps a grain near the surface moving by.
 double calm_motion(const Accuracy& accuracy, const StageRule& rule);
 
-/// The settings of a step of a stage, for a bed of that height, d.
-StepSettings settings_of(const Accuracy& accuracy, const StageRule& rule, double height = 0.0);
+/// The settings of a step of a stage, for a bed of that height, d, and of so many mean diameters of
+/// its grains.
+StepSettings settings_of(const Accuracy& accuracy, const StageRule& rule, double height = 0.0,
+                         double layers = 0.0);
 
 /// Steps that a stage takes; for the stages that end on a condition, the least.
 std::int64_t steps_of(const Accuracy& accuracy, const StageRule& rule);

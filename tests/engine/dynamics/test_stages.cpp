@@ -132,8 +132,9 @@ TEST_CASE("iterations of fall and creep are bounded apart from those at rest") {
 TEST_CASE("high beds have sweeps enough at rest for forces to pass from the surface to the floor") {
   Accuracy accuracy;
   accuracy.rest_iterations = 60;
-  const auto iterations = [&](const StageRule& stage, double height) {
-    return settings_of(accuracy, stage, height).limits.iterations;
+  const auto iterations = [&](const StageRule& stage, double layers) {
+    constexpr double height = 40.0;  // d: what counts is how many grains stand one on the other
+    return settings_of(accuracy, stage, height, layers).limits.iterations;
   };
   CHECK(iterations(heavy_ball("quench"), 40.0) == 120);
   CHECK(iterations(heavy_ball("quench"), 80.0) == 240);
