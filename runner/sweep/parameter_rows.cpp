@@ -171,10 +171,11 @@ Rows accuracy_rows() {
                                          "where step is 0.2, in proportion where it is shorter; "
                                          "spheres take 1.35 times as many, polyhedra 1.25 times "
                                          "as many and 60"),
-      row<&S::accuracy, &A::rest_iterations>("accuracy.rest_iterations", Interval{1, 1000000},
-                                             "most solver iterations per step at rest, of spheres "
-                                             "twice as many; 1.5 for each d of height, if that "
-                                             "is more"),
+      row<&S::accuracy, &A::rest_iterations>(
+          "accuracy.rest_iterations", Interval{1, 1000000},
+          "most solver iterations per step at rest, of spheres "
+          "twice as many; 1.5 for each mean diameter of height, if that "
+          "is more"),
       row<&S::accuracy, &A::residual_tolerance>("accuracy.residual_tolerance", positive,
                                                 "worst residual of the last step at rest, m g"),
       row<&S::accuracy, &A::kinetic_tolerance>("accuracy.kinetic_tolerance", positive,
