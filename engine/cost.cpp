@@ -62,14 +62,8 @@ Creep creep_of(const Accuracy& a) {
 double unevenness_factor(const PackingSpec& spec, double grains) {
   const double more = std::max(0.0, moments_of(spec).unevenness() - 1.0);
   const double many = std::pow(std::max(1.0, grains / 5000.0), std::min(0.6, 0.6 * more));
-  switch (creep_of(spec.accuracy)) {
-    case Creep::loose:
-    case Creep::usual:
-      return std::min(5.0, 1.0 + 0.6 * more) * many;
-    case Creep::strict:
-      return std::min(3.0, 1.0 + 0.65 * more) * many;
-  }
-  return 1.0;
+  return creep_of(spec.accuracy) == Creep::strict ? std::min(3.0, 1.0 + 0.65 * more) * many
+                                                  : std::min(5.0, 1.0 + 0.6 * more) * many;
 }
 
 /// What more corners than usual cost.

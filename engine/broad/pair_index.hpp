@@ -1,5 +1,5 @@
-// Finds whether and where a pair is in a list, in a few steps: it holds the partners of higher
-// number of each grain.
+// Finds whether a pair is in a list, in a few steps: it holds the partners of higher number of each
+// grain.
 #pragma once
 
 #include <cstdint>
@@ -22,16 +22,14 @@ class PairIndex {
     entries_.push_back({pair.b, last});
     last = static_cast<std::int32_t>(entries_.size()) - 1;
   }
-  bool holds(GrainPair pair) const { return number_of(pair) != none; }
-  /// The pair's number in the order in which pairs were added; `none` if it is not among them.
-  std::int32_t number_of(GrainPair pair) const {
+  bool holds(GrainPair pair) const {
     std::int32_t k = last_[static_cast<std::size_t>(pair.a)];
     while (k != none && at(k).partner != pair.b) k = at(k).before;
-    return k;
+    return k != none;
   }
-  static constexpr std::int32_t none = -1;
 
  private:
+  static constexpr std::int32_t none = -1;
   struct Entry {
     std::int32_t partner;
     std::int32_t before;  ///< the previous entry of the same grain
