@@ -4,8 +4,8 @@ namespace grainsweep {
 
 namespace {
 
-// Rises whenever what is saved changes.
-constexpr std::uint64_t format = 0x6772'6169'6e73'0010;
+// Rises with what is saved; within a version of the program callers compare builds.
+constexpr std::uint64_t format = 0x6772'6169'6e73'0011;
 
 struct Header {
   std::uint64_t format, kind, size, check;

@@ -271,7 +271,7 @@ bool is_far(const SphereBed& bed, GrainPair pair, const Candidates& candidates) 
   return std::sqrt(x * x + y * y + z * z) - p.w - q.w >= candidates.reach - less;
 }
 
-/// Keeps, in their order, those of the pairs met that are not in the list.
+/// Keeps those of the pairs met that are not in the list, each once, by their grains.
 void keep_unlisted(Candidates& candidates) {
   std::vector<GrainPair>& met = candidates.met;
   if (!candidates.is_indexed) candidates.index.assign(candidates.built_at.size(), candidates.pairs);

@@ -470,7 +470,8 @@ class Settling {
     SphereBed bed = bed_;
     const std::string saved = std::exchange(search_, {});
     const ExactRest exact =
-        rest_exactly(context_, contacts_of_last_step(), bed, {goes_on_trying, operations, saved});
+        rest_exactly(context_, contacts_of_last_step(), bed,
+                     {.keep_going = goes_on_trying, .operations = operations, .saved = saved});
     report_.iterations += exact.rounds;
     if (!exact.failure.empty()) return exact.failure;
     const RestReport rest = report_of(exact, bed);

@@ -1,12 +1,12 @@
 // From loose grains in the air to a bed at rest, stage after stage.
 //
 // Spheres and polyhedra go through the same kinds of stages: a look at the bed, which is left as it
-// is if it is already at rest; the fall, until the floor carries the bed; a creep, in which grains
-// slide into their places; for polyhedra a halt, and steps in which contacts close; and the quench,
-// until every test of rest holds. A bed that fails these tests slides on in the stage `ease` and is
-// quenched again. With the protocol `dynamic` grains fall as in plain contact dynamics, undamped
-// and in steps a quarter as long, until they have lost their kinetic energy by impacts alone; the
-// other stages follow. engine/dynamics/stages.cpp says what a step is like in each stage, and why.
+// is if it is already at rest; the fall, until the floor carries the bed; a creep and a slower one,
+// in which grains slide into their places; the ease, until the bed is calm; and the quench, until
+// every test of rest holds. A bed that fails these tests eases on and is quenched again. With the
+// protocol `dynamic` grains fall as in plain contact dynamics, undamped and in steps a quarter as
+// long, until they have lost their kinetic energy by impacts alone; the other stages follow.
+// engine/dynamics/stages.cpp says what a step is like in each stage, and why.
 //
 // How loosely the fall is solved is part of how a bed was packed, because the errors of loose
 // solves act like tapping: see engine/dynamics/presets.hpp.

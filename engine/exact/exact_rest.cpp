@@ -4,7 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "engine/exact/stiffness.hpp"
 #include "engine/measure/touching.hpp"
 #include "engine/saved_state.hpp"
 
@@ -38,6 +37,8 @@ constexpr double leash = 0.03;
 constexpr double listed_gap = 2.0 * leash;
 constexpr double long_way = 0.06, short_way = 0.006;
 
+constexpr const char* not_in_time = "no state without motion was found in time";
+
 /// A pair or wall within reach.
 struct Link {
   std::int32_t a = 0, b = 0;  ///< as of ForceContact
@@ -69,8 +70,11 @@ double length_of_all(std::vector<double>& lengths, std::size_t cut_short) {
 class InteriorPoint {
  public:
   InteriorPoint(const ExecutionContext& context, const std::vector<ForceContact>& from,
-                SphereBed& bed)
-      : context_(context), bed_(bed), factors_(context.kernels), drag_(bed.grains(), 1.0) {
+                double asked_after, SphereBed& bed)
+      : context_(context),
+        bed_(bed),
+        factors_(context.kernels, asked_after),
+        drag_(bed.grains(), 1.0) {
     list_links();
     start_from(from);
   }
@@ -247,14 +251,13 @@ class InteriorPoint {
 
   // ---- a round ----
 
-  /// Round after round, until the bed is found or cannot be.
+  /// Round after round, until the bed is found or cannot be. Whatever is saved within a round is
+  /// the bed as the round began.
   ExactRest search(const std::function<bool()>& keep_going) {
     while (!is_found()) {
       drag_before_ = drag_;
       if (!keep_going()) return failed("cancelled", {});
-      if (rounds_ >= most_rounds_ || (is_time_to_look(rounds_) && !still_sinks(height_))) {
-        return failed("no state without motion was found in time", {});
-      }
+      if (rounds_ >= most_rounds_) return failed(not_in_time, {});
       if (has_diverged()) return failed("forces grow without bound", {});
       const bool is_held = factor_with_drag(keep_going);
       if (is_cancelled_) return failed("cancelled", {});
@@ -263,6 +266,9 @@ class InteriorPoint {
       find_step();
       take_step();
       adapt();
+      if (!is_found() && is_time_to_look(rounds_) && !still_sinks(height_)) {
+        return failed(not_in_time, {});
+      }
     }
     return {};
   }
@@ -638,7 +644,7 @@ class InteriorPoint {
 
 ExactRest rest_exactly(const ExecutionContext& context, const std::vector<ForceContact>& from,
                        SphereBed& bed, const ExactRestLimits& limits) {
-  return InteriorPoint(context, from, bed).run(limits);
+  return InteriorPoint(context, from, limits.asked_after, bed).run(limits);
 }
 
 }  // namespace grainsweep

@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "engine/context.hpp"
+#include "engine/exact/stiffness.hpp"
 #include "engine/results.hpp"
 #include "engine/rows/contacts.hpp"
 #include "engine/scene/bed.hpp"
@@ -46,6 +47,8 @@ using SaveSearch = std::function<std::string()>;
 struct ExactRestLimits {
   /// Asked before every round and within long ones; if it returns false the failure is "cancelled".
   std::function<bool(const SaveSearch&)> keep_going = [](const SaveSearch&) { return true; };
+  /// Multiplications of a round after which it is asked again.
+  double asked_after = asks_seldom;
   /// Most multiplications of all rounds, including what they do besides factorisations; no round is
   /// begun if they are too few for a usual search.
   double operations = std::numeric_limits<double>::infinity();

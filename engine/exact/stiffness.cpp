@@ -89,7 +89,6 @@ double StiffnessFactors::operations_of(const Front& front) {
 template <class Real>
 bool StiffnessFactors::factor(const std::vector<Spring>& springs, const std::vector<double>& ground,
                               const std::function<bool()>& keep_going) {
-  constexpr double between = 1e9;  // multiplications, some tenths of a second
   const FrontKernels<Real>& kernels = kernels_of<Real>(*kernels_).fronts;
   Numbers<Real> own = std::move(numbers<Real>());
   numbers_ = {};  // factors of the other type would take as much memory again
@@ -98,8 +97,10 @@ bool StiffnessFactors::factor(const std::vector<Spring>& springs, const std::vec
   for (std::size_t node = 0; node < fronts_.size(); ++node) {
     const Front& front = fronts_[node];
     since += operations_of(front);
-    if (since > between && !keep_going()) return false;
-    since = since > between ? 0.0 : since;
+    if (since > asked_after_) {
+      if (!keep_going()) return false;
+      since = 0.0;
+    }
     gather(node, springs, ground, own);
     if (!kernels.factor(own.matrix_of(front), front.rows, front.columns, front.stride))
       return false;

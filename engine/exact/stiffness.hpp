@@ -29,9 +29,14 @@ struct Spring {
   double stiffness = 0.0;          ///< m g / d
 };
 
+/// Multiplications that take some tenths of a second.
+inline constexpr double asks_seldom = 1e9;
+
 class StiffnessFactors {
  public:
-  explicit StiffnessFactors(const Kernels& kernels) : kernels_(&kernels) {}
+  /// A factorisation asks whether to go on each time it has taken so many multiplications.
+  explicit StiffnessFactors(const Kernels& kernels, double asked_after = asks_seldom)
+      : kernels_(&kernels), asked_after_(asked_after) {}
 
   /// Prepares for springs between these ends of grains with these centres. Their order must stay;
   /// their directions and stiffnesses may change. The factors, which may take gigabytes, are only
@@ -43,7 +48,7 @@ class StiffnessFactors {
 
   /// Factors the matrix of all springs, and of springs of stiffness ground[i] in all directions
   /// between grain i and the ground, in numbers of type Real. False if rounding leaves it not
-  /// positive definite, or if `keep_going`, called every now and then, returns false.
+  /// positive definite, or if `keep_going`, asked now and then, returns false.
   template <class Real>
   bool factor(
       const std::vector<Spring>& springs, const std::vector<double>& ground,
@@ -102,6 +107,7 @@ class StiffnessFactors {
   }
 
   const Kernels* kernels_;
+  double asked_after_;  ///< multiplications
   EliminationTree tree_;
   std::vector<Front> fronts_;
   std::tuple<Numbers<float>, Numbers<double>> numbers_;

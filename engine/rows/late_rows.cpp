@@ -150,7 +150,7 @@ void part_spares(double reach, const ExecutionContext& context, const SphereBed&
     const RowBlock<Real>& from = spares.blocks[k / block_width];
     const std::size_t lane = k % block_width;
     const GrainPair pair{from.a(lane), from.b(lane)};
-    if (from.gap[lane] < limit) {
+    if (from.gap[lane] < limit && contacts.layout.subdomains.may_hold(pair)) {
       near.push_back(pair);
     } else {
       spares.blocks[spares.count / block_width].set_grains(spares.count % block_width, pair.a,

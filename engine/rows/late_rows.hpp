@@ -11,7 +11,8 @@ double measure_blocks(const SphereBed& bed, const ExecutionContext& context, dou
                       RowBlock<Real>* rows, std::size_t blocks, std::vector<double>& sunk);
 
 /// Sorts all candidate pairs into those with a gap below `reach`, `contacts.layout.near`, and
-/// spares, both in the order of the candidates.
+/// spares, both in the order of the candidates. A pair that its subdomain may not hold is a spare,
+/// too: it lay further apart than it would if it were near now. The grains must have been divided.
 template <class Real>
 void part_spares(double reach, const ExecutionContext& context, const SphereBed& bed,
                  const Candidates& candidates, SphereContacts<Real>& contacts);

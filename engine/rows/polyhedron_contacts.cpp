@@ -392,8 +392,8 @@ void take_candidates(const PolyhedronBed& bed, const Candidates& candidates,
   std::vector<GrainPair>& pairs = contacts.subdomains.pairs;
   PairMemoryColumns& before = contacts.listed_before;
   std::swap(pairs, before.pairs);
-  divide(bed, Polyhedron::subdomain_grains, candidates, candidates.pairs, loop,
-         contacts.subdomains);
+  divide_grains(bed, Polyhedron::subdomain_grains, candidates, loop, contacts.subdomains);
+  divide_pairs(candidates.pairs, loop, contacts.subdomains);
   match_pairs(bed.grains(), pairs, loop, before);
   constexpr double unseen = -std::numeric_limits<double>::infinity();
   keep_memories(before, loop, unseen, contacts.far_until, contacts.spare_until);

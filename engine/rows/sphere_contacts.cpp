@@ -250,14 +250,15 @@ void update_round_wall(const SphereBed& bed, const WallRows& rows, double correc
   }
 }
 
-/// Rows of some pairs and of all walls, with the impulses that they carry.
+/// Rows of some pairs and of all walls, with the impulses that they carry; the grains must have
+/// been divided.
 template <class Real>
 void lay_out_carried(const SphereBed& bed, const Candidates& candidates,
                      const std::vector<GrainPair>& pairs, double late_share,
                      const ParallelFor& loop, SphereContacts<Real>& contacts,
                      RoundWalls round = RoundWalls::as_they_are) {
   LayoutColumns<Real>& layout = contacts.layout;
-  divide(bed, Sphere::subdomain_grains, candidates, pairs, loop, layout.subdomains);
+  divide_pairs(pairs, loop, layout.subdomains);
   layout.columns.resize(std::max(layout.columns.size(), layout.subdomains.count + 1));
   layout.open_blocks.assign(bed.grains(), 0);
   layout.pair_impulse.resize(layout.subdomains.pairs.size());
@@ -277,6 +278,8 @@ void lay_out_near(double reach, const ExecutionContext& context, const SphereBed
                   const Candidates& candidates, SphereContacts<Real>& contacts) {
   constexpr double late_share = 1.0 / 16.0;
   collect_impulses(bed, context.loop, 1.0, contacts, contacts);
+  divide_grains(bed, Sphere::subdomain_grains, candidates, context.loop,
+                contacts.layout.subdomains);
   part_spares(reach, context, bed, candidates, contacts);
   lay_out_carried(bed, candidates, contacts.layout.near, late_share, context.loop, contacts);
   contacts.taken_at_walls.clear();
@@ -291,6 +294,7 @@ template <class Real>
 void lay_out(const SphereBed& bed, const Candidates& candidates, SphereContacts<Real>& contacts,
              const ParallelFor& loop) {
   collect_impulses(bed, loop, 1.0, contacts, contacts);
+  divide_grains(bed, Sphere::subdomain_grains, candidates, loop, contacts.layout.subdomains);
   lay_out_carried(bed, candidates, candidates.pairs, 0.0, loop, contacts);
 }
 
@@ -310,6 +314,7 @@ void lay_out_closed(double tolerance, const ExecutionContext& context, const Sph
                     const Candidates& candidates, double dt, const SphereContacts<Real>& from,
                     SphereContacts<double>& closed) {
   collect_impulses(bed, context.loop, 1.0 / (dt * dt), from, closed);
+  divide_grains(bed, Sphere::subdomain_grains, candidates, context.loop, closed.layout.subdomains);
   lay_out_carried(bed, candidates, candidates.pairs, 0.0, context.loop, closed,
                   RoundWalls::as_tangents);
   update_gaps(bed, context, 1.0, closed);

@@ -78,15 +78,6 @@ void sort_by_subdomain(const ParallelFor& loop, std::size_t count, SubdomainOf s
   visit([&](std::size_t k, std::size_t& next) { put(k, next++); });
 }
 
-void sort_pairs(const std::vector<GrainPair>& pairs, const ParallelFor& loop,
-                Subdomains& subdomains) {
-  subdomains.pairs.resize(pairs.size());
-  sort_by_subdomain(
-      loop, pairs.size(), [&](std::size_t k) { return subdomains.subdomain_of(pairs[k]); },
-      subdomains, subdomains.begin,
-      [&](std::size_t k, std::size_t place) { subdomains.pairs[place] = pairs[k]; });
-}
-
 void sort_grains(const ParallelFor& loop, Subdomains& subdomains) {
   subdomains.grains.resize(subdomains.slab.size());
   sort_by_subdomain(
@@ -96,12 +87,6 @@ void sort_grains(const ParallelFor& loop, Subdomains& subdomains) {
       [&](std::size_t k, std::size_t place) {
         subdomains.grains[place] = static_cast<std::int32_t>(k);
       });
-}
-
-void leave_whole(const std::vector<GrainPair>& pairs, Subdomains& subdomains) {
-  subdomains.count = 1;
-  subdomains.pairs.assign(pairs.begin(), pairs.end());
-  subdomains.begin.assign({0, pairs.size()});
 }
 
 void sort_near_walls(const Candidates& candidates, Subdomains& subdomains) {
@@ -129,18 +114,25 @@ bool Subdomains::may_hold(GrainPair pair) const {
   return apart <= 1 || (is_ring && apart + 1 == count);
 }
 
-void divide(const Grains& bed, std::size_t min_grains, const Candidates& candidates,
-            const std::vector<GrainPair>& pairs, const ParallelFor& loop, Subdomains& subdomains) {
+void divide_grains(const Grains& bed, std::size_t min_grains, const Candidates& candidates,
+                   const ParallelFor& loop, Subdomains& subdomains) {
   subdomains.is_ring = is_periodic(bed.box, bed.subdomain_axis);
-  if (bed.subdomains == 1) {
-    leave_whole(pairs, subdomains);
-  } else {
+  subdomains.count = 1;
+  if (bed.subdomains > 1) {
     count_slabs(bed, candidates, loop, subdomains);
     cut(min_grains, subdomains);
-    sort_pairs(pairs, loop, subdomains);
     sort_grains(loop, subdomains);
   }
   sort_near_walls(candidates, subdomains);
+}
+
+void divide_pairs(const std::vector<GrainPair>& pairs, const ParallelFor& loop,
+                  Subdomains& subdomains) {
+  subdomains.pairs.resize(pairs.size());
+  sort_by_subdomain(
+      loop, pairs.size(), [&](std::size_t k) { return subdomains.subdomain_of(pairs[k]); },
+      subdomains, subdomains.begin,
+      [&](std::size_t k, std::size_t place) { subdomains.pairs[place] = pairs[k]; });
 }
 
 }  // namespace grainsweep

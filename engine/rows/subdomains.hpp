@@ -46,10 +46,13 @@ struct Subdomains {
 };
 
 /// Divides the bed of `candidates` into subdomains of at least `min_grains` grains (the last one
-/// may have fewer) and sorts `pairs`, its grains and those near walls by subdomain. No pair may
-/// reach further than the candidates did when they were searched for.
-void divide(const Grains& bed, std::size_t min_grains, const Candidates& candidates,
-            const std::vector<GrainPair>& pairs, const ParallelFor& loop, Subdomains& subdomains);
+/// may have fewer) and sorts its grains and those near walls by subdomain.
+void divide_grains(const Grains& bed, std::size_t min_grains, const Candidates& candidates,
+                   const ParallelFor& loop, Subdomains& subdomains);
+/// Then sorts pairs by subdomain. May hold all of them: that of a pair which lay further apart than
+/// the candidates reached, where its grains were looked up, is not certain.
+void divide_pairs(const std::vector<GrainPair>& pairs, const ParallelFor& loop,
+                  Subdomains& subdomains);
 
 /// Calls work(subdomain) for all subdomains: for 0, 2, 4 .. in any order, then for 1, 3, 5 ..
 template <class Work>

@@ -9,6 +9,7 @@
 #include "engine/units.hpp"
 #include "tests/support/about.hpp"
 #include "tests/support/brute_force.hpp"
+#include "tests/support/draw.hpp"
 #include "tests/support/keep_going.hpp"
 #include "tests/support/scenes.hpp"
 #include "tests/support/solvers.hpp"
@@ -193,17 +194,24 @@ SphereBed high_bed() {
   return start<Sphere>(spec).value();
 }
 
-/// The same settled without interruption, or stopped after step `last` and gone on from its
-/// saved bytes in a new bed.
-SettleReport settle_interrupted(const Accuracy& accuracy, std::int64_t last, SphereBed& bed) {
+/// The bed as it is when it is stopped after step `last`, and its saved bytes.
+struct Stopped {
+  SphereBed bed;
   std::string saved;
-  SphereBed first = high_bed();
-  settle(accuracy, kernels_for(best_isa()), first, [&](const Progress& progress) {
-    saved = progress.step == last ? progress.save() : saved;
+};
+Stopped stopped_after(std::int64_t last, const Accuracy& accuracy, const SphereBed& start) {
+  Stopped stopped{start, ""};
+  settle(accuracy, kernels_for(best_isa()), stopped.bed, [&](const Progress& progress) {
+    if (progress.step == last) stopped.saved = progress.save();
     return progress.step < last;
   });
-  REQUIRE_FALSE(saved.empty());
-  bed = high_bed();
+  REQUIRE_FALSE(stopped.saved.empty());
+  return stopped;
+}
+
+/// Stopped after step `last` and gone on from its saved bytes in a new bed.
+SettleReport settle_interrupted(const Accuracy& accuracy, std::int64_t last, SphereBed& bed) {
+  const std::string saved = stopped_after(last, accuracy, bed).saved;
   return settle(accuracy, kernels_for(best_isa()), bed, always, saved);
 }
 
@@ -219,7 +227,7 @@ TEST_CASE("a bed that goes on from saved bytes ends with the same bits, in any s
     for (std::int64_t last = 1; last < expected.steps; last += apart) stops.push_back(last);
     for (const std::int64_t last : stops) {
       INFO("saved after step " << last << " of " << expected.steps);
-      SphereBed bed;
+      SphereBed bed = high_bed();
       const SettleReport report = settle_interrupted(accuracy, last, bed);
       REQUIRE(state_hash(bed) == state_hash(whole));
       REQUIRE(report.steps == expected.steps);
@@ -229,6 +237,48 @@ TEST_CASE("a bed that goes on from saved bytes ends with the same bits, in any s
       REQUIRE(report.rest.imbalance.mean == expected.rest.imbalance.mean);
       REQUIRE(report.rest.imbalance.max == expected.rest.imbalance.max);
     }
+  }
+}
+
+TEST_CASE("a bed of which grains sleep goes on from saved bytes with the same bits") {
+  PackingSpec spec;
+  spec.box = {3, 3, periodic, walls};
+  spec.fill = GrainCount{900};
+  spec.random_key = 8;
+  const SphereBed start = grainsweep::start<Sphere>(spec).value();
+  Accuracy accuracy = *preset("fast");
+  accuracy.max_steps = 420;
+  SphereBed whole = start;
+  const SettleReport expected = settle_bed(whole, accuracy);
+  for (const std::int64_t last : {190, 300, 404}) {
+    INFO("saved after step " << last << " of " << expected.steps);
+    const Stopped stopped = stopped_after(last, accuracy, start);
+    REQUIRE(stopped.bed.first_awake > 0);
+    SphereBed bed = start;
+    const SettleReport report =
+        settle(accuracy, kernels_for(best_isa()), bed, always, stopped.saved);
+    CHECK(state_hash(bed) == state_hash(whole));
+    CHECK(report.iterations == expected.iterations);
+  }
+}
+
+TEST_CASE("a bed of several subdomains goes on from saved bytes with the same bits") {
+  // Columns that lean: rows are kept, and late ones are added, as long as grains lie on each other.
+  SphereBed start = testing::simple_cubic_bed(30, 30, 19);
+  REQUIRE(start.subdomains > 1);
+  testing::Draw draw(8);
+  for (std::size_t i = 0; i < start.grains(); ++i) {
+    start.position[i].x += 0.02 * draw.direction().x;
+  }
+  Accuracy accuracy = *preset("fast");
+  accuracy.max_steps = 60;
+  SphereBed whole = start;
+  const SettleReport expected = settle_bed(whole, accuracy);
+  for (const std::int64_t last : {53, 56}) {
+    INFO("saved after step " << last);
+    SphereBed bed = start;
+    CHECK(settle_interrupted(accuracy, last, bed).iterations == expected.iterations);
+    CHECK(state_hash(bed) == state_hash(whole));
   }
 }
 

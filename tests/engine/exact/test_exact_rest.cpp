@@ -227,6 +227,33 @@ TEST_CASE("a search for exact rest that was stopped goes on with the same bits")
   }
 }
 
+TEST_CASE(
+    "a search that is stopped while it looks whether the bed still sinks goes on with the same "
+    "bits") {
+  // Sinks for more than 600 rounds, after each of which it is looked at.
+  const SphereBed dropped =
+      make_bed({4, 4, periodic, walls}, {{2, 2, 40, 0.5}, {2.2, 2, 41.0, 0.5}});
+  SphereBed at_once = dropped;
+  std::vector<std::string> saved;
+  const ExactRest whole = rest_exactly(testing::kernels(), {}, at_once,
+                                       {.keep_going =
+                                            [&](const SaveSearch& save) {
+                                              saved.push_back(save());
+                                              return true;
+                                            },
+                                        .asked_after = 0.0});
+  REQUIRE(whole.failure == "");
+  const std::size_t asks = saved.size() / static_cast<std::size_t>(whole.rounds);
+  REQUIRE(asks > 1);  // within each round, too
+  for (std::size_t k = 599 * asks; k < 602 * asks; ++k) {
+    SphereBed bed = dropped;
+    const ExactRest rest = rest_exactly(testing::kernels(), {}, bed, {.saved = saved[k]});
+    CHECK(rest.failure == "");
+    CHECK(rest.rounds == whole.rounds);
+    CHECK(state_hash(bed) == state_hash(at_once));
+  }
+}
+
 TEST_CASE("the accuracy exact settles beds with isostatic contacts, near where they were settled") {
   PackingSpec spec = small_spec({4, 4, periodic, walls}, 120, 8);
   spec.accuracy = *preset("exact");

@@ -3,7 +3,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "engine/rows/sphere_contacts.hpp"
+#include "engine/rows/late_rows.hpp"
 #include "tests/support/brute_force.hpp"
 #include "tests/support/draw.hpp"
 #include "tests/support/instruction_sets.hpp"
@@ -143,6 +143,24 @@ TEST_CASE("late rows of a large bed stay in the subdomains that may hold them") 
       }
     }
   }
+}
+
+TEST_CASE("a pair of grains that were looked up beyond each other's next subdomain is a spare") {
+  testing::RandomScene scene{{20, 10, periodic, walls}, 16'000, 0.45, 0.5, 80, 3};
+  SphereBed bed = testing::random_bed(scene);
+  Candidates candidates;
+  SphereContacts<float> contacts;
+  Counts counts;
+  bring_up_to_date(bed, candidates, contacts, counts);
+  const Subdomains& all = contacts.layout.subdomains;
+  REQUIRE(all.count > 2);
+  const std::int32_t low = all.grains.front(), high = all.grains.back();
+  bed.position[static_cast<std::size_t>(high)] = bed.position[static_cast<std::size_t>(low)];
+  const std::size_t before = contacts.layout.near.size() + contacts.spares.count;
+  candidates.pairs.push_back({std::min(low, high), std::max(low, high)});
+  part_spares(near + margin, kernels(), bed, candidates, contacts);
+  CHECK(contacts.layout.near.size() + contacts.spares.count == before + 1);
+  for (const GrainPair pair : contacts.layout.near) REQUIRE(all.may_hold(pair));
 }
 
 TEST_CASE("a row keeps its impulse while others are added") {

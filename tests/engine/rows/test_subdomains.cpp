@@ -48,6 +48,12 @@ Candidates candidates_of(SphereBed& bed) {
   return candidates;
 }
 
+void divide(const SphereBed& bed, const Candidates& candidates, const ParallelFor& loop,
+            Subdomains& subdomains) {
+  divide_grains(bed, Sphere::subdomain_grains, candidates, loop, subdomains);
+  divide_pairs(candidates.pairs, loop, subdomains);
+}
+
 std::vector<std::pair<std::int32_t, std::int32_t>> sorted(const std::vector<GrainPair>& pairs) {
   std::vector<std::pair<std::int32_t, std::int32_t>> names;
   for (const GrainPair pair : pairs) names.emplace_back(pair.a, pair.b);
@@ -59,10 +65,10 @@ TEST_CASE("a grain belongs where it was looked up, wherever it has gone since") 
   SphereBed bed = flat_bed(Boundary::periodic);
   const Candidates candidates = candidates_of(bed);
   Subdomains before, after;
-  divide(bed, Sphere::subdomain_grains, candidates, candidates.pairs, serial_for, before);
+  divide(bed, candidates, serial_for, before);
   REQUIRE(before.count > 1);
   for (std::size_t i = 0; i < bed.grains(); ++i) bed.position[i].x -= 0.04;  // some leave the box
-  divide(bed, Sphere::subdomain_grains, candidates, candidates.pairs, serial_for, after);
+  divide(bed, candidates, serial_for, after);
   CHECK(before.slab == after.slab);
   CHECK(before.begin == after.begin);
 }
@@ -71,7 +77,7 @@ TEST_CASE("a small bed is one subdomain, with its pairs as they are") {
   SphereBed bed = tall_bed(2000, Boundary::walls);
   const Candidates candidates = candidates_of(bed);
   Subdomains subdomains;
-  divide(bed, Sphere::subdomain_grains, candidates, candidates.pairs, serial_for, subdomains);
+  divide(bed, candidates, serial_for, subdomains);
   CHECK(subdomains.count == 1);
   CHECK(subdomains.begin == std::vector<std::size_t>{0, candidates.pairs.size()});
   CHECK(std::equal(subdomains.pairs.begin(), subdomains.pairs.end(), candidates.pairs.begin(),
@@ -82,7 +88,7 @@ TEST_CASE("subdomains of a large bed hold all pairs and all grains") {
   for (SphereBed& bed : large_beds()) {
     const Candidates candidates = candidates_of(bed);
     Subdomains subdomains;
-    divide(bed, Sphere::subdomain_grains, candidates, candidates.pairs, serial_for, subdomains);
+    divide(bed, candidates, serial_for, subdomains);
     REQUIRE(subdomains.count >= 3);
     CHECK(subdomains.count <= bed.subdomains);
     REQUIRE(subdomains.begin.size() == subdomains.count + 1);
@@ -109,7 +115,7 @@ TEST_CASE("every second subdomain of a large bed shares no grain") {
   for (SphereBed& bed : large_beds()) {
     const Candidates candidates = candidates_of(bed);
     Subdomains subdomains;
-    divide(bed, Sphere::subdomain_grains, candidates, candidates.pairs, serial_for, subdomains);
+    divide(bed, candidates, serial_for, subdomains);
     for (std::size_t parity = 0; parity < 2; ++parity) {
       std::vector<std::size_t> owner(bed.grains(), subdomains.count);
       for (std::size_t subdomain = parity; subdomain < subdomains.count; subdomain += 2) {
@@ -132,7 +138,7 @@ TEST_CASE("subdomains of a flat bed lie along it, of a ring an even number") {
     REQUIRE(bed.subdomain_axis == 0);
     const Candidates candidates = candidates_of(bed);
     Subdomains subdomains;
-    divide(bed, Sphere::subdomain_grains, candidates, candidates.pairs, serial_for, subdomains);
+    divide(bed, candidates, serial_for, subdomains);
     CHECK(subdomains.is_ring == (x == Boundary::periodic));
     if (subdomains.is_ring) CHECK(subdomains.count % 2 == 0);
     std::vector<double> last(subdomains.count, 0.0);
@@ -148,7 +154,7 @@ TEST_CASE("subdomains keep the order of their pairs, whoever sorts them") {
   SphereBed bed = tall_bed(30'000, Boundary::periodic);
   const Candidates candidates = candidates_of(bed);
   Subdomains plain;
-  divide(bed, Sphere::subdomain_grains, candidates, candidates.pairs, serial_for, plain);
+  divide(bed, candidates, serial_for, plain);
   const auto subdomain = [&](GrainPair pair) { return plain.subdomain_of(pair); };
   std::vector<GrainPair> expected = candidates.pairs;
   std::stable_sort(expected.begin(), expected.end(),
@@ -156,7 +162,7 @@ TEST_CASE("subdomains keep the order of their pairs, whoever sorts them") {
   for (const ParallelFor& loop : {ParallelFor(serial_for), ParallelFor(testing::last_part_first),
                                   ParallelFor(testing::two_threads)}) {
     Subdomains subdomains;
-    divide(bed, Sphere::subdomain_grains, candidates, candidates.pairs, loop, subdomains);
+    divide(bed, candidates, loop, subdomains);
     CHECK(std::equal(subdomains.pairs.begin(), subdomains.pairs.end(), expected.begin(),
                      expected.end(),
                      [](GrainPair p, GrainPair q) { return p.a == q.a && p.b == q.b; }));
@@ -173,7 +179,7 @@ TEST_CASE("a large bed that is flat has no more subdomains than slabs") {
   SphereBed bed = testing::random_bed(scene);
   const Candidates candidates = candidates_of(bed);
   Subdomains subdomains;
-  divide(bed, Sphere::subdomain_grains, candidates, candidates.pairs, serial_for, subdomains);
+  divide(bed, candidates, serial_for, subdomains);
   CHECK(subdomains.count >= 1);
   CHECK(subdomains.count <= subdomains.slab_size.size());
 }
