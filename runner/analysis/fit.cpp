@@ -5,6 +5,9 @@
 #include <limits>
 
 #include <boost/math/distributions/chi_squared.hpp>
+#include <boost/math/distributions/fisher_f.hpp>
+
+#include "runner/analysis/student.hpp"
 
 namespace grainsweep {
 namespace {
@@ -75,9 +78,16 @@ std::optional<LineFit> fit_line(const std::vector<LinePoint>& points) {
 
 bool may_hold(const Misfit& misfit) {
   constexpr double seldom = 1.0 / 200.0;
-  const boost::math::chi_squared chance(misfit.degrees_of_freedom);
-  const double chi2 = misfit.chi2_per_dof * misfit.degrees_of_freedom;
-  return chi2 <= boost::math::quantile(boost::math::complement(chance, seldom));
+  const double many = misfit.degrees_of_freedom, known = misfit.errors_known_from;
+  if (std::isinf(known)) {
+    const boost::math::chi_squared chance(many);
+    return misfit.chi2_per_dof * many <=
+           boost::math::quantile(boost::math::complement(chance, seldom));
+  }
+  const double widening = student_quantile(known) / normal_quantile;
+  const boost::math::fisher_f chance(many, known);
+  return misfit.chi2_per_dof * widening * widening <=
+         boost::math::quantile(boost::math::complement(chance, seldom));
 }
 
 }  // namespace grainsweep

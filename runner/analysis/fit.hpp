@@ -7,6 +7,7 @@
 // (Bevington & Robinson, Data Reduction and Error Analysis, ch. 6).
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -35,10 +36,14 @@ struct LineFit {
 struct Misfit {
   double chi2_per_dof = 0.0;
   int degrees_of_freedom = 0;
+  /// Degrees of freedom from which the least known of their errors is known, which are widened by
+  /// Student's distribution for it; infinite where errors are known as they are.
+  double errors_known_from = std::numeric_limits<double>::infinity();
 };
 
-/// Whether that may be chance: where it holds, a larger chi2 comes up once in 200 times. Per degree
-/// of freedom that is 7.9 for one, 5.3 for two, 2.9 for seven.
+/// Whether that may be chance: where it holds, a larger chi2 comes up once in 200 times (F test).
+/// Per degree of freedom that is 7.9 for one, 5.3 for two, 2.9 for seven if errors are known as
+/// they are; 12, 9.3 and 6.9 if they are known from 6 degrees of freedom.
 bool may_hold(const Misfit& misfit);
 
 /// Nothing if the points do not determine a line with errors: fewer than three points, fewer than

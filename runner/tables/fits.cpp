@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <set>
+#include <utility>
 
 #include "runner/analysis/fit.hpp"
 #include "runner/text.hpp"
@@ -37,14 +38,20 @@ std::vector<FitPoint> points_of(const std::vector<const Group*>& groups, Quantit
   return points;
 }
 
+/// Least and most degrees of freedom from which errors of the groups' means are known.
+std::pair<double, double> degrees_of_errors(const std::vector<const Group*>& groups,
+                                            Quantity quantity) {
+  std::vector<double> degrees;
+  for (const Group* group : groups) {
+    degrees.push_back(spread_of(*group, quantity).degrees_of_freedom);
+  }
+  const auto [least, most] = std::minmax_element(degrees.begin(), degrees.end());
+  return {*least, *most};
+}
+
 std::string weights_text(const std::vector<const Group*>& groups, Quantity quantity) {
-  const auto degrees = [&](const Group* group) {
-    return spread_of(*group, quantity).degrees_of_freedom;
-  };
-  const auto [least, most] =
-      std::minmax_element(groups.begin(), groups.end(),
-                          [&](const Group* a, const Group* b) { return degrees(a) < degrees(b); });
-  const std::string low = fixed(degrees(*least), 0), high = fixed(degrees(*most), 0);
+  const auto [least, most] = degrees_of_errors(groups, quantity);
+  const std::string low = fixed(least, 0), high = fixed(most, 0);
   return "variance times volume of the slab of the replicates and of others of the family (" + low +
          (low == high ? "" : " to " + high) + " degrees of freedom)";
 }
@@ -57,7 +64,8 @@ Estimate zeta_of(const LineFit& line) {
   return {slope / bulk, std::sqrt(std::max(0.0, variance))};
 }
 
-void take_line(const LineFit& line, WallFit& fit) {
+/// `errors_known_from`: see Misfit.
+void take_line(const LineFit& line, double errors_known_from, WallFit& fit) {
   const double chi2 = line.chi2 / line.degrees_of_freedom;
   const double widening = std::sqrt(std::max(1.0, chi2));
   fit.bulk = {line.intercept, line.intercept_error * widening};
@@ -66,7 +74,8 @@ void take_line(const LineFit& line, WallFit& fit) {
   fit.zeta.error *= widening;
   fit.degrees_of_freedom = line.degrees_of_freedom;
   fit.chi2_per_dof = chi2;
-  if (!may_hold({chi2, line.degrees_of_freedom})) fit.doubt = "the straight line does not hold";
+  if (!may_hold({chi2, line.degrees_of_freedom, errors_known_from}))
+    fit.doubt = "the straight line does not hold";
   fit.r_squared = line.r_squared;
   for (FitPoint& point : fit.points) point.fitted = line.intercept + line.slope / point.width;
 }
@@ -230,7 +239,7 @@ WallFit fit_walls(const Family& family, Quantity quantity) {
   fit.bias_bound = bias_bound(groups, quantity);
   const auto line = fit_line(points);
   if (line) {
-    take_line(*line, fit);
+    take_line(*line, degrees_of_errors(groups, quantity).first, fit);
   } else {
     fit.not_determined = "a mean value is not a number";
   }

@@ -91,6 +91,20 @@ TEST_CASE("a misfit that chance exceeds in one case of 200 is not put down to it
   CHECK_FALSE(may_hold({1.0001 * of_one, 1}));
 }
 
+TEST_CASE("errors known from few values make more of a misfit chance") {
+  // Quantiles of tables: F(2, 4) and F(1, 12) to 0.995, Student's of 4 and 12 to 0.975.
+  const auto limit = [](double f, double student) { return f * std::pow(1.959964 / student, 2); };
+  const double of_two = limit(26.2843, 2.776445), of_one = limit(11.7542, 2.178813);
+  CHECK(may_hold({0.9999 * of_two, 2, 4.0}));
+  CHECK(may_hold({0.9999 * of_one, 1, 12.0}));
+  CHECK_FALSE(may_hold({1.0001 * of_two, 2, 4.0}));
+  CHECK_FALSE(may_hold({1.0001 * of_one, 1, 12.0}));
+  // From very many values they are known as they are.
+  const double many = -std::log(0.005);
+  CHECK(may_hold({0.999 * many, 2, 1e6}));
+  CHECK_FALSE(may_hold({1.001 * many, 2, 1e6}));
+}
+
 TEST_CASE("a constant y has a fit but no share of variance to explain") {
   const auto fit = fit_line({{1, 2, 1}, {2, 2, 1}, {3, 2, 1}});
   REQUIRE(fit);
