@@ -28,6 +28,10 @@ inline constexpr double decay_window_start = 0.25;
 /// the wall: a convention, not a result.
 inline constexpr double decay_reach_share = 0.05;
 
+/// A misfit above this is no chance: a damped cosine does not describe such layers, however small
+/// the error of the length.
+inline constexpr double largest_misfit = 2.0;
+
 /// A fitted number and its standard error.
 struct Estimate {
   double value = 0.0;

@@ -92,17 +92,21 @@ std::string commands_of(const Figure& figure, const std::vector<GroupWithCurves>
   return text;
 }
 
+std::string decay_text(const DecayFit& fit, const GivenUnits& units) {
+  if (!fit.not_determined.empty()) return "no curve, " + with_signs(fit.not_determined);
+  return "λ = " + length_text(fit.length.value, fit.length.error, 2, units) + ", reach " +
+         length_text(fit.reach.value, fit.reach.error, 1, units) +
+         (fit.misfit > largest_misfit
+              ? ", but the damped cosine does not hold: its misfit is " + fixed(fit.misfit, 1)
+              : "");
+}
+
 std::string decays_text(const std::vector<GroupWithCurves>& groups,
                         const std::vector<DecayFit>& fits, const GivenUnits& units) {
   std::string text;
   const auto titles = titles_of(groups, longest_entry);
   for (std::size_t k = 0; k < groups.size(); ++k) {
-    const DecayFit& fit = fits[k];
-    text += " " + titles[k] + ": ";
-    text += fit.not_determined.empty()
-                ? "λ = " + length_text(fit.length.value, fit.length.error, 2, units) + ", reach " +
-                      length_text(fit.reach.value, fit.reach.error, 1, units) + "."
-                : "no curve, " + with_signs(fit.not_determined) + ".";
+    text += " " + titles[k] + ": " + decay_text(fits[k], units) + ".";
   }
   return text;
 }

@@ -82,9 +82,11 @@ Columns<DecayLine> decay_line_columns(const Varied& varied, const GivenUnits& un
   columns.push_back({"r_squared", "",
                      "share of the mean profile's variance that the curve explains",
                      fit_cell(&DecayFit::r_squared)});
-  columns.push_back({"misfit", "",
-                     "root mean square of the residuals over that of the mean's errors",
-                     fit_cell(&DecayFit::misfit)});
+  columns.push_back(
+      {"misfit", "",
+       "root mean square of the residuals over that of the mean's errors; above 2 a damped "
+       "cosine does not describe the layers",
+       fit_cell(&DecayFit::misfit)});
   append_in_units(columns, units);
   return columns;
 }

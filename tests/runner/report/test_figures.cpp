@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <random>
 #include <set>
 
 #include <catch2/catch.hpp>
@@ -23,6 +25,25 @@ std::vector<Row> wall_rows() {
       row.job.replicate = replicate;
       set_curves(sample_curves(), row.outcome->result);
       rows.push_back(std::move(row));
+    }
+  }
+  return rows;
+}
+
+/// Three replicates with layers at both walls, to which a wave that they do not share is added.
+std::vector<Row> layered_rows(double wave) {
+  std::vector<Row> rows;
+  std::mt19937_64 generator(1);
+  std::normal_distribution<double> noise(0.0, 0.002);
+  for (const char* id : {"a", "b", "c"}) {
+    rows.push_back(settled_row(id, 10.0, 0.6, 6.0));
+    Profile& profile = rows.back().outcome->result.profile_y;
+    profile.bin_width = 0.1;
+    for (int k = 0; k < 100; ++k) {
+      const double y = std::min((k + 0.5) * 0.1, 10.0 - (k + 0.5) * 0.1);
+      const double layers = 0.3 * std::exp(-y / 1.2) * std::cos(7.0 * y);
+      profile.bins.push_back(
+          {0.6 + layers + wave * std::sin(20.0 * y) + noise(generator), 0, 5, 0, 0, 0});
     }
   }
   return rows;
@@ -195,6 +216,18 @@ TEST_CASE("the means over the width have the line of fits.csv and its residuals"
   CHECK(std::stod(cell_in(means.tables[0].second, 1, "solid_fraction")) == Approx(0.59));
   CHECK(cells_of_table(means.tables[1].second).size() == 4);
   CHECK(means.commands.find("means-residuals.csv") != std::string::npos);
+}
+
+TEST_CASE("beside a decay length stands where a damped cosine does not describe the layers",
+          "[report]") {
+  const auto caption_of = [](double wave) {
+    const std::vector<Row> rows = layered_rows(wave);
+    return figure_called(figures_of(rows, analyse(rows), {}), "profiles").caption;
+  };
+  CHECK_THAT(caption_of(0.0), Catch::Contains("λ = 1.") && !Catch::Contains("does not hold"));
+  CHECK_THAT(caption_of(0.02),
+             Catch::Contains("λ = 1.") &&
+                 Catch::Contains("d, but the damped cosine does not hold: its misfit is "));
 }
 
 TEST_CASE("why families have no line is said once for all of them", "[report]") {
