@@ -25,22 +25,28 @@ std::vector<std::vector<double>> profiles_from_wall(const Group& group, GrainCla
   return profiles;
 }
 
-bool has_grains(const Group& group, GrainClass grains) {
+/// Settled packings whose profile holds no grains of the class.
+std::size_t packings_without(const Group& group, GrainClass grains) {
   const auto is_filled = [&](const ProfileBin& bin) { return bin.*volume_of(grains) > 0.0; };
-  return std::all_of(group.settled.begin(), group.settled.end(), [&](const Outcome& outcome) {
+  const auto lacks = [&](const Outcome& outcome) {
     const std::vector<ProfileBin>& bins = (outcome.result.*profile_across(group)).bins;
-    return std::any_of(bins.begin(), bins.end(), is_filled);
-  });
+    return std::none_of(bins.begin(), bins.end(), is_filled);
+  };
+  return static_cast<std::size_t>(std::count_if(group.settled.begin(), group.settled.end(), lacks));
 }
 
 std::string why_no_fit(const Group& group, GrainClass grains) {
   if (group.job.box.y == Boundary::periodic) return "there is no wall along y";
-  if (group.settled.size() < 2) {
-    return "needs 2 or more settled replicates to know the errors, has " +
-           std::to_string(group.settled.size());
+  const std::size_t all = group.settled.size();
+  if (all < 2) {
+    return "needs 2 or more settled replicates to know the errors, has " + std::to_string(all);
   }
-  if (has_grains(group, grains)) return "";
-  return grains == GrainClass::large ? "there are no large grains" : "there are no small grains";
+  const std::size_t lacking = packings_without(group, grains);
+  if (lacking == 0) return "";
+  const std::string what = grains == GrainClass::large ? "large grains" : "small grains";
+  if (lacking == all) return "there are no " + what;
+  return "no " + what + " in the slab of " + std::to_string(lacking) + " of " +
+         std::to_string(all) + " packings; larger beds hold some";
 }
 
 struct DecayLine {

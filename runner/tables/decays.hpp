@@ -17,8 +17,8 @@ enum class GrainClass { large, small };
 /// the wall.
 Profile PackingResult::*profile_across(const Group& group);
 
-/// lambda_L or lambda_S of a group. Not determined without walls along y, without grains of the
-/// class, or with a single settled replicate, which leaves the errors unknown.
+/// lambda_L or lambda_S of a group. Not determined without walls along y, where a packing has no
+/// grains of the class, or with a single settled replicate, which leaves the errors unknown.
 DecayFit decay_of(const Group& group, GrainClass grains);
 
 /// Two rows per group.

@@ -98,10 +98,11 @@ TEST_CASE("what the packings cannot tell is not determined, with the reason") {
   CHECK(reason({a}, GrainClass::large) ==
         "needs 2 or more settled replicates to know the errors, has 1");
   CHECK(reason({a, b}, GrainClass::small) == "there are no small grains");
-  for (const bool is_first : {true, false}) {  // nor where one of the packings has none
+  for (const bool is_first : {true, false}) {  // only one of the packings has some
     std::vector<Row> rows = {a, b};
     rows[is_first ? 0 : 1].outcome->result.profile_y.bins[7].small = 0.1;
-    CHECK(reason(rows, GrainClass::small) == "there are no small grains");
+    CHECK(reason(rows, GrainClass::small) ==
+          "no small grains in the slab of 1 of 2 packings; larger beds hold some");
   }
   const auto periodic = Boundary::periodic;
   CHECK(reason({layered_row("a", 1, periodic), layered_row("b", 2, periodic)}, GrainClass::large) ==
