@@ -20,7 +20,6 @@ constexpr std::size_t most_curves = 6;
 constexpr double farthest = 4.0;  ///< d, to which g is drawn
 constexpr int bins_to_mark = 4;   ///< from mark to mark along g, whose bins are many
 
-constexpr std::size_t most_heights = 3;
 constexpr std::size_t most_bars = 100;  // of a curve over the height
 
 /// The mean profiles along z: bins are too few grains each for a coordination number.
@@ -253,7 +252,7 @@ Figure heights_figure(const Axes& axes) {
           "bars, where there is room for them, are standard errors. What is measured as "
           "a bed's is the part between, away from floor and surface. Thinner slices are "
           "in the folder's profiles.csv."};
-  const std::vector<GroupWithCurves> groups = chosen_groups(axes, most_heights);
+  const std::vector<GroupWithCurves> groups = chosen_groups(axes, most_curves);
   if (groups.empty()) return undrawn(std::move(figure), "no packing has settled");
   const std::string table = "heights.csv";
   const auto slices = slices_of(groups);

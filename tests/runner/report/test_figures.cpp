@@ -163,6 +163,14 @@ TEST_CASE("of a random design all points are drawn, over each of its numbers", "
   CHECK_THAT(means.caption, !Catch::Contains("No line"));
 }
 
+TEST_CASE("as many groups are drawn from the floor up as have distances drawn", "[report]") {
+  const std::vector<Row> rows = random_rows();
+  const std::vector<Figure> figures = figures_of(rows, analyse(rows), {});
+  for (const char* name : {"heights", "distributions"}) {
+    CHECK_THAT(figure_called(figures, name).caption, Catch::Contains("6 of 20 groups are shown."));
+  }
+}
+
 TEST_CASE("beside tubes the panel over the width says where those stand", "[report]") {
   std::vector<Row> rows = random_rows();
   rows.push_back(settled_row("t", 4, 0.55, 4.5));
