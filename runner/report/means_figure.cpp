@@ -127,13 +127,15 @@ std::string places_text(const Axes& axes) {
          (tubes > 0 ? ", tubes at d / D." : ".");
 }
 
-/// Which series have no point, since their packings lack what is along the axis.
+/// Whether its packings lack what is along the axis, so that it has no point.
+bool lacks_place(const Axes& axes, const Series& series) {
+  return std::isnan(abscissa(axes, *series.groups.front()));
+}
+
 std::string lacking_text(const Axes& axes) {
   std::string names;
   for (const Series& series : axes.series) {
-    if (std::isnan(place_on(axes, *series.groups.front()))) {
-      names += (names.empty() ? "" : "; ") + series.name;
-    }
+    if (lacks_place(axes, series)) names += (names.empty() ? "" : "; ") + series.name;
   }
   return names.empty() ? "" : " No point for " + names + ": without " + axes.title + ".";
 }
@@ -277,8 +279,15 @@ std::string height_commands(const std::vector<double>& heights, Quantity quantit
          "set y2label 'porosity 1 - φ' offset -1,0 noenhanced\n";
 }
 
-std::vector<KeyEntry> with_curves(std::vector<KeyEntry> entries,
-                                  const std::vector<PublishedCurve>& curves) {
+/// What the panels show: series that have points, and published formulas.
+std::vector<KeyEntry> means_key(const Axes& axes, const std::vector<PublishedCurve>& curves) {
+  const std::vector<const Series*> shown = shown_series(axes);
+  const std::vector<KeyEntry> all = key_with_others(axes);
+  std::vector<KeyEntry> entries;
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    const bool has_points = k >= shown.size() || !lacks_place(axes, *shown[k]);
+    if (has_points) entries.push_back(all[k]);
+  }
   for (std::size_t k = 0; k < curves.size(); ++k) {
     entries.push_back({style_of_curve(k), curves[k].formula.name});
   }
@@ -289,7 +298,7 @@ std::string means_commands(const Axes& axes, const Figure& figure,
                            const std::vector<FittedSeries>& all,
                            const std::vector<PublishedCurve>& curves, bool has_fits) {
   const Panels panels(figure, 2, has_fits ? std::vector{0.74, 0.26} : std::vector{1.0},
-                      with_curves(key_with_others(axes), curves),
+                      means_key(axes, curves),
                       {.right = 104.0, .above = is_over_width(axes) ? 58.0 : 8.0});
   std::string text = "set multiplot\n" + panels.key();
   for (const Quantity quantity : {Quantity::solid_fraction, Quantity::coordination}) {

@@ -163,6 +163,40 @@ TEST_CASE("of a random design all points are drawn, over each of its numbers", "
   CHECK_THAT(means.caption, !Catch::Contains("No line"));
 }
 
+TEST_CASE("a series that lacks what is along the axis is not in the key of the means", "[report]") {
+  std::vector<Row> rows;
+  for (const char* sides : {"3", "5", "8", ""}) {
+    rows.push_back(settled_row(std::string("n") + sides, 5, 0.6, 5.0));
+    const bool is_cube = sides[0] == '\0';
+    rows.back().job.label = is_cube ? "cubes" : "prisms";
+    rows.back().job.parameters = R"({"shape":{)" +
+                                 (is_cube ? std::string(R"("cube":{"edge":1)")
+                                          : R"("prism":{"sides":)" + std::string(sides)) +
+                                 "}}}";
+  }
+  const std::vector<Figure> figures = figures_of(rows, analyse(rows), {});
+  const Figure& means = figure_called(figures, "means");
+  CHECK_THAT(means.caption, Catch::Contains("No point for cubes: without shape.prism.sides."));
+  CHECK_THAT(means.commands, Catch::Contains("ls 1 title 'prisms'") && !Catch::Contains("'cubes'"));
+}
+
+TEST_CASE("a box beside tubes has its point although it has no diameter", "[report]") {
+  std::vector<Row> rows;
+  for (const double diameter : {4.0, 6.0, 8.0}) {
+    rows.push_back(settled_row("t" + std::to_string(diameter), diameter, 0.6, 5.0));
+    rows.back().job.box = tube_of(diameter);
+    rows.back().job.label = "tubes";
+    rows.back().job.parameters = R"({"tube":{"diameter":)" + std::to_string(diameter) + "}}";
+  }
+  rows.push_back(settled_row("b", 15, 0.6, 5.0, Boundary::periodic));
+  rows.back().job.label = "bulk";
+  const std::vector<Figure> figures = figures_of(rows, analyse(rows), {});
+  const Figure& means = figure_called(figures, "means");
+  CHECK(cell_in(means.tables[0].second, 4, "x") == "0");
+  CHECK_THAT(means.caption, !Catch::Contains("No point for"));
+  CHECK_THAT(means.commands, Catch::Contains("title 'bulk'"));
+}
+
 TEST_CASE("as many groups are drawn from the floor up as have distances drawn", "[report]") {
   const std::vector<Row> rows = random_rows();
   const std::vector<Figure> figures = figures_of(rows, analyse(rows), {});
