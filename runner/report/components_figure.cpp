@@ -1,5 +1,6 @@
 // What the components of mixtures do from wall to wall.
 #include <algorithm>
+#include <set>
 
 #include "runner/report/figures.hpp"
 #include "runner/report/plots.hpp"
@@ -101,15 +102,22 @@ std::string component_commands_of(const Figure& figure, const Mixtures& groups) 
 }  // namespace
 
 Figure components_figure(const Axes& axes) {
-  Figure figure{.name = "components",
-                .title = "Components from wall to wall",
-                .caption =
-                    "Solid fraction of each component of a mixture, and how many grains of any "
-                    "component one of its own touches, in slices parallel to the walls. The "
-                    "components are numbered as in the sweep file; the errors, the other mixtures "
-                    "and the order of each component are in the folder's component_profiles.csv."};
+  Figure figure{.name = "components", .title = "Components across the packing", .caption = ""};
   const Mixtures groups = chosen_mixtures(axes, most_mixtures);
   if (groups.empty()) return undrawn(std::move(figure), "no packing has settled");
+  const std::set<BinsAcross> bins = bins_across(groups);
+  if (bins == std::set{BinsAcross::slices_between_walls}) {
+    figure.title = "Components from wall to wall";
+  } else if (bins == std::set{BinsAcross::rings}) {
+    figure.title = "Components from the wall to the axis";
+  }
+  figure.caption =
+      "Solid fraction of each component of a mixture, and how many grains of any "
+      "component one of its own touches, in " +
+      bins_text(bins) +
+      ". The components are numbered as in the sweep file; the errors and the order "
+      "of each component are in the folder's component_profiles.csv." +
+      few_of_all_text(groups.size(), axes);
   figure.height = 520;
   figure.tables = {{components_table_name, component_bins_csv(groups)}};
   figure.commands = component_commands_of(figure, groups);

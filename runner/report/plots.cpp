@@ -171,6 +171,36 @@ std::string step_tics_command(const std::string& axis, double end) {
   return "set " + axis + "tics " + cell(step) + "\n";
 }
 
+std::set<BinsAcross> bins_across(const std::vector<GroupWithCurves>& groups) {
+  std::set<BinsAcross> bins;
+  for (const GroupWithCurves& group : groups) {
+    const Box& box = group->job.box;
+    bins.insert(box.is_tube                   ? BinsAcross::rings
+                : box.y == Boundary::periodic ? BinsAcross::slices_without_walls
+                                              : BinsAcross::slices_between_walls);
+  }
+  return bins;
+}
+
+std::string bins_text(const std::set<BinsAcross>& bins) {
+  std::string text;
+  for (const BinsAcross one : bins) {
+    text += text.empty() ? "" : " or ";
+    switch (one) {
+      case BinsAcross::slices_between_walls:
+        text += "slices parallel to the walls";
+        break;
+      case BinsAcross::rings:
+        text += "rings about the axis";
+        break;
+      case BinsAcross::slices_without_walls:
+        text += "slices across y, where there is no wall";
+        break;
+    }
+  }
+  return text;
+}
+
 std::string panels_across(const Panels& panels, std::size_t k, const std::string& title,
                           const Group& group, const std::string& solid,
                           const std::string& touching) {

@@ -1,6 +1,7 @@
 // Parts that the commands of several figures are made of.
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -73,6 +74,13 @@ std::string label_command(const std::string& axis, const std::string& text);
 
 /// A text in the middle of the next panel, as of one that has nothing to show; none if it is "".
 std::string written_in_panel(const std::string& text);
+
+/// What the bins of profiles across packings are.
+enum class BinsAcross { slices_between_walls, rings, slices_without_walls };
+std::set<BinsAcross> bins_across(const std::vector<GroupWithCurves>& groups);
+
+/// "slices parallel to the walls or rings about the axis".
+std::string bins_text(const std::set<BinsAcross>& bins);
 
 /// Two panels of column k, one above the other, of what the group does from wall to wall: `solid`
 /// plots the solid fraction, `touching` the coordination number, `title` stands above.

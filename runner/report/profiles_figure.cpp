@@ -1,6 +1,7 @@
 // Solid fraction and coordination number from wall to wall.
 #include <algorithm>
 #include <numbers>
+#include <set>
 
 #include "runner/report/figures.hpp"
 #include "runner/report/html.hpp"
@@ -51,10 +52,27 @@ std::string cosine(const DecayFit& fit, double width) {
          cell(fit.phase.value) + "))";
 }
 
-std::string solid_panel(std::size_t k, const DecayFit& fit, double width) {
+/// Whether there are grains of two classes; else solid fractions of large grains are of all.
+bool has_classes(const std::vector<GroupWithCurves>& groups) {
+  return std::any_of(groups.begin(), groups.end(), [](const GroupWithCurves& group) {
+    const auto bins = mean_profile(*group, profile_across(*group));
+    return std::any_of(bins.begin(), bins.end(),
+                       [](const MeanBin& bin) { return bin.small.mean > 0.0; });
+  });
+}
+
+/// What the points are.
+std::string measured_phi(const std::vector<GroupWithCurves>& groups) {
+  return has_classes(groups) ? "φ of large grains" : "φ";
+}
+
+std::string solid_panel(std::size_t k, const DecayFit& fit, double width, bool with_all) {
   std::vector<std::string> parts = {
-      plot_part({bins_table, "panel", k + 1, "y", "solid_fraction", "", "lines ls 3 lw 0.8"}),
       plot_part({bins_table, "panel", k + 1, "y", "large", "large_error", "points ls 20"})};
+  if (with_all) {
+    parts.insert(parts.begin(), plot_part({bins_table, "panel", k + 1, "y", "solid_fraction", "",
+                                           "lines ls 3 lw 0.8"}));
+  }
   if (fit.not_determined.empty()) {
     parts.push_back(cosine(fit, width) + " with lines ls 2 lw 1.4 notitle");
   }
@@ -70,13 +88,16 @@ std::string coordination_panel(std::size_t k) {
 
 std::string commands_of(const Figure& figure, const std::vector<GroupWithCurves>& groups,
                         const std::vector<DecayFit>& fits) {
-  const Panels panels(figure, groups.size(), {0.55, 0.45},
-                      {{"points ls 20", "φ of large grains"},
-                       {"lines ls 2", "damped cosine"},
-                       {"lines ls 3", "φ of all grains"},
-                       {"lines ls 1", "Z, walls not counted"},
-                       {"lines ls 5", "Z, walls counted"}},
-                      {.right = 16.0, .above = 26.0});
+  const bool with_all = has_classes(groups);
+  std::vector<KeyEntry> key = {{"points ls 20", measured_phi(groups)}};
+  if (std::any_of(fits.begin(), fits.end(),
+                  [](const DecayFit& fit) { return fit.not_determined.empty(); })) {
+    key.push_back({"lines ls 2", "damped cosine"});
+  }
+  if (with_all) key.push_back({"lines ls 3", "φ of all grains"});
+  key.push_back({"lines ls 1", "Z, walls not counted"});
+  key.push_back({"lines ls 5", "Z, walls counted"});
+  const Panels panels(figure, groups.size(), {0.55, 0.45}, key, {.right = 16.0, .above = 26.0});
   std::string text = "set multiplot\n" + panels.key();
   const std::string solid = range_command(
       "y", range_of(values_in(groups, {&MeanBin::solid_fraction, &MeanBin::large}), 0.06));
@@ -86,10 +107,20 @@ std::string commands_of(const Figure& figure, const std::vector<GroupWithCurves>
   const auto titles = titles_of(groups, panels.title_length());
   for (std::size_t k = 0; k < groups.size(); ++k) {
     text += panels_across(panels, k, titles[k], *groups[k],
-                          solid + solid_panel(k, fits[k], groups[k]->job.box.width),
+                          solid + solid_panel(k, fits[k], groups[k]->job.box.width, with_all),
                           touching + coordination_panel(k));
   }
   return text;
+}
+
+/// What is fitted; nothing where there is no wall.
+std::string curve_text(const std::set<BinsAcross>& bins) {
+  const bool has_tubes = bins.contains(BinsAcross::rings);
+  const bool has_gaps = bins.contains(BinsAcross::slices_between_walls);
+  if (!has_tubes && !has_gaps) return "";
+  const std::string from = has_gaps ? "from both walls" : "", to = "up to the axis";
+  return " φ = bulk + A exp(-y / λ) cos(2π y / T + δ), y from the wall, is fitted " + from +
+         (has_gaps && has_tubes ? ", in tubes " : "") + (has_tubes ? to : "") + ".";
 }
 
 std::string decay_text(const DecayFit& fit, const GivenUnits& units) {
@@ -114,35 +145,24 @@ std::string decays_text(const std::vector<GroupWithCurves>& groups,
 }  // namespace
 
 Figure profiles_figure(const Axes& axes) {
-  Figure figure{.name = "profiles",
-                .title = "Layers beside the walls",
-                .caption =
-                    "Solid fraction and coordination number of slices parallel to the "
-                    "walls; bars at φ of large grains are standard errors. φ = bulk + "
-                    "A exp(-y / λ) cos(2π y / T + δ) is fitted from both walls."};
+  Figure figure{.name = "profiles", .title = "Layers beside the walls", .caption = ""};
   const std::vector<GroupWithCurves> groups = chosen_walled_groups(axes, most_profiles);
   if (groups.empty()) return undrawn(std::move(figure), "no packing has settled");
-  if (std::all_of(groups.begin(), groups.end(), [](const GroupWithCurves& group) {
-        return group->job.box.y == Boundary::periodic;
-      })) {
+  const std::set<BinsAcross> bins = bins_across(groups);
+  if (bins == std::set{BinsAcross::slices_without_walls}) {
     figure.title = "Slices across the box";
-    figure.caption =
-        "Solid fraction and coordination number of slices across y, where there is no wall; "
-        "bars at φ of large grains are standard errors.";
-  } else if (std::all_of(groups.begin(), groups.end(),
-                         [](const GroupWithCurves& group) { return group->job.box.is_tube; })) {
+  } else if (bins == std::set{BinsAcross::rings}) {
     figure.title = "Layers beside the wall";
-    figure.caption =
-        "Solid fraction and coordination number of rings about the axis; bars at φ of large grains "
-        "are standard errors. φ = bulk + A exp(-y / λ) cos(2π y / T + δ), y from the wall, is "
-        "fitted up to the axis.";
   }
   std::vector<DecayFit> fits;
   fits.reserve(groups.size());
   for (const GroupWithCurves& group : groups) fits.push_back(decay_of(*group, GrainClass::large));
   figure.height = 520;
-  figure.caption +=
-      decays_text(groups, fits, axes.units) + " The others are in the folder's profiles.csv.";
+  const std::string few = few_of_all_text(groups.size(), axes);
+  figure.caption = "Solid fraction and coordination number of " + bins_text(bins) + "; bars at " +
+                   measured_phi(groups) + " are standard errors." + curve_text(bins) +
+                   decays_text(groups, fits, axes.units) +
+                   (few.empty() ? "" : few + " The others are in the folder's profiles.csv.");
   figure.tables = {{bins_table, bins_csv(groups)}};
   figure.commands = commands_of(figure, groups, fits);
   return figure;

@@ -272,6 +272,62 @@ TEST_CASE("beside a decay length stands where a damped cosine does not describe 
                  Catch::Contains("d, but the damped cosine does not hold: its misfit is "));
 }
 
+TEST_CASE("the key of the layers has what is drawn", "[report]") {
+  const auto profiles_of = [](const std::vector<Row>& rows) {
+    return figure_called(figures_of(rows, analyse(rows), {}), "profiles");
+  };
+  std::vector<Row> rows = layered_rows(0.0);
+  const Figure fitted = profiles_of(rows);
+  CHECK_THAT(fitted.commands,
+             Catch::Contains("title 'damped cosine'") && Catch::Contains("title 'φ'") &&
+                 !Catch::Contains("title 'φ of large grains'") && !Catch::Contains("ls 3 lw 0.8"));
+  CHECK_THAT(fitted.caption, Catch::Contains("bars at φ are") && !Catch::Contains("The others"));
+  for (Row& row : rows) row.outcome->result.profile_y.bins[9].small = 0.1;
+  const Figure of_classes = profiles_of(rows);
+  CHECK_THAT(of_classes.commands, Catch::Contains("title 'φ of large grains'") &&
+                                      Catch::Contains("title 'φ of all grains'"));
+  CHECK_THAT(of_classes.caption, Catch::Contains("bars at φ of large grains are"));
+  rows.resize(1);
+  CHECK_THAT(profiles_of(rows).commands, !Catch::Contains("damped cosine"));
+  const std::vector<Row> many = random_rows();
+  CHECK_THAT(profiles_of(many).caption,
+             Catch::EndsWith(" 3 of 20 groups are shown. The others are in the folder's "
+                             "profiles.csv."));
+}
+
+TEST_CASE("captions and titles tell rings about the axis of a tube from slices", "[report]") {
+  const Row gap = mixture_row("a", 4);
+  Row tube = gap, open = gap;
+  tube.job.id = "b";
+  tube.job.box = tube_of(4);
+  open.job.id = "c";
+  open.job.box.y = Boundary::periodic;
+  for (Row* row : {&tube, &open}) row->job.parameters = R"({"of":")" + row->job.id + "\"}";
+  const auto title_and_caption = [](const std::vector<Row>& rows, const char* name) {
+    const std::vector<Figure> figures = figures_of(rows, analyse(rows), {});
+    const Figure& figure = figure_called(figures, name);
+    return figure.title + ": " + figure.caption;
+  };
+  CHECK_THAT(title_and_caption({gap}, "components"),
+             Catch::StartsWith("Components from wall to wall: ") &&
+                 Catch::Contains("in slices parallel to the walls."));
+  CHECK_THAT(title_and_caption({tube}, "components"),
+             Catch::StartsWith("Components from the wall to the axis: ") &&
+                 Catch::Contains("in rings about the axis."));
+  CHECK_THAT(title_and_caption({gap, tube, open}, "components"),
+             Catch::StartsWith("Components across the packing: ") &&
+                 Catch::Contains("in slices parallel to the walls or rings about the axis or "
+                                 "slices across y, where there is no wall."));
+  CHECK_THAT(title_and_caption({tube}, "profiles"),
+             Catch::StartsWith("Layers beside the wall: ") &&
+                 Catch::Contains("is fitted up to the axis."));
+  CHECK_THAT(title_and_caption({gap, tube}, "profiles"),
+             Catch::StartsWith("Layers beside the walls: ") &&
+                 Catch::Contains("is fitted from both walls, in tubes up to the axis."));
+  CHECK_THAT(title_and_caption({open}, "profiles"),
+             Catch::StartsWith("Slices across the box: ") && !Catch::Contains("is fitted"));
+}
+
 TEST_CASE("why families have no line is said once for all of them", "[report]") {
   std::vector<Row> rows;
   for (const double width : {4.0, 5.0}) {
