@@ -88,9 +88,12 @@ for sweep in "${sweeps[@]}"; do
   }
 done
 
-/usr/bin/python3 - "${sweeps[@]}" <<'PYTHON'
+/usr/bin/python3 - "$configs/../runner/README.md" "${sweeps[@]}" <<'PYTHON'
 import sys
 import pandas
+
+recipes = [line.strip() for line in open(sys.argv.pop(1)) if line.startswith("    ") and ".merge(" in line]
+assert len(recipes) == 2, recipes
 
 by_group = ["profiles", "decays", "distributions", "sizes", "components",
             "component_profiles", "fit_points"]
@@ -125,6 +128,11 @@ for sweep in sys.argv[1:]:
     walled = groups[groups["family"].isin(table["fits"]["family"])]
     for quantity, fits in table["fits"].groupby("quantity"):
         join(walled, fits, "family")
+    for recipe in recipes:
+        both, left = eval(recipe, table), table[recipe.split(".")[0]]
+        assert both[list(left)].equals(left), (folder, recipe)
+        means = both["group"].map(groups.set_index("group")["solid_fraction"])
+        assert both["solid_fraction_group"].equals(means.rename("solid_fraction_group")), recipe
     columns = pandas.read_csv(f"{folder}/columns.csv")
     for name, rows in columns.groupby("file"):
         if name == "comparison.csv":  # of sweeps with published values; page.sh has one
