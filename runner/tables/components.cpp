@@ -71,12 +71,16 @@ struct GroupComponentLine {
 Columns<GroupComponentLine> component_line_columns(const Varied& varied, const GivenUnits& units) {
   using Line = GroupComponentLine;
   Columns<Line> columns = columns_of_group<Line>(varied);
-  append(columns, Columns<Line>{{"component", "", "its number in shape.mixture, from 1",
-                                 [](const Line& line) { return cell(line.line.component); }},
-                                {"other", "", "the number of a component, its own among them",
-                                 [](const Line& line) { return cell(line.line.other); }},
-                                {"n", "", "packings that enter the means",
-                                 [](const Line& line) { return cell(line.line.grains.n); }}});
+  append(
+      columns,
+      Columns<Line>{{"component", "", "its number in shape.mixture, from 1",
+                     [](const Line& line) { return cell(line.line.component); }},
+                    {"other", "", "the number of a component, its own among them",
+                     [](const Line& line) { return cell(line.line.other); }},
+                    {"n", "",
+                     "packings that enter the means; a mean of what some of them lack, as "
+                     "kinds of contact where grains of the two do not touch, comes from the others",
+                     [](const Line& line) { return cell(line.line.grains.n); }}});
   const auto add = [&](const char* name, const char* meaning, Spread ComponentLine::*spread) {
     append_spread(columns, name, "", meaning, [=](const Line& line) { return line.line.*spread; });
   };

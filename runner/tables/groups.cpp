@@ -120,7 +120,9 @@ const JobFacts& job_of_group(const Group& group) { return group.job; }
 Columns<Group> group_count_columns() {
   using In = const Group&;
   return {
-      {"n", "", "settled packings, the only ones that enter means",
+      {"n", "",
+       "settled packings, the only ones that enter means; a mean of what some of these lack, as "
+       "segregation where a slab has no small grains, comes from the others",
        [](In group) { return cell(group.counts.settled); }},
       {"not_settled", "", "packings that did not settle",
        [](In group) { return cell(group.counts.not_settled); }},
