@@ -10,6 +10,7 @@
 
 #include "runner/sweep/parameters.hpp"
 #include "runner/sweep/text_lines.hpp"
+#include "runner/tables/component_names.hpp"
 #include "runner/tables/csv.hpp"
 #include "runner/text.hpp"
 
@@ -45,13 +46,20 @@ bool has_walls(const Series& series) {
                       [](const Group* group) { return is_periodic_along_y(*group); });
 }
 
-/// What a group does not share with all others, except `left_out`.
+/// What a group does not share with all others, except `left_out`: shares of components with the
+/// names of these, "sphere 0.3". Of two components each share tells the other.
 Values distinctions(const Group& group, const std::string& left_out) {
   Values values;
+  const std::vector<std::string> components = component_names(group.job);
+  const bool is_mixture_of_two = components.size() == 2 && component_of_share(left_out) > 0;
   for (const auto& [path, cell] : group.told) {
     if (path == left_out) continue;
     if (path == diameter_parameter && lies_by_diameter(group, left_out)) continue;
-    if (is_part_of_preset(group, path))
+    const std::size_t component = component_of_share(path);
+    if (component > 0 && is_mixture_of_two) continue;
+    if (component > 0 && component <= components.size())
+      values[path] = components[component - 1] + " " + cell;
+    else if (is_part_of_preset(group, path))
       values["accuracy"] = group.job.accuracy;
     else
       values[path] = unquoted(cell);
@@ -85,6 +93,8 @@ std::string words(const Values& values) {
     text += text.empty() ? "" : ", ";
     if (path == "box.y" || path == "box.x")
       text += path.substr(4) + " " + value;
+    else if (component_of_share(path) > 0)
+      text += value;
     else
       text += symbol_of(path, values) + " = " + value;
   };
@@ -211,13 +221,26 @@ void name_series(Axes& axes) {
   }
 }
 
+/// "share of sphere": of the component that all these groups have, or by its number; of another
+/// parameter its title.
+std::string share_title(const std::vector<Group>& groups, const std::string& parameter) {
+  const std::size_t component = component_of_share(parameter);
+  if (component == 0) return axis_title(parameter);
+  std::set<std::string> names;
+  for (const Group& group : groups) {
+    const std::vector<std::string> all = component_names(group.job);
+    if (component <= all.size()) names.insert(all[component - 1]);
+  }
+  return "share of " + (names.size() == 1 ? *names.begin() : "component " + cell(component));
+}
+
 }  // namespace
 
 Axes axes_of(const std::vector<Group>& groups) {
   Axes axes;
   if (groups.empty()) return axes;
   axes.parameter = axis_parameter(pointers_to(groups));
-  axes.title = axis_title(axes.parameter);
+  axes.title = share_title(groups, axes.parameter);
   if (std::all_of(groups.begin(), groups.end(), is_periodic_along_y) &&
       axes.parameter == width_parameter) {
     axes.title = "width of the box, W / d";

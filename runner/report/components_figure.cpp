@@ -4,6 +4,7 @@
 
 #include "runner/report/figures.hpp"
 #include "runner/report/plots.hpp"
+#include "runner/tables/component_names.hpp"
 #include "runner/tables/component_profiles.hpp"
 #include "runner/tables/components.hpp"
 
@@ -69,6 +70,18 @@ std::string component_style(std::size_t component) {
   return "lines ls " + cell(component + 1) + " lw 1.4 dt " + cell(component % dash_types + 1);
 }
 
+/// "sphere", or of several mixtures "sphere or cube".
+std::string component_title(const Mixtures& groups, std::size_t component) {
+  std::set<std::string> names;
+  for (const GroupWithCurves& group : groups) {
+    const std::vector<std::string> all = component_names(group->job);
+    if (component < all.size()) names.insert(all[component]);
+  }
+  std::string title;
+  for (const std::string& name : names) title += (title.empty() ? "" : " or ") + name;
+  return title;
+}
+
 std::string component_panel(std::size_t number, const Group& group, const std::string& column) {
   std::vector<std::string> parts;
   for (std::size_t k = 0; k < std::min(components_of(group), most_series); ++k) {
@@ -81,7 +94,7 @@ std::string component_panel(std::size_t number, const Group& group, const std::s
 std::string component_commands_of(const Figure& figure, const Mixtures& groups) {
   std::vector<KeyEntry> key;
   for (std::size_t k = 0; k < shown_components(groups); ++k) {
-    key.push_back({component_style(k), "component " + cell(k + 1)});
+    key.push_back({component_style(k), component_title(groups, k)});
   }
   const Panels panels(figure, groups.size(), {0.55, 0.45}, key, {.right = 16.0, .above = 26.0});
   const std::string solid = range_command(
@@ -115,8 +128,7 @@ Figure components_figure(const Axes& axes) {
       "Solid fraction of each component of a mixture, and how many grains of any "
       "component one of its own touches, in " +
       bins_text(bins) +
-      ". The components are numbered as in the sweep file; the errors and the order "
-      "of each component are in the folder's component_profiles.csv." +
+      ". The errors and the order of each component are in the folder's component_profiles.csv." +
       few_of_all_text(groups.size(), axes);
   figure.height = 520;
   figure.tables = {{components_table_name, component_bins_csv(groups)}};

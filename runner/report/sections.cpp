@@ -81,9 +81,10 @@ std::vector<std::string> group_cells(const Group& group, const GivenUnits& units
 }
 
 std::vector<std::string> component_cells(const Group& group, const ComponentLine& line) {
-  std::vector<std::string> cells = {html_text(title_of(group)), std::to_string(line.component),
-                                    std::to_string(line.other), mean_text(line.neighbours, 3),
-                                    mean_text(line.contacts, 3)};
+  std::vector<std::string> cells = {html_text(title_of(group)),
+                                    html_text(std::to_string(line.component) + " " + line.name),
+                                    html_text(std::to_string(line.other) + " " + line.other_name),
+                                    mean_text(line.neighbours, 3), mean_text(line.contacts, 3)};
   for (const Spread& kind : line.contact_kinds) cells.push_back(mean_text(kind, 3));
   cells.insert(cells.end(), {mean_text(line.solid_fraction, 4), mean_text(line.coordination, 3)});
   for (const Spread& order : line.nematic) cells.push_back(mean_text(order, 3));
@@ -247,7 +248,7 @@ std::string groups_section(const std::vector<Group>& groups, const GivenUnits& u
 std::string components_section(const std::vector<Group>& groups, const std::string& folder) {
   HtmlTable table{"components", "Components of mixtures, a row for each pair", {}, {}};
   table.headings = {{"parameters", "label and what differs within the sweep"},
-                    {"component", "its number in the mixture"},
+                    {"component", "its number in the mixture, and its shape"},
                     {"other", "the component whose grains it touches"},
                     {"neighbours", "grains of the other that one of the component touches"},
                     {"contacts", "share of the force-bearing contacts that join the two"},

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "runner/tables/component_names.hpp"
 #include "runner/tables/components.hpp"
 #include "runner/tables/profiles.hpp"
 
@@ -55,6 +56,7 @@ struct ComponentProfileLine {
   const Group& group;
   const char* axis = "";
   std::size_t component = 0, other = 0;  ///< from 1
+  std::string name, other_name;
   MeanComponentBin bin;
 };
 
@@ -62,24 +64,27 @@ Columns<ComponentProfileLine> component_profile_columns(const Varied& varied,
                                                         const GivenUnits& units) {
   using In = const ComponentProfileLine&;
   Columns<ComponentProfileLine> columns = columns_of_group<ComponentProfileLine>(varied);
-  append(columns,
-         Columns<ComponentProfileLine>{
-             {"axis", "", profile_axis_meaning, [](In line) { return cell(line.axis); }},
-             {"component", "", "its number in shape.mixture, from 1",
-              [](In line) { return cell(line.component); }},
-             {"other", "", "the number of a component, its own among them",
-              [](In line) { return cell(line.other); }},
-             {"low", "d", "where the bin begins", [](In line) { return cell(line.bin.low); }},
-             {"high", "d", "where it ends", [](In line) { return cell(line.bin.high); }},
-             {"from_axis", "d", "distance of its middle from the axis of a tube; empty elsewhere",
-              [](In line) {
-                return cell(from_axis(line.group, line.axis, line.bin.low, line.bin.high));
-              }},
-             {"n", "", "packings, those among them that end below the bin",
-              [](In line) { return cell(line.bin.solid_fraction.n); }},
-             {"coordination_n", "",
-              "those of them with grains of the component whose centre is in the bin",
-              [](In line) { return cell(line.bin.coordination.n); }}});
+  append(
+      columns,
+      Columns<ComponentProfileLine>{
+          {"axis", "", profile_axis_meaning, [](In line) { return cell(line.axis); }},
+          {"component", "", "its number in shape.mixture, from 1",
+           [](In line) { return cell(line.component); }},
+          {"component_shape", "", component_shape_meaning, [](In line) { return cell(line.name); }},
+          {"other", "", "the number of a component, its own among them",
+           [](In line) { return cell(line.other); }},
+          {"other_shape", "", other_shape_meaning, [](In line) { return cell(line.other_name); }},
+          {"low", "d", "where the bin begins", [](In line) { return cell(line.bin.low); }},
+          {"high", "d", "where it ends", [](In line) { return cell(line.bin.high); }},
+          {"from_axis", "d", "distance of its middle from the axis of a tube; empty elsewhere",
+           [](In line) {
+             return cell(from_axis(line.group, line.axis, line.bin.low, line.bin.high));
+           }},
+          {"n", "", "packings, those among them that end below the bin",
+           [](In line) { return cell(line.bin.solid_fraction.n); }},
+          {"coordination_n", "",
+           "those of them with grains of the component whose centre is in the bin",
+           [](In line) { return cell(line.bin.coordination.n); }}});
   const auto add = [&](const std::string& name, const std::string& meaning,
                        Spread MeanComponentBin::*spread) {
     append_spread(columns, name, "", meaning, [=](In line) { return line.bin.*spread; });
@@ -110,10 +115,12 @@ void append_component_bins(const Group& group, const char* axis,
                            ComponentProfile ComponentMeasure::*profile,
                            std::vector<ComponentProfileLine>& lines) {
   const std::size_t components = components_of(group);
+  std::vector<std::string> names = component_names(group.job);
+  names.resize(components);  // journals are not checked against the sweep
   for (std::size_t k = 0; k < components; ++k) {
     for (std::size_t other = 0; other < components; ++other) {
       for (const MeanComponentBin& bin : mean_component_profile(group, profile, k, other)) {
-        lines.push_back({group, axis, k + 1, other + 1, bin});
+        lines.push_back({group, axis, k + 1, other + 1, names[k], names[other], bin});
       }
     }
   }

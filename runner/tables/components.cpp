@@ -2,6 +2,8 @@
 
 #include <string>
 
+#include "runner/tables/component_names.hpp"
+
 namespace grainsweep {
 namespace {
 
@@ -75,8 +77,12 @@ Columns<GroupComponentLine> component_line_columns(const Varied& varied, const G
       columns,
       Columns<Line>{{"component", "", "its number in shape.mixture, from 1",
                      [](const Line& line) { return cell(line.line.component); }},
+                    {"component_shape", "", component_shape_meaning,
+                     [](const Line& line) { return cell(line.line.name); }},
                     {"other", "", "the number of a component, its own among them",
                      [](const Line& line) { return cell(line.line.other); }},
+                    {"other_shape", "", other_shape_meaning,
+                     [](const Line& line) { return cell(line.line.other_name); }},
                     {"n", "",
                      "packings that enter the means; a mean of what some of them lack, as "
                      "kinds of contact where grains of the two do not touch, comes from the others",
@@ -125,9 +131,13 @@ std::size_t components_of(const Group& group) {
 std::vector<ComponentLine> mean_components(const Group& group) {
   std::vector<ComponentLine> lines;
   const std::size_t components = components_of(group);
+  std::vector<std::string> names = component_names(group.job);
+  names.resize(components);  // journals are not checked against the sweep
   for (std::size_t k = 0; k < components; ++k) {
     for (std::size_t other = 0; other < components; ++other) {
-      lines.push_back(line_of(group, k, other));
+      ComponentLine& line = lines.emplace_back(line_of(group, k, other));
+      line.name = names[k];
+      line.other_name = names[other];
     }
   }
   return lines;

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include "runner/tables/groups.hpp"
@@ -13,6 +14,7 @@ namespace grainsweep {
 /// A component, and how one of its grains touches those of another, or of its own.
 struct ComponentLine {
   std::size_t component = 0, other = 0;  ///< from 1
+  std::string name, other_name;          ///< as component_names has them
   Spread grains, packed, slab_share, solid_fraction, coordination, coordination_with_walls;
   std::array<Spread, 3> nematic;
   Spread neighbours;

@@ -9,6 +9,7 @@
 #include "engine/clusters.hpp"
 #include "engine/dynamics/presets.hpp"
 #include "runner/sweep/identity.hpp"
+#include "runner/tables/component_names.hpp"
 
 namespace grainsweep {
 namespace {
@@ -90,23 +91,27 @@ Flat told_by(const Family& family) {
   return flat;
 }
 
-/// The last part of a path; for a component's share also its number: "2.share".
-std::string_view short_name(std::string_view path) {
+/// The last part of a path; of one in a mixture all that tells its components: the name of that
+/// whose share it is, or its number and what follows, "2.prism.sides".
+std::string short_name(const std::string& path, const std::vector<std::string>& components) {
   constexpr std::string_view mixture = "shape.mixture.";
+  const std::size_t component = component_of_share(path);
+  if (component > 0) return components.at(component - 1);
   return path.substr(path.starts_with(mixture) ? mixture.size() : path.rfind('.') + 1);
 }
 
-/// "small_share=0.25 size_ratio=0.5": the parameters among `paths`, by the last part of their path.
+/// "small_share=0.25 size_ratio=0.5": the parameters among `paths`, by their short names.
 /// Parts of accuracies that are the same as in the preset are left out.
 std::string distinction_of(const Family& family, const std::set<std::string>& paths) {
   std::string text;
   const bool tells_presets = std::count_if(paths.begin(), paths.end(), is_of_accuracy) > 1;
   const Flat own = told_by(family);
+  const std::vector<std::string> components = component_names(first_group(family).job);
   for (const auto& [path, value] : parameters_of(family)) {
     const bool is_implied = tells_presets && is_of_accuracy(path) && !own.contains(path);
     if (!paths.contains(path) || is_implied) continue;
     text.append(text.empty() ? "" : " ")
-        .append(short_name(path))
+        .append(short_name(path, components))
         .append("=")
         .append(unquoted(value));
   }

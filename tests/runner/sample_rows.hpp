@@ -119,12 +119,21 @@ inline Row polyhedra_row(const std::string& id, double width) {
   return row;
 }
 
+/// The parameters of a mixture of cubes and spheres.
+inline std::string sample_mixture(double width, double cubes = 0.75) {
+  return R"({"box":{"width":)" + std::to_string(width) +
+         R"(},"shape":{"mixture":{"1":{"cube":{"edge":1},"share":)" + std::to_string(cubes) +
+         R"(},"2":{"sphere":{},"share":)" + std::to_string(1.0 - cubes) +
+         R"(}},"mixture_by":"volume"}})";
+}
+
 /// The row of a packing of a mixture of two components with a profile along y, a bin of which holds
 /// grains of the first alone.
 inline Row mixture_row(const std::string& id, double width) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   Row row = polyhedra_row(id, width);
   row.job.shape = "mixture";
+  row.job.parameters = sample_mixture(width);
   auto& components = row.outcome->result.components;
   components = {{30, 10, 0.75, 0.75, 0.5, 6, 6.5, {4, 2}, {0.25, 0.25, 0.5}},
                 {40, 20, 0.25, 0.25, 0.125, 5, 5, {1, 4}, {0.5, 0.5, 0.75}}};

@@ -151,6 +151,22 @@ TEST_CASE("a parameter that most groups have goes along the axis, without those 
   CHECK(axes_of(many_shapes).parameter.empty());
 }
 
+TEST_CASE("of mixtures of two components the share of one goes along the axis, in one series",
+          "[report]") {
+  std::vector<Row> rows;
+  for (const double cubes : {0.25, 0.5, 0.75}) {
+    rows.push_back(mixture_row(std::to_string(cubes), 5));
+    rows.back().job.parameters = sample_mixture(5, cubes);
+  }
+  const std::vector<Group> groups = groups_of(rows);
+  const Axes axes = axes_of(groups);
+  CHECK(axes.parameter == "shape.mixture.1.share");
+  CHECK(axes.title == "share of cube");
+  REQUIRE(axes.series.size() == 1);
+  CHECK(place_on(axes, *axes.series[0].groups[2]) == 0.75);
+  CHECK(title_of(groups[0]) == "MSP, cube 0.25, sphere 0.75");
+}
+
 TEST_CASE("points of a random design are joined where some lack what others vary", "[report]") {
   std::vector<Row> rows;
   for (int k = 0; k < 12; ++k) {

@@ -302,7 +302,8 @@ TEST_CASE("captions and titles tell rings about the axis of a tube from slices",
   tube.job.box = tube_of(4);
   open.job.id = "c";
   open.job.box.y = Boundary::periodic;
-  for (Row* row : {&tube, &open}) row->job.parameters = R"({"of":")" + row->job.id + "\"}";
+  tube.job.parameters = sample_mixture(5);
+  open.job.parameters = sample_mixture(6);
   const auto title_and_caption = [](const std::vector<Row>& rows, const char* name) {
     const std::vector<Figure> figures = figures_of(rows, analyse(rows), {});
     const Figure& figure = figure_called(figures, name);
@@ -521,8 +522,8 @@ TEST_CASE("each component of a mixture has its curve from wall to wall", "[repor
   CHECK(cell_in(table, 3, "component") == "2");
   CHECK(cell_in(table, 4, "coordination").empty());
   CHECK_THAT(figure.commands,
-             Catch::Contains("NaN with lines ls 1 lw 1.4 dt 1 title 'component 1'") &&
-                 Catch::Contains("NaN with lines ls 2 lw 1.4 dt 2 title 'component 2'"));
+             Catch::Contains("NaN with lines ls 1 lw 1.4 dt 1 title 'cube'") &&
+                 Catch::Contains("NaN with lines ls 2 lw 1.4 dt 2 title 'sphere'"));
   const std::vector<Row> others = {polyhedra_row("b", 5)};
   for (const Figure& other : figures_of(others, analyse(others), {})) {
     CHECK(other.name != "components");

@@ -80,7 +80,8 @@ TEST_CASE("the page tells how the components of mixtures touch each other", "[re
   const std::vector<Group> groups = groups_of(rows);
   const std::string html = components_section(groups, "");
   CHECK(count_of(html, "<tr>") == 1 + 4);  // and the headings
-  CHECK_THAT(html, Catch::Contains("over an area") && Catch::Contains("<td>0.500"));
+  CHECK_THAT(html, Catch::Contains("over an area") && Catch::Contains("<td>0.500") &&
+                       Catch::Contains("<td>1 cube</td><td>2 sphere</td>"));
   const std::vector<Row> others = {polyhedra_row("b", 5)};
   CHECK(components_section(groups_of(others), "").empty());
 }

@@ -18,6 +18,7 @@ constexpr auto along_y = &ComponentMeasure::profile_y;
 Row row_of_mixture(const std::string& id, double solid_fraction, std::int64_t grains) {
   Row row = polyhedra_row(id, 1);
   row.job.shape = "mixture";
+  row.job.parameters = sample_mixture(1);
   const double none = no_number;
   auto& components = row.outcome->result.components;
   components.resize(2);
@@ -79,6 +80,8 @@ TEST_CASE("the table has a row for each bin of each pair of components") {
   REQUIRE(cells_of_table(text).size() == 9);
   CHECK(cell_in(text, 4, "component") == "1");
   CHECK(cell_in(text, 4, "other") == "2");
+  CHECK(cell_in(text, 4, "component_shape") == "cube");
+  CHECK(cell_in(text, 4, "other_shape") == "sphere");
   CHECK(cell_in(text, 4, "axis") == "y");
   CHECK(cell_in(text, 4, "low") == "0.5");
   CHECK(cell_in(text, 4, "from_axis") == "");

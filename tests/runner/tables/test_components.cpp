@@ -12,6 +12,7 @@ namespace {
 Row row_of_mixture(const std::string& id, double solid_fraction) {
   Row row = polyhedra_row(id, 5);
   row.job.shape = "mixture";
+  row.job.parameters = sample_mixture(5);
   row.outcome->result.components = {
       {30, 10, 0.75, 0.75, 0.5, 6, 6.5, {4, 2}, {0.25, 0.25, 0.5}},
       {40, 20, 0.25, 0.25, solid_fraction, 5, 5, {1, 4}, {0.5, 0.5, 0.75}}};
@@ -60,8 +61,9 @@ TEST_CASE("the table of components names what stands in it") {
   const std::vector<Group> groups = analyse(rows).groups;
   const std::string text = text_of(components_table(varied_of(groups)), groups);
   CHECK_THAT(text, Catch::StartsWith("group,family,job,label,width,boundary_y,small_share,"
-                                     "component,other,n,neighbours,neighbours_sd,"));
-  CHECK_THAT(text, Catch::Contains(",5,walls,0,2,1,1,1,"));  // 2 beside 1, of 1 packing, 1
+                                     "component,component_shape,other,other_shape,n,neighbours,"));
+  CHECK_THAT(text,
+             Catch::Contains(",5,walls,0,2,sphere,1,cube,1,1,"));  // 2 beside 1, of 1 packing, 1
 }
 
 TEST_CASE("grains of one shape have no components") {

@@ -88,6 +88,15 @@ TEST_CASE("a parameter that only some families have tells them apart") {
   CHECK(families[0].name == "MSP grains=100");
 }
 
+TEST_CASE("mixtures are told apart by the shares of their components, by the names of these") {
+  std::vector<Row> rows = {mixture_row("a", 5), mixture_row("b", 5)};
+  rows[1].job.parameters = sample_mixture(5, 0.5);
+  const auto families = families_of(groups_of(rows));
+  REQUIRE(families.size() == 2);
+  CHECK(families[0].name == "MSP cube=0.75 sphere=0.25");
+  CHECK(families[1].name == "MSP cube=0.5 sphere=0.5");
+}
+
 TEST_CASE("a periodic packing without a settled replicate is no reference") {
   Row row = row_with_status("a", 20, PackingStatus::not_settled, "moves");
   row.job.box.y = Boundary::periodic;
