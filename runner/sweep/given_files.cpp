@@ -57,6 +57,17 @@ std::uint64_t hash_of(PlacedGrains placed) {
          fnv1a(bytes_of(placed.components));
 }
 
+/// Whether these are diameters of a distribution that somebody chose: defaults are in d.
+bool is_length_of_sizes(const Assignment* assignment) {
+  if (assignment == nullptr) return false;
+  const Parameter& parameter = parameters()[assignment->parameter];
+  const bool is_of_formula =
+      parameter.role == Role::size_formula || parameter.role == Role::size_table;
+  const bool is_length = is_of_formula && parameter.meaning.ends_with(", d");
+  return parameter.role == Role::size_file ||
+         (is_length && assignment->value != default_of(parameter));
+}
+
 }  // namespace
 
 std::vector<GivenStart> GivenFiles::starts(const Block& block, const InEffect& in_effect,
@@ -217,8 +228,8 @@ void GivenFiles::place_sizes(const InEffect& in_effect, ResolvedSpec& resolved) 
     const SizesReading& reading = reading_of(resolved.size_file, *file, read_sizes, sizes_);
     if (!reading.errors.empty()) return distribution.reset();
     distribution->formula = reading.table;
-    if (size == nullptr) note_unit_of(*file);
   }
+  if (size == nullptr) note_unit_of(in_effect);
   if (!(resolved.size_unit > 0.0)) {
     said_.problem(*size, "must be positive");
     return distribution.reset();
@@ -231,12 +242,15 @@ void GivenFiles::note_hull(const Assignment& file, const VerticesReading& readin
   if (!reading.note.empty()) said_.remark(file.pointer, "hull", reading.note);
 }
 
-void GivenFiles::note_unit_of(const Assignment& file) {
+void GivenFiles::note_unit_of(const InEffect& in_effect) {
   const GivenUnits& units = definition_.units;
-  if (!units) return;
+  if (!units || units->d == 1.0 || has_noted_unit_) return;
+  const auto length = std::find_if(in_effect.begin(), in_effect.end(), is_length_of_sizes);
+  if (length == in_effect.end()) return;
+  has_noted_unit_ = true;
   const std::string d = bound_text(units->d);
-  said_.remark(file.pointer, "unit",
-               "its diameters count as d, which is " + d + " " + units->unit + "; if they are in " +
+  said_.remark((*length)->pointer, "unit",
+               "diameters count as d, which is " + d + " " + units->unit + "; if they are in " +
                    units->unit + ", set sizes.distribution.size to " + d);
 }
 

@@ -73,8 +73,8 @@ class GivenFiles {
   void place_sizes(const InEffect& in_effect, ResolvedSpec& resolved);
 
   void note_hull(const Assignment& file, const VerticesReading& reading);
-  /// Notes the unit: tables of sieves are in the unit that a laboratory uses.
-  void note_unit_of(const Assignment& file);
+  /// Notes once that diameters are in d: curves of sieves are in the unit that a laboratory uses.
+  void note_unit_of(const InEffect& in_effect);
   /// Notes a length of d that is not the one of the units.
   void note_other_d(const Assignment& size, double d);
   /// Notes a part, if it is set, of something that is not.
@@ -107,6 +107,7 @@ class GivenFiles {
   std::map<std::string, VerticesReading> hulls_;  // by file
   std::map<std::string, SizesReading> sizes_;     // by file
   std::uint64_t placed_ = 0, vertices_ = 0;
+  bool has_noted_unit_ = false;
   bool is_whole_;
 };
 

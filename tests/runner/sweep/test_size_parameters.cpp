@@ -150,7 +150,7 @@ TEST_CASE("what is wrong with a table from a file is told at its line, or at the
   CHECK(of_all[0].message == "table.shares must add up to 1, add up to 1.2");
 }
 
-TEST_CASE("a table of a laboratory beside units, without its unit, is worth a note") {
+TEST_CASE("sizes of a laboratory beside units, without their unit, are worth a note") {
   const ScratchFolder folder;
   folder.write("sieves.csv", "diameter,passing\n0.9,0\n2,0.2\n4,1\n");
   const auto notes = [&](const std::string& distribution, const std::string& units) {
@@ -165,10 +165,32 @@ TEST_CASE("a table of a laboratory beside units, without its unit, is worth a no
   REQUIRE(said.size() == 1);
   CHECK(said[0].pointer == "/base/sizes.distribution/table/file");
   CHECK(said[0].message ==
-        "its diameters count as d, which is 3.2 mm; if they are in mm, set "
+        "diameters count as d, which is 3.2 mm; if they are in mm, set "
         "sizes.distribution.size to 3.2");
   CHECK(notes(R"({"table": {"file": "sieves.csv"}, "size": 3.2})", units).empty());
   CHECK(notes(R"({"table": {"file": "sieves.csv"}})", "").empty());
+  CHECK(notes(R"({"table": {"file": "sieves.csv"}})", R"("units": {"d": 1, "unit": "mm"}, )")
+            .empty());
+  const Diagnostics of_list =
+      notes(R"({"table": {"diameters": [0.5, 4], "passing": [0, 1]}})", units);
+  REQUIRE(of_list.size() == 1);
+  CHECK(of_list[0].pointer == "/base/sizes.distribution/table/diameters");
+  CHECK(of_list[0].message == said[0].message);
+  CHECK(notes(R"({"lognormal": {"median": 1.2}})", units).size() == 1);
+  CHECK(notes(R"({"uniform": {"from": 0.5, "to": 2}})", units).size() == 1);
+  CHECK(notes(R"({"weibull": {"scale": 1, "shape": 5}})", units).empty());  // as by default
+  CHECK(notes(R"({"lognormal": {"sigma": 0.2}})", units).empty());
+}
+
+TEST_CASE("that diameters count as d is said once for all values of a list") {
+  const ScratchFolder folder;
+  const SweepReading reading =
+      read_sweep(folder.write("s.json",
+                              R"({"name": "t", "units": {"d": 2, "unit": "mm"}, "sweep": [{"grid": {
+          "sizes.distribution.lognormal.median": [0.9, 1.1, 1.2]}}]})"));
+  CHECK(reading.sweep.jobs.size() == 3);
+  REQUIRE(reading.notes.size() == 1);
+  CHECK(reading.notes[0].pointer == "/sweep/0/grid/sizes.distribution.lognormal.median/0");
 }
 
 }  // namespace
