@@ -85,17 +85,6 @@ void take_parts(const InEffect& in_effect, ResolvedSpec& resolved,
   }
 }
 
-std::string measured_kinds() {
-  return joined(
-      name_of(BedKind::spheres), "; in containers that are not narrow, of ",
-      name_of(BedKind::many_sizes),
-      " (two, one at least half as large as the other, distributions whose largest is at most 3 "
-      "times the smallest, and lognormal ones with a sigma of at most 0.5) and, in boxes, of ",
-      name_of(BedKind::pinacoids), "; in narrow ones, of ", name_of(BedKind::two_sizes),
-      " (walls and ducts of at least 2 d, tubes of 3) and of such pinacoids (walls of at least 2 "
-      "d, ducts of 2.5); all with a spread of at most 0.0333 and angles of 60 degrees");
-}
-
 }  // namespace
 
 bool leaves_the_bound(const Parameter& parameter) {
@@ -127,9 +116,10 @@ std::vector<AccuracyProblem> take_asked_accuracy(const InEffect& in_effect,
     resolved.spec.accuracy = measured.front().preset->accuracy;
   } else {
     problems.push_back({first.assignment,
-                        "cannot be promised of such beds, as no bound was measured but of " +
-                            measured_kinds() + "; write \"preset\" in its place, for example \"" +
-                            default_preset + "\""});
+                        joined(R"(write "preset": ")", default_preset,
+                               R"(" in its place: no bound was measured for such beds of shape ")",
+                               name_of(resolved.spec.shape),
+                               R"("; see "Accuracy that is asked for" in configs/README.md)")});
   }
   take_parts(in_effect, resolved, problems);
   return problems;

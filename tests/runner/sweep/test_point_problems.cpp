@@ -74,7 +74,7 @@ TEST_CASE("an accuracy that cannot be asked of one shape is told with that") {
   CHECK(errors_of(sweep_of(R"({"grid": {"shape": ["sphere", "cube"]}})",
                            R"({"accuracy.coordination": 0.5})"))
             .at(0)
-            .ends_with("for example \"balanced\" (with shape \"cube\")"));
+            .ends_with("in configs/README.md (with shape \"cube\")"));
 }
 
 }  // namespace grainsweep
