@@ -51,6 +51,10 @@ std::string path_that_ends_in(const std::string& key, const std::string& group) 
 /// Why there is no parameter for what people of the field look for at `path`; "" for other paths.
 /// "*.mu" stands for "mu" in any group.
 std::string absence_of(const std::string& path) {
+  if (path.starts_with("shape.mixture.")) {
+    return "components cannot be varied one by one; list whole mixtures: "
+           R"("grid": {"shape.mixture": [[...], [...]]})";
+  }
   using Reason = std::pair<const char*, std::vector<std::string_view>>;
   static const std::vector<Reason> reasons = {
       {"grains are frictionless", {"*.friction", "*.mu"}},
@@ -65,7 +69,7 @@ std::string absence_of(const std::string& path) {
        "large grains, times in sqrt(d/g)",
        {"*.unit", "*.units"}},
       {"the box is open at the top; fill.solid_height says how much is filled in",
-       {"height", "box.height", "fill.height"}},
+       {"height", "depth", "box.height", "box.depth", "box.z", "fill.height"}},
       {"a tube is open at the top; fill.solid_height says how much is filled in",
        {"tube.height", "tube.length"}},
       {"the box is open at the top", {"*.lid"}},
@@ -73,15 +77,18 @@ std::string absence_of(const std::string& path) {
       {"a tube has a diameter; d is the mean diameter of the large grains",
        {"radius", "box.radius", "tube.radius"}},
       {"write \"diameter\", twice the radius", {"shape.cylinder.radius", "shape.prism.radius"}},
+      {"write \"height\"", {"shape.cylinder.length", "shape.prism.length"}},
       {"the mean diameter of the large grains is d, the unit of length",
        {"mean", "diameter", "sizes.mean", "sizes.diameter"}},
       {"write \"median\"; the mean is exp(sigma^2 / 2) times it",
        {"sizes.distribution.lognormal.mean"}},
+      {"write \"sigma\", the standard deviation of the logarithm of the diameter",
+       {"sizes.distribution.lognormal.std"}},
       {"a regular solid has a height, which is its edge times what configs/README.md says",
        {"shape.tetrahedron.edge", "shape.octahedron.edge", "shape.dodecahedron.edge",
         "shape.icosahedron.edge"}},
       {"sizes of a class are Gaussian; sizes.spread is their deviation over the mean",
-       {"std", "sizes.std"}},
+       {"std", "sizes.std", "polydispersity", "sizes.polydispersity"}},
       {"write \"shape\": \"sphere\"; a sphere has no parts", {"shape.sphere"}},
       {"it stands beside \"base\", or in a block beside \"set\"", {"replicates"}},
       {"it stands in a block, beside \"set\"", {"label"}}};

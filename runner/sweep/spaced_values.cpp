@@ -1,9 +1,11 @@
 #include "runner/sweep/spaced_values.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
 #include "runner/sweep/parameters.hpp"
+#include "runner/sweep/suggest.hpp"
 #include "runner/sweep/values.hpp"
 
 namespace grainsweep {
@@ -22,18 +24,32 @@ std::optional<double> end_of(const Parameter& parameter, const Json& range, cons
   return std::nullopt;
 }
 
-bool has_members(const Json& range) {
-  return range.is_object() && range.size() == 3 && range.contains("from") && range.contains("to") &&
-         range.contains("count");
+/// What is wrong with the members of a range; "" if nothing is.
+std::string members_error(const Json& range) {
+  static const std::vector<std::string> known = {"from", "to", "count"};
+  if (!range.is_object()) return "is " + describe(range);
+  if (range.contains("step")) return R"(has a "step"; write "count", the number of values)";
+  const auto missing = std::find_if(known.begin(), known.end(), [&](const std::string& member) {
+    return !range.contains(member);
+  });
+  if (missing != known.end()) return "has no \"" + *missing + "\"";
+  for (const auto& [key, value] : range.items()) {
+    const bool is_known = std::find(known.begin(), known.end(), key) != known.end();
+    if (!is_known) return "has an unknown key \"" + shortened(key) + "\"";
+  }
+  return "";
 }
 
 }  // namespace
 
 Json spaced_values(const std::string& path, const Json& range, const std::string& pointer,
                    Diagnostics& diagnostics) {
-  if (!is_interval(path) || !has_members(range)) {
-    diagnostics.push_back({pointer, (is_interval(path) ? wanted : "must be a list of values") +
-                                        (", is " + describe(range))});
+  if (!is_interval(path)) {
+    diagnostics.push_back({pointer, "must be a list of values, is " + describe(range)});
+    return nullptr;
+  }
+  if (const std::string error = members_error(range); !error.empty()) {
+    diagnostics.push_back({pointer, wanted + ", " + error});
     return nullptr;
   }
   const Parameter& parameter = parameters()[*find_parameter(path)];

@@ -163,7 +163,13 @@ TEST_CASE("why there is no parameter of a name depends on where it is looked for
   CHECK(hint(R"({"sizes": {"distribution": {"lognormal": {"mean": 1}}}})") ==
         "write \"median\"; the mean is exp(sigma^2 / 2) times it");
   CHECK(hint(R"({"sizes": {"distribution": {"lognormal": {"std": 1}}}})") ==
-        "known here: median, sigma");
+        "write \"sigma\", the standard deviation of the logarithm of the diameter");
+  CHECK(hint(R"({"sizes": {"polydispersity": 0.1}})") ==
+        "sizes of a class are Gaussian; sizes.spread is their deviation over the mean");
+  const std::string is_open =
+      "the box is open at the top; fill.solid_height says how much is filled in";
+  CHECK(hint(R"({"box": {"z": 20}})") == is_open);
+  CHECK(hint(R"({"box.depth": 20})") == is_open);
   CHECK(hint(R"({"sizes": {"distribution": {"lognormal": {"by": 1}}}})") ==
         "did you mean \"sizes.distribution.by\"?");
   CHECK(hint(R"({"sizes": {"distribution": {"sigma": 1}}})") ==
@@ -174,6 +180,7 @@ TEST_CASE("why there is no parameter of a name depends on where it is looked for
   CHECK(hint(R"({"shape": {"cube": {"height": 1}}})") == "known here: edge");
   CHECK(hint(R"({"shape": {"cylinder": {"radius": 1}}})") ==
         "write \"diameter\", twice the radius");
+  CHECK(hint(R"({"shape": {"cylinder": {"length": 2}}})") == "write \"height\"");
   CHECK(hint(R"({"tube": {"radius": 1}})") ==
         "a tube has a diameter; d is the mean diameter of the large grains");
   CHECK(hint(R"({"box": {"friction": 1}})") == "grains are frictionless");
