@@ -218,21 +218,27 @@ std::string distinct(const std::vector<Row>& rows, Value value) {
 
 constexpr std::string_view own_units[] = {"\"distribution\":", "\"file\":", "\"files\":"};
 
-/// What d is: a length of the user's choice where sizes are a distribution or come from a file.
-/// Other packings of the sweep have diameters.
+/// What d is in a packing: a length of the user's choice where sizes are a distribution or come
+/// from a file.
+std::string unit_of(const JobFacts& job) {
+  const std::string& parameters = job.parameters.text();
+  const bool has_own_unit =
+      std::any_of(std::begin(own_units), std::end(own_units),
+                  [&](std::string_view key) { return parameters.find(key) != std::string::npos; });
+  if (has_own_unit) return "the length chosen as 1 for sizes";
+  if (job.shape == "hull") return "the length of a hull that is its \"size\"";
+  if (job.shape != "sphere") return "the unit in which shapes are written";
+  return job.small_share == 0.0 ? "the mean diameter of the grains"
+                                : "the mean diameter of the large grains";
+}
+
+/// What d is in the packings of a sweep, which may differ in it.
 std::string unit_meaning(const std::vector<Row>& rows) {
-  const auto has_own_unit = [](const Row& row) {
-    const std::string& parameters = row.job.parameters.text();
-    return std::any_of(std::begin(own_units), std::end(own_units), [&](std::string_view key) {
-      return parameters.find(key) != std::string::npos;
-    });
-  };
-  const auto with_own = std::count_if(rows.begin(), rows.end(), has_own_unit);
-  if (with_own == 0) return ", the mean diameter of the large grains";
-  if (static_cast<std::size_t>(with_own) == rows.size())
-    return ", the length chosen as 1 for sizes";
-  return ", the mean diameter of the large grains, or the length chosen as 1 for sizes of a "
-         "distribution or a start file";
+  std::set<std::string> meanings;
+  for (const Row& row : rows) meanings.insert(unit_of(row.job));
+  std::string text;
+  for (const std::string& meaning : meanings) text += (text.empty() ? ", " : ", or ") + meaning;
+  return text;
 }
 
 std::string definitions_text(const std::vector<Row>& rows) {

@@ -78,8 +78,7 @@ TEST_CASE("the closing report as a whole") {
       "      C_Z = 3.00 ± 0.15 d,  ζ = C_Z/Z_bulk = 0.492 ± 0.022 d  (χ²/dof 0.00, R² 1.000, 3 "
       "widths)\n"
       "\n"
-      "Lengths in d, the mean diameter of the large grains. φ: exact solid volume between 3 d "
-      "above\n"
+      "Lengths in d, the mean diameter of the grains. φ: exact solid volume between 3 d above\n"
       "the floor and 3 d below the surface. Z: neighbours per grain there with gap < 1e-04 d, "
       "walls not\n"
       "counted. ±: standard error; what single packings scatter by is in groups.csv.\n"
@@ -162,17 +161,26 @@ TEST_CASE("a report of a stopped run says how to go on") {
   CHECK_THAT(text, Catch::Contains("Next: ./run.sh run a.json --out out/a makes what is missing"));
 }
 
-TEST_CASE("where sizes are a distribution d is not called a diameter") {
+TEST_CASE("d is called what it is: a diameter, the unit of shapes or one chosen for sizes") {
   Row row = settled_row("a", 5, 0.6, 6);
   CHECK_THAT(report_of(reported_provenance(), {row}, "out"),
+             Catch::Contains("Lengths in d, the mean diameter of the grains."));
+  row.job.small_share = 0.25;
+  CHECK_THAT(report_of(reported_provenance(), {row}, "out"),
              Catch::Contains("Lengths in d, the mean diameter of the large grains."));
+  row.job.shape = "cube";
+  CHECK_THAT(report_of(reported_provenance(), {row}, "out"),
+             Catch::Contains("Lengths in d, the unit in which shapes are written."));
+  row.job.shape = "hull";
+  CHECK_THAT(report_of(reported_provenance(), {row}, "out"),
+             Catch::Contains("Lengths in d, the length of a hull that is its \"size\"."));
   row.job.parameters =
       R"({"box":{"width":5},"sizes":{"distribution":{"lognormal":{"sigma":0.1}}}})";
   CHECK_THAT(report_of(reported_provenance(), {row}, "out"),
              Catch::Contains("Lengths in d, the length chosen as 1 for sizes. φ"));
   CHECK_THAT(report_of(reported_provenance(), {row, settled_row("b", 6, 0.6, 6)}, "out"),
-             Catch::Contains("Lengths in d, the mean diameter of the large grains, or the length "
-                             "chosen as 1 for sizes of a distribution or a start file. φ"));
+             Catch::Contains("Lengths in d, the length chosen as 1 for sizes, or the mean diameter "
+                             "of the grains. φ"));
 }
 
 TEST_CASE("a report of too few widths says why there is no fit") {
