@@ -1,6 +1,7 @@
 #include "runner/commands/command_line.hpp"
 
 #include <algorithm>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,12 @@ std::string misspelling(const std::string& what, const std::string& word, const 
          (near.empty() ? "; known: " + comma_list(known) : "; did you mean " + near + "?");
 }
 
+/// For whoever gives two output folders to `compare`.
+constexpr const char* compared_with =
+    "\ncompare sets one run beside published values, --with FILE; to compare two runs, set the "
+    "rows "
+    "of\ntheir groups.csv beside each other";
+
 /// What is wrong with the command line, `words` after the program's name.
 std::string mistake(const CLI::App& app, const Words& words, const CLI::Error& error) {
   Words commands = {"help", "version"}, options;
@@ -48,8 +55,24 @@ std::string mistake(const CLI::App& app, const Words& words, const CLI::Error& e
     if (i == 0 && !word.starts_with("-")) found = misspelling("command", word, commands);
     if (i > 0 && word.starts_with("--")) found = misspelling("option", word, options);
   }
-  return found.empty() ? error.what() : found;
+  if (!found.empty()) return found;
+  const bool has_more = error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError);
+  const bool has_two_folders = has_more && words[0] == "compare";
+  return std::string(error.what()) + (has_two_folders ? compared_with : "");
 }
+
+/// Writes "--flag[=SHARE]" in the place of CLI11's "--flag{1} [=SHARE]".
+class HelpFormatter : public CLI::Formatter {
+ public:
+  std::string make_option_name(const CLI::Option* option, bool is_positional) const override {
+    const std::string name = CLI::Formatter::make_option_name(option, is_positional);
+    return name.substr(0, name.find('{'));
+  }
+  std::string make_option_opts(const CLI::Option* option) const override {
+    const std::string text = CLI::Formatter::make_option_opts(option);
+    return text.starts_with(" [") ? text.substr(1) : text;
+  }
+};
 
 /// "help", "help COMMAND" and "version" as the options that mean the same.
 Words with_options(const CLI::App& app, const Words& words) {
@@ -83,6 +106,7 @@ void describe(CLI::App& app, AllOptions& all) {
   app.set_version_flag("--version",
                        "grainsweep " + program_version() + " (" + source_commit() + ")");
   app.require_subcommand(1);
+  app.formatter(std::make_shared<HelpFormatter>());
   app.get_formatter()->column_width(24);
   app.footer(std::string("Example: grainsweep run configs/quick.json --out out/quick\n"
                          "Help on a command: grainsweep run --help\n\n") +

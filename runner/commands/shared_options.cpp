@@ -16,7 +16,8 @@ void add_threads(CLI::App& command, int& threads) {
 
 void add_tolerance(CLI::App& command, double& share, const std::string& meaning) {
   command.add_flag("--tolerate-unsettled{1}", meaning)
-      ->check(number_within(0.0, 1.0))
+      ->check(number_within(0.0, 1.0).description(""))  // the text says what it may be
+      ->option_text("[=SHARE]")
       ->each([&share](const std::string& word) { share = std::strtod(word.c_str(), nullptr); });
 }
 

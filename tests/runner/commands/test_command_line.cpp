@@ -196,6 +196,18 @@ TEST_CASE("help of every command fits 100 columns and has an example as the prog
   }
 }
 
+TEST_CASE("an option whose value may be left out is so written in the help") {
+  for (const char* command : {"run", "slurm"}) {
+    CHECK_THAT(read({command, "--help"}).out, Catch::Contains("  --tolerate-unsettled[=SHARE]\n"));
+  }
+}
+
+TEST_CASE("whoever compares two runs is told what compare does, and how they are compared") {
+  CHECK_THAT(read({"compare", "a", "b"}).error,
+             Catch::Contains("published values") && Catch::Contains("groups.csv"));
+  CHECK_THAT(read({"report", "a", "b"}).error, !Catch::Contains("groups.csv"));
+}
+
 TEST_CASE("the version is printed") {
   const Reading reading = read({"--version"});
   CHECK(reading.line.exit_code == 0);
