@@ -10,6 +10,9 @@
 #include "runner/commands/shared_options.hpp"
 #include "runner/exit_codes.hpp"
 #include "runner/jobs/growing_groups.hpp"
+#include "runner/jobs/schedule.hpp"
+#include "runner/machine.hpp"
+#include "runner/sweep/costs.hpp"
 #include "runner/tables/chosen_presets.hpp"
 #include "runner/tables/units.hpp"
 #include "runner/text.hpp"
@@ -47,6 +50,7 @@ int perform(const ValidateOptions& options) {
             << counted(parameter_sets(sweep.jobs).size(), "parameter set")
             << (sweep.units ? ", " + units_text(*sweep.units) + widths_text(sweep) : "") << "\n"
             << chosen_presets_text(sweep);
+  std::cerr << memory_warning(costs_of(sweep.jobs), memory_for_packings());
   return exit_done;
 }
 

@@ -88,6 +88,17 @@ for reference in "$configs"/*.reference.json; do
   expect_code 0 "$program" compare out/small --with "$reference"
   expect_text out.txt "beside small. Lengths in d."
 done
+
+# A bed of 110 GB: validate warns where plan does.
+cat >large.json <<'JSON'
+{ "name": "large", "replicates": 1,
+  "base": { "shape": { "prism": { "sides": 200 } }, "fill": { "grains": 10000000 }, "box": { "length": 300, "width": 300 } } }
+JSON
+expect_code 0 "$program" plan large.json
+sed 's/, and .* can be had here//' error.txt >planned.txt
+expect_code 0 "$program" validate large.json
+sed 's/, and .* can be had here//' error.txt | cmp - planned.txt || fail "validate says of memory $(cat error.txt)"
+
 expect_code 0 "$program" status out/small
 expect_text out.txt "10 of 10 packings done" "No runner at work"
 expect_code 0 "$program" plan small.json --out out/small --shards 3
