@@ -95,12 +95,14 @@ std::string member_text(const std::string& name, const Json& value) {
 
 }  // namespace
 
+std::string fault_for_certificate(const StoredBed& bed) {
+  return bed.turned ? "only forces of spheres can be unique" : "";
+}
+
 std::string certificate_json(const ExportedBed& exported) {
   const StoredBed& stored = exported.bed;
-  if (stored.turned) {
-    throw BadInput("--format certificate: packing " + stored.job +
-                   " is of polyhedra; only forces of spheres can be unique");
-  }
+  const std::string fault = fault_for_certificate(stored);
+  if (!fault.empty()) throw BadInput("packing " + stored.job + ": " + fault);
   const std::vector<Contact> all = contacts_of(exported);
   std::vector<Contact> pushing = all;
   std::erase_if(pushing, [](const Contact& c) { return c.force == 0.0; });

@@ -30,4 +30,7 @@ namespace grainsweep {
 /// runner/python/check_certificate.py checks it without the program. Throws BadInput for polyhedra.
 std::string certificate_json(const ExportedBed& exported);
 
+/// Why a bed has no certificate; "" if it has one.
+std::string fault_for_certificate(const StoredBed& bed);
+
 }  // namespace grainsweep

@@ -22,7 +22,7 @@ const std::vector<ExportFormat>& export_formats() {
       {"stl", ".stl", surfaces_stl},
       {"obj", ".obj", surfaces_obj},
       {"voxels", ".nrrd", voxels_nrrd},
-      {"certificate", ".certificate.json", certificate_json}};
+      {"certificate", ".certificate.json", certificate_json, fault_for_certificate}};
   return formats;
 }
 

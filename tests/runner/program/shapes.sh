@@ -57,7 +57,13 @@ grains=$(($(wc -l <"$pinacoid.csv") - 1))
 grep -q "NumberOfPoints=\"$((8 * grains))\".*NumberOfPolys=\"$((8 * grains))\"" "$pinacoid.vtp" ||
   fail "not eight vertices and faces a pinacoid"
 cp "$pinacoid.vtp" "$here/pinacoid.vtp"
+job=$(sed -n "s/^$pinacoid\.csv,\([^,]*\),.*/\1/p" index.csv)
 cd "$here"
+
+# A format that no bed fits is refused before anything is written.
+expect_code 2 "$program" export out/shapes --format certificate --job "$job" --to refused
+expect_text error.txt "--format certificate: packing $job, shape pinacoid: only forces of spheres can be unique"
+[ ! -e refused ] || fail "a folder was made for nothing"
 
 # What was exported is packed again, and rests about where it did.
 cat >again.json <<JSON
