@@ -186,20 +186,22 @@ double distance_to_line(const Flat& p, const Flat& from, const Flat& to) {
 }
 
 /// How near corners of the neck come to edges of the end, and corners of the end to the neck's
-/// sides.
-double clearance_at(const End& end, const Neck& neck) {
+/// sides; if not beyond `wanted`, any distance that shows it.
+double clearance_at(const End& end, const Neck& neck, double wanted) {
   const Vector up = neck.normal.cross(neck.across);
   const auto flat = [&](const Vector& v) { return Flat(v.dot(neck.across), v.dot(up)); };
   std::vector<Flat> rim;
   rim.reserve(neck_sides);
   for (int k = 0; k < neck_sides; ++k) rim.push_back(flat(neck_corner(neck, k, 0.0)));
+  const Flat middle = flat(neck.middle);
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t f = 0; f < end.spaces.size(); ++f) {
     if (end.spaces[f].normal.dot(end.outward) <= 0.0) continue;
     const auto& face = end.surface.faces[f];
-    for (std::size_t j = 0; j < face.size(); ++j) {
+    for (std::size_t j = 0; j < face.size() && least > wanted; ++j) {
       const Flat from = flat(corner(end.surface, face[j]) + end.centre);
       const Flat to = flat(corner(end.surface, face[(j + 1) % face.size()]) + end.centre);
+      if (distance_to_line(middle, from, to) - neck.radius >= least) continue;  // too far away
       for (std::size_t k = 0; k < rim.size(); ++k) {
         least = std::min({least, distance_to_line(rim[k], from, to),
                           distance_to_line(from, rim[k], rim[(k + 1) % rim.size()])});
@@ -224,7 +226,8 @@ void turn_clear(const Polyhedra& bed, Neck& neck) {
         std::cos(angle) * neck.across + std::sin(angle) * neck.normal.cross(neck.across);
     turned.radius *= 1.0 - 0.02 * size;
     const auto [a, b] = ends_of(turned, bed);
-    const double clearance = std::min(clearance_at(a, turned), clearance_at(b, turned));
+    const double clearance =
+        std::min(clearance_at(a, turned, largest), clearance_at(b, turned, largest));
     if (clearance <= largest) continue;
     largest = clearance;
     best = turned;
