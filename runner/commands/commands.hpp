@@ -97,7 +97,7 @@ struct ExportOptions {
   std::vector<std::string> jobs;   ///< ids; empty: all that are stored
   std::string to;                  ///< folder for the files; empty: <folder>/export
   std::string contacts = "touch";  ///< for surfaces: touch, shrink:SHARE, cap:SHARE or bridge:SHARE
-  bool in_units = false;           ///< for surfaces: lengths in the unit of the sweep
+  bool in_units = false;           ///< for grains, surfaces and voxels: lengths in the sweep's unit
   bool periodic_images = false;    ///< for surfaces: images of grains that cross a periodic side
   double voxels = 20.0;            ///< per d
 };

@@ -126,7 +126,9 @@ void refuse_what_does_not_apply(const ExportOptions& options) {
   const bool has_surfaces = options.format == "stl" || options.format == "obj";
   expect(options.contacts != usual.contacts, "--contacts", has_surfaces, "stl and obj");
   expect(options.periodic_images, "--periodic-images", has_surfaces, "stl and obj");
-  expect(options.in_units, "--in-units", has_surfaces, "stl and obj");
+  const std::set<std::string> with_units = {"csv", "xyz", "vtp", "stl", "obj", "voxels"};
+  expect(options.in_units, "--in-units", with_units.contains(options.format),
+         "csv, xyz, vtp, stl, obj and voxels");
   expect(options.voxels != usual.voxels, "--voxels", options.format == "voxels", "voxels");
 }
 
@@ -190,7 +192,8 @@ void add_command(CLI::App& app, ExportOptions& options) {
   grains.add_flag("--periodic-images", options.periodic_images,
                   "of stl and obj: also what comes in through periodic sides");
   grains.add_flag("--in-units", options.in_units,
-                  "of stl and obj: lengths in the unit of the sweep, not in d");
+                  "of csv, xyz, vtp, stl, obj and voxels: lengths in the unit of\n"
+                  "the sweep, not in d");
   grains.add_option("--voxels", options.voxels, "of voxels: so many a d")
       ->check(number_within(1.0, 1000.0))
       ->capture_default_str()

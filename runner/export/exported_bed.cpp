@@ -18,6 +18,16 @@ double top_of(const StoredBed& bed, std::size_t grain) {
 
 }  // namespace
 
+ExportedBed scaled(ExportedBed exported) {
+  const double d = exported.settings.lengths.d;
+  Box& box = exported.bed.box;
+  for (double* length : {&box.length, &box.width, &exported.small_limit}) *length *= d;
+  for (SettledGrain& grain : exported.bed.grains) {
+    for (double* length : {&grain.x, &grain.y, &grain.z, &grain.radius}) *length *= d;
+  }
+  return exported;
+}
+
 int size_class(const ExportedBed& exported, std::size_t grain) {
   return exported.bed.grains[grain].radius < exported.small_limit ? 2 : 1;
 }

@@ -34,7 +34,7 @@ struct ExportSettings {
   ContactTreatment treatment;      ///< for surfaces
   bool periodic_images = false;    ///< for surfaces: of grains that cross a periodic side
   double voxels = 20.0;            ///< per d
-  Units lengths = {1.0, "d", {}};  ///< of surfaces
+  Units lengths = {1.0, "d", {}};  ///< of files of grains, surfaces and voxels
 };
 
 struct ExportedBed {
@@ -44,6 +44,9 @@ struct ExportedBed {
   double gap_tolerance = 1e-4;  ///< grains with a smaller gap touch, d: the widest of the packing
   ExportSettings settings = {};
 };
+
+/// The bed with its lengths, of box, places and radii, in those of the settings.
+ExportedBed scaled(ExportedBed exported);
 
 /// What files call a grain: its number from 1.
 inline std::size_t id_of(std::size_t grain) { return grain + 1; }

@@ -116,7 +116,8 @@ std::string polygons_vtp(ExportedBed exported) {
 
 }  // namespace
 
-std::string grains_csv(const ExportedBed& exported) {
+std::string grains_csv(const ExportedBed& in_d) {
+  const ExportedBed exported = scaled(in_d);
   const StoredBed& bed = exported.bed;
   const std::string turned = bed.turned ? ",qx,qy,qz,qw" : "";
   const std::string component = has_components(bed) ? ",component" : "";
@@ -130,7 +131,8 @@ std::string grains_csv(const ExportedBed& exported) {
          });
 }
 
-std::string grains_xyz(const ExportedBed& exported) {
+std::string grains_xyz(const ExportedBed& in_d) {
+  const ExportedBed exported = scaled(in_d);
   const StoredBed& bed = exported.bed;
   const auto flag = [](Boundary boundary) { return boundary == Boundary::periodic ? "T" : "F"; };
   const std::string turned = bed.turned ? ":orientation:R:4" : "";
@@ -151,7 +153,7 @@ std::string grains_xyz(const ExportedBed& exported) {
 }
 
 std::string grains_vtp(const ExportedBed& exported) {
-  return exported.bed.turned ? polygons_vtp(exported) : spheres_vtp(exported);
+  return exported.bed.turned ? polygons_vtp(scaled(exported)) : spheres_vtp(scaled(exported));
 }
 
 }  // namespace grainsweep

@@ -167,12 +167,14 @@ std::string voxels_nrrd(const ExportedBed& exported) {
                                      : static_cast<std::size_t>(size_class(exported, k)));
     fill(bed, grid, k, inside_of(bed, faces, k), value, voxels);
   }
-  return "NRRD0004\n# lengths in d; 0 void, " +
+  const Units& lengths = exported.settings.lengths;
+  return "NRRD0004\n# lengths in " + lengths.unit + "; 0 void, " +
          std::string(is_mixture ? "else the component" : "1 large grains, 2 small ones") +
          (bed.box.is_tube ? "; 255 outside the tube" : "") +
          "\ntype: uint8\ndimension: 3\nsizes: " + cell(nx) + " " + cell(ny) + " " + cell(nz) +
-         "\nspacings: " + cell(dx) + " " + cell(dy) + " " + cell(dz) +
-         "\naxis mins: 0 0 0\ncenters: cell cell cell\nencoding: raw\n\n" + voxels;
+         "\nspacings: " + cell(lengths.d * dx) + " " + cell(lengths.d * dy) + " " +
+         cell(lengths.d * dz) + "\naxis mins: 0 0 0\ncenters: cell cell cell\nencoding: raw\n\n" +
+         voxels;
 }
 
 }  // namespace grainsweep

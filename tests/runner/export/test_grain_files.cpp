@@ -50,6 +50,24 @@ TEST_CASE("CSV holds a row per grain that reads back exactly") {
         "2,small,19.25,5,1.5,0.25,1e-300,0\n");
 }
 
+TEST_CASE("lengths of grains are in the unit that is asked for, and forces stay") {
+  ExportedBed exported = exported_bed();
+  exported.settings.lengths = {2.0, "mm", {}};
+  CHECK(grains_csv(exported) ==
+        "id,size_class,x,y,z,radius,force,coordination\n"
+        "1,large,0.2,0.6666666666666666,1,1,2.75,6\n"
+        "2,small,38.5,10,3,0.5,1e-300,0\n");
+  CHECK_THAT(grains_xyz(exported), Catch::Contains("Lattice=\"40 0 0 0 11 0 0 0 3.5\"") &&
+                                       Catch::Contains("\nX 38.5 10 3 2 2 0.5 0 1e-300\n"));
+  CHECK(array_of(grains_vtp(exported), "radius") == std::vector<double>{1.0, 0.5});
+  ExportedBed turned = exported_turned_bed();
+  const std::vector<double> in_d = array_of(grains_vtp(turned), "Points");
+  turned.settings.lengths = exported.settings.lengths;
+  const std::vector<double> in_mm = array_of(grains_vtp(turned), "Points");
+  REQUIRE(in_mm.size() == in_d.size());
+  for (std::size_t k = 0; k < in_d.size(); ++k) CHECK(in_mm[k] == 2.0 * in_d[k]);
+}
+
 TEST_CASE("extended XYZ holds count, box, periodic axes and a line per grain") {
   CHECK(grains_xyz(exported_bed()) ==
         "2\n"

@@ -31,6 +31,9 @@ TEST_CASE("voxels fill the box, and the header says how they lie") {
         "dimension: 3\nsizes: 12 8 4\nspacings: 0.3333333333333333 0.3125 0.3333333333333333\n"
         "axis mins: 0 0 0\ncenters: cell cell cell\nencoding: raw");
   CHECK(bytes_of(voxels_nrrd(exported)) == std::string(12 * 8 * 4, '\0'));
+  exported.settings.lengths = {3.0, "mm", {}};
+  CHECK_THAT(voxels_nrrd(exported), Catch::Contains("# lengths in mm;") &&
+                                        Catch::Contains("sizes: 12 8 4\nspacings: 1 0.9375 1\n"));
 }
 
 TEST_CASE(

@@ -178,8 +178,9 @@ cmp out.txt report.txt || fail "report prints other units than run"
 expect_code 0 "$program" export out/small --format obj --in-units --job "$job" --to in_mm
 expect_text out.txt "Lengths in them are in mm"
 grep -q "lengths in mm" in_mm/*.obj || fail "surfaces are not in mm"
-expect_code 2 "$program" export out/small --in-units
-expect_text error.txt "--in-units is of --format stl and obj, not of csv"
+expect_code 2 "$program" export out/small --format contacts --in-units
+expect_text error.txt "--in-units is of --format csv, xyz, vtp, stl, obj and voxels, not of contacts"
+expect_code 0 "$program" export out/small --in-units --job "$job" --to in_mm
 expect_code 0 "$program" export out/small --job "$job" --to one
 expect_text out.txt "Lengths in them are in d, which is 3.2 mm"
 
