@@ -100,6 +100,7 @@ struct ExportOptions {
   bool in_units = false;           ///< for grains, surfaces and voxels: lengths in the sweep's unit
   bool periodic_images = false;    ///< for surfaces: images of grains that cross a periodic side
   double voxels = 20.0;            ///< per d
+  bool quiet = false;              ///< print no progress
 };
 /// Writes the grains of stored packings, a file each.
 int perform(const ExportOptions& options);

@@ -1,11 +1,13 @@
 // The command `export`: the beds of stored packings, a file each.
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <iostream>
 #include <map>
-#include <optional>
 #include <set>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 #include <CLI/App.hpp>
 #include <nlohmann/json.hpp>
@@ -16,6 +18,7 @@
 #include "runner/exit_codes.hpp"
 #include "runner/export/file_names.hpp"
 #include "runner/export/formats.hpp"
+#include "runner/jobs/progress.hpp"
 #include "runner/report/bed_view.hpp"
 #include "runner/store/files.hpp"
 #include "runner/tables/units.hpp"
@@ -152,20 +155,60 @@ ExportSettings settings_of(const ExportOptions& options, const GivenUnits& units
   return settings;
 }
 
-/// The bed of a packing; nothing, and a warning, if it cannot be read.
-std::optional<StoredBed> bed_or_warning(const std::string& folder, const Outcome& outcome) {
-  try {
-    return read_bed(folder, outcome);
-  } catch (const FileError& error) {
-    std::cerr << damage_warnings({error.what()});
-    return std::nullopt;
-  }
-}
-
 ExportedBed exported(StoredBed&& bed, const JobFacts& job, const ExportSettings& settings) {
   const auto& tolerances = job.measure.gap_tolerances;
   return {std::move(bed), small_class_limit(job),
           *std::max_element(tolerances.begin(), tolerances.end()), settings};
+}
+
+/// How and where to beds are written.
+struct Writing {
+  const ExportFormat* format = nullptr;  ///< null: a page
+  ExportSettings settings;
+  GivenUnits units;
+  std::string from, to;  ///< folders
+};
+
+/// What became of them.
+struct Written {
+  std::map<std::string, std::string> jobs;  ///< by their files
+  std::size_t unsettled = 0, without_grains = 0;
+  std::vector<std::string> damage, refused;  ///< why beds are left out
+};
+
+std::string text_of(const Writing& writing, StoredBed&& bed, const Row& row) {
+  return writing.format != nullptr
+             ? writing.format->text(exported(std::move(bed), row.job, writing.settings))
+             : page_of(bed, row, writing.units);
+}
+
+/// Writes the bed of a packing, if it has one that fits; returns what came of it, for a line.
+std::string write_bed(const Writing& writing, const Row& row, const std::string& file,
+                      Written& written) {
+  StoredBed bed;
+  try {
+    bed = read_bed(writing.from, *row.outcome);
+  } catch (const FileError& error) {
+    return "left out: " + written.damage.emplace_back(error.what());
+  }
+  if (bed.grains.empty()) {
+    ++written.without_grains;
+    return "left out: stored without grains";
+  }
+  try {
+    const std::size_t grains = bed.grains.size();
+    const std::string text = text_of(writing, std::move(bed), row);
+    replace_file(writing.to + "/" + file, text);
+    written.jobs[file] = row.job.id;
+    written.unsettled += is_settled(row) ? 0 : 1;
+    return counted(grains, "grain") + ", " + fixed(static_cast<double>(text.size()) / 1e6, 1) +
+           " MB";
+  } catch (const BadInput& error) {  // this bed cannot have the format; others may
+    return "left out: " + written.refused.emplace_back(error.what());
+  } catch (const std::logic_error& error) {  // a surface that could not be cut or joined
+    return "left out: " +
+           written.refused.emplace_back("packing " + row.job.id + ": " + error.what());
+  }
 }
 
 }  // namespace
@@ -198,6 +241,7 @@ void add_command(CLI::App& app, ExportOptions& options) {
       ->check(number_within(1.0, 1000.0))
       ->capture_default_str()
       ->type_name("N");
+  grains.add_flag("--quiet", options.quiet, "show no progress");
   grains.add_option("--to", options.to, "folder for the files (default: DIR/export)")
       ->check(not_empty())
       ->type_name("DIR");
@@ -229,57 +273,47 @@ int perform(const ExportOptions& options) {
   for (const std::size_t k : chosen) taken[stems[k] + ending] = rows[k].job.id;
   const auto index = index_without(to, taken);
   if (index) replace_file(to + "/index.csv", *index);
-  std::map<std::string, std::string> written;  // job, by file
-  std::size_t unsettled = 0, damaged = 0, without_grains = 0;
-  std::vector<std::string> refused;
-  for (const std::size_t k : chosen) {
-    std::optional<StoredBed> bed = bed_or_warning(options.folder, *rows[k].outcome);
-    damaged += bed ? 0 : 1;
-    if (!bed) continue;
-    without_grains += bed->grains.empty() ? 1 : 0;
-    if (bed->grains.empty()) continue;
-    std::string text;
-    try {
-      text = format != nullptr ? format->text(exported(std::move(*bed), rows[k].job, settings))
-                               : page_of(*bed, rows[k], results.provenance.units);
-    } catch (const BadInput& error) {  // this bed cannot have the format; others may
-      refused.emplace_back(error.what());
-      continue;
-    } catch (const std::logic_error& error) {  // a surface that could not be cut or joined
-      refused.push_back("packing " + rows[k].job.id + ": " + error.what());
-      continue;
-    }
-    replace_file(to + "/" + stems[k] + ending, text);
-    written[stems[k] + ending] = rows[k].job.id;
-    unsettled += is_settled(rows[k]) ? 0 : 1;
+  const Writing writing{format, settings, results.provenance.units, options.folder, to};
+  Written written;
+  ProgressDisplay display(std::vector<double>(chosen.size(), 1.0),
+                          options.quiet ? ProgressStyle::quiet : progress_style(), stderr);
+  for (std::size_t i = 0; i < chosen.size(); ++i) {
+    const std::string file = stems[chosen[i]] + ending;
+    display.start();
+    display.finish(i, true, file + "  " + write_bed(writing, rows[chosen[i]], file, written));
   }
-  if (written.empty() && damaged > 0) return exit_file_system;
-  if (written.empty() && !refused.empty()) throw BadInput(refused.front());
-  if (written.empty()) throw BadInput(options.folder + ": its packings were stored without grains");
-  replace_file(to + "/index.csv", index_csv(to, rows, endings(), written));
+  display.clear();
+  std::cerr << damage_warnings(written.damage);
+  if (written.jobs.empty() && !written.damage.empty()) return exit_file_system;
+  if (written.jobs.empty() && !written.refused.empty()) throw BadInput(written.refused.front());
+  if (written.jobs.empty())
+    throw BadInput(options.folder + ": its packings were stored without grains");
+  replace_file(to + "/index.csv", index_csv(to, rows, endings(), written.jobs));
   if (index) {
     std::cerr << "note: files of an earlier export were replaced by those of other packings, whose "
                  "groups have their numbers now: see index.csv\n";
   }
-  std::cout << counted(written.size(), "packing") << " written to " << to
+  std::cout << counted(written.jobs.size(), "packing") << " written to " << to
             << "/<label>-<group>-<replicate>" << ending << ", listed in index.csv\n";
   if (const GivenUnits& units = results.provenance.units; units && format != nullptr) {
     const std::string d = "d, which is " + length_in(*units, 1.0) + " ";
     std::cout << "Lengths in them are in " << (options.in_units ? "" : d) << printed_unit(*units)
               << "\n";
   }
-  if (unsettled > 0) {
-    std::cout << unsettled << " of them did not settle or failed: see the column status there\n";
+  if (written.unsettled > 0) {
+    std::cout << written.unsettled
+              << " of them did not settle or failed: see the column status there\n";
   }
-  if (!refused.empty()) {
-    std::cout << counted(refused.size(), "packing") << " left out: " << refused.front()
-              << (refused.size() > 1 ? ", and others" : "") << "\n";
+  if (!written.refused.empty()) {
+    std::cout << counted(written.refused.size(), "packing")
+              << " left out: " << written.refused.front()
+              << (written.refused.size() > 1 ? ", and others" : "") << "\n";
   }
-  if (without_grains > 0) {
-    std::cout << counted(without_grains, "packing") << " left out: stored without grains\n";
+  if (written.without_grains > 0) {
+    std::cout << counted(written.without_grains, "packing") << " left out: stored without grains\n";
   }
-  if (damaged > 0) return exit_file_system;
-  return refused.empty() || options.jobs.empty() ? exit_done : exit_bad_input;
+  if (!written.damage.empty()) return exit_file_system;
+  return written.refused.empty() || options.jobs.empty() ? exit_done : exit_bad_input;
 }
 
 }  // namespace grainsweep

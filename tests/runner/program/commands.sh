@@ -181,6 +181,9 @@ grep -q "lengths in mm" in_mm/*.obj || fail "surfaces are not in mm"
 expect_code 2 "$program" export out/small --format contacts --in-units
 expect_text error.txt "--in-units is of --format csv, xyz, vtp, stl, obj and voxels, not of contacts"
 expect_code 0 "$program" export out/small --in-units --job "$job" --to in_mm
+expect_text error.txt "1/1  " ".csv  "
+expect_code 0 "$program" export out/small --job "$job" --to in_mm --quiet
+[ ! -s error.txt ] || fail "export --quiet printed $(cat error.txt)"
 expect_code 0 "$program" export out/small --job "$job" --to one
 expect_text out.txt "Lengths in them are in d, which is 3.2 mm"
 
