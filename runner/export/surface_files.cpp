@@ -1,10 +1,14 @@
 #include "runner/export/surface_files.hpp"
 
+#include <algorithm>
+#include <cstdint>
 #include <cstdio>
+#include <limits>
 #include <utility>
 
 #include "engine/shape/convex_shape.hpp"
 #include "runner/export/surfaces.hpp"
+#include "runner/store/archive.hpp"
 #include "runner/tables/csv.hpp"
 
 namespace grainsweep {
@@ -26,47 +30,69 @@ std::string name_of(const ExportedBed& exported, const GrainSurface& surface) {
   return "grain_" + cell(id_of(grain)) + "_" + class_name(exported, grain);
 }
 
-/// name and surface of every grain, and of the container, in the lengths of the settings.
+/// name, id and surface of every grain, and of the container, whose id is 0, in the lengths of the
+/// settings.
 template <class Write>
 void for_each_surface(const ExportedBed& exported, Write write) {
-  const auto write_scaled = [&](const std::string& name, Surface surface) {
+  const auto write_scaled = [&](const std::string& name, std::size_t id, Surface surface) {
     for (Vector& vertex : surface.vertices) vertex *= exported.settings.lengths.d;
-    write(name, surface);
+    write(name, id, surface);
   };
   for (GrainSurface& grain : grain_surfaces(exported)) {
-    write_scaled(name_of(exported, grain), std::move(grain.surface));
+    write_scaled(name_of(exported, grain), id_of(grain.grain), std::move(grain.surface));
   }
-  write_scaled("container",
+  write_scaled("container", 0,
                container_surface(exported.bed.box, height_of(exported.bed) + headroom));
 }
 
-std::string facet(const Vector& a, const Vector& b, const Vector& c) {
+using Single = Eigen::Vector3f;
+
+void put(const Single& v, ByteWriter& bytes) {
+  for (const float coordinate : {v.x(), v.y(), v.z()}) bytes.put(coordinate);
+}
+
+/// A triangle of 50 bytes. None if two of its corners are one in single precision: its neighbours
+/// then close the surface.
+void put_triangle(const Vector& a, const Vector& b, const Vector& c, std::uint16_t number,
+                  ByteWriter& bytes) {
+  const Single from_a = a.cast<float>(), from_b = b.cast<float>(), from_c = c.cast<float>();
+  if (from_a == from_b || from_b == from_c || from_c == from_a) return;
   const Vector normal = (b - a).cross(c - a).normalized();
-  return "facet normal " + short_text(normal) + "\nouter loop\nvertex " + short_text(a) +
-         "\nvertex " + short_text(b) + "\nvertex " + short_text(c) + "\nendloop\nendfacet\n";
+  for (const Single& v : {Single(normal.cast<float>()), from_a, from_b, from_c}) put(v, bytes);
+  bytes.put(number);
+}
+
+/// The heading of a binary STL file, 80 bytes. One of text would begin with "solid".
+std::string stl_heading(const std::string& unit) {
+  std::string text = "grainsweep, lengths in " + unit + "; attribute: id of the grain, 0 container";
+  text.resize(80, ' ');
+  return text;
 }
 
 }  // namespace
 
 std::string surfaces_stl(const ExportedBed& exported) {
-  std::string text;
-  for_each_surface(exported, [&](const std::string& name, const Surface& surface) {
-    text += "solid " + name + "\n";
+  constexpr std::size_t largest_number = std::numeric_limits<std::uint16_t>::max();
+  constexpr std::size_t triangle_size = 50;
+  ByteWriter triangles;
+  for_each_surface(exported, [&](const std::string&, std::size_t id, const Surface& surface) {
+    const auto number = static_cast<std::uint16_t>(std::min(id, largest_number));
     for (const auto& face : surface.faces) {
       for (std::size_t k = 2; k < face.size(); ++k) {
-        text +=
-            facet(corner(surface, face[0]), corner(surface, face[k - 1]), corner(surface, face[k]));
+        put_triangle(corner(surface, face[0]), corner(surface, face[k - 1]),
+                     corner(surface, face[k]), number, triangles);
       }
     }
-    text += "endsolid " + name + "\n";
   });
-  return text;
+  ByteWriter count;
+  count.put(static_cast<std::uint32_t>(triangles.bytes().size() / triangle_size));
+  return stl_heading(exported.settings.lengths.unit) + count.bytes() + triangles.bytes();
 }
 
 std::string surfaces_obj(const ExportedBed& exported) {
   std::string text = "# grainsweep, lengths in " + exported.settings.lengths.unit + "\n";
   std::size_t first = 1;
-  for_each_surface(exported, [&](const std::string& name, const Surface& surface) {
+  for_each_surface(exported, [&](const std::string& name, std::size_t, const Surface& surface) {
     text += "o " + name + "\n";
     for (const Vector& vertex : surface.vertices) text += "v " + short_text(vertex) + "\n";
     for (const auto& face : surface.faces) {

@@ -1,4 +1,5 @@
-// The surfaces of a bed as files for meshers and for drawing. Lengths in d.
+// The surfaces of a bed as files for meshers and for drawing. Lengths in those of
+// the settings.
 #pragma once
 
 #include <string>
@@ -7,12 +8,15 @@
 
 namespace grainsweep {
 
-/// STL in text: a solid per grain, closed, "grain_<id>_<size class>", or per body of grains that
-/// necks join, "joined_<lowest id>", and a last one, "container", which ends 0.1 d above the
-/// highest grain. Its normals point outwards, those of the container away from the grains.
+/// Binary STL: the triangles of every grain, or of every body of grains that necks join, each a
+/// closed surface, and last those of the container, which ends 0.1 d above the highest grain. Their
+/// normals point outwards, those of the container away from the grains. The two bytes that end each
+/// triangle are the id of the grain, or the lowest id of those joined, 65535 at most; 0 for the
+/// container.
 std::string surfaces_stl(const ExportedBed& exported);
 
-/// OBJ with the same surfaces as objects; spheres and polyhedra keep their polygons.
+/// OBJ with the same surfaces as objects, "grain_<id>_<size class>", "joined_<lowest id>" and
+/// "container"; spheres and polyhedra keep their polygons.
 std::string surfaces_obj(const ExportedBed& exported);
 
 }  // namespace grainsweep

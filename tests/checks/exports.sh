@@ -52,7 +52,7 @@ if /usr/bin/python3 "$check" rounded.json >said.txt; then
   exit 1
 fi
 grep -q 'DOES NOT HOLD' said.txt
-for format in csv xyz lammps; do "$grainsweep" export out --format $format --to . >/dev/null; done
+for format in csv xyz lammps; do "$grainsweep" export out --format $format --quiet --to . >/dev/null; done
 "$grainsweep" export out --format voxels --voxels 60 --to . >/dev/null
 "$grainsweep" export out --format stl --contacts shrink:0.99 --periodic-images --to . >/dev/null
 
@@ -131,9 +131,13 @@ for file, job in zip(index["file"], index["job"]):
     assert abs(share - packing["solid_fraction"]) < 1e-3, (stem, share, packing["solid_fraction"])
 
     # Every solid is closed: each side of a triangle is that of another one, the other way round.
-    for name, text in re.findall(r"^solid (\S+)\n(.*?)^endsolid", open(stem + ".stl").read(), re.M | re.S):
-        corners = re.findall(r"vertex (.*)", text)
-        sides = [(corners[k + i], corners[k + (i + 1) % 3]) for k in range(0, len(corners), 3) for i in range(3)]
-        assert len(set(sides)) == len(sides) and {(b, a) for a, b in sides} == set(sides), (stem, name)
+    data = open(stem + ".stl", "rb").read()
+    triangles = numpy.frombuffer(data, [("normal", "<f4", 3), ("corners", "<V12", 3), ("id", "<u2")], offset=84)
+    assert not data.startswith(b"solid") and len(triangles) == int.from_bytes(data[80:84], "little"), stem
+    assert set(triangles["id"]) == {0, *grains["id"]}, stem
+    for id in set(triangles["id"]):
+        corners = [[corner.tobytes() for corner in t] for t in triangles["corners"][triangles["id"] == id]]
+        sides = [(t[i], t[(i + 1) % 3]) for t in corners for i in range(3)]
+        assert len(set(sides)) == len(sides) and {(b, a) for a, b in sides} == set(sides), (stem, id)
 print("exports: read as they were written")
 PYTHON

@@ -12,9 +12,16 @@ def volume(triangles):
 
 def solids(file):
     """Triangles of each solid; the last one is the container."""
-    texts = re.findall(r"^solid (.*?)^endsolid", open(file).read(), re.M | re.S)
-    numbers = [re.findall(r"^vertex (\S+) (\S+) (\S+)", text, re.M) for text in texts]
-    return [numpy.array(of_solid, float).reshape(-1, 3, 3) for of_solid in numbers]
+    data = open(file, "rb").read()
+    if data.startswith(b"solid"):  # text, as bites.sh writes it
+        texts = re.findall(r"^solid (.*?)^endsolid", data.decode(), re.M | re.S)
+        numbers = [re.findall(r"^vertex (\S+) (\S+) (\S+)", text, re.M) for text in texts]
+        return [numpy.array(of_solid, float).reshape(-1, 3, 3) for of_solid in numbers]
+    triangles = numpy.frombuffer(data, [("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("id", "<u2")], offset=84)
+    assert len(triangles) == int.from_bytes(data[80:84], "little"), f"{file}: wrong number of triangles"
+    starts = numpy.flatnonzero(numpy.diff(triangles["id"], prepend=-1))
+    assert triangles["id"][starts[-1]] == 0, f"{file}: the last surface is no container"
+    return numpy.split(triangles["corners"].astype(float), starts[1:])
 
 def stl(name, triangles):
     corners = ["outer loop\n" + "".join("vertex %.17g %.17g %.17g\n" % tuple(v) for v in t) + "endloop" for t in triangles]
