@@ -252,9 +252,9 @@ std::string definitions_text(const std::vector<Row>& rows) {
          " d above\nthe floor and " +
          distinct(rows, [](const MeasureSpec& m) { return m.exclude_surface; }) +
          " d below the surface. Z: neighbours per grain there with gap < " + distinct(rows, gap) +
-         " d, walls not\ncounted. ±: standard error; what single packings scatter by is in "
-         "groups.csv.\ncontacts/iso: force-bearing contacts over the isostatic "
-         "count, 1 at perfect rest.\n" +
+         " d, walls not\ncounted. ±: standard error, wider where few packings tell it; what single "
+         "packings scatter by is in\ngroups.csv. contacts/iso: force-bearing contacts over the "
+         "isostatic count, 1 at perfect rest.\n" +
          (has_tubes ? "In narrow tubes it is less, as a round wall holds grains along it, too, or "
                       "more, where equal\ngrains order.\n"
                     : "") +

@@ -90,8 +90,8 @@ Columns<DecayLine> decay_line_columns(const Varied& varied, const GivenUnits& un
                      fit_cell(&DecayFit::r_squared)});
   columns.push_back(
       {"misfit", "",
-       "root mean square of the residuals over that of the mean's errors; above 2 a damped "
-       "cosine does not describe the layers",
+       "root mean square of the residuals over that of the mean's errors, which are not widened "
+       "here; above 2 a damped cosine does not describe the layers",
        fit_cell(&DecayFit::misfit)});
   append_in_units(columns, units);
   return columns;

@@ -182,7 +182,9 @@ void append_spread(Columns<Item>& columns, const std::string& name, const std::s
       {name, unit, meaning, [=](const Item& item) { return cell(spread(item).mean); }});
   columns.push_back({name + "_sd", unit, "standard deviation of it over the replicates",
                      [=](const Item& item) { return cell(spread(item).sd); }});
-  columns.push_back({name + "_error", unit, "standard error of the mean",
+  columns.push_back({name + "_error", unit,
+                     "standard error of the mean, widened by Student's distribution where packings "
+                     "are few",
                      [=](const Item& item) { return cell(spread(item).error); }});
 }
 
