@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "runner/exit_codes.hpp"
+#include "runner/sweep/text_lines.hpp"
 #include "runner/text.hpp"
 
 namespace grainsweep {
@@ -47,6 +49,20 @@ std::string command(const ClusterRun& run) {
 }
 
 }  // namespace
+
+void refuse_controls(const ClusterRun& run) {
+  const auto refuse = [](const std::string& path, const std::string& what,
+                         const std::string& remedy) {
+    const std::string shown = without_controls(path);
+    if (shown == path) return;
+    throw BadInput(what + ": \"" + shown +
+                   "\" holds a control character, as a line feed is, and the lines of a script "
+                   "cannot; " +
+                   remedy);
+  };
+  refuse(run.file, "FILE", "rename the sweep or its folder");
+  refuse(run.folder, "--out", "name another folder");
+}
 
 std::string scripts_folder(const std::string& folder) { return folder + "/slurm"; }
 

@@ -1,11 +1,14 @@
 #include <catch2/catch.hpp>
 
 #include "runner/cluster/job_scripts.hpp"
+#include "runner/exit_codes.hpp"
 
 namespace grainsweep {
 namespace {
 
 using Catch::Contains;
+using Catch::EndsWith;
+using Catch::StartsWith;
 
 ClusterRun small_run() {
   return {"/bin/grainsweep",
@@ -44,6 +47,17 @@ TEST_CASE("a folder may have a name that Slurm would take for a pattern") {
   run.folder = "/out/5%a";
   CHECK_THAT(shards_script(run), Contains("\n#SBATCH --output=/out/5%%a/slurm/%a.log\n"));
   CHECK_THAT(rest_script(run), Contains("\n#SBATCH --output=/out/5%%a/slurm/rest.log\n"));
+}
+
+TEST_CASE("a path that would end a line of a script is refused, with what names it") {
+  CHECK_NOTHROW(refuse_controls(small_run()));
+  ClusterRun run = small_run();
+  run.folder = "/out/a\nrm -r b";
+  CHECK_THROWS_WITH(refuse_controls(run), StartsWith("--out: \"/out/a?rm -r b\" holds a control"));
+  run = small_run();
+  run.file = "/a\x1B[31m.json";
+  CHECK_THROWS_AS(refuse_controls(run), BadInput);
+  CHECK_THROWS_WITH(refuse_controls(run), StartsWith("FILE: ") && EndsWith("or its folder"));
 }
 
 TEST_CASE("nodes whose memory is not told are asked for none") {
