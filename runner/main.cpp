@@ -9,6 +9,7 @@
 #include "runner/jobs/stop.hpp"
 #include "runner/store/files.hpp"
 #include "runner/store/lock.hpp"
+#include "runner/sweep/text_lines.hpp"
 
 namespace grainsweep {
 namespace {
@@ -22,7 +23,7 @@ int perform_and_print(const CommandLine& line) {
 }
 
 int refuse(const std::exception& error, int code) {
-  std::cerr << "grainsweep: " << error.what() << "\n";
+  std::cerr << "grainsweep: " << lines_without_controls(error.what()) << "\n";
   return code;
 }
 

@@ -13,6 +13,7 @@
 #include "runner/exit_codes.hpp"
 #include "runner/machine.hpp"
 #include "runner/sweep/suggest.hpp"
+#include "runner/sweep/text_lines.hpp"
 #include "runner/versions.hpp"
 
 namespace grainsweep {
@@ -121,7 +122,7 @@ CommandLine read_command_line(int argc, const char* const* argv) {
   call_examples(app);
   Words words(argv + std::min(1, argc), argv + argc);
   app.failure_message([&](const CLI::App* /*app*/, const CLI::Error& error) {
-    return "grainsweep: " + mistake(app, words, error) +
+    return "grainsweep: " + lines_without_controls(mistake(app, words, error)) +
            "\nRun with --help for more information.\n";
   });
   CommandLine line;

@@ -11,6 +11,7 @@
 #include "runner/store/files.hpp"
 #include "runner/sweep/low_beds.hpp"
 #include "runner/sweep/read_sweep.hpp"
+#include "runner/sweep/text_lines.hpp"
 #include "runner/text.hpp"
 #include "runner/versions.hpp"
 
@@ -32,7 +33,8 @@ void note_on_reference(const std::string& file) {
   try {
     read_reference(file);
   } catch (const std::runtime_error& error) {  // of what is in it, or of the file
-    std::cerr << "note: the page will have no published values: " << error.what() << "\n";
+    std::cerr << "note: the page will have no published values: "
+              << lines_without_controls(error.what()) << "\n";
   }
 }
 

@@ -17,6 +17,7 @@
 #include "runner/store/claims.hpp"
 #include "runner/store/files.hpp"
 #include "runner/store/states.hpp"
+#include "runner/sweep/text_lines.hpp"
 #include "runner/tables/component_profiles.hpp"
 #include "runner/tables/components.hpp"
 #include "runner/tables/decays.hpp"
@@ -262,7 +263,7 @@ std::vector<ColumnText> all_columns(const std::vector<double>& tolerances, const
 
 std::string damage_warnings(const std::vector<std::string>& damage) {
   std::string text;
-  for (const std::string& line : damage) text += "warning: " + line + "\n";
+  for (const std::string& line : damage) text += "warning: " + without_controls(line) + "\n";
   return text;
 }
 

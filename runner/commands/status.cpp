@@ -17,6 +17,7 @@
 #include "runner/machine.hpp"
 #include "runner/store/files.hpp"
 #include "runner/store/runners.hpp"
+#include "runner/sweep/text_lines.hpp"
 #include "runner/text.hpp"
 
 namespace grainsweep {
@@ -234,11 +235,11 @@ int perform(const StatusOptions& options) {
       tell(folder, options, all);
     } catch (const BadInput& error) {
       if (options.folders.size() == 1) throw;
-      std::cerr << error.what() << "\n";  // the others are still reported
+      std::cerr << lines_without_controls(error.what()) << "\n";  // the others are still reported
       end = exit_bad_input;
     } catch (const FileError& error) {
       if (options.folders.size() == 1) throw;
-      std::cerr << error.what() << "\n";
+      std::cerr << lines_without_controls(error.what()) << "\n";
       end = exit_file_system;
     }
   }

@@ -13,6 +13,7 @@
 #include "runner/jobs/schedule.hpp"
 #include "runner/machine.hpp"
 #include "runner/sweep/costs.hpp"
+#include "runner/sweep/text_lines.hpp"
 #include "runner/tables/chosen_presets.hpp"
 #include "runner/tables/units.hpp"
 #include "runner/text.hpp"
@@ -45,7 +46,7 @@ int perform(const ValidateOptions& options) {
   const Sweep whole = sweep_with_notes(options.file);
   const GrowingSweep growing(whole, {});
   const Sweep& sweep = growing.now();
-  std::cout << options.file << ": right: " << (grows(whole) ? "at least " : "")
+  std::cout << without_controls(options.file) << ": right: " << (grows(whole) ? "at least " : "")
             << counted(sweep.jobs.size(), "packing") << ", "
             << counted(parameter_sets(sweep.jobs).size(), "parameter set")
             << (sweep.units ? ", " + units_text(*sweep.units) + widths_text(sweep) : "") << "\n"

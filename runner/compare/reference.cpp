@@ -13,6 +13,7 @@
 #include "runner/sweep/json_text.hpp"
 #include "runner/sweep/parameters.hpp"
 #include "runner/sweep/suggest.hpp"
+#include "runner/sweep/text_lines.hpp"
 #include "runner/sweep/values.hpp"
 #include "runner/tables/csv.hpp"
 
@@ -42,12 +43,19 @@ std::optional<double> read_number(const Json& object, const char* key, const std
   return std::nullopt;
 }
 
+/// Without breaks of lines, which tables of figures cannot hold, and what a terminal would obey.
+std::string on_one_line(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c >= 0 && c < ' '; }, ' ');
+  return without_controls(text);
+}
+
 /// A member of `object`, a text; `otherwise` if there is none.
 std::string read_text(const Json& object, const char* key, const std::string& pointer,
                       const std::string& otherwise, Diagnostics& diagnostics) {
   const auto found = object.find(key);
   if (found == object.end()) return otherwise;
-  if (found->is_string()) return *found;
+  if (found->is_string()) return on_one_line(*found);
   diagnostics.push_back({child_pointer(pointer, key), "must be a text, is " + describe(*found)});
   return otherwise;
 }
@@ -82,13 +90,6 @@ std::optional<Published::Range> read_range(const Json& value, const PublishedErr
   if (range.low <= range.high) return range;
   diagnostics.push_back({pointer, "a range must be [low, high], is " + value.dump()});
   return std::nullopt;
-}
-
-/// Without breaks of lines, which tables of figures cannot hold.
-std::string on_one_line(std::string text) {
-  std::replace_if(
-      text.begin(), text.end(), [](char c) { return c >= 0 && c < ' '; }, ' ');
-  return text;
 }
 
 std::string text_of(const Published& published) {
@@ -183,7 +184,7 @@ Published read_published(const Json& from, const std::string& pointer, Diagnosti
   if (published.formula) {
     PublishedFormula& formula = *published.formula;
     formula.error = error;
-    formula.name = on_one_line(read_text(from, "text", pointer, formula.text, diagnostics));
+    formula.name = read_text(from, "text", pointer, formula.text, diagnostics);
     if (formula.name.empty()) formula.name = formula.text;
     published.text = text_of(published);
   } else {

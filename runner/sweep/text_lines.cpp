@@ -90,6 +90,13 @@ std::string without_controls(std::string_view text) {
   return plain;
 }
 
+std::string lines_without_controls(std::string_view text) {
+  std::string plain;
+  for (const std::string_view line : pieces_of(text, '\n')) plain += without_controls(line) + "\n";
+  plain.pop_back();
+  return plain;
+}
+
 bool begins_character(char byte) { return (static_cast<unsigned char>(byte) & 0xC0U) != 0x80U; }
 
 std::size_t characters(std::string_view text) {

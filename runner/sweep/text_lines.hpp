@@ -49,6 +49,9 @@ void note_wrong_line(Diagnostics& errors, const std::string& file, std::size_t l
 /// characters, other ends of lines, and those that turn the direction of writing.
 std::string without_controls(std::string_view text);
 
+/// The same for a message of several lines, whose ends stay.
+std::string lines_without_controls(std::string_view text);
+
 /// Whether a character begins with this byte of a text in UTF-8: other bytes continue one.
 bool begins_character(char byte);
 

@@ -162,6 +162,11 @@ TEST_CASE("a misspelt command or option is named with the likely one") {
         "grainsweep: --checkpoint-seconds: must be a number in [0, 86400], is nan");
 }
 
+TEST_CASE("mistakes are told without what a terminal would obey") {
+  CHECK(read({"run", "--\x1B[31m"}).error.find('\x1B') == std::string::npos);
+  CHECK(read({"\x1B[31m"}).error.find("unknown command ?[31m") != std::string::npos);
+}
+
 TEST_CASE("help has the commands, an example and the exit codes, and ends with code 0") {
   const Reading reading = read({"--help"});
   CHECK(reading.line.exit_code == 0);

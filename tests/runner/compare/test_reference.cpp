@@ -65,6 +65,13 @@ std::vector<std::string> told_of(const std::string& text) {
 
 using Lines = std::vector<std::string>;
 
+TEST_CASE("texts are printed on one line, without what a terminal would obey") {
+  const Published z = value_of(
+      R"("quantity": "Z_unconfined", "value": 6, "text": "a\u001bb\nc", "definition": "\u009bd")");
+  CHECK(z.text == "a b c");
+  CHECK(z.definition == "?d");
+}
+
 TEST_CASE("what no packing can be is refused where families are told apart") {
   const auto told = [](const std::string& where) {
     return told_of(R"({"source": "S", "families": [{"values": [], "where": {)" + where + "}}]}");

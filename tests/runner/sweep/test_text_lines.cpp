@@ -24,6 +24,12 @@ TEST_CASE("what a terminal would obey becomes a question mark, other characters 
                          "1m\xE2\x80\xAE"
                          "x\xE2\x81\xA6\xE2\x80\xA8") == "?1m?x??");
   CHECK(without_controls("\xE2\x80") == "\xE2\x80");
+  CHECK(without_controls("a\nb") == "a?b");
+}
+
+TEST_CASE("a message keeps its lines, and nothing else that a terminal would obey") {
+  CHECK(lines_without_controls("a\x1B[31m: b\n\nc\r") == "a?[31m: b\n\nc?");
+  CHECK(lines_without_controls("").empty());
 }
 
 TEST_CASE("a pipe is no file to read from") {
