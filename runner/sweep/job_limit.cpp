@@ -24,7 +24,7 @@ std::string count_text(std::uint64_t jobs) {
 std::string factors_of(const Block& block) {
   std::vector<std::pair<std::uint64_t, std::string>> factors;
   for (const Axis& axis : block.axes) {
-    if (axis.entries.size() > 1) factors.emplace_back(axis.entries.size(), axis.name);
+    if (axis.size() > 1) factors.emplace_back(axis.size(), axis.name);
   }
   if (!block.random.empty()) factors.emplace_back(block.random_count, "random");
   std::stable_sort(factors.begin(), factors.end(),

@@ -184,11 +184,32 @@ void refuse_repeats(const std::vector<Assignments>& entries, const std::string& 
   }
 }
 
-/// Reads one block; holds what its parts share.
+/// How many values a path of a grid has; 1 for what is no list or range.
+std::uint64_t values_in(const Json& list) {
+  if (list.is_array()) return std::max<std::size_t>(list.size(), 1);
+  const auto count = list.is_object() ? list.find("count") : list.end();
+  Diagnostics told_later;
+  if (!list.is_object() || count == list.end()) return 1;
+  const auto number = whole_number_in(*count, 2, most_spaced_values, "", told_later);
+  return static_cast<std::uint64_t>(number.value_or(1));
+}
+
+/// Whether a grid has more points than there is room for.
+bool is_too_large(const Json& grid, std::uint64_t room) {
+  std::uint64_t points = 1;
+  for (const Json& list : grid) {
+    points *= values_in(list);
+    if (points > room) return true;  // before the product is no number
+  }
+  return false;
+}
+
+/// Reads one block; holds what its parts share. Ranges of a grid with more points than `room` are
+/// read as their ends: the sweep will be refused, and all their values could fill the memory.
 class BlockReader {
  public:
-  BlockReader(const Json& json, Block& block, Diagnostics& diagnostics)
-      : json_(json), block_(block), diagnostics_(diagnostics) {}
+  BlockReader(const Json& json, Block& block, std::uint64_t room, Diagnostics& diagnostics)
+      : json_(json), block_(block), room_(room), diagnostics_(diagnostics) {}
 
   void read() {
     if (const Json* set = part("set")) {
@@ -222,11 +243,18 @@ class BlockReader {
     const std::string pointer = child_pointer(block_.pointer, "grid");
     if (!is_object(grid, pointer, "an object of lists, one per path", diagnostics_)) return;
     note_if_empty(grid, pointer, diagnostics_);
+    const bool has_room = !is_too_large(grid, room_);
     for (const auto& [path, list] : grid.items()) {
-      auto entries = list.is_object() ? read_spaced(path, list, child_pointer(pointer, path))
+      const bool is_shortened = !has_room && list.is_object() && values_in(list) > 2;
+      Json shorter = is_shortened ? list : Json();
+      if (is_shortened) shorter["count"] = 2;
+      const Json& read = is_shortened ? shorter : list;
+      auto entries = list.is_object() ? read_spaced(path, read, child_pointer(pointer, path))
                                       : read_varied(path, list, child_pointer(pointer, path));
       refuse_repeats(entries, child_pointer(pointer, path), "value", diagnostics_);
-      if (!entries.empty()) block_.axes.push_back({path, std::move(entries)});
+      if (entries.empty()) continue;
+      const std::uint64_t left_out = is_shortened ? values_in(list) - entries.size() : 0;
+      block_.axes.push_back({path, std::move(entries), left_out});
     }
   }
 
@@ -284,12 +312,14 @@ class BlockReader {
 
   const Json& json_;
   Block& block_;
+  std::uint64_t room_;
   Diagnostics& diagnostics_;
   std::vector<Varied> varied_;
 };
 
-Block read_block(const Json& json, std::size_t index, const SweepDefinition& definition,
-                 Diagnostics& diagnostics) {
+/// `room`: how many more points the sweep may have.
+Block read_block(const Json& json, std::size_t index, std::uint64_t room,
+                 const SweepDefinition& definition, Diagnostics& diagnostics) {
   Block block;
   block.pointer = "/sweep/" + std::to_string(index);
   block.label = "block " + std::to_string(index + 1);
@@ -301,7 +331,7 @@ Block read_block(const Json& json, std::size_t index, const SweepDefinition& def
                       diagnostics);
   block.label = read_label(json, block.pointer, index + 1, diagnostics);
   block.replicates = read_replicates(json, block.pointer, definition.replicates, diagnostics);
-  BlockReader(json, block, diagnostics).read();
+  BlockReader(json, block, room, diagnostics).read();
   return block;
 }
 
@@ -316,8 +346,10 @@ void read_sweep_list(const Json& file, SweepDefinition& definition, Diagnostics&
   } else if (sweep->empty()) {
     diagnostics.push_back({"/sweep", "holds no block; leave it out to pack \"base\" alone"});
   } else {
+    std::uint64_t room = most_jobs;
     for (std::size_t i = 0; i < sweep->size(); ++i) {
-      definition.blocks.push_back(read_block((*sweep)[i], i, definition, diagnostics));
+      definition.blocks.push_back(read_block((*sweep)[i], i, room, definition, diagnostics));
+      room -= std::min(room, point_count(definition.blocks.back()));
     }
   }
 }
@@ -364,8 +396,8 @@ std::uint64_t point_count(const Block& block) {
   constexpr std::uint64_t most = std::numeric_limits<std::uint64_t>::max();
   std::uint64_t points = block.random.empty() ? 1 : std::max<std::uint64_t>(block.random_count, 1);
   for (const Axis& axis : block.axes) {
-    if (points > most / axis.entries.size()) return most;
-    points *= axis.entries.size();
+    if (points > most / axis.size()) return most;
+    points *= axis.size();
   }
   return points;
 }

@@ -22,6 +22,9 @@ inline constexpr std::uint64_t most_jobs = 1'000'000;
 struct Axis {
   std::string name;                  ///< "box.width", "zip"
   std::vector<Assignments> entries;  ///< an entry that could not be read is empty
+  std::uint64_t left_out = 0;        ///< of a range in a sweep that is too large anyway
+
+  std::uint64_t size() const { return entries.size() + left_out; }
 };
 
 /// A block of the sweep: the product of its axes and its random points.
