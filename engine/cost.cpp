@@ -119,11 +119,14 @@ double memory_factor(double grains) { return std::clamp(std::sqrt(grains / 15000
 constexpr double most_layers_awake = 1.5 * sleep_depth;
 
 /// Solver iterations that a path takes, over those of the usual one. In narrow containers
-/// a path that is closer for that costs less.
+/// a path that is closer for that costs less. A step of the usual fall and creep takes some
+/// 23, and none takes more than it may.
 double iterations_of_path(const PackingSpec& spec) {
   const double usual = Accuracy{}.path_tolerance, asked = spec.accuracy.path_tolerance;
   const double closer = closer_where_narrow(spec.accuracy, spec.box).path_tolerance;
-  return std::pow(usual / asked, 0.6) * std::pow(asked / closer, 0.2);
+  constexpr double usual_of_a_step = 23.0;
+  const double most = std::max(1.0, spec.accuracy.fall_iterations / usual_of_a_step);
+  return std::min(most, std::pow(usual / asked, 0.6) * std::pow(asked / closer, 0.2));
 }
 
 /// Solver iterations over all rows that the stages of engine/dynamics/settle.hpp usually need.

@@ -21,7 +21,9 @@ constexpr double longest_side = 10'000.0;        // d; cell indices stay far bel
 constexpr std::int64_t max_grains = 10'000'000;  // grain indices are 32 bits wide
 constexpr double settled_wall_overlap = 0.01;    // d; far above that of any settled bed
 constexpr double finest_bin = 0.01;              // d; finer bins hold noise and fill the disk
-constexpr double image_margin = 0.2;             // d; candidates never reach farther than this
+// Steps solved to rounding stray by about this in f64, and by more in f32, d.
+constexpr double least_path_tolerance = 1e-9;
+constexpr double image_margin = 0.2;  // d; candidates never reach farther than this
 constexpr const char* missing_diameter =
     "; radii reach more than 1 d: fill.diameter, the length in the file that is d, is missing or "
     "wrong";
@@ -371,7 +373,11 @@ void check_accuracy(const Accuracy& accuracy, Errors& errors) {
   require_in({1e-4, 2.0}, accuracy.step, "accuracy.step", errors);
   require_in({0.0, 1.0, false, true}, accuracy.momentum, "accuracy.momentum", errors);
   require_in({1.0, 1e6}, accuracy.fall_iterations, "accuracy.fall_iterations", errors);
-  positive(accuracy.path_tolerance, "accuracy.path_tolerance");
+  if (!(accuracy.path_tolerance >= least_path_tolerance && accuracy.path_tolerance <= most)) {
+    errors.push_back({"accuracy.path_tolerance", "must be at least " +
+                                                     bound_text(least_path_tolerance) + ", is " +
+                                                     bound_text(accuracy.path_tolerance)});
+  }
   require_in({0.0, 1e6}, accuracy.creep_steps, "accuracy.creep_steps", errors);
   require_in({1.0, 1e6}, accuracy.rest_iterations, "accuracy.rest_iterations", errors);
   positive(accuracy.residual_tolerance, "accuracy.residual_tolerance");

@@ -161,7 +161,7 @@ Rows accuracy_rows() {
       row<&S::accuracy, &A::fall_iterations>("accuracy.fall_iterations", Interval{1, 1000000},
                                              "most solver iterations per step of fall and creep"),
       row<&S::accuracy, &A::path_tolerance>(
-          "accuracy.path_tolerance", positive,
+          "accuracy.path_tolerance", Interval{1e-9},
           "how far contacts may stray, d, root mean square: in a full step of the fall of "
           "polyhedra so far, of spheres twice, in all steps of a creep 160 times, of "
           "polyhedra 80 to 100 times; less, by the square of their distance, between walls "

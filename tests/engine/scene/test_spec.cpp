@@ -381,6 +381,8 @@ TEST_CASE("every part of the accuracy keeps to its interval") {
         "accuracy.overlap_tolerance: must be positive, is nan");
   CHECK(accuracy([](Accuracy& a) { a.overlap_tolerance = infinity; }) ==
         "accuracy.overlap_tolerance: must be positive, is inf");
+  CHECK(accuracy([](Accuracy& a) { a.path_tolerance = 1e-12; }) ==
+        "accuracy.path_tolerance: must be at least 1e-09, is 1e-12");
   CHECK(accuracy([](Accuracy& a) { a.max_steps = 0; }) ==
         "accuracy.max_steps: must be at least 1, is 0");
 }
