@@ -448,7 +448,7 @@ double mass_ratio(const PlacedGrains& placed, const ShapeSpec& shape) {
   }
   double least = std::numeric_limits<double>::infinity(), most = 0.0;
   for (std::size_t i = 0; i < placed.grains.size(); ++i) {
-    const double radius = placed.grains[i].radius;
+    const double radius = placed.grains[i].radius / largest;
     const double mass =
         radius * radius * radius * (volumes.empty() ? 1.0 : volumes[placed.components[i]]);
     least = std::min(least, mass);
@@ -464,6 +464,7 @@ void check_masses(const PackingSpec& spec, bool is_right, Errors& errors) {
   const bool is_f32 = spec.accuracy.precision == Precision::f32;
   if (const auto* placed = std::get_if<PlacedGrains>(&spec.fill)) {
     if (!is_right || !is_f32 || mass_ratio(*placed, spec.shape) <= f32_mass_ratio) return;
+  const double largest = largest_radius(placed);  // whose cube may be no number
     errors.push_back({"fill.file", "has grains of " + number_text(mass_ratio(*placed, spec.shape)) +
                                        " times each other's mass, and in f32 masses may differ by "
                                        "1e5 to 1; take accuracy.precision f64"});

@@ -466,6 +466,16 @@ TEST_CASE("the masses of a mixture's placed grains are those of their components
   const auto errors = check(spec);
   REQUIRE(errors.size() == 1);
   CHECK(errors[0].message.starts_with("has grains of 1.25e+05 times each other's mass"));
+TEST_CASE("grains of a file with a wrong diameter are told so, however small they come out") {
+  PackingSpec spec;
+  spec.fill = PlacedGrains{{{1, 1, 0.1, 1e-300}, {3, 3, 0.1, 5e-301}}};
+  const auto errors = check(spec);
+  REQUIRE(errors.size() == 1);
+  CHECK(errors[0].path == "fill.file");
+  CHECK(errors[0].message.find("is wrong") != std::string::npos);
+  CHECK(errors[0].message.find("mass") == std::string::npos);
+}
+
   placed.components = {1, 0};  // 1000 over 125
   spec.fill = placed;
   CHECK(check(spec).empty());
