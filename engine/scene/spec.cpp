@@ -108,6 +108,21 @@ bool check_side(const char* path, double side, Boundary boundary, double shortes
   return false;
 }
 
+/// Grains that no container has room for are wrong, not the container. `across`: of one of size 1.
+bool check_room(const PackingSpec& spec, double across, double largest, Errors& errors) {
+  if (largest <= longest_side / 2.0 - image_margin) return true;
+  const bool is_placed = std::holds_alternative<PlacedGrains>(spec.fill);
+  const std::string path = is_placed                   ? "fill.file"
+                           : across > largest / across ? "shape." + std::string(name_of(spec.shape))
+                                                       : "sizes";
+  errors.push_back(
+      {path,
+       "gives grains of " + number_text(largest) + " d across, and containers are at most " +
+           bound_text(longest_side) + " d long" +
+           (is_placed ? missing_diameter : "; lengths are in d, a large grain's mean diameter")});
+  return false;
+}
+
 bool check_box(const Box& box, double largest, Errors& errors) {
   if (box.is_tube) {
     if (box.width != box.length || !is_walled_around(box)) {
@@ -356,7 +371,9 @@ bool has_hull(const ShapeSpec& shape) {
 void hint_at_size(const ShapeSpec& shape, double across, Errors& errors) {
   if (!has_hull(shape) || (across > 0.2 && across < 5.0)) return;
   for (SpecError& error : errors) {
-    if (!error.path.starts_with("box.") && !error.path.starts_with("fill.")) continue;
+    const bool is_of_size = error.path.starts_with("box.") || error.path.starts_with("fill.") ||
+                            error.path.starts_with("shape.");
+    if (!is_of_size) continue;
     error.message += "; the shape is " + number_text(across) +
                      " d across: shape.hull.size, the length in its vertices that is d, is missing "
                      "or wrong";
@@ -447,6 +464,7 @@ double mass_ratio(const PlacedGrains& placed, const ShapeSpec& shape) {
     }
   }
   double least = std::numeric_limits<double>::infinity(), most = 0.0;
+  const double largest = largest_radius(placed);  // whose cube may be no number
   for (std::size_t i = 0; i < placed.grains.size(); ++i) {
     const double radius = placed.grains[i].radius / largest;
     const double mass =
@@ -464,7 +482,6 @@ void check_masses(const PackingSpec& spec, bool is_right, Errors& errors) {
   const bool is_f32 = spec.accuracy.precision == Precision::f32;
   if (const auto* placed = std::get_if<PlacedGrains>(&spec.fill)) {
     if (!is_right || !is_f32 || mass_ratio(*placed, spec.shape) <= f32_mass_ratio) return;
-  const double largest = largest_radius(placed);  // whose cube may be no number
     errors.push_back({"fill.file", "has grains of " + number_text(mass_ratio(*placed, spec.shape)) +
                                        " times each other's mass, and in f32 masses may differ by "
                                        "1e5 to 1; take accuracy.precision f64"});
@@ -527,9 +544,10 @@ std::vector<SpecError> check(const PackingSpec& spec) {
   const bool sizes = check_sizes(spec.sizes, errors);
   const double across = shape ? 2.0 * shape->circumradius : 1.0;
   const double largest = across * (sizes ? largest_size(spec) : 1.0);
-  const bool box = check_box(spec.box, largest, errors);
+  const bool has_room = check_room(spec, across, largest, errors);
+  const bool box = has_room && check_box(spec.box, largest, errors);
   const double narrowest = narrowest_tube * across * (sizes ? outcome_size(spec) : 1.0);
-  if (spec.box.is_tube && !is_sphere(spec.shape) && spec.box.length < narrowest) {
+  if (has_room && spec.box.is_tube && !is_sphere(spec.shape) && spec.box.length < narrowest) {
     errors.push_back({"tube.diameter", "must be at least " + bound_text(narrowest) + " (" +
                                            bound_text(narrowest_tube) +
                                            " times the extent of these grains), is " +

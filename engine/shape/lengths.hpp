@@ -1,19 +1,22 @@
 // What lengths of a shape must be.
 #pragma once
 
-#include <cmath>
 #include <initializer_list>
 #include <string>
 #include <utility>
 
+#include "engine/interval.hpp"
 #include "engine/text.hpp"
 
 namespace grainsweep {
 
-/// What is wrong with a length; "" if it is a positive finite number.
+/// In d: no container is longer, and far from both ends products of lengths remain numbers.
+inline constexpr Interval lengths_of_shapes{1e-6, 10'000.0};
+
+/// What is wrong with a length; "" if nothing is.
 inline std::string problem_with_length(const char* name, double value) {
-  if (std::isfinite(value) && value > 0.0) return "";
-  return joined(name, " must be a positive finite number, is ", value);
+  if (lengths_of_shapes.holds(value)) return "";
+  return joined(name, " must lie in ", lengths_of_shapes.text(), ", is ", value);
 }
 
 /// The same for the first length that is wrong.

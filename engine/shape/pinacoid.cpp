@@ -51,18 +51,21 @@ void set_mass(const PinacoidHalves& w, ConvexShape& shape) {
 }
 
 std::string problem_with_angle(const PinacoidSize& size) {
+  constexpr double steepest = 89.0;  // degrees
   const double degrees = size.angle / degree;
-  if (!(size.angle > 0.0) || !(degrees <= 89.0)) {
-    return joined("angle must be above 0 and at most 89 degrees, is ", degrees,
+  if (!(size.angle > 0.0) || !(degrees <= steepest)) {
+    return joined("angle must be above 0 and at most ", steepest, " degrees, is ", degrees,
                   "; upright ends are the shape of a hull");
   }
   // The same rounding as the width: a ridge of no length is allowed.
   const double steepness = portable::tan(size.angle) * size.length;
   if (steepness >= size.height * (1.0 - no_ridge)) return "";
-  return joined(
-      "the ends would cross: tan(angle) must be at least height / length = ",
-      size.height / size.length, ", is ", portable::tan(size.angle), "; the least angle is ",
-      std::ceil(portable::atan(size.height / size.length) / degree * 1e4) / 1e4, " degrees");
+  const double least = std::ceil(portable::atan(size.height / size.length) / degree * 1e4) / 1e4;
+  const std::string fault =
+      joined("the ends would cross: tan(angle) must be at least height / length = ",
+             size.height / size.length, ", is ", portable::tan(size.angle));
+  if (least > steepest) return fault + "; no angle is that steep: make it longer, or less high";
+  return fault + joined("; the least angle is ", least, " degrees");
 }
 
 }  // namespace

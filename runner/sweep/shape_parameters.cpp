@@ -3,6 +3,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "engine/shape/lengths.hpp"
 #include "engine/shape/named_shapes.hpp"
 #include "engine/units.hpp"
 #include "runner/sweep/identity.hpp"
@@ -68,7 +69,7 @@ Parameter part_of(T Size::* /*member*/, const char* path, const Interval& range,
              get_part<Size, member>);
 }
 template <auto member>
-Parameter part(const char* path, const char* meaning, const Interval& range = positive) {
+Parameter part(const char* path, const char* meaning, const Interval& range = lengths_of_shapes) {
   return part_of<member>(member, path, range, meaning);
 }
 

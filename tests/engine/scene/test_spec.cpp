@@ -338,6 +338,14 @@ TEST_CASE("a hull far from d in size is told to have the wrong unit") {
       hull(1e-9)[0].starts_with("fill.solid_height: must give 1 to 10000000 grains, gives 1e+17"));
 }
 
+TEST_CASE("grains that no container has room for are wrong, not the container") {
+  const auto said = broken_by([](PackingSpec& spec) { spec.shape = CubeSize{8000}; });
+  REQUIRE(said.size() == 1);
+  CHECK(said[0] ==
+        "shape.cube: gives grains of 1.57e+04 d across, and containers are at most 10000 d long; "
+        "lengths are in d, a large grain's mean diameter");
+}
+
 TEST_CASE("sizes keep to their intervals") {
   const auto sizes = [](SizesSpec changed_sizes) {
     return broken_by([=](PackingSpec& spec) {
@@ -373,6 +381,8 @@ TEST_CASE("every part of the accuracy keeps to its interval") {
         "accuracy.fall_iterations: must lie in [1, 1000000], is 0");
   CHECK(accuracy([](Accuracy& a) { a.rest_iterations = 1'000'001; }) ==
         "accuracy.rest_iterations: must lie in [1, 1000000], is 1000001");
+  CHECK(accuracy([](Accuracy& a) { a.path_tolerance = 1e-12; }) ==
+        "accuracy.path_tolerance: must be at least 1e-09, is 1e-12");
   CHECK(accuracy([](Accuracy& a) { a.residual_tolerance = 0; }) ==
         "accuracy.residual_tolerance: must be positive, is 0");
   CHECK(accuracy([](Accuracy& a) { a.contact_tolerance = -1; }) ==
@@ -381,8 +391,6 @@ TEST_CASE("every part of the accuracy keeps to its interval") {
         "accuracy.overlap_tolerance: must be positive, is nan");
   CHECK(accuracy([](Accuracy& a) { a.overlap_tolerance = infinity; }) ==
         "accuracy.overlap_tolerance: must be positive, is inf");
-  CHECK(accuracy([](Accuracy& a) { a.path_tolerance = 1e-12; }) ==
-        "accuracy.path_tolerance: must be at least 1e-09, is 1e-12");
   CHECK(accuracy([](Accuracy& a) { a.max_steps = 0; }) ==
         "accuracy.max_steps: must be at least 1, is 0");
 }
@@ -458,14 +466,6 @@ TEST_CASE("placed grains whose masses differ by more than 1e5 to 1 take f64") {
   CHECK(check(spec).empty());
 }
 
-TEST_CASE("the masses of a mixture's placed grains are those of their components") {
-  PackingSpec spec;
-  spec.shape = Mixture{{{0.5, CubeSize{}}, {0.5, CubeSize{0.1}}}, ShareBy::number};
-  PlacedGrains placed{{{2, 2, 1, 0.5}, {4, 4, 1, 0.1}}, {{0, 0, 0, 1}, {0, 0, 0, 1}}, {0, 1}};
-  spec.fill = placed;  // 1000 times the volume, and 5 times the size
-  const auto errors = check(spec);
-  REQUIRE(errors.size() == 1);
-  CHECK(errors[0].message.starts_with("has grains of 1.25e+05 times each other's mass"));
 TEST_CASE("grains of a file with a wrong diameter are told so, however small they come out") {
   PackingSpec spec;
   spec.fill = PlacedGrains{{{1, 1, 0.1, 1e-300}, {3, 3, 0.1, 5e-301}}};
@@ -476,6 +476,14 @@ TEST_CASE("grains of a file with a wrong diameter are told so, however small the
   CHECK(errors[0].message.find("mass") == std::string::npos);
 }
 
+TEST_CASE("the masses of a mixture's placed grains are those of their components") {
+  PackingSpec spec;
+  spec.shape = Mixture{{{0.5, CubeSize{}}, {0.5, CubeSize{0.1}}}, ShareBy::number};
+  PlacedGrains placed{{{2, 2, 1, 0.5}, {4, 4, 1, 0.1}}, {{0, 0, 0, 1}, {0, 0, 0, 1}}, {0, 1}};
+  spec.fill = placed;  // 1000 times the volume, and 5 times the size
+  const auto errors = check(spec);
+  REQUIRE(errors.size() == 1);
+  CHECK(errors[0].message.starts_with("has grains of 1.25e+05 times each other's mass"));
   placed.components = {1, 0};  // 1000 over 125
   spec.fill = placed;
   CHECK(check(spec).empty());

@@ -120,16 +120,18 @@ TEST_CASE("a cylinder is the prism of the fewest sides within its chord error") 
 
 TEST_CASE("solids of no size, too few sides or too fine a chord error are refused") {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  CHECK(problem_of(CubeSize{0}) == "edge must be a positive finite number, is 0");
-  CHECK(problem_of(CuboidSize{1, -2, 1}) == "width must be a positive finite number, is -2");
-  CHECK(problem_of(TetrahedronSize{nan}) == "height must be a positive finite number, is nan");
-  CHECK(problem_of(OctahedronSize{-1}) == "height must be a positive finite number, is -1");
-  CHECK(problem_of(DodecahedronSize{0}) == "height must be a positive finite number, is 0");
-  CHECK(problem_of(IcosahedronSize{0}) == "height must be a positive finite number, is 0");
+  CHECK(problem_of(CubeSize{0}) == "edge must lie in [1e-06, 10000], is 0");
+  CHECK(problem_of(CuboidSize{1, -2, 1}) == "width must lie in [1e-06, 10000], is -2");
+  CHECK(problem_of(TetrahedronSize{nan}) == "height must lie in [1e-06, 10000], is nan");
+  CHECK(problem_of(OctahedronSize{-1}) == "height must lie in [1e-06, 10000], is -1");
+  CHECK(problem_of(DodecahedronSize{0}) == "height must lie in [1e-06, 10000], is 0");
+  CHECK(problem_of(IcosahedronSize{0}) == "height must lie in [1e-06, 10000], is 0");
+  CHECK(problem_of(CubeSize{1e100}) == "edge must lie in [1e-06, 10000], is 1e+100");
+  CHECK(problem_of(CubeSize{1e-200}) == "edge must lie in [1e-06, 10000], is 1e-200");
   CHECK(problem_of(PrismSize{2}) == "sides must be 3 to 200, is 2");
   CHECK(problem_of(PrismSize{201}) == "sides must be 3 to 200, is 201");
-  CHECK(problem_of(PrismSize{3, 1, 0}) == "diameter must be a positive finite number, is 0");
-  CHECK(problem_of(CylinderSize{1, 1, 0}) == "chord_error must be a positive finite number, is 0");
+  CHECK(problem_of(PrismSize{3, 1, 0}) == "diameter must lie in [1e-06, 10000], is 0");
+  CHECK(problem_of(CylinderSize{1, 1, 0}) == "chord_error must lie in [1e-06, 10000], is 0");
   CHECK(problem_of(CylinderSize{1, 1, 1e-5}) ==
         "chord_error must be at least 6.16844e-05, for which the diameter of 1 d takes 200 sides, "
         "is 1e-05");

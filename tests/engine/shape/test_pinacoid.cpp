@@ -101,7 +101,8 @@ TEST_CASE("a pinacoid whose ends would cross, or with a bad length, is refused w
   CHECK(refusal({1, 1, 1, 0.7}).find("tan(angle) must be at least height / length = 1") !=
         std::string::npos);
   CHECK(refusal({1, 1, 1, 0.7}).find("the least angle is 45 degrees") != std::string::npos);
-  CHECK(refusal({1, 0, 1, 1}).find("width must be a positive finite number, is 0") == 0);
+  CHECK(refusal({1e-3, 1, 1, 1.5}).find("no angle is that steep") != std::string::npos);
+  CHECK(refusal({1, 0, 1, 1}).find("width must lie in [1e-06, 10000], is 0") == 0);
   CHECK(refusal({-1, 1, 1, 1}).find("length") == 0);
   const double nan = std::numeric_limits<double>::quiet_NaN();
   CHECK(refusal({1, 1, nan, 1}).find("height") == 0);

@@ -151,7 +151,7 @@ TEST_CASE("a shape that cannot be is refused at the part that forbids it, once f
     return errors.front();
   };
   CHECK(first_with(R"({"pinacoid": {"length": -1, "angle_deg": 60}})") ==
-        "s.json:2:25 /base/shape/pinacoid/length: length must be a positive finite number, is -1");
+        "s.json:2:25 /base/shape/pinacoid/length: length must lie in [1e-06, 10000], is -1");
   CHECK(first_with(R"({"pinacoid": {"length": 2, "angle_deg": 90}})")
             .starts_with("s.json:2:41 /base/shape/pinacoid/angle_deg: angle must be above 0"));
   CHECK(first_with(R"({"pinacoid": {"height": 2, "angle_deg": 60}})")
