@@ -1,6 +1,7 @@
 #include "runner/compare/formula.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <muParser.h>
 #include <numbers>
 
@@ -41,6 +42,8 @@ std::string fault_of_formula(const std::string& formula) {
       "known are W, the gap between walls, or D, the diameter of a tube; d, pi; and functions in "
       "small letters with brackets, as exp(-D)";
   if (formula.find_first_not_of(" \t") == std::string::npos) return "is empty";
+  constexpr std::size_t longest = 5000;
+  if (formula.size() > longest) return joined("is longer than ", longest, " characters");
   if (std::any_of(formula.begin(), formula.end(), [](char c) { return c < ' ' || c > '~'; })) {
     return "has characters that are no plain ones, as texts copied from a page do; write - * ^2";
   }
@@ -55,6 +58,8 @@ std::string fault_of_formula(const std::string& formula) {
     const mu::Parser parser = parser_of(formula, extent);
     const mu::varmap_type& names = parser.GetUsedVar();
     for (const auto& [name, place] : names) {
+      const bool is_number = std::isdigit(static_cast<unsigned char>(name.front())) != 0;
+      if (is_number) return "the number " + name + " is too large";
       if (name != "W" && name != "D") return "unknown name \"" + name + "\"; " + known;
     }
     if (names.size() != 1) {

@@ -44,6 +44,8 @@ TEST_CASE("of a formula that cannot be read it is told where, and how to write o
   }
   CHECK_THAT(fault_of_formula("e*W"),
              Catch::StartsWith("unknown name \"e\"; known are W, the gap"));
+  CHECK(fault_of_formula("W*1e999") == "the number 1e999 is too large");
+  CHECK(fault_of_formula("W" + std::string(5000, '+') + "1") == "is longer than 5000 characters");
   CHECK_THAT(fault_of_formula("0.4 + x"), Catch::StartsWith("unknown name \"x\"; known are W"));
   CHECK(fault_of_formula("1,5*W") ==
         "a formula has one value; write decimals with a point, not a comma");
