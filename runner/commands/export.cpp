@@ -21,6 +21,7 @@
 #include "runner/jobs/progress.hpp"
 #include "runner/report/bed_view.hpp"
 #include "runner/store/files.hpp"
+#include "runner/tables/csv.hpp"
 #include "runner/tables/units.hpp"
 #include "runner/text.hpp"
 
@@ -149,7 +150,9 @@ ExportSettings settings_of(const ExportOptions& options, const GivenUnits& units
   if (!treatment) {
     throw BadInput(
         "--contacts " + options.contacts +
-        ": use touch, shrink:SHARE, cap:SHARE or bridge:SHARE with a share between 0 and 1");
+        ": use touch, shrink:SHARE, cap:SHARE or bridge:SHARE with a share between 0 and 1, of "
+        "cap and bridge at least " +
+        cell(least_cut));
   }
   settings.treatment = *treatment;
   return settings;
@@ -167,6 +170,7 @@ struct Writing {
   ExportSettings settings;
   GivenUnits units;
   std::string from, to;  ///< folders
+  std::string contacts;  ///< as it was asked for
 };
 
 /// What became of them.
@@ -206,8 +210,10 @@ std::string write_bed(const Writing& writing, const Row& row, const std::string&
   } catch (const BadInput& error) {  // this bed cannot have the format; others may
     return "left out: " + written.refused.emplace_back(error.what());
   } catch (const std::logic_error& error) {  // a surface that could not be cut or joined
-    return "left out: " +
-           written.refused.emplace_back("packing " + row.job.id + ": " + error.what());
+    return "left out: " + written.refused.emplace_back("packing " + row.job.id + ": --contacts " +
+                                                       writing.contacts +
+                                                       " leaves a surface that cannot be closed (" +
+                                                       error.what() + "); take a larger share");
   }
 }
 
@@ -229,7 +235,8 @@ void add_command(CLI::App& app, ExportOptions& options) {
       .add_option("--contacts", options.contacts,
                   "of stl and obj: touch, shrink:SHARE (of all lengths),\n"
                   "cap:SHARE (cut off, of so many radii) or\n"
-                  "bridge:SHARE (joined by necks of so many)")
+                  "bridge:SHARE (joined by necks of so many);\n"
+                  "SHARE below 1, of cap and bridge from 0.001")
       ->capture_default_str()
       ->type_name("HOW");
   grains.add_flag("--periodic-images", options.periodic_images,
@@ -273,7 +280,8 @@ int perform(const ExportOptions& options) {
   for (const std::size_t k : chosen) taken[stems[k] + ending] = rows[k].job.id;
   const auto index = index_without(to, taken);
   if (index) replace_file(to + "/index.csv", *index);
-  const Writing writing{format, settings, results.provenance.units, options.folder, to};
+  const Writing writing{format,         settings, results.provenance.units,
+                        options.folder, to,       options.contacts};
   Written written;
   ProgressDisplay display(std::vector<double>(chosen.size(), 1.0),
                           options.quiet ? ProgressStyle::quiet : progress_style(), stderr);

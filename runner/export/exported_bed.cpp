@@ -58,7 +58,9 @@ std::optional<ContactTreatment> contact_treatment(std::string_view text) {
   ContactTreatment treatment{kind->second};
   const char* const last = text.data() + text.size();
   const auto [end, error] = std::from_chars(text.data() + colon + 1, last, treatment.share);
-  const bool is_share = treatment.share > 0.0 && treatment.share < 1.0;
+  const bool cuts = treatment.kind != Kind::shrink;
+  const bool is_share =
+      (cuts ? treatment.share >= least_cut : treatment.share > 0.0) && treatment.share < 1.0;
   return error == std::errc() && end == last && is_share ? std::optional(treatment) : std::nullopt;
 }
 

@@ -26,8 +26,12 @@ struct ContactTreatment {
   double share = 1.0;
 };
 
+/// The least share of caps and bridges. With less, corners would be so near each other that
+/// rounding decides on which side of an edge they lie.
+inline constexpr double least_cut = 0.001;
+
 /// "shrink:0.99", "cap:0.2" or "bridge:0.2"; nothing if it is no such thing, or the share not in
-/// (0, 1).
+/// (0, 1), of caps and bridges in [least_cut, 1).
 std::optional<ContactTreatment> contact_treatment(std::string_view text);
 
 struct ExportSettings {

@@ -241,6 +241,9 @@ TEST_CASE("treatments are read with a share below 1") {
        {"", "cap", "cap:", "cap:1", "cap:0", "shrink:-1", "weld:0.2", "cap:.2x"}) {
     CHECK_FALSE(contact_treatment(text));
   }
+  CHECK(contact_treatment("cap:0.001"));
+  CHECK(contact_treatment("shrink:1e-5"));
+  for (const char* text : {"cap:0.0009", "bridge:1e-5"}) CHECK_FALSE(contact_treatment(text));
 }
 
 }  // namespace
