@@ -130,13 +130,11 @@ void append_wall(const ExportedBed& exported, const SphereBed& bed, const Forces
                  const TouchingWall& wall, std::vector<Contact>& contacts) {
   append(exported, bed, forces, {wall.grain, wall.wall}, wall, contacts);
 }
-/// A polyhedron touches a tube with its vertices, each in a contact of its own, or in one contact
-/// where their forces were stored as one sum, as in older versions.
+/// A polyhedron touches a tube with its vertices, each in a contact of its own.
 void append_wall(const ExportedBed& exported, const PolyhedronBed& bed, const Forces& forces,
                  const TouchingWall& wall, std::vector<Contact>& contacts) {
   const bool is_tube = bed.walls[static_cast<std::size_t>(wall.wall)].is_round();
-  const bool has_sum = borne_by(forces, {wall.grain, wall.wall}).has_value();
-  if (!is_tube || has_sum || !bed.turns(static_cast<std::size_t>(wall.grain))) {
+  if (!is_tube || !bed.turns(static_cast<std::size_t>(wall.grain))) {
     append(exported, bed, forces, {wall.grain, wall.wall}, wall, contacts);
     return;
   }

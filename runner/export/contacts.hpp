@@ -21,8 +21,7 @@ struct Contact {
 
 /// Every contact with a gap below the tolerance, and every other one that bears a force: grains
 /// first, a < b, then walls. Contacts of polyhedra that bear a force have the place and kind of the
-/// force, as the bed stores it; in beds of older versions, those of what is closed to closed_gap.
-/// All others have those of what is closed to the tolerance.
+/// force, as the bed stores it; all others have those of what is closed to the tolerance.
 std::vector<Contact> contacts_of(const ExportedBed& exported);
 
 /// "floor", "tube", "x_low", "x_high", "y_low" or "y_high".

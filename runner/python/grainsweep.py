@@ -173,7 +173,7 @@ class _Bytes:
         return values
 
 
-_marks = b"GRAINS14\n", b"GRAINS13\n", b"GRAINS12\n"  # those differ in what comes after the grains
+_mark = b"GRAINS14\n"
 _grain = [("position", "<f8", 3), ("radius", "<f8"), ("force", "<f8"), ("coordination", "<i4")]
 
 
@@ -189,10 +189,10 @@ class Bed:
     """
 
     def __init__(self, folder, job, stored):
-        if not stored.startswith(_marks) or zlib.crc32(stored[:-4]) != _Bytes(stored[-4:]).one("I"):
+        if not stored.startswith(_mark) or zlib.crc32(stored[:-4]) != _Bytes(stored[-4:]).one("I"):
             raise ValueError(f"{folder}: the bed of {job} is damaged, or of another version")
         self._folder, self.job = folder, job
-        data = _Bytes(stored[len(_marks[0]) : -4])
+        data = _Bytes(stored[len(_mark) : -4])
         own = data.column("S1").tobytes().decode()
         if own != job:
             raise ValueError(f"{folder}: in the place of the bed of {job} stands that of {own}")

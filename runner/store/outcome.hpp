@@ -15,8 +15,7 @@ struct Outcome {
   std::string job;                   ///< Job::id
   PackingResult result;              ///< without curves, unless they were read
   std::string version;               ///< of the program that made it
-  std::optional<std::uint64_t> bed;  ///< Job::bed of one whose grains are stored; older ones have
-                                     ///< none
+  std::optional<std::uint64_t> bed;  ///< Job::bed of one whose grains are stored
   /// The packing ended in an exception (no memory, say), not in a result: it is tried again by the
   /// next run.
   bool exception = false;

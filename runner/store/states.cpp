@@ -65,28 +65,16 @@ constexpr auto members_of(const WallForce* /*type*/) {
 constexpr auto members_of(const ForceLine* /*type*/) {
   return std::tuple(&ForceLine::normal, &ForceLine::lever, &ForceLine::constraints);
 }
-
-/// Beds as earlier versions stored them.
-struct BedWithoutLines : StoredBed {};
-struct BedWithoutAxes : StoredBed {};
-constexpr auto members_of(const BedWithoutLines* /*type*/) {
+constexpr auto members_of(const StoredBed* /*type*/) {
   using Bed = StoredBed;
   return std::tuple(&Bed::job, &Bed::state_hash, &Bed::box, &Bed::curves, &Bed::grains,
-                    &Bed::turned, &Bed::forces, &Bed::wall_forces);
-}
-constexpr auto members_of(const BedWithoutAxes* /*type*/) {
-  return std::tuple_cat(members_of(static_cast<const BedWithoutLines*>(nullptr)),
-                        std::tuple(&StoredBed::lines, &StoredBed::wall_lines));
-}
-constexpr auto members_of(const StoredBed* /*type*/) {
-  return std::tuple_cat(members_of(static_cast<const BedWithoutAxes*>(nullptr)),
-                        std::tuple(&StoredBed::axes));
+                    &Bed::turned, &Bed::forces, &Bed::wall_forces, &Bed::lines, &Bed::wall_lines,
+                    &Bed::axes);
 }
 
 namespace {
 
 constexpr std::string_view bed_mark = "GRAINS14\n";
-constexpr std::string_view mark_without_axes = "GRAINS13\n", mark_without_lines = "GRAINS12\n";
 
 /// Throws FileError: the bed is not what was stored.
 [[noreturn]] void refuse(const std::string& folder, const Outcome& outcome,
@@ -150,12 +138,6 @@ Packing packing_of(StoredBed&& bed, const PackingResult& result) {
 std::string bed_bytes(const StoredBed& bed) { return file_bytes(bed_mark, bed); }
 
 std::optional<StoredBed> bed_from_bytes(std::string_view bytes) {
-  if (auto older = value_in_file<BedWithoutLines>(mark_without_lines, bytes)) {
-    return static_cast<StoredBed&&>(*older);
-  }
-  if (auto older = value_in_file<BedWithoutAxes>(mark_without_axes, bytes)) {
-    return static_cast<StoredBed&&>(*older);
-  }
   return value_in_file<StoredBed>(bed_mark, bytes);
 }
 

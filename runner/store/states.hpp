@@ -3,8 +3,7 @@
 //
 // They stand one after the other in shards/<shard>.beds; each outcome says where its own is. A bed
 // is "GRAINS14\n", a StoredBed in the form of runner/store/archive.hpp, in the order of its members
-// and of those of the engine's structs in states.cpp, and a CRC-32 of all before; "GRAINS13\n" and
-// "GRAINS12\n", of earlier versions, have no axes, and the latter no lines. Units as in
+// and of those of the engine's structs in states.cpp, and a CRC-32 of all before. Units as in
 // SettledGrain and PackingResult. What a killed run has left between beds is never read.
 #pragma once
 
@@ -54,11 +53,10 @@ struct StoredBed {
   std::vector<SettledGrain> grains;
   std::optional<Turned> turned;  ///< for non-spherical grains; an orientation per grain
   std::vector<StoredForce> forces;
-  /// Beds of older versions have one sum for all vertices of a grain in a tube, see tube_wall.
   std::vector<WallForce> wall_forces;
-  /// One for each of `forces` and `wall_forces`; empty for spheres and in beds of older versions.
+  /// One for each of `forces` and `wall_forces`; empty for spheres.
   std::vector<ForceLine> lines = {}, wall_lines = {};
-  std::vector<std::array<double, 4>> axes = {};  ///< as in Packing; empty in beds of older versions
+  std::vector<std::array<double, 4>> axes = {};  ///< as in Packing
 };
 
 /// The packing that such a bed was stored of.

@@ -245,15 +245,15 @@ JobFacts set_from_json(const json& set) {
   facts.parameters = set.at("parameters").get<std::string>();
   set.at("shape").get_to(facts.shape);
   set.at("accuracy").get_to(facts.accuracy);
-  facts.settles_as = set.value("settles_as", std::string());  // earlier builds kept none
-  facts.estimated = set.value("estimated_cpu_seconds", 0.0);  // likewise
+  set.at("settles_as").get_to(facts.settles_as);
+  set.at("estimated_cpu_seconds").get_to(facts.estimated);
   set.at("length").get_to(facts.box.length);
   set.at("width").get_to(facts.box.width);
   facts.box.x = boundary_from(set.at("x"));
   facts.box.y = boundary_from(set.at("y"));
   set.at("tube").get_to(facts.box.is_tube);
   set.at("small_share").get_to(facts.small_share);
-  facts.kind = bed_kind_called(set.value("kind", std::string()));  // likewise
+  facts.kind = bed_kind_called(set.at("kind").get<std::string>());
   set.at("exclude_floor").get_to(facts.measure.exclude_floor);
   set.at("exclude_surface").get_to(facts.measure.exclude_surface);
   set.at("gap_tolerances").get_to(facts.measure.gap_tolerances);

@@ -1,5 +1,4 @@
 #include <cmath>
-#include <map>
 #include <set>
 #include <sstream>
 #include <string>
@@ -158,24 +157,6 @@ TEST_CASE("a force is where its line says, and of its kind, wherever its grains 
   CHECK(contact.place.constraints == 2);
   CHECK(contact.place.normal.isApprox(Eigen::Vector3d(0, 0.6, 0.8), 1e-7));  // a float's rounding
   CHECK(contact.place.point == centre_in_box(exported.bed, 0) + Eigen::Vector3d(0.25, 0.125, 0.5));
-}
-
-TEST_CASE("forces of a tube that were stored as one sum of each grain are one contact of it") {
-  ExportedBed exported = packed_bed(PinacoidSize{}, tube_of(4), 90);
-  std::map<std::int32_t, double> sums;
-  std::vector<WallForce> stored;
-  for (const WallForce& force : exported.bed.wall_forces) {
-    if (force.wall > 0) sums[force.grain] += force.magnitude;
-    if (force.wall == 0) stored.push_back(force);
-  }
-  for (const auto& [grain, sum] : sums) stored.push_back({grain, tube_wall, sum});
-  exported.bed.wall_forces = stored;
-  exported.bed.lines.clear();
-  exported.bed.wall_lines.clear();
-  check_sums(exported);
-  std::map<std::size_t, int> rows;
-  for (const Contact& contact : contacts_of(exported)) rows[contact.a] += contact.b == 1;
-  for (const auto& [grain, sum] : sums) CHECK(rows[static_cast<std::size_t>(grain)] == 1);
 }
 
 }  // namespace

@@ -1,11 +1,8 @@
 #include <cmath>
-#include <fstream>
 #include <limits>
 
 #include <catch2/catch.hpp>
 
-#include "runner/hash.hpp"
-#include "runner/store/archive.hpp"
 #include "runner/store/files.hpp"
 #include "runner/store/states.hpp"
 #include "tests/runner/sample_rows.hpp"
@@ -112,40 +109,17 @@ TEST_CASE("a bed begins as its header states") {
   CHECK(bytes.substr(0, 20) == std::string("GRAINS14\n\3\0\0\0\0\0\0\0job", 20));
 }
 
-/// The bytes of a bed as a version before wrote them: with that mark, and without the last bytes.
-std::string older_bytes(const std::string& now, const std::string& mark, std::size_t left_out) {
-  std::string older = mark + now.substr(mark.size(), now.size() - mark.size() - left_out - 4);
-  ByteWriter checksum;
-  checksum.put(crc32(older));
-  return older + checksum.bytes();
-}
-
-TEST_CASE("the lines of forces read back, and beds of the version that had none are read") {
+TEST_CASE("the lines of forces and exact orientations read back") {
   StoredBed bed = bed_of_polyhedra();
   bed.lines = {{{0.6F, 0, 0.8F}, {0.25F, 0, -0.5F}, 3}};
   bed.wall_lines = {{{0, 0, -1}, {0, 0.125F, -0.5F}, 2}};
+  bed.axes = {{0.5, -0.5, 0.5, 0.5}};
   const StoredBed back = bed_from_bytes(bed_bytes(bed)).value();
   CHECK(back.lines.at(0).normal == bed.lines[0].normal);
   CHECK(back.lines.at(0).lever == bed.lines[0].lever);
   CHECK(back.lines.at(0).constraints == 3);
   CHECK(back.wall_lines.at(0).lever[1] == 0.125F);
-  const std::string now = bed_bytes(bed_of_polyhedra());
-  const std::size_t of_none = 3 * sizeof(std::uint64_t);  // three lengths of 0: of axes, too
-  const StoredBed read = bed_from_bytes(older_bytes(now, "GRAINS12", of_none)).value();
-  CHECK(read.lines.empty());
-  CHECK(bed_bytes(read) == now);
-}
-
-TEST_CASE("exact orientations read back, and beds of the version that had none are read") {
-  StoredBed bed = bed_of_polyhedra();
-  bed.lines = {{{0.6F, 0, 0.8F}, {0.25F, 0, -0.5F}, 3}};
-  const std::string now = bed_bytes(bed);
-  const StoredBed read =
-      bed_from_bytes(older_bytes(now, "GRAINS13", sizeof(std::uint64_t))).value();
-  CHECK(read.axes.empty());
-  CHECK(bed_bytes(read) == now);
-  bed.axes = {{0.5, -0.5, 0.5, 0.5}};
-  CHECK(bed_from_bytes(bed_bytes(bed)).value().axes == bed.axes);
+  CHECK(back.axes == bed.axes);
 }
 
 TEST_CASE("a bed without grains can be stored") {
