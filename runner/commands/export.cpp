@@ -202,7 +202,7 @@ std::string write_bed(const Writing& writing, const Row& row, const std::string&
   try {
     const std::size_t grains = bed.grains.size();
     const std::string text = text_of(writing, std::move(bed), row);
-    replace_file(writing.to + "/" + file, text);
+    replace_file(writing.to + "/" + file, text, Flush::later);
     written.jobs[file] = row.job.id;
     written.unsettled += is_settled(row) ? 0 : 1;
     return counted(grains, "grain") + ", " + fixed(static_cast<double>(text.size()) / 1e6, 1) +

@@ -185,10 +185,10 @@ void remove_leftovers_of_ended(const std::string& folder) {
   }
 }
 
-void replace_file(const std::string& path, std::string_view bytes) {
+void replace_file(const std::string& path, std::string_view bytes, Flush flush) {
   Replacement file(path);
   file.write(bytes);
-  file.commit();
+  file.commit(flush);
 }
 
 Replacement::Replacement(std::string path)
@@ -211,12 +211,12 @@ void Replacement::write(std::string_view bytes) {
   bytes_.clear();
 }
 
-void Replacement::commit() {
+void Replacement::commit(Flush flush) {
   write_all(file_, bytes_);
-  flush_to_disk(file_);
+  if (flush == Flush::now) flush_to_disk(file_);
   if (std::rename(temporary_.c_str(), path_.c_str()) != 0) throw FileError(path_, "replace", errno);
   is_committed_ = true;
-  flush_folder_of(path_);
+  if (flush == Flush::now) flush_folder_of(path_);
 }
 
 void make_folder(const std::string& path) {

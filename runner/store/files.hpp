@@ -63,9 +63,13 @@ std::string read_part(const std::string& path, std::int64_t at, std::size_t size
 /// Calls `use` with each line of a file, without its line feed; the last one may have none.
 void for_each_line(const std::string& path, const std::function<void(std::string_view)>& use);
 
+/// Whether the new file and its name are on the disk on return. If later, a power cut may leave it
+/// empty: for many files that can be made again.
+enum class Flush { now, later };
+
 /// Replaces `path` by a file holding `bytes`: a reader or a crash sees the old file or the new one,
 /// never a part. Writes a temporary file beside it, flushes it, renames it, flushes the folder.
-void replace_file(const std::string& path, std::string_view bytes);
+void replace_file(const std::string& path, std::string_view bytes, Flush flush = Flush::now);
 
 /// The same for a file that is written bit by bit: nothing of it is seen before it is committed,
 /// nor ever if it is not.
@@ -79,7 +83,7 @@ class Replacement {
   ~Replacement();
 
   void write(std::string_view bytes);
-  void commit();
+  void commit(Flush flush = Flush::now);
 
  private:
   std::string path_, temporary_;

@@ -59,4 +59,10 @@ awk -v out="$out" '
 expect_text found.txt "5 journal lines, 3 beds" "times checkpoints/*.0" \
   "times packings.csv" "times provenance.json"
 ! grep -q " 0 times told\|, 0 checkpoints removed\|, 0 end" found.txt || fail "$(cat found.txt)"
+
+# Exported beds, which can be made again, do not each wait for the disk: their index alone does.
+strace -f -qq -o trace.txt -e trace=fsync,rename "$program" export "$out" --to beds >said.txt 2>&1 ||
+  fail "cannot be exported: $(cat said.txt)"
+[ "$(grep -c 'rename(.*[.]csv"' trace.txt)" -eq 4 ] || fail "not three beds and their index: $(cat trace.txt)"
+[ "$(grep -c 'fsync(' trace.txt)" -eq 2 ] || fail "more is flushed than the index and its folder"
 head -n 1 found.txt
