@@ -234,6 +234,11 @@ void write_provenance(const std::string& folder, const Provenance& provenance,
   replace_file(provenance_path(folder), provenance_text(provenance, rows));
 }
 
+std::optional<PageExtent> extent_at_end(std::size_t packings, bool is_in_haste) {
+  if (!is_in_haste) return PageExtent::whole;
+  return packings <= most_in_haste ? std::optional(PageExtent::text) : std::nullopt;
+}
+
 std::string write_page(const std::string& folder, const Provenance& provenance,
                        const std::vector<Row>& rows, const Analysis& analysis, PageExtent extent) {
   for (const std::string& line : write_report(folder, provenance, rows, analysis, extent)) {

@@ -1,7 +1,9 @@
 // An output folder as a whole: what is stored in it, and the tables written from that.
 #pragma once
 
+#include <cstddef>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -69,6 +71,13 @@ std::vector<std::string> expect_beds(const std::string& folder, std::vector<Row>
 
 /// The same for outcomes; those without a sound bed are removed.
 std::vector<std::string> expect_beds(const std::string& folder, Outcomes& outcomes);
+
+/// Packings whose tables and page without figures are written in a few seconds.
+inline constexpr std::size_t most_in_haste = 5000;
+
+/// How much of the page a run writes at its end, with the tables; nothing if it is in haste, told
+/// to stop or near its limit of time, and not even these would be written soon.
+std::optional<PageExtent> extent_at_end(std::size_t packings, bool is_in_haste);
 
 /// Replaces report.html and its figures, made from rows whose beds were checked; prints notes on
 /// what is missing from it. Returns a line that says where it is. Throws FileError.

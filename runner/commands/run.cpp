@@ -96,7 +96,8 @@ void keep_own(std::vector<std::string>& damage, const Shard& shard, const std::s
 }
 
 /// What is still to be made of a shard. A kill may come between the end of a packing and the end of
-/// its checkpoints: they are then removed. Warns of damage.
+/// its checkpoints: they are then removed. Warns of damage. With a signal to stop it ends at once,
+/// at a packing that may have been made.
 RunningSweep resume(const Sweep& sweep, const std::vector<std::size_t>& places, const Shard& shard,
                     const std::string& folder, ShardFiles& files, bool retry_failed) {
   RunningSweep running{folder, files, 0, {}, {}};
@@ -108,6 +109,10 @@ RunningSweep resume(const Sweep& sweep, const std::vector<std::size_t>& places, 
   std::set<std::string> done;
   for (const std::size_t place : places) {
     const Job& job = sweep.jobs[place];
+    if (stop_signal() != 0) {  // the rest is neither looked at nor made
+      running.pending.push_back(&job);
+      return running;
+    }
     const auto known = stored.outcomes.find(job.id);
     const bool is_done = known != stored.outcomes.end() &&
                          !is_to_be_made(*known->second, retry_failed) &&
@@ -180,7 +185,7 @@ TimeLimit time_limit_of(const RunOptions& options) {
 
 Packed pack(RunningSweep& running, const std::function<PackingNames()>& names,
             const RunOptions& options, Isa isa, const RunRecord& run, const TimeLimit& time_limit) {
-  if (running.pending.empty()) return {};
+  if (running.pending.empty() || stop_signal() != 0) return {};
   if (running.done > 0 && !options.quiet) {
     std::cerr << running.done << " of " << running.done + running.pending.size()
               << " packings are done, going on\n";
@@ -327,9 +332,33 @@ int exit_code_for(const StatusCounts& counts, int left_to_others, const RunOptio
   return counts.pending <= left_to_others && is_tolerated ? exit_done : exit_left_out;
 }
 
-/// Writes tables and page of all packings; prints the closing table if the run made all it had to.
+void record_end(RunRecord& run, int packings, double seconds, ShardFiles& files) {
+  run.packings = packings;
+  run.wall_seconds = seconds;
+  run.ended = utc_now();
+  files.add(run);
+  files.flush();
+}
+
+/// Whether a signal or a limit of time ends the run.
+bool is_in_haste(const Made& made, const TimeLimit& limit) {
+  const bool lacks_time = !made.is_whole && made.packed.first_failure.empty();
+  return stop_signal() != 0 || limit.is_over() || lacks_time;
+}
+
+/// Writes tables and page of all packings, or says who does so if there is no time for any
+/// `extent`; prints the closing table if the run made all it had to. If several shards find
+/// everything made at once, which looks the same to all, the first one writes.
 void write_results(Results& results, const RunOptions& options, const std::string& folder,
-                   bool is_whole) {
+                   const Shard& shard, bool is_whole, std::optional<PageExtent> extent) {
+  std::optional<FileLock> place;
+  if (shard.count > 1) place.emplace(tables_lock(folder));
+  if (place && place->is_taken()) return;
+  if (!extent) {
+    std::cerr << "note: tables and page of so many packings take time that is not left; "
+              << called_as() << " report " << shell_path(folder) << " writes them\n";
+    return;
+  }
   std::cerr << damage_warnings(check_beds(folder, results.rows));
   std::cerr << other_versions_warning(results.rows, program_version());
   if (results.orphaned > 0 && !options.quiet) {
@@ -345,8 +374,7 @@ void write_results(Results& results, const RunOptions& options, const std::strin
               << std::flush;
   }
   if (options.no_report) return;
-  const PageExtent extent = stop_signal() != 0 ? PageExtent::text : PageExtent::whole;
-  const std::string where = write_page(folder, results.provenance, results.rows, analysis, extent);
+  const std::string where = write_page(folder, results.provenance, results.rows, analysis, *extent);
   if (is_whole && !options.quiet) std::cout << where;
 }
 
@@ -489,26 +517,20 @@ int perform(const RunOptions& options) {
     own = {joined(own.packed, more.packed), more.is_whole};
   }
   const auto& [packed, is_whole] = own;
-  run.packings = packed.packings;
-  run.wall_seconds = wall_seconds() - start;
-  run.ended = utc_now();
-  files.add(run);
-  files.flush();
+  const auto extent = extent_at_end(growing.now().jobs.size(), is_in_haste(own, time_limit));
+  record_end(run, packed.packings, wall_seconds() - start, files);
 
   const auto stored = [&](Detail detail) {
     return read_called_for(growing, provenance, folder, detail);
   };
   const bool is_alone = shard.count == 1;
-  Results results = stored(is_alone || grows(whole) ? Detail::whole : Detail::summary);
+  const bool needs_whole = (is_alone && extent) || grows(whole);
+  Results results = stored(needs_whole ? Detail::whole : Detail::summary);
   const StatusCounts all = totals_of(results.rows).counts;
   const bool has_all = is_alone || all.pending == all.broken_off;
-  if (has_all && !is_alone) results = stored(Detail::whole);
+  if (has_all && !is_alone && extent) results = stored(Detail::whole);
   if (has_all) {
-    // If several shards find everything made at once, which looks the same to all, the first one
-    // writes.
-    std::optional<FileLock> place;
-    if (shard.count > 1) place.emplace(tables_lock(folder));
-    if (!place || !place->is_taken()) write_results(results, options, folder, is_whole);
+    write_results(results, options, folder, shard, is_whole, extent);
     forget_claims(folder);
     if (is_whole && !options.quiet) std::cout << results.wishes;
     if (options.no_report && packed.packings > 0) tell_of_old_page(folder);
@@ -517,8 +539,9 @@ int perform(const RunOptions& options) {
   }
   const std::vector<std::size_t> places = places_of(jobs, growing.now());
   const StatusCounts counts = counts_of(results.rows, places);
-  return is_whole ? exit_code_for(counts, packed.left_to_others, options, folder)
-                  : stopped(packed, options, folder, counts, places.size());
+  return is_whole && (extent || !has_all)
+             ? exit_code_for(counts, packed.left_to_others, options, folder)
+             : stopped(packed, options, folder, counts, places.size());
 }
 
 }  // namespace grainsweep

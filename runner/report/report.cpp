@@ -140,7 +140,7 @@ std::vector<std::string> write_report(const std::string& folder, const Provenanc
   } else {
     remove_drawn(folder);
     parts.no_figures =
-        "the run was stopped before its end; grainsweep report " + folder + " draws what there is";
+        "no figures, since the run had to end; grainsweep report " + folder + " draws them";
   }
   parts.summary = summary_section(rows, provenance.units);
   parts.groups = groups_section(analysis.groups, provenance.units);

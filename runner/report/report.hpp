@@ -12,7 +12,7 @@ namespace grainsweep {
 /// How much of a page is written.
 enum class PageExtent {
   whole,
-  text,  ///< at once: no figures and no beds, for a run that was told to stop
+  text,  ///< at once: no figures and no beds, for a run that has to end
 };
 
 /// Writes <folder>/report.html, and <folder>/figures, of rows whose beds were checked, in the place

@@ -65,6 +65,15 @@ strace -f -qq -o trace.txt -e trace=clone,clone3 -e inject=clone,clone3:error=EA
 [ $code -eq 5 ] || fail "no threads: ended with $code: $(cat said.txt)"
 expect_text said.txt "grainsweep: the system gives not even one thread: raise the limits "
 
+# A signal while stored beds are read: the run ends there, though all packings are made.
+code=0
+cp -r reference looked-at
+strace -f -qq -o trace.txt -P looked-at/shards/1-of-1.beds -e trace=openat \
+  -e inject=openat:signal=TERM:when=1 \
+  "$program" run sweep.json --no-report --threads 1 --out looked-at >said.txt 2>&1 || code=$?
+[ $code -eq 143 ] || fail "stopped while beds were read: ended with $code: $(cat said.txt)"
+expect_text said.txt "Stopped. $packings of $packings packings are kept in looked-at"
+
 # Where the file system has no locks, a run says so, works on a shard of its own, and keeps out
 # nobody; asking for the lock is the one call that fails, each time.
 for error in ENOLCK ENOSYS; do

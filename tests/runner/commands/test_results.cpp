@@ -53,6 +53,13 @@ TEST_CASE("tables and journals are enough to know a folder's results") {
   CHECK(results.provenance.runs[0].process == sample_run().process);
 }
 
+TEST_CASE(
+    "a run in haste draws no figures, and of many packings leaves tables and page to report") {
+  CHECK(extent_at_end(most_in_haste + 1, false) == PageExtent::whole);
+  CHECK(extent_at_end(most_in_haste, true) == PageExtent::text);
+  CHECK_FALSE(extent_at_end(most_in_haste + 1, true));
+}
+
 TEST_CASE("what cannot be read is counted beside the stored packings") {
   const TemporaryFolder folder;
   add_outcomes(folder.path(), {sample_outcome("a1", 0.6, 6)});

@@ -103,8 +103,9 @@ expect_code 6 "$program" run long.json --out late --no-report --time-limit 1 --s
 expect_text error.txt "Stopped by the limit of time." "1 under way in its checkpoints" \
   "--shard 1/1 --time-limit 1"
 # A job that Slurm ends is told when by a variable.
-SLURM_JOB_END_TIME=$(($(date +%s) + 2)) expect_code 6 "$program" run long.json --out late --no-report
+SLURM_JOB_END_TIME=$(($(date +%s) + 2)) expect_code 6 "$program" run long.json --out late
 expect_text error.txt "Stopped by the limit of time."
+expect_text late/report.html "no figures, since the run had to end; grainsweep report late draws"
 expect_code 2 "$program" run long.json --out late --time-limit soon
 expect_text error.txt "--time-limit soon: give seconds, minutes:seconds"
 

@@ -24,7 +24,7 @@ stop_with() {
   [ "$code" -eq "$2" ] || fail "$1 ended with $code: $(cat said.txt)"
   expect_text said.txt "are kept in $3" "grainsweep run sweep.json --out $3 --threads 2"
   [ "$(grep -c pending "$3/packings.csv")" -ge 1 ] || fail "nothing was left to do after $1"
-  expect_text "$3/report.html" "stopped before its end; grainsweep report $3 draws" ">pending<"
+  expect_text "$3/report.html" "no figures, since the run had to end; grainsweep report $3 draws" ">pending<"
   [ ! -e "$3/figures" ] || fail "figures were drawn after $1"
 }
 
@@ -39,7 +39,7 @@ for end in INT:130 TERM:143 HUP:129; do
   [ "$(grep -c '^[0-9]*/30  ' progress.txt)" -eq $((30 - kept)) ] || fail "a packing was made twice"
   [ "$(lines_in stopped-$signal)" -eq 30 ] || fail "not every packing has one line"
   values_of stopped-$signal | cmp - whole.txt || fail "other values after $signal"
-  ! grep -q "stopped before its end" stopped-$signal/report.html || fail "the page was not made anew"
+  ! grep -q "since the run had to end" stopped-$signal/report.html || fail "the page was not made anew"
 done
 
 # Killed outright, with a line torn, a bed lost and the curves of another damaged on top.
